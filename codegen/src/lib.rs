@@ -1,0 +1,1 @@
+//! Geometry to expression graph to emitted text: the derivation of Precess.

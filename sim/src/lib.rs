@@ -1,0 +1,1 @@
+//! The desktop tool: scenarios, runs and reports.

@@ -1,0 +1,1 @@
+//! The plain reference and the suites that cross crates.

@@ -1,0 +1,3 @@
+//! The workbench: one short file per command.
+
+fn main() {}
