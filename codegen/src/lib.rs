@@ -1,1 +1,4 @@
 //! Geometry to expression graph to emitted text: the derivation of Precess.
+
+pub mod graph;
+pub mod normal;

@@ -1,0 +1,126 @@
+//! Monomials with packed exponents and polynomials over them.
+//!
+//! Invariants: no zero coefficient is stored; four bits an exponent, none above fifteen; the order
+//! of monomials is that of their packed words, so every listing is the same in every run.
+
+use std::collections::BTreeMap;
+
+use crate::graph::Rational;
+
+const WORDS: usize = 10;
+const PER_WORD: usize = 16;
+
+/// How many variables a monomial can hold.
+pub(super) const VARIABLES: usize = WORDS * PER_WORD;
+
+/// A product of powers of variables.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Monomial([u64; WORDS]);
+
+impl Monomial {
+    /// The single variable `index`.
+    pub(super) fn variable(index: usize) -> Self {
+        let mut words = [0; WORDS];
+        words[index / PER_WORD] = 1 << (4 * (index % PER_WORD));
+        Self(words)
+    }
+
+    /// The exponent of variable `index`.
+    pub(super) fn exponent(&self, index: usize) -> u32 {
+        let nibble = (self.0[index / PER_WORD] >> (4 * (index % PER_WORD))) & 0xf;
+        u32::try_from(nibble).expect("four bits fit")
+    }
+
+    /// The product of two monomials.
+    ///
+    /// # Panics
+    /// When an exponent would pass fifteen.
+    pub(super) fn times(&self, other: &Self) -> Self {
+        const HIGH: u64 = 0x8888_8888_8888_8888;
+        Self(std::array::from_fn(|word| {
+            let (a, b) = (self.0[word], other.0[word]);
+            assert_eq!((a | b) & HIGH, 0, "an exponent above seven enters a product");
+            a + b
+        }))
+    }
+
+    /// `self` with the exponent of variable `index` lowered by `by`.
+    pub(super) fn lowered(&self, index: usize, by: u32) -> Self {
+        let mut words = self.0;
+        words[index / PER_WORD] -= u64::from(by) << (4 * (index % PER_WORD));
+        Self(words)
+    }
+}
+
+/// A polynomial: the normal form of an expression.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Polynomial {
+    terms: BTreeMap<Monomial, Rational>,
+}
+
+impl Polynomial {
+    /// The constant `k`.
+    pub(super) fn constant(k: Rational) -> Self {
+        Self::term(Monomial::default(), k)
+    }
+
+    /// One term.
+    pub(super) fn term(monomial: Monomial, coefficient: Rational) -> Self {
+        let mut made = Self::default();
+        made.add(monomial, coefficient);
+        made
+    }
+
+    /// Adds one term.
+    pub(super) fn add(&mut self, monomial: Monomial, coefficient: Rational) {
+        use std::collections::btree_map::Entry;
+        if coefficient == Rational::ZERO {
+            return;
+        }
+        match self.terms.entry(monomial) {
+            Entry::Vacant(place) => {
+                place.insert(coefficient);
+            }
+            Entry::Occupied(mut place) => {
+                *place.get_mut() += coefficient;
+                if *place.get() == Rational::ZERO {
+                    place.remove();
+                }
+            }
+        }
+    }
+
+    /// The terms in order.
+    #[must_use]
+    pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Monomial, &Rational)> {
+        self.terms.iter()
+    }
+
+    /// The coefficient of a monomial, zero where it does not occur.
+    #[must_use]
+    pub fn coefficient(&self, monomial: &Monomial) -> Rational {
+        self.terms.get(monomial).copied().unwrap_or(Rational::ZERO)
+    }
+
+    /// How many terms there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.terms.len()
+    }
+
+    /// Whether this is the polynomial zero.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// `self + factor * other`.
+    #[must_use]
+    pub fn plus(&self, factor: Rational, other: &Self) -> Self {
+        let mut made = self.clone();
+        for (monomial, coefficient) in &other.terms {
+            made.add(*monomial, factor * coefficient);
+        }
+        made
+    }
+}

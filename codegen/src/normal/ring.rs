@@ -1,0 +1,230 @@
+//! Expression to polynomial: the variables, the reductions, and a memory of what was expanded.
+
+use std::collections::{BTreeMap, HashMap};
+use std::fmt;
+use std::rc::Rc;
+
+use super::polynomial::{Monomial, Polynomial, VARIABLES};
+use crate::graph::{Expr, Graph, Node, NodeId, Rational, SymbolId};
+
+/// Why an expression has no normal form here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NormalError {
+    /// The reciprocal of something that is not a symbol.
+    Reciprocal,
+    /// More variables than a monomial holds.
+    Variables(usize),
+}
+
+impl fmt::Display for NormalError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reciprocal => {
+                write!(f, "the reciprocal of a compound expression has no normal form; name it")
+            }
+            Self::Variables(bound) => {
+                write!(f, "more than {bound} variables in one proof; split it at named quantities")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NormalError {}
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Variable {
+    Symbol(SymbolId),
+    Recip(SymbolId),
+}
+
+#[derive(Clone, Copy)]
+enum Reduction {
+    /// `s^2 -> 1 - c^2`, by indices of the variables.
+    Square { sin: usize, cos: usize },
+    /// `y (1/y) -> 1`.
+    Inverse { symbol: usize, recip: usize },
+}
+
+/// Expands expressions of one graph over a set of variables that grows as they are met.
+pub struct Ring<'g> {
+    graph: &'g Graph,
+    variables: Vec<Variable>,
+    index: HashMap<Variable, usize>,
+    reductions: Vec<Reduction>,
+    expanded: HashMap<NodeId, Rc<Polynomial>>,
+}
+
+impl<'g> Ring<'g> {
+    /// A ring without variables yet.
+    #[must_use]
+    pub fn new(graph: &'g Graph) -> Self {
+        Self {
+            graph,
+            variables: Vec::new(),
+            index: HashMap::new(),
+            reductions: Vec::new(),
+            expanded: HashMap::new(),
+        }
+    }
+
+    /// The normal form of `e`.
+    ///
+    /// # Errors
+    /// When `e` holds the reciprocal of a compound expression, or too many variables.
+    pub fn normal(&mut self, e: Expr<'g>) -> Result<Rc<Polynomial>, NormalError> {
+        for id in self.graph.reachable([e.id()]) {
+            if !self.expanded.contains_key(&id) {
+                let polynomial = Rc::new(self.expand(id)?);
+                self.expanded.insert(id, polynomial);
+            }
+        }
+        Ok(self.expanded[&e.id()].clone())
+    }
+
+    fn expand(&mut self, id: NodeId) -> Result<Polynomial, NormalError> {
+        let one = Rational::ONE;
+        Ok(match self.graph.node(id) {
+            Node::Constant(k) => Polynomial::constant(k),
+            Node::Symbol(symbol) => {
+                let index = self.variable(Variable::Symbol(symbol))?;
+                Polynomial::term(Monomial::variable(index), one)
+            }
+            Node::Sum(a, b) => self.expanded[&a].plus(one, &self.expanded[&b]),
+            Node::Neg(a) => Polynomial::default().plus(-one, &self.expanded[&a]),
+            Node::Product(a, b) => self.times(&self.expanded[&a], &self.expanded[&b]),
+            Node::Recip(a) => {
+                let Node::Symbol(symbol) = self.graph.node(a) else {
+                    return Err(NormalError::Reciprocal);
+                };
+                let index = self.variable(Variable::Recip(symbol))?;
+                Polynomial::term(Monomial::variable(index), one)
+            }
+        })
+    }
+
+    /// The product of two normal forms.
+    #[must_use]
+    pub fn times(&self, a: &Polynomial, b: &Polynomial) -> Polynomial {
+        let mut made = Polynomial::default();
+        for (x, k) in a.terms() {
+            for (y, l) in b.terms() {
+                self.add_reduced(&mut made, x.times(y), k * l);
+            }
+        }
+        made
+    }
+
+    fn add_reduced(&self, sum: &mut Polynomial, monomial: Monomial, coefficient: Rational) {
+        for reduction in &self.reductions {
+            match *reduction {
+                Reduction::Square { sin, cos } if monomial.exponent(sin) >= 2 => {
+                    let rest = monomial.lowered(sin, 2);
+                    let cosine = Monomial::variable(cos);
+                    let squared = rest.times(&cosine).times(&cosine);
+                    self.add_reduced(sum, rest, coefficient);
+                    self.add_reduced(sum, squared, -coefficient);
+                    return;
+                }
+                Reduction::Inverse { symbol, recip }
+                    if monomial.exponent(symbol) >= 1 && monomial.exponent(recip) >= 1 =>
+                {
+                    let rest = monomial.lowered(symbol, 1).lowered(recip, 1);
+                    self.add_reduced(sum, rest, coefficient);
+                    return;
+                }
+                _ => {}
+            }
+        }
+        sum.add(monomial, coefficient);
+    }
+
+    fn variable(&mut self, variable: Variable) -> Result<usize, NormalError> {
+        if let Some(&index) = self.index.get(&variable) {
+            return Ok(index);
+        }
+        let index = self.variables.len();
+        if index >= VARIABLES {
+            return Err(NormalError::Variables(VARIABLES));
+        }
+        self.variables.push(variable);
+        self.index.insert(variable, index);
+        match variable {
+            Variable::Symbol(symbol) => {
+                if let Some(cosine) = self.graph.symbol_info(symbol).cosine {
+                    let cos = self.variable(Variable::Symbol(cosine))?;
+                    self.reductions.push(Reduction::Square { sin: index, cos });
+                }
+            }
+            Variable::Recip(symbol) => {
+                let symbol = self.variable(Variable::Symbol(symbol))?;
+                self.reductions.push(Reduction::Inverse { symbol, recip: index });
+            }
+        }
+        Ok(index)
+    }
+
+    /// A term as it is written: `-2*d*spin*cos_theta`.
+    #[must_use]
+    pub fn show(&self, monomial: &Monomial, coefficient: Rational) -> String {
+        let mut factors: BTreeMap<(u8, String), u32> = BTreeMap::new();
+        for (index, &variable) in self.variables.iter().enumerate() {
+            let exponent = monomial.exponent(index);
+            if exponent > 0 {
+                factors.insert(self.name(variable), exponent);
+            }
+        }
+        let sign = if coefficient < Rational::ZERO { "-" } else { "" };
+        let size = if coefficient < Rational::ZERO { -coefficient } else { coefficient };
+        let mut shown = Vec::new();
+        if size != Rational::ONE || factors.is_empty() {
+            shown.push(size.to_string());
+        }
+        for ((_, name), exponent) in factors {
+            shown.push(if exponent == 1 { name } else { format!("{name}^{exponent}") });
+        }
+        format!("{sign}{}", shown.join("*"))
+    }
+
+    /// Parameters first, angles next, rates and accelerations last; by name within a stage.
+    fn name(&self, variable: Variable) -> (u8, String) {
+        let (Variable::Symbol(symbol) | Variable::Recip(symbol)) = variable;
+        let info = self.graph.symbol_info(symbol);
+        let prefix = if matches!(variable, Variable::Recip(_)) { "1/" } else { "" };
+        (info.stage as u8, format!("{prefix}{}", info.name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Stage;
+
+    #[test]
+    fn squares_of_sine_and_cosine_add_to_one() {
+        let g = Graph::new();
+        let (s, c) = g.angle("q", g.symbol("q_dot", Stage::Rate));
+        let mut ring = Ring::new(&g);
+        let e = s.squared() + c.squared() - g.constant(1);
+        assert!(ring.normal(e).unwrap().is_empty());
+    }
+
+    #[test]
+    fn a_reciprocal_cancels_its_symbol() {
+        let g = Graph::new();
+        let [m, x] = ["m", "x"].map(|name| g.symbol(name, Stage::Parameter));
+        let mut ring = Ring::new(&g);
+        assert_eq!(ring.normal(m.recip() * (m * x)), ring.normal(x));
+        assert_eq!(ring.normal((m + x).recip()), Err(NormalError::Reciprocal));
+    }
+
+    #[test]
+    fn a_product_expands() {
+        let g = Graph::new();
+        let [a, b] = ["a", "b"].map(|name| g.symbol(name, Stage::Parameter));
+        let mut ring = Ring::new(&g);
+        let left = ring.normal((a + b) * (a - b)).unwrap();
+        assert_eq!(left, ring.normal(a.squared() - b.squared()).unwrap());
+        let shown: Vec<_> = left.terms().map(|(m, k)| ring.show(m, *k)).collect();
+        assert_eq!(shown, ["a^2", "-b^2"]);
+    }
+}
