@@ -1,0 +1,76 @@
+//! The frames of a chain and the elementary rotation between two of them.
+//!
+//! A device is a chain of any length, so its frames have no fixed names here. Walking it, one link
+//! at a time, three are in play: the hub's, the one that carries the joint, and the body's own.
+//! [`super::Vector::handed_on`] is the one place where a frame changes its role.
+
+use std::marker::PhantomData;
+
+use crate::graph::Expr;
+
+/// A frame of reference, as a type.
+pub trait Frame: Copy {}
+
+/// B, with axes along those of the outermost joint at zero angle; the mount is applied outside.
+#[derive(Clone, Copy, Debug)]
+pub struct Hub;
+
+/// The frame that carries a joint: the body before it, or the hub.
+#[derive(Clone, Copy, Debug)]
+pub struct Carrier;
+
+/// The frame of the body behind the joint.
+#[derive(Clone, Copy, Debug)]
+pub struct Own;
+
+impl Frame for Hub {}
+impl Frame for Carrier {}
+impl Frame for Own {}
+
+/// A coordinate axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// First.
+    X,
+    /// Second.
+    Y,
+    /// Third.
+    Z,
+}
+
+impl Axis {
+    /// Zero-based index of the axis itself and of the two that follow it cyclically.
+    #[must_use]
+    pub fn cycle(self) -> [usize; 3] {
+        match self {
+            Self::X => [0, 1, 2],
+            Self::Y => [1, 2, 0],
+            Self::Z => [2, 0, 1],
+        }
+    }
+}
+
+/// The rotation by a joint angle about a coordinate axis: `From` axes turned into `To` axes.
+///
+/// Columns of its matrix are the new axes in the old frame: `W = Gi * Rx(theta)`.
+#[derive(Clone, Copy)]
+pub struct Turn<'g, From, To> {
+    pub(super) axis: Axis,
+    pub(super) sin: Expr<'g>,
+    pub(super) cos: Expr<'g>,
+    frames: PhantomData<(From, To)>,
+}
+
+impl<'g, From: Frame, To: Frame> Turn<'g, From, To> {
+    /// The turn about `axis` by the angle with this sine and cosine.
+    #[must_use]
+    pub fn about(axis: Axis, sin: Expr<'g>, cos: Expr<'g>) -> Self {
+        Self { axis, sin, cos, frames: PhantomData }
+    }
+
+    /// The turn back.
+    #[must_use]
+    pub fn inverse(self) -> Turn<'g, To, From> {
+        Turn::about(self.axis, -self.sin, self.cos)
+    }
+}

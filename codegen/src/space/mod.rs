@@ -1,0 +1,9 @@
+//! Vectors and tensors that carry their frame in the type, and the turn between two frames.
+
+mod frame;
+mod tensor;
+mod vector;
+
+pub use frame::{Axis, Carrier, Frame, Hub, Own, Turn};
+pub use tensor::Symmetric;
+pub use vector::Vector;

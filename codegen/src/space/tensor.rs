@@ -1,0 +1,234 @@
+//! Symmetric tensors of second order: inertias and their derivatives.
+
+use std::marker::PhantomData;
+use std::ops::{Add, Mul, Sub};
+
+use super::frame::{Carrier, Frame, Hub, Own, Turn};
+use super::vector::Vector;
+use crate::graph::{Expr, Graph};
+
+/// A symmetric tensor resolved along the axes of `F`: entries 11, 12, 13, 22, 23, 33.
+pub struct Symmetric<'g, F> {
+    entries: [Expr<'g>; 6],
+    frame: PhantomData<F>,
+}
+
+/// Row and column of each stored entry.
+const PLACES: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+/// Index of each entry in storage.
+const INDEX: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
+
+impl<F> Clone for Symmetric<'_, F> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<F> Copy for Symmetric<'_, F> {}
+
+impl<'g, F: Frame> Symmetric<'g, F> {
+    /// From the entries 11, 12, 13, 22, 23, 33.
+    #[must_use]
+    pub fn new(entries: [Expr<'g>; 6]) -> Self {
+        Self { entries, frame: PhantomData }
+    }
+
+    /// The zero tensor.
+    #[must_use]
+    pub fn zero(graph: &'g Graph) -> Self {
+        Self::new([graph.zero(); 6])
+    }
+
+    /// `a 1`.
+    #[must_use]
+    pub fn isotropic(a: Expr<'g>) -> Self {
+        let zero = a.graph().zero();
+        Self::new([a, zero, zero, a, zero, a])
+    }
+
+    /// The entries 11, 12, 13, 22, 23, 33.
+    #[must_use]
+    pub fn entries(self) -> [Expr<'g>; 6] {
+        self.entries
+    }
+
+    /// One entry, rows and columns from zero.
+    #[must_use]
+    pub fn at(self, row: usize, column: usize) -> Expr<'g> {
+        self.entries[INDEX[row][column]]
+    }
+
+    /// `(a b^T + b a^T) / 2` doubled: `a b^T + b a^T`.
+    #[must_use]
+    pub fn outer_pair(a: Vector<'g, F>, b: Vector<'g, F>) -> Self {
+        let (a, b) = (a.components(), b.components());
+        Self::new(PLACES.map(|(i, j)| a[i] * b[j] + b[i] * a[j]))
+    }
+
+    /// `[r~][r~]^T = (r . r) 1 - r r^T`, of the parallel axis theorem.
+    #[must_use]
+    pub fn tilde_squared(r: Vector<'g, F>) -> Self {
+        let [x, y, z] = r.components();
+        let (xx, yy, zz) = (x.squared(), y.squared(), z.squared());
+        Self::new([yy + zz, -(x * y), -(x * z), xx + zz, -(y * z), xx + yy])
+    }
+
+    /// `[a~][b~]^T + [b~][a~]^T = 2 (a . b) 1 - a b^T - b a^T`.
+    #[must_use]
+    pub fn tilde_pair(a: Vector<'g, F>, b: Vector<'g, F>) -> Self {
+        let dot = a.dot(b);
+        Self::isotropic(dot + dot) - Self::outer_pair(a, b)
+    }
+
+    /// `self v`.
+    #[must_use]
+    pub fn times(self, v: Vector<'g, F>) -> Vector<'g, F> {
+        let [x, y, z] = v.components();
+        Vector::new([0, 1, 2].map(|i| self.at(i, 0) * x + self.at(i, 1) * y + self.at(i, 2) * z))
+    }
+
+    /// The derivative seen from the frame against which `F` turns at `omega`:
+    /// `I' = dI/dt + [omega~] I - I [omega~]`.
+    #[must_use]
+    pub fn prime(self, omega: Vector<'g, F>) -> Self {
+        let [a, b, c] = omega.components();
+        let [t11, t12, t13, t22, t23, t33] = self.entries;
+        let turning = Self::new([
+            twice(b * t13 - c * t12),
+            b * t23 - c * t22 + c * t11 - a * t13,
+            b * t33 - c * t23 + a * t12 - b * t11,
+            twice(c * t12 - a * t23),
+            c * t13 - a * t33 + a * t22 - b * t12,
+            twice(a * t23 - b * t13),
+        ]);
+        self.component_rates() + turning
+    }
+
+    /// `dI/dt` as an observer on `F` sees it: entry by entry.
+    #[must_use]
+    pub fn component_rates(self) -> Self {
+        Self::new(self.entries.map(Expr::time_derivative))
+    }
+
+    /// The same tensor along the axes that `turn` leads to. The trace is kept, which saves a
+    /// third of the products.
+    #[must_use]
+    pub fn turned<To: Frame>(self, turn: Turn<'g, F, To>) -> Symmetric<'g, To> {
+        let [k, i, j] = turn.axis.cycle();
+        let (s, c) = (turn.sin, turn.cos);
+        let (ii, ij, jj) = (self.at(i, i), self.at(i, j), self.at(j, j));
+        let (u, w) = (c * ii + s * ij, c * ij + s * jj);
+        let new_ii = c * u + s * w;
+        let mut made = self.entries;
+        made[INDEX[i][i]] = new_ii;
+        made[INDEX[i][j]] = c * w - s * u;
+        made[INDEX[j][j]] = ii + jj - new_ii;
+        made[INDEX[k][i]] = c * self.at(k, i) + s * self.at(k, j);
+        made[INDEX[k][j]] = c * self.at(k, j) - s * self.at(k, i);
+        Symmetric::new(made)
+    }
+
+    /// The sum of the diagonal.
+    #[must_use]
+    pub fn trace(self) -> Expr<'g> {
+        self.entries[0] + self.entries[3] + self.entries[5]
+    }
+}
+
+impl<'g> Symmetric<'g, Carrier> {
+    /// Walking inwards: the frame that carried the joint is the next body's own.
+    #[must_use]
+    pub fn handed_back(self) -> Symmetric<'g, Own> {
+        Symmetric::new(self.entries)
+    }
+
+    /// The first joint is carried by the hub.
+    #[must_use]
+    pub fn on_hub(self) -> Symmetric<'g, Hub> {
+        Symmetric::new(self.entries)
+    }
+}
+
+fn twice(a: Expr<'_>) -> Expr<'_> {
+    a + a
+}
+
+impl<F: Frame> Add for Symmetric<'_, F> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::new(std::array::from_fn(|k| self.entries[k] + other.entries[k]))
+    }
+}
+
+impl<F: Frame> Sub for Symmetric<'_, F> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::new(std::array::from_fn(|k| self.entries[k] - other.entries[k]))
+    }
+}
+
+impl<'g, F: Frame> Mul<Symmetric<'g, F>> for Expr<'g> {
+    type Output = Symmetric<'g, F>;
+    fn mul(self, t: Symmetric<'g, F>) -> Symmetric<'g, F> {
+        Symmetric::new(t.entries.map(|entry| self * entry))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Stage;
+    use crate::normal::Ring;
+    use crate::space::Axis;
+
+    fn inertia<F: Frame>(g: &Graph) -> Symmetric<'_, F> {
+        Symmetric::new(
+            ["11", "12", "13", "22", "23", "33"]
+                .map(|entry| g.symbol(&format!("i_{entry}"), Stage::Parameter)),
+        )
+    }
+
+    fn assert_equal<F: Frame>(g: &Graph, a: Symmetric<'_, F>, b: Symmetric<'_, F>) {
+        let mut ring = Ring::new(g);
+        for entry in (a - b).entries() {
+            assert!(ring.normal(entry).unwrap().is_empty());
+        }
+    }
+
+    #[test]
+    fn prime_agrees_with_entries_in_the_fixed_frame() {
+        let g = Graph::new();
+        let rate = g.symbol("q_dot", Stage::Rate);
+        let (sin, cos) = g.angle("q", rate);
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            let turn = Turn::<Carrier, Own>::about(axis, sin, cos);
+            let i = inertia::<Own>(&g);
+            let moving = i.prime(rate * Vector::unit(&g, axis)).turned(turn.inverse());
+            assert_equal(&g, moving, i.turned(turn.inverse()).component_rates());
+        }
+    }
+
+    #[test]
+    fn turning_commutes_with_taking_moments() {
+        let g = Graph::new();
+        let (sin, cos) = g.angle("q", g.symbol("q_dot", Stage::Rate));
+        let v = Vector::<Carrier>::new(["x", "y", "z"].map(|a| g.symbol(a, Stage::Parameter)));
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            let turn = Turn::<Carrier, Own>::about(axis, sin, cos);
+            let i = inertia::<Carrier>(&g);
+            let (before, after) = (i.times(v).turned(turn), i.turned(turn).times(v.turned(turn)));
+            let mut ring = Ring::new(&g);
+            for component in (before - after).components() {
+                assert!(ring.normal(component).unwrap().is_empty());
+            }
+        }
+    }
+
+    #[test]
+    fn tilde_pair_of_a_vector_with_itself_is_twice_tilde_squared() {
+        let g = Graph::new();
+        let v = Vector::<Own>::new(["x", "y", "z"].map(|a| g.symbol(a, Stage::Parameter)));
+        let twice = g.constant(2) * Symmetric::tilde_squared(v);
+        assert_equal(&g, Symmetric::tilde_pair(v, v), twice);
+    }
+}
