@@ -2,4 +2,5 @@
 
 pub mod graph;
 pub mod normal;
+pub mod page;
 pub mod space;

@@ -1,0 +1,326 @@
+//! Rust expression syntax to values: what the pages are written in, and what the emitter emits.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use syn::spanned::Spanned;
+
+use super::value::{Value, inner};
+use super::{Block, Kind};
+use crate::graph::{Expr, Graph, Rational};
+
+/// What is wrong with a block or with a piece of emitted text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ReadError {
+    /// A fence is not closed.
+    OpenFence,
+    /// A block without a heading.
+    Empty,
+    /// A heading of another form.
+    Heading(String),
+    /// Not an expression at all.
+    Syntax(String),
+    /// An expression form that has no meaning here.
+    Form(String),
+    /// A name that is neither a symbol nor defined before.
+    Unknown(String),
+    /// An operation between kinds for which it is not defined.
+    Kinds(String),
+    /// The expression is of another kind than the heading says.
+    NotThat(&'static str),
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OpenFence => write!(f, "the block is not closed; end it with three backquotes"),
+            Self::Empty => write!(f, "the block is empty; begin it with `(number) name: kind`"),
+            Self::Heading(text) => write!(
+                f,
+                "heading `{text}` is not `(number) name: scalar`, `... vector along a b c` or \
+                 `... tensor along a b c`"
+            ),
+            Self::Syntax(text) => write!(f, "not an expression: {text}"),
+            Self::Form(text) => write!(f, "`{text}` has no meaning in an equation"),
+            Self::Unknown(name) => {
+                write!(f, "`{name}` is neither a symbol nor defined above; define it first")
+            }
+            Self::Kinds(text) => write!(f, "`{text}` is not defined for these kinds"),
+            Self::NotThat(kind) => {
+                write!(f, "the expression is a {kind}, the heading says otherwise")
+            }
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// Evaluates expressions in an environment of names.
+pub struct Reader<'g> {
+    graph: &'g Graph,
+    names: HashMap<String, Value<'g>>,
+}
+
+impl<'g> Reader<'g> {
+    /// A reader that knows the symbols of `graph` and nothing else.
+    #[must_use]
+    pub fn new(graph: &'g Graph) -> Self {
+        Self { graph, names: HashMap::new() }
+    }
+
+    /// Gives `name` a meaning from here on.
+    pub fn define(&mut self, name: &str, value: Value<'g>) {
+        self.names.insert(name.to_owned(), value);
+    }
+
+    /// The value of `let` lines and a final expression; the `let` names end with it.
+    ///
+    /// # Errors
+    /// When it does not parse or does not evaluate.
+    pub fn body(&mut self, body: &str) -> Result<Value<'g>, ReadError> {
+        let block: syn::Block = syn::parse_str(&format!("{{\n{body}\n}}"))
+            .map_err(|error| ReadError::Syntax(error.to_string()))?;
+        let outer = self.names.clone();
+        let mut last = Err(ReadError::Empty);
+        for statement in &block.stmts {
+            match statement {
+                syn::Stmt::Local(local) => {
+                    let (name, value) = self.binding(local)?;
+                    self.define(&name, value);
+                }
+                syn::Stmt::Expr(expr, None) => last = self.value(expr),
+                other => return Err(ReadError::Form(text(other))),
+            }
+        }
+        self.names = outer;
+        last
+    }
+
+    /// Name and value of `let name = expr;`.
+    ///
+    /// # Errors
+    /// When it is not of that form or does not evaluate.
+    pub fn binding(&self, local: &syn::Local) -> Result<(String, Value<'g>), ReadError> {
+        match (&local.pat, &local.init) {
+            (syn::Pat::Ident(name), Some(init)) => {
+                Ok((name.ident.to_string(), self.value(&init.expr)?))
+            }
+            _ => Err(ReadError::Form(text(local))),
+        }
+    }
+
+    /// The components of `value` along the axes of its block.
+    ///
+    /// # Errors
+    /// When the value is not of the block's kind or an axis is unknown.
+    pub fn resolve(
+        &self,
+        block: &Block,
+        value: Value<'g>,
+    ) -> Result<Vec<(String, Expr<'g>)>, ReadError> {
+        match (&block.kind, value) {
+            (Kind::Scalar, Value::Scalar(e)) => Ok(vec![(String::new(), e)]),
+            (Kind::Vector(axes), Value::Vector(v)) => {
+                let component = |axis: &String| Ok((axis.clone(), inner(v, self.axis(axis)?)));
+                axes.iter().map(component).collect()
+            }
+            (Kind::Tensor(axes), Value::Tensor(t)) => {
+                let mut entries = Vec::new();
+                for (i, row) in axes.iter().enumerate() {
+                    for (j, column) in axes.iter().enumerate() {
+                        let column = self.axis(column)?;
+                        let entry = inner(self.axis(row)?, t.map(|row| inner(row, column)));
+                        entries.push((format!("{}{}", i + 1, j + 1), entry));
+                    }
+                }
+                Ok(entries)
+            }
+            (_, value) => Err(ReadError::NotThat(value.kind())),
+        }
+    }
+
+    fn axis(&self, name: &str) -> Result<[Expr<'g>; 3], ReadError> {
+        match self.names.get(&format!("{name}_hat")) {
+            Some(Value::Vector(axis)) => Ok(*axis),
+            _ => Err(ReadError::Unknown(format!("{name}_hat"))),
+        }
+    }
+
+    /// The value of one expression.
+    ///
+    /// # Errors
+    /// When a name is unknown, or a form or a combination of kinds has no meaning.
+    pub fn value(&self, expr: &syn::Expr) -> Result<Value<'g>, ReadError> {
+        match expr {
+            syn::Expr::Paren(inside) => self.value(&inside.expr),
+            syn::Expr::Lit(literal) => self.literal(&literal.lit),
+            syn::Expr::Path(path) => self.named(&text(&path.path)),
+            syn::Expr::Field(field) => self.named(&text(&field.member)),
+            syn::Expr::Unary(unary) if matches!(unary.op, syn::UnOp::Neg(_)) => {
+                Ok(self.value(&unary.expr)?.negated())
+            }
+            syn::Expr::Binary(binary) => self.binary(binary),
+            syn::Expr::Call(call) => self.call(call),
+            syn::Expr::MethodCall(call) => self.method(call),
+            other => Err(ReadError::Form(text(other))),
+        }
+    }
+
+    fn literal(&self, literal: &syn::Lit) -> Result<Value<'g>, ReadError> {
+        let form = || ReadError::Form(text(literal));
+        let value = match literal {
+            syn::Lit::Int(int) => Rational::from(int.base10_parse::<i64>().map_err(|_| form())?),
+            syn::Lit::Float(float) => decimal(float.base10_digits()).ok_or_else(form)?,
+            _ => return Err(form()),
+        };
+        Ok(Value::Scalar(self.graph.constant(value)))
+    }
+
+    fn named(&self, name: &str) -> Result<Value<'g>, ReadError> {
+        if let Some(value) = self.names.get(name) {
+            return Ok(*value);
+        }
+        let symbol = self.graph.find(name).ok_or_else(|| ReadError::Unknown(name.to_owned()))?;
+        Ok(Value::Scalar(symbol))
+    }
+
+    fn binary(&self, binary: &syn::ExprBinary) -> Result<Value<'g>, ReadError> {
+        let (left, right) = (self.value(&binary.left)?, self.value(&binary.right)?);
+        let made = match binary.op {
+            syn::BinOp::Add(_) => left.plus(right),
+            syn::BinOp::Sub(_) => left.plus(right.negated()),
+            syn::BinOp::Mul(_) => left.times(right),
+            syn::BinOp::Div(_) => match right {
+                Value::Scalar(divisor) => left.times(Value::Scalar(divisor.recip())),
+                _ => None,
+            },
+            _ => return Err(ReadError::Form(text(binary))),
+        };
+        made.ok_or_else(|| ReadError::Kinds(text(binary)))
+    }
+
+    fn call(&self, call: &syn::ExprCall) -> Result<Value<'g>, ReadError> {
+        let name = text(&call.func);
+        if let ("sin" | "cos", Some(angle)) = (name.as_str(), call.args.first()) {
+            return self.named(&format!("{name}_{}", text(angle)));
+        }
+        if name == "tensor" {
+            return self.tensor(call);
+        }
+        let arguments: Vec<_> =
+            call.args.iter().map(|a| self.value(a)).collect::<Result<_, _>>()?;
+        Value::call(&name, &arguments).ok_or_else(|| ReadError::Kinds(text(call)))
+    }
+
+    /// `tensor(a, b, c, [[..], [..], [..]])`.
+    fn tensor(&self, call: &syn::ExprCall) -> Result<Value<'g>, ReadError> {
+        let form = || ReadError::Form(text(call));
+        let arguments: Vec<_> = call.args.iter().collect();
+        let [a, b, c, syn::Expr::Array(rows)] = arguments[..] else { return Err(form()) };
+        let mut axes = Vec::new();
+        for axis in [a, b, c] {
+            let Value::Vector(axis) = self.value(axis)? else { return Err(form()) };
+            axes.push(axis);
+        }
+        let mut entries = Vec::new();
+        for row in &rows.elems {
+            let syn::Expr::Array(row) = row else { return Err(form()) };
+            let mut line = Vec::new();
+            for entry in &row.elems {
+                let Value::Scalar(entry) = self.value(entry)? else { return Err(form()) };
+                line.push(entry);
+            }
+            entries.push(<[_; 3]>::try_from(line).map_err(|_| form())?);
+        }
+        let axes = axes.try_into().map_err(|_| form())?;
+        Ok(Value::along(axes, entries.try_into().map_err(|_| form())?))
+    }
+
+    fn method(&self, call: &syn::ExprMethodCall) -> Result<Value<'g>, ReadError> {
+        let argument = call.args.first();
+        match (call.method.to_string().as_str(), self.value(&call.receiver)?, argument) {
+            ("recip", Value::Scalar(a), None) => Ok(Value::Scalar(a.recip())),
+            ("like", Value::Scalar(_), Some(constant)) => self.value(constant),
+            _ => Err(ReadError::Form(text(call))),
+        }
+    }
+}
+
+/// The exact value of a decimal literal such as `0.5`.
+fn decimal(digits: &str) -> Option<Rational> {
+    let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
+    let scale = 10_i64.checked_pow(u32::try_from(part.len()).ok()?)?;
+    let numerator = format!("{whole}{part}").parse::<i64>().ok()?;
+    Some(Rational::new(numerator, scale))
+}
+
+/// The source of a piece of syntax, for messages.
+fn text(piece: &(impl Spanned + quote::ToTokens)) -> String {
+    piece.to_token_stream().to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Stage;
+    use crate::normal::Ring;
+    use crate::page::{Page, read};
+
+    fn page(text: &str) -> Vec<Page> {
+        vec![Page { name: "p.md".into(), text: format!("```equation\n{text}\n```\n") }]
+    }
+
+    fn components(graph: &Graph, text: &str) -> Vec<(String, String)> {
+        let equations = read(graph, &page(text)).unwrap();
+        let mut ring = Ring::new(graph);
+        let mut shown = Vec::new();
+        for (label, e) in equations.into_iter().flat_map(|equation| equation.components) {
+            let polynomial = ring.normal(e).unwrap();
+            let terms: Vec<_> = polynomial.terms().map(|(m, k)| ring.show(m, *k)).collect();
+            shown.push((label, terms.join(" ")));
+        }
+        shown
+    }
+
+    #[test]
+    fn a_vector_equation_is_read_by_components() {
+        let g = Graph::new();
+        let _ = g.symbol("d", Stage::Parameter);
+        let text =
+            "(1) r: vector along s_x s_y g_z\nlet a = 2*d;\ncross(a*s_x_hat, s_y_hat) - s_x_hat/d";
+        let expected = [("s_x", "-1/d"), ("s_y", ""), ("g_z", "2*d")];
+        assert_eq!(components(&g, text), expected.map(|(a, b)| (a.to_owned(), b.to_owned())));
+    }
+
+    #[test]
+    fn a_tensor_times_a_vector_is_a_vector() {
+        let g = Graph::new();
+        let text =
+            "(1) r: vector along s_x s_y g_z\ntilde(s_x_hat)*transpose(tilde(s_x_hat))*s_y_hat";
+        assert_eq!(components(&g, text)[1].1, "1");
+    }
+
+    #[test]
+    fn unknown_names_and_wrong_kinds_are_refused() {
+        let g = Graph::new();
+        let error = |text: &str| read(&g, &page(text)).unwrap_err().to_string();
+        assert_eq!(
+            error("(1) r: scalar\nq + 1"),
+            "p.md:1: `q` is neither a symbol nor defined above; define it first"
+        );
+        assert_eq!(
+            error("(1) r: scalar\ns_x_hat + 1"),
+            "p.md:1: `s_x_hat + 1` is not defined for these kinds"
+        );
+        assert_eq!(
+            error("(1) r: scalar\ns_x_hat"),
+            "p.md:1: the expression is a vector, the heading says otherwise"
+        );
+    }
+
+    #[test]
+    fn decimals_are_exact() {
+        assert_eq!(decimal("0.5"), Some(Rational::new(1, 2)));
+        assert_eq!(decimal("3"), Some(Rational::from(3)));
+    }
+}
