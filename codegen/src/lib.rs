@@ -1,6 +1,9 @@
 //! Geometry to expression graph to emitted text: the derivation of Precess.
 
+pub mod derivation;
 pub mod graph;
+pub mod kernel;
+pub mod kinds;
 pub mod normal;
 pub mod page;
 pub mod space;

@@ -17,6 +17,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::{Add, Mul, Neg, Sub};
 
+pub(crate) use calculus::float;
 pub use rules::RULES;
 pub use symbol::{Stage, Symbol, SymbolId};
 

@@ -1,0 +1,153 @@
+//! Mass matrix, bias and momenta as sums over the bodies, everything along B axes.
+//!
+//! B's axes do not turn for an observer on B, so primes are plain time derivatives of components
+//! here and no transport theorem is used: an independent way to what [`super::motion`] and
+//! [`super::composite`] build in local frames. It expands to many terms and is never emitted.
+//!
+//! Newton and Euler per body, as in (25), (34), (47), (62) of the paper; the joint rows are the
+//! projections (80), (101), (119) of the same forces and moments on what each joint moves.
+
+use super::chain::{Chain, XYZ};
+use super::{Momenta, Share};
+use crate::graph::{Expr, Graph, Stage};
+use crate::space::{Frame, Hub, Symmetric, Vector};
+
+/// What one body is and does, along B axes.
+pub struct BodyInHub<'g> {
+    /// Mass.
+    pub mass: Expr<'g>,
+    /// Centre of mass from B.
+    pub r: Vector<'g, Hub>,
+    /// Angular velocity with respect to B.
+    pub omega_b: Vector<'g, Hub>,
+    /// Inertia about the centre of mass.
+    pub inertia: Symmetric<'g, Hub>,
+    /// Axis and origin of each joint up to this body: `a_i`, `p_i`.
+    pub joints: Vec<(Vector<'g, Hub>, Vector<'g, Hub>)>,
+}
+
+/// Every body of the chain, from the hub outwards.
+#[must_use]
+pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
+    let graph = chain.graph;
+    // Columns of the rotation: the axes of the frame at hand, along B axes.
+    let mut axes = unit_axes(graph);
+    let mut origin = Vector::zero(graph);
+    let mut omega_b = Vector::zero(graph);
+    let mut joints = Vec::new();
+    let mut made = Vec::new();
+    for link in &chain.links {
+        origin = origin + combine(axes, link.origin);
+        // New axes: the old ones times the elementary rotation, column by column.
+        let elementary = unit_axes(graph).map(|e| e.turned(link.turn.inverse()));
+        axes = elementary.map(|column| combine(axes, column));
+        let axis = combine(axes, link.axis);
+        omega_b = omega_b + link.rate * axis;
+        joints.push((axis, origin));
+        made.push(BodyInHub {
+            mass: link.mass,
+            r: origin + combine(axes, link.centre),
+            omega_b,
+            inertia: resolve(axes, link.inertia),
+            joints: joints.clone(),
+        });
+    }
+    made
+}
+
+fn unit_axes<F: Frame>(graph: &Graph) -> [Vector<'_, F>; 3] {
+    use crate::space::Axis::{X, Y, Z};
+    [X, Y, Z].map(|axis| Vector::unit(graph, axis))
+}
+
+/// The vector with these components along `axes`.
+fn combine<'g, F: Frame>(axes: [Vector<'g, Hub>; 3], v: Vector<'g, F>) -> Vector<'g, Hub> {
+    let [x, y, z] = v.components();
+    x * axes[0] + y * axes[1] + z * axes[2]
+}
+
+/// `sum t_ij e_i e_j^T` for a symmetric tensor given along `axes`.
+fn resolve<'g, F: Frame>(axes: [Vector<'g, Hub>; 3], t: Symmetric<'g, F>) -> Symmetric<'g, Hub> {
+    let graph = t.trace().graph();
+    let half = graph.constant(2).recip();
+    let mut sum = Symmetric::zero(graph);
+    for i in 0..XYZ.len() {
+        for j in 0..XYZ.len() {
+            sum = sum + (half * t.at(i, j)) * Symmetric::outer_pair(axes[i], axes[j]);
+        }
+    }
+    sum
+}
+
+/// The device's share of the mass matrix and of the bias.
+#[must_use]
+pub fn share<'g>(chain: &Chain<'g>) -> Share<'g> {
+    let graph = chain.graph;
+    let joints = chain.links.len();
+    let omega = chain.hub.omega;
+    let zero = Vector::zero(graph);
+    let mut share = Share {
+        mass: graph.zero(),
+        first_moment: zero,
+        inertia: Symmetric::zero(graph),
+        force: vec![zero; joints],
+        moment: vec![zero; joints],
+        joint: (0..joints).map(|i| vec![graph.zero(); joints - i]).collect(),
+        bias_force: zero,
+        bias_moment: zero,
+        bias_joint: vec![graph.zero(); joints],
+    };
+    for body in bodies(chain) {
+        let (m, r, i) = (body.mass, body.r, body.inertia);
+        let r_prime = r.component_rates();
+        let at_rest = |v: Vector<'g, Hub>| v.without(Stage::Acceleration);
+        // (38), (53), (69): r'' + 2 omega x r' + omega x (omega x r), joints not accelerating.
+        let turning = omega.cross(r_prime);
+        let acceleration =
+            at_rest(r_prime.component_rates()) + turning + turning + omega.cross(omega.cross(r));
+        let force = m * acceleration;
+        // (34), (47), (62): [I] omega_{k/B}' + [I]' omega_{k/N} + omega x [I] omega_{k/N}.
+        let omega_n = omega + body.omega_b;
+        let moment = i.times(at_rest(body.omega_b.component_rates()))
+            + i.component_rates().times(omega_n)
+            + omega.cross(i.times(omega_n));
+
+        share.mass = share.mass + m;
+        share.first_moment = share.first_moment + m * r;
+        share.inertia = share.inertia + i + m * Symmetric::tilde_squared(r);
+        share.bias_force = share.bias_force + force;
+        share.bias_moment = share.bias_moment + moment + r.cross(force);
+        for (k, &(a_k, p_k)) in body.joints.iter().enumerate() {
+            let arm_k = a_k.cross(r - p_k);
+            share.force[k] = share.force[k] + m * arm_k;
+            share.moment[k] = share.moment[k] + i.times(a_k) + m * r.cross(arm_k);
+            share.bias_joint[k] = share.bias_joint[k] + a_k.dot(moment) + arm_k.dot(force);
+            for (l, &(a_l, p_l)) in body.joints.iter().enumerate().skip(k) {
+                let arm_l = a_l.cross(r - p_l);
+                let entry = a_k.dot(i.times(a_l)) + m * arm_k.dot(arm_l);
+                share.joint[k][l - k] = share.joint[k][l - k] + entry;
+            }
+        }
+    }
+    share
+}
+
+/// The device's share of energy and momenta.
+#[must_use]
+pub fn momenta<'g>(chain: &Chain<'g>) -> Momenta<'g> {
+    let graph = chain.graph;
+    let (omega, r_b_n_dot) = (chain.hub.omega, chain.hub.r_b_n_dot);
+    let mut sum =
+        Momenta { energy: graph.zero(), linear: Vector::zero(graph), angular: Vector::zero(graph) };
+    let half = graph.constant(2).recip();
+    for body in bodies(chain) {
+        let velocity = r_b_n_dot + body.r.component_rates() + omega.cross(body.r);
+        let omega_n = omega + body.omega_b;
+        let linear = body.mass * velocity;
+        let spin = body.inertia.times(omega_n);
+        sum.energy = sum.energy + half * (velocity.dot(linear) + omega_n.dot(spin));
+        sum.linear = sum.linear + linear;
+        sum.angular = sum.angular + spin + body.r.cross(linear);
+    }
+    sum
+}

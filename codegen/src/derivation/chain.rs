@@ -1,0 +1,131 @@
+//! The symbols of a device and of the hub that carries it.
+
+use crate::graph::{Expr, Graph, Stage};
+use crate::kinds::{Centre, Kind};
+use crate::space::{Axis, Carrier, Hub, Own, Symmetric, Turn, Vector};
+
+/// Suffixes of three components.
+pub const XYZ: [&str; 3] = ["x", "y", "z"];
+/// Suffixes of six entries of a symmetric tensor.
+pub const ENTRIES: [&str; 6] = ["11", "12", "13", "22", "23", "33"];
+
+/// A device kind with its symbols in a graph.
+pub struct Chain<'g> {
+    /// Where the symbols live.
+    pub graph: &'g Graph,
+    /// The data it was made from.
+    pub kind: &'static Kind,
+    /// Joints and bodies from the hub outwards.
+    pub links: Vec<Link<'g>>,
+    /// What belongs to the hub and to the whole.
+    pub hub: HubSymbols<'g>,
+}
+
+/// The symbols of a joint and of the body behind it.
+#[derive(Clone, Copy)]
+pub struct Link<'g> {
+    /// From the carrier's axes to the body's own.
+    pub turn: Turn<'g, Carrier, Own>,
+    /// Unit vector of the joint's axis.
+    pub axis: Vector<'g, Own>,
+    /// Joint rate.
+    pub rate: Expr<'g>,
+    /// Joint acceleration.
+    pub acceleration: Expr<'g>,
+    /// Motor torque.
+    pub torque: Expr<'g>,
+    /// Origin of the joint from the carrier's origin.
+    pub origin: Vector<'g, Carrier>,
+    /// Mass.
+    pub mass: Expr<'g>,
+    /// Centre of mass from the body's origin.
+    pub centre: Vector<'g, Own>,
+    /// Inertia about the centre of mass.
+    pub inertia: Symmetric<'g, Own>,
+}
+
+/// Symbols of the hub and of the whole spacecraft, along B axes.
+pub struct HubSymbols<'g> {
+    /// Mass of the whole.
+    pub m_sc: Expr<'g>,
+    /// Mass of the hub.
+    pub m_b: Expr<'g>,
+    /// Hub's centre of mass.
+    pub r_bc_b: Vector<'g, Hub>,
+    /// Hub's inertia about its centre of mass.
+    pub i_b_bc: Symmetric<'g, Hub>,
+    /// Angular velocity of B.
+    pub omega: Vector<'g, Hub>,
+    /// Its derivative.
+    pub omega_dot: Vector<'g, Hub>,
+    /// Inertial velocity of point B.
+    pub r_b_n_dot: Vector<'g, Hub>,
+    /// Inertial acceleration of the system's centre of mass.
+    pub r_c_n_ddot: Vector<'g, Hub>,
+}
+
+impl<'g> Chain<'g> {
+    /// The symbols of `kind` and of the hub.
+    #[must_use]
+    pub fn new(graph: &'g Graph, kind: &'static Kind) -> Self {
+        let hub = HubSymbols::new(graph);
+        let links = kind.links.iter().map(|link| Link::new(graph, link)).collect();
+        Self { graph, kind, links, hub }
+    }
+}
+
+impl<'g> Link<'g> {
+    fn new(graph: &'g Graph, link: &crate::kinds::Link) -> Self {
+        let parameter = |name: &str| graph.symbol(name, Stage::Parameter);
+        let (joint, body) = (&link.joint, &link.body);
+        let rate = graph.symbol(joint.rate, Stage::Rate);
+        let acceleration = graph.symbol(joint.acceleration, Stage::Acceleration);
+        graph.set_rate(rate, acceleration);
+        let (sin, cos) = graph.angle(joint.angle, rate);
+        let inertia = ENTRIES.map(|entry| parameter(&format!("{}_{entry}", body.inertia)));
+        Self {
+            turn: Turn::about(joint.axis, sin, cos),
+            axis: Vector::unit(graph, joint.axis),
+            rate,
+            acceleration,
+            torque: graph.symbol(joint.torque, Stage::Rate),
+            origin: Vector::new(joint.origin.names.map(parameter)),
+            mass: parameter(body.mass),
+            centre: match body.centre {
+                Centre::Free(triple) => Vector::new(triple.names.map(parameter)),
+                Centre::On(axis, distance) => parameter(distance) * Vector::unit(graph, axis),
+            },
+            inertia: Symmetric::new(inertia),
+        }
+    }
+}
+
+impl<'g> HubSymbols<'g> {
+    fn new(graph: &'g Graph) -> Self {
+        let parameter = |name: &str| graph.symbol(name, Stage::Parameter);
+        let along = |stem: &str, stage| {
+            Vector::new(XYZ.map(|axis| graph.symbol(&format!("{stem}_b{axis}"), stage)))
+        };
+        let omega: Vector<'g, Hub> = along("omega", Stage::Rate);
+        let omega_dot: Vector<'g, Hub> = along("omega_dot", Stage::Acceleration);
+        for (rate, acceleration) in omega.components().into_iter().zip(omega_dot.components()) {
+            graph.set_rate(rate, acceleration);
+        }
+        Self {
+            m_sc: parameter("m_sc"),
+            m_b: parameter("m_b"),
+            r_bc_b: along("r_bc_b", Stage::Parameter),
+            i_b_bc: Symmetric::new(ENTRIES.map(|entry| parameter(&format!("i_b_{entry}")))),
+            omega,
+            omega_dot,
+            r_b_n_dot: along("r_b_n_dot", Stage::Rate),
+            r_c_n_ddot: along("r_c_n_ddot", Stage::Acceleration),
+        }
+    }
+}
+
+/// The name of a frame's axis: `bx`, `goy`.
+#[must_use]
+pub fn axis_name(frame: &str, axis: Axis) -> String {
+    format!("{frame}{}", XYZ[axis.cycle()[0]])
+}

@@ -1,0 +1,273 @@
+//! Inwards from the tip: what lies outside each joint, taken together, in local frames.
+//!
+//! Moments are taken about the joint's own origin and carried to the next one, so a light wheel
+//! far from B does not drown in the inertia of its lever arm.
+
+use super::chain::{Chain, Link};
+use super::motion::{Motion, Observer, motions};
+use super::{Momenta, Share};
+use crate::graph::{Expr, Graph, Stage};
+use crate::kernel::{Script, pairs, sextuple, triple};
+use crate::kinds;
+use crate::space::{Frame, Own, Symmetric, Vector};
+
+/// A force and its moment about the origin at hand.
+#[derive(Clone, Copy)]
+struct Wrench<'g, F> {
+    force: Vector<'g, F>,
+    moment: Vector<'g, F>,
+}
+
+impl<'g, F: Frame> Wrench<'g, F> {
+    fn zero(graph: &'g Graph) -> Self {
+        Self { force: Vector::zero(graph), moment: Vector::zero(graph) }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self { force: self.force + other.force, moment: self.moment + other.moment }
+    }
+}
+
+impl<'g> Wrench<'g, Own> {
+    /// Along the carrier's axes, about the carrier's origin.
+    fn carried(self, link: &Link<'g>) -> Self {
+        let force = self.force.turned(link.turn.inverse());
+        let moment = self.moment.turned(link.turn.inverse()) + link.origin.cross(force);
+        Self { force: force.handed_back(), moment: moment.handed_back() }
+    }
+}
+
+/// Mass, first moment and inertia of a set of bodies, about the origin at hand.
+#[derive(Clone, Copy)]
+struct Lump<'g> {
+    mass: Expr<'g>,
+    first_moment: Vector<'g, Own>,
+    inertia: Symmetric<'g, Own>,
+}
+
+impl<'g> Lump<'g> {
+    fn zero(graph: &'g Graph) -> Self {
+        Self {
+            mass: graph.zero(),
+            first_moment: Vector::zero(graph),
+            inertia: Symmetric::zero(graph),
+        }
+    }
+
+    /// One body about its joint's origin: parameters alone.
+    fn of(link: &Link<'g>, data: &kinds::Link, script: &mut Script<'g>) -> Self {
+        let (body, origin) = (&data.body, data.body.origin);
+        let made = Self {
+            mass: link.mass,
+            first_moment: link.mass * link.centre,
+            inertia: link.inertia + link.mass * Symmetric::tilde_squared(link.centre),
+        };
+        script.section("own", format!("The {} about its origin.", body.title));
+        let names = triple(&format!("mr_{}_{origin}", body.point), body.frame);
+        script.names(pairs(names, made.first_moment.components()));
+        script
+            .names(pairs(sextuple(&format!("i_{}_{origin}", body.frame)), made.inertia.entries()));
+        made
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            mass: self.mass + other.mass,
+            first_moment: self.first_moment + other.first_moment,
+            inertia: self.inertia + other.inertia,
+        }
+    }
+
+    /// Along the carrier's axes, about the carrier's origin (parallel axis theorem).
+    fn carried(self, link: &Link<'g>) -> Self {
+        let (arm, back) = (link.origin, link.turn.inverse());
+        let first_moment = self.first_moment.turned(back);
+        let inertia = self.inertia.turned(back)
+            + Symmetric::tilde_pair(arm, first_moment)
+            + self.mass * Symmetric::tilde_squared(arm);
+        Self {
+            mass: self.mass,
+            first_moment: (first_moment + self.mass * arm).handed_back(),
+            inertia: inertia.handed_back(),
+        }
+    }
+}
+
+/// The device's share of the mass matrix and of the bias, with its steps written to `script`.
+#[must_use]
+pub fn share<'g>(chain: &Chain<'g>, observer: &Observer<'g>, script: &mut Script<'g>) -> Share<'g> {
+    let graph = chain.graph;
+    let motions = outwards(chain, observer, script);
+    let mut lump = Lump::zero(graph);
+    let mut bias = Wrench::zero(graph);
+    // What a unit acceleration of each joint already passed asks for; tip last.
+    let mut columns: Vec<Wrench<'g, Own>> = Vec::new();
+    let mut joint = Vec::new();
+    let mut bias_joint = Vec::new();
+    for (k, (link, motion)) in chain.links.iter().zip(&motions).enumerate().rev() {
+        let data = &chain.kind.links[k];
+        let tags = chain.kind.links[k..].iter().map(|link| link.joint.tag);
+        let body = Lump::of(link, data, script);
+        lump = lump.plus(body);
+        bias = bias.plus(bias_of(link, motion, &body));
+        columns.insert(
+            0,
+            Wrench {
+                force: link.axis.cross(lump.first_moment),
+                moment: lump.inertia.times(link.axis),
+            },
+        );
+        describe(data, &lump, &bias, &columns, tags.clone(), script);
+        let row: Vec<_> = tags.zip(columns.iter().map(|c| link.axis.dot(c.moment))).collect();
+        let cut = |(tag, entry)| script.cut(format!("mass_{}{tag}", data.joint.tag), entry);
+        joint.insert(0, row.into_iter().map(cut).collect());
+        let moment = link.axis.dot(bias.moment);
+        bias_joint.insert(0, script.cut(format!("u_rest_{}", data.joint.tag), moment));
+
+        lump = lump.carried(link);
+        bias = bias.carried(link);
+        columns = columns.into_iter().map(|column| column.carried(link)).collect();
+    }
+    let on_hub = |v: Vector<'g, Own>| v.handed_on().on_hub();
+    Share {
+        mass: lump.mass,
+        first_moment: on_hub(lump.first_moment),
+        inertia: Symmetric::new(lump.inertia.entries()),
+        force: columns.iter().map(|column| on_hub(column.force)).collect(),
+        moment: columns.iter().map(|column| on_hub(column.moment)).collect(),
+        joint,
+        bias_force: on_hub(bias.force),
+        bias_moment: on_hub(bias.moment),
+        bias_joint,
+    }
+}
+
+/// Motions, with angular velocities and what they carry named.
+fn outwards<'g>(
+    chain: &Chain<'g>,
+    observer: &Observer<'g>,
+    script: &mut Script<'g>,
+) -> Vec<Motion<'g>> {
+    let motions = motions(chain, observer);
+    let seen_from = observer.name;
+    for ((link, data), motion) in chain.links.iter().zip(chain.kind.links).zip(&motions) {
+        let body = &data.body;
+        let (frame, letter, equation) = (body.frame, body.letters[0], body.equations.omega);
+        let stem = format!("{frame}_{}", seen_from.to_lowercase());
+        script.section(
+            "rate",
+            format!("ω_{{{letter}/{seen_from}}}, eq. {equation}, along its own axes, rad/s."),
+        );
+        script.names(pairs(triple(&format!("omega_{stem}"), frame), motion.omega.components()));
+        script.section(
+            "turn",
+            "Its derivative with no joint accelerating, along the same axes, rad/s².",
+        );
+        let rest = motion.omega.component_rates().without(Stage::Acceleration);
+        script.names(pairs(triple(&format!("omega_{stem}_rest"), frame), rest.components()));
+        script.section(
+            "path",
+            format!("Acceleration of {letter} relative to B, no joint accelerating, along the same axes."),
+        );
+        let origin = origin_acceleration(link, motion);
+        script.names(pairs(triple(&format!("r_{}_rest", body.origin), frame), origin.components()));
+    }
+    motions
+}
+
+/// Names what lies outside one joint: lump, bias, columns.
+fn describe<'g>(
+    data: &kinds::Link,
+    lump: &Lump<'g>,
+    bias: &Wrench<'g, Own>,
+    columns: &[Wrench<'g, Own>],
+    tags: impl Iterator<Item = &'static str>,
+    script: &mut Script<'g>,
+) {
+    let (frame, origin, assembly) = (data.body.frame, data.body.origin, data.assembly);
+    let (title, letter) = (data.body.title, data.body.letters[0]);
+    let whole = assembly.to_uppercase();
+    script.section(
+        "lump",
+        format!(
+            "{whole}, the {title} and what it carries, about {letter}: mass, first moment, inertia."
+        ),
+    );
+    script.name(format!("m_{assembly}"), lump.mass);
+    script.names(pairs(
+        triple(&format!("mr_{assembly}_{origin}"), frame),
+        lump.first_moment.components(),
+    ));
+    script.names(pairs(sextuple(&format!("i_{assembly}_{origin}")), lump.inertia.entries()));
+    script.section(
+        "bias",
+        format!("{whole} with no joint accelerating: force, moment about {letter}."),
+    );
+    script.names(pairs(triple("f_rest", frame), bias.force.components()));
+    script.names(pairs(triple("n_rest", frame), bias.moment.components()));
+    script.section(
+        "col",
+        format!(
+            "Force and moment about {letter} per unit acceleration of each joint from here on."
+        ),
+    );
+    for (tag, column) in tags.zip(columns) {
+        script.names(pairs(triple(&format!("f_{tag}"), frame), column.force.components()));
+        script.names(pairs(triple(&format!("n_{tag}"), frame), column.moment.components()));
+    }
+    script.section("row", format!("Row of the {title}'s joint, along its axis: M_ij and bias."));
+}
+
+/// What one body asks for while no joint accelerates: with S and I about the joint's origin p,
+/// force `m p'' + S''` and moment `S x p'' + d(I omega)/dt`, derivatives seen from N.
+fn bias_of<'g>(link: &Link<'g>, motion: &Motion<'g>, body: &Lump<'g>) -> Wrench<'g, Own> {
+    let omega = motion.omega;
+    let p_ddot = origin_acceleration(link, motion);
+    let s_ddot = body.first_moment.prime(omega).prime(omega).without(Stage::Acceleration);
+    let spin_rate = body.inertia.times(omega).prime(omega).without(Stage::Acceleration);
+    Wrench {
+        force: body.mass * p_ddot + s_ddot,
+        moment: body.first_moment.cross(p_ddot) + spin_rate,
+    }
+}
+
+/// Acceleration of the joint's origin relative to B, no joint accelerating, along own axes.
+fn origin_acceleration<'g>(link: &Link<'g>, motion: &Motion<'g>) -> Vector<'g, Own> {
+    motion.origin.acceleration.without(Stage::Acceleration).turned(link.turn)
+}
+
+/// The device's share of energy and momenta, with its steps written to `script`.
+#[must_use]
+pub fn momenta<'g>(
+    chain: &Chain<'g>,
+    observer: &Observer<'g>,
+    script: &mut Script<'g>,
+) -> Momenta<'g> {
+    let graph = chain.graph;
+    let motions = outwards(chain, observer, script);
+    let mut momentum = Wrench::<Own>::zero(graph);
+    let mut twice_energy = graph.zero();
+    for (k, (link, motion)) in chain.links.iter().zip(&motions).enumerate().rev() {
+        let data = &chain.kind.links[k];
+        let (frame, letter) = (data.body.frame, data.body.letters[0]);
+        let body = Lump::of(link, data, script);
+        let (omega, p_dot) = (motion.omega, motion.origin.velocity.turned(link.turn));
+        let own = Wrench {
+            force: body.mass * p_dot + omega.cross(body.first_moment),
+            moment: body.first_moment.cross(p_dot) + body.inertia.times(omega),
+        };
+        script.section(
+            "mom",
+            format!("The {}: momentum, and its moment about {letter}.", data.body.title),
+        );
+        script.names(pairs(triple(&format!("p_{frame}"), frame), own.force.components()));
+        script.names(pairs(triple(&format!("h_{frame}"), frame), own.moment.components()));
+        twice_energy = twice_energy + (p_dot.dot(own.force) + omega.dot(own.moment));
+        momentum = momentum.plus(own).carried(link);
+    }
+    Momenta {
+        energy: graph.constant(2).recip() * twice_energy,
+        linear: momentum.force.handed_on().on_hub(),
+        angular: momentum.moment.handed_on().on_hub(),
+    }
+}

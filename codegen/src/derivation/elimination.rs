@@ -1,0 +1,235 @@
+//! The joints eliminated into the hub's six equations: symmetric, from the tip, no square root.
+//!
+//! With `d` the pivot of joint j and `g_x = M_xj / d` its gains, every entry of the rest becomes
+//! `M_xy - g_x M_jy` and every right side `h_x - g_x h_j`. This is `M = L D L^T` with the gains for
+//! L; each step is an identity that can be proven by itself, `new + g_x d g_y = old`.
+
+use super::Share;
+use super::chain::Chain;
+use crate::graph::Expr;
+use crate::kernel::Script;
+
+/// Suffixes of the six hub unknowns: acceleration of B, angular acceleration.
+pub const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
+
+/// A name and its value.
+pub type Entry<'g> = (String, Expr<'g>);
+
+/// To be proven of the emitted `name`: `value * factor + sum of addends = before`.
+#[derive(Clone, Debug)]
+pub struct Identity<'g> {
+    /// The name under which the value is emitted.
+    pub name: String,
+    /// What the value is multiplied by.
+    pub factor: Expr<'g>,
+    /// What is added to it.
+    pub addends: Vec<Expr<'g>>,
+    /// What must come out.
+    pub before: Expr<'g>,
+}
+
+/// One joint after its elimination.
+pub struct Pivot<'g> {
+    /// The joint's tag.
+    pub tag: &'static str,
+    /// The pivot by the name of its entry.
+    pub pivot: Entry<'g>,
+    /// The same entry before anything was eliminated.
+    pub diagonal: Entry<'g>,
+    /// One per hub unknown, then one per joint nearer the hub.
+    pub gains: Vec<Entry<'g>>,
+    /// The joint's acceleration with all else at rest.
+    pub free: Entry<'g>,
+    couplings: Vec<Expr<'g>>,
+    right: Expr<'g>,
+}
+
+/// What the elimination yields.
+pub struct Eliminated<'g> {
+    /// From the tip inwards.
+    pub pivots: Vec<Pivot<'g>>,
+    /// The share of the hub's equations by field name.
+    pub hub: Vec<Entry<'g>>,
+    /// Every step.
+    pub identities: Vec<Identity<'g>>,
+}
+
+/// One joint's row as it stands: couplings to hub and inner joints, diagonal, right side.
+struct Row<'g> {
+    tag: &'static str,
+    couplings: Vec<Entry<'g>>,
+    diagonal: Entry<'g>,
+    right: Entry<'g>,
+}
+
+/// Eliminates the joints of `share`, whose entries are symbols, writing the steps to `script`.
+#[must_use]
+pub fn eliminate<'g>(
+    chain: &Chain<'g>,
+    share: &Share<'g>,
+    script: &mut Script<'g>,
+) -> Eliminated<'g> {
+    let one = chain.graph.constant(1);
+    let mut rows = rows(chain, share, script);
+    let diagonals: Vec<_> = rows.iter().map(|row| row.diagonal.clone()).collect();
+    let mut made = Eliminated { pivots: Vec::new(), hub: Vec::new(), identities: Vec::new() };
+    let mut done = String::new();
+    while let Some(row) = rows.pop() {
+        let pivot = gains(&row, &rows, diagonals[rows.len()].clone(), script);
+        for (gain, coupling) in pivot.gains.iter().zip(&pivot.couplings) {
+            made.identities.push(gain_identity(gain, pivot.pivot.1, *coupling));
+        }
+        made.identities.push(gain_identity(&pivot.free, pivot.pivot.1, pivot.right));
+        done.push_str(pivot.tag);
+        let title = format!("Joint {} taken out of the rows nearer the hub.", pivot.tag);
+        script.section("rest", title);
+        for (l, inner) in rows.iter_mut().enumerate() {
+            let gain = pivot.gains[HUB.len() + l].1;
+            let own = (pivot.couplings[HUB.len() + l], gain);
+            let couplings = pivot.couplings.iter().copied().zip(pivot.gains.iter().map(|g| g.1));
+            let others = inner.couplings.iter_mut().zip(couplings);
+            let right = (pivot.right, pivot.free.1);
+            let all = others.chain([(&mut inner.diagonal, own)]).chain([(&mut inner.right, right)]);
+            for (entry, (value, per_pivot)) in all {
+                let name = format!("{}_{done}", entry.0);
+                let new = entry.1 - gain * value;
+                let addends = vec![gain * pivot.pivot.1 * per_pivot];
+                let before = entry.1;
+                made.identities.push(Identity { name: name.clone(), factor: one, addends, before });
+                let root = entry.0.clone();
+                *entry = (root, script.cut(name, new));
+            }
+        }
+        made.pivots.push(pivot);
+    }
+    hub(share, &mut made, script);
+    made
+}
+
+fn gain_identity<'g>(gain: &Entry<'g>, pivot: Expr<'g>, before: Expr<'g>) -> Identity<'g> {
+    Identity { name: gain.0.clone(), factor: pivot, addends: Vec::new(), before }
+}
+
+/// The joints' rows, with right sides `u - u_rest`.
+fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Vec<Row<'g>> {
+    script.section("tau", "Right side of each joint: motor torque less what the rest asks for.");
+    let tags: Vec<_> = chain.kind.links.iter().map(|link| link.joint.tag).collect();
+    let row = |(k, tag): (usize, &&'static str)| {
+        let right = chain.links[k].torque - share.bias_joint[k];
+        let hub = share.force[k].components().into_iter().chain(share.moment[k].components());
+        let names = ["f", "n"]
+            .into_iter()
+            .flat_map(|block| ["bx", "by", "bz"].map(|axis| format!("{block}_{tag}_{axis}")));
+        let inner = (0..k).map(|i| (format!("mass_{}{tag}", tags[i]), share.joint[i][k - i]));
+        Row {
+            tag,
+            couplings: names.zip(hub).chain(inner).collect(),
+            diagonal: (format!("mass_{tag}{tag}"), share.joint[k][0]),
+            right: (format!("tau_{tag}"), script.cut(format!("tau_{tag}"), right)),
+        }
+    };
+    tags.iter().enumerate().map(row).collect()
+}
+
+/// Pivot, gains and free acceleration of one joint.
+fn gains<'g>(
+    row: &Row<'g>,
+    inner: &[Row<'g>],
+    diagonal: Entry<'g>,
+    script: &mut Script<'g>,
+) -> Pivot<'g> {
+    let tag = row.tag;
+    let pivot = match row.diagonal.1.node() {
+        crate::graph::Node::Symbol(symbol) => {
+            (row.diagonal.1.graph().symbol_info(symbol).name, row.diagonal.1)
+        }
+        _ => row.diagonal.clone(),
+    };
+    let recip = pivot.1.recip();
+    script.section("gain", format!("Joint {tag}: its pivot `{}` and its gains.", pivot.0));
+    script.name(format!("recip_{tag}"), recip);
+    let suffixes = HUB.into_iter().chain(inner.iter().map(|row| row.tag));
+    let gains: Vec<_> = suffixes
+        .zip(&row.couplings)
+        .map(|(suffix, (_, value))| (format!("gain_{tag}_{suffix}"), *value * recip))
+        .collect();
+    let free = (format!("free_{tag}"), row.right.1 * recip);
+    script.names(gains.iter().cloned());
+    script.name(free.0.clone(), free.1);
+    Pivot {
+        tag,
+        pivot,
+        diagonal,
+        gains,
+        free,
+        couplings: row.couplings.iter().map(|coupling| coupling.1).collect(),
+        right: row.right.1,
+    }
+}
+
+/// The hub's block and right side, less what the joints take.
+fn hub<'g>(share: &Share<'g>, made: &mut Eliminated<'g>, script: &mut Script<'g>) {
+    script.section("hub", "Share of the hub's equations: mass matrix and right side.");
+    let graph = share.mass.graph();
+    let (mass, zero, one) = (share.mass, graph.zero(), graph.constant(1));
+    let [x, y, z] = share.first_moment.components();
+    // M_vw = -[S~].
+    let coupling = [[zero, z, -y], [-z, zero, x], [y, -x, zero]];
+    let force = share.bias_force.components();
+    let moment = share.bias_moment.components();
+    for row in 0..HUB.len() {
+        for column in row..HUB.len() {
+            let before = match (row < 3, column < 3) {
+                (true, true) => {
+                    if row == column {
+                        mass
+                    } else {
+                        zero
+                    }
+                }
+                (true, false) => coupling[row][column - 3],
+                (false, _) => share.inertia.at(row - 3, column - 3),
+            };
+            let block = ["vv", "vw", "ww"][usize::from(row >= 3) + usize::from(column >= 3)];
+            let name = format!("m_{block}_{}{}", row % 3 + 1, column % 3 + 1);
+            made.take_out(
+                name,
+                before,
+                row,
+                |pivot| (pivot.couplings[column], pivot.gains[column].1),
+                one,
+                script,
+            );
+        }
+    }
+    for row in 0..HUB.len() {
+        let before = -(if row < 3 { force[row] } else { moment[row - 3] });
+        let name = format!("h_{}_{}", ["v", "w"][row / 3], row % 3 + 1);
+        made.take_out(name, before, row, |pivot| (pivot.right, pivot.free.1), one, script);
+    }
+}
+
+impl<'g> Eliminated<'g> {
+    /// `before` less the gain of `row` times `taken`, over all joints.
+    fn take_out(
+        &mut self,
+        name: String,
+        before: Expr<'g>,
+        row: usize,
+        taken: impl Fn(&Pivot<'g>) -> (Expr<'g>, Expr<'g>),
+        one: Expr<'g>,
+        script: &mut Script<'g>,
+    ) {
+        let mut value = before;
+        let mut addends = Vec::new();
+        for pivot in &self.pivots {
+            let gain = pivot.gains[row].1;
+            let (entry, per_pivot) = taken(pivot);
+            value = value - gain * entry;
+            addends.push(gain * pivot.pivot.1 * per_pivot);
+        }
+        script.name(name.clone(), value);
+        self.hub.push((name.clone(), value));
+        self.identities.push(Identity { name, factor: one, addends, before });
+    }
+}

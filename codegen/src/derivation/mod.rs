@@ -1,0 +1,111 @@
+//! The one derivation: positions and angular velocities are stated, differentiation does the rest.
+//!
+//! - [`chain`]: a kind's symbols, and the hub's;
+//! - [`motion`]: outwards along the chain by the transport theorem, seen from B or from N;
+//! - [`quantities`]: the paper's quantities of each body and of the system's centre of mass;
+//! - [`by_body`]: mass matrix and bias as sums over bodies, by plain differentiation in B: what
+//!   the rest is held against;
+//! - [`composite`]: the same, inwards from the tip in local frames: what is emitted;
+//! - [`elimination`]: the joints eliminated into the hub's six equations, tip first.
+
+pub mod by_body;
+pub mod chain;
+pub mod composite;
+pub mod elimination;
+pub mod motion;
+pub mod placed;
+pub mod quantities;
+
+use crate::graph::Expr;
+use crate::kernel::{pairs, sextuple, triple};
+use crate::kinds::Kind;
+use crate::space::{Hub, Symmetric, Vector};
+
+/// One device's share of `M [r_B''; omega'; q''] + bias = [F; L_B; u]`, along B axes.
+pub struct Share<'g> {
+    /// `M_vv = mass 1`.
+    pub mass: Expr<'g>,
+    /// `sum m_k r_k`: `M_vw = -[S~]`.
+    pub first_moment: Vector<'g, Hub>,
+    /// `M_ww = sum [I_{k,B}]`.
+    pub inertia: Symmetric<'g, Hub>,
+    /// `M_vi` per joint: the paper's `f_o`, `f_i`, `f_w`.
+    pub force: Vec<Vector<'g, Hub>>,
+    /// `M_wi` per joint.
+    pub moment: Vec<Vector<'g, Hub>>,
+    /// `M_ij`, upper triangle by rows: `joint[i][j - i]`.
+    pub joint: Vec<Vec<Expr<'g>>>,
+    /// Bias of the translational equation.
+    pub bias_force: Vector<'g, Hub>,
+    /// Bias of the rotational equation, about B.
+    pub bias_moment: Vector<'g, Hub>,
+    /// Bias of each motor-torque equation.
+    pub bias_joint: Vec<Expr<'g>>,
+}
+
+/// One device's share of the kinetic energy and of both momenta, along B axes.
+pub struct Momenta<'g> {
+    /// Kinetic energy.
+    pub energy: Expr<'g>,
+    /// Linear momentum.
+    pub linear: Vector<'g, Hub>,
+    /// Moment of momentum about B.
+    pub angular: Vector<'g, Hub>,
+}
+
+/// A quantity by name, with its components by the names they are emitted under.
+pub type Named<'g> = (String, Vec<(String, Expr<'g>)>);
+
+impl<'g> Share<'g> {
+    /// Every block under the names the recursion gives it.
+    #[must_use]
+    pub fn named(&self, kind: &Kind) -> Vec<Named<'g>> {
+        let whole = kind.links[0].assembly;
+        let tags: Vec<_> = kind.links.iter().map(|link| link.joint.tag).collect();
+        let mut list = vec![
+            vector(format!("mr_{whole}_b"), self.first_moment),
+            tensor(format!("i_{whole}_b"), self.inertia),
+        ];
+        for (k, row) in self.joint.iter().enumerate() {
+            for (l, entry) in row.iter().enumerate() {
+                list.push(scalar(format!("mass_{}{}", tags[k], tags[k + l]), *entry));
+            }
+        }
+        for (tag, (f, n)) in tags.iter().zip(self.force.iter().zip(&self.moment)) {
+            list.push(vector(format!("f_{tag}"), *f));
+            list.push(vector(format!("n_{tag}"), *n));
+        }
+        list.push(vector("f_rest".to_owned(), self.bias_force));
+        list.push(vector("n_rest".to_owned(), self.bias_moment));
+        for (tag, bias) in tags.iter().zip(&self.bias_joint) {
+            list.push(scalar(format!("u_rest_{tag}"), *bias));
+        }
+        list
+    }
+}
+
+impl<'g> Momenta<'g> {
+    /// Energy and momenta with their names.
+    #[must_use]
+    pub fn named(&self) -> Vec<Named<'g>> {
+        vec![
+            scalar("energy".to_owned(), self.energy),
+            vector("linear".to_owned(), self.linear),
+            vector("angular_b".to_owned(), self.angular),
+        ]
+    }
+}
+
+fn scalar(name: String, value: Expr<'_>) -> Named<'_> {
+    (name.clone(), vec![(name, value)])
+}
+
+fn vector<'g>(stem: String, v: Vector<'g, Hub>) -> Named<'g> {
+    let components = pairs(triple(&stem, "b"), v.components()).collect();
+    (stem, components)
+}
+
+fn tensor<'g>(stem: String, t: Symmetric<'g, Hub>) -> Named<'g> {
+    let entries = pairs(sextuple(&stem), t.entries()).collect();
+    (stem, entries)
+}

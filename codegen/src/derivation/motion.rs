@@ -1,0 +1,92 @@
+//! Outwards along the chain: angular velocities and paths, by the transport theorem.
+
+use super::chain::Chain;
+use crate::graph::Graph;
+use crate::space::{Carrier, Frame, Hub, Own, Vector};
+
+/// Who watches: what B itself does in the observer's frame.
+#[derive(Clone, Copy)]
+pub struct Observer<'g> {
+    /// Letter of the observer's frame.
+    pub name: &'static str,
+    /// Angular velocity of B.
+    pub omega: Vector<'g, Hub>,
+    /// Velocity of point B.
+    pub velocity: Vector<'g, Hub>,
+}
+
+impl<'g> Observer<'g> {
+    /// Seen from B: derivatives are the paper's primes.
+    #[must_use]
+    pub fn on_hub(graph: &'g Graph) -> Self {
+        Self { name: "B", omega: Vector::zero(graph), velocity: Vector::zero(graph) }
+    }
+
+    /// Seen from N: derivatives are the paper's dots.
+    #[must_use]
+    pub fn inertial(chain: &Chain<'g>) -> Self {
+        Self { name: "N", omega: chain.hub.omega, velocity: chain.hub.r_b_n_dot }
+    }
+}
+
+/// A point that moves: position from B, velocity, and acceleration relative to that of B.
+#[derive(Clone, Copy)]
+pub struct Path<'g, F> {
+    /// From B.
+    pub position: Vector<'g, F>,
+    /// Seen by the observer.
+    pub velocity: Vector<'g, F>,
+    /// Seen by the observer, less the acceleration of B.
+    pub acceleration: Vector<'g, F>,
+}
+
+/// How one body moves, seen by an observer.
+#[derive(Clone, Copy)]
+pub struct Motion<'g> {
+    /// Angular velocity of the body, along its own axes.
+    pub omega: Vector<'g, Own>,
+    /// The joint's origin, along the carrier's axes.
+    pub origin: Path<'g, Carrier>,
+    /// The body's centre of mass, along the carrier's axes.
+    pub centre: Path<'g, Carrier>,
+}
+
+impl<'g, F: Frame> Path<'g, F> {
+    /// The end of an arm that starts here; the arm is resolved in axes that turn at `omega`.
+    fn with_arm(self, arm: Vector<'g, F>, omega: Vector<'g, F>) -> Self {
+        let arm_rate = arm.prime(omega);
+        Self {
+            position: self.position + arm,
+            velocity: self.velocity + arm_rate,
+            acceleration: self.acceleration + arm_rate.prime(omega),
+        }
+    }
+
+    fn map<To>(self, f: impl Fn(Vector<'g, F>) -> Vector<'g, To>) -> Path<'g, To> {
+        Path {
+            position: f(self.position),
+            velocity: f(self.velocity),
+            acceleration: f(self.acceleration),
+        }
+    }
+}
+
+/// The motion of every body of the chain, from the hub outwards.
+#[must_use]
+pub fn motions<'g>(chain: &Chain<'g>, observer: &Observer<'g>) -> Vec<Motion<'g>> {
+    let zero = Vector::zero(chain.graph);
+    let mut omega = observer.omega.as_carrier();
+    let velocity = observer.velocity.as_carrier();
+    let mut path = Path { position: zero, velocity, acceleration: zero };
+    let mut made = Vec::new();
+    for link in &chain.links {
+        let origin = path.with_arm(link.origin, omega);
+        let centre = origin.with_arm(link.centre.turned(link.turn.inverse()), omega);
+        // (31), (44), (59): each joint adds its rate about its own axis.
+        let omega_own = omega.turned(link.turn) + link.rate * link.axis;
+        made.push(Motion { omega: omega_own, origin, centre });
+        path = origin.map(|v| v.turned(link.turn).handed_on());
+        omega = omega_own.handed_on();
+    }
+    made
+}

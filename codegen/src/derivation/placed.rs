@@ -1,0 +1,82 @@
+//! A derived vector or tensor with the link whose axes it stands in, to be read along any other.
+//!
+//! Inside a walk the frame is in the type. Where results of all links are listed together, as the
+//! proof does, it becomes a number: zero for the hub, k for the body behind joint k.
+
+use super::chain::Chain;
+use crate::graph::Expr;
+use crate::space::{Carrier, Own, Symmetric, Vector};
+
+/// Components and the number of their frame.
+#[derive(Clone, Copy)]
+pub enum Placed<'g> {
+    /// A vector.
+    Vector([Expr<'g>; 3], usize),
+    /// A symmetric tensor: entries 11, 12, 13, 22, 23, 33.
+    Tensor([Expr<'g>; 6], usize),
+}
+
+impl<'g> Placed<'g> {
+    /// The same along the axes of frame `target`.
+    #[must_use]
+    pub fn along(self, chain: &Chain<'g>, target: usize) -> Self {
+        let mut now = self;
+        loop {
+            let frame = now.frame();
+            now = match frame.cmp(&target) {
+                std::cmp::Ordering::Equal => return now,
+                std::cmp::Ordering::Less => now.outwards(chain, frame),
+                std::cmp::Ordering::Greater => now.inwards(chain, frame - 1),
+            };
+        }
+    }
+
+    fn frame(self) -> usize {
+        match self {
+            Self::Vector(_, frame) | Self::Tensor(_, frame) => frame,
+        }
+    }
+
+    /// Across joint `joint`, away from the hub.
+    fn outwards(self, chain: &Chain<'g>, joint: usize) -> Self {
+        let turn = chain.links[joint].turn;
+        match self {
+            Self::Vector(v, _) => {
+                let turned = Vector::<Carrier>::new(v).turned(turn);
+                Self::Vector(turned.components(), joint + 1)
+            }
+            Self::Tensor(t, _) => {
+                let turned = Symmetric::<Carrier>::new(t).turned(turn);
+                Self::Tensor(turned.entries(), joint + 1)
+            }
+        }
+    }
+
+    /// Across joint `joint`, towards the hub.
+    fn inwards(self, chain: &Chain<'g>, joint: usize) -> Self {
+        let turn = chain.links[joint].turn.inverse();
+        match self {
+            Self::Vector(v, _) => {
+                let turned = Vector::<Own>::new(v).turned(turn);
+                Self::Vector(turned.components(), joint)
+            }
+            Self::Tensor(t, _) => {
+                let turned = Symmetric::<Own>::new(t).turned(turn);
+                Self::Tensor(turned.entries(), joint)
+            }
+        }
+    }
+
+    /// Labelled components: `along` names the axes of a vector; a tensor has nine entries.
+    #[must_use]
+    pub fn labelled(self, axes: &[String; 3]) -> Vec<(String, Expr<'g>)> {
+        match self {
+            Self::Vector(v, _) => axes.iter().cloned().zip(v).collect(),
+            Self::Tensor(t, _) => {
+                let t = Symmetric::<Own>::new(t);
+                let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+                places.map(|(i, j)| (format!("{}{}", i + 1, j + 1), t.at(i, j))).collect()
+            }
+        }
+    }
+}

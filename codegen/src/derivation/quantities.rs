@@ -1,0 +1,162 @@
+//! The paper's quantities of each body and of the system's centre of mass, by name.
+//!
+//! Names are those of the hand-checked pages; frames are numbered as in [`super::placed`].
+
+use super::chain::Chain;
+use super::motion::{Motion, Observer, motions};
+use super::placed::Placed;
+use crate::graph::{Expr, Stage};
+use crate::kinds::Centre;
+use crate::space::{Axis, Carrier, Frame, Hub, Own, Symmetric, Vector};
+
+/// One derived quantity.
+#[derive(Clone)]
+pub struct Quantity<'g> {
+    /// Its name in code.
+    pub name: String,
+    /// What it is.
+    pub value: Placed<'g>,
+}
+
+/// Every quantity of a chain that has a name in the paper.
+#[must_use]
+pub fn quantities<'g>(chain: &Chain<'g>) -> Vec<Quantity<'g>> {
+    let mut list = List::default();
+    axes(chain, &mut list);
+    hub(chain, &mut list);
+    let seen_from_b = motions(chain, &Observer::on_hub(chain.graph));
+    let seen_from_n = motions(chain, &Observer::inertial(chain));
+    for (k, (of_b, of_n)) in seen_from_b.iter().zip(&seen_from_n).enumerate() {
+        body(chain, k, of_b, of_n, &mut list);
+    }
+    system(chain, &seen_from_b, &mut list);
+    list.0
+}
+
+#[derive(Default)]
+struct List<'g>(Vec<Quantity<'g>>);
+
+impl<'g> List<'g> {
+    fn vector<F: Frame>(&mut self, name: &str, v: Vector<'g, F>, frame: usize) {
+        let value = Placed::Vector(v.components(), frame);
+        self.0.push(Quantity { name: name.to_owned(), value });
+    }
+
+    fn tensor<F: Frame>(&mut self, name: &str, t: Symmetric<'g, F>, frame: usize) {
+        let value = Placed::Tensor(t.entries(), frame);
+        self.0.push(Quantity { name: name.to_owned(), value });
+    }
+}
+
+/// Unit vectors of every frame; an axis about which a joint turns has its first frame's name.
+fn axes<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
+    let triads = chain.kind.links.iter().map(|link| link.body.triad);
+    let hub = ["b_x", "b_y", "b_z"];
+    for (frame, triad) in std::iter::once(hub).chain(triads).enumerate() {
+        for (name, axis) in triad.into_iter().zip([Axis::X, Axis::Y, Axis::Z]) {
+            let unit = Vector::<Own>::unit(chain.graph, axis);
+            list.vector(&format!("{name}_hat"), unit, frame);
+        }
+    }
+}
+
+fn hub<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
+    let hub = &chain.hub;
+    list.vector("omega", hub.omega, 0);
+    list.vector("omega_dot", hub.omega_dot, 0);
+    list.vector("r_c_n_ddot", hub.r_c_n_ddot, 0);
+    list.vector("r_bc_b", hub.r_bc_b, 0);
+    list.tensor("i_b_bc", hub.i_b_bc, 0);
+    // (29), and its derivative: B does not turn seen from B.
+    let i_b_b = hub.i_b_bc + hub.m_b * Symmetric::tilde_squared(hub.r_bc_b);
+    list.tensor("i_b_b", i_b_b, 0);
+    list.tensor("i_b_b_prime", i_b_b.prime(Vector::zero(chain.graph)), 0);
+}
+
+fn body<'g>(
+    chain: &Chain<'g>,
+    k: usize,
+    of_b: &Motion<'g>,
+    of_n: &Motion<'g>,
+    list: &mut List<'g>,
+) {
+    let link = &chain.links[k];
+    let (joint, body) = (&chain.kind.links[k].joint, &chain.kind.links[k].body);
+    let (point, origin, frame) = (body.point, body.origin, body.frame);
+    let (carrier, own) = (k, k + 1);
+
+    list.vector(joint.origin.name, link.origin, carrier);
+    let centre = match body.centre {
+        Centre::Free(triple) => triple.name.to_owned(),
+        Centre::On(..) => format!("r_{point}_{origin}"),
+    };
+    list.vector(&centre, link.centre, own);
+
+    // (31), (44), (59).
+    list.vector(&format!("omega_{frame}_b"), of_b.omega, own);
+    list.vector(&format!("omega_{frame}_n"), of_n.omega, own);
+
+    // (12), (13), (14).
+    let stem = format!("r_{point}_b");
+    list.vector(&stem, of_b.centre.position, carrier);
+    list.vector(&format!("{stem}_prime"), of_b.centre.velocity, carrier);
+    list.vector(&format!("{stem}_dprime"), of_b.centre.acceleration, carrier);
+
+    // (36), (49)-(52), (64); (40), (55), (71); (42), (57), (73).
+    let r = of_b.centre.position.turned(link.turn);
+    let i_b = link.inertia + link.mass * Symmetric::tilde_squared(r);
+    list.tensor(&format!("i_{frame}_{point}"), link.inertia, own);
+    list.tensor(&format!("i_{frame}_{point}_prime"), link.inertia.prime(of_b.omega), own);
+    list.tensor(&format!("i_{frame}_b"), i_b, own);
+    list.tensor(&format!("i_{frame}_b_prime"), i_b.prime(of_b.omega), own);
+}
+
+fn system<'g>(chain: &Chain<'g>, motions: &[Motion<'g>], list: &mut List<'g>) {
+    let hub = &chain.hub;
+    let per_sc = hub.m_sc.recip();
+    let zero = Vector::<Hub>::zero(chain.graph);
+    let sum = |of: &dyn Fn(&Motion<'g>) -> Vector<'g, Carrier>| {
+        let mut sum = zero;
+        for (k, motion) in motions.iter().enumerate() {
+            sum = sum + chain.links[k].mass * to_hub(chain, k, of(motion));
+        }
+        sum
+    };
+    // (9), (11).
+    let c = per_sc * (hub.m_b * hub.r_bc_b + sum(&|motion| motion.centre.position));
+    list.vector("c", c, 0);
+    list.vector("c_prime", per_sc * sum(&|motion| motion.centre.velocity), 0);
+    list.vector("c_dprime", per_sc * sum(&|motion| motion.centre.acceleration), 0);
+    // (10): two inertial derivatives; (15) from (8).
+    let c_ddot = c.prime(hub.omega).prime(hub.omega);
+    list.vector("c_ddot", c_ddot, 0);
+    list.vector("r_b_n_ddot", hub.r_c_n_ddot - c_ddot, 0);
+    // (17): what multiplies each second-order state in m_sc c'', and what is left.
+    for (link, data) in chain.links.iter().zip(chain.kind.links) {
+        let f = sum(&|motion| motion.centre.acceleration.partial(link.acceleration));
+        list.vector(&format!("f_{}", data.joint.tag), f, 0);
+    }
+    let f_tilde = sum(&|motion| motion.centre.acceleration.without(Stage::Acceleration));
+    list.vector("f_tilde", f_tilde, 0);
+}
+
+fn to_hub<'g>(chain: &Chain<'g>, carrier: usize, v: Vector<'g, Carrier>) -> Vector<'g, Hub> {
+    let Placed::Vector(v, _) = Placed::Vector(v.components(), carrier).along(chain, 0) else {
+        unreachable!("a vector stays a vector")
+    };
+    Vector::new(v)
+}
+
+/// The value of `name` among `list`.
+#[must_use]
+pub fn find<'a, 'g>(list: &'a [Quantity<'g>], name: &str) -> Option<&'a Quantity<'g>> {
+    list.iter().find(|quantity| quantity.name == name)
+}
+
+/// The trace of every inertia's derivative about the body's own centre of mass: zero.
+#[must_use]
+pub fn traces<'g>(chain: &Chain<'g>) -> Vec<Expr<'g>> {
+    let motions = motions(chain, &Observer::on_hub(chain.graph));
+    let prime = |(k, motion): (usize, &Motion<'g>)| chain.links[k].inertia.prime(motion.omega);
+    motions.iter().enumerate().map(|pair| prime(pair).trace()).collect()
+}

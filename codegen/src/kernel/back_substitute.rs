@@ -1,0 +1,56 @@
+//! The kernel `back_substitute`: joint accelerations from those of the hub.
+
+use super::{Kernel, Script, records};
+use crate::derivation::chain::Chain;
+use crate::derivation::elimination::{Eliminated, HUB, Identity};
+use crate::graph::{Expr, Stage};
+use crate::kernel::Record;
+
+/// The kernel, with one identity per row.
+#[must_use]
+pub(super) fn kernel<'g>(
+    chain: &Chain<'g>,
+    eliminated: &Eliminated<'g>,
+    result: Record,
+) -> Kernel<'g> {
+    let graph = chain.graph;
+    let hub = ["r_b_n_ddot_bx", "r_b_n_ddot_by", "r_b_n_ddot_bz"].into_iter().chain([
+        "omega_dot_bx",
+        "omega_dot_by",
+        "omega_dot_bz",
+    ]);
+    let mut known: Vec<Expr<'g>> =
+        hub.map(|name| graph.symbol(name, Stage::Acceleration)).collect();
+    let given = |name: &str| graph.symbol(name, Stage::Rate);
+    let mut script = Script::new(graph);
+    script
+        .section("row", "Row by row from the hub outwards: the free acceleration less the gains.");
+    let mut identities = Vec::new();
+    for (pivot, link) in eliminated.pivots.iter().rev().zip(chain.kind.links) {
+        let free = given(&pivot.free.0);
+        let gains = pivot.gains.iter().map(|(name, _)| given(name));
+        let products: Vec<_> = gains.zip(&known).map(|(gain, unknown)| gain * *unknown).collect();
+        let value = products.iter().fold(free, |sum, product| sum - *product);
+        let name = link.joint.acceleration;
+        let symbol = graph.symbol(name, Stage::Acceleration);
+        script.define(name, value, symbol);
+        let one = graph.constant(1);
+        identities.push(Identity {
+            name: name.to_owned(),
+            factor: one,
+            addends: products,
+            before: free,
+        });
+        known.push(symbol);
+    }
+    debug_assert_eq!(known.len(), HUB.len() + chain.links.len());
+    Kernel {
+        name: "back_substitute".to_owned(),
+        doc: vec!["Joint accelerations from those of the hub.".to_owned()],
+        inputs: vec![("e", result), ("a", records::body_acceleration())],
+        sections: script.sections,
+        output: records::joint_accelerations(chain.kind),
+        claims: Vec::new(),
+        identities,
+    }
+}

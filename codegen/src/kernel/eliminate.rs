@@ -1,0 +1,128 @@
+//! The kernel `eliminate`: the hot path.
+
+use super::{Claim, Kernel, Record, Script, pairs, records, sextuple, triple};
+use crate::derivation::chain::Chain;
+use crate::derivation::elimination::{Eliminated, HUB, eliminate};
+use crate::derivation::motion::Observer;
+use crate::derivation::{Named, Share, by_body, composite};
+use crate::space::{Hub, Symmetric, Vector};
+
+/// The kernel and the elimination behind it.
+#[must_use]
+pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
+    let mut script = Script::new(chain.graph);
+    let share = composite::share(chain, &Observer::inertial(chain), &mut script);
+    let share = on_hub(chain, share, &mut script);
+    let eliminated = eliminate(chain, &share, &mut script);
+    let kind = chain.kind;
+    let kernel = Kernel {
+        name: "eliminate".to_owned(),
+        doc: vec![
+            "Mass matrix and right side of one device, its joints eliminated from the tip.".into(),
+            String::new(),
+            "Translation (16), rotation (75), motor torques (80), (101), (119); with the joints"
+                .into(),
+            "eliminated by `M = L D Lᵀ`, six equations for the hub are left.".into(),
+        ],
+        inputs: vec![
+            ("p", Record::new("Prepared", "")),
+            ("q", records::trig(kind)),
+            ("v", records::rates(kind)),
+            ("w", records::body_rate()),
+            ("u", records::motors(kind)),
+        ],
+        sections: script.sections,
+        output: output(&eliminated),
+        claims: claims(by_body::share(chain).named(kind)),
+        identities: eliminated.identities.clone(),
+    };
+    (kernel, eliminated)
+}
+
+/// Cuts the blocks that reach the hub: from here on they are symbols.
+fn on_hub<'g>(chain: &Chain<'g>, share: Share<'g>, script: &mut Script<'g>) -> Share<'g> {
+    let whole = chain.kind.links[0].assembly;
+    script.section(
+        "moment",
+        format!("{} about B, along B axes: first moment and inertia.", whole.to_uppercase()),
+    );
+    let first_moment = cut(script, &format!("mr_{whole}_b"), share.first_moment);
+    let names = sextuple(&format!("i_{whole}_b"));
+    let entries = pairs(names, share.inertia.entries());
+    let entries: Vec<_> = entries.map(|(name, entry)| script.cut(name, entry)).collect();
+    let inertia = Symmetric::new(entries.try_into().expect("six entries"));
+    script.section("col", "M_vi (17) and M_wi: force and moment about B per unit acceleration.");
+    let mut force = Vec::new();
+    let mut moment = Vec::new();
+    for (k, link) in chain.kind.links.iter().enumerate() {
+        force.push(cut(script, &format!("f_{}", link.joint.tag), share.force[k]));
+        moment.push(cut(script, &format!("n_{}", link.joint.tag), share.moment[k]));
+    }
+    script.section(
+        "bias",
+        "Force and moment about B with no joint accelerating: right sides of (16), (75).",
+    );
+    let bias_force = cut(script, "f_rest", share.bias_force);
+    let bias_moment = cut(script, "n_rest", share.bias_moment);
+    Share { first_moment, inertia, force, moment, bias_force, bias_moment, ..share }
+}
+
+fn cut<'g>(script: &mut Script<'g>, stem: &str, v: Vector<'g, Hub>) -> Vector<'g, Hub> {
+    let components = pairs(triple(stem, "b"), v.components());
+    let symbols: Vec<_> = components.map(|(name, value)| script.cut(name, value)).collect();
+    Vector::new(symbols.try_into().expect("three components"))
+}
+
+fn output(eliminated: &Eliminated<'_>) -> Record {
+    let doc = "What is left of a device once its joints are eliminated.";
+    let mut record = Record::new("Eliminated", doc);
+    record.nested("share", records::hub_share(), "Share of the hub's equations.");
+    for pivot in &eliminated.pivots {
+        let tag = pivot.tag;
+        record.alias(
+            format!("pivot_{tag}"),
+            &pivot.pivot.0,
+            format!("Pivot of joint {tag}; singular unless well above zero beside the diagonal."),
+        );
+        record.alias(
+            format!("diagonal_{tag}"),
+            &pivot.diagonal.0,
+            format!("Diagonal of joint {tag} before the elimination."),
+        );
+        for (k, (name, _)) in pivot.gains.iter().enumerate() {
+            let of = if k < HUB.len() { "hub unknown" } else { "joint" };
+            let which = name.rsplit('_').next().unwrap_or_default();
+            record.field(name.clone(), format!("Gain of joint {tag} on {of} {which}."));
+        }
+        record
+            .field(pivot.free.0.clone(), format!("Acceleration of joint {tag}, all else at rest."));
+    }
+    record
+}
+
+/// The system's equations have no single number each: the row cites the block.
+pub(super) fn claims<'g>(named: Vec<Named<'g>>) -> Vec<Claim<'g>> {
+    let claim = |(name, components): Named<'g>| {
+        let tag = tag(&name).to_owned();
+        Claim { tag, name, components }
+    };
+    named.into_iter().map(claim).collect()
+}
+
+fn tag(name: &str) -> &'static str {
+    match name {
+        "f_rest" => "(16)",
+        "n_rest" => "(75)",
+        "u_rest_o" => "(80)",
+        "u_rest_i" => "(101)",
+        "u_rest_w" => "(119)",
+        "energy" => "(energy)",
+        "linear" => "(momentum)",
+        "angular_b" => "(20)",
+        _ if name.starts_with("f_") => "(17)",
+        _ if name.starts_with("n_") => "(75)",
+        _ if name.starts_with("i_") => "(76)",
+        _ if name.starts_with("mr_") => "(9)",
+        _ => "(M_ij)",
+    }
+}

@@ -1,0 +1,228 @@
+//! The kernels of kinematics: one per body, seen from B, and one for the device's centre of mass.
+//!
+//! Vectors of a body stand along the axes that carry its joint, as the paper prints them; angular
+//! velocity and inertia along the body's own. Second derivatives are returned as what the
+//! second-order states multiply and the remainder.
+
+use super::{Claim, Kernel, Record, Script, pairs, records, sextuple, triple};
+use crate::derivation::chain::Chain;
+use crate::derivation::motion::{Motion, Observer, motions};
+use crate::derivation::placed::Placed;
+use crate::derivation::quantities::{Quantity, find, quantities};
+use crate::derivation::{by_body, composite};
+use crate::graph::{Expr, Stage};
+use crate::kinds::Kind;
+use crate::space::{Frame, Hub, Symmetric, Vector};
+
+/// One kernel per body, then the centre of mass.
+#[must_use]
+pub(super) fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
+    let references = quantities(chain);
+    let seen_from_b = motions(chain, &Observer::on_hub(chain.graph));
+    let mut list: Vec<_> = seen_from_b
+        .iter()
+        .enumerate()
+        .map(|(k, motion)| body(chain, k, motion, &references))
+        .collect();
+    list.push(first_moment(chain, &references));
+    list
+}
+
+fn inputs(kind: &Kind) -> Vec<(&'static str, Record)> {
+    vec![
+        ("p", Record::new("Prepared", "")),
+        ("q", records::trig(kind)),
+        ("v", records::rates(kind)),
+    ]
+}
+
+/// Statements, fields and claims of one kernel, built together.
+struct Builder<'a, 'g> {
+    script: Script<'g>,
+    record: Record,
+    claims: Vec<Claim<'g>>,
+    references: &'a [Quantity<'g>],
+}
+
+impl<'g> Builder<'_, 'g> {
+    fn reference(&self, name: &str) -> Placed<'g> {
+        find(self.references, name).unwrap_or_else(|| panic!("`{name}` is derived")).value
+    }
+
+    /// A vector: section, statements, fields, and what its components must be equal to.
+    fn vector<F: Frame>(
+        &mut self,
+        [prefix, tag, stem, frame, title, unit]: [&str; 6],
+        v: Vector<'g, F>,
+        reference: [Expr<'g>; 3],
+    ) {
+        self.script.section(prefix, format!("{title}, {unit}."));
+        let names = triple(stem, frame);
+        self.script.names(pairs(names.clone(), v.components()));
+        self.record.vector(stem, frame, title, unit);
+        self.claim(tag, stem, pairs(names, reference).collect());
+    }
+
+    fn tensor<F: Frame>(
+        &mut self,
+        [prefix, tag, stem, title, unit]: [&str; 5],
+        t: Symmetric<'g, F>,
+        reference: [Expr<'g>; 6],
+    ) {
+        self.script.section(prefix, format!("{title}, {unit}."));
+        let names = sextuple(stem);
+        self.script.names(pairs(names.clone(), t.entries()));
+        self.record.tensor(stem, title, unit);
+        self.claim(tag, stem, pairs(names, reference).collect());
+    }
+
+    fn claim(&mut self, tag: &str, name: &str, components: Vec<(String, Expr<'g>)>) {
+        self.claims.push(Claim { tag: tag.to_owned(), name: name.to_owned(), components });
+    }
+}
+
+/// Position, velocity, acceleration, angular velocity and inertia of one body, seen from B.
+fn body<'g>(
+    chain: &Chain<'g>,
+    k: usize,
+    motion: &Motion<'g>,
+    references: &[Quantity<'g>],
+) -> Kernel<'g> {
+    let (link, data) = (&chain.links[k], &chain.kind.links[k].body);
+    let (own, point) = (data.frame, data.point);
+    let carrier = if k == 0 { "b" } else { chain.kind.links[k - 1].body.frame };
+    let [body_letter, point_letter] = data.letters;
+    let record = Record::new(&type_name(data.title), &format!("The {} seen from B.", data.title));
+    let mut b =
+        Builder { script: Script::new(chain.graph), record, claims: Vec::new(), references };
+    let vector =
+        |b: &Builder<'_, 'g>, name: &str, frame: usize| match b.reference(name).along(chain, frame)
+        {
+            Placed::Vector(v, _) => Vector::<Hub>::new(v),
+            Placed::Tensor(..) => panic!("`{name}` is a vector"),
+        };
+    let tensor = |b: &Builder<'_, 'g>, name: &str| match b.reference(name) {
+        Placed::Tensor(t, _) => t,
+        Placed::Vector(..) => panic!("`{name}` is a tensor"),
+    };
+
+    let equations = &data.equations;
+    let stem = format!("omega_{own}_b");
+    let title = format!("ω_{{{body_letter}/B}}, eq. {}", equations.omega);
+    let reference = vector(&b, &stem, k + 1).components();
+    b.vector(["rate", equations.omega, &stem, own, &title, "rad/s"], motion.omega, reference);
+
+    let r = format!("r_{point}_b");
+    let title = format!("r_{{{point_letter}/B}}");
+    let reference = vector(&b, &r, k).components();
+    b.vector(["pos", "(step)", &r, carrier, &title, "m"], motion.centre.position, reference);
+    let prime = format!("{r}_prime");
+    let title = format!("r′_{{{point_letter}/B}}");
+    let reference = vector(&b, &prime, k).components();
+    b.vector(["vel", "(step)", &prime, carrier, &title, "m/s"], motion.centre.velocity, reference);
+
+    let whole = vector(&b, &format!("{r}_dprime"), k);
+    let acceleration = motion.centre.acceleration;
+    let tag = equations.r_dprime;
+    for (joint, data) in chain.links.iter().zip(chain.kind.links).take(k + 1) {
+        let stem = format!("{r}_dprime_{}", data.joint.tag);
+        let symbol = data.joint.symbols[1];
+        let title = format!("r″_{{{point_letter}/B}}, eq. {tag}, per {symbol}");
+        let q_ddot = joint.acceleration;
+        let reference = whole.partial(q_ddot).components();
+        b.vector(
+            ["col", tag, &stem, carrier, &title, "m"],
+            acceleration.partial(q_ddot),
+            reference,
+        );
+    }
+    let stem = format!("{r}_dprime_rest");
+    let title = format!("r″_{{{point_letter}/B}}, eq. {tag}, with no joint accelerating");
+    let reference = whole.without(Stage::Acceleration).components();
+    let rest = acceleration.without(Stage::Acceleration);
+    b.vector(["acc", tag, &stem, carrier, &title, "m/s²"], rest, reference);
+
+    let along = format!("along the axes of the {}", data.title);
+    let i_prime = link.inertia.prime(motion.omega);
+    let stem = format!("i_{own}_{point}_prime");
+    let title =
+        format!("[I_{{{body_letter},{point_letter}}}]′, eq. {}, {along}", equations.i_prime);
+    let reference = tensor(&b, &stem);
+    b.tensor(["turn", equations.i_prime, &stem, &title, "kg m²/s"], i_prime, reference);
+
+    let r_own = motion.centre.position.turned(link.turn);
+    let r_prime_own = motion.centre.velocity.turned(link.turn);
+    let stem = format!("i_{own}_b");
+    let title = format!("[I_{{{body_letter},B}}], eq. {}, {along}", equations.i_b);
+    let reference = tensor(&b, &stem);
+    let i_b = link.inertia + link.mass * Symmetric::tilde_squared(r_own);
+    b.tensor(["axis", equations.i_b, &stem, &title, "kg m²"], i_b, reference);
+    let stem = format!("i_{own}_b_prime");
+    let title = format!("[I_{{{body_letter},B}}]′, eq. {}, {along}", equations.i_b_prime);
+    let reference = tensor(&b, &stem);
+    let i_b_prime = i_prime + link.mass * Symmetric::tilde_pair(r_prime_own, r_own);
+    b.tensor(["shift", equations.i_b_prime, &stem, &title, "kg m²/s"], i_b_prime, reference);
+
+    Kernel {
+        name: data.title.replace(' ', "_"),
+        doc: vec![format!(
+            "The {}: position, angular velocity, inertia and their derivatives.",
+            data.title
+        )],
+        inputs: inputs(chain.kind),
+        sections: b.script.sections,
+        output: b.record,
+        claims: b.claims,
+        identities: Vec::new(),
+    }
+}
+
+/// The device's share of `m_sc c` (9), of its derivatives (11), and the f of (17), along B axes.
+fn first_moment<'g>(chain: &Chain<'g>, references: &[Quantity<'g>]) -> Kernel<'g> {
+    let graph = chain.graph;
+    let observer = Observer::on_hub(graph);
+    let record = Record::new(
+        "FirstMoment",
+        "A device's share of `m_sc c` and its derivatives seen from B, along the device's B axes: \
+         `m_sc c″ = f_o ᵒγ̈ + f_i ⁱγ̈ + f_w Ω̇ + f̃`.",
+    );
+    let mut b = Builder { script: Script::new(graph), record, claims: Vec::new(), references };
+    let share = composite::share(chain, &observer, &mut b.script);
+    let momenta = composite::momenta(chain, &observer, &mut b.script);
+    let zero = Vector::zero(graph);
+    let mc = by_body::bodies(chain).iter().fold(zero, |sum, body| sum + body.mass * body.r);
+    let mc_prime = mc.component_rates();
+    let mc_dprime = mc_prime.component_rates();
+    let title = "Σ m r, share of m_sc c, eq. (9)";
+    b.vector(["mom", "(9)", "mc", "b", title, "kg m"], share.first_moment, mc.components());
+    let title = "Σ m r′, share of m_sc c′";
+    b.vector(
+        ["rate", "(step)", "mc_prime", "b", title, "kg m/s"],
+        momenta.linear,
+        mc_prime.components(),
+    );
+    for (k, data) in chain.kind.links.iter().enumerate() {
+        let stem = format!("f_{}", data.joint.tag);
+        let title = format!("f_{}, eq. (17): Σ m r″ per {}", data.joint.tag, data.joint.symbols[1]);
+        let reference = mc_dprime.partial(chain.links[k].acceleration).components();
+        b.vector(["col", "(17)", &stem, "b", &title, "kg m"], share.force[k], reference);
+    }
+    let title = "f̃, eq. (17): Σ m r″ with no joint accelerating";
+    let reference = mc_dprime.without(Stage::Acceleration).components();
+    b.vector(["acc", "(17)", "f_tilde", "b", title, "N"], share.bias_force, reference);
+    Kernel {
+        name: "first_moment".to_owned(),
+        doc: vec!["Centre of mass of the device and its derivatives, seen from B.".to_owned()],
+        inputs: inputs(chain.kind),
+        sections: b.script.sections,
+        output: b.record,
+        claims: b.claims,
+        identities: Vec::new(),
+    }
+}
+
+/// `outer gimbal` -> `OuterGimbal`.
+fn type_name(title: &str) -> String {
+    let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
+    title.split(' ').map(capital).collect()
+}

@@ -1,0 +1,75 @@
+//! Kernels: the functions to be emitted, as named statements in sections over input records.
+
+mod back_substitute;
+mod eliminate;
+mod kinematics;
+mod momenta;
+mod records;
+mod script;
+
+pub use records::{
+    Field, Record, Source, joint_accelerations, motors, parameters, rates, shared_records, trig,
+};
+pub use script::{Script, Section, Statement};
+
+use crate::derivation::chain::Chain;
+use crate::derivation::elimination::Identity;
+use crate::graph::Expr;
+
+/// One function to be emitted.
+pub struct Kernel<'g> {
+    /// Its name.
+    pub name: String,
+    /// Its documentation, line by line.
+    pub doc: Vec<String>,
+    /// Argument letters and the records behind them.
+    pub inputs: Vec<(&'static str, Record)>,
+    /// What it computes, section by section.
+    pub sections: Vec<Section<'g>>,
+    /// The record it returns.
+    pub output: Record,
+    /// What its named values must be equal to.
+    pub claims: Vec<Claim<'g>>,
+    /// Steps of the elimination among its named values.
+    pub identities: Vec<Identity<'g>>,
+}
+
+/// Emitted names and what they must be equal to, by another way than they are computed.
+#[derive(Clone, Debug)]
+pub struct Claim<'g> {
+    /// The paper's number.
+    pub tag: String,
+    /// The quantity.
+    pub name: String,
+    /// Emitted name and reference of each component.
+    pub components: Vec<(String, Expr<'g>)>,
+}
+
+/// Every kernel of a chain, in the order of the emitted file.
+#[must_use]
+pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
+    let mut list = kinematics::kernels(chain);
+    let (kernel, eliminated) = eliminate::kernel(chain);
+    let back = back_substitute::kernel(chain, &eliminated, kernel.output.clone());
+    list.extend([kernel, back]);
+    list.push(momenta::kernel(chain));
+    list
+}
+
+/// Names of three components: `omega_gi_n_gix`.
+pub(crate) fn triple(stem: &str, frame: &str) -> [String; 3] {
+    crate::derivation::chain::XYZ.map(|axis| format!("{stem}_{frame}{axis}"))
+}
+
+/// Names of the six entries of a symmetric tensor: `i_w_w_11`.
+pub(crate) fn sextuple(stem: &str) -> [String; 6] {
+    crate::derivation::chain::ENTRIES.map(|entry| format!("{stem}_{entry}"))
+}
+
+/// Pairs names with values.
+pub(crate) fn pairs<'g, const K: usize>(
+    names: [String; K],
+    values: [Expr<'g>; K],
+) -> impl Iterator<Item = (String, Expr<'g>)> {
+    names.into_iter().zip(values)
+}

@@ -1,0 +1,35 @@
+//! The kernel `energy_momentum`.
+
+use super::eliminate::claims;
+use super::{Kernel, Record, Script, pairs, records, triple};
+use crate::derivation::chain::Chain;
+use crate::derivation::motion::Observer;
+use crate::derivation::{by_body, composite};
+
+/// Kinetic energy and momenta of one device.
+#[must_use]
+pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
+    let kind = chain.kind;
+    let mut script = Script::new(chain.graph);
+    let momenta = composite::momenta(chain, &Observer::inertial(chain), &mut script);
+    script.section("sum", "Energy and momenta of the device, along B axes.");
+    script.name("energy", momenta.energy);
+    script.names(pairs(triple("linear", "b"), momenta.linear.components()));
+    script.names(pairs(triple("angular_b", "b"), momenta.angular.components()));
+    Kernel {
+        name: "energy_momentum".to_owned(),
+        doc: vec![
+            "Kinetic energy, linear momentum and moment of momentum about B (20).".to_owned(),
+        ],
+        inputs: vec![
+            ("p", Record::new("Prepared", "")),
+            ("q", records::trig(kind)),
+            ("v", records::rates(kind)),
+            ("b", records::body_velocity()),
+        ],
+        sections: script.sections,
+        output: records::energy_momentum(),
+        claims: claims(by_body::momenta(chain).named()),
+        identities: Vec::new(),
+    }
+}

@@ -1,0 +1,242 @@
+//! The plain structures that kernels take and return, with a line for every field.
+
+use super::{sextuple, triple};
+use crate::kinds::{Centre, Kind, Link};
+
+/// One field: its name and what it is, with frame and unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// In code.
+    pub name: String,
+    /// Symbol, equation, frame, unit.
+    pub doc: String,
+    /// Where a kernel that returns the record finds the value.
+    pub source: Source,
+}
+
+/// Where a returned field comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The named value of the same name.
+    Own,
+    /// A value of another name.
+    Named(String),
+    /// A record of its own, filled in the same way.
+    Nested(Box<Record>),
+}
+
+/// A structure of numbers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Record {
+    /// Type name.
+    pub name: String,
+    /// What it is.
+    pub doc: String,
+    /// In order.
+    pub fields: Vec<Field>,
+    /// Whether it is the same for every kind and stands in `hub.rs`.
+    pub shared: bool,
+}
+
+impl Record {
+    /// A record of one kind's file.
+    pub(super) fn new(name: &str, doc: &str) -> Self {
+        Self { name: name.to_owned(), doc: doc.to_owned(), fields: Vec::new(), shared: false }
+    }
+
+    /// The names of the values that a function returning this record must compute.
+    #[must_use]
+    pub fn sources(&self) -> Vec<String> {
+        let source = |field: &Field| match &field.source {
+            Source::Own => vec![field.name.clone()],
+            Source::Named(name) => vec![name.clone()],
+            Source::Nested(record) => record.sources(),
+        };
+        self.fields.iter().flat_map(source).collect()
+    }
+
+    fn shared(mut self) -> Self {
+        self.shared = true;
+        self
+    }
+
+    pub(super) fn field(&mut self, name: impl Into<String>, doc: impl Into<String>) {
+        self.fields.push(Field { name: name.into(), doc: doc.into(), source: Source::Own });
+    }
+
+    pub(super) fn alias(&mut self, name: String, value: &str, doc: String) {
+        self.fields.push(Field { name, doc, source: Source::Named(value.to_owned()) });
+    }
+
+    pub(super) fn nested(&mut self, name: &str, record: Self, doc: &str) {
+        let source = Source::Nested(Box::new(record));
+        self.fields.push(Field { name: name.to_owned(), doc: doc.to_owned(), source });
+    }
+
+    /// Three components of one vector.
+    pub(super) fn vector(&mut self, stem: &str, frame: &str, doc: &str, unit: &str) {
+        for name in triple(stem, frame) {
+            let axis = name.rsplit('_').next().unwrap_or_default().to_owned();
+            self.field(name, format!("{doc}, along {axis}, {unit}."));
+        }
+    }
+
+    /// Six entries of a symmetric tensor.
+    pub(super) fn tensor(&mut self, stem: &str, doc: &str, unit: &str) {
+        for name in sextuple(stem) {
+            let entry = name[name.len() - 2..].to_owned();
+            self.field(name, format!("{doc}, entry {entry}, {unit}."));
+        }
+    }
+}
+
+/// What a device is made of.
+#[must_use]
+pub fn parameters(kind: &Kind) -> Record {
+    let mut record =
+        Record::new("Parameters", "What the device is made of: masses, places, inertias.");
+    for link in kind.links {
+        link_parameters(link, &mut record);
+    }
+    record
+}
+
+fn link_parameters(link: &Link, record: &mut Record) {
+    let (joint, body) = (&link.joint, &link.body);
+    let [letter, point] = body.letters;
+    let mut place = |symbol: &str, names: [&str; 3], what: &str| {
+        for (name, axis) in names.into_iter().zip(["first", "second", "third"]) {
+            record.field(name, format!("{symbol}: {what}, {axis} component, m."));
+        }
+    };
+    let carrier = format!("origin of the {} in the axes that carry it", body.title);
+    place(joint.origin.symbol, joint.origin.names, &carrier);
+    match body.centre {
+        Centre::Free(triple) => {
+            place(triple.symbol, triple.names, &format!("centre of mass of the {}", body.title));
+        }
+        Centre::On(axis, name) => record.field(
+            name,
+            format!("{name}: centre of mass of the {} on its {axis:?} axis, m.", body.title),
+        ),
+    }
+    record.field(body.mass, format!("m_{letter}: mass of the {}, kg.", body.title));
+    let doc = format!("[I_{{{letter},{point}}}] along the axes of the {}", body.title);
+    record.tensor(body.inertia, &doc, "kg m²");
+}
+
+/// Sines and cosines of the joint angles.
+#[must_use]
+pub fn trig(kind: &Kind) -> Record {
+    let mut record = Record::new("Trig", "Sines and cosines of the joint angles.");
+    for link in kind.links {
+        let angle = link.joint.angle;
+        record.field(format!("sin_{angle}"), format!("Sine of `{angle}`."));
+        record.field(format!("cos_{angle}"), format!("Cosine of `{angle}`."));
+    }
+    record
+}
+
+/// The joint rates.
+#[must_use]
+pub fn rates(kind: &Kind) -> Record {
+    let mut record =
+        Record::new("Rates", "Joint rates, each relative to the body that carries it.");
+    for link in kind.links {
+        let doc = format!("{}: rate of the {}, rad/s.", link.joint.symbols[0], link.body.title);
+        record.field(link.joint.rate, doc);
+    }
+    record
+}
+
+/// The motor torques.
+#[must_use]
+pub fn motors(kind: &Kind) -> Record {
+    let mut record =
+        Record::new("Motors", "Motor torques, each on a body and against its carrier.");
+    for link in kind.links {
+        record.field(link.joint.torque, format!("Torque on the {}, N m.", link.body.title));
+    }
+    record
+}
+
+/// The second-order joint states.
+#[must_use]
+pub fn joint_accelerations(kind: &Kind) -> Record {
+    let mut record = Record::new("JointAccelerations", "The second-order states of the joints.");
+    for link in kind.links {
+        let symbol = link.joint.symbols[1];
+        let doc = format!("{symbol}: acceleration of the {}, rad/s².", link.body.title);
+        record.field(link.joint.acceleration, doc);
+    }
+    record
+}
+
+/// The records that are the same for every kind.
+#[must_use]
+pub fn shared_records() -> [Record; 5] {
+    [body_rate(), body_velocity(), body_acceleration(), hub_share(), energy_momentum()]
+}
+
+/// Angular velocity of B.
+#[must_use]
+pub(super) fn body_rate() -> Record {
+    let mut record = Record::new("BodyRate", "ω_{B/N} along the device's B axes.").shared();
+    record.vector("omega", "b", "ω_{B/N}", "rad/s");
+    record
+}
+
+/// Velocity of point B and angular velocity of B.
+#[must_use]
+pub(super) fn body_velocity() -> Record {
+    let doc = "Velocity of point B and angular velocity of B, along the device's B axes.";
+    let mut record = Record::new("BodyVelocity", doc).shared();
+    record.vector("r_b_n_dot", "b", "ṙ_{B/N}", "m/s");
+    record.vector("omega", "b", "ω_{B/N}", "rad/s");
+    record
+}
+
+/// Acceleration of point B and angular acceleration of B.
+#[must_use]
+pub(super) fn body_acceleration() -> Record {
+    let doc = "Acceleration of point B and angular acceleration of B, along the device's B axes.";
+    let mut record = Record::new("BodyAcceleration", doc).shared();
+    record.vector("r_b_n_ddot", "b", "r̈_{B/N}", "m/s²");
+    record.vector("omega_dot", "b", "ω̇_{B/N}", "rad/s²");
+    record
+}
+
+/// One device's share of the hub's equations.
+#[must_use]
+pub(super) fn hub_share() -> Record {
+    let doc = "A device's share of `M [r̈_{B/N}; ω̇] = [F; L_B] + h` after its joints are \
+               eliminated, along the device's B axes.";
+    let mut record = Record::new("HubShare", doc).shared();
+    record.tensor("m_vv", "M_vv", "kg");
+    for row in 1..=3 {
+        for column in 1..=3 {
+            let doc = format!("M_vw, row {row} (force), column {column} (ω̇), kg m.");
+            record.field(format!("m_vw_{row}{column}"), doc);
+        }
+    }
+    record.tensor("m_ww", "M_ww", "kg m²");
+    for row in 1..=3 {
+        record.field(format!("h_v_{row}"), format!("Force on the right side, component {row}, N."));
+    }
+    for row in 1..=3 {
+        let doc = format!("Moment about B on the right side, component {row}, N m.");
+        record.field(format!("h_w_{row}"), doc);
+    }
+    record
+}
+
+/// One device's energy and momenta.
+#[must_use]
+pub(super) fn energy_momentum() -> Record {
+    let doc = "A device's share of kinetic energy and momenta, along the device's B axes.";
+    let mut record = Record::new("EnergyMomentum", doc).shared();
+    record.field("energy", "Kinetic energy, J.");
+    record.vector("linear", "b", "Linear momentum", "kg m/s");
+    record.vector("angular_b", "b", "Moment of momentum about B, Σ r × m ṙ + I ω", "kg m²/s");
+    record
+}
