@@ -1,6 +1,7 @@
 //! Geometry to expression graph to emitted text: the derivation of Precess.
 
 pub mod derivation;
+pub mod emit;
 pub mod graph;
 pub mod kernel;
 pub mod kinds;

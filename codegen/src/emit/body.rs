@@ -1,0 +1,340 @@
+//! Statements of one function: which nodes get a name, in which order, and what they cost.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::render::{Binding, Rendered};
+use crate::graph::{Expr, Graph, Node, NodeId, Rational};
+use crate::kernel::{Section, Statement};
+
+/// A statement with its indentation stays within this width, at which neither formatter breaks it.
+const WIDTH: usize = 89;
+/// What stands on a line besides name and value: indentation, `let`, ` = `, `;`, and `-(` `)`.
+const FRAME: usize = "    let  = ;-()".len();
+
+/// Operations as written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Multiplications.
+    pub mul: usize,
+    /// Additions and subtractions.
+    pub add: usize,
+    /// Changes of sign.
+    pub neg: usize,
+    /// Reciprocals.
+    pub div: usize,
+}
+
+impl Counts {
+    /// All of them.
+    #[must_use]
+    pub fn total(self) -> usize {
+        self.mul + self.add + self.neg + self.div
+    }
+}
+
+/// A function's statements, section by section.
+#[derive(Clone, Debug, Default)]
+pub struct FunctionBody {
+    /// Comment and statements.
+    pub sections: Vec<(String, Vec<TokenStream>)>,
+    /// What they cost.
+    pub counts: Counts,
+}
+
+/// Writes the sections of a function.
+pub(super) struct Writer<'a, 'g> {
+    graph: &'g Graph,
+    /// How a symbol or a hoisted node is written where it is not computed here.
+    given: &'a dyn Fn(NodeId) -> Option<Rendered>,
+    witness: Rendered,
+    names: HashMap<NodeId, String>,
+    bound: HashMap<NodeId, Rendered>,
+    locals: HashSet<String>,
+    uses: HashMap<NodeId, usize>,
+    numbers: BTreeMap<String, usize>,
+    prefix: String,
+    /// Columns left for the value of the statement at hand.
+    room: usize,
+    statements: Vec<TokenStream>,
+    counts: Counts,
+}
+
+impl<'a, 'g> Writer<'a, 'g> {
+    pub(super) fn new(
+        graph: &'g Graph,
+        given: &'a dyn Fn(NodeId) -> Option<Rendered>,
+        witness: Rendered,
+    ) -> Self {
+        Self {
+            graph,
+            given,
+            witness,
+            names: HashMap::new(),
+            bound: HashMap::new(),
+            locals: HashSet::new(),
+            uses: HashMap::new(),
+            numbers: BTreeMap::new(),
+            prefix: String::new(),
+            room: 0,
+            statements: Vec::new(),
+            counts: Counts::default(),
+        }
+    }
+
+    /// The body that computes `outputs`, and nothing that they do not need.
+    pub(super) fn write(mut self, sections: &[Section<'g>], outputs: &[String]) -> FunctionBody {
+        let live = self.live(sections, outputs);
+        let mut written = Vec::new();
+        for section in sections {
+            self.prefix.clone_from(&section.prefix);
+            for statement in section.statements.iter().filter(|s| live.contains(&s.name)) {
+                self.statement(statement, outputs.contains(&statement.name));
+            }
+            let statements = std::mem::take(&mut self.statements);
+            if !statements.is_empty() {
+                written.push((section.title.clone(), statements));
+            }
+        }
+        FunctionBody { sections: written, counts: self.counts }
+    }
+
+    /// Names of the statements that outputs need; names and use counts of their nodes.
+    fn live(&mut self, sections: &[Section<'g>], outputs: &[String]) -> HashSet<String> {
+        let all: Vec<&Statement<'g>> = sections.iter().flat_map(|s| &s.statements).collect();
+        let mut live: HashSet<String> = outputs.iter().cloned().collect();
+        let mut nodes = HashSet::new();
+        // Backwards: a statement comes before whatever uses the symbol it was cut at.
+        for statement in all.iter().rev() {
+            let symbol = statement.cut.map(Expr::id);
+            let needed = live.contains(&statement.name)
+                || symbol.is_some_and(|symbol| nodes.contains(&symbol));
+            if needed {
+                live.insert(statement.name.clone());
+                self.collect(statement.value.id(), &mut nodes);
+            }
+        }
+        // A name without a user of its own still names a node that is computed.
+        for statement in &all {
+            let (id, name) = (statement.value.id(), &statement.name);
+            if nodes.contains(&id) && !live.contains(name) && statement.cut.is_none() {
+                live.insert(name.clone());
+            }
+            if live.contains(name) && self.compound(id) {
+                self.names.entry(id).or_insert_with(|| name.clone());
+            }
+            // Signs move outwards, so what is used may be the opposite of what has the name.
+            let opposite = match self.graph.node(id) {
+                Node::Neg(inner) if !live.contains(name) => Some(inner),
+                _ => None,
+            };
+            if let Some(inner) = opposite.filter(|inner| nodes.contains(inner)) {
+                let new = self.compound(inner) && !self.names.contains_key(&inner);
+                if new && self.names.insert(inner, format!("neg_{name}")).is_none() {
+                    live.insert(name.clone());
+                }
+            }
+        }
+        self.count_uses(&nodes);
+        live
+    }
+
+    fn collect(&self, root: NodeId, nodes: &mut HashSet<NodeId>) {
+        let mut pending = vec![root];
+        while let Some(id) = pending.pop() {
+            if nodes.insert(id) && (self.given)(id).is_none() {
+                pending.extend(self.graph.node(id).operands());
+            }
+        }
+    }
+
+    /// A sign is no value of its own: the users of `-a` are users of `a`.
+    fn count_uses(&mut self, nodes: &HashSet<NodeId>) {
+        let mut descending: Vec<_> = nodes.iter().copied().collect();
+        descending.sort_unstable_by(|a, b| b.cmp(a));
+        for id in descending.into_iter().filter(|id| (self.given)(*id).is_none()) {
+            let weight = match self.graph.node(id) {
+                Node::Neg(_) if !self.names.contains_key(&id) => {
+                    self.uses.get(&id).copied().unwrap_or(1)
+                }
+                _ => 1,
+            };
+            for operand in self.graph.node(id).operands() {
+                *self.uses.entry(operand).or_default() += weight;
+            }
+        }
+    }
+
+    fn compound(&self, id: NodeId) -> bool {
+        let leaf = matches!(self.graph.node(id), Node::Symbol(_) | Node::Constant(_));
+        !leaf && (self.given)(id).is_none()
+    }
+
+    fn statement(&mut self, statement: &Statement<'g>, output: bool) {
+        let id = statement.value.id();
+        let own_name = self.names.get(&id) == Some(&statement.name);
+        let given = statement.cut.is_some_and(|symbol| (self.given)(symbol.id()).is_some());
+        if given && !output {
+            return;
+        }
+        let opposite = match self.graph.node(id) {
+            Node::Neg(inner)
+                if self.names.get(&inner) == Some(&format!("neg_{}", statement.name)) =>
+            {
+                Some(inner)
+            }
+            _ => None,
+        };
+        if let Some(inner) = opposite {
+            self.bind_shared(id);
+            if !self.bound.contains_key(&inner) {
+                self.bind(inner);
+            }
+        } else if own_name {
+            self.bind_shared(id);
+            if !self.bound.contains_key(&id) {
+                self.bind(id);
+            }
+        } else if output || statement.cut.is_some() {
+            self.bind_shared(id);
+            self.room = WIDTH - FRAME - statement.name.len();
+            let value = self.operand(id);
+            self.push(&statement.name, &value);
+        }
+        if let Some(symbol) = statement.cut {
+            self.bound.insert(symbol.id(), Rendered::name(&statement.name));
+        }
+    }
+
+    /// Names, in order, whatever `root` needs that is used more than once or has a name.
+    fn bind_shared(&mut self, root: NodeId) {
+        let mut nodes = HashSet::new();
+        self.collect(root, &mut nodes);
+        let mut ascending: Vec<_> = nodes.into_iter().filter(|id| *id != root).collect();
+        ascending.sort_unstable();
+        for id in ascending {
+            let shared = self.uses.get(&id).copied().unwrap_or(0) > 1;
+            let sign = matches!(self.graph.node(id), Node::Neg(_));
+            let named = self.names.contains_key(&id);
+            if self.compound(id) && !self.bound.contains_key(&id) && (named || shared && !sign) {
+                self.bind(id);
+            }
+        }
+    }
+
+    /// Emits `let name = ...;` for a node and remembers the name.
+    fn bind(&mut self, id: NodeId) -> Rendered {
+        let name = self.names.get(&id).cloned();
+        let columns = name.as_ref().map_or(self.prefix.len() + "_000".len(), String::len);
+        let room = std::mem::replace(&mut self.room, WIDTH - FRAME - columns);
+        let value = self.compute(id);
+        self.room = room;
+        self.bind_rendered(id, name, &value)
+    }
+
+    fn push(&mut self, name: &str, value: &Rendered) {
+        assert!(self.locals.insert(name.to_owned()), "`{name}` is emitted twice");
+        let (ident, tokens) = (format_ident!("{name}"), &value.tokens);
+        self.statements.push(quote!(let #ident = #tokens;));
+    }
+
+    /// A node as an operand: its name where it has one, else its expression.
+    fn operand(&mut self, id: NodeId) -> Rendered {
+        if let Some(bound) = self.bound.get(&id) {
+            return bound.clone();
+        }
+        if let Some(given) = (self.given)(id) {
+            return given;
+        }
+        match self.graph.node(id) {
+            Node::Constant(value) => Rendered::constant(&self.witness, value),
+            _ => self.compute(id),
+        }
+    }
+
+    fn compute(&mut self, id: NodeId) -> Rendered {
+        match self.graph.node(id) {
+            Node::Sum(a, b) => match (self.inline(a), self.inline(b)) {
+                (_, Node::Neg(b)) => self.binary(a, b, Rendered::minus, Binding::Sum),
+                (Node::Neg(a), _) => self.binary(b, a, Rendered::minus, Binding::Sum),
+                _ => self.commuting(a, b, Rendered::plus, Binding::Sum),
+            },
+            Node::Product(a, b) => self.commuting(a, b, Rendered::times, Binding::Product),
+            Node::Neg(a) => {
+                self.counts.neg += 1;
+                self.operand(a).negated()
+            }
+            Node::Recip(a) => {
+                self.counts.div += 1;
+                self.operand(a).recip()
+            }
+            Node::Symbol(_) | Node::Constant(_) => self.operand(id),
+        }
+    }
+
+    /// The node itself, or something without operands where it has a name.
+    fn inline(&self, id: NodeId) -> Node {
+        let named = self.bound.contains_key(&id) || (self.given)(id).is_some();
+        if named { Node::Constant(Rational::ZERO) } else { self.graph.node(id) }
+    }
+
+    /// Addition and multiplication commute exactly: the operand that would need parentheses
+    /// on the right goes to the left.
+    fn commuting(
+        &mut self,
+        a: NodeId,
+        b: NodeId,
+        join: fn(&Rendered, &Rendered) -> Rendered,
+        kind: Binding,
+    ) -> Rendered {
+        let chained = |writer: &Self, id: NodeId| {
+            !writer.bound.contains_key(&id)
+                && writer.compound(id)
+                && match writer.graph.node(id) {
+                    Node::Sum(..) => kind == Binding::Sum,
+                    Node::Product(..) => kind == Binding::Product,
+                    _ => false,
+                }
+        };
+        let swap = chained(self, b) && !chained(self, a);
+        let (a, b) = if swap { (b, a) } else { (a, b) };
+        self.binary(a, b, join, kind)
+    }
+
+    fn binary(
+        &mut self,
+        a: NodeId,
+        b: NodeId,
+        join: fn(&Rendered, &Rendered) -> Rendered,
+        kind: Binding,
+    ) -> Rendered {
+        *(if kind == Binding::Sum { &mut self.counts.add } else { &mut self.counts.mul }) += 1;
+        let (mut left, mut right) = (self.operand(a), self.operand(b));
+        if join(&left, &right).width > self.room {
+            let (wide, id) =
+                if left.width >= right.width { (&mut left, a) } else { (&mut right, b) };
+            *wide = self.bind_rendered(id, None, wide);
+        }
+        if join(&left, &right).width > self.room {
+            let (wide, id) =
+                if left.width >= right.width { (&mut left, a) } else { (&mut right, b) };
+            *wide = self.bind_rendered(id, None, wide);
+        }
+        join(&left, &right)
+    }
+
+    /// Emits a rendered value under its name, or under the section's next number.
+    fn bind_rendered(&mut self, id: NodeId, name: Option<String>, value: &Rendered) -> Rendered {
+        let name = name.unwrap_or_else(|| {
+            let number = self.numbers.entry(self.prefix.clone()).or_default();
+            *number += 1;
+            format!("{}_{}", self.prefix, *number - 1)
+        });
+        self.push(&name, value);
+        let rendered = Rendered::name(&name);
+        self.bound.insert(id, rendered.clone());
+        rendered
+    }
+}

@@ -1,0 +1,339 @@
+//! The files: records and functions laid out by templates.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use proc_macro2::TokenStream;
+use serde::Serialize;
+use tera::{Context, Tera};
+
+use super::body::{Counts, FunctionBody, Writer};
+use super::prepare::prepared;
+use super::render::Rendered;
+use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
+use crate::derivation::chain::Chain;
+use crate::graph::{Node, NodeId};
+use crate::kernel::{Kernel, Record, Source, kernels, parameters};
+use crate::kernel::{joint_accelerations, motors, rates, shared_records, trig};
+
+/// One emitted file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EmittedFile {
+    /// Path from the repository's root.
+    pub path: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// Why a file could not be laid out: a fault of the generator, not of its input.
+#[derive(Debug)]
+pub enum EmitError {
+    /// A template failed.
+    Template(tera::Error),
+    /// The result is not Rust.
+    Syntax(String, syn::Error),
+    /// A line is too wide.
+    Width(String, usize),
+}
+
+impl fmt::Display for EmitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Template(error) => write!(f, "template: {error}"),
+            Self::Syntax(path, error) => write!(f, "{path} would not parse: {error}"),
+            Self::Width(path, line) => {
+                write!(f, "{path}:{line} would be wider than {LINE} columns; shorten its name")
+            }
+        }
+    }
+}
+
+impl std::error::Error for EmitError {}
+
+impl From<tera::Error> for EmitError {
+    fn from(error: tera::Error) -> Self {
+        Self::Template(error)
+    }
+}
+
+#[derive(Serialize)]
+struct FieldText {
+    name: String,
+    doc: Vec<String>,
+    ty: String,
+}
+
+#[derive(Serialize)]
+struct RecordText {
+    name: String,
+    doc: Vec<String>,
+    fields: Vec<FieldText>,
+}
+
+#[derive(Serialize)]
+struct SectionText {
+    title: Vec<String>,
+    lines: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct FunctionText {
+    doc: Vec<String>,
+    signature: String,
+    sections: Vec<SectionText>,
+    result: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct CountText {
+    kind: String,
+    function: String,
+    mul: usize,
+    add: usize,
+    neg: usize,
+    div: usize,
+    total: usize,
+}
+
+/// Every file of the emitted code and the table of operations, for these chains.
+///
+/// # Errors
+/// When a template fails or a file would not parse.
+pub fn files(chains: &[Chain<'_>]) -> Result<Vec<EmittedFile>, EmitError> {
+    let mut tera = Tera::default();
+    tera.autoescape_on(Vec::<&str>::new());
+    for (name, text) in TEMPLATES {
+        tera.add_raw_template(name, text)?;
+    }
+    let mut made = Vec::new();
+    let mut rows = Vec::new();
+    for chain in chains {
+        made.push(kind_file(&tera, chain, &mut rows)?);
+    }
+    let shared: Vec<_> = shared_records().iter().map(record_text).collect();
+    let mut context = Context::new();
+    context.insert("hash", &fnv1a64(&format!("{:?}", shared_records())));
+    context.insert("records", &shared);
+    made.push(rust_file("hub.rs", tera.render("hub.rs", &context)?)?);
+
+    let mut modules: Vec<_> = chains.iter().map(|chain| chain.kind.name).collect();
+    modules.push("hub");
+    modules.sort_unstable();
+    let mut context = Context::new();
+    context.insert("hash", &fnv1a64(&modules.join(" ")));
+    context.insert("modules", &modules);
+    made.push(rust_file("mod.rs", tera.render("mod.rs", &context)?)?);
+
+    let mut context = Context::new();
+    context.insert("rows", &rows);
+    let text = tera.render("operations.md", &context)?;
+    made.push(EmittedFile { path: "docs/operations.md".to_owned(), text });
+    Ok(made)
+}
+
+const TEMPLATES: [(&str, &str); 4] = [
+    ("kind.rs", include_str!("templates/kind.rs.tera")),
+    ("hub.rs", include_str!("templates/hub.rs.tera")),
+    ("mod.rs", include_str!("templates/mod.rs.tera")),
+    ("operations.md", include_str!("templates/operations.md.tera")),
+];
+
+fn rust_file(name: &str, text: String) -> Result<EmittedFile, EmitError> {
+    let path = format!("dynamics/src/generated/{name}");
+    if let Some(line) = text.lines().position(|line| line.chars().count() > LINE) {
+        return Err(EmitError::Width(path, line + 1));
+    }
+    syn::parse_file(&text).map_err(|error| EmitError::Syntax(path.clone(), error))?;
+    Ok(EmittedFile { path, text })
+}
+
+fn kind_file(
+    tera: &Tera,
+    chain: &Chain<'_>,
+    rows: &mut Vec<CountText>,
+) -> Result<EmittedFile, EmitError> {
+    let (graph, kind) = (chain.graph, chain.kind);
+    let kernels = kernels(chain);
+    let raw = parameters(kind);
+    let mut prepared = prepared(graph, &kernels, &raw);
+
+    // `prepare` itself.
+    let argument: HashMap<&str, &str> =
+        raw.fields.iter().map(|field| (field.name.as_str(), "p")).collect();
+    let given = |id: NodeId| match graph.node(id) {
+        Node::Symbol(symbol) => {
+            let name = graph.symbol_info(symbol).name;
+            argument.get(name.as_str()).map(|p| Rendered::field(p, &name))
+        }
+        _ => None,
+    };
+    let computed: Vec<String> = prepared
+        .record
+        .fields
+        .iter()
+        .map(|field| field.name.clone())
+        .filter(|name| !argument.contains_key(name.as_str()))
+        .collect();
+    let witness = Rendered::field("p", &raw.fields[0].name);
+    let body = Writer::new(graph, &given, witness).write(&prepared.sections, &computed);
+    describe(&mut prepared.record, &body);
+    let fields = prepared.record.fields.iter().map(|field| {
+        let own = argument.contains_key(field.name.as_str());
+        (field.name.clone(), if own { format!("p.{}", field.name) } else { field.name.clone() })
+    });
+    let mut functions = vec![function(
+        "prepare",
+        &["What depends on parameters alone, once per device.".to_owned()],
+        &[("p", "Parameters".to_owned())],
+        &body,
+        literal("Prepared", &fields.collect::<Vec<_>>()),
+        "Prepared",
+    )];
+    rows.push(count(kind.name, "prepare", body.counts));
+
+    for kernel in &kernels {
+        let body = kernel_body(chain, kernel, &prepared.fields);
+        rows.push(count(kind.name, &kernel.name, body.counts));
+        let inputs: Vec<_> =
+            kernel.inputs.iter().map(|(letter, record)| (*letter, record.name.clone())).collect();
+        let result = literal(&kernel.output.name, &record_fields(&kernel.output));
+        functions.push(function(
+            &kernel.name,
+            &kernel.doc,
+            &inputs,
+            &body,
+            result,
+            &kernel.output.name,
+        ));
+    }
+
+    let mut records = vec![raw, prepared.record, trig(kind), rates(kind), motors(kind)];
+    let outputs = kernels.iter().map(|kernel| kernel.output.clone());
+    records.extend(outputs.filter(|record| !record.shared));
+    debug_assert!(records.contains(&joint_accelerations(kind)));
+    let texts: Vec<_> = records.iter().map(record_text).collect();
+    let mut imports: Vec<_> = shared_records().into_iter().map(|record| record.name).collect();
+    imports.sort_unstable();
+    let mut context = Context::new();
+    context.insert("source", kind.source);
+    context.insert("hash", &fnv1a64(&format!("{kind:?}")));
+    context.insert("title", &capital(kind.title));
+    context.insert("imports", &imports.join(", "));
+    context.insert("records", &texts);
+    context.insert("functions", &functions);
+    rust_file(&format!("{}.rs", kind.name), tera.render("kind.rs", &context)?)
+}
+
+fn kernel_body<'g>(
+    chain: &Chain<'g>,
+    kernel: &Kernel<'g>,
+    constants: &HashMap<NodeId, String>,
+) -> FunctionBody {
+    let graph = chain.graph;
+    let mut argument: HashMap<String, &str> = HashMap::new();
+    for (letter, record) in &kernel.inputs {
+        for name in record.fields.iter().map(|field| field.name.clone()) {
+            argument.insert(name, letter);
+        }
+    }
+    let given = |id: NodeId| {
+        if let Some(name) = constants.get(&id) {
+            return Some(Rendered::field("p", name));
+        }
+        let Node::Symbol(symbol) = graph.node(id) else { return None };
+        let name = graph.symbol_info(symbol).name;
+        argument.get(&name).map(|letter| Rendered::field(letter, &name))
+    };
+    let witness = kernel.inputs.iter().find_map(|(letter, record)| {
+        record.fields.first().map(|field| Rendered::field(letter, &field.name))
+    });
+    let witness = witness.expect("some input has its fields listed");
+    Writer::new(graph, &given, witness).write(&kernel.sections, &kernel.output.sources())
+}
+
+/// Documents a constant by the formula that computes it.
+fn describe(record: &mut Record, body: &FunctionBody) {
+    let mut formulas = HashMap::new();
+    for (title, statements) in &body.sections {
+        for line in pretty(statements) {
+            if let Some((name, formula)) = line.trim_start_matches("let ").split_once(" = ") {
+                formulas.insert(name.to_owned(), (title.clone(), formula.to_owned()));
+            }
+        }
+    }
+    for field in &mut record.fields {
+        if let Some((title, formula)) = formulas.get(&field.name) {
+            field.doc = format!("`{}`. {title}", formula.trim_end_matches(';'));
+        }
+    }
+}
+
+fn record_text(record: &Record) -> RecordText {
+    let field = |field: &crate::kernel::Field| FieldText {
+        name: field.name.clone(),
+        doc: wrapped(&field.doc, COMMENT - 4),
+        ty: match &field.source {
+            Source::Nested(record) => format!("{}<T>", record.name),
+            Source::Own | Source::Named(_) => "T".to_owned(),
+        },
+    };
+    RecordText {
+        name: record.name.clone(),
+        doc: wrapped(&record.doc, COMMENT),
+        fields: record.fields.iter().map(field).collect(),
+    }
+}
+
+fn function(
+    name: &str,
+    doc: &[String],
+    inputs: &[(&str, String)],
+    body: &FunctionBody,
+    result: Vec<String>,
+    output: &str,
+) -> FunctionText {
+    let Counts { mul, add, neg, div } = body.counts;
+    let mut lines: Vec<_> = doc.iter().map(|line| spaced(line)).collect();
+    lines.push(String::new());
+    lines.push(format!(" Operations: {mul} mul, {add} add, {neg} neg, {div} div, 0 trig."));
+    let arguments: Vec<_> = inputs.iter().map(|(p, record)| format!("{p}: &{record}<T>")).collect();
+    let line = format!("pub fn {name}<T: Real>({}) -> {output}<T>", arguments.join(", "));
+    let signature = if line.len() + " {".len() <= LINE {
+        line
+    } else {
+        let arguments = arguments.join(",\n    ");
+        format!("pub fn {name}<T: Real>(\n    {arguments},\n) -> {output}<T>")
+    };
+    let section = |(title, statements): &(String, Vec<TokenStream>)| SectionText {
+        title: wrapped(title, COMMENT),
+        lines: pretty(statements),
+    };
+    FunctionText {
+        doc: lines,
+        signature,
+        sections: body.sections.iter().map(section).collect(),
+        result,
+    }
+}
+
+/// Field and value of every number of a record.
+fn record_fields(record: &Record) -> Vec<(String, String)> {
+    let field = |field: &crate::kernel::Field| {
+        let value = match &field.source {
+            Source::Own => field.name.clone(),
+            Source::Named(name) => name.clone(),
+            Source::Nested(record) => {
+                let inside = literal(&record.name, &record_fields(record));
+                inside.join("\n")
+            }
+        };
+        (field.name.clone(), value)
+    };
+    record.fields.iter().map(field).collect()
+}
+
+fn count(kind: &str, function: &str, counts: Counts) -> CountText {
+    let Counts { mul, add, neg, div } = counts;
+    let (kind, function) = (kind.to_owned(), function.to_owned());
+    CountText { kind, function, mul, add, neg, div, total: counts.total() }
+}

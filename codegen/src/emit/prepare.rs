@@ -1,0 +1,151 @@
+//! What depends on parameters alone leaves every kernel and is computed once, in `prepare`.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use crate::graph::{Expr, Graph, Node, NodeId, Stage};
+use crate::kernel::{Field, Kernel, Record, Section, Source, Statement};
+
+/// The constants of a kind: fields of `Prepared` and the statements that compute them.
+pub(super) struct Prepared<'g> {
+    /// Field name of each node that a kernel reads.
+    pub(super) fields: HashMap<NodeId, String>,
+    /// In order of first use: raw parameters first.
+    pub(super) record: Record,
+    /// The statements of `prepare`.
+    pub(super) sections: Vec<Section<'g>>,
+}
+
+/// Finds what the kernels can share of parameters alone.
+pub(super) fn prepared<'g>(
+    graph: &'g Graph,
+    kernels: &[Kernel<'g>],
+    parameters: &Record,
+) -> Prepared<'g> {
+    let names = names(kernels);
+    let mut raw = BTreeMap::new();
+    let mut derived = BTreeMap::new();
+    for kernel in kernels {
+        for id in read_constants(graph, kernel) {
+            match graph.node(id) {
+                Node::Constant(_) => {}
+                Node::Symbol(symbol) => {
+                    let name = graph.symbol_info(symbol).name;
+                    let given = parameters.fields.iter().position(|field| field.name == name);
+                    match given {
+                        Some(place) => raw.insert(place, id),
+                        None => derived.insert(id, name).map(|_| id),
+                    };
+                }
+                _ => {
+                    derived.insert(id, names.get(&id).cloned().unwrap_or_default());
+                }
+            }
+        }
+    }
+    let doc = "What a kernel needs of the parameters, computed once by [`prepare`].";
+    let mut record = Record {
+        name: "Prepared".to_owned(),
+        doc: doc.to_owned(),
+        fields: Vec::new(),
+        shared: false,
+    };
+    let mut fields = HashMap::new();
+    for (place, id) in raw {
+        record.fields.push(parameters.fields[place].clone());
+        fields.insert(id, parameters.fields[place].name.clone());
+    }
+    let mut number = 0;
+    for (id, name) in derived {
+        let name = if name.is_empty() {
+            number += 1;
+            format!("k_{}", number - 1)
+        } else {
+            name
+        };
+        // A cut constant and the symbol that stands for it are one field.
+        if !record.fields.iter().any(|field| field.name == name) {
+            let doc = String::new();
+            record.fields.push(Field { name: name.clone(), doc, source: Source::Own });
+        }
+        fields.insert(id, name);
+    }
+    let sections = sections(graph, kernels, &fields);
+    Prepared { fields, record, sections }
+}
+
+/// Names that the derivation gives to nodes of parameters.
+fn names(kernels: &[Kernel<'_>]) -> HashMap<NodeId, String> {
+    let mut names = HashMap::new();
+    for statement in statements(kernels) {
+        for node in std::iter::once(statement.value).chain(statement.cut) {
+            names.entry(node.id()).or_insert_with(|| statement.name.clone());
+        }
+    }
+    names
+}
+
+fn statements<'a, 'g>(kernels: &'a [Kernel<'g>]) -> impl Iterator<Item = &'a Statement<'g>> {
+    kernels.iter().flat_map(|kernel| &kernel.sections).flat_map(|section| &section.statements)
+}
+
+/// The nodes of parameters alone that a kernel reads where it computes with the state.
+fn read_constants(graph: &Graph, kernel: &Kernel<'_>) -> Vec<NodeId> {
+    let outputs = kernel.output.sources();
+    let all: Vec<_> = kernel.sections.iter().flat_map(|section| &section.statements).collect();
+    let constant = |id: NodeId| graph.expr(id).stage() == Stage::Parameter;
+    let (mut seen, mut found) = (HashSet::new(), Vec::new());
+    for statement in all.iter().rev() {
+        let needed = outputs.contains(&statement.name)
+            || statement.cut.is_some_and(|symbol| seen.contains(&symbol.id()));
+        let mut pending = if needed { vec![statement.value.id()] } else { Vec::new() };
+        while let Some(id) = pending.pop() {
+            if seen.insert(id) {
+                if constant(id) {
+                    found.push(id);
+                } else {
+                    pending.extend(graph.node(id).operands());
+                }
+            }
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+/// `prepare` repeats the sections of the kernels as far as they are parameters alone.
+fn sections<'g>(
+    graph: &'g Graph,
+    kernels: &[Kernel<'g>],
+    fields: &HashMap<NodeId, String>,
+) -> Vec<Section<'g>> {
+    let mut seen = HashSet::new();
+    let mut made: Vec<Section<'g>> = Vec::new();
+    for section in kernels.iter().flat_map(|kernel| &kernel.sections) {
+        let new = |s: &&Statement<'g>| s.value.stage() == Stage::Parameter;
+        let mut statements = Vec::new();
+        for statement in section.statements.iter().filter(new) {
+            if seen.insert(statement.name.clone()) {
+                statements.push(statement.clone());
+            }
+        }
+        if !statements.is_empty() {
+            made.push(Section { statements, ..section.clone() });
+        }
+    }
+    let named: HashSet<_> =
+        made.iter().flat_map(|s| &s.statements).map(|s| s.name.clone()).collect();
+    let mut rest: Vec<_> = fields
+        .iter()
+        .filter(|(id, name)| !named.contains(*name) && !matches!(graph.node(**id), Node::Symbol(_)))
+        .map(|(id, name)| (*id, name.clone()))
+        .collect();
+    rest.sort_unstable();
+    let statement = |(id, name): (NodeId, String)| {
+        let value: Expr<'g> = graph.expr(id);
+        Statement { name, value, cut: None }
+    };
+    let statements = rest.into_iter().map(statement).collect();
+    let title = "Products and sums of parameters that occur more deeply.".to_owned();
+    made.push(Section { title, prefix: "prep".to_owned(), statements });
+    made
+}

@@ -1,0 +1,90 @@
+//! Pieces of text: formatted statements, literals, wrapped comments.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// A line of emitted text is at most this wide.
+pub(super) const LINE: usize = 100;
+/// Comments are wrapped here.
+pub(super) const COMMENT: usize = 90;
+
+/// Statements as formatted lines without indentation.
+pub(super) fn pretty(statements: &[TokenStream]) -> Vec<String> {
+    let function = quote!(fn section() { #(#statements)* });
+    let file = syn::parse2(function).expect("statements are Rust");
+    let text = prettyplease::unparse(&file);
+    let lines: Vec<_> = text.lines().collect();
+    lines[1..lines.len() - 1].iter().map(|line| line[4..].to_owned()).collect()
+}
+
+/// A structure literal, on one line where it fits.
+pub(super) fn literal(name: &str, fields: &[(String, String)]) -> Vec<String> {
+    let shown = |(field, value): &(String, String)| {
+        if field == value { field.clone() } else { format!("{field}: {value}") }
+    };
+    let shown: Vec<_> = fields.iter().map(shown).collect();
+    let line = format!("{name} {{ {} }}", shown.join(", "));
+    if line.len() + 4 <= LINE && !line.contains('\n') {
+        return vec![line];
+    }
+    let mut lines = vec![format!("{name} {{")];
+    for field in shown {
+        lines.extend(format!("{field},").lines().map(|line| format!("    {line}")));
+    }
+    lines.push("}".to_owned());
+    lines
+}
+
+/// A documentation line behind its slashes.
+pub(super) fn spaced(line: &str) -> String {
+    if line.is_empty() { String::new() } else { format!(" {line}") }
+}
+
+/// Words in lines of at most `width` characters.
+pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = vec![String::new()];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut().expect("there is a line");
+        if line.is_empty() {
+            line.push_str(word);
+        } else if line.chars().count() + 1 + word.chars().count() <= width {
+            line.push(' ');
+            line.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}
+
+/// The text with a capital first letter.
+pub(super) fn capital(text: &str) -> String {
+    text[..1].to_uppercase() + &text[1..]
+}
+
+/// Fowler-Noll-Vo hash of the inputs, as the header shows it.
+pub(super) fn fnv1a64(text: &str) -> String {
+    let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    format!("{:016x}", text.bytes().fold(0xcbf2_9ce4_8422_2325, step))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_short_literal_stands_on_one_line() {
+        let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
+        assert_eq!(literal("P", &[pair("x", "x"), pair("y", "p.y")]), ["P { x, y: p.y }"]);
+    }
+
+    #[test]
+    fn words_are_wrapped_and_none_is_lost() {
+        assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
+    }
+
+    #[test]
+    fn the_hash_is_fnv1a() {
+        assert_eq!(fnv1a64("a"), "af63dc4c8601ec8c");
+    }
+}
