@@ -7,4 +7,6 @@ pub mod kernel;
 pub mod kinds;
 pub mod normal;
 pub mod page;
+pub mod proof;
+pub mod regen;
 pub mod space;

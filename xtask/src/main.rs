@@ -1,3 +1,51 @@
 //! The workbench: one short file per command.
 
-fn main() {}
+mod check;
+mod demo;
+mod regen;
+mod run;
+mod test;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// The workbench of Precess.
+#[derive(Parser)]
+#[command(name = "cargo xtask", after_help = "Example: cargo xtask demo")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Derive, emit and prove every kernel; write the files if every proof holds
+    #[command(after_help = "Example: cargo xtask regen --check")]
+    Regen(regen::Options),
+    /// The quick loop: format, clippy, `regen --check`, unit tests
+    #[command(after_help = "Example: cargo xtask check")]
+    Check,
+    /// Run all tests
+    #[command(after_help = "Example: cargo xtask test")]
+    Test,
+    /// Derive, prove, solve the paper's scenario and draw the report
+    #[command(after_help = "Example: cargo xtask demo")]
+    Demo,
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Regen(options) => regen::regen(&options),
+        Command::Check => check::check(),
+        Command::Test => test::test(),
+        Command::Demo => demo::demo(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}

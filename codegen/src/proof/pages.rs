@@ -1,0 +1,62 @@
+//! The derivation against the hand-checked pages: every block has its row, and every derived
+//! quantity its block.
+
+use super::Row;
+use crate::derivation::chain::Chain;
+use crate::derivation::quantities::{Quantity, find, traces};
+use crate::normal::Ring;
+use crate::page::{Equation, Kind};
+
+/// One row per block, and one for each quantity that no block states.
+#[must_use]
+pub fn against_pages<'g>(
+    ring: &mut Ring<'g>,
+    chain: &Chain<'g>,
+    quantities: &[Quantity<'g>],
+    equations: &[Equation<'g>],
+) -> Vec<Row> {
+    let row = |equation: &Equation<'g>| {
+        let block = &equation.block;
+        let heading = [block.tag.as_str(), &block.name, "derivation = page"];
+        let (Kind::Vector(axes) | Kind::Tensor(axes)) = &block.kind else {
+            return Row::absent(heading);
+        };
+        match (find(quantities, &block.name), frame_of(chain, axes)) {
+            (Some(quantity), Some(frame)) => {
+                let derived = quantity.value.along(chain, frame).labelled(axes);
+                Row::compare(ring, heading, &derived, &equation.components)
+            }
+            _ => Row::absent(heading),
+        }
+    };
+    let stated = equations.iter().map(row);
+    let lacking = quantities.iter().filter(|quantity| {
+        let axis = quantity.name.ends_with("_hat");
+        !axis && equations.iter().all(|equation| equation.block.name != quantity.name)
+    });
+    let lacking =
+        lacking.map(|quantity| Row::absent(["(missing)", &quantity.name, "derivation = page"]));
+    stated.chain(lacking).collect()
+}
+
+/// Every inertia's derivative about the body's own centre of mass has no trace.
+#[must_use]
+pub fn zero_traces<'g>(ring: &mut Ring<'g>, chain: &Chain<'g>) -> Vec<Row> {
+    let zero = vec![(String::new(), chain.graph.zero())];
+    let traces = traces(chain).into_iter().zip(chain.kind.links);
+    traces
+        .map(|(trace, link)| {
+            let body = &link.body;
+            let name = format!("i_{}_{}_prime", body.frame, body.point);
+            let heading = [body.equations.i_prime, &name, "trace = 0"];
+            Row::compare(ring, heading, &[(String::new(), trace)], &zero)
+        })
+        .collect()
+}
+
+/// The number of the frame with these axes.
+fn frame_of(chain: &Chain<'_>, axes: &[String; 3]) -> Option<usize> {
+    let hub = ["b_x", "b_y", "b_z"];
+    let triads = chain.kind.links.iter().map(|link| link.body.triad);
+    std::iter::once(hub).chain(triads).position(|triad| triad == *axes)
+}

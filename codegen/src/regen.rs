@@ -1,0 +1,112 @@
+//! Regeneration: hand-checked pages in, proofs and files out. Pure; reading and writing is xtask's.
+
+use std::fmt;
+
+use crate::derivation::chain::Chain;
+use crate::derivation::quantities::quantities;
+use crate::emit::{EmitError, EmittedFile, files};
+use crate::graph::Graph;
+use crate::kinds::KINDS;
+use crate::normal::Ring;
+use crate::page::{Page, PageError, read};
+use crate::proof::{EmittedError, Row, against_derivation, against_pages, zero_traces};
+
+/// What a regeneration yields.
+#[derive(Clone, Debug)]
+pub struct Regeneration {
+    /// The files, by path from the repository's root.
+    pub files: Vec<EmittedFile>,
+    /// The proofs.
+    pub rows: Vec<Row>,
+}
+
+impl Regeneration {
+    /// Whether every row is a proof.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.rows.iter().all(Row::holds)
+    }
+}
+
+/// Why there is nothing to compare.
+#[derive(Debug)]
+pub enum RegenError {
+    /// A hand-checked page cannot be read.
+    Page(PageError),
+    /// A file cannot be laid out.
+    Emit(EmitError),
+    /// Emitted text cannot be read back.
+    Emitted(EmittedError),
+}
+
+impl fmt::Display for RegenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Page(error) => error.fmt(f),
+            Self::Emit(error) => error.fmt(f),
+            Self::Emitted(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RegenError {}
+
+impl From<PageError> for RegenError {
+    fn from(error: PageError) -> Self {
+        Self::Page(error)
+    }
+}
+
+impl From<EmitError> for RegenError {
+    fn from(error: EmitError) -> Self {
+        Self::Emit(error)
+    }
+}
+
+impl From<EmittedError> for RegenError {
+    fn from(error: EmittedError) -> Self {
+        Self::Emitted(error)
+    }
+}
+
+/// Derives, emits and proves every kind.
+///
+/// # Errors
+/// When a page or an emitted file cannot be read. A failed proof is no error but a row.
+pub fn regenerate(pages: &[Page]) -> Result<Regeneration, RegenError> {
+    let files = emit()?;
+    let rows = prove(pages, &files)?;
+    Ok(Regeneration { files, rows })
+}
+
+/// Derives every kind and lays out the files.
+///
+/// # Errors
+/// When a file cannot be laid out.
+pub fn emit() -> Result<Vec<EmittedFile>, RegenError> {
+    let graphs: Vec<_> = KINDS.iter().map(|_| Graph::new()).collect();
+    let pairs = graphs.iter().zip(KINDS);
+    let chains: Vec<_> = pairs.map(|(graph, kind)| Chain::new(graph, kind)).collect();
+    Ok(files(&chains)?)
+}
+
+/// Holds pages and emitted files against the derivation.
+///
+/// # Errors
+/// When a page or a file cannot be read.
+pub fn prove(pages: &[Page], files: &[EmittedFile]) -> Result<Vec<Row>, RegenError> {
+    let mut rows = Vec::new();
+    for kind in KINDS {
+        let graph = Graph::new();
+        let chain = Chain::new(&graph, kind);
+        let equations = read(&graph, pages)?;
+        let mut ring = Ring::new(&graph);
+        rows.extend(against_pages(&mut ring, &chain, &quantities(&chain), &equations));
+        rows.extend(zero_traces(&mut ring, &chain));
+        let name = format!("/{}.rs", kind.name);
+        if let Some(file) = files.iter().find(|file| file.path.ends_with(&name)) {
+            rows.extend(against_derivation(&chain, &file.text)?);
+        }
+    }
+    Ok(rows)
+}

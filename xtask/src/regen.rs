@@ -1,0 +1,182 @@
+//! `regen`: pages in, proofs and files out. Nothing is written unless every proof holds.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use precess_codegen::emit::EmittedFile;
+use precess_codegen::page::Page;
+use precess_codegen::proof::Row;
+use precess_codegen::regen::{Regeneration, regenerate};
+use similar::TextDiff;
+
+use crate::run::root;
+
+/// Where the hand-checked pages stand.
+const PAGES: &str = "tests/derivation";
+
+/// Options of `regen`.
+#[derive(Args, Default)]
+pub(crate) struct Options {
+    /// Write nothing; show what would change and fail if anything would
+    #[arg(long)]
+    check: bool,
+    /// Print only the rows that do not hold
+    #[arg(long)]
+    quiet: bool,
+    /// Read the hand-checked pages from this folder
+    #[arg(long, value_name = "DIR")]
+    pages: Option<PathBuf>,
+    /// Write the files below this folder instead of the repository
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+impl Options {
+    /// `regen --check --quiet`.
+    pub(crate) fn check_only() -> Self {
+        Self { check: true, quiet: true, ..Self::default() }
+    }
+}
+
+/// Regenerates, prints one row per equation, and writes or compares the files.
+pub(crate) fn regen(options: &Options) -> Result<(), String> {
+    let pages = options.pages.clone().unwrap_or_else(|| root().join(PAGES));
+    let made = regenerate(&read_pages(&pages)?).map_err(|error| error.to_string())?;
+    print(&made, options.quiet);
+    let failed = made.rows.iter().filter(|row| !row.holds()).count();
+    if failed > 0 {
+        return Err(format!(
+            "{failed} of {} proofs do not hold; no file was written",
+            made.rows.len()
+        ));
+    }
+    let into = options.out.clone().unwrap_or_else(root);
+    if options.check { compare(&made.files, &into) } else { write(&made.files, &into) }
+}
+
+fn print(made: &Regeneration, quiet: bool) {
+    let shown: Vec<_> = made.rows.iter().filter(|row| !quiet || !row.holds()).collect();
+    if !shown.is_empty() {
+        println!("{}", Row::heading());
+    }
+    for row in shown {
+        println!("{row}");
+    }
+    let held = made.rows.iter().filter(|row| row.holds()).count();
+    println!("{held} of {} claims proven equal", made.rows.len());
+}
+
+/// The pages of a folder by name; its README describes them and is none.
+pub(crate) fn read_pages(folder: &Path) -> Result<Vec<Page>, String> {
+    let wrong = |error: std::io::Error| format!("cannot read {}: {error}", folder.display());
+    let mut pages = Vec::new();
+    for entry in fs::read_dir(folder).map_err(wrong)? {
+        let path = entry.map_err(wrong)?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let page = path.extension().is_some_and(|extension| extension == "md");
+        if page && name != "README.md" {
+            pages.push(Page { name, text: fs::read_to_string(&path).map_err(wrong)? });
+        }
+    }
+    pages.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(pages)
+}
+
+/// Writes what changed; each file is complete or as it was.
+fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
+    for file in files {
+        let path = into.join(&file.path);
+        if fs::read_to_string(&path).is_ok_and(|text| text == file.text) {
+            continue;
+        }
+        let wrong = |error: std::io::Error| format!("cannot write {}: {error}", path.display());
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(wrong)?;
+        }
+        let partial = path.with_extension("partial");
+        fs::write(&partial, &file.text)
+            .and_then(|()| fs::rename(&partial, &path))
+            .map_err(wrong)?;
+        println!("wrote {}", file.path);
+    }
+    Ok(())
+}
+
+/// Shows the difference to what stands on disk.
+fn compare(files: &[EmittedFile], into: &Path) -> Result<(), String> {
+    let mut stale = 0;
+    for file in files {
+        let now = fs::read_to_string(into.join(&file.path)).unwrap_or_default();
+        if now != file.text {
+            stale += 1;
+            let diff = TextDiff::from_lines(&now, &file.text);
+            let (old, new) = (format!("a/{}", file.path), format!("b/{}", file.path));
+            println!("{}", diff.unified_diff().header(&old, &new));
+        }
+    }
+    if stale == 0 {
+        println!("{} files are fresh", files.len());
+        return Ok(());
+    }
+    Err(format!("{stale} of {} files are stale; run `cargo xtask regen`", files.len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_committed_files_are_fresh() {
+        assert_eq!(regen(&Options::check_only()), Ok(()));
+    }
+
+    #[test]
+    fn two_runs_in_two_directories_give_the_same_bytes() {
+        let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+        for folder in &folders {
+            let out = Some(folder.path().to_path_buf());
+            assert_eq!(regen(&Options { quiet: true, out, ..Options::default() }), Ok(()));
+        }
+        let [a, b] = folders.map(|folder| {
+            let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+            [
+                "dynamics/src/generated/dgvscmg.rs",
+                "dynamics/src/generated/hub.rs",
+                "docs/operations.md",
+            ]
+            .map(read)
+        });
+        assert_eq!(a, b);
+    }
+
+    #[test]
+    fn a_wrong_page_is_named_and_nothing_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let (pages, out) = (folder.path().join("pages"), folder.path().join("out"));
+        fs::create_dir(&pages).unwrap();
+        for page in read_pages(&root().join(PAGES)).unwrap() {
+            let text = page.text.replace("- i_go_22", "+ i_go_22");
+            fs::write(pages.join(page.name), text).unwrap();
+        }
+        let options =
+            Options { quiet: true, pages: Some(pages), out: Some(out.clone()), check: false };
+        let message = regen(&options).unwrap_err();
+        assert!(message.ends_with("proofs do not hold; no file was written"), "{message}");
+        assert!(!out.exists());
+    }
+
+    #[test]
+    fn a_stale_file_fails_the_check_with_its_remedy() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = Some(folder.path().to_path_buf());
+        assert_eq!(regen(&Options { quiet: true, out: out.clone(), ..Options::default() }), Ok(()));
+        let path = folder.path().join("dynamics/src/generated/hub.rs");
+        let text = fs::read_to_string(&path).unwrap();
+        fs::write(&path, text.replace("rad/s.", "rpm.")).unwrap();
+        let before = fs::read_to_string(&path).unwrap();
+        let message = regen(&Options { check: true, quiet: true, out, pages: None }).unwrap_err();
+        assert_eq!(message, "1 of 4 files are stale; run `cargo xtask regen`");
+        assert_eq!(fs::read_to_string(&path).unwrap(), before);
+    }
+}
