@@ -1,0 +1,63 @@
+//! The rigid hub's own share of the equations, of energy and of momentum.
+
+use crate::parameters::Hub;
+use crate::real::{Scalar, half, zero};
+use crate::solve::System;
+use crate::symmetric::Symmetric;
+use crate::vec3::{Vec3, add, components, cross, dot, scale, sub};
+
+/// Constants of the hub, all along B axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PreparedHub<T> {
+    /// `m_B`, kg.
+    pub(crate) m_b: T,
+    /// `m_B r_{Bc/B}`, kg m.
+    pub(crate) first_moment: Vec3<T>,
+    /// `[I_{B,B}]`, inertia about B, kg m^2.
+    i_b_b: Symmetric<T>,
+}
+
+/// Energy, linear momentum and angular momentum about B, along B axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BodySums<T> {
+    pub(crate) energy: T,
+    pub(crate) linear: Vec3<T>,
+    pub(crate) angular_b: Vec3<T>,
+}
+
+impl<T: Scalar> PreparedHub<T> {
+    pub(crate) fn new(hub: &Hub<T>) -> Self {
+        let r_bc_b = components(&hub.r_bc_b);
+        Self {
+            m_b: hub.m_b,
+            first_moment: scale(hub.m_b, r_bc_b),
+            i_b_b: Symmetric::part_of(&hub.i_b_bc).plus(Symmetric::parallel_axis(hub.m_b, r_bc_b)),
+        }
+    }
+
+    /// The hub's own `M` and `h`: `m (r'' + omega' x c + omega x (omega x c)) = F` and
+    /// `I omega' + m c x r'' + omega x (I omega) = L_B`.
+    pub(crate) fn system(&self, omega: Vec3<T>, force: Vec3<T>, torque_b: Vec3<T>) -> System<T> {
+        let [x, y, z] = self.first_moment;
+        let centrifugal = cross(omega, cross(omega, self.first_moment));
+        let gyroscopic = cross(omega, self.i_b_b.times(omega));
+        System {
+            m_vv: Symmetric::scalar(self.m_b),
+            // -tilde(m c), column by column.
+            m_vw: [[zero(), -z, y], [z, zero(), -x], [-y, x, zero()]],
+            m_ww: self.i_b_b,
+            h_v: sub(force, centrifugal),
+            h_w: sub(torque_b, gyroscopic),
+        }
+    }
+
+    /// Kinetic energy and momenta for the inertial velocity of B and the angular velocity.
+    pub(crate) fn sums(&self, r_b_n_dot: Vec3<T>, omega: Vec3<T>) -> BodySums<T> {
+        let relative = cross(omega, self.first_moment);
+        let linear = add(scale(self.m_b, r_b_n_dot), relative);
+        let angular_b = add(self.i_b_b.times(omega), cross(self.first_moment, r_b_n_dot));
+        // Twice the energy is v . p + omega . H_B.
+        let energy = half::<T>() * (dot(r_b_n_dot, linear) + dot(omega, angular_b));
+        BodySums { energy, linear, angular_b }
+    }
+}

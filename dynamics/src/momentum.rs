@@ -1,0 +1,150 @@
+//! Energy, momentum and centre of mass of the whole spacecraft.
+//!
+//! With motors running, momentum is conserved and `dE/dt = F . v_B + L_B . omega + sum(u rate)`.
+//! Angular momentum is conserved about a point fixed in N or about the centre of mass, not about B.
+
+use nalgebra::Vector3;
+
+use crate::attitude::Attitude;
+use crate::error::{Quantity, SolveError};
+use crate::finite::culprit_in_state;
+use crate::hub::BodySums;
+use crate::real::Scalar;
+use crate::spacecraft::Spacecraft;
+use crate::state::State;
+use crate::vec3::{
+    Columns, Vec3, add, columns, components, cross, finite, neg, rotate, rotate_transposed, scale,
+    sub, vector, zeros,
+};
+
+/// The point about which angular momentum is taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum About<T = f64> {
+    /// The origin of N.
+    InertialOrigin,
+    /// The spacecraft's centre of mass, with velocities relative to N.
+    CentreOfMass,
+    /// A point fixed in N, N axes, m.
+    Point(Vector3<T>),
+}
+
+/// Momenta of the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Momentum<T = f64> {
+    /// Linear momentum, N axes, kg m/s.
+    pub linear: Vector3<T>,
+    /// Angular momentum about the point asked for, N axes, kg m^2/s.
+    pub angular: Vector3<T>,
+}
+
+/// Where the centre of mass is and how it moves seen from B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CentreOfMass<T = f64> {
+    /// `c`, position from B, B axes, m; (9).
+    pub c: Vector3<T>,
+    /// `c'`, derivative seen from B, B axes, m/s.
+    pub c_prime: Vector3<T>,
+}
+
+impl<const N: usize, T: Scalar> Spacecraft<N, T> {
+    /// Kinetic energy of hub and devices, J.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN, or
+    /// [`SolveError::Overflow`].
+    pub fn energy<A: Attitude<T>>(&self, state: &State<N, T, A>) -> Result<T, SolveError<T>> {
+        refuse(culprit_in_state(state))?;
+        let (_, BodySums { energy, .. }) = self.sums(state);
+        checked(energy, energy.is_finite())
+    }
+
+    /// Linear momentum, and angular momentum about a point.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming the part of the state (or the point) that is infinite or
+    /// NaN, or [`SolveError::Overflow`].
+    pub fn momentum<A: Attitude<T>>(
+        &self,
+        state: &State<N, T, A>,
+        about: About<T>,
+    ) -> Result<Momentum<T>, SolveError<T>> {
+        refuse(culprit_in_state(state).or_else(|| culprit_in_point(&about)))?;
+        let (bn, BodySums { linear, angular_b, .. }) = self.sums(state);
+        let linear_n = rotate_transposed(&bn, linear);
+        let about_b = rotate_transposed(&bn, angular_b);
+        // H about P is H_B + r_{B/P} x p, whatever B does.
+        let r_b_n = components(&state.r_b_n);
+        let r_b_p = match about {
+            About::InertialOrigin => r_b_n,
+            About::Point(point) => sub(r_b_n, components(&point)),
+            About::CentreOfMass => neg(rotate_transposed(&bn, self.centre(state).0)),
+        };
+        let angular_n = add(about_b, cross(r_b_p, linear_n));
+        let found = Momentum { linear: vector(linear_n), angular: vector(angular_n) };
+        checked(found, finite(linear_n) && finite(angular_n))
+    }
+
+    /// Centre of mass of hub and devices.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN, or
+    /// [`SolveError::Overflow`].
+    pub fn centre_of_mass<A: Attitude<T>>(
+        &self,
+        state: &State<N, T, A>,
+    ) -> Result<CentreOfMass<T>, SolveError<T>> {
+        refuse(culprit_in_state(state))?;
+        let (c, c_prime) = self.centre(state);
+        let found = CentreOfMass { c: vector(c), c_prime: vector(c_prime) };
+        checked(found, finite(c) && finite(c_prime))
+    }
+
+    /// `[BN]` by its columns, and energy and momenta along B axes.
+    fn sums<A: Attitude<T>>(&self, state: &State<N, T, A>) -> (Columns<T>, BodySums<T>) {
+        let bn = columns(&state.attitude.dcm());
+        let r_b_n_dot = rotate(&bn, components(&state.r_b_n_dot));
+        let omega = components(&state.omega);
+        let mut sums = self.hub.sums(r_b_n_dot, omega);
+        for (device, joints) in self.devices.iter().zip(&state.devices) {
+            let share = device.sums(joints, r_b_n_dot, omega);
+            sums.energy = sums.energy + share.energy;
+            sums.linear = add(sums.linear, share.linear);
+            sums.angular_b = add(sums.angular_b, share.angular_b);
+        }
+        (bn, sums)
+    }
+
+    /// `c` and `c'`, along B axes.
+    fn centre<A: Attitude<T>>(&self, state: &State<N, T, A>) -> (Vec3<T>, Vec3<T>) {
+        let (mut moment, mut moment_prime) = (self.hub.first_moment, zeros());
+        for (device, joints) in self.devices.iter().zip(&state.devices) {
+            let (share, share_prime) = device.first_moment(joints);
+            moment = add(moment, share);
+            moment_prime = add(moment_prime, share_prime);
+        }
+        let per_mass = self.mass().recip();
+        (scale(per_mass, moment), scale(per_mass, moment_prime))
+    }
+}
+
+fn culprit_in_point<T: Scalar>(about: &About<T>) -> Option<Quantity> {
+    match about {
+        About::Point(point) if !finite(components(point)) => Some(Quantity::ReferencePoint),
+        _ => None,
+    }
+}
+
+fn refuse<T: Scalar>(culprit: Option<Quantity>) -> Result<(), SolveError<T>> {
+    match culprit {
+        Some(what) => Err(SolveError::NotFinite { what }),
+        None => Ok(()),
+    }
+}
+
+/// With every input finite, a result that is not has overflowed.
+fn checked<R, T: Scalar>(result: R, sound: bool) -> Result<R, SolveError<T>> {
+    if sound { Ok(result) } else { Err(SolveError::Overflow) }
+}

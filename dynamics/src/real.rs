@@ -1,0 +1,213 @@
+//! The two number traits: [`Real`] for the emitted kernels, [`Scalar`] for the solver around them.
+//!
+//! A kernel needs nothing but ring arithmetic and a reciprocal, so it can also run on lanes or dual
+//! numbers, which have no total order. Everything that compares, takes a root or a sine asks for
+//! [`Scalar`]. Both are implemented for `f64` and `f32`; nothing in this crate rounds through `f64`
+//! on the way to a result, so a wider type keeps its full accuracy.
+
+use core::fmt::Debug;
+use core::ops::{Add, Mul, Neg, Sub};
+
+/// What an emitted kernel does with a number.
+pub trait Real:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// `1 / self`.
+    #[must_use]
+    fn recip(self) -> Self;
+
+    /// `self * a + b`. For `f64` and `f32` the product is rounded before the sum, so the bits are
+    /// the same on every IEEE-754 target, with or without a fused instruction.
+    #[must_use]
+    fn mul_add(self, a: Self, b: Self) -> Self;
+
+    /// The constant `value` as a number of the same kind as `self`.
+    #[must_use]
+    fn like(self, value: f64) -> Self;
+}
+
+/// What the solver does with a number, on top of [`Real`].
+pub trait Scalar: Real + PartialOrd + PartialEq + Debug + Send + Sync + 'static {
+    /// Distance from 1 to the next larger number: `2^-52` for `f64`, `2^-23` for `f32`.
+    const EPSILON: Self;
+
+    /// The nearest number to `value`. The solver passes small exact constants and first guesses only.
+    #[must_use]
+    fn from_f64(value: f64) -> Self;
+
+    /// The nearest `f64`, for messages and first guesses.
+    #[must_use]
+    fn to_f64(self) -> f64;
+
+    /// Sine and cosine of an angle in radians, with the same bits on every target.
+    #[must_use]
+    fn sin_cos(self) -> (Self, Self);
+
+    /// Square root; NaN for a negative number.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// Whether the number is neither infinite nor NaN.
+    #[must_use]
+    fn is_finite(self) -> bool;
+
+    /// Magnitude. NaN stays NaN.
+    #[must_use]
+    fn abs(self) -> Self {
+        if self < zero() { -self } else { self }
+    }
+
+    /// The larger of two numbers; `self` if either is NaN.
+    #[must_use]
+    fn max(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+}
+
+impl Real for f64 {
+    #[inline]
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+
+    #[inline]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
+
+    #[inline]
+    fn like(self, value: f64) -> Self {
+        value
+    }
+}
+
+impl Scalar for f64 {
+    const EPSILON: Self = Self::EPSILON;
+
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self
+    }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        libm::sqrt(self)
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        Self::is_finite(self)
+    }
+}
+
+impl Real for f32 {
+    #[inline]
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+
+    #[inline]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked for")]
+    fn like(self, value: f64) -> Self {
+        value as Self
+    }
+}
+
+impl Scalar for f32 {
+    const EPSILON: Self = Self::EPSILON;
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked for")]
+    fn from_f64(value: f64) -> Self {
+        value as Self
+    }
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincosf(self)
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        libm::sqrtf(self)
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        Self::is_finite(self)
+    }
+}
+
+/// 0 as a `T`.
+pub(crate) fn zero<T: Scalar>() -> T {
+    T::from_f64(0.0)
+}
+
+/// 1 as a `T`.
+pub(crate) fn one<T: Scalar>() -> T {
+    T::from_f64(1.0)
+}
+
+/// 2 as a `T`.
+pub(crate) fn two<T: Scalar>() -> T {
+    T::from_f64(2.0)
+}
+
+/// 1/2 as a `T`.
+pub(crate) fn half<T: Scalar>() -> T {
+    T::from_f64(0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Real, Scalar};
+
+    #[test]
+    fn mul_add_rounds_the_product_first() {
+        // (1 + e)(1 - e) = 1 - e^2 rounds to 1; a fused operation would leave -e^2.
+        let e = f64::EPSILON;
+        assert_eq!(Real::mul_add(1.0 + e, 1.0 - e, -1.0), (1.0 + e) * (1.0 - e) - 1.0);
+        assert_eq!(Real::mul_add(1.0_f32 + f32::EPSILON, 1.0 - f32::EPSILON, -1.0), 0.0);
+    }
+
+    #[test]
+    fn epsilon_is_the_step_above_one() {
+        assert_eq!(<f64 as Scalar>::EPSILON, 2.0_f64.powi(-52));
+        assert_eq!(<f32 as Scalar>::EPSILON, 2.0_f32.powi(-23));
+    }
+
+    #[test]
+    fn provided_magnitude_and_maximum_agree_with_the_standard_ones() {
+        fn magnitude<T: Scalar>(x: T) -> T {
+            x.abs()
+        }
+        fn larger<T: Scalar>(a: T, b: T) -> T {
+            a.max(b)
+        }
+        assert_eq!(magnitude(-2.5), 2.5);
+        assert_eq!(magnitude(2.5_f32), 2.5);
+        assert!(magnitude(f64::NAN).is_nan());
+        assert_eq!(larger(-1.0, 3.0), 3.0);
+        assert_eq!(larger(3.0, f64::NAN), 3.0);
+    }
+}

@@ -1,0 +1,231 @@
+//! The hub's six equations, `M [r_b_n_ddot; omega_dot] = h`, by LDL^T without a square root.
+//!
+//! `M` is symmetric, in 3x3 blocks `vv`, `vw`, `ww`; all components along B axes. Taking three
+//! columns at a time is the same factorisation in the same order of operations as taking one, and
+//! leaves no index to go out of range.
+
+use crate::real::{Real, Scalar};
+use crate::symmetric::Symmetric;
+use crate::vec3::{Columns, Vec3, dot, sub};
+
+/// A pivot must exceed this many epsilons of its diagonal before the elimination.
+///
+/// Cancelling from the diagonal down to the pivot has then left at most some bits that are not
+/// rounding; a state that close to singular has no meaningful accelerations.
+const PIVOT_EPSILONS: f64 = 64.0;
+
+/// The symmetric system: row of `vw` = force, column = angular acceleration; `vw` by its columns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct System<T> {
+    pub(crate) m_vv: Symmetric<T>,
+    pub(crate) m_vw: Columns<T>,
+    pub(crate) m_ww: Symmetric<T>,
+    pub(crate) h_v: Vec3<T>,
+    pub(crate) h_w: Vec3<T>,
+}
+
+/// The solution of a [`System`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Solution<T> {
+    pub(crate) r_b_n_ddot: Vec3<T>,
+    pub(crate) omega_dot: Vec3<T>,
+}
+
+/// A pivot that is not above its bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SmallPivot<T> {
+    pub(crate) pivot: T,
+    pub(crate) bound: T,
+}
+
+/// Passes a pivot that exceeds 64 epsilons of its diagonal; NaN never does.
+#[inline]
+pub(crate) fn check_pivot<T: Scalar>(pivot: T, diagonal: T) -> Result<(), SmallPivot<T>> {
+    let bound = T::from_f64(PIVOT_EPSILONS) * T::EPSILON * diagonal;
+    if pivot > bound { Ok(()) } else { Err(SmallPivot { pivot, bound }) }
+}
+
+impl<T: Scalar> System<T> {
+    /// Solves the system.
+    pub(crate) fn solve(&self) -> Result<Solution<T>, SmallPivot<T>> {
+        let vv = Factors::of(&self.m_vv, diagonal(&self.m_vv))?;
+
+        // Rows four to six of L times D, and of L: w = L_vv^-1 M_vw, z = D_vv^-1 w.
+        let w = self.m_vw.map(|column| vv.forward(column));
+        let z = w.map(|column| vv.divide(column));
+        let [wx, wy, wz] = w;
+        let [zx, zy, zz] = z;
+        let schur = Symmetric {
+            xx: self.m_ww.xx - dot(wx, zx),
+            xy: self.m_ww.xy - dot(wx, zy),
+            xz: self.m_ww.xz - dot(wx, zz),
+            yy: self.m_ww.yy - dot(wy, zy),
+            yz: self.m_ww.yz - dot(wy, zz),
+            zz: self.m_ww.zz - dot(wz, zz),
+        };
+        let ww = Factors::of(&schur, diagonal(&self.m_ww))?;
+
+        let y_v = vv.forward(self.h_v);
+        let y_w = ww.forward(sub(self.h_w, [dot(zx, y_v), dot(zy, y_v), dot(zz, y_v)]));
+        let omega_dot = ww.backward(ww.divide(y_w));
+        let [x, y, z] = omega_dot;
+        let coupled = [
+            zx[0] * x + zy[0] * y + zz[0] * z,
+            zx[1] * x + zy[1] * y + zz[1] * z,
+            zx[2] * x + zy[2] * y + zz[2] * z,
+        ];
+        let r_b_n_ddot = vv.backward(sub(vv.divide(y_v), coupled));
+        Ok(Solution { r_b_n_ddot, omega_dot })
+    }
+}
+
+/// `L D L^T` of a symmetric 3x3 block: `L` below its unit diagonal, reciprocals of `D`.
+struct Factors<T> {
+    l_21: T,
+    l_31: T,
+    l_32: T,
+    reciprocals: Vec3<T>,
+}
+
+impl<T: Scalar> Factors<T> {
+    /// Factorises `a`; `diagonal` is the diagonal before any elimination.
+    fn of(a: &Symmetric<T>, diagonal: Vec3<T>) -> Result<Self, SmallPivot<T>> {
+        let d_1 = a.xx;
+        check_pivot(d_1, diagonal[0])?;
+        let r_1 = d_1.recip();
+        let (l_21, l_31) = (a.xy * r_1, a.xz * r_1);
+
+        let d_2 = a.yy - l_21 * a.xy;
+        check_pivot(d_2, diagonal[1])?;
+        let r_2 = d_2.recip();
+        let below = a.yz - l_31 * a.xy;
+        let l_32 = below * r_2;
+
+        let d_3 = a.zz - l_31 * a.xz - l_32 * below;
+        check_pivot(d_3, diagonal[2])?;
+        Ok(Self { l_21, l_31, l_32, reciprocals: [r_1, r_2, d_3.recip()] })
+    }
+}
+
+impl<T: Real> Factors<T> {
+    /// `L^-1 b`.
+    #[inline]
+    fn forward(&self, b: Vec3<T>) -> Vec3<T> {
+        let y_2 = b[1] - self.l_21 * b[0];
+        let y_3 = b[2] - self.l_31 * b[0] - self.l_32 * y_2;
+        [b[0], y_2, y_3]
+    }
+
+    /// `D^-1 b`.
+    #[inline]
+    fn divide(&self, b: Vec3<T>) -> Vec3<T> {
+        let [r_1, r_2, r_3] = self.reciprocals;
+        [b[0] * r_1, b[1] * r_2, b[2] * r_3]
+    }
+
+    /// `L^-T b`.
+    #[inline]
+    fn backward(&self, b: Vec3<T>) -> Vec3<T> {
+        let x_2 = b[1] - self.l_32 * b[2];
+        let x_1 = b[0] - self.l_21 * x_2 - self.l_31 * b[2];
+        [x_1, x_2, b[2]]
+    }
+}
+
+#[inline]
+fn diagonal<T: Real>(a: &Symmetric<T>) -> Vec3<T> {
+    [a.xx, a.yy, a.zz]
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix6, Vector6};
+
+    use super::*;
+
+    /// Backward error of a 6x6 solve in units of `|M| |x| + |h|`: some operations per element.
+    const BACKWARD: f64 = 20.0 * f64::EPSILON;
+
+    fn system(m: &Matrix6<f64>, h: &Vector6<f64>) -> System<f64> {
+        let block = |r: usize, c: usize| m.fixed_view::<3, 3>(r, c).into_owned();
+        let part = |r: usize| [h[r], h[r + 1], h[r + 2]];
+        System {
+            m_vv: Symmetric::part_of(&block(0, 0)),
+            m_vw: crate::vec3::columns(&block(0, 3)),
+            m_ww: Symmetric::part_of(&block(3, 3)),
+            h_v: part(0),
+            h_w: part(3),
+        }
+    }
+
+    fn solve(m: &Matrix6<f64>, h: &Vector6<f64>) -> Result<Vector6<f64>, SmallPivot<f64>> {
+        let Solution { r_b_n_ddot: v, omega_dot: w } = system(m, h).solve()?;
+        Ok(Vector6::new(v[0], v[1], v[2], w[0], w[1], w[2]))
+    }
+
+    /// Integers, unsymmetric on purpose; `G^T G + 1` is positive definite and exact.
+    fn definite() -> Matrix6<f64> {
+        let g =
+            Matrix6::from_fn(|r, c| f64::from(u8::try_from((3 * r + 5 * c * c + 1) % 7).unwrap()));
+        g.transpose() * g + Matrix6::identity()
+    }
+
+    #[test]
+    fn integer_system_gives_back_its_integer_solution() {
+        let x = Vector6::new(1.0, -2.0, 3.0, -4.0, 5.0, -6.0);
+        let m = definite();
+        let h = m * x;
+        let solution = solve(&m, &h).unwrap();
+        // Forward error: the backward error times a condition number of some thousands.
+        assert!((solution - x).amax() <= 1e-10, "{solution}");
+        let residual = (m * solution - h).abs();
+        let scale = m.abs() * solution.abs() + h.abs();
+        assert!(residual.iter().zip(&scale).all(|(r, s)| *r <= BACKWARD * s), "{residual}");
+    }
+
+    #[test]
+    fn diagonal_system_is_solved_exactly() {
+        let m = Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 4.0, 8.0, 16.0, 32.0));
+        let h = Vector6::new(3.0, 3.0, 3.0, 3.0, 3.0, 3.0);
+        let solution = solve(&m, &h).unwrap();
+        assert_eq!(solution, Vector6::new(3.0, 1.5, 0.75, 0.375, 0.1875, 0.09375));
+    }
+
+    #[test]
+    fn singular_system_is_refused_at_each_pivot() {
+        for zeroed in 0..6 {
+            let mut m = Matrix6::identity() * 2.0;
+            m[(zeroed, zeroed)] = 0.0;
+            assert_eq!(
+                solve(&m, &Vector6::zeros()),
+                Err(SmallPivot { pivot: 0.0, bound: 0.0 }),
+                "pivot {zeroed}"
+            );
+        }
+        // A point mass off B: no inertia about the line from B to it.
+        let r = nalgebra::Vector3::new(0.0, 0.0, 3.0);
+        let s = r.cross_matrix();
+        let mut m = Matrix6::identity();
+        m.fixed_view_mut::<3, 3>(0, 3).copy_from(&-s);
+        m.fixed_view_mut::<3, 3>(3, 0).copy_from(&s);
+        m.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-s * s));
+        assert!(solve(&m, &Vector6::zeros()).is_err());
+    }
+
+    #[test]
+    fn pivot_that_is_rounding_of_its_diagonal_is_refused() {
+        let bound = 64.0 * f64::EPSILON;
+        assert_eq!(check_pivot(bound, 1.0), Err(SmallPivot { pivot: bound, bound }));
+        assert_eq!(check_pivot(2.0 * bound, 1.0), Ok(()));
+        assert_eq!(check_pivot(1e-300, 1e-290), Ok(()));
+    }
+
+    #[test]
+    fn pivot_that_is_not_a_number_is_refused() {
+        assert!(check_pivot(f64::NAN, 1.0).is_err());
+        assert!(check_pivot(1.0, f64::NAN).is_err());
+        let mut m = Matrix6::identity();
+        m[(4, 4)] = f64::NAN;
+        assert!(solve(&m, &Vector6::zeros()).is_err());
+    }
+}

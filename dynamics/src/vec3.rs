@@ -1,0 +1,132 @@
+//! Three-component vectors and rotations as plain arrays: the arithmetic between API and kernels.
+//!
+//! nalgebra's types stand at the API's edge; inside, arrays over [`Real`] keep every sum in a fixed
+//! order and need no trait beyond the kernels' own.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::real::{Real, Scalar, zero};
+
+/// Components along one triad.
+pub(crate) type Vec3<T> = [T; 3];
+
+/// A matrix by its columns. For a rotation: the new axes in the old frame.
+pub(crate) type Columns<T> = [[T; 3]; 3];
+
+/// The components of a vector of the API.
+#[inline]
+pub(crate) fn components<T: Copy>(v: &Vector3<T>) -> Vec3<T> {
+    let [column] = v.data.0;
+    column
+}
+
+/// The columns of a matrix of the API.
+#[inline]
+pub(crate) fn columns<T: Copy>(m: &Matrix3<T>) -> Columns<T> {
+    m.data.0
+}
+
+/// A vector of the API from its components.
+#[inline]
+pub(crate) fn vector<T>([x, y, z]: Vec3<T>) -> Vector3<T> {
+    Vector3::new(x, y, z)
+}
+
+/// The zero vector.
+#[inline]
+pub(crate) fn zeros<T: Scalar>() -> Vec3<T> {
+    [zero(); 3]
+}
+
+/// `a + b`.
+#[inline]
+pub(crate) fn add<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// `a - b`.
+#[inline]
+pub(crate) fn sub<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `-a`.
+#[inline]
+pub(crate) fn neg<T: Real>(a: Vec3<T>) -> Vec3<T> {
+    [-a[0], -a[1], -a[2]]
+}
+
+/// `s a`.
+#[inline]
+pub(crate) fn scale<T: Real>(s: T, a: Vec3<T>) -> Vec3<T> {
+    [s * a[0], s * a[1], s * a[2]]
+}
+
+/// `a . b`.
+#[inline]
+pub(crate) fn dot<T: Real>(a: Vec3<T>, b: Vec3<T>) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// `a x b`.
+#[inline]
+pub(crate) fn cross<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// `m v`: components along the old frame of a vector given along the columns.
+#[inline]
+pub(crate) fn rotate<T: Real>(m: &Columns<T>, v: Vec3<T>) -> Vec3<T> {
+    let [x, y, z] = m;
+    [
+        x[0] * v[0] + y[0] * v[1] + z[0] * v[2],
+        x[1] * v[0] + y[1] * v[1] + z[1] * v[2],
+        x[2] * v[0] + y[2] * v[1] + z[2] * v[2],
+    ]
+}
+
+/// `m^T v`: components along the columns of a vector given along the old frame.
+#[inline]
+pub(crate) fn rotate_transposed<T: Real>(m: &Columns<T>, v: Vec3<T>) -> Vec3<T> {
+    [dot(m[0], v), dot(m[1], v), dot(m[2], v)]
+}
+
+/// `m t m^T` for a tensor by its columns.
+#[inline]
+pub(crate) fn rotate_tensor<T: Real>(m: &Columns<T>, t: &Columns<T>) -> Columns<T> {
+    // m t, column by column, then (m t) m^T: column j is (m t) applied to row j of m.
+    let mt = [rotate(m, t[0]), rotate(m, t[1]), rotate(m, t[2])];
+    [
+        rotate(&mt, [m[0][0], m[1][0], m[2][0]]),
+        rotate(&mt, [m[0][1], m[1][1], m[2][1]]),
+        rotate(&mt, [m[0][2], m[1][2], m[2][2]]),
+    ]
+}
+
+/// Whether all components are finite.
+#[inline]
+pub(crate) fn finite<T: Scalar>(v: Vec3<T>) -> bool {
+    v[0].is_finite() && v[1].is_finite() && v[2].is_finite()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cross_product_is_right_handed() {
+        assert_eq!(cross([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]);
+        assert_eq!(cross([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), [-3.0, 6.0, -3.0]);
+    }
+
+    #[test]
+    fn rotation_agrees_with_nalgebra() {
+        // A quarter turn about z followed by nothing else: exact numbers.
+        let m = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+        let v = Vector3::new(1.0, 2.0, 3.0);
+        assert_eq!(vector(rotate(&columns(&m), components(&v))), m * v);
+        assert_eq!(vector(rotate_transposed(&columns(&m), components(&v))), m.transpose() * v);
+        let t = Matrix3::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0);
+        assert_eq!(rotate_tensor(&columns(&m), &columns(&t)), columns(&(m * t * m.transpose())));
+    }
+}
