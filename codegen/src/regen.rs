@@ -9,7 +9,7 @@ use crate::graph::Graph;
 use crate::kinds::KINDS;
 use crate::normal::Ring;
 use crate::page::{Page, PageError, read};
-use crate::proof::{EmittedError, Row, against_derivation, against_pages, zero_traces};
+use crate::proof::{EmittedError, Prover, Row, against_pages, zero_traces};
 
 /// What a regeneration yields.
 #[derive(Clone, Debug)]
@@ -105,7 +105,7 @@ pub fn prove(pages: &[Page], files: &[EmittedFile]) -> Result<Vec<Row>, RegenErr
         rows.extend(zero_traces(&mut ring, &chain));
         let name = format!("/{}.rs", kind.name);
         if let Some(file) = files.iter().find(|file| file.path.ends_with(&name)) {
-            rows.extend(against_derivation(&chain, &file.text)?);
+            rows.extend(Prover::new(&chain).rows(&file.text)?);
         }
     }
     Ok(rows)

@@ -5,9 +5,10 @@
 //! L; each step is an identity that can be proven by itself, `new + g_x d g_y = old`.
 
 use super::Share;
-use super::chain::Chain;
+use super::chain::{Chain, Link};
 use crate::graph::Expr;
 use crate::kernel::Script;
+use crate::kinds;
 
 /// Suffixes of the six hub unknowns: acceleration of B, angular acceleration.
 pub const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
@@ -72,7 +73,8 @@ pub fn eliminate<'g>(
     let one = chain.graph.constant(1);
     let mut rows = rows(chain, share, script);
     let diagonals: Vec<_> = rows.iter().map(|row| row.diagonal.clone()).collect();
-    let mut made = Eliminated { pivots: Vec::new(), hub: Vec::new(), identities: Vec::new() };
+    let identities = right_sides(chain, share);
+    let mut made = Eliminated { pivots: Vec::new(), hub: Vec::new(), identities };
     let mut done = String::new();
     while let Some(row) = rows.pop() {
         let pivot = gains(&row, &rows, diagonals[rows.len()].clone(), script);
@@ -108,6 +110,19 @@ pub fn eliminate<'g>(
 
 fn gain_identity<'g>(gain: &Entry<'g>, pivot: Expr<'g>, before: Expr<'g>) -> Identity<'g> {
     Identity { name: gain.0.clone(), factor: pivot, addends: Vec::new(), before }
+}
+
+/// To be proven of the right sides: `tau + u_rest = u`.
+fn right_sides<'g>(chain: &Chain<'g>, share: &Share<'g>) -> Vec<Identity<'g>> {
+    let factor = chain.graph.constant(1);
+    let links = chain.links.iter().zip(chain.kind.links).zip(&share.bias_joint);
+    let identity = |((link, data), rest): ((&Link<'g>, &kinds::Link), &Expr<'g>)| Identity {
+        name: format!("tau_{}", data.joint.tag),
+        factor,
+        addends: vec![*rest],
+        before: link.torque,
+    };
+    links.map(identity).collect()
 }
 
 /// The joints' rows, with right sides `u - u_rest`.

@@ -61,11 +61,12 @@ pub struct Polynomial {
 impl Polynomial {
     /// The constant `k`.
     pub(super) fn constant(k: Rational) -> Self {
-        Self::term(Monomial::default(), k)
+        Self::single(Monomial::default(), k)
     }
 
-    /// One term.
-    pub(super) fn term(monomial: Monomial, coefficient: Rational) -> Self {
+    /// The polynomial of one term.
+    #[must_use]
+    pub fn single(monomial: Monomial, coefficient: Rational) -> Self {
         let mut made = Self::default();
         made.add(monomial, coefficient);
         made

@@ -1,6 +1,6 @@
 //! Expression to polynomial: the variables, the reductions, and a memory of what was expanded.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fmt;
 use std::rc::Rc;
 
@@ -72,13 +72,23 @@ impl<'g> Ring<'g> {
     /// # Errors
     /// When `e` holds the reciprocal of a compound expression, or too many variables.
     pub fn normal(&mut self, e: Expr<'g>) -> Result<Rc<Polynomial>, NormalError> {
-        for id in self.graph.reachable([e.id()]) {
-            if !self.expanded.contains_key(&id) {
-                let polynomial = Rc::new(self.expand(id)?);
-                self.expanded.insert(id, polynomial);
-            }
+        for id in self.unexpanded(e.id()) {
+            let polynomial = Rc::new(self.expand(id)?);
+            self.expanded.insert(id, polynomial);
         }
         Ok(self.expanded[&e.id()].clone())
+    }
+
+    /// What `root` is made of and has not been expanded yet, operands before their users.
+    fn unexpanded(&self, root: NodeId) -> BTreeSet<NodeId> {
+        let mut found = BTreeSet::new();
+        let mut pending = vec![root];
+        while let Some(id) = pending.pop() {
+            if !self.expanded.contains_key(&id) && found.insert(id) {
+                pending.extend(self.graph.node(id).operands());
+            }
+        }
+        found
     }
 
     fn expand(&mut self, id: NodeId) -> Result<Polynomial, NormalError> {
@@ -87,7 +97,7 @@ impl<'g> Ring<'g> {
             Node::Constant(k) => Polynomial::constant(k),
             Node::Symbol(symbol) => {
                 let index = self.variable(Variable::Symbol(symbol))?;
-                Polynomial::term(Monomial::variable(index), one)
+                Polynomial::single(Monomial::variable(index), one)
             }
             Node::Sum(a, b) => self.expanded[&a].plus(one, &self.expanded[&b]),
             Node::Neg(a) => Polynomial::default().plus(-one, &self.expanded[&a]),
@@ -97,7 +107,7 @@ impl<'g> Ring<'g> {
                     return Err(NormalError::Reciprocal);
                 };
                 let index = self.variable(Variable::Recip(symbol))?;
-                Polynomial::term(Monomial::variable(index), one)
+                Polynomial::single(Monomial::variable(index), one)
             }
         })
     }

@@ -60,37 +60,76 @@ struct Constants<'g> {
     cut: HashMap<String, Value<'g>>,
 }
 
-/// One row per claim, per step of the elimination and per returned record.
-///
-/// # Errors
-/// When the text does not parse or holds something that is no kernel.
-pub fn against_derivation(chain: &Chain<'_>, text: &str) -> Result<Vec<Row>, EmittedError> {
-    let file = syn::parse_file(text).map_err(|error| EmittedError::Syntax(error.to_string()))?;
-    let kernels = kernels(chain);
-    let cuts: HashSet<_> = kernels.iter().flat_map(cut_names).collect();
-    let prepare = read_back(chain, &file, "prepare", &cuts, &Constants::default())?;
-    let mut constants = Constants::default();
-    for (name, expr) in &prepare.result {
-        let wrong = |error| EmittedError::Statement("prepare".to_owned(), error);
-        constants
-            .expanded
-            .insert(name.clone(), prepare.expanded.reader.value(expr).map_err(wrong)?);
-        constants.cut.insert(name.clone(), prepare.cut.reader.value(expr).map_err(wrong)?);
+/// Proves emitted files of one kind. Keeps what it has expanded, so that a second text which
+/// differs in one place costs next to nothing.
+pub struct Prover<'a, 'g> {
+    chain: &'a Chain<'g>,
+    kernels: Vec<Kernel<'g>>,
+    /// Two rings for each function, which keeps the number of variables in each small.
+    rings: Vec<[Ring<'g>; 2]>,
+}
+
+impl<'a, 'g> Prover<'a, 'g> {
+    /// A prover for the kind of `chain`.
+    #[must_use]
+    pub fn new(chain: &'a Chain<'g>) -> Self {
+        let kernels = kernels(chain);
+        let rings = kernels.iter().map(|_| [Ring::new(chain.graph), Ring::new(chain.graph)]);
+        Self { chain, rings: rings.collect(), kernels }
     }
-    let mut rows = vec![prepared_row(chain, &prepare, &constants)];
-    for kernel in &kernels {
-        // A ring of its own for each function keeps the number of variables small.
-        let mut ring = Ring::new(chain.graph);
-        let mut back = read_back(chain, &file, &kernel.name, &cut_names(kernel), &constants)?;
+
+    /// One row per claim, per step of the elimination and per returned record.
+    ///
+    /// # Errors
+    /// When the text does not parse or holds something that is no kernel.
+    pub fn rows(&mut self, text: &str) -> Result<Vec<Row>, EmittedError> {
+        let file =
+            syn::parse_file(text).map_err(|error| EmittedError::Syntax(error.to_string()))?;
+        let mut rows = self.function(&file, "prepare")?;
+        let names: Vec<_> = self.kernels.iter().map(|kernel| kernel.name.clone()).collect();
+        for name in names {
+            rows.extend(self.function(&file, &name)?);
+        }
+        Ok(rows)
+    }
+
+    /// The rows of one function of a file.
+    ///
+    /// # Errors
+    /// When the file has no such function or it is no kernel.
+    pub fn function(&mut self, file: &syn::File, name: &str) -> Result<Vec<Row>, EmittedError> {
+        let (prepare, constants) = self.prepare(file)?;
+        let missing = || EmittedError::NoFunction(name.to_owned());
+        if name == "prepare" {
+            return Ok(vec![prepared_row(self.chain, &prepare, &constants)]);
+        }
+        let index = self.kernels.iter().position(|k| k.name == name).ok_or_else(missing)?;
+        let kernel = &self.kernels[index];
+        let [expanded, cut] = &mut self.rings[index];
+        let mut back = read_back(self.chain, file, name, &cut_names(kernel), &constants)?;
         for (name, value) in &prepare.expanded.values {
             back.expanded.values.entry(name.clone()).or_insert(*value);
         }
-        rows.extend(claims(&mut ring, kernel, &back));
-        let mut ring = Ring::new(chain.graph);
-        rows.extend(identities(&mut ring, kernel, &back));
-        rows.push(result(&mut ring, kernel, &back));
+        let mut rows = claims(expanded, kernel, &back);
+        rows.extend(identities(cut, kernel, &back));
+        rows.push(result(cut, kernel, &back));
+        Ok(rows)
     }
-    Ok(rows)
+
+    fn prepare(&self, file: &syn::File) -> Result<(ReadBack<'g>, Constants<'g>), EmittedError> {
+        let cuts: HashSet<_> = self.kernels.iter().flat_map(cut_names).collect();
+        let prepare = read_back(self.chain, file, "prepare", &cuts, &Constants::default())?;
+        let mut constants = Constants::default();
+        for (name, expr) in &prepare.result {
+            let value = |names: &Names<'g>| {
+                let wrong = |error| EmittedError::Statement("prepare".to_owned(), error);
+                names.reader.value(expr).map_err(wrong)
+            };
+            constants.expanded.insert(name.clone(), value(&prepare.expanded)?);
+            constants.cut.insert(name.clone(), value(&prepare.cut)?);
+        }
+        Ok((prepare, constants))
+    }
 }
 
 fn cut_names(kernel: &Kernel<'_>) -> HashSet<String> {

@@ -4,6 +4,6 @@ mod emitted;
 mod pages;
 mod row;
 
-pub use emitted::{EmittedError, against_derivation};
+pub use emitted::{EmittedError, Prover};
 pub use pages::{against_pages, zero_traces};
 pub use row::{Row, Verdict};

@@ -62,6 +62,9 @@ impl Row {
             match normal {
                 Ok((checked, reference)) => {
                     row.terms += reference.len();
+                    if checked == reference {
+                        continue;
+                    }
                     let difference = Difference::between(ring, &checked, &reference);
                     differing.extend(difference.terms.into_iter().map(|t| (label.clone(), t)));
                 }
