@@ -1,0 +1,187 @@
+//! What a user sees of faulty states and torques: each gives a typed error that names it, with
+//! value, bound and remedy; unusual but valid ones give a result.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::{
+    About, Hub, Joint, JointField, Quantity, Quaternion, SolveError, Spacecraft, State, Torques,
+};
+use precess_tests::blocks::{errors, worst};
+use precess_tests::case::Case;
+use precess_tests::double_double::DoubleDouble as Wide;
+use precess_tests::table1::{self, pair};
+
+/// A2, worst: what accelerations owe to a reference in higher precision.
+const ACCELERATIONS_WORST: f64 = 1e-11;
+
+/// A way to put a number into one input.
+type Spoil = fn(&mut Case<2>, f64);
+
+fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<N> {
+    Spacecraft::new(&case.hub, &case.devices).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[track_caller]
+fn unsolved(spoil: impl FnOnce(&mut Case<2>)) -> SolveError {
+    let mut case = pair();
+    let spacecraft = accepted(&case);
+    assert!(spacecraft.accelerations(&case.state, &case.torques).is_ok());
+    spoil(&mut case);
+    match spacecraft.accelerations(&case.state, &case.torques) {
+        Ok(found) => panic!("the state was solved: {found:?}"),
+        Err(error) => error,
+    }
+}
+
+/// A device whose gimbals weigh nothing, in a given inner gimbal angle.
+fn massless_gimbals(gamma_i: f64) -> Case<2> {
+    let mut case = pair();
+    let device = &mut case.devices[1];
+    (device.m_go, device.m_gi) = (0.0, 0.0);
+    (device.i_go_goc, device.i_gi_gic) = (Matrix3::zeros(), Matrix3::zeros());
+    (device.d, device.i_w_wc) = (0.0, Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1)));
+    case.state.devices[1].gamma_i = gamma_i;
+    case
+}
+
+/// At 90 degrees the outer gimbal turns about the wheel's own axis, and nothing resists it.
+#[test]
+fn massless_gimbals_at_ninety_degrees_are_a_typed_error() {
+    for gamma_i in [FRAC_PI_2, -FRAC_PI_2, 3.0 * FRAC_PI_2] {
+        let case = massless_gimbals(gamma_i);
+        let error = match accepted(&case).accelerations(&case.state, &case.torques) {
+            Ok(found) => panic!("gamma_i = {gamma_i}: {found:?}"),
+            Err(error) => error,
+        };
+        let SolveError::Singular { device, joint, pivot, bound } = error else {
+            panic!("{error}");
+        };
+        assert_eq!((device, joint), (Some(1), Some(Joint::OuterGimbal)));
+        assert!(pivot.abs() <= bound && bound < 1e-13, "{pivot}, {bound}");
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "pivot {pivot:?} of device 1 (outer gimbal) is not above {bound:?}; massless \
+                 gimbals are singular at gamma_i = 90 deg, check its inertias"
+            ),
+        );
+    }
+}
+
+#[test]
+fn massless_gimbals_elsewhere_are_solved() {
+    for gamma_i in [0.0, 0.5, -1.0, 1.5] {
+        let case = massless_gimbals(gamma_i);
+        let found = accepted(&case)
+            .accelerations(&case.state, &case.torques)
+            .unwrap_or_else(|error| panic!("gamma_i = {gamma_i}: {error}"));
+        let (error, block) = worst(errors(&found, &case.converted::<Wide>().reference()));
+        assert!(error <= ACCELERATIONS_WORST, "gamma_i = {gamma_i}: {error:e} in {block}");
+    }
+}
+
+#[test]
+fn hub_without_inertia_and_devices_is_a_typed_error() {
+    let hub = Hub { i_b_bc: Matrix3::zeros(), ..table1::hub() };
+    let spacecraft = Spacecraft::<0>::new(&hub, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let state: State<0> = State::at_rest();
+    let error = spacecraft.accelerations(&state, &Torques::none()).unwrap_err();
+    let SolveError::Singular { device: None, joint: None, pivot, bound } = error else {
+        panic!("{error}");
+    };
+    assert!(pivot <= bound, "{pivot}, {bound}");
+    assert!(error.to_string().ends_with("check the hub's mass and inertia"), "{error}");
+}
+
+/// The sine of a large angle is as good as the angle: nothing is lost after 160,000 turns.
+#[test]
+fn angles_of_a_million_radians_are_solved() {
+    let mut case = pair();
+    for (joints, far) in case.state.devices.iter_mut().zip([1e6, -1e6]) {
+        (joints.gamma_o, joints.gamma_i, joints.theta) = (far, 0.7 * far, -far);
+    }
+    let spacecraft = accepted(&case);
+    let found = spacecraft
+        .accelerations(&case.state, &case.torques)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let (error, block) = worst(errors(&found, &case.converted::<Wide>().reference()));
+    assert!(error <= ACCELERATIONS_WORST, "{error:e} in {block}");
+}
+
+#[test]
+fn any_state_that_is_not_finite_is_named() {
+    let joint = |field| Quantity::Joint { device: 1, field };
+    let motor = |joint| Quantity::Motor { device: 1, joint };
+    let spoils: [(Spoil, Quantity); 15] = [
+        (|c, x| c.state.r_b_n.x = x, Quantity::Position),
+        (|c, x| c.state.r_b_n_dot.y = x, Quantity::Velocity),
+        (|c, x| c.state.attitude.q2 = x, Quantity::Attitude),
+        (|c, x| c.state.omega.z = x, Quantity::BodyRate),
+        (|c, x| c.state.devices[1].gamma_o = x, joint(JointField::GammaO)),
+        (|c, x| c.state.devices[1].gamma_i = x, joint(JointField::GammaI)),
+        (|c, x| c.state.devices[1].theta = x, joint(JointField::Theta)),
+        (|c, x| c.state.devices[1].gamma_o_dot = x, joint(JointField::GammaODot)),
+        (|c, x| c.state.devices[1].gamma_i_dot = x, joint(JointField::GammaIDot)),
+        (|c, x| c.state.devices[1].spin = x, joint(JointField::Spin)),
+        (|c, x| c.torques.force.x = x, Quantity::Force),
+        (|c, x| c.torques.torque_b.y = x, Quantity::TorqueB),
+        (|c, x| c.torques.motors[1].u_o = x, motor(Joint::OuterGimbal)),
+        (|c, x| c.torques.motors[1].u_i = x, motor(Joint::InnerGimbal)),
+        (|c, x| c.torques.motors[1].u_w = x, motor(Joint::Wheel)),
+    ];
+    for (spoil, what) in spoils {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let error = unsolved(|case| spoil(case, bad));
+            assert_eq!(error, SolveError::NotFinite { what }, "{bad}");
+        }
+    }
+    assert_eq!(
+        unsolved(|case| case.state.devices[1].theta = f64::NAN).to_string(),
+        "theta of device 1 is not finite; give finite numbers in SI units",
+    );
+    assert_eq!(
+        unsolved(|case| case.torques.motors[1].u_w = f64::INFINITY).to_string(),
+        "motor torque of device 1 (wheel) is not finite; give finite numbers in SI units",
+    );
+}
+
+#[test]
+fn quaternion_of_length_zero_is_named() {
+    let zero = Quaternion { q0: 0.0, q1: 0.0, q2: 0.0, q3: 0.0 };
+    let error = unsolved(|case| case.state.attitude = zero);
+    assert_eq!(
+        error.to_string(),
+        "attitude is not finite, or a quaternion of length 0; give finite numbers"
+    );
+}
+
+#[test]
+fn result_that_overflows_is_a_typed_error() {
+    let error = unsolved(|case| case.state.devices[1].spin = 1e200);
+    assert_eq!(error, SolveError::Overflow);
+    assert_eq!(
+        error.to_string(),
+        "the result is not finite although every input is; check the units of large or tiny inputs",
+    );
+}
+
+/// Stepping, energy and momentum name the same culprit as the accelerations do.
+#[test]
+fn nan_leaves_no_public_function_unnoticed() {
+    let mut case = pair();
+    let spacecraft = accepted(&case);
+    case.state.omega.x = f64::NAN;
+    let expected = SolveError::NotFinite { what: Quantity::BodyRate };
+    assert_eq!(spacecraft.step(&case.state, &case.torques, 0.01), Err(expected));
+    assert_eq!(spacecraft.energy(&case.state), Err(expected));
+    assert_eq!(spacecraft.momentum(&case.state, About::CentreOfMass), Err(expected));
+    assert_eq!(spacecraft.centre_of_mass(&case.state).map(|_| ()), Err(expected));
+
+    let case = pair();
+    let expected = SolveError::NotFinite { what: Quantity::TimeStep };
+    assert_eq!(spacecraft.step(&case.state, &case.torques, f64::NAN), Err(expected));
+    let expected = SolveError::NotFinite { what: Quantity::ReferencePoint };
+    let about = About::Point(Vector3::new(0.0, f64::INFINITY, 0.0));
+    assert_eq!(spacecraft.momentum(&case.state, about), Err(expected));
+}

@@ -1,0 +1,270 @@
+//! What must not change the answer: the order of devices, whole turns of a joint, the inertial
+//! frame, how a device is split; and the symmetry of the mass matrix.
+//!
+//! Run with `--nocapture` to see the figures.
+
+use nalgebra::Vector3;
+use precess_dynamics::{
+    About, Accelerations, Dgvscmg, MotorTorques, Quaternion, Real, Scalar, Spacecraft, State,
+    Torques,
+};
+use precess_tests::blocks::{Figures, errors, worst};
+use precess_tests::case::Case;
+use precess_tests::double_double::DoubleDouble as Wide;
+use precess_tests::newton_euler::to_list;
+use precess_tests::newton_euler::vector::Vector;
+use precess_tests::random::{Sample, Visitor, visit};
+
+/// Spacecraft tried for each claim.
+const SPACECRAFT: u64 = 180;
+
+/// A2, worst: two evaluations of the same physics, each within it of the truth.
+const ACCELERATIONS_WORST: f64 = 1e-11;
+
+/// A3: the same in double-double.
+const ROUTES_IN_DOUBLE_DOUBLE: f64 = 1e-25;
+
+/// A4: the same physics, other rounding (split lists).
+const LIMITS: f64 = 1e-12;
+
+fn solved<const N: usize, T: Scalar>(case: &Case<N, T>) -> Accelerations<N, T> {
+    let spacecraft = Spacecraft::new(&case.hub, &case.devices);
+    spacecraft
+        .unwrap_or_else(|error| panic!("N = {N}: {error}"))
+        .accelerations(&case.state, &case.torques)
+        .unwrap_or_else(|error| panic!("N = {N}: {error}"))
+}
+
+/// A claim about one spacecraft, measured as an error against a bound.
+struct Claim<F> {
+    error: F,
+    bound: f64,
+    figures: Figures,
+}
+
+/// The error of a claim on one spacecraft.
+trait Measure {
+    fn measure<const N: usize>(&self, sample: &Sample<N>) -> f64;
+}
+
+impl<F: Measure> Visitor for Claim<F> {
+    fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
+        let error = self.error.measure(sample);
+        self.figures.add(error);
+        let bound = self.bound;
+        assert!(error <= bound, "{error:e} is above {bound:e} (seed {:#x}, N = {N})", sample.seed);
+    }
+}
+
+fn check(name: &str, bound: f64, error: impl Measure) {
+    let mut claim = Claim { error, bound, figures: Figures::default() };
+    visit(SPACECRAFT, &mut claim);
+    let Claim { figures, .. } = claim;
+    println!("{name}: worst {:.2e}, median {:.2e}", figures.worst(), figures.median());
+}
+
+/// The inverse mass matrix, column by column: the accelerations of a spacecraft at rest under one
+/// unit force or torque at a time. Largest asymmetry, in units of the geometric mean of the
+/// diagonal entries.
+fn asymmetry<const N: usize, T: Scalar>(mut case: Case<N, T>) -> f64 {
+    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+    case.state.omega = Vector3::from_element(zero);
+    for joints in &mut case.state.devices {
+        (joints.gamma_o_dot, joints.gamma_i_dot, joints.spin) = (zero, zero, zero);
+    }
+    let columns: Vec<_> = (0..6 + 3 * N)
+        .map(|index| {
+            let mut case = case;
+            let motor = MotorTorques { u_o: zero, u_i: zero, u_w: zero };
+            case.torques = Torques {
+                force: Vector3::from_element(zero),
+                torque_b: Vector3::from_element(zero),
+                motors: [motor; N],
+            };
+            match index {
+                0..3 => case.torques.force[index] = one,
+                3..6 => case.torques.torque_b[index - 3] = one,
+                _ => {
+                    let motor = &mut case.torques.motors[(index - 6) / 3];
+                    *[&mut motor.u_o, &mut motor.u_i, &mut motor.u_w][index % 3] = one;
+                }
+            }
+            to_list(&solved(&case))
+        })
+        .collect();
+    let mut worst = 0.0_f64;
+    for (i, column) in columns.iter().enumerate() {
+        for (k, entry) in column.iter().enumerate() {
+            let unit = (columns[i][i] * columns[k][k]).sqrt();
+            worst = worst.max(((*entry - columns[k][i]).abs() * unit.recip()).to_f64());
+        }
+    }
+    worst
+}
+
+#[test]
+fn inverse_mass_matrix_of_the_solver_is_symmetric() {
+    struct InDouble;
+    impl Measure for InDouble {
+        fn measure<const N: usize>(&self, sample: &Sample<N>) -> f64 {
+            asymmetry(sample.case::<f64>())
+        }
+    }
+    struct InDoubleDouble;
+    impl Measure for InDoubleDouble {
+        fn measure<const N: usize>(&self, sample: &Sample<N>) -> f64 {
+            asymmetry(sample.case::<Wide>())
+        }
+    }
+    check("symmetry", ACCELERATIONS_WORST, InDouble);
+    check("symmetry, double-double", ROUTES_IN_DOUBLE_DOUBLE, InDoubleDouble);
+}
+
+#[test]
+fn order_of_devices_changes_nothing() {
+    struct Reversed;
+    impl Measure for Reversed {
+        fn measure<const N: usize>(&self, sample: &Sample<N>) -> f64 {
+            let mut case = sample.case::<f64>();
+            let expected = solved(&case);
+            case.devices.reverse();
+            case.state.devices.reverse();
+            case.torques.motors.reverse();
+            let mut found = solved(&case);
+            found.devices.reverse();
+            worst(errors(&found, &expected)).0
+        }
+    }
+    check("order of devices", ACCELERATIONS_WORST, Reversed);
+}
+
+#[test]
+fn whole_turns_of_any_joint_change_nothing() {
+    struct Wrapped;
+    impl Measure for Wrapped {
+        fn measure<const N: usize>(&self, sample: &Sample<N>) -> f64 {
+            let mut case = sample.case::<f64>();
+            for joints in &mut case.state.devices {
+                joints.gamma_o += 100.0;
+                joints.gamma_i -= 100.0;
+            }
+            let expected = solved(&case);
+            case.state = case.state.wrapped();
+            for joints in &case.state.devices {
+                for angle in [joints.gamma_o, joints.gamma_i, joints.theta] {
+                    assert!(angle.abs() <= std::f64::consts::PI, "{angle}");
+                }
+            }
+            worst(errors(&solved(&case), &expected)).0
+        }
+    }
+    check("whole turns", ACCELERATIONS_WORST, Wrapped);
+}
+
+/// Where the spacecraft is, how fast B moves and how it is turned does not enter: the same bits.
+#[test]
+fn inertial_frame_changes_nothing() {
+    struct Elsewhere;
+    impl Measure for Elsewhere {
+        fn measure<const N: usize>(&self, sample: &Sample<N>) -> f64 {
+            let case = sample.case::<f64>();
+            let mut elsewhere = case;
+            elsewhere.state.r_b_n = Vector3::zeros();
+            elsewhere.state.r_b_n_dot = Vector3::new(-3.0, 2.0, 7.0e3);
+            elsewhere.state.attitude = Quaternion { q0: 0.6, q1: 0.0, q2: -0.8, q3: 0.0 };
+            if solved(&elsewhere) == solved(&case) { 0.0 } else { f64::INFINITY }
+        }
+    }
+    check("inertial frame", 0.0, Elsewhere);
+}
+
+/// A device and its half: every mass, inertia and torque halved.
+fn halved(device: &Dgvscmg, motor: &MotorTorques) -> (Dgvscmg, MotorTorques) {
+    let device = Dgvscmg {
+        m_go: device.m_go / 2.0,
+        i_go_goc: device.i_go_goc / 2.0,
+        m_gi: device.m_gi / 2.0,
+        i_gi_gic: device.i_gi_gic / 2.0,
+        m_w: device.m_w / 2.0,
+        i_w_wc: device.i_w_wc / 2.0,
+        ..*device
+    };
+    let motor = MotorTorques { u_o: motor.u_o / 2.0, u_i: motor.u_i / 2.0, u_w: motor.u_w / 2.0 };
+    (device, motor)
+}
+
+/// Four devices split in eight halves that stay together: the number of devices is a loop bound.
+#[test]
+fn device_and_its_two_halves_move_alike() {
+    let mut figures = Figures::default();
+    for seed in 0..SPACECRAFT {
+        let whole = Sample::<4>::new(seed).case::<f64>();
+        let half: [_; 4] =
+            core::array::from_fn(|j| halved(&whole.devices[j], &whole.torques.motors[j]));
+        let State { r_b_n, r_b_n_dot, attitude, omega, devices } = whole.state;
+        let split: Case<8> = Case {
+            hub: whole.hub,
+            devices: core::array::from_fn(|j| half[j / 2].0),
+            state: State {
+                r_b_n,
+                r_b_n_dot,
+                attitude,
+                omega,
+                devices: core::array::from_fn(|j| devices[j / 2]),
+            },
+            torques: Torques {
+                force: whole.torques.force,
+                torque_b: whole.torques.torque_b,
+                motors: core::array::from_fn(|j| half[j / 2].1),
+            },
+        };
+        let (expected, found) = (solved(&whole), solved(&split));
+        for parity in 0..2 {
+            let found = Accelerations {
+                r_b_n_ddot: found.r_b_n_ddot,
+                omega_dot: found.omega_dot,
+                devices: core::array::from_fn::<_, 4, _>(|j| found.devices[2 * j + parity]),
+            };
+            let (error, block) = worst(errors(&found, &expected));
+            figures.add(error);
+            assert!(error <= LIMITS, "{error:e} in {block} is above {LIMITS:e} (seed {seed})");
+        }
+    }
+    println!("A4, halves: worst {:.2e}, median {:.2e}", figures.worst(), figures.median());
+}
+
+#[test]
+fn energy_momentum_and_centre_of_mass_are_those_of_the_reference() {
+    struct Totals;
+    impl Measure for Totals {
+        fn measure<const N: usize>(&self, sample: &Sample<N>) -> f64 {
+            let case = sample.case::<Wide>();
+            let spacecraft = Spacecraft::new(&case.hub, &case.devices).expect("valid parameters");
+            let snapshot = case.snapshot();
+            let momenta = snapshot.momenta();
+            let (mass, centre) = snapshot.centre_of_mass();
+
+            let energy = spacecraft.energy(&case.state).expect("finite state");
+            let found =
+                spacecraft.momentum(&case.state, About::InertialOrigin).expect("finite state");
+            let c = spacecraft.centre_of_mass(&case.state).expect("finite state");
+            let one = Wide::from_f64(1.0);
+            [
+                ((energy - snapshot.energy()).abs(), energy),
+                (distance(&found.linear, momenta.linear), momenta.linear_magnitudes),
+                (distance(&found.angular, momenta.angular), momenta.angular_magnitudes),
+                (distance(&c.c, centre.r), centre.r.norm()),
+                (distance(&c.c_prime, centre.r_prime), centre.r_prime.norm().max(one)),
+                ((spacecraft.mass() - mass).abs(), mass),
+            ]
+            .into_iter()
+            .map(|(error, unit)| (error * unit.recip()).to_f64())
+            .fold(0.0, f64::max)
+        }
+    }
+    check("totals", ROUTES_IN_DOUBLE_DOUBLE, Totals);
+}
+
+fn distance(a: &Vector3<Wide>, b: Vector<Wide>) -> Wide {
+    (Vector::from(a) - b).norm()
+}
