@@ -5,9 +5,9 @@
 
 use super::chain::{Chain, Link};
 use super::motion::{Motion, Observer, motions};
+use super::script::{Script, pairs, sextuple, triple};
 use super::{Momenta, Share};
 use crate::graph::{Expr, Graph, Stage};
-use crate::kernel::{Script, pairs, sextuple, triple};
 use crate::kinds;
 use crate::space::{Frame, Own, Symmetric, Vector};
 

@@ -6,8 +6,8 @@
 
 use super::Share;
 use super::chain::{Chain, Link};
+use super::script::Script;
 use crate::graph::Expr;
-use crate::kernel::Script;
 use crate::kinds;
 
 /// Suffixes of the six hub unknowns: acceleration of B, angular acceleration.

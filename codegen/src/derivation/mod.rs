@@ -6,6 +6,7 @@
 //! - [`by_body`]: mass matrix and bias as sums over bodies, by plain differentiation in B: what
 //!   the rest is held against;
 //! - [`composite`]: the same, inwards from the tip in local frames: what is emitted;
+//! - [`script`]: the named steps the walks leave behind;
 //! - [`elimination`]: the joints eliminated into the hub's six equations, tip first.
 
 pub mod by_body;
@@ -15,9 +16,11 @@ pub mod elimination;
 pub mod motion;
 pub mod placed;
 pub mod quantities;
+pub mod script;
+
+use script::{pairs, sextuple, triple};
 
 use crate::graph::Expr;
-use crate::kernel::{pairs, sextuple, triple};
 use crate::kinds::Kind;
 use crate::space::{Hub, Symmetric, Vector};
 

@@ -6,8 +6,8 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::render::{Binding, Rendered};
+use crate::derivation::script::{Section, Statement};
 use crate::graph::{Expr, Graph, Node, NodeId, Rational};
-use crate::kernel::{Section, Statement};
 
 /// A statement with its indentation stays within this width, at which neither formatter breaks it.
 const WIDTH: usize = 89;
@@ -312,14 +312,10 @@ impl<'a, 'g> Writer<'a, 'g> {
     ) -> Rendered {
         *(if kind == Binding::Sum { &mut self.counts.add } else { &mut self.counts.mul }) += 1;
         let (mut left, mut right) = (self.operand(a), self.operand(b));
-        if join(&left, &right).width > self.room {
-            let (wide, id) =
-                if left.width >= right.width { (&mut left, a) } else { (&mut right, b) };
-            *wide = self.bind_rendered(id, None, wide);
-        }
-        if join(&left, &right).width > self.room {
-            let (wide, id) =
-                if left.width >= right.width { (&mut left, a) } else { (&mut right, b) };
+        while join(&left, &right).width > self.room {
+            let sides = [(&mut left, a), (&mut right, b)].into_iter();
+            let long = sides.filter(|(side, _)| side.binding != Binding::Atom);
+            let Some((wide, id)) = long.max_by_key(|(side, _)| side.width) else { break };
             *wide = self.bind_rendered(id, None, wide);
         }
         join(&left, &right)

@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use crate::derivation::script::{Section, Statement};
 use crate::graph::{Expr, Graph, Node, NodeId, Stage};
-use crate::kernel::{Field, Kernel, Record, Section, Source, Statement};
+use crate::kernel::{Field, Kernel, Record, Source};
 
 /// The constants of a kind: fields of `Prepared` and the statements that compute them.
 pub(super) struct Prepared<'g> {

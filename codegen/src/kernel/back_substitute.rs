@@ -1,10 +1,10 @@
 //! The kernel `back_substitute`: joint accelerations from those of the hub.
 
-use super::{Kernel, Script, records};
+use super::{Kernel, Record, records};
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::{Eliminated, HUB, Identity};
+use crate::derivation::script::Script;
 use crate::graph::{Expr, Stage};
-use crate::kernel::Record;
 
 /// The kernel, with one identity per row.
 #[must_use]

@@ -1,9 +1,10 @@
 //! The kernel `eliminate`: the hot path.
 
-use super::{Claim, Kernel, Record, Script, pairs, records, sextuple, triple};
+use super::{Claim, Kernel, Record, records};
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::{Eliminated, HUB, eliminate};
 use crate::derivation::motion::Observer;
+use crate::derivation::script::{Script, pairs, sextuple, triple};
 use crate::derivation::{Named, Share, by_body, composite};
 use crate::space::{Hub, Symmetric, Vector};
 

@@ -4,11 +4,12 @@
 //! velocity and inertia along the body's own. Second derivatives are returned as what the
 //! second-order states multiply and the remainder.
 
-use super::{Claim, Kernel, Record, Script, pairs, records, sextuple, triple};
+use super::{Claim, Kernel, Record, records};
 use crate::derivation::chain::Chain;
 use crate::derivation::motion::{Motion, Observer, motions};
 use crate::derivation::placed::Placed;
 use crate::derivation::quantities::{Quantity, find, quantities};
+use crate::derivation::script::{Script, pairs, sextuple, triple};
 use crate::derivation::{by_body, composite};
 use crate::graph::{Expr, Stage};
 use crate::kinds::Kind;

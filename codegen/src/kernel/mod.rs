@@ -5,15 +5,14 @@ mod eliminate;
 mod kinematics;
 mod momenta;
 mod records;
-mod script;
 
 pub use records::{
     Field, Record, Source, joint_accelerations, motors, parameters, rates, shared_records, trig,
 };
-pub use script::{Script, Section, Statement};
 
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::Identity;
+use crate::derivation::script::Section;
 use crate::graph::Expr;
 
 /// One function to be emitted.
@@ -54,22 +53,4 @@ pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     list.extend([kernel, back]);
     list.push(momenta::kernel(chain));
     list
-}
-
-/// Names of three components: `omega_gi_n_gix`.
-pub(crate) fn triple(stem: &str, frame: &str) -> [String; 3] {
-    crate::derivation::chain::XYZ.map(|axis| format!("{stem}_{frame}{axis}"))
-}
-
-/// Names of the six entries of a symmetric tensor: `i_w_w_11`.
-pub(crate) fn sextuple(stem: &str) -> [String; 6] {
-    crate::derivation::chain::ENTRIES.map(|entry| format!("{stem}_{entry}"))
-}
-
-/// Pairs names with values.
-pub(crate) fn pairs<'g, const K: usize>(
-    names: [String; K],
-    values: [Expr<'g>; K],
-) -> impl Iterator<Item = (String, Expr<'g>)> {
-    names.into_iter().zip(values)
 }

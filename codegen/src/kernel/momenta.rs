@@ -1,9 +1,10 @@
 //! The kernel `energy_momentum`.
 
 use super::eliminate::claims;
-use super::{Kernel, Record, Script, pairs, records, triple};
+use super::{Kernel, Record, records};
 use crate::derivation::chain::Chain;
 use crate::derivation::motion::Observer;
+use crate::derivation::script::{Script, pairs, triple};
 use crate::derivation::{by_body, composite};
 
 /// Kinetic energy and momenta of one device.

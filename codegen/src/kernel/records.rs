@@ -1,6 +1,6 @@
 //! The plain structures that kernels take and return, with a line for every field.
 
-use super::{sextuple, triple};
+use crate::derivation::script::{sextuple, triple};
 use crate::kinds::{Centre, Kind, Link};
 
 /// One field: its name and what it is, with frame and unit.

@@ -889,8 +889,8 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
     let omega_go_b_goz = v.gamma_o_dot;
 
     // r_{Gᵒc/B}, m.
-    let pos_0 = q.cos_gamma_o * p.r_goc_go_gox;
-    let r_goc_b_dprime_o_by = pos_0 - q.sin_gamma_o * p.r_goc_go_goy;
+    let pos_0 = q.sin_gamma_o * p.r_goc_go_goy;
+    let r_goc_b_dprime_o_by = q.cos_gamma_o * p.r_goc_go_gox - pos_0;
     let r_goc_b_bx = p.r_go_b_bx + r_goc_b_dprime_o_by;
     let pos_1 = q.cos_gamma_o * p.r_goc_go_goy + q.sin_gamma_o * p.r_goc_go_gox;
     let r_goc_b_by = p.r_go_b_by + pos_1;
@@ -1008,8 +1008,8 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
     let r_gic_b_gox = pos_1 + p.l_o_x + pos_0;
     let pos_2 = q.cos_gamma_o * p.r_go_b_by - q.sin_gamma_o * p.r_go_b_bx;
     let r_gic_b_goy = pos_2 + p.l_o_y + p.r_gic_gi_giy;
-    let pos_3 = q.cos_gamma_i * p.r_gic_gi_giz;
-    let r_gic_b_dprime_i_gox = pos_3 - q.sin_gamma_i * p.r_gic_gi_gix;
+    let pos_3 = q.sin_gamma_i * p.r_gic_gi_gix;
+    let r_gic_b_dprime_i_gox = q.cos_gamma_i * p.r_gic_gi_giz - pos_3;
     let r_gic_b_goz = p.k_0 + r_gic_b_dprime_i_gox;
 
     // r′_{Gⁱc/B}, m/s.
@@ -1332,8 +1332,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let omega_w_b_wz = q.cos_theta * omega_gi_b_giz - v.gamma_i_dot * q.sin_theta;
 
     // Its derivative with no joint accelerating, along the same axes, rad/s².
-    let turn_0 = v.spin * q.sin_theta * omega_gi_b_giz;
-    let turn_1 = turn_0 + q.cos_theta * neg_omega_gi_b_rest_giz;
+    let turn_0 = q.cos_theta * neg_omega_gi_b_rest_giz;
+    let turn_1 = v.spin * q.sin_theta * omega_gi_b_giz + turn_0;
     let neg_omega_w_b_rest_wz = turn_1 + v.spin * q.cos_theta * v.gamma_i_dot;
 
     // Acceleration of W relative to B, no joint accelerating, along the same axes.
@@ -1342,8 +1342,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let path_7 = v.gamma_i_dot * path_6 + omega_gi_b_giz * path_5;
     let r_w_rest_wx = p.l_i_y * neg_omega_gi_b_rest_giz - path_7 + r_gi_rest_gix;
     let path_8 = v.gamma_i_dot * p.l_i_z - p.l_i_y * omega_gi_b_giz;
-    let path_9 = p.l_i_z * neg_omega_gi_b_rest_gix;
-    let path_10 = path_9 - p.l_i_x * neg_omega_gi_b_rest_giz;
+    let path_9 = p.l_i_x * neg_omega_gi_b_rest_giz;
+    let path_10 = p.l_i_z * neg_omega_gi_b_rest_gix - path_9;
     let path_11 = omega_gi_b_giz * path_8 - rate_0 * path_6 + path_10;
     let path_12 = path_11 + r_gi_rest_giy;
     let path_13 = rate_0 * path_5 + v.gamma_i_dot * path_8;
@@ -1374,8 +1374,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let bias_8 = neg_omega_gi_b_rest_giz * p.mr_gic_gi_giy - bias_7;
     let f_rest_gix = bias_8 - p.m_gi * path_2 + f_rest_wx;
     let bias_9 = v.gamma_i_dot * p.mr_gic_gi_giz - omega_gi_b_giz * p.mr_gic_gi_giy;
-    let bias_10 = neg_omega_gi_b_rest_gix * p.mr_gic_gi_giz;
-    let bias_11 = bias_10 - neg_omega_gi_b_rest_giz * p.mr_gic_gi_gix;
+    let bias_10 = neg_omega_gi_b_rest_giz * p.mr_gic_gi_gix;
+    let bias_11 = neg_omega_gi_b_rest_gix * p.mr_gic_gi_giz - bias_10;
     let bias_12 = omega_gi_b_giz * bias_9 - rate_0 * bias_6 + bias_11;
     let bias_13 = q.cos_theta * f_rest_wy - q.sin_theta * f_rest_wz;
     let f_rest_giy = bias_13 + (bias_12 - p.m_gi * path_4);
@@ -1514,11 +1514,11 @@ pub fn eliminate<T: Real>(
     let r_go_rest_goz = w.omega_bx * path_1 - w.omega_by * path_0;
 
     // ω_{Gⁱ/N}, eq. (44), along its own axes, rad/s.
-    let rate_0 = q.cos_gamma_i * omega_go_n_gox;
-    let omega_gi_n_gix = rate_0 - q.sin_gamma_i * omega_go_n_goz;
+    let rate_0 = q.sin_gamma_i * omega_go_n_goz;
+    let omega_gi_n_gix = q.cos_gamma_i * omega_go_n_gox - rate_0;
     let omega_gi_n_giy = v.gamma_i_dot + omega_go_n_goy;
-    let rate_1 = q.cos_gamma_i * omega_go_n_goz;
-    let omega_gi_n_giz = rate_1 + q.sin_gamma_i * omega_go_n_gox;
+    let rate_1 = q.sin_gamma_i * omega_go_n_gox;
+    let omega_gi_n_giz = q.cos_gamma_i * omega_go_n_goz + rate_1;
 
     // Its derivative with no joint accelerating, along the same axes, rad/s².
     let turn_2 = v.gamma_i_dot * q.cos_gamma_i;
@@ -1554,12 +1554,12 @@ pub fn eliminate<T: Real>(
     let turn_9 = v.spin * q.sin_theta;
     let turn_10 = q.sin_theta * omega_gi_n_rest_giz;
     let turn_11 = q.cos_theta * neg_omega_go_n_rest_goy;
-    let turn_12 = turn_8 * omega_gi_n_giz + turn_10;
-    let omega_w_n_rest_wy = turn_12 - (turn_9 * omega_gi_n_giy + turn_11);
+    let turn_12 = turn_9 * omega_gi_n_giy + turn_11;
+    let omega_w_n_rest_wy = turn_8 * omega_gi_n_giz + turn_10 - turn_12;
     let turn_13 = q.cos_theta * omega_gi_n_rest_giz;
     let turn_14 = q.sin_theta * neg_omega_go_n_rest_goy;
-    let turn_15 = turn_13 - turn_9 * omega_gi_n_giz;
-    let omega_w_n_rest_wz = turn_15 - (turn_8 * omega_gi_n_giy - turn_14);
+    let turn_15 = turn_8 * omega_gi_n_giy - turn_14;
+    let omega_w_n_rest_wz = turn_13 - turn_9 * omega_gi_n_giz - turn_15;
 
     // Acceleration of W relative to B, no joint accelerating, along the same axes.
     let path_14 = p.l_i_x * omega_gi_n_giz - p.l_i_z * omega_gi_n_gix;
@@ -1634,20 +1634,20 @@ pub fn eliminate<T: Real>(
     let i_v_gi_33 = lump_9 + p.i_gi_gi_33;
 
     // V with no joint accelerating: force, moment about Gⁱ.
-    let bias_19 = omega_gi_n_giz * p.mr_gic_gi_gix;
-    let bias_20 = bias_19 - omega_gi_n_gix * p.mr_gic_gi_giz;
-    let bias_21 = omega_gi_n_gix * p.mr_gic_gi_giy;
-    let bias_22 = bias_21 - omega_gi_n_giy * p.mr_gic_gi_gix;
+    let bias_19 = omega_gi_n_gix * p.mr_gic_gi_giz;
+    let bias_20 = omega_gi_n_giz * p.mr_gic_gi_gix - bias_19;
+    let bias_21 = omega_gi_n_giy * p.mr_gic_gi_gix;
+    let bias_22 = omega_gi_n_gix * p.mr_gic_gi_giy - bias_21;
     let bias_23 = p.mr_gic_gi_giz * neg_omega_go_n_rest_goy;
     let bias_24 = omega_gi_n_giy * bias_22 - omega_gi_n_giz * bias_20;
     let bias_25 = bias_24 - (bias_23 + p.mr_gic_gi_giy * omega_gi_n_rest_giz);
     let f_rest_gix = bias_25 + p.m_gi * r_gi_rest_gix + f_rest_wx;
     let bias_26 = q.cos_theta * f_rest_wy - q.sin_theta * f_rest_wz;
-    let bias_27 = omega_gi_n_giy * p.mr_gic_gi_giz;
-    let bias_28 = bias_27 - omega_gi_n_giz * p.mr_gic_gi_giy;
-    let bias_29 = p.mr_gic_gi_gix * omega_gi_n_rest_giz;
+    let bias_27 = omega_gi_n_giz * p.mr_gic_gi_giy;
+    let bias_28 = omega_gi_n_giy * p.mr_gic_gi_giz - bias_27;
+    let bias_29 = p.mr_gic_gi_giz * omega_gi_n_rest_gix;
     let bias_30 = omega_gi_n_giz * bias_28 - omega_gi_n_gix * bias_22;
-    let bias_31 = bias_30 + (bias_29 - p.mr_gic_gi_giz * omega_gi_n_rest_gix);
+    let bias_31 = bias_30 + (p.mr_gic_gi_gix * omega_gi_n_rest_giz - bias_29);
     let f_rest_giy = bias_31 + p.m_gi * r_gi_rest_giy + bias_26;
     let bias_32 = q.cos_theta * f_rest_wz + q.sin_theta * f_rest_wy;
     let bias_33 = p.mr_gic_gi_gix * neg_omega_go_n_rest_goy;
@@ -1661,9 +1661,9 @@ pub fn eliminate<T: Real>(
     let bias_40 = p.i_gi_gi_12 * neg_omega_go_n_rest_goy;
     let bias_41 = p.i_gi_gi_11 * omega_gi_n_rest_gix - bias_40;
     let bias_42 = omega_gi_n_giy * bias_39 - omega_gi_n_giz * bias_37;
-    let bias_43 = p.mr_gic_gi_giy * r_gi_rest_giz;
+    let bias_43 = p.mr_gic_gi_giz * r_gi_rest_giy;
     let bias_44 = bias_42 + (bias_41 + p.i_gi_gi_13 * omega_gi_n_rest_giz);
-    let bias_45 = bias_44 + (bias_43 - p.mr_gic_gi_giz * r_gi_rest_giy);
+    let bias_45 = bias_44 + (p.mr_gic_gi_giy * r_gi_rest_giz - bias_43);
     let n_rest_gix = p.l_i_y * bias_32 - p.l_i_z * bias_26 + n_rest_wx + bias_45;
     let bias_46 = omega_gi_n_gix * p.i_gi_gi_11 + omega_gi_n_giy * p.i_gi_gi_12;
     let bias_47 = bias_46 + omega_gi_n_giz * p.i_gi_gi_13;
@@ -1671,17 +1671,17 @@ pub fn eliminate<T: Real>(
     let bias_49 = p.i_gi_gi_22 * neg_omega_go_n_rest_goy;
     let bias_50 = p.i_gi_gi_12 * omega_gi_n_rest_gix - bias_49;
     let bias_51 = omega_gi_n_giz * bias_47 - omega_gi_n_gix * bias_39;
-    let bias_52 = p.mr_gic_gi_giz * r_gi_rest_gix;
+    let bias_52 = p.mr_gic_gi_gix * r_gi_rest_giz;
     let bias_53 = bias_51 + (bias_50 + p.i_gi_gi_23 * omega_gi_n_rest_giz);
-    let bias_54 = bias_53 + (bias_52 - p.mr_gic_gi_gix * r_gi_rest_giz);
+    let bias_54 = bias_53 + (p.mr_gic_gi_giz * r_gi_rest_gix - bias_52);
     let n_rest_giy = bias_48 + (p.l_i_z * f_rest_wx - p.l_i_x * bias_32) + bias_54;
     let bias_55 = q.cos_theta * n_rest_wz + q.sin_theta * n_rest_wy;
     let bias_56 = p.i_gi_gi_23 * neg_omega_go_n_rest_goy;
     let bias_57 = p.i_gi_gi_13 * omega_gi_n_rest_gix - bias_56;
     let bias_58 = omega_gi_n_gix * bias_37 - omega_gi_n_giy * bias_47;
-    let bias_59 = p.mr_gic_gi_gix * r_gi_rest_giy;
+    let bias_59 = p.mr_gic_gi_giy * r_gi_rest_gix;
     let bias_60 = bias_58 + (bias_57 + p.i_gi_gi_33 * omega_gi_n_rest_giz);
-    let bias_61 = bias_60 + (bias_59 - p.mr_gic_gi_giy * r_gi_rest_gix);
+    let bias_61 = bias_60 + (p.mr_gic_gi_gix * r_gi_rest_giy - bias_59);
     let n_rest_giz = bias_55 + (p.l_i_x * bias_26 - p.l_i_y * f_rest_wx) + bias_61;
 
     // Force and moment about Gⁱ per unit acceleration of each joint from here on.
@@ -1724,15 +1724,15 @@ pub fn eliminate<T: Real>(
 
     // D with no joint accelerating: force, moment about Gᵒ.
     let bias_62 = q.cos_gamma_i * f_rest_gix + q.sin_gamma_i * f_rest_giz;
-    let bias_63 = omega_go_n_goz * p.mr_goc_go_gox;
-    let bias_64 = bias_63 - omega_go_n_gox * p.mr_goc_go_goz;
-    let bias_65 = omega_go_n_gox * p.mr_goc_go_goy;
-    let bias_66 = bias_65 - omega_go_n_goy * p.mr_goc_go_gox;
+    let bias_63 = omega_go_n_gox * p.mr_goc_go_goz;
+    let bias_64 = omega_go_n_goz * p.mr_goc_go_gox - bias_63;
+    let bias_65 = omega_go_n_goy * p.mr_goc_go_gox;
+    let bias_66 = omega_go_n_gox * p.mr_goc_go_goy - bias_65;
     let bias_67 = omega_go_n_goy * bias_66 - omega_go_n_goz * bias_64;
     let bias_68 = bias_67 - p.mr_goc_go_goz * neg_omega_go_n_rest_goy;
     let f_rest_gox = bias_68 + p.m_go * r_go_rest_gox + bias_62;
-    let bias_69 = omega_go_n_goy * p.mr_goc_go_goz;
-    let bias_70 = bias_69 - omega_go_n_goz * p.mr_goc_go_goy;
+    let bias_69 = omega_go_n_goz * p.mr_goc_go_goy;
+    let bias_70 = omega_go_n_goy * p.mr_goc_go_goz - bias_69;
     let bias_71 = omega_go_n_goz * bias_70 - omega_go_n_gox * bias_66;
     let bias_72 = bias_71 - p.mr_goc_go_goz * omega_go_n_rest_gox;
     let f_rest_goy = bias_72 + p.m_go * r_go_rest_goy + f_rest_giy;
@@ -1748,24 +1748,24 @@ pub fn eliminate<T: Real>(
     let bias_81 = q.cos_gamma_i * n_rest_gix + q.sin_gamma_i * n_rest_giz;
     let bias_82 = p.i_go_go_12 * neg_omega_go_n_rest_goy;
     let bias_83 = omega_go_n_goy * bias_80 - omega_go_n_goz * bias_78;
-    let bias_84 = r_go_rest_goz * p.mr_goc_go_goy;
+    let bias_84 = p.mr_goc_go_goz * r_go_rest_goy;
     let bias_85 = bias_83 + (p.i_go_go_11 * omega_go_n_rest_gox - bias_82);
-    let bias_86 = bias_85 + (bias_84 - p.mr_goc_go_goz * r_go_rest_goy);
+    let bias_86 = bias_85 + (r_go_rest_goz * p.mr_goc_go_goy - bias_84);
     let n_rest_gox = bias_81 + (p.l_o_y * bias_73 - p.l_o_z * f_rest_giy) + bias_86;
     let bias_87 = omega_go_n_gox * p.i_go_go_11 + omega_go_n_goy * p.i_go_go_12;
     let bias_88 = bias_87 + omega_go_n_goz * p.i_go_go_13;
     let bias_89 = p.i_go_go_22 * neg_omega_go_n_rest_goy;
     let bias_90 = omega_go_n_goz * bias_88 - omega_go_n_gox * bias_80;
-    let bias_91 = p.mr_goc_go_goz * r_go_rest_gox;
+    let bias_91 = r_go_rest_goz * p.mr_goc_go_gox;
     let bias_92 = bias_90 + (p.i_go_go_12 * omega_go_n_rest_gox - bias_89);
-    let bias_93 = bias_92 + (bias_91 - r_go_rest_goz * p.mr_goc_go_gox);
+    let bias_93 = bias_92 + (p.mr_goc_go_goz * r_go_rest_gox - bias_91);
     let n_rest_goy = p.l_o_z * bias_62 - p.l_o_x * bias_73 + n_rest_giy + bias_93;
     let bias_94 = q.cos_gamma_i * n_rest_giz - q.sin_gamma_i * n_rest_gix;
     let bias_95 = p.i_go_go_23 * neg_omega_go_n_rest_goy;
     let bias_96 = omega_go_n_gox * bias_78 - omega_go_n_goy * bias_88;
-    let bias_97 = p.mr_goc_go_gox * r_go_rest_goy;
+    let bias_97 = p.mr_goc_go_goy * r_go_rest_gox;
     let bias_98 = bias_96 + (p.i_go_go_13 * omega_go_n_rest_gox - bias_95);
-    let bias_99 = bias_98 + (bias_97 - p.mr_goc_go_goy * r_go_rest_gox);
+    let bias_99 = bias_98 + (p.mr_goc_go_gox * r_go_rest_goy - bias_97);
     let n_rest_goz = bias_94 + (p.l_o_x * f_rest_giy - p.l_o_y * bias_62) + bias_99;
 
     // Force and moment about Gᵒ per unit acceleration of each joint from here on.
@@ -1809,8 +1809,8 @@ pub fn eliminate<T: Real>(
     let moment_12 = q.cos_gamma_o * i_d_go_13 - q.sin_gamma_o * i_d_go_23;
     let moment_13 = p.r_go_b_bz * f_o_by;
     let i_d_b_13 = moment_12 - (p.r_go_b_bx * mr_d_go_goz + moment_13) + p.k_22;
-    let moment_14 = i_d_go_11 + i_d_go_22 - moment_3;
-    let i_d_b_22 = moment_14 + (moment_9 - (moment_5 + moment_5)) + p.k_23;
+    let moment_14 = moment_9 - (moment_5 + moment_5);
+    let i_d_b_22 = i_d_go_11 + i_d_go_22 - moment_3 + moment_14 + p.k_23;
     let moment_15 = q.cos_gamma_o * i_d_go_23 + q.sin_gamma_o * i_d_go_13;
     let moment_16 = p.r_go_b_bz * moment_0;
     let i_d_b_23 = moment_15 - (p.r_go_b_by * mr_d_go_goz + moment_16) + p.k_24;
@@ -2076,11 +2076,11 @@ pub fn energy_momentum<T: Real>(
     let omega_go_n_goz = b.omega_bz + v.gamma_o_dot;
 
     // ω_{Gⁱ/N}, eq. (44), along its own axes, rad/s.
-    let rate_0 = q.cos_gamma_i * omega_go_n_gox;
-    let omega_gi_n_gix = rate_0 - q.sin_gamma_i * omega_go_n_goz;
+    let rate_0 = q.sin_gamma_i * omega_go_n_goz;
+    let omega_gi_n_gix = q.cos_gamma_i * omega_go_n_gox - rate_0;
     let omega_gi_n_giy = v.gamma_i_dot + omega_go_n_goy;
-    let rate_1 = q.cos_gamma_i * omega_go_n_goz;
-    let omega_gi_n_giz = rate_1 + q.sin_gamma_i * omega_go_n_gox;
+    let rate_1 = q.sin_gamma_i * omega_go_n_gox;
+    let omega_gi_n_giz = q.cos_gamma_i * omega_go_n_goz + rate_1;
 
     // ω_{W/N}, eq. (59), along its own axes, rad/s.
     let omega_w_n_wx = v.spin + omega_gi_n_gix;
@@ -2117,12 +2117,12 @@ pub fn energy_momentum<T: Real>(
     let h_w_wz = mom_20 + omega_w_n_wz * p.i_w_w_33 - mom_10 * p.mr_wc_w_wy;
 
     // The inner gimbal: momentum, and its moment about Gⁱ.
-    let mom_21 = omega_gi_n_giy * p.mr_gic_gi_giz;
-    let p_gi_gix = mom_21 - omega_gi_n_giz * p.mr_gic_gi_giy + p.m_gi * mom_9;
-    let mom_22 = omega_gi_n_giz * p.mr_gic_gi_gix;
-    let p_gi_giy = mom_22 - omega_gi_n_gix * p.mr_gic_gi_giz + p.m_gi * mom_12;
-    let mom_23 = omega_gi_n_gix * p.mr_gic_gi_giy;
-    let p_gi_giz = mom_23 - omega_gi_n_giy * p.mr_gic_gi_gix + p.m_gi * mom_13;
+    let mom_21 = omega_gi_n_giz * p.mr_gic_gi_giy;
+    let p_gi_gix = omega_gi_n_giy * p.mr_gic_gi_giz - mom_21 + p.m_gi * mom_9;
+    let mom_22 = omega_gi_n_gix * p.mr_gic_gi_giz;
+    let p_gi_giy = omega_gi_n_giz * p.mr_gic_gi_gix - mom_22 + p.m_gi * mom_12;
+    let mom_23 = omega_gi_n_giy * p.mr_gic_gi_gix;
+    let p_gi_giz = omega_gi_n_gix * p.mr_gic_gi_giy - mom_23 + p.m_gi * mom_13;
     let mom_24 = omega_gi_n_gix * p.i_gi_gi_11 + omega_gi_n_giy * p.i_gi_gi_12;
     let mom_25 = mom_13 * p.mr_gic_gi_giy - mom_12 * p.mr_gic_gi_giz;
     let h_gi_gix = mom_24 + omega_gi_n_giz * p.i_gi_gi_13 + mom_25;
@@ -2134,12 +2134,12 @@ pub fn energy_momentum<T: Real>(
     let h_gi_giz = mom_28 + omega_gi_n_giz * p.i_gi_gi_33 + mom_29;
 
     // The outer gimbal: momentum, and its moment about Gᵒ.
-    let mom_30 = omega_go_n_goy * p.mr_goc_go_goz;
-    let p_go_gox = mom_30 - omega_go_n_goz * p.mr_goc_go_goy + p.m_go * mom_6;
-    let mom_31 = omega_go_n_goz * p.mr_goc_go_gox;
-    let p_go_goy = mom_31 - omega_go_n_gox * p.mr_goc_go_goz + p.m_go * mom_11;
-    let mom_32 = omega_go_n_gox * p.mr_goc_go_goy;
-    let p_go_goz = mom_32 - omega_go_n_goy * p.mr_goc_go_gox + p.m_go * mom_5;
+    let mom_30 = omega_go_n_goz * p.mr_goc_go_goy;
+    let p_go_gox = omega_go_n_goy * p.mr_goc_go_goz - mom_30 + p.m_go * mom_6;
+    let mom_31 = omega_go_n_gox * p.mr_goc_go_goz;
+    let p_go_goy = omega_go_n_goz * p.mr_goc_go_gox - mom_31 + p.m_go * mom_11;
+    let mom_32 = omega_go_n_goy * p.mr_goc_go_gox;
+    let p_go_goz = omega_go_n_gox * p.mr_goc_go_goy - mom_32 + p.m_go * mom_5;
     let mom_33 = omega_go_n_gox * p.i_go_go_11 + omega_go_n_goy * p.i_go_go_12;
     let mom_34 = mom_5 * p.mr_goc_go_goy - mom_11 * p.mr_goc_go_goz;
     let h_go_gox = mom_33 + omega_go_n_goz * p.i_go_go_13 + mom_34;

@@ -3,6 +3,7 @@
 //! A *named* value keeps the name the paper gives it and is expanded like any other in the proof.
 //! A *cut* value becomes a symbol for all that follows: the proof shows once what it stands for.
 
+use super::chain::{ENTRIES, XYZ};
 use crate::graph::{Expr, Graph, Node};
 
 /// One named value.
@@ -80,4 +81,22 @@ impl<'g> Script<'g> {
         let section = self.sections.last_mut().expect("a section is open");
         section.statements.push(Statement { name, value, cut });
     }
+}
+
+/// Names of three components: `omega_gi_n_gix`.
+pub(crate) fn triple(stem: &str, frame: &str) -> [String; 3] {
+    XYZ.map(|axis| format!("{stem}_{frame}{axis}"))
+}
+
+/// Names of the six entries of a symmetric tensor: `i_w_w_11`.
+pub(crate) fn sextuple(stem: &str) -> [String; 6] {
+    ENTRIES.map(|entry| format!("{stem}_{entry}"))
+}
+
+/// Pairs names with values.
+pub(crate) fn pairs<'g, const K: usize>(
+    names: [String; K],
+    values: [Expr<'g>; K],
+) -> impl Iterator<Item = (String, Expr<'g>)> {
+    names.into_iter().zip(values)
 }
