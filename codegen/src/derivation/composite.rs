@@ -62,7 +62,10 @@ impl<'g> Lump<'g> {
             first_moment: link.mass * link.centre,
             inertia: link.inertia + link.mass * Symmetric::tilde_squared(link.centre),
         };
-        script.section("own", format!("The {} about its origin.", body.title));
+        script.section(
+            "own",
+            format!("The {} about its origin: first moment, kg m, and inertia, kg m².", body.title),
+        );
         let names = triple(&format!("mr_{}_{origin}", body.point), body.frame);
         script.names(pairs(names, made.first_moment.components()));
         script
@@ -167,7 +170,9 @@ fn outwards<'g>(
         script.names(pairs(triple(&format!("omega_{stem}_rest"), frame), rest.components()));
         script.section(
             "path",
-            format!("Acceleration of {letter} relative to B, no joint accelerating, along the same axes."),
+            format!(
+                "Acceleration of {letter} relative to B, no joint accelerating, same axes, m/s²."
+            ),
         );
         let origin = origin_acceleration(link, motion);
         script.names(pairs(triple(&format!("r_{}_rest", body.origin), frame), origin.components()));
@@ -190,7 +195,8 @@ fn describe<'g>(
     script.section(
         "lump",
         format!(
-            "{whole}, the {title} and what it carries, about {letter}: mass, first moment, inertia."
+            "{whole}, the {title} and what it carries: mass, kg; first moment, kg m, and \
+             inertia, kg m², about {letter}."
         ),
     );
     script.name(format!("m_{assembly}"), lump.mass);
@@ -201,21 +207,25 @@ fn describe<'g>(
     script.names(pairs(sextuple(&format!("i_{assembly}_{origin}")), lump.inertia.entries()));
     script.section(
         "bias",
-        format!("{whole} with no joint accelerating: force, moment about {letter}."),
+        format!("{whole} with no joint accelerating: force, N, and moment about {letter}, N m."),
     );
     script.names(pairs(triple("f_rest", frame), bias.force.components()));
     script.names(pairs(triple("n_rest", frame), bias.moment.components()));
     script.section(
         "col",
         format!(
-            "Force and moment about {letter} per unit acceleration of each joint from here on."
+            "Force, kg m, and moment about {letter}, kg m², per unit acceleration of each joint \
+             from here on."
         ),
     );
     for (tag, column) in tags.zip(columns) {
         script.names(pairs(triple(&format!("f_{tag}"), frame), column.force.components()));
         script.names(pairs(triple(&format!("n_{tag}"), frame), column.moment.components()));
     }
-    script.section("row", format!("Row of the {title}'s joint, along its axis: M_ij and bias."));
+    script.section(
+        "row",
+        format!("Row of the {title}'s joint, along its axis: M_ij, kg m², and bias, N m."),
+    );
 }
 
 /// What one body asks for while no joint accelerates: with S and I about the joint's origin p,
@@ -258,7 +268,10 @@ pub fn momenta<'g>(
         };
         script.section(
             "mom",
-            format!("The {}: momentum, and its moment about {letter}.", data.body.title),
+            format!(
+                "The {}: momentum, kg m/s; its moment about {letter}, kg m²/s.",
+                data.body.title
+            ),
         );
         script.names(pairs(triple(&format!("p_{frame}"), frame), own.force.components()));
         script.names(pairs(triple(&format!("h_{frame}"), frame), own.moment.components()));

@@ -9,6 +9,7 @@ use super::chain::{Chain, Link};
 use super::script::Script;
 use crate::graph::Expr;
 use crate::kinds;
+use crate::space::Vector;
 
 /// Suffixes of the six hub unknowns: acceleration of B, angular acceleration.
 pub const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
@@ -127,7 +128,8 @@ fn right_sides<'g>(chain: &Chain<'g>, share: &Share<'g>) -> Vec<Identity<'g>> {
 
 /// The joints' rows, with right sides `u - u_rest`.
 fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Vec<Row<'g>> {
-    script.section("tau", "Right side of each joint: motor torque less what the rest asks for.");
+    script
+        .section("tau", "Right side of each joint: motor torque less what the rest asks for, N m.");
     let tags: Vec<_> = chain.kind.links.iter().map(|link| link.joint.tag).collect();
     let row = |(k, tag): (usize, &&'static str)| {
         let right = chain.links[k].torque - share.bias_joint[k];
@@ -184,43 +186,31 @@ fn gains<'g>(
 
 /// The hub's block and right side, less what the joints take.
 fn hub<'g>(share: &Share<'g>, made: &mut Eliminated<'g>, script: &mut Script<'g>) {
-    script.section("hub", "Share of the hub's equations: mass matrix and right side.");
-    let graph = share.mass.graph();
-    let (mass, zero, one) = (share.mass, graph.zero(), graph.constant(1));
+    let (mass, zero) = (share.mass, share.mass.graph().zero());
     let [x, y, z] = share.first_moment.components();
     // M_vw = -[S~].
     let coupling = [[zero, z, -y], [-z, zero, x], [y, -x, zero]];
-    let force = share.bias_force.components();
-    let moment = share.bias_moment.components();
-    for row in 0..HUB.len() {
-        for column in row..HUB.len() {
-            let before = match (row < 3, column < 3) {
-                (true, true) => {
-                    if row == column {
-                        mass
-                    } else {
-                        zero
-                    }
-                }
-                (true, false) => coupling[row][column - 3],
-                (false, _) => share.inertia.at(row - 3, column - 3),
-            };
-            let block = ["vv", "vw", "ww"][usize::from(row >= 3) + usize::from(column >= 3)];
-            let name = format!("m_{block}_{}{}", row % 3 + 1, column % 3 + 1);
-            made.take_out(
-                name,
-                before,
-                row,
-                |pivot| (pivot.couplings[column], pivot.gains[column].1),
-                one,
-                script,
-            );
+    let assembled = |row: usize, column: usize| match (row < 3, column < 3) {
+        (true, true) if row == column => mass,
+        (true, true) => zero,
+        (true, false) => coupling[row][column - 3],
+        (false, _) => share.inertia.at(row - 3, column - 3),
+    };
+    for (block, rows, columns) in [("vv", 0..3, 0..3), ("vw", 0..3, 3..6), ("ww", 3..6, 3..6)] {
+        script.section("hub", format!("Share of the hub's mass matrix: M_{block}."));
+        for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
+            if column >= row {
+                let name = format!("m_{block}_{}{}", row % 3 + 1, column % 3 + 1);
+                let taken = |pivot: &Pivot<'g>| (pivot.couplings[column], pivot.gains[column].1);
+                made.take_out(name, assembled(row, column), row, taken, script);
+            }
         }
     }
-    for row in 0..HUB.len() {
-        let before = -(if row < 3 { force[row] } else { moment[row - 3] });
+    script.section("hub", "Share of the hub's right side: force, N, and moment about B, N m.");
+    let rest = [share.bias_force, share.bias_moment].map(Vector::components).concat();
+    for (row, rest) in rest.into_iter().enumerate() {
         let name = format!("h_{}_{}", ["v", "w"][row / 3], row % 3 + 1);
-        made.take_out(name, before, row, |pivot| (pivot.right, pivot.free.1), one, script);
+        made.take_out(name, -rest, row, |pivot| (pivot.right, pivot.free.1), script);
     }
 }
 
@@ -232,7 +222,6 @@ impl<'g> Eliminated<'g> {
         before: Expr<'g>,
         row: usize,
         taken: impl Fn(&Pivot<'g>) -> (Expr<'g>, Expr<'g>),
-        one: Expr<'g>,
         script: &mut Script<'g>,
     ) {
         let mut value = before;
@@ -245,6 +234,7 @@ impl<'g> Eliminated<'g> {
         }
         script.name(name.clone(), value);
         self.hub.push((name.clone(), value));
-        self.identities.push(Identity { name, factor: one, addends, before });
+        let factor = before.graph().constant(1);
+        self.identities.push(Identity { name, factor, addends, before });
     }
 }

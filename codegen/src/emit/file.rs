@@ -251,19 +251,22 @@ fn kernel_body<'g>(
     Writer::new(graph, &given, witness).write(&kernel.sections, &kernel.output.sources())
 }
 
-/// Documents a constant by the formula that computes it.
+/// Documents a constant by the formula that computes it, and a named one by its section.
 fn describe(record: &mut Record, body: &FunctionBody) {
-    let mut formulas = HashMap::new();
+    let mut docs = HashMap::new();
     for (title, statements) in &body.sections {
         for line in pretty(statements) {
             if let Some((name, formula)) = line.trim_start_matches("let ").split_once(" = ") {
-                formulas.insert(name.to_owned(), (title.clone(), formula.to_owned()));
+                let formula = format!("`{}`.", formula.trim_end_matches(';'));
+                let numbered = name.starts_with("k_");
+                let doc = if numbered { formula } else { format!("{formula} {title}") };
+                docs.insert(name.to_owned(), doc);
             }
         }
     }
     for field in &mut record.fields {
-        if let Some((title, formula)) = formulas.get(&field.name) {
-            field.doc = format!("`{}`. {title}", formula.trim_end_matches(';'));
+        if let Some(doc) = docs.remove(&field.name) {
+            field.doc = doc;
         }
     }
 }

@@ -45,14 +45,20 @@ fn on_hub<'g>(chain: &Chain<'g>, share: Share<'g>, script: &mut Script<'g>) -> S
     let whole = chain.kind.links[0].assembly;
     script.section(
         "moment",
-        format!("{} about B, along B axes: first moment and inertia.", whole.to_uppercase()),
+        format!(
+            "{} about B, along B axes: first moment, kg m, and inertia, kg m².",
+            whole.to_uppercase()
+        ),
     );
     let first_moment = cut(script, &format!("mr_{whole}_b"), share.first_moment);
     let names = sextuple(&format!("i_{whole}_b"));
     let entries = pairs(names, share.inertia.entries());
     let entries: Vec<_> = entries.map(|(name, entry)| script.cut(name, entry)).collect();
     let inertia = Symmetric::new(entries.try_into().expect("six entries"));
-    script.section("col", "M_vi (17) and M_wi: force and moment about B per unit acceleration.");
+    script.section(
+        "col",
+        "M_vi (17), kg m, and M_wi, kg m²: force and moment about B per unit acceleration.",
+    );
     let mut force = Vec::new();
     let mut moment = Vec::new();
     for (k, link) in chain.kind.links.iter().enumerate() {

@@ -165,127 +165,133 @@ pub struct Prepared<T> {
     pub j_33: T,
     /// `p.r_go_b_bz + p.r_goc_go_goz`. r_{Gᵒc/B}, m.
     pub r_goc_b_bz: T,
-    /// `p.r_go_b_bz + p.l_o_z`. Products and sums of parameters that occur more deeply.
+    /// `p.r_go_b_bz + p.l_o_z`.
     pub k_0: T,
-    /// `r_goc_b_bz * r_goc_b_bz`. Products and sums of parameters that occur more deeply.
+    /// `r_goc_b_bz * r_goc_b_bz`.
     pub k_1: T,
     /// `-(p.l_o_y + p.r_gic_gi_giy)`. r″_{Gⁱc/B}, eq. (13), per ᵒγ̈, m.
     pub r_gic_b_dprime_o_gox: T,
     /// `-p.l_i_x`. r″_{Wc/B}, eq. (14), per ⁱγ̈, m.
     pub r_wc_b_dprime_i_giz: T,
-    /// `p.m_w * p.d`. The wheel about its origin.
+    /// `p.m_w * p.d`. The wheel about its origin: first moment, kg m, and inertia, kg m².
     pub mr_wc_w_wy: T,
-    /// `p.j_11 + own_0`. The wheel about its origin.
+    /// `p.j_11 + own_0`. The wheel about its origin: first moment, kg m, and inertia, kg m².
     pub i_w_w_11: T,
-    /// `p.j_33 + own_0`. The wheel about its origin.
+    /// `p.j_33 + own_0`. The wheel about its origin: first moment, kg m, and inertia, kg m².
     pub i_w_w_33: T,
-    /// `p.j_22 + i_w_w_33`. Products and sums of parameters that occur more deeply.
+    /// `p.j_22 + i_w_w_33`.
     pub k_2: T,
-    /// `p.m_w * (prep_0 + prep_1)`. Products and sums of parameters that occur more deeply.
+    /// `p.m_w * (prep_0 + prep_1)`.
     pub k_3: T,
-    /// `-(p.l_i_x * p.l_i_y * p.m_w)`. Products and sums of parameters that occur more
-    /// deeply.
+    /// `-(p.l_i_x * p.l_i_y * p.m_w)`.
     pub k_4: T,
-    /// `-(p.l_i_x * p.l_i_z * p.m_w)`. Products and sums of parameters that occur more
-    /// deeply.
+    /// `-(p.l_i_x * p.l_i_z * p.m_w)`.
     pub k_5: T,
-    /// `p.m_w * (prep_2 + prep_1)`. Products and sums of parameters that occur more deeply.
+    /// `p.m_w * (prep_2 + prep_1)`.
     pub k_6: T,
-    /// `-(p.l_i_y * p.l_i_z * p.m_w)`. Products and sums of parameters that occur more
-    /// deeply.
+    /// `-(p.l_i_y * p.l_i_z * p.m_w)`.
     pub k_7: T,
-    /// `p.m_w * (prep_2 + prep_0)`. Products and sums of parameters that occur more deeply.
+    /// `p.m_w * (prep_2 + prep_0)`.
     pub k_8: T,
-    /// `p.l_i_y * p.m_w`. Products and sums of parameters that occur more deeply.
+    /// `p.l_i_y * p.m_w`.
     pub k_9: T,
-    /// `p.l_i_z * p.m_w`. Products and sums of parameters that occur more deeply.
+    /// `p.l_i_z * p.m_w`.
     pub k_10: T,
-    /// `p.m_gi * p.r_gic_gi_gix`. The inner gimbal about its origin.
+    /// `p.m_gi * p.r_gic_gi_gix`. The inner gimbal about its origin: first moment, kg m, and
+    /// inertia, kg m².
     pub mr_gic_gi_gix: T,
-    /// `p.m_gi * p.r_gic_gi_giy`. The inner gimbal about its origin.
+    /// `p.m_gi * p.r_gic_gi_giy`. The inner gimbal about its origin: first moment, kg m, and
+    /// inertia, kg m².
     pub mr_gic_gi_giy: T,
-    /// `p.m_gi * p.r_gic_gi_giz`. The inner gimbal about its origin.
+    /// `p.m_gi * p.r_gic_gi_giz`. The inner gimbal about its origin: first moment, kg m, and
+    /// inertia, kg m².
     pub mr_gic_gi_giz: T,
-    /// `p.i_gi_11 + p.m_gi * (own_1 + own_2)`. The inner gimbal about its origin.
+    /// `p.i_gi_11 + p.m_gi * (own_1 + own_2)`. The inner gimbal about its origin: first
+    /// moment, kg m, and inertia, kg m².
     pub i_gi_gi_11: T,
     /// `p.i_gi_12 - p.r_gic_gi_gix * p.r_gic_gi_giy * p.m_gi`. The inner gimbal about its
-    /// origin.
+    /// origin: first moment, kg m, and inertia, kg m².
     pub i_gi_gi_12: T,
     /// `p.i_gi_13 - p.r_gic_gi_gix * p.r_gic_gi_giz * p.m_gi`. The inner gimbal about its
-    /// origin.
+    /// origin: first moment, kg m, and inertia, kg m².
     pub i_gi_gi_13: T,
-    /// `p.i_gi_22 + p.m_gi * (own_3 + own_2)`. The inner gimbal about its origin.
+    /// `p.i_gi_22 + p.m_gi * (own_3 + own_2)`. The inner gimbal about its origin: first
+    /// moment, kg m, and inertia, kg m².
     pub i_gi_gi_22: T,
     /// `p.i_gi_23 - p.r_gic_gi_giy * p.r_gic_gi_giz * p.m_gi`. The inner gimbal about its
-    /// origin.
+    /// origin: first moment, kg m, and inertia, kg m².
     pub i_gi_gi_23: T,
-    /// `p.i_gi_33 + p.m_gi * (own_3 + own_1)`. The inner gimbal about its origin.
+    /// `p.i_gi_33 + p.m_gi * (own_3 + own_1)`. The inner gimbal about its origin: first
+    /// moment, kg m, and inertia, kg m².
     pub i_gi_gi_33: T,
-    /// `p.l_i_x * p.m_w + mr_gic_gi_gix`. V, the inner gimbal and what it carries, about Gⁱ:
-    /// mass, first moment, inertia.
+    /// `p.l_i_x * p.m_w + mr_gic_gi_gix`. V, the inner gimbal and what it carries: mass, kg;
+    /// first moment, kg m, and inertia, kg m², about Gⁱ.
     pub mr_v_gi_gix: T,
-    /// `m_v * (prep_3 + prep_4)`. Products and sums of parameters that occur more deeply.
+    /// `m_v * (prep_3 + prep_4)`.
     pub k_11: T,
-    /// `-(p.l_o_x * p.l_o_y * m_v)`. Products and sums of parameters that occur more deeply.
+    /// `-(p.l_o_x * p.l_o_y * m_v)`.
     pub k_12: T,
-    /// `-(p.l_o_x * p.l_o_z * m_v)`. Products and sums of parameters that occur more deeply.
+    /// `-(p.l_o_x * p.l_o_z * m_v)`.
     pub k_13: T,
-    /// `m_v * (prep_5 + prep_4)`. Products and sums of parameters that occur more deeply.
+    /// `m_v * (prep_5 + prep_4)`.
     pub k_14: T,
-    /// `-(p.l_o_y * p.l_o_z * m_v)`. Products and sums of parameters that occur more deeply.
+    /// `-(p.l_o_y * p.l_o_z * m_v)`.
     pub k_15: T,
-    /// `m_v * (prep_5 + prep_3)`. Products and sums of parameters that occur more deeply.
+    /// `m_v * (prep_5 + prep_3)`.
     pub k_16: T,
-    /// `p.l_o_x * m_v`. Products and sums of parameters that occur more deeply.
+    /// `p.l_o_x * m_v`.
     pub k_17: T,
-    /// `p.l_o_y * m_v`. Products and sums of parameters that occur more deeply.
+    /// `p.l_o_y * m_v`.
     pub k_18: T,
-    /// `p.l_o_z * m_v`. Products and sums of parameters that occur more deeply.
+    /// `p.l_o_z * m_v`.
     pub k_19: T,
-    /// `p.m_go * p.r_goc_go_gox`. The outer gimbal about its origin.
+    /// `p.m_go * p.r_goc_go_gox`. The outer gimbal about its origin: first moment, kg m, and
+    /// inertia, kg m².
     pub mr_goc_go_gox: T,
-    /// `p.m_go * p.r_goc_go_goy`. The outer gimbal about its origin.
+    /// `p.m_go * p.r_goc_go_goy`. The outer gimbal about its origin: first moment, kg m, and
+    /// inertia, kg m².
     pub mr_goc_go_goy: T,
-    /// `p.m_go * p.r_goc_go_goz`. The outer gimbal about its origin.
+    /// `p.m_go * p.r_goc_go_goz`. The outer gimbal about its origin: first moment, kg m, and
+    /// inertia, kg m².
     pub mr_goc_go_goz: T,
-    /// `p.i_go_11 + p.m_go * (own_4 + own_5)`. The outer gimbal about its origin.
+    /// `p.i_go_11 + p.m_go * (own_4 + own_5)`. The outer gimbal about its origin: first
+    /// moment, kg m, and inertia, kg m².
     pub i_go_go_11: T,
     /// `p.i_go_12 - p.r_goc_go_gox * p.r_goc_go_goy * p.m_go`. The outer gimbal about its
-    /// origin.
+    /// origin: first moment, kg m, and inertia, kg m².
     pub i_go_go_12: T,
     /// `p.i_go_13 - p.r_goc_go_gox * p.r_goc_go_goz * p.m_go`. The outer gimbal about its
-    /// origin.
+    /// origin: first moment, kg m, and inertia, kg m².
     pub i_go_go_13: T,
-    /// `p.i_go_22 + p.m_go * (own_6 + own_5)`. The outer gimbal about its origin.
+    /// `p.i_go_22 + p.m_go * (own_6 + own_5)`. The outer gimbal about its origin: first
+    /// moment, kg m, and inertia, kg m².
     pub i_go_go_22: T,
     /// `p.i_go_23 - p.r_goc_go_goy * p.r_goc_go_goz * p.m_go`. The outer gimbal about its
-    /// origin.
+    /// origin: first moment, kg m, and inertia, kg m².
     pub i_go_go_23: T,
-    /// `p.i_go_33 + p.m_go * (own_6 + own_4)`. The outer gimbal about its origin.
+    /// `p.i_go_33 + p.m_go * (own_6 + own_4)`. The outer gimbal about its origin: first
+    /// moment, kg m, and inertia, kg m².
     pub i_go_go_33: T,
-    /// `p.m_go + m_v`. D, the outer gimbal and what it carries, about Gᵒ: mass, first moment,
-    /// inertia.
+    /// `p.m_go + m_v`. D, the outer gimbal and what it carries: mass, kg; first moment, kg m,
+    /// and inertia, kg m², about Gᵒ.
     pub m_d: T,
-    /// `m_d * (prep_6 + prep_7)`. Products and sums of parameters that occur more deeply.
+    /// `m_d * (prep_6 + prep_7)`.
     pub k_20: T,
-    /// `-(p.r_go_b_bx * p.r_go_b_by * m_d)`. Products and sums of parameters that occur more
-    /// deeply.
+    /// `-(p.r_go_b_bx * p.r_go_b_by * m_d)`.
     pub k_21: T,
-    /// `-(p.r_go_b_bx * p.r_go_b_bz * m_d)`. Products and sums of parameters that occur more
-    /// deeply.
+    /// `-(p.r_go_b_bx * p.r_go_b_bz * m_d)`.
     pub k_22: T,
-    /// `m_d * (prep_8 + prep_7)`. Products and sums of parameters that occur more deeply.
+    /// `m_d * (prep_8 + prep_7)`.
     pub k_23: T,
-    /// `-(p.r_go_b_by * p.r_go_b_bz * m_d)`. Products and sums of parameters that occur more
-    /// deeply.
+    /// `-(p.r_go_b_by * p.r_go_b_bz * m_d)`.
     pub k_24: T,
-    /// `m_d * (prep_8 + prep_6)`. Products and sums of parameters that occur more deeply.
+    /// `m_d * (prep_8 + prep_6)`.
     pub k_25: T,
-    /// `p.r_go_b_bx * m_d`. Products and sums of parameters that occur more deeply.
+    /// `p.r_go_b_bx * m_d`.
     pub k_26: T,
-    /// `p.r_go_b_by * m_d`. Products and sums of parameters that occur more deeply.
+    /// `p.r_go_b_by * m_d`.
     pub k_27: T,
-    /// `p.r_go_b_bz * m_d`. Products and sums of parameters that occur more deeply.
+    /// `p.r_go_b_bz * m_d`.
     pub k_28: T,
     /// `mass_ww.recip()`. Joint w: its pivot `mass_ww` and its gains.
     pub recip_w: T,
@@ -695,16 +701,16 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // r″_{Wc/B}, eq. (14), per ⁱγ̈, m.
     let r_wc_b_dprime_i_giz = -p.l_i_x;
 
-    // The wheel about its origin.
+    // The wheel about its origin: first moment, kg m, and inertia, kg m².
     let mr_wc_w_wy = p.m_w * p.d;
     let own_0 = p.d * p.d * p.m_w;
     let i_w_w_11 = p.j_11 + own_0;
     let i_w_w_33 = p.j_33 + own_0;
 
-    // Row of the wheel's joint, along its axis: M_ij and bias.
+    // Row of the wheel's joint, along its axis: M_ij, kg m², and bias, N m.
     let mass_ww = i_w_w_11;
 
-    // The inner gimbal about its origin.
+    // The inner gimbal about its origin: first moment, kg m, and inertia, kg m².
     let mr_gic_gi_gix = p.m_gi * p.r_gic_gi_gix;
     let mr_gic_gi_giy = p.m_gi * p.r_gic_gi_giy;
     let mr_gic_gi_giz = p.m_gi * p.r_gic_gi_giz;
@@ -718,11 +724,12 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let i_gi_gi_23 = p.i_gi_23 - p.r_gic_gi_giy * p.r_gic_gi_giz * p.m_gi;
     let i_gi_gi_33 = p.i_gi_33 + p.m_gi * (own_3 + own_1);
 
-    // V, the inner gimbal and what it carries, about Gⁱ: mass, first moment, inertia.
+    // V, the inner gimbal and what it carries: mass, kg; first moment, kg m, and inertia, kg m²,
+    // about Gⁱ.
     let m_v = p.m_gi + p.m_w;
     let mr_v_gi_gix = p.l_i_x * p.m_w + mr_gic_gi_gix;
 
-    // The outer gimbal about its origin.
+    // The outer gimbal about its origin: first moment, kg m, and inertia, kg m².
     let mr_goc_go_gox = p.m_go * p.r_goc_go_gox;
     let mr_goc_go_goy = p.m_go * p.r_goc_go_goy;
     let mr_goc_go_goz = p.m_go * p.r_goc_go_goz;
@@ -736,7 +743,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let i_go_go_23 = p.i_go_23 - p.r_goc_go_goy * p.r_goc_go_goz * p.m_go;
     let i_go_go_33 = p.i_go_33 + p.m_go * (own_6 + own_4);
 
-    // D, the outer gimbal and what it carries, about Gᵒ: mass, first moment, inertia.
+    // D, the outer gimbal and what it carries: mass, kg; first moment, kg m, and inertia, kg m²,
+    // about Gᵒ.
     let m_d = p.m_go + m_v;
 
     // Joint w: its pivot `mass_ww` and its gains.
@@ -1316,7 +1324,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let neg_omega_gi_b_rest_gix = v.gamma_i_dot * q.cos_gamma_i * v.gamma_o_dot;
     let neg_omega_gi_b_rest_giz = v.gamma_i_dot * q.sin_gamma_i * v.gamma_o_dot;
 
-    // Acceleration of Gⁱ relative to B, no joint accelerating, along the same axes.
+    // Acceleration of Gⁱ relative to B, no joint accelerating, same axes, m/s².
     let path_0 = v.gamma_o_dot * p.l_o_x;
     let path_1 = v.gamma_o_dot * path_0;
     let path_2 = q.cos_gamma_i * path_1;
@@ -1336,7 +1344,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let turn_1 = v.spin * q.sin_theta * omega_gi_b_giz + turn_0;
     let neg_omega_w_b_rest_wz = turn_1 + v.spin * q.cos_theta * v.gamma_i_dot;
 
-    // Acceleration of W relative to B, no joint accelerating, along the same axes.
+    // Acceleration of W relative to B, no joint accelerating, same axes, m/s².
     let path_5 = p.l_i_x * omega_gi_b_giz + p.l_i_z * rate_0;
     let path_6 = p.l_i_y * rate_0 + v.gamma_i_dot * p.l_i_x;
     let path_7 = v.gamma_i_dot * path_6 + omega_gi_b_giz * path_5;
@@ -1351,7 +1359,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let r_w_rest_wy = q.cos_theta * path_12 - q.sin_theta * path_14;
     let neg_r_w_rest_wz = q.cos_theta * path_14 + q.sin_theta * path_12;
 
-    // W with no joint accelerating: force, moment about W.
+    // W with no joint accelerating: force, N, and moment about W, N m.
     let bias_0 = omega_w_b_wx * p.mr_wc_w_wy;
     let bias_1 = omega_w_b_wy * bias_0 + neg_omega_w_b_rest_wz * p.mr_wc_w_wy;
     let f_rest_wx = bias_1 + p.m_w * r_w_rest_wx;
@@ -1361,13 +1369,14 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let bias_4 = omega_w_b_wy * bias_2 - neg_omega_gi_b_rest_gix * p.mr_wc_w_wy;
     let f_rest_wz = bias_4 - p.m_w * neg_r_w_rest_wz;
 
-    // V, the inner gimbal and what it carries, about Gⁱ: mass, first moment, inertia.
+    // V, the inner gimbal and what it carries: mass, kg; first moment, kg m, and inertia, kg m²,
+    // about Gⁱ.
     let f_w_giz = q.cos_theta * p.mr_wc_w_wy;
     let mr_v_gi_giy = f_w_giz + p.k_9 + p.mr_gic_gi_giy;
     let neg_f_w_giy = q.sin_theta * p.mr_wc_w_wy;
     let mr_v_gi_giz = neg_f_w_giy + p.k_10 + p.mr_gic_gi_giz;
 
-    // V with no joint accelerating: force, moment about Gⁱ.
+    // V with no joint accelerating: force, N, and moment about Gⁱ, N m.
     let bias_5 = omega_gi_b_giz * p.mr_gic_gi_gix + rate_0 * p.mr_gic_gi_giz;
     let bias_6 = rate_0 * p.mr_gic_gi_giy + v.gamma_i_dot * p.mr_gic_gi_gix;
     let bias_7 = v.gamma_i_dot * bias_6 + omega_gi_b_giz * bias_5;
@@ -1384,14 +1393,15 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let bias_16 = q.cos_theta * f_rest_wz + q.sin_theta * f_rest_wy;
     let f_rest_giz = bias_16 - (bias_15 + p.m_gi * neg_r_gi_rest_giz);
 
-    // D, the outer gimbal and what it carries, about Gᵒ: mass, first moment, inertia.
+    // D, the outer gimbal and what it carries: mass, kg; first moment, kg m, and inertia, kg m²,
+    // about Gᵒ.
     let lump_0 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * mr_v_gi_giz;
     let mr_d_go_gox = lump_0 + p.k_17 + p.mr_goc_go_gox;
     let mr_d_go_goy = mr_v_gi_giy + p.k_18 + p.mr_goc_go_goy;
     let f_i_gox = q.cos_gamma_i * mr_v_gi_giz - q.sin_gamma_i * p.mr_v_gi_gix;
     let mr_d_go_goz = f_i_gox + p.k_19 + p.mr_goc_go_goz;
 
-    // D with no joint accelerating: force, moment about Gᵒ.
+    // D with no joint accelerating: force, N, and moment about Gᵒ, N m.
     let p_go_goy = v.gamma_o_dot * p.mr_goc_go_gox;
     let bias_17 = q.cos_gamma_i * f_rest_gix + q.sin_gamma_i * f_rest_giz;
     let f_rest_gox = bias_17 - v.gamma_o_dot * p_go_goy;
@@ -1399,12 +1409,12 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let f_rest_goy = f_rest_giy - v.gamma_o_dot * bias_18;
     let f_rest_goz = q.cos_gamma_i * f_rest_giz - q.sin_gamma_i * f_rest_gix;
 
-    // Force and moment about Gᵒ per unit acceleration of each joint from here on.
+    // Force, kg m, and moment about Gᵒ, kg m², per unit acceleration of each joint from here on.
     let f_i_goz = -lump_0;
     let f_w_gox = q.sin_gamma_i * f_w_giz;
     let f_w_goz = q.cos_gamma_i * f_w_giz;
 
-    // The wheel: momentum, and its moment about W.
+    // The wheel: momentum, kg m/s; its moment about W, kg m²/s.
     let mom_0 = q.cos_gamma_i * path_3;
     let p_w_wx = p.m_w * (path_8 - mom_0) - bias_2;
     let mom_1 = q.sin_gamma_i * path_3;
@@ -1413,12 +1423,12 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let p_w_wy = p.m_w * (q.cos_theta * mom_2 - q.sin_theta * mom_3);
     let p_w_wz = bias_0 - p.m_w * (q.cos_theta * mom_3 + q.sin_theta * mom_2);
 
-    // The inner gimbal: momentum, and its moment about Gⁱ.
+    // The inner gimbal: momentum, kg m/s; its moment about Gⁱ, kg m²/s.
     let p_gi_gix = bias_9 - p.m_gi * mom_0;
     let p_gi_giy = bias_5 + p.m_gi * path_0;
     let p_gi_giz = -(bias_6 + p.m_gi * mom_1);
 
-    // The outer gimbal: momentum, and its moment about Gᵒ.
+    // The outer gimbal: momentum, kg m/s; its moment about Gᵒ, kg m²/s.
     let p_go_gox = -bias_18;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
@@ -1503,7 +1513,7 @@ pub fn eliminate<T: Real>(
     let omega_go_n_rest_gox = w.omega_by * turn_0 - w.omega_bx * turn_1;
     let neg_omega_go_n_rest_goy = w.omega_by * turn_1 + w.omega_bx * turn_0;
 
-    // Acceleration of Gᵒ relative to B, no joint accelerating, along the same axes.
+    // Acceleration of Gᵒ relative to B, no joint accelerating, same axes, m/s².
     let path_0 = w.omega_by * p.r_go_b_bz - w.omega_bz * p.r_go_b_by;
     let path_1 = w.omega_bz * p.r_go_b_bx - w.omega_bx * p.r_go_b_bz;
     let path_2 = w.omega_bx * p.r_go_b_by - w.omega_by * p.r_go_b_bx;
@@ -1530,7 +1540,7 @@ pub fn eliminate<T: Real>(
     let turn_7 = turn_2 * omega_go_n_gox + turn_6;
     let omega_gi_n_rest_giz = turn_7 - turn_3 * omega_go_n_goz;
 
-    // Acceleration of Gⁱ relative to B, no joint accelerating, along the same axes.
+    // Acceleration of Gⁱ relative to B, no joint accelerating, same axes, m/s².
     let path_5 = p.l_o_z * omega_go_n_goy - p.l_o_y * omega_go_n_goz;
     let path_6 = p.l_o_x * omega_go_n_goz - p.l_o_z * omega_go_n_gox;
     let path_7 = p.l_o_y * omega_go_n_gox - p.l_o_x * omega_go_n_goy;
@@ -1561,7 +1571,7 @@ pub fn eliminate<T: Real>(
     let turn_15 = turn_8 * omega_gi_n_giy - turn_14;
     let omega_w_n_rest_wz = turn_13 - turn_9 * omega_gi_n_giz - turn_15;
 
-    // Acceleration of W relative to B, no joint accelerating, along the same axes.
+    // Acceleration of W relative to B, no joint accelerating, same axes, m/s².
     let path_14 = p.l_i_x * omega_gi_n_giz - p.l_i_z * omega_gi_n_gix;
     let path_15 = p.l_i_y * omega_gi_n_gix - p.l_i_x * omega_gi_n_giy;
     let path_16 = p.l_i_z * neg_omega_go_n_rest_goy;
@@ -1578,7 +1588,7 @@ pub fn eliminate<T: Real>(
     let r_w_rest_wy = q.cos_theta * path_22 + q.sin_theta * path_25;
     let r_w_rest_wz = q.cos_theta * path_25 - q.sin_theta * path_22;
 
-    // W with no joint accelerating: force, moment about W.
+    // W with no joint accelerating: force, N, and moment about W, N m.
     let bias_0 = omega_w_n_wx * p.mr_wc_w_wy;
     let bias_1 = omega_w_n_wy * bias_0 - p.mr_wc_w_wy * omega_w_n_rest_wz;
     let f_rest_wx = bias_1 + p.m_w * r_w_rest_wx;
@@ -1605,11 +1615,12 @@ pub fn eliminate<T: Real>(
     let bias_18 = bias_17 + (bias_16 + p.i_w_w_33 * omega_w_n_rest_wz);
     let n_rest_wz = bias_18 - p.mr_wc_w_wy * r_w_rest_wx;
 
-    // Row of the wheel's joint, along its axis: M_ij and bias.
+    // Row of the wheel's joint, along its axis: M_ij, kg m², and bias, N m.
     let mass_ww = p.i_w_w_11;
     let u_rest_w = n_rest_wx;
 
-    // V, the inner gimbal and what it carries, about Gⁱ: mass, first moment, inertia.
+    // V, the inner gimbal and what it carries: mass, kg; first moment, kg m, and inertia, kg m²,
+    // about Gⁱ.
     let f_w_giz = q.cos_theta * p.mr_wc_w_wy;
     let mr_v_gi_giy = f_w_giz + p.k_9 + p.mr_gic_gi_giy;
     let neg_f_w_giy = q.sin_theta * p.mr_wc_w_wy;
@@ -1633,7 +1644,7 @@ pub fn eliminate<T: Real>(
     let lump_9 = p.k_2 - lump_6 + (lump_3 - (lump_1 + lump_1)) + p.k_8;
     let i_v_gi_33 = lump_9 + p.i_gi_gi_33;
 
-    // V with no joint accelerating: force, moment about Gⁱ.
+    // V with no joint accelerating: force, N, and moment about Gⁱ, N m.
     let bias_19 = omega_gi_n_gix * p.mr_gic_gi_giz;
     let bias_20 = omega_gi_n_giz * p.mr_gic_gi_gix - bias_19;
     let bias_21 = omega_gi_n_giy * p.mr_gic_gi_gix;
@@ -1684,15 +1695,16 @@ pub fn eliminate<T: Real>(
     let bias_61 = bias_60 + (p.mr_gic_gi_gix * r_gi_rest_giy - bias_59);
     let n_rest_giz = bias_55 + (p.l_i_x * bias_26 - p.l_i_y * f_rest_wx) + bias_61;
 
-    // Force and moment about Gⁱ per unit acceleration of each joint from here on.
+    // Force, kg m, and moment about Gⁱ, kg m², per unit acceleration of each joint from here on.
     let n_w_gix = p.i_w_w_11 + lump_2;
 
-    // Row of the inner gimbal's joint, along its axis: M_ij and bias.
+    // Row of the inner gimbal's joint, along its axis: M_ij, kg m², and bias, N m.
     let mass_ii = i_v_gi_22;
     let mass_iw = n_w_giy;
     let u_rest_i = n_rest_giy;
 
-    // D, the outer gimbal and what it carries, about Gᵒ: mass, first moment, inertia.
+    // D, the outer gimbal and what it carries: mass, kg; first moment, kg m, and inertia, kg m²,
+    // about Gᵒ.
     let lump_10 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * mr_v_gi_giz;
     let mr_d_go_gox = lump_10 + p.k_17 + p.mr_goc_go_gox;
     let mr_d_go_goy = mr_v_gi_giy + p.k_18 + p.mr_goc_go_goy;
@@ -1722,7 +1734,7 @@ pub fn eliminate<T: Real>(
     let i_d_go_23 = lump_27 + p.i_go_go_23;
     let i_d_go_33 = lump_18 - (lump_16 + lump_16) + lump_13 + p.k_16 + p.i_go_go_33;
 
-    // D with no joint accelerating: force, moment about Gᵒ.
+    // D with no joint accelerating: force, N, and moment about Gᵒ, N m.
     let bias_62 = q.cos_gamma_i * f_rest_gix + q.sin_gamma_i * f_rest_giz;
     let bias_63 = omega_go_n_gox * p.mr_goc_go_goz;
     let bias_64 = omega_go_n_goz * p.mr_goc_go_gox - bias_63;
@@ -1768,7 +1780,7 @@ pub fn eliminate<T: Real>(
     let bias_99 = bias_98 + (p.mr_goc_go_gox * r_go_rest_goy - bias_97);
     let n_rest_goz = bias_94 + (p.l_o_x * f_rest_giy - p.l_o_y * bias_62) + bias_99;
 
-    // Force and moment about Gᵒ per unit acceleration of each joint from here on.
+    // Force, kg m, and moment about Gᵒ, kg m², per unit acceleration of each joint from here on.
     let f_i_goz = -lump_10;
     let n_i_gox = lump_20 - lump_21;
     let n_i_goy = lump_14 + lump_16 + i_v_gi_22;
@@ -1781,13 +1793,13 @@ pub fn eliminate<T: Real>(
     let col_1 = q.cos_gamma_i * n_w_giz - q.sin_gamma_i * n_w_gix;
     let n_w_goz = col_1 - (p.l_o_x * neg_f_w_giy + p.l_o_y * f_w_gox);
 
-    // Row of the outer gimbal's joint, along its axis: M_ij and bias.
+    // Row of the outer gimbal's joint, along its axis: M_ij, kg m², and bias, N m.
     let mass_oo = i_d_go_33;
     let mass_oi = n_i_goz;
     let mass_ow = n_w_goz;
     let u_rest_o = n_rest_goz;
 
-    // D about B, along B axes: first moment and inertia.
+    // D about B, along B axes: first moment, kg m, and inertia, kg m².
     let f_o_by = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * mr_d_go_goy;
     let mr_d_b_bx = f_o_by + p.k_26;
     let moment_0 = q.cos_gamma_o * mr_d_go_goy + q.sin_gamma_o * mr_d_go_gox;
@@ -1816,7 +1828,7 @@ pub fn eliminate<T: Real>(
     let i_d_b_23 = moment_15 - (p.r_go_b_by * mr_d_go_goz + moment_16) + p.k_24;
     let i_d_b_33 = moment_9 - (moment_7 + moment_7) + i_d_go_33 + p.k_25;
 
-    // M_vi (17) and M_wi: force and moment about B per unit acceleration.
+    // M_vi (17), kg m, and M_wi, kg m²: force and moment about B per unit acceleration.
     let f_o_bx = -moment_0;
     let n_o_bx = moment_12 - moment_13;
     let n_o_by = moment_15 - moment_16;
@@ -1848,7 +1860,7 @@ pub fn eliminate<T: Real>(
     let n_rest_by = bias_101 + (p.r_go_b_bz * f_rest_bx - p.r_go_b_bx * f_rest_goz);
     let n_rest_bz = p.r_go_b_bx * f_rest_by - p.r_go_b_by * f_rest_bx + n_rest_goz;
 
-    // Right side of each joint: motor torque less what the rest asks for.
+    // Right side of each joint: motor torque less what the rest asks for, N m.
     let tau_o = u.u_o - u_rest_o;
     let tau_i = u.u_i - u_rest_i;
     let tau_w = u.u_w - u_rest_w;
@@ -1914,31 +1926,35 @@ pub fn eliminate<T: Real>(
     let gain_o_w3 = n_o_bz_wi * recip_o;
     let free_o = tau_o_wi * recip_o;
 
-    // Share of the hub's equations: mass matrix and right side.
+    // Share of the hub's mass matrix: M_vv.
     let hub_0 = p.m_d - f_w_bx * gain_w_v1 - f_i_bx_w * gain_i_v1;
     let m_vv_11 = hub_0 - f_o_bx_wi * gain_o_v1;
     let m_vv_12 = -(f_w_by * gain_w_v1 + f_i_by_w * gain_i_v1 + f_o_by_wi * gain_o_v1);
     let m_vv_13 = -(f_w_bz * gain_w_v1 + f_i_bz_w * gain_i_v1 + f_o_bz_wi * gain_o_v1);
-    let m_vw_11 = -(n_w_bx * gain_w_v1 + n_i_bx_w * gain_i_v1 + n_o_bx_wi * gain_o_v1);
-    let hub_1 = mr_d_b_bz - n_w_by * gain_w_v1 - n_i_by_w * gain_i_v1;
-    let m_vw_12 = hub_1 - n_o_by_wi * gain_o_v1;
-    let hub_2 = mr_d_b_by + n_w_bz * gain_w_v1 + n_i_bz_w * gain_i_v1;
-    let m_vw_13 = -(hub_2 + n_o_bz_wi * gain_o_v1);
-    let hub_3 = p.m_d - f_w_by * gain_w_v2 - f_i_by_w * gain_i_v2;
-    let m_vv_22 = hub_3 - f_o_by_wi * gain_o_v2;
+    let hub_1 = p.m_d - f_w_by * gain_w_v2 - f_i_by_w * gain_i_v2;
+    let m_vv_22 = hub_1 - f_o_by_wi * gain_o_v2;
     let m_vv_23 = -(f_w_bz * gain_w_v2 + f_i_bz_w * gain_i_v2 + f_o_bz_wi * gain_o_v2);
-    let hub_4 = mr_d_b_bz + n_w_bx * gain_w_v2 + n_i_bx_w * gain_i_v2;
-    let m_vw_21 = -(hub_4 + n_o_bx_wi * gain_o_v2);
+    let hub_2 = p.m_d - f_w_bz * gain_w_v3 - f_i_bz_w * gain_i_v3;
+    let m_vv_33 = hub_2 - f_o_bz_wi * gain_o_v3;
+
+    // Share of the hub's mass matrix: M_vw.
+    let m_vw_11 = -(n_w_bx * gain_w_v1 + n_i_bx_w * gain_i_v1 + n_o_bx_wi * gain_o_v1);
+    let hub_3 = mr_d_b_bz - n_w_by * gain_w_v1 - n_i_by_w * gain_i_v1;
+    let m_vw_12 = hub_3 - n_o_by_wi * gain_o_v1;
+    let hub_4 = mr_d_b_by + n_w_bz * gain_w_v1 + n_i_bz_w * gain_i_v1;
+    let m_vw_13 = -(hub_4 + n_o_bz_wi * gain_o_v1);
+    let hub_5 = mr_d_b_bz + n_w_bx * gain_w_v2 + n_i_bx_w * gain_i_v2;
+    let m_vw_21 = -(hub_5 + n_o_bx_wi * gain_o_v2);
     let m_vw_22 = -(n_w_by * gain_w_v2 + n_i_by_w * gain_i_v2 + n_o_by_wi * gain_o_v2);
-    let hub_5 = mr_d_b_bx - n_w_bz * gain_w_v2 - n_i_bz_w * gain_i_v2;
-    let m_vw_23 = hub_5 - n_o_bz_wi * gain_o_v2;
-    let hub_6 = p.m_d - f_w_bz * gain_w_v3 - f_i_bz_w * gain_i_v3;
-    let m_vv_33 = hub_6 - f_o_bz_wi * gain_o_v3;
+    let hub_6 = mr_d_b_bx - n_w_bz * gain_w_v2 - n_i_bz_w * gain_i_v2;
+    let m_vw_23 = hub_6 - n_o_bz_wi * gain_o_v2;
     let hub_7 = mr_d_b_by - n_w_bx * gain_w_v3 - n_i_bx_w * gain_i_v3;
     let m_vw_31 = hub_7 - n_o_bx_wi * gain_o_v3;
     let hub_8 = mr_d_b_bx + n_w_by * gain_w_v3 + n_i_by_w * gain_i_v3;
     let m_vw_32 = -(hub_8 + n_o_by_wi * gain_o_v3);
     let m_vw_33 = -(n_w_bz * gain_w_v3 + n_i_bz_w * gain_i_v3 + n_o_bz_wi * gain_o_v3);
+
+    // Share of the hub's mass matrix: M_ww.
     let hub_9 = i_d_b_11 - n_w_bx * gain_w_w1 - n_i_bx_w * gain_i_w1;
     let m_ww_11 = hub_9 - n_o_bx_wi * gain_o_w1;
     let hub_10 = i_d_b_12 - n_w_by * gain_w_w1 - n_i_by_w * gain_i_w1;
@@ -1951,6 +1967,8 @@ pub fn eliminate<T: Real>(
     let m_ww_23 = hub_13 - n_o_bz_wi * gain_o_w2;
     let hub_14 = i_d_b_33 - n_w_bz * gain_w_w3 - n_i_bz_w * gain_i_w3;
     let m_ww_33 = hub_14 - n_o_bz_wi * gain_o_w3;
+
+    // Share of the hub's right side: force, N, and moment about B, N m.
     let hub_15 = f_rest_bx + tau_w * gain_w_v1 + tau_i_w * gain_i_v1;
     let h_v_1 = -(hub_15 + tau_o_wi * gain_o_v1);
     let hub_16 = f_rest_by + tau_w * gain_w_v2 + tau_i_w * gain_i_v2;
@@ -2087,7 +2105,7 @@ pub fn energy_momentum<T: Real>(
     let omega_w_n_wy = q.cos_theta * omega_gi_n_giy + q.sin_theta * omega_gi_n_giz;
     let omega_w_n_wz = q.cos_theta * omega_gi_n_giz - q.sin_theta * omega_gi_n_giy;
 
-    // The wheel: momentum, and its moment about W.
+    // The wheel: momentum, kg m/s; its moment about W, kg m²/s.
     let mom_0 = b.omega_by * p.r_go_b_bz - b.omega_bz * p.r_go_b_by;
     let mom_1 = mom_0 + b.r_b_n_dot_bx;
     let mom_2 = b.omega_bz * p.r_go_b_bx - b.omega_bx * p.r_go_b_bz;
@@ -2116,7 +2134,7 @@ pub fn energy_momentum<T: Real>(
     let mom_20 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
     let h_w_wz = mom_20 + omega_w_n_wz * p.i_w_w_33 - mom_10 * p.mr_wc_w_wy;
 
-    // The inner gimbal: momentum, and its moment about Gⁱ.
+    // The inner gimbal: momentum, kg m/s; its moment about Gⁱ, kg m²/s.
     let mom_21 = omega_gi_n_giz * p.mr_gic_gi_giy;
     let p_gi_gix = omega_gi_n_giy * p.mr_gic_gi_giz - mom_21 + p.m_gi * mom_9;
     let mom_22 = omega_gi_n_gix * p.mr_gic_gi_giz;
@@ -2133,7 +2151,7 @@ pub fn energy_momentum<T: Real>(
     let mom_29 = mom_12 * p.mr_gic_gi_gix - mom_9 * p.mr_gic_gi_giy;
     let h_gi_giz = mom_28 + omega_gi_n_giz * p.i_gi_gi_33 + mom_29;
 
-    // The outer gimbal: momentum, and its moment about Gᵒ.
+    // The outer gimbal: momentum, kg m/s; its moment about Gᵒ, kg m²/s.
     let mom_30 = omega_go_n_goz * p.mr_goc_go_goy;
     let p_go_gox = omega_go_n_goy * p.mr_goc_go_goz - mom_30 + p.m_go * mom_6;
     let mom_31 = omega_go_n_gox * p.mr_goc_go_goz;
