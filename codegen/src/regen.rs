@@ -104,9 +104,9 @@ pub fn prove(pages: &[Page], files: &[EmittedFile]) -> Result<Vec<Row>, RegenErr
         rows.extend(against_pages(&mut ring, &chain, &quantities(&chain), &equations));
         rows.extend(zero_traces(&mut ring, &chain));
         let name = format!("/{}.rs", kind.name);
-        if let Some(file) = files.iter().find(|file| file.path.ends_with(&name)) {
-            rows.extend(Prover::new(&chain).rows(&file.text)?);
-        }
+        let file = files.iter().find(|file| file.path.ends_with(&name));
+        let file = file.ok_or_else(|| EmittedError::NoFile(kind.name.to_owned()))?;
+        rows.extend(Prover::new(&chain).rows(&file.text)?);
     }
     Ok(rows)
 }

@@ -60,6 +60,8 @@ pub struct HubSymbols<'g> {
     pub omega_dot: Vector<'g, Hub>,
     /// Inertial velocity of point B.
     pub r_b_n_dot: Vector<'g, Hub>,
+    /// Inertial acceleration of point B.
+    pub r_b_n_ddot: Vector<'g, Hub>,
     /// Inertial acceleration of the system's centre of mass.
     pub r_c_n_ddot: Vector<'g, Hub>,
 }
@@ -108,8 +110,14 @@ impl<'g> HubSymbols<'g> {
         };
         let omega: Vector<'g, Hub> = along("omega", Stage::Rate);
         let omega_dot: Vector<'g, Hub> = along("omega_dot", Stage::Acceleration);
-        for (rate, acceleration) in omega.components().into_iter().zip(omega_dot.components()) {
-            graph.set_rate(rate, acceleration);
+        let r_b_n_dot: Vector<'g, Hub> = along("r_b_n_dot", Stage::Rate);
+        let r_b_n_ddot: Vector<'g, Hub> = along("r_b_n_ddot", Stage::Acceleration);
+        // Components along axes that turn: d(r_dot)/dt = r_ddot - omega x r_dot.
+        let r_b_n_dot_rates = r_b_n_ddot - omega.cross(r_b_n_dot);
+        for (v, rate) in [(omega, omega_dot), (r_b_n_dot, r_b_n_dot_rates)] {
+            for (component, rate) in v.components().into_iter().zip(rate.components()) {
+                graph.set_rate(component, rate);
+            }
         }
         Self {
             m_sc: parameter("m_sc"),
@@ -118,7 +126,8 @@ impl<'g> HubSymbols<'g> {
             i_b_bc: Symmetric::new(ENTRIES.map(|entry| parameter(&format!("i_b_{entry}")))),
             omega,
             omega_dot,
-            r_b_n_dot: along("r_b_n_dot", Stage::Rate),
+            r_b_n_dot,
+            r_b_n_ddot,
             r_c_n_ddot: along("r_c_n_ddot", Stage::Acceleration),
         }
     }

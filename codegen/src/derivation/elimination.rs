@@ -2,13 +2,12 @@
 //!
 //! With `d` the pivot of joint j and `g_x = M_xj / d` its gains, every entry of the rest becomes
 //! `M_xy - g_x M_jy` and every right side `h_x - g_x h_j`. This is `M = L D L^T` with the gains for
-//! L; each step is an identity that can be proven by itself, `new + g_x d g_y = old`.
+//! L; the proof multiplies the emitted factors out again and knows nothing of this file.
 
 use super::Share;
-use super::chain::{Chain, Link};
+use super::chain::Chain;
 use super::script::Script;
 use crate::graph::Expr;
-use crate::kinds;
 use crate::space::Vector;
 
 /// Suffixes of the six hub unknowns: acceleration of B, angular acceleration.
@@ -16,19 +15,6 @@ pub const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
 
 /// A name and its value.
 pub type Entry<'g> = (String, Expr<'g>);
-
-/// To be proven of the emitted `name`: `value * factor + sum of addends = before`.
-#[derive(Clone, Debug)]
-pub struct Identity<'g> {
-    /// The name under which the value is emitted.
-    pub name: String,
-    /// What the value is multiplied by.
-    pub factor: Expr<'g>,
-    /// What is added to it.
-    pub addends: Vec<Expr<'g>>,
-    /// What must come out.
-    pub before: Expr<'g>,
-}
 
 /// One joint after its elimination.
 pub struct Pivot<'g> {
@@ -52,8 +38,6 @@ pub struct Eliminated<'g> {
     pub pivots: Vec<Pivot<'g>>,
     /// The share of the hub's equations by field name.
     pub hub: Vec<Entry<'g>>,
-    /// Every step.
-    pub identities: Vec<Identity<'g>>,
 }
 
 /// One joint's row as it stands: couplings to hub and inner joints, diagonal, right side.
@@ -71,59 +55,29 @@ pub fn eliminate<'g>(
     share: &Share<'g>,
     script: &mut Script<'g>,
 ) -> Eliminated<'g> {
-    let one = chain.graph.constant(1);
     let mut rows = rows(chain, share, script);
     let diagonals: Vec<_> = rows.iter().map(|row| row.diagonal.clone()).collect();
-    let identities = right_sides(chain, share);
-    let mut made = Eliminated { pivots: Vec::new(), hub: Vec::new(), identities };
+    let mut made = Eliminated { pivots: Vec::new(), hub: Vec::new() };
     let mut done = String::new();
     while let Some(row) = rows.pop() {
         let pivot = gains(&row, &rows, diagonals[rows.len()].clone(), script);
-        for (gain, coupling) in pivot.gains.iter().zip(&pivot.couplings) {
-            made.identities.push(gain_identity(gain, pivot.pivot.1, *coupling));
-        }
-        made.identities.push(gain_identity(&pivot.free, pivot.pivot.1, pivot.right));
         done.push_str(pivot.tag);
         let title = format!("Joint {} taken out of the rows nearer the hub.", pivot.tag);
         script.section("rest", title);
         for (l, inner) in rows.iter_mut().enumerate() {
             let gain = pivot.gains[HUB.len() + l].1;
-            let own = (pivot.couplings[HUB.len() + l], gain);
-            let couplings = pivot.couplings.iter().copied().zip(pivot.gains.iter().map(|g| g.1));
-            let others = inner.couplings.iter_mut().zip(couplings);
-            let right = (pivot.right, pivot.free.1);
-            let all = others.chain([(&mut inner.diagonal, own)]).chain([(&mut inner.right, right)]);
-            for (entry, (value, per_pivot)) in all {
-                let name = format!("{}_{done}", entry.0);
+            let own = (&mut inner.diagonal, pivot.couplings[HUB.len() + l]);
+            let right = (&mut inner.right, pivot.right);
+            let others = inner.couplings.iter_mut().zip(pivot.couplings.iter().copied());
+            for (entry, value) in others.chain([own, right]) {
                 let new = entry.1 - gain * value;
-                let addends = vec![gain * pivot.pivot.1 * per_pivot];
-                let before = entry.1;
-                made.identities.push(Identity { name: name.clone(), factor: one, addends, before });
-                let root = entry.0.clone();
-                *entry = (root, script.cut(name, new));
+                entry.1 = script.cut(format!("{}_{done}", entry.0), new);
             }
         }
         made.pivots.push(pivot);
     }
     hub(share, &mut made, script);
     made
-}
-
-fn gain_identity<'g>(gain: &Entry<'g>, pivot: Expr<'g>, before: Expr<'g>) -> Identity<'g> {
-    Identity { name: gain.0.clone(), factor: pivot, addends: Vec::new(), before }
-}
-
-/// To be proven of the right sides: `tau + u_rest = u`.
-fn right_sides<'g>(chain: &Chain<'g>, share: &Share<'g>) -> Vec<Identity<'g>> {
-    let factor = chain.graph.constant(1);
-    let links = chain.links.iter().zip(chain.kind.links).zip(&share.bias_joint);
-    let identity = |((link, data), rest): ((&Link<'g>, &kinds::Link), &Expr<'g>)| Identity {
-        name: format!("tau_{}", data.joint.tag),
-        factor,
-        addends: vec![*rest],
-        before: link.torque,
-    };
-    links.map(identity).collect()
 }
 
 /// The joints' rows, with right sides `u - u_rest`.
@@ -201,7 +155,7 @@ fn hub<'g>(share: &Share<'g>, made: &mut Eliminated<'g>, script: &mut Script<'g>
         for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
             if column >= row {
                 let name = format!("m_{block}_{}{}", row % 3 + 1, column % 3 + 1);
-                let taken = |pivot: &Pivot<'g>| (pivot.couplings[column], pivot.gains[column].1);
+                let taken = |pivot: &Pivot<'g>| pivot.couplings[column];
                 made.take_out(name, assembled(row, column), row, taken, script);
             }
         }
@@ -210,7 +164,7 @@ fn hub<'g>(share: &Share<'g>, made: &mut Eliminated<'g>, script: &mut Script<'g>
     let rest = [share.bias_force, share.bias_moment].map(Vector::components).concat();
     for (row, rest) in rest.into_iter().enumerate() {
         let name = format!("h_{}_{}", ["v", "w"][row / 3], row % 3 + 1);
-        made.take_out(name, -rest, row, |pivot| (pivot.right, pivot.free.1), script);
+        made.take_out(name, -rest, row, |pivot| pivot.right, script);
     }
 }
 
@@ -221,20 +175,12 @@ impl<'g> Eliminated<'g> {
         name: String,
         before: Expr<'g>,
         row: usize,
-        taken: impl Fn(&Pivot<'g>) -> (Expr<'g>, Expr<'g>),
+        taken: impl Fn(&Pivot<'g>) -> Expr<'g>,
         script: &mut Script<'g>,
     ) {
-        let mut value = before;
-        let mut addends = Vec::new();
-        for pivot in &self.pivots {
-            let gain = pivot.gains[row].1;
-            let (entry, per_pivot) = taken(pivot);
-            value = value - gain * entry;
-            addends.push(gain * pivot.pivot.1 * per_pivot);
-        }
+        let terms = self.pivots.iter().map(|pivot| pivot.gains[row].1 * taken(pivot));
+        let value = terms.fold(before, |value, term| value - term);
         script.name(name.clone(), value);
-        self.hub.push((name.clone(), value));
-        let factor = before.graph().constant(1);
-        self.identities.push(Identity { name, factor, addends, before });
+        self.hub.push((name, value));
     }
 }

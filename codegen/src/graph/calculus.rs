@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{Expr, Graph, Node, NodeId, Rational, Stage, SymbolId};
+use super::{Expr, Graph, Node, NodeId, Stage, SymbolId, float};
 
 impl<'g> Expr<'g> {
     /// `d self / dt`, by the rates of the symbols.
@@ -97,12 +97,6 @@ impl<'g> Expr<'g> {
         });
         stages.max().unwrap_or(Stage::Parameter)
     }
-}
-
-/// The nearest double of a small rational.
-#[expect(clippy::cast_precision_loss, reason = "coefficients of the derivation are small integers")]
-pub(crate) fn float(k: Rational) -> f64 {
-    *k.numer() as f64 / *k.denom() as f64
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@
 //! one is known to the normal form alone.
 
 mod calculus;
+pub(crate) mod rational;
 mod rules;
 mod symbol;
 
@@ -17,12 +18,10 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::{Add, Mul, Neg, Sub};
 
-pub(crate) use calculus::float;
+pub use rational::Rational;
+pub(crate) use rational::float;
 pub use rules::RULES;
 pub use symbol::{Stage, Symbol, SymbolId};
-
-/// An exact coefficient.
-pub type Rational = num_rational::Ratio<i64>;
 
 /// Position of a node in its graph.
 pub(crate) type NodeId = u32;
@@ -115,6 +114,11 @@ impl Graph {
             arena.nodes.push(node);
         }
         Expr { graph: self, id }
+    }
+
+    /// The id that the next new node will have.
+    pub(crate) fn next(&self) -> NodeId {
+        NodeId::try_from(self.arena.borrow().nodes.len()).unwrap_or(NodeId::MAX)
     }
 
     /// Every node that `roots` are made of, operands before their users.

@@ -4,7 +4,7 @@
 //! rule may only make an expression smaller or move a sign outwards, so building always ends.
 //! All of them hold in exact arithmetic; the unit test evaluates both sides of each.
 
-use super::{Expr, Node, Rational};
+use super::{Expr, Node, Rational, rational};
 
 /// Name and law of every rule, as the tests and the documentation print them.
 pub const RULES: [(&str, &str); 15] = [
@@ -27,9 +27,12 @@ pub const RULES: [(&str, &str); 15] = [
 
 pub(super) fn sum<'g>(a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
     match (a.node(), b.node()) {
-        (Node::Constant(k), Node::Constant(l)) => a.graph.constant(k + l), // fold_sum
-        (Node::Constant(k), _) if k == Rational::ZERO => b,                // zero_plus
-        (_, Node::Constant(k)) if k == Rational::ZERO => a,                // zero_plus
+        (Node::Constant(k), Node::Constant(l)) => match rational::sum(k, l) {
+            Some(folded) => a.graph.constant(folded), // fold_sum
+            None => a.apply(Node::Sum(a.id.min(b.id), a.id.max(b.id))),
+        },
+        (Node::Constant(k), _) if k == Rational::ZERO => b, // zero_plus
+        (_, Node::Constant(k)) if k == Rational::ZERO => a, // zero_plus
         (Node::Neg(x), Node::Neg(y)) => neg(sum(a.graph.expr(x), a.graph.expr(y))), // neg_out_of_sum
         (Node::Neg(x), _) if x == b.id => a.graph.zero(),                           // opposites
         (_, Node::Neg(y)) if y == a.id => a.graph.zero(),                           // opposites
@@ -39,7 +42,10 @@ pub(super) fn sum<'g>(a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
 
 pub(super) fn product<'g>(a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
     match (a.node(), b.node()) {
-        (Node::Constant(k), Node::Constant(l)) => a.graph.constant(k * l), // fold_product
+        (Node::Constant(k), Node::Constant(l)) => match rational::product(k, l) {
+            Some(folded) => a.graph.constant(folded), // fold_product
+            None => a.apply(Node::Product(a.id.min(b.id), a.id.max(b.id))),
+        },
         (Node::Constant(k), _) => scale(k, b),
         (_, Node::Constant(k)) => scale(k, a),
         (Node::Neg(x), _) => neg(product(a.graph.expr(x), b)), // neg_out_of_product
@@ -62,11 +68,19 @@ fn scale(k: Rational, a: Expr<'_>) -> Expr<'_> {
     match a.node() {
         Node::Neg(x) => neg(scale(k, graph.expr(x))), // neg_out_of_product
         Node::Product(x, y) => match (graph.node(x), graph.node(y)) {
-            (Node::Constant(l), _) => scale(k * l, graph.expr(y)), // gather
-            (_, Node::Constant(l)) => scale(k * l, graph.expr(x)), // gather
+            (Node::Constant(l), _) => gathered(k, l, graph.expr(y), a), // gather
+            (_, Node::Constant(l)) => gathered(k, l, graph.expr(x), a), // gather
             _ => scaled(k, a),
         },
         _ => scaled(k, a),
+    }
+}
+
+/// `(k l) rest`, or `k whole` where the product of the constants is too large to be one.
+fn gathered<'g>(k: Rational, l: Rational, rest: Expr<'g>, whole: Expr<'g>) -> Expr<'g> {
+    match rational::product(k, l) {
+        Some(product) => scale(product, rest),
+        None => scaled(k, whole),
     }
 }
 

@@ -2,11 +2,11 @@
 
 use super::{Kernel, Record, records};
 use crate::derivation::chain::Chain;
-use crate::derivation::elimination::{Eliminated, HUB, Identity};
+use crate::derivation::elimination::{Eliminated, HUB};
 use crate::derivation::script::Script;
 use crate::graph::{Expr, Stage};
 
-/// The kernel, with one identity per row.
+/// The kernel.
 #[must_use]
 pub(super) fn kernel<'g>(
     chain: &Chain<'g>,
@@ -25,22 +25,14 @@ pub(super) fn kernel<'g>(
     let mut script = Script::new(graph);
     script
         .section("row", "Row by row from the hub outwards: the free acceleration less the gains.");
-    let mut identities = Vec::new();
     for (pivot, link) in eliminated.pivots.iter().rev().zip(chain.kind.links) {
         let free = given(&pivot.free.0);
         let gains = pivot.gains.iter().map(|(name, _)| given(name));
-        let products: Vec<_> = gains.zip(&known).map(|(gain, unknown)| gain * *unknown).collect();
-        let value = products.iter().fold(free, |sum, product| sum - *product);
+        let products = gains.zip(&known).map(|(gain, unknown)| gain * *unknown);
+        let value = products.fold(free, |sum, product| sum - product);
         let name = link.joint.acceleration;
         let symbol = graph.symbol(name, Stage::Acceleration);
         script.define(name, value, symbol);
-        let one = graph.constant(1);
-        identities.push(Identity {
-            name: name.to_owned(),
-            factor: one,
-            addends: products,
-            before: free,
-        });
         known.push(symbol);
     }
     debug_assert_eq!(known.len(), HUB.len() + chain.links.len());
@@ -51,6 +43,5 @@ pub(super) fn kernel<'g>(
         sections: script.sections,
         output: records::joint_accelerations(chain.kind),
         claims: Vec::new(),
-        identities,
     }
 }

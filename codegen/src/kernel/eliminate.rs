@@ -35,7 +35,6 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
         sections: script.sections,
         output: output(&eliminated),
         claims: claims(by_body::share(chain).named(kind)),
-        identities: eliminated.identities.clone(),
     };
     (kernel, eliminated)
 }

@@ -174,7 +174,6 @@ fn body<'g>(
         sections: b.script.sections,
         output: b.record,
         claims: b.claims,
-        identities: Vec::new(),
     }
 }
 
@@ -218,7 +217,6 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[Quantity<'g>]) -> Kernel<'g
         sections: b.script.sections,
         output: b.record,
         claims: b.claims,
-        identities: Vec::new(),
     }
 }
 

@@ -11,7 +11,6 @@ pub use records::{
 };
 
 use crate::derivation::chain::Chain;
-use crate::derivation::elimination::Identity;
 use crate::derivation::script::Section;
 use crate::graph::Expr;
 
@@ -29,8 +28,6 @@ pub struct Kernel<'g> {
     pub output: Record,
     /// What its named values must be equal to.
     pub claims: Vec<Claim<'g>>,
-    /// Steps of the elimination among its named values.
-    pub identities: Vec<Identity<'g>>,
 }
 
 /// Emitted names and what they must be equal to, by another way than they are computed.

@@ -31,6 +31,5 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         sections: script.sections,
         output: records::energy_momentum(),
         claims: claims(by_body::momenta(chain).named()),
-        identities: Vec::new(),
     }
 }

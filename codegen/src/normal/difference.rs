@@ -1,5 +1,6 @@
 //! What distinguishes two normal forms, term by term.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use super::{Monomial, Polynomial, Ring};
@@ -40,20 +41,23 @@ impl Difference {
     /// Compares `checked` with `reference`, both expanded in `ring`.
     #[must_use]
     pub fn between(ring: &Ring<'_>, checked: &Polynomial, reference: &Polynomial) -> Self {
-        let delta = checked.plus(-Rational::ONE, reference);
-        let name = |(monomial, _): (&Monomial, &Rational)| {
+        let both = checked.terms().chain(reference.terms());
+        let monomials: BTreeSet<&Monomial> = both.map(|(monomial, _)| monomial).collect();
+        let name = |monomial: &Monomial| {
             let (is, ought) = (checked.coefficient(monomial), reference.coefficient(monomial));
-            if ought == Rational::ZERO {
-                Term::Extra(ring.show(monomial, is))
+            if is == ought {
+                None
+            } else if ought == Rational::ZERO {
+                Some(Term::Extra(ring.show(monomial, is)))
             } else if is == Rational::ZERO {
-                Term::Missing(ring.show(monomial, ought))
+                Some(Term::Missing(ring.show(monomial, ought)))
             } else if is == -ought {
-                Term::Sign(ring.show(monomial, ought))
+                Some(Term::Sign(ring.show(monomial, ought)))
             } else {
-                Term::Factor(is / ought, ring.show(monomial, ought))
+                Some(Term::Factor(is / ought, ring.show(monomial, ought)))
             }
         };
-        Self { terms: delta.terms().map(name).collect() }
+        Self { terms: monomials.into_iter().filter_map(name).collect() }
     }
 
     /// Whether the two sides are equal.

@@ -5,7 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::graph::Rational;
+use super::NormalError;
+use crate::graph::{Rational, rational};
 
 const WORDS: usize = 10;
 const PER_WORD: usize = 16;
@@ -33,15 +34,14 @@ impl Monomial {
 
     /// The product of two monomials.
     ///
-    /// # Panics
-    /// When an exponent would pass fifteen.
-    pub(super) fn times(&self, other: &Self) -> Self {
+    /// # Errors
+    /// When an exponent above seven enters it: the sum of two might not fit four bits.
+    pub(super) fn times(&self, other: &Self) -> Result<Self, NormalError> {
         const HIGH: u64 = 0x8888_8888_8888_8888;
-        Self(std::array::from_fn(|word| {
-            let (a, b) = (self.0[word], other.0[word]);
-            assert_eq!((a | b) & HIGH, 0, "an exponent above seven enters a product");
-            a + b
-        }))
+        if self.0.iter().chain(&other.0).any(|word| word & HIGH != 0) {
+            return Err(NormalError::Exponent);
+        }
+        Ok(Self(std::array::from_fn(|word| self.0[word] + other.0[word])))
     }
 
     /// `self` with the exponent of variable `index` lowered by `by`.
@@ -67,28 +67,35 @@ impl Polynomial {
     /// The polynomial of one term.
     #[must_use]
     pub fn single(monomial: Monomial, coefficient: Rational) -> Self {
-        let mut made = Self::default();
-        made.add(monomial, coefficient);
-        made
+        let terms = (coefficient != Rational::ZERO).then_some((monomial, coefficient));
+        Self { terms: terms.into_iter().collect() }
     }
 
     /// Adds one term.
-    pub(super) fn add(&mut self, monomial: Monomial, coefficient: Rational) {
+    pub(super) fn add(
+        &mut self,
+        monomial: Monomial,
+        coefficient: Rational,
+    ) -> Result<(), NormalError> {
         use std::collections::btree_map::Entry;
         if coefficient == Rational::ZERO {
-            return;
+            return Ok(());
         }
         match self.terms.entry(monomial) {
             Entry::Vacant(place) => {
                 place.insert(coefficient);
             }
             Entry::Occupied(mut place) => {
-                *place.get_mut() += coefficient;
-                if *place.get() == Rational::ZERO {
-                    place.remove();
+                let sum = rational::sum(*place.get(), coefficient);
+                match sum.ok_or(NormalError::Coefficient)? {
+                    sum if sum == Rational::ZERO => {
+                        place.remove();
+                    }
+                    sum => *place.get_mut() = sum,
                 }
             }
         }
+        Ok(())
     }
 
     /// The terms in order.
@@ -116,12 +123,15 @@ impl Polynomial {
     }
 
     /// `self + factor * other`.
-    #[must_use]
-    pub fn plus(&self, factor: Rational, other: &Self) -> Self {
+    ///
+    /// # Errors
+    /// When a coefficient gets too large.
+    pub fn plus(&self, factor: Rational, other: &Self) -> Result<Self, NormalError> {
         let mut made = self.clone();
         for (monomial, coefficient) in &other.terms {
-            made.add(*monomial, factor * coefficient);
+            let scaled = rational::product(factor, *coefficient);
+            made.add(*monomial, scaled.ok_or(NormalError::Coefficient)?)?;
         }
-        made
+        Ok(made)
     }
 }

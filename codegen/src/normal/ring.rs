@@ -5,7 +5,7 @@ use std::fmt;
 use std::rc::Rc;
 
 use super::polynomial::{Monomial, Polynomial, VARIABLES};
-use crate::graph::{Expr, Graph, Node, NodeId, Rational, SymbolId};
+use crate::graph::{Expr, Graph, Node, NodeId, Rational, SymbolId, rational};
 
 /// Why an expression has no normal form here.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,6 +14,10 @@ pub enum NormalError {
     Reciprocal,
     /// More variables than a monomial holds.
     Variables(usize),
+    /// A power higher than a monomial holds.
+    Exponent,
+    /// A coefficient larger than can be calculated with.
+    Coefficient,
 }
 
 impl fmt::Display for NormalError {
@@ -21,6 +25,10 @@ impl fmt::Display for NormalError {
         match self {
             Self::Reciprocal => {
                 write!(f, "the reciprocal of a compound expression has no normal form; name it")
+            }
+            Self::Exponent => write!(f, "a power above 7 enters a product; lower it"),
+            Self::Coefficient => {
+                write!(f, "a coefficient with a part of 2^31 or more; use smaller constants")
             }
             Self::Variables(bound) => {
                 write!(f, "more than {bound} variables in one proof; split it at named quantities")
@@ -51,7 +59,7 @@ pub struct Ring<'g> {
     variables: Vec<Variable>,
     index: HashMap<Variable, usize>,
     reductions: Vec<Reduction>,
-    expanded: HashMap<NodeId, Rc<Polynomial>>,
+    expanded: BTreeMap<NodeId, Rc<Polynomial>>,
 }
 
 impl<'g> Ring<'g> {
@@ -63,7 +71,7 @@ impl<'g> Ring<'g> {
             variables: Vec::new(),
             index: HashMap::new(),
             reductions: Vec::new(),
-            expanded: HashMap::new(),
+            expanded: BTreeMap::new(),
         }
     }
 
@@ -77,6 +85,11 @@ impl<'g> Ring<'g> {
             self.expanded.insert(id, polynomial);
         }
         Ok(self.expanded[&e.id()].clone())
+    }
+
+    /// Forgets the expansions of nodes made at or after `mark`.
+    pub(crate) fn forget_from(&mut self, mark: NodeId) {
+        self.expanded.split_off(&mark);
     }
 
     /// What `root` is made of and has not been expanded yet, operands before their users.
@@ -94,14 +107,16 @@ impl<'g> Ring<'g> {
     fn expand(&mut self, id: NodeId) -> Result<Polynomial, NormalError> {
         let one = Rational::ONE;
         Ok(match self.graph.node(id) {
-            Node::Constant(k) => Polynomial::constant(k),
+            Node::Constant(k) => {
+                Polynomial::constant(rational::bounded(k).ok_or(NormalError::Coefficient)?)
+            }
             Node::Symbol(symbol) => {
                 let index = self.variable(Variable::Symbol(symbol))?;
                 Polynomial::single(Monomial::variable(index), one)
             }
-            Node::Sum(a, b) => self.expanded[&a].plus(one, &self.expanded[&b]),
-            Node::Neg(a) => Polynomial::default().plus(-one, &self.expanded[&a]),
-            Node::Product(a, b) => self.times(&self.expanded[&a], &self.expanded[&b]),
+            Node::Sum(a, b) => self.expanded[&a].plus(one, &self.expanded[&b])?,
+            Node::Neg(a) => Polynomial::default().plus(-one, &self.expanded[&a])?,
+            Node::Product(a, b) => self.times(&self.expanded[&a], &self.expanded[&b])?,
             Node::Recip(a) => {
                 let Node::Symbol(symbol) = self.graph.node(a) else {
                     return Err(NormalError::Reciprocal);
@@ -113,39 +128,45 @@ impl<'g> Ring<'g> {
     }
 
     /// The product of two normal forms.
-    #[must_use]
-    pub fn times(&self, a: &Polynomial, b: &Polynomial) -> Polynomial {
+    ///
+    /// # Errors
+    /// When a power or a coefficient gets too large.
+    pub fn times(&self, a: &Polynomial, b: &Polynomial) -> Result<Polynomial, NormalError> {
         let mut made = Polynomial::default();
         for (x, k) in a.terms() {
             for (y, l) in b.terms() {
-                self.add_reduced(&mut made, x.times(y), k * l);
+                let coefficient = rational::product(*k, *l).ok_or(NormalError::Coefficient)?;
+                self.add_reduced(&mut made, x.times(y)?, coefficient)?;
             }
         }
-        made
+        Ok(made)
     }
 
-    fn add_reduced(&self, sum: &mut Polynomial, monomial: Monomial, coefficient: Rational) {
+    fn add_reduced(
+        &self,
+        sum: &mut Polynomial,
+        monomial: Monomial,
+        coefficient: Rational,
+    ) -> Result<(), NormalError> {
         for reduction in &self.reductions {
             match *reduction {
                 Reduction::Square { sin, cos } if monomial.exponent(sin) >= 2 => {
                     let rest = monomial.lowered(sin, 2);
                     let cosine = Monomial::variable(cos);
-                    let squared = rest.times(&cosine).times(&cosine);
-                    self.add_reduced(sum, rest, coefficient);
-                    self.add_reduced(sum, squared, -coefficient);
-                    return;
+                    let squared = rest.times(&cosine)?.times(&cosine)?;
+                    self.add_reduced(sum, rest, coefficient)?;
+                    return self.add_reduced(sum, squared, -coefficient);
                 }
                 Reduction::Inverse { symbol, recip }
                     if monomial.exponent(symbol) >= 1 && monomial.exponent(recip) >= 1 =>
                 {
                     let rest = monomial.lowered(symbol, 1).lowered(recip, 1);
-                    self.add_reduced(sum, rest, coefficient);
-                    return;
+                    return self.add_reduced(sum, rest, coefficient);
                 }
                 _ => {}
             }
         }
-        sum.add(monomial, coefficient);
+        sum.add(monomial, coefficient)
     }
 
     fn variable(&mut self, variable: Variable) -> Result<usize, NormalError> {
@@ -225,6 +246,18 @@ mod tests {
         let mut ring = Ring::new(&g);
         assert_eq!(ring.normal(m.recip() * (m * x)), ring.normal(x));
         assert_eq!(ring.normal((m + x).recip()), Err(NormalError::Reciprocal));
+    }
+
+    #[test]
+    fn what_gets_too_large_is_an_error() {
+        let g = Graph::new();
+        let x = g.symbol("x", Stage::Parameter);
+        let mut ring = Ring::new(&g);
+        let eighth = x.squared().squared().squared();
+        assert_eq!(ring.normal(eighth * x), Err(NormalError::Exponent));
+        let large = g.constant(1 << 30);
+        assert_eq!(ring.normal(large * (large * x)), Err(NormalError::Coefficient));
+        assert_eq!(ring.normal(large * x + large * x), Err(NormalError::Coefficient));
     }
 
     #[test]

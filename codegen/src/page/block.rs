@@ -38,14 +38,14 @@ pub fn blocks(page: &str, text: &str) -> Result<Vec<Block>, PageError> {
     let mut found = Vec::new();
     let mut lines = text.lines().enumerate();
     while let Some((start, line)) = lines.next() {
-        if line.trim_end() != "```equation" {
+        if line.trim() != "```equation" {
             continue;
         }
         let place = |error| PageError { page: page.to_owned(), line: start + 1, error };
         let mut inside = Vec::new();
         loop {
             match lines.next() {
-                Some((_, "```")) => break,
+                Some((_, line)) if line.trim() == "```" => break,
                 Some((_, line)) => inside.push(line),
                 None => return Err(place(ReadError::OpenFence)),
             }

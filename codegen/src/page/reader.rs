@@ -7,7 +7,7 @@ use syn::spanned::Spanned;
 
 use super::value::{Value, inner};
 use super::{Block, Kind};
-use crate::graph::{Expr, Graph, Rational};
+use crate::graph::{Expr, Graph, Rational, rational};
 
 /// What is wrong with a block or with a piece of emitted text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,6 +24,10 @@ pub enum ReadError {
     Form(String),
     /// A name that is neither a symbol nor defined before.
     Unknown(String),
+    /// A `let` of a name that means something already.
+    Taken(String),
+    /// Parentheses nested too deeply to read.
+    Depth(usize),
     /// An operation between kinds for which it is not defined.
     Kinds(String),
     /// The expression is of another kind than the heading says.
@@ -45,6 +49,10 @@ impl fmt::Display for ReadError {
             Self::Unknown(name) => {
                 write!(f, "`{name}` is neither a symbol nor defined above; define it first")
             }
+            Self::Taken(name) => write!(f, "`{name}` means something already; choose another name"),
+            Self::Depth(bound) => {
+                write!(f, "brackets are nested more than {bound} deep; use `let` for the parts")
+            }
             Self::Kinds(text) => write!(f, "`{text}` is not defined for these kinds"),
             Self::NotThat(kind) => {
                 write!(f, "the expression is a {kind}, the heading says otherwise")
@@ -55,17 +63,28 @@ impl fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
+/// Brackets a person can follow; far below what would exhaust the parser.
+const DEPTH: usize = 100;
+
 /// Evaluates expressions in an environment of names.
 pub struct Reader<'g> {
     graph: &'g Graph,
     names: HashMap<String, Value<'g>>,
+    /// Whether a symbol of the graph may be named without having been defined.
+    symbols: bool,
 }
 
 impl<'g> Reader<'g> {
     /// A reader that knows the symbols of `graph` and nothing else.
     #[must_use]
     pub fn new(graph: &'g Graph) -> Self {
-        Self { graph, names: HashMap::new() }
+        Self { graph, names: HashMap::new(), symbols: true }
+    }
+
+    /// A reader that knows only what it is told: emitted text names its arguments, `p.m_w`.
+    #[must_use]
+    pub fn strict(graph: &'g Graph) -> Self {
+        Self { symbols: false, ..Self::new(graph) }
     }
 
     /// Gives `name` a meaning from here on.
@@ -78,6 +97,9 @@ impl<'g> Reader<'g> {
     /// # Errors
     /// When it does not parse or does not evaluate.
     pub fn body(&mut self, body: &str) -> Result<Value<'g>, ReadError> {
+        if depth(body) > DEPTH {
+            return Err(ReadError::Depth(DEPTH));
+        }
         let block: syn::Block = syn::parse_str(&format!("{{\n{body}\n}}"))
             .map_err(|error| ReadError::Syntax(error.to_string()))?;
         let outer = self.names.clone();
@@ -86,9 +108,12 @@ impl<'g> Reader<'g> {
             match statement {
                 syn::Stmt::Local(local) => {
                     let (name, value) = self.binding(local)?;
+                    if self.named(&name).is_ok() {
+                        return Err(ReadError::Taken(name));
+                    }
                     self.define(&name, value);
                 }
-                syn::Stmt::Expr(expr, None) => last = self.value(expr),
+                syn::Stmt::Expr(expr, None) if last.is_err() => last = Ok(self.value(expr)?),
                 other => return Err(ReadError::Form(text(other))),
             }
         }
@@ -102,7 +127,11 @@ impl<'g> Reader<'g> {
     /// When it is not of that form or does not evaluate.
     pub fn binding(&self, local: &syn::Local) -> Result<(String, Value<'g>), ReadError> {
         match (&local.pat, &local.init) {
-            (syn::Pat::Ident(name), Some(init)) => {
+            (syn::Pat::Ident(name), Some(init))
+                if local.attrs.is_empty()
+                    && name.mutability.is_none()
+                    && init.diverge.is_none() =>
+            {
                 Ok((name.ident.to_string(), self.value(&init.expr)?))
             }
             _ => Err(ReadError::Form(text(local))),
@@ -155,7 +184,9 @@ impl<'g> Reader<'g> {
             syn::Expr::Paren(inside) => self.value(&inside.expr),
             syn::Expr::Lit(literal) => self.literal(&literal.lit),
             syn::Expr::Path(path) => self.named(&text(&path.path)),
-            syn::Expr::Field(field) => self.named(&text(&field.member)),
+            syn::Expr::Field(field) => {
+                self.named(&format!("{}.{}", text(&field.base), text(&field.member)))
+            }
             syn::Expr::Unary(unary) if matches!(unary.op, syn::UnOp::Neg(_)) => {
                 Ok(self.value(&unary.expr)?.negated())
             }
@@ -173,6 +204,7 @@ impl<'g> Reader<'g> {
             syn::Lit::Float(float) => decimal(float.base10_digits()).ok_or_else(form)?,
             _ => return Err(form()),
         };
+        let value = rational::bounded(value).ok_or_else(form)?;
         Ok(Value::Scalar(self.graph.constant(value)))
     }
 
@@ -180,8 +212,8 @@ impl<'g> Reader<'g> {
         if let Some(value) = self.names.get(name) {
             return Ok(*value);
         }
-        let symbol = self.graph.find(name).ok_or_else(|| ReadError::Unknown(name.to_owned()))?;
-        Ok(Value::Scalar(symbol))
+        let symbol = self.graph.find(name).filter(|_| self.symbols);
+        symbol.map(Value::Scalar).ok_or_else(|| ReadError::Unknown(name.to_owned()))
     }
 
     fn binary(&self, binary: &syn::ExprBinary) -> Result<Value<'g>, ReadError> {
@@ -201,7 +233,8 @@ impl<'g> Reader<'g> {
 
     fn call(&self, call: &syn::ExprCall) -> Result<Value<'g>, ReadError> {
         let name = text(&call.func);
-        if let ("sin" | "cos", Some(angle)) = (name.as_str(), call.args.first()) {
+        if let ("sin" | "cos", Some(angle), 1) = (name.as_str(), call.args.first(), call.args.len())
+        {
             return self.named(&format!("{name}_{}", text(angle)));
         }
         if name == "tensor" {
@@ -239,11 +272,26 @@ impl<'g> Reader<'g> {
     fn method(&self, call: &syn::ExprMethodCall) -> Result<Value<'g>, ReadError> {
         let argument = call.args.first();
         match (call.method.to_string().as_str(), self.value(&call.receiver)?, argument) {
+            _ if self.symbols || call.args.len() > 1 => Err(ReadError::Form(text(call))),
             ("recip", Value::Scalar(a), None) => Ok(Value::Scalar(a.recip())),
             ("like", Value::Scalar(_), Some(constant)) => self.value(constant),
             _ => Err(ReadError::Form(text(call))),
         }
     }
+}
+
+/// How deep brackets are nested.
+fn depth(text: &str) -> usize {
+    let (mut now, mut deepest) = (0_usize, 0);
+    for c in text.chars() {
+        match c {
+            '(' | '[' | '{' => now += 1,
+            ')' | ']' | '}' => now = now.saturating_sub(1),
+            _ => {}
+        }
+        deepest = deepest.max(now);
+    }
+    deepest
 }
 
 /// The exact value of a decimal literal such as `0.5`.

@@ -1,9 +1,13 @@
 //! The proofs, one row each: exact equality of normal forms, or the terms that differ.
 
 mod emitted;
+mod factors;
+mod laws;
 mod pages;
+mod read_back;
 mod row;
 
-pub use emitted::{EmittedError, Prover};
+pub use emitted::Prover;
 pub use pages::{against_pages, zero_traces};
+pub use read_back::EmittedError;
 pub use row::{Row, Verdict};

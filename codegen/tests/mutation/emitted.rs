@@ -3,7 +3,7 @@
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::DGVSCMG;
-use precess_codegen::proof::{Prover, Row, Verdict};
+use precess_codegen::proof::{EmittedError, Prover, Row, Verdict};
 use precess_codegen::regen::emit;
 
 use crate::sites::{Change, changed, count};
@@ -22,37 +22,40 @@ fn function<'a>(file: &'a mut syn::File, name: &str) -> &'a mut syn::ItemFn {
     found.unwrap()
 }
 
+/// The value of statement `index` of `name`, where it is a `let`.
+fn value<'a>(file: &'a mut syn::File, name: &str, index: usize) -> Option<&'a mut syn::Expr> {
+    match &mut function(file, name).block.stmts[index] {
+        syn::Stmt::Local(local) => local.init.as_mut().map(|init| &mut *init.expr),
+        _ => None,
+    }
+}
+
 /// Drops and flips every operand of every sum of `name`; each mutant must fail a row of the
 /// functions in `judged`. Returns the number of mutants and of those that a claim named.
 fn every_mutant_is_caught(name: &str, judged: &[&str]) -> (usize, usize) {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
     let mut prover = Prover::new(&chain);
-    let original = emitted();
+    let mut file = emitted();
+    for name in judged {
+        assert!(prover.function(&file, name).unwrap().iter().all(Row::holds));
+    }
     let (mut mutants, mut named) = (0, 0);
-    let statements = function(&mut original.clone(), name).block.stmts.clone();
-    for (index, statement) in statements.iter().enumerate() {
-        let syn::Stmt::Local(local) = statement else { continue };
-        let value = &local.init.as_ref().unwrap().expr;
-        for site in 0..count(value) {
+    for index in 0..function(&mut file, name).block.stmts.len() {
+        let Some(original) = value(&mut file, name, index).cloned() else { continue };
+        for site in 0..count(&original) {
             for change in [Change::Drop, Change::Flip] {
-                let mut file = original.clone();
-                let syn::Stmt::Local(local) = &mut function(&mut file, name).block.stmts[index]
-                else {
-                    unreachable!("statement {index} is a let")
-                };
-                let init = local.init.as_mut().unwrap();
-                *init.expr = changed(&init.expr, site, change);
-                let place = format!("{change:?} at {site} of statement {index} of {name}");
+                *value(&mut file, name, index).unwrap() = changed(&original, site, change);
                 let rows = judged.iter().flat_map(|name| prover.function(&file, name).unwrap());
                 let failed: Vec<Row> = rows.filter(|row| !row.holds()).collect();
-                assert!(!failed.is_empty(), "{place} survives");
+                assert!(!failed.is_empty(), "{change:?} at {site} of statement {index} survives");
                 mutants += 1;
                 named += usize::from(
                     failed.iter().any(|row| matches!(row.verdict, Verdict::Differs(_))),
                 );
             }
         }
+        *value(&mut file, name, index).unwrap() = original;
     }
     (mutants, named)
 }
@@ -87,24 +90,77 @@ fn every_mutant_of_prepare_is_named() {
     assert!(mutants > 100 && named == mutants, "{named} of {mutants}");
 }
 
+/// Every statement doubled: products have no operand to drop, but a wrong factor is caught too.
 #[test]
-fn two_returned_values_that_change_places_are_caught() {
+fn every_doubled_statement_is_caught() {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
     let mut prover = Prover::new(&chain);
+    let mut file = emitted();
+    let all = ["prepare", "outer_gimbal", "inner_gimbal", "wheel", "first_moment", "eliminate"];
+    let all = [&all[..], &["back_substitute", "energy_momentum"]].concat();
+    for name in &all {
+        assert!(prover.function(&file, name).unwrap().iter().all(Row::holds));
+    }
+    for name in &all {
+        for index in 0..function(&mut file, name).block.stmts.len() {
+            let Some(original) = value(&mut file, name, index).cloned() else { continue };
+            // Nothing doubled is nothing.
+            if quote::quote!(#original).to_string().ends_with("like (0.0)") {
+                continue;
+            }
+            let doubled = syn::parse_quote!(#original + (#original));
+            *value(&mut file, name, index).unwrap() = doubled;
+            let judged = if *name == "prepare" { &all[..] } else { std::slice::from_ref(name) };
+            let caught = judged
+                .iter()
+                .any(|judge| prover.function(&file, judge).unwrap().iter().any(|row| !row.holds()));
+            assert!(caught, "statement {index} of {name} doubled survives");
+            *value(&mut file, name, index).unwrap() = original;
+        }
+    }
+}
+
+/// The proof of a text in which `right` is replaced by `wrong`.
+fn with(right: &str, wrong: &str) -> Result<Vec<Row>, EmittedError> {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, &DGVSCMG);
     let files = emit().unwrap();
     let file = files.iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap();
+    assert!(file.text.contains(right), "{right}");
+    let rows = Prover::new(&chain).rows(&file.text.replace(right, wrong))?;
+    Ok(rows.into_iter().filter(|row| !row.holds()).collect())
+}
+
+#[test]
+fn a_wrong_constant_returned_value_or_pivot_is_caught() {
     for (right, wrong) in [
+        ("let mass_ww = i_w_w_11;", "let mass_ww = i_w_w_33;"),
         ("diagonal_w: mass_ww,", "diagonal_w: mass_iw,"),
+        ("pivot_i: mass_ii_w,", "pivot_i: mass_ii,"),
         (
             "            h_v_1,\n            h_v_2,",
             "            h_v_1: h_v_2,\n            h_v_2: h_v_1,",
         ),
+        ("let m_vw_12 = hub_3 -", "let m_vw_12 = -hub_3 -"),
+        ("a.r_b_n_ddot_bx * e.gain_o_v1", "a.omega_dot_bx * e.gain_o_v1"),
     ] {
-        assert!(file.text.contains(right), "{right}");
-        let rows = prover.rows(&file.text.replace(right, wrong)).unwrap();
-        let failed: Vec<_> = rows.iter().filter(|row| !row.holds()).collect();
-        assert_eq!(failed.len(), 1, "{wrong}");
-        assert_eq!(failed[0].name, "Eliminated");
+        assert!(!with(right, wrong).unwrap().is_empty(), "{wrong}");
+    }
+}
+
+#[test]
+fn text_that_says_a_thing_twice_or_from_nowhere_is_refused() {
+    for (right, wrong) in [
+        (
+            "let tau_o = u.u_o - u_rest_o;",
+            "let tau_o = u.u_o + u_rest_o; let tau_o = u.u_o - u_rest_o;",
+        ),
+        ("let tau_o = u.u_o - u_rest_o;", "#[cfg(any())] let tau_o = u.u_o - u_rest_o;"),
+        ("let tau_o = u.u_o - u_rest_o;", "let tau_o = v.u_o - u_rest_o;"),
+        ("let tau_o = u.u_o - u_rest_o;", "let tau_o = u_o - u_rest_o;"),
+        ("    Eliminated {\n", "    if true {}\n    Eliminated {\n"),
+    ] {
+        assert!(with(right, wrong).is_err(), "{wrong}");
     }
 }
