@@ -3,10 +3,11 @@
 use crate::regen;
 use crate::run::cargo;
 
-/// Format, clippy with warnings denied, `regen --check`, unit tests.
+/// `regen --check`, format, clippy with warnings denied, unit tests: a stale or broken generated
+/// file is named as such before anything tries to compile it.
 pub(crate) fn check() -> Result<(), String> {
+    regen::regen(&regen::Options::check_only())?;
     cargo(&["fmt", "--all", "--check"])?;
     cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"])?;
-    regen::regen(&regen::Options::check_only())?;
     cargo(&["test", "--workspace", "--lib", "--bins", "--quiet"])
 }

@@ -6,16 +6,5 @@ use crate::run::cargo;
 /// `regen --check`, then every variant of Table 1, into `target/demo`.
 pub(crate) fn demo() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
-    cargo(&[
-        "run",
-        "--release",
-        "--quiet",
-        "-p",
-        "precess",
-        "--",
-        "run",
-        "table1",
-        "--out",
-        "target/demo",
-    ])
+    cargo(&["run", "--release", "-p", "precess", "--", "run", "table1", "--out", "target/demo"])
 }

@@ -12,7 +12,7 @@ use clap::{Parser, Subcommand};
 
 /// The workbench of Precess.
 #[derive(Parser)]
-#[command(name = "cargo xtask", after_help = "Example: cargo xtask demo")]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", after_help = "Example: cargo xtask demo")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

@@ -1,6 +1,7 @@
 //! `regen`: pages in, proofs and files out. Nothing is written unless every proof holds.
 
 use std::fs;
+use std::io::Error;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -37,6 +38,15 @@ impl Options {
     pub(crate) fn check_only() -> Self {
         Self { check: true, quiet: true, ..Self::default() }
     }
+
+    /// The command that writes what these options would compare.
+    fn remedy(&self) -> String {
+        let options = [("--pages", &self.pages), ("--out", &self.out)].into_iter();
+        let given = options.filter_map(|(option, folder)| {
+            folder.as_ref().map(|folder| format!(" {option} {}", folder.display()))
+        });
+        format!("cargo xtask regen{}", given.collect::<String>())
+    }
 }
 
 /// Regenerates, prints one row per equation, and writes or compares the files.
@@ -52,7 +62,11 @@ pub(crate) fn regen(options: &Options) -> Result<(), String> {
         ));
     }
     let into = options.out.clone().unwrap_or_else(root);
-    if options.check { compare(&made.files, &into) } else { write(&made.files, &into) }
+    if options.check {
+        compare(&made.files, &into, &options.remedy())
+    } else {
+        write(&made.files, &into)
+    }
 }
 
 fn print(made: &Regeneration, quiet: bool) {
@@ -69,42 +83,54 @@ fn print(made: &Regeneration, quiet: bool) {
 
 /// The pages of a folder by name; its README describes them and is none.
 pub(crate) fn read_pages(folder: &Path) -> Result<Vec<Page>, String> {
-    let wrong = |error: std::io::Error| format!("cannot read {}: {error}", folder.display());
+    let wrong = |path: &Path, error: &Error| format!("cannot read {}: {error}", path.display());
     let mut pages = Vec::new();
-    for entry in fs::read_dir(folder).map_err(wrong)? {
-        let path = entry.map_err(wrong)?.path();
+    for entry in fs::read_dir(folder).map_err(|error| wrong(folder, &error))? {
+        let path = entry.map_err(|error| wrong(folder, &error))?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let page = path.extension().is_some_and(|extension| extension == "md");
         if page && name != "README.md" {
-            pages.push(Page { name, text: fs::read_to_string(&path).map_err(wrong)? });
+            let text = fs::read_to_string(&path).map_err(|error| wrong(&path, &error))?;
+            pages.push(Page { name, text });
         }
+    }
+    if pages.is_empty() {
+        return Err(format!("no hand-checked pages (*.md) in {}", folder.display()));
     }
     pages.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(pages)
 }
 
-/// Writes what changed; each file is complete or as it was.
+/// Writes what changed. All text is on disk before the first file is replaced, and nothing is left
+/// behind when some of it cannot be written.
 fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
-    for file in files {
-        let path = into.join(&file.path);
-        if fs::read_to_string(&path).is_ok_and(|text| text == file.text) {
-            continue;
+    let changed = files.iter().map(|file| (file, into.join(&file.path)));
+    let changed: Vec<_> = changed
+        .filter(|(file, path)| !fs::read_to_string(path).is_ok_and(|text| text == file.text))
+        .map(|(file, path)| (file, path.with_extension("partial"), path))
+        .collect();
+    let written = changed.iter().try_for_each(|(file, partial, path)| {
+        fs::create_dir_all(path.parent().unwrap_or(into))
+            .and_then(|()| fs::write(partial, &file.text))
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))
+    });
+    if written.is_err() {
+        for (_, partial, _) in &changed {
+            // What was not made cannot be removed, and need not be.
+            let _ = fs::remove_file(partial);
         }
-        let wrong = |error: std::io::Error| format!("cannot write {}: {error}", path.display());
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder).map_err(wrong)?;
-        }
-        let partial = path.with_extension("partial");
-        fs::write(&partial, &file.text)
-            .and_then(|()| fs::rename(&partial, &path))
-            .map_err(wrong)?;
+        return written;
+    }
+    for (file, partial, path) in &changed {
+        fs::rename(partial, path)
+            .map_err(|error| format!("cannot replace {}: {error}", path.display()))?;
         println!("wrote {}", file.path);
     }
     Ok(())
 }
 
 /// Shows the difference to what stands on disk.
-fn compare(files: &[EmittedFile], into: &Path) -> Result<(), String> {
+fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), String> {
     let mut stale = 0;
     for file in files {
         let now = fs::read_to_string(into.join(&file.path)).unwrap_or_default();
@@ -115,11 +141,26 @@ fn compare(files: &[EmittedFile], into: &Path) -> Result<(), String> {
             println!("{}", diff.unified_diff().header(&old, &new));
         }
     }
+    if let Some(orphan) = orphan(files, into) {
+        return Err(format!("{} is not emitted any more; delete it", orphan.display()));
+    }
     if stale == 0 {
         println!("{} files are fresh", files.len());
         return Ok(());
     }
-    Err(format!("{stale} of {} files are stale; run `cargo xtask regen`", files.len()))
+    Err(format!("{stale} of {} files are stale; run `{remedy}`", files.len()))
+}
+
+/// A file among the emitted Rust that was not emitted.
+fn orphan(files: &[EmittedFile], into: &Path) -> Option<PathBuf> {
+    let emitted: Vec<_> = files.iter().map(|file| into.join(&file.path)).collect();
+    let mut found: Vec<_> = fs::read_dir(into.join("dynamics/src/generated"))
+        .ok()?
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| !emitted.contains(path))
+        .collect();
+    found.sort();
+    found.into_iter().next()
 }
 
 #[cfg(test)]
@@ -176,7 +217,8 @@ mod tests {
         fs::write(&path, text.replace("rad/s.", "rpm.")).unwrap();
         let before = fs::read_to_string(&path).unwrap();
         let message = regen(&Options { check: true, quiet: true, out, pages: None }).unwrap_err();
-        assert_eq!(message, "1 of 4 files are stale; run `cargo xtask regen`");
+        let start = "1 of 4 files are stale; run `cargo xtask regen --out ";
+        assert!(message.starts_with(start), "{message}");
         assert_eq!(fs::read_to_string(&path).unwrap(), before);
     }
 }

@@ -1,8 +1,10 @@
 //! `test`: every test of the workspace, documentation examples included.
 
+use crate::regen;
 use crate::run::cargo;
 
-/// Runs all tests; nothing beyond Rust is needed for any of them.
+/// `regen --check`, then all tests; nothing beyond Rust is needed for any of them.
 pub(crate) fn test() -> Result<(), String> {
+    regen::regen(&regen::Options::check_only())?;
     cargo(&["test", "--workspace"])
 }

@@ -17,6 +17,7 @@ pub fn against_pages<'g>(
 ) -> Vec<Row> {
     let row = |equation: &Equation<'g>| {
         let block = &equation.block;
+        let place = format!("{}:{}", block.page, block.line);
         let heading = [block.tag.as_str(), &block.name, "derivation = page"];
         let (Kind::Vector(axes) | Kind::Tensor(axes)) = &block.kind else {
             return Row::absent(heading);
@@ -24,9 +25,9 @@ pub fn against_pages<'g>(
         match (find(quantities, &block.name), frame_of(chain, axes)) {
             (Some(quantity), Some(frame)) => {
                 let derived = quantity.value.along(chain, frame).labelled(axes);
-                Row::compare(ring, heading, &derived, &equation.components)
+                Row::compare(ring, heading, &derived, &equation.components).at(place)
             }
-            _ => Row::absent(heading),
+            _ => Row::absent(heading).at(place),
         }
     };
     let stated = equations.iter().map(row);

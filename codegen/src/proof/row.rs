@@ -31,9 +31,18 @@ pub struct Row {
     pub terms: usize,
     /// How it went.
     pub verdict: Verdict,
+    /// Page and line of what was checked, where it stands on a page.
+    pub place: Option<String>,
 }
 
 impl Row {
+    /// The same with the place of the checked side.
+    #[must_use]
+    pub fn at(mut self, place: String) -> Self {
+        self.place = Some(place);
+        self
+    }
+
     /// Holds labelled components against the reference's, label by label.
     #[must_use]
     pub fn compare<'g>(
@@ -48,6 +57,7 @@ impl Row {
             claim: claim.to_owned(),
             terms: 0,
             verdict: Verdict::Equal,
+            place: None,
         };
         let labels = |side: &[(String, Expr<'g>)]| -> Vec<String> {
             side.iter().map(|(label, _)| label.clone()).collect()
@@ -84,7 +94,7 @@ impl Row {
     #[must_use]
     pub fn absent([tag, name, claim]: [&str; 3]) -> Self {
         let [tag, name, claim] = [tag, name, claim].map(str::to_owned);
-        Self { tag, name, claim, terms: 0, verdict: Verdict::Absent }
+        Self { tag, name, claim, terms: 0, verdict: Verdict::Absent, place: None }
     }
 
     /// Whether this row is a proof.
@@ -105,8 +115,12 @@ impl Row {
 
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { tag, name, claim, terms, verdict } = self;
-        write!(f, "{tag:<12} {name:<20} {claim:<36} {terms:>6}  {verdict}")
+        let Self { tag, name, claim, terms, verdict, place } = self;
+        write!(f, "{tag:<12} {name:<20} {claim:<36} {terms:>6}  {verdict}")?;
+        match place {
+            Some(place) if !self.holds() => write!(f, "\n    stated at {place}"),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -117,7 +131,8 @@ impl fmt::Display for Verdict {
             Self::Absent => write!(f, "absent: the other side has no such quantity"),
             Self::NoNormalForm(error) => write!(f, "not decided: {error}"),
             Self::Differs(terms) => {
-                write!(f, "DIFFERS in {} terms", terms.len())?;
+                let plural = if terms.len() == 1 { "" } else { "s" };
+                write!(f, "DIFFERS in {} term{plural}", terms.len())?;
                 for (label, term) in terms {
                     let along = if label.is_empty() { "" } else { " along " };
                     write!(f, "\n    {term}{along}{label}")?;
