@@ -45,6 +45,11 @@
 #[cfg(test)]
 extern crate std;
 
+/// The example of the README compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
+
 mod attitude;
 #[cfg(test)]
 mod attitude_checks;

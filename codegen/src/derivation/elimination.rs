@@ -117,7 +117,7 @@ fn gains<'g>(
         _ => row.diagonal.clone(),
     };
     let recip = pivot.1.recip();
-    script.section("gain", format!("Joint {tag}: its pivot `{}` and its gains.", pivot.0));
+    script.section("gain", format!("Joint {tag}: its pivot `{}`, kg m², and its gains.", pivot.0));
     script.name(format!("recip_{tag}"), recip);
     let suffixes = HUB.into_iter().chain(inner.iter().map(|row| row.tag));
     let gains: Vec<_> = suffixes

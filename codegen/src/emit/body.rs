@@ -249,7 +249,10 @@ impl<'a, 'g> Writer<'a, 'g> {
             return given;
         }
         match self.graph.node(id) {
-            Node::Constant(value) => Rendered::constant(&self.witness, value),
+            Node::Constant(value) => {
+                let rendered = Rendered::constant(&self.witness, value);
+                self.bind_rendered(id, Some(constant_name(value)), &rendered)
+            }
             _ => self.compute(id),
         }
     }
@@ -332,5 +335,15 @@ impl<'a, 'g> Writer<'a, 'g> {
         let rendered = Rendered::name(&name);
         self.bound.insert(id, rendered.clone());
         rendered
+    }
+}
+
+/// A constant is made once in a function, under a name that says it.
+fn constant_name(value: Rational) -> String {
+    match (*value.numer(), *value.denom()) {
+        (0, _) => "zero".to_owned(),
+        (1, 1) => "one".to_owned(),
+        (1, 2) => "half".to_owned(),
+        (numerator, denominator) => format!("constant_{numerator}_{denominator}"),
     }
 }

@@ -6,6 +6,7 @@ use crate::derivation::elimination::{Eliminated, HUB, eliminate};
 use crate::derivation::motion::Observer;
 use crate::derivation::script::{Script, pairs, sextuple, triple};
 use crate::derivation::{Named, Share, by_body, composite};
+use crate::kinds::Kind;
 use crate::space::{Hub, Symmetric, Vector};
 
 /// The kernel and the elimination behind it.
@@ -33,7 +34,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
             ("u", records::motors(kind)),
         ],
         sections: script.sections,
-        output: output(&eliminated),
+        output: output(kind, &eliminated),
         claims: claims(by_body::share(chain).named(kind)),
     };
     (kernel, eliminated)
@@ -79,31 +80,44 @@ fn cut<'g>(script: &mut Script<'g>, stem: &str, v: Vector<'g, Hub>) -> Vector<'g
     Vector::new(symbols.try_into().expect("three components"))
 }
 
-fn output(eliminated: &Eliminated<'_>) -> Record {
+fn output(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {
     let doc = "What is left of a device once its joints are eliminated.";
     let mut record = Record::new("Eliminated", doc);
     record.nested("share", records::hub_share(), "Share of the hub's equations.");
     for pivot in &eliminated.pivots {
         let tag = pivot.tag;
+        let title = title_of(kind, tag);
         record.alias(
             format!("pivot_{tag}"),
             &pivot.pivot.0,
-            format!("Pivot of joint {tag}; singular unless well above zero beside the diagonal."),
+            format!(
+                "Pivot of the {title}, kg m²; singular unless well above zero beside the diagonal."
+            ),
         );
         record.alias(
             format!("diagonal_{tag}"),
             &pivot.diagonal.0,
-            format!("Diagonal of joint {tag} before the elimination."),
+            format!("Diagonal of the {title} before the elimination, kg m²."),
         );
-        for (k, (name, _)) in pivot.gains.iter().enumerate() {
-            let of = if k < HUB.len() { "hub unknown" } else { "joint" };
-            let which = name.rsplit('_').next().unwrap_or_default();
-            record.field(name.clone(), format!("Gain of joint {tag} on {of} {which}."));
+        for (name, _) in &pivot.gains {
+            let of = name.rsplit('_').next().unwrap_or_default();
+            let what = match (of.split_at(1), HUB.contains(&of)) {
+                (("v", n), true) => format!("component {n} of r̈_{{B/N}}, 1/m"),
+                ((_, n), true) => format!("component {n} of ω̇_{{B/N}}"),
+                _ => format!("the acceleration of the {}", title_of(kind, of)),
+            };
+            record.field(name.clone(), format!("Gain of the {title} on {what}."));
         }
-        record
-            .field(pivot.free.0.clone(), format!("Acceleration of joint {tag}, all else at rest."));
+        let doc = format!("Acceleration of the {title} with all else at rest, rad/s².");
+        record.field(pivot.free.0.clone(), doc);
     }
     record
+}
+
+/// What a joint carries, by the joint's tag.
+fn title_of(kind: &Kind, tag: &str) -> &'static str {
+    let link = kind.links.iter().find(|link| link.joint.tag == tag);
+    link.map_or("device", |link| link.body.title)
 }
 
 /// The system's equations have no single number each: the row cites the block.

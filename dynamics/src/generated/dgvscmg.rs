@@ -293,7 +293,7 @@ pub struct Prepared<T> {
     pub k_27: T,
     /// `p.r_go_b_bz * m_d`.
     pub k_28: T,
-    /// `mass_ww.recip()`. Joint w: its pivot `mass_ww` and its gains.
+    /// `mass_ww.recip()`. Joint w: its pivot `mass_ww`, kg m², and its gains.
     pub recip_w: T,
 }
 
@@ -614,65 +614,65 @@ pub struct FirstMoment<T> {
 pub struct Eliminated<T> {
     /// Share of the hub's equations.
     pub share: HubShare<T>,
-    /// Pivot of joint w; singular unless well above zero beside the diagonal.
+    /// Pivot of the wheel, kg m²; singular unless well above zero beside the diagonal.
     pub pivot_w: T,
-    /// Diagonal of joint w before the elimination.
+    /// Diagonal of the wheel before the elimination, kg m².
     pub diagonal_w: T,
-    /// Gain of joint w on hub unknown v1.
+    /// Gain of the wheel on component 1 of r̈_{B/N}, 1/m.
     pub gain_w_v1: T,
-    /// Gain of joint w on hub unknown v2.
+    /// Gain of the wheel on component 2 of r̈_{B/N}, 1/m.
     pub gain_w_v2: T,
-    /// Gain of joint w on hub unknown v3.
+    /// Gain of the wheel on component 3 of r̈_{B/N}, 1/m.
     pub gain_w_v3: T,
-    /// Gain of joint w on hub unknown w1.
+    /// Gain of the wheel on component 1 of ω̇_{B/N}.
     pub gain_w_w1: T,
-    /// Gain of joint w on hub unknown w2.
+    /// Gain of the wheel on component 2 of ω̇_{B/N}.
     pub gain_w_w2: T,
-    /// Gain of joint w on hub unknown w3.
+    /// Gain of the wheel on component 3 of ω̇_{B/N}.
     pub gain_w_w3: T,
-    /// Gain of joint w on joint o.
+    /// Gain of the wheel on the acceleration of the outer gimbal.
     pub gain_w_o: T,
-    /// Gain of joint w on joint i.
+    /// Gain of the wheel on the acceleration of the inner gimbal.
     pub gain_w_i: T,
-    /// Acceleration of joint w, all else at rest.
+    /// Acceleration of the wheel with all else at rest, rad/s².
     pub free_w: T,
-    /// Pivot of joint i; singular unless well above zero beside the diagonal.
+    /// Pivot of the inner gimbal, kg m²; singular unless well above zero beside the diagonal.
     pub pivot_i: T,
-    /// Diagonal of joint i before the elimination.
+    /// Diagonal of the inner gimbal before the elimination, kg m².
     pub diagonal_i: T,
-    /// Gain of joint i on hub unknown v1.
+    /// Gain of the inner gimbal on component 1 of r̈_{B/N}, 1/m.
     pub gain_i_v1: T,
-    /// Gain of joint i on hub unknown v2.
+    /// Gain of the inner gimbal on component 2 of r̈_{B/N}, 1/m.
     pub gain_i_v2: T,
-    /// Gain of joint i on hub unknown v3.
+    /// Gain of the inner gimbal on component 3 of r̈_{B/N}, 1/m.
     pub gain_i_v3: T,
-    /// Gain of joint i on hub unknown w1.
+    /// Gain of the inner gimbal on component 1 of ω̇_{B/N}.
     pub gain_i_w1: T,
-    /// Gain of joint i on hub unknown w2.
+    /// Gain of the inner gimbal on component 2 of ω̇_{B/N}.
     pub gain_i_w2: T,
-    /// Gain of joint i on hub unknown w3.
+    /// Gain of the inner gimbal on component 3 of ω̇_{B/N}.
     pub gain_i_w3: T,
-    /// Gain of joint i on joint o.
+    /// Gain of the inner gimbal on the acceleration of the outer gimbal.
     pub gain_i_o: T,
-    /// Acceleration of joint i, all else at rest.
+    /// Acceleration of the inner gimbal with all else at rest, rad/s².
     pub free_i: T,
-    /// Pivot of joint o; singular unless well above zero beside the diagonal.
+    /// Pivot of the outer gimbal, kg m²; singular unless well above zero beside the diagonal.
     pub pivot_o: T,
-    /// Diagonal of joint o before the elimination.
+    /// Diagonal of the outer gimbal before the elimination, kg m².
     pub diagonal_o: T,
-    /// Gain of joint o on hub unknown v1.
+    /// Gain of the outer gimbal on component 1 of r̈_{B/N}, 1/m.
     pub gain_o_v1: T,
-    /// Gain of joint o on hub unknown v2.
+    /// Gain of the outer gimbal on component 2 of r̈_{B/N}, 1/m.
     pub gain_o_v2: T,
-    /// Gain of joint o on hub unknown v3.
+    /// Gain of the outer gimbal on component 3 of r̈_{B/N}, 1/m.
     pub gain_o_v3: T,
-    /// Gain of joint o on hub unknown w1.
+    /// Gain of the outer gimbal on component 1 of ω̇_{B/N}.
     pub gain_o_w1: T,
-    /// Gain of joint o on hub unknown w2.
+    /// Gain of the outer gimbal on component 2 of ω̇_{B/N}.
     pub gain_o_w2: T,
-    /// Gain of joint o on hub unknown w3.
+    /// Gain of the outer gimbal on component 3 of ω̇_{B/N}.
     pub gain_o_w3: T,
-    /// Acceleration of joint o, all else at rest.
+    /// Acceleration of the outer gimbal with all else at rest, rad/s².
     pub free_o: T,
 }
 
@@ -747,7 +747,7 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // about Gᵒ.
     let m_d = p.m_go + m_v;
 
-    // Joint w: its pivot `mass_ww` and its gains.
+    // Joint w: its pivot `mass_ww`, kg m², and its gains.
     let recip_w = mass_ww.recip();
 
     // Products and sums of parameters that occur more deeply.
@@ -892,8 +892,9 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
 #[must_use]
 pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> OuterGimbal<T> {
     // ω_{Gᵒ/B}, eq. (31), rad/s.
-    let omega_go_b_gox = q.sin_gamma_o.like(0.0);
-    let omega_go_b_goy = q.sin_gamma_o.like(0.0);
+    let zero = q.sin_gamma_o.like(0.0);
+    let omega_go_b_gox = zero;
+    let omega_go_b_goy = zero;
     let omega_go_b_goz = v.gamma_o_dot;
 
     // r_{Gᵒc/B}, m.
@@ -910,18 +911,18 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
     let vel_2 = vel_1 * p.r_goc_go_gox + vel_0 * p.r_goc_go_goy;
     let r_goc_b_prime_bx = -vel_2;
     let r_goc_b_prime_by = vel_0 * p.r_goc_go_gox - vel_1 * p.r_goc_go_goy;
-    let r_goc_b_prime_bz = q.sin_gamma_o.like(0.0);
+    let r_goc_b_prime_bz = zero;
 
     // r″_{Gᵒc/B}, eq. (12), per ᵒγ̈, m.
     let r_goc_b_dprime_o_bx = -pos_1;
-    let r_goc_b_dprime_o_bz = q.sin_gamma_o.like(0.0);
+    let r_goc_b_dprime_o_bz = zero;
 
     // r″_{Gᵒc/B}, eq. (12), with no joint accelerating, m/s².
     let acc_0 = v.gamma_o_dot * vel_1;
     let acc_1 = v.gamma_o_dot * vel_0;
     let r_goc_b_dprime_rest_bx = -(p.r_goc_go_gox * acc_1 - p.r_goc_go_goy * acc_0);
     let r_goc_b_dprime_rest_by = -(p.r_goc_go_goy * acc_1 + p.r_goc_go_gox * acc_0);
-    let r_goc_b_dprime_rest_bz = q.sin_gamma_o.like(0.0);
+    let r_goc_b_dprime_rest_bz = zero;
 
     // [I_{Gᵒ,Gᵒc}]′, eq. (36), along the axes of the outer gimbal, kg m²/s.
     let turn_0 = v.gamma_o_dot * p.i_go_12;
@@ -931,7 +932,7 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
     let turn_1 = v.gamma_o_dot * p.i_go_23;
     let i_go_goc_prime_13 = -turn_1;
     let i_go_goc_prime_23 = v.gamma_o_dot * p.i_go_13;
-    let i_go_goc_prime_33 = q.sin_gamma_o.like(0.0);
+    let i_go_goc_prime_33 = zero;
 
     // [I_{Gᵒ,B}], eq. (40), along the axes of the outer gimbal, kg m².
     let axis_0 = q.cos_gamma_o * r_goc_b_by - q.sin_gamma_o * r_goc_b_bx;
@@ -1036,10 +1037,11 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
     // r″_{Gⁱc/B}, eq. (13), per ᵒγ̈, m.
     let r_gic_b_dprime_o_gox = p.r_gic_b_dprime_o_gox;
     let r_gic_b_dprime_o_goy = p.l_o_x + pos_0;
-    let r_gic_b_dprime_o_goz = q.sin_gamma_o.like(0.0);
+    let zero = q.sin_gamma_o.like(0.0);
+    let r_gic_b_dprime_o_goz = zero;
 
     // r″_{Gⁱc/B}, eq. (13), per ⁱγ̈, m.
-    let r_gic_b_dprime_i_goy = q.sin_gamma_o.like(0.0);
+    let r_gic_b_dprime_i_goy = zero;
     let r_gic_b_dprime_i_goz = -pos_0;
 
     // r″_{Gⁱc/B}, eq. (13), with no joint accelerating, m/s².
@@ -1191,11 +1193,12 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
 
     // r″_{Wc/B}, eq. (14), per ⁱγ̈, m.
     let r_wc_b_dprime_i_gix = p.l_i_z + pos_2;
-    let r_wc_b_dprime_i_giy = q.sin_gamma_o.like(0.0);
+    let zero = q.sin_gamma_o.like(0.0);
+    let r_wc_b_dprime_i_giy = zero;
     let r_wc_b_dprime_i_giz = p.r_wc_b_dprime_i_giz;
 
     // r″_{Wc/B}, eq. (14), per Ω̇, m.
-    let r_wc_b_dprime_w_gix = q.sin_gamma_o.like(0.0);
+    let r_wc_b_dprime_w_gix = zero;
     let r_wc_b_dprime_w_giy = -pos_2;
 
     // r″_{Wc/B}, eq. (14), with no joint accelerating, m/s².
@@ -1449,7 +1452,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 
     // f_o, eq. (17): Σ m r″ per ᵒγ̈, kg m.
     let f_o_bx = -mom_4;
-    let f_o_bz = q.sin_gamma_o.like(0.0);
+    let zero = q.sin_gamma_o.like(0.0);
+    let f_o_bz = zero;
 
     // f_i, eq. (17): Σ m r″ per ⁱγ̈, kg m.
     let f_i_bx = q.cos_gamma_o * f_i_gox;
@@ -1865,7 +1869,7 @@ pub fn eliminate<T: Real>(
     let tau_i = u.u_i - u_rest_i;
     let tau_w = u.u_w - u_rest_w;
 
-    // Joint w: its pivot `mass_ww` and its gains.
+    // Joint w: its pivot `mass_ww`, kg m², and its gains.
     let gain_w_v1 = f_w_bx * p.recip_w;
     let gain_w_v2 = f_w_by * p.recip_w;
     let gain_w_v3 = f_w_bz * p.recip_w;
@@ -1895,7 +1899,7 @@ pub fn eliminate<T: Real>(
     let mass_ii_w = mass_ii - mass_iw * gain_w_i;
     let tau_i_w = tau_i - tau_w * gain_w_i;
 
-    // Joint i: its pivot `mass_ii_w` and its gains.
+    // Joint i: its pivot `mass_ii_w`, kg m², and its gains.
     let recip_i = mass_ii_w.recip();
     let gain_i_v1 = f_i_bx_w * recip_i;
     let gain_i_v2 = f_i_by_w * recip_i;
@@ -1916,7 +1920,7 @@ pub fn eliminate<T: Real>(
     let mass_oo_wi = mass_oo_w - mass_oi_w * gain_i_o;
     let tau_o_wi = tau_o_w - tau_i_w * gain_i_o;
 
-    // Joint o: its pivot `mass_oo_wi` and its gains.
+    // Joint o: its pivot `mass_oo_wi`, kg m², and its gains.
     let recip_o = mass_oo_wi.recip();
     let gain_o_v1 = f_o_bx_wi * recip_o;
     let gain_o_v2 = f_o_by_wi * recip_o;
@@ -2169,6 +2173,7 @@ pub fn energy_momentum<T: Real>(
     let h_go_goz = mom_37 + omega_go_n_goz * p.i_go_go_33 + mom_38;
 
     // Energy and momenta of the device, along B axes.
+    let half = q.sin_gamma_o.like(0.5);
     let sum_0 = omega_w_n_wx * h_w_wx + omega_w_n_wy * h_w_wy;
     let sum_1 = mom_10 * p_w_wx + mom_16 * p_w_wy + mom_17 * p_w_wz;
     let sum_2 = omega_gi_n_gix * h_gi_gix + omega_gi_n_giy * h_gi_giy;
@@ -2177,35 +2182,34 @@ pub fn energy_momentum<T: Real>(
     let sum_5 = omega_go_n_gox * h_go_gox + omega_go_n_goy * h_go_goy;
     let sum_6 = mom_6 * p_go_gox + mom_11 * p_go_goy + mom_5 * p_go_goz;
     let sum_7 = sum_1 + (sum_0 + omega_w_n_wz * h_w_wz) + sum_4;
-    let sum_8 = sum_7 + (sum_6 + (sum_5 + omega_go_n_goz * h_go_goz));
-    let energy = q.sin_gamma_o.like(0.5) * sum_8;
-    let sum_9 = q.cos_theta * p_w_wy - q.sin_theta * p_w_wz;
-    let sum_10 = q.cos_theta * p_w_wz + q.sin_theta * p_w_wy;
-    let sum_11 = p_w_wx + p_gi_gix;
-    let sum_12 = sum_9 + p_gi_giy;
-    let sum_13 = sum_10 + p_gi_giz;
-    let sum_14 = q.cos_gamma_i * sum_11 + q.sin_gamma_i * sum_13;
-    let sum_15 = sum_14 + p_go_gox;
-    let sum_16 = sum_12 + p_go_goy;
-    let linear_bx = q.cos_gamma_o * sum_15 - q.sin_gamma_o * sum_16;
-    let linear_by = q.cos_gamma_o * sum_16 + q.sin_gamma_o * sum_15;
-    let sum_17 = q.cos_gamma_i * sum_13 - q.sin_gamma_i * sum_11;
-    let linear_bz = sum_17 + p_go_goz;
-    let sum_18 = p.l_i_y * sum_10 - p.l_i_z * sum_9 + h_w_wx + h_gi_gix;
-    let sum_19 = q.cos_theta * h_w_wz + q.sin_theta * h_w_wy;
-    let sum_20 = sum_19 + (p.l_i_x * sum_9 - p.l_i_y * p_w_wx) + h_gi_giz;
-    let sum_21 = q.cos_gamma_i * sum_18 + q.sin_gamma_i * sum_20;
-    let sum_22 = sum_21 + (p.l_o_y * sum_17 - p.l_o_z * sum_12) + h_go_gox;
-    let sum_23 = q.cos_theta * h_w_wy - q.sin_theta * h_w_wz;
-    let sum_24 = sum_23 + (p.l_i_z * p_w_wx - p.l_i_x * sum_10) + h_gi_giy;
-    let sum_25 = sum_24 + (p.l_o_z * sum_14 - p.l_o_x * sum_17) + h_go_goy;
-    let sum_26 = p.r_go_b_by * linear_bz - p.r_go_b_bz * linear_by;
-    let angular_b_bx = q.cos_gamma_o * sum_22 - q.sin_gamma_o * sum_25 + sum_26;
-    let sum_27 = p.r_go_b_bz * linear_bx - p.r_go_b_bx * linear_bz;
-    let angular_b_by = q.cos_gamma_o * sum_25 + q.sin_gamma_o * sum_22 + sum_27;
-    let sum_28 = q.cos_gamma_i * sum_20 - q.sin_gamma_i * sum_18;
-    let sum_29 = sum_28 + (p.l_o_x * sum_12 - p.l_o_y * sum_14) + h_go_goz;
-    let angular_b_bz = sum_29 + (p.r_go_b_bx * linear_by - p.r_go_b_by * linear_bx);
+    let energy = half * (sum_7 + (sum_6 + (sum_5 + omega_go_n_goz * h_go_goz)));
+    let sum_8 = q.cos_theta * p_w_wy - q.sin_theta * p_w_wz;
+    let sum_9 = q.cos_theta * p_w_wz + q.sin_theta * p_w_wy;
+    let sum_10 = p_w_wx + p_gi_gix;
+    let sum_11 = sum_8 + p_gi_giy;
+    let sum_12 = sum_9 + p_gi_giz;
+    let sum_13 = q.cos_gamma_i * sum_10 + q.sin_gamma_i * sum_12;
+    let sum_14 = sum_13 + p_go_gox;
+    let sum_15 = sum_11 + p_go_goy;
+    let linear_bx = q.cos_gamma_o * sum_14 - q.sin_gamma_o * sum_15;
+    let linear_by = q.cos_gamma_o * sum_15 + q.sin_gamma_o * sum_14;
+    let sum_16 = q.cos_gamma_i * sum_12 - q.sin_gamma_i * sum_10;
+    let linear_bz = sum_16 + p_go_goz;
+    let sum_17 = p.l_i_y * sum_9 - p.l_i_z * sum_8 + h_w_wx + h_gi_gix;
+    let sum_18 = q.cos_theta * h_w_wz + q.sin_theta * h_w_wy;
+    let sum_19 = sum_18 + (p.l_i_x * sum_8 - p.l_i_y * p_w_wx) + h_gi_giz;
+    let sum_20 = q.cos_gamma_i * sum_17 + q.sin_gamma_i * sum_19;
+    let sum_21 = sum_20 + (p.l_o_y * sum_16 - p.l_o_z * sum_11) + h_go_gox;
+    let sum_22 = q.cos_theta * h_w_wy - q.sin_theta * h_w_wz;
+    let sum_23 = sum_22 + (p.l_i_z * p_w_wx - p.l_i_x * sum_9) + h_gi_giy;
+    let sum_24 = sum_23 + (p.l_o_z * sum_13 - p.l_o_x * sum_16) + h_go_goy;
+    let sum_25 = p.r_go_b_by * linear_bz - p.r_go_b_bz * linear_by;
+    let angular_b_bx = q.cos_gamma_o * sum_21 - q.sin_gamma_o * sum_24 + sum_25;
+    let sum_26 = p.r_go_b_bz * linear_bx - p.r_go_b_bx * linear_bz;
+    let angular_b_by = q.cos_gamma_o * sum_24 + q.sin_gamma_o * sum_21 + sum_26;
+    let sum_27 = q.cos_gamma_i * sum_19 - q.sin_gamma_i * sum_17;
+    let sum_28 = sum_27 + (p.l_o_x * sum_11 - p.l_o_y * sum_13) + h_go_goz;
+    let angular_b_bz = sum_28 + (p.r_go_b_bx * linear_by - p.r_go_b_by * linear_bx);
 
     EnergyMomentum {
         energy,
