@@ -1,11 +1,11 @@
 //! Momentum of each body by itself, the unit in which momentum drift is counted.
 //!
-//! Plain kinematics of positions and angular velocities, body after body along the chain, without the
-//! emitted kernels. Only the sum over the bodies has to equal what the solver says; a test holds it to
-//! that.
+//! Plain kinematics of positions and angular velocities, body after body along the chain, without
+//! the emitted kernels. Only the sum over the bodies has to equal what the solver says; a test
+//! holds it to that.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Attitude, Dgvscmg, Hub, Joints, State};
+use precess_dynamics::{Attitude, Dgvscmg, Hub, Joints, Scalar, State};
 
 /// Momentum of one body, N axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,7 +78,8 @@ impl Frame {
 
     /// The next body, turned about one of this frame's axes.
     fn turned(&self, axis: Vector3<f64>, angle: f64, rate: f64) -> Self {
-        let (sin, cos) = angle.sin_cos();
+        // libm's, as in the solver: the same bits on every host.
+        let (sin, cos) = Scalar::sin_cos(angle);
         let tilde = axis.cross_matrix();
         let turn = Matrix3::identity() + tilde * sin + tilde * tilde * (1.0 - cos);
         Self { axes: self.axes * turn, omega: self.omega + self.axes * axis * rate, ..*self }

@@ -1,13 +1,14 @@
 //! The command line: what can be asked for, and what it does.
 
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::error::{RunError, WriteError};
+use crate::bound::{excesses, hold};
+use crate::error::CliError;
 use crate::outcome::{Outcome, outcome};
 use crate::output::files::{self, File};
 use crate::output::plates::plates;
@@ -27,9 +28,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Run a scenario and write data, figures and a report.
-    #[command(after_help = "Examples:\n  precess run\n      every variant of Table 1 into \
-                            precess-out\n  precess run table1 --imbalance catalogue --drive free \
-                            --duration 2 --out short\n      two seconds of one variant into short")]
+    #[command(after_help = run_help())]
     Run(Run),
     /// List the scenarios and their variants.
     #[command(after_help = "Example:\n  precess list")]
@@ -56,89 +55,61 @@ struct Run {
     #[arg(long, value_enum)]
     drive: Option<Drive>,
     /// Length of the run, s.
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, default_value_t = Settings::default().duration)]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        allow_negative_numbers = true,
+        default_value_t = Settings::default().duration
+    )]
     duration: f64,
     /// Relative tolerance of one step.
     #[arg(long, allow_negative_numbers = true, default_value = "1e-13")]
     tolerance: f64,
-    /// Samples recorded per second.
-    #[arg(long, value_name = "HERTZ", allow_negative_numbers = true, default_value_t = Settings::default().rate)]
-    rate: f64,
+    /// Samples recorded per second; 500 if not given, or the nearest that suits the duration.
+    #[arg(long, value_name = "HERTZ", allow_negative_numbers = true)]
+    rate: Option<f64>,
     /// Folder for the results; made if it is missing.
     #[arg(long, value_name = "FOLDER", default_value = "precess-out")]
     out: PathBuf,
 }
 
-/// What ended a command early.
-#[derive(Debug)]
-pub enum CliError {
-    /// A setting is out of bounds.
-    Settings(RunError),
-    /// A variant could not be run.
-    Run {
-        /// The variant's name.
-        scenario: String,
-        /// Why.
-        source: RunError,
-    },
-    /// Results could not be laid out.
-    Report(ReportError),
-    /// Results could not be written.
-    Write(WriteError),
-}
-
-impl fmt::Display for CliError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Settings(error) => error.fmt(f),
-            Self::Run { scenario, source } => write!(f, "{scenario}: {source}"),
-            Self::Report(error) => error.fmt(f),
-            Self::Write(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for CliError {}
-
-impl From<WriteError> for CliError {
-    fn from(error: WriteError) -> Self {
-        Self::Write(error)
-    }
-}
-
-impl From<ReportError> for CliError {
-    fn from(error: ReportError) -> Self {
-        Self::Report(error)
-    }
-}
-
 impl Cli {
-    /// Does what was asked for, and returns what is to be printed.
+    /// Does what was asked for; `print` is given what a reader should see.
     ///
     /// # Errors
-    /// Whatever ends the command early; nothing has been written then, or every file whole.
-    pub fn execute(self) -> Result<String, CliError> {
+    /// Whatever ends the command early: no file has been written then, or only whole ones. And a
+    /// run whose files are written and printed, but whose drifts break the bound that its settings
+    /// promise (see [`crate::bound`]).
+    pub fn execute(self, print: &mut dyn FnMut(&str)) -> Result<(), CliError> {
         match self.command {
-            Command::Run(asked) => asked.execute(),
-            Command::List => Ok(list()),
+            Command::Run(asked) => asked.execute(print),
+            Command::List => {
+                print(&list());
+                Ok(())
+            }
         }
     }
 }
 
 impl Run {
-    fn execute(&self) -> Result<String, CliError> {
+    fn execute(&self, print: &mut dyn FnMut(&str)) -> Result<(), CliError> {
         let Self { duration, tolerance, rate, .. } = *self;
+        let rate = rate.unwrap_or_else(|| Settings::rate_for(duration));
         let settings = Settings { duration, tolerance, rate };
         settings.check().map_err(CliError::Settings)?;
         let Name::Table1 = self.scenario;
         let variants = variants(self.imbalance, self.drive);
         let names = variants.iter().flat_map(|v| file_names(&v.name())).collect::<Vec<_>>();
         // Refused before the work, not after it.
-        files::check(&self.out, names.iter().map(String::as_str).chain([REPORT]))?;
+        files::prepare(&self.out, names.iter().map(String::as_str).chain([REPORT]))?;
         let outcomes = run_all(&variants, settings)?;
         let mut results = Vec::new();
         let mut drawn = Vec::new();
         let text = summary::summary(&outcomes, &settings, &self.out, names.len() + 1);
+        let beyond = outcomes
+            .iter()
+            .flat_map(|o| excesses(&o.scenario.name, &o.figures().drift))
+            .collect::<Vec<_>>();
         for outcome in outcomes {
             let plates = plates(&outcome);
             let name = &outcome.scenario.name;
@@ -151,11 +122,25 @@ impl Run {
         }
         results.push(File { name: REPORT.to_owned(), content: report(&drawn, &settings)? });
         files::write(&self.out, &results)?;
-        Ok(text)
+        print(&text);
+        Ok(hold(&settings, beyond)?)
     }
 }
 
 const REPORT: &str = "report.html";
+
+fn run_help() -> String {
+    const EXAMPLES: &str = "\
+Examples:
+  precess run
+      every variant of Table 1 into precess-out
+  precess run table1 --imbalance catalogue --drive free --duration 2 --out short
+      two seconds of one variant into short
+
+At the default tolerance and duration, or within them, a drift of energy less work or of a momentum
+beyond 1e-12 fails the command after its files are written; otherwise it is a note.";
+    format!("{EXAMPLES}\n\n{}", csv::COLUMNS)
+}
 
 /// The files of one variant.
 fn file_names(name: &str) -> [String; 4] {

@@ -6,6 +6,9 @@ use std::path::PathBuf;
 
 use precess_dynamics::{ParameterError, SolveError};
 
+use crate::bound::BoundError;
+use crate::output::report::ReportError;
+
 /// A run that could not be started or finished.
 #[derive(Debug)]
 pub enum RunError {
@@ -60,10 +63,38 @@ pub enum RunError {
         /// Simulated time reached, s.
         time: f64,
     },
-    /// Anything else the integrator reports.
+    /// The integrator reports what no run of this program should cause.
     Integrator {
-        /// Its own words.
-        message: String,
+        /// Simulated time, s.
+        time: f64,
+        /// What it reports.
+        fault: Fault,
+    },
+}
+
+/// A report of the integrator that is a fault of this program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// It refuses the span or the first step; the reason is known in its own words only.
+    Input {
+        /// Its words.
+        reason: String,
+    },
+    /// A state was asked of its interpolant outside the last step.
+    Interpolation {
+        /// The time asked for, s.
+        asked: f64,
+        /// Start of the last step, s.
+        from: f64,
+        /// End of the last step, s.
+        to: f64,
+    },
+    /// It takes the equations for ones with a delay.
+    Delay,
+    /// It solved linear equations and failed; the reason is known in its own words only.
+    LinearAlgebra {
+        /// Its words.
+        reason: String,
     },
 }
 
@@ -99,12 +130,36 @@ impl fmt::Display for RunError {
                 "the motion turns stiff at t = {time} s, too fast for an explicit method; check \
                  torques and inertias"
             ),
-            Self::Integrator { message } => write!(f, "the integrator stopped: {message}"),
+            Self::Integrator { time, fault } => write!(
+                f,
+                "the integrator stopped at t = {time} s: {fault}; this is a fault of the program"
+            ),
         }
     }
 }
 
-impl std::error::Error for RunError {}
+impl std::error::Error for RunError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Parameters(source) => Some(source),
+            Self::Solve { source, .. } => Some(source),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input { reason } => write!(f, "its input is refused ({reason})"),
+            Self::Interpolation { asked, from, to } => {
+                write!(f, "a state at {asked} s, outside its last step, {from} s to {to} s")
+            }
+            Self::Delay => f.write_str("equations without a delay are taken for ones with one"),
+            Self::LinearAlgebra { reason } => write!(f, "linear equations failed ({reason})"),
+        }
+    }
+}
 
 /// Results that could not be written.
 #[derive(Debug)]
@@ -147,5 +202,96 @@ impl std::error::Error for WriteError {
             Self::Foreign { .. } => None,
             Self::Io { source, .. } => Some(source),
         }
+    }
+}
+
+/// What ended a command early, or made its results unfit for use.
+#[derive(Debug)]
+pub enum CliError {
+    /// A setting is out of bounds.
+    Settings(RunError),
+    /// A variant could not be run.
+    Run {
+        /// The variant's name.
+        scenario: String,
+        /// Why.
+        source: RunError,
+    },
+    /// Results could not be laid out.
+    Report(ReportError),
+    /// Results could not be written.
+    Write(WriteError),
+    /// Results were written, but what must not drift did.
+    Bound(BoundError),
+}
+
+impl fmt::Display for CliError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Settings(error) => error.fmt(f),
+            Self::Run { scenario, source } => write!(f, "{scenario}: {source}"),
+            Self::Report(error) => error.fmt(f),
+            Self::Write(error) => error.fmt(f),
+            Self::Bound(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for CliError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Settings(source) | Self::Run { source, .. } => Some(source),
+            Self::Report(source) => Some(source),
+            Self::Write(source) => Some(source),
+            Self::Bound(source) => Some(source),
+        }
+    }
+}
+
+impl From<ReportError> for CliError {
+    fn from(error: ReportError) -> Self {
+        Self::Report(error)
+    }
+}
+
+impl From<WriteError> for CliError {
+    fn from(error: WriteError) -> Self {
+        Self::Write(error)
+    }
+}
+
+impl From<BoundError> for CliError {
+    fn from(error: BoundError) -> Self {
+        Self::Bound(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::error::Error;
+
+    use super::*;
+
+    #[test]
+    fn a_cause_can_be_followed_to_the_solver() {
+        let mut hub = crate::scenario::table1::variants(None, None)[0].scenario().hub;
+        hub.m_b = -1.0;
+        let refused = precess_dynamics::Spacecraft::new(&hub, &[]).expect_err("a negative mass");
+        let error =
+            CliError::Run { scenario: "table1".into(), source: RunError::Parameters(refused) };
+        let run = error.source().expect("the run's error");
+        let solver = run.source().expect("the solver's error");
+        assert_eq!(error.to_string(), format!("table1: {run}"));
+        assert_eq!(solver.downcast_ref(), Some(&refused));
+    }
+
+    #[test]
+    fn a_fault_of_the_integrator_tells_when_and_what() {
+        let fault = Fault::Interpolation { asked: 3.0, from: 1.0, to: 2.0 };
+        assert_eq!(
+            RunError::Integrator { time: 2.0, fault }.to_string(),
+            "the integrator stopped at t = 2 s: a state at 3 s, outside its last step, 1 s to 2 s; \
+             this is a fault of the program"
+        );
     }
 }

@@ -8,12 +8,13 @@ use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use differential_equations::status::Status;
 use precess_dynamics::{SolveError, Spacecraft, Torques};
 
-use crate::error::RunError;
+use crate::error::{Fault, RunError};
 use crate::packing::{Packed, absolute_tolerance};
 
 /// Table 1 takes about 300 steps a second; a run that needs this many has gone astray.
 const STEPS_PER_SECOND_MAX: f64 = 1e5;
-/// A step this often shortened after the solver failed is 1e-20 of what it was: the state itself fails.
+/// A step this often shortened after the solver failed is 1e-20 of what it was: the state itself
+/// fails.
 const REJECTIONS_MAX: usize = 30;
 /// Closer to the end than this share of it, the end is reached: rounding of the last sum.
 const END: f64 = 4.0 * f64::EPSILON;
@@ -107,7 +108,7 @@ impl<'a, const N: usize> Integrator<'a, N> {
     fn start(&mut self, time: f64, y: &Vec<f64>) -> Result<(), RunError> {
         match self.method.init(self.system, time, self.end, y) {
             Ok(_) => Ok(()),
-            Err(stop) => Err(self.stopped(&stop)),
+            Err(stop) => Err(self.stopped(time, &stop)),
         }
     }
 
@@ -119,14 +120,14 @@ impl<'a, const N: usize> Integrator<'a, N> {
         }
         for rejections in 0.. {
             if let Err(stop) = self.method.step(self.system) {
-                return Err(self.stopped(&stop));
+                return Err(self.stopped(self.time(), &stop));
             }
             if !matches!(self.method.status(), Status::RejectedStep) {
                 break;
             }
             self.rejected += 1;
             if rejections >= REJECTIONS_MAX && self.system.failure.borrow().is_some() {
-                return Err(self.stopped(&self.too_small()));
+                return Err(self.stopped(self.time(), &self.too_small()));
             }
         }
         // A step that failed and then went through, shorter, is no failure.
@@ -157,15 +158,21 @@ impl<'a, const N: usize> Integrator<'a, N> {
         Stop::StepSize { t: self.method.t(), y: Vec::new() }
     }
 
-    fn stopped(&self, stop: &Stop<f64, Vec<f64>>) -> RunError {
+    fn stopped(&self, time: f64, stop: &Stop<f64, Vec<f64>>) -> RunError {
         if let Some((time, source)) = self.system.failure.take() {
             return RunError::Solve { time, source };
         }
-        match stop {
-            Stop::MaxSteps { t, .. } => RunError::TooManySteps { time: *t },
-            Stop::StepSize { t, .. } => RunError::StepTooSmall { time: *t },
-            Stop::Stiffness { t, .. } => RunError::Stiff { time: *t },
-            _ => RunError::Integrator { message: format!("{stop:?}") },
-        }
+        let fault = match stop {
+            Stop::MaxSteps { t, .. } => return RunError::TooManySteps { time: *t },
+            Stop::StepSize { t, .. } => return RunError::StepTooSmall { time: *t },
+            Stop::Stiffness { t, .. } => return RunError::Stiff { time: *t },
+            Stop::BadInput { msg } => Fault::Input { reason: msg.clone() },
+            Stop::OutOfBounds { t_interp, t_prev, t_curr } => {
+                Fault::Interpolation { asked: *t_interp, from: *t_prev, to: *t_curr }
+            }
+            Stop::NoLags | Stop::InsufficientHistory { .. } => Fault::Delay,
+            Stop::LinearAlgebra { msg, .. } => Fault::LinearAlgebra { reason: msg.clone() },
+        };
+        RunError::Integrator { time, fault }
     }
 }

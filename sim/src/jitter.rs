@@ -1,8 +1,9 @@
 //! Jitter: what a wheel's imbalance adds to the motion, at the wheel's own rate.
 //!
-//! Imbalance does two things to a run. It shakes the hub once a turn, and it moves everything slowly
-//! elsewhere, because the same initial state carries another momentum. Jitter is the first alone: the
-//! difference from the same run with balanced wheels, less its mean over one turn of the wheel.
+//! Imbalance does two things to a run. It shakes the hub once a turn, and it moves everything
+//! slowly elsewhere, because the same initial state carries another momentum. Jitter is the first
+//! alone: the difference from the same run with balanced wheels, less its mean over one turn of
+//! the wheel.
 
 use nalgebra::Vector3;
 
@@ -22,8 +23,8 @@ pub struct Ripple {
     pub position: Vector3<f64>,
 }
 
-/// The jitter of a run, sample by sample, from half a turn after its start to half a turn before its
-/// end.
+/// The jitter of a run, sample by sample, from half a turn after its start to half a turn before
+/// its end.
 ///
 /// A turn is one of the first device's wheel. Empty without a device, or if the run holds no whole
 /// turn, or if its samples are too sparse to show one.

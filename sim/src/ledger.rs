@@ -1,9 +1,9 @@
 //! The conserved quantities of a run and how far they drift.
 //!
-//! Energy less work, linear momentum and angular momentum about the inertial origin are constant as
-//! long as no force or torque acts from outside; motors inside change none of them. Drift is counted
-//! in units that cannot vanish by cancellation: the largest kinetic energy plus the integral of
-//! sum |u * rate|, and for each momentum the sum over the bodies of magnitudes.
+//! Energy less work, linear momentum and angular momentum about the inertial origin are constant
+//! as long as no force or torque acts from outside; motors inside change none of them. Drift is
+//! counted in units that cannot vanish by cancellation: the largest kinetic energy plus the
+//! integral of sum |u * rate|, and for each momentum the sum over the bodies of magnitudes.
 
 use nalgebra::Vector3;
 use precess_dynamics::{About, SolveError, Spacecraft};

@@ -1,7 +1,8 @@
 //! The desktop tool: scenarios, runs and reports.
 //!
-//! A [`scenario::Scenario`] is run into a [`history::History`], whose [`ledger::Ledger`] shows how far
-//! energy less work and both momenta drift. The command line adds data files, figures and a report.
+//! A [`scenario::Scenario`] is run into a [`history::History`], whose [`ledger::Ledger`] shows how
+//! far energy less work and both momenta drift. The command line adds data files, figures and a
+//! report.
 //!
 //! ```
 //! use precess::run::{Settings, run};
@@ -15,6 +16,7 @@
 //! ```
 
 pub mod bodies;
+pub mod bound;
 pub mod cli;
 pub mod error;
 pub mod history;

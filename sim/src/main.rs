@@ -6,11 +6,8 @@ use clap::Parser;
 use precess::cli::{Cli, print};
 
 fn main() -> ExitCode {
-    match Cli::parse().execute() {
-        Ok(text) => {
-            print(&text);
-            ExitCode::SUCCESS
-        }
+    match Cli::parse().execute(&mut |text| print(text)) {
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("precess: {error}");
             ExitCode::FAILURE

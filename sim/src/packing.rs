@@ -1,8 +1,8 @@
 //! The state as the integrator sees it: one flat vector, with two running integrals at its end.
 //!
-//! Order: r (3), v (3), quaternion (4), omega (3), six numbers for each device (angles, then rates),
-//! work, throughput. The quaternion is integrated as it is and normalised wherever it is read, so its
-//! norm is no degree of freedom of the motion.
+//! Order: r (3), v (3), quaternion (4), omega (3), six numbers for each device (angles, then
+//! rates), work, throughput. The quaternion is integrated as it is and normalised wherever it is
+//! read, so its norm is no degree of freedom of the motion.
 
 use std::f64::consts::TAU;
 

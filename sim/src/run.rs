@@ -1,17 +1,19 @@
 //! One run: a scenario integrated by DOP853 into a history of samples and a ledger of steps.
 //!
-//! Attitude is integrated as a quaternion (a shadow switch of MRPs is a discontinuity to an adaptive
-//! integrator). Two running integrals travel with the state: the work of everything that acts on or
-//! inside the spacecraft, and the integral of sum |u * rate|, the unit in which energy is judged.
+//! Attitude is integrated as a quaternion (a shadow switch of MRPs is a discontinuity to an
+//! adaptive integrator). Two running integrals travel with the state: the work of everything that
+//! acts on or inside the spacecraft, and the integral of sum |u * rate|, the unit in which energy
+//! is judged.
 //!
-//! The wheel turns a hundred times in ten seconds. An angle of 600 rad is kept to 1e-13 rad only, and
-//! rounding it in every step walks the wheel's momentum away from the hub's; so every joint angle is
-//! brought back by whole turns, which are counted, once it has gone round.
+//! The wheel turns a hundred times in ten seconds. An angle of 600 rad is kept to 1e-13 rad only,
+//! and rounding it in every step walks the wheel's momentum away from the hub's; so every joint
+//! angle is brought back by whole turns, which are counted, once it has gone round.
 //!
-//! Samples between two accepted steps are steps of their own, started at the last accepted state, so
-//! they are as accurate as the run. The interpolant of differential-equations 0.7.0 is not: it evaluates
-//! the upper half of its polynomial with the factors s and 1 - s exchanged, which at tolerance 1e-13
-//! costs five digits of momentum (8e-7 kg m/s instead of 5e-12, and 5e-12 once they are put right).
+//! Samples between two accepted steps are steps of their own, started at the last accepted state,
+//! so they are as accurate as the run. The interpolant of differential-equations 0.7.0 is not: it
+//! evaluates the upper half of its polynomial with the factors s and 1 - s exchanged, which at
+//! tolerance 1e-13 costs five digits of momentum (8e-7 kg m/s instead of 5e-12, and 5e-12 once they
+//! are put right).
 
 use precess_dynamics::Spacecraft;
 
@@ -35,10 +37,14 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { duration: 10.0, tolerance: 1e-13, rate: 500.0 }
+        Self { duration: 10.0, tolerance: 1e-13, rate: RATE }
     }
 }
 
+/// Samples per second unless another number is asked for: sixty in a turn of Table 1's wheel.
+const RATE: f64 = 500.0;
+/// Fewer samples than this say nothing about a run, whatever its length.
+const SAMPLES_MIN: f64 = 2.0;
 /// Shorter, and a turn of no wheel fits in; longer, and the ledger of steps outgrows memory.
 const DURATION_MIN: f64 = 1e-3;
 const DURATION_MAX: f64 = 1e4;
@@ -48,7 +54,15 @@ const SAMPLES_MAX: f64 = 2e5;
 const TOLERANCE_MIN: f64 = 1e-15;
 /// Looser than this, the step no longer resolves a turn of the wheel.
 const TOLERANCE_MAX: f64 = 1e-3;
+
 impl Settings {
+    /// The default sampling rate, or the nearest to it that a run of this duration allows, 1/s.
+    #[must_use]
+    pub fn rate_for(duration: f64) -> f64 {
+        let (lowest, highest) = rates(duration);
+        RATE.max(lowest).min(highest)
+    }
+
     /// Checks every setting against its bounds.
     ///
     /// # Errors
@@ -63,13 +77,17 @@ impl Settings {
             let (lowest, highest) = (TOLERANCE_MIN, TOLERANCE_MAX);
             return Err(RunError::Tolerance { value: tolerance, lowest, highest });
         }
-        // A jitter figure needs a few samples in the run, whatever its length.
-        let (lowest, highest) = (2.0 / duration, SAMPLES_MAX / duration);
+        let (lowest, highest) = rates(duration);
         if !(lowest..=highest).contains(&rate) {
             return Err(RunError::Rate { value: rate, lowest, highest });
         }
         Ok(())
     }
+}
+
+/// Lowest and highest sampling rate of a run, 1/s.
+fn rates(duration: f64) -> (f64, f64) {
+    (SAMPLES_MIN / duration, SAMPLES_MAX / duration)
 }
 
 /// Runs a scenario.
@@ -224,6 +242,16 @@ mod tests {
             "rate 1000000000 samples/s is outside 0.2 to 20000 for this duration; give one in \
              between"
         );
+    }
+
+    #[test]
+    fn the_default_rate_suits_every_duration() {
+        assert_eq!(Settings::rate_for(10.0), Settings::default().rate);
+        for duration in [DURATION_MIN, 2e-3, 0.6, 399.0, 1e3, DURATION_MAX] {
+            let rate = Settings::rate_for(duration);
+            let settings = Settings { duration, rate, ..Settings::default() };
+            assert!(settings.check().is_ok(), "{rate} samples/s in {duration} s");
+        }
     }
 
     #[test]

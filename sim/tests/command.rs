@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+#[cfg(unix)]
+use std::time::{Duration, Instant};
 
 fn precess(arguments: &[&str], out: Option<&Path>) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_precess"));
@@ -89,6 +91,60 @@ fn a_setting_out_of_bounds_is_refused_and_nothing_written() {
     let expected = "precess: tolerance 1e0 is outside 1e-15 to 1e-3; the default is 1e-13\n";
     assert_eq!(text, expected);
     assert!(!out.exists());
+}
+
+#[test]
+fn a_loosened_tolerance_makes_a_broken_bound_a_note() {
+    let out = folder("loose");
+    let ran = precess(&[&SHORT[..], &["--tolerance", "1e-6"]].concat(), Some(&out));
+    let text = String::from_utf8(ran.stdout).expect("text");
+    assert!(text.contains("NOT all drifts within 1e-12"), "{text}");
+    assert!(ran.status.success());
+}
+
+#[test]
+fn the_shortest_run_needs_no_rate_and_says_why_it_shows_no_jitter() {
+    let out = folder("shortest");
+    let ran = precess(&["run", "--duration", "0.001"], Some(&out));
+    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+    let text = String::from_utf8(ran.stdout).expect("text");
+    assert!(text.contains("2000 samples/s"), "{text}");
+    assert!(text.contains("- for jitter: it takes a whole turn"), "{text}");
+    let report = fs::read_to_string(out.join("report.html")).expect("a report");
+    assert!(report.contains("A dash for jitter: it takes a whole turn"));
+}
+
+/// A link to nowhere: nothing is there, and yet no folder can be made.
+#[cfg(unix)]
+#[test]
+fn a_folder_that_cannot_be_made_is_refused_before_the_work() {
+    let link = folder("link");
+    let _ = fs::remove_file(&link);
+    std::os::unix::fs::symlink("nowhere-at-all", &link).expect("a link");
+    let started = Instant::now();
+    let ran = precess(&["run", "--duration", "10000"], Some(&link));
+    assert_eq!(ran.status.code(), Some(1));
+    let text = String::from_utf8(ran.stderr).expect("text");
+    assert!(text.contains("choose a folder you may write to with --out"), "{text}");
+    // The work would take minutes; a refusal takes none of it.
+    assert!(started.elapsed() < Duration::from_secs(10), "{:?}", started.elapsed());
+}
+
+/// The hub, the start and the columns: what a reader needs to run it again elsewhere.
+#[test]
+fn the_report_and_the_help_tell_what_was_run() {
+    let out = folder("told");
+    assert!(precess(&SHORT, Some(&out)).status.success());
+    let report = fs::read_to_string(out.join("report.html")).expect("a report");
+    for told in ["810 kg", "900, 800, 600 kg m²", "4.15, 2.93, 2.75 kg m²", "4.85, 0.57, 0 deg/s"]
+    {
+        assert!(report.contains(&format!(">{told}<")), "{told}");
+    }
+    assert!(report.contains("Wheel at the start</td><td class=\"number\">500 rpm<"));
+    let help = String::from_utf8(precess(&["run", "--help"], None).stdout).expect("text");
+    assert!(help.contains("device_0_*"));
+    let table = fs::read_to_string(out.join("table1-printed-200.csv")).expect("samples");
+    assert!(table.contains("device_0_spin_rad_per_s"));
 }
 
 #[test]

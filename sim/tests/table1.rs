@@ -1,4 +1,4 @@
-//! Table 1 over ten seconds, every variant: what must not drift does not (rows E2 and E3 of the bounds).
+//! Table 1 over ten seconds, every variant: what must not drift does not (rows E2 and E3).
 
 use precess::run::{Settings, run};
 use precess::scenario::table1::{Imbalance, variants};

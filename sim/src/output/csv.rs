@@ -4,6 +4,23 @@ use precess_dynamics::Mrp;
 
 use crate::history::{History, Sample};
 
+/// What the columns mean, for the help of the command. `*` stands for the rest of a name.
+pub(crate) const COLUMNS: &str = "\
+Columns of a CSV file (SI units and radians; axes x, y, z; N inertial, B body):
+  time_s              time since the start
+  r_b_n_n*            position of B, N axes
+  r_b_n_dot_n*        its velocity, N axes
+  q0 q1 q2 q3         attitude of B as seen from N: quaternion, scalar first
+  sigma_*             the same as modified Rodrigues parameters
+  omega_b*            angular velocity of the hub, B axes
+  device_0_*          first device: angles gamma_o, gamma_i, theta (outer gimbal, inner
+                      gimbal, wheel; every turn counted), then their rates
+  energy_j            kinetic energy
+  work_j              work since the start of motors, force and torque
+  throughput_j        integral of the motors' |torque * rate|, the unit of energy drift
+  linear_momentum_n*  linear momentum, N axes
+  angular_momentum_n* angular momentum about the inertial origin, N axes";
+
 /// The history as a CSV file, numbers in the fewest digits that read back the same.
 #[must_use]
 pub fn csv<const N: usize>(history: &History<N>) -> String {
@@ -27,7 +44,7 @@ fn head<const N: usize>() -> Vec<String> {
     vector(&mut head, "r_b_n_dot_n", "_m_per_s");
     head.extend(["q0", "q1", "q2", "q3", "sigma_1", "sigma_2", "sigma_3"].map(str::to_owned));
     vector(&mut head, "omega_b", "_rad_per_s");
-    for n in 1..=N {
+    for n in 0..N {
         let columns = [
             "gamma_o_rad",
             "gamma_i_rad",
@@ -69,6 +86,22 @@ mod tests {
     use crate::scenario::table1::{Drive, Imbalance, Variant};
 
     #[test]
+    fn every_column_is_explained() {
+        let names: Vec<_> = COLUMNS
+            .lines()
+            .filter_map(|line| line.strip_prefix("  ").and_then(|line| line.get(..20)))
+            .flat_map(str::split_whitespace)
+            .collect();
+        for column in head::<1>() {
+            let explained = names.iter().any(|name| match name.strip_suffix('*') {
+                Some(start) => column.starts_with(start),
+                None => column == *name,
+            });
+            assert!(explained, "{column}");
+        }
+    }
+
+    #[test]
     fn every_number_reads_back_the_same() {
         let scenario = Variant { imbalance: Imbalance::Printed, drive: Drive::Wheel200 }.scenario();
         let settings = Settings { duration: 0.01, ..Settings::default() };
@@ -77,7 +110,7 @@ mod tests {
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let head = reader.headers().expect("a head").clone();
         let column = |name: &str| head.iter().position(|c| c == name).expect("a column");
-        let (spin, energy) = (column("device_1_spin_rad_per_s"), column("energy_j"));
+        let (spin, energy) = (column("device_0_spin_rad_per_s"), column("energy_j"));
         let mut rows = 0;
         for (record, sample) in reader.records().zip(&history.samples) {
             let record = record.expect("a row of the head's length");

@@ -1,13 +1,16 @@
 //! One figure: panels of curves over time, drawn as SVG by plotters behind this thin layer.
 //!
-//! Everything is drawn in tenths of a unit, because plotters rounds to whole ones. Colours are those of
-//! the light theme, so a viewer that knows no CSS shows a right picture; `theme.css` turns them for
-//! dark screens by selecting on the attribute, which is why each colour below has one meaning.
+//! Everything is drawn in tenths of a unit, because plotters rounds to whole ones. Colours are
+//! those of the light theme, so a viewer that knows no CSS shows a right picture; `theme.css`
+//! turns them for dark screens by selecting on the attribute, which is why each colour below has
+//! one meaning.
 
 use std::fmt;
+use std::io;
 use std::ops::Range;
 
 use plotters::coord::Shift;
+use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -72,19 +75,26 @@ pub struct Figure {
 
 /// plotters could not draw.
 #[derive(Debug)]
-pub struct DrawError(String);
+pub struct DrawError {
+    /// What it reports.
+    pub source: DrawingAreaErrorKind<io::Error>,
+}
 
 impl fmt::Display for DrawError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "cannot draw the figure: {}; this is a fault of the program", self.0)
+        write!(f, "cannot draw the figure: {}; this is a fault of the program", self.source)
     }
 }
 
-impl std::error::Error for DrawError {}
+impl std::error::Error for DrawError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.source)
+    }
+}
 
-impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for DrawError {
-    fn from(error: DrawingAreaErrorKind<E>) -> Self {
-        Self(error.to_string())
+impl From<DrawingAreaErrorKind<io::Error>> for DrawError {
+    fn from(source: DrawingAreaErrorKind<io::Error>) -> Self {
+        Self { source }
     }
 }
 

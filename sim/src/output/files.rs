@@ -1,13 +1,21 @@
-//! Results on disk: whole files or none, and nobody else's file touched.
+//! Results on disk: whole files, and nobody else's touched.
 //!
-//! A file is written under a temporary name beside its place and then renamed. A list in the folder
-//! names the files that runs have written there; a file of a wanted name that is not on the list is
-//! somebody else's, and the run is refused before anything is written.
+//! Every file is written whole under a free name of its own beside its place ("a part"), and only
+//! when all of them are on the disk is the first one renamed. So each file is whole at any time:
+//! the earlier run's or the new one's. A program killed between two renames leaves a mix of both,
+//! whole files all the same; one killed before leaves parts, which block nothing and which a later
+//! run removes.
+//!
+//! A list in the folder names the files that runs have written there; a file of a wanted name that
+//! is not on the list is somebody else's, and the run is refused before anything is written.
 
 use std::collections::BTreeSet;
-use std::fs;
+use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use tempfile::{Builder, NamedTempFile, TempPath};
 
 use crate::error::WriteError;
 
@@ -15,6 +23,13 @@ use crate::error::WriteError;
 pub const LIST: &str = "precess-files.txt";
 
 const HEAD: &str = "# Files written by precess; a later run may replace them, and no others.";
+
+/// A part is called this, six letters or digits, and [`PART`].
+const PREFIX: &str = ".precess-";
+const PART: &str = ".part";
+/// A part lives for as long as it takes to write all of them, seconds at most; one this old was
+/// left behind by a program that was killed.
+const STALE: Duration = Duration::from_secs(3600);
 
 /// A file to be: its name and its content.
 pub struct File {
@@ -24,75 +39,93 @@ pub struct File {
     pub content: String,
 }
 
-/// Checks that no wanted file is there already unless an earlier run wrote it.
+/// Makes the folder if it is missing, and tries whether files of these names can be written there.
+///
+/// Called before the work: what it finds would otherwise be found after it.
 ///
 /// # Errors
-/// The first foreign file, or a folder that cannot be read.
-pub fn check<'a>(
+/// The first name that is taken by a folder, or by a file that no earlier run wrote; a folder that
+/// cannot be made, read or written.
+pub fn prepare<'a>(
     folder: &Path,
     names: impl IntoIterator<Item = &'a str>,
 ) -> Result<(), WriteError> {
+    check(folder, names)?;
+    fs::create_dir_all(folder).map_err(|e| failure(folder, e))?;
+    part(folder).map(drop).map_err(|e| failure(folder, e))
+}
+
+/// Writes the files into a folder, which is made if it is missing.
+///
+/// # Errors
+/// As [`prepare`], and whatever else the operating system refuses. Until every file is on the disk
+/// as a part, none gets its name; of a rename that fails, only the files before it are replaced.
+pub fn write(folder: &Path, files: &[File]) -> Result<(), WriteError> {
+    prepare(folder, files.iter().map(|f| f.name.as_str()))?;
+    sweep(folder);
+    let mut names = listed(folder)?;
+    names.extend(files.iter().map(|f| f.name.clone()));
+    let lines = std::iter::once(HEAD).chain(names.iter().map(String::as_str)).collect::<Vec<_>>();
+    let list = File { name: LIST.to_owned(), content: lines.join("\n") + "\n" };
+    // The list first: a file of ours is never taken for somebody else's.
+    let parts = std::iter::once(&list)
+        .chain(files)
+        .map(|file| {
+            let path = folder.join(&file.name);
+            let beside = path.parent().unwrap_or(folder);
+            let stored = store(beside, &file.content).map_err(|e| failure(&path, e))?;
+            Ok((stored, path))
+        })
+        .collect::<Result<Vec<_>, WriteError>>()?;
+    for (stored, path) in parts {
+        stored.persist(&path).map_err(|e| failure(&path, e.error))?;
+    }
+    Ok(())
+}
+
+/// Checks that no wanted file is there already unless an earlier run wrote it.
+fn check<'a>(folder: &Path, names: impl IntoIterator<Item = &'a str>) -> Result<(), WriteError> {
     let ours = listed(folder)?;
     for name in names {
         let path = folder.join(name);
-        if !ours.contains(name) && path.symlink_metadata().is_ok() {
+        let there = path.symlink_metadata();
+        if there.is_ok_and(|there| there.is_dir() || !ours.contains(name)) {
             return Err(WriteError::Foreign { path });
         }
     }
     Ok(())
 }
 
-/// Writes the files into a folder, which is made if it is missing.
-///
-/// # Errors
-/// As [`check`], and whatever the operating system refuses. Nothing is left half written: until every
-/// file is on the disk under its temporary name, none gets its own.
-pub fn write(folder: &Path, files: &[File]) -> Result<(), WriteError> {
-    check(folder, files.iter().map(|f| f.name.as_str()))?;
-    fs::create_dir_all(folder).map_err(|e| failure(folder, e))?;
-    let mut names = listed(folder)?;
-    names.extend(files.iter().map(|f| f.name.clone()));
-    let lines = std::iter::once(HEAD).chain(names.iter().map(String::as_str)).collect::<Vec<_>>();
-    let list = File { name: LIST.to_owned(), content: lines.join("\n") + "\n" };
-    // The list first: a file of ours is never taken for somebody else's.
-    let parts: Vec<_> = std::iter::once(&list)
-        .chain(files)
-        .map(|file| Part {
-            temporary: folder.join(format!(".{}.{}.part", file.name, std::process::id())),
-            path: folder.join(&file.name),
-            content: file.content.as_bytes(),
-        })
-        .collect();
-    parts.iter().try_for_each(Part::store)?;
-    parts.iter().try_for_each(Part::place)
+/// An empty part, gone when it is dropped. It is opened as any new file, so whoever may read the
+/// folder's other files may read it.
+fn part(folder: &Path) -> std::io::Result<NamedTempFile> {
+    Builder::new()
+        .prefix(PREFIX)
+        .suffix(PART)
+        .make_in(folder, |path| OpenOptions::new().write(true).create_new(true).open(path))
 }
 
-/// A file on its way; its temporary name is gone with it.
-struct Part<'a> {
-    temporary: PathBuf,
-    path: PathBuf,
-    content: &'a [u8],
+/// A part on the disk with its content.
+fn store(folder: &Path, content: &str) -> std::io::Result<TempPath> {
+    let mut part = part(folder)?;
+    part.write_all(content.as_bytes())?;
+    part.as_file().sync_all()?;
+    Ok(part.into_temp_path())
 }
 
-impl Part<'_> {
-    fn store(&self) -> Result<(), WriteError> {
-        fs::OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&self.temporary)
-            .and_then(|mut handle| handle.write_all(self.content).and_then(|()| handle.sync_all()))
-            .map_err(|e| failure(&self.path, e))
-    }
-
-    fn place(&self) -> Result<(), WriteError> {
-        fs::rename(&self.temporary, &self.path).map_err(|e| failure(&self.path, e))
-    }
-}
-
-impl Drop for Part<'_> {
-    fn drop(&mut self) {
-        // Placed or never stored: then there is nothing to remove, and that is no error.
-        let _ = fs::remove_file(&self.temporary);
+/// Removes the parts that killed programs left behind; one that cannot be removed harms nothing.
+fn sweep(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let ours = name.to_str().is_some_and(|n| n.starts_with(PREFIX) && n.ends_with(PART));
+        // Of the entry itself, not of what it may point to.
+        let stale = entry.metadata().is_ok_and(|m| {
+            let age = m.modified().ok().and_then(|time| time.elapsed().ok());
+            m.is_file() && age.is_some_and(|age| age > STALE)
+        });
+        if ours && stale {
+            let _ = fs::remove_file(entry.path());
+        }
     }
 }
 
@@ -118,6 +151,8 @@ fn failure(path: &Path, source: std::io::Error) -> WriteError {
 
 #[cfg(test)]
 mod tests {
+    use std::time::SystemTime;
+
     use super::*;
 
     fn folder(name: &str) -> PathBuf {
@@ -162,14 +197,76 @@ mod tests {
     }
 
     #[test]
-    fn a_write_that_fails_leaves_nothing() {
+    fn a_write_that_fails_leaves_what_was_there_and_no_parts() {
         let folder = folder("fails");
         write(&folder, &[file("a.csv", "1")]).expect("first");
         // No name for a file: the folder it asks for is not there.
         let refused = write(&folder, &[file("a.csv", "2"), file("nowhere/b.csv", "3")]);
-        assert!(matches!(refused, Err(WriteError::Io { .. })));
+        assert!(matches!(refused, Err(WriteError::Io { path, .. }) if path.ends_with("b.csv")));
         assert_eq!(fs::read_to_string(folder.join("a.csv")).expect("a.csv"), "1");
         assert_eq!(names(&folder), ["a.csv", LIST]);
+        fs::remove_dir_all(&folder).expect("cleanup");
+    }
+
+    #[test]
+    fn a_part_left_behind_blocks_nothing_and_only_a_stale_one_of_ours_is_removed() {
+        let folder = folder("part");
+        fs::create_dir_all(&folder).expect("folder");
+        let long_ago = SystemTime::now() - 2 * STALE;
+        let (stale, fresh, theirs) =
+            (".precess-Ab3xYz.part", ".precess-Cd4uVw.part", ".a.csv.77.part");
+        for (name, time) in [(stale, long_ago), (fresh, SystemTime::now()), (theirs, long_ago)] {
+            let left = fs::File::create(folder.join(name)).expect("a part");
+            left.set_modified(time).expect("its time");
+        }
+        write(&folder, &[file("a.csv", "1")]).expect("nothing is in the way");
+        assert_eq!(fs::read_to_string(folder.join("a.csv")).expect("a.csv"), "1");
+        assert_eq!(names(&folder), [theirs, fresh, "a.csv", LIST]);
+        fs::remove_dir_all(&folder).expect("cleanup");
+    }
+
+    #[test]
+    fn a_folder_under_a_wanted_name_is_refused() {
+        let folder = folder("taken");
+        write(&folder, &[file("a.csv", "1")]).expect("first");
+        fs::remove_file(folder.join("a.csv")).expect("a.csv");
+        fs::create_dir(folder.join("a.csv")).expect("a folder instead");
+        let refused = prepare(&folder, ["a.csv"]);
+        assert!(matches!(refused, Err(WriteError::Foreign { path }) if path.ends_with("a.csv")));
+        fs::remove_dir_all(&folder).expect("cleanup");
+    }
+
+    #[test]
+    fn preparing_makes_the_folder_and_leaves_it_empty() {
+        let folder = folder("prepare");
+        prepare(&folder.join("deep"), ["a.csv"]).expect("a folder can be made");
+        assert!(names(&folder.join("deep")).is_empty());
+        fs::remove_dir_all(&folder).expect("cleanup");
+    }
+
+    /// A link to nowhere: it can be neither read as a folder nor made one.
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_that_cannot_be_made_is_found_before_the_work() {
+        let folder = folder("link");
+        let _ = fs::remove_file(&folder);
+        std::os::unix::fs::symlink("nowhere-at-all", &folder).expect("a link");
+        let refused = prepare(&folder, ["a.csv"]);
+        assert!(matches!(refused, Err(WriteError::Io { path, .. }) if path == folder));
+        fs::remove_file(&folder).expect("cleanup");
+    }
+
+    /// As the shell would make it: 0666 less the umask, which no test can count on but as equality.
+    #[cfg(unix)]
+    #[test]
+    fn a_result_may_be_read_by_whom_any_new_file_may() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = folder("mode");
+        write(&folder, &[file("a.csv", "1")]).expect("first");
+        fs::write(folder.join("any"), "").expect("any new file");
+        let mode =
+            |name: &str| fs::metadata(folder.join(name)).expect("a file").permissions().mode();
+        assert_eq!(mode("a.csv"), mode("any"));
         fs::remove_dir_all(&folder).expect("cleanup");
     }
 

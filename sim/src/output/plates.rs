@@ -1,7 +1,8 @@
-//! The three figures of an outcome: angular velocity, position, conservation; each with its caption.
+//! The figures of an outcome: angular velocity, position, conservation; each with its caption.
 
 use super::figure::{Curve, Figure, Panel};
 use super::ticks::Scale;
+use crate::bound::BOUND;
 use crate::jitter::Ripple;
 use crate::outcome::Outcome;
 
@@ -17,14 +18,12 @@ pub struct Plate {
 
 /// Length of the window in which single turns are shown, s.
 const WINDOW: f64 = 0.5;
-/// Drifts of energy (E2) and of both momenta (E3) are held to this.
-pub(crate) const BOUND: f64 = 1e-12;
 
 const MILLI: f64 = 1e3;
 const MICRO: f64 = 1e6;
 
-const JITTER: &str = "Difference from the same run with a balanced wheel, less its mean over one turn \
-                      of the wheel.";
+const JITTER: &str = "Difference from the same run with a balanced wheel, less its mean over one \
+                      turn of the wheel.";
 
 /// The figures of an outcome, in the order of the report.
 #[must_use]
@@ -89,9 +88,9 @@ fn conservation<const N: usize>(outcome: &Outcome<N>) -> Plate {
         ],
         level: Some((BOUND, "bound 10⁻¹²")),
     }];
-    let caption = "Conservation: departure from the start. Energy less work, in units of the largest kinetic energy plus \
-                   ∫Σ|u q̇| dt; momenta about the inertial origin, in units of the largest sum over \
-                   the bodies of magnitudes."
+    let caption = "Conservation: departure from the start. Energy less work, in units of the \
+                   largest kinetic energy plus ∫Σ|u q̇| dt; momenta about the inertial origin, in \
+                   units of the largest sum over the bodies of magnitudes."
         .to_owned();
     plate(outcome, "conservation", panels, caption)
 }

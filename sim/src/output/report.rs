@@ -7,7 +7,9 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use super::figure::{DrawError, THEME};
-use super::plates::{BOUND, Plate};
+use super::plates::Plate;
+use super::summary::NO_JITTER;
+use crate::bound::BOUND;
 use crate::outcome::Outcome;
 use crate::run::Settings;
 
@@ -34,7 +36,14 @@ impl fmt::Display for ReportError {
     }
 }
 
-impl std::error::Error for ReportError {}
+impl std::error::Error for ReportError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Draw(source) => Some(source),
+            Self::Template(source) => Some(source),
+        }
+    }
+}
 
 impl From<DrawError> for ReportError {
     fn from(error: DrawError) -> Self {
@@ -99,6 +108,8 @@ pub fn report<const N: usize>(
     context.insert("tolerance", &power(settings.tolerance, 2));
     context.insert("rate", &settings.rate.to_string());
     context.insert("bound", &power(BOUND, 0));
+    let still = outcomes.iter().any(|(outcome, _)| outcome.ripple.is_empty());
+    context.insert("no_jitter", if still { NO_JITTER } else { "" });
     let mut tera = Tera::new();
     tera.add_raw_template("report.html", TEMPLATE)?;
     Ok(tera.render("report.html", &context)?)
@@ -121,7 +132,7 @@ fn row<const N: usize>(outcome: &Outcome<N>) -> Vec<String> {
 
 /// Lines of the table beside the figures; the names are HTML.
 fn facts<const N: usize>(outcome: &Outcome<N>) -> Vec<(&'static str, String)> {
-    let mut facts = Vec::new();
+    let mut facts = given(outcome);
     for device in &outcome.scenario.devices {
         facts.push(("Wheel offset <i>d</i>", format!("{} mm", digits(1e3 * device.d))));
         let j_13 = device.i_w_wc[(0, 2)];
@@ -139,13 +150,39 @@ fn facts<const N: usize>(outcome: &Outcome<N>) -> Vec<(&'static str, String)> {
             let gimbals = [j.gamma_o, j.gamma_i].map(|a| digits(a.to_degrees())).join(", ");
             let name = "Gimbals at the end, outer, inner";
             facts.push((name, format!("{gimbals} deg")));
-            let rpm = j.spin * 30.0 / std::f64::consts::PI;
-            facts.push(("Wheel at the end", format!("{rpm:.1} rpm")));
+            facts.push(("Wheel at the end", format!("{:.1} rpm", rpm(j.spin))));
         }
         facts.push(("Work of the motors", format!("{} J", digits(last.entry.work))));
     }
     facts.push(("Steps accepted, rejected", format!("{}, {}", steps.accepted, steps.rejected)));
     facts
+}
+
+/// Lines of the same table: the hub, and how the run starts.
+fn given<const N: usize>(outcome: &Outcome<N>) -> Vec<(&'static str, String)> {
+    let (hub, state) = (&outcome.scenario.hub, &outcome.scenario.state);
+    let list = |values: &[f64]| values.iter().map(|v| exact(*v)).collect::<Vec<_>>().join(", ");
+    let inertia = |elements: [(usize, usize); 3]| {
+        format!("{} kg m²", list(&elements.map(|element| hub.i_b_bc[element])))
+    };
+    let moments = "Its inertia <i>J</i><sub>11</sub>, <i>J</i><sub>22</sub>, <i>J</i><sub>33</sub>";
+    let products =
+        "Its products <i>J</i><sub>12</sub>, <i>J</i><sub>13</sub>, <i>J</i><sub>23</sub>";
+    let omega: Vec<_> = state.omega.iter().map(|rate| rate.to_degrees()).collect();
+    let mut given = vec![
+        ("Hub", format!("{} kg", exact(hub.m_b))),
+        (moments, inertia([(0, 0), (1, 1), (2, 2)])),
+        (products, inertia([(0, 1), (0, 2), (1, 2)])),
+        ("Body rate <i>ω</i> at the start", format!("{} deg/s", list(&omega))),
+    ];
+    for j in &state.devices {
+        given.push(("Wheel at the start", format!("{} rpm", exact(rpm(j.spin)))));
+    }
+    given
+}
+
+fn rpm(spin: f64) -> f64 {
+    spin * 30.0 / std::f64::consts::PI
 }
 
 /// What the solver warns of, as a sentence.
@@ -159,6 +196,14 @@ fn words(warning: &Warning) -> String {
         // Kinds of warning that this report does not know yet.
         other => other.to_string(),
     }
+}
+
+/// A number as it was given: nine decimals take off what a change of units adds, and no zeros at
+/// the end.
+fn exact(value: f64) -> String {
+    let text = format!("{value:.9}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.replace('-', "\u{2212}") }
 }
 
 /// Three significant digits, zeros at the end left off.
@@ -217,5 +262,7 @@ mod tests {
         assert_eq!(digits(-0.080_04), "\u{2212}0.08");
         assert_eq!((digits(0.540_1), three(0.540_1)), ("0.54".into(), "0.540".into()));
         assert_eq!(digits(1234.5), "1234");
+        assert_eq!((exact(810.0), exact(-0.0)), ("810".into(), "0".into()));
+        assert_eq!(exact(-4.85_f64.to_radians().to_degrees()), "\u{2212}4.85");
     }
 }

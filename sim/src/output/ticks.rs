@@ -158,8 +158,8 @@ fn superscript(c: char) -> char {
 /// A picture shows no more columns than this.
 const COLUMNS: usize = 400;
 
-/// The points that a picture can show: of each column the first, lowest, highest and last, in the order
-/// of time. The envelope of an oscillation too fast for the picture is kept.
+/// The points that a picture can show: of each column the first, lowest, highest and last, in the
+/// order of time. The envelope of an oscillation too fast for the picture is kept.
 #[must_use]
 pub(super) fn decimated(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let size = points.len().div_ceil(COLUMNS);

@@ -1,4 +1,4 @@
-//! A scenario: a spacecraft, its initial state and the torques that act on it, constant over the run.
+//! A scenario: a spacecraft, its initial state and the torques on it, constant over the run.
 
 pub mod table1;
 

@@ -1,11 +1,12 @@
 //! Table 1 of the paper: a rigid hub with one DGVSCMG.
 //!
-//! What the table leaves out (`L^o`, `L^i`, gimbal offsets, mount, `F`, `L_B`, initial gimbal state) is
-//! zero or identity. It contradicts itself twice, so it is run in variants. `U_s/m_w` = 32 g cm / 4 kg
-//! is 0.08 mm but the row `d` says 8.0 mm, and `U_d` = 15.4 g m^2 is ten thousand times a catalogue
-//! wheel's 15.4 g cm^2: see [`Imbalance`]. The row `u_x` reads 200 or 250 mN m: see [`Drive`]. As
-//! printed, the wheel's inertia breaks the triangle inequality (J13 does it); the solver takes it with
-//! a warning.
+//! What the table leaves out (`L^o`, `L^i`, gimbal offsets, mount, `F`, `L_B`, initial gimbal
+//! state) is zero or identity. It contradicts itself twice, so it is run in variants. `U_s/m_w` =
+//! 32 g cm / 4 kg is 0.08 mm but the row `d` says 8.0 mm, and `U_d` = 15.4 g m^2 is ten thousand
+//! times a catalogue wheel's 15.4 g cm^2: see [`Imbalance`]. The row `u_x` reads 200 or 250 mN m:
+//! see [`Drive`]. The solver takes both wheels with a warning that the triangle inequality is
+//! broken: their moments 0.2, 0.1, 0.1 kg m^2 are the limit of a thin disc, so any J13 breaks it,
+//! by 4.6e-3 kg m^2 as printed and by 4.7e-11 kg m^2 for the catalogue wheel.
 
 use std::f64::consts::PI;
 
@@ -205,6 +206,8 @@ fn from_rpm(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use precess_dynamics::{Part, Spacecraft, Warning};
+
     use super::*;
 
     /// Decimal units against powers of ten: a rounding or two of 2e-16.
@@ -216,6 +219,22 @@ mod tests {
         let (d_c, j_13_c) = Imbalance::Catalogue.d_and_j_13();
         assert!((d / d_c / 100.0 - 1.0).abs() < ROUNDING);
         assert!((j_13 / j_13_c / 10_000.0 - 1.0).abs() < ROUNDING);
+    }
+
+    #[test]
+    fn both_wheels_are_beyond_a_thin_disc_by_what_the_module_says() {
+        for (imbalance, expected) in [(Imbalance::Printed, 4.6e-3), (Imbalance::Catalogue, 4.7e-11)]
+        {
+            let s = Variant { imbalance, drive: Drive::Free }.scenario();
+            let spacecraft = Spacecraft::new(&s.hub, &s.devices).expect("it is accepted");
+            let warnings: Vec<_> = spacecraft.warnings().collect();
+            let [Warning::Triangle { part: Part::Wheel { device: 0 }, excess }] = warnings[..]
+            else {
+                panic!("{warnings:?}");
+            };
+            // The module gives two digits.
+            assert_eq!(format!("{excess:.1e}"), format!("{expected:.1e}"));
+        }
     }
 
     #[test]
