@@ -35,7 +35,8 @@ pub trait Attitude<T: Scalar>: Copy + Debug + PartialEq {
     #[must_use]
     fn normalised(&self) -> Self;
 
-    /// Whether the parameters stand for an attitude: all finite and, where length matters, not zero.
+    /// Whether the parameters stand for an attitude that [`Self::dcm`] can tell: all finite, a
+    /// quaternion not zero, MRPs not so large that their squares overflow.
     #[must_use]
     fn is_valid(&self) -> bool;
 }

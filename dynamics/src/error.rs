@@ -41,7 +41,7 @@ pub enum Quantity {
     Position,
     /// `State::r_b_n_dot`.
     Velocity,
-    /// `State::attitude`; also a quaternion of length zero.
+    /// `State::attitude`; also a quaternion of length zero, and MRPs whose square overflows.
     Attitude,
     /// `State::omega`.
     BodyRate,
@@ -84,7 +84,7 @@ pub enum SolveError<T = f64> {
         /// The bound it is not above: 64 epsilons of the diagonal before the elimination.
         bound: T,
     },
-    /// An input is infinite or NaN.
+    /// An input is infinite or NaN, or an attitude without a usable length.
     NotFinite {
         /// The first such input, in the order state, torques, rest.
         what: Quantity,
@@ -160,7 +160,8 @@ impl<T: Scalar> Display for SolveError<T> {
                 })
             }
             Self::NotFinite { what: Quantity::Attitude } => f.write_str(
-                "attitude is not finite, or a quaternion of length 0; give finite numbers",
+                "attitude has no usable length (zero, too large or not finite); give a unit \
+                 quaternion, or MRPs up to 1",
             ),
             Self::NotFinite { what } => {
                 write!(f, "{what} is not finite; give finite numbers in SI units")
@@ -222,7 +223,11 @@ mod tests {
             text(Quantity::Motor { device: 1, joint: Joint::Wheel }),
             "motor torque of device 1 (wheel) is not finite; give finite numbers in SI units"
         );
-        assert!(text(Quantity::Attitude).contains("quaternion of length 0"));
+        assert_eq!(
+            text(Quantity::Attitude),
+            "attitude has no usable length (zero, too large or not finite); give a unit \
+             quaternion, or MRPs up to 1"
+        );
         assert!(SolveError::<f32>::Overflow.to_string().contains("check the units"));
     }
 }

@@ -60,6 +60,8 @@ pub mod generated;
 mod hub;
 mod momentum;
 mod mrp;
+#[cfg(test)]
+mod overflow_checks;
 mod parameter_error;
 mod parameters;
 mod quaternion;
@@ -82,3 +84,22 @@ pub use quaternion::Quaternion;
 pub use real::{Real, Scalar};
 pub use spacecraft::Spacecraft;
 pub use state::{Accelerations, JointAccelerations, Joints, MotorTorques, State, Torques};
+
+/// Any thread may own or borrow any value of this crate: checked when the tests are compiled.
+#[cfg(test)]
+const _: () = {
+    const fn shareable<T: Send + Sync>() {}
+    const fn of_scalar<T: Scalar>() {
+        shareable::<Spacecraft<4, T>>();
+        shareable::<State<4, T>>();
+        shareable::<State<4, T, Mrp<T>>>();
+        shareable::<Torques<4, T>>();
+        shareable::<Accelerations<4, T>>();
+        shareable::<(Hub<T>, Dgvscmg<T>)>();
+        shareable::<(About<T>, Momentum<T>, CentreOfMass<T>)>();
+        shareable::<(ParameterError<T>, Warning<T>, Part, Parameter)>();
+        shareable::<(SolveError<T>, Quantity, Joint, JointField)>();
+    }
+    of_scalar::<f64>();
+    of_scalar::<f32>();
+};

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::attitude::Attitude;
 use crate::quaternion::Quaternion;
 use crate::real::{Scalar, one, two, zero};
-use crate::vec3::{add, components, cross, dot, finite, neg, scale, vector, zeros};
+use crate::vec3::{add, components, cross, dot, neg, scale, vector, zeros};
 
 /// Modified Rodrigues parameters: `tan(phi / 4)` along the axis of the rotation from N to B.
 ///
@@ -28,7 +28,8 @@ impl<T> Mrp<T> {
 }
 
 impl<T: Scalar> Mrp<T> {
-    /// The other set for the same attitude: `-sigma / |sigma|^2`. Not finite for the identity.
+    /// The other set for the same attitude: `-sigma / |sigma|^2`. Not finite for the identity and
+    /// for parameters whose square is too small to have a reciprocal.
     #[must_use]
     pub fn shadow(&self) -> Self {
         let sigma = components(&self.0);
@@ -87,15 +88,21 @@ impl<T: Scalar> Attitude<T> for Mrp<T> {
         if dot(sigma, sigma) > one() { self.shadow() } else { *self }
     }
 
+    /// Finite, and not so large that the products in [`Attitude::dcm`] overflow.
     fn is_valid(&self) -> bool {
-        finite(components(&self.0))
+        let sigma = components(&self.0);
+        (T::from_f64(4.0) * dot(sigma, sigma)).is_finite()
     }
 }
 
-/// The inner set, whatever the quaternion's sign; the quaternion need not have unit length.
+/// The inner set, whatever the quaternion's sign and length.
+///
+/// NaN in all three components for a quaternion of length zero and for one with a component that is
+/// infinite or NaN: neither is an attitude.
 impl<T: Scalar> From<Quaternion<T>> for Mrp<T> {
     fn from(beta: Quaternion<T>) -> Self {
-        // tan(phi/4) = sin(phi/2) / (1 + cos(phi/2)), of the quaternion with a positive scalar part.
+        let (beta, _) = beta.scaled();
+        // tan(phi/4) = sin(phi/2) / (1 + cos(phi/2)), with the scalar part made positive.
         let scaled = scale((beta.norm() + beta.q0.abs()).recip(), [beta.q1, beta.q2, beta.q3]);
         Self(vector(if beta.q0 < zero() { neg(scaled) } else { scaled }))
     }
@@ -181,5 +188,18 @@ mod tests {
     fn validity_asks_for_finite_numbers() {
         assert!(Mrp::<f64>::identity().is_valid());
         assert!(!Mrp::from_components(0.0, f64::NAN, 0.0).is_valid());
+        assert!(!Mrp::from_components(0.0, 0.0, f64::NEG_INFINITY).is_valid());
+    }
+
+    #[test]
+    fn valid_parameters_are_those_with_a_finite_dcm() {
+        let mut refused = 0;
+        for x in [1.0, 1e16, 1e100, 5e153, 6.703e153, 6.705e153, 1e154, 1.3e154, 1.4e154, 1e200] {
+            let sigma: Mrp = Mrp::from_components(0.0, -x, 0.0);
+            let finite = sigma.dcm().iter().all(|element| element.is_finite());
+            assert_eq!(sigma.is_valid(), finite, "{x:e}");
+            refused += u32::from(!finite);
+        }
+        assert_eq!(refused, 5);
     }
 }

@@ -62,6 +62,11 @@ pub enum ParameterError<T = f64> {
         /// Its mass, kg.
         value: T,
     },
+    /// The masses of all bodies, each finite, have an infinite sum.
+    TotalMass {
+        /// The sum, kg.
+        value: T,
+    },
     /// An inertia tensor is not symmetric.
     Asymmetric {
         /// The body.
@@ -83,6 +88,13 @@ pub enum ParameterError<T = f64> {
         value: T,
         /// What rounding explains, kg m^2; negative.
         bound: T,
+    },
+    /// The elements of an inertia tensor are finite, but its largest principal moment is not.
+    LargeInertia {
+        /// The body.
+        part: Part,
+        /// The largest principal moment, kg m^2.
+        value: T,
     },
     /// The columns of a mount are not orthonormal.
     SkewedMount {
@@ -157,6 +169,11 @@ impl<T: Scalar> Display for ParameterError<T> {
                 "mass {:?} kg of the {part} is below 0; use 0 for a massless gimbal",
                 value.to_f64(),
             ),
+            Self::TotalMass { value } => write!(
+                f,
+                "total mass {:?} kg is not finite; check the units of the masses",
+                value.to_f64(),
+            ),
             Self::Asymmetric { part, row, column, difference, bound } => write!(
                 f,
                 "inertia of the {part}: element {row}{column} differs from element {column}{row} \
@@ -170,6 +187,12 @@ impl<T: Scalar> Display for ParameterError<T> {
                  signs and units of its inertia",
                 value.to_f64(),
                 bound.to_f64(),
+            ),
+            Self::LargeInertia { part, value } => write!(
+                f,
+                "largest principal moment {:?} kg m^2 of the {part} is not finite; check the \
+                 units of its inertia",
+                value.to_f64(),
             ),
             Self::SkewedMount { device, residual, bound } => write!(
                 f,

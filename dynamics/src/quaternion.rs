@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3, Vector4};
 
 use crate::attitude::Attitude;
 use crate::mrp::Mrp;
-use crate::real::{Scalar, half, one, two, zero};
-use crate::vec3::{components, dot, scale};
+use crate::real::{Scalar, half, one, reciprocal_in_two, two, zero};
+use crate::vec3::{components, dot, largest, scale};
 
 /// Euler parameters `beta_{B/N}`: `cos(phi / 2)` and `sin(phi / 2)` along the axis of the rotation
 /// from N to B. A quaternion and its negative are the same attitude.
@@ -25,7 +25,23 @@ impl<T: Scalar> Quaternion<T> {
     /// Length; 1 for an attitude that has not drifted.
     #[must_use]
     pub fn norm(&self) -> T {
-        self.norm_squared().sqrt()
+        let (scaled, size) = self.scaled();
+        size * scaled.norm_squared().sqrt()
+    }
+
+    /// The quaternion by a size that its squares can bear, and that size: quaternions of about unit
+    /// length stay as they are, bit for bit, others are divided by their largest component. NaN
+    /// where the length is zero or not finite.
+    pub(crate) fn scaled(&self) -> (Self, T) {
+        let Self { q0, q1, q2, q3 } = *self;
+        let size = largest([q1, q2, q3]).max(q0.abs());
+        // A square of either limit, and a sum of four, is far from overflow and underflow.
+        if size >= T::EPSILON && size <= T::EPSILON.recip() {
+            return (*self, one());
+        }
+        let (first, second) = reciprocal_in_two(size);
+        let by_size = |q: T| q * first * second;
+        (Self { q0: by_size(q0), q1: by_size(q1), q2: by_size(q2), q3: by_size(q3) }, size)
     }
 
     fn norm_squared(&self) -> T {
@@ -40,11 +56,12 @@ impl<T: Scalar> Attitude<T> for Quaternion<T> {
         Self { q0: one(), q1: zero(), q2: zero(), q3: zero() }
     }
 
-    /// `[BN]` of the quaternion divided by its length: a rotation for any length but zero, also
-    /// between the stages of an integrator.
+    /// `[BN]` of the quaternion divided by its length: a rotation for any finite length but zero,
+    /// also between the stages of an integrator. NaN otherwise.
     fn dcm(&self) -> Matrix3<T> {
-        let Self { q0, q1, q2, q3 } = *self;
-        let scale = two::<T>() * self.norm_squared().recip();
+        let (scaled, _) = self.scaled();
+        let Self { q0, q1, q2, q3 } = scaled;
+        let scale = two::<T>() * scaled.norm_squared().recip();
         let (s1, s2, s3) = (scale * q1, scale * q2, scale * q3);
         let (d1, d2, d3) = (s1 * q1, s2 * q2, s3 * q3);
         let (w1, w2, w3) = (s1 * q0, s2 * q0, s3 * q0);
@@ -89,26 +106,34 @@ impl<T: Scalar> Attitude<T> for Quaternion<T> {
         }
     }
 
-    /// The quaternion of unit length. A quaternion of length zero becomes NaN.
+    /// The quaternion of unit length. One whose length is zero or not finite becomes NaN.
     fn normalised(&self) -> Self {
-        let scale = self.norm().recip();
-        Self { q0: scale * self.q0, q1: scale * self.q1, q2: scale * self.q2, q3: scale * self.q3 }
+        let (scaled, _) = self.scaled();
+        let scale = scaled.norm_squared().sqrt().recip();
+        let Self { q0, q1, q2, q3 } = scaled;
+        Self { q0: scale * q0, q1: scale * q1, q2: scale * q2, q3: scale * q3 }
     }
 
     fn is_valid(&self) -> bool {
-        let n2 = self.norm_squared();
-        n2.is_finite() && n2.recip().is_finite()
+        self.scaled().0.norm_squared().is_finite()
     }
 }
 
 /// The quaternion with `q0 >= 0` for the inner set, `q0 < 0` for the outer one.
+///
+/// Of unit length for any finite MRPs, zero (the identity) and the largest included; NaN in all
+/// four components where one of the MRPs is infinite or NaN.
 impl<T: Scalar> From<Mrp<T>> for Quaternion<T> {
     fn from(sigma: Mrp<T>) -> Self {
         let sigma = components(&sigma.0);
-        let s2 = dot(sigma, sigma);
-        let scaled = (one::<T>() + s2).recip();
-        let [q1, q2, q3] = scale(two::<T>() * scaled, sigma);
-        Self { q0: (one::<T>() - s2) * scaled, q1, q2, q3 }
+        // Numerator and denominator over a square, so that large parameters do not overflow.
+        let size = largest(sigma);
+        let unit = if size > T::EPSILON.recip() { size.recip() } else { one() };
+        let sigma = scale(unit, sigma);
+        let (u2, s2) = (unit * unit, dot(sigma, sigma));
+        let scaled = (u2 + s2).recip();
+        let [q1, q2, q3] = scale(two::<T>() * unit * scaled, sigma);
+        Self { q0: (u2 - s2) * scaled, q1, q2, q3 }
     }
 }
 
@@ -163,6 +188,75 @@ mod tests {
         assert!((BETA.normalised().norm() - 1.0).abs() <= checks::ROUNDING);
         let wide = Quaternion { q0: 0.5_f32, q1: -0.7, q2: 0.1, q3: 0.5 }.normalised();
         assert!((wide.norm() - 1.0).abs() <= 4.0 * f32::EPSILON);
+    }
+
+    /// `beta` times `size`, component by component.
+    fn sized(size: f64, beta: Quaternion) -> Quaternion {
+        let Quaternion { q0, q1, q2, q3 } = beta;
+        Quaternion { q0: size * q0, q1: size * q1, q2: size * q2, q3: size * q3 }
+    }
+
+    #[test]
+    fn attitude_does_not_depend_on_the_length() {
+        // Powers of two, so that nothing is rounded but what the length itself brings.
+        for size in [2.0_f64.powi(1020), 2.0_f64.powi(100), 2.0_f64.powi(-60), 2.0_f64.powi(-960)] {
+            let beta = sized(size, BETA);
+            assert!(beta.is_valid());
+            assert!((beta.norm() / size - 1.0).abs() <= checks::ROUNDING, "{size:e}");
+            assert!((beta.dcm() - BETA.dcm()).amax() <= checks::ROUNDING, "{size:e}");
+            let (unit, expected) = (beta.normalised(), BETA.normalised());
+            assert!((unit.dcm() - expected.dcm()).amax() <= checks::ROUNDING, "{size:e}");
+            assert!((unit.norm() - 1.0).abs() <= checks::ROUNDING, "{size:e}");
+            assert!((Mrp::from(beta).0 - Mrp::from(BETA).0).amax() <= checks::ROUNDING, "{size:e}");
+        }
+        // Subnormal, where the components themselves are exact.
+        for size in [1e200, 1e-200, f64::from_bits(1)] {
+            let half_turn = Quaternion { q0: 0.0, q1: size, q2: 0.0, q3: 0.0 };
+            assert_eq!(Mrp::from(half_turn), Mrp::from_components(1.0, 0.0, 0.0));
+            assert_eq!(half_turn.normalised(), Quaternion { q1: 1.0, ..half_turn });
+            assert_eq!(half_turn.dcm(), Matrix3::from_diagonal(&[1.0, -1.0, -1.0].into()));
+        }
+    }
+
+    #[test]
+    fn quaternion_without_a_length_becomes_nan_everywhere() {
+        let zero = Quaternion { q0: 0.0, q1: 0.0, q2: 0.0, q3: 0.0 };
+        for bad in [
+            zero,
+            Quaternion { q0: f64::NAN, ..BETA },
+            Quaternion { q3: f64::NAN, ..BETA },
+            Quaternion { q0: f64::INFINITY, ..zero },
+            Quaternion { q2: f64::NEG_INFINITY, ..BETA },
+            Quaternion { q1: 1e200, q2: f64::NAN, ..zero },
+        ] {
+            let Quaternion { q0, q1, q2, q3 } = bad.normalised();
+            assert!([q0, q1, q2, q3].iter().any(|q| q.is_nan()), "{bad:?}");
+            assert!(bad.dcm().iter().any(|x| x.is_nan()), "{bad:?}");
+            assert!(Mrp::from(bad).0.iter().any(|x| x.is_nan()), "{bad:?}");
+            assert!(!bad.is_valid() && !bad.norm().is_normal(), "{bad:?}");
+        }
+    }
+
+    #[test]
+    fn conversion_of_any_finite_mrps_has_unit_length() {
+        for size in [1e20, 1e154, 1e200, 1.7e308] {
+            let beta = Quaternion::from(Mrp::from_components(size, 0.0, -size));
+            assert!((beta.norm() - 1.0).abs() <= checks::ROUNDING, "{size:e}");
+            // A whole turn, but for 4 / |sigma|.
+            assert_eq!(beta.q0, -1.0);
+            let along = [beta.q1, -beta.q3].map(|q| q * size);
+            assert!(along.iter().all(|q| (q - 1.0).abs() <= checks::ROUNDING), "{size:e}");
+        }
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for sigma in [
+                Mrp::from_components(0.1, bad, 0.2),
+                Mrp::from_components(1e200, 0.0, bad),
+                Mrp::from_components(bad, 0.0, 0.0),
+            ] {
+                let Quaternion { q0, q1, q2, q3 } = Quaternion::from(sigma);
+                assert!([q0, q1, q2, q3].iter().all(|q| q.is_nan()), "{sigma:?}");
+            }
+        }
     }
 
     #[test]

@@ -31,7 +31,8 @@ pub trait Scalar: Real + PartialOrd + PartialEq + Debug + Send + Sync + 'static 
     /// Distance from 1 to the next larger number: `2^-52` for `f64`, `2^-23` for `f32`.
     const EPSILON: Self;
 
-    /// The nearest number to `value`. The solver passes small exact constants and first guesses only.
+    /// The nearest number to `value`. The solver passes small exact constants and first guesses
+    /// only.
     #[must_use]
     fn from_f64(value: f64) -> Self;
 
@@ -178,9 +179,25 @@ pub(crate) fn half<T: Scalar>() -> T {
     T::from_f64(0.5)
 }
 
+/// The reciprocal of a magnitude, in two factors to be multiplied by one after the other.
+///
+/// The first is a power of two, so that neither the reciprocal of a subnormal magnitude overflows
+/// nor that of a huge one is subnormal. Both factors are finite for every finite magnitude but
+/// zero, whose product with them is NaN, as is that of infinity.
+pub(crate) fn reciprocal_in_two<T: Scalar>(magnitude: T) -> (T, T) {
+    let power = if magnitude < T::EPSILON {
+        T::EPSILON.recip()
+    } else if magnitude > T::EPSILON.recip() {
+        T::EPSILON
+    } else {
+        one()
+    };
+    (power, (power * magnitude).recip())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Real, Scalar};
+    use super::{Real, Scalar, reciprocal_in_two};
 
     #[test]
     fn mul_add_rounds_the_product_first() {
@@ -194,6 +211,22 @@ mod tests {
     fn epsilon_is_the_step_above_one() {
         assert_eq!(<f64 as Scalar>::EPSILON, 2.0_f64.powi(-52));
         assert_eq!(<f32 as Scalar>::EPSILON, 2.0_f32.powi(-23));
+    }
+
+    #[test]
+    fn reciprocal_in_two_factors_is_finite_down_to_the_smallest_number() {
+        for x in [f64::from_bits(1), 1e-310, f64::MIN_POSITIVE, 3.0, f64::MAX] {
+            let (first, second) = reciprocal_in_two(x);
+            assert!((x * first * second - 1.0).abs() <= 2.0 * f64::EPSILON, "{x}");
+        }
+        for x in [f32::from_bits(1), f32::MIN_POSITIVE, f32::MAX] {
+            let (first, second) = reciprocal_in_two(x);
+            assert!((x * first * second - 1.0).abs() <= 2.0 * f32::EPSILON, "{x}");
+        }
+        for x in [0.0, f64::INFINITY, f64::NAN] {
+            let (first, second) = reciprocal_in_two(x);
+            assert!((x * first * second).is_nan(), "{x}");
+        }
     }
 
     #[test]

@@ -24,8 +24,8 @@ struct Slope<const N: usize, T, R> {
 impl<const N: usize, T: Scalar> Spacecraft<N, T> {
     /// The state after `dt` seconds, with force and torques constant along B axes.
     ///
-    /// The attitude is normalised at the end of the step: a quaternion gets unit length, MRPs beyond
-    /// a half turn become their shadow set. Joint angles run on; see [`State::wrapped`].
+    /// The attitude is normalised at the end of the step: a quaternion gets unit length, MRPs
+    /// beyond a half turn become their shadow set. Joint angles run on; see [`State::wrapped`].
     ///
     /// # Errors
     ///

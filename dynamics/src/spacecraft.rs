@@ -36,7 +36,8 @@ impl<const N: usize, T: Scalar> Spacecraft<N, T> {
     /// [`ParameterError`] names the body, the value and the bound: a number that is not finite, a
     /// mass of hub or wheel that is not above zero, a negative mass of a gimbal, an inertia that is
     /// not symmetric or has a negative principal moment, a mount that is not a right-handed
-    /// rotation. Deviations up to 4096 epsilons of the largest element count as rounding.
+    /// rotation; or it tells that the total mass or a principal moment is not finite. Deviations up
+    /// to 4096 epsilons of the largest element count as rounding.
     pub fn new(hub: &Hub<T>, devices: &[Dgvscmg<T>; N]) -> Result<Self, ParameterError<T>> {
         let hub_excess = check_hub(hub)?;
         let mut device_excesses = [[zero(); 3]; N];
@@ -45,6 +46,9 @@ impl<const N: usize, T: Scalar> Spacecraft<N, T> {
         }
         let prepared = devices.each_ref().map(Device::new);
         let mass = prepared.iter().fold(hub.m_b, |sum, device| sum + device.mass);
+        if !mass.is_finite() {
+            return Err(ParameterError::TotalMass { value: mass });
+        }
         Ok(Self {
             hub: PreparedHub::new(hub),
             devices: prepared,
@@ -197,6 +201,8 @@ pub(crate) fn diagnosis<const N: usize, T: Scalar, A: Attitude<T>>(
 
 #[cfg(test)]
 mod tests {
+    use std::string::ToString;
+
     use nalgebra::{Matrix3, Vector3};
 
     use super::*;
@@ -246,6 +252,21 @@ mod tests {
         let expected = (hub().r_bc_b * 20.0 + wheel().r_go_b * 11.0) / 31.0;
         assert!((found.c - expected).amax() <= ROUNDING);
         assert!(found.c_prime.amax() <= ROUNDING);
+    }
+
+    #[test]
+    fn total_mass_must_be_finite() {
+        let text = |heaviest: fn(&mut Hub, &mut Dgvscmg)| {
+            let (mut hub, mut device) = (hub(), wheel());
+            heaviest(&mut hub, &mut device);
+            let error = Spacecraft::new(&hub, &[wheel(), device]).unwrap_err();
+            assert_eq!(error, ParameterError::TotalMass { value: f64::INFINITY });
+            error.to_string()
+        };
+        // Beyond f64 within one device, and with the hub only.
+        let expected = "total mass inf kg is not finite; check the units of the masses";
+        assert_eq!(text(|_, device| (device.m_go, device.m_gi) = (1e308, 1e308)), expected);
+        assert_eq!(text(|hub, device| (hub.m_b, device.m_go) = (1e308, 1e308)), expected);
     }
 
     #[test]

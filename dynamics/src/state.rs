@@ -1,7 +1,7 @@
 //! State, torques and accelerations of a hub with N devices: plain data, SI units and radians.
 //!
-//! A joint's rates are relative to its parent body, so `spin` is the wheel's rate seen from the inner
-//! gimbal. `theta` is a state because an imbalanced wheel's angle matters.
+//! A joint's rates are relative to its parent body, so `spin` is the wheel's rate seen from the
+//! inner gimbal. `theta` is a state because an imbalanced wheel's angle matters.
 
 use nalgebra::Vector3;
 
@@ -15,7 +15,7 @@ use crate::vec3::{vector, zeros};
 pub struct State<const N: usize, T = f64, A = Quaternion<T>> {
     /// `r_{B/N}`, position of the hub's reference point B from the inertial origin, N axes, m.
     pub r_b_n: Vector3<T>,
-    /// Inertial velocity of B, N axes, m/s.
+    /// Inertial velocity of B, *N axes*, m/s. Its derivative in [`Accelerations`] is along B axes.
     pub r_b_n_dot: Vector3<T>,
     /// Attitude of B with respect to N.
     pub attitude: A,
@@ -65,9 +65,16 @@ pub struct MotorTorques<T = f64> {
 }
 
 /// All second derivatives of the state.
+///
+/// Mind the axes: `r_b_n_ddot` is along *B* axes, in which the equations are solved, while
+/// [`State::r_b_n_dot`] and [`State::r_b_n`] are along *N* axes. To integrate the velocity, rotate
+/// first: `[BN]^T r_b_n_ddot`, with [`Attitude::dcm`] for `[BN]`. [`Spacecraft::step`] does so.
+///
+/// [`Spacecraft::step`]: crate::Spacecraft::step
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accelerations<const N: usize, T = f64> {
-    /// Inertial acceleration of B, *along B axes*, m/s^2. Along N axes: `[BN]^T` times this.
+    /// Inertial acceleration of B, *along B axes*, m/s^2: the derivative of
+    /// [`State::r_b_n_dot`], which is along N axes, is `[BN]^T` times this.
     pub r_b_n_ddot: Vector3<T>,
     /// Angular acceleration of the hub, B axes, rad/s^2.
     pub omega_dot: Vector3<T>,

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use crate::real::{Real, Scalar, half, one, zero};
+use crate::real::{Real, Scalar, half, one, reciprocal_in_two, zero};
 use crate::vec3::{Columns, Vec3, columns, dot, rotate, scale};
 
 /// A symmetric tensor by its upper triangle.
@@ -25,12 +25,14 @@ impl<T: Scalar> Symmetric<T> {
     /// The symmetric part of a matrix. Exact where the matrix is symmetric already.
     pub(crate) fn part_of(m: &Matrix3<T>) -> Self {
         let [x, y, z] = columns(m);
+        // Half the smallest number would be zero, and the sum of the largest ones infinite.
+        let mean = |a: T, b: T| if a == b { a } else { half::<T>() * a + half::<T>() * b };
         Self {
             xx: x[0],
-            xy: half::<T>() * y[0] + half::<T>() * x[1],
-            xz: half::<T>() * z[0] + half::<T>() * x[2],
+            xy: mean(y[0], x[1]),
+            xz: mean(z[0], x[2]),
             yy: y[1],
-            yz: half::<T>() * z[1] + half::<T>() * y[2],
+            yz: mean(z[1], y[2]),
             zz: z[2],
         }
     }
@@ -39,16 +41,16 @@ impl<T: Scalar> Symmetric<T> {
     ///
     /// A fixed number of sweeps, so time is bounded and nothing can fail to converge: the method is
     /// quadratic, and eight sweeps leave a 3x3 matrix diagonal in any precision up to 200 bits.
-    /// The tensor is scaled to its largest element first, so no square overflows on the way.
+    /// The tensor is scaled to its largest element first, so nothing overflows or vanishes on the
+    /// way; a moment that is itself beyond the largest number comes out infinite.
     pub(crate) fn principal_moments(self) -> Vec3<T> {
         const SWEEPS: usize = 8;
         let largest = self.largest_element();
-        let inverse = largest.recip();
-        if !inverse.is_finite() {
-            // Zero, or too small to have a reciprocal.
+        if largest == zero() {
             return [zero(); 3];
         }
-        let mut s = self.scaled(inverse);
+        let (first, second) = reciprocal_in_two(largest);
+        let mut s = self.scaled(first).scaled(second);
         for _ in 0..SWEEPS {
             let turn = Turn::zeroing(s.xx, s.yy, s.xy);
             turn.apply(&mut s.xx, &mut s.yy, &mut s.xy, &mut s.xz, &mut s.yz);
@@ -148,8 +150,9 @@ struct Turn<T> {
 }
 
 impl<T: Scalar> Turn<T> {
-    /// The smaller rotation that makes the off-diagonal element `pq` zero, in a tensor whose largest
-    /// element is 1. Below epsilon squared the element is nothing against it, and none is made.
+    /// The smaller rotation that makes the off-diagonal element `pq` zero, in a tensor whose
+    /// largest element is 1. Below epsilon squared the element is nothing against it, and none is
+    /// made.
     fn zeroing(pp: T, qq: T, pq: T) -> Self {
         if pq.abs() <= T::EPSILON * T::EPSILON {
             return Self { tangent: zero(), cosine: one(), sine: zero() };
@@ -219,6 +222,18 @@ mod tests {
             let moments = Symmetric::part_of(&(m * size)).principal_moments();
             assert_close(moments.map(|i| i / size), [2.0 - root, 2.0, 2.0 + root]);
         }
+        // Subnormal, down to the smallest number of all: elements and moments are exact.
+        let m = Matrix3::new(0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 3.0);
+        for size in [f64::from_bits(1), f64::from_bits(1 << 40)] {
+            let moments = Symmetric::part_of(&(m * size)).principal_moments();
+            assert_eq!(moments, [-size, size, 3.0 * size]);
+        }
+        let single = Symmetric::part_of(&Matrix3::from_diagonal(&[-1e-44_f32, 0.0, 0.0].into()));
+        assert_eq!(single.principal_moments(), [-1e-44, 0.0, 0.0]);
+        // Three times the largest element is beyond f64, the other two are rounding of it.
+        let [least, middle, most] =
+            Symmetric::part_of(&Matrix3::repeat(1.7e308)).principal_moments();
+        assert!(least.abs().max(middle.abs()) <= ROUNDING * 1.7e308 && most == f64::INFINITY);
         let tiny_coupling = Matrix3::new(1.0, 1e-310, 0.0, 1e-310, 1.0, 0.0, 0.0, 0.0, 1.0);
         assert_eq!(Symmetric::part_of(&tiny_coupling).principal_moments(), [1.0; 3]);
     }

@@ -115,7 +115,11 @@ fn check_inertia<T: Scalar>(part: Part, inertia: &Matrix3<T>) -> Result<T, Param
     if least < -bound {
         return Err(ParameterError::NegativeInertia { part, value: least, bound: -bound });
     }
-    let excess = most - (least + middle);
+    if !most.is_finite() {
+        return Err(ParameterError::LargeInertia { part, value: most });
+    }
+    // Negative by rounding counts as zero: the excess is not above the largest moment, thus finite.
+    let excess = most - (least.max(zero()) + middle.max(zero()));
     Ok(if excess > bound { excess } else { zero() })
 }
 
@@ -301,6 +305,42 @@ mod tests {
             error,
             ParameterError::NegativeInertia { part: Part::OuterGimbal { device: 2 }, .. }
         ));
+    }
+
+    #[test]
+    fn tiny_inertia_is_checked_like_any_other() {
+        for size in [1e-310, f64::from_bits(1)] {
+            let mut hub = hub();
+            hub.i_b_bc = Matrix3::from_diagonal(&Vector3::new(-size, 0.0, 0.0));
+            let error = check_hub(&hub).unwrap_err();
+            let ParameterError::NegativeInertia { part: Part::Hub, value, .. } = error else {
+                panic!("{error}");
+            };
+            assert_eq!(value, -size);
+            // A point's worth of a rod: one moment of three, and it exceeds the sum of two zeros.
+            hub.i_b_bc = Matrix3::from_diagonal(&Vector3::new(0.0, size, 0.0));
+            assert_eq!(check_hub(&hub), Ok(size));
+        }
+    }
+
+    #[test]
+    fn huge_inertia_is_accepted_while_its_moments_are_finite() {
+        let mut hub = hub();
+        hub.i_b_bc = Matrix3::from_diagonal(&Vector3::repeat(1.7e308));
+        assert_eq!(check_hub(&hub), Ok(0.0));
+        hub.i_b_bc = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 1.7e308));
+        let excess = check_hub(&hub).unwrap();
+        assert!((excess / 1.7e308 - 1.0).abs() <= f64::EPSILON, "{excess}");
+        hub.i_b_bc = Matrix3::from_diagonal(&Vector3::repeat(f64::MAX));
+        assert_eq!(check_hub(&hub), Ok(0.0));
+
+        let (error, text) = refused_hub(|hub| hub.i_b_bc = Matrix3::repeat(1.7e308));
+        assert_eq!(error, ParameterError::LargeInertia { part: Part::Hub, value: f64::INFINITY });
+        assert_eq!(
+            text,
+            "largest principal moment inf kg m^2 of the hub is not finite; check the units of its \
+             inertia"
+        );
     }
 
     #[test]

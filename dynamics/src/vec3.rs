@@ -103,6 +103,12 @@ pub(crate) fn rotate_tensor<T: Real>(m: &Columns<T>, t: &Columns<T>) -> Columns<
     ]
 }
 
+/// The largest magnitude among the components; NaN only if the first one is.
+#[inline]
+pub(crate) fn largest<T: Scalar>(v: Vec3<T>) -> T {
+    v[0].abs().max(v[1].abs()).max(v[2].abs())
+}
+
 /// Whether all components are finite.
 #[inline]
 pub(crate) fn finite<T: Scalar>(v: Vec3<T>) -> bool {

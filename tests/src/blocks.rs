@@ -40,9 +40,11 @@ pub fn worst(errors: [f64; 5]) -> (f64, &'static str) {
     worst
 }
 
-/// The largest number; infinite if any is NaN.
-fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
-    numbers.fold(0.0, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
+/// The largest of some magnitudes, zero if there are none. Infinite if any is NaN, which
+/// `f64::max` would drop, so that no bound lets it pass.
+#[must_use]
+pub fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
+    numbers.into_iter().fold(0.0, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
 }
 
 fn blocks<const N: usize>(a: &Accelerations<N, DoubleDouble>) -> [Vec<DoubleDouble>; 5] {
@@ -65,12 +67,6 @@ impl Figures {
         self.0.push(if figure.is_nan() { f64::INFINITY } else { figure });
     }
 
-    /// How many.
-    #[must_use]
-    pub const fn count(&self) -> usize {
-        self.0.len()
-    }
-
     /// The largest.
     #[must_use]
     pub fn worst(&self) -> f64 {
@@ -91,7 +87,7 @@ mod tests {
     use nalgebra::Vector3;
     use precess_dynamics::{Accelerations, JointAccelerations};
 
-    use super::{Figures, errors, worst};
+    use super::{Figures, errors, largest, worst};
 
     fn sample() -> Accelerations<1> {
         Accelerations {
@@ -119,12 +115,21 @@ mod tests {
     }
 
     #[test]
+    fn largest_number_does_not_lose_a_nan() {
+        assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
+        assert_eq!(largest([]), 0.0);
+        for numbers in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            assert_eq!(largest(numbers), f64::INFINITY);
+        }
+    }
+
+    #[test]
     fn figures_know_their_worst_and_median() {
         let mut figures = Figures::default();
         for figure in [3.0, 1.0, 2.0] {
             figures.add(figure);
         }
-        assert_eq!((figures.worst(), figures.median(), figures.count()), (3.0, 2.0, 3));
+        assert_eq!((figures.worst(), figures.median()), (3.0, 2.0));
         figures.add(f64::NAN);
         assert_eq!(figures.worst(), f64::INFINITY);
     }

@@ -1,9 +1,11 @@
 //! One spacecraft in one state under given forces, in any scalar.
 
+use core::fmt::Display;
+
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
     Accelerations, Dgvscmg, Hub, JointAccelerations, Joints, MotorTorques, Quaternion, Scalar,
-    State, Torques,
+    Spacecraft, State, Torques,
 };
 
 use crate::newton_euler::equations::System;
@@ -32,6 +34,28 @@ impl<const N: usize, T: Scalar> Case<N, T> {
             state: state(&self.state),
             torques: torques(&self.torques),
         }
+    }
+
+    /// The spacecraft, prepared.
+    ///
+    /// # Panics
+    ///
+    /// If the solver refuses the parameters, saying whose they are: a seed or a scenario.
+    #[must_use]
+    pub fn spacecraft(&self, whose: impl Display) -> Spacecraft<N, T> {
+        Spacecraft::new(&self.hub, &self.devices).unwrap_or_else(|error| panic!("{whose}: {error}"))
+    }
+
+    /// The solver's accelerations.
+    ///
+    /// # Panics
+    ///
+    /// If the solver gives an error, saying whose case it is: a seed or a scenario.
+    #[must_use]
+    pub fn solved(&self, whose: impl Display) -> Accelerations<N, T> {
+        self.spacecraft(&whose)
+            .accelerations(&self.state, &self.torques)
+            .unwrap_or_else(|error| panic!("{whose}: {error}"))
     }
 
     /// All bodies placed, for the reference.

@@ -161,8 +161,8 @@ fn skewed_mount_is_refused() {
     assert_eq!(
         error.to_string(),
         format!(
-            "mount of device 1 is off orthonormal by {residual:?}, more than {bound:?}; its columns \
-             are unit vectors at right angles, given to full precision"
+            "mount of device 1 is off orthonormal by {residual:?}, more than {bound:?}; its \
+             columns are unit vectors at right angles, given to full precision"
         ),
     );
 }

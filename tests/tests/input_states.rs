@@ -12,7 +12,8 @@ use precess_tests::case::Case;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::table1::{self, pair};
 
-/// A2, worst: what accelerations owe to a reference in higher precision.
+/// A2, accelerations against higher precision, worst, in units of the block: a good engine reaches
+/// 3e-13.
 const ACCELERATIONS_WORST: f64 = 1e-11;
 
 /// A way to put a number into one input.
@@ -152,7 +153,8 @@ fn quaternion_of_length_zero_is_named() {
     let error = unsolved(|case| case.state.attitude = zero);
     assert_eq!(
         error.to_string(),
-        "attitude is not finite, or a quaternion of length 0; give finite numbers"
+        "attitude has no usable length (zero, too large or not finite); give a unit quaternion, \
+         or MRPs up to 1"
     );
 }
 

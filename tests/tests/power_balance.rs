@@ -2,6 +2,8 @@
 //!
 //! Run with `--nocapture` to see the figures.
 
+use std::fmt::Display;
+
 use precess_dynamics::{Real, Scalar, Spacecraft};
 use precess_tests::blocks::Figures;
 use precess_tests::case::{Case, converted};
@@ -9,25 +11,26 @@ use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::{Sample, Visitor, visit};
 use precess_tests::table1::{self, SCENARIOS};
 
-/// E1: epsilons of the sum of the absolute values of all terms; no integrator in it.
+/// E1, the rate of the energy less the power fed in: epsilons of the sum of the absolute values of
+/// all terms. Small, since there is no integrator in it.
 const POWER_EPSILONS: f64 = 50.0;
 
-/// E1 is tried on as many random spacecraft as A2.
+/// As many random spacecraft as the accelerations are tried on.
 const SPACECRAFT: u64 = 1000;
 
 /// The power balance of the solver's accelerations, in epsilons of its unit, evaluated in
 /// double-double: what remains is the solver's rounding.
-fn imbalance<const N: usize>(case: &Case<N>, spacecraft: &Spacecraft<N>) -> f64 {
+fn imbalance<const N: usize>(
+    case: &Case<N>,
+    spacecraft: &Spacecraft<N>,
+    whose: impl Display,
+) -> f64 {
     let solution = spacecraft
         .accelerations(&case.state, &case.torques)
-        .unwrap_or_else(|error| panic!("N = {N}: {error}"));
+        .unwrap_or_else(|error| panic!("{whose}: {error}"));
     let balance = case.converted::<Wide>().snapshot().power_balance(&converted(&solution));
     let error = (balance.energy_dot - balance.power).abs();
     (error * balance.magnitudes.recip()).to_f64() / f64::EPSILON
-}
-
-fn spacecraft<const N: usize, T: Scalar>(case: &Case<N, T>) -> Spacecraft<N, T> {
-    Spacecraft::new(&case.hub, &case.devices).unwrap_or_else(|error| panic!("N = {N}: {error}"))
 }
 
 #[test]
@@ -36,18 +39,17 @@ fn power_fed_in_is_the_rate_of_the_energy_on_random_spacecraft() {
     impl Visitor for Check {
         fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
             let case = sample.case::<f64>();
-            let error = imbalance(&case, &spacecraft(&case));
+            let error = imbalance(&case, &case.spacecraft(sample), sample);
             self.0.add(error);
             assert!(
                 error <= POWER_EPSILONS,
-                "E1: {error} epsilons are above {POWER_EPSILONS} (seed {:#x}, N = {N})",
-                sample.seed
+                "E1: {error} epsilons are above {POWER_EPSILONS} ({sample})"
             );
         }
     }
     let mut check = Check(Figures::default());
     visit(SPACECRAFT, &mut check);
-    println!("E1: worst {:.2}, median {:.2} epsilons", check.0.worst(), check.0.median());
+    println!("E1: worst {:.2} eps, median {:.2} eps", check.0.worst(), check.0.median());
 }
 
 /// Ten seconds of every scenario, every tenth of a second.
@@ -56,21 +58,21 @@ fn power_fed_in_is_the_rate_of_the_energy_along_table_1() {
     let mut figures = Figures::default();
     for (wheel, drive) in SCENARIOS {
         let mut case = table1::scenario(wheel, drive);
-        let spacecraft = spacecraft(&case);
+        let whose = format!("{wheel:?} {drive:?}");
+        let spacecraft = case.spacecraft(&whose);
         for step in 0..2560 {
             if step % 25 == 0 {
-                let error = imbalance(&case, &spacecraft);
+                let error = imbalance(&case, &spacecraft, &whose);
                 figures.add(error);
                 assert!(
                     error <= POWER_EPSILONS,
-                    "E1: {error} epsilons are above {POWER_EPSILONS} ({wheel:?} {drive:?}, step \
-                     {step})"
+                    "E1: {error} epsilons are above {POWER_EPSILONS} ({whose}, step {step})"
                 );
             }
             case.state = spacecraft
                 .step(&case.state, &case.torques, 1.0 / 256.0)
-                .unwrap_or_else(|error| panic!("{wheel:?} {drive:?}: {error}"));
+                .unwrap_or_else(|error| panic!("{whose}, step {step}: {error}"));
         }
     }
-    println!("E1, Table 1: worst {:.2}, median {:.2} epsilons", figures.worst(), figures.median());
+    println!("E1, Table 1: worst {:.2} eps, median {:.2} eps", figures.worst(), figures.median());
 }

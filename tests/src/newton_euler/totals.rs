@@ -82,8 +82,8 @@ impl<T: Scalar> Snapshot<T> {
     /// does no work, but is left in). One term is one product of two components, with `a` in the
     /// five parts of (8) and (10) and `H_dot` in the four of (84)-(86). The parts count one by one
     /// because B's acceleration is what is given: on a hub that turns about a distant centre of
-    /// mass, the sums `a` all but vanish, and even exact accelerations, rounded to f64, would exceed
-    /// 50 epsilons of their products.
+    /// mass, the sums `a` all but vanish, and even exact accelerations, rounded to f64, would
+    /// exceed 50 epsilons of their products.
     #[must_use]
     pub fn power_balance<const N: usize>(
         &self,

@@ -1,0 +1,86 @@
+//! The guards on results: finite inputs whose result is not finite are refused, by every function.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::error::SolveError;
+use crate::momentum::About;
+use crate::parameters::{Dgvscmg, Hub};
+use crate::spacecraft::Spacecraft;
+use crate::state::{State, Torques};
+
+fn hub() -> Hub {
+    Hub {
+        m_b: 20.0,
+        r_bc_b: Vector3::new(0.1, -0.2, 0.3),
+        i_b_bc: Matrix3::new(4.0, 0.3, -0.2, 0.3, 5.0, 0.6, -0.2, 0.6, 7.0),
+    }
+}
+
+fn plain(hub: Hub) -> Spacecraft<0> {
+    Spacecraft::new(&hub, &[]).unwrap()
+}
+
+/// A plain hub's state after a change of the one at rest.
+fn state(change: fn(&mut State<0>)) -> State<0> {
+    let mut state = State::at_rest();
+    change(&mut state);
+    state
+}
+
+fn refused<R>(result: Result<R, SolveError>, what: &str) {
+    assert_eq!(result.map(|_| ()), Err(SolveError::Overflow), "{what}");
+}
+
+#[test]
+fn accelerations_that_overflow_are_refused() {
+    let turning = state(|s| s.omega.x = 1e200);
+    refused(plain(hub()).accelerations(&turning, &Torques::none()), "centrifugal force");
+
+    // One of the two vectors alone.
+    let light = Hub { m_b: 1e-3, r_bc_b: Vector3::zeros(), ..hub() };
+    let force = Vector3::new(1e308, 0.0, 0.0);
+    let pushed = Torques { force, ..Torques::none() };
+    refused(plain(light).accelerations(&State::<0>::at_rest(), &pushed), "translation");
+
+    // The hub does not feel it: what overflows is the wheel's own acceleration.
+    let light = Dgvscmg::bare_wheel(4.0, Matrix3::identity() * 1e-5);
+    let spacecraft = Spacecraft::new(&hub(), &[light]).unwrap();
+    let mut torques = Torques::none();
+    torques.motors[0].u_w = 1e305;
+    refused(spacecraft.accelerations(&State::<1>::at_rest(), &torques), "wheel");
+}
+
+/// A pivot that is not finite is no singularity.
+#[test]
+fn pivots_that_overflow_are_not_called_singular() {
+    for hub in
+        [Hub { m_b: 1e-310, ..hub() }, Hub { r_bc_b: Vector3::new(1e160, 0.0, 0.0), ..hub() }]
+    {
+        let found = plain(hub).accelerations(&State::<0>::at_rest(), &Torques::none());
+        refused(found, &std::format!("{hub:?}"));
+    }
+}
+
+#[test]
+fn energy_that_overflows_is_refused() {
+    refused(plain(hub()).energy(&state(|s| s.r_b_n_dot.x = 1e200)), "square of the speed");
+}
+
+#[test]
+fn momentum_that_overflows_is_refused() {
+    let momentum = |change| plain(hub()).momentum(&state(change), About::InertialOrigin);
+    refused(momentum(|s| s.r_b_n_dot.x = 1e308), "linear");
+    refused(momentum(|s| (s.r_b_n_dot.x, s.r_b_n.y) = (1e200, 1e200)), "angular");
+}
+
+#[test]
+fn centre_of_mass_that_overflows_is_refused() {
+    let far = Hub { r_bc_b: Vector3::new(1e308, 0.0, 0.0), ..hub() };
+    refused(plain(far).centre_of_mass(&State::<0>::at_rest()), "c");
+
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    let wide = Dgvscmg { d: 10.0, ..Dgvscmg::bare_wheel(4.0, disc) };
+    let mut state = State::<1>::at_rest();
+    state.devices[0].spin = 1e308;
+    refused(Spacecraft::new(&hub(), &[wide]).unwrap().centre_of_mass(&state), "c_prime");
+}

@@ -1,0 +1,75 @@
+//! No input makes the solver panic: its linked machine code contains no way to a panic.
+//!
+//! A small `no_std` library that calls every public function (`fixtures/every_entry_point.rs`) is
+//! built with optimisation and linked. Its panic handler carries a mark, and the linker drops
+//! what nothing calls: the mark is in the file exactly if a panic can be reached. Needs cargo and
+//! the linker that every build needs, and no network.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+/// What the fixture's panic handler carries.
+const MARK: &[u8] = b"a panic can be reached";
+
+/// Builds the fixture and says whether the mark is in it.
+fn panic_can_be_reached(feature: Option<&str>) -> bool {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = tests.join("..");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("no_panic");
+    fs::create_dir_all(&folder).expect("a folder for the build");
+    fs::write(folder.join("Cargo.toml"), manifest(tests)).expect("a manifest");
+    // The versions that the workspace has: cargo drops what the fixture does not need.
+    fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's versions");
+
+    let target = folder.join("target");
+    let program = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut cargo = Command::new(program);
+    cargo.args(["build", "--release", "--offline", "--quiet", "--message-format", "short"]);
+    cargo.arg("--manifest-path").arg(folder.join("Cargo.toml"));
+    cargo.arg("--target-dir").arg(&target).current_dir(&root);
+    cargo.args(feature.iter().flat_map(|feature| ["--features", feature]));
+    // Flags of the outer build (coverage, sanitizers) bring panics of their own.
+    for flags in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET"] {
+        cargo.env_remove(flags);
+    }
+    let output = cargo.output().expect("cargo starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "the fixture does not build: {errors}");
+
+    let library = library(&target.join("release"));
+    let code = fs::read(&library).expect("the linked library");
+    code.windows(MARK.len()).any(|window| window == MARK)
+}
+
+/// The fixture's manifest. What the dynamics crate is made of matters, the rest of its dependencies
+/// is generic and compiled with it: left without optimisation, they build in half the time.
+fn manifest(tests: &Path) -> String {
+    let source = tests.join("fixtures/every_entry_point.rs");
+    let dynamics = tests.join("../dynamics");
+    format!(
+        "[package]\nname = \"every-entry-point\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
+         [workspace]\n\
+         [lib]\npath = '{}'\ncrate-type = [\"cdylib\"]\n\
+         [features]\ncontrol = []\n\
+         [dependencies]\nprecess-dynamics = {{ path = '{}' }}\n\
+         [profile.release]\npanic = \"abort\"\ncodegen-units = 1\n\
+         [profile.release.package.\"*\"]\nopt-level = 0\n\
+         [profile.release.package]\nlibm.opt-level = 3\nprecess-dynamics.opt-level = 3\n",
+        source.display(),
+        dynamics.display()
+    )
+}
+
+/// The one dynamic library there, whatever the platform calls it.
+fn library(folder: &Path) -> PathBuf {
+    let name = format!("{}every_entry_point{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
+    folder.join(name)
+}
+
+#[test]
+fn no_public_function_can_reach_a_panic() {
+    // One after the other: both builds share what they are made of.
+    assert!(panic_can_be_reached(Some("control")), "the control's panic is not seen");
+    assert!(!panic_can_be_reached(None), "a public function of the solver can reach a panic");
+}
