@@ -42,6 +42,8 @@ pub struct Link<'g> {
     pub centre: Vector<'g, Own>,
     /// Inertia about the centre of mass.
     pub inertia: Symmetric<'g, Own>,
+    /// Mass of this body and all behind it: `m_d`, `m_v`.
+    pub assembly_mass: Expr<'g>,
 }
 
 /// Symbols of the hub and of the whole spacecraft, along B axes.
@@ -71,7 +73,12 @@ impl<'g> Chain<'g> {
     #[must_use]
     pub fn new(graph: &'g Graph, kind: &'static Kind) -> Self {
         let hub = HubSymbols::new(graph);
-        let links = kind.links.iter().map(|link| Link::new(graph, link)).collect();
+        let mut links: Vec<_> = kind.links.iter().map(|link| Link::new(graph, link)).collect();
+        for k in (0..links.len().saturating_sub(1)).rev() {
+            let sum = links[k..].iter().skip(1).fold(links[k].mass, |sum, link| sum + link.mass);
+            let name = format!("m_{}", kind.links[k].assembly);
+            links[k].assembly_mass = graph.abbreviation(&name, sum);
+        }
         Self { graph, kind, links, hub }
     }
 }
@@ -93,6 +100,7 @@ impl<'g> Link<'g> {
             torque: graph.symbol(joint.torque, Stage::Rate),
             origin: Vector::new(joint.origin.names.map(parameter)),
             mass: parameter(body.mass),
+            assembly_mass: parameter(body.mass),
             centre: match body.centre {
                 Centre::Free(triple) => Vector::new(triple.names.map(parameter)),
                 Centre::On(axis, distance) => parameter(distance) * Vector::unit(graph, axis),

@@ -3,12 +3,15 @@
 //! - [`chain`]: a kind's symbols, and the hub's;
 //! - [`motion`]: outwards along the chain by the transport theorem, seen from B or from N;
 //! - [`quantities`]: the paper's quantities of each body and of the system's centre of mass;
+//! - `angular` and `torques`: the paper's angular momenta (20) to (76) and motor torques (77) to
+//!   (121), by the same names;
 //! - [`by_body`]: mass matrix and bias as sums over bodies, by plain differentiation in B: what
 //!   the rest is held against;
 //! - [`composite`]: the same, inwards from the tip in local frames: what is emitted;
 //! - [`script`]: the named steps the walks leave behind;
 //! - [`elimination`]: the joints eliminated into the hub's six equations, tip first.
 
+mod angular;
 pub mod by_body;
 pub mod chain;
 pub mod composite;
@@ -17,6 +20,7 @@ pub mod motion;
 pub mod placed;
 pub mod quantities;
 pub mod script;
+mod torques;
 
 use script::{pairs, sextuple, triple};
 

@@ -10,6 +10,8 @@ use crate::space::{Carrier, Own, Symmetric, Vector};
 /// Components and the number of their frame.
 #[derive(Clone, Copy)]
 pub enum Placed<'g> {
+    /// A number: the same in every frame.
+    Scalar(Expr<'g>),
     /// A vector.
     Vector([Expr<'g>; 3], usize),
     /// A symmetric tensor: entries 11, 12, 13, 22, 23, 33.
@@ -22,7 +24,7 @@ impl<'g> Placed<'g> {
     pub fn along(self, chain: &Chain<'g>, target: usize) -> Self {
         let mut now = self;
         loop {
-            let frame = now.frame();
+            let Some(frame) = now.frame() else { return now };
             now = match frame.cmp(&target) {
                 std::cmp::Ordering::Equal => return now,
                 std::cmp::Ordering::Less => now.outwards(chain, frame),
@@ -31,9 +33,10 @@ impl<'g> Placed<'g> {
         }
     }
 
-    fn frame(self) -> usize {
+    fn frame(self) -> Option<usize> {
         match self {
-            Self::Vector(_, frame) | Self::Tensor(_, frame) => frame,
+            Self::Scalar(_) => None,
+            Self::Vector(_, frame) | Self::Tensor(_, frame) => Some(frame),
         }
     }
 
@@ -41,6 +44,7 @@ impl<'g> Placed<'g> {
     fn outwards(self, chain: &Chain<'g>, joint: usize) -> Self {
         let turn = chain.links[joint].turn;
         match self {
+            Self::Scalar(_) => self,
             Self::Vector(v, _) => {
                 let turned = Vector::<Carrier>::new(v).turned(turn);
                 Self::Vector(turned.components(), joint + 1)
@@ -56,6 +60,7 @@ impl<'g> Placed<'g> {
     fn inwards(self, chain: &Chain<'g>, joint: usize) -> Self {
         let turn = chain.links[joint].turn.inverse();
         match self {
+            Self::Scalar(_) => self,
             Self::Vector(v, _) => {
                 let turned = Vector::<Own>::new(v).turned(turn);
                 Self::Vector(turned.components(), joint)
@@ -67,10 +72,11 @@ impl<'g> Placed<'g> {
         }
     }
 
-    /// Labelled components: `along` names the axes of a vector; a tensor has nine entries.
+    /// Labelled components: `axes` names those of a vector; a tensor has nine entries.
     #[must_use]
     pub fn labelled(self, axes: &[String; 3]) -> Vec<(String, Expr<'g>)> {
         match self {
+            Self::Scalar(e) => vec![(String::new(), e)],
             Self::Vector(v, _) => axes.iter().cloned().zip(v).collect(),
             Self::Tensor(t, _) => {
                 let t = Symmetric::<Own>::new(t);

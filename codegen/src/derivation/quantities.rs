@@ -5,6 +5,7 @@
 use super::chain::Chain;
 use super::motion::{Motion, Observer, motions};
 use super::placed::Placed;
+use super::{angular, torques};
 use crate::graph::{Expr, Stage};
 use crate::kinds::Centre;
 use crate::space::{Axis, Carrier, Frame, Hub, Own, Symmetric, Vector};
@@ -30,21 +31,38 @@ pub fn quantities<'g>(chain: &Chain<'g>) -> Vec<Quantity<'g>> {
         body(chain, k, of_b, of_n, &mut list);
     }
     system(chain, &seen_from_b, &mut list);
+    angular::angular_momenta(chain, &mut list);
+    torques::motor_torques(chain, &mut list);
     list.0
 }
 
+/// Collects quantities.
 #[derive(Default)]
-struct List<'g>(Vec<Quantity<'g>>);
+pub(super) struct List<'g>(Vec<Quantity<'g>>);
 
 impl<'g> List<'g> {
-    fn vector<F: Frame>(&mut self, name: &str, v: Vector<'g, F>, frame: usize) {
+    pub(super) fn scalar(&mut self, name: &str, e: Expr<'g>) {
+        self.0.push(Quantity { name: name.to_owned(), value: Placed::Scalar(e) });
+    }
+
+    pub(super) fn vector<F: Frame>(&mut self, name: &str, v: Vector<'g, F>, frame: usize) {
         let value = Placed::Vector(v.components(), frame);
         self.0.push(Quantity { name: name.to_owned(), value });
     }
 
-    fn tensor<F: Frame>(&mut self, name: &str, t: Symmetric<'g, F>, frame: usize) {
+    pub(super) fn tensor<F: Frame>(&mut self, name: &str, t: Symmetric<'g, F>, frame: usize) {
         let value = Placed::Tensor(t.entries(), frame);
         self.0.push(Quantity { name: name.to_owned(), value });
+    }
+}
+
+impl<'g> List<'g> {
+    /// A vector collected before, along B axes.
+    pub(super) fn hub_vector(&self, name: &str) -> Vector<'g, Hub> {
+        match find(&self.0, name).map(|quantity| quantity.value) {
+            Some(Placed::Vector(v, 0)) => Vector::new(v),
+            _ => panic!("`{name}` is a vector along B axes, derived before it is used"),
+        }
     }
 }
 

@@ -30,6 +30,8 @@ pub struct Symbol {
     pub(crate) rate: Option<NodeId>,
     /// For the sine of an angle: the symbol of its cosine.
     pub(crate) cosine: Option<SymbolId>,
+    /// For an abbreviation: the sum of symbols it stands for.
+    pub(crate) sum: Option<NodeId>,
 }
 
 impl Graph {
@@ -44,7 +46,13 @@ impl Graph {
             let rate = (stage == Stage::Parameter).then(|| self.zero().id());
             let mut arena = self.arena.borrow_mut();
             let id = SymbolId(u16::try_from(arena.symbols.len()).expect("fewer than 2^16 symbols"));
-            arena.symbols.push(Symbol { name: name.to_owned(), stage, rate, cosine: None });
+            arena.symbols.push(Symbol {
+                name: name.to_owned(),
+                stage,
+                rate,
+                cosine: None,
+                sum: None,
+            });
             arena.names.insert(name.to_owned(), id);
             id
         });
@@ -69,6 +77,16 @@ impl Graph {
         let (Node::Symbol(s), Node::Symbol(c)) = (sin.node(), cos.node()) else { unreachable!() };
         self.arena.borrow_mut().symbols[usize::from(s.0)].cosine = Some(c);
         (sin, cos)
+    }
+
+    /// The symbol `name` for a sum of parameters, so that its reciprocal has a normal form: `m_d`.
+    #[must_use]
+    pub fn abbreviation<'g>(&'g self, name: &str, sum: Expr<'g>) -> Expr<'g> {
+        let symbol = self.symbol(name, Stage::Parameter);
+        debug_assert!(sum.id() < symbol.id(), "a sum is made before its abbreviation");
+        let Node::Symbol(id) = symbol.node() else { unreachable!("a symbol is a symbol") };
+        self.arena.borrow_mut().symbols[usize::from(id.0)].sum = Some(sum.id());
+        symbol
     }
 
     /// What is known of a symbol.

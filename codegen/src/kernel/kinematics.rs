@@ -100,11 +100,11 @@ fn body<'g>(
         |b: &Builder<'_, 'g>, name: &str, frame: usize| match b.reference(name).along(chain, frame)
         {
             Placed::Vector(v, _) => Vector::<Hub>::new(v),
-            Placed::Tensor(..) => panic!("`{name}` is a vector"),
+            _ => panic!("`{name}` is a vector"),
         };
     let tensor = |b: &Builder<'_, 'g>, name: &str| match b.reference(name) {
         Placed::Tensor(t, _) => t,
-        Placed::Vector(..) => panic!("`{name}` is a tensor"),
+        _ => panic!("`{name}` is a tensor"),
     };
 
     let equations = &data.equations;

@@ -45,12 +45,14 @@ enum Variable {
     Recip(SymbolId),
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 enum Reduction {
     /// `s^2 -> 1 - c^2`, by indices of the variables.
     Square { sin: usize, cos: usize },
     /// `y (1/y) -> 1`.
     Inverse { symbol: usize, recip: usize },
+    /// `lead (1/y) -> 1 - sum of others (1/y)`, for `y = lead + others`.
+    Share { recip: usize, lead: usize, others: Vec<usize> },
 }
 
 /// Expands expressions of one graph over a set of variables that grows as they are met.
@@ -60,6 +62,8 @@ pub struct Ring<'g> {
     index: HashMap<Variable, usize>,
     reductions: Vec<Reduction>,
     expanded: BTreeMap<NodeId, Rc<Polynomial>>,
+    /// The next node when [`Ring::settle`] was first called.
+    settled: Option<NodeId>,
 }
 
 impl<'g> Ring<'g> {
@@ -72,6 +76,7 @@ impl<'g> Ring<'g> {
             index: HashMap::new(),
             reductions: Vec::new(),
             expanded: BTreeMap::new(),
+            settled: None,
         }
     }
 
@@ -87,8 +92,10 @@ impl<'g> Ring<'g> {
         Ok(self.expanded[&e.id()].clone())
     }
 
-    /// Forgets the expansions of nodes made at or after `mark`.
-    pub(crate) fn forget_from(&mut self, mark: NodeId) {
+    /// Keeps what is expanded now, and from the second call on forgets what came after the first:
+    /// for comparing many variants of one text.
+    pub fn settle(&mut self) {
+        let mark = *self.settled.get_or_insert(self.graph.next());
         self.expanded.split_off(&mark);
     }
 
@@ -99,13 +106,25 @@ impl<'g> Ring<'g> {
         while let Some(id) = pending.pop() {
             if !self.expanded.contains_key(&id) && found.insert(id) {
                 pending.extend(self.graph.node(id).operands());
+                pending.extend(self.abbreviated(id));
             }
         }
         found
     }
 
+    /// The sum behind an abbreviation.
+    fn abbreviated(&self, id: NodeId) -> Option<NodeId> {
+        match self.graph.node(id) {
+            Node::Symbol(symbol) => self.graph.symbol_info(symbol).sum,
+            _ => None,
+        }
+    }
+
     fn expand(&mut self, id: NodeId) -> Result<Polynomial, NormalError> {
         let one = Rational::ONE;
+        if let Some(sum) = self.abbreviated(id) {
+            return Ok((*self.expanded[&sum]).clone());
+        }
         Ok(match self.graph.node(id) {
             Node::Constant(k) => {
                 Polynomial::constant(rational::bounded(k).ok_or(NormalError::Coefficient)?)
@@ -121,10 +140,28 @@ impl<'g> Ring<'g> {
                 let Node::Symbol(symbol) = self.graph.node(a) else {
                     return Err(NormalError::Reciprocal);
                 };
-                let index = self.variable(Variable::Recip(symbol))?;
-                Polynomial::single(Monomial::variable(index), one)
+                let known = self.index.contains_key(&Variable::Recip(symbol));
+                let recip = self.variable(Variable::Recip(symbol))?;
+                if let (false, Some(sum)) = (known, self.abbreviated(a)) {
+                    let summands = self.summands(&self.expanded[&sum]);
+                    let (lead, others) = summands.split_last().ok_or(NormalError::Reciprocal)?;
+                    let (lead, others) = (*lead, others.to_vec());
+                    self.reductions.push(Reduction::Share { recip, lead, others });
+                }
+                Polynomial::single(Monomial::variable(recip), one)
             }
         })
+    }
+
+    /// The variables of a plain sum of symbols; nothing for any other polynomial.
+    fn summands(&self, sum: &Polynomial) -> Vec<usize> {
+        let index = |monomial: &Monomial| {
+            (0..self.variables.len()).find(|index| *monomial == Monomial::variable(*index))
+        };
+        let plain = |(monomial, coefficient): (&Monomial, &Rational)| {
+            index(monomial).filter(|_| *coefficient == Rational::ONE)
+        };
+        sum.terms().map(plain).collect::<Option<_>>().unwrap_or_default()
     }
 
     /// The product of two normal forms.
@@ -149,19 +186,30 @@ impl<'g> Ring<'g> {
         coefficient: Rational,
     ) -> Result<(), NormalError> {
         for reduction in &self.reductions {
-            match *reduction {
-                Reduction::Square { sin, cos } if monomial.exponent(sin) >= 2 => {
+            match reduction {
+                &Reduction::Square { sin, cos } if monomial.exponent(sin) >= 2 => {
                     let rest = monomial.lowered(sin, 2);
                     let cosine = Monomial::variable(cos);
                     let squared = rest.times(&cosine)?.times(&cosine)?;
                     self.add_reduced(sum, rest, coefficient)?;
                     return self.add_reduced(sum, squared, -coefficient);
                 }
-                Reduction::Inverse { symbol, recip }
+                &Reduction::Inverse { symbol, recip }
                     if monomial.exponent(symbol) >= 1 && monomial.exponent(recip) >= 1 =>
                 {
                     let rest = monomial.lowered(symbol, 1).lowered(recip, 1);
                     return self.add_reduced(sum, rest, coefficient);
+                }
+                Reduction::Share { recip, lead, others }
+                    if monomial.exponent(*recip) >= 1 && monomial.exponent(*lead) >= 1 =>
+                {
+                    let rest = monomial.lowered(*lead, 1);
+                    self.add_reduced(sum, rest.lowered(*recip, 1), coefficient)?;
+                    for other in others {
+                        let moved = rest.times(&Monomial::variable(*other))?;
+                        self.add_reduced(sum, moved, -coefficient)?;
+                    }
+                    return Ok(());
                 }
                 _ => {}
             }
@@ -187,8 +235,10 @@ impl<'g> Ring<'g> {
                 }
             }
             Variable::Recip(symbol) => {
-                let symbol = self.variable(Variable::Symbol(symbol))?;
-                self.reductions.push(Reduction::Inverse { symbol, recip: index });
+                if self.graph.symbol_info(symbol).sum.is_none() {
+                    let symbol = self.variable(Variable::Symbol(symbol))?;
+                    self.reductions.push(Reduction::Inverse { symbol, recip: index });
+                }
             }
         }
         Ok(index)
@@ -258,6 +308,18 @@ mod tests {
         let large = g.constant(1 << 30);
         assert_eq!(ring.normal(large * (large * x)), Err(NormalError::Coefficient));
         assert_eq!(ring.normal(large * x + large * x), Err(NormalError::Coefficient));
+    }
+
+    #[test]
+    fn the_shares_of_a_sum_add_to_one() {
+        let g = Graph::new();
+        let [a, b, c] = ["a", "b", "c"].map(|name| g.symbol(name, Stage::Parameter));
+        let m = g.abbreviation("m", a + b + c);
+        let mut ring = Ring::new(&g);
+        let shares = a * m.recip() + b * m.recip() + c * m.recip();
+        assert_eq!(ring.normal(shares), ring.normal(g.constant(1)));
+        assert_eq!(ring.normal(m * m.recip()), ring.normal(g.constant(1)));
+        assert_eq!(ring.normal(m), ring.normal(a + b + c));
     }
 
     #[test]

@@ -57,6 +57,17 @@ impl std::error::Error for PageError {}
 /// # Errors
 /// The first block that is malformed or uses an unknown name.
 pub fn read<'g>(graph: &'g Graph, pages: &[Page]) -> Result<Vec<Equation<'g>>, PageError> {
+    Ok(read_on(graph, pages)?.0)
+}
+
+/// The same, with the reader that knows every name of the pages.
+///
+/// # Errors
+/// The first block that is malformed or uses an unknown name.
+pub fn read_on<'g>(
+    graph: &'g Graph,
+    pages: &[Page],
+) -> Result<(Vec<Equation<'g>>, Reader<'g>), PageError> {
     let mut reader = Reader::new(graph);
     for (axis, name) in ["s_x_hat", "s_y_hat", "g_z_hat"].into_iter().enumerate() {
         reader.define(name, Value::unit(graph, axis));
@@ -71,5 +82,5 @@ pub fn read<'g>(graph: &'g Graph, pages: &[Page]) -> Result<Vec<Equation<'g>>, P
             equations.push(Equation { block, components });
         }
     }
-    Ok(equations)
+    Ok((equations, reader))
 }

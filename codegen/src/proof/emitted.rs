@@ -23,8 +23,6 @@ pub struct Prover<'a, 'g> {
     kernels: Vec<Kernel<'g>>,
     /// Two rings for each function, which keeps the number of variables in each small.
     rings: Vec<[Ring<'g>; 2]>,
-    /// The next node when each function had been proven for the first time.
-    settled: Vec<Option<u32>>,
     unknowns: Unknowns<'g>,
     laws: Laws<'g>,
 }
@@ -43,8 +41,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         let rings = kernels.iter().map(|_| [Ring::new(chain.graph), Ring::new(chain.graph)]);
         let unknowns = Unknowns::of(chain);
         let laws = Laws::of(chain, &unknowns);
-        let settled = vec![None; kernels.len()];
-        Self { chain, rings: rings.collect(), settled, kernels, unknowns, laws }
+        Self { chain, rings: rings.collect(), kernels, unknowns, laws }
     }
 
     /// One row per claim, per law, per block of the factors and per returned record.
@@ -95,9 +92,8 @@ impl<'a, 'g> Prover<'a, 'g> {
             _ => {}
         }
         rows.push(result(cut, kernel, &back.cut));
-        let mark = *self.settled[index].get_or_insert(self.chain.graph.next());
-        expanded.forget_from(mark);
-        cut.forget_from(mark);
+        expanded.settle();
+        cut.settle();
         Ok(rows)
     }
 

@@ -15,29 +15,40 @@ pub fn against_pages<'g>(
     quantities: &[Quantity<'g>],
     equations: &[Equation<'g>],
 ) -> Vec<Row> {
-    let row = |equation: &Equation<'g>| {
-        let block = &equation.block;
-        let place = format!("{}:{}", block.page, block.line);
-        let heading = [block.tag.as_str(), &block.name, "derivation = page"];
-        let (Kind::Vector(axes) | Kind::Tensor(axes)) = &block.kind else {
-            return Row::absent(heading);
-        };
-        match (find(quantities, &block.name), frame_of(chain, axes)) {
-            (Some(quantity), Some(frame)) => {
-                let derived = quantity.value.along(chain, frame).labelled(axes);
-                Row::compare(ring, heading, &derived, &equation.components).at(place)
-            }
-            _ => Row::absent(heading).at(place),
-        }
-    };
-    let stated = equations.iter().map(row);
+    let stated: Vec<_> =
+        equations.iter().map(|e| against_block(ring, chain, quantities, e)).collect();
     let lacking = quantities.iter().filter(|quantity| {
         let axis = quantity.name.ends_with("_hat");
         !axis && equations.iter().all(|equation| equation.block.name != quantity.name)
     });
     let lacking =
         lacking.map(|quantity| Row::absent(["(missing)", &quantity.name, "derivation = page"]));
-    stated.chain(lacking).collect()
+    stated.into_iter().chain(lacking).collect()
+}
+
+/// The row of one block.
+#[must_use]
+pub fn against_block<'g>(
+    ring: &mut Ring<'g>,
+    chain: &Chain<'g>,
+    quantities: &[Quantity<'g>],
+    equation: &Equation<'g>,
+) -> Row {
+    let block = &equation.block;
+    let place = format!("{}:{}", block.page, block.line);
+    let heading = [block.tag.as_str(), &block.name, "derivation = page"];
+    let hub = ["b_x", "b_y", "b_z"].map(str::to_owned);
+    let axes = match &block.kind {
+        Kind::Scalar => &hub,
+        Kind::Vector(axes) | Kind::Tensor(axes) => axes,
+    };
+    match (find(quantities, &block.name), frame_of(chain, axes)) {
+        (Some(quantity), Some(frame)) => {
+            let derived = quantity.value.along(chain, frame).labelled(axes);
+            Row::compare(ring, heading, &derived, &equation.components).at(place)
+        }
+        _ => Row::absent(heading).at(place),
+    }
 }
 
 /// Every inertia's derivative about the body's own centre of mass has no trace.

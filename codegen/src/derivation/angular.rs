@@ -1,0 +1,72 @@
+//! Section 3.2: angular momenta about B and their inertial derivatives, along B axes.
+//!
+//! H is relative to B: `H_{k,B} = [I_k] omega_{k/N} + m r x r_dot` with the inertial derivative of
+//! the position *from B*. It is differentiated as it stands, components along B and the transport
+//! theorem with omega; the paper's (25) to (74) rearrange what comes out.
+
+use super::by_body::{BodyInHub, bodies};
+use super::chain::Chain;
+use super::quantities::List;
+use crate::space::{Hub, Symmetric, Vector};
+
+/// A body's position and momenta with their inertial derivatives.
+pub(super) struct Momentum<'g> {
+    r_dot: Vector<'g, Hub>,
+    pub(super) r_ddot: Vector<'g, Hub>,
+    /// About the body's own centre of mass.
+    h_c: Vector<'g, Hub>,
+    pub(super) h_c_dot: Vector<'g, Hub>,
+    h_b: Vector<'g, Hub>,
+    h_b_dot: Vector<'g, Hub>,
+}
+
+impl<'g> Momentum<'g> {
+    /// Of a body, with B turning at `omega`.
+    pub(super) fn of(body: &BodyInHub<'g>, omega: Vector<'g, Hub>) -> Self {
+        let r_dot = body.r.prime(omega);
+        let h_c = body.inertia.times(omega + body.omega_b);
+        let h_b = h_c + body.mass * body.r.cross(r_dot);
+        Self {
+            r_dot,
+            r_ddot: r_dot.prime(omega),
+            h_c,
+            h_c_dot: h_c.prime(omega),
+            h_b,
+            h_b_dot: h_b.prime(omega),
+        }
+    }
+}
+
+/// (20) to (76): hub, gimbals, wheel, and their sum.
+pub(super) fn angular_momenta<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
+    let hub = &chain.hub;
+    let hub_body = BodyInHub {
+        mass: hub.m_b,
+        r: hub.r_bc_b,
+        omega_b: Vector::zero(chain.graph),
+        inertia: hub.i_b_bc,
+        joints: Vec::new(),
+    };
+    let of_hub = Momentum::of(&hub_body, hub.omega);
+    list.vector("r_bc_b_ddot", of_hub.r_ddot, 0);
+    list.vector("h_b_bc", of_hub.h_c, 0);
+    list.vector("h_b_b", of_hub.h_b, 0);
+    list.vector("h_b_b_dot", of_hub.h_b_dot, 0);
+    let mut h_sc_b = of_hub.h_b;
+    let mut i_sc_b = hub.i_b_bc + hub.m_b * Symmetric::tilde_squared(hub.r_bc_b);
+    for (body, link) in bodies(chain).iter().zip(chain.kind.links) {
+        let (frame, point) = (link.body.frame, link.body.point);
+        let of_body = Momentum::of(body, hub.omega);
+        list.vector(&format!("r_{point}_b_dot"), of_body.r_dot, 0);
+        list.vector(&format!("r_{point}_b_ddot"), of_body.r_ddot, 0);
+        list.vector(&format!("h_{frame}_{point}"), of_body.h_c, 0);
+        list.vector(&format!("h_{frame}_{point}_dot"), of_body.h_c_dot, 0);
+        list.vector(&format!("h_{frame}_b"), of_body.h_b, 0);
+        list.vector(&format!("h_{frame}_b_dot"), of_body.h_b_dot, 0);
+        h_sc_b = h_sc_b + of_body.h_b;
+        i_sc_b = i_sc_b + body.inertia + body.mass * Symmetric::tilde_squared(body.r);
+    }
+    list.vector("h_sc_b", h_sc_b, 0);
+    list.vector("h_sc_b_dot", h_sc_b.prime(hub.omega), 0);
+    list.tensor("i_sc_b", i_sc_b, 0);
+}
