@@ -6,10 +6,12 @@ use crate::derivation::chain::Chain;
 use crate::derivation::quantities::quantities;
 use crate::emit::{EmitError, EmittedFile, files};
 use crate::graph::Graph;
-use crate::kinds::KINDS;
+use crate::kinds::{DGVSCMG, KINDS};
 use crate::normal::Ring;
-use crate::page::{Page, PageError, read};
-use crate::proof::{EmittedError, Prover, Row, against_pages, zero_traces};
+use crate::page::{Block, Page, PageError, read, read_on, read_printed};
+use crate::proof::{
+    EmittedError, Prover, Row, against_pages, print_against_derivation, zero_traces,
+};
 
 /// What a regeneration yields.
 #[derive(Clone, Debug)]
@@ -77,6 +79,21 @@ pub fn regenerate(pages: &[Page]) -> Result<Regeneration, RegenError> {
     let files = emit()?;
     let rows = prove(pages, &files)?;
     Ok(Regeneration { files, rows })
+}
+
+/// Holds the equations as they are printed against the derivation: every block, and one row for
+/// each that states a value. A row that does not hold is a finding about the print.
+///
+/// # Errors
+/// When a page cannot be read.
+pub fn as_printed(pages: &[Page], printed: &[Page]) -> Result<(Vec<Block>, Vec<Row>), RegenError> {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, &DGVSCMG);
+    let (_, mut reader) = read_on(&graph, pages)?;
+    let equations = read_printed(&mut reader, printed)?;
+    let mut ring = Ring::new(&graph);
+    let rows = print_against_derivation(&mut ring, &chain, &quantities(&chain), &equations);
+    Ok((equations.into_iter().map(|equation| equation.block).collect(), rows))
 }
 
 /// Derives every kind and lays out the files.

@@ -1,17 +1,25 @@
 //! `regen`: pages in, proofs and files out. Nothing is written unless every proof holds.
 
 use std::fs;
-use std::io::Error;
+use std::io::{Error, Write as _};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::page::Page;
 use precess_codegen::proof::Row;
-use precess_codegen::regen::{Regeneration, regenerate};
+use precess_codegen::regen::{Regeneration, as_printed, regenerate};
 use similar::TextDiff;
 
 use crate::run::root;
+
+/// Prints a line; a reader that has gone away is no error.
+macro_rules! say {
+    ($($line:tt)*) => {
+        // Nobody is left to be told.
+        let _ = writeln!(std::io::stdout(), $($line)*);
+    };
+}
 
 /// Where the hand-checked pages stand.
 const PAGES: &str = "tests/derivation";
@@ -25,6 +33,9 @@ pub(crate) struct Options {
     /// Print only the rows that do not hold
     #[arg(long)]
     quiet: bool,
+    /// Show how the paper's equations as printed differ from the derivation, and stop
+    #[arg(long)]
+    printed: bool,
     /// Read the hand-checked pages from this folder
     #[arg(long, value_name = "DIR")]
     pages: Option<PathBuf>,
@@ -52,6 +63,9 @@ impl Options {
 /// Regenerates, prints one row per equation, and writes or compares the files.
 pub(crate) fn regen(options: &Options) -> Result<(), String> {
     let pages = options.pages.clone().unwrap_or_else(|| root().join(PAGES));
+    if options.printed {
+        return show_printed(&pages);
+    }
     let made = regenerate(&read_pages(&pages)?).map_err(|error| error.to_string())?;
     print(&made, options.quiet);
     let failed = made.rows.iter().filter(|row| !row.holds()).count();
@@ -69,16 +83,29 @@ pub(crate) fn regen(options: &Options) -> Result<(), String> {
     }
 }
 
+/// One row per printed equation: findings about the print, so none of them is a failure.
+fn show_printed(pages: &Path) -> Result<(), String> {
+    let printed = read_pages(&pages.join("printed"))?;
+    let rows = as_printed(&read_pages(pages)?, &printed).map_err(|error| error.to_string())?.1;
+    say!("{}", Row::heading());
+    for row in &rows {
+        say!("{row}");
+    }
+    let equal = rows.iter().filter(|row| row.holds()).count();
+    say!("{equal} of {} printed blocks equal the derivation", rows.len());
+    Ok(())
+}
+
 fn print(made: &Regeneration, quiet: bool) {
     let shown: Vec<_> = made.rows.iter().filter(|row| !quiet || !row.holds()).collect();
     if !shown.is_empty() {
-        println!("{}", Row::heading());
+        say!("{}", Row::heading());
     }
     for row in shown {
-        println!("{row}");
+        say!("{row}");
     }
     let held = made.rows.iter().filter(|row| row.holds()).count();
-    println!("{held} of {} claims proven equal", made.rows.len());
+    say!("{held} of {} claims proven equal", made.rows.len());
 }
 
 /// The pages of a folder by name; its README describes them and is none.
@@ -124,7 +151,7 @@ fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
     for (file, partial, path) in &changed {
         fs::rename(partial, path)
             .map_err(|error| format!("cannot replace {}: {error}", path.display()))?;
-        println!("wrote {}", file.path);
+        say!("wrote {}", file.path);
     }
     Ok(())
 }
@@ -138,14 +165,14 @@ fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), Strin
             stale += 1;
             let diff = TextDiff::from_lines(&now, &file.text);
             let (old, new) = (format!("a/{}", file.path), format!("b/{}", file.path));
-            println!("{}", diff.unified_diff().header(&old, &new));
+            say!("{}", diff.unified_diff().header(&old, &new));
         }
     }
     if let Some(orphan) = orphan(files, into) {
         return Err(format!("{} is not emitted any more; delete it", orphan.display()));
     }
     if stale == 0 {
-        println!("{} files are fresh", files.len());
+        say!("{} files are fresh", files.len());
         return Ok(());
     }
     Err(format!("{stale} of {} files are stale; run `{remedy}`", files.len()))
@@ -200,8 +227,12 @@ mod tests {
             let text = page.text.replace("- i_go_22", "+ i_go_22");
             fs::write(pages.join(page.name), text).unwrap();
         }
-        let options =
-            Options { quiet: true, pages: Some(pages), out: Some(out.clone()), check: false };
+        let options = Options {
+            quiet: true,
+            pages: Some(pages),
+            out: Some(out.clone()),
+            ..Options::default()
+        };
         let message = regen(&options).unwrap_err();
         assert!(message.ends_with("proofs do not hold; no file was written"), "{message}");
         assert!(!out.exists());
@@ -216,7 +247,8 @@ mod tests {
         let text = fs::read_to_string(&path).unwrap();
         fs::write(&path, text.replace("rad/s.", "rpm.")).unwrap();
         let before = fs::read_to_string(&path).unwrap();
-        let message = regen(&Options { check: true, quiet: true, out, pages: None }).unwrap_err();
+        let message =
+            regen(&Options { check: true, quiet: true, out, ..Options::default() }).unwrap_err();
         let start = "1 of 4 files are stale; run `cargo xtask regen --out ";
         assert!(message.starts_with(start), "{message}");
         assert_eq!(fs::read_to_string(&path).unwrap(), before);

@@ -9,7 +9,7 @@ mod block;
 mod reader;
 mod value;
 
-pub use block::{Block, Kind, blocks};
+pub use block::{Block, Kind, Note, blocks};
 pub use reader::{ReadError, Reader};
 pub use value::Value;
 
@@ -74,7 +74,7 @@ pub fn read_on<'g>(
     }
     let mut equations = Vec::new();
     for page in pages {
-        for block in blocks(&page.name, &page.text)? {
+        for block in blocks(&page.name, &page.text, "equation")? {
             let place = |error| PageError { page: page.name.clone(), line: block.line, error };
             let value = reader.body(&block.body).map_err(place)?;
             let components = reader.resolve(&block, value).map_err(place)?;
@@ -83,4 +83,29 @@ pub fn read_on<'g>(
         }
     }
     Ok((equations, reader))
+}
+
+/// Reads the blocks that state an equation as it is printed, with the names of the hand-checked
+/// pages. What is words, or gives a symbol its value, has no components.
+///
+/// # Errors
+/// The first block that is malformed or uses an unknown name.
+pub fn read_printed<'g>(
+    reader: &mut Reader<'g>,
+    pages: &[Page],
+) -> Result<Vec<Equation<'g>>, PageError> {
+    let mut equations = Vec::new();
+    for page in pages {
+        for block in blocks(&page.name, &page.text, "printed")? {
+            let place = |error| PageError { page: page.name.clone(), line: block.line, error };
+            let components = if block.is_words() {
+                Vec::new()
+            } else {
+                let value = reader.body(&block.body).map_err(place)?;
+                reader.resolve(&block, value).map_err(place)?
+            };
+            equations.push(Equation { block, components });
+        }
+    }
+    Ok(equations)
 }

@@ -4,8 +4,9 @@
 use super::Row;
 use crate::derivation::chain::Chain;
 use crate::derivation::quantities::{Quantity, find, traces};
+use crate::graph::Expr;
 use crate::normal::Ring;
-use crate::page::{Equation, Kind};
+use crate::page::{Block, Equation, Kind};
 
 /// One row per block, and one for each quantity that no block states.
 #[must_use]
@@ -35,20 +36,50 @@ pub fn against_block<'g>(
     equation: &Equation<'g>,
 ) -> Row {
     let block = &equation.block;
-    let place = format!("{}:{}", block.page, block.line);
     let heading = [block.tag.as_str(), &block.name, "derivation = page"];
+    let row = match derived(chain, quantities, block) {
+        Some(derived) => Row::compare(ring, heading, &derived, &equation.components),
+        None => Row::absent(heading),
+    };
+    row.at(format!("{}:{}", block.page, block.line))
+}
+
+/// What is printed, held against the derivation: one row per block that states a value. A row that
+/// does not hold is a finding about the print, not a fault of the proof.
+#[must_use]
+pub fn print_against_derivation<'g>(
+    ring: &mut Ring<'g>,
+    chain: &Chain<'g>,
+    quantities: &[Quantity<'g>],
+    printed: &[Equation<'g>],
+) -> Vec<Row> {
+    let stated = printed.iter().filter(|equation| !equation.block.is_words());
+    stated
+        .map(|equation| {
+            let block = &equation.block;
+            let heading = [block.tag.as_str(), &block.name, "print = derivation"];
+            let row = match derived(chain, quantities, block) {
+                Some(derived) => Row::compare(ring, heading, &equation.components, &derived),
+                None => Row::absent(heading),
+            };
+            row.at(format!("{}:{}", block.page, block.line))
+        })
+        .collect()
+}
+
+/// The derived quantity of a block's name, in the block's components.
+fn derived<'g>(
+    chain: &Chain<'g>,
+    quantities: &[Quantity<'g>],
+    block: &Block,
+) -> Option<Vec<(String, Expr<'g>)>> {
     let hub = ["b_x", "b_y", "b_z"].map(str::to_owned);
     let axes = match &block.kind {
-        Kind::Scalar => &hub,
+        Kind::Scalar | Kind::Text => &hub,
         Kind::Vector(axes) | Kind::Tensor(axes) => axes,
     };
-    match (find(quantities, &block.name), frame_of(chain, axes)) {
-        (Some(quantity), Some(frame)) => {
-            let derived = quantity.value.along(chain, frame).labelled(axes);
-            Row::compare(ring, heading, &derived, &equation.components).at(place)
-        }
-        _ => Row::absent(heading).at(place),
-    }
+    let (quantity, frame) = (find(quantities, &block.name)?, frame_of(chain, axes)?);
+    Some(quantity.value.along(chain, frame).labelled(axes))
 }
 
 /// Every inertia's derivative about the body's own centre of mass has no trace.
