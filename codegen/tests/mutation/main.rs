@@ -14,7 +14,8 @@ fn hand_checked() -> Vec<Page> {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        if name != "README.md" {
+        let page = path.extension().is_some_and(|extension| extension == "md");
+        if page && name != "README.md" {
             pages.push(Page { name, text: std::fs::read_to_string(path).unwrap() });
         }
     }
