@@ -2,7 +2,7 @@
 
 use crate::graph::{Expr, Graph, Stage};
 use crate::kinds::{Centre, Kind};
-use crate::space::{Axis, Carrier, Hub, Own, Symmetric, Turn, Vector};
+use crate::space::{Carrier, Hub, Own, Symmetric, Turn, Vector};
 
 /// Suffixes of three components.
 pub const XYZ: [&str; 3] = ["x", "y", "z"];
@@ -139,10 +139,4 @@ impl<'g> HubSymbols<'g> {
             r_c_n_ddot: along("r_c_n_ddot", Stage::Acceleration),
         }
     }
-}
-
-/// The name of a frame's axis: `bx`, `goy`.
-#[must_use]
-pub fn axis_name(frame: &str, axis: Axis) -> String {
-    format!("{frame}{}", XYZ[axis.cycle()[0]])
 }

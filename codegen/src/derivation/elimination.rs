@@ -36,8 +36,6 @@ pub struct Pivot<'g> {
 pub struct Eliminated<'g> {
     /// From the tip inwards.
     pub pivots: Vec<Pivot<'g>>,
-    /// The share of the hub's equations by field name.
-    pub hub: Vec<Entry<'g>>,
 }
 
 /// One joint's row as it stands: couplings to hub and inner joints, diagonal, right side.
@@ -57,7 +55,7 @@ pub fn eliminate<'g>(
 ) -> Eliminated<'g> {
     let mut rows = rows(chain, share, script);
     let diagonals: Vec<_> = rows.iter().map(|row| row.diagonal.clone()).collect();
-    let mut made = Eliminated { pivots: Vec::new(), hub: Vec::new() };
+    let mut made = Eliminated { pivots: Vec::new() };
     let mut done = String::new();
     while let Some(row) = rows.pop() {
         let pivot = gains(&row, &rows, diagonals[rows.len()].clone(), script);
@@ -76,7 +74,7 @@ pub fn eliminate<'g>(
         }
         made.pivots.push(pivot);
     }
-    hub(share, &mut made, script);
+    hub(share, &made, script);
     made
 }
 
@@ -139,7 +137,7 @@ fn gains<'g>(
 }
 
 /// The hub's block and right side, less what the joints take.
-fn hub<'g>(share: &Share<'g>, made: &mut Eliminated<'g>, script: &mut Script<'g>) {
+fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
     let (mass, zero) = (share.mass, share.mass.graph().zero());
     let [x, y, z] = share.first_moment.components();
     // M_vw = -[S~].
@@ -171,7 +169,7 @@ fn hub<'g>(share: &Share<'g>, made: &mut Eliminated<'g>, script: &mut Script<'g>
 impl<'g> Eliminated<'g> {
     /// `before` less the gain of `row` times `taken`, over all joints.
     fn take_out(
-        &mut self,
+        &self,
         name: String,
         before: Expr<'g>,
         row: usize,
@@ -180,7 +178,6 @@ impl<'g> Eliminated<'g> {
     ) {
         let terms = self.pivots.iter().map(|pivot| pivot.gains[row].1 * taken(pivot));
         let value = terms.fold(before, |value, term| value - term);
-        script.name(name.clone(), value);
-        self.hub.push((name, value));
+        script.name(name, value);
     }
 }
