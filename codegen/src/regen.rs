@@ -123,7 +123,9 @@ pub fn prove(pages: &[Page], files: &[EmittedFile]) -> Result<Vec<Row>, RegenErr
         let name = format!("/{}.rs", kind.name);
         let file = files.iter().find(|file| file.path.ends_with(&name));
         let file = file.ok_or_else(|| EmittedError::NoFile(kind.name.to_owned()))?;
-        rows.extend(Prover::new(&chain).rows(&file.text)?);
+        let mut prover = Prover::new(&chain);
+        rows.extend(prover.derivation());
+        rows.extend(prover.rows(&file.text)?);
     }
     Ok(rows)
 }

@@ -4,7 +4,7 @@
 //! the position *from B*. It is differentiated as it stands, components along B and the transport
 //! theorem with omega; the paper's (25) to (74) rearrange what comes out.
 
-use super::by_body::{BodyInHub, bodies};
+use super::by_body::{BodyInHub, bodies, unit_axes};
 use super::chain::Chain;
 use super::quantities::List;
 use crate::space::{Hub, Symmetric, Vector};
@@ -43,6 +43,7 @@ pub(super) fn angular_momenta<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     let hub_body = BodyInHub {
         mass: hub.m_b,
         r: hub.r_bc_b,
+        axes: unit_axes(chain.graph),
         omega_b: Vector::zero(chain.graph),
         inertia: hub.i_b_bc,
         joints: Vec::new(),

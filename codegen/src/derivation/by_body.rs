@@ -18,6 +18,8 @@ pub struct BodyInHub<'g> {
     pub mass: Expr<'g>,
     /// Centre of mass from B.
     pub r: Vector<'g, Hub>,
+    /// Its axes: the columns of its rotation.
+    pub axes: [Vector<'g, Hub>; 3],
     /// Angular velocity with respect to B.
     pub omega_b: Vector<'g, Hub>,
     /// Inertia about the centre of mass.
@@ -47,6 +49,7 @@ pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
         made.push(BodyInHub {
             mass: link.mass,
             r: origin + combine(axes, link.centre),
+            axes,
             omega_b,
             inertia: resolve(axes, link.inertia),
             joints: joints.clone(),
@@ -55,7 +58,7 @@ pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
     made
 }
 
-fn unit_axes<F: Frame>(graph: &Graph) -> [Vector<'_, F>; 3] {
+pub(super) fn unit_axes<F: Frame>(graph: &Graph) -> [Vector<'_, F>; 3] {
     use crate::space::Axis::{X, Y, Z};
     [X, Y, Z].map(|axis| Vector::unit(graph, axis))
 }

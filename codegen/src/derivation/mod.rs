@@ -7,11 +7,13 @@
 //!   (121), by the same names;
 //! - [`by_body`]: mass matrix and bias as sums over bodies, by plain differentiation in B: what
 //!   the rest is held against;
+//! - [`boltzmann_hamel`]: the same once more from the kinetic energy alone;
 //! - [`composite`]: the same, inwards from the tip in local frames: what is emitted;
 //! - [`script`]: the named steps the walks leave behind;
 //! - [`elimination`]: the joints eliminated into the hub's six equations, tip first.
 
 mod angular;
+pub mod boltzmann_hamel;
 pub mod by_body;
 pub mod chain;
 pub mod composite;

@@ -6,7 +6,7 @@ use crate::derivation::elimination::{Eliminated, HUB, eliminate};
 use crate::derivation::motion::Observer;
 use crate::derivation::script::{Script, pairs, sextuple, triple};
 use crate::derivation::{Named, Share, by_body, composite};
-use crate::kinds::Kind;
+use crate::kinds::{Kind, Link};
 use crate::space::{Hub, Symmetric, Vector};
 
 /// The kernel and the elimination behind it.
@@ -35,7 +35,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
         ],
         sections: script.sections,
         output: output(kind, &eliminated),
-        claims: claims(by_body::share(chain).named(kind)),
+        claims: claims(kind, by_body::share(chain).named(kind)),
     };
     (kernel, eliminated)
 }
@@ -121,21 +121,22 @@ fn title_of(kind: &Kind, tag: &str) -> &'static str {
 }
 
 /// The system's equations have no single number each: the row cites the block.
-pub(super) fn claims<'g>(named: Vec<Named<'g>>) -> Vec<Claim<'g>> {
+pub(super) fn claims<'g>(kind: &Kind, named: Vec<Named<'g>>) -> Vec<Claim<'g>> {
     let claim = |(name, components): Named<'g>| {
-        let tag = tag(&name).to_owned();
+        let tag = tag(kind, &name).to_owned();
         Claim { tag, name, components }
     };
     named.into_iter().map(claim).collect()
 }
 
-fn tag(name: &str) -> &'static str {
+fn tag(kind: &Kind, name: &str) -> &'static str {
+    let motor = |link: &&Link| name == format!("u_rest_{}", link.joint.tag);
+    if let Some(link) = kind.links.iter().find(motor) {
+        return link.body.equations.torque;
+    }
     match name {
         "f_rest" => "(16)",
         "n_rest" => "(75)",
-        "u_rest_o" => "(80)",
-        "u_rest_i" => "(101)",
-        "u_rest_w" => "(119)",
         "energy" => "(energy)",
         "linear" => "(momentum)",
         "angular_b" => "(20)",

@@ -30,6 +30,6 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         ],
         sections: script.sections,
         output: records::energy_momentum(),
-        claims: claims(by_body::momenta(chain).named()),
+        claims: claims(kind, by_body::momenta(chain).named()),
     }
 }

@@ -115,4 +115,6 @@ pub struct Equations {
     pub i_b: &'static str,
     /// Its derivative.
     pub i_b_prime: &'static str,
+    /// Motor torque across the joint that carries the body.
+    pub torque: &'static str,
 }

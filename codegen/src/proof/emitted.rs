@@ -11,6 +11,7 @@ use super::Row;
 use super::factors::{self, Unknowns};
 use super::laws::Laws;
 use super::read_back::{EmittedError, Reading, function, read, returned_names};
+use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
 use crate::graph::{Expr, Stage};
 use crate::kernel::{Field, Kernel, Record, Source, kernels, parameters};
@@ -40,7 +41,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         let kernels = kernels(chain);
         let rings = kernels.iter().map(|_| [Ring::new(chain.graph), Ring::new(chain.graph)]);
         let unknowns = Unknowns::of(chain);
-        let laws = Laws::of(chain, &unknowns);
+        let laws = Laws::of(chain);
         Self { chain, rings: rings.collect(), kernels, unknowns, laws }
     }
 
@@ -57,6 +58,18 @@ impl<'a, 'g> Prover<'a, 'g> {
             rows.extend(self.function(&file, &name)?);
         }
         Ok(rows)
+    }
+
+    /// The derivation itself against the equations that follow from the kinetic energy alone.
+    #[must_use]
+    pub fn derivation(&self) -> Vec<Row> {
+        let mut ring = Ring::new(self.chain.graph);
+        let named = by_body::share(self.chain).named(self.chain.kind);
+        let entries: BTreeMap<_, _> = named.into_iter().flat_map(|(_, entries)| entries).collect();
+        let named = |name: &str| entries.get(name).copied();
+        let mut rows = self.laws.rows(&mut ring, &self.unknowns, "derivation", named);
+        rows.extend(self.laws.of_momenta(&mut ring, self.chain));
+        rows
     }
 
     /// The rows of one function of a file.
@@ -82,7 +95,8 @@ impl<'a, 'g> Prover<'a, 'g> {
         let mut rows = claims(expanded, kernel, &back.expanded);
         match name {
             "eliminate" => {
-                rows.extend(self.laws.rows(expanded, &self.unknowns, &back.expanded));
+                let named = |name: &str| back.expanded.values.get(name).copied();
+                rows.extend(self.laws.rows(expanded, &self.unknowns, "fn eliminate", named));
                 rows.extend(factors::of_elimination(cut, self.chain, &self.unknowns, &back.cut));
             }
             "back_substitute" => {

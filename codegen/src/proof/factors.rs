@@ -5,6 +5,7 @@
 //! outwards; S is what is left on the hub, L the gains, D the pivots.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::Row;
 use super::read_back::Reading;
@@ -25,6 +26,8 @@ pub(super) struct Unknowns<'g> {
     pub(super) accelerations: Vec<Expr<'g>>,
     /// The speeds they are the rates of.
     pub(super) speeds: Vec<Expr<'g>>,
+    /// Number and motor torque of each joint's equation.
+    motors: Vec<[&'static str; 2]>,
     /// Letter of the whole device.
     whole: &'static str,
     zero: Expr<'g>,
@@ -45,6 +48,12 @@ impl<'g> Unknowns<'g> {
             tags: chain.kind.links.iter().map(|link| link.joint.tag).collect(),
             accelerations: [accelerations, joint(|link| link.acceleration)].concat(),
             speeds: [speeds, joint(|link| link.rate)].concat(),
+            motors: chain
+                .kind
+                .links
+                .iter()
+                .map(|link| [link.body.equations.torque, link.joint.torque])
+                .collect(),
             whole: chain.kind.links[0].assembly,
             zero,
             mass: chain.links.iter().fold(zero, |sum, link| sum + link.mass),
@@ -92,6 +101,13 @@ impl<'g> Unknowns<'g> {
             _ => format!("u_rest_{}", self.suffix(x)),
         };
         named(&name).unwrap_or(self.zero)
+    }
+
+    /// Number, left side and unknowns of each equation.
+    pub(super) fn equations(&self) -> Vec<(&'static str, &'static str, Range<usize>)> {
+        let motors =
+            (HUB.len()..).zip(&self.motors).map(|(x, [tag, name])| (*tag, *name, x..x + 1));
+        [("(16)", "F", 0..3), ("(75)", "L_B", 3..6)].into_iter().chain(motors).collect()
     }
 
     /// How many there are.

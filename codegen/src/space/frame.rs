@@ -68,6 +68,12 @@ impl<'g, From: Frame, To: Frame> Turn<'g, From, To> {
         Self { axis, sin, cos, frames: PhantomData }
     }
 
+    /// `d e / d angle`: through the sine and the cosine.
+    #[must_use]
+    pub fn partial(self, e: Expr<'g>) -> Expr<'g> {
+        self.cos * e.partial(self.sin) - self.sin * e.partial(self.cos)
+    }
+
     /// The turn back.
     #[must_use]
     pub fn inverse(self) -> Turn<'g, To, From> {
