@@ -6,6 +6,7 @@ pub mod graph;
 pub mod kernel;
 pub mod kinds;
 pub mod normal;
+pub mod notation;
 pub mod page;
 pub mod proof;
 pub mod regen;

@@ -33,7 +33,19 @@ impl<'g> Placed<'g> {
         }
     }
 
-    fn frame(self) -> Option<usize> {
+    /// Every stored number.
+    #[must_use]
+    pub fn components(self) -> Vec<Expr<'g>> {
+        match self {
+            Self::Scalar(e) => vec![e],
+            Self::Vector(v, _) => v.to_vec(),
+            Self::Tensor(t, _) => t.to_vec(),
+        }
+    }
+
+    /// The frame along whose axes it stands.
+    #[must_use]
+    pub fn frame(self) -> Option<usize> {
         match self {
             Self::Scalar(_) => None,
             Self::Vector(_, frame) | Self::Tensor(_, frame) => Some(frame),

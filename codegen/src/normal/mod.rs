@@ -10,4 +10,4 @@ mod ring;
 
 pub use difference::{Difference, Term};
 pub use polynomial::{Monomial, Polynomial};
-pub use ring::{NormalError, Ring};
+pub use ring::{Factor, NormalError, Ring};

@@ -55,6 +55,17 @@ enum Reduction {
     Share { recip: usize, lead: usize, others: Vec<usize> },
 }
 
+/// A power of a symbol or of its reciprocal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Factor {
+    /// Whether it stands below the line.
+    pub recip: bool,
+    /// The symbol.
+    pub name: String,
+    /// The power.
+    pub exponent: u32,
+}
+
 /// Expands expressions of one graph over a set of variables that grows as they are met.
 pub struct Ring<'g> {
     graph: &'g Graph,
@@ -247,31 +258,39 @@ impl<'g> Ring<'g> {
     /// A term as it is written: `-2*d*spin*cos_theta`.
     #[must_use]
     pub fn show(&self, monomial: &Monomial, coefficient: Rational) -> String {
-        let mut factors: BTreeMap<(u8, String), u32> = BTreeMap::new();
-        for (index, &variable) in self.variables.iter().enumerate() {
-            let exponent = monomial.exponent(index);
-            if exponent > 0 {
-                factors.insert(self.name(variable), exponent);
-            }
-        }
+        let factors = self.factors(monomial);
         let sign = if coefficient < Rational::ZERO { "-" } else { "" };
         let size = if coefficient < Rational::ZERO { -coefficient } else { coefficient };
         let mut shown = Vec::new();
         if size != Rational::ONE || factors.is_empty() {
             shown.push(size.to_string());
         }
-        for ((_, name), exponent) in factors {
-            shown.push(if exponent == 1 { name } else { format!("{name}^{exponent}") });
+        for Factor { recip, name, exponent } in factors {
+            let base = if recip { format!("1/{name}") } else { name };
+            shown.push(if exponent == 1 { base } else { format!("{base}^{exponent}") });
         }
         format!("{sign}{}", shown.join("*"))
     }
 
+    /// The powers of a term, in the order in which they are written.
+    #[must_use]
+    pub fn factors(&self, monomial: &Monomial) -> Vec<Factor> {
+        let mut factors = BTreeMap::new();
+        for (index, &variable) in self.variables.iter().enumerate() {
+            let exponent = monomial.exponent(index);
+            if exponent > 0 {
+                let (stage, recip, name) = self.name(variable);
+                factors.insert((stage, !recip, name.clone()), Factor { recip, name, exponent });
+            }
+        }
+        factors.into_values().collect()
+    }
+
     /// Parameters first, angles next, rates and accelerations last; by name within a stage.
-    fn name(&self, variable: Variable) -> (u8, String) {
+    fn name(&self, variable: Variable) -> (u8, bool, String) {
         let (Variable::Symbol(symbol) | Variable::Recip(symbol)) = variable;
         let info = self.graph.symbol_info(symbol);
-        let prefix = if matches!(variable, Variable::Recip(_)) { "1/" } else { "" };
-        (info.stage as u8, format!("{prefix}{}", info.name))
+        (info.stage as u8, matches!(variable, Variable::Recip(_)), info.name)
     }
 }
 

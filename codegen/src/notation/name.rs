@@ -1,0 +1,227 @@
+//! Code names to the paper's symbols: `quantity_of_wrt_derivative_component`.
+
+/// What stands above the letter of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accent {
+    /// Nothing but what the name itself says.
+    Plain,
+    /// The tensor of the cross product.
+    Tilde,
+}
+
+/// The symbol of a name, in LaTeX; a name without a meaning is set upright.
+#[must_use]
+pub fn symbol(name: &str, accent: Accent) -> String {
+    if let Some(axis) = name.strip_suffix("_hat").and_then(|rest| rest.split_once('_')) {
+        return format!("\\hat{{{}}}_{{{}}}", axis.0, axis.1);
+    }
+    if let Some((function, angle)) =
+        name.split_once('_').filter(|(f, _)| ["sin", "cos"].contains(f))
+    {
+        return format!("\\mathrm{{{}}}\\,{}", &function[..1], symbol(angle, Accent::Plain));
+    }
+    let (stem, derivative) = derivative(name);
+    let parts: Vec<&str> = stem.split('_').collect();
+    let made = joint(&parts).or_else(|| motion(&parts)).or_else(|| mass(&parts));
+    let Some(Symbol { before, letter, below, bracket }) = made else {
+        return format!("\\mathrm{{{}}}", name.replace('_', "\\_"));
+    };
+    let letter = match (accent, derivative) {
+        (Accent::Tilde, Dot(dots)) if !dots.is_empty() => format!("\\tilde{{{dots}{{{letter}}}}}"),
+        (Accent::Tilde, _) => format!("\\tilde{{{letter}}}"),
+        (Accent::Plain, Dot(dots)) if !dots.is_empty() => format!("{dots}{{{letter}}}"),
+        (Accent::Plain, _) => letter.to_owned(),
+    };
+    let primes = if let Prime(primes) = derivative { primes } else { "" };
+    let below = if below.is_empty() { String::new() } else { format!("_{{{below}}}") };
+    if bracket {
+        return format!("[{before}{letter}{below}]{primes}");
+    }
+    format!("{before}{letter}{primes}{below}")
+}
+
+/// The parts of a symbol.
+struct Symbol {
+    /// A raised index before the letter.
+    before: &'static str,
+    letter: String,
+    below: String,
+    /// Whether it stands in brackets: a tensor.
+    bracket: bool,
+}
+
+fn plain(letter: &str, below: impl Into<String>) -> Symbol {
+    Symbol { before: "", letter: letter.to_owned(), below: below.into(), bracket: false }
+}
+
+#[derive(Clone, Copy)]
+enum Derivative {
+    Dot(&'static str),
+    Prime(&'static str),
+}
+use Derivative::{Dot, Prime};
+
+fn derivative(name: &str) -> (String, Derivative) {
+    let endings = [
+        ("ddot", Dot("\\ddot")),
+        ("dot", Dot("\\dot")),
+        ("dprime", Prime("''")),
+        ("prime", Prime("'")),
+    ];
+    let parts: Vec<&str> = name.split('_').collect();
+    for (ending, derivative) in endings {
+        // A component may follow: `r_wc_b_dprime_gix`.
+        if let Some(place) = parts.iter().position(|part| *part == ending) {
+            let rest: Vec<_> = [&parts[..place], &parts[place + 1..]].concat();
+            return (rest.join("_"), derivative);
+        }
+    }
+    (name.to_owned(), Dot(""))
+}
+
+/// Angles, rates and motor torques.
+fn joint(parts: &[&str]) -> Option<Symbol> {
+    Some(match parts {
+        ["gamma", "o"] => Symbol { before: "{}^{o}", ..plain("\\gamma", "") },
+        ["gamma", "i"] => Symbol { before: "{}^{i}", ..plain("\\gamma", "") },
+        ["theta"] => plain("\\theta", ""),
+        ["spin"] => plain("\\Omega", ""),
+        ["u", "o"] => plain("u", "z"),
+        ["u", "i"] => plain("u", "y"),
+        ["u", "w"] => plain("u", "x"),
+        _ => return None,
+    })
+}
+
+/// Positions, angular velocities, momenta and torques.
+fn motion(parts: &[&str]) -> Option<Symbol> {
+    Some(match parts {
+        ["r", rest @ ..] if rest.len() >= 2 => place(rest)?,
+        [first, _, ..] if point(first).is_some() && place(parts).is_some() => place(parts)?,
+        ["omega"] => plain("\\omega", ""),
+        ["omega", component] => plain("\\omega", axis(component)?),
+        ["omega", of, wrt, rest @ ..] => {
+            let frames = format!("{}/{}", frame(of)?, frame(wrt)?);
+            plain("\\omega", with_axis(frames, rest)?)
+        }
+        ["alpha", of] => plain("\\alpha", frame(of)?),
+        ["h", of, wrt] => plain("H", format!("{},{}", point(of)?, point(wrt)?)),
+        ["torque", of] => plain("L", point(of)?),
+        ["l", arm @ ("o" | "i")] => plain(&format!("L^{{{arm}}}"), ""),
+        ["l", arm @ ("o" | "i"), component] => plain(&format!("L^{{{arm}}}"), *component),
+        ["l", of] => plain("L", point(of)?),
+        ["c"] => plain("c", ""),
+        ["f", "tilde"] => plain("\\tilde f", ""),
+        ["f", joint @ ("o" | "i" | "w")] => plain("f", *joint),
+        ["d" | "p" | "q" | "r"] => plain(parts[0], ""),
+        ["wheel", component] => plain("w", *component),
+        _ => return None,
+    })
+}
+
+/// Masses, their ratios and inertias.
+fn mass(parts: &[&str]) -> Option<Symbol> {
+    let tensor = |of: &str, wrt: &str| {
+        Some(Symbol { bracket: true, ..plain("I", format!("{},{}", point(of)?, point(wrt)?)) })
+    };
+    Some(match parts {
+        ["m", of] => plain("m", point(of)?),
+        ["rho", "go"] => Symbol { before: "{}^{o}", ..plain("\\rho", "") },
+        ["rho", "gi", of] => Symbol { before: "{}^{i}", ..plain("\\rho", point(of)?) },
+        ["rho", "w", of] => Symbol { before: "{}^{w}", ..plain("\\rho", point(of)?) },
+        ["j", entry] => plain("J", *entry),
+        ["t", entry] => plain("t", *entry),
+        ["i", entry] if entry.starts_with(char::is_numeric) => plain("I", *entry),
+        ["i", of, entry] if entry.starts_with(char::is_numeric) => {
+            plain("I", format!("{},{entry}", point(of)?))
+        }
+        ["i", of, wrt] => tensor(of, wrt)?,
+        _ => return None,
+    })
+}
+
+/// `r_{of/wrt}`, with an axis where one component is meant.
+fn place(parts: &[&str]) -> Option<Symbol> {
+    let [of, wrt, rest @ ..] = parts else { return None };
+    let points = format!("{}/{}", point(of)?, point(wrt)?);
+    Some(plain("r", with_axis(points, rest)?))
+}
+
+fn with_axis(below: String, rest: &[&str]) -> Option<String> {
+    match rest {
+        [] => Some(below),
+        [component] => Some(format!("{below},{}", axis(component)?)),
+        _ => None,
+    }
+}
+
+/// `bx`, `gix`: the axis alone, for the frame is told by the table of symbols.
+fn axis(component: &str) -> Option<&str> {
+    let (frame, axis) = component.split_at_checked(component.len().checked_sub(1)?)?;
+    let known = ["b", "go", "gi", "w"].contains(&frame) && ["x", "y", "z"].contains(&axis);
+    known.then_some(axis)
+}
+
+/// Points and bodies.
+fn point(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "b" => "B",
+        "bc" => "B_c",
+        "go" => "G^o",
+        "goc" => "G^o_c",
+        "gi" => "G^i",
+        "gic" => "G^i_c",
+        "w" => "W",
+        "wc" => "W_c",
+        "d" => "D",
+        "dc" => "D_c",
+        "v" => "V",
+        "vc" => "V_c",
+        "c" => "C",
+        "n" => "N",
+        "sc" => "sc",
+        _ => return None,
+    })
+}
+
+/// Frames.
+fn frame(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "b" => "\\mathcal{B}",
+        "go" => "\\mathcal{G}^o",
+        "gi" => "\\mathcal{G}^i",
+        "w" => "\\mathcal{W}",
+        "n" => "\\mathcal{N}",
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_the_papers_symbols() {
+        for (name, latex) in [
+            ("r_wc_b_dprime", "r''_{W_c/B}"),
+            ("r_c_n_ddot_bx", "\\ddot{r}_{C/N,x}"),
+            ("gamma_o_ddot", "{}^{o}\\ddot{\\gamma}"),
+            ("spin_dot", "\\dot{\\Omega}"),
+            ("omega_gi_n", "\\omega_{\\mathcal{G}^i/\\mathcal{N}}"),
+            ("i_w_wc_prime", "[I_{W,W_c}]'"),
+            ("i_go_12", "I_{G^o,12}"),
+            ("h_sc_b_dot", "\\dot{H}_{sc,B}"),
+            ("l_i_z", "L^{i}_{z}"),
+            ("l_gi", "L_{G^i}"),
+            ("sin_gamma_i", "\\mathrm{s}\\,{}^{i}\\gamma"),
+            ("s_x_hat", "\\hat{s}_{x}"),
+            ("gic_go", "r_{G^i_c/G^o}"),
+            ("rho_gi_d", "{}^{i}\\rho_{D}"),
+            ("m_sc", "m_{sc}"),
+            ("nonsense_name", "\\mathrm{nonsense\\_name}"),
+        ] {
+            assert_eq!(symbol(name, Accent::Plain), latex, "{name}");
+        }
+        assert_eq!(symbol("r_wc_b_prime", Accent::Tilde), "\\tilde{r}'_{W_c/B}");
+    }
+}

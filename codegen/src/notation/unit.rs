@@ -1,0 +1,158 @@
+//! The unit of an expression, from those of its symbols: what every equation must balance.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use crate::graph::{Expr, Node, NodeId};
+
+/// Powers of kilogram, metre and second.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unit {
+    /// Power of the kilogram.
+    pub kilogram: i32,
+    /// Power of the metre.
+    pub metre: i32,
+    /// Power of the second.
+    pub second: i32,
+}
+
+impl Unit {
+    const fn new(kilogram: i32, metre: i32, second: i32) -> Self {
+        Self { kilogram, metre, second }
+    }
+
+    fn times(self, other: Self) -> Self {
+        Self::new(
+            self.kilogram + other.kilogram,
+            self.metre + other.metre,
+            self.second + other.second,
+        )
+    }
+
+    fn inverse(self) -> Self {
+        Self::new(-self.kilogram, -self.metre, -self.second)
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((_, name)) = NAMED.iter().find(|(unit, _)| unit == self) {
+            return f.write_str(name);
+        }
+        let powers = [("kg", self.kilogram), ("m", self.metre), ("s", self.second)];
+        let shown = |sign: i32| {
+            let parts = powers.iter().filter(|(_, power)| power * sign > 0);
+            let parts = parts.map(|(name, power)| match power.abs() {
+                1 => (*name).to_owned(),
+                2 => format!("{name}²"),
+                3 => format!("{name}³"),
+                other => format!("{name}^{other}"),
+            });
+            parts.collect::<Vec<_>>().join(" ")
+        };
+        let (above, below) = (shown(1), shown(-1));
+        match (above.is_empty(), below.is_empty()) {
+            (_, true) => f.write_str(&above),
+            (true, false) => write!(f, "1/{below}"),
+            (false, false) => write!(f, "{above}/{below}"),
+        }
+    }
+}
+
+/// Units that the field calls by another name.
+const NAMED: [(Unit, &str); 5] = [
+    (Unit::new(0, 0, 0), "1"),
+    (Unit::new(0, 0, -1), "rad/s"),
+    (Unit::new(0, 0, -2), "rad/s²"),
+    (Unit::new(1, 1, -2), "N"),
+    (Unit::new(1, 2, -2), "N m"),
+];
+
+/// What balancing comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Balance {
+    /// Zero has every unit.
+    Any,
+    Is(Unit),
+}
+
+/// The unit of `e`; `None` where terms of two units are added, or a symbol has none.
+#[must_use]
+pub fn unit(e: Expr<'_>) -> Option<Unit> {
+    let graph = e.graph();
+    let mut known: HashMap<NodeId, Balance> = HashMap::new();
+    for id in graph.reachable([e.id()]) {
+        let balance = match graph.node(id) {
+            Node::Constant(k) if k == crate::graph::Rational::ZERO => Balance::Any,
+            Node::Constant(_) => Balance::Is(Unit::default()),
+            Node::Symbol(symbol) => Balance::Is(of_symbol(&graph.symbol_info(symbol).name)?),
+            Node::Neg(a) => known[&a],
+            Node::Recip(a) => match known[&a] {
+                Balance::Is(unit) => Balance::Is(unit.inverse()),
+                Balance::Any => return None,
+            },
+            Node::Sum(a, b) => match (known[&a], known[&b]) {
+                (Balance::Any, other) | (other, Balance::Any) => other,
+                (Balance::Is(a), Balance::Is(b)) if a == b => Balance::Is(a),
+                _ => return None,
+            },
+            Node::Product(a, b) => match (known[&a], known[&b]) {
+                (Balance::Is(a), Balance::Is(b)) => Balance::Is(a.times(b)),
+                _ => Balance::Any,
+            },
+        };
+        known.insert(id, balance);
+    }
+    match known[&e.id()] {
+        Balance::Is(unit) => Some(unit),
+        Balance::Any => Some(Unit::default()),
+    }
+}
+
+/// The unit of a symbol, by the way it is called.
+fn of_symbol(name: &str) -> Option<Unit> {
+    let part = |text: &str| name.split('_').any(|part| part == text);
+    let time = match (part("ddot"), part("dot")) {
+        (true, _) => -2,
+        (false, true) => -1,
+        _ => 0,
+    };
+    Some(match name.split('_').next()? {
+        "sin" | "cos" | "gamma" | "theta" => Unit::new(0, 0, time),
+        "spin" | "omega" => Unit::new(0, 0, -1 + time),
+        "m" => Unit::new(1, 0, 0),
+        "i" | "j" => Unit::new(1, 2, 0),
+        "r" | "l" | "d" => Unit::new(0, 1, time),
+        "u" => Unit::new(1, 2, -2),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::derivation::chain::Chain;
+    use crate::derivation::quantities::quantities;
+    use crate::graph::{Graph, Stage};
+    use crate::kinds::DGVSCMG;
+
+    #[test]
+    fn every_derived_quantity_balances() {
+        let graph = Graph::new();
+        let chain = Chain::new(&graph, &DGVSCMG);
+        for quantity in quantities(&chain) {
+            for component in quantity.value.components() {
+                assert!(unit(component).is_some(), "{}", quantity.name);
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_balance_has_no_unit() {
+        let g = Graph::new();
+        let [m, l] = ["m_w", "l_o_x"].map(|name| g.symbol(name, Stage::Parameter));
+        assert_eq!(unit(m * l * l).map(|unit| unit.to_string()), Some("kg m²".to_owned()));
+        assert_eq!(unit(m + l), None);
+        assert_eq!(unit(m + g.zero()).map(|unit| unit.to_string()), Some("kg".to_owned()));
+    }
+}
