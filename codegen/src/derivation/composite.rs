@@ -64,7 +64,10 @@ impl<'g> Lump<'g> {
         };
         script.section(
             "own",
-            format!("The {} about its origin: first moment, kg m, and inertia, kg m².", body.title),
+            format!(
+                "The {} about its origin: first moment, kg m, and inertia as in eq. {}, kg m².",
+                body.title, body.equations.i_b
+            ),
         );
         let names = triple(&format!("mr_{}_{origin}", body.point), body.frame);
         script.names(pairs(names, made.first_moment.components()));
@@ -164,14 +167,19 @@ fn outwards<'g>(
         script.names(pairs(triple(&format!("omega_{stem}"), frame), motion.omega.components()));
         script.section(
             "turn",
-            "Its derivative with no joint accelerating, along the same axes, rad/s².",
+            format!(
+                "Its derivative as in eq. {}, no joint accelerating, along the same axes, rad/s².",
+                body.equations.h_dot
+            ),
         );
         let rest = motion.omega.component_rates().without(Stage::Acceleration);
         script.names(pairs(triple(&format!("omega_{stem}_rest"), frame), rest.components()));
         script.section(
             "path",
             format!(
-                "Acceleration of {letter} relative to B, no joint accelerating, same axes, m/s²."
+                "Acceleration of {letter} relative to B as in eq. {}, no joint accelerating, same \
+                 axes, m/s².",
+                body.equations.r_ddot
             ),
         );
         let origin = origin_acceleration(link, motion);
@@ -190,13 +198,14 @@ fn describe<'g>(
     script: &mut Script<'g>,
 ) {
     let (frame, origin, assembly) = (data.body.frame, data.body.origin, data.assembly);
-    let (title, letter) = (data.body.title, data.body.letters[0]);
+    let (title, letter, equations) = (data.body.title, data.body.letters[0], &data.body.equations);
     let whole = assembly.to_uppercase();
     script.section(
         "lump",
         format!(
-            "{whole}, the {title} and what it carries: mass, kg; first moment, kg m, and \
-             inertia, kg m², about {letter}."
+            "{whole}, the {title} and what it carries, eq. {}: mass, kg; first moment, kg m, and \
+             inertia, kg m², about {letter}.",
+            equations.assembly
         ),
     );
     script.name(format!("m_{assembly}"), lump.mass);
@@ -207,7 +216,10 @@ fn describe<'g>(
     script.names(pairs(sextuple(&format!("i_{assembly}_{origin}")), lump.inertia.entries()));
     script.section(
         "bias",
-        format!("{whole} with no joint accelerating: force, N, and moment about {letter}, N m."),
+        format!(
+            "{whole} with no joint accelerating, eq. {}: force, N, and moment about {letter}, N m.",
+            equations.about_origin
+        ),
     );
     script.names(pairs(triple("f_rest", frame), bias.force.components()));
     script.names(pairs(triple("n_rest", frame), bias.moment.components()));
@@ -215,7 +227,8 @@ fn describe<'g>(
         "col",
         format!(
             "Force, kg m, and moment about {letter}, kg m², per unit acceleration of each joint \
-             from here on."
+             from here on, eqs. (17), {}.",
+            equations.about_origin
         ),
     );
     for (tag, column) in tags.zip(columns) {
@@ -224,7 +237,10 @@ fn describe<'g>(
     }
     script.section(
         "row",
-        format!("Row of the {title}'s joint, along its axis: M_ij, kg m², and bias, N m."),
+        format!(
+            "Row of the {title}'s joint, eq. {}, along its axis: M_ij, kg m², and bias, N m.",
+            equations.torque
+        ),
     );
 }
 
@@ -269,8 +285,8 @@ pub fn momenta<'g>(
         script.section(
             "mom",
             format!(
-                "The {}: momentum, kg m/s; its moment about {letter}, kg m²/s.",
-                data.body.title
+                "The {}: momentum, kg m/s; its moment as in eq. {}, but about {letter}, kg m²/s.",
+                data.body.title, data.body.equations.h
             ),
         );
         script.names(pairs(triple(&format!("p_{frame}"), frame), own.force.components()));

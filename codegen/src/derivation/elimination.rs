@@ -60,7 +60,7 @@ pub fn eliminate<'g>(
     while let Some(row) = rows.pop() {
         let pivot = gains(&row, &rows, diagonals[rows.len()].clone(), script);
         done.push_str(pivot.tag);
-        let title = format!("Joint {} taken out of the rows nearer the hub.", pivot.tag);
+        let title = format!("Joint {} taken out of the rows nearer the hub, eq. (E2).", pivot.tag);
         script.section("rest", title);
         for (l, inner) in rows.iter_mut().enumerate() {
             let gain = pivot.gains[HUB.len() + l].1;
@@ -80,8 +80,13 @@ pub fn eliminate<'g>(
 
 /// The joints' rows, with right sides `u - u_rest`.
 fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Vec<Row<'g>> {
-    script
-        .section("tau", "Right side of each joint: motor torque less what the rest asks for, N m.");
+    let equations: Vec<_> =
+        chain.kind.links.iter().map(|link| link.body.equations.torque).collect();
+    let title = format!(
+        "Right side of each joint, eqs. {}: motor torque less what the rest asks for, N m.",
+        equations.join(", ")
+    );
+    script.section("tau", title);
     let tags: Vec<_> = chain.kind.links.iter().map(|link| link.joint.tag).collect();
     let row = |(k, tag): (usize, &&'static str)| {
         let right = chain.links[k].torque - share.bias_joint[k];
@@ -115,7 +120,8 @@ fn gains<'g>(
         _ => row.diagonal.clone(),
     };
     let recip = pivot.1.recip();
-    script.section("gain", format!("Joint {tag}: its pivot `{}`, kg m², and its gains.", pivot.0));
+    let title = format!("Joint {tag}, eq. (E1): its pivot `{}`, kg m², and its gains.", pivot.0);
+    script.section("gain", title);
     script.name(format!("recip_{tag}"), recip);
     let suffixes = HUB.into_iter().chain(inner.iter().map(|row| row.tag));
     let gains: Vec<_> = suffixes
@@ -149,7 +155,7 @@ fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
         (false, _) => share.inertia.at(row - 3, column - 3),
     };
     for (block, rows, columns) in [("vv", 0..3, 0..3), ("vw", 0..3, 3..6), ("ww", 3..6, 3..6)] {
-        script.section("hub", format!("Share of the hub's mass matrix: M_{block}."));
+        script.section("hub", format!("Share of the hub's mass matrix, eq. (E3): M_{block}."));
         for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
             if column >= row {
                 let name = format!("m_{block}_{}{}", row % 3 + 1, column % 3 + 1);
@@ -158,7 +164,8 @@ fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
             }
         }
     }
-    script.section("hub", "Share of the hub's right side: force, N, and moment about B, N m.");
+    let title = "Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.";
+    script.section("hub", title);
     let rest = [share.bias_force, share.bias_moment].map(Vector::components).concat();
     for (row, rest) in rest.into_iter().enumerate() {
         let name = format!("h_{}_{}", ["v", "w"][row / 3], row % 3 + 1);

@@ -23,8 +23,8 @@ pub(super) fn kernel<'g>(
         hub.map(|name| graph.symbol(name, Stage::Acceleration)).collect();
     let given = |name: &str| graph.symbol(name, Stage::Rate);
     let mut script = Script::new(graph);
-    script
-        .section("row", "Row by row from the hub outwards: the free acceleration less the gains.");
+    let title = "Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.";
+    script.section("row", title);
     for (pivot, link) in eliminated.pivots.iter().rev().zip(chain.kind.links) {
         let free = given(&pivot.free.0);
         let gains = pivot.gains.iter().map(|(name, _)| given(name));

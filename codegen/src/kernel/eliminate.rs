@@ -46,7 +46,7 @@ fn on_hub<'g>(chain: &Chain<'g>, share: Share<'g>, script: &mut Script<'g>) -> S
     script.section(
         "moment",
         format!(
-            "{} about B, along B axes: first moment, kg m, and inertia, kg m².",
+            "{} about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².",
             whole.to_uppercase()
         ),
     );
@@ -57,7 +57,8 @@ fn on_hub<'g>(chain: &Chain<'g>, share: Share<'g>, script: &mut Script<'g>) -> S
     let inertia = Symmetric::new(entries.try_into().expect("six entries"));
     script.section(
         "col",
-        "M_vi (17), kg m, and M_wi, kg m²: force and moment about B per unit acceleration.",
+        "M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit \
+         acceleration.",
     );
     let mut force = Vec::new();
     let mut moment = Vec::new();
@@ -65,10 +66,7 @@ fn on_hub<'g>(chain: &Chain<'g>, share: Share<'g>, script: &mut Script<'g>) -> S
         force.push(cut(script, &format!("f_{}", link.joint.tag), share.force[k]));
         moment.push(cut(script, &format!("n_{}", link.joint.tag), share.moment[k]));
     }
-    script.section(
-        "bias",
-        "Force and moment about B with no joint accelerating: right sides of (16), (75).",
-    );
+    script.section("bias", "Force and moment about B with no joint accelerating: eqs. (16), (75).");
     let bias_force = cut(script, "f_rest", share.bias_force);
     let bias_moment = cut(script, "n_rest", share.bias_moment);
     Share { first_moment, inertia, force, moment, bias_force, bias_moment, ..share }

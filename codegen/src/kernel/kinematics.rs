@@ -114,11 +114,11 @@ fn body<'g>(
     b.vector(["rate", equations.omega, &stem, own, &title, "rad/s"], motion.omega, reference);
 
     let r = format!("r_{point}_b");
-    let title = format!("r_{{{point_letter}/B}}");
+    let title = format!("r_{{{point_letter}/B}}, behind eq. {}", equations.r_dprime);
     let reference = vector(&b, &r, k).components();
     b.vector(["pos", "(step)", &r, carrier, &title, "m"], motion.centre.position, reference);
     let prime = format!("{r}_prime");
-    let title = format!("r′_{{{point_letter}/B}}");
+    let title = format!("r′_{{{point_letter}/B}}, behind eq. {}", equations.r_dprime);
     let reference = vector(&b, &prime, k).components();
     b.vector(["vel", "(step)", &prime, carrier, &title, "m/s"], motion.centre.velocity, reference);
 
@@ -195,7 +195,7 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[Quantity<'g>]) -> Kernel<'g
     let mc_dprime = mc_prime.component_rates();
     let title = "Σ m r, share of m_sc c, eq. (9)";
     b.vector(["mom", "(9)", "mc", "b", title, "kg m"], share.first_moment, mc.components());
-    let title = "Σ m r′, share of m_sc c′";
+    let title = "Σ m r′, share of m_sc c′, behind eq. (11)";
     b.vector(
         ["rate", "(step)", "mc_prime", "b", title, "kg m/s"],
         momenta.linear,

@@ -51,3 +51,23 @@ pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     list.push(momenta::kernel(chain));
     list
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Graph;
+    use crate::kinds::KINDS;
+
+    #[test]
+    fn every_section_names_its_equation() {
+        for kind in KINDS {
+            let graph = Graph::new();
+            for kernel in kernels(&Chain::new(&graph, kind)) {
+                for section in kernel.sections.iter().filter(|s| !s.statements.is_empty()) {
+                    let named = ["eq. (", "eqs. ("].iter().any(|name| section.title.contains(name));
+                    assert!(named, "{}: {}", kernel.name, section.title);
+                }
+            }
+        }
+    }
+}

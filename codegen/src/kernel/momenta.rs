@@ -13,7 +13,8 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let kind = chain.kind;
     let mut script = Script::new(chain.graph);
     let momenta = composite::momenta(chain, &Observer::inertial(chain), &mut script);
-    script.section("sum", "Energy and momenta of the device, along B axes.");
+    script
+        .section("sum", "Kinetic energy, and momenta as in eq. (20), of the device, along B axes.");
     script.name("energy", momenta.energy);
     script.names(pairs(triple("linear", "b"), momenta.linear.components()));
     script.names(pairs(triple("angular_b", "b"), momenta.angular.components()));

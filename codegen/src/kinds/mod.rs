@@ -117,4 +117,14 @@ pub struct Equations {
     pub i_b_prime: &'static str,
     /// Motor torque across the joint that carries the body.
     pub torque: &'static str,
+    /// Inertial second derivative of the centre of mass from B.
+    pub r_ddot: &'static str,
+    /// Angular momentum about B.
+    pub h: &'static str,
+    /// Its inertial derivative.
+    pub h_dot: &'static str,
+    /// Mass and first moment of this body and all behind it.
+    pub assembly: &'static str,
+    /// Torque on them about the joint's origin.
+    pub about_origin: &'static str,
 }
