@@ -68,6 +68,10 @@ pub(super) fn angular_momenta<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
         i_sc_b = i_sc_b + body.inertia + body.mass * Symmetric::tilde_squared(body.r);
     }
     list.vector("h_sc_b", h_sc_b, 0);
-    list.vector("h_sc_b_dot", h_sc_b.prime(hub.omega), 0);
+    let h_sc_b_dot = h_sc_b.prime(hub.omega);
+    list.vector("h_sc_b_dot", h_sc_b_dot, 0);
+    // (75): L_B from Euler's law for the whole, about the moving point B.
+    let mc = hub.m_sc * list.hub_vector("c");
+    list.vector("torque_b", h_sc_b_dot + mc.cross(list.hub_vector("r_b_n_ddot")), 0);
     list.tensor("i_sc_b", i_sc_b, 0);
 }

@@ -17,53 +17,77 @@ pub struct Quantity<'g> {
     pub name: String,
     /// What it is.
     pub value: Placed<'g>,
+    /// What it belongs to: `the wheel`.
+    pub chapter: String,
 }
 
 /// Every quantity of a chain that has a name in the paper.
 #[must_use]
 pub fn quantities<'g>(chain: &Chain<'g>) -> Vec<Quantity<'g>> {
     let mut list = List::default();
+    list.chapter("Axes");
     axes(chain, &mut list);
+    list.chapter("Hub");
     hub(chain, &mut list);
     let seen_from_b = motions(chain, &Observer::on_hub(chain.graph));
     let seen_from_n = motions(chain, &Observer::inertial(chain));
     for (k, (of_b, of_n)) in seen_from_b.iter().zip(&seen_from_n).enumerate() {
+        list.chapter(&capital(chain.kind.links[k].body.title));
         body(chain, k, of_b, of_n, &mut list);
     }
+    list.chapter("Centre of mass and translation");
     system(chain, &seen_from_b, &mut list);
+    list.chapter("Angular momentum");
     angular::angular_momenta(chain, &mut list);
     torques::motor_torques(chain, &mut list);
-    list.0
+    list.quantities
 }
 
-/// Collects quantities.
+/// Collects quantities, chapter by chapter.
 #[derive(Default)]
-pub(super) struct List<'g>(Vec<Quantity<'g>>);
+pub(super) struct List<'g> {
+    quantities: Vec<Quantity<'g>>,
+    chapter: String,
+}
 
 impl<'g> List<'g> {
+    /// What the quantities from here on belong to.
+    pub(super) fn chapter(&mut self, title: &str) {
+        title.clone_into(&mut self.chapter);
+    }
+
+    fn push(&mut self, name: &str, value: Placed<'g>) {
+        let (name, chapter) = (name.to_owned(), self.chapter.clone());
+        self.quantities.push(Quantity { name, value, chapter });
+    }
+
     pub(super) fn scalar(&mut self, name: &str, e: Expr<'g>) {
-        self.0.push(Quantity { name: name.to_owned(), value: Placed::Scalar(e) });
+        self.push(name, Placed::Scalar(e));
     }
 
     pub(super) fn vector<F: Frame>(&mut self, name: &str, v: Vector<'g, F>, frame: usize) {
-        let value = Placed::Vector(v.components(), frame);
-        self.0.push(Quantity { name: name.to_owned(), value });
+        self.push(name, Placed::Vector(v.components(), frame));
     }
 
     pub(super) fn tensor<F: Frame>(&mut self, name: &str, t: Symmetric<'g, F>, frame: usize) {
-        let value = Placed::Tensor(t.entries(), frame);
-        self.0.push(Quantity { name: name.to_owned(), value });
+        self.push(name, Placed::Tensor(t.entries(), frame));
     }
 }
 
 impl<'g> List<'g> {
     /// A vector collected before, along B axes.
     pub(super) fn hub_vector(&self, name: &str) -> Vector<'g, Hub> {
-        match find(&self.0, name).map(|quantity| quantity.value) {
+        match find(&self.quantities, name).map(|quantity| quantity.value) {
             Some(Placed::Vector(v, 0)) => Vector::new(v),
             _ => panic!("`{name}` is a vector along B axes, derived before it is used"),
         }
     }
+}
+
+/// `outer gimbal` -> `Outer gimbal`.
+pub(super) fn capital(title: &str) -> String {
+    let mut letters = title.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Unit vectors of every frame; an axis about which a joint turns has its first frame's name.

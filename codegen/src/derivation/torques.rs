@@ -16,12 +16,9 @@ pub(super) fn motor_torques<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     let r_b_n_ddot = list.hub_vector("r_b_n_ddot");
     let all = bodies(chain);
     for k in 0..chain.links.len() {
+        list.chapter(&format!("Torque across the joint of the {}", chain.kind.links[k].body.title));
         joint(chain, k, &all[k..], r_b_n_ddot, list);
     }
-    let mc = list.hub_vector("c").components().map(|c| chain.hub.m_sc * c);
-    // (75): L_B from Euler's law for the whole, about the moving point B.
-    let torque_b = list.hub_vector("h_sc_b_dot") + Vector::new(mc).cross(r_b_n_ddot);
-    list.vector("torque_b", torque_b, 0);
 }
 
 fn joint<'g>(

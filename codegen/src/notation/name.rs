@@ -30,7 +30,7 @@ pub fn symbol(name: &str, accent: Accent) -> String {
         (Accent::Tilde, Dot(dots)) if !dots.is_empty() => format!("\\tilde{{{dots}{{{letter}}}}}"),
         (Accent::Tilde, _) => format!("\\tilde{{{letter}}}"),
         (Accent::Plain, Dot(dots)) if !dots.is_empty() => format!("{dots}{{{letter}}}"),
-        (Accent::Plain, _) => letter.to_owned(),
+        (Accent::Plain, _) => letter,
     };
     let primes = if let Prime(primes) = derivative { primes } else { "" };
     let below = if below.is_empty() { String::new() } else { format!("_{{{below}}}") };
@@ -106,10 +106,9 @@ fn motion(parts: &[&str]) -> Option<Symbol> {
         }
         ["alpha", of] => plain("\\alpha", frame(of)?),
         ["h", of, wrt] => plain("H", format!("{},{}", point(of)?, point(wrt)?)),
-        ["torque", of] => plain("L", point(of)?),
         ["l", arm @ ("o" | "i")] => plain(&format!("L^{{{arm}}}"), ""),
         ["l", arm @ ("o" | "i"), component] => plain(&format!("L^{{{arm}}}"), *component),
-        ["l", of] => plain("L", point(of)?),
+        ["torque" | "l", of] => plain("L", point(of)?),
         ["c"] => plain("c", ""),
         ["f", "tilde"] => plain("\\tilde f", ""),
         ["f", joint @ ("o" | "i" | "w")] => plain("f", *joint),

@@ -202,17 +202,15 @@ impl Setter {
                 let text = format!("{} {sign} {}", a.text, b.text);
                 Ok(Tex::new(text, a.width + b.width + 3, Binding::Cross))
             }
-            ("tilde", [a]) => match a {
-                Expr::Path(path) => {
-                    let name = path.path.require_ident().map_err(|_| form(call))?.to_string();
-                    Ok(Tex::atom(format!("[{}]", symbol(&name, Accent::Tilde))))
-                }
-                _ => {
-                    let inside = self.single(a)?;
-                    let text = format!("[({})^{{\\sim}}]", inside.text);
-                    Ok(Tex::new(text, inside.width + 5, Binding::Atom))
-                }
-            },
+            ("tilde", [Expr::Path(path)]) => {
+                let name = path.path.require_ident().map_err(|_| form(call))?.to_string();
+                Ok(Tex::atom(format!("[{}]", symbol(&name, Accent::Tilde))))
+            }
+            ("tilde", [a]) => {
+                let inside = self.single(a)?;
+                let text = format!("[({})^{{\\sim}}]", inside.text);
+                Ok(Tex::new(text, inside.width + 5, Binding::Atom))
+            }
             ("transpose", [a]) => {
                 let inside = self.single(a)?.within(Binding::Product);
                 Ok(Tex::new(format!("{}^{{T}}", inside.text), inside.width + 1, Binding::Atom))
