@@ -10,4 +10,5 @@ pub mod notation;
 pub mod page;
 pub mod proof;
 pub mod regen;
+pub mod report;
 pub mod space;

@@ -12,6 +12,7 @@ use crate::page::{Block, Page, PageError, read, read_on, read_printed};
 use crate::proof::{
     EmittedError, Prover, Row, against_pages, print_against_derivation, zero_traces,
 };
+use crate::report::{self, ReportError};
 
 /// What a regeneration yields.
 #[derive(Clone, Debug)]
@@ -39,6 +40,8 @@ pub enum RegenError {
     Emit(EmitError),
     /// Emitted text cannot be read back.
     Emitted(EmittedError),
+    /// A document cannot be laid out.
+    Report(ReportError),
 }
 
 impl fmt::Display for RegenError {
@@ -47,6 +50,7 @@ impl fmt::Display for RegenError {
             Self::Page(error) => error.fmt(f),
             Self::Emit(error) => error.fmt(f),
             Self::Emitted(error) => error.fmt(f),
+            Self::Report(error) => error.fmt(f),
         }
     }
 }
@@ -71,13 +75,20 @@ impl From<EmittedError> for RegenError {
     }
 }
 
+impl From<ReportError> for RegenError {
+    fn from(error: ReportError) -> Self {
+        Self::Report(error)
+    }
+}
+
 /// Derives, emits and proves every kind.
 ///
 /// # Errors
 /// When a page or an emitted file cannot be read. A failed proof is no error but a row.
 pub fn regenerate(pages: &[Page]) -> Result<Regeneration, RegenError> {
-    let files = emit()?;
+    let mut files = emit()?;
     let rows = prove(pages, &files)?;
+    files.extend(documents(pages)?);
     Ok(Regeneration { files, rows })
 }
 
@@ -105,6 +116,17 @@ pub fn emit() -> Result<Vec<EmittedFile>, RegenError> {
     let pairs = graphs.iter().zip(KINDS);
     let chains: Vec<_> = pairs.map(|(graph, kind)| Chain::new(graph, kind)).collect();
     Ok(files(&chains)?)
+}
+
+/// The documents that print what was derived.
+///
+/// # Errors
+/// When a page cannot be read or set.
+pub fn documents(pages: &[Page]) -> Result<Vec<EmittedFile>, RegenError> {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, &DGVSCMG);
+    let blocks: Vec<_> = read(&graph, pages)?.into_iter().map(|e| e.block).collect();
+    Ok(report::derivation(&chain, &blocks)?)
 }
 
 /// Holds pages and emitted files against the derivation.

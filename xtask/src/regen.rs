@@ -134,7 +134,7 @@ fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
     let changed = files.iter().map(|file| (file, into.join(&file.path)));
     let changed: Vec<_> = changed
         .filter(|(file, path)| !fs::read_to_string(path).is_ok_and(|text| text == file.text))
-        .map(|(file, path)| (file, path.with_extension("partial"), path))
+        .map(|(file, path)| (file, beside(&path), path))
         .collect();
     let written = changed.iter().try_for_each(|(file, partial, path)| {
         fs::create_dir_all(path.parent().unwrap_or(into))
@@ -154,6 +154,13 @@ fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
         say!("wrote {}", file.path);
     }
     Ok(())
+}
+
+/// Where a file is written before it takes its place: a name that no other file has.
+fn beside(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".partial");
+    PathBuf::from(name)
 }
 
 /// Shows the difference to what stands on disk.

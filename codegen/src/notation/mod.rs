@@ -12,7 +12,7 @@ mod terms;
 mod tex;
 mod unit;
 
-pub use name::{Accent, symbol};
+pub use name::{Accent, frame, symbol};
 pub use syntax::{equation, expression};
 pub use terms::terms;
 pub use unit::{Unit, unit};

@@ -183,8 +183,9 @@ fn point(name: &str) -> Option<&'static str> {
     })
 }
 
-/// Frames.
-fn frame(name: &str) -> Option<&'static str> {
+/// The letter of a frame, in LaTeX.
+#[must_use]
+pub fn frame(name: &str) -> Option<&'static str> {
     Some(match name {
         "b" => "\\mathcal{B}",
         "go" => "\\mathcal{G}^o",
