@@ -3,7 +3,8 @@
     python store.py           evaluates all spacecraft in both engines; writes if they agree
     python store.py --check   the same, compared with the stored file; writes nothing
 
-Exit status: 0 if all is well, 1 if something disagrees, 77 if a package is missing.
+Exit status: 0 if all is well, 1 if something disagrees, 77 if a package is missing: see
+requirements.txt.
 """
 
 import argparse
@@ -20,7 +21,9 @@ try:
     import with_pinocchio
     from spacecraft import all_spacecraft
 except ModuleNotFoundError as error:
-    print(f"{error}; install with: pip install -r {HERE.name}/requirements.txt", file=sys.stderr)
+    if error.name not in ("mujoco", "numpy", "pinocchio"):
+        raise
+    print(error, file=sys.stderr)
     sys.exit(MISSING)
 
 # The engines against each other, in units of each block's largest magnitude: what the project
@@ -46,8 +49,11 @@ def main():
     check = arguments.parse_args().check
 
     found, disagreement = evaluated()
-    print(f"pinocchio against mujoco: worst {disagreement:.1e} of the block")
+    versions = " against ".join(f"{name} {version}" for name, version in found["engines"].items())
+    print(f"{versions}: worst {disagreement:.1e} of the block")
     if check:
+        if not FIXTURE.exists():
+            sys.exit(f"{FIXTURE} is missing; run store.py")
         difference = compared(found, json.loads(FIXTURE.read_text(encoding="utf-8")))
         print(f"against {FIXTURE.name}: worst {difference:.1e} of the block")
     else:
