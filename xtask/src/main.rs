@@ -2,6 +2,7 @@
 
 mod check;
 mod demo;
+mod engines;
 mod regen;
 mod run;
 mod test;
@@ -29,6 +30,9 @@ enum Command {
     /// Run all tests
     #[command(after_help = "Example: cargo xtask test")]
     Test,
+    /// Ask the engines behind the stored values again, if their Python packages are installed
+    #[command(after_help = "Example: cargo xtask engines")]
+    Engines,
     /// Derive, prove, solve the paper's scenario and draw the report
     #[command(after_help = "Example: cargo xtask demo")]
     Demo,
@@ -39,6 +43,7 @@ fn main() -> ExitCode {
         Command::Regen(options) => regen::regen(&options),
         Command::Check => check::check(),
         Command::Test => test::test(),
+        Command::Engines => engines::engines(),
         Command::Demo => demo::demo(),
     };
     match done {
