@@ -8,9 +8,9 @@ use precess_dynamics::{
     Spacecraft, State, Torques,
 };
 
-use crate::assembly;
 use crate::newton_euler::equations::System;
 use crate::newton_euler::{self, Snapshot};
+use crate::{assembly, spatial};
 
 const REGULAR: &str = "the mass matrix of a spacecraft with massive bodies is regular";
 
@@ -87,6 +87,16 @@ impl<const N: usize, T: Scalar> Case<N, T> {
     #[must_use]
     pub fn assembled(&self) -> Accelerations<N, T> {
         assembly::accelerations(self).expect(REGULAR)
+    }
+
+    /// The accelerations by recursion over articulated bodies.
+    ///
+    /// # Panics
+    ///
+    /// If the hub's articulated inertia is singular: no spacecraft of these suites is.
+    #[must_use]
+    pub fn recursive(&self) -> Accelerations<N, T> {
+        spatial::accelerations(self).expect(REGULAR)
     }
 
     /// The reference's accelerations.

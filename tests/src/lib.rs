@@ -2,7 +2,8 @@
 //!
 //! - [`double_double`]: a scalar of 31 digits, for which solver and reference are both generic.
 //! - [`newton_euler`]: Newton and Euler written out plainly, body by body: the yardstick.
-//! - [`assembly`]: the paper's own equations in the forms of the hand-checked pages.
+//! - [`assembly`]: the paper's own equations in the forms of the hand-checked pages; [`spatial`]:
+//!   a recursion over articulated bodies that takes nothing from the paper. Two more routes.
 //! - [`random`]: seeded spacecraft over the declared ranges; [`case`]: one spacecraft in one state.
 //! - [`table1`]: the paper's own numbers.
 //! - [`blocks`]: the unit in which accelerations are compared.
@@ -34,4 +35,5 @@ pub mod case;
 pub mod double_double;
 pub mod newton_euler;
 pub mod random;
+pub mod spatial;
 pub mod table1;
