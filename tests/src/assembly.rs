@@ -20,6 +20,8 @@ mod positions;
 mod rotation;
 mod translation;
 
+use core::ops::Range;
+
 use nalgebra::Vector3;
 use precess_dynamics::{Accelerations, Hub, Joints, Scalar, State};
 
@@ -49,42 +51,50 @@ pub fn system<const N: usize, T: Scalar>(case: &Case<N, T>) -> System<T> {
         .map(|unknown| {
             let mut alone = vec![zero; size];
             alone[unknown] = one;
-            left_sides(case, &still, &alone)
+            left_sides(case, &still, &alone, moved_by::<N>(unknown))
         })
         .collect();
     let matrix = (0..size).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
 
-    let known = left_sides(case, &case.state, &vec![zero; size]);
+    let known = left_sides(case, &case.state, &vec![zero; size], 0..N);
     let right = given_forces(case).into_iter().zip(known).map(|(right, left)| right - left);
     System { matrix, right: right.collect() }
 }
 
-/// The left sides of all equations under given accelerations.
+/// The devices that one acceleration sets in motion from rest: the hub's all, a joint's its own.
+fn moved_by<const N: usize>(unknown: usize) -> Range<usize> {
+    match unknown.checked_sub(6) {
+        None => 0..N,
+        Some(joint) => joint / 3..joint / 3 + 1,
+    }
+}
+
+/// The left sides of all equations under given accelerations; zero for devices not in `moved`.
 fn left_sides<const N: usize, T: Scalar>(
     case: &Case<N, T>,
     state: &State<N, T>,
     accelerations: &[T],
+    moved: Range<usize>,
 ) -> Vec<T> {
+    let mut left = vec![T::from_f64(0.0); accelerations.len()];
     let accelerations: Accelerations<N, T> = from_list(accelerations);
     let motion = Motion {
         omega: Vector::from(&state.omega),
         omega_dot: Vector::from(&accelerations.omega_dot),
         r_b_n_ddot: Vector::from(&accelerations.r_b_n_ddot),
     };
-    let joints = state.devices.iter().zip(&accelerations.devices);
-    let devices: Vec<Device<T>> = case
-        .devices
-        .iter()
-        .zip(joints)
-        .map(|(device, (joints, ddot))| Device::new(Given::new(device, joints, ddot, motion)))
-        .collect();
+    let device = |j: usize| {
+        let (joints, ddot) = (&state.devices[j], &accelerations.devices[j]);
+        Device::new(Given::new(&case.devices[j], joints, ddot, motion))
+    };
+    let devices: Vec<Device<T>> = moved.clone().map(device).collect();
     let body = Body::new(&case.hub);
 
-    let mut left = Vec::with_capacity(6 + 3 * N);
-    left.extend(translation::force(&body, &motion, &devices).0);
-    left.extend(rotation::torque_b(&body, &motion, &devices).0);
-    for device in &devices {
-        left.extend([motors::u_o(device), motors::u_i(device), motors::u_w(device)]);
+    left[..3].copy_from_slice(&translation::force(&body, &motion, &devices).0);
+    left[3..6].copy_from_slice(&rotation::torque_b(&body, &motion, &devices).0);
+    for (j, device) in moved.zip(&devices) {
+        let torques = [motors::u_o(device), motors::u_i(device), motors::u_w(device)];
+        left[6 + 3 * j..9 + 3 * j].copy_from_slice(&torques);
     }
     left
 }
