@@ -10,6 +10,9 @@ use precess_dynamics::{
 
 use crate::newton_euler::equations::System;
 use crate::newton_euler::{self, Snapshot};
+use crate::{assembly, spatial};
+
+const REGULAR: &str = "the mass matrix of a spacecraft with massive bodies is regular";
 
 /// Parameters, state and forces, as solver and reference take them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,6 +73,32 @@ impl<const N: usize, T: Scalar> Case<N, T> {
         System::new(&self.snapshot())
     }
 
+    /// The system of the paper's own assembly.
+    #[must_use]
+    pub fn assembly(&self) -> System<T> {
+        assembly::system(self)
+    }
+
+    /// The accelerations by the paper's own assembly.
+    ///
+    /// # Panics
+    ///
+    /// If its matrix is singular: no spacecraft of these suites is.
+    #[must_use]
+    pub fn assembled(&self) -> Accelerations<N, T> {
+        assembly::accelerations(self).expect(REGULAR)
+    }
+
+    /// The accelerations by recursion over articulated bodies.
+    ///
+    /// # Panics
+    ///
+    /// If the hub's articulated inertia is singular: no spacecraft of these suites is.
+    #[must_use]
+    pub fn recursive(&self) -> Accelerations<N, T> {
+        spatial::accelerations(self).expect(REGULAR)
+    }
+
     /// The reference's accelerations.
     ///
     /// # Panics
@@ -78,7 +107,7 @@ impl<const N: usize, T: Scalar> Case<N, T> {
     #[must_use]
     pub fn reference(&self) -> Accelerations<N, T> {
         newton_euler::accelerations(&self.hub, &self.devices, &self.state, &self.torques)
-            .expect("the mass matrix of a spacecraft with massive bodies is regular")
+            .expect(REGULAR)
     }
 }
 

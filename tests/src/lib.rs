@@ -1,7 +1,9 @@
 //! The plain reference and the suites that cross crates.
 //!
 //! - [`double_double`]: a scalar of 31 digits, for which solver and reference are both generic.
-//! - [`newton_euler`]: the paper's equations written out plainly, body by body: the yardstick.
+//! - [`newton_euler`]: Newton and Euler written out plainly, body by body: the yardstick.
+//! - [`assembly`]: the paper's own equations in the forms of the hand-checked pages; [`spatial`]:
+//!   a recursion over articulated bodies that takes nothing from the paper. Two more routes.
 //! - [`random`]: seeded spacecraft over the declared ranges; [`case`]: one spacecraft in one state.
 //! - [`table1`]: the paper's own numbers.
 //! - [`blocks`]: the unit in which accelerations are compared.
@@ -27,9 +29,11 @@
 //! - E4, drift of the fixed-step method: falls 14- to 18-fold a halved step, down to rounding; the
 //!   method is of fourth order.
 
+pub mod assembly;
 pub mod blocks;
 pub mod case;
 pub mod double_double;
 pub mod newton_euler;
 pub mod random;
+pub mod spatial;
 pub mod table1;

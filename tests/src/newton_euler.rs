@@ -1,11 +1,13 @@
-//! The plain reference: the paper's equations body by body, with nothing optimised.
+//! The plain reference: Newton and Euler body by body, with nothing optimised.
 //!
-//! Sections 3.1 to 3.3: translation (6)-(16), rotation (20)-(75), motor torques (77)-(121), each
-//! written as it stands in print, over kinematics that follow from positions and angular velocities
-//! alone. It yields the full system of `6 + 3 N` equations, whose matrix is *not* assumed
-//! symmetric, and solves it by Gaussian elimination. Generic over the scalar: in [`DoubleDouble`]
-//! it is the yardstick of the solver. It shares with the solver the parameter and state types and
-//! nothing else.
+//! The paper's laws, sections 3.1 to 3.3: force (6), (8), moment (75), motor torques about the
+//! centres of mass of D and V, (78)-(83), (99)-(103), (117)-(119), over kinematics that follow from
+//! positions and angular velocities alone. None of the forms that the paper works out are typed in
+//! (expanded positions, coefficients of (17), inertias about B): those are
+//! [`assembly`](crate::assembly). It yields the full system of `6 + 3 N` equations, whose matrix is
+//! *not* assumed symmetric, and solves it by Gaussian elimination. Generic over the scalar: in
+//! [`DoubleDouble`] it is the yardstick of the solver. It shares with the solver the parameter and
+//! state types and nothing else.
 //!
 //! Everything is resolved along B axes. Quantities of the state that are given along N axes (the
 //! velocity of B) are rotated by a `[BN]` of its own.
@@ -112,7 +114,7 @@ pub fn to_list<const N: usize, T: Scalar>(accelerations: &Accelerations<N, T>) -
 }
 
 /// The inverse of [`to_list`].
-fn from_list<const N: usize, T: Scalar>(list: &[T]) -> Accelerations<N, T> {
+pub(crate) fn from_list<const N: usize, T: Scalar>(list: &[T]) -> Accelerations<N, T> {
     let joints = core::array::from_fn(|j| JointAccelerations {
         gamma_o_ddot: list[6 + 3 * j],
         gamma_i_ddot: list[7 + 3 * j],

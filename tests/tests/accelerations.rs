@@ -3,8 +3,7 @@
 //!
 //! Run with `--nocapture` to see worst and median of each row.
 
-use precess_dynamics::{Real, Scalar};
-use precess_tests::blocks::{Figures, errors, largest, worst};
+use precess_tests::blocks::{Figures, errors, worst};
 use precess_tests::case::converted;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::to_list;
@@ -78,14 +77,8 @@ fn backward_error_is_rounding() {
         fn measure<const N: usize>(&self, sample: &Sample<N>) -> (f64, &'static str) {
             let solution = sample.case::<f64>().solved(sample);
             let solution = to_list(&converted::<N, f64, Wide>(&solution));
-            let system = sample.case::<Wide>().system();
-            let rows = system.matrix.iter().zip(&system.right).map(|(row, right)| {
-                let products = || row.iter().zip(&solution).map(|(m, x)| *m * *x);
-                let residual = products().fold(-*right, |sum, product| sum + product);
-                let unit = products().fold(right.abs(), |sum, product| sum + product.abs());
-                (residual.abs() * unit.recip()).to_f64() / f64::EPSILON
-            });
-            (largest(rows), "the worst row")
+            let error = sample.case::<Wide>().system().backward_error(&solution);
+            (error / f64::EPSILON, "the worst row")
         }
     }
     measure("A1, backward error", BACKWARD_EPSILONS, "eps", BackwardError);

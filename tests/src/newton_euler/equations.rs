@@ -6,6 +6,7 @@ use super::Snapshot;
 use super::affine::{Affine, R_B_N_DDOT, UNKNOWNS};
 use super::bodies::{Body, Device, Point};
 use super::vector::{Vector, cross};
+use crate::blocks::largest;
 
 /// `matrix * unknowns = right`, rows and unknowns in the order force, moment, then `u_z`, `u_y`,
 /// `u_x` of each device.
@@ -30,6 +31,19 @@ impl<T: Scalar> System<T> {
             system.motors(snapshot, j);
         }
         system
+    }
+
+    /// A1, the backward error of accelerations: the largest `abs(M q'' - h)` of any row, in units
+    /// of the row's `abs(M) abs(q'') + abs(h)`.
+    #[must_use]
+    pub fn backward_error(&self, accelerations: &[T]) -> f64 {
+        let rows = self.matrix.iter().zip(&self.right).map(|(row, right)| {
+            let products = || row.iter().zip(accelerations).map(|(m, x)| *m * *x);
+            let residual = products().fold(-*right, |sum, product| sum + product);
+            let unit = products().fold(right.abs(), |sum, product| sum + product.abs());
+            (residual.abs() * unit.recip()).to_f64()
+        });
+        largest(rows)
     }
 
     /// (6), (8): `m_sc (r_B'' + c'') = F`, with `m_sc c''` summed body by body, (7), (9)-(11).

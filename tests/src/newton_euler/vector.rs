@@ -61,6 +61,12 @@ impl<T: Scalar> Tensor<T> {
         Vector(self.0.map(|row| row[index]))
     }
 
+    /// The matrix with these columns: of unit vectors, the rotation to the axes they stand for.
+    #[must_use]
+    pub fn of_columns(columns: [Vector<T>; 3]) -> Self {
+        Self(columns.map(|column| column.0)).transpose()
+    }
+
     /// Rows and columns exchanged.
     #[must_use]
     pub fn transpose(self) -> Self {
@@ -154,6 +160,14 @@ impl<T: Scalar> Mul for Tensor<T> {
     fn mul(self, other: Self) -> Self {
         let columns = other.transpose();
         Self(self.0.map(|row| (columns * Vector(row)).0))
+    }
+}
+
+impl<T: Scalar> Mul<T> for Tensor<T> {
+    type Output = Self;
+
+    fn mul(self, factor: T) -> Self {
+        Self(self.0.map(|row| (Vector(row) * factor).0))
     }
 }
 
