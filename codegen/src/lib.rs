@@ -5,6 +5,7 @@ pub mod emit;
 pub mod graph;
 pub mod kernel;
 pub mod kinds;
+pub mod mutation;
 pub mod normal;
 pub mod notation;
 pub mod page;

@@ -3,6 +3,7 @@
 mod check;
 mod demo;
 mod engines;
+mod mutate;
 mod regen;
 mod run;
 mod test;
@@ -27,6 +28,9 @@ enum Command {
     /// The quick loop: format, clippy, `regen --check`, unit tests
     #[command(after_help = "Example: cargo xtask check")]
     Check,
+    /// Make every emitted term wrong, one at a time, and see a law of physics broken
+    #[command(after_help = "Example: cargo xtask mutate --kernel wheel")]
+    Mutate(mutate::Options),
     /// Run all tests
     #[command(after_help = "Example: cargo xtask test")]
     Test,
@@ -42,6 +46,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Regen(options) => regen::regen(&options),
         Command::Check => check::check(),
+        Command::Mutate(options) => mutate::mutate(&options),
         Command::Test => test::test(),
         Command::Engines => engines::engines(),
         Command::Demo => demo::demo(),

@@ -20,6 +20,7 @@ macro_rules! say {
         let _ = writeln!(std::io::stdout(), $($line)*);
     };
 }
+pub(crate) use say;
 
 /// Where the hand-checked pages stand.
 const PAGES: &str = "tests/derivation";
@@ -130,7 +131,7 @@ pub(crate) fn read_pages(folder: &Path) -> Result<Vec<Page>, String> {
 
 /// Writes what changed. All text is on disk before the first file is replaced, and nothing is left
 /// behind when some of it cannot be written.
-fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
+pub(crate) fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
     let changed = files.iter().map(|file| (file, into.join(&file.path)));
     let changed: Vec<_> = changed
         .filter(|(file, path)| !fs::read_to_string(path).is_ok_and(|text| text == file.text))
@@ -163,8 +164,21 @@ fn beside(path: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Shows the difference to what stands on disk.
+/// Shows the difference to what stands on disk, which must hold nothing that is not emitted.
 fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), String> {
+    let stale = differing(files, into);
+    if let Some(orphan) = orphan(files, into) {
+        return Err(format!("{} is not emitted any more; delete it", orphan.display()));
+    }
+    if stale == 0 {
+        say!("{} files are fresh", files.len());
+        return Ok(());
+    }
+    Err(format!("{stale} of {} files are stale; run `{remedy}`", files.len()))
+}
+
+/// Shows the difference to what stands on disk; how many files differ.
+pub(crate) fn differing(files: &[EmittedFile], into: &Path) -> usize {
     let mut stale = 0;
     for file in files {
         let now = fs::read_to_string(into.join(&file.path)).unwrap_or_default();
@@ -175,14 +189,7 @@ fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), Strin
             say!("{}", diff.unified_diff().header(&old, &new));
         }
     }
-    if let Some(orphan) = orphan(files, into) {
-        return Err(format!("{} is not emitted any more; delete it", orphan.display()));
-    }
-    if stale == 0 {
-        say!("{} files are fresh", files.len());
-        return Ok(());
-    }
-    Err(format!("{stale} of {} files are stale; run `{remedy}`", files.len()))
+    stale
 }
 
 /// A file among the emitted Rust that was not emitted.

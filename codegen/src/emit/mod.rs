@@ -12,3 +12,4 @@ mod text;
 
 pub use body::{Counts, FunctionBody};
 pub use file::{EmitError, EmittedFile, files};
+pub(crate) use prepare::prepared;

@@ -7,17 +7,17 @@ use crate::graph::{Expr, Graph, Node, NodeId, Stage};
 use crate::kernel::{Field, Kernel, Record, Source};
 
 /// The constants of a kind: fields of `Prepared` and the statements that compute them.
-pub(super) struct Prepared<'g> {
+pub(crate) struct Prepared<'g> {
     /// Field name of each node that a kernel reads.
     pub(super) fields: HashMap<NodeId, String>,
     /// In order of first use: raw parameters first.
-    pub(super) record: Record,
+    pub(crate) record: Record,
     /// The statements of `prepare`.
-    pub(super) sections: Vec<Section<'g>>,
+    pub(crate) sections: Vec<Section<'g>>,
 }
 
 /// Finds what the kernels can share of parameters alone.
-pub(super) fn prepared<'g>(
+pub(crate) fn prepared<'g>(
     graph: &'g Graph,
     kernels: &[Kernel<'g>],
     parameters: &Record,

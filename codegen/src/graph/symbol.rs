@@ -95,6 +95,11 @@ impl Graph {
         self.arena.borrow().symbols[usize::from(id.0)].clone()
     }
 
+    /// How many symbols there are.
+    pub(crate) fn symbols(&self) -> usize {
+        self.arena.borrow().symbols.len()
+    }
+
     /// The symbol called `name`, where there is one.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<Expr<'_>> {

@@ -1,0 +1,163 @@
+//! Mutation against physics: one term of one emitted function is wrong, and a law of physics shows
+//! it. Pure; the engines' stored values are read by the caller.
+//!
+//! A mutant drops or flips one operand of one sum, or exchanges one sine for its cosine, in what an
+//! emitted function computes (the graph it is printed from). Only that function is changed: the laws
+//! hold between functions, and the others stay right. What depends on parameters alone is computed
+//! once, in `prepare`, for all of them: changed there, it is changed in every function.
+//!
+//! A mutant that no law notices is a hole in the laws, or it is the same function written otherwise,
+//! which its normal form shows. The derivation is asked nothing else.
+
+mod device;
+mod equivalence;
+mod listing;
+mod page;
+mod physics;
+mod report;
+mod site;
+mod state;
+mod tape;
+
+pub use physics::{EngineError, Engines, Kind, Law};
+pub use report::{Fate, Outcome, Report, Row, Tally};
+pub use site::{Change, Mutant};
+
+use std::fmt;
+
+use device::{Device, Fault};
+use physics::{Role, Trial, residuals};
+use site::{Site, sites};
+use state::Random;
+
+use crate::derivation::chain::Chain;
+use crate::graph::Graph;
+use crate::kinds;
+
+/// A residual above this kills. The right functions leave some 1e-12 (rounding over the step of a
+/// difference, and the engines' own), a wrong term of order one leaves some 1e-3 and more; the page
+/// states both margins.
+pub const NOTICED: f64 = 1e-8;
+
+/// How many random states every mutant is put through: one would do but for chance cancellation.
+const TRIALS: u64 = 3;
+
+/// Which mutants to make.
+#[derive(Clone, Copy, Debug)]
+pub struct Selection<'a> {
+    /// Of this function alone.
+    pub kernel: Option<&'a str>,
+    /// Of them, every so many: 1 is all.
+    pub every: usize,
+}
+
+impl Selection<'_> {
+    /// Every mutant of every function.
+    #[must_use]
+    pub fn all() -> Self {
+        Self { kernel: None, every: 1 }
+    }
+}
+
+/// Why there is nothing to report.
+#[derive(Debug)]
+pub enum MutationError {
+    /// No function has this name.
+    NoKernel {
+        /// The name.
+        name: String,
+        /// The names there are.
+        known: Vec<String>,
+    },
+    /// The right functions break a law: what the laws say of wrong ones is worth nothing.
+    Broken {
+        /// The law.
+        law: Law,
+        /// Its residual.
+        residual: f64,
+    },
+}
+
+impl fmt::Display for MutationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoKernel { name, known } => {
+                write!(f, "no function is called `{name}`; choose one of {}", known.join(", "))
+            }
+            Self::Broken { law, residual } => write!(
+                f,
+                "unchanged functions leave {residual:.1e} of `{law}`, above {NOTICED:e}; mend them, \
+                 or the law, first"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for MutationError {}
+
+/// Makes the mutants of a kind's functions and puts each to every law it can break. `progress` is
+/// told after each how many are done, and of how many.
+///
+/// # Errors
+/// When there is no such function, or when the unchanged ones break a law.
+pub fn mutate(
+    kind: &'static kinds::Kind,
+    engines: &Engines,
+    selection: &Selection<'_>,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<Report, MutationError> {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, kind);
+    let device = Device::new(&chain);
+    let trials = trials(kind);
+    let floors = residuals(&device, &trials, engines, &Fault::default(), None);
+    if let Some(&(law, residual)) = floors.iter().find(|(_, residual)| *residual > NOTICED) {
+        return Err(MutationError::Broken { law, residual });
+    }
+    let chosen = chosen(&device, selection)?;
+    let mut outcomes = Vec::with_capacity(chosen.len());
+    let of = chosen.len();
+    for (index, site) in chosen {
+        let role = Role::of(&site.mutant.kernel);
+        let signals = residuals(&device, &trials, engines, &device.fault(index, &site), role);
+        let killed = signals.iter().any(|(_, residual)| *residual > NOTICED);
+        let fate = if killed {
+            Fate::Killed
+        } else if equivalence::is_the_same(&device, index, &site) {
+            Fate::Equivalent
+        } else {
+            Fate::Survivor
+        };
+        outcomes.push(Outcome { mutant: site.mutant, signals, fate });
+        progress(outcomes.len(), of);
+    }
+    Ok(Report { kind, outcomes, floors, engines: engines.len() })
+}
+
+fn trials(kind: &kinds::Kind) -> Vec<Trial> {
+    let trial = |seed| {
+        let mut random = Random::new(seed);
+        Trial { case: random.case(kind), any: random.accelerations(kind.links.len()) }
+    };
+    (0..TRIALS).map(trial).collect()
+}
+
+/// The sites of a selection, each with the number of its function.
+fn chosen(
+    device: &Device<'_, '_>,
+    selection: &Selection<'_>,
+) -> Result<Vec<(usize, Site)>, MutationError> {
+    let names = || device.listings.iter().map(|listing| listing.name.clone());
+    if let Some(name) = selection.kernel
+        && !names().any(|known| known == name)
+    {
+        return Err(MutationError::NoKernel { name: name.to_owned(), known: names().collect() });
+    }
+    let meant = |name: &str| selection.kernel.is_none_or(|kernel| kernel == name);
+    let listings = device.listings.iter().enumerate().filter(|(_, listing)| meant(&listing.name));
+    let every = listings.flat_map(|(index, listing)| {
+        let found = sites(device.chain.graph, listing, index == device::PREPARE);
+        found.into_iter().map(move |site| (index, site))
+    });
+    Ok(every.step_by(selection.every.max(1)).collect())
+}

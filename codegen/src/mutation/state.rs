@@ -1,0 +1,156 @@
+//! One spacecraft with one device, in one state: everything of order one, so that every term counts.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::kernel::parameters;
+use crate::kinds::Kind;
+
+/// Everything that a law is evaluated for.
+#[derive(Clone)]
+pub(super) struct Case {
+    pub(super) hub: Hub,
+    /// In the order of the fields of `Parameters`.
+    pub(super) parameters: Vec<f64>,
+    pub(super) motion: Motion,
+    pub(super) drive: Drive,
+}
+
+/// The rigid hub.
+#[derive(Clone)]
+pub(super) struct Hub {
+    pub(super) mass: f64,
+    /// Centre of mass from B.
+    pub(super) centre: Vector3<f64>,
+    /// About the centre of mass.
+    pub(super) inertia: Matrix3<f64>,
+}
+
+/// Angles and velocities; vectors along B.
+#[derive(Clone)]
+pub(super) struct Motion {
+    pub(super) angles: Vec<f64>,
+    pub(super) rates: Vec<f64>,
+    pub(super) omega: Vector3<f64>,
+    /// Inertial velocity of point B.
+    pub(super) velocity: Vector3<f64>,
+}
+
+/// Motor torques, force through B, torque about B.
+#[derive(Clone)]
+pub(super) struct Drive {
+    pub(super) motors: Vec<f64>,
+    pub(super) force: Vector3<f64>,
+    pub(super) torque: Vector3<f64>,
+}
+
+/// What the equations of motion are solved for.
+#[derive(Clone)]
+pub(super) struct Accelerations {
+    /// Inertial acceleration of point B, along B.
+    pub(super) point: Vector3<f64>,
+    pub(super) omega: Vector3<f64>,
+    pub(super) joints: Vec<f64>,
+}
+
+impl Motion {
+    /// The motion a short time later, to first order: enough for a first derivative.
+    pub(super) fn after(&self, time: f64, a: &Accelerations) -> Self {
+        let advance =
+            |x: &[f64], rate: &[f64]| x.iter().zip(rate).map(|(x, rate)| x + time * rate).collect();
+        Self {
+            angles: advance(&self.angles, &self.rates),
+            rates: advance(&self.rates, &a.joints),
+            omega: self.omega + time * a.omega,
+            // Components along axes that turn with B.
+            velocity: self.velocity + time * (a.point - self.omega.cross(&self.velocity)),
+        }
+    }
+
+    /// The same pose with the hub at rest and one rate per joint.
+    pub(super) fn joints_alone(&self, rates: Vec<f64>) -> Self {
+        let zero = Vector3::zeros();
+        Self { angles: self.angles.clone(), rates, omega: zero, velocity: zero }
+    }
+}
+
+/// The random numbers of the cases: `SplitMix64`, the same everywhere.
+pub(super) struct Random(u64);
+
+impl Random {
+    pub(super) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+
+    /// Either sign, between a half and three halves.
+    pub(super) fn signed(&mut self) -> f64 {
+        let size = self.within(0.5, 1.5);
+        if self.bits() & 1 == 0 { size } else { -size }
+    }
+
+    pub(super) fn vector(&mut self) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| self.signed())
+    }
+
+    pub(super) fn list(&mut self, length: usize) -> Vec<f64> {
+        (0..length).map(|_| self.signed()).collect()
+    }
+
+    /// The inertia of a cloud of masses: three moments that obey the triangle inequality.
+    fn inertia(&mut self) -> Matrix3<f64> {
+        let g = Matrix3::from_fn(|_, _| 0.6 * self.signed());
+        let spread = g * g.transpose();
+        Matrix3::from_diagonal_element(spread.trace() + 0.5) - spread
+    }
+
+    /// Accelerations that obey no law.
+    pub(super) fn accelerations(&mut self, joints: usize) -> Accelerations {
+        Accelerations { point: self.vector(), omega: self.vector(), joints: self.list(joints) }
+    }
+
+    /// A spacecraft with one device of `kind`, in a state.
+    pub(super) fn case(&mut self, kind: &Kind) -> Case {
+        let joints = kind.links.len();
+        let hub =
+            Hub { mass: self.within(0.5, 1.5), centre: self.vector(), inertia: self.inertia() };
+        let mut parameters: Vec<f64> = Vec::new();
+        let fields = parameters_of(kind);
+        while parameters.len() < fields.len() {
+            let name = &fields[parameters.len()];
+            if kind.links.iter().any(|link| *name == format!("{}_11", link.body.inertia)) {
+                let t = self.inertia();
+                let pairs = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+                parameters.extend(pairs.map(|pair| t[pair]));
+            } else if kind.links.iter().any(|link| name == link.body.mass) {
+                parameters.push(self.within(0.5, 1.5));
+            } else {
+                parameters.push(self.signed());
+            }
+        }
+        let motion = Motion {
+            angles: self.list(joints),
+            rates: self.list(joints),
+            omega: self.vector(),
+            velocity: self.vector(),
+        };
+        let drive =
+            Drive { motors: self.list(joints), force: self.vector(), torque: self.vector() };
+        Case { hub, parameters, motion, drive }
+    }
+}
+
+/// The names of a kind's parameters, in order.
+pub(super) fn parameters_of(kind: &Kind) -> Vec<String> {
+    parameters(kind).fields.into_iter().map(|field| field.name).collect()
+}
