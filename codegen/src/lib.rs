@@ -1,5 +1,6 @@
 //! Geometry to expression graph to emitted text: the derivation of Precess.
 
+pub mod consequence;
 pub mod derivation;
 pub mod emit;
 pub mod graph;

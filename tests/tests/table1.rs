@@ -1,8 +1,9 @@
-//! Table 1 stands twice, typed independently from the paper: here for the suites and in the desktop
-//! tool for its runs. They agree.
+//! Table 1 stands three times, typed independently from the paper: here for the suites, in the
+//! desktop tool for its runs, and in codegen for the consequences of printed slips. They agree.
 
 use nalgebra::{Matrix3, Vector3};
 use precess::scenario::table1::{self as tool, variants};
+use precess_codegen::consequence::table1 as derived;
 use precess_dynamics::{Dgvscmg, Hub, Joints, MotorTorques, Quaternion, State, Torques};
 use precess_tests::table1::{Drive, Imbalance, SCENARIOS, scenario};
 
@@ -85,5 +86,88 @@ fn desktop_tool_and_suites_run_the_same_table_1() {
             let agree = here.iter().zip(there).all(|(a, b)| (a - b).abs() <= ROUNDING * b.abs());
             assert!(agree, "{imbalance:?} {drive:?}, {what}: {here:?}, but {there:?} in the tool");
         }
+    }
+}
+
+/// The six entries of a symmetric matrix by name.
+fn entries(stem: &str, matrix: &Matrix3<f64>) -> Vec<(String, f64)> {
+    assert_eq!(*matrix, matrix.transpose(), "{stem}");
+    [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
+        .map(|(i, j)| (format!("{stem}_{}{}", i + 1, j + 1), matrix[(i, j)]))
+        .to_vec()
+}
+
+/// The three components of a vector by name.
+fn components(stem: &str, axes: &str, vector: &Vector3<f64>) -> Vec<(String, f64)> {
+    let named = |(axis, value): (&str, &f64)| (format!("{stem}_{axes}{axis}"), *value);
+    ["x", "y", "z"].into_iter().zip(vector.iter()).map(named).collect()
+}
+
+#[test]
+fn printed_slips_are_run_on_the_same_table_1() {
+    let case = scenario(Imbalance::Printed, Drive::Wheel200);
+    let Hub { m_b, r_bc_b, i_b_bc } = &case.hub;
+    let [
+        Dgvscmg {
+            mount,
+            r_go_b,
+            m_go,
+            r_goc_go,
+            i_go_goc,
+            l_o,
+            m_gi,
+            r_gic_gi,
+            i_gi_gic,
+            l_i,
+            m_w,
+            d,
+            i_w_wc,
+        },
+    ] = &case.devices;
+    assert_eq!(*mount, Matrix3::identity(), "the pages know no mount");
+    let masses = [
+        ("m_b", *m_b),
+        ("m_go", *m_go),
+        ("m_gi", *m_gi),
+        ("m_w", *m_w),
+        ("m_v", m_gi + m_w),
+        ("m_d", m_go + m_gi + m_w),
+        ("m_sc", m_b + m_go + m_gi + m_w),
+        ("d", *d),
+    ];
+    let mut parameters = [
+        masses.map(|(name, value)| (name.to_owned(), value)).to_vec(),
+        components("r_bc_b", "b", r_bc_b),
+        entries("i_b", i_b_bc),
+        components("r_go_b", "b", r_go_b),
+        components("r_goc_go", "go", r_goc_go),
+        entries("i_go", i_go_goc),
+        components("l_o", "", l_o),
+        components("r_gic_gi", "gi", r_gic_gi),
+        entries("i_gi", i_gi_gic),
+        components("l_i", "", l_i),
+        entries("j", i_w_wc),
+    ]
+    .concat();
+    let mut there = derived::PARAMETERS.map(|(name, value)| (name.to_owned(), value)).to_vec();
+    parameters.sort_by(|a, b| a.0.cmp(&b.0));
+    there.sort_by(|a, b| a.0.cmp(&b.0));
+    assert_eq!(parameters, there);
+
+    // Runs there start at rest but for these rates, and without force or torque from outside.
+    let ([joints], [motor]) = (case.state.devices, case.torques.motors);
+    let start = State::at_rest();
+    let omega = case.state.omega;
+    let devices = [Joints { spin: joints.spin, ..Joints::at_rest() }];
+    assert_eq!(case.state, State { omega, devices, ..start });
+    assert_eq!(case.torques, Torques { motors: [motor], ..Torques::none() });
+    let MotorTorques { u_o, u_i, u_w } = motor;
+    assert_eq!([u_o, u_i, u_w], derived::TORQUES);
+    let [gamma_o_dot, gamma_i_dot, spin] = derived::RATES;
+    assert_eq!([gamma_o_dot, gamma_i_dot], [0.0, 0.0]);
+    let rates = [joints.spin, omega.x, omega.y, omega.z];
+    let [x, y, z] = derived::OMEGA;
+    for (here, there) in rates.into_iter().zip([spin, x, y, z]) {
+        assert!((here - there).abs() <= ROUNDING * there.abs(), "{here} {there}");
     }
 }
