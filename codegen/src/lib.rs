@@ -10,3 +10,4 @@ pub mod page;
 pub mod proof;
 pub mod regen;
 pub mod space;
+pub mod verdict;

@@ -2,6 +2,7 @@
 
 mod check;
 mod demo;
+mod printed;
 mod regen;
 mod run;
 mod test;
