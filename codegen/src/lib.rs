@@ -14,3 +14,4 @@ pub mod proof;
 pub mod regen;
 pub mod report;
 pub mod space;
+pub mod verdict;

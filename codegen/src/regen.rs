@@ -8,11 +8,10 @@ use crate::emit::{EmitError, EmittedFile, files};
 use crate::graph::Graph;
 use crate::kinds::{DGVSCMG, KINDS};
 use crate::normal::Ring;
-use crate::page::{Block, Page, PageError, read, read_on, read_printed};
-use crate::proof::{
-    EmittedError, Prover, Row, against_pages, print_against_derivation, zero_traces,
-};
+use crate::page::{Page, PageError, read};
+use crate::proof::{EmittedError, Prover, Row, against_pages, zero_traces};
 use crate::report::{self, ReportError};
+use crate::verdict::{VerdictError, Verdicts, verdicts};
 
 /// What a regeneration yields.
 #[derive(Clone, Debug)]
@@ -21,6 +20,8 @@ pub struct Regeneration {
     pub files: Vec<EmittedFile>,
     /// The proofs.
     pub rows: Vec<Row>,
+    /// What is said of each equation as it is printed.
+    pub verdicts: Verdicts,
 }
 
 impl Regeneration {
@@ -42,6 +43,8 @@ pub enum RegenError {
     Emitted(EmittedError),
     /// A document cannot be laid out.
     Report(ReportError),
+    /// The print, its notes and their causes do not fit together.
+    Verdict(VerdictError),
 }
 
 impl fmt::Display for RegenError {
@@ -51,6 +54,7 @@ impl fmt::Display for RegenError {
             Self::Emit(error) => error.fmt(f),
             Self::Emitted(error) => error.fmt(f),
             Self::Report(error) => error.fmt(f),
+            Self::Verdict(error) => error.fmt(f),
         }
     }
 }
@@ -81,30 +85,24 @@ impl From<ReportError> for RegenError {
     }
 }
 
-/// Derives, emits and proves every kind.
-///
-/// # Errors
-/// When a page or an emitted file cannot be read. A failed proof is no error but a row.
-pub fn regenerate(pages: &[Page]) -> Result<Regeneration, RegenError> {
-    let mut files = emit()?;
-    let rows = prove(pages, &files)?;
-    files.extend(documents(pages)?);
-    Ok(Regeneration { files, rows })
+impl From<VerdictError> for RegenError {
+    fn from(error: VerdictError) -> Self {
+        Self::Verdict(error)
+    }
 }
 
-/// Holds the equations as they are printed against the derivation: every block, and one row for
-/// each that states a value. A row that does not hold is a finding about the print.
+/// Derives, emits and proves every kind, and judges the print.
 ///
 /// # Errors
-/// When a page cannot be read.
-pub fn as_printed(pages: &[Page], printed: &[Page]) -> Result<(Vec<Block>, Vec<Row>), RegenError> {
-    let graph = Graph::new();
-    let chain = Chain::new(&graph, &DGVSCMG);
-    let (_, mut reader) = read_on(&graph, pages)?;
-    let equations = read_printed(&mut reader, printed)?;
-    let mut ring = Ring::new(&graph);
-    let rows = print_against_derivation(&mut ring, &chain, &quantities(&chain), &equations);
-    Ok((equations.into_iter().map(|equation| equation.block).collect(), rows))
+/// When a page or an emitted file cannot be read, or when an equation of the paper lacks its
+/// verdict. A failed proof is no error but a row.
+pub fn regenerate(pages: &[Page], printed: &[Page]) -> Result<Regeneration, RegenError> {
+    let mut files = emit()?;
+    let mut rows = prove(pages, &files)?;
+    files.extend(documents(pages)?);
+    let verdicts = verdicts(pages, printed)?;
+    rows.extend(verdicts.rows.iter().cloned());
+    Ok(Regeneration { files, rows, verdicts })
 }
 
 /// Derives every kind and lays out the files.

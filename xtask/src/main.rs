@@ -4,6 +4,7 @@ mod check;
 mod demo;
 mod engines;
 mod mutate;
+mod printed;
 mod regen;
 mod run;
 mod test;

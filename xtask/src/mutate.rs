@@ -10,8 +10,8 @@ use precess_codegen::emit::EmittedFile;
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::mutation::{Engines, Kind, Report, Selection, Tally, mutate as run};
 
-use crate::regen::{differing, say, write};
-use crate::run::root;
+use crate::regen::{differing, write};
+use crate::run::{root, say};
 
 /// Where the engines' stored values stand.
 const ENGINES: &str = "tests/fixtures/engines.json";

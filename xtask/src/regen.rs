@@ -1,26 +1,18 @@
 //! `regen`: pages in, proofs and files out. Nothing is written unless every proof holds.
 
 use std::fs;
-use std::io::{Error, Write as _};
+use std::io::Error;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::page::Page;
 use precess_codegen::proof::Row;
-use precess_codegen::regen::{Regeneration, as_printed, regenerate};
+use precess_codegen::regen::{Regeneration, regenerate};
 use similar::TextDiff;
 
-use crate::run::root;
-
-/// Prints a line; a reader that has gone away is no error.
-macro_rules! say {
-    ($($line:tt)*) => {
-        // Nobody is left to be told.
-        let _ = writeln!(std::io::stdout(), $($line)*);
-    };
-}
-pub(crate) use say;
+use crate::printed;
+use crate::run::{root, say};
 
 /// Where the hand-checked pages stand.
 const PAGES: &str = "tests/derivation";
@@ -34,7 +26,7 @@ pub(crate) struct Options {
     /// Print only the rows that do not hold
     #[arg(long)]
     quiet: bool,
-    /// Show how the paper's equations as printed differ from the derivation, and stop
+    /// Show the verdict on each equation as it is printed, and stop
     #[arg(long)]
     printed: bool,
     /// Read the hand-checked pages from this folder
@@ -64,10 +56,12 @@ impl Options {
 /// Regenerates, prints one row per equation, and writes or compares the files.
 pub(crate) fn regen(options: &Options) -> Result<(), String> {
     let pages = options.pages.clone().unwrap_or_else(|| root().join(PAGES));
+    let made = regenerate(&read_pages(&pages)?, &read_pages(&pages.join("printed"))?);
+    let made = made.map_err(|error| error.to_string())?;
     if options.printed {
-        return show_printed(&pages);
+        printed::show(&made.verdicts);
+        return Ok(());
     }
-    let made = regenerate(&read_pages(&pages)?).map_err(|error| error.to_string())?;
     print(&made, options.quiet);
     let failed = made.rows.iter().filter(|row| !row.holds()).count();
     if failed > 0 {
@@ -82,19 +76,6 @@ pub(crate) fn regen(options: &Options) -> Result<(), String> {
     } else {
         write(&made.files, &into)
     }
-}
-
-/// One row per printed equation: findings about the print, so none of them is a failure.
-fn show_printed(pages: &Path) -> Result<(), String> {
-    let printed = read_pages(&pages.join("printed"))?;
-    let rows = as_printed(&read_pages(pages)?, &printed).map_err(|error| error.to_string())?.1;
-    say!("{}", Row::heading());
-    for row in &rows {
-        say!("{row}");
-    }
-    let equal = rows.iter().filter(|row| row.holds()).count();
-    say!("{equal} of {} printed blocks equal the derivation", rows.len());
-    Ok(())
 }
 
 fn print(made: &Regeneration, quiet: bool) {
@@ -236,10 +217,14 @@ mod tests {
     fn a_wrong_page_is_named_and_nothing_is_written() {
         let folder = tempfile::tempdir().unwrap();
         let (pages, out) = (folder.path().join("pages"), folder.path().join("out"));
-        fs::create_dir(&pages).unwrap();
-        for page in read_pages(&root().join(PAGES)).unwrap() {
-            let text = page.text.replace("- i_go_22", "+ i_go_22");
-            fs::write(pages.join(page.name), text).unwrap();
+        fs::create_dir_all(pages.join("printed")).unwrap();
+        for part in ["", "printed"] {
+            for page in read_pages(&root().join(PAGES).join(part)).unwrap() {
+                let text = page.text.replace("- i_go_22;", "+ i_go_22;");
+                let text =
+                    text.replace("i_go_11 - i_go_22, 2*i_go_12", "i_go_11 + i_go_22, 2*i_go_12");
+                fs::write(pages.join(part).join(page.name), text).unwrap();
+            }
         }
         let options = Options {
             quiet: true,

@@ -3,6 +3,19 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// Prints a line; a reader that has gone away is no error.
+macro_rules! say {
+    ($($line:tt)*) => {
+        // Nobody is left to be told.
+        let _ = std::io::Write::write_fmt(
+            &mut std::io::stdout(),
+            format_args!("{}\n", format_args!($($line)*)),
+        );
+    };
+}
+
+pub(crate) use say;
+
 /// The repository's root.
 pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)

@@ -45,6 +45,8 @@ impl<'g> Pages<'g> {
         for page in pages {
             statements.extend(blocks(&page.name, &page.text, "equation")?);
         }
+        // A special case states nothing of its quantity in general.
+        statements.retain(|block| block.given.is_empty());
         let (_, mut reader) = read_on(graph, &[])?;
         let mut unknown = None;
         let mut given = None;

@@ -9,7 +9,7 @@ use super::state::{INPUTS, State, VELOCITY, plus};
 use super::tape::Tape;
 use super::{ConsequenceError, Drift};
 use crate::derivation::Momenta;
-use crate::derivation::by_body::{BodyInHub, bodies, momenta};
+use crate::derivation::by_body::{BodyInHub, bodies, hub_body, momenta};
 use crate::derivation::chain::Chain;
 use crate::graph::Expr;
 use crate::space::{Hub, Vector};
@@ -76,13 +76,7 @@ impl Accountant {
 /// hub and the three bodies.
 fn momenta_about_c<'g>(chain: &Chain<'g>) -> (Momenta<'g>, Vec<Momenta<'g>>) {
     let zero = Vector::zero(chain.graph);
-    let hub = BodyInHub {
-        mass: chain.hub.m_b,
-        r: chain.hub.r_bc_b,
-        omega_b: zero,
-        inertia: chain.hub.i_b_bc,
-        joints: Vec::new(),
-    };
+    let hub = hub_body(chain);
     let (device, hub_share) = (momenta(chain), of_body(chain, &hub));
     let all: Vec<_> = std::iter::once(hub).chain(bodies(chain)).collect();
     let moment = all.iter().fold(zero, |sum, body| sum + body.mass * body.r);

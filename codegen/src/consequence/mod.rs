@@ -34,7 +34,7 @@ use crate::derivation::chain::Chain;
 use crate::graph::Graph;
 use crate::kinds::DGVSCMG;
 use crate::normal::Ring;
-use crate::page::{Block, Page, blocks};
+use crate::page::{Block, Note, Page, blocks};
 
 /// What one printed block does.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,13 +133,16 @@ pub fn floor(pages: &[Page]) -> Result<Drift, ConsequenceError> {
     }
 }
 
-/// The printed blocks of which a note names a term.
+/// The printed blocks of which a note names a term; a special case is not part of the system.
 fn differing(printed: &[Page]) -> Result<Vec<Block>, ConsequenceError> {
     let mut found = Vec::new();
     for page in printed {
         found.extend(blocks(&page.name, &page.text, "printed")?);
     }
-    found.retain(|block| !block.is_words() && block.notes.iter().any(|note| note.changes_value));
+    found.retain(|block| {
+        let differs = block.notes.iter().any(Note::changes_value);
+        differs && !block.is_words() && block.given.is_empty()
+    });
     Ok(found)
 }
 

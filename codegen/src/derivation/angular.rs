@@ -4,7 +4,7 @@
 //! the position *from B*. It is differentiated as it stands, components along B and the transport
 //! theorem with omega; the paper's (25) to (74) rearrange what comes out.
 
-use super::by_body::{BodyInHub, bodies, unit_axes};
+use super::by_body::{BodyInHub, bodies, hub_body};
 use super::chain::Chain;
 use super::quantities::List;
 use crate::space::{Hub, Symmetric, Vector};
@@ -40,15 +40,7 @@ impl<'g> Momentum<'g> {
 /// (20) to (76): hub, gimbals, wheel, and their sum.
 pub(super) fn angular_momenta<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     let hub = &chain.hub;
-    let hub_body = BodyInHub {
-        mass: hub.m_b,
-        r: hub.r_bc_b,
-        axes: unit_axes(chain.graph),
-        omega_b: Vector::zero(chain.graph),
-        inertia: hub.i_b_bc,
-        joints: Vec::new(),
-    };
-    let of_hub = Momentum::of(&hub_body, hub.omega);
+    let of_hub = Momentum::of(&hub_body(chain), hub.omega);
     list.vector("r_bc_b_ddot", of_hub.r_ddot, 0);
     list.vector("h_b_bc", of_hub.h_c, 0);
     list.vector("h_b_b", of_hub.h_b, 0);

@@ -28,6 +28,19 @@ pub struct BodyInHub<'g> {
     pub joints: Vec<(Vector<'g, Hub>, Vector<'g, Hub>)>,
 }
 
+/// The hub, as a body that no joint carries.
+#[must_use]
+pub fn hub_body<'g>(chain: &Chain<'g>) -> BodyInHub<'g> {
+    BodyInHub {
+        mass: chain.hub.m_b,
+        r: chain.hub.r_bc_b,
+        axes: unit_axes(chain.graph),
+        omega_b: Vector::zero(chain.graph),
+        inertia: chain.hub.i_b_bc,
+        joints: Vec::new(),
+    }
+}
+
 /// Every body of the chain, from the hub outwards.
 #[must_use]
 pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
@@ -58,7 +71,7 @@ pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
     made
 }
 
-pub(super) fn unit_axes<F: Frame>(graph: &Graph) -> [Vector<'_, F>; 3] {
+fn unit_axes<F: Frame>(graph: &Graph) -> [Vector<'_, F>; 3] {
     use crate::space::Axis::{X, Y, Z};
     [X, Y, Z].map(|axis| Vector::unit(graph, axis))
 }

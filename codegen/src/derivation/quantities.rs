@@ -107,6 +107,8 @@ fn hub<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     list.vector("omega", hub.omega, 0);
     list.vector("omega_dot", hub.omega_dot, 0);
     list.vector("r_c_n_ddot", hub.r_c_n_ddot, 0);
+    // (6): Newton's second law for the system's centre of mass.
+    list.vector("force", hub.m_sc * hub.r_c_n_ddot, 0);
     list.vector("r_bc_b", hub.r_bc_b, 0);
     list.tensor("i_b_bc", hub.i_b_bc, 0);
     // (29), and its derivative: B does not turn seen from B.

@@ -32,6 +32,15 @@ impl<'g> Expr<'g> {
         })
     }
 
+    /// `self` with the symbols of a list replaced, all at once.
+    #[must_use]
+    pub fn with(self, values: &[(SymbolId, Self)]) -> Self {
+        self.rebuild(|graph, symbol| {
+            let given = values.iter().find(|(replaced, _)| *replaced == symbol);
+            given.map_or_else(|| graph.intern(Node::Symbol(symbol)), |(_, value)| *value)
+        })
+    }
+
     /// `self` with every symbol replaced by what `value` says of it.
     pub(crate) fn rebuild(self, mut value: impl FnMut(&'g Graph, SymbolId) -> Expr<'g>) -> Self {
         let graph = self.graph;

@@ -1,5 +1,8 @@
-//! The fenced `equation` blocks of a Markdown page.
+//! The fenced `equation` and `printed` blocks of a Markdown page.
 
+use super::fence::fences;
+use super::given::parse_given;
+use super::note::{Class, Note, notes};
 use super::{PageError, ReadError};
 
 /// What an equation is, and the axes along which it is compared.
@@ -24,6 +27,8 @@ pub struct Block {
     pub name: String,
     /// What it is.
     pub kind: Kind,
+    /// The special case in which it holds: symbol and value, (`j_33`, `j_22`); else empty.
+    pub given: Vec<(String, String)>,
     /// `let` lines and the final expression.
     pub body: String,
     /// File name.
@@ -38,18 +43,14 @@ impl Block {
     /// Whether there is nothing to compare: words, or a symbol that is given its value.
     #[must_use]
     pub fn is_words(&self) -> bool {
-        self.kind == Kind::Text || self.notes.iter().any(|note| note.class == "definition")
+        self.kind == Kind::Text || self.notes.iter().any(|note| note.class == Class::Definition)
     }
-}
 
-/// What a page says of an equation as printed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Note {
-    /// `agrees`, `slip`, `scan`, `unreadable` or `definition`.
-    pub class: String,
-    /// Whether it names a term, and so a difference in value: `` `a` -> `b` ``. Others speak of a
-    /// left side, a reading, notation or wording.
-    pub changes_value: bool,
+    /// Page and line, for messages.
+    #[must_use]
+    pub fn place(&self) -> String {
+        format!("{}:{}", self.page, self.line)
+    }
 }
 
 /// The blocks of a page that are fenced as `fence`, in order.
@@ -57,40 +58,21 @@ pub struct Note {
 /// # Errors
 /// When a fence is not closed or a heading is not `(tag) name: kind along a b c`.
 pub fn blocks(page: &str, text: &str, fence: &str) -> Result<Vec<Block>, PageError> {
-    let mut found: Vec<Block> = Vec::new();
-    let mut lines = text.lines().enumerate();
-    while let Some((start, line)) = lines.next() {
-        if let (Some(note), Some(block)) = (parse_note(line), found.last_mut()) {
-            block.notes.push(note);
-        }
-        if line.trim().strip_prefix("```") != Some(fence) {
-            continue;
-        }
-        let place = |error| PageError { page: page.to_owned(), line: start + 1, error };
-        let mut inside = Vec::new();
-        loop {
-            match lines.next() {
-                Some((_, line)) if line.trim() == "```" => break,
-                Some((_, line)) => inside.push(line),
-                None => return Err(place(ReadError::OpenFence)),
-            }
-        }
-        let (heading, body) = inside.split_first().ok_or_else(|| place(ReadError::Empty))?;
+    let read = |fenced: super::fence::Fence<'_>| {
+        let place = |error| PageError { page: page.to_owned(), line: fenced.line, error };
+        let (heading, rest) = fenced.inside.split_first().ok_or_else(|| place(ReadError::Empty))?;
         let (tag, name, kind) =
             parse_heading(heading).ok_or_else(|| place(ReadError::Heading((*heading).into())))?;
-        let (page, body) = (page.to_owned(), body.join("\n"));
-        found.push(Block { tag, name, kind, body, page, line: start + 1, notes: Vec::new() });
-    }
-    Ok(found)
-}
-
-/// ``- `slip`: `a` -> `b` ``, and its kin.
-fn parse_note(line: &str) -> Option<Note> {
-    let (class, text) = line.strip_prefix("- `")?.split_once('`')?;
-    let known = ["agrees", "slip", "scan", "unreadable", "definition"].contains(&class);
-    let term = text.starts_with(": `") || text.starts_with(": at ");
-    let changes_value = term && class != "agrees" && class != "definition";
-    known.then(|| Note { class: class.to_owned(), changes_value })
+        let (given, rest) = parse_given(rest).map_err(place)?;
+        let notes = notes(&fenced.after).map_err(|(line, text)| PageError {
+            page: page.to_owned(),
+            line,
+            error: ReadError::Note(text),
+        })?;
+        let (body, page) = (rest.join("\n"), page.to_owned());
+        Ok(Block { tag, name, kind, given, body, page, line: fenced.line, notes })
+    };
+    fences(page, text, fence)?.into_iter().map(read).collect()
 }
 
 fn parse_heading(heading: &str) -> Option<(String, String, Kind)> {
@@ -118,6 +100,21 @@ mod tests {
         assert_eq!((block.tag.as_str(), block.name.as_str(), block.line), ("(49)-(52)", "t", 3));
         assert_eq!(block.kind, Kind::Tensor(["s_x", "s_y", "g_z"].map(str::to_owned)));
         assert_eq!(block.body, "let a = 1;\na");
+        assert!(block.given.is_empty());
+    }
+
+    #[test]
+    fn a_special_case_is_no_part_of_the_body() {
+        let text = "```equation\n(1) x: scalar\ngiven j_33 = j_22,\n    theta = 0;\nj_33\n```\n";
+        let [block] = blocks("p.md", text, "equation").unwrap().try_into().unwrap();
+        let pairs = [("j_33", "j_22"), ("theta", "0")];
+        assert_eq!(block.given, pairs.map(|(a, b)| (a.to_owned(), b.to_owned())));
+        assert_eq!(block.body, "j_33");
+        let text = "```equation\n(1) x: scalar\ngiven j_33;\nj_33\n```\n";
+        assert_eq!(
+            blocks("p.md", text, "equation").unwrap_err().to_string(),
+            "p.md:1: special case `j_33` is not `symbol = value`, the list ended by a semicolon"
+        );
     }
 
     #[test]
@@ -128,6 +125,14 @@ mod tests {
             "p.md:1: heading `(1) x: spinor` is not `(number) name: scalar`, \
              `... vector along a b c` or `... tensor along a b c`"
         );
+    }
+
+    #[test]
+    fn a_note_belongs_to_the_block_before_it() {
+        let text = "```printed\n(1) x: scalar\na\n```\n\n- `slip`: `a` -> `b`. Cause A.\n";
+        let [block] = blocks("p.md", text, "printed").unwrap().try_into().unwrap();
+        let [note] = &block.notes[..] else { panic!("one note") };
+        assert_eq!((note.class, note.line, &note.causes[..]), (Class::Slip, 6, &['A'][..]));
     }
 
     #[test]

@@ -6,11 +6,22 @@
 //! generator but the names of the symbols.
 
 mod block;
+mod cause;
+mod error;
+mod fence;
+mod given;
+mod note;
 mod reader;
+mod section;
 mod value;
 
-pub use block::{Block, Kind, Note, blocks};
-pub use reader::{ReadError, Reader};
+pub use block::{Block, Kind, blocks};
+pub use cause::{CausePage, Mend, causes};
+pub use error::ReadError;
+pub use given::in_the_case;
+pub use note::{Change, Class, Note, Subject};
+pub use reader::Reader;
+pub use section::{Number, Section, numbers, sections};
 pub use value::Value;
 
 use crate::graph::{Expr, Graph};
@@ -78,34 +89,13 @@ pub fn read_on<'g>(
             let place = |error| PageError { page: page.name.clone(), line: block.line, error };
             let value = reader.body(&block.body).map_err(place)?;
             let components = reader.resolve(&block, value).map_err(place)?;
-            reader.define(&block.name, value);
+            let components = in_the_case(graph, &block.given, components).map_err(place)?;
+            // What holds in a special case is no other meaning of the name.
+            if block.given.is_empty() {
+                reader.define(&block.name, value);
+            }
             equations.push(Equation { block, components });
         }
     }
     Ok((equations, reader))
-}
-
-/// Reads the blocks that state an equation as it is printed, with the names of the hand-checked
-/// pages. What is words, or gives a symbol its value, has no components.
-///
-/// # Errors
-/// The first block that is malformed or uses an unknown name.
-pub fn read_printed<'g>(
-    reader: &mut Reader<'g>,
-    pages: &[Page],
-) -> Result<Vec<Equation<'g>>, PageError> {
-    let mut equations = Vec::new();
-    for page in pages {
-        for block in blocks(&page.name, &page.text, "printed")? {
-            let place = |error| PageError { page: page.name.clone(), line: block.line, error };
-            let components = if block.is_words() {
-                Vec::new()
-            } else {
-                let value = reader.body(&block.body).map_err(place)?;
-                reader.resolve(&block, value).map_err(place)?
-            };
-            equations.push(Equation { block, components });
-        }
-    }
-    Ok(equations)
 }

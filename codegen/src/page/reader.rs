@@ -1,72 +1,18 @@
 //! Rust expression syntax to values: what the pages are written in, and what the emitter emits.
 
 use std::collections::HashMap;
-use std::fmt;
 
 use syn::spanned::Spanned;
 
 use super::value::{Value, inner};
-use super::{Block, Kind};
+use super::{Block, Kind, ReadError};
 use crate::graph::{Expr, Graph, Rational, rational};
-
-/// What is wrong with a block or with a piece of emitted text.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum ReadError {
-    /// A fence is not closed.
-    OpenFence,
-    /// A block without a heading.
-    Empty,
-    /// A heading of another form.
-    Heading(String),
-    /// Not an expression at all.
-    Syntax(String),
-    /// An expression form that has no meaning here.
-    Form(String),
-    /// A name that is neither a symbol nor defined before.
-    Unknown(String),
-    /// A `let` of a name that means something already.
-    Taken(String),
-    /// Parentheses nested too deeply to read.
-    Depth(usize),
-    /// An operation between kinds for which it is not defined.
-    Kinds(String),
-    /// The expression is of another kind than the heading says.
-    NotThat(&'static str),
-}
-
-impl fmt::Display for ReadError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::OpenFence => write!(f, "the block is not closed; end it with three backquotes"),
-            Self::Empty => write!(f, "the block is empty; begin it with `(number) name: kind`"),
-            Self::Heading(text) => write!(
-                f,
-                "heading `{text}` is not `(number) name: scalar`, `... vector along a b c` or \
-                 `... tensor along a b c`"
-            ),
-            Self::Syntax(text) => write!(f, "not an expression: {text}"),
-            Self::Form(text) => write!(f, "`{text}` has no meaning in an equation"),
-            Self::Unknown(name) => {
-                write!(f, "`{name}` is neither a symbol nor defined above; define it first")
-            }
-            Self::Taken(name) => write!(f, "`{name}` means something already; choose another name"),
-            Self::Depth(bound) => {
-                write!(f, "brackets are nested more than {bound} deep; use `let` for the parts")
-            }
-            Self::Kinds(text) => write!(f, "`{text}` is not defined for these kinds"),
-            Self::NotThat(kind) => {
-                write!(f, "the expression is a {kind}, the heading says otherwise")
-            }
-        }
-    }
-}
-
-impl std::error::Error for ReadError {}
 
 /// Brackets a person can follow; far below what would exhaust the parser.
 const DEPTH: usize = 100;
 
 /// Evaluates expressions in an environment of names.
+#[derive(Clone)]
 pub struct Reader<'g> {
     graph: &'g Graph,
     names: HashMap<String, Value<'g>>,
@@ -96,29 +42,36 @@ impl<'g> Reader<'g> {
     ///
     /// # Errors
     /// When it does not parse or does not evaluate.
-    pub fn body(&mut self, body: &str) -> Result<Value<'g>, ReadError> {
+    pub fn body(&self, body: &str) -> Result<Value<'g>, ReadError> {
+        Ok(self.scope(body)?.1)
+    }
+
+    /// The value of a body, with a reader that knows its `let` names too.
+    ///
+    /// # Errors
+    /// When it does not parse or does not evaluate.
+    pub fn scope(&self, body: &str) -> Result<(Self, Value<'g>), ReadError> {
         if depth(body) > DEPTH {
             return Err(ReadError::Depth(DEPTH));
         }
         let block: syn::Block = syn::parse_str(&format!("{{\n{body}\n}}"))
             .map_err(|error| ReadError::Syntax(error.to_string()))?;
-        let outer = self.names.clone();
+        let mut inside = self.clone();
         let mut last = Err(ReadError::Empty);
         for statement in &block.stmts {
             match statement {
                 syn::Stmt::Local(local) => {
-                    let (name, value) = self.binding(local)?;
-                    if self.named(&name).is_ok() {
+                    let (name, value) = inside.binding(local)?;
+                    if inside.named(&name).is_ok() {
                         return Err(ReadError::Taken(name));
                     }
-                    self.define(&name, value);
+                    inside.define(&name, value);
                 }
-                syn::Stmt::Expr(expr, None) if last.is_err() => last = Ok(self.value(expr)?),
+                syn::Stmt::Expr(expr, None) if last.is_err() => last = Ok(inside.value(expr)?),
                 other => return Err(ReadError::Form(text(other))),
             }
         }
-        self.names = outer;
-        last
+        Ok((inside, last?))
     }
 
     /// Name and value of `let name = expr;`.

@@ -8,6 +8,6 @@ mod read_back;
 mod row;
 
 pub use emitted::Prover;
-pub use pages::{against_block, against_pages, print_against_derivation, zero_traces};
+pub use pages::{against_block, against_pages, zero_traces};
 pub use read_back::EmittedError;
 pub use row::{Row, Verdict};

@@ -6,7 +6,7 @@ use crate::derivation::chain::Chain;
 use crate::derivation::quantities::{Quantity, find, traces};
 use crate::graph::Expr;
 use crate::normal::Ring;
-use crate::page::{Block, Equation, Kind};
+use crate::page::{Block, Equation, Kind, in_the_case};
 
 /// One row per block, and one for each quantity that no block states.
 #[must_use]
@@ -20,11 +20,16 @@ pub fn against_pages<'g>(
         equations.iter().map(|e| against_block(ring, chain, quantities, e)).collect();
     let lacking = quantities.iter().filter(|quantity| {
         let axis = quantity.name.ends_with("_hat");
-        !axis && equations.iter().all(|equation| equation.block.name != quantity.name)
+        !axis && equations.iter().all(|equation| !states(&equation.block, quantity))
     });
     let lacking =
         lacking.map(|quantity| Row::absent(["(missing)", &quantity.name, "derivation = page"]));
     stated.into_iter().chain(lacking).collect()
+}
+
+/// Whether a block states the quantity, and not of a special case alone.
+fn states(block: &Block, quantity: &Quantity<'_>) -> bool {
+    block.name == quantity.name && block.given.is_empty()
 }
 
 /// The row of one block.
@@ -44,30 +49,7 @@ pub fn against_block<'g>(
     row.at(format!("{}:{}", block.page, block.line))
 }
 
-/// What is printed, held against the derivation: one row per block that states a value. A row that
-/// does not hold is a finding about the print, not a fault of the proof.
-#[must_use]
-pub fn print_against_derivation<'g>(
-    ring: &mut Ring<'g>,
-    chain: &Chain<'g>,
-    quantities: &[Quantity<'g>],
-    printed: &[Equation<'g>],
-) -> Vec<Row> {
-    let stated = printed.iter().filter(|equation| !equation.block.is_words());
-    stated
-        .map(|equation| {
-            let block = &equation.block;
-            let heading = [block.tag.as_str(), &block.name, "print = derivation"];
-            let row = match derived(chain, quantities, block) {
-                Some(derived) => Row::compare(ring, heading, &equation.components, &derived),
-                None => Row::absent(heading),
-            };
-            row.at(format!("{}:{}", block.page, block.line))
-        })
-        .collect()
-}
-
-/// The derived quantity of a block's name, in the block's components.
+/// The derived quantity of a block's name, in the block's components and special case.
 fn derived<'g>(
     chain: &Chain<'g>,
     quantities: &[Quantity<'g>],
@@ -79,7 +61,8 @@ fn derived<'g>(
         Kind::Vector(axes) | Kind::Tensor(axes) => axes,
     };
     let (quantity, frame) = (find(quantities, &block.name)?, frame_of(chain, axes)?);
-    Some(quantity.value.along(chain, frame).labelled(axes))
+    let components = quantity.value.along(chain, frame).labelled(axes);
+    in_the_case(chain.graph, &block.given, components).ok()
 }
 
 /// Every inertia's derivative about the body's own centre of mass has no trace.

@@ -1,0 +1,18 @@
+//! The pages of a folder, as the tests read them.
+
+use precess_codegen::page::Page;
+
+/// The pages of `tests/derivation` or of a folder in it, by name; a README is none.
+pub(crate) fn pages(folder: &str) -> Vec<Page> {
+    let folder = format!("{}/../tests/derivation/{folder}", env!("CARGO_MANIFEST_DIR"));
+    let mut pages = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.extension().is_some_and(|extension| extension == "md") && name != "README.md" {
+            pages.push(Page { name, text: std::fs::read_to_string(path).unwrap() });
+        }
+    }
+    pages.sort_by(|a, b| a.name.cmp(&b.name));
+    pages
+}
