@@ -20,7 +20,7 @@ pub struct Regeneration {
     pub files: Vec<EmittedFile>,
     /// The proofs.
     pub rows: Vec<Row>,
-    /// What is said of each equation as it is printed.
+    /// What is said of each equation as it is printed; nothing when a proof before it fails.
     pub verdicts: Verdicts,
 }
 
@@ -99,9 +99,14 @@ impl From<VerdictError> for RegenError {
 pub fn regenerate(pages: &[Page], printed: &[Page]) -> Result<Regeneration, RegenError> {
     let mut files = emit()?;
     let mut rows = prove(pages, &files)?;
-    files.extend(documents(pages)?);
+    // The print is judged by pages that hold, and documents tell of nothing else.
+    if !rows.iter().all(Row::holds) {
+        return Ok(Regeneration { files, rows, verdicts: Verdicts::default() });
+    }
     let verdicts = verdicts(pages, printed)?;
     rows.extend(verdicts.rows.iter().cloned());
+    files.extend(documents(pages)?);
+    files.extend(report::errata(pages, printed, &verdicts)?);
     Ok(Regeneration { files, rows, verdicts })
 }
 

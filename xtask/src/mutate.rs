@@ -1,7 +1,6 @@
 //! `mutate`: one wrong term at a time, put to the laws of physics; the page that says what came of it.
 
 use std::fs;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;

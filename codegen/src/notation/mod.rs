@@ -13,6 +13,6 @@ mod tex;
 mod unit;
 
 pub use name::{Accent, frame, symbol};
-pub use syntax::{equation, expression};
+pub use syntax::{equation, expression, side_by_side};
 pub use terms::terms;
 pub use unit::{Unit, unit};

@@ -44,6 +44,26 @@ pub fn expression(text: &str) -> Result<String, ReadError> {
     Ok(Tex::sum(&Setter::abbreviating().terms(&expr)?).text)
 }
 
+/// Expressions one above the other, each behind its label, as an aligned display.
+///
+/// # Errors
+/// When one does not parse or holds a form that no block may hold.
+pub fn side_by_side(sides: &[(&str, &str)]) -> Result<String, ReadError> {
+    let mut all = Vec::new();
+    for (label, text) in sides {
+        let expr: Expr =
+            syn::parse_str(text).map_err(|error| ReadError::Syntax(error.to_string()))?;
+        let nothing = quote::quote!(#expr).to_string() == "0";
+        let mut set = lines(&Setter::abbreviating().terms(&expr)?);
+        if nothing {
+            set = vec!["\\text{nothing}".to_owned()];
+        }
+        let first = std::iter::once(format!("\\text{{{label}: }}& {}", set.remove(0)));
+        all.extend(first.chain(set.into_iter().map(|line| format!("& {line}"))));
+    }
+    Ok(format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}", all.join(" \\\\\n")))
+}
+
 fn aligned(left: &str, terms: &[Term]) -> Vec<String> {
     let mut made = lines(terms);
     if let Some(first) = made.first_mut() {

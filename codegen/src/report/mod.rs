@@ -1,6 +1,7 @@
 //! The documents that are generated with the code: Markdown, and the same as self-contained HTML.
 
 mod derivation;
+mod errata;
 mod frames;
 mod html;
 mod numbers;
@@ -11,9 +12,13 @@ pub use derivation::NotationError;
 pub use html::HtmlError;
 use tera::{Context, Tera};
 
+use crate::consequence::{ConsequenceError, consequences, floor};
 use crate::derivation::chain::Chain;
 use crate::emit::EmittedFile;
-use crate::page::Block;
+use crate::graph::Graph;
+use crate::kinds::DGVSCMG;
+use crate::page::{Block, Page, PageError};
+use crate::verdict::Verdicts;
 
 /// Why a document cannot be laid out: a fault of the generator, or of a page that it sets.
 #[derive(Debug)]
@@ -24,6 +29,10 @@ pub enum ReportError {
     Html(HtmlError),
     /// A template failed.
     Template(tera::Error),
+    /// A page cannot be read.
+    Page(PageError),
+    /// The print cannot be put into the system.
+    Consequence(ConsequenceError),
 }
 
 impl fmt::Display for ReportError {
@@ -32,6 +41,8 @@ impl fmt::Display for ReportError {
             Self::Notation(error) => error.fmt(f),
             Self::Html(error) => error.fmt(f),
             Self::Template(error) => write!(f, "template: {error}"),
+            Self::Page(error) => error.fmt(f),
+            Self::Consequence(error) => error.fmt(f),
         }
     }
 }
@@ -56,6 +67,18 @@ impl From<tera::Error> for ReportError {
     }
 }
 
+impl From<PageError> for ReportError {
+    fn from(error: PageError) -> Self {
+        Self::Page(error)
+    }
+}
+
+impl From<ConsequenceError> for ReportError {
+    fn from(error: ConsequenceError) -> Self {
+        Self::Consequence(error)
+    }
+}
+
 /// The derivation, printed.
 ///
 /// # Errors
@@ -68,6 +91,24 @@ pub fn derivation(chain: &Chain<'_>, blocks: &[Block]) -> Result<Vec<EmittedFile
     let mut files = document("docs/derivation", template, &context, &[("frames.svg", &picture)])?;
     files.push(EmittedFile { path: "docs/frames.svg".to_owned(), text: picture });
     Ok(files)
+}
+
+/// The errata of the paper: what is printed, what is right, and what the difference does.
+///
+/// # Errors
+/// When a block or a note cannot be set, or the print cannot be put into the system.
+pub fn errata(
+    pages: &[Page],
+    printed: &[Page],
+    verdicts: &Verdicts,
+) -> Result<Vec<EmittedFile>, ReportError> {
+    let graph = Graph::new();
+    let _symbols = Chain::new(&graph, &DGVSCMG);
+    let balance = errata::Balance::of(&graph, pages, printed)?;
+    let (consequences, floor) = (consequences(pages, printed)?, floor(pages)?);
+    let mut context = Context::new();
+    context.insert("errata", &errata::errata(verdicts, &consequences, floor, &balance)?);
+    document("docs/errata", include_str!("templates/errata.md.tera"), &context, &[])
 }
 
 /// A document as Markdown and as HTML.

@@ -31,7 +31,7 @@ use sorted::{Judged, Stated, entries, in_order};
 pub const CAUSES: &str = "causes.md";
 
 /// Everything that is said of the print.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Verdicts {
     /// Every number and every asserted equality, in the paper's order.
     pub entries: Vec<Entry>,
