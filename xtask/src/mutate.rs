@@ -8,14 +8,17 @@ use indicatif::{ProgressBar, ProgressStyle};
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::mutation::{Engines, Kind, Report, Selection, Tally, mutate as run};
+use precess_codegen::page::Page;
+use precess_codegen::report::traceability;
+use precess_codegen::verdict::verdicts;
 
-use crate::regen::{differing, write};
+use crate::regen::{PAGES, differing, read_files, read_pages, write};
 use crate::run::{root, say};
 
 /// Where the engines' stored values stand.
 const ENGINES: &str = "tests/fixtures/engines.json";
-/// The page.
-const PAGE: &str = "docs/mutation.md";
+/// The derivation, whose comments name equations.
+const DERIVATION: &str = "codegen/src/derivation";
 
 /// Options of `mutate`.
 #[derive(Args)]
@@ -63,17 +66,30 @@ pub(crate) fn mutate(options: &Options) -> Result<(), String> {
     }
 }
 
-/// Writes the page, or compares it with what stands there.
+/// Writes the pages, or compares them with what stands there.
 fn keep(report: &Report, check: bool) -> Result<(), String> {
-    let page = [EmittedFile { path: PAGE.to_owned(), text: report.page() }];
+    let pages = root().join(PAGES);
+    let verdicts = verdicts(&read_pages(&pages)?, &read_pages(&pages.join("printed"))?);
+    let verdicts = verdicts.map_err(|error| error.to_string())?;
+    let mut files = vec![EmittedFile { path: "docs/mutation.md".to_owned(), text: report.page() }];
+    let traces = traceability(&verdicts, report, &sources()?);
+    files.extend(traces.map_err(|error| error.to_string())?);
     if !check {
-        return write(&page, &root());
+        return write(&files, &root());
     }
-    if differing(&page, &root()) > 0 {
-        return Err(format!("{PAGE} is stale; run `cargo xtask mutate`"));
+    let (stale, all) = (differing(&files, &root()), files.len());
+    if stale > 0 {
+        return Err(format!("{stale} of {all} pages are stale; run `cargo xtask mutate`"));
     }
-    say!("{PAGE} is fresh");
+    say!("{all} pages are fresh");
     Ok(())
+}
+
+/// The files of the derivation, by path from the root.
+fn sources() -> Result<Vec<Page>, String> {
+    let files = read_files(&root().join(DERIVATION), "rs")?;
+    let named = |page: Page| Page { name: format!("{DERIVATION}/{}", page.name), ..page };
+    Ok(files.into_iter().map(named).collect())
 }
 
 /// A bar on a terminal, nothing where there is none.

@@ -15,7 +15,7 @@ use crate::printed;
 use crate::run::{root, say};
 
 /// Where the hand-checked pages stand.
-const PAGES: &str = "tests/derivation";
+pub(crate) const PAGES: &str = "tests/derivation";
 
 /// Options of `regen`.
 #[derive(Args, Default)]
@@ -92,19 +92,25 @@ fn print(made: &Regeneration, quiet: bool) {
 
 /// The pages of a folder by name; its README describes them and is none.
 pub(crate) fn read_pages(folder: &Path) -> Result<Vec<Page>, String> {
+    let mut pages = read_files(folder, "md")?;
+    pages.retain(|page| page.name != "README.md");
+    if pages.is_empty() {
+        return Err(format!("no hand-checked pages (*.md) in {}", folder.display()));
+    }
+    Ok(pages)
+}
+
+/// The files of a folder that end so, by name.
+pub(crate) fn read_files(folder: &Path, ending: &str) -> Result<Vec<Page>, String> {
     let wrong = |path: &Path, error: &Error| format!("cannot read {}: {error}", path.display());
     let mut pages = Vec::new();
     for entry in fs::read_dir(folder).map_err(|error| wrong(folder, &error))? {
         let path = entry.map_err(|error| wrong(folder, &error))?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let page = path.extension().is_some_and(|extension| extension == "md");
-        if page && name != "README.md" {
+        if path.extension().is_some_and(|extension| extension == ending) {
             let text = fs::read_to_string(&path).map_err(|error| wrong(&path, &error))?;
             pages.push(Page { name, text });
         }
-    }
-    if pages.is_empty() {
-        return Err(format!("no hand-checked pages (*.md) in {}", folder.display()));
     }
     pages.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(pages)

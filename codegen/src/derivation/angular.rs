@@ -41,6 +41,7 @@ impl<'g> Momentum<'g> {
 pub(super) fn angular_momenta<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     let hub = &chain.hub;
     let of_hub = Momentum::of(&hub_body(chain), hub.omega);
+    // (26); (23), (24); (25), (27), (28), (30).
     list.vector("r_bc_b_ddot", of_hub.r_ddot, 0);
     list.vector("h_b_bc", of_hub.h_c, 0);
     list.vector("h_b_b", of_hub.h_b, 0);
@@ -50,20 +51,26 @@ pub(super) fn angular_momenta<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     for (body, link) in bodies(chain).iter().zip(chain.kind.links) {
         let (frame, point) = (link.body.frame, link.body.point);
         let of_body = Momentum::of(body, hub.omega);
+        // (68) of the wheel; (38), (53), (69).
         list.vector(&format!("r_{point}_b_dot"), of_body.r_dot, 0);
         list.vector(&format!("r_{point}_b_ddot"), of_body.r_ddot, 0);
+        // (32), (45), (60); (84), (85), (86), (104), (105), (120).
         list.vector(&format!("h_{frame}_{point}"), of_body.h_c, 0);
         list.vector(&format!("h_{frame}_{point}_dot"), of_body.h_c_dot, 0);
+        // (33), (46), (61).
         list.vector(&format!("h_{frame}_b"), of_body.h_b, 0);
+        // (34), (39), (41), (43); (47), (54), (56), (58); (62), (70), (72), (74).
         list.vector(&format!("h_{frame}_b_dot"), of_body.h_b_dot, 0);
         h_sc_b = h_sc_b + of_body.h_b;
         i_sc_b = i_sc_b + body.inertia + body.mass * Symmetric::tilde_squared(body.r);
     }
+    // (20); (21), (22).
     list.vector("h_sc_b", h_sc_b, 0);
     let h_sc_b_dot = h_sc_b.prime(hub.omega);
     list.vector("h_sc_b_dot", h_sc_b_dot, 0);
     // (75): L_B from Euler's law for the whole, about the moving point B.
     let mc = hub.m_sc * list.hub_vector("c");
     list.vector("torque_b", h_sc_b_dot + mc.cross(list.hub_vector("r_b_n_ddot")), 0);
+    // (76).
     list.tensor("i_sc_b", i_sc_b, 0);
 }

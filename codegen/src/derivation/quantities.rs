@@ -107,7 +107,7 @@ fn hub<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     list.vector("omega", hub.omega, 0);
     list.vector("omega_dot", hub.omega_dot, 0);
     list.vector("r_c_n_ddot", hub.r_c_n_ddot, 0);
-    // (6): Newton's second law for the system's centre of mass.
+    // (6): Newton's second law for the system's centre of mass; (19) in the balanced case.
     list.vector("force", hub.m_sc * hub.r_c_n_ddot, 0);
     list.vector("r_bc_b", hub.r_bc_b, 0);
     list.tensor("i_b_bc", hub.i_b_bc, 0);
@@ -140,13 +140,13 @@ fn body<'g>(
     list.vector(&format!("omega_{frame}_b"), of_b.omega, own);
     list.vector(&format!("omega_{frame}_n"), of_n.omega, own);
 
-    // (12), (13), (14).
+    // (12), (13), (14), and (67), the position of the wheel.
     let stem = format!("r_{point}_b");
     list.vector(&stem, of_b.centre.position, carrier);
     list.vector(&format!("{stem}_prime"), of_b.centre.velocity, carrier);
     list.vector(&format!("{stem}_dprime"), of_b.centre.acceleration, carrier);
 
-    // (36), (49)-(52), (64); (40), (55), (71); (42), (57), (73).
+    // (35), (48), (63); (36), (49)-(52), (64), (65) in the balanced case; (40), (55), (71); (42), (57), (73).
     let r = of_b.centre.position.turned(link.turn);
     let i_b = link.inertia + link.mass * Symmetric::tilde_squared(r);
     list.tensor(&format!("i_{frame}_{point}"), link.inertia, own);
@@ -171,7 +171,7 @@ fn system<'g>(chain: &Chain<'g>, motions: &[Motion<'g>], list: &mut List<'g>) {
     list.vector("c", c, 0);
     list.vector("c_prime", per_sc * sum(&|motion| motion.centre.velocity), 0);
     list.vector("c_dprime", per_sc * sum(&|motion| motion.centre.acceleration), 0);
-    // (10): two inertial derivatives; (15) from (8).
+    // (10): two inertial derivatives; (15) from (8), (16) the same with (17), (18) in the balanced case.
     let c_ddot = c.prime(hub.omega).prime(hub.omega);
     list.vector("c_ddot", c_ddot, 0);
     list.vector("r_b_n_ddot", hub.r_c_n_ddot - c_ddot, 0);

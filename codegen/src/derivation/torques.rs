@@ -40,14 +40,17 @@ fn joint<'g>(
     let r_ac_b = r_ac + p;
     let r_ac_n_ddot = r_ac_b.prime(omega).prime(omega) + r_b_n_ddot;
     if !tip {
+        // (89), (90), (91); (108), (109), (110).
         shares(chain, k, list);
         let stem = format!("r_{assembly}c_{origin}");
         primes(&stem, r_ac, list);
+        // (96), (97); (114), (115).
         let stem = format!("r_{assembly}c_b");
         primes(&stem, r_ac_b, list);
         list.vector(&format!("{stem}_dot"), r_ac_b.prime(omega), 0);
         list.vector(&format!("{stem}_ddot"), r_ac_b.prime(omega).prime(omega), 0);
     }
+    // (95), (113), (121).
     list.vector(&format!("r_{assembly}c_n_ddot"), r_ac_n_ddot, 0);
 
     let mut about_centre = zero;
@@ -59,6 +62,7 @@ fn joint<'g>(
         let arm_ddot = arm.prime(omega).prime(omega);
         let h_dot = of_body.h_c_dot + body.mass * arm.cross(arm_ddot);
         if !tip {
+            // (87), (88), (106), (107); (81), (82), (83), (102), (103).
             list.vector(&format!("r_{point}_{assembly}c"), arm, 0);
             list.vector(&format!("r_{point}_{assembly}c_ddot"), arm_ddot, 0);
             list.vector(&format!("h_{frame}_{assembly}c_dot"), h_dot, 0);
@@ -67,6 +71,7 @@ fn joint<'g>(
         let force = body.mass * (of_body.r_ddot + r_b_n_ddot);
         about_origin = about_origin + of_body.h_c_dot + (body.r - p).cross(force);
     }
+    // (79), (100), (118); (78), (99), (117); (80), (101), (119).
     let about = if tip { format!("l_{assembly}c") } else { format!("l_{assembly}") };
     list.vector(&about, about_centre, 0);
     list.vector(&format!("l_{origin}"), about_origin, 0);

@@ -5,6 +5,7 @@ mod errata;
 mod frames;
 mod html;
 mod numbers;
+mod traceability;
 
 use std::fmt;
 
@@ -17,6 +18,7 @@ use crate::derivation::chain::Chain;
 use crate::emit::EmittedFile;
 use crate::graph::Graph;
 use crate::kinds::DGVSCMG;
+use crate::mutation::Report;
 use crate::page::{Block, Page, PageError};
 use crate::verdict::Verdicts;
 
@@ -109,6 +111,24 @@ pub fn errata(
     let mut context = Context::new();
     context.insert("errata", &errata::errata(verdicts, &consequences, floor, &balance)?);
     document("docs/errata", include_str!("templates/errata.md.tera"), &context, &[])
+}
+
+/// From each equation to the line, the page, the code and the laws that see it wrong; `sources` are
+/// the files of the derivation, by path from the repository's root.
+///
+/// # Errors
+/// When a title cannot be set.
+pub fn traceability(
+    verdicts: &Verdicts,
+    report: &Report,
+    sources: &[Page],
+) -> Result<Vec<EmittedFile>, ReportError> {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, report.kind);
+    let mut context = Context::new();
+    context.insert("trace", &traceability::traceability(&chain, verdicts, report, sources));
+    let template = include_str!("templates/traceability.md.tera");
+    document("docs/traceability", template, &context, &[])
 }
 
 /// A document as Markdown and as HTML.
