@@ -222,9 +222,12 @@ fn worst(effects: &[&Consequence], differing: usize) -> [String; 3] {
         (Some(drift), _) => [drift.energy, drift.linear, drift.angular].map(|value| {
             if value < RESOLUTION { "< 1e-9".to_owned() } else { format!("{value:.1e}") }
         }),
-        (None, Some(effect)) => words(&effect.effect.to_string()),
-        (None, None) if differing > 0 => words("a special case, not run"),
-        (None, None) => words("no value changes"),
+        (None, _) if effects.iter().any(|effect| effect.effect == Effect::Vanishes) => {
+            words("vanishes")
+        }
+        (None, Some(_)) => words("not reached"),
+        (None, None) if differing > 0 => words("special case"),
+        (None, None) => words("no value"),
     }
 }
 
