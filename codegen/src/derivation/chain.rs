@@ -83,6 +83,15 @@ impl<'g> Chain<'g> {
     }
 }
 
+impl Chain<'_> {
+    /// The paper's names of the axes of a frame: zero for the hub, k for the body behind joint k.
+    #[must_use]
+    pub fn triad(&self, frame: usize) -> [&'static str; 3] {
+        let body = frame.checked_sub(1).and_then(|k| self.kind.links.get(k));
+        body.map_or(["b_x", "b_y", "b_z"], |link| link.body.triad)
+    }
+}
+
 impl<'g> Link<'g> {
     fn new(graph: &'g Graph, link: &crate::kinds::Link) -> Self {
         let parameter = |name: &str| graph.symbol(name, Stage::Parameter);

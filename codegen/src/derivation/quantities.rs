@@ -17,27 +17,36 @@ pub struct Quantity<'g> {
     pub name: String,
     /// What it is.
     pub value: Placed<'g>,
-    /// What it belongs to: `the wheel`.
-    pub chapter: String,
+    /// What it belongs to.
+    pub chapter: Chapter,
+}
+
+/// Quantities that belong together.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Chapter {
+    /// `Inner gimbal`.
+    pub title: String,
+    /// The equations that they go into; none for what the hub alone is made of.
+    pub goes_into: String,
 }
 
 /// Every quantity of a chain that has a name in the paper.
 #[must_use]
 pub fn quantities<'g>(chain: &Chain<'g>) -> Vec<Quantity<'g>> {
     let mut list = List::default();
-    list.chapter("Axes");
+    list.chapter("Axes", "");
     axes(chain, &mut list);
-    list.chapter("Hub");
+    list.chapter("Hub", "");
     hub(chain, &mut list);
     let seen_from_b = motions(chain, &Observer::on_hub(chain.graph));
     let seen_from_n = motions(chain, &Observer::inertial(chain));
     for (k, (of_b, of_n)) in seen_from_b.iter().zip(&seen_from_n).enumerate() {
-        list.chapter(&capital(chain.kind.links[k].body.title));
+        list.chapter(&capital(chain.kind.links[k].body.title), "(16) and (75)");
         body(chain, k, of_b, of_n, &mut list);
     }
-    list.chapter("Centre of mass and translation");
+    list.chapter("Centre of mass and translation", "(16) and (75)");
     system(chain, &seen_from_b, &mut list);
-    list.chapter("Angular momentum");
+    list.chapter("Angular momentum", "(75)");
     angular::angular_momenta(chain, &mut list);
     torques::motor_torques(chain, &mut list);
     list.quantities
@@ -47,13 +56,13 @@ pub fn quantities<'g>(chain: &Chain<'g>) -> Vec<Quantity<'g>> {
 #[derive(Default)]
 pub(super) struct List<'g> {
     quantities: Vec<Quantity<'g>>,
-    chapter: String,
+    chapter: Chapter,
 }
 
 impl<'g> List<'g> {
     /// What the quantities from here on belong to.
-    pub(super) fn chapter(&mut self, title: &str) {
-        title.clone_into(&mut self.chapter);
+    pub(super) fn chapter(&mut self, title: &str, goes_into: &str) {
+        self.chapter = Chapter { title: title.to_owned(), goes_into: goes_into.to_owned() };
     }
 
     fn push(&mut self, name: &str, value: Placed<'g>) {
@@ -171,7 +180,7 @@ fn system<'g>(chain: &Chain<'g>, motions: &[Motion<'g>], list: &mut List<'g>) {
     list.vector("c", c, 0);
     list.vector("c_prime", per_sc * sum(&|motion| motion.centre.velocity), 0);
     list.vector("c_dprime", per_sc * sum(&|motion| motion.centre.acceleration), 0);
-    // (10): two inertial derivatives; (15) from (8), (16) the same with (17), (18) in the balanced case.
+    // (10): two inertial derivatives; (15) from (8), (16) the same with (17), (18) balanced.
     let c_ddot = c.prime(hub.omega).prime(hub.omega);
     list.vector("c_ddot", c_ddot, 0);
     list.vector("r_b_n_ddot", hub.r_c_n_ddot - c_ddot, 0);

@@ -16,7 +16,9 @@ pub(super) fn motor_torques<'g>(chain: &Chain<'g>, list: &mut List<'g>) {
     let r_b_n_ddot = list.hub_vector("r_b_n_ddot");
     let all = bodies(chain);
     for k in 0..chain.links.len() {
-        list.chapter(&format!("Torque across the joint of the {}", chain.kind.links[k].body.title));
+        let body = &chain.kind.links[k].body;
+        let title = format!("Torque across the joint of the {}", body.title);
+        list.chapter(&title, body.equations.torque);
         joint(chain, k, &all[k..], r_b_n_ddot, list);
     }
 }

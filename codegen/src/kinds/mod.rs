@@ -45,6 +45,8 @@ pub struct Joint {
     pub axis: Axis,
     /// The angle.
     pub angle: &'static str,
+    /// The angle as the paper writes it.
+    pub angle_symbol: &'static str,
     /// Its rate.
     pub rate: &'static str,
     /// Its acceleration: the second-order state.
@@ -123,7 +125,7 @@ pub struct Equations {
     pub h: &'static str,
     /// Its inertial derivative.
     pub h_dot: &'static str,
-    /// Mass and first moment of this body and all behind it.
+    /// Mass and first moment of this body and all behind it; for the tip, the body itself.
     pub assembly: &'static str,
     /// Torque on them about the joint's origin.
     pub about_origin: &'static str,

@@ -15,4 +15,4 @@ mod unit;
 pub use name::{Accent, frame, symbol};
 pub use syntax::{equation, expression, side_by_side};
 pub use terms::terms;
-pub use unit::{Unit, unit};
+pub use unit::{Balance, Unit, unit};

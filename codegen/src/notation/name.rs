@@ -9,7 +9,7 @@ pub enum Accent {
     Tilde,
 }
 
-/// The symbol of a name, in LaTeX; a name without a meaning is set upright.
+/// The symbol of a name, in LaTeX; a name of a page's own is set upright.
 #[must_use]
 pub fn symbol(name: &str, accent: Accent) -> String {
     if let Some(axis) = name.strip_suffix("_hat").and_then(|rest| rest.split_once('_')) {
@@ -109,6 +109,7 @@ fn motion(parts: &[&str]) -> Option<Symbol> {
         ["l", arm @ ("o" | "i")] => plain(&format!("L^{{{arm}}}"), ""),
         ["l", arm @ ("o" | "i"), component] => plain(&format!("L^{{{arm}}}"), *component),
         ["torque" | "l", of] => plain("L", point(of)?),
+        ["force"] => plain("F", ""),
         ["c"] => plain("c", ""),
         ["f", "tilde"] => plain("\\tilde f", ""),
         ["f", joint @ ("o" | "i" | "w")] => plain("f", *joint),
@@ -199,6 +200,11 @@ pub fn frame(name: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::derivation::chain::Chain;
+    use crate::derivation::quantities::quantities;
+    use crate::graph::Graph;
+    use crate::kernel::parameters;
+    use crate::kinds::DGVSCMG;
 
     #[test]
     fn names_are_the_papers_symbols() {
@@ -223,5 +229,17 @@ mod tests {
             assert_eq!(symbol(name, Accent::Plain), latex, "{name}");
         }
         assert_eq!(symbol("r_wc_b_prime", Accent::Tilde), "\\tilde{r}'_{W_c/B}");
+    }
+
+    #[test]
+    fn every_quantity_and_every_symbol_has_its_own() {
+        let graph = Graph::new();
+        let chain = Chain::new(&graph, &DGVSCMG);
+        let derived = quantities(&chain).into_iter().map(|quantity| quantity.name);
+        let given = parameters(&DGVSCMG).fields.into_iter().map(|field| field.name);
+        for name in derived.chain(given) {
+            let latex = symbol(&name, Accent::Plain);
+            assert!(!latex.starts_with("\\mathrm"), "{name} is set as {latex}");
+        }
     }
 }

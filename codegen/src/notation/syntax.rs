@@ -41,25 +41,33 @@ pub fn equation(left: &str, body: &str) -> Result<String, ReadError> {
 /// When it does not parse or holds a form that no block may hold.
 pub fn expression(text: &str) -> Result<String, ReadError> {
     let expr: Expr = syn::parse_str(text).map_err(|error| ReadError::Syntax(error.to_string()))?;
-    Ok(Tex::sum(&Setter::abbreviating().terms(&expr)?).text)
+    Ok(Tex::sum(&Setter::default().terms(&expr)?).text)
 }
 
-/// Expressions one above the other, each behind its label, as an aligned display.
+/// Expressions one above the other, each behind its label, as an aligned display; `body` is the
+/// block in whose scope they stand.
 ///
 /// # Errors
 /// When one does not parse or holds a form that no block may hold.
-pub fn side_by_side(sides: &[(&str, &str)]) -> Result<String, ReadError> {
+pub fn side_by_side(body: &str, sides: &[(&str, &str)]) -> Result<String, ReadError> {
+    let syntax = |error: syn::Error| ReadError::Syntax(error.to_string());
+    let block: syn::Block = syn::parse_str(&format!("{{\n{body}\n}}")).map_err(syntax)?;
+    let mut setter = Setter::default();
+    for statement in &block.stmts {
+        if let syn::Stmt::Local(local) = statement {
+            setter.binding(local)?;
+        }
+    }
     let mut all = Vec::new();
     for (label, text) in sides {
-        let expr: Expr =
-            syn::parse_str(text).map_err(|error| ReadError::Syntax(error.to_string()))?;
-        let nothing = quote::quote!(#expr).to_string() == "0";
-        let mut set = lines(&Setter::abbreviating().terms(&expr)?);
-        if nothing {
-            set = vec!["\\text{nothing}".to_owned()];
-        }
-        let first = std::iter::once(format!("\\text{{{label}: }}& {}", set.remove(0)));
-        all.extend(first.chain(set.into_iter().map(|line| format!("& {line}"))));
+        let expr: Expr = syn::parse_str(text).map_err(syntax)?;
+        let mut set = match expr.to_token_text().as_str() {
+            "0" => vec!["\\text{nothing}".to_owned()],
+            _ => lines(&setter.terms(&expr)?),
+        };
+        let first = format!("\\text{{{label}: }}& {}", set.remove(0));
+        all.push(first);
+        all.extend(set.into_iter().map(|line| format!("& {line}")));
     }
     Ok(format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}", all.join(" \\\\\n")))
 }
@@ -86,19 +94,6 @@ struct Setter {
 }
 
 impl Setter {
-    /// With the abbreviations that notes use without a `let`: `si` for the sine of `gamma_i`.
-    fn abbreviating() -> Self {
-        let pairs = [
-            ("si", "sin_gamma_i"),
-            ("ci", "cos_gamma_i"),
-            ("st", "sin_theta"),
-            ("ct", "cos_theta"),
-        ];
-        let short =
-            pairs.map(|(short, name)| (short.to_owned(), Tex::atom(symbol(name, Accent::Plain))));
-        Self { short: short.into_iter().collect() }
-    }
-
     /// Name and value of a `let`; none where it only abbreviates a sine or a cosine.
     fn binding(&mut self, local: &syn::Local) -> Result<Option<(String, Expr)>, ReadError> {
         let (syn::Pat::Ident(name), Some(init)) = (&local.pat, &local.init) else {
@@ -235,12 +230,12 @@ impl Setter {
                 let inside = self.single(a)?.within(Binding::Product);
                 Ok(Tex::new(format!("{}^{{T}}", inside.text), inside.width + 1, Binding::Atom))
             }
-            ("tensor", [axis, _, _, Expr::Array(rows)]) => self.tensor(axis, rows),
+            ("tensor", [a, b, c, Expr::Array(rows)]) => self.tensor([a, b, c], rows),
             _ => Err(form(call)),
         }
     }
 
-    fn tensor(&self, axis: &Expr, rows: &syn::ExprArray) -> Result<Tex, ReadError> {
+    fn tensor(&self, axes: [&Expr; 3], rows: &syn::ExprArray) -> Result<Tex, ReadError> {
         let mut shown = Vec::new();
         let mut width = 4;
         for row in &rows.elems {
@@ -253,11 +248,13 @@ impl Setter {
             width = width.max(cells.iter().map(|cell| cell.width + 2).sum());
             shown.push(cells.into_iter().map(|cell| cell.text).collect::<Vec<_>>().join(" & "));
         }
-        let frame = match axis.to_token_text().as_str() {
-            "b_x_hat" => "\\mathcal{B}",
-            "g_x_hat" => "\\mathcal{G}^o",
-            _ if rows.to_token_text().contains("j_") => "\\mathcal{W}",
-            _ => "\\mathcal{G}^i",
+        let axes = axes.map(TokenText::to_token_text);
+        let frame = match axes.each_ref().map(String::as_str) {
+            ["b_x_hat", "b_y_hat", "b_z_hat"] => "\\mathcal{B}",
+            ["g_x_hat", "s_y_hat", "s_z_hat"] => "\\mathcal{G}^o",
+            ["s_x_hat", "s_y_hat", "g_z_hat"] => "\\mathcal{G}^i",
+            ["s_x_hat", "w_y_hat", "w_z_hat"] => "\\mathcal{W}",
+            _ => return Err(ReadError::Form(axes.join(", "))),
         };
         let text =
             format!("{{}}^{{{frame}}}\\begin{{bmatrix}} {} \\end{{bmatrix}}", shown.join(" \\\\ "));
@@ -329,17 +326,25 @@ mod tests {
                 "2\\,[\\tilde{r}'_{G^o_c/B}]^{T}\\,\\omega",
             ),
             (
-                "-d*sq(gamma_o_dot)*si*s_x_hat",
+                "-d*sq(gamma_o_dot)*sin(gamma_i)*s_x_hat",
                 "-d\\,{}^{o}\\dot{\\gamma}^{2}\\,\\mathrm{s}\\,{}^{i}\\gamma\\,\\hat{s}_{x}",
             ),
             ("1/m_sc*(a_b - c)", "\\frac{1}{m_{sc}}\\,(\\mathrm{a\\_b} - c)"),
-            ("sq(si)", "\\mathrm{s}^{2}\\,{}^{i}\\gamma"),
-            ("sq(st)", "\\mathrm{s}^{2}\\,\\theta"),
+            ("sq(sin(gamma_i))", "\\mathrm{s}^{2}\\,{}^{i}\\gamma"),
+            ("sq(sin(theta))", "\\mathrm{s}^{2}\\,\\theta"),
             ("c - (f_o - f_i)", "c - (f_{o} - f_{i})"),
             ("-(f_o + f_i)*d", "-(f_{o} + f_{i})\\,d"),
         ] {
             assert_eq!(expression(text).as_deref(), Ok(latex), "{text}");
         }
+    }
+
+    #[test]
+    fn the_frame_of_a_tensor_is_that_of_its_axes() {
+        let wheel = "tensor(s_x_hat, w_y_hat, w_z_hat, [[t_11, 0, 0], [0, 0, 0], [0, 0, 0]])";
+        assert!(expression(wheel).is_ok_and(|latex| latex.starts_with("{}^{\\mathcal{W}}")));
+        let mixed = "tensor(s_x_hat, s_y_hat, w_z_hat, [[0, 0, 0], [0, 0, 0], [0, 0, 0]])";
+        assert_eq!(expression(mixed), Err(ReadError::Form("s_x_hat, s_y_hat, w_z_hat".to_owned())));
     }
 
     #[test]

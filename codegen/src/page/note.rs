@@ -58,6 +58,8 @@ pub struct Note {
     pub text: String,
     /// The evidence, from "How we tell:" on.
     pub how: Option<String>,
+    /// What it says besides its change, or before its best reading.
+    pub words: String,
     /// The letters of the causes it names.
     pub causes: Vec<char>,
     /// Of what is torn: the best reading, in the syntax of the blocks.
@@ -122,6 +124,7 @@ fn note(item: &str, line: usize) -> Option<Note> {
         place: None,
         change: None,
         text: text.to_owned(),
+        words: text.to_owned(),
         how,
         causes,
         best: None,
@@ -133,8 +136,10 @@ fn note(item: &str, line: usize) -> Option<Note> {
         _ if note.subject == Subject::Value => {
             let (place, rest) = placed(text);
             let (printed, rest) = code(rest)?;
-            let (right, _) = code(rest.strip_prefix(" -> ")?)?;
+            let (right, rest) = code(rest.strip_prefix(" -> ")?)?;
             (note.place, note.change) = (place, Some(Change { printed, right }));
+            let words = rest.trim_start_matches([',', '.', ';', ' ']);
+            words.clone_into(&mut note.words);
         }
         _ => {}
     }
@@ -144,7 +149,8 @@ fn note(item: &str, line: usize) -> Option<Note> {
 impl Note {
     /// `raw; best reading at 23: code; tried: words; belongs there at 23: code`.
     fn torn(&mut self) -> Option<()> {
-        let (_, best) = self.text.split_once("best reading ")?;
+        let (raw, best) = self.text.split_once("best reading ")?;
+        self.words = raw.trim_end_matches([';', ' ']).to_owned();
         let (place, best) = placed(best);
         let (best, rest) = code(best)?;
         let (_, tried) = rest.split_once("tried: ")?;

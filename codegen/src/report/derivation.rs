@@ -10,7 +10,7 @@ use crate::derivation::quantities::{Quantity, quantities};
 use crate::graph::Expr;
 use crate::kernel::{Kernel, kernels, parameters};
 use crate::normal::{NormalError, Ring};
-use crate::notation::{Accent, Unit, equation, expression, frame, symbol, terms, unit};
+use crate::notation::{Accent, Balance, equation, expression, frame, symbol, terms, unit};
 use crate::page::{Block, ReadError};
 
 /// A quantity is written out by components up to this many terms; a longer one is read in its
@@ -90,8 +90,13 @@ pub enum NotationError {
     Block(String, ReadError),
     /// A quantity has no normal form.
     Normal(String, NormalError),
-    /// A quantity's terms are of different units.
-    Unit(String),
+    /// A quantity has not one unit.
+    Unit {
+        /// The quantity.
+        name: String,
+        /// What is wrong.
+        what: String,
+    },
 }
 
 impl std::fmt::Display for NotationError {
@@ -99,7 +104,7 @@ impl std::fmt::Display for NotationError {
         match self {
             Self::Block(place, error) => write!(f, "{place} cannot be set: {error}"),
             Self::Normal(name, error) => write!(f, "`{name}` cannot be written out: {error}"),
-            Self::Unit(name) => write!(f, "the terms of `{name}` are of different units"),
+            Self::Unit { name, what } => write!(f, "the unit of `{name}`: {what}"),
         }
     }
 }
@@ -112,12 +117,12 @@ pub(super) fn derivation(chain: &Chain<'_>, blocks: &[Block]) -> Result<Derivati
     let kernels = kernels(chain);
     let mut ring = Ring::new(chain.graph);
     let mut chapters: Vec<ChapterText> = Vec::new();
-    for quantity in all.iter().filter(|quantity| quantity.chapter != "Axes") {
+    for quantity in all.iter().filter(|quantity| quantity.chapter.title != "Axes") {
         let text = quantity_text(chain, &mut ring, quantity, blocks, &kernels)?;
-        match chapters.last_mut().filter(|chapter| chapter.title == quantity.chapter) {
+        let title = &quantity.chapter.title;
+        match chapters.last_mut().filter(|chapter| chapter.title == *title) {
             Some(chapter) => chapter.quantities.push(text),
-            None => chapters
-                .push(ChapterText { title: quantity.chapter.clone(), quantities: vec![text] }),
+            None => chapters.push(ChapterText { title: title.clone(), quantities: vec![text] }),
         }
     }
     let functions = kernels.iter().map(|kernel| FunctionText {
@@ -145,15 +150,14 @@ fn frames(chain: &Chain<'_>) -> Vec<FrameText> {
     let hub = FrameText {
         letter: "\\mathcal{B}".to_owned(),
         title: "hub".to_owned(),
-        axes: triad(["b_x", "b_y", "b_z"]),
+        axes: triad(chain.triad(0)),
         about: String::new(),
         angle: String::new(),
         rate: String::new(),
         arm: String::new(),
     };
     let bodies = chain.kind.links.iter().enumerate().map(|(k, link)| {
-        let carrier =
-            if k == 0 { ["b_x", "b_y", "b_z"] } else { chain.kind.links[k - 1].body.triad };
+        let carrier = chain.triad(k);
         let axis = carrier[link.joint.axis.cycle()[0]];
         FrameText {
             letter: frame(link.body.frame).unwrap_or_default().to_owned(),
@@ -236,20 +240,20 @@ fn quantity_text<'g>(
 
 /// The unit that all components have.
 fn unit_of(quantity: &Quantity<'_>) -> Result<String, NotationError> {
-    let components = quantity.value.components().into_iter().filter(|c| !c.is_zero());
-    let units = components.map(unit).collect::<Option<Vec<_>>>();
-    let units = units.ok_or_else(|| NotationError::Unit(quantity.name.clone()))?;
-    // A component that cancels to nothing has no unit of its own.
-    let unit = units.iter().find(|unit| **unit != Unit::default()).or_else(|| units.first());
-    Ok(unit.map_or_else(|| "zero".to_owned(), Unit::to_string))
+    let wrong = |what: String| NotationError::Unit { name: quantity.name.clone(), what };
+    let mut all = Balance::Any;
+    for component in quantity.value.components() {
+        all = all.with(unit(component).map_err(|name| wrong(format!("`{name}` has no unit")))?);
+    }
+    match all {
+        Balance::Is(unit) => Ok(unit.to_string()),
+        Balance::Any => Ok("zero".to_owned()),
+        Balance::Not => Err(wrong("terms of two units are added".to_owned())),
+    }
 }
 
 fn axes_of(chain: &Chain<'_>, value: Placed<'_>) -> String {
-    match value.frame() {
-        None => String::new(),
-        Some(0) => triad(["b_x", "b_y", "b_z"]),
-        Some(frame) => triad(chain.kind.links[frame - 1].body.triad),
-    }
+    value.frame().map(|frame| triad(chain.triad(frame))).unwrap_or_default()
 }
 
 /// The components as an aligned display, and how many terms they have.
@@ -260,8 +264,7 @@ fn written_out<'g>(
 ) -> Result<(String, usize), NotationError> {
     let labels: Vec<String> = match quantity.value {
         Placed::Scalar(_) => vec![String::new()],
-        Placed::Vector(_, 0) => ["b_x", "b_y", "b_z"].map(hat).to_vec(),
-        Placed::Vector(_, frame) => chain.kind.links[frame - 1].body.triad.map(hat).to_vec(),
+        Placed::Vector(_, frame) => chain.triad(frame).map(hat).to_vec(),
         Placed::Tensor(..) => ENTRIES.map(|entry| format!("{{}}_{{{entry}}}")).to_vec(),
     };
     let mut shown = Vec::new();
@@ -317,16 +320,9 @@ fn emitted<'g>(
     if !found.is_empty() {
         return format!("Computed by {}", found.join("; "));
     }
-    let torque = chain.kind.links.iter().find(|link| {
-        quantity.chapter == format!("Torque across the joint of the {}", link.body.title)
-    });
-    match (torque, quantity.chapter.as_str()) {
-        (Some(link), _) => {
-            format!("Not computed by itself: it goes into {}", link.body.equations.torque)
-        }
-        (None, "Angular momentum") => "Not computed by itself: it goes into (75)".to_owned(),
-        (None, "Hub") => "Computed by the solver itself".to_owned(),
-        _ => "Not computed by itself: it goes into (16) and (75)".to_owned(),
+    match quantity.chapter.goes_into.as_str() {
+        "" => "Computed by the solver itself".to_owned(),
+        equations => format!("Not computed by itself: it goes into {equations}"),
     }
 }
 

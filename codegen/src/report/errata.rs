@@ -4,10 +4,10 @@
 use serde::Serialize;
 
 use super::derivation::NotationError;
-use crate::consequence::{Consequence, Drift, Effect, RESOLUTION};
+use crate::consequence::{Consequence, DURATION, Drift, Effect, RESOLUTION};
 use crate::graph::Graph;
-use crate::notation::{Accent, equation, side_by_side, symbol, unit};
-use crate::page::{Block, Kind, Note, Page, PageError, Subject, blocks, read_on};
+use crate::notation::{Accent, Balance as Weight, equation, side_by_side, symbol, unit};
+use crate::page::{Block, Kind, Note, Page, PageError, blocks, read_on};
 use crate::verdict::{Cause, Component, Entry, Form, Printed, Verdicts};
 
 /// So many differing terms are listed; of more, the number is told.
@@ -18,6 +18,8 @@ const LISTED: usize = 6;
 pub(super) struct Errata {
     tally: Vec<(String, usize)>,
     differing: usize,
+    duration: f64,
+    resolution: String,
     floor: DriftText,
     findings: Vec<FindingText>,
     causes: Vec<CauseText>,
@@ -65,6 +67,8 @@ struct NoteText {
     place: String,
     text: String,
     change: String,
+    best: String,
+    tried: String,
     how: String,
     causes: String,
 }
@@ -112,9 +116,13 @@ pub(super) fn errata(
     for entry in verdicts.entries.iter().filter(differs) {
         findings.push(finding(entry, consequences, balance, &mut shown)?);
     }
+    let numbered = verdicts.entries.iter().filter(|entry| entry.number.is_some());
+    let differing = numbered.filter(differs).count();
     Ok(Errata {
         tally: verdicts.tally(),
-        differing: findings.iter().filter(|finding| !finding.tag.contains("before")).count(),
+        differing,
+        duration: DURATION,
+        resolution: format!("{RESOLUTION:.0e}"),
         floor: drift_text(floor),
         findings,
         causes: verdicts.causes.iter().map(cause).collect(),
@@ -136,9 +144,10 @@ impl Balance {
                 let wrong = |error| PageError { page: page.name.clone(), line: block.line, error };
                 let value = reader.body(&block.body).map_err(wrong)?;
                 let components = reader.resolve(block, value).map_err(wrong)?;
-                let stated = components.iter().filter(|(_, component)| !component.is_zero());
-                let units: Vec<_> = stated.map(|(_, component)| unit(*component)).collect();
-                if units.iter().any(|unit| unit.is_none() || *unit != units[0]) {
+                let units = components.iter().map(|(_, component)| unit(*component));
+                // A symbol without a unit is nothing that the print could be blamed for.
+                let all = units.flatten().fold(Weight::Any, Weight::with);
+                if all == Weight::Not {
                     unbalanced.push(place(block));
                 }
             }
@@ -220,7 +229,7 @@ fn worst(effects: &[&Consequence], differing: usize) -> [String; 3] {
     }
     match (largest, effects.first()) {
         (Some(drift), _) => [drift.energy, drift.linear, drift.angular].map(|value| {
-            if value < RESOLUTION { "< 1e-9".to_owned() } else { format!("{value:.1e}") }
+            if value < RESOLUTION { format!("< {RESOLUTION:.0e}") } else { format!("{value:.1e}") }
         }),
         (None, _) if effects.iter().any(|effect| effect.effect == Effect::Vanishes) => {
             words("vanishes")
@@ -252,7 +261,8 @@ fn form_text(form: &Form, above: bool, balance: &Balance) -> Result<FormText, No
         .map(|(a, b)| format!("${} = {}$", symbol(a, Accent::Plain), value(b)))
         .collect();
     let case = if given.is_empty() { String::new() } else { format!(" for {}", given.join(", ")) };
-    let notes = block.notes.iter().map(note_text).collect::<Result<Vec<_>, _>>()?;
+    let notes =
+        block.notes.iter().map(|note| note_text(block, note)).collect::<Result<Vec<_>, _>>()?;
     Ok(FormText {
         tag: format!("{}{case}", block.tag),
         printed: if words { String::new() } else { set(block)? },
@@ -293,34 +303,28 @@ fn terms_text(components: &[Component]) -> String {
     }
 }
 
-fn note_text(note: &Note) -> Result<NoteText, NotationError> {
-    let change = match (&note.change, note.subject) {
-        (Some(change), Subject::Value | Subject::Remark) => {
+fn note_text(block: &Block, note: &Note) -> Result<NoteText, NotationError> {
+    let wrong = |error| NotationError::Block(format!("{}:{}", block.page, note.line), error);
+    let body = if block.kind == Kind::Text { "" } else { &block.body };
+    let change = match &note.change {
+        Some(change) => {
             let sides = [("printed", change.printed.as_str()), ("right", change.right.as_str())];
-            side_by_side(&sides)
-                .map_err(|error| NotationError::Block(format!("note, line {}", note.line), error))?
+            side_by_side(body, &sides).map_err(wrong)?
         }
-        _ => String::new(),
+        None => String::new(),
     };
-    let text =
-        if change.is_empty() { note.text.clone() } else { behind_change(&note.text).to_owned() };
+    let best =
+        note.best.as_ref().map(|best| side_by_side(body, &[("best reading", best.as_str())]));
     Ok(NoteText {
         class: note.class.to_string(),
         place: note.place.as_ref().map(|place| format!(", entry {place}")).unwrap_or_default(),
-        text,
+        text: note.words.clone(),
         change,
+        best: best.transpose().map_err(wrong)?.unwrap_or_default(),
+        tried: note.tried.clone().unwrap_or_default(),
         how: note.how.clone().unwrap_or_default(),
         causes: letters(&note.causes),
     })
-}
-
-/// What a note says behind the pieces of code that it begins with.
-fn behind_change(text: &str) -> &str {
-    let mut rest = text.split_once("->").map_or("", |(_, rest)| rest).trim_start();
-    while let Some((_, after)) = rest.strip_prefix('`').and_then(|rest| rest.split_once('`')) {
-        rest = after.trim_start();
-    }
-    rest.trim_start_matches([',', '.', ';']).trim()
 }
 
 fn letters(causes: &[char]) -> String {
@@ -349,7 +353,7 @@ fn line(entry: &Entry) -> LineText {
         .hand_checked
         .blocks()
         .iter()
-        .map(|block| format!("[{}](../tests/derivation/{})", &block.page[..2], block.page))
+        .map(|block| format!("[{0}](../tests/derivation/{0})", block.page))
         .fold(Vec::new(), |mut pages, page| {
             if !pages.contains(&page) {
                 pages.push(page);

@@ -30,7 +30,7 @@ pub(super) fn drawing(chain: &Chain<'_>) -> String {
     let bodies = bodies(chain);
     let mut svg = Svg::default();
     let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    svg.triad("hub", [0.0; 3], unit, ["b_x", "b_y", "b_z"]);
+    svg.triad("hub", [0.0; 3], unit, chain.triad(0));
     svg.point("hub", [0.0; 3], "B", [-16.0, 18.0]);
     let mut before = ([0.0; 3], unit);
     for (k, (body, link)) in bodies.iter().zip(chain.kind.links).enumerate() {
@@ -51,7 +51,7 @@ pub(super) fn drawing(chain: &Chain<'_>) -> String {
             before.1,
             link.joint.axis.cycle(),
             ANGLES[k % ANGLES.len()],
-            &angle(link),
+            link.joint.angle_symbol,
         );
         svg.triad(class, origin, axes, link.body.triad);
         svg.point(class, origin, link.body.letters[0], [-20.0, 22.0]);
@@ -66,10 +66,10 @@ fn value_of(chain: &Chain<'_>, name: &str) -> f64 {
     for (k, link) in chain.kind.links.iter().enumerate() {
         let angle = ANGLES[k % ANGLES.len()];
         if name == format!("sin_{}", link.joint.angle) {
-            return angle.sin();
+            return libm::sin(angle);
         }
         if name == format!("cos_{}", link.joint.angle) {
-            return angle.cos();
+            return libm::cos(angle);
         }
         let component = |names: [&str; 3], values: Point| {
             names.iter().position(|known| *known == name).map(|axis| values[axis])
@@ -84,12 +84,6 @@ fn value_of(chain: &Chain<'_>, name: &str) -> f64 {
         }
     }
     0.0
-}
-
-/// The joint's angle as it is written.
-fn angle(link: &crate::kinds::Link) -> String {
-    let rate = link.joint.symbols[0];
-    if link.joint.angle == "theta" { "θ".to_owned() } else { rate.replace('\u{307}', "") }
 }
 
 fn middle(a: Point, b: Point) -> Point {
@@ -143,7 +137,7 @@ impl Svg {
         let tip = [0, 1, 2].map(|i| from[i] + part * (to[i] - from[i]));
         self.line(class, from, tip);
         let ([a, b], [c, d]) = (Self::place(from), Self::place(tip));
-        let length = (c - a).hypot(d - b).max(1.0);
+        let length = libm::hypot(c - a, d - b).max(1.0);
         let (u, v) = ((c - a) / length, (d - b) / length);
         let corners = [
             (c + 4.0 * u, d + 4.0 * v),
@@ -169,7 +163,7 @@ impl Svg {
             let tip = along(origin, axis, AXIS);
             self.arrow(class, origin, tip, 1.0);
             let ([a, b], [c, d]) = (Self::place(origin), Self::place(tip));
-            let length = (c - a).hypot(d - b).max(1.0);
+            let length = libm::hypot(c - a, d - b).max(1.0);
             let offset = [16.0 * (c - a) / length - 7.0, 16.0 * (d - b) / length + 5.0];
             self.label(class, tip, &hatted(name), offset);
         }
@@ -211,8 +205,9 @@ impl Svg {
         text: &str,
     ) {
         let [_, i, j] = cycle;
-        let at =
-            |t: f64| along(along(origin, carrier[i], 0.44 * t.cos()), carrier[j], 0.44 * t.sin());
+        let at = |t: f64| {
+            along(along(origin, carrier[i], 0.44 * libm::cos(t)), carrier[j], 0.44 * libm::sin(t))
+        };
         self.line(&format!("{class} thin"), origin, along(origin, carrier[i], 0.5));
         let points: Vec<String> = (0..=16)
             .map(|step| Self::place(at(angle * f64::from(step) / 16.0)))
@@ -224,9 +219,9 @@ impl Svg {
             points.join(" ")
         );
         let mid = along(
-            along(origin, carrier[i], 0.62 * (angle / 2.0).cos()),
+            along(origin, carrier[i], 0.62 * libm::cos(angle / 2.0)),
             carrier[j],
-            0.62 * (angle / 2.0).sin(),
+            0.62 * libm::sin(angle / 2.0),
         );
         self.label(class, mid, text, [-6.0, 5.0]);
     }

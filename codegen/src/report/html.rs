@@ -13,7 +13,14 @@ use tera::{Context, Tera};
 #[derive(Debug)]
 pub enum HtmlError {
     /// A formula that the converter does not know.
-    Formula(String, String),
+    Formula {
+        /// The formula.
+        latex: String,
+        /// What the converter says.
+        error: String,
+    },
+    /// An image that no picture is given for.
+    Picture(String),
     /// The page's template failed.
     Template(tera::Error),
 }
@@ -21,7 +28,10 @@ pub enum HtmlError {
 impl fmt::Display for HtmlError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Formula(latex, error) => write!(f, "formula `{latex}` has no MathML: {error}"),
+            Self::Formula { latex, error } => {
+                write!(f, "formula `{latex}` has no MathML: {error}")
+            }
+            Self::Picture(name) => write!(f, "image `{name}` has no picture; give one"),
             Self::Template(error) => write!(f, "template: {error}"),
         }
     }
@@ -34,6 +44,9 @@ impl From<tera::Error> for HtmlError {
         Self::Template(error)
     }
 }
+
+/// The documents that have their HTML beside them.
+const DOCUMENTS: [&str; 4] = ["derivation.md", "errata.md", "mutation.md", "traceability.md"];
 
 /// The page; `pictures` are put where an image of that name stands.
 ///
@@ -97,15 +110,16 @@ impl Page {
             }
             Event::Start(Tag::Image { dest_url, .. }) => {
                 let picture = pictures.iter().find(|(name, _)| *name == &*dest_url);
-                let picture = picture.map_or("", |(_, svg)| svg);
+                let (_, picture) =
+                    picture.ok_or_else(|| HtmlError::Picture(dest_url.to_string()))?;
                 events.push(raw(format!("<span class=\"picture\">{picture}</span>")));
                 self.image = true;
             }
             Event::End(TagEnd::Image) => self.image = false,
             _ if self.image => {}
-            // A page beside this one has its HTML beside it too.
+            // Another document has its HTML beside it too.
             Event::Start(Tag::Link { link_type, dest_url, title, id })
-                if dest_url.ends_with(".md") && !dest_url.contains('/') =>
+                if DOCUMENTS.contains(&&*dest_url) =>
             {
                 let dest_url = dest_url.replace(".md", ".html").into();
                 events.push(Event::Start(Tag::Link { link_type, dest_url, title, id }));
@@ -147,7 +161,10 @@ fn raw<'a>(text: impl Into<CowStr<'a>>) -> Event<'a> {
 }
 
 fn math<'a>(latex: &str, display_mode: DisplayMode) -> Result<Event<'a>, HtmlError> {
-    let wrong = |error: &dyn fmt::Display| HtmlError::Formula(latex.to_owned(), error.to_string());
+    let wrong = |error: &dyn fmt::Display| HtmlError::Formula {
+        latex: latex.to_owned(),
+        error: error.to_string(),
+    };
     let storage = Storage::new();
     let mut checked = Vec::new();
     for event in pulldown_latex::Parser::new(latex, &storage) {
@@ -166,12 +183,12 @@ mod tests {
 
     #[test]
     fn formulas_tables_and_pictures_are_put_in() {
-        let text = "# Title\n\n## Part one\n\n## Part two\n\n[b](b.md)\n\n![axes](a.svg)\n\n$$\nx^{2}\n$$\n\n| a |\n|---|\n| $y$ |\n";
+        let text = "# Title\n\n## Part one\n\n## Part two\n\n[b](errata.md)\n\n![axes](a.svg)\n\n$$\nx^{2}\n$$\n\n| a |\n|---|\n| $y$ |\n";
         let page = html(text, &[("a.svg", "<svg></svg>")]).unwrap();
         for part in [
             "<title>Title</title>",
             "href=\"#part-one\"",
-            "href=\"b.html\"",
+            "href=\"errata.html\"",
             "<svg></svg>",
             "<math",
             "<div class=\"wide\">",
