@@ -12,10 +12,10 @@
 
 use std::collections::BTreeMap;
 
-use super::ConsequenceError;
+use super::{ConsequenceError, Slip};
 use crate::graph::{Expr, Graph};
 use crate::normal::Ring;
-use crate::page::{Block, Page, PageError, Reader, Value, blocks, read_on};
+use crate::page::{Block, Kind, Note, Page, PageError, ReadError, Reader, Value, blocks, read_on};
 
 /// The acceleration of B: an unknown to every equation, and what (15) states.
 const ACCELERATION: &str = "r_b_n_ddot";
@@ -89,16 +89,37 @@ impl<'g> Pages<'g> {
         right.is_some_and(|(_, right)| equal(ring, &components(value), &components(*right)))
     }
 
-    /// The assembled equations, `slip` giving a name its printed value.
+    /// The right value of a block's name with the changes of some of its notes taken back.
+    pub(super) fn with_notes(&self, slip: &Slip<'_>) -> Result<Value<'g>, ConsequenceError> {
+        let block = slip.block;
+        let right = self.statements.iter().rfind(|(stated, _)| stated.name == block.name);
+        let Some((_, right)) = right else {
+            let Block { page, line, name, .. } = block.clone();
+            return Err(ConsequenceError::Unstated { page, line, name });
+        };
+        let (inside, _) = self.reader.scope(&block.body).map_err(|error| at(block, error))?;
+        let mut value = *right;
+        for note in &slip.notes {
+            let wrong = |error| PageError { page: block.page.clone(), line: note.line, error };
+            let change = change(&inside, block, note).map_err(wrong)?;
+            for part in change {
+                let kinds = || wrong(ReadError::Kinds(note.text.clone()));
+                value = value.plus(part).ok_or_else(kinds)?;
+            }
+        }
+        Ok(value)
+    }
+
+    /// The assembled equations, each slip giving a name another value than the right one.
     pub(super) fn assembled(
         &self,
-        slip: Option<(&str, Value<'g>)>,
+        slips: &[(&str, Value<'g>)],
     ) -> Result<Equations<'g>, ConsequenceError> {
         let (_, mut reader) = read_on(self.graph, &[])?;
-        let mut carriers: BTreeMap<&str, Value<'g>> = slip.into_iter().collect();
+        let mut carriers: BTreeMap<&str, Value<'g>> = slips.iter().copied().collect();
         let mut values: BTreeMap<&str, Value<'g>> = carriers.clone();
-        if let Some((name, value)) = slip {
-            reader.define(name, self.seen(name, value));
+        for (name, value) in slips {
+            reader.define(name, self.seen(name, *value));
         }
         for (block, right) in &self.statements {
             let name = block.name.as_str();
@@ -149,6 +170,48 @@ impl<'g> Pages<'g> {
     }
 }
 
+/// What a note says is printed, and the opposite of what it says is right.
+fn change<'g>(
+    inside: &Reader<'g>,
+    block: &Block,
+    note: &Note,
+) -> Result<Vec<Value<'g>>, ReadError> {
+    let Some(change) = &note.change else { return Ok(Vec::new()) };
+    let side = |code: &str| match code {
+        "0" => Ok(None),
+        _ => placed(inside, block, note.place.as_deref(), inside.body(code)?).map(Some),
+    };
+    let (printed, right) = (side(&change.printed)?, side(&change.right)?);
+    Ok(printed.into_iter().chain(right.map(Value::negated)).collect())
+}
+
+/// A value in its place: an entry of a tensor is that entry and its mirror image.
+fn placed<'g>(
+    inside: &Reader<'g>,
+    block: &Block,
+    place: Option<&str>,
+    value: Value<'g>,
+) -> Result<Value<'g>, ReadError> {
+    let (Some(place), Value::Scalar(entry), Kind::Tensor(axes)) = (place, value, &block.kind)
+    else {
+        return Ok(value);
+    };
+    let zero = entry.graph().zero();
+    let label = |i: usize, j: usize| format!("{}{}", i + 1, j + 1);
+    let entries = [0, 1, 2].map(|i| {
+        [0, 1, 2].map(|j| {
+            if [label(i, j), label(j, i)].iter().any(|l| l == place) { entry } else { zero }
+        })
+    });
+    let mut units = [[zero; 3]; 3];
+    for (unit, axis) in units.iter_mut().zip(axes) {
+        if let Value::Vector(components) = inside.body(&format!("{axis}_hat"))? {
+            *unit = components;
+        }
+    }
+    Ok(Value::along(units, entries))
+}
+
 /// The acceleration of B by its symbols, once the axes of B are known.
 fn unknown_acceleration<'g>(
     reader: &mut Reader<'g>,
@@ -162,7 +225,7 @@ fn body<'g>(reader: &mut Reader<'g>, block: &Block) -> Result<Value<'g>, PageErr
     reader.body(&block.body).map_err(|error| at(block, error))
 }
 
-fn at(block: &Block, error: crate::page::ReadError) -> PageError {
+fn at(block: &Block, error: ReadError) -> PageError {
     PageError { page: block.page.clone(), line: block.line, error }
 }
 

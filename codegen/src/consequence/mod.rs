@@ -25,7 +25,7 @@ use std::fmt;
 pub use error::ConsequenceError;
 pub use run::{DURATION, RESOLUTION, STEP};
 
-use assembled::{Pages, equal};
+use assembled::{Equations, Pages, equal};
 use ledger::Accountant;
 use run::{STEPS, run};
 use system::at_table_1;
@@ -34,7 +34,7 @@ use crate::derivation::chain::Chain;
 use crate::graph::Graph;
 use crate::kinds::DGVSCMG;
 use crate::normal::Ring;
-use crate::page::{Block, Note, Page, blocks};
+use crate::page::{Block, Note, Page, Value, blocks};
 
 /// What one printed block does.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +83,15 @@ pub struct Drift {
     pub angular: f64,
 }
 
+/// Some of the differences of a printed block.
+#[derive(Clone, Debug)]
+pub struct Slip<'a> {
+    /// The block.
+    pub block: &'a Block,
+    /// Those of its notes whose change is made; the rest of the block is right.
+    pub notes: Vec<&'a Note>,
+}
+
 /// The consequence of every printed block that differs in value, in the order of the pages. Words,
 /// definitions and what holds in a special case have none.
 ///
@@ -93,28 +102,31 @@ pub fn consequences(
     printed: &[Page],
 ) -> Result<Vec<Consequence>, ConsequenceError> {
     let graph = Graph::new();
-    let chain = Chain::new(&graph, &DGVSCMG);
-    let mut accountant = Accountant::new(&chain)?;
-    let mut pages = Pages::read(&graph, pages)?;
-    let right = pages.assembled(None)?;
-    let right_at_table_1 = at_table_1(&right);
-    let mut ring = Ring::new(&graph);
+    let mut bench = Bench::new(&graph, pages)?;
     let mut found = Vec::new();
     for block in differing(printed)? {
-        let slipped = pages.printed(&block)?;
-        // What agrees is no slip, in whatever words.
-        let agrees = pages.agrees(&mut ring, &block.name, slipped);
-        let slip = (!agrees).then_some((block.name.as_str(), slipped));
-        let equations = pages.assembled(slip)?;
-        let effect = if equations == right {
-            Effect::Unchanged
-        } else if equal(&mut ring, &at_table_1(&equations), &right_at_table_1) {
-            Effect::Vanishes
-        } else {
-            run(&graph, &mut accountant, &equations, STEPS)?
-        };
+        let slipped = bench.pages.printed(&block)?;
+        let effect = bench.effect(&[(block.name.as_str(), slipped)])?;
         let Block { tag, name, page, line, .. } = block;
         found.push(Consequence { tag, name, page, line, effect });
+    }
+    Ok(found)
+}
+
+/// What each set of slips does, made together in a system that is right otherwise.
+///
+/// # Errors
+/// When a page or a note cannot be read, or the assembled system is not on the pages.
+pub fn effects(pages: &[Page], sets: &[Vec<Slip<'_>>]) -> Result<Vec<Effect>, ConsequenceError> {
+    let graph = Graph::new();
+    let mut bench = Bench::new(&graph, pages)?;
+    let mut found = Vec::new();
+    for set in sets {
+        let mut values = Vec::new();
+        for slip in set {
+            values.push((slip.block.name.as_str(), bench.pages.with_notes(slip)?));
+        }
+        found.push(bench.effect(&values)?);
     }
     Ok(found)
 }
@@ -125,11 +137,46 @@ pub fn consequences(
 /// When a page cannot be read, or the assembled system is not on the pages or does not run.
 pub fn floor(pages: &[Page]) -> Result<Drift, ConsequenceError> {
     let graph = Graph::new();
-    let chain = Chain::new(&graph, &DGVSCMG);
-    let right = Pages::read(&graph, pages)?.assembled(None)?;
-    match run(&graph, &mut Accountant::new(&chain)?, &right, STEPS)? {
+    let mut bench = Bench::new(&graph, pages)?;
+    match run(&graph, &mut bench.accountant, &bench.right, STEPS)? {
         Effect::Drift(drift) => Ok(drift),
         effect => Err(ConsequenceError::Right(effect)),
+    }
+}
+
+/// The right system, and what others are held against it with.
+struct Bench<'g> {
+    graph: &'g Graph,
+    accountant: Accountant,
+    pages: Pages<'g>,
+    right: Equations<'g>,
+    right_at_table_1: Equations<'g>,
+    ring: Ring<'g>,
+}
+
+impl<'g> Bench<'g> {
+    fn new(graph: &'g Graph, pages: &[Page]) -> Result<Self, ConsequenceError> {
+        let accountant = Accountant::new(&Chain::new(graph, &DGVSCMG))?;
+        let pages = Pages::read(graph, pages)?;
+        let right = pages.assembled(&[])?;
+        let right_at_table_1 = at_table_1(&right);
+        Ok(Self { graph, accountant, pages, right, right_at_table_1, ring: Ring::new(graph) })
+    }
+
+    /// What the system does in which names have these values.
+    fn effect(&mut self, values: &[(&str, Value<'g>)]) -> Result<Effect, ConsequenceError> {
+        // What agrees is no slip, in whatever words.
+        let (pages, ring) = (&self.pages, &mut self.ring);
+        let mut slips = values.to_vec();
+        slips.retain(|(name, value)| !pages.agrees(ring, name, *value));
+        let equations = self.pages.assembled(&slips)?;
+        if equations == self.right {
+            return Ok(Effect::Unchanged);
+        }
+        if equal(&mut self.ring, &at_table_1(&equations), &self.right_at_table_1) {
+            return Ok(Effect::Vanishes);
+        }
+        run(self.graph, &mut self.accountant, &equations, STEPS)
     }
 }
 

@@ -48,7 +48,7 @@ fn the_right_system_conserves_to_the_integrators_error() {
 fn the_right_systems_drift_falls_sixteen_fold_per_halved_step() {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
-    let right = Pages::read(&graph, &folder("")).unwrap().assembled(None).unwrap();
+    let right = Pages::read(&graph, &folder("")).unwrap().assembled(&[]).unwrap();
     let mut accountant = Accountant::new(&chain).unwrap();
     // Coarse enough that rounding, 1e-14, is nothing beside it.
     let [coarse, fine] =
@@ -67,13 +67,13 @@ fn a_name_that_is_given_its_own_value_leaves_every_expression_as_it_is() {
     let _chain = Chain::new(&graph, &DGVSCMG);
     let texts = folder("");
     let mut pages = Pages::read(&graph, &texts).unwrap();
-    let right = pages.assembled(None).unwrap();
+    let right = pages.assembled(&[]).unwrap();
     for tag in ["(12)", "(14)", "(36)", "(57)", "(81)", "(119)"] {
         let mut stated =
             texts.iter().flat_map(|page| blocks(&page.name, &page.text, "equation").unwrap());
         let block = stated.find(|block| block.tag == tag).unwrap();
         let value = pages.printed(&block).unwrap();
-        assert_eq!(pages.assembled(Some((&block.name, value))).unwrap(), right, "{tag}");
+        assert_eq!(pages.assembled(&[(&block.name, value)]).unwrap(), right, "{tag}");
     }
 }
 

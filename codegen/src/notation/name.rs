@@ -13,7 +13,9 @@ pub enum Accent {
 #[must_use]
 pub fn symbol(name: &str, accent: Accent) -> String {
     if let Some(axis) = name.strip_suffix("_hat").and_then(|rest| rest.split_once('_')) {
-        return format!("\\hat{{{}}}_{{{}}}", axis.0, axis.1);
+        let hat = format!("\\hat{{{}}}", axis.0);
+        let hat = if accent == Accent::Tilde { format!("\\tilde{{{hat}}}") } else { hat };
+        return format!("{hat}_{{{}}}", axis.1);
     }
     if let Some((function, angle)) =
         name.split_once('_').filter(|(f, _)| ["sin", "cos"].contains(f))
@@ -228,6 +230,7 @@ mod tests {
         ] {
             assert_eq!(symbol(name, Accent::Plain), latex, "{name}");
         }
+        assert_eq!(symbol("s_z_hat", Accent::Tilde), "\\tilde{\\hat{s}}_{z}");
         assert_eq!(symbol("r_wc_b_prime", Accent::Tilde), "\\tilde{r}'_{W_c/B}");
     }
 

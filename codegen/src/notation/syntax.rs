@@ -13,8 +13,8 @@ use crate::page::ReadError;
 /// # Errors
 /// When the body does not parse or holds a form that no block may hold.
 pub fn equation(left: &str, body: &str) -> Result<String, ReadError> {
-    let block: syn::Block = syn::parse_str(&format!("{{\n{body}\n}}"))
-        .map_err(|error| ReadError::Syntax(error.to_string()))?;
+    let block: syn::Block =
+        syn::parse_str(&format!("{{\n{body}\n}}")).map_err(|error| syntax(&error))?;
     let mut setter = Setter::default();
     let mut result = Vec::new();
     let mut lets = Vec::new();
@@ -35,13 +35,13 @@ pub fn equation(left: &str, body: &str) -> Result<String, ReadError> {
     Ok(format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}", all.join(" \\\\\n")))
 }
 
-/// One expression on one line.
+/// One expression on one line, in the scope of the block `body`.
 ///
 /// # Errors
 /// When it does not parse or holds a form that no block may hold.
-pub fn expression(text: &str) -> Result<String, ReadError> {
-    let expr: Expr = syn::parse_str(text).map_err(|error| ReadError::Syntax(error.to_string()))?;
-    Ok(Tex::sum(&Setter::default().terms(&expr)?).text)
+pub fn expression(body: &str, text: &str) -> Result<String, ReadError> {
+    let expr: Expr = syn::parse_str(text).map_err(|error| syntax(&error))?;
+    Ok(Tex::sum(&Setter::within(body)?.terms(&expr)?).text)
 }
 
 /// Expressions one above the other, each behind its label, as an aligned display; `body` is the
@@ -50,17 +50,10 @@ pub fn expression(text: &str) -> Result<String, ReadError> {
 /// # Errors
 /// When one does not parse or holds a form that no block may hold.
 pub fn side_by_side(body: &str, sides: &[(&str, &str)]) -> Result<String, ReadError> {
-    let syntax = |error: syn::Error| ReadError::Syntax(error.to_string());
-    let block: syn::Block = syn::parse_str(&format!("{{\n{body}\n}}")).map_err(syntax)?;
-    let mut setter = Setter::default();
-    for statement in &block.stmts {
-        if let syn::Stmt::Local(local) = statement {
-            setter.binding(local)?;
-        }
-    }
+    let setter = Setter::within(body)?;
     let mut all = Vec::new();
     for (label, text) in sides {
-        let expr: Expr = syn::parse_str(text).map_err(syntax)?;
+        let expr: Expr = syn::parse_str(text).map_err(|error| syntax(&error))?;
         let mut set = match expr.to_token_text().as_str() {
             "0" => vec!["\\text{nothing}".to_owned()],
             _ => lines(&setter.terms(&expr)?),
@@ -83,6 +76,10 @@ fn aligned(left: &str, terms: &[Term]) -> Vec<String> {
     made
 }
 
+fn syntax(error: &syn::Error) -> ReadError {
+    ReadError::Syntax(error.to_string())
+}
+
 fn form(piece: &impl quote::ToTokens) -> ReadError {
     ReadError::Form(piece.to_token_stream().to_string())
 }
@@ -94,6 +91,19 @@ struct Setter {
 }
 
 impl Setter {
+    /// With the abbreviations of a block.
+    fn within(body: &str) -> Result<Self, ReadError> {
+        let block: syn::Block =
+            syn::parse_str(&format!("{{\n{body}\n}}")).map_err(|error| syntax(&error))?;
+        let mut setter = Self::default();
+        for statement in &block.stmts {
+            if let syn::Stmt::Local(local) = statement {
+                setter.binding(local)?;
+            }
+        }
+        Ok(setter)
+    }
+
     /// Name and value of a `let`; none where it only abbreviates a sine or a cosine.
     fn binding(&mut self, local: &syn::Local) -> Result<Option<(String, Expr)>, ReadError> {
         let (syn::Pat::Ident(name), Some(init)) = (&local.pat, &local.init) else {
@@ -335,16 +345,19 @@ mod tests {
             ("c - (f_o - f_i)", "c - (f_{o} - f_{i})"),
             ("-(f_o + f_i)*d", "-(f_{o} + f_{i})\\,d"),
         ] {
-            assert_eq!(expression(text).as_deref(), Ok(latex), "{text}");
+            assert_eq!(expression("", text).as_deref(), Ok(latex), "{text}");
         }
     }
 
     #[test]
     fn the_frame_of_a_tensor_is_that_of_its_axes() {
         let wheel = "tensor(s_x_hat, w_y_hat, w_z_hat, [[t_11, 0, 0], [0, 0, 0], [0, 0, 0]])";
-        assert!(expression(wheel).is_ok_and(|latex| latex.starts_with("{}^{\\mathcal{W}}")));
+        assert!(expression("", wheel).is_ok_and(|latex| latex.starts_with("{}^{\\mathcal{W}}")));
         let mixed = "tensor(s_x_hat, s_y_hat, w_z_hat, [[0, 0, 0], [0, 0, 0], [0, 0, 0]])";
-        assert_eq!(expression(mixed), Err(ReadError::Form("s_x_hat, s_y_hat, w_z_hat".to_owned())));
+        assert_eq!(
+            expression("", mixed),
+            Err(ReadError::Form("s_x_hat, s_y_hat, w_z_hat".to_owned()))
+        );
     }
 
     #[test]

@@ -9,6 +9,8 @@ pub enum Class {
     Agrees,
     /// The difference is the paper's.
     Slip,
+    /// One small mark that the paper or the scan may have exchanged or added.
+    Undecided,
     /// A loss of the scan explains it.
     Scan,
     /// Torn.
@@ -216,9 +218,10 @@ fn causes(text: &str) -> (&str, Vec<char>) {
 }
 
 impl Class {
-    const NAMES: [(&'static str, Self); 5] = [
+    const NAMES: [(&'static str, Self); 6] = [
         ("agrees", Self::Agrees),
         ("slip", Self::Slip),
+        ("undecided", Self::Undecided),
         ("scan", Self::Scan),
         ("unreadable", Self::Unreadable),
         ("definition", Self::Definition),

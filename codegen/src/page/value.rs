@@ -33,7 +33,8 @@ impl<'g> Value<'g> {
     }
 
     /// `self + other`, for two of a kind.
-    pub(super) fn plus(self, other: Self) -> Option<Self> {
+    #[must_use]
+    pub fn plus(self, other: Self) -> Option<Self> {
         Some(match (self, other) {
             (Scalar(a), Scalar(b)) => Scalar(a + b),
             (Vector(a), Vector(b)) => Vector(each(|i| a[i] + b[i])),
@@ -43,7 +44,8 @@ impl<'g> Value<'g> {
     }
 
     /// `-self`.
-    pub(super) fn negated(self) -> Self {
+    #[must_use]
+    pub fn negated(self) -> Self {
         match self {
             Scalar(a) => Scalar(-a),
             Vector(a) => Vector(a.map(|e| -e)),
@@ -81,7 +83,8 @@ impl<'g> Value<'g> {
     }
 
     /// The tensor with these entries along three unit vectors: `sum t_ij e_i e_j^T`.
-    pub(super) fn along(axes: [[Expr<'g>; 3]; 3], entries: [[Expr<'g>; 3]; 3]) -> Self {
+    #[must_use]
+    pub fn along(axes: [[Expr<'g>; 3]; 3], entries: [[Expr<'g>; 3]; 3]) -> Self {
         let zero = entries[0][0].graph().zero();
         Tensor(each(|a| {
             each(|b| {

@@ -177,7 +177,8 @@ fn axes(blocks: &[Block]) -> Result<String, NotationError> {
     let defined = blocks.iter().filter(|block| block.name.ends_with("_hat"));
     let line = |block: &Block| {
         let place = format!("{}:{}", block.page, block.line);
-        let set = expression(&block.body).map_err(|error| NotationError::Block(place, error))?;
+        let set =
+            expression("", &block.body).map_err(|error| NotationError::Block(place, error))?;
         Ok(format!("{} ={{}}& {set}", symbol(&block.name, Accent::Plain)))
     };
     let lines = defined.map(line).collect::<Result<Vec<_>, _>>()?;
@@ -314,11 +315,15 @@ fn emitted<'g>(
     };
     let mut found = claims(kernels, |_, claim| by_name(claim));
     let numbered = |tag: &str| tag != "(step)" && stated.iter().any(|block| block.tag == tag);
-    if found.is_empty() {
-        found = claims(kernels, |tag, _| numbered(tag));
-    }
     if !found.is_empty() {
         return format!("Computed by {}", found.join("; "));
+    }
+    found = claims(kernels, |tag, _| numbered(tag));
+    if !found.is_empty() {
+        return format!(
+            "Not computed as it stands; one device's share of it, or its part, by {}",
+            found.join("; ")
+        );
     }
     match quantity.chapter.goes_into.as_str() {
         "" => "Computed by the solver itself".to_owned(),

@@ -3,13 +3,17 @@
 
 use serde::Serialize;
 
+use super::balance::Balance;
 use super::derivation::NotationError;
+use super::figures::Figures;
+use super::words::mathematics;
 use crate::consequence::{Consequence, DURATION, Drift, Effect, RESOLUTION};
-use crate::graph::Graph;
-use crate::notation::{Accent, Balance as Weight, equation, side_by_side, symbol, unit};
-use crate::page::{Block, Kind, Note, Page, PageError, blocks, read_on};
+use crate::notation::{Accent, equation, expression, side_by_side, symbol};
+use crate::page::{Block, Class, Kind, Note};
 use crate::verdict::{Cause, Component, Entry, Form, Printed, Verdicts};
 
+/// A change of so many characters stands on the line of its note.
+const INLINE: usize = 100;
 /// So many differing terms are listed; of more, the number is told.
 const LISTED: usize = 6;
 
@@ -18,10 +22,11 @@ const LISTED: usize = 6;
 pub(super) struct Errata {
     tally: Vec<(String, usize)>,
     differing: usize,
+    numbered: usize,
     duration: f64,
     resolution: String,
     floor: DriftText,
-    findings: Vec<FindingText>,
+    parts: [PartText; 2],
     causes: Vec<CauseText>,
     all: Vec<LineText>,
 }
@@ -33,6 +38,14 @@ struct DriftText {
     angular: String,
 }
 
+/// Equations that differ.
+#[derive(Serialize)]
+struct PartText {
+    /// With a slip, or with what cannot be told from one; otherwise the scan explains everything.
+    papers: bool,
+    findings: Vec<FindingText>,
+}
+
 /// One equation that differs.
 #[derive(Serialize)]
 struct FindingText {
@@ -40,9 +53,12 @@ struct FindingText {
     title: String,
     in_short: String,
     label: String,
+    of_the_paper: bool,
     causes: String,
     forms: Vec<FormText>,
-    consequence: String,
+    /// What the form as read does, and what its slips alone do.
+    as_read: String,
+    slips: String,
     energy: String,
     linear: String,
     angular: String,
@@ -80,6 +96,8 @@ struct CauseText {
     prose: Vec<String>,
     equations: String,
     mended: Vec<MendedText>,
+    /// What all its differences do to Table 1.
+    effect: String,
 }
 
 #[derive(Serialize)]
@@ -104,56 +122,39 @@ struct LineText {
 /// The errata of a verdict.
 pub(super) fn errata(
     verdicts: &Verdicts,
-    consequences: &[Consequence],
-    floor: Drift,
+    figures: &Figures,
     balance: &Balance,
 ) -> Result<Errata, NotationError> {
     let differs = |entry: &&Entry| {
         matches!(entry.printed, Printed::Differs { .. } | Printed::Unreadable { .. })
     };
+    let told = |entry: &&Entry| {
+        let definition = matches!(entry.printed, Printed::Definition);
+        differs(entry) || definition && entry.notes().any(|note| note.class == Class::Slip)
+    };
     let mut shown: Vec<(String, usize)> = Vec::new();
     let mut findings = Vec::new();
-    for entry in verdicts.entries.iter().filter(differs) {
-        findings.push(finding(entry, consequences, balance, &mut shown)?);
+    for entry in verdicts.entries.iter().filter(told) {
+        findings.push(finding(entry, figures, balance, &mut shown)?);
     }
-    let numbered = verdicts.entries.iter().filter(|entry| entry.number.is_some());
-    let differing = numbered.filter(differs).count();
+    let numbered: Vec<_> = verdicts.entries.iter().filter(|e| e.number.is_some()).collect();
+    let differing = numbered.iter().copied().filter(differs).count();
+    let (papers, scans) =
+        findings.into_iter().partition(|finding: &FindingText| finding.of_the_paper);
     Ok(Errata {
         tally: verdicts.tally(),
         differing,
+        numbered: numbered.len(),
         duration: DURATION,
         resolution: format!("{RESOLUTION:.0e}"),
-        floor: drift_text(floor),
-        findings,
-        causes: verdicts.causes.iter().map(cause).collect(),
+        floor: drift_text(figures.floor),
+        parts: [
+            PartText { papers: true, findings: papers },
+            PartText { papers: false, findings: scans },
+        ],
+        causes: verdicts.causes.iter().map(|cause| cause_text(cause, figures)).collect(),
         all: verdicts.entries.iter().map(line).collect(),
     })
-}
-
-/// The printed blocks whose terms are of different units: what no author means.
-pub(super) struct Balance(Vec<(String, usize)>);
-
-impl Balance {
-    /// Reads the print and weighs every component.
-    pub(super) fn of(graph: &Graph, pages: &[Page], printed: &[Page]) -> Result<Self, PageError> {
-        let (_, reader) = read_on(graph, pages)?;
-        let mut unbalanced = Vec::new();
-        for page in printed {
-            let stated = blocks(&page.name, &page.text, "printed")?;
-            for block in stated.iter().filter(|block| !block.is_words()) {
-                let wrong = |error| PageError { page: page.name.clone(), line: block.line, error };
-                let value = reader.body(&block.body).map_err(wrong)?;
-                let components = reader.resolve(block, value).map_err(wrong)?;
-                let units = components.iter().map(|(_, component)| unit(*component));
-                // A symbol without a unit is nothing that the print could be blamed for.
-                let all = units.flatten().fold(Weight::Any, Weight::with);
-                if all == Weight::Not {
-                    unbalanced.push(place(block));
-                }
-            }
-        }
-        Ok(Self(unbalanced))
-    }
 }
 
 fn place(block: &Block) -> (String, usize) {
@@ -162,7 +163,7 @@ fn place(block: &Block) -> (String, usize) {
 
 fn finding(
     entry: &Entry,
-    consequences: &[Consequence],
+    figures: &Figures,
     balance: &Balance,
     shown: &mut Vec<(String, usize)>,
 ) -> Result<FindingText, NotationError> {
@@ -178,65 +179,47 @@ fn finding(
                 && !form.components.is_empty()
         })
     };
-    let effects: Vec<_> = consequences.iter().filter(of_entry).collect();
-    let several = effects.len() > 1;
-    let told: Vec<_> = effects
-        .iter()
-        .map(|consequence| {
-            let name = symbol(&consequence.name, Accent::Plain);
-            if several {
-                format!("${name}$ {}", consequence.effect)
-            } else {
-                consequence.effect.to_string()
-            }
-        })
-        .collect();
-    let worst = worst(&effects, entry.differing());
+    let as_read: Vec<_> = figures.forms.iter().filter(of_entry).collect();
+    let several = as_read.len() > 1;
+    let as_read = as_read.iter().map(|consequence| {
+        let name = symbol(&consequence.name, Accent::Plain);
+        let name = if several { format!("${name}$ ") } else { String::new() };
+        format!("{name}{}", consequence.effect)
+    });
+    let slips = figures.of_entry(&entry.tag);
+    let [energy, linear, angular] = columns(slips);
+    let label = entry.printed.label();
     let in_short = entry.in_short.as_deref().unwrap_or_default();
     Ok(FindingText {
         tag: entry.tag.clone(),
-        title: entry.title.clone(),
-        in_short: in_short.trim_end_matches('.').to_owned(),
-        label: entry.printed.label(),
+        title: mathematics(&entry.title),
+        in_short: mathematics(in_short.trim_end_matches('.')),
+        of_the_paper: ["slip", "undecided", "definition"].iter().any(|class| label.contains(class)),
+        label,
         causes: letters(entry.printed.causes()),
-        consequence: told.join("; "),
-        energy: worst[0].clone(),
-        linear: worst[1].clone(),
-        angular: worst[2].clone(),
+        as_read: as_read.collect::<Vec<_>>().join("; "),
+        slips: slips.map(|effect| effect.to_string()).unwrap_or_default(),
+        energy,
+        linear,
+        angular,
         forms,
     })
 }
 
-/// The largest figures of an equation's forms, or what stands in their place.
-fn worst(effects: &[&Consequence], differing: usize) -> [String; 3] {
-    let words = |text: &str| [text.to_owned(), String::new(), String::new()];
-    let mut largest: Option<Drift> = None;
-    for effect in effects {
-        match effect.effect {
-            Effect::Diverges { .. } | Effect::Singular { .. } => {
-                return words(&effect.effect.to_string());
-            }
-            Effect::Drift(drift) => {
-                let before = largest.unwrap_or_default();
-                largest = Some(Drift {
-                    energy: before.energy.max(drift.energy),
-                    linear: before.linear.max(drift.linear),
-                    angular: before.angular.max(drift.angular),
-                });
-            }
-            Effect::Unchanged | Effect::Vanishes => {}
+/// An effect in three columns, in words where there is no figure.
+fn columns(effect: Option<Effect>) -> [String; 3] {
+    let words = |text: String| [text, String::new(), String::new()];
+    match effect {
+        None => words(String::new()),
+        Some(Effect::Vanishes) => words("vanishes".to_owned()),
+        Some(Effect::Unchanged) => words("not reached".to_owned()),
+        Some(effect @ (Effect::Diverges { .. } | Effect::Singular { .. })) => {
+            words(effect.to_string())
         }
-    }
-    match (largest, effects.first()) {
-        (Some(drift), _) => [drift.energy, drift.linear, drift.angular].map(|value| {
-            if value < RESOLUTION { format!("< {RESOLUTION:.0e}") } else { format!("{value:.1e}") }
+        Some(Effect::Drift(drift)) => [drift.energy, drift.linear, drift.angular].map(|value| {
+            let resolved = value >= RESOLUTION;
+            if resolved { format!("{value:.1e}") } else { format!("< {RESOLUTION:.0e}") }
         }),
-        (None, _) if effects.iter().any(|effect| effect.effect == Effect::Vanishes) => {
-            words("vanishes")
-        }
-        (None, Some(_)) => words("not reached"),
-        (None, None) if differing > 0 => words("special case"),
-        (None, None) => words("no value"),
     }
 }
 
@@ -272,7 +255,7 @@ fn form_text(form: &Form, above: bool, balance: &Balance) -> Result<FormText, No
         },
         above: above && block.kind != Kind::Text,
         terms: terms_text(&form.components),
-        unbalanced: balance.0.contains(&place(block)),
+        unbalanced: balance.fails(block),
         notes,
     })
 }
@@ -291,14 +274,16 @@ fn terms_text(components: &[Component]) -> String {
         let axis = match component.label.as_str() {
             "" => String::new(),
             label if label.starts_with(char::is_numeric) => format!(" (entry {label})"),
-            label => format!(" (along `{label}`)"),
+            label => format!(" (along `{label}_hat`)"),
         };
         component.terms.iter().map(move |term| format!("{term}{axis}"))
     });
     let listed = listed.collect::<Vec<_>>().join("; ");
     match count {
-        1 => format!("One term of the normal form differs: {listed}."),
-        _ if count <= LISTED => format!("{count} terms of the normal form differ: {listed}."),
+        1 => format!("One term of the normal form differs: {}.", mathematics(&listed)),
+        _ if count <= LISTED => {
+            format!("{count} terms of the normal form differ: {}.", mathematics(&listed))
+        }
         _ => format!("{count} terms of the normal form differ."),
     }
 }
@@ -306,10 +291,21 @@ fn terms_text(components: &[Component]) -> String {
 fn note_text(block: &Block, note: &Note) -> Result<NoteText, NotationError> {
     let wrong = |error| NotationError::Block(format!("{}:{}", block.page, note.line), error);
     let body = if block.kind == Kind::Text { "" } else { &block.body };
+    let mut inline = String::new();
     let change = match &note.change {
         Some(change) => {
             let sides = [("printed", change.printed.as_str()), ("right", change.right.as_str())];
-            side_by_side(body, &sides).map_err(wrong)?
+            let length = change.printed.len() + change.right.len();
+            if length > INLINE || note.best.is_some() {
+                side_by_side(body, &sides).map_err(wrong)?
+            } else {
+                let [printed, right] = sides.map(|(_, side)| match side {
+                    "0" => Ok("nothing".to_owned()),
+                    side => expression(body, side).map(|latex| format!("${latex}$")),
+                });
+                inline = format!("{} → {}", printed.map_err(wrong)?, right.map_err(wrong)?);
+                String::new()
+            }
         }
         None => String::new(),
     };
@@ -318,7 +314,11 @@ fn note_text(block: &Block, note: &Note) -> Result<NoteText, NotationError> {
     Ok(NoteText {
         class: note.class.to_string(),
         place: note.place.as_ref().map(|place| format!(", entry {place}")).unwrap_or_default(),
-        text: note.words.clone(),
+        text: [inline.as_str(), note.words.as_str()]
+            .into_iter()
+            .filter(|part| !part.is_empty())
+            .collect::<Vec<_>>()
+            .join("; "),
         change,
         best: best.transpose().map_err(wrong)?.unwrap_or_default(),
         tried: note.tried.clone().unwrap_or_default(),
@@ -331,7 +331,7 @@ fn letters(causes: &[char]) -> String {
     causes.iter().map(char::to_string).collect::<Vec<_>>().join(", ")
 }
 
-fn cause(cause: &Cause) -> CauseText {
+fn cause_text(cause: &Cause, figures: &Figures) -> CauseText {
     let mended = cause.mended.iter().map(|mended| MendedText {
         equation: format!("{} ${}$", mended.tag, symbol(&mended.name, Accent::Plain)),
         before: mended.before,
@@ -345,6 +345,7 @@ fn cause(cause: &Cause) -> CauseText {
         prose: cause.prose.clone(),
         equations: cause.entries.join(", "),
         mended: mended.collect(),
+        effect: figures.of_cause(cause.letter).map(|effect| effect.to_string()).unwrap_or_default(),
     }
 }
 
@@ -363,7 +364,7 @@ fn line(entry: &Entry) -> LineText {
     LineText {
         tag: entry.tag.clone(),
         title: entry.title.clone(),
-        derived: entry.hand_checked.label().to_owned(),
+        derived: entry.derivation().to_owned(),
         pages: pages.join(", "),
         label: entry.printed.label(),
     }

@@ -1,19 +1,24 @@
 //! The documents that are generated with the code: Markdown, and the same as self-contained HTML.
 
+mod balance;
 mod derivation;
 mod errata;
+mod figures;
 mod frames;
 mod html;
 mod numbers;
 mod traceability;
+mod words;
 
 use std::fmt;
 
+use balance::Balance;
 pub use derivation::NotationError;
+use figures::Figures;
 pub use html::HtmlError;
 use tera::{Context, Tera};
 
-use crate::consequence::{ConsequenceError, consequences, floor};
+use crate::consequence::ConsequenceError;
 use crate::derivation::chain::Chain;
 use crate::emit::EmittedFile;
 use crate::graph::Graph;
@@ -106,10 +111,10 @@ pub fn errata(
 ) -> Result<Vec<EmittedFile>, ReportError> {
     let graph = Graph::new();
     let _symbols = Chain::new(&graph, &DGVSCMG);
-    let balance = errata::Balance::of(&graph, pages, printed)?;
-    let (consequences, floor) = (consequences(pages, printed)?, floor(pages)?);
+    let balance = Balance::of(&graph, pages, printed)?;
+    let figures = Figures::of(pages, printed, verdicts)?;
     let mut context = Context::new();
-    context.insert("errata", &errata::errata(verdicts, &consequences, floor, &balance)?);
+    context.insert("errata", &errata::errata(verdicts, &figures, &balance)?);
     document("docs/errata", include_str!("templates/errata.md.tera"), &context, &[])
 }
 

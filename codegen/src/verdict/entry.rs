@@ -4,6 +4,13 @@ use crate::normal::Term;
 use crate::page::{Block, Class, Note};
 use crate::proof::Row;
 
+/// Equations that the derivation states as the page does: Newton's and Euler's laws, sums, momenta
+/// of single bodies, the parallel axis theorem, mass ratios and differences of positions.
+const STATED: [u16; 28] = [
+    6, 8, 9, 20, 21, 22, 23, 29, 32, 35, 40, 45, 48, 55, 60, 63, 71, 75, 76, 78, 92, 93, 94, 95,
+    99, 111, 112, 113,
+];
+
 /// One number of the paper, or one equality that its text asserts.
 #[derive(Clone, Debug)]
 pub struct Entry {
@@ -91,6 +98,17 @@ impl Entry {
     /// All notes that concern this entry, in order.
     pub fn notes(&self) -> impl Iterator<Item = &Note> {
         self.forms.iter().flat_map(|form| &form.block.notes)
+    }
+
+    /// What ties derivation and page together: a proof, or the same words on both sides.
+    #[must_use]
+    pub fn derivation(&self) -> &'static str {
+        match self.hand_checked {
+            HandChecked::Proven(_) if self.number.is_some_and(|n| STATED.contains(&n)) => {
+                "stated alike"
+            }
+            _ => self.hand_checked.label(),
+        }
     }
 
     /// How many terms of the print differ.
