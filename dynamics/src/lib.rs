@@ -71,6 +71,7 @@ mod solve;
 mod spacecraft;
 mod state;
 mod symmetric;
+pub mod units;
 mod validation;
 mod vec3;
 
