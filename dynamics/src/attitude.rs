@@ -39,4 +39,9 @@ pub trait Attitude<T: Scalar>: Copy + Debug + PartialEq {
     /// quaternion not zero, MRPs not so large that their squares overflow.
     #[must_use]
     fn is_valid(&self) -> bool;
+
+    /// The parameter that an error shows: the first one that is not finite, otherwise the one of
+    /// largest magnitude.
+    #[must_use]
+    fn extreme(&self) -> T;
 }

@@ -88,6 +88,10 @@ pub enum SolveError<T = f64> {
     NotFinite {
         /// The first such input, in the order state, torques, rest.
         what: Quantity,
+        /// The first component that is not finite; of an attitude, [`Attitude::extreme`].
+        ///
+        /// [`Attitude::extreme`]: crate::Attitude::extreme
+        value: T,
     },
     /// Every input is finite, but they are so large (or small) that the result is not.
     Overflow,
@@ -159,13 +163,20 @@ impl<T: Scalar> Display for SolveError<T> {
                     }
                 })
             }
-            Self::NotFinite { what: Quantity::Attitude } => f.write_str(
-                "attitude has no usable length (zero, too large or not finite); give a unit \
-                 quaternion, or MRPs up to 1",
-            ),
-            Self::NotFinite { what } => {
-                write!(f, "{what} is not finite; give finite numbers in SI units")
+            Self::NotFinite { what: Quantity::Attitude, value } => {
+                let value = value.to_f64();
+                if value.is_finite() {
+                    write!(f, "{value:?} as largest parameter of the attitude has no usable length")
+                } else {
+                    write!(f, "{value:?} in the attitude is not finite")
+                }?;
+                f.write_str("; give a unit quaternion, or MRPs up to 1")
             }
+            Self::NotFinite { what, value } => write!(
+                f,
+                "{:?} in {what} is not finite; give finite numbers in SI units",
+                value.to_f64(),
+            ),
             Self::Overflow => f.write_str(
                 "the result is not finite although every input is; check the units of large \
                  or tiny inputs",
@@ -214,20 +225,35 @@ mod tests {
 
     #[test]
     fn input_that_is_not_finite_is_named() {
-        let text = |what| SolveError::<f64>::NotFinite { what }.to_string();
+        let text = |what, value| SolveError::NotFinite { what, value }.to_string();
         assert_eq!(
-            text(Quantity::Joint { device: 3, field: JointField::GammaIDot }),
-            "gamma_i_dot of device 3 is not finite; give finite numbers in SI units"
+            text(Quantity::Joint { device: 3, field: JointField::GammaIDot }, f64::NAN),
+            "NaN in gamma_i_dot of device 3 is not finite; give finite numbers in SI units"
         );
         assert_eq!(
-            text(Quantity::Motor { device: 1, joint: Joint::Wheel }),
-            "motor torque of device 1 (wheel) is not finite; give finite numbers in SI units"
+            text(Quantity::Motor { device: 1, joint: Joint::Wheel }, f64::NEG_INFINITY),
+            "-inf in motor torque of device 1 (wheel) is not finite; give finite numbers in SI \
+             units"
+        );
+    }
+
+    #[test]
+    fn attitude_tells_what_spoils_it() {
+        let text =
+            |value: f32| SolveError::NotFinite { what: Quantity::Attitude, value }.to_string();
+        assert_eq!(
+            text(f32::INFINITY),
+            "inf in the attitude is not finite; give a unit quaternion, or MRPs up to 1"
         );
         assert_eq!(
-            text(Quantity::Attitude),
-            "attitude has no usable length (zero, too large or not finite); give a unit \
+            text(0.0),
+            "0.0 as largest parameter of the attitude has no usable length; give a unit \
              quaternion, or MRPs up to 1"
         );
+    }
+
+    #[test]
+    fn overflow_tells_the_remedy() {
         assert!(SolveError::<f32>::Overflow.to_string().contains("check the units"));
     }
 }

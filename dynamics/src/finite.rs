@@ -2,68 +2,75 @@
 //!
 //! The hot path checks its results instead, which are fewer, and searches only once they fail.
 
+use nalgebra::Vector3;
+
 use crate::attitude::Attitude;
 use crate::error::{Joint, JointField, Quantity};
 use crate::real::Scalar;
 use crate::state::{Joints, State, Torques};
-use crate::vec3::{components, finite};
+use crate::vec3::components;
 
-/// The first part of a state that is not finite.
+/// The first part of a state that is not finite, and the value that spoils it.
 pub(crate) fn culprit_in_state<const N: usize, T: Scalar, A: Attitude<T>>(
     state: &State<N, T, A>,
-) -> Option<Quantity> {
-    if !finite(components(&state.r_b_n)) {
-        return Some(Quantity::Position);
-    }
-    if !finite(components(&state.r_b_n_dot)) {
-        return Some(Quantity::Velocity);
-    }
-    if !state.attitude.is_valid() {
-        return Some(Quantity::Attitude);
-    }
-    if !finite(components(&state.omega)) {
-        return Some(Quantity::BodyRate);
-    }
-    let mut devices = state.devices.iter().enumerate();
-    devices.find_map(|(device, joints)| {
-        culprit_in_joints(joints).map(|field| Quantity::Joint { device, field })
-    })
+) -> Option<(Quantity, T)> {
+    let attitude = || {
+        let spoilt = !state.attitude.is_valid();
+        spoilt.then(|| (Quantity::Attitude, state.attitude.extreme()))
+    };
+    culprit_in_vector(Quantity::Position, &state.r_b_n)
+        .or_else(|| culprit_in_vector(Quantity::Velocity, &state.r_b_n_dot))
+        .or_else(attitude)
+        .or_else(|| culprit_in_vector(Quantity::BodyRate, &state.omega))
+        .or_else(|| {
+            let mut devices = state.devices.iter().enumerate();
+            devices.find_map(|(device, joints)| {
+                let (field, value) = first_not_finite(&fields(joints))?;
+                Some((Quantity::Joint { device, field }, value))
+            })
+        })
 }
 
-/// The first part of the torques that is not finite.
+/// The first part of the torques that is not finite, and its value.
 pub(crate) fn culprit_in_torques<const N: usize, T: Scalar>(
     torques: &Torques<N, T>,
-) -> Option<Quantity> {
-    if !finite(components(&torques.force)) {
-        return Some(Quantity::Force);
-    }
-    if !finite(components(&torques.torque_b)) {
-        return Some(Quantity::TorqueB);
-    }
-    let mut motors = torques.motors.iter().enumerate();
-    motors.find_map(|(device, motor)| {
-        let fields = [
-            (Joint::OuterGimbal, motor.u_o),
-            (Joint::InnerGimbal, motor.u_i),
-            (Joint::Wheel, motor.u_w),
-        ];
-        fields
-            .iter()
-            .find(|(_, value)| !value.is_finite())
-            .map(|&(joint, _)| Quantity::Motor { device, joint })
-    })
+) -> Option<(Quantity, T)> {
+    culprit_in_vector(Quantity::Force, &torques.force)
+        .or_else(|| culprit_in_vector(Quantity::TorqueB, &torques.torque_b))
+        .or_else(|| {
+            let mut motors = torques.motors.iter().enumerate();
+            motors.find_map(|(device, motor)| {
+                let (joint, value) = first_not_finite(&[
+                    (Joint::OuterGimbal, motor.u_o),
+                    (Joint::InnerGimbal, motor.u_i),
+                    (Joint::Wheel, motor.u_w),
+                ])?;
+                Some((Quantity::Motor { device, joint }, value))
+            })
+        })
 }
 
-fn culprit_in_joints<T: Scalar>(joints: &Joints<T>) -> Option<JointField> {
-    let fields = [
+/// The vector's name and its first component that is not finite.
+pub(crate) fn culprit_in_vector<T: Scalar>(
+    what: Quantity,
+    v: &Vector3<T>,
+) -> Option<(Quantity, T)> {
+    first_not_finite(&components(v).map(|value| (what, value)))
+}
+
+fn first_not_finite<Name: Copy, T: Scalar>(named: &[(Name, T)]) -> Option<(Name, T)> {
+    named.iter().find(|(_, value)| !value.is_finite()).copied()
+}
+
+fn fields<T: Scalar>(joints: &Joints<T>) -> [(JointField, T); 6] {
+    [
         (JointField::GammaO, joints.gamma_o),
         (JointField::GammaI, joints.gamma_i),
         (JointField::Theta, joints.theta),
         (JointField::GammaODot, joints.gamma_o_dot),
         (JointField::GammaIDot, joints.gamma_i_dot),
         (JointField::Spin, joints.spin),
-    ];
-    fields.iter().find(|(_, value)| !value.is_finite()).map(|&(field, _)| field)
+    ]
 }
 
 #[cfg(test)]
@@ -75,7 +82,7 @@ mod tests {
     fn culprit(change: impl Fn(&mut State<2>)) -> Option<Quantity> {
         let mut state = State::at_rest();
         change(&mut state);
-        culprit_in_state(&state)
+        culprit_in_state(&state).map(|(what, _)| what)
     }
 
     #[test]
@@ -103,7 +110,7 @@ mod tests {
         let culprit = |change: fn(&mut Torques<2>)| {
             let mut torques = Torques::none();
             change(&mut torques);
-            culprit_in_torques(&torques)
+            culprit_in_torques(&torques).map(|(what, _)| what)
         };
         let motor = |joint| Some(Quantity::Motor { device: 0, joint });
         assert_eq!(culprit(|_| ()), None);
@@ -112,8 +119,31 @@ mod tests {
         let bad = MotorTorques { u_o: 0.0, u_i: f64::NAN, u_w: f64::NAN };
         let mut torques = Torques::<2>::none();
         torques.motors[0] = bad;
-        assert_eq!(culprit_in_torques(&torques), motor(Joint::InnerGimbal));
+        assert_eq!(culprit_in_torques(&torques).map(|(what, _)| what), motor(Joint::InnerGimbal));
         assert_eq!(culprit(|t| t.motors[0].u_o = f64::NAN), motor(Joint::OuterGimbal));
         assert_eq!(culprit(|t| t.motors[0].u_w = f64::NAN), motor(Joint::Wheel));
+    }
+
+    /// Infinite values, since NaN equals nothing.
+    #[test]
+    fn the_value_comes_with_the_name() {
+        let (up, down) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut state = State::<1>::at_rest();
+        state.devices[0].spin = up;
+        let spin = Quantity::Joint { device: 0, field: JointField::Spin };
+        assert_eq!(culprit_in_state(&state), Some((spin, up)));
+        state.omega = Vector3::new(1.0, down, up);
+        assert_eq!(culprit_in_state(&state), Some((Quantity::BodyRate, down)));
+        state.attitude = Quaternion { q0: 0.0, q1: 0.0, q2: 0.0, q3: 0.0 };
+        assert_eq!(culprit_in_state(&state), Some((Quantity::Attitude, 0.0)));
+        state.attitude = Quaternion { q2: down, ..Quaternion::identity() };
+        assert_eq!(culprit_in_state(&state), Some((Quantity::Attitude, down)));
+
+        let mut torques = Torques::<1>::none();
+        torques.motors[0].u_w = down;
+        let motor = Quantity::Motor { device: 0, joint: Joint::Wheel };
+        assert_eq!(culprit_in_torques(&torques), Some((motor, down)));
+        torques.torque_b.z = up;
+        assert_eq!(culprit_in_torques(&torques), Some((Quantity::TorqueB, up)));
     }
 }

@@ -45,7 +45,7 @@
 #[cfg(test)]
 extern crate std;
 
-/// The example of the README compiles and runs.
+/// The examples of the README compile and run.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;
@@ -58,6 +58,10 @@ mod error;
 mod finite;
 pub mod generated;
 mod hub;
+mod imbalance;
+#[cfg(test)]
+mod imbalance_checks;
+mod imbalance_error;
 mod momentum;
 mod mrp;
 #[cfg(test)]
@@ -71,11 +75,14 @@ mod solve;
 mod spacecraft;
 mod state;
 mod symmetric;
+pub mod units;
 mod validation;
 mod vec3;
 
 pub use attitude::Attitude;
 pub use error::{Joint, JointField, Quantity, SolveError};
+pub use imbalance::{Imbalance, WheelImbalance};
+pub use imbalance_error::{ImbalanceError, ImbalanceQuantity};
 pub use momentum::{About, CentreOfMass, Momentum};
 pub use mrp::Mrp;
 pub use parameter_error::{Parameter, ParameterError, Part, Warning};
@@ -98,6 +105,7 @@ const _: () = {
         shareable::<(Hub<T>, Dgvscmg<T>)>();
         shareable::<(About<T>, Momentum<T>, CentreOfMass<T>)>();
         shareable::<(ParameterError<T>, Warning<T>, Part, Parameter)>();
+        shareable::<(Imbalance<T>, WheelImbalance<T>, ImbalanceError<T>, ImbalanceQuantity)>();
         shareable::<(SolveError<T>, Quantity, Joint, JointField)>();
     }
     of_scalar::<f64>();

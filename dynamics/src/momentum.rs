@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
 use crate::error::{Quantity, SolveError};
-use crate::finite::culprit_in_state;
+use crate::finite::{culprit_in_state, culprit_in_vector};
 use crate::hub::BodySums;
 use crate::real::Scalar;
 use crate::spacecraft::Spacecraft;
@@ -130,16 +130,16 @@ impl<const N: usize, T: Scalar> Spacecraft<N, T> {
     }
 }
 
-fn culprit_in_point<T: Scalar>(about: &About<T>) -> Option<Quantity> {
+fn culprit_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {
     match about {
-        About::Point(point) if !finite(components(point)) => Some(Quantity::ReferencePoint),
-        _ => None,
+        About::Point(point) => culprit_in_vector(Quantity::ReferencePoint, point),
+        About::InertialOrigin | About::CentreOfMass => None,
     }
 }
 
-fn refuse<T: Scalar>(culprit: Option<Quantity>) -> Result<(), SolveError<T>> {
+fn refuse<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), SolveError<T>> {
     match culprit {
-        Some(what) => Err(SolveError::NotFinite { what }),
+        Some((what, value)) => Err(SolveError::NotFinite { what, value }),
         None => Ok(()),
     }
 }

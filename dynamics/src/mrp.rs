@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::attitude::Attitude;
 use crate::quaternion::Quaternion;
 use crate::real::{Scalar, one, two, zero};
-use crate::vec3::{add, components, cross, dot, neg, scale, vector, zeros};
+use crate::vec3::{add, components, cross, dot, extreme, neg, scale, vector, zeros};
 
 /// Modified Rodrigues parameters: `tan(phi / 4)` along the axis of the rotation from N to B.
 ///
@@ -92,6 +92,10 @@ impl<T: Scalar> Attitude<T> for Mrp<T> {
     fn is_valid(&self) -> bool {
         let sigma = components(&self.0);
         (T::from_f64(4.0) * dot(sigma, sigma)).is_finite()
+    }
+
+    fn extreme(&self) -> T {
+        extreme(components(&self.0))
     }
 }
 

@@ -48,8 +48,8 @@ pub struct Dgvscmg<T = f64> {
     pub l_i: Vector3<T>,
     /// `m_W`, mass of the wheel, kg; above zero.
     pub m_w: T,
-    /// `d`, static imbalance: the wheel's centre of mass is at `d w_y` from W, m. From a
-    /// catalogue's `U_s`: `d = U_s / m_W`.
+    /// `d`, static imbalance: the wheel's centre of mass is at `d w_y` from W, m. From a data
+    /// sheet: [`Self::with_imbalance`].
     pub d: T,
     /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, W axes, kg m^2. The dynamic
     /// imbalance is `J_13` (and `J_12`).

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3, Vector4};
 use crate::attitude::Attitude;
 use crate::mrp::Mrp;
 use crate::real::{Scalar, half, one, reciprocal_in_two, two, zero};
-use crate::vec3::{components, dot, largest, scale};
+use crate::vec3::{components, dot, extreme, largest, scale};
 
 /// Euler parameters `beta_{B/N}`: `cos(phi / 2)` and `sin(phi / 2)` along the axis of the rotation
 /// from N to B. A quaternion and its negative are the same attitude.
@@ -116,6 +116,10 @@ impl<T: Scalar> Attitude<T> for Quaternion<T> {
 
     fn is_valid(&self) -> bool {
         self.scaled().0.norm_squared().is_finite()
+    }
+
+    fn extreme(&self) -> T {
+        extreme([self.q0, self.q1, self.q2, self.q3])
     }
 }
 

@@ -37,7 +37,7 @@ impl<const N: usize, T: Scalar> Spacecraft<N, T> {
         dt: T,
     ) -> Result<State<N, T, A>, SolveError<T>> {
         if !dt.is_finite() {
-            return Err(SolveError::NotFinite { what: Quantity::TimeStep });
+            return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
         }
         self.advance(state, torques, dt).map_err(|failure| diagnosis(state, torques, failure))
     }
@@ -229,17 +229,21 @@ mod tests {
     #[test]
     fn step_that_is_not_finite_is_refused() {
         let step = |dt| hub().step(&tumbling::<Mrp>(), &Torques::none(), dt);
-        let refused = Err(SolveError::NotFinite { what: Quantity::TimeStep });
-        assert_eq!(step(f64::NAN), refused);
-        assert_eq!(step(f64::INFINITY), refused);
+        let what = Quantity::TimeStep;
+        for value in [f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(step(value), Err(SolveError::NotFinite { what, value }));
+        }
+        let refused = step(f64::NAN).unwrap_err();
+        assert!(matches!(refused, SolveError::NotFinite { value, .. } if value.is_nan()));
         assert_eq!(step(1e200), Err(SolveError::Overflow));
     }
 
     #[test]
     fn step_names_the_input_that_is_not_finite() {
         let mut state = tumbling::<Mrp>();
-        state.r_b_n.x = f64::NAN;
-        let refused = Err(SolveError::NotFinite { what: Quantity::Position });
+        state.r_b_n.x = f64::INFINITY;
+        let (what, value) = (Quantity::Position, f64::INFINITY);
+        let refused = Err(SolveError::NotFinite { what, value });
         assert_eq!(hub().step(&state, &Torques::none(), 0.1), refused);
     }
 }

@@ -188,8 +188,8 @@ pub(crate) fn diagnosis<const N: usize, T: Scalar, A: Attitude<T>>(
     torques: &Torques<N, T>,
     failure: SolveError<T>,
 ) -> SolveError<T> {
-    if let Some(what) = culprit_in_state(state).or_else(|| culprit_in_torques(torques)) {
-        return SolveError::NotFinite { what };
+    if let Some((what, value)) = culprit_in_state(state).or_else(|| culprit_in_torques(torques)) {
+        return SolveError::NotFinite { what, value };
     }
     match failure {
         SolveError::Singular { pivot, bound, .. } if !(pivot.is_finite() && bound.is_finite()) => {
@@ -322,8 +322,9 @@ mod tests {
         let c_n = state.r_b_n + state.attitude.dcm().transpose() * c;
         let centre = about(About::CentreOfMass).angular;
         assert!((centre - about(About::Point(c_n)).angular).amax() <= 10.0 * ROUNDING);
-        let lost = spacecraft.momentum(&state, About::Point(point * f64::NAN));
-        assert_eq!(lost, Err(SolveError::NotFinite { what: Quantity::ReferencePoint }));
+        let lost = spacecraft.momentum(&state, About::Point(point * f64::INFINITY));
+        let (what, value) = (Quantity::ReferencePoint, f64::INFINITY);
+        assert_eq!(lost, Err(SolveError::NotFinite { what, value }));
     }
 
     #[test]
@@ -345,31 +346,33 @@ mod tests {
 
     #[test]
     fn input_that_is_not_finite_is_named() {
+        /// Not NaN, which equals nothing.
+        const BAD: f64 = f64::NEG_INFINITY;
         let spacecraft = Spacecraft::new(&hub(), &[wheel(), wheel()]).unwrap();
         let found = |change: fn(&mut State<2>, &mut Torques<2>)| {
             let (mut state, mut torques) = (State::at_rest(), Torques::none());
             change(&mut state, &mut torques);
             spacecraft.accelerations(&state, &torques)
         };
-        let refused = |what| Err(SolveError::NotFinite { what });
+        let refused = |what| Err(SolveError::NotFinite { what, value: BAD });
         let joint = |field| Quantity::Joint { device: 1, field };
         assert!(found(|_, _| ()).is_ok());
-        assert_eq!(found(|s, _| s.r_b_n.x = f64::NAN), refused(Quantity::Position));
-        assert_eq!(found(|s, _| s.attitude.q0 = f64::NAN), refused(Quantity::Attitude));
-        assert_eq!(found(|s, _| s.omega.z = f64::INFINITY), refused(Quantity::BodyRate));
+        assert_eq!(found(|s, _| s.r_b_n.x = BAD), refused(Quantity::Position));
+        assert_eq!(found(|s, _| s.attitude.q0 = BAD), refused(Quantity::Attitude));
+        assert_eq!(found(|s, _| s.omega.z = BAD), refused(Quantity::BodyRate));
         for (field, result) in [
-            (JointField::GammaO, found(|s, _| s.devices[1].gamma_o = f64::INFINITY)),
-            (JointField::GammaI, found(|s, _| s.devices[1].gamma_i = f64::NAN)),
-            (JointField::Theta, found(|s, _| s.devices[1].theta = f64::NAN)),
-            (JointField::GammaODot, found(|s, _| s.devices[1].gamma_o_dot = f64::INFINITY)),
-            (JointField::GammaIDot, found(|s, _| s.devices[1].gamma_i_dot = f64::NAN)),
-            (JointField::Spin, found(|s, _| s.devices[1].spin = f64::INFINITY)),
+            (JointField::GammaO, found(|s, _| s.devices[1].gamma_o = BAD)),
+            (JointField::GammaI, found(|s, _| s.devices[1].gamma_i = BAD)),
+            (JointField::Theta, found(|s, _| s.devices[1].theta = BAD)),
+            (JointField::GammaODot, found(|s, _| s.devices[1].gamma_o_dot = BAD)),
+            (JointField::GammaIDot, found(|s, _| s.devices[1].gamma_i_dot = BAD)),
+            (JointField::Spin, found(|s, _| s.devices[1].spin = BAD)),
         ] {
             assert_eq!(result, refused(joint(field)));
         }
         let motor = Quantity::Motor { device: 0, joint: Joint::InnerGimbal };
-        assert_eq!(found(|_, t| t.motors[0].u_i = f64::INFINITY), refused(motor));
-        assert_eq!(found(|_, t| t.torque_b.y = f64::NAN), refused(Quantity::TorqueB));
+        assert_eq!(found(|_, t| t.motors[0].u_i = BAD), refused(motor));
+        assert_eq!(found(|_, t| t.torque_b.y = BAD), refused(Quantity::TorqueB));
         // The square of this rate is beyond f64.
         assert_eq!(found(|s, _| s.omega.x = 1e200), Err(SolveError::Overflow));
     }

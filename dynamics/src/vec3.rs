@@ -109,6 +109,14 @@ pub(crate) fn largest<T: Scalar>(v: Vec3<T>) -> T {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
 }
 
+/// The first value that is not finite, otherwise the first one of largest magnitude; with its sign.
+pub(crate) fn extreme<T: Scalar, const LENGTH: usize>(values: [T; LENGTH]) -> T {
+    let ahead = |value: T, best: T| !value.is_finite() || value.abs() > best.abs();
+    values.into_iter().fold(zero(), |best, value| {
+        if best.is_finite() && ahead(value, best) { value } else { best }
+    })
+}
+
 /// Whether all components are finite.
 #[inline]
 pub(crate) fn finite<T: Scalar>(v: Vec3<T>) -> bool {
@@ -123,6 +131,14 @@ mod tests {
     fn cross_product_is_right_handed() {
         assert_eq!(cross([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]);
         assert_eq!(cross([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), [-3.0, 6.0, -3.0]);
+    }
+
+    #[test]
+    fn extreme_value_is_the_first_not_finite_or_the_largest() {
+        assert_eq!(extreme([1.0, -3.0, 2.0, 3.0]), -3.0);
+        assert_eq!(extreme([0.0; 4]), 0.0);
+        assert_eq!(extreme([7.0, f64::NEG_INFINITY, f64::NAN]), f64::NEG_INFINITY);
+        assert!(extreme([7.0, f64::NAN, f64::INFINITY]).is_nan());
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use precess_dynamics::Warning;
+use precess_dynamics::units::to_rpm;
 use serde::Serialize;
 use tera::{Context, Tera};
 
@@ -150,7 +151,7 @@ fn facts<const N: usize>(outcome: &Outcome<N>) -> Vec<(&'static str, String)> {
             let gimbals = [j.gamma_o, j.gamma_i].map(|a| digits(a.to_degrees())).join(", ");
             let name = "Gimbals at the end, outer, inner";
             facts.push((name, format!("{gimbals} deg")));
-            facts.push(("Wheel at the end", format!("{:.1} rpm", rpm(j.spin))));
+            facts.push(("Wheel at the end", format!("{:.1} rpm", to_rpm(j.spin))));
         }
         facts.push(("Work of the motors", format!("{} J", digits(last.entry.work))));
     }
@@ -176,13 +177,9 @@ fn given<const N: usize>(outcome: &Outcome<N>) -> Vec<(&'static str, String)> {
         ("Body rate <i>ω</i> at the start", format!("{} deg/s", list(&omega))),
     ];
     for j in &state.devices {
-        given.push(("Wheel at the start", format!("{} rpm", exact(rpm(j.spin)))));
+        given.push(("Wheel at the start", format!("{} rpm", exact(to_rpm(j.spin)))));
     }
     given
-}
-
-fn rpm(spin: f64) -> f64 {
-    spin * 30.0 / std::f64::consts::PI
 }
 
 /// What the solver warns of, as a sentence.

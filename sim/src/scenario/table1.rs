@@ -8,10 +8,9 @@
 //! broken: their moments 0.2, 0.1, 0.1 kg m^2 are the limit of a thin disc, so any J13 breaks it,
 //! by 4.6e-3 kg m^2 as printed and by 4.7e-11 kg m^2 for the catalogue wheel.
 
-use std::f64::consts::PI;
-
 use clap::ValueEnum;
 use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::units::{from_cm, from_g_cm, from_g_cm2, from_mm, from_mn_m, from_rpm};
 use precess_dynamics::{Dgvscmg, Hub, Joints, MotorTorques, Quaternion, State, Torques};
 
 use super::Scenario;
@@ -178,30 +177,6 @@ impl Variant {
 fn symmetric(diagonal: [f64; 3], [i_12, i_13, i_23]: [f64; 3]) -> Matrix3<f64> {
     let [i_11, i_22, i_33] = diagonal;
     Matrix3::new(i_11, i_12, i_13, i_12, i_22, i_23, i_13, i_23, i_33)
-}
-
-fn from_cm(value: f64) -> f64 {
-    value * 1e-2
-}
-
-fn from_mm(value: f64) -> f64 {
-    value * 1e-3
-}
-
-fn from_g_cm(value: f64) -> f64 {
-    value * 1e-5
-}
-
-fn from_g_cm2(value: f64) -> f64 {
-    value * 1e-7
-}
-
-fn from_mn_m(value: f64) -> f64 {
-    value * 1e-3
-}
-
-fn from_rpm(value: f64) -> f64 {
-    value * PI / 30.0
 }
 
 #[cfg(test)]
