@@ -2,8 +2,8 @@
 //!
 //! Every statement is one equation of `tests/derivation`, with its number beside it, or `(step)`
 //! where the paper gives none, in the form that the pages arrive at: positions by the expanded
-//! (12)-(14), inertias by (35)-(73), the coefficients of (17), momenta by (30), (43), (58) and (74),
-//! motor torques about the centres of mass of D and V. Of the forms that a page gives for one
+//! (12)-(14), inertias by (35)-(73), the coefficients of (17), momenta by (30), (43), (58) and
+//! (74), motor torques about the centres of mass of D and V. Of the forms that a page gives for one
 //! quantity the last is taken; that they are equal is proved where the pages are. Nothing is
 //! differentiated here: what the transport theorem does step by step in
 //! [`newton_euler`](crate::newton_euler) a person did on the pages.

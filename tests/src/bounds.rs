@@ -3,17 +3,17 @@
 //! "Block" is one kind of acceleration over all devices, in units of its largest magnitude
 //! ([`blocks`](crate::blocks)); eps is the machine epsilon of `f64`.
 //!
-//! E2 and E3, drift of energy less work and of both momenta over 10 s of Table 1 (1e-12 of the energy
-//! moved and of the sum of magnitudes), have no constant here: they need an adaptive integrator, and
-//! the desktop tool asserts them.
+//! E2 and E3, drift of energy less work and of both momenta over 10 s of Table 1 (1e-12 of the
+//! energy moved and of the sum of magnitudes), have no constant here: they need an adaptive
+//! integrator, and the desktop tool asserts them.
 
 use core::ops::RangeInclusive;
 
 /// How many seeded spacecraft A2 asks for; the rows beside it are tried on the same ones.
 pub const SPACECRAFT: u64 = 1000;
 
-/// A1, backward error of the accelerations: `abs(M q'' - h)` in eps of `abs(M) abs(q'') + abs(h)`, in
-/// every row, whatever the conditioning.
+/// A1, backward error of the accelerations: `abs(M q'' - h)` in eps of `abs(M) abs(q'') + abs(h)`,
+/// in every row, whatever the conditioning.
 pub const BACKWARD_EPSILONS: f64 = 50.0;
 
 /// A2, accelerations against a reference in higher precision, of the block, worst: a good engine
@@ -39,6 +39,6 @@ pub const SINGLE_PRECISION: f64 = 1e-4;
 /// terms. Small, since there is no integrator in it.
 pub const POWER_EPSILONS: f64 = 50.0;
 
-/// E4, by what the drift of the fixed-step method falls for a halved step, down to rounding: 2^4, the
-/// method being of fourth order.
+/// E4, by what the drift of the fixed-step method falls for a halved step, down to rounding: 2^4,
+/// the method being of fourth order.
 pub const ORDER: RangeInclusive<f64> = 14.0..=18.0;
