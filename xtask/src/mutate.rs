@@ -12,7 +12,8 @@ use precess_codegen::page::Page;
 use precess_codegen::report::traceability;
 use precess_codegen::verdict::verdicts;
 
-use crate::regen::{PAGES, differing, read_files, read_pages, write};
+use crate::files::{differing, read_files, read_pages, write};
+use crate::regen::PAGES;
 use crate::run::{root, say};
 
 /// Where the engines' stored values stand.
