@@ -3,14 +3,16 @@
 
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::mutation::{
-    EngineError, Engines, Fate, Kind, MutationError, NOTICED, Report, Selection, mutate,
+    Computed, EngineError, Engines, Fate, Kind, Mutant, MutationError, NOTICED, Outcome, Report,
+    Selection, mutate,
 };
+use serde_json::Value;
 
 /// Every so many mutants: a prime, so that all changes and all places are met.
 const SAMPLE: usize = 23;
 
-/// What unchanged functions may leave of a law: some thousand times what they do, and a hundred
-/// times less than what is noticed.
+/// What unchanged functions may leave of a law: some thirty times the 3e-12 that they do leave,
+/// which is rounding over the step of a difference, and a hundred times less than what is noticed.
 const FLOOR: f64 = 1e-10;
 
 /// What the laws must leave of a mutant: states of order one make a missing term of order one, and
@@ -43,8 +45,9 @@ fn every_mutant_of_a_sample_is_killed_or_equivalent() {
     let by_kernel = report.by_kernel();
     assert_eq!(by_kernel.len(), 8);
     let sum: usize = by_kernel.iter().map(|(_, tally)| tally.mutants).sum();
-    let rows: usize = report.by_name().iter().map(|row| row.tally.mutants).sum();
-    assert_eq!((sum, rows), (report.outcomes.len(), report.outcomes.len()));
+    let numbered: usize = report.by_tag().iter().map(|(_, tally)| tally.mutants).sum();
+    assert_eq!(sum, report.outcomes.len());
+    assert_eq!(numbered + report.unnumbered(), report.outcomes.len());
 }
 
 #[test]
@@ -71,9 +74,32 @@ fn rows_are_found_by_equation() {
     let report = run(&Selection { kernel: Some("wheel"), every: SAMPLE }).unwrap();
     let acceleration = report.by_tag().into_iter().find(|(tag, _)| tag == "(14)").unwrap().1;
     assert!(acceleration.mutants > 0 && acceleration.any == acceleration.mutants);
-    let names = report.by_name();
-    assert!(names.iter().any(|row| row.name.starts_with("r_wc_b_dprime")), "{names:?}");
-    assert!(report.page().contains("| `wheel` |"));
+    let [markdown, html] = report.page().unwrap().try_into().unwrap();
+    assert_eq!(
+        (markdown.path.as_str(), html.path.as_str()),
+        ("docs/mutation.md", "docs/mutation.html")
+    );
+    assert!(markdown.text.contains("| `wheel` |"));
+    assert!(html.text.contains("<td><code>wheel</code></td>"));
+}
+
+#[test]
+fn whatever_is_made_wrong_is_computed_under_the_same_number() {
+    let report = run(&Selection { kernel: None, every: 7 * SAMPLE }).unwrap();
+    for Outcome { mutant, .. } in &report.outcomes {
+        let Mutant { kernel, name, tag, .. } = mutant.clone();
+        assert!(report.computed.contains(&Computed { kernel, name, tag }), "{mutant}");
+    }
+    let of = |tag: &str| {
+        let computed = report.computed.iter().filter(|value| value.tag.as_deref() == Some(tag));
+        computed.map(|value| (value.kernel.as_str(), value.name.as_str())).collect::<Vec<_>>()
+    };
+    // Products alone: nothing to make wrong, and computed all the same.
+    assert!(of("(E1)").contains(&("eliminate", "gain_w_v1")), "{:?}", of("(E1)"));
+    assert!(of("(34)").contains(&("eliminate", "omega_go_n_rest_gox")), "{:?}", of("(34)"));
+    // What several equations share is computed once, in `prepare`, under no number.
+    let mut shared = report.computed.iter().filter(|value| value.tag.is_none());
+    assert!(shared.all(|value| value.kernel == "prepare"));
 }
 
 #[test]
@@ -94,7 +120,8 @@ fn values_that_are_not_physics_are_refused() {
     let end = energy + json[energy..].find([',', '}']).unwrap();
     let wrong = format!("{} 1.0{}", &json[..energy], &json[end..]);
     let engines = Engines::parse(&DGVSCMG, &wrong).unwrap();
-    let error = mutate(&DGVSCMG, &engines, &Selection::all(), &mut |_, _| {}).unwrap_err();
+    let error = mutate(&DGVSCMG, &engines, &Selection { kernel: None, every: 1 }, &mut |_, _| {})
+        .unwrap_err();
     let MutationError::Broken { law, residual } = error else { panic!("{error}") };
     assert!(law.kind() == Kind::Engines && residual > NOTICED);
 }
@@ -104,7 +131,39 @@ fn missing_values_are_named() {
     let without = stored().replacen("\"gamma_o\"", "\"gamma\"", 1);
     let error = Engines::parse(&DGVSCMG, &without).err().unwrap();
     assert!(matches!(&error, EngineError::Missing { name, .. } if name == "gamma_o"), "{error}");
-    let none = stored().replace("unit scales", "other scales");
+    let none = stored().replace("\"scales\": \"unit\"", "\"scales\": \"declared\"");
     assert!(matches!(Engines::parse(&DGVSCMG, &none), Err(EngineError::None)));
     assert!(matches!(Engines::parse(&DGVSCMG, "{}"), Err(EngineError::Json(_))));
+}
+
+/// The bodies of a stored spacecraft.
+fn bodies(craft: &mut Value) -> &mut Vec<Value> {
+    craft["pinocchio"]["bodies"][0].as_array_mut().unwrap()
+}
+
+/// The first stored spacecraft's lists, each with one entry more or fewer.
+#[test]
+fn lists_of_another_length_are_refused_with_their_place() {
+    let refused = |change: fn(&mut Value)| {
+        let mut json: Value = serde_json::from_str(&stored()).unwrap();
+        change(&mut json["spacecraft"][0]);
+        Engines::parse(&DGVSCMG, &json.to_string()).err().unwrap().to_string()
+    };
+    let said = |list: &str, count: usize, expected: usize| {
+        format!(
+            "spacecraft `one device, unit scales, 0` has {count} entries in `{list}`, not \
+             {expected}; store the values again with `python tests/engines/store.py`"
+        )
+    };
+    let more = refused(|craft| {
+        let wheel = bodies(craft)[2].clone();
+        bodies(craft).push(wheel);
+    });
+    assert_eq!(more, said("bodies", 4, 3));
+    let fewer = refused(|craft| drop(bodies(craft).pop()));
+    assert_eq!(fewer, said("bodies", 2, 3));
+    let none = refused(|craft| craft["mujoco"]["accelerations"] = Value::Array(Vec::new()));
+    assert_eq!(none, said("accelerations", 0, 1));
+    let fourth = refused(|craft| craft["devices"][0]["angles"]["fourth"] = 1.0.into());
+    assert_eq!(fourth, said("angles", 4, 3));
 }

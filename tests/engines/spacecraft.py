@@ -21,8 +21,19 @@ def all_spacecraft():
     for seed in range(UNIT_SCALES):
         yield unit_scales(f"one device, unit scales, {seed}", seed)
     for number in range(DECLARED_RANGES):
-        n = 1 + number % 4
-        yield declared_ranges(f"N = {n}, declared ranges, {number}", UNIT_SCALES + number, n)
+        yield over_ranges(number)
+
+
+def more_spacecraft(count):
+    """As many more over the ranges, after the stored ones."""
+    for number in range(DECLARED_RANGES, DECLARED_RANGES + count):
+        yield over_ranges(number)
+
+
+def over_ranges(number):
+    """Number so and so over the ranges: 1 to 4 devices in turn."""
+    n = 1 + number % 4
+    return declared_ranges(f"N = {n}, declared ranges, {number}", UNIT_SCALES + number, n)
 
 
 def unit_scales(name, seed):
@@ -52,7 +63,8 @@ def unit_scales(name, seed):
     }
     hub = {"m_b": m_b, "r_bc_b": offset(), "i_b": i_b}
     motion = {k: offset() for k in ("omega", "r_b_n_dot", "force", "torque_b")}
-    return {"name": name, "seed": seed, "hub": hub, "devices": [device], **motion}
+    whose = {"name": name, "scales": "unit", "seed": seed}
+    return {**whose, "hub": hub, "devices": [device], **motion}
 
 
 def declared_ranges(name, seed, n):
@@ -96,7 +108,7 @@ def declared_ranges(name, seed, n):
     m_b = draw.log_within(1.0, 5000.0)
     hub = {"m_b": m_b, "r_bc_b": draw.vector(draw.within(0.0, 3.0)), "i_b": block(m_b)}
     return {
-        "name": name, "seed": seed, "hub": hub,
+        "name": name, "scales": "declared", "seed": seed, "hub": hub,
         "devices": [device(m_b) for _ in range(n)],
         "omega": draw.vector(draw.within(0.0, 1.0)),
         "r_b_n_dot": draw.vector(draw.within(0.0, 10.0)),

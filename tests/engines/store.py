@@ -2,6 +2,7 @@
 
     python store.py           evaluates all spacecraft in both engines; writes if they agree
     python store.py --check   the same, compared with the stored file; writes nothing
+    python store.py --more N  N more spacecraft: how far the engines disagree; writes nothing
 
 Exit status: 0 if all is well, 1 if something disagrees, 77 if a package is missing: see
 requirements.txt.
@@ -19,7 +20,7 @@ FIXTURE = HERE.parent / "fixtures" / "engines.json"
 try:
     import with_mujoco
     import with_pinocchio
-    from spacecraft import all_spacecraft
+    from spacecraft import all_spacecraft, more_spacecraft
 except ModuleNotFoundError as error:
     if error.name not in ("mujoco", "numpy", "pinocchio"):
         raise
@@ -40,13 +41,21 @@ SEEN_FROM_B = {"r_prime": 1e-10, "r_dprime": 1e-10}
 # order its sums anew.
 REPRODUCTION = 1e-11
 
+ACCELERATIONS = ("r_b_n_ddot", "omega_dot", "gamma_o_ddot", "gamma_i_ddot", "spin_dot")
 STORED_OF_MUJOCO = ("r_b_n_ddot", "omega_dot", "accelerations", "energy")
 
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    arguments.add_argument("--check", action="store_true", help="compare and write nothing")
-    check = arguments.parse_args().check
+    instead = arguments.add_mutually_exclusive_group()
+    instead.add_argument("--check", action="store_true", help="compare and write nothing")
+    instead.add_argument("--more", type=int, metavar="N", help="judge N more and write nothing")
+    given = arguments.parse_args()
+    if given.more is not None:
+        if given.more < 1:
+            arguments.error(f"--more {given.more}: at least 1")
+        return judge_more(given.more)
+    check = given.check
 
     found, disagreement = evaluated()
     versions = " against ".join(f"{name} {version}" for name, version in found["engines"].items())
@@ -73,6 +82,20 @@ def evaluated():
     return {"engines": engines, "spacecraft": spacecraft}, disagreement.error
 
 
+def judge_more(number):
+    """Prints how often and how far the engines' accelerations disagree on as many more."""
+    disagreements = []
+    for craft in more_spacecraft(number):
+        pinocchio, mujoco = with_pinocchio.evaluate(craft), with_mujoco.evaluate(craft)
+        found = errors(craft["name"], mujoco, pinocchio)
+        disagreements.append(max(found[block] for block in ACCELERATIONS))
+    above = sum(not error <= AGREEMENT for error in disagreements)
+    print(
+        f"{number} more spacecraft: accelerations disagree by more than {AGREEMENT:g} of the block "
+        f"on {above}, worst {max(disagreements):.1e}"
+    )
+
+
 def compared(found, stored):
     """The worst difference from the stored file: inputs must be the same numbers."""
     worst = Worst(REPRODUCTION)
@@ -97,18 +120,25 @@ class Worst:
         self.bound, self.of_block, self.error = bound, of_block or {}, 0.0
 
     def take(self, whose, actual, expected):
-        actual, expected = blocks(actual), blocks(expected)
-        if actual.keys() != expected.keys():
-            sys.exit(f"{whose}: {sorted(actual)} where {sorted(expected)} are expected")
-        for name, numbers in expected.items():
-            unit = max(abs(x) for x in numbers)
-            pairs = zip(actual[name], numbers, strict=True)
-            error = max(abs(a - e) for a, e in pairs) / unit
+        for name, error in errors(whose, actual, expected).items():
             bound = self.of_block.get(name, self.bound)
             # A NaN is above every bound.
             if not error <= bound:
                 sys.exit(f"{whose}: {name} differs by {error:e} of the block, above {bound:e}")
             self.error = max(self.error, error)
+
+
+def errors(whose, actual, expected):
+    """The largest difference of each block, in units of its largest magnitude."""
+    actual, expected = blocks(actual), blocks(expected)
+    if actual.keys() != expected.keys():
+        sys.exit(f"{whose}: {sorted(actual)} where {sorted(expected)} are expected")
+
+    def error(name, numbers):
+        unit = max(abs(x) for x in numbers)
+        return max(abs(a - e) for a, e in zip(actual[name], numbers, strict=True)) / unit
+
+    return {name: error(name, numbers) for name, numbers in expected.items()}
 
 
 def blocks(result):

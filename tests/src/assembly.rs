@@ -1,11 +1,12 @@
 //! The paper's own assembly: (16), (75), (80), (101) and (119), from the hand-checked pages.
 //!
-//! Every statement is one equation of `tests/derivation`, with its number beside it, in the form
-//! that the pages arrive at: positions by the expanded (12)-(14), inertias by (35)-(73), the
-//! coefficients of (17), momenta by (30), (43), (58) and (74), motor torques about the centres of
-//! mass of D and V. Of the forms that a page gives for one quantity the last is taken; that they
-//! are equal is proved where the pages are. Nothing is differentiated here: what the transport
-//! theorem does step by step in [`newton_euler`](crate::newton_euler) a person did on the pages.
+//! Every statement is one equation of `tests/derivation`, with its number beside it, or `(step)`
+//! where the paper gives none, in the form that the pages arrive at: positions by the expanded
+//! (12)-(14), inertias by (35)-(73), the coefficients of (17), momenta by (30), (43), (58) and
+//! (74), motor torques about the centres of mass of D and V. Of the forms that a page gives for one
+//! quantity the last is taken; that they are equal is proved where the pages are. Nothing is
+//! differentiated here: what the transport theorem does step by step in
+//! [`newton_euler`](crate::newton_euler) a person did on the pages.
 //!
 //! With that the two share vectors, elimination and the layout of the system, and no equation.
 //!

@@ -4,28 +4,14 @@
 //! Run with `--nocapture` to see worst and median of each row.
 
 use precess_tests::blocks::{Figures, errors, worst};
+use precess_tests::bounds::{
+    ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, BACKWARD_EPSILONS, ROUTES_IN_DOUBLE_DOUBLE,
+    SPACECRAFT,
+};
 use precess_tests::case::converted;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::to_list;
 use precess_tests::random::{Sample, Visitor, visit};
-
-/// A2 asks for 1000 seeded spacecraft; the other rows are tried on the same ones.
-const SPACECRAFT: u64 = 1000;
-
-/// A1, backward error of the accelerations: 50 machine epsilons of `abs(M) abs(q'') + abs(h)`,
-/// componentwise. A bound that is independent of conditioning.
-const BACKWARD_EPSILONS: f64 = 50.0;
-
-/// A2, accelerations against higher precision, worst, in units of the block: a good engine reaches
-/// 3e-13.
-const ACCELERATIONS_WORST: f64 = 1e-11;
-
-/// A2, the same in the median: a good engine reaches 5e-15.
-const ACCELERATIONS_MEDIAN: f64 = 1e-13;
-
-/// A3, solver against reference in double-double, in units of the block: shows that the rest of A2
-/// is rounding.
-const ROUTES_IN_DOUBLE_DOUBLE: f64 = 1e-25;
 
 /// The unit of A2 and A3.
 const BLOCK: &str = "of the block";

@@ -5,13 +5,11 @@
 use nalgebra::Vector3;
 use precess_dynamics::{About, Scalar, SolveError, Spacecraft, State};
 use precess_tests::blocks::largest;
+use precess_tests::bounds::ORDER;
 use precess_tests::case::Case;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::Sample;
 use precess_tests::table1::{self, SCENARIOS};
-
-/// E4, order of the fixed-step method: its drift falls 16-fold a halved step.
-const ORDER: std::ops::RangeInclusive<f64> = 14.0..=18.0;
 
 /// What rounding may add to a drift in `f64`, in the units of E2 and E3: a tenth of the 1e-12 that
 /// those rows allow a whole run. A walk of 4096 steps of one epsilon each is at `64 eps = 1.4e-14`.

@@ -9,13 +9,10 @@ use precess_dynamics::{
     About, Hub, Joint, JointField, Quantity, Quaternion, SolveError, Spacecraft, State, Torques,
 };
 use precess_tests::blocks::{errors, worst};
+use precess_tests::bounds::ACCELERATIONS_WORST;
 use precess_tests::case::Case;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::table1::{self, pair};
-
-/// A2, accelerations against higher precision, worst, in units of the block: a good engine reaches
-/// 3e-13.
-const ACCELERATIONS_WORST: f64 = 1e-11;
 
 /// A way to put a number into one input.
 type Spoil = fn(&mut Case<2>, f64);

@@ -9,6 +9,7 @@ use precess_dynamics::{
     Torques,
 };
 use precess_tests::blocks::{Figures, errors, largest, worst};
+use precess_tests::bounds::{LIMITS, ROUTES_IN_DOUBLE_DOUBLE};
 use precess_tests::case::Case;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::to_list;
@@ -17,12 +18,6 @@ use precess_tests::random::{Sample, Visitor, visit};
 
 /// Spacecraft tried for each claim.
 const SPACECRAFT: u64 = 180;
-
-/// A4, the same physics put differently, in units of the block: other rounding, nothing else.
-const LIMITS: f64 = 1e-12;
-
-/// A3, two routes in double-double, in units of the block: what is above is not rounding.
-const ROUTES_IN_DOUBLE_DOUBLE: f64 = 1e-25;
 
 /// A claim about one spacecraft, measured as an error against a bound.
 struct Claim<F> {

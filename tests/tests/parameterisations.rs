@@ -5,11 +5,9 @@
 use nalgebra::Vector3;
 use precess_dynamics::{Attitude, Mrp, Quaternion, Real, Scalar, Spacecraft, State};
 use precess_tests::blocks::largest;
+use precess_tests::bounds::ORDER;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::table1::{self, Drive, Imbalance};
-
-/// E4, order of the fixed-step method: what it leaves falls 16-fold a halved step.
-const ORDER: std::ops::RangeInclusive<f64> = 14.0..=18.0;
 
 /// Steps of the coarsest run, over one second.
 const COARSEST: u32 = 128;

@@ -6,17 +6,11 @@ use std::fmt::Display;
 
 use precess_dynamics::{Real, Scalar, Spacecraft};
 use precess_tests::blocks::Figures;
+use precess_tests::bounds::{POWER_EPSILONS, SPACECRAFT};
 use precess_tests::case::{Case, converted};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::{Sample, Visitor, visit};
 use precess_tests::table1::{self, SCENARIOS};
-
-/// E1, the rate of the energy less the power fed in: epsilons of the sum of the absolute values of
-/// all terms. Small, since there is no integrator in it.
-const POWER_EPSILONS: f64 = 50.0;
-
-/// As many random spacecraft as the accelerations are tried on.
-const SPACECRAFT: u64 = 1000;
 
 /// The power balance of the solver's accelerations, in epsilons of its unit, evaluated in
 /// double-double: what remains is the solver's rounding.

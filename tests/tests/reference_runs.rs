@@ -5,13 +5,11 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::{Joints, Quaternion, Real, Scalar, State};
+use precess_tests::bounds::ORDER;
 use precess_tests::case::Case;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::vector::Vector;
 use precess_tests::random::Sample;
-
-/// E4, order of the fixed-step method: its drift falls 16-fold a halved step.
-const ORDER: std::ops::RangeInclusive<f64> = 14.0..=18.0;
 
 /// Duration of a run, s, and steps of the coarsest one: 0.03 rad a step of the fastest wheel.
 const DURATION: f64 = 0.01;

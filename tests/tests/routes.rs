@@ -16,28 +16,14 @@ use std::sync::LazyLock;
 
 use precess_dynamics::{Accelerations, Scalar};
 use precess_tests::blocks::{Figures, errors, largest, worst};
+use precess_tests::bounds::{
+    ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, BACKWARD_EPSILONS, ROUTES_IN_DOUBLE_DOUBLE,
+    SPACECRAFT,
+};
 use precess_tests::case::{Case, converted};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::to_list;
 use precess_tests::random::{Sample, Visitor, visit};
-
-/// As many spacecraft as A2 asks for.
-const SPACECRAFT: u64 = 1000;
-
-/// A1, backward error of the solver's accelerations in the assembly's system: 50 machine epsilons
-/// of `abs(M) abs(q'') + abs(h)`, componentwise. A bound that is independent of conditioning.
-const BACKWARD_EPSILONS: f64 = 50.0;
-
-/// A2, the solver's accelerations against another route in higher precision, worst, in units of the
-/// block: a good engine reaches 3e-13.
-const ACCELERATIONS_WORST: f64 = 1e-11;
-
-/// A2, the same in the median: a good engine reaches 5e-15.
-const ACCELERATIONS_MEDIAN: f64 = 1e-13;
-
-/// A3, any two routes in double-double, in units of the block: shows that the rest of A2 is
-/// rounding.
-const ROUTES_IN_DOUBLE_DOUBLE: f64 = 1e-25;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Route {

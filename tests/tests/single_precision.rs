@@ -11,16 +11,13 @@ use precess_dynamics::{
     About, Attitude, Joints, Mrp, Quaternion, Scalar, SolveError, Spacecraft, State,
 };
 use precess_tests::blocks::{Figures, errors, largest, worst};
+use precess_tests::bounds::SINGLE_PRECISION;
 use precess_tests::case::Case;
 use precess_tests::random::{Random, SEED};
 use precess_tests::table1::{self, Drive, Imbalance};
 
 /// States drawn; as many as there are spacecraft in the other rows.
 const STATES: u64 = 1000;
-
-/// A5, single against double precision, in units of the size of what is compared: `2^-23` times
-/// conditioning.
-const SINGLE_PRECISION: f64 = 1e-4;
 
 /// Length of the step, s: 0.05 rad of the wheel at 500 rpm.
 const STEP: f64 = 1e-3;

@@ -8,19 +8,13 @@ use std::f64::consts::PI;
 use nalgebra::Vector3;
 use precess_dynamics::{About, Joints, Scalar, SolveError, State};
 use precess_tests::blocks::{Figures, errors, largest, worst};
+use precess_tests::bounds::{LIMITS, ROUTES_IN_DOUBLE_DOUBLE};
 use precess_tests::case::Case;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::{Sample, Visitor, visit};
 
 /// Spacecraft tried in each precision.
 const SPACECRAFT: u64 = 180;
-
-/// A4, the same physics put differently, in units of the block: other rounding, nothing else.
-const LIMITS: f64 = 1e-12;
-
-/// A3, two routes in double-double, in units of the block: what is above is not rounding. It holds
-/// only because the wrapped angle is corrected by a Newton step in the scalar's own precision.
-const ROUTES_IN_DOUBLE_DOUBLE: f64 = 1e-25;
 
 /// Length of the step, s: 0.06 rad of the fastest wheel.
 const STEP: f64 = 1e-4;
@@ -162,5 +156,6 @@ fn whole_turns_of_any_joint_change_nothing_in_double_double() {
             changes::<N, Wide>(sample)
         }
     }
+    // Only because the wrapped angle is corrected by a Newton step in the scalar's own precision.
     check("A3", ROUTES_IN_DOUBLE_DOUBLE, InDoubleDouble);
 }

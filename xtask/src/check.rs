@@ -1,12 +1,14 @@
 //! `check`: what every commit passes.
 
+use crate::mutate;
 use crate::regen;
 use crate::run::cargo;
 
-/// `regen --check`, format, clippy with warnings denied, unit tests: a stale or broken generated
-/// file is named as such before anything tries to compile it.
+/// `regen --check`, `mutate --check`, format, clippy with warnings denied, unit tests: a stale or
+/// broken generated file is named as such before anything tries to compile it.
 pub(crate) fn check() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
+    mutate::mutate(&mutate::Options::check_only())?;
     cargo(&["fmt", "--all", "--check"])?;
     cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"])?;
     cargo(&["test", "--workspace", "--lib", "--bins", "--quiet"])

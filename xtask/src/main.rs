@@ -3,6 +3,7 @@
 mod check;
 mod demo;
 mod engines;
+mod files;
 mod mutate;
 mod printed;
 mod regen;
@@ -26,10 +27,11 @@ enum Command {
     /// Derive, emit and prove every kernel; write the files if every proof holds
     #[command(after_help = "Example: cargo xtask regen --check")]
     Regen(regen::Options),
-    /// The quick loop: format, clippy, `regen --check`, unit tests
+    /// The quick loop: `regen --check`, `mutate --check`, format, clippy, unit tests
     #[command(after_help = "Example: cargo xtask check")]
     Check,
-    /// Make every emitted term wrong, one at a time, and see a law of physics broken
+    /// Make each term that the emitted functions compute wrong, and each sine and cosine, one at a
+    /// time, and see a law of physics broken
     #[command(after_help = "Example: cargo xtask mutate --kernel wheel")]
     Mutate(mutate::Options),
     /// Run all tests

@@ -1,18 +1,18 @@
-//! `mutate`: one wrong term at a time, put to the laws of physics; the page that says what came of it.
+//! `mutate`: one wrong term at a time, put to the laws of physics; the pages that say what came of
+//! it.
 
 use std::fs;
-use std::path::PathBuf;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use precess_codegen::emit::EmittedFile;
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::mutation::{Engines, Kind, Report, Selection, Tally, mutate as run};
 use precess_codegen::page::Page;
 use precess_codegen::report::traceability;
 use precess_codegen::verdict::verdicts;
 
-use crate::regen::{PAGES, differing, read_files, read_pages, write};
+use crate::files::{differing, read_files, read_pages, write};
+use crate::regen::PAGES;
 use crate::run::{root, say};
 
 /// Where the engines' stored values stand.
@@ -27,29 +27,26 @@ pub(crate) struct Options {
     #[arg(long, value_name = "NAME")]
     kernel: Option<String>,
     /// Make every K-th mutant alone, and write no page
-    #[arg(long, value_name = "K", default_value = "1", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "K", default_value = "1")]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..))]
     sample: u16,
-    /// Write nothing; show what would change on the page and fail if anything would
+    /// Write nothing; show what would change on the pages and fail if anything would
     #[arg(long, conflicts_with_all = ["kernel", "sample"])]
     check: bool,
-    /// Read the engines' stored values from this file
-    #[arg(long, value_name = "FILE")]
-    engines: Option<PathBuf>,
 }
 
 impl Options {
     /// `mutate --check`.
     pub(crate) fn check_only() -> Self {
-        Self { kernel: None, sample: 1, check: true, engines: None }
+        Self { kernel: None, sample: 1, check: true }
     }
 }
 
-/// Makes the mutants, prints what became of them, and writes or compares the page.
+/// Makes the mutants, prints what became of them, and writes or compares the pages.
 pub(crate) fn mutate(options: &Options) -> Result<(), String> {
-    let path = options.engines.clone().unwrap_or_else(|| root().join(ENGINES));
-    let json = fs::read_to_string(&path)
-        .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    let engines = Engines::parse(&DGVSCMG, &json).map_err(|error| error.to_string())?;
+    let json = fs::read_to_string(root().join(ENGINES))
+        .map_err(|error| format!("cannot read {ENGINES}: {error}"))?;
+    let engines = Engines::parse(&DGVSCMG, &json).map_err(|error| format!("{ENGINES}: {error}"))?;
     let selection =
         Selection { kernel: options.kernel.as_deref(), every: usize::from(options.sample) };
     let report = with_progress(&engines, &selection)?;
@@ -71,7 +68,7 @@ fn keep(report: &Report, check: bool) -> Result<(), String> {
     let pages = root().join(PAGES);
     let verdicts = verdicts(&read_pages(&pages)?, &read_pages(&pages.join("printed"))?);
     let verdicts = verdicts.map_err(|error| error.to_string())?;
-    let mut files = vec![EmittedFile { path: "docs/mutation.md".to_owned(), text: report.page() }];
+    let mut files = report.page().map_err(|error| error.to_string())?;
     let traces = traceability(&verdicts, report, &sources()?);
     files.extend(traces.map_err(|error| error.to_string())?);
     if !check {

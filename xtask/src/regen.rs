@@ -1,16 +1,14 @@
 //! `regen`: pages in, proofs and files out. Nothing is written unless every proof holds.
 
 use std::fs;
-use std::io::Error;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use precess_codegen::emit::EmittedFile;
-use precess_codegen::page::Page;
 use precess_codegen::proof::Row;
 use precess_codegen::regen::{Regeneration, regenerate};
-use similar::TextDiff;
 
+use crate::files::{differing, read_pages, write};
 use crate::printed;
 use crate::run::{root, say};
 
@@ -90,67 +88,6 @@ fn print(made: &Regeneration, quiet: bool) {
     say!("{held} of {} claims proven equal", made.rows.len());
 }
 
-/// The pages of a folder by name; its README describes them and is none.
-pub(crate) fn read_pages(folder: &Path) -> Result<Vec<Page>, String> {
-    let mut pages = read_files(folder, "md")?;
-    pages.retain(|page| page.name != "README.md");
-    if pages.is_empty() {
-        return Err(format!("no hand-checked pages (*.md) in {}", folder.display()));
-    }
-    Ok(pages)
-}
-
-/// The files of a folder that end so, by name.
-pub(crate) fn read_files(folder: &Path, ending: &str) -> Result<Vec<Page>, String> {
-    let wrong = |path: &Path, error: &Error| format!("cannot read {}: {error}", path.display());
-    let mut pages = Vec::new();
-    for entry in fs::read_dir(folder).map_err(|error| wrong(folder, &error))? {
-        let path = entry.map_err(|error| wrong(folder, &error))?.path();
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if path.extension().is_some_and(|extension| extension == ending) {
-            let text = fs::read_to_string(&path).map_err(|error| wrong(&path, &error))?;
-            pages.push(Page { name, text });
-        }
-    }
-    pages.sort_by(|a, b| a.name.cmp(&b.name));
-    Ok(pages)
-}
-
-/// Writes what changed. All text is on disk before the first file is replaced, and nothing is left
-/// behind when some of it cannot be written.
-pub(crate) fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
-    let changed = files.iter().map(|file| (file, into.join(&file.path)));
-    let changed: Vec<_> = changed
-        .filter(|(file, path)| !fs::read_to_string(path).is_ok_and(|text| text == file.text))
-        .map(|(file, path)| (file, beside(&path), path))
-        .collect();
-    let written = changed.iter().try_for_each(|(file, partial, path)| {
-        fs::create_dir_all(path.parent().unwrap_or(into))
-            .and_then(|()| fs::write(partial, &file.text))
-            .map_err(|error| format!("cannot write {}: {error}", path.display()))
-    });
-    if written.is_err() {
-        for (_, partial, _) in &changed {
-            // What was not made cannot be removed, and need not be.
-            let _ = fs::remove_file(partial);
-        }
-        return written;
-    }
-    for (file, partial, path) in &changed {
-        fs::rename(partial, path)
-            .map_err(|error| format!("cannot replace {}: {error}", path.display()))?;
-        say!("wrote {}", file.path);
-    }
-    Ok(())
-}
-
-/// Where a file is written before it takes its place: a name that no other file has.
-fn beside(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".partial");
-    PathBuf::from(name)
-}
-
 /// Shows the difference to what stands on disk, which must hold nothing that is not emitted.
 fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), String> {
     let stale = differing(files, into);
@@ -162,21 +99,6 @@ fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), Strin
         return Ok(());
     }
     Err(format!("{stale} of {} files are stale; run `{remedy}`", files.len()))
-}
-
-/// Shows the difference to what stands on disk; how many files differ.
-pub(crate) fn differing(files: &[EmittedFile], into: &Path) -> usize {
-    let mut stale = 0;
-    for file in files {
-        let now = fs::read_to_string(into.join(&file.path)).unwrap_or_default();
-        if now != file.text {
-            stale += 1;
-            let diff = TextDiff::from_lines(&now, &file.text);
-            let (old, new) = (format!("a/{}", file.path), format!("b/{}", file.path));
-            say!("{}", diff.unified_diff().header(&old, &new));
-        }
-    }
-    stale
 }
 
 /// A file among the emitted Rust that was not emitted.
@@ -193,6 +115,8 @@ fn orphan(files: &[EmittedFile], into: &Path) -> Option<PathBuf> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
 
     #[test]
@@ -207,16 +131,24 @@ mod tests {
             let out = Some(folder.path().to_path_buf());
             assert_eq!(regen(&Options { quiet: true, out, ..Options::default() }), Ok(()));
         }
-        let [a, b] = folders.map(|folder| {
-            let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
-            [
-                "dynamics/src/generated/dgvscmg.rs",
-                "dynamics/src/generated/hub.rs",
-                "docs/operations.md",
-            ]
-            .map(read)
-        });
-        assert_eq!(a, b);
+        let [a, b] = folders.each_ref().map(|folder| tree(folder.path(), ""));
+        assert!(a.contains_key("dynamics/src/generated/hub.rs"), "{:?}", a.keys());
+        assert!(a.contains_key("docs/derivation.html"), "{:?}", a.keys());
+        assert!(a == b, "of {:?} and {:?} some differ", a.keys(), b.keys());
+    }
+
+    /// Every file below a folder, by its path from there.
+    fn tree(folder: &Path, from: &str) -> BTreeMap<String, Vec<u8>> {
+        let mut found = BTreeMap::new();
+        for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
+            let path = format!("{from}{}", entry.file_name().to_str().unwrap());
+            if entry.file_type().unwrap().is_dir() {
+                found.append(&mut tree(&entry.path(), &format!("{path}/")));
+            } else {
+                found.insert(path, fs::read(entry.path()).unwrap());
+            }
+        }
+        found
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! What should be conserved, at one instant and over a run.
 //!
 //! Energy less the motors' work, linear momentum and angular momentum about the centre of mass,
-//! from the sums over bodies, which no page enters. Units as in E2 and E3: the largest kinetic
-//! energy plus the integral of sum |u rate|; the sum over the bodies of the magnitudes of their
-//! momenta, its largest.
+//! from the sums over bodies, which no page enters. Units: the largest kinetic energy plus the
+//! integral of sum |u rate|; the sum over the bodies of the magnitudes of their momenta, its
+//! largest.
 
 use super::state::{INPUTS, State, VELOCITY, plus};
 use super::tape::Tape;
@@ -17,6 +17,8 @@ use crate::space::{Hub, Vector};
 /// Calculates entries.
 pub(super) struct Accountant {
     tape: Tape,
+    /// How many bodies there are, the hub among them.
+    bodies: usize,
     slots: Vec<f64>,
 }
 
@@ -51,7 +53,8 @@ impl Accountant {
             roots.extend(share.angular.components());
         }
         let inputs = [&INPUTS[..], &VELOCITY].concat();
-        Ok(Self { tape: Tape::new(chain.graph, &roots, &inputs)?, slots: Vec::new() })
+        let tape = Tape::new(chain.graph, &roots, &inputs)?;
+        Ok(Self { tape, bodies: shares.len(), slots: Vec::new() })
     }
 
     /// The entry of a state.
@@ -62,8 +65,7 @@ impl Accountant {
         let mut vector = || std::array::from_fn(|_| values.next().unwrap_or(f64::NAN));
         let momentum = |total| Momentum { total: state.inertial(total), unit: 0.0 };
         let (mut linear, mut angular) = (momentum(vector()), momentum(vector()));
-        // The hub and three bodies.
-        for _ in 0..4 {
+        for _ in 0..self.bodies {
             linear.unit += magnitude(vector());
             angular.unit += magnitude(vector());
         }
@@ -151,7 +153,9 @@ impl Entry {
     /// Whether every number is one.
     pub(super) fn is_finite(&self) -> bool {
         let Self { balance, energy, throughput, linear, angular } = self;
-        [balance, energy, throughput, &linear.unit, &angular.unit].iter().all(|x| x.is_finite())
+        let momentum = |m: &Momentum| m.unit.is_finite() && m.total.iter().all(|x| x.is_finite());
+        let scalars = [balance, energy, throughput].into_iter().all(|x| x.is_finite());
+        scalars && momentum(linear) && momentum(angular)
     }
 }
 
@@ -182,6 +186,32 @@ mod tests {
         for (whole, sum) in numbers(&total).into_iter().zip(sums) {
             // The same terms in another order; a few hundred roundings.
             assert!((whole - sum).abs() < 1e-12 * whole.abs(), "{whole} {sum}");
+        }
+    }
+
+    #[test]
+    fn an_entry_with_one_number_that_is_none_is_not_finite() {
+        let momentum = Momentum { total: [1.0; 3], unit: 2.0 };
+        let right = Entry {
+            balance: 1.0,
+            energy: 1.0,
+            throughput: 1.0,
+            linear: momentum,
+            angular: momentum,
+        };
+        assert!(right.is_finite());
+        let total = Momentum { total: [1.0, f64::NAN, 1.0], ..momentum };
+        let unit = Momentum { unit: f64::INFINITY, ..momentum };
+        for wrong in [
+            Entry { balance: f64::NAN, ..right },
+            Entry { energy: f64::NAN, ..right },
+            Entry { throughput: f64::NAN, ..right },
+            Entry { linear: total, ..right },
+            Entry { linear: unit, ..right },
+            Entry { angular: total, ..right },
+            Entry { angular: unit, ..right },
+        ] {
+            assert!(!wrong.is_finite(), "{wrong:?}");
         }
     }
 

@@ -34,7 +34,11 @@ pub(super) fn run<'g>(
 ) -> Result<Effect, ConsequenceError> {
     let mut system = System::new(graph, equations)?;
     let mut state = State::initial();
-    let mut ledger = Ledger::new(accountant.entry(&state));
+    let start = accountant.entry(&state);
+    if !start.is_finite() {
+        return Ok(Effect::Diverges { at: 0.0 });
+    }
+    let mut ledger = Ledger::new(start);
     let h = DURATION / f64::from(steps);
     for step in 0..steps {
         let at = f64::from(step) * h;

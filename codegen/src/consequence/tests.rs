@@ -6,19 +6,11 @@ use super::run::run;
 use super::*;
 use crate::page::PageError;
 
-fn folder(name: &str) -> Vec<Page> {
-    let folder = format!("{}/../tests/derivation{name}", env!("CARGO_MANIFEST_DIR"));
-    let mut pages = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        if path.extension().is_some_and(|e| e == "md") && name != "README.md" {
-            pages.push(Page { name, text: std::fs::read_to_string(path).unwrap() });
-        }
-    }
-    pages.sort_by(|a, b| a.name.cmp(&b.name));
-    pages
-}
+// The integration tests read the same pages.
+#[path = "../../tests/folder/mod.rs"]
+mod folder;
+
+use folder::pages;
 
 /// A printed page of one block that claims to differ.
 fn print(heading: &str, body: &str) -> Vec<Page> {
@@ -27,7 +19,7 @@ fn print(heading: &str, body: &str) -> Vec<Page> {
 }
 
 fn effect(heading: &str, body: &str) -> Effect {
-    let found = consequences(&folder(""), &print(heading, body)).unwrap();
+    let found = consequences(&pages(""), &print(heading, body)).unwrap();
     let [Consequence { effect, .. }] = found[..] else { panic!("{found:?}") };
     effect
 }
@@ -38,7 +30,7 @@ const PRINTED_34: &str = "i_go_goc*(omega_dot + gamma_o_dot*s_z_hat) + i_go_goc_
 
 #[test]
 fn the_right_system_conserves_to_the_integrators_error() {
-    let Drift { energy, linear, angular } = floor(&folder("")).unwrap();
+    let Drift { energy, linear, angular } = floor(&pages("")).unwrap();
     // A hundredth of what counts as a drift, so that it cannot be taken for one; 4e-12 is reached.
     let bound = RESOLUTION / 100.0;
     assert!(energy < bound && linear < bound && angular < bound, "{energy} {linear} {angular}");
@@ -48,7 +40,7 @@ fn the_right_system_conserves_to_the_integrators_error() {
 fn the_right_systems_drift_falls_sixteen_fold_per_halved_step() {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
-    let right = Pages::read(&graph, &folder("")).unwrap().assembled(&[]).unwrap();
+    let right = Pages::read(&graph, &pages("")).unwrap().assembled(&[]).unwrap();
     let mut accountant = Accountant::new(&chain).unwrap();
     // Coarse enough that rounding, 1e-14, is nothing beside it.
     let [coarse, fine] =
@@ -57,7 +49,7 @@ fn the_right_systems_drift_falls_sixteen_fold_per_halved_step() {
             effect => panic!("{effect}"),
         });
     let ratios = [coarse.linear / fine.linear, coarse.angular / fine.angular];
-    // 2^4, the order of the method, as row E4 has it.
+    // 2^4, the order of the method.
     assert!(ratios.iter().all(|ratio| (14.0..18.0).contains(ratio)), "{ratios:?}");
 }
 
@@ -65,7 +57,7 @@ fn the_right_systems_drift_falls_sixteen_fold_per_halved_step() {
 fn a_name_that_is_given_its_own_value_leaves_every_expression_as_it_is() {
     let graph = Graph::new();
     let _chain = Chain::new(&graph, &DGVSCMG);
-    let texts = folder("");
+    let texts = pages("");
     let mut pages = Pages::read(&graph, &texts).unwrap();
     let right = pages.assembled(&[]).unwrap();
     for tag in ["(12)", "(14)", "(36)", "(57)", "(81)", "(119)"] {
@@ -79,7 +71,7 @@ fn a_name_that_is_given_its_own_value_leaves_every_expression_as_it_is() {
 
 #[test]
 fn a_form_that_is_right_does_not_enter() {
-    let pages = folder("");
+    let pages = pages("");
     // Every hand-checked block as if it were printed, with a note that claims a slip.
     let printed = pages.iter().map(|Page { name, text }| {
         let text = text.replace("```equation\n", "```printed\n");
@@ -165,7 +157,7 @@ fn what_table_1_sets_to_zero_vanishes() {
 
 #[test]
 fn every_block_that_differs_has_its_consequence_beyond_doubt() {
-    let found = consequences(&folder(""), &folder("/printed")).unwrap();
+    let found = consequences(&pages(""), &pages("printed")).unwrap();
     assert!(found.len() > 30, "only {} blocks", found.len());
     for Consequence { tag, name, effect, .. } in &found {
         let Effect::Drift(Drift { energy, linear, angular }) = effect else { continue };
@@ -190,7 +182,7 @@ fn what_cannot_be_followed_is_named_with_its_place() {
     let error = |pages: &[Page], heading: &str, body: &str| {
         consequences(pages, &print(heading, body)).unwrap_err()
     };
-    let pages = folder("");
+    let pages = pages("");
     let unstated = error(&pages, "(1) torque: scalar", "m_b");
     assert_eq!(
         unstated.to_string(),

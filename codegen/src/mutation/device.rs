@@ -2,7 +2,10 @@
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 
+use super::MutationError;
+use super::held::Held;
 use super::listing::Listing;
+use super::physics::Role;
 use super::site::Site;
 use super::state::{Accelerations, Case, Motion, parameters_of};
 use super::tape::{Changed, Returned, Tape, Values};
@@ -15,11 +18,22 @@ use crate::space::Axis;
 /// Number of the function that all others read.
 pub(super) const PREPARE: usize = 0;
 
+/// The numbers of the functions that laws are put to.
+struct Functions {
+    /// One per body, from the hub outwards.
+    bodies: Vec<usize>,
+    first_moment: usize,
+    eliminate: usize,
+    back_substitute: usize,
+    energy_momentum: usize,
+}
+
 /// The functions with their listings, `prepare` first.
 pub(super) struct Device<'a, 'g> {
     pub(super) chain: &'a Chain<'g>,
     pub(super) listings: Vec<Listing<'g>>,
     tapes: Vec<Tape>,
+    functions: Functions,
     parameters: Vec<Expr<'g>>,
     /// Sine and cosine of each joint.
     trigonometry: Vec<[Expr<'g>; 2]>,
@@ -48,14 +62,6 @@ pub(super) struct BodySeen {
     pub(super) inertia_b_prime: Matrix3<f64>,
 }
 
-/// What a device has of energy and momenta, along B.
-#[derive(Clone, Copy)]
-pub(super) struct Held {
-    pub(super) energy: f64,
-    pub(super) linear: Vector3<f64>,
-    pub(super) angular: Vector3<f64>,
-}
-
 /// The device's centre of mass, weighted with its mass, along B.
 pub(super) struct Moment {
     pub(super) mc: Vector3<f64>,
@@ -66,7 +72,10 @@ pub(super) struct Moment {
 
 impl<'a, 'g> Device<'a, 'g> {
     /// Lists and lays out every function of a kind.
-    pub(super) fn new(chain: &'a Chain<'g>) -> Self {
+    ///
+    /// # Errors
+    /// When the kind lacks a function that a law reads.
+    pub(super) fn new(chain: &'a Chain<'g>) -> Result<Self, MutationError> {
         let graph = chain.graph;
         let kernels = kernels(chain);
         let hoisted = prepared(graph, &kernels, &parameters(chain.kind));
@@ -85,18 +94,35 @@ impl<'a, 'g> Device<'a, 'g> {
                 graph.symbol(&format!("{function}_{}", link.joint.angle), Stage::Configuration)
             })
         });
-        let eliminate = listings.iter().find(|listing| listing.name == "eliminate");
-        let fields = eliminate.into_iter().flat_map(|listing| &listing.fields);
+        let functions = Functions::of(chain, &listings)?;
+        let fields = listings[functions.eliminate].fields.iter();
         let handed = fields
             .filter(|(field, _)| field.starts_with("gain_") || field.starts_with("free_"))
             .map(|(field, _)| (field.clone(), graph.symbol(field, Stage::Rate)));
-        Self {
+        Ok(Self {
             chain,
             parameters: parameters_of(chain.kind).iter().map(|name| symbol(name)).collect(),
             trigonometry: trigonometry.collect(),
             handed: handed.collect(),
             listings,
             tapes,
+            functions,
+        })
+    }
+
+    /// What a change of function `index` can move; `prepare` has no role of its own: it moves all.
+    pub(super) fn role(&self, index: usize) -> Option<Role> {
+        let functions = &self.functions;
+        if functions.bodies.contains(&index) {
+            Some(Role::Body)
+        } else if index == functions.first_moment {
+            Some(Role::FirstMoment)
+        } else if index == functions.eliminate || index == functions.back_substitute {
+            Some(Role::Solution)
+        } else if index == functions.energy_momentum {
+            Some(Role::Momenta)
+        } else {
+            None
         }
     }
 
@@ -149,22 +175,21 @@ impl<'a, 'g> Device<'a, 'g> {
         values
     }
 
-    fn call(&self, function: &str, values: &Values, fault: &Fault) -> Returned<'_> {
-        let index = self.listings.iter().position(|listing| listing.name == function);
-        let index = index.unwrap_or_default();
+    /// Calls function `index`.
+    fn call(&self, index: usize, values: &Values, fault: &Fault) -> Returned<'_> {
         self.tapes[index].evaluate(values, fault.0.get(index).copied().flatten())
     }
 
     /// `eliminate`.
     pub(super) fn eliminated(&self, case: &Case, fault: &Fault) -> Returned<'_> {
-        self.call("eliminate", &self.arguments(case, &case.motion), fault)
+        self.call(self.functions.eliminate, &self.arguments(case, &case.motion), fault)
     }
 
     /// All accelerations of hub and device: `eliminate`, the hub's own six equations by Newton and
     /// Euler for one rigid body, `back_substitute`.
     pub(super) fn accelerations(&self, case: &Case, fault: &Fault) -> Accelerations {
         let mut values = self.arguments(case, &case.motion);
-        let device = self.call("eliminate", &values, fault);
+        let device = self.call(self.functions.eliminate, &values, fault);
         let (hub, omega) = (&case.hub, case.motion.omega);
         let lever = hub.centre.cross_matrix();
         let about_b = hub.inertia - hub.mass * lever * lever;
@@ -196,7 +221,7 @@ impl<'a, 'g> Device<'a, 'g> {
         for (field, symbol) in &self.handed {
             values.set(*symbol, device.scalar(field));
         }
-        let joints = self.call("back_substitute", &values, fault);
+        let joints = self.call(self.functions.back_substitute, &values, fault);
         let names = self.chain.kind.links.iter().map(|link| link.joint.acceleration);
         let joints = names.map(|name| joints.scalar(name)).collect();
         Accelerations { point: part(0), omega: part(3), joints }
@@ -204,7 +229,8 @@ impl<'a, 'g> Device<'a, 'g> {
 
     /// `energy_momentum`.
     pub(super) fn held(&self, case: &Case, motion: &Motion, fault: &Fault) -> Held {
-        let returned = self.call("energy_momentum", &self.arguments(case, motion), fault);
+        let arguments = self.arguments(case, motion);
+        let returned = self.call(self.functions.energy_momentum, &arguments, fault);
         Held {
             energy: returned.scalar("energy"),
             linear: returned.vector("linear", "b"),
@@ -226,7 +252,8 @@ impl<'a, 'g> Device<'a, 'g> {
 
     /// `first_moment`.
     pub(super) fn moment(&self, case: &Case, motion: &Motion, fault: &Fault) -> Moment {
-        let returned = self.call("first_moment", &self.arguments(case, motion), fault);
+        let arguments = self.arguments(case, motion);
+        let returned = self.call(self.functions.first_moment, &arguments, fault);
         let tags = self.chain.kind.links.iter().map(|link| link.joint.tag);
         Moment {
             mc: returned.vector("mc", "b"),
@@ -240,8 +267,8 @@ impl<'a, 'g> Device<'a, 'g> {
     pub(super) fn body(&self, k: usize, case: &Case, motion: &Motion, fault: &Fault) -> BodySeen {
         let links = self.chain.kind.links;
         let data = &links[k].body;
-        let name = data.title.replace(' ', "_");
-        let returned = self.call(&name, &self.arguments(case, motion), fault);
+        let arguments = self.arguments(case, motion);
+        let returned = self.call(self.functions.bodies[k], &arguments, fault);
         let carrier = if k == 0 { "b" } else { links[k - 1].body.frame };
         let (own, point) = (data.frame, data.point);
         let before = self.axes(k, motion);
@@ -279,6 +306,24 @@ impl<'a, 'g> Device<'a, 'g> {
         };
         let turns = self.chain.kind.links.iter().enumerate().take(joints).map(turn);
         turns.fold(Matrix3::identity(), |axes, turn| axes * turn)
+    }
+}
+
+impl Functions {
+    /// Finds each by its name.
+    fn of(chain: &Chain<'_>, listings: &[Listing<'_>]) -> Result<Self, MutationError> {
+        let find = |name: &str| {
+            let place = listings.iter().position(|listing| listing.name == name);
+            place.ok_or_else(|| MutationError::no_kernel(name, listings))
+        };
+        let bodies = chain.kind.links.iter().map(|link| find(&link.body.title.replace(' ', "_")));
+        Ok(Self {
+            bodies: bodies.collect::<Result<_, _>>()?,
+            first_moment: find("first_moment")?,
+            eliminate: find("eliminate")?,
+            back_substitute: find("back_substitute")?,
+            energy_momentum: find("energy_momentum")?,
+        })
     }
 }
 

@@ -6,6 +6,17 @@ use crate::derivation::script::{Section, Statement};
 use crate::graph::{Expr, Graph, Node, NodeId, Stage};
 use crate::kernel::{Claim, Field, Record, Source};
 
+/// One named value of one emitted function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Computed {
+    /// The function.
+    pub kernel: String,
+    /// The emitted name.
+    pub name: String,
+    /// The paper's number, or those that its heading cites: `(14)`, `(49)-(52)`, `(17), (78)`.
+    pub tag: Option<String>,
+}
+
 /// One emitted function.
 pub(super) struct Listing<'g> {
     /// Its name.
@@ -24,7 +35,7 @@ pub(super) struct Line<'g> {
     pub(super) section: String,
     /// Emitted name.
     pub(super) name: String,
-    /// The paper's number.
+    /// The paper's number, or those that the heading cites.
     pub(super) tag: Option<String>,
     /// Its value.
     pub(super) value: Expr<'g>,
@@ -71,6 +82,20 @@ impl<'g> Listing<'g> {
             }
         }
         Self { name: name.to_owned(), lines, fields, stages }
+    }
+
+    /// What is computed or returned here. `hoisted` is this function of what depends on parameters
+    /// alone; elsewhere such a value is read, not computed.
+    pub(super) fn computed(&self, hoisted: bool) -> impl Iterator<Item = Computed> {
+        let own = move |line: &&Line<'g>| {
+            let returned = || self.fields.iter().any(|(_, source)| *source == line.name);
+            (line.value.stage() == Stage::Parameter) == hoisted || returned()
+        };
+        self.lines.iter().filter(own).map(|line| Computed {
+            kernel: self.name.clone(),
+            name: line.name.clone(),
+            tag: line.tag.clone(),
+        })
     }
 }
 
@@ -132,12 +157,34 @@ fn stage(graph: &Graph, id: NodeId, known: &HashMap<NodeId, Stage>) -> Stage {
     }
 }
 
-/// The number a claim gives the name, else the one its heading cites.
+/// The number a claim gives the name, else what its heading cites.
 fn tag(name: &str, title: &str, claims: &[Claim<'_>]) -> Option<String> {
     let claimed = claims.iter().find(|claim| claim.components.iter().any(|(own, _)| own == name));
-    claimed.map(|claim| claim.tag.clone()).or_else(|| {
-        let cited = title.split("eq. ").nth(1)?;
-        let end = cited.find([',', ':', ' ', '.']).unwrap_or(cited.len());
-        Some(cited[..end].to_owned())
-    })
+    claimed.map(|claim| claim.tag.clone()).or_else(|| cited(title))
+}
+
+/// The equations that a heading cites: `(14)`, `(49)-(52)`, or several, `(17), (78)`.
+fn cited(title: &str) -> Option<String> {
+    let (_, cited) = title.split_once("eq. ").or_else(|| title.split_once("eqs. "))?;
+    let cited = cited.split(':').next()?;
+    let parts = cited.split(", ").take_while(|part| part.starts_with('('));
+    let numbers: Vec<_> = parts.filter_map(|part| part.split([' ', '.']).next()).collect();
+    (!numbers.is_empty()).then(|| numbers.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headings_cite_one_equation_or_several_or_none() {
+        assert_eq!(cited("Products and sums of parameters that occur more deeply."), None);
+        assert_eq!(cited("As in eq. five, m."), None);
+        let cited = |title| cited(title).unwrap();
+        assert_eq!(cited("Joint w taken out of the rows nearer the hub, eq. (E2)."), "(E2)");
+        assert_eq!(cited("[I]′, eq. (49)-(52), along the axes, kg m²/s."), "(49)-(52)");
+        assert_eq!(cited("About B: first moment, eq. (9), kg m, and inertia, eq. (76)."), "(9)");
+        assert_eq!(cited("Force and moment of each joint, eqs. (17), (99)."), "(17), (99)");
+        assert_eq!(cited("Right side, eqs. (80), (101): torque, N m, (1)."), "(80), (101)");
+    }
 }

@@ -11,6 +11,7 @@
 
 mod device;
 mod equivalence;
+mod held;
 mod listing;
 mod page;
 mod physics;
@@ -19,14 +20,16 @@ mod site;
 mod state;
 mod tape;
 
+pub use listing::Computed;
 pub use physics::{EngineError, Engines, Kind, Law};
-pub use report::{Fate, Outcome, Report, Row, Tally};
+pub use report::{Fate, Outcome, Report, Tally};
 pub use site::{Change, Mutant};
 
 use std::fmt;
 
 use device::{Device, Fault};
-use physics::{Role, Trial, residuals};
+use listing::Listing;
+use physics::{Trial, residuals};
 use site::{Site, sites};
 use state::Random;
 
@@ -51,14 +54,6 @@ pub struct Selection<'a> {
     pub every: usize,
 }
 
-impl Selection<'_> {
-    /// Every mutant of every function.
-    #[must_use]
-    pub fn all() -> Self {
-        Self { kernel: None, every: 1 }
-    }
-}
-
 /// Why there is nothing to report.
 #[derive(Debug)]
 pub enum MutationError {
@@ -76,6 +71,13 @@ pub enum MutationError {
         /// Its residual.
         residual: f64,
     },
+}
+
+impl MutationError {
+    fn no_kernel(name: &str, listings: &[Listing<'_>]) -> Self {
+        let known = listings.iter().map(|listing| listing.name.clone());
+        Self::NoKernel { name: name.to_owned(), known: known.collect() }
+    }
 }
 
 impl fmt::Display for MutationError {
@@ -99,7 +101,7 @@ impl std::error::Error for MutationError {}
 /// told after each how many are done, and of how many.
 ///
 /// # Errors
-/// When there is no such function, or when the unchanged ones break a law.
+/// When a function is not there, chosen or read by a law, or when the unchanged ones break a law.
 pub fn mutate(
     kind: &'static kinds::Kind,
     engines: &Engines,
@@ -108,7 +110,7 @@ pub fn mutate(
 ) -> Result<Report, MutationError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, kind);
-    let device = Device::new(&chain);
+    let device = Device::new(&chain)?;
     let trials = trials(kind);
     let floors = residuals(&device, &trials, engines, &Fault::default(), None);
     if let Some(&(law, residual)) = floors.iter().find(|(_, residual)| *residual > NOTICED) {
@@ -118,7 +120,7 @@ pub fn mutate(
     let mut outcomes = Vec::with_capacity(chosen.len());
     let of = chosen.len();
     for (index, site) in chosen {
-        let role = Role::of(&site.mutant.kernel);
+        let role = device.role(index);
         let signals = residuals(&device, &trials, engines, &device.fault(index, &site), role);
         let killed = signals.iter().any(|(_, residual)| *residual > NOTICED);
         let fate = if killed {
@@ -131,7 +133,9 @@ pub fn mutate(
         outcomes.push(Outcome { mutant: site.mutant, signals, fate });
         progress(outcomes.len(), of);
     }
-    Ok(Report { kind, outcomes, floors, engines: engines.len() })
+    let listings = device.listings.iter().enumerate();
+    let computed = listings.flat_map(|(index, listing)| listing.computed(index == device::PREPARE));
+    Ok(Report { kind, outcomes, computed: computed.collect(), floors, engines: engines.count() })
 }
 
 fn trials(kind: &kinds::Kind) -> Vec<Trial> {
@@ -147,11 +151,10 @@ fn chosen(
     device: &Device<'_, '_>,
     selection: &Selection<'_>,
 ) -> Result<Vec<(usize, Site)>, MutationError> {
-    let names = || device.listings.iter().map(|listing| listing.name.clone());
     if let Some(name) = selection.kernel
-        && !names().any(|known| known == name)
+        && !device.listings.iter().any(|listing| listing.name == name)
     {
-        return Err(MutationError::NoKernel { name: name.to_owned(), known: names().collect() });
+        return Err(MutationError::no_kernel(name, &device.listings));
     }
     let meant = |name: &str| selection.kernel.is_none_or(|kernel| kernel == name);
     let listings = device.listings.iter().enumerate().filter(|(_, listing)| meant(&listing.name));

@@ -1,6 +1,7 @@
-//! What became of every mutant, counted by function, by emitted name and by equation.
+//! What became of every mutant, counted by function and by equation.
 
 use super::NOTICED;
+use super::listing::Computed;
 use super::physics::{Kind, Law};
 use super::site::Mutant;
 use crate::kinds;
@@ -55,6 +56,8 @@ pub struct Report {
     pub kind: &'static kinds::Kind,
     /// In the order of the emitted text, `prepare` first.
     pub outcomes: Vec<Outcome>,
+    /// What every function computes, in the same order, whether or not it can be made wrong.
+    pub computed: Vec<Computed>,
     /// Residuals of the unchanged functions.
     pub floors: Vec<(Law, f64)>,
     /// How many spacecraft of the engines were compared with.
@@ -74,19 +77,6 @@ pub struct Tally {
     pub equivalent: usize,
     /// Not shown by any law.
     pub survivors: usize,
-}
-
-/// What became of the mutants under one emitted name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
-    /// The function.
-    pub kernel: String,
-    /// The name.
-    pub name: String,
-    /// The paper's number of it.
-    pub tag: Option<String>,
-    /// The numbers.
-    pub tally: Tally,
 }
 
 impl Tally {
@@ -120,20 +110,19 @@ impl Report {
         self.grouped(|mutant| Some(mutant.kernel.clone()))
     }
 
-    /// One row per function and emitted name, in the order of the emitted file.
-    #[must_use]
-    pub fn by_name(&self) -> Vec<Row> {
-        let key = |m: &Mutant| Some((m.kernel.clone(), m.name.clone(), m.tag.clone()));
-        let row = |((kernel, name, tag), tally)| Row { kernel, name, tag, tally };
-        self.grouped(key).into_iter().map(row).collect()
-    }
-
-    /// One tally per equation, over all functions: by number, what has none last.
+    /// One tally per equation, over all functions: by number, alone before
+    /// among several, what has none last.
     #[must_use]
     pub fn by_tag(&self) -> Vec<(String, Tally)> {
         let mut tags = self.grouped(|mutant| mutant.tag.clone());
-        tags.sort_by_key(|(tag, _)| number(tag));
+        tags.sort_by_key(|(tag, _)| (number(tag), tag.contains(", ")));
         tags
+    }
+
+    /// How many mutants stand under no number: in what `prepare` shares between equations.
+    #[must_use]
+    pub fn unnumbered(&self) -> usize {
+        self.outcomes.iter().filter(|outcome| outcome.mutant.tag.is_none()).count()
     }
 
     /// What is neither shown by a law nor equivalent.

@@ -39,7 +39,7 @@ pub struct Mutant {
     pub section: String,
     /// The emitted name that the place stands under.
     pub name: String,
-    /// The paper's number of that name.
+    /// The paper's number of that name, or those that its heading cites: `(14)`, `(17), (78)`.
     pub tag: Option<String>,
     /// What is done.
     pub change: Change,
@@ -133,8 +133,7 @@ fn changes(graph: &Graph, node: NodeId, operand: NodeId) -> Vec<Change> {
 
 /// The cosine of a sine, the sine of a cosine.
 pub(super) fn partner<'g>(graph: &'g Graph, e: Expr<'g>) -> Option<Expr<'g>> {
-    let Node::Symbol(id) = e.node() else { return None };
-    let info = graph.symbol_info(id);
+    let info = graph.symbol_info(symbol(e)?);
     let name = match (info.name.strip_prefix("sin_"), info.name.strip_prefix("cos_")) {
         (Some(angle), _) => format!("cos_{angle}"),
         (_, Some(angle)) => format!("sin_{angle}"),
@@ -144,13 +143,10 @@ pub(super) fn partner<'g>(graph: &'g Graph, e: Expr<'g>) -> Option<Expr<'g>> {
 }
 
 /// The symbol of an expression that is one.
-///
-/// # Panics
-/// When it is not one.
-pub(super) fn symbol(e: Expr<'_>) -> SymbolId {
+pub(super) fn symbol(e: Expr<'_>) -> Option<SymbolId> {
     match e.node() {
-        Node::Symbol(id) => id,
-        other => panic!("{other:?} is no symbol"),
+        Node::Symbol(id) => Some(id),
+        _ => None,
     }
 }
 
@@ -212,7 +208,7 @@ mod tests {
     fn every_addition_of_the_emitted_text_is_a_place() {
         let graph = Graph::new();
         let chain = Chain::new(&graph, &DGVSCMG);
-        let device = Device::new(&chain);
+        let device = Device::new(&chain).unwrap();
         for (index, listing) in device.listings.iter().enumerate() {
             let found = sites(&graph, listing, index == PREPARE);
             let dropped = found.iter().filter(|site| site.mutant.change == Change::Drop);

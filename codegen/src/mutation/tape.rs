@@ -75,8 +75,9 @@ impl Tape {
         if self.slots.contains_key(&id) {
             return;
         }
-        if let Some(other) = partner(graph, graph.expr(id)) {
-            self.push(other, Step::Input(symbol(other)));
+        let other = partner(graph, graph.expr(id));
+        if let Some((other, input)) = other.and_then(|other| Some((other, symbol(other)?))) {
+            self.push(other, Step::Input(input));
         }
         let at = |id: &NodeId| self.slots[id];
         let step = match graph.node(id) {
@@ -173,9 +174,12 @@ impl Values {
         Self(vec![f64::NAN; graph.symbols()])
     }
 
-    /// Gives a symbol its value.
+    /// Gives a symbol its value; what is no symbol takes none.
     pub(super) fn set(&mut self, of: Expr<'_>, value: f64) {
-        self.0[usize::from(symbol(of).0)] = value;
+        let place = symbol(of).and_then(|id| self.0.get_mut(usize::from(id.0)));
+        if let Some(place) = place {
+            *place = value;
+        }
     }
 
     /// Gives three symbols the components of a vector.

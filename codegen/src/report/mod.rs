@@ -128,16 +128,14 @@ pub fn traceability(
     report: &Report,
     sources: &[Page],
 ) -> Result<Vec<EmittedFile>, ReportError> {
-    let graph = Graph::new();
-    let chain = Chain::new(&graph, report.kind);
     let mut context = Context::new();
-    context.insert("trace", &traceability::traceability(&chain, verdicts, report, sources));
+    context.insert("trace", &traceability::traceability(verdicts, report, sources));
     let template = include_str!("templates/traceability.md.tera");
     document("docs/traceability", template, &context, &[])
 }
 
 /// A document as Markdown and as HTML.
-fn document(
+pub(crate) fn document(
     path: &str,
     template: &str,
     context: &Context,

@@ -3,9 +3,7 @@
 use serde::Serialize;
 
 use super::numbers::{Number, numbers};
-use crate::derivation::chain::Chain;
-use crate::kernel::{Kernel, kernels};
-use crate::mutation::{Kind, Report};
+use crate::mutation::{Kind, Outcome, Report};
 use crate::page::Page;
 use crate::verdict::{Entry, HandChecked, Verdicts};
 
@@ -15,7 +13,24 @@ pub(super) struct Traceability {
     rows: Vec<RowText>,
     kinds: Vec<String>,
     system: Vec<SystemText>,
+    /// Mutants that stand under no number.
+    unnumbered: usize,
 }
+
+/// What is emitted and not numbered by the paper, in the order of the page.
+const UNNUMBERED: [(&str, &str); 8] = [
+    ("(step)", "positions, velocities and first moments, behind (11) to (14)"),
+    ("(M_ij)", "mass matrix of the joints"),
+    ("(E1)", "a joint's pivot, gains and free acceleration: products, nothing to drop"),
+    ("(E2)", "a joint taken out of the rows nearer the hub"),
+    ("(E3)", "share of the hub's mass matrix and right side"),
+    ("(E4)", "joint accelerations from those of the hub"),
+    ("(energy)", "kinetic energy"),
+    ("(momentum)", "linear momentum"),
+];
+
+/// So many groups of names are shown of one function, the others counted.
+const SHOWN: usize = 4;
 
 /// One equation of the paper.
 #[derive(Serialize)]
@@ -36,64 +51,99 @@ struct RowText {
 #[derive(Serialize)]
 struct SystemText {
     tag: String,
+    what: &'static str,
     emitted: String,
     mutants: usize,
     killed: String,
 }
 
 /// The table; `sources` are the files of the derivation, by path from the repository's root.
-pub(super) fn traceability(
-    chain: &Chain<'_>,
-    verdicts: &Verdicts,
-    report: &Report,
-    sources: &[Page],
-) -> Traceability {
-    let kernels = kernels(chain);
+pub(super) fn traceability(verdicts: &Verdicts, report: &Report, sources: &[Page]) -> Traceability {
     let places = places(sources);
     let numbered = verdicts.entries.iter().filter_map(|entry| Some((Number(entry.number?), entry)));
     let rows = numbered.map(|(number, entry)| {
-        let (mutants, killed) = put_to_the_laws(report, |tag| numbers(tag).contains(&number));
+        let under = |tag: &str| names(tag, number);
+        let (mutants, killed) = put_to_the_laws(report, under);
         RowText {
             tag: entry.tag.clone(),
             title: entry.title.clone(),
             lines: lines_of(&places, number, entry),
             pages: pages(entry),
             proof: entry.hand_checked.label().to_owned(),
-            emitted: emitted(&kernels, |tag| numbers(tag).contains(&number)),
+            emitted: emitted(report, under),
             mutants,
             killed,
         }
     });
-    let rows = rows.collect();
-    let others = report.by_tag().into_iter().filter(|(tag, _)| numbers(tag).is_empty());
-    let system = others.map(|(tag, _)| {
-        let (mutants, killed) = put_to_the_laws(report, |other| other == tag);
-        SystemText { emitted: emitted(&kernels, |other| other == tag), mutants, killed, tag }
-    });
     Traceability {
-        rows,
+        rows: rows.collect(),
         kinds: Kind::ALL.map(|kind| kind.title().to_owned()).to_vec(),
-        system: system.collect(),
+        system: unnumbered(report),
+        unnumbered: report.unnumbered(),
     }
+}
+
+/// Whether a tag names a number: `(17), (78)` names both of its own.
+fn names(tag: &str, number: Number) -> bool {
+    tag.split(", ").any(|tag| numbers(tag).contains(&number))
+}
+
+/// A row for every tag without a number, the known ones first.
+fn unnumbered(report: &Report) -> Vec<SystemText> {
+    let mut tags = UNNUMBERED.to_vec();
+    for tag in report.computed.iter().filter_map(|value| value.tag.as_deref()) {
+        if numbers(tag).is_empty() && !tags.iter().any(|(known, _)| *known == tag) {
+            tags.push((tag, ""));
+        }
+    }
+    let row = |(tag, what): (&str, &'static str)| {
+        let (mutants, killed) = put_to_the_laws(report, |other| other == tag);
+        let emitted = emitted(report, |other| other == tag);
+        SystemText { tag: tag.to_owned(), what, emitted, mutants, killed }
+    };
+    tags.into_iter().map(row).collect()
 }
 
 /// Mutants under the equations that fit, and how many of them each kind of law sees.
 fn put_to_the_laws(report: &Report, fits: impl Fn(&str) -> bool) -> (usize, String) {
-    let under =
-        |outcome: &&crate::mutation::Outcome| outcome.mutant.tag.as_deref().is_some_and(&fits);
+    let under = |outcome: &&Outcome| outcome.mutant.tag.as_deref().is_some_and(&fits);
     let outcomes: Vec<_> = report.outcomes.iter().filter(under).collect();
     let seen = |kind| outcomes.iter().filter(|outcome| outcome.killed_by(kind)).count();
     (outcomes.len(), Kind::ALL.map(|kind| seen(kind).to_string()).join(" | "))
 }
 
-/// Function and names of the claims that fit.
-fn emitted(kernels: &[Kernel<'_>], fits: impl Fn(&str) -> bool) -> String {
-    let of_kernel = |kernel: &Kernel<'_>| {
-        let names = kernel.claims.iter().filter(|claim| fits(&claim.tag));
-        let names: Vec<_> = names.map(|claim| format!("`{}`", claim.name)).collect();
-        (!names.is_empty()).then(|| format!("`fn {}`: {}", kernel.name, names.join(", ")))
-    };
-    kernels.iter().filter_map(of_kernel).collect::<Vec<_>>().join("; ")
+/// Functions and names of the values that are computed under the equations that fit.
+fn emitted(report: &Report, fits: impl Fn(&str) -> bool) -> String {
+    let mut functions: Vec<(&str, Vec<&str>)> = Vec::new();
+    let under = |tag: &Option<String>| tag.as_deref().is_some_and(&fits);
+    for value in report.computed.iter().filter(|value| under(&value.tag)) {
+        match functions.last_mut().filter(|(kernel, _)| *kernel == value.kernel) {
+            Some((_, names)) => names.push(&value.name),
+            None => functions.push((&value.kernel, vec![&value.name])),
+        }
+    }
+    let shown = functions.iter().map(|(kernel, names)| format!("`fn {kernel}`: {}", short(names)));
+    shown.collect::<Vec<_>>().join("; ")
+}
+
+/// Names that differ in their last part alone as one, `mc_*`, and of many the first.
+fn short(names: &[&str]) -> String {
+    let stem = |name: &str| name.rsplit_once('_').map(|(stem, _)| stem.to_owned());
+    let mut groups: Vec<String> = Vec::new();
+    for name in names {
+        let own = stem(name);
+        let alike = names.iter().filter(|other| own.is_some() && stem(other) == own).count();
+        let group = own
+            .filter(|_| alike > 1)
+            .map_or_else(|| format!("`{name}`"), |stem| format!("`{stem}_*`"));
+        if !groups.contains(&group) {
+            groups.push(group);
+        }
+    }
+    let more = groups.len().saturating_sub(SHOWN);
+    groups.truncate(SHOWN);
+    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+    groups.join(", ") + &rest
 }
 
 fn pages(entry: &Entry) -> String {
@@ -159,6 +209,20 @@ fn lines_of(places: &[Place], Number(number): Number, entry: &Entry) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_are_short_and_many_are_counted() {
+        let names = ["mc_bx", "mc_by", "energy", "f_o_bx_w", "f_o_by_w", "f_i", "f_w"];
+        assert_eq!(short(&names[..3]), "`mc_*`, `energy`");
+        assert_eq!(short(&names), "`mc_*`, `energy`, `f_o_bx_w`, `f_o_by_w` and 1 more");
+    }
+
+    #[test]
+    fn a_tag_names_each_of_its_numbers() {
+        assert!(names("(17), (78)", Number(17)) && names("(17), (78)", Number(78)));
+        assert!(names("(49)-(52)", Number(51)));
+        assert!(!names("(E1)", Number(1)) && !names("(17), (78)", Number(7)));
+    }
 
     #[test]
     fn comments_name_equations_and_ranges() {

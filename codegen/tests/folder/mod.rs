@@ -1,6 +1,7 @@
-//! The pages of a folder, as the tests read them.
+//! The pages of a folder, as the tests read them, inside the crate and outside: `Page` is what the
+//! parent module calls by that name.
 
-use precess_codegen::page::Page;
+use super::Page;
 
 /// The pages of `tests/derivation` or of a folder in it, by name; a README is none.
 pub(crate) fn pages(folder: &str) -> Vec<Page> {

@@ -24,15 +24,18 @@ impl<T: Scalar> Positions<T> {
         let Given { r_go_b, r_goc_go, l_o, r_gic_gi, l_i, r_wc_w, .. } = *given;
         let Given { s_z_hat, gamma_o_dot, gamma_o_ddot, .. } = *given;
 
+        // (step)
         let r_goc_b_prime = cross(s_z_hat * gamma_o_dot, r_goc_go);
         // (12)
         let r_goc_b_dprime =
             cross(s_z_hat * gamma_o_ddot, r_goc_go) + cross(s_z_hat * gamma_o_dot, r_goc_b_prime);
 
         Self {
+            // (step)
             r_goc_b: r_go_b + r_goc_go,
             r_goc_b_prime,
             r_goc_b_dprime,
+            // (step)
             r_gic_b: r_go_b + l_o + r_gic_gi,
             r_gic_b_prime: r_gic_b_prime(given),
             r_gic_b_dprime: r_gic_b_dprime(given),
@@ -44,6 +47,7 @@ impl<T: Scalar> Positions<T> {
     }
 }
 
+/// (step)
 fn r_gic_b_prime<T: Scalar>(given: &Given<T>) -> Vector<T> {
     let Given { gamma_o_dot, gamma_i_dot, g_x_hat, s_y_hat, s_z_hat, r_gic_gi, .. } = *given;
     let [l_o_x, l_o_y, _] = given.l_o_xyz;
@@ -65,6 +69,7 @@ fn r_gic_b_dprime<T: Scalar>(given: &Given<T>) -> Vector<T> {
         - g_x_hat * (l_o_x * sq(gamma_o_dot) + l_o_y * gamma_o_ddot)
 }
 
+/// (step)
 fn r_wc_b_prime<T: Scalar>(given: &Given<T>) -> Vector<T> {
     let Given { d, si, ci, st, ct, gamma_o_dot, gamma_i_dot, spin, .. } = *given;
     let Given { s_x_hat, s_y_hat, g_z_hat, .. } = *given;

@@ -52,6 +52,7 @@ pub(super) fn c<T: Scalar>(body: &Body<T>, devices: &[Device<T>]) -> Vector<T> {
     sum * m_sc(body, devices).recip()
 }
 
+/// (step)
 fn c_prime<T: Scalar>(body: &Body<T>, devices: &[Device<T>]) -> Vector<T> {
     let sum = devices.iter().fold(Vector::zero(), |sum, device| {
         let (Given { m_go, m_gi, m_w, .. }, at) = (device.given, &device.positions);

@@ -9,21 +9,16 @@ mod stored;
 
 use nalgebra::Vector3;
 use precess_tests::blocks::{Figures, NAMES, largest};
+use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
 use serde_json::Value;
 
 use bodies::{Kernels, Moment};
 use solved::Solved;
 use stored::{Blocks, Craft, StoredBody, symmetric};
 
-/// A2, accelerations against an independent reference, in units of the block, worst. Energy,
-/// momenta and bodies are held to the same: none is worse conditioned than the accelerations.
-const WORST: f64 = 1e-11;
-
-/// A2, the same in the median.
-const MEDIAN: f64 = 1e-13;
-
 /// What every input is changed by, relatively, to see whether the comparison notices: a thousand
-/// times [`WORST`], so an input with a thousandth of the influence of the largest one still shows.
+/// times [`ACCELERATIONS_WORST`], so an input with a thousandth of the influence of the largest one
+/// still shows.
 const CHANGE: f64 = 1e-8;
 
 /// The bodies of a device, in the order of the file.
@@ -43,13 +38,14 @@ impl Claim {
         Self { name, figures: Figures::default() }
     }
 
-    /// Takes the largest difference in units of the largest number expected.
+    /// Takes the largest difference in units of the largest number expected. Energy, momenta and
+    /// bodies are held to the bound of the accelerations: none is worse conditioned.
     fn take(&mut self, craft: &Craft, what: &str, actual: &[f64], expected: &[f64]) {
         let error = error(actual, expected);
         self.figures.add(error);
         assert!(
-            error <= WORST,
-            "{}: {what} differs by {error:e} of the block, above {WORST:e} ({})",
+            error <= ACCELERATIONS_WORST,
+            "{}: {what} differs by {error:e} of the block, above {ACCELERATIONS_WORST:e} ({})",
             self.name,
             craft.name
         );
@@ -64,7 +60,11 @@ impl Claim {
     fn finish(self) {
         let (worst, median) = (self.figures.worst(), self.figures.median());
         println!("{}: worst {worst:.2e} of the block, median {median:.2e}", self.name);
-        assert!(median <= MEDIAN, "{}: median {median:e} is above {MEDIAN:e}", self.name);
+        assert!(
+            median <= ACCELERATIONS_MEDIAN,
+            "{}: median {median:e} is above {ACCELERATIONS_MEDIAN:e}",
+            self.name
+        );
     }
 }
 
@@ -198,7 +198,7 @@ fn comparison_notices_every_input_of_a_spacecraft_at_unit_scales() {
         let errors = solved.solver.iter().zip(&blocks).map(|(found, stored)| error(found, stored));
         let noticed = largest(errors.chain([energy]));
         assert!(
-            noticed > WORST,
+            noticed > ACCELERATIONS_WORST,
             "{pointer} changed by {CHANGE:e} moves nothing by more than {noticed:e} of its block"
         );
         if noticed < least.0 {

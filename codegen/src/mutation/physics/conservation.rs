@@ -1,14 +1,12 @@
 //! Energy and momenta: of hub and device together along the motion, and of the device as what its
 //! bodies have.
 
-use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::{Law, Residuals, Role, Trial, concerns, gap, slope};
-use crate::mutation::device::{BodySeen, Device, Fault, Held};
-use crate::mutation::state::{Case, Hub, Motion};
-
-/// Energy, linear momentum, moment of momentum in one row.
-type Packed = SVector<f64, 7>;
+use crate::mutation::device::{BodySeen, Device, Fault};
+use crate::mutation::held::{Held, Packed};
+use crate::mutation::state::{Case, Motion};
 
 pub(super) fn residuals(
     device: &Device<'_, '_>,
@@ -37,7 +35,7 @@ fn balances(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
     let (motion, drive) = (&case.motion, &case.drive);
     let whole = |time: f64| {
         let motion = motion.after(time, &accelerations);
-        device.held(case, &motion, fault).packed() + of_hub(&case.hub, &motion).packed()
+        device.held(case, &motion, fault).packed() + case.hub.held(&motion).packed()
     };
     let now = Held::unpacked(&whole(0.0));
     let rate = Held::unpacked(&slope(whole));
@@ -52,18 +50,6 @@ fn balances(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
         (Law::AngularMomentum, gap(h_dot.as_slice(), moment.as_slice())),
         (Law::Energy, gap(&[rate.energy], &[power])),
     ]
-}
-
-/// One rigid body by Newton and Euler.
-fn of_hub(hub: &Hub, motion: &Motion) -> Held {
-    let velocity = motion.velocity + motion.omega.cross(&hub.centre);
-    let spin = hub.inertia * motion.omega;
-    let linear = hub.mass * velocity;
-    Held {
-        energy: 0.5 * (velocity.dot(&linear) + motion.omega.dot(&spin)),
-        linear,
-        angular: hub.centre.cross(&linear) + spin,
-    }
 }
 
 /// With the joints' mass matrix as energies: the diagonal as it stands, and what a unit of momentum
@@ -157,16 +143,4 @@ fn centre_of_mass(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 
         + any.omega.cross(&moment.mc);
     let first = gap(momentum.as_slice(), linear(0.0).as_slice());
     first.max(gap(force.as_slice(), slope(linear).as_slice()))
-}
-
-impl Held {
-    fn packed(self) -> Packed {
-        let Self { energy, linear: p, angular: h } = self;
-        Packed::from([energy, p.x, p.y, p.z, h.x, h.y, h.z])
-    }
-
-    fn unpacked(packed: &Packed) -> Self {
-        let part = |row: usize| packed.fixed_rows::<3>(row).into_owned();
-        Self { energy: packed[0], linear: part(1), angular: part(4) }
-    }
 }

@@ -6,6 +6,7 @@ use super::stored::{Body, EngineError, Stored, tensor};
 use super::{Law, Residuals, Role, concerns, gap};
 use crate::kinds::Kind;
 use crate::mutation::device::{Device, Fault};
+use crate::mutation::held::Held;
 use crate::mutation::state::Accelerations;
 
 /// The stored values, ready to be compared with.
@@ -26,14 +27,8 @@ impl Engines {
 
     /// How many spacecraft there are.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.cases.len()
-    }
-
-    /// Whether there are none; they are never none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.cases.is_empty()
     }
 
     /// Residuals of the laws that a change in `role` can move.
@@ -69,16 +64,11 @@ impl Stored {
         self.accelerations.iter().map(|theirs| gap(&ours, &row(theirs))).fold(0.0, f64::max)
     }
 
-    /// Energy and momenta of the whole spacecraft; the hub's share by its definition.
+    /// Energy and momenta of the whole spacecraft.
     fn momenta(&self, device: &Device<'_, '_>, fault: &Fault) -> f64 {
         let (case, motion) = (&self.case, &self.case.motion);
-        let mut ours = device.held(case, motion, fault);
-        let hub = &case.hub;
-        let velocity = motion.velocity + motion.omega.cross(&hub.centre);
-        let spin = hub.inertia * motion.omega;
-        ours.energy += 0.5 * (hub.mass * velocity.norm_squared() + motion.omega.dot(&spin));
-        ours.linear += hub.mass * velocity;
-        ours.angular += hub.mass * hub.centre.cross(&velocity) + spin;
+        let whole = device.held(case, motion, fault).packed() + case.hub.held(motion).packed();
+        let ours = Held::unpacked(&whole);
         let energy = gap(&[ours.energy; 2], &self.energy);
         let linear = gap(ours.linear.as_slice(), self.linear.as_slice());
         energy.max(linear).max(gap(ours.angular.as_slice(), self.angular.as_slice()))

@@ -180,19 +180,6 @@ pub(super) enum Role {
     Momenta,
 }
 
-impl Role {
-    /// Which role a function has; `prepare` has none of its own and concerns all.
-    pub(super) fn of(function: &str) -> Option<Self> {
-        match function {
-            "prepare" => None,
-            "first_moment" => Some(Self::FirstMoment),
-            "eliminate" | "back_substitute" => Some(Self::Solution),
-            "energy_momentum" => Some(Self::Momenta),
-            _ => Some(Self::Body),
-        }
-    }
-}
-
 /// A residual for each of some laws.
 pub(super) type Residuals = Vec<(Law, f64)>;
 

@@ -6,7 +6,7 @@ use std::fmt;
 use nalgebra::{Matrix3, Vector3};
 use serde::Deserialize;
 
-use crate::kinds::Kind;
+use crate::kinds::{Joint, Kind};
 use crate::mutation::state::{Accelerations, Case, Drive, Hub, Motion, parameters_of};
 
 /// One spacecraft and what the engines say of it.
@@ -32,26 +32,40 @@ pub enum EngineError {
         /// The quantity.
         name: String,
     },
+    /// A list has more or fewer entries than the kind asks for.
+    Count {
+        /// The spacecraft.
+        spacecraft: String,
+        /// The list.
+        list: String,
+        /// How many entries it has.
+        count: usize,
+        /// How many it should have.
+        expected: usize,
+    },
     /// No spacecraft has one device on an identity mount.
     None,
 }
+
+/// The remedy, whatever is wrong with the values.
+const STORE: &str = "store the values again with `python tests/engines/store.py`";
 
 impl std::error::Error for EngineError {}
 
 impl fmt::Display for EngineError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Json(error) => write!(f, "engines' values: {error}"),
+            Self::Json(error) => write!(f, "{error}; {STORE}"),
             Self::Missing { spacecraft, name } => {
-                write!(
-                    f,
-                    "engines' values: spacecraft `{spacecraft}` has no `{name}`; store it again"
-                )
+                write!(f, "spacecraft `{spacecraft}` has no `{name}`; {STORE}")
             }
+            Self::Count { spacecraft, list, count, expected } => write!(
+                f,
+                "spacecraft `{spacecraft}` has {count} entries in `{list}`, not {expected}; {STORE}"
+            ),
             Self::None => write!(
                 f,
-                "engines' values: no spacecraft with one device on an identity mount and scales of \
-                 order one; store some"
+                "no spacecraft has unit scales and one device on an identity mount; {STORE}"
             ),
         }
     }
@@ -75,6 +89,7 @@ struct File {
 #[derive(Deserialize)]
 struct Spacecraft {
     name: String,
+    scales: Scales,
     hub: HubText,
     devices: Vec<DeviceText>,
     omega: [f64; 3],
@@ -83,6 +98,16 @@ struct Spacecraft {
     torque_b: [f64; 3],
     pinocchio: Pinocchio,
     mujoco: Mujoco,
+}
+
+/// Over which ranges its numbers were drawn.
+#[derive(Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+enum Scales {
+    /// Every number is of order one.
+    Unit,
+    /// Over the ranges that the suites declare.
+    Declared,
 }
 
 #[derive(Deserialize)]
@@ -125,9 +150,6 @@ struct Mujoco {
     energy: f64,
 }
 
-/// How the fixture calls the spacecraft whose every number is of order one.
-const UNIT_SCALES: &str = "unit scales";
-
 impl Stored {
     /// Reads the spacecraft of a kind that count here.
     pub(super) fn read(kind: &Kind, json: &str) -> Result<Vec<Self>, EngineError> {
@@ -136,7 +158,7 @@ impl Stored {
         let mut cases = Vec::new();
         for spacecraft in &file.spacecraft {
             let [device] = spacecraft.devices.as_slice() else { continue };
-            if device.mount == identity && spacecraft.name.contains(UNIT_SCALES) {
+            if device.mount == identity && spacecraft.scales == Scales::Unit {
                 cases.push(Self::of(kind, spacecraft, device)?);
             }
         }
@@ -144,27 +166,12 @@ impl Stored {
     }
 
     fn of(kind: &Kind, spacecraft: &Spacecraft, device: &DeviceText) -> Result<Self, EngineError> {
-        let missing = |name: &str| EngineError::Missing {
-            spacecraft: spacecraft.name.clone(),
-            name: name.to_owned(),
-        };
-        let find =
-            |numbers: &Numbers, name: &str| numbers.get(name).copied().ok_or_else(|| missing(name));
-        let joints = |numbers: &Numbers, name: fn(&crate::kinds::Joint) -> &'static str| {
-            let names = kind.links.iter().map(|link| name(&link.joint));
-            names.map(|name| find(numbers, name)).collect::<Result<Vec<f64>, _>>()
-        };
-        let accelerations = |point: [f64; 3], omega: [f64; 3], of: &[Numbers]| {
-            let numbers = of.first().ok_or_else(|| missing("accelerations"))?;
-            Ok(Accelerations {
-                point: point.into(),
-                omega: omega.into(),
-                joints: joints(numbers, |joint| joint.acceleration)?,
-            })
-        };
+        let reader = Reader { kind, spacecraft: &spacecraft.name };
         let names = parameters_of(kind);
-        let values = names.iter().map(|name| find(&device.parameters, name));
+        let names: Vec<_> = names.iter().map(String::as_str).collect();
         let (hub, theirs, other) = (&spacecraft.hub, &spacecraft.pinocchio, &spacecraft.mujoco);
+        let bodies = reader.only("bodies", &theirs.bodies)?;
+        reader.counted("bodies", bodies.len(), kind.links.len())?;
         Ok(Self {
             case: Case {
                 hub: Hub {
@@ -172,28 +179,89 @@ impl Stored {
                     centre: hub.centre.into(),
                     inertia: tensor(hub.inertia),
                 },
-                parameters: values.collect::<Result<_, _>>()?,
+                parameters: reader.values("parameters", &device.parameters, &names)?,
                 motion: Motion {
-                    angles: joints(&device.angles, |joint| joint.angle)?,
-                    rates: joints(&device.rates, |joint| joint.rate)?,
+                    angles: reader.joints("angles", &device.angles, |joint| joint.angle)?,
+                    rates: reader.joints("rates", &device.rates, |joint| joint.rate)?,
                     omega: spacecraft.omega.into(),
                     velocity: spacecraft.r_b_n_dot.into(),
                 },
                 drive: Drive {
-                    motors: joints(&device.motors, |joint| joint.torque)?,
+                    motors: reader.joints("motors", &device.motors, |joint| joint.torque)?,
                     force: spacecraft.force.into(),
                     torque: spacecraft.torque_b.into(),
                 },
             },
             accelerations: [
-                accelerations(theirs.r_b_n_ddot, theirs.omega_dot, &theirs.accelerations)?,
-                accelerations(other.r_b_n_ddot, other.omega_dot, &other.accelerations)?,
+                reader.accelerations(theirs.r_b_n_ddot, theirs.omega_dot, &theirs.accelerations)?,
+                reader.accelerations(other.r_b_n_ddot, other.omega_dot, &other.accelerations)?,
             ],
             energy: [theirs.energy, other.energy],
             linear: theirs.linear.into(),
             angular: theirs.angular_b.into(),
-            bodies: theirs.bodies.first().cloned().ok_or_else(|| missing("bodies"))?,
+            bodies: bodies.clone(),
         })
+    }
+}
+
+/// Takes the numbers of one spacecraft: each that the kind asks for, and no more.
+struct Reader<'a> {
+    kind: &'a Kind,
+    spacecraft: &'a str,
+}
+
+impl Reader<'_> {
+    fn counted(&self, list: &str, count: usize, expected: usize) -> Result<(), EngineError> {
+        if count == expected {
+            return Ok(());
+        }
+        let (spacecraft, list) = (self.spacecraft.to_owned(), list.to_owned());
+        Err(EngineError::Count { spacecraft, list, count, expected })
+    }
+
+    /// The entry of the one device.
+    fn only<'a, T>(&self, list: &str, of: &'a [T]) -> Result<&'a T, EngineError> {
+        self.counted(list, of.len(), 1)?;
+        of.first().ok_or_else(|| self.missing(list))
+    }
+
+    fn missing(&self, name: &str) -> EngineError {
+        EngineError::Missing { spacecraft: self.spacecraft.to_owned(), name: name.to_owned() }
+    }
+
+    /// The numbers under these names, in their order.
+    fn values(
+        &self,
+        list: &str,
+        numbers: &Numbers,
+        names: &[&str],
+    ) -> Result<Vec<f64>, EngineError> {
+        let value = |name: &&str| numbers.get(*name).copied().ok_or_else(|| self.missing(name));
+        let values = names.iter().map(value).collect::<Result<_, _>>()?;
+        self.counted(list, numbers.len(), names.len())?;
+        Ok(values)
+    }
+
+    /// A number of each joint.
+    fn joints(
+        &self,
+        list: &str,
+        numbers: &Numbers,
+        name: fn(&Joint) -> &'static str,
+    ) -> Result<Vec<f64>, EngineError> {
+        let names: Vec<_> = self.kind.links.iter().map(|link| name(&link.joint)).collect();
+        self.values(list, numbers, &names)
+    }
+
+    fn accelerations(
+        &self,
+        point: [f64; 3],
+        omega: [f64; 3],
+        joints: &[Numbers],
+    ) -> Result<Accelerations, EngineError> {
+        let numbers = self.only("accelerations", joints)?;
+        let joints = self.joints("accelerations", numbers, |joint| joint.acceleration)?;
+        Ok(Accelerations { point: point.into(), omega: omega.into(), joints })
     }
 }
 
