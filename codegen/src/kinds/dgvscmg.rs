@@ -1,6 +1,7 @@
 //! The double-gimbal variable-speed control moment gyro: outer gimbal, inner gimbal, wheel.
 
-use super::{Body, Centre, Equations, Joint, Kind, Link, Triple};
+use super::wheel::{Whole, imbalanced};
+use super::{Body, Centre, Inertia, Joint, Kind, Link, Motion, Triple, equations};
 use crate::space::Axis;
 
 /// `Go = Rz(gamma_o)`, `Gi = Go Ry(gamma_i)`, `W = Gi Rx(theta)`; the wheel's centre of mass lies
@@ -13,8 +14,8 @@ pub const DGVSCMG: Kind = Kind {
         Link {
             joint: Joint {
                 tag: "o",
-                axis: Axis::Z,
-                angle: "gamma_o",
+                motion: Motion::Turn(Axis::Z),
+                coordinate: "gamma_o",
                 rate: "gamma_o_dot",
                 acceleration: "gamma_o_ddot",
                 symbols: ["ᵒγ̇", "ᵒγ̈"],
@@ -37,29 +38,17 @@ pub const DGVSCMG: Kind = Kind {
                     name: "r_goc_go",
                     names: ["r_goc_go_gox", "r_goc_go_goy", "r_goc_go_goz"],
                 }),
-                inertia: "i_go",
+                inertia: Inertia::Full("i_go"),
                 letters: ["Gᵒ", "Gᵒc"],
-                equations: Equations {
-                    omega: "(31)",
-                    r_dprime: "(12)",
-                    i_prime: "(36)",
-                    i_b: "(40)",
-                    i_b_prime: "(42)",
-                    torque: "(80)",
-                    r_ddot: "(38)",
-                    h: "(33)",
-                    h_dot: "(34)",
-                    assembly: "(89)",
-                    about_origin: "(78)",
-                },
+                equations: equations::OUTER_GIMBAL,
             },
             assembly: "d",
         },
         Link {
             joint: Joint {
                 tag: "i",
-                axis: Axis::Y,
-                angle: "gamma_i",
+                motion: Motion::Turn(Axis::Y),
+                coordinate: "gamma_i",
                 rate: "gamma_i_dot",
                 acceleration: "gamma_i_ddot",
                 symbols: ["ⁱγ̇", "ⁱγ̈"],
@@ -78,60 +67,16 @@ pub const DGVSCMG: Kind = Kind {
                     name: "r_gic_gi",
                     names: ["r_gic_gi_gix", "r_gic_gi_giy", "r_gic_gi_giz"],
                 }),
-                inertia: "i_gi",
+                inertia: Inertia::Full("i_gi"),
                 letters: ["Gⁱ", "Gⁱc"],
-                equations: Equations {
-                    omega: "(44)",
-                    r_dprime: "(13)",
-                    i_prime: "(49)-(52)",
-                    i_b: "(55)",
-                    i_b_prime: "(57)",
-                    torque: "(101)",
-                    r_ddot: "(53)",
-                    h: "(46)",
-                    h_dot: "(47)",
-                    assembly: "(108)",
-                    about_origin: "(99)",
-                },
+                equations: equations::INNER_GIMBAL,
             },
             assembly: "v",
         },
-        Link {
-            joint: Joint {
-                tag: "w",
-                axis: Axis::X,
-                angle: "theta",
-                rate: "spin",
-                acceleration: "spin_dot",
-                symbols: ["Ω", "Ω̇"],
-                torque: "u_w",
-                origin: Triple { symbol: "Lⁱ", name: "l_i", names: ["l_i_x", "l_i_y", "l_i_z"] },
-            },
-            body: Body {
-                title: "wheel",
-                frame: "w",
-                origin: "w",
-                triad: ["s_x", "w_y", "w_z"],
-                point: "wc",
-                mass: "m_w",
-                centre: Centre::On(Axis::Y, "d"),
-                inertia: "j",
-                letters: ["W", "Wc"],
-                equations: Equations {
-                    omega: "(59)",
-                    r_dprime: "(14)",
-                    i_prime: "(64)",
-                    i_b: "(71)",
-                    i_b_prime: "(73)",
-                    torque: "(119)",
-                    r_ddot: "(69)",
-                    h: "(61)",
-                    h_dot: "(62)",
-                    assembly: "(63)",
-                    about_origin: "(117)",
-                },
-            },
-            assembly: "w",
-        },
+        imbalanced(
+            Triple { symbol: "Lⁱ", name: "l_i", names: ["l_i_x", "l_i_y", "l_i_z"] },
+            ["s_x", "w_y", "w_z"],
+            Whole::Wheel,
+        ),
     ],
 };

@@ -174,7 +174,7 @@ impl Stored {
                 },
                 parameters: values.collect::<Result<_, _>>()?,
                 motion: Motion {
-                    angles: joints(&device.angles, |joint| joint.angle)?,
+                    angles: joints(&device.angles, |joint| joint.coordinate)?,
                     rates: joints(&device.rates, |joint| joint.rate)?,
                     omega: spacecraft.omega.into(),
                     velocity: spacecraft.r_b_n_dot.into(),
