@@ -81,7 +81,12 @@ fn print(made: &Regeneration, quiet: bool) {
     if !shown.is_empty() {
         say!("{}", Row::heading());
     }
+    let mut kind = None;
     for row in shown {
+        if row.kind != kind {
+            kind = row.kind;
+            say!("\n{}", kind.unwrap_or("as printed"));
+        }
         say!("{row}");
     }
     let held = made.rows.iter().filter(|row| row.holds()).count();
@@ -185,7 +190,7 @@ mod tests {
         let before = fs::read_to_string(&path).unwrap();
         let message =
             regen(&Options { check: true, quiet: true, out, ..Options::default() }).unwrap_err();
-        let start = "1 of 9 files are stale; run `cargo xtask regen --out ";
+        let start = "1 of 15 files are stale; run `cargo xtask regen --out ";
         assert!(message.starts_with(start), "{message}");
         assert_eq!(fs::read_to_string(&path).unwrap(), before);
     }

@@ -47,7 +47,7 @@ pub fn boltzmann_hamel<'g>(chain: &Chain<'g>) -> BoltzmannHamel<'g> {
     let joints = chain
         .links
         .iter()
-        .map(|link| energy.partial(link.rate).time_derivative() - link.turn.partial(energy));
+        .map(|link| energy.partial(link.rate).time_derivative() - link.coordinate.partial(energy));
     let hub = [force, torque_b].map(Vector::components).concat();
     let equations = hub.into_iter().chain(joints).collect();
 

@@ -10,6 +10,7 @@
 use super::chain::{Chain, XYZ};
 use super::{Momenta, Share};
 use crate::graph::{Expr, Graph, Stage};
+use crate::kinds::Motion;
 use crate::space::{Frame, Hub, Symmetric, Vector};
 
 /// What one body is and does, along B axes.
@@ -24,8 +25,39 @@ pub struct BodyInHub<'g> {
     pub omega_b: Vector<'g, Hub>,
     /// Inertia about the centre of mass.
     pub inertia: Symmetric<'g, Hub>,
-    /// Axis and origin of each joint up to this body: `a_i`, `p_i`.
-    pub joints: Vec<(Vector<'g, Hub>, Vector<'g, Hub>)>,
+    /// The joints up to this body.
+    pub joints: Vec<JointInHub<'g>>,
+}
+
+/// A joint, along B axes.
+#[derive(Clone, Copy)]
+pub struct JointInHub<'g> {
+    /// Whether it turns or slides.
+    pub motion: Motion,
+    /// Its axis: `a_i`.
+    pub axis: Vector<'g, Hub>,
+    /// Its origin: `p_i`.
+    pub origin: Vector<'g, Hub>,
+}
+
+impl<'g> JointInHub<'g> {
+    /// Angular velocity of what it carries, per rate: the axis, or nothing.
+    #[must_use]
+    pub fn spin(&self) -> Vector<'g, Hub> {
+        match self.motion {
+            Motion::Turn(_) => self.axis,
+            Motion::Slide(_) => Vector::zero(self.axis.components()[0].graph()),
+        }
+    }
+
+    /// Velocity of a point at `r` that it carries, per rate: `a x (r - p)`, or the axis.
+    #[must_use]
+    pub fn arm(&self, r: Vector<'g, Hub>) -> Vector<'g, Hub> {
+        match self.motion {
+            Motion::Turn(_) => self.axis.cross(r - self.origin),
+            Motion::Slide(_) => self.axis,
+        }
+    }
 }
 
 /// The hub, as a body that no joint carries.
@@ -51,14 +83,16 @@ pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
     let mut omega_b = Vector::zero(graph);
     let mut joints = Vec::new();
     let mut made = Vec::new();
-    for link in &chain.links {
+    for (link, data) in chain.links.iter().zip(chain.kind.links) {
         origin = origin + combine(axes, link.origin);
         // New axes: the old ones times the elementary rotation, column by column.
-        let elementary = unit_axes(graph).map(|e| e.turned(link.turn.inverse()));
+        let back = link.coordinate.turn(graph).inverse();
+        let elementary = unit_axes(graph).map(|e| e.turned(back));
         axes = elementary.map(|column| combine(axes, column));
-        let axis = combine(axes, link.axis);
-        omega_b = omega_b + link.rate * axis;
-        joints.push((axis, origin));
+        let joint =
+            JointInHub { motion: data.joint.motion, axis: combine(axes, link.axis), origin };
+        omega_b = omega_b + link.rate * joint.spin();
+        joints.push(joint);
         made.push(BodyInHub {
             mass: link.mass,
             r: origin + combine(axes, link.centre),
@@ -133,14 +167,14 @@ pub fn share<'g>(chain: &Chain<'g>) -> Share<'g> {
         share.inertia = share.inertia + i + m * Symmetric::tilde_squared(r);
         share.bias_force = share.bias_force + force;
         share.bias_moment = share.bias_moment + moment + r.cross(force);
-        for (k, &(a_k, p_k)) in body.joints.iter().enumerate() {
-            let arm_k = a_k.cross(r - p_k);
+        for (k, joint) in body.joints.iter().enumerate() {
+            let (spin_k, arm_k) = (joint.spin(), joint.arm(r));
             share.force[k] = share.force[k] + m * arm_k;
-            share.moment[k] = share.moment[k] + i.times(a_k) + m * r.cross(arm_k);
-            share.bias_joint[k] = share.bias_joint[k] + a_k.dot(moment) + arm_k.dot(force);
-            for (l, &(a_l, p_l)) in body.joints.iter().enumerate().skip(k) {
-                let arm_l = a_l.cross(r - p_l);
-                let entry = a_k.dot(i.times(a_l)) + m * arm_k.dot(arm_l);
+            share.moment[k] = share.moment[k] + i.times(spin_k) + m * r.cross(arm_k);
+            share.bias_joint[k] = share.bias_joint[k] + spin_k.dot(moment) + arm_k.dot(force);
+            for (l, joint) in body.joints.iter().enumerate().skip(k) {
+                let (spin_l, arm_l) = (joint.spin(), joint.arm(r));
+                let entry = spin_k.dot(i.times(spin_l)) + m * arm_k.dot(arm_l);
                 share.joint[k][l - k] = share.joint[k][l - k] + entry;
             }
         }

@@ -1,13 +1,11 @@
 //! The symbols of a device and of the hub that carries it.
 
 use crate::graph::{Expr, Graph, Stage};
-use crate::kinds::{Centre, Kind};
-use crate::space::{Carrier, Hub, Own, Symmetric, Turn, Vector};
+use crate::kinds::{Centre, Kind, Motion};
+use crate::space::{Carrier, ENTRIES, Hub, Own, Symmetric, Turn, Vector};
 
 /// Suffixes of three components.
 pub const XYZ: [&str; 3] = ["x", "y", "z"];
-/// Suffixes of six entries of a symmetric tensor.
-pub const ENTRIES: [&str; 6] = ["11", "12", "13", "22", "23", "33"];
 
 /// A device kind with its symbols in a graph.
 pub struct Chain<'g> {
@@ -24,17 +22,20 @@ pub struct Chain<'g> {
 /// The symbols of a joint and of the body behind it.
 #[derive(Clone, Copy)]
 pub struct Link<'g> {
-    /// From the carrier's axes to the body's own.
+    /// From the carrier's axes to those along which the body's quantities stand: they turn with it
+    /// where the kind says so.
     pub turn: Turn<'g, Carrier, Own>,
+    /// What the joint's coordinate is.
+    pub coordinate: Coordinate<'g>,
     /// Unit vector of the joint's axis.
     pub axis: Vector<'g, Own>,
     /// Joint rate.
     pub rate: Expr<'g>,
     /// Joint acceleration.
     pub acceleration: Expr<'g>,
-    /// Motor torque.
+    /// Motor torque, or force of a sliding joint.
     pub torque: Expr<'g>,
-    /// Origin of the joint from the carrier's origin.
+    /// Origin of the joint from the carrier's origin; it moves along a sliding one.
     pub origin: Vector<'g, Carrier>,
     /// Mass.
     pub mass: Expr<'g>,
@@ -44,6 +45,15 @@ pub struct Link<'g> {
     pub inertia: Symmetric<'g, Own>,
     /// Mass of this body and all behind it: `m_d`, `m_v`.
     pub assembly_mass: Expr<'g>,
+}
+
+/// A joint's coordinate.
+#[derive(Clone, Copy)]
+pub enum Coordinate<'g> {
+    /// An angle: from the carrier's axes to those that turn with the body.
+    Angle(Turn<'g, Carrier, Own>),
+    /// A length.
+    Length(Expr<'g>),
 }
 
 /// Symbols of the hub and of the whole spacecraft, along B axes.
@@ -73,7 +83,7 @@ impl<'g> Chain<'g> {
     #[must_use]
     pub fn new(graph: &'g Graph, kind: &'static Kind) -> Self {
         let hub = HubSymbols::new(graph);
-        let mut links: Vec<_> = kind.links.iter().map(|link| Link::new(graph, link)).collect();
+        let mut links: Vec<_> = (0..kind.links.len()).map(|k| Link::new(graph, kind, k)).collect();
         for k in (0..links.len().saturating_sub(1)).rev() {
             let sum = links[k..].iter().skip(1).fold(links[k].mass, |sum, link| sum + link.mass);
             let name = format!("m_{}", kind.links[k].assembly);
@@ -93,28 +103,70 @@ impl Chain<'_> {
 }
 
 impl<'g> Link<'g> {
-    fn new(graph: &'g Graph, link: &crate::kinds::Link) -> Self {
+    fn new(graph: &'g Graph, kind: &Kind, k: usize) -> Self {
         let parameter = |name: &str| graph.symbol(name, Stage::Parameter);
-        let (joint, body) = (&link.joint, &link.body);
+        let (joint, body) = (&kind.links[k].joint, &kind.links[k].body);
         let rate = graph.symbol(joint.rate, Stage::Rate);
         let acceleration = graph.symbol(joint.acceleration, Stage::Acceleration);
         graph.set_rate(rate, acceleration);
-        let (sin, cos) = graph.angle(joint.angle, rate);
-        let inertia = ENTRIES.map(|entry| parameter(&format!("{}_{entry}", body.inertia)));
+        let rest = Vector::new(joint.origin.names.map(parameter));
+        let (coordinate, origin) = match joint.motion {
+            Motion::Turn(axis) => {
+                let (sin, cos) = graph.angle(joint.coordinate, rate);
+                (Coordinate::Angle(Turn::about(axis, sin, cos)), rest)
+            }
+            Motion::Slide(axis) => {
+                let length = graph.symbol(joint.coordinate, Stage::Configuration);
+                graph.set_rate(length, rate);
+                (Coordinate::Length(length), rest + length * Vector::unit(graph, axis))
+            }
+        };
+        let entry = |name: Option<String>| name.map_or(graph.zero(), |name| parameter(&name));
         Self {
-            turn: Turn::about(joint.axis, sin, cos),
-            axis: Vector::unit(graph, joint.axis),
+            turn: if kind.axes_turn(k) { coordinate.turn(graph) } else { Turn::none(graph) },
+            coordinate,
+            axis: Vector::unit(graph, joint.motion.axis()),
             rate,
             acceleration,
             torque: graph.symbol(joint.torque, Stage::Rate),
-            origin: Vector::new(joint.origin.names.map(parameter)),
+            origin,
             mass: parameter(body.mass),
             assembly_mass: parameter(body.mass),
             centre: match body.centre {
                 Centre::Free(triple) => Vector::new(triple.names.map(parameter)),
                 Centre::On(axis, distance) => parameter(distance) * Vector::unit(graph, axis),
+                Centre::At => Vector::zero(graph),
             },
-            inertia: Symmetric::new(inertia),
+            inertia: Symmetric::new(body.inertia.names().map(entry)),
+        }
+    }
+
+    /// Angular velocity of the body relative to its carrier.
+    #[must_use]
+    pub fn spin(&self) -> Vector<'g, Own> {
+        match self.coordinate {
+            Coordinate::Angle(_) => self.rate * self.axis,
+            Coordinate::Length(_) => Vector::zero(self.rate.graph()),
+        }
+    }
+}
+
+impl<'g> Coordinate<'g> {
+    /// From the carrier's axes to those fixed in the body.
+    #[must_use]
+    pub fn turn(self, graph: &'g Graph) -> Turn<'g, Carrier, Own> {
+        match self {
+            Self::Angle(turn) => turn,
+            Self::Length(_) => Turn::none(graph),
+        }
+    }
+
+    /// `d e / d coordinate`.
+    #[must_use]
+    pub fn partial(self, e: Expr<'g>) -> Expr<'g> {
+        match self {
+            Self::Angle(turn) => turn.partial(e),
+            Self::Length(length) => e.partial(length),
         }
     }
 }

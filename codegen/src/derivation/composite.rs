@@ -3,12 +3,12 @@
 //! Moments are taken about the joint's own origin and carried to the next one, so a light wheel
 //! far from B does not drown in the inertia of its lever arm.
 
-use super::chain::{Chain, Link};
+use super::chain::{Chain, Coordinate, Link};
 use super::motion::{Motion, Observer, motions};
 use super::script::{Script, pairs, sextuple, triple};
 use super::{Momenta, Share};
 use crate::graph::{Expr, Graph, Stage};
-use crate::kinds;
+use crate::kinds::{self, units};
 use crate::space::{Frame, Own, Symmetric, Vector};
 
 /// A force and its moment about the origin at hand.
@@ -34,6 +34,14 @@ impl<'g> Wrench<'g, Own> {
         let force = self.force.turned(link.turn.inverse());
         let moment = self.moment.turned(link.turn.inverse()) + link.origin.cross(force);
         Self { force: force.handed_back(), moment: moment.handed_back() }
+    }
+
+    /// What the joint itself feels of it: the moment about its axis, or the force along it.
+    fn along(self, link: &Link<'g>) -> Expr<'g> {
+        link.axis.dot(match link.coordinate {
+            Coordinate::Angle(_) => self.moment,
+            Coordinate::Length(_) => self.force,
+        })
     }
 }
 
@@ -84,6 +92,19 @@ impl<'g> Lump<'g> {
         }
     }
 
+    /// What a unit acceleration of the joint that carries it asks for.
+    fn column(self, link: &Link<'g>) -> Wrench<'g, Own> {
+        match link.coordinate {
+            Coordinate::Angle(_) => Wrench {
+                force: link.axis.cross(self.first_moment),
+                moment: self.inertia.times(link.axis),
+            },
+            Coordinate::Length(_) => {
+                Wrench { force: self.mass * link.axis, moment: self.first_moment.cross(link.axis) }
+            }
+        }
+    }
+
     /// Along the carrier's axes, about the carrier's origin (parallel axis theorem).
     fn carried(self, link: &Link<'g>) -> Self {
         let (arm, back) = (link.origin, link.turn.inverse());
@@ -111,24 +132,19 @@ pub fn share<'g>(chain: &Chain<'g>, observer: &Observer<'g>, script: &mut Script
     let mut joint = Vec::new();
     let mut bias_joint = Vec::new();
     for (k, (link, motion)) in chain.links.iter().zip(&motions).enumerate().rev() {
-        let data = &chain.kind.links[k];
-        let tags = chain.kind.links[k..].iter().map(|link| link.joint.tag);
+        let behind = &chain.kind.links[k..];
+        let data = &behind[0];
+        let tags = behind.iter().map(|link| link.joint.tag);
         let body = Lump::of(link, data, script);
         lump = lump.plus(body);
         bias = bias.plus(bias_of(link, motion, &body));
-        columns.insert(
-            0,
-            Wrench {
-                force: link.axis.cross(lump.first_moment),
-                moment: lump.inertia.times(link.axis),
-            },
-        );
-        describe(data, &lump, &bias, &columns, tags.clone(), script);
-        let row: Vec<_> = tags.zip(columns.iter().map(|c| link.axis.dot(c.moment))).collect();
+        columns.insert(0, lump.column(link));
+        describe(behind, &lump, &bias, &columns, script);
+        let row: Vec<_> = tags.zip(columns.iter().map(|column| column.along(link))).collect();
         let cut = |(tag, entry)| script.cut(format!("mass_{}{tag}", data.joint.tag), entry);
         joint.insert(0, row.into_iter().map(cut).collect());
-        let moment = link.axis.dot(bias.moment);
-        bias_joint.insert(0, script.cut(format!("u_rest_{}", data.joint.tag), moment));
+        let asked = bias.along(link);
+        bias_joint.insert(0, script.cut(format!("u_rest_{}", data.joint.tag), asked));
 
         lump = lump.carried(link);
         bias = bias.carried(link);
@@ -160,15 +176,17 @@ fn outwards<'g>(
         let body = &data.body;
         let (frame, letter, equation) = (body.frame, body.letters[0], body.equations.omega);
         let stem = format!("{frame}_{}", seen_from.to_lowercase());
+        let axes = if link.turn.is_none() { "the carrier's axes" } else { "its own axes" };
         script.section(
             "rate",
-            format!("ω_{{{letter}/{seen_from}}}, eq. {equation}, along its own axes, rad/s."),
+            format!("ω_{{{letter}/{seen_from}}}, eq. {equation}, along {axes}, rad/s."),
         );
         script.names(pairs(triple(&format!("omega_{stem}"), frame), motion.omega.components()));
         script.section(
             "turn",
             format!(
-                "Its derivative as in eq. {}, no joint accelerating, along the same axes, rad/s².",
+                "Its derivative {}as in eq. {}, no joint accelerating, along the same axes, rad/s².",
+                if link.turn.is_none() { "by components " } else { "" },
                 body.equations.h_dot
             ),
         );
@@ -188,15 +206,15 @@ fn outwards<'g>(
     motions
 }
 
-/// Names what lies outside one joint: lump, bias, columns.
+/// Names what lies outside the first of these joints: lump, bias, columns.
 fn describe<'g>(
-    data: &kinds::Link,
+    behind: &[kinds::Link],
     lump: &Lump<'g>,
     bias: &Wrench<'g, Own>,
     columns: &[Wrench<'g, Own>],
-    tags: impl Iterator<Item = &'static str>,
     script: &mut Script<'g>,
 ) {
+    let data = &behind[0];
     let (frame, origin, assembly) = (data.body.frame, data.body.origin, data.assembly);
     let (title, letter, equations) = (data.body.title, data.body.letters[0], &data.body.equations);
     let whole = assembly.to_uppercase();
@@ -226,20 +244,27 @@ fn describe<'g>(
     script.section(
         "col",
         format!(
-            "Force, kg m, and moment about {letter}, kg m², per unit acceleration of each joint \
-             from here on, eqs. (17), {}.",
+            "Force, {}, and moment about {letter}, {}, per unit acceleration of each joint from \
+             here on, eqs. (17), {}.",
+            units(behind, |units| units.force),
+            units(behind, |units| units.moment),
             equations.about_origin
         ),
     );
-    for (tag, column) in tags.zip(columns) {
+    for (tag, column) in behind.iter().map(|link| link.joint.tag).zip(columns) {
         script.names(pairs(triple(&format!("f_{tag}"), frame), column.force.components()));
         script.names(pairs(triple(&format!("n_{tag}"), frame), column.moment.components()));
     }
     script.section(
         "row",
         format!(
-            "Row of the {title}'s joint, eq. {}, along its axis: M_ij, kg m², and bias, N m.",
-            equations.torque
+            "Row of the {title}'s joint, eq. {}, along its axis: M_ij, {}, and bias, {}.",
+            equations.torque,
+            units(behind, |units| match data.joint.motion {
+                kinds::Motion::Turn(_) => units.moment,
+                kinds::Motion::Slide(_) => units.force,
+            }),
+            data.joint.motion.units().drive
         ),
     );
 }
@@ -247,10 +272,10 @@ fn describe<'g>(
 /// What one body asks for while no joint accelerates: with S and I about the joint's origin p,
 /// force `m p'' + S''` and moment `S x p'' + d(I omega)/dt`, derivatives seen from N.
 fn bias_of<'g>(link: &Link<'g>, motion: &Motion<'g>, body: &Lump<'g>) -> Wrench<'g, Own> {
-    let omega = motion.omega;
+    let (omega, axes) = (motion.omega, motion.axes);
     let p_ddot = origin_acceleration(link, motion);
-    let s_ddot = body.first_moment.prime(omega).prime(omega).without(Stage::Acceleration);
-    let spin_rate = body.inertia.times(omega).prime(omega).without(Stage::Acceleration);
+    let s_ddot = body.first_moment.prime(axes).prime(axes).without(Stage::Acceleration);
+    let spin_rate = body.inertia.times(omega).prime(axes).without(Stage::Acceleration);
     Wrench {
         force: body.mass * p_ddot + s_ddot,
         moment: body.first_moment.cross(p_ddot) + spin_rate,

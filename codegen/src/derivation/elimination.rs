@@ -8,6 +8,7 @@ use super::Share;
 use super::chain::Chain;
 use super::script::Script;
 use crate::graph::Expr;
+use crate::kinds::units;
 use crate::space::Vector;
 
 /// Suffixes of the six hub unknowns: acceleration of B, angular acceleration.
@@ -41,6 +42,8 @@ pub struct Eliminated<'g> {
 /// One joint's row as it stands: couplings to hub and inner joints, diagonal, right side.
 struct Row<'g> {
     tag: &'static str,
+    /// Of the diagonal.
+    unit: &'static str,
     couplings: Vec<Entry<'g>>,
     diagonal: Entry<'g>,
     right: Entry<'g>,
@@ -83,8 +86,10 @@ fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Ve
     let equations: Vec<_> =
         chain.kind.links.iter().map(|link| link.body.equations.torque).collect();
     let title = format!(
-        "Right side of each joint, eqs. {}: motor torque less what the rest asks for, N m.",
-        equations.join(", ")
+        "Right side of each joint, {} {}: motor torque less what the rest asks for, {}.",
+        if equations.len() == 1 { "eq." } else { "eqs." },
+        equations.join(", "),
+        units(chain.kind.links, |units| units.drive)
     );
     script.section("tau", title);
     let tags: Vec<_> = chain.kind.links.iter().map(|link| link.joint.tag).collect();
@@ -97,6 +102,7 @@ fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Ve
         let inner = (0..k).map(|i| (format!("mass_{}{tag}", tags[i]), share.joint[i][k - i]));
         Row {
             tag,
+            unit: chain.kind.links[k].joint.motion.units().pivot,
             couplings: names.zip(hub).chain(inner).collect(),
             diagonal: (format!("mass_{tag}{tag}"), share.joint[k][0]),
             right: (format!("tau_{tag}"), script.cut(format!("tau_{tag}"), right)),
@@ -114,13 +120,17 @@ fn gains<'g>(
 ) -> Pivot<'g> {
     let tag = row.tag;
     let pivot = match row.diagonal.1.node() {
+        // A parameter that is an entry by itself goes by the entry's name.
         crate::graph::Node::Symbol(symbol) => {
-            (row.diagonal.1.graph().symbol_info(symbol).name, row.diagonal.1)
+            let name = row.diagonal.1.graph().symbol_info(symbol).name;
+            let entry = name.starts_with(&row.diagonal.0);
+            (if entry { name } else { row.diagonal.0.clone() }, row.diagonal.1)
         }
         _ => row.diagonal.clone(),
     };
     let recip = pivot.1.recip();
-    let title = format!("Joint {tag}, eq. (E1): its pivot `{}`, kg m², and its gains.", pivot.0);
+    let title =
+        format!("Joint {tag}, eq. (E1): its pivot `{}`, {}, and its gains.", pivot.0, row.unit);
     script.section("gain", title);
     script.name(format!("recip_{tag}"), recip);
     let suffixes = HUB.into_iter().chain(inner.iter().map(|row| row.tag));

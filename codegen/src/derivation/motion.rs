@@ -45,6 +45,8 @@ pub struct Path<'g, F> {
 pub struct Motion<'g> {
     /// Angular velocity of the body, along its own axes.
     pub omega: Vector<'g, Own>,
+    /// Angular velocity of these axes: the same, but for axes that do not turn with the body.
+    pub axes: Vector<'g, Own>,
     /// The joint's origin, along the carrier's axes.
     pub origin: Path<'g, Carrier>,
     /// The body's centre of mass, along the carrier's axes.
@@ -82,11 +84,13 @@ pub fn motions<'g>(chain: &Chain<'g>, observer: &Observer<'g>) -> Vec<Motion<'g>
     for link in &chain.links {
         let origin = path.with_arm(link.origin, omega);
         let centre = origin.with_arm(link.centre.turned(link.turn.inverse()), omega);
-        // (31), (44), (59): each joint adds its rate about its own axis.
-        let omega_own = omega.turned(link.turn) + link.rate * link.axis;
-        made.push(Motion { omega: omega_own, origin, centre });
+        // (31), (44), (59): each turning joint adds its rate about its own axis.
+        let carried = omega.turned(link.turn);
+        let omega_own = carried + link.spin();
+        let axes = if link.turn.is_none() { carried } else { omega_own };
+        made.push(Motion { omega: omega_own, axes, origin, centre });
         path = origin.map(|v| v.turned(link.turn).handed_on());
-        omega = omega_own.handed_on();
+        omega = axes.handed_on();
     }
     made
 }

@@ -141,7 +141,7 @@ fn body<'g>(
     list.vector(joint.origin.name, link.origin, carrier);
     let centre = match body.centre {
         Centre::Free(triple) => triple.name.to_owned(),
-        Centre::On(..) => format!("r_{point}_{origin}"),
+        Centre::On(..) | Centre::At => format!("r_{point}_{origin}"),
     };
     list.vector(&centre, link.centre, own);
 
@@ -159,9 +159,9 @@ fn body<'g>(
     let r = of_b.centre.position.turned(link.turn);
     let i_b = link.inertia + link.mass * Symmetric::tilde_squared(r);
     list.tensor(&format!("i_{frame}_{point}"), link.inertia, own);
-    list.tensor(&format!("i_{frame}_{point}_prime"), link.inertia.prime(of_b.omega), own);
+    list.tensor(&format!("i_{frame}_{point}_prime"), link.inertia.prime(of_b.axes), own);
     list.tensor(&format!("i_{frame}_b"), i_b, own);
-    list.tensor(&format!("i_{frame}_b_prime"), i_b.prime(of_b.omega), own);
+    list.tensor(&format!("i_{frame}_b_prime"), i_b.prime(of_b.axes), own);
 }
 
 fn system<'g>(chain: &Chain<'g>, motions: &[Motion<'g>], list: &mut List<'g>) {
@@ -210,6 +210,6 @@ pub fn find<'a, 'g>(list: &'a [Quantity<'g>], name: &str) -> Option<&'a Quantity
 #[must_use]
 pub fn traces<'g>(chain: &Chain<'g>) -> Vec<Expr<'g>> {
     let motions = motions(chain, &Observer::on_hub(chain.graph));
-    let prime = |(k, motion): (usize, &Motion<'g>)| chain.links[k].inertia.prime(motion.omega);
+    let prime = |(k, motion): (usize, &Motion<'g>)| chain.links[k].inertia.prime(motion.axes);
     motions.iter().enumerate().map(|pair| prime(pair).trace()).collect()
 }

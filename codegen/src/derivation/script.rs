@@ -3,8 +3,9 @@
 //! A *named* value keeps the name the paper gives it and is expanded like any other in the proof.
 //! A *cut* value becomes a symbol for all that follows: the proof shows once what it stands for.
 
-use super::chain::{ENTRIES, XYZ};
+use super::chain::XYZ;
 use crate::graph::{Expr, Graph, Node};
+use crate::space::ENTRIES;
 
 /// One named value.
 #[derive(Clone, Debug)]

@@ -9,6 +9,7 @@ use super::by_body::{BodyInHub, bodies};
 use super::chain::Chain;
 use super::quantities::List;
 use crate::graph::Expr;
+use crate::kinds::Motion;
 use crate::space::{Hub, Vector};
 
 /// (77) to (121) for every joint.
@@ -33,7 +34,8 @@ fn joint<'g>(
     let omega = chain.hub.omega;
     let (link, data) = (&chain.links[k], &chain.kind.links[k]);
     let (assembly, origin) = (data.assembly, data.body.origin);
-    let (axis, p) = behind[0].joints[k];
+    let own = behind[0].joints[k];
+    let p = own.origin;
     let m_a = link.assembly_mass;
     let zero = Vector::zero(chain.graph);
     let first_moment = behind.iter().fold(zero, |sum, b| sum + b.mass * (b.r - p));
@@ -57,6 +59,7 @@ fn joint<'g>(
 
     let mut about_centre = zero;
     let mut about_origin = zero;
+    let mut whole_force = zero;
     for (body, data) in behind.iter().zip(&chain.kind.links[k..]) {
         let (frame, point) = (data.body.frame, data.body.point);
         let of_body = Momentum::of(body, omega);
@@ -72,12 +75,17 @@ fn joint<'g>(
         about_centre = about_centre + h_dot;
         let force = body.mass * (of_body.r_ddot + r_b_n_ddot);
         about_origin = about_origin + of_body.h_c_dot + (body.r - p).cross(force);
+        whole_force = whole_force + force;
     }
     // (79), (100), (118); (78), (99), (117); (80), (101), (119).
     let about = if tip { format!("l_{assembly}c") } else { format!("l_{assembly}") };
     list.vector(&about, about_centre, 0);
     list.vector(&format!("l_{origin}"), about_origin, 0);
-    list.scalar(data.joint.torque, axis.dot(about_origin));
+    let along = match own.motion {
+        Motion::Turn(_) => about_origin,
+        Motion::Slide(_) => whole_force,
+    };
+    list.scalar(data.joint.torque, own.axis.dot(along));
 }
 
 /// (92) to (94), (111), (112): each body's share of the assembly's mass.

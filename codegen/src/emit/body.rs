@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::render::{Binding, Rendered};
@@ -42,6 +42,22 @@ pub struct FunctionBody {
     pub sections: Vec<(String, Vec<TokenStream>)>,
     /// What they cost.
     pub counts: Counts,
+}
+
+impl FunctionBody {
+    /// Whether a statement reads the argument called `letter`; one that is not read is not taken.
+    pub(super) fn mentions(&self, letter: &str) -> bool {
+        let mut statements = self.sections.iter().flat_map(|(_, statements)| statements);
+        statements.any(|tokens| mention(tokens.clone(), letter))
+    }
+}
+
+fn mention(tokens: TokenStream, name: &str) -> bool {
+    tokens.into_iter().any(|tree| match tree {
+        TokenTree::Ident(ident) => ident == name,
+        TokenTree::Group(group) => mention(group.stream(), name),
+        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+    })
 }
 
 /// Writes the sections of a function.

@@ -14,7 +14,8 @@ use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrap
 use crate::derivation::chain::Chain;
 use crate::graph::{Node, NodeId};
 use crate::kernel::{Kernel, Record, Source, kernels, parameters};
-use crate::kernel::{joint_accelerations, motors, rates, shared_records, trig};
+use crate::kernel::{joint_accelerations, motors, pose, rates, shared_records};
+use crate::kinds::{Kind, Motion};
 
 /// One emitted file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -194,8 +195,8 @@ fn kind_file(
     for kernel in &kernels {
         let body = kernel_body(chain, kernel, &prepared.fields);
         rows.push(count(kind.name, &kernel.name, body.counts));
-        let inputs: Vec<_> =
-            kernel.inputs.iter().map(|(letter, record)| (*letter, record.name.clone())).collect();
+        let read = kernel.inputs.iter().filter(|(letter, _)| body.mentions(letter));
+        let inputs: Vec<_> = read.map(|(letter, record)| (*letter, record.name.clone())).collect();
         let result = literal(&kernel.output.name, &record_fields(&kernel.output));
         functions.push(function(
             &kernel.name,
@@ -207,7 +208,9 @@ fn kind_file(
         ));
     }
 
-    let mut records = vec![raw, prepared.record, trig(kind), rates(kind), motors(kind)];
+    let mut records = vec![raw, prepared.record];
+    records.extend(pose(kind).into_iter().map(|(_, record)| record));
+    records.extend([rates(kind), motors(kind)]);
     let outputs = kernels.iter().map(|kernel| kernel.output.clone());
     records.extend(outputs.filter(|record| !record.shared));
     debug_assert!(records.contains(&joint_accelerations(kind)));
@@ -218,10 +221,27 @@ fn kind_file(
     context.insert("source", kind.source);
     context.insert("hash", &fnv1a64(&format!("{kind:?}")));
     context.insert("title", &capital(kind.title));
+    context.insert("symmetric", &symmetric(kind));
     context.insert("imports", &imports.join(", "));
     context.insert("records", &texts);
     context.insert("functions", &functions);
     rust_file(&format!("{}.rs", kind.name), tera.render("kind.rs", &context)?)
+}
+
+/// What is said of a body whose axes do not turn with it.
+fn symmetric(kind: &Kind) -> Vec<String> {
+    let turning: Vec<_> = kind.turning().map(|link| link.joint.tag).collect();
+    let told = kind.links.iter().filter(|link| {
+        matches!(link.joint.motion, Motion::Turn(_)) && !turning.contains(&link.joint.tag)
+    });
+    let text = told.map(|link| {
+        format!(
+            "The {} is the same from every angle: `{}` enters no equation, and what stands along \
+             its axes stands along those that carry it.",
+            link.body.title, link.joint.coordinate
+        )
+    });
+    text.flat_map(|text| wrapped(&text, COMMENT)).collect()
 }
 
 fn kernel_body<'g>(

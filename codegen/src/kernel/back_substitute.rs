@@ -27,8 +27,8 @@ pub(super) fn kernel<'g>(
     script.section("row", title);
     for (pivot, link) in eliminated.pivots.iter().rev().zip(chain.kind.links) {
         let free = given(&pivot.free.0);
-        let gains = pivot.gains.iter().map(|(name, _)| given(name));
-        let products = gains.zip(&known).map(|(gain, unknown)| gain * *unknown);
+        let gains = pivot.gains.iter().zip(&known).filter(|((_, gain), _)| !gain.is_zero());
+        let products = gains.map(|((name, _), unknown)| given(name) * *unknown);
         let value = products.fold(free, |sum, product| sum - product);
         let name = link.joint.acceleration;
         let symbol = graph.symbol(name, Stage::Acceleration);

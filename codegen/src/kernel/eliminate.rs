@@ -1,12 +1,12 @@
 //! The kernel `eliminate`: the hot path.
 
-use super::{Claim, Kernel, Record, records};
+use super::{Claim, Kernel, Record, inputs, records};
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::{Eliminated, HUB, eliminate};
 use crate::derivation::motion::Observer;
 use crate::derivation::script::{Script, pairs, sextuple, triple};
 use crate::derivation::{Named, Share, by_body, composite};
-use crate::kinds::{Kind, Link};
+use crate::kinds::{Kind, Link, Motion, units};
 use crate::space::{Hub, Symmetric, Vector};
 
 /// The kernel and the elimination behind it.
@@ -17,22 +17,19 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
     let share = on_hub(chain, share, &mut script);
     let eliminated = eliminate(chain, &share, &mut script);
     let kind = chain.kind;
+    let torques: Vec<_> = kind.links.iter().map(|link| link.body.equations.torque).collect();
     let kernel = Kernel {
         name: "eliminate".to_owned(),
         doc: vec![
             "Mass matrix and right side of one device, its joints eliminated from the tip.".into(),
             String::new(),
-            "Translation (16), rotation (75), motor torques (80), (101), (119); with the joints"
-                .into(),
+            format!(
+                "Translation (16), rotation (75), motor torques {}; with the joints",
+                torques.join(", ")
+            ),
             "eliminated by `M = L D Lᵀ`, six equations for the hub are left.".into(),
         ],
-        inputs: vec![
-            ("p", Record::new("Prepared", "")),
-            ("q", records::trig(kind)),
-            ("v", records::rates(kind)),
-            ("w", records::body_rate()),
-            ("u", records::motors(kind)),
-        ],
+        inputs: inputs(kind, [("w", records::body_rate()), ("u", records::motors(kind))]),
         sections: script.sections,
         output: output(kind, &eliminated),
         claims: claims(kind, by_body::share(chain).named(kind)),
@@ -57,8 +54,12 @@ fn on_hub<'g>(chain: &Chain<'g>, share: Share<'g>, script: &mut Script<'g>) -> S
     let inertia = Symmetric::new(entries.try_into().expect("six entries"));
     script.section(
         "col",
-        "M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit \
-         acceleration.",
+        format!(
+            "M_vi, eq. (17), {}, and M_wi, eq. (75), {}: force and moment about B per unit \
+             acceleration.",
+            units(chain.kind.links, |units| units.force),
+            units(chain.kind.links, |units| units.moment),
+        ),
     );
     let mut force = Vec::new();
     let mut moment = Vec::new();
@@ -84,38 +85,50 @@ fn output(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {
     record.nested("share", records::hub_share(), "Share of the hub's equations.");
     for pivot in &eliminated.pivots {
         let tag = pivot.tag;
-        let title = title_of(kind, tag);
+        let link = link_of(kind, tag);
+        let (title, units) = (link.body.title, link.joint.motion.units());
         record.alias(
             format!("pivot_{tag}"),
             &pivot.pivot.0,
             format!(
-                "Pivot of the {title}, kg m²; singular unless well above zero beside the diagonal."
+                "Pivot of the {title}, {}; singular unless well above zero beside the diagonal.",
+                units.pivot
             ),
         );
         record.alias(
             format!("diagonal_{tag}"),
             &pivot.diagonal.0,
-            format!("Diagonal of the {title} before the elimination, kg m²."),
+            format!("Diagonal of the {title} before the elimination, {}.", units.pivot),
         );
-        for (name, _) in &pivot.gains {
+        for (name, _) in pivot.gains.iter().filter(|(_, gain)| !gain.is_zero()) {
             let of = name.rsplit('_').next().unwrap_or_default();
-            let what = match (of.split_at(1), HUB.contains(&of)) {
-                (("v", n), true) => format!("component {n} of r̈_{{B/N}}, 1/m"),
-                ((_, n), true) => format!("component {n} of ω̇_{{B/N}}"),
-                _ => format!("the acceleration of the {}", title_of(kind, of)),
+            let (what, slides) = match (of.split_at(1), HUB.contains(&of)) {
+                (("v", n), true) => (format!("component {n} of r̈_{{B/N}}"), true),
+                ((_, n), true) => (format!("component {n} of ω̇_{{B/N}}"), false),
+                _ => {
+                    let other = link_of(kind, of);
+                    let slides = matches!(other.joint.motion, Motion::Slide(_));
+                    (format!("the acceleration of the {}", other.body.title), slides)
+                }
             };
-            record.field(name.clone(), format!("Gain of the {title} on {what}."));
+            let unit = match (link.joint.motion, slides) {
+                (Motion::Turn(_), true) => ", 1/m",
+                (Motion::Slide(_), false) => ", m",
+                _ => "",
+            };
+            record.field(name.clone(), format!("Gain of the {title} on {what}{unit}."));
         }
-        let doc = format!("Acceleration of the {title} with all else at rest, rad/s².");
+        let unit = units.acceleration;
+        let doc = format!("Acceleration of the {title} with all else at rest, {unit}.");
         record.field(pivot.free.0.clone(), doc);
     }
     record
 }
 
-/// What a joint carries, by the joint's tag.
-fn title_of(kind: &Kind, tag: &str) -> &'static str {
+/// The link whose joint has this tag.
+fn link_of(kind: &Kind, tag: &str) -> &'static Link {
     let link = kind.links.iter().find(|link| link.joint.tag == tag);
-    link.map_or("device", |link| link.body.title)
+    link.expect("a gain is named after a joint of the kind")
 }
 
 /// The system's equations have no single number each: the row cites the block.

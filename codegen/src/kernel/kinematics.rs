@@ -4,50 +4,43 @@
 //! velocity and inertia along the body's own. Second derivatives are returned as what the
 //! second-order states multiply and the remainder.
 
-use super::{Claim, Kernel, Record, records};
+use super::{Claim, Kernel, Record, inputs};
+use crate::derivation::by_body::{BodyInHub, bodies};
 use crate::derivation::chain::Chain;
+use crate::derivation::composite;
 use crate::derivation::motion::{Motion, Observer, motions};
 use crate::derivation::placed::Placed;
-use crate::derivation::quantities::{Quantity, find, quantities};
 use crate::derivation::script::{Script, pairs, sextuple, triple};
-use crate::derivation::{by_body, composite};
 use crate::graph::{Expr, Stage};
-use crate::kinds::Kind;
+use crate::kinds;
 use crate::space::{Frame, Hub, Symmetric, Vector};
 
 /// One kernel per body, then the centre of mass.
 #[must_use]
 pub(super) fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
-    let references = quantities(chain);
     let seen_from_b = motions(chain, &Observer::on_hub(chain.graph));
+    let references = bodies(chain);
     let mut list: Vec<_> = seen_from_b
         .iter()
+        .zip(&references)
         .enumerate()
-        .map(|(k, motion)| body(chain, k, motion, &references))
+        .map(|(k, (motion, reference))| body(chain, k, motion, reference))
         .collect();
     list.push(first_moment(chain, &references));
     list
 }
 
-fn inputs(kind: &Kind) -> Vec<(&'static str, Record)> {
-    vec![
-        ("p", Record::new("Prepared", "")),
-        ("q", records::trig(kind)),
-        ("v", records::rates(kind)),
-    ]
-}
-
-/// Statements, fields and claims of one kernel, built together.
-struct Builder<'a, 'g> {
+/// Statements, fields and claims of one kernel, built together. What is zero in every state of the
+/// kind is claimed, but neither computed nor returned.
+struct Builder<'g> {
     script: Script<'g>,
     record: Record,
     claims: Vec<Claim<'g>>,
-    references: &'a [Quantity<'g>],
 }
 
-impl<'g> Builder<'_, 'g> {
-    fn reference(&self, name: &str) -> Placed<'g> {
-        find(self.references, name).unwrap_or_else(|| panic!("`{name}` is derived")).value
+impl<'g> Builder<'g> {
+    fn new(chain: &Chain<'g>, record: Record) -> Self {
+        Self { script: Script::new(chain.graph), record, claims: Vec::new() }
     }
 
     /// A vector: section, statements, fields, and what its components must be equal to.
@@ -57,10 +50,12 @@ impl<'g> Builder<'_, 'g> {
         v: Vector<'g, F>,
         reference: [Expr<'g>; 3],
     ) {
-        self.script.section(prefix, format!("{title}, {unit}."));
         let names = triple(stem, frame);
-        self.script.names(pairs(names.clone(), v.components()));
-        self.record.vector(stem, frame, title, unit);
+        if !v.components().into_iter().all(Expr::is_zero) {
+            self.script.section(prefix, format!("{title}, {unit}."));
+            self.script.names(pairs(names.clone(), v.components()));
+            self.record.vector(stem, frame, title, unit);
+        }
         self.claim(tag, stem, pairs(names, reference).collect());
     }
 
@@ -70,10 +65,12 @@ impl<'g> Builder<'_, 'g> {
         t: Symmetric<'g, F>,
         reference: [Expr<'g>; 6],
     ) {
-        self.script.section(prefix, format!("{title}, {unit}."));
         let names = sextuple(stem);
-        self.script.names(pairs(names.clone(), t.entries()));
-        self.record.tensor(stem, title, unit);
+        if !t.entries().into_iter().all(Expr::is_zero) {
+            self.script.section(prefix, format!("{title}, {unit}."));
+            self.script.names(pairs(names.clone(), t.entries()));
+            self.record.tensor(stem, title, unit);
+        }
         self.claim(tag, stem, pairs(names, reference).collect());
     }
 
@@ -87,82 +84,87 @@ fn body<'g>(
     chain: &Chain<'g>,
     k: usize,
     motion: &Motion<'g>,
-    references: &[Quantity<'g>],
+    reference: &BodyInHub<'g>,
 ) -> Kernel<'g> {
     let (link, data) = (&chain.links[k], &chain.kind.links[k].body);
     let (own, point) = (data.frame, data.point);
     let carrier = if k == 0 { "b" } else { chain.kind.links[k - 1].body.frame };
     let [body_letter, point_letter] = data.letters;
     let record = Record::new(&type_name(data.title), &format!("The {} seen from B.", data.title));
-    let mut b =
-        Builder { script: Script::new(chain.graph), record, claims: Vec::new(), references };
-    let vector =
-        |b: &Builder<'_, 'g>, name: &str, frame: usize| match b.reference(name).along(chain, frame)
-        {
-            Placed::Vector(v, _) => Vector::<Hub>::new(v),
-            _ => panic!("`{name}` is a vector"),
-        };
-    let tensor = |b: &Builder<'_, 'g>, name: &str| match b.reference(name) {
-        Placed::Tensor(t, _) => t,
-        _ => panic!("`{name}` is a tensor"),
+    let mut b = Builder::new(chain, record);
+    // The same by plain differentiation along B axes, brought to the axes at hand.
+    let vector = |v: Vector<'g, Hub>, frame: usize| match Placed::Vector(v.components(), 0)
+        .along(chain, frame)
+    {
+        Placed::Vector(v, _) => Vector::<Hub>::new(v),
+        _ => unreachable!("a vector stays a vector"),
     };
+    let tensor = |t: Symmetric<'g, Hub>| match Placed::Tensor(t.entries(), 0).along(chain, k + 1) {
+        Placed::Tensor(t, _) => t,
+        _ => unreachable!("a tensor stays a tensor"),
+    };
+    let r_prime = reference.r.component_rates();
 
     let equations = &data.equations;
     let stem = format!("omega_{own}_b");
     let title = format!("ω_{{{body_letter}/B}}, eq. {}", equations.omega);
-    let reference = vector(&b, &stem, k + 1).components();
-    b.vector(["rate", equations.omega, &stem, own, &title, "rad/s"], motion.omega, reference);
+    let omega = vector(reference.omega_b, k + 1).components();
+    b.vector(["rate", equations.omega, &stem, own, &title, "rad/s"], motion.omega, omega);
 
     let r = format!("r_{point}_b");
     let title = format!("r_{{{point_letter}/B}}, behind eq. {}", equations.r_dprime);
-    let reference = vector(&b, &r, k).components();
-    b.vector(["pos", "(step)", &r, carrier, &title, "m"], motion.centre.position, reference);
+    let whole = vector(reference.r, k).components();
+    b.vector(["pos", "(step)", &r, carrier, &title, "m"], motion.centre.position, whole);
     let prime = format!("{r}_prime");
     let title = format!("r′_{{{point_letter}/B}}, behind eq. {}", equations.r_dprime);
-    let reference = vector(&b, &prime, k).components();
-    b.vector(["vel", "(step)", &prime, carrier, &title, "m/s"], motion.centre.velocity, reference);
+    let whole = vector(r_prime, k).components();
+    b.vector(["vel", "(step)", &prime, carrier, &title, "m/s"], motion.centre.velocity, whole);
 
-    let whole = vector(&b, &format!("{r}_dprime"), k);
+    let whole = vector(r_prime.component_rates(), k);
     let acceleration = motion.centre.acceleration;
     let tag = equations.r_dprime;
     for (joint, data) in chain.links.iter().zip(chain.kind.links).take(k + 1) {
         let stem = format!("{r}_dprime_{}", data.joint.tag);
         let symbol = data.joint.symbols[1];
         let title = format!("r″_{{{point_letter}/B}}, eq. {tag}, per {symbol}");
+        let unit = match data.joint.motion {
+            kinds::Motion::Turn(_) => "m",
+            kinds::Motion::Slide(_) => "1",
+        };
         let q_ddot = joint.acceleration;
-        let reference = whole.partial(q_ddot).components();
+        let per_joint = whole.partial(q_ddot).components();
         b.vector(
-            ["col", tag, &stem, carrier, &title, "m"],
+            ["col", tag, &stem, carrier, &title, unit],
             acceleration.partial(q_ddot),
-            reference,
+            per_joint,
         );
     }
     let stem = format!("{r}_dprime_rest");
     let title = format!("r″_{{{point_letter}/B}}, eq. {tag}, with no joint accelerating");
-    let reference = whole.without(Stage::Acceleration).components();
+    let whole = whole.without(Stage::Acceleration).components();
     let rest = acceleration.without(Stage::Acceleration);
-    b.vector(["acc", tag, &stem, carrier, &title, "m/s²"], rest, reference);
+    b.vector(["acc", tag, &stem, carrier, &title, "m/s²"], rest, whole);
 
     let along = format!("along the axes of the {}", data.title);
-    let i_prime = link.inertia.prime(motion.omega);
+    let i_prime = link.inertia.prime(motion.axes);
     let stem = format!("i_{own}_{point}_prime");
     let title =
         format!("[I_{{{body_letter},{point_letter}}}]′, eq. {}, {along}", equations.i_prime);
-    let reference = tensor(&b, &stem);
-    b.tensor(["turn", equations.i_prime, &stem, &title, "kg m²/s"], i_prime, reference);
+    let whole = tensor(reference.inertia.component_rates());
+    b.tensor(["turn", equations.i_prime, &stem, &title, "kg m²/s"], i_prime, whole);
 
     let r_own = motion.centre.position.turned(link.turn);
     let r_prime_own = motion.centre.velocity.turned(link.turn);
     let stem = format!("i_{own}_b");
     let title = format!("[I_{{{body_letter},B}}], eq. {}, {along}", equations.i_b);
-    let reference = tensor(&b, &stem);
+    let about_b = reference.inertia + reference.mass * Symmetric::tilde_squared(reference.r);
     let i_b = link.inertia + link.mass * Symmetric::tilde_squared(r_own);
-    b.tensor(["axis", equations.i_b, &stem, &title, "kg m²"], i_b, reference);
+    b.tensor(["axis", equations.i_b, &stem, &title, "kg m²"], i_b, tensor(about_b));
     let stem = format!("i_{own}_b_prime");
     let title = format!("[I_{{{body_letter},B}}]′, eq. {}, {along}", equations.i_b_prime);
-    let reference = tensor(&b, &stem);
+    let whole = tensor(about_b.component_rates());
     let i_b_prime = i_prime + link.mass * Symmetric::tilde_pair(r_prime_own, r_own);
-    b.tensor(["shift", equations.i_b_prime, &stem, &title, "kg m²/s"], i_b_prime, reference);
+    b.tensor(["shift", equations.i_b_prime, &stem, &title, "kg m²/s"], i_b_prime, whole);
 
     Kernel {
         name: data.title.replace(' ', "_"),
@@ -170,7 +172,7 @@ fn body<'g>(
             "The {}: position, angular velocity, inertia and their derivatives.",
             data.title
         )],
-        inputs: inputs(chain.kind),
+        inputs: inputs(chain.kind, []),
         sections: b.script.sections,
         output: b.record,
         claims: b.claims,
@@ -178,19 +180,25 @@ fn body<'g>(
 }
 
 /// The device's share of `m_sc c` (9), of its derivatives (11), and the f of (17), along B axes.
-fn first_moment<'g>(chain: &Chain<'g>, references: &[Quantity<'g>]) -> Kernel<'g> {
+fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'g> {
     let graph = chain.graph;
     let observer = Observer::on_hub(graph);
+    let joints = chain.kind.links.iter().map(|link| &link.joint);
+    let terms: Vec<_> =
+        joints.map(|joint| format!("f_{} {}", joint.tag, joint.symbols[1])).collect();
     let record = Record::new(
         "FirstMoment",
-        "A device's share of `m_sc c` and its derivatives seen from B, along the device's B axes: \
-         `m_sc c″ = f_o ᵒγ̈ + f_i ⁱγ̈ + f_w Ω̇ + f̃`.",
+        &format!(
+            "A device's share of `m_sc c` and its derivatives seen from B, along the device's B \
+             axes: `m_sc c″ = {} + f̃`.",
+            terms.join(" + ")
+        ),
     );
-    let mut b = Builder { script: Script::new(graph), record, claims: Vec::new(), references };
+    let mut b = Builder::new(chain, record);
     let share = composite::share(chain, &observer, &mut b.script);
     let momenta = composite::momenta(chain, &observer, &mut b.script);
     let zero = Vector::zero(graph);
-    let mc = by_body::bodies(chain).iter().fold(zero, |sum, body| sum + body.mass * body.r);
+    let mc = references.iter().fold(zero, |sum, body| sum + body.mass * body.r);
     let mc_prime = mc.component_rates();
     let mc_dprime = mc_prime.component_rates();
     let title = "Σ m r, share of m_sc c, eq. (9)";
@@ -205,7 +213,8 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[Quantity<'g>]) -> Kernel<'g
         let stem = format!("f_{}", data.joint.tag);
         let title = format!("f_{}, eq. (17): Σ m r″ per {}", data.joint.tag, data.joint.symbols[1]);
         let reference = mc_dprime.partial(chain.links[k].acceleration).components();
-        b.vector(["col", "(17)", &stem, "b", &title, "kg m"], share.force[k], reference);
+        let unit = data.joint.motion.units().force;
+        b.vector(["col", "(17)", &stem, "b", &title, unit], share.force[k], reference);
     }
     let title = "f̃, eq. (17): Σ m r″ with no joint accelerating";
     let reference = mc_dprime.without(Stage::Acceleration).components();
@@ -213,7 +222,7 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[Quantity<'g>]) -> Kernel<'g
     Kernel {
         name: "first_moment".to_owned(),
         doc: vec!["Centre of mass of the device and its derivatives, seen from B.".to_owned()],
-        inputs: inputs(chain.kind),
+        inputs: inputs(chain.kind, []),
         sections: b.script.sections,
         output: b.record,
         claims: b.claims,

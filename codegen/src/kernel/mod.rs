@@ -7,12 +7,13 @@ mod momenta;
 mod records;
 
 pub use records::{
-    Field, Record, Source, joint_accelerations, motors, parameters, rates, shared_records, trig,
+    Field, Record, Source, joint_accelerations, motors, parameters, pose, rates, shared_records,
 };
 
 use crate::derivation::chain::Chain;
 use crate::derivation::script::Section;
-use crate::graph::Expr;
+use crate::graph::{Expr, Node};
+use crate::kinds::Kind;
 
 /// One function to be emitted.
 pub struct Kernel<'g> {
@@ -28,6 +29,18 @@ pub struct Kernel<'g> {
     pub output: Record,
     /// What its named values must be equal to.
     pub claims: Vec<Claim<'g>>,
+}
+
+impl<'g> Kernel<'g> {
+    /// Names of what is a symbol or a constant by itself: written in place, without a name.
+    pub fn plain(&self) -> impl Iterator<Item = (String, Expr<'g>)> {
+        let statements = self.sections.iter().flat_map(|section| &section.statements);
+        let plain = statements.filter(|statement| {
+            let leaf = matches!(statement.value.node(), Node::Symbol(_) | Node::Constant(_));
+            leaf && statement.cut.is_none()
+        });
+        plain.map(|statement| (statement.name.clone(), statement.value))
+    }
 }
 
 /// Emitted names and what they must be equal to, by another way than they are computed.
@@ -49,6 +62,18 @@ pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     let back = back_substitute::kernel(chain, &eliminated, kernel.output.clone());
     list.extend([kernel, back]);
     list.push(momenta::kernel(chain));
+    list
+}
+
+/// Constants, pose and rates, which every kernel of motion takes, and what `more` it needs.
+fn inputs(
+    kind: &Kind,
+    more: impl IntoIterator<Item = (&'static str, Record)>,
+) -> Vec<(&'static str, Record)> {
+    let mut list = vec![("p", Record::new("Prepared", ""))];
+    list.extend(pose(kind));
+    list.push(("v", rates(kind)));
+    list.extend(more);
     list
 }
 

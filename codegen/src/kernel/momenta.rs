@@ -1,7 +1,7 @@
 //! The kernel `energy_momentum`.
 
 use super::eliminate::claims;
-use super::{Kernel, Record, records};
+use super::{Kernel, inputs, records};
 use crate::derivation::chain::Chain;
 use crate::derivation::motion::Observer;
 use crate::derivation::script::{Script, pairs, triple};
@@ -23,12 +23,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         doc: vec![
             "Kinetic energy, linear momentum and moment of momentum about B (20).".to_owned(),
         ],
-        inputs: vec![
-            ("p", Record::new("Prepared", "")),
-            ("q", records::trig(kind)),
-            ("v", records::rates(kind)),
-            ("b", records::body_velocity()),
-        ],
+        inputs: inputs(kind, [("b", records::body_velocity())]),
         sections: script.sections,
         output: records::energy_momentum(),
         claims: claims(kind, by_body::momenta(chain).named()),

@@ -1,7 +1,8 @@
 //! The plain structures that kernels take and return, with a line for every field.
 
 use crate::derivation::script::{sextuple, triple};
-use crate::kinds::{Centre, Kind, Link};
+use crate::kinds::{Centre, Kind, Link, Motion};
+use crate::space::ENTRIES;
 
 /// One field: its name and what it is, with frame and unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -119,18 +120,45 @@ fn link_parameters(link: &Link, record: &mut Record) {
             name,
             format!("{name}: centre of mass of the {} on its {axis:?} axis, m.", body.title),
         ),
+        Centre::At => {}
     }
     record.field(body.mass, format!("m_{letter}: mass of the {}, kg.", body.title));
     let doc = format!("[I_{{{letter},{point}}}] along the axes of the {}", body.title);
-    record.tensor(body.inertia, &doc, "kg m²");
+    let names = body.inertia.names();
+    for (k, name) in names.iter().enumerate() {
+        let Some(name) = name.as_ref().filter(|name| !names[..k].contains(&Some((*name).clone())))
+        else {
+            continue;
+        };
+        let same = names.iter().zip(ENTRIES).filter(|(other, _)| other.as_ref() == Some(name));
+        let entries: Vec<_> = same.map(|(_, entry)| entry).collect();
+        let entry = if entries.len() == 1 { "entry" } else { "entries" };
+        record.field(name.clone(), format!("{doc}, {entry} {}, kg m².", entries.join(" and ")));
+    }
+}
+
+/// Where the joints stand: the arguments of a kernel that say so, as many as the kind knows of.
+#[must_use]
+pub fn pose(kind: &Kind) -> Vec<(&'static str, Record)> {
+    let arguments = [("q", trig(kind)), ("s", positions(kind))];
+    arguments.into_iter().filter(|(_, record)| !record.fields.is_empty()).collect()
+}
+
+/// Positions along the sliding joints.
+fn positions(kind: &Kind) -> Record {
+    let mut record = Record::new("Positions", "Positions along the sliding joints.");
+    for link in kind.sliding() {
+        let doc = format!("Of the {} along its joint, m.", link.body.title);
+        record.field(link.joint.coordinate, doc);
+    }
+    record
 }
 
 /// Sines and cosines of the joint angles.
-#[must_use]
-pub fn trig(kind: &Kind) -> Record {
+fn trig(kind: &Kind) -> Record {
     let mut record = Record::new("Trig", "Sines and cosines of the joint angles.");
-    for link in kind.links {
-        let angle = link.joint.angle;
+    for link in kind.turning() {
+        let angle = link.joint.coordinate;
         record.field(format!("sin_{angle}"), format!("Sine of `{angle}`."));
         record.field(format!("cos_{angle}"), format!("Cosine of `{angle}`."));
     }
@@ -143,7 +171,8 @@ pub fn rates(kind: &Kind) -> Record {
     let mut record =
         Record::new("Rates", "Joint rates, each relative to the body that carries it.");
     for link in kind.links {
-        let doc = format!("{}: rate of the {}, rad/s.", link.joint.symbols[0], link.body.title);
+        let (symbol, unit) = (link.joint.symbols[0], link.joint.motion.units().rate);
+        let doc = format!("{symbol}: rate of the {}, {unit}.", link.body.title);
         record.field(link.joint.rate, doc);
     }
     record
@@ -152,10 +181,15 @@ pub fn rates(kind: &Kind) -> Record {
 /// The motor torques.
 #[must_use]
 pub fn motors(kind: &Kind) -> Record {
+    let what = if kind.sliding().next().is_some() { "Torques and forces" } else { "Motor torques" };
     let mut record =
-        Record::new("Motors", "Motor torques, each on a body and against its carrier.");
+        Record::new("Motors", &format!("{what}, each on a body and against its carrier."));
     for link in kind.links {
-        record.field(link.joint.torque, format!("Torque on the {}, N m.", link.body.title));
+        let (what, unit) = match link.joint.motion {
+            Motion::Turn(_) => ("Torque", link.joint.motion.units().drive),
+            Motion::Slide(_) => ("Force along its joint", link.joint.motion.units().drive),
+        };
+        record.field(link.joint.torque, format!("{what} on the {}, {unit}.", link.body.title));
     }
     record
 }
@@ -166,7 +200,8 @@ pub fn joint_accelerations(kind: &Kind) -> Record {
     let mut record = Record::new("JointAccelerations", "The second-order states of the joints.");
     for link in kind.links {
         let symbol = link.joint.symbols[1];
-        let doc = format!("{symbol}: acceleration of the {}, rad/s².", link.body.title);
+        let unit = link.joint.motion.units().acceleration;
+        let doc = format!("{symbol}: acceleration of the {}, {unit}.", link.body.title);
         record.field(link.joint.acceleration, doc);
     }
     record

@@ -1,16 +1,41 @@
 //! Device kinds as data: a chain of joints and bodies, ordered from the hub to the tip.
 //!
-//! A kind says what turns about what, where the next origin lies and what its quantities are
-//! called; the equations come from the one derivation that walks any such list.
+//! A kind says what turns about or slides along what, where the next origin lies and what its
+//! quantities are called; the equations come from the one derivation that walks any such list.
 
+mod balanced_reaction_wheel;
+mod balanced_vscmg;
+mod body;
 mod dgvscmg;
+mod equations;
+mod hinged_panel;
+mod reaction_wheel;
+mod slosh_mass;
+mod vscmg;
+mod wheel;
 
+pub use balanced_reaction_wheel::BALANCED_REACTION_WHEEL;
+pub use balanced_vscmg::BALANCED_VSCMG;
+pub use body::{Body, Centre, Inertia};
 pub use dgvscmg::DGVSCMG;
+pub use equations::Equations;
+pub use hinged_panel::HINGED_PANEL;
+pub use reaction_wheel::REACTION_WHEEL;
+pub use slosh_mass::SLOSH_MASS;
+pub use vscmg::VSCMG;
 
 use crate::space::Axis;
 
 /// Every kind that is emitted.
-pub const KINDS: [&Kind; 1] = [&DGVSCMG];
+pub const KINDS: [&Kind; 7] = [
+    &DGVSCMG,
+    &VSCMG,
+    &BALANCED_VSCMG,
+    &REACTION_WHEEL,
+    &BALANCED_REACTION_WHEEL,
+    &HINGED_PANEL,
+    &SLOSH_MASS,
+];
 
 /// A device: joints and bodies from the hub outwards.
 #[derive(Clone, Copy, Debug)]
@@ -36,27 +61,126 @@ pub struct Link {
     pub assembly: &'static str,
 }
 
-/// A turning joint.
+/// A joint.
 #[derive(Clone, Copy, Debug)]
 pub struct Joint {
     /// Index letter of its quantities: `f_o`, `u_o`.
     pub tag: &'static str,
-    /// The axis of the carrying frame about which it turns.
-    pub axis: Axis,
-    /// The angle.
-    pub angle: &'static str,
-    /// The angle as the paper writes it.
-    pub angle_symbol: &'static str,
+    /// How it moves.
+    pub motion: Motion,
+    /// The angle or the length.
+    pub coordinate: &'static str,
+    /// The same as it is written.
+    pub coordinate_symbol: &'static str,
     /// Its rate.
     pub rate: &'static str,
     /// Its acceleration: the second-order state.
     pub acceleration: &'static str,
     /// Rate and acceleration as the paper writes them.
     pub symbols: [&'static str; 2],
-    /// The motor torque on the body, against the carrier.
+    /// The motor torque on the body, against the carrier; along a sliding joint, the force.
     pub torque: &'static str,
-    /// Where the joint's origin lies from the carrier's, in carrier axes.
+    /// Where the joint's origin lies from the carrier's, in carrier axes, before any sliding.
     pub origin: Triple,
+}
+
+/// How a joint moves, by an axis of the frame that carries it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// It turns about the axis: its coordinate is an angle.
+    Turn(Axis),
+    /// It slides along the axis: its coordinate is a length.
+    Slide(Axis),
+}
+
+impl Motion {
+    /// The axis.
+    #[must_use]
+    pub fn axis(self) -> Axis {
+        match self {
+            Self::Turn(axis) | Self::Slide(axis) => axis,
+        }
+    }
+
+    /// The units of what belongs to the joint.
+    #[must_use]
+    pub fn units(self) -> &'static Units {
+        match self {
+            Self::Turn(_) => &Units {
+                rate: "rad/s",
+                acceleration: "rad/s²",
+                drive: "N m",
+                force: "kg m",
+                moment: "kg m²",
+                pivot: "kg m²",
+            },
+            Self::Slide(_) => &Units {
+                rate: "m/s",
+                acceleration: "m/s²",
+                drive: "N",
+                force: "kg",
+                moment: "kg m",
+                pivot: "kg",
+            },
+        }
+    }
+}
+
+/// Units of what belongs to a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Units {
+    /// Of its rate.
+    pub rate: &'static str,
+    /// Of its acceleration.
+    pub acceleration: &'static str,
+    /// Of its motor torque or force.
+    pub drive: &'static str,
+    /// Of force per acceleration of the joint: `M_vi`.
+    pub force: &'static str,
+    /// Of moment per acceleration of the joint: `M_wi`.
+    pub moment: &'static str,
+    /// Of the joint's own inertia: `M_ii`.
+    pub pivot: &'static str,
+}
+
+/// One of the units of these joints, or all that there are: `kg m² or kg m`.
+#[must_use]
+pub fn units(links: &[Link], of: impl Fn(&Units) -> &'static str) -> String {
+    let mut found: Vec<&str> = Vec::new();
+    for unit in links.iter().map(|link| of(link.joint.motion.units())) {
+        if !found.contains(&unit) {
+            found.push(unit);
+        }
+    }
+    found.join(" or ")
+}
+
+impl Kind {
+    /// Whether the axes of body `k` turn with its joint.
+    ///
+    /// Behind a sliding joint they do not. Nor need they at the tip, where a rotor is the same
+    /// from every angle: symmetric about the joint's axis, with its centre of mass on it. Then no
+    /// equation knows the angle.
+    #[must_use]
+    pub fn axes_turn(&self, k: usize) -> bool {
+        let Link { joint, body, .. } = &self.links[k];
+        let tip = k + 1 == self.links.len();
+        match joint.motion {
+            Motion::Slide(_) => false,
+            Motion::Turn(axis) => !(tip && body.is_symmetric_about(axis)),
+        }
+    }
+
+    /// The links whose angle the equations know: those with axes that turn.
+    pub fn turning(&self) -> impl Iterator<Item = &Link> {
+        let links = self.links.iter().enumerate();
+        links.filter(|(k, _)| self.axes_turn(*k)).map(|(_, link)| link)
+    }
+
+    /// The links behind a sliding joint.
+    pub fn sliding(&self) -> impl Iterator<Item = &Link> {
+        self.links.iter().filter(|link| matches!(link.joint.motion, Motion::Slide(_)))
+    }
 }
 
 /// Three components with the vector's symbol.
@@ -68,65 +192,4 @@ pub struct Triple {
     pub name: &'static str,
     /// Component names.
     pub names: [&'static str; 3],
-}
-
-/// A rigid body.
-#[derive(Clone, Copy, Debug)]
-pub struct Body {
-    /// What it is, in words.
-    pub title: &'static str,
-    /// Its frame: axes `gox goy goz`, angular velocity `omega_go_n`.
-    pub frame: &'static str,
-    /// Its origin, as a point: `r_goc_go`.
-    pub origin: &'static str,
-    /// The paper's names of its axes.
-    pub triad: [&'static str; 3],
-    /// Its centre of mass, as a point: `r_goc_b`.
-    pub point: &'static str,
-    /// Its mass.
-    pub mass: &'static str,
-    /// Where its centre of mass lies from its origin, in its own axes.
-    pub centre: Centre,
-    /// Stem of its inertia about its own centre of mass, in its own axes: `i_go_11`.
-    pub inertia: &'static str,
-    /// The paper's letters for body and point, `Gᵒ` and `Gᵒ_c`.
-    pub letters: [&'static str; 2],
-    /// Where the paper states its quantities.
-    pub equations: Equations,
-}
-
-/// The pattern of a centre of mass.
-#[derive(Clone, Copy, Debug)]
-pub enum Centre {
-    /// Anywhere.
-    Free(Triple),
-    /// On one axis of the body, at this distance.
-    On(Axis, &'static str),
-}
-
-/// Equation numbers of a body's quantities.
-#[derive(Clone, Copy, Debug)]
-pub struct Equations {
-    /// Angular velocity.
-    pub omega: &'static str,
-    /// Second derivative of the centre of mass, seen from B.
-    pub r_dprime: &'static str,
-    /// Derivative of the inertia about the body's own centre of mass.
-    pub i_prime: &'static str,
-    /// Inertia about B.
-    pub i_b: &'static str,
-    /// Its derivative.
-    pub i_b_prime: &'static str,
-    /// Motor torque across the joint that carries the body.
-    pub torque: &'static str,
-    /// Inertial second derivative of the centre of mass from B.
-    pub r_ddot: &'static str,
-    /// Angular momentum about B.
-    pub h: &'static str,
-    /// Its inertial derivative.
-    pub h_dot: &'static str,
-    /// Mass and first moment of this body and all behind it; for the tip, the body itself.
-    pub assembly: &'static str,
-    /// Torque on them about the joint's origin.
-    pub about_origin: &'static str,
 }

@@ -13,7 +13,7 @@ use crate::derivation::chain::Chain;
 use crate::emit::prepared;
 use crate::graph::{Expr, Stage};
 use crate::kernel::{Kernel, kernels, parameters};
-use crate::space::Axis;
+use crate::space::{Axis, ENTRIES};
 
 /// Number of the function that all others read.
 pub(super) const PREPARE: usize = 0;
@@ -91,7 +91,7 @@ impl<'a, 'g> Device<'a, 'g> {
         let symbol = |name: &str| graph.symbol(name, Stage::Parameter);
         let trigonometry = chain.kind.links.iter().map(|link| {
             ["sin", "cos"].map(|function| {
-                graph.symbol(&format!("{function}_{}", link.joint.angle), Stage::Configuration)
+                graph.symbol(&format!("{function}_{}", link.joint.coordinate), Stage::Configuration)
             })
         });
         let functions = Functions::of(chain, &listings)?;
@@ -275,9 +275,12 @@ impl<'a, 'g> Device<'a, 'g> {
         let axes = self.axes(k + 1, motion);
         let vector = |stem: &str| before * returned.vector(stem, carrier);
         let tensor = |stem: &str| axes * returned.tensor(stem) * axes.transpose();
+        let names = data.inertia.names();
         let given = |row: usize, column: usize| {
-            let (low, high) = (row.min(column) + 1, row.max(column) + 1);
-            self.parameter(case, &format!("{}_{low}{high}", data.inertia))
+            let entry = format!("{}{}", row.min(column) + 1, row.max(column) + 1);
+            let named = ENTRIES.iter().zip(&names).find(|(known, _)| **known == entry);
+            let name = named.and_then(|(_, name)| name.as_ref());
+            name.map_or(0.0, |name| self.parameter(case, name))
         };
         let column = |tag: &str| vector(&format!("r_{point}_b_dprime_{tag}"));
         BodySeen {
@@ -299,7 +302,7 @@ impl<'a, 'g> Device<'a, 'g> {
     fn axes(&self, joints: usize, motion: &Motion) -> Matrix3<f64> {
         let turn = |(k, link): (usize, &crate::kinds::Link)| {
             let (sine, cosine) = (libm::sin(motion.angles[k]), libm::cos(motion.angles[k]));
-            let axis: Vector3<f64> = unit(link.joint.axis);
+            let axis: Vector3<f64> = unit(link.joint.motion.axis());
             // Rodrigues: what lies along the axis stays, the rest turns.
             let tilde = axis.cross_matrix();
             Matrix3::identity() + sine * tilde + (1.0 - cosine) * tilde * tilde

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::kernel::parameters;
-use crate::kinds::Kind;
+use crate::kinds::{Inertia, Kind, Link};
 
 /// Everything that a law is evaluated for.
 #[derive(Clone)]
@@ -128,7 +128,11 @@ impl Random {
         let fields = parameters_of(kind);
         while parameters.len() < fields.len() {
             let name = &fields[parameters.len()];
-            if kind.links.iter().any(|link| *name == format!("{}_11", link.body.inertia)) {
+            let full = |link: &Link| match link.body.inertia {
+                Inertia::Full(stem) => *name == format!("{stem}_11"),
+                _ => false,
+            };
+            if kind.links.iter().any(full) {
                 let t = self.inertia();
                 let pairs = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
                 parameters.extend(pairs.map(|pair| t[pair]));

@@ -132,11 +132,11 @@ fn of_symbol(name: &str) -> Option<Unit> {
         _ => 0,
     };
     Some(match name.split('_').next()? {
-        "sin" | "cos" | "gamma" | "theta" => Unit::new(0, 0, time),
+        "sin" | "cos" | "gamma" | "theta" | "phi" => Unit::new(0, 0, time),
         "spin" | "omega" => Unit::new(0, 0, -1 + time),
         "m" => Unit::new(1, 0, 0),
         "i" | "j" => Unit::new(1, 2, 0),
-        "r" | "l" | "d" => Unit::new(0, 1, time),
+        "r" | "l" | "d" | "x" => Unit::new(0, 1, time),
         "u" => Unit::new(1, 2, -2),
         _ => return None,
     })
@@ -145,10 +145,11 @@ fn of_symbol(name: &str) -> Option<Unit> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::derivation::by_body::share;
     use crate::derivation::chain::Chain;
     use crate::derivation::quantities::quantities;
     use crate::graph::{Graph, Stage};
-    use crate::kinds::DGVSCMG;
+    use crate::kinds::{DGVSCMG, KINDS, Units};
 
     #[test]
     fn all_components_of_every_derived_quantity_have_one_unit() {
@@ -158,6 +159,34 @@ mod tests {
             let units = quantity.value.components().into_iter().map(|c| unit(c).unwrap());
             let all = units.fold(Balance::Any, Balance::with);
             assert_ne!(all, Balance::Not, "{}", quantity.name);
+        }
+    }
+
+    /// No bias holds a symbol of a drive: its unit comes from masses, lengths and rates alone.
+    #[test]
+    fn the_units_of_a_joint_are_those_of_its_equations() {
+        for kind in KINDS {
+            let graph = Graph::new();
+            let chain = Chain::new(&graph, kind);
+            let share = share(&chain);
+            for (k, (link, data)) in chain.links.iter().zip(kind.links).enumerate() {
+                let units: &Units = data.joint.motion.units();
+                let [force, moment] = [share.force[k], share.moment[k]].map(|v| {
+                    let shown = v.components().into_iter().filter(|e| !e.is_zero());
+                    shown.map(|e| unit(e).map(|unit| unit.to_string())).collect::<Vec<_>>()
+                });
+                assert!(force.iter().all(|unit| unit.as_deref() == Some(units.force)));
+                assert!(moment.iter().all(|unit| unit.as_deref() == Some(units.moment)));
+                for (e, stated) in [
+                    (link.rate, units.rate),
+                    (link.acceleration, units.acceleration),
+                    (share.bias_joint[k], units.drive),
+                    (share.joint[k][0], units.pivot),
+                ] {
+                    let shown = unit(e).map(|unit| unit.to_string());
+                    assert_eq!(shown.as_deref(), Some(stated), "{} {k}", kind.name);
+                }
+            }
         }
     }
 

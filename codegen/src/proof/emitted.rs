@@ -86,10 +86,14 @@ impl<'a, 'g> Prover<'a, 'g> {
         let index = self.kernels.iter().position(|k| k.name == name).ok_or_else(missing)?;
         let kernel = &self.kernels[index];
         let text = function(file, name)?;
-        let given = |constants: &Reading<'g>| self.arguments(kernel, constants);
+        let reading = |constants: Reading<'g>, cuts: &BTreeSet<String>| {
+            let given = self.arguments(kernel, &constants);
+            let back = read(self.chain.graph, text, &given, cuts)?;
+            Ok::<_, EmittedError>(back.or(constants.values).or(kernel.plain()))
+        };
         let back = Both {
-            expanded: read(self.chain.graph, text, &given(&prepare.expanded), &BTreeSet::new())?,
-            cut: read(self.chain.graph, text, &given(&prepare.cut), &cuts)?,
+            expanded: reading(prepare.expanded, &BTreeSet::new())?,
+            cut: reading(prepare.cut, &cuts)?,
         };
         let [expanded, cut] = &mut self.rings[index];
         let mut rows = claims(expanded, kernel, &back.expanded);

@@ -124,14 +124,16 @@ pub(super) fn of_elimination<'g>(
     back: &Reading<'g>,
 ) -> Vec<Row> {
     let graph = chain.graph;
-    let named = |name: &str| graph.find(name);
+    let named = |name: &str| graph.find(name).or_else(|| back.values.get(name).copied());
     let output = |name: String| back.returned.get(&name).copied();
     let joints: Vec<usize> = (HUB.len()..unknowns.len()).collect();
     // L_xj: one on the diagonal, a gain nearer the hub, nothing further out.
     let gain = |x: usize, j: usize| match x.cmp(&j) {
         std::cmp::Ordering::Equal => Some(graph.constant(1)),
         std::cmp::Ordering::Less => {
-            output(format!("gain_{}_{}", unknowns.suffix(j), unknowns.suffix(x)))
+            // A gain that is zero in every state of the kind is not returned.
+            let gain = output(format!("gain_{}_{}", unknowns.suffix(j), unknowns.suffix(x)));
+            Some(gain.unwrap_or(unknowns.zero))
         }
         std::cmp::Ordering::Greater => Some(unknowns.zero),
     };
@@ -211,6 +213,7 @@ pub(super) fn of_back_substitution<'g>(
                 None => Some(unknowns.accelerations[x]),
             };
             let gain = named(format!("gain_{tag}_{}", unknowns.suffix(x)));
+            let gain = Some(gain.unwrap_or(unknowns.zero));
             sum = add(sum, gain, value, Some(chain.graph.constant(1)));
         }
         checked.extend(sum.map(|sum| ((*name).to_owned(), sum)));
@@ -227,7 +230,8 @@ fn written_pivot<'g>(back: &Reading<'g>, unknowns: &Unknowns<'g>, j: usize) -> O
     let name = symbol.graph().symbol_info(id).name;
     // A block of the system that nothing is taken out of is its own pivot.
     let first = name == format!("mass_{0}{0}", unknowns.suffix(j));
-    if first { Some(*symbol) } else { back.values.get(&name).copied() }
+    // A parameter, too, is what it is: no statement computes it.
+    if first { Some(*symbol) } else { Some(back.values.get(&name).copied().unwrap_or(*symbol)) }
 }
 
 /// Field of the hub's share between hub unknowns `x <= y`.

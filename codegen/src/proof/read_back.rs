@@ -50,6 +50,14 @@ pub(super) struct Reading<'g> {
 }
 
 impl<'g> Reading<'g> {
+    /// Adds values that the text does not name but takes from elsewhere.
+    pub(super) fn or(mut self, values: impl IntoIterator<Item = (String, Expr<'g>)>) -> Self {
+        for (name, value) in values {
+            self.values.entry(name).or_insert(value);
+        }
+        self
+    }
+
     /// What a name stands for at the end of the function.
     pub(super) fn stands_for(&self, name: &str) -> Option<Expr<'g>> {
         match self.reader.value(&syn::parse_str(name).ok()?) {

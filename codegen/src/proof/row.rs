@@ -33,6 +33,8 @@ pub struct Row {
     pub verdict: Verdict,
     /// Page and line of what was checked, where it stands on a page.
     pub place: Option<String>,
+    /// The kind whose derivation and text it is about; none where it is about the paper alone.
+    pub kind: Option<&'static str>,
 }
 
 impl Row {
@@ -58,6 +60,7 @@ impl Row {
             terms: 0,
             verdict: Verdict::Equal,
             place: None,
+            kind: None,
         };
         let labels = |side: &[(String, Expr<'g>)]| -> Vec<String> {
             side.iter().map(|(label, _)| label.clone()).collect()
@@ -94,7 +97,7 @@ impl Row {
     #[must_use]
     pub fn absent([tag, name, claim]: [&str; 3]) -> Self {
         let [tag, name, claim] = [tag, name, claim].map(str::to_owned);
-        Self { tag, name, claim, terms: 0, verdict: Verdict::Absent, place: None }
+        Self { tag, name, claim, terms: 0, verdict: Verdict::Absent, place: None, kind: None }
     }
 
     /// Whether this row is a proof.
@@ -115,7 +118,7 @@ impl Row {
 
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { tag, name, claim, terms, verdict, place } = self;
+        let Self { tag, name, claim, terms, verdict, place, .. } = self;
         write!(f, "{tag:<12} {name:<20} {claim:<36} {terms:>6}  {verdict}")?;
         match place {
             Some(place) if !self.holds() => write!(f, "\n    stated at {place}"),

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::numbers::{Number, numbers};
-use crate::derivation::chain::{Chain, ENTRIES};
+use crate::derivation::chain::Chain;
 use crate::derivation::placed::Placed;
 use crate::derivation::quantities::{Quantity, quantities};
 use crate::graph::Expr;
@@ -12,6 +12,7 @@ use crate::kernel::{Kernel, kernels, parameters};
 use crate::normal::{NormalError, Ring};
 use crate::notation::{Accent, Balance, equation, expression, frame, symbol, terms, unit};
 use crate::page::{Block, ReadError};
+use crate::space::ENTRIES;
 
 /// A quantity is written out by components up to this many terms; a longer one is read in its
 /// equation or in the emitted code.
@@ -158,13 +159,13 @@ fn frames(chain: &Chain<'_>) -> Vec<FrameText> {
     };
     let bodies = chain.kind.links.iter().enumerate().map(|(k, link)| {
         let carrier = chain.triad(k);
-        let axis = carrier[link.joint.axis.cycle()[0]];
+        let axis = carrier[link.joint.motion.axis().cycle()[0]];
         FrameText {
             letter: frame(link.body.frame).unwrap_or_default().to_owned(),
             title: link.body.title.to_owned(),
             axes: triad(link.body.triad),
             about: math(&symbol(&format!("{axis}_hat"), Accent::Plain)),
-            angle: math(&symbol(link.joint.angle, Accent::Plain)),
+            angle: math(&symbol(link.joint.coordinate, Accent::Plain)),
             rate: math(&symbol(link.joint.rate, Accent::Plain)),
             arm: math(&symbol(link.joint.origin.name, Accent::Plain)),
         }

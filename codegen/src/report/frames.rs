@@ -36,7 +36,7 @@ pub(super) fn drawing(chain: &Chain<'_>) -> String {
     for (k, (body, link)) in bodies.iter().zip(chain.kind.links).enumerate() {
         let class = CLASSES[(k + 1) % CLASSES.len()];
         let BodyInHub { r, axes, joints, .. } = body;
-        let origin = joints.last().map_or([0.0; 3], |(_, p)| at(p.components()));
+        let origin = joints.last().map_or([0.0; 3], |joint| at(joint.origin.components()));
         let axes = axes.map(|axis| at(axis.components()));
         svg.arrow("arm", before.0, origin, 0.94);
         svg.label(
@@ -49,9 +49,9 @@ pub(super) fn drawing(chain: &Chain<'_>) -> String {
             class,
             origin,
             before.1,
-            link.joint.axis.cycle(),
+            link.joint.motion.axis().cycle(),
             ANGLES[k % ANGLES.len()],
-            link.joint.angle_symbol,
+            link.joint.coordinate_symbol,
         );
         svg.triad(class, origin, axes, link.body.triad);
         svg.point(class, origin, link.body.letters[0], [-20.0, 22.0]);
@@ -65,10 +65,10 @@ pub(super) fn drawing(chain: &Chain<'_>) -> String {
 fn value_of(chain: &Chain<'_>, name: &str) -> f64 {
     for (k, link) in chain.kind.links.iter().enumerate() {
         let angle = ANGLES[k % ANGLES.len()];
-        if name == format!("sin_{}", link.joint.angle) {
+        if name == format!("sin_{}", link.joint.coordinate) {
             return libm::sin(angle);
         }
-        if name == format!("cos_{}", link.joint.angle) {
+        if name == format!("cos_{}", link.joint.coordinate) {
             return libm::cos(angle);
         }
         let component = |names: [&str; 3], values: Point| {
@@ -78,6 +78,7 @@ fn value_of(chain: &Chain<'_>, name: &str) -> f64 {
         let centre = match link.body.centre {
             Centre::Free(triple) => component(triple.names, CENTRE),
             Centre::On(_, distance) => (name == distance).then_some(OFFSET),
+            Centre::At => None,
         };
         if let Some(value) = arm.or(centre) {
             return value;

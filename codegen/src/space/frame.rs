@@ -6,7 +6,7 @@
 
 use std::marker::PhantomData;
 
-use crate::graph::Expr;
+use crate::graph::{Expr, Graph};
 
 /// A frame of reference, as a type.
 pub trait Frame: Copy {}
@@ -66,6 +66,18 @@ impl<'g, From: Frame, To: Frame> Turn<'g, From, To> {
     #[must_use]
     pub fn about(axis: Axis, sin: Expr<'g>, cos: Expr<'g>) -> Self {
         Self { axis, sin, cos, frames: PhantomData }
+    }
+
+    /// No turn at all: `To` axes are parallel to those of `From`.
+    #[must_use]
+    pub fn none(graph: &'g Graph) -> Self {
+        Self::about(Axis::X, graph.zero(), graph.constant(1))
+    }
+
+    /// Whether the axes stay parallel.
+    #[must_use]
+    pub fn is_none(self) -> bool {
+        self.sin.is_zero()
     }
 
     /// `d e / d angle`: through the sine and the cosine.

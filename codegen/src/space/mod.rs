@@ -5,5 +5,5 @@ mod tensor;
 mod vector;
 
 pub use frame::{Axis, Carrier, Frame, Hub, Own, Turn};
-pub use tensor::Symmetric;
+pub use tensor::{ENTRIES, Symmetric};
 pub use vector::Vector;

@@ -13,6 +13,8 @@ pub struct Symmetric<'g, F> {
     frame: PhantomData<F>,
 }
 
+/// Suffixes of the six entries, in the order in which they are stored.
+pub const ENTRIES: [&str; 6] = ["11", "12", "13", "22", "23", "33"];
 /// Row and column of each stored entry.
 const PLACES: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 /// Index of each entry in storage.
@@ -114,6 +116,10 @@ impl<'g, F: Frame> Symmetric<'g, F> {
     /// third of the products.
     #[must_use]
     pub fn turned<To: Frame>(self, turn: Turn<'g, F, To>) -> Symmetric<'g, To> {
+        // With sine zero `ii + jj - ii` would be left of an entry.
+        if turn.is_none() {
+            return Symmetric::new(self.entries);
+        }
         let [k, i, j] = turn.axis.cycle();
         let (s, c) = (turn.sin, turn.cos);
         let (ii, ij, jj) = (self.at(i, i), self.at(i, j), self.at(j, j));

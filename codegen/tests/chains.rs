@@ -1,0 +1,138 @@
+//! Chains that no kind is: joints that slide and joints that turn carry one another, inertias are
+//! diagonal or symmetric about another axis. The derivation walks any list, so every proof that a
+//! kind gets holds for these.
+
+use precess_codegen::derivation::chain::Chain;
+use precess_codegen::emit::{EmittedFile, files};
+use precess_codegen::graph::Graph;
+use precess_codegen::kinds::{
+    Body, Centre, HINGED_PANEL, Inertia, Joint, Kind, Link, Motion, REACTION_WHEEL, SLOSH_MASS,
+    Triple, VSCMG,
+};
+use precess_codegen::proof::Row;
+use precess_codegen::regen::prove_kind;
+use precess_codegen::space::Axis;
+
+const PANEL: Link = HINGED_PANEL.links[0];
+const SLOSH: Link = SLOSH_MASS.links[0];
+const WHEEL: Link = REACTION_WHEEL.links[0];
+const ARM: Triple = Triple { symbol: "A", name: "l_a", names: ["l_a_x", "l_a_y", "l_a_z"] };
+
+/// A rigid body that slides along y on a hinged panel.
+const SLIDER_ON_A_PANEL: Kind = Kind {
+    name: "slider_on_a_panel",
+    title: "slider on a panel",
+    source: "",
+    links: &[
+        PANEL,
+        Link {
+            joint: Joint { motion: Motion::Slide(Axis::Y), origin: ARM, ..SLOSH.joint },
+            body: Body {
+                title: "slider",
+                centre: Centre::On(Axis::Z, "d"),
+                inertia: Inertia::Diagonal("i_s"),
+                ..SLOSH.body
+            },
+            assembly: "s",
+        },
+    ],
+};
+
+/// A wheel on a carriage that slides along z.
+const WHEEL_ON_A_CARRIAGE: Kind = Kind {
+    name: "wheel_on_a_carriage",
+    title: "wheel on a carriage",
+    source: "",
+    links: &[
+        Link {
+            joint: Joint { motion: Motion::Slide(Axis::Z), ..SLOSH.joint },
+            body: Body {
+                title: "carriage",
+                centre: PANEL.body.centre,
+                inertia: Inertia::Full("i_s"),
+                ..SLOSH.body
+            },
+            assembly: "d",
+        },
+        Link { joint: Joint { origin: ARM, ..WHEEL.joint }, assembly: "w", ..WHEEL },
+    ],
+};
+
+/// A rotor that is symmetric, but not about the axis of its joint.
+const TILTED_ROTOR: Kind = Kind {
+    name: "tilted_rotor",
+    title: "tilted rotor",
+    source: "",
+    links: &[Link {
+        body: Body { inertia: Inertia::Symmetric(Axis::Z, "j"), centre: Centre::At, ..WHEEL.body },
+        ..WHEEL
+    }],
+};
+
+fn emitted(chain: &Chain<'_>) -> Vec<EmittedFile> {
+    files(std::slice::from_ref(chain)).unwrap()
+}
+
+#[test]
+fn any_chain_of_joints_is_derived_emitted_and_proven() {
+    for kind in [&SLIDER_ON_A_PANEL, &WHEEL_ON_A_CARRIAGE, &TILTED_ROTOR] {
+        let graph = Graph::new();
+        let chain = Chain::new(&graph, kind);
+        let rows = prove_kind(&chain, &emitted(&chain)).unwrap();
+        let failed: Vec<_> = rows.iter().filter(|row| !row.holds()).map(Row::to_string).collect();
+        assert!(failed.is_empty(), "{}:\n{}", kind.name, failed.join("\n"));
+        assert!(rows.len() > 30, "{}: {} rows", kind.name, rows.len());
+    }
+}
+
+/// The wheel of a balanced kind is told by its names alone: no sine or cosine of theta is an
+/// argument, and every proof holds without one.
+#[test]
+fn a_rotor_knows_its_angle_unless_it_is_symmetric_about_its_joint() {
+    for (kind, known) in
+        [(&TILTED_ROTOR, true), (&REACTION_WHEEL, true), (&VSCMG, true)].into_iter().chain([
+            (&precess_codegen::kinds::BALANCED_REACTION_WHEEL, false),
+            (&precess_codegen::kinds::BALANCED_VSCMG, false),
+        ])
+    {
+        let graph = Graph::new();
+        let files = emitted(&Chain::new(&graph, kind));
+        let text = &files
+            .iter()
+            .find(|file| file.path.ends_with(&format!("/{}.rs", kind.name)))
+            .unwrap()
+            .text;
+        assert_eq!(
+            text.contains("sin_theta") && text.contains("cos_theta"),
+            known,
+            "{}",
+            kind.name
+        );
+    }
+}
+
+/// Each changed sign or factor of a sliding kernel, and a gain that is left out.
+#[test]
+fn a_wrong_sliding_kernel_is_caught() {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, &SLOSH_MASS);
+    let right = emitted(&chain);
+    for (good, bad) in [
+        ("let path_0 = p.r_s_b_bx + s.x;", "let path_0 = p.r_s_b_bx - s.x;"),
+        ("let mass_ss = p.m_s;", "let mass_ss = p.m_s + p.m_s;"),
+        ("let m_vv_11 = p.m_vv_11;", "let m_vv_11 = p.m_s;"),
+        ("let m_vv_12 = zero;", "let m_vv_12 = p.m_s;"),
+        ("let gain_s_w2 = n_s_by * recip_s;", "let gain_s_w2 = n_s_bz * recip_s;"),
+        ("- a.omega_dot_by * e.gain_s_w2", ""),
+        ("let n_s_bz = -mc_by;", "let n_s_bz = mc_by;"),
+        ("let f_s_bx = p.m_s;", "let f_s_bx = zero;"),
+        ("gain_s_w3,\n        free_s", "free_s"),
+    ] {
+        let mut wrong = right.clone();
+        let file = wrong.iter_mut().find(|file| file.path.ends_with("/slosh_mass.rs")).unwrap();
+        assert!(file.text.contains(good), "{good}");
+        file.text = file.text.replace(good, bad);
+        let rows = prove_kind(&chain, &wrong);
+        assert!(rows.is_err() || rows.unwrap().iter().any(|row| !row.holds()), "{bad}");
+    }
+}
