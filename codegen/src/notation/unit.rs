@@ -172,19 +172,18 @@ mod tests {
             for (k, (link, data)) in chain.links.iter().zip(kind.links).enumerate() {
                 let units: &Units = data.joint.motion.units();
                 let [force, moment] = [share.force[k], share.moment[k]].map(|v| {
-                    let shown = v.components().into_iter().filter(|e| !e.is_zero());
-                    shown.map(|e| unit(e).map(|unit| unit.to_string())).collect::<Vec<_>>()
+                    let stated = v.components().into_iter().filter(|e| !e.is_zero());
+                    stated.map(shown).collect::<Vec<_>>()
                 });
-                assert!(force.iter().all(|unit| unit.as_deref() == Some(units.force)));
-                assert!(moment.iter().all(|unit| unit.as_deref() == Some(units.moment)));
+                assert!(force.iter().all(|unit| unit == units.force));
+                assert!(moment.iter().all(|unit| unit == units.moment));
                 for (e, stated) in [
                     (link.rate, units.rate),
                     (link.acceleration, units.acceleration),
                     (share.bias_joint[k], units.drive),
                     (share.joint[k][0], units.pivot),
                 ] {
-                    let shown = unit(e).map(|unit| unit.to_string());
-                    assert_eq!(shown.as_deref(), Some(stated), "{} {k}", kind.name);
+                    assert_eq!(shown(e), stated, "{} {k}", kind.name);
                 }
             }
         }
@@ -193,15 +192,18 @@ mod tests {
     #[test]
     fn what_does_not_balance_is_told_from_what_is_not_known() {
         let g = Graph::new();
-        let [m, l, x] = ["m_w", "l_o_x", "x"].map(|name| g.symbol(name, Stage::Parameter));
-        let shown = |e| match unit(e) {
-            Ok(Balance::Is(unit)) => unit.to_string(),
-            other => format!("{other:?}"),
-        };
+        let [m, l, y] = ["m_w", "l_o_x", "what"].map(|name| g.symbol(name, Stage::Parameter));
         assert_eq!(shown(m * l * l), "kg m²");
         assert_eq!(shown(m + g.zero()), "kg");
         assert_eq!(unit(m + l), Ok(Balance::Not));
         assert_eq!(unit(m * (m + l)), Ok(Balance::Not));
-        assert_eq!(unit(m + x), Err("x".to_owned()));
+        assert_eq!(unit(m + y), Err("what".to_owned()));
+    }
+
+    fn shown(e: Expr<'_>) -> String {
+        match unit(e) {
+            Ok(Balance::Is(unit)) => unit.to_string(),
+            other => format!("{other:?}"),
+        }
     }
 }
