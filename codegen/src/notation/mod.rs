@@ -15,4 +15,5 @@ mod unit;
 pub use name::{Accent, frame, symbol};
 pub use syntax::{equation, expression, side_by_side};
 pub use terms::terms;
+pub use tex::aligned;
 pub use unit::{Balance, Unit, unit};

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use syn::{BinOp, Expr, UnOp};
 
 use super::name::{Accent, symbol};
-use super::tex::{Binding, Term, Tex, Value, lines};
+use super::tex::{Binding, Term, Tex, Value, aligned, lines};
 use crate::page::ReadError;
 
 /// `left = body` as an aligned display; the body's `let` lines follow it.
@@ -13,8 +13,7 @@ use crate::page::ReadError;
 /// # Errors
 /// When the body does not parse or holds a form that no block may hold.
 pub fn equation(left: &str, body: &str) -> Result<String, ReadError> {
-    let block: syn::Block =
-        syn::parse_str(&format!("{{\n{body}\n}}")).map_err(|error| syntax(&error))?;
+    let block = block(body)?;
     let mut setter = Setter::default();
     let mut result = Vec::new();
     let mut lets = Vec::new();
@@ -23,16 +22,16 @@ pub fn equation(left: &str, body: &str) -> Result<String, ReadError> {
             syn::Stmt::Local(local) => {
                 if let Some((name, value)) = setter.binding(local)? {
                     let left = symbol(&name, Accent::Plain);
-                    lets.extend(aligned(&left, &setter.terms(&value)?));
+                    lets.extend(assignment(&left, &setter.terms(&value)?));
                 }
             }
-            syn::Stmt::Expr(expr, None) => result = aligned(left, &setter.terms(expr)?),
+            syn::Stmt::Expr(expr, None) => result = assignment(left, &setter.terms(expr)?),
             other => return Err(form(other)),
         }
     }
     let with = if lets.is_empty() { None } else { Some("&\\text{with}".to_owned()) };
     let all: Vec<_> = result.into_iter().chain(with).chain(lets).collect();
-    Ok(format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}", all.join(" \\\\\n")))
+    Ok(aligned(&all))
 }
 
 /// One expression on one line, in the scope of the block `body`.
@@ -62,10 +61,10 @@ pub fn side_by_side(body: &str, sides: &[(&str, &str)]) -> Result<String, ReadEr
         all.push(first);
         all.extend(set.into_iter().map(|line| format!("& {line}")));
     }
-    Ok(format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}", all.join(" \\\\\n")))
+    Ok(aligned(&all))
 }
 
-fn aligned(left: &str, terms: &[Term]) -> Vec<String> {
+fn assignment(left: &str, terms: &[Term]) -> Vec<String> {
     let mut made = lines(terms);
     if let Some(first) = made.first_mut() {
         *first = format!("{left} ={{}}& {first}");
@@ -74,6 +73,11 @@ fn aligned(left: &str, terms: &[Term]) -> Vec<String> {
         *line = format!("&{line}");
     }
     made
+}
+
+/// The statements of a body.
+fn block(body: &str) -> Result<syn::Block, ReadError> {
+    syn::parse_str(&format!("{{\n{body}\n}}")).map_err(|error| syntax(&error))
 }
 
 fn syntax(error: &syn::Error) -> ReadError {
@@ -93,10 +97,8 @@ struct Setter {
 impl Setter {
     /// With the abbreviations of a block.
     fn within(body: &str) -> Result<Self, ReadError> {
-        let block: syn::Block =
-            syn::parse_str(&format!("{{\n{body}\n}}")).map_err(|error| syntax(&error))?;
         let mut setter = Self::default();
-        for statement in &block.stmts {
+        for statement in &block(body)?.stmts {
             if let syn::Stmt::Local(local) = statement {
                 setter.binding(local)?;
             }

@@ -146,6 +146,12 @@ pub(super) fn lines(terms: &[Term]) -> Vec<String> {
     made.into_iter().map(|(line, _)| line).collect()
 }
 
+/// Lines as a display in which they are aligned.
+#[must_use]
+pub fn aligned(lines: &[String]) -> String {
+    format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}", lines.join(" \\\\\n"))
+}
+
 /// Signs that remain when markup is taken away.
 fn width(text: &str) -> usize {
     let mut signs = 0;

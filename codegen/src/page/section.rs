@@ -136,6 +136,7 @@ mod tests {
     #[test]
     fn a_tag_stands_for_its_numbers() {
         let plain = |tag| numbers(tag).iter().map(|n| n.number).collect::<Vec<_>>();
+        assert_eq!(plain("(14)"), [14]);
         assert_eq!(plain("(49)-(52)"), [49, 50, 51, 52]);
         assert_eq!(plain("(32 first line)"), [32]);
         assert_eq!(numbers("(before 67)"), [Number { number: 67, numbered: false }]);

@@ -5,7 +5,7 @@ use crate::notation::{Balance as Weight, unit};
 use crate::page::{Block, Page, PageError, blocks, read_on};
 
 /// The printed blocks whose terms are of different units: what no author means.
-pub(super) struct Balance(Vec<(String, usize)>);
+pub(super) struct Balance(Vec<String>);
 
 impl Balance {
     /// Reads the print and weighs every component.
@@ -22,7 +22,7 @@ impl Balance {
                 // A symbol without a unit is nothing that the print could be blamed for.
                 let all = units.flatten().fold(Weight::Any, Weight::with);
                 if all == Weight::Not {
-                    unbalanced.push(place(block));
+                    unbalanced.push(block.place());
                 }
             }
         }
@@ -33,10 +33,6 @@ impl Balance {
 impl Balance {
     /// Whether a block is among them.
     pub(super) fn fails(&self, block: &Block) -> bool {
-        self.0.contains(&place(block))
+        self.0.contains(&block.place())
     }
-}
-
-fn place(block: &Block) -> (String, usize) {
-    (block.page.clone(), block.line)
 }

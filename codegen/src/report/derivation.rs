@@ -1,17 +1,18 @@
 //! The derivation, printed: frames, symbols, and every quantity with its number, its equations, its
 //! frame and unit, and the emitted function that computes it.
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
 
-use super::numbers::{Number, numbers};
 use crate::derivation::chain::Chain;
 use crate::derivation::placed::Placed;
 use crate::derivation::quantities::{Quantity, quantities};
 use crate::graph::Expr;
 use crate::kernel::{Kernel, kernels, parameters};
 use crate::normal::{NormalError, Ring};
-use crate::notation::{Accent, Balance, equation, expression, frame, symbol, terms, unit};
-use crate::page::{Block, ReadError};
+use crate::notation::{Accent, Balance, aligned, equation, expression, frame, symbol, terms, unit};
+use crate::page::{Block, ReadError, numbers};
 use crate::space::ENTRIES;
 
 /// A quantity is written out by components up to this many terms; a longer one is read in its
@@ -183,7 +184,7 @@ fn axes(blocks: &[Block]) -> Result<String, NotationError> {
         Ok(format!("{} ={{}}& {set}", symbol(&block.name, Accent::Plain)))
     };
     let lines = defined.map(line).collect::<Result<Vec<_>, _>>()?;
-    Ok(format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}", lines.join(" \\\\\n")))
+    Ok(aligned(&lines))
 }
 
 fn triad(axes: [&str; 3]) -> String {
@@ -224,10 +225,12 @@ fn quantity_text<'g>(
         Ok(FormText { tag: block.tag.clone(), page: block.page.clone(), latex: set })
     };
     let forms = stated.iter().map(form).collect::<Result<Vec<_>, _>>()?;
-    let numbers: Vec<Number> = stated.iter().flat_map(|block| numbers(&block.tag)).collect();
+    let named = stated.iter().flat_map(|block| numbers(&block.tag)).filter(|named| named.numbered);
+    let named: BTreeSet<u16> = named.map(|named| named.number).collect();
+    let named: Vec<_> = named.iter().map(|number| format!("({number})")).collect();
     let (components, terms) = written_out(chain, ring, quantity)?;
     Ok(QuantityText {
-        numbers: Number::list(&numbers),
+        numbers: named.join(", "),
         unit: unit_of(quantity)?,
         axes: axes_of(chain, quantity.value),
         emitted: emitted(chain, quantity, &stated, kernels),
@@ -281,7 +284,7 @@ fn written_out<'g>(
         shown.push(format!("{label}{colon}& {first}"));
         shown.extend(lines.map(|line| format!("& {line}")));
     }
-    Ok((format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}", shown.join(" \\\\\n")), count))
+    Ok((aligned(&shown), count))
 }
 
 fn hat(axis: &str) -> String {

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::balance::Balance;
 use super::derivation::NotationError;
 use super::figures::Figures;
+use super::page_links;
 use super::words::mathematics;
 use crate::consequence::{Consequence, DURATION, Drift, Effect, RESOLUTION};
 use crate::notation::{Accent, equation, expression, side_by_side, symbol};
@@ -132,7 +133,7 @@ pub(super) fn errata(
         let definition = matches!(entry.printed, Printed::Definition);
         differs(entry) || definition && entry.notes().any(|note| note.class == Class::Slip)
     };
-    let mut shown: Vec<(String, usize)> = Vec::new();
+    let mut shown = Vec::new();
     let mut findings = Vec::new();
     for entry in verdicts.entries.iter().filter(told) {
         findings.push(finding(entry, figures, balance, &mut shown)?);
@@ -157,26 +158,22 @@ pub(super) fn errata(
     })
 }
 
-fn place(block: &Block) -> (String, usize) {
-    (block.page.clone(), block.line)
-}
-
 fn finding(
     entry: &Entry,
     figures: &Figures,
     balance: &Balance,
-    shown: &mut Vec<(String, usize)>,
+    shown: &mut Vec<String>,
 ) -> Result<FindingText, NotationError> {
     let mut forms = Vec::new();
     for form in &entry.forms {
-        let above = shown.contains(&place(&form.block));
-        shown.push(place(&form.block));
+        let above = shown.contains(&form.block.place());
+        shown.push(form.block.place());
         forms.push(form_text(form, above, balance)?);
     }
     let of_entry = |consequence: &&Consequence| {
         entry.forms.iter().any(|form| {
-            place(&form.block) == (consequence.page.clone(), consequence.line)
-                && !form.components.is_empty()
+            let Block { page, line, .. } = &form.block;
+            (page, *line) == (&consequence.page, consequence.line) && !form.components.is_empty()
         })
     };
     let as_read: Vec<_> = figures.forms.iter().filter(of_entry).collect();
@@ -233,8 +230,7 @@ fn form_text(form: &Form, above: bool, balance: &Balance) -> Result<FormText, No
     let block = &form.block;
     let set = |block: &Block| {
         let left = symbol(&form.block.name, Accent::Plain);
-        equation(&left, &block.body)
-            .map_err(|error| NotationError::Block(format!("{}:{}", block.page, block.line), error))
+        equation(&left, &block.body).map_err(|error| NotationError::Block(block.place(), error))
     };
     let words = block.kind == Kind::Text || above;
     let agrees = form.components.is_empty();
@@ -350,22 +346,11 @@ fn cause_text(cause: &Cause, figures: &Figures) -> CauseText {
 }
 
 fn line(entry: &Entry) -> LineText {
-    let pages: Vec<String> = entry
-        .hand_checked
-        .blocks()
-        .iter()
-        .map(|block| format!("[{0}](../tests/derivation/{0})", block.page))
-        .fold(Vec::new(), |mut pages, page| {
-            if !pages.contains(&page) {
-                pages.push(page);
-            }
-            pages
-        });
     LineText {
         tag: entry.tag.clone(),
         title: entry.title.clone(),
         derived: entry.derivation().to_owned(),
-        pages: pages.join(", "),
+        pages: page_links(entry),
         label: entry.printed.label(),
     }
 }

@@ -75,9 +75,9 @@ fn slip(form: &Form, chosen: impl Fn(&Note) -> bool) -> Option<Slip<'_>> {
 
 /// Every form once, although several numbers may share a block.
 fn once(entries: &[Entry]) -> impl Iterator<Item = &Form> {
-    let mut seen: Vec<(String, usize, Vec<String>)> = Vec::new();
+    let mut seen: Vec<(String, Vec<String>)> = Vec::new();
     entries.iter().flat_map(|entry| &entry.forms).filter(move |form| {
-        let place = (form.block.page.clone(), form.block.line, form.entries.clone());
+        let place = (form.block.place(), form.entries.clone());
         let new = !seen.contains(&place);
         seen.push(place);
         new

@@ -6,7 +6,6 @@ mod errata;
 mod figures;
 mod frames;
 mod html;
-mod numbers;
 mod traceability;
 mod words;
 
@@ -25,7 +24,7 @@ use crate::graph::Graph;
 use crate::kinds::DGVSCMG;
 use crate::mutation::Report;
 use crate::page::{Block, Page, PageError};
-use crate::verdict::Verdicts;
+use crate::verdict::{Entry, Verdicts};
 
 /// Why a document cannot be laid out: a fault of the generator, or of a page that it sets.
 #[derive(Debug)]
@@ -132,6 +131,19 @@ pub fn traceability(
     context.insert("trace", &traceability::traceability(verdicts, report, sources));
     let template = include_str!("templates/traceability.md.tera");
     document("docs/traceability", template, &context, &[])
+}
+
+/// The pages that work an equation out, each once.
+fn page_links(entry: &Entry) -> String {
+    let mut pages: Vec<String> = Vec::new();
+    for block in entry.hand_checked.blocks() {
+        let page = &block.page;
+        let link = format!("[{page}](../tests/derivation/{page})");
+        if !pages.contains(&link) {
+            pages.push(link);
+        }
+    }
+    pages.join(", ")
 }
 
 /// A document as Markdown and as HTML.

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::numbers::{Number, numbers};
+use super::page_links;
 use crate::mutation::{Kind, Outcome, Report};
-use crate::page::Page;
+use crate::page::{Page, numbers};
 use crate::verdict::{Entry, HandChecked, Verdicts};
 
 /// What the template is filled with.
@@ -60,7 +60,7 @@ struct SystemText {
 /// The table; `sources` are the files of the derivation, by path from the repository's root.
 pub(super) fn traceability(verdicts: &Verdicts, report: &Report, sources: &[Page]) -> Traceability {
     let places = places(sources);
-    let numbered = verdicts.entries.iter().filter_map(|entry| Some((Number(entry.number?), entry)));
+    let numbered = verdicts.entries.iter().filter_map(|entry| Some((entry.number?, entry)));
     let rows = numbered.map(|(number, entry)| {
         let under = |tag: &str| names(tag, number);
         let (mutants, killed) = put_to_the_laws(report, under);
@@ -68,7 +68,7 @@ pub(super) fn traceability(verdicts: &Verdicts, report: &Report, sources: &[Page
             tag: entry.tag.clone(),
             title: entry.title.clone(),
             lines: lines_of(&places, number, entry),
-            pages: pages(entry),
+            pages: page_links(entry),
             proof: entry.hand_checked.label().to_owned(),
             emitted: emitted(report, under),
             mutants,
@@ -84,15 +84,21 @@ pub(super) fn traceability(verdicts: &Verdicts, report: &Report, sources: &[Page
 }
 
 /// Whether a tag names a number: `(17), (78)` names both of its own.
-fn names(tag: &str, number: Number) -> bool {
-    tag.split(", ").any(|tag| numbers(tag).contains(&number))
+fn names(tag: &str, number: u16) -> bool {
+    numbered(tag).any(|named| named == number)
+}
+
+/// Every number that a tag names; what the text asserts before a number is none.
+fn numbered(tag: &str) -> impl Iterator<Item = u16> {
+    let named = tag.split(", ").flat_map(numbers).filter(|named| named.numbered);
+    named.map(|named| named.number)
 }
 
 /// A row for every tag without a number, the known ones first.
 fn unnumbered(report: &Report) -> Vec<SystemText> {
     let mut tags = UNNUMBERED.to_vec();
     for tag in report.computed.iter().filter_map(|value| value.tag.as_deref()) {
-        if numbers(tag).is_empty() && !tags.iter().any(|(known, _)| *known == tag) {
+        if numbered(tag).next().is_none() && !tags.iter().any(|(known, _)| *known == tag) {
             tags.push((tag, ""));
         }
     }
@@ -146,18 +152,6 @@ fn short(names: &[&str]) -> String {
     groups.join(", ") + &rest
 }
 
-fn pages(entry: &Entry) -> String {
-    let mut pages: Vec<String> = Vec::new();
-    for block in entry.hand_checked.blocks() {
-        let page = &block.page;
-        let link = format!("[{page}](../tests/derivation/{page})");
-        if !pages.contains(&link) {
-            pages.push(link);
-        }
-    }
-    pages.join(", ")
-}
-
 /// A comment of the derivation that names equations.
 struct Place {
     first: u16,
@@ -191,7 +185,7 @@ fn places(sources: &[Page]) -> Vec<Place> {
 }
 
 /// The most particular places that name an equation.
-fn lines_of(places: &[Place], Number(number): Number, entry: &Entry) -> String {
+fn lines_of(places: &[Place], number: u16, entry: &Entry) -> String {
     if matches!(entry.hand_checked, HandChecked::Definition) {
         return String::new();
     }
@@ -219,9 +213,9 @@ mod tests {
 
     #[test]
     fn a_tag_names_each_of_its_numbers() {
-        assert!(names("(17), (78)", Number(17)) && names("(17), (78)", Number(78)));
-        assert!(names("(49)-(52)", Number(51)));
-        assert!(!names("(E1)", Number(1)) && !names("(17), (78)", Number(7)));
+        assert!(names("(17), (78)", 17) && names("(17), (78)", 78));
+        assert!(names("(49)-(52)", 51));
+        assert!(!names("(E1)", 1) && !names("(17), (78)", 7));
     }
 
     #[test]

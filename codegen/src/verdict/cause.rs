@@ -4,7 +4,6 @@ use super::entry::by_component;
 use super::fault::{Fault, VerdictError};
 use super::mend::mended;
 use super::print::Print;
-use crate::normal::Term;
 use crate::page::{Block, CausePage, Class, Mend, PageError, numbers};
 use crate::proof::Row;
 
@@ -32,8 +31,6 @@ pub struct Mended {
     pub tag: String,
     /// Its name.
     pub name: String,
-    /// Printed text and what takes its place; `0` is mended by adding to the value.
-    pub changes: Vec<(String, String)>,
     /// Terms of printed less right: as printed,
     pub before: usize,
     /// with this mend alone,
@@ -42,8 +39,6 @@ pub struct Mended {
     pub so_far: usize,
     /// with all.
     pub all: usize,
-    /// What all mends together leave: what is torn.
-    pub remains: Vec<(String, Term)>,
     /// Line of the mend.
     pub line: usize,
 }
@@ -116,18 +111,16 @@ pub(super) fn effects(
     let (mut effects, mut rows) = (Vec::new(), Vec::new());
     for Mends { block, steps } in mends {
         let Some(last) = steps.last() else { continue };
-        let before = terms(print, block, &block.body)?.len();
-        let remains = terms(print, block, &last.so_far)?;
+        let before = differing(print, block, &block.body)?;
+        let all = differing(print, block, &last.so_far)?;
         for Step { mend, alone, so_far } in steps {
             effects.push(Mended {
                 tag: mend.tag.clone(),
                 name: mend.name.clone(),
-                changes: mend.changes.clone(),
                 before,
-                alone: terms(print, block, alone)?.len(),
-                so_far: terms(print, block, so_far)?.len(),
-                all: remains.len(),
-                remains: remains.clone(),
+                alone: differing(print, block, alone)?,
+                so_far: differing(print, block, so_far)?,
+                all,
                 line: mend.line,
             });
         }
@@ -136,18 +129,10 @@ pub(super) fn effects(
     Ok((effects, rows))
 }
 
-/// The terms of printed less right, a mirror image not counted.
-fn terms(
-    print: &mut Print<'_>,
-    block: &Block,
-    body: &str,
-) -> Result<Vec<(String, Term)>, PageError> {
+/// How many terms printed and right differ in, a mirror image not counted.
+fn differing(print: &mut Print<'_>, block: &Block, body: &str) -> Result<usize, PageError> {
     let components = by_component(&block.name, print.difference(block, body)?);
-    let each = |component: super::Component| {
-        let label = component.label;
-        component.terms.into_iter().map(move |term| (label.clone(), term))
-    };
-    Ok(components.into_iter().flat_map(each).collect())
+    Ok(components.iter().map(|component| component.terms.len()).sum())
 }
 
 /// Tags of the blocks with a note that names a cause.

@@ -22,8 +22,6 @@ pub struct Entry {
     pub title: String,
     /// The finding in one line of Markdown, where there is one.
     pub in_short: Option<String>,
-    /// What the page says of the entry besides, by paragraphs.
-    pub prose: Vec<String>,
     /// The derivation against the hand-checked pages.
     pub hand_checked: HandChecked,
     /// The print against the hand-checked pages.

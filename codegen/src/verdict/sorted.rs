@@ -99,7 +99,6 @@ fn entry(
         tag: section.tag,
         title: section.title,
         in_short: section.in_short,
-        prose: section.prose,
         hand_checked: hand_checked(section.number, stated),
         printed,
         forms,
