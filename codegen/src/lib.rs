@@ -14,4 +14,5 @@ pub mod proof;
 pub mod regen;
 pub mod report;
 pub mod space;
+mod threads;
 pub mod verdict;

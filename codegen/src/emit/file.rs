@@ -8,6 +8,7 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use super::body::{Counts, FunctionBody, Writer};
+use super::home::Home;
 use super::prepare::prepared;
 use super::render::Rendered;
 use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
@@ -85,7 +86,7 @@ struct FunctionText {
     result: Vec<String>,
 }
 
-#[derive(Serialize)]
+#[derive(Clone, Debug, Serialize)]
 struct CountText {
     kind: String,
     function: String,
@@ -96,51 +97,79 @@ struct CountText {
     total: usize,
 }
 
+/// What is emitted of one kind.
+#[derive(Clone, Debug)]
+pub struct Emitted {
+    /// Its files.
+    pub files: Vec<EmittedFile>,
+    module: &'static str,
+    counts: Vec<CountText>,
+}
+
 /// Every file of the emitted code and the table of operations, for these chains.
 ///
 /// # Errors
 /// When a template fails or a file would not parse.
 pub fn files(chains: &[Chain<'_>]) -> Result<Vec<EmittedFile>, EmitError> {
-    let mut tera = Tera::default();
-    tera.autoescape_on(Vec::<&str>::new());
-    for (name, text) in TEMPLATES {
-        tera.add_raw_template(name, text)?;
-    }
-    let mut made = Vec::new();
-    let mut rows = Vec::new();
-    for chain in chains {
-        made.push(kind_file(&tera, chain, &mut rows)?);
-    }
-    let shared: Vec<_> = shared_records().iter().map(record_text).collect();
+    let kinds = chains.iter().map(|chain| of_kind(chain, Home::Dynamics));
+    let kinds = kinds.collect::<Result<Vec<_>, _>>()?;
+    let shared = shared(&kinds)?;
+    Ok(kinds.into_iter().flat_map(|kind| kind.files).chain(shared).collect())
+}
+
+/// The files of one kind, for the crate that they are part of.
+///
+/// # Errors
+/// When a template fails or a file would not parse.
+pub fn of_kind(chain: &Chain<'_>, home: Home<'_>) -> Result<Emitted, EmitError> {
+    let mut counts = Vec::new();
+    let files = vec![kind_file(&templates()?, chain, home, &mut counts)?];
+    Ok(Emitted { files, module: chain.kind.name, counts })
+}
+
+/// What these kinds share: the hub's records, the list of modules, the table of operations.
+///
+/// # Errors
+/// When a template fails or a file would not parse.
+pub fn shared(kinds: &[Emitted]) -> Result<Vec<EmittedFile>, EmitError> {
+    let tera = templates()?;
+    let rust_file = |name: &str, text| rust_file(Home::Dynamics.path(name), text);
+    let records: Vec<_> = shared_records().iter().map(record_text).collect();
     let mut context = Context::new();
     context.insert("hash", &fnv1a64(&format!("{:?}", shared_records())));
-    context.insert("records", &shared);
-    made.push(rust_file("hub.rs", tera.render("hub.rs", &context)?)?);
+    context.insert("records", &records);
+    let hub = rust_file("hub.rs", tera.render("hub.rs", &context)?)?;
 
-    let mut modules: Vec<_> = chains.iter().map(|chain| chain.kind.name).collect();
+    let mut modules: Vec<_> = kinds.iter().map(|kind| kind.module).collect();
     modules.push("hub");
     modules.sort_unstable();
     let mut context = Context::new();
     context.insert("hash", &fnv1a64(&modules.join(" ")));
     context.insert("modules", &modules);
-    made.push(rust_file("mod.rs", tera.render("mod.rs", &context)?)?);
+    let list = rust_file("mod.rs", tera.render("mod.rs", &context)?)?;
 
     let mut context = Context::new();
+    let rows: Vec<_> = kinds.iter().flat_map(|kind| &kind.counts).collect();
     context.insert("rows", &rows);
     let text = tera.render("operations.md", &context)?;
-    made.push(EmittedFile { path: "docs/operations.md".to_owned(), text });
-    Ok(made)
+    Ok(vec![hub, list, EmittedFile { path: "docs/operations.md".to_owned(), text }])
 }
 
-const TEMPLATES: [(&str, &str); 4] = [
-    ("kind.rs", include_str!("templates/kind.rs.tera")),
-    ("hub.rs", include_str!("templates/hub.rs.tera")),
-    ("mod.rs", include_str!("templates/mod.rs.tera")),
-    ("operations.md", include_str!("templates/operations.md.tera")),
-];
+fn templates() -> Result<Tera, EmitError> {
+    let mut tera = Tera::default();
+    tera.autoescape_on(Vec::<&str>::new());
+    for (name, text) in [
+        ("kind.rs", include_str!("templates/kind.rs.tera")),
+        ("hub.rs", include_str!("templates/hub.rs.tera")),
+        ("mod.rs", include_str!("templates/mod.rs.tera")),
+        ("operations.md", include_str!("templates/operations.md.tera")),
+    ] {
+        tera.add_raw_template(name, text)?;
+    }
+    Ok(tera)
+}
 
-fn rust_file(name: &str, text: String) -> Result<EmittedFile, EmitError> {
-    let path = format!("dynamics/src/generated/{name}");
+fn rust_file(path: String, text: String) -> Result<EmittedFile, EmitError> {
     if let Some(line) = text.lines().position(|line| line.chars().count() > LINE) {
         return Err(EmitError::Width(path, line + 1));
     }
@@ -151,6 +180,7 @@ fn rust_file(name: &str, text: String) -> Result<EmittedFile, EmitError> {
 fn kind_file(
     tera: &Tera,
     chain: &Chain<'_>,
+    home: Home<'_>,
     rows: &mut Vec<CountText>,
 ) -> Result<EmittedFile, EmitError> {
     let (graph, kind) = (chain.graph, chain.kind);
@@ -218,14 +248,15 @@ fn kind_file(
     let mut imports: Vec<_> = shared_records().into_iter().map(|record| record.name).collect();
     imports.sort_unstable();
     let mut context = Context::new();
+    context.insert("command", home.command());
     context.insert("source", kind.source);
     context.insert("hash", &fnv1a64(&format!("{kind:?}")));
     context.insert("title", &capital(kind.title));
     context.insert("symmetric", &symmetric(kind));
-    context.insert("imports", &imports.join(", "));
+    context.insert("imports", &home.imports(&imports));
     context.insert("records", &texts);
     context.insert("functions", &functions);
-    rust_file(&format!("{}.rs", kind.name), tera.render("kind.rs", &context)?)
+    rust_file(home.path(&format!("{}.rs", kind.name)), tera.render("kind.rs", &context)?)
 }
 
 /// What is said of a body whose axes do not turn with it.

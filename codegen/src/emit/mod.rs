@@ -6,10 +6,12 @@
 
 mod body;
 mod file;
+mod home;
 mod prepare;
 mod render;
 mod text;
 
 pub use body::{Counts, FunctionBody};
-pub use file::{EmitError, EmittedFile, files};
+pub use file::{EmitError, Emitted, EmittedFile, files, of_kind, shared};
+pub use home::Home;
 pub(crate) use prepare::prepared;
