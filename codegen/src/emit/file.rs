@@ -66,7 +66,7 @@ struct FieldText {
 }
 
 #[derive(Serialize)]
-struct RecordText {
+pub(super) struct RecordText {
     name: String,
     doc: Vec<String>,
     fields: Vec<FieldText>,
@@ -87,7 +87,7 @@ struct FunctionText {
 }
 
 #[derive(Clone, Debug, Serialize)]
-struct CountText {
+pub(super) struct CountText {
     kind: String,
     function: String,
     mul: usize,
@@ -102,19 +102,15 @@ struct CountText {
 pub struct Emitted {
     /// Its files.
     pub files: Vec<EmittedFile>,
-    module: &'static str,
-    counts: Vec<CountText>,
+    pub(super) module: &'static str,
+    pub(super) counts: Vec<CountText>,
 }
 
-/// Every file of the emitted code and the table of operations, for these chains.
-///
-/// # Errors
-/// When a template fails or a file would not parse.
-pub fn files(chains: &[Chain<'_>]) -> Result<Vec<EmittedFile>, EmitError> {
-    let kinds = chains.iter().map(|chain| of_kind(chain, Home::Dynamics));
-    let kinds = kinds.collect::<Result<Vec<_>, _>>()?;
-    let shared = shared(&kinds)?;
-    Ok(kinds.into_iter().flat_map(|kind| kind.files).chain(shared).collect())
+impl Emitted {
+    /// Each function and what a call of it costs.
+    pub(crate) fn operations(&self) -> Vec<(String, usize)> {
+        self.counts.iter().map(|count| (count.function.clone(), count.total)).collect()
+    }
 }
 
 /// The files of one kind, for the crate that they are part of.
@@ -127,35 +123,7 @@ pub fn of_kind(chain: &Chain<'_>, home: Home<'_>) -> Result<Emitted, EmitError> 
     Ok(Emitted { files, module: chain.kind.name, counts })
 }
 
-/// What these kinds share: the hub's records, the list of modules, the table of operations.
-///
-/// # Errors
-/// When a template fails or a file would not parse.
-pub fn shared(kinds: &[Emitted]) -> Result<Vec<EmittedFile>, EmitError> {
-    let tera = templates()?;
-    let rust_file = |name: &str, text| rust_file(Home::Dynamics.path(name), text);
-    let records: Vec<_> = shared_records().iter().map(record_text).collect();
-    let mut context = Context::new();
-    context.insert("hash", &fnv1a64(&format!("{:?}", shared_records())));
-    context.insert("records", &records);
-    let hub = rust_file("hub.rs", tera.render("hub.rs", &context)?)?;
-
-    let mut modules: Vec<_> = kinds.iter().map(|kind| kind.module).collect();
-    modules.push("hub");
-    modules.sort_unstable();
-    let mut context = Context::new();
-    context.insert("hash", &fnv1a64(&modules.join(" ")));
-    context.insert("modules", &modules);
-    let list = rust_file("mod.rs", tera.render("mod.rs", &context)?)?;
-
-    let mut context = Context::new();
-    let rows: Vec<_> = kinds.iter().flat_map(|kind| &kind.counts).collect();
-    context.insert("rows", &rows);
-    let text = tera.render("operations.md", &context)?;
-    Ok(vec![hub, list, EmittedFile { path: "docs/operations.md".to_owned(), text }])
-}
-
-fn templates() -> Result<Tera, EmitError> {
+pub(super) fn templates() -> Result<Tera, EmitError> {
     let mut tera = Tera::default();
     tera.autoescape_on(Vec::<&str>::new());
     for (name, text) in [
@@ -169,7 +137,7 @@ fn templates() -> Result<Tera, EmitError> {
     Ok(tera)
 }
 
-fn rust_file(path: String, text: String) -> Result<EmittedFile, EmitError> {
+pub(super) fn rust_file(path: String, text: String) -> Result<EmittedFile, EmitError> {
     if let Some(line) = text.lines().position(|line| line.chars().count() > LINE) {
         return Err(EmitError::Width(path, line + 1));
     }
@@ -322,7 +290,7 @@ fn describe(record: &mut Record, body: &FunctionBody) {
     }
 }
 
-fn record_text(record: &Record) -> RecordText {
+pub(super) fn record_text(record: &Record) -> RecordText {
     let field = |field: &crate::kernel::Field| FieldText {
         name: field.name.clone(),
         doc: wrapped(&field.doc, COMMENT - 4),
