@@ -11,7 +11,7 @@ use crate::kinds::{DGVSCMG, KINDS, Kind};
 use crate::normal::Ring;
 use crate::page::{Page, PageError, read};
 use crate::proof::{EmittedError, Prover, Row, against_pages, zero_traces};
-use crate::report::{self, ReportError};
+use crate::report::{self, KindText, ReportError};
 use crate::threads::{joined, side_by_side};
 use crate::verdict::{VerdictError, Verdicts, verdicts};
 
@@ -106,10 +106,11 @@ pub fn regenerate(pages: &[Page], printed: &[Page]) -> Result<Regeneration, Rege
         let kinds = side_by_side(KINDS, of_kind);
         (kinds, joined(by_hand), joined(verdicts), joined(documents))
     });
-    let (mut rows, mut emitted) = (by_hand?, Vec::new());
+    let (mut rows, mut emitted, mut told) = (by_hand?, Vec::new(), Vec::new());
     for kind in kinds {
-        let (files, proofs) = kind?;
+        let Proven { files, text, rows: proofs } = kind?;
         emitted.push(files);
+        told.push(text);
         rows.extend(proofs);
     }
     let shared = shared(&emitted)?;
@@ -123,17 +124,25 @@ pub fn regenerate(pages: &[Page], printed: &[Page]) -> Result<Regeneration, Rege
     let verdicts = verdicts?;
     rows.extend(verdicts.rows.iter().cloned());
     files.extend(documents?);
+    files.extend(report::kinds(&told)?);
     files.extend(report::errata(pages, printed, &verdicts)?);
     Ok(Regeneration { files, rows, verdicts })
 }
 
+/// One kind: what is emitted, what is told of it, what is proven.
+struct Proven {
+    files: Emitted,
+    text: KindText,
+    rows: Vec<Row>,
+}
+
 /// One kind, from its derivation to its proofs.
-fn of_kind(kind: &'static Kind) -> Result<(Emitted, Vec<Row>), RegenError> {
+fn of_kind(kind: &'static Kind) -> Result<Proven, RegenError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, kind);
-    let emitted = emit::of_kind(&chain, Home::Dynamics)?;
-    let rows = prove_kind(&chain, &emitted.files)?;
-    Ok((emitted, rows))
+    let files = emit::of_kind(&chain, Home::Dynamics)?;
+    let rows = prove_kind(&chain, &files.files)?;
+    Ok(Proven { text: KindText::of(&chain, &files), files, rows })
 }
 
 /// Derives every kind and lays out the files.
