@@ -9,9 +9,13 @@ pub mod kinds;
 pub mod mutation;
 pub mod normal;
 pub mod notation;
+mod outside;
 pub mod page;
 pub mod proof;
 pub mod regen;
 pub mod report;
 pub mod space;
+mod threads;
 pub mod verdict;
+
+pub use outside::{emit_kind, prove_kind};

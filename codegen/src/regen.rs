@@ -1,16 +1,18 @@
 //! Regeneration: hand-checked pages in, proofs and files out. Pure; reading and writing is xtask's.
 
 use std::fmt;
+use std::thread::scope;
 
 use crate::derivation::chain::Chain;
 use crate::derivation::quantities::quantities;
-use crate::emit::{EmitError, EmittedFile, files};
+use crate::emit::{self, EmitError, Emitted, EmittedFile, Home, files, shared};
 use crate::graph::Graph;
-use crate::kinds::{DGVSCMG, KINDS};
+use crate::kinds::{DGVSCMG, KINDS, Kind};
 use crate::normal::Ring;
 use crate::page::{Page, PageError, read};
 use crate::proof::{EmittedError, Prover, Row, against_pages, zero_traces};
-use crate::report::{self, ReportError};
+use crate::report::{self, KindText, ReportError};
+use crate::threads::{joined, side_by_side};
 use crate::verdict::{VerdictError, Verdicts, verdicts};
 
 /// What a regeneration yields.
@@ -91,23 +93,56 @@ impl From<VerdictError> for RegenError {
     }
 }
 
-/// Derives, emits and proves every kind, and judges the print.
+/// Derives, emits and proves every kind, and judges the print: side by side, in one order.
 ///
 /// # Errors
 /// When a page or an emitted file cannot be read, or when an equation of the paper lacks its
 /// verdict. A failed proof is no error but a row.
 pub fn regenerate(pages: &[Page], printed: &[Page]) -> Result<Regeneration, RegenError> {
-    let mut files = emit()?;
-    let mut rows = prove(pages, &files)?;
-    // The print is judged by pages that hold, and documents tell of nothing else.
+    let (kinds, by_hand, verdicts, documents) = scope(|threads| {
+        let by_hand = threads.spawn(|| prove_pages(pages));
+        let verdicts = threads.spawn(|| verdicts(pages, printed));
+        let documents = threads.spawn(|| documents(pages));
+        let kinds = side_by_side(KINDS, of_kind);
+        (kinds, joined(by_hand), joined(verdicts), joined(documents))
+    });
+    let (mut rows, mut emitted, mut told) = (by_hand?, Vec::new(), Vec::new());
+    for kind in kinds {
+        let Proven { files, text, rows: proofs } = kind?;
+        emitted.push(files);
+        told.push(text);
+        rows.extend(proofs);
+    }
+    let shared = shared(&emitted)?;
+    let files = emitted.into_iter().flat_map(|kind| kind.files).chain(shared);
+    let mut files: Vec<_> = files.collect();
+    // The print is judged by pages that hold, and documents tell of nothing else: what was found
+    // meanwhile is worth nothing where a proof fails.
     if !rows.iter().all(Row::holds) {
         return Ok(Regeneration { files, rows, verdicts: Verdicts::default() });
     }
-    let verdicts = verdicts(pages, printed)?;
+    let verdicts = verdicts?;
     rows.extend(verdicts.rows.iter().cloned());
-    files.extend(documents(pages)?);
+    files.extend(documents?);
+    files.extend(report::kinds(&told)?);
     files.extend(report::errata(pages, printed, &verdicts)?);
     Ok(Regeneration { files, rows, verdicts })
+}
+
+/// One kind: what is emitted, what is told of it, what is proven.
+struct Proven {
+    files: Emitted,
+    text: KindText,
+    rows: Vec<Row>,
+}
+
+/// One kind, from its derivation to its proofs.
+fn of_kind(kind: &'static Kind) -> Result<Proven, RegenError> {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, kind);
+    let files = emit::of_kind(&chain, Home::Dynamics)?;
+    let rows = prove_kind(&chain, &files.files)?;
+    Ok(Proven { text: KindText::of(&chain, &files), files, rows })
 }
 
 /// Derives every kind and lays out the files.
@@ -132,26 +167,13 @@ pub fn documents(pages: &[Page]) -> Result<Vec<EmittedFile>, RegenError> {
     Ok(report::derivation(&chain, &blocks)?)
 }
 
-/// Holds pages and emitted files against the derivation.
-///
-/// # Errors
-/// When a page or a file cannot be read.
-pub fn prove(pages: &[Page], files: &[EmittedFile]) -> Result<Vec<Row>, RegenError> {
-    let mut rows = Vec::new();
-    for kind in KINDS {
-        let graph = Graph::new();
-        let chain = Chain::new(&graph, kind);
-        // The pages are of one kind alone.
-        if kind.name == DGVSCMG.name {
-            let equations = read(&graph, pages)?;
-            let mut ring = Ring::new(&graph);
-            rows.extend(against_pages(&mut ring, &chain, &quantities(&chain), &equations));
-        }
-        rows.extend(prove_kind(&chain, files)?);
-        let of_kind = rows.iter_mut().filter(|row| row.kind.is_none());
-        of_kind.for_each(|row| row.kind = Some(kind.name));
-    }
-    Ok(rows)
+/// Holds the pages against the derivation; they are of one kind alone.
+fn prove_pages(pages: &[Page]) -> Result<Vec<Row>, RegenError> {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, &DGVSCMG);
+    let equations = read(&graph, pages)?;
+    let rows = against_pages(&mut Ring::new(&graph), &chain, &quantities(&chain), &equations);
+    Ok(of(&DGVSCMG, rows))
 }
 
 /// Holds the emitted file of one kind against its derivation, and that against the laws.
@@ -159,12 +181,18 @@ pub fn prove(pages: &[Page], files: &[EmittedFile]) -> Result<Vec<Row>, RegenErr
 /// # Errors
 /// When there is no such file, or it cannot be read.
 pub fn prove_kind(chain: &Chain<'_>, files: &[EmittedFile]) -> Result<Vec<Row>, EmittedError> {
-    let name = format!("/{}.rs", chain.kind.name);
-    let file = files.iter().find(|file| file.path.ends_with(&name));
+    let name = format!("{}.rs", chain.kind.name);
+    let own = |file: &&EmittedFile| file.path.rsplit('/').next() == Some(name.as_str());
+    let file = files.iter().find(own);
     let file = file.ok_or_else(|| EmittedError::NoFile(chain.kind.name.to_owned()))?;
     let mut rows = zero_traces(&mut Ring::new(chain.graph), chain);
     let mut prover = Prover::new(chain);
     rows.extend(prover.derivation());
     rows.extend(prover.rows(&file.text)?);
-    Ok(rows)
+    Ok(of(chain.kind, rows))
+}
+
+/// The rows with the kind that they are about.
+fn of(kind: &Kind, rows: Vec<Row>) -> Vec<Row> {
+    rows.into_iter().map(|row| Row { kind: Some(kind.name), ..row }).collect()
 }

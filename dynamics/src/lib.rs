@@ -45,11 +45,6 @@
 #[cfg(test)]
 extern crate std;
 
-/// The examples of the README compile and run.
-#[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
-struct Readme;
-
 mod attitude;
 #[cfg(test)]
 mod attitude_checks;

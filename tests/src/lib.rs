@@ -18,3 +18,8 @@ pub mod newton_euler;
 pub mod random;
 pub mod spatial;
 pub mod table1;
+
+/// The examples of the README compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -5,8 +5,10 @@ use std::fs;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use precess_codegen::kinds::DGVSCMG;
-use precess_codegen::mutation::{Engines, Kind, Report, Selection, Tally, mutate as run};
+use precess_codegen::kinds::{self, DGVSCMG, KINDS};
+use precess_codegen::mutation::{
+    self, Engines, Kind, Progress, Report, Selection, Tally, mutate_all,
+};
 use precess_codegen::page::Page;
 use precess_codegen::report::traceability;
 use precess_codegen::verdict::verdicts;
@@ -23,7 +25,11 @@ const DERIVATION: &str = "codegen/src/derivation";
 /// Options of `mutate`.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Make the mutants of this function alone, and write no page
+    /// Make the mutants of this kind alone, and write no page
+    #[arg(long, value_name = "NAME")]
+    kind: Option<String>,
+    /// Make the mutants of this function alone (of the DGVSCMG, unless a kind is named), and write
+    /// no page
     #[arg(long, value_name = "NAME")]
     kernel: Option<String>,
     /// Make every K-th mutant alone, and write no page
@@ -31,14 +37,32 @@ pub(crate) struct Options {
     #[arg(value_parser = clap::value_parser!(u16).range(1..))]
     sample: u16,
     /// Write nothing; show what would change on the pages and fail if anything would
-    #[arg(long, conflicts_with_all = ["kernel", "sample"])]
+    #[arg(long, conflicts_with_all = ["kind", "kernel", "sample"])]
     check: bool,
 }
 
 impl Options {
     /// `mutate --check`.
     pub(crate) fn check_only() -> Self {
-        Self { kernel: None, sample: 1, check: true }
+        Self { kind: None, kernel: None, sample: 1, check: true }
+    }
+}
+
+impl Options {
+    /// The kinds that are meant.
+    fn kinds(&self) -> Result<Vec<&'static kinds::Kind>, String> {
+        let all = || KINDS.to_vec();
+        match (&self.kind, &self.kernel) {
+            (None, None) => Ok(all()),
+            (None, Some(_)) => Ok(vec![&DGVSCMG]),
+            (Some(name), _) => {
+                let found = KINDS.into_iter().find(|kind| kind.name == name);
+                found.map(|kind| vec![kind]).ok_or_else(|| {
+                    let known = all().iter().map(|kind| kind.name).collect::<Vec<_>>().join(", ");
+                    format!("no kind is called `{name}`; choose one of {known}")
+                })
+            }
+        }
     }
 }
 
@@ -49,13 +73,14 @@ pub(crate) fn mutate(options: &Options) -> Result<(), String> {
     let engines = Engines::parse(&DGVSCMG, &json).map_err(|error| format!("{ENGINES}: {error}"))?;
     let selection =
         Selection { kernel: options.kernel.as_deref(), every: usize::from(options.sample) };
-    let report = with_progress(&engines, &selection)?;
-    print(&report);
+    let kinds = options.kinds()?;
+    let reports = with_progress(&kinds, &engines, &selection)?;
+    reports.iter().for_each(print);
     // A page that lists survivors is worth having, too.
-    if options.kernel.is_none() && options.sample == 1 {
-        keep(&report, options.check)?;
+    if kinds.len() == KINDS.len() && options.sample == 1 {
+        keep(&reports, options.check)?;
     }
-    match report.survivors().count() {
+    match reports.iter().flat_map(Report::survivors).count() {
         0 => Ok(()),
         survivors => {
             Err(format!("{survivors} mutants survive: no law shows them; add one that does"))
@@ -64,13 +89,15 @@ pub(crate) fn mutate(options: &Options) -> Result<(), String> {
 }
 
 /// Writes the pages, or compares them with what stands there.
-fn keep(report: &Report, check: bool) -> Result<(), String> {
+fn keep(reports: &[Report], check: bool) -> Result<(), String> {
     let pages = root().join(PAGES);
     let verdicts = verdicts(&read_pages(&pages)?, &read_pages(&pages.join("printed"))?);
     let verdicts = verdicts.map_err(|error| error.to_string())?;
-    let mut files = report.page().map_err(|error| error.to_string())?;
-    let traces = traceability(&verdicts, report, &sources()?);
-    files.extend(traces.map_err(|error| error.to_string())?);
+    let mut files = mutation::pages(reports).map_err(|error| error.to_string())?;
+    for report in reports.iter().filter(|report| report.kind.name == DGVSCMG.name) {
+        let traces = traceability(&verdicts, report, &sources()?);
+        files.extend(traces.map_err(|error| error.to_string())?);
+    }
     if !check {
         return write(&files, &root());
     }
@@ -90,24 +117,28 @@ fn sources() -> Result<Vec<Page>, String> {
 }
 
 /// A bar on a terminal, nothing where there is none.
-fn with_progress(engines: &Engines, selection: &Selection<'_>) -> Result<Report, String> {
+fn with_progress(
+    kinds: &[&'static kinds::Kind],
+    engines: &Engines,
+    selection: &Selection<'_>,
+) -> Result<Vec<Report>, String> {
     let bar = ProgressBar::new(0);
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} mutants, {eta} left");
     bar.set_style(style.map_err(|error| error.to_string())?);
-    let mut tell = |done: usize, of: usize| {
-        bar.set_length(u64::try_from(of).unwrap_or(u64::MAX));
-        bar.set_position(u64::try_from(done).unwrap_or(u64::MAX));
+    let tell = |progress| match progress {
+        Progress::Found(more) => bar.inc_length(u64::try_from(more).unwrap_or(u64::MAX)),
+        Progress::Done => bar.inc(1),
     };
-    let report = run(&DGVSCMG, engines, selection, &mut tell).map_err(|error| error.to_string());
+    let reports = mutate_all(kinds, engines, selection, &tell).map_err(|error| error.to_string());
     bar.finish_and_clear();
-    report
+    reports
 }
 
 fn print(report: &Report) {
     let [a, b, c] = Kind::ALL.map(Kind::title);
     say!(
-        "{:16} {:>7}  {a:>12} {b:>12} {c:>12} {:>7}  {:>10} {:>9}",
-        "function",
+        "\n{:30} {:>7}  {a:>12} {b:>12} {c:>12} {:>7}  {:>10} {:>9}",
+        report.kind.name,
         "mutants",
         "any",
         "equivalent",
@@ -132,6 +163,6 @@ fn print(report: &Report) {
 fn row(name: &str, tally: &Tally) {
     let Tally { mutants, killed: [a, b, c], any, equivalent, survivors } = tally;
     say!(
-        "{name:16} {mutants:>7}  {a:>12} {b:>12} {c:>12} {any:>7}  {equivalent:>10} {survivors:>9}"
+        "{name:30} {mutants:>7}  {a:>12} {b:>12} {c:>12} {any:>7}  {equivalent:>10} {survivors:>9}"
     );
 }

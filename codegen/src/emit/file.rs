@@ -8,6 +8,7 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use super::body::{Counts, FunctionBody, Writer};
+use super::home::Home;
 use super::prepare::prepared;
 use super::render::Rendered;
 use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
@@ -65,7 +66,7 @@ struct FieldText {
 }
 
 #[derive(Serialize)]
-struct RecordText {
+pub(super) struct RecordText {
     name: String,
     doc: Vec<String>,
     fields: Vec<FieldText>,
@@ -85,8 +86,8 @@ struct FunctionText {
     result: Vec<String>,
 }
 
-#[derive(Serialize)]
-struct CountText {
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct CountText {
     kind: String,
     function: String,
     mul: usize,
@@ -96,51 +97,47 @@ struct CountText {
     total: usize,
 }
 
-/// Every file of the emitted code and the table of operations, for these chains.
+/// What is emitted of one kind.
+#[derive(Clone, Debug)]
+pub struct Emitted {
+    /// Its files.
+    pub files: Vec<EmittedFile>,
+    pub(super) module: &'static str,
+    pub(super) counts: Vec<CountText>,
+}
+
+impl Emitted {
+    /// Each function and what a call of it costs.
+    pub(crate) fn operations(&self) -> Vec<(String, usize)> {
+        self.counts.iter().map(|count| (count.function.clone(), count.total)).collect()
+    }
+}
+
+/// The files of one kind, for the crate that they are part of.
 ///
 /// # Errors
 /// When a template fails or a file would not parse.
-pub fn files(chains: &[Chain<'_>]) -> Result<Vec<EmittedFile>, EmitError> {
-    let mut tera = Tera::default();
-    tera.autoescape_on(Vec::<&str>::new());
-    for (name, text) in TEMPLATES {
-        tera.add_raw_template(name, text)?;
-    }
-    let mut made = Vec::new();
-    let mut rows = Vec::new();
-    for chain in chains {
-        made.push(kind_file(&tera, chain, &mut rows)?);
-    }
-    let shared: Vec<_> = shared_records().iter().map(record_text).collect();
-    let mut context = Context::new();
-    context.insert("hash", &fnv1a64(&format!("{:?}", shared_records())));
-    context.insert("records", &shared);
-    made.push(rust_file("hub.rs", tera.render("hub.rs", &context)?)?);
-
-    let mut modules: Vec<_> = chains.iter().map(|chain| chain.kind.name).collect();
-    modules.push("hub");
-    modules.sort_unstable();
-    let mut context = Context::new();
-    context.insert("hash", &fnv1a64(&modules.join(" ")));
-    context.insert("modules", &modules);
-    made.push(rust_file("mod.rs", tera.render("mod.rs", &context)?)?);
-
-    let mut context = Context::new();
-    context.insert("rows", &rows);
-    let text = tera.render("operations.md", &context)?;
-    made.push(EmittedFile { path: "docs/operations.md".to_owned(), text });
-    Ok(made)
+pub fn of_kind(chain: &Chain<'_>, home: Home<'_>) -> Result<Emitted, EmitError> {
+    let mut counts = Vec::new();
+    let files = vec![kind_file(&templates()?, chain, home, &mut counts)?];
+    Ok(Emitted { files, module: chain.kind.name, counts })
 }
 
-const TEMPLATES: [(&str, &str); 4] = [
-    ("kind.rs", include_str!("templates/kind.rs.tera")),
-    ("hub.rs", include_str!("templates/hub.rs.tera")),
-    ("mod.rs", include_str!("templates/mod.rs.tera")),
-    ("operations.md", include_str!("templates/operations.md.tera")),
-];
+pub(super) fn templates() -> Result<Tera, EmitError> {
+    let mut tera = Tera::default();
+    tera.autoescape_on(Vec::<&str>::new());
+    for (name, text) in [
+        ("kind.rs", include_str!("templates/kind.rs.tera")),
+        ("hub.rs", include_str!("templates/hub.rs.tera")),
+        ("mod.rs", include_str!("templates/mod.rs.tera")),
+        ("operations.md", include_str!("templates/operations.md.tera")),
+    ] {
+        tera.add_raw_template(name, text)?;
+    }
+    Ok(tera)
+}
 
-fn rust_file(name: &str, text: String) -> Result<EmittedFile, EmitError> {
-    let path = format!("dynamics/src/generated/{name}");
+pub(super) fn rust_file(path: String, text: String) -> Result<EmittedFile, EmitError> {
     if let Some(line) = text.lines().position(|line| line.chars().count() > LINE) {
         return Err(EmitError::Width(path, line + 1));
     }
@@ -151,6 +148,7 @@ fn rust_file(name: &str, text: String) -> Result<EmittedFile, EmitError> {
 fn kind_file(
     tera: &Tera,
     chain: &Chain<'_>,
+    home: Home<'_>,
     rows: &mut Vec<CountText>,
 ) -> Result<EmittedFile, EmitError> {
     let (graph, kind) = (chain.graph, chain.kind);
@@ -218,14 +216,15 @@ fn kind_file(
     let mut imports: Vec<_> = shared_records().into_iter().map(|record| record.name).collect();
     imports.sort_unstable();
     let mut context = Context::new();
+    context.insert("command", home.command());
     context.insert("source", kind.source);
     context.insert("hash", &fnv1a64(&format!("{kind:?}")));
     context.insert("title", &capital(kind.title));
     context.insert("symmetric", &symmetric(kind));
-    context.insert("imports", &imports.join(", "));
+    context.insert("imports", &home.imports(&imports));
     context.insert("records", &texts);
     context.insert("functions", &functions);
-    rust_file(&format!("{}.rs", kind.name), tera.render("kind.rs", &context)?)
+    rust_file(home.path(&format!("{}.rs", kind.name)), tera.render("kind.rs", &context)?)
 }
 
 /// What is said of a body whose axes do not turn with it.
@@ -291,7 +290,7 @@ fn describe(record: &mut Record, body: &FunctionBody) {
     }
 }
 
-fn record_text(record: &Record) -> RecordText {
+pub(super) fn record_text(record: &Record) -> RecordText {
     let field = |field: &crate::kernel::Field| FieldText {
         name: field.name.clone(),
         doc: wrapped(&field.doc, COMMENT - 4),

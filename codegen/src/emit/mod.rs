@@ -6,10 +6,14 @@
 
 mod body;
 mod file;
+mod home;
 mod prepare;
 mod render;
+mod shared;
 mod text;
 
 pub use body::{Counts, FunctionBody};
-pub use file::{EmitError, EmittedFile, files};
+pub use file::{EmitError, Emitted, EmittedFile, of_kind};
+pub use home::Home;
 pub(crate) use prepare::prepared;
+pub use shared::{files, shared};

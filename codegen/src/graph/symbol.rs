@@ -100,6 +100,11 @@ impl Graph {
         self.arena.borrow().symbols.len()
     }
 
+    /// The symbol itself, as an expression.
+    pub(crate) fn named(&self, id: SymbolId) -> Expr<'_> {
+        self.intern(Node::Symbol(id))
+    }
+
     /// The symbol called `name`, where there is one.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<Expr<'_>> {

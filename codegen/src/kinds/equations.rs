@@ -28,6 +28,23 @@ pub struct Equations {
     pub about_origin: &'static str,
 }
 
+impl Equations {
+    /// No numbers: what the emitted text and the proofs say where nothing states a quantity.
+    pub const NONE: Self = Self {
+        omega: "(none)",
+        r_dprime: "(none)",
+        i_prime: "(none)",
+        i_b: "(none)",
+        i_b_prime: "(none)",
+        torque: "(none)",
+        r_ddot: "(none)",
+        h: "(none)",
+        h_dot: "(none)",
+        assembly: "(none)",
+        about_origin: "(none)",
+    };
+}
+
 /// The outer gimbal: a body with its centre of mass anywhere, on a joint that the hub carries.
 pub(super) const OUTER_GIMBAL: Equations = Equations {
     omega: "(31)",

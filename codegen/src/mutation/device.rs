@@ -9,10 +9,11 @@ use super::physics::Role;
 use super::site::Site;
 use super::state::{Accelerations, Case, Motion, parameters_of};
 use super::tape::{Changed, Returned, Tape, Values};
-use crate::derivation::chain::Chain;
+use crate::derivation::chain::{Chain, Coordinate};
 use crate::emit::prepared;
 use crate::graph::{Expr, Stage};
 use crate::kernel::{Kernel, kernels, parameters};
+use crate::kinds;
 use crate::space::{Axis, ENTRIES};
 
 /// Number of the function that all others read.
@@ -45,16 +46,19 @@ pub(super) struct Device<'a, 'g> {
 #[derive(Clone, Default)]
 pub(super) struct Fault(Vec<Option<Changed>>);
 
-/// One body seen from B; vectors along B but for `omega`, which is along the body's own axes.
+/// One body seen from B; vectors along B but for `omega`, which is along the axes of its functions.
 pub(super) struct BodySeen {
     pub(super) mass: f64,
-    /// The body's axes, as columns along B.
-    pub(super) axes: Matrix3<f64>,
+    /// The axes along which its functions resolve it, as columns along B. A rotor that is the same
+    /// from every angle does not carry them along.
+    axes: Matrix3<f64>,
+    /// The axes that are fixed in it.
+    pub(super) attitude: Matrix3<f64>,
     pub(super) r: Vector3<f64>,
     pub(super) r_prime: Vector3<f64>,
     pub(super) columns: Vec<Vector3<f64>>,
     pub(super) r_dprime_rest: Vector3<f64>,
-    pub(super) omega: Vector3<f64>,
+    omega: Vector3<f64>,
     /// About the body's own centre of mass: given, not computed by a kernel.
     pub(super) inertia: Matrix3<f64>,
     pub(super) inertia_prime: Matrix3<f64>,
@@ -165,8 +169,11 @@ impl<'a, 'g> Device<'a, 'g> {
         }
         for (k, link) in self.chain.links.iter().enumerate() {
             let [sine, cosine] = self.trigonometry[k];
-            values.set(sine, libm::sin(motion.angles[k]));
-            values.set(cosine, libm::cos(motion.angles[k]));
+            values.set(sine, libm::sin(motion.coordinates[k]));
+            values.set(cosine, libm::cos(motion.coordinates[k]));
+            if let Coordinate::Length(length) = link.coordinate {
+                values.set(length, motion.coordinates[k]);
+            }
             values.set(link.rate, motion.rates[k]);
             values.set(link.torque, case.drive.motors[k]);
         }
@@ -231,10 +238,12 @@ impl<'a, 'g> Device<'a, 'g> {
     pub(super) fn held(&self, case: &Case, motion: &Motion, fault: &Fault) -> Held {
         let arguments = self.arguments(case, motion);
         let returned = self.call(self.functions.energy_momentum, &arguments, fault);
+        // The names as they stand: this is asked for more often than all else together.
+        let vector = |names: [&str; 3]| Vector3::from(names.map(|name| returned.scalar(name)));
         Held {
             energy: returned.scalar("energy"),
-            linear: returned.vector("linear", "b"),
-            angular: returned.vector("angular_b", "b"),
+            linear: vector(["linear_bx", "linear_by", "linear_bz"]),
+            angular: vector(["angular_b_bx", "angular_b_by", "angular_b_bz"]),
         }
     }
 
@@ -272,7 +281,8 @@ impl<'a, 'g> Device<'a, 'g> {
         let carrier = if k == 0 { "b" } else { links[k - 1].body.frame };
         let (own, point) = (data.frame, data.point);
         let before = self.axes(k, motion);
-        let axes = self.axes(k + 1, motion);
+        let turned = self.turned(k, motion);
+        let axes = if self.chain.kind.axes_turn(k) { before * turned } else { before };
         let vector = |stem: &str| before * returned.vector(stem, carrier);
         let tensor = |stem: &str| axes * returned.tensor(stem) * axes.transpose();
         let names = data.inertia.names();
@@ -286,6 +296,7 @@ impl<'a, 'g> Device<'a, 'g> {
         BodySeen {
             mass: self.body_mass(k, case),
             axes,
+            attitude: before * turned,
             r: vector(&format!("r_{point}_b")),
             r_prime: vector(&format!("r_{point}_b_prime")),
             columns: links[..=k].iter().map(|link| column(link.joint.tag)).collect(),
@@ -298,17 +309,25 @@ impl<'a, 'g> Device<'a, 'g> {
         }
     }
 
-    /// The axes of the frame behind so many joints, as columns along B: the geometry itself.
+    /// The axes that the functions use behind so many joints, as columns along B: the geometry
+    /// itself.
     fn axes(&self, joints: usize, motion: &Motion) -> Matrix3<f64> {
-        let turn = |(k, link): (usize, &crate::kinds::Link)| {
-            let (sine, cosine) = (libm::sin(motion.angles[k]), libm::cos(motion.angles[k]));
-            let axis: Vector3<f64> = unit(link.joint.motion.axis());
-            // Rodrigues: what lies along the axis stays, the rest turns.
-            let tilde = axis.cross_matrix();
-            Matrix3::identity() + sine * tilde + (1.0 - cosine) * tilde * tilde
-        };
-        let turns = self.chain.kind.links.iter().enumerate().take(joints).map(turn);
-        turns.fold(Matrix3::identity(), |axes, turn| axes * turn)
+        let turning = (0..joints).filter(|k| self.chain.kind.axes_turn(*k));
+        turning.fold(Matrix3::identity(), |axes, k| axes * self.turned(k, motion))
+    }
+
+    /// How joint `k` has turned what it carries: a sliding one has not.
+    fn turned(&self, k: usize, motion: &Motion) -> Matrix3<f64> {
+        match self.chain.kind.links[k].joint.motion {
+            kinds::Motion::Slide(_) => Matrix3::identity(),
+            kinds::Motion::Turn(axis) => {
+                let angle = motion.coordinates[k];
+                // Rodrigues: what lies along the axis stays, the rest turns.
+                let tilde = unit(axis).cross_matrix();
+                let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+                Matrix3::identity() + sine * tilde + (1.0 - cosine) * tilde * tilde
+            }
+        }
     }
 }
 

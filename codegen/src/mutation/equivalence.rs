@@ -8,15 +8,41 @@ use super::site::{Change, Place, Site, partner};
 use crate::graph::{Expr, Graph, Node, NodeId};
 use crate::normal::Ring;
 
-/// Whether every statement that holds the changed node keeps its normal form.
+/// Whether every statement that holds the changed node keeps its normal form, or what is dropped or
+/// flipped there is zero.
 pub(super) fn is_the_same(device: &Device<'_, '_>, index: usize, site: &Site) -> bool {
     let Place::Operand { node, second } = site.place else { return false };
     let graph = device.chain.graph;
+    let operand = graph.node(node).operands().nth(usize::from(second));
+    if site.mutant.change != Change::Swap
+        && operand.is_some_and(|operand| is_zero(device, index, graph.expr(operand)))
+    {
+        return true;
+    }
     let Some(changed) = changed(graph, node, second, site.mutant.change) else { return false };
     let listings = device.listings.iter().enumerate();
     let meant = listings.filter(|(k, _)| index == PREPARE || *k == index);
     let mut lines = meant.flat_map(|(_, listing)| &listing.lines);
     lines.all(|line| same_line(graph, line, node, changed))
+}
+
+/// Whether a value of a function is zero once all that it is made of is put in, through the cuts.
+fn is_zero<'g>(device: &Device<'_, 'g>, index: usize, value: Expr<'g>) -> bool {
+    let mut behind: HashMap<NodeId, Expr<'g>> = HashMap::new();
+    for line in &device.listings[index].lines {
+        let Some(symbol) = line.cut else { continue };
+        behind.insert(symbol.id(), put_in(line.value, &behind));
+    }
+    let whole = put_in(value, &behind);
+    Ring::new(value.graph()).normal(whole).is_ok_and(|normal| normal.is_empty())
+}
+
+/// `e` with what stands behind its symbols.
+fn put_in<'g>(e: Expr<'g>, behind: &HashMap<NodeId, Expr<'g>>) -> Expr<'g> {
+    e.rebuild(|graph, symbol| {
+        let symbol = graph.named(symbol);
+        behind.get(&symbol.id()).copied().unwrap_or(symbol)
+    })
 }
 
 fn same_line<'g>(graph: &'g Graph, line: &Line<'g>, node: NodeId, changed: Expr<'g>) -> bool {

@@ -21,6 +21,7 @@ mod state;
 mod tape;
 
 pub use listing::Computed;
+pub use page::pages;
 pub use physics::{EngineError, Engines, Kind, Law};
 pub use report::{Fate, Outcome, Report, Tally};
 pub use site::{Change, Mutant};
@@ -36,6 +37,7 @@ use state::Random;
 use crate::derivation::chain::Chain;
 use crate::graph::Graph;
 use crate::kinds;
+use crate::threads::side_by_side;
 
 /// A residual above this kills. The right functions leave some 1e-12 (rounding over the step of a
 /// difference, and the engines' own), a wrong term of order one leaves some 1e-3 and more; the page
@@ -66,6 +68,8 @@ pub enum MutationError {
     },
     /// The right functions break a law: what the laws say of wrong ones is worth nothing.
     Broken {
+        /// The kind.
+        kind: &'static str,
         /// The law.
         law: Law,
         /// Its residual.
@@ -86,9 +90,9 @@ impl fmt::Display for MutationError {
             Self::NoKernel { name, known } => {
                 write!(f, "no function is called `{name}`; choose one of {}", known.join(", "))
             }
-            Self::Broken { law, residual } => write!(
+            Self::Broken { kind, law, residual } => write!(
                 f,
-                "unchanged functions leave {residual:.1e} of `{law}`, above {NOTICED:e}; mend them, \
+                "unchanged functions of `{kind}` leave {residual:.1e} of `{law}`, above {NOTICED:e}; mend them, \
                  or the law, first"
             ),
         }
@@ -97,8 +101,31 @@ impl fmt::Display for MutationError {
 
 impl std::error::Error for MutationError {}
 
-/// Makes the mutants of a kind's functions and puts each to every law it can break. `progress` is
-/// told after each how many are done, and of how many.
+/// What is told on the way, from any of the threads.
+#[derive(Clone, Copy, Debug)]
+pub enum Progress {
+    /// So many more mutants will be made.
+    Found(usize),
+    /// One is done.
+    Done,
+}
+
+/// Makes the mutants of several kinds, each on a thread of its own; see [`mutate`].
+///
+/// # Errors
+/// As for one kind; of several, that of the first.
+pub fn mutate_all(
+    kinds: &[&'static kinds::Kind],
+    engines: &Engines,
+    selection: &Selection<'_>,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Report>, MutationError> {
+    let reports = side_by_side(kinds, |kind| mutate(kind, engines, selection, progress));
+    reports.into_iter().collect()
+}
+
+/// Makes the mutants of a kind's functions and puts each to every law it can break. The engines'
+/// values count where they are of this kind.
 ///
 /// # Errors
 /// When a function is not there, chosen or read by a law, or when the unchanged ones break a law.
@@ -106,7 +133,7 @@ pub fn mutate(
     kind: &'static kinds::Kind,
     engines: &Engines,
     selection: &Selection<'_>,
-    progress: &mut dyn FnMut(usize, usize),
+    progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Report, MutationError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, kind);
@@ -114,11 +141,11 @@ pub fn mutate(
     let trials = trials(kind);
     let floors = residuals(&device, &trials, engines, &Fault::default(), None);
     if let Some(&(law, residual)) = floors.iter().find(|(_, residual)| *residual > NOTICED) {
-        return Err(MutationError::Broken { law, residual });
+        return Err(MutationError::Broken { kind: kind.name, law, residual });
     }
     let chosen = chosen(&device, selection)?;
     let mut outcomes = Vec::with_capacity(chosen.len());
-    let of = chosen.len();
+    progress(Progress::Found(chosen.len()));
     for (index, site) in chosen {
         let role = device.role(index);
         let signals = residuals(&device, &trials, engines, &device.fault(index, &site), role);
@@ -131,11 +158,12 @@ pub fn mutate(
             Fate::Survivor
         };
         outcomes.push(Outcome { mutant: site.mutant, signals, fate });
-        progress(outcomes.len(), of);
+        progress(Progress::Done);
     }
     let listings = device.listings.iter().enumerate();
     let computed = listings.flat_map(|(index, listing)| listing.computed(index == device::PREPARE));
-    Ok(Report { kind, outcomes, computed: computed.collect(), floors, engines: engines.count() })
+    let engines = engines.count(kind);
+    Ok(Report { kind, outcomes, computed: computed.collect(), floors, engines })
 }
 
 fn trials(kind: &kinds::Kind) -> Vec<Trial> {

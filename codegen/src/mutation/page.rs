@@ -7,12 +7,18 @@ use super::NOTICED;
 use super::physics::{Kind, Law};
 use super::report::{Fate, Outcome, Report, Tally};
 use crate::emit::EmittedFile;
+use crate::kinds::DGVSCMG;
 use crate::report::{ReportError, document};
 
 /// What the template is filled with.
 #[derive(Serialize)]
 struct Page {
     kinds: [&'static str; 3],
+    devices: Vec<DeviceRow>,
+    /// What the mutants of kinds other than the one that is told of in full survive as.
+    elsewhere: Vec<String>,
+    /// The kind that is told of in full.
+    name: &'static str,
     functions: Vec<Row>,
     noticed: String,
     margins: Vec<Margin>,
@@ -37,6 +43,13 @@ struct Row {
     survivors: usize,
 }
 
+/// One kind of device.
+#[derive(Serialize)]
+struct DeviceRow {
+    tally: Row,
+    weakest: String,
+}
+
 /// How far the threshold is from what stays below it and from what exceeds it.
 #[derive(Serialize)]
 struct Margin {
@@ -59,34 +72,53 @@ struct LawText {
     killed: usize,
 }
 
-impl Report {
-    /// The page that states what became of every mutant. The same report gives the same bytes.
-    ///
-    /// # Errors
-    /// When the template cannot be filled.
-    pub fn page(&self) -> Result<Vec<EmittedFile>, ReportError> {
-        let total = std::iter::once(Row::new("all".to_owned(), self.total()));
-        let functions = self.by_kernel().into_iter();
-        let functions = functions.map(|(kernel, tally)| Row::new(format!("`{kernel}`"), tally));
-        let equations = self.by_tag().into_iter().map(|(tag, tally)| Row::new(tag, tally));
-        let page = Page {
-            kinds: Kind::ALL.map(Kind::title),
-            functions: functions.chain(total).collect(),
-            noticed: format!("{NOTICED:.0e}"),
-            margins: Kind::ALL.into_iter().map(|kind| self.margin(kind)).collect(),
-            weakest: self.weakest(),
-            engines: self.engines,
-            laws: Law::ALL.into_iter().map(|law| self.law(law)).collect(),
-            equations: equations.collect(),
-            unnumbered: self.unnumbered(),
-            survivors: self.listed(Fate::Survivor),
-            equivalent: self.listed(Fate::Equivalent),
-        };
-        let mut context = Context::new();
-        context.insert("page", &page);
-        document("docs/mutation", include_str!("templates/mutation.md.tera"), &context, &[])
-    }
+/// The page that states what became of every mutant of every kind, and tells of the DGVSCMG in full.
+/// The same reports give the same bytes.
+///
+/// # Errors
+/// When the template cannot be filled; when no report is of the DGVSCMG, there is no page.
+pub fn pages(reports: &[Report]) -> Result<Vec<EmittedFile>, ReportError> {
+    let full = |report: &&Report| report.kind.name == DGVSCMG.name;
+    let Some(report) = reports.iter().find(full) else { return Ok(Vec::new()) };
+    let elsewhere = reports.iter().filter(|report| !full(report));
+    let elsewhere = elsewhere.flat_map(|report| {
+        let survivors = report.listed(Fate::Survivor).into_iter();
+        survivors.map(|mutant| format!("`{}`: {mutant}", report.kind.name))
+    });
+    let total = std::iter::once(Row::new("all".to_owned(), report.total()));
+    let functions = report.by_kernel().into_iter();
+    let functions = functions.map(|(kernel, tally)| Row::new(format!("`{kernel}`"), tally));
+    let equations = report.by_tag().into_iter().map(|(tag, tally)| Row::new(tag, tally));
+    let page = Page {
+        kinds: Kind::ALL.map(Kind::title),
+        devices: reports.iter().map(DeviceRow::of).collect(),
+        elsewhere: elsewhere.collect(),
+        name: report.kind.name,
+        functions: functions.chain(total).collect(),
+        noticed: format!("{NOTICED:.0e}"),
+        margins: Kind::ALL.into_iter().map(|kind| report.margin(kind)).collect(),
+        weakest: report.weakest(),
+        engines: report.engines,
+        laws: Law::ALL.into_iter().map(|law| report.law(law)).collect(),
+        equations: equations.collect(),
+        unnumbered: report.unnumbered(),
+        survivors: report.listed(Fate::Survivor),
+        equivalent: report.listed(Fate::Equivalent),
+    };
+    let mut context = Context::new();
+    context.insert("page", &page);
+    document("docs/mutation", include_str!("templates/mutation.md.tera"), &context, &[])
+}
 
+impl DeviceRow {
+    fn of(report: &Report) -> Self {
+        let weakest = report.weakest().map(|weakest| weakest.signal);
+        let tally = Row::new(format!("`{}`", report.kind.name), report.total());
+        Self { tally, weakest: weakest.unwrap_or_default() }
+    }
+}
+
+impl Report {
     fn margin(&self, kind: Kind) -> Margin {
         let floors = self.floors.iter().filter(|(law, _)| law.kind() == kind);
         let floor = floors.map(|(_, residual)| *residual).fold(0.0, f64::max);

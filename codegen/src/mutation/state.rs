@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::kernel::parameters;
-use crate::kinds::{Inertia, Kind, Link};
+use crate::kinds::{Kind, Link};
 
 /// Everything that a law is evaluated for.
 #[derive(Clone)]
@@ -25,10 +25,11 @@ pub(super) struct Hub {
     pub(super) inertia: Matrix3<f64>,
 }
 
-/// Angles and velocities; vectors along B.
+/// Coordinates and velocities; vectors along B.
 #[derive(Clone)]
 pub(super) struct Motion {
-    pub(super) angles: Vec<f64>,
+    /// Angles, and lengths along sliding joints.
+    pub(super) coordinates: Vec<f64>,
     pub(super) rates: Vec<f64>,
     pub(super) omega: Vector3<f64>,
     /// Inertial velocity of point B.
@@ -58,7 +59,7 @@ impl Motion {
         let advance =
             |x: &[f64], rate: &[f64]| x.iter().zip(rate).map(|(x, rate)| x + time * rate).collect();
         Self {
-            angles: advance(&self.angles, &self.rates),
+            coordinates: advance(&self.coordinates, &self.rates),
             rates: advance(&self.rates, &a.joints),
             omega: self.omega + time * a.omega,
             // Components along axes that turn with B.
@@ -69,7 +70,8 @@ impl Motion {
     /// The same pose with the hub at rest and one rate per joint.
     pub(super) fn joints_alone(&self, rates: Vec<f64>) -> Self {
         let zero = Vector3::zeros();
-        Self { angles: self.angles.clone(), rates, omega: zero, velocity: zero }
+        let coordinates = self.coordinates.clone();
+        Self { coordinates, rates, omega: zero, velocity: zero }
     }
 }
 
@@ -128,14 +130,10 @@ impl Random {
         let fields = parameters_of(kind);
         while parameters.len() < fields.len() {
             let name = &fields[parameters.len()];
-            let full = |link: &Link| match link.body.inertia {
-                Inertia::Full(stem) => *name == format!("{stem}_11"),
-                _ => false,
-            };
-            if kind.links.iter().any(full) {
-                let t = self.inertia();
-                let pairs = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
-                parameters.extend(pairs.map(|pair| t[pair]));
+            let inertia = |link: &&Link| link.body.inertia.names().into_iter().flatten().next();
+            let own = |link: &&Link| inertia(link).as_ref() == Some(name);
+            if let Some(link) = kind.links.iter().find(own) {
+                parameters.extend(patterned(&self.inertia(), &link.body.inertia.names()));
             } else if kind.links.iter().any(|link| name == link.body.mass) {
                 parameters.push(self.within(0.5, 1.5));
             } else {
@@ -143,7 +141,7 @@ impl Random {
             }
         }
         let motion = Motion {
-            angles: self.list(joints),
+            coordinates: self.list(joints),
             rates: self.list(joints),
             omega: self.vector(),
             velocity: self.vector(),
@@ -152,6 +150,25 @@ impl Random {
             Drive { motors: self.list(joints), force: self.vector(), torque: self.vector() };
         Case { hub, parameters, motion, drive }
     }
+}
+
+/// What a pattern leaves of an inertia: the mean of the entries under each name, in order. A moment
+/// that stands for two is still no larger than the sum of the others.
+fn patterned(t: &Matrix3<f64>, names: &[Option<String>; 6]) -> Vec<f64> {
+    const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+    let mut groups: Vec<(&String, Vec<f64>)> = Vec::new();
+    for (name, entry) in names.iter().zip(ENTRIES) {
+        let Some(name) = name else { continue };
+        match groups.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, entries)) => entries.push(t[entry]),
+            None => groups.push((name, vec![t[entry]])),
+        }
+    }
+    #[expect(clippy::cast_precision_loss, reason = "one or two")]
+    let mean = |(_, entries): &(_, Vec<f64>)| {
+        entries.iter().map(|entry| entry / entries.len() as f64).sum::<f64>()
+    };
+    groups.iter().map(mean).collect()
 }
 
 /// The names of a kind's parameters, in order.

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::listing::Listing;
 use super::site::{Change, Place, partner, symbol};
 use crate::graph::{Expr, Graph, Node, NodeId, SymbolId, float};
+use crate::space::ENTRIES;
 use nalgebra::{Matrix3, Vector3};
 
 /// One operation; operands are slots of earlier ones.
@@ -196,19 +197,25 @@ impl Returned<'_> {
         self.names.get(field).map_or(f64::NAN, |slot| self.slots[*slot])
     }
 
-    /// Three components: `r_wc_b` along `gi`.
+    /// Three components: `r_wc_b` along `gi`. A vector that is zero in every state of the kind is
+    /// not returned.
     pub(super) fn vector(&self, stem: &str, frame: &str) -> Vector3<f64> {
-        let axes = ["x", "y", "z"];
-        Vector3::from(axes.map(|axis| self.scalar(&format!("{stem}_{frame}{axis}"))))
+        let names = ["x", "y", "z"].map(|axis| format!("{stem}_{frame}{axis}"));
+        Vector3::from(self.all_or_zero(&names))
     }
 
-    /// Six entries of a symmetric tensor.
+    /// Six entries of a symmetric tensor; as for a vector.
     pub(super) fn tensor(&self, stem: &str) -> Matrix3<f64> {
-        let entry = |row: usize, column: usize| {
-            let (low, high) = (row.min(column) + 1, row.max(column) + 1);
-            self.scalar(&format!("{stem}_{low}{high}"))
-        };
-        Matrix3::from_fn(entry)
+        let names = ENTRIES.map(|entry| format!("{stem}_{entry}"));
+        let [xx, xy, xz, yy, yz, zz] = self.all_or_zero(&names);
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
+
+    /// The numbers under these names; zeros where none is returned. That it is really zero shows in
+    /// the laws, which the unchanged functions must obey.
+    fn all_or_zero<const K: usize>(&self, names: &[String; K]) -> [f64; K] {
+        let none = names.iter().all(|name| !self.names.contains_key(name));
+        if none { [0.0; K] } else { names.each_ref().map(|name| self.scalar(name)) }
     }
 }
 

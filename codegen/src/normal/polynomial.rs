@@ -128,9 +128,24 @@ impl Polynomial {
     /// When a coefficient gets too large.
     pub fn plus(&self, factor: Rational, other: &Self) -> Result<Self, NormalError> {
         let mut made = self.clone();
-        for (monomial, coefficient) in &other.terms {
+        made.accumulate(factor, other)?;
+        Ok(made)
+    }
+
+    /// Adds `factor * other`.
+    pub(super) fn accumulate(&mut self, factor: Rational, other: &Self) -> Result<(), NormalError> {
+        other.terms.iter().try_for_each(|(monomial, coefficient)| {
             let scaled = rational::product(factor, *coefficient);
-            made.add(*monomial, scaled.ok_or(NormalError::Coefficient)?)?;
+            self.add(*monomial, scaled.ok_or(NormalError::Coefficient)?)
+        })
+    }
+
+    /// `factor * self`, for a factor that is not zero.
+    pub(super) fn scaled(&self, factor: Rational) -> Result<Self, NormalError> {
+        let mut made = self.clone();
+        for coefficient in made.terms.values_mut() {
+            let scaled = rational::product(factor, *coefficient);
+            *coefficient = scaled.ok_or(NormalError::Coefficient)?;
         }
         Ok(made)
     }

@@ -116,11 +116,48 @@ impl<'g> Ring<'g> {
         let mut pending = vec![root];
         while let Some(id) = pending.pop() {
             if !self.expanded.contains_key(&id) && found.insert(id) {
-                pending.extend(self.graph.node(id).operands());
+                match self.graph.node(id) {
+                    Node::Sum(..) | Node::Neg(_) => {
+                        pending.extend(self.summands(id).into_iter().map(|(_, summand)| summand));
+                    }
+                    node => pending.extend(node.operands()),
+                }
                 pending.extend(self.abbreviated(id));
             }
         }
         found
+    }
+
+    /// What a sum adds up, each with its sign: through sums of sums, which need no normal form of
+    /// their own, as far as none has been worked out.
+    fn summands(&self, sum: NodeId) -> Vec<(Rational, NodeId)> {
+        let mut found = Vec::new();
+        let mut pending = vec![(Rational::ONE, sum)];
+        while let Some((sign, id)) = pending.pop() {
+            match self.graph.node(id) {
+                _ if self.expanded.contains_key(&id) => found.push((sign, id)),
+                Node::Sum(a, b) => pending.extend([(sign, b), (sign, a)]),
+                Node::Neg(a) => pending.push((-sign, a)),
+                _ => found.push((sign, id)),
+            }
+        }
+        found
+    }
+
+    /// The sum of expanded summands; the longest of them is what the others are added to.
+    fn total(&self, summands: &[(Rational, NodeId)]) -> Result<Polynomial, NormalError> {
+        let length = |place: &usize| self.expanded[&summands[*place].1].len();
+        let longest = (0..summands.len()).max_by_key(length).unwrap_or_default();
+        let (before, rest) = summands.split_at(longest);
+        let others = before.iter().chain(rest.iter().skip(1));
+        let mut total = match rest.first() {
+            Some((sign, first)) => self.expanded[first].scaled(*sign)?,
+            None => Polynomial::default(),
+        };
+        for (sign, other) in others {
+            total.accumulate(*sign, &self.expanded[other])?;
+        }
+        Ok(total)
     }
 
     /// The sum behind an abbreviation.
@@ -144,8 +181,7 @@ impl<'g> Ring<'g> {
                 let index = self.variable(Variable::Symbol(symbol))?;
                 Polynomial::single(Monomial::variable(index), one)
             }
-            Node::Sum(a, b) => self.expanded[&a].plus(one, &self.expanded[&b])?,
-            Node::Neg(a) => Polynomial::default().plus(-one, &self.expanded[&a])?,
+            Node::Sum(..) | Node::Neg(_) => self.total(&self.summands(id))?,
             Node::Product(a, b) => self.times(&self.expanded[&a], &self.expanded[&b])?,
             Node::Recip(a) => {
                 let Node::Symbol(symbol) = self.graph.node(a) else {
@@ -154,7 +190,7 @@ impl<'g> Ring<'g> {
                 let known = self.index.contains_key(&Variable::Recip(symbol));
                 let recip = self.variable(Variable::Recip(symbol))?;
                 if let (false, Some(sum)) = (known, self.abbreviated(a)) {
-                    let summands = self.summands(&self.expanded[&sum]);
+                    let summands = self.plain_sum(&self.expanded[&sum]);
                     let (lead, others) = summands.split_last().ok_or(NormalError::Reciprocal)?;
                     let (lead, others) = (*lead, others.to_vec());
                     self.reductions.push(Reduction::Share { recip, lead, others });
@@ -165,7 +201,7 @@ impl<'g> Ring<'g> {
     }
 
     /// The variables of a plain sum of symbols; nothing for any other polynomial.
-    fn summands(&self, sum: &Polynomial) -> Vec<usize> {
+    fn plain_sum(&self, sum: &Polynomial) -> Vec<usize> {
         let index = |monomial: &Monomial| {
             (0..self.variables.len()).find(|index| *monomial == Monomial::variable(*index))
         };

@@ -86,11 +86,15 @@ fn joint(parts: &[&str]) -> Option<Symbol> {
     Some(match parts {
         ["gamma", "o"] => Symbol { before: "{}^{o}", ..plain("\\gamma", "") },
         ["gamma", "i"] => Symbol { before: "{}^{i}", ..plain("\\gamma", "") },
+        ["gamma"] => plain("\\gamma", ""),
+        ["phi"] => plain("\\varphi", ""),
         ["theta"] => plain("\\theta", ""),
+        ["x"] => plain("x", ""),
         ["spin"] => plain("\\Omega", ""),
         ["u", "o"] => plain("u", "z"),
         ["u", "i"] => plain("u", "y"),
         ["u", "w"] => plain("u", "x"),
+        ["u", joint @ ("g" | "p" | "s")] => plain("u", *joint),
         _ => return None,
     })
 }
@@ -108,13 +112,13 @@ fn motion(parts: &[&str]) -> Option<Symbol> {
         }
         ["alpha", of] => plain("\\alpha", frame(of)?),
         ["h", of, wrt] => plain("H", format!("{},{}", point(of)?, point(wrt)?)),
-        ["l", arm @ ("o" | "i")] => plain(&format!("L^{{{arm}}}"), ""),
-        ["l", arm @ ("o" | "i"), component] => plain(&format!("L^{{{arm}}}"), *component),
+        ["l", arm @ ("o" | "i" | "g")] => plain(&format!("L^{{{arm}}}"), ""),
+        ["l", arm @ ("o" | "i" | "g"), component] => plain(&format!("L^{{{arm}}}"), *component),
         ["torque" | "l", of] => plain("L", point(of)?),
         ["force"] => plain("F", ""),
         ["c"] => plain("c", ""),
         ["f", "tilde"] => plain("\\tilde f", ""),
-        ["f", joint @ ("o" | "i" | "w")] => plain("f", *joint),
+        ["f", joint @ ("o" | "i" | "w" | "g" | "p" | "s")] => plain("f", *joint),
         ["d" | "p" | "q" | "r"] => plain(parts[0], ""),
         ["wheel", component] => plain("w", *component),
         _ => return None,
@@ -124,7 +128,7 @@ fn motion(parts: &[&str]) -> Option<Symbol> {
 /// Masses, their ratios and inertias.
 fn mass(parts: &[&str]) -> Option<Symbol> {
     let tensor = |of: &str, wrt: &str| {
-        Some(Symbol { bracket: true, ..plain("I", format!("{},{}", point(of)?, point(wrt)?)) })
+        Some(Symbol { bracket: true, ..plain("I", format!("{},{}", point(of)?, centre(wrt)?)) })
     };
     Some(match parts {
         ["m", of] => plain("m", point(of)?),
@@ -145,7 +149,7 @@ fn mass(parts: &[&str]) -> Option<Symbol> {
 /// `r_{of/wrt}`, with an axis where one component is meant.
 fn place(parts: &[&str]) -> Option<Symbol> {
     let [of, wrt, rest @ ..] = parts else { return None };
-    let points = format!("{}/{}", point(of)?, point(wrt)?);
+    let points = format!("{}/{}", centre(of)?, point(wrt)?);
     Some(plain("r", with_axis(points, rest)?))
 }
 
@@ -160,8 +164,14 @@ fn with_axis(below: String, rest: &[&str]) -> Option<String> {
 /// `bx`, `gix`: the axis alone, for the frame is told by the table of symbols.
 fn axis(component: &str) -> Option<&str> {
     let (frame, axis) = component.split_at_checked(component.len().checked_sub(1)?)?;
-    let known = ["b", "go", "gi", "w"].contains(&frame) && ["x", "y", "z"].contains(&axis);
+    let known =
+        ["b", "go", "gi", "g", "w", "p", "s"].contains(&frame) && ["x", "y", "z"].contains(&axis);
     known.then_some(axis)
+}
+
+/// Points where the spacecraft as a whole cannot stand: there, `sc` is the slosh mass's centre.
+fn centre(name: &str) -> Option<&'static str> {
+    if name == "sc" { Some("S_c") } else { point(name) }
 }
 
 /// Points and bodies.
@@ -173,6 +183,11 @@ fn point(name: &str) -> Option<&'static str> {
         "goc" => "G^o_c",
         "gi" => "G^i",
         "gic" => "G^i_c",
+        "g" => "G",
+        "gc" => "G_c",
+        "p" => "P",
+        "pc" => "P_c",
+        "s" => "S",
         "w" => "W",
         "wc" => "W_c",
         "d" => "D",
@@ -193,6 +208,9 @@ pub fn frame(name: &str) -> Option<&'static str> {
         "b" => "\\mathcal{B}",
         "go" => "\\mathcal{G}^o",
         "gi" => "\\mathcal{G}^i",
+        "g" => "\\mathcal{G}",
+        "p" => "\\mathcal{P}",
+        "s" => "\\mathcal{S}",
         "w" => "\\mathcal{W}",
         "n" => "\\mathcal{N}",
         _ => return None,
@@ -205,8 +223,10 @@ mod tests {
     use crate::derivation::chain::Chain;
     use crate::derivation::quantities::quantities;
     use crate::graph::Graph;
-    use crate::kernel::parameters;
-    use crate::kinds::DGVSCMG;
+    use crate::kernel::{joint_accelerations, motors, parameters, pose, rates};
+    use crate::kinds::{DGVSCMG, KINDS};
+    use crate::notation::{Balance, unit};
+    use std::collections::HashSet;
 
     #[test]
     fn names_are_the_papers_symbols() {
@@ -239,10 +259,45 @@ mod tests {
         let graph = Graph::new();
         let chain = Chain::new(&graph, &DGVSCMG);
         let derived = quantities(&chain).into_iter().map(|quantity| quantity.name);
-        let given = parameters(&DGVSCMG).fields.into_iter().map(|field| field.name);
-        for name in derived.chain(given) {
+        for name in derived {
             let latex = symbol(&name, Accent::Plain);
             assert!(!latex.starts_with("\\mathrm"), "{name} is set as {latex}");
+        }
+    }
+
+    /// What `regen` prints of a kind: parameters, pose, rates, drives, accelerations, origins.
+    #[test]
+    fn every_symbol_of_every_kind_has_its_own_and_a_unit() {
+        for kind in KINDS {
+            let graph = Graph::new();
+            let chain = Chain::new(&graph, kind);
+            let pose = pose(kind).into_iter().map(|(_, record)| record);
+            let records = pose.chain([
+                parameters(kind),
+                rates(kind),
+                motors(kind),
+                joint_accelerations(kind),
+            ]);
+            let mut seen = HashSet::new();
+            for field in records.flat_map(|record| record.fields) {
+                let latex = symbol(&field.name, Accent::Plain);
+                let upright = latex.starts_with("\\mathrm") && !latex.starts_with("\\mathrm{s}\\,");
+                let upright = upright && !latex.starts_with("\\mathrm{c}\\,");
+                assert!(!upright, "{}: {} is set as {latex}", kind.name, field.name);
+                assert!(seen.insert(latex), "{}: {} is not the only one", kind.name, field.name);
+                let known = unit(graph.find(&field.name).unwrap());
+                let Ok(Balance::Is(unit)) = known else { panic!("{}: {known:?}", field.name) };
+                // The emitted text states the same unit, sines and cosines apart.
+                let stated = field.doc.ends_with(&format!(", {unit}."));
+                let angle = ["sin_", "cos_"].iter().any(|start| field.name.starts_with(start));
+                assert!(stated || angle, "{}: {}: {unit}", kind.name, field.doc);
+            }
+            for link in chain.kind.links {
+                for name in [link.joint.origin.name, link.joint.coordinate] {
+                    assert!(!symbol(name, Accent::Plain).starts_with("\\mathrm"), "{name}");
+                }
+                assert!(frame(link.body.frame).is_some(), "{}", link.body.frame);
+            }
         }
     }
 }

@@ -137,6 +137,8 @@ fn of_symbol(name: &str) -> Option<Unit> {
         "m" => Unit::new(1, 0, 0),
         "i" | "j" => Unit::new(1, 2, 0),
         "r" | "l" | "d" | "x" => Unit::new(0, 1, time),
+        // The slosh mass slides: its drive is a force.
+        "u" if name == "u_s" => Unit::new(1, 1, -2),
         "u" => Unit::new(1, 2, -2),
         _ => return None,
     })

@@ -34,6 +34,12 @@ struct Both<'g> {
     cut: Reading<'g>,
 }
 
+/// `prepare`, and the names at which its cut reading and that of all others stops.
+struct Constants<'g> {
+    cuts: BTreeSet<String>,
+    prepare: Both<'g>,
+}
+
 impl<'a, 'g> Prover<'a, 'g> {
     /// A prover for the kind of `chain`.
     #[must_use]
@@ -52,10 +58,10 @@ impl<'a, 'g> Prover<'a, 'g> {
     pub fn rows(&mut self, text: &str) -> Result<Vec<Row>, EmittedError> {
         let file =
             syn::parse_file(text).map_err(|error| EmittedError::Syntax(error.to_string()))?;
-        let mut rows = self.function(&file, "prepare")?;
-        let names: Vec<_> = self.kernels.iter().map(|kernel| kernel.name.clone()).collect();
-        for name in names {
-            rows.extend(self.function(&file, &name)?);
+        let constants = self.constants(&file)?;
+        let mut rows = self.of_constants(&constants);
+        for index in 0..self.kernels.len() {
+            rows.extend(self.of_kernel(&file, &constants, index)?);
         }
         Ok(rows)
     }
@@ -77,27 +83,37 @@ impl<'a, 'g> Prover<'a, 'g> {
     /// # Errors
     /// When the file has no such function or it is no kernel.
     pub fn function(&mut self, file: &syn::File, name: &str) -> Result<Vec<Row>, EmittedError> {
-        let cuts = self.cuts(file)?;
-        let prepare = self.prepare(file, &cuts)?;
+        let constants = self.constants(file)?;
         if name == "prepare" {
-            return Ok(vec![self.prepared_row(&prepare), self.cut_constants(&prepare, &cuts)]);
+            return Ok(self.of_constants(&constants));
         }
         let missing = || EmittedError::NoFunction(name.to_owned());
         let index = self.kernels.iter().position(|k| k.name == name).ok_or_else(missing)?;
+        self.of_kernel(file, &constants, index)
+    }
+
+    /// The rows of a kernel's function, which reads these constants.
+    fn of_kernel(
+        &mut self,
+        file: &syn::File,
+        constants: &Constants<'g>,
+        index: usize,
+    ) -> Result<Vec<Row>, EmittedError> {
         let kernel = &self.kernels[index];
-        let text = function(file, name)?;
-        let reading = |constants: Reading<'g>, cuts: &BTreeSet<String>| {
-            let given = self.arguments(kernel, &constants);
+        let text = function(file, &kernel.name)?;
+        let reading = |prepare: &Reading<'g>, cuts: &BTreeSet<String>| {
+            let given = self.arguments(kernel, prepare);
             let back = read(self.chain.graph, text, &given, cuts)?;
-            Ok::<_, EmittedError>(back.or(constants.values).or(kernel.plain()))
+            let values = prepare.values.iter().map(|(name, value)| (name.clone(), *value));
+            Ok::<_, EmittedError>(back.or(values).or(kernel.plain()))
         };
         let back = Both {
-            expanded: reading(prepare.expanded, &BTreeSet::new())?,
-            cut: reading(prepare.cut, &cuts)?,
+            expanded: reading(&constants.prepare.expanded, &BTreeSet::new())?,
+            cut: reading(&constants.prepare.cut, &constants.cuts)?,
         };
         let [expanded, cut] = &mut self.rings[index];
         let mut rows = claims(expanded, kernel, &back.expanded);
-        match name {
+        match kernel.name.as_str() {
             "eliminate" => {
                 let named = |name: &str| back.expanded.values.get(name).copied();
                 rows.extend(self.laws.rows(expanded, &self.unknowns, "fn eliminate", named));
@@ -113,6 +129,17 @@ impl<'a, 'g> Prover<'a, 'g> {
         expanded.settle();
         cut.settle();
         Ok(rows)
+    }
+
+    /// What the functions of a file share.
+    fn constants(&self, file: &syn::File) -> Result<Constants<'g>, EmittedError> {
+        let cuts = self.cuts(file)?;
+        Ok(Constants { prepare: self.prepare(file, &cuts)?, cuts })
+    }
+
+    /// The rows of `prepare`.
+    fn of_constants(&self, Constants { cuts, prepare }: &Constants<'g>) -> Vec<Row> {
+        vec![self.prepared_row(prepare), self.cut_constants(prepare, cuts)]
     }
 
     /// The names at which the cut reading stops: blocks of the system, and pivots.

@@ -1,11 +1,13 @@
 //! What the slips of an equation, and the differences of a cause, do to Table 1.
 
 use std::collections::BTreeMap;
+use std::thread::scope;
 
 use crate::consequence::{
     Consequence, ConsequenceError, Drift, Effect, Slip, consequences, effects, floor,
 };
 use crate::page::{Class, Note, Page};
+use crate::threads::joined;
 use crate::verdict::{Entry, Form, Verdicts};
 
 /// Every figure of the errata.
@@ -30,9 +32,7 @@ impl Figures {
             let forms = entry.forms.iter();
             (entry.tag.clone(), forms.filter_map(|form| slip(form, slips)).collect::<Vec<_>>())
         });
-        let (tags, sets) = runs(by_entry);
-        let entries = tags.into_iter().zip(effects(pages, &sets)?).collect();
-
+        let (tags, by_entry) = runs(by_entry);
         let by_cause = verdicts.causes.iter().map(|cause| {
             let of_cause = |note: &Note| {
                 note.class != Class::Unreadable && note.causes.contains(&cause.letter)
@@ -40,9 +40,18 @@ impl Figures {
             let forms = once(&verdicts.entries);
             (cause.letter, forms.filter_map(|form| slip(form, of_cause)).collect::<Vec<_>>())
         });
-        let (letters, sets) = runs(by_cause);
-        let causes = letters.into_iter().zip(effects(pages, &sets)?).collect();
-        Ok(Self { floor: floor(pages)?, forms: consequences(pages, printed)?, entries, causes })
+        let (letters, by_cause) = runs(by_cause);
+
+        let (entries, causes, forms, floor) = scope(|threads| {
+            let of_entries = threads.spawn(|| effects(pages, &by_entry));
+            let of_causes = threads.spawn(|| effects(pages, &by_cause));
+            let of_forms = threads.spawn(|| consequences(pages, printed));
+            let floor = floor(pages);
+            (joined(of_entries), joined(of_causes), joined(of_forms), floor)
+        });
+        let entries = tags.into_iter().zip(entries?).collect();
+        let causes = letters.into_iter().zip(causes?).collect();
+        Ok(Self { floor: floor?, forms: forms?, entries, causes })
     }
 
     /// What the slips of an entry do; nothing where it has none of value, or holds in a special

@@ -46,7 +46,8 @@ impl From<tera::Error> for HtmlError {
 }
 
 /// The documents that have their HTML beside them.
-const DOCUMENTS: [&str; 4] = ["derivation.md", "errata.md", "mutation.md", "traceability.md"];
+const DOCUMENTS: [&str; 5] =
+    ["derivation.md", "errata.md", "kinds.md", "mutation.md", "traceability.md"];
 
 /// The page; `pictures` are put where an image of that name stands.
 ///

@@ -6,6 +6,7 @@ mod errata;
 mod figures;
 mod frames;
 mod html;
+mod kinds;
 mod traceability;
 mod words;
 
@@ -15,6 +16,7 @@ use balance::Balance;
 pub use derivation::NotationError;
 use figures::Figures;
 pub use html::HtmlError;
+pub use kinds::KindText;
 use tera::{Context, Tera};
 
 use crate::consequence::ConsequenceError;
@@ -97,6 +99,17 @@ pub fn derivation(chain: &Chain<'_>, blocks: &[Block]) -> Result<Vec<EmittedFile
     let mut files = document("docs/derivation", template, &context, &[("frames.svg", &picture)])?;
     files.push(EmittedFile { path: "docs/frames.svg".to_owned(), text: picture });
     Ok(files)
+}
+
+/// The kinds: chains, symbols, what is zero, costs.
+///
+/// # Errors
+/// When a symbol cannot be set.
+pub fn kinds(kinds: &[KindText]) -> Result<Vec<EmittedFile>, ReportError> {
+    let mut context = Context::new();
+    context.insert("kinds", kinds);
+    context.insert("costs", &kinds::Costs::of(kinds));
+    document("docs/kinds", include_str!("templates/kinds.md.tera"), &context, &[])
 }
 
 /// The errata of the paper: what is printed, what is right, and what the difference does.

@@ -37,8 +37,9 @@ fn body(device: &Device<'_, '_>, k: usize, trial: &Trial, fault: &Fault) -> Resi
     let now = at(0.0);
     let rate = slope(|time| columns(&at(time)));
     let part = |column: usize| rate.fixed_columns::<3>(column).into_owned();
-    // The axes turn at omega: `A' = A tilde(omega)`, omega along themselves.
-    let turning = now.axes.transpose() * part(0) - now.omega.cross_matrix();
+    // The body turns at omega: `A' = A tilde(omega)`, omega along its axes A.
+    let omega = now.attitude.transpose() * now.omega_b();
+    let turning = now.attitude.transpose() * part(0) - omega.cross_matrix();
     let inertia = gap(part(3).as_slice(), now.inertia_prime.as_slice());
     let about_b = gap(part(6).as_slice(), now.inertia_b_prime.as_slice());
     let (velocity, acceleration) = (rate.column(9), rate.column(10));
@@ -51,10 +52,10 @@ fn body(device: &Device<'_, '_>, k: usize, trial: &Trial, fault: &Fault) -> Resi
     ]
 }
 
-/// What is differentiated: axes, inertia, inertia about B; position, velocity.
+/// What is differentiated: the body's axes, inertia, inertia about B; position, velocity.
 fn columns(body: &BodySeen) -> SMatrix<f64, 3, 11> {
     let mut columns = SMatrix::<f64, 3, 11>::zeros();
-    for (place, tensor) in [(0, body.axes), (3, body.inertia), (6, body.inertia_b)] {
+    for (place, tensor) in [(0, body.attitude), (3, body.inertia), (6, body.inertia_b)] {
         columns.fixed_columns_mut::<3>(place).copy_from(&tensor);
     }
     columns.set_column(9, &body.r);
@@ -100,7 +101,7 @@ fn momenta(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
     first.max(gap(angular.as_slice(), held.angular.as_slice()))
 }
 
-/// Lagrange's equations of the joints, whose angles are true coordinates.
+/// Lagrange's equations of the joints, whose angles and lengths are true coordinates.
 fn lagrange(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
     let accelerations = device.accelerations(case, fault);
     let energy = |motion: &Motion| device.held(case, motion, fault).energy;
@@ -115,7 +116,7 @@ fn lagrange(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
         };
         let by_angle = slope(|step| {
             let mut motion = case.motion.clone();
-            motion.angles[joint] += step;
+            motion.coordinates[joint] += step;
             energy(&motion)
         });
         gap(&[slope(momentum)], &[torque + by_angle])

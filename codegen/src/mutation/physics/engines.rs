@@ -12,6 +12,7 @@ use crate::mutation::state::Accelerations;
 /// The stored values, ready to be compared with.
 #[derive(Clone)]
 pub struct Engines {
+    kind: &'static str,
     cases: Vec<Stored>,
 }
 
@@ -22,16 +23,16 @@ impl Engines {
     /// # Errors
     /// When the text is not what the engines' store writes, or holds no such spacecraft.
     pub fn parse(kind: &Kind, json: &str) -> Result<Self, EngineError> {
-        Ok(Self { cases: Stored::read(kind, json)? })
+        Ok(Self { kind: kind.name, cases: Stored::read(kind, json)? })
     }
 
-    /// How many spacecraft there are.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.cases.len()
+    /// How many spacecraft of a kind there are.
+    pub(in crate::mutation) fn count(&self, kind: &Kind) -> usize {
+        if kind.name == self.kind { self.cases.len() } else { 0 }
     }
 
-    /// Residuals of the laws that a change in `role` can move.
+    /// Residuals of the laws that a change in `role` can move; none for a kind that the engines
+    /// were not asked about.
     pub(super) fn residuals(
         &self,
         device: &Device<'_, '_>,
@@ -39,7 +40,8 @@ impl Engines {
         role: Option<Role>,
     ) -> Residuals {
         let mut found = Vec::new();
-        for stored in &self.cases {
+        let count = self.count(device.chain.kind);
+        for stored in &self.cases[..count] {
             if concerns(role, &[Role::Solution]) {
                 found.push((Law::EngineAccelerations, stored.accelerations(device, fault)));
             }

@@ -181,7 +181,8 @@ impl Stored {
                 },
                 parameters: reader.values("parameters", &device.parameters, &names)?,
                 motion: Motion {
-                    angles: reader.joints("angles", &device.angles, |joint| joint.coordinate)?,
+                    coordinates: reader
+                        .joints("angles", &device.angles, |joint| joint.coordinate)?,
                     rates: reader.joints("rates", &device.rates, |joint| joint.rate)?,
                     omega: spacecraft.omega.into(),
                     velocity: spacecraft.r_b_n_dot.into(),

@@ -1,0 +1,48 @@
+//! Every file of the emitted code: those of each kind, and what the kinds share.
+
+use tera::Context;
+
+use super::file::{EmitError, Emitted, EmittedFile, of_kind, record_text, rust_file, templates};
+use super::home::Home;
+use super::text::fnv1a64;
+use crate::derivation::chain::Chain;
+use crate::kernel::shared_records;
+
+/// Every file of the emitted code and the table of operations, for these chains.
+///
+/// # Errors
+/// When a template fails or a file would not parse.
+pub fn files(chains: &[Chain<'_>]) -> Result<Vec<EmittedFile>, EmitError> {
+    let kinds = chains.iter().map(|chain| of_kind(chain, Home::Dynamics));
+    let kinds = kinds.collect::<Result<Vec<_>, _>>()?;
+    let shared = shared(&kinds)?;
+    Ok(kinds.into_iter().flat_map(|kind| kind.files).chain(shared).collect())
+}
+
+/// What these kinds share: the hub's records, the list of modules, the table of operations.
+///
+/// # Errors
+/// When a template fails or a file would not parse.
+pub fn shared(kinds: &[Emitted]) -> Result<Vec<EmittedFile>, EmitError> {
+    let tera = templates()?;
+    let rust_file = |name: &str, text| rust_file(Home::Dynamics.path(name), text);
+    let records: Vec<_> = shared_records().iter().map(record_text).collect();
+    let mut context = Context::new();
+    context.insert("hash", &fnv1a64(&format!("{:?}", shared_records())));
+    context.insert("records", &records);
+    let hub = rust_file("hub.rs", tera.render("hub.rs", &context)?)?;
+
+    let mut modules: Vec<_> = kinds.iter().map(|kind| kind.module).collect();
+    modules.push("hub");
+    modules.sort_unstable();
+    let mut context = Context::new();
+    context.insert("hash", &fnv1a64(&modules.join(" ")));
+    context.insert("modules", &modules);
+    let list = rust_file("mod.rs", tera.render("mod.rs", &context)?)?;
+
+    let mut context = Context::new();
+    let rows: Vec<_> = kinds.iter().flat_map(|kind| &kind.counts).collect();
+    context.insert("rows", &rows);
+    let text = tera.render("operations.md", &context)?;
+    Ok(vec![hub, list, EmittedFile { path: "docs/operations.md".to_owned(), text }])
+}

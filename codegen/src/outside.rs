@@ -1,0 +1,28 @@
+//! A kind of another crate: emitted for it, and proven, as the kinds of this one are.
+
+use crate::derivation::chain::Chain;
+use crate::emit::{EmitError, EmittedFile, Home, of_kind};
+use crate::graph::Graph;
+use crate::kinds::Kind;
+use crate::proof::{EmittedError, Row};
+use crate::regen;
+
+/// The emitted files of a kind, for a crate that knows the dynamics crate by the name `dynamics`.
+/// Their paths are plain names: where they are put is the caller's choice.
+///
+/// # Errors
+/// When a name of the kind is too long for a line of the emitted text.
+pub fn emit_kind(kind: &'static Kind, dynamics: &str) -> Result<Vec<EmittedFile>, EmitError> {
+    let graph = Graph::new();
+    Ok(of_kind(&Chain::new(&graph, kind), Home::Outside(dynamics))?.files)
+}
+
+/// One row for each claim about the emitted files of a kind: a row that does not hold names the
+/// terms that differ.
+///
+/// # Errors
+/// When the kind's file is not among them, or cannot be read.
+pub fn prove_kind(kind: &'static Kind, files: &[EmittedFile]) -> Result<Vec<Row>, EmittedError> {
+    let graph = Graph::new();
+    regen::prove_kind(&Chain::new(&graph, kind), files)
+}
