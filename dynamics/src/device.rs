@@ -4,11 +4,13 @@
 //! acceleration are rotated into it by `mount^T`, its results out of it by `mount`.
 
 use crate::error::{Joint, SolveError};
-use crate::generated::dgvscmg::{self, Eliminated, Motors, Parameters, Prepared, Rates, Trig};
+use crate::generated::dgvscmg::{
+    self, Eliminated, Modes, Motors, Parameters, Prepared, Rates, Trig,
+};
 use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, HubShare};
 use crate::hub::BodySums;
 use crate::parameters::Dgvscmg;
-use crate::real::Scalar;
+use crate::real::{Scalar, one, zero};
 use crate::solve::{Solution, System, check_pivot};
 use crate::state::{JointAccelerations, Joints, MotorTorques};
 use crate::symmetric::Symmetric;
@@ -51,6 +53,7 @@ impl<T: Scalar> Device<T> {
             &rates(joints),
             &BodyRate { omega_bx, omega_by, omega_bz },
             &Motors { u_o: motors.u_o, u_i: motors.u_i, u_w: motors.u_w },
+            &all_driven(),
         )
     }
 
@@ -167,6 +170,22 @@ pub(crate) fn check_pivots<T: Scalar>(
         })?;
     }
     Ok(())
+}
+
+/// The torque of every joint is given.
+fn all_driven<T: Scalar>() -> Modes<T> {
+    let (zero, one) = (zero(), one());
+    Modes {
+        driven_o: one,
+        held_o: zero,
+        given_o: zero,
+        driven_i: one,
+        held_i: zero,
+        given_i: zero,
+        driven_w: one,
+        held_w: zero,
+        given_w: zero,
+    }
 }
 
 fn trig<T: Scalar>(joints: &Joints<T>) -> Trig<T> {

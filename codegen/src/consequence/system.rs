@@ -25,10 +25,8 @@ const UNKNOWNS: [&str; 9] = [
 pub(super) fn at_table_1<'g>(equations: &Equations<'g>) -> Equations<'g> {
     let zero = |name: &str| parameter(name) == Some(0.0) || name.starts_with("r_c_n_ddot_b");
     equations.map(|equation| {
-        equation.rebuild(|graph, symbol| {
-            let info = graph.symbol_info(symbol);
-            if zero(&info.name) { graph.zero() } else { graph.symbol(&info.name, info.stage) }
-        })
+        let graph = equation.graph();
+        equation.rebuild(|symbol| zero(&graph.symbol_info(symbol).name).then(|| graph.zero()))
     })
 }
 

@@ -35,6 +35,8 @@ pub struct Link<'g> {
     pub acceleration: Expr<'g>,
     /// Motor torque, or force of a sliding joint.
     pub torque: Expr<'g>,
+    /// Whether that torque is given, or the acceleration; none where the kind prescribes it.
+    pub mode: Option<Mode<'g>>,
     /// Origin of the joint from the carrier's origin; it moves along a sliding one.
     pub origin: Vector<'g, Carrier>,
     /// Mass.
@@ -45,6 +47,18 @@ pub struct Link<'g> {
     pub inertia: Symmetric<'g, Own>,
     /// Mass of this body and all behind it: `m_d`, `m_v`.
     pub assembly_mass: Expr<'g>,
+}
+
+/// A joint's mode, as numbers: its torque is given (driven), or its acceleration (prescribed; a
+/// locked joint is at rest, and zero is given).
+#[derive(Clone, Copy)]
+pub struct Mode<'g> {
+    /// One where the torque is given, else zero.
+    pub driven: Expr<'g>,
+    /// Zero where the torque is given, else one, in the unit of the pivot.
+    pub held: Expr<'g>,
+    /// The acceleration where it is given, else zero.
+    pub given: Expr<'g>,
 }
 
 /// A joint's coordinate.
@@ -129,6 +143,7 @@ impl<'g> Link<'g> {
             rate,
             acceleration,
             torque: graph.symbol(joint.torque, Stage::Rate),
+            mode: kind.links[k].is_driven().then(|| Mode::new(graph, joint.tag)),
             origin,
             mass: parameter(body.mass),
             assembly_mass: parameter(body.mass),
@@ -148,6 +163,13 @@ impl<'g> Link<'g> {
             Coordinate::Angle(_) => self.rate * self.axis,
             Coordinate::Length(_) => Vector::zero(self.rate.graph()),
         }
+    }
+}
+
+impl<'g> Mode<'g> {
+    fn new(graph: &'g Graph, tag: &str) -> Self {
+        let symbol = |stem: &str| graph.symbol(&format!("{stem}_{tag}"), Stage::Rate);
+        Self { driven: symbol("driven"), held: symbol("held"), given: symbol("given") }
     }
 }
 

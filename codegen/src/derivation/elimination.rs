@@ -1,11 +1,17 @@
 //! The joints eliminated into the hub's six equations: symmetric, from the tip, no square root.
 //!
-//! With `d` the pivot of joint j and `g_x = M_xj / d` its gains, every entry of the rest becomes
-//! `M_xy - g_x M_jy` and every right side `h_x - g_x h_j`. This is `M = L D L^T` with the gains for
-//! L; the proof multiplies the emitted factors out again and knows nothing of this file.
+//! With `d` the pivot of joint j, `g_x = M_xj / d` its gains and `q = h_j / d` its acceleration with
+//! all else at rest, every entry of the rest becomes `M_xy - g_x M_jy` and every right side
+//! `h_x - M_xj q`. This is `M = L D L^T` with the gains for L; the proof multiplies the emitted
+//! factors out again and knows nothing of this file.
+//!
+//! A joint's mode is data. Where its acceleration is given instead of its torque, its gains are zero
+//! and `q` is what is given: the same statements, with the weight `driven` zero. `held` is one then,
+//! so that the reciprocal of a pivot that nobody asks for is finite. A joint whose acceleration the
+//! kind prescribes has no row.
 
 use super::Share;
-use super::chain::Chain;
+use super::chain::{Chain, Mode};
 use super::script::Script;
 use crate::graph::Expr;
 use crate::kinds::units;
@@ -27,10 +33,9 @@ pub struct Pivot<'g> {
     pub diagonal: Entry<'g>,
     /// One per hub unknown, then one per joint nearer the hub.
     pub gains: Vec<Entry<'g>>,
-    /// The joint's acceleration with all else at rest.
+    /// The joint's acceleration with all else at rest, or the one it is given.
     pub free: Entry<'g>,
     couplings: Vec<Expr<'g>>,
-    right: Expr<'g>,
 }
 
 /// What the elimination yields.
@@ -47,6 +52,7 @@ struct Row<'g> {
     couplings: Vec<Entry<'g>>,
     diagonal: Entry<'g>,
     right: Entry<'g>,
+    mode: Mode<'g>,
 }
 
 /// Eliminates the joints of `share`, whose entries are symbols, writing the steps to `script`.
@@ -66,12 +72,13 @@ pub fn eliminate<'g>(
         let title = format!("Joint {} taken out of the rows nearer the hub, eq. (E2).", pivot.tag);
         script.section("rest", title);
         for (l, inner) in rows.iter_mut().enumerate() {
-            let gain = pivot.gains[HUB.len() + l].1;
-            let own = (&mut inner.diagonal, pivot.couplings[HUB.len() + l]);
-            let right = (&mut inner.right, pivot.right);
-            let others = inner.couplings.iter_mut().zip(pivot.couplings.iter().copied());
-            for (entry, value) in others.chain([own, right]) {
-                let new = entry.1 - gain * value;
+            let (gain, coupling) = (pivot.gains[HUB.len() + l].1, pivot.couplings[HUB.len() + l]);
+            let own = (&mut inner.diagonal, gain * coupling);
+            let right = (&mut inner.right, coupling * pivot.free.1);
+            let others = inner.couplings.iter_mut().zip(&pivot.couplings);
+            let others = others.map(|(entry, other)| (entry, gain * *other));
+            for (entry, taken) in others.chain([own, right]) {
+                let new = entry.1 - taken;
                 entry.1 = script.cut(format!("{}_{done}", entry.0), new);
             }
         }
@@ -81,34 +88,39 @@ pub fn eliminate<'g>(
     made
 }
 
-/// The joints' rows, with right sides `u - u_rest`.
+/// The rows of the joints with a motor, with right sides `u - u_rest`.
 fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Vec<Row<'g>> {
-    let equations: Vec<_> =
-        chain.kind.links.iter().map(|link| link.body.equations.torque).collect();
+    let kind = chain.kind;
+    let equations: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
     let title = format!(
         "Right side of each joint, {} {}: motor torque less what the rest asks for, {}.",
         if equations.len() == 1 { "eq." } else { "eqs." },
         equations.join(", "),
-        units(chain.kind.links, |units| units.drive)
+        units(kind.driven(), |units| units.drive)
     );
     script.section("tau", title);
-    let tags: Vec<_> = chain.kind.links.iter().map(|link| link.joint.tag).collect();
-    let row = |(k, tag): (usize, &&'static str)| {
+    let tag = |k: usize| kind.links[k].joint.tag;
+    let modes = chain.links.iter().enumerate().filter_map(|(k, link)| Some((k, link.mode?)));
+    let modes: Vec<_> = modes.collect();
+    let row = |(place, &(k, mode)): (usize, &(usize, Mode<'g>))| {
+        let own = tag(k);
         let right = chain.links[k].torque - share.bias_joint[k];
         let hub = share.force[k].components().into_iter().chain(share.moment[k].components());
         let names = ["f", "n"]
             .into_iter()
-            .flat_map(|block| ["bx", "by", "bz"].map(|axis| format!("{block}_{tag}_{axis}")));
-        let inner = (0..k).map(|i| (format!("mass_{}{tag}", tags[i]), share.joint[i][k - i]));
+            .flat_map(|block| ["bx", "by", "bz"].map(|axis| format!("{block}_{own}_{axis}")));
+        let nearer = modes[..place].iter().map(|&(i, _)| i);
+        let inner = nearer.map(|i| (format!("mass_{}{own}", tag(i)), share.joint[i][k - i]));
         Row {
-            tag,
-            unit: chain.kind.links[k].joint.motion.units().pivot,
+            tag: own,
+            unit: kind.links[k].joint.motion.units().pivot,
             couplings: names.zip(hub).chain(inner).collect(),
-            diagonal: (format!("mass_{tag}{tag}"), share.joint[k][0]),
-            right: (format!("tau_{tag}"), script.cut(format!("tau_{tag}"), right)),
+            diagonal: (format!("mass_{own}{own}"), share.joint[k][0]),
+            right: (format!("tau_{own}"), script.cut(format!("tau_{own}"), right)),
+            mode,
         }
     };
-    tags.iter().enumerate().map(row).collect()
+    modes.iter().enumerate().map(row).collect()
 }
 
 /// Pivot, gains and free acceleration of one joint.
@@ -128,19 +140,21 @@ fn gains<'g>(
         }
         _ => row.diagonal.clone(),
     };
-    let recip = pivot.1.recip();
     let title =
         format!("Joint {tag}, eq. (E1): its pivot `{}`, {}, and its gains.", pivot.0, row.unit);
     script.section("gain", title);
+    let Mode { driven, held, given } = row.mode;
+    let divisor = script.cut(format!("divisor_{tag}"), pivot.1 + held);
+    let recip = driven * divisor.recip();
     script.name(format!("recip_{tag}"), recip);
     let suffixes = HUB.into_iter().chain(inner.iter().map(|row| row.tag));
     let gains: Vec<_> = suffixes
         .zip(&row.couplings)
         .map(|(suffix, (_, value))| (format!("gain_{tag}_{suffix}"), *value * recip))
         .collect();
-    let free = (format!("free_{tag}"), row.right.1 * recip);
     script.names(gains.iter().cloned());
-    script.name(free.0.clone(), free.1);
+    let name = format!("free_{tag}");
+    let free = (name.clone(), script.cut(name, row.right.1 * recip + given));
     Pivot {
         tag,
         pivot,
@@ -148,7 +162,6 @@ fn gains<'g>(
         gains,
         free,
         couplings: row.couplings.iter().map(|coupling| coupling.1).collect(),
-        right: row.right.1,
     }
 }
 
@@ -169,8 +182,8 @@ fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
         for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
             if column >= row {
                 let name = format!("m_{block}_{}{}", row % 3 + 1, column % 3 + 1);
-                let taken = |pivot: &Pivot<'g>| pivot.couplings[column];
-                made.take_out(name, assembled(row, column), row, taken, script);
+                let taken = |pivot: &Pivot<'g>| pivot.gains[row].1 * pivot.couplings[column];
+                made.take_out(name, assembled(row, column), taken, script);
             }
         }
     }
@@ -179,22 +192,20 @@ fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
     let rest = [share.bias_force, share.bias_moment].map(Vector::components).concat();
     for (row, rest) in rest.into_iter().enumerate() {
         let name = format!("h_{}_{}", ["v", "w"][row / 3], row % 3 + 1);
-        made.take_out(name, -rest, row, |pivot| pivot.right, script);
+        made.take_out(name, -rest, |pivot| pivot.couplings[row] * pivot.free.1, script);
     }
 }
 
 impl<'g> Eliminated<'g> {
-    /// `before` less the gain of `row` times `taken`, over all joints.
+    /// `before` less what each joint takes.
     fn take_out(
         &self,
         name: String,
         before: Expr<'g>,
-        row: usize,
         taken: impl Fn(&Pivot<'g>) -> Expr<'g>,
         script: &mut Script<'g>,
     ) {
-        let terms = self.pivots.iter().map(|pivot| pivot.gains[row].1 * taken(pivot));
-        let value = terms.fold(before, |value, term| value - term);
+        let value = self.pivots.iter().fold(before, |value, pivot| value - taken(pivot));
         script.name(name, value);
     }
 }

@@ -27,7 +27,7 @@ mod torques;
 use script::{pairs, sextuple, triple};
 
 use crate::graph::Expr;
-use crate::kinds::Kind;
+use crate::kinds::{Kind, Link};
 use crate::space::{Hub, Symmetric, Vector};
 
 /// One device's share of `M [r_B''; omega'; q''] + bias = [F; L_B; u]`, along B axes.
@@ -66,28 +66,29 @@ pub struct Momenta<'g> {
 pub type Named<'g> = (String, Vec<(String, Expr<'g>)>);
 
 impl<'g> Share<'g> {
-    /// Every block under the names the recursion gives it.
+    /// The blocks of the hub and of the joints chosen, under the names the recursion gives them.
     #[must_use]
-    pub fn named(&self, kind: &Kind) -> Vec<Named<'g>> {
+    pub fn named(&self, kind: &Kind, chosen: impl Fn(&Link) -> bool) -> Vec<Named<'g>> {
         let whole = kind.links[0].assembly;
-        let tags: Vec<_> = kind.links.iter().map(|link| link.joint.tag).collect();
+        let links = kind.links.iter().enumerate().filter(|(_, link)| chosen(link));
+        let joints: Vec<_> = links.map(|(k, link)| (k, link.joint.tag)).collect();
         let mut list = vec![
             vector(format!("mr_{whole}_b"), self.first_moment),
             tensor(format!("i_{whole}_b"), self.inertia),
         ];
-        for (k, row) in self.joint.iter().enumerate() {
-            for (l, entry) in row.iter().enumerate() {
-                list.push(scalar(format!("mass_{}{}", tags[k], tags[k + l]), *entry));
+        for (place, &(k, tag)) in joints.iter().enumerate() {
+            for &(l, other) in &joints[place..] {
+                list.push(scalar(format!("mass_{tag}{other}"), self.joint[k][l - k]));
             }
         }
-        for (tag, (f, n)) in tags.iter().zip(self.force.iter().zip(&self.moment)) {
-            list.push(vector(format!("f_{tag}"), *f));
-            list.push(vector(format!("n_{tag}"), *n));
+        for &(k, tag) in &joints {
+            list.push(vector(format!("f_{tag}"), self.force[k]));
+            list.push(vector(format!("n_{tag}"), self.moment[k]));
         }
         list.push(vector("f_rest".to_owned(), self.bias_force));
         list.push(vector("n_rest".to_owned(), self.bias_moment));
-        for (tag, bias) in tags.iter().zip(&self.bias_joint) {
-            list.push(scalar(format!("u_rest_{tag}"), *bias));
+        for &(k, tag) in &joints {
+            list.push(scalar(format!("u_rest_{tag}"), self.bias_joint[k]));
         }
         list
     }

@@ -15,7 +15,7 @@ use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrap
 use crate::derivation::chain::Chain;
 use crate::graph::{Node, NodeId};
 use crate::kernel::{Kernel, Record, Source, kernels, parameters};
-use crate::kernel::{joint_accelerations, motors, pose, rates, shared_records};
+use crate::kernel::{joint_accelerations, modes, motors, pose, rates, shared_records};
 use crate::kinds::{Kind, Motion};
 
 /// One emitted file.
@@ -208,7 +208,9 @@ fn kind_file(
 
     let mut records = vec![raw, prepared.record];
     records.extend(pose(kind).into_iter().map(|(_, record)| record));
-    records.extend([rates(kind), motors(kind)]);
+    // A kind whose joints all keep their rates has neither motors nor modes.
+    let given = [rates(kind), motors(kind), modes(kind)].into_iter();
+    records.extend(given.filter(|record| !record.fields.is_empty()));
     let outputs = kernels.iter().map(|kernel| kernel.output.clone());
     records.extend(outputs.filter(|record| !record.shared));
     debug_assert!(records.contains(&joint_accelerations(kind)));
@@ -264,7 +266,8 @@ fn kernel_body<'g>(
         argument.get(&name).map(|letter| Rendered::field(letter, &name))
     };
     let witness = kernel.inputs.iter().find_map(|(letter, record)| {
-        record.fields.first().map(|field| Rendered::field(letter, &field.name))
+        let number = record.fields.iter().find(|field| !matches!(field.source, Source::Nested(_)));
+        number.map(|field| Rendered::field(letter, &field.name))
     });
     let witness = witness.expect("some input has its fields listed");
     Writer::new(graph, &given, witness).write(&kernel.sections, &kernel.output.sources())

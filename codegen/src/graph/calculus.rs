@@ -4,6 +4,30 @@ use std::collections::HashMap;
 
 use super::{Expr, Graph, Node, NodeId, Stage, SymbolId, float};
 
+impl Graph {
+    /// What becomes of every node that `roots` are made of when each symbol is replaced of which
+    /// `value` says something.
+    pub(crate) fn rebuilt<'g>(
+        &'g self,
+        roots: impl IntoIterator<Item = NodeId>,
+        mut value: impl FnMut(SymbolId) -> Option<Expr<'g>>,
+    ) -> HashMap<NodeId, Expr<'g>> {
+        let mut made: HashMap<NodeId, Expr<'g>> = HashMap::new();
+        for id in self.reachable(roots) {
+            let new = match self.node(id) {
+                Node::Constant(_) => self.expr(id),
+                Node::Symbol(symbol) => value(symbol).unwrap_or_else(|| self.expr(id)),
+                Node::Sum(a, b) => made[&a] + made[&b],
+                Node::Product(a, b) => made[&a] * made[&b],
+                Node::Neg(a) => -made[&a],
+                Node::Recip(a) => made[&a].recip(),
+            };
+            made.insert(id, new);
+        }
+        made
+    }
+}
+
 impl<'g> Expr<'g> {
     /// `d self / dt`, by the rates of the symbols.
     ///
@@ -26,37 +50,22 @@ impl<'g> Expr<'g> {
     /// `self` with every symbol of `stage` set to zero.
     #[must_use]
     pub fn without(self, stage: Stage) -> Self {
-        self.rebuild(|graph, symbol| {
-            let info = graph.symbol_info(symbol);
-            if info.stage == stage { graph.zero() } else { graph.intern(Node::Symbol(symbol)) }
-        })
+        let graph = self.graph;
+        self.rebuild(|symbol| (graph.symbol_info(symbol).stage == stage).then(|| graph.zero()))
     }
 
     /// `self` with the symbols of a list replaced, all at once.
     #[must_use]
     pub fn with(self, values: &[(SymbolId, Self)]) -> Self {
-        self.rebuild(|graph, symbol| {
+        self.rebuild(|symbol| {
             let given = values.iter().find(|(replaced, _)| *replaced == symbol);
-            given.map_or_else(|| graph.intern(Node::Symbol(symbol)), |(_, value)| *value)
+            given.map(|(_, value)| *value)
         })
     }
 
-    /// `self` with every symbol replaced by what `value` says of it.
-    pub(crate) fn rebuild(self, mut value: impl FnMut(&'g Graph, SymbolId) -> Expr<'g>) -> Self {
-        let graph = self.graph;
-        let mut made: HashMap<NodeId, Self> = HashMap::new();
-        for id in graph.reachable([self.id]) {
-            let new = match graph.node(id) {
-                Node::Constant(_) => graph.expr(id),
-                Node::Symbol(symbol) => value(graph, symbol),
-                Node::Sum(a, b) => made[&a] + made[&b],
-                Node::Product(a, b) => made[&a] * made[&b],
-                Node::Neg(a) => -made[&a],
-                Node::Recip(a) => made[&a].recip(),
-            };
-            made.insert(id, new);
-        }
-        made[&self.id]
+    /// `self` with every symbol replaced of which `value` says something.
+    pub(crate) fn rebuild(self, value: impl FnMut(SymbolId) -> Option<Self>) -> Self {
+        self.graph.rebuilt([self.id], value)[&self.id]
     }
 
     fn derivative(self, mut rate: impl FnMut(&'g Graph, SymbolId) -> Expr<'g>) -> Self {

@@ -25,17 +25,22 @@ pub(super) fn kernel<'g>(
     let mut script = Script::new(graph);
     let title = "Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.";
     script.section("row", title);
-    for (pivot, link) in eliminated.pivots.iter().rev().zip(chain.kind.links) {
+    for link in chain.kind.links {
+        let (tag, name) = (link.joint.tag, link.joint.acceleration);
+        let Some(pivot) = eliminated.pivots.iter().find(|pivot| pivot.tag == tag) else {
+            // The kind says that it keeps its rate.
+            script.name(name, graph.zero());
+            continue;
+        };
         let free = given(&pivot.free.0);
         let gains = pivot.gains.iter().zip(&known).filter(|((_, gain), _)| !gain.is_zero());
         let products = gains.map(|((name, _), unknown)| given(name) * *unknown);
         let value = products.fold(free, |sum, product| sum - product);
-        let name = link.joint.acceleration;
         let symbol = graph.symbol(name, Stage::Acceleration);
         script.define(name, value, symbol);
         known.push(symbol);
     }
-    debug_assert_eq!(known.len(), HUB.len() + chain.links.len());
+    debug_assert_eq!(known.len(), HUB.len() + eliminated.pivots.len());
     Kernel {
         name: "back_substitute".to_owned(),
         doc: vec!["Joint accelerations from those of the hub.".to_owned()],

@@ -17,7 +17,8 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
     let share = on_hub(chain, share, &mut script);
     let eliminated = eliminate(chain, &share, &mut script);
     let kind = chain.kind;
-    let torques: Vec<_> = kind.links.iter().map(|link| link.body.equations.torque).collect();
+    let torques: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
+    let drives = [("u", records::motors(kind)), ("m", records::modes(kind))];
     let kernel = Kernel {
         name: "eliminate".to_owned(),
         doc: vec![
@@ -27,12 +28,14 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
                 "Translation (16), rotation (75), motor torques {}; with the joints",
                 torques.join(", ")
             ),
-            "eliminated by `M = L D Lᵀ`, six equations for the hub are left.".into(),
+            "eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose".into(),
+            "acceleration is given has no equation: what it asks for goes to the right side."
+                .into(),
         ],
-        inputs: inputs(kind, [("w", records::body_rate()), ("u", records::motors(kind))]),
+        inputs: inputs(kind, [("w", records::body_rate())].into_iter().chain(drives)),
         sections: script.sections,
         output: output(kind, &eliminated),
-        claims: claims(kind, by_body::share(chain).named(kind)),
+        claims: claims(kind, by_body::share(chain).named(kind, Link::is_driven)),
     };
     (kernel, eliminated)
 }
@@ -119,7 +122,8 @@ fn output(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {
             record.field(name.clone(), format!("Gain of the {title} on {what}{unit}."));
         }
         let unit = units.acceleration;
-        let doc = format!("Acceleration of the {title} with all else at rest, {unit}.");
+        let doc =
+            format!("Acceleration of the {title} with all else at rest, or as given, {unit}.");
         record.field(pivot.free.0.clone(), doc);
     }
     record

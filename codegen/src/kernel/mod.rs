@@ -7,7 +7,8 @@ mod momenta;
 mod records;
 
 pub use records::{
-    Field, Record, Source, joint_accelerations, motors, parameters, pose, rates, shared_records,
+    Field, Record, Source, joint_accelerations, modes, motors, parameters, pose, rates,
+    shared_records,
 };
 
 use crate::derivation::chain::Chain;

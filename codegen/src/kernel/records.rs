@@ -184,12 +184,47 @@ pub fn motors(kind: &Kind) -> Record {
     let what = if kind.sliding().next().is_some() { "Torques and forces" } else { "Motor torques" };
     let mut record =
         Record::new("Motors", &format!("{what}, each on a body and against its carrier."));
-    for link in kind.links {
+    for link in kind.driven() {
         let (what, unit) = match link.joint.motion {
             Motion::Turn(_) => ("Torque", link.joint.motion.units().drive),
             Motion::Slide(_) => ("Force along its joint", link.joint.motion.units().drive),
         };
         record.field(link.joint.torque, format!("{what} on the {}, {unit}.", link.body.title));
+    }
+    record
+}
+
+/// What is given of each joint that has a motor: the torque or the acceleration.
+#[must_use]
+pub fn modes(kind: &Kind) -> Record {
+    let doc = "What is given of each joint: its torque (driven), or its acceleration (prescribed; \
+               zero where it is locked).";
+    let mut record = Record::new("Modes", doc);
+    for link in kind.driven() {
+        let (tag, title, units) = (link.joint.tag, link.body.title, link.joint.motion.units());
+        let what = match link.joint.motion {
+            Motion::Turn(_) => "torque",
+            Motion::Slide(_) => "force",
+        };
+        record.field(
+            format!("driven_{tag}"),
+            format!("One where the {what} on the {title} is given, else zero."),
+        );
+        record.field(
+            format!("held_{tag}"),
+            format!(
+                "Zero where the {what} on the {title} is given, else one, {}: added to the pivot \
+                 that is divided by.",
+                units.pivot
+            ),
+        );
+        record.field(
+            format!("given_{tag}"),
+            format!(
+                "Acceleration of the {title} where it is given, else zero, {}.",
+                units.acceleration
+            ),
+        );
     }
     record
 }

@@ -5,7 +5,9 @@
 //! `r_p_f` where body `f` carries it. The names live as long as the program: a kind is made once.
 
 use super::naming::{self, KindError};
-use super::{Body, Centre, Equations, Inertia, Joint, Kind, Link, Motion, Triple, equations};
+use super::{
+    Body, Centre, Drive, Equations, Inertia, Joint, Kind, Link, Motion, Triple, equations,
+};
 use crate::space::Axis;
 
 /// A kind in the making: see [`Kind::builder`].
@@ -24,6 +26,7 @@ pub struct LinkBuilder {
     title: String,
     coordinate: String,
     motion: Motion,
+    drive: Drive,
     /// Axis and name of the distance, or the whole vector.
     centre: Place,
     inertia: fn(&'static str) -> Inertia,
@@ -99,7 +102,14 @@ impl LinkBuilder {
     fn new([letter, title, coordinate]: [&str; 3], motion: Motion) -> Self {
         let [letter, title, coordinate] = [letter, title, coordinate].map(str::to_owned);
         let (centre, inertia) = (Place::Free, Inertia::Full as fn(_) -> _);
-        Self { letter, title, coordinate, motion, centre, inertia, equations: None }
+        let drive = Drive::Motor;
+        Self { letter, title, coordinate, motion, drive, centre, inertia, equations: None }
+    }
+
+    /// Its joint keeps its rate, whatever torque that takes, as the wheel of an SGCMG does.
+    #[must_use]
+    pub fn prescribed(self) -> Self {
+        Self { drive: Drive::Prescribed, ..self }
     }
 
     /// Its centre of mass lies on one of its axes, at a distance of this name from its origin.
@@ -166,6 +176,7 @@ impl LinkBuilder {
             joint: Joint {
                 tag: kept(letter),
                 motion: self.motion,
+                drive: self.drive,
                 coordinate: kept(coordinate),
                 coordinate_symbol: kept(&naming::written(coordinate, "")),
                 rate: kept(&format!("{coordinate}_dot")),

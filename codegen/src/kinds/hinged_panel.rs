@@ -1,6 +1,6 @@
 //! A hinged panel: a body that turns about one axis of the hub.
 
-use super::{Body, Centre, Inertia, Joint, Kind, Link, Motion, Triple, equations};
+use super::{Body, Centre, Drive, Inertia, Joint, Kind, Link, Motion, Triple, equations};
 use crate::space::Axis;
 
 /// `P = Rz(phi)`. A spring and a damper in the hinge come in through its torque:
@@ -21,6 +21,7 @@ pub const HINGED_PANEL: Kind = Kind {
             acceleration: "phi_ddot",
             symbols: ["φ̇", "φ̈"],
             torque: "u_p",
+            drive: Drive::Motor,
             origin: Triple {
                 symbol: "r_{P/B}",
                 name: "r_p_b",

@@ -3,38 +3,53 @@
 //! A kind says what turns about or slides along what, where the next origin lies and what its
 //! quantities are called; the equations come from the one derivation that walks any such list.
 
+mod balanced_dgcmg;
+mod balanced_dgvscmg;
 mod balanced_reaction_wheel;
+mod balanced_sgcmg;
 mod balanced_vscmg;
 mod body;
 mod builder;
+mod dgcmg;
 mod dgvscmg;
 mod equations;
 mod hinged_panel;
 mod naming;
 mod reaction_wheel;
+mod sgcmg;
 mod slosh_mass;
 mod vscmg;
 mod wheel;
 
+pub use balanced_dgcmg::BALANCED_DGCMG;
+pub use balanced_dgvscmg::BALANCED_DGVSCMG;
 pub use balanced_reaction_wheel::BALANCED_REACTION_WHEEL;
+pub use balanced_sgcmg::BALANCED_SGCMG;
 pub use balanced_vscmg::BALANCED_VSCMG;
 pub use body::{Body, Centre, Inertia};
 pub use builder::{KindBuilder, LinkBuilder};
+pub use dgcmg::DGCMG;
 pub use dgvscmg::DGVSCMG;
 pub use equations::Equations;
 pub use hinged_panel::HINGED_PANEL;
 pub use naming::KindError;
 pub use reaction_wheel::REACTION_WHEEL;
+pub use sgcmg::SGCMG;
 pub use slosh_mass::SLOSH_MASS;
 pub use vscmg::VSCMG;
 
 use crate::space::Axis;
 
 /// Every kind that is emitted.
-pub const KINDS: [&Kind; 7] = [
+pub const KINDS: [&Kind; 12] = [
     &DGVSCMG,
+    &BALANCED_DGVSCMG,
+    &DGCMG,
+    &BALANCED_DGCMG,
     &VSCMG,
     &BALANCED_VSCMG,
+    &SGCMG,
+    &BALANCED_SGCMG,
     &REACTION_WHEEL,
     &BALANCED_REACTION_WHEEL,
     &HINGED_PANEL,
@@ -84,8 +99,20 @@ pub struct Joint {
     pub symbols: [&'static str; 2],
     /// The motor torque on the body, against the carrier; along a sliding joint, the force.
     pub torque: &'static str,
+    /// What is given of it.
+    pub drive: Drive,
     /// Where the joint's origin lies from the carrier's, in carrier axes, before any sliding.
     pub origin: Triple,
+}
+
+/// What the kind says of a joint's drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drive {
+    /// It has a motor: the torque is given, or, for as long as its mode says so, the acceleration.
+    Motor,
+    /// It keeps its rate, whatever torque that takes: the acceleration is zero, no equation is
+    /// solved for it, and nothing is given.
+    Prescribed,
 }
 
 /// How a joint moves, by an axis of the frame that carries it.
@@ -149,14 +176,31 @@ pub struct Units {
 
 /// One of the units of these joints, or all that there are: `kg m² or kg m`.
 #[must_use]
-pub fn units(links: &[Link], of: impl Fn(&Units) -> &'static str) -> String {
+pub fn units<'a>(
+    links: impl IntoIterator<Item = &'a Link>,
+    of: impl Fn(&Units) -> &'static str,
+) -> String {
     let mut found: Vec<&str> = Vec::new();
-    for unit in links.iter().map(|link| of(link.joint.motion.units())) {
+    for unit in links.into_iter().map(|link| of(link.joint.motion.units())) {
         if !found.contains(&unit) {
             found.push(unit);
         }
     }
     found.join(" or ")
+}
+
+impl Link {
+    /// The same link with a joint that keeps its rate.
+    #[must_use]
+    pub const fn prescribed(self) -> Self {
+        Self { joint: Joint { drive: Drive::Prescribed, ..self.joint }, ..self }
+    }
+
+    /// Whether the joint has a motor.
+    #[must_use]
+    pub fn is_driven(&self) -> bool {
+        self.joint.drive == Drive::Motor
+    }
 }
 
 impl Kind {
@@ -179,6 +223,11 @@ impl Kind {
     pub fn turning(&self) -> impl Iterator<Item = &Link> {
         let links = self.links.iter().enumerate();
         links.filter(|(k, _)| self.axes_turn(*k)).map(|(_, link)| link)
+    }
+
+    /// The links whose joint has a motor: those that an equation is solved for.
+    pub fn driven(&self) -> impl Iterator<Item = &Link> {
+        self.links.iter().filter(|link| link.is_driven())
     }
 
     /// The links behind a sliding joint.

@@ -1,6 +1,6 @@
 //! A slosh mass: a point mass that slides along one axis of the hub.
 
-use super::{Body, Centre, Inertia, Joint, Kind, Link, Motion, Triple, equations};
+use super::{Body, Centre, Drive, Inertia, Joint, Kind, Link, Motion, Triple, equations};
 use crate::space::Axis;
 
 /// The mass stands at `r_{S/B} + x b_x`. Its spring and damper come in through the force along the
@@ -22,6 +22,7 @@ pub const SLOSH_MASS: Kind = Kind {
             acceleration: "x_ddot",
             symbols: ["ẋ", "ẍ"],
             torque: "u_s",
+            drive: Drive::Motor,
             origin: Triple {
                 symbol: "r_{S/B}",
                 name: "r_s_b",

@@ -1,7 +1,7 @@
 //! The variable-speed control moment gyro: one gimbal and a wheel.
 
 use super::wheel::{Whole, imbalanced};
-use super::{Body, Centre, Inertia, Joint, Kind, Link, Motion, Triple, equations};
+use super::{Body, Centre, Drive, Inertia, Joint, Kind, Link, Motion, Triple, equations};
 use crate::space::Axis;
 
 /// `G = Rz(gamma)`, `W = G Rx(theta)`: the DGVSCMG with its inner gimbal locked at zero and without
@@ -24,6 +24,7 @@ pub(super) const GIMBAL: Link = Link {
         acceleration: "gamma_ddot",
         symbols: ["γ̇", "γ̈"],
         torque: "u_g",
+        drive: Drive::Motor,
         origin: Triple {
             symbol: "r_{G/B}",
             name: "r_g_b",

@@ -1,7 +1,7 @@
 //! The wheel and its motor, as every device with a wheel has them: it spins about the x axis of
 //! what carries it.
 
-use super::{Body, Centre, Inertia, Joint, Link, Motion, Triple, equations};
+use super::{Body, Centre, Drive, Inertia, Joint, Link, Motion, Triple, equations};
 use crate::space::Axis;
 
 /// As it is made: the centre of mass lies on `w_y`, a distance d from the spin axis, and the inertia
@@ -17,6 +17,7 @@ pub(super) const fn imbalanced(origin: Triple, triad: [&'static str; 3], whole: 
             acceleration: "spin_dot",
             symbols: ["Ω", "Ω̇"],
             torque: "u_w",
+            drive: Drive::Motor,
             origin,
         },
         body: Body {

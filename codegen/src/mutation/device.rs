@@ -9,7 +9,7 @@ use super::physics::Role;
 use super::site::Site;
 use super::state::{Accelerations, Case, Motion, parameters_of};
 use super::tape::{Changed, Returned, Tape, Values};
-use crate::derivation::chain::{Chain, Coordinate};
+use crate::derivation::chain::{Chain, Coordinate, Mode};
 use crate::emit::prepared;
 use crate::graph::{Expr, Stage};
 use crate::kernel::{Kernel, kernels, parameters};
@@ -176,6 +176,12 @@ impl<'a, 'g> Device<'a, 'g> {
             }
             values.set(link.rate, motion.rates[k]);
             values.set(link.torque, case.drive.motors[k]);
+            if let Some(Mode { driven, held, given }) = link.mode {
+                let numbers = case.drive.modes[k].numbers();
+                for (symbol, value) in [driven, held, given].into_iter().zip(numbers) {
+                    values.set(symbol, value);
+                }
+            }
         }
         values.set_vector(self.chain.hub.omega.components(), motion.omega);
         values.set_vector(self.chain.hub.r_b_n_dot.components(), motion.velocity);

@@ -39,10 +39,7 @@ fn is_zero<'g>(device: &Device<'_, 'g>, index: usize, value: Expr<'g>) -> bool {
 
 /// `e` with what stands behind its symbols.
 fn put_in<'g>(e: Expr<'g>, behind: &HashMap<NodeId, Expr<'g>>) -> Expr<'g> {
-    e.rebuild(|graph, symbol| {
-        let symbol = graph.named(symbol);
-        behind.get(&symbol.id()).copied().unwrap_or(symbol)
-    })
+    e.rebuild(|symbol| behind.get(&e.graph().named(symbol).id()).copied())
 }
 
 fn same_line<'g>(graph: &'g Graph, line: &Line<'g>, node: NodeId, changed: Expr<'g>) -> bool {

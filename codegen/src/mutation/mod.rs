@@ -45,6 +45,7 @@ use crate::threads::side_by_side;
 pub const NOTICED: f64 = 1e-8;
 
 /// How many random states every mutant is put through: one would do but for chance cancellation.
+/// What depends on the joints' modes is put through two more.
 const TRIALS: u64 = 3;
 
 /// Which mutants to make.
@@ -166,12 +167,22 @@ pub fn mutate(
     Ok(Report { kind, outcomes, computed: computed.collect(), floors, engines })
 }
 
+/// States with every joint driven, then two with mixed modes in which each joint is once driven and
+/// once given its acceleration.
 fn trials(kind: &kinds::Kind) -> Vec<Trial> {
     let trial = |seed| {
         let mut random = Random::new(seed);
-        Trial { case: random.case(kind), any: random.accelerations(kind.links.len()) }
+        let case = random.case(kind);
+        let any = random.accelerations(kind.links.len());
+        (Trial { case, any, mixed: false }, random)
     };
-    (0..TRIALS).map(trial).collect()
+    let mixed = |(seed, first): (u64, usize)| {
+        let (mut trial, mut random) = trial(seed);
+        trial.case.drive.modes = random.modes(kind, first);
+        Trial { mixed: true, ..trial }
+    };
+    let driven = (0..TRIALS).map(|seed| trial(seed).0);
+    driven.chain([(0, 0), (1, 1)].map(mixed)).collect()
 }
 
 /// The sites of a selection, each with the number of its function.

@@ -36,12 +36,57 @@ pub(super) struct Motion {
     pub(super) velocity: Vector3<f64>,
 }
 
-/// Motor torques, force through B, torque about B.
+/// Motor torques and modes, force through B, torque about B.
 #[derive(Clone)]
 pub(super) struct Drive {
+    /// Of a joint whose acceleration is given: without effect.
     pub(super) motors: Vec<f64>,
+    pub(super) modes: Vec<Mode>,
     pub(super) force: Vector3<f64>,
     pub(super) torque: Vector3<f64>,
+}
+
+/// What is given of a joint.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Mode {
+    /// Its torque. The motor may have an inertia of its own that takes part in the joint's rate
+    /// alone, as a fast rotor behind a gear does: zero, but where `held` is to be noticed.
+    Driven { inertia: f64 },
+    /// Its acceleration; zero by the kind where that prescribes it.
+    Given { acceleration: f64 },
+}
+
+impl Mode {
+    /// The torque is given, and the motor weighs nothing.
+    pub(super) const DRIVEN: Self = Self::Driven { inertia: 0.0 };
+
+    /// What a kind's joints are, with this mode for all that have a motor.
+    pub(super) fn of(kind: &Kind, mut mode: impl FnMut(usize) -> Self) -> Vec<Self> {
+        let kept = Self::Given { acceleration: 0.0 };
+        let links = kind.links.iter().enumerate();
+        links.map(|(k, link)| if link.is_driven() { mode(k) } else { kept }).collect()
+    }
+
+    /// Whether the torque is given.
+    pub(super) fn is_driven(self) -> bool {
+        matches!(self, Self::Driven { .. })
+    }
+
+    /// The values of `driven`, `held` and `given`.
+    pub(super) fn numbers(self) -> [f64; 3] {
+        match self {
+            Self::Driven { inertia } => [1.0, inertia, 0.0],
+            Self::Given { acceleration } => [0.0, 1.0, acceleration],
+        }
+    }
+
+    /// The motor's own inertia.
+    pub(super) fn inertia(self) -> f64 {
+        match self {
+            Self::Driven { inertia } => inertia,
+            Self::Given { .. } => 0.0,
+        }
+    }
 }
 
 /// What the equations of motion are solved for.
@@ -51,6 +96,14 @@ pub(super) struct Accelerations {
     pub(super) point: Vector3<f64>,
     pub(super) omega: Vector3<f64>,
     pub(super) joints: Vec<f64>,
+}
+
+impl Drive {
+    /// Kinetic energy of the motors' own inertias.
+    pub(super) fn energy(&self, motion: &Motion) -> f64 {
+        let motors = self.modes.iter().zip(&motion.rates);
+        motors.map(|(mode, rate)| 0.5 * mode.inertia() * rate * rate).sum()
+    }
 }
 
 impl Motion {
@@ -146,9 +199,25 @@ impl Random {
             omega: self.vector(),
             velocity: self.vector(),
         };
-        let drive =
-            Drive { motors: self.list(joints), force: self.vector(), torque: self.vector() };
+        let drive = Drive {
+            motors: self.list(joints),
+            modes: Mode::of(kind, |_| Mode::DRIVEN),
+            force: self.vector(),
+            torque: self.vector(),
+        };
         Case { hub, parameters, motion, drive }
+    }
+
+    /// Modes with every other joint's acceleration given, `first` or its neighbours. The motors of
+    /// the others have inertias of their own.
+    pub(super) fn modes(&mut self, kind: &Kind, first: usize) -> Vec<Mode> {
+        Mode::of(kind, |k| {
+            if k % 2 == first {
+                Mode::Given { acceleration: self.signed() }
+            } else {
+                Mode::Driven { inertia: self.within(0.5, 1.5) }
+            }
+        })
     }
 }
 

@@ -8,9 +8,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Row;
-use super::factors::{self, Unknowns};
+use super::factors;
 use super::laws::Laws;
+use super::modes::divisor;
 use super::read_back::{EmittedError, Reading, function, read, returned_names};
+use super::unknowns::Unknowns;
 use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
 use crate::graph::{Expr, Stage};
@@ -70,10 +72,11 @@ impl<'a, 'g> Prover<'a, 'g> {
     #[must_use]
     pub fn derivation(&self) -> Vec<Row> {
         let mut ring = Ring::new(self.chain.graph);
-        let named = by_body::share(self.chain).named(self.chain.kind);
+        let named = by_body::share(self.chain).named(self.chain.kind, |_| true);
         let entries: BTreeMap<_, _> = named.into_iter().flat_map(|(_, entries)| entries).collect();
         let named = |name: &str| entries.get(name).copied();
-        let mut rows = self.laws.rows(&mut ring, &self.unknowns, "derivation", named);
+        let all: Vec<_> = (0..self.unknowns.len()).collect();
+        let mut rows = self.laws.rows(&mut ring, &self.unknowns, &all, "derivation", named);
         rows.extend(self.laws.of_momenta(&mut ring, self.chain));
         rows
     }
@@ -116,7 +119,9 @@ impl<'a, 'g> Prover<'a, 'g> {
         match kernel.name.as_str() {
             "eliminate" => {
                 let named = |name: &str| back.expanded.values.get(name).copied();
-                rows.extend(self.laws.rows(expanded, &self.unknowns, "fn eliminate", named));
+                let solved = self.unknowns.solved();
+                let who = "fn eliminate";
+                rows.extend(self.laws.rows(expanded, &self.unknowns, &solved, who, named));
                 rows.extend(factors::of_elimination(cut, self.chain, &self.unknowns, &back.cut));
             }
             "back_substitute" => {
@@ -142,14 +147,18 @@ impl<'a, 'g> Prover<'a, 'g> {
         vec![self.prepared_row(prepare), self.cut_constants(prepare, cuts)]
     }
 
-    /// The names at which the cut reading stops: blocks of the system, and pivots.
+    /// The names at which the cut reading stops: blocks of the system, pivots, and what a joint
+    /// divides by.
     fn cuts(&self, file: &syn::File) -> Result<BTreeSet<String>, EmittedError> {
         let kernel = self.kernels.iter().find(|kernel| kernel.name == "eliminate");
         let claims = kernel.into_iter().flat_map(|kernel| &kernel.claims);
         let blocks = claims.flat_map(|claim| &claim.components).map(|(name, _)| name.clone());
         let returned = returned_names(function(file, "eliminate")?);
-        let pivots = returned.into_iter().filter(|(field, _)| field.starts_with("pivot_"));
-        Ok(blocks.chain(pivots.map(|(_, name)| name)).collect())
+        let pivots = returned.into_iter().filter_map(|(field, name)| {
+            let tag = field.strip_prefix("pivot_")?;
+            Some([name, divisor(tag)])
+        });
+        Ok(blocks.chain(pivots.flatten()).collect())
     }
 
     fn prepare(&self, file: &syn::File, cuts: &BTreeSet<String>) -> Result<Both<'g>, EmittedError> {

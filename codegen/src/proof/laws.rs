@@ -1,8 +1,10 @@
 //! The system against Boltzmann and Hamel's equations, from the kinetic energy alone: what fixes the
 //! place and the sign of every block.
 
+use std::collections::BTreeMap;
+
 use super::Row;
-use super::factors::Unknowns;
+use super::unknowns::Unknowns;
 use crate::derivation::boltzmann_hamel::{BoltzmannHamel, boltzmann_hamel};
 use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
@@ -19,32 +21,38 @@ impl<'g> Laws<'g> {
     }
 
     /// `M_xy = d^2 T / dx dy`; `M x'' + rest` is each of Boltzmann and Hamel's equations, and the
-    /// power that goes into the kinetic energy. `who` states the blocks that `named` finds.
+    /// power that goes into the kinetic energy. `who` states the blocks that `named` finds, between
+    /// the unknowns numbered in `solved`. The others do not accelerate; what keeps them so is power,
+    /// too.
     pub(super) fn rows(
         &self,
         ring: &mut Ring<'g>,
         unknowns: &Unknowns<'g>,
+        solved: &[usize],
         who: &str,
         named: impl Fn(&str) -> Option<Expr<'g>>,
     ) -> Vec<Row> {
         let Self(laws) = self;
+        let others: Vec<usize> = (0..unknowns.len()).filter(|x| !solved.contains(x)).collect();
+        let at_rest: Vec<_> = others.iter().filter_map(|&x| unknowns.at_rest(x)).collect();
+        let lawful = |e: Expr<'g>| e.with(&at_rest);
         let assembled = |x: usize, y: usize| unknowns.assembled(x.min(y), x.max(y), &named);
         let mut matrix = Vec::new();
         let mut hessian = Vec::new();
-        for (x, row) in laws.mass.iter().enumerate() {
-            for (y, entry) in (x..).zip(row) {
+        for (place, &x) in solved.iter().enumerate() {
+            for &y in &solved[place..] {
                 matrix.push((format!("{x}{y}"), assembled(x, y)));
-                hessian.push((format!("{x}{y}"), *entry));
+                hessian.push((format!("{x}{y}"), laws.mass[x][y - x]));
             }
         }
         let equation = |x: usize| {
-            let terms = unknowns.accelerations.iter().enumerate();
-            terms.fold(unknowns.rest(x, &named), |sum, (y, acceleration)| {
-                sum + assembled(x, y) * *acceleration
+            solved.iter().fold(unknowns.rest(x, &named), |sum, &y| {
+                sum + assembled(x, y) * unknowns.accelerations[y]
             })
         };
-        let equations: Vec<Expr<'g>> = (0..unknowns.len()).map(equation).collect();
-        let products = equations.iter().zip(&unknowns.speeds).map(|(e, speed)| *e * *speed);
+        let equations: BTreeMap<usize, Expr<'g>> =
+            solved.iter().map(|&x| (x, equation(x))).collect();
+        let products = equations.iter().map(|(&x, e)| *e * unknowns.speeds[x]);
         let power = products.reduce(|sum, product| sum + product);
 
         let mut rows = Vec::new();
@@ -55,11 +63,17 @@ impl<'g> Laws<'g> {
         row("(M_ij)", "M", "d²T/dx dy", &matrix, &hessian);
         let law = "Boltzmann-Hamel";
         for (tag, name, range) in unknowns.equations() {
-            let (checked, expected) = (&equations[range.clone()], &laws.equations[range]);
-            row(tag, name, law, &labelled(checked), &labelled(expected));
+            let checked: Vec<_> =
+                range.clone().filter_map(|x| equations.get(&x).copied()).collect();
+            let expected: Vec<_> = laws.equations[range].iter().map(|e| lawful(*e)).collect();
+            if !checked.is_empty() {
+                row(tag, name, law, &labelled(&checked), &labelled(&expected));
+            }
         }
-        let rate = laws.energy.time_derivative();
-        row("(power)", "v·(M v′ + h)", "dT/dt", &labelled(power.as_slice()), &labelled(&[rate]));
+        let kept = others.iter().map(|&x| laws.equations[x] * unknowns.speeds[x]);
+        let rate = lawful(kept.fold(laws.energy.time_derivative(), |rate, power| rate - power));
+        let law = if others.is_empty() { "dT/dt" } else { "dT/dt - P of the rest" };
+        row("(power)", "v·(M v′ + h)", law, &labelled(power.as_slice()), &labelled(&[rate]));
         rows
     }
 

@@ -3,9 +3,11 @@
 mod emitted;
 mod factors;
 mod laws;
+mod modes;
 mod pages;
 mod read_back;
 mod row;
+mod unknowns;
 
 pub use emitted::Prover;
 pub use pages::{against_block, against_pages, zero_traces};

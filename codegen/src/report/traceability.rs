@@ -21,7 +21,7 @@ pub(super) struct Traceability {
 const UNNUMBERED: [(&str, &str); 8] = [
     ("(step)", "positions, velocities and first moments, behind (11) to (14)"),
     ("(M_ij)", "mass matrix of the joints"),
-    ("(E1)", "a joint's pivot, gains and free acceleration: products, nothing to drop"),
+    ("(E1)", "a joint's divisor, gains and free acceleration"),
     ("(E2)", "a joint taken out of the rows nearer the hub"),
     ("(E3)", "share of the hub's mass matrix and right side"),
     ("(E4)", "joint accelerations from those of the hub"),

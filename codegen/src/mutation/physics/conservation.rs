@@ -3,6 +3,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
+use super::differences::lagrange;
 use super::{Law, Residuals, Role, Trial, concerns, gap, slope};
 use crate::mutation::device::{BodySeen, Device, Fault};
 use crate::mutation::held::{Held, Packed};
@@ -35,7 +36,9 @@ fn balances(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
     let (motion, drive) = (&case.motion, &case.drive);
     let whole = |time: f64| {
         let motion = motion.after(time, &accelerations);
-        device.held(case, &motion, fault).packed() + case.hub.held(&motion).packed()
+        let mut held = device.held(case, &motion, fault);
+        held.energy += drive.energy(&motion);
+        held.packed() + case.hub.held(&motion).packed()
     };
     let now = Held::unpacked(&whole(0.0));
     let rate = Held::unpacked(&slope(whole));
@@ -43,7 +46,17 @@ fn balances(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
     let p_dot = rate.linear + motion.omega.cross(&now.linear);
     let h_dot = rate.angular + motion.omega.cross(&now.angular);
     let moment = drive.torque - motion.velocity.cross(&now.linear);
-    let motors: f64 = drive.motors.iter().zip(&motion.rates).map(|(u, rate)| u * rate).sum();
+    let motor = |(k, rate): (usize, &f64)| {
+        let torque = if drive.modes[k].is_driven() {
+            drive.motors[k]
+        } else {
+            // What the joint takes to move as it is told.
+            let [momentum, by_coordinate] = lagrange(device, k, case, &accelerations, fault);
+            momentum - by_coordinate
+        };
+        torque * rate
+    };
+    let motors: f64 = motion.rates.iter().enumerate().map(motor).sum();
     let power = drive.force.dot(&motion.velocity) + drive.torque.dot(&motion.omega) + motors;
     vec![
         (Law::LinearMomentum, gap(p_dot.as_slice(), drive.force.as_slice())),
@@ -53,14 +66,20 @@ fn balances(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
 }
 
 /// With the joints' mass matrix as energies: the diagonal as it stands, and what a unit of momentum
-/// meets when the joints behind are free to follow, which is where the energy is least.
+/// meets when the driven joints behind are free to follow, each with its motor, which is where the
+/// energy is least.
 fn pivots(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
     let masses = device.joint_masses(case, fault);
+    let modes = &case.drive.modes;
     let eliminated = device.eliminated(case, fault);
     let residual = |(j, link): (usize, &crate::kinds::Link)| {
-        let behind = device.joints() - j;
-        let block: DMatrix<f64> = masses.view((j, j), (behind, behind)).into_owned();
-        let mut push = DVector::zeros(behind);
+        let behind = (j + 1..device.joints()).filter(|k| modes[*k].is_driven());
+        let free: Vec<_> = std::iter::once(j).chain(behind).collect();
+        let block = DMatrix::from_fn(free.len(), free.len(), |row, column| {
+            let motor = if row == column && row > 0 { modes[free[row]].inertia() } else { 0.0 };
+            masses[(free[row], free[column])] + motor
+        });
+        let mut push = DVector::zeros(free.len());
         push[0] = 1.0;
         let least = block.lu().solve(&push).map_or(f64::NAN, |rates| 1.0 / rates[0]);
         let named = |stem: &str| eliminated.scalar(&format!("{stem}_{}", link.joint.tag));
@@ -68,7 +87,8 @@ fn pivots(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
         let off = gap(&[pivot, diagonal], &[least, masses[(j, j)]]);
         if pivot > 0.0 && diagonal > 0.0 { off } else { f64::INFINITY }
     };
-    device.chain.kind.links.iter().enumerate().map(residual).fold(0.0, f64::max)
+    let links = device.chain.kind.links.iter().enumerate().filter(|(_, link)| link.is_driven());
+    links.map(residual).fold(0.0, f64::max)
 }
 
 fn every_body(

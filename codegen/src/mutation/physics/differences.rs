@@ -4,7 +4,7 @@ use nalgebra::{Matrix3x2, SMatrix, Vector3};
 
 use super::{Law, Residuals, Role, Trial, concerns, gap, slope};
 use crate::mutation::device::{BodySeen, Device, Fault};
-use crate::mutation::state::{Case, Motion};
+use crate::mutation::state::{Accelerations, Case, Mode, Motion};
 
 pub(super) fn residuals(
     device: &Device<'_, '_>,
@@ -25,7 +25,7 @@ pub(super) fn residuals(
         found.push((Law::Momenta, momenta(device, &trial.case, fault)));
     }
     if concerns(role, &[Role::Solution, Role::Momenta]) {
-        found.push((Law::Lagrange, lagrange(device, &trial.case, fault)));
+        found.extend(joints(device, &trial.case, fault));
     }
     found
 }
@@ -101,25 +101,46 @@ fn momenta(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
     first.max(gap(angular.as_slice(), held.angular.as_slice()))
 }
 
-/// Lagrange's equations of the joints, whose angles and lengths are true coordinates.
-fn lagrange(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
+/// Each driven joint obeys Lagrange's equation, its motor's own inertia included; each that is given
+/// an acceleration has it.
+fn joints(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
     let accelerations = device.accelerations(case, fault);
-    let energy = |motion: &Motion| device.held(case, motion, fault).energy;
-    let residual = |(joint, torque): (usize, &f64)| {
-        let momentum = |time: f64| {
-            let motion = case.motion.after(time, &accelerations);
-            by_velocity(|step| {
-                let mut motion = motion.clone();
-                motion.rates[joint] += step;
-                energy(&motion)
-            })
-        };
-        let by_angle = slope(|step| {
-            let mut motion = case.motion.clone();
-            motion.coordinates[joint] += step;
-            energy(&motion)
-        });
-        gap(&[slope(momentum)], &[torque + by_angle])
+    let residual = |(k, mode): (usize, &Mode)| match *mode {
+        Mode::Driven { inertia } => {
+            let [momentum, by_coordinate] = lagrange(device, k, case, &accelerations, fault);
+            let momentum = momentum + inertia * accelerations.joints[k];
+            (Law::Lagrange, gap(&[momentum], &[case.drive.motors[k] + by_coordinate]))
+        }
+        Mode::Given { acceleration } => {
+            let same = accelerations.joints[k] == acceleration;
+            (Law::Given, if same { 0.0 } else { f64::INFINITY })
+        }
     };
-    case.drive.motors.iter().enumerate().map(residual).fold(0.0, f64::max)
+    case.drive.modes.iter().enumerate().map(residual).collect()
+}
+
+/// The two sides of Lagrange's equation of a joint, whose coordinate is a true one: the derivative of
+/// its momentum, and the energy's slope along it.
+pub(super) fn lagrange(
+    device: &Device<'_, '_>,
+    joint: usize,
+    case: &Case,
+    accelerations: &Accelerations,
+    fault: &Fault,
+) -> [f64; 2] {
+    let energy = |motion: &Motion| device.held(case, motion, fault).energy;
+    let momentum = |time: f64| {
+        let motion = case.motion.after(time, accelerations);
+        by_velocity(|step| {
+            let mut motion = motion.clone();
+            motion.rates[joint] += step;
+            energy(&motion)
+        })
+    };
+    let by_coordinate = slope(|step| {
+        let mut motion = case.motion.clone();
+        motion.coordinates[joint] += step;
+        energy(&motion)
+    });
+    [slope(momentum), by_coordinate]
 }

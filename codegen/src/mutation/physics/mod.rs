@@ -22,7 +22,7 @@ use super::state::{Accelerations, Case};
 pub enum Kind {
     /// Energy and momenta: balances, and sums over bodies.
     Conservation,
-    /// Derivatives against differences.
+    /// Derivatives against differences, and joints against what they are told.
     Differences,
     /// What other engines compute.
     Engines,
@@ -72,8 +72,10 @@ pub enum Law {
     FirstMoment,
     /// Momenta as derivatives of the energy.
     Momenta,
-    /// Lagrange's equation of each joint.
+    /// Lagrange's equation of each driven joint.
     Lagrange,
+    /// Given accelerations.
+    Given,
     /// Accelerations of the engines.
     EngineAccelerations,
     /// Energy and momenta of the engines.
@@ -86,7 +88,7 @@ pub enum Law {
 
 impl Law {
     /// Every law, by kind.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::LinearMomentum,
         Self::AngularMomentum,
         Self::Energy,
@@ -101,6 +103,7 @@ impl Law {
         Self::FirstMoment,
         Self::Momenta,
         Self::Lagrange,
+        Self::Given,
         Self::EngineAccelerations,
         Self::EngineMomenta,
         Self::EngineBodies,
@@ -124,7 +127,8 @@ impl Law {
             | Self::Inertia
             | Self::FirstMoment
             | Self::Momenta
-            | Self::Lagrange => Kind::Differences,
+            | Self::Lagrange
+            | Self::Given => Kind::Differences,
             Self::EngineAccelerations
             | Self::EngineMomenta
             | Self::EngineBodies
@@ -138,10 +142,12 @@ impl Law {
         match self {
             Self::LinearMomentum => "dp/dt = F, for hub and device",
             Self::AngularMomentum => "dH/dt = L_B - v_B × p, about the moving point B",
-            Self::Energy => "dE/dt = F · v_B + L_B · ω + Σ u q′",
+            Self::Energy => {
+                "dE/dt = F · v_B + L_B · ω + Σ u q′; u by Lagrange where q″ is given instead"
+            }
             Self::Pivots => {
                 "a joint's diagonal is 2E of its motion alone at unit rate, its pivot the least 2E \
-                 with the joints behind it free"
+                 with the driven joints behind it free"
             }
             Self::Bodies => "E, p and H about B are sums over the bodies' r, r′, ω, [I_B] (König)",
             Self::Forces => "dp/dt and dH/dt are sums over the bodies' r″, [I]′, [I_B]′",
@@ -152,7 +158,8 @@ impl Law {
             Self::Inertia => "[I]′ and [I_B]′ are the derivatives of [I] and [I_B], along B",
             Self::FirstMoment => "m c′ and m c″ are the derivatives of m c and m c′",
             Self::Momenta => "p and H are the derivatives of E by v_B and ω",
-            Self::Lagrange => "d/dt ∂E/∂q′ - ∂E/∂q = u, for each joint",
+            Self::Lagrange => "d/dt ∂E/∂q′ - ∂E/∂q = u, for each joint whose u is given",
+            Self::Given => "q″ is what is given, to the bit, for each joint that is given it",
             Self::EngineAccelerations => "all accelerations, Pinocchio and MuJoCo",
             Self::EngineMomenta => "energy, linear and angular momentum, Pinocchio; energy, MuJoCo",
             Self::EngineBodies => "r, r′, r″, ω and [I_B] of each body, Pinocchio",
@@ -188,6 +195,8 @@ pub(super) type Residuals = Vec<(Law, f64)>;
 pub(super) struct Trial {
     pub(super) case: Case,
     pub(super) any: Accelerations,
+    /// Whether some joints' accelerations are given: for what depends on that.
+    pub(super) mixed: bool,
 }
 
 /// Residuals of every law that a change in `role` can move.
@@ -207,7 +216,8 @@ pub(super) fn residuals(
             }
         }
     };
-    for trial in trials {
+    let modes = concerns(role, &[Role::Solution]);
+    for trial in trials.iter().filter(|trial| modes || !trial.mixed) {
         keep(conservation::residuals(device, trial, fault, role));
         keep(differences::residuals(device, trial, fault, role));
     }

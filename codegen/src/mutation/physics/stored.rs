@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Deserialize;
 
 use crate::kinds::{Joint, Kind};
-use crate::mutation::state::{Accelerations, Case, Drive, Hub, Motion, parameters_of};
+use crate::mutation::state::{Accelerations, Case, Drive, Hub, Mode, Motion, parameters_of};
 
 /// One spacecraft and what the engines say of it.
 #[derive(Clone)]
@@ -189,6 +189,7 @@ impl Stored {
                 },
                 drive: Drive {
                     motors: reader.joints("motors", &device.motors, |joint| joint.torque)?,
+                    modes: Mode::of(kind, |_| Mode::DRIVEN),
                     force: spacecraft.force.into(),
                     torque: spacecraft.torque_b.into(),
                 },

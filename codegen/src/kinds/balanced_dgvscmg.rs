@@ -1,0 +1,13 @@
+//! The double-gimbal variable-speed control moment gyro whose wheel has no imbalance; its gimbals have.
+
+use super::Kind;
+use super::dgvscmg::{ARM, INNER_GIMBAL, OUTER_GIMBAL};
+use super::wheel::{Whole, balanced};
+
+/// The wheel's angle enters no equation.
+pub const BALANCED_DGVSCMG: Kind = Kind {
+    name: "balanced_dgvscmg",
+    title: "double-gimbal variable-speed control moment gyro with a balanced wheel",
+    source: "codegen/src/kinds/balanced_dgvscmg.rs",
+    links: &[OUTER_GIMBAL, INNER_GIMBAL, balanced(ARM, ["s_x", "s_y", "g_z"], Whole::Wheel)],
+};
