@@ -18,11 +18,13 @@ pub mod by_body;
 pub mod chain;
 pub mod composite;
 pub mod elimination;
+mod lump;
 pub mod motion;
 pub mod placed;
 pub mod quantities;
 pub mod script;
 mod torques;
+pub mod wrench;
 
 use script::{pairs, sextuple, triple};
 
