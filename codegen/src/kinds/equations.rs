@@ -26,6 +26,8 @@ pub struct Equations {
     pub assembly: &'static str,
     /// Torque on them about the joint's origin.
     pub about_origin: &'static str,
+    /// The same by components: what the motor exerts and what the structure carries.
+    pub across: &'static str,
 }
 
 /// The outer gimbal: a body with its centre of mass anywhere, on a joint that the hub carries.
@@ -41,6 +43,7 @@ pub(super) const OUTER_GIMBAL: Equations = Equations {
     h_dot: "(34)",
     assembly: "(89)",
     about_origin: "(78)",
+    across: "(77)",
 };
 
 /// The inner gimbal.
@@ -56,6 +59,7 @@ pub(super) const INNER_GIMBAL: Equations = Equations {
     h_dot: "(47)",
     assembly: "(108)",
     about_origin: "(99)",
+    across: "(98)",
 };
 
 /// The wheel.
@@ -71,4 +75,5 @@ pub(super) const WHEEL: Equations = Equations {
     h_dot: "(62)",
     assembly: "(63)",
     about_origin: "(117)",
+    across: "(116)",
 };

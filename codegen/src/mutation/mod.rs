@@ -141,7 +141,8 @@ pub fn mutate(
 fn trials(kind: &kinds::Kind) -> Vec<Trial> {
     let trial = |seed| {
         let mut random = Random::new(seed);
-        Trial { case: random.case(kind), any: random.accelerations(kind.links.len()) }
+        let (case, bodies) = (random.case(kind), kind.links.len());
+        Trial { case, any: random.accelerations(bodies), probe: random.probe(bodies) }
     };
     (0..TRIALS).map(trial).collect()
 }

@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Row;
 use super::factors::{self, Unknowns};
 use super::laws::Laws;
+use super::potential;
 use super::read_back::{EmittedError, Reading, function, read, returned_names};
 use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
@@ -106,6 +107,10 @@ impl<'a, 'g> Prover<'a, 'g> {
             "back_substitute" => {
                 let row = factors::of_back_substitution;
                 rows.push(row(cut, self.chain, &self.unknowns, &back.cut));
+            }
+            "gravity" => {
+                let named = |name: &str| back.expanded.values.get(name).copied();
+                rows.extend(potential::rows(expanded, self.chain, named));
             }
             _ => {}
         }
