@@ -7,6 +7,10 @@
 //! Newton and Euler per body, as in (25), (34), (47), (62) of the paper; the joint rows are the
 //! projections (80), (101), (119) of the same forces and moments on what each joint moves.
 
+pub mod acting;
+pub mod exerted;
+pub mod field;
+
 use super::chain::{Chain, XYZ};
 use super::{Momenta, Share};
 use crate::graph::{Expr, Graph, Stage};
@@ -103,6 +107,14 @@ pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
         });
     }
     made
+}
+
+impl<'g> BodyInHub<'g> {
+    /// Origin of the joint that carries it; B for the hub.
+    #[must_use]
+    pub fn origin(&self) -> Vector<'g, Hub> {
+        self.joints.last().map_or(Vector::zero(self.mass.graph()), |joint| joint.origin)
+    }
 }
 
 fn unit_axes<F: Frame>(graph: &Graph) -> [Vector<'_, F>; 3] {

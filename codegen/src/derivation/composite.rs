@@ -3,122 +3,15 @@
 //! Moments are taken about the joint's own origin and carried to the next one, so a light wheel
 //! far from B does not drown in the inertia of its lever arm.
 
-use super::chain::{Chain, Coordinate, Link};
+use super::chain::{Chain, Link};
+use super::lump::Lump;
 use super::motion::{Motion, Observer, motions};
-use super::script::{Script, pairs, sextuple, triple};
+use super::script::{Script, pairs, triple};
+use super::wrench::Wrench;
 use super::{Momenta, Share};
-use crate::graph::{Expr, Graph, Stage};
+use crate::graph::Stage;
 use crate::kinds::{self, units};
-use crate::space::{Frame, Own, Symmetric, Vector};
-
-/// A force and its moment about the origin at hand.
-#[derive(Clone, Copy)]
-struct Wrench<'g, F> {
-    force: Vector<'g, F>,
-    moment: Vector<'g, F>,
-}
-
-impl<'g, F: Frame> Wrench<'g, F> {
-    fn zero(graph: &'g Graph) -> Self {
-        Self { force: Vector::zero(graph), moment: Vector::zero(graph) }
-    }
-
-    fn plus(self, other: Self) -> Self {
-        Self { force: self.force + other.force, moment: self.moment + other.moment }
-    }
-}
-
-impl<'g> Wrench<'g, Own> {
-    /// Along the carrier's axes, about the carrier's origin.
-    fn carried(self, link: &Link<'g>) -> Self {
-        let force = self.force.turned(link.turn.inverse());
-        let moment = self.moment.turned(link.turn.inverse()) + link.origin.cross(force);
-        Self { force: force.handed_back(), moment: moment.handed_back() }
-    }
-
-    /// What the joint itself feels of it: the moment about its axis, or the force along it.
-    fn along(self, link: &Link<'g>) -> Expr<'g> {
-        link.axis.dot(match link.coordinate {
-            Coordinate::Angle(_) => self.moment,
-            Coordinate::Length(_) => self.force,
-        })
-    }
-}
-
-/// Mass, first moment and inertia of a set of bodies, about the origin at hand.
-#[derive(Clone, Copy)]
-struct Lump<'g> {
-    mass: Expr<'g>,
-    first_moment: Vector<'g, Own>,
-    inertia: Symmetric<'g, Own>,
-}
-
-impl<'g> Lump<'g> {
-    fn zero(graph: &'g Graph) -> Self {
-        Self {
-            mass: graph.zero(),
-            first_moment: Vector::zero(graph),
-            inertia: Symmetric::zero(graph),
-        }
-    }
-
-    /// One body about its joint's origin: parameters alone.
-    fn of(link: &Link<'g>, data: &kinds::Link, script: &mut Script<'g>) -> Self {
-        let (body, origin) = (&data.body, data.body.origin);
-        let made = Self {
-            mass: link.mass,
-            first_moment: link.mass * link.centre,
-            inertia: link.inertia + link.mass * Symmetric::tilde_squared(link.centre),
-        };
-        script.section(
-            "own",
-            format!(
-                "The {} about its origin: first moment, kg m, and inertia as in eq. {}, kg m².",
-                body.title, body.equations.i_b
-            ),
-        );
-        let names = triple(&format!("mr_{}_{origin}", body.point), body.frame);
-        script.names(pairs(names, made.first_moment.components()));
-        script
-            .names(pairs(sextuple(&format!("i_{}_{origin}", body.frame)), made.inertia.entries()));
-        made
-    }
-
-    fn plus(self, other: Self) -> Self {
-        Self {
-            mass: self.mass + other.mass,
-            first_moment: self.first_moment + other.first_moment,
-            inertia: self.inertia + other.inertia,
-        }
-    }
-
-    /// What a unit acceleration of the joint that carries it asks for.
-    fn column(self, link: &Link<'g>) -> Wrench<'g, Own> {
-        match link.coordinate {
-            Coordinate::Angle(_) => Wrench {
-                force: link.axis.cross(self.first_moment),
-                moment: self.inertia.times(link.axis),
-            },
-            Coordinate::Length(_) => {
-                Wrench { force: self.mass * link.axis, moment: self.first_moment.cross(link.axis) }
-            }
-        }
-    }
-
-    /// Along the carrier's axes, about the carrier's origin (parallel axis theorem).
-    fn carried(self, link: &Link<'g>) -> Self {
-        let (arm, back) = (link.origin, link.turn.inverse());
-        let first_moment = self.first_moment.turned(back);
-        let inertia = self.inertia.turned(back)
-            + Symmetric::tilde_pair(arm, first_moment)
-            + self.mass * Symmetric::tilde_squared(arm);
-        Self {
-            mass: self.mass,
-            first_moment: (first_moment + self.mass * arm).handed_back(),
-            inertia: inertia.handed_back(),
-        }
-    }
-}
+use crate::space::{Own, Symmetric, Vector};
 
 /// The device's share of the mass matrix and of the bias, with its steps written to `script`.
 #[must_use]
@@ -215,23 +108,9 @@ fn describe<'g>(
     script: &mut Script<'g>,
 ) {
     let data = &behind[0];
-    let (frame, origin, assembly) = (data.body.frame, data.body.origin, data.assembly);
+    let (frame, whole) = (data.body.frame, data.assembly.to_uppercase());
     let (title, letter, equations) = (data.body.title, data.body.letters[0], &data.body.equations);
-    let whole = assembly.to_uppercase();
-    script.section(
-        "lump",
-        format!(
-            "{whole}, the {title} and what it carries, eq. {}: mass, kg; first moment, kg m, and \
-             inertia, kg m², about {letter}.",
-            equations.assembly
-        ),
-    );
-    script.name(format!("m_{assembly}"), lump.mass);
-    script.names(pairs(
-        triple(&format!("mr_{assembly}_{origin}"), frame),
-        lump.first_moment.components(),
-    ));
-    script.names(pairs(sextuple(&format!("i_{assembly}_{origin}")), lump.inertia.entries()));
+    lump.name(data, script);
     script.section(
         "bias",
         format!(
@@ -239,8 +118,7 @@ fn describe<'g>(
             equations.about_origin
         ),
     );
-    script.names(pairs(triple("f_rest", frame), bias.force.components()));
-    script.names(pairs(triple("n_rest", frame), bias.moment.components()));
+    script.names(bias.named("rest", frame));
     script.section(
         "col",
         format!(
@@ -252,8 +130,7 @@ fn describe<'g>(
         ),
     );
     for (tag, column) in behind.iter().map(|link| link.joint.tag).zip(columns) {
-        script.names(pairs(triple(&format!("f_{tag}"), frame), column.force.components()));
-        script.names(pairs(triple(&format!("n_{tag}"), frame), column.moment.components()));
+        script.names(column.named(tag, frame));
     }
     script.section(
         "row",
@@ -269,13 +146,26 @@ fn describe<'g>(
     );
 }
 
-/// What one body asks for while no joint accelerates: with S and I about the joint's origin p,
-/// force `m p'' + S''` and moment `S x p'' + d(I omega)/dt`, derivatives seen from N.
+/// What one body asks for while no joint accelerates.
 fn bias_of<'g>(link: &Link<'g>, motion: &Motion<'g>, body: &Lump<'g>) -> Wrench<'g, Own> {
+    let Wrench { force, moment } = asked_of(link, motion, body);
+    Wrench {
+        force: force.without(Stage::Acceleration),
+        moment: moment.without(Stage::Acceleration),
+    }
+}
+
+/// What one body asks for: with S and I about the joint's origin p, force `m p'' + S''` and moment
+/// `S x p'' + d(I omega)/dt`, derivatives seen from N.
+pub(super) fn asked_of<'g>(
+    link: &Link<'g>,
+    motion: &Motion<'g>,
+    body: &Lump<'g>,
+) -> Wrench<'g, Own> {
     let (omega, axes) = (motion.omega, motion.axes);
-    let p_ddot = origin_acceleration(link, motion);
-    let s_ddot = body.first_moment.prime(axes).prime(axes).without(Stage::Acceleration);
-    let spin_rate = body.inertia.times(omega).prime(axes).without(Stage::Acceleration);
+    let p_ddot = motion.origin.acceleration.turned(link.turn);
+    let s_ddot = body.first_moment.prime(axes).prime(axes);
+    let spin_rate = body.inertia.times(omega).prime(axes);
     Wrench {
         force: body.mass * p_ddot + s_ddot,
         moment: body.first_moment.cross(p_ddot) + spin_rate,

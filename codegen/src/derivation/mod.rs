@@ -9,20 +9,28 @@
 //!   the rest is held against;
 //! - [`boltzmann_hamel`]: the same once more from the kinetic energy alone;
 //! - [`composite`]: the same, inwards from the tip in local frames: what is emitted;
+//! - [`axes`], [`loads`], [`external`], [`gravity`]: on the same walks, where the bodies stand, what
+//!   their joints carry, what acts on them from outside, and what a field does to them;
 //! - [`script`]: the named steps the walks leave behind;
 //! - [`elimination`]: the joints eliminated into the hub's six equations, tip first.
 
 mod angular;
+pub mod axes;
 pub mod boltzmann_hamel;
 pub mod by_body;
 pub mod chain;
 pub mod composite;
 pub mod elimination;
+pub mod external;
+pub mod gravity;
+pub mod loads;
+mod lump;
 pub mod motion;
 pub mod placed;
 pub mod quantities;
 pub mod script;
 mod torques;
+pub mod wrench;
 
 use script::{pairs, sextuple, triple};
 

@@ -13,30 +13,40 @@ pub struct Observer<'g> {
     pub omega: Vector<'g, Hub>,
     /// Velocity of point B.
     pub velocity: Vector<'g, Hub>,
+    /// Acceleration of point B, or zero where accelerations are wanted relative to that of B.
+    pub acceleration: Vector<'g, Hub>,
 }
 
 impl<'g> Observer<'g> {
     /// Seen from B: derivatives are the paper's primes.
     #[must_use]
     pub fn on_hub(graph: &'g Graph) -> Self {
-        Self { name: "B", omega: Vector::zero(graph), velocity: Vector::zero(graph) }
+        let zero = Vector::zero(graph);
+        Self { name: "B", omega: zero, velocity: zero, acceleration: zero }
     }
 
-    /// Seen from N: derivatives are the paper's dots.
+    /// Seen from N: derivatives are the paper's dots. Accelerations are relative to that of B.
     #[must_use]
     pub fn inertial(chain: &Chain<'g>) -> Self {
-        Self { name: "N", omega: chain.hub.omega, velocity: chain.hub.r_b_n_dot }
+        let (omega, velocity) = (chain.hub.omega, chain.hub.r_b_n_dot);
+        Self { name: "N", omega, velocity, acceleration: Vector::zero(chain.graph) }
+    }
+
+    /// Seen from N, with the acceleration of B in every other.
+    #[must_use]
+    pub fn accelerating(chain: &Chain<'g>) -> Self {
+        Self { acceleration: chain.hub.r_b_n_ddot, ..Self::inertial(chain) }
     }
 }
 
-/// A point that moves: position from B, velocity, and acceleration relative to that of B.
+/// A point that moves: position from B, velocity and acceleration.
 #[derive(Clone, Copy)]
 pub struct Path<'g, F> {
     /// From B.
     pub position: Vector<'g, F>,
     /// Seen by the observer.
     pub velocity: Vector<'g, F>,
-    /// Seen by the observer, less the acceleration of B.
+    /// Seen by the observer, to whom B accelerates as the observer says.
     pub acceleration: Vector<'g, F>,
 }
 
@@ -79,7 +89,8 @@ pub fn motions<'g>(chain: &Chain<'g>, observer: &Observer<'g>) -> Vec<Motion<'g>
     let zero = Vector::zero(chain.graph);
     let mut omega = observer.omega.as_carrier();
     let velocity = observer.velocity.as_carrier();
-    let mut path = Path { position: zero, velocity, acceleration: zero };
+    let acceleration = observer.acceleration.as_carrier();
+    let mut path = Path { position: zero, velocity, acceleration };
     let mut made = Vec::new();
     for link in &chain.links {
         let origin = path.with_arm(link.origin, omega);

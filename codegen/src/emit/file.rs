@@ -9,13 +9,13 @@ use tera::{Context, Tera};
 
 use super::body::{Counts, FunctionBody, Writer};
 use super::home::Home;
-use super::prepare::prepared;
+use super::prepare::{Prepared, prepared};
 use super::render::Rendered;
 use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
 use crate::derivation::chain::Chain;
 use crate::graph::{Node, NodeId};
 use crate::kernel::{Kernel, Record, Source, kernels, parameters};
-use crate::kernel::{joint_accelerations, modes, motors, pose, rates, shared_records};
+use crate::kernel::{joint_accelerations, modes, motors, pose, rates, shared_records, wrenches};
 use crate::kinds::{Kind, Motion};
 
 /// One emitted file.
@@ -191,7 +191,7 @@ fn kind_file(
     rows.push(count(kind.name, "prepare", body.counts));
 
     for kernel in &kernels {
-        let body = kernel_body(chain, kernel, &prepared.fields);
+        let body = kernel_body(chain, kernel, &prepared);
         rows.push(count(kind.name, &kernel.name, body.counts));
         let read = kernel.inputs.iter().filter(|(letter, _)| body.mentions(letter));
         let inputs: Vec<_> = read.map(|(letter, record)| (*letter, record.name.clone())).collect();
@@ -209,7 +209,7 @@ fn kind_file(
     let mut records = vec![raw, prepared.record];
     records.extend(pose(kind).into_iter().map(|(_, record)| record));
     // A kind whose joints all keep their rates has neither motors nor modes.
-    let given = [rates(kind), motors(kind), modes(kind)].into_iter();
+    let given = [rates(kind), motors(kind), modes(kind), wrenches(kind)].into_iter();
     records.extend(given.filter(|record| !record.fields.is_empty()));
     let outputs = kernels.iter().map(|kernel| kernel.output.clone());
     records.extend(outputs.filter(|record| !record.shared));
@@ -248,7 +248,7 @@ fn symmetric(kind: &Kind) -> Vec<String> {
 fn kernel_body<'g>(
     chain: &Chain<'g>,
     kernel: &Kernel<'g>,
-    constants: &HashMap<NodeId, String>,
+    prepared: &Prepared<'g>,
 ) -> FunctionBody {
     let graph = chain.graph;
     let mut argument: HashMap<String, &str> = HashMap::new();
@@ -258,18 +258,21 @@ fn kernel_body<'g>(
         }
     }
     let given = |id: NodeId| {
-        if let Some(name) = constants.get(&id) {
+        if let Some(name) = prepared.fields.get(&id) {
             return Some(Rendered::field("p", name));
         }
         let Node::Symbol(symbol) = graph.node(id) else { return None };
         let name = graph.symbol_info(symbol).name;
         argument.get(&name).map(|letter| Rendered::field(letter, &name))
     };
-    let witness = kernel.inputs.iter().find_map(|(letter, record)| {
+    // The fields of `Prepared` are not among the kernel's own: without a state, one of them.
+    let of_record = |letter: &str, record: &Record| {
         let number = record.fields.iter().find(|field| !matches!(field.source, Source::Nested(_)));
         number.map(|field| Rendered::field(letter, &field.name))
-    });
-    let witness = witness.expect("some input has its fields listed");
+    };
+    let stated = kernel.inputs.iter().find_map(|(letter, record)| of_record(letter, record));
+    let witness = stated.or_else(|| of_record("p", &prepared.record));
+    let witness = witness.expect("a kernel reads something");
     Writer::new(graph, &given, witness).write(&kernel.sections, &kernel.output.sources())
 }
 

@@ -1,20 +1,26 @@
 //! Kernels: the functions to be emitted, as named statements in sections over input records.
 
+mod axes;
 mod back_substitute;
 mod eliminate;
+mod external;
+mod gravity;
 mod kinematics;
+mod loads;
 mod momenta;
 mod records;
 
 pub use records::{
     Field, Record, Source, joint_accelerations, modes, motors, parameters, pose, rates,
-    shared_records,
+    shared_records, wrenches,
 };
 
 use crate::derivation::chain::Chain;
-use crate::derivation::script::Section;
+use crate::derivation::script::{Section, pairs, triple};
+use crate::derivation::wrench::Wrench;
 use crate::graph::{Expr, Node};
 use crate::kinds::Kind;
+use crate::space::{Frame, Vector};
 
 /// One function to be emitted.
 pub struct Kernel<'g> {
@@ -55,6 +61,25 @@ pub struct Claim<'g> {
     pub components: Vec<(String, Expr<'g>)>,
 }
 
+impl<'g> Claim<'g> {
+    /// Three components of a vector.
+    fn vector<F: Frame>(tag: &str, stem: &str, frame: &str, v: Vector<'g, F>) -> Self {
+        let components = pairs(triple(stem, frame), v.components()).collect();
+        Self { tag: tag.to_owned(), name: stem.to_owned(), components }
+    }
+
+    /// Force and moment, by their equations: `f_load_gox`, `n_load_gox`.
+    fn wrench<F: Frame>(
+        [force, moment]: [&str; 2],
+        what: &str,
+        frame: &str,
+        wrench: Wrench<'g, F>,
+    ) -> [Self; 2] {
+        [('f', force, wrench.force), ('n', moment, wrench.moment)]
+            .map(|(letter, tag, v)| Self::vector(tag, &format!("{letter}_{what}"), frame, v))
+    }
+}
+
 /// Every kernel of a chain, in the order of the emitted file.
 #[must_use]
 pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
@@ -63,6 +88,10 @@ pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     let back = back_substitute::kernel(chain, &eliminated, kernel.output.clone());
     list.extend([kernel, back]);
     list.push(momenta::kernel(chain));
+    list.push(axes::kernel(chain));
+    list.push(loads::kernel(chain));
+    list.push(external::kernel(chain));
+    list.push(gravity::kernel(chain));
     list
 }
 
@@ -71,8 +100,7 @@ fn inputs(
     kind: &Kind,
     more: impl IntoIterator<Item = (&'static str, Record)>,
 ) -> Vec<(&'static str, Record)> {
-    let mut list = vec![("p", Record::new("Prepared", ""))];
-    list.extend(pose(kind));
+    let mut list = records::placed(kind);
     list.push(("v", rates(kind)));
     list.extend(more);
     list

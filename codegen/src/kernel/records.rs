@@ -82,6 +82,13 @@ impl Record {
         }
     }
 
+    /// A force and its moment about the point that `about` names, `f_load_gox`, `n_load_gox`.
+    pub(super) fn wrench(&mut self, what: &str, frame: &str, on: &str, about: &str) {
+        self.vector(&format!("f_{what}"), frame, &format!("Force on {on}"), "N");
+        let doc = format!("Moment about {about} on {on}");
+        self.vector(&format!("n_{what}"), frame, &doc, "N m");
+    }
+
     /// Six entries of a symmetric tensor.
     pub(super) fn tensor(&mut self, stem: &str, doc: &str, unit: &str) {
         for name in sextuple(stem) {
@@ -135,6 +142,11 @@ fn link_parameters(link: &Link, record: &mut Record) {
         let entry = if entries.len() == 1 { "entry" } else { "entries" };
         record.field(name.clone(), format!("{doc}, {entry} {}, kg m².", entries.join(" and ")));
     }
+}
+
+/// Constants and pose, which every kernel takes.
+pub(super) fn placed(kind: &Kind) -> Vec<(&'static str, Record)> {
+    std::iter::once(("p", Record::new("Prepared", ""))).chain(pose(kind)).collect()
 }
 
 /// Where the joints stand: the arguments of a kernel that say so, as many as the kind knows of.
@@ -242,10 +254,21 @@ pub fn joint_accelerations(kind: &Kind) -> Record {
     record
 }
 
+/// What acts on each body alone.
+#[must_use]
+pub fn wrenches(kind: &Kind) -> Record {
+    let doc = "What acts on each body alone, along own axes, moments about its joint's origin.";
+    let mut record = Record::new("Wrenches", doc);
+    for Link { body, .. } in kind.links {
+        record.wrench("on", body.frame, &format!("the {}", body.title), body.letters[0]);
+    }
+    record
+}
+
 /// The records that are the same for every kind.
 #[must_use]
-pub fn shared_records() -> [Record; 5] {
-    [body_rate(), body_velocity(), body_acceleration(), hub_share(), energy_momentum()]
+pub fn shared_records() -> [Record; 6] {
+    [body_rate(), body_velocity(), body_acceleration(), hub_share(), energy_momentum(), gradient()]
 }
 
 /// Angular velocity of B.
@@ -308,5 +331,15 @@ pub(super) fn energy_momentum() -> Record {
     record.field("energy", "Kinetic energy, J.");
     record.vector("linear", "b", "Linear momentum", "kg m/s");
     record.vector("angular_b", "b", "Moment of momentum about B, Σ r × m ṙ + I ω", "kg m²/s");
+    record
+}
+
+/// The gradient of a field of acceleration.
+#[must_use]
+pub(super) fn gradient() -> Record {
+    let doc =
+        "A field of acceleration that grows linearly from B, `G r`, along the device's B axes.";
+    let mut record = Record::new("Gradient", doc).shared();
+    record.tensor("g", "G, symmetric", "1/s²");
     record
 }

@@ -26,6 +26,8 @@ pub struct Equations {
     pub assembly: &'static str,
     /// Torque on them about the joint's origin.
     pub about_origin: &'static str,
+    /// The same by components: what the motor exerts and what the structure carries.
+    pub across: &'static str,
 }
 
 impl Equations {
@@ -42,6 +44,7 @@ impl Equations {
         h_dot: "(none)",
         assembly: "(none)",
         about_origin: "(none)",
+        across: "(none)",
     };
 }
 
@@ -58,6 +61,7 @@ pub(super) const OUTER_GIMBAL: Equations = Equations {
     h_dot: "(34)",
     assembly: "(89)",
     about_origin: "(78)",
+    across: "(77)",
 };
 
 /// The inner gimbal.
@@ -73,6 +77,7 @@ pub(super) const INNER_GIMBAL: Equations = Equations {
     h_dot: "(47)",
     assembly: "(108)",
     about_origin: "(99)",
+    across: "(98)",
 };
 
 /// The wheel.
@@ -88,4 +93,5 @@ pub(super) const WHEEL: Equations = Equations {
     h_dot: "(62)",
     assembly: "(63)",
     about_origin: "(117)",
+    across: "(116)",
 };

@@ -1,5 +1,9 @@
 //! The emitted functions of one kind, called as the solver and its users call them.
 
+mod exerted;
+
+pub(super) use exerted::Stand;
+
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 
 use super::MutationError;
@@ -27,6 +31,10 @@ struct Functions {
     eliminate: usize,
     back_substitute: usize,
     energy_momentum: usize,
+    axes: usize,
+    loads: usize,
+    external: usize,
+    gravity: usize,
 }
 
 /// The functions with their listings, `prepare` first.
@@ -58,7 +66,7 @@ pub(super) struct BodySeen {
     pub(super) r_prime: Vector3<f64>,
     pub(super) columns: Vec<Vector3<f64>>,
     pub(super) r_dprime_rest: Vector3<f64>,
-    omega: Vector3<f64>,
+    pub(super) omega: Vector3<f64>,
     /// About the body's own centre of mass: given, not computed by a kernel.
     pub(super) inertia: Matrix3<f64>,
     pub(super) inertia_prime: Matrix3<f64>,
@@ -118,16 +126,19 @@ impl<'a, 'g> Device<'a, 'g> {
     pub(super) fn role(&self, index: usize) -> Option<Role> {
         let functions = &self.functions;
         if functions.bodies.contains(&index) {
-            Some(Role::Body)
-        } else if index == functions.first_moment {
-            Some(Role::FirstMoment)
-        } else if index == functions.eliminate || index == functions.back_substitute {
-            Some(Role::Solution)
-        } else if index == functions.energy_momentum {
-            Some(Role::Momenta)
-        } else {
-            None
+            return Some(Role::Body);
         }
+        let roles = [
+            (functions.first_moment, Role::FirstMoment),
+            (functions.eliminate, Role::Solution),
+            (functions.back_substitute, Role::Solution),
+            (functions.energy_momentum, Role::Momenta),
+            (functions.axes, Role::Axes),
+            (functions.loads, Role::Loads),
+            (functions.external, Role::External),
+            (functions.gravity, Role::Gravity),
+        ];
+        roles.into_iter().find(|(function, _)| *function == index).map(|(_, role)| role)
     }
 
     /// The fault that a site of function `index` stands for.
@@ -351,6 +362,10 @@ impl Functions {
             eliminate: find("eliminate")?,
             back_substitute: find("back_substitute")?,
             energy_momentum: find("energy_momentum")?,
+            axes: find("axes")?,
+            loads: find("loads")?,
+            external: find("external")?,
+            gravity: find("gravity")?,
         })
     }
 }

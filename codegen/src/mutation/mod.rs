@@ -172,9 +172,10 @@ pub fn mutate(
 fn trials(kind: &kinds::Kind) -> Vec<Trial> {
     let trial = |seed| {
         let mut random = Random::new(seed);
-        let case = random.case(kind);
-        let any = random.accelerations(kind.links.len());
-        (Trial { case, any, mixed: false }, random)
+        let (case, bodies) = (random.case(kind), kind.links.len());
+        let any = random.accelerations(bodies);
+        let probe = random.probe(bodies);
+        (Trial { case, any, probe, mixed: false }, random)
     };
     let mixed = |(seed, first): (u64, usize)| {
         let (mut trial, mut random) = trial(seed);

@@ -89,6 +89,25 @@ impl Mode {
     }
 }
 
+/// A force and a moment, or the velocity of a point and an angular velocity; along axes and about a
+/// point that the context says.
+#[derive(Clone, Copy)]
+pub(super) struct Wrench {
+    pub(super) force: Vector3<f64>,
+    pub(super) moment: Vector3<f64>,
+}
+
+/// What a device is put to beside its motion.
+#[derive(Clone)]
+pub(super) struct Probe {
+    /// On each body alone: along own axes, about its joint's origin.
+    pub(super) acting: Vec<Wrench>,
+    /// Of a field of acceleration `G r`: symmetric, and not free of a trace.
+    pub(super) gradient: Matrix3<f64>,
+    /// A rigid motion: velocity of B and angular velocity.
+    pub(super) twist: Wrench,
+}
+
 /// What the equations of motion are solved for.
 #[derive(Clone)]
 pub(super) struct Accelerations {
@@ -125,6 +144,38 @@ impl Motion {
         let zero = Vector3::zeros();
         let coordinates = self.coordinates.clone();
         Self { coordinates, rates, omega: zero, velocity: zero }
+    }
+}
+
+impl Wrench {
+    pub(super) fn zero() -> Self {
+        Self { force: Vector3::zeros(), moment: Vector3::zeros() }
+    }
+
+    /// Both act.
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self { force: self.force + other.force, moment: self.moment + other.moment }
+    }
+
+    /// Along the axes in which `axes` stand as columns.
+    pub(super) fn turned(self, axes: &Matrix3<f64>) -> Self {
+        Self { force: axes * self.force, moment: axes * self.moment }
+    }
+
+    /// The same about a point from which the present one lies at `arm`.
+    pub(super) fn moved(self, arm: Vector3<f64>) -> Self {
+        Self { moment: self.moment + arm.cross(&self.force), ..self }
+    }
+
+    /// What it does to a point that moves at `velocity` with a body that turns at `omega`.
+    pub(super) fn power(self, velocity: &Vector3<f64>, omega: &Vector3<f64>) -> f64 {
+        self.force.dot(velocity) + self.moment.dot(omega)
+    }
+
+    /// Its six components.
+    pub(super) fn list(self) -> [f64; 6] {
+        let (f, n) = (self.force, self.moment);
+        [f.x, f.y, f.z, n.x, n.y, n.z]
     }
 }
 
@@ -172,6 +223,17 @@ impl Random {
     /// Accelerations that obey no law.
     pub(super) fn accelerations(&mut self, joints: usize) -> Accelerations {
         Accelerations { point: self.vector(), omega: self.vector(), joints: self.list(joints) }
+    }
+
+    fn wrench(&mut self) -> Wrench {
+        Wrench { force: self.vector(), moment: self.vector() }
+    }
+
+    /// What acts on so many bodies, a field and a rigid motion.
+    pub(super) fn probe(&mut self, bodies: usize) -> Probe {
+        let acting = (0..bodies).map(|_| self.wrench()).collect();
+        let half = Matrix3::from_fn(|_, _| 0.5 * self.signed());
+        Probe { acting, gradient: half + half.transpose(), twist: self.wrench() }
     }
 
     /// A spacecraft with one device of `kind`, in a state.

@@ -11,6 +11,7 @@ use super::Row;
 use super::factors;
 use super::laws::Laws;
 use super::modes::divisor;
+use super::potential;
 use super::read_back::{EmittedError, Reading, function, read, returned_names};
 use super::unknowns::Unknowns;
 use crate::derivation::by_body;
@@ -127,6 +128,10 @@ impl<'a, 'g> Prover<'a, 'g> {
             "back_substitute" => {
                 let row = factors::of_back_substitution;
                 rows.push(row(cut, self.chain, &self.unknowns, &back.cut));
+            }
+            "gravity" => {
+                let named = |name: &str| back.expanded.values.get(name).copied();
+                rows.extend(potential::rows(expanded, self.chain, named));
             }
             _ => {}
         }

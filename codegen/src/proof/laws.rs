@@ -99,6 +99,6 @@ impl<'g> Laws<'g> {
 }
 
 /// Components by number.
-fn labelled<'g>(values: &[Expr<'g>]) -> Vec<(String, Expr<'g>)> {
+pub(super) fn labelled<'g>(values: &[Expr<'g>]) -> Vec<(String, Expr<'g>)> {
     (1..).zip(values).map(|(number, value): (usize, _)| (number.to_string(), *value)).collect()
 }

@@ -5,6 +5,7 @@ mod factors;
 mod laws;
 mod modes;
 mod pages;
+mod potential;
 mod read_back;
 mod row;
 mod unknowns;

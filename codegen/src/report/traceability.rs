@@ -18,7 +18,7 @@ pub(super) struct Traceability {
 }
 
 /// What is emitted and not numbered by the paper, in the order of the page.
-const UNNUMBERED: [(&str, &str); 8] = [
+const UNNUMBERED: [(&str, &str); 15] = [
     ("(step)", "positions, velocities and first moments, behind (11) to (14)"),
     ("(M_ij)", "mass matrix of the joints"),
     ("(E1)", "a joint's divisor, gains and free acceleration"),
@@ -27,6 +27,13 @@ const UNNUMBERED: [(&str, &str); 8] = [
     ("(E4)", "joint accelerations from those of the hub"),
     ("(energy)", "kinetic energy"),
     ("(momentum)", "linear momentum"),
+    ("(A1)", "axes of the bodies"),
+    ("(A2)", "origins of the joints"),
+    ("(F1)", "what acts from outside, at joints and hub"),
+    ("(F2)", "the same along a joint"),
+    ("(G1)", "a field of acceleration at a joint"),
+    ("(G2)", "what it does to a body"),
+    ("(G3)", "second moment of the device"),
 ];
 
 /// So many groups of names are shown of one function, the others counted.

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 use std::ops::{Add, Mul, Sub};
 
-use super::frame::{Carrier, Frame, Hub, Own, Turn};
+use super::frame::{Axis, Carrier, Frame, Hub, Own, Turn};
 use super::vector::Vector;
 use crate::graph::{Expr, Graph};
 
@@ -87,6 +87,26 @@ impl<'g, F: Frame> Symmetric<'g, F> {
     pub fn times(self, v: Vector<'g, F>) -> Vector<'g, F> {
         let [x, y, z] = v.components();
         Vector::new([0, 1, 2].map(|i| self.at(i, 0) * x + self.at(i, 1) * y + self.at(i, 2) * z))
+    }
+
+    /// `tr(I) / 2 1 - I`: the integral of `r r^T dm`, of the inertia about the same point.
+    #[must_use]
+    pub fn second_moment(self) -> Self {
+        let half = self.trace().graph().constant(2).recip();
+        Self::isotropic(half * self.trace()) - self
+    }
+
+    /// The integral of `r x G r dm` for the second moment `self`: twice the axial vector of `G S`,
+    /// to which a multiple of one in either adds nothing.
+    #[must_use]
+    pub fn couple(self, field: Self) -> Vector<'g, F> {
+        let (s, g) = (self, field);
+        Vector::new([Axis::X, Axis::Y, Axis::Z].map(|axis| {
+            let [i, j, k] = axis.cycle();
+            s.at(i, j) * g.at(i, k) - s.at(i, k) * g.at(i, j)
+                + (s.at(j, j) - s.at(k, k)) * g.at(j, k)
+                + s.at(j, k) * (g.at(k, k) - g.at(j, j))
+        }))
     }
 
     /// The derivative seen from the frame against which `F` turns at `omega`:
@@ -185,7 +205,6 @@ mod tests {
     use super::*;
     use crate::graph::Stage;
     use crate::normal::Ring;
-    use crate::space::Axis;
 
     fn inertia<F: Frame>(g: &Graph) -> Symmetric<'_, F> {
         Symmetric::new(
@@ -227,6 +246,46 @@ mod tests {
             for component in (before - after).components() {
                 assert!(ring.normal(component).unwrap().is_empty());
             }
+        }
+    }
+
+    #[test]
+    fn a_cloud_of_masses_has_the_couple_of_its_points() {
+        let g = Graph::new();
+        let field = Symmetric::<Own>::new(
+            ENTRIES.map(|entry| g.symbol(&format!("g_{entry}"), Stage::Parameter)),
+        );
+        let point = |name: &str| {
+            Vector::new(["x", "y", "z"].map(|a| g.symbol(&format!("{name}_{a}"), Stage::Parameter)))
+        };
+        let (a, b) = (point("a"), point("b"));
+        let inertia = Symmetric::tilde_squared(a) + Symmetric::tilde_squared(b);
+        let points = a.cross(field.times(a)) + b.cross(field.times(b));
+        let mut ring = Ring::new(&g);
+        for couple in [inertia.second_moment().couple(field), -inertia.couple(field)] {
+            for component in (couple - points).components() {
+                assert!(ring.normal(component).unwrap().is_empty());
+            }
+        }
+        let moment = inertia.second_moment();
+        let half = g.constant(2).recip();
+        let outer = |v| half * Symmetric::outer_pair(v, v);
+        assert_equal(&g, moment, outer(a) + outer(b));
+    }
+
+    /// `G = 3 n n^T - 1` in units of mu / r^3: the torque is 3 n x I n.
+    #[test]
+    fn the_field_of_a_far_mass_turns_a_body_as_textbooks_say() {
+        let g = Graph::new();
+        let n = Vector::<Own>::new(["x", "y", "z"].map(|a| g.symbol(a, Stage::Parameter)));
+        let (one, three) = (g.constant(1), g.constant(3));
+        let half = g.constant(2).recip();
+        let field = (three * half) * Symmetric::outer_pair(n, n) - Symmetric::isotropic(one);
+        let i = inertia::<Own>(&g);
+        let mut ring = Ring::new(&g);
+        let off = i.second_moment().couple(field) - three * n.cross(i.times(n));
+        for component in off.components() {
+            assert!(ring.normal(component).unwrap().is_empty());
         }
     }
 

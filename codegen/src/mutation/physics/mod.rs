@@ -3,9 +3,13 @@
 //! Nothing here knows the derivation. A law's residual is a number without unit: the difference of
 //! its two sides over the larger of them, or over one where both are smaller.
 
+mod axes;
 mod conservation;
 mod differences;
 mod engines;
+mod external;
+mod field;
+mod loads;
 mod stored;
 
 use std::fmt;
@@ -15,7 +19,7 @@ pub use engines::Engines;
 pub use stored::EngineError;
 
 use super::device::{Device, Fault};
-use super::state::{Accelerations, Case};
+use super::state::{Accelerations, Case, Probe};
 
 /// The three kinds of check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -60,6 +64,22 @@ pub enum Law {
     Forces,
     /// Momentum of the centre of mass.
     CentreOfMass,
+    /// What crosses a joint as a change of momentum.
+    JointMomentum,
+    /// The power that goes into a device.
+    JointPower,
+    /// The power of what acts on the bodies.
+    VirtualPower,
+    /// What acts on the bodies as a sum.
+    Resultants,
+    /// A field's work on each body.
+    FieldWork,
+    /// A field's work on the device.
+    FieldPower,
+    /// Second moment as a sum over the bodies.
+    SecondMoment,
+    /// Place of a body's centre of mass.
+    Origins,
     /// Velocity of a body.
     Velocity,
     /// Acceleration of a body.
@@ -76,6 +96,8 @@ pub enum Law {
     Lagrange,
     /// Given accelerations.
     Given,
+    /// Axes that stay square and turn.
+    Axes,
     /// Accelerations of the engines.
     EngineAccelerations,
     /// Energy and momenta of the engines.
@@ -88,7 +110,7 @@ pub enum Law {
 
 impl Law {
     /// Every law, by kind.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 28] = [
         Self::LinearMomentum,
         Self::AngularMomentum,
         Self::Energy,
@@ -96,6 +118,14 @@ impl Law {
         Self::Bodies,
         Self::Forces,
         Self::CentreOfMass,
+        Self::JointMomentum,
+        Self::JointPower,
+        Self::VirtualPower,
+        Self::Resultants,
+        Self::FieldWork,
+        Self::FieldPower,
+        Self::SecondMoment,
+        Self::Origins,
         Self::Velocity,
         Self::Acceleration,
         Self::Turning,
@@ -104,6 +134,7 @@ impl Law {
         Self::Momenta,
         Self::Lagrange,
         Self::Given,
+        Self::Axes,
         Self::EngineAccelerations,
         Self::EngineMomenta,
         Self::EngineBodies,
@@ -120,7 +151,15 @@ impl Law {
             | Self::Pivots
             | Self::Bodies
             | Self::Forces
-            | Self::CentreOfMass => Kind::Conservation,
+            | Self::CentreOfMass
+            | Self::JointMomentum
+            | Self::JointPower
+            | Self::VirtualPower
+            | Self::Resultants
+            | Self::FieldWork
+            | Self::FieldPower
+            | Self::SecondMoment
+            | Self::Origins => Kind::Conservation,
             Self::Velocity
             | Self::Acceleration
             | Self::Turning
@@ -128,7 +167,8 @@ impl Law {
             | Self::FirstMoment
             | Self::Momenta
             | Self::Lagrange
-            | Self::Given => Kind::Differences,
+            | Self::Given
+            | Self::Axes => Kind::Differences,
             Self::EngineAccelerations
             | Self::EngineMomenta
             | Self::EngineBodies
@@ -152,6 +192,20 @@ impl Law {
             Self::Bodies => "E, p and H about B are sums over the bodies' r, r′, ω, [I_B] (König)",
             Self::Forces => "dp/dt and dH/dt are sums over the bodies' r″, [I]′, [I_B]′",
             Self::CentreOfMass => "p and dp/dt from the device's centre of mass",
+            Self::JointMomentum => {
+                "the loads at a joint are dp/dt and dH/dt of the bodies outside it"
+            }
+            Self::JointPower => "Σ u q′ + F · v_B + N · ω of the loads is dE/dt of the device",
+            Self::VirtualPower => {
+                "what acts on the bodies does the work that joints and hub receive: Σ F · v + N · ω"
+            }
+            Self::Resultants => "what acts on the bodies outside a joint, summed at its origin",
+            Self::FieldWork => {
+                "a field's work on each body, moved in any way, is the change of G : S / 2, S by [I_B]"
+            }
+            Self::FieldPower => "a field's work along the motion is the change of G : S / 2",
+            Self::SecondMoment => "S is a sum over the bodies' [I_B]",
+            Self::Origins => "r of each body is its joint's origin and its centre along its axes",
             Self::Velocity => "r′ is the derivative of r",
             Self::Acceleration => "r″ is the derivative of r′, whatever the joints' accelerations",
             Self::Turning => "ω is the rate at which the body's axes turn",
@@ -160,6 +214,7 @@ impl Law {
             Self::Momenta => "p and H are the derivatives of E by v_B and ω",
             Self::Lagrange => "d/dt ∂E/∂q′ - ∂E/∂q = u, for each joint whose u is given",
             Self::Given => "q″ is what is given, to the bit, for each joint that is given it",
+            Self::Axes => "axes are square and right-handed, and turn at ω",
             Self::EngineAccelerations => "all accelerations, Pinocchio and MuJoCo",
             Self::EngineMomenta => "energy, linear and angular momentum, Pinocchio; energy, MuJoCo",
             Self::EngineBodies => "r, r′, r″, ω and [I_B] of each body, Pinocchio",
@@ -185,6 +240,14 @@ pub(super) enum Role {
     Solution,
     /// `energy_momentum`.
     Momenta,
+    /// `axes`.
+    Axes,
+    /// `loads`.
+    Loads,
+    /// `external`.
+    External,
+    /// `gravity`.
+    Gravity,
 }
 
 /// A residual for each of some laws.
@@ -197,6 +260,7 @@ pub(super) struct Trial {
     pub(super) any: Accelerations,
     /// Whether some joints' accelerations are given: for what depends on that.
     pub(super) mixed: bool,
+    pub(super) probe: Probe,
 }
 
 /// Residuals of every law that a change in `role` can move.
@@ -220,6 +284,10 @@ pub(super) fn residuals(
     for trial in trials.iter().filter(|trial| modes || !trial.mixed) {
         keep(conservation::residuals(device, trial, fault, role));
         keep(differences::residuals(device, trial, fault, role));
+        keep(axes::residuals(device, trial, fault, role));
+        keep(loads::residuals(device, trial, fault, role));
+        keep(external::residuals(device, trial, fault, role));
+        keep(field::residuals(device, trial, fault, role));
     }
     keep(engines.residuals(device, fault, role));
     found.sort_by_key(|(law, _)| *law);

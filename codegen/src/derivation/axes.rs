@@ -1,0 +1,54 @@
+//! Outwards along the chain: where each joint's origin lies and how its axes stand, along B.
+
+use super::chain::{Chain, Link, XYZ};
+use super::script::{Script, pairs, triple};
+use crate::space::{Axis, Carrier, Frame, Hub, Own, Vector};
+
+/// Writes the axes of every body and the origin of its joint to `script`.
+pub fn axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
+    let unit = |axis| Vector::unit(chain.graph, axis);
+    let mut here =
+        Axes { columns: [Axis::X, Axis::Y, Axis::Z].map(unit), origin: Vector::zero(chain.graph) };
+    for (link, data) in chain.links.iter().zip(chain.kind.links) {
+        here = here.across(link);
+        let (frame, title) = (data.body.frame, data.body.title);
+        let letter = data.body.letters[0];
+        let whose = if link.turn.is_none() { "the carrier's axes" } else { "its own axes" };
+        script.section("axis", format!("Of the {title}: {whose} along B, eq. (A1)."));
+        for (column, axis) in here.columns.into_iter().zip(XYZ) {
+            script.names(pairs(triple(&format!("{frame}_{axis}"), "b"), column.components()));
+        }
+        script.section("pos", format!("{letter} from B, eq. (A2), along B axes, m."));
+        script.names(pairs(triple(&format!("origin_{frame}"), "b"), here.origin.components()));
+    }
+}
+
+/// Axes and origin of one body.
+#[derive(Clone, Copy)]
+struct Axes<'g> {
+    /// Its axes: the columns of its rotation.
+    columns: [Vector<'g, Hub>; 3],
+    /// Its joint's origin, from B.
+    origin: Vector<'g, Hub>,
+}
+
+impl<'g> Axes<'g> {
+    /// Behind one more joint: two of the axes turn in their plane.
+    fn across(self, link: &Link<'g>) -> Self {
+        let origin = self.origin + self.along_b(link.origin);
+        // The components along B of all three axes at once: rows of the rotation turn as vectors do.
+        let row = |place: usize| {
+            let row = self.columns.map(|column| column.components()[place]);
+            Vector::<Carrier>::new(row).turned::<Own>(link.turn).components()
+        };
+        let rows = [0, 1, 2].map(row);
+        let columns = [0, 1, 2].map(|axis| Vector::new(rows.map(|row| row[axis])));
+        Self { columns, origin }
+    }
+
+    /// A vector given along these axes.
+    fn along_b<F: Frame>(self, v: Vector<'g, F>) -> Vector<'g, Hub> {
+        let [x, y, z] = v.components();
+        x * self.columns[0] + y * self.columns[1] + z * self.columns[2]
+    }
+}

@@ -1,0 +1,56 @@
+//! What acts on the bodies from outside, carried inwards to the joints and to the hub.
+
+use super::chain::Chain;
+use super::script::Script;
+use super::wrench::Wrench;
+use crate::graph::Stage;
+use crate::kinds;
+use crate::space::{Own, Vector};
+
+/// Writes to `script` what acts on each body and all outside it, along own axes, about its joint's
+/// origin; what each joint feels of it along its axis; and what the hub feels, about B.
+pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
+    let mut sum = Wrench::zero(chain.graph);
+    let links = chain.links.iter().zip(chain.kind.links);
+    for ((link, data), own) in links.zip(acting(chain)).rev() {
+        sum = sum.plus(own);
+        let whole = data.assembly.to_uppercase();
+        let body = &data.body;
+        script.section(
+            "sum",
+            format!(
+                "On {whole}, the {} and what it carries, eq. (F1): force, N, and moment \
+                 about {}, N m.",
+                body.title, body.letters[0],
+            ),
+        );
+        script.names(sum.named("sum", body.frame));
+        script.section(
+            "drive",
+            format!(
+                "Along the {}'s joint, beside its motor, eq. (F2), {}.",
+                body.title,
+                data.joint.motion.units().drive
+            ),
+        );
+        script.name(format!("drive_{}", data.joint.tag), sum.along(link));
+        sum = sum.carried(link);
+    }
+    script.section("sum", "On the hub, eq. (F1): force, N, and moment about B, N m.");
+    script.names(sum.named("sum", "b"));
+}
+
+/// The symbols of what acts on each body alone: along own axes, about its joint's origin.
+#[must_use]
+pub fn acting<'g>(chain: &Chain<'g>) -> Vec<Wrench<'g, Own>> {
+    let zero = Wrench::<Own>::zero(chain.graph);
+    let symbols = |link: &kinds::Link| {
+        let names: Vec<_> = zero.named("on", link.body.frame);
+        let symbol = |place: usize| chain.graph.symbol(&names[place].0, Stage::Rate);
+        Wrench {
+            force: Vector::new([0, 1, 2].map(symbol)),
+            moment: Vector::new([3, 4, 5].map(symbol)),
+        }
+    };
+    chain.kind.links.iter().map(symbols).collect()
+}

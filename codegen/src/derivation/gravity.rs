@@ -1,0 +1,91 @@
+//! A field of acceleration that grows linearly from B, `G r`, and what it does to each body.
+//!
+//! With S and I about a joint's origin p, the field pulls a body with `m G p + G S` and turns it with
+//! `S x G p` and with the torque of the gradient on an extended body, which knows its second moment
+//! up to a multiple of one. G need not be free of a trace.
+
+use super::chain::{Chain, Link};
+use super::lump::Lump;
+use super::script::{Script, pairs, sextuple, triple};
+use super::wrench::Wrench;
+use crate::graph::{Graph, Stage};
+use crate::space::{Carrier, ENTRIES, Hub, Own, Symmetric, Vector};
+
+/// Writes to `script` what the field does to each body, along own axes, about its joint's origin, and
+/// `S = integral of r r^T dm` of the device, about B.
+pub fn gravity<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
+    let mut here = Field::about_b(chain.graph);
+    let mut bodies = Vec::new();
+    for (link, data) in chain.links.iter().zip(chain.kind.links) {
+        let (frame, origin) = (data.body.frame, data.body.origin);
+        let (title, letter) = (data.body.title, data.body.letters[0]);
+        let own = here.across(link);
+        script.section("field", format!("G, as in eq. (G1), along the axes of the {title}, 1/s²."));
+        script.names(pairs(sextuple(&format!("g_{frame}")), own.gradient.entries()));
+        script.section("field", format!("G r at {letter}, eq. (G1), along the same axes, m/s²."));
+        script.names(pairs(triple(&format!("g_r_{origin}"), frame), own.origin.components()));
+        let body = Lump::of(link, data, script);
+        script.section(
+            "pull",
+            format!("On the {title} alone, eq. (G2): force, N, and moment about {letter}, N m."),
+        );
+        script.names(own.on(&body).named("on", frame));
+        bodies.push(body);
+        here = own.handed_on();
+    }
+    let mut lump = Lump::zero(chain.graph);
+    for ((link, data), body) in chain.links.iter().zip(chain.kind.links).zip(bodies).rev() {
+        lump = lump.plus(body);
+        lump.name(data, script);
+        lump = lump.carried(link);
+    }
+    let second_moment = lump.inertia.second_moment();
+    script.section("axis", "S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².");
+    script.names(pairs(sextuple("second_moment"), second_moment.entries()));
+}
+
+/// The symbols of the gradient, along B axes.
+#[must_use]
+pub fn gradient(graph: &Graph) -> Symmetric<'_, Hub> {
+    Symmetric::new(ENTRIES.map(|entry| graph.symbol(&format!("g_{entry}"), Stage::Rate)))
+}
+
+/// The field about an origin.
+#[derive(Clone, Copy)]
+struct Field<'g, F> {
+    /// G.
+    gradient: Symmetric<'g, F>,
+    /// `G r` at the origin.
+    origin: Vector<'g, F>,
+}
+
+impl<'g> Field<'g, Carrier> {
+    /// About B.
+    fn about_b(graph: &'g Graph) -> Self {
+        let gradient = Symmetric::new(gradient(graph).entries());
+        Self { gradient, origin: Vector::zero(graph) }
+    }
+
+    /// About a joint's origin, along own axes.
+    fn across(self, link: &Link<'g>) -> Field<'g, Own> {
+        let origin = self.origin + self.gradient.times(link.origin);
+        Field { gradient: self.gradient.turned(link.turn), origin: origin.turned(link.turn) }
+    }
+}
+
+impl<'g> Field<'g, Own> {
+    /// Walking outwards: the body's frame carries the next joint.
+    fn handed_on(self) -> Field<'g, Carrier> {
+        let gradient = Symmetric::new(self.gradient.entries());
+        Field { gradient, origin: self.origin.handed_on() }
+    }
+
+    /// Force and moment on a body. S and I are `tr(I) / 2 - I` and I but for a multiple of one.
+    fn on(self, body: &Lump<'g>) -> Wrench<'g, Own> {
+        let s = body.first_moment;
+        Wrench {
+            force: body.mass * self.origin + self.gradient.times(s),
+            moment: s.cross(self.origin) - body.inertia.couple(self.gradient),
+        }
+    }
+}

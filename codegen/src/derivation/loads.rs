@@ -1,0 +1,77 @@
+//! Inverse dynamics: what the carrier of each joint must exert so that given accelerations happen.
+//!
+//! Recursive Newton and Euler in local frames: accelerations outwards, those of B among them, then
+//! forces and moments inwards. Of each moment the part about the joint's axis is the motor's torque;
+//! the rest is carried by the structure, the torques of (77), (98) and (116).
+
+use super::chain::Chain;
+use super::composite::asked_of;
+use super::lump::Lump;
+use super::motion::{Motion, Observer, motions};
+use super::script::{Script, pairs, triple};
+use super::wrench::Wrench;
+
+/// Writes the loads of a device to `script`: at each joint on all that lies outside it, along own
+/// axes, about the joint's origin; then on the whole device, about B.
+pub fn loads<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
+    let motions = outwards(chain, script);
+    let mut wrench = Wrench::zero(chain.graph);
+    for ((link, data), motion) in chain.links.iter().zip(chain.kind.links).zip(&motions).rev() {
+        let body = Lump::of(link, data, script);
+        wrench = wrench.plus(asked_of(link, motion, &body));
+        script.section(
+            "load",
+            format!(
+                "On {}, the {} and what it carries, at its joint, eq. {}: force, N, and moment \
+                 about {}, N m.",
+                data.assembly.to_uppercase(),
+                data.body.title,
+                data.body.equations.across,
+                data.body.letters[0],
+            ),
+        );
+        script.names(wrench.named("load", data.body.frame));
+        wrench = wrench.carried(link);
+    }
+    script.section(
+        "load",
+        "On the whole device, eqs. (16), (75): force, N, and moment about B, N m.",
+    );
+    script.names(wrench.named("load", "b"));
+}
+
+/// Motions, with everything accelerating.
+fn outwards<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Vec<Motion<'g>> {
+    let motions = motions(chain, &Observer::accelerating(chain));
+    for ((link, data), motion) in chain.links.iter().zip(chain.kind.links).zip(&motions) {
+        let (body, equations) = (&data.body, &data.body.equations);
+        let (frame, [letter, _]) = (body.frame, body.letters);
+        let axes = if link.turn.is_none() { "the carrier's axes" } else { "its own axes" };
+        script.section(
+            "rate",
+            format!("ω_{{{letter}/N}}, eq. {}, along {axes}, rad/s.", equations.omega),
+        );
+        let stem = format!("omega_{frame}_n");
+        script.names(pairs(triple(&stem, frame), motion.omega.components()));
+        script.section(
+            "turn",
+            format!(
+                "Its derivative by components, as in eq. {}, along the same axes, rad/s².",
+                equations.h_dot
+            ),
+        );
+        let rates = motion.omega.component_rates();
+        script.names(pairs(triple(&format!("{stem}_dot"), frame), rates.components()));
+        script.section(
+            "path",
+            format!(
+                "Inertial acceleration of {letter} as in eq. {}, same axes, m/s².",
+                equations.r_ddot
+            ),
+        );
+        let origin = motion.origin.acceleration.turned(link.turn);
+        let stem = format!("r_{}_n_ddot", body.origin);
+        script.names(pairs(triple(&stem, frame), origin.components()));
+    }
+    motions
+}

@@ -1,0 +1,104 @@
+//! Mass, first moment and inertia of one body or of several, moved from origin to origin.
+
+use super::chain::{Coordinate, Link};
+use super::script::{Script, pairs, sextuple, triple};
+use super::wrench::Wrench;
+use crate::graph::{Expr, Graph};
+use crate::kinds;
+use crate::space::{Own, Symmetric, Vector};
+
+/// Mass, first moment and inertia of a set of bodies, about the origin at hand.
+#[derive(Clone, Copy)]
+pub(super) struct Lump<'g> {
+    pub(super) mass: Expr<'g>,
+    pub(super) first_moment: Vector<'g, Own>,
+    pub(super) inertia: Symmetric<'g, Own>,
+}
+
+impl<'g> Lump<'g> {
+    pub(super) fn zero(graph: &'g Graph) -> Self {
+        Self {
+            mass: graph.zero(),
+            first_moment: Vector::zero(graph),
+            inertia: Symmetric::zero(graph),
+        }
+    }
+
+    /// One body about its joint's origin: parameters alone.
+    pub(super) fn of(link: &Link<'g>, data: &kinds::Link, script: &mut Script<'g>) -> Self {
+        let (body, origin) = (&data.body, data.body.origin);
+        let made = Self {
+            mass: link.mass,
+            first_moment: link.mass * link.centre,
+            inertia: link.inertia + link.mass * Symmetric::tilde_squared(link.centre),
+        };
+        script.section(
+            "own",
+            format!(
+                "The {} about its origin: first moment, kg m, and inertia as in eq. {}, kg m².",
+                body.title, body.equations.i_b
+            ),
+        );
+        let names = triple(&format!("mr_{}_{origin}", body.point), body.frame);
+        script.names(pairs(names, made.first_moment.components()));
+        script
+            .names(pairs(sextuple(&format!("i_{}_{origin}", body.frame)), made.inertia.entries()));
+        made
+    }
+
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self {
+            mass: self.mass + other.mass,
+            first_moment: self.first_moment + other.first_moment,
+            inertia: self.inertia + other.inertia,
+        }
+    }
+
+    /// What a unit acceleration of the joint that carries it asks for.
+    pub(super) fn column(self, link: &Link<'g>) -> Wrench<'g, Own> {
+        match link.coordinate {
+            Coordinate::Angle(_) => Wrench {
+                force: link.axis.cross(self.first_moment),
+                moment: self.inertia.times(link.axis),
+            },
+            Coordinate::Length(_) => {
+                Wrench { force: self.mass * link.axis, moment: self.first_moment.cross(link.axis) }
+            }
+        }
+    }
+
+    /// Along the carrier's axes, about the carrier's origin (parallel axis theorem).
+    pub(super) fn carried(self, link: &Link<'g>) -> Self {
+        let (arm, back) = (link.origin, link.turn.inverse());
+        let first_moment = self.first_moment.turned(back);
+        let inertia = self.inertia.turned(back)
+            + Symmetric::tilde_pair(arm, first_moment)
+            + self.mass * Symmetric::tilde_squared(arm);
+        Self {
+            mass: self.mass,
+            first_moment: (first_moment + self.mass * arm).handed_back(),
+            inertia: inertia.handed_back(),
+        }
+    }
+
+    /// Names what lies outside a joint, taken together.
+    pub(super) fn name(&self, data: &kinds::Link, script: &mut Script<'g>) {
+        let (body, assembly) = (&data.body, data.assembly);
+        let (origin, letter) = (body.origin, body.letters[0]);
+        script.section(
+            "lump",
+            format!(
+                "{}, the {} and what it carries, eq. {}: mass, kg; first moment, kg m, and \
+                 inertia, kg m², about {letter}.",
+                assembly.to_uppercase(),
+                body.title,
+                body.equations.assembly
+            ),
+        );
+        script.name(format!("m_{assembly}"), self.mass);
+        let names = triple(&format!("mr_{assembly}_{origin}"), body.frame);
+        script.names(pairs(names, self.first_moment.components()));
+        let names = sextuple(&format!("i_{assembly}_{origin}"));
+        script.names(pairs(names, self.inertia.entries()));
+    }
+}

@@ -1,0 +1,58 @@
+//! The kernel `external`: what acts on the bodies, at the joints and on the hub.
+
+use super::{Claim, Kernel, Record, records};
+use crate::derivation::by_body::acting;
+use crate::derivation::chain::Chain;
+use crate::derivation::external::{acting as symbols, external};
+use crate::derivation::script::Script;
+use crate::kinds::Kind;
+
+/// A wrench on every body, carried inwards.
+#[must_use]
+pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
+    let mut script = Script::new(chain.graph);
+    external(chain, &mut script);
+    let mut inputs = records::placed(chain.kind);
+    inputs.push(("x", records::wrenches(chain.kind)));
+    Kernel {
+        name: "external".to_owned(),
+        doc: vec!["What acts on the bodies from outside, carried inwards.".to_owned()],
+        inputs,
+        sections: script.sections,
+        output: output(chain.kind),
+        claims: claims(chain),
+    }
+}
+
+fn output(kind: &Kind) -> Record {
+    let doc = "What acts from outside: on each body and all outside it, along own axes, moments \
+               about its joint's origin; along each joint, to be added to its motor's; on the hub.";
+    let mut record = Record::new("External", doc);
+    for link in kind.links {
+        let (body, joint) = (&link.body, &link.joint);
+        let on = format!("the {} and what it carries, eq. (F1)", body.title);
+        record.wrench("sum", body.frame, &on, body.letters[0]);
+        let doc =
+            format!("Along the {}'s joint, eq. (F2), {}.", body.title, joint.motion.units().drive);
+        record.field(format!("drive_{}", joint.tag), doc);
+    }
+    record.wrench("sum", "b", "the hub, eq. (F1)", "B");
+    record
+}
+
+fn claims<'g>(chain: &Chain<'g>) -> Vec<Claim<'g>> {
+    let own = symbols(chain).into_iter().enumerate();
+    let on_bodies: Vec<_> = own.map(|(k, wrench)| wrench.along_b(chain, k)).collect();
+    let mut made = Vec::new();
+    for (k, link) in chain.kind.links.iter().enumerate() {
+        let wrench = acting::at_joint(chain, &on_bodies, k).resolved(chain, k + 1);
+        made.extend(Claim::wrench(["(F1)"; 2], "sum", link.body.frame, wrench));
+    }
+    made.extend(Claim::wrench(["(F1)"; 2], "sum", "b", acting::on_hub(chain, &on_bodies)));
+    for (drive, link) in acting::virtual_work(chain, &on_bodies).into_iter().zip(chain.kind.links) {
+        let name = format!("drive_{}", link.joint.tag);
+        let (tag, components) = ("(F2)".to_owned(), vec![(name.clone(), drive)]);
+        made.push(Claim { tag, name, components });
+    }
+    made
+}

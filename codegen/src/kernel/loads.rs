@@ -1,0 +1,78 @@
+//! The kernel `loads`: inverse dynamics.
+
+use super::{Claim, Kernel, Record, inputs, records};
+use crate::derivation::by_body::exerted;
+use crate::derivation::chain::{Chain, XYZ};
+use crate::derivation::loads::loads;
+use crate::derivation::script::Script;
+use crate::kinds::{Kind, Motion};
+
+/// What each carrier exerts.
+#[must_use]
+pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
+    let kind = chain.kind;
+    let mut script = Script::new(chain.graph);
+    loads(chain, &mut script);
+    let across: Vec<_> = kind.links.iter().map(|link| link.body.equations.across).collect();
+    Kernel {
+        name: "loads".to_owned(),
+        doc: vec![
+            "What the carrier of each joint exerts on all outside it, so that these accelerations"
+                .into(),
+            format!("happen: the torques of {}.", across.join(", ")),
+        ],
+        inputs: inputs(
+            kind,
+            [
+                ("w", records::body_rate()),
+                ("a", records::body_acceleration()),
+                ("j", records::joint_accelerations(kind)),
+            ],
+        ),
+        sections: script.sections,
+        output: output(kind),
+        claims: claims(chain),
+    }
+}
+
+fn output(kind: &Kind) -> Record {
+    let doc = "What the carrier of each joint exerts on all outside it, nothing else acting: along \
+               own axes, moments about the joint's origin. Along its axis that is the motor's.";
+    let mut record = Record::new("Loads", doc);
+    for link in kind.links {
+        let (body, equations) = (&link.body, &link.body.equations);
+        let on = format!("the {}, eq. {}", body.title, equations.across);
+        record.wrench("load", body.frame, &on, body.letters[0]);
+    }
+    record.wrench("load", "b", "the whole device, eqs. (16), (75)", "B");
+    record
+}
+
+fn claims<'g>(chain: &Chain<'g>) -> Vec<Claim<'g>> {
+    let links = chain.kind.links;
+    let mut made = Vec::new();
+    for (k, (needed, link)) in exerted::joints(chain).into_iter().zip(links).enumerate() {
+        let wrench = needed.resolved(chain, k + 1);
+        made.extend(Claim::wrench(
+            [link.body.equations.across; 2],
+            "load",
+            link.body.frame,
+            wrench,
+        ));
+    }
+    made.extend(Claim::wrench(["(16)", "(75)"], "load", "b", exerted::whole(chain)));
+    for (torque, link) in exerted::motors(chain).into_iter().zip(links) {
+        let (motion, equations) = (link.joint.motion, &link.body.equations);
+        let letter = match motion {
+            Motion::Turn(_) => "n",
+            Motion::Slide(_) => "f",
+        };
+        let axis = XYZ[motion.axis().cycle()[0]];
+        made.push(Claim {
+            tag: equations.torque.to_owned(),
+            name: link.joint.torque.to_owned(),
+            components: vec![(format!("{letter}_load_{}{axis}", link.body.frame), torque)],
+        });
+    }
+    made
+}

@@ -1,0 +1,69 @@
+//! What crosses the joints, for accelerations that obey no law: as changes of what the bodies have.
+
+use nalgebra::{DMatrix, Vector3};
+
+use super::{Law, Residuals, Role, Trial, concerns, gap, slope};
+use crate::mutation::device::{Device, Fault};
+use crate::mutation::state::{Motion, Wrench};
+
+pub(super) fn residuals(
+    device: &Device<'_, '_>,
+    trial: &Trial,
+    fault: &Fault,
+    role: Option<Role>,
+) -> Residuals {
+    let mut found = Vec::new();
+    if concerns(role, &[Role::Loads, Role::Body]) {
+        found.push((Law::JointMomentum, momentum(device, trial, fault)));
+    }
+    if concerns(role, &[Role::Loads, Role::Momenta]) {
+        found.push((Law::JointPower, power(device, trial, fault)));
+    }
+    found
+}
+
+/// Newton and Euler, about the moving point B, for the bodies outside each joint.
+fn momentum(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
+    let (case, motion) = (&trial.case, &trial.case.motion);
+    let loads = device.loads(case, &trial.any, fault);
+    let stands = device.geometry(case, motion);
+    let moving = |time: f64| momenta(device, trial, &motion.after(time, &trial.any), fault);
+    let (now, rates) = (moving(0.0), slope(moving));
+    let (mut sum, mut worst) = (Wrench::zero(), 0.0_f64);
+    for (k, stand) in stands.iter().enumerate().rev() {
+        let part = |all: &DMatrix<f64>, row: usize| {
+            Vector3::from_fn(|component, _| all[(row + component, k)])
+        };
+        let (p, h) = (part(&now, 0), part(&now, 3));
+        // Components along axes that turn with B, moments about a point that moves with B.
+        sum = sum.plus(Wrench {
+            force: part(&rates, 0) + motion.omega.cross(&p),
+            moment: part(&rates, 3) + motion.omega.cross(&h) + motion.velocity.cross(&p),
+        });
+        let load = loads.joints[k].moved(stand.origin);
+        worst = worst.max(gap(&load.list(), &sum.list()));
+    }
+    worst.max(gap(&loads.whole.list(), &sum.list()))
+}
+
+/// Momentum and moment of momentum about B of each body, one column each.
+fn momenta(device: &Device<'_, '_>, trial: &Trial, motion: &Motion, fault: &Fault) -> DMatrix<f64> {
+    let column = |k: usize| {
+        let body = device.body(k, &trial.case, motion, fault);
+        let velocity = motion.velocity + body.r_prime + motion.omega.cross(&body.r);
+        let linear = body.mass * velocity;
+        let spin = body.inertia * (motion.omega + body.omega_b());
+        Wrench { force: linear, moment: body.r.cross(&linear) + spin }.list()
+    };
+    let columns: Vec<_> = (0..device.joints()).flat_map(column).collect();
+    DMatrix::from_vec(6, device.joints(), columns)
+}
+
+fn power(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
+    let (case, motion) = (&trial.case, &trial.case.motion);
+    let loads = device.loads(case, &trial.any, fault);
+    let drives = loads.drives.iter().zip(&motion.rates).map(|(drive, rate)| drive * rate);
+    let given = drives.sum::<f64>() + loads.whole.power(&motion.velocity, &motion.omega);
+    let energy = |time: f64| device.held(case, &motion.after(time, &trial.any), fault).energy;
+    gap(&[given], &[slope(energy)])
+}
