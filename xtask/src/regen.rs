@@ -106,16 +106,19 @@ fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), Strin
     Err(format!("{stale} of {} files are stale; run `{remedy}`", files.len()))
 }
 
-/// A file among the emitted Rust that was not emitted.
+/// The first file among the emitted Rust, at any depth, that was not emitted.
 fn orphan(files: &[EmittedFile], into: &Path) -> Option<PathBuf> {
     let emitted: Vec<_> = files.iter().map(|file| into.join(&file.path)).collect();
-    let mut found: Vec<_> = fs::read_dir(into.join("dynamics/src/generated"))
-        .ok()?
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| !emitted.contains(path))
-        .collect();
-    found.sort();
-    found.into_iter().next()
+    let mut folders = vec![into.join("dynamics/src/generated")];
+    let mut found = Vec::new();
+    while let Some(folder) = folders.pop() {
+        let entries = fs::read_dir(folder).into_iter().flatten();
+        let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        let (inner, files): (Vec<_>, Vec<_>) = paths.partition(|path| path.is_dir());
+        folders.extend(inner);
+        found.extend(files.into_iter().filter(|path| !emitted.contains(path)));
+    }
+    found.into_iter().min()
 }
 
 #[cfg(test)]
@@ -157,6 +160,23 @@ mod tests {
     }
 
     #[test]
+    fn a_file_that_is_not_emitted_is_found_in_any_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let generated = folder.path().join("dynamics/src/generated");
+        fs::create_dir_all(generated.join("dgvscmg")).unwrap();
+        let file = |path: &str| EmittedFile {
+            path: format!("dynamics/src/generated/{path}"),
+            text: String::new(),
+        };
+        let emitted = ["mod.rs", "dgvscmg/device.rs"].map(file);
+        write(&emitted, folder.path()).unwrap();
+        assert_eq!(orphan(&emitted, folder.path()), None);
+        let left = generated.join("dgvscmg/old.rs");
+        fs::write(&left, "").unwrap();
+        assert_eq!(orphan(&emitted, folder.path()), Some(left));
+    }
+
+    #[test]
     fn a_wrong_page_is_named_and_nothing_is_written() {
         let folder = tempfile::tempdir().unwrap();
         let (pages, out) = (folder.path().join("pages"), folder.path().join("out"));
@@ -190,8 +210,9 @@ mod tests {
         let before = fs::read_to_string(&path).unwrap();
         let message =
             regen(&Options { check: true, quiet: true, out, ..Options::default() }).unwrap_err();
-        let start = "1 of 17 files are stale; run `cargo xtask regen --out ";
-        assert!(message.starts_with(start), "{message}");
+        let all = tree(folder.path(), "").len();
+        let start = format!("1 of {all} files are stale; run `cargo xtask regen --out ");
+        assert!(message.starts_with(&start), "{message}");
         assert_eq!(fs::read_to_string(&path).unwrap(), before);
     }
 }

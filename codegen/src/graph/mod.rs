@@ -126,12 +126,16 @@ impl Graph {
         let arena = self.arena.borrow();
         let mut seen = vec![false; arena.nodes.len()];
         let mut pending: Vec<NodeId> = roots.into_iter().collect();
+        let mut found = Vec::new();
         while let Some(id) = pending.pop() {
             if !std::mem::replace(&mut seen[id as usize], true) {
+                found.push(id);
                 pending.extend(arena.nodes[id as usize].operands());
             }
         }
-        (0..).zip(seen).filter_map(|(id, seen)| seen.then_some(id)).collect()
+        // An operand is older than its users.
+        found.sort_unstable();
+        found
     }
 }
 

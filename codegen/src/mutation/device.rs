@@ -1,8 +1,12 @@
 //! The emitted functions of one kind, called as the solver and its users call them.
 
 mod exerted;
+mod known;
+mod seen;
 
 pub(super) use exerted::Stand;
+pub(super) use known::Fault;
+pub(super) use seen::BodySeen;
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Vector3, Vector6};
 
@@ -12,13 +16,11 @@ use super::listing::Listing;
 use super::physics::Role;
 use super::site::Site;
 use super::state::{Accelerations, Case, Motion, parameters_of};
-use super::tape::{Changed, Returned, Tape, Values};
+use super::tape::{Returned, Tape, Values};
 use crate::derivation::chain::{Chain, Coordinate, Mode};
 use crate::emit::prepared;
 use crate::graph::{Expr, Stage};
 use crate::kernel::{Kernel, kernels, parameters};
-use crate::kinds;
-use crate::space::{Axis, ENTRIES};
 
 /// Number of the function that all others read.
 pub(super) const PREPARE: usize = 0;
@@ -48,38 +50,6 @@ pub(super) struct Device<'a, 'g> {
     trigonometry: Vec<[Expr<'g>; 2]>,
     /// Fields that `eliminate` hands to `back_substitute`.
     handed: Vec<(String, Expr<'g>)>,
-}
-
-/// Which function is changed at which step: one, or with `prepare` all that use the node.
-#[derive(Clone, Default)]
-pub(super) struct Fault(Vec<Option<Changed>>);
-
-/// One body seen from B; vectors along B but for `omega`, which is along the axes of its functions.
-pub(super) struct BodySeen {
-    pub(super) mass: f64,
-    /// The axes along which its functions resolve it, as columns along B. A rotor that is the same
-    /// from every angle does not carry them along.
-    axes: Matrix3<f64>,
-    /// The axes that are fixed in it.
-    pub(super) attitude: Matrix3<f64>,
-    pub(super) r: Vector3<f64>,
-    pub(super) r_prime: Vector3<f64>,
-    pub(super) columns: Vec<Vector3<f64>>,
-    pub(super) r_dprime_rest: Vector3<f64>,
-    pub(super) omega: Vector3<f64>,
-    /// About the body's own centre of mass: given, not computed by a kernel.
-    pub(super) inertia: Matrix3<f64>,
-    pub(super) inertia_prime: Matrix3<f64>,
-    pub(super) inertia_b: Matrix3<f64>,
-    pub(super) inertia_b_prime: Matrix3<f64>,
-}
-
-/// The device's centre of mass, weighted with its mass, along B.
-pub(super) struct Moment {
-    pub(super) mc: Vector3<f64>,
-    pub(super) mc_prime: Vector3<f64>,
-    pub(super) columns: Vec<Vector3<f64>>,
-    pub(super) rest: Vector3<f64>,
 }
 
 impl<'a, 'g> Device<'a, 'g> {
@@ -141,14 +111,14 @@ impl<'a, 'g> Device<'a, 'g> {
         roles.into_iter().find(|(function, _)| *function == index).map(|(_, role)| role)
     }
 
-    /// The fault that a site of function `index` stands for.
-    pub(super) fn fault(&self, index: usize, site: &Site) -> Fault {
+    /// The fault that a site of function `index` stands for, of what is right without it.
+    pub(super) fn fault(&self, right: &Fault, index: usize, site: &Site) -> Fault {
         let changed = |(k, tape): (usize, &Tape)| {
             let meant = index == PREPARE || k == index;
             let change = || tape.changed(self.chain.graph, &site.place, site.mutant.change);
             meant.then(change).flatten()
         };
-        Fault(self.tapes.iter().enumerate().map(changed).collect())
+        Fault::of(right, self.tapes.iter().enumerate().map(changed).collect())
     }
 
     /// How many joints and bodies there are.
@@ -201,7 +171,7 @@ impl<'a, 'g> Device<'a, 'g> {
 
     /// Calls function `index`.
     fn call(&self, index: usize, values: &Values, fault: &Fault) -> Returned<'_> {
-        self.tapes[index].evaluate(values, fault.0.get(index).copied().flatten())
+        self.tapes[index].evaluate(values, fault.changed(index))
     }
 
     /// `eliminate`.
@@ -212,6 +182,12 @@ impl<'a, 'g> Device<'a, 'g> {
     /// All accelerations of hub and device: `eliminate`, the hub's own six equations by Newton and
     /// Euler for one rigid body, `back_substitute`.
     pub(super) fn accelerations(&self, case: &Case, fault: &Fault) -> Accelerations {
+        let functions = [self.functions.eliminate, self.functions.back_substitute];
+        let find = || self.solved(case, fault);
+        fault.answer(|known| &known.accelerations, &functions, case, &case.motion, find)
+    }
+
+    fn solved(&self, case: &Case, fault: &Fault) -> Accelerations {
         let mut values = self.arguments(case, &case.motion);
         let device = self.call(self.functions.eliminate, &values, fault);
         let (hub, omega) = (&case.hub, case.motion.omega);
@@ -253,15 +229,24 @@ impl<'a, 'g> Device<'a, 'g> {
 
     /// `energy_momentum`.
     pub(super) fn held(&self, case: &Case, motion: &Motion, fault: &Fault) -> Held {
-        let arguments = self.arguments(case, motion);
-        let returned = self.call(self.functions.energy_momentum, &arguments, fault);
-        // The names as they stand: this is asked for more often than all else together.
-        let vector = |names: [&str; 3]| Vector3::from(names.map(|name| returned.scalar(name)));
-        Held {
-            energy: returned.scalar("energy"),
-            linear: vector(["linear_bx", "linear_by", "linear_bz"]),
-            angular: vector(["angular_b_bx", "angular_b_by", "angular_b_bz"]),
-        }
+        let function = self.functions.energy_momentum;
+        fault.answer(
+            |known| &known.held,
+            &[function],
+            case,
+            motion,
+            || {
+                let returned = self.call(function, &self.arguments(case, motion), fault);
+                // The names as they stand: this is asked for more often than all else together.
+                let vector =
+                    |names: [&str; 3]| Vector3::from(names.map(|name| returned.scalar(name)));
+                Held {
+                    energy: returned.scalar("energy"),
+                    linear: vector(["linear_bx", "linear_by", "linear_bz"]),
+                    angular: vector(["angular_b_bx", "angular_b_by", "angular_b_bz"]),
+                }
+            },
+        )
     }
 
     /// The joints' own mass matrix as the energies of their motions: `T = sum of M_jk q_j' q_k' / 2`.
@@ -274,77 +259,6 @@ impl<'a, 'g> Device<'a, 'g> {
         DMatrix::from_fn(self.joints(), self.joints(), |j, k| {
             if j == k { 2.0 * energy(&[j]) } else { energy(&[j, k]) - energy(&[j]) - energy(&[k]) }
         })
-    }
-
-    /// `first_moment`.
-    pub(super) fn moment(&self, case: &Case, motion: &Motion, fault: &Fault) -> Moment {
-        let arguments = self.arguments(case, motion);
-        let returned = self.call(self.functions.first_moment, &arguments, fault);
-        let tags = self.chain.kind.links.iter().map(|link| link.joint.tag);
-        Moment {
-            mc: returned.vector("mc", "b"),
-            mc_prime: returned.vector("mc_prime", "b"),
-            columns: tags.map(|tag| returned.vector(&format!("f_{tag}"), "b")).collect(),
-            rest: returned.vector("f_tilde", "b"),
-        }
-    }
-
-    /// The function of body `k`.
-    pub(super) fn body(&self, k: usize, case: &Case, motion: &Motion, fault: &Fault) -> BodySeen {
-        let links = self.chain.kind.links;
-        let data = &links[k].body;
-        let arguments = self.arguments(case, motion);
-        let returned = self.call(self.functions.bodies[k], &arguments, fault);
-        let carrier = if k == 0 { "b" } else { links[k - 1].body.frame };
-        let (own, point) = (data.frame, data.point);
-        let before = self.axes(k, motion);
-        let turned = self.turned(k, motion);
-        let axes = if self.chain.kind.axes_turn(k) { before * turned } else { before };
-        let vector = |stem: &str| before * returned.vector(stem, carrier);
-        let tensor = |stem: &str| axes * returned.tensor(stem) * axes.transpose();
-        let names = data.inertia.names();
-        let given = |row: usize, column: usize| {
-            let entry = format!("{}{}", row.min(column) + 1, row.max(column) + 1);
-            let named = ENTRIES.iter().zip(&names).find(|(known, _)| **known == entry);
-            let name = named.and_then(|(_, name)| name.as_ref());
-            name.map_or(0.0, |name| self.parameter(case, name))
-        };
-        let column = |tag: &str| vector(&format!("r_{point}_b_dprime_{tag}"));
-        BodySeen {
-            mass: self.body_mass(k, case),
-            axes,
-            attitude: before * turned,
-            r: vector(&format!("r_{point}_b")),
-            r_prime: vector(&format!("r_{point}_b_prime")),
-            columns: links[..=k].iter().map(|link| column(link.joint.tag)).collect(),
-            r_dprime_rest: column("rest"),
-            omega: returned.vector(&format!("omega_{own}_b"), own),
-            inertia: axes * Matrix3::from_fn(given) * axes.transpose(),
-            inertia_prime: tensor(&format!("i_{own}_{point}_prime")),
-            inertia_b: tensor(&format!("i_{own}_b")),
-            inertia_b_prime: tensor(&format!("i_{own}_b_prime")),
-        }
-    }
-
-    /// The axes that the functions use behind so many joints, as columns along B: the geometry
-    /// itself.
-    fn axes(&self, joints: usize, motion: &Motion) -> Matrix3<f64> {
-        let turning = (0..joints).filter(|k| self.chain.kind.axes_turn(*k));
-        turning.fold(Matrix3::identity(), |axes, k| axes * self.turned(k, motion))
-    }
-
-    /// How joint `k` has turned what it carries: a sliding one has not.
-    fn turned(&self, k: usize, motion: &Motion) -> Matrix3<f64> {
-        match self.chain.kind.links[k].joint.motion {
-            kinds::Motion::Slide(_) => Matrix3::identity(),
-            kinds::Motion::Turn(axis) => {
-                let angle = motion.coordinates[k];
-                // Rodrigues: what lies along the axis stays, the rest turns.
-                let tilde = unit(axis).cross_matrix();
-                let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
-                Matrix3::identity() + sine * tilde + (1.0 - cosine) * tilde * tilde
-            }
-        }
     }
 }
 
@@ -367,32 +281,5 @@ impl Functions {
             external: find("external")?,
             gravity: find("gravity")?,
         })
-    }
-}
-
-fn unit(axis: Axis) -> Vector3<f64> {
-    let mut v = Vector3::zeros();
-    v[axis.cycle()[0]] = 1.0;
-    v
-}
-
-impl BodySeen {
-    /// Second derivative of the centre of mass, seen from B.
-    pub(super) fn r_dprime(&self, joints: &[f64]) -> Vector3<f64> {
-        let terms = self.columns.iter().zip(joints).map(|(column, q)| *q * column);
-        terms.fold(self.r_dprime_rest, |sum, term| sum + term)
-    }
-
-    /// Angular velocity relative to B, along B.
-    pub(super) fn omega_b(&self) -> Vector3<f64> {
-        self.axes * self.omega
-    }
-}
-
-impl Moment {
-    /// `m c″`.
-    pub(super) fn mc_dprime(&self, joints: &[f64]) -> Vector3<f64> {
-        let terms = self.columns.iter().zip(joints).map(|(column, q)| *q * column);
-        terms.fold(self.rest, |sum, term| sum + term)
     }
 }

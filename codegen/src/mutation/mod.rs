@@ -32,7 +32,7 @@ use device::{Device, Fault};
 use listing::Listing;
 use physics::{Trial, residuals};
 use site::{Site, sites};
-use state::Random;
+use state::{CaseName, Random};
 
 use crate::derivation::chain::Chain;
 use crate::graph::Graph;
@@ -140,7 +140,8 @@ pub fn mutate(
     let chain = Chain::new(&graph, kind);
     let device = Device::new(&chain)?;
     let trials = trials(kind);
-    let floors = residuals(&device, &trials, engines, &Fault::default(), None);
+    let right = Fault::default();
+    let floors = residuals(&device, &trials, engines, &right, None);
     if let Some(&(law, residual)) = floors.iter().find(|(_, residual)| *residual > NOTICED) {
         return Err(MutationError::Broken { kind: kind.name, law, residual });
     }
@@ -149,7 +150,8 @@ pub fn mutate(
     progress(Progress::Found(chosen.len()));
     for (index, site) in chosen {
         let role = device.role(index);
-        let signals = residuals(&device, &trials, engines, &device.fault(index, &site), role);
+        let fault = device.fault(&right, index, &site);
+        let signals = residuals(&device, &trials, engines, &fault, role);
         let killed = signals.iter().any(|(_, residual)| *residual > NOTICED);
         let fate = if killed {
             Fate::Killed
@@ -170,19 +172,19 @@ pub fn mutate(
 /// States with every joint driven, then two with mixed modes in which each joint is once driven and
 /// once given its acceleration.
 fn trials(kind: &kinds::Kind) -> Vec<Trial> {
-    let trial = |seed| {
-        let mut random = Random::new(seed);
-        let (case, bodies) = (random.case(kind), kind.links.len());
+    let trial = |seed, mixed| {
+        let (mut random, bodies) = (Random::new(seed), kind.links.len());
+        let case = random.case(kind, CaseName::Drawn { seed, mixed });
         let any = random.accelerations(bodies);
         let probe = random.probe(bodies);
-        (Trial { case, any, probe, mixed: false }, random)
+        (Trial { case, any, mixed, probe }, random)
     };
     let mixed = |(seed, first): (u64, usize)| {
-        let (mut trial, mut random) = trial(seed);
+        let (mut trial, mut random) = trial(seed, true);
         trial.case.drive.modes = random.modes(kind, first);
-        Trial { mixed: true, ..trial }
+        trial
     };
-    let driven = (0..TRIALS).map(|seed| trial(seed).0);
+    let driven = (0..TRIALS).map(|seed| trial(seed, false).0);
     driven.chain([(0, 0), (1, 1)].map(mixed)).collect()
 }
 

@@ -110,12 +110,12 @@ impl Report {
         self.grouped(|mutant| Some(mutant.kernel.clone()))
     }
 
-    /// One tally per equation, over all functions: by number, alone before
-    /// among several, what has none last.
+    /// One tally per equation, over all functions: by number, alone before among several, those of
+    /// the derivation's own sections, (A1) to (G3), after the paper's, what has none last.
     #[must_use]
     pub fn by_tag(&self) -> Vec<(String, Tally)> {
         let mut tags = self.grouped(|mutant| mutant.tag.clone());
-        tags.sort_by_key(|(tag, _)| (number(tag), tag.contains(", ")));
+        tags.sort_by_cached_key(|(tag, _)| (number(tag), tag.contains(", "), tag.clone()));
         tags
     }
 

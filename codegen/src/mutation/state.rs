@@ -5,9 +5,19 @@ use nalgebra::{Matrix3, Vector3};
 use crate::kernel::parameters;
 use crate::kinds::{Kind, Link};
 
+/// Where a case is from: no two of a run are the same.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum CaseName {
+    /// From random numbers.
+    Drawn { seed: u64, mixed: bool },
+    /// From the engines' spacecraft, by number.
+    Stored(usize),
+}
+
 /// Everything that a law is evaluated for.
 #[derive(Clone)]
 pub(super) struct Case {
+    pub(super) name: CaseName,
     pub(super) hub: Hub,
     /// In the order of the fields of `Parameters`.
     pub(super) parameters: Vec<f64>,
@@ -237,7 +247,7 @@ impl Random {
     }
 
     /// A spacecraft with one device of `kind`, in a state.
-    pub(super) fn case(&mut self, kind: &Kind) -> Case {
+    pub(super) fn case(&mut self, kind: &Kind, name: CaseName) -> Case {
         let joints = kind.links.len();
         let hub =
             Hub { mass: self.within(0.5, 1.5), centre: self.vector(), inertia: self.inertia() };
@@ -267,7 +277,7 @@ impl Random {
             force: self.vector(),
             torque: self.vector(),
         };
-        Case { hub, parameters, motion, drive }
+        Case { name, hub, parameters, motion, drive }
     }
 
     /// Modes with every other joint's acceleration given, `first` or its neighbours. The motors of

@@ -1,7 +1,8 @@
 //! What distinguishes two normal forms, term by term.
 
-use std::collections::BTreeSet;
+use std::cmp::Ordering;
 use std::fmt;
+use std::iter::from_fn;
 
 use super::{Monomial, Polynomial, Ring};
 use crate::graph::Rational;
@@ -41,23 +42,18 @@ impl Difference {
     /// Compares `checked` with `reference`, both expanded in `ring`.
     #[must_use]
     pub fn between(ring: &Ring<'_>, checked: &Polynomial, reference: &Polynomial) -> Self {
-        let both = checked.terms().chain(reference.terms());
-        let monomials: BTreeSet<&Monomial> = both.map(|(monomial, _)| monomial).collect();
-        let name = |monomial: &Monomial| {
-            let (is, ought) = (checked.coefficient(monomial), reference.coefficient(monomial));
-            if is == ought {
-                None
-            } else if ought == Rational::ZERO {
-                Some(Term::Extra(ring.show(monomial, is)))
+        let name = |(monomial, is, ought): (&Monomial, Rational, Rational)| {
+            if ought == Rational::ZERO {
+                Term::Extra(ring.show(monomial, is))
             } else if is == Rational::ZERO {
-                Some(Term::Missing(ring.show(monomial, ought)))
+                Term::Missing(ring.show(monomial, ought))
             } else if is == -ought {
-                Some(Term::Sign(ring.show(monomial, ought)))
+                Term::Sign(ring.show(monomial, ought))
             } else {
-                Some(Term::Factor(is / ought, ring.show(monomial, ought)))
+                Term::Factor(is / ought, ring.show(monomial, ought))
             }
         };
-        Self { terms: monomials.into_iter().filter_map(name).collect() }
+        Self { terms: differing(checked, reference).map(name).collect() }
     }
 
     /// Whether the two sides are equal.
@@ -65,6 +61,28 @@ impl Difference {
     pub fn is_empty(&self) -> bool {
         self.terms.is_empty()
     }
+}
+
+/// The monomials whose coefficients are not the same, with both: one walk along the two listings,
+/// which have one order.
+fn differing<'a>(
+    a: &'a Polynomial,
+    b: &'a Polynomial,
+) -> impl Iterator<Item = (&'a Monomial, Rational, Rational)> {
+    let (mut left, mut right) = (a.terms().peekable(), b.terms().peekable());
+    let either = from_fn(move || {
+        let order = match (left.peek(), right.peek()) {
+            (Some((x, _)), Some((y, _))) => x.cmp(y),
+            (Some(_), None) => Ordering::Less,
+            (None, _) => Ordering::Greater,
+        };
+        let is = if order.is_le() { left.next() } else { None };
+        let ought = if order.is_ge() { right.next() } else { None };
+        let (monomial, _) = is.or(ought)?;
+        let coefficient = |term: Option<(_, &Rational)>| term.map_or(Rational::ZERO, |(_, k)| *k);
+        Some((monomial, coefficient(is), coefficient(ought)))
+    });
+    either.filter(|(_, is, ought)| is != ought)
 }
 
 #[cfg(test)]

@@ -47,7 +47,8 @@ fn value<'a>(file: &'a mut syn::File, name: &str, index: usize) -> Option<&'a mu
 }
 
 /// Drops and flips every operand of every sum of `name`; each mutant must fail a row of the
-/// functions in `judged`. Returns the number of mutants and of those that a claim named.
+/// functions in `judged`, which are asked in turn until one names it. Returns the number of mutants
+/// and of those that a claim named.
 fn every_mutant_is_caught(name: &str, judged: &[&str]) -> (usize, usize) {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
@@ -63,12 +64,11 @@ fn every_mutant_is_caught(name: &str, judged: &[&str]) -> (usize, usize) {
             for change in [Change::Drop, Change::Flip] {
                 *value(&mut file, name, index).unwrap() = changed(&original, site, change);
                 let rows = judged.iter().flat_map(|name| prover.function(&file, name).unwrap());
-                let failed: Vec<Row> = rows.filter(|row| !row.holds()).collect();
-                assert!(!failed.is_empty(), "{change:?} at {site} of statement {index} survives");
+                let mut failed = rows.filter(|row| !row.holds()).peekable();
+                let caught = failed.peek().is_some();
+                assert!(caught, "{change:?} at {site} of statement {index} survives");
                 mutants += 1;
-                named += usize::from(
-                    failed.iter().any(|row| matches!(row.verdict, Verdict::Differs(_))),
-                );
+                named += usize::from(failed.any(|row| matches!(row.verdict, Verdict::Differs(_))));
             }
         }
         *value(&mut file, name, index).unwrap() = original;

@@ -1,8 +1,11 @@
 //! The functions beside the equations of motion: `axes`, `loads`, `external`, `gravity`.
 
+use std::rc::Rc;
+
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Device, Fault, unit};
+use super::seen::unit;
+use super::{Device, Fault};
 use crate::derivation::external::acting;
 use crate::derivation::gravity::gradient;
 use crate::kinds;
@@ -39,21 +42,39 @@ impl Device<'_, '_> {
         case: &Case,
         motion: &Motion,
         fault: &Fault,
-    ) -> Vec<Stand> {
-        let returned = self.call(self.functions.axes, &self.arguments(case, motion), fault);
-        let stand = |link: &kinds::Link| {
-            let frame = link.body.frame;
-            let column = |axis: &str| returned.vector(&format!("{frame}_{axis}"), "b");
-            Stand {
-                axes: Matrix3::from_columns(&["x", "y", "z"].map(column)),
-                origin: returned.vector(&format!("origin_{frame}"), "b"),
-            }
-        };
-        self.chain.kind.links.iter().map(stand).collect()
+    ) -> Rc<[Stand]> {
+        let function = self.functions.axes;
+        fault.answer(
+            |known| &known.stands,
+            &[function],
+            case,
+            motion,
+            || {
+                let returned = self.call(function, &self.arguments(case, motion), fault);
+                let stand = |link: &kinds::Link| {
+                    let frame = link.body.frame;
+                    let column = |axis: &str| returned.vector(&format!("{frame}_{axis}"), "b");
+                    Stand {
+                        axes: Matrix3::from_columns(&["x", "y", "z"].map(column)),
+                        origin: returned.vector(&format!("origin_{frame}"), "b"),
+                    }
+                };
+                self.chain.kind.links.iter().map(stand).collect()
+            },
+        )
     }
 
-    /// Axes and origins: the geometry itself.
-    pub(in crate::mutation) fn geometry(&self, case: &Case, motion: &Motion) -> Vec<Stand> {
+    /// Axes and origins: the geometry itself, which no fault changes.
+    pub(in crate::mutation) fn geometry(
+        &self,
+        case: &Case,
+        motion: &Motion,
+        fault: &Fault,
+    ) -> Rc<[Stand]> {
+        fault.answer(|known| &known.geometry, &[], case, motion, || self.stood(case, motion))
+    }
+
+    fn stood(&self, case: &Case, motion: &Motion) -> Rc<[Stand]> {
         let mut origin = Vector3::zeros();
         let stand = |(k, link): (usize, &kinds::Link)| {
             let rest =
@@ -85,7 +106,12 @@ impl Device<'_, '_> {
         case: &Case,
         any: &Accelerations,
         fault: &Fault,
-    ) -> Carried {
+    ) -> Rc<Carried> {
+        let find = || Rc::new(self.loaded(case, any, fault));
+        fault.answer(|known| &known.loads, &[self.functions.loads], case, &case.motion, find)
+    }
+
+    fn loaded(&self, case: &Case, any: &Accelerations, fault: &Fault) -> Carried {
         let mut values = self.arguments(case, &case.motion);
         let hub = &self.chain.hub;
         values.set_vector(hub.r_b_n_ddot.components(), any.point);
@@ -112,7 +138,12 @@ impl Device<'_, '_> {
         case: &Case,
         on_bodies: &[Wrench],
         fault: &Fault,
-    ) -> Carried {
+    ) -> Rc<Carried> {
+        let find = || Rc::new(self.received(case, on_bodies, fault));
+        fault.answer(|known| &known.external, &[self.functions.external], case, &case.motion, find)
+    }
+
+    fn received(&self, case: &Case, on_bodies: &[Wrench], fault: &Fault) -> Carried {
         let mut values = self.arguments(case, &case.motion);
         for (symbols, own) in acting(self.chain).iter().zip(on_bodies) {
             values.set_vector(symbols.force.components(), own.force);
@@ -131,7 +162,12 @@ impl Device<'_, '_> {
         motion: &Motion,
         field: &Matrix3<f64>,
         fault: &Fault,
-    ) -> Pulled {
+    ) -> Rc<Pulled> {
+        let find = || Rc::new(self.pulled(case, motion, field, fault));
+        fault.answer(|known| &known.pulled, &[self.functions.gravity], case, motion, find)
+    }
+
+    fn pulled(&self, case: &Case, motion: &Motion, field: &Matrix3<f64>, fault: &Fault) -> Pulled {
         let mut values = self.arguments(case, motion);
         let g = gradient(self.chain.graph);
         for row in 0..3 {

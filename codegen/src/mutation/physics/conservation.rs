@@ -1,6 +1,8 @@
 //! Energy and momenta: of hub and device together along the motion, and of the device as what its
 //! bodies have.
 
+use std::rc::Rc;
+
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::differences::lagrange;
@@ -96,7 +98,7 @@ fn every_body(
     case: &Case,
     motion: &Motion,
     fault: &Fault,
-) -> Vec<BodySeen> {
+) -> Vec<Rc<BodySeen>> {
     (0..device.joints()).map(|k| device.body(k, case, motion, fault)).collect()
 }
 

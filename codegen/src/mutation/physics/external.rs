@@ -27,7 +27,7 @@ fn power(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let drives = received.drives.iter().zip(&motion.rates).map(|(drive, rate)| drive * rate);
     let joints: f64 = drives.sum();
     let hub = received.whole.power(&motion.velocity, &motion.omega);
-    let stands = device.geometry(case, motion);
+    let stands = device.geometry(case, motion, fault);
     let on_body = |(k, (own, stand)): (usize, (&Wrench, &Stand))| {
         let body = device.body(k, case, motion, fault);
         let omega = motion.omega + body.omega_b();
@@ -35,7 +35,7 @@ fn power(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
         let origin = centre + omega.cross(&(stand.origin - body.r));
         own.turned(&stand.axes).power(&origin, &omega)
     };
-    let given: f64 = trial.probe.acting.iter().zip(&stands).enumerate().map(on_body).sum();
+    let given: f64 = trial.probe.acting.iter().zip(stands.iter()).enumerate().map(on_body).sum();
     gap(&[joints + hub], &[given])
 }
 
@@ -44,7 +44,7 @@ fn resultants(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let (case, motion) = (&trial.case, &trial.case.motion);
     let received = device.external(case, &trial.probe.acting, fault);
     let (mut about_b, mut worst) = (Wrench::zero(), 0.0_f64);
-    let stands = device.geometry(case, motion);
+    let stands = device.geometry(case, motion, fault);
     let outside = stands.iter().zip(&trial.probe.acting).zip(&received.joints).rev();
     for ((stand, own), joint) in outside {
         about_b = about_b.plus(own.turned(&stand.axes).moved(stand.origin));

@@ -32,14 +32,14 @@ fn work(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let (case, motion, probe) = (&trial.case, &trial.case.motion, &trial.probe);
     let (velocity, omega) = (probe.twist.force, probe.twist.moment);
     let pulled = device.gravity(case, motion, &probe.gradient, fault);
-    let stands = device.geometry(case, motion);
+    let stands = device.geometry(case, motion, fault);
     let residual = |(k, (own, stand)): (usize, (&Wrench, &Stand))| {
         let body = device.body(k, case, motion, fault);
         let half = omega.cross_matrix() * spread(&body) + body.mass * body.r * velocity.transpose();
         let change = 0.5 * probe.gradient.component_mul(&(half + half.transpose())).sum();
         gap(&[own.moved(stand.origin).power(&velocity, &omega)], &[change])
     };
-    pulled.bodies.iter().zip(&stands).enumerate().map(residual).fold(0.0, f64::max)
+    pulled.bodies.iter().zip(stands.iter()).enumerate().map(residual).fold(0.0, f64::max)
 }
 
 fn second_moment(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
@@ -53,13 +53,13 @@ fn second_moment(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
 fn power(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let (case, motion, gradient) = (&trial.case, &trial.case.motion, &trial.probe.gradient);
     let pulled = device.gravity(case, motion, gradient, fault);
-    let stands = device.geometry(case, motion);
+    let stands = device.geometry(case, motion, fault);
     let on_body = |(k, (own, stand)): (usize, (&Wrench, &Stand))| {
         let body = device.body(k, case, motion, fault);
         let omega = body.omega_b();
         own.power(&(body.r_prime + omega.cross(&(stand.origin - body.r))), &omega)
     };
-    let given: f64 = pulled.bodies.iter().zip(&stands).enumerate().map(on_body).sum();
+    let given: f64 = pulled.bodies.iter().zip(stands.iter()).enumerate().map(on_body).sum();
     let stored = |time: f64| {
         let motion = motion.after(time, &trial.any);
         let second_moment = device.gravity(case, &motion, gradient, fault).second_moment;

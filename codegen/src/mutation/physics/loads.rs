@@ -26,7 +26,7 @@ pub(super) fn residuals(
 fn momentum(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let (case, motion) = (&trial.case, &trial.case.motion);
     let loads = device.loads(case, &trial.any, fault);
-    let stands = device.geometry(case, motion);
+    let stands = device.geometry(case, motion, fault);
     let moving = |time: f64| momenta(device, trial, &motion.after(time, &trial.any), fault);
     let (now, rates) = (moving(0.0), slope(moving));
     let (mut sum, mut worst) = (Wrench::zero(), 0.0_f64);

@@ -7,7 +7,9 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Deserialize;
 
 use crate::kinds::{Joint, Kind};
-use crate::mutation::state::{Accelerations, Case, Drive, Hub, Mode, Motion, parameters_of};
+use crate::mutation::state::{
+    Accelerations, Case, CaseName, Drive, Hub, Mode, Motion, parameters_of,
+};
 
 /// One spacecraft and what the engines say of it.
 #[derive(Clone)]
@@ -159,13 +161,18 @@ impl Stored {
         for spacecraft in &file.spacecraft {
             let [device] = spacecraft.devices.as_slice() else { continue };
             if device.mount == identity && spacecraft.scales == Scales::Unit {
-                cases.push(Self::of(kind, spacecraft, device)?);
+                cases.push(Self::of(kind, CaseName::Stored(cases.len()), spacecraft, device)?);
             }
         }
         if cases.is_empty() { Err(EngineError::None) } else { Ok(cases) }
     }
 
-    fn of(kind: &Kind, spacecraft: &Spacecraft, device: &DeviceText) -> Result<Self, EngineError> {
+    fn of(
+        kind: &Kind,
+        name: CaseName,
+        spacecraft: &Spacecraft,
+        device: &DeviceText,
+    ) -> Result<Self, EngineError> {
         let reader = Reader { kind, spacecraft: &spacecraft.name };
         let names = parameters_of(kind);
         let names: Vec<_> = names.iter().map(String::as_str).collect();
@@ -174,6 +181,7 @@ impl Stored {
         reader.counted("bodies", bodies.len(), kind.links.len())?;
         Ok(Self {
             case: Case {
+                name,
                 hub: Hub {
                     mass: hub.mass,
                     centre: hub.centre.into(),
