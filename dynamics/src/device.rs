@@ -1,65 +1,224 @@
-//! One device between the hub and its emitted kernel.
+//! [`Device`]: one device made ready, and what an evaluation asks of it.
 //!
-//! The kernel knows one frame, the outer gimbal's axes at zero angle. Angular velocity and
-//! acceleration are rotated into it by `mount^T`, its results out of it by `mount`.
+//! The kernels know one frame, the axes of the device's first joint at zero. What comes from the hub
+//! is rotated into it by `mount^T`, results out of it by `mount`.
 
-use crate::error::{Joint, SolveError};
-use crate::generated::dgvscmg::{
-    self, Eliminated, Modes, Motors, Parameters, Prepared, Rates, Trig,
-};
+use crate::devices::{Around, Assembly, Given, own_mode};
+use crate::each::{Each, JointStates};
+use crate::error::SolveError;
 use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, HubShare};
+use crate::gravity::Central;
 use crate::hub::BodySums;
-use crate::parameters::Dgvscmg;
+use crate::kind::{Carried, ImbalanceModel, Kind, Lumped, Wrenches};
+use crate::mode::{Drive, Mode};
+use crate::passive::Passive;
 use crate::real::{Scalar, one, zero};
 use crate::solve::{Solution, System, check_pivot};
-use crate::state::{JointAccelerations, Joints, MotorTorques};
 use crate::symmetric::Symmetric;
+use crate::validation::triangle_excess;
 use crate::vec3::{
-    Columns, Vec3, add, columns, components, rotate, rotate_tensor, rotate_transposed,
+    Columns, Vec3, add, columns, components, rotate, rotate_tensor, rotate_transposed, vector,
 };
+use crate::wrench::Wrench;
+
+/// Torques and weights of the joints of a kind.
+type Drives<K> = <K as Kind>::PerJoint<Drive<<K as Kind>::Scalar>>;
 
 /// Constants of one device.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Device<T> {
-    mount: Columns<T>,
-    prepared: Prepared<T>,
-    /// `m_D`, kg.
-    pub(crate) mass: T,
+pub struct Device<K: Kind> {
+    pub(crate) mount: Columns<K::Scalar>,
+    pub(crate) constants: K::Constants,
+    /// Mass of its bodies, kg.
+    pub(crate) mass: K::Scalar,
+    pub(crate) passive: K::PerJoint<Passive<K::Scalar>>,
+    /// Whether no joint has a spring or friction.
+    free: bool,
+    /// What the simplified model puts in the place of the rotor's imbalance.
+    pub(crate) lumped: Option<Lumped<K::Scalar>>,
+    /// By how much each inertia breaks the triangle inequality, kg m².
+    pub(crate) excess: K::PerJoint<K::Scalar>,
 }
 
-impl<T: Scalar> Device<T> {
-    pub(crate) fn new(p: &Dgvscmg<T>) -> Self {
+/// The hub's accelerations along a device's axes.
+pub(crate) fn in_device<T: Scalar>(
+    mount: &Columns<T>,
+    r_b_n_ddot: Vec3<T>,
+    omega_dot: Vec3<T>,
+) -> BodyAcceleration<T> {
+    let [r_b_n_ddot_bx, r_b_n_ddot_by, r_b_n_ddot_bz] = rotate_transposed(mount, r_b_n_ddot);
+    let [omega_dot_bx, omega_dot_by, omega_dot_bz] = rotate_transposed(mount, omega_dot);
+    BodyAcceleration {
+        r_b_n_ddot_bx,
+        r_b_n_ddot_by,
+        r_b_n_ddot_bz,
+        omega_dot_bx,
+        omega_dot_by,
+        omega_dot_bz,
+    }
+}
+
+impl<K: Kind> Device<K> {
+    /// Computes what depends on parameters alone; they have been checked.
+    pub(crate) fn new(parameters: &K) -> Self {
+        let (made, lumped) = match (parameters.model(), parameters.balanced()) {
+            (ImbalanceModel::Lumped, Some((balanced, lumped))) => (balanced, Some(lumped)),
+            _ => (*parameters, None),
+        };
+        let mount = columns(made.mount());
+        let bodies = made.bodies();
+        let origin = bodies.values().next().map_or([zero(); 3], |body| body.origin);
+        let mut excess = K::all(zero());
+        for (excess, body) in excess.values_mut().zip(parameters.bodies().values()) {
+            *excess = triangle_excess(&body.inertia);
+        }
+        let passive = made.passive();
+        let free = passive.values().all(|joint| joint == Passive::none());
         Self {
-            mount: columns(&p.mount),
-            prepared: dgvscmg::prepare(&parameters(p)),
-            mass: p.m_go + p.m_gi + p.m_w,
+            mount,
+            constants: made.constants(rotate_transposed(&mount, origin)),
+            mass: bodies.values().fold(zero(), |sum, body| sum + body.mass),
+            passive,
+            free,
+            lumped,
+            excess,
         }
     }
 
-    /// The device's equations with its three joints eliminated, in its own axes.
+    /// Eliminates the joints and adds what is left to the hub's system.
     ///
-    /// Never inlined: one copy of the kernel, whatever the number of spacecraft kinds.
+    /// Never inlined: one copy of the kernel, whatever the sets it stands in.
     #[inline(never)]
     pub(crate) fn eliminate(
         &self,
-        joints: &Joints<T>,
-        motors: &MotorTorques<T>,
-        omega: Vec3<T>,
-    ) -> Eliminated<T> {
-        let [omega_bx, omega_by, omega_bz] = rotate_transposed(&self.mount, omega);
-        dgvscmg::eliminate(
-            &self.prepared,
-            &trig(joints),
-            &rates(joints),
-            &BodyRate { omega_bx, omega_by, omega_bz },
-            &Motors { u_o: motors.u_o, u_i: motors.u_i, u_w: motors.u_w },
-            &all_driven(),
-        )
+        joints: &K::Joints,
+        given: Given<'_, K>,
+        around: &Around<K::Scalar>,
+        assembly: &mut Assembly<K::Scalar>,
+        device: usize,
+    ) -> Result<K::Eliminated, SolveError<K::Scalar>> {
+        let pose = K::pose(joints);
+        let mut drives = self.drives(joints, given, around.impulse, device)?;
+        if !around.impulse {
+            let acting = self.acting(&pose, joints, given.bodies, around.central.as_ref());
+            if let Some((wrenches, second_moment)) = acting {
+                let carried = K::external(&self.constants, &pose, &wrenches);
+                for ((drive, wrench), info) in
+                    drives.values_mut().zip(carried.joints.values()).zip(K::JOINTS)
+                {
+                    drive.torque = drive.torque + wrench.along(info) * drive.driven;
+                }
+                let hub = carried.hub.turned(&self.mount);
+                let system = &mut assembly.system;
+                system.h_v = add(system.h_v, components(&hub.force));
+                system.h_w = add(system.h_w, components(&hub.moment));
+                let second_moment = second_moment.rotated(&self.mount);
+                assembly.second_moment = assembly.second_moment.plus(second_moment);
+            }
+        }
+        let mut joints = *joints;
+        if around.impulse {
+            joints.states_mut().for_each(|[_, rate]| *rate = zero());
+        }
+        let [omega_bx, omega_by, omega_bz] = rotate_transposed(&self.mount, around.omega);
+        let omega = BodyRate { omega_bx, omega_by, omega_bz };
+        let eliminated = K::eliminate(&self.constants, &pose, &joints, &omega, &drives);
+        check_pivots::<K>(device, &eliminated, &drives)?;
+        self.add_to(&mut assembly.system, K::share(&eliminated));
+        Ok(eliminated)
+    }
+
+    /// Torques and modes of the joints, springs and friction with the motors.
+    fn drives(
+        &self,
+        joints: &K::Joints,
+        given: Given<'_, K>,
+        impulse: bool,
+        device: usize,
+    ) -> Result<Drives<K>, SolveError<K::Scalar>> {
+        let mut drives = K::all(Mode::Driven.drive(zero()));
+        let motors = given.motors.values().zip(given.modes.values());
+        let states = joints.states().zip(K::JOINTS);
+        for ((drive, (torque, mode)), ([_, rate], info)) in
+            drives.values_mut().zip(motors).zip(states)
+        {
+            if !info.driven && mode != own_mode(info) {
+                return Err(SolveError::NotDriven { device, joint: info.body });
+            }
+            *drive = match mode {
+                Mode::Locked if impulse => Mode::Prescribed(-rate).drive(zero()),
+                Mode::Prescribed(_) if impulse => Mode::Locked.drive(zero()),
+                Mode::Driven if impulse => Mode::Driven.drive(zero()),
+                Mode::Locked if rate != zero() => {
+                    return Err(SolveError::LockedJointMoves { device, joint: info.body, rate });
+                }
+                mode => mode.drive(torque),
+            };
+        }
+        if !(self.free || impulse) {
+            let states = joints.states().zip(self.passive.values());
+            for (drive, ([coordinate, rate], passive)) in drives.values_mut().zip(states) {
+                let own = passive.of_spring(coordinate) + passive.of_friction(rate);
+                drive.torque = drive.torque + own * drive.driven;
+            }
+        }
+        Ok(drives)
+    }
+
+    /// Wrenches on the bodies from outside, the simplified model's among them, and the second moment
+    /// that the gradient of gravity asks for; none where there is nothing.
+    pub(crate) fn acting(
+        &self,
+        pose: &K::Pose,
+        joints: &K::Joints,
+        bodies: Option<&Wrenches<K>>,
+        central: Option<&Central<K::Scalar>>,
+    ) -> Option<(Wrenches<K>, Symmetric<K::Scalar>)> {
+        if bodies.is_none() && central.is_none() && self.lumped.is_none() {
+            return None;
+        }
+        let mut sum = self.applied(joints, bodies);
+        let mut second_moment = Symmetric::scalar(zero());
+        if let Some(central) = central {
+            let (wrenches, second) = self.gradient(pose, central);
+            second_moment = second;
+            for (sum, wrench) in sum.values_mut().zip(wrenches.values()) {
+                *sum = sum.plus(&wrench);
+            }
+        }
+        Some((sum, second_moment))
+    }
+
+    /// Wrenches on the bodies from outside, the simplified model's among them.
+    pub(crate) fn applied(&self, joints: &K::Joints, bodies: Option<&Wrenches<K>>) -> Wrenches<K> {
+        let mut sum = bodies.copied().unwrap_or_else(|| K::all(Wrench::none()));
+        if let Some(lumped) = &self.lumped {
+            let tip = sum.values_mut().zip(joints.states()).last();
+            if let Some((wrench, [_, spin])) = tip {
+                *wrench = wrench.plus(&lumped.at(spin));
+            }
+        }
+        sum
+    }
+
+    /// Wrenches of the gradient of gravity on the bodies, and the device's second moment about B,
+    /// along its own axes.
+    pub(crate) fn gradient(
+        &self,
+        pose: &K::Pose,
+        central: &Central<K::Scalar>,
+    ) -> (Wrenches<K>, Symmetric<K::Scalar>) {
+        let [x, y, z] = self.mount;
+        let transposed = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
+        let g = central.gradient.rotated(&transposed);
+        let entries = [g.xx, g.xy, g.xz, g.yy, g.yz, g.zz];
+        let (wrenches, [xx, xy, xz, yy, yz, zz]) = K::gravity(&self.constants, pose, entries);
+        (wrenches, Symmetric { xx, xy, xz, yy, yz, zz })
     }
 
     /// Adds the device's share to the hub's system.
     #[rustfmt::skip]
-    pub(crate) fn add_to(&self, system: &mut System<T>, e: &HubShare<T>) {
+    fn add_to(&self, system: &mut System<K::Scalar>, e: &HubShare<K::Scalar>) {
         let m_vv = Symmetric {
             xx: e.m_vv_11, xy: e.m_vv_12, xz: e.m_vv_13,
             yy: e.m_vv_22, yz: e.m_vv_23, zz: e.m_vv_33,
@@ -85,168 +244,82 @@ impl<T: Scalar> Device<T> {
     /// The joints' accelerations once the hub's are known.
     pub(crate) fn back_substitute(
         &self,
-        e: &Eliminated<T>,
-        hub: &Solution<T>,
-    ) -> JointAccelerations<T> {
-        let [r_b_n_ddot_bx, r_b_n_ddot_by, r_b_n_ddot_bz] =
-            rotate_transposed(&self.mount, hub.r_b_n_ddot);
-        let [omega_dot_bx, omega_dot_by, omega_dot_bz] =
-            rotate_transposed(&self.mount, hub.omega_dot);
-        let found = dgvscmg::back_substitute(
-            e,
-            &BodyAcceleration {
-                r_b_n_ddot_bx,
-                r_b_n_ddot_by,
-                r_b_n_ddot_bz,
-                omega_dot_bx,
-                omega_dot_by,
-                omega_dot_bz,
-            },
-        );
-        JointAccelerations {
-            gamma_o_ddot: found.gamma_o_ddot,
-            gamma_i_ddot: found.gamma_i_ddot,
-            spin_dot: found.spin_dot,
-        }
+        e: &K::Eliminated,
+        hub: &Solution<K::Scalar>,
+    ) -> K::Accelerations {
+        K::back_substitute(e, &in_device(&self.mount, hub.r_b_n_ddot, hub.omega_dot))
     }
 
-    /// Kinetic energy and momenta of the device for the inertial velocity of B, along B axes.
-    pub(crate) fn sums(
+    /// Adds kinetic energy and momenta for the inertial velocity of B, along B axes.
+    pub(crate) fn add_sums(
         &self,
-        joints: &Joints<T>,
-        r_b_n_dot: Vec3<T>,
-        omega: Vec3<T>,
-    ) -> BodySums<T> {
+        joints: &K::Joints,
+        r_b_n_dot: Vec3<K::Scalar>,
+        omega: Vec3<K::Scalar>,
+        sums: &mut BodySums<K::Scalar>,
+    ) {
         let [r_b_n_dot_bx, r_b_n_dot_by, r_b_n_dot_bz] = rotate_transposed(&self.mount, r_b_n_dot);
         let [omega_bx, omega_by, omega_bz] = rotate_transposed(&self.mount, omega);
-        let found = dgvscmg::energy_momentum(
-            &self.prepared,
-            &trig(joints),
-            &rates(joints),
-            &BodyVelocity {
-                r_b_n_dot_bx,
-                r_b_n_dot_by,
-                r_b_n_dot_bz,
-                omega_bx,
-                omega_by,
-                omega_bz,
-            },
-        );
+        let hub =
+            BodyVelocity { r_b_n_dot_bx, r_b_n_dot_by, r_b_n_dot_bz, omega_bx, omega_by, omega_bz };
+        let found = K::energy_momentum(&self.constants, joints, &hub);
         let linear = [found.linear_bx, found.linear_by, found.linear_bz];
         let angular_b = [found.angular_b_bx, found.angular_b_by, found.angular_b_bz];
-        BodySums {
-            energy: found.energy,
-            linear: rotate(&self.mount, linear),
-            angular_b: rotate(&self.mount, angular_b),
+        sums.energy = sums.energy + found.energy;
+        sums.linear = add(sums.linear, rotate(&self.mount, linear));
+        sums.angular_b = add(sums.angular_b, rotate(&self.mount, angular_b));
+    }
+
+    /// Adds the first moment about B and its derivative seen from B, along B axes.
+    pub(crate) fn add_first_moment(&self, joints: &K::Joints, moment: &mut [Vec3<K::Scalar>; 2]) {
+        for (sum, share) in moment.iter_mut().zip(K::first_moment(&self.constants, joints)) {
+            *sum = add(*sum, rotate(&self.mount, share));
         }
     }
 
-    /// First moment of the device about B and its derivative seen from B, along B axes.
-    pub(crate) fn first_moment(&self, joints: &Joints<T>) -> (Vec3<T>, Vec3<T>) {
-        let found = dgvscmg::first_moment(&self.prepared, &trig(joints), &rates(joints));
-        (
-            rotate(&self.mount, [found.mc_bx, found.mc_by, found.mc_bz]),
-            rotate(&self.mount, [found.mc_prime_bx, found.mc_prime_by, found.mc_prime_bz]),
-        )
+    /// `external`, in the device's axes.
+    pub(crate) fn carried(
+        &self,
+        pose: &K::Pose,
+        bodies: &Wrenches<K>,
+    ) -> Carried<Wrenches<K>, Wrench<K::Scalar>> {
+        K::external(&self.constants, pose, bodies)
+    }
+}
+
+impl<T: Scalar> Lumped<T> {
+    /// The disturbance at a wheel rate, W axes, about W: force `U_s Omega²` along `w_y`, torque
+    /// `Omega² (J_13 w_y - J_12 w_z)`.
+    fn at(&self, spin: T) -> Wrench<T> {
+        let square = spin * spin;
+        Wrench {
+            force: vector([zero(), self.u_s * square, zero()]),
+            moment: vector([zero(), self.j_13 * square, -(self.j_12 * square)]),
+        }
     }
 }
 
 /// Refuses pivots that are rounding of their diagonals, in the order of the elimination: the first
 /// one refused is the cause, those after it may be its consequence.
-pub(crate) fn check_pivots<T: Scalar>(
+fn check_pivots<K: Kind>(
     device: usize,
-    e: &Eliminated<T>,
-) -> Result<(), SolveError<T>> {
-    for (joint, pivot, diagonal) in [
-        (Joint::Wheel, e.pivot_w, e.diagonal_w),
-        (Joint::InnerGimbal, e.pivot_i, e.diagonal_i),
-        (Joint::OuterGimbal, e.pivot_o, e.diagonal_o),
-    ] {
-        check_pivot(pivot, diagonal).map_err(|small| SolveError::Singular {
-            device: Some(device),
-            joint: Some(joint),
-            pivot: small.pivot,
-            bound: small.bound,
-        })?;
+    eliminated: &K::Eliminated,
+    drives: &K::PerJoint<Drive<K::Scalar>>,
+) -> Result<(), SolveError<K::Scalar>> {
+    let mut refused = None;
+    let joints = K::pivots(eliminated);
+    for ((pivot, drive), info) in joints.values().zip(drives.values()).zip(K::JOINTS) {
+        if let (Some([pivot, diagonal]), true) = (pivot, drive.driven == one())
+            && let Err(small) = check_pivot(pivot, diagonal)
+        {
+            // From the hub outwards: the one nearest the tip was eliminated first.
+            refused = Some(SolveError::Singular {
+                device: Some(device),
+                joint: Some(info.body),
+                pivot: small.pivot,
+                bound: small.bound,
+            });
+        }
     }
-    Ok(())
-}
-
-/// The torque of every joint is given.
-fn all_driven<T: Scalar>() -> Modes<T> {
-    let (zero, one) = (zero(), one());
-    Modes {
-        driven_o: one,
-        held_o: zero,
-        given_o: zero,
-        driven_i: one,
-        held_i: zero,
-        given_i: zero,
-        driven_w: one,
-        held_w: zero,
-        given_w: zero,
-    }
-}
-
-fn trig<T: Scalar>(joints: &Joints<T>) -> Trig<T> {
-    let (sin_gamma_o, cos_gamma_o) = joints.gamma_o.sin_cos();
-    let (sin_gamma_i, cos_gamma_i) = joints.gamma_i.sin_cos();
-    let (sin_theta, cos_theta) = joints.theta.sin_cos();
-    Trig { sin_gamma_o, cos_gamma_o, sin_gamma_i, cos_gamma_i, sin_theta, cos_theta }
-}
-
-fn rates<T: Scalar>(joints: &Joints<T>) -> Rates<T> {
-    Rates { gamma_o_dot: joints.gamma_o_dot, gamma_i_dot: joints.gamma_i_dot, spin: joints.spin }
-}
-
-/// The kernel's parameters: scalars, with `r_{Go/B}` turned from B axes into the device's axes.
-fn parameters<T: Scalar>(p: &Dgvscmg<T>) -> Parameters<T> {
-    let [r_go_b_bx, r_go_b_by, r_go_b_bz] =
-        rotate_transposed(&columns(&p.mount), components(&p.r_go_b));
-    let [r_goc_go_gox, r_goc_go_goy, r_goc_go_goz] = components(&p.r_goc_go);
-    let [r_gic_gi_gix, r_gic_gi_giy, r_gic_gi_giz] = components(&p.r_gic_gi);
-    let [l_o_x, l_o_y, l_o_z] = components(&p.l_o);
-    let [l_i_x, l_i_y, l_i_z] = components(&p.l_i);
-    let i_go = Symmetric::part_of(&p.i_go_goc);
-    let i_gi = Symmetric::part_of(&p.i_gi_gic);
-    let j = Symmetric::part_of(&p.i_w_wc);
-    Parameters {
-        m_go: p.m_go,
-        m_gi: p.m_gi,
-        m_w: p.m_w,
-        d: p.d,
-        r_go_b_bx,
-        r_go_b_by,
-        r_go_b_bz,
-        l_o_x,
-        l_o_y,
-        l_o_z,
-        l_i_x,
-        l_i_y,
-        l_i_z,
-        r_goc_go_gox,
-        r_goc_go_goy,
-        r_goc_go_goz,
-        r_gic_gi_gix,
-        r_gic_gi_giy,
-        r_gic_gi_giz,
-        i_go_11: i_go.xx,
-        i_go_12: i_go.xy,
-        i_go_13: i_go.xz,
-        i_go_22: i_go.yy,
-        i_go_23: i_go.yz,
-        i_go_33: i_go.zz,
-        i_gi_11: i_gi.xx,
-        i_gi_12: i_gi.xy,
-        i_gi_13: i_gi.xz,
-        i_gi_22: i_gi.yy,
-        i_gi_23: i_gi.yz,
-        i_gi_33: i_gi.zz,
-        j_11: j.xx,
-        j_12: j.xy,
-        j_13: j.xz,
-        j_22: j.yy,
-        j_23: j.yz,
-        j_33: j.zz,
-    }
+    refused.map_or(Ok(()), Err)
 }

@@ -5,34 +5,6 @@ use core::fmt::{self, Display, Formatter};
 
 use crate::real::Scalar;
 
-/// A joint of a device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Joint {
-    /// The outer gimbal's, between hub and outer gimbal.
-    OuterGimbal,
-    /// The inner gimbal's, between outer and inner gimbal.
-    InnerGimbal,
-    /// The wheel's, between inner gimbal and wheel.
-    Wheel,
-}
-
-/// A quantity of one joint in a [`Joints`](crate::Joints).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JointField {
-    /// Outer gimbal angle.
-    GammaO,
-    /// Inner gimbal angle.
-    GammaI,
-    /// Wheel angle.
-    Theta,
-    /// Outer gimbal rate.
-    GammaODot,
-    /// Inner gimbal rate.
-    GammaIDot,
-    /// Wheel rate.
-    Spin,
-}
-
 /// An input of the solver. Devices count from 0, as in the arrays given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -45,23 +17,41 @@ pub enum Quantity {
     Attitude,
     /// `State::omega`.
     BodyRate,
-    /// An angle or rate in `State::devices`.
+    /// A coordinate or rate in `State::devices`.
     Joint {
         /// Index of the device.
         device: usize,
-        /// Which angle or rate.
-        field: JointField,
+        /// Which one: `gamma_i`, `spin`.
+        field: &'static str,
     },
-    /// `Torques::force`.
+    /// `Inputs::force`.
     Force,
-    /// `Torques::torque_b`.
+    /// `Inputs::torque_b`.
     TorqueB,
-    /// A motor torque in `Torques::motors`.
+    /// A motor torque in `Inputs::motors`.
     Motor {
         /// Index of the device.
         device: usize,
-        /// The joint that the motor drives.
-        joint: Joint,
+        /// The body that the motor drives.
+        joint: &'static str,
+    },
+    /// A joint's acceleration, prescribed or asked for.
+    JointAcceleration {
+        /// Index of the device.
+        device: usize,
+        /// The body behind the joint.
+        joint: &'static str,
+    },
+    /// An acceleration of the hub, prescribed or asked for.
+    HubAcceleration,
+    /// `Inputs::gravity`.
+    Gravity,
+    /// An external wrench in `Inputs::bodies`.
+    Wrench {
+        /// Index of the device.
+        device: usize,
+        /// The body it acts on.
+        body: &'static str,
     },
     /// The step's length `dt`.
     TimeStep,
@@ -77,9 +67,9 @@ pub enum SolveError<T = f64> {
     Singular {
         /// Index of the device, or `None` for the hub's six equations.
         device: Option<usize>,
-        /// The joint whose pivot it is, or `None` for the hub.
-        joint: Option<Joint>,
-        /// The pivot: the inertia left to that joint, kg m^2 (hub: kg or kg m^2).
+        /// The joint whose pivot it is, by the body behind it, or `None` for the hub.
+        joint: Option<&'static str>,
+        /// The pivot: the inertia left to that joint, kg m^2 (hub, sliding joint: also kg).
         pivot: T,
         /// The bound it is not above: 64 epsilons of the diagonal before the elimination.
         bound: T,
@@ -93,31 +83,38 @@ pub enum SolveError<T = f64> {
         /// [`Attitude::extreme`]: crate::Attitude::extreme
         value: T,
     },
+    /// A joint is locked while it moves.
+    LockedJointMoves {
+        /// Index of the device.
+        device: usize,
+        /// The body behind the joint.
+        joint: &'static str,
+        /// Its rate, rad/s (or m/s).
+        rate: T,
+    },
+    /// The hub is fixed while it moves.
+    FixedHubMoves {
+        /// The largest component of its velocities, m/s or rad/s.
+        value: T,
+    },
+    /// A mode asks of a joint what its kind has not: it holds the acceleration at zero.
+    NotDriven {
+        /// Index of the device.
+        device: usize,
+        /// The body behind the joint.
+        joint: &'static str,
+    },
+    /// The field of a central body has no value at its centre, where B stands.
+    AtCentre,
+    /// A list has data for another number of devices, or of joints, than there are.
+    Count {
+        /// How many there are.
+        expected: usize,
+        /// How many are given.
+        found: usize,
+    },
     /// Every input is finite, but they are so large (or small) that the result is not.
     Overflow,
-}
-
-impl Display for Joint {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::OuterGimbal => "outer gimbal",
-            Self::InnerGimbal => "inner gimbal",
-            Self::Wheel => "wheel",
-        })
-    }
-}
-
-impl Display for JointField {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::GammaO => "gamma_o",
-            Self::GammaI => "gamma_i",
-            Self::Theta => "theta",
-            Self::GammaODot => "gamma_o_dot",
-            Self::GammaIDot => "gamma_i_dot",
-            Self::Spin => "spin",
-        })
-    }
 }
 
 impl Display for Quantity {
@@ -133,6 +130,12 @@ impl Display for Quantity {
             Self::Motor { device, joint } => {
                 write!(f, "motor torque of device {device} ({joint})")
             }
+            Self::JointAcceleration { device, joint } => {
+                write!(f, "acceleration of device {device} ({joint})")
+            }
+            Self::HubAcceleration => f.write_str("acceleration of the hub"),
+            Self::Gravity => f.write_str("gravity"),
+            Self::Wrench { device, body } => write!(f, "wrench on device {device} ({body})"),
             Self::TimeStep => f.write_str("time step dt"),
             Self::ReferencePoint => f.write_str("reference point"),
         }
@@ -150,18 +153,19 @@ impl<T: Scalar> Display for SolveError<T> {
                     (None, _) => f.write_str("the hub")?,
                 }
                 write!(f, " is not above {:?}; ", bound.to_f64())?;
-                f.write_str(match (device, joint) {
-                    (None, _) => "check the hub's mass and inertia",
-                    (_, Some(Joint::OuterGimbal)) => {
-                        "massless gimbals are singular at gamma_i = 90 deg, check its inertias"
+                match joint {
+                    None => f.write_str("check the hub's mass and inertia"),
+                    Some(joint) => {
+                        write!(f, "check mass and inertia of the {joint} and of what it carries")?;
+                        if joint.ends_with("gimbal") {
+                            f.write_str(
+                                "; a massless gimbal is singular where it would turn about the \
+                                 spin axis",
+                            )?;
+                        }
+                        Ok(())
                     }
-                    (_, Some(Joint::InnerGimbal) | None) => {
-                        "check the inertias of its inner gimbal and wheel"
-                    }
-                    (_, Some(Joint::Wheel)) => {
-                        "the wheel needs inertia about its spin axis, check i_w_wc"
-                    }
-                })
+                }
             }
             Self::NotFinite { what: Quantity::Attitude, value } => {
                 let value = value.to_f64();
@@ -176,6 +180,32 @@ impl<T: Scalar> Display for SolveError<T> {
                 f,
                 "{:?} in {what} is not finite; give finite numbers in SI units",
                 value.to_f64(),
+            ),
+            Self::LockedJointMoves { device, joint, rate } => write!(
+                f,
+                "locked joint of device {device} ({joint}) moves at {:?}, not 0; stop it first, \
+                 or unlock it",
+                rate.to_f64(),
+            ),
+            Self::FixedHubMoves { value } => write!(
+                f,
+                "fixed hub moves at {:?} m/s or rad/s, not 0; set its velocities to zero, or stop \
+                 it first",
+                value.to_f64(),
+            ),
+            Self::NotDriven { device, joint } => write!(
+                f,
+                "joint of device {device} ({joint}) is held at its rate by its kind and takes no \
+                 other mode; use a kind that drives it"
+            ),
+            Self::AtCentre => f.write_str(
+                "B stands 0.0 m from the centre of gravity, where there is no field; give its \
+                 position r_b_n from that centre",
+            ),
+            Self::Count { expected, found } => write!(
+                f,
+                "{found} given in a list where there are {expected}; give one for each device, \
+                 and in it one for each joint"
             ),
             Self::Overflow => f.write_str(
                 "the result is not finite although every input is; check the units of large \
@@ -195,28 +225,19 @@ mod tests {
 
     #[test]
     fn singular_pivot_tells_value_bound_and_remedy() {
-        let mut error = SolveError::Singular {
+        let error = SolveError::Singular {
             device: Some(2),
-            joint: Some(Joint::OuterGimbal),
+            joint: Some("outer gimbal"),
             pivot: 3e-19,
             bound: 1e-12,
         };
         assert_eq!(
             error.to_string(),
-            "pivot 3e-19 of device 2 (outer gimbal) is not above 1e-12; massless gimbals are \
-             singular at gamma_i = 90 deg, check its inertias"
+            "pivot 3e-19 of device 2 (outer gimbal) is not above 1e-12; check mass and inertia of \
+             the outer gimbal and of what it carries; a massless gimbal is singular where it would \
+             turn about the spin axis"
         );
-        for (joint, remedy) in [(Joint::InnerGimbal, "inner gimbal and"), (Joint::Wheel, "i_w_wc")]
-        {
-            error = SolveError::Singular {
-                device: Some(0),
-                joint: Some(joint),
-                pivot: 0.0,
-                bound: 0.0,
-            };
-            assert!(error.to_string().contains(remedy), "{error}");
-        }
-        error = SolveError::Singular { device: None, joint: None, pivot: -1.0, bound: 0.5 };
+        let error = SolveError::Singular { device: None, joint: None, pivot: -1.0, bound: 0.5 };
         assert_eq!(
             error.to_string(),
             "pivot -1.0 of the hub is not above 0.5; check the hub's mass and inertia"
@@ -227,11 +248,11 @@ mod tests {
     fn input_that_is_not_finite_is_named() {
         let text = |what, value| SolveError::NotFinite { what, value }.to_string();
         assert_eq!(
-            text(Quantity::Joint { device: 3, field: JointField::GammaIDot }, f64::NAN),
+            text(Quantity::Joint { device: 3, field: "gamma_i_dot" }, f64::NAN),
             "NaN in gamma_i_dot of device 3 is not finite; give finite numbers in SI units"
         );
         assert_eq!(
-            text(Quantity::Motor { device: 1, joint: Joint::Wheel }, f64::NEG_INFINITY),
+            text(Quantity::Motor { device: 1, joint: "wheel" }, f64::NEG_INFINITY),
             "-inf in motor torque of device 1 (wheel) is not finite; give finite numbers in SI \
              units"
         );
@@ -249,6 +270,30 @@ mod tests {
             text(0.0),
             "0.0 as largest parameter of the attitude has no usable length; give a unit \
              quaternion, or MRPs up to 1"
+        );
+    }
+
+    #[test]
+    fn what_is_locked_and_moves_is_named_with_its_rate() {
+        let (device, joint) = (1, "gimbal");
+        assert_eq!(
+            SolveError::LockedJointMoves { device, joint, rate: 0.5 }.to_string(),
+            "locked joint of device 1 (gimbal) moves at 0.5, not 0; stop it first, or unlock it"
+        );
+        assert_eq!(
+            SolveError::FixedHubMoves { value: -2.0 }.to_string(),
+            "fixed hub moves at -2.0 m/s or rad/s, not 0; set its velocities to zero, or stop it \
+             first"
+        );
+        assert_eq!(
+            SolveError::<f64>::NotDriven { device, joint: "wheel" }.to_string(),
+            "joint of device 1 (wheel) is held at its rate by its kind and takes no other mode; \
+             use a kind that drives it"
+        );
+        assert_eq!(
+            SolveError::<f64>::Count { expected: 3, found: 2 }.to_string(),
+            "2 given in a list where there are 3; give one for each device, and in it one for each \
+             joint"
         );
     }
 

@@ -5,49 +5,115 @@
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
-use crate::error::{Joint, JointField, Quantity};
+use crate::devices::Devices;
+use crate::each::{Each, JointStates};
+use crate::error::{Quantity, SolveError};
+use crate::gravity::Gravity;
+use crate::inputs::Inputs;
+use crate::mode::{HubMode, Mode};
+use crate::momentum::refuse;
 use crate::real::Scalar;
-use crate::state::{Joints, State, Torques};
+use crate::spacecraft::Spacecraft;
+use crate::state::{Accelerations, State};
 use crate::vec3::components;
 
-/// The first part of a state that is not finite, and the value that spoils it.
-pub(crate) fn culprit_in_state<const N: usize, T: Scalar, A: Attitude<T>>(
-    state: &State<N, T, A>,
-) -> Option<(Quantity, T)> {
-    let attitude = || {
-        let spoilt = !state.attitude.is_valid();
-        spoilt.then(|| (Quantity::Attitude, state.attitude.extreme()))
-    };
-    culprit_in_vector(Quantity::Position, &state.r_b_n)
-        .or_else(|| culprit_in_vector(Quantity::Velocity, &state.r_b_n_dot))
-        .or_else(attitude)
-        .or_else(|| culprit_in_vector(Quantity::BodyRate, &state.omega))
-        .or_else(|| {
-            let mut devices = state.devices.iter().enumerate();
-            devices.find_map(|(device, joints)| {
-                let (field, value) = first_not_finite(&fields(joints))?;
-                Some((Quantity::Joint { device, field }, value))
-            })
-        })
-}
+impl<D: Devices> Spacecraft<D> {
+    /// Refuses the first input that is not finite.
+    pub(crate) fn refuse<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        D::fits(&self.devices, &state.devices, Some(crate::devices::Given::of(inputs)))?;
+        refuse(self.culprit_in_state(state).or_else(|| self.culprit_in_inputs(inputs)))
+    }
 
-/// The first part of the torques that is not finite, and its value.
-pub(crate) fn culprit_in_torques<const N: usize, T: Scalar>(
-    torques: &Torques<N, T>,
-) -> Option<(Quantity, T)> {
-    culprit_in_vector(Quantity::Force, &torques.force)
-        .or_else(|| culprit_in_vector(Quantity::TorqueB, &torques.torque_b))
-        .or_else(|| {
-            let mut motors = torques.motors.iter().enumerate();
-            motors.find_map(|(device, motor)| {
-                let (joint, value) = first_not_finite(&[
-                    (Joint::OuterGimbal, motor.u_o),
-                    (Joint::InnerGimbal, motor.u_i),
-                    (Joint::Wheel, motor.u_w),
-                ])?;
-                Some((Quantity::Motor { device, joint }, value))
+    /// Refuses accelerations that are not finite.
+    pub(crate) fn refuse_accelerations(
+        &self,
+        accelerations: &Accelerations<D>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        let Accelerations { r_b_n_ddot, omega_dot, devices } = accelerations;
+        let joint = || {
+            let mut joints = devices.values().zip(self.joints());
+            joints.find(|(value, _)| !value.is_finite()).map(|(value, (device, info))| {
+                (Quantity::JointAcceleration { device, joint: info.body }, value)
             })
-        })
+        };
+        let hub = culprit_in_vector(Quantity::HubAcceleration, r_b_n_ddot)
+            .or_else(|| culprit_in_vector(Quantity::HubAcceleration, omega_dot));
+        refuse(hub.or_else(joint))
+    }
+
+    /// The first part of a state that is not finite, and the value that spoils it.
+    pub(crate) fn culprit_in_state<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> Option<(Quantity, D::Scalar)> {
+        let attitude = || {
+            let spoilt = !state.attitude.is_valid();
+            spoilt.then(|| (Quantity::Attitude, state.attitude.extreme()))
+        };
+        let joint = || {
+            let joints = state.devices.states().zip(self.joints());
+            let mut fields = joints.flat_map(|([coordinate, rate], (device, info))| {
+                [(info.coordinate, coordinate), (info.rate, rate)]
+                    .map(|(field, value)| (Quantity::Joint { device, field }, value))
+            });
+            fields.find(|(_, value)| !value.is_finite())
+        };
+        culprit_in_vector(Quantity::Position, &state.r_b_n)
+            .or_else(|| culprit_in_vector(Quantity::Velocity, &state.r_b_n_dot))
+            .or_else(attitude)
+            .or_else(|| culprit_in_vector(Quantity::BodyRate, &state.omega))
+            .or_else(joint)
+    }
+
+    /// The first input that is not finite, and its value.
+    pub(crate) fn culprit_in_inputs(&self, inputs: &Inputs<D>) -> Option<(Quantity, D::Scalar)> {
+        let Inputs { force, torque_b, motors, modes, hub, gravity, bodies } = inputs;
+        let hub = || match hub {
+            HubMode::Free | HubMode::Fixed => None,
+            HubMode::Prescribed { r_b_n_ddot, omega_dot } => {
+                culprit_in_vector(Quantity::HubAcceleration, r_b_n_ddot)
+                    .or_else(|| culprit_in_vector(Quantity::HubAcceleration, omega_dot))
+            }
+        };
+        let gravity = || match gravity {
+            Gravity::None => None,
+            Gravity::Uniform(g) => culprit_in_vector(Quantity::Gravity, g),
+            Gravity::Central { mu } => {
+                Some((Quantity::Gravity, *mu)).filter(|(_, mu)| !mu.is_finite())
+            }
+        };
+        culprit_in_vector(Quantity::Force, force)
+            .or_else(|| culprit_in_vector(Quantity::TorqueB, torque_b))
+            .or_else(|| {
+                let mut joints = motors.values().zip(modes.values()).zip(self.joints());
+                joints.find_map(|((torque, mode), (device, info))| {
+                    let joint = info.body;
+                    let prescribed = match mode {
+                        Mode::Prescribed(acceleration) => Some(acceleration),
+                        Mode::Driven | Mode::Locked => None,
+                    };
+                    let motor = Some((Quantity::Motor { device, joint }, torque));
+                    let mode =
+                        prescribed.map(|a| (Quantity::JointAcceleration { device, joint }, a));
+                    [motor, mode].into_iter().flatten().find(|(_, value)| !value.is_finite())
+                })
+            })
+            .or_else(hub)
+            .or_else(gravity)
+            .or_else(|| {
+                let wrenches = bodies.iter().flat_map(Each::values);
+                let mut wrenches = wrenches.zip(self.joints());
+                wrenches.find_map(|(wrench, (device, info))| {
+                    let what = Quantity::Wrench { device, body: info.body };
+                    culprit_in_vector(what, &wrench.force)
+                        .or_else(|| culprit_in_vector(what, &wrench.moment))
+                })
+            })
+    }
 }
 
 /// The vector's name and its first component that is not finite.
@@ -55,34 +121,29 @@ pub(crate) fn culprit_in_vector<T: Scalar>(
     what: Quantity,
     v: &Vector3<T>,
 ) -> Option<(Quantity, T)> {
-    first_not_finite(&components(v).map(|value| (what, value)))
-}
-
-fn first_not_finite<Name: Copy, T: Scalar>(named: &[(Name, T)]) -> Option<(Name, T)> {
-    named.iter().find(|(_, value)| !value.is_finite()).copied()
-}
-
-fn fields<T: Scalar>(joints: &Joints<T>) -> [(JointField, T); 6] {
-    [
-        (JointField::GammaO, joints.gamma_o),
-        (JointField::GammaI, joints.gamma_i),
-        (JointField::Theta, joints.theta),
-        (JointField::GammaODot, joints.gamma_o_dot),
-        (JointField::GammaIDot, joints.gamma_i_dot),
-        (JointField::Spin, joints.spin),
-    ]
+    let value = components(v).into_iter().find(|value| !value.is_finite())?;
+    Some((what, value))
 }
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Matrix3;
+
     use super::*;
     use crate::quaternion::Quaternion;
-    use crate::state::MotorTorques;
+    use crate::{Dgvscmg, Hub, Wrench};
 
-    fn culprit(change: impl Fn(&mut State<2>)) -> Option<Quantity> {
+    type Two = [Dgvscmg; 2];
+
+    fn spacecraft() -> Spacecraft<Two> {
+        let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
+        Spacecraft::new(&hub, &[Dgvscmg::bare_wheel(1.0, Matrix3::identity()); 2]).unwrap()
+    }
+
+    fn culprit(change: impl Fn(&mut State<Two>)) -> Option<Quantity> {
         let mut state = State::at_rest();
         change(&mut state);
-        culprit_in_state(&state).map(|(what, _)| what)
+        spacecraft().culprit_in_state(&state).map(|(what, _)| what)
     }
 
     #[test]
@@ -97,53 +158,66 @@ mod tests {
             Some(Quantity::Attitude)
         );
         assert_eq!(culprit(|s| s.omega.x = BAD), Some(Quantity::BodyRate));
-        assert_eq!(culprit(|s| s.devices[1].gamma_o = BAD), joint(JointField::GammaO));
-        assert_eq!(culprit(|s| s.devices[1].gamma_i = BAD), joint(JointField::GammaI));
-        assert_eq!(culprit(|s| s.devices[1].theta = BAD), joint(JointField::Theta));
-        assert_eq!(culprit(|s| s.devices[1].gamma_o_dot = BAD), joint(JointField::GammaODot));
-        assert_eq!(culprit(|s| s.devices[1].gamma_i_dot = BAD), joint(JointField::GammaIDot));
-        assert_eq!(culprit(|s| s.devices[1].spin = BAD), joint(JointField::Spin));
+        assert_eq!(culprit(|s| s.devices[1].gamma_o = BAD), joint("gamma_o"));
+        assert_eq!(culprit(|s| s.devices[1].gamma_i = BAD), joint("gamma_i"));
+        assert_eq!(culprit(|s| s.devices[1].theta = BAD), joint("theta"));
+        assert_eq!(culprit(|s| s.devices[1].gamma_o_dot = BAD), joint("gamma_o_dot"));
+        assert_eq!(culprit(|s| s.devices[1].gamma_i_dot = BAD), joint("gamma_i_dot"));
+        assert_eq!(culprit(|s| s.devices[1].spin = BAD), joint("spin"));
     }
 
     #[test]
-    fn every_field_of_torques_is_searched() {
-        let culprit = |change: fn(&mut Torques<2>)| {
-            let mut torques = Torques::none();
-            change(&mut torques);
-            culprit_in_torques(&torques).map(|(what, _)| what)
+    fn every_field_of_the_inputs_is_searched() {
+        const BAD: f64 = f64::NAN;
+        let culprit = |change: fn(&mut Inputs<Two>)| {
+            let mut inputs = Inputs::none();
+            change(&mut inputs);
+            spacecraft().culprit_in_inputs(&inputs).map(|(what, _)| what)
         };
         let motor = |joint| Some(Quantity::Motor { device: 0, joint });
         assert_eq!(culprit(|_| ()), None);
-        assert_eq!(culprit(|t| t.force.x = f64::NAN), Some(Quantity::Force));
-        assert_eq!(culprit(|t| t.torque_b.z = f64::NAN), Some(Quantity::TorqueB));
-        let bad = MotorTorques { u_o: 0.0, u_i: f64::NAN, u_w: f64::NAN };
-        let mut torques = Torques::<2>::none();
-        torques.motors[0] = bad;
-        assert_eq!(culprit_in_torques(&torques).map(|(what, _)| what), motor(Joint::InnerGimbal));
-        assert_eq!(culprit(|t| t.motors[0].u_o = f64::NAN), motor(Joint::OuterGimbal));
-        assert_eq!(culprit(|t| t.motors[0].u_w = f64::NAN), motor(Joint::Wheel));
+        assert_eq!(culprit(|t| t.force.x = BAD), Some(Quantity::Force));
+        assert_eq!(culprit(|t| t.torque_b.z = BAD), Some(Quantity::TorqueB));
+        assert_eq!(culprit(|t| t.motors[0].u_i = BAD), motor("inner gimbal"));
+        assert_eq!(culprit(|t| t.motors[0].u_o = BAD), motor("outer gimbal"));
+        assert_eq!(culprit(|t| t.motors[0].u_w = BAD), motor("wheel"));
+        assert_eq!(
+            culprit(|t| t.modes[1].wheel = Mode::Prescribed(BAD)),
+            Some(Quantity::JointAcceleration { device: 1, joint: "wheel" })
+        );
+        let prescribed = |t: &mut Inputs<Two>| {
+            let r_b_n_ddot = Vector3::new(0.0, BAD, 0.0);
+            t.hub = HubMode::Prescribed { r_b_n_ddot, omega_dot: Vector3::zeros() };
+        };
+        assert_eq!(culprit(prescribed), Some(Quantity::HubAcceleration));
+        assert_eq!(culprit(|t| t.gravity = Gravity::Central { mu: BAD }), Some(Quantity::Gravity));
+        let wrench = |t: &mut Inputs<Two>| {
+            let mut bodies = <Two as crate::FixedSet>::all(Wrench::none());
+            bodies[1].inner_gimbal.moment.y = BAD;
+            t.bodies = Some(bodies);
+        };
+        assert_eq!(culprit(wrench), Some(Quantity::Wrench { device: 1, body: "inner gimbal" }));
     }
 
     /// Infinite values, since NaN equals nothing.
     #[test]
     fn the_value_comes_with_the_name() {
         let (up, down) = (f64::INFINITY, f64::NEG_INFINITY);
-        let mut state = State::<1>::at_rest();
+        let spacecraft = spacecraft();
+        let mut state = State::<Two>::at_rest();
         state.devices[0].spin = up;
-        let spin = Quantity::Joint { device: 0, field: JointField::Spin };
-        assert_eq!(culprit_in_state(&state), Some((spin, up)));
+        let spin = Quantity::Joint { device: 0, field: "spin" };
+        assert_eq!(spacecraft.culprit_in_state(&state), Some((spin, up)));
         state.omega = Vector3::new(1.0, down, up);
-        assert_eq!(culprit_in_state(&state), Some((Quantity::BodyRate, down)));
-        state.attitude = Quaternion { q0: 0.0, q1: 0.0, q2: 0.0, q3: 0.0 };
-        assert_eq!(culprit_in_state(&state), Some((Quantity::Attitude, 0.0)));
+        assert_eq!(spacecraft.culprit_in_state(&state), Some((Quantity::BodyRate, down)));
         state.attitude = Quaternion { q2: down, ..Quaternion::identity() };
-        assert_eq!(culprit_in_state(&state), Some((Quantity::Attitude, down)));
+        assert_eq!(spacecraft.culprit_in_state(&state), Some((Quantity::Attitude, down)));
 
-        let mut torques = Torques::<1>::none();
-        torques.motors[0].u_w = down;
-        let motor = Quantity::Motor { device: 0, joint: Joint::Wheel };
-        assert_eq!(culprit_in_torques(&torques), Some((motor, down)));
-        torques.torque_b.z = up;
-        assert_eq!(culprit_in_torques(&torques), Some((Quantity::TorqueB, up)));
+        let mut inputs = Inputs::<Two>::none();
+        inputs.motors[0].u_w = down;
+        let motor = Quantity::Motor { device: 0, joint: "wheel" };
+        assert_eq!(spacecraft.culprit_in_inputs(&inputs), Some((motor, down)));
+        inputs.torque_b.z = up;
+        assert_eq!(spacecraft.culprit_in_inputs(&inputs), Some((Quantity::TorqueB, up)));
     }
 }

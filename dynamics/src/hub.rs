@@ -1,10 +1,12 @@
 //! The rigid hub's own share of the equations, of energy and of momentum.
 
+use crate::gravity::second_moment;
 use crate::parameters::Hub;
 use crate::real::{Scalar, half, zero};
 use crate::solve::System;
 use crate::symmetric::Symmetric;
 use crate::vec3::{Vec3, add, components, cross, dot, scale, sub};
+use crate::wrench::Wrench;
 
 /// Constants of the hub, all along B axes.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +21,7 @@ pub(crate) struct PreparedHub<T> {
 
 /// Energy, linear momentum and angular momentum about B, along B axes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct BodySums<T> {
+pub struct BodySums<T> {
     pub(crate) energy: T,
     pub(crate) linear: Vec3<T>,
     pub(crate) angular_b: Vec3<T>,
@@ -49,6 +51,26 @@ impl<T: Scalar> PreparedHub<T> {
             h_v: sub(force, centrifugal),
             h_w: sub(torque_b, gyroscopic),
         }
+    }
+
+    /// The wrench about B that these accelerations need.
+    pub(crate) fn needs(
+        &self,
+        omega: Vec3<T>,
+        r_b_n_ddot: Vec3<T>,
+        omega_dot: Vec3<T>,
+    ) -> Wrench<T> {
+        let s = self.first_moment;
+        let turning = add(cross(omega_dot, s), cross(omega, cross(omega, s)));
+        let force = add(scale(self.m_b, r_b_n_ddot), turning);
+        let gyroscopic = cross(omega, self.i_b_b.times(omega));
+        let moment = add(self.i_b_b.times(omega_dot), add(cross(s, r_b_n_ddot), gyroscopic));
+        Wrench::of(force, moment)
+    }
+
+    /// Second moment of the hub about B, kg m^2.
+    pub(crate) fn second_moment(&self) -> Symmetric<T> {
+        second_moment(&self.i_b_b)
     }
 
     /// Kinetic energy and momenta for the inertial velocity of B and the angular velocity.

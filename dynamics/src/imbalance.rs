@@ -27,9 +27,9 @@
 //! Not touched: `J_23`, which does nothing at constant rate on a still mount, and the moments.
 
 use crate::imbalance_error::{ImbalanceError, ImbalanceQuantity};
-use crate::parameters::Dgvscmg;
 use crate::real::{Scalar, one, reciprocal_in_two, zero};
 use crate::symmetric::Symmetric;
+use crate::{Dgcmg, Dgvscmg, ReactionWheel, Sgcmg, Vscmg};
 
 /// A wheel's lumped imbalance: what a data sheet states, in SI units.
 ///
@@ -122,32 +122,42 @@ impl<T: Scalar> WheelImbalance<T> {
     }
 }
 
-impl<T: Scalar> Dgvscmg<T> {
-    /// The same device with this imbalance in its wheel: `d`, `J_12` and `J_13` are replaced,
-    /// everything else stays, `J_23` and the wheel's moments among it.
-    ///
-    /// # Errors
-    ///
-    /// As [`Imbalance::in_wheel`] for the device's `m_w`.
-    pub fn with_imbalance(&self, imbalance: &Imbalance<T>) -> Result<Self, ImbalanceError<T>> {
-        let WheelImbalance { d, j_12, j_13 } = imbalance.in_wheel(self.m_w)?;
-        let mut i_w_wc = self.i_w_wc;
-        (i_w_wc.m12, i_w_wc.m21) = (j_12, j_12);
-        (i_w_wc.m13, i_w_wc.m31) = (j_13, j_13);
-        Ok(Self { d, i_w_wc, ..*self })
-    }
+/// The kinds whose wheel can be off balance.
+macro_rules! off_balance {
+    ($($kind:ident)*) => {$(
+        impl<T: Scalar> $kind<T> {
+            /// The same device with this imbalance in its wheel: `d`, `J_12` and `J_13` are
+            /// replaced, everything else stays, `J_23` and the wheel's moments among it.
+            ///
+            /// # Errors
+            ///
+            /// As [`Imbalance::in_wheel`] for the device's `m_w`.
+            pub fn with_imbalance(
+                &self,
+                imbalance: &Imbalance<T>,
+            ) -> Result<Self, ImbalanceError<T>> {
+                let WheelImbalance { d, j_12, j_13 } = imbalance.in_wheel(self.m_w)?;
+                let mut i_w_wc = self.i_w_wc;
+                (i_w_wc.m12, i_w_wc.m21) = (j_12, j_12);
+                (i_w_wc.m13, i_w_wc.m31) = (j_13, j_13);
+                Ok(Self { d, i_w_wc, ..*self })
+            }
 
-    /// The lumped imbalance of the device's wheel, from `m_w`, `d` and the symmetric part of
-    /// `i_w_wc`, with the phase as [`WheelImbalance::lumped`] counts it.
-    ///
-    /// # Errors
-    ///
-    /// As [`WheelImbalance::lumped`].
-    pub fn imbalance(&self) -> Result<Imbalance<T>, ImbalanceError<T>> {
-        let j = Symmetric::part_of(&self.i_w_wc);
-        WheelImbalance { d: self.d, j_12: j.xy, j_13: j.xz }.lumped(self.m_w)
-    }
+            /// The lumped imbalance of the device's wheel, from `m_w`, `d` and the symmetric part
+            /// of `i_w_wc`, with the phase as [`WheelImbalance::lumped`] counts it.
+            ///
+            /// # Errors
+            ///
+            /// As [`WheelImbalance::lumped`].
+            pub fn imbalance(&self) -> Result<Imbalance<T>, ImbalanceError<T>> {
+                let j = Symmetric::part_of(&self.i_w_wc);
+                WheelImbalance { d: self.d, j_12: j.xy, j_13: j.xz }.lumped(self.m_w)
+            }
+        }
+    )*};
 }
+
+off_balance!(ReactionWheel Sgcmg Vscmg Dgcmg Dgvscmg);
 
 fn check_imbalance<T: Scalar>(
     quantity: ImbalanceQuantity,

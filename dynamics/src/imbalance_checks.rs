@@ -4,11 +4,12 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use crate::dgvscmg::Joints;
 use crate::imbalance::{Imbalance, WheelImbalance};
-use crate::parameters::{Dgvscmg, Hub};
+use crate::kind::Kind;
 use crate::real::Scalar;
 use crate::spacecraft::Spacecraft;
-use crate::state::{Joints, State, Torques};
+use crate::{Dgvscmg, Hub, Inputs, State};
 
 const M_W: f64 = 4.0;
 
@@ -33,10 +34,10 @@ fn felt(device: &Dgvscmg, theta: f64, spin: f64) -> (Vector3<f64>, Vector3<f64>)
     let i_heavy = Matrix3::identity() * MOUNT;
     let hub = Hub { m_b: MOUNT, r_bc_b: Vector3::zeros(), i_b_bc: i_heavy };
     let device = Dgvscmg { i_go_goc: i_heavy, i_gi_gic: i_heavy, ..*device };
-    let mut state: State<1> = State::at_rest();
-    state.devices = [Joints { theta, spin, ..Joints::at_rest() }];
+    let mut state: State<[Dgvscmg; 1]> = State::at_rest();
+    state.devices = [Joints { theta, spin, ..Dgvscmg::at_rest() }];
     let spacecraft = Spacecraft::new(&hub, &[device]).unwrap();
-    let found = spacecraft.accelerations(&state, &Torques::none()).unwrap();
+    let found = spacecraft.accelerations(&state, &Inputs::none()).unwrap();
     let [joints] = found.devices;
     // The inner gimbal goes along with the outer one about s_z.
     let torque = Vector3::new(

@@ -1,14 +1,20 @@
-//! The solver over the emitted kernels: fully coupled dynamics of a rigid hub with `N` imbalanced
-//! double-gimbal variable-speed control moment gyros.
+//! The solver over the emitted kernels: fully coupled dynamics of a rigid hub with imbalanced
+//! momentum devices, hinged panels and slosh masses.
 //!
-//! State and torques go in, all `6 + 3 N` accelerations come out, or a typed error. `no_std`, no
-//! heap, no `unsafe`, no panic on input; the same bits on every IEEE-754 target. SI units and
-//! radians everywhere. Conventions stand with [`Dgvscmg`] and [`State`], the equations in the
-//! emitted text under [`generated`].
+//! State and inputs go in, all accelerations come out, or a typed error. `no_std`, no heap, no
+//! `unsafe`, no panic on input; the same bits on every IEEE-754 target. SI units and radians
+//! everywhere. Conventions stand with the kinds and [`State`], the equations in the emitted text
+//! under [`generated`].
+//!
+//! A spacecraft carries any [set of devices](Devices): `[Dgvscmg; 4]`, or
+//! `([ReactionWheel; 3], Sgcmg, HingedPanel)`, or with the feature `alloc` a vector of
+//! [`AnyDevice`]. Joints may be driven, prescribed or locked ([`Mode`]), the hub free, fixed or
+//! prescribed ([`HubMode`]); [`Spacecraft::loads`] answers what that takes and what every joint
+//! carries, [`Spacecraft::ledger`] where the energy goes.
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
-//! use precess_dynamics::{About, Dgvscmg, Hub, Spacecraft, State, Torques};
+//! use precess_dynamics::{About, Dgvscmg, Hub, Inputs, Spacecraft, State};
 //!
 //! // A hub of 800 kg and one wheel of 4 kg, 0.3 m from B, 0.08 mm off balance.
 //! let hub = Hub {
@@ -24,15 +30,15 @@
 //! let spacecraft = Spacecraft::new(&hub, &[wheel])?;
 //! assert_eq!(spacecraft.warnings().count(), 0);
 //!
-//! let mut state: State<1> = State::at_rest();
+//! let mut state: State<[Dgvscmg; 1]> = State::at_rest();
 //! state.devices[0].spin = 50.0;
-//! let mut torques = Torques::none();
-//! torques.motors[0].u_w = 0.2;
+//! let mut inputs: Inputs<[Dgvscmg; 1]> = Inputs::none();
+//! inputs.motors[0].u_w = 0.2;
 //!
 //! // The motor spins the wheel up and turns the hub back: the sum is conserved.
 //! let before = spacecraft.momentum(&state, About::CentreOfMass)?;
 //! for _ in 0..100 {
-//!     state = spacecraft.step(&state, &torques, 1e-3)?;
+//!     state = spacecraft.step(&state, &inputs, 1e-3)?;
 //! }
 //! let after = spacecraft.momentum(&state, About::CentreOfMass)?;
 //! assert!(state.devices[0].spin > 50.0 && state.omega.x < 0.0);
@@ -45,64 +51,111 @@
 #[cfg(test)]
 extern crate std;
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+mod accelerations;
+#[cfg(feature = "alloc")]
+mod any_device;
 mod attitude;
 #[cfg(test)]
 mod attitude_checks;
 mod device;
+mod device_loads;
+mod devices;
+mod each;
+#[cfg(feature = "alloc")]
+mod erased;
 mod error;
 mod finite;
 pub mod generated;
+mod gravity;
 mod hub;
 mod imbalance;
 #[cfg(test)]
 mod imbalance_checks;
 mod imbalance_error;
+mod inputs;
+pub mod kind;
+mod ledger;
+mod loads;
+mod mode;
 mod momentum;
 mod mrp;
+mod one;
 #[cfg(test)]
 mod overflow_checks;
 mod parameter_error;
 mod parameters;
+mod passive;
 mod quaternion;
 mod real;
 mod rk4;
+mod sets;
 mod solve;
 mod spacecraft;
+#[cfg(test)]
+mod spacecraft_checks;
 mod state;
+mod stop;
 mod symmetric;
+mod tuples;
 pub mod units;
 mod validation;
+#[cfg(test)]
+mod validation_checks;
 mod vec3;
+mod wrench;
 
+#[cfg(feature = "alloc")]
+pub use any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
 pub use attitude::Attitude;
-pub use error::{Joint, JointField, Quantity, SolveError};
+pub use devices::{Devices, FixedSet};
+pub use each::{Each, JointStates, Value};
+pub use error::{Quantity, SolveError};
+pub use generated::devices::*;
+pub use gravity::Gravity;
 pub use imbalance::{Imbalance, WheelImbalance};
 pub use imbalance_error::{ImbalanceError, ImbalanceQuantity};
+pub use inputs::Inputs;
+pub use kind::ImbalanceModel;
+pub use ledger::{Ledger, Power};
+pub use loads::{DeviceLoads, LoadAxes, Loads};
+pub use mode::{HubMode, Mode};
 pub use momentum::{About, CentreOfMass, Momentum};
 pub use mrp::Mrp;
 pub use parameter_error::{Parameter, ParameterError, Part, Warning};
-pub use parameters::{Dgvscmg, Hub};
+pub use parameters::Hub;
+pub use passive::Passive;
 pub use quaternion::Quaternion;
 pub use real::{Real, Scalar};
 pub use spacecraft::Spacecraft;
-pub use state::{Accelerations, JointAccelerations, Joints, MotorTorques, State, Torques};
+pub use state::{Accelerations, State};
+pub use stop::Stopped;
+pub use wrench::Wrench;
 
 /// Any thread may own or borrow any value of this crate: checked when the tests are compiled.
 #[cfg(test)]
 const _: () = {
     const fn shareable<T: Send + Sync>() {}
+    const fn of_set<D: Devices>()
+    where
+        Spacecraft<D>: Send + Sync,
+        State<D>: Send + Sync,
+        Inputs<D>: Send + Sync,
+        Accelerations<D>: Send + Sync,
+        Loads<D>: Send + Sync,
+    {
+    }
     const fn of_scalar<T: Scalar>() {
-        shareable::<Spacecraft<4, T>>();
-        shareable::<State<4, T>>();
-        shareable::<State<4, T, Mrp<T>>>();
-        shareable::<Torques<4, T>>();
-        shareable::<Accelerations<4, T>>();
-        shareable::<(Hub<T>, Dgvscmg<T>)>();
-        shareable::<(About<T>, Momentum<T>, CentreOfMass<T>)>();
+        shareable::<(Hub<T>, Wrench<T>, Passive<T>, Mode<T>, HubMode<T>, Gravity<T>)>();
+        shareable::<(About<T>, Momentum<T>, CentreOfMass<T>, Ledger<T>)>();
         shareable::<(ParameterError<T>, Warning<T>, Part, Parameter)>();
         shareable::<(Imbalance<T>, WheelImbalance<T>, ImbalanceError<T>, ImbalanceQuantity)>();
-        shareable::<(SolveError<T>, Quantity, Joint, JointField)>();
+        shareable::<(SolveError<T>, Quantity)>();
     }
+    of_set::<[Dgvscmg; 4]>();
+    of_set::<([ReactionWheel<f32>; 4], Sgcmg<f32>, SloshMass<f32>)>();
     of_scalar::<f64>();
     of_scalar::<f32>();
 };

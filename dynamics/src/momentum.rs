@@ -6,10 +6,11 @@
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
+use crate::devices::Devices;
 use crate::error::{Quantity, SolveError};
-use crate::finite::{culprit_in_state, culprit_in_vector};
+use crate::finite::culprit_in_vector;
 use crate::hub::BodySums;
-use crate::real::Scalar;
+use crate::real::{Real, Scalar};
 use crate::spacecraft::Spacecraft;
 use crate::state::State;
 use crate::vec3::{
@@ -46,15 +47,18 @@ pub struct CentreOfMass<T = f64> {
     pub c_prime: Vector3<T>,
 }
 
-impl<const N: usize, T: Scalar> Spacecraft<N, T> {
+impl<D: Devices> Spacecraft<D> {
     /// Kinetic energy of hub and devices, J.
     ///
     /// # Errors
     ///
     /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN, or
     /// [`SolveError::Overflow`].
-    pub fn energy<A: Attitude<T>>(&self, state: &State<N, T, A>) -> Result<T, SolveError<T>> {
-        refuse(culprit_in_state(state))?;
+    pub fn energy<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> Result<D::Scalar, SolveError<D::Scalar>> {
+        self.refuse_state(state)?;
         let (_, BodySums { energy, .. }) = self.sums(state);
         checked(energy, energy.is_finite())
     }
@@ -65,12 +69,13 @@ impl<const N: usize, T: Scalar> Spacecraft<N, T> {
     ///
     /// [`SolveError::NotFinite`] naming the part of the state (or the point) that is infinite or
     /// NaN, or [`SolveError::Overflow`].
-    pub fn momentum<A: Attitude<T>>(
+    pub fn momentum<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<N, T, A>,
-        about: About<T>,
-    ) -> Result<Momentum<T>, SolveError<T>> {
-        refuse(culprit_in_state(state).or_else(|| culprit_in_point(&about)))?;
+        state: &State<D, A>,
+        about: About<D::Scalar>,
+    ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
+        self.refuse_state(state)?;
+        refuse(culprit_in_point(&about))?;
         let (bn, BodySums { linear, angular_b, .. }) = self.sums(state);
         let linear_n = rotate_transposed(&bn, linear);
         let about_b = rotate_transposed(&bn, angular_b);
@@ -79,7 +84,7 @@ impl<const N: usize, T: Scalar> Spacecraft<N, T> {
         let r_b_p = match about {
             About::InertialOrigin => r_b_n,
             About::Point(point) => sub(r_b_n, components(&point)),
-            About::CentreOfMass => neg(rotate_transposed(&bn, self.centre(state).0)),
+            About::CentreOfMass => neg(rotate_transposed(&bn, self.centre(state)[0])),
         };
         let angular_n = add(about_b, cross(r_b_p, linear_n));
         let found = Momentum { linear: vector(linear_n), angular: vector(angular_n) };
@@ -92,41 +97,44 @@ impl<const N: usize, T: Scalar> Spacecraft<N, T> {
     ///
     /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN, or
     /// [`SolveError::Overflow`].
-    pub fn centre_of_mass<A: Attitude<T>>(
+    pub fn centre_of_mass<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<N, T, A>,
-    ) -> Result<CentreOfMass<T>, SolveError<T>> {
-        refuse(culprit_in_state(state))?;
-        let (c, c_prime) = self.centre(state);
+        state: &State<D, A>,
+    ) -> Result<CentreOfMass<D::Scalar>, SolveError<D::Scalar>> {
+        self.refuse_state(state)?;
+        let [c, c_prime] = self.centre(state);
         let found = CentreOfMass { c: vector(c), c_prime: vector(c_prime) };
         checked(found, finite(c) && finite(c_prime))
     }
 
     /// `[BN]` by its columns, and energy and momenta along B axes.
-    fn sums<A: Attitude<T>>(&self, state: &State<N, T, A>) -> (Columns<T>, BodySums<T>) {
+    pub(crate) fn sums<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> (Columns<D::Scalar>, BodySums<D::Scalar>) {
         let bn = columns(&state.attitude.dcm());
         let r_b_n_dot = rotate(&bn, components(&state.r_b_n_dot));
         let omega = components(&state.omega);
         let mut sums = self.hub.sums(r_b_n_dot, omega);
-        for (device, joints) in self.devices.iter().zip(&state.devices) {
-            let share = device.sums(joints, r_b_n_dot, omega);
-            sums.energy = sums.energy + share.energy;
-            sums.linear = add(sums.linear, share.linear);
-            sums.angular_b = add(sums.angular_b, share.angular_b);
-        }
+        D::add_sums(&self.devices, &state.devices, r_b_n_dot, omega, &mut sums);
         (bn, sums)
     }
 
     /// `c` and `c'`, along B axes.
-    fn centre<A: Attitude<T>>(&self, state: &State<N, T, A>) -> (Vec3<T>, Vec3<T>) {
-        let (mut moment, mut moment_prime) = (self.hub.first_moment, zeros());
-        for (device, joints) in self.devices.iter().zip(&state.devices) {
-            let (share, share_prime) = device.first_moment(joints);
-            moment = add(moment, share);
-            moment_prime = add(moment_prime, share_prime);
-        }
+    pub(crate) fn centre<A>(&self, state: &State<D, A>) -> [Vec3<D::Scalar>; 2] {
+        let mut moment = [self.hub.first_moment, zeros()];
+        D::add_first_moment(&self.devices, &state.devices, &mut moment);
         let per_mass = self.mass().recip();
-        (scale(per_mass, moment), scale(per_mass, moment_prime))
+        moment.map(|moment| scale(per_mass, moment))
+    }
+
+    /// Refuses a state that is not finite, or of another number of devices.
+    fn refuse_state<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        D::fits(&self.devices, &state.devices, None)?;
+        refuse(self.culprit_in_state(state))
     }
 }
 
@@ -137,7 +145,7 @@ fn culprit_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {
     }
 }
 
-fn refuse<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), SolveError<T>> {
+pub(crate) fn refuse<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), SolveError<T>> {
     match culprit {
         Some((what, value)) => Err(SolveError::NotFinite { what, value }),
         None => Ok(()),

@@ -4,9 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::error::SolveError;
 use crate::momentum::About;
-use crate::parameters::{Dgvscmg, Hub};
-use crate::spacecraft::Spacecraft;
-use crate::state::{State, Torques};
+use crate::{Dgvscmg, Hub, Inputs, Spacecraft, State};
 
 fn hub() -> Hub {
     Hub {
@@ -16,12 +14,12 @@ fn hub() -> Hub {
     }
 }
 
-fn plain(hub: Hub) -> Spacecraft<0> {
+fn plain(hub: Hub) -> Spacecraft<[Dgvscmg; 0]> {
     Spacecraft::new(&hub, &[]).unwrap()
 }
 
 /// A plain hub's state after a change of the one at rest.
-fn state(change: fn(&mut State<0>)) -> State<0> {
+fn state(change: fn(&mut State<[Dgvscmg; 0]>)) -> State<[Dgvscmg; 0]> {
     let mut state = State::at_rest();
     change(&mut state);
     state
@@ -34,20 +32,20 @@ fn refused<R>(result: Result<R, SolveError>, what: &str) {
 #[test]
 fn accelerations_that_overflow_are_refused() {
     let turning = state(|s| s.omega.x = 1e200);
-    refused(plain(hub()).accelerations(&turning, &Torques::none()), "centrifugal force");
+    refused(plain(hub()).accelerations(&turning, &Inputs::none()), "centrifugal force");
 
     // One of the two vectors alone.
     let light = Hub { m_b: 1e-3, r_bc_b: Vector3::zeros(), ..hub() };
     let force = Vector3::new(1e308, 0.0, 0.0);
-    let pushed = Torques { force, ..Torques::none() };
-    refused(plain(light).accelerations(&State::<0>::at_rest(), &pushed), "translation");
+    let pushed = Inputs { force, ..Inputs::none() };
+    refused(plain(light).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &pushed), "translation");
 
     // The hub does not feel it: what overflows is the wheel's own acceleration.
     let light = Dgvscmg::bare_wheel(4.0, Matrix3::identity() * 1e-5);
     let spacecraft = Spacecraft::new(&hub(), &[light]).unwrap();
-    let mut torques = Torques::none();
+    let mut torques = Inputs::<[Dgvscmg; 1]>::none();
     torques.motors[0].u_w = 1e305;
-    refused(spacecraft.accelerations(&State::<1>::at_rest(), &torques), "wheel");
+    refused(spacecraft.accelerations(&State::<[Dgvscmg; 1]>::at_rest(), &torques), "wheel");
 }
 
 /// A pivot that is not finite is no singularity.
@@ -56,7 +54,7 @@ fn pivots_that_overflow_are_not_called_singular() {
     for hub in
         [Hub { m_b: 1e-310, ..hub() }, Hub { r_bc_b: Vector3::new(1e160, 0.0, 0.0), ..hub() }]
     {
-        let found = plain(hub).accelerations(&State::<0>::at_rest(), &Torques::none());
+        let found = plain(hub).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &Inputs::none());
         refused(found, &std::format!("{hub:?}"));
     }
 }
@@ -76,11 +74,11 @@ fn momentum_that_overflows_is_refused() {
 #[test]
 fn centre_of_mass_that_overflows_is_refused() {
     let far = Hub { r_bc_b: Vector3::new(1e308, 0.0, 0.0), ..hub() };
-    refused(plain(far).centre_of_mass(&State::<0>::at_rest()), "c");
+    refused(plain(far).centre_of_mass(&State::<[Dgvscmg; 0]>::at_rest()), "c");
 
     let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
     let wide = Dgvscmg { d: 10.0, ..Dgvscmg::bare_wheel(4.0, disc) };
-    let mut state = State::<1>::at_rest();
+    let mut state = State::<[Dgvscmg; 1]>::at_rest();
     state.devices[0].spin = 1e308;
     refused(Spacecraft::new(&hub(), &[wide]).unwrap().centre_of_mass(&state), "c_prime");
 }

@@ -10,36 +10,30 @@ use crate::real::Scalar;
 pub enum Part {
     /// The hub.
     Hub,
-    /// The outer gimbal of a device.
-    OuterGimbal {
+    /// A body of a device.
+    Body {
         /// Index of the device.
         device: usize,
-    },
-    /// The inner gimbal of a device.
-    InnerGimbal {
-        /// Index of the device.
-        device: usize,
-    },
-    /// The wheel of a device.
-    Wheel {
-        /// Index of the device.
-        device: usize,
+        /// What it is called: `inner gimbal`.
+        body: &'static str,
     },
 }
 
 /// A kind of parameter, for [`ParameterError::NotFinite`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
-    /// A mass: `m_b`, `m_go`, `m_gi`, `m_w`.
+    /// A mass: `m_b`, `m_go`, `m_w`.
     Mass,
-    /// A centre of mass: `r_bc_b`, `r_goc_go`, `r_gic_gi`, or the wheel's `d`.
+    /// A centre of mass: `r_bc_b`, `r_goc_go`, or the wheel's `d`.
     CentreOfMass,
-    /// An inertia tensor: `i_b_bc`, `i_go_goc`, `i_gi_gic`, `i_w_wc`.
+    /// An inertia tensor: `i_b_bc`, `i_go_goc`, `i_w_wc`.
     Inertia,
-    /// The origin of a device's body: `r_go_b`, `l_o`, `l_i`.
+    /// The origin of a device's body: `r_go_b`, `l_o`.
     Origin,
-    /// The matrix `mount` of the outer gimbal.
+    /// The matrix `mount` of a device's first body.
     Mount,
+    /// A spring, damper or friction of the joint before a body: `stiffness`, `coulomb`.
+    Passive(&'static str),
 }
 
 /// Why [`Spacecraft::new`](crate::Spacecraft::new) refuses parameters.
@@ -55,16 +49,29 @@ pub enum ParameterError<T = f64> {
         /// The first such component.
         value: T,
     },
-    /// The mass of the hub or of a wheel is not above zero, or that of a gimbal is below zero.
+    /// The mass of the hub or of a device's outermost body is not above zero, or that of another
+    /// body is below zero.
     Mass {
         /// The body.
         part: Part,
+        /// Whether it may be massless.
+        massless: bool,
         /// Its mass, kg.
         value: T,
     },
     /// The masses of all bodies, each finite, have an infinite sum.
     TotalMass {
         /// The sum, kg.
+        value: T,
+    },
+    /// A stiffness or a friction is below zero, or Coulomb friction has no rate above zero at which
+    /// it fades.
+    Passive {
+        /// The body behind the joint.
+        part: Part,
+        /// Which one.
+        name: &'static str,
+        /// Its value.
         value: T,
     },
     /// An inertia tensor is not symmetric.
@@ -132,21 +139,20 @@ impl Display for Part {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Hub => f.write_str("hub"),
-            Self::OuterGimbal { device } => write!(f, "outer gimbal of device {device}"),
-            Self::InnerGimbal { device } => write!(f, "inner gimbal of device {device}"),
-            Self::Wheel { device } => write!(f, "wheel of device {device}"),
+            Self::Body { device, body } => write!(f, "{body} of device {device}"),
         }
     }
 }
 
 impl Display for Parameter {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+        f.write_str(match *self {
             Self::Mass => "mass",
             Self::CentreOfMass => "centre of mass",
             Self::Inertia => "inertia",
             Self::Origin => "origin",
             Self::Mount => "mount",
+            Self::Passive(name) => name,
         })
     }
 }
@@ -159,14 +165,21 @@ impl<T: Scalar> Display for ParameterError<T> {
                 "{parameter} of the {part} contains {:?}, which is not finite; give a number",
                 value.to_f64(),
             ),
-            Self::Mass { part: part @ (Part::Hub | Part::Wheel { .. }), value } => write!(
+            Self::Mass { part, massless: false, value } => write!(
                 f,
-                "mass {:?} kg of the {part} is not above 0; only gimbals may be massless",
+                "mass {:?} kg of the {part} is not above 0; only what carries another body of its \
+                 device may be massless",
                 value.to_f64(),
             ),
-            Self::Mass { part, value } => write!(
+            Self::Mass { part, massless: true, value } => write!(
                 f,
-                "mass {:?} kg of the {part} is below 0; use 0 for a massless gimbal",
+                "mass {:?} kg of the {part} is below 0; use 0 for a massless one",
+                value.to_f64(),
+            ),
+            Self::Passive { part, name, value } => write!(
+                f,
+                "{name} {:?} of the joint of the {part} is out of range; stiffness and friction are \
+                 not below 0, and coulomb friction needs a coulomb_rate above 0",
                 value.to_f64(),
             ),
             Self::TotalMass { value } => write!(
@@ -234,7 +247,8 @@ mod tests {
 
     #[test]
     fn warning_tells_value_bound_and_remedy() {
-        let warning = Warning::Triangle { part: Part::Wheel { device: 0 }, excess: 0.25 };
+        let warning =
+            Warning::Triangle { part: Part::Body { device: 0, body: "wheel" }, excess: 0.25 };
         assert_eq!(
             warning.to_string(),
             "largest principal moment of the wheel of device 0 exceeds the sum of the other two by \

@@ -3,26 +3,37 @@
 //! Fixed cost, no error estimate: four evaluations and one normalisation of the attitude. The step
 //! must resolve the fastest wheel; a tenth of a radian of `theta` per step is a sound start.
 
+use crate::accelerations::sound;
 use crate::attitude::Attitude;
+use crate::devices::Devices;
+use crate::each::{Each, JointStates};
 use crate::error::{Quantity, SolveError};
-use crate::finite::culprit_in_state;
-use crate::real::{Scalar, half, one};
-use crate::spacecraft::{Spacecraft, diagnosis};
-use crate::state::{Joints, State, Torques};
+use crate::inputs::Inputs;
+use crate::real::{Real, Scalar, half, one};
+use crate::spacecraft::Spacecraft;
+use crate::state::State;
 use crate::vec3::{Vec3, add, columns, components, rotate_transposed, scale, vector, zeros};
 
-/// Time derivative of a state; joints as the six fields of [`Joints`].
-#[derive(Clone, Copy)]
-struct Slope<const N: usize, T, R> {
+/// Time derivative of a state; of the joints, rates stand for coordinates and accelerations for
+/// rates.
+#[derive(Clone)]
+struct Slope<T, J, R> {
     r_b_n: Vec3<T>,
     r_b_n_dot: Vec3<T>,
     omega: Vec3<T>,
-    devices: [Joints<T>; N],
+    devices: J,
     attitude: R,
 }
 
-impl<const N: usize, T: Scalar> Spacecraft<N, T> {
-    /// The state after `dt` seconds, with force and torques constant along B axes.
+/// The slope of a state.
+type SlopeOf<D, A> = Slope<
+    <D as Devices>::Scalar,
+    <D as Devices>::Joints,
+    <A as Attitude<<D as Devices>::Scalar>>::Rate,
+>;
+
+impl<D: Devices> Spacecraft<D> {
+    /// The state after `dt` seconds, with the inputs constant along the axes they stand along.
     ///
     /// The attitude is normalised at the end of the step: a quaternion gets unit length, MRPs
     /// beyond a half turn become their shadow set. Joint angles run on; see [`State::wrapped`].
@@ -30,58 +41,55 @@ impl<const N: usize, T: Scalar> Spacecraft<N, T> {
     /// # Errors
     ///
     /// As [`Spacecraft::accelerations`], and [`Quantity::TimeStep`] for a `dt` that is not finite.
-    pub fn step<A: Attitude<T>>(
+    pub fn step<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<N, T, A>,
-        torques: &Torques<N, T>,
-        dt: T,
-    ) -> Result<State<N, T, A>, SolveError<T>> {
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        dt: D::Scalar,
+    ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         if !dt.is_finite() {
             return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
         }
-        self.advance(state, torques, dt).map_err(|failure| diagnosis(state, torques, failure))
+        if !sound(state, inputs) {
+            return Err(self.diagnosis(state, inputs, SolveError::Overflow));
+        }
+        self.advance(state, inputs, dt).map_err(|failure| self.diagnosis(state, inputs, failure))
     }
 
-    fn advance<A: Attitude<T>>(
+    fn advance<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<N, T, A>,
-        torques: &Torques<N, T>,
-        dt: T,
-    ) -> Result<State<N, T, A>, SolveError<T>> {
-        let middle = half::<T>() * dt;
-        let sixth = dt * T::from_f64(6.0).recip();
-        let third = dt * T::from_f64(3.0).recip();
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        dt: D::Scalar,
+    ) -> Result<State<D, A>, SolveError<D::Scalar>> {
+        let middle = half::<D::Scalar>() * dt;
+        let sixth = dt * D::Scalar::from_f64(6.0).recip();
+        let third = dt * D::Scalar::from_f64(3.0).recip();
 
-        let k_1 = self.slope(state, torques)?;
-        let k_2 = self.slope(&moved(state, [(middle, &k_1)]), torques)?;
-        let k_3 = self.slope(&moved(state, [(middle, &k_2)]), torques)?;
-        let k_4 = self.slope(&moved(state, [(dt, &k_3)]), torques)?;
-        let next = moved(state, [(sixth, &k_1), (third, &k_2), (third, &k_3), (sixth, &k_4)]);
-
-        let next = State { attitude: next.attitude.normalised(), ..next };
-        match culprit_in_state(&next) {
+        let k_1 = self.slope(state, inputs)?;
+        let k_2 = self.slope(&self.moved(state, [(middle, &k_1)]), inputs)?;
+        let k_3 = self.slope(&self.moved(state, [(middle, &k_2)]), inputs)?;
+        let k_4 = self.slope(&self.moved(state, [(dt, &k_3)]), inputs)?;
+        let terms = [(sixth, &k_1), (third, &k_2), (third, &k_3), (sixth, &k_4)];
+        let mut next = self.moved(state, terms);
+        next.attitude = next.attitude.normalised();
+        match self.culprit_in_state(&next) {
             Some(_) => Err(SolveError::Overflow),
             None => Ok(next),
         }
     }
 
-    fn slope<A: Attitude<T>>(
+    fn slope<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<N, T, A>,
-        torques: &Torques<N, T>,
-    ) -> Result<Slope<N, T, A::Rate>, SolveError<T>> {
-        let found = self.solve(state, torques)?;
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<SlopeOf<D, A>, SolveError<D::Scalar>> {
+        let found = self.solve(state, inputs)?;
         let bn = columns(&state.attitude.dcm());
-        let mut devices = [Joints::at_rest(); N];
-        for ((slope, joints), ddot) in devices.iter_mut().zip(&state.devices).zip(&found.devices) {
-            *slope = Joints {
-                gamma_o: joints.gamma_o_dot,
-                gamma_i: joints.gamma_i_dot,
-                theta: joints.spin,
-                gamma_o_dot: ddot.gamma_o_ddot,
-                gamma_i_dot: ddot.gamma_i_ddot,
-                spin: ddot.spin_dot,
-            };
+        let mut devices = state.devices.clone();
+        for ([coordinate, rate], acceleration) in devices.states_mut().zip(found.devices.values()) {
+            *coordinate = *rate;
+            *rate = acceleration;
         }
         Ok(Slope {
             r_b_n: components(&state.r_b_n_dot),
@@ -91,49 +99,43 @@ impl<const N: usize, T: Scalar> Spacecraft<N, T> {
             attitude: state.attitude.rate(&state.omega),
         })
     }
-}
 
-/// The state plus the sum of `time * slope`, the sum taken before it meets the state.
-fn moved<const N: usize, const TERMS: usize, T: Scalar, A: Attitude<T>>(
-    state: &State<N, T, A>,
-    terms: [(T, &Slope<N, T, A::Rate>); TERMS],
-) -> State<N, T, A> {
-    let mut sum = Slope {
-        r_b_n: zeros(),
-        r_b_n_dot: zeros(),
-        omega: zeros(),
-        devices: [Joints::at_rest(); N],
-        attitude: (),
-    };
-    for (time, slope) in terms {
-        sum.r_b_n = add(sum.r_b_n, scale(time, slope.r_b_n));
-        sum.r_b_n_dot = add(sum.r_b_n_dot, scale(time, slope.r_b_n_dot));
-        sum.omega = add(sum.omega, scale(time, slope.omega));
-        for (joints, slope) in sum.devices.iter_mut().zip(&slope.devices) {
-            *joints = plus_scaled(joints, time, slope);
+    /// The state plus the sum of `time * slope`, the sum taken before it meets the state.
+    fn moved<const TERMS: usize, A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        terms: [(D::Scalar, &SlopeOf<D, A>); TERMS],
+    ) -> State<D, A> {
+        let mut sum = Slope {
+            r_b_n: zeros(),
+            r_b_n_dot: zeros(),
+            omega: zeros(),
+            devices: D::at_rest_for(&self.devices),
+            attitude: (),
+        };
+        for (time, slope) in terms {
+            sum.r_b_n = add(sum.r_b_n, scale(time, slope.r_b_n));
+            sum.r_b_n_dot = add(sum.r_b_n_dot, scale(time, slope.r_b_n_dot));
+            sum.omega = add(sum.omega, scale(time, slope.omega));
+            add_scaled(&mut sum.devices, time, &slope.devices);
+        }
+        let mut devices = state.devices.clone();
+        add_scaled(&mut devices, one(), &sum.devices);
+        State {
+            r_b_n: vector(add(components(&state.r_b_n), sum.r_b_n)),
+            r_b_n_dot: vector(add(components(&state.r_b_n_dot), sum.r_b_n_dot)),
+            attitude: state.attitude.advanced(&terms.map(|(time, slope)| (time, slope.attitude))),
+            omega: vector(add(components(&state.omega), sum.omega)),
+            devices,
         }
     }
-    let mut devices = state.devices;
-    for (joints, sum) in devices.iter_mut().zip(&sum.devices) {
-        *joints = plus_scaled(joints, one(), sum);
-    }
-    State {
-        r_b_n: vector(add(components(&state.r_b_n), sum.r_b_n)),
-        r_b_n_dot: vector(add(components(&state.r_b_n_dot), sum.r_b_n_dot)),
-        attitude: state.attitude.advanced(&terms.map(|(time, slope)| (time, slope.attitude))),
-        omega: vector(add(components(&state.omega), sum.omega)),
-        devices,
-    }
 }
 
-fn plus_scaled<T: Scalar>(a: &Joints<T>, time: T, slope: &Joints<T>) -> Joints<T> {
-    Joints {
-        gamma_o: a.gamma_o + time * slope.gamma_o,
-        gamma_i: a.gamma_i + time * slope.gamma_i,
-        theta: a.theta + time * slope.theta,
-        gamma_o_dot: a.gamma_o_dot + time * slope.gamma_o_dot,
-        gamma_i_dot: a.gamma_i_dot + time * slope.gamma_i_dot,
-        spin: a.spin + time * slope.spin,
+/// `a + time * slope`, joint by joint.
+fn add_scaled<T: Scalar, J: JointStates<T>>(a: &mut J, time: T, slope: &J) {
+    for ([coordinate, rate], [of_coordinate, of_rate]) in a.states_mut().zip(slope.states()) {
+        *coordinate = *coordinate + time * of_coordinate;
+        *rate = *rate + time * of_rate;
     }
 }
 
@@ -142,6 +144,7 @@ mod tests {
     use nalgebra::{Matrix3, Vector3};
 
     use super::*;
+    use crate::Dgvscmg;
     use crate::momentum::{About, Momentum};
     use crate::mrp::Mrp;
     use crate::parameters::Hub;
@@ -150,7 +153,7 @@ mod tests {
     /// A whole turn of the body takes about 4 s; the run covers two.
     const DURATION: f64 = 8.0;
 
-    fn hub() -> Spacecraft<0> {
+    fn hub() -> Spacecraft<[Dgvscmg; 0]> {
         let hub = Hub {
             m_b: 20.0,
             r_bc_b: Vector3::new(0.1, -0.2, 0.3),
@@ -159,7 +162,7 @@ mod tests {
         Spacecraft::new(&hub, &[]).unwrap()
     }
 
-    fn tumbling<A: Attitude<f64>>() -> State<0, f64, A> {
+    fn tumbling<A: Attitude<f64>>() -> State<[Dgvscmg; 0], A> {
         State {
             r_b_n_dot: Vector3::new(0.5, 0.1, -0.2),
             omega: Vector3::new(1.2, -0.7, 0.9),
@@ -167,9 +170,9 @@ mod tests {
         }
     }
 
-    fn run<A: Attitude<f64>>(steps: u32) -> State<0, f64, A> {
+    fn run<A: Attitude<f64>>(steps: u32) -> State<[Dgvscmg; 0], A> {
         let dt = DURATION / f64::from(steps);
-        let torques = Torques::none();
+        let torques = Inputs::none();
         (0..steps).fold(tumbling(), |state, _| hub().step(&state, &torques, dt).unwrap())
     }
 
@@ -219,8 +222,8 @@ mod tests {
     #[test]
     fn negative_step_leads_back() {
         let start = tumbling::<Quaternion>();
-        let there = hub().step(&start, &Torques::none(), 0.01).unwrap();
-        let back = hub().step(&there, &Torques::none(), -0.01).unwrap();
+        let there = hub().step(&start, &Inputs::none(), 0.01).unwrap();
+        let back = hub().step(&there, &Inputs::none(), -0.01).unwrap();
         // One step's error is of the fifth power of 0.01 s times rates of order 1.
         assert!((back.omega - start.omega).norm() < 1e-11);
         assert!((back.r_b_n - start.r_b_n).norm() < 1e-11);
@@ -228,7 +231,7 @@ mod tests {
 
     #[test]
     fn step_that_is_not_finite_is_refused() {
-        let step = |dt| hub().step(&tumbling::<Mrp>(), &Torques::none(), dt);
+        let step = |dt| hub().step(&tumbling::<Mrp>(), &Inputs::none(), dt);
         let what = Quantity::TimeStep;
         for value in [f64::INFINITY, f64::NEG_INFINITY] {
             assert_eq!(step(value), Err(SolveError::NotFinite { what, value }));
@@ -244,6 +247,6 @@ mod tests {
         state.r_b_n.x = f64::INFINITY;
         let (what, value) = (Quantity::Position, f64::INFINITY);
         let refused = Err(SolveError::NotFinite { what, value });
-        assert_eq!(hub().step(&state, &Torques::none(), 0.1), refused);
+        assert_eq!(hub().step(&state, &Inputs::none(), 0.1), refused);
     }
 }

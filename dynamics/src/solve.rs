@@ -26,7 +26,7 @@ pub(crate) struct System<T> {
 
 /// The solution of a [`System`].
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Solution<T> {
+pub struct Solution<T> {
     pub(crate) r_b_n_ddot: Vec3<T>,
     pub(crate) omega_dot: Vec3<T>,
 }

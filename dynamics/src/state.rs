@@ -1,67 +1,32 @@
-//! State, torques and accelerations of a hub with N devices: plain data, SI units and radians.
+//! State and accelerations of a hub with its devices: plain data, SI units and radians.
 //!
-//! A joint's rates are relative to its parent body, so `spin` is the wheel's rate seen from the
-//! inner gimbal. `theta` is a state because an imbalanced wheel's angle matters.
+//! A joint's rates are relative to its carrier, so `spin` is the wheel's rate seen from the gimbal
+//! that carries it. `theta` is a state because an imbalanced wheel's angle matters.
 
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
+use crate::devices::{Devices, FixedSet};
+use crate::each::JointStates;
+use crate::kind::JointInfo;
 use crate::quaternion::Quaternion;
-use crate::real::{Scalar, zero};
+use crate::real::Scalar;
+use crate::spacecraft::Spacecraft;
 use crate::vec3::{vector, zeros};
 
-/// State of the hub and of `N` devices; `A` is the attitude's parameterisation.
+/// State of the hub and of its devices; `A` is the attitude's parameterisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<const N: usize, T = f64, A = Quaternion<T>> {
+pub struct State<D: Devices, A = Quaternion<<D as Devices>::Scalar>> {
     /// `r_{B/N}`, position of the hub's reference point B from the inertial origin, N axes, m.
-    pub r_b_n: Vector3<T>,
+    pub r_b_n: Vector3<D::Scalar>,
     /// Inertial velocity of B, *N axes*, m/s. Its derivative in [`Accelerations`] is along B axes.
-    pub r_b_n_dot: Vector3<T>,
+    pub r_b_n_dot: Vector3<D::Scalar>,
     /// Attitude of B with respect to N.
     pub attitude: A,
     /// `omega_{B/N}`, angular velocity of the hub, B axes, rad/s.
-    pub omega: Vector3<T>,
-    /// Joint angles and rates, device by device.
-    pub devices: [Joints<T>; N],
-}
-
-/// Angles (rad) and relative rates (rad/s) of one device's joints.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Joints<T = f64> {
-    /// Outer gimbal angle, about its z axis.
-    pub gamma_o: T,
-    /// Inner gimbal angle, about its y axis.
-    pub gamma_i: T,
-    /// Wheel angle, about its x axis.
-    pub theta: T,
-    /// Outer gimbal rate, relative to the hub.
-    pub gamma_o_dot: T,
-    /// Inner gimbal rate, relative to the outer gimbal.
-    pub gamma_i_dot: T,
-    /// Wheel rate `Omega`, relative to the inner gimbal.
-    pub spin: T,
-}
-
-/// Forces and torques on the spacecraft and within its devices.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Torques<const N: usize, T = f64> {
-    /// External force F through B, B axes, N.
-    pub force: Vector3<T>,
-    /// `L_B`, external torque about B, B axes, N m.
-    pub torque_b: Vector3<T>,
-    /// Motor torques, device by device.
-    pub motors: [MotorTorques<T>; N],
-}
-
-/// Motor torques of one device, N m. Each acts on the body it drives and, reversed, on its parent.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MotorTorques<T = f64> {
-    /// `u_z`, hub on outer gimbal.
-    pub u_o: T,
-    /// `u_y`, outer on inner gimbal.
-    pub u_i: T,
-    /// `u_x`, inner gimbal on wheel.
-    pub u_w: T,
+    pub omega: Vector3<D::Scalar>,
+    /// Joint coordinates and rates, device by device.
+    pub devices: D::Joints,
 }
 
 /// All second derivatives of the state.
@@ -72,38 +37,21 @@ pub struct MotorTorques<T = f64> {
 ///
 /// [`Spacecraft::step`]: crate::Spacecraft::step
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Accelerations<const N: usize, T = f64> {
+pub struct Accelerations<D: Devices> {
     /// Inertial acceleration of B, *along B axes*, m/s^2: the derivative of
     /// [`State::r_b_n_dot`], which is along N axes, is `[BN]^T` times this.
-    pub r_b_n_ddot: Vector3<T>,
+    pub r_b_n_ddot: Vector3<D::Scalar>,
     /// Angular acceleration of the hub, B axes, rad/s^2.
-    pub omega_dot: Vector3<T>,
+    pub omega_dot: Vector3<D::Scalar>,
     /// Joint accelerations, device by device.
-    pub devices: [JointAccelerations<T>; N],
+    pub devices: D::Accelerations,
 }
 
-/// Relative angular accelerations of one device's joints, rad/s^2.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointAccelerations<T = f64> {
-    /// Outer gimbal, relative to the hub.
-    pub gamma_o_ddot: T,
-    /// Inner gimbal, relative to the outer gimbal.
-    pub gamma_i_ddot: T,
-    /// Wheel, relative to the inner gimbal.
-    pub spin_dot: T,
-}
-
-impl<const N: usize, T: Scalar, A: Attitude<T>> State<N, T, A> {
+impl<D: FixedSet, A: Attitude<D::Scalar>> State<D, A> {
     /// Everything at zero: B at the inertial origin, B axes along N axes, nothing moving.
     #[must_use]
     pub fn at_rest() -> Self {
-        Self {
-            r_b_n: vector(zeros()),
-            r_b_n_dot: vector(zeros()),
-            attitude: A::identity(),
-            omega: vector(zeros()),
-            devices: [Joints::at_rest(); N],
-        }
+        Self::with(D::at_rest())
     }
 
     /// The same state with every joint angle brought into `[-pi, pi]`.
@@ -111,60 +59,45 @@ impl<const N: usize, T: Scalar, A: Attitude<T>> State<N, T, A> {
     /// Nothing else changes, and an angle already in that range keeps its bits. An infinite or NaN
     /// angle is left as it is, for the solver to report.
     #[must_use]
-    pub fn wrapped(self) -> Self {
-        Self { devices: self.devices.map(Joints::wrapped), ..self }
+    pub fn wrapped(mut self) -> Self {
+        wrap(&mut self.devices, D::joint_infos());
+        self
     }
 }
 
-impl<T: Scalar> Joints<T> {
-    /// All angles and rates zero.
+impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
+    /// As [`State::at_rest`], for a set whose devices are known at run time alone.
     #[must_use]
-    pub fn at_rest() -> Self {
-        Self {
-            gamma_o: zero(),
-            gamma_i: zero(),
-            theta: zero(),
-            gamma_o_dot: zero(),
-            gamma_i_dot: zero(),
-            spin: zero(),
-        }
+    pub fn at_rest_for(spacecraft: &Spacecraft<D>) -> Self {
+        Self::with(D::at_rest_for(&spacecraft.devices))
     }
 
-    /// The same joints with every angle brought into `[-pi, pi]`; see [`State::wrapped`].
+    /// As [`State::wrapped`], for a set whose devices are known at run time alone.
     #[must_use]
-    pub fn wrapped(self) -> Self {
-        Self {
-            gamma_o: wrapped(self.gamma_o),
-            gamma_i: wrapped(self.gamma_i),
-            theta: wrapped(self.theta),
-            ..self
-        }
+    pub fn wrapped_for(mut self, spacecraft: &Spacecraft<D>) -> Self {
+        wrap(&mut self.devices, D::infos(&spacecraft.devices));
+        self
     }
-}
 
-impl<const N: usize, T: Scalar> Torques<N, T> {
-    /// No force, no torque, motors off.
-    #[must_use]
-    pub fn none() -> Self {
+    fn with(devices: D::Joints) -> Self {
         Self {
-            force: vector(zeros()),
-            torque_b: vector(zeros()),
-            motors: [MotorTorques::none(); N],
+            r_b_n: vector(zeros()),
+            r_b_n_dot: vector(zeros()),
+            attitude: A::identity(),
+            omega: vector(zeros()),
+            devices,
         }
     }
 }
-
-impl<T: Scalar> MotorTorques<T> {
-    /// All motors off.
-    #[must_use]
-    pub fn none() -> Self {
-        Self { u_o: zero(), u_i: zero(), u_w: zero() }
-    }
-}
-
-impl<T: Scalar> JointAccelerations<T> {
-    pub(crate) fn none() -> Self {
-        Self { gamma_o_ddot: zero(), gamma_i_ddot: zero(), spin_dot: zero() }
+/// Brings the angles among the coordinates into `[-pi, pi]`.
+fn wrap<T: Scalar>(
+    joints: &mut impl JointStates<T>,
+    infos: impl Iterator<Item = &'static JointInfo>,
+) {
+    for ([coordinate, _], info) in joints.states_mut().zip(infos) {
+        if !info.slides {
+            *coordinate = wrapped(*coordinate);
+        }
     }
 }
 
@@ -188,6 +121,7 @@ mod tests {
     use core::f64::consts::PI;
 
     use super::*;
+    use crate::{Dgvscmg, SloshMass, dgvscmg};
 
     /// Half a unit in the last place of pi, plus the rounding of two sines.
     const ROUNDING: f64 = 6e-16;
@@ -223,10 +157,10 @@ mod tests {
 
     #[test]
     fn wrapping_a_state_changes_angles_only() {
-        let mut state = State::<2>::at_rest();
+        let mut state = State::<(Dgvscmg, SloshMass)>::at_rest();
         state.r_b_n.x = 7.0;
         state.omega.z = 8.0;
-        state.devices[1] = Joints {
+        state.devices.0 = dgvscmg::Joints {
             gamma_o: 10.0,
             gamma_i: -20.0,
             theta: 1e6,
@@ -234,17 +168,13 @@ mod tests {
             gamma_i_dot: 40.0,
             spin: 50.0,
         };
+        state.devices.1.x = 60.0;
         let wrapped = state.wrapped();
-        assert_ne!(wrapped.devices[1].gamma_o, 10.0);
-        assert_ne!(wrapped.devices[1].gamma_i, -20.0);
-        assert_ne!(wrapped.devices[1].theta, 1e6);
-        let back = State {
-            devices: [
-                wrapped.devices[0],
-                Joints { gamma_o: 10.0, gamma_i: -20.0, theta: 1e6, ..wrapped.devices[1] },
-            ],
-            ..wrapped
-        };
-        assert_eq!(back, state);
+        let angles = |d: &dgvscmg::Joints| [d.gamma_o, d.gamma_i, d.theta];
+        let (found, given) = (angles(&wrapped.devices.0), angles(&state.devices.0));
+        assert!(found.iter().zip(&given).all(|(found, given)| found != given));
+        let [gamma_o, gamma_i, theta] = given;
+        let device = dgvscmg::Joints { gamma_o, gamma_i, theta, ..wrapped.devices.0 };
+        assert_eq!(State { devices: (device, wrapped.devices.1), ..wrapped }, state);
     }
 }

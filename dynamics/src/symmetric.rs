@@ -71,7 +71,8 @@ impl<T: Scalar> Symmetric<T> {
         diagonal.max(self.xy.abs()).max(self.xz.abs()).max(self.yz.abs())
     }
 
-    fn scaled(self, s: T) -> Self {
+    /// `s` times the tensor.
+    pub(crate) fn scaled(self, s: T) -> Self {
         Self {
             xx: s * self.xx,
             xy: s * self.xy,
@@ -95,6 +96,27 @@ impl<T: Real> Symmetric<T> {
             yz: self.yz + other.yz,
             zz: self.zz + other.zz,
         }
+    }
+
+    /// `v vᵀ`.
+    #[inline]
+    pub(crate) fn dyad(v: Vec3<T>) -> Self {
+        let [x, y, z] = v;
+        Self { xx: x * x, xy: x * y, xz: x * z, yy: y * y, yz: y * z, zz: z * z }
+    }
+
+    /// The sum of the diagonal.
+    #[inline]
+    pub(crate) fn trace(&self) -> T {
+        self.xx + self.yy + self.zz
+    }
+
+    /// `self : other`, the sum of the products of all nine elements.
+    #[inline]
+    pub(crate) fn double_dot(&self, other: &Self) -> T {
+        let diagonal = self.xx * other.xx + self.yy * other.yy + self.zz * other.zz;
+        let beside = self.xy * other.xy + self.xz * other.xz + self.yz * other.yz;
+        diagonal + beside + beside
     }
 
     /// The tensor applied to a vector.
@@ -136,8 +158,9 @@ impl<T: Real> Symmetric<T> {
         }
     }
 
+    /// The three columns.
     #[inline]
-    fn columns(&self) -> Columns<T> {
+    pub(crate) fn columns(&self) -> Columns<T> {
         [[self.xx, self.xy, self.xz], [self.xy, self.yy, self.yz], [self.xz, self.yz, self.zz]]
     }
 }

@@ -1,10 +1,13 @@
 //! The checks behind [`ParameterError`] and [`Warning`](crate::Warning): finite numbers, masses,
 //! inertia tensors and mounts.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
+use crate::each::Each;
+use crate::kind::{JointInfo, Kind};
 use crate::parameter_error::{Parameter, ParameterError, Part};
-use crate::parameters::{Dgvscmg, Hub};
+use crate::parameters::Hub;
+use crate::passive::Passive;
 use crate::real::{Scalar, one, zero};
 use crate::symmetric::Symmetric;
 use crate::vec3::{Columns, columns, components, cross, dot};
@@ -19,40 +22,51 @@ const ROUNDING_EPSILONS: f64 = 4096.0;
 pub(crate) fn check_hub<T: Scalar>(hub: &Hub<T>) -> Result<T, ParameterError<T>> {
     finite(Part::Hub, Parameter::Mass, &[hub.m_b])?;
     finite(Part::Hub, Parameter::CentreOfMass, &components(&hub.r_bc_b))?;
-    positive_mass(Part::Hub, hub.m_b)?;
+    check_mass(Part::Hub, hub.m_b, false)?;
     check_inertia(Part::Hub, &hub.i_b_bc)
 }
 
-/// Checks a device. The result holds the excesses of the triangle inequalities of outer gimbal,
-/// inner gimbal and wheel, kg m^2, zero where they hold.
-pub(crate) fn check_device<T: Scalar>(
-    device: usize,
-    p: &Dgvscmg<T>,
-) -> Result<[T; 3], ParameterError<T>> {
-    let outer = Part::OuterGimbal { device };
-    let inner = Part::InnerGimbal { device };
-    let wheel = Part::Wheel { device };
-
-    check_mount(device, &p.mount)?;
-    finite_vector(outer, Parameter::Origin, &p.r_go_b)?;
-    finite_vector(inner, Parameter::Origin, &p.l_o)?;
-    finite_vector(wheel, Parameter::Origin, &p.l_i)?;
-    finite_vector(outer, Parameter::CentreOfMass, &p.r_goc_go)?;
-    finite_vector(inner, Parameter::CentreOfMass, &p.r_gic_gi)?;
-    finite(wheel, Parameter::CentreOfMass, &[p.d])?;
-
-    for (part, mass) in [(outer, p.m_go), (inner, p.m_gi), (wheel, p.m_w)] {
-        finite(part, Parameter::Mass, &[mass])?;
+/// Checks a device.
+pub(crate) fn check_device<K: Kind>(device: usize, p: &K) -> Result<(), ParameterError<K::Scalar>> {
+    let part = |info: &JointInfo| Part::Body { device, body: info.body };
+    let first = K::JOINTS.first().map_or(Part::Hub, part);
+    check_mount(first, device, p.mount())?;
+    for (body, info) in p.bodies().values().zip(K::JOINTS) {
+        let part = part(info);
+        finite(part, Parameter::Origin, &body.origin)?;
+        finite(part, Parameter::CentreOfMass, &body.centre)?;
+        finite(part, Parameter::Mass, &[body.mass])?;
+        check_mass(part, body.mass, !info.tip)?;
     }
-    non_negative_mass(outer, p.m_go)?;
-    non_negative_mass(inner, p.m_gi)?;
-    positive_mass(wheel, p.m_w)?;
+    for (passive, info) in p.passive().values().zip(K::JOINTS) {
+        check_passive(part(info), &passive)?;
+    }
+    for (body, info) in p.bodies().values().zip(K::JOINTS) {
+        check_inertia(part(info), &body.inertia)?;
+    }
+    Ok(())
+}
 
-    Ok([
-        check_inertia(outer, &p.i_go_goc)?,
-        check_inertia(inner, &p.i_gi_gic)?,
-        check_inertia(wheel, &p.i_w_wc)?,
-    ])
+/// By how much the largest principal moment of an accepted inertia exceeds the sum of the other
+/// two, kg m^2; zero where it does not.
+pub(crate) fn triangle_excess<T: Scalar>(inertia: &Matrix3<T>) -> T {
+    check_inertia(Part::Hub, inertia).unwrap_or_else(|_| zero())
+}
+
+fn check_passive<T: Scalar>(part: Part, passive: &Passive<T>) -> Result<(), ParameterError<T>> {
+    for (name, value) in passive.named() {
+        finite(part, Parameter::Passive(name), &[value])?;
+    }
+    let Passive { stiffness, viscous, coulomb, coulomb_rate, .. } = *passive;
+    for (name, value) in [("stiffness", stiffness), ("viscous", viscous), ("coulomb", coulomb)] {
+        if value < zero() {
+            return Err(ParameterError::Passive { part, name, value });
+        }
+    }
+    if coulomb > zero() && coulomb_rate <= zero() {
+        return Err(ParameterError::Passive { part, name: "coulomb_rate", value: coulomb_rate });
+    }
+    Ok(())
 }
 
 fn rounding<T: Scalar>() -> T {
@@ -70,14 +84,6 @@ fn finite<T: Scalar>(
     }
 }
 
-fn finite_vector<T: Scalar>(
-    part: Part,
-    parameter: Parameter,
-    v: &Vector3<T>,
-) -> Result<(), ParameterError<T>> {
-    finite(part, parameter, &components(v))
-}
-
 fn finite_matrix<T: Scalar>(
     part: Part,
     parameter: Parameter,
@@ -88,12 +94,12 @@ fn finite_matrix<T: Scalar>(
     finite(part, parameter, z)
 }
 
-fn positive_mass<T: Scalar>(part: Part, value: T) -> Result<(), ParameterError<T>> {
-    if value > zero() { Ok(()) } else { Err(ParameterError::Mass { part, value }) }
-}
-
-fn non_negative_mass<T: Scalar>(part: Part, value: T) -> Result<(), ParameterError<T>> {
-    if value >= zero() { Ok(()) } else { Err(ParameterError::Mass { part, value }) }
+fn check_mass<T: Scalar>(part: Part, value: T, massless: bool) -> Result<(), ParameterError<T>> {
+    if value > zero() || (massless && value == zero()) {
+        Ok(())
+    } else {
+        Err(ParameterError::Mass { part, massless, value })
+    }
 }
 
 /// Finite, symmetric and positive semidefinite to rounding, relative to the largest element. The
@@ -123,9 +129,13 @@ fn check_inertia<T: Scalar>(part: Part, inertia: &Matrix3<T>) -> Result<T, Param
     Ok(if excess > bound { excess } else { zero() })
 }
 
-fn check_mount<T: Scalar>(device: usize, mount: &Matrix3<T>) -> Result<(), ParameterError<T>> {
+fn check_mount<T: Scalar>(
+    part: Part,
+    device: usize,
+    mount: &Matrix3<T>,
+) -> Result<(), ParameterError<T>> {
     let [x, y, z] = columns(mount);
-    finite_matrix(Part::OuterGimbal { device }, Parameter::Mount, &[x, y, z])?;
+    finite_matrix(part, Parameter::Mount, &[x, y, z])?;
 
     let mut residual = zero::<T>();
     for product in [dot(x, x) - one(), dot(y, y) - one(), dot(z, z) - one()] {
@@ -143,231 +153,5 @@ fn check_mount<T: Scalar>(device: usize, mount: &Matrix3<T>) -> Result<(), Param
         Ok(())
     } else {
         Err(ParameterError::LeftHandedMount { device, determinant })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::string::ToString;
-
-    use nalgebra::Rotation3;
-
-    use super::*;
-
-    fn hub() -> Hub {
-        Hub {
-            m_b: 20.0,
-            r_bc_b: Vector3::zeros(),
-            i_b_bc: Matrix3::from_diagonal(&Vector3::new(4.0, 5.0, 8.0)),
-        }
-    }
-
-    fn device() -> Dgvscmg {
-        Dgvscmg::bare_wheel(4.0, Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1)))
-    }
-
-    fn refused_hub(change: fn(&mut Hub)) -> (ParameterError, std::string::String) {
-        let mut hub = hub();
-        change(&mut hub);
-        let error = check_hub(&hub).unwrap_err();
-        (error, error.to_string())
-    }
-
-    fn refused_device(change: fn(&mut Dgvscmg)) -> (ParameterError, std::string::String) {
-        let mut device = device();
-        change(&mut device);
-        let error = check_device(2, &device).unwrap_err();
-        (error, error.to_string())
-    }
-
-    #[test]
-    fn sound_parameters_pass() {
-        assert_eq!(check_hub(&hub()), Ok(0.0));
-        assert_eq!(check_device(0, &device()), Ok([0.0; 3]));
-    }
-
-    #[test]
-    fn rounding_of_a_mount_and_an_inertia_passes() {
-        let turn = *Rotation3::from_euler_angles(0.3, -1.1, 2.7).matrix();
-        let mut turned = device();
-        turned.mount = turn * turn.transpose() * turn * turn;
-        turned.i_w_wc = turn * turned.i_w_wc * turn.transpose();
-        // A flat disc: the triangle inequality is an equality, and rounding does not warn.
-        assert_eq!(check_device(0, &turned), Ok([0.0; 3]));
-        // A rod: one principal moment is zero, to rounding.
-        turned.i_gi_gic =
-            turn * Matrix3::from_diagonal(&Vector3::new(0.0, 3.0, 3.0)) * turn.transpose();
-        assert_eq!(check_device(0, &turned), Ok([0.0; 3]));
-    }
-
-    #[test]
-    fn mass_of_hub_and_wheel_must_be_above_zero() {
-        let (error, text) = refused_hub(|hub| hub.m_b = 0.0);
-        assert_eq!(error, ParameterError::Mass { part: Part::Hub, value: 0.0 });
-        assert_eq!(text, "mass 0.0 kg of the hub is not above 0; only gimbals may be massless");
-        let (error, text) = refused_device(|p| p.m_w = -4.0);
-        assert_eq!(error, ParameterError::Mass { part: Part::Wheel { device: 2 }, value: -4.0 });
-        assert_eq!(
-            text,
-            "mass -4.0 kg of the wheel of device 2 is not above 0; only gimbals may be massless"
-        );
-    }
-
-    #[test]
-    fn mass_of_a_gimbal_must_not_be_negative() {
-        let (error, text) = refused_device(|p| p.m_go = -1.0);
-        let part = Part::OuterGimbal { device: 2 };
-        assert_eq!(error, ParameterError::Mass { part, value: -1.0 });
-        assert_eq!(
-            text,
-            "mass -1.0 kg of the outer gimbal of device 2 is below 0; use 0 for a massless gimbal"
-        );
-        let (error, _) = refused_device(|p| p.m_gi = -1e-300);
-        let part = Part::InnerGimbal { device: 2 };
-        assert_eq!(error, ParameterError::Mass { part, value: -1e-300 });
-    }
-
-    #[test]
-    fn every_number_must_be_finite() {
-        let (error, text) = refused_hub(|hub| hub.r_bc_b.y = f64::INFINITY);
-        assert_eq!(
-            error,
-            ParameterError::NotFinite {
-                part: Part::Hub,
-                parameter: Parameter::CentreOfMass,
-                value: f64::INFINITY
-            }
-        );
-        assert_eq!(
-            text,
-            "centre of mass of the hub contains inf, which is not finite; give a number"
-        );
-        for (change, beginning) in [
-            ((|p| p.mount.m21 = f64::NAN) as fn(&mut Dgvscmg), "mount of the outer gimbal"),
-            (|p| p.r_go_b.z = f64::NAN, "origin of the outer gimbal"),
-            (|p| p.l_o.x = f64::NAN, "origin of the inner gimbal"),
-            (|p| p.l_i.x = f64::NAN, "origin of the wheel"),
-            (|p| p.m_go = f64::NAN, "mass of the outer gimbal"),
-            (|p| p.m_gi = f64::NAN, "mass of the inner gimbal"),
-            (|p| p.m_w = f64::NAN, "mass of the wheel"),
-            (|p| p.r_goc_go.x = f64::NAN, "centre of mass of the outer gimbal"),
-            (|p| p.r_gic_gi.x = f64::NAN, "centre of mass of the inner gimbal"),
-            (|p| p.d = f64::NAN, "centre of mass of the wheel"),
-            (|p| p.i_go_goc.m12 = f64::NAN, "inertia of the outer gimbal"),
-            (|p| p.i_gi_gic.m33 = f64::NAN, "inertia of the inner gimbal"),
-            (|p| p.i_w_wc.m31 = f64::NAN, "inertia of the wheel"),
-        ] {
-            let (_, text) = refused_device(change);
-            let expected =
-                [beginning, " of device 2 contains NaN, which is not finite; give a number"];
-            assert_eq!(text, expected.concat());
-        }
-        for change in [(|hub| hub.m_b = f64::NAN) as fn(&mut Hub), |hub| hub.i_b_bc.m22 = f64::NAN]
-        {
-            assert!(matches!(refused_hub(change).0, ParameterError::NotFinite { .. }));
-        }
-    }
-
-    #[test]
-    fn inertia_must_be_symmetric() {
-        let (error, text) = refused_device(|p| p.i_w_wc.m13 = 0.0625);
-        // Half of it is the largest off-diagonal of the mean; the largest element is 0.2.
-        let bound = 4096.0 * f64::EPSILON * 0.2;
-        let part = Part::Wheel { device: 2 };
-        assert_eq!(
-            error,
-            ParameterError::Asymmetric { part, row: 1, column: 3, difference: 0.0625, bound }
-        );
-        assert_eq!(
-            text,
-            "inertia of the wheel of device 2: element 13 differs from element 31 by 0.0625 \
-             kg m^2, more than 1.8189894035458566e-13; make the tensor symmetric"
-        );
-    }
-
-    #[test]
-    fn inertia_must_not_be_negative() {
-        let (error, text) = refused_hub(|hub| hub.i_b_bc.m22 = -5.0);
-        let ParameterError::NegativeInertia { part: Part::Hub, value, .. } = error else {
-            panic!("{error}");
-        };
-        assert_eq!(value, -5.0);
-        assert_eq!(
-            text,
-            "smallest principal moment -5.0 kg m^2 of the hub is below -7.275957614183426e-12; \
-             check the signs and units of its inertia"
-        );
-        // A negative direction that no diagonal element shows: eigenvalues 1 - 2 and 1 + 2.
-        let (error, _) = refused_device(|p| {
-            p.i_go_goc = Matrix3::new(1.0, 2.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-        });
-        assert!(matches!(
-            error,
-            ParameterError::NegativeInertia { part: Part::OuterGimbal { device: 2 }, .. }
-        ));
-    }
-
-    #[test]
-    fn tiny_inertia_is_checked_like_any_other() {
-        for size in [1e-310, f64::from_bits(1)] {
-            let mut hub = hub();
-            hub.i_b_bc = Matrix3::from_diagonal(&Vector3::new(-size, 0.0, 0.0));
-            let error = check_hub(&hub).unwrap_err();
-            let ParameterError::NegativeInertia { part: Part::Hub, value, .. } = error else {
-                panic!("{error}");
-            };
-            assert_eq!(value, -size);
-            // A point's worth of a rod: one moment of three, and it exceeds the sum of two zeros.
-            hub.i_b_bc = Matrix3::from_diagonal(&Vector3::new(0.0, size, 0.0));
-            assert_eq!(check_hub(&hub), Ok(size));
-        }
-    }
-
-    #[test]
-    fn huge_inertia_is_accepted_while_its_moments_are_finite() {
-        let mut hub = hub();
-        hub.i_b_bc = Matrix3::from_diagonal(&Vector3::repeat(1.7e308));
-        assert_eq!(check_hub(&hub), Ok(0.0));
-        hub.i_b_bc = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 1.7e308));
-        let excess = check_hub(&hub).unwrap();
-        assert!((excess / 1.7e308 - 1.0).abs() <= f64::EPSILON, "{excess}");
-        hub.i_b_bc = Matrix3::from_diagonal(&Vector3::repeat(f64::MAX));
-        assert_eq!(check_hub(&hub), Ok(0.0));
-
-        let (error, text) = refused_hub(|hub| hub.i_b_bc = Matrix3::repeat(1.7e308));
-        assert_eq!(error, ParameterError::LargeInertia { part: Part::Hub, value: f64::INFINITY });
-        assert_eq!(
-            text,
-            "largest principal moment inf kg m^2 of the hub is not finite; check the units of its \
-             inertia"
-        );
-    }
-
-    #[test]
-    fn mount_must_be_orthonormal() {
-        let (error, text) = refused_device(|p| p.mount *= 1.5);
-        let bound = 4096.0 * f64::EPSILON;
-        assert_eq!(error, ParameterError::SkewedMount { device: 2, residual: 1.25, bound });
-        assert_eq!(
-            text,
-            "mount of device 2 is off orthonormal by 1.25, more than 9.094947017729282e-13; its \
-             columns are unit vectors at right angles, given to full precision"
-        );
-        // Unit columns that are not at right angles.
-        let (error, _) = refused_device(|p| {
-            p.mount = Matrix3::new(1.0, 0.6, 0.0, 0.0, 0.8, 0.0, 0.0, 0.0, 1.0);
-        });
-        assert_eq!(error, ParameterError::SkewedMount { device: 2, residual: 0.6, bound });
-    }
-
-    #[test]
-    fn mount_must_be_right_handed() {
-        let (error, text) = refused_device(|p| p.mount.m33 = -1.0);
-        assert_eq!(error, ParameterError::LeftHandedMount { device: 2, determinant: -1.0 });
-        assert_eq!(
-            text,
-            "mount of device 2 has determinant -1.0, not 1; reverse one column to make it \
-             right-handed"
-        );
     }
 }

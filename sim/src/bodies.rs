@@ -5,7 +5,10 @@
 //! holds it to that.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Attitude, Dgvscmg, Hub, Joints, Scalar, State};
+use precess_dynamics::dgvscmg::Joints;
+use precess_dynamics::{Attitude, Dgvscmg, Hub, Scalar, State};
+
+use crate::scenario::Set;
 
 /// Momentum of one body, N axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +24,7 @@ pub struct BodyMomentum {
 pub fn momenta<const N: usize>(
     hub: &Hub,
     devices: &[Dgvscmg; N],
-    state: &State<N>,
+    state: &State<Set<N>>,
 ) -> Vec<BodyMomentum> {
     let nb = state.attitude.dcm().transpose();
     // Every point and axis below is along B axes, every velocity inertial.

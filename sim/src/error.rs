@@ -270,13 +270,16 @@ impl From<BoundError> for CliError {
 mod tests {
     use std::error::Error;
 
+    use precess_dynamics::Spacecraft;
+
     use super::*;
+    use crate::scenario::Set;
 
     #[test]
     fn a_cause_can_be_followed_to_the_solver() {
         let mut hub = crate::scenario::table1::variants(None, None)[0].scenario().hub;
         hub.m_b = -1.0;
-        let refused = precess_dynamics::Spacecraft::new(&hub, &[]).expect_err("a negative mass");
+        let refused = Spacecraft::<Set<0>>::new(&hub, &[]).expect_err("a negative mass");
         let error =
             CliError::Run { scenario: "table1".into(), source: RunError::Parameters(refused) };
         let run = error.source().expect("the run's error");

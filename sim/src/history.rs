@@ -3,6 +3,7 @@
 use precess_dynamics::State;
 
 use crate::ledger::{Entry, Ledger};
+use crate::scenario::Set;
 
 /// A run's results.
 #[derive(Clone, Debug)]
@@ -21,7 +22,7 @@ pub struct Sample<const N: usize> {
     /// Time since the start, s.
     pub time: f64,
     /// State, quaternion of unit norm, wheel angle counted on through every turn.
-    pub state: State<N>,
+    pub state: State<Set<N>>,
     /// Energy, work and momentum.
     pub entry: Entry,
 }

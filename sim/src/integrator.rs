@@ -6,10 +6,11 @@ use differential_equations::error::Error as Stop;
 use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use differential_equations::status::Status;
-use precess_dynamics::{SolveError, Spacecraft, Torques};
+use precess_dynamics::{Inputs, SolveError, Spacecraft};
 
 use crate::error::{Fault, RunError};
 use crate::packing::{Packed, absolute_tolerance};
+use crate::scenario::Set;
 
 /// Table 1 takes about 300 steps a second; a run that needs this many has gone astray.
 const STEPS_PER_SECOND_MAX: f64 = 1e5;
@@ -23,19 +24,19 @@ type Dop853 = ExplicitRungeKutta<Ordinary, DormandPrince, f64, Vec<f64>, 8, 12, 
 
 /// The equations of motion in the integrator's terms.
 pub(crate) struct System<const N: usize> {
-    spacecraft: Spacecraft<N>,
-    torques: Torques<N>,
+    spacecraft: Spacecraft<Set<N>>,
+    inputs: Inputs<Set<N>>,
     /// The integrator has no way to hear of an error: it is kept here, and the step is refused.
     failure: RefCell<Option<(f64, SolveError)>>,
     evaluations: Cell<usize>,
 }
 
 impl<const N: usize> System<N> {
-    pub(crate) fn new(spacecraft: Spacecraft<N>, torques: Torques<N>) -> Self {
-        Self { spacecraft, torques, failure: RefCell::new(None), evaluations: Cell::new(0) }
+    pub(crate) fn new(spacecraft: Spacecraft<Set<N>>, inputs: Inputs<Set<N>>) -> Self {
+        Self { spacecraft, inputs, failure: RefCell::new(None), evaluations: Cell::new(0) }
     }
 
-    pub(crate) fn spacecraft(&self) -> &Spacecraft<N> {
+    pub(crate) fn spacecraft(&self) -> &Spacecraft<Set<N>> {
         &self.spacecraft
     }
 
@@ -47,7 +48,7 @@ impl<const N: usize> System<N> {
 impl<const N: usize> ODE<f64, Vec<f64>> for System<N> {
     fn diff(&self, t: f64, y: &Vec<f64>, dydt: &mut Vec<f64>) {
         self.evaluations.set(self.evaluations.get() + 1);
-        match Packed::from_slice(y).rates(&self.spacecraft, &self.torques) {
+        match Packed::from_slice(y).rates(&self.spacecraft, &self.inputs) {
             Ok(rates) => dydt.copy_from_slice(rates.as_slice()),
             Err(error) => {
                 // No step is accepted on NaN: it is shortened instead.
@@ -80,7 +81,7 @@ impl<'a, const N: usize> Integrator<'a, N> {
         let (start, end) = span;
         // A state that cannot be solved is told from a step too long by trying it first.
         Packed::from_slice(y)
-            .rates(&system.spacecraft, &system.torques)
+            .rates(&system.spacecraft, &system.inputs)
             .map_err(|source| RunError::Solve { time: start, source })?;
         #[expect(
             clippy::cast_possible_truncation,

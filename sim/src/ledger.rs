@@ -10,7 +10,7 @@ use precess_dynamics::{About, SolveError, Spacecraft};
 
 use crate::bodies;
 use crate::packing::Packed;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Set};
 
 /// Energy, work and momentum at one instant.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +37,7 @@ impl Entry {
     pub(crate) fn new<const N: usize>(
         time: f64,
         packed: &Packed<N>,
-        spacecraft: &Spacecraft<N>,
+        spacecraft: &Spacecraft<Set<N>>,
         scenario: &Scenario<N>,
     ) -> Result<Self, SolveError> {
         let state = packed.state();

@@ -7,7 +7,10 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
-use precess_dynamics::{Attitude, Joints, Quaternion, SolveError, Spacecraft, State, Torques};
+use precess_dynamics::dgvscmg::Joints;
+use precess_dynamics::{Attitude, Inputs, Quaternion, SolveError, Spacecraft, State};
+
+use crate::scenario::Set;
 
 const HUB: usize = 13;
 const DEVICE: usize = 6;
@@ -25,7 +28,7 @@ impl<const N: usize> Packed<N> {
     const THROUGHPUT: usize = Self::WORK + 1;
 
     /// A state with both integrals at zero.
-    pub(crate) fn new(state: &State<N>) -> Self {
+    pub(crate) fn new(state: &State<Set<N>>) -> Self {
         let mut y = Vec::with_capacity(Self::LENGTH);
         y.extend(&state.r_b_n);
         y.extend(&state.r_b_n_dot);
@@ -52,7 +55,7 @@ impl<const N: usize> Packed<N> {
     }
 
     /// The state, its quaternion of unit norm.
-    pub(crate) fn state(&self) -> State<N> {
+    pub(crate) fn state(&self) -> State<Set<N>> {
         let mut state = self.raw();
         state.attitude = state.attitude.normalised();
         state
@@ -91,11 +94,11 @@ impl<const N: usize> Packed<N> {
     /// Time derivatives of everything packed.
     pub(crate) fn rates(
         &self,
-        spacecraft: &Spacecraft<N>,
-        torques: &Torques<N>,
+        spacecraft: &Spacecraft<Set<N>>,
+        inputs: &Inputs<Set<N>>,
     ) -> Result<Self, SolveError> {
         let state = self.state();
-        let acceleration = spacecraft.accelerations(&state, torques)?;
+        let acceleration = spacecraft.accelerations(&state, inputs)?;
         let bn = state.attitude.dcm();
         let mut y = Vec::with_capacity(Self::LENGTH);
         y.extend(&state.r_b_n_dot);
@@ -104,10 +107,10 @@ impl<const N: usize> Packed<N> {
         y.extend(&self.raw().attitude.rate(&state.omega));
         y.extend(&acceleration.omega_dot);
         // dW/dt = F . v_B + L_B . omega + sum(u * rate)
-        let mut power = torques.force.dot(&(bn * state.r_b_n_dot));
-        power += torques.torque_b.dot(&state.omega);
+        let mut power = inputs.force.dot(&(bn * state.r_b_n_dot));
+        power += inputs.torque_b.dot(&state.omega);
         let mut throughput = 0.0;
-        for ((j, a), u) in state.devices.iter().zip(&acceleration.devices).zip(&torques.motors) {
+        for ((j, a), u) in state.devices.iter().zip(&acceleration.devices).zip(&inputs.motors) {
             y.extend([j.gamma_o_dot, j.gamma_i_dot, j.spin]);
             y.extend([a.gamma_o_ddot, a.gamma_i_ddot, a.spin_dot]);
             for motor in [u.u_o * j.gamma_o_dot, u.u_i * j.gamma_i_dot, u.u_w * j.spin] {
@@ -119,7 +122,7 @@ impl<const N: usize> Packed<N> {
         Ok(Self(y))
     }
 
-    fn raw(&self) -> State<N> {
+    fn raw(&self) -> State<Set<N>> {
         let y = &self.0;
         let vector = |i: usize| Vector3::new(y[i], y[i + 1], y[i + 2]);
         State {
@@ -154,7 +157,7 @@ impl<const N: usize> Default for Turns<N> {
 
 impl<const N: usize> Turns<N> {
     /// The state with its joint angles counted on through every turn.
-    pub(crate) fn unwrapped(&self, state: &State<N>) -> State<N> {
+    pub(crate) fn unwrapped(&self, state: &State<Set<N>>) -> State<Set<N>> {
         let mut state = *state;
         for (j, [gamma_o, gamma_i, theta]) in state.devices.iter_mut().zip(self.0) {
             j.gamma_o += gamma_o * TAU;

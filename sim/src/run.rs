@@ -105,7 +105,7 @@ pub fn run<const N: usize>(
     settings.check()?;
     let spacecraft =
         Spacecraft::new(&scenario.hub, &scenario.devices).map_err(RunError::Parameters)?;
-    let system = System::new(spacecraft, scenario.torques);
+    let system = System::new(spacecraft, scenario.inputs);
     let mut start = Packed::new(&scenario.state);
     let mut turns = Turns::default();
     start.wrap(&mut turns);

@@ -24,9 +24,10 @@ mod translation;
 use core::ops::Range;
 
 use nalgebra::Vector3;
-use precess_dynamics::{Accelerations, Hub, Joints, Scalar, State};
+use precess_dynamics::dgvscmg::Joints;
+use precess_dynamics::{Accelerations, Hub, Scalar, State};
 
-use crate::case::Case;
+use crate::case::{Case, Set};
 use crate::newton_euler::equations::System;
 use crate::newton_euler::vector::{Tensor, Vector};
 use crate::newton_euler::{elimination, from_list};
@@ -36,7 +37,9 @@ use positions::Positions;
 
 /// The accelerations by the paper's assembly; `None` where the matrix is singular.
 #[must_use]
-pub fn accelerations<const N: usize, T: Scalar>(case: &Case<N, T>) -> Option<Accelerations<N, T>> {
+pub fn accelerations<const N: usize, T: Scalar>(
+    case: &Case<N, T>,
+) -> Option<Accelerations<Set<N, T>>> {
     let System { matrix, right } = system(case);
     Some(from_list(&elimination::solve(matrix, right)?))
 }
@@ -73,12 +76,12 @@ fn moved_by<const N: usize>(unknown: usize) -> Range<usize> {
 /// The left sides of all equations under given accelerations; zero for devices not in `moved`.
 fn left_sides<const N: usize, T: Scalar>(
     case: &Case<N, T>,
-    state: &State<N, T>,
+    state: &State<Set<N, T>>,
     accelerations: &[T],
     moved: Range<usize>,
 ) -> Vec<T> {
     let mut left = vec![T::from_f64(0.0); accelerations.len()];
-    let accelerations: Accelerations<N, T> = from_list(accelerations);
+    let accelerations: Accelerations<Set<N, T>> = from_list(accelerations);
     let motion = Motion {
         omega: Vector::from(&state.omega),
         omega_dot: Vector::from(&accelerations.omega_dot),
@@ -103,14 +106,14 @@ fn left_sides<const N: usize, T: Scalar>(
 /// The right sides: `F`, `L_B` and the motors' torques.
 fn given_forces<const N: usize, T: Scalar>(case: &Case<N, T>) -> Vec<T> {
     let mut right = Vec::with_capacity(6 + 3 * N);
-    right.extend(case.torques.force.iter());
-    right.extend(case.torques.torque_b.iter());
-    right.extend(case.torques.motors.iter().flat_map(|motor| [motor.u_o, motor.u_i, motor.u_w]));
+    right.extend(case.inputs.force.iter());
+    right.extend(case.inputs.torque_b.iter());
+    right.extend(case.inputs.motors.iter().flat_map(|motor| [motor.u_o, motor.u_i, motor.u_w]));
     right
 }
 
 /// The same pose without any rate.
-fn at_rest<const N: usize, T: Scalar>(state: &State<N, T>) -> State<N, T> {
+fn at_rest<const N: usize, T: Scalar>(state: &State<Set<N, T>>) -> State<Set<N, T>> {
     let zero = T::from_f64(0.0);
     let devices = state.devices.map(|joints| Joints {
         gamma_o_dot: zero,

@@ -3,7 +3,7 @@
 
 use precess_dynamics::{Accelerations, Scalar};
 
-use crate::case::converted;
+use crate::case::{Set, converted};
 use crate::double_double::DoubleDouble;
 
 /// Names of the blocks, in the order of [`errors`].
@@ -16,8 +16,8 @@ pub const NAMES: [&str; 5] =
 /// error; one that is zero in `expected` alone has an infinite one, as has one with a NaN.
 #[must_use]
 pub fn errors<const N: usize, T: Scalar, U: Scalar>(
-    actual: &Accelerations<N, T>,
-    expected: &Accelerations<N, U>,
+    actual: &Accelerations<Set<N, T>>,
+    expected: &Accelerations<Set<N, U>>,
 ) -> [f64; 5] {
     let (actual, expected) = (blocks(&converted(actual)), blocks(&converted(expected)));
     core::array::from_fn(|k| {
@@ -47,7 +47,7 @@ pub fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
     numbers.into_iter().fold(0.0, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
 }
 
-fn blocks<const N: usize>(a: &Accelerations<N, DoubleDouble>) -> [Vec<DoubleDouble>; 5] {
+fn blocks<const N: usize>(a: &Accelerations<Set<N, DoubleDouble>>) -> [Vec<DoubleDouble>; 5] {
     [
         a.r_b_n_ddot.iter().copied().collect(),
         a.omega_dot.iter().copied().collect(),
@@ -85,11 +85,13 @@ impl Figures {
 #[cfg(test)]
 mod tests {
     use nalgebra::Vector3;
-    use precess_dynamics::{Accelerations, JointAccelerations};
+    use precess_dynamics::Accelerations;
+    use precess_dynamics::dgvscmg::JointAccelerations;
 
     use super::{Figures, errors, largest, worst};
+    use crate::case::Set;
 
-    fn sample() -> Accelerations<1> {
+    fn sample() -> Accelerations<Set<1>> {
         Accelerations {
             r_b_n_ddot: Vector3::new(1.0, -4.0, 2.0),
             omega_dot: Vector3::new(0.0, 0.0, 0.0),

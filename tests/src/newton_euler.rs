@@ -22,11 +22,10 @@ pub mod totals;
 pub mod vector;
 
 use nalgebra::Vector3;
-use precess_dynamics::{
-    Accelerations, Dgvscmg, Hub, JointAccelerations, MotorTorques, Quaternion, Scalar, State,
-    Torques,
-};
+use precess_dynamics::dgvscmg::{JointAccelerations, MotorTorques};
+use precess_dynamics::{Accelerations, Hub, Inputs, Quaternion, Scalar, State};
 
+use crate::case::Set;
 use affine::UNKNOWNS;
 use bodies::{Body, Device, hub_body};
 use equations::System;
@@ -60,13 +59,13 @@ impl<T: Scalar> Snapshot<T> {
     #[must_use]
     pub fn new<const N: usize>(
         hub: &Hub<T>,
-        devices: &[Dgvscmg<T>; N],
-        state: &State<N, T, Quaternion<T>>,
-        torques: &Torques<N, T>,
+        devices: &Set<N, T>,
+        state: &State<Set<N, T>>,
+        inputs: &Inputs<Set<N, T>>,
     ) -> Self {
         let bn = direction_cosines(&state.attitude);
         let placed = devices.iter().zip(&state.devices).map(|(d, joints)| Device::new(d, joints));
-        let motors = torques.motors.iter().zip(&state.devices).map(|(motor, joints)| {
+        let motors = inputs.motors.iter().zip(&state.devices).map(|(motor, joints)| {
             let MotorTorques { u_o, u_i, u_w } = *motor;
             [(u_o, joints.gamma_o_dot), (u_i, joints.gamma_i_dot), (u_w, joints.spin)]
         });
@@ -77,8 +76,8 @@ impl<T: Scalar> Snapshot<T> {
             r_b_n: Vector::from(&state.r_b_n),
             v_b: bn * Vector::from(&state.r_b_n_dot),
             omega: Vector::from(&state.omega),
-            force: Vector::from(&torques.force),
-            torque_b: Vector::from(&torques.torque_b),
+            force: Vector::from(&inputs.force),
+            torque_b: Vector::from(&inputs.torque_b),
             motors: motors.collect(),
         }
     }
@@ -93,17 +92,17 @@ impl<T: Scalar> Snapshot<T> {
 #[must_use]
 pub fn accelerations<const N: usize, T: Scalar>(
     hub: &Hub<T>,
-    devices: &[Dgvscmg<T>; N],
-    state: &State<N, T, Quaternion<T>>,
-    torques: &Torques<N, T>,
-) -> Option<Accelerations<N, T>> {
-    let system = System::new(&Snapshot::new(hub, devices, state, torques));
+    devices: &Set<N, T>,
+    state: &State<Set<N, T>>,
+    inputs: &Inputs<Set<N, T>>,
+) -> Option<Accelerations<Set<N, T>>> {
+    let system = System::new(&Snapshot::new(hub, devices, state, inputs));
     Some(from_list(&elimination::solve(system.matrix, system.right)?))
 }
 
 /// The unknowns in the order of the system: six of the hub, then three a device.
 #[must_use]
-pub fn to_list<const N: usize, T: Scalar>(accelerations: &Accelerations<N, T>) -> Vec<T> {
+pub fn to_list<const N: usize, T: Scalar>(accelerations: &Accelerations<Set<N, T>>) -> Vec<T> {
     let mut list = Vec::with_capacity(6 + 3 * N);
     list.extend(accelerations.r_b_n_ddot.iter());
     list.extend(accelerations.omega_dot.iter());
@@ -114,7 +113,7 @@ pub fn to_list<const N: usize, T: Scalar>(accelerations: &Accelerations<N, T>) -
 }
 
 /// The inverse of [`to_list`].
-pub(crate) fn from_list<const N: usize, T: Scalar>(list: &[T]) -> Accelerations<N, T> {
+pub(crate) fn from_list<const N: usize, T: Scalar>(list: &[T]) -> Accelerations<Set<N, T>> {
     let joints = core::array::from_fn(|j| JointAccelerations {
         gamma_o_ddot: list[6 + 3 * j],
         gamma_i_ddot: list[7 + 3 * j],

@@ -23,7 +23,8 @@ use core::f64::consts::{PI, TAU};
 use core::fmt::{self, Display, Formatter};
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Dgvscmg, Hub, Joints, MotorTorques, Quaternion, Scalar, State, Torques};
+use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};
+use precess_dynamics::{Dgvscmg, Hub, ImbalanceModel, Inputs, Passive, Quaternion, Scalar, State};
 
 use crate::case::Case;
 use generator::rotation_matrix;
@@ -77,7 +78,7 @@ impl<const N: usize> Sample<N> {
         };
         let force = random.signed(100.0);
         let torque = random.signed(10.0);
-        let torques = Torques {
+        let inputs = Inputs {
             force: random.vector(force),
             torque_b: random.vector(torque),
             motors: core::array::from_fn(|_| MotorTorques {
@@ -85,8 +86,9 @@ impl<const N: usize> Sample<N> {
                 u_i: random.signed(10.0),
                 u_w: random.signed(10.0),
             }),
+            ..Inputs::none()
         };
-        Self { seed, case: Case { hub, devices, state, torques }, mounts, attitude }
+        Self { seed, case: Case { hub, devices, state, inputs }, mounts, attitude }
     }
 
     /// The spacecraft in a scalar: plain numbers exactly as drawn, mounts orthonormal and the
@@ -136,6 +138,8 @@ fn random_device(random: &mut Random, heaviest: f64) -> Dgvscmg {
         m_w,
         d: random.log_within(1e-6, radius),
         i_w_wc,
+        passive: PerJoint::all(Passive::none()),
+        model: ImbalanceModel::Coupled,
     }
 }
 

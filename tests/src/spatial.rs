@@ -15,24 +15,27 @@ mod articulated_body;
 mod links;
 
 use nalgebra::Vector3;
-use precess_dynamics::{Accelerations, JointAccelerations, Scalar};
+use precess_dynamics::dgvscmg::JointAccelerations;
+use precess_dynamics::{Accelerations, Scalar};
 
-use crate::case::Case;
+use crate::case::{Case, Set};
 use crate::newton_euler::elimination;
 use algebra::{Matrix, Spatial, force_cross};
 use articulated_body::Articulated;
 
 /// The accelerations by recursion; `None` where the hub's articulated inertia is singular.
 #[must_use]
-pub fn accelerations<const N: usize, T: Scalar>(case: &Case<N, T>) -> Option<Accelerations<N, T>> {
+pub fn accelerations<const N: usize, T: Scalar>(
+    case: &Case<N, T>,
+) -> Option<Accelerations<Set<N, T>>> {
     let hub = links::rigid_inertia(case.hub.m_b, &case.hub.r_bc_b, &case.hub.i_b_bc);
     let v = Spatial::new(components(&case.state.omega), [T::from_f64(0.0); 3]);
-    let applied = Spatial::new(components(&case.torques.torque_b), components(&case.torques.force));
+    let applied = Spatial::new(components(&case.inputs.torque_b), components(&case.inputs.force));
 
     // Outwards for velocities, inwards for inertias and bias forces.
     let chains: [_; N] = core::array::from_fn(|j| {
         let device = &case.devices[j];
-        let links = links::chain(device, &case.state.devices[j], &case.torques.motors[j]);
+        let links = links::chain(device, &case.state.devices[j], &case.inputs.motors[j]);
         Articulated::chain(links, v)
     });
     let mut inertia = hub;
@@ -72,7 +75,7 @@ fn components<T: Scalar>(v: &Vector3<T>) -> [T; 3] {
 #[cfg(test)]
 mod tests {
     use nalgebra::{Matrix3, Vector3};
-    use precess_dynamics::{Hub, State, Torques};
+    use precess_dynamics::{Hub, Inputs, State};
 
     use crate::case::Case;
 
@@ -93,7 +96,7 @@ mod tests {
             },
             devices: [],
             state: State { omega, ..State::at_rest() },
-            torques: Torques::none(),
+            inputs: Inputs::none(),
         };
         let found = super::accelerations(&case).expect("a hub with mass and inertia");
         let omega_dot = Vector3::new(-1.0, 0.0, 0.0);

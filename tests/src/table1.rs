@@ -8,9 +8,10 @@
 use core::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Dgvscmg, Hub, Joints, MotorTorques, State, Torques};
+use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};
+use precess_dynamics::{Dgvscmg, FixedSet, Hub, ImbalanceModel, Inputs, Passive, State};
 
-use crate::case::Case;
+use crate::case::{Case, Set};
 
 /// Which of the two wheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,28 +46,24 @@ pub const SCENARIOS: [(Imbalance, Drive); 6] = [
 /// The whole of one scenario.
 #[must_use]
 pub fn scenario(imbalance: Imbalance, drive: Drive) -> Case<1> {
-    Case {
-        hub: hub(),
-        devices: [device(imbalance)],
-        state: initial_state(),
-        torques: torques(drive),
-    }
+    Case { hub: hub(), devices: [device(imbalance)], state: initial_state(), inputs: inputs(drive) }
 }
 
 /// Two catalogue devices on opposite sides of the hub, driven: for suites that need more than one.
 #[must_use]
 pub fn pair() -> Case<2> {
     let one = scenario(Imbalance::Catalogue, Drive::Wheel250);
-    let (device, joints, motors) = (one.devices[0], one.state.devices[0], one.torques.motors[0]);
+    let (device, joints, motors) = (one.devices[0], one.state.devices[0], one.inputs.motors[0]);
     let State { r_b_n, r_b_n_dot, attitude, omega, .. } = one.state;
     Case {
         hub: one.hub,
         devices: [device, Dgvscmg { r_go_b: Vector3::new(-0.3, 0.0, 0.0), ..device }],
         state: State { r_b_n, r_b_n_dot, attitude, omega, devices: [joints; 2] },
-        torques: Torques {
-            force: one.torques.force,
-            torque_b: one.torques.torque_b,
+        inputs: Inputs {
+            force: one.inputs.force,
+            torque_b: one.inputs.torque_b,
             motors: [motors; 2],
+            ..Inputs::none()
         },
     }
 }
@@ -103,30 +100,32 @@ pub fn device(imbalance: Imbalance) -> Dgvscmg {
         m_w: 4.0,
         d,
         i_w_wc: Matrix3::new(0.2, 0.0, j_13, 0.0, 0.1, 0.0, j_13, 0.0, 0.1),
+        passive: PerJoint::all(Passive::none()),
+        model: ImbalanceModel::Coupled,
     }
 }
 
 /// The initial state: 500 rpm, all angles zero, `omega = (4.85, 0.57, 0) deg/s`.
 #[must_use]
-pub fn initial_state() -> State<1> {
+pub fn initial_state() -> State<Set<1>> {
     let degree = PI / 180.0;
     let spin = 500.0 * TAU / 60.0;
     State {
         omega: Vector3::new(4.85 * degree, 0.57 * degree, 0.0),
-        devices: [Joints { spin, ..Joints::at_rest() }],
+        devices: [Joints { spin, ..Dgvscmg::at_rest() }],
         ..State::at_rest()
     }
 }
 
-/// The motor torques, N m.
+/// The motor torques, N m, and nothing else.
 #[must_use]
-pub fn torques(drive: Drive) -> Torques<1> {
+pub fn inputs(drive: Drive) -> Inputs<Set<1>> {
     let motor = match drive {
-        Drive::Free => MotorTorques::none(),
+        Drive::Free => Dgvscmg::motors_off(),
         Drive::Wheel200 => MotorTorques { u_o: 0.1, u_i: 0.1, u_w: 0.2 },
         Drive::Wheel250 => MotorTorques { u_o: 0.1, u_i: 0.1, u_w: 0.25 },
     };
-    Torques { motors: [motor], ..Torques::none() }
+    Inputs { motors: [motor], ..Inputs::none() }
 }
 
 #[cfg(test)]

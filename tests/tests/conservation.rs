@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use precess_dynamics::{About, Scalar, SolveError, Spacecraft, State};
 use precess_tests::blocks::largest;
 use precess_tests::bounds::ORDER;
-use precess_tests::case::Case;
+use precess_tests::case::{Case, Set};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::Sample;
 use precess_tests::table1::{self, SCENARIOS};
@@ -27,13 +27,13 @@ const COARSEST: u32 = 1024;
 ///
 /// The work of a constant motor torque is torque times angle, exactly.
 fn invariants<const N: usize, T: Scalar>(
-    spacecraft: &Spacecraft<N, T>,
+    spacecraft: &Spacecraft<Set<N, T>>,
     case: &Case<N, T>,
-    state: &State<N, T>,
+    state: &State<Set<N, T>>,
 ) -> Result<(T, Vector3<T>, Vector3<T>), SolveError<T>> {
     let energy = spacecraft.energy(state)?;
     let momentum = spacecraft.momentum(state, About::InertialOrigin)?;
-    let joints = state.devices.iter().zip(&case.state.devices).zip(&case.torques.motors);
+    let joints = state.devices.iter().zip(&case.state.devices).zip(&case.inputs.motors);
     let energy_less_work = joints.fold(energy, |sum, ((now, start), motor)| {
         sum - motor.u_o * (now.gamma_o - start.gamma_o)
             - motor.u_i * (now.gamma_i - start.gamma_i)
@@ -74,7 +74,7 @@ fn drift<const N: usize, T: Scalar>(
     let (mut of, mut most_energy, mut work) = ([0.0_f64; 3], 0.0_f64, 0.0_f64);
     for step in 1..=steps {
         state =
-            spacecraft.step(&state, &case.torques, dt).unwrap_or_else(|error| refused(step, error));
+            spacecraft.step(&state, &case.inputs, dt).unwrap_or_else(|error| refused(step, error));
         let now = invariants(&spacecraft, case, &state);
         let now = now.unwrap_or_else(|error| refused(step, error));
         let change = [
@@ -85,7 +85,7 @@ fn drift<const N: usize, T: Scalar>(
         of = core::array::from_fn(|k| largest([of[k], change[k]]));
         let energy = spacecraft.energy(&state).unwrap_or_else(|error| refused(step, error));
         most_energy = largest([most_energy, energy.to_f64()]);
-        for (joints, motor) in state.devices.iter().zip(&case.torques.motors) {
+        for (joints, motor) in state.devices.iter().zip(&case.inputs.motors) {
             let power = (motor.u_o * joints.gamma_o_dot).abs()
                 + (motor.u_i * joints.gamma_i_dot).abs()
                 + (motor.u_w * joints.spin).abs();
@@ -159,8 +159,8 @@ fn drift_of_random_spacecraft_falls_sixteenfold_without_rounding() {
     for seed in 0..3 {
         let sample = Sample::<3>::new(seed);
         let mut case = sample.case::<Wide>();
-        case.torques.force = Vector3::zeros().map(Wide::from_f64);
-        case.torques.torque_b = Vector3::zeros().map(Wide::from_f64);
+        case.inputs.force = Vector3::zeros().map(Wide::from_f64);
+        case.inputs.torque_b = Vector3::zeros().map(Wide::from_f64);
         let whose = format!("random spacecraft ({sample})");
         assert_order(&whose, &steps, &drifts(&whose, &case, 0.01, &steps));
     }

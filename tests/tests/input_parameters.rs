@@ -2,14 +2,21 @@
 //! and remedy; unusual but valid ones are accepted.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Hub, Parameter, ParameterError, Part, Spacecraft, State, Torques, Warning};
-use precess_tests::case::Case;
+use precess_dynamics::{Hub, Inputs, Parameter, ParameterError, Part, Spacecraft, State, Warning};
+use precess_tests::case::{Case, Set};
 use precess_tests::table1::{self, Drive, Imbalance, pair};
+
+/// The bodies of device 1.
+const BODIES: [Part; 3] = [
+    Part::Body { device: 1, body: "outer gimbal" },
+    Part::Body { device: 1, body: "inner gimbal" },
+    Part::Body { device: 1, body: "wheel" },
+];
 
 /// A way to put a number into one input.
 type Spoil = fn(&mut Case<2>, f64);
 
-fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<N> {
+fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<Set<N>> {
     Spacecraft::new(&case.hub, &case.devices).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -26,10 +33,8 @@ fn refused(spoil: impl FnOnce(&mut Case<2>)) -> ParameterError {
 
 #[test]
 fn nan_in_any_parameter_is_named() {
-    let outer = Part::OuterGimbal { device: 1 };
-    let inner = Part::InnerGimbal { device: 1 };
-    let wheel = Part::Wheel { device: 1 };
-    let spoils: [(Spoil, Part, Parameter); 17] = [
+    let [outer, inner, wheel] = BODIES;
+    let spoils: [(Spoil, Part, Parameter); 22] = [
         (|c, x| c.hub.m_b = x, Part::Hub, Parameter::Mass),
         (|c, x| c.hub.r_bc_b.z = x, Part::Hub, Parameter::CentreOfMass),
         (|c, x| c.hub.i_b_bc[(1, 1)] = x, Part::Hub, Parameter::Inertia),
@@ -47,6 +52,19 @@ fn nan_in_any_parameter_is_named() {
         (|c, x| c.devices[1].d = x, wheel, Parameter::CentreOfMass),
         (|c, x| c.devices[1].i_w_wc[(2, 2)] = x, wheel, Parameter::Inertia),
         (|c, x| c.devices[1].i_w_wc[(2, 1)] = x, wheel, Parameter::Inertia),
+        (|c, x| c.devices[1].passive.outer_gimbal.rest = x, outer, Parameter::Passive("rest")),
+        (
+            |c, x| c.devices[1].passive.inner_gimbal.viscous = x,
+            inner,
+            Parameter::Passive("viscous"),
+        ),
+        (|c, x| c.devices[1].passive.wheel.stiffness = x, wheel, Parameter::Passive("stiffness")),
+        (|c, x| c.devices[1].passive.wheel.coulomb = x, wheel, Parameter::Passive("coulomb")),
+        (
+            |c, x| c.devices[1].passive.wheel.coulomb_rate = x,
+            wheel,
+            Parameter::Passive("coulomb_rate"),
+        ),
     ];
     for (spoil, part, parameter) in spoils {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -72,32 +90,36 @@ fn nan_in_any_parameter_is_named() {
 #[test]
 fn hub_or_wheel_without_mass_is_refused() {
     let error = refused(|case| case.hub.m_b = 0.0);
-    assert_eq!(error, ParameterError::Mass { part: Part::Hub, value: 0.0 });
+    assert_eq!(error, ParameterError::Mass { part: Part::Hub, massless: false, value: 0.0 });
     assert_eq!(
         error.to_string(),
-        "mass 0.0 kg of the hub is not above 0; only gimbals may be massless"
+        "mass 0.0 kg of the hub is not above 0; only what carries another body of its device may \
+         be massless"
     );
 
+    let [.., wheel] = BODIES;
     let error = refused(|case| case.devices[1].m_w = 0.0);
-    assert_eq!(error, ParameterError::Mass { part: Part::Wheel { device: 1 }, value: 0.0 });
+    assert_eq!(error, ParameterError::Mass { part: wheel, massless: false, value: 0.0 });
     assert_eq!(
         error.to_string(),
-        "mass 0.0 kg of the wheel of device 1 is not above 0; only gimbals may be massless",
+        "mass 0.0 kg of the wheel of device 1 is not above 0; only what carries another body of \
+         its device may be massless",
     );
 }
 
 #[test]
 fn negative_mass_is_refused() {
+    let [outer, _, wheel] = BODIES;
     let error = refused(|case| case.hub.m_b = -810.0);
-    assert_eq!(error, ParameterError::Mass { part: Part::Hub, value: -810.0 });
+    assert_eq!(error, ParameterError::Mass { part: Part::Hub, massless: false, value: -810.0 });
     let error = refused(|case| case.devices[1].m_w = -4.0);
-    assert_eq!(error, ParameterError::Mass { part: Part::Wheel { device: 1 }, value: -4.0 });
+    assert_eq!(error, ParameterError::Mass { part: wheel, massless: false, value: -4.0 });
     let error = refused(|case| case.devices[1].m_go = -24.0);
-    assert_eq!(error, ParameterError::Mass { part: Part::OuterGimbal { device: 1 }, value: -24.0 });
+    assert_eq!(error, ParameterError::Mass { part: outer, massless: true, value: -24.0 });
     let error = refused(|case| case.devices[1].m_gi = -1e-9);
     assert_eq!(
         error.to_string(),
-        "mass -1e-9 kg of the inner gimbal of device 1 is below 0; use 0 for a massless gimbal",
+        "mass -1e-9 kg of the inner gimbal of device 1 is below 0; use 0 for a massless one",
     );
 }
 
@@ -112,12 +134,8 @@ fn inertia_with_a_negative_principal_moment_is_refused() {
             2 => case.devices[1].i_gi_gic = indefinite,
             _ => case.devices[1].i_w_wc = indefinite,
         });
-        let expected = [
-            Part::Hub,
-            Part::OuterGimbal { device: 1 },
-            Part::InnerGimbal { device: 1 },
-            Part::Wheel { device: 1 },
-        ][part];
+        let [outer, inner, wheel] = BODIES;
+        let expected = [Part::Hub, outer, inner, wheel][part];
         let ParameterError::NegativeInertia { part, value, bound } = error else {
             panic!("{error}");
         };
@@ -182,7 +200,9 @@ fn left_handed_mount_is_refused() {
 fn wheel_of_table_1_as_printed_is_accepted_with_a_warning() {
     let spacecraft = accepted(&table1::scenario(Imbalance::Printed, Drive::Free));
     let warnings: Vec<_> = spacecraft.warnings().collect();
-    let [Warning::Triangle { part: Part::Wheel { device: 0 }, excess }] = warnings[..] else {
+    let [Warning::Triangle { part: Part::Body { device: 0, body: "wheel" }, excess }] =
+        warnings[..]
+    else {
         panic!("{warnings:?}");
     };
     let half_spread = 0.05_f64.hypot(0.0154);
@@ -201,14 +221,13 @@ fn wheel_of_table_1_as_printed_is_accepted_with_a_warning() {
 #[test]
 fn empty_device_list_is_a_plain_rigid_hub() {
     let hub = Hub { r_bc_b: Vector3::zeros(), ..table1::hub() };
-    let spacecraft = Spacecraft::<0>::new(&hub, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let spacecraft = Spacecraft::<Set<0>>::new(&hub, &[]).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(spacecraft.mass(), 810.0);
     assert_eq!(spacecraft.warnings().count(), 0);
 
-    let torques = Torques { force: Vector3::new(81.0, 0.0, 0.0), ..Torques::none() };
-    let state: State<0> = State::at_rest();
-    let found =
-        spacecraft.accelerations(&state, &torques).unwrap_or_else(|error| panic!("{error}"));
+    let inputs = Inputs { force: Vector3::new(81.0, 0.0, 0.0), ..Inputs::none() };
+    let state: State<Set<0>> = State::at_rest();
+    let found = spacecraft.accelerations(&state, &inputs).unwrap_or_else(|error| panic!("{error}"));
     assert!((found.r_b_n_ddot - Vector3::new(0.1, 0.0, 0.0)).norm() < 1e-16);
     assert!(found.omega_dot.norm() < 1e-16);
 }

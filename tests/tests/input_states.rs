@@ -1,23 +1,25 @@
-//! What a user sees of faulty states and torques: each gives a typed error that names it, with
+//! What a user sees of faulty states and inputs: each gives a typed error that names it, with
 //! value, bound and remedy; unusual but valid ones give a result.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Debug;
 
 use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::dgvscmg::PerJoint;
 use precess_dynamics::{
-    About, Hub, Joint, JointField, Quantity, Quaternion, SolveError, Spacecraft, State, Torques,
+    About, Gravity, Hub, HubMode, Inputs, Mode, Quantity, Quaternion, SolveError, Spacecraft,
+    State, Wrench,
 };
 use precess_tests::blocks::{errors, worst};
 use precess_tests::bounds::ACCELERATIONS_WORST;
-use precess_tests::case::Case;
+use precess_tests::case::{Case, Set};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::table1::{self, pair};
 
 /// A way to put a number into one input.
 type Spoil = fn(&mut Case<2>, f64);
 
-fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<N> {
+fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<Set<N>> {
     Spacecraft::new(&case.hub, &case.devices).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -25,9 +27,9 @@ fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<N> {
 fn unsolved(spoil: impl FnOnce(&mut Case<2>)) -> SolveError {
     let mut case = pair();
     let spacecraft = accepted(&case);
-    assert!(spacecraft.accelerations(&case.state, &case.torques).is_ok());
+    assert!(spacecraft.accelerations(&case.state, &case.inputs).is_ok());
     spoil(&mut case);
-    match spacecraft.accelerations(&case.state, &case.torques) {
+    match spacecraft.accelerations(&case.state, &case.inputs) {
         Ok(found) => panic!("the state was solved: {found:?}"),
         Err(error) => error,
     }
@@ -49,20 +51,21 @@ fn massless_gimbals(gamma_i: f64) -> Case<2> {
 fn massless_gimbals_at_ninety_degrees_are_a_typed_error() {
     for gamma_i in [FRAC_PI_2, -FRAC_PI_2, 3.0 * FRAC_PI_2] {
         let case = massless_gimbals(gamma_i);
-        let error = match accepted(&case).accelerations(&case.state, &case.torques) {
+        let error = match accepted(&case).accelerations(&case.state, &case.inputs) {
             Ok(found) => panic!("gamma_i = {gamma_i}: {found:?}"),
             Err(error) => error,
         };
         let SolveError::Singular { device, joint, pivot, bound } = error else {
             panic!("{error}");
         };
-        assert_eq!((device, joint), (Some(1), Some(Joint::OuterGimbal)));
+        assert_eq!((device, joint), (Some(1), Some("outer gimbal")));
         assert!(pivot.abs() <= bound && bound < 1e-13, "{pivot}, {bound}");
         assert_eq!(
             error.to_string(),
             format!(
-                "pivot {pivot:?} of device 1 (outer gimbal) is not above {bound:?}; massless \
-                 gimbals are singular at gamma_i = 90 deg, check its inertias"
+                "pivot {pivot:?} of device 1 (outer gimbal) is not above {bound:?}; check \
+                 mass and inertia of the outer gimbal and of what it carries; a massless gimbal is \
+                 singular where it would turn about the spin axis"
             ),
         );
     }
@@ -73,7 +76,7 @@ fn massless_gimbals_elsewhere_are_solved() {
     for gamma_i in [0.0, 0.5, -1.0, 1.5] {
         let case = massless_gimbals(gamma_i);
         let found = accepted(&case)
-            .accelerations(&case.state, &case.torques)
+            .accelerations(&case.state, &case.inputs)
             .unwrap_or_else(|error| panic!("gamma_i = {gamma_i}: {error}"));
         let (error, block) = worst(errors(&found, &case.converted::<Wide>().reference()));
         assert!(error <= ACCELERATIONS_WORST, "gamma_i = {gamma_i}: {error:e} in {block}");
@@ -83,9 +86,9 @@ fn massless_gimbals_elsewhere_are_solved() {
 #[test]
 fn hub_without_inertia_and_devices_is_a_typed_error() {
     let hub = Hub { i_b_bc: Matrix3::zeros(), ..table1::hub() };
-    let spacecraft = Spacecraft::<0>::new(&hub, &[]).unwrap_or_else(|error| panic!("{error}"));
-    let state: State<0> = State::at_rest();
-    let error = spacecraft.accelerations(&state, &Torques::none()).unwrap_err();
+    let spacecraft = Spacecraft::<Set<0>>::new(&hub, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let state: State<Set<0>> = State::at_rest();
+    let error = spacecraft.accelerations(&state, &Inputs::none()).unwrap_err();
     let SolveError::Singular { device: None, joint: None, pivot, bound } = error else {
         panic!("{error}");
     };
@@ -102,32 +105,58 @@ fn angles_of_a_million_radians_are_solved() {
     }
     let spacecraft = accepted(&case);
     let found = spacecraft
-        .accelerations(&case.state, &case.torques)
+        .accelerations(&case.state, &case.inputs)
         .unwrap_or_else(|error| panic!("{error}"));
     let (error, block) = worst(errors(&found, &case.converted::<Wide>().reference()));
     assert!(error <= ACCELERATIONS_WORST, "{error:e} in {block}");
+}
+
+/// A hub whose accelerations are given, no other component than these.
+fn prescribed(r_b_n_ddot: f64, omega_dot: f64) -> HubMode {
+    HubMode::Prescribed {
+        r_b_n_ddot: Vector3::new(r_b_n_ddot, 0.0, 0.0),
+        omega_dot: Vector3::new(0.0, omega_dot, 0.0),
+    }
+}
+
+/// A wrench on the wheel of device 1, no other component than these.
+fn on_a_wheel(force: f64, moment: f64) -> [PerJoint<Wrench>; 2] {
+    let (force, moment) = (Vector3::new(0.0, force, 0.0), Vector3::new(0.0, moment, 0.0));
+    let nothing = PerJoint::all(Wrench::none());
+    [nothing, PerJoint { wheel: Wrench { force, moment }, ..nothing }]
 }
 
 #[test]
 fn any_state_that_is_not_finite_is_named() {
     let joint = |field| Quantity::Joint { device: 1, field };
     let motor = |joint| Quantity::Motor { device: 1, joint };
-    let spoils: [(Spoil, Quantity); 15] = [
+    let wrench = Quantity::Wrench { device: 1, body: "wheel" };
+    let spoils: [(Spoil, Quantity); 22] = [
         (|c, x| c.state.r_b_n.x = x, Quantity::Position),
         (|c, x| c.state.r_b_n_dot.y = x, Quantity::Velocity),
         (|c, x| c.state.attitude.q2 = x, Quantity::Attitude),
         (|c, x| c.state.omega.z = x, Quantity::BodyRate),
-        (|c, x| c.state.devices[1].gamma_o = x, joint(JointField::GammaO)),
-        (|c, x| c.state.devices[1].gamma_i = x, joint(JointField::GammaI)),
-        (|c, x| c.state.devices[1].theta = x, joint(JointField::Theta)),
-        (|c, x| c.state.devices[1].gamma_o_dot = x, joint(JointField::GammaODot)),
-        (|c, x| c.state.devices[1].gamma_i_dot = x, joint(JointField::GammaIDot)),
-        (|c, x| c.state.devices[1].spin = x, joint(JointField::Spin)),
-        (|c, x| c.torques.force.x = x, Quantity::Force),
-        (|c, x| c.torques.torque_b.y = x, Quantity::TorqueB),
-        (|c, x| c.torques.motors[1].u_o = x, motor(Joint::OuterGimbal)),
-        (|c, x| c.torques.motors[1].u_i = x, motor(Joint::InnerGimbal)),
-        (|c, x| c.torques.motors[1].u_w = x, motor(Joint::Wheel)),
+        (|c, x| c.state.devices[1].gamma_o = x, joint("gamma_o")),
+        (|c, x| c.state.devices[1].gamma_i = x, joint("gamma_i")),
+        (|c, x| c.state.devices[1].theta = x, joint("theta")),
+        (|c, x| c.state.devices[1].gamma_o_dot = x, joint("gamma_o_dot")),
+        (|c, x| c.state.devices[1].gamma_i_dot = x, joint("gamma_i_dot")),
+        (|c, x| c.state.devices[1].spin = x, joint("spin")),
+        (|c, x| c.inputs.force.x = x, Quantity::Force),
+        (|c, x| c.inputs.torque_b.y = x, Quantity::TorqueB),
+        (|c, x| c.inputs.motors[1].u_o = x, motor("outer gimbal")),
+        (|c, x| c.inputs.motors[1].u_i = x, motor("inner gimbal")),
+        (|c, x| c.inputs.motors[1].u_w = x, motor("wheel")),
+        (
+            |c, x| c.inputs.modes[1].inner_gimbal = Mode::Prescribed(x),
+            Quantity::JointAcceleration { device: 1, joint: "inner gimbal" },
+        ),
+        (|c, x| c.inputs.hub = prescribed(x, 0.0), Quantity::HubAcceleration),
+        (|c, x| c.inputs.hub = prescribed(0.0, x), Quantity::HubAcceleration),
+        (|c, x| c.inputs.gravity = Gravity::Uniform(Vector3::new(0.0, 0.0, x)), Quantity::Gravity),
+        (|c, x| c.inputs.gravity = Gravity::Central { mu: x }, Quantity::Gravity),
+        (|c, x| c.inputs.bodies = Some(on_a_wheel(x, 0.0)), wrench),
+        (|c, x| c.inputs.bodies = Some(on_a_wheel(0.0, x)), wrench),
     ];
     for (spoil, what) in spoils {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -140,7 +169,7 @@ fn any_state_that_is_not_finite_is_named() {
         "NaN in theta of device 1 is not finite; give finite numbers in SI units",
     );
     assert_eq!(
-        unsolved(|case| case.torques.motors[1].u_w = f64::INFINITY).to_string(),
+        unsolved(|case| case.inputs.motors[1].u_w = f64::INFINITY).to_string(),
         "inf in motor torque of device 1 (wheel) is not finite; give finite numbers in SI units",
     );
 }
@@ -175,12 +204,12 @@ fn nan_leaves_no_public_function_unnoticed() {
         let mut case = sound;
         case.state.omega.x = bad;
         let what = Quantity::BodyRate;
-        assert_named(spacecraft.step(&case.state, &case.torques, 0.01), what, bad);
+        assert_named(spacecraft.step(&case.state, &case.inputs, 0.01), what, bad);
         assert_named(spacecraft.energy(&case.state), what, bad);
         assert_named(spacecraft.momentum(&case.state, About::CentreOfMass), what, bad);
         assert_named(spacecraft.centre_of_mass(&case.state), what, bad);
 
-        assert_named(spacecraft.step(&sound.state, &sound.torques, bad), Quantity::TimeStep, bad);
+        assert_named(spacecraft.step(&sound.state, &sound.inputs, bad), Quantity::TimeStep, bad);
         let about = About::Point(Vector3::new(0.0, bad, 0.0));
         assert_named(spacecraft.momentum(&sound.state, about), Quantity::ReferencePoint, bad);
     }

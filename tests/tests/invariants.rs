@@ -4,9 +4,9 @@
 //! Run with `--nocapture` to see the figures.
 
 use nalgebra::Vector3;
+use precess_dynamics::dgvscmg::MotorTorques;
 use precess_dynamics::{
-    About, Accelerations, Dgvscmg, MotorTorques, Quaternion, Real, Scalar, SolveError, State,
-    Torques,
+    About, Accelerations, Dgvscmg, Inputs, Quaternion, Real, Scalar, SolveError, State,
 };
 use precess_tests::blocks::{Figures, errors, largest, worst};
 use precess_tests::bounds::{LIMITS, ROUTES_IN_DOUBLE_DOUBLE};
@@ -60,17 +60,12 @@ fn asymmetry<const N: usize, T: Scalar>(sample: &Sample<N>) -> f64 {
     let columns: Vec<_> = (0..6 + 3 * N)
         .map(|index| {
             let mut case = case;
-            let motor = MotorTorques { u_o: zero, u_i: zero, u_w: zero };
-            case.torques = Torques {
-                force: Vector3::from_element(zero),
-                torque_b: Vector3::from_element(zero),
-                motors: [motor; N],
-            };
+            case.inputs = Inputs::none();
             match index {
-                0..3 => case.torques.force[index] = one,
-                3..6 => case.torques.torque_b[index - 3] = one,
+                0..3 => case.inputs.force[index] = one,
+                3..6 => case.inputs.torque_b[index - 3] = one,
                 _ => {
-                    let motor = &mut case.torques.motors[(index - 6) / 3];
+                    let motor = &mut case.inputs.motors[(index - 6) / 3];
                     *[&mut motor.u_o, &mut motor.u_i, &mut motor.u_w][index % 3] = one;
                 }
             }
@@ -111,7 +106,7 @@ fn order_of_devices_changes_nothing() {
             let expected = case.solved(sample);
             case.devices.reverse();
             case.state.devices.reverse();
-            case.torques.motors.reverse();
+            case.inputs.motors.reverse();
             let mut found = case.solved(sample);
             found.devices.reverse();
             worst(errors(&found, &expected)).0
@@ -160,7 +155,7 @@ fn device_and_its_two_halves_move_alike() {
         let sample = Sample::<4>::new(seed);
         let whole = sample.case::<f64>();
         let half: [_; 4] =
-            core::array::from_fn(|j| halved(&whole.devices[j], &whole.torques.motors[j]));
+            core::array::from_fn(|j| halved(&whole.devices[j], &whole.inputs.motors[j]));
         let State { r_b_n, r_b_n_dot, attitude, omega, devices } = whole.state;
         let split: Case<8> = Case {
             hub: whole.hub,
@@ -172,10 +167,11 @@ fn device_and_its_two_halves_move_alike() {
                 omega,
                 devices: core::array::from_fn(|j| devices[j / 2]),
             },
-            torques: Torques {
-                force: whole.torques.force,
-                torque_b: whole.torques.torque_b,
+            inputs: Inputs {
+                force: whole.inputs.force,
+                torque_b: whole.inputs.torque_b,
                 motors: core::array::from_fn(|j| half[j / 2].1),
+                ..Inputs::none()
             },
         };
         let (expected, found) = (whole.solved(sample), split.solved(sample));

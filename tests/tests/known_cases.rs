@@ -1,7 +1,8 @@
 //! The plain reference in cases known in closed form.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Dgvscmg, Hub, Joints, MotorTorques, State, Torques};
+use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};
+use precess_dynamics::{Dgvscmg, FixedSet, Hub, ImbalanceModel, Inputs, Passive, State};
 use precess_tests::case::Case;
 use precess_tests::newton_euler::bodies::Device;
 use precess_tests::newton_euler::vector::{Vector, dot};
@@ -15,7 +16,7 @@ fn free_hub(omega: Vector3<f64>) -> Case<0> {
         },
         devices: [],
         state: State { omega, ..State::at_rest() },
-        torques: Torques::none(),
+        inputs: Inputs::none(),
     }
 }
 
@@ -33,7 +34,7 @@ fn free_hub_obeys_eulers_equations() {
 fn force_beside_the_centre_of_mass_turns_the_hub() {
     let mut case = free_hub(Vector3::zeros());
     case.hub.r_bc_b = Vector3::new(0.0, 2.0, 0.0);
-    case.torques.force = Vector3::new(20.0, 0.0, 0.0);
+    case.inputs.force = Vector3::new(20.0, 0.0, 0.0);
     let a = case.reference();
     assert_eq!(a.omega_dot, Vector3::new(0.0, 0.0, 10.0));
     assert_eq!(a.r_b_n_ddot, Vector3::new(2.0 + 20.0, 0.0, 0.0));
@@ -57,18 +58,20 @@ fn balanced_wheel_and_hub_share_the_motor_torque() {
         m_w: 1.0,
         d: 0.0,
         i_w_wc: diagonal(0.5, 0.25, 0.25),
+        passive: PerJoint::all(Passive::none()),
+        model: ImbalanceModel::Coupled,
     };
     let case = Case {
         hub: free_hub(Vector3::zeros()).hub,
         devices: [device],
         state: State {
             omega: Vector3::new(0.5, 0.0, 0.0),
-            devices: [Joints { spin: 100.0, theta: 0.75, ..Joints::at_rest() }],
+            devices: [Joints { spin: 100.0, theta: 0.75, ..Dgvscmg::at_rest() }],
             ..State::at_rest()
         },
-        torques: Torques {
+        inputs: Inputs {
             motors: [MotorTorques { u_o: 0.0, u_i: 0.0, u_w: 3.0 }],
-            ..Torques::none()
+            ..Inputs::none()
         },
     };
     let a = case.reference();
@@ -102,9 +105,11 @@ fn frames_and_points_lie_where_the_conventions_put_them() {
         m_w: 1.0,
         d: 1.6,
         i_w_wc: unit_moments,
+        passive: PerJoint::all(Passive::none()),
+        model: ImbalanceModel::Coupled,
     };
     let (go, gi, th) = (0.3_f64, 0.4_f64, 0.5_f64);
-    let joints = Joints { gamma_o: go, gamma_i: gi, theta: th, ..Joints::at_rest() };
+    let joints = Joints { gamma_o: go, gamma_i: gi, theta: th, ..Dgvscmg::at_rest() };
     let placed = Device::new(&device, &joints);
 
     let (m_x, m_y, m_z) = (Vector3::y(), Vector3::z(), Vector3::x());

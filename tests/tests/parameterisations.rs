@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use precess_dynamics::{Attitude, Mrp, Quaternion, Real, Scalar, Spacecraft, State};
 use precess_tests::blocks::largest;
 use precess_tests::bounds::ORDER;
+use precess_tests::case::Set;
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::table1::{self, Drive, Imbalance};
 
@@ -23,19 +24,19 @@ fn start() -> Quaternion<Wide> {
 
 /// One second of Table 1 with its catalogue wheel in double-double, from a given attitude; the body
 /// turns at about 1 rad/s, so that the attitude is what the step has to resolve.
-fn run<A: Attitude<Wide>>(attitude: A, steps: u32) -> State<1, Wide, A> {
+fn run<A: Attitude<Wide>>(attitude: A, steps: u32) -> State<Set<1, Wide>, A> {
     let case = table1::scenario(Imbalance::Catalogue, Drive::Wheel250).converted::<Wide>();
     let spacecraft = Spacecraft::new(&case.hub, &case.devices).expect("valid parameters");
     let State { r_b_n, r_b_n_dot, devices, .. } = case.state;
     let omega = Vector3::new(1.0, 0.5, -0.25).map(Wide::from_f64);
     let dt = Wide::from_f64(f64::from(steps)).recip();
     (0..steps).fold(State { r_b_n, r_b_n_dot, attitude, omega, devices }, |state, _| {
-        spacecraft.step(&state, &case.torques, dt).expect("finite state")
+        spacecraft.step(&state, &case.inputs, dt).expect("finite state")
     })
 }
 
 /// Largest difference of attitude (elements of `[BN]`) and of position (m) between the two.
-fn difference(mrp: &State<1, Wide, Mrp<Wide>>, quaternion: &State<1, Wide>) -> [f64; 2] {
+fn difference(mrp: &State<Set<1, Wide>, Mrp<Wide>>, quaternion: &State<Set<1, Wide>>) -> [f64; 2] {
     let (a, b) = (mrp.attitude.dcm(), quaternion.attitude.dcm());
     let attitude = a.iter().zip(b.iter()).map(|(a, b)| (*a - *b).abs().to_f64());
     let position = mrp.r_b_n.iter().zip(quaternion.r_b_n.iter());

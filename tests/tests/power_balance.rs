@@ -7,7 +7,7 @@ use std::fmt::Display;
 use precess_dynamics::{Real, Scalar, Spacecraft};
 use precess_tests::blocks::Figures;
 use precess_tests::bounds::{POWER_EPSILONS, SPACECRAFT};
-use precess_tests::case::{Case, converted};
+use precess_tests::case::{Case, Set, converted};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::{Sample, Visitor, visit};
 use precess_tests::table1::{self, SCENARIOS};
@@ -16,11 +16,11 @@ use precess_tests::table1::{self, SCENARIOS};
 /// double-double: what remains is the solver's rounding.
 fn imbalance<const N: usize>(
     case: &Case<N>,
-    spacecraft: &Spacecraft<N>,
+    spacecraft: &Spacecraft<Set<N>>,
     whose: impl Display,
 ) -> f64 {
     let solution = spacecraft
-        .accelerations(&case.state, &case.torques)
+        .accelerations(&case.state, &case.inputs)
         .unwrap_or_else(|error| panic!("{whose}: {error}"));
     let balance = case.converted::<Wide>().snapshot().power_balance(&converted(&solution));
     let error = (balance.energy_dot - balance.power).abs();
@@ -64,7 +64,7 @@ fn power_fed_in_is_the_rate_of_the_energy_along_table_1() {
                 );
             }
             case.state = spacecraft
-                .step(&case.state, &case.torques, 1.0 / 256.0)
+                .step(&case.state, &case.inputs, 1.0 / 256.0)
                 .unwrap_or_else(|error| panic!("{whose}, step {step}: {error}"));
         }
     }

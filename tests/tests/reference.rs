@@ -2,8 +2,9 @@
 //! kinetic energy alone (Boltzmann and Hamel's equations).
 
 use nalgebra::Vector3;
-use precess_dynamics::{Accelerations, JointAccelerations, Quaternion, Real, Scalar};
-use precess_tests::case::Case;
+use precess_dynamics::dgvscmg::JointAccelerations;
+use precess_dynamics::{Accelerations, Quaternion, Real, Scalar};
+use precess_tests::case::{Case, Set};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::Snapshot;
 use precess_tests::newton_euler::vector::{Tensor, Vector, cross, tilde};
@@ -33,7 +34,7 @@ fn wide(x: f64) -> Wide {
 /// to first order by `time * omega` otherwise, which is all a first derivative sees.
 fn moved<const N: usize>(
     case: &Case<N, Wide>,
-    accelerations: &Accelerations<N, Wide>,
+    accelerations: &Accelerations<Set<N, Wide>>,
     time: f64,
 ) -> Case<N, Wide> {
     let (t, half) = (wide(time), wide(time) * wide(0.5));
@@ -215,9 +216,9 @@ fn accelerations_satisfy_the_equations_of_the_kinetic_energy() {
             let p_v = Vector([p[0], p[1], p[2]]);
             let p_omega = Vector([p[3], p[4], p[5]]);
             let (force, moment) = (cross(omega, p_v), cross(omega, p_omega) + cross(v, p_v));
-            let mut right = case.torques.force.iter().copied().collect::<Vec<_>>();
-            right.extend(case.torques.torque_b.iter());
-            right.extend(case.torques.motors.iter().flat_map(|m| [m.u_o, m.u_i, m.u_w]));
+            let mut right = case.inputs.force.iter().copied().collect::<Vec<_>>();
+            right.extend(case.inputs.torque_b.iter());
+            right.extend(case.inputs.motors.iter().flat_map(|m| [m.u_o, m.u_i, m.u_w]));
             for axis in 0..3 {
                 left[axis] = left[axis] + force.0[axis];
                 left[3 + axis] = left[3 + axis] + moment.0[axis];

@@ -4,9 +4,10 @@
 //! are taken here on a list of numbers. Run with `--nocapture` to see the figures.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Joints, Quaternion, Real, Scalar, State};
+use precess_dynamics::dgvscmg::Joints;
+use precess_dynamics::{Quaternion, Real, Scalar, State};
 use precess_tests::bounds::ORDER;
-use precess_tests::case::Case;
+use precess_tests::case::{Case, Set};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::vector::Vector;
 use precess_tests::random::Sample;
@@ -19,7 +20,7 @@ fn wide(x: f64) -> Wide {
     Wide::from_f64(x)
 }
 
-fn to_numbers<const N: usize>(state: &State<N, Wide>) -> Vec<Wide> {
+fn to_numbers<const N: usize>(state: &State<Set<N, Wide>>) -> Vec<Wide> {
     let Quaternion { q0, q1, q2, q3 } = state.attitude;
     let vectors = [state.r_b_n, state.r_b_n_dot, state.omega];
     let mut numbers: Vec<_> = vectors.iter().flatten().copied().collect();
@@ -30,7 +31,7 @@ fn to_numbers<const N: usize>(state: &State<N, Wide>) -> Vec<Wide> {
     numbers
 }
 
-fn from_numbers<const N: usize>(numbers: &[Wide]) -> State<N, Wide> {
+fn from_numbers<const N: usize>(numbers: &[Wide]) -> State<Set<N, Wide>> {
     let vector = |first: usize| Vector3::from_column_slice(&numbers[first..first + 3]);
     let [q0, q1, q2, q3] = core::array::from_fn(|k| numbers[9 + k]);
     State {
@@ -94,7 +95,7 @@ fn drift<const N: usize>(case: &Case<N, Wide>, steps: u32) -> [f64; 3] {
         numbers = step(case, &numbers, dt);
     }
     let end = Case { state: from_numbers(&numbers), ..*case };
-    let joints = end.state.devices.iter().zip(&case.state.devices).zip(&case.torques.motors);
+    let joints = end.state.devices.iter().zip(&case.state.devices).zip(&case.inputs.motors);
     let work = joints.fold(wide(0.0), |work, ((now, start), motor)| {
         work + motor.u_o * (now.gamma_o - start.gamma_o)
             + motor.u_i * (now.gamma_i - start.gamma_i)
@@ -113,8 +114,8 @@ fn drift<const N: usize>(case: &Case<N, Wide>, steps: u32) -> [f64; 3] {
 fn drift_of_the_reference_falls_sixteenfold() {
     for seed in 0..2 {
         let mut case = Sample::<2>::new(seed).case::<Wide>();
-        case.torques.force = Vector3::from_element(wide(0.0));
-        case.torques.torque_b = Vector3::from_element(wide(0.0));
+        case.inputs.force = Vector3::from_element(wide(0.0));
+        case.inputs.torque_b = Vector3::from_element(wide(0.0));
         let (coarse, fine) = (drift(&case, COARSEST), drift(&case, 2 * COARSEST));
         for ((coarse, fine), what) in
             coarse.into_iter().zip(fine).zip(["energy less work", "linear", "angular momentum"])

@@ -20,7 +20,7 @@ use precess_tests::bounds::{
     ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, BACKWARD_EPSILONS, ROUTES_IN_DOUBLE_DOUBLE,
     SPACECRAFT,
 };
-use precess_tests::case::{Case, converted};
+use precess_tests::case::{Case, Set, converted};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::to_list;
 use precess_tests::random::{Sample, Visitor, visit};
@@ -40,7 +40,7 @@ impl Route {
         self,
         case: &Case<N, T>,
         sample: &Sample<N>,
-    ) -> Accelerations<N, T> {
+    ) -> Accelerations<Set<N, T>> {
         match self {
             Self::Solver => case.solved(sample),
             Self::Assembly => case.assembled(),

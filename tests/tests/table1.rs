@@ -4,7 +4,12 @@
 use nalgebra::{Matrix3, Vector3};
 use precess::scenario::table1::{self as tool, variants};
 use precess_codegen::consequence::table1 as derived;
-use precess_dynamics::{Dgvscmg, Hub, Joints, MotorTorques, Quaternion, State, Torques};
+use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};
+use precess_dynamics::{
+    Dgvscmg, FixedSet, Gravity, Hub, HubMode, ImbalanceModel, Inputs, Mode, Passive, Quaternion,
+    State,
+};
+use precess_tests::case::Set;
 use precess_tests::table1::{Drive, Imbalance, SCENARIOS, scenario};
 
 /// Units are turned into SI by other factors here and there (`500 * tau / 60`, `500 * pi / 30`):
@@ -15,7 +20,7 @@ type Named = Vec<(&'static str, Vec<f64>)>;
 
 /// Every number of a scenario. A field that is added to one of the types does not compile here
 /// until it is compared too.
-fn numbers(hub: &Hub, device: &Dgvscmg, state: &State<1>, torques: &Torques<1>) -> Named {
+fn numbers(hub: &Hub, device: &Dgvscmg, state: &State<Set<1>>, inputs: &Inputs<Set<1>>) -> Named {
     let vector = |v: &Vector3<f64>| v.iter().copied().collect();
     let matrix = |m: &Matrix3<f64>| m.iter().copied().collect();
     let Hub { m_b, r_bc_b, i_b_bc } = hub;
@@ -33,12 +38,18 @@ fn numbers(hub: &Hub, device: &Dgvscmg, state: &State<1>, torques: &Torques<1>) 
         m_w,
         d,
         i_w_wc,
+        passive,
+        model,
     } = device;
     let State { r_b_n, r_b_n_dot, attitude, omega, devices: [joints] } = state;
     let Quaternion { q0, q1, q2, q3 } = *attitude;
     let Joints { gamma_o, gamma_i, theta, gamma_o_dot, gamma_i_dot, spin } = *joints;
-    let Torques { force, torque_b, motors: [motor] } = torques;
+    let Inputs { force, torque_b, motors: [motor], modes, hub, gravity, bodies } = inputs;
     let MotorTorques { u_o, u_i, u_w } = *motor;
+    // What the table knows nothing of.
+    assert_eq!((*passive, *model), (PerJoint::all(Passive::none()), ImbalanceModel::Coupled));
+    assert_eq!((*modes, *hub), ([PerJoint::all(Mode::Driven)], HubMode::Free));
+    assert_eq!((*gravity, *bodies), (Gravity::None, None));
     vec![
         ("m_b, m_go, m_gi, m_w, d", vec![*m_b, *m_go, *m_gi, *m_w, *d]),
         ("r_bc_b", vector(r_bc_b)),
@@ -80,8 +91,8 @@ fn desktop_tool_and_suites_run_the_same_table_1() {
             },
         };
         let run = variant.scenario();
-        let here = numbers(&case.hub, &case.devices[0], &case.state, &case.torques);
-        let there = numbers(&run.hub, &run.devices[0], &run.state, &run.torques);
+        let here = numbers(&case.hub, &case.devices[0], &case.state, &case.inputs);
+        let there = numbers(&run.hub, &run.devices[0], &run.state, &run.inputs);
         for ((what, here), (_, there)) in here.iter().zip(&there) {
             let agree = here.iter().zip(there).all(|(a, b)| (a - b).abs() <= ROUNDING * b.abs());
             assert!(agree, "{imbalance:?} {drive:?}, {what}: {here:?}, but {there:?} in the tool");
@@ -122,9 +133,12 @@ fn printed_slips_are_run_on_the_same_table_1() {
             m_w,
             d,
             i_w_wc,
+            passive,
+            model,
         },
     ] = &case.devices;
     assert_eq!(*mount, Matrix3::identity(), "the pages know no mount");
+    assert_eq!((*passive, *model), (PerJoint::all(Passive::none()), ImbalanceModel::Coupled));
     let masses = [
         ("m_b", *m_b),
         ("m_go", *m_go),
@@ -155,12 +169,12 @@ fn printed_slips_are_run_on_the_same_table_1() {
     assert_eq!(parameters, there);
 
     // Runs there start at rest but for these rates, and without force or torque from outside.
-    let ([joints], [motor]) = (case.state.devices, case.torques.motors);
+    let ([joints], [motor]) = (case.state.devices, case.inputs.motors);
     let start = State::at_rest();
     let omega = case.state.omega;
-    let devices = [Joints { spin: joints.spin, ..Joints::at_rest() }];
+    let devices = [Joints { spin: joints.spin, ..Dgvscmg::at_rest() }];
     assert_eq!(case.state, State { omega, devices, ..start });
-    assert_eq!(case.torques, Torques { motors: [motor], ..Torques::none() });
+    assert_eq!(case.inputs, Inputs { motors: [motor], ..Inputs::none() });
     let MotorTorques { u_o, u_i, u_w } = motor;
     assert_eq!([u_o, u_i, u_w], derived::TORQUES);
     let [gamma_o_dot, gamma_i_dot, spin] = derived::RATES;

@@ -6,10 +6,11 @@
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
-use precess_dynamics::{About, Joints, Scalar, SolveError, State};
+use precess_dynamics::dgvscmg::Joints;
+use precess_dynamics::{About, Scalar, SolveError, State};
 use precess_tests::blocks::{Figures, errors, largest, worst};
 use precess_tests::bounds::{LIMITS, ROUTES_IN_DOUBLE_DOUBLE};
-use precess_tests::case::Case;
+use precess_tests::case::{Case, Set};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::{Sample, Visitor, visit};
 
@@ -34,8 +35,8 @@ fn relative<T: Scalar>(a: &Vector3<T>, b: &Vector3<T>) -> f64 {
 
 /// Difference of one of the joints' quantities over all devices, in units of the largest.
 fn of_joints<const N: usize, T: Scalar>(
-    a: &State<N, T>,
-    b: &State<N, T>,
+    a: &State<Set<N, T>>,
+    b: &State<Set<N, T>>,
     of: impl Fn(&Joints<T>) -> T,
 ) -> f64 {
     let difference =
@@ -45,8 +46,8 @@ fn of_joints<const N: usize, T: Scalar>(
 }
 
 /// Difference of the sines and cosines of all joint angles.
-fn of_angles<const N: usize, T: Scalar>(a: &State<N, T>, b: &State<N, T>) -> f64 {
-    let angles = |state: &State<N, T>| -> Vec<T> {
+fn of_angles<const N: usize, T: Scalar>(a: &State<Set<N, T>>, b: &State<Set<N, T>>) -> f64 {
+    let angles = |state: &State<Set<N, T>>| -> Vec<T> {
         state.devices.iter().flat_map(|j| [j.gamma_o, j.gamma_i, j.theta]).collect()
     };
     largest(angles(a).into_iter().zip(angles(b)).map(|(a, b)| {
@@ -78,7 +79,7 @@ fn changes<const N: usize, T: Scalar>(sample: &Sample<N>) -> Vec<Error> {
         let momentum = spacecraft.momentum(&case.state, About::CentreOfMass);
         let momentum = momentum.unwrap_or_else(|e| refused(e));
         let centre = spacecraft.centre_of_mass(&case.state).unwrap_or_else(|e| refused(e));
-        let next = spacecraft.step(&case.state, &case.torques, dt).unwrap_or_else(|e| refused(e));
+        let next = spacecraft.step(&case.state, &case.inputs, dt).unwrap_or_else(|e| refused(e));
         (energy.to_f64(), energy, momentum, centre, next)
     });
     let (size, energy, momentum, centre, next) = expected;

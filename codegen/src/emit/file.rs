@@ -8,6 +8,7 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use super::body::{Counts, FunctionBody, Writer};
+use super::device::{Signature, Signatures, device_file, type_name};
 use super::home::Home;
 use super::prepare::{Prepared, prepared};
 use super::render::Rendered;
@@ -103,6 +104,7 @@ pub struct Emitted {
     /// Its files.
     pub files: Vec<EmittedFile>,
     pub(super) module: &'static str,
+    pub(super) device_type: String,
     pub(super) counts: Vec<CountText>,
 }
 
@@ -119,8 +121,11 @@ impl Emitted {
 /// When a template fails or a file would not parse.
 pub fn of_kind(chain: &Chain<'_>, home: Home<'_>) -> Result<Emitted, EmitError> {
     let mut counts = Vec::new();
-    let files = vec![kind_file(&templates()?, chain, home, &mut counts)?];
-    Ok(Emitted { files, module: chain.kind.name, counts })
+    let (tera, mut signatures) = (templates()?, Signatures::new());
+    let kernels = kind_file(&tera, chain, home, &mut counts, &mut signatures)?;
+    let device = device_file(&tera, chain.kind, home, &signatures)?;
+    let device_type = type_name(chain.kind);
+    Ok(Emitted { files: vec![kernels, device], module: chain.kind.name, device_type, counts })
 }
 
 pub(super) fn templates() -> Result<Tera, EmitError> {
@@ -128,6 +133,7 @@ pub(super) fn templates() -> Result<Tera, EmitError> {
     tera.autoescape_on(Vec::<&str>::new());
     for (name, text) in [
         ("kind.rs", include_str!("templates/kind.rs.tera")),
+        ("device.rs", include_str!("templates/device.rs.tera")),
         ("hub.rs", include_str!("templates/hub.rs.tera")),
         ("mod.rs", include_str!("templates/mod.rs.tera")),
         ("operations.md", include_str!("templates/operations.md.tera")),
@@ -150,6 +156,7 @@ fn kind_file(
     chain: &Chain<'_>,
     home: Home<'_>,
     rows: &mut Vec<CountText>,
+    signatures: &mut Signatures,
 ) -> Result<EmittedFile, EmitError> {
     let (graph, kind) = (chain.graph, chain.kind);
     let kernels = kernels(chain);
@@ -195,6 +202,9 @@ fn kind_file(
         rows.push(count(kind.name, &kernel.name, body.counts));
         let read = kernel.inputs.iter().filter(|(letter, _)| body.mentions(letter));
         let inputs: Vec<_> = read.map(|(letter, record)| (*letter, record.name.clone())).collect();
+        let letters = inputs.iter().map(|(letter, _)| *letter).collect();
+        let fields = kernel.output.fields.iter().map(|field| field.name.clone()).collect();
+        signatures.insert(kernel.name.clone(), Signature { letters, fields });
         let result = literal(&kernel.output.name, &record_fields(&kernel.output));
         functions.push(function(
             &kernel.name,

@@ -1,6 +1,6 @@
 //! Where emitted code stands, and how it finds the dynamics crate from there.
 
-use super::text::LINE;
+use super::layout::packed;
 
 /// The crate that emitted code is part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +28,14 @@ impl Home<'_> {
         }
     }
 
+    /// What the dynamics crate is called there.
+    pub(super) fn dynamics(&self) -> &str {
+        match self {
+            Self::Dynamics => "crate",
+            Self::Outside(dynamics) => dynamics,
+        }
+    }
+
     /// The lines that bring in these records of the hub, and `Real`, as `rustfmt` leaves them.
     pub(super) fn imports(self, records: &[String]) -> Vec<String> {
         let list = records.join(", ");
@@ -38,48 +46,9 @@ impl Home<'_> {
             Self::Outside(dynamics) => {
                 let real = format!("use {dynamics}::Real;");
                 let from = format!("use {dynamics}::generated::hub::");
-                std::iter::once(real).chain(braced(&from, records)).collect()
+                let list = packed(&format!("{from}{{"), records, "};");
+                std::iter::once(real).chain(list.lines().map(str::to_owned)).collect()
             }
         }
-    }
-}
-
-/// `from {a, b};`, broken where it is too long for a line.
-fn braced(from: &str, names: &[String]) -> Vec<String> {
-    let line = format!("{from}{{{}}};", names.join(", "));
-    if line.len() <= LINE {
-        return vec![line];
-    }
-    let mut lines = vec![format!("{from}{{")];
-    let mut inside = String::from("   ");
-    for name in names {
-        if inside.len() + " ".len() + name.len() + ",".len() > LINE {
-            lines.push(std::mem::replace(&mut inside, "   ".to_owned()));
-        }
-        inside = format!("{inside} {name},");
-    }
-    lines.extend([inside, "};".to_owned()]);
-    lines
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_imports_are_broken_and_none_is_lost() {
-        let names = ["One", "Two", "Three"].map(str::to_owned);
-        assert_eq!(braced("use a::", &names), ["use a::{One, Two, Three};"]);
-        let long = names.map(|name| name.repeat(10));
-        let [one, two, three] = &long;
-        assert_eq!(
-            braced("use a::", &long),
-            [
-                "use a::{".to_owned(),
-                format!("    {one}, {two},"),
-                format!("    {three},"),
-                "};".into()
-            ]
-        );
     }
 }

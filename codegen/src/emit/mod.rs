@@ -5,8 +5,12 @@
 //! columns and `rustfmt` has nothing to change.
 
 mod body;
+mod device;
+mod device_calls;
+mod device_items;
 mod file;
 mod home;
+mod layout;
 mod prepare;
 mod render;
 mod shared;

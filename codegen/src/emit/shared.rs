@@ -38,6 +38,10 @@ pub fn shared(kinds: &[Emitted]) -> Result<Vec<EmittedFile>, EmitError> {
     let mut context = Context::new();
     context.insert("hash", &fnv1a64(&modules.join(" ")));
     context.insert("modules", &modules);
+    let mut types: Vec<_> =
+        kinds.iter().map(|kind| [kind.module.to_owned(), kind.device_type.clone()]).collect();
+    types.sort_unstable();
+    context.insert("kinds", &types);
     let list = rust_file("mod.rs", tera.render("mod.rs", &context)?)?;
 
     let mut context = Context::new();

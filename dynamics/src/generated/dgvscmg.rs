@@ -9,6 +9,8 @@
 use super::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare};
 use crate::Real;
 
+pub mod device;
+
 /// What the device is made of: masses, places, inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T> {

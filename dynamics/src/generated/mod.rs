@@ -23,3 +23,30 @@ pub mod reaction_wheel;
 pub mod sgcmg;
 pub mod slosh_mass;
 pub mod vscmg;
+/// The kinds as users state them, each with the module of its joints, motors and modes.
+pub mod devices {
+    pub use super::balanced_dgcmg::device as balanced_dgcmg;
+    pub use super::balanced_dgcmg::device::BalancedDgcmg;
+    pub use super::balanced_dgvscmg::device as balanced_dgvscmg;
+    pub use super::balanced_dgvscmg::device::BalancedDgvscmg;
+    pub use super::balanced_reaction_wheel::device as balanced_reaction_wheel;
+    pub use super::balanced_reaction_wheel::device::BalancedReactionWheel;
+    pub use super::balanced_sgcmg::device as balanced_sgcmg;
+    pub use super::balanced_sgcmg::device::BalancedSgcmg;
+    pub use super::balanced_vscmg::device as balanced_vscmg;
+    pub use super::balanced_vscmg::device::BalancedVscmg;
+    pub use super::dgcmg::device as dgcmg;
+    pub use super::dgcmg::device::Dgcmg;
+    pub use super::dgvscmg::device as dgvscmg;
+    pub use super::dgvscmg::device::Dgvscmg;
+    pub use super::hinged_panel::device as hinged_panel;
+    pub use super::hinged_panel::device::HingedPanel;
+    pub use super::reaction_wheel::device as reaction_wheel;
+    pub use super::reaction_wheel::device::ReactionWheel;
+    pub use super::sgcmg::device as sgcmg;
+    pub use super::sgcmg::device::Sgcmg;
+    pub use super::slosh_mass::device as slosh_mass;
+    pub use super::slosh_mass::device::SloshMass;
+    pub use super::vscmg::device as vscmg;
+    pub use super::vscmg::device::Vscmg;
+}

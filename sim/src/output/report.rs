@@ -140,7 +140,7 @@ fn facts<const N: usize>(outcome: &Outcome<N>) -> Vec<(&'static str, String)> {
         let name = "Product of inertia <i>J</i><sub>13</sub>";
         facts.push((name, format!("{} kg m²", power(j_13, 2))));
     }
-    for u in &outcome.scenario.torques.motors {
+    for u in &outcome.scenario.inputs.motors {
         let torques = [u.u_w, u.u_i, u.u_o].map(|u| digits(1e3 * u)).join(", ");
         let name = "Motors <i>u<sub>x</sub></i>, <i>u<sub>y</sub></i>, <i>u<sub>z</sub></i>";
         facts.push((name, format!("{torques} mN m")));

@@ -1,9 +1,12 @@
-//! A scenario: a spacecraft, its initial state and the torques on it, constant over the run.
+//! A scenario: a spacecraft, its initial state and what acts on it, constant over the run.
 
 pub mod table1;
 
 use nalgebra::Matrix3;
-use precess_dynamics::{Dgvscmg, Hub, State, Torques};
+use precess_dynamics::{Dgvscmg, Hub, Inputs, State};
+
+/// The set of devices that is run: `N` of the paper's.
+pub type Set<const N: usize> = [Dgvscmg; N];
 
 /// Everything a run needs, SI and radians.
 #[derive(Clone, Debug)]
@@ -15,11 +18,11 @@ pub struct Scenario<const N: usize> {
     /// The hub.
     pub hub: Hub,
     /// The devices.
-    pub devices: [Dgvscmg; N],
+    pub devices: Set<N>,
     /// Initial state.
-    pub state: State<N>,
-    /// Force, torque and motor torques.
-    pub torques: Torques<N>,
+    pub state: State<Set<N>>,
+    /// Force, torque and motor torques; every joint is driven, the hub free.
+    pub inputs: Inputs<Set<N>>,
 }
 
 impl<const N: usize> Scenario<N> {

@@ -10,8 +10,9 @@
 
 use clap::ValueEnum;
 use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};
 use precess_dynamics::units::{from_cm, from_g_cm, from_g_cm2, from_mm, from_mn_m, from_rpm};
-use precess_dynamics::{Dgvscmg, Hub, Joints, MotorTorques, Quaternion, State, Torques};
+use precess_dynamics::{Dgvscmg, Hub, ImbalanceModel, Inputs, Passive, Quaternion, State};
 
 use super::Scenario;
 
@@ -153,6 +154,8 @@ impl Variant {
                 m_w: M_W,
                 d,
                 i_w_wc: symmetric([0.2, 0.1, 0.1], [0.0, j_13, 0.0]),
+                passive: PerJoint::all(Passive::none()),
+                model: ImbalanceModel::Coupled,
             }],
             state: State {
                 r_b_n: zero,
@@ -168,7 +171,7 @@ impl Variant {
                     spin: from_rpm(500.0),
                 }],
             },
-            torques: Torques { force: zero, torque_b: zero, motors: [self.drive.motors()] },
+            inputs: Inputs { motors: [self.drive.motors()], ..Inputs::none() },
         }
     }
 }
@@ -203,7 +206,8 @@ mod tests {
             let s = Variant { imbalance, drive: Drive::Free }.scenario();
             let spacecraft = Spacecraft::new(&s.hub, &s.devices).expect("it is accepted");
             let warnings: Vec<_> = spacecraft.warnings().collect();
-            let [Warning::Triangle { part: Part::Wheel { device: 0 }, excess }] = warnings[..]
+            let [Warning::Triangle { part: Part::Body { device: 0, body: "wheel" }, excess }] =
+                warnings[..]
             else {
                 panic!("{warnings:?}");
             };

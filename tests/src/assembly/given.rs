@@ -3,7 +3,8 @@
 //! Unit vectors and arms are resolved along the hub's axes. The pages take B's axes along the outer
 //! gimbal's at zero angle; those are the columns of the mount.
 
-use precess_dynamics::{Dgvscmg, JointAccelerations, Joints, Scalar};
+use precess_dynamics::dgvscmg::{JointAccelerations, Joints};
+use precess_dynamics::{Dgvscmg, Scalar};
 
 use crate::newton_euler::vector::{Tensor, Vector};
 

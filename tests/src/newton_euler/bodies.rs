@@ -5,7 +5,8 @@
 
 use core::ops::Sub;
 
-use precess_dynamics::{Dgvscmg, Hub, Joints, Scalar};
+use precess_dynamics::dgvscmg::Joints;
+use precess_dynamics::{Dgvscmg, Hub, Scalar};
 
 use super::affine::{Affine, GAMMA_I_DDOT, GAMMA_O_DDOT, OMEGA_DOT, SPIN_DOT};
 use super::vector::{Tensor, Vector, cross, tilde};

@@ -2,6 +2,8 @@
 
 use precess_dynamics::{Accelerations, Scalar};
 
+use crate::case::Set;
+
 use super::bodies::{Body, Point};
 use super::vector::{Vector, cross, dot};
 use super::{Snapshot, to_list, unknowns_of};
@@ -87,7 +89,7 @@ impl<T: Scalar> Snapshot<T> {
     #[must_use]
     pub fn power_balance<const N: usize>(
         &self,
-        accelerations: &Accelerations<N, T>,
+        accelerations: &Accelerations<Set<N, T>>,
     ) -> PowerBalance<T> {
         let list = to_list(accelerations);
         let omega_dot = Vector([list[3], list[4], list[5]]);

@@ -1,7 +1,8 @@
 //! One device as a chain of three links: coordinate transforms, joint axes, spatial inertias.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Dgvscmg, Joints, MotorTorques, Scalar};
+use precess_dynamics::dgvscmg::{Joints, MotorTorques};
+use precess_dynamics::{Dgvscmg, Scalar};
 
 use super::algebra::{Block, Matrix, Spatial, cross_matrix};
 use super::components;

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::{About, Accelerations, Attitude, Momentum, SolveError};
-use precess_tests::case::converted;
+use precess_tests::case::{Set, converted};
 use precess_tests::double_double::DoubleDouble;
 
 use crate::stored::{ATTITUDE, Blocks, Craft};
@@ -49,7 +49,7 @@ impl Solved {
     }
 }
 
-fn blocks<const N: usize>(accelerations: &Accelerations<N>) -> Blocks {
+fn blocks<const N: usize>(accelerations: &Accelerations<Set<N>>) -> Blocks {
     let joints = || accelerations.devices.iter();
     [
         accelerations.r_b_n_ddot.as_slice().to_vec(),

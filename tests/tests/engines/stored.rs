@@ -1,8 +1,11 @@
 //! The file of stored values, and its spacecraft as solver and reference take them.
 
 use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};
 use precess_dynamics::generated::dgvscmg;
-use precess_dynamics::{Attitude, Dgvscmg, Hub, Joints, MotorTorques, Quaternion, State, Torques};
+use precess_dynamics::{
+    Attitude, Dgvscmg, Hub, ImbalanceModel, Inputs, Passive, Quaternion, State,
+};
 use precess_tests::case::Case;
 use serde::Deserialize;
 
@@ -144,7 +147,7 @@ impl Craft {
                 omega: self.omega.into(),
                 devices: array(devices().map(Device::joints)),
             },
-            torques: Torques {
+            inputs: Inputs {
                 force: self.force.into(),
                 torque_b: self.torque_b.into(),
                 motors: array(devices().map(|Device { motors, .. }| MotorTorques {
@@ -152,6 +155,7 @@ impl Craft {
                     u_i: motors.u_i,
                     u_w: motors.u_w,
                 })),
+                ..Inputs::none()
             },
         }
     }
@@ -200,6 +204,8 @@ impl Device {
             m_w: p.m_w,
             d: p.d,
             i_w_wc: symmetric([p.j_11, p.j_12, p.j_13, p.j_22, p.j_23, p.j_33]),
+            passive: PerJoint::all(Passive::none()),
+            model: ImbalanceModel::Coupled,
         }
     }
 }

@@ -54,6 +54,7 @@ fn it_compiles_in_another_crate_and_moves_as_the_textbook_says() {
         "[package]\nname = \"planar-arm\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
          [workspace]\n\
          [dependencies]\nprecess-dynamics = {{ path = '{}' }}\n\
+         nalgebra = {{ version = '0.35', default-features = false, features = ['libm'] }}\n\
          [profile.dev]\nopt-level = 0\ndebug = false\n",
         dynamics.display()
     );

@@ -19,7 +19,9 @@ pub fn write(folder: &Path) -> Result<(), Box<dyn Error>> {
         return Err(row.to_string().into());
     }
     for file in files {
-        std::fs::write(folder.join(file.path), file.text)?;
+        let path = folder.join(file.path);
+        std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
+        std::fs::write(path, file.text)?;
     }
     Ok(())
 }

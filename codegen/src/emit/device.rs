@@ -1,0 +1,309 @@
+//! The second file of a kind: its parameters, joints and motors as a user states them, and the
+//! interface between them and the emitted kernels that the solver asks.
+//!
+//! Everything here follows from the kind's data and from the signatures of its kernels: no equation.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use tera::{Context, Tera};
+
+use super::device_items::Items;
+use super::file::{EmitError, EmittedFile, rust_file};
+use super::home::Home;
+use super::layout::packed;
+use super::text::{COMMENT, capital, fnv1a64, spaced, wrapped};
+use crate::kinds::{Body, Centre, Inertia, Kind, Link, Motion};
+
+/// The kernels of a kind by their names.
+pub(super) type Signatures = BTreeMap<String, Signature>;
+
+/// How a kernel is called.
+pub(super) struct Signature {
+    /// The letters of its arguments.
+    pub(super) letters: Vec<&'static str>,
+    /// The fields of what it returns.
+    pub(super) fields: Vec<String>,
+}
+
+/// A structure as the template takes it.
+#[derive(Serialize)]
+struct Record {
+    name: String,
+    doc: Vec<String>,
+    fields: Vec<Field>,
+}
+
+/// A field of a structure.
+#[derive(Serialize)]
+struct Field {
+    name: String,
+    doc: Vec<String>,
+    ty: String,
+}
+
+/// Lays out the file. `dynamics` is how it calls the dynamics crate.
+pub(super) fn device_file(
+    tera: &Tera,
+    kind: &Kind,
+    home: Home<'_>,
+    signatures: &Signatures,
+) -> Result<EmittedFile, EmitError> {
+    let body = Items { kind, signatures }.lines();
+    let mut context = Context::new();
+    context.insert("command", home.command());
+    context.insert("source", kind.source);
+    context.insert("hash", &fnv1a64(&format!("{kind:?}")));
+    context.insert("title", &capital(kind.title));
+    context.insert("imports", &imports(home.dynamics(), &body));
+    context.insert("records", &[parameters(kind), joints(kind), motors(kind), per_joint(kind)]);
+    context.insert("body", &body);
+    rust_file(home.path(&format!("{}/device.rs", kind.name)), tera.render("device.rs", &context)?)
+}
+
+/// What the text needs of the dynamics crate, and only that.
+fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
+    let read = |name: &&&str| {
+        let word = |line: &String| {
+            let parts = line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            parts.into_iter().any(|part| part == **name)
+        };
+        body.iter().any(word)
+    };
+    let list = |module: &str, names: &[&str], always: &[&str]| {
+        let names = names.iter().filter(|name| always.contains(name) || read(name));
+        let names: Vec<_> = names.map(|name| (*name).to_owned()).collect();
+        let from = format!("use {dynamics}::{module}");
+        match names.as_slice() {
+            [] => String::new(),
+            [one] => format!("{from}{one};"),
+            _ => packed(&format!("{from}{{"), &names, "};"),
+        }
+    };
+    let hub =
+        ["BodyAcceleration", "BodyRate", "BodyVelocity", "EnergyMomentum", "Gradient", "HubShare"];
+    let kind = [
+        "BodyParameters",
+        "Carried",
+        "Drive",
+        "Each",
+        "ImbalanceModel",
+        "JointInfo",
+        "JointStates",
+        "Kind",
+        "Lumped",
+        "Value",
+        "Wrenches",
+        "components",
+        "diagonal",
+        "entries",
+        "no_inertia",
+        "unit",
+        "vector",
+        "zero",
+    ];
+    let used = [
+        list("generated::hub::", &hub, &[]),
+        list("kind::", &kind, &[]),
+        list("", &["Passive", "Scalar", "Wrench"], &[]),
+    ];
+    used.iter().flat_map(|text| text.lines()).map(str::to_owned).collect()
+}
+
+/// `balanced_vscmg` -> `BalancedVscmg`.
+pub(super) fn type_name(kind: &Kind) -> String {
+    kind.name.split('_').map(capital).collect()
+}
+
+/// The name of the body behind a joint: `outer_gimbal`.
+pub(super) fn body_name(body: &Body) -> String {
+    body.title.replace(' ', "_")
+}
+
+/// The field that holds a full inertia: `i_go_goc`.
+pub(super) fn inertia_name(body: &Body) -> String {
+    format!("i_{}_{}", body.frame, body.point)
+}
+
+/// The names of the parameters of an inertia that is not full, each once.
+pub(super) fn moments(body: &Body) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for name in body.inertia.names().into_iter().flatten() {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// Whether the outermost body is a rotor that can be off balance.
+pub(super) fn imbalanced(kind: &Kind) -> Option<&Body> {
+    let body = &kind.links.last()?.body;
+    let spins = matches!(kind.links.last()?.joint.motion, Motion::Turn(_));
+    let off = matches!((body.centre, body.inertia), (Centre::On(..), Inertia::Full(_)));
+    (spins && off).then_some(body)
+}
+
+fn field(name: &str, doc: &str, ty: &str) -> Field {
+    let doc = wrapped(doc, COMMENT - 4).iter().map(|line| spaced(line)).collect();
+    Field { name: name.to_owned(), doc, ty: ty.to_owned() }
+}
+
+fn record(name: &str, doc: &str, fields: Vec<Field>) -> Record {
+    let paragraphs = doc.split("\n\n").map(|text| wrapped(text, COMMENT));
+    let mut lines: Vec<String> = Vec::new();
+    for paragraph in paragraphs {
+        if !lines.is_empty() {
+            lines.push(String::new());
+        }
+        lines.extend(paragraph.iter().map(|line| spaced(line)));
+    }
+    Record { name: name.to_owned(), doc: lines, fields }
+}
+
+/// What the device is made of, as a user states it.
+fn parameters(kind: &Kind) -> Record {
+    let mut fields = vec![field("mount", &mount(kind), "Matrix3<T>")];
+    for (k, link) in kind.links.iter().enumerate() {
+        fields.extend(of_link(kind, k, link));
+    }
+    fields.push(field(
+        "passive",
+        "Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.",
+        "PerJoint<Passive<T>>",
+    ));
+    if imbalanced(kind).is_some() {
+        let doc = "Whether the imbalance is coupled with everything else, or lumped as in the \
+                   simplified model.";
+        fields.push(field("model", doc, "ImbalanceModel"));
+    }
+    let mut doc = format!("{}.", capital(kind.title));
+    for link in kind.links.iter().filter(|link| !link.is_driven()) {
+        let kept = format!(
+            "\n\nThe {} keeps its rate, whatever torque that takes: its acceleration is zero, \
+             `Spacecraft::loads` tells the torque.",
+            link.body.title
+        );
+        doc.push_str(&kept);
+    }
+    if kind.links.iter().any(|link| matches!(link.body.inertia, Inertia::Full(_))) {
+        doc.push_str(
+            "\n\nProducts of inertia stand in the tensors with the sign they have there (`J_13` is \
+             the element).",
+        );
+    }
+    record(&format!("{}<T = f64>", type_name(kind)), &doc, fields)
+}
+
+fn mount(kind: &Kind) -> String {
+    let joint = |link: &Link| {
+        let (verb, axis) = match link.joint.motion {
+            Motion::Turn(axis) => ("turns about", axis),
+            Motion::Slide(axis) => ("slides along", axis),
+        };
+        format!("the {} {verb} {axis:?}", link.body.title).to_lowercase()
+    };
+    let joints: Vec<_> = kind.links.iter().map(joint).collect();
+    format!(
+        "Columns: the device's axes along B axes, which are those of its first body at zero. At \
+         zero {}.",
+        joints.join(", ")
+    )
+}
+
+fn of_link(kind: &Kind, k: usize, link: &Link) -> Vec<Field> {
+    let (joint, body) = (&link.joint, &link.body);
+    let [letter, point] = body.letters;
+    let title = body.title;
+    let carrier = if k == 0 {
+        "from B, *B axes*".to_owned()
+    } else {
+        let carrier = &kind.links[k - 1].body;
+        format!("from the origin of the {0}, axes of the {0}", carrier.title)
+    };
+    let slides = match joint.motion {
+        Motion::Turn(_) => "",
+        Motion::Slide(_) => ", where its coordinate is zero",
+    };
+    let doc = format!("`{}`, origin of the {title} {carrier}{slides}, m.", joint.origin.symbol);
+    let mut fields = vec![field(joint.origin.name, &doc, "Vector3<T>")];
+    let massless = if k + 1 == kind.links.len() { "above zero" } else { "zero is legal" };
+    let doc = format!("`m_{letter}`, mass of the {title}, kg; {massless}.");
+    fields.push(field(body.mass, &doc, "T"));
+    match body.centre {
+        Centre::Free(triple) => {
+            let doc =
+                format!("`{}`, centre of mass of the {title}, its own axes, m.", triple.symbol);
+            fields.push(field(triple.name, &doc, "Vector3<T>"));
+        }
+        Centre::On(axis, name) => {
+            let doc = format!(
+                "`{name}`: the centre of mass of the {title} stands on its {axis:?} axis, this far \
+                 from its origin, m."
+            );
+            fields.push(field(name, &doc, "T"));
+        }
+        Centre::At => {}
+    }
+    let doc =
+        format!("`[I_{{{letter},{point}}}]`, inertia of the {title} about its centre of mass");
+    match body.inertia {
+        Inertia::Full(_) => {
+            let doc = format!("{doc}, its own axes, kg m².");
+            fields.push(field(&inertia_name(body), &doc, "Matrix3<T>"));
+        }
+        _ => fields.extend(moments(body).iter().map(|name| {
+            let entry = &name[name.len() - 2..];
+            field(name, &format!("{doc}, entry {entry}, kg m²."), "T")
+        })),
+    }
+    fields
+}
+
+/// Coordinates and rates.
+fn joints(kind: &Kind) -> Record {
+    let (mut coordinates, mut rates) = (Vec::new(), Vec::new());
+    for (k, link) in kind.links.iter().enumerate() {
+        let (joint, title) = (&link.joint, link.body.title);
+        let carrier = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
+        let (what, unit, axis) = match joint.motion {
+            Motion::Turn(axis) => ("Angle", "rad", axis),
+            Motion::Slide(axis) => ("Position", "m", axis),
+        };
+        let axis = format!("{axis:?}").to_lowercase();
+        let about = if unit == "rad" { "about" } else { "along" };
+        let doc = format!("{what} of the {title}, {about} its {axis} axis, {unit}.");
+        coordinates.push(field(joint.coordinate, &doc, "T"));
+        let unit = joint.motion.units().rate;
+        let doc = format!("`{}`, its rate relative to the {carrier}, {unit}.", joint.symbols[0]);
+        rates.push(field(joint.rate, &doc, "T"));
+    }
+    coordinates.extend(rates);
+    record("Joints<T = f64>", "Coordinates and relative rates of the joints.", coordinates)
+}
+
+/// What the motors exert.
+fn motors(kind: &Kind) -> Record {
+    let fields = kind.links.iter().enumerate().map(|(k, link)| {
+        let carrier = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
+        let unit = link.joint.motion.units().drive;
+        field(
+            link.joint.torque,
+            &format!("{} on {}, {unit}.", capital(carrier), link.body.title),
+            "T",
+        )
+    });
+    let doc = "What the motors exert, each on the body it drives and, reversed, on its carrier. \
+               Not asked at a joint whose acceleration is given.";
+    record("MotorTorques<T = f64>", doc, fields.collect())
+}
+
+/// A value per joint.
+fn per_joint(kind: &Kind) -> Record {
+    let fields = kind.links.iter().map(|link| {
+        let doc = format!("Of the {}.", link.body.title);
+        field(&body_name(&link.body), &doc, "V")
+    });
+    let doc = "A value for each joint, by the body behind it.";
+    record("PerJoint<V>", doc, fields.collect())
+}

@@ -1,0 +1,158 @@
+//! The loads of one device, and the powers at its joints.
+
+use crate::device::{Device, in_device};
+use crate::devices::{Around, Given};
+use crate::each::{Each, JointStates};
+use crate::generated::hub::BodyRate;
+use crate::kind::{Carried, Kind, Wrenches};
+use crate::loads::{Along, DeviceLoads, HubMotion, Totals};
+use crate::mode::Mode;
+use crate::real::{Scalar, zero};
+use crate::vec3::{Columns, rotate_transposed};
+use crate::wrench::Wrench;
+
+/// The loads of a device of a kind.
+type LoadsOf<K> =
+    DeviceLoads<Wrenches<K>, <K as Kind>::PerJoint<<K as Kind>::Scalar>, <K as Kind>::Scalar>;
+
+/// What the joints feel along their axes.
+struct Felt<K: Kind> {
+    /// For the accelerations.
+    needed: K::PerJoint<K::Scalar>,
+    /// From outside.
+    applied: K::PerJoint<K::Scalar>,
+    /// From the gradient of gravity.
+    gradient: K::PerJoint<K::Scalar>,
+}
+
+impl<K: Kind> Device<K> {
+    /// The loads of one device; adds to the totals.
+    #[inline(never)]
+    #[expect(clippy::too_many_arguments, reason = "state, inputs and accelerations, then results")]
+    pub(crate) fn loads(
+        &self,
+        joints: &K::Joints,
+        given: Given<'_, K>,
+        around: &Around<K::Scalar>,
+        hub: &HubMotion<K::Scalar>,
+        accelerations: &K::Accelerations,
+        along: &Along<K::Scalar>,
+        totals: &mut Totals<K::Scalar>,
+    ) -> LoadsOf<K> {
+        let pose = K::pose(joints);
+        let [omega_bx, omega_by, omega_bz] = rotate_transposed(&self.mount, around.omega);
+        let needed = K::loads(
+            &self.constants,
+            &pose,
+            joints,
+            &BodyRate { omega_bx, omega_by, omega_bz },
+            &in_device(&self.mount, hub.r_b_n_ddot, hub.omega_dot),
+            accelerations,
+        );
+        let applied = self.carried(&pose, &self.applied(joints, given.bodies));
+        let mut gradient = Carried { joints: K::all(Wrench::none()), hub: Wrench::none() };
+        if let Some(central) = &around.central {
+            let (wrenches, second_moment) = self.gradient(&pose, central);
+            let second_moment = second_moment.rotated(&self.mount);
+            totals.second_moment = totals.second_moment.plus(second_moment);
+            gradient = self.carried(&pose, &wrenches);
+        }
+        totals.inertial = totals.inertial.plus(&needed.hub.turned(&self.mount));
+        totals.applied = totals.applied.plus(&applied.hub.turned(&self.mount));
+        totals.gradient = totals.gradient.plus(&gradient.hub.turned(&self.mount));
+        let felt = Felt {
+            needed: felt::<K>(&needed.joints),
+            applied: felt::<K>(&applied.joints),
+            gradient: felt::<K>(&gradient.joints),
+        };
+        let motors = self.book(joints, given, &felt, totals);
+
+        let mut loads = needed.joints;
+        let outside = applied.joints.values().zip(gradient.joints.values());
+        for (load, (applied, gradient)) in loads.values_mut().zip(outside) {
+            *load = load.minus(&applied).minus(&gradient);
+        }
+        let (mount, joints) = self.told(&pose, loads, along);
+        DeviceLoads { mount, joints, motors }
+    }
+
+    /// Books the powers of the joints; returns the motor torques that the accelerations need.
+    fn book(
+        &self,
+        joints: &K::Joints,
+        given: Given<'_, K>,
+        felt: &Felt<K>,
+        totals: &mut Totals<K::Scalar>,
+    ) -> K::PerJoint<K::Scalar> {
+        let power = &mut totals.power;
+        let mut motors = K::all(zero::<K::Scalar>());
+        let felt = felt.needed.values().zip(felt.applied.values()).zip(felt.gradient.values());
+        let given = given.motors.values().zip(given.modes.values());
+        let states = joints.states().zip(self.passive.values());
+        for (((motor, felt), given), state) in motors.values_mut().zip(felt).zip(given).zip(states)
+        {
+            let (((needed, applied), gradient), (torque, mode)) = (felt, given);
+            let ([coordinate, rate], passive) = state;
+            let (spring, friction) = (passive.of_spring(coordinate), passive.of_friction(rate));
+            *motor = needed - applied - gradient - spring - friction;
+            let driven = if mode == Mode::Driven { torque } else { *motor };
+            for (sum, drive) in [
+                (&mut power.inertial, needed),
+                (&mut power.applied, applied),
+                (&mut power.gradient, gradient),
+                (&mut power.motors, driven),
+                (&mut power.springs, spring),
+                (&mut power.friction, friction),
+            ] {
+                *sum = *sum + drive * rate;
+                power.magnitude = power.magnitude + (drive * rate).abs();
+            }
+            power.stored = power.stored + passive.potential(coordinate);
+        }
+        motors
+    }
+
+    /// The load of the mount, and those of the joints along the axes asked for.
+    fn told(
+        &self,
+        pose: &K::Pose,
+        mut loads: Wrenches<K>,
+        along: &Along<K::Scalar>,
+    ) -> (Wrench<K::Scalar>, Wrenches<K>) {
+        let axes = K::axes(&self.constants, pose);
+        let first = loads.values().zip(axes.values()).next();
+        let first = first.map_or_else(Wrench::none, |(load, own)| load.turned(&own));
+        let hub = first.turned(&self.mount);
+        let mut mount = hub;
+        if let Along::Hub(Some(bn)) = along {
+            mount = hub.turned_back(bn);
+        }
+        // The axes of what carries each body: the device's own for the first.
+        let mut carrier = identity();
+        for (load, own) in loads.values_mut().zip(axes.values()) {
+            let in_device = load.turned(&own);
+            *load = match along {
+                Along::Body => *load,
+                Along::Carrier => in_device.turned_back(&carrier),
+                Along::Hub(None) => in_device.turned(&self.mount),
+                Along::Hub(Some(bn)) => in_device.turned(&self.mount).turned_back(bn),
+            };
+            carrier = own;
+        }
+        (mount, loads)
+    }
+}
+
+/// What each joint feels of a wrench.
+fn felt<K: Kind>(wrenches: &Wrenches<K>) -> K::PerJoint<K::Scalar> {
+    let mut felt = K::all(zero());
+    for ((felt, wrench), info) in felt.values_mut().zip(wrenches.values()).zip(K::JOINTS) {
+        *felt = wrench.along(info);
+    }
+    felt
+}
+
+fn identity<T: Scalar>() -> Columns<T> {
+    let (one, zero) = (crate::real::one(), zero());
+    [[one, zero, zero], [zero, one, zero], [zero, zero, one]]
+}

@@ -1,0 +1,172 @@
+//! [`Ledger`]: energy, its rate, and where it comes from; the paper's named future work.
+//!
+//! ```text
+//! dT/dt = P_external + P_hub + P_gravity + P_motors + P_springs + P_friction
+//! ```
+//!
+//! The left side is what Newton and Euler of every body say of the accelerations, times the
+//! velocities; the right side is each source's own force times the same. The two are computed apart,
+//! and what is left between them is the ledger's residual: rounding, or a fault.
+
+use crate::attitude::Attitude;
+use crate::devices::Devices;
+use crate::error::SolveError;
+use crate::gravity::{Field, no_second_moment};
+use crate::inputs::Inputs;
+use crate::loads::{Along, Totals};
+use crate::mode::HubMode;
+use crate::momentum::{About, Momentum};
+use crate::real::{Scalar, zero};
+use crate::spacecraft::Spacecraft;
+use crate::state::{Accelerations, State};
+use crate::vec3::{columns, components, dot, rotate, scale};
+use crate::wrench::Wrench;
+
+/// The books of a spacecraft at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ledger<T = f64> {
+    /// Kinetic energy T of hub and devices, J.
+    pub kinetic: T,
+    /// Potential energy in the field of gravity, J.
+    pub gravity: T,
+    /// Energy of the springs, J.
+    pub springs: T,
+    /// `dT/dt`, W.
+    pub kinetic_rate: T,
+    /// Power of each source, W.
+    pub power: Power<T>,
+    /// `dT/dt` less all powers, W: rounding.
+    pub residual: T,
+    /// Sum of the magnitudes of the terms that the residual is a difference of, W.
+    pub magnitude: T,
+    /// Linear momentum, and angular momentum about the inertial origin, N axes.
+    pub momentum: Momentum<T>,
+}
+
+/// Power of each source on the spacecraft's motion, W.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Power<T = f64> {
+    /// Force and torque on the hub and wrenches on bodies, with the simplified model's disturbance
+    /// among them.
+    pub external: T,
+    /// What holds a prescribed hub to its motion; nothing for a free or fixed one.
+    pub hub: T,
+    /// Gravity, uniform part and gradient: `-dV/dt`.
+    pub gravity: T,
+    /// All motors, those of prescribed joints among them.
+    pub motors: T,
+    /// Springs.
+    pub springs: T,
+    /// Viscous and Coulomb friction; not above zero: what becomes heat.
+    pub friction: T,
+}
+
+impl<T: Scalar> Power<T> {
+    /// The sum of all sources.
+    #[must_use]
+    pub fn total(&self) -> T {
+        self.external + self.hub + self.gravity + self.motors + self.springs + self.friction
+    }
+}
+
+impl<T: Scalar> Ledger<T> {
+    /// Kinetic and potential energy, J: constant but for motors, external forces and friction.
+    #[must_use]
+    pub fn energy(&self) -> T {
+        self.kinetic + self.gravity + self.springs
+    }
+}
+
+impl<D: Devices> Spacecraft<D> {
+    /// The books for a state, its inputs and the accelerations that they give.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming an input or acceleration, [`SolveError::Overflow`],
+    /// [`SolveError::Count`] for a list of another length.
+    pub fn ledger<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        accelerations: &Accelerations<D>,
+    ) -> Result<Ledger<D::Scalar>, SolveError<D::Scalar>> {
+        self.refuse(state, inputs)?;
+        self.refuse_accelerations(accelerations)?;
+        let (_, hub, totals) = self.weigh(state, inputs, accelerations, &Along::Body);
+        let (bn, sums) = self.sums(state);
+        let velocity = rotate(&bn, components(&state.r_b_n_dot));
+        let omega = components(&state.omega);
+        let of_hub = |wrench: &Wrench<D::Scalar>| wrench.power(velocity, omega);
+        let joints = &totals.power;
+
+        let field = inputs.gravity.field(&bn, &state.r_b_n);
+        let uniform = field.as_ref().map_or_else(zero, |field| dot(field.at_b, sums.linear));
+        let given = Wrench { force: inputs.force, moment: inputs.torque_b };
+        let held = match inputs.hub {
+            HubMode::Free | HubMode::Fixed => zero(),
+            HubMode::Prescribed { .. } => of_hub(&hub),
+        };
+        let power = Power {
+            external: of_hub(&given) + of_hub(&totals.applied) + joints.applied,
+            hub: held,
+            gravity: uniform + of_hub(&totals.gradient) + joints.gradient,
+            motors: joints.motors,
+            springs: joints.springs,
+            friction: joints.friction,
+        };
+        // Accelerations were counted in the frame that falls with the field: its power comes back.
+        let kinetic_rate = of_hub(&totals.inertial) + joints.inertial + uniform;
+        let hubs = [given, totals.applied, totals.gradient, totals.inertial, hub];
+        let terms = hubs.iter().fold(uniform.abs(), |sum, wrench| {
+            sum + dot(components(&wrench.force), velocity).abs()
+                + dot(components(&wrench.moment), omega).abs()
+        });
+        let ledger = Ledger {
+            kinetic: sums.energy,
+            gravity: self.potential(state, field.as_ref(), &totals),
+            springs: joints.stored,
+            kinetic_rate,
+            power,
+            residual: kinetic_rate - power.total(),
+            magnitude: terms + joints.magnitude,
+            momentum: self.momentum(state, About::InertialOrigin)?,
+        };
+        let sound = ledger.residual.is_finite() && ledger.energy().is_finite();
+        if sound { Ok(ledger) } else { Err(SolveError::Overflow) }
+    }
+
+    /// Potential energy of gravity, J.
+    fn potential<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        field: Option<&Field<D::Scalar>>,
+        totals: &Totals<D::Scalar>,
+    ) -> D::Scalar {
+        let Some(field) = field else { return zero() };
+        let bn = columns(&state.attitude.dcm());
+        let moment = scale(self.mass(), self.centre(state)[0]);
+        let second = match field.central {
+            Some(_) => totals.second_moment,
+            None => no_second_moment(),
+        };
+        field.potential(self.mass(), moment, &second, rotate(&bn, components(&state.r_b_n)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn total_counts_every_source() {
+        let power = Power {
+            external: 1.0,
+            hub: 2.0,
+            gravity: 4.0,
+            motors: 8.0,
+            springs: 16.0,
+            friction: 32.0,
+        };
+        assert_eq!(power.total(), 63.0);
+    }
+}

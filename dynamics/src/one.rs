@@ -1,0 +1,169 @@
+//! A single device as a set.
+
+use crate::device::Device;
+use crate::devices::{Around, Assembly, Devices, FixedSet, Given, own_mode};
+use crate::each::{Each, Value};
+use crate::error::SolveError;
+use crate::hub::BodySums;
+use crate::kind::{JointInfo, Kind};
+use crate::loads::{Along, DeviceLoads, HubMotion, Totals};
+use crate::mode::Mode;
+use crate::parameter_error::ParameterError;
+use crate::passive::Passive;
+use crate::real::zero;
+use crate::solve::Solution;
+use crate::validation::check_device;
+use crate::vec3::Vec3;
+use crate::wrench::Wrench;
+
+impl<K: Kind> Devices for K {
+    type Scalar = K::Scalar;
+    type Prepared = Device<K>;
+    type Joints = K::Joints;
+    type Motors = K::Motors;
+    type Accelerations = K::Accelerations;
+    type PerJoint<V: Value> = K::PerJoint<V>;
+    type Loads = DeviceLoads<K::PerJoint<Wrench<K::Scalar>>, K::PerJoint<K::Scalar>, K::Scalar>;
+    type Scratch = Option<K::Eliminated>;
+
+    fn check(&self, device: &mut usize) -> Result<(), ParameterError<K::Scalar>> {
+        check_device(*device, self)?;
+        *device = device.wrapping_add(1);
+        Ok(())
+    }
+
+    fn prepare(&self) -> Device<K> {
+        Device::new(self)
+    }
+
+    fn masses(device: &Device<K>) -> impl Iterator<Item = K::Scalar> {
+        core::iter::once(device.mass)
+    }
+
+    fn infos(_: &Device<K>) -> impl Iterator<Item = &'static JointInfo> {
+        K::JOINTS.iter()
+    }
+
+    fn excesses(device: &Device<K>) -> impl Iterator<Item = K::Scalar> {
+        device.excess.values()
+    }
+
+    fn passives(device: &Device<K>) -> impl Iterator<Item = Passive<K::Scalar>> {
+        device.passive.values()
+    }
+
+    fn at_rest_for(_: &Device<K>) -> K::Joints {
+        <K as Kind>::at_rest()
+    }
+
+    fn motors_off_for(_: &Device<K>) -> K::Motors {
+        <K as Kind>::motors_off()
+    }
+
+    fn no_accelerations_for(_: &Device<K>) -> K::Accelerations {
+        K::no_accelerations()
+    }
+
+    fn all_for<V: Value>(_: &Device<K>, value: V) -> K::PerJoint<V> {
+        <K as Kind>::all(value)
+    }
+
+    fn no_loads_for(_: &Device<K>) -> Self::Loads {
+        DeviceLoads {
+            mount: Wrench::none(),
+            joints: <K as Kind>::all(Wrench::none()),
+            motors: <K as Kind>::all(zero()),
+        }
+    }
+
+    fn scratch(_: &Device<K>) -> Option<K::Eliminated> {
+        None
+    }
+
+    fn fits(
+        _: &Device<K>,
+        _: &K::Joints,
+        _: Option<Given<'_, Self>>,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        Ok(())
+    }
+
+    fn eliminate(
+        device: &Device<K>,
+        joints: &K::Joints,
+        given: Given<'_, Self>,
+        around: &Around<K::Scalar>,
+        assembly: &mut Assembly<K::Scalar>,
+        scratch: &mut Option<K::Eliminated>,
+        index: &mut usize,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        *scratch = Some(device.eliminate(joints, given, around, assembly, *index)?);
+        *index = index.wrapping_add(1);
+        Ok(())
+    }
+
+    fn back_substitute(
+        device: &Device<K>,
+        scratch: &Option<K::Eliminated>,
+        hub: &Solution<K::Scalar>,
+        out: &mut K::Accelerations,
+    ) {
+        if let Some(eliminated) = scratch {
+            *out = device.back_substitute(eliminated, hub);
+        }
+    }
+
+    fn add_sums(
+        device: &Device<K>,
+        joints: &K::Joints,
+        r_b_n_dot: Vec3<K::Scalar>,
+        omega: Vec3<K::Scalar>,
+        sums: &mut BodySums<K::Scalar>,
+    ) {
+        device.add_sums(joints, r_b_n_dot, omega, sums);
+    }
+
+    fn add_first_moment(device: &Device<K>, joints: &K::Joints, moment: &mut [Vec3<K::Scalar>; 2]) {
+        device.add_first_moment(joints, moment);
+    }
+
+    fn loads(
+        device: &Device<K>,
+        joints: &K::Joints,
+        given: Given<'_, Self>,
+        around: &Around<K::Scalar>,
+        hub: &HubMotion<K::Scalar>,
+        accelerations: &K::Accelerations,
+        along: &Along<K::Scalar>,
+        out: &mut Self::Loads,
+        totals: &mut Totals<K::Scalar>,
+    ) {
+        *out = device.loads(joints, given, around, hub, accelerations, along, totals);
+    }
+}
+
+impl<K: Kind> FixedSet for K {
+    fn at_rest() -> K::Joints {
+        <K as Kind>::at_rest()
+    }
+
+    fn motors_off() -> K::Motors {
+        <K as Kind>::motors_off()
+    }
+
+    fn all<V: Value>(value: V) -> K::PerJoint<V> {
+        <K as Kind>::all(value)
+    }
+
+    fn modes() -> K::PerJoint<Mode<K::Scalar>> {
+        let mut modes = <K as Kind>::all(Mode::Driven);
+        for (mode, info) in modes.values_mut().zip(K::JOINTS) {
+            *mode = own_mode(info);
+        }
+        modes
+    }
+
+    fn joint_infos() -> impl Iterator<Item = &'static JointInfo> {
+        K::JOINTS.iter()
+    }
+}

@@ -1,0 +1,106 @@
+//! [`Passive`]: what a joint does by itself, a spring, a damper and dry friction.
+
+use crate::real::{Scalar, half, zero};
+
+/// Spring, damper and friction of one joint; all of them zero in a free one.
+///
+/// ```text
+/// u = -k (q - q_0) - c q' - u_c q' / sqrt(q'^2 + w^2)
+/// ```
+///
+/// acts beside the motor, on the body and reversed on its carrier. The last term is Coulomb's
+/// friction made smooth: its full size well above the rate `w`, and a stiff damper `u_c / w` below.
+/// It never sticks: a joint that shall not move is [locked](crate::Mode::Locked).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passive<T = f64> {
+    /// `k`, N m/rad; of a sliding joint N/m. Not negative.
+    pub stiffness: T,
+    /// `q_0`, the coordinate at which the spring is at rest, rad or m.
+    pub rest: T,
+    /// `c`, viscous friction, N m s/rad or N s/m. Not negative.
+    pub viscous: T,
+    /// `u_c`, Coulomb friction, N m or N. Not negative.
+    pub coulomb: T,
+    /// `w`, the rate below which Coulomb friction fades, rad/s or m/s; above zero where there is any.
+    pub coulomb_rate: T,
+}
+
+impl<T: Scalar> Passive<T> {
+    /// A free joint.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            stiffness: zero(),
+            rest: zero(),
+            viscous: zero(),
+            coulomb: zero(),
+            coulomb_rate: zero(),
+        }
+    }
+
+    /// Spring and damper alone, at rest at zero.
+    #[must_use]
+    pub fn spring(stiffness: T, viscous: T) -> Self {
+        Self { stiffness, viscous, ..Self::none() }
+    }
+
+    /// Viscous and Coulomb friction alone.
+    #[must_use]
+    pub fn friction(viscous: T, coulomb: T, coulomb_rate: T) -> Self {
+        Self { viscous, coulomb, coulomb_rate, ..Self::none() }
+    }
+
+    /// Torque or force of the spring.
+    pub(crate) fn of_spring(&self, coordinate: T) -> T {
+        -(self.stiffness * (coordinate - self.rest))
+    }
+
+    /// Torque or force of friction.
+    pub(crate) fn of_friction(&self, rate: T) -> T {
+        let viscous = -(self.viscous * rate);
+        if self.coulomb == zero() {
+            return viscous;
+        }
+        let fading = (rate * rate + self.coulomb_rate * self.coulomb_rate).sqrt();
+        viscous - self.coulomb * rate * fading.recip()
+    }
+
+    /// Energy of the spring, J.
+    pub(crate) fn potential(&self, coordinate: T) -> T {
+        let stretch = coordinate - self.rest;
+        half::<T>() * self.stiffness * stretch * stretch
+    }
+
+    /// The parameters by name: what must be finite.
+    pub(crate) fn named(&self) -> [(&'static str, T); 5] {
+        [
+            ("stiffness", self.stiffness),
+            ("rest", self.rest),
+            ("viscous", self.viscous),
+            ("coulomb", self.coulomb),
+            ("coulomb_rate", self.coulomb_rate),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spring_pulls_back_and_stores() {
+        let spring = Passive { rest: 1.0, ..Passive::spring(4.0, 0.0) };
+        assert_eq!(spring.of_spring(3.0), -8.0);
+        assert_eq!(spring.potential(3.0), 8.0);
+    }
+
+    #[test]
+    fn coulomb_friction_is_smooth_and_saturates() {
+        let dry = Passive::friction(0.0, 2.0, 1e-3);
+        assert_eq!(dry.of_friction(0.0), 0.0);
+        assert!((dry.of_friction(1.0) + 2.0).abs() < 2e-6);
+        assert!((dry.of_friction(-1.0) - 2.0).abs() < 2e-6);
+        let viscous = Passive::friction(0.5, 0.0, 0.0);
+        assert_eq!(viscous.of_friction(3.0), -1.5);
+    }
+}

@@ -1,0 +1,120 @@
+//! The impulsive stop: joints brought to rest in no time, by a brake that is stiff.
+//!
+//! Velocities jump, positions do not. Over the jump finite forces do nothing; what acts are the
+//! impulses of the brakes, inside the spacecraft, so momentum is conserved and energy is lost. With
+//! M the mass matrix of the pose, `M Δ = impulses`, which is the equations of motion at rest with
+//! jumps for accelerations: the same kernels answer.
+
+use crate::attitude::Attitude;
+use crate::devices::{Around, Assembly, Devices, Given};
+use crate::each::{Each, JointStates};
+use crate::error::SolveError;
+use crate::gravity::no_second_moment;
+use crate::inputs::Inputs;
+use crate::mode::{HubMode, Mode};
+use crate::real::zero;
+use crate::solve::Solution;
+use crate::spacecraft::Spacecraft;
+use crate::state::State;
+use crate::vec3::{
+    add, columns, components, finite, neg, rotate, rotate_transposed, vector, zeros,
+};
+
+/// What an impulsive stop leaves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stopped<D: Devices, A> {
+    /// The state with its new velocities; every locked joint is at rest.
+    pub state: State<D, A>,
+    /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero but
+    /// for rounding, unless a joint is prescribed.
+    pub energy_lost: D::Scalar,
+}
+
+impl<D: Devices> Spacecraft<D> {
+    /// Stops every joint that `inputs` has locked, and the hub if it is fixed, in no time.
+    ///
+    /// Driven joints take what impulse reaches them through the structure, prescribed ones keep
+    /// their rates. Linear and angular momentum stay, but for a fixed hub; energy is lost.
+    ///
+    /// ```
+    /// # use nalgebra::{Matrix3, Vector3};
+    /// use precess_dynamics::{About, Hub, Inputs, Mode, ReactionWheel, Spacecraft, State};
+    ///
+    /// let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    /// let hub = Hub { m_b: 50.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
+    /// let craft = Spacecraft::new(&hub, &[ReactionWheel::bare_wheel(4.0, disc)])?;
+    /// let mut state: State<[ReactionWheel; 1]> = State::at_rest();
+    /// state.devices[0].spin = 100.0;
+    /// let before = craft.momentum(&state, About::CentreOfMass)?;
+    ///
+    /// let mut brake: Inputs<[ReactionWheel; 1]> = Inputs::none();
+    /// brake.modes[0].wheel = Mode::Locked;
+    /// assert!(craft.accelerations(&state, &brake).is_err()); // it still turns
+    /// let stopped = craft.stop(&state, &brake)?;
+    /// assert_eq!(stopped.state.devices[0].spin, 0.0);
+    /// assert!(stopped.energy_lost > 800.0); // of 1000 J
+    /// let after = craft.momentum(&stopped.state, About::CentreOfMass)?;
+    /// assert!((after.angular - before.angular).norm() < 1e-14 * before.angular.norm());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::accelerations`], but a moving joint may be locked.
+    pub fn stop<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<Stopped<D, A>, SolveError<D::Scalar>> {
+        self.refuse(state, inputs)?;
+        let before = self.energy(state)?;
+        let next =
+            self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
+        let energy_lost = before - self.energy(&next)?;
+        Ok(Stopped { state: next, energy_lost })
+    }
+
+    fn jump<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<State<D, A>, SolveError<D::Scalar>> {
+        let still = zeros();
+        let around = Around { omega: still, central: None, impulse: true };
+        let system = self.hub.system(still, still, still);
+        let mut assembly = Assembly { system, second_moment: no_second_moment() };
+        let mut scratch = D::scratch(&self.devices);
+        self.eliminate(state, Given::of(inputs), &around, &mut assembly, &mut scratch)?;
+        let bn = columns(&state.attitude.dcm());
+        let velocity = rotate(&bn, components(&state.r_b_n_dot));
+        let hub = match inputs.hub {
+            HubMode::Free => assembly.system.solve().map_err(|small| SolveError::Singular {
+                device: None,
+                joint: None,
+                pivot: small.pivot,
+                bound: small.bound,
+            })?,
+            HubMode::Fixed => {
+                Solution { r_b_n_ddot: neg(velocity), omega_dot: neg(components(&state.omega)) }
+            }
+            HubMode::Prescribed { .. } => Solution { r_b_n_ddot: still, omega_dot: still },
+        };
+        if !(finite(hub.r_b_n_ddot) && finite(hub.omega_dot)) {
+            return Err(SolveError::Overflow);
+        }
+        let jumps = self.back_substitute(&scratch, &hub)?;
+        let mut next = state.clone();
+        let of_joints = jumps.values().zip(inputs.modes.values());
+        for ([_, rate], (jump, mode)) in next.devices.states_mut().zip(of_joints) {
+            // At rest exactly, whatever the rounding.
+            *rate = if mode == Mode::Locked { zero() } else { *rate + jump };
+        }
+        next.omega = vector(add(components(&state.omega), hub.omega_dot));
+        let jump = rotate_transposed(&bn, hub.r_b_n_ddot);
+        next.r_b_n_dot = vector(add(components(&state.r_b_n_dot), jump));
+        if inputs.hub == HubMode::Fixed {
+            (next.omega, next.r_b_n_dot) = (vector(still), vector(still));
+        }
+        Ok(next)
+    }
+}
