@@ -1,4 +1,4 @@
-//! A mixed set in single precision.
+//! A mixed set in single, double and twofold precision.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointStates};
@@ -6,12 +6,19 @@ use precess_dynamics::{
     BalancedDgvscmg, HingedPanel, Hub, Inputs, Passive, ReactionWheel, Scalar, Sgcmg, SloshMass,
     Spacecraft, State, hinged_panel, slosh_mass,
 };
+use precess_tests::double_double::DoubleDouble;
 
 use crate::bench::Found;
 use crate::random::{Random, errors_of};
 
 /// A5, `f32` against `f64` on Table 1's ranges, of the block: `2^-23` times conditioning.
 const SINGLE_PRECISION: f64 = 1e-4;
+
+/// A2, `f64` against a reference in higher precision, of the block.
+const DOUBLE_WORST: f64 = 1e-11;
+
+/// A2, its median.
+const DOUBLE_MEDIAN: f64 = 1e-13;
 
 const SEEDS: u64 = 300;
 
@@ -100,6 +107,16 @@ fn solved<T: Scalar>(random: &mut Random) -> Found {
         omega_dot: wide(&found.omega_dot),
         joints: names.zip(found.devices.values().map(Scalar::to_f64)).collect(),
     }
+}
+
+#[test]
+fn mixed_set_in_double_precision_is_that_in_twofold() {
+    let errors = errors_of(SEEDS, |random: &mut Random| {
+        let expected = solved::<DoubleDouble>(&mut random.clone());
+        solved::<f64>(random).error(&expected)
+    });
+    errors.are_within(DOUBLE_WORST);
+    errors.have_median_within(DOUBLE_MEDIAN);
 }
 
 #[test]
