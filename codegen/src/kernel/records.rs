@@ -130,7 +130,7 @@ fn link_parameters(link: &Link, record: &mut Record) {
         Centre::At => {}
     }
     record.field(body.mass, format!("m_{letter}: mass of the {}, kg.", body.title));
-    let doc = format!("[I_{{{letter},{point}}}] along the axes of the {}", body.title);
+    let doc = format!("[I_{{{letter},{point}}}]: inertia of the {}, its own axes", body.title);
     let names = body.inertia.names();
     for (k, name) in names.iter().enumerate() {
         let Some(name) = name.as_ref().filter(|name| !names[..k].contains(&Some((*name).clone())))

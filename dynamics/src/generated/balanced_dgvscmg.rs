@@ -30,17 +30,17 @@ pub struct Parameters<T> {
     pub r_goc_go_goz: T,
     /// m_Gᵒ: mass of the outer gimbal, kg.
     pub m_go: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 11, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 11, kg m².
     pub i_go_11: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 12, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 12, kg m².
     pub i_go_12: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 13, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 13, kg m².
     pub i_go_13: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 22, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 22, kg m².
     pub i_go_22: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 23, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 23, kg m².
     pub i_go_23: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 33, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 33, kg m².
     pub i_go_33: T,
     /// Lᵒ: origin of the inner gimbal in the axes that carry it, first component, m.
     pub l_o_x: T,
@@ -56,17 +56,17 @@ pub struct Parameters<T> {
     pub r_gic_gi_giz: T,
     /// m_Gⁱ: mass of the inner gimbal, kg.
     pub m_gi: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 11, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 11, kg m².
     pub i_gi_11: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 12, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 12, kg m².
     pub i_gi_12: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 13, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 13, kg m².
     pub i_gi_13: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 22, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 22, kg m².
     pub i_gi_22: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 23, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 23, kg m².
     pub i_gi_23: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 33, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 33, kg m².
     pub i_gi_33: T,
     /// Lⁱ: origin of the wheel in the axes that carry it, first component, m.
     pub l_i_x: T,
@@ -76,9 +76,9 @@ pub struct Parameters<T> {
     pub l_i_z: T,
     /// m_W: mass of the wheel, kg.
     pub m_w: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 11, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 11, kg m².
     pub j_11: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entries 22 and 33, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entries 22 and 33, kg m².
     pub j_22: T,
 }
 
@@ -97,17 +97,17 @@ pub struct Prepared<T> {
     pub r_goc_go_goy: T,
     /// m_Gᵒ: mass of the outer gimbal, kg.
     pub m_go: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 11, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 11, kg m².
     pub i_go_11: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 12, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 12, kg m².
     pub i_go_12: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 13, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 13, kg m².
     pub i_go_13: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 22, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 22, kg m².
     pub i_go_22: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 23, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 23, kg m².
     pub i_go_23: T,
-    /// [I_{Gᵒ,Gᵒc}] along the axes of the outer gimbal, entry 33, kg m².
+    /// [I_{Gᵒ,Gᵒc}]: inertia of the outer gimbal, its own axes, entry 33, kg m².
     pub i_go_33: T,
     /// Lᵒ: origin of the inner gimbal in the axes that carry it, first component, m.
     pub l_o_x: T,
@@ -123,17 +123,17 @@ pub struct Prepared<T> {
     pub r_gic_gi_giz: T,
     /// m_Gⁱ: mass of the inner gimbal, kg.
     pub m_gi: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 11, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 11, kg m².
     pub i_gi_11: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 12, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 12, kg m².
     pub i_gi_12: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 13, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 13, kg m².
     pub i_gi_13: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 22, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 22, kg m².
     pub i_gi_22: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 23, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 23, kg m².
     pub i_gi_23: T,
-    /// [I_{Gⁱ,Gⁱc}] along the axes of the inner gimbal, entry 33, kg m².
+    /// [I_{Gⁱ,Gⁱc}]: inertia of the inner gimbal, its own axes, entry 33, kg m².
     pub i_gi_33: T,
     /// Lⁱ: origin of the wheel in the axes that carry it, first component, m.
     pub l_i_x: T,
@@ -143,9 +143,9 @@ pub struct Prepared<T> {
     pub l_i_z: T,
     /// m_W: mass of the wheel, kg.
     pub m_w: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 11, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 11, kg m².
     pub j_11: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entries 22 and 33, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entries 22 and 33, kg m².
     pub j_22: T,
     /// `p.r_go_b_bz + p.r_goc_go_goz`. r_{Gᵒc/B}, behind eq. (12), m.
     pub r_goc_b_bz: T,

@@ -24,9 +24,9 @@ pub struct Parameters<T> {
     pub r_w_b_bz: T,
     /// m_W: mass of the wheel, kg.
     pub m_w: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 11, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 11, kg m².
     pub j_11: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entries 22 and 33, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entries 22 and 33, kg m².
     pub j_22: T,
 }
 
@@ -41,9 +41,9 @@ pub struct Prepared<T> {
     pub r_w_b_bz: T,
     /// m_W: mass of the wheel, kg.
     pub m_w: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 11, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 11, kg m².
     pub j_11: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entries 22 and 33, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entries 22 and 33, kg m².
     pub j_22: T,
     /// `p.r_w_b_bx * p.r_w_b_by * p.m_w`. [I_{W,B}], eq. (71), along the axes of the wheel,
     /// kg m².

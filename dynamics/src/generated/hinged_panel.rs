@@ -28,17 +28,17 @@ pub struct Parameters<T> {
     pub r_pc_p_pz: T,
     /// m_P: mass of the panel, kg.
     pub m_p: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 11, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 11, kg m².
     pub i_p_11: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 12, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 12, kg m².
     pub i_p_12: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 13, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 13, kg m².
     pub i_p_13: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 22, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 22, kg m².
     pub i_p_22: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 23, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 23, kg m².
     pub i_p_23: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 33, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 33, kg m².
     pub i_p_33: T,
 }
 
@@ -57,17 +57,17 @@ pub struct Prepared<T> {
     pub r_pc_p_py: T,
     /// m_P: mass of the panel, kg.
     pub m_p: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 11, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 11, kg m².
     pub i_p_11: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 12, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 12, kg m².
     pub i_p_12: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 13, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 13, kg m².
     pub i_p_13: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 22, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 22, kg m².
     pub i_p_22: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 23, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 23, kg m².
     pub i_p_23: T,
-    /// [I_{P,Pc}] along the axes of the panel, entry 33, kg m².
+    /// [I_{P,Pc}]: inertia of the panel, its own axes, entry 33, kg m².
     pub i_p_33: T,
     /// `p.r_p_b_bz + p.r_pc_p_pz`. r_{Pc/B}, behind eq. (12), m.
     pub r_pc_b_bz: T,

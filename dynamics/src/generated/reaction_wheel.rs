@@ -24,17 +24,17 @@ pub struct Parameters<T> {
     pub d: T,
     /// m_W: mass of the wheel, kg.
     pub m_w: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 11, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 11, kg m².
     pub j_11: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 12, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 12, kg m².
     pub j_12: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 13, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 13, kg m².
     pub j_13: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 22, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 22, kg m².
     pub j_22: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 23, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 23, kg m².
     pub j_23: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 33, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 33, kg m².
     pub j_33: T,
 }
 
@@ -51,17 +51,17 @@ pub struct Prepared<T> {
     pub d: T,
     /// m_W: mass of the wheel, kg.
     pub m_w: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 11, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 11, kg m².
     pub j_11: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 12, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 12, kg m².
     pub j_12: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 13, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 13, kg m².
     pub j_13: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 22, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 22, kg m².
     pub j_22: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 23, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 23, kg m².
     pub j_23: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 33, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 33, kg m².
     pub j_33: T,
     /// `p.r_w_b_bx * p.r_w_b_bx`.
     pub k_0: T,

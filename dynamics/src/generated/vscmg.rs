@@ -28,17 +28,17 @@ pub struct Parameters<T> {
     pub r_gc_g_gz: T,
     /// m_G: mass of the gimbal, kg.
     pub m_g: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 11, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 11, kg m².
     pub i_g_11: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 12, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 12, kg m².
     pub i_g_12: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 13, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 13, kg m².
     pub i_g_13: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 22, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 22, kg m².
     pub i_g_22: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 23, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 23, kg m².
     pub i_g_23: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 33, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 33, kg m².
     pub i_g_33: T,
     /// Lᵍ: origin of the wheel in the axes that carry it, first component, m.
     pub l_g_x: T,
@@ -50,17 +50,17 @@ pub struct Parameters<T> {
     pub d: T,
     /// m_W: mass of the wheel, kg.
     pub m_w: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 11, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 11, kg m².
     pub j_11: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 12, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 12, kg m².
     pub j_12: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 13, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 13, kg m².
     pub j_13: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 22, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 22, kg m².
     pub j_22: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 23, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 23, kg m².
     pub j_23: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 33, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 33, kg m².
     pub j_33: T,
 }
 
@@ -79,17 +79,17 @@ pub struct Prepared<T> {
     pub r_gc_g_gy: T,
     /// m_G: mass of the gimbal, kg.
     pub m_g: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 11, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 11, kg m².
     pub i_g_11: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 12, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 12, kg m².
     pub i_g_12: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 13, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 13, kg m².
     pub i_g_13: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 22, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 22, kg m².
     pub i_g_22: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 23, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 23, kg m².
     pub i_g_23: T,
-    /// [I_{G,Gc}] along the axes of the gimbal, entry 33, kg m².
+    /// [I_{G,Gc}]: inertia of the gimbal, its own axes, entry 33, kg m².
     pub i_g_33: T,
     /// Lᵍ: origin of the wheel in the axes that carry it, first component, m.
     pub l_g_x: T,
@@ -101,17 +101,17 @@ pub struct Prepared<T> {
     pub d: T,
     /// m_W: mass of the wheel, kg.
     pub m_w: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 11, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 11, kg m².
     pub j_11: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 12, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 12, kg m².
     pub j_12: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 13, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 13, kg m².
     pub j_13: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 22, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 22, kg m².
     pub j_22: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 23, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 23, kg m².
     pub j_23: T,
-    /// [I_{W,Wc}] along the axes of the wheel, entry 33, kg m².
+    /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 33, kg m².
     pub j_33: T,
     /// `p.m_g + p.m_w`. D, the gimbal and what it carries, eq. (89): mass, kg; first moment,
     /// kg m, and inertia, kg m², about G.
