@@ -107,7 +107,7 @@ impl<D: Devices> Spacecraft<D> {
         assembly: &mut Assembly<D::Scalar>,
         scratch: &mut D::Scratch,
     ) -> Result<(), SolveError<D::Scalar>> {
-        D::fits(&self.devices, &state.devices, Some(given))?;
+        D::fits(&self.devices, &state.devices, Some(given), None)?;
         D::eliminate(&self.devices, &state.devices, given, around, assembly, scratch, &mut 0)
     }
 
@@ -177,4 +177,5 @@ pub(crate) fn sound<D: Devices, A: Attitude<D::Scalar>>(
     vectors.into_iter().all(|v| finite(components(v)))
         && state.attitude.is_valid()
         && inputs.motors.values().all(Scalar::is_finite)
+        && inputs.bodies.iter().flat_map(Each::values).all(|wrench| wrench.is_finite())
 }

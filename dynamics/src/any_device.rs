@@ -16,7 +16,7 @@ use crate::erased::{Ready, Stated};
 use crate::error::SolveError;
 use crate::hub::BodySums;
 use crate::kind::{JointInfo, Kind};
-use crate::loads::{Along, DeviceLoads, HubMotion, Totals};
+use crate::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
 use crate::parameter_error::ParameterError;
 use crate::passive::Passive;
 use crate::real::{Scalar, zero};
@@ -55,7 +55,8 @@ pub struct AnyJoints<T = f64>(pub Vec<[T; 2]>);
 pub struct AnyPerJoint<V>(pub Vec<V>);
 
 /// Loads of a device of any kind.
-pub type AnyLoads<T = f64> = DeviceLoads<AnyPerJoint<Wrench<T>>, AnyPerJoint<T>, T>;
+pub type AnyLoads<T = f64> =
+    DeviceLoads<AnyPerJoint<Wrench<T>>, AnyPerJoint<T>, AnyPerJoint<JointPower<T>>, T>;
 
 impl<K: Kind> From<K> for AnyDevice<K::Scalar> {
     fn from(device: K) -> Self {
@@ -154,6 +155,7 @@ impl<T: Scalar> Devices for AnyDevice<T> {
             mount: Wrench::none(),
             joints: Self::all_for(device, Wrench::none()),
             motors: Self::all_for(device, zero()),
+            powers: Self::all_for(device, JointPower::none()),
         }
     }
 
@@ -165,14 +167,17 @@ impl<T: Scalar> Devices for AnyDevice<T> {
         device: &Arc<dyn Ready<T>>,
         joints: &AnyJoints<T>,
         given: Option<Given<'_, Self>>,
+        accelerations: Option<&AnyPerJoint<T>>,
     ) -> Result<(), SolveError<T>> {
         let expected = device.infos().len();
-        let mut counts = vec![joints.0.len()];
-        if let Some(given) = given {
-            counts.extend([given.motors.0.len(), given.modes.0.len()]);
-            counts.extend(given.bodies.map(|bodies| bodies.0.len()));
-        }
-        let wrong = counts.into_iter().find(|count| *count != expected);
+        let counts = [
+            Some(joints.0.len()),
+            given.map(|given| given.motors.0.len()),
+            given.map(|given| given.modes.0.len()),
+            given.and_then(|given| Some(given.bodies?.0.len())),
+            accelerations.map(|found| found.0.len()),
+        ];
+        let wrong = counts.into_iter().flatten().find(|count| *count != expected);
         wrong.map_or(Ok(()), |found| Err(SolveError::Count { expected, found }))
     }
 

@@ -142,7 +142,9 @@ impl<K: Kind> Device<K> {
         for ((drive, (torque, mode)), ([_, rate], info)) in
             drives.values_mut().zip(motors).zip(states)
         {
-            if !info.driven && mode != own_mode(info) {
+            // Locked at rest is what the kind does anyway.
+            let still = mode == Mode::Locked && rate == zero();
+            if !(info.driven || still || mode == own_mode(info)) {
                 return Err(SolveError::NotDriven { device, joint: info.body });
             }
             *drive = match mode {

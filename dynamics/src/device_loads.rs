@@ -5,15 +5,25 @@ use crate::devices::{Around, Given};
 use crate::each::{Each, JointStates};
 use crate::generated::hub::BodyRate;
 use crate::kind::{Carried, Kind, Wrenches};
-use crate::loads::{Along, DeviceLoads, HubMotion, Totals};
+use crate::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
 use crate::mode::Mode;
 use crate::real::{Scalar, zero};
 use crate::vec3::{Columns, rotate_transposed};
 use crate::wrench::Wrench;
 
 /// The loads of a device of a kind.
-type LoadsOf<K> =
-    DeviceLoads<Wrenches<K>, <K as Kind>::PerJoint<<K as Kind>::Scalar>, <K as Kind>::Scalar>;
+pub(crate) type LoadsOf<K> = DeviceLoads<
+    Wrenches<K>,
+    <K as Kind>::PerJoint<<K as Kind>::Scalar>,
+    <K as Kind>::PerJoint<JointPower<<K as Kind>::Scalar>>,
+    <K as Kind>::Scalar,
+>;
+
+/// Motor torque and power of each joint.
+type Booked<K> = (
+    <K as Kind>::PerJoint<<K as Kind>::Scalar>,
+    <K as Kind>::PerJoint<JointPower<<K as Kind>::Scalar>>,
+);
 
 /// What the joints feel along their axes.
 struct Felt<K: Kind> {
@@ -65,7 +75,7 @@ impl<K: Kind> Device<K> {
             applied: felt::<K>(&applied.joints),
             gradient: felt::<K>(&gradient.joints),
         };
-        let motors = self.book(joints, given, &felt, totals);
+        let (motors, powers) = self.book(joints, given, &felt, totals);
 
         let mut loads = needed.joints;
         let outside = applied.joints.values().zip(gradient.joints.values());
@@ -73,24 +83,30 @@ impl<K: Kind> Device<K> {
             *load = load.minus(&applied).minus(&gradient);
         }
         let (mount, joints) = self.told(&pose, loads, along);
-        DeviceLoads { mount, joints, motors }
+        totals.sound = totals.sound
+            && mount.is_finite()
+            && joints.values().all(|load| load.is_finite())
+            && motors.values().all(Scalar::is_finite);
+        DeviceLoads { mount, joints, motors, powers }
     }
 
-    /// Books the powers of the joints; returns the motor torques that the accelerations need.
+    /// Books the powers of the joints; returns them and the motor torques that the accelerations
+    /// need.
     fn book(
         &self,
         joints: &K::Joints,
         given: Given<'_, K>,
         felt: &Felt<K>,
         totals: &mut Totals<K::Scalar>,
-    ) -> K::PerJoint<K::Scalar> {
+    ) -> Booked<K> {
         let power = &mut totals.power;
         let mut motors = K::all(zero::<K::Scalar>());
+        let mut powers = K::all(JointPower::none());
         let felt = felt.needed.values().zip(felt.applied.values()).zip(felt.gradient.values());
         let given = given.motors.values().zip(given.modes.values());
         let states = joints.states().zip(self.passive.values());
-        for (((motor, felt), given), state) in motors.values_mut().zip(felt).zip(given).zip(states)
-        {
+        let found = motors.values_mut().zip(powers.values_mut());
+        for ((((motor, told), felt), given), state) in found.zip(felt).zip(given).zip(states) {
             let (((needed, applied), gradient), (torque, mode)) = (felt, given);
             let ([coordinate, rate], passive) = state;
             let (spring, friction) = (passive.of_spring(coordinate), passive.of_friction(rate));
@@ -107,9 +123,14 @@ impl<K: Kind> Device<K> {
                 *sum = *sum + drive * rate;
                 power.magnitude = power.magnitude + (drive * rate).abs();
             }
+            *told = JointPower {
+                motor: driven * rate,
+                spring: spring * rate,
+                friction: friction * rate,
+            };
             power.stored = power.stored + passive.potential(coordinate);
         }
-        motors
+        (motors, powers)
     }
 
     /// The load of the mount, and those of the joints along the axes asked for.

@@ -91,6 +91,7 @@ pub trait Devices: Clone + Debug + PartialEq {
         devices: &Self::Prepared,
         joints: &Self::Joints,
         given: Option<Given<'_, Self>>,
+        accelerations: Option<&Self::Accelerations>,
     ) -> Result<(), SolveError<Self::Scalar>>;
     /// Eliminates every joint, adds what is left to the hub's system; `device` counts.
     ///

@@ -224,6 +224,7 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
             mount: found.mount,
             joints: AnyPerJoint(found.joints.values().collect()),
             motors: AnyPerJoint(found.motors.values().collect()),
+            powers: AnyPerJoint(found.powers.values().collect()),
         }
     }
 }

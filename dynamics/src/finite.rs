@@ -5,7 +5,7 @@
 use nalgebra::Vector3;
 
 use crate::attitude::Attitude;
-use crate::devices::Devices;
+use crate::devices::{Devices, Given};
 use crate::each::{Each, JointStates};
 use crate::error::{Quantity, SolveError};
 use crate::gravity::Gravity;
@@ -24,15 +24,17 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        D::fits(&self.devices, &state.devices, Some(crate::devices::Given::of(inputs)))?;
+        D::fits(&self.devices, &state.devices, Some(Given::of(inputs)), None)?;
         refuse(self.culprit_in_state(state).or_else(|| self.culprit_in_inputs(inputs)))
     }
 
-    /// Refuses accelerations that are not finite.
-    pub(crate) fn refuse_accelerations(
+    /// Refuses accelerations that are not finite, or of another number of devices.
+    pub(crate) fn refuse_accelerations<A>(
         &self,
+        state: &State<D, A>,
         accelerations: &Accelerations<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
+        D::fits(&self.devices, &state.devices, None, Some(&accelerations.devices))?;
         let Accelerations { r_b_n_ddot, omega_dot, devices } = accelerations;
         let joint = || {
             let mut joints = devices.values().zip(self.joints());

@@ -27,8 +27,12 @@ pub struct Inputs<D: Devices> {
     /// Gravity on every body.
     pub gravity: Gravity<D::Scalar>,
     /// External wrench on the body behind each joint, about the joint's origin along the body's own
-    /// axes; none where no device has one. A rotor that is the same from every angle has the axes
-    /// of what carries it.
+    /// axes; none where no device has one.
+    ///
+    /// During a step such a wrench turns with its body: for one that keeps its direction in N or in
+    /// B, steps must resolve the turning. A rotor that is the same from every angle (a balanced
+    /// kind's) has the axes of what carries it, so the same numbers mean another force there than on
+    /// an imbalanced rotor.
     pub bodies: Option<D::PerJoint<Wrench<D::Scalar>>>,
 }
 
@@ -45,6 +49,12 @@ impl<D: FixedSet> Inputs<D> {
             gravity: Gravity::None,
             bodies: None,
         }
+    }
+
+    /// No wrench on any body, to be changed and handed to [`Self::bodies`].
+    #[must_use]
+    pub fn no_wrenches() -> D::PerJoint<Wrench<D::Scalar>> {
+        D::all(Wrench::none())
     }
 }
 
@@ -63,7 +73,7 @@ impl<D: Devices> Inputs<D> {
         }
     }
 
-    /// No wrench on any body, to be changed and handed to [`Self::bodies`].
+    /// As [`Inputs::no_wrenches`], for a set whose devices are known at run time alone.
     #[must_use]
     pub fn no_wrenches_for(spacecraft: &Spacecraft<D>) -> D::PerJoint<Wrench<D::Scalar>> {
         D::all_for(&spacecraft.devices, Wrench::none())

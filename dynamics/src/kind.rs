@@ -67,6 +67,9 @@ pub enum ImbalanceModel {
     Coupled,
     /// A balanced rotor (`d`, `J_12`, `J_13` zero) with the usual lumped disturbance on it: force
     /// `U_s Omega²` through W along `w_y`, torque `U_d Omega²` ahead of it by the phase.
+    ///
+    /// Omega is the wheel's rate relative to its carrier. The disturbance comes from outside, so
+    /// neither momentum nor energy is conserved under it; the ledger books it as external.
     Lumped,
 }
 

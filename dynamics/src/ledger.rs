@@ -43,7 +43,8 @@ pub struct Ledger<T = f64> {
     pub momentum: Momentum<T>,
 }
 
-/// Power of each source on the spacecraft's motion, W.
+/// Power of each source on the spacecraft's motion, W; or its work during a
+/// [step](Spacecraft::step_with_work), J.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power<T = f64> {
     /// Force and torque on the hub and wrenches on bodies, with the simplified model's disturbance
@@ -62,6 +63,30 @@ pub struct Power<T = f64> {
 }
 
 impl<T: Scalar> Power<T> {
+    /// No source does anything.
+    pub(crate) fn none() -> Self {
+        Self {
+            external: zero(),
+            hub: zero(),
+            gravity: zero(),
+            motors: zero(),
+            springs: zero(),
+            friction: zero(),
+        }
+    }
+
+    /// `self + time * power`, source by source.
+    pub(crate) fn plus_scaled(&self, time: T, power: &Self) -> Self {
+        Self {
+            external: self.external + time * power.external,
+            hub: self.hub + time * power.hub,
+            gravity: self.gravity + time * power.gravity,
+            motors: self.motors + time * power.motors,
+            springs: self.springs + time * power.springs,
+            friction: self.friction + time * power.friction,
+        }
+    }
+
     /// The sum of all sources.
     #[must_use]
     pub fn total(&self) -> T {
@@ -91,7 +116,7 @@ impl<D: Devices> Spacecraft<D> {
         accelerations: &Accelerations<D>,
     ) -> Result<Ledger<D::Scalar>, SolveError<D::Scalar>> {
         self.refuse(state, inputs)?;
-        self.refuse_accelerations(accelerations)?;
+        self.refuse_accelerations(state, accelerations)?;
         let (_, hub, totals) = self.weigh(state, inputs, accelerations, &Along::Body);
         let (bn, sums) = self.sums(state);
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
@@ -131,8 +156,12 @@ impl<D: Devices> Spacecraft<D> {
             magnitude: terms + joints.magnitude,
             momentum: self.momentum(state, About::InertialOrigin)?,
         };
-        let sound = ledger.residual.is_finite() && ledger.energy().is_finite();
-        if sound { Ok(ledger) } else { Err(SolveError::Overflow) }
+        let sums = [ledger.residual, ledger.magnitude, ledger.energy()];
+        if totals.sound && sums.into_iter().all(Scalar::is_finite) {
+            Ok(ledger)
+        } else {
+            Err(self.diagnosis(state, inputs, SolveError::Overflow))
+        }
     }
 
     /// Potential energy of gravity, J.

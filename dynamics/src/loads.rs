@@ -43,11 +43,12 @@ pub struct Loads<D: Devices> {
     pub hub: Wrench<D::Scalar>,
 }
 
-/// The loads of one device; `W` has a wrench, `U` a number per joint.
+/// The loads of one device; `W` has a wrench, `U` a number, `P` a [`JointPower`] per joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DeviceLoads<W, U, T> {
-    /// What the hub exerts on the device at its mount, about the origin of its first joint; along N
-    /// axes if the joints' loads are, otherwise along B axes.
+pub struct DeviceLoads<W, U, P, T> {
+    /// What the hub exerts on the device at its mount, about the origin of its first joint where it
+    /// stands now (of a sliding joint it moves along); along N axes if the joints' loads are,
+    /// otherwise along B axes. About another point: [`Wrench::moved`].
     pub mount: Wrench<T>,
     /// What its carrier exerts on the body behind each joint, motor, spring and friction included,
     /// about the joint's origin, along the axes asked for.
@@ -55,6 +56,26 @@ pub struct DeviceLoads<W, U, T> {
     /// The motor torque, N m (force, N, of a sliding joint), that each joint's acceleration needs:
     /// the load about its axis less spring and friction. (80), (101), (119).
     pub motors: U,
+    /// The power of each joint's motor, spring and friction: the ledger's sums one by one.
+    pub powers: P,
+}
+
+/// What acts at one joint, as power on the spacecraft's motion, W.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointPower<T = f64> {
+    /// Of the motor: with the torque that is given, or the one that is found.
+    pub motor: T,
+    /// Of the spring.
+    pub spring: T,
+    /// Of friction; not above zero.
+    pub friction: T,
+}
+
+impl<T: Scalar> JointPower<T> {
+    /// Nothing acts.
+    pub(crate) fn none() -> Self {
+        Self { motor: zero(), spring: zero(), friction: zero() }
+    }
 }
 
 /// Axes for the loads of joints.
@@ -88,6 +109,8 @@ pub struct Totals<T> {
     pub(crate) second_moment: Symmetric<T>,
     /// Powers of the joints.
     pub(crate) power: JointPowers<T>,
+    /// Whether every load and motor torque is finite.
+    pub(crate) sound: bool,
 }
 
 /// Powers at the joints, W: the part of each source that the joints' rates take up.
@@ -125,7 +148,7 @@ impl<T: Scalar> Totals<T> {
         let none = Wrench::none();
         let power = JointPowers::none();
         let second_moment = Symmetric::scalar(zero());
-        Self { inertial: none, applied: none, gradient: none, second_moment, power }
+        Self { inertial: none, applied: none, gradient: none, second_moment, power, sound: true }
     }
 }
 
@@ -150,7 +173,7 @@ impl<D: Devices> Spacecraft<D> {
         axes: LoadAxes,
     ) -> Result<Loads<D>, SolveError<D::Scalar>> {
         self.refuse(state, inputs)?;
-        self.refuse_accelerations(accelerations)?;
+        self.refuse_accelerations(state, accelerations)?;
         let bn = columns(&state.attitude.dcm());
         let along = match axes {
             LoadAxes::Body => Along::Body,
@@ -158,8 +181,12 @@ impl<D: Devices> Spacecraft<D> {
             LoadAxes::Hub => Along::Hub(None),
             LoadAxes::Inertial => Along::Hub(Some(bn)),
         };
-        let (devices, hub, _) = self.weigh(state, inputs, accelerations, &along);
-        if hub.is_finite() { Ok(Loads { devices, hub }) } else { Err(SolveError::Overflow) }
+        let (devices, hub, totals) = self.weigh(state, inputs, accelerations, &along);
+        if totals.sound && hub.is_finite() {
+            Ok(Loads { devices, hub })
+        } else {
+            Err(self.diagnosis(state, inputs, SolveError::Overflow))
+        }
     }
 
     /// Loads of the devices, what the hub needs beside the inputs, and the sums of both.

@@ -43,7 +43,8 @@ pub struct Drive<T> {
     pub torque: T,
     /// One where the torque is given, else zero.
     pub driven: T,
-    /// Zero where the torque is given, else one: keeps the reciprocal of an unused pivot finite.
+    /// Zero where the torque is given, else one, in the pivot's unit: any positive number keeps the
+    /// reciprocal of an unused pivot finite.
     pub held: T,
     /// The acceleration where it is given, else zero, rad/s² (or m/s²).
     pub given: T,

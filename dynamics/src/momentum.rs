@@ -48,7 +48,8 @@ pub struct CentreOfMass<T = f64> {
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// Kinetic energy of hub and devices, J.
+    /// Kinetic energy of hub and devices, J. Gravity and springs have theirs in the
+    /// [ledger](Self::ledger).
     ///
     /// # Errors
     ///
@@ -133,7 +134,7 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        D::fits(&self.devices, &state.devices, None)?;
+        D::fits(&self.devices, &state.devices, None, None)?;
         refuse(self.culprit_in_state(state))
     }
 }

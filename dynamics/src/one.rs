@@ -1,12 +1,13 @@
 //! A single device as a set.
 
 use crate::device::Device;
+use crate::device_loads::LoadsOf;
 use crate::devices::{Around, Assembly, Devices, FixedSet, Given, own_mode};
 use crate::each::{Each, Value};
 use crate::error::SolveError;
 use crate::hub::BodySums;
 use crate::kind::{JointInfo, Kind};
-use crate::loads::{Along, DeviceLoads, HubMotion, Totals};
+use crate::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
 use crate::mode::Mode;
 use crate::parameter_error::ParameterError;
 use crate::passive::Passive;
@@ -23,7 +24,7 @@ impl<K: Kind> Devices for K {
     type Motors = K::Motors;
     type Accelerations = K::Accelerations;
     type PerJoint<V: Value> = K::PerJoint<V>;
-    type Loads = DeviceLoads<K::PerJoint<Wrench<K::Scalar>>, K::PerJoint<K::Scalar>, K::Scalar>;
+    type Loads = LoadsOf<K>;
     type Scratch = Option<K::Eliminated>;
 
     fn check(&self, device: &mut usize) -> Result<(), ParameterError<K::Scalar>> {
@@ -73,6 +74,7 @@ impl<K: Kind> Devices for K {
             mount: Wrench::none(),
             joints: <K as Kind>::all(Wrench::none()),
             motors: <K as Kind>::all(zero()),
+            powers: <K as Kind>::all(JointPower::none()),
         }
     }
 
@@ -84,6 +86,7 @@ impl<K: Kind> Devices for K {
         _: &Device<K>,
         _: &K::Joints,
         _: Option<Given<'_, Self>>,
+        _: Option<&K::Accelerations>,
     ) -> Result<(), SolveError<K::Scalar>> {
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! [`Passive`]: what a joint does by itself, a spring, a damper and dry friction.
 
-use crate::real::{Scalar, half, zero};
+use crate::real::{Scalar, half, reciprocal_in_two, zero};
 
 /// Spring, damper and friction of one joint; all of them zero in a free one.
 ///
@@ -61,8 +61,10 @@ impl<T: Scalar> Passive<T> {
         if self.coulomb == zero() {
             return viscous;
         }
-        let fading = (rate * rate + self.coulomb_rate * self.coulomb_rate).sqrt();
-        viscous - self.coulomb * rate * fading.recip()
+        // By the larger of the two rates, so that neither square vanishes or overflows.
+        let (first, second) = reciprocal_in_two(rate.abs().max(self.coulomb_rate));
+        let (q, w) = (rate * first * second, self.coulomb_rate * first * second);
+        viscous - self.coulomb * q * (q * q + w * w).sqrt().recip()
     }
 
     /// Energy of the spring, J.
@@ -100,6 +102,9 @@ mod tests {
         assert_eq!(dry.of_friction(0.0), 0.0);
         assert!((dry.of_friction(1.0) + 2.0).abs() < 2e-6);
         assert!((dry.of_friction(-1.0) - 2.0).abs() < 2e-6);
+        let sharp = Passive::friction(0.0, 2.0, f64::MIN_POSITIVE);
+        assert_eq!((sharp.of_friction(0.0), sharp.of_friction(1e-3)), (0.0, -2.0));
+        assert_eq!(sharp.of_friction(1e160), -2.0);
         let viscous = Passive::friction(0.5, 0.0, 0.0);
         assert_eq!(viscous.of_friction(3.0), -1.5);
     }

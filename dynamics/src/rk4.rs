@@ -9,9 +9,10 @@ use crate::devices::Devices;
 use crate::each::{Each, JointStates};
 use crate::error::{Quantity, SolveError};
 use crate::inputs::Inputs;
+use crate::ledger::Power;
 use crate::real::{Real, Scalar, half, one};
 use crate::spacecraft::Spacecraft;
-use crate::state::State;
+use crate::state::{Accelerations, State};
 use crate::vec3::{Vec3, add, columns, components, rotate_transposed, scale, vector, zeros};
 
 /// Time derivative of a state; of the joints, rates stand for coordinates and accelerations for
@@ -24,6 +25,18 @@ struct Slope<T, J, R> {
     devices: J,
     attitude: R,
 }
+
+/// What a step leaves, and what it took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stepped<D: Devices, A> {
+    /// The state after the step.
+    pub state: State<D, A>,
+    /// Work of each source during the step, J.
+    pub work: Power<D::Scalar>,
+}
+
+/// Whether a stage of a step could be booked.
+type Booked<D> = Result<(), SolveError<<D as Devices>::Scalar>>;
 
 /// The slope of a state.
 type SlopeOf<D, A> = Slope<
@@ -47,13 +60,45 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
         dt: D::Scalar,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
+        self.checked(state, inputs, dt, |_, _, _| Ok(()))
+    }
+
+    /// [`Self::step`], with the work of each source during the step: what the ledger calls power, in
+    /// J, integrated to the order of the step.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::step`].
+    pub fn step_with_work<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        dt: D::Scalar,
+    ) -> Result<Stepped<D, A>, SolveError<D::Scalar>> {
+        let mut work = Power::none();
+        let state = self.checked(state, inputs, dt, |time, stage, found| {
+            let power = self.ledger(stage, inputs, found)?.power;
+            work = work.plus_scaled(time, &power);
+            Ok(())
+        })?;
+        Ok(Stepped { state, work })
+    }
+
+    fn checked<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        dt: D::Scalar,
+        book: impl FnMut(D::Scalar, &State<D, A>, &Accelerations<D>) -> Booked<D>,
+    ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         if !dt.is_finite() {
             return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
         }
         if !sound(state, inputs) {
             return Err(self.diagnosis(state, inputs, SolveError::Overflow));
         }
-        self.advance(state, inputs, dt).map_err(|failure| self.diagnosis(state, inputs, failure))
+        let next = self.advance(state, inputs, dt, book);
+        next.map_err(|failure| self.diagnosis(state, inputs, failure))
     }
 
     fn advance<A: Attitude<D::Scalar>>(
@@ -61,15 +106,21 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
         dt: D::Scalar,
+        mut book: impl FnMut(D::Scalar, &State<D, A>, &Accelerations<D>) -> Booked<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         let middle = half::<D::Scalar>() * dt;
         let sixth = dt * D::Scalar::from_f64(6.0).recip();
         let third = dt * D::Scalar::from_f64(3.0).recip();
 
-        let k_1 = self.slope(state, inputs)?;
-        let k_2 = self.slope(&self.moved(state, [(middle, &k_1)]), inputs)?;
-        let k_3 = self.slope(&self.moved(state, [(middle, &k_2)]), inputs)?;
-        let k_4 = self.slope(&self.moved(state, [(dt, &k_3)]), inputs)?;
+        let mut slope = |weight: D::Scalar, stage: &State<D, A>| {
+            let found = self.solve(stage, inputs)?;
+            book(weight, stage, &found)?;
+            Ok::<_, SolveError<D::Scalar>>(slope_of(stage, &found))
+        };
+        let k_1 = slope(sixth, state)?;
+        let k_2 = slope(third, &self.moved(state, [(middle, &k_1)]))?;
+        let k_3 = slope(third, &self.moved(state, [(middle, &k_2)]))?;
+        let k_4 = slope(sixth, &self.moved(state, [(dt, &k_3)]))?;
         let terms = [(sixth, &k_1), (third, &k_2), (third, &k_3), (sixth, &k_4)];
         let mut next = self.moved(state, terms);
         next.attitude = next.attitude.normalised();
@@ -77,27 +128,6 @@ impl<D: Devices> Spacecraft<D> {
             Some(_) => Err(SolveError::Overflow),
             None => Ok(next),
         }
-    }
-
-    fn slope<A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-    ) -> Result<SlopeOf<D, A>, SolveError<D::Scalar>> {
-        let found = self.solve(state, inputs)?;
-        let bn = columns(&state.attitude.dcm());
-        let mut devices = state.devices.clone();
-        for ([coordinate, rate], acceleration) in devices.states_mut().zip(found.devices.values()) {
-            *coordinate = *rate;
-            *rate = acceleration;
-        }
-        Ok(Slope {
-            r_b_n: components(&state.r_b_n_dot),
-            r_b_n_dot: rotate_transposed(&bn, components(&found.r_b_n_ddot)),
-            omega: components(&found.omega_dot),
-            devices,
-            attitude: state.attitude.rate(&state.omega),
-        })
     }
 
     /// The state plus the sum of `time * slope`, the sum taken before it meets the state.
@@ -128,6 +158,26 @@ impl<D: Devices> Spacecraft<D> {
             omega: vector(add(components(&state.omega), sum.omega)),
             devices,
         }
+    }
+}
+
+/// The slope of a state with its accelerations.
+fn slope_of<D: Devices, A: Attitude<D::Scalar>>(
+    state: &State<D, A>,
+    found: &Accelerations<D>,
+) -> SlopeOf<D, A> {
+    let bn = columns(&state.attitude.dcm());
+    let mut devices = state.devices.clone();
+    for ([coordinate, rate], acceleration) in devices.states_mut().zip(found.devices.values()) {
+        *coordinate = *rate;
+        *rate = acceleration;
+    }
+    Slope {
+        r_b_n: components(&state.r_b_n_dot),
+        r_b_n_dot: rotate_transposed(&bn, components(&found.r_b_n_ddot)),
+        omega: components(&found.omega_dot),
+        devices,
+        attitude: state.attitude.rate(&state.omega),
     }
 }
 

@@ -91,19 +91,24 @@ macro_rules! row {
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
                 given: Option<Given<'_, Self>>,
+                accelerations: Option<&Self::Accelerations>,
             ) -> Result<(), SolveError<Self::Scalar>> {
                 let expected = devices.len();
-                let mut counts = [joints.len(), expected, expected, expected];
-                if let Some(given) = given {
-                    let bodies = given.bodies.map_or(expected, |bodies| bodies.len());
-                    counts = [joints.len(), given.motors.len(), given.modes.len(), bodies];
-                }
-                if let Some(&found) = counts.iter().find(|&&count| count != expected) {
+                let counts = [
+                    Some(joints.len()),
+                    given.map(|given| given.motors.len()),
+                    given.map(|given| given.modes.len()),
+                    given.and_then(|given| Some(given.bodies?.len())),
+                    accelerations.map(|found| found.len()),
+                ];
+                if let Some(found) = counts.into_iter().flatten().find(|count| *count != expected) {
                     return Err(SolveError::Count { expected, found });
                 }
                 let members = devices.iter().zip(joints).enumerate();
                 for (index, (member, joints)) in members {
-                    D::fits(member, joints, given.and_then(|given| given.member(index)))?;
+                    let given = given.and_then(|given| given.member(index));
+                    let accelerations = accelerations.and_then(|found| found.get(index));
+                    D::fits(member, joints, given, accelerations)?;
                 }
                 Ok(())
             }

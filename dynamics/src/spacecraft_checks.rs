@@ -5,11 +5,12 @@ use std::string::ToString;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::error::{Quantity, SolveError};
+use crate::kind::Kind;
 use crate::momentum::{About, Momentum};
 use crate::mrp::Mrp;
 use crate::{
-    Attitude, Dgvscmg, Gravity, Hub, HubMode, Inputs, Mode, ParameterError, Part, Spacecraft,
-    State, Warning,
+    Accelerations, Attitude, Dgvscmg, Gravity, Hub, HubMode, Inputs, JointPower, LoadAxes, Mode,
+    ParameterError, Part, Passive, Spacecraft, State, Warning, dgvscmg,
 };
 
 /// A few dozen rounded operations on numbers of size 1 to 1000.
@@ -214,6 +215,95 @@ fn what_is_not_finite_is_refused_even_where_it_does_nothing() {
         (i.modes[0].wheel, i.motors[0].u_w) = (Mode::Locked, f64::INFINITY);
     });
     assert_eq!(locked, Err(SolveError::NotFinite { what, value: up }));
+    let what = Quantity::Wrench { device: 0, body: "wheel" };
+    let held = refused(|i| {
+        let mut bodies = Inputs::<[Dgvscmg; 1]>::no_wrenches();
+        bodies[0].wheel.force.y = f64::INFINITY;
+        (i.hub, i.bodies) = (HubMode::Fixed, Some(bodies));
+    });
+    assert_eq!(held, Err(SolveError::NotFinite { what, value: up }));
     let centre = refused(|i| i.gravity = Gravity::Central { mu: 1.0 });
     assert_eq!(centre, Err(SolveError::AtCentre));
+}
+
+#[test]
+fn loads_that_overflow_are_refused() {
+    let mut stiff = wheel();
+    stiff.passive.wheel = Passive::spring(1e300, 0.0);
+    let spacecraft = Spacecraft::new(&hub(), &[stiff]).unwrap();
+    let mut state = State::<[Dgvscmg; 1]>::at_rest();
+    state.devices[0].theta = 1e10;
+    let inputs = Inputs::none();
+    let still = Accelerations {
+        r_b_n_ddot: Vector3::zeros(),
+        omega_dot: Vector3::zeros(),
+        devices: [Dgvscmg::no_accelerations()],
+    };
+    let loads = spacecraft.loads(&state, &inputs, &still, LoadAxes::Body);
+    assert_eq!(loads, Err(SolveError::Overflow));
+    assert_eq!(spacecraft.ledger(&state, &inputs, &still), Err(SolveError::Overflow));
+}
+
+#[test]
+fn powers_of_joints_add_up_to_those_of_the_ledger() {
+    let mut sprung = wheel();
+    sprung.passive.wheel = Passive { stiffness: 0.5, ..Passive::friction(0.1, 0.2, 0.3) };
+    let spacecraft = Spacecraft::new(&hub(), &[sprung]).unwrap();
+    let mut state = State::<[Dgvscmg; 1]>::at_rest();
+    (state.devices[0].theta, state.devices[0].spin) = (0.7, 3.0);
+    let mut inputs = Inputs::<[Dgvscmg; 1]>::none();
+    inputs.motors[0].u_w = 0.4;
+    let found = spacecraft.accelerations(&state, &inputs).unwrap();
+    let [device] = spacecraft.loads(&state, &inputs, &found, LoadAxes::Body).unwrap().devices;
+    let power = spacecraft.ledger(&state, &inputs, &found).unwrap().power;
+    let JointPower { motor, spring, friction } = device.powers.wheel;
+    assert!((motor - 1.2).abs() <= ROUNDING && (spring + 1.05).abs() <= ROUNDING);
+    assert!(friction < -0.9 && friction > -1.5);
+    assert_eq!([motor, spring, friction], [power.motors, power.springs, power.friction]);
+}
+
+#[test]
+fn energy_lost_in_a_stop_does_not_drown_in_the_orbit() {
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, 0.01));
+    let light = Dgvscmg::bare_wheel(3.0, disc);
+    let spacecraft = Spacecraft::new(&hub(), &[light]).unwrap();
+    let mut brake = Inputs::<[Dgvscmg; 1]>::none();
+    brake.modes[0] = dgvscmg::PerJoint::all(Mode::Locked);
+    let lost = |speed: f64| {
+        let mut state = State::<[Dgvscmg; 1]>::at_rest();
+        state.r_b_n_dot.y = speed;
+        state.devices[0].spin = 0.01;
+        spacecraft.stop(&state, &brake).unwrap().energy_lost
+    };
+    // Half of 0.02 kg m² times the square of 0.01 rad/s is 1e-6 J, of 1e9 J in orbit.
+    assert!((lost(7600.0) - lost(0.0)).abs() <= 1e-18 && lost(0.0) > 9e-7);
+}
+
+#[test]
+fn works_of_a_run_are_its_change_of_energy() {
+    let mut sprung = wheel();
+    sprung.passive.inner_gimbal = Passive::spring(3.0, 0.05);
+    let spacecraft = Spacecraft::new(&hub(), &[Dgvscmg { d: 0.01, ..sprung }]).unwrap();
+    let mut state = State::<[Dgvscmg; 1]>::at_rest();
+    (state.devices[0].gamma_i, state.devices[0].spin) = (0.4, 3.0);
+    let mut inputs = Inputs::<[Dgvscmg; 1]>::none();
+    inputs.motors[0].u_w = 0.4;
+    inputs.gravity = Gravity::Uniform(Vector3::new(0.1, -0.3, 0.2));
+    inputs.force.x = 0.5;
+    // The energy that is left over once every source's work is taken off it.
+    let left = |steps: u32| {
+        let (mut state, mut works) = (state, 0.0);
+        let before = spacecraft.energy(&state).unwrap();
+        for _ in 0..steps {
+            let dt = 2.0 / f64::from(steps);
+            let stepped = spacecraft.step_with_work(&state, &inputs, dt).unwrap();
+            assert_eq!(spacecraft.step(&state, &inputs, dt), Ok(stepped.state));
+            (state, works) = (stepped.state, works + stepped.work.total());
+        }
+        assert!(works.abs() > 1.0);
+        (spacecraft.energy(&state).unwrap() - before - works).abs()
+    };
+    // Order four: a sixteenth with every halving.
+    let ratio = left(160) / left(320);
+    assert!((14.0..18.0).contains(&ratio), "{ratio}");
 }

@@ -89,6 +89,7 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
         }
     }
 }
+
 /// Brings the angles among the coordinates into `[-pi, pi]`.
 fn wrap<T: Scalar>(
     joints: &mut impl JointStates<T>,

@@ -17,7 +17,7 @@ use crate::solve::Solution;
 use crate::spacecraft::Spacecraft;
 use crate::state::State;
 use crate::vec3::{
-    add, columns, components, finite, neg, rotate, rotate_transposed, vector, zeros,
+    add, columns, components, finite, neg, rotate, rotate_transposed, sub, vector, zeros,
 };
 
 /// What an impulsive stop leaves.
@@ -26,7 +26,8 @@ pub struct Stopped<D: Devices, A> {
     /// The state with its new velocities; every locked joint is at rest.
     pub state: State<D, A>,
     /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero but
-    /// for rounding, unless a joint is prescribed.
+    /// for rounding, unless a joint or the hub is prescribed. Of a free hub it is counted in the
+    /// frame that moved with B, where no digit is lost to the orbit's speed.
     pub energy_lost: D::Scalar,
 }
 
@@ -34,7 +35,8 @@ impl<D: Devices> Spacecraft<D> {
     /// Stops every joint that `inputs` has locked, and the hub if it is fixed, in no time.
     ///
     /// Driven joints take what impulse reaches them through the structure, prescribed ones keep
-    /// their rates. Linear and angular momentum stay, but for a fixed hub; energy is lost.
+    /// their rates. Linear and angular momentum stay, unless the hub is fixed or prescribed; energy is
+    /// lost.
     ///
     /// ```
     /// # use nalgebra::{Matrix3, Vector3};
@@ -67,10 +69,15 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
     ) -> Result<Stopped<D, A>, SolveError<D::Scalar>> {
         self.refuse(state, inputs)?;
-        let before = self.energy(state)?;
         let next =
             self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
-        let energy_lost = before - self.energy(&next)?;
+        let (mut before, mut after) = (state.clone(), next.clone());
+        if inputs.hub == HubMode::Free {
+            // Momentum stays, so every frame counts the same loss.
+            let (old, new) = (components(&state.r_b_n_dot), components(&next.r_b_n_dot));
+            (before.r_b_n_dot, after.r_b_n_dot) = (vector(zeros()), vector(sub(new, old)));
+        }
+        let energy_lost = self.energy(&before)? - self.energy(&after)?;
         Ok(Stopped { state: next, energy_lost })
     }
 

@@ -81,17 +81,18 @@ macro_rules! tuples {
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
                 given: Option<Given<'_, Self>>,
+                accelerations: Option<&Self::Accelerations>,
             ) -> Result<(), SolveError<Self::Scalar>> {
                 A::fits(&devices.0, &joints.0, given.map(|given| Given {
                     motors: &given.motors.0,
                     modes: &given.modes.0,
                     bodies: given.bodies.map(|all| &all.0),
-                }))?;
+                }), accelerations.map(|found| &found.0))?;
                 $($rest::fits(&devices.$place, &joints.$place, given.map(|given| Given {
                     motors: &given.motors.$place,
                     modes: &given.modes.$place,
                     bodies: given.bodies.map(|all| &all.$place),
-                }))?;)*
+                }), accelerations.map(|found| &found.$place))?;)*
                 Ok(())
             }
 

@@ -1,5 +1,7 @@
 //! A force with its moment: across a joint, at a mount, on a body from outside.
 
+use core::ops::Neg;
+
 use nalgebra::Vector3;
 
 use crate::kind::JointInfo;
@@ -101,6 +103,15 @@ impl<T: Scalar> Wrench<T> {
     /// The power at the velocity of its point and the angular velocity.
     pub(crate) fn power(&self, velocity: Vec3<T>, omega: Vec3<T>) -> T {
         dot(components(&self.force), velocity) + dot(components(&self.moment), omega)
+    }
+}
+
+impl<T: Scalar> Neg for Wrench<T> {
+    type Output = Self;
+
+    /// What the other side feels.
+    fn neg(self) -> Self {
+        Self::none().minus(&self)
     }
 }
 

@@ -143,8 +143,10 @@ fn own_word(name: &str, what: &'static str) -> Result<(), KindError> {
     words(name, '_', [what, WORDS])?;
     let stem = name.split('_').next().unwrap_or_default();
     let reserved = STEMS.contains(&stem) && name != stem || ["dot", "ddot"].contains(&stem);
+    // What every structure of parameters has beside the kind's own.
+    let stated = ["mount", "passive", "model"].contains(&name);
     let ending = ["_dot", "_ddot", "_prime", "_dprime"].iter().any(|end| name.ends_with(end));
-    if reserved || ending {
+    if reserved || ending || stated {
         return Err(KindError::Taken { what, name: name.to_owned() });
     }
     Ok(())

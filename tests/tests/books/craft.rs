@@ -72,7 +72,7 @@ impl<K: Drawn> Craft for K {
         vec![Chain { mount, bodies, infos, round, passives, lumped }]
     }
 
-    fn told(DeviceLoads { mount, joints, motors }: &Self::Loads) -> Vec<Told> {
+    fn told(DeviceLoads { mount, joints, motors, .. }: &Self::Loads) -> Vec<Told> {
         let (joints, motors) = (joints.values().collect(), motors.values().collect());
         vec![Told { mount: *mount, joints, motors }]
     }

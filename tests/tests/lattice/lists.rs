@@ -112,6 +112,11 @@ fn list_of_another_length_is_refused_wherever_it_stands() {
         error
     };
     let count = |expected, found| SolveError::Count { expected, found };
+    let mut found = list.sound(list.craft.accelerations(&list.state, &list.inputs));
+    found.devices.pop();
+    let loads = list.craft.loads(&list.state, &list.inputs, &found, LoadAxes::Body);
+    assert_eq!(loads, Err(count(6, 5)));
+    assert_eq!(list.craft.ledger(&list.state, &list.inputs, &found), Err(count(6, 5)));
     assert_eq!(refused(|state, _| drop(state.devices.pop())), count(6, 5));
     assert_eq!(refused(|state, _| state.devices.push(AnyJoints(Vec::new()))), count(6, 7));
     assert_eq!(refused(|_, inputs| drop(inputs.motors.pop())), count(6, 5));

@@ -99,7 +99,7 @@ fn error_along<K: Drawn>(bench: &Bench<[K; 2]>, cloud: &Cloud, axes: LoadAxes) -
     let inertial = cloud.bn.transpose();
     let mut errors = Vec::new();
     for (number, device) in loads.devices.iter().enumerate() {
-        let DeviceLoads { mount, joints, motors } = device;
+        let DeviceLoads { mount, joints, motors, .. } = device;
         let told = joints.values().zip(motors.values()).zip(K::JOINTS);
         for ((found, motor), info) in told {
             let joint = number * K::JOINTS.len() + info.index;
