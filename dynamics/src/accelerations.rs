@@ -7,13 +7,14 @@ use crate::attitude::Attitude;
 use crate::devices::{Around, Assembly, Devices, Given};
 use crate::each::Each;
 use crate::error::SolveError;
-use crate::gravity::{Gravity, no_second_moment};
+use crate::gravity::{Gravity, at_b};
 use crate::inputs::Inputs;
 use crate::mode::HubMode;
 use crate::real::{Scalar, zero};
 use crate::solve::Solution;
 use crate::spacecraft::Spacecraft;
 use crate::state::{Accelerations, State};
+use crate::symmetric::Symmetric;
 use crate::vec3::{add, columns, components, extreme, finite, sub, vector, zeros};
 
 impl<D: Devices> Spacecraft<D> {
@@ -53,12 +54,12 @@ impl<D: Devices> Spacecraft<D> {
         let omega = components(&state.omega);
         let bn = columns(&state.attitude.dcm());
         let field = inputs.gravity.field(&bn, &state.r_b_n);
-        let at_b = crate::gravity::at_b(field.as_ref());
+        let at_b = at_b(field.as_ref());
         let central = field.and_then(|field| field.central);
         let around = Around { omega, central, impulse: false };
         let system =
             self.hub.system(omega, components(&inputs.force), components(&inputs.torque_b));
-        let mut assembly = Assembly { system, second_moment: no_second_moment() };
+        let mut assembly = Assembly { system, second_moment: Symmetric::zero() };
         let (given, mut scratch) = (Given::of(inputs), D::scratch(&self.devices));
         self.eliminate(state, given, &around, &mut assembly, &mut scratch)?;
         if let Some(central) = central {
@@ -71,19 +72,14 @@ impl<D: Devices> Spacecraft<D> {
         }
         // In the frame that falls with the field at B there is no uniform field.
         let hub = match &inputs.hub {
-            HubMode::Free => assembly.system.solve().map_err(|small| SolveError::Singular {
-                device: None,
-                joint: None,
-                pivot: small.pivot,
-                bound: small.bound,
-            })?,
+            HubMode::Free => assembly.system.solve().map_err(|small| small.of(None, None))?,
             HubMode::Fixed => Solution { r_b_n_ddot: sub(zeros(), at_b), omega_dot: zeros() },
             HubMode::Prescribed { r_b_n_ddot, omega_dot } => Solution {
                 r_b_n_ddot: sub(components(r_b_n_ddot), at_b),
                 omega_dot: components(omega_dot),
             },
         };
-        if !(finite(hub.r_b_n_ddot) && finite(hub.omega_dot)) {
+        if !hub.is_finite() {
             return Err(SolveError::Overflow);
         }
         let devices = self.back_substitute(&scratch, &hub)?;

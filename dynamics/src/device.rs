@@ -180,7 +180,7 @@ impl<K: Kind> Device<K> {
             return None;
         }
         let mut sum = self.applied(joints, bodies);
-        let mut second_moment = Symmetric::scalar(zero());
+        let mut second_moment = Symmetric::zero();
         if let Some(central) = central {
             let (wrenches, second) = self.gradient(pose, central);
             second_moment = second;
@@ -315,12 +315,7 @@ fn check_pivots<K: Kind>(
             && let Err(small) = check_pivot(pivot, diagonal)
         {
             // From the hub outwards: the one nearest the tip was eliminated first.
-            refused = Some(SolveError::Singular {
-                device: Some(device),
-                joint: Some(info.body),
-                pivot: small.pivot,
-                bound: small.bound,
-            });
+            refused = Some(small.of(Some(device), Some(info.body)));
         }
     }
     refused.map_or(Ok(()), Err)

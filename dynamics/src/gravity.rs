@@ -14,7 +14,7 @@
 
 use nalgebra::Vector3;
 
-use crate::real::{Scalar, half, one, zero};
+use crate::real::{Scalar, half, one};
 use crate::symmetric::Symmetric;
 use crate::vec3::{Columns, Vec3, add, components, dot, rotate, scale, zeros};
 
@@ -129,11 +129,6 @@ pub(crate) fn second_moment<T: Scalar>(inertia: &Symmetric<T>) -> Symmetric<T> {
 /// Nothing moves it: no field.
 pub(crate) fn at_b<T: Scalar>(field: Option<&Field<T>>) -> Vec3<T> {
     field.map_or_else(zeros, |field| field.at_b)
-}
-
-/// No second moment.
-pub(crate) fn no_second_moment<T: Scalar>() -> Symmetric<T> {
-    Symmetric::scalar(zero())
 }
 
 #[cfg(test)]

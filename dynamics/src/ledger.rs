@@ -11,7 +11,7 @@
 use crate::attitude::Attitude;
 use crate::devices::Devices;
 use crate::error::SolveError;
-use crate::gravity::{Field, no_second_moment};
+use crate::gravity::Field;
 use crate::inputs::Inputs;
 use crate::loads::{Along, Totals};
 use crate::mode::HubMode;
@@ -19,7 +19,7 @@ use crate::momentum::{About, Momentum};
 use crate::real::{Scalar, zero};
 use crate::spacecraft::Spacecraft;
 use crate::state::{Accelerations, State};
-use crate::vec3::{columns, components, dot, rotate, scale};
+use crate::vec3::{Columns, components, dot, rotate, scale};
 use crate::wrench::Wrench;
 
 /// The books of a spacecraft at one instant.
@@ -117,14 +117,15 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<Ledger<D::Scalar>, SolveError<D::Scalar>> {
         self.refuse(state, inputs)?;
         self.refuse_accelerations(state, accelerations)?;
-        let (_, hub, totals) = self.weigh(state, inputs, accelerations, &Along::Body);
         let (bn, sums) = self.sums(state);
+        let field = inputs.gravity.field(&bn, &state.r_b_n);
+        let (_, hub, totals) =
+            self.weigh(state, inputs, accelerations, field.as_ref(), &Along::Body);
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let omega = components(&state.omega);
         let of_hub = |wrench: &Wrench<D::Scalar>| wrench.power(velocity, omega);
         let joints = &totals.power;
 
-        let field = inputs.gravity.field(&bn, &state.r_b_n);
         let uniform = field.as_ref().map_or_else(zero, |field| dot(field.at_b, sums.linear));
         let given = Wrench { force: inputs.force, moment: inputs.torque_b };
         let held = match inputs.hub {
@@ -148,13 +149,13 @@ impl<D: Devices> Spacecraft<D> {
         });
         let ledger = Ledger {
             kinetic: sums.energy,
-            gravity: self.potential(state, field.as_ref(), &totals),
+            gravity: self.potential(state, &bn, field.as_ref(), &totals),
             springs: joints.stored,
             kinetic_rate,
             power,
             residual: kinetic_rate - power.total(),
             magnitude: terms + joints.magnitude,
-            momentum: self.momentum(state, About::InertialOrigin)?,
+            momentum: self.momentum_of(state, &bn, &sums, About::InertialOrigin)?,
         };
         let sums = [ledger.residual, ledger.magnitude, ledger.energy()];
         if totals.sound && sums.into_iter().all(Scalar::is_finite) {
@@ -165,20 +166,17 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     /// Potential energy of gravity, J.
-    fn potential<A: Attitude<D::Scalar>>(
+    fn potential<A>(
         &self,
         state: &State<D, A>,
+        bn: &Columns<D::Scalar>,
         field: Option<&Field<D::Scalar>>,
         totals: &Totals<D::Scalar>,
     ) -> D::Scalar {
         let Some(field) = field else { return zero() };
-        let bn = columns(&state.attitude.dcm());
         let moment = scale(self.mass(), self.centre(state)[0]);
-        let second = match field.central {
-            Some(_) => totals.second_moment,
-            None => no_second_moment(),
-        };
-        field.potential(self.mass(), moment, &second, rotate(&bn, components(&state.r_b_n)))
+        let r_b = rotate(bn, components(&state.r_b_n));
+        field.potential(self.mass(), moment, &totals.second_moment, r_b)
     }
 }
 

@@ -9,6 +9,7 @@
 use crate::attitude::Attitude;
 use crate::devices::{Around, Devices, Given};
 use crate::error::SolveError;
+use crate::gravity::{Field, at_b};
 use crate::inputs::Inputs;
 use crate::real::{Scalar, zero};
 use crate::spacecraft::Spacecraft;
@@ -147,7 +148,7 @@ impl<T: Scalar> Totals<T> {
     pub(crate) fn none() -> Self {
         let none = Wrench::none();
         let power = JointPowers::none();
-        let second_moment = Symmetric::scalar(zero());
+        let second_moment = Symmetric::zero();
         Self { inertial: none, applied: none, gradient: none, second_moment, power, sound: true }
     }
 }
@@ -181,7 +182,9 @@ impl<D: Devices> Spacecraft<D> {
             LoadAxes::Hub => Along::Hub(None),
             LoadAxes::Inertial => Along::Hub(Some(bn)),
         };
-        let (devices, hub, totals) = self.weigh(state, inputs, accelerations, &along);
+        let field = inputs.gravity.field(&bn, &state.r_b_n);
+        let (devices, hub, totals) =
+            self.weigh(state, inputs, accelerations, field.as_ref(), &along);
         if totals.sound && hub.is_finite() {
             Ok(Loads { devices, hub })
         } else {
@@ -190,17 +193,16 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     /// Loads of the devices, what the hub needs beside the inputs, and the sums of both.
-    pub(crate) fn weigh<A: Attitude<D::Scalar>>(
+    pub(crate) fn weigh<A>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
         accelerations: &Accelerations<D>,
+        field: Option<&Field<D::Scalar>>,
         along: &Along<D::Scalar>,
     ) -> (D::Loads, Wrench<D::Scalar>, Totals<D::Scalar>) {
-        let bn = columns(&state.attitude.dcm());
-        let field = inputs.gravity.field(&bn, &state.r_b_n);
         let omega = components(&state.omega);
-        let falling = crate::gravity::at_b(field.as_ref());
+        let falling = at_b(field);
         let hub = HubMotion {
             r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), falling),
             omega_dot: components(&accelerations.omega_dot),

@@ -77,15 +77,27 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
         self.refuse_state(state)?;
         refuse(culprit_in_point(&about))?;
-        let (bn, BodySums { linear, angular_b, .. }) = self.sums(state);
-        let linear_n = rotate_transposed(&bn, linear);
-        let about_b = rotate_transposed(&bn, angular_b);
+        let (bn, sums) = self.sums(state);
+        self.momentum_of(state, &bn, &sums, about)
+    }
+
+    /// [`Self::momentum`] from the sums over the bodies.
+    pub(crate) fn momentum_of<A>(
+        &self,
+        state: &State<D, A>,
+        bn: &Columns<D::Scalar>,
+        sums: &BodySums<D::Scalar>,
+        about: About<D::Scalar>,
+    ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
+        let BodySums { linear, angular_b, .. } = *sums;
+        let linear_n = rotate_transposed(bn, linear);
+        let about_b = rotate_transposed(bn, angular_b);
         // H about P is H_B + r_{B/P} x p, whatever B does.
         let r_b_n = components(&state.r_b_n);
         let r_b_p = match about {
             About::InertialOrigin => r_b_n,
             About::Point(point) => sub(r_b_n, components(&point)),
-            About::CentreOfMass => neg(rotate_transposed(&bn, self.centre(state)[0])),
+            About::CentreOfMass => neg(rotate_transposed(bn, self.centre(state)[0])),
         };
         let angular_n = add(about_b, cross(r_b_p, linear_n));
         let found = Momentum { linear: vector(linear_n), angular: vector(angular_n) };

@@ -4,9 +4,10 @@
 //! columns at a time is the same factorisation in the same order of operations as taking one, and
 //! leaves no index to go out of range.
 
+use crate::error::SolveError;
 use crate::real::{Real, Scalar};
 use crate::symmetric::Symmetric;
-use crate::vec3::{Columns, Vec3, dot, sub};
+use crate::vec3::{Columns, Vec3, dot, finite, sub};
 
 /// A pivot must exceed this many epsilons of its diagonal before the elimination.
 ///
@@ -36,6 +37,21 @@ pub struct Solution<T> {
 pub(crate) struct SmallPivot<T> {
     pub(crate) pivot: T,
     pub(crate) bound: T,
+}
+
+impl<T> SmallPivot<T> {
+    /// The error that tells of it: a joint of a device, or the hub for none.
+    pub(crate) fn of(self, device: Option<usize>, joint: Option<&'static str>) -> SolveError<T> {
+        let Self { pivot, bound } = self;
+        SolveError::Singular { device, joint, pivot, bound }
+    }
+}
+
+impl<T: Scalar> Solution<T> {
+    /// Whether every acceleration is finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        finite(self.r_b_n_ddot) && finite(self.omega_dot)
+    }
 }
 
 /// Passes a pivot that exceeds 64 epsilons of its diagonal; NaN never does.

@@ -9,16 +9,14 @@ use crate::attitude::Attitude;
 use crate::devices::{Around, Assembly, Devices, Given};
 use crate::each::{Each, JointStates};
 use crate::error::SolveError;
-use crate::gravity::no_second_moment;
 use crate::inputs::Inputs;
 use crate::mode::{HubMode, Mode};
 use crate::real::zero;
 use crate::solve::Solution;
 use crate::spacecraft::Spacecraft;
 use crate::state::State;
-use crate::vec3::{
-    add, columns, components, finite, neg, rotate, rotate_transposed, sub, vector, zeros,
-};
+use crate::symmetric::Symmetric;
+use crate::vec3::{add, columns, components, neg, rotate, rotate_transposed, sub, vector, zeros};
 
 /// What an impulsive stop leaves.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,24 +87,19 @@ impl<D: Devices> Spacecraft<D> {
         let still = zeros();
         let around = Around { omega: still, central: None, impulse: true };
         let system = self.hub.system(still, still, still);
-        let mut assembly = Assembly { system, second_moment: no_second_moment() };
+        let mut assembly = Assembly { system, second_moment: Symmetric::zero() };
         let mut scratch = D::scratch(&self.devices);
         self.eliminate(state, Given::of(inputs), &around, &mut assembly, &mut scratch)?;
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let hub = match inputs.hub {
-            HubMode::Free => assembly.system.solve().map_err(|small| SolveError::Singular {
-                device: None,
-                joint: None,
-                pivot: small.pivot,
-                bound: small.bound,
-            })?,
+            HubMode::Free => assembly.system.solve().map_err(|small| small.of(None, None))?,
             HubMode::Fixed => {
                 Solution { r_b_n_ddot: neg(velocity), omega_dot: neg(components(&state.omega)) }
             }
             HubMode::Prescribed { .. } => Solution { r_b_n_ddot: still, omega_dot: still },
         };
-        if !(finite(hub.r_b_n_ddot) && finite(hub.omega_dot)) {
+        if !hub.is_finite() {
             return Err(SolveError::Overflow);
         }
         let jumps = self.back_substitute(&scratch, &hub)?;

@@ -22,6 +22,11 @@ impl<T: Scalar> Symmetric<T> {
         Self { xx: s, xy: zero(), xz: zero(), yy: s, yz: zero(), zz: s }
     }
 
+    /// The tensor that is zero.
+    pub(crate) fn zero() -> Self {
+        Self::scalar(zero())
+    }
+
     /// The symmetric part of a matrix. Exact where the matrix is symmetric already.
     pub(crate) fn part_of(m: &Matrix3<T>) -> Self {
         let [x, y, z] = columns(m);

@@ -42,7 +42,7 @@ impl Random {
     }
 
     /// A vector of given length in a uniform direction.
-    pub(super) fn vector(&mut self, length: f64) -> Vector3<f64> {
+    pub fn vector(&mut self, length: f64) -> Vector3<f64> {
         loop {
             let v = Vector3::from_fn(|_, _| self.within(-1.0, 1.0));
             if (0.01..=1.0).contains(&v.norm_squared()) {

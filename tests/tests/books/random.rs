@@ -1,38 +1,36 @@
 //! Random numbers, rotations and solid bodies, the same for a seed on every host.
 
 use core::f64::consts::PI;
+use core::ops::{Deref, DerefMut};
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use precess_tests::random;
 
 /// All suites start here; spacecraft `n` of a suite is drawn from `SEED + n`.
 pub(crate) const SEED: u64 = 0x1AC_17C1;
 
-/// The generator `SplitMix64`.
+/// The suites' generator, with what mixed spacecraft are drawn from beside it.
 #[derive(Clone, Debug)]
-pub(crate) struct Random(u64);
+pub(crate) struct Random(random::Random);
+
+impl Deref for Random {
+    type Target = random::Random;
+
+    fn deref(&self) -> &random::Random {
+        &self.0
+    }
+}
+
+impl DerefMut for Random {
+    fn deref_mut(&mut self) -> &mut random::Random {
+        &mut self.0
+    }
+}
 
 impl Random {
     /// Starts at a seed; neighbouring seeds give unrelated numbers.
     pub(crate) const fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform between two bounds.
-    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-
-    /// Log-uniform between two positive bounds.
-    pub(crate) fn log_within(&mut self, low: f64, high: f64) -> f64 {
-        libm::exp(self.within(libm::log(low), libm::log(high)))
+        Self(random::Random::new(seed))
     }
 
     /// Either sign, log-uniform from a thousandth of `largest`.
@@ -44,16 +42,6 @@ impl Random {
     /// Whether something happens that has this probability.
     pub(crate) fn chance(&mut self, probability: f64) -> bool {
         self.within(0.0, 1.0) < probability
-    }
-
-    /// A vector of given length in a uniform direction.
-    pub(crate) fn vector(&mut self, length: f64) -> Vector3<f64> {
-        loop {
-            let v = Vector3::from_fn(|_, _| self.within(-1.0, 1.0));
-            if (0.01..=1.0).contains(&v.norm_squared()) {
-                return v * (length / v.norm());
-            }
-        }
     }
 
     /// A uniform rotation, orthonormal to rounding.

@@ -2,9 +2,11 @@
 //! 5000 kg, lengths to 3 m, `|omega|` to 1 rad/s, gimbal rates to 5 rad/s, wheels to 6000 rpm.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::{Deref, DerefMut};
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use precess_dynamics::kind::JointInfo;
+use precess_tests::random;
 
 /// Spacecraft `n` of a suite is drawn from `SEED + n`.
 const SEED: u64 = 0x1A7_71CE;
@@ -12,11 +14,25 @@ const SEED: u64 = 0x1A7_71CE;
 /// 6000 rpm.
 const FASTEST_WHEEL: f64 = 6000.0 * TAU / 60.0;
 
-/// A generator of random numbers (`SplitMix64`), with the seed it started from.
+/// The suites' generator with the seed it started from, and what mixed spacecraft are drawn from.
 #[derive(Clone, Debug)]
 pub(crate) struct Random {
     pub(crate) seed: u64,
-    state: u64,
+    numbers: random::Random,
+}
+
+impl Deref for Random {
+    type Target = random::Random;
+
+    fn deref(&self) -> &random::Random {
+        &self.numbers
+    }
+}
+
+impl DerefMut for Random {
+    fn deref_mut(&mut self) -> &mut random::Random {
+        &mut self.numbers
+    }
 }
 
 /// The errors of spacecraft drawn from seed after seed.
@@ -55,35 +71,7 @@ impl Errors {
 
 impl Random {
     pub(crate) fn new(seed: u64) -> Self {
-        Self { seed, state: seed }
-    }
-
-    pub(crate) fn bits(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.state ^ (self.state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform between two bounds.
-    #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-
-    /// Log-uniform between two positive bounds.
-    pub(crate) fn log_within(&mut self, low: f64, high: f64) -> f64 {
-        libm::exp(self.within(libm::log(low), libm::log(high)))
-    }
-
-    /// A vector of given length in a uniform direction.
-    pub(crate) fn vector(&mut self, length: f64) -> Vector3<f64> {
-        loop {
-            let v = Vector3::from_fn(|_, _| self.within(-1.0, 1.0));
-            if (0.01..=1.0).contains(&v.norm_squared()) {
-                return v * (length / v.norm());
-            }
-        }
+        Self { seed, numbers: random::Random::new(seed) }
     }
 
     /// An offset of 1 mm to 1 m.
