@@ -3,8 +3,9 @@
 //! Devices meet only in the hub's six equations: each is eliminated into them, they are solved, and
 //! each device's own accelerations follow. The number of devices is a loop bound and nothing else.
 
+use crate::assembly::Assembly;
 use crate::attitude::Attitude;
-use crate::devices::{Around, Assembly, Devices, Given};
+use crate::devices::{Around, Devices, Given};
 use crate::each::Each;
 use crate::error::SolveError;
 use crate::gravity::{Gravity, at_b};
@@ -14,7 +15,6 @@ use crate::real::{Scalar, zero};
 use crate::solve::Solution;
 use crate::spacecraft::Spacecraft;
 use crate::state::{Accelerations, State};
-use crate::symmetric::Symmetric;
 use crate::vec3::{add, columns, components, extreme, finite, sub, vector, zeros};
 
 impl<D: Devices> Spacecraft<D> {
@@ -57,22 +57,21 @@ impl<D: Devices> Spacecraft<D> {
         let at_b = at_b(field.as_ref());
         let central = field.and_then(|field| field.central);
         let around = Around { omega, central, impulse: false };
-        let system =
-            self.hub.system(omega, components(&inputs.force), components(&inputs.torque_b));
-        let mut assembly = Assembly { system, second_moment: Symmetric::zero() };
+        let (force, moment) = (components(&inputs.force), components(&inputs.torque_b));
+        let mut assembly = Assembly::new(&self.body, force, moment);
         let (given, mut scratch) = (Given::of(inputs), D::scratch(&self.devices));
         self.eliminate(state, given, &around, &mut assembly, &mut scratch)?;
         if let Some(central) = central {
             let second = self.hub.second_moment();
             let (force, moment) = central.wrench(self.hub.first_moment, &second);
             let whole = central.third_order(&assembly.second_moment.plus(second));
-            let system = &mut assembly.system;
-            system.h_v = add(system.h_v, add(force, whole));
-            system.h_w = add(system.h_w, moment);
+            assembly.push(add(force, whole), moment);
         }
         // In the frame that falls with the field at B there is no uniform field.
         let hub = match &inputs.hub {
-            HubMode::Free => assembly.system.solve().map_err(|small| small.of(None, None))?,
+            HubMode::Free => {
+                assembly.system(omega).solve().map_err(|small| small.of(None, None))?
+            }
             HubMode::Fixed => Solution { r_b_n_ddot: sub(zeros(), at_b), omega_dot: zeros() },
             HubMode::Prescribed { r_b_n_ddot, omega_dot } => Solution {
                 r_b_n_ddot: sub(components(r_b_n_ddot), at_b),

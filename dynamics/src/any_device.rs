@@ -10,10 +10,12 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::any::Any;
 
-use crate::devices::{Around, Assembly, Devices, Given};
+use crate::assembly::Assembly;
+use crate::devices::{Around, Devices, Given};
 use crate::each::{Each, JointStates, Value};
 use crate::erased::{Ready, Stated};
 use crate::error::SolveError;
+use crate::generated::hub::Handed;
 use crate::hub::BodySums;
 use crate::kind::{JointInfo, Kind};
 use crate::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
@@ -118,8 +120,8 @@ impl<T: Scalar> Devices for AnyDevice<T> {
         self.0.ready()
     }
 
-    fn masses(device: &Arc<dyn Ready<T>>) -> impl Iterator<Item = T> {
-        core::iter::once(device.mass())
+    fn handed(device: &Arc<dyn Ready<T>>) -> impl Iterator<Item = Handed<T>> {
+        core::iter::once(device.handed())
     }
 
     fn infos(device: &Arc<dyn Ready<T>>) -> impl Iterator<Item = &'static JointInfo> {

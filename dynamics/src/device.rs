@@ -1,24 +1,24 @@
 //! [`Device`]: one device made ready, and what an evaluation asks of it.
 //!
-//! The kernels know one frame, the axes of the device's first joint at zero. What comes from the hub
-//! is rotated into it by `mount^T`, results out of it by `mount`.
+//! The equations of motion know the mount and stand along B axes. All other kernels know one frame,
+//! the axes of the device's first joint at zero: what comes from the hub is rotated into it by
+//! `mount^T`, results out of it by `mount`.
 
-use crate::devices::{Around, Assembly, Given, own_mode};
+use crate::assembly::Assembly;
+use crate::devices::{Around, Given, own_mode};
 use crate::each::{Each, JointStates};
 use crate::error::SolveError;
-use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, HubShare};
+use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity};
 use crate::gravity::Central;
 use crate::hub::BodySums;
 use crate::kind::{Carried, ImbalanceModel, Kind, Lumped, Wrenches};
 use crate::mode::{Drive, Mode};
 use crate::passive::Passive;
 use crate::real::{Scalar, one, zero};
-use crate::solve::{Solution, System, check_pivot};
+use crate::solve::{Solution, check_pivot};
 use crate::symmetric::Symmetric;
 use crate::validation::triangle_excess;
-use crate::vec3::{
-    Columns, Vec3, add, columns, components, rotate, rotate_tensor, rotate_transposed, vector,
-};
+use crate::vec3::{Columns, Vec3, add, columns, components, rotate, rotate_transposed, vector};
 use crate::wrench::Wrench;
 
 /// Torques and weights of the joints of a kind.
@@ -29,8 +29,6 @@ type Drives<K> = <K as Kind>::PerJoint<Drive<<K as Kind>::Scalar>>;
 pub struct Device<K: Kind> {
     pub(crate) mount: Columns<K::Scalar>,
     pub(crate) constants: K::Constants,
-    /// Mass of its bodies, kg.
-    pub(crate) mass: K::Scalar,
     pub(crate) passive: K::PerJoint<Passive<K::Scalar>>,
     /// Whether no joint has a spring or friction.
     free: bool,
@@ -77,7 +75,6 @@ impl<K: Kind> Device<K> {
         Self {
             mount,
             constants: made.constants(rotate_transposed(&mount, origin)),
-            mass: bodies.values().fold(zero(), |sum, body| sum + body.mass),
             passive,
             free,
             lumped,
@@ -109,9 +106,7 @@ impl<K: Kind> Device<K> {
                     drive.torque = drive.torque + wrench.along(info) * drive.driven;
                 }
                 let hub = carried.hub.turned(&self.mount);
-                let system = &mut assembly.system;
-                system.h_v = add(system.h_v, components(&hub.force));
-                system.h_w = add(system.h_w, components(&hub.moment));
+                assembly.push(components(&hub.force), components(&hub.moment));
                 let second_moment = second_moment.rotated(&self.mount);
                 assembly.second_moment = assembly.second_moment.plus(second_moment);
             }
@@ -120,11 +115,11 @@ impl<K: Kind> Device<K> {
         if around.impulse {
             joints.states_mut().for_each(|[_, rate]| *rate = zero());
         }
-        let [omega_bx, omega_by, omega_bz] = rotate_transposed(&self.mount, around.omega);
+        let [omega_bx, omega_by, omega_bz] = around.omega;
         let omega = BodyRate { omega_bx, omega_by, omega_bz };
         let eliminated = K::eliminate(&self.constants, &pose, &joints, &omega, &drives);
         check_pivots::<K>(device, &eliminated, &drives)?;
-        self.add_to(&mut assembly.system, K::share(&eliminated));
+        assembly.add(K::share(&eliminated));
         Ok(eliminated)
     }
 
@@ -218,38 +213,23 @@ impl<K: Kind> Device<K> {
         (wrenches, Symmetric { xx, xy, xz, yy, yz, zz })
     }
 
-    /// Adds the device's share to the hub's system.
-    #[rustfmt::skip]
-    fn add_to(&self, system: &mut System<K::Scalar>, e: &HubShare<K::Scalar>) {
-        let m_vv = Symmetric {
-            xx: e.m_vv_11, xy: e.m_vv_12, xz: e.m_vv_13,
-            yy: e.m_vv_22, yz: e.m_vv_23, zz: e.m_vv_33,
-        };
-        let m_vw = [
-            [e.m_vw_11, e.m_vw_21, e.m_vw_31],
-            [e.m_vw_12, e.m_vw_22, e.m_vw_32],
-            [e.m_vw_13, e.m_vw_23, e.m_vw_33],
-        ];
-        let m_ww = Symmetric {
-            xx: e.m_ww_11, xy: e.m_ww_12, xz: e.m_ww_13,
-            yy: e.m_ww_22, yz: e.m_ww_23, zz: e.m_ww_33,
-        };
-        system.m_vv = system.m_vv.plus(m_vv.rotated(&self.mount));
-        let [x, y, z] = rotate_tensor(&self.mount, &m_vw);
-        let [sx, sy, sz] = system.m_vw;
-        system.m_vw = [add(sx, x), add(sy, y), add(sz, z)];
-        system.m_ww = system.m_ww.plus(m_ww.rotated(&self.mount));
-        system.h_v = add(system.h_v, rotate(&self.mount, [e.h_v_1, e.h_v_2, e.h_v_3]));
-        system.h_w = add(system.h_w, rotate(&self.mount, [e.h_w_1, e.h_w_2, e.h_w_3]));
-    }
-
     /// The joints' accelerations once the hub's are known.
     pub(crate) fn back_substitute(
         &self,
         e: &K::Eliminated,
         hub: &Solution<K::Scalar>,
     ) -> K::Accelerations {
-        K::back_substitute(e, &in_device(&self.mount, hub.r_b_n_ddot, hub.omega_dot))
+        let [r_b_n_ddot_bx, r_b_n_ddot_by, r_b_n_ddot_bz] = hub.r_b_n_ddot;
+        let [omega_dot_bx, omega_dot_by, omega_dot_bz] = hub.omega_dot;
+        let hub = BodyAcceleration {
+            r_b_n_ddot_bx,
+            r_b_n_ddot_by,
+            r_b_n_ddot_bz,
+            omega_dot_bx,
+            omega_dot_by,
+            omega_dot_bz,
+        };
+        K::back_substitute(e, &hub)
     }
 
     /// Adds kinetic energy and momenta for the inertial velocity of B, along B axes.

@@ -7,8 +7,10 @@
 
 use core::fmt::Debug;
 
+use crate::assembly::Assembly;
 use crate::each::{Each, JointStates, Value};
 use crate::error::SolveError;
+use crate::generated::hub::Handed;
 use crate::gravity::Central;
 use crate::hub::BodySums;
 use crate::inputs::Inputs;
@@ -18,8 +20,7 @@ use crate::mode::Mode;
 use crate::parameter_error::ParameterError;
 use crate::passive::Passive;
 use crate::real::Scalar;
-use crate::solve::{Solution, System};
-use crate::symmetric::Symmetric;
+use crate::solve::Solution;
 use crate::vec3::Vec3;
 use crate::wrench::Wrench;
 
@@ -54,8 +55,8 @@ pub trait Devices: Clone + Debug + PartialEq {
     fn check(&self, device: &mut usize) -> Result<(), ParameterError<Self::Scalar>>;
     /// The devices made ready: what depends on parameters alone, computed.
     fn prepare(&self) -> Self::Prepared;
-    /// Mass of each device, kg.
-    fn masses(devices: &Self::Prepared) -> impl Iterator<Item = Self::Scalar>;
+    /// What the hub takes over of each device.
+    fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<Self::Scalar>>;
     /// The joints in order.
     fn infos(devices: &Self::Prepared) -> impl Iterator<Item = &'static JointInfo>;
     /// By how much each body's inertia breaks the triangle inequality, kg m².
@@ -190,14 +191,6 @@ pub struct Around<T> {
     pub(crate) central: Option<Central<T>>,
     /// Whether velocities jump: then no finite force matters, and rates count as zero.
     pub(crate) impulse: bool,
-}
-
-/// The hub's system with what the devices add to it.
-#[derive(Clone, Copy, Debug)]
-pub struct Assembly<T> {
-    pub(crate) system: System<T>,
-    /// Second moment about B of what was added, kg m²; only with a central field.
-    pub(crate) second_moment: Symmetric<T>,
 }
 
 /// What a kind gives of a joint by itself.

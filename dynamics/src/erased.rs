@@ -8,10 +8,12 @@ use core::any::Any;
 use core::fmt::Debug;
 
 use crate::any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
+use crate::assembly::Assembly;
 use crate::device::Device;
-use crate::devices::{Around, Assembly, Given};
+use crate::devices::{Around, Given};
 use crate::each::{Each, JointStates, Value};
 use crate::error::SolveError;
+use crate::generated::hub::Handed;
 use crate::hub::BodySums;
 use crate::kind::{JointInfo, Kind};
 use crate::loads::{Along, DeviceLoads, HubMotion, Totals};
@@ -64,8 +66,8 @@ type Erased<'a, T> = Given<'a, AnyDevice<T>>;
 pub trait Ready<T>: Debug + Send + Sync {
     /// Its joints.
     fn infos(&self) -> &'static [JointInfo];
-    /// Its mass.
-    fn mass(&self) -> T;
+    /// What the hub takes over of it.
+    fn handed(&self) -> Handed<T>;
     /// By how much its inertias break the triangle inequality.
     fn excesses(&self) -> Vec<T>;
     /// Springs and friction.
@@ -157,8 +159,8 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         K::JOINTS
     }
 
-    fn mass(&self) -> K::Scalar {
-        self.mass
+    fn handed(&self) -> Handed<K::Scalar> {
+        K::handed(&self.constants)
     }
 
     fn excesses(&self) -> Vec<K::Scalar> {

@@ -16,7 +16,7 @@ pub(crate) struct PreparedHub<T> {
     /// `m_B r_{Bc/B}`, kg m.
     pub(crate) first_moment: Vec3<T>,
     /// `[I_{B,B}]`, inertia about B, kg m^2.
-    i_b_b: Symmetric<T>,
+    pub(crate) i_b_b: Symmetric<T>,
 }
 
 /// Energy, linear momentum and angular momentum about B, along B axes.

@@ -5,7 +5,9 @@ use core::fmt::Debug;
 use nalgebra::{Matrix3, Vector3};
 
 pub use crate::each::{Each, JointStates, Value};
-use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, HubShare};
+use crate::generated::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Handed, HubShare,
+};
 pub use crate::mode::Drive;
 use crate::passive::Passive;
 use crate::real::Scalar;
@@ -78,8 +80,9 @@ pub type Wrenches<K> = <K as Kind>::PerJoint<Wrench<<K as Kind>::Scalar>>;
 
 /// A device kind: a structure of parameters, and functions over the emitted kernels.
 ///
-/// Implemented by emitted text, next to each kernel; written by hand for nothing. Everything stands
-/// along the device's own axes: those of its first joint at zero, `mount` in the hub.
+/// Implemented by emitted text, next to each kernel; written by hand for nothing. The equations of
+/// motion (`handed`, `eliminate`, `back_substitute`) are along B axes; everything else stands along
+/// the device's own: those of its first joint at zero, `mount` in the hub.
 pub trait Kind: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// The number type.
     type Scalar: Scalar;
@@ -127,6 +130,9 @@ pub trait Kind: Copy + Debug + PartialEq + Send + Sync + 'static {
     }
     /// The constants, the first origin turned into the device's axes.
     fn constants(&self, origin: [Self::Scalar; 3]) -> Self::Constants;
+
+    /// The emitted `handed`: what the hub takes over, along B axes.
+    fn handed(constants: &Self::Constants) -> Handed<Self::Scalar>;
 
     /// Sines, cosines and lengths of the joints.
     fn pose(joints: &Self::Joints) -> Self::Pose;

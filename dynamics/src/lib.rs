@@ -57,6 +57,7 @@ extern crate alloc;
 mod accelerations;
 #[cfg(feature = "alloc")]
 mod any_device;
+mod assembly;
 mod attitude;
 #[cfg(test)]
 mod attitude_checks;

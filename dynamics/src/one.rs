@@ -1,10 +1,12 @@
 //! A single device as a set.
 
+use crate::assembly::Assembly;
 use crate::device::Device;
 use crate::device_loads::LoadsOf;
-use crate::devices::{Around, Assembly, Devices, FixedSet, Given, own_mode};
+use crate::devices::{Around, Devices, FixedSet, Given, own_mode};
 use crate::each::{Each, Value};
 use crate::error::SolveError;
+use crate::generated::hub::Handed;
 use crate::hub::BodySums;
 use crate::kind::{JointInfo, Kind};
 use crate::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
@@ -37,8 +39,8 @@ impl<K: Kind> Devices for K {
         Device::new(self)
     }
 
-    fn masses(device: &Device<K>) -> impl Iterator<Item = K::Scalar> {
-        core::iter::once(device.mass)
+    fn handed(device: &Device<K>) -> impl Iterator<Item = Handed<K::Scalar>> {
+        core::iter::once(K::handed(&device.constants))
     }
 
     fn infos(_: &Device<K>) -> impl Iterator<Item = &'static JointInfo> {

@@ -1,8 +1,10 @@
 //! Sets of sets: arrays, tuples, vectors. Each call goes on to the members, in order.
 
-use crate::devices::{Around, Assembly, Devices, FixedSet, Given};
+use crate::assembly::Assembly;
+use crate::devices::{Around, Devices, FixedSet, Given};
 use crate::each::Value;
 use crate::error::SolveError;
+use crate::generated::hub::Handed;
 use crate::hub::BodySums;
 use crate::kind::JointInfo;
 use crate::loads::{Along, HubMotion, Totals};
@@ -47,8 +49,8 @@ macro_rules! row {
                 $map!(self, D::prepare)
             }
 
-            fn masses(devices: &Self::Prepared) -> impl Iterator<Item = Self::Scalar> {
-                devices.iter().flat_map(D::masses)
+            fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<Self::Scalar>> {
+                devices.iter().flat_map(D::handed)
             }
 
             fn infos(devices: &Self::Prepared) -> impl Iterator<Item = &'static JointInfo> {

@@ -62,6 +62,24 @@ pub(crate) fn check_pivot<T: Scalar>(pivot: T, diagonal: T) -> Result<(), SmallP
 }
 
 impl<T: Scalar> System<T> {
+    /// No equations.
+    pub(crate) fn zero() -> Self {
+        let (none, zeros) = (Symmetric::zero(), crate::vec3::zeros());
+        Self { m_vv: none, m_vw: [zeros; 3], m_ww: none, h_v: zeros, h_w: zeros }
+    }
+
+    /// What is left without `other`.
+    pub(crate) fn less(&self, other: &Self) -> Self {
+        let ([x, y, z], [ox, oy, oz]) = (self.m_vw, other.m_vw);
+        Self {
+            m_vv: self.m_vv.less(other.m_vv),
+            m_vw: [sub(x, ox), sub(y, oy), sub(z, oz)],
+            m_ww: self.m_ww.less(other.m_ww),
+            h_v: sub(self.h_v, other.h_v),
+            h_w: sub(self.h_w, other.h_w),
+        }
+    }
+
     /// Solves the system.
     pub(crate) fn solve(&self) -> Result<Solution<T>, SmallPivot<T>> {
         let vv = Factors::of(&self.m_vv, diagonal(&self.m_vv))?;

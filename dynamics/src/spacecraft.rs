@@ -11,8 +11,9 @@ use crate::validation::check_hub;
 #[derive(Clone, Copy, Debug)]
 pub struct Spacecraft<D: Devices> {
     pub(crate) hub: PreparedHub<D::Scalar>,
+    /// The hub with what it has taken over of its devices.
+    pub(crate) body: PreparedHub<D::Scalar>,
     pub(crate) devices: D::Prepared,
-    mass: D::Scalar,
     hub_excess: D::Scalar,
 }
 
@@ -31,11 +32,12 @@ impl<D: Devices> Spacecraft<D> {
         let hub_excess = check_hub(hub)?;
         devices.check(&mut 0)?;
         let devices = devices.prepare();
-        let mass = hub.m_b + D::masses(&devices).fold(zero(), |sum, mass| sum + mass);
-        if !mass.is_finite() {
-            return Err(ParameterError::TotalMass { value: mass });
+        let hub = PreparedHub::new(hub);
+        let body = hub.taking_over(D::handed(&devices));
+        if !body.m_b.is_finite() {
+            return Err(ParameterError::TotalMass { value: body.m_b });
         }
-        Ok(Self { hub: PreparedHub::new(hub), devices, mass, hub_excess })
+        Ok(Self { hub, body, devices, hub_excess })
     }
 
     /// What is odd about the parameters without being wrong; see [`Warning`].
@@ -52,7 +54,7 @@ impl<D: Devices> Spacecraft<D> {
     /// `m_sc`, mass of hub and devices, kg.
     #[must_use]
     pub fn mass(&self) -> D::Scalar {
-        self.mass
+        self.body.m_b
     }
 
     /// The joints in order, each with the number of its device.

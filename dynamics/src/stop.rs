@@ -5,8 +5,9 @@
 //! M the mass matrix of the pose, `M Δ = impulses`, which is the equations of motion at rest with
 //! jumps for accelerations: the same kernels answer.
 
+use crate::assembly::Assembly;
 use crate::attitude::Attitude;
-use crate::devices::{Around, Assembly, Devices, Given};
+use crate::devices::{Around, Devices, Given};
 use crate::each::{Each, JointStates};
 use crate::error::SolveError;
 use crate::inputs::Inputs;
@@ -15,7 +16,6 @@ use crate::real::zero;
 use crate::solve::Solution;
 use crate::spacecraft::Spacecraft;
 use crate::state::State;
-use crate::symmetric::Symmetric;
 use crate::vec3::{add, columns, components, neg, rotate, rotate_transposed, sub, vector, zeros};
 
 /// What an impulsive stop leaves.
@@ -86,14 +86,15 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         let still = zeros();
         let around = Around { omega: still, central: None, impulse: true };
-        let system = self.hub.system(still, still, still);
-        let mut assembly = Assembly { system, second_moment: Symmetric::zero() };
+        let mut assembly = Assembly::new(&self.body, still, still);
         let mut scratch = D::scratch(&self.devices);
         self.eliminate(state, Given::of(inputs), &around, &mut assembly, &mut scratch)?;
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let hub = match inputs.hub {
-            HubMode::Free => assembly.system.solve().map_err(|small| small.of(None, None))?,
+            HubMode::Free => {
+                assembly.system(still).solve().map_err(|small| small.of(None, None))?
+            }
             HubMode::Fixed => {
                 Solution { r_b_n_ddot: neg(velocity), omega_dot: neg(components(&state.omega)) }
             }

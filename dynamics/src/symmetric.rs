@@ -103,6 +103,19 @@ impl<T: Real> Symmetric<T> {
         }
     }
 
+    /// What is left without `other`.
+    #[inline]
+    pub(crate) fn less(self, other: Self) -> Self {
+        Self {
+            xx: self.xx - other.xx,
+            xy: self.xy - other.xy,
+            xz: self.xz - other.xz,
+            yy: self.yy - other.yy,
+            yz: self.yz - other.yz,
+            zz: self.zz - other.zz,
+        }
+    }
+
     /// `v vᵀ`.
     #[inline]
     pub(crate) fn dyad(v: Vec3<T>) -> Self {

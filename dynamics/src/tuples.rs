@@ -1,8 +1,10 @@
 //! Sets of different members: tuples. Each call goes on to the members, in order.
 
-use crate::devices::{Around, Assembly, Devices, FixedSet, Given};
+use crate::assembly::Assembly;
+use crate::devices::{Around, Devices, FixedSet, Given};
 use crate::each::Value;
 use crate::error::SolveError;
+use crate::generated::hub::Handed;
 use crate::hub::BodySums;
 use crate::kind::JointInfo;
 use crate::loads::{Along, HubMotion, Totals};
@@ -34,8 +36,8 @@ macro_rules! tuples {
                 (self.0.prepare(), $(self.$place.prepare(),)*)
             }
 
-            fn masses(devices: &Self::Prepared) -> impl Iterator<Item = Self::Scalar> {
-                A::masses(&devices.0)$(.chain($rest::masses(&devices.$place)))*
+            fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<Self::Scalar>> {
+                A::handed(&devices.0)$(.chain($rest::handed(&devices.$place)))*
             }
 
             fn infos(devices: &Self::Prepared) -> impl Iterator<Item = &'static JointInfo> {

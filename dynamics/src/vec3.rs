@@ -91,18 +91,6 @@ pub(crate) fn rotate_transposed<T: Real>(m: &Columns<T>, v: Vec3<T>) -> Vec3<T> 
     [dot(m[0], v), dot(m[1], v), dot(m[2], v)]
 }
 
-/// `m t m^T` for a tensor by its columns.
-#[inline]
-pub(crate) fn rotate_tensor<T: Real>(m: &Columns<T>, t: &Columns<T>) -> Columns<T> {
-    // m t, column by column, then (m t) m^T: column j is (m t) applied to row j of m.
-    let mt = [rotate(m, t[0]), rotate(m, t[1]), rotate(m, t[2])];
-    [
-        rotate(&mt, [m[0][0], m[1][0], m[2][0]]),
-        rotate(&mt, [m[0][1], m[1][1], m[2][1]]),
-        rotate(&mt, [m[0][2], m[1][2], m[2][2]]),
-    ]
-}
-
 /// The largest magnitude among the components; NaN only if the first one is.
 #[inline]
 pub(crate) fn largest<T: Scalar>(v: Vec3<T>) -> T {
@@ -148,7 +136,5 @@ mod tests {
         let v = Vector3::new(1.0, 2.0, 3.0);
         assert_eq!(vector(rotate(&columns(&m), components(&v))), m * v);
         assert_eq!(vector(rotate_transposed(&columns(&m), components(&v))), m.transpose() * v);
-        let t = Matrix3::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0);
-        assert_eq!(rotate_tensor(&columns(&m), &columns(&t)), columns(&(m * t * m.transpose())));
     }
 }

@@ -17,6 +17,8 @@ pub struct Chain<'g> {
     pub links: Vec<Link<'g>>,
     /// What belongs to the hub and to the whole.
     pub hub: HubSymbols<'g>,
+    /// The device's axes along B axes: `mount`, column by column.
+    pub mount: [Vector<'g, Hub>; 3],
 }
 
 /// The symbols of a joint and of the body behind it.
@@ -103,7 +105,36 @@ impl<'g> Chain<'g> {
             let name = format!("m_{}", kind.links[k].assembly);
             links[k].assembly_mass = graph.abbreviation(&name, sum);
         }
-        Self { graph, kind, links, hub }
+        let mount = [0, 1, 2].map(|column| {
+            let entry = |row| graph.symbol(&mount_entry(row, column), Stage::Parameter);
+            Vector::new([0, 1, 2].map(entry))
+        });
+        Self { graph, kind, links, hub, mount }
+    }
+}
+
+/// The name of an entry of `mount`, counted from zero.
+#[must_use]
+pub fn mount_entry(row: usize, column: usize) -> String {
+    format!("mount_{}{}", row + 1, column + 1)
+}
+
+impl<'g> Chain<'g> {
+    /// Along B axes, of a vector along the device's axes.
+    #[must_use]
+    pub fn mounted(&self, v: Vector<'g, Carrier>) -> Vector<'g, Hub> {
+        let [x, y, z] = v.components();
+        x * self.mount[0] + y * self.mount[1] + z * self.mount[2]
+    }
+
+    /// Along B axes, of a tensor along the device's axes.
+    #[must_use]
+    pub fn mounted_tensor(&self, t: Symmetric<'g, Carrier>) -> Symmetric<'g, Hub> {
+        let half = self.graph.constant(2).recip();
+        let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+        places.fold(Symmetric::zero(self.graph), |sum, (i, j)| {
+            sum + (half * t.at(i, j)) * Symmetric::outer_pair(self.mount[i], self.mount[j])
+        })
     }
 }
 

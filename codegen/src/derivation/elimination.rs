@@ -165,47 +165,30 @@ fn gains<'g>(
     }
 }
 
-/// The hub's block and right side, less what the joints take.
+/// What the joints take of the hub's block and of its right side.
 fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
-    let (mass, zero) = (share.mass, share.mass.graph().zero());
-    let [x, y, z] = share.first_moment.components();
-    // M_vw = -[S~].
-    let coupling = [[zero, z, -y], [-z, zero, x], [y, -x, zero]];
-    let assembled = |row: usize, column: usize| match (row < 3, column < 3) {
-        (true, true) if row == column => mass,
-        (true, true) => zero,
-        (true, false) => coupling[row][column - 3],
-        (false, _) => share.inertia.at(row - 3, column - 3),
-    };
     for (block, rows, columns) in [("vv", 0..3, 0..3), ("vw", 0..3, 3..6), ("ww", 3..6, 3..6)] {
-        script.section("hub", format!("Share of the hub's mass matrix, eq. (E3): M_{block}."));
+        script.section("hub", format!("Taken out of the hub's mass matrix, eq. (E3): M_{block}."));
         for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
             if column >= row {
-                let name = format!("m_{block}_{}{}", row % 3 + 1, column % 3 + 1);
                 let taken = |pivot: &Pivot<'g>| pivot.gains[row].1 * pivot.couplings[column];
-                made.take_out(name, assembled(row, column), taken, script);
+                let name = format!("m_{block}_{}{}", row % 3 + 1, column % 3 + 1);
+                script.name(name, made.taken(share.mass.graph().zero(), taken));
             }
         }
     }
-    let title = "Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.";
+    let title = "Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.";
     script.section("hub", title);
     let rest = [share.bias_force, share.bias_moment].map(Vector::components).concat();
     for (row, rest) in rest.into_iter().enumerate() {
         let name = format!("h_{}_{}", ["v", "w"][row / 3], row % 3 + 1);
-        made.take_out(name, -rest, |pivot| pivot.couplings[row] * pivot.free.1, script);
+        script.name(name, made.taken(rest, |pivot| pivot.couplings[row] * pivot.free.1));
     }
 }
 
 impl<'g> Eliminated<'g> {
-    /// `before` less what each joint takes.
-    fn take_out(
-        &self,
-        name: String,
-        before: Expr<'g>,
-        taken: impl Fn(&Pivot<'g>) -> Expr<'g>,
-        script: &mut Script<'g>,
-    ) {
-        let value = self.pivots.iter().fold(before, |value, pivot| value - taken(pivot));
-        script.name(name, value);
+    /// `rest` and what each joint takes.
+    fn taken(&self, rest: Expr<'g>, taken: impl Fn(&Pivot<'g>) -> Expr<'g>) -> Expr<'g> {
+        self.pivots.iter().fold(rest, |sum, pivot| sum + taken(pivot))
     }
 }

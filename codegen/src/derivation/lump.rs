@@ -5,17 +5,17 @@ use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
 use crate::graph::{Expr, Graph};
 use crate::kinds;
-use crate::space::{Own, Symmetric, Vector};
+use crate::space::{Carrier, Frame, Own, Symmetric, Vector};
 
 /// Mass, first moment and inertia of a set of bodies, about the origin at hand.
 #[derive(Clone, Copy)]
-pub(super) struct Lump<'g> {
+pub(super) struct Lump<'g, F = Own> {
     pub(super) mass: Expr<'g>,
-    pub(super) first_moment: Vector<'g, Own>,
-    pub(super) inertia: Symmetric<'g, Own>,
+    pub(super) first_moment: Vector<'g, F>,
+    pub(super) inertia: Symmetric<'g, F>,
 }
 
-impl<'g> Lump<'g> {
+impl<'g, F: Frame> Lump<'g, F> {
     pub(super) fn zero(graph: &'g Graph) -> Self {
         Self {
             mass: graph.zero(),
@@ -24,6 +24,54 @@ impl<'g> Lump<'g> {
         }
     }
 
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self {
+            mass: self.mass + other.mass,
+            first_moment: self.first_moment + other.first_moment,
+            inertia: self.inertia + other.inertia,
+        }
+    }
+
+    /// Every number changed alike.
+    pub(super) fn map(self, mut f: impl FnMut(Expr<'g>) -> Expr<'g>) -> Self {
+        Self {
+            mass: f(self.mass),
+            first_moment: Vector::new(self.first_moment.components().map(&mut f)),
+            inertia: Symmetric::new(self.inertia.entries().map(f)),
+        }
+    }
+
+    /// What is left without `other`.
+    pub(super) fn less(self, other: Self) -> Self {
+        Self {
+            mass: self.mass - other.mass,
+            first_moment: self.first_moment - other.first_moment,
+            inertia: self.inertia - other.inertia,
+        }
+    }
+
+    /// About a point from which the present origin lies at `arm` (parallel axis theorem).
+    pub(super) fn shifted(self, arm: Vector<'g, F>) -> Self {
+        let inertia = self.inertia
+            + Symmetric::tilde_pair(arm, self.first_moment)
+            + self.mass * Symmetric::tilde_squared(arm);
+        Self { first_moment: self.first_moment + self.mass * arm, inertia, ..self }
+    }
+
+    /// What a unit acceleration along or about `axis` asks for.
+    pub(super) fn moved(self, coordinate: Coordinate<'g>, axis: Vector<'g, F>) -> Wrench<'g, F> {
+        match coordinate {
+            Coordinate::Angle(_) => {
+                Wrench { force: axis.cross(self.first_moment), moment: self.inertia.times(axis) }
+            }
+            Coordinate::Length(_) => {
+                Wrench { force: self.mass * axis, moment: self.first_moment.cross(axis) }
+            }
+        }
+    }
+}
+
+impl<'g> Lump<'g> {
     /// One body about its joint's origin: parameters alone.
     pub(super) fn of(link: &Link<'g>, data: &kinds::Link, script: &mut Script<'g>) -> Self {
         let (body, origin) = (&data.body, data.body.origin);
@@ -46,39 +94,24 @@ impl<'g> Lump<'g> {
         made
     }
 
-    pub(super) fn plus(self, other: Self) -> Self {
-        Self {
-            mass: self.mass + other.mass,
-            first_moment: self.first_moment + other.first_moment,
-            inertia: self.inertia + other.inertia,
-        }
-    }
-
     /// What a unit acceleration of the joint that carries it asks for.
     pub(super) fn column(self, link: &Link<'g>) -> Wrench<'g, Own> {
-        match link.coordinate {
-            Coordinate::Angle(_) => Wrench {
-                force: link.axis.cross(self.first_moment),
-                moment: self.inertia.times(link.axis),
-            },
-            Coordinate::Length(_) => {
-                Wrench { force: self.mass * link.axis, moment: self.first_moment.cross(link.axis) }
-            }
+        self.moved(link.coordinate, link.axis)
+    }
+
+    /// Along the carrier's axes, about the same origin.
+    pub(super) fn turned_back(self, link: &Link<'g>) -> Lump<'g, Carrier> {
+        let back = link.turn.inverse();
+        Lump {
+            mass: self.mass,
+            first_moment: self.first_moment.turned(back),
+            inertia: self.inertia.turned(back),
         }
     }
 
-    /// Along the carrier's axes, about the carrier's origin (parallel axis theorem).
+    /// Along the carrier's axes, about the carrier's origin.
     pub(super) fn carried(self, link: &Link<'g>) -> Self {
-        let (arm, back) = (link.origin, link.turn.inverse());
-        let first_moment = self.first_moment.turned(back);
-        let inertia = self.inertia.turned(back)
-            + Symmetric::tilde_pair(arm, first_moment)
-            + self.mass * Symmetric::tilde_squared(arm);
-        Self {
-            mass: self.mass,
-            first_moment: (first_moment + self.mass * arm).handed_back(),
-            inertia: inertia.handed_back(),
-        }
+        self.turned_back(link).shifted(link.origin).handed_back()
     }
 
     /// Names what lies outside a joint, taken together.
@@ -100,5 +133,16 @@ impl<'g> Lump<'g> {
         script.names(pairs(names, self.first_moment.components()));
         let names = sextuple(&format!("i_{assembly}_{origin}"));
         script.names(pairs(names, self.inertia.entries()));
+    }
+}
+
+impl<'g> Lump<'g, Carrier> {
+    /// Walking inwards: the frame that carried the joint is the next body's own.
+    pub(super) fn handed_back(self) -> Lump<'g> {
+        Lump {
+            mass: self.mass,
+            first_moment: self.first_moment.handed_back(),
+            inertia: self.inertia.handed_back(),
+        }
     }
 }

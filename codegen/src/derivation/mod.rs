@@ -14,15 +14,19 @@
 //! - [`script`]: the named steps the walks leave behind;
 //! - [`elimination`]: the joints eliminated into the hub's six equations, tip first.
 
+pub mod aboard;
 mod angular;
 pub mod axes;
+pub mod base;
 pub mod boltzmann_hamel;
 pub mod by_body;
+mod carriers;
 pub mod chain;
 pub mod composite;
 pub mod elimination;
 pub mod external;
 pub mod gravity;
+mod joint;
 pub mod loads;
 mod lump;
 pub mod motion;

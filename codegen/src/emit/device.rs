@@ -80,8 +80,15 @@ fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
             _ => packed(&format!("{from}{{"), &names, "};"),
         }
     };
-    let hub =
-        ["BodyAcceleration", "BodyRate", "BodyVelocity", "EnergyMomentum", "Gradient", "HubShare"];
+    let hub = [
+        "BodyAcceleration",
+        "BodyRate",
+        "BodyVelocity",
+        "EnergyMomentum",
+        "Gradient",
+        "Handed",
+        "HubShare",
+    ];
     let kind = [
         "BodyParameters",
         "Carried",

@@ -4,6 +4,7 @@ use super::device::{Signatures, body_name, imbalanced, inertia_name, moments, ty
 use super::device_calls::rates_function;
 use super::layout::fitted;
 use super::text::{COMMENT, wrapped};
+use crate::derivation::chain::mount_entry;
 use crate::kinds::{Centre, Inertia, Kind, Link, Motion};
 use crate::space::Axis;
 
@@ -214,7 +215,10 @@ impl Items<'_> {
             function("passive(&self) -> PerJoint<Passive<T>>", "        self.passive"),
         ];
         items.extend(self.balanced());
-        items.extend([self.constants(), self.pose(), self.eliminate(), self.pivots()]);
+        items.push(self.constants());
+        let handed = "handed(constants: &Self::Constants) -> Handed<T>";
+        items.push(function(handed, "        super::handed(constants)"));
+        items.extend([self.pose(), self.eliminate(), self.pivots()]);
         items.extend(self.motion());
         items.extend(self.carried());
         format!("impl<T: Scalar> Kind for {name}<T> {{\n{}\n}}", items.join("\n\n"))
@@ -293,7 +297,11 @@ impl Items<'_> {
     /// `prepare` of the kernel's parameters.
     fn constants(&self) -> String {
         let mut lines = Vec::new();
-        let mut fields = Vec::new();
+        let places = (0..3).flat_map(|row| (0..3).map(move |column| (row, column)));
+        let entry = |(row, column)| {
+            format!("{}: self.mount.m{}{}", mount_entry(row, column), row + 1, column + 1)
+        };
+        let mut fields: Vec<_> = places.map(entry).collect();
         for (k, link) in self.links().iter().enumerate() {
             let (joint, body) = (&link.joint, &link.body);
             let names = joint.origin.names;

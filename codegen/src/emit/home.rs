@@ -38,17 +38,16 @@ impl Home<'_> {
 
     /// The lines that bring in these records of the hub, and `Real`, as `rustfmt` leaves them.
     pub(super) fn imports(self, records: &[String]) -> Vec<String> {
-        let list = records.join(", ");
+        let (dynamics, from) = match self {
+            Self::Dynamics => ("crate", "use super::hub::{".to_owned()),
+            Self::Outside(dynamics) => (dynamics, format!("use {dynamics}::generated::hub::{{")),
+        };
+        let list = packed(&from, records, "};");
+        let list = list.lines().map(str::to_owned);
+        let real = std::iter::once(format!("use {dynamics}::Real;"));
         match self {
-            Self::Dynamics => {
-                vec![format!("use super::hub::{{{list}}};"), "use crate::Real;".into()]
-            }
-            Self::Outside(dynamics) => {
-                let real = format!("use {dynamics}::Real;");
-                let from = format!("use {dynamics}::generated::hub::");
-                let list = packed(&format!("{from}{{"), records, "};");
-                std::iter::once(real).chain(list.lines().map(str::to_owned)).collect()
-            }
+            Self::Dynamics => list.chain(real).collect(),
+            Self::Outside(_) => real.chain(list).collect(),
         }
     }
 }

@@ -70,8 +70,18 @@ pub(crate) fn prepared<'g>(
         }
         fields.insert(id, name);
     }
+    debug_assert_eq!(ambiguous(graph, kernels), None, "one name, two values of parameters");
     let sections = sections(graph, kernels, &fields);
     Prepared { fields, record, sections }
+}
+
+/// A name that the kernels give to two values of parameters alone.
+fn ambiguous<'a>(graph: &Graph, kernels: &'a [Kernel<'_>]) -> Option<&'a str> {
+    let mut known: HashMap<&str, NodeId> = HashMap::new();
+    let live = kernels.iter().flat_map(|kernel| live(graph, kernel));
+    live.filter(|s| s.value.stage() == Stage::Parameter)
+        .find(|s| *known.entry(&s.name).or_insert(s.value.id()) != s.value.id())
+        .map(|s| s.name.as_str())
 }
 
 /// Names that the derivation gives to nodes of parameters.
@@ -91,17 +101,36 @@ fn statements<'a, 'g>(kernels: &'a [Kernel<'g>]) -> impl Iterator<Item = &'a Sta
 
 /// The nodes of parameters alone that a kernel reads where it computes with the state.
 fn read_constants(graph: &Graph, kernel: &Kernel<'_>) -> Vec<NodeId> {
+    let (_, mut found) = walked(graph, kernel, |id| graph.expr(id).stage() == Stage::Parameter);
+    found.sort_unstable();
+    found
+}
+
+/// The statements that a kernel's outputs need, down to the parameters.
+fn live<'a, 'g>(graph: &Graph, kernel: &'a Kernel<'g>) -> Vec<&'a Statement<'g>> {
+    walked(graph, kernel, |_| false).0
+}
+
+/// From the outputs backwards: the statements needed, and the nodes at which `stop` stops.
+fn walked<'a, 'g>(
+    graph: &Graph,
+    kernel: &'a Kernel<'g>,
+    stop: impl Fn(NodeId) -> bool,
+) -> (Vec<&'a Statement<'g>>, Vec<NodeId>) {
     let outputs = kernel.output.sources();
     let all: Vec<_> = kernel.sections.iter().flat_map(|section| &section.statements).collect();
-    let constant = |id: NodeId| graph.expr(id).stage() == Stage::Parameter;
-    let (mut seen, mut found) = (HashSet::new(), Vec::new());
-    for statement in all.iter().rev() {
-        let needed = outputs.contains(&statement.name)
-            || statement.cut.is_some_and(|symbol| seen.contains(&symbol.id()));
-        let mut pending = if needed { vec![statement.value.id()] } else { Vec::new() };
+    let (mut seen, mut needed, mut found) = (HashSet::new(), Vec::new(), Vec::new());
+    for statement in all.into_iter().rev() {
+        let read = outputs.contains(&statement.name)
+            || statement.cut.is_some_and(|symbol| seen.contains(&symbol.id()))
+            || seen.contains(&statement.value.id());
+        let mut pending = if read { vec![statement.value.id()] } else { Vec::new() };
+        if read {
+            needed.push(statement);
+        }
         while let Some(id) = pending.pop() {
             if seen.insert(id) {
-                if constant(id) {
+                if stop(id) {
                     found.push(id);
                 } else {
                     pending.extend(graph.node(id).operands());
@@ -109,8 +138,7 @@ fn read_constants(graph: &Graph, kernel: &Kernel<'_>) -> Vec<NodeId> {
             }
         }
     }
-    found.sort_unstable();
-    found
+    (needed, found)
 }
 
 /// `prepare` repeats the sections of the kernels as far as they are parameters alone.
@@ -121,16 +149,18 @@ fn sections<'g>(
 ) -> Vec<Section<'g>> {
     let mut seen = HashSet::new();
     let mut made: Vec<Section<'g>> = Vec::new();
-    for section in kernels.iter().flat_map(|kernel| &kernel.sections) {
-        let new = |s: &&Statement<'g>| s.value.stage() == Stage::Parameter;
-        let mut statements = Vec::new();
-        for statement in section.statements.iter().filter(new) {
-            if seen.insert(statement.name.clone()) {
-                statements.push(statement.clone());
+    for kernel in kernels {
+        let live: HashSet<_> = live(graph, kernel).into_iter().map(|s| s.name.as_str()).collect();
+        for section in &kernel.sections {
+            let mut statements = section.statements.clone();
+            statements.retain(|s| {
+                s.value.stage() == Stage::Parameter
+                    && live.contains(s.name.as_str())
+                    && seen.insert(s.name.clone())
+            });
+            if !statements.is_empty() {
+                made.push(Section { statements, ..section.clone() });
             }
-        }
-        if !statements.is_empty() {
-            made.push(Section { statements, ..section.clone() });
         }
     }
     let named: HashSet<_> =

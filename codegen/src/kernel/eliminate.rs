@@ -1,20 +1,19 @@
 //! The kernel `eliminate`: the hot path.
 
 use super::{Claim, Kernel, Record, inputs, records};
+use crate::derivation::aboard::aboard;
+use crate::derivation::base::Passes;
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::{Eliminated, HUB, eliminate};
-use crate::derivation::motion::Observer;
-use crate::derivation::script::{Script, pairs, sextuple, triple};
-use crate::derivation::{Named, Share, by_body, composite};
-use crate::kinds::{Kind, Link, Motion, units};
-use crate::space::{Hub, Symmetric, Vector};
+use crate::derivation::script::Script;
+use crate::derivation::{Named, by_body};
+use crate::kinds::{Kind, Link, Motion};
 
 /// The kernel and the elimination behind it.
 #[must_use]
-pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
+pub(super) fn kernel<'g>(chain: &Chain<'g>, passes: Passes) -> (Kernel<'g>, Eliminated<'g>) {
     let mut script = Script::new(chain.graph);
-    let share = composite::share(chain, &Observer::inertial(chain), &mut script);
-    let share = on_hub(chain, share, &mut script);
+    let share = aboard(chain, passes, &mut script);
     let eliminated = eliminate(chain, &share, &mut script);
     let kind = chain.kind;
     let torques: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
@@ -38,48 +37,6 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
         claims: claims(kind, by_body::share(chain).named(kind, Link::is_driven)),
     };
     (kernel, eliminated)
-}
-
-/// Cuts the blocks that reach the hub: from here on they are symbols.
-fn on_hub<'g>(chain: &Chain<'g>, share: Share<'g>, script: &mut Script<'g>) -> Share<'g> {
-    let whole = chain.kind.links[0].assembly;
-    script.section(
-        "moment",
-        format!(
-            "{} about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².",
-            whole.to_uppercase()
-        ),
-    );
-    let first_moment = cut(script, &format!("mr_{whole}_b"), share.first_moment);
-    let names = sextuple(&format!("i_{whole}_b"));
-    let entries = pairs(names, share.inertia.entries());
-    let entries: Vec<_> = entries.map(|(name, entry)| script.cut(name, entry)).collect();
-    let inertia = Symmetric::new(entries.try_into().expect("six entries"));
-    script.section(
-        "col",
-        format!(
-            "M_vi, eq. (17), {}, and M_wi, eq. (75), {}: force and moment about B per unit \
-             acceleration.",
-            units(chain.kind.links, |units| units.force),
-            units(chain.kind.links, |units| units.moment),
-        ),
-    );
-    let mut force = Vec::new();
-    let mut moment = Vec::new();
-    for (k, link) in chain.kind.links.iter().enumerate() {
-        force.push(cut(script, &format!("f_{}", link.joint.tag), share.force[k]));
-        moment.push(cut(script, &format!("n_{}", link.joint.tag), share.moment[k]));
-    }
-    script.section("bias", "Force and moment about B with no joint accelerating: eqs. (16), (75).");
-    let bias_force = cut(script, "f_rest", share.bias_force);
-    let bias_moment = cut(script, "n_rest", share.bias_moment);
-    Share { first_moment, inertia, force, moment, bias_force, bias_moment, ..share }
-}
-
-fn cut<'g>(script: &mut Script<'g>, stem: &str, v: Vector<'g, Hub>) -> Vector<'g, Hub> {
-    let components = pairs(triple(stem, "b"), v.components());
-    let symbols: Vec<_> = components.map(|(name, value)| script.cut(name, value)).collect();
-    Vector::new(symbols.try_into().expect("three components"))
 }
 
 fn output(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {

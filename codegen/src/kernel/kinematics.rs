@@ -185,7 +185,7 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
     let observer = Observer::on_hub(graph);
     let joints = chain.kind.links.iter().map(|link| &link.joint);
     let terms: Vec<_> =
-        joints.map(|joint| format!("f_{} {}", joint.tag, joint.symbols[1])).collect();
+        joints.map(|joint| format!("mc_dprime_{} {}", joint.tag, joint.symbols[1])).collect();
     let record = Record::new(
         "FirstMoment",
         &format!(
@@ -210,7 +210,8 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
         mc_prime.components(),
     );
     for (k, data) in chain.kind.links.iter().enumerate() {
-        let stem = format!("f_{}", data.joint.tag);
+        // Along the device's axes; along B axes the same is f of the system.
+        let stem = format!("mc_dprime_{}", data.joint.tag);
         let title = format!("f_{}, eq. (17): Σ m r″ per {}", data.joint.tag, data.joint.symbols[1]);
         let reference = mc_dprime.partial(chain.links[k].acceleration).components();
         let unit = data.joint.motion.units().force;

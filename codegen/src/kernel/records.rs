@@ -1,5 +1,6 @@
 //! The plain structures that kernels take and return, with a line for every field.
 
+use crate::derivation::chain::mount_entry;
 use crate::derivation::script::{sextuple, triple};
 use crate::kinds::{Centre, Kind, Link, Motion};
 use crate::space::ENTRIES;
@@ -102,7 +103,12 @@ impl Record {
 #[must_use]
 pub fn parameters(kind: &Kind) -> Record {
     let mut record =
-        Record::new("Parameters", "What the device is made of: masses, places, inertias.");
+        Record::new("Parameters", "What the device is made of: mount, masses, places, inertias.");
+    for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
+        let (of, axis) = (["x", "y", "z"][column], ["bx", "by", "bz"][row]);
+        let doc = format!("The device's {of} axis in the hub, along {axis}, 1.");
+        record.field(mount_entry(row, column), doc);
+    }
     for link in kind.links {
         link_parameters(link, &mut record);
     }
@@ -267,14 +273,23 @@ pub fn wrenches(kind: &Kind) -> Record {
 
 /// The records that are the same for every kind.
 #[must_use]
-pub fn shared_records() -> [Record; 6] {
-    [body_rate(), body_velocity(), body_acceleration(), hub_share(), energy_momentum(), gradient()]
+pub fn shared_records() -> [Record; 7] {
+    [
+        body_rate(),
+        body_velocity(),
+        body_acceleration(),
+        hub_share(),
+        handed(),
+        energy_momentum(),
+        gradient(),
+    ]
 }
 
 /// Angular velocity of B.
 #[must_use]
 pub(super) fn body_rate() -> Record {
-    let mut record = Record::new("BodyRate", "ω_{B/N} along the device's B axes.").shared();
+    let doc = "ω_{B/N} along B axes; in kernels without a mount, along the device's.";
+    let mut record = Record::new("BodyRate", doc).shared();
     record.vector("omega", "b", "ω_{B/N}", "rad/s");
     record
 }
@@ -292,7 +307,8 @@ pub(super) fn body_velocity() -> Record {
 /// Acceleration of point B and angular acceleration of B.
 #[must_use]
 pub(super) fn body_acceleration() -> Record {
-    let doc = "Acceleration of point B and angular acceleration of B, along the device's B axes.";
+    let doc = "Acceleration of point B and angular acceleration of B, along B axes; in kernels without a \
+               mount, along the device's.";
     let mut record = Record::new("BodyAcceleration", doc).shared();
     record.vector("r_b_n_ddot", "b", "r̈_{B/N}", "m/s²");
     record.vector("omega_dot", "b", "ω̇_{B/N}", "rad/s²");
@@ -302,24 +318,41 @@ pub(super) fn body_acceleration() -> Record {
 /// One device's share of the hub's equations.
 #[must_use]
 pub(super) fn hub_share() -> Record {
-    let doc = "A device's share of `M [r̈_{B/N}; ω̇] = [F; L_B] + h` after its joints are \
-               eliminated, along the device's B axes.";
+    let doc = "What a device does to `M [r̈_{B/N}; ω̇] = [F; L_B] - h` along B axes: what its joints \
+               take out of M and add to h, and the part of first moment and inertia that moves.";
     let mut record = Record::new("HubShare", doc).shared();
-    record.tensor("m_vv", "M_vv", "kg");
+    record.tensor("m_vv", "Taken out of M_vv", "kg");
     for row in 1..=3 {
         for column in 1..=3 {
-            let doc = format!("M_vw, row {row} (force), column {column} (ω̇), kg m.");
+            let doc = format!("Taken out of M_vw, row {row} (force), column {column} (ω̇), kg m.");
             record.field(format!("m_vw_{row}{column}"), doc);
         }
     }
-    record.tensor("m_ww", "M_ww", "kg m²");
+    record.tensor("m_ww", "Taken out of M_ww", "kg m²");
     for row in 1..=3 {
-        record.field(format!("h_v_{row}"), format!("Force on the right side, component {row}, N."));
+        record.field(
+            format!("h_v_{row}"),
+            format!("Force that the joints ask for, component {row}, N."),
+        );
     }
     for row in 1..=3 {
-        let doc = format!("Moment about B on the right side, component {row}, N m.");
+        let doc = format!("Moment about B that the joints ask for, component {row}, N m.");
         record.field(format!("h_w_{row}"), doc);
     }
+    record.vector("mr_moving", "b", "First moment about B, the part that moves", "kg m");
+    record.tensor("i_moving", "Inertia about B, the part that moves", "kg m²");
+    record
+}
+
+/// What the hub takes over of a device.
+#[must_use]
+pub(super) fn handed() -> Record {
+    let doc = "What the hub takes over of a device: its mass, and of first moment and inertia what \
+               stays in the hub, about B along B axes.";
+    let mut record = Record::new("Handed", doc).shared();
+    record.field("hand_m", "Mass of the device, kg.");
+    record.vector("hand_mr", "b", "First moment about B", "kg m");
+    record.tensor("hand_i", "Inertia about B", "kg m²");
     record
 }
 

@@ -30,6 +30,7 @@ struct Functions {
     /// One per body, from the hub outwards.
     bodies: Vec<usize>,
     first_moment: usize,
+    handed: usize,
     eliminate: usize,
     back_substitute: usize,
     energy_momentum: usize,
@@ -100,6 +101,7 @@ impl<'a, 'g> Device<'a, 'g> {
         }
         let roles = [
             (functions.first_moment, Role::FirstMoment),
+            (functions.handed, Role::Solution),
             (functions.eliminate, Role::Solution),
             (functions.back_substitute, Role::Solution),
             (functions.energy_momentum, Role::Momenta),
@@ -145,6 +147,9 @@ impl<'a, 'g> Device<'a, 'g> {
     /// Every argument a function may ask for, accelerations apart.
     fn arguments(&self, case: &Case, motion: &Motion) -> Values {
         let mut values = Values::covering(self.chain.graph);
+        for (column, axis) in self.chain.mount.iter().zip(case.mount.column_iter()) {
+            values.set_vector(column.components(), axis.into_owned());
+        }
         for (symbol, value) in self.parameters.iter().zip(&case.parameters) {
             values.set(*symbol, *value);
         }
@@ -182,33 +187,45 @@ impl<'a, 'g> Device<'a, 'g> {
     /// All accelerations of hub and device: `eliminate`, the hub's own six equations by Newton and
     /// Euler for one rigid body, `back_substitute`.
     pub(super) fn accelerations(&self, case: &Case, fault: &Fault) -> Accelerations {
-        let functions = [self.functions.eliminate, self.functions.back_substitute];
+        let functions =
+            [self.functions.eliminate, self.functions.back_substitute, self.functions.handed];
         let find = || self.solved(case, fault);
         fault.answer(|known| &known.accelerations, &functions, case, &case.motion, find)
     }
 
+    /// Along B axes, as these functions are, then along the device's.
     fn solved(&self, case: &Case, fault: &Fault) -> Accelerations {
+        let mount = &case.mount;
         let mut values = self.arguments(case, &case.motion);
+        let omega = mount * case.motion.omega;
+        values.set_vector(self.chain.hub.omega.components(), omega);
         let device = self.call(self.functions.eliminate, &values, fault);
-        let (hub, omega) = (&case.hub, case.motion.omega);
-        let lever = hub.centre.cross_matrix();
-        let about_b = hub.inertia - hub.mass * lever * lever;
+        let handed = self.call(self.functions.handed, &values, fault);
+        let hub = &case.hub;
+        let centre = mount * hub.centre;
+        let lever = centre.cross_matrix();
+        let own = mount * hub.inertia * mount.transpose() - hub.mass * lever * lever;
+        // Hub and device as one rigid body.
+        let mass = hub.mass + handed.scalar("hand_m");
+        let moment =
+            hub.mass * centre + (handed.vector("hand_mr", "b") + device.vector("mr_moving", "b"));
+        let inertia = own + (handed.tensor("hand_i") + device.tensor("i_moving"));
         let mut m = Matrix6::zeros();
         let mut put = |row: usize, column: usize, block: Matrix3<f64>| {
             m.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
         };
-        let coupling = Matrix3::from_fn(|row, column| {
+        let taken = Matrix3::from_fn(|row, column| {
             device.scalar(&format!("m_vw_{}{}", row + 1, column + 1))
-        }) - hub.mass * lever;
-        put(0, 0, device.tensor("m_vv") + Matrix3::from_diagonal_element(hub.mass));
+        });
+        let coupling = -moment.cross_matrix() - taken;
+        put(0, 0, Matrix3::from_diagonal_element(mass) - device.tensor("m_vv"));
         put(0, 3, coupling);
         put(3, 0, coupling.transpose());
-        put(3, 3, device.tensor("m_ww") + about_b);
-        let side =
+        put(3, 3, inertia - device.tensor("m_ww"));
+        let taken =
             |stem: &str| Vector3::from_fn(|row, _| device.scalar(&format!("{stem}_{}", row + 1)));
-        let force =
-            case.drive.force - hub.mass * omega.cross(&omega.cross(&hub.centre)) + side("h_v");
-        let torque = case.drive.torque - omega.cross(&(about_b * omega)) + side("h_w");
+        let force = mount * case.drive.force - omega.cross(&omega.cross(&moment)) - taken("h_v");
+        let torque = mount * case.drive.torque - omega.cross(&(inertia * omega)) - taken("h_w");
         let mut right = Vector6::zeros();
         right.fixed_rows_mut::<3>(0).copy_from(&force);
         right.fixed_rows_mut::<3>(3).copy_from(&torque);
@@ -224,7 +241,8 @@ impl<'a, 'g> Device<'a, 'g> {
         let joints = self.call(self.functions.back_substitute, &values, fault);
         let names = self.chain.kind.links.iter().map(|link| link.joint.acceleration);
         let joints = names.map(|name| joints.scalar(name)).collect();
-        Accelerations { point: part(0), omega: part(3), joints }
+        let along = |v: Vector3<f64>| mount.transpose() * v;
+        Accelerations { point: along(part(0)), omega: along(part(3)), joints }
     }
 
     /// `energy_momentum`.
@@ -273,6 +291,7 @@ impl Functions {
         Ok(Self {
             bodies: bodies.collect::<Result<_, _>>()?,
             first_moment: find("first_moment")?,
+            handed: find("handed")?,
             eliminate: find("eliminate")?,
             back_substitute: find("back_substitute")?,
             energy_momentum: find("energy_momentum")?,

@@ -1,6 +1,6 @@
 //! One spacecraft with one device, in one state: everything of order one, so that every term counts.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::kernel::parameters;
 use crate::kinds::{Kind, Link};
@@ -19,6 +19,8 @@ pub(super) enum CaseName {
 pub(super) struct Case {
     pub(super) name: CaseName,
     pub(super) hub: Hub,
+    /// The device's axes along B, as columns. Vectors of a case are along the device's all the same.
+    pub(super) mount: Matrix3<f64>,
     /// In the order of the fields of `Parameters`.
     pub(super) parameters: Vec<f64>,
     pub(super) motion: Motion,
@@ -230,6 +232,11 @@ impl Random {
         Matrix3::from_diagonal_element(spread.trace() + 0.5) - spread
     }
 
+    /// A rotation without a zero in it, most likely.
+    fn rotation(&mut self) -> Matrix3<f64> {
+        Rotation3::from_scaled_axis(self.vector()).into_inner()
+    }
+
     /// Accelerations that obey no law.
     pub(super) fn accelerations(&mut self, joints: usize) -> Accelerations {
         Accelerations { point: self.vector(), omega: self.vector(), joints: self.list(joints) }
@@ -277,7 +284,7 @@ impl Random {
             force: self.vector(),
             torque: self.vector(),
         };
-        Case { name, hub, parameters, motion, drive }
+        Case { name, hub, mount: self.rotation(), parameters, motion, drive }
     }
 
     /// Modes with every other joint's acceleration given, `first` or its neighbours. The motors of
@@ -312,7 +319,8 @@ fn patterned(t: &Matrix3<f64>, names: &[Option<String>; 6]) -> Vec<f64> {
     groups.iter().map(mean).collect()
 }
 
-/// The names of a kind's parameters, in order.
+/// The names of a kind's parameters, in order; the mount stands by itself.
 pub(super) fn parameters_of(kind: &Kind) -> Vec<String> {
-    parameters(kind).fields.into_iter().map(|field| field.name).collect()
+    let names = parameters(kind).fields.into_iter().map(|field| field.name);
+    names.filter(|name| !name.starts_with("mount_")).collect()
 }

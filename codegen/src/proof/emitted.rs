@@ -5,17 +5,18 @@
 //! of the assembled system and the pivots are symbols, which keeps the factors small enough to be
 //! multiplied out again; see [`super::factors`].
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::Row;
 use super::factors;
 use super::laws::Laws;
 use super::modes::divisor;
+use super::mounted;
 use super::potential;
 use super::read_back::{EmittedError, Reading, function, read, returned_names};
-use super::unknowns::Unknowns;
+use super::unknowns::{Unknowns, moving};
 use crate::derivation::by_body;
-use crate::derivation::chain::Chain;
+use crate::derivation::chain::{Chain, mount_entry};
 use crate::graph::{Expr, Stage};
 use crate::kernel::{Field, Kernel, Record, Source, kernels, parameters};
 use crate::normal::Ring;
@@ -115,16 +116,25 @@ impl<'a, 'g> Prover<'a, 'g> {
             expanded: reading(&constants.prepare.expanded, &BTreeSet::new())?,
             cut: reading(&constants.prepare.cut, &constants.cuts)?,
         };
+        let assembled = if kernel.name == "eliminate" {
+            let handed = function(file, "handed")?;
+            let given = self.arguments(kernel, &constants.prepare.expanded);
+            let handed = read(self.chain.graph, handed, &given, &BTreeSet::new())?;
+            self.unknowns.with_hub(self.chain, &back.expanded.values, &handed.returned)
+        } else {
+            back.expanded.values.clone()
+        };
         let [expanded, cut] = &mut self.rings[index];
-        let mut rows = claims(expanded, kernel, &back.expanded);
+        let mut rows = claims(expanded, kernel, &assembled);
         match kernel.name.as_str() {
             "eliminate" => {
-                let named = |name: &str| back.expanded.values.get(name).copied();
+                let named = |name: &str| assembled.get(name).copied();
                 let solved = self.unknowns.solved();
                 let who = "fn eliminate";
                 rows.extend(self.laws.rows(expanded, &self.unknowns, &solved, who, named));
                 rows.extend(factors::of_elimination(cut, self.chain, &self.unknowns, &back.cut));
             }
+            "handed" => rows.push(mounted::row(self.chain, &self.kernels, file)?),
             "back_substitute" => {
                 let row = factors::of_back_substitution;
                 rows.push(row(cut, self.chain, &self.unknowns, &back.cut));
@@ -158,6 +168,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         let kernel = self.kernels.iter().find(|kernel| kernel.name == "eliminate");
         let claims = kernel.into_iter().flat_map(|kernel| &kernel.claims);
         let blocks = claims.flat_map(|claim| &claim.components).map(|(name, _)| name.clone());
+        let blocks = blocks.chain(moving().into_iter().flatten());
         let returned = returned_names(function(file, "eliminate")?);
         let pivots = returned.into_iter().filter_map(|(field, name)| {
             let tag = field.strip_prefix("pivot_")?;
@@ -168,15 +179,25 @@ impl<'a, 'g> Prover<'a, 'g> {
 
     fn prepare(&self, file: &syn::File, cuts: &BTreeSet<String>) -> Result<Both<'g>, EmittedError> {
         let text = function(file, "prepare")?;
-        let raw = parameters(self.chain.kind).fields.into_iter().filter_map(|field| {
-            let symbol = self.chain.graph.find(&field.name)?;
-            Some((format!("p.{}", field.name), symbol))
-        });
+        let raw = parameters(self.chain.kind)
+            .fields
+            .into_iter()
+            .filter_map(|field| Some((format!("p.{}", field.name), self.parameter(&field.name)?)));
         let given = raw.collect();
         Ok(Both {
             expanded: read(self.chain.graph, text, &given, &BTreeSet::new())?,
             cut: read(self.chain.graph, text, &given, cuts)?,
         })
+    }
+
+    /// The symbol of a parameter; of the mount, what it is where the device's axes are B's. That any
+    /// other does the same along other axes is shown by itself, see [`super::mounted`].
+    fn parameter(&self, name: &str) -> Option<Expr<'g>> {
+        let graph = self.chain.graph;
+        let places = (0..3).flat_map(|row| (0..3).map(move |column| (row, column)));
+        let entry = places.into_iter().find(|(row, column)| mount_entry(*row, *column) == name);
+        let unit = entry.map(|(row, column)| graph.constant(i64::from(row == column)));
+        unit.or_else(|| graph.find(name))
     }
 
     /// Every field of a kernel's arguments, with the constants for `p`.
@@ -204,7 +225,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         let mut reference = Vec::new();
         for (name, value) in &prepare.cut.returned {
             let given = raw.fields.iter().any(|field| field.name == *name);
-            let symbol = if given { self.chain.graph.find(name) } else { None };
+            let symbol = if given { self.parameter(name) } else { None };
             checked.push((name.clone(), *value));
             let expected = symbol.or_else(|| prepare.cut.stands_for(name));
             reference.extend(expected.map(|expected| (name.clone(), expected)));
@@ -219,7 +240,9 @@ impl<'a, 'g> Prover<'a, 'g> {
         let claimed: BTreeMap<_, _> = claims.flat_map(|claim| claim.components.clone()).collect();
         let mut checked = Vec::new();
         let mut reference = Vec::new();
-        for name in cuts {
+        // What moves is claimed together with what the hub has taken over.
+        let parts: Vec<_> = moving().concat();
+        for name in cuts.iter().filter(|name| !parts.contains(name)) {
             if let Some(value) = prepare.expanded.values.get(name) {
                 checked.push((name.clone(), *value));
                 reference.extend(claimed.get(name).map(|expected| (name.clone(), *expected)));
@@ -230,13 +253,17 @@ impl<'a, 'g> Prover<'a, 'g> {
     }
 }
 
-fn claims<'g>(ring: &mut Ring<'g>, kernel: &Kernel<'g>, back: &Reading<'g>) -> Vec<Row> {
+fn claims<'g>(
+    ring: &mut Ring<'g>,
+    kernel: &Kernel<'g>,
+    values: &HashMap<String, Expr<'g>>,
+) -> Vec<Row> {
     let mut rows = Vec::new();
     for claim in &kernel.claims {
         let mut emitted = Vec::new();
         let mut reference = Vec::new();
         for (name, expected) in &claim.components {
-            let value = back.values.get(name);
+            let value = values.get(name);
             emitted.extend(value.map(|value| (name.clone(), *value)));
             // What is identically zero need not be emitted.
             let zero = ring.normal(*expected).is_ok_and(|normal| normal.is_empty());

@@ -1,7 +1,8 @@
 //! The emitted elimination multiplied out again: `S + L D L^T = M`, and the right sides with it.
 //!
-//! Stated here from the names of the outputs alone, without the code that eliminates. S is what is
-//! left on the hub, L the gains, D the pivots. All of it holds whichever joints have their torque
+//! Stated here from the names of the outputs alone, without the code that eliminates. M is what the
+//! joints bring, the hub's own block left out; -S is what they take out of that, L the gains, D the
+//! pivots. All of it holds whichever joints have their torque
 //! given and whichever their acceleration: see [`super::modes`].
 
 use std::collections::BTreeMap;
@@ -78,16 +79,18 @@ fn of_matrix<'g>(
     sides: &mut Sides<'g>,
 ) {
     let solved = unknowns.solved();
+    let negated = |name: &str| settled.output(name).map(|taken| -taken);
     for (place, &y) in solved.iter().enumerate().filter(|(_, y)| settled.is_equation(**y)) {
         for &x in &solved[..=place] {
-            let left_over =
-                if y < HUB.len() { settled.output(&share_name(x, y)) } else { Some(unknowns.zero) };
+            let hub = y < HUB.len();
+            let left_over = if hub { negated(&share_name(x, y)) } else { Some(unknowns.zero) };
             // The pivot's own row shows what the pivot is; elsewhere it is a symbol.
             let own = |j: usize| x == j && y == j;
             let d = |j| if own(j) { settled.written_pivot(j) } else { settled.pivot(j) };
             let product = settled.sum(x, |j| Some(d(j)? * settled.gain(y, j)));
             let sum = left_over.zip(product).map(|(left_over, product)| left_over + product);
-            sides.push(settled.label(&[x, y]), sum, unknowns.assembled(x, y, &named));
+            let expected = if hub { unknowns.zero } else { unknowns.assembled(x, y, &named) };
+            sides.push(settled.label(&[x, y]), sum, expected);
         }
     }
 }
@@ -103,8 +106,8 @@ fn of_right_side<'g>(
 ) {
     for x in unknowns.solved().into_iter().filter(|&x| settled.is_equation(x)) {
         let hub_name = || format!("h_{}_{}", ["v", "w"][x / 3], x % 3 + 1);
-        let left_over =
-            if x < HUB.len() { settled.output(&hub_name()) } else { Some(unknowns.zero) };
+        let taken = || settled.output(&hub_name()).map(|taken| -taken);
+        let left_over = if x < HUB.len() { taken() } else { Some(unknowns.zero) };
         let product = settled.sum(x, |j| Some(settled.pivot(j)? * settled.free(j)?));
         let torque = if x < HUB.len() { unknowns.zero } else { chain.links[x - HUB.len()].torque };
         let further_out = settled.given.iter().filter(|&&p| p > x);
@@ -115,7 +118,7 @@ fn of_right_side<'g>(
         });
         let sum =
             left_over.zip(product).zip(asked).map(|((h, product), asked)| h + product + asked);
-        sides.push(settled.label(&[x]), sum, torque - unknowns.rest(x, &named));
+        sides.push(settled.label(&[x]), sum, torque - unknowns.of_rates(x, &named));
     }
 }
 

@@ -4,6 +4,7 @@ mod emitted;
 mod factors;
 mod laws;
 mod modes;
+mod mounted;
 mod pages;
 mod potential;
 mod read_back;

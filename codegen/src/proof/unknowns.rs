@@ -3,15 +3,28 @@
 //! Unknowns are the accelerations of B (v1 v2 v3), of the body rate (w1 w2 w3) and of the joints from
 //! the hub outwards.
 
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
 use crate::derivation::chain::Chain;
 use crate::graph::{Expr, Node, SymbolId};
-use crate::space::Vector;
+use crate::space::{ENTRIES, Hub, Symmetric, Vector};
 
 /// Suffixes of the hub's unknowns.
 pub(super) const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
 const AXES: [&str; 3] = ["bx", "by", "bz"];
+
+/// Names of what `eliminate` states of the part that moves: first moment, inertia, and force and
+/// moment that the joints' rates ask for.
+pub(super) fn moving() -> [Vec<String>; 4] {
+    let along = |stem: &str| AXES.map(|axis| format!("{stem}_{axis}")).to_vec();
+    let entries = ENTRIES.map(|entry| format!("i_moving_{entry}")).to_vec();
+    [along("mr_moving"), entries, along("f_rates"), along("n_rates")]
+}
+
+fn vector<'g>(components: &[Expr<'g>]) -> Vector<'g, Hub> {
+    Vector::new(std::array::from_fn(|k| components[k]))
+}
 
 /// The unknowns by name, hub first, and the blocks of the assembled system between them.
 pub(super) struct Unknowns<'g> {
@@ -76,6 +89,44 @@ impl<'g> Unknowns<'g> {
         if x < HUB.len() { HUB[x] } else { self.tags[x - HUB.len()] }
     }
 
+    /// The blocks that `eliminate` and the hub make together, by the names of the whole: of what
+    /// moves and what the hub has taken over, and of what the joints' rates and the hub's own motion
+    /// ask for, `omega x (omega x S)` and `omega x I omega`.
+    pub(super) fn with_hub(
+        &self,
+        chain: &Chain<'g>,
+        values: &HashMap<String, Expr<'g>>,
+        handed: &BTreeMap<String, Expr<'g>>,
+    ) -> HashMap<String, Expr<'g>> {
+        let zero = self.zero;
+        let named = |name: &String| values.get(name).copied().unwrap_or(zero);
+        let taken = |name: &String| handed.get(name).copied().unwrap_or(zero);
+        let [moment, inertia, force, couple] = moving();
+        let sum =
+            |name: &String| named(name) + taken(&format!("hand_{}", name.replace("_moving", "")));
+        let moment: Vec<_> = moment.iter().map(sum).collect();
+        let inertia: Vec<_> = inertia.iter().map(sum).collect();
+        let (s, i) = (vector(&moment), Symmetric::<Hub>::new(std::array::from_fn(|k| inertia[k])));
+        let omega = chain.hub.omega;
+        let force = vector(&force.iter().map(named).collect::<Vec<_>>());
+        let couple = vector(&couple.iter().map(named).collect::<Vec<_>>());
+        let rest = [force + omega.cross(omega.cross(s)), couple + omega.cross(i.times(omega))];
+        let mut made = values.clone();
+        let whole = self.whole;
+        let mut put = |stem: &str, v: Vector<'g, Hub>| {
+            for (axis, component) in AXES.iter().zip(v.components()) {
+                made.insert(format!("{stem}_{axis}"), component);
+            }
+        };
+        put(&format!("mr_{whole}_b"), s);
+        put("f_rest", rest[0]);
+        put("n_rest", rest[1]);
+        for (entry, value) in ENTRIES.iter().zip(i.entries()) {
+            made.insert(format!("i_{whole}_b_{entry}"), value);
+        }
+        made
+    }
+
     /// The entry of the assembled mass matrix between unknowns `x <= y`, by its blocks' names.
     pub(super) fn assembled(
         &self,
@@ -106,9 +157,19 @@ impl<'g> Unknowns<'g> {
 
     /// What equation `x` asks for with nothing accelerating.
     pub(super) fn rest(&self, x: usize, named: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
+        self.asked(x, "rest", named)
+    }
+
+    /// What the joints' rates ask of equation `x` of the hub, and all that equation `x` of a joint
+    /// asks for.
+    pub(super) fn of_rates(&self, x: usize, named: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
+        self.asked(x, "rates", named)
+    }
+
+    fn asked(&self, x: usize, what: &str, named: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
         let name = match x / 3 {
-            0 => format!("f_rest_{}", AXES[x]),
-            1 => format!("n_rest_{}", AXES[x - 3]),
+            0 => format!("f_{what}_{}", AXES[x]),
+            1 => format!("n_{what}_{}", AXES[x - 3]),
             _ => format!("u_rest_{}", self.suffix(x)),
         };
         named(&name).unwrap_or(self.zero)

@@ -170,6 +170,10 @@ fn zero(kind: &Kind, kernel: &Kernel<'_>) -> Option<ZeroText> {
         .filter(|claim| claim.components.iter().all(|(name, _)| !emitted.contains(&name)));
     let mut names: Vec<String> = claimed.map(|claim| claim.name.clone()).collect();
     if kernel.name == "eliminate" {
+        // What the hub has a part in is emitted under names of its own, and never zero.
+        let whole = kind.links[0].assembly;
+        let shared = [format!("mr_{whole}_b"), format!("i_{whole}_b")];
+        names.retain(|name| !shared.contains(name) && !name.ends_with("_rest"));
         let returned = kernel.output.sources();
         names.extend(gains(kind).into_iter().filter(|gain| !returned.contains(gain)));
     }

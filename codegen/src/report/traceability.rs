@@ -18,9 +18,14 @@ pub(super) struct Traceability {
 }
 
 /// What is emitted and not numbered by the paper, in the order of the page.
-const UNNUMBERED: [(&str, &str); 15] = [
+const UNNUMBERED: [(&str, &str); 20] = [
     ("(step)", "positions, velocities and first moments, behind (11) to (14)"),
     ("(M_ij)", "mass matrix of the joints"),
+    ("(B1)", "origins slid along their axes"),
+    ("(B2)", "base parameters, and what the hub takes over"),
+    ("(C1)", "how a body carries what is joined to it"),
+    ("(C2)", "what a joint's rate asks for"),
+    ("(C3)", "what the carrier asks of the joint's equation"),
     ("(E1)", "a joint's divisor, gains and free acceleration"),
     ("(E2)", "a joint taken out of the rows nearer the hub"),
     ("(E3)", "share of the hub's mass matrix and right side"),

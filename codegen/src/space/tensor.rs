@@ -48,6 +48,13 @@ impl<'g, F: Frame> Symmetric<'g, F> {
         Self::new([a, zero, zero, a, zero, a])
     }
 
+    /// With these moments and no products.
+    #[must_use]
+    pub fn diagonal([xx, yy, zz]: [Expr<'g>; 3]) -> Self {
+        let zero = xx.graph().zero();
+        Self::new([xx, zero, zero, yy, zero, zz])
+    }
+
     /// The entries 11, 12, 13, 22, 23, 33.
     #[must_use]
     pub fn entries(self) -> [Expr<'g>; 6] {
@@ -67,6 +74,16 @@ impl<'g, F: Frame> Symmetric<'g, F> {
         Self::new(PLACES.map(|(i, j)| a[i] * b[j] + b[i] * a[j]))
     }
 
+    /// `a b^T + b a^T` of both pairs.
+    #[must_use]
+    pub fn pairs([(a, b), (c, d)]: [(Vector<'g, F>, Vector<'g, F>); 2]) -> Self {
+        let [a, b, c, d] = [a, b, c, d].map(Vector::components);
+        Self::new(PLACES.map(|(i, j)| {
+            let half = a[i] * b[j] + c[i] * d[j];
+            if i == j { half + half } else { half + (a[j] * b[i] + c[j] * d[i]) }
+        }))
+    }
+
     /// `[r~][r~]^T = (r . r) 1 - r r^T`, of the parallel axis theorem.
     #[must_use]
     pub fn tilde_squared(r: Vector<'g, F>) -> Self {
@@ -75,11 +92,19 @@ impl<'g, F: Frame> Symmetric<'g, F> {
         Self::new([yy + zz, -(x * y), -(x * z), xx + zz, -(y * z), xx + yy])
     }
 
-    /// `[a~][b~]^T + [b~][a~]^T = 2 (a . b) 1 - a b^T - b a^T`.
+    /// `[a~][b~]^T + [b~][a~]^T = 2 (a . b) 1 - a b^T - b a^T`. Twice `a` is what parameters give,
+    /// where it is an arm.
     #[must_use]
     pub fn tilde_pair(a: Vector<'g, F>, b: Vector<'g, F>) -> Self {
-        let dot = a.dot(b);
-        Self::isotropic(dot + dot) - Self::outer_pair(a, b)
+        let (a, b) = (a.components(), b.components());
+        let twice = [0, 1, 2].map(|i| (a[i] + a[i]) * b[i]);
+        Self::new(PLACES.map(|(i, j)| {
+            if i == j {
+                twice[(i + 1) % 3] + twice[(i + 2) % 3]
+            } else {
+                -(a[i] * b[j] + a[j] * b[i])
+            }
+        }))
     }
 
     /// `self v`.
@@ -132,23 +157,22 @@ impl<'g, F: Frame> Symmetric<'g, F> {
         Self::new(self.entries.map(Expr::time_derivative))
     }
 
-    /// The same tensor along the axes that `turn` leads to. The trace is kept, which saves a
-    /// third of the products.
+    /// The same tensor along the axes that `turn` leads to. Both moments change by the same, in
+    /// opposite senses, and the product of inertia with them, which saves half of the products.
     #[must_use]
     pub fn turned<To: Frame>(self, turn: Turn<'g, F, To>) -> Symmetric<'g, To> {
-        // With sine zero `ii + jj - ii` would be left of an entry.
         if turn.is_none() {
             return Symmetric::new(self.entries);
         }
         let [k, i, j] = turn.axis.cycle();
         let (s, c) = (turn.sin, turn.cos);
         let (ii, ij, jj) = (self.at(i, i), self.at(i, j), self.at(j, j));
-        let (u, w) = (c * ii + s * ij, c * ij + s * jj);
-        let new_ii = c * u + s * w;
+        let across = s * (jj - ii) + c * twice(ij);
+        let moved = s * across;
         let mut made = self.entries;
-        made[INDEX[i][i]] = new_ii;
-        made[INDEX[i][j]] = c * w - s * u;
-        made[INDEX[j][j]] = ii + jj - new_ii;
+        made[INDEX[i][i]] = ii + moved;
+        made[INDEX[i][j]] = c * across - ij;
+        made[INDEX[j][j]] = jj - moved;
         made[INDEX[k][i]] = c * self.at(k, i) + s * self.at(k, j);
         made[INDEX[k][j]] = c * self.at(k, j) - s * self.at(k, i);
         Symmetric::new(made)

@@ -8,14 +8,34 @@
 //! The wheel is the same from every angle: `theta` enters no equation, and what stands along
 //! its axes stands along those that carry it.
 
-use super::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare};
+use super::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
+};
 use crate::Real;
 
 pub mod device;
 
-/// What the device is made of: masses, places, inertias.
+/// What the device is made of: mount, masses, places, inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{W/B}: origin of the wheel in the axes that carry it, first component, m.
     pub r_w_b_bx: T,
     /// r_{W/B}: origin of the wheel in the axes that carry it, second component, m.
@@ -33,6 +53,18 @@ pub struct Parameters<T> {
 /// What a kernel needs of the parameters, computed once by [`prepare`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<T> {
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{W/B}: origin of the wheel in the axes that carry it, first component, m.
     pub r_w_b_bx: T,
     /// r_{W/B}: origin of the wheel in the axes that carry it, second component, m.
@@ -75,39 +107,63 @@ pub struct Prepared<T> {
     pub mc_by: T,
     /// `p.r_w_b_bz * p.m_w`. Σ m r, share of m_sc c, eq. (9), kg m.
     pub mc_bz: T,
-    /// `mc_bx`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76),
-    /// kg m².
-    pub mr_d_b_bx: T,
-    /// `mc_by`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76),
-    /// kg m².
-    pub mr_d_b_by: T,
-    /// `mc_bz`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76),
-    /// kg m².
-    pub mr_d_b_bz: T,
-    /// `i_w_b_11`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    /// (76), kg m².
-    pub i_d_b_11: T,
-    /// `i_w_b_12`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    /// (76), kg m².
-    pub i_d_b_12: T,
-    /// `i_w_b_13`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    /// (76), kg m².
-    pub i_d_b_13: T,
-    /// `i_w_b_22`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    /// (76), kg m².
-    pub i_d_b_22: T,
-    /// `i_w_b_23`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    /// (76), kg m².
-    pub i_d_b_23: T,
-    /// `i_w_b_33`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    /// (76), kg m².
-    pub i_d_b_33: T,
-    /// `-mr_d_b_by`. Share of the hub's mass matrix, eq. (E3): M_vw.
-    pub m_vw_13: T,
-    /// `-mr_d_b_bz`. Share of the hub's mass matrix, eq. (E3): M_vw.
-    pub m_vw_21: T,
-    /// `-mr_d_b_bx`. Share of the hub's mass matrix, eq. (E3): M_vw.
-    pub m_vw_32: T,
+    /// `p.j_11 * p.mount_11`. M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and
+    /// moment about B per unit acceleration, along B axes.
+    pub n_w_bx: T,
+    /// `p.j_11 * p.mount_21`. M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and
+    /// moment about B per unit acceleration, along B axes.
+    pub n_w_by: T,
+    /// `p.j_11 * p.mount_31`. M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and
+    /// moment about B per unit acceleration, along B axes.
+    pub n_w_bz: T,
+    /// `moment_2 + moment_2`. What moves of D, about B, along B axes: first moment, eq. (9),
+    /// kg m, and inertia, eq. (76), kg m².
+    pub i_moving_11: T,
+    /// `p.mount_11 * moment_3 + p.mount_21 * moment_1`. What moves of D, about B, along B
+    /// axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
+    pub i_moving_12: T,
+    /// `p.mount_11 * moment_4 + p.mount_31 * moment_1`. What moves of D, about B, along B
+    /// axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
+    pub i_moving_13: T,
+    /// `moment_5 + moment_5`. What moves of D, about B, along B axes: first moment, eq. (9),
+    /// kg m, and inertia, eq. (76), kg m².
+    pub i_moving_22: T,
+    /// `p.mount_21 * moment_4 + p.mount_31 * moment_3`. What moves of D, about B, along B
+    /// axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
+    pub i_moving_23: T,
+    /// `moment_6 + moment_6`. What moves of D, about B, along B axes: first moment, eq. (9),
+    /// kg m, and inertia, eq. (76), kg m².
+    pub i_moving_33: T,
+    /// `p.mount_11 * mc_bx + p.mount_12 * mc_by + p.mount_13 * mc_bz`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_bx: T,
+    /// `p.mount_21 * mc_bx + p.mount_22 * mc_by + p.mount_23 * mc_bz`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_by: T,
+    /// `p.mount_31 * mc_bx + p.mount_32 * mc_by + p.mount_33 * mc_bz`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_bz: T,
+    /// `hand_19 - hand_15 + hand_16 * (hand_17 + hand_17)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_11: T,
+    /// `hand_27 - hand_24 + hand_16 * (hand_25 + hand_25)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_12: T,
+    /// `hand_35 - hand_32 + hand_16 * (hand_33 + hand_33)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_13: T,
+    /// `hand_46 - hand_43 + hand_16 * (hand_44 + hand_44)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_22: T,
+    /// `hand_54 - hand_51 + hand_16 * (hand_52 + hand_52)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_23: T,
+    /// `hand_65 - hand_62 + hand_16 * (hand_63 + hand_63)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_33: T,
     /// `p.j_22 - p.j_11`.
     pub k_0: T,
     /// `p.j_11 - p.j_22`.
@@ -197,7 +253,7 @@ pub struct Wheel<T> {
 }
 
 /// A device's share of `m_sc c` and its derivatives seen from B, along the device's B axes:
-/// `m_sc c″ = f_w Ω̇ + f̃`.
+/// `m_sc c″ = mc_dprime_w Ω̇ + f̃`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstMoment<T> {
     /// Σ m r, share of m_sc c, eq. (9), along bx, kg m.
@@ -219,6 +275,10 @@ pub struct Eliminated<T> {
     pub diagonal_w: T,
     /// Gain of the wheel on component 1 of ω̇_{B/N}.
     pub gain_w_w1: T,
+    /// Gain of the wheel on component 2 of ω̇_{B/N}.
+    pub gain_w_w2: T,
+    /// Gain of the wheel on component 3 of ω̇_{B/N}.
+    pub gain_w_w3: T,
     /// Acceleration of the wheel with all else at rest, or as given, rad/s².
     pub free_w: T,
 }
@@ -348,7 +408,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 16 mul, 13 add, 6 neg, 0 div, 0 trig.
+/// Operations: 134 mul, 117 add, 3 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // [I_{W,B}], eq. (71), along the axes of the wheel, kg m².
@@ -370,24 +430,108 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let mc_by = p.r_w_b_by * p.m_w;
     let mc_bz = p.r_w_b_bz * p.m_w;
 
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let mr_d_b_bx = mc_bx;
-    let mr_d_b_by = mc_by;
-    let mr_d_b_bz = mc_bz;
-    let i_d_b_11 = i_w_b_11;
-    let i_d_b_12 = i_w_b_12;
-    let i_d_b_13 = i_w_b_13;
-    let i_d_b_22 = i_w_b_22;
-    let i_d_b_23 = i_w_b_23;
-    let i_d_b_33 = i_w_b_33;
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_mr_bx = p.mount_11 * mc_bx + p.mount_12 * mc_by + p.mount_13 * mc_bz;
+    let hand_mr_by = p.mount_21 * mc_bx + p.mount_22 * mc_by + p.mount_23 * mc_bz;
+    let hand_mr_bz = p.mount_31 * mc_bx + p.mount_32 * mc_by + p.mount_33 * mc_bz;
+    let hand_0 = p.m_w * axis_2;
+    let hand_1 = p.m_w * axis_1;
+    let hand_2 = p.m_w * axis_0;
+    let half = p.mount_11.like(0.5);
+    let hand_3 = half * (hand_1 + hand_2);
+    let hand_4 = p.mount_11 * p.mount_11;
+    let hand_5 = p.r_w_b_by * mc_bx * half;
+    let hand_6 = p.mount_11 * p.mount_12;
+    let hand_7 = hand_5 * (hand_6 + hand_6);
+    let hand_8 = p.r_w_b_bz * mc_bx * half;
+    let hand_9 = p.mount_11 * p.mount_13;
+    let hand_10 = hand_8 * (hand_9 + hand_9);
+    let hand_11 = half * (hand_0 + hand_1 + p.j_22);
+    let hand_12 = p.mount_12 * p.mount_12;
+    let hand_13 = p.r_w_b_bz * mc_by * half;
+    let hand_14 = p.mount_12 * p.mount_13;
+    let hand_15 = hand_13 * (hand_14 + hand_14);
+    let hand_16 = half * (hand_0 + hand_2 + p.j_22);
+    let hand_17 = p.mount_13 * p.mount_13;
+    let hand_18 = hand_3 * (hand_4 + hand_4) - hand_7 - hand_10 - hand_7;
+    let hand_19 = hand_18 + hand_11 * (hand_12 + hand_12) - hand_15 - hand_10;
+    let hand_i_11 = hand_19 - hand_15 + hand_16 * (hand_17 + hand_17);
+    let hand_20 = p.mount_11 * p.mount_21;
+    let hand_21 = hand_5 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
+    let hand_22 = hand_8 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
+    let hand_23 = p.mount_12 * p.mount_22;
+    let hand_24 = hand_13 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
+    let hand_25 = p.mount_13 * p.mount_23;
+    let hand_26 = hand_3 * (hand_20 + hand_20) - hand_21 - hand_22 - hand_21;
+    let hand_27 = hand_26 + hand_11 * (hand_23 + hand_23) - hand_24 - hand_22;
+    let hand_i_12 = hand_27 - hand_24 + hand_16 * (hand_25 + hand_25);
+    let hand_28 = p.mount_11 * p.mount_31;
+    let hand_29 = hand_5 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
+    let hand_30 = hand_8 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
+    let hand_31 = p.mount_12 * p.mount_32;
+    let hand_32 = hand_13 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
+    let hand_33 = p.mount_13 * p.mount_33;
+    let hand_34 = hand_3 * (hand_28 + hand_28) - hand_29 - hand_30 - hand_29;
+    let hand_35 = hand_34 + hand_11 * (hand_31 + hand_31) - hand_32 - hand_30;
+    let hand_i_13 = hand_35 - hand_32 + hand_16 * (hand_33 + hand_33);
+    let hand_36 = p.mount_21 * p.mount_21;
+    let hand_37 = p.mount_21 * p.mount_22;
+    let hand_38 = hand_5 * (hand_37 + hand_37);
+    let hand_39 = p.mount_21 * p.mount_23;
+    let hand_40 = hand_8 * (hand_39 + hand_39);
+    let hand_41 = p.mount_22 * p.mount_22;
+    let hand_42 = p.mount_22 * p.mount_23;
+    let hand_43 = hand_13 * (hand_42 + hand_42);
+    let hand_44 = p.mount_23 * p.mount_23;
+    let hand_45 = hand_3 * (hand_36 + hand_36) - hand_38 - hand_40 - hand_38;
+    let hand_46 = hand_45 + hand_11 * (hand_41 + hand_41) - hand_43 - hand_40;
+    let hand_i_22 = hand_46 - hand_43 + hand_16 * (hand_44 + hand_44);
+    let hand_47 = p.mount_21 * p.mount_31;
+    let hand_48 = hand_5 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
+    let hand_49 = hand_8 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
+    let hand_50 = p.mount_22 * p.mount_32;
+    let hand_51 = hand_13 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
+    let hand_52 = p.mount_23 * p.mount_33;
+    let hand_53 = hand_3 * (hand_47 + hand_47) - hand_48 - hand_49 - hand_48;
+    let hand_54 = hand_53 + hand_11 * (hand_50 + hand_50) - hand_51 - hand_49;
+    let hand_i_23 = hand_54 - hand_51 + hand_16 * (hand_52 + hand_52);
+    let hand_55 = p.mount_31 * p.mount_31;
+    let hand_56 = p.mount_31 * p.mount_32;
+    let hand_57 = hand_5 * (hand_56 + hand_56);
+    let hand_58 = p.mount_31 * p.mount_33;
+    let hand_59 = hand_8 * (hand_58 + hand_58);
+    let hand_60 = p.mount_32 * p.mount_32;
+    let hand_61 = p.mount_32 * p.mount_33;
+    let hand_62 = hand_13 * (hand_61 + hand_61);
+    let hand_63 = p.mount_33 * p.mount_33;
+    let hand_64 = hand_3 * (hand_55 + hand_55) - hand_57 - hand_59 - hand_57;
+    let hand_65 = hand_64 + hand_11 * (hand_60 + hand_60) - hand_62 - hand_59;
+    let hand_i_33 = hand_65 - hand_62 + hand_16 * (hand_63 + hand_63);
 
-    // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_13 = -mr_d_b_by;
-    let m_vw_21 = -mr_d_b_bz;
-    let m_vw_32 = -mr_d_b_bx;
+    // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
+    // acceleration, along B axes.
+    let n_w_bx = p.j_11 * p.mount_11;
+    let n_w_by = p.j_11 * p.mount_21;
+    let n_w_bz = p.j_11 * p.mount_31;
+
+    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
+    // (76), kg m².
+    let moment_0 = p.j_11 * half;
+    let moment_1 = n_w_bx - p.mount_11 * moment_0;
+    let moment_2 = p.mount_11 * moment_1;
+    let i_moving_11 = moment_2 + moment_2;
+    let moment_3 = n_w_by - p.mount_21 * moment_0;
+    let i_moving_12 = p.mount_11 * moment_3 + p.mount_21 * moment_1;
+    let moment_4 = n_w_bz - p.mount_31 * moment_0;
+    let i_moving_13 = p.mount_11 * moment_4 + p.mount_31 * moment_1;
+    let moment_5 = p.mount_21 * moment_3;
+    let i_moving_22 = moment_5 + moment_5;
+    let i_moving_23 = p.mount_21 * moment_4 + p.mount_31 * moment_3;
+    let moment_6 = p.mount_31 * moment_4;
+    let i_moving_33 = moment_6 + moment_6;
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
-    let half = p.r_w_b_bx.like(0.5);
     let axis_3 = half * (i_w_b_11 + i_w_b_22 + i_w_b_33);
     let second_moment_11 = axis_3 - i_w_b_11;
     let second_moment_22 = axis_3 - i_w_b_22;
@@ -398,6 +542,12 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let k_1 = p.j_11 - p.j_22;
 
     Prepared {
+        mount_12: p.mount_12,
+        mount_13: p.mount_13,
+        mount_22: p.mount_22,
+        mount_23: p.mount_23,
+        mount_32: p.mount_32,
+        mount_33: p.mount_33,
         r_w_b_bx: p.r_w_b_bx,
         r_w_b_by: p.r_w_b_by,
         r_w_b_bz: p.r_w_b_bz,
@@ -416,18 +566,24 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         mc_bx,
         mc_by,
         mc_bz,
-        mr_d_b_bx,
-        mr_d_b_by,
-        mr_d_b_bz,
-        i_d_b_11,
-        i_d_b_12,
-        i_d_b_13,
-        i_d_b_22,
-        i_d_b_23,
-        i_d_b_33,
-        m_vw_13,
-        m_vw_21,
-        m_vw_32,
+        n_w_bx,
+        n_w_by,
+        n_w_bz,
+        i_moving_11,
+        i_moving_12,
+        i_moving_13,
+        i_moving_22,
+        i_moving_23,
+        i_moving_33,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
         k_0,
         k_1,
         second_moment_11,
@@ -489,13 +645,46 @@ pub fn first_moment<T: Real>(p: &Prepared<T>) -> FirstMoment<T> {
     FirstMoment { mc_bx, mc_by, mc_bz }
 }
 
+/// What the hub takes over of a device: mass, and what does not notice that the joints
+/// move.
+///
+/// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
+#[must_use]
+pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_m = p.m_w;
+    let hand_mr_bx = p.hand_mr_bx;
+    let hand_mr_by = p.hand_mr_by;
+    let hand_mr_bz = p.hand_mr_bz;
+    let hand_i_11 = p.hand_i_11;
+    let hand_i_12 = p.hand_i_12;
+    let hand_i_13 = p.hand_i_13;
+    let hand_i_22 = p.hand_i_22;
+    let hand_i_23 = p.hand_i_23;
+    let hand_i_33 = p.hand_i_33;
+
+    Handed {
+        hand_m,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
+    }
+}
+
 /// Mass matrix and right side of one device, its joints eliminated from the tip.
 ///
 /// Translation (16), rotation (75), motor torques (119); with the joints
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 35 mul, 21 add, 6 neg, 1 div, 0 trig.
+/// Operations: 30 mul, 12 add, 0 neg, 1 div, 0 trig.
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -504,84 +693,80 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // ω_{W/N}, eq. (59), along the carrier's axes, rad/s.
-    let omega_w_n_wx = w.omega_bx + v.spin;
+    // ω_{B/N} along the axes of the wheel, eq. (C1), rad/s.
+    let rate_0 = w.omega_bx * p.mount_12 + w.omega_by * p.mount_22;
+    let omega_b_n_wy = rate_0 + w.omega_bz * p.mount_32;
+    let rate_1 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_wz = rate_1 + w.omega_bz * p.mount_33;
 
-    // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_bz * p.r_w_b_bx - w.omega_bx * p.r_w_b_bz;
-    let path_1 = w.omega_bx * p.r_w_b_by - w.omega_by * p.r_w_b_bx;
-    let r_w_rest_wx = w.omega_by * path_1 - w.omega_bz * path_0;
-    let path_2 = w.omega_by * p.r_w_b_bz - w.omega_bz * p.r_w_b_by;
-    let r_w_rest_wy = w.omega_bz * path_2 - w.omega_bx * path_1;
-    let r_w_rest_wz = w.omega_bx * path_0 - w.omega_by * path_2;
-
-    // D with no joint accelerating, eq. (117): force, N, and moment about W, N m.
-    let f_rest_wx = p.m_w * r_w_rest_wx;
-    let f_rest_wy = p.m_w * r_w_rest_wy;
-    let f_rest_wz = p.m_w * r_w_rest_wz;
-    let bias_0 = w.omega_by * p.j_22;
-    let bias_1 = w.omega_bz * p.j_22;
-    let n_rest_wx = w.omega_by * bias_1 - w.omega_bz * bias_0;
-    let bias_2 = p.j_11 * omega_w_n_wx;
-    let n_rest_wy = w.omega_bz * bias_2 - w.omega_bx * bias_1;
-    let n_rest_wz = w.omega_bx * bias_0 - w.omega_by * bias_2;
-
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m.
+    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_ww = p.j_11;
-    let u_rest_w = n_rest_wx;
 
-    // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = f_rest_wx;
-    let f_rest_by = f_rest_wy;
-    let f_rest_bz = f_rest_wz;
-    let n_rest_bx = p.r_w_b_by * f_rest_wz - p.r_w_b_bz * f_rest_wy + n_rest_wx;
-    let n_rest_by = p.r_w_b_bz * f_rest_wx - p.r_w_b_bx * f_rest_wz + n_rest_wy;
-    let n_rest_bz = p.r_w_b_bx * f_rest_wy - p.r_w_b_by * f_rest_wx + n_rest_wz;
+    // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
+    let n_rates_w_wy = v.spin * omega_b_n_wz * p.j_11;
+    let neg_n_rates_w_wz = v.spin * omega_b_n_wy * p.j_11;
 
-    // Right side of each joint, eq. (119): motor torque less what the rest asks for, N m.
-    let tau_w = u.u_w - u_rest_w;
+    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
+    // (76), kg m².
+    let zero = v.spin.like(0.0);
+    let mr_moving_bx = zero;
+    let mr_moving_by = zero;
+    let mr_moving_bz = zero;
+    let i_moving_11 = p.i_moving_11;
+    let i_moving_12 = p.i_moving_12;
+    let i_moving_13 = p.i_moving_13;
+    let i_moving_22 = p.i_moving_22;
+    let i_moving_23 = p.i_moving_23;
+    let i_moving_33 = p.i_moving_33;
+
+    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
+    // N and N m.
+    let n_rates_bx = p.mount_12 * n_rates_w_wy - p.mount_13 * neg_n_rates_w_wz;
+    let n_rates_by = p.mount_22 * n_rates_w_wy - p.mount_23 * neg_n_rates_w_wz;
+    let n_rates_bz = p.mount_32 * n_rates_w_wy - p.mount_33 * neg_n_rates_w_wz;
 
     // Joint w, eq. (E1): its pivot `mass_ww`, kg m², and its gains.
     let divisor_w = m.held_w + p.j_11;
     let recip_w = m.driven_w * divisor_w.recip();
-    let gain_w_w1 = p.j_11 * recip_w;
-    let free_w = m.given_w + tau_w * recip_w;
+    let gain_w_w1 = p.n_w_bx * recip_w;
+    let gain_w_w2 = p.n_w_by * recip_w;
+    let gain_w_w3 = p.n_w_bz * recip_w;
+    let free_w = m.given_w + u.u_w * recip_w;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_w;
-    let zero = v.spin.like(0.0);
+    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    let m_vv_11 = zero;
     let m_vv_12 = zero;
     let m_vv_13 = zero;
-    let m_vv_22 = p.m_w;
+    let m_vv_22 = zero;
     let m_vv_23 = zero;
-    let m_vv_33 = p.m_w;
+    let m_vv_33 = zero;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vw.
+    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
     let m_vw_11 = zero;
-    let m_vw_12 = p.mr_d_b_bz;
-    let m_vw_13 = p.m_vw_13;
-    let m_vw_21 = p.m_vw_21;
+    let m_vw_12 = zero;
+    let m_vw_13 = zero;
+    let m_vw_21 = zero;
     let m_vw_22 = zero;
-    let m_vw_23 = p.mr_d_b_bx;
-    let m_vw_31 = p.mr_d_b_by;
-    let m_vw_32 = p.m_vw_32;
+    let m_vw_23 = zero;
+    let m_vw_31 = zero;
+    let m_vw_32 = zero;
     let m_vw_33 = zero;
 
-    // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = p.i_d_b_11 - p.j_11 * gain_w_w1;
-    let m_ww_12 = p.i_d_b_12;
-    let m_ww_13 = p.i_d_b_13;
-    let m_ww_22 = p.i_d_b_22;
-    let m_ww_23 = p.i_d_b_23;
-    let m_ww_33 = p.i_d_b_33;
+    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    let m_ww_11 = p.n_w_bx * gain_w_w1;
+    let m_ww_12 = p.n_w_by * gain_w_w1;
+    let m_ww_13 = p.n_w_bz * gain_w_w1;
+    let m_ww_22 = p.n_w_by * gain_w_w2;
+    let m_ww_23 = p.n_w_bz * gain_w_w2;
+    let m_ww_33 = p.n_w_bz * gain_w_w3;
 
-    // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -f_rest_bx;
-    let h_v_2 = -f_rest_by;
-    let h_v_3 = -f_rest_bz;
-    let h_w_1 = -(n_rest_bx + p.j_11 * free_w);
-    let h_w_2 = -n_rest_by;
-    let h_w_3 = -n_rest_bz;
+    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    let h_v_1 = zero;
+    let h_v_2 = zero;
+    let h_v_3 = zero;
+    let h_w_1 = n_rates_bx + p.n_w_bx * free_w;
+    let h_w_2 = n_rates_by + p.n_w_by * free_w;
+    let h_w_3 = n_rates_bz + p.n_w_bz * free_w;
 
     Eliminated {
         share: HubShare {
@@ -612,24 +797,37 @@ pub fn eliminate<T: Real>(
             h_w_1,
             h_w_2,
             h_w_3,
+            mr_moving_bx,
+            mr_moving_by,
+            mr_moving_bz,
+            i_moving_11,
+            i_moving_12,
+            i_moving_13,
+            i_moving_22,
+            i_moving_23,
+            i_moving_33,
         },
         pivot_w: mass_ww,
         diagonal_w: mass_ww,
         gain_w_w1,
+        gain_w_w2,
+        gain_w_w3,
         free_w,
     }
 }
 
 /// Joint accelerations from those of the hub.
 ///
-/// Operations: 1 mul, 1 add, 0 neg, 0 div, 0 trig.
+/// Operations: 3 mul, 3 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let spin_dot = e.free_w - a.omega_dot_bx * e.gain_w_w1;
+    let row_0 = e.free_w - a.omega_dot_bx * e.gain_w_w1;
+    let row_1 = row_0 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_1 - a.omega_dot_bz * e.gain_w_w3;
 
     JointAccelerations { spin_dot }
 }
@@ -685,9 +883,9 @@ pub fn energy_momentum<T: Real>(
 #[must_use]
 pub fn axes<T: Real>(p: &Prepared<T>) -> Axes<T> {
     // Of the wheel: the carrier's axes along B, eq. (A1).
-    let one = p.r_w_b_bx.like(1.0);
+    let one = p.mount_12.like(1.0);
     let w_x_bx = one;
-    let zero = p.r_w_b_bx.like(0.0);
+    let zero = p.mount_12.like(0.0);
     let w_x_by = zero;
     let w_x_bz = zero;
     let w_y_bx = zero;
@@ -740,14 +938,14 @@ pub fn loads<T: Real>(
     let path_0 = w.omega_bz * p.r_w_b_bx - w.omega_bx * p.r_w_b_bz;
     let path_1 = w.omega_bx * p.r_w_b_by - w.omega_by * p.r_w_b_bx;
     let path_2 = a.omega_dot_by * p.r_w_b_bz - a.omega_dot_bz * p.r_w_b_by;
-    let path_3 = path_2 + (w.omega_by * path_1 - w.omega_bz * path_0);
+    let path_3 = w.omega_by * path_1 - w.omega_bz * path_0 + path_2;
     let r_w_n_ddot_wx = path_3 + a.r_b_n_ddot_bx;
     let path_4 = w.omega_by * p.r_w_b_bz - w.omega_bz * p.r_w_b_by;
     let path_5 = a.omega_dot_bz * p.r_w_b_bx - a.omega_dot_bx * p.r_w_b_bz;
-    let path_6 = path_5 + (w.omega_bz * path_4 - w.omega_bx * path_1);
+    let path_6 = w.omega_bz * path_4 - w.omega_bx * path_1 + path_5;
     let r_w_n_ddot_wy = path_6 + a.r_b_n_ddot_by;
     let path_7 = a.omega_dot_bx * p.r_w_b_by - a.omega_dot_by * p.r_w_b_bx;
-    let path_8 = path_7 + (w.omega_bx * path_0 - w.omega_by * path_4);
+    let path_8 = w.omega_bx * path_0 - w.omega_by * path_4 + path_7;
     let r_w_n_ddot_wz = path_8 + a.r_b_n_ddot_bz;
 
     // On D, the wheel and what it carries, at its joint, eq. (116): force, N, and moment about

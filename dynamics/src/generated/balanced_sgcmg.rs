@@ -8,14 +8,34 @@
 //! The wheel is the same from every angle: `theta` enters no equation, and what stands along
 //! its axes stands along those that carry it.
 
-use super::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare};
+use super::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
+};
 use crate::Real;
 
 pub mod device;
 
-/// What the device is made of: masses, places, inertias.
+/// What the device is made of: mount, masses, places, inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{G/B}: origin of the gimbal in the axes that carry it, first component, m.
     pub r_g_b_bx: T,
     /// r_{G/B}: origin of the gimbal in the axes that carry it, second component, m.
@@ -59,6 +79,24 @@ pub struct Parameters<T> {
 /// What a kernel needs of the parameters, computed once by [`prepare`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{G/B}: origin of the gimbal in the axes that carry it, first component, m.
     pub r_g_b_bx: T,
     /// r_{G/B}: origin of the gimbal in the axes that carry it, second component, m.
@@ -117,8 +155,8 @@ pub struct Prepared<T> {
     /// `p.m_g * p.r_gc_g_gz`. The gimbal about its origin: first moment, kg m, and inertia as
     /// in eq. (40), kg m².
     pub mr_gc_g_gz: T,
-    /// `p.i_g_11 + p.m_g * (own_0 + own_1)`. The gimbal about its origin: first moment, kg m,
-    /// and inertia as in eq. (40), kg m².
+    /// `p.i_g_11 + p.m_g * (base_1 + hand_11)`. The gimbal about its origin: first moment, kg
+    /// m, and inertia as in eq. (40), kg m².
     pub i_g_g_11: T,
     /// `p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
@@ -126,14 +164,14 @@ pub struct Prepared<T> {
     /// `p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_13: T,
-    /// `p.i_g_22 + p.m_g * (own_2 + own_1)`. The gimbal about its origin: first moment, kg m,
-    /// and inertia as in eq. (40), kg m².
+    /// `p.i_g_22 + p.m_g * (hand_10 + hand_11)`. The gimbal about its origin: first moment,
+    /// kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_22: T,
     /// `p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_23: T,
-    /// `p.i_g_33 + p.m_g * (own_2 + own_0)`. The gimbal about its origin: first moment, kg m,
-    /// and inertia as in eq. (40), kg m².
+    /// `p.i_g_33 + p.m_g * (hand_10 + base_1)`. The gimbal about its origin: first moment, kg
+    /// m, and inertia as in eq. (40), kg m².
     pub i_g_g_33: T,
     /// `p.l_g_x * p.m_w + mr_gc_g_gx`. D, the gimbal and what it carries, eq. (89): mass, kg;
     /// first moment, kg m, and inertia, kg m², about G.
@@ -141,68 +179,148 @@ pub struct Prepared<T> {
     /// `p.l_g_y * p.m_w + mr_gc_g_gy`. D, the gimbal and what it carries, eq. (89): mass, kg;
     /// first moment, kg m, and inertia, kg m², about G.
     pub mr_d_g_gy: T,
-    /// `p.j_11 + p.m_w * (lump_0 + lump_1) + i_g_g_11`. D, the gimbal and what it carries,
+    /// `p.j_11 + p.m_w * (base_0 + hand_9) + i_g_g_11`. D, the gimbal and what it carries,
     /// eq. (89): mass, kg; first moment, kg m, and inertia, kg m², about G.
     pub i_d_g_11: T,
-    /// `i_g_g_12 - p.l_g_x * p.l_g_y * p.m_w`. D, the gimbal and what it carries, eq. (89):
-    /// mass, kg; first moment, kg m, and inertia, kg m², about G.
-    pub i_d_g_12: T,
     /// `i_g_g_13 - p.l_g_x * p.l_g_z * p.m_w`. D, the gimbal and what it carries, eq. (89):
     /// mass, kg; first moment, kg m, and inertia, kg m², about G.
     pub i_d_g_13: T,
-    /// `p.j_22 + p.m_w * (lump_2 + lump_1) + i_g_g_22`. D, the gimbal and what it carries,
+    /// `p.j_22 + p.m_w * (hand_8 + hand_9) + i_g_g_22`. D, the gimbal and what it carries,
     /// eq. (89): mass, kg; first moment, kg m, and inertia, kg m², about G.
     pub i_d_g_22: T,
     /// `i_g_g_23 - p.l_g_y * p.l_g_z * p.m_w`. D, the gimbal and what it carries, eq. (89):
     /// mass, kg; first moment, kg m, and inertia, kg m², about G.
     pub i_d_g_23: T,
-    /// `p.j_22 + p.m_w * (lump_2 + lump_0) + i_g_g_33`. D, the gimbal and what it carries,
+    /// `p.j_22 + p.m_w * (hand_8 + base_0) + i_g_g_33`. D, the gimbal and what it carries,
     /// eq. (89): mass, kg; first moment, kg m, and inertia, kg m², about G.
     pub i_d_g_33: T,
-    /// `i_d_g_33`. Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and
-    /// bias, N m.
+    /// `i_g_base_33`. Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and
+    /// bias, N m, eq. (C3).
     pub mass_gg: T,
-    /// `i_d_g_11 + i_d_g_22`.
+    /// `i_d_g_22 - i_d_g_11`.
     pub k_2: T,
-    /// `p.r_g_b_bz * mr_d_g_gz`.
+    /// `i_d_g_12 + i_d_g_12`.
     pub k_3: T,
-    /// `p.r_g_b_bx * mr_d_g_gz`.
+    /// `-i_d_g_12`.
     pub k_4: T,
-    /// `p.r_g_b_by * mr_d_g_gz`.
+    /// `p.r_g_b_bx + p.r_g_b_bx`.
     pub k_5: T,
-    /// `-(k_3 + k_3)`.
+    /// `p.r_g_b_by + p.r_g_b_by`.
     pub k_6: T,
-    /// `m_d * (prep_0 + prep_1)`.
+    /// `mr_d_g_gz * (p.r_g_b_bz + p.r_g_b_bz)`.
     pub k_7: T,
-    /// `-(p.r_g_b_bx * p.r_g_b_by * m_d)`.
+    /// `p.r_g_b_bx * mr_d_g_gz`.
     pub k_8: T,
-    /// `-(p.r_g_b_bx * p.r_g_b_bz * m_d)`.
+    /// `p.r_g_b_by * mr_d_g_gz`.
     pub k_9: T,
-    /// `m_d * (prep_2 + prep_1)`.
+    /// `m_d * (hand_13 + hand_14)`.
     pub k_10: T,
-    /// `-(p.r_g_b_by * p.r_g_b_bz * m_d)`.
+    /// `-(p.r_g_b_bx * p.r_g_b_by * m_d)`.
     pub k_11: T,
-    /// `m_d * (prep_2 + prep_0)`.
+    /// `-(p.r_g_b_bx * p.r_g_b_bz * m_d)`.
     pub k_12: T,
-    /// `p.r_g_b_bx * m_d`.
+    /// `m_d * (hand_12 + hand_14)`.
     pub k_13: T,
-    /// `p.r_g_b_by * m_d`.
+    /// `-(p.r_g_b_by * p.r_g_b_bz * m_d)`.
     pub k_14: T,
+    /// `m_d * (hand_12 + hand_13)`.
+    pub k_15: T,
+    /// `p.r_g_b_bx * m_d`.
+    pub k_16: T,
+    /// `p.r_g_b_by * m_d`.
+    pub k_17: T,
     /// `mr_d_g_gz + p.r_g_b_bz * m_d`. Σ m r, share of m_sc c, eq. (9), kg m.
     pub mc_bz: T,
-    /// `mc_bz`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76),
-    /// kg m².
-    pub mr_d_b_bz: T,
-    /// `i_g_g_22 - i_g_g_33`.
-    pub k_15: T,
-    /// `i_g_g_33 - i_g_g_11`.
-    pub k_16: T,
-    /// `i_g_g_11 - i_g_g_22`.
-    pub k_17: T,
-    /// `p.j_22 - p.j_11`.
+    /// `p.i_g_12 - (base_5 + p.r_gc_g_gy * mr_gc_g_gx)`. Base parameters of the gimbal, eqs.
+    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_g_base_12: T,
+    /// `p.r_gc_g_gx * base_6 - p.r_gc_g_gz * mr_gc_g_gx + p.i_g_13`. Base parameters of the
+    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_g_base_13: T,
+    /// `p.i_g_23 + p.r_gc_g_gy * base_6 - p.r_gc_g_gz * mr_gc_g_gy`. Base parameters of the
+    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_g_base_23: T,
+    /// `p.i_g_33 + hand_16 + hand_15 + base_3 + base_2 + p.j_22`. Base parameters of the
+    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_g_base_33: T,
+    /// `p.j_11 + i_g_base_11`. What lies behind the gimbal's joint, of D, by base parameters,
+    /// eqs. (B1), (B2): first moment, kg m, and inertia, kg m².
+    pub i_behind_d_11: T,
+    /// `i_g_base_12 + i_g_base_12`.
     pub k_18: T,
-    /// `p.j_11 - p.j_22`.
+    /// `i_g_base_33 + i_behind_d_11`.
     pub k_19: T,
+    /// `i_g_base_33 - i_behind_d_11`.
+    pub k_20: T,
+    /// `place_0 + p.mount_13 * r_wc_b_gz`. Origin of the first joint, eq. (A2), along B axes,
+    /// m.
+    pub reach_bx: T,
+    /// `place_1 + p.mount_23 * r_wc_b_gz`. Origin of the first joint, eq. (A2), along B axes,
+    /// m.
+    pub reach_by: T,
+    /// `place_2 + p.mount_33 * r_wc_b_gz`. Origin of the first joint, eq. (A2), along B axes,
+    /// m.
+    pub reach_bz: T,
+    /// `p.mount_13 * i_g_base_33`.
+    pub k_21: T,
+    /// `p.mount_23 * i_g_base_33`.
+    pub k_22: T,
+    /// `p.mount_33 * i_g_base_33`.
+    pub k_23: T,
+    /// `half * i_behind_d_11`.
+    pub k_24: T,
+    /// `-(p.mount_13 * prep_0)`.
+    pub k_25: T,
+    /// `-(p.mount_23 * prep_0)`.
+    pub k_26: T,
+    /// `-(p.mount_33 * prep_0)`.
+    pub k_27: T,
+    /// `reach_bx + reach_bx`.
+    pub k_28: T,
+    /// `reach_by + reach_by`.
+    pub k_29: T,
+    /// `reach_bz + reach_bz`.
+    pub k_30: T,
+    /// `p.mount_11 * hand_2 + p.mount_12 * hand_5 + p.mount_13 * hand_7`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_bx: T,
+    /// `p.mount_21 * hand_2 + p.mount_22 * hand_5 + p.mount_23 * hand_7`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_by: T,
+    /// `p.mount_31 * hand_2 + p.mount_32 * hand_5 + p.mount_33 * hand_7`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_bz: T,
+    /// `hand_51 - hand_47 + hand_48 * (hand_49 + hand_49)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_11: T,
+    /// `hand_59 - hand_56 + hand_48 * (hand_57 + hand_57)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_12: T,
+    /// `hand_67 - hand_64 + hand_48 * (hand_65 + hand_65)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_13: T,
+    /// `hand_78 - hand_75 + hand_48 * (hand_76 + hand_76)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_22: T,
+    /// `hand_86 - hand_83 + hand_48 * (hand_84 + hand_84)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_23: T,
+    /// `hand_97 - hand_94 + hand_48 * (hand_95 + hand_95)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_33: T,
+    /// `i_g_g_22 - i_g_g_33`.
+    pub k_31: T,
+    /// `i_g_g_33 - i_g_g_11`.
+    pub k_32: T,
+    /// `i_g_g_11 - i_g_g_22`.
+    pub k_33: T,
+    /// `p.j_22 - p.j_11`.
+    pub k_34: T,
+    /// `p.j_11 - p.j_22`.
+    pub k_35: T,
 }
 
 /// Sines and cosines of the joint angles.
@@ -415,7 +533,7 @@ pub struct Wheel<T> {
 }
 
 /// A device's share of `m_sc c` and its derivatives seen from B, along the device's B axes:
-/// `m_sc c″ = f_g γ̈ + f_w Ω̇ + f̃`.
+/// `m_sc c″ = mc_dprime_g γ̈ + mc_dprime_w Ω̇ + f̃`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstMoment<T> {
     /// Σ m r, share of m_sc c, eq. (9), along bx, kg m.
@@ -431,11 +549,11 @@ pub struct FirstMoment<T> {
     /// Σ m r′, share of m_sc c′, behind eq. (11), along bz, kg m/s.
     pub mc_prime_bz: T,
     /// f_g, eq. (17): Σ m r″ per γ̈, along bx, kg m.
-    pub f_g_bx: T,
+    pub mc_dprime_g_bx: T,
     /// f_g, eq. (17): Σ m r″ per γ̈, along by, kg m.
-    pub f_g_by: T,
+    pub mc_dprime_g_by: T,
     /// f_g, eq. (17): Σ m r″ per γ̈, along bz, kg m.
-    pub f_g_bz: T,
+    pub mc_dprime_g_bz: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along bx, N.
     pub f_tilde_bx: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along by, N.
@@ -457,6 +575,8 @@ pub struct Eliminated<T> {
     pub gain_g_v1: T,
     /// Gain of the gimbal on component 2 of r̈_{B/N}, 1/m.
     pub gain_g_v2: T,
+    /// Gain of the gimbal on component 3 of r̈_{B/N}, 1/m.
+    pub gain_g_v3: T,
     /// Gain of the gimbal on component 1 of ω̇_{B/N}.
     pub gain_g_w1: T,
     /// Gain of the gimbal on component 2 of ω̇_{B/N}.
@@ -644,7 +764,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 50 mul, 38 add, 5 neg, 0 div, 0 trig.
+/// Operations: 199 mul, 200 add, 8 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // r_{Gc/B}, behind eq. (12), m.
@@ -660,67 +780,225 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let mr_gc_g_gx = p.m_g * p.r_gc_g_gx;
     let mr_gc_g_gy = p.m_g * p.r_gc_g_gy;
     let mr_gc_g_gz = p.m_g * p.r_gc_g_gz;
-    let own_0 = p.r_gc_g_gy * p.r_gc_g_gy;
-    let own_1 = p.r_gc_g_gz * p.r_gc_g_gz;
-    let i_g_g_11 = p.i_g_11 + p.m_g * (own_0 + own_1);
-    let i_g_g_12 = p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g;
-    let i_g_g_13 = p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g;
-    let own_2 = p.r_gc_g_gx * p.r_gc_g_gx;
-    let i_g_g_22 = p.i_g_22 + p.m_g * (own_2 + own_1);
-    let i_g_g_23 = p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g;
-    let i_g_g_33 = p.i_g_33 + p.m_g * (own_2 + own_0);
 
     // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
     // m², about G.
     let m_d = p.m_g + p.m_w;
     let mr_d_g_gx = p.l_g_x * p.m_w + mr_gc_g_gx;
     let mr_d_g_gy = p.l_g_y * p.m_w + mr_gc_g_gy;
-    let mr_d_g_gz = p.l_g_z * p.m_w + mr_gc_g_gz;
-    let lump_0 = p.l_g_y * p.l_g_y;
-    let lump_1 = p.l_g_z * p.l_g_z;
-    let i_d_g_11 = p.j_11 + p.m_w * (lump_0 + lump_1) + i_g_g_11;
-    let i_d_g_12 = i_g_g_12 - p.l_g_x * p.l_g_y * p.m_w;
-    let i_d_g_13 = i_g_g_13 - p.l_g_x * p.l_g_z * p.m_w;
-    let lump_2 = p.l_g_x * p.l_g_x;
-    let i_d_g_22 = p.j_22 + p.m_w * (lump_2 + lump_1) + i_g_g_22;
-    let i_d_g_23 = i_g_g_23 - p.l_g_y * p.l_g_z * p.m_w;
-    let i_d_g_33 = p.j_22 + p.m_w * (lump_2 + lump_0) + i_g_g_33;
-
-    // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m.
-    let mass_gg = i_d_g_33;
+    let lump_0 = p.l_g_z * p.m_w;
+    let mr_d_g_gz = lump_0 + mr_gc_g_gz;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_bz = mr_d_g_gz + p.r_g_b_bz * m_d;
 
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let mr_d_b_bz = mc_bz;
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_0 = p.r_g_b_bx * p.m_g;
+    let hand_1 = p.r_g_b_bx * p.m_w;
+    let hand_2 = hand_0 + hand_1;
+    let hand_3 = p.r_g_b_by * p.m_g;
+    let hand_4 = p.r_g_b_by * p.m_w;
+    let hand_5 = hand_3 + hand_4;
+    let hand_6 = p.r_g_b_bz * p.m_g;
+    let hand_7 = hand_6 + p.r_g_b_bz * p.m_w + lump_0 + mr_gc_g_gz;
+    let hand_mr_bx = p.mount_11 * hand_2 + p.mount_12 * hand_5 + p.mount_13 * hand_7;
+    let hand_mr_by = p.mount_21 * hand_2 + p.mount_22 * hand_5 + p.mount_23 * hand_7;
+    let hand_mr_bz = p.mount_31 * hand_2 + p.mount_32 * hand_5 + p.mount_33 * hand_7;
+    let hand_8 = p.l_g_x * p.l_g_x;
+    let hand_9 = p.l_g_z * p.l_g_z;
+    let hand_10 = p.r_gc_g_gx * p.r_gc_g_gx;
+    let hand_11 = p.r_gc_g_gz * p.r_gc_g_gz;
+    let hand_12 = p.r_g_b_bx * p.r_g_b_bx;
+    let hand_13 = p.r_g_b_by * p.r_g_b_by;
+    let hand_14 = p.r_g_b_bz * p.r_g_b_bz;
+    let hand_15 = p.m_w * hand_8;
+    let hand_16 = p.m_g * hand_10;
+    let hand_17 = p.m_g * hand_13;
+    let hand_18 = p.m_g * hand_14;
+    let hand_19 = p.m_w * hand_13;
+    let hand_20 = p.m_w * hand_14;
+    let hand_21 = p.r_g_b_bz * lump_0;
+    let hand_22 = hand_21 + hand_21;
+    let hand_23 = p.m_w * hand_9;
+    let hand_24 = p.r_gc_g_gz * hand_6;
+    let hand_25 = hand_24 + hand_24;
+    let hand_26 = p.m_g * hand_11;
+    let hand_27 = p.m_g * hand_12;
+    let hand_28 = p.m_w * hand_12;
+    let half = p.mount_11.like(0.5);
+    let hand_29 = hand_17 + hand_18 + hand_16 + hand_19 + hand_20 + hand_22;
+    let hand_30 = hand_29 + hand_23 + hand_15 + hand_25 + hand_26 + p.i_g_22;
+    let hand_31 = half * (hand_30 + p.j_22);
+    let hand_32 = p.mount_11 * p.mount_11;
+    let hand_33 = half * (p.r_g_b_by * hand_0 + p.r_g_b_by * hand_1);
+    let hand_34 = p.mount_11 * p.mount_12;
+    let hand_35 = hand_33 * (hand_34 + hand_34);
+    let hand_36 = p.r_g_b_bz * hand_0 + p.r_g_b_bz * hand_1 + p.r_g_b_bx * lump_0;
+    let hand_37 = half * (hand_36 + p.r_gc_g_gz * hand_0);
+    let hand_38 = p.mount_11 * p.mount_13;
+    let hand_39 = hand_37 * (hand_38 + hand_38);
+    let hand_40 = hand_18 + hand_27 + hand_16 + hand_28 + hand_20 + hand_22;
+    let hand_41 = hand_40 + hand_23 + hand_15 + hand_25 + hand_26 + p.i_g_22;
+    let hand_42 = half * (hand_41 + p.j_22);
+    let hand_43 = p.mount_12 * p.mount_12;
+    let hand_44 = p.r_g_b_bz * hand_3 + p.r_g_b_bz * hand_4 + p.r_g_b_by * lump_0;
+    let hand_45 = half * (hand_44 + p.r_gc_g_gz * hand_3);
+    let hand_46 = p.mount_12 * p.mount_13;
+    let hand_47 = hand_45 * (hand_46 + hand_46);
+    let hand_48 = half * (hand_17 + hand_27 + hand_28 + hand_19);
+    let hand_49 = p.mount_13 * p.mount_13;
+    let hand_50 = hand_31 * (hand_32 + hand_32) - hand_35 - hand_39 - hand_35;
+    let hand_51 = hand_50 + hand_42 * (hand_43 + hand_43) - hand_47 - hand_39;
+    let hand_i_11 = hand_51 - hand_47 + hand_48 * (hand_49 + hand_49);
+    let hand_52 = p.mount_11 * p.mount_21;
+    let hand_53 = hand_33 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
+    let hand_54 = hand_37 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
+    let hand_55 = p.mount_12 * p.mount_22;
+    let hand_56 = hand_45 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
+    let hand_57 = p.mount_13 * p.mount_23;
+    let hand_58 = hand_31 * (hand_52 + hand_52) - hand_53 - hand_54 - hand_53;
+    let hand_59 = hand_58 + hand_42 * (hand_55 + hand_55) - hand_56 - hand_54;
+    let hand_i_12 = hand_59 - hand_56 + hand_48 * (hand_57 + hand_57);
+    let hand_60 = p.mount_11 * p.mount_31;
+    let hand_61 = hand_33 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
+    let hand_62 = hand_37 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
+    let hand_63 = p.mount_12 * p.mount_32;
+    let hand_64 = hand_45 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
+    let hand_65 = p.mount_13 * p.mount_33;
+    let hand_66 = hand_31 * (hand_60 + hand_60) - hand_61 - hand_62 - hand_61;
+    let hand_67 = hand_66 + hand_42 * (hand_63 + hand_63) - hand_64 - hand_62;
+    let hand_i_13 = hand_67 - hand_64 + hand_48 * (hand_65 + hand_65);
+    let hand_68 = p.mount_21 * p.mount_21;
+    let hand_69 = p.mount_21 * p.mount_22;
+    let hand_70 = hand_33 * (hand_69 + hand_69);
+    let hand_71 = p.mount_21 * p.mount_23;
+    let hand_72 = hand_37 * (hand_71 + hand_71);
+    let hand_73 = p.mount_22 * p.mount_22;
+    let hand_74 = p.mount_22 * p.mount_23;
+    let hand_75 = hand_45 * (hand_74 + hand_74);
+    let hand_76 = p.mount_23 * p.mount_23;
+    let hand_77 = hand_31 * (hand_68 + hand_68) - hand_70 - hand_72 - hand_70;
+    let hand_78 = hand_77 + hand_42 * (hand_73 + hand_73) - hand_75 - hand_72;
+    let hand_i_22 = hand_78 - hand_75 + hand_48 * (hand_76 + hand_76);
+    let hand_79 = p.mount_21 * p.mount_31;
+    let hand_80 = hand_33 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
+    let hand_81 = hand_37 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
+    let hand_82 = p.mount_22 * p.mount_32;
+    let hand_83 = hand_45 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
+    let hand_84 = p.mount_23 * p.mount_33;
+    let hand_85 = hand_31 * (hand_79 + hand_79) - hand_80 - hand_81 - hand_80;
+    let hand_86 = hand_85 + hand_42 * (hand_82 + hand_82) - hand_83 - hand_81;
+    let hand_i_23 = hand_86 - hand_83 + hand_48 * (hand_84 + hand_84);
+    let hand_87 = p.mount_31 * p.mount_31;
+    let hand_88 = p.mount_31 * p.mount_32;
+    let hand_89 = hand_33 * (hand_88 + hand_88);
+    let hand_90 = p.mount_31 * p.mount_33;
+    let hand_91 = hand_37 * (hand_90 + hand_90);
+    let hand_92 = p.mount_32 * p.mount_32;
+    let hand_93 = p.mount_32 * p.mount_33;
+    let hand_94 = hand_45 * (hand_93 + hand_93);
+    let hand_95 = p.mount_33 * p.mount_33;
+    let hand_96 = hand_31 * (hand_87 + hand_87) - hand_89 - hand_91 - hand_89;
+    let hand_97 = hand_96 + hand_42 * (hand_92 + hand_92) - hand_94 - hand_91;
+    let hand_i_33 = hand_97 - hand_94 + hand_48 * (hand_95 + hand_95);
+
+    // Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg
+    // m².
+    let base_0 = p.l_g_y * p.l_g_y;
+    let base_1 = p.r_gc_g_gy * p.r_gc_g_gy;
+    let base_2 = p.m_w * base_0;
+    let base_3 = p.m_g * base_1;
+    let base_4 = base_3 - (hand_15 + hand_16) + base_2 + p.i_g_11 - p.i_g_22;
+    let i_g_base_11 = base_4 - p.j_22;
+    let base_5 = p.l_g_x * p.l_g_y * p.m_w;
+    let i_g_base_12 = p.i_g_12 - (base_5 + p.r_gc_g_gy * mr_gc_g_gx);
+    let base_6 = p.m_g * p.l_g_z;
+    let i_g_base_13 = p.r_gc_g_gx * base_6 - p.r_gc_g_gz * mr_gc_g_gx + p.i_g_13;
+    let i_g_base_23 = p.i_g_23 + p.r_gc_g_gy * base_6 - p.r_gc_g_gz * mr_gc_g_gy;
+    let i_g_base_33 = p.i_g_33 + hand_16 + hand_15 + base_3 + base_2 + p.j_22;
+
+    // What lies behind the gimbal's joint, of D, by base parameters, eqs. (B1), (B2): first
+    // moment, kg m, and inertia, kg m².
+    let i_behind_d_11 = p.j_11 + i_g_base_11;
+
+    // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    let mass_gg = i_g_base_33;
+
+    // Origin of the first joint, eq. (A2), along B axes, m.
+    let place_0 = p.r_g_b_bx * p.mount_11 + p.r_g_b_by * p.mount_12;
+    let reach_bx = place_0 + p.mount_13 * r_wc_b_gz;
+    let place_1 = p.r_g_b_bx * p.mount_21 + p.r_g_b_by * p.mount_22;
+    let reach_by = place_1 + p.mount_23 * r_wc_b_gz;
+    let place_2 = p.r_g_b_bx * p.mount_31 + p.r_g_b_by * p.mount_32;
+    let reach_bz = place_2 + p.mount_33 * r_wc_b_gz;
+
+    // The gimbal about its origin: first moment, kg m, and inertia as in eq. (40), kg m².
+    let i_g_g_11 = p.i_g_11 + p.m_g * (base_1 + hand_11);
+    let i_g_g_12 = p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g;
+    let i_g_g_13 = p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g;
+    let i_g_g_22 = p.i_g_22 + p.m_g * (hand_10 + hand_11);
+    let i_g_g_23 = p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g;
+    let i_g_g_33 = p.i_g_33 + p.m_g * (hand_10 + base_1);
+
+    // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
+    // m², about G.
+    let i_d_g_11 = p.j_11 + p.m_w * (base_0 + hand_9) + i_g_g_11;
+    let i_d_g_12 = i_g_g_12 - base_5;
+    let i_d_g_13 = i_g_g_13 - p.l_g_x * p.l_g_z * p.m_w;
+    let i_d_g_22 = p.j_22 + p.m_w * (hand_8 + hand_9) + i_g_g_22;
+    let i_d_g_23 = i_g_g_23 - p.l_g_y * p.l_g_z * p.m_w;
+    let i_d_g_33 = p.j_22 + p.m_w * (hand_8 + base_0) + i_g_g_33;
 
     // Products and sums of parameters that occur more deeply.
     let k_0 = r_gc_b_bz * r_gc_b_bz;
     let k_1 = r_wc_b_gz * r_wc_b_gz;
-    let k_2 = i_d_g_11 + i_d_g_22;
-    let k_3 = p.r_g_b_bz * mr_d_g_gz;
-    let k_4 = p.r_g_b_bx * mr_d_g_gz;
-    let k_5 = p.r_g_b_by * mr_d_g_gz;
-    let k_6 = -(k_3 + k_3);
-    let prep_0 = p.r_g_b_by * p.r_g_b_by;
-    let prep_1 = p.r_g_b_bz * p.r_g_b_bz;
-    let k_7 = m_d * (prep_0 + prep_1);
-    let k_8 = -(p.r_g_b_bx * p.r_g_b_by * m_d);
-    let k_9 = -(p.r_g_b_bx * p.r_g_b_bz * m_d);
-    let prep_2 = p.r_g_b_bx * p.r_g_b_bx;
-    let k_10 = m_d * (prep_2 + prep_1);
-    let k_11 = -(p.r_g_b_by * p.r_g_b_bz * m_d);
-    let k_12 = m_d * (prep_2 + prep_0);
-    let k_13 = p.r_g_b_bx * m_d;
-    let k_14 = p.r_g_b_by * m_d;
-    let k_15 = i_g_g_22 - i_g_g_33;
-    let k_16 = i_g_g_33 - i_g_g_11;
-    let k_17 = i_g_g_11 - i_g_g_22;
-    let k_18 = p.j_22 - p.j_11;
-    let k_19 = p.j_11 - p.j_22;
+    let k_2 = i_d_g_22 - i_d_g_11;
+    let k_3 = i_d_g_12 + i_d_g_12;
+    let k_4 = -i_d_g_12;
+    let k_5 = p.r_g_b_bx + p.r_g_b_bx;
+    let k_6 = p.r_g_b_by + p.r_g_b_by;
+    let k_7 = mr_d_g_gz * (p.r_g_b_bz + p.r_g_b_bz);
+    let k_8 = p.r_g_b_bx * mr_d_g_gz;
+    let k_9 = p.r_g_b_by * mr_d_g_gz;
+    let k_10 = m_d * (hand_13 + hand_14);
+    let k_11 = -(p.r_g_b_bx * p.r_g_b_by * m_d);
+    let k_12 = -(p.r_g_b_bx * p.r_g_b_bz * m_d);
+    let k_13 = m_d * (hand_12 + hand_14);
+    let k_14 = -(p.r_g_b_by * p.r_g_b_bz * m_d);
+    let k_15 = m_d * (hand_12 + hand_13);
+    let k_16 = p.r_g_b_bx * m_d;
+    let k_17 = p.r_g_b_by * m_d;
+    let k_18 = i_g_base_12 + i_g_base_12;
+    let k_19 = i_g_base_33 + i_behind_d_11;
+    let k_20 = i_g_base_33 - i_behind_d_11;
+    let k_21 = p.mount_13 * i_g_base_33;
+    let k_22 = p.mount_23 * i_g_base_33;
+    let k_23 = p.mount_33 * i_g_base_33;
+    let k_24 = half * i_behind_d_11;
+    let prep_0 = half * i_g_base_33;
+    let k_25 = -(p.mount_13 * prep_0);
+    let k_26 = -(p.mount_23 * prep_0);
+    let k_27 = -(p.mount_33 * prep_0);
+    let k_28 = reach_bx + reach_bx;
+    let k_29 = reach_by + reach_by;
+    let k_30 = reach_bz + reach_bz;
+    let k_31 = i_g_g_22 - i_g_g_33;
+    let k_32 = i_g_g_33 - i_g_g_11;
+    let k_33 = i_g_g_11 - i_g_g_22;
+    let k_34 = p.j_22 - p.j_11;
+    let k_35 = p.j_11 - p.j_22;
 
     Prepared {
+        mount_11: p.mount_11,
+        mount_12: p.mount_12,
+        mount_13: p.mount_13,
+        mount_21: p.mount_21,
+        mount_22: p.mount_22,
+        mount_23: p.mount_23,
+        mount_31: p.mount_31,
+        mount_32: p.mount_32,
+        mount_33: p.mount_33,
         r_g_b_bx: p.r_g_b_bx,
         r_g_b_by: p.r_g_b_by,
         r_g_b_bz: p.r_g_b_bz,
@@ -757,7 +1035,6 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         mr_d_g_gx,
         mr_d_g_gy,
         i_d_g_11,
-        i_d_g_12,
         i_d_g_13,
         i_d_g_22,
         i_d_g_23,
@@ -776,19 +1053,51 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_12,
         k_13,
         k_14,
-        mc_bz,
-        mr_d_b_bz,
         k_15,
         k_16,
         k_17,
+        mc_bz,
+        i_g_base_12,
+        i_g_base_13,
+        i_g_base_23,
+        i_g_base_33,
+        i_behind_d_11,
         k_18,
         k_19,
+        k_20,
+        reach_bx,
+        reach_by,
+        reach_bz,
+        k_21,
+        k_22,
+        k_23,
+        k_24,
+        k_25,
+        k_26,
+        k_27,
+        k_28,
+        k_29,
+        k_30,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
+        k_31,
+        k_32,
+        k_33,
+        k_34,
+        k_35,
     }
 }
 
 /// The gimbal: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 52 mul, 35 add, 7 neg, 0 div, 0 trig.
+/// Operations: 52 mul, 32 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> {
     // ω_{G/B}, eq. (31), rad/s.
@@ -846,19 +1155,17 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
     let i_g_b_33 = p.i_g_33 + p.m_g * (axis_3 + axis_1);
 
     // [I_{G,B}]′, eq. (42), along the axes of the gimbal, kg m²/s.
-    let shift_0 = q.sin_gamma * r_gc_b_prime_by - q.cos_gamma * vel_2;
-    let shift_1 = q.cos_gamma * r_gc_b_prime_by + q.sin_gamma * vel_2;
-    let shift_2 = axis_2 * shift_0;
-    let shift_3 = axis_0 * shift_1;
-    let shift_4 = shift_2 + shift_3;
-    let shift_5 = shift_4 + shift_4;
-    let i_g_b_prime_11 = i_g_gc_prime_11 + p.m_g * (shift_5 - (shift_2 + shift_2));
-    let shift_6 = p.m_g * (axis_0 * shift_0 + axis_2 * shift_1);
-    let i_g_b_prime_12 = i_g_gc_prime_12 - shift_6;
-    let i_g_b_prime_13 = -(turn_1 + p.r_gc_b_bz * shift_0 * p.m_g);
-    let i_g_b_prime_22 = i_g_gc_prime_22 + p.m_g * (shift_5 - (shift_3 + shift_3));
-    let i_g_b_prime_23 = i_g_gc_prime_23 - p.r_gc_b_bz * shift_1 * p.m_g;
-    let i_g_b_prime_33 = p.m_g * shift_5;
+    let shift_0 = q.cos_gamma * r_gc_b_prime_by + q.sin_gamma * vel_2;
+    let shift_1 = axis_0 * (shift_0 + shift_0);
+    let i_g_b_prime_11 = i_g_gc_prime_11 + p.m_g * shift_1;
+    let shift_2 = q.sin_gamma * r_gc_b_prime_by - q.cos_gamma * vel_2;
+    let shift_3 = p.m_g * (axis_0 * shift_2 + axis_2 * shift_0);
+    let i_g_b_prime_12 = i_g_gc_prime_12 - shift_3;
+    let i_g_b_prime_13 = -(turn_1 + p.r_gc_b_bz * shift_2 * p.m_g);
+    let shift_4 = axis_2 * (shift_2 + shift_2);
+    let i_g_b_prime_22 = i_g_gc_prime_22 + p.m_g * shift_4;
+    let i_g_b_prime_23 = i_g_gc_prime_23 - p.r_gc_b_bz * shift_0 * p.m_g;
+    let i_g_b_prime_33 = p.m_g * (shift_4 + shift_1);
 
     Gimbal {
         omega_g_b_gx,
@@ -899,7 +1206,7 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
 
 /// The wheel: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 33 mul, 19 add, 7 neg, 0 div, 0 trig.
+/// Operations: 33 mul, 16 add, 8 neg, 0 div, 0 trig.
 #[must_use]
 pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // ω_{W/B}, eq. (59), rad/s.
@@ -948,17 +1255,15 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let i_w_b_33 = p.j_22 + p.m_w * (axis_1 + axis_0);
 
     // [I_{W,B}]′, eq. (73), along the axes of the wheel, kg m²/s.
-    let shift_0 = vel_0 * r_wc_b_gx;
-    let shift_1 = r_wc_b_prime_gy * r_wc_b_gy;
-    let shift_2 = shift_1 - shift_0;
-    let shift_3 = shift_2 + shift_2;
-    let i_w_b_prime_11 = p.m_w * (shift_0 + shift_0 + shift_3);
-    let shift_4 = p.m_w * (r_wc_b_prime_gy * r_wc_b_gx - vel_0 * r_wc_b_gy);
-    let i_w_b_prime_12 = i_w_wc_prime_12 - shift_4;
+    let shift_0 = r_wc_b_gy * (r_wc_b_prime_gy + r_wc_b_prime_gy);
+    let i_w_b_prime_11 = p.m_w * shift_0;
+    let shift_1 = p.m_w * (r_wc_b_prime_gy * r_wc_b_gx - vel_0 * r_wc_b_gy);
+    let i_w_b_prime_12 = i_w_wc_prime_12 - shift_1;
     let i_w_b_prime_13 = vel_0 * p.r_wc_b_gz * p.m_w;
-    let i_w_b_prime_22 = p.m_w * (shift_3 - (shift_1 + shift_1));
+    let shift_2 = r_wc_b_gx * (vel_0 + vel_0);
+    let i_w_b_prime_22 = -(p.m_w * shift_2);
     let i_w_b_prime_23 = -(r_wc_b_prime_gy * p.r_wc_b_gz * p.m_w);
-    let i_w_b_prime_33 = p.m_w * shift_3;
+    let i_w_b_prime_33 = p.m_w * (shift_0 - shift_2);
 
     Wheel {
         omega_w_b_wx,
@@ -1023,10 +1328,10 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let p_w_wy = p.m_w * path_0;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
-    let f_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * p.mr_d_g_gy;
-    let mc_bx = f_g_by + p.k_13;
+    let mc_dprime_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * p.mr_d_g_gy;
+    let mc_bx = mc_dprime_g_by + p.k_16;
     let mom_0 = q.cos_gamma * p.mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
-    let mc_by = mom_0 + p.k_14;
+    let mc_by = mom_0 + p.k_17;
     let mc_bz = p.mc_bz;
 
     // Σ m r′, share of m_sc c′, behind eq. (11), kg m/s.
@@ -1038,8 +1343,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let mc_prime_bz = zero;
 
     // f_g, eq. (17): Σ m r″ per γ̈, kg m.
-    let f_g_bx = -mom_0;
-    let f_g_bz = zero;
+    let mc_dprime_g_bx = -mom_0;
+    let mc_dprime_g_bz = zero;
 
     // f̃, eq. (17): Σ m r″ with no joint accelerating, N.
     let f_tilde_bx = q.sin_gamma * neg_f_rest_gy - q.cos_gamma * neg_f_rest_gx;
@@ -1053,12 +1358,45 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
         mc_prime_bx,
         mc_prime_by,
         mc_prime_bz,
-        f_g_bx,
-        f_g_by,
-        f_g_bz,
+        mc_dprime_g_bx,
+        mc_dprime_g_by,
+        mc_dprime_g_bz,
         f_tilde_bx,
         f_tilde_by,
         f_tilde_bz,
+    }
+}
+
+/// What the hub takes over of a device: mass, and what does not notice that the joints
+/// move.
+///
+/// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
+#[must_use]
+pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_m = p.m_d;
+    let hand_mr_bx = p.hand_mr_bx;
+    let hand_mr_by = p.hand_mr_by;
+    let hand_mr_bz = p.hand_mr_bz;
+    let hand_i_11 = p.hand_i_11;
+    let hand_i_12 = p.hand_i_12;
+    let hand_i_13 = p.hand_i_13;
+    let hand_i_22 = p.hand_i_22;
+    let hand_i_23 = p.hand_i_23;
+    let hand_i_33 = p.hand_i_33;
+
+    Handed {
+        hand_m,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
     }
 }
 
@@ -1068,7 +1406,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 171 mul, 145 add, 13 neg, 1 div, 0 trig.
+/// Operations: 178 mul, 113 add, 1 neg, 1 div, 0 trig.
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1078,136 +1416,126 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
+    // Axes of the gimbal, eq. (A1), along B axes, 1.
+    let e_x_bx = q.cos_gamma * p.mount_11 + q.sin_gamma * p.mount_12;
+    let e_x_by = q.cos_gamma * p.mount_21 + q.sin_gamma * p.mount_22;
+    let e_x_bz = q.cos_gamma * p.mount_31 + q.sin_gamma * p.mount_32;
+    let e_y_bx = q.cos_gamma * p.mount_12 - q.sin_gamma * p.mount_11;
+    let e_y_by = q.cos_gamma * p.mount_22 - q.sin_gamma * p.mount_21;
+    let e_y_bz = q.cos_gamma * p.mount_32 - q.sin_gamma * p.mount_31;
+
+    // ω_{B/N} along the axes of the gimbal, eq. (C1), rad/s.
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_gx = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_gy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_gz = rate_2 + w.omega_bz * p.mount_33;
+
     // ω_{G/N}, eq. (31), along its own axes, rad/s.
-    let omega_g_n_gx = w.omega_bx * q.cos_gamma + w.omega_by * q.sin_gamma;
-    let omega_g_n_gy = w.omega_by * q.cos_gamma - w.omega_bx * q.sin_gamma;
-    let omega_g_n_gz = w.omega_bz + v.gamma_dot;
+    let omega_g_n_gz = v.gamma_dot + omega_b_n_gz;
 
     // Its derivative as in eq. (34), no joint accelerating, along the same axes, rad/s².
-    let turn_0 = v.gamma_dot * q.cos_gamma;
-    let turn_1 = v.gamma_dot * q.sin_gamma;
-    let omega_g_n_rest_gx = w.omega_by * turn_0 - w.omega_bx * turn_1;
-    let neg_omega_g_n_rest_gy = w.omega_by * turn_1 + w.omega_bx * turn_0;
+    let alpha_g_gx = v.gamma_dot * omega_b_n_gy;
+    let neg_alpha_g_gy = v.gamma_dot * omega_b_n_gx;
 
-    // Acceleration of G relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_by * p.r_g_b_bz - w.omega_bz * p.r_g_b_by;
-    let path_1 = w.omega_bz * p.r_g_b_bx - w.omega_bx * p.r_g_b_bz;
-    let path_2 = w.omega_bx * p.r_g_b_by - w.omega_by * p.r_g_b_bx;
-    let path_3 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_4 = w.omega_bz * path_0 - w.omega_bx * path_2;
-    let r_g_rest_gx = q.cos_gamma * path_3 + q.sin_gamma * path_4;
-    let r_g_rest_gy = q.cos_gamma * path_4 - q.sin_gamma * path_3;
-    let r_g_rest_gz = w.omega_bx * path_1 - w.omega_by * path_0;
+    // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
+    let n_rates_w_gy = v.spin * omega_g_n_gz * p.j_11;
+    let coriolis_0 = v.spin * omega_b_n_gy * p.j_11;
+    let n_rates_w_gz = -coriolis_0;
 
-    // ω_{W/N}, eq. (59), along the carrier's axes, rad/s.
-    let omega_w_n_wx = v.spin + omega_g_n_gx;
+    // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    let mass_gg = p.i_g_base_33;
+    let row_0 = omega_b_n_gy * omega_b_n_gz * p.i_g_base_13;
+    let row_1 = omega_b_n_gx * omega_b_n_gx - omega_b_n_gy * omega_b_n_gy;
+    let row_2 = omega_b_n_gx * omega_b_n_gy * p.i_behind_d_11;
+    let row_3 = omega_b_n_gx * omega_b_n_gz * p.i_g_base_23 - row_0;
+    let field_g = row_3 + (p.i_g_base_12 * row_1 - row_2) + n_rates_w_gz;
 
-    // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_5 = p.l_g_x * omega_g_n_gz - p.l_g_z * omega_g_n_gx;
-    let path_6 = p.l_g_y * omega_g_n_gx - p.l_g_x * omega_g_n_gy;
-    let path_7 = omega_g_n_gy * path_6 - omega_g_n_gz * path_5;
-    let r_w_rest_wx = path_7 - p.l_g_z * neg_omega_g_n_rest_gy + r_g_rest_gx;
-    let path_8 = p.l_g_z * omega_g_n_gy - p.l_g_y * omega_g_n_gz;
-    let path_9 = omega_g_n_gz * path_8 - omega_g_n_gx * path_6;
-    let r_w_rest_wy = path_9 - p.l_g_z * omega_g_n_rest_gx + r_g_rest_gy;
-    let path_10 = p.l_g_y * omega_g_n_rest_gx + p.l_g_x * neg_omega_g_n_rest_gy;
-    let path_11 = omega_g_n_gx * path_5 - omega_g_n_gy * path_8 + path_10;
-    let r_w_rest_wz = path_11 + r_g_rest_gz;
-
-    // W with no joint accelerating, eq. (117): force, N, and moment about W, N m.
-    let f_rest_wx = p.m_w * r_w_rest_wx;
-    let f_rest_wy = p.m_w * r_w_rest_wy;
-    let f_rest_wz = p.m_w * r_w_rest_wz;
-    let bias_0 = p.j_22 * omega_g_n_gy;
-    let bias_1 = p.j_22 * omega_g_n_gz;
-    let bias_2 = omega_g_n_gy * bias_1 - omega_g_n_gz * bias_0;
-    let n_rest_wx = bias_2 + p.j_11 * omega_g_n_rest_gx;
-    let bias_3 = p.j_11 * omega_w_n_wx;
-    let bias_4 = omega_g_n_gz * bias_3 - omega_g_n_gx * bias_1;
-    let n_rest_wy = bias_4 - p.j_22 * neg_omega_g_n_rest_gy;
-    let n_rest_wz = omega_g_n_gx * bias_0 - omega_g_n_gy * bias_3;
-
-    // D with no joint accelerating, eq. (78): force, N, and moment about G, N m.
-    let bias_5 = p.mr_gc_g_gx * omega_g_n_gz - p.mr_gc_g_gz * omega_g_n_gx;
-    let bias_6 = p.mr_gc_g_gy * omega_g_n_gx - p.mr_gc_g_gx * omega_g_n_gy;
-    let bias_7 = omega_g_n_gy * bias_6 - omega_g_n_gz * bias_5;
-    let bias_8 = bias_7 - p.mr_gc_g_gz * neg_omega_g_n_rest_gy;
-    let f_rest_gx = bias_8 + p.m_g * r_g_rest_gx + f_rest_wx;
-    let bias_9 = p.mr_gc_g_gz * omega_g_n_gy - p.mr_gc_g_gy * omega_g_n_gz;
-    let bias_10 = omega_g_n_gz * bias_9 - omega_g_n_gx * bias_6;
-    let bias_11 = bias_10 - p.mr_gc_g_gz * omega_g_n_rest_gx + p.m_g * r_g_rest_gy;
-    let f_rest_gy = bias_11 + f_rest_wy;
-    let bias_12 = p.mr_gc_g_gx * neg_omega_g_n_rest_gy;
-    let bias_13 = omega_g_n_gx * bias_5 - omega_g_n_gy * bias_9;
-    let bias_14 = bias_13 + (p.mr_gc_g_gy * omega_g_n_rest_gx + bias_12);
-    let f_rest_gz = bias_14 + p.m_g * r_g_rest_gz + f_rest_wz;
-    let bias_15 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
-    let bias_16 = bias_15 + p.i_g_g_23 * omega_g_n_gz;
-    let bias_17 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
-    let bias_18 = bias_17 + p.i_g_g_33 * omega_g_n_gz;
-    let bias_19 = p.i_g_g_12 * neg_omega_g_n_rest_gy;
-    let bias_20 = omega_g_n_gy * bias_18 - omega_g_n_gz * bias_16;
-    let bias_21 = p.mr_gc_g_gy * r_g_rest_gz - p.mr_gc_g_gz * r_g_rest_gy;
-    let bias_22 = bias_20 + (p.i_g_g_11 * omega_g_n_rest_gx - bias_19) + bias_21;
-    let n_rest_gx = p.l_g_y * f_rest_wz - p.l_g_z * f_rest_wy + n_rest_wx + bias_22;
-    let bias_23 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
-    let bias_24 = bias_23 + p.i_g_g_13 * omega_g_n_gz;
-    let bias_25 = p.i_g_g_22 * neg_omega_g_n_rest_gy;
-    let bias_26 = omega_g_n_gz * bias_24 - omega_g_n_gx * bias_18;
-    let bias_27 = p.mr_gc_g_gz * r_g_rest_gx - p.mr_gc_g_gx * r_g_rest_gz;
-    let bias_28 = bias_26 + (p.i_g_g_12 * omega_g_n_rest_gx - bias_25) + bias_27;
-    let n_rest_gy = p.l_g_z * f_rest_wx - p.l_g_x * f_rest_wz + n_rest_wy + bias_28;
-    let bias_29 = p.i_g_g_23 * neg_omega_g_n_rest_gy;
-    let bias_30 = omega_g_n_gx * bias_16 - omega_g_n_gy * bias_24;
-    let bias_31 = p.mr_gc_g_gx * r_g_rest_gy - p.mr_gc_g_gy * r_g_rest_gx;
-    let bias_32 = bias_30 + (p.i_g_g_13 * omega_g_n_rest_gx - bias_29) + bias_31;
-    let n_rest_gz = p.l_g_x * f_rest_wy - p.l_g_y * f_rest_wx + n_rest_wz + bias_32;
-
-    // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m.
-    let mass_gg = p.i_d_g_33;
-    let u_rest_g = n_rest_gz;
-
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * p.mr_d_g_gy;
-    let mr_d_b_bx = f_g_by + p.k_13;
-    let moment_0 = q.cos_gamma * p.mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
-    let mr_d_b_by = moment_0 + p.k_14;
-    let moment_1 = q.cos_gamma * p.i_d_g_11 - q.sin_gamma * p.i_d_g_12;
-    let moment_2 = q.cos_gamma * p.i_d_g_12 - q.sin_gamma * p.i_d_g_22;
-    let moment_3 = q.cos_gamma * moment_1 - q.sin_gamma * moment_2;
-    let moment_4 = p.r_g_b_bx * f_g_by;
-    let moment_5 = p.r_g_b_by * moment_0;
-    let moment_6 = moment_4 + moment_5;
-    let moment_7 = moment_6 + p.k_3;
-    let moment_8 = moment_7 + moment_7;
-    let i_d_b_11 = moment_8 - (moment_4 + moment_4) + moment_3 + p.k_7;
-    let moment_9 = q.cos_gamma * moment_2 + q.sin_gamma * moment_1;
-    let i_d_b_12 = moment_9 - (p.r_g_b_bx * moment_0 + p.r_g_b_by * f_g_by) + p.k_8;
-    let moment_10 = q.cos_gamma * p.i_d_g_13 - q.sin_gamma * p.i_d_g_23;
-    let moment_11 = p.r_g_b_bz * f_g_by;
-    let i_d_b_13 = moment_10 - (p.k_4 + moment_11) + p.k_9;
-    let i_d_b_22 = p.k_2 - moment_3 + (moment_8 - (moment_5 + moment_5)) + p.k_10;
-    let moment_12 = q.cos_gamma * p.i_d_g_23 + q.sin_gamma * p.i_d_g_13;
-    let moment_13 = p.r_g_b_bz * moment_0;
-    let i_d_b_23 = moment_12 - (p.k_5 + moment_13) + p.k_11;
-    let i_d_b_33 = moment_8 + p.k_6 + p.i_d_g_33 + p.k_12;
+    // Force, N, and moment, N m, that the joints' rates from the gimbal's on ask for, eq. (C2).
+    let coriolis_1 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
+    let neg_f_rates_g_gx = p.mr_d_g_gx * coriolis_1;
+    let neg_f_rates_g_gy = p.mr_d_g_gy * coriolis_1;
+    let coriolis_2 = p.mr_d_g_gx * neg_alpha_g_gy + p.mr_d_g_gy * alpha_g_gx;
+    let f_rates_g_gz = coriolis_2 + coriolis_2;
+    let coriolis_3 = alpha_g_gx * p.k_19 - neg_alpha_g_gy * p.k_18;
+    let n_rates_g_gx = coriolis_3 - p.i_g_base_23 * coriolis_1;
+    let coriolis_4 = p.i_g_base_13 * coriolis_1 + alpha_g_gx * p.k_18;
+    let n_rates_g_gy = coriolis_4 - neg_alpha_g_gy * p.k_20 + n_rates_w_gy;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration.
-    let f_g_bx = -moment_0;
-    let n_g_bx = moment_10 - moment_11;
-    let n_g_by = moment_12 - moment_13;
-    let n_g_bz = p.i_d_g_33 + moment_6;
+    // acceleration, along B axes.
+    let f_g_bx = p.mr_d_g_gx * e_y_bx - p.mr_d_g_gy * e_x_bx;
+    let f_g_by = p.mr_d_g_gx * e_y_by - p.mr_d_g_gy * e_x_by;
+    let f_g_bz = p.mr_d_g_gx * e_y_bz - p.mr_d_g_gy * e_x_bz;
+    let col_0 = p.i_g_base_13 * e_x_bx + p.i_g_base_23 * e_y_bx + p.k_21;
+    let n_g_bx = p.reach_by * f_g_bz - p.reach_bz * f_g_by + col_0;
+    let col_1 = p.i_g_base_13 * e_x_by + p.i_g_base_23 * e_y_by + p.k_22;
+    let n_g_by = p.reach_bz * f_g_bx - p.reach_bx * f_g_bz + col_1;
+    let col_2 = p.i_g_base_13 * e_x_bz + p.i_g_base_23 * e_y_bz + p.k_23;
+    let n_g_bz = p.reach_bx * f_g_by - p.reach_by * f_g_bx + col_2;
 
-    // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = q.cos_gamma * f_rest_gx - q.sin_gamma * f_rest_gy;
-    let f_rest_by = q.cos_gamma * f_rest_gy + q.sin_gamma * f_rest_gx;
-    let f_rest_bz = f_rest_gz;
-    let bias_33 = q.cos_gamma * n_rest_gx - q.sin_gamma * n_rest_gy;
-    let n_rest_bx = bias_33 + (p.r_g_b_by * f_rest_gz - p.r_g_b_bz * f_rest_by);
-    let bias_34 = q.cos_gamma * n_rest_gy + q.sin_gamma * n_rest_gx;
-    let n_rest_by = bias_34 + (p.r_g_b_bz * f_rest_bx - p.r_g_b_bx * f_rest_gz);
-    let n_rest_bz = p.r_g_b_bx * f_rest_by - p.r_g_b_by * f_rest_bx + n_rest_gz;
+    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
+    // (76), kg m².
+    let mr_moving_bx = p.mr_d_g_gx * e_x_bx + p.mr_d_g_gy * e_y_bx;
+    let mr_moving_by = p.mr_d_g_gx * e_x_by + p.mr_d_g_gy * e_y_by;
+    let mr_moving_bz = p.mr_d_g_gx * e_x_bz + p.mr_d_g_gy * e_y_bz;
+    let moment_0 = e_x_bx * p.k_24 + p.i_g_base_12 * e_y_bx;
+    let moment_1 = col_0 + p.k_25;
+    let moment_2 = e_x_bx * moment_0 + p.mount_13 * moment_1;
+    let moment_3 = mr_moving_by * p.k_29;
+    let moment_4 = mr_moving_bz * p.k_30;
+    let i_moving_11 = moment_2 + moment_2 + (moment_3 + moment_4);
+    let moment_5 = e_x_by * p.k_24 + p.i_g_base_12 * e_y_by;
+    let moment_6 = col_1 + p.k_26;
+    let moment_7 = e_x_by * moment_0 + p.mount_23 * moment_1;
+    let moment_8 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = e_x_bx * moment_5 + p.mount_13 * moment_6 + moment_7 - moment_8;
+    let moment_9 = e_x_bz * p.k_24 + p.i_g_base_12 * e_y_bz;
+    let moment_10 = col_2 + p.k_27;
+    let moment_11 = e_x_bx * moment_9 + p.mount_13 * moment_10;
+    let moment_12 = moment_11 + (e_x_bz * moment_0 + p.mount_33 * moment_1);
+    let moment_13 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_12 - moment_13;
+    let moment_14 = e_x_by * moment_5 + p.mount_23 * moment_6;
+    let moment_15 = mr_moving_bx * p.k_28;
+    let i_moving_22 = moment_14 + moment_14 + (moment_15 + moment_4);
+    let moment_16 = e_x_by * moment_9 + p.mount_23 * moment_10;
+    let moment_17 = moment_16 + (e_x_bz * moment_5 + p.mount_33 * moment_6);
+    let moment_18 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let i_moving_23 = moment_17 - moment_18;
+    let moment_19 = e_x_bz * moment_9 + p.mount_33 * moment_10;
+    let i_moving_33 = moment_19 + moment_19 + (moment_15 + moment_3);
+
+    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
+    // N and N m.
+    let bias_0 = e_x_bx * neg_f_rates_g_gx + e_y_bx * neg_f_rates_g_gy;
+    let f_rates_bx = p.mount_13 * f_rates_g_gz - bias_0;
+    let bias_1 = e_x_by * neg_f_rates_g_gx + e_y_by * neg_f_rates_g_gy;
+    let f_rates_by = p.mount_23 * f_rates_g_gz - bias_1;
+    let bias_2 = e_x_bz * neg_f_rates_g_gx + e_y_bz * neg_f_rates_g_gy;
+    let f_rates_bz = p.mount_33 * f_rates_g_gz - bias_2;
+    let bias_3 = e_x_bx * n_rates_g_gx + e_y_bx * n_rates_g_gy;
+    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_3 - p.mount_13 * coriolis_0 + bias_4;
+    let bias_5 = e_x_by * n_rates_g_gx + e_y_by * n_rates_g_gy;
+    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_5 - p.mount_23 * coriolis_0 + bias_6;
+    let bias_7 = e_x_bz * n_rates_g_gx + e_y_bz * n_rates_g_gy;
+    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_7 - p.mount_33 * coriolis_0 + bias_8;
+
+    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+
+    // Bias of each joint with it, eq. (C3).
+    let bias_9 = f_g_bx * r_first_rest_bx + f_g_by * r_first_rest_by;
+    let u_rest_g = bias_9 + f_g_bz * r_first_rest_bz + field_g;
 
     // Right side of each joint, eq. (80): motor torque less what the rest asks for, N m.
     let tau_g = u.u_g - u_rest_g;
@@ -1217,46 +1545,46 @@ pub fn eliminate<T: Real>(
     let recip_g = m.driven_g * divisor_g.recip();
     let gain_g_v1 = f_g_bx * recip_g;
     let gain_g_v2 = f_g_by * recip_g;
+    let gain_g_v3 = f_g_bz * recip_g;
     let gain_g_w1 = n_g_bx * recip_g;
     let gain_g_w2 = n_g_by * recip_g;
     let gain_g_w3 = n_g_bz * recip_g;
     let free_g = m.given_g + tau_g * recip_g;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_d - f_g_bx * gain_g_v1;
-    let m_vv_12 = -(f_g_by * gain_g_v1);
-    let zero = q.sin_gamma.like(0.0);
-    let m_vv_13 = zero;
-    let m_vv_22 = p.m_d - f_g_by * gain_g_v2;
-    let m_vv_23 = zero;
-    let m_vv_33 = p.m_d;
+    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    let m_vv_11 = f_g_bx * gain_g_v1;
+    let m_vv_12 = f_g_by * gain_g_v1;
+    let m_vv_13 = f_g_bz * gain_g_v1;
+    let m_vv_22 = f_g_by * gain_g_v2;
+    let m_vv_23 = f_g_bz * gain_g_v2;
+    let m_vv_33 = f_g_bz * gain_g_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = -(n_g_bx * gain_g_v1);
-    let m_vw_12 = p.mr_d_b_bz - n_g_by * gain_g_v1;
-    let m_vw_13 = -(mr_d_b_by + n_g_bz * gain_g_v1);
-    let m_vw_21 = -(p.mr_d_b_bz + n_g_bx * gain_g_v2);
-    let m_vw_22 = -(n_g_by * gain_g_v2);
-    let m_vw_23 = mr_d_b_bx - n_g_bz * gain_g_v2;
-    let m_vw_31 = mr_d_b_by;
-    let m_vw_32 = -mr_d_b_bx;
-    let m_vw_33 = zero;
+    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    let m_vw_11 = n_g_bx * gain_g_v1;
+    let m_vw_12 = n_g_by * gain_g_v1;
+    let m_vw_13 = n_g_bz * gain_g_v1;
+    let m_vw_21 = n_g_bx * gain_g_v2;
+    let m_vw_22 = n_g_by * gain_g_v2;
+    let m_vw_23 = n_g_bz * gain_g_v2;
+    let m_vw_31 = n_g_bx * gain_g_v3;
+    let m_vw_32 = n_g_by * gain_g_v3;
+    let m_vw_33 = n_g_bz * gain_g_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_g_bx * gain_g_w1;
-    let m_ww_12 = i_d_b_12 - n_g_by * gain_g_w1;
-    let m_ww_13 = i_d_b_13 - n_g_bz * gain_g_w1;
-    let m_ww_22 = i_d_b_22 - n_g_by * gain_g_w2;
-    let m_ww_23 = i_d_b_23 - n_g_bz * gain_g_w2;
-    let m_ww_33 = i_d_b_33 - n_g_bz * gain_g_w3;
+    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    let m_ww_11 = n_g_bx * gain_g_w1;
+    let m_ww_12 = n_g_by * gain_g_w1;
+    let m_ww_13 = n_g_bz * gain_g_w1;
+    let m_ww_22 = n_g_by * gain_g_w2;
+    let m_ww_23 = n_g_bz * gain_g_w2;
+    let m_ww_33 = n_g_bz * gain_g_w3;
 
-    // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + f_g_bx * free_g);
-    let h_v_2 = -(f_rest_by + f_g_by * free_g);
-    let h_v_3 = -f_rest_bz;
-    let h_w_1 = -(n_rest_bx + n_g_bx * free_g);
-    let h_w_2 = -(n_rest_by + n_g_by * free_g);
-    let h_w_3 = -(n_rest_bz + n_g_bz * free_g);
+    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    let h_v_1 = f_rates_bx + f_g_bx * free_g;
+    let h_v_2 = f_rates_by + f_g_by * free_g;
+    let h_v_3 = f_rates_bz + f_g_bz * free_g;
+    let h_w_1 = n_rates_bx + n_g_bx * free_g;
+    let h_w_2 = n_rates_by + n_g_by * free_g;
+    let h_w_3 = n_rates_bz + n_g_bz * free_g;
 
     Eliminated {
         share: HubShare {
@@ -1287,11 +1615,21 @@ pub fn eliminate<T: Real>(
             h_w_1,
             h_w_2,
             h_w_3,
+            mr_moving_bx,
+            mr_moving_by,
+            mr_moving_bz,
+            i_moving_11,
+            i_moving_12,
+            i_moving_13,
+            i_moving_22,
+            i_moving_23,
+            i_moving_33,
         },
         pivot_g: mass_gg,
         diagonal_g: mass_gg,
         gain_g_v1,
         gain_g_v2,
+        gain_g_v3,
         gain_g_w1,
         gain_g_w2,
         gain_g_w3,
@@ -1301,7 +1639,7 @@ pub fn eliminate<T: Real>(
 
 /// Joint accelerations from those of the hub.
 ///
-/// Operations: 5 mul, 5 add, 0 neg, 0 div, 0 trig.
+/// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
@@ -1310,9 +1648,10 @@ pub fn back_substitute<T: Real>(
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_g - a.r_b_n_ddot_bx * e.gain_g_v1;
     let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_g_v2;
-    let row_2 = row_1 - a.omega_dot_bx * e.gain_g_w1;
-    let row_3 = row_2 - a.omega_dot_by * e.gain_g_w2;
-    let gamma_ddot = row_3 - a.omega_dot_bz * e.gain_g_w3;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_g_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_g_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_g_w2;
+    let gamma_ddot = row_4 - a.omega_dot_bz * e.gain_g_w3;
     let zero = e.pivot_g.like(0.0);
     let spin_dot = zero;
 
@@ -1362,13 +1701,13 @@ pub fn energy_momentum<T: Real>(
     let p_g_gz = mom_10 + p.m_g * mom_6;
     let mom_11 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
     let mom_12 = p.mr_gc_g_gy * mom_6 - p.mr_gc_g_gz * mom_4;
-    let h_g_gx = mom_11 + p.i_g_g_13 * omega_g_n_gz + mom_12;
+    let h_g_gx = mom_12 + (mom_11 + p.i_g_g_13 * omega_g_n_gz);
     let mom_13 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
     let mom_14 = p.mr_gc_g_gz * mom_2 - p.mr_gc_g_gx * mom_6;
-    let h_g_gy = mom_13 + p.i_g_g_23 * omega_g_n_gz + mom_14;
+    let h_g_gy = mom_14 + (mom_13 + p.i_g_g_23 * omega_g_n_gz);
     let mom_15 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
     let mom_16 = p.mr_gc_g_gx * mom_4 - p.mr_gc_g_gy * mom_2;
-    let h_g_gz = mom_15 + p.i_g_g_33 * omega_g_n_gz + mom_16;
+    let h_g_gz = mom_16 + (mom_15 + p.i_g_g_33 * omega_g_n_gz);
 
     // Kinetic energy, and momenta as in eq. (20), of the device, along B axes.
     let half = q.sin_gamma.like(0.5);
@@ -1681,16 +2020,16 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 92 mul, 89 add, 5 neg, 0 div, 0 trig.
+/// Operations: 84 mul, 83 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (G1), along the axes of the gimbal, 1/s².
-    let field_0 = q.cos_gamma * g.g_11 + q.sin_gamma * g.g_12;
-    let field_1 = q.cos_gamma * g.g_12 + q.sin_gamma * g.g_22;
-    let g_g_11 = q.cos_gamma * field_0 + q.sin_gamma * field_1;
-    let g_g_12 = q.cos_gamma * field_1 - q.sin_gamma * field_0;
+    let field_0 = q.sin_gamma * (g.g_22 - g.g_11) + q.cos_gamma * (g.g_12 + g.g_12);
+    let field_1 = q.sin_gamma * field_0;
+    let g_g_11 = g.g_11 + field_1;
+    let g_g_12 = q.cos_gamma * field_0 - g.g_12;
     let g_g_13 = q.cos_gamma * g.g_13 + q.sin_gamma * g.g_23;
-    let g_g_22 = g.g_11 + g.g_22 - g_g_11;
+    let g_g_22 = g.g_22 - field_1;
     let g_g_23 = q.cos_gamma * g.g_23 - q.sin_gamma * g.g_13;
 
     // G r at G, eq. (G1), along the same axes, m/s².
@@ -1707,13 +2046,13 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_gy = pull_1 + p.mr_gc_g_gz * g_g_23 + p.m_g * g_r_g_gy;
     let pull_2 = p.mr_gc_g_gx * g_g_13 + p.mr_gc_g_gy * g_g_23;
     let f_on_gz = pull_2 + p.mr_gc_g_gz * g.g_33 + p.m_g * g_r_g_gz;
-    let pull_3 = p.i_g_g_12 * g_g_13 - p.i_g_g_13 * g_g_12 + g_g_23 * p.k_15;
+    let pull_3 = p.i_g_g_12 * g_g_13 - p.i_g_g_13 * g_g_12 + g_g_23 * p.k_31;
     let pull_4 = p.mr_gc_g_gy * g_r_g_gz - p.mr_gc_g_gz * g_r_g_gy;
     let n_on_gx = pull_4 - (pull_3 + p.i_g_g_23 * (g.g_33 - g_g_22));
-    let pull_5 = p.i_g_g_23 * g_g_12 - p.i_g_g_12 * g_g_23 + g_g_13 * p.k_16;
+    let pull_5 = p.i_g_g_23 * g_g_12 - p.i_g_g_12 * g_g_23 + g_g_13 * p.k_32;
     let pull_6 = p.mr_gc_g_gz * g_r_g_gx - p.mr_gc_g_gx * g_r_g_gz;
     let n_on_gy = pull_6 - (pull_5 + p.i_g_g_13 * (g_g_11 - g.g_33));
-    let pull_7 = p.i_g_g_13 * g_g_23 - p.i_g_g_23 * g_g_13 + g_g_12 * p.k_17;
+    let pull_7 = p.i_g_g_13 * g_g_23 - p.i_g_g_23 * g_g_13 + g_g_12 * p.k_33;
     let pull_8 = p.mr_gc_g_gx * g_r_g_gy - p.mr_gc_g_gy * g_r_g_gx;
     let n_on_gz = pull_8 - (pull_7 + p.i_g_g_12 * (g_g_22 - g_g_11));
 
@@ -1728,34 +2067,30 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_wz = p.m_w * g_r_w_wz;
     let zero = q.sin_gamma.like(0.0);
     let n_on_wx = zero;
-    let n_on_wy = -(g_g_13 * p.k_18);
-    let n_on_wz = -(g_g_12 * p.k_19);
+    let n_on_wy = -(g_g_13 * p.k_34);
+    let n_on_wz = -(g_g_12 * p.k_35);
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
     let axis_0 = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * p.mr_d_g_gy;
     let axis_1 = q.cos_gamma * p.mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
-    let axis_2 = q.cos_gamma * p.i_d_g_11 - q.sin_gamma * p.i_d_g_12;
-    let axis_3 = q.cos_gamma * p.i_d_g_12 - q.sin_gamma * p.i_d_g_22;
-    let axis_4 = q.cos_gamma * axis_2 - q.sin_gamma * axis_3;
-    let axis_5 = p.r_g_b_bx * axis_0;
-    let axis_6 = p.r_g_b_by * axis_1;
-    let axis_7 = axis_5 + axis_6 + p.k_3;
-    let axis_8 = axis_7 + axis_7;
-    let axis_9 = axis_8 - (axis_5 + axis_5) + axis_4 + p.k_7;
-    let axis_10 = p.k_2 - axis_4 + (axis_8 - (axis_6 + axis_6)) + p.k_10;
-    let axis_11 = axis_8 + p.k_6 + p.i_d_g_33 + p.k_12;
+    let axis_2 = q.cos_gamma * p.k_3 - q.sin_gamma * p.k_2;
+    let axis_3 = q.sin_gamma * axis_2;
+    let axis_4 = axis_0 * p.k_5;
+    let axis_5 = axis_1 * p.k_6;
+    let axis_6 = p.i_d_g_11 - axis_3 + (axis_5 + p.k_7) + p.k_10;
+    let axis_7 = p.i_d_g_22 + axis_3 + (axis_4 + p.k_7) + p.k_13;
+    let axis_8 = axis_4 + axis_5 + p.i_d_g_33 + p.k_15;
     let half = q.sin_gamma.like(0.5);
-    let axis_12 = half * (axis_9 + axis_10 + axis_11);
-    let second_moment_11 = axis_12 - axis_9;
-    let axis_13 = q.cos_gamma * axis_3 + q.sin_gamma * axis_2;
-    let axis_14 = axis_13 - (p.r_g_b_bx * axis_1 + p.r_g_b_by * axis_0);
-    let second_moment_12 = -(axis_14 + p.k_8);
-    let axis_15 = q.cos_gamma * p.i_d_g_13 - q.sin_gamma * p.i_d_g_23;
-    let second_moment_13 = -(axis_15 - (p.k_4 + p.r_g_b_bz * axis_0) + p.k_9);
-    let second_moment_22 = axis_12 - axis_10;
-    let axis_16 = q.cos_gamma * p.i_d_g_23 + q.sin_gamma * p.i_d_g_13;
-    let second_moment_23 = -(axis_16 - (p.k_5 + p.r_g_b_bz * axis_1) + p.k_11);
-    let second_moment_33 = axis_12 - axis_11;
+    let axis_9 = half * (axis_6 + axis_7 + axis_8);
+    let second_moment_11 = axis_9 - axis_6;
+    let axis_10 = p.r_g_b_bx * axis_1 + p.r_g_b_by * axis_0;
+    let second_moment_12 = -(q.cos_gamma * axis_2 + p.k_4 - axis_10 + p.k_11);
+    let axis_11 = q.cos_gamma * p.i_d_g_13 - q.sin_gamma * p.i_d_g_23;
+    let second_moment_13 = -(axis_11 - (p.k_8 + p.r_g_b_bz * axis_0) + p.k_12);
+    let second_moment_22 = axis_9 - axis_7;
+    let axis_12 = q.cos_gamma * p.i_d_g_23 + q.sin_gamma * p.i_d_g_13;
+    let second_moment_23 = -(axis_12 - (p.k_9 + p.r_g_b_bz * axis_1) + p.k_14);
+    let second_moment_33 = axis_9 - axis_8;
 
     Gravity {
         wrenches: Wrenches {

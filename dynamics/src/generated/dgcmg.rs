@@ -6,14 +6,34 @@
 //!
 //! Everything is resolved along the outermost joint's axes at zero angle: "the device's B axes".
 
-use super::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare};
+use super::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
+};
 use crate::Real;
 
 pub mod device;
 
-/// What the device is made of: masses, places, inertias.
+/// What the device is made of: mount, masses, places, inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{Gᵒ/B}: origin of the outer gimbal in the axes that carry it, first component, m.
     pub r_go_b_bx: T,
     /// r_{Gᵒ/B}: origin of the outer gimbal in the axes that carry it, second component, m.
@@ -93,6 +113,24 @@ pub struct Parameters<T> {
 /// What a kernel needs of the parameters, computed once by [`prepare`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{Gᵒ/B}: origin of the outer gimbal in the axes that carry it, first component, m.
     pub r_go_b_bx: T,
     /// r_{Gᵒ/B}: origin of the outer gimbal in the axes that carry it, second component, m.
@@ -165,10 +203,14 @@ pub struct Prepared<T> {
     pub j_23: T,
     /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 33, kg m².
     pub j_33: T,
+    /// `p.m_go + p.m_gi + p.m_w`. What the hub takes over, eq. (B2): mass, kg, first moment,
+    /// kg m, and inertia about B, kg m², along B axes.
+    pub hand_m: T,
     /// `p.r_go_b_bz + p.r_goc_go_goz`. r_{Gᵒc/B}, behind eq. (12), m.
     pub r_goc_b_bz: T,
-    /// `p.r_go_b_bz + p.l_o_z`. Gⁱ from B, eq. (A2), along B axes, m.
-    pub origin_gi_bz: T,
+    /// `p.r_go_b_bz + p.l_o_z`. Base parameters of the outer gimbal, eqs. (B1), (B2): arm, m,
+    /// first moment, kg m, inertia, kg m².
+    pub arm_o_dz: T,
     /// `r_goc_b_bz * r_goc_b_bz`.
     pub k_0: T,
     /// `-(p.l_o_y + p.r_gic_gi_giy)`. r″_{Gⁱc/B}, eq. (13), per ᵒγ̈, m.
@@ -184,24 +226,32 @@ pub struct Prepared<T> {
     /// `p.j_33 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_33: T,
-    /// `p.j_22 + i_w_w_33`.
+    /// `i_w_w_33 - p.j_22`.
     pub k_1: T,
-    /// `p.m_w * (prep_0 + prep_1)`.
+    /// `p.j_23 + p.j_23`.
     pub k_2: T,
-    /// `-(p.l_i_x * p.l_i_y * p.m_w)`.
+    /// `-p.j_23`.
     pub k_3: T,
-    /// `-(p.l_i_x * p.l_i_z * p.m_w)`.
+    /// `p.l_i_y + p.l_i_y`.
     pub k_4: T,
-    /// `p.m_w * (prep_2 + prep_1)`.
+    /// `p.l_i_z + p.l_i_z`.
     pub k_5: T,
-    /// `-(p.l_i_y * p.l_i_z * p.m_w)`.
+    /// `p.m_w * (base_3 + base_4)`.
     pub k_6: T,
-    /// `p.m_w * (prep_2 + prep_0)`.
+    /// `-(p.l_i_x * p.l_i_y * p.m_w)`.
     pub k_7: T,
-    /// `p.l_i_y * p.m_w`.
+    /// `-(p.l_i_x * p.l_i_z * p.m_w)`.
     pub k_8: T,
-    /// `p.l_i_z * p.m_w`.
+    /// `p.m_w * (base_32 + base_4)`.
     pub k_9: T,
+    /// `-(p.l_i_y * p.l_i_z * p.m_w)`.
+    pub k_10: T,
+    /// `p.m_w * (base_32 + base_3)`.
+    pub k_11: T,
+    /// `p.l_i_y * p.m_w`.
+    pub k_12: T,
+    /// `p.l_i_z * p.m_w`.
+    pub k_13: T,
     /// `p.m_gi * p.r_gic_gi_gix`. The inner gimbal about its origin: first moment, kg m, and
     /// inertia as in eq. (55), kg m².
     pub mr_gic_gi_gix: T,
@@ -211,7 +261,7 @@ pub struct Prepared<T> {
     /// `p.m_gi * p.r_gic_gi_giz`. The inner gimbal about its origin: first moment, kg m, and
     /// inertia as in eq. (55), kg m².
     pub mr_gic_gi_giz: T,
-    /// `p.i_gi_11 + p.m_gi * (own_1 + own_2)`. The inner gimbal about its origin: first
+    /// `p.i_gi_11 + p.m_gi * (base_5 + base_6)`. The inner gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (55), kg m².
     pub i_gi_gi_11: T,
     /// `p.i_gi_12 - p.r_gic_gi_gix * p.r_gic_gi_giy * p.m_gi`. The inner gimbal about its
@@ -220,36 +270,42 @@ pub struct Prepared<T> {
     /// `p.i_gi_13 - p.r_gic_gi_gix * p.r_gic_gi_giz * p.m_gi`. The inner gimbal about its
     /// origin: first moment, kg m, and inertia as in eq. (55), kg m².
     pub i_gi_gi_13: T,
-    /// `p.i_gi_22 + p.m_gi * (own_3 + own_2)`. The inner gimbal about its origin: first
+    /// `p.i_gi_22 + p.m_gi * (base_33 + base_6)`. The inner gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (55), kg m².
     pub i_gi_gi_22: T,
     /// `p.i_gi_23 - p.r_gic_gi_giy * p.r_gic_gi_giz * p.m_gi`. The inner gimbal about its
     /// origin: first moment, kg m, and inertia as in eq. (55), kg m².
     pub i_gi_gi_23: T,
-    /// `p.i_gi_33 + p.m_gi * (own_3 + own_1)`. The inner gimbal about its origin: first
+    /// `p.i_gi_33 + p.m_gi * (base_33 + base_5)`. The inner gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (55), kg m².
     pub i_gi_gi_33: T,
     /// `p.l_i_x * p.m_w + mr_gic_gi_gix`. V, the inner gimbal and what it carries, eq. (108):
     /// mass, kg; first moment, kg m, and inertia, kg m², about Gⁱ.
     pub mr_v_gi_gix: T,
-    /// `m_v * (prep_3 + prep_4)`.
-    pub k_10: T,
-    /// `-(p.l_o_x * p.l_o_y * m_v)`.
-    pub k_11: T,
-    /// `-(p.l_o_x * p.l_o_z * m_v)`.
-    pub k_12: T,
-    /// `m_v * (prep_5 + prep_4)`.
-    pub k_13: T,
-    /// `-(p.l_o_y * p.l_o_z * m_v)`.
+    /// `p.l_o_x + p.l_o_x`.
     pub k_14: T,
-    /// `m_v * (prep_5 + prep_3)`.
+    /// `p.l_o_y + p.l_o_y`.
     pub k_15: T,
-    /// `p.l_o_x * m_v`.
+    /// `p.l_o_z + p.l_o_z`.
     pub k_16: T,
-    /// `p.l_o_y * m_v`.
+    /// `m_v * (base_7 + hand_14)`.
     pub k_17: T,
-    /// `p.l_o_z * m_v`.
+    /// `-(m_v * base_22)`.
     pub k_18: T,
+    /// `-(p.l_o_x * p.l_o_z * m_v)`.
+    pub k_19: T,
+    /// `m_v * (hand_13 + hand_14)`.
+    pub k_20: T,
+    /// `-(p.l_o_y * p.l_o_z * m_v)`.
+    pub k_21: T,
+    /// `m_v * (hand_13 + base_7)`.
+    pub k_22: T,
+    /// `p.l_o_x * m_v`.
+    pub k_23: T,
+    /// `p.l_o_y * m_v`.
+    pub k_24: T,
+    /// `p.l_o_z * m_v`.
+    pub k_25: T,
     /// `p.m_go * p.r_goc_go_gox`. The outer gimbal about its origin: first moment, kg m, and
     /// inertia as in eq. (40), kg m².
     pub mr_goc_go_gox: T,
@@ -259,7 +315,7 @@ pub struct Prepared<T> {
     /// `p.m_go * p.r_goc_go_goz`. The outer gimbal about its origin: first moment, kg m, and
     /// inertia as in eq. (40), kg m².
     pub mr_goc_go_goz: T,
-    /// `p.i_go_11 + p.m_go * (own_4 + own_5)`. The outer gimbal about its origin: first
+    /// `p.i_go_11 + p.m_go * (base_8 + hand_16)`. The outer gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_go_go_11: T,
     /// `p.i_go_12 - p.r_goc_go_gox * p.r_goc_go_goy * p.m_go`. The outer gimbal about its
@@ -268,54 +324,152 @@ pub struct Prepared<T> {
     /// `p.i_go_13 - p.r_goc_go_gox * p.r_goc_go_goz * p.m_go`. The outer gimbal about its
     /// origin: first moment, kg m, and inertia as in eq. (40), kg m².
     pub i_go_go_13: T,
-    /// `p.i_go_22 + p.m_go * (own_6 + own_5)`. The outer gimbal about its origin: first
+    /// `p.i_go_22 + p.m_go * (hand_15 + hand_16)`. The outer gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_go_go_22: T,
     /// `p.i_go_23 - p.r_goc_go_goy * p.r_goc_go_goz * p.m_go`. The outer gimbal about its
     /// origin: first moment, kg m, and inertia as in eq. (40), kg m².
     pub i_go_go_23: T,
-    /// `p.i_go_33 + p.m_go * (own_6 + own_4)`. The outer gimbal about its origin: first
+    /// `p.i_go_33 + p.m_go * (hand_15 + base_8)`. The outer gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_go_go_33: T,
-    /// `p.m_go + m_v`. D, the outer gimbal and what it carries, eq. (89): mass, kg; first
-    /// moment, kg m, and inertia, kg m², about Gᵒ.
-    pub m_d: T,
-    /// `m_d * (prep_6 + prep_7)`.
-    pub k_19: T,
-    /// `-(p.r_go_b_bx * p.r_go_b_by * m_d)`.
-    pub k_20: T,
-    /// `-(p.r_go_b_bx * p.r_go_b_bz * m_d)`.
-    pub k_21: T,
-    /// `m_d * (prep_8 + prep_7)`.
-    pub k_22: T,
-    /// `-(p.r_go_b_by * p.r_go_b_bz * m_d)`.
-    pub k_23: T,
-    /// `m_d * (prep_8 + prep_6)`.
-    pub k_24: T,
-    /// `p.r_go_b_bx * m_d`.
-    pub k_25: T,
-    /// `p.r_go_b_by * m_d`.
+    /// `p.r_go_b_bx + p.r_go_b_bx`.
     pub k_26: T,
-    /// `p.r_go_b_bz * m_d`.
+    /// `p.r_go_b_by + p.r_go_b_by`.
     pub k_27: T,
-    /// `i_go_go_22 - i_go_go_33`.
+    /// `p.r_go_b_bz + p.r_go_b_bz`.
     pub k_28: T,
-    /// `i_go_go_33 - i_go_go_11`.
+    /// `m_d * (hand_18 + hand_19)`.
     pub k_29: T,
-    /// `i_go_go_11 - i_go_go_22`.
+    /// `-(p.r_go_b_bx * p.r_go_b_by * m_d)`.
     pub k_30: T,
-    /// `i_gi_gi_22 - i_gi_gi_33`.
+    /// `-(p.r_go_b_bx * p.r_go_b_bz * m_d)`.
     pub k_31: T,
-    /// `i_gi_gi_33 - i_gi_gi_11`.
+    /// `m_d * (hand_17 + hand_19)`.
     pub k_32: T,
-    /// `i_gi_gi_11 - i_gi_gi_22`.
+    /// `-(p.r_go_b_by * p.r_go_b_bz * m_d)`.
     pub k_33: T,
-    /// `p.j_22 - i_w_w_33`.
+    /// `m_d * (hand_17 + hand_18)`.
     pub k_34: T,
-    /// `i_w_w_33 - i_w_w_11`.
+    /// `p.r_go_b_bx * m_d`.
     pub k_35: T,
-    /// `i_w_w_11 - p.j_22`.
+    /// `p.r_go_b_by * m_d`.
     pub k_36: T,
+    /// `p.r_go_b_bz * m_d`.
+    pub k_37: T,
+    /// `p.l_o_y + p.l_i_y`. Base parameters of the inner gimbal, eqs. (B1), (B2): arm, m,
+    /// first moment, kg m, inertia, kg m².
+    pub arm_i_goy: T,
+    /// `k_13 + mr_gic_gi_giz`. Base parameters of the inner gimbal, eqs. (B1), (B2): arm, m,
+    /// first moment, kg m, inertia, kg m².
+    pub mr_i_base_giz: T,
+    /// `arm_i_goy + arm_i_goy`.
+    pub k_38: T,
+    /// `mr_goc_go_gox + base_0 + p.l_o_x * p.m_w`. Base parameters of the outer gimbal, eqs.
+    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub mr_o_base_gox: T,
+    /// `base_2 + k_12`. Base parameters of the outer gimbal, eqs. (B1), (B2): arm, m, first
+    /// moment, kg m, inertia, kg m².
+    pub mr_o_base_goy: T,
+    /// `base_21 + base_18 + base_19 + p.i_go_11 - p.i_go_22`. Base parameters of the outer
+    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_o_base_11: T,
+    /// `base_24 - p.l_o_x * p.l_i_y * p.m_w`. Base parameters of the outer gimbal, eqs. (B1),
+    /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_o_base_12: T,
+    /// `base_26 - p.r_goc_go_goz * mr_goc_go_gox`. Base parameters of the outer gimbal, eqs.
+    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_o_base_13: T,
+    /// `base_27 - p.r_goc_go_goz * mr_goc_go_goy`. Base parameters of the outer gimbal, eqs.
+    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_o_base_23: T,
+    /// `base_29 + base_16 + base_18 + base_19`. Base parameters of the outer gimbal, eqs.
+    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_o_base_33: T,
+    /// `base_31 + p.r_gic_gi_gix * base_30`. Base parameters of the inner gimbal, eqs. (B1),
+    /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_i_base_12: T,
+    /// `p.i_gi_13 - p.r_gic_gi_giz * mr_gic_gi_gix + k_8`. Base parameters of the inner
+    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_i_base_13: T,
+    /// `base_36 + own_0`. Base parameters of the inner gimbal, eqs. (B1), (B2): arm, m, first
+    /// moment, kg m, inertia, kg m².
+    pub i_i_base_22: T,
+    /// `base_37 + p.r_gic_gi_giz * base_30`. Base parameters of the inner gimbal, eqs. (B1),
+    /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_i_base_23: T,
+    /// `base_38 + base_34 + own_0`. Base parameters of the inner gimbal, eqs. (B1), (B2):
+    /// arm, m, first moment, kg m, inertia, kg m².
+    pub i_i_base_33: T,
+    /// `p.j_12 - p.l_i_x * p.d * p.m_w`. Base parameters of the wheel, eqs. (B1), (B2): arm,
+    /// m, first moment, kg m, inertia, kg m².
+    pub i_w_base_12: T,
+    /// `p.j_22 - p.j_33 - own_0`. Base parameters of the wheel, eqs. (B1), (B2): arm, m,
+    /// first moment, kg m, inertia, kg m².
+    pub i_w_base_22: T,
+    /// `place_0 + p.mount_13 * arm_o_dz`. Origin of the first joint, eq. (A2), along B axes,
+    /// m.
+    pub reach_bx: T,
+    /// `place_1 + p.mount_23 * arm_o_dz`. Origin of the first joint, eq. (A2), along B axes,
+    /// m.
+    pub reach_by: T,
+    /// `place_2 + p.mount_33 * arm_o_dz`. Origin of the first joint, eq. (A2), along B axes,
+    /// m.
+    pub reach_bz: T,
+    /// `reach_bx + reach_bx`.
+    pub k_39: T,
+    /// `reach_by + reach_by`.
+    pub k_40: T,
+    /// `reach_bz + reach_bz`.
+    pub k_41: T,
+    /// `p.mount_11 * hand_3 + p.mount_12 * hand_7 + p.mount_13 * hand_12`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_bx: T,
+    /// `p.mount_21 * hand_3 + p.mount_22 * hand_7 + p.mount_23 * hand_12`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_by: T,
+    /// `p.mount_31 * hand_3 + p.mount_32 * hand_7 + p.mount_33 * hand_12`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_bz: T,
+    /// `hand_68 - hand_64 + hand_65 * (hand_66 + hand_66)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_11: T,
+    /// `hand_76 - hand_73 + hand_65 * (hand_74 + hand_74)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_12: T,
+    /// `hand_84 - hand_81 + hand_65 * (hand_82 + hand_82)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_13: T,
+    /// `hand_95 - hand_92 + hand_65 * (hand_93 + hand_93)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_22: T,
+    /// `hand_103 - hand_100 + hand_65 * (hand_101 + hand_101)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_23: T,
+    /// `hand_114 - hand_111 + hand_65 * (hand_112 + hand_112)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_33: T,
+    /// `i_go_go_22 - i_go_go_33`.
+    pub k_42: T,
+    /// `i_go_go_33 - i_go_go_11`.
+    pub k_43: T,
+    /// `i_go_go_11 - i_go_go_22`.
+    pub k_44: T,
+    /// `i_gi_gi_22 - i_gi_gi_33`.
+    pub k_45: T,
+    /// `i_gi_gi_33 - i_gi_gi_11`.
+    pub k_46: T,
+    /// `i_gi_gi_11 - i_gi_gi_22`.
+    pub k_47: T,
+    /// `p.j_22 - i_w_w_33`.
+    pub k_48: T,
+    /// `i_w_w_33 - i_w_w_11`.
+    pub k_49: T,
+    /// `i_w_w_11 - p.j_22`.
+    pub k_50: T,
 }
 
 /// Sines and cosines of the joint angles.
@@ -648,7 +802,7 @@ pub struct Wheel<T> {
 }
 
 /// A device's share of `m_sc c` and its derivatives seen from B, along the device's B axes:
-/// `m_sc c″ = f_o ᵒγ̈ + f_i ⁱγ̈ + f_w Ω̇ + f̃`.
+/// `m_sc c″ = mc_dprime_o ᵒγ̈ + mc_dprime_i ⁱγ̈ + mc_dprime_w Ω̇ + f̃`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstMoment<T> {
     /// Σ m r, share of m_sc c, eq. (9), along bx, kg m.
@@ -664,23 +818,23 @@ pub struct FirstMoment<T> {
     /// Σ m r′, share of m_sc c′, behind eq. (11), along bz, kg m/s.
     pub mc_prime_bz: T,
     /// f_o, eq. (17): Σ m r″ per ᵒγ̈, along bx, kg m.
-    pub f_o_bx: T,
+    pub mc_dprime_o_bx: T,
     /// f_o, eq. (17): Σ m r″ per ᵒγ̈, along by, kg m.
-    pub f_o_by: T,
+    pub mc_dprime_o_by: T,
     /// f_o, eq. (17): Σ m r″ per ᵒγ̈, along bz, kg m.
-    pub f_o_bz: T,
+    pub mc_dprime_o_bz: T,
     /// f_i, eq. (17): Σ m r″ per ⁱγ̈, along bx, kg m.
-    pub f_i_bx: T,
+    pub mc_dprime_i_bx: T,
     /// f_i, eq. (17): Σ m r″ per ⁱγ̈, along by, kg m.
-    pub f_i_by: T,
+    pub mc_dprime_i_by: T,
     /// f_i, eq. (17): Σ m r″ per ⁱγ̈, along bz, kg m.
-    pub f_i_bz: T,
+    pub mc_dprime_i_bz: T,
     /// f_w, eq. (17): Σ m r″ per Ω̇, along bx, kg m.
-    pub f_w_bx: T,
+    pub mc_dprime_w_bx: T,
     /// f_w, eq. (17): Σ m r″ per Ω̇, along by, kg m.
-    pub f_w_by: T,
+    pub mc_dprime_w_by: T,
     /// f_w, eq. (17): Σ m r″ per Ω̇, along bz, kg m.
-    pub f_w_bz: T,
+    pub mc_dprime_w_bz: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along bx, N.
     pub f_tilde_bx: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along by, N.
@@ -963,7 +1117,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 79 mul, 45 add, 11 neg, 0 div, 0 trig.
+/// Operations: 263 mul, 283 add, 12 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // r_{Gᵒc/B}, behind eq. (12), m.
@@ -977,23 +1131,11 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
 
     // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
     let mr_wc_w_wy = p.m_w * p.d;
-    let own_0 = p.d * p.d * p.m_w;
-    let i_w_w_11 = p.j_11 + own_0;
-    let i_w_w_33 = p.j_33 + own_0;
 
     // The inner gimbal about its origin: first moment, kg m, and inertia as in eq. (55), kg m².
     let mr_gic_gi_gix = p.m_gi * p.r_gic_gi_gix;
     let mr_gic_gi_giy = p.m_gi * p.r_gic_gi_giy;
     let mr_gic_gi_giz = p.m_gi * p.r_gic_gi_giz;
-    let own_1 = p.r_gic_gi_giy * p.r_gic_gi_giy;
-    let own_2 = p.r_gic_gi_giz * p.r_gic_gi_giz;
-    let i_gi_gi_11 = p.i_gi_11 + p.m_gi * (own_1 + own_2);
-    let i_gi_gi_12 = p.i_gi_12 - p.r_gic_gi_gix * p.r_gic_gi_giy * p.m_gi;
-    let i_gi_gi_13 = p.i_gi_13 - p.r_gic_gi_gix * p.r_gic_gi_giz * p.m_gi;
-    let own_3 = p.r_gic_gi_gix * p.r_gic_gi_gix;
-    let i_gi_gi_22 = p.i_gi_22 + p.m_gi * (own_3 + own_2);
-    let i_gi_gi_23 = p.i_gi_23 - p.r_gic_gi_giy * p.r_gic_gi_giz * p.m_gi;
-    let i_gi_gi_33 = p.i_gi_33 + p.m_gi * (own_3 + own_1);
 
     // V, the inner gimbal and what it carries, eq. (108): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gⁱ.
@@ -1004,72 +1146,298 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let mr_goc_go_gox = p.m_go * p.r_goc_go_gox;
     let mr_goc_go_goy = p.m_go * p.r_goc_go_goy;
     let mr_goc_go_goz = p.m_go * p.r_goc_go_goz;
-    let own_4 = p.r_goc_go_goy * p.r_goc_go_goy;
-    let own_5 = p.r_goc_go_goz * p.r_goc_go_goz;
-    let i_go_go_11 = p.i_go_11 + p.m_go * (own_4 + own_5);
-    let i_go_go_12 = p.i_go_12 - p.r_goc_go_gox * p.r_goc_go_goy * p.m_go;
-    let i_go_go_13 = p.i_go_13 - p.r_goc_go_gox * p.r_goc_go_goz * p.m_go;
-    let own_6 = p.r_goc_go_gox * p.r_goc_go_gox;
-    let i_go_go_22 = p.i_go_22 + p.m_go * (own_6 + own_5);
-    let i_go_go_23 = p.i_go_23 - p.r_goc_go_goy * p.r_goc_go_goz * p.m_go;
-    let i_go_go_33 = p.i_go_33 + p.m_go * (own_6 + own_4);
 
     // D, the outer gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gᵒ.
     let m_d = p.m_go + m_v;
 
-    // Gⁱ from B, eq. (A2), along B axes, m.
-    let origin_gi_bz = p.r_go_b_bz + p.l_o_z;
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_m = p.m_go + p.m_gi + p.m_w;
+    let hand_0 = p.r_go_b_bx * p.m_go;
+    let hand_1 = p.r_go_b_bx * p.m_gi;
+    let hand_2 = p.r_go_b_bx * p.m_w;
+    let hand_3 = hand_0 + hand_1 + hand_2;
+    let hand_4 = p.r_go_b_by * p.m_go;
+    let hand_5 = p.r_go_b_by * p.m_gi;
+    let hand_6 = p.r_go_b_by * p.m_w;
+    let hand_7 = hand_4 + hand_5 + hand_6;
+    let hand_8 = p.r_go_b_bz * p.m_go;
+    let hand_9 = p.l_o_z * p.m_gi;
+    let hand_10 = p.l_o_z * p.m_w;
+    let hand_11 = hand_8 + p.r_go_b_bz * p.m_gi + hand_9 + p.r_go_b_bz * p.m_w;
+    let hand_12 = hand_11 + hand_10 + mr_goc_go_goz;
+    let hand_mr_bx = p.mount_11 * hand_3 + p.mount_12 * hand_7 + p.mount_13 * hand_12;
+    let hand_mr_by = p.mount_21 * hand_3 + p.mount_22 * hand_7 + p.mount_23 * hand_12;
+    let hand_mr_bz = p.mount_31 * hand_3 + p.mount_32 * hand_7 + p.mount_33 * hand_12;
+    let hand_13 = p.l_o_x * p.l_o_x;
+    let hand_14 = p.l_o_z * p.l_o_z;
+    let hand_15 = p.r_goc_go_gox * p.r_goc_go_gox;
+    let hand_16 = p.r_goc_go_goz * p.r_goc_go_goz;
+    let hand_17 = p.r_go_b_bx * p.r_go_b_bx;
+    let hand_18 = p.r_go_b_by * p.r_go_b_by;
+    let hand_19 = p.r_go_b_bz * p.r_go_b_bz;
+    let hand_20 = p.m_go * hand_15;
+    let hand_21 = p.m_gi * hand_13;
+    let hand_22 = p.m_w * hand_13;
+    let hand_23 = p.m_go * hand_18;
+    let hand_24 = p.m_go * hand_19;
+    let hand_25 = p.m_gi * hand_18;
+    let hand_26 = p.m_gi * hand_19;
+    let hand_27 = p.r_go_b_bz * hand_9;
+    let hand_28 = hand_27 + hand_27;
+    let hand_29 = p.m_gi * hand_14;
+    let hand_30 = p.m_w * hand_18;
+    let hand_31 = p.m_w * hand_19;
+    let hand_32 = p.r_go_b_bz * hand_10;
+    let hand_33 = hand_32 + hand_32;
+    let hand_34 = p.m_w * hand_14;
+    let hand_35 = p.r_goc_go_goz * hand_8;
+    let hand_36 = hand_35 + hand_35;
+    let hand_37 = p.m_go * hand_16;
+    let hand_38 = p.m_go * hand_17;
+    let hand_39 = p.m_gi * hand_17;
+    let hand_40 = p.m_w * hand_17;
+    let half = p.mount_11.like(0.5);
+    let hand_41 = hand_23 + hand_24 + hand_20 + hand_25 + hand_26 + hand_28;
+    let hand_42 = hand_41 + hand_29 + hand_21 + hand_30 + hand_31 + hand_33;
+    let hand_43 = hand_42 + hand_34 + hand_22 + hand_36 + hand_37 + p.i_go_22;
+    let hand_44 = half * hand_43;
+    let hand_45 = p.mount_11 * p.mount_11;
+    let hand_46 = p.r_go_b_by * hand_0 + p.r_go_b_by * hand_1 + p.r_go_b_by * hand_2;
+    let hand_47 = half * hand_46;
+    let hand_48 = p.mount_11 * p.mount_12;
+    let hand_49 = hand_47 * (hand_48 + hand_48);
+    let hand_50 = p.r_go_b_bz * hand_0 + p.r_go_b_bz * hand_1 + p.r_go_b_bx * hand_9;
+    let hand_51 = hand_50 + p.r_go_b_bz * hand_2 + p.r_go_b_bx * hand_10;
+    let hand_52 = half * (hand_51 + p.r_goc_go_goz * hand_0);
+    let hand_53 = p.mount_11 * p.mount_13;
+    let hand_54 = hand_52 * (hand_53 + hand_53);
+    let hand_55 = hand_24 + hand_38 + hand_20 + hand_39 + hand_26 + hand_28;
+    let hand_56 = hand_55 + hand_29 + hand_21 + hand_40 + hand_31 + hand_33;
+    let hand_57 = hand_56 + hand_34 + hand_22 + hand_36 + hand_37 + p.i_go_22;
+    let hand_58 = half * hand_57;
+    let hand_59 = p.mount_12 * p.mount_12;
+    let hand_60 = p.r_go_b_bz * hand_4 + p.r_go_b_bz * hand_5 + p.r_go_b_by * hand_9;
+    let hand_61 = hand_60 + p.r_go_b_bz * hand_6 + p.r_go_b_by * hand_10;
+    let hand_62 = half * (hand_61 + p.r_goc_go_goz * hand_4);
+    let hand_63 = p.mount_12 * p.mount_13;
+    let hand_64 = hand_62 * (hand_63 + hand_63);
+    let hand_65 = half * (hand_23 + hand_38 + hand_39 + hand_25 + hand_40 + hand_30);
+    let hand_66 = p.mount_13 * p.mount_13;
+    let hand_67 = hand_44 * (hand_45 + hand_45) - hand_49 - hand_54 - hand_49;
+    let hand_68 = hand_67 + hand_58 * (hand_59 + hand_59) - hand_64 - hand_54;
+    let hand_i_11 = hand_68 - hand_64 + hand_65 * (hand_66 + hand_66);
+    let hand_69 = p.mount_11 * p.mount_21;
+    let hand_70 = hand_47 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
+    let hand_71 = hand_52 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
+    let hand_72 = p.mount_12 * p.mount_22;
+    let hand_73 = hand_62 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
+    let hand_74 = p.mount_13 * p.mount_23;
+    let hand_75 = hand_44 * (hand_69 + hand_69) - hand_70 - hand_71 - hand_70;
+    let hand_76 = hand_75 + hand_58 * (hand_72 + hand_72) - hand_73 - hand_71;
+    let hand_i_12 = hand_76 - hand_73 + hand_65 * (hand_74 + hand_74);
+    let hand_77 = p.mount_11 * p.mount_31;
+    let hand_78 = hand_47 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
+    let hand_79 = hand_52 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
+    let hand_80 = p.mount_12 * p.mount_32;
+    let hand_81 = hand_62 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
+    let hand_82 = p.mount_13 * p.mount_33;
+    let hand_83 = hand_44 * (hand_77 + hand_77) - hand_78 - hand_79 - hand_78;
+    let hand_84 = hand_83 + hand_58 * (hand_80 + hand_80) - hand_81 - hand_79;
+    let hand_i_13 = hand_84 - hand_81 + hand_65 * (hand_82 + hand_82);
+    let hand_85 = p.mount_21 * p.mount_21;
+    let hand_86 = p.mount_21 * p.mount_22;
+    let hand_87 = hand_47 * (hand_86 + hand_86);
+    let hand_88 = p.mount_21 * p.mount_23;
+    let hand_89 = hand_52 * (hand_88 + hand_88);
+    let hand_90 = p.mount_22 * p.mount_22;
+    let hand_91 = p.mount_22 * p.mount_23;
+    let hand_92 = hand_62 * (hand_91 + hand_91);
+    let hand_93 = p.mount_23 * p.mount_23;
+    let hand_94 = hand_44 * (hand_85 + hand_85) - hand_87 - hand_89 - hand_87;
+    let hand_95 = hand_94 + hand_58 * (hand_90 + hand_90) - hand_92 - hand_89;
+    let hand_i_22 = hand_95 - hand_92 + hand_65 * (hand_93 + hand_93);
+    let hand_96 = p.mount_21 * p.mount_31;
+    let hand_97 = hand_47 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
+    let hand_98 = hand_52 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
+    let hand_99 = p.mount_22 * p.mount_32;
+    let hand_100 = hand_62 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
+    let hand_101 = p.mount_23 * p.mount_33;
+    let hand_102 = hand_44 * (hand_96 + hand_96) - hand_97 - hand_98 - hand_97;
+    let hand_103 = hand_102 + hand_58 * (hand_99 + hand_99) - hand_100 - hand_98;
+    let hand_i_23 = hand_103 - hand_100 + hand_65 * (hand_101 + hand_101);
+    let hand_104 = p.mount_31 * p.mount_31;
+    let hand_105 = p.mount_31 * p.mount_32;
+    let hand_106 = hand_47 * (hand_105 + hand_105);
+    let hand_107 = p.mount_31 * p.mount_33;
+    let hand_108 = hand_52 * (hand_107 + hand_107);
+    let hand_109 = p.mount_32 * p.mount_32;
+    let hand_110 = p.mount_32 * p.mount_33;
+    let hand_111 = hand_62 * (hand_110 + hand_110);
+    let hand_112 = p.mount_33 * p.mount_33;
+    let hand_113 = hand_44 * (hand_104 + hand_104) - hand_106 - hand_108 - hand_106;
+    let hand_114 = hand_113 + hand_58 * (hand_109 + hand_109) - hand_111 - hand_108;
+    let hand_i_33 = hand_114 - hand_111 + hand_65 * (hand_112 + hand_112);
+
+    // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
+    let own_0 = p.d * p.d * p.m_w;
+    let i_w_w_11 = p.j_11 + own_0;
+
+    // Base parameters of the outer gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia,
+    // kg m².
+    let arm_o_dz = p.r_go_b_bz + p.l_o_z;
+    let base_0 = p.l_o_x * p.m_gi;
+    let mr_o_base_gox = mr_goc_go_gox + base_0 + p.l_o_x * p.m_w;
+    let k_12 = p.l_i_y * p.m_w;
+    let base_1 = p.l_o_y * p.m_gi;
+    let base_2 = mr_goc_go_goy + base_1 + p.l_o_y * p.m_w + mr_gic_gi_giy;
+    let mr_o_base_goy = base_2 + k_12;
+    let base_3 = p.l_i_y * p.l_i_y;
+    let base_4 = p.l_i_z * p.l_i_z;
+    let base_5 = p.r_gic_gi_giy * p.r_gic_gi_giy;
+    let base_6 = p.r_gic_gi_giz * p.r_gic_gi_giz;
+    let base_7 = p.l_o_y * p.l_o_y;
+    let base_8 = p.r_goc_go_goy * p.r_goc_go_goy;
+    let base_9 = p.m_w * base_4;
+    let base_10 = p.m_gi * base_6;
+    let base_11 = p.m_go * base_8;
+    let base_12 = p.m_gi * base_7;
+    let base_13 = p.m_w * base_7;
+    let base_14 = p.r_gic_gi_giy * base_1;
+    let base_15 = base_14 + base_14;
+    let base_16 = p.m_gi * base_5;
+    let base_17 = p.l_o_y * p.l_i_y * p.m_w;
+    let base_18 = base_17 + base_17;
+    let base_19 = p.m_w * base_3;
+    let base_20 = p.i_gi_11 - hand_20 + base_10 - hand_21 + base_9 - hand_22;
+    let base_21 = base_20 + base_11 + base_12 + base_13 + base_15 + base_16;
+    let i_o_base_11 = base_21 + base_18 + base_19 + p.i_go_11 - p.i_go_22;
+    let base_22 = p.l_o_x * p.l_o_y;
+    let base_23 = p.i_go_12 - p.r_goc_go_goy * mr_goc_go_gox - p.m_gi * base_22;
+    let base_24 = base_23 - p.m_w * base_22 - p.r_gic_gi_giy * base_0;
+    let i_o_base_12 = base_24 - p.l_o_x * p.l_i_y * p.m_w;
+    let base_25 = p.m_go * p.l_o_z;
+    let base_26 = p.i_go_13 + p.r_goc_go_gox * base_25;
+    let i_o_base_13 = base_26 - p.r_goc_go_goz * mr_goc_go_gox;
+    let base_27 = p.i_go_23 + p.r_goc_go_goy * base_25;
+    let i_o_base_23 = base_27 - p.r_goc_go_goz * mr_goc_go_goy;
+    let base_28 = p.i_go_33 + p.i_gi_11 + hand_20 + base_10 + hand_21 + base_9;
+    let base_29 = base_28 + hand_22 + base_11 + base_12 + base_13 + base_15;
+    let i_o_base_33 = base_29 + base_16 + base_18 + base_19;
+
+    // Base parameters of the inner gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia,
+    // kg m².
+    let arm_i_goy = p.l_o_y + p.l_i_y;
+    let k_13 = p.l_i_z * p.m_w;
+    let mr_i_base_giz = k_13 + mr_gic_gi_giz;
+    let base_30 = p.m_gi * p.l_i_y;
+    let base_31 = p.i_gi_12 - p.r_gic_gi_giy * mr_gic_gi_gix;
+    let i_i_base_12 = base_31 + p.r_gic_gi_gix * base_30;
+    let k_8 = -(p.l_i_x * p.l_i_z * p.m_w);
+    let i_i_base_13 = p.i_gi_13 - p.r_gic_gi_giz * mr_gic_gi_gix + k_8;
+    let base_32 = p.l_i_x * p.l_i_x;
+    let base_33 = p.r_gic_gi_gix * p.r_gic_gi_gix;
+    let base_34 = p.m_w * base_32;
+    let base_35 = p.m_gi * base_33;
+    let base_36 = p.i_gi_22 + p.j_33 + base_10 + base_35 + base_9 + base_34;
+    let i_i_base_22 = base_36 + own_0;
+    let base_37 = p.i_gi_23 - p.r_gic_gi_giz * mr_gic_gi_giy;
+    let i_i_base_23 = base_37 + p.r_gic_gi_giz * base_30;
+    let base_38 = p.j_33 - p.i_gi_11 + p.i_gi_33 - base_10 + base_35 - base_9;
+    let i_i_base_33 = base_38 + base_34 + own_0;
+
+    // Base parameters of the wheel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    let i_w_base_12 = p.j_12 - p.l_i_x * p.d * p.m_w;
+    let i_w_base_22 = p.j_22 - p.j_33 - own_0;
+
+    // Origin of the first joint, eq. (A2), along B axes, m.
+    let place_0 = p.r_go_b_bx * p.mount_11 + p.r_go_b_by * p.mount_12;
+    let reach_bx = place_0 + p.mount_13 * arm_o_dz;
+    let place_1 = p.r_go_b_bx * p.mount_21 + p.r_go_b_by * p.mount_22;
+    let reach_by = place_1 + p.mount_23 * arm_o_dz;
+    let place_2 = p.r_go_b_bx * p.mount_31 + p.r_go_b_by * p.mount_32;
+    let reach_bz = place_2 + p.mount_33 * arm_o_dz;
+
+    // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
+    let i_w_w_33 = p.j_33 + own_0;
+
+    // The inner gimbal about its origin: first moment, kg m, and inertia as in eq. (55), kg m².
+    let i_gi_gi_11 = p.i_gi_11 + p.m_gi * (base_5 + base_6);
+    let i_gi_gi_12 = p.i_gi_12 - p.r_gic_gi_gix * p.r_gic_gi_giy * p.m_gi;
+    let i_gi_gi_13 = p.i_gi_13 - p.r_gic_gi_gix * p.r_gic_gi_giz * p.m_gi;
+    let i_gi_gi_22 = p.i_gi_22 + p.m_gi * (base_33 + base_6);
+    let i_gi_gi_23 = p.i_gi_23 - p.r_gic_gi_giy * p.r_gic_gi_giz * p.m_gi;
+    let i_gi_gi_33 = p.i_gi_33 + p.m_gi * (base_33 + base_5);
+
+    // The outer gimbal about its origin: first moment, kg m, and inertia as in eq. (40), kg m².
+    let i_go_go_11 = p.i_go_11 + p.m_go * (base_8 + hand_16);
+    let i_go_go_12 = p.i_go_12 - p.r_goc_go_gox * p.r_goc_go_goy * p.m_go;
+    let i_go_go_13 = p.i_go_13 - p.r_goc_go_gox * p.r_goc_go_goz * p.m_go;
+    let i_go_go_22 = p.i_go_22 + p.m_go * (hand_15 + hand_16);
+    let i_go_go_23 = p.i_go_23 - p.r_goc_go_goy * p.r_goc_go_goz * p.m_go;
+    let i_go_go_33 = p.i_go_33 + p.m_go * (hand_15 + base_8);
 
     // Products and sums of parameters that occur more deeply.
     let k_0 = r_goc_b_bz * r_goc_b_bz;
-    let k_1 = p.j_22 + i_w_w_33;
-    let prep_0 = p.l_i_y * p.l_i_y;
-    let prep_1 = p.l_i_z * p.l_i_z;
-    let k_2 = p.m_w * (prep_0 + prep_1);
-    let k_3 = -(p.l_i_x * p.l_i_y * p.m_w);
-    let k_4 = -(p.l_i_x * p.l_i_z * p.m_w);
-    let prep_2 = p.l_i_x * p.l_i_x;
-    let k_5 = p.m_w * (prep_2 + prep_1);
-    let k_6 = -(p.l_i_y * p.l_i_z * p.m_w);
-    let k_7 = p.m_w * (prep_2 + prep_0);
-    let k_8 = p.l_i_y * p.m_w;
-    let k_9 = p.l_i_z * p.m_w;
-    let prep_3 = p.l_o_y * p.l_o_y;
-    let prep_4 = p.l_o_z * p.l_o_z;
-    let k_10 = m_v * (prep_3 + prep_4);
-    let k_11 = -(p.l_o_x * p.l_o_y * m_v);
-    let k_12 = -(p.l_o_x * p.l_o_z * m_v);
-    let prep_5 = p.l_o_x * p.l_o_x;
-    let k_13 = m_v * (prep_5 + prep_4);
-    let k_14 = -(p.l_o_y * p.l_o_z * m_v);
-    let k_15 = m_v * (prep_5 + prep_3);
-    let k_16 = p.l_o_x * m_v;
-    let k_17 = p.l_o_y * m_v;
-    let k_18 = p.l_o_z * m_v;
-    let prep_6 = p.r_go_b_by * p.r_go_b_by;
-    let prep_7 = p.r_go_b_bz * p.r_go_b_bz;
-    let k_19 = m_d * (prep_6 + prep_7);
-    let k_20 = -(p.r_go_b_bx * p.r_go_b_by * m_d);
-    let k_21 = -(p.r_go_b_bx * p.r_go_b_bz * m_d);
-    let prep_8 = p.r_go_b_bx * p.r_go_b_bx;
-    let k_22 = m_d * (prep_8 + prep_7);
-    let k_23 = -(p.r_go_b_by * p.r_go_b_bz * m_d);
-    let k_24 = m_d * (prep_8 + prep_6);
-    let k_25 = p.r_go_b_bx * m_d;
-    let k_26 = p.r_go_b_by * m_d;
-    let k_27 = p.r_go_b_bz * m_d;
-    let k_28 = i_go_go_22 - i_go_go_33;
-    let k_29 = i_go_go_33 - i_go_go_11;
-    let k_30 = i_go_go_11 - i_go_go_22;
-    let k_31 = i_gi_gi_22 - i_gi_gi_33;
-    let k_32 = i_gi_gi_33 - i_gi_gi_11;
-    let k_33 = i_gi_gi_11 - i_gi_gi_22;
-    let k_34 = p.j_22 - i_w_w_33;
-    let k_35 = i_w_w_33 - i_w_w_11;
-    let k_36 = i_w_w_11 - p.j_22;
+    let k_1 = i_w_w_33 - p.j_22;
+    let k_2 = p.j_23 + p.j_23;
+    let k_3 = -p.j_23;
+    let k_4 = p.l_i_y + p.l_i_y;
+    let k_5 = p.l_i_z + p.l_i_z;
+    let k_6 = p.m_w * (base_3 + base_4);
+    let k_7 = -(p.l_i_x * p.l_i_y * p.m_w);
+    let k_9 = p.m_w * (base_32 + base_4);
+    let k_10 = -(p.l_i_y * p.l_i_z * p.m_w);
+    let k_11 = p.m_w * (base_32 + base_3);
+    let k_14 = p.l_o_x + p.l_o_x;
+    let k_15 = p.l_o_y + p.l_o_y;
+    let k_16 = p.l_o_z + p.l_o_z;
+    let k_17 = m_v * (base_7 + hand_14);
+    let k_18 = -(m_v * base_22);
+    let k_19 = -(p.l_o_x * p.l_o_z * m_v);
+    let k_20 = m_v * (hand_13 + hand_14);
+    let k_21 = -(p.l_o_y * p.l_o_z * m_v);
+    let k_22 = m_v * (hand_13 + base_7);
+    let k_23 = p.l_o_x * m_v;
+    let k_24 = p.l_o_y * m_v;
+    let k_25 = p.l_o_z * m_v;
+    let k_26 = p.r_go_b_bx + p.r_go_b_bx;
+    let k_27 = p.r_go_b_by + p.r_go_b_by;
+    let k_28 = p.r_go_b_bz + p.r_go_b_bz;
+    let k_29 = m_d * (hand_18 + hand_19);
+    let k_30 = -(p.r_go_b_bx * p.r_go_b_by * m_d);
+    let k_31 = -(p.r_go_b_bx * p.r_go_b_bz * m_d);
+    let k_32 = m_d * (hand_17 + hand_19);
+    let k_33 = -(p.r_go_b_by * p.r_go_b_bz * m_d);
+    let k_34 = m_d * (hand_17 + hand_18);
+    let k_35 = p.r_go_b_bx * m_d;
+    let k_36 = p.r_go_b_by * m_d;
+    let k_37 = p.r_go_b_bz * m_d;
+    let k_38 = arm_i_goy + arm_i_goy;
+    let k_39 = reach_bx + reach_bx;
+    let k_40 = reach_by + reach_by;
+    let k_41 = reach_bz + reach_bz;
+    let k_42 = i_go_go_22 - i_go_go_33;
+    let k_43 = i_go_go_33 - i_go_go_11;
+    let k_44 = i_go_go_11 - i_go_go_22;
+    let k_45 = i_gi_gi_22 - i_gi_gi_33;
+    let k_46 = i_gi_gi_33 - i_gi_gi_11;
+    let k_47 = i_gi_gi_11 - i_gi_gi_22;
+    let k_48 = p.j_22 - i_w_w_33;
+    let k_49 = i_w_w_33 - i_w_w_11;
+    let k_50 = i_w_w_11 - p.j_22;
 
     Prepared {
+        mount_11: p.mount_11,
+        mount_12: p.mount_12,
+        mount_13: p.mount_13,
+        mount_21: p.mount_21,
+        mount_22: p.mount_22,
+        mount_23: p.mount_23,
+        mount_31: p.mount_31,
+        mount_32: p.mount_32,
+        mount_33: p.mount_33,
         r_go_b_bx: p.r_go_b_bx,
         r_go_b_by: p.r_go_b_by,
         r_go_b_bz: p.r_go_b_bz,
@@ -1106,8 +1474,9 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         j_22: p.j_22,
         j_23: p.j_23,
         j_33: p.j_33,
+        hand_m,
         r_goc_b_bz,
-        origin_gi_bz,
+        arm_o_dz,
         k_0,
         r_gic_b_dprime_o_gox,
         r_wc_b_dprime_i_giz,
@@ -1123,6 +1492,10 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_7,
         k_8,
         k_9,
+        k_10,
+        k_11,
+        k_12,
+        k_13,
         mr_gic_gi_gix,
         mr_gic_gi_giy,
         mr_gic_gi_giz,
@@ -1133,15 +1506,18 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         i_gi_gi_23,
         i_gi_gi_33,
         mr_v_gi_gix,
-        k_10,
-        k_11,
-        k_12,
-        k_13,
         k_14,
         k_15,
         k_16,
         k_17,
         k_18,
+        k_19,
+        k_20,
+        k_21,
+        k_22,
+        k_23,
+        k_24,
+        k_25,
         mr_goc_go_gox,
         mr_goc_go_goy,
         mr_goc_go_goz,
@@ -1151,14 +1527,6 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         i_go_go_22,
         i_go_go_23,
         i_go_go_33,
-        m_d,
-        k_19,
-        k_20,
-        k_21,
-        k_22,
-        k_23,
-        k_24,
-        k_25,
         k_26,
         k_27,
         k_28,
@@ -1170,12 +1538,54 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_34,
         k_35,
         k_36,
+        k_37,
+        arm_i_goy,
+        mr_i_base_giz,
+        k_38,
+        mr_o_base_gox,
+        mr_o_base_goy,
+        i_o_base_11,
+        i_o_base_12,
+        i_o_base_13,
+        i_o_base_23,
+        i_o_base_33,
+        i_i_base_12,
+        i_i_base_13,
+        i_i_base_22,
+        i_i_base_23,
+        i_i_base_33,
+        i_w_base_12,
+        i_w_base_22,
+        reach_bx,
+        reach_by,
+        reach_bz,
+        k_39,
+        k_40,
+        k_41,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
+        k_42,
+        k_43,
+        k_44,
+        k_45,
+        k_46,
+        k_47,
+        k_48,
+        k_49,
+        k_50,
     }
 }
 
 /// The outer gimbal: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 52 mul, 35 add, 7 neg, 0 div, 0 trig.
+/// Operations: 52 mul, 32 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> OuterGimbal<T> {
     // ω_{Gᵒ/B}, eq. (31), rad/s.
@@ -1234,21 +1644,17 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
     let i_go_b_33 = p.i_go_33 + p.m_go * (axis_3 + axis_1);
 
     // [I_{Gᵒ,B}]′, eq. (42), along the axes of the outer gimbal, kg m²/s.
-    let shift_0 = q.sin_gamma_o * r_goc_b_prime_by - q.cos_gamma_o * vel_2;
-    let shift_1 = q.cos_gamma_o * r_goc_b_prime_by + q.sin_gamma_o * vel_2;
-    let shift_2 = axis_2 * shift_0;
-    let shift_3 = axis_0 * shift_1;
-    let shift_4 = shift_2 + shift_3;
-    let shift_5 = shift_4 + shift_4;
-    let shift_6 = p.m_go * (shift_5 - (shift_2 + shift_2));
-    let i_go_b_prime_11 = i_go_goc_prime_11 + shift_6;
-    let shift_7 = p.m_go * (axis_0 * shift_0 + axis_2 * shift_1);
-    let i_go_b_prime_12 = i_go_goc_prime_12 - shift_7;
-    let i_go_b_prime_13 = -(turn_1 + p.r_goc_b_bz * shift_0 * p.m_go);
-    let shift_8 = p.m_go * (shift_5 - (shift_3 + shift_3));
-    let i_go_b_prime_22 = i_go_goc_prime_22 + shift_8;
-    let i_go_b_prime_23 = i_go_goc_prime_23 - p.r_goc_b_bz * shift_1 * p.m_go;
-    let i_go_b_prime_33 = p.m_go * shift_5;
+    let shift_0 = q.cos_gamma_o * r_goc_b_prime_by + q.sin_gamma_o * vel_2;
+    let shift_1 = axis_0 * (shift_0 + shift_0);
+    let i_go_b_prime_11 = i_go_goc_prime_11 + p.m_go * shift_1;
+    let shift_2 = q.sin_gamma_o * r_goc_b_prime_by - q.cos_gamma_o * vel_2;
+    let shift_3 = p.m_go * (axis_0 * shift_2 + axis_2 * shift_0);
+    let i_go_b_prime_12 = i_go_goc_prime_12 - shift_3;
+    let i_go_b_prime_13 = -(turn_1 + p.r_goc_b_bz * shift_2 * p.m_go);
+    let shift_4 = axis_2 * (shift_2 + shift_2);
+    let i_go_b_prime_22 = i_go_goc_prime_22 + p.m_go * shift_4;
+    let i_go_b_prime_23 = i_go_goc_prime_23 - p.r_goc_b_bz * shift_0 * p.m_go;
+    let i_go_b_prime_33 = p.m_go * (shift_4 + shift_1);
 
     OuterGimbal {
         omega_go_b_gox,
@@ -1289,7 +1695,7 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
 
 /// The inner gimbal: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 81 mul, 67 add, 6 neg, 0 div, 0 trig.
+/// Operations: 81 mul, 64 add, 6 neg, 0 div, 0 trig.
 #[must_use]
 pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> InnerGimbal<T> {
     // ω_{Gⁱ/B}, eq. (44), rad/s.
@@ -1306,7 +1712,7 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
     let r_gic_b_goy = pos_2 + p.l_o_y + p.r_gic_gi_giy;
     let pos_3 = q.sin_gamma_i * p.r_gic_gi_gix;
     let r_gic_b_dprime_i_gox = q.cos_gamma_i * p.r_gic_gi_giz - pos_3;
-    let r_gic_b_goz = p.origin_gi_bz + r_gic_b_dprime_i_gox;
+    let r_gic_b_goz = p.arm_o_dz + r_gic_b_dprime_i_gox;
 
     // r′_{Gⁱc/B}, behind eq. (13), m/s.
     let vel_0 = v.gamma_i_dot * q.cos_gamma_i;
@@ -1373,24 +1779,19 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
 
     // [I_{Gⁱ,B}]′, eq. (57), along the axes of the inner gimbal, kg m²/s.
     let shift_0 = q.sin_gamma_i * r_gic_b_prime_gox - q.cos_gamma_i * vel_7;
-    let shift_1 = q.cos_gamma_i * r_gic_b_prime_gox + q.sin_gamma_i * vel_7;
-    let shift_2 = axis_3 * shift_1;
-    let shift_3 = r_gic_b_goy * r_gic_b_prime_goy;
-    let shift_4 = axis_0 * shift_0;
-    let shift_5 = shift_2 + shift_3 + shift_4;
-    let shift_6 = shift_5 + shift_5;
-    let shift_7 = p.m_gi * (shift_6 - (shift_2 + shift_2));
-    let i_gi_b_prime_11 = i_gi_gic_prime_11 + shift_7;
-    let shift_8 = r_gic_b_goy * shift_1 + r_gic_b_prime_goy * axis_3;
-    let i_gi_b_prime_12 = i_gi_gic_prime_12 - p.m_gi * shift_8;
-    let shift_9 = p.m_gi * (axis_0 * shift_1 + axis_3 * shift_0);
-    let i_gi_b_prime_13 = i_gi_gic_prime_13 - shift_9;
-    let shift_10 = p.m_gi * (shift_6 - (shift_3 + shift_3));
-    let i_gi_b_prime_22 = i_gi_gic_prime_22 + shift_10;
-    let shift_11 = r_gic_b_prime_goy * axis_0 + r_gic_b_goy * shift_0;
-    let i_gi_b_prime_23 = i_gi_gic_prime_23 - p.m_gi * shift_11;
-    let shift_12 = p.m_gi * (shift_6 - (shift_4 + shift_4));
-    let i_gi_b_prime_33 = i_gi_gic_prime_33 + shift_12;
+    let shift_1 = r_gic_b_goy * (r_gic_b_prime_goy + r_gic_b_prime_goy);
+    let shift_2 = axis_0 * (shift_0 + shift_0);
+    let i_gi_b_prime_11 = i_gi_gic_prime_11 + p.m_gi * (shift_1 + shift_2);
+    let shift_3 = q.cos_gamma_i * r_gic_b_prime_gox + q.sin_gamma_i * vel_7;
+    let shift_4 = r_gic_b_goy * shift_3 + r_gic_b_prime_goy * axis_3;
+    let i_gi_b_prime_12 = i_gi_gic_prime_12 - p.m_gi * shift_4;
+    let shift_5 = p.m_gi * (axis_0 * shift_3 + axis_3 * shift_0);
+    let i_gi_b_prime_13 = i_gi_gic_prime_13 - shift_5;
+    let shift_6 = axis_3 * (shift_3 + shift_3);
+    let i_gi_b_prime_22 = i_gi_gic_prime_22 + p.m_gi * (shift_6 + shift_2);
+    let shift_7 = r_gic_b_prime_goy * axis_0 + r_gic_b_goy * shift_0;
+    let i_gi_b_prime_23 = i_gi_gic_prime_23 - p.m_gi * shift_7;
+    let i_gi_b_prime_33 = i_gi_gic_prime_33 + p.m_gi * (shift_6 + shift_1);
 
     InnerGimbal {
         omega_gi_b_gix,
@@ -1434,7 +1835,7 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
 
 /// The wheel: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 128 mul, 105 add, 4 neg, 0 div, 0 trig.
+/// Operations: 128 mul, 102 add, 4 neg, 0 div, 0 trig.
 #[must_use]
 pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // ω_{W/B}, eq. (59), rad/s.
@@ -1446,12 +1847,12 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
 
     // r_{Wc/B}, behind eq. (14), m.
     let pos_0 = p.r_go_b_bx * q.cos_gamma_o + p.r_go_b_by * q.sin_gamma_o + p.l_o_x;
-    let r_wc_b_gix = q.cos_gamma_i * pos_0 - q.sin_gamma_i * p.origin_gi_bz + p.l_i_x;
+    let r_wc_b_gix = q.cos_gamma_i * pos_0 - q.sin_gamma_i * p.arm_o_dz + p.l_i_x;
     let r_wc_b_dprime_w_giz = q.cos_theta * p.d;
     let pos_1 = p.r_go_b_by * q.cos_gamma_o - p.r_go_b_bx * q.sin_gamma_o;
     let r_wc_b_giy = pos_1 + p.l_o_y + p.l_i_y + r_wc_b_dprime_w_giz;
     let pos_2 = q.sin_theta * p.d;
-    let pos_3 = q.cos_gamma_i * p.origin_gi_bz + q.sin_gamma_i * pos_0 + p.l_i_z;
+    let pos_3 = q.cos_gamma_i * p.arm_o_dz + q.sin_gamma_i * pos_0 + p.l_i_z;
     let r_wc_b_giz = pos_3 + pos_2;
 
     // r′_{Wc/B}, behind eq. (14), m/s.
@@ -1543,20 +1944,18 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // [I_{W,B}]′, eq. (73), along the axes of the wheel, kg m²/s.
     let shift_0 = q.cos_theta * r_wc_b_prime_giy + q.sin_theta * r_wc_b_prime_giz;
     let shift_1 = q.cos_theta * r_wc_b_prime_giz - q.sin_theta * r_wc_b_prime_giy;
-    let shift_2 = r_wc_b_gix * r_wc_b_prime_gix;
-    let shift_3 = axis_0 * shift_0;
-    let shift_4 = axis_1 * shift_1;
-    let shift_5 = shift_2 + shift_3 + shift_4;
-    let shift_6 = shift_5 + shift_5;
-    let i_w_b_prime_11 = i_w_wc_prime_11 + p.m_w * (shift_6 - (shift_2 + shift_2));
-    let shift_7 = p.m_w * (r_wc_b_prime_gix * axis_0 + r_wc_b_gix * shift_0);
-    let i_w_b_prime_12 = i_w_wc_prime_12 - shift_7;
-    let shift_8 = p.m_w * (r_wc_b_prime_gix * axis_1 + r_wc_b_gix * shift_1);
-    let i_w_b_prime_13 = i_w_wc_prime_13 - shift_8;
-    let i_w_b_prime_22 = i_w_wc_prime_22 + p.m_w * (shift_6 - (shift_3 + shift_3));
-    let shift_9 = p.m_w * (axis_1 * shift_0 + axis_0 * shift_1);
-    let i_w_b_prime_23 = i_w_wc_prime_23 - shift_9;
-    let i_w_b_prime_33 = i_w_wc_prime_33 + p.m_w * (shift_6 - (shift_4 + shift_4));
+    let shift_2 = axis_0 * (shift_0 + shift_0);
+    let shift_3 = axis_1 * (shift_1 + shift_1);
+    let i_w_b_prime_11 = i_w_wc_prime_11 + p.m_w * (shift_2 + shift_3);
+    let shift_4 = p.m_w * (r_wc_b_prime_gix * axis_0 + r_wc_b_gix * shift_0);
+    let i_w_b_prime_12 = i_w_wc_prime_12 - shift_4;
+    let shift_5 = p.m_w * (r_wc_b_prime_gix * axis_1 + r_wc_b_gix * shift_1);
+    let i_w_b_prime_13 = i_w_wc_prime_13 - shift_5;
+    let shift_6 = r_wc_b_gix * (r_wc_b_prime_gix + r_wc_b_prime_gix);
+    let i_w_b_prime_22 = i_w_wc_prime_22 + p.m_w * (shift_6 + shift_3);
+    let shift_7 = p.m_w * (axis_1 * shift_0 + axis_0 * shift_1);
+    let i_w_b_prime_23 = i_w_wc_prime_23 - shift_7;
+    let i_w_b_prime_33 = i_w_wc_prime_33 + p.m_w * (shift_6 + shift_2);
 
     Wheel {
         omega_w_b_wx,
@@ -1663,9 +2062,9 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     // V, the inner gimbal and what it carries, eq. (108): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gⁱ.
     let f_w_giz = q.cos_theta * p.mr_wc_w_wy;
-    let mr_v_gi_giy = f_w_giz + p.k_8 + p.mr_gic_gi_giy;
+    let mr_v_gi_giy = f_w_giz + p.k_12 + p.mr_gic_gi_giy;
     let neg_f_w_giy = q.sin_theta * p.mr_wc_w_wy;
-    let mr_v_gi_giz = neg_f_w_giy + p.k_9 + p.mr_gic_gi_giz;
+    let mr_v_gi_giz = neg_f_w_giy + p.k_13 + p.mr_gic_gi_giz;
 
     // V with no joint accelerating, eq. (99): force, N, and moment about Gⁱ, N m.
     let bias_5 = omega_gi_b_giz * p.mr_gic_gi_gix + rate_0 * p.mr_gic_gi_giz;
@@ -1687,10 +2086,10 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     // D, the outer gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gᵒ.
     let lump_0 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * mr_v_gi_giz;
-    let mr_d_go_gox = lump_0 + p.k_16 + p.mr_goc_go_gox;
-    let mr_d_go_goy = mr_v_gi_giy + p.k_17 + p.mr_goc_go_goy;
+    let mr_d_go_gox = lump_0 + p.k_23 + p.mr_goc_go_gox;
+    let mr_d_go_goy = mr_v_gi_giy + p.k_24 + p.mr_goc_go_goy;
     let f_i_gox = q.cos_gamma_i * mr_v_gi_giz - q.sin_gamma_i * p.mr_v_gi_gix;
-    let mr_d_go_goz = f_i_gox + p.k_18 + p.mr_goc_go_goz;
+    let mr_d_go_goz = f_i_gox + p.k_25 + p.mr_goc_go_goz;
 
     // D with no joint accelerating, eq. (78): force, N, and moment about Gᵒ, N m.
     let p_go_goy = v.gamma_o_dot * p.mr_goc_go_gox;
@@ -1724,11 +2123,11 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let p_go_gox = -bias_18;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
-    let f_o_by = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * mr_d_go_goy;
-    let mc_bx = f_o_by + p.k_25;
+    let mc_dprime_o_by = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * mr_d_go_goy;
+    let mc_bx = mc_dprime_o_by + p.k_35;
     let mom_4 = q.cos_gamma_o * mr_d_go_goy + q.sin_gamma_o * mr_d_go_gox;
-    let mc_by = mom_4 + p.k_26;
-    let mc_bz = mr_d_go_goz + p.k_27;
+    let mc_by = mom_4 + p.k_36;
+    let mc_bz = mr_d_go_goz + p.k_37;
 
     // Σ m r′, share of m_sc c′, behind eq. (11), kg m/s.
     let rate_1 = p_w_wx + p_gi_gix;
@@ -1740,19 +2139,19 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let mc_prime_bz = q.cos_gamma_i * rate_2 - q.sin_gamma_i * rate_1;
 
     // f_o, eq. (17): Σ m r″ per ᵒγ̈, kg m.
-    let f_o_bx = -mom_4;
+    let mc_dprime_o_bx = -mom_4;
     let zero = q.sin_gamma_o.like(0.0);
-    let f_o_bz = zero;
+    let mc_dprime_o_bz = zero;
 
     // f_i, eq. (17): Σ m r″ per ⁱγ̈, kg m.
-    let f_i_bx = q.cos_gamma_o * f_i_gox;
-    let f_i_by = q.sin_gamma_o * f_i_gox;
-    let f_i_bz = f_i_goz;
+    let mc_dprime_i_bx = q.cos_gamma_o * f_i_gox;
+    let mc_dprime_i_by = q.sin_gamma_o * f_i_gox;
+    let mc_dprime_i_bz = f_i_goz;
 
     // f_w, eq. (17): Σ m r″ per Ω̇, kg m.
-    let f_w_bx = q.cos_gamma_o * f_w_gox + q.sin_gamma_o * neg_f_w_giy;
-    let f_w_by = q.sin_gamma_o * f_w_gox - q.cos_gamma_o * neg_f_w_giy;
-    let f_w_bz = f_w_goz;
+    let mc_dprime_w_bx = q.cos_gamma_o * f_w_gox + q.sin_gamma_o * neg_f_w_giy;
+    let mc_dprime_w_by = q.sin_gamma_o * f_w_gox - q.cos_gamma_o * neg_f_w_giy;
+    let mc_dprime_w_bz = f_w_goz;
 
     // f̃, eq. (17): Σ m r″ with no joint accelerating, N.
     let f_tilde_bx = q.cos_gamma_o * f_rest_gox - q.sin_gamma_o * f_rest_goy;
@@ -1766,18 +2165,51 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
         mc_prime_bx,
         mc_prime_by,
         mc_prime_bz,
-        f_o_bx,
-        f_o_by,
-        f_o_bz,
-        f_i_bx,
-        f_i_by,
-        f_i_bz,
-        f_w_bx,
-        f_w_by,
-        f_w_bz,
+        mc_dprime_o_bx,
+        mc_dprime_o_by,
+        mc_dprime_o_bz,
+        mc_dprime_i_bx,
+        mc_dprime_i_by,
+        mc_dprime_i_bz,
+        mc_dprime_w_bx,
+        mc_dprime_w_by,
+        mc_dprime_w_bz,
         f_tilde_bx,
         f_tilde_by,
         f_tilde_bz,
+    }
+}
+
+/// What the hub takes over of a device: mass, and what does not notice that the joints
+/// move.
+///
+/// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
+#[must_use]
+pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_m = p.hand_m;
+    let hand_mr_bx = p.hand_mr_bx;
+    let hand_mr_by = p.hand_mr_by;
+    let hand_mr_bz = p.hand_mr_bz;
+    let hand_i_11 = p.hand_i_11;
+    let hand_i_12 = p.hand_i_12;
+    let hand_i_13 = p.hand_i_13;
+    let hand_i_22 = p.hand_i_22;
+    let hand_i_23 = p.hand_i_23;
+    let hand_i_33 = p.hand_i_33;
+
+    Handed {
+        hand_m,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
     }
 }
 
@@ -1787,7 +2219,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 431 mul, 397 add, 18 neg, 2 div, 0 trig.
+/// Operations: 342 mul, 278 add, 2 neg, 2 div, 0 trig.
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1797,341 +2229,272 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
+    // Axes of the outer gimbal, eq. (A1), along B axes, 1.
+    let e_x_bx = q.cos_gamma_o * p.mount_11 + q.sin_gamma_o * p.mount_12;
+    let e_x_by = q.cos_gamma_o * p.mount_21 + q.sin_gamma_o * p.mount_22;
+    let e_x_bz = q.cos_gamma_o * p.mount_31 + q.sin_gamma_o * p.mount_32;
+    let e_y_bx = q.cos_gamma_o * p.mount_12 - q.sin_gamma_o * p.mount_11;
+    let e_y_by = q.cos_gamma_o * p.mount_22 - q.sin_gamma_o * p.mount_21;
+    let e_y_bz = q.cos_gamma_o * p.mount_32 - q.sin_gamma_o * p.mount_31;
+
+    // ω_{B/N} along the axes of the outer gimbal, eq. (C1), rad/s.
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_gox = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_goy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_goz = rate_2 + w.omega_bz * p.mount_33;
+
     // ω_{Gᵒ/N}, eq. (31), along its own axes, rad/s.
-    let omega_go_n_gox = w.omega_bx * q.cos_gamma_o + w.omega_by * q.sin_gamma_o;
-    let omega_go_n_goy = w.omega_by * q.cos_gamma_o - w.omega_bx * q.sin_gamma_o;
-    let omega_go_n_goz = w.omega_bz + v.gamma_o_dot;
+    let omega_go_n_goz = v.gamma_o_dot + omega_b_n_goz;
 
     // Its derivative as in eq. (34), no joint accelerating, along the same axes, rad/s².
-    let turn_0 = v.gamma_o_dot * q.cos_gamma_o;
-    let turn_1 = v.gamma_o_dot * q.sin_gamma_o;
-    let omega_go_n_rest_gox = w.omega_by * turn_0 - w.omega_bx * turn_1;
-    let neg_omega_go_n_rest_goy = w.omega_by * turn_1 + w.omega_bx * turn_0;
+    let alpha_go_gox = v.gamma_o_dot * omega_b_n_goy;
+    let neg_alpha_go_goy = v.gamma_o_dot * omega_b_n_gox;
 
-    // Acceleration of Gᵒ relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_by * p.r_go_b_bz - w.omega_bz * p.r_go_b_by;
-    let path_1 = w.omega_bz * p.r_go_b_bx - w.omega_bx * p.r_go_b_bz;
-    let path_2 = w.omega_bx * p.r_go_b_by - w.omega_by * p.r_go_b_bx;
-    let path_3 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_4 = w.omega_bz * path_0 - w.omega_bx * path_2;
-    let r_go_rest_gox = q.cos_gamma_o * path_3 + q.sin_gamma_o * path_4;
-    let r_go_rest_goy = q.cos_gamma_o * path_4 - q.sin_gamma_o * path_3;
-    let r_go_rest_goz = w.omega_bx * path_1 - w.omega_by * path_0;
+    // Acceleration of Gⁱ as the outer gimbal carries it, eq. (C1), along the outer gimbal's
+    // axes, m/s².
+    let path_0 = omega_b_n_goy * omega_b_n_goy;
+    let path_1 = omega_go_n_goz * omega_go_n_goz;
+    let path_2 = omega_b_n_gox * omega_b_n_goy;
+    let r_gi_rest_gox = p.arm_i_goy * path_2 - p.l_o_x * (path_0 + path_1);
+    let path_3 = omega_b_n_gox * omega_go_n_goz;
+    let path_4 = alpha_go_gox + omega_b_n_goy * omega_go_n_goz;
+    let r_gi_rest_goz = p.l_o_x * (neg_alpha_go_goy + path_3) + p.arm_i_goy * path_4;
 
     // ω_{Gⁱ/N}, eq. (44), along its own axes, rad/s.
-    let rate_0 = q.sin_gamma_i * omega_go_n_goz;
-    let omega_gi_n_gix = q.cos_gamma_i * omega_go_n_gox - rate_0;
-    let omega_gi_n_giy = v.gamma_i_dot + omega_go_n_goy;
-    let rate_1 = q.sin_gamma_i * omega_go_n_gox;
-    let omega_gi_n_giz = q.cos_gamma_i * omega_go_n_goz + rate_1;
+    let rate_3 = q.sin_gamma_i * omega_go_n_goz;
+    let omega_gi_n_gix = q.cos_gamma_i * omega_b_n_gox - rate_3;
+    let omega_gi_n_giy = v.gamma_i_dot + omega_b_n_goy;
+    let rate_4 = q.cos_gamma_i * omega_go_n_goz;
+    let omega_gi_n_giz = rate_4 + q.sin_gamma_i * omega_b_n_gox;
 
-    // Its derivative as in eq. (47), no joint accelerating, along the same axes, rad/s².
-    let turn_2 = v.gamma_i_dot * q.cos_gamma_i;
-    let turn_3 = v.gamma_i_dot * q.sin_gamma_i;
-    let turn_4 = q.cos_gamma_i * omega_go_n_rest_gox;
-    let turn_5 = turn_4 - turn_3 * omega_go_n_gox;
-    let omega_gi_n_rest_gix = turn_5 - turn_2 * omega_go_n_goz;
-    let turn_6 = q.sin_gamma_i * omega_go_n_rest_gox;
-    let turn_7 = turn_2 * omega_go_n_gox + turn_6;
-    let omega_gi_n_rest_giz = turn_7 - turn_3 * omega_go_n_goz;
+    // What lies behind the wheel's joint, of W, by base parameters, eqs. (B1), (B2): first
+    // moment, kg m, and inertia, kg m².
+    let mr_behind_w_giy = q.cos_theta * p.mr_wc_w_wy;
+    let mr_behind_w_giz = q.sin_theta * p.mr_wc_w_wy;
+    let i_behind_w_12 = q.cos_theta * p.i_w_base_12 - q.sin_theta * p.j_13;
+    let i_behind_w_13 = q.cos_theta * p.j_13 + q.sin_theta * p.i_w_base_12;
+    let lump_0 = q.cos_theta * p.k_2 + q.sin_theta * p.i_w_base_22;
+    let i_behind_w_33 = q.sin_theta * lump_0;
+    let i_behind_w_22 = p.i_w_base_22 - i_behind_w_33;
+    let i_behind_w_23 = p.k_3 + q.cos_theta * lump_0;
 
-    // Acceleration of Gⁱ relative to B as in eq. (53), no joint accelerating, same axes, m/s².
-    let path_5 = p.l_o_z * omega_go_n_goy - p.l_o_y * omega_go_n_goz;
-    let path_6 = p.l_o_x * omega_go_n_goz - p.l_o_z * omega_go_n_gox;
-    let path_7 = p.l_o_y * omega_go_n_gox - p.l_o_x * omega_go_n_goy;
-    let path_8 = omega_go_n_goy * path_7 - omega_go_n_goz * path_6;
-    let path_9 = path_8 - p.l_o_z * neg_omega_go_n_rest_goy + r_go_rest_gox;
-    let path_10 = p.l_o_y * omega_go_n_rest_gox + p.l_o_x * neg_omega_go_n_rest_goy;
-    let path_11 = omega_go_n_gox * path_6 - omega_go_n_goy * path_5 + path_10;
-    let path_12 = path_11 + r_go_rest_goz;
-    let r_gi_rest_gix = q.cos_gamma_i * path_9 - q.sin_gamma_i * path_12;
-    let path_13 = omega_go_n_goz * path_5 - omega_go_n_gox * path_7;
-    let r_gi_rest_giy = path_13 - p.l_o_z * omega_go_n_rest_gox + r_go_rest_goy;
-    let r_gi_rest_giz = q.cos_gamma_i * path_12 + q.sin_gamma_i * path_9;
+    // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
+    let coriolis_0 = v.spin * omega_gi_n_giy;
+    let coriolis_1 = v.spin * omega_gi_n_giz;
+    let coriolis_2 = mr_behind_w_giy * coriolis_0 + mr_behind_w_giz * coriolis_1;
+    let f_rates_w_gix = coriolis_2 + coriolis_2;
+    let coriolis_3 = v.spin * (v.spin + omega_gi_n_gix + omega_gi_n_gix);
+    let coriolis_4 = mr_behind_w_giy * coriolis_3;
+    let f_rates_w_giy = -coriolis_4;
+    let neg_f_rates_w_giz = mr_behind_w_giz * coriolis_3;
+    let coriolis_5 = i_behind_w_22 - i_behind_w_33;
+    let coriolis_6 = i_behind_w_23 + i_behind_w_23;
+    let coriolis_7 = coriolis_1 * (p.i_w_w_11 + coriolis_5);
+    let coriolis_8 = coriolis_7 - coriolis_0 * coriolis_6;
+    let n_rates_w_giy = coriolis_8 - i_behind_w_13 * coriolis_3;
+    let coriolis_9 = i_behind_w_12 * coriolis_3 + coriolis_1 * coriolis_6;
+    let n_rates_w_giz = coriolis_9 - coriolis_0 * (p.i_w_w_11 - coriolis_5);
 
-    // ω_{W/N}, eq. (59), along its own axes, rad/s.
-    let omega_w_n_wx = v.spin + omega_gi_n_gix;
-    let omega_w_n_wy = q.cos_theta * omega_gi_n_giy + q.sin_theta * omega_gi_n_giz;
-    let omega_w_n_wz = q.cos_theta * omega_gi_n_giz - q.sin_theta * omega_gi_n_giy;
+    // What lies behind the inner gimbal's joint, of V, by base parameters, eqs. (B1), (B2):
+    // first moment, kg m, and inertia, kg m².
+    let lump_1 = mr_behind_w_giz + p.mr_i_base_giz;
+    let mr_behind_v_gox = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * lump_1;
+    let mr_behind_v_goz = q.cos_gamma_i * lump_1 - q.sin_gamma_i * p.mr_v_gi_gix;
+    let lump_2 = mr_behind_w_giz * p.k_5;
+    let lump_3 = p.i_w_w_11 + lump_2;
+    let lump_4 = p.i_i_base_13 + i_behind_w_13;
+    let lump_5 = p.i_i_base_33 + i_behind_w_33;
+    let lump_6 = q.sin_gamma_i * (lump_3 - lump_5);
+    let lump_7 = q.cos_gamma_i * (lump_4 + lump_4) - lump_6;
+    let lump_8 = q.sin_gamma_i * lump_7;
+    let i_behind_v_11 = lump_3 + lump_8;
+    let lump_9 = p.i_i_base_12 + i_behind_w_12;
+    let lump_10 = i_behind_w_23 - p.l_i_z * mr_behind_w_giy + p.i_i_base_23;
+    let i_behind_v_12 = q.cos_gamma_i * lump_9 + q.sin_gamma_i * lump_10;
+    let i_behind_v_13 = q.cos_gamma_i * lump_7 - lump_4;
+    let i_behind_v_22 = lump_2 + i_behind_w_22 + p.i_i_base_22;
+    let i_behind_v_23 = q.cos_gamma_i * lump_10 - q.sin_gamma_i * lump_9;
+    let i_behind_v_33 = lump_5 - lump_8;
 
-    // Its derivative as in eq. (62), no joint accelerating, along the same axes, rad/s².
-    let turn_8 = v.spin * q.cos_theta;
-    let turn_9 = v.spin * q.sin_theta;
-    let turn_10 = q.sin_theta * omega_gi_n_rest_giz;
-    let turn_11 = q.cos_theta * neg_omega_go_n_rest_goy;
-    let turn_12 = turn_9 * omega_gi_n_giy + turn_11;
-    let omega_w_n_rest_wy = turn_8 * omega_gi_n_giz + turn_10 - turn_12;
-    let turn_13 = q.cos_theta * omega_gi_n_rest_giz;
-    let turn_14 = q.sin_theta * neg_omega_go_n_rest_goy;
-    let turn_15 = turn_8 * omega_gi_n_giy - turn_14;
-    let omega_w_n_rest_wz = turn_13 - turn_9 * omega_gi_n_giz - turn_15;
+    // Row of the inner gimbal's joint, eq. (101), along its axis: M_ij, kg m², and bias, N m,
+    // eq. (C3).
+    let mass_ii = i_behind_v_22;
+    let row_0 = omega_b_n_gox * omega_b_n_gox;
+    let n_rates_i_goy = n_rates_w_giy + p.l_i_z * f_rates_w_gix;
+    let row_1 = i_behind_v_33 - i_behind_v_11;
+    let row_2 = path_4 * i_behind_v_12 - path_2 * i_behind_v_23;
+    let row_3 = i_behind_v_13 * (path_1 - row_0) - path_3 * row_1;
+    let row_4 = r_gi_rest_gox * mr_behind_v_goz - r_gi_rest_goz * mr_behind_v_gox;
+    let row_5 = row_4 + (row_2 - neg_alpha_go_goy * i_behind_v_22 + row_3);
+    let field_i = row_5 + n_rates_i_goy;
 
-    // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_14 = p.l_i_x * omega_gi_n_giz - p.l_i_z * omega_gi_n_gix;
-    let path_15 = p.l_i_y * omega_gi_n_gix - p.l_i_x * omega_gi_n_giy;
-    let path_16 = p.l_i_z * neg_omega_go_n_rest_goy;
-    let path_17 = omega_gi_n_giy * path_15 - omega_gi_n_giz * path_14;
-    let path_18 = path_17 - (path_16 + p.l_i_y * omega_gi_n_rest_giz);
-    let r_w_rest_wx = path_18 + r_gi_rest_gix;
-    let path_19 = p.l_i_z * omega_gi_n_giy - p.l_i_y * omega_gi_n_giz;
-    let path_20 = p.l_i_x * omega_gi_n_rest_giz - p.l_i_z * omega_gi_n_rest_gix;
-    let path_21 = omega_gi_n_giz * path_19 - omega_gi_n_gix * path_15 + path_20;
-    let path_22 = path_21 + r_gi_rest_giy;
-    let path_23 = p.l_i_y * omega_gi_n_rest_gix + p.l_i_x * neg_omega_go_n_rest_goy;
-    let path_24 = omega_gi_n_gix * path_14 - omega_gi_n_giy * path_19 + path_23;
-    let path_25 = path_24 + r_gi_rest_giz;
-    let r_w_rest_wy = q.cos_theta * path_22 + q.sin_theta * path_25;
-    let r_w_rest_wz = q.cos_theta * path_25 - q.sin_theta * path_22;
+    // Force, N, and moment, N m, that the joints' rates from the inner gimbal's on ask for, eq.
+    // (C2).
+    let coriolis_10 = v.gamma_i_dot * (omega_b_n_goy + omega_gi_n_giy);
+    let coriolis_11 = q.sin_gamma_i * neg_f_rates_w_giz;
+    let coriolis_12 = q.cos_gamma_i * f_rates_w_gix - coriolis_11;
+    let f_rates_i_gox = coriolis_12 - mr_behind_v_gox * coriolis_10;
+    let coriolis_13 = v.gamma_i_dot * omega_go_n_goz;
+    let coriolis_14 = v.gamma_i_dot * omega_b_n_gox;
+    let coriolis_15 = mr_behind_v_goz * coriolis_13 + mr_behind_v_gox * coriolis_14;
+    let f_rates_i_goy = coriolis_15 + coriolis_15 + f_rates_w_giy;
+    let coriolis_16 = q.cos_gamma_i * neg_f_rates_w_giz;
+    let coriolis_17 = coriolis_16 + q.sin_gamma_i * f_rates_w_gix;
+    let coriolis_18 = coriolis_17 + mr_behind_v_goz * coriolis_10;
+    let f_rates_i_goz = -coriolis_18;
+    let coriolis_19 = p.l_i_z * coriolis_4;
+    let coriolis_20 = i_behind_v_13 + i_behind_v_13;
+    let coriolis_21 = i_behind_v_23 * coriolis_10 + coriolis_14 * coriolis_20;
+    let coriolis_22 = q.cos_gamma_i * coriolis_19 + q.sin_gamma_i * n_rates_w_giz;
+    let coriolis_23 = coriolis_21 - coriolis_13 * (i_behind_v_22 - row_1);
+    let n_rates_i_gox = coriolis_22 + coriolis_23;
+    let coriolis_24 = coriolis_14 * (i_behind_v_22 + row_1);
+    let coriolis_25 = coriolis_24 - coriolis_13 * coriolis_20;
+    let coriolis_26 = q.cos_gamma_i * n_rates_w_giz - q.sin_gamma_i * coriolis_19;
+    let n_rates_i_goz = coriolis_26 + (coriolis_25 - i_behind_v_12 * coriolis_10);
 
-    // W with no joint accelerating, eq. (117): force, N, and moment about W, N m.
-    let bias_0 = p.mr_wc_w_wy * omega_w_n_wx;
-    let bias_1 = omega_w_n_wy * bias_0 - p.mr_wc_w_wy * omega_w_n_rest_wz;
-    let f_rest_wx = bias_1 + p.m_w * r_w_rest_wx;
-    let bias_2 = p.mr_wc_w_wy * omega_w_n_wz;
-    let bias_3 = omega_w_n_wz * bias_2 + omega_w_n_wx * bias_0;
-    let f_rest_wy = p.m_w * r_w_rest_wy - bias_3;
-    let bias_4 = omega_w_n_wy * bias_2 + p.mr_wc_w_wy * omega_gi_n_rest_gix;
-    let f_rest_wz = bias_4 + p.m_w * r_w_rest_wz;
-    let bias_5 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
-    let bias_6 = bias_5 + p.j_23 * omega_w_n_wz;
-    let bias_7 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
-    let bias_8 = bias_7 + p.i_w_w_33 * omega_w_n_wz;
-    let bias_9 = p.i_w_w_11 * omega_gi_n_rest_gix + p.j_12 * omega_w_n_rest_wy;
-    let bias_10 = omega_w_n_wy * bias_8 - omega_w_n_wz * bias_6;
-    let bias_11 = bias_10 + (bias_9 + p.j_13 * omega_w_n_rest_wz);
-    let n_rest_wx = bias_11 + p.mr_wc_w_wy * r_w_rest_wz;
-    let bias_12 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
-    let bias_13 = bias_12 + p.j_13 * omega_w_n_wz;
-    let bias_14 = p.j_12 * omega_gi_n_rest_gix + p.j_22 * omega_w_n_rest_wy;
-    let bias_15 = omega_w_n_wz * bias_13 - omega_w_n_wx * bias_8;
-    let n_rest_wy = bias_15 + (bias_14 + p.j_23 * omega_w_n_rest_wz);
-    let bias_16 = p.j_13 * omega_gi_n_rest_gix + p.j_23 * omega_w_n_rest_wy;
-    let bias_17 = omega_w_n_wx * bias_6 - omega_w_n_wy * bias_13;
-    let bias_18 = bias_17 + (bias_16 + p.i_w_w_33 * omega_w_n_rest_wz);
-    let n_rest_wz = bias_18 - p.mr_wc_w_wy * r_w_rest_wx;
+    // What lies behind the outer gimbal's joint, of D, by base parameters, eqs. (B1), (B2):
+    // first moment, kg m, and inertia, kg m².
+    let mr_behind_d_gox = p.mr_o_base_gox + mr_behind_v_gox;
+    let mr_behind_d_goy = mr_behind_w_giy + p.mr_o_base_goy;
+    let lump_11 = mr_behind_w_giy * p.k_38;
+    let i_behind_d_11 = i_behind_v_11 + lump_11 + p.i_o_base_11;
+    let lump_12 = p.arm_i_goy * mr_behind_v_gox;
+    let lump_13 = i_behind_v_12 - (p.l_o_x * mr_behind_w_giy + lump_12);
+    let i_behind_d_12 = lump_13 + p.i_o_base_12;
+    let i_behind_d_13 = i_behind_v_13 - p.l_o_x * mr_behind_v_goz + p.i_o_base_13;
+    let lump_14 = p.k_14 * mr_behind_v_gox;
+    let i_behind_d_22 = i_behind_v_22 + lump_14;
+    let mass_oi = i_behind_v_23 - p.arm_i_goy * mr_behind_v_goz;
+    let i_behind_d_23 = p.i_o_base_23 + mass_oi;
+    let i_behind_d_33 = lump_14 + lump_11 + i_behind_v_33 + p.i_o_base_33;
 
-    // V, the inner gimbal and what it carries, eq. (108): mass, kg; first moment, kg m, and
-    // inertia, kg m², about Gⁱ.
-    let f_w_giz = q.cos_theta * p.mr_wc_w_wy;
-    let mr_v_gi_giy = f_w_giz + p.k_8 + p.mr_gic_gi_giy;
-    let neg_f_w_giy = q.sin_theta * p.mr_wc_w_wy;
-    let mr_v_gi_giz = neg_f_w_giy + p.k_9 + p.mr_gic_gi_giz;
-    let lump_0 = p.l_i_y * f_w_giz;
-    let lump_1 = p.l_i_z * neg_f_w_giy;
-    let lump_2 = lump_0 + lump_1;
-    let lump_3 = lump_2 + lump_2;
-    let i_v_gi_11 = p.i_w_w_11 + lump_3 + p.k_2 + p.i_gi_gi_11;
-    let n_w_giy = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.l_i_x * f_w_giz;
-    let i_v_gi_12 = n_w_giy + p.k_3 + p.i_gi_gi_12;
-    let n_w_giz = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.l_i_x * neg_f_w_giy;
-    let i_v_gi_13 = n_w_giz + p.k_4 + p.i_gi_gi_13;
-    let lump_4 = q.cos_theta * p.j_22 - q.sin_theta * p.j_23;
-    let lump_5 = q.cos_theta * p.j_23 - q.sin_theta * p.i_w_w_33;
-    let lump_6 = q.cos_theta * lump_4 - q.sin_theta * lump_5;
-    let i_v_gi_22 = lump_3 - (lump_0 + lump_0) + lump_6 + p.k_5 + p.i_gi_gi_22;
-    let lump_7 = q.cos_theta * lump_5 + q.sin_theta * lump_4;
-    let lump_8 = lump_7 - (p.l_i_y * neg_f_w_giy + p.l_i_z * f_w_giz) + p.k_6;
-    let i_v_gi_23 = lump_8 + p.i_gi_gi_23;
-    let lump_9 = p.k_1 - lump_6 + (lump_3 - (lump_1 + lump_1)) + p.k_7;
-    let i_v_gi_33 = lump_9 + p.i_gi_gi_33;
+    // Row of the outer gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq.
+    // (C3).
+    let mass_oo = i_behind_d_33;
+    let row_6 = p.l_o_x * f_rates_i_goy - p.arm_i_goy * f_rates_i_gox;
+    let n_rates_o_goz = row_6 + n_rates_i_goz;
+    let row_7 = i_behind_d_11 - i_behind_d_22;
+    let row_8 = omega_b_n_goy * omega_b_n_goz * i_behind_d_13;
+    let row_9 = omega_b_n_gox * omega_b_n_goz * i_behind_d_23 - row_8;
+    let row_10 = row_9 + (i_behind_d_12 * (row_0 - path_0) - path_2 * row_7);
+    let field_o = row_10 + n_rates_o_goz;
 
-    // V with no joint accelerating, eq. (99): force, N, and moment about Gⁱ, N m.
-    let bias_19 = p.mr_gic_gi_giz * omega_gi_n_gix;
-    let bias_20 = p.mr_gic_gi_gix * omega_gi_n_giz - bias_19;
-    let bias_21 = p.mr_gic_gi_gix * omega_gi_n_giy;
-    let bias_22 = p.mr_gic_gi_giy * omega_gi_n_gix - bias_21;
-    let bias_23 = p.mr_gic_gi_giz * neg_omega_go_n_rest_goy;
-    let bias_24 = omega_gi_n_giy * bias_22 - omega_gi_n_giz * bias_20;
-    let bias_25 = bias_24 - (bias_23 + p.mr_gic_gi_giy * omega_gi_n_rest_giz);
-    let f_rest_gix = bias_25 + p.m_gi * r_gi_rest_gix + f_rest_wx;
-    let bias_26 = q.cos_theta * f_rest_wy - q.sin_theta * f_rest_wz;
-    let bias_27 = p.mr_gic_gi_giy * omega_gi_n_giz;
-    let bias_28 = p.mr_gic_gi_giz * omega_gi_n_giy - bias_27;
-    let bias_29 = p.mr_gic_gi_giz * omega_gi_n_rest_gix;
-    let bias_30 = omega_gi_n_giz * bias_28 - omega_gi_n_gix * bias_22;
-    let bias_31 = bias_30 + (p.mr_gic_gi_gix * omega_gi_n_rest_giz - bias_29);
-    let f_rest_giy = bias_31 + p.m_gi * r_gi_rest_giy + bias_26;
-    let bias_32 = q.cos_theta * f_rest_wz + q.sin_theta * f_rest_wy;
-    let bias_33 = p.mr_gic_gi_gix * neg_omega_go_n_rest_goy;
-    let bias_34 = omega_gi_n_gix * bias_20 - omega_gi_n_giy * bias_28;
-    let bias_35 = bias_34 + (p.mr_gic_gi_giy * omega_gi_n_rest_gix + bias_33);
-    let f_rest_giz = bias_35 + p.m_gi * r_gi_rest_giz + bias_32;
-    let bias_36 = p.i_gi_gi_12 * omega_gi_n_gix + p.i_gi_gi_22 * omega_gi_n_giy;
-    let bias_37 = bias_36 + p.i_gi_gi_23 * omega_gi_n_giz;
-    let bias_38 = p.i_gi_gi_13 * omega_gi_n_gix + p.i_gi_gi_23 * omega_gi_n_giy;
-    let bias_39 = bias_38 + p.i_gi_gi_33 * omega_gi_n_giz;
-    let bias_40 = p.i_gi_gi_12 * neg_omega_go_n_rest_goy;
-    let bias_41 = p.i_gi_gi_11 * omega_gi_n_rest_gix - bias_40;
-    let bias_42 = omega_gi_n_giy * bias_39 - omega_gi_n_giz * bias_37;
-    let bias_43 = p.mr_gic_gi_giz * r_gi_rest_giy;
-    let bias_44 = bias_42 + (bias_41 + p.i_gi_gi_13 * omega_gi_n_rest_giz);
-    let bias_45 = bias_44 + (p.mr_gic_gi_giy * r_gi_rest_giz - bias_43);
-    let n_rest_gix = p.l_i_y * bias_32 - p.l_i_z * bias_26 + n_rest_wx + bias_45;
-    let bias_46 = p.i_gi_gi_11 * omega_gi_n_gix + p.i_gi_gi_12 * omega_gi_n_giy;
-    let bias_47 = bias_46 + p.i_gi_gi_13 * omega_gi_n_giz;
-    let bias_48 = q.cos_theta * n_rest_wy - q.sin_theta * n_rest_wz;
-    let bias_49 = p.i_gi_gi_22 * neg_omega_go_n_rest_goy;
-    let bias_50 = p.i_gi_gi_12 * omega_gi_n_rest_gix - bias_49;
-    let bias_51 = omega_gi_n_giz * bias_47 - omega_gi_n_gix * bias_39;
-    let bias_52 = p.mr_gic_gi_gix * r_gi_rest_giz;
-    let bias_53 = bias_51 + (bias_50 + p.i_gi_gi_23 * omega_gi_n_rest_giz);
-    let bias_54 = bias_53 + (p.mr_gic_gi_giz * r_gi_rest_gix - bias_52);
-    let n_rest_giy = bias_48 + (p.l_i_z * f_rest_wx - p.l_i_x * bias_32) + bias_54;
-    let bias_55 = q.cos_theta * n_rest_wz + q.sin_theta * n_rest_wy;
-    let bias_56 = p.i_gi_gi_23 * neg_omega_go_n_rest_goy;
-    let bias_57 = p.i_gi_gi_13 * omega_gi_n_rest_gix - bias_56;
-    let bias_58 = omega_gi_n_gix * bias_37 - omega_gi_n_giy * bias_47;
-    let bias_59 = p.mr_gic_gi_giy * r_gi_rest_gix;
-    let bias_60 = bias_58 + (bias_57 + p.i_gi_gi_33 * omega_gi_n_rest_giz);
-    let bias_61 = bias_60 + (p.mr_gic_gi_gix * r_gi_rest_giy - bias_59);
-    let n_rest_giz = bias_55 + (p.l_i_x * bias_26 - p.l_i_y * f_rest_wx) + bias_61;
-
-    // Row of the inner gimbal's joint, eq. (101), along its axis: M_ij, kg m², and bias, N m.
-    let mass_ii = i_v_gi_22;
-    let u_rest_i = n_rest_giy;
-
-    // D, the outer gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and
-    // inertia, kg m², about Gᵒ.
-    let lump_10 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * mr_v_gi_giz;
-    let mr_d_go_gox = lump_10 + p.k_16 + p.mr_goc_go_gox;
-    let mr_d_go_goy = mr_v_gi_giy + p.k_17 + p.mr_goc_go_goy;
-    let f_i_gox = q.cos_gamma_i * mr_v_gi_giz - q.sin_gamma_i * p.mr_v_gi_gix;
-    let mr_d_go_goz = f_i_gox + p.k_18 + p.mr_goc_go_goz;
-    let lump_11 = q.cos_gamma_i * i_v_gi_33 - q.sin_gamma_i * i_v_gi_13;
-    let lump_12 = q.cos_gamma_i * i_v_gi_13 - q.sin_gamma_i * i_v_gi_11;
-    let lump_13 = q.cos_gamma_i * lump_11 - q.sin_gamma_i * lump_12;
-    let lump_14 = p.l_o_x * lump_10;
-    let lump_15 = p.l_o_y * mr_v_gi_giy;
-    let lump_16 = p.l_o_z * f_i_gox;
-    let lump_17 = lump_14 + lump_15 + lump_16;
-    let lump_18 = lump_17 + lump_17;
-    let lump_19 = i_v_gi_11 + i_v_gi_33 - lump_13 + (lump_18 - (lump_14 + lump_14));
-    let i_d_go_11 = lump_19 + p.k_10 + p.i_go_go_11;
-    let lump_20 = q.cos_gamma_i * i_v_gi_12 + q.sin_gamma_i * i_v_gi_23;
-    let lump_21 = p.l_o_y * lump_10;
-    let lump_22 = lump_20 - (p.l_o_x * mr_v_gi_giy + lump_21) + p.k_11;
-    let i_d_go_12 = lump_22 + p.i_go_go_12;
-    let lump_23 = q.cos_gamma_i * lump_12 + q.sin_gamma_i * lump_11;
-    let lump_24 = lump_23 - (p.l_o_x * f_i_gox + p.l_o_z * lump_10) + p.k_12;
-    let i_d_go_13 = lump_24 + p.i_go_go_13;
-    let i_d_go_22 = lump_18 - (lump_15 + lump_15) + i_v_gi_22 + p.k_13 + p.i_go_go_22;
-    let lump_25 = q.cos_gamma_i * i_v_gi_23 - q.sin_gamma_i * i_v_gi_12;
-    let lump_26 = p.l_o_y * f_i_gox;
-    let lump_27 = lump_25 - (lump_26 + p.l_o_z * mr_v_gi_giy) + p.k_14;
-    let i_d_go_23 = lump_27 + p.i_go_go_23;
-    let i_d_go_33 = lump_18 - (lump_16 + lump_16) + lump_13 + p.k_15 + p.i_go_go_33;
-
-    // D with no joint accelerating, eq. (78): force, N, and moment about Gᵒ, N m.
-    let bias_62 = q.cos_gamma_i * f_rest_gix + q.sin_gamma_i * f_rest_giz;
-    let bias_63 = p.mr_goc_go_goz * omega_go_n_gox;
-    let bias_64 = p.mr_goc_go_gox * omega_go_n_goz - bias_63;
-    let bias_65 = p.mr_goc_go_gox * omega_go_n_goy;
-    let bias_66 = p.mr_goc_go_goy * omega_go_n_gox - bias_65;
-    let bias_67 = omega_go_n_goy * bias_66 - omega_go_n_goz * bias_64;
-    let bias_68 = bias_67 - p.mr_goc_go_goz * neg_omega_go_n_rest_goy;
-    let f_rest_gox = bias_68 + p.m_go * r_go_rest_gox + bias_62;
-    let bias_69 = p.mr_goc_go_goy * omega_go_n_goz;
-    let bias_70 = p.mr_goc_go_goz * omega_go_n_goy - bias_69;
-    let bias_71 = omega_go_n_goz * bias_70 - omega_go_n_gox * bias_66;
-    let bias_72 = bias_71 - p.mr_goc_go_goz * omega_go_n_rest_gox;
-    let f_rest_goy = bias_72 + p.m_go * r_go_rest_goy + f_rest_giy;
-    let bias_73 = q.cos_gamma_i * f_rest_giz - q.sin_gamma_i * f_rest_gix;
-    let bias_74 = p.mr_goc_go_gox * neg_omega_go_n_rest_goy;
-    let bias_75 = omega_go_n_gox * bias_64 - omega_go_n_goy * bias_70;
-    let bias_76 = bias_75 + (p.mr_goc_go_goy * omega_go_n_rest_gox + bias_74);
-    let f_rest_goz = bias_76 + p.m_go * r_go_rest_goz + bias_73;
-    let bias_77 = p.i_go_go_12 * omega_go_n_gox + p.i_go_go_22 * omega_go_n_goy;
-    let bias_78 = bias_77 + p.i_go_go_23 * omega_go_n_goz;
-    let bias_79 = p.i_go_go_13 * omega_go_n_gox + p.i_go_go_23 * omega_go_n_goy;
-    let bias_80 = bias_79 + p.i_go_go_33 * omega_go_n_goz;
-    let bias_81 = q.cos_gamma_i * n_rest_gix + q.sin_gamma_i * n_rest_giz;
-    let bias_82 = p.i_go_go_12 * neg_omega_go_n_rest_goy;
-    let bias_83 = omega_go_n_goy * bias_80 - omega_go_n_goz * bias_78;
-    let bias_84 = p.mr_goc_go_goz * r_go_rest_goy;
-    let bias_85 = bias_83 + (p.i_go_go_11 * omega_go_n_rest_gox - bias_82);
-    let bias_86 = bias_85 + (p.mr_goc_go_goy * r_go_rest_goz - bias_84);
-    let n_rest_gox = bias_81 + (p.l_o_y * bias_73 - p.l_o_z * f_rest_giy) + bias_86;
-    let bias_87 = p.i_go_go_11 * omega_go_n_gox + p.i_go_go_12 * omega_go_n_goy;
-    let bias_88 = bias_87 + p.i_go_go_13 * omega_go_n_goz;
-    let bias_89 = p.i_go_go_22 * neg_omega_go_n_rest_goy;
-    let bias_90 = omega_go_n_goz * bias_88 - omega_go_n_gox * bias_80;
-    let bias_91 = p.mr_goc_go_gox * r_go_rest_goz;
-    let bias_92 = bias_90 + (p.i_go_go_12 * omega_go_n_rest_gox - bias_89);
-    let bias_93 = bias_92 + (p.mr_goc_go_goz * r_go_rest_gox - bias_91);
-    let n_rest_goy = p.l_o_z * bias_62 - p.l_o_x * bias_73 + n_rest_giy + bias_93;
-    let bias_94 = q.cos_gamma_i * n_rest_giz - q.sin_gamma_i * n_rest_gix;
-    let bias_95 = p.i_go_go_23 * neg_omega_go_n_rest_goy;
-    let bias_96 = omega_go_n_gox * bias_78 - omega_go_n_goy * bias_88;
-    let bias_97 = p.mr_goc_go_goy * r_go_rest_gox;
-    let bias_98 = bias_96 + (p.i_go_go_13 * omega_go_n_rest_gox - bias_95);
-    let bias_99 = bias_98 + (p.mr_goc_go_gox * r_go_rest_goy - bias_97);
-    let n_rest_goz = bias_94 + (p.l_o_x * f_rest_giy - p.l_o_y * bias_62) + bias_99;
-
-    // Force, kg m, and moment about Gᵒ, kg m², per unit acceleration of each joint from here on,
-    // eqs. (17), (78).
-    let f_i_goz = -lump_10;
-    let n_i_gox = lump_20 - lump_21;
-    let n_i_goy = lump_14 + lump_16 + i_v_gi_22;
-    let n_i_goz = lump_25 - lump_26;
-
-    // Row of the outer gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m.
-    let mass_oo = i_d_go_33;
-    let mass_oi = n_i_goz;
-    let u_rest_o = n_rest_goz;
-
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_o_by = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * mr_d_go_goy;
-    let mr_d_b_bx = f_o_by + p.k_25;
-    let moment_0 = q.cos_gamma_o * mr_d_go_goy + q.sin_gamma_o * mr_d_go_gox;
-    let mr_d_b_by = moment_0 + p.k_26;
-    let mr_d_b_bz = mr_d_go_goz + p.k_27;
-    let moment_1 = q.cos_gamma_o * i_d_go_11 - q.sin_gamma_o * i_d_go_12;
-    let moment_2 = q.cos_gamma_o * i_d_go_12 - q.sin_gamma_o * i_d_go_22;
-    let moment_3 = q.cos_gamma_o * moment_1 - q.sin_gamma_o * moment_2;
-    let moment_4 = p.r_go_b_bx * f_o_by;
-    let moment_5 = p.r_go_b_by * moment_0;
-    let moment_6 = moment_4 + moment_5;
-    let moment_7 = p.r_go_b_bz * mr_d_go_goz;
-    let moment_8 = moment_6 + moment_7;
-    let moment_9 = moment_8 + moment_8;
-    let i_d_b_11 = moment_9 - (moment_4 + moment_4) + moment_3 + p.k_19;
-    let moment_10 = q.cos_gamma_o * moment_2 + q.sin_gamma_o * moment_1;
-    let moment_11 = moment_10 - (p.r_go_b_bx * moment_0 + p.r_go_b_by * f_o_by);
-    let i_d_b_12 = moment_11 + p.k_20;
-    let moment_12 = q.cos_gamma_o * i_d_go_13 - q.sin_gamma_o * i_d_go_23;
-    let moment_13 = p.r_go_b_bz * f_o_by;
-    let i_d_b_13 = moment_12 - (p.r_go_b_bx * mr_d_go_goz + moment_13) + p.k_21;
-    let moment_14 = moment_9 - (moment_5 + moment_5);
-    let i_d_b_22 = i_d_go_11 + i_d_go_22 - moment_3 + moment_14 + p.k_22;
-    let moment_15 = q.cos_gamma_o * i_d_go_23 + q.sin_gamma_o * i_d_go_13;
-    let moment_16 = p.r_go_b_bz * moment_0;
-    let i_d_b_23 = moment_15 - (p.r_go_b_by * mr_d_go_goz + moment_16) + p.k_23;
-    let i_d_b_33 = moment_9 - (moment_7 + moment_7) + i_d_go_33 + p.k_24;
+    // Force, N, and moment, N m, that the joints' rates from the outer gimbal's on ask for, eq.
+    // (C2).
+    let coriolis_27 = v.gamma_o_dot * (omega_b_n_goz + omega_go_n_goz);
+    let f_rates_o_gox = f_rates_i_gox - mr_behind_d_gox * coriolis_27;
+    let f_rates_o_goy = f_rates_i_goy - mr_behind_d_goy * coriolis_27;
+    let coriolis_28 = neg_alpha_go_goy * mr_behind_d_gox;
+    let coriolis_29 = coriolis_28 + alpha_go_gox * mr_behind_d_goy;
+    let f_rates_o_goz = coriolis_29 + coriolis_29 + f_rates_i_goz;
+    let coriolis_30 = i_behind_d_12 + i_behind_d_12;
+    let coriolis_31 = alpha_go_gox * (i_behind_d_33 + row_7);
+    let coriolis_32 = coriolis_31 - neg_alpha_go_goy * coriolis_30;
+    let coriolis_33 = coriolis_32 - i_behind_d_23 * coriolis_27;
+    let n_rates_o_gox = n_rates_i_gox - p.arm_i_goy * coriolis_18 + coriolis_33;
+    let coriolis_34 = i_behind_d_13 * coriolis_27 + alpha_go_gox * coriolis_30;
+    let coriolis_35 = coriolis_34 - neg_alpha_go_goy * (i_behind_d_33 - row_7);
+    let n_rates_o_goy = n_rates_i_goy + p.l_o_x * coriolis_18 + coriolis_35;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration.
-    let f_o_bx = -moment_0;
-    let n_o_bx = moment_12 - moment_13;
-    let n_o_by = moment_15 - moment_16;
-    let n_o_bz = i_d_go_33 + moment_6;
-    let f_i_bx = q.cos_gamma_o * f_i_gox;
-    let f_i_by = q.sin_gamma_o * f_i_gox;
-    let f_i_bz = f_i_goz;
-    let col_0 = q.cos_gamma_o * n_i_gox - q.sin_gamma_o * n_i_goy;
-    let n_i_bx = col_0 - (p.r_go_b_by * lump_10 + p.r_go_b_bz * f_i_by);
-    let col_1 = q.cos_gamma_o * n_i_goy + q.sin_gamma_o * n_i_gox;
-    let n_i_by = col_1 + (p.r_go_b_bz * f_i_bx + p.r_go_b_bx * lump_10);
-    let n_i_bz = p.r_go_b_bx * f_i_by - p.r_go_b_by * f_i_bx + n_i_goz;
+    // acceleration, along B axes.
+    let f_o_bx = e_y_bx * mr_behind_d_gox - e_x_bx * mr_behind_d_goy;
+    let f_o_by = e_y_by * mr_behind_d_gox - e_x_by * mr_behind_d_goy;
+    let f_o_bz = e_y_bz * mr_behind_d_gox - e_x_bz * mr_behind_d_goy;
+    let col_0 = e_x_bx * i_behind_d_13 + e_y_bx * i_behind_d_23;
+    let col_1 = col_0 + p.mount_13 * i_behind_d_33;
+    let n_o_bx = p.reach_by * f_o_bz - p.reach_bz * f_o_by + col_1;
+    let col_2 = e_x_by * i_behind_d_13 + e_y_by * i_behind_d_23;
+    let col_3 = col_2 + p.mount_23 * i_behind_d_33;
+    let n_o_by = p.reach_bz * f_o_bx - p.reach_bx * f_o_bz + col_3;
+    let col_4 = e_x_bz * i_behind_d_13 + e_y_bz * i_behind_d_23;
+    let col_5 = col_4 + p.mount_33 * i_behind_d_33;
+    let n_o_bz = p.reach_bx * f_o_by - p.reach_by * f_o_bx + col_5;
+    let f_i_bx = e_x_bx * mr_behind_v_goz - p.mount_13 * mr_behind_v_gox;
+    let f_i_by = e_x_by * mr_behind_v_goz - p.mount_23 * mr_behind_v_gox;
+    let f_i_bz = e_x_bz * mr_behind_v_goz - p.mount_33 * mr_behind_v_gox;
+    let col_6 = i_behind_v_12 - lump_12;
+    let col_7 = i_behind_v_22 + p.l_o_x * mr_behind_v_gox;
+    let col_8 = e_x_bx * col_6 + e_y_bx * col_7 + p.mount_13 * mass_oi;
+    let n_i_bx = col_8 + (p.reach_by * f_i_bz - p.reach_bz * f_i_by);
+    let col_9 = e_x_by * col_6 + e_y_by * col_7 + p.mount_23 * mass_oi;
+    let n_i_by = col_9 + (p.reach_bz * f_i_bx - p.reach_bx * f_i_bz);
+    let col_10 = e_x_bz * col_6 + e_y_bz * col_7 + p.mount_33 * mass_oi;
+    let n_i_bz = col_10 + (p.reach_bx * f_i_by - p.reach_by * f_i_bx);
 
-    // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = q.cos_gamma_o * f_rest_gox - q.sin_gamma_o * f_rest_goy;
-    let f_rest_by = q.cos_gamma_o * f_rest_goy + q.sin_gamma_o * f_rest_gox;
-    let f_rest_bz = f_rest_goz;
-    let bias_100 = q.cos_gamma_o * n_rest_gox - q.sin_gamma_o * n_rest_goy;
-    let n_rest_bx = bias_100 + (p.r_go_b_by * f_rest_goz - p.r_go_b_bz * f_rest_by);
-    let bias_101 = q.cos_gamma_o * n_rest_goy + q.sin_gamma_o * n_rest_gox;
-    let n_rest_by = bias_101 + (p.r_go_b_bz * f_rest_bx - p.r_go_b_bx * f_rest_goz);
-    let n_rest_bz = p.r_go_b_bx * f_rest_by - p.r_go_b_by * f_rest_bx + n_rest_goz;
+    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
+    // (76), kg m².
+    let moment_0 = e_x_bx * mr_behind_d_gox + e_y_bx * mr_behind_d_goy;
+    let mr_moving_bx = moment_0 + p.mount_13 * mr_behind_v_goz;
+    let moment_1 = e_x_by * mr_behind_d_gox + e_y_by * mr_behind_d_goy;
+    let mr_moving_by = moment_1 + p.mount_23 * mr_behind_v_goz;
+    let moment_2 = e_x_bz * mr_behind_d_gox + e_y_bz * mr_behind_d_goy;
+    let mr_moving_bz = moment_2 + p.mount_33 * mr_behind_v_goz;
+    let half = q.sin_gamma_o.like(0.5);
+    let moment_3 = half * row_7;
+    let moment_4 = e_x_bx * moment_3 + e_y_bx * i_behind_d_12;
+    let moment_5 = half * (i_behind_d_22 + i_behind_d_33);
+    let moment_6 = col_1 - p.mount_13 * moment_5;
+    let moment_7 = e_x_bx * moment_4 + p.mount_13 * moment_6;
+    let moment_8 = mr_moving_by * p.k_40;
+    let moment_9 = mr_moving_bz * p.k_41;
+    let i_moving_11 = moment_7 + moment_7 + i_behind_d_22 + (moment_8 + moment_9);
+    let moment_10 = e_x_by * moment_3 + e_y_by * i_behind_d_12;
+    let moment_11 = col_3 - p.mount_23 * moment_5;
+    let moment_12 = e_x_bx * moment_10 + p.mount_13 * moment_11;
+    let moment_13 = moment_12 + (e_x_by * moment_4 + p.mount_23 * moment_6);
+    let moment_14 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = moment_13 - moment_14;
+    let moment_15 = e_x_bz * moment_3 + e_y_bz * i_behind_d_12;
+    let moment_16 = col_5 - p.mount_33 * moment_5;
+    let moment_17 = e_x_bx * moment_15 + p.mount_13 * moment_16;
+    let moment_18 = moment_17 + (e_x_bz * moment_4 + p.mount_33 * moment_6);
+    let moment_19 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_18 - moment_19;
+    let moment_20 = e_x_by * moment_10 + p.mount_23 * moment_11;
+    let moment_21 = mr_moving_bx * p.k_39;
+    let i_moving_22 = moment_20 + moment_20 + i_behind_d_22 + (moment_21 + moment_9);
+    let moment_22 = e_x_bz * moment_10 + p.mount_33 * moment_11;
+    let moment_23 = e_x_by * moment_15 + p.mount_23 * moment_16 + moment_22;
+    let moment_24 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let i_moving_23 = moment_23 - moment_24;
+    let moment_25 = e_x_bz * moment_15 + p.mount_33 * moment_16;
+    let i_moving_33 = moment_25 + moment_25 + i_behind_d_22 + (moment_21 + moment_8);
+
+    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
+    // N and N m.
+    let bias_0 = e_x_bx * f_rates_o_gox + e_y_bx * f_rates_o_goy;
+    let f_rates_bx = bias_0 + p.mount_13 * f_rates_o_goz;
+    let bias_1 = e_x_by * f_rates_o_gox + e_y_by * f_rates_o_goy;
+    let f_rates_by = bias_1 + p.mount_23 * f_rates_o_goz;
+    let bias_2 = e_x_bz * f_rates_o_gox + e_y_bz * f_rates_o_goy;
+    let f_rates_bz = bias_2 + p.mount_33 * f_rates_o_goz;
+    let bias_3 = e_x_bx * n_rates_o_gox + e_y_bx * n_rates_o_goy;
+    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_3 + p.mount_13 * n_rates_o_goz + bias_4;
+    let bias_5 = e_x_by * n_rates_o_gox + e_y_by * n_rates_o_goy;
+    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_5 + p.mount_23 * n_rates_o_goz + bias_6;
+    let bias_7 = e_x_bz * n_rates_o_gox + e_y_bz * n_rates_o_goy;
+    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_7 + p.mount_33 * n_rates_o_goz + bias_8;
+
+    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+
+    // Bias of each joint with it, eq. (C3).
+    let bias_9 = f_o_bx * r_first_rest_bx + f_o_by * r_first_rest_by;
+    let u_rest_o = bias_9 + f_o_bz * r_first_rest_bz + field_o;
+    let bias_10 = f_i_bx * r_first_rest_bx + f_i_by * r_first_rest_by;
+    let u_rest_i = bias_10 + f_i_bz * r_first_rest_bz + field_i;
 
     // Right side of each joint, eqs. (80), (101): motor torque less what the rest asks for, N m.
     let tau_o = u.u_o - u_rest_o;
@@ -2152,7 +2515,7 @@ pub fn eliminate<T: Real>(
     // Joint i taken out of the rows nearer the hub, eq. (E2).
     let f_o_bx_i = f_o_bx - f_i_bx * gain_i_o;
     let f_o_by_i = f_o_by - f_i_by * gain_i_o;
-    let f_o_bz_i = -(f_i_bz * gain_i_o);
+    let f_o_bz_i = f_o_bz - f_i_bz * gain_i_o;
     let n_o_bx_i = n_o_bx - n_i_bx * gain_i_o;
     let n_o_by_i = n_o_by - n_i_by * gain_i_o;
     let n_o_bz_i = n_o_bz - n_i_bz * gain_i_o;
@@ -2170,40 +2533,40 @@ pub fn eliminate<T: Real>(
     let gain_o_w3 = n_o_bz_i * recip_o;
     let free_o = m.given_o + tau_o_i * recip_o;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_d - f_i_bx * gain_i_v1 - f_o_bx_i * gain_o_v1;
-    let m_vv_12 = -(f_i_by * gain_i_v1 + f_o_by_i * gain_o_v1);
-    let m_vv_13 = -(f_i_bz * gain_i_v1 + f_o_bz_i * gain_o_v1);
-    let m_vv_22 = p.m_d - f_i_by * gain_i_v2 - f_o_by_i * gain_o_v2;
-    let m_vv_23 = -(f_i_bz * gain_i_v2 + f_o_bz_i * gain_o_v2);
-    let m_vv_33 = p.m_d - f_i_bz * gain_i_v3 - f_o_bz_i * gain_o_v3;
+    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    let m_vv_11 = f_i_bx * gain_i_v1 + f_o_bx_i * gain_o_v1;
+    let m_vv_12 = f_i_by * gain_i_v1 + f_o_by_i * gain_o_v1;
+    let m_vv_13 = f_i_bz * gain_i_v1 + f_o_bz_i * gain_o_v1;
+    let m_vv_22 = f_i_by * gain_i_v2 + f_o_by_i * gain_o_v2;
+    let m_vv_23 = f_i_bz * gain_i_v2 + f_o_bz_i * gain_o_v2;
+    let m_vv_33 = f_i_bz * gain_i_v3 + f_o_bz_i * gain_o_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = -(n_i_bx * gain_i_v1 + n_o_bx_i * gain_o_v1);
-    let m_vw_12 = mr_d_b_bz - n_i_by * gain_i_v1 - n_o_by_i * gain_o_v1;
-    let m_vw_13 = -(mr_d_b_by + n_i_bz * gain_i_v1 + n_o_bz_i * gain_o_v1);
-    let m_vw_21 = -(mr_d_b_bz + n_i_bx * gain_i_v2 + n_o_bx_i * gain_o_v2);
-    let m_vw_22 = -(n_i_by * gain_i_v2 + n_o_by_i * gain_o_v2);
-    let m_vw_23 = mr_d_b_bx - n_i_bz * gain_i_v2 - n_o_bz_i * gain_o_v2;
-    let m_vw_31 = mr_d_b_by - n_i_bx * gain_i_v3 - n_o_bx_i * gain_o_v3;
-    let m_vw_32 = -(mr_d_b_bx + n_i_by * gain_i_v3 + n_o_by_i * gain_o_v3);
-    let m_vw_33 = -(n_i_bz * gain_i_v3 + n_o_bz_i * gain_o_v3);
+    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    let m_vw_11 = n_i_bx * gain_i_v1 + n_o_bx_i * gain_o_v1;
+    let m_vw_12 = n_i_by * gain_i_v1 + n_o_by_i * gain_o_v1;
+    let m_vw_13 = n_i_bz * gain_i_v1 + n_o_bz_i * gain_o_v1;
+    let m_vw_21 = n_i_bx * gain_i_v2 + n_o_bx_i * gain_o_v2;
+    let m_vw_22 = n_i_by * gain_i_v2 + n_o_by_i * gain_o_v2;
+    let m_vw_23 = n_i_bz * gain_i_v2 + n_o_bz_i * gain_o_v2;
+    let m_vw_31 = n_i_bx * gain_i_v3 + n_o_bx_i * gain_o_v3;
+    let m_vw_32 = n_i_by * gain_i_v3 + n_o_by_i * gain_o_v3;
+    let m_vw_33 = n_i_bz * gain_i_v3 + n_o_bz_i * gain_o_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_i_bx * gain_i_w1 - n_o_bx_i * gain_o_w1;
-    let m_ww_12 = i_d_b_12 - n_i_by * gain_i_w1 - n_o_by_i * gain_o_w1;
-    let m_ww_13 = i_d_b_13 - n_i_bz * gain_i_w1 - n_o_bz_i * gain_o_w1;
-    let m_ww_22 = i_d_b_22 - n_i_by * gain_i_w2 - n_o_by_i * gain_o_w2;
-    let m_ww_23 = i_d_b_23 - n_i_bz * gain_i_w2 - n_o_bz_i * gain_o_w2;
-    let m_ww_33 = i_d_b_33 - n_i_bz * gain_i_w3 - n_o_bz_i * gain_o_w3;
+    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    let m_ww_11 = n_i_bx * gain_i_w1 + n_o_bx_i * gain_o_w1;
+    let m_ww_12 = n_i_by * gain_i_w1 + n_o_by_i * gain_o_w1;
+    let m_ww_13 = n_i_bz * gain_i_w1 + n_o_bz_i * gain_o_w1;
+    let m_ww_22 = n_i_by * gain_i_w2 + n_o_by_i * gain_o_w2;
+    let m_ww_23 = n_i_bz * gain_i_w2 + n_o_bz_i * gain_o_w2;
+    let m_ww_33 = n_i_bz * gain_i_w3 + n_o_bz_i * gain_o_w3;
 
-    // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + f_i_bx * free_i + f_o_bx_i * free_o);
-    let h_v_2 = -(f_rest_by + f_i_by * free_i + f_o_by_i * free_o);
-    let h_v_3 = -(f_rest_bz + f_i_bz * free_i + f_o_bz_i * free_o);
-    let h_w_1 = -(n_rest_bx + n_i_bx * free_i + n_o_bx_i * free_o);
-    let h_w_2 = -(n_rest_by + n_i_by * free_i + n_o_by_i * free_o);
-    let h_w_3 = -(n_rest_bz + n_i_bz * free_i + n_o_bz_i * free_o);
+    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    let h_v_1 = f_rates_bx + f_i_bx * free_i + f_o_bx_i * free_o;
+    let h_v_2 = f_rates_by + f_i_by * free_i + f_o_by_i * free_o;
+    let h_v_3 = f_rates_bz + f_i_bz * free_i + f_o_bz_i * free_o;
+    let h_w_1 = n_rates_bx + n_i_bx * free_i + n_o_bx_i * free_o;
+    let h_w_2 = n_rates_by + n_i_by * free_i + n_o_by_i * free_o;
+    let h_w_3 = n_rates_bz + n_i_bz * free_i + n_o_bz_i * free_o;
 
     Eliminated {
         share: HubShare {
@@ -2234,6 +2597,15 @@ pub fn eliminate<T: Real>(
             h_w_1,
             h_w_2,
             h_w_3,
+            mr_moving_bx,
+            mr_moving_by,
+            mr_moving_bz,
+            i_moving_11,
+            i_moving_12,
+            i_moving_13,
+            i_moving_22,
+            i_moving_23,
+            i_moving_33,
         },
         pivot_i: mass_ii,
         diagonal_i: mass_ii,
@@ -2333,7 +2705,7 @@ pub fn energy_momentum<T: Real>(
     let mom_16 = q.cos_theta * mom_14 + q.sin_theta * mom_15;
     let p_w_wy = p.m_w * mom_16;
     let mom_17 = q.cos_theta * mom_15 - q.sin_theta * mom_14;
-    let p_w_wz = p.mr_wc_w_wy * omega_w_n_wx + p.m_w * mom_17;
+    let p_w_wz = p.m_w * mom_17 + p.mr_wc_w_wy * omega_w_n_wx;
     let mom_18 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
     let h_w_wx = mom_18 + p.j_13 * omega_w_n_wz + p.mr_wc_w_wy * mom_17;
     let mom_19 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
@@ -2350,13 +2722,13 @@ pub fn energy_momentum<T: Real>(
     let p_gi_giz = p.mr_gic_gi_giy * omega_gi_n_gix - mom_23 + p.m_gi * mom_13;
     let mom_24 = p.i_gi_gi_11 * omega_gi_n_gix + p.i_gi_gi_12 * omega_gi_n_giy;
     let mom_25 = p.mr_gic_gi_giy * mom_13 - p.mr_gic_gi_giz * mom_12;
-    let h_gi_gix = mom_24 + p.i_gi_gi_13 * omega_gi_n_giz + mom_25;
+    let h_gi_gix = mom_25 + (mom_24 + p.i_gi_gi_13 * omega_gi_n_giz);
     let mom_26 = p.i_gi_gi_12 * omega_gi_n_gix + p.i_gi_gi_22 * omega_gi_n_giy;
     let mom_27 = p.mr_gic_gi_giz * mom_9 - p.mr_gic_gi_gix * mom_13;
-    let h_gi_giy = mom_26 + p.i_gi_gi_23 * omega_gi_n_giz + mom_27;
+    let h_gi_giy = mom_27 + (mom_26 + p.i_gi_gi_23 * omega_gi_n_giz);
     let mom_28 = p.i_gi_gi_13 * omega_gi_n_gix + p.i_gi_gi_23 * omega_gi_n_giy;
     let mom_29 = p.mr_gic_gi_gix * mom_12 - p.mr_gic_gi_giy * mom_9;
-    let h_gi_giz = mom_28 + p.i_gi_gi_33 * omega_gi_n_giz + mom_29;
+    let h_gi_giz = mom_29 + (mom_28 + p.i_gi_gi_33 * omega_gi_n_giz);
 
     // The outer gimbal: momentum, kg m/s; its moment as in eq. (33), but about Gᵒ, kg m²/s.
     let mom_30 = p.mr_goc_go_goy * omega_go_n_goz;
@@ -2367,13 +2739,13 @@ pub fn energy_momentum<T: Real>(
     let p_go_goz = p.mr_goc_go_goy * omega_go_n_gox - mom_32 + p.m_go * mom_5;
     let mom_33 = p.i_go_go_11 * omega_go_n_gox + p.i_go_go_12 * omega_go_n_goy;
     let mom_34 = p.mr_goc_go_goy * mom_5 - p.mr_goc_go_goz * mom_11;
-    let h_go_gox = mom_33 + p.i_go_go_13 * omega_go_n_goz + mom_34;
+    let h_go_gox = mom_34 + (mom_33 + p.i_go_go_13 * omega_go_n_goz);
     let mom_35 = p.i_go_go_12 * omega_go_n_gox + p.i_go_go_22 * omega_go_n_goy;
     let mom_36 = p.mr_goc_go_goz * mom_6 - p.mr_goc_go_gox * mom_5;
-    let h_go_goy = mom_35 + p.i_go_go_23 * omega_go_n_goz + mom_36;
+    let h_go_goy = mom_36 + (mom_35 + p.i_go_go_23 * omega_go_n_goz);
     let mom_37 = p.i_go_go_13 * omega_go_n_gox + p.i_go_go_23 * omega_go_n_goy;
     let mom_38 = p.mr_goc_go_gox * mom_11 - p.mr_goc_go_goy * mom_6;
-    let h_go_goz = mom_37 + p.i_go_go_33 * omega_go_n_goz + mom_38;
+    let h_go_goz = mom_38 + (mom_37 + p.i_go_go_33 * omega_go_n_goz);
 
     // Kinetic energy, and momenta as in eq. (20), of the device, along B axes.
     let half = q.sin_gamma_o.like(0.5);
@@ -2464,7 +2836,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     let origin_gi_bx = pos_0 + p.r_go_b_bx;
     let pos_1 = q.sin_gamma_o * p.l_o_x + q.cos_gamma_o * p.l_o_y;
     let origin_gi_by = pos_1 + p.r_go_b_by;
-    let origin_gi_bz = p.origin_gi_bz;
+    let origin_gi_bz = p.arm_o_dz;
 
     // Of the wheel: its own axes along B, eq. (A1).
     let w_x_bx = gi_x_bx;
@@ -2482,8 +2854,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     let origin_w_bx = pos_2 + origin_gi_bx;
     let pos_3 = p.l_i_x * gi_x_by + q.cos_gamma_o * p.l_i_y + p.l_i_z * gi_z_by;
     let origin_w_by = pos_3 + origin_gi_by;
-    let pos_4 = q.cos_gamma_i * p.l_i_z - q.sin_gamma_i * p.l_i_x;
-    let origin_w_bz = pos_4 + p.origin_gi_bz;
+    let origin_w_bz = q.cos_gamma_i * p.l_i_z - q.sin_gamma_i * p.l_i_x + p.arm_o_dz;
 
     Axes {
         go_x_bx,
@@ -2899,27 +3270,28 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 226 mul, 246 add, 5 neg, 0 div, 0 trig.
+/// Operations: 202 mul, 226 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (G1), along the axes of the outer gimbal, 1/s².
-    let field_0 = q.cos_gamma_o * g.g_11 + q.sin_gamma_o * g.g_12;
-    let field_1 = q.cos_gamma_o * g.g_12 + q.sin_gamma_o * g.g_22;
-    let g_go_11 = q.cos_gamma_o * field_0 + q.sin_gamma_o * field_1;
-    let g_go_12 = q.cos_gamma_o * field_1 - q.sin_gamma_o * field_0;
+    let field_0 = q.cos_gamma_o * (g.g_12 + g.g_12);
+    let field_1 = q.sin_gamma_o * (g.g_22 - g.g_11) + field_0;
+    let field_2 = q.sin_gamma_o * field_1;
+    let g_go_11 = g.g_11 + field_2;
+    let g_go_12 = q.cos_gamma_o * field_1 - g.g_12;
     let g_go_13 = q.cos_gamma_o * g.g_13 + q.sin_gamma_o * g.g_23;
-    let g_go_22 = g.g_11 + g.g_22 - g_go_11;
+    let g_go_22 = g.g_22 - field_2;
     let g_go_23 = q.cos_gamma_o * g.g_23 - q.sin_gamma_o * g.g_13;
 
     // G r at Gᵒ, eq. (G1), along the same axes, m/s².
-    let field_2 = p.r_go_b_bx * g.g_11 + p.r_go_b_by * g.g_12;
-    let field_3 = field_2 + p.r_go_b_bz * g.g_13;
-    let field_4 = p.r_go_b_bx * g.g_12 + p.r_go_b_by * g.g_22;
-    let field_5 = field_4 + p.r_go_b_bz * g.g_23;
-    let g_r_go_gox = q.cos_gamma_o * field_3 + q.sin_gamma_o * field_5;
-    let g_r_go_goy = q.cos_gamma_o * field_5 - q.sin_gamma_o * field_3;
-    let field_6 = p.r_go_b_bx * g.g_13 + p.r_go_b_by * g.g_23;
-    let g_r_go_goz = field_6 + p.r_go_b_bz * g.g_33;
+    let field_3 = p.r_go_b_bx * g.g_11 + p.r_go_b_by * g.g_12;
+    let field_4 = field_3 + p.r_go_b_bz * g.g_13;
+    let field_5 = p.r_go_b_bx * g.g_12 + p.r_go_b_by * g.g_22;
+    let field_6 = field_5 + p.r_go_b_bz * g.g_23;
+    let g_r_go_gox = q.cos_gamma_o * field_4 + q.sin_gamma_o * field_6;
+    let g_r_go_goy = q.cos_gamma_o * field_6 - q.sin_gamma_o * field_4;
+    let field_7 = p.r_go_b_bx * g.g_13 + p.r_go_b_by * g.g_23;
+    let g_r_go_goz = field_7 + p.r_go_b_bz * g.g_33;
 
     // On the outer gimbal alone, eq. (G2): force, N, and moment about Gᵒ, N m.
     let pull_0 = p.mr_goc_go_gox * g_go_11 + p.mr_goc_go_goy * g_go_12;
@@ -2928,165 +3300,155 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_goy = pull_1 + p.mr_goc_go_goz * g_go_23 + p.m_go * g_r_go_goy;
     let pull_2 = p.mr_goc_go_gox * g_go_13 + p.mr_goc_go_goy * g_go_23;
     let f_on_goz = pull_2 + p.mr_goc_go_goz * g.g_33 + p.m_go * g_r_go_goz;
-    let pull_3 = p.i_go_go_12 * g_go_13 - p.i_go_go_13 * g_go_12 + g_go_23 * p.k_28;
+    let pull_3 = p.i_go_go_12 * g_go_13 - p.i_go_go_13 * g_go_12 + g_go_23 * p.k_42;
     let pull_4 = p.mr_goc_go_goy * g_r_go_goz - p.mr_goc_go_goz * g_r_go_goy;
     let n_on_gox = pull_4 - (pull_3 + p.i_go_go_23 * (g.g_33 - g_go_22));
-    let pull_5 = p.i_go_go_23 * g_go_12 - p.i_go_go_12 * g_go_23 + g_go_13 * p.k_29;
-    let pull_6 = p.mr_goc_go_goz * g_r_go_gox - p.mr_goc_go_gox * g_r_go_goz;
-    let n_on_goy = pull_6 - (pull_5 + p.i_go_go_13 * (g_go_11 - g.g_33));
-    let pull_7 = p.i_go_go_13 * g_go_23 - p.i_go_go_23 * g_go_13 + g_go_12 * p.k_30;
-    let pull_8 = p.mr_goc_go_gox * g_r_go_goy - p.mr_goc_go_goy * g_r_go_gox;
-    let n_on_goz = pull_8 - (pull_7 + p.i_go_go_12 * (g_go_22 - g_go_11));
+    let pull_5 = g_go_11 - g.g_33;
+    let pull_6 = p.i_go_go_23 * g_go_12 - p.i_go_go_12 * g_go_23 + g_go_13 * p.k_43;
+    let pull_7 = p.mr_goc_go_goz * g_r_go_gox - p.mr_goc_go_gox * g_r_go_goz;
+    let n_on_goy = pull_7 - (pull_6 + p.i_go_go_13 * pull_5);
+    let pull_8 = p.i_go_go_13 * g_go_23 - p.i_go_go_23 * g_go_13 + g_go_12 * p.k_44;
+    let pull_9 = p.mr_goc_go_gox * g_r_go_goy - p.mr_goc_go_goy * g_r_go_gox;
+    let n_on_goz = pull_9 - (pull_8 + p.i_go_go_12 * (g_go_22 - g_go_11));
 
     // G, as in eq. (G1), along the axes of the inner gimbal, 1/s².
-    let field_7 = q.cos_gamma_i * g.g_33 + q.sin_gamma_i * g_go_13;
-    let field_8 = q.cos_gamma_i * g_go_13 + q.sin_gamma_i * g_go_11;
-    let g_gi_33 = q.cos_gamma_i * field_7 + q.sin_gamma_i * field_8;
-    let g_gi_11 = g.g_33 + g_go_11 - g_gi_33;
+    let field_8 = q.sin_gamma_i * pull_5 + q.cos_gamma_i * (g_go_13 + g_go_13);
+    let field_9 = q.sin_gamma_i * field_8;
+    let g_gi_11 = g_go_11 - field_9;
     let g_gi_12 = q.cos_gamma_i * g_go_12 - q.sin_gamma_i * g_go_23;
-    let g_gi_13 = q.cos_gamma_i * field_8 - q.sin_gamma_i * field_7;
+    let g_gi_13 = q.cos_gamma_i * field_8 - g_go_13;
     let g_gi_23 = q.cos_gamma_i * g_go_23 + q.sin_gamma_i * g_go_12;
+    let g_gi_33 = g.g_33 + field_9;
 
     // G r at Gⁱ, eq. (G1), along the same axes, m/s².
-    let field_9 = p.l_o_x * g_go_11 + p.l_o_y * g_go_12 + p.l_o_z * g_go_13;
-    let field_10 = field_9 + g_r_go_gox;
-    let field_11 = p.l_o_x * g_go_13 + p.l_o_y * g_go_23 + p.l_o_z * g.g_33;
-    let field_12 = field_11 + g_r_go_goz;
-    let g_r_gi_gix = q.cos_gamma_i * field_10 - q.sin_gamma_i * field_12;
-    let field_13 = p.l_o_x * g_go_12 + p.l_o_y * g_go_22 + p.l_o_z * g_go_23;
-    let g_r_gi_giy = field_13 + g_r_go_goy;
-    let g_r_gi_giz = q.cos_gamma_i * field_12 + q.sin_gamma_i * field_10;
+    let field_10 = p.l_o_x * g_go_11 + p.l_o_y * g_go_12 + p.l_o_z * g_go_13;
+    let field_11 = field_10 + g_r_go_gox;
+    let field_12 = p.l_o_x * g_go_13 + p.l_o_y * g_go_23 + p.l_o_z * g.g_33;
+    let field_13 = field_12 + g_r_go_goz;
+    let g_r_gi_gix = q.cos_gamma_i * field_11 - q.sin_gamma_i * field_13;
+    let field_14 = p.l_o_x * g_go_12 + p.l_o_y * g_go_22 + p.l_o_z * g_go_23;
+    let g_r_gi_giy = field_14 + g_r_go_goy;
+    let g_r_gi_giz = q.cos_gamma_i * field_13 + q.sin_gamma_i * field_11;
 
     // On the inner gimbal alone, eq. (G2): force, N, and moment about Gⁱ, N m.
-    let pull_9 = p.mr_gic_gi_gix * g_gi_11 + p.mr_gic_gi_giy * g_gi_12;
-    let f_on_gix = pull_9 + p.mr_gic_gi_giz * g_gi_13 + p.m_gi * g_r_gi_gix;
-    let pull_10 = p.mr_gic_gi_gix * g_gi_12 + p.mr_gic_gi_giy * g_go_22;
-    let f_on_giy = pull_10 + p.mr_gic_gi_giz * g_gi_23 + p.m_gi * g_r_gi_giy;
-    let pull_11 = p.mr_gic_gi_gix * g_gi_13 + p.mr_gic_gi_giy * g_gi_23;
-    let f_on_giz = pull_11 + p.mr_gic_gi_giz * g_gi_33 + p.m_gi * g_r_gi_giz;
-    let pull_12 = p.i_gi_gi_12 * g_gi_13 - p.i_gi_gi_13 * g_gi_12 + g_gi_23 * p.k_31;
-    let pull_13 = p.mr_gic_gi_giy * g_r_gi_giz - p.mr_gic_gi_giz * g_r_gi_giy;
-    let n_on_gix = pull_13 - (pull_12 + p.i_gi_gi_23 * (g_gi_33 - g_go_22));
-    let pull_14 = p.i_gi_gi_23 * g_gi_12 - p.i_gi_gi_12 * g_gi_23 + g_gi_13 * p.k_32;
-    let pull_15 = p.mr_gic_gi_giz * g_r_gi_gix - p.mr_gic_gi_gix * g_r_gi_giz;
-    let n_on_giy = pull_15 - (pull_14 + p.i_gi_gi_13 * (g_gi_11 - g_gi_33));
-    let pull_16 = p.i_gi_gi_13 * g_gi_23 - p.i_gi_gi_23 * g_gi_13 + g_gi_12 * p.k_33;
-    let pull_17 = p.mr_gic_gi_gix * g_r_gi_giy - p.mr_gic_gi_giy * g_r_gi_gix;
-    let n_on_giz = pull_17 - (pull_16 + p.i_gi_gi_12 * (g_go_22 - g_gi_11));
+    let pull_10 = p.mr_gic_gi_gix * g_gi_11 + p.mr_gic_gi_giy * g_gi_12;
+    let f_on_gix = pull_10 + p.mr_gic_gi_giz * g_gi_13 + p.m_gi * g_r_gi_gix;
+    let pull_11 = p.mr_gic_gi_gix * g_gi_12 + p.mr_gic_gi_giy * g_go_22;
+    let f_on_giy = pull_11 + p.mr_gic_gi_giz * g_gi_23 + p.m_gi * g_r_gi_giy;
+    let pull_12 = p.mr_gic_gi_gix * g_gi_13 + p.mr_gic_gi_giy * g_gi_23;
+    let f_on_giz = pull_12 + p.mr_gic_gi_giz * g_gi_33 + p.m_gi * g_r_gi_giz;
+    let pull_13 = g_gi_33 - g_go_22;
+    let pull_14 = p.i_gi_gi_12 * g_gi_13 - p.i_gi_gi_13 * g_gi_12 + g_gi_23 * p.k_45;
+    let pull_15 = p.mr_gic_gi_giy * g_r_gi_giz - p.mr_gic_gi_giz * g_r_gi_giy;
+    let n_on_gix = pull_15 - (pull_14 + p.i_gi_gi_23 * pull_13);
+    let pull_16 = p.i_gi_gi_23 * g_gi_12 - p.i_gi_gi_12 * g_gi_23 + g_gi_13 * p.k_46;
+    let pull_17 = p.mr_gic_gi_giz * g_r_gi_gix - p.mr_gic_gi_gix * g_r_gi_giz;
+    let n_on_giy = pull_17 - (pull_16 + p.i_gi_gi_13 * (g_gi_11 - g_gi_33));
+    let pull_18 = p.i_gi_gi_13 * g_gi_23 - p.i_gi_gi_23 * g_gi_13 + g_gi_12 * p.k_47;
+    let pull_19 = p.mr_gic_gi_gix * g_r_gi_giy - p.mr_gic_gi_giy * g_r_gi_gix;
+    let n_on_giz = pull_19 - (pull_18 + p.i_gi_gi_12 * (g_go_22 - g_gi_11));
 
     // G, as in eq. (G1), along the axes of the wheel, 1/s².
     let g_w_12 = q.cos_theta * g_gi_12 + q.sin_theta * g_gi_13;
     let g_w_13 = q.cos_theta * g_gi_13 - q.sin_theta * g_gi_12;
-    let field_14 = q.cos_theta * g_go_22 + q.sin_theta * g_gi_23;
-    let field_15 = q.cos_theta * g_gi_23 + q.sin_theta * g_gi_33;
-    let g_w_22 = q.cos_theta * field_14 + q.sin_theta * field_15;
-    let g_w_23 = q.cos_theta * field_15 - q.sin_theta * field_14;
-    let g_w_33 = g_go_22 + g_gi_33 - g_w_22;
+    let field_15 = q.sin_theta * pull_13 + q.cos_theta * (g_gi_23 + g_gi_23);
+    let field_16 = q.sin_theta * field_15;
+    let g_w_22 = g_go_22 + field_16;
+    let g_w_23 = q.cos_theta * field_15 - g_gi_23;
+    let g_w_33 = g_gi_33 - field_16;
 
     // G r at W, eq. (G1), along the same axes, m/s².
-    let field_16 = p.l_i_x * g_gi_11 + p.l_i_y * g_gi_12 + p.l_i_z * g_gi_13;
-    let g_r_w_wx = field_16 + g_r_gi_gix;
-    let field_17 = p.l_i_x * g_gi_12 + p.l_i_y * g_go_22 + p.l_i_z * g_gi_23;
-    let field_18 = field_17 + g_r_gi_giy;
-    let field_19 = p.l_i_x * g_gi_13 + p.l_i_y * g_gi_23 + p.l_i_z * g_gi_33;
-    let field_20 = field_19 + g_r_gi_giz;
-    let g_r_w_wy = q.cos_theta * field_18 + q.sin_theta * field_20;
-    let g_r_w_wz = q.cos_theta * field_20 - q.sin_theta * field_18;
+    let field_17 = p.l_i_x * g_gi_11 + p.l_i_y * g_gi_12 + p.l_i_z * g_gi_13;
+    let g_r_w_wx = field_17 + g_r_gi_gix;
+    let field_18 = p.l_i_x * g_gi_12 + p.l_i_y * g_go_22 + p.l_i_z * g_gi_23;
+    let field_19 = field_18 + g_r_gi_giy;
+    let field_20 = p.l_i_x * g_gi_13 + p.l_i_y * g_gi_23 + p.l_i_z * g_gi_33;
+    let field_21 = field_20 + g_r_gi_giz;
+    let g_r_w_wy = q.cos_theta * field_19 + q.sin_theta * field_21;
+    let g_r_w_wz = q.cos_theta * field_21 - q.sin_theta * field_19;
 
     // On the wheel alone, eq. (G2): force, N, and moment about W, N m.
     let f_on_wx = p.m_w * g_r_w_wx + p.mr_wc_w_wy * g_w_12;
     let f_on_wy = p.m_w * g_r_w_wy + p.mr_wc_w_wy * g_w_22;
     let f_on_wz = p.m_w * g_r_w_wz + p.mr_wc_w_wy * g_w_23;
-    let pull_18 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_34;
-    let n_on_wx = p.mr_wc_w_wy * g_r_w_wz - (pull_18 + p.j_23 * (g_w_33 - g_w_22));
-    let pull_19 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_35;
-    let n_on_wy = -(pull_19 + p.j_13 * (g_gi_11 - g_w_33));
-    let pull_20 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_36;
-    let n_on_wz = -(pull_20 + p.j_12 * (g_w_22 - g_gi_11) + p.mr_wc_w_wy * g_r_w_wx);
+    let pull_20 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_48;
+    let n_on_wx = p.mr_wc_w_wy * g_r_w_wz - (pull_20 + p.j_23 * (g_w_33 - g_w_22));
+    let pull_21 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_49;
+    let n_on_wy = -(pull_21 + p.j_13 * (g_gi_11 - g_w_33));
+    let pull_22 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_50;
+    let n_on_wz = -(pull_22 + p.j_12 * (g_w_22 - g_gi_11) + p.mr_wc_w_wy * g_r_w_wx);
 
     // V, the inner gimbal and what it carries, eq. (108): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gⁱ.
     let lump_0 = q.cos_theta * p.mr_wc_w_wy;
-    let mr_v_gi_giy = lump_0 + p.k_8 + p.mr_gic_gi_giy;
+    let mr_v_gi_giy = lump_0 + p.k_12 + p.mr_gic_gi_giy;
     let lump_1 = q.sin_theta * p.mr_wc_w_wy;
-    let mr_v_gi_giz = lump_1 + p.k_9 + p.mr_gic_gi_giz;
-    let lump_2 = p.l_i_y * lump_0;
-    let lump_3 = p.l_i_z * lump_1;
-    let lump_4 = lump_2 + lump_3;
-    let lump_5 = lump_4 + lump_4;
-    let i_v_gi_11 = p.i_w_w_11 + lump_5 + p.k_2 + p.i_gi_gi_11;
-    let lump_6 = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.l_i_x * lump_0;
-    let i_v_gi_12 = lump_6 + p.k_3 + p.i_gi_gi_12;
-    let lump_7 = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.l_i_x * lump_1;
-    let i_v_gi_13 = lump_7 + p.k_4 + p.i_gi_gi_13;
-    let lump_8 = q.cos_theta * p.j_22 - q.sin_theta * p.j_23;
-    let lump_9 = q.cos_theta * p.j_23 - q.sin_theta * p.i_w_w_33;
-    let lump_10 = q.cos_theta * lump_8 - q.sin_theta * lump_9;
-    let i_v_gi_22 = lump_5 - (lump_2 + lump_2) + lump_10 + p.k_5 + p.i_gi_gi_22;
-    let lump_11 = q.cos_theta * lump_9 + q.sin_theta * lump_8;
-    let lump_12 = lump_11 - (p.l_i_y * lump_1 + p.l_i_z * lump_0) + p.k_6;
-    let i_v_gi_23 = lump_12 + p.i_gi_gi_23;
-    let lump_13 = p.k_1 - lump_10 + (lump_5 - (lump_3 + lump_3)) + p.k_7;
-    let i_v_gi_33 = lump_13 + p.i_gi_gi_33;
+    let mr_v_gi_giz = lump_1 + p.k_13 + p.mr_gic_gi_giz;
+    let lump_2 = lump_0 * p.k_4;
+    let lump_3 = lump_1 * p.k_5;
+    let i_v_gi_11 = lump_2 + lump_3 + p.i_w_w_11 + p.k_6 + p.i_gi_gi_11;
+    let lump_4 = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.l_i_x * lump_0;
+    let i_v_gi_12 = lump_4 + p.k_7 + p.i_gi_gi_12;
+    let lump_5 = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.l_i_x * lump_1;
+    let i_v_gi_13 = lump_5 + p.k_8 + p.i_gi_gi_13;
+    let lump_6 = q.cos_theta * p.k_2 - q.sin_theta * p.k_1;
+    let lump_7 = q.sin_theta * lump_6;
+    let i_v_gi_22 = p.j_22 - lump_7 + lump_3 + p.k_9 + p.i_gi_gi_22;
+    let lump_8 = p.l_i_y * lump_1 + p.l_i_z * lump_0;
+    let i_v_gi_23 = q.cos_theta * lump_6 + p.k_3 - lump_8 + p.k_10 + p.i_gi_gi_23;
+    let i_v_gi_33 = p.i_w_w_33 + lump_7 + lump_2 + p.k_11 + p.i_gi_gi_33;
 
     // D, the outer gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gᵒ.
-    let lump_14 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * mr_v_gi_giz;
-    let mr_d_go_gox = lump_14 + p.k_16 + p.mr_goc_go_gox;
-    let mr_d_go_goy = mr_v_gi_giy + p.k_17 + p.mr_goc_go_goy;
-    let lump_15 = q.cos_gamma_i * mr_v_gi_giz - q.sin_gamma_i * p.mr_v_gi_gix;
-    let mr_d_go_goz = lump_15 + p.k_18 + p.mr_goc_go_goz;
-    let lump_16 = q.cos_gamma_i * i_v_gi_33 - q.sin_gamma_i * i_v_gi_13;
-    let lump_17 = q.cos_gamma_i * i_v_gi_13 - q.sin_gamma_i * i_v_gi_11;
-    let lump_18 = q.cos_gamma_i * lump_16 - q.sin_gamma_i * lump_17;
-    let lump_19 = p.l_o_x * lump_14;
-    let lump_20 = p.l_o_y * mr_v_gi_giy;
-    let lump_21 = p.l_o_z * lump_15;
-    let lump_22 = lump_19 + lump_20 + lump_21;
-    let lump_23 = lump_22 + lump_22;
-    let lump_24 = i_v_gi_11 + i_v_gi_33 - lump_18 + (lump_23 - (lump_19 + lump_19));
-    let i_d_go_11 = lump_24 + p.k_10 + p.i_go_go_11;
-    let lump_25 = q.cos_gamma_i * i_v_gi_12 + q.sin_gamma_i * i_v_gi_23;
-    let lump_26 = lump_25 - (p.l_o_x * mr_v_gi_giy + p.l_o_y * lump_14) + p.k_11;
-    let i_d_go_12 = lump_26 + p.i_go_go_12;
-    let lump_27 = q.cos_gamma_i * lump_17 + q.sin_gamma_i * lump_16;
-    let lump_28 = lump_27 - (p.l_o_x * lump_15 + p.l_o_z * lump_14) + p.k_12;
-    let i_d_go_13 = lump_28 + p.i_go_go_13;
-    let i_d_go_22 = lump_23 - (lump_20 + lump_20) + i_v_gi_22 + p.k_13 + p.i_go_go_22;
-    let lump_29 = q.cos_gamma_i * i_v_gi_23 - q.sin_gamma_i * i_v_gi_12;
-    let lump_30 = lump_29 - (p.l_o_y * lump_15 + p.l_o_z * mr_v_gi_giy) + p.k_14;
-    let i_d_go_23 = lump_30 + p.i_go_go_23;
-    let i_d_go_33 = lump_23 - (lump_21 + lump_21) + lump_18 + p.k_15 + p.i_go_go_33;
+    let lump_9 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * mr_v_gi_giz;
+    let mr_d_go_gox = lump_9 + p.k_23 + p.mr_goc_go_gox;
+    let mr_d_go_goy = mr_v_gi_giy + p.k_24 + p.mr_goc_go_goy;
+    let lump_10 = q.cos_gamma_i * mr_v_gi_giz - q.sin_gamma_i * p.mr_v_gi_gix;
+    let mr_d_go_goz = lump_10 + p.k_25 + p.mr_goc_go_goz;
+    let lump_11 = q.sin_gamma_i * (i_v_gi_11 - i_v_gi_33);
+    let lump_12 = q.cos_gamma_i * (i_v_gi_13 + i_v_gi_13) - lump_11;
+    let lump_13 = q.sin_gamma_i * lump_12;
+    let lump_14 = mr_v_gi_giy * p.k_15;
+    let lump_15 = lump_10 * p.k_16;
+    let i_d_go_11 = i_v_gi_11 + lump_13 + (lump_14 + lump_15) + p.k_17 + p.i_go_go_11;
+    let lump_16 = q.cos_gamma_i * i_v_gi_12 + q.sin_gamma_i * i_v_gi_23;
+    let lump_17 = lump_16 - (p.l_o_x * mr_v_gi_giy + p.l_o_y * lump_9) + p.k_18;
+    let i_d_go_12 = lump_17 + p.i_go_go_12;
+    let lump_18 = p.l_o_x * lump_10 + p.l_o_z * lump_9;
+    let lump_19 = q.cos_gamma_i * lump_12 - i_v_gi_13 - lump_18 + p.k_19;
+    let i_d_go_13 = lump_19 + p.i_go_go_13;
+    let lump_20 = lump_9 * p.k_14;
+    let i_d_go_22 = lump_20 + lump_15 + i_v_gi_22 + p.k_20 + p.i_go_go_22;
+    let lump_21 = q.cos_gamma_i * i_v_gi_23 - q.sin_gamma_i * i_v_gi_12;
+    let lump_22 = lump_21 - (p.l_o_y * lump_10 + p.l_o_z * mr_v_gi_giy) + p.k_21;
+    let i_d_go_23 = lump_22 + p.i_go_go_23;
+    let i_d_go_33 = i_v_gi_33 - lump_13 + (lump_20 + lump_14) + p.k_22 + p.i_go_go_33;
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
     let axis_0 = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * mr_d_go_goy;
     let axis_1 = q.cos_gamma_o * mr_d_go_goy + q.sin_gamma_o * mr_d_go_gox;
-    let axis_2 = q.cos_gamma_o * i_d_go_11 - q.sin_gamma_o * i_d_go_12;
-    let axis_3 = q.cos_gamma_o * i_d_go_12 - q.sin_gamma_o * i_d_go_22;
-    let axis_4 = q.cos_gamma_o * axis_2 - q.sin_gamma_o * axis_3;
-    let axis_5 = p.r_go_b_bx * axis_0;
-    let axis_6 = p.r_go_b_by * axis_1;
-    let axis_7 = p.r_go_b_bz * mr_d_go_goz;
-    let axis_8 = axis_5 + axis_6 + axis_7;
-    let axis_9 = axis_8 + axis_8;
-    let axis_10 = axis_9 - (axis_5 + axis_5) + axis_4 + p.k_19;
-    let axis_11 = i_d_go_11 + i_d_go_22 - axis_4 + (axis_9 - (axis_6 + axis_6));
-    let axis_12 = axis_11 + p.k_22;
-    let axis_13 = axis_9 - (axis_7 + axis_7) + i_d_go_33 + p.k_24;
+    let axis_2 = q.sin_gamma_o * (i_d_go_22 - i_d_go_11);
+    let axis_3 = q.cos_gamma_o * (i_d_go_12 + i_d_go_12) - axis_2;
+    let axis_4 = q.sin_gamma_o * axis_3;
+    let axis_5 = axis_0 * p.k_26;
+    let axis_6 = axis_1 * p.k_27;
+    let axis_7 = mr_d_go_goz * p.k_28;
+    let axis_8 = i_d_go_11 - axis_4 + (axis_6 + axis_7) + p.k_29;
+    let axis_9 = i_d_go_22 + axis_4 + (axis_5 + axis_7) + p.k_32;
+    let axis_10 = axis_5 + axis_6 + i_d_go_33 + p.k_34;
     let half = q.sin_gamma_o.like(0.5);
-    let axis_14 = half * (axis_10 + axis_12 + axis_13);
-    let second_moment_11 = axis_14 - axis_10;
-    let axis_15 = q.cos_gamma_o * axis_3 + q.sin_gamma_o * axis_2;
-    let axis_16 = axis_15 - (p.r_go_b_bx * axis_1 + p.r_go_b_by * axis_0);
-    let second_moment_12 = -(axis_16 + p.k_20);
-    let axis_17 = q.cos_gamma_o * i_d_go_13 - q.sin_gamma_o * i_d_go_23;
-    let axis_18 = p.r_go_b_bx * mr_d_go_goz + p.r_go_b_bz * axis_0;
-    let second_moment_13 = -(axis_17 - axis_18 + p.k_21);
-    let second_moment_22 = axis_14 - axis_12;
-    let axis_19 = q.cos_gamma_o * i_d_go_23 + q.sin_gamma_o * i_d_go_13;
-    let axis_20 = p.r_go_b_by * mr_d_go_goz + p.r_go_b_bz * axis_1;
-    let second_moment_23 = -(axis_19 - axis_20 + p.k_23);
-    let second_moment_33 = axis_14 - axis_13;
+    let axis_11 = half * (axis_8 + axis_9 + axis_10);
+    let second_moment_11 = axis_11 - axis_8;
+    let axis_12 = p.r_go_b_bx * axis_1 + p.r_go_b_by * axis_0;
+    let second_moment_12 = -(q.cos_gamma_o * axis_3 - i_d_go_12 - axis_12 + p.k_30);
+    let axis_13 = q.cos_gamma_o * i_d_go_13 - q.sin_gamma_o * i_d_go_23;
+    let axis_14 = p.r_go_b_bx * mr_d_go_goz + p.r_go_b_bz * axis_0;
+    let second_moment_13 = -(axis_13 - axis_14 + p.k_31);
+    let second_moment_22 = axis_11 - axis_9;
+    let axis_15 = q.cos_gamma_o * i_d_go_23 + q.sin_gamma_o * i_d_go_13;
+    let axis_16 = p.r_go_b_by * mr_d_go_goz + p.r_go_b_bz * axis_1;
+    let second_moment_23 = -(axis_15 - axis_16 + p.k_33);
+    let second_moment_33 = axis_11 - axis_10;
 
     Gravity {
         wrenches: Wrenches {

@@ -6,14 +6,34 @@
 //!
 //! Everything is resolved along the outermost joint's axes at zero angle: "the device's B axes".
 
-use super::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare};
+use super::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
+};
 use crate::Real;
 
 pub mod device;
 
-/// What the device is made of: masses, places, inertias.
+/// What the device is made of: mount, masses, places, inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{P/B}: origin of the panel in the axes that carry it, first component, m.
     pub r_p_b_bx: T,
     /// r_{P/B}: origin of the panel in the axes that carry it, second component, m.
@@ -45,6 +65,24 @@ pub struct Parameters<T> {
 /// What a kernel needs of the parameters, computed once by [`prepare`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{P/B}: origin of the panel in the axes that carry it, first component, m.
     pub r_p_b_bx: T,
     /// r_{P/B}: origin of the panel in the axes that carry it, second component, m.
@@ -82,8 +120,8 @@ pub struct Prepared<T> {
     /// `p.m_p * p.r_pc_p_pz`. The panel about its origin: first moment, kg m, and inertia as
     /// in eq. (40), kg m².
     pub mr_pc_p_pz: T,
-    /// `p.i_p_11 + p.m_p * (own_0 + own_1)`. The panel about its origin: first moment, kg m,
-    /// and inertia as in eq. (40), kg m².
+    /// `p.i_p_11 + p.m_p * (base_0 + hand_1)`. The panel about its origin: first moment, kg
+    /// m, and inertia as in eq. (40), kg m².
     pub i_p_p_11: T,
     /// `p.i_p_12 - p.r_pc_p_px * p.r_pc_p_py * p.m_p`. The panel about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
@@ -91,55 +129,135 @@ pub struct Prepared<T> {
     /// `p.i_p_13 - p.r_pc_p_px * p.r_pc_p_pz * p.m_p`. The panel about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_p_p_13: T,
-    /// `p.i_p_22 + p.m_p * (own_2 + own_1)`. The panel about its origin: first moment, kg m,
-    /// and inertia as in eq. (40), kg m².
+    /// `p.i_p_22 + p.m_p * (hand_0 + hand_1)`. The panel about its origin: first moment, kg
+    /// m, and inertia as in eq. (40), kg m².
     pub i_p_p_22: T,
     /// `p.i_p_23 - p.r_pc_p_py * p.r_pc_p_pz * p.m_p`. The panel about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_p_p_23: T,
-    /// `p.i_p_33 + p.m_p * (own_2 + own_0)`. The panel about its origin: first moment, kg m,
-    /// and inertia as in eq. (40), kg m².
+    /// `p.i_p_33 + p.m_p * (hand_0 + base_0)`. The panel about its origin: first moment, kg
+    /// m, and inertia as in eq. (40), kg m².
     pub i_p_p_33: T,
-    /// `i_p_p_33`. Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and bias,
-    /// N m.
+    /// `i_p_base_33`. Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and
+    /// bias, N m, eq. (C3).
     pub mass_pp: T,
-    /// `i_p_p_11 + i_p_p_22`.
+    /// `i_p_p_22 - i_p_p_11`.
     pub k_1: T,
-    /// `p.r_p_b_bz * mr_pc_p_pz`.
+    /// `i_p_p_12 + i_p_p_12`.
     pub k_2: T,
-    /// `p.r_p_b_bx * mr_pc_p_pz`.
+    /// `-i_p_p_12`.
     pub k_3: T,
-    /// `p.r_p_b_by * mr_pc_p_pz`.
+    /// `p.r_p_b_bx + p.r_p_b_bx`.
     pub k_4: T,
-    /// `-(k_2 + k_2)`.
+    /// `p.r_p_b_by + p.r_p_b_by`.
     pub k_5: T,
-    /// `p.m_p * (prep_0 + prep_1)`.
+    /// `mr_pc_p_pz * (p.r_p_b_bz + p.r_p_b_bz)`.
     pub k_6: T,
-    /// `-(p.r_p_b_bx * p.r_p_b_by * p.m_p)`.
+    /// `p.r_p_b_bx * mr_pc_p_pz`.
     pub k_7: T,
-    /// `-(p.r_p_b_bx * p.r_p_b_bz * p.m_p)`.
+    /// `p.r_p_b_by * mr_pc_p_pz`.
     pub k_8: T,
-    /// `p.m_p * (prep_2 + prep_1)`.
+    /// `p.m_p * (hand_3 + hand_4)`.
     pub k_9: T,
-    /// `-(p.r_p_b_by * p.r_p_b_bz * p.m_p)`.
+    /// `-(p.r_p_b_bx * p.r_p_b_by * p.m_p)`.
     pub k_10: T,
-    /// `p.m_p * (prep_2 + prep_0)`.
+    /// `-(p.r_p_b_bx * p.r_p_b_bz * p.m_p)`.
     pub k_11: T,
-    /// `p.r_p_b_bx * p.m_p`.
+    /// `p.m_p * (hand_2 + hand_4)`.
     pub k_12: T,
-    /// `p.r_p_b_by * p.m_p`.
+    /// `-(p.r_p_b_by * p.r_p_b_bz * p.m_p)`.
     pub k_13: T,
-    /// `mr_pc_p_pz + p.r_p_b_bz * p.m_p`. Σ m r, share of m_sc c, eq. (9), kg m.
-    pub mc_bz: T,
-    /// `mc_bz`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76),
-    /// kg m².
-    pub mr_d_b_bz: T,
-    /// `i_p_p_22 - i_p_p_33`.
+    /// `p.m_p * (hand_2 + hand_3)`.
     pub k_14: T,
-    /// `i_p_p_33 - i_p_p_11`.
+    /// `p.r_p_b_bx * p.m_p`.
     pub k_15: T,
-    /// `i_p_p_11 - i_p_p_22`.
+    /// `p.r_p_b_by * p.m_p`.
     pub k_16: T,
+    /// `mr_pc_p_pz + mom_0`. Σ m r, share of m_sc c, eq. (9), kg m.
+    pub mc_bz: T,
+    /// `base_1 - hand_8 + p.i_p_11 - p.i_p_22`. Base parameters of the panel, eqs. (B1),
+    /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_p_base_11: T,
+    /// `p.i_p_12 - p.r_pc_p_py * mr_pc_p_px`. Base parameters of the panel, eqs. (B1), (B2):
+    /// arm, m, first moment, kg m, inertia, kg m².
+    pub i_p_base_12: T,
+    /// `p.i_p_13 - (p.r_pc_p_px * mom_0 + p.r_pc_p_pz * mr_pc_p_px)`. Base parameters of the
+    /// panel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_p_base_13: T,
+    /// `p.i_p_23 - (p.r_pc_p_py * mom_0 + p.r_pc_p_pz * mr_pc_p_py)`. Base parameters of the
+    /// panel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_p_base_23: T,
+    /// `hand_8 + base_1 + p.i_p_33`. Base parameters of the panel, eqs. (B1), (B2): arm, m,
+    /// first moment, kg m, inertia, kg m².
+    pub i_p_base_33: T,
+    /// `i_p_base_12 + i_p_base_12`.
+    pub k_17: T,
+    /// `i_p_base_11 + i_p_base_33`.
+    pub k_18: T,
+    /// `i_p_base_33 - i_p_base_11`.
+    pub k_19: T,
+    /// `p.r_p_b_bx * p.mount_11 + p.r_p_b_by * p.mount_12`. Origin of the first joint, eq.
+    /// (A2), along B axes, m.
+    pub reach_bx: T,
+    /// `p.r_p_b_bx * p.mount_21 + p.r_p_b_by * p.mount_22`. Origin of the first joint, eq.
+    /// (A2), along B axes, m.
+    pub reach_by: T,
+    /// `p.r_p_b_bx * p.mount_31 + p.r_p_b_by * p.mount_32`. Origin of the first joint, eq.
+    /// (A2), along B axes, m.
+    pub reach_bz: T,
+    /// `p.mount_13 * i_p_base_33`.
+    pub k_20: T,
+    /// `p.mount_23 * i_p_base_33`.
+    pub k_21: T,
+    /// `p.mount_33 * i_p_base_33`.
+    pub k_22: T,
+    /// `half * i_p_base_11`.
+    pub k_23: T,
+    /// `-(p.mount_13 * prep_0)`.
+    pub k_24: T,
+    /// `-(p.mount_23 * prep_0)`.
+    pub k_25: T,
+    /// `-(p.mount_33 * prep_0)`.
+    pub k_26: T,
+    /// `reach_bx + reach_bx`.
+    pub k_27: T,
+    /// `reach_by + reach_by`.
+    pub k_28: T,
+    /// `reach_bz + reach_bz`.
+    pub k_29: T,
+    /// `p.mount_11 * k_15 + p.mount_12 * k_16 + p.mount_13 * mc_bz`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_mr_bx: T,
+    /// `p.mount_21 * k_15 + p.mount_22 * k_16 + p.mount_23 * mc_bz`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_mr_by: T,
+    /// `p.mount_31 * k_15 + p.mount_32 * k_16 + p.mount_33 * mc_bz`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_mr_bz: T,
+    /// `hand_28 - hand_24 + hand_25 * (hand_26 + hand_26)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_11: T,
+    /// `hand_36 - hand_33 + hand_25 * (hand_34 + hand_34)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_12: T,
+    /// `hand_44 - hand_41 + hand_25 * (hand_42 + hand_42)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_13: T,
+    /// `hand_55 - hand_52 + hand_25 * (hand_53 + hand_53)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_22: T,
+    /// `hand_63 - hand_60 + hand_25 * (hand_61 + hand_61)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_23: T,
+    /// `hand_74 - hand_71 + hand_25 * (hand_72 + hand_72)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_33: T,
+    /// `i_p_p_22 - i_p_p_33`.
+    pub k_30: T,
+    /// `i_p_p_33 - i_p_p_11`.
+    pub k_31: T,
+    /// `i_p_p_11 - i_p_p_22`.
+    pub k_32: T,
 }
 
 /// Sines and cosines of the joint angles.
@@ -267,7 +385,7 @@ pub struct Panel<T> {
 }
 
 /// A device's share of `m_sc c` and its derivatives seen from B, along the device's B axes:
-/// `m_sc c″ = f_p φ̈ + f̃`.
+/// `m_sc c″ = mc_dprime_p φ̈ + f̃`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstMoment<T> {
     /// Σ m r, share of m_sc c, eq. (9), along bx, kg m.
@@ -283,11 +401,11 @@ pub struct FirstMoment<T> {
     /// Σ m r′, share of m_sc c′, behind eq. (11), along bz, kg m/s.
     pub mc_prime_bz: T,
     /// f_p, eq. (17): Σ m r″ per φ̈, along bx, kg m.
-    pub f_p_bx: T,
+    pub mc_dprime_p_bx: T,
     /// f_p, eq. (17): Σ m r″ per φ̈, along by, kg m.
-    pub f_p_by: T,
+    pub mc_dprime_p_by: T,
     /// f_p, eq. (17): Σ m r″ per φ̈, along bz, kg m.
-    pub f_p_bz: T,
+    pub mc_dprime_p_bz: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along bx, N.
     pub f_tilde_bx: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along by, N.
@@ -309,6 +427,8 @@ pub struct Eliminated<T> {
     pub gain_p_v1: T,
     /// Gain of the panel on component 2 of r̈_{B/N}, 1/m.
     pub gain_p_v2: T,
+    /// Gain of the panel on component 3 of r̈_{B/N}, 1/m.
+    pub gain_p_v3: T,
     /// Gain of the panel on component 1 of ω̇_{B/N}.
     pub gain_p_w1: T,
     /// Gain of the panel on component 2 of ω̇_{B/N}.
@@ -444,7 +564,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 34 mul, 19 add, 4 neg, 0 div, 0 trig.
+/// Operations: 161 mul, 145 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // r_{Pc/B}, behind eq. (12), m.
@@ -454,48 +574,170 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let mr_pc_p_px = p.m_p * p.r_pc_p_px;
     let mr_pc_p_py = p.m_p * p.r_pc_p_py;
     let mr_pc_p_pz = p.m_p * p.r_pc_p_pz;
-    let own_0 = p.r_pc_p_py * p.r_pc_p_py;
-    let own_1 = p.r_pc_p_pz * p.r_pc_p_pz;
-    let i_p_p_11 = p.i_p_11 + p.m_p * (own_0 + own_1);
-    let i_p_p_12 = p.i_p_12 - p.r_pc_p_px * p.r_pc_p_py * p.m_p;
-    let i_p_p_13 = p.i_p_13 - p.r_pc_p_px * p.r_pc_p_pz * p.m_p;
-    let own_2 = p.r_pc_p_px * p.r_pc_p_px;
-    let i_p_p_22 = p.i_p_22 + p.m_p * (own_2 + own_1);
-    let i_p_p_23 = p.i_p_23 - p.r_pc_p_py * p.r_pc_p_pz * p.m_p;
-    let i_p_p_33 = p.i_p_33 + p.m_p * (own_2 + own_0);
-
-    // Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m.
-    let mass_pp = i_p_p_33;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
-    let mc_bz = mr_pc_p_pz + p.r_p_b_bz * p.m_p;
+    let mom_0 = p.r_p_b_bz * p.m_p;
+    let mc_bz = mr_pc_p_pz + mom_0;
 
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let mr_d_b_bz = mc_bz;
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let k_15 = p.r_p_b_bx * p.m_p;
+    let k_16 = p.r_p_b_by * p.m_p;
+    let hand_mr_bx = p.mount_11 * k_15 + p.mount_12 * k_16 + p.mount_13 * mc_bz;
+    let hand_mr_by = p.mount_21 * k_15 + p.mount_22 * k_16 + p.mount_23 * mc_bz;
+    let hand_mr_bz = p.mount_31 * k_15 + p.mount_32 * k_16 + p.mount_33 * mc_bz;
+    let hand_0 = p.r_pc_p_px * p.r_pc_p_px;
+    let hand_1 = p.r_pc_p_pz * p.r_pc_p_pz;
+    let hand_2 = p.r_p_b_bx * p.r_p_b_bx;
+    let hand_3 = p.r_p_b_by * p.r_p_b_by;
+    let hand_4 = p.r_p_b_bz * p.r_p_b_bz;
+    let hand_5 = p.m_p * hand_4;
+    let hand_6 = p.m_p * hand_3;
+    let hand_7 = p.m_p * hand_2;
+    let hand_8 = p.m_p * hand_0;
+    let hand_9 = p.r_pc_p_pz * mom_0;
+    let hand_10 = hand_9 + hand_9;
+    let hand_11 = p.m_p * hand_1;
+    let half = p.mount_11.like(0.5);
+    let hand_12 = half * (hand_6 + hand_8 + hand_5 + hand_10 + hand_11 + p.i_p_22);
+    let hand_13 = p.mount_11 * p.mount_11;
+    let hand_14 = p.r_p_b_by * k_15 * half;
+    let hand_15 = p.mount_11 * p.mount_12;
+    let hand_16 = hand_14 * (hand_15 + hand_15);
+    let hand_17 = half * (p.r_p_b_bz * k_15 + p.r_pc_p_pz * k_15);
+    let hand_18 = p.mount_11 * p.mount_13;
+    let hand_19 = hand_17 * (hand_18 + hand_18);
+    let hand_20 = half * (hand_7 + hand_8 + hand_5 + hand_10 + hand_11 + p.i_p_22);
+    let hand_21 = p.mount_12 * p.mount_12;
+    let hand_22 = half * (p.r_p_b_bz * k_16 + p.r_pc_p_pz * k_16);
+    let hand_23 = p.mount_12 * p.mount_13;
+    let hand_24 = hand_22 * (hand_23 + hand_23);
+    let hand_25 = half * (hand_6 + hand_7);
+    let hand_26 = p.mount_13 * p.mount_13;
+    let hand_27 = hand_12 * (hand_13 + hand_13) - hand_16 - hand_19 - hand_16;
+    let hand_28 = hand_27 + hand_20 * (hand_21 + hand_21) - hand_24 - hand_19;
+    let hand_i_11 = hand_28 - hand_24 + hand_25 * (hand_26 + hand_26);
+    let hand_29 = p.mount_11 * p.mount_21;
+    let hand_30 = hand_14 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
+    let hand_31 = hand_17 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
+    let hand_32 = p.mount_12 * p.mount_22;
+    let hand_33 = hand_22 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
+    let hand_34 = p.mount_13 * p.mount_23;
+    let hand_35 = hand_12 * (hand_29 + hand_29) - hand_30 - hand_31 - hand_30;
+    let hand_36 = hand_35 + hand_20 * (hand_32 + hand_32) - hand_33 - hand_31;
+    let hand_i_12 = hand_36 - hand_33 + hand_25 * (hand_34 + hand_34);
+    let hand_37 = p.mount_11 * p.mount_31;
+    let hand_38 = hand_14 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
+    let hand_39 = hand_17 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
+    let hand_40 = p.mount_12 * p.mount_32;
+    let hand_41 = hand_22 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
+    let hand_42 = p.mount_13 * p.mount_33;
+    let hand_43 = hand_12 * (hand_37 + hand_37) - hand_38 - hand_39 - hand_38;
+    let hand_44 = hand_43 + hand_20 * (hand_40 + hand_40) - hand_41 - hand_39;
+    let hand_i_13 = hand_44 - hand_41 + hand_25 * (hand_42 + hand_42);
+    let hand_45 = p.mount_21 * p.mount_21;
+    let hand_46 = p.mount_21 * p.mount_22;
+    let hand_47 = hand_14 * (hand_46 + hand_46);
+    let hand_48 = p.mount_21 * p.mount_23;
+    let hand_49 = hand_17 * (hand_48 + hand_48);
+    let hand_50 = p.mount_22 * p.mount_22;
+    let hand_51 = p.mount_22 * p.mount_23;
+    let hand_52 = hand_22 * (hand_51 + hand_51);
+    let hand_53 = p.mount_23 * p.mount_23;
+    let hand_54 = hand_12 * (hand_45 + hand_45) - hand_47 - hand_49 - hand_47;
+    let hand_55 = hand_54 + hand_20 * (hand_50 + hand_50) - hand_52 - hand_49;
+    let hand_i_22 = hand_55 - hand_52 + hand_25 * (hand_53 + hand_53);
+    let hand_56 = p.mount_21 * p.mount_31;
+    let hand_57 = hand_14 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
+    let hand_58 = hand_17 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
+    let hand_59 = p.mount_22 * p.mount_32;
+    let hand_60 = hand_22 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
+    let hand_61 = p.mount_23 * p.mount_33;
+    let hand_62 = hand_12 * (hand_56 + hand_56) - hand_57 - hand_58 - hand_57;
+    let hand_63 = hand_62 + hand_20 * (hand_59 + hand_59) - hand_60 - hand_58;
+    let hand_i_23 = hand_63 - hand_60 + hand_25 * (hand_61 + hand_61);
+    let hand_64 = p.mount_31 * p.mount_31;
+    let hand_65 = p.mount_31 * p.mount_32;
+    let hand_66 = hand_14 * (hand_65 + hand_65);
+    let hand_67 = p.mount_31 * p.mount_33;
+    let hand_68 = hand_17 * (hand_67 + hand_67);
+    let hand_69 = p.mount_32 * p.mount_32;
+    let hand_70 = p.mount_32 * p.mount_33;
+    let hand_71 = hand_22 * (hand_70 + hand_70);
+    let hand_72 = p.mount_33 * p.mount_33;
+    let hand_73 = hand_12 * (hand_64 + hand_64) - hand_66 - hand_68 - hand_66;
+    let hand_74 = hand_73 + hand_20 * (hand_69 + hand_69) - hand_71 - hand_68;
+    let hand_i_33 = hand_74 - hand_71 + hand_25 * (hand_72 + hand_72);
+
+    // Base parameters of the panel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    let base_0 = p.r_pc_p_py * p.r_pc_p_py;
+    let base_1 = p.m_p * base_0;
+    let i_p_base_11 = base_1 - hand_8 + p.i_p_11 - p.i_p_22;
+    let i_p_base_12 = p.i_p_12 - p.r_pc_p_py * mr_pc_p_px;
+    let i_p_base_13 = p.i_p_13 - (p.r_pc_p_px * mom_0 + p.r_pc_p_pz * mr_pc_p_px);
+    let i_p_base_23 = p.i_p_23 - (p.r_pc_p_py * mom_0 + p.r_pc_p_pz * mr_pc_p_py);
+    let i_p_base_33 = hand_8 + base_1 + p.i_p_33;
+
+    // Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    let mass_pp = i_p_base_33;
+
+    // Origin of the first joint, eq. (A2), along B axes, m.
+    let reach_bx = p.r_p_b_bx * p.mount_11 + p.r_p_b_by * p.mount_12;
+    let reach_by = p.r_p_b_bx * p.mount_21 + p.r_p_b_by * p.mount_22;
+    let reach_bz = p.r_p_b_bx * p.mount_31 + p.r_p_b_by * p.mount_32;
+
+    // The panel about its origin: first moment, kg m, and inertia as in eq. (40), kg m².
+    let i_p_p_11 = p.i_p_11 + p.m_p * (base_0 + hand_1);
+    let i_p_p_12 = p.i_p_12 - p.r_pc_p_px * p.r_pc_p_py * p.m_p;
+    let i_p_p_13 = p.i_p_13 - p.r_pc_p_px * p.r_pc_p_pz * p.m_p;
+    let i_p_p_22 = p.i_p_22 + p.m_p * (hand_0 + hand_1);
+    let i_p_p_23 = p.i_p_23 - p.r_pc_p_py * p.r_pc_p_pz * p.m_p;
+    let i_p_p_33 = p.i_p_33 + p.m_p * (hand_0 + base_0);
 
     // Products and sums of parameters that occur more deeply.
     let k_0 = r_pc_b_bz * r_pc_b_bz;
-    let k_1 = i_p_p_11 + i_p_p_22;
-    let k_2 = p.r_p_b_bz * mr_pc_p_pz;
-    let k_3 = p.r_p_b_bx * mr_pc_p_pz;
-    let k_4 = p.r_p_b_by * mr_pc_p_pz;
-    let k_5 = -(k_2 + k_2);
-    let prep_0 = p.r_p_b_by * p.r_p_b_by;
-    let prep_1 = p.r_p_b_bz * p.r_p_b_bz;
-    let k_6 = p.m_p * (prep_0 + prep_1);
-    let k_7 = -(p.r_p_b_bx * p.r_p_b_by * p.m_p);
-    let k_8 = -(p.r_p_b_bx * p.r_p_b_bz * p.m_p);
-    let prep_2 = p.r_p_b_bx * p.r_p_b_bx;
-    let k_9 = p.m_p * (prep_2 + prep_1);
-    let k_10 = -(p.r_p_b_by * p.r_p_b_bz * p.m_p);
-    let k_11 = p.m_p * (prep_2 + prep_0);
-    let k_12 = p.r_p_b_bx * p.m_p;
-    let k_13 = p.r_p_b_by * p.m_p;
-    let k_14 = i_p_p_22 - i_p_p_33;
-    let k_15 = i_p_p_33 - i_p_p_11;
-    let k_16 = i_p_p_11 - i_p_p_22;
+    let k_1 = i_p_p_22 - i_p_p_11;
+    let k_2 = i_p_p_12 + i_p_p_12;
+    let k_3 = -i_p_p_12;
+    let k_4 = p.r_p_b_bx + p.r_p_b_bx;
+    let k_5 = p.r_p_b_by + p.r_p_b_by;
+    let k_6 = mr_pc_p_pz * (p.r_p_b_bz + p.r_p_b_bz);
+    let k_7 = p.r_p_b_bx * mr_pc_p_pz;
+    let k_8 = p.r_p_b_by * mr_pc_p_pz;
+    let k_9 = p.m_p * (hand_3 + hand_4);
+    let k_10 = -(p.r_p_b_bx * p.r_p_b_by * p.m_p);
+    let k_11 = -(p.r_p_b_bx * p.r_p_b_bz * p.m_p);
+    let k_12 = p.m_p * (hand_2 + hand_4);
+    let k_13 = -(p.r_p_b_by * p.r_p_b_bz * p.m_p);
+    let k_14 = p.m_p * (hand_2 + hand_3);
+    let k_17 = i_p_base_12 + i_p_base_12;
+    let k_18 = i_p_base_11 + i_p_base_33;
+    let k_19 = i_p_base_33 - i_p_base_11;
+    let k_20 = p.mount_13 * i_p_base_33;
+    let k_21 = p.mount_23 * i_p_base_33;
+    let k_22 = p.mount_33 * i_p_base_33;
+    let k_23 = half * i_p_base_11;
+    let prep_0 = half * i_p_base_33;
+    let k_24 = -(p.mount_13 * prep_0);
+    let k_25 = -(p.mount_23 * prep_0);
+    let k_26 = -(p.mount_33 * prep_0);
+    let k_27 = reach_bx + reach_bx;
+    let k_28 = reach_by + reach_by;
+    let k_29 = reach_bz + reach_bz;
+    let k_30 = i_p_p_22 - i_p_p_33;
+    let k_31 = i_p_p_33 - i_p_p_11;
+    let k_32 = i_p_p_11 - i_p_p_22;
 
     Prepared {
+        mount_11: p.mount_11,
+        mount_12: p.mount_12,
+        mount_13: p.mount_13,
+        mount_21: p.mount_21,
+        mount_22: p.mount_22,
+        mount_23: p.mount_23,
+        mount_31: p.mount_31,
+        mount_32: p.mount_32,
+        mount_33: p.mount_33,
         r_p_b_bx: p.r_p_b_bx,
         r_p_b_by: p.r_p_b_by,
         r_p_b_bz: p.r_p_b_bz,
@@ -533,17 +775,49 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_11,
         k_12,
         k_13,
-        mc_bz,
-        mr_d_b_bz,
         k_14,
         k_15,
         k_16,
+        mc_bz,
+        i_p_base_11,
+        i_p_base_12,
+        i_p_base_13,
+        i_p_base_23,
+        i_p_base_33,
+        k_17,
+        k_18,
+        k_19,
+        reach_bx,
+        reach_by,
+        reach_bz,
+        k_20,
+        k_21,
+        k_22,
+        k_23,
+        k_24,
+        k_25,
+        k_26,
+        k_27,
+        k_28,
+        k_29,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
+        k_30,
+        k_31,
+        k_32,
     }
 }
 
 /// The panel: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 52 mul, 35 add, 7 neg, 0 div, 0 trig.
+/// Operations: 52 mul, 32 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn panel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Panel<T> {
     // ω_{P/B}, eq. (31), rad/s.
@@ -601,19 +875,17 @@ pub fn panel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Panel<T> {
     let i_p_b_33 = p.i_p_33 + p.m_p * (axis_3 + axis_1);
 
     // [I_{P,B}]′, eq. (42), along the axes of the panel, kg m²/s.
-    let shift_0 = q.sin_phi * r_pc_b_prime_by - q.cos_phi * vel_2;
-    let shift_1 = q.cos_phi * r_pc_b_prime_by + q.sin_phi * vel_2;
-    let shift_2 = axis_2 * shift_0;
-    let shift_3 = axis_0 * shift_1;
-    let shift_4 = shift_2 + shift_3;
-    let shift_5 = shift_4 + shift_4;
-    let i_p_b_prime_11 = i_p_pc_prime_11 + p.m_p * (shift_5 - (shift_2 + shift_2));
-    let shift_6 = p.m_p * (axis_0 * shift_0 + axis_2 * shift_1);
-    let i_p_b_prime_12 = i_p_pc_prime_12 - shift_6;
-    let i_p_b_prime_13 = -(turn_1 + p.r_pc_b_bz * shift_0 * p.m_p);
-    let i_p_b_prime_22 = i_p_pc_prime_22 + p.m_p * (shift_5 - (shift_3 + shift_3));
-    let i_p_b_prime_23 = i_p_pc_prime_23 - p.r_pc_b_bz * shift_1 * p.m_p;
-    let i_p_b_prime_33 = p.m_p * shift_5;
+    let shift_0 = q.cos_phi * r_pc_b_prime_by + q.sin_phi * vel_2;
+    let shift_1 = axis_0 * (shift_0 + shift_0);
+    let i_p_b_prime_11 = i_p_pc_prime_11 + p.m_p * shift_1;
+    let shift_2 = q.sin_phi * r_pc_b_prime_by - q.cos_phi * vel_2;
+    let shift_3 = p.m_p * (axis_0 * shift_2 + axis_2 * shift_0);
+    let i_p_b_prime_12 = i_p_pc_prime_12 - shift_3;
+    let i_p_b_prime_13 = -(turn_1 + p.r_pc_b_bz * shift_2 * p.m_p);
+    let shift_4 = axis_2 * (shift_2 + shift_2);
+    let i_p_b_prime_22 = i_p_pc_prime_22 + p.m_p * shift_4;
+    let i_p_b_prime_23 = i_p_pc_prime_23 - p.r_pc_b_bz * shift_0 * p.m_p;
+    let i_p_b_prime_33 = p.m_p * (shift_4 + shift_1);
 
     Panel {
         omega_p_b_px,
@@ -664,10 +936,10 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let neg_f_rest_py = v.phi_dot * neg_p_p_px;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
-    let f_p_by = q.cos_phi * p.mr_pc_p_px - q.sin_phi * p.mr_pc_p_py;
-    let mc_bx = f_p_by + p.k_12;
+    let mc_dprime_p_by = q.cos_phi * p.mr_pc_p_px - q.sin_phi * p.mr_pc_p_py;
+    let mc_bx = mc_dprime_p_by + p.k_15;
     let mom_0 = q.cos_phi * p.mr_pc_p_py + q.sin_phi * p.mr_pc_p_px;
-    let mc_by = mom_0 + p.k_13;
+    let mc_by = mom_0 + p.k_16;
     let mc_bz = p.mc_bz;
 
     // Σ m r′, share of m_sc c′, behind eq. (11), kg m/s.
@@ -677,8 +949,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let mc_prime_bz = zero;
 
     // f_p, eq. (17): Σ m r″ per φ̈, kg m.
-    let f_p_bx = -mom_0;
-    let f_p_bz = zero;
+    let mc_dprime_p_bx = -mom_0;
+    let mc_dprime_p_bz = zero;
 
     // f̃, eq. (17): Σ m r″ with no joint accelerating, N.
     let f_tilde_bx = q.sin_phi * neg_f_rest_py - q.cos_phi * neg_f_rest_px;
@@ -692,12 +964,45 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
         mc_prime_bx,
         mc_prime_by,
         mc_prime_bz,
-        f_p_bx,
-        f_p_by,
-        f_p_bz,
+        mc_dprime_p_bx,
+        mc_dprime_p_by,
+        mc_dprime_p_bz,
         f_tilde_bx,
         f_tilde_by,
         f_tilde_bz,
+    }
+}
+
+/// What the hub takes over of a device: mass, and what does not notice that the joints
+/// move.
+///
+/// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
+#[must_use]
+pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_m = p.m_p;
+    let hand_mr_bx = p.hand_mr_bx;
+    let hand_mr_by = p.hand_mr_by;
+    let hand_mr_bz = p.hand_mr_bz;
+    let hand_i_11 = p.hand_i_11;
+    let hand_i_12 = p.hand_i_12;
+    let hand_i_13 = p.hand_i_13;
+    let hand_i_22 = p.hand_i_22;
+    let hand_i_23 = p.hand_i_23;
+    let hand_i_33 = p.hand_i_33;
+
+    Handed {
+        hand_m,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
     }
 }
 
@@ -707,7 +1012,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 135 mul, 114 add, 13 neg, 1 div, 0 trig.
+/// Operations: 171 mul, 108 add, 0 neg, 1 div, 0 trig.
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -717,104 +1022,112 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // ω_{P/N}, eq. (31), along its own axes, rad/s.
-    let omega_p_n_px = w.omega_bx * q.cos_phi + w.omega_by * q.sin_phi;
-    let omega_p_n_py = w.omega_by * q.cos_phi - w.omega_bx * q.sin_phi;
-    let omega_p_n_pz = w.omega_bz + v.phi_dot;
+    // Axes of the panel, eq. (A1), along B axes, 1.
+    let e_x_bx = q.cos_phi * p.mount_11 + q.sin_phi * p.mount_12;
+    let e_x_by = q.cos_phi * p.mount_21 + q.sin_phi * p.mount_22;
+    let e_x_bz = q.cos_phi * p.mount_31 + q.sin_phi * p.mount_32;
+    let e_y_bx = q.cos_phi * p.mount_12 - q.sin_phi * p.mount_11;
+    let e_y_by = q.cos_phi * p.mount_22 - q.sin_phi * p.mount_21;
+    let e_y_bz = q.cos_phi * p.mount_32 - q.sin_phi * p.mount_31;
 
-    // Its derivative as in eq. (34), no joint accelerating, along the same axes, rad/s².
-    let turn_0 = v.phi_dot * q.cos_phi;
-    let turn_1 = v.phi_dot * q.sin_phi;
-    let omega_p_n_rest_px = w.omega_by * turn_0 - w.omega_bx * turn_1;
-    let neg_omega_p_n_rest_py = w.omega_by * turn_1 + w.omega_bx * turn_0;
+    // ω_{B/N} along the axes of the panel, eq. (C1), rad/s.
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_px = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_py = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_pz = rate_2 + w.omega_bz * p.mount_33;
 
-    // Acceleration of P relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_by * p.r_p_b_bz - w.omega_bz * p.r_p_b_by;
-    let path_1 = w.omega_bz * p.r_p_b_bx - w.omega_bx * p.r_p_b_bz;
-    let path_2 = w.omega_bx * p.r_p_b_by - w.omega_by * p.r_p_b_bx;
-    let path_3 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_4 = w.omega_bz * path_0 - w.omega_bx * path_2;
-    let r_p_rest_px = q.cos_phi * path_3 + q.sin_phi * path_4;
-    let r_p_rest_py = q.cos_phi * path_4 - q.sin_phi * path_3;
-    let r_p_rest_pz = w.omega_bx * path_1 - w.omega_by * path_0;
+    // Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    let mass_pp = p.i_p_base_33;
+    let row_0 = omega_b_n_py * omega_b_n_pz * p.i_p_base_13;
+    let row_1 = omega_b_n_px * omega_b_n_px - omega_b_n_py * omega_b_n_py;
+    let row_2 = p.i_p_base_12 * row_1 - omega_b_n_px * omega_b_n_py * p.i_p_base_11;
+    let field_p = omega_b_n_px * omega_b_n_pz * p.i_p_base_23 - row_0 + row_2;
 
-    // D with no joint accelerating, eq. (78): force, N, and moment about P, N m.
-    let bias_0 = p.mr_pc_p_px * omega_p_n_pz - p.mr_pc_p_pz * omega_p_n_px;
-    let bias_1 = p.mr_pc_p_py * omega_p_n_px - p.mr_pc_p_px * omega_p_n_py;
-    let bias_2 = omega_p_n_py * bias_1 - omega_p_n_pz * bias_0;
-    let bias_3 = bias_2 - p.mr_pc_p_pz * neg_omega_p_n_rest_py;
-    let f_rest_px = bias_3 + p.m_p * r_p_rest_px;
-    let bias_4 = p.mr_pc_p_pz * omega_p_n_py - p.mr_pc_p_py * omega_p_n_pz;
-    let bias_5 = omega_p_n_pz * bias_4 - omega_p_n_px * bias_1;
-    let f_rest_py = bias_5 - p.mr_pc_p_pz * omega_p_n_rest_px + p.m_p * r_p_rest_py;
-    let bias_6 = p.mr_pc_p_px * neg_omega_p_n_rest_py;
-    let bias_7 = omega_p_n_px * bias_0 - omega_p_n_py * bias_4;
-    let bias_8 = bias_7 + (p.mr_pc_p_py * omega_p_n_rest_px + bias_6);
-    let f_rest_pz = bias_8 + p.m_p * r_p_rest_pz;
-    let bias_9 = p.i_p_p_12 * omega_p_n_px + p.i_p_p_22 * omega_p_n_py;
-    let bias_10 = bias_9 + p.i_p_p_23 * omega_p_n_pz;
-    let bias_11 = p.i_p_p_13 * omega_p_n_px + p.i_p_p_23 * omega_p_n_py;
-    let bias_12 = bias_11 + p.i_p_p_33 * omega_p_n_pz;
-    let bias_13 = p.i_p_p_12 * neg_omega_p_n_rest_py;
-    let bias_14 = omega_p_n_py * bias_12 - omega_p_n_pz * bias_10;
-    let bias_15 = p.mr_pc_p_py * r_p_rest_pz - p.mr_pc_p_pz * r_p_rest_py;
-    let n_rest_px = bias_14 + (p.i_p_p_11 * omega_p_n_rest_px - bias_13) + bias_15;
-    let bias_16 = p.i_p_p_11 * omega_p_n_px + p.i_p_p_12 * omega_p_n_py;
-    let bias_17 = bias_16 + p.i_p_p_13 * omega_p_n_pz;
-    let bias_18 = p.i_p_p_22 * neg_omega_p_n_rest_py;
-    let bias_19 = omega_p_n_pz * bias_17 - omega_p_n_px * bias_12;
-    let bias_20 = p.mr_pc_p_pz * r_p_rest_px - p.mr_pc_p_px * r_p_rest_pz;
-    let n_rest_py = bias_19 + (p.i_p_p_12 * omega_p_n_rest_px - bias_18) + bias_20;
-    let bias_21 = p.i_p_p_23 * neg_omega_p_n_rest_py;
-    let bias_22 = omega_p_n_px * bias_10 - omega_p_n_py * bias_17;
-    let bias_23 = p.mr_pc_p_px * r_p_rest_py - p.mr_pc_p_py * r_p_rest_px;
-    let n_rest_pz = bias_22 + (p.i_p_p_13 * omega_p_n_rest_px - bias_21) + bias_23;
-
-    // Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m.
-    let mass_pp = p.i_p_p_33;
-    let u_rest_p = n_rest_pz;
-
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_p_by = q.cos_phi * p.mr_pc_p_px - q.sin_phi * p.mr_pc_p_py;
-    let mr_d_b_bx = f_p_by + p.k_12;
-    let moment_0 = q.cos_phi * p.mr_pc_p_py + q.sin_phi * p.mr_pc_p_px;
-    let mr_d_b_by = moment_0 + p.k_13;
-    let moment_1 = q.cos_phi * p.i_p_p_11 - q.sin_phi * p.i_p_p_12;
-    let moment_2 = q.cos_phi * p.i_p_p_12 - q.sin_phi * p.i_p_p_22;
-    let moment_3 = q.cos_phi * moment_1 - q.sin_phi * moment_2;
-    let moment_4 = p.r_p_b_bx * f_p_by;
-    let moment_5 = p.r_p_b_by * moment_0;
-    let moment_6 = moment_4 + moment_5;
-    let moment_7 = moment_6 + p.k_2;
-    let moment_8 = moment_7 + moment_7;
-    let i_d_b_11 = moment_8 - (moment_4 + moment_4) + moment_3 + p.k_6;
-    let moment_9 = p.r_p_b_bx * moment_0 + p.r_p_b_by * f_p_by;
-    let i_d_b_12 = q.cos_phi * moment_2 + q.sin_phi * moment_1 - moment_9 + p.k_7;
-    let moment_10 = q.cos_phi * p.i_p_p_13 - q.sin_phi * p.i_p_p_23;
-    let moment_11 = p.r_p_b_bz * f_p_by;
-    let i_d_b_13 = moment_10 - (p.k_3 + moment_11) + p.k_8;
-    let i_d_b_22 = p.k_1 - moment_3 + (moment_8 - (moment_5 + moment_5)) + p.k_9;
-    let moment_12 = q.cos_phi * p.i_p_p_23 + q.sin_phi * p.i_p_p_13;
-    let moment_13 = p.r_p_b_bz * moment_0;
-    let i_d_b_23 = moment_12 - (p.k_4 + moment_13) + p.k_10;
-    let i_d_b_33 = moment_8 + p.k_5 + p.i_p_p_33 + p.k_11;
+    // Force, N, and moment, N m, that the joints' rates from the panel's on ask for, eq. (C2).
+    let coriolis_0 = v.phi_dot * (v.phi_dot + omega_b_n_pz + omega_b_n_pz);
+    let neg_f_rates_p_px = p.mr_pc_p_px * coriolis_0;
+    let neg_f_rates_p_py = p.mr_pc_p_py * coriolis_0;
+    let coriolis_1 = v.phi_dot * omega_b_n_px;
+    let coriolis_2 = v.phi_dot * omega_b_n_py;
+    let coriolis_3 = p.mr_pc_p_px * coriolis_1 + p.mr_pc_p_py * coriolis_2;
+    let f_rates_p_pz = coriolis_3 + coriolis_3;
+    let coriolis_4 = coriolis_2 * p.k_18 - coriolis_1 * p.k_17;
+    let n_rates_p_px = coriolis_4 - p.i_p_base_23 * coriolis_0;
+    let coriolis_5 = p.i_p_base_13 * coriolis_0 + coriolis_2 * p.k_17;
+    let n_rates_p_py = coriolis_5 - coriolis_1 * p.k_19;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration.
-    let f_p_bx = -moment_0;
-    let n_p_bx = moment_10 - moment_11;
-    let n_p_by = moment_12 - moment_13;
-    let n_p_bz = p.i_p_p_33 + moment_6;
+    // acceleration, along B axes.
+    let f_p_bx = p.mr_pc_p_px * e_y_bx - p.mr_pc_p_py * e_x_bx;
+    let f_p_by = p.mr_pc_p_px * e_y_by - p.mr_pc_p_py * e_x_by;
+    let f_p_bz = p.mr_pc_p_px * e_y_bz - p.mr_pc_p_py * e_x_bz;
+    let col_0 = p.i_p_base_13 * e_x_bx + p.i_p_base_23 * e_y_bx + p.k_20;
+    let n_p_bx = p.reach_by * f_p_bz - p.reach_bz * f_p_by + col_0;
+    let col_1 = p.i_p_base_13 * e_x_by + p.i_p_base_23 * e_y_by + p.k_21;
+    let n_p_by = p.reach_bz * f_p_bx - p.reach_bx * f_p_bz + col_1;
+    let col_2 = p.i_p_base_13 * e_x_bz + p.i_p_base_23 * e_y_bz + p.k_22;
+    let n_p_bz = p.reach_bx * f_p_by - p.reach_by * f_p_bx + col_2;
 
-    // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = q.cos_phi * f_rest_px - q.sin_phi * f_rest_py;
-    let f_rest_by = q.cos_phi * f_rest_py + q.sin_phi * f_rest_px;
-    let f_rest_bz = f_rest_pz;
-    let bias_24 = p.r_p_b_by * f_rest_pz - p.r_p_b_bz * f_rest_by;
-    let n_rest_bx = q.cos_phi * n_rest_px - q.sin_phi * n_rest_py + bias_24;
-    let bias_25 = p.r_p_b_bz * f_rest_bx - p.r_p_b_bx * f_rest_pz;
-    let n_rest_by = q.cos_phi * n_rest_py + q.sin_phi * n_rest_px + bias_25;
-    let n_rest_bz = p.r_p_b_bx * f_rest_by - p.r_p_b_by * f_rest_bx + n_rest_pz;
+    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
+    // (76), kg m².
+    let mr_moving_bx = p.mr_pc_p_px * e_x_bx + p.mr_pc_p_py * e_y_bx;
+    let mr_moving_by = p.mr_pc_p_px * e_x_by + p.mr_pc_p_py * e_y_by;
+    let mr_moving_bz = p.mr_pc_p_px * e_x_bz + p.mr_pc_p_py * e_y_bz;
+    let moment_0 = e_x_bx * p.k_23 + p.i_p_base_12 * e_y_bx;
+    let moment_1 = col_0 + p.k_24;
+    let moment_2 = e_x_bx * moment_0 + p.mount_13 * moment_1;
+    let moment_3 = mr_moving_by * p.k_28;
+    let moment_4 = mr_moving_bz * p.k_29;
+    let i_moving_11 = moment_2 + moment_2 + (moment_3 + moment_4);
+    let moment_5 = e_x_by * p.k_23 + p.i_p_base_12 * e_y_by;
+    let moment_6 = col_1 + p.k_25;
+    let moment_7 = e_x_by * moment_0 + p.mount_23 * moment_1;
+    let moment_8 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = e_x_bx * moment_5 + p.mount_13 * moment_6 + moment_7 - moment_8;
+    let moment_9 = e_x_bz * p.k_23 + p.i_p_base_12 * e_y_bz;
+    let moment_10 = col_2 + p.k_26;
+    let moment_11 = e_x_bx * moment_9 + p.mount_13 * moment_10;
+    let moment_12 = moment_11 + (e_x_bz * moment_0 + p.mount_33 * moment_1);
+    let moment_13 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_12 - moment_13;
+    let moment_14 = e_x_by * moment_5 + p.mount_23 * moment_6;
+    let moment_15 = mr_moving_bx * p.k_27;
+    let i_moving_22 = moment_14 + moment_14 + (moment_15 + moment_4);
+    let moment_16 = e_x_by * moment_9 + p.mount_23 * moment_10;
+    let moment_17 = moment_16 + (e_x_bz * moment_5 + p.mount_33 * moment_6);
+    let moment_18 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let i_moving_23 = moment_17 - moment_18;
+    let moment_19 = e_x_bz * moment_9 + p.mount_33 * moment_10;
+    let i_moving_33 = moment_19 + moment_19 + (moment_15 + moment_3);
+
+    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
+    // N and N m.
+    let bias_0 = e_x_bx * neg_f_rates_p_px + e_y_bx * neg_f_rates_p_py;
+    let f_rates_bx = p.mount_13 * f_rates_p_pz - bias_0;
+    let bias_1 = e_x_by * neg_f_rates_p_px + e_y_by * neg_f_rates_p_py;
+    let f_rates_by = p.mount_23 * f_rates_p_pz - bias_1;
+    let bias_2 = e_x_bz * neg_f_rates_p_px + e_y_bz * neg_f_rates_p_py;
+    let f_rates_bz = p.mount_33 * f_rates_p_pz - bias_2;
+    let bias_3 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = e_x_bx * n_rates_p_px + e_y_bx * n_rates_p_py + bias_3;
+    let bias_4 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = e_x_by * n_rates_p_px + e_y_by * n_rates_p_py + bias_4;
+    let bias_5 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = e_x_bz * n_rates_p_px + e_y_bz * n_rates_p_py + bias_5;
+
+    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+
+    // Bias of each joint with it, eq. (C3).
+    let bias_6 = f_p_bx * r_first_rest_bx + f_p_by * r_first_rest_by;
+    let u_rest_p = bias_6 + f_p_bz * r_first_rest_bz + field_p;
 
     // Right side of each joint, eq. (80): motor torque less what the rest asks for, N m.
     let tau_p = u.u_p - u_rest_p;
@@ -824,46 +1137,46 @@ pub fn eliminate<T: Real>(
     let recip_p = m.driven_p * divisor_p.recip();
     let gain_p_v1 = f_p_bx * recip_p;
     let gain_p_v2 = f_p_by * recip_p;
+    let gain_p_v3 = f_p_bz * recip_p;
     let gain_p_w1 = n_p_bx * recip_p;
     let gain_p_w2 = n_p_by * recip_p;
     let gain_p_w3 = n_p_bz * recip_p;
     let free_p = m.given_p + tau_p * recip_p;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_p - f_p_bx * gain_p_v1;
-    let m_vv_12 = -(f_p_by * gain_p_v1);
-    let zero = q.sin_phi.like(0.0);
-    let m_vv_13 = zero;
-    let m_vv_22 = p.m_p - f_p_by * gain_p_v2;
-    let m_vv_23 = zero;
-    let m_vv_33 = p.m_p;
+    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    let m_vv_11 = f_p_bx * gain_p_v1;
+    let m_vv_12 = f_p_by * gain_p_v1;
+    let m_vv_13 = f_p_bz * gain_p_v1;
+    let m_vv_22 = f_p_by * gain_p_v2;
+    let m_vv_23 = f_p_bz * gain_p_v2;
+    let m_vv_33 = f_p_bz * gain_p_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = -(n_p_bx * gain_p_v1);
-    let m_vw_12 = p.mr_d_b_bz - n_p_by * gain_p_v1;
-    let m_vw_13 = -(mr_d_b_by + n_p_bz * gain_p_v1);
-    let m_vw_21 = -(p.mr_d_b_bz + n_p_bx * gain_p_v2);
-    let m_vw_22 = -(n_p_by * gain_p_v2);
-    let m_vw_23 = mr_d_b_bx - n_p_bz * gain_p_v2;
-    let m_vw_31 = mr_d_b_by;
-    let m_vw_32 = -mr_d_b_bx;
-    let m_vw_33 = zero;
+    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    let m_vw_11 = n_p_bx * gain_p_v1;
+    let m_vw_12 = n_p_by * gain_p_v1;
+    let m_vw_13 = n_p_bz * gain_p_v1;
+    let m_vw_21 = n_p_bx * gain_p_v2;
+    let m_vw_22 = n_p_by * gain_p_v2;
+    let m_vw_23 = n_p_bz * gain_p_v2;
+    let m_vw_31 = n_p_bx * gain_p_v3;
+    let m_vw_32 = n_p_by * gain_p_v3;
+    let m_vw_33 = n_p_bz * gain_p_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_p_bx * gain_p_w1;
-    let m_ww_12 = i_d_b_12 - n_p_by * gain_p_w1;
-    let m_ww_13 = i_d_b_13 - n_p_bz * gain_p_w1;
-    let m_ww_22 = i_d_b_22 - n_p_by * gain_p_w2;
-    let m_ww_23 = i_d_b_23 - n_p_bz * gain_p_w2;
-    let m_ww_33 = i_d_b_33 - n_p_bz * gain_p_w3;
+    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    let m_ww_11 = n_p_bx * gain_p_w1;
+    let m_ww_12 = n_p_by * gain_p_w1;
+    let m_ww_13 = n_p_bz * gain_p_w1;
+    let m_ww_22 = n_p_by * gain_p_w2;
+    let m_ww_23 = n_p_bz * gain_p_w2;
+    let m_ww_33 = n_p_bz * gain_p_w3;
 
-    // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + f_p_bx * free_p);
-    let h_v_2 = -(f_rest_by + f_p_by * free_p);
-    let h_v_3 = -f_rest_bz;
-    let h_w_1 = -(n_rest_bx + n_p_bx * free_p);
-    let h_w_2 = -(n_rest_by + n_p_by * free_p);
-    let h_w_3 = -(n_rest_bz + n_p_bz * free_p);
+    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    let h_v_1 = f_rates_bx + f_p_bx * free_p;
+    let h_v_2 = f_rates_by + f_p_by * free_p;
+    let h_v_3 = f_rates_bz + f_p_bz * free_p;
+    let h_w_1 = n_rates_bx + n_p_bx * free_p;
+    let h_w_2 = n_rates_by + n_p_by * free_p;
+    let h_w_3 = n_rates_bz + n_p_bz * free_p;
 
     Eliminated {
         share: HubShare {
@@ -894,11 +1207,21 @@ pub fn eliminate<T: Real>(
             h_w_1,
             h_w_2,
             h_w_3,
+            mr_moving_bx,
+            mr_moving_by,
+            mr_moving_bz,
+            i_moving_11,
+            i_moving_12,
+            i_moving_13,
+            i_moving_22,
+            i_moving_23,
+            i_moving_33,
         },
         pivot_p: mass_pp,
         diagonal_p: mass_pp,
         gain_p_v1,
         gain_p_v2,
+        gain_p_v3,
         gain_p_w1,
         gain_p_w2,
         gain_p_w3,
@@ -908,7 +1231,7 @@ pub fn eliminate<T: Real>(
 
 /// Joint accelerations from those of the hub.
 ///
-/// Operations: 5 mul, 5 add, 0 neg, 0 div, 0 trig.
+/// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
@@ -917,9 +1240,10 @@ pub fn back_substitute<T: Real>(
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_p - a.r_b_n_ddot_bx * e.gain_p_v1;
     let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_p_v2;
-    let row_2 = row_1 - a.omega_dot_bx * e.gain_p_w1;
-    let row_3 = row_2 - a.omega_dot_by * e.gain_p_w2;
-    let phi_ddot = row_3 - a.omega_dot_bz * e.gain_p_w3;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_p_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_p_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_p_w2;
+    let phi_ddot = row_4 - a.omega_dot_bz * e.gain_p_w3;
 
     JointAccelerations { phi_ddot }
 }
@@ -953,13 +1277,13 @@ pub fn energy_momentum<T: Real>(
     let p_p_pz = mom_7 + p.m_p * mom_6;
     let mom_8 = p.i_p_p_11 * omega_p_n_px + p.i_p_p_12 * omega_p_n_py;
     let mom_9 = p.mr_pc_p_py * mom_6 - p.mr_pc_p_pz * mom_4;
-    let h_p_px = mom_8 + p.i_p_p_13 * omega_p_n_pz + mom_9;
+    let h_p_px = mom_9 + (mom_8 + p.i_p_p_13 * omega_p_n_pz);
     let mom_10 = p.i_p_p_12 * omega_p_n_px + p.i_p_p_22 * omega_p_n_py;
     let mom_11 = p.mr_pc_p_pz * mom_2 - p.mr_pc_p_px * mom_6;
-    let h_p_py = mom_10 + p.i_p_p_23 * omega_p_n_pz + mom_11;
+    let h_p_py = mom_11 + (mom_10 + p.i_p_p_23 * omega_p_n_pz);
     let mom_12 = p.i_p_p_13 * omega_p_n_px + p.i_p_p_23 * omega_p_n_py;
     let mom_13 = p.mr_pc_p_px * mom_4 - p.mr_pc_p_py * mom_2;
-    let h_p_pz = mom_12 + p.i_p_p_33 * omega_p_n_pz + mom_13;
+    let h_p_pz = mom_13 + (mom_12 + p.i_p_p_33 * omega_p_n_pz);
 
     // Kinetic energy, and momenta as in eq. (20), of the device, along B axes.
     let half = q.sin_phi.like(0.5);
@@ -1172,16 +1496,16 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 78 mul, 80 add, 3 neg, 0 div, 0 trig.
+/// Operations: 70 mul, 74 add, 3 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (G1), along the axes of the panel, 1/s².
-    let field_0 = q.cos_phi * g.g_11 + q.sin_phi * g.g_12;
-    let field_1 = q.cos_phi * g.g_12 + q.sin_phi * g.g_22;
-    let g_p_11 = q.cos_phi * field_0 + q.sin_phi * field_1;
-    let g_p_12 = q.cos_phi * field_1 - q.sin_phi * field_0;
+    let field_0 = q.sin_phi * (g.g_22 - g.g_11) + q.cos_phi * (g.g_12 + g.g_12);
+    let field_1 = q.sin_phi * field_0;
+    let g_p_11 = g.g_11 + field_1;
+    let g_p_12 = q.cos_phi * field_0 - g.g_12;
     let g_p_13 = q.cos_phi * g.g_13 + q.sin_phi * g.g_23;
-    let g_p_22 = g.g_11 + g.g_22 - g_p_11;
+    let g_p_22 = g.g_22 - field_1;
     let g_p_23 = q.cos_phi * g.g_23 - q.sin_phi * g.g_13;
 
     // G r at P, eq. (G1), along the same axes, m/s².
@@ -1198,40 +1522,37 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_py = pull_1 + p.mr_pc_p_pz * g_p_23 + p.m_p * g_r_p_py;
     let pull_2 = p.mr_pc_p_px * g_p_13 + p.mr_pc_p_py * g_p_23;
     let f_on_pz = pull_2 + p.mr_pc_p_pz * g.g_33 + p.m_p * g_r_p_pz;
-    let pull_3 = p.i_p_p_12 * g_p_13 - p.i_p_p_13 * g_p_12 + g_p_23 * p.k_14;
+    let pull_3 = p.i_p_p_12 * g_p_13 - p.i_p_p_13 * g_p_12 + g_p_23 * p.k_30;
     let pull_4 = p.mr_pc_p_py * g_r_p_pz - p.mr_pc_p_pz * g_r_p_py;
     let n_on_px = pull_4 - (pull_3 + p.i_p_p_23 * (g.g_33 - g_p_22));
-    let pull_5 = p.i_p_p_23 * g_p_12 - p.i_p_p_12 * g_p_23 + g_p_13 * p.k_15;
+    let pull_5 = p.i_p_p_23 * g_p_12 - p.i_p_p_12 * g_p_23 + g_p_13 * p.k_31;
     let pull_6 = p.mr_pc_p_pz * g_r_p_px - p.mr_pc_p_px * g_r_p_pz;
     let n_on_py = pull_6 - (pull_5 + p.i_p_p_13 * (g_p_11 - g.g_33));
-    let pull_7 = p.i_p_p_13 * g_p_23 - p.i_p_p_23 * g_p_13 + g_p_12 * p.k_16;
+    let pull_7 = p.i_p_p_13 * g_p_23 - p.i_p_p_23 * g_p_13 + g_p_12 * p.k_32;
     let pull_8 = p.mr_pc_p_px * g_r_p_py - p.mr_pc_p_py * g_r_p_px;
     let n_on_pz = pull_8 - (pull_7 + p.i_p_p_12 * (g_p_22 - g_p_11));
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
     let axis_0 = q.cos_phi * p.mr_pc_p_px - q.sin_phi * p.mr_pc_p_py;
     let axis_1 = q.cos_phi * p.mr_pc_p_py + q.sin_phi * p.mr_pc_p_px;
-    let axis_2 = q.cos_phi * p.i_p_p_11 - q.sin_phi * p.i_p_p_12;
-    let axis_3 = q.cos_phi * p.i_p_p_12 - q.sin_phi * p.i_p_p_22;
-    let axis_4 = q.cos_phi * axis_2 - q.sin_phi * axis_3;
-    let axis_5 = p.r_p_b_bx * axis_0;
-    let axis_6 = p.r_p_b_by * axis_1;
-    let axis_7 = axis_5 + axis_6 + p.k_2;
-    let axis_8 = axis_7 + axis_7;
-    let axis_9 = axis_8 - (axis_5 + axis_5) + axis_4 + p.k_6;
-    let axis_10 = p.k_1 - axis_4 + (axis_8 - (axis_6 + axis_6)) + p.k_9;
-    let axis_11 = axis_8 + p.k_5 + p.i_p_p_33 + p.k_11;
+    let axis_2 = q.cos_phi * p.k_2 - q.sin_phi * p.k_1;
+    let axis_3 = q.sin_phi * axis_2;
+    let axis_4 = axis_0 * p.k_4;
+    let axis_5 = axis_1 * p.k_5;
+    let axis_6 = p.i_p_p_11 - axis_3 + (axis_5 + p.k_6) + p.k_9;
+    let axis_7 = p.i_p_p_22 + axis_3 + (axis_4 + p.k_6) + p.k_12;
+    let axis_8 = axis_4 + axis_5 + p.i_p_p_33 + p.k_14;
     let half = q.sin_phi.like(0.5);
-    let axis_12 = half * (axis_9 + axis_10 + axis_11);
-    let second_moment_11 = axis_12 - axis_9;
-    let axis_13 = p.r_p_b_bx * axis_1 + p.r_p_b_by * axis_0;
-    let second_moment_12 = -(q.cos_phi * axis_3 + q.sin_phi * axis_2 - axis_13 + p.k_7);
-    let axis_14 = q.cos_phi * p.i_p_p_13 - q.sin_phi * p.i_p_p_23;
-    let second_moment_13 = -(axis_14 - (p.k_3 + p.r_p_b_bz * axis_0) + p.k_8);
-    let second_moment_22 = axis_12 - axis_10;
-    let axis_15 = q.cos_phi * p.i_p_p_23 + q.sin_phi * p.i_p_p_13;
-    let second_moment_23 = -(axis_15 - (p.k_4 + p.r_p_b_bz * axis_1) + p.k_10);
-    let second_moment_33 = axis_12 - axis_11;
+    let axis_9 = half * (axis_6 + axis_7 + axis_8);
+    let second_moment_11 = axis_9 - axis_6;
+    let axis_10 = p.r_p_b_bx * axis_1 + p.r_p_b_by * axis_0;
+    let second_moment_12 = -(q.cos_phi * axis_2 + p.k_3 - axis_10 + p.k_10);
+    let axis_11 = q.cos_phi * p.i_p_p_13 - q.sin_phi * p.i_p_p_23;
+    let second_moment_13 = -(axis_11 - (p.k_7 + p.r_p_b_bz * axis_0) + p.k_11);
+    let second_moment_22 = axis_9 - axis_7;
+    let axis_12 = q.cos_phi * p.i_p_p_23 + q.sin_phi * p.i_p_p_13;
+    let second_moment_23 = -(axis_12 - (p.k_8 + p.r_p_b_bz * axis_1) + p.k_13);
+    let second_moment_33 = axis_9 - axis_8;
 
     Gravity {
         wrenches: Wrenches { f_on_px, f_on_py, f_on_pz, n_on_px, n_on_py, n_on_pz },

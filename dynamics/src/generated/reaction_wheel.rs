@@ -6,14 +6,34 @@
 //!
 //! Everything is resolved along the outermost joint's axes at zero angle: "the device's B axes".
 
-use super::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare};
+use super::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
+};
 use crate::Real;
 
 pub mod device;
 
-/// What the device is made of: masses, places, inertias.
+/// What the device is made of: mount, masses, places, inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{W/B}: origin of the wheel in the axes that carry it, first component, m.
     pub r_w_b_bx: T,
     /// r_{W/B}: origin of the wheel in the axes that carry it, second component, m.
@@ -41,6 +61,24 @@ pub struct Parameters<T> {
 /// What a kernel needs of the parameters, computed once by [`prepare`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{W/B}: origin of the wheel in the axes that carry it, first component, m.
     pub r_w_b_bx: T,
     /// r_{W/B}: origin of the wheel in the axes that carry it, second component, m.
@@ -68,44 +106,115 @@ pub struct Prepared<T> {
     /// `p.m_w * p.d`. The wheel about its origin: first moment, kg m, and inertia as in eq.
     /// (71), kg m².
     pub mr_wc_w_wy: T,
-    /// `p.j_11 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
+    /// `p.j_11 + hand_0`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_11: T,
-    /// `p.j_33 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
+    /// `p.j_33 + hand_0`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_33: T,
     /// `i_w_w_11`. Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and
-    /// bias, N m.
+    /// bias, N m, eq. (C3).
     pub mass_ww: T,
-    /// `p.j_22 + i_w_w_33`.
+    /// `i_w_w_33 - p.j_22`.
     pub k_1: T,
-    /// `p.m_w * (prep_0 + prep_1)`.
+    /// `p.j_23 + p.j_23`.
     pub k_2: T,
-    /// `-(p.r_w_b_bx * p.r_w_b_by * p.m_w)`.
+    /// `-p.j_23`.
     pub k_3: T,
-    /// `-(p.r_w_b_bx * p.r_w_b_bz * p.m_w)`.
+    /// `p.r_w_b_by + p.r_w_b_by`.
     pub k_4: T,
-    /// `p.m_w * (k_0 + prep_1)`.
+    /// `p.r_w_b_bz + p.r_w_b_bz`.
     pub k_5: T,
-    /// `-(p.r_w_b_by * p.r_w_b_bz * p.m_w)`.
+    /// `p.m_w * (hand_1 + hand_2)`.
     pub k_6: T,
-    /// `p.m_w * (k_0 + prep_0)`.
+    /// `-(p.r_w_b_bx * p.r_w_b_by * p.m_w)`.
     pub k_7: T,
+    /// `-(p.r_w_b_bx * p.r_w_b_bz * p.m_w)`.
+    pub k_8: T,
+    /// `p.m_w * (k_0 + hand_2)`.
+    pub k_9: T,
+    /// `-(p.r_w_b_by * p.r_w_b_bz * p.m_w)`.
+    pub k_10: T,
+    /// `p.m_w * (k_0 + hand_1)`.
+    pub k_11: T,
     /// `p.r_w_b_bx * p.m_w`. Σ m r, share of m_sc c, eq. (9), kg m.
     pub mc_bx: T,
     /// `p.r_w_b_by * p.m_w`.
-    pub k_8: T,
-    /// `p.r_w_b_bz * p.m_w`.
-    pub k_9: T,
-    /// `mc_bx`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76),
-    /// kg m².
-    pub mr_d_b_bx: T,
-    /// `p.j_22 - i_w_w_33`.
-    pub k_10: T,
-    /// `i_w_w_33 - i_w_w_11`.
-    pub k_11: T,
-    /// `i_w_w_11 - p.j_22`.
     pub k_12: T,
+    /// `p.r_w_b_bz * p.m_w`.
+    pub k_13: T,
+    /// `p.j_12 - p.r_w_b_bx * mr_wc_w_wy`. Base parameters of the wheel, eqs. (B1), (B2):
+    /// arm, m, first moment, kg m, inertia, kg m².
+    pub i_w_base_12: T,
+    /// `p.j_22 - hand_0 - p.j_33`. Base parameters of the wheel, eqs. (B1), (B2): arm, m,
+    /// first moment, kg m, inertia, kg m².
+    pub i_w_base_22: T,
+    /// `i_w_w_11 + i_w_base_22`.
+    pub k_14: T,
+    /// `i_w_w_11 - i_w_base_22`.
+    pub k_15: T,
+    /// `p.r_w_b_by * p.mount_12 + p.r_w_b_bz * p.mount_13`. Origin of the first joint, eq.
+    /// (A2), along B axes, m.
+    pub reach_bx: T,
+    /// `p.r_w_b_by * p.mount_22 + p.r_w_b_bz * p.mount_23`. Origin of the first joint, eq.
+    /// (A2), along B axes, m.
+    pub reach_by: T,
+    /// `p.r_w_b_by * p.mount_32 + p.r_w_b_bz * p.mount_33`. Origin of the first joint, eq.
+    /// (A2), along B axes, m.
+    pub reach_bz: T,
+    /// `p.mount_11 * i_w_w_11`.
+    pub k_16: T,
+    /// `p.mount_21 * i_w_w_11`.
+    pub k_17: T,
+    /// `p.mount_31 * i_w_w_11`.
+    pub k_18: T,
+    /// `half * i_w_base_22`.
+    pub k_19: T,
+    /// `-(p.mount_11 * prep_0)`.
+    pub k_20: T,
+    /// `-(p.mount_21 * prep_0)`.
+    pub k_21: T,
+    /// `-(p.mount_31 * prep_0)`.
+    pub k_22: T,
+    /// `reach_bx + reach_bx`.
+    pub k_23: T,
+    /// `reach_by + reach_by`.
+    pub k_24: T,
+    /// `reach_bz + reach_bz`.
+    pub k_25: T,
+    /// `p.mount_11 * mc_bx + p.mount_12 * k_12 + p.mount_13 * k_13`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_mr_bx: T,
+    /// `p.mount_21 * mc_bx + p.mount_22 * k_12 + p.mount_23 * k_13`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_mr_by: T,
+    /// `p.mount_31 * mc_bx + p.mount_32 * k_12 + p.mount_33 * k_13`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_mr_bz: T,
+    /// `hand_22 - hand_18 + hand_19 * (hand_20 + hand_20)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_11: T,
+    /// `hand_30 - hand_27 + hand_19 * (hand_28 + hand_28)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_12: T,
+    /// `hand_38 - hand_35 + hand_19 * (hand_36 + hand_36)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_13: T,
+    /// `hand_49 - hand_46 + hand_19 * (hand_47 + hand_47)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_22: T,
+    /// `hand_57 - hand_54 + hand_19 * (hand_55 + hand_55)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_23: T,
+    /// `hand_68 - hand_65 + hand_19 * (hand_66 + hand_66)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_33: T,
+    /// `p.j_22 - i_w_w_33`.
+    pub k_26: T,
+    /// `i_w_w_33 - i_w_w_11`.
+    pub k_27: T,
+    /// `i_w_w_11 - p.j_22`.
+    pub k_28: T,
 }
 
 /// Sines and cosines of the joint angles.
@@ -233,7 +342,7 @@ pub struct Wheel<T> {
 }
 
 /// A device's share of `m_sc c` and its derivatives seen from B, along the device's B axes:
-/// `m_sc c″ = f_w Ω̇ + f̃`.
+/// `m_sc c″ = mc_dprime_w Ω̇ + f̃`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstMoment<T> {
     /// Σ m r, share of m_sc c, eq. (9), along bx, kg m.
@@ -249,11 +358,11 @@ pub struct FirstMoment<T> {
     /// Σ m r′, share of m_sc c′, behind eq. (11), along bz, kg m/s.
     pub mc_prime_bz: T,
     /// f_w, eq. (17): Σ m r″ per Ω̇, along bx, kg m.
-    pub f_w_bx: T,
+    pub mc_dprime_w_bx: T,
     /// f_w, eq. (17): Σ m r″ per Ω̇, along by, kg m.
-    pub f_w_by: T,
+    pub mc_dprime_w_by: T,
     /// f_w, eq. (17): Σ m r″ per Ω̇, along bz, kg m.
-    pub f_w_bz: T,
+    pub mc_dprime_w_bz: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along bx, N.
     pub f_tilde_bx: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along by, N.
@@ -271,6 +380,8 @@ pub struct Eliminated<T> {
     pub pivot_w: T,
     /// Diagonal of the wheel before the elimination, kg m².
     pub diagonal_w: T,
+    /// Gain of the wheel on component 1 of r̈_{B/N}, 1/m.
+    pub gain_w_v1: T,
     /// Gain of the wheel on component 2 of r̈_{B/N}, 1/m.
     pub gain_w_v2: T,
     /// Gain of the wheel on component 3 of r̈_{B/N}, 1/m.
@@ -410,42 +521,157 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 18 mul, 9 add, 3 neg, 0 div, 0 trig.
+/// Operations: 135 mul, 120 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
     let mr_wc_w_wy = p.m_w * p.d;
-    let own_0 = p.d * p.d * p.m_w;
-    let i_w_w_11 = p.j_11 + own_0;
-    let i_w_w_33 = p.j_33 + own_0;
-
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m.
-    let mass_ww = i_w_w_11;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_bx = p.r_w_b_bx * p.m_w;
 
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let mr_d_b_bx = mc_bx;
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let k_12 = p.r_w_b_by * p.m_w;
+    let k_13 = p.r_w_b_bz * p.m_w;
+    let hand_mr_bx = p.mount_11 * mc_bx + p.mount_12 * k_12 + p.mount_13 * k_13;
+    let hand_mr_by = p.mount_21 * mc_bx + p.mount_22 * k_12 + p.mount_23 * k_13;
+    let hand_mr_bz = p.mount_31 * mc_bx + p.mount_32 * k_12 + p.mount_33 * k_13;
+    let k_0 = p.r_w_b_bx * p.r_w_b_bx;
+    let hand_0 = p.d * p.d * p.m_w;
+    let hand_1 = p.r_w_b_by * p.r_w_b_by;
+    let hand_2 = p.r_w_b_bz * p.r_w_b_bz;
+    let hand_3 = p.m_w * k_0;
+    let hand_4 = p.m_w * hand_2;
+    let hand_5 = p.m_w * hand_1;
+    let half = p.mount_11.like(0.5);
+    let hand_6 = half * (hand_4 + hand_5);
+    let hand_7 = p.mount_11 * p.mount_11;
+    let hand_8 = p.r_w_b_by * mc_bx * half;
+    let hand_9 = p.mount_11 * p.mount_12;
+    let hand_10 = hand_8 * (hand_9 + hand_9);
+    let hand_11 = p.r_w_b_bz * mc_bx * half;
+    let hand_12 = p.mount_11 * p.mount_13;
+    let hand_13 = hand_11 * (hand_12 + hand_12);
+    let hand_14 = half * (hand_0 + hand_4 + hand_3 + p.j_33);
+    let hand_15 = p.mount_12 * p.mount_12;
+    let hand_16 = p.r_w_b_bz * k_12 * half;
+    let hand_17 = p.mount_12 * p.mount_13;
+    let hand_18 = hand_16 * (hand_17 + hand_17);
+    let hand_19 = half * (hand_0 + hand_5 + hand_3 + p.j_33);
+    let hand_20 = p.mount_13 * p.mount_13;
+    let hand_21 = hand_6 * (hand_7 + hand_7) - hand_10 - hand_13 - hand_10;
+    let hand_22 = hand_21 + hand_14 * (hand_15 + hand_15) - hand_18 - hand_13;
+    let hand_i_11 = hand_22 - hand_18 + hand_19 * (hand_20 + hand_20);
+    let hand_23 = p.mount_11 * p.mount_21;
+    let hand_24 = hand_8 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
+    let hand_25 = hand_11 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
+    let hand_26 = p.mount_12 * p.mount_22;
+    let hand_27 = hand_16 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
+    let hand_28 = p.mount_13 * p.mount_23;
+    let hand_29 = hand_6 * (hand_23 + hand_23) - hand_24 - hand_25 - hand_24;
+    let hand_30 = hand_29 + hand_14 * (hand_26 + hand_26) - hand_27 - hand_25;
+    let hand_i_12 = hand_30 - hand_27 + hand_19 * (hand_28 + hand_28);
+    let hand_31 = p.mount_11 * p.mount_31;
+    let hand_32 = hand_8 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
+    let hand_33 = hand_11 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
+    let hand_34 = p.mount_12 * p.mount_32;
+    let hand_35 = hand_16 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
+    let hand_36 = p.mount_13 * p.mount_33;
+    let hand_37 = hand_6 * (hand_31 + hand_31) - hand_32 - hand_33 - hand_32;
+    let hand_38 = hand_37 + hand_14 * (hand_34 + hand_34) - hand_35 - hand_33;
+    let hand_i_13 = hand_38 - hand_35 + hand_19 * (hand_36 + hand_36);
+    let hand_39 = p.mount_21 * p.mount_21;
+    let hand_40 = p.mount_21 * p.mount_22;
+    let hand_41 = hand_8 * (hand_40 + hand_40);
+    let hand_42 = p.mount_21 * p.mount_23;
+    let hand_43 = hand_11 * (hand_42 + hand_42);
+    let hand_44 = p.mount_22 * p.mount_22;
+    let hand_45 = p.mount_22 * p.mount_23;
+    let hand_46 = hand_16 * (hand_45 + hand_45);
+    let hand_47 = p.mount_23 * p.mount_23;
+    let hand_48 = hand_6 * (hand_39 + hand_39) - hand_41 - hand_43 - hand_41;
+    let hand_49 = hand_48 + hand_14 * (hand_44 + hand_44) - hand_46 - hand_43;
+    let hand_i_22 = hand_49 - hand_46 + hand_19 * (hand_47 + hand_47);
+    let hand_50 = p.mount_21 * p.mount_31;
+    let hand_51 = hand_8 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
+    let hand_52 = hand_11 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
+    let hand_53 = p.mount_22 * p.mount_32;
+    let hand_54 = hand_16 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
+    let hand_55 = p.mount_23 * p.mount_33;
+    let hand_56 = hand_6 * (hand_50 + hand_50) - hand_51 - hand_52 - hand_51;
+    let hand_57 = hand_56 + hand_14 * (hand_53 + hand_53) - hand_54 - hand_52;
+    let hand_i_23 = hand_57 - hand_54 + hand_19 * (hand_55 + hand_55);
+    let hand_58 = p.mount_31 * p.mount_31;
+    let hand_59 = p.mount_31 * p.mount_32;
+    let hand_60 = hand_8 * (hand_59 + hand_59);
+    let hand_61 = p.mount_31 * p.mount_33;
+    let hand_62 = hand_11 * (hand_61 + hand_61);
+    let hand_63 = p.mount_32 * p.mount_32;
+    let hand_64 = p.mount_32 * p.mount_33;
+    let hand_65 = hand_16 * (hand_64 + hand_64);
+    let hand_66 = p.mount_33 * p.mount_33;
+    let hand_67 = hand_6 * (hand_58 + hand_58) - hand_60 - hand_62 - hand_60;
+    let hand_68 = hand_67 + hand_14 * (hand_63 + hand_63) - hand_65 - hand_62;
+    let hand_i_33 = hand_68 - hand_65 + hand_19 * (hand_66 + hand_66);
+
+    // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
+    let i_w_w_11 = p.j_11 + hand_0;
+
+    // Base parameters of the wheel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    let i_w_base_12 = p.j_12 - p.r_w_b_bx * mr_wc_w_wy;
+    let i_w_base_22 = p.j_22 - hand_0 - p.j_33;
+
+    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    let mass_ww = i_w_w_11;
+
+    // Origin of the first joint, eq. (A2), along B axes, m.
+    let reach_bx = p.r_w_b_by * p.mount_12 + p.r_w_b_bz * p.mount_13;
+    let reach_by = p.r_w_b_by * p.mount_22 + p.r_w_b_bz * p.mount_23;
+    let reach_bz = p.r_w_b_by * p.mount_32 + p.r_w_b_bz * p.mount_33;
+
+    // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
+    let i_w_w_33 = p.j_33 + hand_0;
 
     // Products and sums of parameters that occur more deeply.
-    let k_0 = p.r_w_b_bx * p.r_w_b_bx;
-    let k_1 = p.j_22 + i_w_w_33;
-    let prep_0 = p.r_w_b_by * p.r_w_b_by;
-    let prep_1 = p.r_w_b_bz * p.r_w_b_bz;
-    let k_2 = p.m_w * (prep_0 + prep_1);
-    let k_3 = -(p.r_w_b_bx * p.r_w_b_by * p.m_w);
-    let k_4 = -(p.r_w_b_bx * p.r_w_b_bz * p.m_w);
-    let k_5 = p.m_w * (k_0 + prep_1);
-    let k_6 = -(p.r_w_b_by * p.r_w_b_bz * p.m_w);
-    let k_7 = p.m_w * (k_0 + prep_0);
-    let k_8 = p.r_w_b_by * p.m_w;
-    let k_9 = p.r_w_b_bz * p.m_w;
-    let k_10 = p.j_22 - i_w_w_33;
-    let k_11 = i_w_w_33 - i_w_w_11;
-    let k_12 = i_w_w_11 - p.j_22;
+    let k_1 = i_w_w_33 - p.j_22;
+    let k_2 = p.j_23 + p.j_23;
+    let k_3 = -p.j_23;
+    let k_4 = p.r_w_b_by + p.r_w_b_by;
+    let k_5 = p.r_w_b_bz + p.r_w_b_bz;
+    let k_6 = p.m_w * (hand_1 + hand_2);
+    let k_7 = -(p.r_w_b_bx * p.r_w_b_by * p.m_w);
+    let k_8 = -(p.r_w_b_bx * p.r_w_b_bz * p.m_w);
+    let k_9 = p.m_w * (k_0 + hand_2);
+    let k_10 = -(p.r_w_b_by * p.r_w_b_bz * p.m_w);
+    let k_11 = p.m_w * (k_0 + hand_1);
+    let k_14 = i_w_w_11 + i_w_base_22;
+    let k_15 = i_w_w_11 - i_w_base_22;
+    let k_16 = p.mount_11 * i_w_w_11;
+    let k_17 = p.mount_21 * i_w_w_11;
+    let k_18 = p.mount_31 * i_w_w_11;
+    let k_19 = half * i_w_base_22;
+    let prep_0 = half * i_w_w_11;
+    let k_20 = -(p.mount_11 * prep_0);
+    let k_21 = -(p.mount_21 * prep_0);
+    let k_22 = -(p.mount_31 * prep_0);
+    let k_23 = reach_bx + reach_bx;
+    let k_24 = reach_by + reach_by;
+    let k_25 = reach_bz + reach_bz;
+    let k_26 = p.j_22 - i_w_w_33;
+    let k_27 = i_w_w_33 - i_w_w_11;
+    let k_28 = i_w_w_11 - p.j_22;
 
     Prepared {
+        mount_11: p.mount_11,
+        mount_12: p.mount_12,
+        mount_13: p.mount_13,
+        mount_21: p.mount_21,
+        mount_22: p.mount_22,
+        mount_23: p.mount_23,
+        mount_31: p.mount_31,
+        mount_32: p.mount_32,
+        mount_33: p.mount_33,
         r_w_b_bx: p.r_w_b_bx,
         r_w_b_by: p.r_w_b_by,
         r_w_b_bz: p.r_w_b_bz,
@@ -469,19 +695,48 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_5,
         k_6,
         k_7,
-        mc_bx,
         k_8,
         k_9,
-        mr_d_b_bx,
         k_10,
         k_11,
+        mc_bx,
         k_12,
+        k_13,
+        i_w_base_12,
+        i_w_base_22,
+        k_14,
+        k_15,
+        reach_bx,
+        reach_by,
+        reach_bz,
+        k_16,
+        k_17,
+        k_18,
+        k_19,
+        k_20,
+        k_21,
+        k_22,
+        k_23,
+        k_24,
+        k_25,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
+        k_26,
+        k_27,
+        k_28,
     }
 }
 
 /// The wheel: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 46 mul, 29 add, 7 neg, 0 div, 0 trig.
+/// Operations: 46 mul, 26 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // ω_{W/B}, eq. (59), rad/s.
@@ -539,17 +794,15 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // [I_{W,B}]′, eq. (73), along the axes of the wheel, kg m²/s.
     let shift_0 = q.sin_theta * r_wc_b_prime_bz - q.cos_theta * vel_1;
     let shift_1 = q.cos_theta * r_wc_b_prime_bz + q.sin_theta * vel_1;
-    let shift_2 = axis_0 * shift_0;
-    let shift_3 = axis_1 * shift_1;
-    let shift_4 = shift_2 + shift_3;
-    let shift_5 = shift_4 + shift_4;
-    let i_w_b_prime_11 = p.m_w * shift_5;
+    let shift_2 = axis_0 * (shift_0 + shift_0);
+    let shift_3 = axis_1 * (shift_1 + shift_1);
+    let i_w_b_prime_11 = p.m_w * (shift_2 + shift_3);
     let i_w_b_prime_12 = -(turn_0 + p.r_w_b_bx * shift_0 * p.m_w);
     let i_w_b_prime_13 = i_w_wc_prime_13 - p.r_w_b_bx * shift_1 * p.m_w;
-    let i_w_b_prime_22 = i_w_wc_prime_22 + p.m_w * (shift_5 - (shift_2 + shift_2));
-    let shift_6 = p.m_w * (axis_1 * shift_0 + axis_0 * shift_1);
-    let i_w_b_prime_23 = i_w_wc_prime_23 - shift_6;
-    let i_w_b_prime_33 = i_w_wc_prime_33 + p.m_w * (shift_5 - (shift_3 + shift_3));
+    let i_w_b_prime_22 = i_w_wc_prime_22 + p.m_w * shift_3;
+    let shift_4 = p.m_w * (axis_1 * shift_0 + axis_0 * shift_1);
+    let i_w_b_prime_23 = i_w_wc_prime_23 - shift_4;
+    let i_w_b_prime_33 = i_w_wc_prime_33 + p.m_w * shift_2;
 
     Wheel {
         omega_w_b_wx,
@@ -599,10 +852,10 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_bx = p.mc_bx;
-    let f_w_bz = q.cos_theta * p.mr_wc_w_wy;
-    let mc_by = f_w_bz + p.k_8;
+    let mc_dprime_w_bz = q.cos_theta * p.mr_wc_w_wy;
+    let mc_by = mc_dprime_w_bz + p.k_12;
     let mom_0 = q.sin_theta * p.mr_wc_w_wy;
-    let mc_bz = mom_0 + p.k_9;
+    let mc_bz = mom_0 + p.k_13;
 
     // Σ m r′, share of m_sc c′, behind eq. (11), kg m/s.
     let zero = q.sin_theta.like(0.0);
@@ -611,8 +864,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let mc_prime_bz = q.cos_theta * p_w_wz;
 
     // f_w, eq. (17): Σ m r″ per Ω̇, kg m.
-    let f_w_bx = zero;
-    let f_w_by = -mom_0;
+    let mc_dprime_w_bx = zero;
+    let mc_dprime_w_by = -mom_0;
 
     // f̃, eq. (17): Σ m r″ with no joint accelerating, N.
     let f_tilde_bx = zero;
@@ -626,12 +879,45 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
         mc_prime_bx,
         mc_prime_by,
         mc_prime_bz,
-        f_w_bx,
-        f_w_by,
-        f_w_bz,
+        mc_dprime_w_bx,
+        mc_dprime_w_by,
+        mc_dprime_w_bz,
         f_tilde_bx,
         f_tilde_by,
         f_tilde_bz,
+    }
+}
+
+/// What the hub takes over of a device: mass, and what does not notice that the joints
+/// move.
+///
+/// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
+#[must_use]
+pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_m = p.m_w;
+    let hand_mr_bx = p.hand_mr_bx;
+    let hand_mr_by = p.hand_mr_by;
+    let hand_mr_bz = p.hand_mr_bz;
+    let hand_i_11 = p.hand_i_11;
+    let hand_i_12 = p.hand_i_12;
+    let hand_i_13 = p.hand_i_13;
+    let hand_i_22 = p.hand_i_22;
+    let hand_i_23 = p.hand_i_23;
+    let hand_i_33 = p.hand_i_33;
+
+    Handed {
+        hand_m,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
     }
 }
 
@@ -641,7 +927,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 120 mul, 94 add, 13 neg, 1 div, 0 trig.
+/// Operations: 160 mul, 98 add, 0 neg, 1 div, 0 trig.
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -651,90 +937,107 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // ω_{W/N}, eq. (59), along its own axes, rad/s.
-    let omega_w_n_wx = w.omega_bx + v.spin;
-    let omega_w_n_wy = w.omega_by * q.cos_theta + w.omega_bz * q.sin_theta;
-    let omega_w_n_wz = w.omega_bz * q.cos_theta - w.omega_by * q.sin_theta;
+    // Axes of the wheel, eq. (A1), along B axes, 1.
+    let e_y_bx = q.cos_theta * p.mount_12 + q.sin_theta * p.mount_13;
+    let e_y_by = q.cos_theta * p.mount_22 + q.sin_theta * p.mount_23;
+    let e_y_bz = q.cos_theta * p.mount_32 + q.sin_theta * p.mount_33;
+    let e_z_bx = q.cos_theta * p.mount_13 - q.sin_theta * p.mount_12;
+    let e_z_by = q.cos_theta * p.mount_23 - q.sin_theta * p.mount_22;
+    let e_z_bz = q.cos_theta * p.mount_33 - q.sin_theta * p.mount_32;
 
-    // Its derivative as in eq. (62), no joint accelerating, along the same axes, rad/s².
-    let turn_0 = v.spin * q.cos_theta;
-    let turn_1 = v.spin * q.sin_theta;
-    let omega_w_n_rest_wy = w.omega_bz * turn_0 - w.omega_by * turn_1;
-    let neg_omega_w_n_rest_wz = w.omega_bz * turn_1 + w.omega_by * turn_0;
+    // ω_{B/N} along the axes of the wheel, eq. (C1), rad/s.
+    let rate_0 = w.omega_bx * p.mount_11 + w.omega_by * p.mount_21;
+    let omega_b_n_wx = rate_0 + w.omega_bz * p.mount_31;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_wy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * e_z_bx + w.omega_by * e_z_by;
+    let omega_b_n_wz = rate_2 + w.omega_bz * e_z_bz;
 
-    // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_bz * p.r_w_b_bx - w.omega_bx * p.r_w_b_bz;
-    let path_1 = w.omega_bx * p.r_w_b_by - w.omega_by * p.r_w_b_bx;
-    let r_w_rest_wx = w.omega_by * path_1 - w.omega_bz * path_0;
-    let path_2 = w.omega_by * p.r_w_b_bz - w.omega_bz * p.r_w_b_by;
-    let path_3 = w.omega_bz * path_2 - w.omega_bx * path_1;
-    let path_4 = w.omega_bx * path_0 - w.omega_by * path_2;
-    let r_w_rest_wy = q.cos_theta * path_3 + q.sin_theta * path_4;
-    let r_w_rest_wz = q.cos_theta * path_4 - q.sin_theta * path_3;
-
-    // D with no joint accelerating, eq. (117): force, N, and moment about W, N m.
-    let bias_0 = p.mr_wc_w_wy * omega_w_n_wx;
-    let bias_1 = omega_w_n_wy * bias_0 + p.mr_wc_w_wy * neg_omega_w_n_rest_wz;
-    let f_rest_wx = bias_1 + p.m_w * r_w_rest_wx;
-    let bias_2 = p.mr_wc_w_wy * omega_w_n_wz;
-    let bias_3 = omega_w_n_wz * bias_2 + omega_w_n_wx * bias_0;
-    let f_rest_wy = p.m_w * r_w_rest_wy - bias_3;
-    let f_rest_wz = omega_w_n_wy * bias_2 + p.m_w * r_w_rest_wz;
-    let bias_4 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
-    let bias_5 = bias_4 + p.j_23 * omega_w_n_wz;
-    let bias_6 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
-    let bias_7 = bias_6 + p.i_w_w_33 * omega_w_n_wz;
-    let bias_8 = p.j_12 * omega_w_n_rest_wy - p.j_13 * neg_omega_w_n_rest_wz;
-    let bias_9 = omega_w_n_wy * bias_7 - omega_w_n_wz * bias_5 + bias_8;
-    let n_rest_wx = bias_9 + p.mr_wc_w_wy * r_w_rest_wz;
-    let bias_10 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
-    let bias_11 = bias_10 + p.j_13 * omega_w_n_wz;
-    let bias_12 = p.j_22 * omega_w_n_rest_wy - p.j_23 * neg_omega_w_n_rest_wz;
-    let n_rest_wy = omega_w_n_wz * bias_11 - omega_w_n_wx * bias_7 + bias_12;
-    let bias_13 = p.j_23 * omega_w_n_rest_wy - p.i_w_w_33 * neg_omega_w_n_rest_wz;
-    let bias_14 = omega_w_n_wx * bias_5 - omega_w_n_wy * bias_11 + bias_13;
-    let n_rest_wz = bias_14 - p.mr_wc_w_wy * r_w_rest_wx;
-
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m.
+    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_ww = p.i_w_w_11;
-    let u_rest_w = n_rest_wx;
+    let row_0 = omega_b_n_wx * omega_b_n_wz * p.i_w_base_12;
+    let row_1 = omega_b_n_wy * omega_b_n_wy - omega_b_n_wz * omega_b_n_wz;
+    let row_2 = p.j_23 * row_1 - omega_b_n_wy * omega_b_n_wz * p.i_w_base_22;
+    let field_w = omega_b_n_wx * omega_b_n_wy * p.j_13 - row_0 + row_2;
 
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_w_bz = q.cos_theta * p.mr_wc_w_wy;
-    let mr_d_b_by = f_w_bz + p.k_8;
-    let moment_0 = q.sin_theta * p.mr_wc_w_wy;
-    let mr_d_b_bz = moment_0 + p.k_9;
-    let moment_1 = p.r_w_b_by * f_w_bz;
-    let moment_2 = p.r_w_b_bz * moment_0;
-    let moment_3 = moment_1 + moment_2;
-    let moment_4 = moment_3 + moment_3;
-    let i_d_b_11 = p.i_w_w_11 + moment_4 + p.k_2;
-    let n_w_by = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.r_w_b_bx * f_w_bz;
-    let i_d_b_12 = n_w_by + p.k_3;
-    let n_w_bz = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.r_w_b_bx * moment_0;
-    let i_d_b_13 = n_w_bz + p.k_4;
-    let moment_5 = q.cos_theta * p.j_22 - q.sin_theta * p.j_23;
-    let moment_6 = q.cos_theta * p.j_23 - q.sin_theta * p.i_w_w_33;
-    let moment_7 = q.cos_theta * moment_5 - q.sin_theta * moment_6;
-    let i_d_b_22 = moment_4 - (moment_1 + moment_1) + moment_7 + p.k_5;
-    let moment_8 = q.cos_theta * moment_6 + q.sin_theta * moment_5;
-    let i_d_b_23 = moment_8 - (p.r_w_b_by * moment_0 + p.r_w_b_bz * f_w_bz) + p.k_6;
-    let i_d_b_33 = p.k_1 - moment_7 + (moment_4 - (moment_2 + moment_2)) + p.k_7;
+    // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
+    let coriolis_0 = v.spin * omega_b_n_wy;
+    let coriolis_1 = p.mr_wc_w_wy * coriolis_0;
+    let f_rates_w_wx = coriolis_1 + coriolis_1;
+    let coriolis_2 = v.spin * (v.spin + omega_b_n_wx + omega_b_n_wx);
+    let neg_f_rates_w_wy = p.mr_wc_w_wy * coriolis_2;
+    let coriolis_3 = v.spin * omega_b_n_wz;
+    let n_rates_w_wy = coriolis_3 * p.k_14 - p.k_2 * coriolis_0 - p.j_13 * coriolis_2;
+    let coriolis_4 = p.i_w_base_12 * coriolis_2 + p.k_2 * coriolis_3;
+    let n_rates_w_wz = coriolis_4 - coriolis_0 * p.k_15;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration.
-    let f_w_by = -moment_0;
-    let n_w_bx = p.i_w_w_11 + moment_3;
+    // acceleration, along B axes.
+    let f_w_bx = p.mr_wc_w_wy * e_z_bx;
+    let f_w_by = p.mr_wc_w_wy * e_z_by;
+    let f_w_bz = p.mr_wc_w_wy * e_z_bz;
+    let col_0 = p.k_16 + p.i_w_base_12 * e_y_bx + p.j_13 * e_z_bx;
+    let n_w_bx = p.reach_by * f_w_bz - p.reach_bz * f_w_by + col_0;
+    let col_1 = p.k_17 + p.i_w_base_12 * e_y_by + p.j_13 * e_z_by;
+    let n_w_by = p.reach_bz * f_w_bx - p.reach_bx * f_w_bz + col_1;
+    let col_2 = p.k_18 + p.i_w_base_12 * e_y_bz + p.j_13 * e_z_bz;
+    let n_w_bz = p.reach_bx * f_w_by - p.reach_by * f_w_bx + col_2;
 
-    // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = f_rest_wx;
-    let f_rest_by = q.cos_theta * f_rest_wy - q.sin_theta * f_rest_wz;
-    let f_rest_bz = q.cos_theta * f_rest_wz + q.sin_theta * f_rest_wy;
-    let n_rest_bx = p.r_w_b_by * f_rest_bz - p.r_w_b_bz * f_rest_by + n_rest_wx;
-    let bias_15 = q.cos_theta * n_rest_wy - q.sin_theta * n_rest_wz;
-    let n_rest_by = bias_15 + (p.r_w_b_bz * f_rest_wx - p.r_w_b_bx * f_rest_bz);
-    let bias_16 = q.cos_theta * n_rest_wz + q.sin_theta * n_rest_wy;
-    let n_rest_bz = bias_16 + (p.r_w_b_bx * f_rest_by - p.r_w_b_by * f_rest_wx);
+    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
+    // (76), kg m².
+    let mr_moving_bx = p.mr_wc_w_wy * e_y_bx;
+    let mr_moving_by = p.mr_wc_w_wy * e_y_by;
+    let mr_moving_bz = p.mr_wc_w_wy * e_y_bz;
+    let moment_0 = e_y_bx * p.k_19 + p.j_23 * e_z_bx;
+    let moment_1 = col_0 + p.k_20;
+    let moment_2 = e_y_bx * moment_0 + p.mount_11 * moment_1;
+    let moment_3 = mr_moving_by * p.k_24;
+    let moment_4 = mr_moving_bz * p.k_25;
+    let i_moving_11 = moment_2 + moment_2 + (moment_3 + moment_4);
+    let moment_5 = e_y_by * p.k_19 + p.j_23 * e_z_by;
+    let moment_6 = col_1 + p.k_21;
+    let moment_7 = e_y_by * moment_0 + p.mount_21 * moment_1;
+    let moment_8 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = e_y_bx * moment_5 + p.mount_11 * moment_6 + moment_7 - moment_8;
+    let moment_9 = e_y_bz * p.k_19 + p.j_23 * e_z_bz;
+    let moment_10 = col_2 + p.k_22;
+    let moment_11 = e_y_bx * moment_9 + p.mount_11 * moment_10;
+    let moment_12 = moment_11 + (e_y_bz * moment_0 + p.mount_31 * moment_1);
+    let moment_13 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_12 - moment_13;
+    let moment_14 = e_y_by * moment_5 + p.mount_21 * moment_6;
+    let moment_15 = mr_moving_bx * p.k_23;
+    let i_moving_22 = moment_14 + moment_14 + (moment_15 + moment_4);
+    let moment_16 = e_y_by * moment_9 + p.mount_21 * moment_10;
+    let moment_17 = moment_16 + (e_y_bz * moment_5 + p.mount_31 * moment_6);
+    let moment_18 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let i_moving_23 = moment_17 - moment_18;
+    let moment_19 = e_y_bz * moment_9 + p.mount_31 * moment_10;
+    let i_moving_33 = moment_19 + moment_19 + (moment_15 + moment_3);
+
+    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
+    // N and N m.
+    let f_rates_bx = p.mount_11 * f_rates_w_wx - e_y_bx * neg_f_rates_w_wy;
+    let f_rates_by = p.mount_21 * f_rates_w_wx - e_y_by * neg_f_rates_w_wy;
+    let f_rates_bz = p.mount_31 * f_rates_w_wx - e_y_bz * neg_f_rates_w_wy;
+    let bias_0 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = e_y_bx * n_rates_w_wy + e_z_bx * n_rates_w_wz + bias_0;
+    let bias_1 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = e_y_by * n_rates_w_wy + e_z_by * n_rates_w_wz + bias_1;
+    let bias_2 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = e_y_bz * n_rates_w_wy + e_z_bz * n_rates_w_wz + bias_2;
+
+    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+
+    // Bias of each joint with it, eq. (C3).
+    let bias_3 = f_w_bx * r_first_rest_bx + f_w_by * r_first_rest_by;
+    let u_rest_w = bias_3 + f_w_bz * r_first_rest_bz + field_w;
 
     // Right side of each joint, eq. (119): motor torque less what the rest asks for, N m.
     let tau_w = u.u_w - u_rest_w;
@@ -742,6 +1045,7 @@ pub fn eliminate<T: Real>(
     // Joint w, eq. (E1): its pivot `mass_ww`, kg m², and its gains.
     let divisor_w = m.held_w + mass_ww;
     let recip_w = m.driven_w * divisor_w.recip();
+    let gain_w_v1 = f_w_bx * recip_w;
     let gain_w_v2 = f_w_by * recip_w;
     let gain_w_v3 = f_w_bz * recip_w;
     let gain_w_w1 = n_w_bx * recip_w;
@@ -749,41 +1053,40 @@ pub fn eliminate<T: Real>(
     let gain_w_w3 = n_w_bz * recip_w;
     let free_w = m.given_w + tau_w * recip_w;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_w;
-    let zero = q.sin_theta.like(0.0);
-    let m_vv_12 = zero;
-    let m_vv_13 = zero;
-    let m_vv_22 = p.m_w - f_w_by * gain_w_v2;
-    let m_vv_23 = -(f_w_bz * gain_w_v2);
-    let m_vv_33 = p.m_w - f_w_bz * gain_w_v3;
+    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    let m_vv_11 = f_w_bx * gain_w_v1;
+    let m_vv_12 = f_w_by * gain_w_v1;
+    let m_vv_13 = f_w_bz * gain_w_v1;
+    let m_vv_22 = f_w_by * gain_w_v2;
+    let m_vv_23 = f_w_bz * gain_w_v2;
+    let m_vv_33 = f_w_bz * gain_w_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = zero;
-    let m_vw_12 = mr_d_b_bz;
-    let m_vw_13 = -mr_d_b_by;
-    let m_vw_21 = -(mr_d_b_bz + n_w_bx * gain_w_v2);
-    let m_vw_22 = -(n_w_by * gain_w_v2);
-    let m_vw_23 = p.mr_d_b_bx - n_w_bz * gain_w_v2;
-    let m_vw_31 = mr_d_b_by - n_w_bx * gain_w_v3;
-    let m_vw_32 = -(p.mr_d_b_bx + n_w_by * gain_w_v3);
-    let m_vw_33 = -(n_w_bz * gain_w_v3);
+    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    let m_vw_11 = n_w_bx * gain_w_v1;
+    let m_vw_12 = n_w_by * gain_w_v1;
+    let m_vw_13 = n_w_bz * gain_w_v1;
+    let m_vw_21 = n_w_bx * gain_w_v2;
+    let m_vw_22 = n_w_by * gain_w_v2;
+    let m_vw_23 = n_w_bz * gain_w_v2;
+    let m_vw_31 = n_w_bx * gain_w_v3;
+    let m_vw_32 = n_w_by * gain_w_v3;
+    let m_vw_33 = n_w_bz * gain_w_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_w_bx * gain_w_w1;
-    let m_ww_12 = i_d_b_12 - n_w_by * gain_w_w1;
-    let m_ww_13 = i_d_b_13 - n_w_bz * gain_w_w1;
-    let m_ww_22 = i_d_b_22 - n_w_by * gain_w_w2;
-    let m_ww_23 = i_d_b_23 - n_w_bz * gain_w_w2;
-    let m_ww_33 = i_d_b_33 - n_w_bz * gain_w_w3;
+    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    let m_ww_11 = n_w_bx * gain_w_w1;
+    let m_ww_12 = n_w_by * gain_w_w1;
+    let m_ww_13 = n_w_bz * gain_w_w1;
+    let m_ww_22 = n_w_by * gain_w_w2;
+    let m_ww_23 = n_w_bz * gain_w_w2;
+    let m_ww_33 = n_w_bz * gain_w_w3;
 
-    // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -f_rest_bx;
-    let h_v_2 = -(f_rest_by + f_w_by * free_w);
-    let h_v_3 = -(f_rest_bz + f_w_bz * free_w);
-    let h_w_1 = -(n_rest_bx + n_w_bx * free_w);
-    let h_w_2 = -(n_rest_by + n_w_by * free_w);
-    let h_w_3 = -(n_rest_bz + n_w_bz * free_w);
+    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    let h_v_1 = f_rates_bx + f_w_bx * free_w;
+    let h_v_2 = f_rates_by + f_w_by * free_w;
+    let h_v_3 = f_rates_bz + f_w_bz * free_w;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w;
+    let h_w_2 = n_rates_by + n_w_by * free_w;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w;
 
     Eliminated {
         share: HubShare {
@@ -814,9 +1117,19 @@ pub fn eliminate<T: Real>(
             h_w_1,
             h_w_2,
             h_w_3,
+            mr_moving_bx,
+            mr_moving_by,
+            mr_moving_bz,
+            i_moving_11,
+            i_moving_12,
+            i_moving_13,
+            i_moving_22,
+            i_moving_23,
+            i_moving_33,
         },
         pivot_w: mass_ww,
         diagonal_w: mass_ww,
+        gain_w_v1,
         gain_w_v2,
         gain_w_v3,
         gain_w_w1,
@@ -828,18 +1141,19 @@ pub fn eliminate<T: Real>(
 
 /// Joint accelerations from those of the hub.
 ///
-/// Operations: 5 mul, 5 add, 0 neg, 0 div, 0 trig.
+/// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_w - a.r_b_n_ddot_by * e.gain_w_v2;
-    let row_1 = row_0 - a.r_b_n_ddot_bz * e.gain_w_v3;
-    let row_2 = row_1 - a.omega_dot_bx * e.gain_w_w1;
-    let row_3 = row_2 - a.omega_dot_by * e.gain_w_w2;
-    let spin_dot = row_3 - a.omega_dot_bz * e.gain_w_w3;
+    let row_0 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_w_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_w_v3;
+    let row_3 = row_2 - a.omega_dot_bx * e.gain_w_w1;
+    let row_4 = row_3 - a.omega_dot_by * e.gain_w_w2;
+    let spin_dot = row_4 - a.omega_dot_bz * e.gain_w_w3;
 
     JointAccelerations { spin_dot }
 }
@@ -867,7 +1181,7 @@ pub fn energy_momentum<T: Real>(
     let mom_3 = q.cos_theta * mom_1 + q.sin_theta * mom_2;
     let p_w_wy = p.m_w * mom_3;
     let mom_4 = q.cos_theta * mom_2 - q.sin_theta * mom_1;
-    let p_w_wz = p.mr_wc_w_wy * omega_w_n_wx + p.m_w * mom_4;
+    let p_w_wz = p.m_w * mom_4 + p.mr_wc_w_wy * omega_w_n_wx;
     let mom_5 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
     let h_w_wx = mom_5 + p.j_13 * omega_w_n_wz + p.mr_wc_w_wy * mom_4;
     let mom_6 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
@@ -1083,17 +1397,17 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 66 mul, 64 add, 5 neg, 0 div, 0 trig.
+/// Operations: 58 mul, 58 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (G1), along the axes of the wheel, 1/s².
     let g_w_12 = q.cos_theta * g.g_12 + q.sin_theta * g.g_13;
     let g_w_13 = q.cos_theta * g.g_13 - q.sin_theta * g.g_12;
-    let field_0 = q.cos_theta * g.g_22 + q.sin_theta * g.g_23;
-    let field_1 = q.cos_theta * g.g_23 + q.sin_theta * g.g_33;
-    let g_w_22 = q.cos_theta * field_0 + q.sin_theta * field_1;
-    let g_w_23 = q.cos_theta * field_1 - q.sin_theta * field_0;
-    let g_w_33 = g.g_22 + g.g_33 - g_w_22;
+    let field_0 = q.sin_theta * (g.g_33 - g.g_22) + q.cos_theta * (g.g_23 + g.g_23);
+    let field_1 = q.sin_theta * field_0;
+    let g_w_22 = g.g_22 + field_1;
+    let g_w_23 = q.cos_theta * field_0 - g.g_23;
+    let g_w_33 = g.g_33 - field_1;
 
     // G r at W, eq. (G1), along the same axes, m/s².
     let g_r_w_wx = p.r_w_b_bx * g.g_11 + p.r_w_b_by * g.g_12 + p.r_w_b_bz * g.g_13;
@@ -1106,38 +1420,34 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_wx = p.m_w * g_r_w_wx + p.mr_wc_w_wy * g_w_12;
     let f_on_wy = p.m_w * g_r_w_wy + p.mr_wc_w_wy * g_w_22;
     let f_on_wz = p.m_w * g_r_w_wz + p.mr_wc_w_wy * g_w_23;
-    let pull_0 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_10;
+    let pull_0 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_26;
     let n_on_wx = p.mr_wc_w_wy * g_r_w_wz - (pull_0 + p.j_23 * (g_w_33 - g_w_22));
-    let pull_1 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_11;
+    let pull_1 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_27;
     let n_on_wy = -(pull_1 + p.j_13 * (g.g_11 - g_w_33));
-    let pull_2 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_12;
+    let pull_2 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_28;
     let n_on_wz = -(pull_2 + p.j_12 * (g_w_22 - g.g_11) + p.mr_wc_w_wy * g_r_w_wx);
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
     let axis_0 = q.cos_theta * p.mr_wc_w_wy;
     let axis_1 = q.sin_theta * p.mr_wc_w_wy;
-    let axis_2 = q.cos_theta * p.j_22 - q.sin_theta * p.j_23;
-    let axis_3 = q.cos_theta * p.j_23 - q.sin_theta * p.i_w_w_33;
-    let axis_4 = q.cos_theta * axis_2 - q.sin_theta * axis_3;
-    let axis_5 = p.r_w_b_by * axis_0;
-    let axis_6 = p.r_w_b_bz * axis_1;
-    let axis_7 = axis_5 + axis_6;
-    let axis_8 = axis_7 + axis_7;
-    let axis_9 = p.i_w_w_11 + axis_8 + p.k_2;
-    let axis_10 = axis_8 - (axis_5 + axis_5) + axis_4 + p.k_5;
-    let axis_11 = p.k_1 - axis_4 + (axis_8 - (axis_6 + axis_6)) + p.k_7;
+    let axis_2 = q.cos_theta * p.k_2 - q.sin_theta * p.k_1;
+    let axis_3 = q.sin_theta * axis_2;
+    let axis_4 = axis_0 * p.k_4;
+    let axis_5 = axis_1 * p.k_5;
+    let axis_6 = axis_4 + axis_5 + p.i_w_w_11 + p.k_6;
+    let axis_7 = p.j_22 - axis_3 + axis_5 + p.k_9;
+    let axis_8 = p.i_w_w_33 + axis_3 + axis_4 + p.k_11;
     let half = q.sin_theta.like(0.5);
-    let axis_12 = half * (axis_9 + axis_10 + axis_11);
-    let second_moment_11 = axis_12 - axis_9;
-    let axis_13 = q.cos_theta * p.j_12 - q.sin_theta * p.j_13;
-    let second_moment_12 = -(axis_13 - p.r_w_b_bx * axis_0 + p.k_3);
-    let axis_14 = q.cos_theta * p.j_13 + q.sin_theta * p.j_12;
-    let second_moment_13 = -(axis_14 - p.r_w_b_bx * axis_1 + p.k_4);
-    let second_moment_22 = axis_12 - axis_10;
-    let axis_15 = q.cos_theta * axis_3 + q.sin_theta * axis_2;
-    let axis_16 = axis_15 - (p.r_w_b_by * axis_1 + p.r_w_b_bz * axis_0);
-    let second_moment_23 = -(axis_16 + p.k_6);
-    let second_moment_33 = axis_12 - axis_11;
+    let axis_9 = half * (axis_6 + axis_7 + axis_8);
+    let second_moment_11 = axis_9 - axis_6;
+    let axis_10 = q.cos_theta * p.j_12 - q.sin_theta * p.j_13;
+    let second_moment_12 = -(axis_10 - p.r_w_b_bx * axis_0 + p.k_7);
+    let axis_11 = q.cos_theta * p.j_13 + q.sin_theta * p.j_12;
+    let second_moment_13 = -(axis_11 - p.r_w_b_bx * axis_1 + p.k_8);
+    let second_moment_22 = axis_9 - axis_7;
+    let axis_12 = p.r_w_b_by * axis_1 + p.r_w_b_bz * axis_0;
+    let second_moment_23 = -(q.cos_theta * axis_2 + p.k_3 - axis_12 + p.k_10);
+    let second_moment_33 = axis_9 - axis_8;
 
     Gravity {
         wrenches: Wrenches { f_on_wx, f_on_wy, f_on_wz, n_on_wx, n_on_wy, n_on_wz },

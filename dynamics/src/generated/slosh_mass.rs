@@ -6,14 +6,34 @@
 //!
 //! Everything is resolved along the outermost joint's axes at zero angle: "the device's B axes".
 
-use super::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare};
+use super::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
+};
 use crate::Real;
 
 pub mod device;
 
-/// What the device is made of: masses, places, inertias.
+/// What the device is made of: mount, masses, places, inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{S/B}: origin of the slosh mass in the axes that carry it, first component, m.
     pub r_s_b_bx: T,
     /// r_{S/B}: origin of the slosh mass in the axes that carry it, second component, m.
@@ -27,6 +47,24 @@ pub struct Parameters<T> {
 /// What a kernel needs of the parameters, computed once by [`prepare`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{S/B}: origin of the slosh mass in the axes that carry it, first component, m.
     pub r_s_b_bx: T,
     /// r_{S/B}: origin of the slosh mass in the axes that carry it, second component, m.
@@ -50,28 +88,29 @@ pub struct Prepared<T> {
     pub mc_by: T,
     /// `p.r_s_b_bz * p.m_s`. Σ m r, share of m_sc c, eq. (9), kg m.
     pub mc_bz: T,
-    /// `-mc_by`. M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment about B per
-    /// unit acceleration.
-    pub n_s_bz: T,
-    /// `mc_by`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76),
-    /// kg m².
-    pub mr_d_b_by: T,
-    /// `mc_bz`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76),
-    /// kg m².
-    pub mr_d_b_bz: T,
-    /// `i_s_b_11`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    /// (76), kg m².
-    pub i_d_b_11: T,
-    /// `i_s_b_23`. D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    /// (76), kg m².
-    pub i_d_b_23: T,
-    /// `mc_bz`. M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment about B per
-    /// unit acceleration.
-    pub n_s_by: T,
-    /// `-mr_d_b_bz`. Share of the hub's mass matrix, eq. (E3): M_vw.
-    pub m_vw_21: T,
-    /// `-i_s_b_11`.
+    /// `p.r_s_b_by * p.mount_12`.
     pub k_2: T,
+    /// `p.r_s_b_by * p.mount_22`.
+    pub k_3: T,
+    /// `p.r_s_b_by * p.mount_32`.
+    pub k_4: T,
+    /// `p.r_s_b_bz * p.mount_13`.
+    pub k_5: T,
+    /// `p.r_s_b_bz * p.mount_23`.
+    pub k_6: T,
+    /// `p.r_s_b_bz * p.mount_33`.
+    pub k_7: T,
+    /// `p.m_s * p.mount_11`. M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment
+    /// about B per unit acceleration, along B axes.
+    pub f_s_bx: T,
+    /// `p.m_s * p.mount_21`. M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment
+    /// about B per unit acceleration, along B axes.
+    pub f_s_by: T,
+    /// `p.m_s * p.mount_31`. M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment
+    /// about B per unit acceleration, along B axes.
+    pub f_s_bz: T,
+    /// `-i_s_b_11`.
+    pub k_8: T,
 }
 
 /// Positions along the sliding joints.
@@ -173,7 +212,7 @@ pub struct SloshMass<T> {
 }
 
 /// A device's share of `m_sc c` and its derivatives seen from B, along the device's B axes:
-/// `m_sc c″ = f_s ẍ + f̃`.
+/// `m_sc c″ = mc_dprime_s ẍ + f̃`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstMoment<T> {
     /// Σ m r, share of m_sc c, eq. (9), along bx, kg m.
@@ -189,11 +228,11 @@ pub struct FirstMoment<T> {
     /// Σ m r′, share of m_sc c′, behind eq. (11), along bz, kg m/s.
     pub mc_prime_bz: T,
     /// f_s, eq. (17): Σ m r″ per ẍ, along bx, kg.
-    pub f_s_bx: T,
+    pub mc_dprime_s_bx: T,
     /// f_s, eq. (17): Σ m r″ per ẍ, along by, kg.
-    pub f_s_by: T,
+    pub mc_dprime_s_by: T,
     /// f_s, eq. (17): Σ m r″ per ẍ, along bz, kg.
-    pub f_s_bz: T,
+    pub mc_dprime_s_bz: T,
 }
 
 /// What is left of a device once its joints are eliminated.
@@ -207,6 +246,12 @@ pub struct Eliminated<T> {
     pub diagonal_s: T,
     /// Gain of the slosh mass on component 1 of r̈_{B/N}.
     pub gain_s_v1: T,
+    /// Gain of the slosh mass on component 2 of r̈_{B/N}.
+    pub gain_s_v2: T,
+    /// Gain of the slosh mass on component 3 of r̈_{B/N}.
+    pub gain_s_v3: T,
+    /// Gain of the slosh mass on component 1 of ω̇_{B/N}, m.
+    pub gain_s_w1: T,
     /// Gain of the slosh mass on component 2 of ω̇_{B/N}, m.
     pub gain_s_w2: T,
     /// Gain of the slosh mass on component 3 of ω̇_{B/N}, m.
@@ -340,7 +385,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 7 mul, 1 add, 4 neg, 0 div, 0 trig.
+/// Operations: 16 mul, 1 add, 2 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // [I_{S,B}], eq. (40), along the axes of the slosh mass, kg m².
@@ -354,24 +399,31 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let mc_by = p.r_s_b_by * p.m_s;
     let mc_bz = p.r_s_b_bz * p.m_s;
 
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let mr_d_b_by = mc_by;
-    let mr_d_b_bz = mc_bz;
-    let i_d_b_11 = i_s_b_11;
-    let i_d_b_23 = i_s_b_23;
-
     // M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment about B per unit
-    // acceleration.
-    let n_s_by = mc_bz;
-    let n_s_bz = -mc_by;
-
-    // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_21 = -mr_d_b_bz;
+    // acceleration, along B axes.
+    let f_s_bx = p.m_s * p.mount_11;
+    let f_s_by = p.m_s * p.mount_21;
+    let f_s_bz = p.m_s * p.mount_31;
 
     // Products and sums of parameters that occur more deeply.
-    let k_2 = -i_s_b_11;
+    let k_2 = p.r_s_b_by * p.mount_12;
+    let k_3 = p.r_s_b_by * p.mount_22;
+    let k_4 = p.r_s_b_by * p.mount_32;
+    let k_5 = p.r_s_b_bz * p.mount_13;
+    let k_6 = p.r_s_b_bz * p.mount_23;
+    let k_7 = p.r_s_b_bz * p.mount_33;
+    let k_8 = -i_s_b_11;
 
     Prepared {
+        mount_11: p.mount_11,
+        mount_12: p.mount_12,
+        mount_13: p.mount_13,
+        mount_21: p.mount_21,
+        mount_22: p.mount_22,
+        mount_23: p.mount_23,
+        mount_31: p.mount_31,
+        mount_32: p.mount_32,
+        mount_33: p.mount_33,
         r_s_b_bx: p.r_s_b_bx,
         r_s_b_by: p.r_s_b_by,
         r_s_b_bz: p.r_s_b_bz,
@@ -383,14 +435,16 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         i_s_b_23,
         mc_by,
         mc_bz,
-        n_s_bz,
-        mr_d_b_by,
-        mr_d_b_bz,
-        i_d_b_11,
-        i_d_b_23,
-        n_s_by,
-        m_vw_21,
         k_2,
+        k_3,
+        k_4,
+        k_5,
+        k_6,
+        k_7,
+        f_s_bx,
+        f_s_by,
+        f_s_bz,
+        k_8,
     }
 }
 
@@ -429,8 +483,7 @@ pub fn slosh_mass<T: Real>(p: &Prepared<T>, s: &Positions<T>, v: &Rates<T>) -> S
     let i_s_b_prime_11 = zero;
     let i_s_b_prime_12 = -(v.x_dot * p.r_s_b_by * p.m_s);
     let i_s_b_prime_13 = -(v.x_dot * p.r_s_b_bz * p.m_s);
-    let shift_0 = v.x_dot * r_sc_b_bx;
-    let i_s_b_prime_22 = p.m_s * (shift_0 + shift_0);
+    let i_s_b_prime_22 = r_sc_b_bx * (v.x_dot + v.x_dot) * p.m_s;
     let i_s_b_prime_23 = zero;
     let i_s_b_prime_33 = i_s_b_prime_22;
 
@@ -479,9 +532,9 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, s: &Positions<T>, v: &Rates<T>) ->
     let mc_prime_bz = zero;
 
     // f_s, eq. (17): Σ m r″ per ẍ, kg.
-    let f_s_bx = p.m_s;
-    let f_s_by = zero;
-    let f_s_bz = zero;
+    let mc_dprime_s_bx = p.m_s;
+    let mc_dprime_s_by = zero;
+    let mc_dprime_s_bz = zero;
 
     FirstMoment {
         mc_bx,
@@ -490,9 +543,43 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, s: &Positions<T>, v: &Rates<T>) ->
         mc_prime_bx,
         mc_prime_by,
         mc_prime_bz,
-        f_s_bx,
-        f_s_by,
-        f_s_bz,
+        mc_dprime_s_bx,
+        mc_dprime_s_by,
+        mc_dprime_s_bz,
+    }
+}
+
+/// What the hub takes over of a device: mass, and what does not notice that the joints
+/// move.
+///
+/// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
+#[must_use]
+pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_m = p.m_s;
+    let zero = p.mount_11.like(0.0);
+    let hand_mr_bx = zero;
+    let hand_mr_by = zero;
+    let hand_mr_bz = zero;
+    let hand_i_11 = zero;
+    let hand_i_12 = zero;
+    let hand_i_13 = zero;
+    let hand_i_22 = zero;
+    let hand_i_23 = zero;
+    let hand_i_33 = zero;
+
+    Handed {
+        hand_m,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
     }
 }
 
@@ -502,7 +589,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, s: &Positions<T>, v: &Rates<T>) ->
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 45 mul, 27 add, 10 neg, 1 div, 0 trig.
+/// Operations: 96 mul, 42 add, 3 neg, 1 div, 0 trig.
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -512,41 +599,72 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // Acceleration of S relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = p.r_s_b_bx + s.x;
-    let path_1 = w.omega_bz * path_0 - w.omega_bx * p.r_s_b_bz;
-    let path_2 = w.omega_bx * p.r_s_b_by - w.omega_by * path_0;
-    let r_s_rest_sx = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_3 = w.omega_by * p.r_s_b_bz - w.omega_bz * p.r_s_b_by + v.x_dot;
-    let path_4 = w.omega_bz * path_3 - w.omega_bx * path_2;
-    let r_s_rest_sy = path_4 + w.omega_bz * v.x_dot;
-    let path_5 = w.omega_bx * path_1 - w.omega_by * path_3;
-    let r_s_rest_sz = path_5 - w.omega_by * v.x_dot;
+    // Base parameters of the slosh mass, eqs. (B1), (B2): arm, m, first moment, kg m, inertia,
+    // kg m².
+    let arm_s_dx = p.r_s_b_bx + s.x;
 
-    // D with no joint accelerating, eq. (78): force, N, and moment about S, N m.
-    let f_rest_sx = p.m_s * r_s_rest_sx;
-    let f_rest_sy = p.m_s * r_s_rest_sy;
-    let f_rest_sz = p.m_s * r_s_rest_sz;
+    // ω_{B/N} along the axes of the slosh mass, eq. (C1), rad/s.
+    let rate_0 = w.omega_bx * p.mount_12 + w.omega_by * p.mount_22;
+    let omega_b_n_sy = rate_0 + w.omega_bz * p.mount_32;
+    let rate_1 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_sz = rate_1 + w.omega_bz * p.mount_33;
 
-    // Row of the slosh mass's joint, eq. (80), along its axis: M_ij, kg, and bias, N.
+    // Row of the slosh mass's joint, eq. (80), along its axis: M_ij, kg, and bias, N, eq. (C3).
     let mass_ss = p.m_s;
-    let u_rest_s = f_rest_sx;
 
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let mr_d_b_bx = path_0 * p.m_s;
-    let i_d_b_12 = -(p.r_s_b_by * path_0 * p.m_s);
-    let i_d_b_13 = -(p.r_s_b_bz * path_0 * p.m_s);
-    let moment_0 = path_0 * path_0;
-    let i_d_b_22 = p.m_s * (moment_0 + p.k_1);
-    let i_d_b_33 = p.m_s * (moment_0 + p.k_0);
+    // Force, N, and moment, N m, that the joints' rates from the slosh mass's on ask for, eq.
+    // (C2).
+    let coriolis_0 = v.x_dot * omega_b_n_sz;
+    let f_rates_s_sy = p.m_s * (coriolis_0 + coriolis_0);
+    let coriolis_1 = v.x_dot * omega_b_n_sy;
+    let neg_f_rates_s_sz = p.m_s * (coriolis_1 + coriolis_1);
 
-    // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = f_rest_sx;
-    let f_rest_by = f_rest_sy;
-    let f_rest_bz = f_rest_sz;
-    let n_rest_bx = p.r_s_b_by * f_rest_sz - p.r_s_b_bz * f_rest_sy;
-    let n_rest_by = p.r_s_b_bz * f_rest_sx - path_0 * f_rest_sz;
-    let n_rest_bz = path_0 * f_rest_sy - p.r_s_b_by * f_rest_sx;
+    // Origin of the first joint, eq. (A2), along B axes, m.
+    let reach_bx = arm_s_dx * p.mount_11 + p.k_2 + p.k_5;
+    let reach_by = arm_s_dx * p.mount_21 + p.k_3 + p.k_6;
+    let reach_bz = arm_s_dx * p.mount_31 + p.k_4 + p.k_7;
+
+    // M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment about B per unit
+    // acceleration, along B axes.
+    let n_s_bx = reach_by * p.f_s_bz - reach_bz * p.f_s_by;
+    let n_s_by = reach_bz * p.f_s_bx - reach_bx * p.f_s_bz;
+    let n_s_bz = reach_bx * p.f_s_by - reach_by * p.f_s_bx;
+
+    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
+    // (76), kg m².
+    let mr_moving_bx = p.m_s * reach_bx;
+    let mr_moving_by = p.m_s * reach_by;
+    let mr_moving_bz = p.m_s * reach_bz;
+    let moment_0 = reach_by * reach_by;
+    let moment_1 = reach_bz * reach_bz;
+    let i_moving_11 = p.m_s * (moment_0 + moment_1);
+    let i_moving_12 = -(reach_bx * reach_by * p.m_s);
+    let i_moving_13 = -(reach_bx * reach_bz * p.m_s);
+    let moment_2 = reach_bx * reach_bx;
+    let i_moving_22 = p.m_s * (moment_2 + moment_1);
+    let i_moving_23 = -(reach_by * reach_bz * p.m_s);
+    let i_moving_33 = p.m_s * (moment_2 + moment_0);
+
+    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
+    // N and N m.
+    let f_rates_bx = p.mount_12 * f_rates_s_sy - p.mount_13 * neg_f_rates_s_sz;
+    let f_rates_by = p.mount_22 * f_rates_s_sy - p.mount_23 * neg_f_rates_s_sz;
+    let f_rates_bz = p.mount_32 * f_rates_s_sy - p.mount_33 * neg_f_rates_s_sz;
+    let n_rates_bx = reach_by * f_rates_bz - reach_bz * f_rates_by;
+    let n_rates_by = reach_bz * f_rates_bx - reach_bx * f_rates_bz;
+    let n_rates_bz = reach_bx * f_rates_by - reach_by * f_rates_bx;
+
+    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    let reach_0 = w.omega_bz * reach_bx - w.omega_bx * reach_bz;
+    let reach_1 = w.omega_bx * reach_by - w.omega_by * reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * reach_bz - w.omega_bz * reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+
+    // Bias of each joint with it, eq. (C3).
+    let bias_0 = p.f_s_bx * r_first_rest_bx + p.f_s_by * r_first_rest_by;
+    let u_rest_s = bias_0 + p.f_s_bz * r_first_rest_bz;
 
     // Right side of each joint, eq. (80): motor torque less what the rest asks for, N.
     let tau_s = u.u_s - u_rest_s;
@@ -554,46 +672,48 @@ pub fn eliminate<T: Real>(
     // Joint s, eq. (E1): its pivot `mass_ss`, kg, and its gains.
     let divisor_s = m.held_s + p.m_s;
     let recip_s = m.driven_s * divisor_s.recip();
-    let gain_s_v1 = p.m_s * recip_s;
-    let gain_s_w2 = p.n_s_by * recip_s;
-    let gain_s_w3 = p.n_s_bz * recip_s;
+    let gain_s_v1 = p.f_s_bx * recip_s;
+    let gain_s_v2 = p.f_s_by * recip_s;
+    let gain_s_v3 = p.f_s_bz * recip_s;
+    let gain_s_w1 = n_s_bx * recip_s;
+    let gain_s_w2 = n_s_by * recip_s;
+    let gain_s_w3 = n_s_bz * recip_s;
     let free_s = m.given_s + tau_s * recip_s;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_s - p.m_s * gain_s_v1;
-    let zero = s.x.like(0.0);
-    let m_vv_12 = zero;
-    let m_vv_13 = zero;
-    let m_vv_22 = p.m_s;
-    let m_vv_23 = zero;
-    let m_vv_33 = p.m_s;
+    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    let m_vv_11 = p.f_s_bx * gain_s_v1;
+    let m_vv_12 = p.f_s_by * gain_s_v1;
+    let m_vv_13 = p.f_s_bz * gain_s_v1;
+    let m_vv_22 = p.f_s_by * gain_s_v2;
+    let m_vv_23 = p.f_s_bz * gain_s_v2;
+    let m_vv_33 = p.f_s_bz * gain_s_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = zero;
-    let m_vw_12 = p.mr_d_b_bz - p.n_s_by * gain_s_v1;
-    let m_vw_13 = -(p.mr_d_b_by + p.n_s_bz * gain_s_v1);
-    let m_vw_21 = p.m_vw_21;
-    let m_vw_22 = zero;
-    let m_vw_23 = mr_d_b_bx;
-    let m_vw_31 = p.mr_d_b_by;
-    let m_vw_32 = -mr_d_b_bx;
-    let m_vw_33 = zero;
+    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    let m_vw_11 = n_s_bx * gain_s_v1;
+    let m_vw_12 = n_s_by * gain_s_v1;
+    let m_vw_13 = n_s_bz * gain_s_v1;
+    let m_vw_21 = n_s_bx * gain_s_v2;
+    let m_vw_22 = n_s_by * gain_s_v2;
+    let m_vw_23 = n_s_bz * gain_s_v2;
+    let m_vw_31 = n_s_bx * gain_s_v3;
+    let m_vw_32 = n_s_by * gain_s_v3;
+    let m_vw_33 = n_s_bz * gain_s_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = p.i_d_b_11;
-    let m_ww_12 = i_d_b_12;
-    let m_ww_13 = i_d_b_13;
-    let m_ww_22 = i_d_b_22 - p.n_s_by * gain_s_w2;
-    let m_ww_23 = p.i_d_b_23 - p.n_s_bz * gain_s_w2;
-    let m_ww_33 = i_d_b_33 - p.n_s_bz * gain_s_w3;
+    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    let m_ww_11 = n_s_bx * gain_s_w1;
+    let m_ww_12 = n_s_by * gain_s_w1;
+    let m_ww_13 = n_s_bz * gain_s_w1;
+    let m_ww_22 = n_s_by * gain_s_w2;
+    let m_ww_23 = n_s_bz * gain_s_w2;
+    let m_ww_33 = n_s_bz * gain_s_w3;
 
-    // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + p.m_s * free_s);
-    let h_v_2 = -f_rest_by;
-    let h_v_3 = -f_rest_bz;
-    let h_w_1 = -n_rest_bx;
-    let h_w_2 = -(n_rest_by + p.n_s_by * free_s);
-    let h_w_3 = -(n_rest_bz + p.n_s_bz * free_s);
+    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    let h_v_1 = f_rates_bx + p.f_s_bx * free_s;
+    let h_v_2 = f_rates_by + p.f_s_by * free_s;
+    let h_v_3 = f_rates_bz + p.f_s_bz * free_s;
+    let h_w_1 = n_rates_bx + n_s_bx * free_s;
+    let h_w_2 = n_rates_by + n_s_by * free_s;
+    let h_w_3 = n_rates_bz + n_s_bz * free_s;
 
     Eliminated {
         share: HubShare {
@@ -624,10 +744,22 @@ pub fn eliminate<T: Real>(
             h_w_1,
             h_w_2,
             h_w_3,
+            mr_moving_bx,
+            mr_moving_by,
+            mr_moving_bz,
+            i_moving_11,
+            i_moving_12,
+            i_moving_13,
+            i_moving_22,
+            i_moving_23,
+            i_moving_33,
         },
         pivot_s: mass_ss,
         diagonal_s: mass_ss,
         gain_s_v1,
+        gain_s_v2,
+        gain_s_v3,
+        gain_s_w1,
         gain_s_w2,
         gain_s_w3,
         free_s,
@@ -636,7 +768,7 @@ pub fn eliminate<T: Real>(
 
 /// Joint accelerations from those of the hub.
 ///
-/// Operations: 3 mul, 3 add, 0 neg, 0 div, 0 trig.
+/// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
@@ -644,7 +776,9 @@ pub fn back_substitute<T: Real>(
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_s - a.r_b_n_ddot_bx * e.gain_s_v1;
-    let x_ddot = row_0 - a.omega_dot_by * e.gain_s_w2 - a.omega_dot_bz * e.gain_s_w3;
+    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_s_v2;
+    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_s_v3 - a.omega_dot_bx * e.gain_s_w1;
+    let x_ddot = row_2 - a.omega_dot_by * e.gain_s_w2 - a.omega_dot_bz * e.gain_s_w3;
 
     JointAccelerations { x_ddot }
 }
@@ -748,13 +882,13 @@ pub fn loads<T: Real>(
     let path_2 = w.omega_bx * p.r_s_b_by - w.omega_by * path_0;
     let path_3 = a.omega_dot_by * p.r_s_b_bz - a.omega_dot_bz * p.r_s_b_by;
     let path_4 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let r_s_n_ddot_sx = path_3 + j.x_ddot + path_4 + a.r_b_n_ddot_bx;
+    let r_s_n_ddot_sx = path_4 + (path_3 + j.x_ddot) + a.r_b_n_ddot_bx;
     let path_5 = w.omega_by * p.r_s_b_bz - w.omega_bz * p.r_s_b_by + v.x_dot;
-    let path_6 = a.omega_dot_bz * path_0 + w.omega_bz * v.x_dot;
+    let path_6 = w.omega_bz * v.x_dot + a.omega_dot_bz * path_0;
     let path_7 = w.omega_bz * path_5 - w.omega_bx * path_2;
     let path_8 = path_6 - a.omega_dot_bx * p.r_s_b_bz + path_7;
     let r_s_n_ddot_sy = path_8 + a.r_b_n_ddot_by;
-    let path_9 = a.omega_dot_by * path_0 + w.omega_by * v.x_dot;
+    let path_9 = w.omega_by * v.x_dot + a.omega_dot_by * path_0;
     let path_10 = w.omega_bx * path_1 - w.omega_by * path_5;
     let path_11 = a.omega_dot_bx * p.r_s_b_by - path_9 + path_10;
     let r_s_n_ddot_sz = path_11 + a.r_b_n_ddot_bz;
@@ -861,7 +995,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, s: &Positions<T>, g: &Gradient<T>) -> G
     let axis_2 = p.m_s * (axis_0 + p.k_0);
     let half = s.x.like(0.5);
     let axis_3 = half * (p.i_s_b_11 + axis_1 + axis_2);
-    let second_moment_11 = axis_3 + p.k_2;
+    let second_moment_11 = axis_3 + p.k_8;
     let second_moment_12 = p.r_s_b_by * field_0 * p.m_s;
     let second_moment_13 = p.r_s_b_bz * field_0 * p.m_s;
     let second_moment_22 = axis_3 - axis_1;

@@ -6,14 +6,34 @@
 //!
 //! Everything is resolved along the outermost joint's axes at zero angle: "the device's B axes".
 
-use super::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare};
+use super::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
+};
 use crate::Real;
 
 pub mod device;
 
-/// What the device is made of: masses, places, inertias.
+/// What the device is made of: mount, masses, places, inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{G/B}: origin of the gimbal in the axes that carry it, first component, m.
     pub r_g_b_bx: T,
     /// r_{G/B}: origin of the gimbal in the axes that carry it, second component, m.
@@ -67,6 +87,24 @@ pub struct Parameters<T> {
 /// What a kernel needs of the parameters, computed once by [`prepare`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<T> {
+    /// The device's x axis in the hub, along bx, 1.
+    pub mount_11: T,
+    /// The device's y axis in the hub, along bx, 1.
+    pub mount_12: T,
+    /// The device's z axis in the hub, along bx, 1.
+    pub mount_13: T,
+    /// The device's x axis in the hub, along by, 1.
+    pub mount_21: T,
+    /// The device's y axis in the hub, along by, 1.
+    pub mount_22: T,
+    /// The device's z axis in the hub, along by, 1.
+    pub mount_23: T,
+    /// The device's x axis in the hub, along bz, 1.
+    pub mount_31: T,
+    /// The device's y axis in the hub, along bz, 1.
+    pub mount_32: T,
+    /// The device's z axis in the hub, along bz, 1.
+    pub mount_33: T,
     /// r_{G/B}: origin of the gimbal in the axes that carry it, first component, m.
     pub r_g_b_bx: T,
     /// r_{G/B}: origin of the gimbal in the axes that carry it, second component, m.
@@ -118,40 +156,49 @@ pub struct Prepared<T> {
     pub m_d: T,
     /// `p.r_g_b_bz + p.r_gc_g_gz`. r_{Gc/B}, behind eq. (12), m.
     pub r_gc_b_bz: T,
-    /// `p.r_g_b_bz + p.l_g_z`. W from B, eq. (A2), along B axes, m.
-    pub origin_w_bz: T,
+    /// `p.r_g_b_bz + p.l_g_z`. Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first
+    /// moment, kg m, inertia, kg m².
+    pub arm_g_dz: T,
     /// `r_gc_b_bz * r_gc_b_bz`.
     pub k_0: T,
     /// `p.m_w * p.d`. The wheel about its origin: first moment, kg m, and inertia as in eq.
     /// (71), kg m².
     pub mr_wc_w_wy: T,
-    /// `p.j_11 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
+    /// `p.j_11 + hand_8`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_11: T,
-    /// `p.j_33 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
+    /// `p.j_33 + hand_8`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_33: T,
     /// `i_w_w_11`. Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and
-    /// bias, N m.
+    /// bias, N m, eq. (C3).
     pub mass_ww: T,
-    /// `p.j_22 + i_w_w_33`.
+    /// `i_w_w_33 - p.j_22`.
     pub k_1: T,
-    /// `p.m_w * (prep_0 + prep_1)`.
+    /// `p.j_23 + p.j_23`.
     pub k_2: T,
-    /// `-(p.l_g_x * p.l_g_y * p.m_w)`.
+    /// `-p.j_23`.
     pub k_3: T,
-    /// `-(p.l_g_x * p.l_g_z * p.m_w)`.
+    /// `p.l_g_y + p.l_g_y`.
     pub k_4: T,
-    /// `p.m_w * (prep_2 + prep_1)`.
+    /// `p.l_g_z + p.l_g_z`.
     pub k_5: T,
-    /// `-(p.l_g_y * p.l_g_z * p.m_w)`.
+    /// `p.m_w * (base_0 + hand_10)`.
     pub k_6: T,
-    /// `p.m_w * (prep_2 + prep_0)`.
+    /// `-base_5`.
     pub k_7: T,
-    /// `p.l_g_y * p.m_w`.
+    /// `-(p.l_g_x * p.l_g_z * p.m_w)`.
     pub k_8: T,
-    /// `p.l_g_z * p.m_w`.
+    /// `p.m_w * (hand_9 + hand_10)`.
     pub k_9: T,
+    /// `-(p.l_g_y * p.l_g_z * p.m_w)`.
+    pub k_10: T,
+    /// `p.m_w * (hand_9 + base_0)`.
+    pub k_11: T,
+    /// `p.l_g_y * p.m_w`.
+    pub k_12: T,
+    /// `p.l_g_z * p.m_w`.
+    pub k_13: T,
     /// `p.m_g * p.r_gc_g_gx`. The gimbal about its origin: first moment, kg m, and inertia as
     /// in eq. (40), kg m².
     pub mr_gc_g_gx: T,
@@ -161,8 +208,8 @@ pub struct Prepared<T> {
     /// `p.m_g * p.r_gc_g_gz`. The gimbal about its origin: first moment, kg m, and inertia as
     /// in eq. (40), kg m².
     pub mr_gc_g_gz: T,
-    /// `p.i_g_11 + p.m_g * (own_1 + own_2)`. The gimbal about its origin: first moment, kg m,
-    /// and inertia as in eq. (40), kg m².
+    /// `p.i_g_11 + p.m_g * (base_1 + hand_12)`. The gimbal about its origin: first moment, kg
+    /// m, and inertia as in eq. (40), kg m².
     pub i_g_g_11: T,
     /// `p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
@@ -170,48 +217,123 @@ pub struct Prepared<T> {
     /// `p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_13: T,
-    /// `p.i_g_22 + p.m_g * (own_3 + own_2)`. The gimbal about its origin: first moment, kg m,
-    /// and inertia as in eq. (40), kg m².
+    /// `p.i_g_22 + p.m_g * (hand_11 + hand_12)`. The gimbal about its origin: first moment,
+    /// kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_22: T,
     /// `p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_23: T,
-    /// `p.i_g_33 + p.m_g * (own_3 + own_1)`. The gimbal about its origin: first moment, kg m,
-    /// and inertia as in eq. (40), kg m².
+    /// `p.i_g_33 + p.m_g * (hand_11 + base_1)`. The gimbal about its origin: first moment, kg
+    /// m, and inertia as in eq. (40), kg m².
     pub i_g_g_33: T,
     /// `p.l_g_x * p.m_w + mr_gc_g_gx`. D, the gimbal and what it carries, eq. (89): mass, kg;
     /// first moment, kg m, and inertia, kg m², about G.
     pub mr_d_g_gx: T,
-    /// `m_d * (prep_3 + prep_4)`.
-    pub k_10: T,
-    /// `-(p.r_g_b_bx * p.r_g_b_by * m_d)`.
-    pub k_11: T,
-    /// `-(p.r_g_b_bx * p.r_g_b_bz * m_d)`.
-    pub k_12: T,
-    /// `m_d * (prep_5 + prep_4)`.
-    pub k_13: T,
-    /// `-(p.r_g_b_by * p.r_g_b_bz * m_d)`.
+    /// `p.r_g_b_bx + p.r_g_b_bx`.
     pub k_14: T,
-    /// `m_d * (prep_5 + prep_3)`.
+    /// `p.r_g_b_by + p.r_g_b_by`.
     pub k_15: T,
-    /// `p.r_g_b_bx * m_d`.
+    /// `p.r_g_b_bz + p.r_g_b_bz`.
     pub k_16: T,
-    /// `p.r_g_b_by * m_d`.
+    /// `m_d * (hand_14 + hand_15)`.
     pub k_17: T,
-    /// `p.r_g_b_bz * m_d`.
+    /// `-(p.r_g_b_bx * p.r_g_b_by * m_d)`.
     pub k_18: T,
-    /// `i_g_g_22 - i_g_g_33`.
+    /// `-(p.r_g_b_bx * p.r_g_b_bz * m_d)`.
     pub k_19: T,
-    /// `i_g_g_33 - i_g_g_11`.
+    /// `m_d * (hand_13 + hand_15)`.
     pub k_20: T,
-    /// `i_g_g_11 - i_g_g_22`.
+    /// `-(p.r_g_b_by * p.r_g_b_bz * m_d)`.
     pub k_21: T,
-    /// `p.j_22 - i_w_w_33`.
+    /// `m_d * (hand_13 + hand_14)`.
     pub k_22: T,
-    /// `i_w_w_33 - i_w_w_11`.
+    /// `p.r_g_b_bx * m_d`.
     pub k_23: T,
-    /// `i_w_w_11 - p.j_22`.
+    /// `p.r_g_b_by * m_d`.
     pub k_24: T,
+    /// `p.r_g_b_bz * m_d`.
+    pub k_25: T,
+    /// `k_12 + mr_gc_g_gy`. Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first
+    /// moment, kg m, inertia, kg m².
+    pub mr_g_base_gy: T,
+    /// `base_4 - hand_8 - p.j_33`. Base parameters of the gimbal, eqs. (B1), (B2): arm, m,
+    /// first moment, kg m, inertia, kg m².
+    pub i_g_base_11: T,
+    /// `p.i_g_12 - (base_5 + p.r_gc_g_gy * mr_gc_g_gx)`. Base parameters of the gimbal, eqs.
+    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_g_base_12: T,
+    /// `p.i_g_13 + p.r_gc_g_gx * base_6 - p.r_gc_g_gz * mr_gc_g_gx`. Base parameters of the
+    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_g_base_13: T,
+    /// `p.i_g_23 + p.r_gc_g_gy * base_6 - p.r_gc_g_gz * mr_gc_g_gy`. Base parameters of the
+    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_g_base_23: T,
+    /// `base_7 + p.j_33`. Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first
+    /// moment, kg m, inertia, kg m².
+    pub i_g_base_33: T,
+    /// `p.j_12 - p.l_g_x * p.d * p.m_w`. Base parameters of the wheel, eqs. (B1), (B2): arm,
+    /// m, first moment, kg m, inertia, kg m².
+    pub i_w_base_12: T,
+    /// `p.j_22 - hand_8 - p.j_33`. Base parameters of the wheel, eqs. (B1), (B2): arm, m,
+    /// first moment, kg m, inertia, kg m².
+    pub i_w_base_22: T,
+    /// `place_0 + p.mount_13 * arm_g_dz`. Origin of the first joint, eq. (A2), along B axes,
+    /// m.
+    pub reach_bx: T,
+    /// `place_1 + p.mount_23 * arm_g_dz`. Origin of the first joint, eq. (A2), along B axes,
+    /// m.
+    pub reach_by: T,
+    /// `place_2 + p.mount_33 * arm_g_dz`. Origin of the first joint, eq. (A2), along B axes,
+    /// m.
+    pub reach_bz: T,
+    /// `reach_bx + reach_bx`.
+    pub k_26: T,
+    /// `reach_by + reach_by`.
+    pub k_27: T,
+    /// `reach_bz + reach_bz`.
+    pub k_28: T,
+    /// `p.mount_11 * hand_2 + p.mount_12 * hand_5 + p.mount_13 * hand_7`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_bx: T,
+    /// `p.mount_21 * hand_2 + p.mount_22 * hand_5 + p.mount_23 * hand_7`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_by: T,
+    /// `p.mount_31 * hand_2 + p.mount_32 * hand_5 + p.mount_33 * hand_7`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
+    pub hand_mr_bz: T,
+    /// `hand_52 - hand_48 + hand_49 * (hand_50 + hand_50)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_11: T,
+    /// `hand_60 - hand_57 + hand_49 * (hand_58 + hand_58)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_12: T,
+    /// `hand_68 - hand_65 + hand_49 * (hand_66 + hand_66)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_13: T,
+    /// `hand_79 - hand_76 + hand_49 * (hand_77 + hand_77)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_22: T,
+    /// `hand_87 - hand_84 + hand_49 * (hand_85 + hand_85)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_23: T,
+    /// `hand_98 - hand_95 + hand_49 * (hand_96 + hand_96)`. What the hub takes over, eq.
+    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    pub hand_i_33: T,
+    /// `i_g_g_22 - i_g_g_33`.
+    pub k_29: T,
+    /// `i_g_g_33 - i_g_g_11`.
+    pub k_30: T,
+    /// `i_g_g_11 - i_g_g_22`.
+    pub k_31: T,
+    /// `p.j_22 - i_w_w_33`.
+    pub k_32: T,
+    /// `i_w_w_33 - i_w_w_11`.
+    pub k_33: T,
+    /// `i_w_w_11 - p.j_22`.
+    pub k_34: T,
 }
 
 /// Sines and cosines of the joint angles.
@@ -443,7 +565,7 @@ pub struct Wheel<T> {
 }
 
 /// A device's share of `m_sc c` and its derivatives seen from B, along the device's B axes:
-/// `m_sc c″ = f_g γ̈ + f_w Ω̇ + f̃`.
+/// `m_sc c″ = mc_dprime_g γ̈ + mc_dprime_w Ω̇ + f̃`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstMoment<T> {
     /// Σ m r, share of m_sc c, eq. (9), along bx, kg m.
@@ -459,17 +581,17 @@ pub struct FirstMoment<T> {
     /// Σ m r′, share of m_sc c′, behind eq. (11), along bz, kg m/s.
     pub mc_prime_bz: T,
     /// f_g, eq. (17): Σ m r″ per γ̈, along bx, kg m.
-    pub f_g_bx: T,
+    pub mc_dprime_g_bx: T,
     /// f_g, eq. (17): Σ m r″ per γ̈, along by, kg m.
-    pub f_g_by: T,
+    pub mc_dprime_g_by: T,
     /// f_g, eq. (17): Σ m r″ per γ̈, along bz, kg m.
-    pub f_g_bz: T,
+    pub mc_dprime_g_bz: T,
     /// f_w, eq. (17): Σ m r″ per Ω̇, along bx, kg m.
-    pub f_w_bx: T,
+    pub mc_dprime_w_bx: T,
     /// f_w, eq. (17): Σ m r″ per Ω̇, along by, kg m.
-    pub f_w_by: T,
+    pub mc_dprime_w_by: T,
     /// f_w, eq. (17): Σ m r″ per Ω̇, along bz, kg m.
-    pub f_w_bz: T,
+    pub mc_dprime_w_bz: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along bx, N.
     pub f_tilde_bx: T,
     /// f̃, eq. (17): Σ m r″ with no joint accelerating, along by, N.
@@ -700,7 +822,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 49 mul, 28 add, 6 neg, 0 div, 0 trig.
+/// Operations: 192 mul, 197 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // r_{Gc/B}, behind eq. (12), m.
@@ -708,69 +830,223 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
 
     // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
     let mr_wc_w_wy = p.m_w * p.d;
-    let own_0 = p.d * p.d * p.m_w;
-    let i_w_w_11 = p.j_11 + own_0;
-    let i_w_w_33 = p.j_33 + own_0;
-
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m.
-    let mass_ww = i_w_w_11;
 
     // The gimbal about its origin: first moment, kg m, and inertia as in eq. (40), kg m².
     let mr_gc_g_gx = p.m_g * p.r_gc_g_gx;
     let mr_gc_g_gy = p.m_g * p.r_gc_g_gy;
     let mr_gc_g_gz = p.m_g * p.r_gc_g_gz;
-    let own_1 = p.r_gc_g_gy * p.r_gc_g_gy;
-    let own_2 = p.r_gc_g_gz * p.r_gc_g_gz;
-    let i_g_g_11 = p.i_g_11 + p.m_g * (own_1 + own_2);
-    let i_g_g_12 = p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g;
-    let i_g_g_13 = p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g;
-    let own_3 = p.r_gc_g_gx * p.r_gc_g_gx;
-    let i_g_g_22 = p.i_g_22 + p.m_g * (own_3 + own_2);
-    let i_g_g_23 = p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g;
-    let i_g_g_33 = p.i_g_33 + p.m_g * (own_3 + own_1);
 
     // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
     // m², about G.
     let m_d = p.m_g + p.m_w;
     let mr_d_g_gx = p.l_g_x * p.m_w + mr_gc_g_gx;
 
-    // W from B, eq. (A2), along B axes, m.
-    let origin_w_bz = p.r_g_b_bz + p.l_g_z;
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let k_13 = p.l_g_z * p.m_w;
+    let hand_0 = p.r_g_b_bx * p.m_g;
+    let hand_1 = p.r_g_b_bx * p.m_w;
+    let hand_2 = hand_0 + hand_1;
+    let hand_3 = p.r_g_b_by * p.m_g;
+    let hand_4 = p.r_g_b_by * p.m_w;
+    let hand_5 = hand_3 + hand_4;
+    let hand_6 = p.r_g_b_bz * p.m_g;
+    let hand_7 = hand_6 + p.r_g_b_bz * p.m_w + k_13 + mr_gc_g_gz;
+    let hand_mr_bx = p.mount_11 * hand_2 + p.mount_12 * hand_5 + p.mount_13 * hand_7;
+    let hand_mr_by = p.mount_21 * hand_2 + p.mount_22 * hand_5 + p.mount_23 * hand_7;
+    let hand_mr_bz = p.mount_31 * hand_2 + p.mount_32 * hand_5 + p.mount_33 * hand_7;
+    let hand_8 = p.d * p.d * p.m_w;
+    let hand_9 = p.l_g_x * p.l_g_x;
+    let hand_10 = p.l_g_z * p.l_g_z;
+    let hand_11 = p.r_gc_g_gx * p.r_gc_g_gx;
+    let hand_12 = p.r_gc_g_gz * p.r_gc_g_gz;
+    let hand_13 = p.r_g_b_bx * p.r_g_b_bx;
+    let hand_14 = p.r_g_b_by * p.r_g_b_by;
+    let hand_15 = p.r_g_b_bz * p.r_g_b_bz;
+    let hand_16 = p.m_w * hand_9;
+    let hand_17 = p.m_g * hand_11;
+    let hand_18 = p.m_g * hand_14;
+    let hand_19 = p.m_g * hand_15;
+    let hand_20 = p.m_w * hand_14;
+    let hand_21 = p.m_w * hand_15;
+    let hand_22 = p.r_g_b_bz * k_13;
+    let hand_23 = hand_22 + hand_22;
+    let hand_24 = p.m_w * hand_10;
+    let hand_25 = p.r_gc_g_gz * hand_6;
+    let hand_26 = hand_25 + hand_25;
+    let hand_27 = p.m_g * hand_12;
+    let hand_28 = p.m_g * hand_13;
+    let hand_29 = p.m_w * hand_13;
+    let half = p.mount_11.like(0.5);
+    let hand_30 = hand_18 + hand_19 + hand_17 + hand_20 + hand_21 + hand_23;
+    let hand_31 = hand_30 + hand_24 + hand_16 + hand_26 + hand_27 + p.i_g_22;
+    let hand_32 = half * (hand_31 + hand_8 + p.j_33);
+    let hand_33 = p.mount_11 * p.mount_11;
+    let hand_34 = half * (p.r_g_b_by * hand_0 + p.r_g_b_by * hand_1);
+    let hand_35 = p.mount_11 * p.mount_12;
+    let hand_36 = hand_34 * (hand_35 + hand_35);
+    let hand_37 = p.r_g_b_bz * hand_0 + p.r_g_b_bz * hand_1 + p.r_g_b_bx * k_13;
+    let hand_38 = half * (hand_37 + p.r_gc_g_gz * hand_0);
+    let hand_39 = p.mount_11 * p.mount_13;
+    let hand_40 = hand_38 * (hand_39 + hand_39);
+    let hand_41 = hand_19 + hand_28 + hand_17 + hand_29 + hand_21 + hand_23;
+    let hand_42 = hand_41 + hand_24 + hand_16 + hand_26 + hand_27 + p.i_g_22;
+    let hand_43 = half * (hand_42 + hand_8 + p.j_33);
+    let hand_44 = p.mount_12 * p.mount_12;
+    let hand_45 = p.r_g_b_bz * hand_3 + p.r_g_b_bz * hand_4 + p.r_g_b_by * k_13;
+    let hand_46 = half * (hand_45 + p.r_gc_g_gz * hand_3);
+    let hand_47 = p.mount_12 * p.mount_13;
+    let hand_48 = hand_46 * (hand_47 + hand_47);
+    let hand_49 = half * (hand_18 + hand_28 + hand_29 + hand_20);
+    let hand_50 = p.mount_13 * p.mount_13;
+    let hand_51 = hand_32 * (hand_33 + hand_33) - hand_36 - hand_40 - hand_36;
+    let hand_52 = hand_51 + hand_43 * (hand_44 + hand_44) - hand_48 - hand_40;
+    let hand_i_11 = hand_52 - hand_48 + hand_49 * (hand_50 + hand_50);
+    let hand_53 = p.mount_11 * p.mount_21;
+    let hand_54 = hand_34 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
+    let hand_55 = hand_38 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
+    let hand_56 = p.mount_12 * p.mount_22;
+    let hand_57 = hand_46 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
+    let hand_58 = p.mount_13 * p.mount_23;
+    let hand_59 = hand_32 * (hand_53 + hand_53) - hand_54 - hand_55 - hand_54;
+    let hand_60 = hand_59 + hand_43 * (hand_56 + hand_56) - hand_57 - hand_55;
+    let hand_i_12 = hand_60 - hand_57 + hand_49 * (hand_58 + hand_58);
+    let hand_61 = p.mount_11 * p.mount_31;
+    let hand_62 = hand_34 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
+    let hand_63 = hand_38 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
+    let hand_64 = p.mount_12 * p.mount_32;
+    let hand_65 = hand_46 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
+    let hand_66 = p.mount_13 * p.mount_33;
+    let hand_67 = hand_32 * (hand_61 + hand_61) - hand_62 - hand_63 - hand_62;
+    let hand_68 = hand_67 + hand_43 * (hand_64 + hand_64) - hand_65 - hand_63;
+    let hand_i_13 = hand_68 - hand_65 + hand_49 * (hand_66 + hand_66);
+    let hand_69 = p.mount_21 * p.mount_21;
+    let hand_70 = p.mount_21 * p.mount_22;
+    let hand_71 = hand_34 * (hand_70 + hand_70);
+    let hand_72 = p.mount_21 * p.mount_23;
+    let hand_73 = hand_38 * (hand_72 + hand_72);
+    let hand_74 = p.mount_22 * p.mount_22;
+    let hand_75 = p.mount_22 * p.mount_23;
+    let hand_76 = hand_46 * (hand_75 + hand_75);
+    let hand_77 = p.mount_23 * p.mount_23;
+    let hand_78 = hand_32 * (hand_69 + hand_69) - hand_71 - hand_73 - hand_71;
+    let hand_79 = hand_78 + hand_43 * (hand_74 + hand_74) - hand_76 - hand_73;
+    let hand_i_22 = hand_79 - hand_76 + hand_49 * (hand_77 + hand_77);
+    let hand_80 = p.mount_21 * p.mount_31;
+    let hand_81 = hand_34 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
+    let hand_82 = hand_38 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
+    let hand_83 = p.mount_22 * p.mount_32;
+    let hand_84 = hand_46 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
+    let hand_85 = p.mount_23 * p.mount_33;
+    let hand_86 = hand_32 * (hand_80 + hand_80) - hand_81 - hand_82 - hand_81;
+    let hand_87 = hand_86 + hand_43 * (hand_83 + hand_83) - hand_84 - hand_82;
+    let hand_i_23 = hand_87 - hand_84 + hand_49 * (hand_85 + hand_85);
+    let hand_88 = p.mount_31 * p.mount_31;
+    let hand_89 = p.mount_31 * p.mount_32;
+    let hand_90 = hand_34 * (hand_89 + hand_89);
+    let hand_91 = p.mount_31 * p.mount_33;
+    let hand_92 = hand_38 * (hand_91 + hand_91);
+    let hand_93 = p.mount_32 * p.mount_32;
+    let hand_94 = p.mount_32 * p.mount_33;
+    let hand_95 = hand_46 * (hand_94 + hand_94);
+    let hand_96 = p.mount_33 * p.mount_33;
+    let hand_97 = hand_32 * (hand_88 + hand_88) - hand_90 - hand_92 - hand_90;
+    let hand_98 = hand_97 + hand_43 * (hand_93 + hand_93) - hand_95 - hand_92;
+    let hand_i_33 = hand_98 - hand_95 + hand_49 * (hand_96 + hand_96);
+
+    // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
+    let i_w_w_11 = p.j_11 + hand_8;
+
+    // Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg
+    // m².
+    let arm_g_dz = p.r_g_b_bz + p.l_g_z;
+    let k_12 = p.l_g_y * p.m_w;
+    let mr_g_base_gy = k_12 + mr_gc_g_gy;
+    let base_0 = p.l_g_y * p.l_g_y;
+    let base_1 = p.r_gc_g_gy * p.r_gc_g_gy;
+    let base_2 = p.m_w * base_0;
+    let base_3 = p.m_g * base_1;
+    let base_4 = base_3 - (hand_16 + hand_17) + base_2 + p.i_g_11 - p.i_g_22;
+    let i_g_base_11 = base_4 - hand_8 - p.j_33;
+    let base_5 = p.l_g_x * p.l_g_y * p.m_w;
+    let i_g_base_12 = p.i_g_12 - (base_5 + p.r_gc_g_gy * mr_gc_g_gx);
+    let base_6 = p.m_g * p.l_g_z;
+    let i_g_base_13 = p.i_g_13 + p.r_gc_g_gx * base_6 - p.r_gc_g_gz * mr_gc_g_gx;
+    let i_g_base_23 = p.i_g_23 + p.r_gc_g_gy * base_6 - p.r_gc_g_gz * mr_gc_g_gy;
+    let base_7 = p.i_g_33 + hand_17 + hand_16 + base_3 + base_2 + hand_8;
+    let i_g_base_33 = base_7 + p.j_33;
+
+    // Base parameters of the wheel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    let i_w_base_12 = p.j_12 - p.l_g_x * p.d * p.m_w;
+    let i_w_base_22 = p.j_22 - hand_8 - p.j_33;
+
+    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    let mass_ww = i_w_w_11;
+
+    // Origin of the first joint, eq. (A2), along B axes, m.
+    let place_0 = p.r_g_b_bx * p.mount_11 + p.r_g_b_by * p.mount_12;
+    let reach_bx = place_0 + p.mount_13 * arm_g_dz;
+    let place_1 = p.r_g_b_bx * p.mount_21 + p.r_g_b_by * p.mount_22;
+    let reach_by = place_1 + p.mount_23 * arm_g_dz;
+    let place_2 = p.r_g_b_bx * p.mount_31 + p.r_g_b_by * p.mount_32;
+    let reach_bz = place_2 + p.mount_33 * arm_g_dz;
+
+    // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
+    let i_w_w_33 = p.j_33 + hand_8;
+
+    // The gimbal about its origin: first moment, kg m, and inertia as in eq. (40), kg m².
+    let i_g_g_11 = p.i_g_11 + p.m_g * (base_1 + hand_12);
+    let i_g_g_12 = p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g;
+    let i_g_g_13 = p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g;
+    let i_g_g_22 = p.i_g_22 + p.m_g * (hand_11 + hand_12);
+    let i_g_g_23 = p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g;
+    let i_g_g_33 = p.i_g_33 + p.m_g * (hand_11 + base_1);
 
     // Products and sums of parameters that occur more deeply.
     let k_0 = r_gc_b_bz * r_gc_b_bz;
-    let k_1 = p.j_22 + i_w_w_33;
-    let prep_0 = p.l_g_y * p.l_g_y;
-    let prep_1 = p.l_g_z * p.l_g_z;
-    let k_2 = p.m_w * (prep_0 + prep_1);
-    let k_3 = -(p.l_g_x * p.l_g_y * p.m_w);
-    let k_4 = -(p.l_g_x * p.l_g_z * p.m_w);
-    let prep_2 = p.l_g_x * p.l_g_x;
-    let k_5 = p.m_w * (prep_2 + prep_1);
-    let k_6 = -(p.l_g_y * p.l_g_z * p.m_w);
-    let k_7 = p.m_w * (prep_2 + prep_0);
-    let k_8 = p.l_g_y * p.m_w;
-    let k_9 = p.l_g_z * p.m_w;
-    let prep_3 = p.r_g_b_by * p.r_g_b_by;
-    let prep_4 = p.r_g_b_bz * p.r_g_b_bz;
-    let k_10 = m_d * (prep_3 + prep_4);
-    let k_11 = -(p.r_g_b_bx * p.r_g_b_by * m_d);
-    let k_12 = -(p.r_g_b_bx * p.r_g_b_bz * m_d);
-    let prep_5 = p.r_g_b_bx * p.r_g_b_bx;
-    let k_13 = m_d * (prep_5 + prep_4);
-    let k_14 = -(p.r_g_b_by * p.r_g_b_bz * m_d);
-    let k_15 = m_d * (prep_5 + prep_3);
-    let k_16 = p.r_g_b_bx * m_d;
-    let k_17 = p.r_g_b_by * m_d;
-    let k_18 = p.r_g_b_bz * m_d;
-    let k_19 = i_g_g_22 - i_g_g_33;
-    let k_20 = i_g_g_33 - i_g_g_11;
-    let k_21 = i_g_g_11 - i_g_g_22;
-    let k_22 = p.j_22 - i_w_w_33;
-    let k_23 = i_w_w_33 - i_w_w_11;
-    let k_24 = i_w_w_11 - p.j_22;
+    let k_1 = i_w_w_33 - p.j_22;
+    let k_2 = p.j_23 + p.j_23;
+    let k_3 = -p.j_23;
+    let k_4 = p.l_g_y + p.l_g_y;
+    let k_5 = p.l_g_z + p.l_g_z;
+    let k_6 = p.m_w * (base_0 + hand_10);
+    let k_7 = -base_5;
+    let k_8 = -(p.l_g_x * p.l_g_z * p.m_w);
+    let k_9 = p.m_w * (hand_9 + hand_10);
+    let k_10 = -(p.l_g_y * p.l_g_z * p.m_w);
+    let k_11 = p.m_w * (hand_9 + base_0);
+    let k_14 = p.r_g_b_bx + p.r_g_b_bx;
+    let k_15 = p.r_g_b_by + p.r_g_b_by;
+    let k_16 = p.r_g_b_bz + p.r_g_b_bz;
+    let k_17 = m_d * (hand_14 + hand_15);
+    let k_18 = -(p.r_g_b_bx * p.r_g_b_by * m_d);
+    let k_19 = -(p.r_g_b_bx * p.r_g_b_bz * m_d);
+    let k_20 = m_d * (hand_13 + hand_15);
+    let k_21 = -(p.r_g_b_by * p.r_g_b_bz * m_d);
+    let k_22 = m_d * (hand_13 + hand_14);
+    let k_23 = p.r_g_b_bx * m_d;
+    let k_24 = p.r_g_b_by * m_d;
+    let k_25 = p.r_g_b_bz * m_d;
+    let k_26 = reach_bx + reach_bx;
+    let k_27 = reach_by + reach_by;
+    let k_28 = reach_bz + reach_bz;
+    let k_29 = i_g_g_22 - i_g_g_33;
+    let k_30 = i_g_g_33 - i_g_g_11;
+    let k_31 = i_g_g_11 - i_g_g_22;
+    let k_32 = p.j_22 - i_w_w_33;
+    let k_33 = i_w_w_33 - i_w_w_11;
+    let k_34 = i_w_w_11 - p.j_22;
 
     Prepared {
+        mount_11: p.mount_11,
+        mount_12: p.mount_12,
+        mount_13: p.mount_13,
+        mount_21: p.mount_21,
+        mount_22: p.mount_22,
+        mount_23: p.mount_23,
+        mount_31: p.mount_31,
+        mount_32: p.mount_32,
+        mount_33: p.mount_33,
         r_g_b_bx: p.r_g_b_bx,
         r_g_b_by: p.r_g_b_by,
         r_g_b_bz: p.r_g_b_bz,
@@ -796,7 +1072,7 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         j_33: p.j_33,
         m_d,
         r_gc_b_bz,
-        origin_w_bz,
+        arm_g_dz,
         k_0,
         mr_wc_w_wy,
         i_w_w_11,
@@ -811,6 +1087,10 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_7,
         k_8,
         k_9,
+        k_10,
+        k_11,
+        k_12,
+        k_13,
         mr_gc_g_gx,
         mr_gc_g_gy,
         mr_gc_g_gz,
@@ -821,10 +1101,6 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         i_g_g_23,
         i_g_g_33,
         mr_d_g_gx,
-        k_10,
-        k_11,
-        k_12,
-        k_13,
         k_14,
         k_15,
         k_16,
@@ -836,12 +1112,42 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_22,
         k_23,
         k_24,
+        k_25,
+        mr_g_base_gy,
+        i_g_base_11,
+        i_g_base_12,
+        i_g_base_13,
+        i_g_base_23,
+        i_g_base_33,
+        i_w_base_12,
+        i_w_base_22,
+        reach_bx,
+        reach_by,
+        reach_bz,
+        k_26,
+        k_27,
+        k_28,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
+        k_29,
+        k_30,
+        k_31,
+        k_32,
+        k_33,
+        k_34,
     }
 }
 
 /// The gimbal: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 52 mul, 35 add, 7 neg, 0 div, 0 trig.
+/// Operations: 52 mul, 32 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> {
     // ω_{G/B}, eq. (31), rad/s.
@@ -899,19 +1205,17 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
     let i_g_b_33 = p.i_g_33 + p.m_g * (axis_3 + axis_1);
 
     // [I_{G,B}]′, eq. (42), along the axes of the gimbal, kg m²/s.
-    let shift_0 = q.sin_gamma * r_gc_b_prime_by - q.cos_gamma * vel_2;
-    let shift_1 = q.cos_gamma * r_gc_b_prime_by + q.sin_gamma * vel_2;
-    let shift_2 = axis_2 * shift_0;
-    let shift_3 = axis_0 * shift_1;
-    let shift_4 = shift_2 + shift_3;
-    let shift_5 = shift_4 + shift_4;
-    let i_g_b_prime_11 = i_g_gc_prime_11 + p.m_g * (shift_5 - (shift_2 + shift_2));
-    let shift_6 = p.m_g * (axis_0 * shift_0 + axis_2 * shift_1);
-    let i_g_b_prime_12 = i_g_gc_prime_12 - shift_6;
-    let i_g_b_prime_13 = -(turn_1 + p.r_gc_b_bz * shift_0 * p.m_g);
-    let i_g_b_prime_22 = i_g_gc_prime_22 + p.m_g * (shift_5 - (shift_3 + shift_3));
-    let i_g_b_prime_23 = i_g_gc_prime_23 - p.r_gc_b_bz * shift_1 * p.m_g;
-    let i_g_b_prime_33 = p.m_g * shift_5;
+    let shift_0 = q.cos_gamma * r_gc_b_prime_by + q.sin_gamma * vel_2;
+    let shift_1 = axis_0 * (shift_0 + shift_0);
+    let i_g_b_prime_11 = i_g_gc_prime_11 + p.m_g * shift_1;
+    let shift_2 = q.sin_gamma * r_gc_b_prime_by - q.cos_gamma * vel_2;
+    let shift_3 = p.m_g * (axis_0 * shift_2 + axis_2 * shift_0);
+    let i_g_b_prime_12 = i_g_gc_prime_12 - shift_3;
+    let i_g_b_prime_13 = -(turn_1 + p.r_gc_b_bz * shift_2 * p.m_g);
+    let shift_4 = axis_2 * (shift_2 + shift_2);
+    let i_g_b_prime_22 = i_g_gc_prime_22 + p.m_g * shift_4;
+    let i_g_b_prime_23 = i_g_gc_prime_23 - p.r_gc_b_bz * shift_0 * p.m_g;
+    let i_g_b_prime_33 = p.m_g * (shift_4 + shift_1);
 
     Gimbal {
         omega_g_b_gx,
@@ -952,7 +1256,7 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
 
 /// The wheel: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 73 mul, 59 add, 5 neg, 0 div, 0 trig.
+/// Operations: 73 mul, 56 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // ω_{W/B}, eq. (59), rad/s.
@@ -966,7 +1270,7 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let pos_0 = p.r_g_b_by * q.cos_gamma - p.r_g_b_bx * q.sin_gamma + p.l_g_y;
     let r_wc_b_gy = pos_0 + r_wc_b_dprime_w_gz;
     let pos_1 = q.sin_theta * p.d;
-    let r_wc_b_gz = p.origin_w_bz + pos_1;
+    let r_wc_b_gz = p.arm_g_dz + pos_1;
 
     // r′_{Wc/B}, behind eq. (14), m/s.
     let vel_0 = v.gamma_dot * p.l_g_y;
@@ -1030,20 +1334,18 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // [I_{W,B}]′, eq. (73), along the axes of the wheel, kg m²/s.
     let shift_0 = q.cos_theta * r_wc_b_prime_gy + q.sin_theta * r_wc_b_prime_gz;
     let shift_1 = q.cos_theta * r_wc_b_prime_gz - q.sin_theta * r_wc_b_prime_gy;
-    let shift_2 = r_wc_b_gx * vel_2;
-    let shift_3 = axis_0 * shift_0;
-    let shift_4 = axis_1 * shift_1;
-    let shift_5 = shift_3 - shift_2 + shift_4;
-    let shift_6 = shift_5 + shift_5;
-    let i_w_b_prime_11 = i_w_wc_prime_11 + p.m_w * (shift_2 + shift_2 + shift_6);
-    let shift_7 = p.m_w * (r_wc_b_gx * shift_0 - vel_2 * axis_0);
-    let i_w_b_prime_12 = i_w_wc_prime_12 - shift_7;
-    let shift_8 = p.m_w * (r_wc_b_gx * shift_1 - vel_2 * axis_1);
-    let i_w_b_prime_13 = i_w_wc_prime_13 - shift_8;
-    let i_w_b_prime_22 = i_w_wc_prime_22 + p.m_w * (shift_6 - (shift_3 + shift_3));
-    let shift_9 = p.m_w * (axis_1 * shift_0 + axis_0 * shift_1);
-    let i_w_b_prime_23 = i_w_wc_prime_23 - shift_9;
-    let i_w_b_prime_33 = i_w_wc_prime_33 + p.m_w * (shift_6 - (shift_4 + shift_4));
+    let shift_2 = axis_0 * (shift_0 + shift_0);
+    let shift_3 = axis_1 * (shift_1 + shift_1);
+    let i_w_b_prime_11 = i_w_wc_prime_11 + p.m_w * (shift_2 + shift_3);
+    let shift_4 = p.m_w * (r_wc_b_gx * shift_0 - vel_2 * axis_0);
+    let i_w_b_prime_12 = i_w_wc_prime_12 - shift_4;
+    let shift_5 = p.m_w * (r_wc_b_gx * shift_1 - vel_2 * axis_1);
+    let i_w_b_prime_13 = i_w_wc_prime_13 - shift_5;
+    let shift_6 = r_wc_b_gx * (vel_2 + vel_2);
+    let i_w_b_prime_22 = i_w_wc_prime_22 + p.m_w * (shift_3 - shift_6);
+    let shift_7 = p.m_w * (axis_1 * shift_0 + axis_0 * shift_1);
+    let i_w_b_prime_23 = i_w_wc_prime_23 - shift_7;
+    let i_w_b_prime_33 = i_w_wc_prime_33 + p.m_w * (shift_2 - shift_6);
 
     Wheel {
         omega_w_b_wx,
@@ -1117,9 +1419,9 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
     // m², about G.
     let f_w_gz = q.cos_theta * p.mr_wc_w_wy;
-    let mr_d_g_gy = f_w_gz + p.k_8 + p.mr_gc_g_gy;
+    let mr_d_g_gy = f_w_gz + p.k_12 + p.mr_gc_g_gy;
     let neg_f_w_gy = q.sin_theta * p.mr_wc_w_wy;
-    let mr_d_g_gz = neg_f_w_gy + p.k_9 + p.mr_gc_g_gz;
+    let mr_d_g_gz = neg_f_w_gy + p.k_13 + p.mr_gc_g_gz;
 
     // D with no joint accelerating, eq. (78): force, N, and moment about G, N m.
     let p_g_gy = v.gamma_dot * p.mr_gc_g_gx;
@@ -1135,11 +1437,11 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let p_w_wz = bias_0 - q.sin_theta * path_0 * p.m_w;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
-    let f_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * mr_d_g_gy;
-    let mc_bx = f_g_by + p.k_16;
+    let mc_dprime_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * mr_d_g_gy;
+    let mc_bx = mc_dprime_g_by + p.k_23;
     let mom_0 = q.cos_gamma * mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
-    let mc_by = mom_0 + p.k_17;
-    let mc_bz = mr_d_g_gz + p.k_18;
+    let mc_by = mom_0 + p.k_24;
+    let mc_bz = mr_d_g_gz + p.k_25;
 
     // Σ m r′, share of m_sc c′, behind eq. (11), kg m/s.
     let rate_0 = neg_p_g_gx + neg_p_w_wx;
@@ -1149,14 +1451,14 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let mc_prime_bz = q.cos_theta * p_w_wz + q.sin_theta * p_w_wy;
 
     // f_g, eq. (17): Σ m r″ per γ̈, kg m.
-    let f_g_bx = -mom_0;
+    let mc_dprime_g_bx = -mom_0;
     let zero = q.sin_gamma.like(0.0);
-    let f_g_bz = zero;
+    let mc_dprime_g_bz = zero;
 
     // f_w, eq. (17): Σ m r″ per Ω̇, kg m.
-    let f_w_bx = q.sin_gamma * neg_f_w_gy;
-    let f_w_by = -(q.cos_gamma * neg_f_w_gy);
-    let f_w_bz = f_w_gz;
+    let mc_dprime_w_bx = q.sin_gamma * neg_f_w_gy;
+    let mc_dprime_w_by = -(q.cos_gamma * neg_f_w_gy);
+    let mc_dprime_w_bz = f_w_gz;
 
     // f̃, eq. (17): Σ m r″ with no joint accelerating, N.
     let f_tilde_bx = q.cos_gamma * f_rest_gx + q.sin_gamma * neg_f_rest_gy;
@@ -1170,15 +1472,48 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
         mc_prime_bx,
         mc_prime_by,
         mc_prime_bz,
-        f_g_bx,
-        f_g_by,
-        f_g_bz,
-        f_w_bx,
-        f_w_by,
-        f_w_bz,
+        mc_dprime_g_bx,
+        mc_dprime_g_by,
+        mc_dprime_g_bz,
+        mc_dprime_w_bx,
+        mc_dprime_w_by,
+        mc_dprime_w_bz,
         f_tilde_bx,
         f_tilde_by,
         f_tilde_bz,
+    }
+}
+
+/// What the hub takes over of a device: mass, and what does not notice that the joints
+/// move.
+///
+/// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
+#[must_use]
+pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
+    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², along B axes.
+    let hand_m = p.m_d;
+    let hand_mr_bx = p.hand_mr_bx;
+    let hand_mr_by = p.hand_mr_by;
+    let hand_mr_bz = p.hand_mr_bz;
+    let hand_i_11 = p.hand_i_11;
+    let hand_i_12 = p.hand_i_12;
+    let hand_i_13 = p.hand_i_13;
+    let hand_i_22 = p.hand_i_22;
+    let hand_i_23 = p.hand_i_23;
+    let hand_i_33 = p.hand_i_33;
+
+    Handed {
+        hand_m,
+        hand_mr_bx,
+        hand_mr_by,
+        hand_mr_bz,
+        hand_i_11,
+        hand_i_12,
+        hand_i_13,
+        hand_i_22,
+        hand_i_23,
+        hand_i_33,
     }
 }
 
@@ -1188,7 +1523,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 305 mul, 267 add, 18 neg, 2 div, 0 trig.
+/// Operations: 293 mul, 222 add, 1 neg, 2 div, 0 trig.
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1198,212 +1533,203 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
+    // Axes of the gimbal, eq. (A1), along B axes, 1.
+    let e_x_bx = q.cos_gamma * p.mount_11 + q.sin_gamma * p.mount_12;
+    let e_x_by = q.cos_gamma * p.mount_21 + q.sin_gamma * p.mount_22;
+    let e_x_bz = q.cos_gamma * p.mount_31 + q.sin_gamma * p.mount_32;
+    let e_y_bx = q.cos_gamma * p.mount_12 - q.sin_gamma * p.mount_11;
+    let e_y_by = q.cos_gamma * p.mount_22 - q.sin_gamma * p.mount_21;
+    let e_y_bz = q.cos_gamma * p.mount_32 - q.sin_gamma * p.mount_31;
+
+    // ω_{B/N} along the axes of the gimbal, eq. (C1), rad/s.
+    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
+    let omega_b_n_gx = rate_0 + w.omega_bz * e_x_bz;
+    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
+    let omega_b_n_gy = rate_1 + w.omega_bz * e_y_bz;
+    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
+    let omega_b_n_gz = rate_2 + w.omega_bz * p.mount_33;
+
     // ω_{G/N}, eq. (31), along its own axes, rad/s.
-    let omega_g_n_gx = w.omega_bx * q.cos_gamma + w.omega_by * q.sin_gamma;
-    let omega_g_n_gy = w.omega_by * q.cos_gamma - w.omega_bx * q.sin_gamma;
-    let omega_g_n_gz = w.omega_bz + v.gamma_dot;
+    let omega_g_n_gz = v.gamma_dot + omega_b_n_gz;
 
     // Its derivative as in eq. (34), no joint accelerating, along the same axes, rad/s².
-    let turn_0 = v.gamma_dot * q.cos_gamma;
-    let turn_1 = v.gamma_dot * q.sin_gamma;
-    let omega_g_n_rest_gx = w.omega_by * turn_0 - w.omega_bx * turn_1;
-    let neg_omega_g_n_rest_gy = w.omega_by * turn_1 + w.omega_bx * turn_0;
+    let alpha_g_gx = v.gamma_dot * omega_b_n_gy;
+    let neg_alpha_g_gy = v.gamma_dot * omega_b_n_gx;
 
-    // Acceleration of G relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_by * p.r_g_b_bz - w.omega_bz * p.r_g_b_by;
-    let path_1 = w.omega_bz * p.r_g_b_bx - w.omega_bx * p.r_g_b_bz;
-    let path_2 = w.omega_bx * p.r_g_b_by - w.omega_by * p.r_g_b_bx;
-    let path_3 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_4 = w.omega_bz * path_0 - w.omega_bx * path_2;
-    let r_g_rest_gx = q.cos_gamma * path_3 + q.sin_gamma * path_4;
-    let r_g_rest_gy = q.cos_gamma * path_4 - q.sin_gamma * path_3;
-    let r_g_rest_gz = w.omega_bx * path_1 - w.omega_by * path_0;
+    // Acceleration of W as the gimbal carries it, eq. (C1), along the gimbal's axes, m/s².
+    let path_0 = omega_b_n_gx * omega_b_n_gx;
+    let path_1 = omega_g_n_gz * omega_g_n_gz;
+    let neg_r_w_rest_gy = p.l_g_y * (path_0 + path_1);
+    let path_2 = omega_b_n_gy * omega_g_n_gz;
+    let r_w_rest_gz = p.l_g_y * (alpha_g_gx + path_2);
 
-    // ω_{W/N}, eq. (59), along its own axes, rad/s.
-    let omega_w_n_wx = v.spin + omega_g_n_gx;
-    let omega_w_n_wy = q.cos_theta * omega_g_n_gy + q.sin_theta * omega_g_n_gz;
-    let omega_w_n_wz = q.cos_theta * omega_g_n_gz - q.sin_theta * omega_g_n_gy;
+    // What lies behind the wheel's joint, of W, by base parameters, eqs. (B1), (B2): first
+    // moment, kg m, and inertia, kg m².
+    let mr_behind_w_gy = q.cos_theta * p.mr_wc_w_wy;
+    let mr_behind_w_gz = q.sin_theta * p.mr_wc_w_wy;
+    let i_behind_w_12 = q.cos_theta * p.i_w_base_12 - q.sin_theta * p.j_13;
+    let i_behind_w_13 = q.cos_theta * p.j_13 + q.sin_theta * p.i_w_base_12;
+    let lump_0 = q.cos_theta * p.k_2 + q.sin_theta * p.i_w_base_22;
+    let i_behind_w_33 = q.sin_theta * lump_0;
+    let i_behind_w_22 = p.i_w_base_22 - i_behind_w_33;
+    let i_behind_w_23 = p.k_3 + q.cos_theta * lump_0;
 
-    // Its derivative as in eq. (62), no joint accelerating, along the same axes, rad/s².
-    let turn_2 = v.spin * q.cos_theta;
-    let turn_3 = v.spin * q.sin_theta;
-    let turn_4 = q.cos_theta * neg_omega_g_n_rest_gy;
-    let omega_w_n_rest_wy = turn_2 * omega_g_n_gz - (turn_3 * omega_g_n_gy + turn_4);
-    let turn_5 = q.sin_theta * neg_omega_g_n_rest_gy;
-    let turn_6 = turn_2 * omega_g_n_gy - turn_5;
-    let neg_omega_w_n_rest_wz = turn_6 + turn_3 * omega_g_n_gz;
-
-    // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_5 = p.l_g_x * omega_g_n_gz - p.l_g_z * omega_g_n_gx;
-    let path_6 = p.l_g_y * omega_g_n_gx - p.l_g_x * omega_g_n_gy;
-    let path_7 = omega_g_n_gy * path_6 - omega_g_n_gz * path_5;
-    let r_w_rest_wx = path_7 - p.l_g_z * neg_omega_g_n_rest_gy + r_g_rest_gx;
-    let path_8 = p.l_g_z * omega_g_n_gy - p.l_g_y * omega_g_n_gz;
-    let path_9 = omega_g_n_gz * path_8 - omega_g_n_gx * path_6;
-    let path_10 = path_9 - p.l_g_z * omega_g_n_rest_gx + r_g_rest_gy;
-    let path_11 = p.l_g_y * omega_g_n_rest_gx + p.l_g_x * neg_omega_g_n_rest_gy;
-    let path_12 = omega_g_n_gx * path_5 - omega_g_n_gy * path_8 + path_11;
-    let path_13 = path_12 + r_g_rest_gz;
-    let r_w_rest_wy = q.cos_theta * path_10 + q.sin_theta * path_13;
-    let r_w_rest_wz = q.cos_theta * path_13 - q.sin_theta * path_10;
-
-    // W with no joint accelerating, eq. (117): force, N, and moment about W, N m.
-    let bias_0 = p.mr_wc_w_wy * omega_w_n_wx;
-    let bias_1 = omega_w_n_wy * bias_0 + p.mr_wc_w_wy * neg_omega_w_n_rest_wz;
-    let f_rest_wx = bias_1 + p.m_w * r_w_rest_wx;
-    let bias_2 = p.mr_wc_w_wy * omega_w_n_wz;
-    let bias_3 = omega_w_n_wz * bias_2 + omega_w_n_wx * bias_0;
-    let f_rest_wy = p.m_w * r_w_rest_wy - bias_3;
-    let bias_4 = omega_w_n_wy * bias_2 + p.mr_wc_w_wy * omega_g_n_rest_gx;
-    let f_rest_wz = bias_4 + p.m_w * r_w_rest_wz;
-    let bias_5 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
-    let bias_6 = bias_5 + p.j_23 * omega_w_n_wz;
-    let bias_7 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
-    let bias_8 = bias_7 + p.i_w_w_33 * omega_w_n_wz;
-    let bias_9 = p.i_w_w_11 * omega_g_n_rest_gx + p.j_12 * omega_w_n_rest_wy;
-    let bias_10 = omega_w_n_wy * bias_8 - omega_w_n_wz * bias_6;
-    let bias_11 = bias_10 + (bias_9 - p.j_13 * neg_omega_w_n_rest_wz);
-    let n_rest_wx = bias_11 + p.mr_wc_w_wy * r_w_rest_wz;
-    let bias_12 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
-    let bias_13 = bias_12 + p.j_13 * omega_w_n_wz;
-    let bias_14 = p.j_12 * omega_g_n_rest_gx + p.j_22 * omega_w_n_rest_wy;
-    let bias_15 = omega_w_n_wz * bias_13 - omega_w_n_wx * bias_8;
-    let n_rest_wy = bias_15 + (bias_14 - p.j_23 * neg_omega_w_n_rest_wz);
-    let bias_16 = p.j_13 * omega_g_n_rest_gx + p.j_23 * omega_w_n_rest_wy;
-    let bias_17 = omega_w_n_wx * bias_6 - omega_w_n_wy * bias_13;
-    let bias_18 = bias_17 + (bias_16 - p.i_w_w_33 * neg_omega_w_n_rest_wz);
-    let n_rest_wz = bias_18 - p.mr_wc_w_wy * r_w_rest_wx;
-
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m.
+    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_ww = p.i_w_w_11;
-    let u_rest_w = n_rest_wx;
+    let row_0 = omega_b_n_gy * omega_b_n_gy;
+    let row_1 = omega_b_n_gx * omega_b_n_gy;
+    let row_2 = i_behind_w_22 - i_behind_w_33;
+    let row_3 = (neg_alpha_g_gy + omega_b_n_gx * omega_g_n_gz) * i_behind_w_12;
+    let row_4 = row_1 * i_behind_w_13 - row_3 + p.i_w_w_11 * alpha_g_gx;
+    let row_5 = mr_behind_w_gy * r_w_rest_gz + mr_behind_w_gz * neg_r_w_rest_gy;
+    let row_6 = row_4 + (i_behind_w_23 * (row_0 - path_1) - path_2 * row_2);
+    let field_w = row_5 + row_6;
 
-    // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
-    // m², about G.
-    let f_w_gz = q.cos_theta * p.mr_wc_w_wy;
-    let mr_d_g_gy = f_w_gz + p.k_8 + p.mr_gc_g_gy;
-    let neg_f_w_gy = q.sin_theta * p.mr_wc_w_wy;
-    let mr_d_g_gz = neg_f_w_gy + p.k_9 + p.mr_gc_g_gz;
-    let lump_0 = p.l_g_y * f_w_gz;
-    let lump_1 = p.l_g_z * neg_f_w_gy;
-    let lump_2 = lump_0 + lump_1;
-    let lump_3 = lump_2 + lump_2;
-    let i_d_g_11 = p.i_w_w_11 + lump_3 + p.k_2 + p.i_g_g_11;
-    let n_w_gy = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.l_g_x * f_w_gz;
-    let i_d_g_12 = n_w_gy + p.k_3 + p.i_g_g_12;
-    let n_w_gz = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.l_g_x * neg_f_w_gy;
-    let i_d_g_13 = n_w_gz + p.k_4 + p.i_g_g_13;
-    let lump_4 = q.cos_theta * p.j_22 - q.sin_theta * p.j_23;
-    let lump_5 = q.cos_theta * p.j_23 - q.sin_theta * p.i_w_w_33;
-    let lump_6 = q.cos_theta * lump_4 - q.sin_theta * lump_5;
-    let i_d_g_22 = lump_3 - (lump_0 + lump_0) + lump_6 + p.k_5 + p.i_g_g_22;
-    let lump_7 = q.cos_theta * lump_5 + q.sin_theta * lump_4;
-    let lump_8 = lump_7 - (p.l_g_y * neg_f_w_gy + p.l_g_z * f_w_gz) + p.k_6;
-    let i_d_g_23 = lump_8 + p.i_g_g_23;
-    let i_d_g_33 = p.k_1 - lump_6 + (lump_3 - (lump_1 + lump_1)) + p.k_7 + p.i_g_g_33;
+    // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
+    let coriolis_0 = v.spin * omega_b_n_gy;
+    let coriolis_1 = v.spin * omega_g_n_gz;
+    let coriolis_2 = mr_behind_w_gy * coriolis_0 + mr_behind_w_gz * coriolis_1;
+    let f_rates_w_gx = coriolis_2 + coriolis_2;
+    let coriolis_3 = v.spin * (v.spin + omega_b_n_gx + omega_b_n_gx);
+    let neg_f_rates_w_gy = mr_behind_w_gy * coriolis_3;
+    let coriolis_4 = mr_behind_w_gz * coriolis_3;
+    let f_rates_w_gz = -coriolis_4;
+    let coriolis_5 = i_behind_w_23 + i_behind_w_23;
+    let coriolis_6 = coriolis_1 * (p.i_w_w_11 + row_2) - coriolis_0 * coriolis_5;
+    let n_rates_w_gy = coriolis_6 - i_behind_w_13 * coriolis_3;
+    let coriolis_7 = i_behind_w_12 * coriolis_3 + coriolis_1 * coriolis_5;
+    let n_rates_w_gz = coriolis_7 - coriolis_0 * (p.i_w_w_11 - row_2);
 
-    // D with no joint accelerating, eq. (78): force, N, and moment about G, N m.
-    let bias_19 = p.mr_gc_g_gx * omega_g_n_gz - p.mr_gc_g_gz * omega_g_n_gx;
-    let bias_20 = p.mr_gc_g_gy * omega_g_n_gx - p.mr_gc_g_gx * omega_g_n_gy;
-    let bias_21 = omega_g_n_gy * bias_20 - omega_g_n_gz * bias_19;
-    let bias_22 = bias_21 - p.mr_gc_g_gz * neg_omega_g_n_rest_gy;
-    let f_rest_gx = bias_22 + p.m_g * r_g_rest_gx + f_rest_wx;
-    let bias_23 = q.cos_theta * f_rest_wy - q.sin_theta * f_rest_wz;
-    let bias_24 = p.mr_gc_g_gz * omega_g_n_gy - p.mr_gc_g_gy * omega_g_n_gz;
-    let bias_25 = omega_g_n_gz * bias_24 - omega_g_n_gx * bias_20;
-    let bias_26 = bias_25 - p.mr_gc_g_gz * omega_g_n_rest_gx + p.m_g * r_g_rest_gy;
-    let f_rest_gy = bias_26 + bias_23;
-    let bias_27 = q.cos_theta * f_rest_wz + q.sin_theta * f_rest_wy;
-    let bias_28 = p.mr_gc_g_gx * neg_omega_g_n_rest_gy;
-    let bias_29 = omega_g_n_gx * bias_19 - omega_g_n_gy * bias_24;
-    let bias_30 = bias_29 + (p.mr_gc_g_gy * omega_g_n_rest_gx + bias_28);
-    let f_rest_gz = bias_30 + p.m_g * r_g_rest_gz + bias_27;
-    let bias_31 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
-    let bias_32 = bias_31 + p.i_g_g_23 * omega_g_n_gz;
-    let bias_33 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
-    let bias_34 = bias_33 + p.i_g_g_33 * omega_g_n_gz;
-    let bias_35 = p.i_g_g_12 * neg_omega_g_n_rest_gy;
-    let bias_36 = omega_g_n_gy * bias_34 - omega_g_n_gz * bias_32;
-    let bias_37 = p.mr_gc_g_gy * r_g_rest_gz - p.mr_gc_g_gz * r_g_rest_gy;
-    let bias_38 = bias_36 + (p.i_g_g_11 * omega_g_n_rest_gx - bias_35) + bias_37;
-    let n_rest_gx = p.l_g_y * bias_27 - p.l_g_z * bias_23 + n_rest_wx + bias_38;
-    let bias_39 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
-    let bias_40 = bias_39 + p.i_g_g_13 * omega_g_n_gz;
-    let bias_41 = q.cos_theta * n_rest_wy - q.sin_theta * n_rest_wz;
-    let bias_42 = p.i_g_g_22 * neg_omega_g_n_rest_gy;
-    let bias_43 = omega_g_n_gz * bias_40 - omega_g_n_gx * bias_34;
-    let bias_44 = p.mr_gc_g_gz * r_g_rest_gx - p.mr_gc_g_gx * r_g_rest_gz;
-    let bias_45 = bias_43 + (p.i_g_g_12 * omega_g_n_rest_gx - bias_42) + bias_44;
-    let n_rest_gy = bias_41 + (p.l_g_z * f_rest_wx - p.l_g_x * bias_27) + bias_45;
-    let bias_46 = q.cos_theta * n_rest_wz + q.sin_theta * n_rest_wy;
-    let bias_47 = p.i_g_g_23 * neg_omega_g_n_rest_gy;
-    let bias_48 = omega_g_n_gx * bias_32 - omega_g_n_gy * bias_40;
-    let bias_49 = p.mr_gc_g_gx * r_g_rest_gy - p.mr_gc_g_gy * r_g_rest_gx;
-    let bias_50 = bias_48 + (p.i_g_g_13 * omega_g_n_rest_gx - bias_47) + bias_49;
-    let n_rest_gz = bias_46 + (p.l_g_x * bias_23 - p.l_g_y * f_rest_wx) + bias_50;
+    // What lies behind the gimbal's joint, of D, by base parameters, eqs. (B1), (B2): first
+    // moment, kg m, and inertia, kg m².
+    let mr_behind_d_gy = mr_behind_w_gy + p.mr_g_base_gy;
+    let lump_1 = mr_behind_w_gy * p.k_4;
+    let i_behind_d_11 = p.i_w_w_11 + lump_1 + p.i_g_base_11;
+    let i_behind_d_12 = p.i_g_base_12 + i_behind_w_12;
+    let i_behind_d_13 = p.i_g_base_13 + i_behind_w_13;
+    let i_behind_d_23 = i_behind_w_23 - p.l_g_y * mr_behind_w_gz + p.i_g_base_23;
+    let i_behind_d_33 = lump_1 + i_behind_w_33 + p.i_g_base_33;
 
-    // Force, kg m, and moment about G, kg m², per unit acceleration of each joint from here on,
-    // eqs. (17), (78).
-    let n_w_gx = p.i_w_w_11 + lump_2;
+    // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    let mass_gg = i_behind_d_33;
+    let mass_gw = i_behind_w_13;
+    let n_rates_g_gz = n_rates_w_gz - p.l_g_y * f_rates_w_gx;
+    let row_7 = i_behind_d_11 - i_behind_w_22;
+    let row_8 = omega_b_n_gy * omega_b_n_gz * i_behind_d_13;
+    let row_9 = omega_b_n_gx * omega_b_n_gz * i_behind_d_23 - row_8;
+    let row_10 = row_9 + (i_behind_d_12 * (path_0 - row_0) - row_1 * row_7);
+    let field_g = row_10 + n_rates_g_gz;
 
-    // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m.
-    let mass_gg = i_d_g_33;
-    let mass_gw = n_w_gz;
-    let u_rest_g = n_rest_gz;
-
-    // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * mr_d_g_gy;
-    let mr_d_b_bx = f_g_by + p.k_16;
-    let moment_0 = q.cos_gamma * mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
-    let mr_d_b_by = moment_0 + p.k_17;
-    let mr_d_b_bz = mr_d_g_gz + p.k_18;
-    let moment_1 = q.cos_gamma * i_d_g_11 - q.sin_gamma * i_d_g_12;
-    let moment_2 = q.cos_gamma * i_d_g_12 - q.sin_gamma * i_d_g_22;
-    let moment_3 = q.cos_gamma * moment_1 - q.sin_gamma * moment_2;
-    let moment_4 = p.r_g_b_bx * f_g_by;
-    let moment_5 = p.r_g_b_by * moment_0;
-    let moment_6 = moment_4 + moment_5;
-    let moment_7 = p.r_g_b_bz * mr_d_g_gz;
-    let moment_8 = moment_6 + moment_7;
-    let moment_9 = moment_8 + moment_8;
-    let i_d_b_11 = moment_9 - (moment_4 + moment_4) + moment_3 + p.k_10;
-    let moment_10 = q.cos_gamma * moment_2 + q.sin_gamma * moment_1;
-    let i_d_b_12 = moment_10 - (p.r_g_b_bx * moment_0 + p.r_g_b_by * f_g_by) + p.k_11;
-    let moment_11 = q.cos_gamma * i_d_g_13 - q.sin_gamma * i_d_g_23;
-    let moment_12 = p.r_g_b_bz * f_g_by;
-    let i_d_b_13 = moment_11 - (p.r_g_b_bx * mr_d_g_gz + moment_12) + p.k_12;
-    let moment_13 = moment_9 - (moment_5 + moment_5);
-    let i_d_b_22 = i_d_g_11 + i_d_g_22 - moment_3 + moment_13 + p.k_13;
-    let moment_14 = q.cos_gamma * i_d_g_23 + q.sin_gamma * i_d_g_13;
-    let moment_15 = p.r_g_b_bz * moment_0;
-    let i_d_b_23 = moment_14 - (p.r_g_b_by * mr_d_g_gz + moment_15) + p.k_14;
-    let i_d_b_33 = moment_9 - (moment_7 + moment_7) + i_d_g_33 + p.k_15;
+    // Force, N, and moment, N m, that the joints' rates from the gimbal's on ask for, eq. (C2).
+    let coriolis_8 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
+    let f_rates_g_gx = f_rates_w_gx - p.mr_d_g_gx * coriolis_8;
+    let neg_f_rates_g_gy = neg_f_rates_w_gy + mr_behind_d_gy * coriolis_8;
+    let coriolis_9 = p.mr_d_g_gx * neg_alpha_g_gy + alpha_g_gx * mr_behind_d_gy;
+    let f_rates_g_gz = coriolis_9 + coriolis_9 + f_rates_w_gz;
+    let coriolis_10 = i_behind_d_12 + i_behind_d_12;
+    let coriolis_11 = alpha_g_gx * (i_behind_d_33 + row_7);
+    let coriolis_12 = coriolis_11 - neg_alpha_g_gy * coriolis_10;
+    let coriolis_13 = coriolis_12 - i_behind_d_23 * coriolis_8;
+    let n_rates_g_gx = coriolis_13 - p.l_g_y * coriolis_4;
+    let coriolis_14 = i_behind_d_13 * coriolis_8 + alpha_g_gx * coriolis_10;
+    let coriolis_15 = coriolis_14 - neg_alpha_g_gy * (i_behind_d_33 - row_7);
+    let n_rates_g_gy = coriolis_15 + n_rates_w_gy;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration.
-    let f_g_bx = -moment_0;
-    let n_g_bx = moment_11 - moment_12;
-    let n_g_by = moment_14 - moment_15;
-    let n_g_bz = i_d_g_33 + moment_6;
-    let f_w_bx = q.sin_gamma * neg_f_w_gy;
-    let col_0 = q.cos_gamma * neg_f_w_gy;
-    let f_w_by = -col_0;
-    let f_w_bz = f_w_gz;
-    let col_1 = q.cos_gamma * n_w_gx - q.sin_gamma * n_w_gy;
-    let n_w_bx = col_1 + (p.r_g_b_by * f_w_gz + p.r_g_b_bz * col_0);
-    let col_2 = q.cos_gamma * n_w_gy + q.sin_gamma * n_w_gx;
-    let n_w_by = col_2 + (p.r_g_b_bz * f_w_bx - p.r_g_b_bx * f_w_gz);
-    let n_w_bz = n_w_gz - (p.r_g_b_bx * col_0 + p.r_g_b_by * f_w_bx);
+    // acceleration, along B axes.
+    let f_g_bx = p.mr_d_g_gx * e_y_bx - e_x_bx * mr_behind_d_gy;
+    let f_g_by = p.mr_d_g_gx * e_y_by - e_x_by * mr_behind_d_gy;
+    let f_g_bz = p.mr_d_g_gx * e_y_bz - e_x_bz * mr_behind_d_gy;
+    let col_0 = e_x_bx * i_behind_d_13 + e_y_bx * i_behind_d_23;
+    let col_1 = col_0 + p.mount_13 * i_behind_d_33;
+    let n_g_bx = p.reach_by * f_g_bz - p.reach_bz * f_g_by + col_1;
+    let col_2 = e_x_by * i_behind_d_13 + e_y_by * i_behind_d_23;
+    let col_3 = col_2 + p.mount_23 * i_behind_d_33;
+    let n_g_by = p.reach_bz * f_g_bx - p.reach_bx * f_g_bz + col_3;
+    let col_4 = e_x_bz * i_behind_d_13 + e_y_bz * i_behind_d_23;
+    let col_5 = col_4 + p.mount_33 * i_behind_d_33;
+    let n_g_bz = p.reach_bx * f_g_by - p.reach_by * f_g_bx + col_5;
+    let f_w_bx = p.mount_13 * mr_behind_w_gy - mr_behind_w_gz * e_y_bx;
+    let f_w_by = p.mount_23 * mr_behind_w_gy - mr_behind_w_gz * e_y_by;
+    let f_w_bz = p.mount_33 * mr_behind_w_gy - mr_behind_w_gz * e_y_bz;
+    let col_6 = p.i_w_w_11 + p.l_g_y * mr_behind_w_gy;
+    let col_7 = e_x_bx * col_6 + e_y_bx * i_behind_w_12 + p.mount_13 * i_behind_w_13;
+    let n_w_bx = col_7 + (p.reach_by * f_w_bz - p.reach_bz * f_w_by);
+    let col_8 = e_x_by * col_6 + e_y_by * i_behind_w_12 + p.mount_23 * i_behind_w_13;
+    let n_w_by = col_8 + (p.reach_bz * f_w_bx - p.reach_bx * f_w_bz);
+    let col_9 = e_x_bz * col_6 + e_y_bz * i_behind_w_12 + p.mount_33 * i_behind_w_13;
+    let n_w_bz = col_9 + (p.reach_bx * f_w_by - p.reach_by * f_w_bx);
 
-    // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = q.cos_gamma * f_rest_gx - q.sin_gamma * f_rest_gy;
-    let f_rest_by = q.cos_gamma * f_rest_gy + q.sin_gamma * f_rest_gx;
-    let f_rest_bz = f_rest_gz;
-    let bias_51 = q.cos_gamma * n_rest_gx - q.sin_gamma * n_rest_gy;
-    let n_rest_bx = bias_51 + (p.r_g_b_by * f_rest_gz - p.r_g_b_bz * f_rest_by);
-    let bias_52 = q.cos_gamma * n_rest_gy + q.sin_gamma * n_rest_gx;
-    let n_rest_by = bias_52 + (p.r_g_b_bz * f_rest_bx - p.r_g_b_bx * f_rest_gz);
-    let n_rest_bz = p.r_g_b_bx * f_rest_by - p.r_g_b_by * f_rest_bx + n_rest_gz;
+    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
+    // (76), kg m².
+    let moment_0 = p.mr_d_g_gx * e_x_bx + e_y_bx * mr_behind_d_gy;
+    let mr_moving_bx = moment_0 + p.mount_13 * mr_behind_w_gz;
+    let moment_1 = p.mr_d_g_gx * e_x_by + e_y_by * mr_behind_d_gy;
+    let mr_moving_by = moment_1 + p.mount_23 * mr_behind_w_gz;
+    let moment_2 = p.mr_d_g_gx * e_x_bz + e_y_bz * mr_behind_d_gy;
+    let mr_moving_bz = moment_2 + p.mount_33 * mr_behind_w_gz;
+    let half = q.sin_gamma.like(0.5);
+    let moment_3 = half * row_7;
+    let moment_4 = e_x_bx * moment_3 + e_y_bx * i_behind_d_12;
+    let moment_5 = half * (i_behind_w_22 + i_behind_d_33);
+    let moment_6 = col_1 - p.mount_13 * moment_5;
+    let moment_7 = e_x_bx * moment_4 + p.mount_13 * moment_6;
+    let moment_8 = mr_moving_by * p.k_27;
+    let moment_9 = mr_moving_bz * p.k_28;
+    let i_moving_11 = moment_7 + moment_7 + i_behind_w_22 + (moment_8 + moment_9);
+    let moment_10 = e_x_by * moment_3 + e_y_by * i_behind_d_12;
+    let moment_11 = col_3 - p.mount_23 * moment_5;
+    let moment_12 = e_x_bx * moment_10 + p.mount_13 * moment_11;
+    let moment_13 = moment_12 + (e_x_by * moment_4 + p.mount_23 * moment_6);
+    let moment_14 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
+    let i_moving_12 = moment_13 - moment_14;
+    let moment_15 = e_x_bz * moment_3 + e_y_bz * i_behind_d_12;
+    let moment_16 = col_5 - p.mount_33 * moment_5;
+    let moment_17 = e_x_bx * moment_15 + p.mount_13 * moment_16;
+    let moment_18 = moment_17 + (e_x_bz * moment_4 + p.mount_33 * moment_6);
+    let moment_19 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
+    let i_moving_13 = moment_18 - moment_19;
+    let moment_20 = e_x_by * moment_10 + p.mount_23 * moment_11;
+    let moment_21 = mr_moving_bx * p.k_26;
+    let i_moving_22 = moment_20 + moment_20 + i_behind_w_22 + (moment_21 + moment_9);
+    let moment_22 = e_x_bz * moment_10 + p.mount_33 * moment_11;
+    let moment_23 = e_x_by * moment_15 + p.mount_23 * moment_16 + moment_22;
+    let moment_24 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let i_moving_23 = moment_23 - moment_24;
+    let moment_25 = e_x_bz * moment_15 + p.mount_33 * moment_16;
+    let i_moving_33 = moment_25 + moment_25 + i_behind_w_22 + (moment_21 + moment_8);
+
+    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
+    // N and N m.
+    let bias_0 = e_x_bx * f_rates_g_gx - e_y_bx * neg_f_rates_g_gy;
+    let f_rates_bx = bias_0 + p.mount_13 * f_rates_g_gz;
+    let bias_1 = e_x_by * f_rates_g_gx - e_y_by * neg_f_rates_g_gy;
+    let f_rates_by = bias_1 + p.mount_23 * f_rates_g_gz;
+    let bias_2 = e_x_bz * f_rates_g_gx - e_y_bz * neg_f_rates_g_gy;
+    let f_rates_bz = bias_2 + p.mount_33 * f_rates_g_gz;
+    let bias_3 = e_x_bx * n_rates_g_gx + e_y_bx * n_rates_g_gy;
+    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
+    let n_rates_bx = bias_3 + p.mount_13 * n_rates_g_gz + bias_4;
+    let bias_5 = e_x_by * n_rates_g_gx + e_y_by * n_rates_g_gy;
+    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
+    let n_rates_by = bias_5 + p.mount_23 * n_rates_g_gz + bias_6;
+    let bias_7 = e_x_bz * n_rates_g_gx + e_y_bz * n_rates_g_gy;
+    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
+    let n_rates_bz = bias_7 + p.mount_33 * n_rates_g_gz + bias_8;
+
+    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
+    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
+    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
+    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
+    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
+    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+
+    // Bias of each joint with it, eq. (C3).
+    let bias_9 = f_g_bx * r_first_rest_bx + f_g_by * r_first_rest_by;
+    let u_rest_g = bias_9 + f_g_bz * r_first_rest_bz + field_g;
+    let bias_10 = f_w_bx * r_first_rest_bx + f_w_by * r_first_rest_by;
+    let u_rest_w = bias_10 + f_w_bz * r_first_rest_bz + field_w;
 
     // Right side of each joint, eqs. (80), (119): motor torque less what the rest asks for, N m.
     let tau_g = u.u_g - u_rest_g;
@@ -1424,7 +1750,7 @@ pub fn eliminate<T: Real>(
     // Joint w taken out of the rows nearer the hub, eq. (E2).
     let f_g_bx_w = f_g_bx - f_w_bx * gain_w_g;
     let f_g_by_w = f_g_by - f_w_by * gain_w_g;
-    let f_g_bz_w = -(f_w_bz * gain_w_g);
+    let f_g_bz_w = f_g_bz - f_w_bz * gain_w_g;
     let n_g_bx_w = n_g_bx - n_w_bx * gain_w_g;
     let n_g_by_w = n_g_by - n_w_by * gain_w_g;
     let n_g_bz_w = n_g_bz - n_w_bz * gain_w_g;
@@ -1442,40 +1768,40 @@ pub fn eliminate<T: Real>(
     let gain_g_w3 = n_g_bz_w * recip_g;
     let free_g = m.given_g + tau_g_w * recip_g;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_d - f_w_bx * gain_w_v1 - f_g_bx_w * gain_g_v1;
-    let m_vv_12 = -(f_w_by * gain_w_v1 + f_g_by_w * gain_g_v1);
-    let m_vv_13 = -(f_w_bz * gain_w_v1 + f_g_bz_w * gain_g_v1);
-    let m_vv_22 = p.m_d - f_w_by * gain_w_v2 - f_g_by_w * gain_g_v2;
-    let m_vv_23 = -(f_w_bz * gain_w_v2 + f_g_bz_w * gain_g_v2);
-    let m_vv_33 = p.m_d - f_w_bz * gain_w_v3 - f_g_bz_w * gain_g_v3;
+    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    let m_vv_11 = f_w_bx * gain_w_v1 + f_g_bx_w * gain_g_v1;
+    let m_vv_12 = f_w_by * gain_w_v1 + f_g_by_w * gain_g_v1;
+    let m_vv_13 = f_w_bz * gain_w_v1 + f_g_bz_w * gain_g_v1;
+    let m_vv_22 = f_w_by * gain_w_v2 + f_g_by_w * gain_g_v2;
+    let m_vv_23 = f_w_bz * gain_w_v2 + f_g_bz_w * gain_g_v2;
+    let m_vv_33 = f_w_bz * gain_w_v3 + f_g_bz_w * gain_g_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = -(n_w_bx * gain_w_v1 + n_g_bx_w * gain_g_v1);
-    let m_vw_12 = mr_d_b_bz - n_w_by * gain_w_v1 - n_g_by_w * gain_g_v1;
-    let m_vw_13 = -(mr_d_b_by + n_w_bz * gain_w_v1 + n_g_bz_w * gain_g_v1);
-    let m_vw_21 = -(mr_d_b_bz + n_w_bx * gain_w_v2 + n_g_bx_w * gain_g_v2);
-    let m_vw_22 = -(n_w_by * gain_w_v2 + n_g_by_w * gain_g_v2);
-    let m_vw_23 = mr_d_b_bx - n_w_bz * gain_w_v2 - n_g_bz_w * gain_g_v2;
-    let m_vw_31 = mr_d_b_by - n_w_bx * gain_w_v3 - n_g_bx_w * gain_g_v3;
-    let m_vw_32 = -(mr_d_b_bx + n_w_by * gain_w_v3 + n_g_by_w * gain_g_v3);
-    let m_vw_33 = -(n_w_bz * gain_w_v3 + n_g_bz_w * gain_g_v3);
+    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    let m_vw_11 = n_w_bx * gain_w_v1 + n_g_bx_w * gain_g_v1;
+    let m_vw_12 = n_w_by * gain_w_v1 + n_g_by_w * gain_g_v1;
+    let m_vw_13 = n_w_bz * gain_w_v1 + n_g_bz_w * gain_g_v1;
+    let m_vw_21 = n_w_bx * gain_w_v2 + n_g_bx_w * gain_g_v2;
+    let m_vw_22 = n_w_by * gain_w_v2 + n_g_by_w * gain_g_v2;
+    let m_vw_23 = n_w_bz * gain_w_v2 + n_g_bz_w * gain_g_v2;
+    let m_vw_31 = n_w_bx * gain_w_v3 + n_g_bx_w * gain_g_v3;
+    let m_vw_32 = n_w_by * gain_w_v3 + n_g_by_w * gain_g_v3;
+    let m_vw_33 = n_w_bz * gain_w_v3 + n_g_bz_w * gain_g_v3;
 
-    // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_w_bx * gain_w_w1 - n_g_bx_w * gain_g_w1;
-    let m_ww_12 = i_d_b_12 - n_w_by * gain_w_w1 - n_g_by_w * gain_g_w1;
-    let m_ww_13 = i_d_b_13 - n_w_bz * gain_w_w1 - n_g_bz_w * gain_g_w1;
-    let m_ww_22 = i_d_b_22 - n_w_by * gain_w_w2 - n_g_by_w * gain_g_w2;
-    let m_ww_23 = i_d_b_23 - n_w_bz * gain_w_w2 - n_g_bz_w * gain_g_w2;
-    let m_ww_33 = i_d_b_33 - n_w_bz * gain_w_w3 - n_g_bz_w * gain_g_w3;
+    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    let m_ww_11 = n_w_bx * gain_w_w1 + n_g_bx_w * gain_g_w1;
+    let m_ww_12 = n_w_by * gain_w_w1 + n_g_by_w * gain_g_w1;
+    let m_ww_13 = n_w_bz * gain_w_w1 + n_g_bz_w * gain_g_w1;
+    let m_ww_22 = n_w_by * gain_w_w2 + n_g_by_w * gain_g_w2;
+    let m_ww_23 = n_w_bz * gain_w_w2 + n_g_bz_w * gain_g_w2;
+    let m_ww_33 = n_w_bz * gain_w_w3 + n_g_bz_w * gain_g_w3;
 
-    // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + f_w_bx * free_w + f_g_bx_w * free_g);
-    let h_v_2 = -(f_rest_by + f_w_by * free_w + f_g_by_w * free_g);
-    let h_v_3 = -(f_rest_bz + f_w_bz * free_w + f_g_bz_w * free_g);
-    let h_w_1 = -(n_rest_bx + n_w_bx * free_w + n_g_bx_w * free_g);
-    let h_w_2 = -(n_rest_by + n_w_by * free_w + n_g_by_w * free_g);
-    let h_w_3 = -(n_rest_bz + n_w_bz * free_w + n_g_bz_w * free_g);
+    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    let h_v_1 = f_rates_bx + f_w_bx * free_w + f_g_bx_w * free_g;
+    let h_v_2 = f_rates_by + f_w_by * free_w + f_g_by_w * free_g;
+    let h_v_3 = f_rates_bz + f_w_bz * free_w + f_g_bz_w * free_g;
+    let h_w_1 = n_rates_bx + n_w_bx * free_w + n_g_bx_w * free_g;
+    let h_w_2 = n_rates_by + n_w_by * free_w + n_g_by_w * free_g;
+    let h_w_3 = n_rates_bz + n_w_bz * free_w + n_g_bz_w * free_g;
 
     Eliminated {
         share: HubShare {
@@ -1506,6 +1832,15 @@ pub fn eliminate<T: Real>(
             h_w_1,
             h_w_2,
             h_w_3,
+            mr_moving_bx,
+            mr_moving_by,
+            mr_moving_bz,
+            i_moving_11,
+            i_moving_12,
+            i_moving_13,
+            i_moving_22,
+            i_moving_23,
+            i_moving_33,
         },
         pivot_w: mass_ww,
         diagonal_w: mass_ww,
@@ -1587,7 +1922,7 @@ pub fn energy_momentum<T: Real>(
     let mom_8 = q.cos_theta * mom_6 + q.sin_theta * mom_7;
     let p_w_wy = p.m_w * mom_8;
     let mom_9 = q.cos_theta * mom_7 - q.sin_theta * mom_6;
-    let p_w_wz = p.mr_wc_w_wy * omega_w_n_wx + p.m_w * mom_9;
+    let p_w_wz = p.m_w * mom_9 + p.mr_wc_w_wy * omega_w_n_wx;
     let mom_10 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
     let h_w_wx = mom_10 + p.j_13 * omega_w_n_wz + p.mr_wc_w_wy * mom_9;
     let mom_11 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
@@ -1604,13 +1939,13 @@ pub fn energy_momentum<T: Real>(
     let p_g_gz = mom_15 + p.m_g * mom_4;
     let mom_16 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
     let mom_17 = p.mr_gc_g_gy * mom_4 - p.mr_gc_g_gz * mom_5;
-    let h_g_gx = mom_16 + p.i_g_g_13 * omega_g_n_gz + mom_17;
+    let h_g_gx = mom_17 + (mom_16 + p.i_g_g_13 * omega_g_n_gz);
     let mom_18 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
     let mom_19 = p.mr_gc_g_gz * mom_2 - p.mr_gc_g_gx * mom_4;
-    let h_g_gy = mom_18 + p.i_g_g_23 * omega_g_n_gz + mom_19;
+    let h_g_gy = mom_19 + (mom_18 + p.i_g_g_23 * omega_g_n_gz);
     let mom_20 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
     let mom_21 = p.mr_gc_g_gx * mom_5 - p.mr_gc_g_gy * mom_2;
-    let h_g_gz = mom_20 + p.i_g_g_33 * omega_g_n_gz + mom_21;
+    let h_g_gz = mom_21 + (mom_20 + p.i_g_g_33 * omega_g_n_gz);
 
     // Kinetic energy, and momenta as in eq. (20), of the device, along B axes.
     let half = q.sin_gamma.like(0.5);
@@ -1686,7 +2021,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     // W from B, eq. (A2), along B axes, m.
     let origin_w_bx = q.cos_gamma * p.l_g_x - q.sin_gamma * p.l_g_y + p.r_g_b_bx;
     let origin_w_by = q.sin_gamma * p.l_g_x + q.cos_gamma * p.l_g_y + p.r_g_b_by;
-    let origin_w_bz = p.origin_w_bz;
+    let origin_w_bz = p.arm_g_dz;
 
     Axes {
         g_x_bx,
@@ -1960,16 +2295,16 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 146 mul, 154 add, 5 neg, 0 div, 0 trig.
+/// Operations: 130 mul, 141 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (G1), along the axes of the gimbal, 1/s².
-    let field_0 = q.cos_gamma * g.g_11 + q.sin_gamma * g.g_12;
-    let field_1 = q.cos_gamma * g.g_12 + q.sin_gamma * g.g_22;
-    let g_g_11 = q.cos_gamma * field_0 + q.sin_gamma * field_1;
-    let g_g_12 = q.cos_gamma * field_1 - q.sin_gamma * field_0;
+    let field_0 = q.sin_gamma * (g.g_22 - g.g_11) + q.cos_gamma * (g.g_12 + g.g_12);
+    let field_1 = q.sin_gamma * field_0;
+    let g_g_11 = g.g_11 + field_1;
+    let g_g_12 = q.cos_gamma * field_0 - g.g_12;
     let g_g_13 = q.cos_gamma * g.g_13 + q.sin_gamma * g.g_23;
-    let g_g_22 = g.g_11 + g.g_22 - g_g_11;
+    let g_g_22 = g.g_22 - field_1;
     let g_g_23 = q.cos_gamma * g.g_23 - q.sin_gamma * g.g_13;
 
     // G r at G, eq. (G1), along the same axes, m/s².
@@ -1986,24 +2321,25 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_gy = pull_1 + p.mr_gc_g_gz * g_g_23 + p.m_g * g_r_g_gy;
     let pull_2 = p.mr_gc_g_gx * g_g_13 + p.mr_gc_g_gy * g_g_23;
     let f_on_gz = pull_2 + p.mr_gc_g_gz * g.g_33 + p.m_g * g_r_g_gz;
-    let pull_3 = p.i_g_g_12 * g_g_13 - p.i_g_g_13 * g_g_12 + g_g_23 * p.k_19;
-    let pull_4 = p.mr_gc_g_gy * g_r_g_gz - p.mr_gc_g_gz * g_r_g_gy;
-    let n_on_gx = pull_4 - (pull_3 + p.i_g_g_23 * (g.g_33 - g_g_22));
-    let pull_5 = p.i_g_g_23 * g_g_12 - p.i_g_g_12 * g_g_23 + g_g_13 * p.k_20;
-    let pull_6 = p.mr_gc_g_gz * g_r_g_gx - p.mr_gc_g_gx * g_r_g_gz;
-    let n_on_gy = pull_6 - (pull_5 + p.i_g_g_13 * (g_g_11 - g.g_33));
-    let pull_7 = p.i_g_g_13 * g_g_23 - p.i_g_g_23 * g_g_13 + g_g_12 * p.k_21;
-    let pull_8 = p.mr_gc_g_gx * g_r_g_gy - p.mr_gc_g_gy * g_r_g_gx;
-    let n_on_gz = pull_8 - (pull_7 + p.i_g_g_12 * (g_g_22 - g_g_11));
+    let pull_3 = g.g_33 - g_g_22;
+    let pull_4 = p.i_g_g_12 * g_g_13 - p.i_g_g_13 * g_g_12 + g_g_23 * p.k_29;
+    let pull_5 = p.mr_gc_g_gy * g_r_g_gz - p.mr_gc_g_gz * g_r_g_gy;
+    let n_on_gx = pull_5 - (pull_4 + p.i_g_g_23 * pull_3);
+    let pull_6 = p.i_g_g_23 * g_g_12 - p.i_g_g_12 * g_g_23 + g_g_13 * p.k_30;
+    let pull_7 = p.mr_gc_g_gz * g_r_g_gx - p.mr_gc_g_gx * g_r_g_gz;
+    let n_on_gy = pull_7 - (pull_6 + p.i_g_g_13 * (g_g_11 - g.g_33));
+    let pull_8 = p.i_g_g_13 * g_g_23 - p.i_g_g_23 * g_g_13 + g_g_12 * p.k_31;
+    let pull_9 = p.mr_gc_g_gx * g_r_g_gy - p.mr_gc_g_gy * g_r_g_gx;
+    let n_on_gz = pull_9 - (pull_8 + p.i_g_g_12 * (g_g_22 - g_g_11));
 
     // G, as in eq. (G1), along the axes of the wheel, 1/s².
     let g_w_12 = q.cos_theta * g_g_12 + q.sin_theta * g_g_13;
     let g_w_13 = q.cos_theta * g_g_13 - q.sin_theta * g_g_12;
-    let field_4 = q.cos_theta * g_g_22 + q.sin_theta * g_g_23;
-    let field_5 = q.cos_theta * g_g_23 + q.sin_theta * g.g_33;
-    let g_w_22 = q.cos_theta * field_4 + q.sin_theta * field_5;
-    let g_w_23 = q.cos_theta * field_5 - q.sin_theta * field_4;
-    let g_w_33 = g.g_33 + g_g_22 - g_w_22;
+    let field_4 = q.sin_theta * pull_3 + q.cos_theta * (g_g_23 + g_g_23);
+    let field_5 = q.sin_theta * field_4;
+    let g_w_22 = g_g_22 + field_5;
+    let g_w_23 = q.cos_theta * field_4 - g_g_23;
+    let g_w_33 = g.g_33 - field_5;
 
     // G r at W, eq. (G1), along the same axes, m/s².
     let g_r_w_wx = p.l_g_x * g_g_11 + p.l_g_y * g_g_12 + p.l_g_z * g_g_13 + g_r_g_gx;
@@ -2016,67 +2352,58 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_wx = p.m_w * g_r_w_wx + p.mr_wc_w_wy * g_w_12;
     let f_on_wy = p.m_w * g_r_w_wy + p.mr_wc_w_wy * g_w_22;
     let f_on_wz = p.m_w * g_r_w_wz + p.mr_wc_w_wy * g_w_23;
-    let pull_9 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_22;
-    let n_on_wx = p.mr_wc_w_wy * g_r_w_wz - (pull_9 + p.j_23 * (g_w_33 - g_w_22));
-    let pull_10 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_23;
-    let n_on_wy = -(pull_10 + p.j_13 * (g_g_11 - g_w_33));
-    let pull_11 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_24;
-    let n_on_wz = -(pull_11 + p.j_12 * (g_w_22 - g_g_11) + p.mr_wc_w_wy * g_r_w_wx);
+    let pull_10 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_32;
+    let n_on_wx = p.mr_wc_w_wy * g_r_w_wz - (pull_10 + p.j_23 * (g_w_33 - g_w_22));
+    let pull_11 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_33;
+    let n_on_wy = -(pull_11 + p.j_13 * (g_g_11 - g_w_33));
+    let pull_12 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_34;
+    let n_on_wz = -(pull_12 + p.j_12 * (g_w_22 - g_g_11) + p.mr_wc_w_wy * g_r_w_wx);
 
     // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
     // m², about G.
     let lump_0 = q.cos_theta * p.mr_wc_w_wy;
-    let mr_d_g_gy = lump_0 + p.k_8 + p.mr_gc_g_gy;
+    let mr_d_g_gy = lump_0 + p.k_12 + p.mr_gc_g_gy;
     let lump_1 = q.sin_theta * p.mr_wc_w_wy;
-    let mr_d_g_gz = lump_1 + p.k_9 + p.mr_gc_g_gz;
-    let lump_2 = p.l_g_y * lump_0;
-    let lump_3 = p.l_g_z * lump_1;
-    let lump_4 = lump_2 + lump_3;
-    let lump_5 = lump_4 + lump_4;
-    let i_d_g_11 = p.i_w_w_11 + lump_5 + p.k_2 + p.i_g_g_11;
-    let lump_6 = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.l_g_x * lump_0;
-    let i_d_g_12 = lump_6 + p.k_3 + p.i_g_g_12;
-    let lump_7 = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.l_g_x * lump_1;
-    let i_d_g_13 = lump_7 + p.k_4 + p.i_g_g_13;
-    let lump_8 = q.cos_theta * p.j_22 - q.sin_theta * p.j_23;
-    let lump_9 = q.cos_theta * p.j_23 - q.sin_theta * p.i_w_w_33;
-    let lump_10 = q.cos_theta * lump_8 - q.sin_theta * lump_9;
-    let i_d_g_22 = lump_5 - (lump_2 + lump_2) + lump_10 + p.k_5 + p.i_g_g_22;
-    let lump_11 = q.cos_theta * lump_9 + q.sin_theta * lump_8;
-    let lump_12 = lump_11 - (p.l_g_y * lump_1 + p.l_g_z * lump_0) + p.k_6;
-    let i_d_g_23 = lump_12 + p.i_g_g_23;
-    let lump_13 = p.k_1 - lump_10 + (lump_5 - (lump_3 + lump_3)) + p.k_7;
-    let i_d_g_33 = lump_13 + p.i_g_g_33;
+    let mr_d_g_gz = lump_1 + p.k_13 + p.mr_gc_g_gz;
+    let lump_2 = lump_0 * p.k_4;
+    let lump_3 = lump_1 * p.k_5;
+    let i_d_g_11 = lump_2 + lump_3 + p.i_w_w_11 + p.k_6 + p.i_g_g_11;
+    let lump_4 = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.l_g_x * lump_0;
+    let i_d_g_12 = lump_4 + p.k_7 + p.i_g_g_12;
+    let lump_5 = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.l_g_x * lump_1;
+    let i_d_g_13 = lump_5 + p.k_8 + p.i_g_g_13;
+    let lump_6 = q.cos_theta * p.k_2 - q.sin_theta * p.k_1;
+    let lump_7 = q.sin_theta * lump_6;
+    let i_d_g_22 = p.j_22 - lump_7 + lump_3 + p.k_9 + p.i_g_g_22;
+    let lump_8 = p.l_g_y * lump_1 + p.l_g_z * lump_0;
+    let i_d_g_23 = q.cos_theta * lump_6 + p.k_3 - lump_8 + p.k_10 + p.i_g_g_23;
+    let i_d_g_33 = p.i_w_w_33 + lump_7 + lump_2 + p.k_11 + p.i_g_g_33;
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
     let axis_0 = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * mr_d_g_gy;
     let axis_1 = q.cos_gamma * mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
-    let axis_2 = q.cos_gamma * i_d_g_11 - q.sin_gamma * i_d_g_12;
-    let axis_3 = q.cos_gamma * i_d_g_12 - q.sin_gamma * i_d_g_22;
-    let axis_4 = q.cos_gamma * axis_2 - q.sin_gamma * axis_3;
-    let axis_5 = p.r_g_b_bx * axis_0;
-    let axis_6 = p.r_g_b_by * axis_1;
-    let axis_7 = p.r_g_b_bz * mr_d_g_gz;
-    let axis_8 = axis_5 + axis_6 + axis_7;
-    let axis_9 = axis_8 + axis_8;
-    let axis_10 = axis_9 - (axis_5 + axis_5) + axis_4 + p.k_10;
-    let axis_11 = i_d_g_11 + i_d_g_22 - axis_4 + (axis_9 - (axis_6 + axis_6));
-    let axis_12 = axis_11 + p.k_13;
-    let axis_13 = axis_9 - (axis_7 + axis_7) + i_d_g_33 + p.k_15;
+    let axis_2 = q.sin_gamma * (i_d_g_22 - i_d_g_11);
+    let axis_3 = q.cos_gamma * (i_d_g_12 + i_d_g_12) - axis_2;
+    let axis_4 = q.sin_gamma * axis_3;
+    let axis_5 = axis_0 * p.k_14;
+    let axis_6 = axis_1 * p.k_15;
+    let axis_7 = mr_d_g_gz * p.k_16;
+    let axis_8 = i_d_g_11 - axis_4 + (axis_6 + axis_7) + p.k_17;
+    let axis_9 = i_d_g_22 + axis_4 + (axis_5 + axis_7) + p.k_20;
+    let axis_10 = axis_5 + axis_6 + i_d_g_33 + p.k_22;
     let half = q.sin_gamma.like(0.5);
-    let axis_14 = half * (axis_10 + axis_12 + axis_13);
-    let second_moment_11 = axis_14 - axis_10;
-    let axis_15 = q.cos_gamma * axis_3 + q.sin_gamma * axis_2;
-    let axis_16 = axis_15 - (p.r_g_b_bx * axis_1 + p.r_g_b_by * axis_0);
-    let second_moment_12 = -(axis_16 + p.k_11);
-    let axis_17 = q.cos_gamma * i_d_g_13 - q.sin_gamma * i_d_g_23;
-    let axis_18 = axis_17 - (p.r_g_b_bx * mr_d_g_gz + p.r_g_b_bz * axis_0);
-    let second_moment_13 = -(axis_18 + p.k_12);
-    let second_moment_22 = axis_14 - axis_12;
-    let axis_19 = q.cos_gamma * i_d_g_23 + q.sin_gamma * i_d_g_13;
-    let axis_20 = axis_19 - (p.r_g_b_by * mr_d_g_gz + p.r_g_b_bz * axis_1);
-    let second_moment_23 = -(axis_20 + p.k_14);
-    let second_moment_33 = axis_14 - axis_13;
+    let axis_11 = half * (axis_8 + axis_9 + axis_10);
+    let second_moment_11 = axis_11 - axis_8;
+    let axis_12 = p.r_g_b_bx * axis_1 + p.r_g_b_by * axis_0;
+    let second_moment_12 = -(q.cos_gamma * axis_3 - i_d_g_12 - axis_12 + p.k_18);
+    let axis_13 = q.cos_gamma * i_d_g_13 - q.sin_gamma * i_d_g_23;
+    let axis_14 = axis_13 - (p.r_g_b_bx * mr_d_g_gz + p.r_g_b_bz * axis_0);
+    let second_moment_13 = -(axis_14 + p.k_19);
+    let second_moment_22 = axis_11 - axis_9;
+    let axis_15 = q.cos_gamma * i_d_g_23 + q.sin_gamma * i_d_g_13;
+    let axis_16 = axis_15 - (p.r_g_b_by * mr_d_g_gz + p.r_g_b_bz * axis_1);
+    let second_moment_23 = -(axis_16 + p.k_21);
+    let second_moment_33 = axis_11 - axis_10;
 
     Gravity {
         wrenches: Wrenches {

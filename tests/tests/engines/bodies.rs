@@ -69,7 +69,9 @@ impl Kernels {
     pub(crate) fn moment(&self) -> Moment {
         let FirstMoment {
             mc_bx, mc_by, mc_bz, mc_prime_bx, mc_prime_by, mc_prime_bz,
-            f_o_bx, f_o_by, f_o_bz, f_i_bx, f_i_by, f_i_bz, f_w_bx, f_w_by, f_w_bz,
+            mc_dprime_o_bx, mc_dprime_o_by, mc_dprime_o_bz,
+            mc_dprime_i_bx, mc_dprime_i_by, mc_dprime_i_bz,
+            mc_dprime_w_bx, mc_dprime_w_by, mc_dprime_w_bz,
             f_tilde_bx, f_tilde_by, f_tilde_bz,
         } = first_moment(&self.prepared, &self.trig, &self.rates);
         let mount = self.axes.mount;
@@ -77,7 +79,11 @@ impl Kernels {
             mc: mount * Vector3::new(mc_bx, mc_by, mc_bz),
             mc_prime: mount * Vector3::new(mc_prime_bx, mc_prime_by, mc_prime_bz),
             mc_dprime: mount * self.with_joints(
-                [[f_o_bx, f_o_by, f_o_bz], [f_i_bx, f_i_by, f_i_bz], [f_w_bx, f_w_by, f_w_bz]],
+                [
+                    [mc_dprime_o_bx, mc_dprime_o_by, mc_dprime_o_bz],
+                    [mc_dprime_i_bx, mc_dprime_i_by, mc_dprime_i_bz],
+                    [mc_dprime_w_bx, mc_dprime_w_by, mc_dprime_w_bz],
+                ],
                 [f_tilde_bx, f_tilde_by, f_tilde_bz],
             ),
         }

@@ -58,7 +58,9 @@ impl Device<'_, '_> {
                 Rc::new(Moment {
                     mc: returned.vector("mc", "b"),
                     mc_prime: returned.vector("mc_prime", "b"),
-                    columns: tags.map(|tag| returned.vector(&format!("f_{tag}"), "b")).collect(),
+                    columns: tags
+                        .map(|tag| returned.vector(&format!("mc_dprime_{tag}"), "b"))
+                        .collect(),
                     rest: returned.vector("f_tilde", "b"),
                 })
             },

@@ -187,6 +187,7 @@ impl Stored {
                     centre: hub.centre.into(),
                     inertia: tensor(hub.inertia),
                 },
+                mount: Matrix3::identity(),
                 parameters: reader.values("parameters", &device.parameters, &names)?,
                 motion: Motion {
                     coordinates: reader

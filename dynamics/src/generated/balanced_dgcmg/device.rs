@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 pub use super::JointAccelerations;
 use crate::generated::hub::{
-    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare,
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kind, Value, Wrenches,
@@ -299,6 +299,15 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
         let [i_gi_11, i_gi_12, i_gi_13, i_gi_22, i_gi_23, i_gi_33] = entries(&self.i_gi_gic);
         let [l_i_x, l_i_y, l_i_z] = components(&self.l_i);
         super::prepare(&super::Parameters {
+            mount_11: self.mount.m11,
+            mount_12: self.mount.m12,
+            mount_13: self.mount.m13,
+            mount_21: self.mount.m21,
+            mount_22: self.mount.m22,
+            mount_23: self.mount.m23,
+            mount_31: self.mount.m31,
+            mount_32: self.mount.m32,
+            mount_33: self.mount.m33,
             r_go_b_bx,
             r_go_b_by,
             r_go_b_bz,
@@ -332,6 +341,10 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
             j_11: self.j_11,
             j_22: self.j_22,
         })
+    }
+
+    fn handed(constants: &Self::Constants) -> Handed<T> {
+        super::handed(constants)
     }
 
     fn pose(joints: &Joints<T>) -> Self::Pose {

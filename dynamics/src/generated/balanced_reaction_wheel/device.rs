@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 pub use super::JointAccelerations;
 use crate::generated::hub::{
-    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare,
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kind, Value, Wrenches,
@@ -185,6 +185,15 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
     fn constants(&self, origin: [T; 3]) -> super::Prepared<T> {
         let [r_w_b_bx, r_w_b_by, r_w_b_bz] = origin;
         super::prepare(&super::Parameters {
+            mount_11: self.mount.m11,
+            mount_12: self.mount.m12,
+            mount_13: self.mount.m13,
+            mount_21: self.mount.m21,
+            mount_22: self.mount.m22,
+            mount_23: self.mount.m23,
+            mount_31: self.mount.m31,
+            mount_32: self.mount.m32,
+            mount_33: self.mount.m33,
             r_w_b_bx,
             r_w_b_by,
             r_w_b_bz,
@@ -192,6 +201,10 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
             j_11: self.j_11,
             j_22: self.j_22,
         })
+    }
+
+    fn handed(constants: &Self::Constants) -> Handed<T> {
+        super::handed(constants)
     }
 
     fn pose(_: &Joints<T>) -> Self::Pose {}

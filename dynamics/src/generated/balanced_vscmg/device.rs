@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 pub use super::JointAccelerations;
 use crate::generated::hub::{
-    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare,
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kind, Value, Wrenches,
@@ -234,6 +234,15 @@ impl<T: Scalar> Kind for BalancedVscmg<T> {
         let [i_g_11, i_g_12, i_g_13, i_g_22, i_g_23, i_g_33] = entries(&self.i_g_gc);
         let [l_g_x, l_g_y, l_g_z] = components(&self.l_g);
         super::prepare(&super::Parameters {
+            mount_11: self.mount.m11,
+            mount_12: self.mount.m12,
+            mount_13: self.mount.m13,
+            mount_21: self.mount.m21,
+            mount_22: self.mount.m22,
+            mount_23: self.mount.m23,
+            mount_31: self.mount.m31,
+            mount_32: self.mount.m32,
+            mount_33: self.mount.m33,
             r_g_b_bx,
             r_g_b_by,
             r_g_b_bz,
@@ -254,6 +263,10 @@ impl<T: Scalar> Kind for BalancedVscmg<T> {
             j_11: self.j_11,
             j_22: self.j_22,
         })
+    }
+
+    fn handed(constants: &Self::Constants) -> Handed<T> {
+        super::handed(constants)
     }
 
     fn pose(joints: &Joints<T>) -> Self::Pose {

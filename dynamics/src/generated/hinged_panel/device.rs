@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 pub use super::JointAccelerations;
 use crate::generated::hub::{
-    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare,
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kind, Value, Wrenches,
@@ -190,6 +190,15 @@ impl<T: Scalar> Kind for HingedPanel<T> {
         let [r_pc_p_px, r_pc_p_py, r_pc_p_pz] = components(&self.r_pc_p);
         let [i_p_11, i_p_12, i_p_13, i_p_22, i_p_23, i_p_33] = entries(&self.i_p_pc);
         super::prepare(&super::Parameters {
+            mount_11: self.mount.m11,
+            mount_12: self.mount.m12,
+            mount_13: self.mount.m13,
+            mount_21: self.mount.m21,
+            mount_22: self.mount.m22,
+            mount_23: self.mount.m23,
+            mount_31: self.mount.m31,
+            mount_32: self.mount.m32,
+            mount_33: self.mount.m33,
             r_p_b_bx,
             r_p_b_by,
             r_p_b_bz,
@@ -204,6 +213,10 @@ impl<T: Scalar> Kind for HingedPanel<T> {
             i_p_23,
             i_p_33,
         })
+    }
+
+    fn handed(constants: &Self::Constants) -> Handed<T> {
+        super::handed(constants)
     }
 
     fn pose(joints: &Joints<T>) -> Self::Pose {

@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 pub use super::JointAccelerations;
 use crate::generated::hub::{
-    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare,
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kind, Value, Wrenches,
@@ -178,7 +178,25 @@ impl<T: Scalar> Kind for SloshMass<T> {
 
     fn constants(&self, origin: [T; 3]) -> super::Prepared<T> {
         let [r_s_b_bx, r_s_b_by, r_s_b_bz] = origin;
-        super::prepare(&super::Parameters { r_s_b_bx, r_s_b_by, r_s_b_bz, m_s: self.m_s })
+        super::prepare(&super::Parameters {
+            mount_11: self.mount.m11,
+            mount_12: self.mount.m12,
+            mount_13: self.mount.m13,
+            mount_21: self.mount.m21,
+            mount_22: self.mount.m22,
+            mount_23: self.mount.m23,
+            mount_31: self.mount.m31,
+            mount_32: self.mount.m32,
+            mount_33: self.mount.m33,
+            r_s_b_bx,
+            r_s_b_by,
+            r_s_b_bz,
+            m_s: self.m_s,
+        })
+    }
+
+    fn handed(constants: &Self::Constants) -> Handed<T> {
+        super::handed(constants)
     }
 
     fn pose(joints: &Joints<T>) -> Self::Pose {

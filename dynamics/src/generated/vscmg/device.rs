@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 pub use super::JointAccelerations;
 use crate::generated::hub::{
-    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, HubShare,
+    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kind, Lumped,
@@ -253,6 +253,15 @@ impl<T: Scalar> Kind for Vscmg<T> {
         let [l_g_x, l_g_y, l_g_z] = components(&self.l_g);
         let [j_11, j_12, j_13, j_22, j_23, j_33] = entries(&self.i_w_wc);
         super::prepare(&super::Parameters {
+            mount_11: self.mount.m11,
+            mount_12: self.mount.m12,
+            mount_13: self.mount.m13,
+            mount_21: self.mount.m21,
+            mount_22: self.mount.m22,
+            mount_23: self.mount.m23,
+            mount_31: self.mount.m31,
+            mount_32: self.mount.m32,
+            mount_33: self.mount.m33,
             r_g_b_bx,
             r_g_b_by,
             r_g_b_bz,
@@ -278,6 +287,10 @@ impl<T: Scalar> Kind for Vscmg<T> {
             j_23,
             j_33,
         })
+    }
+
+    fn handed(constants: &Self::Constants) -> Handed<T> {
+        super::handed(constants)
     }
 
     fn pose(joints: &Joints<T>) -> Self::Pose {

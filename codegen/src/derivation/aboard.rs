@@ -1,0 +1,334 @@
+//! Inwards from the tip, and aboard the hub: the device's share of the mass matrix and of the bias,
+//! from its base parameters.
+//!
+//! Moments are taken about the joint's own origin and carried to the next one, so a light wheel
+//! far from B does not drown in the inertia of its lever arm. Everything stays along local axes until
+//! the first body's axes, which the mount and the first joint turn, lead into the hub at once.
+//!
+//! What the hub's own motion asks of the bodies is the same as of its own mass: it needs their first
+//! moment and inertia, and is left to it. Here are what the joints' rates ask for, and the joints' own
+//! equations.
+
+use super::Share;
+use super::base::{Based, Passes, based};
+use super::carriers::{Carrying, carriers};
+use super::chain::{Chain, Coordinate};
+use super::joint::AtJoint;
+use super::lump::Lump;
+use super::script::{Script, pairs, sextuple, triple};
+use super::wrench::Wrench;
+use crate::graph::Expr;
+use crate::kinds::units;
+use crate::space::{Carrier, Hub, Own, Symmetric, Vector};
+
+/// The share of a device, with its steps written to `script`: first moment and inertia of what moves,
+/// blocks of the joints, and the bias without what the hub's own motion asks for. Along B axes; the
+/// mass is the hub's.
+#[must_use]
+pub fn aboard<'g>(chain: &Chain<'g>, passes: Passes, script: &mut Script<'g>) -> Share<'g> {
+    let based = based(chain, passes, script);
+    let axes = first_axes(chain, script);
+    let omega = Vector::new(axes.map(|axis| axis.dot(chain.hub.omega)));
+    let data = &chain.kind.links[0].body;
+    script.section(
+        "rate",
+        format!("ω_{{B/N}} along the axes of the {}, eq. (C1), rad/s.", data.title),
+    );
+    script.names(pairs(triple("omega_b_n", data.frame), omega.components()));
+    let carriers = carriers(chain, &based, omega, script);
+    let mut walk = Walk::new(chain);
+    for k in (1..chain.links.len()).rev() {
+        walk.inwards(chain, &based, k, &carriers[k - 1], script);
+    }
+    let seen = walk.at_first(chain, &based, &Carrying::hub(omega), script);
+    seen.aboard(chain, &based, axes, script)
+}
+
+/// The first body's axes along B.
+fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub>; 3] {
+    use crate::space::Axis::{X, Y, Z};
+    let link = &chain.links[0];
+    let data = &chain.kind.links[0].body;
+    let along_b = |v: Vector<'g, Carrier>| chain.mounted(v);
+    let axes = [X, Y, Z]
+        .map(|axis| along_b(Vector::<Own>::unit(chain.graph, axis).turned(link.turn.inverse())));
+    script.section("axis", format!("Axes of the {}, eq. (A1), along B axes, 1.", data.title));
+    for (axis, letter) in axes.into_iter().zip(["x", "y", "z"]) {
+        script.names(pairs(triple(&format!("e_{letter}"), "b"), axis.components()));
+    }
+    axes
+}
+
+/// What has been passed on the way inwards, along the axes of the frame at hand, about its origin.
+struct Walk<'g> {
+    lump: Lump<'g>,
+    /// What the rates of the joints passed ask for.
+    rates: Wrench<'g, Own>,
+    /// What a unit acceleration of each joint passed asks for; the innermost first.
+    columns: Vec<Wrench<'g, Own>>,
+    joint: Vec<Vec<Expr<'g>>>,
+    bias_joint: Vec<Expr<'g>>,
+}
+
+impl<'g> Walk<'g> {
+    fn new(chain: &Chain<'g>) -> Self {
+        Self {
+            lump: Lump::zero(chain.graph),
+            rates: Wrench::zero(chain.graph),
+            columns: Vec::new(),
+            joint: Vec::new(),
+            bias_joint: Vec::new(),
+        }
+    }
+
+    /// Across joint `k`: its row along its carrier's axes, then all about the carrier's origin.
+    fn inwards(
+        &mut self,
+        chain: &Chain<'g>,
+        based: &Based<'g>,
+        k: usize,
+        carrying: &Carrying<'g, Own>,
+        script: &mut Script<'g>,
+    ) {
+        let link = &chain.links[k];
+        let inner = chain.kind.links[k - 1].body.frame;
+        let lump = based.links[k].lump.plus(self.lump).turned_back(link).handed_back();
+        let back = |v: Vector<'g, Own>| v.turned(link.turn.inverse()).handed_back();
+        let turned = |w: &Wrench<'g, Own>| Wrench { force: back(w.force), moment: back(w.moment) };
+        self.rates = turned(&self.rates);
+        self.columns = self.columns.iter().map(turned).collect();
+        self.row(chain, k, inner, lump, carrying, script);
+        let arm = based.links[k].origin.handed_back();
+        let moved = |w: &Wrench<'g, Own>| Wrench { moment: w.moment + arm.cross(w.force), ..*w };
+        self.lump = lump.shifted(arm);
+        self.rates = moved(&self.rates);
+        self.columns = self.columns.iter().map(moved).collect();
+    }
+
+    /// The first joint's row, along its body's own axes.
+    fn at_first(
+        mut self,
+        chain: &Chain<'g>,
+        based: &Based<'g>,
+        hub: &Carrying<'g, Own>,
+        script: &mut Script<'g>,
+    ) -> Self {
+        let frame = chain.kind.links[0].body.frame;
+        let lump = based.links[0].lump.plus(self.lump);
+        self.row(chain, 0, frame, lump, hub, script);
+        self.lump = lump;
+        self
+    }
+
+    /// The row of joint `k`, along axes of `frame`, and what its rate asks for.
+    fn row(
+        &mut self,
+        chain: &Chain<'g>,
+        k: usize,
+        frame: &str,
+        lump: Lump<'g>,
+        carrying: &Carrying<'g, Own>,
+        script: &mut Script<'g>,
+    ) {
+        let (link, behind) = (&chain.links[k], &chain.kind.links[k..]);
+        let (data, axis) = (&behind[0], behind[0].joint.motion.axis());
+        let whole = data.assembly.to_uppercase();
+        script.section(
+            "lump",
+            format!(
+                "What lies behind the {}'s joint, of {whole}, by base parameters, eqs. (B1), (B2): \
+                 first moment, kg m, and inertia, kg m².",
+                data.body.title
+            ),
+        );
+        let stem = format!("mr_behind_{}", data.assembly);
+        script.names(pairs(triple(&stem, frame), lump.first_moment.components()));
+        let stem = format!("i_behind_{}", data.assembly);
+        script.names(pairs(sextuple(&stem), lump.inertia.entries()));
+
+        let at = AtJoint {
+            axis,
+            coordinate: link.coordinate,
+            rate: link.rate,
+            lump,
+            carrying: *carrying,
+        };
+        self.columns.insert(0, lump.moved(link.coordinate, Vector::unit(chain.graph, axis)));
+        script.section(
+            "row",
+            format!(
+                "Row of the {}'s joint, eq. {}, along its axis: M_ij, {}, and bias, {}, eq. (C3).",
+                data.body.title,
+                data.body.equations.torque,
+                units(behind, |units| match data.joint.motion {
+                    crate::kinds::Motion::Turn(_) => units.moment,
+                    crate::kinds::Motion::Slide(_) => units.force,
+                }),
+                data.joint.motion.units().drive
+            ),
+        );
+        let tags = behind.iter().map(|link| link.joint.tag);
+        let row = tags.zip(&self.columns).map(|(tag, column)| {
+            script.cut(format!("mass_{}{tag}", data.joint.tag), column.along(link))
+        });
+        self.joint.insert(0, row.collect());
+        let asked = at.of_field() + self.rates.along(link);
+        script.name(format!("field_{}", data.joint.tag), asked);
+        self.bias_joint.insert(0, asked);
+
+        script.section(
+            "coriolis",
+            format!(
+                "Force, N, and moment, N m, that the joints' rates from the {}'s on ask for, eq. \
+                 (C2).",
+                data.body.title
+            ),
+        );
+        self.rates = self.rates.plus(at.of_rate());
+        script.names(self.rates.named(&format!("rates_{}", data.joint.tag), frame));
+    }
+
+    /// Into the hub.
+    fn aboard(
+        &self,
+        chain: &Chain<'g>,
+        based: &Based<'g>,
+        axes: [Vector<'g, Hub>; 3],
+        script: &mut Script<'g>,
+    ) -> Share<'g> {
+        let reach = chain.mounted(based.links[0].origin);
+        script.section("place", "Origin of the first joint, eq. (A2), along B axes, m.");
+        let reach = named(script, "reach", reach);
+        let along_b = |v: Vector<'g, Own>| {
+            let [x, y, z] = v.components();
+            x * axes[0] + y * axes[1] + z * axes[2]
+        };
+        let on_hub = |w: &Wrench<'g, Own>| {
+            let force = along_b(w.force);
+            (force, along_b(w.moment), reach)
+        };
+        let whole = chain.kind.links[0].assembly;
+        let links = chain.kind.links;
+        script.section(
+            "col",
+            format!(
+                "M_vi, eq. (17), {}, and M_wi, eq. (75), {}: force and moment about B per unit \
+                 acceleration, along B axes.",
+                units(links, |units| units.force),
+                units(links, |units| units.moment),
+            ),
+        );
+        let mut force = Vec::new();
+        let mut moment = Vec::new();
+        let mut own_moment = Vector::zero(chain.graph);
+        for (k, (link, column)) in links.iter().zip(&self.columns).enumerate() {
+            let (f, n, arm) = on_hub(column);
+            let f = cut(script, &format!("f_{}", link.joint.tag), f);
+            if k == 0 {
+                own_moment = n;
+            }
+            force.push(f);
+            moment.push(cut(script, &format!("n_{}", link.joint.tag), n + arm.cross(f)));
+        }
+        script.section(
+            "moment",
+            format!(
+                "What moves of {}, about B, along B axes: first moment, eq. (9), kg m, and \
+                 inertia, eq. (76), kg m².",
+                whole.to_uppercase()
+            ),
+        );
+        let first = along_b(self.lump.first_moment);
+        let inertia = self.inertia_along_b(chain, axes, own_moment);
+        let lump = Lump { mass: self.lump.mass, first_moment: first, inertia }.shifted(reach);
+        let first_moment = cut(script, "mr_moving", lump.first_moment);
+        let names = sextuple("i_moving");
+        let entries = pairs(names, lump.inertia.entries());
+        let entries: Vec<_> = entries.map(|(name, entry)| script.cut(name, entry)).collect();
+        let inertia = Symmetric::new(entries.try_into().expect("six entries"));
+
+        script.section(
+            "bias",
+            "Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B \
+             axes, N and N m.",
+        );
+        let (f, n, arm) = on_hub(&self.rates);
+        let bias_force = cut(script, "f_rates", f);
+        let bias_moment = cut(script, "n_rates", n + arm.cross(bias_force));
+
+        script.section(
+            "reach",
+            "Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².",
+        );
+        let carried = chain.hub.omega.cross(chain.hub.omega.cross(reach));
+        let carried = named(script, "r_first_rest", carried);
+        script.section("bias", "Bias of each joint with it, eq. (C3).");
+        let bias = self.bias_joint.iter().zip(&force).zip(links);
+        let bias_joint = bias.map(|((asked, force), link)| {
+            script.cut(format!("u_rest_{}", link.joint.tag), *asked + force.dot(carried))
+        });
+        let bias_joint = bias_joint.collect();
+        Share {
+            mass: chain.graph.zero(),
+            first_moment,
+            inertia,
+            force,
+            moment,
+            joint: self.joint.clone(),
+            bias_force,
+            bias_moment,
+            bias_joint,
+        }
+    }
+
+    /// `C I C^T` with the axes for columns. With k the first joint's axis and 1 the unit tensor,
+    /// `I_jj 1` and what the other axes add to it: two pairs of vectors, one of which is the joint's
+    /// own column.
+    fn inertia_along_b(
+        &self,
+        chain: &Chain<'g>,
+        axes: [Vector<'g, Hub>; 3],
+        column: Vector<'g, Hub>,
+    ) -> Symmetric<'g, Hub> {
+        let inertia = self.lump.inertia;
+        let [k, i, j] = chain.kind.links[0].joint.motion.axis().cycle();
+        let half = chain.graph.constant(2).recip();
+        let (ii, jj, kk) = (inertia.at(i, i), inertia.at(j, j), inertia.at(k, k));
+        let across = (half * (ii - jj)) * axes[i] + inertia.at(i, j) * axes[j];
+        // (I_kk - I_jj) / 2 e_k + I_ki e_i + I_kj e_j.
+        let along = match chain.links[0].coordinate {
+            Coordinate::Angle(_) => column - (half * (kk + jj)) * axes[k],
+            Coordinate::Length(_) => {
+                (half * (kk - jj)) * axes[k]
+                    + inertia.at(k, i) * axes[i]
+                    + inertia.at(k, j) * axes[j]
+            }
+        };
+        Symmetric::isotropic(jj) + Symmetric::pairs([(axes[i], across), (axes[k], along)])
+    }
+}
+
+/// What the hub takes over of a device, about B along B axes: parameters alone.
+pub fn handed<'g>(chain: &Chain<'g>, passes: Passes, script: &mut Script<'g>) {
+    let Lump { first_moment, inertia, .. } = based(chain, passes, script).handed;
+    let mass = chain.links.iter().skip(1).fold(chain.links[0].mass, |sum, link| sum + link.mass);
+    script.section(
+        "hand",
+        "What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg \
+         m², along B axes.",
+    );
+    script.name("hand_m", mass);
+    named(script, "hand_mr", chain.mounted(first_moment));
+    script.names(pairs(sextuple("hand_i"), chain.mounted_tensor(inertia).entries()));
+}
+
+fn named<'g>(script: &mut Script<'g>, stem: &str, v: Vector<'g, Hub>) -> Vector<'g, Hub> {
+    script.names(pairs(triple(stem, "b"), v.components()));
+    v
+}
+
+fn cut<'g>(script: &mut Script<'g>, stem: &str, v: Vector<'g, Hub>) -> Vector<'g, Hub> {
+    let components = pairs(triple(stem, "b"), v.components());
+    let symbols: Vec<_> = components.map(|(name, value)| script.cut(name, value)).collect();
+    Vector::new(symbols.try_into().expect("three components"))
+}

@@ -1,0 +1,181 @@
+//! Base parameters: of a body, what must stay behind its joint; all else may as well be its carrier's.
+//!
+//! Two passes over the chain, arithmetic on parameters alone. Neither changes an equation, which the
+//! proof shows of what is emitted:
+//!
+//! - *slide* (B1): the origin of a turning joint may lie anywhere on its axis. Slid along it, each
+//!   offset between two joints loses a component.
+//! - *regroup* (B2): a mass on the axis of a turning joint, or spread along it, does not notice the
+//!   turning. Three of a body's ten parameters move to its carrier: its mass, the first moment along
+//!   the axis, and one moment of inertia across it. Behind a sliding joint the whole inertia does.
+//!   What reaches the hub is handed over to it: a massless device is left.
+//!
+//! What the passes leave is a polynomial in the parameters, and is stated as its normal form: where a
+//! large moment was added and taken out again, `m l^2` of a long arm, no rounding of it stays behind.
+
+use super::chain::{Chain, Coordinate};
+use super::lump::Lump;
+use super::script::{Script, pairs, sextuple, triple};
+use crate::graph::Expr;
+use crate::kinds::{Link, Motion};
+use crate::normal::Ring;
+use crate::space::{Axis, Carrier, Own, Symmetric, Vector};
+
+/// Which passes are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Passes {
+    /// Slide origins along their axes.
+    pub slide: bool,
+    /// Move what may belong to the carrier.
+    pub regroup: bool,
+}
+
+impl Passes {
+    /// What is emitted.
+    pub const ALL: Self = Self { slide: true, regroup: true };
+    /// Bodies and origins as they are given.
+    pub const NONE: Self = Self { slide: false, regroup: false };
+}
+
+/// A joint's origin and what turns or slides with it, after the passes.
+#[derive(Clone, Copy)]
+pub(super) struct Base<'g> {
+    /// From the carrier's origin.
+    pub(super) origin: Vector<'g, Carrier>,
+    /// About the joint's origin.
+    pub(super) lump: Lump<'g>,
+}
+
+/// The chain after the passes.
+pub(super) struct Based<'g> {
+    /// From the hub outwards.
+    pub(super) links: Vec<Base<'g>>,
+    /// What the hub takes over, about B along the device's axes.
+    pub(super) handed: Lump<'g, Carrier>,
+}
+
+/// Makes the passes; the bodies' own lumps go to `script`.
+pub(super) fn based<'g>(chain: &Chain<'g>, passes: Passes, script: &mut Script<'g>) -> Based<'g> {
+    let bodies = chain.links.iter().zip(chain.kind.links);
+    let links =
+        bodies.map(|(link, data)| Base { origin: link.origin, lump: Lump::of(link, data, script) });
+    let mut links: Vec<_> = links.collect();
+    if passes.slide {
+        slide(chain, &mut links);
+    }
+    let handed = if passes.regroup { regroup(chain, &mut links) } else { Lump::zero(chain.graph) };
+    let mut based = Based { links, handed };
+    if passes != Passes::NONE {
+        based.settle(chain, script);
+    }
+    based
+}
+
+impl<'g> Based<'g> {
+    /// Every number as its normal form, and under a name.
+    fn settle(&mut self, chain: &Chain<'g>, script: &mut Script<'g>) {
+        let mut ring = Ring::new(chain.graph);
+        let mut settled = |e: Expr<'g>| {
+            let normal = ring.normal(e).ok();
+            // A coordinate of a sliding joint is a variable like any other.
+            normal.map_or(e, |normal| ring.expression(&normal))
+        };
+        for (k, (base, data)) in self.links.iter_mut().zip(chain.kind.links).enumerate() {
+            base.origin = Vector::new(base.origin.components().map(&mut settled));
+            base.lump = base.lump.map(&mut settled);
+            let carrier = k.checked_sub(1).map_or("d", |inner| chain.kind.links[inner].body.frame);
+            base.name(data, carrier, script);
+        }
+        self.handed = self.handed.map(&mut settled);
+    }
+}
+
+impl<'g> Base<'g> {
+    fn name(&self, data: &Link, carrier: &str, script: &mut Script<'g>) {
+        let (joint, body) = (&data.joint, &data.body);
+        script.section(
+            "base",
+            format!(
+                "Base parameters of the {}, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, \
+                 kg m².",
+                body.title
+            ),
+        );
+        let tag = joint.tag;
+        script.names(pairs(triple(&format!("arm_{tag}"), carrier), self.origin.components()));
+        let names = triple(&format!("mr_{tag}_base"), body.frame);
+        script.names(pairs(names, self.lump.first_moment.components()));
+        let names = sextuple(&format!("i_{tag}_base"));
+        script.names(pairs(names, self.lump.inertia.entries()));
+    }
+}
+
+/// (B1). A joint's origin goes where the next offset has no component along its axis, the last one's
+/// where its own has none.
+fn slide<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) {
+    let zero = chain.graph.zero();
+    for (k, data) in chain.kind.links.iter().enumerate().rev() {
+        let Motion::Turn(axis) = data.joint.motion else { continue };
+        let along = axis.cycle()[0];
+        let by = match links.get(k + 1) {
+            Some(next) => next.origin.components()[along],
+            None => -links[k].origin.components()[along],
+        };
+        let step = [0, 1, 2].map(|c| if c == along { by } else { zero });
+        links[k].origin = links[k].origin + Vector::new(step);
+        links[k].lump = links[k].lump.shifted(-Vector::<Own>::new(step));
+        if let Some(next) = links.get_mut(k + 1) {
+            let mut rest = next.origin.components();
+            rest[along] = zero;
+            next.origin = Vector::new(rest);
+        }
+    }
+}
+
+/// (B2), from the tip to the hub.
+fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
+    let mut handed = Lump::zero(chain.graph);
+    for (k, link) in chain.links.iter().enumerate().rev() {
+        let own = &mut links[k];
+        own.lump = own.lump.plus(handed.handed_back());
+        let axis = chain.kind.links[k].joint.motion.axis();
+        let moved = movable(own.lump, link.coordinate, axis);
+        own.lump = own.lump.less(moved);
+        // The same from every angle: along the carrier's axes as along its own.
+        let moved = Lump {
+            mass: moved.mass,
+            first_moment: Vector::new(moved.first_moment.components()),
+            inertia: Symmetric::new(moved.inertia.entries()),
+        };
+        handed = match link.coordinate {
+            Coordinate::Angle(_) => moved.shifted(own.origin),
+            // No mass goes with it, and an inertia alone is the same about every origin.
+            Coordinate::Length(_) => moved,
+        };
+    }
+    handed
+}
+
+/// What does not notice that its joint moves.
+fn movable<'g>(lump: Lump<'g>, coordinate: Coordinate<'g>, axis: Axis) -> Lump<'g> {
+    let zero = lump.mass.graph().zero();
+    match coordinate {
+        Coordinate::Length(_) => {
+            Lump { mass: zero, first_moment: Vector::zero(zero.graph()), ..lump }
+        }
+        Coordinate::Angle(_) => {
+            let [k, i, j] = axis.cycle();
+            let across = lump.inertia.at(j, j);
+            let along = lump.first_moment.components()[k];
+            let mut first_moment = [zero; 3];
+            first_moment[k] = along;
+            let mut moments = [zero; 3];
+            (moments[i], moments[j]) = (across, across);
+            Lump {
+                mass: lump.mass,
+                first_moment: Vector::new(first_moment),
+                inertia: Symmetric::diagonal(moments),
+            }
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Outwards: how each body carries what is joined to it, no joint accelerating.
+//!
+//! A body gives the points fixed in it a field of acceleration: that of its origin, and
+//! `[alpha~] + [omega~]^2` times the place from there. The hub's own part is the same for all and is
+//! left to the hub; what is here are its rates seen along each body's axes.
+
+use super::base::Based;
+use super::chain::{Chain, Coordinate};
+use super::script::{Script, pairs, triple};
+use crate::graph::Expr;
+use crate::space::{Frame, Own, Vector};
+
+/// How the body that carries a joint moves, along axes in which the joint's axis is a coordinate
+/// axis.
+#[derive(Clone, Copy)]
+pub(super) struct Carrying<'g, F> {
+    /// Angular velocity.
+    pub(super) omega: Vector<'g, F>,
+    /// Angular acceleration.
+    pub(super) alpha: Vector<'g, F>,
+    /// Acceleration of the joint's origin, without the hub's.
+    pub(super) origin: Vector<'g, F>,
+}
+
+impl<'g, F: Frame> Carrying<'g, F> {
+    /// The hub: its field is added elsewhere.
+    pub(super) fn hub(omega: Vector<'g, F>) -> Self {
+        let zero = Vector::zero(omega.components()[0].graph());
+        Self { omega, alpha: zero, origin: zero }
+    }
+
+    /// Entry of `[alpha~] + [omega~]^2`, off the diagonal.
+    fn beside(&self, row: usize, column: usize) -> Expr<'g> {
+        let (omega, alpha) = (self.omega.components(), self.alpha.components());
+        let product = omega[row] * omega[column];
+        let other = alpha[3 - row - column];
+        // [a~]_xy = -a_z, [a~]_yx = a_z, and so on around.
+        if (row + 1) % 3 == column { product - other } else { product + other }
+    }
+
+    /// `alpha x r + omega x (omega x r)`.
+    pub(super) fn field(&self, r: Vector<'g, F>) -> Vector<'g, F> {
+        let r = r.components();
+        let square = self.omega.components().map(Expr::squared);
+        Vector::new([0, 1, 2].map(|row| {
+            let [i, j] = [(row + 1) % 3, (row + 2) % 3];
+            let beside = self.beside(row, i) * r[i] + self.beside(row, j) * r[j];
+            beside - (square[i] + square[j]) * r[row]
+        }))
+    }
+}
+
+/// What carries each joint but the first, whose carrier is the hub; `omega` is the hub's angular
+/// velocity along the first body's axes.
+pub(super) fn carriers<'g>(
+    chain: &Chain<'g>,
+    based: &Based<'g>,
+    omega: Vector<'g, Own>,
+    script: &mut Script<'g>,
+) -> Vec<Carrying<'g, Own>> {
+    let mut before = Carrying::hub(omega);
+    let mut list = Vec::new();
+    for (k, next) in based.links.iter().enumerate().skip(1) {
+        let (link, data) = (&chain.links[k - 1], &chain.kind.links[k - 1]);
+        let [frame, letter] = [data.body.frame, data.body.letters[0]];
+        let spin = link.spin();
+        let omega = before.omega + spin;
+        script.section(
+            "rate",
+            format!(
+                "ω_{{{letter}/N}}, eq. {}, along its own axes, rad/s.",
+                data.body.equations.omega
+            ),
+        );
+        script.names(pairs(triple(&format!("omega_{frame}_n"), frame), omega.components()));
+        let alpha = before.alpha + before.omega.cross(spin);
+        script.section(
+            "turn",
+            format!(
+                "Its derivative as in eq. {}, no joint accelerating, along the same axes, rad/s².",
+                data.body.equations.h_dot
+            ),
+        );
+        script.names(pairs(triple(&format!("alpha_{frame}"), frame), alpha.components()));
+        // Coriolis: what slides is carried along a body that turns.
+        let origin = match link.coordinate {
+            Coordinate::Angle(_) => before.origin,
+            Coordinate::Length(_) => {
+                let turning = before.omega.cross(link.rate * link.axis);
+                before.origin + turning + turning
+            }
+        };
+        let own = Carrying { omega, alpha, origin };
+        let place = next.origin.handed_back();
+        let origin = origin + own.field(place);
+        let (outer, body) = (&chain.kind.links[k].body, data.body.title);
+        script.section(
+            "path",
+            format!(
+                "Acceleration of {} as the {body} carries it, eq. (C1), along the {body}'s axes, \
+                 m/s².",
+                outer.letters[0],
+            ),
+        );
+        script
+            .names(pairs(triple(&format!("r_{}_rest", outer.origin), frame), origin.components()));
+        let carrying = Carrying { origin, ..own };
+        list.push(carrying);
+        let turned = |v: Vector<'g, Own>| v.handed_on().turned(chain.links[k].turn);
+        before = Carrying {
+            omega: turned(carrying.omega),
+            alpha: turned(carrying.alpha),
+            origin: turned(carrying.origin),
+        };
+    }
+    list
+}

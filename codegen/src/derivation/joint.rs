@@ -1,0 +1,87 @@
+//! One joint: what its rate asks for (C2), and its own equation (C3).
+
+use super::carriers::Carrying;
+use super::chain::Coordinate;
+use super::lump::Lump;
+use super::wrench::Wrench;
+use crate::graph::Expr;
+use crate::space::{Axis, Frame, Vector};
+
+/// A joint, and what lies outside it, along axes in which its own is a coordinate axis.
+#[derive(Clone, Copy)]
+pub(super) struct AtJoint<'g, F> {
+    pub(super) axis: Axis,
+    pub(super) coordinate: Coordinate<'g>,
+    pub(super) rate: Expr<'g>,
+    /// Bodies outside, about the joint's origin.
+    pub(super) lump: Lump<'g, F>,
+    /// What carries the joint.
+    pub(super) carrying: Carrying<'g, F>,
+}
+
+impl<'g, F: Frame> AtJoint<'g, F> {
+    /// (C2): what the joint's rate alone adds to force and moment of the lump, about the joint's
+    /// origin. With `a` the axis of a turning joint, its bodies feel
+    /// `2 q' [omega~][a~] + q'^2 [a~]^2` on top of their carrier's field; of a sliding one,
+    /// `2 q' omega x a`. Neither has a part in the joint's own equation.
+    pub(super) fn of_rate(&self) -> Wrench<'g, F> {
+        let [k, i, j] = self.axis.cycle();
+        let omega = self.carrying.omega.components();
+        let moment = self.lump.first_moment.components();
+        let placed = |along, first, second| {
+            let mut components = [along; 3];
+            (components[i], components[j]) = (first, second);
+            Vector::new(components)
+        };
+        let zero = self.rate.graph().zero();
+        match self.coordinate {
+            Coordinate::Angle(_) => {
+                let inertia = self.lump.inertia;
+                let (u, v) = (self.rate * omega[i], self.rate * omega[j]);
+                // q' (2 omega_k + q'), by the angular velocity of what is turned.
+                let e = self.rate * (omega[k] + (self.rate + omega[k]));
+                let along = u * moment[i] + v * moment[j];
+                let force = placed(along + along, -(e * moment[i]), -(e * moment[j]));
+                let product = inertia.at(i, j) + inertia.at(i, j);
+                let (ki, kj, kk) = (inertia.at(k, i), inertia.at(k, j), inertia.at(k, k));
+                let difference = inertia.at(i, i) - inertia.at(j, j);
+                let first = v * (kk + difference) - u * product - e * kj;
+                let second = e * ki + v * product - u * (kk - difference);
+                Wrench { force, moment: placed(zero, first, second) }
+            }
+            Coordinate::Length(_) => {
+                let (u, v) = (self.rate * omega[i], self.rate * omega[j]);
+                let twice = placed(zero, v + v, -(u + u));
+                Wrench {
+                    force: self.lump.mass * twice,
+                    moment: self.lump.first_moment.cross(twice),
+                }
+            }
+        }
+    }
+
+    /// (C3): what the carrier's field asks of the joint's own equation.
+    pub(super) fn of_field(&self) -> Expr<'g> {
+        let [k, i, j] = self.axis.cycle();
+        let Carrying { omega, alpha, origin } = self.carrying;
+        let (moment, p) = (self.lump.first_moment.components(), origin.components());
+        match self.coordinate {
+            Coordinate::Angle(_) => {
+                let inertia = self.lump.inertia;
+                let (omega, alpha) = (omega.components(), alpha.components());
+                let lever = moment[i] * p[j] - moment[j] * p[i];
+                let (ki, kj, kk) = (inertia.at(k, i), inertia.at(k, j), inertia.at(k, k));
+                let difference = inertia.at(i, i) - inertia.at(j, j);
+                let squares = omega[i].squared() - omega[j].squared();
+                let beside = ki * (alpha[i] - omega[j] * omega[k])
+                    + kj * (alpha[j] + omega[i] * omega[k])
+                    + kk * alpha[k];
+                let across = squares * inertia.at(i, j) - difference * (omega[i] * omega[j]);
+                lever + (beside + across)
+            }
+            Coordinate::Length(_) => {
+                self.lump.mass * p[k] + self.carrying.field(self.lump.first_moment).components()[k]
+            }
+        }
+    }
+}

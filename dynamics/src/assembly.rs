@@ -1,0 +1,91 @@
+//! [`Assembly`]: the hub's six equations, put together device by device, along B axes.
+//!
+//! What does not notice that the joints move belongs to the hub from the start, so that what the hub's
+//! own motion asks for is worked out once, of one rigid body; a device adds the part of its first
+//! moment and inertia that moves, and what its joints take out of the equations.
+
+use crate::generated::hub::{Handed, HubShare};
+use crate::hub::PreparedHub;
+use crate::real::Scalar;
+use crate::solve::System;
+use crate::symmetric::Symmetric;
+use crate::vec3::{Vec3, add};
+
+/// The hub's equations so far.
+#[derive(Clone, Copy, Debug)]
+pub struct Assembly<T> {
+    /// Hub and devices as one rigid body.
+    body: PreparedHub<T>,
+    /// What acts from outside: force, and moment about B.
+    force: Vec3<T>,
+    moment: Vec3<T>,
+    /// What the joints take out of the equations.
+    taken: System<T>,
+    /// Second moment about B of what was added, kg m²; only with a central field.
+    pub(crate) second_moment: Symmetric<T>,
+}
+
+impl<T: Scalar> Assembly<T> {
+    /// The hub, with what it has taken over, and what acts on it.
+    pub(crate) fn new(body: &PreparedHub<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
+        let (taken, second_moment) = (System::zero(), Symmetric::zero());
+        Self { body: *body, force, moment, taken, second_moment }
+    }
+
+    /// Adds a force and a moment about B from outside.
+    pub(crate) fn push(&mut self, force: Vec3<T>, moment: Vec3<T>) {
+        self.force = add(self.force, force);
+        self.moment = add(self.moment, moment);
+    }
+
+    /// Adds a device whose joints are eliminated.
+    #[rustfmt::skip]
+    pub(crate) fn add(&mut self, e: &HubShare<T>) {
+        let (body, taken) = (&mut self.body, &mut self.taken);
+        body.first_moment =
+            add(body.first_moment, [e.mr_moving_bx, e.mr_moving_by, e.mr_moving_bz]);
+        body.i_b_b = body.i_b_b.plus(Symmetric {
+            xx: e.i_moving_11, xy: e.i_moving_12, xz: e.i_moving_13,
+            yy: e.i_moving_22, yz: e.i_moving_23, zz: e.i_moving_33,
+        });
+        taken.m_vv = taken.m_vv.plus(Symmetric {
+            xx: e.m_vv_11, xy: e.m_vv_12, xz: e.m_vv_13,
+            yy: e.m_vv_22, yz: e.m_vv_23, zz: e.m_vv_33,
+        });
+        let [x, y, z] = taken.m_vw;
+        taken.m_vw = [
+            add(x, [e.m_vw_11, e.m_vw_21, e.m_vw_31]),
+            add(y, [e.m_vw_12, e.m_vw_22, e.m_vw_32]),
+            add(z, [e.m_vw_13, e.m_vw_23, e.m_vw_33]),
+        ];
+        taken.m_ww = taken.m_ww.plus(Symmetric {
+            xx: e.m_ww_11, xy: e.m_ww_12, xz: e.m_ww_13,
+            yy: e.m_ww_22, yz: e.m_ww_23, zz: e.m_ww_33,
+        });
+        taken.h_v = add(taken.h_v, [e.h_v_1, e.h_v_2, e.h_v_3]);
+        taken.h_w = add(taken.h_w, [e.h_w_1, e.h_w_2, e.h_w_3]);
+    }
+
+    /// What is to be solved where the hub turns at `omega`.
+    pub(crate) fn system(&self, omega: Vec3<T>) -> System<T> {
+        self.body.system(omega, self.force, self.moment).less(&self.taken)
+    }
+}
+
+impl<T: Scalar> PreparedHub<T> {
+    /// The hub with what it takes over of its devices.
+    pub(crate) fn taking_over(self, devices: impl Iterator<Item = Handed<T>>) -> Self {
+        devices.fold(self, |hub, e| Self {
+            m_b: hub.m_b + e.hand_m,
+            first_moment: add(hub.first_moment, [e.hand_mr_bx, e.hand_mr_by, e.hand_mr_bz]),
+            i_b_b: hub.i_b_b.plus(Symmetric {
+                xx: e.hand_i_11,
+                xy: e.hand_i_12,
+                xz: e.hand_i_13,
+                yy: e.hand_i_22,
+                yz: e.hand_i_23,
+                zz: e.hand_i_33,
+            }),
+        })
+    }
+}
