@@ -26,9 +26,12 @@ def main():
     into.mkdir(parents=True, exist_ok=True)
     try:
         python = environment(into / "venv")
-    except subprocess.CalledProcessError as error:
-        install = f"{into / 'venv'}/bin/python -m pip install -r {os.path.relpath(REQUIREMENTS)}"
-        missing = {"name": "all peers", "missing": f"{error}; install with `{install}`"}
+    except subprocess.CalledProcessError:
+        # Debian's Python comes without the part of it that puts pip there.
+        pip = into / "venv" / "bin" / "pip"
+        install = f"{pip} install -r {os.path.relpath(REQUIREMENTS)}"
+        mend = install if pip.exists() else "apt-get install python3-venv"
+        missing = {"name": "all peers", "missing": f"no Python packages; install with `{mend}`"}
         (into / "peers.json").write_text(json.dumps([missing], indent=1) + "\n", encoding="utf-8")
         sys.exit(missing["missing"])
     sys.exit(subprocess.run([python, "-B", HERE / "prepare.py", into]).returncode)
