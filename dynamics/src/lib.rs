@@ -93,6 +93,9 @@ mod quaternion;
 mod real;
 mod rk4;
 mod sets;
+mod sincos;
+#[cfg(test)]
+mod sincos_checks;
 mod solve;
 mod spacecraft;
 #[cfg(test)]

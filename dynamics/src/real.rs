@@ -8,6 +8,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
+use crate::sincos::{LARGEST_ANGLE, sin_cos};
+
 /// What an emitted kernel does with a number.
 pub trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
@@ -97,7 +99,7 @@ impl Scalar for f64 {
 
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        libm::sincos(self)
+        if self.abs() <= LARGEST_ANGLE { sin_cos(self) } else { libm::sincos(self) }
     }
 
     #[inline]

@@ -81,7 +81,7 @@ impl Frame {
 
     /// The next body, turned about one of this frame's axes.
     fn turned(&self, axis: Vector3<f64>, angle: f64, rate: f64) -> Self {
-        // libm's, as in the solver: the same bits on every host.
+        // The solver's own: the same bits on every host.
         let (sin, cos) = Scalar::sin_cos(angle);
         let tilde = axis.cross_matrix();
         let turn = Matrix3::identity() + tilde * sin + tilde * tilde * (1.0 - cos);
