@@ -27,10 +27,11 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// Arithmetic operations, sines and cosines apart.
+    /// Arithmetic operations, sines and cosines apart. A change of sign is none: it is a bit, and
+    /// mostly the sum that takes it becomes a difference.
     #[must_use]
     pub const fn arithmetic(self) -> u64 {
-        self.mul + self.add + self.neg + self.recip + self.sqrt
+        self.mul + self.add + self.recip + self.sqrt
     }
 }
 
