@@ -6,6 +6,9 @@
 //!   a recursion over articulated bodies that takes nothing from the paper. Two more routes.
 //! - [`random`]: seeded spacecraft over the declared ranges; [`case`]: one spacecraft in one state.
 //! - [`table1`]: the paper's own numbers.
+//! - [`stored`]: spacecraft as files hold them, for engines and peers.
+//! - [`measured`]: spacecraft of every kind, for what is measured; [`counted`]: a scalar that counts
+//!   its operations.
 //! - [`blocks`]: the unit in which accelerations are compared.
 //! - [`bounds`]: what the project promises, as the suites assert it.
 
@@ -13,10 +16,13 @@ pub mod assembly;
 pub mod blocks;
 pub mod bounds;
 pub mod case;
+pub mod counted;
 pub mod double_double;
+pub mod measured;
 pub mod newton_euler;
 pub mod random;
 pub mod spatial;
+pub mod stored;
 pub mod table1;
 
 /// The examples of the README compile and run.

@@ -1,13 +1,17 @@
 //! The workbench: one short file per command.
 
+mod bench;
+mod callgrind;
 mod check;
 mod demo;
 mod engines;
 mod files;
+mod instructions;
 mod mutate;
 mod printed;
 mod regen;
 mod run;
+mod skip;
 mod test;
 
 use std::process::ExitCode;
@@ -40,6 +44,12 @@ enum Command {
     /// Ask the engines behind the stored values again, if their Python packages are installed
     #[command(after_help = "Example: cargo xtask engines")]
     Engines,
+    /// Time every service beside the peers, in one run on one core, and write the page that says so
+    #[command(after_help = "Example: cargo xtask bench --quick --skip-peers")]
+    Bench(bench::Options),
+    /// Count the instructions of a call under callgrind; write the table
+    #[command(after_help = "Example: cargo xtask instructions --check")]
+    Instructions(instructions::Options),
     /// Derive, prove, solve the paper's scenario and draw the report
     #[command(after_help = "Example: cargo xtask demo")]
     Demo,
@@ -52,6 +62,8 @@ fn main() -> ExitCode {
         Command::Mutate(options) => mutate::mutate(&options),
         Command::Test => test::test(),
         Command::Engines => engines::engines(),
+        Command::Bench(options) => bench::bench(&options),
+        Command::Instructions(options) => instructions::instructions(&options),
         Command::Demo => demo::demo(),
     };
     match done {

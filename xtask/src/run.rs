@@ -1,4 +1,4 @@
-//! Running cargo: what a command other than `regen` is made of.
+//! Running cargo and other programs: what a command other than `regen` is made of.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,13 +21,26 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
 }
 
+/// Where cargo puts what it builds: this program stands in `release` there.
+pub(crate) fn target() -> Result<PathBuf, String> {
+    let here = std::env::current_exe().map_err(|error| format!("where am I: {error}"))?;
+    let folder = here.parent().and_then(Path::parent).map(Path::to_path_buf);
+    folder.ok_or_else(|| format!("{} stands in no folder of a build", here.display()))
+}
+
 /// Runs cargo in the root and waits for it.
 pub(crate) fn cargo(arguments: &[&str]) -> Result<(), String> {
     let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    let line = format!("cargo {}", arguments.join(" "));
+    run(Command::new(program).args(arguments))
+}
+
+/// Runs a program in the root and waits for it.
+pub(crate) fn run(command: &mut Command) -> Result<(), String> {
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    let words: Vec<_> = words.map(|word| word.to_string_lossy()).collect();
+    let line = words.join(" ");
     eprintln!("$ {line}");
-    let status = Command::new(program).args(arguments).current_dir(root()).status();
-    match status {
+    match command.current_dir(root()).status() {
         Ok(status) if status.success() => Ok(()),
         Ok(status) => Err(format!("`{line}` failed ({status})")),
         Err(error) => Err(format!("`{line}` did not start: {error}")),

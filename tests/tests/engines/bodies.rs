@@ -5,8 +5,9 @@ use precess_dynamics::generated::dgvscmg::{
     FirstMoment, InnerGimbal, OuterGimbal, Prepared, Rates, Trig, Wheel, first_moment,
     inner_gimbal, outer_gimbal, prepare, wheel,
 };
+use precess_tests::stored::{StoredDevice, symmetric};
 
-use crate::stored::{Device, StoredJoints, symmetric};
+use crate::stored::StoredJoints;
 
 /// One body: centre of mass from B with its derivatives, angular velocity, inertia about B.
 pub(crate) struct Body {
@@ -42,7 +43,7 @@ struct Axes {
 }
 
 impl Kernels {
-    pub(crate) fn new(device: &Device, accelerations: StoredJoints) -> Self {
+    pub(crate) fn new(device: &StoredDevice, accelerations: StoredJoints) -> Self {
         let (sin_gamma_o, cos_gamma_o) = libm::sincos(device.angles.gamma_o);
         let (sin_gamma_i, cos_gamma_i) = libm::sincos(device.angles.gamma_i);
         let (sin_theta, cos_theta) = libm::sincos(device.angles.theta);

@@ -10,11 +10,12 @@ mod stored;
 use nalgebra::Vector3;
 use precess_tests::blocks::{Figures, NAMES, largest};
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
+use precess_tests::stored::symmetric;
 use serde_json::Value;
 
 use bodies::{Kernels, Moment};
 use solved::Solved;
-use stored::{Blocks, Craft, StoredBody, symmetric};
+use stored::{Blocks, Craft, StoredBody};
 
 /// What every input is changed by, relatively, to see whether the comparison notices: a thousand
 /// times [`ACCELERATIONS_WORST`], so an input with a thousandth of the influence of the largest one
@@ -79,7 +80,7 @@ fn file_holds_one_to_four_devices_from_two_engines() {
     let file = stored::file();
     println!("pinocchio {}, mujoco {}", file.engines.pinocchio, file.engines.mujoco);
     for n in 1..=4 {
-        assert!(file.spacecraft.iter().any(|craft| craft.devices.len() == n), "{n} devices");
+        assert!(file.spacecraft.iter().any(|craft| craft.stored.devices.len() == n), "{n} devices");
     }
     let mut claim = Claim::new("mujoco against pinocchio");
     for craft in &file.spacecraft {
@@ -129,7 +130,7 @@ fn kernels_place_and_move_every_body_as_an_engine_does() {
     let mut claim = Claim::new("bodies seen from B against pinocchio");
     for craft in &stored::file().spacecraft {
         let joints = &craft.pinocchio.motion.accelerations;
-        let devices = craft.devices.iter().zip(joints).zip(&craft.pinocchio.bodies);
+        let devices = craft.stored.devices.iter().zip(joints).zip(&craft.pinocchio.bodies);
         for ((device, joints), expected) in devices {
             let found = Kernels::new(device, *joints).bodies();
             for ((part, found), expected) in PARTS.into_iter().zip(found).zip(expected) {
@@ -153,7 +154,7 @@ fn kernels_sum_the_bodies_of_an_engine_to_the_first_moment() {
     let mut claim = Claim::new("first moment against pinocchio");
     for craft in &stored::file().spacecraft {
         let joints = &craft.pinocchio.motion.accelerations;
-        let devices = craft.devices.iter().zip(joints).zip(&craft.pinocchio.bodies);
+        let devices = craft.stored.devices.iter().zip(joints).zip(&craft.pinocchio.bodies);
         for ((device, joints), bodies) in devices {
             let Moment { mc, mc_prime, mc_dprime } = Kernels::new(device, *joints).moment();
             let p = device.parameters;

@@ -4,8 +4,9 @@ use nalgebra::Vector3;
 use precess_dynamics::{About, Accelerations, Attitude, Momentum, SolveError};
 use precess_tests::case::{Set, converted};
 use precess_tests::double_double::DoubleDouble;
+use precess_tests::stored::ATTITUDE;
 
-use crate::stored::{ATTITUDE, Blocks, Craft};
+use crate::stored::{Blocks, Craft};
 
 /// Accelerations by two routes; energy and momenta; all along B.
 pub(crate) struct Solved {
@@ -20,7 +21,7 @@ pub(crate) struct Solved {
 
 impl Solved {
     pub(crate) fn new(craft: &Craft) -> Self {
-        match craft.devices.len() {
+        match craft.stored.devices.len() {
             1 => Self::with_devices::<1>(craft),
             2 => Self::with_devices::<2>(craft),
             3 => Self::with_devices::<3>(craft),
@@ -30,7 +31,7 @@ impl Solved {
     }
 
     fn with_devices<const N: usize>(craft: &Craft) -> Self {
-        let case = craft.case::<N>();
+        let case = craft.stored.case::<N>();
         let spacecraft = case.spacecraft(&craft.name);
         let refused = |error: SolveError| -> ! { panic!("{}: {error}", craft.name) };
         let energy = spacecraft.energy(&case.state).unwrap_or_else(|error| refused(error));

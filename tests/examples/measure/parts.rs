@@ -1,0 +1,51 @@
+//! What an evaluation is made of: operations as counted, sines and hub as timed by themselves.
+
+use std::hint::black_box;
+
+use precess_dynamics::kind::JointStates;
+use precess_dynamics::{Scalar, Spacecraft, State};
+use precess_tests::counted::{Counted, count};
+use precess_tests::measured::{Measured, dgvscmg};
+use precess_tests::stored::Stored;
+use serde_json::{Value, json};
+
+use crate::service::{Refused, Service, open_hub};
+use crate::timing::time;
+
+/// The parts of an evaluation of this spacecraft.
+pub(crate) fn parts(stored: &Stored) -> Result<Value, Refused> {
+    let counted = Measured::new(&vec![dgvscmg::<Counted>(); stored.devices.len()]);
+    let (found, operations) = count(|| counted.accelerations());
+    found.map_err(|error| error.to_string())?;
+    let craft = Spacecraft::new(&stored.hub(), &stored.dgvscmgs().collect::<Vec<_>>())?;
+    let state = stored.motion(State::at_rest_for(&craft));
+    let angles = state.devices.states().map(|[angle, _]| angle).collect();
+    Ok(json!({
+        "operations": operations.arithmetic(),
+        "sin_cos": operations.sin_cos,
+        "sin_cos_ns": time(&mut Sines(angles))?["ns"],
+        "hub_ns": time(open_hub(stored)?.as_mut())?["ns"],
+    }))
+}
+
+/// Sine and cosine of each angle: what an evaluation asks for, by itself.
+struct Sines(Vec<f64>);
+
+impl Service for Sines {
+    fn accelerations(&mut self) -> Result<Vec<f64>, Refused> {
+        Ok(Vec::new())
+    }
+
+    fn run(&mut self, calls: u32) -> Result<(), Refused> {
+        for _ in 0..calls {
+            for angle in black_box(&self.0) {
+                black_box(Scalar::sin_cos(*angle));
+            }
+        }
+        Ok(())
+    }
+
+    fn evaluations(&self) -> u32 {
+        1
+    }
+}

@@ -1,0 +1,84 @@
+//! The services: ways of asking the solver for accelerations.
+
+mod one;
+mod step;
+
+use std::error::Error;
+
+use clap::ValueEnum;
+use precess_dynamics::{Devices, Dgvscmg};
+use precess_tests::stored::Stored;
+use serde_json::json;
+
+/// What a service could not do.
+pub(crate) type Refused = Box<dyn Error>;
+
+/// A spacecraft opened for one of the services.
+pub(crate) trait Service {
+    /// All accelerations in the state of the file: of the hub, then joint by joint.
+    fn accelerations(&mut self) -> Result<Vec<f64>, Refused>;
+    /// Makes so many calls, none of which can be computed before the one before it is done, or
+    /// without being made.
+    fn run(&mut self, calls: u32) -> Result<(), Refused>;
+    /// Evaluations in a call.
+    fn evaluations(&self) -> u32;
+}
+
+/// The services by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Name {
+    /// One state, one evaluation after another
+    One,
+    /// One state, whole steps of the Runge-Kutta method, by four evaluations each
+    Step,
+}
+
+impl Name {
+    /// Name, title, whether its accelerations are its own, to be checked, and the row of the issue
+    /// floor that bounds it.
+    pub(crate) fn told(self) -> serde_json::Value {
+        let (name, title, checked, floor) = match self {
+            Self::One => ("one", "Precess, one state", true, "f64"),
+            Self::Step => ("step", "Precess, RK4 steps of one state, per evaluation", false, "f64"),
+        };
+        json!({ "name": name, "title": title, "checked": checked, "floor": floor })
+    }
+}
+
+/// Opens the spacecraft: as an array where its length is a power of two up to 256, as a vector
+/// otherwise.
+pub(crate) fn open(name: Name, stored: &Stored) -> Result<Box<dyn Service>, Refused> {
+    macro_rules! arrays {
+        ($($n:literal)*) => {
+            match stored.devices.len() {
+                $($n => of(name, stored, &array::<$n>(stored)?),)*
+                _ => of(name, stored, &stored.dgvscmgs().collect::<Vec<_>>()),
+            }
+        };
+    }
+    arrays!(1 2 4 8 16 32 64 128 256)
+}
+
+/// The hub alone, one evaluation after another.
+pub(crate) fn open_hub(stored: &Stored) -> Result<Box<dyn Service>, Refused> {
+    let bare: [Dgvscmg; 0] = [];
+    Ok(Box::new(one::One::open(stored, &bare)?))
+}
+
+/// The devices as an array.
+fn array<const N: usize>(stored: &Stored) -> Result<[Dgvscmg; N], Refused> {
+    let devices: Vec<_> = stored.dgvscmgs().collect();
+    let found = devices.len();
+    devices.try_into().map_err(|_| format!("{found} devices, not {N}").into())
+}
+
+fn of<D: Devices<Scalar = f64> + 'static>(
+    name: Name,
+    stored: &Stored,
+    devices: &D,
+) -> Result<Box<dyn Service>, Refused> {
+    Ok(match name {
+        Name::One => Box::new(one::One::open(stored, devices)?),
+        Name::Step => Box::new(step::Step(one::One::open(stored, devices)?)),
+    })
+}

@@ -1,0 +1,53 @@
+//! One state, one evaluation after another: the latency of a call.
+
+use std::hint::black_box;
+
+use precess_dynamics::kind::Each;
+use precess_dynamics::{Accelerations, Devices, Inputs, Spacecraft, State};
+use precess_tests::stored::Stored;
+
+use super::{Refused, Service};
+
+/// By what share of its derivative the angular velocity of a call exceeds that of the one before:
+/// enough to make each call wait for the last, not enough to move the state.
+const NUDGE: f64 = 1e-15;
+
+/// A spacecraft in a state.
+pub(crate) struct One<D: Devices> {
+    pub(super) craft: Spacecraft<D>,
+    pub(super) state: State<D>,
+    pub(super) inputs: Inputs<D>,
+}
+
+impl<D: Devices<Scalar = f64>> One<D> {
+    pub(super) fn open(stored: &Stored, devices: &D) -> Result<Self, Refused> {
+        let craft = Spacecraft::new(&stored.hub(), devices)?;
+        let state = stored.motion(State::at_rest_for(&craft));
+        let inputs = stored.forces(Inputs::none_for(&craft));
+        Ok(Self { craft, state, inputs })
+    }
+}
+
+impl<D: Devices<Scalar = f64>> Service for One<D> {
+    fn accelerations(&mut self) -> Result<Vec<f64>, Refused> {
+        Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
+    }
+
+    fn run(&mut self, calls: u32) -> Result<(), Refused> {
+        for _ in 0..calls {
+            let found = self.craft.accelerations(black_box(&self.state), &self.inputs)?;
+            self.state.omega += black_box(&found).omega_dot * NUDGE;
+        }
+        Ok(())
+    }
+
+    fn evaluations(&self) -> u32 {
+        1
+    }
+}
+
+/// The accelerations in a row.
+pub(super) fn flat<D: Devices<Scalar = f64>>(found: &Accelerations<D>) -> Vec<f64> {
+    let hub = found.r_b_n_ddot.iter().chain(&found.omega_dot).copied();
+    hub.chain(found.devices.values()).collect()
+}

@@ -1,0 +1,73 @@
+//! S2: how many operations an evaluation takes, counted as it is run, hub, rotations and all.
+//!
+//! Run with `--nocapture` to see the counts by what they are.
+
+use precess_dynamics::Devices;
+use precess_dynamics::kind::Kind;
+use precess_tests::counted::{Counted, Operations, count};
+use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind};
+
+/// What a hub takes, and each DGVSCMG on it, sines and cosines apart.
+const EVALUATION: [u64; 2] = [262, 1367];
+
+/// S2's budget for the same.
+const BUDGET: [u64; 2] = [281, 1007];
+
+/// What the graph of the strongest peer for few devices (`CasADi` on Pinocchio's algorithm) has at
+/// four devices.
+const CASADI_AT_FOUR: u64 = 7248;
+
+/// What one more device of each kind takes: operations, and pairs of sine and cosine.
+const KINDS: [(&str, u64, u64); 12] = [
+    ("dgvscmg", EVALUATION[1], 3),
+    ("balanced_dgvscmg", 1109, 2),
+    ("dgcmg", 1202, 3),
+    ("balanced_dgcmg", 1057, 2),
+    ("vscmg", 946, 2),
+    ("balanced_vscmg", 697, 1),
+    ("sgcmg", 813, 2),
+    ("balanced_sgcmg", 671, 1),
+    ("reaction_wheel", 569, 1),
+    ("balanced_reaction_wheel", 403, 0),
+    ("hinged_panel", 604, 1),
+    ("slosh_mass", 423, 0),
+];
+
+/// What the accelerations of these devices take.
+fn evaluation<D: Devices<Scalar = Counted>>(devices: &D) -> Operations {
+    let measured = Measured::new(devices);
+    let (found, operations) = count(|| measured.accelerations());
+    assert!(found.is_ok(), "{:?}", found.err());
+    operations
+}
+
+#[test]
+fn dgvscmgs_take_what_is_recorded_each_as_much_as_the_first() {
+    let [hub, device] = EVALUATION;
+    for n in 0..=8 {
+        let found = evaluation(&vec![dgvscmg::<Counted>(); n]);
+        let n = n as u64;
+        println!("{n} devices: {} operations, {found:?}", found.arithmetic());
+        assert_eq!(found.arithmetic(), hub + device * n, "of {n} devices: record what is true");
+        assert_eq!(found.sin_cos, 3 * n);
+    }
+    let [hub_budget, device_budget] = BUDGET;
+    println!("{hub} + {device} N recorded, {hub_budget} + {device_budget} N the budget of S2");
+    assert!(hub + 4 * device <= CASADI_AT_FOUR, "S2: the floor for credit");
+}
+
+#[test]
+fn a_device_of_each_kind_takes_what_is_recorded() {
+    struct Costs(Vec<(&'static str, u64, u64)>);
+    impl EachKind<Counted> for Costs {
+        fn visit<K: Kind<Scalar = Counted>>(&mut self, name: &'static str, device: K) {
+            let [one, two] = [evaluation(&vec![device; 1]), evaluation(&vec![device; 2])];
+            let more = two.arithmetic() - one.arithmetic();
+            println!("(\"{name}\", {more}, {}),", two.sin_cos - one.sin_cos);
+            self.0.push((name, more, two.sin_cos - one.sin_cos));
+        }
+    }
+    let mut costs = Costs(Vec::new());
+    each_kind(&mut costs);
+    assert_eq!(costs.0, KINDS, "record what is true");
+}
