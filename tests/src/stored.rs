@@ -213,10 +213,33 @@ pub fn symmetric([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
-/// The generated parameters, field by field, for serde.
+/// On the diagonal of a mount that is none.
+fn one() -> f64 {
+    1.0
+}
+
+/// The generated parameters, field by field, for serde; the files have the mount beside them.
 #[derive(Deserialize)]
 #[serde(remote = "Parameters::<f64>")]
 struct ParametersInFile {
+    #[serde(default = "one")]
+    mount_11: f64,
+    #[serde(default)]
+    mount_12: f64,
+    #[serde(default)]
+    mount_13: f64,
+    #[serde(default)]
+    mount_21: f64,
+    #[serde(default = "one")]
+    mount_22: f64,
+    #[serde(default)]
+    mount_23: f64,
+    #[serde(default)]
+    mount_31: f64,
+    #[serde(default)]
+    mount_32: f64,
+    #[serde(default = "one")]
+    mount_33: f64,
     r_go_b_bx: f64,
     r_go_b_by: f64,
     r_go_b_bz: f64,
