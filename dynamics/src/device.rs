@@ -6,56 +6,37 @@
 use crate::devices::{Around, Assembly, Given, own_mode};
 use crate::each::{Each, JointStates};
 use crate::error::SolveError;
-use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, HubShare};
+use crate::generated::hub::BodyVelocity;
 use crate::gravity::Central;
 use crate::hub::BodySums;
-use crate::kind::{Carried, ImbalanceModel, Kind, Lumped, Wrenches};
+use crate::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
 use crate::mode::{Drive, Mode};
 use crate::passive::Passive;
 use crate::real::{Scalar, one, zero};
-use crate::solve::{Solution, System, check_pivot};
+use crate::share::{along_b, in_device, rate_in_device, sum};
+use crate::solve::{Solution, check_pivot};
 use crate::symmetric::Symmetric;
 use crate::validation::triangle_excess;
-use crate::vec3::{
-    Columns, Vec3, add, columns, components, rotate, rotate_tensor, rotate_transposed, vector,
-};
+use crate::vec3::{Columns, Vec3, add, columns, components, rotate, rotate_transposed, vector};
 use crate::wrench::Wrench;
 
 /// Torques and weights of the joints of a kind.
-type Drives<K> = <K as Kind>::PerJoint<Drive<<K as Kind>::Scalar>>;
+type Drives<K> = <K as Kernels>::PerJoint<Drive<<K as Kind>::Scalar>>;
 
 /// Constants of one device.
 #[derive(Clone, Copy, Debug)]
 pub struct Device<K: Kind> {
     pub(crate) mount: Columns<K::Scalar>,
-    pub(crate) constants: K::Constants,
+    pub(crate) constants: K::Constants<K::Scalar>,
     /// Mass of its bodies, kg.
     pub(crate) mass: K::Scalar,
     pub(crate) passive: K::PerJoint<Passive<K::Scalar>>,
     /// Whether no joint has a spring or friction.
-    free: bool,
+    pub(crate) free: bool,
     /// What the simplified model puts in the place of the rotor's imbalance.
     pub(crate) lumped: Option<Lumped<K::Scalar>>,
     /// By how much each inertia breaks the triangle inequality, kg m².
     pub(crate) excess: K::PerJoint<K::Scalar>,
-}
-
-/// The hub's accelerations along a device's axes.
-pub(crate) fn in_device<T: Scalar>(
-    mount: &Columns<T>,
-    r_b_n_ddot: Vec3<T>,
-    omega_dot: Vec3<T>,
-) -> BodyAcceleration<T> {
-    let [r_b_n_ddot_bx, r_b_n_ddot_by, r_b_n_ddot_bz] = rotate_transposed(mount, r_b_n_ddot);
-    let [omega_dot_bx, omega_dot_by, omega_dot_bz] = rotate_transposed(mount, omega_dot);
-    BodyAcceleration {
-        r_b_n_ddot_bx,
-        r_b_n_ddot_by,
-        r_b_n_ddot_bz,
-        omega_dot_bx,
-        omega_dot_by,
-        omega_dot_bz,
-    }
 }
 
 impl<K: Kind> Device<K> {
@@ -91,12 +72,12 @@ impl<K: Kind> Device<K> {
     #[inline(never)]
     pub(crate) fn eliminate(
         &self,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         around: &Around<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
         device: usize,
-    ) -> Result<K::Eliminated, SolveError<K::Scalar>> {
+    ) -> Result<K::Eliminated<K::Scalar>, SolveError<K::Scalar>> {
         let pose = K::pose(joints);
         let mut drives = self.drives(joints, given, around.impulse, device)?;
         if !around.impulse {
@@ -120,18 +101,18 @@ impl<K: Kind> Device<K> {
         if around.impulse {
             joints.states_mut().for_each(|[_, rate]| *rate = zero());
         }
-        let [omega_bx, omega_by, omega_bz] = rotate_transposed(&self.mount, around.omega);
-        let omega = BodyRate { omega_bx, omega_by, omega_bz };
+        let omega = rate_in_device(&self.mount, around.omega);
         let eliminated = K::eliminate(&self.constants, &pose, &joints, &omega, &drives);
         check_pivots::<K>(device, &eliminated, &drives)?;
-        self.add_to(&mut assembly.system, K::share(&eliminated));
+        let share = along_b(&self.mount, K::share(&eliminated));
+        assembly.system = sum(&assembly.system, &share);
         Ok(eliminated)
     }
 
-    /// Torques and modes of the joints, springs and friction with the motors.
-    fn drives(
-        &self,
-        joints: &K::Joints,
+    /// Torques and modes of the joints.
+    #[inline]
+    fn by_mode(
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         impulse: bool,
         device: usize,
@@ -148,6 +129,7 @@ impl<K: Kind> Device<K> {
                 return Err(SolveError::NotDriven { device, joint: info.body });
             }
             *drive = match mode {
+                Mode::Driven if !impulse => mode.drive(torque),
                 Mode::Locked if impulse => Mode::Prescribed(-rate).drive(zero()),
                 Mode::Prescribed(_) if impulse => Mode::Locked.drive(zero()),
                 Mode::Driven if impulse => Mode::Driven.drive(zero()),
@@ -157,6 +139,41 @@ impl<K: Kind> Device<K> {
                 mode => mode.drive(torque),
             };
         }
+        Ok(drives)
+    }
+
+    /// Whether lanes have all that the device has.
+    #[cfg(feature = "lanes")]
+    #[inline]
+    pub(crate) fn is_laned(&self) -> bool {
+        let dry = |passive: Passive<K::Scalar>| passive.coulomb != zero();
+        self.lumped.is_none() && (self.free || !self.passive.values().any(dry))
+    }
+
+    /// What is given of the joints, for lanes: without what joints do by themselves. None where the
+    /// device or its modes ask for what lanes have not, or for what is refused.
+    #[cfg(feature = "lanes")]
+    #[inline]
+    pub(crate) fn given_drives(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: Given<'_, K>,
+    ) -> Option<Drives<K>> {
+        if !self.is_laned() {
+            return None;
+        }
+        Self::by_mode(joints, given, false, 0).ok()
+    }
+
+    /// Torques and modes of the joints, springs and friction with the motors.
+    fn drives(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: Given<'_, K>,
+        impulse: bool,
+        device: usize,
+    ) -> Result<Drives<K>, SolveError<K::Scalar>> {
+        let mut drives = Self::by_mode(joints, given, impulse, device)?;
         if !(self.free || impulse) {
             let states = joints.states().zip(self.passive.values());
             for (drive, ([coordinate, rate], passive)) in drives.values_mut().zip(states) {
@@ -171,8 +188,8 @@ impl<K: Kind> Device<K> {
     /// that the gradient of gravity asks for; none where there is nothing.
     pub(crate) fn acting(
         &self,
-        pose: &K::Pose,
-        joints: &K::Joints,
+        pose: &K::Pose<K::Scalar>,
+        joints: &K::Joints<K::Scalar>,
         bodies: Option<&Wrenches<K>>,
         central: Option<&Central<K::Scalar>>,
     ) -> Option<(Wrenches<K>, Symmetric<K::Scalar>)> {
@@ -192,7 +209,11 @@ impl<K: Kind> Device<K> {
     }
 
     /// Wrenches on the bodies from outside, the simplified model's among them.
-    pub(crate) fn applied(&self, joints: &K::Joints, bodies: Option<&Wrenches<K>>) -> Wrenches<K> {
+    pub(crate) fn applied(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        bodies: Option<&Wrenches<K>>,
+    ) -> Wrenches<K> {
         let mut sum = bodies.copied().unwrap_or_else(|| K::all(Wrench::none()));
         if let Some(lumped) = &self.lumped {
             let tip = sum.values_mut().zip(joints.states()).last();
@@ -207,7 +228,7 @@ impl<K: Kind> Device<K> {
     /// along its own axes.
     pub(crate) fn gradient(
         &self,
-        pose: &K::Pose,
+        pose: &K::Pose<K::Scalar>,
         central: &Central<K::Scalar>,
     ) -> (Wrenches<K>, Symmetric<K::Scalar>) {
         let [x, y, z] = self.mount;
@@ -218,44 +239,19 @@ impl<K: Kind> Device<K> {
         (wrenches, Symmetric { xx, xy, xz, yy, yz, zz })
     }
 
-    /// Adds the device's share to the hub's system.
-    #[rustfmt::skip]
-    fn add_to(&self, system: &mut System<K::Scalar>, e: &HubShare<K::Scalar>) {
-        let m_vv = Symmetric {
-            xx: e.m_vv_11, xy: e.m_vv_12, xz: e.m_vv_13,
-            yy: e.m_vv_22, yz: e.m_vv_23, zz: e.m_vv_33,
-        };
-        let m_vw = [
-            [e.m_vw_11, e.m_vw_21, e.m_vw_31],
-            [e.m_vw_12, e.m_vw_22, e.m_vw_32],
-            [e.m_vw_13, e.m_vw_23, e.m_vw_33],
-        ];
-        let m_ww = Symmetric {
-            xx: e.m_ww_11, xy: e.m_ww_12, xz: e.m_ww_13,
-            yy: e.m_ww_22, yz: e.m_ww_23, zz: e.m_ww_33,
-        };
-        system.m_vv = system.m_vv.plus(m_vv.rotated(&self.mount));
-        let [x, y, z] = rotate_tensor(&self.mount, &m_vw);
-        let [sx, sy, sz] = system.m_vw;
-        system.m_vw = [add(sx, x), add(sy, y), add(sz, z)];
-        system.m_ww = system.m_ww.plus(m_ww.rotated(&self.mount));
-        system.h_v = add(system.h_v, rotate(&self.mount, [e.h_v_1, e.h_v_2, e.h_v_3]));
-        system.h_w = add(system.h_w, rotate(&self.mount, [e.h_w_1, e.h_w_2, e.h_w_3]));
-    }
-
     /// The joints' accelerations once the hub's are known.
     pub(crate) fn back_substitute(
         &self,
-        e: &K::Eliminated,
+        e: &K::Eliminated<K::Scalar>,
         hub: &Solution<K::Scalar>,
-    ) -> K::Accelerations {
+    ) -> K::Accelerations<K::Scalar> {
         K::back_substitute(e, &in_device(&self.mount, hub.r_b_n_ddot, hub.omega_dot))
     }
 
     /// Adds kinetic energy and momenta for the inertial velocity of B, along B axes.
     pub(crate) fn add_sums(
         &self,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         r_b_n_dot: Vec3<K::Scalar>,
         omega: Vec3<K::Scalar>,
         sums: &mut BodySums<K::Scalar>,
@@ -273,7 +269,11 @@ impl<K: Kind> Device<K> {
     }
 
     /// Adds the first moment about B and its derivative seen from B, along B axes.
-    pub(crate) fn add_first_moment(&self, joints: &K::Joints, moment: &mut [Vec3<K::Scalar>; 2]) {
+    pub(crate) fn add_first_moment(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        moment: &mut [Vec3<K::Scalar>; 2],
+    ) {
         for (sum, share) in moment.iter_mut().zip(K::first_moment(&self.constants, joints)) {
             *sum = add(*sum, rotate(&self.mount, share));
         }
@@ -282,7 +282,7 @@ impl<K: Kind> Device<K> {
     /// `external`, in the device's axes.
     pub(crate) fn carried(
         &self,
-        pose: &K::Pose,
+        pose: &K::Pose<K::Scalar>,
         bodies: &Wrenches<K>,
     ) -> Carried<Wrenches<K>, Wrench<K::Scalar>> {
         K::external(&self.constants, pose, bodies)
@@ -305,7 +305,7 @@ impl<T: Scalar> Lumped<T> {
 /// one refused is the cause, those after it may be its consequence.
 fn check_pivots<K: Kind>(
     device: usize,
-    eliminated: &K::Eliminated,
+    eliminated: &K::Eliminated<K::Scalar>,
     drives: &K::PerJoint<Drive<K::Scalar>>,
 ) -> Result<(), SolveError<K::Scalar>> {
     let mut refused = None;

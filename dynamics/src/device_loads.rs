@@ -1,28 +1,29 @@
 //! The loads of one device, and the powers at its joints.
 
-use crate::device::{Device, in_device};
+use crate::device::Device;
 use crate::devices::{Around, Given};
 use crate::each::{Each, JointStates};
 use crate::generated::hub::BodyRate;
-use crate::kind::{Carried, Kind, Wrenches};
+use crate::kind::{Carried, Kernels, Kind, Wrenches};
 use crate::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
 use crate::mode::Mode;
 use crate::real::{Scalar, zero};
+use crate::share::in_device;
 use crate::vec3::{Columns, rotate_transposed};
 use crate::wrench::Wrench;
 
 /// The loads of a device of a kind.
 pub(crate) type LoadsOf<K> = DeviceLoads<
     Wrenches<K>,
-    <K as Kind>::PerJoint<<K as Kind>::Scalar>,
-    <K as Kind>::PerJoint<JointPower<<K as Kind>::Scalar>>,
+    <K as Kernels>::PerJoint<<K as Kind>::Scalar>,
+    <K as Kernels>::PerJoint<JointPower<<K as Kind>::Scalar>>,
     <K as Kind>::Scalar,
 >;
 
 /// Motor torque and power of each joint.
 type Booked<K> = (
-    <K as Kind>::PerJoint<<K as Kind>::Scalar>,
-    <K as Kind>::PerJoint<JointPower<<K as Kind>::Scalar>>,
+    <K as Kernels>::PerJoint<<K as Kind>::Scalar>,
+    <K as Kernels>::PerJoint<JointPower<<K as Kind>::Scalar>>,
 );
 
 /// What the joints feel along their axes.
@@ -41,11 +42,11 @@ impl<K: Kind> Device<K> {
     #[expect(clippy::too_many_arguments, reason = "state, inputs and accelerations, then results")]
     pub(crate) fn loads(
         &self,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         around: &Around<K::Scalar>,
         hub: &HubMotion<K::Scalar>,
-        accelerations: &K::Accelerations,
+        accelerations: &K::Accelerations<K::Scalar>,
         along: &Along<K::Scalar>,
         totals: &mut Totals<K::Scalar>,
     ) -> LoadsOf<K> {
@@ -94,7 +95,7 @@ impl<K: Kind> Device<K> {
     /// need.
     fn book(
         &self,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         felt: &Felt<K>,
         totals: &mut Totals<K::Scalar>,
@@ -136,7 +137,7 @@ impl<K: Kind> Device<K> {
     /// The load of the mount, and those of the joints along the axes asked for.
     fn told(
         &self,
-        pose: &K::Pose,
+        pose: &K::Pose<K::Scalar>,
         mut loads: Wrenches<K>,
         along: &Along<K::Scalar>,
     ) -> (Wrench<K::Scalar>, Wrenches<K>) {

@@ -54,6 +54,7 @@ extern crate std;
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+
 mod accelerations;
 #[cfg(feature = "alloc")]
 mod any_device;
@@ -76,6 +77,7 @@ mod imbalance;
 mod imbalance_checks;
 mod imbalance_error;
 mod inputs;
+mod kernels;
 pub mod kind;
 mod ledger;
 mod loads;
@@ -92,6 +94,8 @@ mod quaternion;
 mod real;
 mod rk4;
 mod sets;
+mod share;
+mod sincos;
 mod solve;
 mod spacecraft;
 #[cfg(test)]
@@ -128,7 +132,7 @@ pub use parameter_error::{Parameter, ParameterError, Part, Warning};
 pub use parameters::Hub;
 pub use passive::Passive;
 pub use quaternion::Quaternion;
-pub use real::{Real, Scalar};
+pub use real::{Angle, Real, Scalar};
 pub use rk4::Stepped;
 pub use spacecraft::Spacecraft;
 pub use state::{Accelerations, State};

@@ -306,6 +306,122 @@ pub struct Prepared<T> {
     pub k_30: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            r_go_b_bx: join(self.r_go_b_bx, other.r_go_b_bx),
+            r_go_b_by: join(self.r_go_b_by, other.r_go_b_by),
+            r_go_b_bz: join(self.r_go_b_bz, other.r_go_b_bz),
+            r_goc_go_gox: join(self.r_goc_go_gox, other.r_goc_go_gox),
+            r_goc_go_goy: join(self.r_goc_go_goy, other.r_goc_go_goy),
+            m_go: join(self.m_go, other.m_go),
+            i_go_11: join(self.i_go_11, other.i_go_11),
+            i_go_12: join(self.i_go_12, other.i_go_12),
+            i_go_13: join(self.i_go_13, other.i_go_13),
+            i_go_22: join(self.i_go_22, other.i_go_22),
+            i_go_23: join(self.i_go_23, other.i_go_23),
+            i_go_33: join(self.i_go_33, other.i_go_33),
+            l_o_x: join(self.l_o_x, other.l_o_x),
+            l_o_y: join(self.l_o_y, other.l_o_y),
+            l_o_z: join(self.l_o_z, other.l_o_z),
+            r_gic_gi_gix: join(self.r_gic_gi_gix, other.r_gic_gi_gix),
+            r_gic_gi_giy: join(self.r_gic_gi_giy, other.r_gic_gi_giy),
+            r_gic_gi_giz: join(self.r_gic_gi_giz, other.r_gic_gi_giz),
+            m_gi: join(self.m_gi, other.m_gi),
+            i_gi_11: join(self.i_gi_11, other.i_gi_11),
+            i_gi_12: join(self.i_gi_12, other.i_gi_12),
+            i_gi_13: join(self.i_gi_13, other.i_gi_13),
+            i_gi_22: join(self.i_gi_22, other.i_gi_22),
+            i_gi_23: join(self.i_gi_23, other.i_gi_23),
+            i_gi_33: join(self.i_gi_33, other.i_gi_33),
+            l_i_x: join(self.l_i_x, other.l_i_x),
+            l_i_y: join(self.l_i_y, other.l_i_y),
+            l_i_z: join(self.l_i_z, other.l_i_z),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_22: join(self.j_22, other.j_22),
+            r_goc_b_bz: join(self.r_goc_b_bz, other.r_goc_b_bz),
+            origin_gi_bz: join(self.origin_gi_bz, other.origin_gi_bz),
+            k_0: join(self.k_0, other.k_0),
+            r_gic_b_dprime_o_gox: join(self.r_gic_b_dprime_o_gox, other.r_gic_b_dprime_o_gox),
+            r_wc_b_dprime_i_giz: join(self.r_wc_b_dprime_i_giz, other.r_wc_b_dprime_i_giz),
+            mr_gic_gi_gix: join(self.mr_gic_gi_gix, other.mr_gic_gi_gix),
+            mr_gic_gi_giy: join(self.mr_gic_gi_giy, other.mr_gic_gi_giy),
+            mr_gic_gi_giz: join(self.mr_gic_gi_giz, other.mr_gic_gi_giz),
+            i_gi_gi_11: join(self.i_gi_gi_11, other.i_gi_gi_11),
+            i_gi_gi_12: join(self.i_gi_gi_12, other.i_gi_gi_12),
+            i_gi_gi_13: join(self.i_gi_gi_13, other.i_gi_gi_13),
+            i_gi_gi_22: join(self.i_gi_gi_22, other.i_gi_gi_22),
+            i_gi_gi_23: join(self.i_gi_gi_23, other.i_gi_gi_23),
+            i_gi_gi_33: join(self.i_gi_gi_33, other.i_gi_gi_33),
+            mr_v_gi_gix: join(self.mr_v_gi_gix, other.mr_v_gi_gix),
+            mr_v_gi_giz: join(self.mr_v_gi_giz, other.mr_v_gi_giz),
+            i_v_gi_11: join(self.i_v_gi_11, other.i_v_gi_11),
+            i_v_gi_12: join(self.i_v_gi_12, other.i_v_gi_12),
+            i_v_gi_13: join(self.i_v_gi_13, other.i_v_gi_13),
+            i_v_gi_22: join(self.i_v_gi_22, other.i_v_gi_22),
+            i_v_gi_23: join(self.i_v_gi_23, other.i_v_gi_23),
+            i_v_gi_33: join(self.i_v_gi_33, other.i_v_gi_33),
+            mass_ii: join(self.mass_ii, other.mass_ii),
+            k_1: join(self.k_1, other.k_1),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            mr_goc_go_gox: join(self.mr_goc_go_gox, other.mr_goc_go_gox),
+            mr_goc_go_goy: join(self.mr_goc_go_goy, other.mr_goc_go_goy),
+            mr_goc_go_goz: join(self.mr_goc_go_goz, other.mr_goc_go_goz),
+            i_go_go_11: join(self.i_go_go_11, other.i_go_go_11),
+            i_go_go_12: join(self.i_go_go_12, other.i_go_go_12),
+            i_go_go_13: join(self.i_go_go_13, other.i_go_go_13),
+            i_go_go_22: join(self.i_go_go_22, other.i_go_go_22),
+            i_go_go_23: join(self.i_go_go_23, other.i_go_go_23),
+            i_go_go_33: join(self.i_go_go_33, other.i_go_go_33),
+            m_d: join(self.m_d, other.m_d),
+            mr_d_go_goy: join(self.mr_d_go_goy, other.mr_d_go_goy),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+            k_17: join(self.k_17, other.k_17),
+            k_18: join(self.k_18, other.k_18),
+            k_19: join(self.k_19, other.k_19),
+            k_20: join(self.k_20, other.k_20),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
+            k_29: join(self.k_29, other.k_29),
+            k_30: join(self.k_30, other.k_30),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -738,6 +854,30 @@ pub struct JointAccelerations<T> {
     pub gamma_i_ddot: T,
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations {
+            gamma_o_ddot: join(self.gamma_o_ddot, other.gamma_o_ddot),
+            gamma_i_ddot: join(self.gamma_i_ddot, other.gamma_i_ddot),
+            spin_dot: join(self.spin_dot, other.spin_dot),
+        }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -1700,6 +1840,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 384 mul, 340 add, 19 neg, 3 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1710,75 +1851,79 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{Gᵒ/N}, eq. (31), along its own axes, rad/s.
-    let omega_go_n_gox = w.omega_bx * q.cos_gamma_o + w.omega_by * q.sin_gamma_o;
-    let omega_go_n_goy = w.omega_by * q.cos_gamma_o - w.omega_bx * q.sin_gamma_o;
+    let rate_0 = w.omega_bx * q.cos_gamma_o;
+    let omega_go_n_gox = rate_0.add_mul(w.omega_by, q.sin_gamma_o);
+    let rate_1 = w.omega_by * q.cos_gamma_o;
+    let omega_go_n_goy = rate_1.sub_mul(w.omega_bx, q.sin_gamma_o);
     let omega_go_n_goz = w.omega_bz + v.gamma_o_dot;
 
     // Its derivative as in eq. (34), no joint accelerating, along the same axes, rad/s².
     let turn_0 = v.gamma_o_dot * q.cos_gamma_o;
     let turn_1 = v.gamma_o_dot * q.sin_gamma_o;
-    let omega_go_n_rest_gox = w.omega_by * turn_0 - w.omega_bx * turn_1;
-    let neg_omega_go_n_rest_goy = w.omega_by * turn_1 + w.omega_bx * turn_0;
+    let omega_go_n_rest_gox = (w.omega_by * turn_0).sub_mul(w.omega_bx, turn_1);
+    let neg_omega_go_n_rest_goy = (w.omega_by * turn_1).add_mul(w.omega_bx, turn_0);
 
     // Acceleration of Gᵒ relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_by * p.r_go_b_bz - w.omega_bz * p.r_go_b_by;
-    let path_1 = w.omega_bz * p.r_go_b_bx - w.omega_bx * p.r_go_b_bz;
-    let path_2 = w.omega_bx * p.r_go_b_by - w.omega_by * p.r_go_b_bx;
-    let path_3 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_4 = w.omega_bz * path_0 - w.omega_bx * path_2;
-    let r_go_rest_gox = q.cos_gamma_o * path_3 + q.sin_gamma_o * path_4;
-    let r_go_rest_goy = q.cos_gamma_o * path_4 - q.sin_gamma_o * path_3;
-    let r_go_rest_goz = w.omega_bx * path_1 - w.omega_by * path_0;
+    let path_0 = (w.omega_by * p.r_go_b_bz).sub_mul(w.omega_bz, p.r_go_b_by);
+    let path_1 = (w.omega_bz * p.r_go_b_bx).sub_mul(w.omega_bx, p.r_go_b_bz);
+    let path_2 = (w.omega_bx * p.r_go_b_by).sub_mul(w.omega_by, p.r_go_b_bx);
+    let path_3 = (w.omega_by * path_2).sub_mul(w.omega_bz, path_1);
+    let path_4 = (w.omega_bz * path_0).sub_mul(w.omega_bx, path_2);
+    let r_go_rest_gox = (q.cos_gamma_o * path_3).add_mul(q.sin_gamma_o, path_4);
+    let r_go_rest_goy = (q.cos_gamma_o * path_4).sub_mul(q.sin_gamma_o, path_3);
+    let r_go_rest_goz = (w.omega_bx * path_1).sub_mul(w.omega_by, path_0);
 
     // ω_{Gⁱ/N}, eq. (44), along its own axes, rad/s.
-    let rate_0 = q.sin_gamma_i * omega_go_n_goz;
-    let omega_gi_n_gix = q.cos_gamma_i * omega_go_n_gox - rate_0;
+    let rate_2 = q.cos_gamma_i * omega_go_n_gox;
+    let omega_gi_n_gix = rate_2.sub_mul(q.sin_gamma_i, omega_go_n_goz);
     let omega_gi_n_giy = v.gamma_i_dot + omega_go_n_goy;
-    let rate_1 = q.sin_gamma_i * omega_go_n_gox;
-    let omega_gi_n_giz = q.cos_gamma_i * omega_go_n_goz + rate_1;
+    let rate_3 = q.cos_gamma_i * omega_go_n_goz;
+    let omega_gi_n_giz = rate_3.add_mul(q.sin_gamma_i, omega_go_n_gox);
 
     // Its derivative as in eq. (47), no joint accelerating, along the same axes, rad/s².
     let turn_2 = v.gamma_i_dot * q.cos_gamma_i;
     let turn_3 = v.gamma_i_dot * q.sin_gamma_i;
     let turn_4 = q.cos_gamma_i * omega_go_n_rest_gox;
-    let turn_5 = turn_4 - turn_3 * omega_go_n_gox;
-    let omega_gi_n_rest_gix = turn_5 - turn_2 * omega_go_n_goz;
-    let turn_6 = q.sin_gamma_i * omega_go_n_rest_gox;
-    let turn_7 = turn_2 * omega_go_n_gox + turn_6;
-    let omega_gi_n_rest_giz = turn_7 - turn_3 * omega_go_n_goz;
+    let turn_5 = turn_4.sub_mul(turn_3, omega_go_n_gox);
+    let omega_gi_n_rest_gix = turn_5.sub_mul(turn_2, omega_go_n_goz);
+    let turn_6 = turn_2 * omega_go_n_gox;
+    let turn_7 = turn_6.add_mul(q.sin_gamma_i, omega_go_n_rest_gox);
+    let omega_gi_n_rest_giz = turn_7.sub_mul(turn_3, omega_go_n_goz);
 
     // Acceleration of Gⁱ relative to B as in eq. (53), no joint accelerating, same axes, m/s².
-    let path_5 = p.l_o_z * omega_go_n_goy - p.l_o_y * omega_go_n_goz;
-    let path_6 = p.l_o_x * omega_go_n_goz - p.l_o_z * omega_go_n_gox;
-    let path_7 = p.l_o_y * omega_go_n_gox - p.l_o_x * omega_go_n_goy;
-    let path_8 = omega_go_n_goy * path_7 - omega_go_n_goz * path_6;
-    let path_9 = path_8 - p.l_o_z * neg_omega_go_n_rest_goy + r_go_rest_gox;
-    let path_10 = p.l_o_y * omega_go_n_rest_gox + p.l_o_x * neg_omega_go_n_rest_goy;
-    let path_11 = omega_go_n_gox * path_6 - omega_go_n_goy * path_5 + path_10;
-    let path_12 = path_11 + r_go_rest_goz;
-    let r_gi_rest_gix = q.cos_gamma_i * path_9 - q.sin_gamma_i * path_12;
-    let path_13 = omega_go_n_goz * path_5 - omega_go_n_gox * path_7;
-    let r_gi_rest_giy = path_13 - p.l_o_z * omega_go_n_rest_gox + r_go_rest_goy;
-    let r_gi_rest_giz = q.cos_gamma_i * path_12 + q.sin_gamma_i * path_9;
+    let path_5 = (p.l_o_z * omega_go_n_goy).sub_mul(p.l_o_y, omega_go_n_goz);
+    let path_6 = (p.l_o_x * omega_go_n_goz).sub_mul(p.l_o_z, omega_go_n_gox);
+    let path_7 = (p.l_o_y * omega_go_n_gox).sub_mul(p.l_o_x, omega_go_n_goy);
+    let path_8 = (omega_go_n_goy * path_7).sub_mul(omega_go_n_goz, path_6);
+    let path_9 = path_8.sub_mul(p.l_o_z, neg_omega_go_n_rest_goy) + r_go_rest_gox;
+    let path_10 = p.l_o_y * omega_go_n_rest_gox;
+    let path_11 = (omega_go_n_gox * path_6).sub_mul(omega_go_n_goy, path_5);
+    let path_12 = path_11 + path_10.add_mul(p.l_o_x, neg_omega_go_n_rest_goy);
+    let path_13 = path_12 + r_go_rest_goz;
+    let r_gi_rest_gix = (q.cos_gamma_i * path_9).sub_mul(q.sin_gamma_i, path_13);
+    let path_14 = (omega_go_n_goz * path_5).sub_mul(omega_go_n_gox, path_7);
+    let r_gi_rest_giy = path_14.sub_mul(p.l_o_z, omega_go_n_rest_gox) + r_go_rest_goy;
+    let r_gi_rest_giz = (q.cos_gamma_i * path_13).add_mul(q.sin_gamma_i, path_9);
 
     // ω_{W/N}, eq. (59), along the carrier's axes, rad/s.
     let omega_w_n_wx = v.spin + omega_gi_n_gix;
 
     // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_14 = p.l_i_x * omega_gi_n_giz - p.l_i_z * omega_gi_n_gix;
-    let path_15 = p.l_i_y * omega_gi_n_gix - p.l_i_x * omega_gi_n_giy;
-    let path_16 = p.l_i_z * neg_omega_go_n_rest_goy;
-    let path_17 = omega_gi_n_giy * path_15 - omega_gi_n_giz * path_14;
-    let path_18 = path_17 - (path_16 + p.l_i_y * omega_gi_n_rest_giz);
-    let r_w_rest_wx = path_18 + r_gi_rest_gix;
-    let path_19 = p.l_i_z * omega_gi_n_giy - p.l_i_y * omega_gi_n_giz;
-    let path_20 = p.l_i_x * omega_gi_n_rest_giz - p.l_i_z * omega_gi_n_rest_gix;
-    let path_21 = omega_gi_n_giz * path_19 - omega_gi_n_gix * path_15 + path_20;
-    let r_w_rest_wy = path_21 + r_gi_rest_giy;
-    let path_22 = p.l_i_x * neg_omega_go_n_rest_goy;
-    let path_23 = omega_gi_n_gix * path_14 - omega_gi_n_giy * path_19;
-    let path_24 = path_23 + (p.l_i_y * omega_gi_n_rest_gix + path_22);
-    let r_w_rest_wz = path_24 + r_gi_rest_giz;
+    let path_15 = (p.l_i_x * omega_gi_n_giz).sub_mul(p.l_i_z, omega_gi_n_gix);
+    let path_16 = (p.l_i_y * omega_gi_n_gix).sub_mul(p.l_i_x, omega_gi_n_giy);
+    let path_17 = p.l_i_z * neg_omega_go_n_rest_goy;
+    let path_18 = (omega_gi_n_giy * path_16).sub_mul(omega_gi_n_giz, path_15);
+    let path_19 = path_18 - path_17.add_mul(p.l_i_y, omega_gi_n_rest_giz);
+    let r_w_rest_wx = path_19 + r_gi_rest_gix;
+    let path_20 = (p.l_i_z * omega_gi_n_giy).sub_mul(p.l_i_y, omega_gi_n_giz);
+    let path_21 = p.l_i_x * omega_gi_n_rest_giz;
+    let path_22 = (omega_gi_n_giz * path_20).sub_mul(omega_gi_n_gix, path_16);
+    let path_23 = path_22 + path_21.sub_mul(p.l_i_z, omega_gi_n_rest_gix);
+    let r_w_rest_wy = path_23 + r_gi_rest_giy;
+    let path_24 = p.l_i_y * omega_gi_n_rest_gix;
+    let path_25 = (omega_gi_n_gix * path_15).sub_mul(omega_gi_n_giy, path_20);
+    let path_26 = path_25 + path_24.add_mul(p.l_i_x, neg_omega_go_n_rest_goy);
+    let r_w_rest_wz = path_26 + r_gi_rest_giz;
 
     // W with no joint accelerating, eq. (117): force, N, and moment about W, N m.
     let f_rest_wx = p.m_w * r_w_rest_wx;
@@ -1786,64 +1931,70 @@ pub fn eliminate<T: Real>(
     let f_rest_wz = p.m_w * r_w_rest_wz;
     let bias_0 = p.j_22 * omega_gi_n_giy;
     let bias_1 = p.j_22 * omega_gi_n_giz;
-    let bias_2 = omega_gi_n_giy * bias_1 - omega_gi_n_giz * bias_0;
-    let n_rest_wx = bias_2 + p.j_11 * omega_gi_n_rest_gix;
+    let bias_2 = (omega_gi_n_giy * bias_1).sub_mul(omega_gi_n_giz, bias_0);
+    let n_rest_wx = bias_2.add_mul(p.j_11, omega_gi_n_rest_gix);
     let bias_3 = p.j_11 * omega_w_n_wx;
-    let bias_4 = omega_gi_n_giz * bias_3 - omega_gi_n_gix * bias_1;
-    let n_rest_wy = bias_4 - p.j_22 * neg_omega_go_n_rest_goy;
-    let bias_5 = omega_gi_n_gix * bias_0 - omega_gi_n_giy * bias_3;
-    let n_rest_wz = bias_5 + p.j_22 * omega_gi_n_rest_giz;
+    let bias_4 = (omega_gi_n_giz * bias_3).sub_mul(omega_gi_n_gix, bias_1);
+    let n_rest_wy = bias_4.sub_mul(p.j_22, neg_omega_go_n_rest_goy);
+    let bias_5 = (omega_gi_n_gix * bias_0).sub_mul(omega_gi_n_giy, bias_3);
+    let n_rest_wz = bias_5.add_mul(p.j_22, omega_gi_n_rest_giz);
 
     // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m.
     let mass_ww = p.j_11;
     let u_rest_w = n_rest_wx;
 
     // V with no joint accelerating, eq. (99): force, N, and moment about Gⁱ, N m.
-    let bias_6 = p.mr_gic_gi_giz * omega_gi_n_gix;
-    let bias_7 = p.mr_gic_gi_gix * omega_gi_n_giz - bias_6;
-    let bias_8 = p.mr_gic_gi_gix * omega_gi_n_giy;
-    let bias_9 = p.mr_gic_gi_giy * omega_gi_n_gix - bias_8;
+    let bias_6 = p.mr_gic_gi_gix * omega_gi_n_giz;
+    let bias_7 = bias_6.sub_mul(p.mr_gic_gi_giz, omega_gi_n_gix);
+    let bias_8 = p.mr_gic_gi_giy * omega_gi_n_gix;
+    let bias_9 = bias_8.sub_mul(p.mr_gic_gi_gix, omega_gi_n_giy);
     let bias_10 = p.mr_gic_gi_giz * neg_omega_go_n_rest_goy;
-    let bias_11 = omega_gi_n_giy * bias_9 - omega_gi_n_giz * bias_7;
-    let bias_12 = bias_11 - (bias_10 + p.mr_gic_gi_giy * omega_gi_n_rest_giz);
-    let f_rest_gix = bias_12 + p.m_gi * r_gi_rest_gix + f_rest_wx;
-    let bias_13 = p.mr_gic_gi_giy * omega_gi_n_giz;
-    let bias_14 = p.mr_gic_gi_giz * omega_gi_n_giy - bias_13;
-    let bias_15 = p.mr_gic_gi_giz * omega_gi_n_rest_gix;
-    let bias_16 = omega_gi_n_giz * bias_14 - omega_gi_n_gix * bias_9;
-    let bias_17 = bias_16 + (p.mr_gic_gi_gix * omega_gi_n_rest_giz - bias_15);
-    let f_rest_giy = bias_17 + p.m_gi * r_gi_rest_giy + f_rest_wy;
-    let bias_18 = p.mr_gic_gi_gix * neg_omega_go_n_rest_goy;
-    let bias_19 = omega_gi_n_gix * bias_7 - omega_gi_n_giy * bias_14;
-    let bias_20 = bias_19 + (p.mr_gic_gi_giy * omega_gi_n_rest_gix + bias_18);
-    let f_rest_giz = bias_20 + p.m_gi * r_gi_rest_giz + f_rest_wz;
-    let bias_21 = p.i_gi_gi_12 * omega_gi_n_gix + p.i_gi_gi_22 * omega_gi_n_giy;
-    let bias_22 = bias_21 + p.i_gi_gi_23 * omega_gi_n_giz;
-    let bias_23 = p.i_gi_gi_13 * omega_gi_n_gix + p.i_gi_gi_23 * omega_gi_n_giy;
-    let bias_24 = bias_23 + p.i_gi_gi_33 * omega_gi_n_giz;
-    let bias_25 = p.i_gi_gi_12 * neg_omega_go_n_rest_goy;
-    let bias_26 = p.i_gi_gi_11 * omega_gi_n_rest_gix - bias_25;
-    let bias_27 = omega_gi_n_giy * bias_24 - omega_gi_n_giz * bias_22;
-    let bias_28 = p.mr_gic_gi_giz * r_gi_rest_giy;
-    let bias_29 = bias_27 + (bias_26 + p.i_gi_gi_13 * omega_gi_n_rest_giz);
-    let bias_30 = bias_29 + (p.mr_gic_gi_giy * r_gi_rest_giz - bias_28);
-    let n_rest_gix = p.l_i_y * f_rest_wz - p.l_i_z * f_rest_wy + n_rest_wx + bias_30;
-    let bias_31 = p.i_gi_gi_11 * omega_gi_n_gix + p.i_gi_gi_12 * omega_gi_n_giy;
-    let bias_32 = bias_31 + p.i_gi_gi_13 * omega_gi_n_giz;
-    let bias_33 = p.i_gi_gi_22 * neg_omega_go_n_rest_goy;
-    let bias_34 = p.i_gi_gi_12 * omega_gi_n_rest_gix - bias_33;
-    let bias_35 = omega_gi_n_giz * bias_32 - omega_gi_n_gix * bias_24;
-    let bias_36 = p.mr_gic_gi_gix * r_gi_rest_giz;
-    let bias_37 = bias_35 + (bias_34 + p.i_gi_gi_23 * omega_gi_n_rest_giz);
-    let bias_38 = bias_37 + (p.mr_gic_gi_giz * r_gi_rest_gix - bias_36);
-    let n_rest_giy = p.l_i_z * f_rest_wx - p.l_i_x * f_rest_wz + n_rest_wy + bias_38;
-    let bias_39 = p.i_gi_gi_23 * neg_omega_go_n_rest_goy;
-    let bias_40 = p.i_gi_gi_13 * omega_gi_n_rest_gix - bias_39;
-    let bias_41 = omega_gi_n_gix * bias_22 - omega_gi_n_giy * bias_32;
-    let bias_42 = p.mr_gic_gi_giy * r_gi_rest_gix;
-    let bias_43 = bias_41 + (bias_40 + p.i_gi_gi_33 * omega_gi_n_rest_giz);
-    let bias_44 = bias_43 + (p.mr_gic_gi_gix * r_gi_rest_giy - bias_42);
-    let n_rest_giz = p.l_i_x * f_rest_wy - p.l_i_y * f_rest_wx + n_rest_wz + bias_44;
+    let bias_11 = (omega_gi_n_giy * bias_9).sub_mul(omega_gi_n_giz, bias_7);
+    let bias_12 = bias_11 - bias_10.add_mul(p.mr_gic_gi_giy, omega_gi_n_rest_giz);
+    let f_rest_gix = bias_12.add_mul(p.m_gi, r_gi_rest_gix) + f_rest_wx;
+    let bias_13 = p.mr_gic_gi_giz * omega_gi_n_giy;
+    let bias_14 = bias_13.sub_mul(p.mr_gic_gi_giy, omega_gi_n_giz);
+    let bias_15 = p.mr_gic_gi_gix * omega_gi_n_rest_giz;
+    let bias_16 = (omega_gi_n_giz * bias_14).sub_mul(omega_gi_n_gix, bias_9);
+    let bias_17 = bias_16 + bias_15.sub_mul(p.mr_gic_gi_giz, omega_gi_n_rest_gix);
+    let f_rest_giy = bias_17.add_mul(p.m_gi, r_gi_rest_giy) + f_rest_wy;
+    let bias_18 = p.mr_gic_gi_giy * omega_gi_n_rest_gix;
+    let bias_19 = (omega_gi_n_gix * bias_7).sub_mul(omega_gi_n_giy, bias_14);
+    let bias_20 = bias_18.add_mul(p.mr_gic_gi_gix, neg_omega_go_n_rest_goy);
+    let f_rest_giz = (bias_19 + bias_20).add_mul(p.m_gi, r_gi_rest_giz) + f_rest_wz;
+    let bias_21 = p.i_gi_gi_12 * omega_gi_n_gix;
+    let bias_22 = bias_21.add_mul(p.i_gi_gi_22, omega_gi_n_giy);
+    let bias_23 = bias_22.add_mul(p.i_gi_gi_23, omega_gi_n_giz);
+    let bias_24 = p.i_gi_gi_13 * omega_gi_n_gix;
+    let bias_25 = bias_24.add_mul(p.i_gi_gi_23, omega_gi_n_giy);
+    let bias_26 = bias_25.add_mul(p.i_gi_gi_33, omega_gi_n_giz);
+    let bias_27 = p.i_gi_gi_11 * omega_gi_n_rest_gix;
+    let bias_28 = bias_27.sub_mul(p.i_gi_gi_12, neg_omega_go_n_rest_goy);
+    let bias_29 = (omega_gi_n_giy * bias_26).sub_mul(omega_gi_n_giz, bias_23);
+    let bias_30 = p.mr_gic_gi_giy * r_gi_rest_giz;
+    let bias_31 = bias_29 + bias_28.add_mul(p.i_gi_gi_13, omega_gi_n_rest_giz);
+    let bias_32 = (p.l_i_y * f_rest_wz).sub_mul(p.l_i_z, f_rest_wy) + n_rest_wx;
+    let bias_33 = bias_31 + bias_30.sub_mul(p.mr_gic_gi_giz, r_gi_rest_giy);
+    let n_rest_gix = bias_32 + bias_33;
+    let bias_34 = p.i_gi_gi_11 * omega_gi_n_gix;
+    let bias_35 = bias_34.add_mul(p.i_gi_gi_12, omega_gi_n_giy);
+    let bias_36 = bias_35.add_mul(p.i_gi_gi_13, omega_gi_n_giz);
+    let bias_37 = p.i_gi_gi_12 * omega_gi_n_rest_gix;
+    let bias_38 = bias_37.sub_mul(p.i_gi_gi_22, neg_omega_go_n_rest_goy);
+    let bias_39 = (omega_gi_n_giz * bias_36).sub_mul(omega_gi_n_gix, bias_26);
+    let bias_40 = p.mr_gic_gi_giz * r_gi_rest_gix;
+    let bias_41 = bias_39 + bias_38.add_mul(p.i_gi_gi_23, omega_gi_n_rest_giz);
+    let bias_42 = (p.l_i_z * f_rest_wx).sub_mul(p.l_i_x, f_rest_wz) + n_rest_wy;
+    let bias_43 = bias_41 + bias_40.sub_mul(p.mr_gic_gi_gix, r_gi_rest_giz);
+    let n_rest_giy = bias_42 + bias_43;
+    let bias_44 = p.i_gi_gi_13 * omega_gi_n_rest_gix;
+    let bias_45 = bias_44.sub_mul(p.i_gi_gi_23, neg_omega_go_n_rest_goy);
+    let bias_46 = (omega_gi_n_gix * bias_23).sub_mul(omega_gi_n_giy, bias_36);
+    let bias_47 = p.mr_gic_gi_gix * r_gi_rest_giy;
+    let bias_48 = bias_46 + bias_45.add_mul(p.i_gi_gi_33, omega_gi_n_rest_giz);
+    let bias_49 = (p.l_i_x * f_rest_wy).sub_mul(p.l_i_y, f_rest_wx) + n_rest_wz;
+    let bias_50 = bias_48 + bias_47.sub_mul(p.mr_gic_gi_giy, r_gi_rest_gix);
+    let n_rest_giz = bias_49 + bias_50;
 
     // Row of the inner gimbal's joint, eq. (101), along its axis: M_ij, kg m², and bias, N m.
     let mass_ii = p.i_v_gi_22;
@@ -1851,83 +2002,91 @@ pub fn eliminate<T: Real>(
 
     // D, the outer gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gᵒ.
-    let lump_0 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * p.mr_v_gi_giz;
-    let mr_d_go_gox = lump_0 + p.k_12 + p.mr_goc_go_gox;
-    let f_i_gox = q.cos_gamma_i * p.mr_v_gi_giz - q.sin_gamma_i * p.mr_v_gi_gix;
+    let lump_0 = q.cos_gamma_i * p.mr_v_gi_gix;
+    let lump_1 = lump_0.add_mul(q.sin_gamma_i, p.mr_v_gi_giz);
+    let mr_d_go_gox = lump_1 + p.k_12 + p.mr_goc_go_gox;
+    let lump_2 = q.cos_gamma_i * p.mr_v_gi_giz;
+    let f_i_gox = lump_2.sub_mul(q.sin_gamma_i, p.mr_v_gi_gix);
     let mr_d_go_goz = f_i_gox + p.k_13 + p.mr_goc_go_goz;
-    let lump_1 = q.cos_gamma_i * p.i_v_gi_33 - q.sin_gamma_i * p.i_v_gi_13;
-    let lump_2 = q.cos_gamma_i * p.i_v_gi_13 - q.sin_gamma_i * p.i_v_gi_11;
-    let lump_3 = q.cos_gamma_i * lump_1 - q.sin_gamma_i * lump_2;
-    let lump_4 = p.l_o_x * lump_0;
-    let lump_5 = p.l_o_z * f_i_gox;
-    let lump_6 = lump_4 + p.k_2 + lump_5;
-    let lump_7 = lump_6 + lump_6;
-    let lump_8 = p.k_1 - lump_3 + (lump_7 - (lump_4 + lump_4)) + p.k_6;
-    let i_d_go_11 = lump_8 + p.i_go_go_11;
-    let lump_9 = q.cos_gamma_i * p.i_v_gi_12 + q.sin_gamma_i * p.i_v_gi_23;
-    let lump_10 = p.l_o_y * lump_0;
-    let i_d_go_12 = lump_9 - (p.k_3 + lump_10) + p.k_7 + p.i_go_go_12;
-    let lump_11 = q.cos_gamma_i * lump_2 + q.sin_gamma_i * lump_1;
-    let lump_12 = lump_11 - (p.l_o_x * f_i_gox + p.l_o_z * lump_0) + p.k_8;
-    let i_d_go_13 = lump_12 + p.i_go_go_13;
-    let i_d_go_22 = lump_7 + p.k_5 + p.i_v_gi_22 + p.k_9 + p.i_go_go_22;
-    let lump_13 = q.cos_gamma_i * p.i_v_gi_23 - q.sin_gamma_i * p.i_v_gi_12;
-    let lump_14 = p.l_o_y * f_i_gox;
-    let i_d_go_23 = lump_13 - (lump_14 + p.k_4) + p.k_10 + p.i_go_go_23;
-    let i_d_go_33 = lump_7 - (lump_5 + lump_5) + lump_3 + p.k_11 + p.i_go_go_33;
+    let lump_3 = (q.cos_gamma_i * p.i_v_gi_33).sub_mul(q.sin_gamma_i, p.i_v_gi_13);
+    let lump_4 = (q.cos_gamma_i * p.i_v_gi_13).sub_mul(q.sin_gamma_i, p.i_v_gi_11);
+    let lump_5 = (q.cos_gamma_i * lump_3).sub_mul(q.sin_gamma_i, lump_4);
+    let lump_6 = p.l_o_x * lump_1;
+    let lump_7 = p.l_o_z * f_i_gox;
+    let lump_8 = lump_6 + p.k_2 + lump_7;
+    let lump_9 = lump_8 + lump_8;
+    let lump_10 = p.k_1 - lump_5 + (lump_9 - (lump_6 + lump_6)) + p.k_6;
+    let i_d_go_11 = lump_10 + p.i_go_go_11;
+    let lump_11 = (q.cos_gamma_i * p.i_v_gi_12).add_mul(q.sin_gamma_i, p.i_v_gi_23);
+    let lump_12 = p.l_o_y * lump_1;
+    let i_d_go_12 = lump_11 - (p.k_3 + lump_12) + p.k_7 + p.i_go_go_12;
+    let lump_13 = (q.cos_gamma_i * lump_4).add_mul(q.sin_gamma_i, lump_3);
+    let lump_14 = lump_13 - (p.l_o_x * f_i_gox).add_mul(p.l_o_z, lump_1) + p.k_8;
+    let i_d_go_13 = lump_14 + p.i_go_go_13;
+    let i_d_go_22 = lump_9 + p.k_5 + p.i_v_gi_22 + p.k_9 + p.i_go_go_22;
+    let lump_15 = (q.cos_gamma_i * p.i_v_gi_23).sub_mul(q.sin_gamma_i, p.i_v_gi_12);
+    let lump_16 = p.l_o_y * f_i_gox;
+    let i_d_go_23 = lump_15 - (lump_16 + p.k_4) + p.k_10 + p.i_go_go_23;
+    let i_d_go_33 = lump_9 - (lump_7 + lump_7) + lump_5 + p.k_11 + p.i_go_go_33;
 
     // D with no joint accelerating, eq. (78): force, N, and moment about Gᵒ, N m.
-    let bias_45 = q.cos_gamma_i * f_rest_gix + q.sin_gamma_i * f_rest_giz;
-    let bias_46 = p.mr_goc_go_goz * omega_go_n_gox;
-    let bias_47 = p.mr_goc_go_gox * omega_go_n_goz - bias_46;
-    let bias_48 = p.mr_goc_go_gox * omega_go_n_goy;
-    let bias_49 = p.mr_goc_go_goy * omega_go_n_gox - bias_48;
-    let bias_50 = omega_go_n_goy * bias_49 - omega_go_n_goz * bias_47;
-    let bias_51 = bias_50 - p.mr_goc_go_goz * neg_omega_go_n_rest_goy;
-    let f_rest_gox = bias_51 + p.m_go * r_go_rest_gox + bias_45;
-    let bias_52 = p.mr_goc_go_goy * omega_go_n_goz;
-    let bias_53 = p.mr_goc_go_goz * omega_go_n_goy - bias_52;
-    let bias_54 = omega_go_n_goz * bias_53 - omega_go_n_gox * bias_49;
-    let bias_55 = bias_54 - p.mr_goc_go_goz * omega_go_n_rest_gox;
-    let f_rest_goy = bias_55 + p.m_go * r_go_rest_goy + f_rest_giy;
-    let bias_56 = q.cos_gamma_i * f_rest_giz - q.sin_gamma_i * f_rest_gix;
-    let bias_57 = p.mr_goc_go_gox * neg_omega_go_n_rest_goy;
-    let bias_58 = omega_go_n_gox * bias_47 - omega_go_n_goy * bias_53;
-    let bias_59 = bias_58 + (p.mr_goc_go_goy * omega_go_n_rest_gox + bias_57);
-    let f_rest_goz = bias_59 + p.m_go * r_go_rest_goz + bias_56;
-    let bias_60 = p.i_go_go_12 * omega_go_n_gox + p.i_go_go_22 * omega_go_n_goy;
-    let bias_61 = bias_60 + p.i_go_go_23 * omega_go_n_goz;
-    let bias_62 = p.i_go_go_13 * omega_go_n_gox + p.i_go_go_23 * omega_go_n_goy;
-    let bias_63 = bias_62 + p.i_go_go_33 * omega_go_n_goz;
-    let bias_64 = q.cos_gamma_i * n_rest_gix + q.sin_gamma_i * n_rest_giz;
-    let bias_65 = p.i_go_go_12 * neg_omega_go_n_rest_goy;
-    let bias_66 = omega_go_n_goy * bias_63 - omega_go_n_goz * bias_61;
-    let bias_67 = p.mr_goc_go_goz * r_go_rest_goy;
-    let bias_68 = bias_66 + (p.i_go_go_11 * omega_go_n_rest_gox - bias_65);
-    let bias_69 = bias_68 + (p.mr_goc_go_goy * r_go_rest_goz - bias_67);
-    let n_rest_gox = bias_64 + (p.l_o_y * bias_56 - p.l_o_z * f_rest_giy) + bias_69;
-    let bias_70 = p.i_go_go_11 * omega_go_n_gox + p.i_go_go_12 * omega_go_n_goy;
-    let bias_71 = bias_70 + p.i_go_go_13 * omega_go_n_goz;
-    let bias_72 = p.i_go_go_22 * neg_omega_go_n_rest_goy;
-    let bias_73 = omega_go_n_goz * bias_71 - omega_go_n_gox * bias_63;
-    let bias_74 = p.mr_goc_go_gox * r_go_rest_goz;
-    let bias_75 = bias_73 + (p.i_go_go_12 * omega_go_n_rest_gox - bias_72);
-    let bias_76 = bias_75 + (p.mr_goc_go_goz * r_go_rest_gox - bias_74);
-    let n_rest_goy = p.l_o_z * bias_45 - p.l_o_x * bias_56 + n_rest_giy + bias_76;
-    let bias_77 = q.cos_gamma_i * n_rest_giz - q.sin_gamma_i * n_rest_gix;
-    let bias_78 = p.i_go_go_23 * neg_omega_go_n_rest_goy;
-    let bias_79 = omega_go_n_gox * bias_61 - omega_go_n_goy * bias_71;
-    let bias_80 = p.mr_goc_go_goy * r_go_rest_gox;
-    let bias_81 = bias_79 + (p.i_go_go_13 * omega_go_n_rest_gox - bias_78);
-    let bias_82 = bias_81 + (p.mr_goc_go_gox * r_go_rest_goy - bias_80);
-    let n_rest_goz = bias_77 + (p.l_o_x * f_rest_giy - p.l_o_y * bias_45) + bias_82;
+    let bias_51 = (q.cos_gamma_i * f_rest_gix).add_mul(q.sin_gamma_i, f_rest_giz);
+    let bias_52 = p.mr_goc_go_gox * omega_go_n_goz;
+    let bias_53 = bias_52.sub_mul(p.mr_goc_go_goz, omega_go_n_gox);
+    let bias_54 = p.mr_goc_go_goy * omega_go_n_gox;
+    let bias_55 = bias_54.sub_mul(p.mr_goc_go_gox, omega_go_n_goy);
+    let bias_56 = (omega_go_n_goy * bias_55).sub_mul(omega_go_n_goz, bias_53);
+    let bias_57 = bias_56.sub_mul(p.mr_goc_go_goz, neg_omega_go_n_rest_goy);
+    let f_rest_gox = bias_57.add_mul(p.m_go, r_go_rest_gox) + bias_51;
+    let bias_58 = p.mr_goc_go_goz * omega_go_n_goy;
+    let bias_59 = bias_58.sub_mul(p.mr_goc_go_goy, omega_go_n_goz);
+    let bias_60 = (omega_go_n_goz * bias_59).sub_mul(omega_go_n_gox, bias_55);
+    let bias_61 = bias_60.sub_mul(p.mr_goc_go_goz, omega_go_n_rest_gox);
+    let f_rest_goy = bias_61.add_mul(p.m_go, r_go_rest_goy) + f_rest_giy;
+    let bias_62 = (q.cos_gamma_i * f_rest_giz).sub_mul(q.sin_gamma_i, f_rest_gix);
+    let bias_63 = p.mr_goc_go_goy * omega_go_n_rest_gox;
+    let bias_64 = (omega_go_n_gox * bias_53).sub_mul(omega_go_n_goy, bias_59);
+    let bias_65 = bias_63.add_mul(p.mr_goc_go_gox, neg_omega_go_n_rest_goy);
+    let f_rest_goz = (bias_64 + bias_65).add_mul(p.m_go, r_go_rest_goz) + bias_62;
+    let bias_66 = p.i_go_go_12 * omega_go_n_gox;
+    let bias_67 = bias_66.add_mul(p.i_go_go_22, omega_go_n_goy);
+    let bias_68 = bias_67.add_mul(p.i_go_go_23, omega_go_n_goz);
+    let bias_69 = p.i_go_go_13 * omega_go_n_gox;
+    let bias_70 = bias_69.add_mul(p.i_go_go_23, omega_go_n_goy);
+    let bias_71 = bias_70.add_mul(p.i_go_go_33, omega_go_n_goz);
+    let bias_72 = (q.cos_gamma_i * n_rest_gix).add_mul(q.sin_gamma_i, n_rest_giz);
+    let bias_73 = p.i_go_go_11 * omega_go_n_rest_gox;
+    let bias_74 = (omega_go_n_goy * bias_71).sub_mul(omega_go_n_goz, bias_68);
+    let bias_75 = p.mr_goc_go_goy * r_go_rest_goz;
+    let bias_76 = bias_74 + bias_73.sub_mul(p.i_go_go_12, neg_omega_go_n_rest_goy);
+    let bias_77 = bias_72 + (p.l_o_y * bias_62).sub_mul(p.l_o_z, f_rest_giy);
+    let bias_78 = bias_76 + bias_75.sub_mul(p.mr_goc_go_goz, r_go_rest_goy);
+    let n_rest_gox = bias_77 + bias_78;
+    let bias_79 = p.i_go_go_11 * omega_go_n_gox;
+    let bias_80 = bias_79.add_mul(p.i_go_go_12, omega_go_n_goy);
+    let bias_81 = bias_80.add_mul(p.i_go_go_13, omega_go_n_goz);
+    let bias_82 = p.i_go_go_12 * omega_go_n_rest_gox;
+    let bias_83 = (omega_go_n_goz * bias_81).sub_mul(omega_go_n_gox, bias_71);
+    let bias_84 = p.mr_goc_go_goz * r_go_rest_gox;
+    let bias_85 = bias_83 + bias_82.sub_mul(p.i_go_go_22, neg_omega_go_n_rest_goy);
+    let bias_86 = (p.l_o_z * bias_51).sub_mul(p.l_o_x, bias_62) + n_rest_giy;
+    let bias_87 = bias_85 + bias_84.sub_mul(p.mr_goc_go_gox, r_go_rest_goz);
+    let n_rest_goy = bias_86 + bias_87;
+    let bias_88 = (q.cos_gamma_i * n_rest_giz).sub_mul(q.sin_gamma_i, n_rest_gix);
+    let bias_89 = p.i_go_go_13 * omega_go_n_rest_gox;
+    let bias_90 = (omega_go_n_gox * bias_68).sub_mul(omega_go_n_goy, bias_81);
+    let bias_91 = p.mr_goc_go_gox * r_go_rest_goy;
+    let bias_92 = bias_90 + bias_89.sub_mul(p.i_go_go_23, neg_omega_go_n_rest_goy);
+    let bias_93 = bias_88 + (p.l_o_x * f_rest_giy).sub_mul(p.l_o_y, bias_51);
+    let bias_94 = bias_92 + bias_91.sub_mul(p.mr_goc_go_goy, r_go_rest_gox);
+    let n_rest_goz = bias_93 + bias_94;
 
     // Force, kg m, and moment about Gᵒ, kg m², per unit acceleration of each joint from here on,
     // eqs. (17), (78).
-    let f_i_goz = -lump_0;
-    let n_i_gox = lump_9 - lump_10;
-    let n_i_goy = lump_4 + lump_5 + p.i_v_gi_22;
-    let n_i_goz = lump_13 - lump_14;
+    let f_i_goz = -lump_1;
+    let n_i_gox = lump_11 - lump_12;
+    let n_i_goy = lump_6 + lump_7 + p.i_v_gi_22;
+    let n_i_goz = lump_15 - lump_16;
     let n_w_gox = q.cos_gamma_i * p.j_11;
     let n_w_goz = -(q.sin_gamma_i * p.j_11);
 
@@ -1938,61 +2097,65 @@ pub fn eliminate<T: Real>(
     let u_rest_o = n_rest_goz;
 
     // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_o_by = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * p.mr_d_go_goy;
+    let f_o_by = (q.cos_gamma_o * mr_d_go_gox).sub_mul(q.sin_gamma_o, p.mr_d_go_goy);
     let mr_d_b_bx = f_o_by + p.k_20;
-    let moment_0 = q.cos_gamma_o * p.mr_d_go_goy + q.sin_gamma_o * mr_d_go_gox;
-    let mr_d_b_by = moment_0 + p.k_21;
+    let moment_0 = q.cos_gamma_o * p.mr_d_go_goy;
+    let moment_1 = moment_0.add_mul(q.sin_gamma_o, mr_d_go_gox);
+    let mr_d_b_by = moment_1 + p.k_21;
     let mr_d_b_bz = mr_d_go_goz + p.k_22;
-    let moment_1 = q.cos_gamma_o * i_d_go_11 - q.sin_gamma_o * i_d_go_12;
-    let moment_2 = q.cos_gamma_o * i_d_go_12 - q.sin_gamma_o * i_d_go_22;
-    let moment_3 = q.cos_gamma_o * moment_1 - q.sin_gamma_o * moment_2;
-    let moment_4 = p.r_go_b_bx * f_o_by;
-    let moment_5 = p.r_go_b_by * moment_0;
-    let moment_6 = moment_4 + moment_5;
-    let moment_7 = p.r_go_b_bz * mr_d_go_goz;
-    let moment_8 = moment_6 + moment_7;
-    let moment_9 = moment_8 + moment_8;
-    let i_d_b_11 = moment_9 - (moment_4 + moment_4) + moment_3 + p.k_14;
-    let moment_10 = q.cos_gamma_o * moment_2 + q.sin_gamma_o * moment_1;
-    let moment_11 = moment_10 - (p.r_go_b_bx * moment_0 + p.r_go_b_by * f_o_by);
-    let i_d_b_12 = moment_11 + p.k_15;
-    let moment_12 = q.cos_gamma_o * i_d_go_13 - q.sin_gamma_o * i_d_go_23;
-    let moment_13 = p.r_go_b_bz * f_o_by;
-    let i_d_b_13 = moment_12 - (p.r_go_b_bx * mr_d_go_goz + moment_13) + p.k_16;
-    let moment_14 = moment_9 - (moment_5 + moment_5);
-    let i_d_b_22 = i_d_go_11 + i_d_go_22 - moment_3 + moment_14 + p.k_17;
-    let moment_15 = q.cos_gamma_o * i_d_go_23 + q.sin_gamma_o * i_d_go_13;
-    let moment_16 = p.r_go_b_bz * moment_0;
-    let i_d_b_23 = moment_15 - (p.r_go_b_by * mr_d_go_goz + moment_16) + p.k_18;
-    let i_d_b_33 = moment_9 - (moment_7 + moment_7) + i_d_go_33 + p.k_19;
+    let moment_2 = (q.cos_gamma_o * i_d_go_11).sub_mul(q.sin_gamma_o, i_d_go_12);
+    let moment_3 = (q.cos_gamma_o * i_d_go_12).sub_mul(q.sin_gamma_o, i_d_go_22);
+    let moment_4 = (q.cos_gamma_o * moment_2).sub_mul(q.sin_gamma_o, moment_3);
+    let moment_5 = p.r_go_b_bx * f_o_by;
+    let moment_6 = p.r_go_b_by * moment_1;
+    let moment_7 = moment_5 + moment_6;
+    let moment_8 = p.r_go_b_bz * mr_d_go_goz;
+    let moment_9 = moment_7 + moment_8;
+    let moment_10 = moment_9 + moment_9;
+    let i_d_b_11 = moment_10 - (moment_5 + moment_5) + moment_4 + p.k_14;
+    let moment_11 = (q.cos_gamma_o * moment_3).add_mul(q.sin_gamma_o, moment_2);
+    let moment_12 = moment_11 - (p.r_go_b_bx * moment_1).add_mul(p.r_go_b_by, f_o_by);
+    let i_d_b_12 = moment_12 + p.k_15;
+    let moment_13 = (q.cos_gamma_o * i_d_go_13).sub_mul(q.sin_gamma_o, i_d_go_23);
+    let moment_14 = p.r_go_b_bz * f_o_by;
+    let i_d_b_13 = moment_13 - moment_14.add_mul(p.r_go_b_bx, mr_d_go_goz) + p.k_16;
+    let moment_15 = moment_10 - (moment_6 + moment_6);
+    let i_d_b_22 = i_d_go_11 + i_d_go_22 - moment_4 + moment_15 + p.k_17;
+    let moment_16 = (q.cos_gamma_o * i_d_go_23).add_mul(q.sin_gamma_o, i_d_go_13);
+    let moment_17 = p.r_go_b_bz * moment_1;
+    let i_d_b_23 = moment_16 - moment_17.add_mul(p.r_go_b_by, mr_d_go_goz) + p.k_18;
+    let i_d_b_33 = moment_10 - (moment_8 + moment_8) + i_d_go_33 + p.k_19;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration.
-    let f_o_bx = -moment_0;
-    let n_o_bx = moment_12 - moment_13;
-    let n_o_by = moment_15 - moment_16;
-    let n_o_bz = i_d_go_33 + moment_6;
+    let f_o_bx = -moment_1;
+    let n_o_bx = moment_13 - moment_14;
+    let n_o_by = moment_16 - moment_17;
+    let n_o_bz = i_d_go_33 + moment_7;
     let f_i_bx = q.cos_gamma_o * f_i_gox;
     let f_i_by = q.sin_gamma_o * f_i_gox;
     let f_i_bz = f_i_goz;
-    let col_0 = q.cos_gamma_o * n_i_gox - q.sin_gamma_o * n_i_goy;
-    let n_i_bx = col_0 - (p.r_go_b_by * lump_0 + p.r_go_b_bz * f_i_by);
-    let col_1 = q.cos_gamma_o * n_i_goy + q.sin_gamma_o * n_i_gox;
-    let n_i_by = col_1 + (p.r_go_b_bz * f_i_bx + p.r_go_b_bx * lump_0);
-    let n_i_bz = p.r_go_b_bx * f_i_by - p.r_go_b_by * f_i_bx + n_i_goz;
+    let col_0 = (q.cos_gamma_o * n_i_gox).sub_mul(q.sin_gamma_o, n_i_goy);
+    let n_i_bx = col_0 - (p.r_go_b_by * lump_1).add_mul(p.r_go_b_bz, f_i_by);
+    let col_1 = (q.cos_gamma_o * n_i_goy).add_mul(q.sin_gamma_o, n_i_gox);
+    let n_i_by = col_1 + (p.r_go_b_bz * f_i_bx).add_mul(p.r_go_b_bx, lump_1);
+    let n_i_bz = (p.r_go_b_bx * f_i_by).sub_mul(p.r_go_b_by, f_i_bx) + n_i_goz;
     let n_w_bx = q.cos_gamma_o * n_w_gox;
     let n_w_by = q.sin_gamma_o * n_w_gox;
     let n_w_bz = n_w_goz;
 
     // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = q.cos_gamma_o * f_rest_gox - q.sin_gamma_o * f_rest_goy;
-    let f_rest_by = q.cos_gamma_o * f_rest_goy + q.sin_gamma_o * f_rest_gox;
+    let f_rest_bx = (q.cos_gamma_o * f_rest_gox).sub_mul(q.sin_gamma_o, f_rest_goy);
+    let f_rest_by = (q.cos_gamma_o * f_rest_goy).add_mul(q.sin_gamma_o, f_rest_gox);
     let f_rest_bz = f_rest_goz;
-    let bias_83 = q.cos_gamma_o * n_rest_gox - q.sin_gamma_o * n_rest_goy;
-    let n_rest_bx = bias_83 + (p.r_go_b_by * f_rest_goz - p.r_go_b_bz * f_rest_by);
-    let bias_84 = q.cos_gamma_o * n_rest_goy + q.sin_gamma_o * n_rest_gox;
-    let n_rest_by = bias_84 + (p.r_go_b_bz * f_rest_bx - p.r_go_b_bx * f_rest_goz);
-    let n_rest_bz = p.r_go_b_bx * f_rest_by - p.r_go_b_by * f_rest_bx + n_rest_goz;
+    let bias_95 = (q.cos_gamma_o * n_rest_gox).sub_mul(q.sin_gamma_o, n_rest_goy);
+    let bias_96 = (p.r_go_b_by * f_rest_goz).sub_mul(p.r_go_b_bz, f_rest_by);
+    let n_rest_bx = bias_95 + bias_96;
+    let bias_97 = (q.cos_gamma_o * n_rest_goy).add_mul(q.sin_gamma_o, n_rest_gox);
+    let bias_98 = (p.r_go_b_bz * f_rest_bx).sub_mul(p.r_go_b_bx, f_rest_goz);
+    let n_rest_by = bias_97 + bias_98;
+    let bias_99 = (p.r_go_b_bx * f_rest_by).sub_mul(p.r_go_b_by, f_rest_bx);
+    let n_rest_bz = bias_99 + n_rest_goz;
 
     // Right side of each joint, eqs. (80), (101), (119): motor torque less what the rest asks
     // for, N m.
@@ -2007,14 +2170,14 @@ pub fn eliminate<T: Real>(
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
     let gain_w_o = mass_ow * recip_w;
-    let free_w = m.given_w + tau_w * recip_w;
+    let free_w = m.given_w.add_mul(tau_w, recip_w);
 
     // Joint w taken out of the rows nearer the hub, eq. (E2).
-    let n_o_bx_w = n_o_bx - n_w_bx * gain_w_o;
-    let n_o_by_w = n_o_by - n_w_by * gain_w_o;
-    let n_o_bz_w = n_o_bz - n_w_bz * gain_w_o;
-    let mass_oo_w = mass_oo - mass_ow * gain_w_o;
-    let tau_o_w = tau_o - mass_ow * free_w;
+    let n_o_bx_w = n_o_bx.sub_mul(n_w_bx, gain_w_o);
+    let n_o_by_w = n_o_by.sub_mul(n_w_by, gain_w_o);
+    let n_o_bz_w = n_o_bz.sub_mul(n_w_bz, gain_w_o);
+    let mass_oo_w = mass_oo.sub_mul(mass_ow, gain_w_o);
+    let tau_o_w = tau_o.sub_mul(mass_ow, free_w);
 
     // Joint i, eq. (E1): its pivot `mass_ii`, kg m², and its gains.
     let divisor_i = m.held_i + mass_ii;
@@ -2026,17 +2189,17 @@ pub fn eliminate<T: Real>(
     let gain_i_w2 = n_i_by * recip_i;
     let gain_i_w3 = n_i_bz * recip_i;
     let gain_i_o = mass_oi * recip_i;
-    let free_i = m.given_i + tau_i * recip_i;
+    let free_i = m.given_i.add_mul(tau_i, recip_i);
 
     // Joint i taken out of the rows nearer the hub, eq. (E2).
-    let f_o_bx_wi = f_o_bx - f_i_bx * gain_i_o;
-    let f_o_by_wi = f_o_by - f_i_by * gain_i_o;
+    let f_o_bx_wi = f_o_bx.sub_mul(f_i_bx, gain_i_o);
+    let f_o_by_wi = f_o_by.sub_mul(f_i_by, gain_i_o);
     let f_o_bz_wi = -(f_i_bz * gain_i_o);
-    let n_o_bx_wi = n_o_bx_w - n_i_bx * gain_i_o;
-    let n_o_by_wi = n_o_by_w - n_i_by * gain_i_o;
-    let n_o_bz_wi = n_o_bz_w - n_i_bz * gain_i_o;
-    let mass_oo_wi = mass_oo_w - mass_oi * gain_i_o;
-    let tau_o_wi = tau_o_w - mass_oi * free_i;
+    let n_o_bx_wi = n_o_bx_w.sub_mul(n_i_bx, gain_i_o);
+    let n_o_by_wi = n_o_by_w.sub_mul(n_i_by, gain_i_o);
+    let n_o_bz_wi = n_o_bz_w.sub_mul(n_i_bz, gain_i_o);
+    let mass_oo_wi = mass_oo_w.sub_mul(mass_oi, gain_i_o);
+    let tau_o_wi = tau_o_w.sub_mul(mass_oi, free_i);
 
     // Joint o, eq. (E1): its pivot `mass_oo_wi`, kg m², and its gains.
     let divisor_o = m.held_o + mass_oo_wi;
@@ -2047,48 +2210,51 @@ pub fn eliminate<T: Real>(
     let gain_o_w1 = n_o_bx_wi * recip_o;
     let gain_o_w2 = n_o_by_wi * recip_o;
     let gain_o_w3 = n_o_bz_wi * recip_o;
-    let free_o = m.given_o + tau_o_wi * recip_o;
+    let free_o = m.given_o.add_mul(tau_o_wi, recip_o);
 
     // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_d - f_i_bx * gain_i_v1 - f_o_bx_wi * gain_o_v1;
-    let m_vv_12 = -(f_i_by * gain_i_v1 + f_o_by_wi * gain_o_v1);
-    let m_vv_13 = -(f_i_bz * gain_i_v1 + f_o_bz_wi * gain_o_v1);
-    let m_vv_22 = p.m_d - f_i_by * gain_i_v2 - f_o_by_wi * gain_o_v2;
-    let m_vv_23 = -(f_i_bz * gain_i_v2 + f_o_bz_wi * gain_o_v2);
-    let m_vv_33 = p.m_d - f_i_bz * gain_i_v3 - f_o_bz_wi * gain_o_v3;
+    let m_vv_11 = p.m_d.sub_mul(f_i_bx, gain_i_v1).sub_mul(f_o_bx_wi, gain_o_v1);
+    let m_vv_12 = -(f_i_by * gain_i_v1).add_mul(f_o_by_wi, gain_o_v1);
+    let m_vv_13 = -(f_i_bz * gain_i_v1).add_mul(f_o_bz_wi, gain_o_v1);
+    let m_vv_22 = p.m_d.sub_mul(f_i_by, gain_i_v2).sub_mul(f_o_by_wi, gain_o_v2);
+    let m_vv_23 = -(f_i_bz * gain_i_v2).add_mul(f_o_bz_wi, gain_o_v2);
+    let m_vv_33 = p.m_d.sub_mul(f_i_bz, gain_i_v3).sub_mul(f_o_bz_wi, gain_o_v3);
 
     // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = -(n_i_bx * gain_i_v1 + n_o_bx_wi * gain_o_v1);
-    let m_vw_12 = mr_d_b_bz - n_i_by * gain_i_v1 - n_o_by_wi * gain_o_v1;
-    let m_vw_13 = -(mr_d_b_by + n_i_bz * gain_i_v1 + n_o_bz_wi * gain_o_v1);
-    let m_vw_21 = -(mr_d_b_bz + n_i_bx * gain_i_v2 + n_o_bx_wi * gain_o_v2);
-    let m_vw_22 = -(n_i_by * gain_i_v2 + n_o_by_wi * gain_o_v2);
-    let m_vw_23 = mr_d_b_bx - n_i_bz * gain_i_v2 - n_o_bz_wi * gain_o_v2;
-    let m_vw_31 = mr_d_b_by - n_i_bx * gain_i_v3 - n_o_bx_wi * gain_o_v3;
-    let m_vw_32 = -(mr_d_b_bx + n_i_by * gain_i_v3 + n_o_by_wi * gain_o_v3);
-    let m_vw_33 = -(n_i_bz * gain_i_v3 + n_o_bz_wi * gain_o_v3);
+    let m_vw_11 = -(n_i_bx * gain_i_v1).add_mul(n_o_bx_wi, gain_o_v1);
+    let m_vw_12 = mr_d_b_bz.sub_mul(n_i_by, gain_i_v1).sub_mul(n_o_by_wi, gain_o_v1);
+    let m_vw_13 = -mr_d_b_by.add_mul(n_i_bz, gain_i_v1).add_mul(n_o_bz_wi, gain_o_v1);
+    let m_vw_21 = -mr_d_b_bz.add_mul(n_i_bx, gain_i_v2).add_mul(n_o_bx_wi, gain_o_v2);
+    let m_vw_22 = -(n_i_by * gain_i_v2).add_mul(n_o_by_wi, gain_o_v2);
+    let m_vw_23 = mr_d_b_bx.sub_mul(n_i_bz, gain_i_v2).sub_mul(n_o_bz_wi, gain_o_v2);
+    let m_vw_31 = mr_d_b_by.sub_mul(n_i_bx, gain_i_v3).sub_mul(n_o_bx_wi, gain_o_v3);
+    let m_vw_32 = -mr_d_b_bx.add_mul(n_i_by, gain_i_v3).add_mul(n_o_by_wi, gain_o_v3);
+    let m_vw_33 = -(n_i_bz * gain_i_v3).add_mul(n_o_bz_wi, gain_o_v3);
 
     // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let hub_0 = i_d_b_11 - n_w_bx * gain_w_w1 - n_i_bx * gain_i_w1;
-    let m_ww_11 = hub_0 - n_o_bx_wi * gain_o_w1;
-    let hub_1 = i_d_b_12 - n_w_by * gain_w_w1 - n_i_by * gain_i_w1;
-    let m_ww_12 = hub_1 - n_o_by_wi * gain_o_w1;
-    let hub_2 = i_d_b_13 - n_w_bz * gain_w_w1 - n_i_bz * gain_i_w1;
-    let m_ww_13 = hub_2 - n_o_bz_wi * gain_o_w1;
-    let hub_3 = i_d_b_22 - n_w_by * gain_w_w2 - n_i_by * gain_i_w2;
-    let m_ww_22 = hub_3 - n_o_by_wi * gain_o_w2;
-    let hub_4 = i_d_b_23 - n_w_bz * gain_w_w2 - n_i_bz * gain_i_w2;
-    let m_ww_23 = hub_4 - n_o_bz_wi * gain_o_w2;
-    let hub_5 = i_d_b_33 - n_w_bz * gain_w_w3 - n_i_bz * gain_i_w3;
-    let m_ww_33 = hub_5 - n_o_bz_wi * gain_o_w3;
+    let hub_0 = i_d_b_11.sub_mul(n_w_bx, gain_w_w1).sub_mul(n_i_bx, gain_i_w1);
+    let m_ww_11 = hub_0.sub_mul(n_o_bx_wi, gain_o_w1);
+    let hub_1 = i_d_b_12.sub_mul(n_w_by, gain_w_w1).sub_mul(n_i_by, gain_i_w1);
+    let m_ww_12 = hub_1.sub_mul(n_o_by_wi, gain_o_w1);
+    let hub_2 = i_d_b_13.sub_mul(n_w_bz, gain_w_w1).sub_mul(n_i_bz, gain_i_w1);
+    let m_ww_13 = hub_2.sub_mul(n_o_bz_wi, gain_o_w1);
+    let hub_3 = i_d_b_22.sub_mul(n_w_by, gain_w_w2).sub_mul(n_i_by, gain_i_w2);
+    let m_ww_22 = hub_3.sub_mul(n_o_by_wi, gain_o_w2);
+    let hub_4 = i_d_b_23.sub_mul(n_w_bz, gain_w_w2).sub_mul(n_i_bz, gain_i_w2);
+    let m_ww_23 = hub_4.sub_mul(n_o_bz_wi, gain_o_w2);
+    let hub_5 = i_d_b_33.sub_mul(n_w_bz, gain_w_w3).sub_mul(n_i_bz, gain_i_w3);
+    let m_ww_33 = hub_5.sub_mul(n_o_bz_wi, gain_o_w3);
 
     // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + f_i_bx * free_i + f_o_bx_wi * free_o);
-    let h_v_2 = -(f_rest_by + f_i_by * free_i + f_o_by_wi * free_o);
-    let h_v_3 = -(f_rest_bz + f_i_bz * free_i + f_o_bz_wi * free_o);
-    let h_w_1 = -(n_rest_bx + n_w_bx * free_w + n_i_bx * free_i + n_o_bx_wi * free_o);
-    let h_w_2 = -(n_rest_by + n_w_by * free_w + n_i_by * free_i + n_o_by_wi * free_o);
-    let h_w_3 = -(n_rest_bz + n_w_bz * free_w + n_i_bz * free_i + n_o_bz_wi * free_o);
+    let h_v_1 = -f_rest_bx.add_mul(f_i_bx, free_i).add_mul(f_o_bx_wi, free_o);
+    let h_v_2 = -f_rest_by.add_mul(f_i_by, free_i).add_mul(f_o_by_wi, free_o);
+    let h_v_3 = -f_rest_bz.add_mul(f_i_bz, free_i).add_mul(f_o_bz_wi, free_o);
+    let hub_6 = n_rest_bx.add_mul(n_w_bx, free_w).add_mul(n_i_bx, free_i);
+    let h_w_1 = -hub_6.add_mul(n_o_bx_wi, free_o);
+    let hub_7 = n_rest_by.add_mul(n_w_by, free_w).add_mul(n_i_by, free_i);
+    let h_w_2 = -hub_7.add_mul(n_o_by_wi, free_o);
+    let hub_8 = n_rest_bz.add_mul(n_w_bz, free_w).add_mul(n_i_bz, free_i);
+    let h_w_3 = -hub_8.add_mul(n_o_bz_wi, free_o);
 
     Eliminated {
         share: HubShare {
@@ -2152,28 +2318,30 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 17 mul, 17 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_o - a.r_b_n_ddot_bx * e.gain_o_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_o_v2;
-    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_o_v3;
-    let row_3 = row_2 - a.omega_dot_bx * e.gain_o_w1;
-    let row_4 = row_3 - a.omega_dot_by * e.gain_o_w2;
-    let gamma_o_ddot = row_4 - a.omega_dot_bz * e.gain_o_w3;
-    let row_5 = e.free_i - a.r_b_n_ddot_bx * e.gain_i_v1;
-    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_i_v2;
-    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_i_v3;
-    let row_8 = row_7 - a.omega_dot_bx * e.gain_i_w1;
-    let row_9 = row_8 - a.omega_dot_by * e.gain_i_w2;
-    let row_10 = row_9 - a.omega_dot_bz * e.gain_i_w3;
-    let gamma_i_ddot = row_10 - gamma_o_ddot * e.gain_i_o;
-    let row_11 = e.free_w - a.omega_dot_bx * e.gain_w_w1;
-    let row_12 = row_11 - a.omega_dot_by * e.gain_w_w2;
-    let spin_dot = row_12 - a.omega_dot_bz * e.gain_w_w3 - gamma_o_ddot * e.gain_w_o;
+    let row_0 = e.free_o.sub_mul(a.r_b_n_ddot_bx, e.gain_o_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_o_v2);
+    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_o_v3);
+    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_o_w1);
+    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_o_w2);
+    let gamma_o_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_o_w3);
+    let row_5 = e.free_i.sub_mul(a.r_b_n_ddot_bx, e.gain_i_v1);
+    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_i_v2);
+    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_i_v3);
+    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_i_w1);
+    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_i_w2);
+    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_i_w3);
+    let gamma_i_ddot = row_10.sub_mul(gamma_o_ddot, e.gain_i_o);
+    let row_11 = e.free_w.sub_mul(a.omega_dot_bx, e.gain_w_w1);
+    let row_12 = row_11.sub_mul(a.omega_dot_by, e.gain_w_w2);
+    let row_13 = row_12.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let spin_dot = row_13.sub_mul(gamma_o_ddot, e.gain_w_o);
 
     JointAccelerations { gamma_o_ddot, gamma_i_ddot, spin_dot }
 }

@@ -123,6 +123,62 @@ pub struct Prepared<T> {
     pub second_moment_33: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            r_w_b_bx: join(self.r_w_b_bx, other.r_w_b_bx),
+            r_w_b_by: join(self.r_w_b_by, other.r_w_b_by),
+            r_w_b_bz: join(self.r_w_b_bz, other.r_w_b_bz),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_22: join(self.j_22, other.j_22),
+            second_moment_12: join(self.second_moment_12, other.second_moment_12),
+            i_w_b_12: join(self.i_w_b_12, other.i_w_b_12),
+            second_moment_13: join(self.second_moment_13, other.second_moment_13),
+            i_w_b_13: join(self.i_w_b_13, other.i_w_b_13),
+            second_moment_23: join(self.second_moment_23, other.second_moment_23),
+            i_w_b_23: join(self.i_w_b_23, other.i_w_b_23),
+            i_w_b_11: join(self.i_w_b_11, other.i_w_b_11),
+            i_w_b_22: join(self.i_w_b_22, other.i_w_b_22),
+            i_w_b_33: join(self.i_w_b_33, other.i_w_b_33),
+            mc_bx: join(self.mc_bx, other.mc_bx),
+            mc_by: join(self.mc_by, other.mc_by),
+            mc_bz: join(self.mc_bz, other.mc_bz),
+            mr_d_b_bx: join(self.mr_d_b_bx, other.mr_d_b_bx),
+            mr_d_b_by: join(self.mr_d_b_by, other.mr_d_b_by),
+            mr_d_b_bz: join(self.mr_d_b_bz, other.mr_d_b_bz),
+            i_d_b_11: join(self.i_d_b_11, other.i_d_b_11),
+            i_d_b_12: join(self.i_d_b_12, other.i_d_b_12),
+            i_d_b_13: join(self.i_d_b_13, other.i_d_b_13),
+            i_d_b_22: join(self.i_d_b_22, other.i_d_b_22),
+            i_d_b_23: join(self.i_d_b_23, other.i_d_b_23),
+            i_d_b_33: join(self.i_d_b_33, other.i_d_b_33),
+            m_vw_13: join(self.m_vw_13, other.m_vw_13),
+            m_vw_21: join(self.m_vw_21, other.m_vw_21),
+            m_vw_32: join(self.m_vw_32, other.m_vw_32),
+            k_0: join(self.k_0, other.k_0),
+            k_1: join(self.k_1, other.k_1),
+            second_moment_11: join(self.second_moment_11, other.second_moment_11),
+            second_moment_22: join(self.second_moment_22, other.second_moment_22),
+            second_moment_33: join(self.second_moment_33, other.second_moment_33),
+        }
+    }
+}
+
 /// Joint rates, each relative to the body that carries it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates<T> {
@@ -228,6 +284,26 @@ pub struct Eliminated<T> {
 pub struct JointAccelerations<T> {
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations { spin_dot: join(self.spin_dot, other.spin_dot) }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -496,6 +572,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>) -> FirstMoment<T> {
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 35 mul, 21 add, 6 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -508,12 +585,12 @@ pub fn eliminate<T: Real>(
     let omega_w_n_wx = w.omega_bx + v.spin;
 
     // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_bz * p.r_w_b_bx - w.omega_bx * p.r_w_b_bz;
-    let path_1 = w.omega_bx * p.r_w_b_by - w.omega_by * p.r_w_b_bx;
-    let r_w_rest_wx = w.omega_by * path_1 - w.omega_bz * path_0;
-    let path_2 = w.omega_by * p.r_w_b_bz - w.omega_bz * p.r_w_b_by;
-    let r_w_rest_wy = w.omega_bz * path_2 - w.omega_bx * path_1;
-    let r_w_rest_wz = w.omega_bx * path_0 - w.omega_by * path_2;
+    let path_0 = (w.omega_bz * p.r_w_b_bx).sub_mul(w.omega_bx, p.r_w_b_bz);
+    let path_1 = (w.omega_bx * p.r_w_b_by).sub_mul(w.omega_by, p.r_w_b_bx);
+    let r_w_rest_wx = (w.omega_by * path_1).sub_mul(w.omega_bz, path_0);
+    let path_2 = (w.omega_by * p.r_w_b_bz).sub_mul(w.omega_bz, p.r_w_b_by);
+    let r_w_rest_wy = (w.omega_bz * path_2).sub_mul(w.omega_bx, path_1);
+    let r_w_rest_wz = (w.omega_bx * path_0).sub_mul(w.omega_by, path_2);
 
     // D with no joint accelerating, eq. (117): force, N, and moment about W, N m.
     let f_rest_wx = p.m_w * r_w_rest_wx;
@@ -521,10 +598,10 @@ pub fn eliminate<T: Real>(
     let f_rest_wz = p.m_w * r_w_rest_wz;
     let bias_0 = w.omega_by * p.j_22;
     let bias_1 = w.omega_bz * p.j_22;
-    let n_rest_wx = w.omega_by * bias_1 - w.omega_bz * bias_0;
+    let n_rest_wx = (w.omega_by * bias_1).sub_mul(w.omega_bz, bias_0);
     let bias_2 = p.j_11 * omega_w_n_wx;
-    let n_rest_wy = w.omega_bz * bias_2 - w.omega_bx * bias_1;
-    let n_rest_wz = w.omega_bx * bias_0 - w.omega_by * bias_2;
+    let n_rest_wy = (w.omega_bz * bias_2).sub_mul(w.omega_bx, bias_1);
+    let n_rest_wz = (w.omega_bx * bias_0).sub_mul(w.omega_by, bias_2);
 
     // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m.
     let mass_ww = p.j_11;
@@ -534,9 +611,12 @@ pub fn eliminate<T: Real>(
     let f_rest_bx = f_rest_wx;
     let f_rest_by = f_rest_wy;
     let f_rest_bz = f_rest_wz;
-    let n_rest_bx = p.r_w_b_by * f_rest_wz - p.r_w_b_bz * f_rest_wy + n_rest_wx;
-    let n_rest_by = p.r_w_b_bz * f_rest_wx - p.r_w_b_bx * f_rest_wz + n_rest_wy;
-    let n_rest_bz = p.r_w_b_bx * f_rest_wy - p.r_w_b_by * f_rest_wx + n_rest_wz;
+    let bias_3 = (p.r_w_b_by * f_rest_wz).sub_mul(p.r_w_b_bz, f_rest_wy);
+    let n_rest_bx = bias_3 + n_rest_wx;
+    let bias_4 = (p.r_w_b_bz * f_rest_wx).sub_mul(p.r_w_b_bx, f_rest_wz);
+    let n_rest_by = bias_4 + n_rest_wy;
+    let bias_5 = (p.r_w_b_bx * f_rest_wy).sub_mul(p.r_w_b_by, f_rest_wx);
+    let n_rest_bz = bias_5 + n_rest_wz;
 
     // Right side of each joint, eq. (119): motor torque less what the rest asks for, N m.
     let tau_w = u.u_w - u_rest_w;
@@ -545,7 +625,7 @@ pub fn eliminate<T: Real>(
     let divisor_w = m.held_w + p.j_11;
     let recip_w = m.driven_w * divisor_w.recip();
     let gain_w_w1 = p.j_11 * recip_w;
-    let free_w = m.given_w + tau_w * recip_w;
+    let free_w = m.given_w.add_mul(tau_w, recip_w);
 
     // Share of the hub's mass matrix, eq. (E3): M_vv.
     let m_vv_11 = p.m_w;
@@ -568,7 +648,7 @@ pub fn eliminate<T: Real>(
     let m_vw_33 = zero;
 
     // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = p.i_d_b_11 - p.j_11 * gain_w_w1;
+    let m_ww_11 = p.i_d_b_11.sub_mul(p.j_11, gain_w_w1);
     let m_ww_12 = p.i_d_b_12;
     let m_ww_13 = p.i_d_b_13;
     let m_ww_22 = p.i_d_b_22;
@@ -579,7 +659,7 @@ pub fn eliminate<T: Real>(
     let h_v_1 = -f_rest_bx;
     let h_v_2 = -f_rest_by;
     let h_v_3 = -f_rest_bz;
-    let h_w_1 = -(n_rest_bx + p.j_11 * free_w);
+    let h_w_1 = -n_rest_bx.add_mul(p.j_11, free_w);
     let h_w_2 = -n_rest_by;
     let h_w_3 = -n_rest_bz;
 
@@ -623,13 +703,14 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 1 mul, 1 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let spin_dot = e.free_w - a.omega_dot_bx * e.gain_w_w1;
+    let spin_dot = e.free_w.sub_mul(a.omega_dot_bx, e.gain_w_w1);
 
     JointAccelerations { spin_dot }
 }

@@ -205,6 +205,89 @@ pub struct Prepared<T> {
     pub k_19: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            r_g_b_bx: join(self.r_g_b_bx, other.r_g_b_bx),
+            r_g_b_by: join(self.r_g_b_by, other.r_g_b_by),
+            r_g_b_bz: join(self.r_g_b_bz, other.r_g_b_bz),
+            r_gc_g_gx: join(self.r_gc_g_gx, other.r_gc_g_gx),
+            r_gc_g_gy: join(self.r_gc_g_gy, other.r_gc_g_gy),
+            m_g: join(self.m_g, other.m_g),
+            i_g_11: join(self.i_g_11, other.i_g_11),
+            i_g_12: join(self.i_g_12, other.i_g_12),
+            i_g_13: join(self.i_g_13, other.i_g_13),
+            i_g_22: join(self.i_g_22, other.i_g_22),
+            i_g_23: join(self.i_g_23, other.i_g_23),
+            i_g_33: join(self.i_g_33, other.i_g_33),
+            l_g_x: join(self.l_g_x, other.l_g_x),
+            l_g_y: join(self.l_g_y, other.l_g_y),
+            l_g_z: join(self.l_g_z, other.l_g_z),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_22: join(self.j_22, other.j_22),
+            m_d: join(self.m_d, other.m_d),
+            r_gc_b_bz: join(self.r_gc_b_bz, other.r_gc_b_bz),
+            r_wc_b_gz: join(self.r_wc_b_gz, other.r_wc_b_gz),
+            k_0: join(self.k_0, other.k_0),
+            r_wc_b_dprime_g_gx: join(self.r_wc_b_dprime_g_gx, other.r_wc_b_dprime_g_gx),
+            k_1: join(self.k_1, other.k_1),
+            mr_gc_g_gx: join(self.mr_gc_g_gx, other.mr_gc_g_gx),
+            mr_gc_g_gy: join(self.mr_gc_g_gy, other.mr_gc_g_gy),
+            mr_gc_g_gz: join(self.mr_gc_g_gz, other.mr_gc_g_gz),
+            i_g_g_11: join(self.i_g_g_11, other.i_g_g_11),
+            i_g_g_12: join(self.i_g_g_12, other.i_g_g_12),
+            i_g_g_13: join(self.i_g_g_13, other.i_g_g_13),
+            i_g_g_22: join(self.i_g_g_22, other.i_g_g_22),
+            i_g_g_23: join(self.i_g_g_23, other.i_g_g_23),
+            i_g_g_33: join(self.i_g_g_33, other.i_g_g_33),
+            mr_d_g_gx: join(self.mr_d_g_gx, other.mr_d_g_gx),
+            mr_d_g_gy: join(self.mr_d_g_gy, other.mr_d_g_gy),
+            i_d_g_11: join(self.i_d_g_11, other.i_d_g_11),
+            i_d_g_12: join(self.i_d_g_12, other.i_d_g_12),
+            i_d_g_13: join(self.i_d_g_13, other.i_d_g_13),
+            i_d_g_22: join(self.i_d_g_22, other.i_d_g_22),
+            i_d_g_23: join(self.i_d_g_23, other.i_d_g_23),
+            i_d_g_33: join(self.i_d_g_33, other.i_d_g_33),
+            mass_gg: join(self.mass_gg, other.mass_gg),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            k_14: join(self.k_14, other.k_14),
+            mc_bz: join(self.mc_bz, other.mc_bz),
+            mr_d_b_bz: join(self.mr_d_b_bz, other.mr_d_b_bz),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+            k_17: join(self.k_17, other.k_17),
+            k_18: join(self.k_18, other.k_18),
+            k_19: join(self.k_19, other.k_19),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -474,6 +557,29 @@ pub struct JointAccelerations<T> {
     pub gamma_ddot: T,
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations {
+            gamma_ddot: join(self.gamma_ddot, other.gamma_ddot),
+            spin_dot: join(self.spin_dot, other.spin_dot),
+        }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -1069,6 +1175,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 171 mul, 145 add, 13 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1079,40 +1186,41 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{G/N}, eq. (31), along its own axes, rad/s.
-    let omega_g_n_gx = w.omega_bx * q.cos_gamma + w.omega_by * q.sin_gamma;
-    let omega_g_n_gy = w.omega_by * q.cos_gamma - w.omega_bx * q.sin_gamma;
+    let omega_g_n_gx = (w.omega_bx * q.cos_gamma).add_mul(w.omega_by, q.sin_gamma);
+    let omega_g_n_gy = (w.omega_by * q.cos_gamma).sub_mul(w.omega_bx, q.sin_gamma);
     let omega_g_n_gz = w.omega_bz + v.gamma_dot;
 
     // Its derivative as in eq. (34), no joint accelerating, along the same axes, rad/s².
     let turn_0 = v.gamma_dot * q.cos_gamma;
     let turn_1 = v.gamma_dot * q.sin_gamma;
-    let omega_g_n_rest_gx = w.omega_by * turn_0 - w.omega_bx * turn_1;
-    let neg_omega_g_n_rest_gy = w.omega_by * turn_1 + w.omega_bx * turn_0;
+    let omega_g_n_rest_gx = (w.omega_by * turn_0).sub_mul(w.omega_bx, turn_1);
+    let neg_omega_g_n_rest_gy = (w.omega_by * turn_1).add_mul(w.omega_bx, turn_0);
 
     // Acceleration of G relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_by * p.r_g_b_bz - w.omega_bz * p.r_g_b_by;
-    let path_1 = w.omega_bz * p.r_g_b_bx - w.omega_bx * p.r_g_b_bz;
-    let path_2 = w.omega_bx * p.r_g_b_by - w.omega_by * p.r_g_b_bx;
-    let path_3 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_4 = w.omega_bz * path_0 - w.omega_bx * path_2;
-    let r_g_rest_gx = q.cos_gamma * path_3 + q.sin_gamma * path_4;
-    let r_g_rest_gy = q.cos_gamma * path_4 - q.sin_gamma * path_3;
-    let r_g_rest_gz = w.omega_bx * path_1 - w.omega_by * path_0;
+    let path_0 = (w.omega_by * p.r_g_b_bz).sub_mul(w.omega_bz, p.r_g_b_by);
+    let path_1 = (w.omega_bz * p.r_g_b_bx).sub_mul(w.omega_bx, p.r_g_b_bz);
+    let path_2 = (w.omega_bx * p.r_g_b_by).sub_mul(w.omega_by, p.r_g_b_bx);
+    let path_3 = (w.omega_by * path_2).sub_mul(w.omega_bz, path_1);
+    let path_4 = (w.omega_bz * path_0).sub_mul(w.omega_bx, path_2);
+    let r_g_rest_gx = (q.cos_gamma * path_3).add_mul(q.sin_gamma, path_4);
+    let r_g_rest_gy = (q.cos_gamma * path_4).sub_mul(q.sin_gamma, path_3);
+    let r_g_rest_gz = (w.omega_bx * path_1).sub_mul(w.omega_by, path_0);
 
     // ω_{W/N}, eq. (59), along the carrier's axes, rad/s.
     let omega_w_n_wx = v.spin + omega_g_n_gx;
 
     // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_5 = p.l_g_x * omega_g_n_gz - p.l_g_z * omega_g_n_gx;
-    let path_6 = p.l_g_y * omega_g_n_gx - p.l_g_x * omega_g_n_gy;
-    let path_7 = omega_g_n_gy * path_6 - omega_g_n_gz * path_5;
-    let r_w_rest_wx = path_7 - p.l_g_z * neg_omega_g_n_rest_gy + r_g_rest_gx;
-    let path_8 = p.l_g_z * omega_g_n_gy - p.l_g_y * omega_g_n_gz;
-    let path_9 = omega_g_n_gz * path_8 - omega_g_n_gx * path_6;
-    let r_w_rest_wy = path_9 - p.l_g_z * omega_g_n_rest_gx + r_g_rest_gy;
-    let path_10 = p.l_g_y * omega_g_n_rest_gx + p.l_g_x * neg_omega_g_n_rest_gy;
-    let path_11 = omega_g_n_gx * path_5 - omega_g_n_gy * path_8 + path_10;
-    let r_w_rest_wz = path_11 + r_g_rest_gz;
+    let path_5 = (p.l_g_x * omega_g_n_gz).sub_mul(p.l_g_z, omega_g_n_gx);
+    let path_6 = (p.l_g_y * omega_g_n_gx).sub_mul(p.l_g_x, omega_g_n_gy);
+    let path_7 = (omega_g_n_gy * path_6).sub_mul(omega_g_n_gz, path_5);
+    let r_w_rest_wx = path_7.sub_mul(p.l_g_z, neg_omega_g_n_rest_gy) + r_g_rest_gx;
+    let path_8 = (p.l_g_z * omega_g_n_gy).sub_mul(p.l_g_y, omega_g_n_gz);
+    let path_9 = (omega_g_n_gz * path_8).sub_mul(omega_g_n_gx, path_6);
+    let r_w_rest_wy = path_9.sub_mul(p.l_g_z, omega_g_n_rest_gx) + r_g_rest_gy;
+    let path_10 = p.l_g_y * omega_g_n_rest_gx;
+    let path_11 = (omega_g_n_gx * path_5).sub_mul(omega_g_n_gy, path_8);
+    let path_12 = path_11 + path_10.add_mul(p.l_g_x, neg_omega_g_n_rest_gy);
+    let r_w_rest_wz = path_12 + r_g_rest_gz;
 
     // W with no joint accelerating, eq. (117): force, N, and moment about W, N m.
     let f_rest_wx = p.m_w * r_w_rest_wx;
@@ -1120,94 +1228,99 @@ pub fn eliminate<T: Real>(
     let f_rest_wz = p.m_w * r_w_rest_wz;
     let bias_0 = p.j_22 * omega_g_n_gy;
     let bias_1 = p.j_22 * omega_g_n_gz;
-    let bias_2 = omega_g_n_gy * bias_1 - omega_g_n_gz * bias_0;
-    let n_rest_wx = bias_2 + p.j_11 * omega_g_n_rest_gx;
+    let bias_2 = (omega_g_n_gy * bias_1).sub_mul(omega_g_n_gz, bias_0);
+    let n_rest_wx = bias_2.add_mul(p.j_11, omega_g_n_rest_gx);
     let bias_3 = p.j_11 * omega_w_n_wx;
-    let bias_4 = omega_g_n_gz * bias_3 - omega_g_n_gx * bias_1;
-    let n_rest_wy = bias_4 - p.j_22 * neg_omega_g_n_rest_gy;
-    let n_rest_wz = omega_g_n_gx * bias_0 - omega_g_n_gy * bias_3;
+    let bias_4 = (omega_g_n_gz * bias_3).sub_mul(omega_g_n_gx, bias_1);
+    let n_rest_wy = bias_4.sub_mul(p.j_22, neg_omega_g_n_rest_gy);
+    let n_rest_wz = (omega_g_n_gx * bias_0).sub_mul(omega_g_n_gy, bias_3);
 
     // D with no joint accelerating, eq. (78): force, N, and moment about G, N m.
-    let bias_5 = p.mr_gc_g_gx * omega_g_n_gz - p.mr_gc_g_gz * omega_g_n_gx;
-    let bias_6 = p.mr_gc_g_gy * omega_g_n_gx - p.mr_gc_g_gx * omega_g_n_gy;
-    let bias_7 = omega_g_n_gy * bias_6 - omega_g_n_gz * bias_5;
-    let bias_8 = bias_7 - p.mr_gc_g_gz * neg_omega_g_n_rest_gy;
-    let f_rest_gx = bias_8 + p.m_g * r_g_rest_gx + f_rest_wx;
-    let bias_9 = p.mr_gc_g_gz * omega_g_n_gy - p.mr_gc_g_gy * omega_g_n_gz;
-    let bias_10 = omega_g_n_gz * bias_9 - omega_g_n_gx * bias_6;
-    let bias_11 = bias_10 - p.mr_gc_g_gz * omega_g_n_rest_gx + p.m_g * r_g_rest_gy;
-    let f_rest_gy = bias_11 + f_rest_wy;
-    let bias_12 = p.mr_gc_g_gx * neg_omega_g_n_rest_gy;
-    let bias_13 = omega_g_n_gx * bias_5 - omega_g_n_gy * bias_9;
-    let bias_14 = bias_13 + (p.mr_gc_g_gy * omega_g_n_rest_gx + bias_12);
-    let f_rest_gz = bias_14 + p.m_g * r_g_rest_gz + f_rest_wz;
-    let bias_15 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
-    let bias_16 = bias_15 + p.i_g_g_23 * omega_g_n_gz;
-    let bias_17 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
-    let bias_18 = bias_17 + p.i_g_g_33 * omega_g_n_gz;
-    let bias_19 = p.i_g_g_12 * neg_omega_g_n_rest_gy;
-    let bias_20 = omega_g_n_gy * bias_18 - omega_g_n_gz * bias_16;
-    let bias_21 = p.mr_gc_g_gy * r_g_rest_gz - p.mr_gc_g_gz * r_g_rest_gy;
-    let bias_22 = bias_20 + (p.i_g_g_11 * omega_g_n_rest_gx - bias_19) + bias_21;
-    let n_rest_gx = p.l_g_y * f_rest_wz - p.l_g_z * f_rest_wy + n_rest_wx + bias_22;
-    let bias_23 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
-    let bias_24 = bias_23 + p.i_g_g_13 * omega_g_n_gz;
-    let bias_25 = p.i_g_g_22 * neg_omega_g_n_rest_gy;
-    let bias_26 = omega_g_n_gz * bias_24 - omega_g_n_gx * bias_18;
-    let bias_27 = p.mr_gc_g_gz * r_g_rest_gx - p.mr_gc_g_gx * r_g_rest_gz;
-    let bias_28 = bias_26 + (p.i_g_g_12 * omega_g_n_rest_gx - bias_25) + bias_27;
-    let n_rest_gy = p.l_g_z * f_rest_wx - p.l_g_x * f_rest_wz + n_rest_wy + bias_28;
-    let bias_29 = p.i_g_g_23 * neg_omega_g_n_rest_gy;
-    let bias_30 = omega_g_n_gx * bias_16 - omega_g_n_gy * bias_24;
-    let bias_31 = p.mr_gc_g_gx * r_g_rest_gy - p.mr_gc_g_gy * r_g_rest_gx;
-    let bias_32 = bias_30 + (p.i_g_g_13 * omega_g_n_rest_gx - bias_29) + bias_31;
-    let n_rest_gz = p.l_g_x * f_rest_wy - p.l_g_y * f_rest_wx + n_rest_wz + bias_32;
+    let bias_5 = (p.mr_gc_g_gx * omega_g_n_gz).sub_mul(p.mr_gc_g_gz, omega_g_n_gx);
+    let bias_6 = (p.mr_gc_g_gy * omega_g_n_gx).sub_mul(p.mr_gc_g_gx, omega_g_n_gy);
+    let bias_7 = (omega_g_n_gy * bias_6).sub_mul(omega_g_n_gz, bias_5);
+    let bias_8 = bias_7.sub_mul(p.mr_gc_g_gz, neg_omega_g_n_rest_gy);
+    let f_rest_gx = bias_8.add_mul(p.m_g, r_g_rest_gx) + f_rest_wx;
+    let bias_9 = (p.mr_gc_g_gz * omega_g_n_gy).sub_mul(p.mr_gc_g_gy, omega_g_n_gz);
+    let bias_10 = (omega_g_n_gz * bias_9).sub_mul(omega_g_n_gx, bias_6);
+    let bias_11 = bias_10.sub_mul(p.mr_gc_g_gz, omega_g_n_rest_gx);
+    let f_rest_gy = bias_11.add_mul(p.m_g, r_g_rest_gy) + f_rest_wy;
+    let bias_12 = p.mr_gc_g_gy * omega_g_n_rest_gx;
+    let bias_13 = (omega_g_n_gx * bias_5).sub_mul(omega_g_n_gy, bias_9);
+    let bias_14 = bias_13 + bias_12.add_mul(p.mr_gc_g_gx, neg_omega_g_n_rest_gy);
+    let f_rest_gz = bias_14.add_mul(p.m_g, r_g_rest_gz) + f_rest_wz;
+    let bias_15 = (p.i_g_g_12 * omega_g_n_gx).add_mul(p.i_g_g_22, omega_g_n_gy);
+    let bias_16 = bias_15.add_mul(p.i_g_g_23, omega_g_n_gz);
+    let bias_17 = (p.i_g_g_13 * omega_g_n_gx).add_mul(p.i_g_g_23, omega_g_n_gy);
+    let bias_18 = bias_17.add_mul(p.i_g_g_33, omega_g_n_gz);
+    let bias_19 = p.i_g_g_11 * omega_g_n_rest_gx;
+    let bias_20 = (omega_g_n_gy * bias_18).sub_mul(omega_g_n_gz, bias_16);
+    let bias_21 = (p.mr_gc_g_gy * r_g_rest_gz).sub_mul(p.mr_gc_g_gz, r_g_rest_gy);
+    let bias_22 = bias_20 + bias_19.sub_mul(p.i_g_g_12, neg_omega_g_n_rest_gy);
+    let bias_23 = (p.l_g_y * f_rest_wz).sub_mul(p.l_g_z, f_rest_wy) + n_rest_wx;
+    let n_rest_gx = bias_23 + (bias_22 + bias_21);
+    let bias_24 = (p.i_g_g_11 * omega_g_n_gx).add_mul(p.i_g_g_12, omega_g_n_gy);
+    let bias_25 = bias_24.add_mul(p.i_g_g_13, omega_g_n_gz);
+    let bias_26 = p.i_g_g_12 * omega_g_n_rest_gx;
+    let bias_27 = (omega_g_n_gz * bias_25).sub_mul(omega_g_n_gx, bias_18);
+    let bias_28 = (p.mr_gc_g_gz * r_g_rest_gx).sub_mul(p.mr_gc_g_gx, r_g_rest_gz);
+    let bias_29 = bias_27 + bias_26.sub_mul(p.i_g_g_22, neg_omega_g_n_rest_gy);
+    let bias_30 = (p.l_g_z * f_rest_wx).sub_mul(p.l_g_x, f_rest_wz) + n_rest_wy;
+    let n_rest_gy = bias_30 + (bias_29 + bias_28);
+    let bias_31 = p.i_g_g_13 * omega_g_n_rest_gx;
+    let bias_32 = (omega_g_n_gx * bias_16).sub_mul(omega_g_n_gy, bias_25);
+    let bias_33 = (p.mr_gc_g_gx * r_g_rest_gy).sub_mul(p.mr_gc_g_gy, r_g_rest_gx);
+    let bias_34 = bias_32 + bias_31.sub_mul(p.i_g_g_23, neg_omega_g_n_rest_gy);
+    let bias_35 = (p.l_g_x * f_rest_wy).sub_mul(p.l_g_y, f_rest_wx) + n_rest_wz;
+    let n_rest_gz = bias_35 + (bias_34 + bias_33);
 
     // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m.
     let mass_gg = p.i_d_g_33;
     let u_rest_g = n_rest_gz;
 
     // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * p.mr_d_g_gy;
+    let f_g_by = (q.cos_gamma * p.mr_d_g_gx).sub_mul(q.sin_gamma, p.mr_d_g_gy);
     let mr_d_b_bx = f_g_by + p.k_13;
-    let moment_0 = q.cos_gamma * p.mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
+    let moment_0 = (q.cos_gamma * p.mr_d_g_gy).add_mul(q.sin_gamma, p.mr_d_g_gx);
     let mr_d_b_by = moment_0 + p.k_14;
-    let moment_1 = q.cos_gamma * p.i_d_g_11 - q.sin_gamma * p.i_d_g_12;
-    let moment_2 = q.cos_gamma * p.i_d_g_12 - q.sin_gamma * p.i_d_g_22;
-    let moment_3 = q.cos_gamma * moment_1 - q.sin_gamma * moment_2;
+    let moment_1 = (q.cos_gamma * p.i_d_g_11).sub_mul(q.sin_gamma, p.i_d_g_12);
+    let moment_2 = (q.cos_gamma * p.i_d_g_12).sub_mul(q.sin_gamma, p.i_d_g_22);
+    let moment_3 = (q.cos_gamma * moment_1).sub_mul(q.sin_gamma, moment_2);
     let moment_4 = p.r_g_b_bx * f_g_by;
     let moment_5 = p.r_g_b_by * moment_0;
     let moment_6 = moment_4 + moment_5;
     let moment_7 = moment_6 + p.k_3;
     let moment_8 = moment_7 + moment_7;
     let i_d_b_11 = moment_8 - (moment_4 + moment_4) + moment_3 + p.k_7;
-    let moment_9 = q.cos_gamma * moment_2 + q.sin_gamma * moment_1;
-    let i_d_b_12 = moment_9 - (p.r_g_b_bx * moment_0 + p.r_g_b_by * f_g_by) + p.k_8;
-    let moment_10 = q.cos_gamma * p.i_d_g_13 - q.sin_gamma * p.i_d_g_23;
-    let moment_11 = p.r_g_b_bz * f_g_by;
-    let i_d_b_13 = moment_10 - (p.k_4 + moment_11) + p.k_9;
+    let moment_9 = (q.cos_gamma * moment_2).add_mul(q.sin_gamma, moment_1);
+    let moment_10 = moment_9 - (p.r_g_b_bx * moment_0).add_mul(p.r_g_b_by, f_g_by);
+    let i_d_b_12 = moment_10 + p.k_8;
+    let moment_11 = (q.cos_gamma * p.i_d_g_13).sub_mul(q.sin_gamma, p.i_d_g_23);
+    let moment_12 = p.r_g_b_bz * f_g_by;
+    let i_d_b_13 = moment_11 - (p.k_4 + moment_12) + p.k_9;
     let i_d_b_22 = p.k_2 - moment_3 + (moment_8 - (moment_5 + moment_5)) + p.k_10;
-    let moment_12 = q.cos_gamma * p.i_d_g_23 + q.sin_gamma * p.i_d_g_13;
-    let moment_13 = p.r_g_b_bz * moment_0;
-    let i_d_b_23 = moment_12 - (p.k_5 + moment_13) + p.k_11;
+    let moment_13 = (q.cos_gamma * p.i_d_g_23).add_mul(q.sin_gamma, p.i_d_g_13);
+    let moment_14 = p.r_g_b_bz * moment_0;
+    let i_d_b_23 = moment_13 - (p.k_5 + moment_14) + p.k_11;
     let i_d_b_33 = moment_8 + p.k_6 + p.i_d_g_33 + p.k_12;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration.
     let f_g_bx = -moment_0;
-    let n_g_bx = moment_10 - moment_11;
-    let n_g_by = moment_12 - moment_13;
+    let n_g_bx = moment_11 - moment_12;
+    let n_g_by = moment_13 - moment_14;
     let n_g_bz = p.i_d_g_33 + moment_6;
 
     // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = q.cos_gamma * f_rest_gx - q.sin_gamma * f_rest_gy;
-    let f_rest_by = q.cos_gamma * f_rest_gy + q.sin_gamma * f_rest_gx;
+    let f_rest_bx = (q.cos_gamma * f_rest_gx).sub_mul(q.sin_gamma, f_rest_gy);
+    let f_rest_by = (q.cos_gamma * f_rest_gy).add_mul(q.sin_gamma, f_rest_gx);
     let f_rest_bz = f_rest_gz;
-    let bias_33 = q.cos_gamma * n_rest_gx - q.sin_gamma * n_rest_gy;
-    let n_rest_bx = bias_33 + (p.r_g_b_by * f_rest_gz - p.r_g_b_bz * f_rest_by);
-    let bias_34 = q.cos_gamma * n_rest_gy + q.sin_gamma * n_rest_gx;
-    let n_rest_by = bias_34 + (p.r_g_b_bz * f_rest_bx - p.r_g_b_bx * f_rest_gz);
-    let n_rest_bz = p.r_g_b_bx * f_rest_by - p.r_g_b_by * f_rest_bx + n_rest_gz;
+    let bias_36 = (q.cos_gamma * n_rest_gx).sub_mul(q.sin_gamma, n_rest_gy);
+    let n_rest_bx = bias_36 + (p.r_g_b_by * f_rest_gz).sub_mul(p.r_g_b_bz, f_rest_by);
+    let bias_37 = (q.cos_gamma * n_rest_gy).add_mul(q.sin_gamma, n_rest_gx);
+    let n_rest_by = bias_37 + (p.r_g_b_bz * f_rest_bx).sub_mul(p.r_g_b_bx, f_rest_gz);
+    let bias_38 = (p.r_g_b_bx * f_rest_by).sub_mul(p.r_g_b_by, f_rest_bx);
+    let n_rest_bz = bias_38 + n_rest_gz;
 
     // Right side of each joint, eq. (80): motor torque less what the rest asks for, N m.
     let tau_g = u.u_g - u_rest_g;
@@ -1220,43 +1333,43 @@ pub fn eliminate<T: Real>(
     let gain_g_w1 = n_g_bx * recip_g;
     let gain_g_w2 = n_g_by * recip_g;
     let gain_g_w3 = n_g_bz * recip_g;
-    let free_g = m.given_g + tau_g * recip_g;
+    let free_g = m.given_g.add_mul(tau_g, recip_g);
 
     // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_d - f_g_bx * gain_g_v1;
+    let m_vv_11 = p.m_d.sub_mul(f_g_bx, gain_g_v1);
     let m_vv_12 = -(f_g_by * gain_g_v1);
     let zero = q.sin_gamma.like(0.0);
     let m_vv_13 = zero;
-    let m_vv_22 = p.m_d - f_g_by * gain_g_v2;
+    let m_vv_22 = p.m_d.sub_mul(f_g_by, gain_g_v2);
     let m_vv_23 = zero;
     let m_vv_33 = p.m_d;
 
     // Share of the hub's mass matrix, eq. (E3): M_vw.
     let m_vw_11 = -(n_g_bx * gain_g_v1);
-    let m_vw_12 = p.mr_d_b_bz - n_g_by * gain_g_v1;
-    let m_vw_13 = -(mr_d_b_by + n_g_bz * gain_g_v1);
-    let m_vw_21 = -(p.mr_d_b_bz + n_g_bx * gain_g_v2);
+    let m_vw_12 = p.mr_d_b_bz.sub_mul(n_g_by, gain_g_v1);
+    let m_vw_13 = -mr_d_b_by.add_mul(n_g_bz, gain_g_v1);
+    let m_vw_21 = -p.mr_d_b_bz.add_mul(n_g_bx, gain_g_v2);
     let m_vw_22 = -(n_g_by * gain_g_v2);
-    let m_vw_23 = mr_d_b_bx - n_g_bz * gain_g_v2;
+    let m_vw_23 = mr_d_b_bx.sub_mul(n_g_bz, gain_g_v2);
     let m_vw_31 = mr_d_b_by;
     let m_vw_32 = -mr_d_b_bx;
     let m_vw_33 = zero;
 
     // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_g_bx * gain_g_w1;
-    let m_ww_12 = i_d_b_12 - n_g_by * gain_g_w1;
-    let m_ww_13 = i_d_b_13 - n_g_bz * gain_g_w1;
-    let m_ww_22 = i_d_b_22 - n_g_by * gain_g_w2;
-    let m_ww_23 = i_d_b_23 - n_g_bz * gain_g_w2;
-    let m_ww_33 = i_d_b_33 - n_g_bz * gain_g_w3;
+    let m_ww_11 = i_d_b_11.sub_mul(n_g_bx, gain_g_w1);
+    let m_ww_12 = i_d_b_12.sub_mul(n_g_by, gain_g_w1);
+    let m_ww_13 = i_d_b_13.sub_mul(n_g_bz, gain_g_w1);
+    let m_ww_22 = i_d_b_22.sub_mul(n_g_by, gain_g_w2);
+    let m_ww_23 = i_d_b_23.sub_mul(n_g_bz, gain_g_w2);
+    let m_ww_33 = i_d_b_33.sub_mul(n_g_bz, gain_g_w3);
 
     // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + f_g_bx * free_g);
-    let h_v_2 = -(f_rest_by + f_g_by * free_g);
+    let h_v_1 = -f_rest_bx.add_mul(f_g_bx, free_g);
+    let h_v_2 = -f_rest_by.add_mul(f_g_by, free_g);
     let h_v_3 = -f_rest_bz;
-    let h_w_1 = -(n_rest_bx + n_g_bx * free_g);
-    let h_w_2 = -(n_rest_by + n_g_by * free_g);
-    let h_w_3 = -(n_rest_bz + n_g_bz * free_g);
+    let h_w_1 = -n_rest_bx.add_mul(n_g_bx, free_g);
+    let h_w_2 = -n_rest_by.add_mul(n_g_by, free_g);
+    let h_w_3 = -n_rest_bz.add_mul(n_g_bz, free_g);
 
     Eliminated {
         share: HubShare {
@@ -1302,17 +1415,18 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 5 mul, 5 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_g - a.r_b_n_ddot_bx * e.gain_g_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_g_v2;
-    let row_2 = row_1 - a.omega_dot_bx * e.gain_g_w1;
-    let row_3 = row_2 - a.omega_dot_by * e.gain_g_w2;
-    let gamma_ddot = row_3 - a.omega_dot_bz * e.gain_g_w3;
+    let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
+    let row_2 = row_1.sub_mul(a.omega_dot_bx, e.gain_g_w1);
+    let row_3 = row_2.sub_mul(a.omega_dot_by, e.gain_g_w2);
+    let gamma_ddot = row_3.sub_mul(a.omega_dot_bz, e.gain_g_w3);
     let zero = e.pivot_g.like(0.0);
     let spin_dot = zero;
 

@@ -318,6 +318,127 @@ pub struct Prepared<T> {
     pub k_36: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            r_go_b_bx: join(self.r_go_b_bx, other.r_go_b_bx),
+            r_go_b_by: join(self.r_go_b_by, other.r_go_b_by),
+            r_go_b_bz: join(self.r_go_b_bz, other.r_go_b_bz),
+            r_goc_go_gox: join(self.r_goc_go_gox, other.r_goc_go_gox),
+            r_goc_go_goy: join(self.r_goc_go_goy, other.r_goc_go_goy),
+            m_go: join(self.m_go, other.m_go),
+            i_go_11: join(self.i_go_11, other.i_go_11),
+            i_go_12: join(self.i_go_12, other.i_go_12),
+            i_go_13: join(self.i_go_13, other.i_go_13),
+            i_go_22: join(self.i_go_22, other.i_go_22),
+            i_go_23: join(self.i_go_23, other.i_go_23),
+            i_go_33: join(self.i_go_33, other.i_go_33),
+            l_o_x: join(self.l_o_x, other.l_o_x),
+            l_o_y: join(self.l_o_y, other.l_o_y),
+            l_o_z: join(self.l_o_z, other.l_o_z),
+            r_gic_gi_gix: join(self.r_gic_gi_gix, other.r_gic_gi_gix),
+            r_gic_gi_giy: join(self.r_gic_gi_giy, other.r_gic_gi_giy),
+            r_gic_gi_giz: join(self.r_gic_gi_giz, other.r_gic_gi_giz),
+            m_gi: join(self.m_gi, other.m_gi),
+            i_gi_11: join(self.i_gi_11, other.i_gi_11),
+            i_gi_12: join(self.i_gi_12, other.i_gi_12),
+            i_gi_13: join(self.i_gi_13, other.i_gi_13),
+            i_gi_22: join(self.i_gi_22, other.i_gi_22),
+            i_gi_23: join(self.i_gi_23, other.i_gi_23),
+            i_gi_33: join(self.i_gi_33, other.i_gi_33),
+            l_i_x: join(self.l_i_x, other.l_i_x),
+            l_i_y: join(self.l_i_y, other.l_i_y),
+            l_i_z: join(self.l_i_z, other.l_i_z),
+            d: join(self.d, other.d),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_12: join(self.j_12, other.j_12),
+            j_13: join(self.j_13, other.j_13),
+            j_22: join(self.j_22, other.j_22),
+            j_23: join(self.j_23, other.j_23),
+            j_33: join(self.j_33, other.j_33),
+            r_goc_b_bz: join(self.r_goc_b_bz, other.r_goc_b_bz),
+            origin_gi_bz: join(self.origin_gi_bz, other.origin_gi_bz),
+            k_0: join(self.k_0, other.k_0),
+            r_gic_b_dprime_o_gox: join(self.r_gic_b_dprime_o_gox, other.r_gic_b_dprime_o_gox),
+            r_wc_b_dprime_i_giz: join(self.r_wc_b_dprime_i_giz, other.r_wc_b_dprime_i_giz),
+            mr_wc_w_wy: join(self.mr_wc_w_wy, other.mr_wc_w_wy),
+            i_w_w_11: join(self.i_w_w_11, other.i_w_w_11),
+            i_w_w_33: join(self.i_w_w_33, other.i_w_w_33),
+            k_1: join(self.k_1, other.k_1),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            mr_gic_gi_gix: join(self.mr_gic_gi_gix, other.mr_gic_gi_gix),
+            mr_gic_gi_giy: join(self.mr_gic_gi_giy, other.mr_gic_gi_giy),
+            mr_gic_gi_giz: join(self.mr_gic_gi_giz, other.mr_gic_gi_giz),
+            i_gi_gi_11: join(self.i_gi_gi_11, other.i_gi_gi_11),
+            i_gi_gi_12: join(self.i_gi_gi_12, other.i_gi_gi_12),
+            i_gi_gi_13: join(self.i_gi_gi_13, other.i_gi_gi_13),
+            i_gi_gi_22: join(self.i_gi_gi_22, other.i_gi_gi_22),
+            i_gi_gi_23: join(self.i_gi_gi_23, other.i_gi_gi_23),
+            i_gi_gi_33: join(self.i_gi_gi_33, other.i_gi_gi_33),
+            mr_v_gi_gix: join(self.mr_v_gi_gix, other.mr_v_gi_gix),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+            k_17: join(self.k_17, other.k_17),
+            k_18: join(self.k_18, other.k_18),
+            mr_goc_go_gox: join(self.mr_goc_go_gox, other.mr_goc_go_gox),
+            mr_goc_go_goy: join(self.mr_goc_go_goy, other.mr_goc_go_goy),
+            mr_goc_go_goz: join(self.mr_goc_go_goz, other.mr_goc_go_goz),
+            i_go_go_11: join(self.i_go_go_11, other.i_go_go_11),
+            i_go_go_12: join(self.i_go_go_12, other.i_go_go_12),
+            i_go_go_13: join(self.i_go_go_13, other.i_go_go_13),
+            i_go_go_22: join(self.i_go_go_22, other.i_go_go_22),
+            i_go_go_23: join(self.i_go_go_23, other.i_go_go_23),
+            i_go_go_33: join(self.i_go_go_33, other.i_go_go_33),
+            m_d: join(self.m_d, other.m_d),
+            k_19: join(self.k_19, other.k_19),
+            k_20: join(self.k_20, other.k_20),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
+            k_29: join(self.k_29, other.k_29),
+            k_30: join(self.k_30, other.k_30),
+            k_31: join(self.k_31, other.k_31),
+            k_32: join(self.k_32, other.k_32),
+            k_33: join(self.k_33, other.k_33),
+            k_34: join(self.k_34, other.k_34),
+            k_35: join(self.k_35, other.k_35),
+            k_36: join(self.k_36, other.k_36),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -743,6 +864,30 @@ pub struct JointAccelerations<T> {
     pub gamma_i_ddot: T,
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations {
+            gamma_o_ddot: join(self.gamma_o_ddot, other.gamma_o_ddot),
+            gamma_i_ddot: join(self.gamma_i_ddot, other.gamma_i_ddot),
+            spin_dot: join(self.spin_dot, other.spin_dot),
+        }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -1788,6 +1933,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 431 mul, 397 add, 18 neg, 2 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1798,117 +1944,127 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{Gᵒ/N}, eq. (31), along its own axes, rad/s.
-    let omega_go_n_gox = w.omega_bx * q.cos_gamma_o + w.omega_by * q.sin_gamma_o;
-    let omega_go_n_goy = w.omega_by * q.cos_gamma_o - w.omega_bx * q.sin_gamma_o;
+    let rate_0 = w.omega_bx * q.cos_gamma_o;
+    let omega_go_n_gox = rate_0.add_mul(w.omega_by, q.sin_gamma_o);
+    let rate_1 = w.omega_by * q.cos_gamma_o;
+    let omega_go_n_goy = rate_1.sub_mul(w.omega_bx, q.sin_gamma_o);
     let omega_go_n_goz = w.omega_bz + v.gamma_o_dot;
 
     // Its derivative as in eq. (34), no joint accelerating, along the same axes, rad/s².
     let turn_0 = v.gamma_o_dot * q.cos_gamma_o;
     let turn_1 = v.gamma_o_dot * q.sin_gamma_o;
-    let omega_go_n_rest_gox = w.omega_by * turn_0 - w.omega_bx * turn_1;
-    let neg_omega_go_n_rest_goy = w.omega_by * turn_1 + w.omega_bx * turn_0;
+    let omega_go_n_rest_gox = (w.omega_by * turn_0).sub_mul(w.omega_bx, turn_1);
+    let neg_omega_go_n_rest_goy = (w.omega_by * turn_1).add_mul(w.omega_bx, turn_0);
 
     // Acceleration of Gᵒ relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_by * p.r_go_b_bz - w.omega_bz * p.r_go_b_by;
-    let path_1 = w.omega_bz * p.r_go_b_bx - w.omega_bx * p.r_go_b_bz;
-    let path_2 = w.omega_bx * p.r_go_b_by - w.omega_by * p.r_go_b_bx;
-    let path_3 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_4 = w.omega_bz * path_0 - w.omega_bx * path_2;
-    let r_go_rest_gox = q.cos_gamma_o * path_3 + q.sin_gamma_o * path_4;
-    let r_go_rest_goy = q.cos_gamma_o * path_4 - q.sin_gamma_o * path_3;
-    let r_go_rest_goz = w.omega_bx * path_1 - w.omega_by * path_0;
+    let path_0 = (w.omega_by * p.r_go_b_bz).sub_mul(w.omega_bz, p.r_go_b_by);
+    let path_1 = (w.omega_bz * p.r_go_b_bx).sub_mul(w.omega_bx, p.r_go_b_bz);
+    let path_2 = (w.omega_bx * p.r_go_b_by).sub_mul(w.omega_by, p.r_go_b_bx);
+    let path_3 = (w.omega_by * path_2).sub_mul(w.omega_bz, path_1);
+    let path_4 = (w.omega_bz * path_0).sub_mul(w.omega_bx, path_2);
+    let r_go_rest_gox = (q.cos_gamma_o * path_3).add_mul(q.sin_gamma_o, path_4);
+    let r_go_rest_goy = (q.cos_gamma_o * path_4).sub_mul(q.sin_gamma_o, path_3);
+    let r_go_rest_goz = (w.omega_bx * path_1).sub_mul(w.omega_by, path_0);
 
     // ω_{Gⁱ/N}, eq. (44), along its own axes, rad/s.
-    let rate_0 = q.sin_gamma_i * omega_go_n_goz;
-    let omega_gi_n_gix = q.cos_gamma_i * omega_go_n_gox - rate_0;
+    let rate_2 = q.cos_gamma_i * omega_go_n_gox;
+    let omega_gi_n_gix = rate_2.sub_mul(q.sin_gamma_i, omega_go_n_goz);
     let omega_gi_n_giy = v.gamma_i_dot + omega_go_n_goy;
-    let rate_1 = q.sin_gamma_i * omega_go_n_gox;
-    let omega_gi_n_giz = q.cos_gamma_i * omega_go_n_goz + rate_1;
+    let rate_3 = q.cos_gamma_i * omega_go_n_goz;
+    let omega_gi_n_giz = rate_3.add_mul(q.sin_gamma_i, omega_go_n_gox);
 
     // Its derivative as in eq. (47), no joint accelerating, along the same axes, rad/s².
     let turn_2 = v.gamma_i_dot * q.cos_gamma_i;
     let turn_3 = v.gamma_i_dot * q.sin_gamma_i;
     let turn_4 = q.cos_gamma_i * omega_go_n_rest_gox;
-    let turn_5 = turn_4 - turn_3 * omega_go_n_gox;
-    let omega_gi_n_rest_gix = turn_5 - turn_2 * omega_go_n_goz;
-    let turn_6 = q.sin_gamma_i * omega_go_n_rest_gox;
-    let turn_7 = turn_2 * omega_go_n_gox + turn_6;
-    let omega_gi_n_rest_giz = turn_7 - turn_3 * omega_go_n_goz;
+    let turn_5 = turn_4.sub_mul(turn_3, omega_go_n_gox);
+    let omega_gi_n_rest_gix = turn_5.sub_mul(turn_2, omega_go_n_goz);
+    let turn_6 = turn_2 * omega_go_n_gox;
+    let turn_7 = turn_6.add_mul(q.sin_gamma_i, omega_go_n_rest_gox);
+    let omega_gi_n_rest_giz = turn_7.sub_mul(turn_3, omega_go_n_goz);
 
     // Acceleration of Gⁱ relative to B as in eq. (53), no joint accelerating, same axes, m/s².
-    let path_5 = p.l_o_z * omega_go_n_goy - p.l_o_y * omega_go_n_goz;
-    let path_6 = p.l_o_x * omega_go_n_goz - p.l_o_z * omega_go_n_gox;
-    let path_7 = p.l_o_y * omega_go_n_gox - p.l_o_x * omega_go_n_goy;
-    let path_8 = omega_go_n_goy * path_7 - omega_go_n_goz * path_6;
-    let path_9 = path_8 - p.l_o_z * neg_omega_go_n_rest_goy + r_go_rest_gox;
-    let path_10 = p.l_o_y * omega_go_n_rest_gox + p.l_o_x * neg_omega_go_n_rest_goy;
-    let path_11 = omega_go_n_gox * path_6 - omega_go_n_goy * path_5 + path_10;
-    let path_12 = path_11 + r_go_rest_goz;
-    let r_gi_rest_gix = q.cos_gamma_i * path_9 - q.sin_gamma_i * path_12;
-    let path_13 = omega_go_n_goz * path_5 - omega_go_n_gox * path_7;
-    let r_gi_rest_giy = path_13 - p.l_o_z * omega_go_n_rest_gox + r_go_rest_goy;
-    let r_gi_rest_giz = q.cos_gamma_i * path_12 + q.sin_gamma_i * path_9;
+    let path_5 = (p.l_o_z * omega_go_n_goy).sub_mul(p.l_o_y, omega_go_n_goz);
+    let path_6 = (p.l_o_x * omega_go_n_goz).sub_mul(p.l_o_z, omega_go_n_gox);
+    let path_7 = (p.l_o_y * omega_go_n_gox).sub_mul(p.l_o_x, omega_go_n_goy);
+    let path_8 = (omega_go_n_goy * path_7).sub_mul(omega_go_n_goz, path_6);
+    let path_9 = path_8.sub_mul(p.l_o_z, neg_omega_go_n_rest_goy) + r_go_rest_gox;
+    let path_10 = p.l_o_y * omega_go_n_rest_gox;
+    let path_11 = (omega_go_n_gox * path_6).sub_mul(omega_go_n_goy, path_5);
+    let path_12 = path_11 + path_10.add_mul(p.l_o_x, neg_omega_go_n_rest_goy);
+    let path_13 = path_12 + r_go_rest_goz;
+    let r_gi_rest_gix = (q.cos_gamma_i * path_9).sub_mul(q.sin_gamma_i, path_13);
+    let path_14 = (omega_go_n_goz * path_5).sub_mul(omega_go_n_gox, path_7);
+    let r_gi_rest_giy = path_14.sub_mul(p.l_o_z, omega_go_n_rest_gox) + r_go_rest_goy;
+    let r_gi_rest_giz = (q.cos_gamma_i * path_13).add_mul(q.sin_gamma_i, path_9);
 
     // ω_{W/N}, eq. (59), along its own axes, rad/s.
     let omega_w_n_wx = v.spin + omega_gi_n_gix;
-    let omega_w_n_wy = q.cos_theta * omega_gi_n_giy + q.sin_theta * omega_gi_n_giz;
-    let omega_w_n_wz = q.cos_theta * omega_gi_n_giz - q.sin_theta * omega_gi_n_giy;
+    let rate_4 = q.cos_theta * omega_gi_n_giy;
+    let omega_w_n_wy = rate_4.add_mul(q.sin_theta, omega_gi_n_giz);
+    let rate_5 = q.cos_theta * omega_gi_n_giz;
+    let omega_w_n_wz = rate_5.sub_mul(q.sin_theta, omega_gi_n_giy);
 
     // Its derivative as in eq. (62), no joint accelerating, along the same axes, rad/s².
     let turn_8 = v.spin * q.cos_theta;
     let turn_9 = v.spin * q.sin_theta;
-    let turn_10 = q.sin_theta * omega_gi_n_rest_giz;
-    let turn_11 = q.cos_theta * neg_omega_go_n_rest_goy;
-    let turn_12 = turn_9 * omega_gi_n_giy + turn_11;
-    let omega_w_n_rest_wy = turn_8 * omega_gi_n_giz + turn_10 - turn_12;
-    let turn_13 = q.cos_theta * omega_gi_n_rest_giz;
-    let turn_14 = q.sin_theta * neg_omega_go_n_rest_goy;
-    let turn_15 = turn_8 * omega_gi_n_giy - turn_14;
-    let omega_w_n_rest_wz = turn_13 - turn_9 * omega_gi_n_giz - turn_15;
+    let turn_10 = turn_8 * omega_gi_n_giz;
+    let turn_11 = turn_9 * omega_gi_n_giy;
+    let turn_12 = turn_11.add_mul(q.cos_theta, neg_omega_go_n_rest_goy);
+    let turn_13 = turn_10.add_mul(q.sin_theta, omega_gi_n_rest_giz);
+    let omega_w_n_rest_wy = turn_13 - turn_12;
+    let turn_14 = q.cos_theta * omega_gi_n_rest_giz;
+    let turn_15 = turn_8 * omega_gi_n_giy;
+    let turn_16 = turn_15.sub_mul(q.sin_theta, neg_omega_go_n_rest_goy);
+    let omega_w_n_rest_wz = turn_14.sub_mul(turn_9, omega_gi_n_giz) - turn_16;
 
     // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_14 = p.l_i_x * omega_gi_n_giz - p.l_i_z * omega_gi_n_gix;
-    let path_15 = p.l_i_y * omega_gi_n_gix - p.l_i_x * omega_gi_n_giy;
-    let path_16 = p.l_i_z * neg_omega_go_n_rest_goy;
-    let path_17 = omega_gi_n_giy * path_15 - omega_gi_n_giz * path_14;
-    let path_18 = path_17 - (path_16 + p.l_i_y * omega_gi_n_rest_giz);
-    let r_w_rest_wx = path_18 + r_gi_rest_gix;
-    let path_19 = p.l_i_z * omega_gi_n_giy - p.l_i_y * omega_gi_n_giz;
-    let path_20 = p.l_i_x * omega_gi_n_rest_giz - p.l_i_z * omega_gi_n_rest_gix;
-    let path_21 = omega_gi_n_giz * path_19 - omega_gi_n_gix * path_15 + path_20;
-    let path_22 = path_21 + r_gi_rest_giy;
-    let path_23 = p.l_i_y * omega_gi_n_rest_gix + p.l_i_x * neg_omega_go_n_rest_goy;
-    let path_24 = omega_gi_n_gix * path_14 - omega_gi_n_giy * path_19 + path_23;
-    let path_25 = path_24 + r_gi_rest_giz;
-    let r_w_rest_wy = q.cos_theta * path_22 + q.sin_theta * path_25;
-    let r_w_rest_wz = q.cos_theta * path_25 - q.sin_theta * path_22;
+    let path_15 = (p.l_i_x * omega_gi_n_giz).sub_mul(p.l_i_z, omega_gi_n_gix);
+    let path_16 = (p.l_i_y * omega_gi_n_gix).sub_mul(p.l_i_x, omega_gi_n_giy);
+    let path_17 = p.l_i_z * neg_omega_go_n_rest_goy;
+    let path_18 = (omega_gi_n_giy * path_16).sub_mul(omega_gi_n_giz, path_15);
+    let path_19 = path_18 - path_17.add_mul(p.l_i_y, omega_gi_n_rest_giz);
+    let r_w_rest_wx = path_19 + r_gi_rest_gix;
+    let path_20 = (p.l_i_z * omega_gi_n_giy).sub_mul(p.l_i_y, omega_gi_n_giz);
+    let path_21 = p.l_i_x * omega_gi_n_rest_giz;
+    let path_22 = (omega_gi_n_giz * path_20).sub_mul(omega_gi_n_gix, path_16);
+    let path_23 = path_22 + path_21.sub_mul(p.l_i_z, omega_gi_n_rest_gix);
+    let path_24 = path_23 + r_gi_rest_giy;
+    let path_25 = p.l_i_y * omega_gi_n_rest_gix;
+    let path_26 = (omega_gi_n_gix * path_15).sub_mul(omega_gi_n_giy, path_20);
+    let path_27 = path_26 + path_25.add_mul(p.l_i_x, neg_omega_go_n_rest_goy);
+    let path_28 = path_27 + r_gi_rest_giz;
+    let r_w_rest_wy = (q.cos_theta * path_24).add_mul(q.sin_theta, path_28);
+    let r_w_rest_wz = (q.cos_theta * path_28).sub_mul(q.sin_theta, path_24);
 
     // W with no joint accelerating, eq. (117): force, N, and moment about W, N m.
     let bias_0 = p.mr_wc_w_wy * omega_w_n_wx;
-    let bias_1 = omega_w_n_wy * bias_0 - p.mr_wc_w_wy * omega_w_n_rest_wz;
-    let f_rest_wx = bias_1 + p.m_w * r_w_rest_wx;
+    let bias_1 = (omega_w_n_wy * bias_0).sub_mul(p.mr_wc_w_wy, omega_w_n_rest_wz);
+    let f_rest_wx = bias_1.add_mul(p.m_w, r_w_rest_wx);
     let bias_2 = p.mr_wc_w_wy * omega_w_n_wz;
-    let bias_3 = omega_w_n_wz * bias_2 + omega_w_n_wx * bias_0;
-    let f_rest_wy = p.m_w * r_w_rest_wy - bias_3;
-    let bias_4 = omega_w_n_wy * bias_2 + p.mr_wc_w_wy * omega_gi_n_rest_gix;
-    let f_rest_wz = bias_4 + p.m_w * r_w_rest_wz;
-    let bias_5 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
-    let bias_6 = bias_5 + p.j_23 * omega_w_n_wz;
-    let bias_7 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
-    let bias_8 = bias_7 + p.i_w_w_33 * omega_w_n_wz;
-    let bias_9 = p.i_w_w_11 * omega_gi_n_rest_gix + p.j_12 * omega_w_n_rest_wy;
-    let bias_10 = omega_w_n_wy * bias_8 - omega_w_n_wz * bias_6;
-    let bias_11 = bias_10 + (bias_9 + p.j_13 * omega_w_n_rest_wz);
-    let n_rest_wx = bias_11 + p.mr_wc_w_wy * r_w_rest_wz;
-    let bias_12 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
-    let bias_13 = bias_12 + p.j_13 * omega_w_n_wz;
-    let bias_14 = p.j_12 * omega_gi_n_rest_gix + p.j_22 * omega_w_n_rest_wy;
-    let bias_15 = omega_w_n_wz * bias_13 - omega_w_n_wx * bias_8;
-    let n_rest_wy = bias_15 + (bias_14 + p.j_23 * omega_w_n_rest_wz);
-    let bias_16 = p.j_13 * omega_gi_n_rest_gix + p.j_23 * omega_w_n_rest_wy;
-    let bias_17 = omega_w_n_wx * bias_6 - omega_w_n_wy * bias_13;
-    let bias_18 = bias_17 + (bias_16 + p.i_w_w_33 * omega_w_n_rest_wz);
-    let n_rest_wz = bias_18 - p.mr_wc_w_wy * r_w_rest_wx;
+    let bias_3 = (omega_w_n_wz * bias_2).add_mul(omega_w_n_wx, bias_0);
+    let f_rest_wy = p.m_w.mul_sub(r_w_rest_wy, bias_3);
+    let bias_4 = omega_w_n_wy * bias_2;
+    let bias_5 = bias_4.add_mul(p.mr_wc_w_wy, omega_gi_n_rest_gix);
+    let f_rest_wz = bias_5.add_mul(p.m_w, r_w_rest_wz);
+    let bias_6 = (p.j_12 * omega_w_n_wx).add_mul(p.j_22, omega_w_n_wy);
+    let bias_7 = bias_6.add_mul(p.j_23, omega_w_n_wz);
+    let bias_8 = (p.j_13 * omega_w_n_wx).add_mul(p.j_23, omega_w_n_wy);
+    let bias_9 = bias_8.add_mul(p.i_w_w_33, omega_w_n_wz);
+    let bias_10 = p.i_w_w_11 * omega_gi_n_rest_gix;
+    let bias_11 = bias_10.add_mul(p.j_12, omega_w_n_rest_wy);
+    let bias_12 = (omega_w_n_wy * bias_9).sub_mul(omega_w_n_wz, bias_7);
+    let bias_13 = bias_12 + bias_11.add_mul(p.j_13, omega_w_n_rest_wz);
+    let n_rest_wx = bias_13.add_mul(p.mr_wc_w_wy, r_w_rest_wz);
+    let bias_14 = (p.i_w_w_11 * omega_w_n_wx).add_mul(p.j_12, omega_w_n_wy);
+    let bias_15 = bias_14.add_mul(p.j_13, omega_w_n_wz);
+    let bias_16 = (p.j_12 * omega_gi_n_rest_gix).add_mul(p.j_22, omega_w_n_rest_wy);
+    let bias_17 = (omega_w_n_wz * bias_15).sub_mul(omega_w_n_wx, bias_9);
+    let n_rest_wy = bias_17 + bias_16.add_mul(p.j_23, omega_w_n_rest_wz);
+    let bias_18 = (p.j_13 * omega_gi_n_rest_gix).add_mul(p.j_23, omega_w_n_rest_wy);
+    let bias_19 = (omega_w_n_wx * bias_7).sub_mul(omega_w_n_wy, bias_15);
+    let bias_20 = bias_19 + bias_18.add_mul(p.i_w_w_33, omega_w_n_rest_wz);
+    let n_rest_wz = bias_20.sub_mul(p.mr_wc_w_wy, r_w_rest_wx);
 
     // V, the inner gimbal and what it carries, eq. (108): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gⁱ.
@@ -1921,70 +2077,78 @@ pub fn eliminate<T: Real>(
     let lump_2 = lump_0 + lump_1;
     let lump_3 = lump_2 + lump_2;
     let i_v_gi_11 = p.i_w_w_11 + lump_3 + p.k_2 + p.i_gi_gi_11;
-    let n_w_giy = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.l_i_x * f_w_giz;
+    let lump_4 = (q.cos_theta * p.j_12).sub_mul(q.sin_theta, p.j_13);
+    let n_w_giy = lump_4.sub_mul(p.l_i_x, f_w_giz);
     let i_v_gi_12 = n_w_giy + p.k_3 + p.i_gi_gi_12;
-    let n_w_giz = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.l_i_x * neg_f_w_giy;
+    let lump_5 = (q.cos_theta * p.j_13).add_mul(q.sin_theta, p.j_12);
+    let n_w_giz = lump_5.sub_mul(p.l_i_x, neg_f_w_giy);
     let i_v_gi_13 = n_w_giz + p.k_4 + p.i_gi_gi_13;
-    let lump_4 = q.cos_theta * p.j_22 - q.sin_theta * p.j_23;
-    let lump_5 = q.cos_theta * p.j_23 - q.sin_theta * p.i_w_w_33;
-    let lump_6 = q.cos_theta * lump_4 - q.sin_theta * lump_5;
-    let i_v_gi_22 = lump_3 - (lump_0 + lump_0) + lump_6 + p.k_5 + p.i_gi_gi_22;
-    let lump_7 = q.cos_theta * lump_5 + q.sin_theta * lump_4;
-    let lump_8 = lump_7 - (p.l_i_y * neg_f_w_giy + p.l_i_z * f_w_giz) + p.k_6;
-    let i_v_gi_23 = lump_8 + p.i_gi_gi_23;
-    let lump_9 = p.k_1 - lump_6 + (lump_3 - (lump_1 + lump_1)) + p.k_7;
-    let i_v_gi_33 = lump_9 + p.i_gi_gi_33;
+    let lump_6 = (q.cos_theta * p.j_22).sub_mul(q.sin_theta, p.j_23);
+    let lump_7 = (q.cos_theta * p.j_23).sub_mul(q.sin_theta, p.i_w_w_33);
+    let lump_8 = (q.cos_theta * lump_6).sub_mul(q.sin_theta, lump_7);
+    let i_v_gi_22 = lump_3 - (lump_0 + lump_0) + lump_8 + p.k_5 + p.i_gi_gi_22;
+    let lump_9 = (q.cos_theta * lump_7).add_mul(q.sin_theta, lump_6);
+    let lump_10 = lump_9 - (p.l_i_y * neg_f_w_giy).add_mul(p.l_i_z, f_w_giz);
+    let i_v_gi_23 = lump_10 + p.k_6 + p.i_gi_gi_23;
+    let lump_11 = p.k_1 - lump_8 + (lump_3 - (lump_1 + lump_1)) + p.k_7;
+    let i_v_gi_33 = lump_11 + p.i_gi_gi_33;
 
     // V with no joint accelerating, eq. (99): force, N, and moment about Gⁱ, N m.
-    let bias_19 = p.mr_gic_gi_giz * omega_gi_n_gix;
-    let bias_20 = p.mr_gic_gi_gix * omega_gi_n_giz - bias_19;
-    let bias_21 = p.mr_gic_gi_gix * omega_gi_n_giy;
-    let bias_22 = p.mr_gic_gi_giy * omega_gi_n_gix - bias_21;
-    let bias_23 = p.mr_gic_gi_giz * neg_omega_go_n_rest_goy;
-    let bias_24 = omega_gi_n_giy * bias_22 - omega_gi_n_giz * bias_20;
-    let bias_25 = bias_24 - (bias_23 + p.mr_gic_gi_giy * omega_gi_n_rest_giz);
-    let f_rest_gix = bias_25 + p.m_gi * r_gi_rest_gix + f_rest_wx;
-    let bias_26 = q.cos_theta * f_rest_wy - q.sin_theta * f_rest_wz;
-    let bias_27 = p.mr_gic_gi_giy * omega_gi_n_giz;
-    let bias_28 = p.mr_gic_gi_giz * omega_gi_n_giy - bias_27;
-    let bias_29 = p.mr_gic_gi_giz * omega_gi_n_rest_gix;
-    let bias_30 = omega_gi_n_giz * bias_28 - omega_gi_n_gix * bias_22;
-    let bias_31 = bias_30 + (p.mr_gic_gi_gix * omega_gi_n_rest_giz - bias_29);
-    let f_rest_giy = bias_31 + p.m_gi * r_gi_rest_giy + bias_26;
-    let bias_32 = q.cos_theta * f_rest_wz + q.sin_theta * f_rest_wy;
-    let bias_33 = p.mr_gic_gi_gix * neg_omega_go_n_rest_goy;
-    let bias_34 = omega_gi_n_gix * bias_20 - omega_gi_n_giy * bias_28;
-    let bias_35 = bias_34 + (p.mr_gic_gi_giy * omega_gi_n_rest_gix + bias_33);
-    let f_rest_giz = bias_35 + p.m_gi * r_gi_rest_giz + bias_32;
-    let bias_36 = p.i_gi_gi_12 * omega_gi_n_gix + p.i_gi_gi_22 * omega_gi_n_giy;
-    let bias_37 = bias_36 + p.i_gi_gi_23 * omega_gi_n_giz;
-    let bias_38 = p.i_gi_gi_13 * omega_gi_n_gix + p.i_gi_gi_23 * omega_gi_n_giy;
-    let bias_39 = bias_38 + p.i_gi_gi_33 * omega_gi_n_giz;
-    let bias_40 = p.i_gi_gi_12 * neg_omega_go_n_rest_goy;
-    let bias_41 = p.i_gi_gi_11 * omega_gi_n_rest_gix - bias_40;
-    let bias_42 = omega_gi_n_giy * bias_39 - omega_gi_n_giz * bias_37;
-    let bias_43 = p.mr_gic_gi_giz * r_gi_rest_giy;
-    let bias_44 = bias_42 + (bias_41 + p.i_gi_gi_13 * omega_gi_n_rest_giz);
-    let bias_45 = bias_44 + (p.mr_gic_gi_giy * r_gi_rest_giz - bias_43);
-    let n_rest_gix = p.l_i_y * bias_32 - p.l_i_z * bias_26 + n_rest_wx + bias_45;
-    let bias_46 = p.i_gi_gi_11 * omega_gi_n_gix + p.i_gi_gi_12 * omega_gi_n_giy;
-    let bias_47 = bias_46 + p.i_gi_gi_13 * omega_gi_n_giz;
-    let bias_48 = q.cos_theta * n_rest_wy - q.sin_theta * n_rest_wz;
-    let bias_49 = p.i_gi_gi_22 * neg_omega_go_n_rest_goy;
-    let bias_50 = p.i_gi_gi_12 * omega_gi_n_rest_gix - bias_49;
-    let bias_51 = omega_gi_n_giz * bias_47 - omega_gi_n_gix * bias_39;
-    let bias_52 = p.mr_gic_gi_gix * r_gi_rest_giz;
-    let bias_53 = bias_51 + (bias_50 + p.i_gi_gi_23 * omega_gi_n_rest_giz);
-    let bias_54 = bias_53 + (p.mr_gic_gi_giz * r_gi_rest_gix - bias_52);
-    let n_rest_giy = bias_48 + (p.l_i_z * f_rest_wx - p.l_i_x * bias_32) + bias_54;
-    let bias_55 = q.cos_theta * n_rest_wz + q.sin_theta * n_rest_wy;
-    let bias_56 = p.i_gi_gi_23 * neg_omega_go_n_rest_goy;
-    let bias_57 = p.i_gi_gi_13 * omega_gi_n_rest_gix - bias_56;
-    let bias_58 = omega_gi_n_gix * bias_37 - omega_gi_n_giy * bias_47;
-    let bias_59 = p.mr_gic_gi_giy * r_gi_rest_gix;
-    let bias_60 = bias_58 + (bias_57 + p.i_gi_gi_33 * omega_gi_n_rest_giz);
-    let bias_61 = bias_60 + (p.mr_gic_gi_gix * r_gi_rest_giy - bias_59);
-    let n_rest_giz = bias_55 + (p.l_i_x * bias_26 - p.l_i_y * f_rest_wx) + bias_61;
+    let bias_21 = p.mr_gic_gi_gix * omega_gi_n_giz;
+    let bias_22 = bias_21.sub_mul(p.mr_gic_gi_giz, omega_gi_n_gix);
+    let bias_23 = p.mr_gic_gi_giy * omega_gi_n_gix;
+    let bias_24 = bias_23.sub_mul(p.mr_gic_gi_gix, omega_gi_n_giy);
+    let bias_25 = p.mr_gic_gi_giz * neg_omega_go_n_rest_goy;
+    let bias_26 = (omega_gi_n_giy * bias_24).sub_mul(omega_gi_n_giz, bias_22);
+    let bias_27 = bias_26 - bias_25.add_mul(p.mr_gic_gi_giy, omega_gi_n_rest_giz);
+    let f_rest_gix = bias_27.add_mul(p.m_gi, r_gi_rest_gix) + f_rest_wx;
+    let bias_28 = (q.cos_theta * f_rest_wy).sub_mul(q.sin_theta, f_rest_wz);
+    let bias_29 = p.mr_gic_gi_giz * omega_gi_n_giy;
+    let bias_30 = bias_29.sub_mul(p.mr_gic_gi_giy, omega_gi_n_giz);
+    let bias_31 = p.mr_gic_gi_gix * omega_gi_n_rest_giz;
+    let bias_32 = (omega_gi_n_giz * bias_30).sub_mul(omega_gi_n_gix, bias_24);
+    let bias_33 = bias_32 + bias_31.sub_mul(p.mr_gic_gi_giz, omega_gi_n_rest_gix);
+    let f_rest_giy = bias_33.add_mul(p.m_gi, r_gi_rest_giy) + bias_28;
+    let bias_34 = (q.cos_theta * f_rest_wz).add_mul(q.sin_theta, f_rest_wy);
+    let bias_35 = p.mr_gic_gi_giy * omega_gi_n_rest_gix;
+    let bias_36 = (omega_gi_n_gix * bias_22).sub_mul(omega_gi_n_giy, bias_30);
+    let bias_37 = bias_35.add_mul(p.mr_gic_gi_gix, neg_omega_go_n_rest_goy);
+    let f_rest_giz = (bias_36 + bias_37).add_mul(p.m_gi, r_gi_rest_giz) + bias_34;
+    let bias_38 = p.i_gi_gi_12 * omega_gi_n_gix;
+    let bias_39 = bias_38.add_mul(p.i_gi_gi_22, omega_gi_n_giy);
+    let bias_40 = bias_39.add_mul(p.i_gi_gi_23, omega_gi_n_giz);
+    let bias_41 = p.i_gi_gi_13 * omega_gi_n_gix;
+    let bias_42 = bias_41.add_mul(p.i_gi_gi_23, omega_gi_n_giy);
+    let bias_43 = bias_42.add_mul(p.i_gi_gi_33, omega_gi_n_giz);
+    let bias_44 = p.i_gi_gi_11 * omega_gi_n_rest_gix;
+    let bias_45 = bias_44.sub_mul(p.i_gi_gi_12, neg_omega_go_n_rest_goy);
+    let bias_46 = (omega_gi_n_giy * bias_43).sub_mul(omega_gi_n_giz, bias_40);
+    let bias_47 = p.mr_gic_gi_giy * r_gi_rest_giz;
+    let bias_48 = bias_46 + bias_45.add_mul(p.i_gi_gi_13, omega_gi_n_rest_giz);
+    let bias_49 = bias_48 + bias_47.sub_mul(p.mr_gic_gi_giz, r_gi_rest_giy);
+    let bias_50 = (p.l_i_y * bias_34).sub_mul(p.l_i_z, bias_28) + n_rest_wx;
+    let n_rest_gix = bias_50 + bias_49;
+    let bias_51 = p.i_gi_gi_11 * omega_gi_n_gix;
+    let bias_52 = bias_51.add_mul(p.i_gi_gi_12, omega_gi_n_giy);
+    let bias_53 = bias_52.add_mul(p.i_gi_gi_13, omega_gi_n_giz);
+    let bias_54 = (q.cos_theta * n_rest_wy).sub_mul(q.sin_theta, n_rest_wz);
+    let bias_55 = p.i_gi_gi_12 * omega_gi_n_rest_gix;
+    let bias_56 = bias_55.sub_mul(p.i_gi_gi_22, neg_omega_go_n_rest_goy);
+    let bias_57 = (omega_gi_n_giz * bias_53).sub_mul(omega_gi_n_gix, bias_43);
+    let bias_58 = p.mr_gic_gi_giz * r_gi_rest_gix;
+    let bias_59 = bias_57 + bias_56.add_mul(p.i_gi_gi_23, omega_gi_n_rest_giz);
+    let bias_60 = bias_59 + bias_58.sub_mul(p.mr_gic_gi_gix, r_gi_rest_giz);
+    let bias_61 = bias_54 + (p.l_i_z * f_rest_wx).sub_mul(p.l_i_x, bias_34);
+    let n_rest_giy = bias_61 + bias_60;
+    let bias_62 = (q.cos_theta * n_rest_wz).add_mul(q.sin_theta, n_rest_wy);
+    let bias_63 = p.i_gi_gi_13 * omega_gi_n_rest_gix;
+    let bias_64 = bias_63.sub_mul(p.i_gi_gi_23, neg_omega_go_n_rest_goy);
+    let bias_65 = (omega_gi_n_gix * bias_40).sub_mul(omega_gi_n_giy, bias_53);
+    let bias_66 = p.mr_gic_gi_gix * r_gi_rest_giy;
+    let bias_67 = bias_65 + bias_64.add_mul(p.i_gi_gi_33, omega_gi_n_rest_giz);
+    let bias_68 = bias_67 + bias_66.sub_mul(p.mr_gic_gi_giy, r_gi_rest_gix);
+    let bias_69 = bias_62 + (p.l_i_x * bias_28).sub_mul(p.l_i_y, f_rest_wx);
+    let n_rest_giz = bias_69 + bias_68;
 
     // Row of the inner gimbal's joint, eq. (101), along its axis: M_ij, kg m², and bias, N m.
     let mass_ii = i_v_gi_22;
@@ -1992,87 +2156,94 @@ pub fn eliminate<T: Real>(
 
     // D, the outer gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gᵒ.
-    let lump_10 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * mr_v_gi_giz;
-    let mr_d_go_gox = lump_10 + p.k_16 + p.mr_goc_go_gox;
+    let lump_12 = q.cos_gamma_i * p.mr_v_gi_gix;
+    let lump_13 = lump_12.add_mul(q.sin_gamma_i, mr_v_gi_giz);
+    let mr_d_go_gox = lump_13 + p.k_16 + p.mr_goc_go_gox;
     let mr_d_go_goy = mr_v_gi_giy + p.k_17 + p.mr_goc_go_goy;
-    let f_i_gox = q.cos_gamma_i * mr_v_gi_giz - q.sin_gamma_i * p.mr_v_gi_gix;
+    let f_i_gox = (q.cos_gamma_i * mr_v_gi_giz).sub_mul(q.sin_gamma_i, p.mr_v_gi_gix);
     let mr_d_go_goz = f_i_gox + p.k_18 + p.mr_goc_go_goz;
-    let lump_11 = q.cos_gamma_i * i_v_gi_33 - q.sin_gamma_i * i_v_gi_13;
-    let lump_12 = q.cos_gamma_i * i_v_gi_13 - q.sin_gamma_i * i_v_gi_11;
-    let lump_13 = q.cos_gamma_i * lump_11 - q.sin_gamma_i * lump_12;
-    let lump_14 = p.l_o_x * lump_10;
-    let lump_15 = p.l_o_y * mr_v_gi_giy;
-    let lump_16 = p.l_o_z * f_i_gox;
-    let lump_17 = lump_14 + lump_15 + lump_16;
-    let lump_18 = lump_17 + lump_17;
-    let lump_19 = i_v_gi_11 + i_v_gi_33 - lump_13 + (lump_18 - (lump_14 + lump_14));
-    let i_d_go_11 = lump_19 + p.k_10 + p.i_go_go_11;
-    let lump_20 = q.cos_gamma_i * i_v_gi_12 + q.sin_gamma_i * i_v_gi_23;
-    let lump_21 = p.l_o_y * lump_10;
-    let lump_22 = lump_20 - (p.l_o_x * mr_v_gi_giy + lump_21) + p.k_11;
-    let i_d_go_12 = lump_22 + p.i_go_go_12;
-    let lump_23 = q.cos_gamma_i * lump_12 + q.sin_gamma_i * lump_11;
-    let lump_24 = lump_23 - (p.l_o_x * f_i_gox + p.l_o_z * lump_10) + p.k_12;
-    let i_d_go_13 = lump_24 + p.i_go_go_13;
-    let i_d_go_22 = lump_18 - (lump_15 + lump_15) + i_v_gi_22 + p.k_13 + p.i_go_go_22;
-    let lump_25 = q.cos_gamma_i * i_v_gi_23 - q.sin_gamma_i * i_v_gi_12;
-    let lump_26 = p.l_o_y * f_i_gox;
-    let lump_27 = lump_25 - (lump_26 + p.l_o_z * mr_v_gi_giy) + p.k_14;
-    let i_d_go_23 = lump_27 + p.i_go_go_23;
-    let i_d_go_33 = lump_18 - (lump_16 + lump_16) + lump_13 + p.k_15 + p.i_go_go_33;
+    let lump_14 = (q.cos_gamma_i * i_v_gi_33).sub_mul(q.sin_gamma_i, i_v_gi_13);
+    let lump_15 = (q.cos_gamma_i * i_v_gi_13).sub_mul(q.sin_gamma_i, i_v_gi_11);
+    let lump_16 = (q.cos_gamma_i * lump_14).sub_mul(q.sin_gamma_i, lump_15);
+    let lump_17 = p.l_o_x * lump_13;
+    let lump_18 = p.l_o_y * mr_v_gi_giy;
+    let lump_19 = p.l_o_z * f_i_gox;
+    let lump_20 = lump_17 + lump_18 + lump_19;
+    let lump_21 = lump_20 + lump_20;
+    let lump_22 = i_v_gi_11 + i_v_gi_33 - lump_16 + (lump_21 - (lump_17 + lump_17));
+    let i_d_go_11 = lump_22 + p.k_10 + p.i_go_go_11;
+    let lump_23 = (q.cos_gamma_i * i_v_gi_12).add_mul(q.sin_gamma_i, i_v_gi_23);
+    let lump_24 = p.l_o_y * lump_13;
+    let lump_25 = lump_23 - lump_24.add_mul(p.l_o_x, mr_v_gi_giy) + p.k_11;
+    let i_d_go_12 = lump_25 + p.i_go_go_12;
+    let lump_26 = (q.cos_gamma_i * lump_15).add_mul(q.sin_gamma_i, lump_14);
+    let lump_27 = lump_26 - (p.l_o_x * f_i_gox).add_mul(p.l_o_z, lump_13) + p.k_12;
+    let i_d_go_13 = lump_27 + p.i_go_go_13;
+    let i_d_go_22 = lump_21 - (lump_18 + lump_18) + i_v_gi_22 + p.k_13 + p.i_go_go_22;
+    let lump_28 = (q.cos_gamma_i * i_v_gi_23).sub_mul(q.sin_gamma_i, i_v_gi_12);
+    let lump_29 = p.l_o_y * f_i_gox;
+    let lump_30 = lump_28 - lump_29.add_mul(p.l_o_z, mr_v_gi_giy) + p.k_14;
+    let i_d_go_23 = lump_30 + p.i_go_go_23;
+    let i_d_go_33 = lump_21 - (lump_19 + lump_19) + lump_16 + p.k_15 + p.i_go_go_33;
 
     // D with no joint accelerating, eq. (78): force, N, and moment about Gᵒ, N m.
-    let bias_62 = q.cos_gamma_i * f_rest_gix + q.sin_gamma_i * f_rest_giz;
-    let bias_63 = p.mr_goc_go_goz * omega_go_n_gox;
-    let bias_64 = p.mr_goc_go_gox * omega_go_n_goz - bias_63;
-    let bias_65 = p.mr_goc_go_gox * omega_go_n_goy;
-    let bias_66 = p.mr_goc_go_goy * omega_go_n_gox - bias_65;
-    let bias_67 = omega_go_n_goy * bias_66 - omega_go_n_goz * bias_64;
-    let bias_68 = bias_67 - p.mr_goc_go_goz * neg_omega_go_n_rest_goy;
-    let f_rest_gox = bias_68 + p.m_go * r_go_rest_gox + bias_62;
-    let bias_69 = p.mr_goc_go_goy * omega_go_n_goz;
-    let bias_70 = p.mr_goc_go_goz * omega_go_n_goy - bias_69;
-    let bias_71 = omega_go_n_goz * bias_70 - omega_go_n_gox * bias_66;
-    let bias_72 = bias_71 - p.mr_goc_go_goz * omega_go_n_rest_gox;
-    let f_rest_goy = bias_72 + p.m_go * r_go_rest_goy + f_rest_giy;
-    let bias_73 = q.cos_gamma_i * f_rest_giz - q.sin_gamma_i * f_rest_gix;
-    let bias_74 = p.mr_goc_go_gox * neg_omega_go_n_rest_goy;
-    let bias_75 = omega_go_n_gox * bias_64 - omega_go_n_goy * bias_70;
-    let bias_76 = bias_75 + (p.mr_goc_go_goy * omega_go_n_rest_gox + bias_74);
-    let f_rest_goz = bias_76 + p.m_go * r_go_rest_goz + bias_73;
-    let bias_77 = p.i_go_go_12 * omega_go_n_gox + p.i_go_go_22 * omega_go_n_goy;
-    let bias_78 = bias_77 + p.i_go_go_23 * omega_go_n_goz;
-    let bias_79 = p.i_go_go_13 * omega_go_n_gox + p.i_go_go_23 * omega_go_n_goy;
-    let bias_80 = bias_79 + p.i_go_go_33 * omega_go_n_goz;
-    let bias_81 = q.cos_gamma_i * n_rest_gix + q.sin_gamma_i * n_rest_giz;
-    let bias_82 = p.i_go_go_12 * neg_omega_go_n_rest_goy;
-    let bias_83 = omega_go_n_goy * bias_80 - omega_go_n_goz * bias_78;
-    let bias_84 = p.mr_goc_go_goz * r_go_rest_goy;
-    let bias_85 = bias_83 + (p.i_go_go_11 * omega_go_n_rest_gox - bias_82);
-    let bias_86 = bias_85 + (p.mr_goc_go_goy * r_go_rest_goz - bias_84);
-    let n_rest_gox = bias_81 + (p.l_o_y * bias_73 - p.l_o_z * f_rest_giy) + bias_86;
-    let bias_87 = p.i_go_go_11 * omega_go_n_gox + p.i_go_go_12 * omega_go_n_goy;
-    let bias_88 = bias_87 + p.i_go_go_13 * omega_go_n_goz;
-    let bias_89 = p.i_go_go_22 * neg_omega_go_n_rest_goy;
-    let bias_90 = omega_go_n_goz * bias_88 - omega_go_n_gox * bias_80;
-    let bias_91 = p.mr_goc_go_gox * r_go_rest_goz;
-    let bias_92 = bias_90 + (p.i_go_go_12 * omega_go_n_rest_gox - bias_89);
-    let bias_93 = bias_92 + (p.mr_goc_go_goz * r_go_rest_gox - bias_91);
-    let n_rest_goy = p.l_o_z * bias_62 - p.l_o_x * bias_73 + n_rest_giy + bias_93;
-    let bias_94 = q.cos_gamma_i * n_rest_giz - q.sin_gamma_i * n_rest_gix;
-    let bias_95 = p.i_go_go_23 * neg_omega_go_n_rest_goy;
-    let bias_96 = omega_go_n_gox * bias_78 - omega_go_n_goy * bias_88;
-    let bias_97 = p.mr_goc_go_goy * r_go_rest_gox;
-    let bias_98 = bias_96 + (p.i_go_go_13 * omega_go_n_rest_gox - bias_95);
-    let bias_99 = bias_98 + (p.mr_goc_go_gox * r_go_rest_goy - bias_97);
-    let n_rest_goz = bias_94 + (p.l_o_x * f_rest_giy - p.l_o_y * bias_62) + bias_99;
+    let bias_70 = (q.cos_gamma_i * f_rest_gix).add_mul(q.sin_gamma_i, f_rest_giz);
+    let bias_71 = p.mr_goc_go_gox * omega_go_n_goz;
+    let bias_72 = bias_71.sub_mul(p.mr_goc_go_goz, omega_go_n_gox);
+    let bias_73 = p.mr_goc_go_goy * omega_go_n_gox;
+    let bias_74 = bias_73.sub_mul(p.mr_goc_go_gox, omega_go_n_goy);
+    let bias_75 = (omega_go_n_goy * bias_74).sub_mul(omega_go_n_goz, bias_72);
+    let bias_76 = bias_75.sub_mul(p.mr_goc_go_goz, neg_omega_go_n_rest_goy);
+    let f_rest_gox = bias_76.add_mul(p.m_go, r_go_rest_gox) + bias_70;
+    let bias_77 = p.mr_goc_go_goz * omega_go_n_goy;
+    let bias_78 = bias_77.sub_mul(p.mr_goc_go_goy, omega_go_n_goz);
+    let bias_79 = (omega_go_n_goz * bias_78).sub_mul(omega_go_n_gox, bias_74);
+    let bias_80 = bias_79.sub_mul(p.mr_goc_go_goz, omega_go_n_rest_gox);
+    let f_rest_goy = bias_80.add_mul(p.m_go, r_go_rest_goy) + f_rest_giy;
+    let bias_81 = (q.cos_gamma_i * f_rest_giz).sub_mul(q.sin_gamma_i, f_rest_gix);
+    let bias_82 = p.mr_goc_go_goy * omega_go_n_rest_gox;
+    let bias_83 = (omega_go_n_gox * bias_72).sub_mul(omega_go_n_goy, bias_78);
+    let bias_84 = bias_82.add_mul(p.mr_goc_go_gox, neg_omega_go_n_rest_goy);
+    let f_rest_goz = (bias_83 + bias_84).add_mul(p.m_go, r_go_rest_goz) + bias_81;
+    let bias_85 = p.i_go_go_12 * omega_go_n_gox;
+    let bias_86 = bias_85.add_mul(p.i_go_go_22, omega_go_n_goy);
+    let bias_87 = bias_86.add_mul(p.i_go_go_23, omega_go_n_goz);
+    let bias_88 = p.i_go_go_13 * omega_go_n_gox;
+    let bias_89 = bias_88.add_mul(p.i_go_go_23, omega_go_n_goy);
+    let bias_90 = bias_89.add_mul(p.i_go_go_33, omega_go_n_goz);
+    let bias_91 = (q.cos_gamma_i * n_rest_gix).add_mul(q.sin_gamma_i, n_rest_giz);
+    let bias_92 = p.i_go_go_11 * omega_go_n_rest_gox;
+    let bias_93 = (omega_go_n_goy * bias_90).sub_mul(omega_go_n_goz, bias_87);
+    let bias_94 = p.mr_goc_go_goy * r_go_rest_goz;
+    let bias_95 = bias_93 + bias_92.sub_mul(p.i_go_go_12, neg_omega_go_n_rest_goy);
+    let bias_96 = bias_91 + (p.l_o_y * bias_81).sub_mul(p.l_o_z, f_rest_giy);
+    let bias_97 = bias_95 + bias_94.sub_mul(p.mr_goc_go_goz, r_go_rest_goy);
+    let n_rest_gox = bias_96 + bias_97;
+    let bias_98 = p.i_go_go_11 * omega_go_n_gox;
+    let bias_99 = bias_98.add_mul(p.i_go_go_12, omega_go_n_goy);
+    let bias_100 = bias_99.add_mul(p.i_go_go_13, omega_go_n_goz);
+    let bias_101 = p.i_go_go_12 * omega_go_n_rest_gox;
+    let bias_102 = (omega_go_n_goz * bias_100).sub_mul(omega_go_n_gox, bias_90);
+    let bias_103 = bias_101.sub_mul(p.i_go_go_22, neg_omega_go_n_rest_goy);
+    let bias_104 = p.mr_goc_go_goz * r_go_rest_gox;
+    let bias_105 = bias_104.sub_mul(p.mr_goc_go_gox, r_go_rest_goz);
+    let bias_106 = (p.l_o_z * bias_70).sub_mul(p.l_o_x, bias_81) + n_rest_giy;
+    let n_rest_goy = bias_106 + (bias_102 + bias_103 + bias_105);
+    let bias_107 = (q.cos_gamma_i * n_rest_giz).sub_mul(q.sin_gamma_i, n_rest_gix);
+    let bias_108 = p.i_go_go_13 * omega_go_n_rest_gox;
+    let bias_109 = (omega_go_n_gox * bias_87).sub_mul(omega_go_n_goy, bias_100);
+    let bias_110 = bias_108.sub_mul(p.i_go_go_23, neg_omega_go_n_rest_goy);
+    let bias_111 = p.mr_goc_go_gox * r_go_rest_goy;
+    let bias_112 = bias_111.sub_mul(p.mr_goc_go_goy, r_go_rest_gox);
+    let bias_113 = bias_107 + (p.l_o_x * f_rest_giy).sub_mul(p.l_o_y, bias_70);
+    let n_rest_goz = bias_113 + (bias_109 + bias_110 + bias_112);
 
     // Force, kg m, and moment about Gᵒ, kg m², per unit acceleration of each joint from here on,
     // eqs. (17), (78).
-    let f_i_goz = -lump_10;
-    let n_i_gox = lump_20 - lump_21;
-    let n_i_goy = lump_14 + lump_16 + i_v_gi_22;
-    let n_i_goz = lump_25 - lump_26;
+    let f_i_goz = -lump_13;
+    let n_i_gox = lump_23 - lump_24;
+    let n_i_goy = lump_17 + lump_19 + i_v_gi_22;
+    let n_i_goz = lump_28 - lump_29;
 
     // Row of the outer gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m.
     let mass_oo = i_d_go_33;
@@ -2080,58 +2251,62 @@ pub fn eliminate<T: Real>(
     let u_rest_o = n_rest_goz;
 
     // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_o_by = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * mr_d_go_goy;
+    let f_o_by = (q.cos_gamma_o * mr_d_go_gox).sub_mul(q.sin_gamma_o, mr_d_go_goy);
     let mr_d_b_bx = f_o_by + p.k_25;
-    let moment_0 = q.cos_gamma_o * mr_d_go_goy + q.sin_gamma_o * mr_d_go_gox;
-    let mr_d_b_by = moment_0 + p.k_26;
+    let moment_0 = q.cos_gamma_o * mr_d_go_goy;
+    let moment_1 = moment_0.add_mul(q.sin_gamma_o, mr_d_go_gox);
+    let mr_d_b_by = moment_1 + p.k_26;
     let mr_d_b_bz = mr_d_go_goz + p.k_27;
-    let moment_1 = q.cos_gamma_o * i_d_go_11 - q.sin_gamma_o * i_d_go_12;
-    let moment_2 = q.cos_gamma_o * i_d_go_12 - q.sin_gamma_o * i_d_go_22;
-    let moment_3 = q.cos_gamma_o * moment_1 - q.sin_gamma_o * moment_2;
-    let moment_4 = p.r_go_b_bx * f_o_by;
-    let moment_5 = p.r_go_b_by * moment_0;
-    let moment_6 = moment_4 + moment_5;
-    let moment_7 = p.r_go_b_bz * mr_d_go_goz;
-    let moment_8 = moment_6 + moment_7;
-    let moment_9 = moment_8 + moment_8;
-    let i_d_b_11 = moment_9 - (moment_4 + moment_4) + moment_3 + p.k_19;
-    let moment_10 = q.cos_gamma_o * moment_2 + q.sin_gamma_o * moment_1;
-    let moment_11 = moment_10 - (p.r_go_b_bx * moment_0 + p.r_go_b_by * f_o_by);
-    let i_d_b_12 = moment_11 + p.k_20;
-    let moment_12 = q.cos_gamma_o * i_d_go_13 - q.sin_gamma_o * i_d_go_23;
-    let moment_13 = p.r_go_b_bz * f_o_by;
-    let i_d_b_13 = moment_12 - (p.r_go_b_bx * mr_d_go_goz + moment_13) + p.k_21;
-    let moment_14 = moment_9 - (moment_5 + moment_5);
-    let i_d_b_22 = i_d_go_11 + i_d_go_22 - moment_3 + moment_14 + p.k_22;
-    let moment_15 = q.cos_gamma_o * i_d_go_23 + q.sin_gamma_o * i_d_go_13;
-    let moment_16 = p.r_go_b_bz * moment_0;
-    let i_d_b_23 = moment_15 - (p.r_go_b_by * mr_d_go_goz + moment_16) + p.k_23;
-    let i_d_b_33 = moment_9 - (moment_7 + moment_7) + i_d_go_33 + p.k_24;
+    let moment_2 = (q.cos_gamma_o * i_d_go_11).sub_mul(q.sin_gamma_o, i_d_go_12);
+    let moment_3 = (q.cos_gamma_o * i_d_go_12).sub_mul(q.sin_gamma_o, i_d_go_22);
+    let moment_4 = (q.cos_gamma_o * moment_2).sub_mul(q.sin_gamma_o, moment_3);
+    let moment_5 = p.r_go_b_bx * f_o_by;
+    let moment_6 = p.r_go_b_by * moment_1;
+    let moment_7 = moment_5 + moment_6;
+    let moment_8 = p.r_go_b_bz * mr_d_go_goz;
+    let moment_9 = moment_7 + moment_8;
+    let moment_10 = moment_9 + moment_9;
+    let i_d_b_11 = moment_10 - (moment_5 + moment_5) + moment_4 + p.k_19;
+    let moment_11 = (q.cos_gamma_o * moment_3).add_mul(q.sin_gamma_o, moment_2);
+    let moment_12 = moment_11 - (p.r_go_b_bx * moment_1).add_mul(p.r_go_b_by, f_o_by);
+    let i_d_b_12 = moment_12 + p.k_20;
+    let moment_13 = (q.cos_gamma_o * i_d_go_13).sub_mul(q.sin_gamma_o, i_d_go_23);
+    let moment_14 = p.r_go_b_bz * f_o_by;
+    let i_d_b_13 = moment_13 - moment_14.add_mul(p.r_go_b_bx, mr_d_go_goz) + p.k_21;
+    let moment_15 = moment_10 - (moment_6 + moment_6);
+    let i_d_b_22 = i_d_go_11 + i_d_go_22 - moment_4 + moment_15 + p.k_22;
+    let moment_16 = (q.cos_gamma_o * i_d_go_23).add_mul(q.sin_gamma_o, i_d_go_13);
+    let moment_17 = p.r_go_b_bz * moment_1;
+    let i_d_b_23 = moment_16 - moment_17.add_mul(p.r_go_b_by, mr_d_go_goz) + p.k_23;
+    let i_d_b_33 = moment_10 - (moment_8 + moment_8) + i_d_go_33 + p.k_24;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration.
-    let f_o_bx = -moment_0;
-    let n_o_bx = moment_12 - moment_13;
-    let n_o_by = moment_15 - moment_16;
-    let n_o_bz = i_d_go_33 + moment_6;
+    let f_o_bx = -moment_1;
+    let n_o_bx = moment_13 - moment_14;
+    let n_o_by = moment_16 - moment_17;
+    let n_o_bz = i_d_go_33 + moment_7;
     let f_i_bx = q.cos_gamma_o * f_i_gox;
     let f_i_by = q.sin_gamma_o * f_i_gox;
     let f_i_bz = f_i_goz;
-    let col_0 = q.cos_gamma_o * n_i_gox - q.sin_gamma_o * n_i_goy;
-    let n_i_bx = col_0 - (p.r_go_b_by * lump_10 + p.r_go_b_bz * f_i_by);
-    let col_1 = q.cos_gamma_o * n_i_goy + q.sin_gamma_o * n_i_gox;
-    let n_i_by = col_1 + (p.r_go_b_bz * f_i_bx + p.r_go_b_bx * lump_10);
-    let n_i_bz = p.r_go_b_bx * f_i_by - p.r_go_b_by * f_i_bx + n_i_goz;
+    let col_0 = (q.cos_gamma_o * n_i_gox).sub_mul(q.sin_gamma_o, n_i_goy);
+    let n_i_bx = col_0 - (p.r_go_b_by * lump_13).add_mul(p.r_go_b_bz, f_i_by);
+    let col_1 = (q.cos_gamma_o * n_i_goy).add_mul(q.sin_gamma_o, n_i_gox);
+    let n_i_by = col_1 + (p.r_go_b_bz * f_i_bx).add_mul(p.r_go_b_bx, lump_13);
+    let n_i_bz = (p.r_go_b_bx * f_i_by).sub_mul(p.r_go_b_by, f_i_bx) + n_i_goz;
 
     // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = q.cos_gamma_o * f_rest_gox - q.sin_gamma_o * f_rest_goy;
-    let f_rest_by = q.cos_gamma_o * f_rest_goy + q.sin_gamma_o * f_rest_gox;
+    let f_rest_bx = (q.cos_gamma_o * f_rest_gox).sub_mul(q.sin_gamma_o, f_rest_goy);
+    let f_rest_by = (q.cos_gamma_o * f_rest_goy).add_mul(q.sin_gamma_o, f_rest_gox);
     let f_rest_bz = f_rest_goz;
-    let bias_100 = q.cos_gamma_o * n_rest_gox - q.sin_gamma_o * n_rest_goy;
-    let n_rest_bx = bias_100 + (p.r_go_b_by * f_rest_goz - p.r_go_b_bz * f_rest_by);
-    let bias_101 = q.cos_gamma_o * n_rest_goy + q.sin_gamma_o * n_rest_gox;
-    let n_rest_by = bias_101 + (p.r_go_b_bz * f_rest_bx - p.r_go_b_bx * f_rest_goz);
-    let n_rest_bz = p.r_go_b_bx * f_rest_by - p.r_go_b_by * f_rest_bx + n_rest_goz;
+    let bias_114 = (q.cos_gamma_o * n_rest_gox).sub_mul(q.sin_gamma_o, n_rest_goy);
+    let bias_115 = (p.r_go_b_by * f_rest_goz).sub_mul(p.r_go_b_bz, f_rest_by);
+    let n_rest_bx = bias_114 + bias_115;
+    let bias_116 = (q.cos_gamma_o * n_rest_goy).add_mul(q.sin_gamma_o, n_rest_gox);
+    let bias_117 = (p.r_go_b_bz * f_rest_bx).sub_mul(p.r_go_b_bx, f_rest_goz);
+    let n_rest_by = bias_116 + bias_117;
+    let bias_118 = (p.r_go_b_bx * f_rest_by).sub_mul(p.r_go_b_by, f_rest_bx);
+    let n_rest_bz = bias_118 + n_rest_goz;
 
     // Right side of each joint, eqs. (80), (101): motor torque less what the rest asks for, N m.
     let tau_o = u.u_o - u_rest_o;
@@ -2147,17 +2322,17 @@ pub fn eliminate<T: Real>(
     let gain_i_w2 = n_i_by * recip_i;
     let gain_i_w3 = n_i_bz * recip_i;
     let gain_i_o = mass_oi * recip_i;
-    let free_i = m.given_i + tau_i * recip_i;
+    let free_i = m.given_i.add_mul(tau_i, recip_i);
 
     // Joint i taken out of the rows nearer the hub, eq. (E2).
-    let f_o_bx_i = f_o_bx - f_i_bx * gain_i_o;
-    let f_o_by_i = f_o_by - f_i_by * gain_i_o;
+    let f_o_bx_i = f_o_bx.sub_mul(f_i_bx, gain_i_o);
+    let f_o_by_i = f_o_by.sub_mul(f_i_by, gain_i_o);
     let f_o_bz_i = -(f_i_bz * gain_i_o);
-    let n_o_bx_i = n_o_bx - n_i_bx * gain_i_o;
-    let n_o_by_i = n_o_by - n_i_by * gain_i_o;
-    let n_o_bz_i = n_o_bz - n_i_bz * gain_i_o;
-    let mass_oo_i = mass_oo - mass_oi * gain_i_o;
-    let tau_o_i = tau_o - mass_oi * free_i;
+    let n_o_bx_i = n_o_bx.sub_mul(n_i_bx, gain_i_o);
+    let n_o_by_i = n_o_by.sub_mul(n_i_by, gain_i_o);
+    let n_o_bz_i = n_o_bz.sub_mul(n_i_bz, gain_i_o);
+    let mass_oo_i = mass_oo.sub_mul(mass_oi, gain_i_o);
+    let tau_o_i = tau_o.sub_mul(mass_oi, free_i);
 
     // Joint o, eq. (E1): its pivot `mass_oo_i`, kg m², and its gains.
     let divisor_o = m.held_o + mass_oo_i;
@@ -2168,42 +2343,42 @@ pub fn eliminate<T: Real>(
     let gain_o_w1 = n_o_bx_i * recip_o;
     let gain_o_w2 = n_o_by_i * recip_o;
     let gain_o_w3 = n_o_bz_i * recip_o;
-    let free_o = m.given_o + tau_o_i * recip_o;
+    let free_o = m.given_o.add_mul(tau_o_i, recip_o);
 
     // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_d - f_i_bx * gain_i_v1 - f_o_bx_i * gain_o_v1;
-    let m_vv_12 = -(f_i_by * gain_i_v1 + f_o_by_i * gain_o_v1);
-    let m_vv_13 = -(f_i_bz * gain_i_v1 + f_o_bz_i * gain_o_v1);
-    let m_vv_22 = p.m_d - f_i_by * gain_i_v2 - f_o_by_i * gain_o_v2;
-    let m_vv_23 = -(f_i_bz * gain_i_v2 + f_o_bz_i * gain_o_v2);
-    let m_vv_33 = p.m_d - f_i_bz * gain_i_v3 - f_o_bz_i * gain_o_v3;
+    let m_vv_11 = p.m_d.sub_mul(f_i_bx, gain_i_v1).sub_mul(f_o_bx_i, gain_o_v1);
+    let m_vv_12 = -(f_i_by * gain_i_v1).add_mul(f_o_by_i, gain_o_v1);
+    let m_vv_13 = -(f_i_bz * gain_i_v1).add_mul(f_o_bz_i, gain_o_v1);
+    let m_vv_22 = p.m_d.sub_mul(f_i_by, gain_i_v2).sub_mul(f_o_by_i, gain_o_v2);
+    let m_vv_23 = -(f_i_bz * gain_i_v2).add_mul(f_o_bz_i, gain_o_v2);
+    let m_vv_33 = p.m_d.sub_mul(f_i_bz, gain_i_v3).sub_mul(f_o_bz_i, gain_o_v3);
 
     // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = -(n_i_bx * gain_i_v1 + n_o_bx_i * gain_o_v1);
-    let m_vw_12 = mr_d_b_bz - n_i_by * gain_i_v1 - n_o_by_i * gain_o_v1;
-    let m_vw_13 = -(mr_d_b_by + n_i_bz * gain_i_v1 + n_o_bz_i * gain_o_v1);
-    let m_vw_21 = -(mr_d_b_bz + n_i_bx * gain_i_v2 + n_o_bx_i * gain_o_v2);
-    let m_vw_22 = -(n_i_by * gain_i_v2 + n_o_by_i * gain_o_v2);
-    let m_vw_23 = mr_d_b_bx - n_i_bz * gain_i_v2 - n_o_bz_i * gain_o_v2;
-    let m_vw_31 = mr_d_b_by - n_i_bx * gain_i_v3 - n_o_bx_i * gain_o_v3;
-    let m_vw_32 = -(mr_d_b_bx + n_i_by * gain_i_v3 + n_o_by_i * gain_o_v3);
-    let m_vw_33 = -(n_i_bz * gain_i_v3 + n_o_bz_i * gain_o_v3);
+    let m_vw_11 = -(n_i_bx * gain_i_v1).add_mul(n_o_bx_i, gain_o_v1);
+    let m_vw_12 = mr_d_b_bz.sub_mul(n_i_by, gain_i_v1).sub_mul(n_o_by_i, gain_o_v1);
+    let m_vw_13 = -mr_d_b_by.add_mul(n_i_bz, gain_i_v1).add_mul(n_o_bz_i, gain_o_v1);
+    let m_vw_21 = -mr_d_b_bz.add_mul(n_i_bx, gain_i_v2).add_mul(n_o_bx_i, gain_o_v2);
+    let m_vw_22 = -(n_i_by * gain_i_v2).add_mul(n_o_by_i, gain_o_v2);
+    let m_vw_23 = mr_d_b_bx.sub_mul(n_i_bz, gain_i_v2).sub_mul(n_o_bz_i, gain_o_v2);
+    let m_vw_31 = mr_d_b_by.sub_mul(n_i_bx, gain_i_v3).sub_mul(n_o_bx_i, gain_o_v3);
+    let m_vw_32 = -mr_d_b_bx.add_mul(n_i_by, gain_i_v3).add_mul(n_o_by_i, gain_o_v3);
+    let m_vw_33 = -(n_i_bz * gain_i_v3).add_mul(n_o_bz_i, gain_o_v3);
 
     // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_i_bx * gain_i_w1 - n_o_bx_i * gain_o_w1;
-    let m_ww_12 = i_d_b_12 - n_i_by * gain_i_w1 - n_o_by_i * gain_o_w1;
-    let m_ww_13 = i_d_b_13 - n_i_bz * gain_i_w1 - n_o_bz_i * gain_o_w1;
-    let m_ww_22 = i_d_b_22 - n_i_by * gain_i_w2 - n_o_by_i * gain_o_w2;
-    let m_ww_23 = i_d_b_23 - n_i_bz * gain_i_w2 - n_o_bz_i * gain_o_w2;
-    let m_ww_33 = i_d_b_33 - n_i_bz * gain_i_w3 - n_o_bz_i * gain_o_w3;
+    let m_ww_11 = i_d_b_11.sub_mul(n_i_bx, gain_i_w1).sub_mul(n_o_bx_i, gain_o_w1);
+    let m_ww_12 = i_d_b_12.sub_mul(n_i_by, gain_i_w1).sub_mul(n_o_by_i, gain_o_w1);
+    let m_ww_13 = i_d_b_13.sub_mul(n_i_bz, gain_i_w1).sub_mul(n_o_bz_i, gain_o_w1);
+    let m_ww_22 = i_d_b_22.sub_mul(n_i_by, gain_i_w2).sub_mul(n_o_by_i, gain_o_w2);
+    let m_ww_23 = i_d_b_23.sub_mul(n_i_bz, gain_i_w2).sub_mul(n_o_bz_i, gain_o_w2);
+    let m_ww_33 = i_d_b_33.sub_mul(n_i_bz, gain_i_w3).sub_mul(n_o_bz_i, gain_o_w3);
 
     // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + f_i_bx * free_i + f_o_bx_i * free_o);
-    let h_v_2 = -(f_rest_by + f_i_by * free_i + f_o_by_i * free_o);
-    let h_v_3 = -(f_rest_bz + f_i_bz * free_i + f_o_bz_i * free_o);
-    let h_w_1 = -(n_rest_bx + n_i_bx * free_i + n_o_bx_i * free_o);
-    let h_w_2 = -(n_rest_by + n_i_by * free_i + n_o_by_i * free_o);
-    let h_w_3 = -(n_rest_bz + n_i_bz * free_i + n_o_bz_i * free_o);
+    let h_v_1 = -f_rest_bx.add_mul(f_i_bx, free_i).add_mul(f_o_bx_i, free_o);
+    let h_v_2 = -f_rest_by.add_mul(f_i_by, free_i).add_mul(f_o_by_i, free_o);
+    let h_v_3 = -f_rest_bz.add_mul(f_i_bz, free_i).add_mul(f_o_bz_i, free_o);
+    let h_w_1 = -n_rest_bx.add_mul(n_i_bx, free_i).add_mul(n_o_bx_i, free_o);
+    let h_w_2 = -n_rest_by.add_mul(n_i_by, free_i).add_mul(n_o_by_i, free_o);
+    let h_w_3 = -n_rest_bz.add_mul(n_i_bz, free_i).add_mul(n_o_bz_i, free_o);
 
     Eliminated {
         share: HubShare {
@@ -2260,25 +2435,26 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 13 mul, 13 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_o - a.r_b_n_ddot_bx * e.gain_o_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_o_v2;
-    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_o_v3;
-    let row_3 = row_2 - a.omega_dot_bx * e.gain_o_w1;
-    let row_4 = row_3 - a.omega_dot_by * e.gain_o_w2;
-    let gamma_o_ddot = row_4 - a.omega_dot_bz * e.gain_o_w3;
-    let row_5 = e.free_i - a.r_b_n_ddot_bx * e.gain_i_v1;
-    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_i_v2;
-    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_i_v3;
-    let row_8 = row_7 - a.omega_dot_bx * e.gain_i_w1;
-    let row_9 = row_8 - a.omega_dot_by * e.gain_i_w2;
-    let row_10 = row_9 - a.omega_dot_bz * e.gain_i_w3;
-    let gamma_i_ddot = row_10 - gamma_o_ddot * e.gain_i_o;
+    let row_0 = e.free_o.sub_mul(a.r_b_n_ddot_bx, e.gain_o_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_o_v2);
+    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_o_v3);
+    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_o_w1);
+    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_o_w2);
+    let gamma_o_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_o_w3);
+    let row_5 = e.free_i.sub_mul(a.r_b_n_ddot_bx, e.gain_i_v1);
+    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_i_v2);
+    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_i_v3);
+    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_i_w1);
+    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_i_w2);
+    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_i_w3);
+    let gamma_i_ddot = row_10.sub_mul(gamma_o_ddot, e.gain_i_o);
     let zero = e.pivot_i.like(0.0);
     let spin_dot = zero;
 

@@ -142,6 +142,69 @@ pub struct Prepared<T> {
     pub k_16: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            r_p_b_bx: join(self.r_p_b_bx, other.r_p_b_bx),
+            r_p_b_by: join(self.r_p_b_by, other.r_p_b_by),
+            r_p_b_bz: join(self.r_p_b_bz, other.r_p_b_bz),
+            r_pc_p_px: join(self.r_pc_p_px, other.r_pc_p_px),
+            r_pc_p_py: join(self.r_pc_p_py, other.r_pc_p_py),
+            m_p: join(self.m_p, other.m_p),
+            i_p_11: join(self.i_p_11, other.i_p_11),
+            i_p_12: join(self.i_p_12, other.i_p_12),
+            i_p_13: join(self.i_p_13, other.i_p_13),
+            i_p_22: join(self.i_p_22, other.i_p_22),
+            i_p_23: join(self.i_p_23, other.i_p_23),
+            i_p_33: join(self.i_p_33, other.i_p_33),
+            r_pc_b_bz: join(self.r_pc_b_bz, other.r_pc_b_bz),
+            k_0: join(self.k_0, other.k_0),
+            mr_pc_p_px: join(self.mr_pc_p_px, other.mr_pc_p_px),
+            mr_pc_p_py: join(self.mr_pc_p_py, other.mr_pc_p_py),
+            mr_pc_p_pz: join(self.mr_pc_p_pz, other.mr_pc_p_pz),
+            i_p_p_11: join(self.i_p_p_11, other.i_p_p_11),
+            i_p_p_12: join(self.i_p_p_12, other.i_p_p_12),
+            i_p_p_13: join(self.i_p_p_13, other.i_p_p_13),
+            i_p_p_22: join(self.i_p_p_22, other.i_p_p_22),
+            i_p_p_23: join(self.i_p_p_23, other.i_p_p_23),
+            i_p_p_33: join(self.i_p_p_33, other.i_p_p_33),
+            mass_pp: join(self.mass_pp, other.mass_pp),
+            k_1: join(self.k_1, other.k_1),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            mc_bz: join(self.mc_bz, other.mc_bz),
+            mr_d_b_bz: join(self.mr_d_b_bz, other.mr_d_b_bz),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -324,6 +387,26 @@ pub struct Eliminated<T> {
 pub struct JointAccelerations<T> {
     /// φ̈: acceleration of the panel, rad/s².
     pub phi_ddot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations { phi_ddot: join(self.phi_ddot, other.phi_ddot) }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -708,6 +791,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 135 mul, 114 add, 13 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -718,103 +802,109 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{P/N}, eq. (31), along its own axes, rad/s.
-    let omega_p_n_px = w.omega_bx * q.cos_phi + w.omega_by * q.sin_phi;
-    let omega_p_n_py = w.omega_by * q.cos_phi - w.omega_bx * q.sin_phi;
+    let omega_p_n_px = (w.omega_bx * q.cos_phi).add_mul(w.omega_by, q.sin_phi);
+    let omega_p_n_py = (w.omega_by * q.cos_phi).sub_mul(w.omega_bx, q.sin_phi);
     let omega_p_n_pz = w.omega_bz + v.phi_dot;
 
     // Its derivative as in eq. (34), no joint accelerating, along the same axes, rad/s².
     let turn_0 = v.phi_dot * q.cos_phi;
     let turn_1 = v.phi_dot * q.sin_phi;
-    let omega_p_n_rest_px = w.omega_by * turn_0 - w.omega_bx * turn_1;
-    let neg_omega_p_n_rest_py = w.omega_by * turn_1 + w.omega_bx * turn_0;
+    let omega_p_n_rest_px = (w.omega_by * turn_0).sub_mul(w.omega_bx, turn_1);
+    let neg_omega_p_n_rest_py = (w.omega_by * turn_1).add_mul(w.omega_bx, turn_0);
 
     // Acceleration of P relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_by * p.r_p_b_bz - w.omega_bz * p.r_p_b_by;
-    let path_1 = w.omega_bz * p.r_p_b_bx - w.omega_bx * p.r_p_b_bz;
-    let path_2 = w.omega_bx * p.r_p_b_by - w.omega_by * p.r_p_b_bx;
-    let path_3 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_4 = w.omega_bz * path_0 - w.omega_bx * path_2;
-    let r_p_rest_px = q.cos_phi * path_3 + q.sin_phi * path_4;
-    let r_p_rest_py = q.cos_phi * path_4 - q.sin_phi * path_3;
-    let r_p_rest_pz = w.omega_bx * path_1 - w.omega_by * path_0;
+    let path_0 = (w.omega_by * p.r_p_b_bz).sub_mul(w.omega_bz, p.r_p_b_by);
+    let path_1 = (w.omega_bz * p.r_p_b_bx).sub_mul(w.omega_bx, p.r_p_b_bz);
+    let path_2 = (w.omega_bx * p.r_p_b_by).sub_mul(w.omega_by, p.r_p_b_bx);
+    let path_3 = (w.omega_by * path_2).sub_mul(w.omega_bz, path_1);
+    let path_4 = (w.omega_bz * path_0).sub_mul(w.omega_bx, path_2);
+    let r_p_rest_px = (q.cos_phi * path_3).add_mul(q.sin_phi, path_4);
+    let r_p_rest_py = (q.cos_phi * path_4).sub_mul(q.sin_phi, path_3);
+    let r_p_rest_pz = (w.omega_bx * path_1).sub_mul(w.omega_by, path_0);
 
     // D with no joint accelerating, eq. (78): force, N, and moment about P, N m.
-    let bias_0 = p.mr_pc_p_px * omega_p_n_pz - p.mr_pc_p_pz * omega_p_n_px;
-    let bias_1 = p.mr_pc_p_py * omega_p_n_px - p.mr_pc_p_px * omega_p_n_py;
-    let bias_2 = omega_p_n_py * bias_1 - omega_p_n_pz * bias_0;
-    let bias_3 = bias_2 - p.mr_pc_p_pz * neg_omega_p_n_rest_py;
-    let f_rest_px = bias_3 + p.m_p * r_p_rest_px;
-    let bias_4 = p.mr_pc_p_pz * omega_p_n_py - p.mr_pc_p_py * omega_p_n_pz;
-    let bias_5 = omega_p_n_pz * bias_4 - omega_p_n_px * bias_1;
-    let f_rest_py = bias_5 - p.mr_pc_p_pz * omega_p_n_rest_px + p.m_p * r_p_rest_py;
-    let bias_6 = p.mr_pc_p_px * neg_omega_p_n_rest_py;
-    let bias_7 = omega_p_n_px * bias_0 - omega_p_n_py * bias_4;
-    let bias_8 = bias_7 + (p.mr_pc_p_py * omega_p_n_rest_px + bias_6);
-    let f_rest_pz = bias_8 + p.m_p * r_p_rest_pz;
-    let bias_9 = p.i_p_p_12 * omega_p_n_px + p.i_p_p_22 * omega_p_n_py;
-    let bias_10 = bias_9 + p.i_p_p_23 * omega_p_n_pz;
-    let bias_11 = p.i_p_p_13 * omega_p_n_px + p.i_p_p_23 * omega_p_n_py;
-    let bias_12 = bias_11 + p.i_p_p_33 * omega_p_n_pz;
-    let bias_13 = p.i_p_p_12 * neg_omega_p_n_rest_py;
-    let bias_14 = omega_p_n_py * bias_12 - omega_p_n_pz * bias_10;
-    let bias_15 = p.mr_pc_p_py * r_p_rest_pz - p.mr_pc_p_pz * r_p_rest_py;
-    let n_rest_px = bias_14 + (p.i_p_p_11 * omega_p_n_rest_px - bias_13) + bias_15;
-    let bias_16 = p.i_p_p_11 * omega_p_n_px + p.i_p_p_12 * omega_p_n_py;
-    let bias_17 = bias_16 + p.i_p_p_13 * omega_p_n_pz;
-    let bias_18 = p.i_p_p_22 * neg_omega_p_n_rest_py;
-    let bias_19 = omega_p_n_pz * bias_17 - omega_p_n_px * bias_12;
-    let bias_20 = p.mr_pc_p_pz * r_p_rest_px - p.mr_pc_p_px * r_p_rest_pz;
-    let n_rest_py = bias_19 + (p.i_p_p_12 * omega_p_n_rest_px - bias_18) + bias_20;
-    let bias_21 = p.i_p_p_23 * neg_omega_p_n_rest_py;
-    let bias_22 = omega_p_n_px * bias_10 - omega_p_n_py * bias_17;
-    let bias_23 = p.mr_pc_p_px * r_p_rest_py - p.mr_pc_p_py * r_p_rest_px;
-    let n_rest_pz = bias_22 + (p.i_p_p_13 * omega_p_n_rest_px - bias_21) + bias_23;
+    let bias_0 = (p.mr_pc_p_px * omega_p_n_pz).sub_mul(p.mr_pc_p_pz, omega_p_n_px);
+    let bias_1 = (p.mr_pc_p_py * omega_p_n_px).sub_mul(p.mr_pc_p_px, omega_p_n_py);
+    let bias_2 = (omega_p_n_py * bias_1).sub_mul(omega_p_n_pz, bias_0);
+    let bias_3 = bias_2.sub_mul(p.mr_pc_p_pz, neg_omega_p_n_rest_py);
+    let f_rest_px = bias_3.add_mul(p.m_p, r_p_rest_px);
+    let bias_4 = (p.mr_pc_p_pz * omega_p_n_py).sub_mul(p.mr_pc_p_py, omega_p_n_pz);
+    let bias_5 = (omega_p_n_pz * bias_4).sub_mul(omega_p_n_px, bias_1);
+    let bias_6 = bias_5.sub_mul(p.mr_pc_p_pz, omega_p_n_rest_px);
+    let f_rest_py = bias_6.add_mul(p.m_p, r_p_rest_py);
+    let bias_7 = p.mr_pc_p_py * omega_p_n_rest_px;
+    let bias_8 = (omega_p_n_px * bias_0).sub_mul(omega_p_n_py, bias_4);
+    let bias_9 = bias_8 + bias_7.add_mul(p.mr_pc_p_px, neg_omega_p_n_rest_py);
+    let f_rest_pz = bias_9.add_mul(p.m_p, r_p_rest_pz);
+    let bias_10 = (p.i_p_p_12 * omega_p_n_px).add_mul(p.i_p_p_22, omega_p_n_py);
+    let bias_11 = bias_10.add_mul(p.i_p_p_23, omega_p_n_pz);
+    let bias_12 = (p.i_p_p_13 * omega_p_n_px).add_mul(p.i_p_p_23, omega_p_n_py);
+    let bias_13 = bias_12.add_mul(p.i_p_p_33, omega_p_n_pz);
+    let bias_14 = p.i_p_p_11 * omega_p_n_rest_px;
+    let bias_15 = (omega_p_n_py * bias_13).sub_mul(omega_p_n_pz, bias_11);
+    let bias_16 = (p.mr_pc_p_py * r_p_rest_pz).sub_mul(p.mr_pc_p_pz, r_p_rest_py);
+    let bias_17 = bias_15 + bias_14.sub_mul(p.i_p_p_12, neg_omega_p_n_rest_py);
+    let n_rest_px = bias_17 + bias_16;
+    let bias_18 = (p.i_p_p_11 * omega_p_n_px).add_mul(p.i_p_p_12, omega_p_n_py);
+    let bias_19 = bias_18.add_mul(p.i_p_p_13, omega_p_n_pz);
+    let bias_20 = p.i_p_p_12 * omega_p_n_rest_px;
+    let bias_21 = (omega_p_n_pz * bias_19).sub_mul(omega_p_n_px, bias_13);
+    let bias_22 = (p.mr_pc_p_pz * r_p_rest_px).sub_mul(p.mr_pc_p_px, r_p_rest_pz);
+    let bias_23 = bias_21 + bias_20.sub_mul(p.i_p_p_22, neg_omega_p_n_rest_py);
+    let n_rest_py = bias_23 + bias_22;
+    let bias_24 = p.i_p_p_13 * omega_p_n_rest_px;
+    let bias_25 = (omega_p_n_px * bias_11).sub_mul(omega_p_n_py, bias_19);
+    let bias_26 = (p.mr_pc_p_px * r_p_rest_py).sub_mul(p.mr_pc_p_py, r_p_rest_px);
+    let bias_27 = bias_25 + bias_24.sub_mul(p.i_p_p_23, neg_omega_p_n_rest_py);
+    let n_rest_pz = bias_27 + bias_26;
 
     // Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m.
     let mass_pp = p.i_p_p_33;
     let u_rest_p = n_rest_pz;
 
     // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_p_by = q.cos_phi * p.mr_pc_p_px - q.sin_phi * p.mr_pc_p_py;
+    let f_p_by = (q.cos_phi * p.mr_pc_p_px).sub_mul(q.sin_phi, p.mr_pc_p_py);
     let mr_d_b_bx = f_p_by + p.k_12;
-    let moment_0 = q.cos_phi * p.mr_pc_p_py + q.sin_phi * p.mr_pc_p_px;
+    let moment_0 = (q.cos_phi * p.mr_pc_p_py).add_mul(q.sin_phi, p.mr_pc_p_px);
     let mr_d_b_by = moment_0 + p.k_13;
-    let moment_1 = q.cos_phi * p.i_p_p_11 - q.sin_phi * p.i_p_p_12;
-    let moment_2 = q.cos_phi * p.i_p_p_12 - q.sin_phi * p.i_p_p_22;
-    let moment_3 = q.cos_phi * moment_1 - q.sin_phi * moment_2;
+    let moment_1 = (q.cos_phi * p.i_p_p_11).sub_mul(q.sin_phi, p.i_p_p_12);
+    let moment_2 = (q.cos_phi * p.i_p_p_12).sub_mul(q.sin_phi, p.i_p_p_22);
+    let moment_3 = (q.cos_phi * moment_1).sub_mul(q.sin_phi, moment_2);
     let moment_4 = p.r_p_b_bx * f_p_by;
     let moment_5 = p.r_p_b_by * moment_0;
     let moment_6 = moment_4 + moment_5;
     let moment_7 = moment_6 + p.k_2;
     let moment_8 = moment_7 + moment_7;
     let i_d_b_11 = moment_8 - (moment_4 + moment_4) + moment_3 + p.k_6;
-    let moment_9 = p.r_p_b_bx * moment_0 + p.r_p_b_by * f_p_by;
-    let i_d_b_12 = q.cos_phi * moment_2 + q.sin_phi * moment_1 - moment_9 + p.k_7;
-    let moment_10 = q.cos_phi * p.i_p_p_13 - q.sin_phi * p.i_p_p_23;
-    let moment_11 = p.r_p_b_bz * f_p_by;
-    let i_d_b_13 = moment_10 - (p.k_3 + moment_11) + p.k_8;
+    let moment_9 = (p.r_p_b_bx * moment_0).add_mul(p.r_p_b_by, f_p_by);
+    let moment_10 = (q.cos_phi * moment_2).add_mul(q.sin_phi, moment_1) - moment_9;
+    let i_d_b_12 = moment_10 + p.k_7;
+    let moment_11 = (q.cos_phi * p.i_p_p_13).sub_mul(q.sin_phi, p.i_p_p_23);
+    let moment_12 = p.r_p_b_bz * f_p_by;
+    let i_d_b_13 = moment_11 - (p.k_3 + moment_12) + p.k_8;
     let i_d_b_22 = p.k_1 - moment_3 + (moment_8 - (moment_5 + moment_5)) + p.k_9;
-    let moment_12 = q.cos_phi * p.i_p_p_23 + q.sin_phi * p.i_p_p_13;
-    let moment_13 = p.r_p_b_bz * moment_0;
-    let i_d_b_23 = moment_12 - (p.k_4 + moment_13) + p.k_10;
+    let moment_13 = (q.cos_phi * p.i_p_p_23).add_mul(q.sin_phi, p.i_p_p_13);
+    let moment_14 = p.r_p_b_bz * moment_0;
+    let i_d_b_23 = moment_13 - (p.k_4 + moment_14) + p.k_10;
     let i_d_b_33 = moment_8 + p.k_5 + p.i_p_p_33 + p.k_11;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration.
     let f_p_bx = -moment_0;
-    let n_p_bx = moment_10 - moment_11;
-    let n_p_by = moment_12 - moment_13;
+    let n_p_bx = moment_11 - moment_12;
+    let n_p_by = moment_13 - moment_14;
     let n_p_bz = p.i_p_p_33 + moment_6;
 
     // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = q.cos_phi * f_rest_px - q.sin_phi * f_rest_py;
-    let f_rest_by = q.cos_phi * f_rest_py + q.sin_phi * f_rest_px;
+    let f_rest_bx = (q.cos_phi * f_rest_px).sub_mul(q.sin_phi, f_rest_py);
+    let f_rest_by = (q.cos_phi * f_rest_py).add_mul(q.sin_phi, f_rest_px);
     let f_rest_bz = f_rest_pz;
-    let bias_24 = p.r_p_b_by * f_rest_pz - p.r_p_b_bz * f_rest_by;
-    let n_rest_bx = q.cos_phi * n_rest_px - q.sin_phi * n_rest_py + bias_24;
-    let bias_25 = p.r_p_b_bz * f_rest_bx - p.r_p_b_bx * f_rest_pz;
-    let n_rest_by = q.cos_phi * n_rest_py + q.sin_phi * n_rest_px + bias_25;
-    let n_rest_bz = p.r_p_b_bx * f_rest_by - p.r_p_b_by * f_rest_bx + n_rest_pz;
+    let bias_28 = (p.r_p_b_by * f_rest_pz).sub_mul(p.r_p_b_bz, f_rest_by);
+    let n_rest_bx = (q.cos_phi * n_rest_px).sub_mul(q.sin_phi, n_rest_py) + bias_28;
+    let bias_29 = (p.r_p_b_bz * f_rest_bx).sub_mul(p.r_p_b_bx, f_rest_pz);
+    let n_rest_by = (q.cos_phi * n_rest_py).add_mul(q.sin_phi, n_rest_px) + bias_29;
+    let bias_30 = (p.r_p_b_bx * f_rest_by).sub_mul(p.r_p_b_by, f_rest_bx);
+    let n_rest_bz = bias_30 + n_rest_pz;
 
     // Right side of each joint, eq. (80): motor torque less what the rest asks for, N m.
     let tau_p = u.u_p - u_rest_p;
@@ -827,43 +917,43 @@ pub fn eliminate<T: Real>(
     let gain_p_w1 = n_p_bx * recip_p;
     let gain_p_w2 = n_p_by * recip_p;
     let gain_p_w3 = n_p_bz * recip_p;
-    let free_p = m.given_p + tau_p * recip_p;
+    let free_p = m.given_p.add_mul(tau_p, recip_p);
 
     // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_p - f_p_bx * gain_p_v1;
+    let m_vv_11 = p.m_p.sub_mul(f_p_bx, gain_p_v1);
     let m_vv_12 = -(f_p_by * gain_p_v1);
     let zero = q.sin_phi.like(0.0);
     let m_vv_13 = zero;
-    let m_vv_22 = p.m_p - f_p_by * gain_p_v2;
+    let m_vv_22 = p.m_p.sub_mul(f_p_by, gain_p_v2);
     let m_vv_23 = zero;
     let m_vv_33 = p.m_p;
 
     // Share of the hub's mass matrix, eq. (E3): M_vw.
     let m_vw_11 = -(n_p_bx * gain_p_v1);
-    let m_vw_12 = p.mr_d_b_bz - n_p_by * gain_p_v1;
-    let m_vw_13 = -(mr_d_b_by + n_p_bz * gain_p_v1);
-    let m_vw_21 = -(p.mr_d_b_bz + n_p_bx * gain_p_v2);
+    let m_vw_12 = p.mr_d_b_bz.sub_mul(n_p_by, gain_p_v1);
+    let m_vw_13 = -mr_d_b_by.add_mul(n_p_bz, gain_p_v1);
+    let m_vw_21 = -p.mr_d_b_bz.add_mul(n_p_bx, gain_p_v2);
     let m_vw_22 = -(n_p_by * gain_p_v2);
-    let m_vw_23 = mr_d_b_bx - n_p_bz * gain_p_v2;
+    let m_vw_23 = mr_d_b_bx.sub_mul(n_p_bz, gain_p_v2);
     let m_vw_31 = mr_d_b_by;
     let m_vw_32 = -mr_d_b_bx;
     let m_vw_33 = zero;
 
     // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_p_bx * gain_p_w1;
-    let m_ww_12 = i_d_b_12 - n_p_by * gain_p_w1;
-    let m_ww_13 = i_d_b_13 - n_p_bz * gain_p_w1;
-    let m_ww_22 = i_d_b_22 - n_p_by * gain_p_w2;
-    let m_ww_23 = i_d_b_23 - n_p_bz * gain_p_w2;
-    let m_ww_33 = i_d_b_33 - n_p_bz * gain_p_w3;
+    let m_ww_11 = i_d_b_11.sub_mul(n_p_bx, gain_p_w1);
+    let m_ww_12 = i_d_b_12.sub_mul(n_p_by, gain_p_w1);
+    let m_ww_13 = i_d_b_13.sub_mul(n_p_bz, gain_p_w1);
+    let m_ww_22 = i_d_b_22.sub_mul(n_p_by, gain_p_w2);
+    let m_ww_23 = i_d_b_23.sub_mul(n_p_bz, gain_p_w2);
+    let m_ww_33 = i_d_b_33.sub_mul(n_p_bz, gain_p_w3);
 
     // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + f_p_bx * free_p);
-    let h_v_2 = -(f_rest_by + f_p_by * free_p);
+    let h_v_1 = -f_rest_bx.add_mul(f_p_bx, free_p);
+    let h_v_2 = -f_rest_by.add_mul(f_p_by, free_p);
     let h_v_3 = -f_rest_bz;
-    let h_w_1 = -(n_rest_bx + n_p_bx * free_p);
-    let h_w_2 = -(n_rest_by + n_p_by * free_p);
-    let h_w_3 = -(n_rest_bz + n_p_bz * free_p);
+    let h_w_1 = -n_rest_bx.add_mul(n_p_bx, free_p);
+    let h_w_2 = -n_rest_by.add_mul(n_p_by, free_p);
+    let h_w_3 = -n_rest_bz.add_mul(n_p_bz, free_p);
 
     Eliminated {
         share: HubShare {
@@ -909,17 +999,18 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 5 mul, 5 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_p - a.r_b_n_ddot_bx * e.gain_p_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_p_v2;
-    let row_2 = row_1 - a.omega_dot_bx * e.gain_p_w1;
-    let row_3 = row_2 - a.omega_dot_by * e.gain_p_w2;
-    let phi_ddot = row_3 - a.omega_dot_bz * e.gain_p_w3;
+    let row_0 = e.free_p.sub_mul(a.r_b_n_ddot_bx, e.gain_p_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_p_v2);
+    let row_2 = row_1.sub_mul(a.omega_dot_bx, e.gain_p_w1);
+    let row_3 = row_2.sub_mul(a.omega_dot_by, e.gain_p_w2);
+    let phi_ddot = row_3.sub_mul(a.omega_dot_bz, e.gain_p_w3);
 
     JointAccelerations { phi_ddot }
 }

@@ -108,6 +108,57 @@ pub struct Prepared<T> {
     pub k_12: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            r_w_b_bx: join(self.r_w_b_bx, other.r_w_b_bx),
+            r_w_b_by: join(self.r_w_b_by, other.r_w_b_by),
+            r_w_b_bz: join(self.r_w_b_bz, other.r_w_b_bz),
+            d: join(self.d, other.d),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_12: join(self.j_12, other.j_12),
+            j_13: join(self.j_13, other.j_13),
+            j_22: join(self.j_22, other.j_22),
+            j_23: join(self.j_23, other.j_23),
+            j_33: join(self.j_33, other.j_33),
+            k_0: join(self.k_0, other.k_0),
+            mr_wc_w_wy: join(self.mr_wc_w_wy, other.mr_wc_w_wy),
+            i_w_w_11: join(self.i_w_w_11, other.i_w_w_11),
+            i_w_w_33: join(self.i_w_w_33, other.i_w_w_33),
+            mass_ww: join(self.mass_ww, other.mass_ww),
+            k_1: join(self.k_1, other.k_1),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            mc_bx: join(self.mc_bx, other.mc_bx),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            mr_d_b_bx: join(self.mr_d_b_bx, other.mr_d_b_bx),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -290,6 +341,26 @@ pub struct Eliminated<T> {
 pub struct JointAccelerations<T> {
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations { spin_dot: join(self.spin_dot, other.spin_dot) }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -642,6 +713,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 120 mul, 94 add, 13 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -653,47 +725,51 @@ pub fn eliminate<T: Real>(
 ) -> Eliminated<T> {
     // ω_{W/N}, eq. (59), along its own axes, rad/s.
     let omega_w_n_wx = w.omega_bx + v.spin;
-    let omega_w_n_wy = w.omega_by * q.cos_theta + w.omega_bz * q.sin_theta;
-    let omega_w_n_wz = w.omega_bz * q.cos_theta - w.omega_by * q.sin_theta;
+    let omega_w_n_wy = (w.omega_by * q.cos_theta).add_mul(w.omega_bz, q.sin_theta);
+    let omega_w_n_wz = (w.omega_bz * q.cos_theta).sub_mul(w.omega_by, q.sin_theta);
 
     // Its derivative as in eq. (62), no joint accelerating, along the same axes, rad/s².
     let turn_0 = v.spin * q.cos_theta;
     let turn_1 = v.spin * q.sin_theta;
-    let omega_w_n_rest_wy = w.omega_bz * turn_0 - w.omega_by * turn_1;
-    let neg_omega_w_n_rest_wz = w.omega_bz * turn_1 + w.omega_by * turn_0;
+    let omega_w_n_rest_wy = (w.omega_bz * turn_0).sub_mul(w.omega_by, turn_1);
+    let neg_omega_w_n_rest_wz = (w.omega_bz * turn_1).add_mul(w.omega_by, turn_0);
 
     // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_bz * p.r_w_b_bx - w.omega_bx * p.r_w_b_bz;
-    let path_1 = w.omega_bx * p.r_w_b_by - w.omega_by * p.r_w_b_bx;
-    let r_w_rest_wx = w.omega_by * path_1 - w.omega_bz * path_0;
-    let path_2 = w.omega_by * p.r_w_b_bz - w.omega_bz * p.r_w_b_by;
-    let path_3 = w.omega_bz * path_2 - w.omega_bx * path_1;
-    let path_4 = w.omega_bx * path_0 - w.omega_by * path_2;
-    let r_w_rest_wy = q.cos_theta * path_3 + q.sin_theta * path_4;
-    let r_w_rest_wz = q.cos_theta * path_4 - q.sin_theta * path_3;
+    let path_0 = (w.omega_bz * p.r_w_b_bx).sub_mul(w.omega_bx, p.r_w_b_bz);
+    let path_1 = (w.omega_bx * p.r_w_b_by).sub_mul(w.omega_by, p.r_w_b_bx);
+    let r_w_rest_wx = (w.omega_by * path_1).sub_mul(w.omega_bz, path_0);
+    let path_2 = (w.omega_by * p.r_w_b_bz).sub_mul(w.omega_bz, p.r_w_b_by);
+    let path_3 = (w.omega_bz * path_2).sub_mul(w.omega_bx, path_1);
+    let path_4 = (w.omega_bx * path_0).sub_mul(w.omega_by, path_2);
+    let r_w_rest_wy = (q.cos_theta * path_3).add_mul(q.sin_theta, path_4);
+    let r_w_rest_wz = (q.cos_theta * path_4).sub_mul(q.sin_theta, path_3);
 
     // D with no joint accelerating, eq. (117): force, N, and moment about W, N m.
     let bias_0 = p.mr_wc_w_wy * omega_w_n_wx;
-    let bias_1 = omega_w_n_wy * bias_0 + p.mr_wc_w_wy * neg_omega_w_n_rest_wz;
-    let f_rest_wx = bias_1 + p.m_w * r_w_rest_wx;
-    let bias_2 = p.mr_wc_w_wy * omega_w_n_wz;
-    let bias_3 = omega_w_n_wz * bias_2 + omega_w_n_wx * bias_0;
-    let f_rest_wy = p.m_w * r_w_rest_wy - bias_3;
-    let f_rest_wz = omega_w_n_wy * bias_2 + p.m_w * r_w_rest_wz;
-    let bias_4 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
-    let bias_5 = bias_4 + p.j_23 * omega_w_n_wz;
-    let bias_6 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
-    let bias_7 = bias_6 + p.i_w_w_33 * omega_w_n_wz;
-    let bias_8 = p.j_12 * omega_w_n_rest_wy - p.j_13 * neg_omega_w_n_rest_wz;
-    let bias_9 = omega_w_n_wy * bias_7 - omega_w_n_wz * bias_5 + bias_8;
-    let n_rest_wx = bias_9 + p.mr_wc_w_wy * r_w_rest_wz;
-    let bias_10 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
-    let bias_11 = bias_10 + p.j_13 * omega_w_n_wz;
-    let bias_12 = p.j_22 * omega_w_n_rest_wy - p.j_23 * neg_omega_w_n_rest_wz;
-    let n_rest_wy = omega_w_n_wz * bias_11 - omega_w_n_wx * bias_7 + bias_12;
-    let bias_13 = p.j_23 * omega_w_n_rest_wy - p.i_w_w_33 * neg_omega_w_n_rest_wz;
-    let bias_14 = omega_w_n_wx * bias_5 - omega_w_n_wy * bias_11 + bias_13;
-    let n_rest_wz = bias_14 - p.mr_wc_w_wy * r_w_rest_wx;
+    let bias_1 = omega_w_n_wy * bias_0;
+    let bias_2 = bias_1.add_mul(p.mr_wc_w_wy, neg_omega_w_n_rest_wz);
+    let f_rest_wx = bias_2.add_mul(p.m_w, r_w_rest_wx);
+    let bias_3 = p.mr_wc_w_wy * omega_w_n_wz;
+    let bias_4 = (omega_w_n_wz * bias_3).add_mul(omega_w_n_wx, bias_0);
+    let f_rest_wy = p.m_w.mul_sub(r_w_rest_wy, bias_4);
+    let f_rest_wz = (omega_w_n_wy * bias_3).add_mul(p.m_w, r_w_rest_wz);
+    let bias_5 = (p.j_12 * omega_w_n_wx).add_mul(p.j_22, omega_w_n_wy);
+    let bias_6 = bias_5.add_mul(p.j_23, omega_w_n_wz);
+    let bias_7 = (p.j_13 * omega_w_n_wx).add_mul(p.j_23, omega_w_n_wy);
+    let bias_8 = bias_7.add_mul(p.i_w_w_33, omega_w_n_wz);
+    let bias_9 = p.j_12 * omega_w_n_rest_wy;
+    let bias_10 = (omega_w_n_wy * bias_8).sub_mul(omega_w_n_wz, bias_6);
+    let bias_11 = bias_10 + bias_9.sub_mul(p.j_13, neg_omega_w_n_rest_wz);
+    let n_rest_wx = bias_11.add_mul(p.mr_wc_w_wy, r_w_rest_wz);
+    let bias_12 = (p.i_w_w_11 * omega_w_n_wx).add_mul(p.j_12, omega_w_n_wy);
+    let bias_13 = bias_12.add_mul(p.j_13, omega_w_n_wz);
+    let bias_14 = p.j_22 * omega_w_n_rest_wy;
+    let bias_15 = (omega_w_n_wz * bias_13).sub_mul(omega_w_n_wx, bias_8);
+    let n_rest_wy = bias_15 + bias_14.sub_mul(p.j_23, neg_omega_w_n_rest_wz);
+    let bias_16 = p.j_23 * omega_w_n_rest_wy;
+    let bias_17 = (omega_w_n_wx * bias_6).sub_mul(omega_w_n_wy, bias_13);
+    let bias_18 = bias_17 + bias_16.sub_mul(p.i_w_w_33, neg_omega_w_n_rest_wz);
+    let n_rest_wz = bias_18.sub_mul(p.mr_wc_w_wy, r_w_rest_wx);
 
     // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m.
     let mass_ww = p.i_w_w_11;
@@ -709,17 +785,20 @@ pub fn eliminate<T: Real>(
     let moment_3 = moment_1 + moment_2;
     let moment_4 = moment_3 + moment_3;
     let i_d_b_11 = p.i_w_w_11 + moment_4 + p.k_2;
-    let n_w_by = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.r_w_b_bx * f_w_bz;
+    let moment_5 = (q.cos_theta * p.j_12).sub_mul(q.sin_theta, p.j_13);
+    let n_w_by = moment_5.sub_mul(p.r_w_b_bx, f_w_bz);
     let i_d_b_12 = n_w_by + p.k_3;
-    let n_w_bz = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.r_w_b_bx * moment_0;
+    let moment_6 = (q.cos_theta * p.j_13).add_mul(q.sin_theta, p.j_12);
+    let n_w_bz = moment_6.sub_mul(p.r_w_b_bx, moment_0);
     let i_d_b_13 = n_w_bz + p.k_4;
-    let moment_5 = q.cos_theta * p.j_22 - q.sin_theta * p.j_23;
-    let moment_6 = q.cos_theta * p.j_23 - q.sin_theta * p.i_w_w_33;
-    let moment_7 = q.cos_theta * moment_5 - q.sin_theta * moment_6;
-    let i_d_b_22 = moment_4 - (moment_1 + moment_1) + moment_7 + p.k_5;
-    let moment_8 = q.cos_theta * moment_6 + q.sin_theta * moment_5;
-    let i_d_b_23 = moment_8 - (p.r_w_b_by * moment_0 + p.r_w_b_bz * f_w_bz) + p.k_6;
-    let i_d_b_33 = p.k_1 - moment_7 + (moment_4 - (moment_2 + moment_2)) + p.k_7;
+    let moment_7 = (q.cos_theta * p.j_22).sub_mul(q.sin_theta, p.j_23);
+    let moment_8 = (q.cos_theta * p.j_23).sub_mul(q.sin_theta, p.i_w_w_33);
+    let moment_9 = (q.cos_theta * moment_7).sub_mul(q.sin_theta, moment_8);
+    let i_d_b_22 = moment_4 - (moment_1 + moment_1) + moment_9 + p.k_5;
+    let moment_10 = (q.cos_theta * moment_8).add_mul(q.sin_theta, moment_7);
+    let moment_11 = moment_10 - (p.r_w_b_by * moment_0).add_mul(p.r_w_b_bz, f_w_bz);
+    let i_d_b_23 = moment_11 + p.k_6;
+    let i_d_b_33 = p.k_1 - moment_9 + (moment_4 - (moment_2 + moment_2)) + p.k_7;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration.
@@ -728,13 +807,14 @@ pub fn eliminate<T: Real>(
 
     // Force and moment about B with no joint accelerating: eqs. (16), (75).
     let f_rest_bx = f_rest_wx;
-    let f_rest_by = q.cos_theta * f_rest_wy - q.sin_theta * f_rest_wz;
-    let f_rest_bz = q.cos_theta * f_rest_wz + q.sin_theta * f_rest_wy;
-    let n_rest_bx = p.r_w_b_by * f_rest_bz - p.r_w_b_bz * f_rest_by + n_rest_wx;
-    let bias_15 = q.cos_theta * n_rest_wy - q.sin_theta * n_rest_wz;
-    let n_rest_by = bias_15 + (p.r_w_b_bz * f_rest_wx - p.r_w_b_bx * f_rest_bz);
-    let bias_16 = q.cos_theta * n_rest_wz + q.sin_theta * n_rest_wy;
-    let n_rest_bz = bias_16 + (p.r_w_b_bx * f_rest_by - p.r_w_b_by * f_rest_wx);
+    let f_rest_by = (q.cos_theta * f_rest_wy).sub_mul(q.sin_theta, f_rest_wz);
+    let f_rest_bz = (q.cos_theta * f_rest_wz).add_mul(q.sin_theta, f_rest_wy);
+    let bias_19 = (p.r_w_b_by * f_rest_bz).sub_mul(p.r_w_b_bz, f_rest_by);
+    let n_rest_bx = bias_19 + n_rest_wx;
+    let bias_20 = (q.cos_theta * n_rest_wy).sub_mul(q.sin_theta, n_rest_wz);
+    let n_rest_by = bias_20 + (p.r_w_b_bz * f_rest_wx).sub_mul(p.r_w_b_bx, f_rest_bz);
+    let bias_21 = (q.cos_theta * n_rest_wz).add_mul(q.sin_theta, n_rest_wy);
+    let n_rest_bz = bias_21 + (p.r_w_b_bx * f_rest_by).sub_mul(p.r_w_b_by, f_rest_wx);
 
     // Right side of each joint, eq. (119): motor torque less what the rest asks for, N m.
     let tau_w = u.u_w - u_rest_w;
@@ -747,43 +827,43 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = n_w_bx * recip_w;
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
-    let free_w = m.given_w + tau_w * recip_w;
+    let free_w = m.given_w.add_mul(tau_w, recip_w);
 
     // Share of the hub's mass matrix, eq. (E3): M_vv.
     let m_vv_11 = p.m_w;
     let zero = q.sin_theta.like(0.0);
     let m_vv_12 = zero;
     let m_vv_13 = zero;
-    let m_vv_22 = p.m_w - f_w_by * gain_w_v2;
+    let m_vv_22 = p.m_w.sub_mul(f_w_by, gain_w_v2);
     let m_vv_23 = -(f_w_bz * gain_w_v2);
-    let m_vv_33 = p.m_w - f_w_bz * gain_w_v3;
+    let m_vv_33 = p.m_w.sub_mul(f_w_bz, gain_w_v3);
 
     // Share of the hub's mass matrix, eq. (E3): M_vw.
     let m_vw_11 = zero;
     let m_vw_12 = mr_d_b_bz;
     let m_vw_13 = -mr_d_b_by;
-    let m_vw_21 = -(mr_d_b_bz + n_w_bx * gain_w_v2);
+    let m_vw_21 = -mr_d_b_bz.add_mul(n_w_bx, gain_w_v2);
     let m_vw_22 = -(n_w_by * gain_w_v2);
-    let m_vw_23 = p.mr_d_b_bx - n_w_bz * gain_w_v2;
-    let m_vw_31 = mr_d_b_by - n_w_bx * gain_w_v3;
-    let m_vw_32 = -(p.mr_d_b_bx + n_w_by * gain_w_v3);
+    let m_vw_23 = p.mr_d_b_bx.sub_mul(n_w_bz, gain_w_v2);
+    let m_vw_31 = mr_d_b_by.sub_mul(n_w_bx, gain_w_v3);
+    let m_vw_32 = -p.mr_d_b_bx.add_mul(n_w_by, gain_w_v3);
     let m_vw_33 = -(n_w_bz * gain_w_v3);
 
     // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_w_bx * gain_w_w1;
-    let m_ww_12 = i_d_b_12 - n_w_by * gain_w_w1;
-    let m_ww_13 = i_d_b_13 - n_w_bz * gain_w_w1;
-    let m_ww_22 = i_d_b_22 - n_w_by * gain_w_w2;
-    let m_ww_23 = i_d_b_23 - n_w_bz * gain_w_w2;
-    let m_ww_33 = i_d_b_33 - n_w_bz * gain_w_w3;
+    let m_ww_11 = i_d_b_11.sub_mul(n_w_bx, gain_w_w1);
+    let m_ww_12 = i_d_b_12.sub_mul(n_w_by, gain_w_w1);
+    let m_ww_13 = i_d_b_13.sub_mul(n_w_bz, gain_w_w1);
+    let m_ww_22 = i_d_b_22.sub_mul(n_w_by, gain_w_w2);
+    let m_ww_23 = i_d_b_23.sub_mul(n_w_bz, gain_w_w2);
+    let m_ww_33 = i_d_b_33.sub_mul(n_w_bz, gain_w_w3);
 
     // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
     let h_v_1 = -f_rest_bx;
-    let h_v_2 = -(f_rest_by + f_w_by * free_w);
-    let h_v_3 = -(f_rest_bz + f_w_bz * free_w);
-    let h_w_1 = -(n_rest_bx + n_w_bx * free_w);
-    let h_w_2 = -(n_rest_by + n_w_by * free_w);
-    let h_w_3 = -(n_rest_bz + n_w_bz * free_w);
+    let h_v_2 = -f_rest_by.add_mul(f_w_by, free_w);
+    let h_v_3 = -f_rest_bz.add_mul(f_w_bz, free_w);
+    let h_w_1 = -n_rest_bx.add_mul(n_w_bx, free_w);
+    let h_w_2 = -n_rest_by.add_mul(n_w_by, free_w);
+    let h_w_3 = -n_rest_bz.add_mul(n_w_bz, free_w);
 
     Eliminated {
         share: HubShare {
@@ -829,17 +909,18 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 5 mul, 5 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_w - a.r_b_n_ddot_by * e.gain_w_v2;
-    let row_1 = row_0 - a.r_b_n_ddot_bz * e.gain_w_v3;
-    let row_2 = row_1 - a.omega_dot_bx * e.gain_w_w1;
-    let row_3 = row_2 - a.omega_dot_by * e.gain_w_w2;
-    let spin_dot = row_3 - a.omega_dot_bz * e.gain_w_w3;
+    let row_0 = e.free_w.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
+    let row_2 = row_1.sub_mul(a.omega_dot_bx, e.gain_w_w1);
+    let row_3 = row_2.sub_mul(a.omega_dot_by, e.gain_w_w2);
+    let spin_dot = row_3.sub_mul(a.omega_dot_bz, e.gain_w_w3);
 
     JointAccelerations { spin_dot }
 }

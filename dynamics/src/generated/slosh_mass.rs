@@ -74,6 +74,46 @@ pub struct Prepared<T> {
     pub k_2: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            r_s_b_bx: join(self.r_s_b_bx, other.r_s_b_bx),
+            r_s_b_by: join(self.r_s_b_by, other.r_s_b_by),
+            r_s_b_bz: join(self.r_s_b_bz, other.r_s_b_bz),
+            m_s: join(self.m_s, other.m_s),
+            k_0: join(self.k_0, other.k_0),
+            k_1: join(self.k_1, other.k_1),
+            i_s_b_11: join(self.i_s_b_11, other.i_s_b_11),
+            second_moment_23: join(self.second_moment_23, other.second_moment_23),
+            i_s_b_23: join(self.i_s_b_23, other.i_s_b_23),
+            mc_by: join(self.mc_by, other.mc_by),
+            mc_bz: join(self.mc_bz, other.mc_bz),
+            n_s_bz: join(self.n_s_bz, other.n_s_bz),
+            mr_d_b_by: join(self.mr_d_b_by, other.mr_d_b_by),
+            mr_d_b_bz: join(self.mr_d_b_bz, other.mr_d_b_bz),
+            i_d_b_11: join(self.i_d_b_11, other.i_d_b_11),
+            i_d_b_23: join(self.i_d_b_23, other.i_d_b_23),
+            n_s_by: join(self.n_s_by, other.n_s_by),
+            m_vw_21: join(self.m_vw_21, other.m_vw_21),
+            k_2: join(self.k_2, other.k_2),
+        }
+    }
+}
+
 /// Positions along the sliding joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Positions<T> {
@@ -220,6 +260,26 @@ pub struct Eliminated<T> {
 pub struct JointAccelerations<T> {
     /// ẍ: acceleration of the slosh mass, m/s².
     pub x_ddot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations { x_ddot: join(self.x_ddot, other.x_ddot) }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -503,6 +563,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, s: &Positions<T>, v: &Rates<T>) ->
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 45 mul, 27 add, 10 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -514,14 +575,15 @@ pub fn eliminate<T: Real>(
 ) -> Eliminated<T> {
     // Acceleration of S relative to B as in eq. (38), no joint accelerating, same axes, m/s².
     let path_0 = p.r_s_b_bx + s.x;
-    let path_1 = w.omega_bz * path_0 - w.omega_bx * p.r_s_b_bz;
-    let path_2 = w.omega_bx * p.r_s_b_by - w.omega_by * path_0;
-    let r_s_rest_sx = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_3 = w.omega_by * p.r_s_b_bz - w.omega_bz * p.r_s_b_by + v.x_dot;
-    let path_4 = w.omega_bz * path_3 - w.omega_bx * path_2;
-    let r_s_rest_sy = path_4 + w.omega_bz * v.x_dot;
-    let path_5 = w.omega_bx * path_1 - w.omega_by * path_3;
-    let r_s_rest_sz = path_5 - w.omega_by * v.x_dot;
+    let path_1 = (w.omega_bz * path_0).sub_mul(w.omega_bx, p.r_s_b_bz);
+    let path_2 = (w.omega_bx * p.r_s_b_by).sub_mul(w.omega_by, path_0);
+    let r_s_rest_sx = (w.omega_by * path_2).sub_mul(w.omega_bz, path_1);
+    let path_3 = (w.omega_by * p.r_s_b_bz).sub_mul(w.omega_bz, p.r_s_b_by);
+    let path_4 = path_3 + v.x_dot;
+    let path_5 = (w.omega_bz * path_4).sub_mul(w.omega_bx, path_2);
+    let r_s_rest_sy = path_5.add_mul(w.omega_bz, v.x_dot);
+    let path_6 = (w.omega_bx * path_1).sub_mul(w.omega_by, path_4);
+    let r_s_rest_sz = path_6.sub_mul(w.omega_by, v.x_dot);
 
     // D with no joint accelerating, eq. (78): force, N, and moment about S, N m.
     let f_rest_sx = p.m_s * r_s_rest_sx;
@@ -544,9 +606,9 @@ pub fn eliminate<T: Real>(
     let f_rest_bx = f_rest_sx;
     let f_rest_by = f_rest_sy;
     let f_rest_bz = f_rest_sz;
-    let n_rest_bx = p.r_s_b_by * f_rest_sz - p.r_s_b_bz * f_rest_sy;
-    let n_rest_by = p.r_s_b_bz * f_rest_sx - path_0 * f_rest_sz;
-    let n_rest_bz = path_0 * f_rest_sy - p.r_s_b_by * f_rest_sx;
+    let n_rest_bx = (p.r_s_b_by * f_rest_sz).sub_mul(p.r_s_b_bz, f_rest_sy);
+    let n_rest_by = (p.r_s_b_bz * f_rest_sx).sub_mul(path_0, f_rest_sz);
+    let n_rest_bz = (path_0 * f_rest_sy).sub_mul(p.r_s_b_by, f_rest_sx);
 
     // Right side of each joint, eq. (80): motor torque less what the rest asks for, N.
     let tau_s = u.u_s - u_rest_s;
@@ -557,10 +619,10 @@ pub fn eliminate<T: Real>(
     let gain_s_v1 = p.m_s * recip_s;
     let gain_s_w2 = p.n_s_by * recip_s;
     let gain_s_w3 = p.n_s_bz * recip_s;
-    let free_s = m.given_s + tau_s * recip_s;
+    let free_s = m.given_s.add_mul(tau_s, recip_s);
 
     // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_s - p.m_s * gain_s_v1;
+    let m_vv_11 = p.m_s.sub_mul(p.m_s, gain_s_v1);
     let zero = s.x.like(0.0);
     let m_vv_12 = zero;
     let m_vv_13 = zero;
@@ -570,8 +632,8 @@ pub fn eliminate<T: Real>(
 
     // Share of the hub's mass matrix, eq. (E3): M_vw.
     let m_vw_11 = zero;
-    let m_vw_12 = p.mr_d_b_bz - p.n_s_by * gain_s_v1;
-    let m_vw_13 = -(p.mr_d_b_by + p.n_s_bz * gain_s_v1);
+    let m_vw_12 = p.mr_d_b_bz.sub_mul(p.n_s_by, gain_s_v1);
+    let m_vw_13 = -p.mr_d_b_by.add_mul(p.n_s_bz, gain_s_v1);
     let m_vw_21 = p.m_vw_21;
     let m_vw_22 = zero;
     let m_vw_23 = mr_d_b_bx;
@@ -583,17 +645,17 @@ pub fn eliminate<T: Real>(
     let m_ww_11 = p.i_d_b_11;
     let m_ww_12 = i_d_b_12;
     let m_ww_13 = i_d_b_13;
-    let m_ww_22 = i_d_b_22 - p.n_s_by * gain_s_w2;
-    let m_ww_23 = p.i_d_b_23 - p.n_s_bz * gain_s_w2;
-    let m_ww_33 = i_d_b_33 - p.n_s_bz * gain_s_w3;
+    let m_ww_22 = i_d_b_22.sub_mul(p.n_s_by, gain_s_w2);
+    let m_ww_23 = p.i_d_b_23.sub_mul(p.n_s_bz, gain_s_w2);
+    let m_ww_33 = i_d_b_33.sub_mul(p.n_s_bz, gain_s_w3);
 
     // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + p.m_s * free_s);
+    let h_v_1 = -f_rest_bx.add_mul(p.m_s, free_s);
     let h_v_2 = -f_rest_by;
     let h_v_3 = -f_rest_bz;
     let h_w_1 = -n_rest_bx;
-    let h_w_2 = -(n_rest_by + p.n_s_by * free_s);
-    let h_w_3 = -(n_rest_bz + p.n_s_bz * free_s);
+    let h_w_2 = -n_rest_by.add_mul(p.n_s_by, free_s);
+    let h_w_3 = -n_rest_bz.add_mul(p.n_s_bz, free_s);
 
     Eliminated {
         share: HubShare {
@@ -637,14 +699,16 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 3 mul, 3 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_s - a.r_b_n_ddot_bx * e.gain_s_v1;
-    let x_ddot = row_0 - a.omega_dot_by * e.gain_s_w2 - a.omega_dot_bz * e.gain_s_w3;
+    let row_0 = e.free_s.sub_mul(a.r_b_n_ddot_bx, e.gain_s_v1);
+    let row_1 = row_0.sub_mul(a.omega_dot_by, e.gain_s_w2);
+    let x_ddot = row_1.sub_mul(a.omega_dot_bz, e.gain_s_w3);
 
     JointAccelerations { x_ddot }
 }

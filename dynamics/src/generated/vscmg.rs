@@ -214,6 +214,92 @@ pub struct Prepared<T> {
     pub k_24: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            r_g_b_bx: join(self.r_g_b_bx, other.r_g_b_bx),
+            r_g_b_by: join(self.r_g_b_by, other.r_g_b_by),
+            r_g_b_bz: join(self.r_g_b_bz, other.r_g_b_bz),
+            r_gc_g_gx: join(self.r_gc_g_gx, other.r_gc_g_gx),
+            r_gc_g_gy: join(self.r_gc_g_gy, other.r_gc_g_gy),
+            m_g: join(self.m_g, other.m_g),
+            i_g_11: join(self.i_g_11, other.i_g_11),
+            i_g_12: join(self.i_g_12, other.i_g_12),
+            i_g_13: join(self.i_g_13, other.i_g_13),
+            i_g_22: join(self.i_g_22, other.i_g_22),
+            i_g_23: join(self.i_g_23, other.i_g_23),
+            i_g_33: join(self.i_g_33, other.i_g_33),
+            l_g_x: join(self.l_g_x, other.l_g_x),
+            l_g_y: join(self.l_g_y, other.l_g_y),
+            l_g_z: join(self.l_g_z, other.l_g_z),
+            d: join(self.d, other.d),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_12: join(self.j_12, other.j_12),
+            j_13: join(self.j_13, other.j_13),
+            j_22: join(self.j_22, other.j_22),
+            j_23: join(self.j_23, other.j_23),
+            j_33: join(self.j_33, other.j_33),
+            m_d: join(self.m_d, other.m_d),
+            r_gc_b_bz: join(self.r_gc_b_bz, other.r_gc_b_bz),
+            origin_w_bz: join(self.origin_w_bz, other.origin_w_bz),
+            k_0: join(self.k_0, other.k_0),
+            mr_wc_w_wy: join(self.mr_wc_w_wy, other.mr_wc_w_wy),
+            i_w_w_11: join(self.i_w_w_11, other.i_w_w_11),
+            i_w_w_33: join(self.i_w_w_33, other.i_w_w_33),
+            mass_ww: join(self.mass_ww, other.mass_ww),
+            k_1: join(self.k_1, other.k_1),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            mr_gc_g_gx: join(self.mr_gc_g_gx, other.mr_gc_g_gx),
+            mr_gc_g_gy: join(self.mr_gc_g_gy, other.mr_gc_g_gy),
+            mr_gc_g_gz: join(self.mr_gc_g_gz, other.mr_gc_g_gz),
+            i_g_g_11: join(self.i_g_g_11, other.i_g_g_11),
+            i_g_g_12: join(self.i_g_g_12, other.i_g_g_12),
+            i_g_g_13: join(self.i_g_g_13, other.i_g_g_13),
+            i_g_g_22: join(self.i_g_g_22, other.i_g_g_22),
+            i_g_g_23: join(self.i_g_g_23, other.i_g_g_23),
+            i_g_g_33: join(self.i_g_g_33, other.i_g_g_33),
+            mr_d_g_gx: join(self.mr_d_g_gx, other.mr_d_g_gx),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+            k_17: join(self.k_17, other.k_17),
+            k_18: join(self.k_18, other.k_18),
+            k_19: join(self.k_19, other.k_19),
+            k_20: join(self.k_20, other.k_20),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -530,6 +616,29 @@ pub struct JointAccelerations<T> {
     pub gamma_ddot: T,
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations {
+            gamma_ddot: join(self.gamma_ddot, other.gamma_ddot),
+            spin_dot: join(self.spin_dot, other.spin_dot),
+        }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -1189,6 +1298,7 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 305 mul, 267 add, 18 neg, 2 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1199,80 +1309,86 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{G/N}, eq. (31), along its own axes, rad/s.
-    let omega_g_n_gx = w.omega_bx * q.cos_gamma + w.omega_by * q.sin_gamma;
-    let omega_g_n_gy = w.omega_by * q.cos_gamma - w.omega_bx * q.sin_gamma;
+    let omega_g_n_gx = (w.omega_bx * q.cos_gamma).add_mul(w.omega_by, q.sin_gamma);
+    let omega_g_n_gy = (w.omega_by * q.cos_gamma).sub_mul(w.omega_bx, q.sin_gamma);
     let omega_g_n_gz = w.omega_bz + v.gamma_dot;
 
     // Its derivative as in eq. (34), no joint accelerating, along the same axes, rad/s².
     let turn_0 = v.gamma_dot * q.cos_gamma;
     let turn_1 = v.gamma_dot * q.sin_gamma;
-    let omega_g_n_rest_gx = w.omega_by * turn_0 - w.omega_bx * turn_1;
-    let neg_omega_g_n_rest_gy = w.omega_by * turn_1 + w.omega_bx * turn_0;
+    let omega_g_n_rest_gx = (w.omega_by * turn_0).sub_mul(w.omega_bx, turn_1);
+    let neg_omega_g_n_rest_gy = (w.omega_by * turn_1).add_mul(w.omega_bx, turn_0);
 
     // Acceleration of G relative to B as in eq. (38), no joint accelerating, same axes, m/s².
-    let path_0 = w.omega_by * p.r_g_b_bz - w.omega_bz * p.r_g_b_by;
-    let path_1 = w.omega_bz * p.r_g_b_bx - w.omega_bx * p.r_g_b_bz;
-    let path_2 = w.omega_bx * p.r_g_b_by - w.omega_by * p.r_g_b_bx;
-    let path_3 = w.omega_by * path_2 - w.omega_bz * path_1;
-    let path_4 = w.omega_bz * path_0 - w.omega_bx * path_2;
-    let r_g_rest_gx = q.cos_gamma * path_3 + q.sin_gamma * path_4;
-    let r_g_rest_gy = q.cos_gamma * path_4 - q.sin_gamma * path_3;
-    let r_g_rest_gz = w.omega_bx * path_1 - w.omega_by * path_0;
+    let path_0 = (w.omega_by * p.r_g_b_bz).sub_mul(w.omega_bz, p.r_g_b_by);
+    let path_1 = (w.omega_bz * p.r_g_b_bx).sub_mul(w.omega_bx, p.r_g_b_bz);
+    let path_2 = (w.omega_bx * p.r_g_b_by).sub_mul(w.omega_by, p.r_g_b_bx);
+    let path_3 = (w.omega_by * path_2).sub_mul(w.omega_bz, path_1);
+    let path_4 = (w.omega_bz * path_0).sub_mul(w.omega_bx, path_2);
+    let r_g_rest_gx = (q.cos_gamma * path_3).add_mul(q.sin_gamma, path_4);
+    let r_g_rest_gy = (q.cos_gamma * path_4).sub_mul(q.sin_gamma, path_3);
+    let r_g_rest_gz = (w.omega_bx * path_1).sub_mul(w.omega_by, path_0);
 
     // ω_{W/N}, eq. (59), along its own axes, rad/s.
     let omega_w_n_wx = v.spin + omega_g_n_gx;
-    let omega_w_n_wy = q.cos_theta * omega_g_n_gy + q.sin_theta * omega_g_n_gz;
-    let omega_w_n_wz = q.cos_theta * omega_g_n_gz - q.sin_theta * omega_g_n_gy;
+    let rate_0 = q.cos_theta * omega_g_n_gy;
+    let omega_w_n_wy = rate_0.add_mul(q.sin_theta, omega_g_n_gz);
+    let rate_1 = q.cos_theta * omega_g_n_gz;
+    let omega_w_n_wz = rate_1.sub_mul(q.sin_theta, omega_g_n_gy);
 
     // Its derivative as in eq. (62), no joint accelerating, along the same axes, rad/s².
     let turn_2 = v.spin * q.cos_theta;
     let turn_3 = v.spin * q.sin_theta;
-    let turn_4 = q.cos_theta * neg_omega_g_n_rest_gy;
-    let omega_w_n_rest_wy = turn_2 * omega_g_n_gz - (turn_3 * omega_g_n_gy + turn_4);
-    let turn_5 = q.sin_theta * neg_omega_g_n_rest_gy;
-    let turn_6 = turn_2 * omega_g_n_gy - turn_5;
-    let neg_omega_w_n_rest_wz = turn_6 + turn_3 * omega_g_n_gz;
+    let turn_4 = turn_3 * omega_g_n_gy;
+    let turn_5 = turn_4.add_mul(q.cos_theta, neg_omega_g_n_rest_gy);
+    let omega_w_n_rest_wy = turn_2.mul_sub(omega_g_n_gz, turn_5);
+    let turn_6 = turn_2 * omega_g_n_gy;
+    let turn_7 = turn_6.sub_mul(q.sin_theta, neg_omega_g_n_rest_gy);
+    let neg_omega_w_n_rest_wz = turn_7.add_mul(turn_3, omega_g_n_gz);
 
     // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_5 = p.l_g_x * omega_g_n_gz - p.l_g_z * omega_g_n_gx;
-    let path_6 = p.l_g_y * omega_g_n_gx - p.l_g_x * omega_g_n_gy;
-    let path_7 = omega_g_n_gy * path_6 - omega_g_n_gz * path_5;
-    let r_w_rest_wx = path_7 - p.l_g_z * neg_omega_g_n_rest_gy + r_g_rest_gx;
-    let path_8 = p.l_g_z * omega_g_n_gy - p.l_g_y * omega_g_n_gz;
-    let path_9 = omega_g_n_gz * path_8 - omega_g_n_gx * path_6;
-    let path_10 = path_9 - p.l_g_z * omega_g_n_rest_gx + r_g_rest_gy;
-    let path_11 = p.l_g_y * omega_g_n_rest_gx + p.l_g_x * neg_omega_g_n_rest_gy;
-    let path_12 = omega_g_n_gx * path_5 - omega_g_n_gy * path_8 + path_11;
-    let path_13 = path_12 + r_g_rest_gz;
-    let r_w_rest_wy = q.cos_theta * path_10 + q.sin_theta * path_13;
-    let r_w_rest_wz = q.cos_theta * path_13 - q.sin_theta * path_10;
+    let path_5 = (p.l_g_x * omega_g_n_gz).sub_mul(p.l_g_z, omega_g_n_gx);
+    let path_6 = (p.l_g_y * omega_g_n_gx).sub_mul(p.l_g_x, omega_g_n_gy);
+    let path_7 = (omega_g_n_gy * path_6).sub_mul(omega_g_n_gz, path_5);
+    let r_w_rest_wx = path_7.sub_mul(p.l_g_z, neg_omega_g_n_rest_gy) + r_g_rest_gx;
+    let path_8 = (p.l_g_z * omega_g_n_gy).sub_mul(p.l_g_y, omega_g_n_gz);
+    let path_9 = (omega_g_n_gz * path_8).sub_mul(omega_g_n_gx, path_6);
+    let path_10 = path_9.sub_mul(p.l_g_z, omega_g_n_rest_gx) + r_g_rest_gy;
+    let path_11 = p.l_g_y * omega_g_n_rest_gx;
+    let path_12 = (omega_g_n_gx * path_5).sub_mul(omega_g_n_gy, path_8);
+    let path_13 = path_12 + path_11.add_mul(p.l_g_x, neg_omega_g_n_rest_gy);
+    let path_14 = path_13 + r_g_rest_gz;
+    let r_w_rest_wy = (q.cos_theta * path_10).add_mul(q.sin_theta, path_14);
+    let r_w_rest_wz = (q.cos_theta * path_14).sub_mul(q.sin_theta, path_10);
 
     // W with no joint accelerating, eq. (117): force, N, and moment about W, N m.
     let bias_0 = p.mr_wc_w_wy * omega_w_n_wx;
-    let bias_1 = omega_w_n_wy * bias_0 + p.mr_wc_w_wy * neg_omega_w_n_rest_wz;
-    let f_rest_wx = bias_1 + p.m_w * r_w_rest_wx;
-    let bias_2 = p.mr_wc_w_wy * omega_w_n_wz;
-    let bias_3 = omega_w_n_wz * bias_2 + omega_w_n_wx * bias_0;
-    let f_rest_wy = p.m_w * r_w_rest_wy - bias_3;
-    let bias_4 = omega_w_n_wy * bias_2 + p.mr_wc_w_wy * omega_g_n_rest_gx;
-    let f_rest_wz = bias_4 + p.m_w * r_w_rest_wz;
-    let bias_5 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
-    let bias_6 = bias_5 + p.j_23 * omega_w_n_wz;
-    let bias_7 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
-    let bias_8 = bias_7 + p.i_w_w_33 * omega_w_n_wz;
-    let bias_9 = p.i_w_w_11 * omega_g_n_rest_gx + p.j_12 * omega_w_n_rest_wy;
-    let bias_10 = omega_w_n_wy * bias_8 - omega_w_n_wz * bias_6;
-    let bias_11 = bias_10 + (bias_9 - p.j_13 * neg_omega_w_n_rest_wz);
-    let n_rest_wx = bias_11 + p.mr_wc_w_wy * r_w_rest_wz;
-    let bias_12 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
-    let bias_13 = bias_12 + p.j_13 * omega_w_n_wz;
-    let bias_14 = p.j_12 * omega_g_n_rest_gx + p.j_22 * omega_w_n_rest_wy;
-    let bias_15 = omega_w_n_wz * bias_13 - omega_w_n_wx * bias_8;
-    let n_rest_wy = bias_15 + (bias_14 - p.j_23 * neg_omega_w_n_rest_wz);
-    let bias_16 = p.j_13 * omega_g_n_rest_gx + p.j_23 * omega_w_n_rest_wy;
-    let bias_17 = omega_w_n_wx * bias_6 - omega_w_n_wy * bias_13;
-    let bias_18 = bias_17 + (bias_16 - p.i_w_w_33 * neg_omega_w_n_rest_wz);
-    let n_rest_wz = bias_18 - p.mr_wc_w_wy * r_w_rest_wx;
+    let bias_1 = omega_w_n_wy * bias_0;
+    let bias_2 = bias_1.add_mul(p.mr_wc_w_wy, neg_omega_w_n_rest_wz);
+    let f_rest_wx = bias_2.add_mul(p.m_w, r_w_rest_wx);
+    let bias_3 = p.mr_wc_w_wy * omega_w_n_wz;
+    let bias_4 = (omega_w_n_wz * bias_3).add_mul(omega_w_n_wx, bias_0);
+    let f_rest_wy = p.m_w.mul_sub(r_w_rest_wy, bias_4);
+    let bias_5 = (omega_w_n_wy * bias_3).add_mul(p.mr_wc_w_wy, omega_g_n_rest_gx);
+    let f_rest_wz = bias_5.add_mul(p.m_w, r_w_rest_wz);
+    let bias_6 = (p.j_12 * omega_w_n_wx).add_mul(p.j_22, omega_w_n_wy);
+    let bias_7 = bias_6.add_mul(p.j_23, omega_w_n_wz);
+    let bias_8 = (p.j_13 * omega_w_n_wx).add_mul(p.j_23, omega_w_n_wy);
+    let bias_9 = bias_8.add_mul(p.i_w_w_33, omega_w_n_wz);
+    let bias_10 = p.i_w_w_11 * omega_g_n_rest_gx;
+    let bias_11 = bias_10.add_mul(p.j_12, omega_w_n_rest_wy);
+    let bias_12 = (omega_w_n_wy * bias_9).sub_mul(omega_w_n_wz, bias_7);
+    let bias_13 = bias_12 + bias_11.sub_mul(p.j_13, neg_omega_w_n_rest_wz);
+    let n_rest_wx = bias_13.add_mul(p.mr_wc_w_wy, r_w_rest_wz);
+    let bias_14 = (p.i_w_w_11 * omega_w_n_wx).add_mul(p.j_12, omega_w_n_wy);
+    let bias_15 = bias_14.add_mul(p.j_13, omega_w_n_wz);
+    let bias_16 = (p.j_12 * omega_g_n_rest_gx).add_mul(p.j_22, omega_w_n_rest_wy);
+    let bias_17 = (omega_w_n_wz * bias_15).sub_mul(omega_w_n_wx, bias_9);
+    let n_rest_wy = bias_17 + bias_16.sub_mul(p.j_23, neg_omega_w_n_rest_wz);
+    let bias_18 = (p.j_13 * omega_g_n_rest_gx).add_mul(p.j_23, omega_w_n_rest_wy);
+    let bias_19 = (omega_w_n_wx * bias_7).sub_mul(omega_w_n_wy, bias_15);
+    let bias_20 = bias_19 + bias_18.sub_mul(p.i_w_w_33, neg_omega_w_n_rest_wz);
+    let n_rest_wz = bias_20.sub_mul(p.mr_wc_w_wy, r_w_rest_wx);
 
     // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m.
     let mass_ww = p.i_w_w_11;
@@ -1289,58 +1405,63 @@ pub fn eliminate<T: Real>(
     let lump_2 = lump_0 + lump_1;
     let lump_3 = lump_2 + lump_2;
     let i_d_g_11 = p.i_w_w_11 + lump_3 + p.k_2 + p.i_g_g_11;
-    let n_w_gy = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.l_g_x * f_w_gz;
+    let lump_4 = (q.cos_theta * p.j_12).sub_mul(q.sin_theta, p.j_13);
+    let n_w_gy = lump_4.sub_mul(p.l_g_x, f_w_gz);
     let i_d_g_12 = n_w_gy + p.k_3 + p.i_g_g_12;
-    let n_w_gz = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.l_g_x * neg_f_w_gy;
+    let lump_5 = (q.cos_theta * p.j_13).add_mul(q.sin_theta, p.j_12);
+    let n_w_gz = lump_5.sub_mul(p.l_g_x, neg_f_w_gy);
     let i_d_g_13 = n_w_gz + p.k_4 + p.i_g_g_13;
-    let lump_4 = q.cos_theta * p.j_22 - q.sin_theta * p.j_23;
-    let lump_5 = q.cos_theta * p.j_23 - q.sin_theta * p.i_w_w_33;
-    let lump_6 = q.cos_theta * lump_4 - q.sin_theta * lump_5;
-    let i_d_g_22 = lump_3 - (lump_0 + lump_0) + lump_6 + p.k_5 + p.i_g_g_22;
-    let lump_7 = q.cos_theta * lump_5 + q.sin_theta * lump_4;
-    let lump_8 = lump_7 - (p.l_g_y * neg_f_w_gy + p.l_g_z * f_w_gz) + p.k_6;
-    let i_d_g_23 = lump_8 + p.i_g_g_23;
-    let i_d_g_33 = p.k_1 - lump_6 + (lump_3 - (lump_1 + lump_1)) + p.k_7 + p.i_g_g_33;
+    let lump_6 = (q.cos_theta * p.j_22).sub_mul(q.sin_theta, p.j_23);
+    let lump_7 = (q.cos_theta * p.j_23).sub_mul(q.sin_theta, p.i_w_w_33);
+    let lump_8 = (q.cos_theta * lump_6).sub_mul(q.sin_theta, lump_7);
+    let i_d_g_22 = lump_3 - (lump_0 + lump_0) + lump_8 + p.k_5 + p.i_g_g_22;
+    let lump_9 = (q.cos_theta * lump_7).add_mul(q.sin_theta, lump_6);
+    let lump_10 = lump_9 - (p.l_g_y * neg_f_w_gy).add_mul(p.l_g_z, f_w_gz) + p.k_6;
+    let i_d_g_23 = lump_10 + p.i_g_g_23;
+    let i_d_g_33 = p.k_1 - lump_8 + (lump_3 - (lump_1 + lump_1)) + p.k_7 + p.i_g_g_33;
 
     // D with no joint accelerating, eq. (78): force, N, and moment about G, N m.
-    let bias_19 = p.mr_gc_g_gx * omega_g_n_gz - p.mr_gc_g_gz * omega_g_n_gx;
-    let bias_20 = p.mr_gc_g_gy * omega_g_n_gx - p.mr_gc_g_gx * omega_g_n_gy;
-    let bias_21 = omega_g_n_gy * bias_20 - omega_g_n_gz * bias_19;
-    let bias_22 = bias_21 - p.mr_gc_g_gz * neg_omega_g_n_rest_gy;
-    let f_rest_gx = bias_22 + p.m_g * r_g_rest_gx + f_rest_wx;
-    let bias_23 = q.cos_theta * f_rest_wy - q.sin_theta * f_rest_wz;
-    let bias_24 = p.mr_gc_g_gz * omega_g_n_gy - p.mr_gc_g_gy * omega_g_n_gz;
-    let bias_25 = omega_g_n_gz * bias_24 - omega_g_n_gx * bias_20;
-    let bias_26 = bias_25 - p.mr_gc_g_gz * omega_g_n_rest_gx + p.m_g * r_g_rest_gy;
-    let f_rest_gy = bias_26 + bias_23;
-    let bias_27 = q.cos_theta * f_rest_wz + q.sin_theta * f_rest_wy;
-    let bias_28 = p.mr_gc_g_gx * neg_omega_g_n_rest_gy;
-    let bias_29 = omega_g_n_gx * bias_19 - omega_g_n_gy * bias_24;
-    let bias_30 = bias_29 + (p.mr_gc_g_gy * omega_g_n_rest_gx + bias_28);
-    let f_rest_gz = bias_30 + p.m_g * r_g_rest_gz + bias_27;
-    let bias_31 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
-    let bias_32 = bias_31 + p.i_g_g_23 * omega_g_n_gz;
-    let bias_33 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
-    let bias_34 = bias_33 + p.i_g_g_33 * omega_g_n_gz;
-    let bias_35 = p.i_g_g_12 * neg_omega_g_n_rest_gy;
-    let bias_36 = omega_g_n_gy * bias_34 - omega_g_n_gz * bias_32;
-    let bias_37 = p.mr_gc_g_gy * r_g_rest_gz - p.mr_gc_g_gz * r_g_rest_gy;
-    let bias_38 = bias_36 + (p.i_g_g_11 * omega_g_n_rest_gx - bias_35) + bias_37;
-    let n_rest_gx = p.l_g_y * bias_27 - p.l_g_z * bias_23 + n_rest_wx + bias_38;
-    let bias_39 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
-    let bias_40 = bias_39 + p.i_g_g_13 * omega_g_n_gz;
-    let bias_41 = q.cos_theta * n_rest_wy - q.sin_theta * n_rest_wz;
-    let bias_42 = p.i_g_g_22 * neg_omega_g_n_rest_gy;
-    let bias_43 = omega_g_n_gz * bias_40 - omega_g_n_gx * bias_34;
-    let bias_44 = p.mr_gc_g_gz * r_g_rest_gx - p.mr_gc_g_gx * r_g_rest_gz;
-    let bias_45 = bias_43 + (p.i_g_g_12 * omega_g_n_rest_gx - bias_42) + bias_44;
-    let n_rest_gy = bias_41 + (p.l_g_z * f_rest_wx - p.l_g_x * bias_27) + bias_45;
-    let bias_46 = q.cos_theta * n_rest_wz + q.sin_theta * n_rest_wy;
-    let bias_47 = p.i_g_g_23 * neg_omega_g_n_rest_gy;
-    let bias_48 = omega_g_n_gx * bias_32 - omega_g_n_gy * bias_40;
-    let bias_49 = p.mr_gc_g_gx * r_g_rest_gy - p.mr_gc_g_gy * r_g_rest_gx;
-    let bias_50 = bias_48 + (p.i_g_g_13 * omega_g_n_rest_gx - bias_47) + bias_49;
-    let n_rest_gz = bias_46 + (p.l_g_x * bias_23 - p.l_g_y * f_rest_wx) + bias_50;
+    let bias_21 = (p.mr_gc_g_gx * omega_g_n_gz).sub_mul(p.mr_gc_g_gz, omega_g_n_gx);
+    let bias_22 = (p.mr_gc_g_gy * omega_g_n_gx).sub_mul(p.mr_gc_g_gx, omega_g_n_gy);
+    let bias_23 = (omega_g_n_gy * bias_22).sub_mul(omega_g_n_gz, bias_21);
+    let bias_24 = bias_23.sub_mul(p.mr_gc_g_gz, neg_omega_g_n_rest_gy);
+    let f_rest_gx = bias_24.add_mul(p.m_g, r_g_rest_gx) + f_rest_wx;
+    let bias_25 = (q.cos_theta * f_rest_wy).sub_mul(q.sin_theta, f_rest_wz);
+    let bias_26 = (p.mr_gc_g_gz * omega_g_n_gy).sub_mul(p.mr_gc_g_gy, omega_g_n_gz);
+    let bias_27 = (omega_g_n_gz * bias_26).sub_mul(omega_g_n_gx, bias_22);
+    let bias_28 = bias_27.sub_mul(p.mr_gc_g_gz, omega_g_n_rest_gx);
+    let f_rest_gy = bias_28.add_mul(p.m_g, r_g_rest_gy) + bias_25;
+    let bias_29 = (q.cos_theta * f_rest_wz).add_mul(q.sin_theta, f_rest_wy);
+    let bias_30 = p.mr_gc_g_gy * omega_g_n_rest_gx;
+    let bias_31 = (omega_g_n_gx * bias_21).sub_mul(omega_g_n_gy, bias_26);
+    let bias_32 = bias_31 + bias_30.add_mul(p.mr_gc_g_gx, neg_omega_g_n_rest_gy);
+    let f_rest_gz = bias_32.add_mul(p.m_g, r_g_rest_gz) + bias_29;
+    let bias_33 = (p.i_g_g_12 * omega_g_n_gx).add_mul(p.i_g_g_22, omega_g_n_gy);
+    let bias_34 = bias_33.add_mul(p.i_g_g_23, omega_g_n_gz);
+    let bias_35 = (p.i_g_g_13 * omega_g_n_gx).add_mul(p.i_g_g_23, omega_g_n_gy);
+    let bias_36 = bias_35.add_mul(p.i_g_g_33, omega_g_n_gz);
+    let bias_37 = p.i_g_g_11 * omega_g_n_rest_gx;
+    let bias_38 = (omega_g_n_gy * bias_36).sub_mul(omega_g_n_gz, bias_34);
+    let bias_39 = (p.mr_gc_g_gy * r_g_rest_gz).sub_mul(p.mr_gc_g_gz, r_g_rest_gy);
+    let bias_40 = bias_38 + bias_37.sub_mul(p.i_g_g_12, neg_omega_g_n_rest_gy);
+    let bias_41 = (p.l_g_y * bias_29).sub_mul(p.l_g_z, bias_25) + n_rest_wx;
+    let n_rest_gx = bias_41 + (bias_40 + bias_39);
+    let bias_42 = (p.i_g_g_11 * omega_g_n_gx).add_mul(p.i_g_g_12, omega_g_n_gy);
+    let bias_43 = bias_42.add_mul(p.i_g_g_13, omega_g_n_gz);
+    let bias_44 = (q.cos_theta * n_rest_wy).sub_mul(q.sin_theta, n_rest_wz);
+    let bias_45 = p.i_g_g_12 * omega_g_n_rest_gx;
+    let bias_46 = (omega_g_n_gz * bias_43).sub_mul(omega_g_n_gx, bias_36);
+    let bias_47 = (p.mr_gc_g_gz * r_g_rest_gx).sub_mul(p.mr_gc_g_gx, r_g_rest_gz);
+    let bias_48 = bias_46 + bias_45.sub_mul(p.i_g_g_22, neg_omega_g_n_rest_gy);
+    let bias_49 = bias_44 + (p.l_g_z * f_rest_wx).sub_mul(p.l_g_x, bias_29);
+    let n_rest_gy = bias_49 + (bias_48 + bias_47);
+    let bias_50 = (q.cos_theta * n_rest_wz).add_mul(q.sin_theta, n_rest_wy);
+    let bias_51 = p.i_g_g_13 * omega_g_n_rest_gx;
+    let bias_52 = (omega_g_n_gx * bias_34).sub_mul(omega_g_n_gy, bias_43);
+    let bias_53 = (p.mr_gc_g_gx * r_g_rest_gy).sub_mul(p.mr_gc_g_gy, r_g_rest_gx);
+    let bias_54 = bias_52 + bias_51.sub_mul(p.i_g_g_23, neg_omega_g_n_rest_gy);
+    let bias_55 = bias_50 + (p.l_g_x * bias_25).sub_mul(p.l_g_y, f_rest_wx);
+    let n_rest_gz = bias_55 + (bias_54 + bias_53);
 
     // Force, kg m, and moment about G, kg m², per unit acceleration of each joint from here on,
     // eqs. (17), (78).
@@ -1352,14 +1473,14 @@ pub fn eliminate<T: Real>(
     let u_rest_g = n_rest_gz;
 
     // D about B, along B axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
-    let f_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * mr_d_g_gy;
+    let f_g_by = (q.cos_gamma * p.mr_d_g_gx).sub_mul(q.sin_gamma, mr_d_g_gy);
     let mr_d_b_bx = f_g_by + p.k_16;
-    let moment_0 = q.cos_gamma * mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
+    let moment_0 = (q.cos_gamma * mr_d_g_gy).add_mul(q.sin_gamma, p.mr_d_g_gx);
     let mr_d_b_by = moment_0 + p.k_17;
     let mr_d_b_bz = mr_d_g_gz + p.k_18;
-    let moment_1 = q.cos_gamma * i_d_g_11 - q.sin_gamma * i_d_g_12;
-    let moment_2 = q.cos_gamma * i_d_g_12 - q.sin_gamma * i_d_g_22;
-    let moment_3 = q.cos_gamma * moment_1 - q.sin_gamma * moment_2;
+    let moment_1 = (q.cos_gamma * i_d_g_11).sub_mul(q.sin_gamma, i_d_g_12);
+    let moment_2 = (q.cos_gamma * i_d_g_12).sub_mul(q.sin_gamma, i_d_g_22);
+    let moment_3 = (q.cos_gamma * moment_1).sub_mul(q.sin_gamma, moment_2);
     let moment_4 = p.r_g_b_bx * f_g_by;
     let moment_5 = p.r_g_b_by * moment_0;
     let moment_6 = moment_4 + moment_5;
@@ -1367,43 +1488,45 @@ pub fn eliminate<T: Real>(
     let moment_8 = moment_6 + moment_7;
     let moment_9 = moment_8 + moment_8;
     let i_d_b_11 = moment_9 - (moment_4 + moment_4) + moment_3 + p.k_10;
-    let moment_10 = q.cos_gamma * moment_2 + q.sin_gamma * moment_1;
-    let i_d_b_12 = moment_10 - (p.r_g_b_bx * moment_0 + p.r_g_b_by * f_g_by) + p.k_11;
-    let moment_11 = q.cos_gamma * i_d_g_13 - q.sin_gamma * i_d_g_23;
-    let moment_12 = p.r_g_b_bz * f_g_by;
-    let i_d_b_13 = moment_11 - (p.r_g_b_bx * mr_d_g_gz + moment_12) + p.k_12;
-    let moment_13 = moment_9 - (moment_5 + moment_5);
-    let i_d_b_22 = i_d_g_11 + i_d_g_22 - moment_3 + moment_13 + p.k_13;
-    let moment_14 = q.cos_gamma * i_d_g_23 + q.sin_gamma * i_d_g_13;
-    let moment_15 = p.r_g_b_bz * moment_0;
-    let i_d_b_23 = moment_14 - (p.r_g_b_by * mr_d_g_gz + moment_15) + p.k_14;
+    let moment_10 = (q.cos_gamma * moment_2).add_mul(q.sin_gamma, moment_1);
+    let moment_11 = moment_10 - (p.r_g_b_bx * moment_0).add_mul(p.r_g_b_by, f_g_by);
+    let i_d_b_12 = moment_11 + p.k_11;
+    let moment_12 = (q.cos_gamma * i_d_g_13).sub_mul(q.sin_gamma, i_d_g_23);
+    let moment_13 = p.r_g_b_bz * f_g_by;
+    let i_d_b_13 = moment_12 - moment_13.add_mul(p.r_g_b_bx, mr_d_g_gz) + p.k_12;
+    let moment_14 = moment_9 - (moment_5 + moment_5);
+    let i_d_b_22 = i_d_g_11 + i_d_g_22 - moment_3 + moment_14 + p.k_13;
+    let moment_15 = (q.cos_gamma * i_d_g_23).add_mul(q.sin_gamma, i_d_g_13);
+    let moment_16 = p.r_g_b_bz * moment_0;
+    let i_d_b_23 = moment_15 - moment_16.add_mul(p.r_g_b_by, mr_d_g_gz) + p.k_14;
     let i_d_b_33 = moment_9 - (moment_7 + moment_7) + i_d_g_33 + p.k_15;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration.
     let f_g_bx = -moment_0;
-    let n_g_bx = moment_11 - moment_12;
-    let n_g_by = moment_14 - moment_15;
+    let n_g_bx = moment_12 - moment_13;
+    let n_g_by = moment_15 - moment_16;
     let n_g_bz = i_d_g_33 + moment_6;
     let f_w_bx = q.sin_gamma * neg_f_w_gy;
     let col_0 = q.cos_gamma * neg_f_w_gy;
     let f_w_by = -col_0;
     let f_w_bz = f_w_gz;
-    let col_1 = q.cos_gamma * n_w_gx - q.sin_gamma * n_w_gy;
-    let n_w_bx = col_1 + (p.r_g_b_by * f_w_gz + p.r_g_b_bz * col_0);
-    let col_2 = q.cos_gamma * n_w_gy + q.sin_gamma * n_w_gx;
-    let n_w_by = col_2 + (p.r_g_b_bz * f_w_bx - p.r_g_b_bx * f_w_gz);
-    let n_w_bz = n_w_gz - (p.r_g_b_bx * col_0 + p.r_g_b_by * f_w_bx);
+    let col_1 = (q.cos_gamma * n_w_gx).sub_mul(q.sin_gamma, n_w_gy);
+    let n_w_bx = col_1 + (p.r_g_b_by * f_w_gz).add_mul(p.r_g_b_bz, col_0);
+    let col_2 = (q.cos_gamma * n_w_gy).add_mul(q.sin_gamma, n_w_gx);
+    let n_w_by = col_2 + (p.r_g_b_bz * f_w_bx).sub_mul(p.r_g_b_bx, f_w_gz);
+    let n_w_bz = n_w_gz - (p.r_g_b_bx * col_0).add_mul(p.r_g_b_by, f_w_bx);
 
     // Force and moment about B with no joint accelerating: eqs. (16), (75).
-    let f_rest_bx = q.cos_gamma * f_rest_gx - q.sin_gamma * f_rest_gy;
-    let f_rest_by = q.cos_gamma * f_rest_gy + q.sin_gamma * f_rest_gx;
+    let f_rest_bx = (q.cos_gamma * f_rest_gx).sub_mul(q.sin_gamma, f_rest_gy);
+    let f_rest_by = (q.cos_gamma * f_rest_gy).add_mul(q.sin_gamma, f_rest_gx);
     let f_rest_bz = f_rest_gz;
-    let bias_51 = q.cos_gamma * n_rest_gx - q.sin_gamma * n_rest_gy;
-    let n_rest_bx = bias_51 + (p.r_g_b_by * f_rest_gz - p.r_g_b_bz * f_rest_by);
-    let bias_52 = q.cos_gamma * n_rest_gy + q.sin_gamma * n_rest_gx;
-    let n_rest_by = bias_52 + (p.r_g_b_bz * f_rest_bx - p.r_g_b_bx * f_rest_gz);
-    let n_rest_bz = p.r_g_b_bx * f_rest_by - p.r_g_b_by * f_rest_bx + n_rest_gz;
+    let bias_56 = (q.cos_gamma * n_rest_gx).sub_mul(q.sin_gamma, n_rest_gy);
+    let n_rest_bx = bias_56 + (p.r_g_b_by * f_rest_gz).sub_mul(p.r_g_b_bz, f_rest_by);
+    let bias_57 = (q.cos_gamma * n_rest_gy).add_mul(q.sin_gamma, n_rest_gx);
+    let n_rest_by = bias_57 + (p.r_g_b_bz * f_rest_bx).sub_mul(p.r_g_b_bx, f_rest_gz);
+    let bias_58 = (p.r_g_b_bx * f_rest_by).sub_mul(p.r_g_b_by, f_rest_bx);
+    let n_rest_bz = bias_58 + n_rest_gz;
 
     // Right side of each joint, eqs. (80), (119): motor torque less what the rest asks for, N m.
     let tau_g = u.u_g - u_rest_g;
@@ -1419,17 +1542,17 @@ pub fn eliminate<T: Real>(
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
     let gain_w_g = mass_gw * recip_w;
-    let free_w = m.given_w + tau_w * recip_w;
+    let free_w = m.given_w.add_mul(tau_w, recip_w);
 
     // Joint w taken out of the rows nearer the hub, eq. (E2).
-    let f_g_bx_w = f_g_bx - f_w_bx * gain_w_g;
-    let f_g_by_w = f_g_by - f_w_by * gain_w_g;
+    let f_g_bx_w = f_g_bx.sub_mul(f_w_bx, gain_w_g);
+    let f_g_by_w = f_g_by.sub_mul(f_w_by, gain_w_g);
     let f_g_bz_w = -(f_w_bz * gain_w_g);
-    let n_g_bx_w = n_g_bx - n_w_bx * gain_w_g;
-    let n_g_by_w = n_g_by - n_w_by * gain_w_g;
-    let n_g_bz_w = n_g_bz - n_w_bz * gain_w_g;
-    let mass_gg_w = mass_gg - mass_gw * gain_w_g;
-    let tau_g_w = tau_g - mass_gw * free_w;
+    let n_g_bx_w = n_g_bx.sub_mul(n_w_bx, gain_w_g);
+    let n_g_by_w = n_g_by.sub_mul(n_w_by, gain_w_g);
+    let n_g_bz_w = n_g_bz.sub_mul(n_w_bz, gain_w_g);
+    let mass_gg_w = mass_gg.sub_mul(mass_gw, gain_w_g);
+    let tau_g_w = tau_g.sub_mul(mass_gw, free_w);
 
     // Joint g, eq. (E1): its pivot `mass_gg_w`, kg m², and its gains.
     let divisor_g = m.held_g + mass_gg_w;
@@ -1440,42 +1563,42 @@ pub fn eliminate<T: Real>(
     let gain_g_w1 = n_g_bx_w * recip_g;
     let gain_g_w2 = n_g_by_w * recip_g;
     let gain_g_w3 = n_g_bz_w * recip_g;
-    let free_g = m.given_g + tau_g_w * recip_g;
+    let free_g = m.given_g.add_mul(tau_g_w, recip_g);
 
     // Share of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = p.m_d - f_w_bx * gain_w_v1 - f_g_bx_w * gain_g_v1;
-    let m_vv_12 = -(f_w_by * gain_w_v1 + f_g_by_w * gain_g_v1);
-    let m_vv_13 = -(f_w_bz * gain_w_v1 + f_g_bz_w * gain_g_v1);
-    let m_vv_22 = p.m_d - f_w_by * gain_w_v2 - f_g_by_w * gain_g_v2;
-    let m_vv_23 = -(f_w_bz * gain_w_v2 + f_g_bz_w * gain_g_v2);
-    let m_vv_33 = p.m_d - f_w_bz * gain_w_v3 - f_g_bz_w * gain_g_v3;
+    let m_vv_11 = p.m_d.sub_mul(f_w_bx, gain_w_v1).sub_mul(f_g_bx_w, gain_g_v1);
+    let m_vv_12 = -(f_w_by * gain_w_v1).add_mul(f_g_by_w, gain_g_v1);
+    let m_vv_13 = -(f_w_bz * gain_w_v1).add_mul(f_g_bz_w, gain_g_v1);
+    let m_vv_22 = p.m_d.sub_mul(f_w_by, gain_w_v2).sub_mul(f_g_by_w, gain_g_v2);
+    let m_vv_23 = -(f_w_bz * gain_w_v2).add_mul(f_g_bz_w, gain_g_v2);
+    let m_vv_33 = p.m_d.sub_mul(f_w_bz, gain_w_v3).sub_mul(f_g_bz_w, gain_g_v3);
 
     // Share of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = -(n_w_bx * gain_w_v1 + n_g_bx_w * gain_g_v1);
-    let m_vw_12 = mr_d_b_bz - n_w_by * gain_w_v1 - n_g_by_w * gain_g_v1;
-    let m_vw_13 = -(mr_d_b_by + n_w_bz * gain_w_v1 + n_g_bz_w * gain_g_v1);
-    let m_vw_21 = -(mr_d_b_bz + n_w_bx * gain_w_v2 + n_g_bx_w * gain_g_v2);
-    let m_vw_22 = -(n_w_by * gain_w_v2 + n_g_by_w * gain_g_v2);
-    let m_vw_23 = mr_d_b_bx - n_w_bz * gain_w_v2 - n_g_bz_w * gain_g_v2;
-    let m_vw_31 = mr_d_b_by - n_w_bx * gain_w_v3 - n_g_bx_w * gain_g_v3;
-    let m_vw_32 = -(mr_d_b_bx + n_w_by * gain_w_v3 + n_g_by_w * gain_g_v3);
-    let m_vw_33 = -(n_w_bz * gain_w_v3 + n_g_bz_w * gain_g_v3);
+    let m_vw_11 = -(n_w_bx * gain_w_v1).add_mul(n_g_bx_w, gain_g_v1);
+    let m_vw_12 = mr_d_b_bz.sub_mul(n_w_by, gain_w_v1).sub_mul(n_g_by_w, gain_g_v1);
+    let m_vw_13 = -mr_d_b_by.add_mul(n_w_bz, gain_w_v1).add_mul(n_g_bz_w, gain_g_v1);
+    let m_vw_21 = -mr_d_b_bz.add_mul(n_w_bx, gain_w_v2).add_mul(n_g_bx_w, gain_g_v2);
+    let m_vw_22 = -(n_w_by * gain_w_v2).add_mul(n_g_by_w, gain_g_v2);
+    let m_vw_23 = mr_d_b_bx.sub_mul(n_w_bz, gain_w_v2).sub_mul(n_g_bz_w, gain_g_v2);
+    let m_vw_31 = mr_d_b_by.sub_mul(n_w_bx, gain_w_v3).sub_mul(n_g_bx_w, gain_g_v3);
+    let m_vw_32 = -mr_d_b_bx.add_mul(n_w_by, gain_w_v3).add_mul(n_g_by_w, gain_g_v3);
+    let m_vw_33 = -(n_w_bz * gain_w_v3).add_mul(n_g_bz_w, gain_g_v3);
 
     // Share of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = i_d_b_11 - n_w_bx * gain_w_w1 - n_g_bx_w * gain_g_w1;
-    let m_ww_12 = i_d_b_12 - n_w_by * gain_w_w1 - n_g_by_w * gain_g_w1;
-    let m_ww_13 = i_d_b_13 - n_w_bz * gain_w_w1 - n_g_bz_w * gain_g_w1;
-    let m_ww_22 = i_d_b_22 - n_w_by * gain_w_w2 - n_g_by_w * gain_g_w2;
-    let m_ww_23 = i_d_b_23 - n_w_bz * gain_w_w2 - n_g_bz_w * gain_g_w2;
-    let m_ww_33 = i_d_b_33 - n_w_bz * gain_w_w3 - n_g_bz_w * gain_g_w3;
+    let m_ww_11 = i_d_b_11.sub_mul(n_w_bx, gain_w_w1).sub_mul(n_g_bx_w, gain_g_w1);
+    let m_ww_12 = i_d_b_12.sub_mul(n_w_by, gain_w_w1).sub_mul(n_g_by_w, gain_g_w1);
+    let m_ww_13 = i_d_b_13.sub_mul(n_w_bz, gain_w_w1).sub_mul(n_g_bz_w, gain_g_w1);
+    let m_ww_22 = i_d_b_22.sub_mul(n_w_by, gain_w_w2).sub_mul(n_g_by_w, gain_g_w2);
+    let m_ww_23 = i_d_b_23.sub_mul(n_w_bz, gain_w_w2).sub_mul(n_g_bz_w, gain_g_w2);
+    let m_ww_33 = i_d_b_33.sub_mul(n_w_bz, gain_w_w3).sub_mul(n_g_bz_w, gain_g_w3);
 
     // Share of the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = -(f_rest_bx + f_w_bx * free_w + f_g_bx_w * free_g);
-    let h_v_2 = -(f_rest_by + f_w_by * free_w + f_g_by_w * free_g);
-    let h_v_3 = -(f_rest_bz + f_w_bz * free_w + f_g_bz_w * free_g);
-    let h_w_1 = -(n_rest_bx + n_w_bx * free_w + n_g_bx_w * free_g);
-    let h_w_2 = -(n_rest_by + n_w_by * free_w + n_g_by_w * free_g);
-    let h_w_3 = -(n_rest_bz + n_w_bz * free_w + n_g_bz_w * free_g);
+    let h_v_1 = -f_rest_bx.add_mul(f_w_bx, free_w).add_mul(f_g_bx_w, free_g);
+    let h_v_2 = -f_rest_by.add_mul(f_w_by, free_w).add_mul(f_g_by_w, free_g);
+    let h_v_3 = -f_rest_bz.add_mul(f_w_bz, free_w).add_mul(f_g_bz_w, free_g);
+    let h_w_1 = -n_rest_bx.add_mul(n_w_bx, free_w).add_mul(n_g_bx_w, free_g);
+    let h_w_2 = -n_rest_by.add_mul(n_w_by, free_w).add_mul(n_g_by_w, free_g);
+    let h_w_3 = -n_rest_bz.add_mul(n_w_bz, free_w).add_mul(n_g_bz_w, free_g);
 
     Eliminated {
         share: HubShare {
@@ -1532,24 +1655,26 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 13 mul, 13 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_g - a.r_b_n_ddot_bx * e.gain_g_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_g_v2;
-    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_g_v3;
-    let row_3 = row_2 - a.omega_dot_bx * e.gain_g_w1;
-    let row_4 = row_3 - a.omega_dot_by * e.gain_g_w2;
-    let gamma_ddot = row_4 - a.omega_dot_bz * e.gain_g_w3;
-    let row_5 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
-    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_w_v2;
-    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_w_v3;
-    let row_8 = row_7 - a.omega_dot_bx * e.gain_w_w1;
-    let row_9 = row_8 - a.omega_dot_by * e.gain_w_w2;
-    let spin_dot = row_9 - a.omega_dot_bz * e.gain_w_w3 - gamma_ddot * e.gain_w_g;
+    let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
+    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_g_v3);
+    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_g_w1);
+    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_g_w2);
+    let gamma_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_g_w3);
+    let row_5 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
+    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
+    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
+    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_w_w1);
+    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_w_w2);
+    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let spin_dot = row_10.sub_mul(gamma_ddot, e.gain_w_g);
 
     JointAccelerations { gamma_ddot, spin_dot }
 }
