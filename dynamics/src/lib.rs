@@ -54,6 +54,8 @@ extern crate std;
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+#[cfg(all(feature = "lanes", not(test)))]
+extern crate std;
 
 mod accelerations;
 #[cfg(feature = "alloc")]
@@ -79,6 +81,8 @@ mod imbalance_error;
 mod inputs;
 mod kernels;
 pub mod kind;
+#[cfg(feature = "lanes")]
+pub mod lanes;
 mod ledger;
 mod loads;
 mod mode;
