@@ -31,6 +31,7 @@ pub struct BodySums<T> {
 
 impl<T: Real> PreparedHub<T> {
     /// The constants with each of their numbers changed.
+    #[cfg(feature = "lanes")]
     #[inline(always)]
     pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> PreparedHub<U> {
         let [x, y, z] = self.first_moment;

@@ -93,6 +93,7 @@ impl<T: Scalar> Symmetric<T> {
 
 impl<T: Real> Symmetric<T> {
     /// The tensor with each of its numbers changed.
+    #[cfg(feature = "lanes")]
     #[inline(always)]
     pub(crate) fn map<U>(self, mut change: impl FnMut(T) -> U) -> Symmetric<U> {
         Symmetric {
