@@ -15,7 +15,7 @@ use crate::real::{Scalar, zero};
 use crate::solve::Solution;
 use crate::spacecraft::Spacecraft;
 use crate::state::{Accelerations, State};
-use crate::vec3::{add, columns, components, extreme, finite, sub, vector, zeros};
+use crate::vec3::{Vec3, add, columns, components, extreme, finite, sub, vector, zeros};
 
 impl<D: Devices> Spacecraft<D> {
     /// All second derivatives of the state: six numbers and one per joint, from (16), (75), (80),
@@ -50,6 +50,20 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
+        let Outset { around, mut assembly, at_b } = self.outset(state, inputs)?;
+        let (given, mut scratch) = (Given::of(inputs), D::scratch(&self.devices));
+        self.eliminate(state, given, &around, &mut assembly, &mut scratch)?;
+        let hub = self.hub_moves(inputs, &around, assembly, at_b)?;
+        let devices = self.back_substitute(&scratch, &hub)?;
+        with_devices(inputs, &hub, at_b, devices)
+    }
+
+    /// Where an evaluation sets out: the hub's own system, and what the devices feel.
+    pub(crate) fn outset<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<Outset<D::Scalar>, SolveError<D::Scalar>> {
         check_fixed(state, inputs)?;
         let omega = components(&state.omega);
         let bn = columns(&state.attitude.dcm());
@@ -58,19 +72,28 @@ impl<D: Devices> Spacecraft<D> {
         let central = field.and_then(|field| field.central);
         let around = Around { omega, central, impulse: false };
         let (force, moment) = (components(&inputs.force), components(&inputs.torque_b));
-        let mut assembly = Assembly::new(&self.body, force, moment);
-        let (given, mut scratch) = (Given::of(inputs), D::scratch(&self.devices));
-        self.eliminate(state, given, &around, &mut assembly, &mut scratch)?;
-        if let Some(central) = central {
+        let assembly = Assembly::new(&self.body, force, moment);
+        Ok(Outset { around, assembly, at_b })
+    }
+
+    /// The hub's accelerations once every device is eliminated, in the frame that falls with the
+    /// field at B, where there is no uniform one.
+    pub(crate) fn hub_moves(
+        &self,
+        inputs: &Inputs<D>,
+        around: &Around<D::Scalar>,
+        mut assembly: Assembly<D::Scalar>,
+        at_b: Vec3<D::Scalar>,
+    ) -> Result<Solution<D::Scalar>, SolveError<D::Scalar>> {
+        if let Some(central) = around.central {
             let second = self.hub.second_moment();
             let (force, moment) = central.wrench(self.hub.first_moment, &second);
             let whole = central.third_order(&assembly.second_moment.plus(second));
             assembly.push(add(force, whole), moment);
         }
-        // In the frame that falls with the field at B there is no uniform field.
         let hub = match &inputs.hub {
             HubMode::Free => {
-                assembly.system(omega).solve().map_err(|small| small.of(None, None))?
+                assembly.system(around.omega).solve().map_err(|small| small.of(None, None))?
             }
             HubMode::Fixed => Solution { r_b_n_ddot: sub(zeros(), at_b), omega_dot: zeros() },
             HubMode::Prescribed { r_b_n_ddot, omega_dot } => Solution {
@@ -78,19 +101,7 @@ impl<D: Devices> Spacecraft<D> {
                 omega_dot: components(omega_dot),
             },
         };
-        if !hub.is_finite() {
-            return Err(SolveError::Overflow);
-        }
-        let devices = self.back_substitute(&scratch, &hub)?;
-        let r_b_n_ddot = match &inputs.hub {
-            HubMode::Free => vector(add(hub.r_b_n_ddot, at_b)),
-            HubMode::Fixed => vector(zeros()),
-            HubMode::Prescribed { r_b_n_ddot, .. } => *r_b_n_ddot,
-        };
-        if !finite(components(&r_b_n_ddot)) {
-            return Err(SolveError::Overflow);
-        }
-        Ok(Accelerations { r_b_n_ddot, omega_dot: vector(hub.omega_dot), devices })
+        if hub.is_finite() { Ok(hub) } else { Err(SolveError::Overflow) }
     }
 
     /// Eliminates every device, keeps what back substitution needs, adds to the hub.
@@ -146,6 +157,32 @@ impl<D: Devices> Spacecraft<D> {
             failure => failure,
         }
     }
+}
+
+/// What is known before any device is asked.
+pub(crate) struct Outset<T> {
+    pub(crate) around: Around<T>,
+    pub(crate) assembly: Assembly<T>,
+    /// The field at B.
+    pub(crate) at_b: Vec3<T>,
+}
+
+/// All accelerations, the hub's no longer relative to the frame that falls with it.
+pub(crate) fn with_devices<D: Devices>(
+    inputs: &Inputs<D>,
+    hub: &Solution<D::Scalar>,
+    at_b: Vec3<D::Scalar>,
+    devices: D::Accelerations,
+) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
+    let r_b_n_ddot = match &inputs.hub {
+        HubMode::Free => vector(add(hub.r_b_n_ddot, at_b)),
+        HubMode::Fixed => vector(zeros()),
+        HubMode::Prescribed { r_b_n_ddot, .. } => *r_b_n_ddot,
+    };
+    if !finite(components(&r_b_n_ddot)) {
+        return Err(SolveError::Overflow);
+    }
+    Ok(Accelerations { r_b_n_ddot, omega_dot: vector(hub.omega_dot), devices })
 }
 
 /// Refuses a fixed hub that moves.

@@ -2,12 +2,15 @@
 //!
 //! What does not notice that the joints move belongs to the hub from the start, so that what the hub's
 //! own motion asks for is worked out once, of one rigid body; a device adds the part of its first
-//! moment and inertia that moves, and what its joints take out of the equations.
+//! moment and inertia that moves, and what its joints take out of the equations. Over any number:
+//! lanes do the same.
 
-use crate::generated::hub::{Handed, HubShare};
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use crate::generated::hub::{BodyAcceleration, BodyRate, Handed, HubShare};
 use crate::hub::PreparedHub;
-use crate::real::Scalar;
-use crate::solve::System;
+use crate::real::Real;
+use crate::solve::{Solution, System};
 use crate::symmetric::Symmetric;
 use crate::vec3::{Vec3, add};
 
@@ -25,20 +28,24 @@ pub struct Assembly<T> {
     pub(crate) second_moment: Symmetric<T>,
 }
 
-impl<T: Scalar> Assembly<T> {
+impl<T: Real> Assembly<T> {
     /// The hub, with what it has taken over, and what acts on it.
+    #[inline(always)]
     pub(crate) fn new(body: &PreparedHub<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
-        let (taken, second_moment) = (System::zero(), Symmetric::zero());
-        Self { body: *body, force, moment, taken, second_moment }
+        let zero = body.m_b.like(0.0);
+        let second_moment = Symmetric::filled(zero);
+        Self { body: *body, force, moment, taken: System::filled(zero), second_moment }
     }
 
     /// Adds a force and a moment about B from outside.
+    #[inline(always)]
     pub(crate) fn push(&mut self, force: Vec3<T>, moment: Vec3<T>) {
         self.force = add(self.force, force);
         self.moment = add(self.moment, moment);
     }
 
-    /// Adds a device whose joints are eliminated.
+    /// Adds a device whose joints are eliminated, or several together.
+    #[inline(always)]
     #[rustfmt::skip]
     pub(crate) fn add(&mut self, e: &HubShare<T>) {
         let (body, taken) = (&mut self.body, &mut self.taken);
@@ -67,12 +74,13 @@ impl<T: Scalar> Assembly<T> {
     }
 
     /// What is to be solved where the hub turns at `omega`.
+    #[inline(always)]
     pub(crate) fn system(&self, omega: Vec3<T>) -> System<T> {
         self.body.system(omega, self.force, self.moment).less(&self.taken)
     }
 }
 
-impl<T: Scalar> PreparedHub<T> {
+impl<T: Real> PreparedHub<T> {
     /// The hub with what it takes over of its devices.
     pub(crate) fn taking_over(self, devices: impl Iterator<Item = Handed<T>>) -> Self {
         devices.fold(self, |hub, e| Self {
@@ -88,4 +96,27 @@ impl<T: Scalar> PreparedHub<T> {
             }),
         })
     }
+}
+
+impl<T: Copy> Solution<T> {
+    /// The hub's accelerations as the kernels take them.
+    #[inline(always)]
+    pub(crate) fn along_b(&self) -> BodyAcceleration<T> {
+        let [r_b_n_ddot_bx, r_b_n_ddot_by, r_b_n_ddot_bz] = self.r_b_n_ddot;
+        let [omega_dot_bx, omega_dot_by, omega_dot_bz] = self.omega_dot;
+        BodyAcceleration {
+            r_b_n_ddot_bx,
+            r_b_n_ddot_by,
+            r_b_n_ddot_bz,
+            omega_dot_bx,
+            omega_dot_by,
+            omega_dot_bz,
+        }
+    }
+}
+
+/// The hub's angular velocity as the kernels take it.
+#[inline(always)]
+pub(crate) fn along_b<T>([omega_bx, omega_by, omega_bz]: Vec3<T>) -> BodyRate<T> {
+    BodyRate { omega_bx, omega_by, omega_bz }
 }

@@ -4,14 +4,14 @@
 //! the axes of the device's first joint at zero: what comes from the hub is rotated into it by
 //! `mount^T`, results out of it by `mount`.
 
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, along_b};
 use crate::devices::{Around, Given, own_mode};
 use crate::each::{Each, JointStates};
 use crate::error::SolveError;
-use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity};
+use crate::generated::hub::BodyVelocity;
 use crate::gravity::Central;
 use crate::hub::BodySums;
-use crate::kind::{Carried, ImbalanceModel, Kind, Lumped, Wrenches};
+use crate::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
 use crate::mode::{Drive, Mode};
 use crate::passive::Passive;
 use crate::real::{Scalar, one, zero};
@@ -22,38 +22,20 @@ use crate::vec3::{Columns, Vec3, add, columns, components, rotate, rotate_transp
 use crate::wrench::Wrench;
 
 /// Torques and weights of the joints of a kind.
-type Drives<K> = <K as Kind>::PerJoint<Drive<<K as Kind>::Scalar>>;
+type Drives<K> = <K as Kernels>::PerJoint<Drive<<K as Kind>::Scalar>>;
 
 /// Constants of one device.
 #[derive(Clone, Copy, Debug)]
 pub struct Device<K: Kind> {
     pub(crate) mount: Columns<K::Scalar>,
-    pub(crate) constants: K::Constants,
+    pub(crate) constants: K::Constants<K::Scalar>,
     pub(crate) passive: K::PerJoint<Passive<K::Scalar>>,
     /// Whether no joint has a spring or friction.
-    free: bool,
+    pub(crate) free: bool,
     /// What the simplified model puts in the place of the rotor's imbalance.
     pub(crate) lumped: Option<Lumped<K::Scalar>>,
     /// By how much each inertia breaks the triangle inequality, kg m².
     pub(crate) excess: K::PerJoint<K::Scalar>,
-}
-
-/// The hub's accelerations along a device's axes.
-pub(crate) fn in_device<T: Scalar>(
-    mount: &Columns<T>,
-    r_b_n_ddot: Vec3<T>,
-    omega_dot: Vec3<T>,
-) -> BodyAcceleration<T> {
-    let [r_b_n_ddot_bx, r_b_n_ddot_by, r_b_n_ddot_bz] = rotate_transposed(mount, r_b_n_ddot);
-    let [omega_dot_bx, omega_dot_by, omega_dot_bz] = rotate_transposed(mount, omega_dot);
-    BodyAcceleration {
-        r_b_n_ddot_bx,
-        r_b_n_ddot_by,
-        r_b_n_ddot_bz,
-        omega_dot_bx,
-        omega_dot_by,
-        omega_dot_bz,
-    }
 }
 
 impl<K: Kind> Device<K> {
@@ -88,12 +70,12 @@ impl<K: Kind> Device<K> {
     #[inline(never)]
     pub(crate) fn eliminate(
         &self,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         around: &Around<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
         device: usize,
-    ) -> Result<K::Eliminated, SolveError<K::Scalar>> {
+    ) -> Result<K::Eliminated<K::Scalar>, SolveError<K::Scalar>> {
         let pose = K::pose(joints);
         let mut drives = self.drives(joints, given, around.impulse, device)?;
         if !around.impulse {
@@ -115,18 +97,17 @@ impl<K: Kind> Device<K> {
         if around.impulse {
             joints.states_mut().for_each(|[_, rate]| *rate = zero());
         }
-        let [omega_bx, omega_by, omega_bz] = around.omega;
-        let omega = BodyRate { omega_bx, omega_by, omega_bz };
+        let omega = along_b(around.omega);
         let eliminated = K::eliminate(&self.constants, &pose, &joints, &omega, &drives);
         check_pivots::<K>(device, &eliminated, &drives)?;
         assembly.add(K::share(&eliminated));
         Ok(eliminated)
     }
 
-    /// Torques and modes of the joints, springs and friction with the motors.
-    fn drives(
-        &self,
-        joints: &K::Joints,
+    /// Torques and modes of the joints.
+    #[inline]
+    fn by_mode(
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         impulse: bool,
         device: usize,
@@ -143,6 +124,7 @@ impl<K: Kind> Device<K> {
                 return Err(SolveError::NotDriven { device, joint: info.body });
             }
             *drive = match mode {
+                Mode::Driven if !impulse => mode.drive(torque),
                 Mode::Locked if impulse => Mode::Prescribed(-rate).drive(zero()),
                 Mode::Prescribed(_) if impulse => Mode::Locked.drive(zero()),
                 Mode::Driven if impulse => Mode::Driven.drive(zero()),
@@ -152,6 +134,41 @@ impl<K: Kind> Device<K> {
                 mode => mode.drive(torque),
             };
         }
+        Ok(drives)
+    }
+
+    /// Whether lanes have all that the device has.
+    #[cfg(feature = "lanes")]
+    #[inline]
+    pub(crate) fn is_laned(&self) -> bool {
+        let dry = |passive: Passive<K::Scalar>| passive.coulomb != zero();
+        self.lumped.is_none() && (self.free || !self.passive.values().any(dry))
+    }
+
+    /// What is given of the joints, for lanes: without what joints do by themselves. None where the
+    /// device or its modes ask for what lanes have not, or for what is refused.
+    #[cfg(feature = "lanes")]
+    #[inline]
+    pub(crate) fn given_drives(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: Given<'_, K>,
+    ) -> Option<Drives<K>> {
+        if !self.is_laned() {
+            return None;
+        }
+        Self::by_mode(joints, given, false, 0).ok()
+    }
+
+    /// Torques and modes of the joints, springs and friction with the motors.
+    fn drives(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: Given<'_, K>,
+        impulse: bool,
+        device: usize,
+    ) -> Result<Drives<K>, SolveError<K::Scalar>> {
+        let mut drives = Self::by_mode(joints, given, impulse, device)?;
         if !(self.free || impulse) {
             let states = joints.states().zip(self.passive.values());
             for (drive, ([coordinate, rate], passive)) in drives.values_mut().zip(states) {
@@ -166,8 +183,8 @@ impl<K: Kind> Device<K> {
     /// that the gradient of gravity asks for; none where there is nothing.
     pub(crate) fn acting(
         &self,
-        pose: &K::Pose,
-        joints: &K::Joints,
+        pose: &K::Pose<K::Scalar>,
+        joints: &K::Joints<K::Scalar>,
         bodies: Option<&Wrenches<K>>,
         central: Option<&Central<K::Scalar>>,
     ) -> Option<(Wrenches<K>, Symmetric<K::Scalar>)> {
@@ -187,7 +204,11 @@ impl<K: Kind> Device<K> {
     }
 
     /// Wrenches on the bodies from outside, the simplified model's among them.
-    pub(crate) fn applied(&self, joints: &K::Joints, bodies: Option<&Wrenches<K>>) -> Wrenches<K> {
+    pub(crate) fn applied(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        bodies: Option<&Wrenches<K>>,
+    ) -> Wrenches<K> {
         let mut sum = bodies.copied().unwrap_or_else(|| K::all(Wrench::none()));
         if let Some(lumped) = &self.lumped {
             let tip = sum.values_mut().zip(joints.states()).last();
@@ -202,7 +223,7 @@ impl<K: Kind> Device<K> {
     /// along its own axes.
     pub(crate) fn gradient(
         &self,
-        pose: &K::Pose,
+        pose: &K::Pose<K::Scalar>,
         central: &Central<K::Scalar>,
     ) -> (Wrenches<K>, Symmetric<K::Scalar>) {
         let [x, y, z] = self.mount;
@@ -216,26 +237,16 @@ impl<K: Kind> Device<K> {
     /// The joints' accelerations once the hub's are known.
     pub(crate) fn back_substitute(
         &self,
-        e: &K::Eliminated,
+        e: &K::Eliminated<K::Scalar>,
         hub: &Solution<K::Scalar>,
-    ) -> K::Accelerations {
-        let [r_b_n_ddot_bx, r_b_n_ddot_by, r_b_n_ddot_bz] = hub.r_b_n_ddot;
-        let [omega_dot_bx, omega_dot_by, omega_dot_bz] = hub.omega_dot;
-        let hub = BodyAcceleration {
-            r_b_n_ddot_bx,
-            r_b_n_ddot_by,
-            r_b_n_ddot_bz,
-            omega_dot_bx,
-            omega_dot_by,
-            omega_dot_bz,
-        };
-        K::back_substitute(e, &hub)
+    ) -> K::Accelerations<K::Scalar> {
+        K::back_substitute(e, &hub.along_b())
     }
 
     /// Adds kinetic energy and momenta for the inertial velocity of B, along B axes.
     pub(crate) fn add_sums(
         &self,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         r_b_n_dot: Vec3<K::Scalar>,
         omega: Vec3<K::Scalar>,
         sums: &mut BodySums<K::Scalar>,
@@ -253,7 +264,11 @@ impl<K: Kind> Device<K> {
     }
 
     /// Adds the first moment about B and its derivative seen from B, along B axes.
-    pub(crate) fn add_first_moment(&self, joints: &K::Joints, moment: &mut [Vec3<K::Scalar>; 2]) {
+    pub(crate) fn add_first_moment(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        moment: &mut [Vec3<K::Scalar>; 2],
+    ) {
         for (sum, share) in moment.iter_mut().zip(K::first_moment(&self.constants, joints)) {
             *sum = add(*sum, rotate(&self.mount, share));
         }
@@ -262,7 +277,7 @@ impl<K: Kind> Device<K> {
     /// `external`, in the device's axes.
     pub(crate) fn carried(
         &self,
-        pose: &K::Pose,
+        pose: &K::Pose<K::Scalar>,
         bodies: &Wrenches<K>,
     ) -> Carried<Wrenches<K>, Wrench<K::Scalar>> {
         K::external(&self.constants, pose, bodies)
@@ -285,7 +300,7 @@ impl<T: Scalar> Lumped<T> {
 /// one refused is the cause, those after it may be its consequence.
 fn check_pivots<K: Kind>(
     device: usize,
-    eliminated: &K::Eliminated,
+    eliminated: &K::Eliminated<K::Scalar>,
     drives: &K::PerJoint<Drive<K::Scalar>>,
 ) -> Result<(), SolveError<K::Scalar>> {
     let mut refused = None;

@@ -1,28 +1,29 @@
 //! The loads of one device, and the powers at its joints.
 
-use crate::device::{Device, in_device};
+use crate::assembly::along_b;
+use crate::device::Device;
 use crate::devices::{Around, Given};
 use crate::each::{Each, JointStates};
-use crate::generated::hub::BodyRate;
-use crate::kind::{Carried, Kind, Wrenches};
+use crate::kind::{Carried, Kernels, Kind, Wrenches};
 use crate::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
 use crate::mode::Mode;
 use crate::real::{Scalar, zero};
+use crate::solve::Solution;
 use crate::vec3::{Columns, rotate_transposed};
 use crate::wrench::Wrench;
 
 /// The loads of a device of a kind.
 pub(crate) type LoadsOf<K> = DeviceLoads<
     Wrenches<K>,
-    <K as Kind>::PerJoint<<K as Kind>::Scalar>,
-    <K as Kind>::PerJoint<JointPower<<K as Kind>::Scalar>>,
+    <K as Kernels>::PerJoint<<K as Kind>::Scalar>,
+    <K as Kernels>::PerJoint<JointPower<<K as Kind>::Scalar>>,
     <K as Kind>::Scalar,
 >;
 
 /// Motor torque and power of each joint.
 type Booked<K> = (
-    <K as Kind>::PerJoint<<K as Kind>::Scalar>,
-    <K as Kind>::PerJoint<JointPower<<K as Kind>::Scalar>>,
+    <K as Kernels>::PerJoint<<K as Kind>::Scalar>,
+    <K as Kernels>::PerJoint<JointPower<<K as Kind>::Scalar>>,
 );
 
 /// What the joints feel along their axes.
@@ -41,22 +42,24 @@ impl<K: Kind> Device<K> {
     #[expect(clippy::too_many_arguments, reason = "state, inputs and accelerations, then results")]
     pub(crate) fn loads(
         &self,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         around: &Around<K::Scalar>,
         hub: &HubMotion<K::Scalar>,
-        accelerations: &K::Accelerations,
+        accelerations: &K::Accelerations<K::Scalar>,
         along: &Along<K::Scalar>,
         totals: &mut Totals<K::Scalar>,
     ) -> LoadsOf<K> {
         let pose = K::pose(joints);
-        let [omega_bx, omega_by, omega_bz] = rotate_transposed(&self.mount, around.omega);
+        // Along the device's axes, in which this kernel knows B.
+        let within = |v| rotate_transposed(&self.mount, v);
+        let hub = Solution { r_b_n_ddot: within(hub.r_b_n_ddot), omega_dot: within(hub.omega_dot) };
         let needed = K::loads(
             &self.constants,
             &pose,
             joints,
-            &BodyRate { omega_bx, omega_by, omega_bz },
-            &in_device(&self.mount, hub.r_b_n_ddot, hub.omega_dot),
+            &along_b(within(around.omega)),
+            &hub.along_b(),
             accelerations,
         );
         let applied = self.carried(&pose, &self.applied(joints, given.bodies));
@@ -94,7 +97,7 @@ impl<K: Kind> Device<K> {
     /// need.
     fn book(
         &self,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         felt: &Felt<K>,
         totals: &mut Totals<K::Scalar>,
@@ -136,7 +139,7 @@ impl<K: Kind> Device<K> {
     /// The load of the mount, and those of the joints along the axes asked for.
     fn told(
         &self,
-        pose: &K::Pose,
+        pose: &K::Pose<K::Scalar>,
         mut loads: Wrenches<K>,
         along: &Along<K::Scalar>,
     ) -> (Wrench<K::Scalar>, Wrenches<K>) {

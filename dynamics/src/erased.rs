@@ -146,7 +146,7 @@ fn copy<V: Value>(to: &mut impl Each<V>, from: &impl Each<V>) {
     }
 }
 
-fn joints_of<K: Kind>(any: &AnyJoints<K::Scalar>) -> K::Joints {
+fn joints_of<K: Kind>(any: &AnyJoints<K::Scalar>) -> K::Joints<K::Scalar> {
     let mut joints = K::at_rest();
     for ([coordinate, rate], [any_coordinate, any_rate]) in joints.states_mut().zip(any.states()) {
         (*coordinate, *rate) = (any_coordinate, any_rate);
@@ -189,7 +189,7 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         eliminated: &dyn Any,
         hub: &Solution<K::Scalar>,
     ) -> Option<Vec<K::Scalar>> {
-        let eliminated = eliminated.downcast_ref::<K::Eliminated>()?;
+        let eliminated = eliminated.downcast_ref::<K::Eliminated<K::Scalar>>()?;
         Some(self.back_substitute(eliminated, hub).values().collect())
     }
 

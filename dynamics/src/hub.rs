@@ -1,8 +1,10 @@
 //! The rigid hub's own share of the equations, of energy and of momentum.
 
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
 use crate::gravity::second_moment;
 use crate::parameters::Hub;
-use crate::real::{Scalar, half, zero};
+use crate::real::{Real, Scalar, half};
 use crate::solve::System;
 use crate::symmetric::Symmetric;
 use crate::vec3::{Vec3, add, components, cross, dot, scale, sub};
@@ -27,6 +29,38 @@ pub struct BodySums<T> {
     pub(crate) angular_b: Vec3<T>,
 }
 
+impl<T: Real> PreparedHub<T> {
+    /// The constants with each of their numbers changed.
+    #[cfg(feature = "lanes")]
+    #[inline(always)]
+    pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> PreparedHub<U> {
+        let [x, y, z] = self.first_moment;
+        PreparedHub {
+            m_b: change(self.m_b),
+            first_moment: [change(x), change(y), change(z)],
+            i_b_b: self.i_b_b.map(change),
+        }
+    }
+
+    /// The hub's own `M` and `h`: `m (r'' + omega' x c + omega x (omega x c)) = F` and
+    /// `I omega' + m c x r'' + omega x (I omega) = L_B`.
+    #[inline(always)]
+    pub(crate) fn system(&self, omega: Vec3<T>, force: Vec3<T>, torque_b: Vec3<T>) -> System<T> {
+        let ([x, y, z], zero) = (self.first_moment, self.m_b.like(0.0));
+        let centrifugal = cross(omega, cross(omega, self.first_moment));
+        let gyroscopic = cross(omega, self.i_b_b.times(omega));
+        let m = self.m_b;
+        System {
+            m_vv: Symmetric { xx: m, xy: zero, xz: zero, yy: m, yz: zero, zz: m },
+            // -tilde(m c), column by column.
+            m_vw: [[zero, -z, y], [z, zero, -x], [-y, x, zero]],
+            m_ww: self.i_b_b,
+            h_v: sub(force, centrifugal),
+            h_w: sub(torque_b, gyroscopic),
+        }
+    }
+}
+
 impl<T: Scalar> PreparedHub<T> {
     pub(crate) fn new(hub: &Hub<T>) -> Self {
         let r_bc_b = components(&hub.r_bc_b);
@@ -34,22 +68,6 @@ impl<T: Scalar> PreparedHub<T> {
             m_b: hub.m_b,
             first_moment: scale(hub.m_b, r_bc_b),
             i_b_b: Symmetric::part_of(&hub.i_b_bc).plus(Symmetric::parallel_axis(hub.m_b, r_bc_b)),
-        }
-    }
-
-    /// The hub's own `M` and `h`: `m (r'' + omega' x c + omega x (omega x c)) = F` and
-    /// `I omega' + m c x r'' + omega x (I omega) = L_B`.
-    pub(crate) fn system(&self, omega: Vec3<T>, force: Vec3<T>, torque_b: Vec3<T>) -> System<T> {
-        let [x, y, z] = self.first_moment;
-        let centrifugal = cross(omega, cross(omega, self.first_moment));
-        let gyroscopic = cross(omega, self.i_b_b.times(omega));
-        System {
-            m_vv: Symmetric::scalar(self.m_b),
-            // -tilde(m c), column by column.
-            m_vw: [[zero(), -z, y], [z, zero(), -x], [-y, x, zero()]],
-            m_ww: self.i_b_b,
-            h_v: sub(force, centrifugal),
-            h_w: sub(torque_b, gyroscopic),
         }
     }
 

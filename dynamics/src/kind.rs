@@ -5,9 +5,8 @@ use core::fmt::Debug;
 use nalgebra::{Matrix3, Vector3};
 
 pub use crate::each::{Each, JointStates, Value};
-use crate::generated::hub::{
-    BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Handed, HubShare,
-};
+use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Handed};
+pub use crate::kernels::Kernels;
 pub use crate::mode::Drive;
 use crate::passive::Passive;
 use crate::real::Scalar;
@@ -76,40 +75,28 @@ pub enum ImbalanceModel {
 }
 
 /// A wrench on the body behind each joint of a kind.
-pub type Wrenches<K> = <K as Kind>::PerJoint<Wrench<<K as Kind>::Scalar>>;
+pub type Wrenches<K> = <K as Kernels>::PerJoint<Wrench<<K as Kind>::Scalar>>;
 
 /// A device kind: a structure of parameters, and functions over the emitted kernels.
 ///
 /// Implemented by emitted text, next to each kernel; written by hand for nothing. The equations of
 /// motion (`handed`, `eliminate`, `back_substitute`) are along B axes; everything else stands along
 /// the device's own: those of its first joint at zero, `mount` in the hub.
-pub trait Kind: Copy + Debug + PartialEq + Send + Sync + 'static {
+pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// The number type.
     type Scalar: Scalar;
-    /// What depends on parameters alone.
-    type Constants: Copy + Debug + Send + Sync;
-    /// Coordinates and rates.
-    type Joints: JointStates<Self::Scalar> + Copy + Send + Sync;
     /// Motor torques.
     type Motors: Each<Self::Scalar> + Copy;
-    /// Joint accelerations.
-    type Accelerations: Each<Self::Scalar> + Copy;
-    /// A value per joint.
-    type PerJoint<V: Value>: Each<V> + Copy;
-    /// Sines, cosines and lengths.
-    type Pose: Copy;
-    /// What back substitution needs.
-    type Eliminated: Copy + Debug;
 
     /// The joints from the hub outwards.
     const JOINTS: &'static [JointInfo];
 
     /// All coordinates and rates zero.
-    fn at_rest() -> Self::Joints;
+    fn at_rest() -> Self::Joints<Self::Scalar>;
     /// All motors off.
     fn motors_off() -> Self::Motors;
     /// No joint accelerating.
-    fn no_accelerations() -> Self::Accelerations;
+    fn no_accelerations() -> Self::Accelerations<Self::Scalar>;
     /// One value at every joint.
     fn all<V: Value>(value: V) -> Self::PerJoint<V>;
 
@@ -129,64 +116,48 @@ pub trait Kind: Copy + Debug + PartialEq + Send + Sync + 'static {
         None
     }
     /// The constants, the first origin turned into the device's axes.
-    fn constants(&self, origin: [Self::Scalar; 3]) -> Self::Constants;
+    fn constants(&self, origin: [Self::Scalar; 3]) -> Self::Constants<Self::Scalar>;
 
     /// The emitted `handed`: what the hub takes over, along B axes.
-    fn handed(constants: &Self::Constants) -> Handed<Self::Scalar>;
+    fn handed(constants: &Self::Constants<Self::Scalar>) -> Handed<Self::Scalar>;
 
-    /// Sines, cosines and lengths of the joints.
-    fn pose(joints: &Self::Joints) -> Self::Pose;
-    /// The emitted `eliminate`.
-    fn eliminate(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
-        joints: &Self::Joints,
-        omega: &BodyRate<Self::Scalar>,
-        drives: &Self::PerJoint<Drive<Self::Scalar>>,
-    ) -> Self::Eliminated;
-    /// The share of the hub's equations.
-    fn share(eliminated: &Self::Eliminated) -> &HubShare<Self::Scalar>;
-    /// Pivot and diagonal of each driven joint; none of the others.
-    fn pivots(eliminated: &Self::Eliminated) -> Self::PerJoint<Option<[Self::Scalar; 2]>>;
-    /// The emitted `back_substitute`.
-    fn back_substitute(
-        eliminated: &Self::Eliminated,
-        hub: &BodyAcceleration<Self::Scalar>,
-    ) -> Self::Accelerations;
     /// The emitted `energy_momentum`.
     fn energy_momentum(
-        constants: &Self::Constants,
-        joints: &Self::Joints,
+        constants: &Self::Constants<Self::Scalar>,
+        joints: &Self::Joints<Self::Scalar>,
         hub: &BodyVelocity<Self::Scalar>,
     ) -> EnergyMomentum<Self::Scalar>;
     /// The emitted `first_moment`: it and its derivative seen from B.
-    fn first_moment(constants: &Self::Constants, joints: &Self::Joints) -> [[Self::Scalar; 3]; 2];
+    fn first_moment(
+        constants: &Self::Constants<Self::Scalar>,
+        joints: &Self::Joints<Self::Scalar>,
+    ) -> [[Self::Scalar; 3]; 2];
     /// The emitted `axes`: each body's own, as columns.
     fn axes(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
+        constants: &Self::Constants<Self::Scalar>,
+        pose: &Self::Pose<Self::Scalar>,
     ) -> Self::PerJoint<[[Self::Scalar; 3]; 3]>;
     /// The emitted `loads`: what each carrier exerts on what it carries, about the joint's origin
     /// along the body's own axes.
     fn loads(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
-        joints: &Self::Joints,
+        constants: &Self::Constants<Self::Scalar>,
+        pose: &Self::Pose<Self::Scalar>,
+        joints: &Self::Joints<Self::Scalar>,
         omega: &BodyRate<Self::Scalar>,
         hub: &BodyAcceleration<Self::Scalar>,
-        accelerations: &Self::Accelerations,
+        accelerations: &Self::Accelerations<Self::Scalar>,
     ) -> Carried<Wrenches<Self>, Wrench<Self::Scalar>>;
     /// The emitted `external`: wrenches on the bodies carried inwards.
     fn external(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
+        constants: &Self::Constants<Self::Scalar>,
+        pose: &Self::Pose<Self::Scalar>,
         bodies: &Wrenches<Self>,
     ) -> Carried<Wrenches<Self>, Wrench<Self::Scalar>>;
     /// The emitted `gravity`: the wrench on each body in the linear field, and the device's second
     /// moment about B, entries 11, 12, 13, 22, 23, 33.
     fn gravity(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
+        constants: &Self::Constants<Self::Scalar>,
+        pose: &Self::Pose<Self::Scalar>,
         gradient: [Self::Scalar; 6],
     ) -> (Wrenches<Self>, [Self::Scalar; 6]);
 }

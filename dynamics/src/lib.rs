@@ -54,6 +54,9 @@ extern crate std;
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+#[cfg(all(feature = "lanes", not(test)))]
+extern crate std;
+
 mod accelerations;
 #[cfg(feature = "alloc")]
 mod any_device;
@@ -77,7 +80,10 @@ mod imbalance;
 mod imbalance_checks;
 mod imbalance_error;
 mod inputs;
+mod kernels;
 pub mod kind;
+#[cfg(feature = "lanes")]
+pub mod lanes;
 mod ledger;
 mod loads;
 mod mode;
@@ -132,7 +138,7 @@ pub use parameter_error::{Parameter, ParameterError, Part, Warning};
 pub use parameters::Hub;
 pub use passive::Passive;
 pub use quaternion::Quaternion;
-pub use real::{Real, Scalar};
+pub use real::{Angle, Real, Scalar};
 pub use rk4::Stepped;
 pub use spacecraft::Spacecraft;
 pub use state::{Accelerations, State};

@@ -50,6 +50,21 @@ pub struct Drive<T> {
     pub given: T,
 }
 
+impl<T: Copy> Drive<T> {
+    /// The drive with each of its numbers changed.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "lanes reach wide instructions inlined alone")]
+    #[must_use]
+    pub fn map<U>(&self, mut change: impl FnMut(T) -> U) -> Drive<U> {
+        Drive {
+            torque: change(self.torque),
+            driven: change(self.driven),
+            held: change(self.held),
+            given: change(self.given),
+        }
+    }
+}
+
 impl<T: Scalar> Mode<T> {
     /// The weights for a given torque.
     pub(crate) fn drive(self, torque: T) -> Drive<T> {

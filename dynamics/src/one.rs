@@ -22,12 +22,12 @@ use crate::wrench::Wrench;
 impl<K: Kind> Devices for K {
     type Scalar = K::Scalar;
     type Prepared = Device<K>;
-    type Joints = K::Joints;
+    type Joints = K::Joints<K::Scalar>;
     type Motors = K::Motors;
-    type Accelerations = K::Accelerations;
+    type Accelerations = K::Accelerations<K::Scalar>;
     type PerJoint<V: Value> = K::PerJoint<V>;
     type Loads = LoadsOf<K>;
-    type Scratch = Option<K::Eliminated>;
+    type Scratch = Option<K::Eliminated<K::Scalar>>;
 
     fn check(&self, device: &mut usize) -> Result<(), ParameterError<K::Scalar>> {
         check_device(*device, self)?;
@@ -55,7 +55,7 @@ impl<K: Kind> Devices for K {
         device.passive.values()
     }
 
-    fn at_rest_for(_: &Device<K>) -> K::Joints {
+    fn at_rest_for(_: &Device<K>) -> K::Joints<K::Scalar> {
         <K as Kind>::at_rest()
     }
 
@@ -63,7 +63,7 @@ impl<K: Kind> Devices for K {
         <K as Kind>::motors_off()
     }
 
-    fn no_accelerations_for(_: &Device<K>) -> K::Accelerations {
+    fn no_accelerations_for(_: &Device<K>) -> K::Accelerations<K::Scalar> {
         K::no_accelerations()
     }
 
@@ -80,26 +80,26 @@ impl<K: Kind> Devices for K {
         }
     }
 
-    fn scratch(_: &Device<K>) -> Option<K::Eliminated> {
+    fn scratch(_: &Device<K>) -> Option<K::Eliminated<K::Scalar>> {
         None
     }
 
     fn fits(
         _: &Device<K>,
-        _: &K::Joints,
+        _: &K::Joints<K::Scalar>,
         _: Option<Given<'_, Self>>,
-        _: Option<&K::Accelerations>,
+        _: Option<&K::Accelerations<K::Scalar>>,
     ) -> Result<(), SolveError<K::Scalar>> {
         Ok(())
     }
 
     fn eliminate(
         device: &Device<K>,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, Self>,
         around: &Around<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
-        scratch: &mut Option<K::Eliminated>,
+        scratch: &mut Option<K::Eliminated<K::Scalar>>,
         index: &mut usize,
     ) -> Result<(), SolveError<K::Scalar>> {
         *scratch = Some(device.eliminate(joints, given, around, assembly, *index)?);
@@ -109,9 +109,9 @@ impl<K: Kind> Devices for K {
 
     fn back_substitute(
         device: &Device<K>,
-        scratch: &Option<K::Eliminated>,
+        scratch: &Option<K::Eliminated<K::Scalar>>,
         hub: &Solution<K::Scalar>,
-        out: &mut K::Accelerations,
+        out: &mut K::Accelerations<K::Scalar>,
     ) {
         if let Some(eliminated) = scratch {
             *out = device.back_substitute(eliminated, hub);
@@ -120,7 +120,7 @@ impl<K: Kind> Devices for K {
 
     fn add_sums(
         device: &Device<K>,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         r_b_n_dot: Vec3<K::Scalar>,
         omega: Vec3<K::Scalar>,
         sums: &mut BodySums<K::Scalar>,
@@ -128,17 +128,21 @@ impl<K: Kind> Devices for K {
         device.add_sums(joints, r_b_n_dot, omega, sums);
     }
 
-    fn add_first_moment(device: &Device<K>, joints: &K::Joints, moment: &mut [Vec3<K::Scalar>; 2]) {
+    fn add_first_moment(
+        device: &Device<K>,
+        joints: &K::Joints<K::Scalar>,
+        moment: &mut [Vec3<K::Scalar>; 2],
+    ) {
         device.add_first_moment(joints, moment);
     }
 
     fn loads(
         device: &Device<K>,
-        joints: &K::Joints,
+        joints: &K::Joints<K::Scalar>,
         given: Given<'_, Self>,
         around: &Around<K::Scalar>,
         hub: &HubMotion<K::Scalar>,
-        accelerations: &K::Accelerations,
+        accelerations: &K::Accelerations<K::Scalar>,
         along: &Along<K::Scalar>,
         out: &mut Self::Loads,
         totals: &mut Totals<K::Scalar>,
@@ -148,7 +152,7 @@ impl<K: Kind> Devices for K {
 }
 
 impl<K: Kind> FixedSet for K {
-    fn at_rest() -> K::Joints {
+    fn at_rest() -> K::Joints<K::Scalar> {
         <K as Kind>::at_rest()
     }
 

@@ -25,6 +25,22 @@ pub struct Passive<T = f64> {
     pub coulomb_rate: T,
 }
 
+impl<T: Copy> Passive<T> {
+    /// Spring, damper and friction with each number changed.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "lanes reach wide instructions inlined alone")]
+    #[must_use]
+    pub fn map<U>(&self, mut change: impl FnMut(T) -> U) -> Passive<U> {
+        Passive {
+            stiffness: change(self.stiffness),
+            rest: change(self.rest),
+            viscous: change(self.viscous),
+            coulomb: change(self.coulomb),
+            coulomb_rate: change(self.coulomb_rate),
+        }
+    }
+}
+
 impl<T: Scalar> Passive<T> {
     /// A free joint.
     #[must_use]

@@ -1,11 +1,13 @@
 //! Euler parameters (a quaternion, scalar first) of B with respect to N.
 
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
 use nalgebra::{Matrix3, Vector3, Vector4};
 
 use crate::attitude::Attitude;
 use crate::mrp::Mrp;
-use crate::real::{Scalar, half, one, reciprocal_in_two, two, zero};
-use crate::vec3::{components, dot, extreme, largest, scale};
+use crate::real::{Real, Scalar, one, reciprocal_in_two, two, zero};
+use crate::vec3::{Columns, Vec3, components, dot, extreme, largest, scale, vector};
 
 /// Euler parameters `beta_{B/N}`: `cos(phi / 2)` and `sin(phi / 2)` along the axis of the rotation
 /// from N to B. A quaternion and its negative are the same attitude.
@@ -45,8 +47,42 @@ impl<T: Scalar> Quaternion<T> {
     }
 
     fn norm_squared(&self) -> T {
-        self.q0 * self.q0 + self.q1 * self.q1 + self.q2 * self.q2 + self.q3 * self.q3
+        norm_squared([self.q0, self.q1, self.q2, self.q3])
     }
+}
+
+/// The square of a quaternion's length.
+#[inline(always)]
+pub(crate) fn norm_squared<T: Real>([q0, q1, q2, q3]: [T; 4]) -> T {
+    q0 * q0 + q1 * q1 + q2 * q2 + q3 * q3
+}
+
+/// The columns of `[BN]` of a quaternion of about unit length, divided by its length.
+#[inline(always)]
+pub(crate) fn bn<T: Real>([q0, q1, q2, q3]: [T; 4]) -> Columns<T> {
+    let one = q0.like(1.0);
+    let scale = q0.like(2.0) * norm_squared([q0, q1, q2, q3]).recip();
+    let (s1, s2, s3) = (scale * q1, scale * q2, scale * q3);
+    let (d1, d2, d3) = (s1 * q1, s2 * q2, s3 * q3);
+    let (w1, w2, w3) = (s1 * q0, s2 * q0, s3 * q0);
+    let (p12, p13, p23) = (s1 * q2, s1 * q3, s2 * q3);
+    [
+        [one - (d2 + d3), p12 - w3, p13 + w2],
+        [p12 + w3, one - (d1 + d3), p23 - w1],
+        [p13 - w2, p23 + w1, one - (d1 + d2)],
+    ]
+}
+
+/// `beta' = (-q . omega, q0 omega + q x omega) / 2`.
+#[inline(always)]
+pub(crate) fn rate<T: Real>([q0, q1, q2, q3]: [T; 4], omega: Vec3<T>) -> [T; 4] {
+    let [x, y, z] = scale(q0.like(0.5), omega);
+    [
+        -dot([q1, q2, q3], [x, y, z]),
+        q0 * x - q3 * y + q2 * z,
+        q3 * x + q0 * y - q1 * z,
+        q1 * y - q2 * x + q0 * z,
+    ]
 }
 
 impl<T: Scalar> Attitude<T> for Quaternion<T> {
@@ -59,37 +95,15 @@ impl<T: Scalar> Attitude<T> for Quaternion<T> {
     /// `[BN]` of the quaternion divided by its length: a rotation for any finite length but zero,
     /// also between the stages of an integrator. NaN otherwise.
     fn dcm(&self) -> Matrix3<T> {
-        let (scaled, _) = self.scaled();
-        let Self { q0, q1, q2, q3 } = scaled;
-        let scale = two::<T>() * scaled.norm_squared().recip();
-        let (s1, s2, s3) = (scale * q1, scale * q2, scale * q3);
-        let (d1, d2, d3) = (s1 * q1, s2 * q2, s3 * q3);
-        let (w1, w2, w3) = (s1 * q0, s2 * q0, s3 * q0);
-        let (p12, p13, p23) = (s1 * q2, s1 * q3, s2 * q3);
-        Matrix3::new(
-            one::<T>() - (d2 + d3),
-            p12 + w3,
-            p13 - w2,
-            p12 - w3,
-            one::<T>() - (d1 + d3),
-            p23 + w1,
-            p13 + w2,
-            p23 - w1,
-            one::<T>() - (d1 + d2),
-        )
+        let (Self { q0, q1, q2, q3 }, _) = self.scaled();
+        let [x, y, z] = bn([q0, q1, q2, q3]);
+        Matrix3::from_columns(&[vector(x), vector(y), vector(z)])
     }
 
     /// `beta' = (-q . omega, q0 omega + q x omega) / 2`, in the order of the fields.
     fn rate(&self, omega: &Vector3<T>) -> Vector4<T> {
         let Self { q0, q1, q2, q3 } = *self;
-        let omega = components(omega);
-        let [x, y, z] = scale(half(), omega);
-        Vector4::new(
-            -dot([q1, q2, q3], [x, y, z]),
-            q0 * x - q3 * y + q2 * z,
-            q3 * x + q0 * y - q1 * z,
-            q1 * y - q2 * x + q0 * z,
-        )
+        Vector4::from(rate([q0, q1, q2, q3], components(omega)))
     }
 
     fn advanced(&self, terms: &[(T, Vector4<T>)]) -> Self {

@@ -1,18 +1,21 @@
-//! The two number traits: [`Real`] for the emitted kernels, [`Scalar`] for the solver around them.
+//! The number traits: [`Real`] for the emitted kernels, [`Angle`] for what they are given of a joint,
+//! [`Scalar`] for the solver around them.
 //!
 //! A kernel needs nothing but ring arithmetic and a reciprocal, so it can also run on lanes or dual
-//! numbers, which have no total order. Everything that compares, takes a root or a sine asks for
-//! [`Scalar`]. Both are implemented for `f64` and `f32`; nothing in this crate rounds through `f64`
+//! numbers, which have no total order. Everything that compares or takes a root asks for
+//! [`Scalar`]. All are implemented for `f64` and `f32`; nothing in this crate rounds through `f64`
 //! on the way to a result, so a wider type keeps its full accuracy.
 
-use core::fmt::Debug;
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
 use core::ops::{Add, Mul, Neg, Sub};
 
+use crate::each::Value;
 use crate::sincos::{LARGEST_ANGLE, sin_cos};
 
 /// What an emitted kernel does with a number.
 pub trait Real:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+    Value + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// `1 / self`.
     #[must_use]
@@ -23,13 +26,41 @@ pub trait Real:
     #[must_use]
     fn mul_add(self, a: Self, b: Self) -> Self;
 
+    /// `self + a * b`, rounded as [`Self::mul_add`] rounds.
+    #[must_use]
+    #[inline(always)]
+    fn add_mul(self, a: Self, b: Self) -> Self {
+        a.mul_add(b, self)
+    }
+
+    /// `self - a * b`, rounded as [`Self::mul_add`] rounds.
+    #[must_use]
+    #[inline(always)]
+    fn sub_mul(self, a: Self, b: Self) -> Self {
+        (-a).mul_add(b, self)
+    }
+
+    /// `self * a - b`, rounded as [`Self::mul_add`] rounds.
+    #[must_use]
+    #[inline(always)]
+    fn mul_sub(self, a: Self, b: Self) -> Self {
+        self.mul_add(a, -b)
+    }
+
     /// The constant `value` as a number of the same kind as `self`.
     #[must_use]
     fn like(self, value: f64) -> Self;
 }
 
-/// What the solver does with a number, on top of [`Real`].
-pub trait Scalar: Real + PartialOrd + PartialEq + Debug + Send + Sync + 'static {
+/// What a kernel's arguments are made of: a number that has a sine.
+pub trait Angle: Real {
+    /// Sine and cosine of an angle in radians, with the same bits on every target.
+    #[must_use]
+    fn sin_cos(self) -> (Self, Self);
+}
+
+/// What the solver does with a number, on top of [`Angle`].
+pub trait Scalar: Angle + PartialOrd {
     /// Distance from 1 to the next larger number: `2^-52` for `f64`, `2^-23` for `f32`.
     const EPSILON: Self;
 
@@ -41,10 +72,6 @@ pub trait Scalar: Real + PartialOrd + PartialEq + Debug + Send + Sync + 'static 
     /// The nearest `f64`, for messages and first guesses.
     #[must_use]
     fn to_f64(self) -> f64;
-
-    /// Sine and cosine of an angle in radians, with the same bits on every target.
-    #[must_use]
-    fn sin_cos(self) -> (Self, Self);
 
     /// Square root; NaN for a negative number.
     #[must_use]
@@ -84,6 +111,13 @@ impl Real for f64 {
     }
 }
 
+impl Angle for f64 {
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        if self.abs() <= LARGEST_ANGLE { sin_cos(self) } else { libm::sincos(self) }
+    }
+}
+
 impl Scalar for f64 {
     const EPSILON: Self = Self::EPSILON;
 
@@ -95,11 +129,6 @@ impl Scalar for f64 {
     #[inline]
     fn to_f64(self) -> f64 {
         self
-    }
-
-    #[inline]
-    fn sin_cos(self) -> (Self, Self) {
-        if self.abs() <= LARGEST_ANGLE { sin_cos(self) } else { libm::sincos(self) }
     }
 
     #[inline]
@@ -131,6 +160,13 @@ impl Real for f32 {
     }
 }
 
+impl Angle for f32 {
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincosf(self)
+    }
+}
+
 impl Scalar for f32 {
     const EPSILON: Self = Self::EPSILON;
 
@@ -143,11 +179,6 @@ impl Scalar for f32 {
     #[inline]
     fn to_f64(self) -> f64 {
         f64::from(self)
-    }
-
-    #[inline]
-    fn sin_cos(self) -> (Self, Self) {
-        libm::sincosf(self)
     }
 
     #[inline]

@@ -35,8 +35,8 @@ pub struct Stepped<D: Devices, A> {
     pub work: Power<D::Scalar>,
 }
 
-/// Whether a stage of a step could be booked.
-type Booked<D> = Result<(), SolveError<<D as Devices>::Scalar>>;
+/// What becomes of a stage of a step.
+type Evaluated<D> = Result<Accelerations<D>, SolveError<<D as Devices>::Scalar>>;
 
 /// The slope of a state.
 type SlopeOf<D, A> = Slope<
@@ -60,7 +60,7 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
         dt: D::Scalar,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
-        self.checked(state, inputs, dt, |_, _, _| Ok(()))
+        self.stepped(state, inputs, dt, |_, stage| self.solve(stage, inputs))
     }
 
     /// [`Self::step`], with the work of each source during the step: what the ledger calls power, in
@@ -76,20 +76,22 @@ impl<D: Devices> Spacecraft<D> {
         dt: D::Scalar,
     ) -> Result<Stepped<D, A>, SolveError<D::Scalar>> {
         let mut work = Power::none();
-        let state = self.checked(state, inputs, dt, |time, stage, found| {
-            let power = self.ledger(stage, inputs, found)?.power;
+        let state = self.stepped(state, inputs, dt, |time, stage| {
+            let found = self.solve(stage, inputs)?;
+            let power = self.ledger(stage, inputs, &found)?.power;
             work = work.plus_scaled(time, &power);
-            Ok(())
+            Ok(found)
         })?;
         Ok(Stepped { state, work })
     }
 
-    fn checked<A: Attitude<D::Scalar>>(
+    /// The step, by whatever evaluates a stage; it is told for how long the stage counts.
+    pub(crate) fn stepped<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
         dt: D::Scalar,
-        book: impl FnMut(D::Scalar, &State<D, A>, &Accelerations<D>) -> Booked<D>,
+        evaluate: impl FnMut(D::Scalar, &State<D, A>) -> Evaluated<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         if !dt.is_finite() {
             return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
@@ -97,24 +99,22 @@ impl<D: Devices> Spacecraft<D> {
         if !sound(state, inputs) {
             return Err(self.diagnosis(state, inputs, SolveError::Overflow));
         }
-        let next = self.advance(state, inputs, dt, book);
+        let next = self.advance(state, dt, evaluate);
         next.map_err(|failure| self.diagnosis(state, inputs, failure))
     }
 
     fn advance<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
-        inputs: &Inputs<D>,
         dt: D::Scalar,
-        mut book: impl FnMut(D::Scalar, &State<D, A>, &Accelerations<D>) -> Booked<D>,
+        mut evaluate: impl FnMut(D::Scalar, &State<D, A>) -> Evaluated<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         let middle = half::<D::Scalar>() * dt;
         let sixth = dt * D::Scalar::from_f64(6.0).recip();
         let third = dt * D::Scalar::from_f64(3.0).recip();
 
         let mut slope = |weight: D::Scalar, stage: &State<D, A>| {
-            let found = self.solve(stage, inputs)?;
-            book(weight, stage, &found)?;
+            let found = evaluate(weight, stage)?;
             Ok::<_, SolveError<D::Scalar>>(slope_of(stage, &found))
         };
         let k_1 = slope(sixth, state)?;

@@ -4,16 +4,18 @@
 //! columns at a time is the same factorisation in the same order of operations as taking one, and
 //! leaves no index to go out of range.
 
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
 use crate::error::SolveError;
 use crate::real::{Real, Scalar};
 use crate::symmetric::Symmetric;
-use crate::vec3::{Columns, Vec3, dot, finite, sub};
+use crate::vec3::{Columns, Vec3, dot, finite, map, sub};
 
 /// A pivot must exceed this many epsilons of its diagonal before the elimination.
 ///
 /// Cancelling from the diagonal down to the pivot has then left at most some bits that are not
 /// rounding; a state that close to singular has no meaningful accelerations.
-const PIVOT_EPSILONS: f64 = 64.0;
+pub(crate) const PIVOT_EPSILONS: f64 = 64.0;
 
 /// The symmetric system: row of `vw` = force, column = angular acceleration; `vw` by its columns.
 #[derive(Clone, Copy, Debug)]
@@ -62,13 +64,25 @@ pub(crate) fn check_pivot<T: Scalar>(pivot: T, diagonal: T) -> Result<(), SmallP
 }
 
 impl<T: Scalar> System<T> {
-    /// No equations.
-    pub(crate) fn zero() -> Self {
-        let (none, zeros) = (Symmetric::zero(), crate::vec3::zeros());
-        Self { m_vv: none, m_vw: [zeros; 3], m_ww: none, h_v: zeros, h_w: zeros }
+    /// Solves the system.
+    pub(crate) fn solve(&self) -> Result<Solution<T>, SmallPivot<T>> {
+        let (solution, pivots) = self.solved();
+        let mut pivots = pivots.into_iter();
+        pivots.try_for_each(|[pivot, diagonal]| check_pivot(pivot, diagonal))?;
+        Ok(solution)
+    }
+}
+
+impl<T: Real> System<T> {
+    /// Every number the same.
+    #[inline(always)]
+    pub(crate) fn filled(value: T) -> Self {
+        let (block, row) = (Symmetric::filled(value), [value; 3]);
+        Self { m_vv: block, m_vw: [row; 3], m_ww: block, h_v: row, h_w: row }
     }
 
     /// What is left without `other`.
+    #[inline(always)]
     pub(crate) fn less(&self, other: &Self) -> Self {
         let ([x, y, z], [ox, oy, oz]) = (self.m_vw, other.m_vw);
         Self {
@@ -80,13 +94,15 @@ impl<T: Scalar> System<T> {
         }
     }
 
-    /// Solves the system.
-    pub(crate) fn solve(&self) -> Result<Solution<T>, SmallPivot<T>> {
-        let vv = Factors::of(&self.m_vv, diagonal(&self.m_vv))?;
+    /// The solution, to be taken only where each of the pivots, in order, passes beside its
+    /// diagonal.
+    #[inline(always)]
+    pub(crate) fn solved(&self) -> (Solution<T>, [[T; 2]; 6]) {
+        let vv = Factors::of(&self.m_vv);
 
         // Rows four to six of L times D, and of L: w = L_vv^-1 M_vw, z = D_vv^-1 w.
-        let w = self.m_vw.map(|column| vv.forward(column));
-        let z = w.map(|column| vv.divide(column));
+        let w = map(self.m_vw, |column| vv.forward(column));
+        let z = map(w, |column| vv.divide(column));
         let [wx, wy, wz] = w;
         let [zx, zy, zz] = z;
         let schur = Symmetric {
@@ -97,7 +113,7 @@ impl<T: Scalar> System<T> {
             yz: self.m_ww.yz - dot(wy, zz),
             zz: self.m_ww.zz - dot(wz, zz),
         };
-        let ww = Factors::of(&schur, diagonal(&self.m_ww))?;
+        let ww = Factors::of(&schur);
 
         let y_v = vv.forward(self.h_v);
         let y_w = ww.forward(sub(self.h_w, [dot(zx, y_v), dot(zy, y_v), dot(zz, y_v)]));
@@ -109,7 +125,9 @@ impl<T: Scalar> System<T> {
             zx[2] * x + zy[2] * y + zz[2] * z,
         ];
         let r_b_n_ddot = vv.backward(sub(vv.divide(y_v), coupled));
-        Ok(Solution { r_b_n_ddot, omega_dot })
+        let [first, second, third] = with(vv.pivots, diagonal(&self.m_vv));
+        let [fourth, fifth, sixth] = with(ww.pivots, diagonal(&self.m_ww));
+        (Solution { r_b_n_ddot, omega_dot }, [first, second, third, fourth, fifth, sixth])
     }
 }
 
@@ -118,32 +136,30 @@ struct Factors<T> {
     l_21: T,
     l_31: T,
     l_32: T,
+    pivots: Vec3<T>,
     reciprocals: Vec3<T>,
 }
 
-impl<T: Scalar> Factors<T> {
-    /// Factorises `a`; `diagonal` is the diagonal before any elimination.
-    fn of(a: &Symmetric<T>, diagonal: Vec3<T>) -> Result<Self, SmallPivot<T>> {
+impl<T: Real> Factors<T> {
+    /// Factorises `a`.
+    #[inline(always)]
+    fn of(a: &Symmetric<T>) -> Self {
         let d_1 = a.xx;
-        check_pivot(d_1, diagonal[0])?;
         let r_1 = d_1.recip();
         let (l_21, l_31) = (a.xy * r_1, a.xz * r_1);
 
         let d_2 = a.yy - l_21 * a.xy;
-        check_pivot(d_2, diagonal[1])?;
         let r_2 = d_2.recip();
         let below = a.yz - l_31 * a.xy;
         let l_32 = below * r_2;
 
         let d_3 = a.zz - l_31 * a.xz - l_32 * below;
-        check_pivot(d_3, diagonal[2])?;
-        Ok(Self { l_21, l_31, l_32, reciprocals: [r_1, r_2, d_3.recip()] })
+        let reciprocals = [r_1, r_2, d_3.recip()];
+        Self { l_21, l_31, l_32, pivots: [d_1, d_2, d_3], reciprocals }
     }
-}
 
-impl<T: Real> Factors<T> {
     /// `L^-1 b`.
-    #[inline]
+    #[inline(always)]
     fn forward(&self, b: Vec3<T>) -> Vec3<T> {
         let y_2 = b[1] - self.l_21 * b[0];
         let y_3 = b[2] - self.l_31 * b[0] - self.l_32 * y_2;
@@ -151,14 +167,14 @@ impl<T: Real> Factors<T> {
     }
 
     /// `D^-1 b`.
-    #[inline]
+    #[inline(always)]
     fn divide(&self, b: Vec3<T>) -> Vec3<T> {
         let [r_1, r_2, r_3] = self.reciprocals;
         [b[0] * r_1, b[1] * r_2, b[2] * r_3]
     }
 
     /// `L^-T b`.
-    #[inline]
+    #[inline(always)]
     fn backward(&self, b: Vec3<T>) -> Vec3<T> {
         let x_2 = b[1] - self.l_32 * b[2];
         let x_1 = b[0] - self.l_21 * x_2 - self.l_31 * b[2];
@@ -166,7 +182,13 @@ impl<T: Real> Factors<T> {
     }
 }
 
-#[inline]
+/// Each pivot with its diagonal before any elimination.
+#[inline(always)]
+fn with<T: Real>(pivots: Vec3<T>, diagonal: Vec3<T>) -> [[T; 2]; 3] {
+    [[pivots[0], diagonal[0]], [pivots[1], diagonal[1]], [pivots[2], diagonal[2]]]
+}
+
+#[inline(always)]
 fn diagonal<T: Real>(a: &Symmetric<T>) -> Vec3<T> {
     [a.xx, a.yy, a.zz]
 }

@@ -1,5 +1,7 @@
 //! Symmetric 3x3 tensors (inertias): storage of six numbers, rotation, principal moments.
 
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
 use nalgebra::Matrix3;
 
 use crate::real::{Real, Scalar, half, one, reciprocal_in_two, zero};
@@ -90,8 +92,22 @@ impl<T: Scalar> Symmetric<T> {
 }
 
 impl<T: Real> Symmetric<T> {
+    /// The tensor with each of its numbers changed.
+    #[cfg(feature = "lanes")]
+    #[inline(always)]
+    pub(crate) fn map<U>(self, mut change: impl FnMut(T) -> U) -> Symmetric<U> {
+        Symmetric {
+            xx: change(self.xx),
+            xy: change(self.xy),
+            xz: change(self.xz),
+            yy: change(self.yy),
+            yz: change(self.yz),
+            zz: change(self.zz),
+        }
+    }
+
     /// The sum of two tensors.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn plus(self, other: Self) -> Self {
         Self {
             xx: self.xx + other.xx,
@@ -103,8 +119,14 @@ impl<T: Real> Symmetric<T> {
         }
     }
 
+    /// Every entry the same.
+    #[inline(always)]
+    pub(crate) fn filled(value: T) -> Self {
+        Self { xx: value, xy: value, xz: value, yy: value, yz: value, zz: value }
+    }
+
     /// What is left without `other`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn less(self, other: Self) -> Self {
         Self {
             xx: self.xx - other.xx,
@@ -117,20 +139,20 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// `v vᵀ`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn dyad(v: Vec3<T>) -> Self {
         let [x, y, z] = v;
         Self { xx: x * x, xy: x * y, xz: x * z, yy: y * y, yz: y * z, zz: z * z }
     }
 
     /// The sum of the diagonal.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn trace(&self) -> T {
         self.xx + self.yy + self.zz
     }
 
     /// `self : other`, the sum of the products of all nine elements.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn double_dot(&self, other: &Self) -> T {
         let diagonal = self.xx * other.xx + self.yy * other.yy + self.zz * other.zz;
         let beside = self.xy * other.xy + self.xz * other.xz + self.yz * other.yz;
@@ -138,13 +160,13 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// The tensor applied to a vector.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn times(&self, v: Vec3<T>) -> Vec3<T> {
         rotate(&self.columns(), v)
     }
 
     /// `m self m^T`: components along the old frame of a tensor given along the columns of `m`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn rotated(&self, m: &Columns<T>) -> Self {
         let s = self.columns();
         let ms = [rotate(m, s[0]), rotate(m, s[1]), rotate(m, s[2])];
@@ -163,7 +185,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// `mass (r . r 1 - r r^T)`: the parallel-axis term of a mass at `r`.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn parallel_axis(mass: T, r: Vec3<T>) -> Self {
         let m = [mass * r[0], mass * r[1], mass * r[2]];
         Self {
@@ -177,7 +199,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// The three columns.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn columns(&self) -> Columns<T> {
         [[self.xx, self.xy, self.xz], [self.xy, self.yy, self.yz], [self.xz, self.yz, self.zz]]
     }

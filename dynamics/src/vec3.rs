@@ -3,6 +3,8 @@
 //! nalgebra's types stand at the API's edge; inside, arrays over [`Real`] keep every sum in a fixed
 //! order and need no trait beyond the kernels' own.
 
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
 use nalgebra::{Matrix3, Vector3};
 
 use crate::real::{Real, Scalar, zero};
@@ -14,22 +16,28 @@ pub(crate) type Vec3<T> = [T; 3];
 pub(crate) type Columns<T> = [[T; 3]; 3];
 
 /// The components of a vector of the API.
-#[inline]
+#[inline(always)]
 pub(crate) fn components<T: Copy>(v: &Vector3<T>) -> Vec3<T> {
     let [column] = v.data.0;
     column
 }
 
 /// The columns of a matrix of the API.
-#[inline]
+#[inline(always)]
 pub(crate) fn columns<T: Copy>(m: &Matrix3<T>) -> Columns<T> {
     m.data.0
 }
 
 /// A vector of the API from its components.
-#[inline]
+#[inline(always)]
 pub(crate) fn vector<T>([x, y, z]: Vec3<T>) -> Vector3<T> {
     Vector3::new(x, y, z)
+}
+
+/// The vector with each component changed. An array's own `map` is a call, which lanes must not make.
+#[inline(always)]
+pub(crate) fn map<T, U>([x, y, z]: Vec3<T>, mut change: impl FnMut(T) -> U) -> Vec3<U> {
+    [change(x), change(y), change(z)]
 }
 
 /// The zero vector.
@@ -39,43 +47,43 @@ pub(crate) fn zeros<T: Scalar>() -> Vec3<T> {
 }
 
 /// `a + b`.
-#[inline]
+#[inline(always)]
 pub(crate) fn add<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 /// `a - b`.
-#[inline]
+#[inline(always)]
 pub(crate) fn sub<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// `-a`.
-#[inline]
+#[inline(always)]
 pub(crate) fn neg<T: Real>(a: Vec3<T>) -> Vec3<T> {
     [-a[0], -a[1], -a[2]]
 }
 
 /// `s a`.
-#[inline]
+#[inline(always)]
 pub(crate) fn scale<T: Real>(s: T, a: Vec3<T>) -> Vec3<T> {
     [s * a[0], s * a[1], s * a[2]]
 }
 
 /// `a . b`.
-#[inline]
+#[inline(always)]
 pub(crate) fn dot<T: Real>(a: Vec3<T>, b: Vec3<T>) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// `a x b`.
-#[inline]
+#[inline(always)]
 pub(crate) fn cross<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// `m v`: components along the old frame of a vector given along the columns.
-#[inline]
+#[inline(always)]
 pub(crate) fn rotate<T: Real>(m: &Columns<T>, v: Vec3<T>) -> Vec3<T> {
     let [x, y, z] = m;
     [
@@ -86,7 +94,7 @@ pub(crate) fn rotate<T: Real>(m: &Columns<T>, v: Vec3<T>) -> Vec3<T> {
 }
 
 /// `m^T v`: components along the columns of a vector given along the old frame.
-#[inline]
+#[inline(always)]
 pub(crate) fn rotate_transposed<T: Real>(m: &Columns<T>, v: Vec3<T>) -> Vec3<T> {
     [dot(m[0], v), dot(m[1], v), dot(m[2], v)]
 }

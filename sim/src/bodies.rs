@@ -6,7 +6,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::dgvscmg::Joints;
-use precess_dynamics::{Attitude, Dgvscmg, Hub, Scalar, State};
+use precess_dynamics::{Angle, Attitude, Dgvscmg, Hub, State};
 
 use crate::scenario::Set;
 
@@ -82,7 +82,7 @@ impl Frame {
     /// The next body, turned about one of this frame's axes.
     fn turned(&self, axis: Vector3<f64>, angle: f64, rate: f64) -> Self {
         // The solver's own: the same bits on every host.
-        let (sin, cos) = Scalar::sin_cos(angle);
+        let (sin, cos) = Angle::sin_cos(angle);
         let tilde = axis.cross_matrix();
         let turn = Matrix3::identity() + tilde * sin + tilde * tilde * (1.0 - cos);
         Self { axes: self.axes * turn, omega: self.omega + self.axes * axis * rate, ..*self }

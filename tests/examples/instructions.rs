@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use precess_dynamics::kind::Kind;
-use precess_dynamics::{Devices, Scalar};
+use precess_dynamics::{Angle, Devices};
 use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind};
 
 /// Step of the integrator, s.
@@ -48,7 +48,7 @@ impl Cases {
     fn all(&mut self) {
         self.case("sin_cos", || {
             || {
-                black_box(Scalar::sin_cos(black_box(1.25)));
+                black_box(Angle::sin_cos(black_box(1.25)));
             }
         });
         self.of("1", &[dgvscmg(); 1]);

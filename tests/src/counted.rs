@@ -7,7 +7,7 @@
 use core::cell::Cell;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use precess_dynamics::{Real, Scalar};
+use precess_dynamics::{Angle, Real, Scalar};
 
 /// Operations by what they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,6 +109,14 @@ impl Real for Counted {
     }
 }
 
+impl Angle for Counted {
+    fn sin_cos(self) -> (Self, Self) {
+        tick(|count| &mut count.sin_cos);
+        let (sin, cos) = self.0.sin_cos();
+        (Self(sin), Self(cos))
+    }
+}
+
 impl Scalar for Counted {
     const EPSILON: Self = Self(f64::EPSILON);
 
@@ -118,12 +126,6 @@ impl Scalar for Counted {
 
     fn to_f64(self) -> f64 {
         self.0
-    }
-
-    fn sin_cos(self) -> (Self, Self) {
-        tick(|count| &mut count.sin_cos);
-        let (sin, cos) = self.0.sin_cos();
-        (Self(sin), Self(cos))
     }
 
     fn sqrt(self) -> Self {

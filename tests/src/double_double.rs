@@ -13,7 +13,7 @@ mod sin_cos;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use precess_dynamics::{Real, Scalar};
+use precess_dynamics::{Angle, Real, Scalar};
 
 /// The sum `high + low`, with `|low|` at most half a unit in the last place of `high`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -143,6 +143,12 @@ impl Real for DoubleDouble {
     }
 }
 
+impl Angle for DoubleDouble {
+    fn sin_cos(self) -> (Self, Self) {
+        sin_cos::sin_cos(self)
+    }
+}
+
 impl Scalar for DoubleDouble {
     /// `2^-104`: what `2^-52` is to `f64`, with a factor of two for the bounds above.
     const EPSILON: Self = Self { high: f64::EPSILON * f64::EPSILON, low: 0.0 };
@@ -153,10 +159,6 @@ impl Scalar for DoubleDouble {
 
     fn to_f64(self) -> f64 {
         self.high + self.low
-    }
-
-    fn sin_cos(self) -> (Self, Self) {
-        sin_cos::sin_cos(self)
     }
 
     /// Karp and Markstein: one Newton step from the `f64` root.

@@ -4,7 +4,7 @@
 use precess_dynamics::units::{
     from_deg, from_g_cm, from_g_cm2, from_rpm, to_g_cm, to_g_cm2, to_rpm,
 };
-use precess_dynamics::{Imbalance, Scalar};
+use precess_dynamics::{Angle, Imbalance, Scalar};
 use precess_tests::double_double::DoubleDouble as Wide;
 
 /// Some ten operations, each right to 1.2e-31 or better, on numbers of size one.

@@ -3,7 +3,7 @@
 //! Run with `--nocapture` to see the figures.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Attitude, Mrp, Quaternion, Real, Scalar, Spacecraft, State};
+use precess_dynamics::{Angle, Attitude, Mrp, Quaternion, Real, Scalar, Spacecraft, State};
 use precess_tests::blocks::largest;
 use precess_tests::bounds::ORDER;
 use precess_tests::case::Set;

@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
-use precess_dynamics::Scalar;
+use precess_dynamics::{Angle, Scalar};
 use precess_tests::double_double::DoubleDouble;
 use precess_tests::random::Random;
 
@@ -31,7 +31,7 @@ fn last_places(value: f64, exact: DoubleDouble) -> f64 {
 
 /// The errors of both at one angle.
 fn errors(angle: f64) -> [f64; 2] {
-    let (sine, cosine) = Scalar::sin_cos(angle);
+    let (sine, cosine) = Angle::sin_cos(angle);
     let (exact_sine, exact_cosine) = DoubleDouble::from_f64(angle).sin_cos();
     [last_places(sine, exact_sine), last_places(cosine, exact_cosine)]
 }
@@ -92,7 +92,7 @@ fn sines_keep_their_digits_at_the_hardest_angles() {
         (FRAC_PI_2, 6.123_233_995_736_766e-17),
     ];
     for (angle, small) in hardest {
-        let (sine, cosine) = Scalar::sin_cos(angle);
+        let (sine, cosine) = Angle::sin_cos(angle);
         let found = if sine.abs() < cosine.abs() { sine } else { cosine };
         assert_eq!(found, small, "{angle}");
         assert!(errors(angle).iter().all(|error| *error <= LAST_PLACES_NEAR_ZERO), "{angle}");
@@ -103,7 +103,7 @@ fn sines_keep_their_digits_at_the_hardest_angles() {
 #[test]
 fn sine_is_odd_and_cosine_even_to_the_bit() {
     let bits = |angle: f64| {
-        let (sine, cosine) = Scalar::sin_cos(angle);
+        let (sine, cosine) = Angle::sin_cos(angle);
         (sine.to_bits(), cosine.to_bits())
     };
     let powers = (-1074..=1023).map(|power| libm::ldexp(1.0, power));
@@ -119,10 +119,10 @@ fn sine_is_odd_and_cosine_even_to_the_bit() {
 #[test]
 fn angles_beyond_the_largest_have_libms_sines() {
     for angle in [LARGEST_ANGLE.next_up(), 1e9, 1e22, f64::MAX] {
-        assert_eq!(Scalar::sin_cos(angle), libm::sincos(angle));
+        assert_eq!(Angle::sin_cos(angle), libm::sincos(angle));
     }
     for angle in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
-        let (sine, cosine) = Scalar::sin_cos(angle);
+        let (sine, cosine) = Angle::sin_cos(angle);
         assert!(sine.is_nan() && cosine.is_nan(), "{angle}");
     }
 }

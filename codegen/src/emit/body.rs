@@ -1,5 +1,7 @@
 //! Statements of one function: which nodes get a name, in which order, and what they cost.
 
+mod fused;
+
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use proc_macro2::{TokenStream, TokenTree};
@@ -74,6 +76,8 @@ pub(super) struct Writer<'a, 'g> {
     prefix: String,
     /// Columns left for the value of the statement at hand.
     room: usize,
+    /// Whether a product that meets a sum and nothing else is written as one operation with it.
+    fusing: bool,
     statements: Vec<TokenStream>,
     counts: Counts,
 }
@@ -95,9 +99,15 @@ impl<'a, 'g> Writer<'a, 'g> {
             numbers: BTreeMap::new(),
             prefix: String::new(),
             room: 0,
+            fusing: false,
             statements: Vec::new(),
             counts: Counts::default(),
         }
+    }
+
+    /// Writes `c.add_mul(a, b)` for `c + a * b`, for numbers that do both at once.
+    pub(super) fn fusing(self) -> Self {
+        Self { fusing: true, ..self }
     }
 
     /// The body that computes `outputs`, and nothing that they do not need.
@@ -276,11 +286,14 @@ impl<'a, 'g> Writer<'a, 'g> {
     fn compute(&mut self, id: NodeId) -> Rendered {
         match self.graph.node(id) {
             Node::Sum(a, b) => match (self.inline(a), self.inline(b)) {
-                (_, Node::Neg(b)) => self.binary(a, b, Rendered::minus, Binding::Sum),
-                (Node::Neg(a), _) => self.binary(b, a, Rendered::minus, Binding::Sum),
-                _ => self.commuting(a, b, Rendered::plus, Binding::Sum),
+                (_, Node::Neg(b)) => self.difference(a, b),
+                (Node::Neg(a), _) => self.difference(b, a),
+                _ => self.sum(a, b),
             },
-            Node::Product(a, b) => self.commuting(a, b, Rendered::times, Binding::Product),
+            Node::Product(a, b) => {
+                self.counts.mul += 1;
+                self.commuting(a, b, Rendered::times, Binding::Product)
+            }
             Node::Neg(a) => {
                 self.counts.neg += 1;
                 self.operand(a).negated()
@@ -318,26 +331,24 @@ impl<'a, 'g> Writer<'a, 'g> {
                 }
         };
         let swap = chained(self, b) && !chained(self, a);
-        let (a, b) = if swap { (b, a) } else { (a, b) };
-        self.binary(a, b, join, kind)
+        let operands = if swap { [b, a] } else { [a, b] };
+        self.fitting(operands, |[a, b]| join(a, b))
     }
 
-    fn binary(
+    /// Operands joined, the widest of them under names of their own until the line fits.
+    fn fitting<const N: usize>(
         &mut self,
-        a: NodeId,
-        b: NodeId,
-        join: fn(&Rendered, &Rendered) -> Rendered,
-        kind: Binding,
+        ids: [NodeId; N],
+        join: impl Fn(&[Rendered; N]) -> Rendered,
     ) -> Rendered {
-        *(if kind == Binding::Sum { &mut self.counts.add } else { &mut self.counts.mul }) += 1;
-        let (mut left, mut right) = (self.operand(a), self.operand(b));
-        while join(&left, &right).width > self.room {
-            let sides = [(&mut left, a), (&mut right, b)].into_iter();
+        let mut operands = ids.map(|id| self.operand(id));
+        while join(&operands).width > self.room {
+            let sides = operands.iter_mut().zip(ids);
             let long = sides.filter(|(side, _)| side.binding != Binding::Atom);
             let Some((wide, id)) = long.max_by_key(|(side, _)| side.width) else { break };
             *wide = self.bind_rendered(id, None, wide);
         }
-        join(&left, &right)
+        join(&operands)
     }
 
     /// Emits a rendered value under its name, or under the section's next number.

@@ -97,6 +97,7 @@ fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
         "ImbalanceModel",
         "JointInfo",
         "JointStates",
+        "Kernels",
         "Kind",
         "Lumped",
         "Value",
@@ -112,7 +113,7 @@ fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
     let used = [
         list("generated::hub::", &hub, &[]),
         list("kind::", &kind, &[]),
-        list("", &["Passive", "Scalar", "Wrench"], &[]),
+        list("", &["Angle", "Passive", "Real", "Scalar", "Wrench"], &[]),
     ];
     used.iter().flat_map(|text| text.lines()).map(str::to_owned).collect()
 }

@@ -11,8 +11,8 @@ use crate::kinds::{Kind, Link};
 /// are made of it.
 type Parameter = (&'static str, &'static str, &'static [&'static str]);
 
-const CONSTANTS: Parameter = ("constants", "&Self::Constants", &["p"]);
-const POSE: Parameter = ("pose", "&Self::Pose", &["q", "s"]);
+const CONSTANTS: Parameter = ("constants", "&Self::Constants<T>", &["p"]);
+const POSE: Parameter = ("pose", "&Self::Pose<T>", &["q", "s"]);
 const JOINTS: Parameter = ("joints", "&Joints<T>", &["v"]);
 const OMEGA: Parameter = ("omega", "&BodyRate<T>", &["w"]);
 const DRIVES: Parameter = ("drives", "&PerJoint<Drive<T>>", &["u", "m"]);
@@ -61,7 +61,8 @@ impl Items<'_> {
         fitted(indent, &format!("{before}super::{kernel}("), &arguments, &format!("){after}"))
     }
 
-    /// A function that asks one kernel; what the kernel does not read has no name.
+    /// A function that asks one kernel; what the kernel does not read has no name. The name may have
+    /// type parameters.
     fn asks(
         &self,
         name: &str,
@@ -119,9 +120,12 @@ impl Items<'_> {
         let joints = if records.is_empty() { "_" } else { "joints" };
         lines.retain(|line| !line.is_empty());
         if lines.is_empty() {
-            return format!("    fn pose({joints}: &Joints<T>) -> Self::Pose {{}}");
+            return inlined(&format!(
+                "    fn pose<T: Angle>({joints}: &Joints<T>) -> Self::Pose<T> {{}}"
+            ));
         }
-        function(&format!("pose({joints}: &Joints<T>) -> Self::Pose"), &lines.join("\n"))
+        let signature = format!("pose<T: Angle>({joints}: &Joints<T>) -> Self::Pose<T>");
+        inlined(&function(&signature, &lines.join("\n")))
     }
 
     /// The links with a motor of their own.
@@ -150,13 +154,18 @@ impl Items<'_> {
             self.call(8, "", "eliminate", ""),
         ];
         let given = [CONSTANTS, POSE, JOINTS, OMEGA, DRIVES];
-        let asked =
-            self.asks("eliminate", "eliminate", &given, "Self::Eliminated", &body.join("\n"));
+        let asked = self.asks(
+            "eliminate<T: Real>",
+            "eliminate",
+            &given,
+            "Self::Eliminated<T>",
+            &body.join("\n"),
+        );
         let share = function(
-            "share(eliminated: &Self::Eliminated) -> &HubShare<T>",
+            "share<T: Real>(eliminated: &Self::Eliminated<T>) -> &HubShare<T>",
             "        &eliminated.share",
         );
-        [asked, share].join("\n\n")
+        [asked, share].map(|item| inlined(&item)).join("\n\n")
     }
 
     pub(super) fn pivots(&self) -> String {
@@ -168,11 +177,12 @@ impl Items<'_> {
                 "None".to_owned()
             }
         });
-        function("pivots(eliminated: &Self::Eliminated) -> PerJoint<Option<[T; 2]>>", &text)
+        let signature =
+            "pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>>";
+        inlined(&function(signature, &text))
     }
 
-    /// Back substitution, energy and momenta, first moment.
-    pub(super) fn motion(&self) -> Vec<String> {
+    pub(super) fn back_substitute(&self) -> String {
         let back = self.letters("back_substitute");
         let name = |letter, name| if back.contains(&letter) { name } else { "_" };
         let arguments: Vec<_> = back
@@ -181,14 +191,54 @@ impl Items<'_> {
             .collect();
         let head = fitted(
             4,
-            "fn back_substitute(",
+            "fn back_substitute<T: Real>(",
             &[
-                format!("{}: &Self::Eliminated", name("e", "eliminated")),
+                format!("{}: &Self::Eliminated<T>", name("e", "eliminated")),
                 format!("{}: &BodyAcceleration<T>", name("a", "hub")),
             ],
             ") -> JointAccelerations<T> {",
         );
         let call = fitted(8, "super::back_substitute(", &arguments, ")");
+        inlined(&format!("{head}\n{call}\n    }}"))
+    }
+
+    /// What the joints' coordinates and rates change by.
+    pub(super) fn slope(&self) -> String {
+        let links = self.kind.links;
+        let coordinates = links
+            .iter()
+            .map(|link| format!("{}: joints.{}", link.joint.coordinate, link.joint.rate));
+        let rates = links
+            .iter()
+            .map(|link| format!("{}: accelerations.{}", link.joint.rate, link.joint.acceleration));
+        let fields: Vec<_> = coordinates.chain(rates).collect();
+        let arguments = ["joints: &Joints<T>", "accelerations: &JointAccelerations<T>"];
+        let arguments = arguments.map(str::to_owned);
+        let head = fitted(4, "fn slope<T: Value>(", &arguments, ") -> Joints<T> {");
+        let text = format!("{head}\n{}\n    }}", fitted(8, "Joints {", &fields, "}"));
+        inlined(&text)
+    }
+
+    /// Number by number, for what is gathered into lanes or spread from them.
+    pub(super) fn zips() -> Vec<String> {
+        let zip = |name: &str, record: &str| {
+            let text = format!(
+                "    fn zip_{name}<T: Value, U: Value, W: Value>(\n        a: &{record}<T>,\n        \
+                 b: &{record}<U>,\n        join: impl FnMut(T, U) -> W,\n    ) -> {record}<W> {{\n        \
+                 a.zip(b, join)\n    }}"
+            );
+            inlined(&text)
+        };
+        vec![
+            zip("constants", "super::Prepared"),
+            zip("joints", "Joints"),
+            zip("accelerations", "JointAccelerations"),
+            zip("per_joint", "PerJoint"),
+        ]
+    }
+
+    /// Energy and momenta, first moment.
+    pub(super) fn motion(&self) -> Vec<String> {
         let posed = |kernel: &str| {
             let read = self.letters(kernel).iter().any(|letter| ["q", "s"].contains(letter));
             if read { "        let pose = &Self::pose(joints);\n" } else { "" }
@@ -212,7 +262,6 @@ impl Items<'_> {
             fitted(8, "[", &rows, "]")
         );
         vec![
-            format!("{head}\n{call}\n    }}"),
             self.asks(
                 "energy_momentum",
                 "energy_momentum",
@@ -303,6 +352,11 @@ impl Items<'_> {
     }
 }
 
+/// A function that is part of the one that calls it.
+fn inlined(item: &str) -> String {
+    format!("    #[inline(always)]\n{item}")
+}
+
 /// `Wrench { .. }` from six fields, to stand behind so many columns.
 fn wrench(indent: usize, of: &str, what: &str, frame: &str) -> String {
     let vector = |name: &str, letter: &str| {
@@ -319,7 +373,7 @@ pub(super) fn rates_function(kind: &Kind) -> String {
     let fields: Vec<_> =
         kind.links.iter().map(|link| format!("{0}: joints.{0}", link.joint.rate)).collect();
     format!(
-        "fn rates<T: Scalar>(joints: &Joints<T>) -> super::Rates<T> {{\n{}\n}}",
+        "#[inline(always)]\nfn rates<T: Real>(joints: &Joints<T>) -> super::Rates<T> {{\n{}\n}}",
         fitted(4, "super::Rates {", &fields, "}")
     )
 }

@@ -1,5 +1,6 @@
 //! The functions and implementations of a kind's second file, line by line, as `rustfmt` has them.
 
+use super::by_number::by_number;
 use super::device::{Signatures, body_name, imbalanced, inertia_name, moments, type_name};
 use super::device_calls::rates_function;
 use super::layout::fitted;
@@ -22,8 +23,14 @@ fn number(axis: Axis) -> usize {
 impl Items<'_> {
     /// All of them.
     pub(super) fn lines(&self) -> Vec<String> {
-        let text =
-            [self.bare(), self.collections(), self.kind(), rates_function(self.kind)].join("\n\n");
+        let items = [
+            self.bare(),
+            self.collections(),
+            self.kernels(),
+            self.kind(),
+            rates_function(self.kind),
+        ];
+        let text = items.join("\n\n");
         text.lines().map(str::to_owned).collect()
     }
 
@@ -131,11 +138,15 @@ impl Items<'_> {
             })
         };
         let all: Vec<_> = bodies.iter().map(|body| format!("{body}: value")).collect();
+        let bodies: Vec<_> = bodies.iter().map(String::as_str).collect();
+        let coordinates = self.links().iter().map(|link| link.joint.coordinate);
+        let rates = self.links().iter().map(|link| link.joint.rate);
+        let states: Vec<_> = coordinates.chain(rates).collect();
         let values = |name: &str, fields: &dyn Fn(&Link) -> &'static str| {
             let each = self.each(|link| format!("self.{}", fields(link)));
             let each_mut = self.each(|link| format!("&mut self.{}", fields(link)));
             format!(
-                "impl<T: Scalar> Each<T> for {name}<T> {{\n    \
+                "impl<T: Value> Each<T> for {name}<T> {{\n    \
                  fn values(&self) -> impl Iterator<Item = T> {{\n{}\n    }}\n\n    \
                  fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {{\n{}\n    }}\n}}",
                 fitted(8, "[", &each, "].into_iter()"),
@@ -156,20 +167,22 @@ impl Items<'_> {
                 fitted(8, "[", &plain("&mut "), "].into_iter()"),
             ),
             format!(
-                "impl<T: Scalar> JointStates<T> for Joints<T> {{\n    \
+                "impl<T: Value> JointStates<T> for Joints<T> {{\n    \
                  fn states(&self) -> impl Iterator<Item = [T; 2]> {{\n{}\n    }}\n\n    \
                  fn states_mut(&mut self) -> impl Iterator<Item = [&mut T; 2]> {{\n{}\n    }}\n}}",
                 fitted(8, "[", &pairs(""), "].into_iter()"),
                 fitted(8, "[", &pairs("&mut "), "].into_iter()"),
             ),
+            by_number("Joints", "T: Value", &states).join("\n"),
+            by_number("PerJoint", "V: Value", &bodies).join("\n"),
             values("MotorTorques", &|link| link.joint.torque),
             values("JointAccelerations", &|link| link.joint.acceleration),
         ]
         .join("\n\n")
     }
 
-    /// The implementation of the solver's interface.
-    fn kind(&self) -> String {
+    /// The kernels, over any number.
+    fn kernels(&self) -> String {
         let name = type_name(self.kind);
         let pose_type = match self.pose_letters().as_slice() {
             [] => "()".to_owned(),
@@ -180,6 +193,28 @@ impl Items<'_> {
                 format!("({})", names.join(", "))
             }
         };
+        let mut items = vec![
+            format!(
+                "    type Constants<T: Value> = super::Prepared<T>;\n    \
+                 type Joints<T: Value> = Joints<T>;\n    \
+                 type Accelerations<T: Value> = JointAccelerations<T>;\n    \
+                 type PerJoint<V: Value> = PerJoint<V>;\n    \
+                 type Pose<T: Value> = {pose_type};\n    \
+                 type Eliminated<T: Value> = super::Eliminated<T>;"
+            ),
+            self.pose(),
+            self.eliminate(),
+            self.pivots(),
+            self.back_substitute(),
+            self.slope(),
+        ];
+        items.extend(Self::zips());
+        format!("impl<S: Scalar> Kernels for {name}<S> {{\n{}\n}}", items.join("\n\n"))
+    }
+
+    /// The implementation of the solver's interface.
+    fn kind(&self) -> String {
+        let name = type_name(self.kind);
         let zeros = |of: &dyn Fn(&Link) -> Vec<&'static str>| {
             let names: Vec<_> = self.links().iter().flat_map(of).collect();
             names.iter().map(|name| format!("{name}: zero()")).collect::<Vec<_>>()
@@ -187,13 +222,7 @@ impl Items<'_> {
         let mut at_rest = zeros(&|link| vec![link.joint.coordinate]);
         at_rest.extend(zeros(&|link| vec![link.joint.rate]));
         let mut items = vec![
-            format!(
-                "    type Scalar = T;\n    type Constants = super::Prepared<T>;\n    \
-                 type Joints = Joints<T>;\n    type Motors = MotorTorques<T>;\n    \
-                 type Accelerations = JointAccelerations<T>;\n    \
-                 type PerJoint<V: Value> = PerJoint<V>;\n    type Pose = {pose_type};\n    \
-                 type Eliminated = super::Eliminated<T>;"
-            ),
+            "    type Scalar = T;\n    type Motors = MotorTorques<T>;".to_owned(),
             self.infos(),
             function("at_rest() -> Joints<T>", &fitted(8, "Joints {", &at_rest, "}")),
             function(
@@ -216,9 +245,8 @@ impl Items<'_> {
         ];
         items.extend(self.balanced());
         items.push(self.constants());
-        let handed = "handed(constants: &Self::Constants) -> Handed<T>";
+        let handed = "handed(constants: &super::Prepared<T>) -> Handed<T>";
         items.push(function(handed, "        super::handed(constants)"));
-        items.extend([self.pose(), self.eliminate(), self.pivots()]);
         items.extend(self.motion());
         items.extend(self.carried());
         format!("impl<T: Scalar> Kind for {name}<T> {{\n{}\n}}", items.join("\n\n"))

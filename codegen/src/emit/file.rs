@@ -8,6 +8,7 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use super::body::{Counts, FunctionBody, Writer};
+use super::by_number::by_number;
 use super::device::{Signature, Signatures, device_file, type_name};
 use super::home::Home;
 use super::prepare::{Prepared, prepared};
@@ -18,6 +19,12 @@ use crate::graph::{Node, NodeId};
 use crate::kernel::{Kernel, Record, Source, kernels, parameters};
 use crate::kernel::{joint_accelerations, modes, motors, pose, rates, shared_records, wrenches};
 use crate::kinds::{Kind, Motion};
+
+/// Where the time of an evaluation goes. What is asked once in a while keeps plain operators.
+/// Inlined, since lanes reach the wide instructions of their caller only so.
+const FUSED: [&str; 2] = ["eliminate", "back_substitute"];
+/// The records that are gathered into lanes or spread from them.
+const LANED: [&str; 3] = ["Prepared", "JointAccelerations", "HubShare"];
 
 /// One emitted file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,6 +78,8 @@ pub(super) struct RecordText {
     name: String,
     doc: Vec<String>,
     fields: Vec<FieldText>,
+    /// The functions that change each number, for records that lanes take apart.
+    by_number: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -82,6 +91,7 @@ struct SectionText {
 #[derive(Serialize)]
 struct FunctionText {
     doc: Vec<String>,
+    inlined: bool,
     signature: String,
     sections: Vec<SectionText>,
     result: Vec<String>,
@@ -283,7 +293,9 @@ fn kernel_body<'g>(
     let stated = kernel.inputs.iter().find_map(|(letter, record)| of_record(letter, record));
     let witness = stated.or_else(|| of_record("p", &prepared.record));
     let witness = witness.expect("a kernel reads something");
-    Writer::new(graph, &given, witness).write(&kernel.sections, &kernel.output.sources())
+    let writer = Writer::new(graph, &given, witness);
+    let writer = if FUSED.contains(&kernel.name.as_str()) { writer.fusing() } else { writer };
+    writer.write(&kernel.sections, &kernel.output.sources())
 }
 
 /// Documents a constant by the formula that computes it, and a named one by its section.
@@ -319,6 +331,12 @@ pub(super) fn record_text(record: &Record) -> RecordText {
         name: record.name.clone(),
         doc: wrapped(&record.doc, COMMENT),
         fields: record.fields.iter().map(field).collect(),
+        by_number: if LANED.contains(&record.name.as_str()) {
+            let names: Vec<_> = record.fields.iter().map(|field| field.name.as_str()).collect();
+            by_number(&record.name, "T: Copy", &names)
+        } else {
+            Vec::new()
+        },
     }
 }
 
@@ -348,6 +366,7 @@ fn function(
     };
     FunctionText {
         doc: lines,
+        inlined: FUSED.contains(&name),
         signature,
         sections: body.sections.iter().map(section).collect(),
         result,

@@ -5,6 +5,7 @@
 //! columns and `rustfmt` has nothing to change.
 
 mod body;
+mod by_number;
 mod device;
 mod device_calls;
 mod device_items;

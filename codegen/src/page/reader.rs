@@ -223,13 +223,23 @@ impl<'g> Reader<'g> {
     }
 
     fn method(&self, call: &syn::ExprMethodCall) -> Result<Value<'g>, ReadError> {
-        let argument = call.args.first();
-        match (call.method.to_string().as_str(), self.value(&call.receiver)?, argument) {
-            _ if self.symbols || call.args.len() > 1 => Err(ReadError::Form(text(call))),
-            ("recip", Value::Scalar(a), None) => Ok(Value::Scalar(a.recip())),
-            ("like", Value::Scalar(_), Some(constant)) => self.value(constant),
-            _ => Err(ReadError::Form(text(call))),
+        let form = || ReadError::Form(text(call));
+        let Value::Scalar(object) = self.value(&call.receiver)? else { return Err(form()) };
+        let mut arguments = Vec::new();
+        for argument in &call.args {
+            let Value::Scalar(argument) = self.value(argument)? else { return Err(form()) };
+            arguments.push(argument);
         }
+        let value = match (call.method.to_string().as_str(), arguments.as_slice()) {
+            _ if self.symbols => return Err(form()),
+            ("recip", []) => object.recip(),
+            ("like", [constant]) => *constant,
+            ("add_mul", [a, b]) => object + *a * *b,
+            ("sub_mul", [a, b]) => object - *a * *b,
+            ("mul_sub", [a, b]) => object * *a - *b,
+            _ => return Err(form()),
+        };
+        Ok(Value::Scalar(value))
     }
 }
 

@@ -441,6 +441,166 @@ pub struct Prepared<T> {
     pub k_42: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            mount_11: join(self.mount_11, other.mount_11),
+            mount_12: join(self.mount_12, other.mount_12),
+            mount_13: join(self.mount_13, other.mount_13),
+            mount_21: join(self.mount_21, other.mount_21),
+            mount_22: join(self.mount_22, other.mount_22),
+            mount_23: join(self.mount_23, other.mount_23),
+            mount_31: join(self.mount_31, other.mount_31),
+            mount_32: join(self.mount_32, other.mount_32),
+            mount_33: join(self.mount_33, other.mount_33),
+            r_go_b_bx: join(self.r_go_b_bx, other.r_go_b_bx),
+            r_go_b_by: join(self.r_go_b_by, other.r_go_b_by),
+            r_go_b_bz: join(self.r_go_b_bz, other.r_go_b_bz),
+            r_goc_go_gox: join(self.r_goc_go_gox, other.r_goc_go_gox),
+            r_goc_go_goy: join(self.r_goc_go_goy, other.r_goc_go_goy),
+            m_go: join(self.m_go, other.m_go),
+            i_go_11: join(self.i_go_11, other.i_go_11),
+            i_go_12: join(self.i_go_12, other.i_go_12),
+            i_go_13: join(self.i_go_13, other.i_go_13),
+            i_go_22: join(self.i_go_22, other.i_go_22),
+            i_go_23: join(self.i_go_23, other.i_go_23),
+            i_go_33: join(self.i_go_33, other.i_go_33),
+            l_o_x: join(self.l_o_x, other.l_o_x),
+            l_o_y: join(self.l_o_y, other.l_o_y),
+            l_o_z: join(self.l_o_z, other.l_o_z),
+            r_gic_gi_gix: join(self.r_gic_gi_gix, other.r_gic_gi_gix),
+            r_gic_gi_giy: join(self.r_gic_gi_giy, other.r_gic_gi_giy),
+            r_gic_gi_giz: join(self.r_gic_gi_giz, other.r_gic_gi_giz),
+            m_gi: join(self.m_gi, other.m_gi),
+            i_gi_11: join(self.i_gi_11, other.i_gi_11),
+            i_gi_12: join(self.i_gi_12, other.i_gi_12),
+            i_gi_13: join(self.i_gi_13, other.i_gi_13),
+            i_gi_22: join(self.i_gi_22, other.i_gi_22),
+            i_gi_23: join(self.i_gi_23, other.i_gi_23),
+            i_gi_33: join(self.i_gi_33, other.i_gi_33),
+            l_i_x: join(self.l_i_x, other.l_i_x),
+            l_i_y: join(self.l_i_y, other.l_i_y),
+            l_i_z: join(self.l_i_z, other.l_i_z),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_22: join(self.j_22, other.j_22),
+            hand_m: join(self.hand_m, other.hand_m),
+            r_goc_b_bz: join(self.r_goc_b_bz, other.r_goc_b_bz),
+            arm_o_dz: join(self.arm_o_dz, other.arm_o_dz),
+            k_0: join(self.k_0, other.k_0),
+            r_gic_b_dprime_o_gox: join(self.r_gic_b_dprime_o_gox, other.r_gic_b_dprime_o_gox),
+            r_wc_b_dprime_i_giz: join(self.r_wc_b_dprime_i_giz, other.r_wc_b_dprime_i_giz),
+            mr_gic_gi_gix: join(self.mr_gic_gi_gix, other.mr_gic_gi_gix),
+            mr_gic_gi_giy: join(self.mr_gic_gi_giy, other.mr_gic_gi_giy),
+            mr_gic_gi_giz: join(self.mr_gic_gi_giz, other.mr_gic_gi_giz),
+            i_gi_gi_11: join(self.i_gi_gi_11, other.i_gi_gi_11),
+            i_gi_gi_12: join(self.i_gi_gi_12, other.i_gi_gi_12),
+            i_gi_gi_13: join(self.i_gi_gi_13, other.i_gi_gi_13),
+            i_gi_gi_22: join(self.i_gi_gi_22, other.i_gi_gi_22),
+            i_gi_gi_23: join(self.i_gi_gi_23, other.i_gi_gi_23),
+            i_gi_gi_33: join(self.i_gi_gi_33, other.i_gi_gi_33),
+            mr_v_gi_gix: join(self.mr_v_gi_gix, other.mr_v_gi_gix),
+            mr_v_gi_giz: join(self.mr_v_gi_giz, other.mr_v_gi_giz),
+            i_v_gi_11: join(self.i_v_gi_11, other.i_v_gi_11),
+            i_v_gi_12: join(self.i_v_gi_12, other.i_v_gi_12),
+            i_v_gi_22: join(self.i_v_gi_22, other.i_v_gi_22),
+            i_v_gi_23: join(self.i_v_gi_23, other.i_v_gi_23),
+            i_v_gi_33: join(self.i_v_gi_33, other.i_v_gi_33),
+            mass_ii: join(self.mass_ii, other.mass_ii),
+            k_1: join(self.k_1, other.k_1),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+            mr_goc_go_gox: join(self.mr_goc_go_gox, other.mr_goc_go_gox),
+            mr_goc_go_goy: join(self.mr_goc_go_goy, other.mr_goc_go_goy),
+            mr_goc_go_goz: join(self.mr_goc_go_goz, other.mr_goc_go_goz),
+            i_go_go_11: join(self.i_go_go_11, other.i_go_go_11),
+            i_go_go_12: join(self.i_go_go_12, other.i_go_go_12),
+            i_go_go_13: join(self.i_go_go_13, other.i_go_go_13),
+            i_go_go_22: join(self.i_go_go_22, other.i_go_go_22),
+            i_go_go_23: join(self.i_go_go_23, other.i_go_go_23),
+            i_go_go_33: join(self.i_go_go_33, other.i_go_go_33),
+            mr_d_go_goy: join(self.mr_d_go_goy, other.mr_d_go_goy),
+            k_17: join(self.k_17, other.k_17),
+            k_18: join(self.k_18, other.k_18),
+            k_19: join(self.k_19, other.k_19),
+            k_20: join(self.k_20, other.k_20),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
+            arm_i_goy: join(self.arm_i_goy, other.arm_i_goy),
+            mr_o_base_gox: join(self.mr_o_base_gox, other.mr_o_base_gox),
+            mr_o_base_goy: join(self.mr_o_base_goy, other.mr_o_base_goy),
+            i_o_base_11: join(self.i_o_base_11, other.i_o_base_11),
+            i_o_base_12: join(self.i_o_base_12, other.i_o_base_12),
+            i_o_base_13: join(self.i_o_base_13, other.i_o_base_13),
+            i_o_base_23: join(self.i_o_base_23, other.i_o_base_23),
+            i_o_base_33: join(self.i_o_base_33, other.i_o_base_33),
+            i_i_base_12: join(self.i_i_base_12, other.i_i_base_12),
+            i_i_base_22: join(self.i_i_base_22, other.i_i_base_22),
+            i_i_base_23: join(self.i_i_base_23, other.i_i_base_23),
+            i_i_base_33: join(self.i_i_base_33, other.i_i_base_33),
+            k_29: join(self.k_29, other.k_29),
+            k_30: join(self.k_30, other.k_30),
+            k_31: join(self.k_31, other.k_31),
+            reach_bx: join(self.reach_bx, other.reach_bx),
+            reach_by: join(self.reach_by, other.reach_by),
+            reach_bz: join(self.reach_bz, other.reach_bz),
+            k_32: join(self.k_32, other.k_32),
+            k_33: join(self.k_33, other.k_33),
+            k_34: join(self.k_34, other.k_34),
+            hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
+            hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
+            hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
+            hand_i_11: join(self.hand_i_11, other.hand_i_11),
+            hand_i_12: join(self.hand_i_12, other.hand_i_12),
+            hand_i_13: join(self.hand_i_13, other.hand_i_13),
+            hand_i_22: join(self.hand_i_22, other.hand_i_22),
+            hand_i_23: join(self.hand_i_23, other.hand_i_23),
+            hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_35: join(self.k_35, other.k_35),
+            k_36: join(self.k_36, other.k_36),
+            k_37: join(self.k_37, other.k_37),
+            k_38: join(self.k_38, other.k_38),
+            k_39: join(self.k_39, other.k_39),
+            k_40: join(self.k_40, other.k_40),
+            k_41: join(self.k_41, other.k_41),
+            k_42: join(self.k_42, other.k_42),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -850,6 +1010,30 @@ pub struct JointAccelerations<T> {
     pub gamma_i_ddot: T,
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations {
+            gamma_o_ddot: join(self.gamma_o_ddot, other.gamma_o_ddot),
+            gamma_i_ddot: join(self.gamma_i_ddot, other.gamma_i_ddot),
+            spin_dot: join(self.spin_dot, other.spin_dot),
+        }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -2077,6 +2261,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 309 mul, 236 add, 1 neg, 2 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -2087,20 +2272,20 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the outer gimbal, eq. (A1), along B axes, 1.
-    let e_x_bx = q.cos_gamma_o * p.mount_11 + q.sin_gamma_o * p.mount_12;
-    let e_x_by = q.cos_gamma_o * p.mount_21 + q.sin_gamma_o * p.mount_22;
-    let e_x_bz = q.cos_gamma_o * p.mount_31 + q.sin_gamma_o * p.mount_32;
-    let e_y_bx = q.cos_gamma_o * p.mount_12 - q.sin_gamma_o * p.mount_11;
-    let e_y_by = q.cos_gamma_o * p.mount_22 - q.sin_gamma_o * p.mount_21;
-    let e_y_bz = q.cos_gamma_o * p.mount_32 - q.sin_gamma_o * p.mount_31;
+    let e_x_bx = (q.cos_gamma_o * p.mount_11).add_mul(q.sin_gamma_o, p.mount_12);
+    let e_x_by = (q.cos_gamma_o * p.mount_21).add_mul(q.sin_gamma_o, p.mount_22);
+    let e_x_bz = (q.cos_gamma_o * p.mount_31).add_mul(q.sin_gamma_o, p.mount_32);
+    let e_y_bx = (q.cos_gamma_o * p.mount_12).sub_mul(q.sin_gamma_o, p.mount_11);
+    let e_y_by = (q.cos_gamma_o * p.mount_22).sub_mul(q.sin_gamma_o, p.mount_21);
+    let e_y_bz = (q.cos_gamma_o * p.mount_32).sub_mul(q.sin_gamma_o, p.mount_31);
 
     // ω_{B/N} along the axes of the outer gimbal, eq. (C1), rad/s.
-    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
-    let omega_b_n_gox = rate_0 + w.omega_bz * e_x_bz;
-    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
-    let omega_b_n_goy = rate_1 + w.omega_bz * e_y_bz;
-    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
-    let omega_b_n_goz = rate_2 + w.omega_bz * p.mount_33;
+    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
+    let omega_b_n_gox = rate_0.add_mul(w.omega_bz, e_x_bz);
+    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
+    let omega_b_n_goy = rate_1.add_mul(w.omega_bz, e_y_bz);
+    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
+    let omega_b_n_goz = rate_2.add_mul(w.omega_bz, p.mount_33);
 
     // ω_{Gᵒ/N}, eq. (31), along its own axes, rad/s.
     let omega_go_n_goz = v.gamma_o_dot + omega_b_n_goz;
@@ -2114,15 +2299,16 @@ pub fn eliminate<T: Real>(
     let path_0 = omega_b_n_goy * omega_b_n_goy;
     let path_1 = omega_go_n_goz * omega_go_n_goz;
     let path_2 = omega_b_n_gox * omega_b_n_goy;
-    let r_gi_rest_gox = p.arm_i_goy * path_2 - p.l_o_x * (path_0 + path_1);
+    let r_gi_rest_gox = (p.arm_i_goy * path_2).sub_mul(p.l_o_x, path_0 + path_1);
     let path_3 = omega_b_n_gox * omega_go_n_goz;
-    let path_4 = alpha_go_gox + omega_b_n_goy * omega_go_n_goz;
-    let r_gi_rest_goz = p.l_o_x * (neg_alpha_go_goy + path_3) + p.arm_i_goy * path_4;
+    let path_4 = alpha_go_gox.add_mul(omega_b_n_goy, omega_go_n_goz);
+    let path_5 = p.l_o_x * (neg_alpha_go_goy + path_3);
+    let r_gi_rest_goz = path_5.add_mul(p.arm_i_goy, path_4);
 
     // ω_{Gⁱ/N}, eq. (44), along its own axes, rad/s.
     let omega_gi_n_giy = v.gamma_i_dot + omega_b_n_goy;
     let rate_3 = q.cos_gamma_i * omega_go_n_goz;
-    let omega_gi_n_giz = rate_3 + q.sin_gamma_i * omega_b_n_gox;
+    let omega_gi_n_giz = rate_3.add_mul(q.sin_gamma_i, omega_b_n_gox);
 
     // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
     let n_rates_w_giy = v.spin * omega_gi_n_giz * p.j_11;
@@ -2130,16 +2316,18 @@ pub fn eliminate<T: Real>(
 
     // What lies behind the inner gimbal's joint, of V, by base parameters, eqs. (B1), (B2):
     // first moment, kg m, and inertia, kg m².
-    let lump_0 = q.sin_gamma_i * p.mr_v_gi_giz;
-    let mr_behind_v_gox = q.cos_gamma_i * p.mr_v_gi_gix + lump_0;
-    let lump_1 = q.sin_gamma_i * p.mr_v_gi_gix;
-    let mr_behind_v_goz = q.cos_gamma_i * p.mr_v_gi_giz - lump_1;
-    let lump_2 = q.cos_gamma_i * p.k_30 - q.sin_gamma_i * p.k_29;
+    let lump_0 = q.cos_gamma_i * p.mr_v_gi_gix;
+    let mr_behind_v_gox = lump_0.add_mul(q.sin_gamma_i, p.mr_v_gi_giz);
+    let lump_1 = q.cos_gamma_i * p.mr_v_gi_giz;
+    let mr_behind_v_goz = lump_1.sub_mul(q.sin_gamma_i, p.mr_v_gi_gix);
+    let lump_2 = (q.cos_gamma_i * p.k_30).sub_mul(q.sin_gamma_i, p.k_29);
     let lump_3 = q.sin_gamma_i * lump_2;
     let i_behind_v_11 = p.j_11 + lump_3;
-    let i_behind_v_12 = q.cos_gamma_i * p.i_i_base_12 + q.sin_gamma_i * p.i_i_base_23;
-    let i_behind_v_13 = q.cos_gamma_i * lump_2 + p.k_31;
-    let i_behind_v_23 = q.cos_gamma_i * p.i_i_base_23 - q.sin_gamma_i * p.i_i_base_12;
+    let lump_4 = q.cos_gamma_i * p.i_i_base_12;
+    let i_behind_v_12 = lump_4.add_mul(q.sin_gamma_i, p.i_i_base_23);
+    let i_behind_v_13 = p.k_31.add_mul(q.cos_gamma_i, lump_2);
+    let lump_5 = q.cos_gamma_i * p.i_i_base_23;
+    let i_behind_v_23 = lump_5.sub_mul(q.sin_gamma_i, p.i_i_base_12);
     let i_behind_v_33 = p.i_i_base_33 - lump_3;
 
     // Row of the inner gimbal's joint, eq. (101), along its axis: M_ij, kg m², and bias, N m,
@@ -2147,11 +2335,12 @@ pub fn eliminate<T: Real>(
     let mass_ii = p.i_i_base_22;
     let row_0 = omega_b_n_gox * omega_b_n_gox;
     let row_1 = i_behind_v_33 - i_behind_v_11;
-    let row_2 = path_4 * i_behind_v_12 - path_2 * i_behind_v_23;
-    let row_3 = i_behind_v_13 * (path_1 - row_0) - path_3 * row_1;
-    let row_4 = mr_behind_v_goz * r_gi_rest_gox - mr_behind_v_gox * r_gi_rest_goz;
-    let row_5 = row_4 + (row_2 - p.i_i_base_22 * neg_alpha_go_goy + row_3);
-    let field_i = row_5 + n_rates_w_giy;
+    let row_2 = mr_behind_v_goz * r_gi_rest_gox;
+    let row_3 = (path_4 * i_behind_v_12).sub_mul(path_2, i_behind_v_23);
+    let row_4 = (i_behind_v_13 * (path_1 - row_0)).sub_mul(path_3, row_1);
+    let row_5 = row_3.sub_mul(p.i_i_base_22, neg_alpha_go_goy) + row_4;
+    let row_6 = row_2.sub_mul(mr_behind_v_gox, r_gi_rest_goz) + row_5;
+    let field_i = row_6 + n_rates_w_giy;
 
     // Force, N, and moment, N m, that the joints' rates from the inner gimbal's on ask for, eq.
     // (C2).
@@ -2159,155 +2348,161 @@ pub fn eliminate<T: Real>(
     let neg_f_rates_i_gox = mr_behind_v_gox * coriolis_0;
     let coriolis_1 = v.gamma_i_dot * omega_go_n_goz;
     let coriolis_2 = v.gamma_i_dot * omega_b_n_gox;
-    let coriolis_3 = mr_behind_v_goz * coriolis_1 + mr_behind_v_gox * coriolis_2;
-    let f_rates_i_goy = coriolis_3 + coriolis_3;
-    let coriolis_4 = mr_behind_v_goz * coriolis_0;
-    let f_rates_i_goz = -coriolis_4;
-    let coriolis_5 = i_behind_v_13 + i_behind_v_13;
-    let coriolis_6 = i_behind_v_23 * coriolis_0 + coriolis_2 * coriolis_5;
-    let coriolis_7 = coriolis_6 - coriolis_1 * (p.i_i_base_22 - row_1);
-    let n_rates_i_gox = coriolis_7 - q.sin_gamma_i * neg_n_rates_w_giz;
-    let coriolis_8 = coriolis_2 * (p.i_i_base_22 + row_1);
-    let coriolis_9 = coriolis_8 - coriolis_1 * coriolis_5;
-    let coriolis_10 = coriolis_9 - i_behind_v_12 * coriolis_0;
-    let n_rates_i_goz = coriolis_10 - q.cos_gamma_i * neg_n_rates_w_giz;
+    let coriolis_3 = mr_behind_v_goz * coriolis_1;
+    let coriolis_4 = coriolis_3.add_mul(mr_behind_v_gox, coriolis_2);
+    let f_rates_i_goy = coriolis_4 + coriolis_4;
+    let coriolis_5 = mr_behind_v_goz * coriolis_0;
+    let f_rates_i_goz = -coriolis_5;
+    let coriolis_6 = i_behind_v_13 + i_behind_v_13;
+    let coriolis_7 = (i_behind_v_23 * coriolis_0).add_mul(coriolis_2, coriolis_6);
+    let coriolis_8 = coriolis_7.sub_mul(coriolis_1, p.i_i_base_22 - row_1);
+    let n_rates_i_gox = coriolis_8.sub_mul(q.sin_gamma_i, neg_n_rates_w_giz);
+    let coriolis_9 = coriolis_2 * (p.i_i_base_22 + row_1);
+    let coriolis_10 = coriolis_9.sub_mul(coriolis_1, coriolis_6);
+    let coriolis_11 = coriolis_10.sub_mul(i_behind_v_12, coriolis_0);
+    let n_rates_i_goz = coriolis_11.sub_mul(q.cos_gamma_i, neg_n_rates_w_giz);
 
     // What lies behind the outer gimbal's joint, of D, by base parameters, eqs. (B1), (B2):
     // first moment, kg m, and inertia, kg m².
     let mr_behind_d_gox = mr_behind_v_gox + p.mr_o_base_gox;
     let i_behind_d_11 = p.i_o_base_11 + i_behind_v_11;
-    let lump_4 = i_behind_v_12 - mr_behind_v_gox * p.arm_i_goy;
-    let i_behind_d_12 = p.i_o_base_12 + lump_4;
-    let i_behind_d_13 = i_behind_v_13 - p.l_o_x * mr_behind_v_goz + p.i_o_base_13;
-    let lump_5 = mr_behind_v_gox * p.k_4;
-    let i_behind_d_22 = lump_5 + p.i_i_base_22;
-    let mass_oi = i_behind_v_23 - mr_behind_v_goz * p.arm_i_goy;
+    let lump_6 = i_behind_v_12.sub_mul(mr_behind_v_gox, p.arm_i_goy);
+    let i_behind_d_12 = p.i_o_base_12 + lump_6;
+    let lump_7 = i_behind_v_13.sub_mul(p.l_o_x, mr_behind_v_goz);
+    let i_behind_d_13 = lump_7 + p.i_o_base_13;
+    let lump_8 = mr_behind_v_gox * p.k_4;
+    let i_behind_d_22 = lump_8 + p.i_i_base_22;
+    let mass_oi = i_behind_v_23.sub_mul(mr_behind_v_goz, p.arm_i_goy);
     let i_behind_d_23 = p.i_o_base_23 + mass_oi;
-    let i_behind_d_33 = lump_5 + i_behind_v_33 + p.i_o_base_33;
+    let i_behind_d_33 = lump_8 + i_behind_v_33 + p.i_o_base_33;
 
     // Row of the outer gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq.
     // (C3).
     let mass_oo = i_behind_d_33;
-    let row_6 = p.l_o_x * f_rates_i_goy + p.arm_i_goy * neg_f_rates_i_gox;
-    let n_rates_o_goz = row_6 + n_rates_i_goz;
-    let row_7 = i_behind_d_11 - i_behind_d_22;
-    let row_8 = omega_b_n_goy * omega_b_n_goz * i_behind_d_13;
-    let row_9 = omega_b_n_gox * omega_b_n_goz * i_behind_d_23 - row_8;
-    let row_10 = row_9 + (i_behind_d_12 * (row_0 - path_0) - path_2 * row_7);
-    let field_o = row_10 + n_rates_o_goz;
+    let row_7 = p.l_o_x * f_rates_i_goy;
+    let n_rates_o_goz = row_7.add_mul(p.arm_i_goy, neg_f_rates_i_gox) + n_rates_i_goz;
+    let row_8 = i_behind_d_11 - i_behind_d_22;
+    let row_9 = omega_b_n_gox * omega_b_n_goz * i_behind_d_23;
+    let row_10 = row_9.sub_mul(i_behind_d_13, omega_b_n_goy * omega_b_n_goz);
+    let row_11 = row_10 + (i_behind_d_12 * (row_0 - path_0)).sub_mul(path_2, row_8);
+    let field_o = row_11 + n_rates_o_goz;
 
     // Force, N, and moment, N m, that the joints' rates from the outer gimbal's on ask for, eq.
     // (C2).
-    let coriolis_11 = v.gamma_o_dot * (omega_b_n_goz + omega_go_n_goz);
-    let neg_f_rates_o_gox = neg_f_rates_i_gox + mr_behind_d_gox * coriolis_11;
-    let f_rates_o_goy = f_rates_i_goy - p.mr_o_base_goy * coriolis_11;
-    let coriolis_12 = neg_alpha_go_goy * mr_behind_d_gox;
-    let coriolis_13 = coriolis_12 + p.mr_o_base_goy * alpha_go_gox;
-    let f_rates_o_goz = coriolis_13 + coriolis_13 + f_rates_i_goz;
-    let coriolis_14 = i_behind_d_12 + i_behind_d_12;
-    let coriolis_15 = alpha_go_gox * (i_behind_d_33 + row_7);
-    let coriolis_16 = coriolis_15 - neg_alpha_go_goy * coriolis_14;
-    let coriolis_17 = coriolis_16 - i_behind_d_23 * coriolis_11;
-    let n_rates_o_gox = n_rates_i_gox - p.arm_i_goy * coriolis_4 + coriolis_17;
-    let coriolis_18 = i_behind_d_13 * coriolis_11 + alpha_go_gox * coriolis_14;
-    let coriolis_19 = coriolis_18 - neg_alpha_go_goy * (i_behind_d_33 - row_7);
-    let n_rates_o_goy = n_rates_w_giy + p.l_o_x * coriolis_4 + coriolis_19;
+    let coriolis_12 = v.gamma_o_dot * (omega_b_n_goz + omega_go_n_goz);
+    let neg_f_rates_o_gox = neg_f_rates_i_gox.add_mul(mr_behind_d_gox, coriolis_12);
+    let f_rates_o_goy = f_rates_i_goy.sub_mul(p.mr_o_base_goy, coriolis_12);
+    let coriolis_13 = neg_alpha_go_goy * mr_behind_d_gox;
+    let coriolis_14 = coriolis_13.add_mul(p.mr_o_base_goy, alpha_go_gox);
+    let f_rates_o_goz = coriolis_14 + coriolis_14 + f_rates_i_goz;
+    let coriolis_15 = i_behind_d_12 + i_behind_d_12;
+    let coriolis_16 = alpha_go_gox * (i_behind_d_33 + row_8);
+    let coriolis_17 = coriolis_16.sub_mul(neg_alpha_go_goy, coriolis_15);
+    let coriolis_18 = coriolis_17.sub_mul(i_behind_d_23, coriolis_12);
+    let n_rates_o_gox = n_rates_i_gox.sub_mul(p.arm_i_goy, coriolis_5) + coriolis_18;
+    let coriolis_19 = i_behind_d_13 * coriolis_12;
+    let coriolis_20 = coriolis_19.add_mul(alpha_go_gox, coriolis_15);
+    let coriolis_21 = coriolis_20.sub_mul(neg_alpha_go_goy, i_behind_d_33 - row_8);
+    let n_rates_o_goy = n_rates_w_giy.add_mul(p.l_o_x, coriolis_5) + coriolis_21;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration, along B axes.
-    let f_o_bx = e_y_bx * mr_behind_d_gox - p.mr_o_base_goy * e_x_bx;
-    let f_o_by = e_y_by * mr_behind_d_gox - p.mr_o_base_goy * e_x_by;
-    let f_o_bz = e_y_bz * mr_behind_d_gox - p.mr_o_base_goy * e_x_bz;
-    let col_0 = e_x_bx * i_behind_d_13 + e_y_bx * i_behind_d_23;
-    let col_1 = col_0 + p.mount_13 * i_behind_d_33;
-    let n_o_bx = p.reach_by * f_o_bz - p.reach_bz * f_o_by + col_1;
-    let col_2 = e_x_by * i_behind_d_13 + e_y_by * i_behind_d_23;
-    let col_3 = col_2 + p.mount_23 * i_behind_d_33;
-    let n_o_by = p.reach_bz * f_o_bx - p.reach_bx * f_o_bz + col_3;
-    let col_4 = e_x_bz * i_behind_d_13 + e_y_bz * i_behind_d_23;
-    let col_5 = col_4 + p.mount_33 * i_behind_d_33;
-    let n_o_bz = p.reach_bx * f_o_by - p.reach_by * f_o_bx + col_5;
-    let f_i_bx = mr_behind_v_goz * e_x_bx - p.mount_13 * mr_behind_v_gox;
-    let f_i_by = mr_behind_v_goz * e_x_by - p.mount_23 * mr_behind_v_gox;
-    let f_i_bz = mr_behind_v_goz * e_x_bz - p.mount_33 * mr_behind_v_gox;
-    let col_6 = p.l_o_x * mr_behind_v_gox + p.i_i_base_22;
-    let col_7 = e_x_bx * lump_4 + e_y_bx * col_6 + p.mount_13 * mass_oi;
-    let n_i_bx = col_7 + (p.reach_by * f_i_bz - p.reach_bz * f_i_by);
-    let col_8 = e_x_by * lump_4 + e_y_by * col_6 + p.mount_23 * mass_oi;
-    let n_i_by = col_8 + (p.reach_bz * f_i_bx - p.reach_bx * f_i_bz);
-    let col_9 = e_x_bz * lump_4 + e_y_bz * col_6 + p.mount_33 * mass_oi;
-    let n_i_bz = col_9 + (p.reach_bx * f_i_by - p.reach_by * f_i_bx);
+    let f_o_bx = (e_y_bx * mr_behind_d_gox).sub_mul(p.mr_o_base_goy, e_x_bx);
+    let f_o_by = (e_y_by * mr_behind_d_gox).sub_mul(p.mr_o_base_goy, e_x_by);
+    let f_o_bz = (e_y_bz * mr_behind_d_gox).sub_mul(p.mr_o_base_goy, e_x_bz);
+    let col_0 = (e_x_bx * i_behind_d_13).add_mul(e_y_bx, i_behind_d_23);
+    let col_1 = col_0.add_mul(p.mount_13, i_behind_d_33);
+    let n_o_bx = (p.reach_by * f_o_bz).sub_mul(p.reach_bz, f_o_by) + col_1;
+    let col_2 = (e_x_by * i_behind_d_13).add_mul(e_y_by, i_behind_d_23);
+    let col_3 = col_2.add_mul(p.mount_23, i_behind_d_33);
+    let n_o_by = (p.reach_bz * f_o_bx).sub_mul(p.reach_bx, f_o_bz) + col_3;
+    let col_4 = (e_x_bz * i_behind_d_13).add_mul(e_y_bz, i_behind_d_23);
+    let col_5 = col_4.add_mul(p.mount_33, i_behind_d_33);
+    let n_o_bz = (p.reach_bx * f_o_by).sub_mul(p.reach_by, f_o_bx) + col_5;
+    let f_i_bx = (mr_behind_v_goz * e_x_bx).sub_mul(p.mount_13, mr_behind_v_gox);
+    let f_i_by = (mr_behind_v_goz * e_x_by).sub_mul(p.mount_23, mr_behind_v_gox);
+    let f_i_bz = (mr_behind_v_goz * e_x_bz).sub_mul(p.mount_33, mr_behind_v_gox);
+    let col_6 = p.i_i_base_22.add_mul(p.l_o_x, mr_behind_v_gox);
+    let col_7 = (e_x_bx * lump_6).add_mul(e_y_bx, col_6);
+    let col_8 = (p.reach_by * f_i_bz).sub_mul(p.reach_bz, f_i_by);
+    let n_i_bx = col_7.add_mul(p.mount_13, mass_oi) + col_8;
+    let col_9 = (e_x_by * lump_6).add_mul(e_y_by, col_6);
+    let col_10 = (p.reach_bz * f_i_bx).sub_mul(p.reach_bx, f_i_bz);
+    let n_i_by = col_9.add_mul(p.mount_23, mass_oi) + col_10;
+    let col_11 = (e_x_bz * lump_6).add_mul(e_y_bz, col_6);
+    let col_12 = (p.reach_bx * f_i_by).sub_mul(p.reach_by, f_i_bx);
+    let n_i_bz = col_11.add_mul(p.mount_33, mass_oi) + col_12;
 
     // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
     // (76), kg m².
-    let moment_0 = e_x_bx * mr_behind_d_gox + p.mr_o_base_goy * e_y_bx;
-    let mr_moving_bx = moment_0 + p.mount_13 * mr_behind_v_goz;
-    let moment_1 = e_x_by * mr_behind_d_gox + p.mr_o_base_goy * e_y_by;
-    let mr_moving_by = moment_1 + p.mount_23 * mr_behind_v_goz;
-    let moment_2 = e_x_bz * mr_behind_d_gox + p.mr_o_base_goy * e_y_bz;
-    let mr_moving_bz = moment_2 + p.mount_33 * mr_behind_v_goz;
+    let moment_0 = (e_x_bx * mr_behind_d_gox).add_mul(p.mr_o_base_goy, e_y_bx);
+    let mr_moving_bx = moment_0.add_mul(p.mount_13, mr_behind_v_goz);
+    let moment_1 = (e_x_by * mr_behind_d_gox).add_mul(p.mr_o_base_goy, e_y_by);
+    let mr_moving_by = moment_1.add_mul(p.mount_23, mr_behind_v_goz);
+    let moment_2 = (e_x_bz * mr_behind_d_gox).add_mul(p.mr_o_base_goy, e_y_bz);
+    let mr_moving_bz = moment_2.add_mul(p.mount_33, mr_behind_v_goz);
     let half = q.sin_gamma_o.like(0.5);
-    let moment_3 = half * row_7;
-    let moment_4 = e_x_bx * moment_3 + e_y_bx * i_behind_d_12;
+    let moment_3 = half * row_8;
+    let moment_4 = (e_x_bx * moment_3).add_mul(e_y_bx, i_behind_d_12);
     let moment_5 = half * (i_behind_d_22 + i_behind_d_33);
-    let moment_6 = col_1 - p.mount_13 * moment_5;
-    let moment_7 = e_x_bx * moment_4 + p.mount_13 * moment_6;
+    let moment_6 = col_1.sub_mul(p.mount_13, moment_5);
+    let moment_7 = (e_x_bx * moment_4).add_mul(p.mount_13, moment_6);
     let moment_8 = mr_moving_by * p.k_33;
     let moment_9 = mr_moving_bz * p.k_34;
     let i_moving_11 = moment_7 + moment_7 + i_behind_d_22 + (moment_8 + moment_9);
-    let moment_10 = e_x_by * moment_3 + e_y_by * i_behind_d_12;
-    let moment_11 = col_3 - p.mount_23 * moment_5;
-    let moment_12 = e_x_bx * moment_10 + p.mount_13 * moment_11;
-    let moment_13 = moment_12 + (e_x_by * moment_4 + p.mount_23 * moment_6);
-    let moment_14 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
-    let i_moving_12 = moment_13 - moment_14;
-    let moment_15 = e_x_bz * moment_3 + e_y_bz * i_behind_d_12;
-    let moment_16 = col_5 - p.mount_33 * moment_5;
-    let moment_17 = e_x_bx * moment_15 + p.mount_13 * moment_16;
-    let moment_18 = moment_17 + (e_x_bz * moment_4 + p.mount_33 * moment_6);
-    let moment_19 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
-    let i_moving_13 = moment_18 - moment_19;
-    let moment_20 = e_x_by * moment_10 + p.mount_23 * moment_11;
+    let moment_10 = (e_x_by * moment_3).add_mul(e_y_by, i_behind_d_12);
+    let moment_11 = col_3.sub_mul(p.mount_23, moment_5);
+    let moment_12 = (e_x_bx * moment_10).add_mul(p.mount_13, moment_11);
+    let moment_13 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
+    let moment_14 = moment_12 + (e_x_by * moment_4).add_mul(p.mount_23, moment_6);
+    let i_moving_12 = moment_14 - moment_13;
+    let moment_15 = (e_x_bz * moment_3).add_mul(e_y_bz, i_behind_d_12);
+    let moment_16 = col_5.sub_mul(p.mount_33, moment_5);
+    let moment_17 = (e_x_bx * moment_15).add_mul(p.mount_13, moment_16);
+    let moment_18 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
+    let moment_19 = moment_17 + (e_x_bz * moment_4).add_mul(p.mount_33, moment_6);
+    let i_moving_13 = moment_19 - moment_18;
+    let moment_20 = (e_x_by * moment_10).add_mul(p.mount_23, moment_11);
     let moment_21 = mr_moving_bx * p.k_32;
     let i_moving_22 = moment_20 + moment_20 + i_behind_d_22 + (moment_21 + moment_9);
-    let moment_22 = e_x_bz * moment_10 + p.mount_33 * moment_11;
-    let moment_23 = e_x_by * moment_15 + p.mount_23 * moment_16 + moment_22;
-    let moment_24 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let moment_22 = (e_x_bz * moment_10).add_mul(p.mount_33, moment_11);
+    let moment_23 = (e_x_by * moment_15).add_mul(p.mount_23, moment_16) + moment_22;
+    let moment_24 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
     let i_moving_23 = moment_23 - moment_24;
-    let moment_25 = e_x_bz * moment_15 + p.mount_33 * moment_16;
+    let moment_25 = (e_x_bz * moment_15).add_mul(p.mount_33, moment_16);
     let i_moving_33 = moment_25 + moment_25 + i_behind_d_22 + (moment_21 + moment_8);
 
     // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
     // N and N m.
-    let bias_0 = e_y_bx * f_rates_o_goy - e_x_bx * neg_f_rates_o_gox;
-    let f_rates_bx = bias_0 + p.mount_13 * f_rates_o_goz;
-    let bias_1 = e_y_by * f_rates_o_goy - e_x_by * neg_f_rates_o_gox;
-    let f_rates_by = bias_1 + p.mount_23 * f_rates_o_goz;
-    let bias_2 = e_y_bz * f_rates_o_goy - e_x_bz * neg_f_rates_o_gox;
-    let f_rates_bz = bias_2 + p.mount_33 * f_rates_o_goz;
-    let bias_3 = e_x_bx * n_rates_o_gox + e_y_bx * n_rates_o_goy;
-    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
-    let n_rates_bx = bias_3 + p.mount_13 * n_rates_o_goz + bias_4;
-    let bias_5 = e_x_by * n_rates_o_gox + e_y_by * n_rates_o_goy;
-    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
-    let n_rates_by = bias_5 + p.mount_23 * n_rates_o_goz + bias_6;
-    let bias_7 = e_x_bz * n_rates_o_gox + e_y_bz * n_rates_o_goy;
-    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
-    let n_rates_bz = bias_7 + p.mount_33 * n_rates_o_goz + bias_8;
+    let bias_0 = (e_y_bx * f_rates_o_goy).sub_mul(e_x_bx, neg_f_rates_o_gox);
+    let f_rates_bx = bias_0.add_mul(p.mount_13, f_rates_o_goz);
+    let bias_1 = (e_y_by * f_rates_o_goy).sub_mul(e_x_by, neg_f_rates_o_gox);
+    let f_rates_by = bias_1.add_mul(p.mount_23, f_rates_o_goz);
+    let bias_2 = (e_y_bz * f_rates_o_goy).sub_mul(e_x_bz, neg_f_rates_o_gox);
+    let f_rates_bz = bias_2.add_mul(p.mount_33, f_rates_o_goz);
+    let bias_3 = (e_x_bx * n_rates_o_gox).add_mul(e_y_bx, n_rates_o_goy);
+    let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
+    let n_rates_bx = bias_3.add_mul(p.mount_13, n_rates_o_goz) + bias_4;
+    let bias_5 = (e_x_by * n_rates_o_gox).add_mul(e_y_by, n_rates_o_goy);
+    let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
+    let n_rates_by = bias_5.add_mul(p.mount_23, n_rates_o_goz) + bias_6;
+    let bias_7 = (e_x_bz * n_rates_o_gox).add_mul(e_y_bz, n_rates_o_goy);
+    let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
+    let n_rates_bz = bias_7.add_mul(p.mount_33, n_rates_o_goz) + bias_8;
 
     // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
-    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
-    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
-    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
-    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
-    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
-    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
+    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
+    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
+    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
+    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
+    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
     // Bias of each joint with it, eq. (C3).
-    let bias_9 = f_o_bx * r_first_rest_bx + f_o_by * r_first_rest_by;
-    let u_rest_o = bias_9 + f_o_bz * r_first_rest_bz + field_o;
-    let bias_10 = f_i_bx * r_first_rest_bx + f_i_by * r_first_rest_by;
-    let u_rest_i = bias_10 + f_i_bz * r_first_rest_bz + field_i;
+    let bias_9 = (f_o_bx * r_first_rest_bx).add_mul(f_o_by, r_first_rest_by);
+    let u_rest_o = bias_9.add_mul(f_o_bz, r_first_rest_bz) + field_o;
+    let bias_10 = (f_i_bx * r_first_rest_bx).add_mul(f_i_by, r_first_rest_by);
+    let u_rest_i = bias_10.add_mul(f_i_bz, r_first_rest_bz) + field_i;
 
     // Right side of each joint, eqs. (80), (101): motor torque less what the rest asks for, N m.
     let tau_o = u.u_o - u_rest_o;
@@ -2323,17 +2518,17 @@ pub fn eliminate<T: Real>(
     let gain_i_w2 = n_i_by * recip_i;
     let gain_i_w3 = n_i_bz * recip_i;
     let gain_i_o = mass_oi * recip_i;
-    let free_i = m.given_i + tau_i * recip_i;
+    let free_i = m.given_i.add_mul(tau_i, recip_i);
 
     // Joint i taken out of the rows nearer the hub, eq. (E2).
-    let f_o_bx_i = f_o_bx - f_i_bx * gain_i_o;
-    let f_o_by_i = f_o_by - f_i_by * gain_i_o;
-    let f_o_bz_i = f_o_bz - f_i_bz * gain_i_o;
-    let n_o_bx_i = n_o_bx - n_i_bx * gain_i_o;
-    let n_o_by_i = n_o_by - n_i_by * gain_i_o;
-    let n_o_bz_i = n_o_bz - n_i_bz * gain_i_o;
-    let mass_oo_i = mass_oo - mass_oi * gain_i_o;
-    let tau_o_i = tau_o - mass_oi * free_i;
+    let f_o_bx_i = f_o_bx.sub_mul(f_i_bx, gain_i_o);
+    let f_o_by_i = f_o_by.sub_mul(f_i_by, gain_i_o);
+    let f_o_bz_i = f_o_bz.sub_mul(f_i_bz, gain_i_o);
+    let n_o_bx_i = n_o_bx.sub_mul(n_i_bx, gain_i_o);
+    let n_o_by_i = n_o_by.sub_mul(n_i_by, gain_i_o);
+    let n_o_bz_i = n_o_bz.sub_mul(n_i_bz, gain_i_o);
+    let mass_oo_i = mass_oo.sub_mul(mass_oi, gain_i_o);
+    let tau_o_i = tau_o.sub_mul(mass_oi, free_i);
 
     // Joint o, eq. (E1): its pivot `mass_oo_i`, kg m², and its gains.
     let divisor_o = m.held_o + mass_oo_i;
@@ -2344,42 +2539,42 @@ pub fn eliminate<T: Real>(
     let gain_o_w1 = n_o_bx_i * recip_o;
     let gain_o_w2 = n_o_by_i * recip_o;
     let gain_o_w3 = n_o_bz_i * recip_o;
-    let free_o = m.given_o + tau_o_i * recip_o;
+    let free_o = m.given_o.add_mul(tau_o_i, recip_o);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = f_i_bx * gain_i_v1 + f_o_bx_i * gain_o_v1;
-    let m_vv_12 = f_i_by * gain_i_v1 + f_o_by_i * gain_o_v1;
-    let m_vv_13 = f_i_bz * gain_i_v1 + f_o_bz_i * gain_o_v1;
-    let m_vv_22 = f_i_by * gain_i_v2 + f_o_by_i * gain_o_v2;
-    let m_vv_23 = f_i_bz * gain_i_v2 + f_o_bz_i * gain_o_v2;
-    let m_vv_33 = f_i_bz * gain_i_v3 + f_o_bz_i * gain_o_v3;
+    let m_vv_11 = (f_i_bx * gain_i_v1).add_mul(f_o_bx_i, gain_o_v1);
+    let m_vv_12 = (f_i_by * gain_i_v1).add_mul(f_o_by_i, gain_o_v1);
+    let m_vv_13 = (f_i_bz * gain_i_v1).add_mul(f_o_bz_i, gain_o_v1);
+    let m_vv_22 = (f_i_by * gain_i_v2).add_mul(f_o_by_i, gain_o_v2);
+    let m_vv_23 = (f_i_bz * gain_i_v2).add_mul(f_o_bz_i, gain_o_v2);
+    let m_vv_33 = (f_i_bz * gain_i_v3).add_mul(f_o_bz_i, gain_o_v3);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = n_i_bx * gain_i_v1 + n_o_bx_i * gain_o_v1;
-    let m_vw_12 = n_i_by * gain_i_v1 + n_o_by_i * gain_o_v1;
-    let m_vw_13 = n_i_bz * gain_i_v1 + n_o_bz_i * gain_o_v1;
-    let m_vw_21 = n_i_bx * gain_i_v2 + n_o_bx_i * gain_o_v2;
-    let m_vw_22 = n_i_by * gain_i_v2 + n_o_by_i * gain_o_v2;
-    let m_vw_23 = n_i_bz * gain_i_v2 + n_o_bz_i * gain_o_v2;
-    let m_vw_31 = n_i_bx * gain_i_v3 + n_o_bx_i * gain_o_v3;
-    let m_vw_32 = n_i_by * gain_i_v3 + n_o_by_i * gain_o_v3;
-    let m_vw_33 = n_i_bz * gain_i_v3 + n_o_bz_i * gain_o_v3;
+    let m_vw_11 = (n_i_bx * gain_i_v1).add_mul(n_o_bx_i, gain_o_v1);
+    let m_vw_12 = (n_i_by * gain_i_v1).add_mul(n_o_by_i, gain_o_v1);
+    let m_vw_13 = (n_i_bz * gain_i_v1).add_mul(n_o_bz_i, gain_o_v1);
+    let m_vw_21 = (n_i_bx * gain_i_v2).add_mul(n_o_bx_i, gain_o_v2);
+    let m_vw_22 = (n_i_by * gain_i_v2).add_mul(n_o_by_i, gain_o_v2);
+    let m_vw_23 = (n_i_bz * gain_i_v2).add_mul(n_o_bz_i, gain_o_v2);
+    let m_vw_31 = (n_i_bx * gain_i_v3).add_mul(n_o_bx_i, gain_o_v3);
+    let m_vw_32 = (n_i_by * gain_i_v3).add_mul(n_o_by_i, gain_o_v3);
+    let m_vw_33 = (n_i_bz * gain_i_v3).add_mul(n_o_bz_i, gain_o_v3);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = n_i_bx * gain_i_w1 + n_o_bx_i * gain_o_w1;
-    let m_ww_12 = n_i_by * gain_i_w1 + n_o_by_i * gain_o_w1;
-    let m_ww_13 = n_i_bz * gain_i_w1 + n_o_bz_i * gain_o_w1;
-    let m_ww_22 = n_i_by * gain_i_w2 + n_o_by_i * gain_o_w2;
-    let m_ww_23 = n_i_bz * gain_i_w2 + n_o_bz_i * gain_o_w2;
-    let m_ww_33 = n_i_bz * gain_i_w3 + n_o_bz_i * gain_o_w3;
+    let m_ww_11 = (n_i_bx * gain_i_w1).add_mul(n_o_bx_i, gain_o_w1);
+    let m_ww_12 = (n_i_by * gain_i_w1).add_mul(n_o_by_i, gain_o_w1);
+    let m_ww_13 = (n_i_bz * gain_i_w1).add_mul(n_o_bz_i, gain_o_w1);
+    let m_ww_22 = (n_i_by * gain_i_w2).add_mul(n_o_by_i, gain_o_w2);
+    let m_ww_23 = (n_i_bz * gain_i_w2).add_mul(n_o_bz_i, gain_o_w2);
+    let m_ww_33 = (n_i_bz * gain_i_w3).add_mul(n_o_bz_i, gain_o_w3);
 
     // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = f_rates_bx + f_i_bx * free_i + f_o_bx_i * free_o;
-    let h_v_2 = f_rates_by + f_i_by * free_i + f_o_by_i * free_o;
-    let h_v_3 = f_rates_bz + f_i_bz * free_i + f_o_bz_i * free_o;
-    let h_w_1 = n_rates_bx + n_i_bx * free_i + n_o_bx_i * free_o;
-    let h_w_2 = n_rates_by + n_i_by * free_i + n_o_by_i * free_o;
-    let h_w_3 = n_rates_bz + n_i_bz * free_i + n_o_bz_i * free_o;
+    let h_v_1 = f_rates_bx.add_mul(f_i_bx, free_i).add_mul(f_o_bx_i, free_o);
+    let h_v_2 = f_rates_by.add_mul(f_i_by, free_i).add_mul(f_o_by_i, free_o);
+    let h_v_3 = f_rates_bz.add_mul(f_i_bz, free_i).add_mul(f_o_bz_i, free_o);
+    let h_w_1 = n_rates_bx.add_mul(n_i_bx, free_i).add_mul(n_o_bx_i, free_o);
+    let h_w_2 = n_rates_by.add_mul(n_i_by, free_i).add_mul(n_o_by_i, free_o);
+    let h_w_3 = n_rates_bz.add_mul(n_i_bz, free_i).add_mul(n_o_bz_i, free_o);
 
     Eliminated {
         share: HubShare {
@@ -2445,25 +2640,26 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 13 mul, 13 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_o - a.r_b_n_ddot_bx * e.gain_o_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_o_v2;
-    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_o_v3;
-    let row_3 = row_2 - a.omega_dot_bx * e.gain_o_w1;
-    let row_4 = row_3 - a.omega_dot_by * e.gain_o_w2;
-    let gamma_o_ddot = row_4 - a.omega_dot_bz * e.gain_o_w3;
-    let row_5 = e.free_i - a.r_b_n_ddot_bx * e.gain_i_v1;
-    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_i_v2;
-    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_i_v3;
-    let row_8 = row_7 - a.omega_dot_bx * e.gain_i_w1;
-    let row_9 = row_8 - a.omega_dot_by * e.gain_i_w2;
-    let row_10 = row_9 - a.omega_dot_bz * e.gain_i_w3;
-    let gamma_i_ddot = row_10 - gamma_o_ddot * e.gain_i_o;
+    let row_0 = e.free_o.sub_mul(a.r_b_n_ddot_bx, e.gain_o_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_o_v2);
+    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_o_v3);
+    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_o_w1);
+    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_o_w2);
+    let gamma_o_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_o_w3);
+    let row_5 = e.free_i.sub_mul(a.r_b_n_ddot_bx, e.gain_i_v1);
+    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_i_v2);
+    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_i_v3);
+    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_i_w1);
+    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_i_w2);
+    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_i_w3);
+    let gamma_i_ddot = row_10.sub_mul(gamma_o_ddot, e.gain_i_o);
     let zero = e.pivot_i.like(0.0);
     let spin_dot = zero;
 

@@ -179,6 +179,74 @@ pub struct Prepared<T> {
     pub second_moment_33: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            mount_12: join(self.mount_12, other.mount_12),
+            mount_13: join(self.mount_13, other.mount_13),
+            mount_22: join(self.mount_22, other.mount_22),
+            mount_23: join(self.mount_23, other.mount_23),
+            mount_32: join(self.mount_32, other.mount_32),
+            mount_33: join(self.mount_33, other.mount_33),
+            r_w_b_bx: join(self.r_w_b_bx, other.r_w_b_bx),
+            r_w_b_by: join(self.r_w_b_by, other.r_w_b_by),
+            r_w_b_bz: join(self.r_w_b_bz, other.r_w_b_bz),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_22: join(self.j_22, other.j_22),
+            second_moment_12: join(self.second_moment_12, other.second_moment_12),
+            i_w_b_12: join(self.i_w_b_12, other.i_w_b_12),
+            second_moment_13: join(self.second_moment_13, other.second_moment_13),
+            i_w_b_13: join(self.i_w_b_13, other.i_w_b_13),
+            second_moment_23: join(self.second_moment_23, other.second_moment_23),
+            i_w_b_23: join(self.i_w_b_23, other.i_w_b_23),
+            i_w_b_11: join(self.i_w_b_11, other.i_w_b_11),
+            i_w_b_22: join(self.i_w_b_22, other.i_w_b_22),
+            i_w_b_33: join(self.i_w_b_33, other.i_w_b_33),
+            mc_bx: join(self.mc_bx, other.mc_bx),
+            mc_by: join(self.mc_by, other.mc_by),
+            mc_bz: join(self.mc_bz, other.mc_bz),
+            n_w_bx: join(self.n_w_bx, other.n_w_bx),
+            n_w_by: join(self.n_w_by, other.n_w_by),
+            n_w_bz: join(self.n_w_bz, other.n_w_bz),
+            i_moving_11: join(self.i_moving_11, other.i_moving_11),
+            i_moving_12: join(self.i_moving_12, other.i_moving_12),
+            i_moving_13: join(self.i_moving_13, other.i_moving_13),
+            i_moving_22: join(self.i_moving_22, other.i_moving_22),
+            i_moving_23: join(self.i_moving_23, other.i_moving_23),
+            i_moving_33: join(self.i_moving_33, other.i_moving_33),
+            hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
+            hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
+            hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
+            hand_i_11: join(self.hand_i_11, other.hand_i_11),
+            hand_i_12: join(self.hand_i_12, other.hand_i_12),
+            hand_i_13: join(self.hand_i_13, other.hand_i_13),
+            hand_i_22: join(self.hand_i_22, other.hand_i_22),
+            hand_i_23: join(self.hand_i_23, other.hand_i_23),
+            hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_0: join(self.k_0, other.k_0),
+            k_1: join(self.k_1, other.k_1),
+            second_moment_11: join(self.second_moment_11, other.second_moment_11),
+            second_moment_22: join(self.second_moment_22, other.second_moment_22),
+            second_moment_33: join(self.second_moment_33, other.second_moment_33),
+        }
+    }
+}
+
 /// Joint rates, each relative to the body that carries it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates<T> {
@@ -288,6 +356,26 @@ pub struct Eliminated<T> {
 pub struct JointAccelerations<T> {
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations { spin_dot: join(self.spin_dot, other.spin_dot) }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -685,6 +773,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 30 mul, 12 add, 0 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -694,10 +783,10 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // ω_{B/N} along the axes of the wheel, eq. (C1), rad/s.
-    let rate_0 = w.omega_bx * p.mount_12 + w.omega_by * p.mount_22;
-    let omega_b_n_wy = rate_0 + w.omega_bz * p.mount_32;
-    let rate_1 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
-    let omega_b_n_wz = rate_1 + w.omega_bz * p.mount_33;
+    let rate_0 = (w.omega_bx * p.mount_12).add_mul(w.omega_by, p.mount_22);
+    let omega_b_n_wy = rate_0.add_mul(w.omega_bz, p.mount_32);
+    let rate_1 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
+    let omega_b_n_wz = rate_1.add_mul(w.omega_bz, p.mount_33);
 
     // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_ww = p.j_11;
@@ -721,9 +810,12 @@ pub fn eliminate<T: Real>(
 
     // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
     // N and N m.
-    let n_rates_bx = p.mount_12 * n_rates_w_wy - p.mount_13 * neg_n_rates_w_wz;
-    let n_rates_by = p.mount_22 * n_rates_w_wy - p.mount_23 * neg_n_rates_w_wz;
-    let n_rates_bz = p.mount_32 * n_rates_w_wy - p.mount_33 * neg_n_rates_w_wz;
+    let bias_0 = p.mount_12 * n_rates_w_wy;
+    let n_rates_bx = bias_0.sub_mul(p.mount_13, neg_n_rates_w_wz);
+    let bias_1 = p.mount_22 * n_rates_w_wy;
+    let n_rates_by = bias_1.sub_mul(p.mount_23, neg_n_rates_w_wz);
+    let bias_2 = p.mount_32 * n_rates_w_wy;
+    let n_rates_bz = bias_2.sub_mul(p.mount_33, neg_n_rates_w_wz);
 
     // Joint w, eq. (E1): its pivot `mass_ww`, kg m², and its gains.
     let divisor_w = m.held_w + p.j_11;
@@ -731,7 +823,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = p.n_w_bx * recip_w;
     let gain_w_w2 = p.n_w_by * recip_w;
     let gain_w_w3 = p.n_w_bz * recip_w;
-    let free_w = m.given_w + u.u_w * recip_w;
+    let free_w = m.given_w.add_mul(u.u_w, recip_w);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_vv.
     let m_vv_11 = zero;
@@ -764,9 +856,9 @@ pub fn eliminate<T: Real>(
     let h_v_1 = zero;
     let h_v_2 = zero;
     let h_v_3 = zero;
-    let h_w_1 = n_rates_bx + p.n_w_bx * free_w;
-    let h_w_2 = n_rates_by + p.n_w_by * free_w;
-    let h_w_3 = n_rates_bz + p.n_w_bz * free_w;
+    let h_w_1 = n_rates_bx.add_mul(p.n_w_bx, free_w);
+    let h_w_2 = n_rates_by.add_mul(p.n_w_by, free_w);
+    let h_w_3 = n_rates_bz.add_mul(p.n_w_bz, free_w);
 
     Eliminated {
         share: HubShare {
@@ -819,15 +911,16 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 3 mul, 3 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_w - a.omega_dot_bx * e.gain_w_w1;
-    let row_1 = row_0 - a.omega_dot_by * e.gain_w_w2;
-    let spin_dot = row_1 - a.omega_dot_bz * e.gain_w_w3;
+    let row_0 = e.free_w.sub_mul(a.omega_dot_bx, e.gain_w_w1);
+    let row_1 = row_0.sub_mul(a.omega_dot_by, e.gain_w_w2);
+    let spin_dot = row_1.sub_mul(a.omega_dot_bz, e.gain_w_w3);
 
     JointAccelerations { spin_dot }
 }

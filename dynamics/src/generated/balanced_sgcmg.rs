@@ -323,6 +323,129 @@ pub struct Prepared<T> {
     pub k_35: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            mount_11: join(self.mount_11, other.mount_11),
+            mount_12: join(self.mount_12, other.mount_12),
+            mount_13: join(self.mount_13, other.mount_13),
+            mount_21: join(self.mount_21, other.mount_21),
+            mount_22: join(self.mount_22, other.mount_22),
+            mount_23: join(self.mount_23, other.mount_23),
+            mount_31: join(self.mount_31, other.mount_31),
+            mount_32: join(self.mount_32, other.mount_32),
+            mount_33: join(self.mount_33, other.mount_33),
+            r_g_b_bx: join(self.r_g_b_bx, other.r_g_b_bx),
+            r_g_b_by: join(self.r_g_b_by, other.r_g_b_by),
+            r_g_b_bz: join(self.r_g_b_bz, other.r_g_b_bz),
+            r_gc_g_gx: join(self.r_gc_g_gx, other.r_gc_g_gx),
+            r_gc_g_gy: join(self.r_gc_g_gy, other.r_gc_g_gy),
+            m_g: join(self.m_g, other.m_g),
+            i_g_11: join(self.i_g_11, other.i_g_11),
+            i_g_12: join(self.i_g_12, other.i_g_12),
+            i_g_13: join(self.i_g_13, other.i_g_13),
+            i_g_22: join(self.i_g_22, other.i_g_22),
+            i_g_23: join(self.i_g_23, other.i_g_23),
+            i_g_33: join(self.i_g_33, other.i_g_33),
+            l_g_x: join(self.l_g_x, other.l_g_x),
+            l_g_y: join(self.l_g_y, other.l_g_y),
+            l_g_z: join(self.l_g_z, other.l_g_z),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_22: join(self.j_22, other.j_22),
+            m_d: join(self.m_d, other.m_d),
+            r_gc_b_bz: join(self.r_gc_b_bz, other.r_gc_b_bz),
+            r_wc_b_gz: join(self.r_wc_b_gz, other.r_wc_b_gz),
+            k_0: join(self.k_0, other.k_0),
+            r_wc_b_dprime_g_gx: join(self.r_wc_b_dprime_g_gx, other.r_wc_b_dprime_g_gx),
+            k_1: join(self.k_1, other.k_1),
+            mr_gc_g_gx: join(self.mr_gc_g_gx, other.mr_gc_g_gx),
+            mr_gc_g_gy: join(self.mr_gc_g_gy, other.mr_gc_g_gy),
+            mr_gc_g_gz: join(self.mr_gc_g_gz, other.mr_gc_g_gz),
+            i_g_g_11: join(self.i_g_g_11, other.i_g_g_11),
+            i_g_g_12: join(self.i_g_g_12, other.i_g_g_12),
+            i_g_g_13: join(self.i_g_g_13, other.i_g_g_13),
+            i_g_g_22: join(self.i_g_g_22, other.i_g_g_22),
+            i_g_g_23: join(self.i_g_g_23, other.i_g_g_23),
+            i_g_g_33: join(self.i_g_g_33, other.i_g_g_33),
+            mr_d_g_gx: join(self.mr_d_g_gx, other.mr_d_g_gx),
+            mr_d_g_gy: join(self.mr_d_g_gy, other.mr_d_g_gy),
+            i_d_g_11: join(self.i_d_g_11, other.i_d_g_11),
+            i_d_g_13: join(self.i_d_g_13, other.i_d_g_13),
+            i_d_g_22: join(self.i_d_g_22, other.i_d_g_22),
+            i_d_g_23: join(self.i_d_g_23, other.i_d_g_23),
+            i_d_g_33: join(self.i_d_g_33, other.i_d_g_33),
+            mass_gg: join(self.mass_gg, other.mass_gg),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+            k_17: join(self.k_17, other.k_17),
+            mc_bz: join(self.mc_bz, other.mc_bz),
+            i_g_base_12: join(self.i_g_base_12, other.i_g_base_12),
+            i_g_base_13: join(self.i_g_base_13, other.i_g_base_13),
+            i_g_base_23: join(self.i_g_base_23, other.i_g_base_23),
+            i_g_base_33: join(self.i_g_base_33, other.i_g_base_33),
+            i_behind_d_11: join(self.i_behind_d_11, other.i_behind_d_11),
+            k_18: join(self.k_18, other.k_18),
+            k_19: join(self.k_19, other.k_19),
+            k_20: join(self.k_20, other.k_20),
+            reach_bx: join(self.reach_bx, other.reach_bx),
+            reach_by: join(self.reach_by, other.reach_by),
+            reach_bz: join(self.reach_bz, other.reach_bz),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
+            k_29: join(self.k_29, other.k_29),
+            k_30: join(self.k_30, other.k_30),
+            hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
+            hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
+            hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
+            hand_i_11: join(self.hand_i_11, other.hand_i_11),
+            hand_i_12: join(self.hand_i_12, other.hand_i_12),
+            hand_i_13: join(self.hand_i_13, other.hand_i_13),
+            hand_i_22: join(self.hand_i_22, other.hand_i_22),
+            hand_i_23: join(self.hand_i_23, other.hand_i_23),
+            hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_31: join(self.k_31, other.k_31),
+            k_32: join(self.k_32, other.k_32),
+            k_33: join(self.k_33, other.k_33),
+            k_34: join(self.k_34, other.k_34),
+            k_35: join(self.k_35, other.k_35),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -594,6 +717,29 @@ pub struct JointAccelerations<T> {
     pub gamma_ddot: T,
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations {
+            gamma_ddot: join(self.gamma_ddot, other.gamma_ddot),
+            spin_dot: join(self.spin_dot, other.spin_dot),
+        }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -1407,6 +1553,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 178 mul, 113 add, 1 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1417,20 +1564,20 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the gimbal, eq. (A1), along B axes, 1.
-    let e_x_bx = q.cos_gamma * p.mount_11 + q.sin_gamma * p.mount_12;
-    let e_x_by = q.cos_gamma * p.mount_21 + q.sin_gamma * p.mount_22;
-    let e_x_bz = q.cos_gamma * p.mount_31 + q.sin_gamma * p.mount_32;
-    let e_y_bx = q.cos_gamma * p.mount_12 - q.sin_gamma * p.mount_11;
-    let e_y_by = q.cos_gamma * p.mount_22 - q.sin_gamma * p.mount_21;
-    let e_y_bz = q.cos_gamma * p.mount_32 - q.sin_gamma * p.mount_31;
+    let e_x_bx = (q.cos_gamma * p.mount_11).add_mul(q.sin_gamma, p.mount_12);
+    let e_x_by = (q.cos_gamma * p.mount_21).add_mul(q.sin_gamma, p.mount_22);
+    let e_x_bz = (q.cos_gamma * p.mount_31).add_mul(q.sin_gamma, p.mount_32);
+    let e_y_bx = (q.cos_gamma * p.mount_12).sub_mul(q.sin_gamma, p.mount_11);
+    let e_y_by = (q.cos_gamma * p.mount_22).sub_mul(q.sin_gamma, p.mount_21);
+    let e_y_bz = (q.cos_gamma * p.mount_32).sub_mul(q.sin_gamma, p.mount_31);
 
     // ω_{B/N} along the axes of the gimbal, eq. (C1), rad/s.
-    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
-    let omega_b_n_gx = rate_0 + w.omega_bz * e_x_bz;
-    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
-    let omega_b_n_gy = rate_1 + w.omega_bz * e_y_bz;
-    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
-    let omega_b_n_gz = rate_2 + w.omega_bz * p.mount_33;
+    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
+    let omega_b_n_gx = rate_0.add_mul(w.omega_bz, e_x_bz);
+    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
+    let omega_b_n_gy = rate_1.add_mul(w.omega_bz, e_y_bz);
+    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
+    let omega_b_n_gz = rate_2.add_mul(w.omega_bz, p.mount_33);
 
     // ω_{G/N}, eq. (31), along its own axes, rad/s.
     let omega_g_n_gz = v.gamma_dot + omega_b_n_gz;
@@ -1446,96 +1593,99 @@ pub fn eliminate<T: Real>(
 
     // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_gg = p.i_g_base_33;
-    let row_0 = omega_b_n_gy * omega_b_n_gz * p.i_g_base_13;
-    let row_1 = omega_b_n_gx * omega_b_n_gx - omega_b_n_gy * omega_b_n_gy;
-    let row_2 = omega_b_n_gx * omega_b_n_gy * p.i_behind_d_11;
-    let row_3 = omega_b_n_gx * omega_b_n_gz * p.i_g_base_23 - row_0;
-    let field_g = row_3 + (p.i_g_base_12 * row_1 - row_2) + n_rates_w_gz;
+    let row_0 = omega_b_n_gx * omega_b_n_gz * p.i_g_base_23;
+    let row_1 = (omega_b_n_gx * omega_b_n_gx).sub_mul(omega_b_n_gy, omega_b_n_gy);
+    let row_2 = omega_b_n_gx * omega_b_n_gy;
+    let row_3 = row_0.sub_mul(p.i_g_base_13, omega_b_n_gy * omega_b_n_gz);
+    let row_4 = row_3 + (p.i_g_base_12 * row_1).sub_mul(row_2, p.i_behind_d_11);
+    let field_g = row_4 + n_rates_w_gz;
 
     // Force, N, and moment, N m, that the joints' rates from the gimbal's on ask for, eq. (C2).
     let coriolis_1 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
     let neg_f_rates_g_gx = p.mr_d_g_gx * coriolis_1;
     let neg_f_rates_g_gy = p.mr_d_g_gy * coriolis_1;
-    let coriolis_2 = p.mr_d_g_gx * neg_alpha_g_gy + p.mr_d_g_gy * alpha_g_gx;
-    let f_rates_g_gz = coriolis_2 + coriolis_2;
-    let coriolis_3 = alpha_g_gx * p.k_19 - neg_alpha_g_gy * p.k_18;
-    let n_rates_g_gx = coriolis_3 - p.i_g_base_23 * coriolis_1;
-    let coriolis_4 = p.i_g_base_13 * coriolis_1 + alpha_g_gx * p.k_18;
-    let n_rates_g_gy = coriolis_4 - neg_alpha_g_gy * p.k_20 + n_rates_w_gy;
+    let coriolis_2 = p.mr_d_g_gx * neg_alpha_g_gy;
+    let coriolis_3 = coriolis_2.add_mul(p.mr_d_g_gy, alpha_g_gx);
+    let f_rates_g_gz = coriolis_3 + coriolis_3;
+    let coriolis_4 = (alpha_g_gx * p.k_19).sub_mul(neg_alpha_g_gy, p.k_18);
+    let n_rates_g_gx = coriolis_4.sub_mul(p.i_g_base_23, coriolis_1);
+    let coriolis_5 = (p.i_g_base_13 * coriolis_1).add_mul(alpha_g_gx, p.k_18);
+    let n_rates_g_gy = coriolis_5.sub_mul(neg_alpha_g_gy, p.k_20) + n_rates_w_gy;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration, along B axes.
-    let f_g_bx = p.mr_d_g_gx * e_y_bx - p.mr_d_g_gy * e_x_bx;
-    let f_g_by = p.mr_d_g_gx * e_y_by - p.mr_d_g_gy * e_x_by;
-    let f_g_bz = p.mr_d_g_gx * e_y_bz - p.mr_d_g_gy * e_x_bz;
-    let col_0 = p.i_g_base_13 * e_x_bx + p.i_g_base_23 * e_y_bx + p.k_21;
-    let n_g_bx = p.reach_by * f_g_bz - p.reach_bz * f_g_by + col_0;
-    let col_1 = p.i_g_base_13 * e_x_by + p.i_g_base_23 * e_y_by + p.k_22;
-    let n_g_by = p.reach_bz * f_g_bx - p.reach_bx * f_g_bz + col_1;
-    let col_2 = p.i_g_base_13 * e_x_bz + p.i_g_base_23 * e_y_bz + p.k_23;
-    let n_g_bz = p.reach_bx * f_g_by - p.reach_by * f_g_bx + col_2;
+    let f_g_bx = (p.mr_d_g_gx * e_y_bx).sub_mul(p.mr_d_g_gy, e_x_bx);
+    let f_g_by = (p.mr_d_g_gx * e_y_by).sub_mul(p.mr_d_g_gy, e_x_by);
+    let f_g_bz = (p.mr_d_g_gx * e_y_bz).sub_mul(p.mr_d_g_gy, e_x_bz);
+    let col_0 = (p.i_g_base_13 * e_x_bx).add_mul(p.i_g_base_23, e_y_bx) + p.k_21;
+    let n_g_bx = (p.reach_by * f_g_bz).sub_mul(p.reach_bz, f_g_by) + col_0;
+    let col_1 = (p.i_g_base_13 * e_x_by).add_mul(p.i_g_base_23, e_y_by) + p.k_22;
+    let n_g_by = (p.reach_bz * f_g_bx).sub_mul(p.reach_bx, f_g_bz) + col_1;
+    let col_2 = (p.i_g_base_13 * e_x_bz).add_mul(p.i_g_base_23, e_y_bz) + p.k_23;
+    let n_g_bz = (p.reach_bx * f_g_by).sub_mul(p.reach_by, f_g_bx) + col_2;
 
     // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
     // (76), kg m².
-    let mr_moving_bx = p.mr_d_g_gx * e_x_bx + p.mr_d_g_gy * e_y_bx;
-    let mr_moving_by = p.mr_d_g_gx * e_x_by + p.mr_d_g_gy * e_y_by;
-    let mr_moving_bz = p.mr_d_g_gx * e_x_bz + p.mr_d_g_gy * e_y_bz;
-    let moment_0 = e_x_bx * p.k_24 + p.i_g_base_12 * e_y_bx;
+    let mr_moving_bx = (p.mr_d_g_gx * e_x_bx).add_mul(p.mr_d_g_gy, e_y_bx);
+    let mr_moving_by = (p.mr_d_g_gx * e_x_by).add_mul(p.mr_d_g_gy, e_y_by);
+    let mr_moving_bz = (p.mr_d_g_gx * e_x_bz).add_mul(p.mr_d_g_gy, e_y_bz);
+    let moment_0 = (e_x_bx * p.k_24).add_mul(p.i_g_base_12, e_y_bx);
     let moment_1 = col_0 + p.k_25;
-    let moment_2 = e_x_bx * moment_0 + p.mount_13 * moment_1;
+    let moment_2 = (e_x_bx * moment_0).add_mul(p.mount_13, moment_1);
     let moment_3 = mr_moving_by * p.k_29;
     let moment_4 = mr_moving_bz * p.k_30;
     let i_moving_11 = moment_2 + moment_2 + (moment_3 + moment_4);
-    let moment_5 = e_x_by * p.k_24 + p.i_g_base_12 * e_y_by;
+    let moment_5 = (e_x_by * p.k_24).add_mul(p.i_g_base_12, e_y_by);
     let moment_6 = col_1 + p.k_26;
-    let moment_7 = e_x_by * moment_0 + p.mount_23 * moment_1;
-    let moment_8 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
-    let i_moving_12 = e_x_bx * moment_5 + p.mount_13 * moment_6 + moment_7 - moment_8;
-    let moment_9 = e_x_bz * p.k_24 + p.i_g_base_12 * e_y_bz;
-    let moment_10 = col_2 + p.k_27;
-    let moment_11 = e_x_bx * moment_9 + p.mount_13 * moment_10;
-    let moment_12 = moment_11 + (e_x_bz * moment_0 + p.mount_33 * moment_1);
-    let moment_13 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
-    let i_moving_13 = moment_12 - moment_13;
-    let moment_14 = e_x_by * moment_5 + p.mount_23 * moment_6;
-    let moment_15 = mr_moving_bx * p.k_28;
-    let i_moving_22 = moment_14 + moment_14 + (moment_15 + moment_4);
-    let moment_16 = e_x_by * moment_9 + p.mount_23 * moment_10;
-    let moment_17 = moment_16 + (e_x_bz * moment_5 + p.mount_33 * moment_6);
-    let moment_18 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
-    let i_moving_23 = moment_17 - moment_18;
-    let moment_19 = e_x_bz * moment_9 + p.mount_33 * moment_10;
-    let i_moving_33 = moment_19 + moment_19 + (moment_15 + moment_3);
+    let moment_7 = (e_x_by * moment_0).add_mul(p.mount_23, moment_1);
+    let moment_8 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
+    let moment_9 = (e_x_bx * moment_5).add_mul(p.mount_13, moment_6) + moment_7;
+    let i_moving_12 = moment_9 - moment_8;
+    let moment_10 = (e_x_bz * p.k_24).add_mul(p.i_g_base_12, e_y_bz);
+    let moment_11 = col_2 + p.k_27;
+    let moment_12 = (e_x_bx * moment_10).add_mul(p.mount_13, moment_11);
+    let moment_13 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
+    let moment_14 = moment_12 + (e_x_bz * moment_0).add_mul(p.mount_33, moment_1);
+    let i_moving_13 = moment_14 - moment_13;
+    let moment_15 = (e_x_by * moment_5).add_mul(p.mount_23, moment_6);
+    let moment_16 = mr_moving_bx * p.k_28;
+    let i_moving_22 = moment_15 + moment_15 + (moment_16 + moment_4);
+    let moment_17 = (e_x_by * moment_10).add_mul(p.mount_23, moment_11);
+    let moment_18 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
+    let moment_19 = moment_17 + (e_x_bz * moment_5).add_mul(p.mount_33, moment_6);
+    let i_moving_23 = moment_19 - moment_18;
+    let moment_20 = (e_x_bz * moment_10).add_mul(p.mount_33, moment_11);
+    let i_moving_33 = moment_20 + moment_20 + (moment_16 + moment_3);
 
     // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
     // N and N m.
-    let bias_0 = e_x_bx * neg_f_rates_g_gx + e_y_bx * neg_f_rates_g_gy;
-    let f_rates_bx = p.mount_13 * f_rates_g_gz - bias_0;
-    let bias_1 = e_x_by * neg_f_rates_g_gx + e_y_by * neg_f_rates_g_gy;
-    let f_rates_by = p.mount_23 * f_rates_g_gz - bias_1;
-    let bias_2 = e_x_bz * neg_f_rates_g_gx + e_y_bz * neg_f_rates_g_gy;
-    let f_rates_bz = p.mount_33 * f_rates_g_gz - bias_2;
-    let bias_3 = e_x_bx * n_rates_g_gx + e_y_bx * n_rates_g_gy;
-    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
-    let n_rates_bx = bias_3 - p.mount_13 * coriolis_0 + bias_4;
-    let bias_5 = e_x_by * n_rates_g_gx + e_y_by * n_rates_g_gy;
-    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
-    let n_rates_by = bias_5 - p.mount_23 * coriolis_0 + bias_6;
-    let bias_7 = e_x_bz * n_rates_g_gx + e_y_bz * n_rates_g_gy;
-    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
-    let n_rates_bz = bias_7 - p.mount_33 * coriolis_0 + bias_8;
+    let bias_0 = (e_x_bx * neg_f_rates_g_gx).add_mul(e_y_bx, neg_f_rates_g_gy);
+    let f_rates_bx = p.mount_13.mul_sub(f_rates_g_gz, bias_0);
+    let bias_1 = (e_x_by * neg_f_rates_g_gx).add_mul(e_y_by, neg_f_rates_g_gy);
+    let f_rates_by = p.mount_23.mul_sub(f_rates_g_gz, bias_1);
+    let bias_2 = (e_x_bz * neg_f_rates_g_gx).add_mul(e_y_bz, neg_f_rates_g_gy);
+    let f_rates_bz = p.mount_33.mul_sub(f_rates_g_gz, bias_2);
+    let bias_3 = (e_x_bx * n_rates_g_gx).add_mul(e_y_bx, n_rates_g_gy);
+    let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
+    let n_rates_bx = bias_3.sub_mul(p.mount_13, coriolis_0) + bias_4;
+    let bias_5 = (e_x_by * n_rates_g_gx).add_mul(e_y_by, n_rates_g_gy);
+    let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
+    let n_rates_by = bias_5.sub_mul(p.mount_23, coriolis_0) + bias_6;
+    let bias_7 = (e_x_bz * n_rates_g_gx).add_mul(e_y_bz, n_rates_g_gy);
+    let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
+    let n_rates_bz = bias_7.sub_mul(p.mount_33, coriolis_0) + bias_8;
 
     // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
-    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
-    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
-    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
-    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
-    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
-    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
+    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
+    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
+    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
+    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
+    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
     // Bias of each joint with it, eq. (C3).
-    let bias_9 = f_g_bx * r_first_rest_bx + f_g_by * r_first_rest_by;
-    let u_rest_g = bias_9 + f_g_bz * r_first_rest_bz + field_g;
+    let bias_9 = (f_g_bx * r_first_rest_bx).add_mul(f_g_by, r_first_rest_by);
+    let u_rest_g = bias_9.add_mul(f_g_bz, r_first_rest_bz) + field_g;
 
     // Right side of each joint, eq. (80): motor torque less what the rest asks for, N m.
     let tau_g = u.u_g - u_rest_g;
@@ -1549,7 +1699,7 @@ pub fn eliminate<T: Real>(
     let gain_g_w1 = n_g_bx * recip_g;
     let gain_g_w2 = n_g_by * recip_g;
     let gain_g_w3 = n_g_bz * recip_g;
-    let free_g = m.given_g + tau_g * recip_g;
+    let free_g = m.given_g.add_mul(tau_g, recip_g);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_vv.
     let m_vv_11 = f_g_bx * gain_g_v1;
@@ -1579,12 +1729,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_g_bz * gain_g_w3;
 
     // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = f_rates_bx + f_g_bx * free_g;
-    let h_v_2 = f_rates_by + f_g_by * free_g;
-    let h_v_3 = f_rates_bz + f_g_bz * free_g;
-    let h_w_1 = n_rates_bx + n_g_bx * free_g;
-    let h_w_2 = n_rates_by + n_g_by * free_g;
-    let h_w_3 = n_rates_bz + n_g_bz * free_g;
+    let h_v_1 = f_rates_bx.add_mul(f_g_bx, free_g);
+    let h_v_2 = f_rates_by.add_mul(f_g_by, free_g);
+    let h_v_3 = f_rates_bz.add_mul(f_g_bz, free_g);
+    let h_w_1 = n_rates_bx.add_mul(n_g_bx, free_g);
+    let h_w_2 = n_rates_by.add_mul(n_g_by, free_g);
+    let h_w_3 = n_rates_bz.add_mul(n_g_bz, free_g);
 
     Eliminated {
         share: HubShare {
@@ -1640,18 +1790,19 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_g - a.r_b_n_ddot_bx * e.gain_g_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_g_v2;
-    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_g_v3;
-    let row_3 = row_2 - a.omega_dot_bx * e.gain_g_w1;
-    let row_4 = row_3 - a.omega_dot_by * e.gain_g_w2;
-    let gamma_ddot = row_4 - a.omega_dot_bz * e.gain_g_w3;
+    let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
+    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_g_v3);
+    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_g_w1);
+    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_g_w2);
+    let gamma_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_g_w3);
     let zero = e.pivot_g.like(0.0);
     let spin_dot = zero;
 

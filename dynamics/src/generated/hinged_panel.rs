@@ -260,6 +260,110 @@ pub struct Prepared<T> {
     pub k_32: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            mount_11: join(self.mount_11, other.mount_11),
+            mount_12: join(self.mount_12, other.mount_12),
+            mount_13: join(self.mount_13, other.mount_13),
+            mount_21: join(self.mount_21, other.mount_21),
+            mount_22: join(self.mount_22, other.mount_22),
+            mount_23: join(self.mount_23, other.mount_23),
+            mount_31: join(self.mount_31, other.mount_31),
+            mount_32: join(self.mount_32, other.mount_32),
+            mount_33: join(self.mount_33, other.mount_33),
+            r_p_b_bx: join(self.r_p_b_bx, other.r_p_b_bx),
+            r_p_b_by: join(self.r_p_b_by, other.r_p_b_by),
+            r_p_b_bz: join(self.r_p_b_bz, other.r_p_b_bz),
+            r_pc_p_px: join(self.r_pc_p_px, other.r_pc_p_px),
+            r_pc_p_py: join(self.r_pc_p_py, other.r_pc_p_py),
+            m_p: join(self.m_p, other.m_p),
+            i_p_11: join(self.i_p_11, other.i_p_11),
+            i_p_12: join(self.i_p_12, other.i_p_12),
+            i_p_13: join(self.i_p_13, other.i_p_13),
+            i_p_22: join(self.i_p_22, other.i_p_22),
+            i_p_23: join(self.i_p_23, other.i_p_23),
+            i_p_33: join(self.i_p_33, other.i_p_33),
+            r_pc_b_bz: join(self.r_pc_b_bz, other.r_pc_b_bz),
+            k_0: join(self.k_0, other.k_0),
+            mr_pc_p_px: join(self.mr_pc_p_px, other.mr_pc_p_px),
+            mr_pc_p_py: join(self.mr_pc_p_py, other.mr_pc_p_py),
+            mr_pc_p_pz: join(self.mr_pc_p_pz, other.mr_pc_p_pz),
+            i_p_p_11: join(self.i_p_p_11, other.i_p_p_11),
+            i_p_p_12: join(self.i_p_p_12, other.i_p_p_12),
+            i_p_p_13: join(self.i_p_p_13, other.i_p_p_13),
+            i_p_p_22: join(self.i_p_p_22, other.i_p_p_22),
+            i_p_p_23: join(self.i_p_p_23, other.i_p_p_23),
+            i_p_p_33: join(self.i_p_p_33, other.i_p_p_33),
+            mass_pp: join(self.mass_pp, other.mass_pp),
+            k_1: join(self.k_1, other.k_1),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+            mc_bz: join(self.mc_bz, other.mc_bz),
+            i_p_base_11: join(self.i_p_base_11, other.i_p_base_11),
+            i_p_base_12: join(self.i_p_base_12, other.i_p_base_12),
+            i_p_base_13: join(self.i_p_base_13, other.i_p_base_13),
+            i_p_base_23: join(self.i_p_base_23, other.i_p_base_23),
+            i_p_base_33: join(self.i_p_base_33, other.i_p_base_33),
+            k_17: join(self.k_17, other.k_17),
+            k_18: join(self.k_18, other.k_18),
+            k_19: join(self.k_19, other.k_19),
+            reach_bx: join(self.reach_bx, other.reach_bx),
+            reach_by: join(self.reach_by, other.reach_by),
+            reach_bz: join(self.reach_bz, other.reach_bz),
+            k_20: join(self.k_20, other.k_20),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
+            k_29: join(self.k_29, other.k_29),
+            hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
+            hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
+            hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
+            hand_i_11: join(self.hand_i_11, other.hand_i_11),
+            hand_i_12: join(self.hand_i_12, other.hand_i_12),
+            hand_i_13: join(self.hand_i_13, other.hand_i_13),
+            hand_i_22: join(self.hand_i_22, other.hand_i_22),
+            hand_i_23: join(self.hand_i_23, other.hand_i_23),
+            hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_30: join(self.k_30, other.k_30),
+            k_31: join(self.k_31, other.k_31),
+            k_32: join(self.k_32, other.k_32),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -444,6 +548,26 @@ pub struct Eliminated<T> {
 pub struct JointAccelerations<T> {
     /// φ̈: acceleration of the panel, rad/s².
     pub phi_ddot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations { phi_ddot: join(self.phi_ddot, other.phi_ddot) }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -1013,6 +1137,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 171 mul, 108 add, 0 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1023,27 +1148,28 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the panel, eq. (A1), along B axes, 1.
-    let e_x_bx = q.cos_phi * p.mount_11 + q.sin_phi * p.mount_12;
-    let e_x_by = q.cos_phi * p.mount_21 + q.sin_phi * p.mount_22;
-    let e_x_bz = q.cos_phi * p.mount_31 + q.sin_phi * p.mount_32;
-    let e_y_bx = q.cos_phi * p.mount_12 - q.sin_phi * p.mount_11;
-    let e_y_by = q.cos_phi * p.mount_22 - q.sin_phi * p.mount_21;
-    let e_y_bz = q.cos_phi * p.mount_32 - q.sin_phi * p.mount_31;
+    let e_x_bx = (q.cos_phi * p.mount_11).add_mul(q.sin_phi, p.mount_12);
+    let e_x_by = (q.cos_phi * p.mount_21).add_mul(q.sin_phi, p.mount_22);
+    let e_x_bz = (q.cos_phi * p.mount_31).add_mul(q.sin_phi, p.mount_32);
+    let e_y_bx = (q.cos_phi * p.mount_12).sub_mul(q.sin_phi, p.mount_11);
+    let e_y_by = (q.cos_phi * p.mount_22).sub_mul(q.sin_phi, p.mount_21);
+    let e_y_bz = (q.cos_phi * p.mount_32).sub_mul(q.sin_phi, p.mount_31);
 
     // ω_{B/N} along the axes of the panel, eq. (C1), rad/s.
-    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
-    let omega_b_n_px = rate_0 + w.omega_bz * e_x_bz;
-    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
-    let omega_b_n_py = rate_1 + w.omega_bz * e_y_bz;
-    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
-    let omega_b_n_pz = rate_2 + w.omega_bz * p.mount_33;
+    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
+    let omega_b_n_px = rate_0.add_mul(w.omega_bz, e_x_bz);
+    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
+    let omega_b_n_py = rate_1.add_mul(w.omega_bz, e_y_bz);
+    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
+    let omega_b_n_pz = rate_2.add_mul(w.omega_bz, p.mount_33);
 
     // Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_pp = p.i_p_base_33;
-    let row_0 = omega_b_n_py * omega_b_n_pz * p.i_p_base_13;
-    let row_1 = omega_b_n_px * omega_b_n_px - omega_b_n_py * omega_b_n_py;
-    let row_2 = p.i_p_base_12 * row_1 - omega_b_n_px * omega_b_n_py * p.i_p_base_11;
-    let field_p = omega_b_n_px * omega_b_n_pz * p.i_p_base_23 - row_0 + row_2;
+    let row_0 = omega_b_n_px * omega_b_n_pz * p.i_p_base_23;
+    let row_1 = (omega_b_n_px * omega_b_n_px).sub_mul(omega_b_n_py, omega_b_n_py);
+    let row_2 = omega_b_n_px * omega_b_n_py;
+    let row_3 = row_0.sub_mul(p.i_p_base_13, omega_b_n_py * omega_b_n_pz);
+    let field_p = row_3 + (p.i_p_base_12 * row_1).sub_mul(p.i_p_base_11, row_2);
 
     // Force, N, and moment, N m, that the joints' rates from the panel's on ask for, eq. (C2).
     let coriolis_0 = v.phi_dot * (v.phi_dot + omega_b_n_pz + omega_b_n_pz);
@@ -1051,83 +1177,84 @@ pub fn eliminate<T: Real>(
     let neg_f_rates_p_py = p.mr_pc_p_py * coriolis_0;
     let coriolis_1 = v.phi_dot * omega_b_n_px;
     let coriolis_2 = v.phi_dot * omega_b_n_py;
-    let coriolis_3 = p.mr_pc_p_px * coriolis_1 + p.mr_pc_p_py * coriolis_2;
+    let coriolis_3 = (p.mr_pc_p_px * coriolis_1).add_mul(p.mr_pc_p_py, coriolis_2);
     let f_rates_p_pz = coriolis_3 + coriolis_3;
-    let coriolis_4 = coriolis_2 * p.k_18 - coriolis_1 * p.k_17;
-    let n_rates_p_px = coriolis_4 - p.i_p_base_23 * coriolis_0;
-    let coriolis_5 = p.i_p_base_13 * coriolis_0 + coriolis_2 * p.k_17;
-    let n_rates_p_py = coriolis_5 - coriolis_1 * p.k_19;
+    let coriolis_4 = (coriolis_2 * p.k_18).sub_mul(coriolis_1, p.k_17);
+    let n_rates_p_px = coriolis_4.sub_mul(p.i_p_base_23, coriolis_0);
+    let coriolis_5 = (p.i_p_base_13 * coriolis_0).add_mul(coriolis_2, p.k_17);
+    let n_rates_p_py = coriolis_5.sub_mul(coriolis_1, p.k_19);
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration, along B axes.
-    let f_p_bx = p.mr_pc_p_px * e_y_bx - p.mr_pc_p_py * e_x_bx;
-    let f_p_by = p.mr_pc_p_px * e_y_by - p.mr_pc_p_py * e_x_by;
-    let f_p_bz = p.mr_pc_p_px * e_y_bz - p.mr_pc_p_py * e_x_bz;
-    let col_0 = p.i_p_base_13 * e_x_bx + p.i_p_base_23 * e_y_bx + p.k_20;
-    let n_p_bx = p.reach_by * f_p_bz - p.reach_bz * f_p_by + col_0;
-    let col_1 = p.i_p_base_13 * e_x_by + p.i_p_base_23 * e_y_by + p.k_21;
-    let n_p_by = p.reach_bz * f_p_bx - p.reach_bx * f_p_bz + col_1;
-    let col_2 = p.i_p_base_13 * e_x_bz + p.i_p_base_23 * e_y_bz + p.k_22;
-    let n_p_bz = p.reach_bx * f_p_by - p.reach_by * f_p_bx + col_2;
+    let f_p_bx = (p.mr_pc_p_px * e_y_bx).sub_mul(p.mr_pc_p_py, e_x_bx);
+    let f_p_by = (p.mr_pc_p_px * e_y_by).sub_mul(p.mr_pc_p_py, e_x_by);
+    let f_p_bz = (p.mr_pc_p_px * e_y_bz).sub_mul(p.mr_pc_p_py, e_x_bz);
+    let col_0 = (p.i_p_base_13 * e_x_bx).add_mul(p.i_p_base_23, e_y_bx) + p.k_20;
+    let n_p_bx = (p.reach_by * f_p_bz).sub_mul(p.reach_bz, f_p_by) + col_0;
+    let col_1 = (p.i_p_base_13 * e_x_by).add_mul(p.i_p_base_23, e_y_by) + p.k_21;
+    let n_p_by = (p.reach_bz * f_p_bx).sub_mul(p.reach_bx, f_p_bz) + col_1;
+    let col_2 = (p.i_p_base_13 * e_x_bz).add_mul(p.i_p_base_23, e_y_bz) + p.k_22;
+    let n_p_bz = (p.reach_bx * f_p_by).sub_mul(p.reach_by, f_p_bx) + col_2;
 
     // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
     // (76), kg m².
-    let mr_moving_bx = p.mr_pc_p_px * e_x_bx + p.mr_pc_p_py * e_y_bx;
-    let mr_moving_by = p.mr_pc_p_px * e_x_by + p.mr_pc_p_py * e_y_by;
-    let mr_moving_bz = p.mr_pc_p_px * e_x_bz + p.mr_pc_p_py * e_y_bz;
-    let moment_0 = e_x_bx * p.k_23 + p.i_p_base_12 * e_y_bx;
+    let mr_moving_bx = (p.mr_pc_p_px * e_x_bx).add_mul(p.mr_pc_p_py, e_y_bx);
+    let mr_moving_by = (p.mr_pc_p_px * e_x_by).add_mul(p.mr_pc_p_py, e_y_by);
+    let mr_moving_bz = (p.mr_pc_p_px * e_x_bz).add_mul(p.mr_pc_p_py, e_y_bz);
+    let moment_0 = (e_x_bx * p.k_23).add_mul(p.i_p_base_12, e_y_bx);
     let moment_1 = col_0 + p.k_24;
-    let moment_2 = e_x_bx * moment_0 + p.mount_13 * moment_1;
+    let moment_2 = (e_x_bx * moment_0).add_mul(p.mount_13, moment_1);
     let moment_3 = mr_moving_by * p.k_28;
     let moment_4 = mr_moving_bz * p.k_29;
     let i_moving_11 = moment_2 + moment_2 + (moment_3 + moment_4);
-    let moment_5 = e_x_by * p.k_23 + p.i_p_base_12 * e_y_by;
+    let moment_5 = (e_x_by * p.k_23).add_mul(p.i_p_base_12, e_y_by);
     let moment_6 = col_1 + p.k_25;
-    let moment_7 = e_x_by * moment_0 + p.mount_23 * moment_1;
-    let moment_8 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
-    let i_moving_12 = e_x_bx * moment_5 + p.mount_13 * moment_6 + moment_7 - moment_8;
-    let moment_9 = e_x_bz * p.k_23 + p.i_p_base_12 * e_y_bz;
-    let moment_10 = col_2 + p.k_26;
-    let moment_11 = e_x_bx * moment_9 + p.mount_13 * moment_10;
-    let moment_12 = moment_11 + (e_x_bz * moment_0 + p.mount_33 * moment_1);
-    let moment_13 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
-    let i_moving_13 = moment_12 - moment_13;
-    let moment_14 = e_x_by * moment_5 + p.mount_23 * moment_6;
-    let moment_15 = mr_moving_bx * p.k_27;
-    let i_moving_22 = moment_14 + moment_14 + (moment_15 + moment_4);
-    let moment_16 = e_x_by * moment_9 + p.mount_23 * moment_10;
-    let moment_17 = moment_16 + (e_x_bz * moment_5 + p.mount_33 * moment_6);
-    let moment_18 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
-    let i_moving_23 = moment_17 - moment_18;
-    let moment_19 = e_x_bz * moment_9 + p.mount_33 * moment_10;
-    let i_moving_33 = moment_19 + moment_19 + (moment_15 + moment_3);
+    let moment_7 = (e_x_by * moment_0).add_mul(p.mount_23, moment_1);
+    let moment_8 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
+    let moment_9 = (e_x_bx * moment_5).add_mul(p.mount_13, moment_6) + moment_7;
+    let i_moving_12 = moment_9 - moment_8;
+    let moment_10 = (e_x_bz * p.k_23).add_mul(p.i_p_base_12, e_y_bz);
+    let moment_11 = col_2 + p.k_26;
+    let moment_12 = (e_x_bx * moment_10).add_mul(p.mount_13, moment_11);
+    let moment_13 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
+    let moment_14 = moment_12 + (e_x_bz * moment_0).add_mul(p.mount_33, moment_1);
+    let i_moving_13 = moment_14 - moment_13;
+    let moment_15 = (e_x_by * moment_5).add_mul(p.mount_23, moment_6);
+    let moment_16 = mr_moving_bx * p.k_27;
+    let i_moving_22 = moment_15 + moment_15 + (moment_16 + moment_4);
+    let moment_17 = (e_x_by * moment_10).add_mul(p.mount_23, moment_11);
+    let moment_18 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
+    let moment_19 = moment_17 + (e_x_bz * moment_5).add_mul(p.mount_33, moment_6);
+    let i_moving_23 = moment_19 - moment_18;
+    let moment_20 = (e_x_bz * moment_10).add_mul(p.mount_33, moment_11);
+    let i_moving_33 = moment_20 + moment_20 + (moment_16 + moment_3);
 
     // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
     // N and N m.
-    let bias_0 = e_x_bx * neg_f_rates_p_px + e_y_bx * neg_f_rates_p_py;
-    let f_rates_bx = p.mount_13 * f_rates_p_pz - bias_0;
-    let bias_1 = e_x_by * neg_f_rates_p_px + e_y_by * neg_f_rates_p_py;
-    let f_rates_by = p.mount_23 * f_rates_p_pz - bias_1;
-    let bias_2 = e_x_bz * neg_f_rates_p_px + e_y_bz * neg_f_rates_p_py;
-    let f_rates_bz = p.mount_33 * f_rates_p_pz - bias_2;
-    let bias_3 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
-    let n_rates_bx = e_x_bx * n_rates_p_px + e_y_bx * n_rates_p_py + bias_3;
-    let bias_4 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
-    let n_rates_by = e_x_by * n_rates_p_px + e_y_by * n_rates_p_py + bias_4;
-    let bias_5 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
-    let n_rates_bz = e_x_bz * n_rates_p_px + e_y_bz * n_rates_p_py + bias_5;
+    let bias_0 = (e_x_bx * neg_f_rates_p_px).add_mul(e_y_bx, neg_f_rates_p_py);
+    let f_rates_bx = p.mount_13.mul_sub(f_rates_p_pz, bias_0);
+    let bias_1 = (e_x_by * neg_f_rates_p_px).add_mul(e_y_by, neg_f_rates_p_py);
+    let f_rates_by = p.mount_23.mul_sub(f_rates_p_pz, bias_1);
+    let bias_2 = (e_x_bz * neg_f_rates_p_px).add_mul(e_y_bz, neg_f_rates_p_py);
+    let f_rates_bz = p.mount_33.mul_sub(f_rates_p_pz, bias_2);
+    let bias_3 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
+    let n_rates_bx = (e_x_bx * n_rates_p_px).add_mul(e_y_bx, n_rates_p_py) + bias_3;
+    let bias_4 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
+    let n_rates_by = (e_x_by * n_rates_p_px).add_mul(e_y_by, n_rates_p_py) + bias_4;
+    let bias_5 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
+    let n_rates_bz = (e_x_bz * n_rates_p_px).add_mul(e_y_bz, n_rates_p_py) + bias_5;
 
     // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
-    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
-    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
-    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
-    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
-    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
-    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
+    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
+    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
+    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
+    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
+    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
     // Bias of each joint with it, eq. (C3).
-    let bias_6 = f_p_bx * r_first_rest_bx + f_p_by * r_first_rest_by;
-    let u_rest_p = bias_6 + f_p_bz * r_first_rest_bz + field_p;
+    let bias_6 = (f_p_bx * r_first_rest_bx).add_mul(f_p_by, r_first_rest_by);
+    let u_rest_p = bias_6.add_mul(f_p_bz, r_first_rest_bz) + field_p;
 
     // Right side of each joint, eq. (80): motor torque less what the rest asks for, N m.
     let tau_p = u.u_p - u_rest_p;
@@ -1141,7 +1268,7 @@ pub fn eliminate<T: Real>(
     let gain_p_w1 = n_p_bx * recip_p;
     let gain_p_w2 = n_p_by * recip_p;
     let gain_p_w3 = n_p_bz * recip_p;
-    let free_p = m.given_p + tau_p * recip_p;
+    let free_p = m.given_p.add_mul(tau_p, recip_p);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_vv.
     let m_vv_11 = f_p_bx * gain_p_v1;
@@ -1171,12 +1298,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_p_bz * gain_p_w3;
 
     // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = f_rates_bx + f_p_bx * free_p;
-    let h_v_2 = f_rates_by + f_p_by * free_p;
-    let h_v_3 = f_rates_bz + f_p_bz * free_p;
-    let h_w_1 = n_rates_bx + n_p_bx * free_p;
-    let h_w_2 = n_rates_by + n_p_by * free_p;
-    let h_w_3 = n_rates_bz + n_p_bz * free_p;
+    let h_v_1 = f_rates_bx.add_mul(f_p_bx, free_p);
+    let h_v_2 = f_rates_by.add_mul(f_p_by, free_p);
+    let h_v_3 = f_rates_bz.add_mul(f_p_bz, free_p);
+    let h_w_1 = n_rates_bx.add_mul(n_p_bx, free_p);
+    let h_w_2 = n_rates_by.add_mul(n_p_by, free_p);
+    let h_w_3 = n_rates_bz.add_mul(n_p_bz, free_p);
 
     Eliminated {
         share: HubShare {
@@ -1232,18 +1359,19 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_p - a.r_b_n_ddot_bx * e.gain_p_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_p_v2;
-    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_p_v3;
-    let row_3 = row_2 - a.omega_dot_bx * e.gain_p_w1;
-    let row_4 = row_3 - a.omega_dot_by * e.gain_p_w2;
-    let phi_ddot = row_4 - a.omega_dot_bz * e.gain_p_w3;
+    let row_0 = e.free_p.sub_mul(a.r_b_n_ddot_bx, e.gain_p_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_p_v2);
+    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_p_v3);
+    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_p_w1);
+    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_p_w2);
+    let phi_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_p_w3);
 
     JointAccelerations { phi_ddot }
 }

@@ -9,6 +9,7 @@
 
 #![allow(clippy::too_many_lines, reason = "straight-line code, in sections with their equations")]
 #![allow(clippy::doc_markdown, reason = "the paper's symbols are no code")]
+#![allow(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 pub mod balanced_dgcmg;
 pub mod balanced_dgvscmg;

@@ -217,6 +217,95 @@ pub struct Prepared<T> {
     pub k_28: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            mount_11: join(self.mount_11, other.mount_11),
+            mount_12: join(self.mount_12, other.mount_12),
+            mount_13: join(self.mount_13, other.mount_13),
+            mount_21: join(self.mount_21, other.mount_21),
+            mount_22: join(self.mount_22, other.mount_22),
+            mount_23: join(self.mount_23, other.mount_23),
+            mount_31: join(self.mount_31, other.mount_31),
+            mount_32: join(self.mount_32, other.mount_32),
+            mount_33: join(self.mount_33, other.mount_33),
+            r_w_b_bx: join(self.r_w_b_bx, other.r_w_b_bx),
+            r_w_b_by: join(self.r_w_b_by, other.r_w_b_by),
+            r_w_b_bz: join(self.r_w_b_bz, other.r_w_b_bz),
+            d: join(self.d, other.d),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_12: join(self.j_12, other.j_12),
+            j_13: join(self.j_13, other.j_13),
+            j_22: join(self.j_22, other.j_22),
+            j_23: join(self.j_23, other.j_23),
+            j_33: join(self.j_33, other.j_33),
+            k_0: join(self.k_0, other.k_0),
+            mr_wc_w_wy: join(self.mr_wc_w_wy, other.mr_wc_w_wy),
+            i_w_w_11: join(self.i_w_w_11, other.i_w_w_11),
+            i_w_w_33: join(self.i_w_w_33, other.i_w_w_33),
+            mass_ww: join(self.mass_ww, other.mass_ww),
+            k_1: join(self.k_1, other.k_1),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            mc_bx: join(self.mc_bx, other.mc_bx),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            i_w_base_12: join(self.i_w_base_12, other.i_w_base_12),
+            i_w_base_22: join(self.i_w_base_22, other.i_w_base_22),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            reach_bx: join(self.reach_bx, other.reach_bx),
+            reach_by: join(self.reach_by, other.reach_by),
+            reach_bz: join(self.reach_bz, other.reach_bz),
+            k_16: join(self.k_16, other.k_16),
+            k_17: join(self.k_17, other.k_17),
+            k_18: join(self.k_18, other.k_18),
+            k_19: join(self.k_19, other.k_19),
+            k_20: join(self.k_20, other.k_20),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
+            hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
+            hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
+            hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
+            hand_i_11: join(self.hand_i_11, other.hand_i_11),
+            hand_i_12: join(self.hand_i_12, other.hand_i_12),
+            hand_i_13: join(self.hand_i_13, other.hand_i_13),
+            hand_i_22: join(self.hand_i_22, other.hand_i_22),
+            hand_i_23: join(self.hand_i_23, other.hand_i_23),
+            hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -401,6 +490,26 @@ pub struct Eliminated<T> {
 pub struct JointAccelerations<T> {
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations { spin_dot: join(self.spin_dot, other.spin_dot) }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -928,6 +1037,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 160 mul, 98 add, 0 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -938,27 +1048,28 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the wheel, eq. (A1), along B axes, 1.
-    let e_y_bx = q.cos_theta * p.mount_12 + q.sin_theta * p.mount_13;
-    let e_y_by = q.cos_theta * p.mount_22 + q.sin_theta * p.mount_23;
-    let e_y_bz = q.cos_theta * p.mount_32 + q.sin_theta * p.mount_33;
-    let e_z_bx = q.cos_theta * p.mount_13 - q.sin_theta * p.mount_12;
-    let e_z_by = q.cos_theta * p.mount_23 - q.sin_theta * p.mount_22;
-    let e_z_bz = q.cos_theta * p.mount_33 - q.sin_theta * p.mount_32;
+    let e_y_bx = (q.cos_theta * p.mount_12).add_mul(q.sin_theta, p.mount_13);
+    let e_y_by = (q.cos_theta * p.mount_22).add_mul(q.sin_theta, p.mount_23);
+    let e_y_bz = (q.cos_theta * p.mount_32).add_mul(q.sin_theta, p.mount_33);
+    let e_z_bx = (q.cos_theta * p.mount_13).sub_mul(q.sin_theta, p.mount_12);
+    let e_z_by = (q.cos_theta * p.mount_23).sub_mul(q.sin_theta, p.mount_22);
+    let e_z_bz = (q.cos_theta * p.mount_33).sub_mul(q.sin_theta, p.mount_32);
 
     // ω_{B/N} along the axes of the wheel, eq. (C1), rad/s.
-    let rate_0 = w.omega_bx * p.mount_11 + w.omega_by * p.mount_21;
-    let omega_b_n_wx = rate_0 + w.omega_bz * p.mount_31;
-    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
-    let omega_b_n_wy = rate_1 + w.omega_bz * e_y_bz;
-    let rate_2 = w.omega_bx * e_z_bx + w.omega_by * e_z_by;
-    let omega_b_n_wz = rate_2 + w.omega_bz * e_z_bz;
+    let rate_0 = (w.omega_bx * p.mount_11).add_mul(w.omega_by, p.mount_21);
+    let omega_b_n_wx = rate_0.add_mul(w.omega_bz, p.mount_31);
+    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
+    let omega_b_n_wy = rate_1.add_mul(w.omega_bz, e_y_bz);
+    let rate_2 = (w.omega_bx * e_z_bx).add_mul(w.omega_by, e_z_by);
+    let omega_b_n_wz = rate_2.add_mul(w.omega_bz, e_z_bz);
 
     // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_ww = p.i_w_w_11;
-    let row_0 = omega_b_n_wx * omega_b_n_wz * p.i_w_base_12;
-    let row_1 = omega_b_n_wy * omega_b_n_wy - omega_b_n_wz * omega_b_n_wz;
-    let row_2 = p.j_23 * row_1 - omega_b_n_wy * omega_b_n_wz * p.i_w_base_22;
-    let field_w = omega_b_n_wx * omega_b_n_wy * p.j_13 - row_0 + row_2;
+    let row_0 = omega_b_n_wx * omega_b_n_wy * p.j_13;
+    let row_1 = (omega_b_n_wy * omega_b_n_wy).sub_mul(omega_b_n_wz, omega_b_n_wz);
+    let row_2 = omega_b_n_wy * omega_b_n_wz;
+    let row_3 = row_0.sub_mul(p.i_w_base_12, omega_b_n_wx * omega_b_n_wz);
+    let field_w = row_3 + (p.j_23 * row_1).sub_mul(p.i_w_base_22, row_2);
 
     // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
     let coriolis_0 = v.spin * omega_b_n_wy;
@@ -967,77 +1078,79 @@ pub fn eliminate<T: Real>(
     let coriolis_2 = v.spin * (v.spin + omega_b_n_wx + omega_b_n_wx);
     let neg_f_rates_w_wy = p.mr_wc_w_wy * coriolis_2;
     let coriolis_3 = v.spin * omega_b_n_wz;
-    let n_rates_w_wy = coriolis_3 * p.k_14 - p.k_2 * coriolis_0 - p.j_13 * coriolis_2;
-    let coriolis_4 = p.i_w_base_12 * coriolis_2 + p.k_2 * coriolis_3;
-    let n_rates_w_wz = coriolis_4 - coriolis_0 * p.k_15;
+    let coriolis_4 = (coriolis_3 * p.k_14).sub_mul(p.k_2, coriolis_0);
+    let n_rates_w_wy = coriolis_4.sub_mul(p.j_13, coriolis_2);
+    let coriolis_5 = (p.i_w_base_12 * coriolis_2).add_mul(p.k_2, coriolis_3);
+    let n_rates_w_wz = coriolis_5.sub_mul(coriolis_0, p.k_15);
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration, along B axes.
     let f_w_bx = p.mr_wc_w_wy * e_z_bx;
     let f_w_by = p.mr_wc_w_wy * e_z_by;
     let f_w_bz = p.mr_wc_w_wy * e_z_bz;
-    let col_0 = p.k_16 + p.i_w_base_12 * e_y_bx + p.j_13 * e_z_bx;
-    let n_w_bx = p.reach_by * f_w_bz - p.reach_bz * f_w_by + col_0;
-    let col_1 = p.k_17 + p.i_w_base_12 * e_y_by + p.j_13 * e_z_by;
-    let n_w_by = p.reach_bz * f_w_bx - p.reach_bx * f_w_bz + col_1;
-    let col_2 = p.k_18 + p.i_w_base_12 * e_y_bz + p.j_13 * e_z_bz;
-    let n_w_bz = p.reach_bx * f_w_by - p.reach_by * f_w_bx + col_2;
+    let col_0 = p.k_16.add_mul(p.i_w_base_12, e_y_bx).add_mul(p.j_13, e_z_bx);
+    let n_w_bx = (p.reach_by * f_w_bz).sub_mul(p.reach_bz, f_w_by) + col_0;
+    let col_1 = p.k_17.add_mul(p.i_w_base_12, e_y_by).add_mul(p.j_13, e_z_by);
+    let n_w_by = (p.reach_bz * f_w_bx).sub_mul(p.reach_bx, f_w_bz) + col_1;
+    let col_2 = p.k_18.add_mul(p.i_w_base_12, e_y_bz).add_mul(p.j_13, e_z_bz);
+    let n_w_bz = (p.reach_bx * f_w_by).sub_mul(p.reach_by, f_w_bx) + col_2;
 
     // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
     // (76), kg m².
     let mr_moving_bx = p.mr_wc_w_wy * e_y_bx;
     let mr_moving_by = p.mr_wc_w_wy * e_y_by;
     let mr_moving_bz = p.mr_wc_w_wy * e_y_bz;
-    let moment_0 = e_y_bx * p.k_19 + p.j_23 * e_z_bx;
+    let moment_0 = (e_y_bx * p.k_19).add_mul(p.j_23, e_z_bx);
     let moment_1 = col_0 + p.k_20;
-    let moment_2 = e_y_bx * moment_0 + p.mount_11 * moment_1;
+    let moment_2 = (e_y_bx * moment_0).add_mul(p.mount_11, moment_1);
     let moment_3 = mr_moving_by * p.k_24;
     let moment_4 = mr_moving_bz * p.k_25;
     let i_moving_11 = moment_2 + moment_2 + (moment_3 + moment_4);
-    let moment_5 = e_y_by * p.k_19 + p.j_23 * e_z_by;
+    let moment_5 = (e_y_by * p.k_19).add_mul(p.j_23, e_z_by);
     let moment_6 = col_1 + p.k_21;
-    let moment_7 = e_y_by * moment_0 + p.mount_21 * moment_1;
-    let moment_8 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
-    let i_moving_12 = e_y_bx * moment_5 + p.mount_11 * moment_6 + moment_7 - moment_8;
-    let moment_9 = e_y_bz * p.k_19 + p.j_23 * e_z_bz;
-    let moment_10 = col_2 + p.k_22;
-    let moment_11 = e_y_bx * moment_9 + p.mount_11 * moment_10;
-    let moment_12 = moment_11 + (e_y_bz * moment_0 + p.mount_31 * moment_1);
-    let moment_13 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
-    let i_moving_13 = moment_12 - moment_13;
-    let moment_14 = e_y_by * moment_5 + p.mount_21 * moment_6;
-    let moment_15 = mr_moving_bx * p.k_23;
-    let i_moving_22 = moment_14 + moment_14 + (moment_15 + moment_4);
-    let moment_16 = e_y_by * moment_9 + p.mount_21 * moment_10;
-    let moment_17 = moment_16 + (e_y_bz * moment_5 + p.mount_31 * moment_6);
-    let moment_18 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
-    let i_moving_23 = moment_17 - moment_18;
-    let moment_19 = e_y_bz * moment_9 + p.mount_31 * moment_10;
-    let i_moving_33 = moment_19 + moment_19 + (moment_15 + moment_3);
+    let moment_7 = (e_y_by * moment_0).add_mul(p.mount_21, moment_1);
+    let moment_8 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
+    let moment_9 = (e_y_bx * moment_5).add_mul(p.mount_11, moment_6) + moment_7;
+    let i_moving_12 = moment_9 - moment_8;
+    let moment_10 = (e_y_bz * p.k_19).add_mul(p.j_23, e_z_bz);
+    let moment_11 = col_2 + p.k_22;
+    let moment_12 = (e_y_bx * moment_10).add_mul(p.mount_11, moment_11);
+    let moment_13 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
+    let moment_14 = moment_12 + (e_y_bz * moment_0).add_mul(p.mount_31, moment_1);
+    let i_moving_13 = moment_14 - moment_13;
+    let moment_15 = (e_y_by * moment_5).add_mul(p.mount_21, moment_6);
+    let moment_16 = mr_moving_bx * p.k_23;
+    let i_moving_22 = moment_15 + moment_15 + (moment_16 + moment_4);
+    let moment_17 = (e_y_by * moment_10).add_mul(p.mount_21, moment_11);
+    let moment_18 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
+    let moment_19 = moment_17 + (e_y_bz * moment_5).add_mul(p.mount_31, moment_6);
+    let i_moving_23 = moment_19 - moment_18;
+    let moment_20 = (e_y_bz * moment_10).add_mul(p.mount_31, moment_11);
+    let i_moving_33 = moment_20 + moment_20 + (moment_16 + moment_3);
 
     // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
     // N and N m.
-    let f_rates_bx = p.mount_11 * f_rates_w_wx - e_y_bx * neg_f_rates_w_wy;
-    let f_rates_by = p.mount_21 * f_rates_w_wx - e_y_by * neg_f_rates_w_wy;
-    let f_rates_bz = p.mount_31 * f_rates_w_wx - e_y_bz * neg_f_rates_w_wy;
-    let bias_0 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
-    let n_rates_bx = e_y_bx * n_rates_w_wy + e_z_bx * n_rates_w_wz + bias_0;
-    let bias_1 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
-    let n_rates_by = e_y_by * n_rates_w_wy + e_z_by * n_rates_w_wz + bias_1;
-    let bias_2 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
-    let n_rates_bz = e_y_bz * n_rates_w_wy + e_z_bz * n_rates_w_wz + bias_2;
+    let f_rates_bx = (p.mount_11 * f_rates_w_wx).sub_mul(e_y_bx, neg_f_rates_w_wy);
+    let f_rates_by = (p.mount_21 * f_rates_w_wx).sub_mul(e_y_by, neg_f_rates_w_wy);
+    let f_rates_bz = (p.mount_31 * f_rates_w_wx).sub_mul(e_y_bz, neg_f_rates_w_wy);
+    let bias_0 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
+    let n_rates_bx = (e_y_bx * n_rates_w_wy).add_mul(e_z_bx, n_rates_w_wz) + bias_0;
+    let bias_1 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
+    let n_rates_by = (e_y_by * n_rates_w_wy).add_mul(e_z_by, n_rates_w_wz) + bias_1;
+    let bias_2 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
+    let n_rates_bz = (e_y_bz * n_rates_w_wy).add_mul(e_z_bz, n_rates_w_wz) + bias_2;
 
     // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
-    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
-    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
-    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
-    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
-    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
-    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
+    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
+    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
+    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
+    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
+    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
     // Bias of each joint with it, eq. (C3).
-    let bias_3 = f_w_bx * r_first_rest_bx + f_w_by * r_first_rest_by;
-    let u_rest_w = bias_3 + f_w_bz * r_first_rest_bz + field_w;
+    let bias_3 = (f_w_bx * r_first_rest_bx).add_mul(f_w_by, r_first_rest_by);
+    let u_rest_w = bias_3.add_mul(f_w_bz, r_first_rest_bz) + field_w;
 
     // Right side of each joint, eq. (119): motor torque less what the rest asks for, N m.
     let tau_w = u.u_w - u_rest_w;
@@ -1051,7 +1164,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w1 = n_w_bx * recip_w;
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
-    let free_w = m.given_w + tau_w * recip_w;
+    let free_w = m.given_w.add_mul(tau_w, recip_w);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_vv.
     let m_vv_11 = f_w_bx * gain_w_v1;
@@ -1081,12 +1194,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_w_bz * gain_w_w3;
 
     // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = f_rates_bx + f_w_bx * free_w;
-    let h_v_2 = f_rates_by + f_w_by * free_w;
-    let h_v_3 = f_rates_bz + f_w_bz * free_w;
-    let h_w_1 = n_rates_bx + n_w_bx * free_w;
-    let h_w_2 = n_rates_by + n_w_by * free_w;
-    let h_w_3 = n_rates_bz + n_w_bz * free_w;
+    let h_v_1 = f_rates_bx.add_mul(f_w_bx, free_w);
+    let h_v_2 = f_rates_by.add_mul(f_w_by, free_w);
+    let h_v_3 = f_rates_bz.add_mul(f_w_bz, free_w);
+    let h_w_1 = n_rates_bx.add_mul(n_w_bx, free_w);
+    let h_w_2 = n_rates_by.add_mul(n_w_by, free_w);
+    let h_w_3 = n_rates_bz.add_mul(n_w_bz, free_w);
 
     Eliminated {
         share: HubShare {
@@ -1142,18 +1255,19 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_w_v2;
-    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_w_v3;
-    let row_3 = row_2 - a.omega_dot_bx * e.gain_w_w1;
-    let row_4 = row_3 - a.omega_dot_by * e.gain_w_w2;
-    let spin_dot = row_4 - a.omega_dot_bz * e.gain_w_w3;
+    let row_0 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
+    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
+    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_w_w1);
+    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_w_w2);
+    let spin_dot = row_4.sub_mul(a.omega_dot_bz, e.gain_w_w3);
 
     JointAccelerations { spin_dot }
 }

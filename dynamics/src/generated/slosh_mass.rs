@@ -113,6 +113,57 @@ pub struct Prepared<T> {
     pub k_8: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            mount_11: join(self.mount_11, other.mount_11),
+            mount_12: join(self.mount_12, other.mount_12),
+            mount_13: join(self.mount_13, other.mount_13),
+            mount_21: join(self.mount_21, other.mount_21),
+            mount_22: join(self.mount_22, other.mount_22),
+            mount_23: join(self.mount_23, other.mount_23),
+            mount_31: join(self.mount_31, other.mount_31),
+            mount_32: join(self.mount_32, other.mount_32),
+            mount_33: join(self.mount_33, other.mount_33),
+            r_s_b_bx: join(self.r_s_b_bx, other.r_s_b_bx),
+            r_s_b_by: join(self.r_s_b_by, other.r_s_b_by),
+            r_s_b_bz: join(self.r_s_b_bz, other.r_s_b_bz),
+            m_s: join(self.m_s, other.m_s),
+            k_0: join(self.k_0, other.k_0),
+            k_1: join(self.k_1, other.k_1),
+            i_s_b_11: join(self.i_s_b_11, other.i_s_b_11),
+            second_moment_23: join(self.second_moment_23, other.second_moment_23),
+            i_s_b_23: join(self.i_s_b_23, other.i_s_b_23),
+            mc_by: join(self.mc_by, other.mc_by),
+            mc_bz: join(self.mc_bz, other.mc_bz),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            f_s_bx: join(self.f_s_bx, other.f_s_bx),
+            f_s_by: join(self.f_s_by, other.f_s_by),
+            f_s_bz: join(self.f_s_bz, other.f_s_bz),
+            k_8: join(self.k_8, other.k_8),
+        }
+    }
+}
+
 /// Positions along the sliding joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Positions<T> {
@@ -265,6 +316,26 @@ pub struct Eliminated<T> {
 pub struct JointAccelerations<T> {
     /// ẍ: acceleration of the slosh mass, m/s².
     pub x_ddot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations { x_ddot: join(self.x_ddot, other.x_ddot) }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -590,6 +661,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 96 mul, 42 add, 3 neg, 1 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -604,10 +676,10 @@ pub fn eliminate<T: Real>(
     let arm_s_dx = p.r_s_b_bx + s.x;
 
     // ω_{B/N} along the axes of the slosh mass, eq. (C1), rad/s.
-    let rate_0 = w.omega_bx * p.mount_12 + w.omega_by * p.mount_22;
-    let omega_b_n_sy = rate_0 + w.omega_bz * p.mount_32;
-    let rate_1 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
-    let omega_b_n_sz = rate_1 + w.omega_bz * p.mount_33;
+    let rate_0 = (w.omega_bx * p.mount_12).add_mul(w.omega_by, p.mount_22);
+    let omega_b_n_sy = rate_0.add_mul(w.omega_bz, p.mount_32);
+    let rate_1 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
+    let omega_b_n_sz = rate_1.add_mul(w.omega_bz, p.mount_33);
 
     // Row of the slosh mass's joint, eq. (80), along its axis: M_ij, kg, and bias, N, eq. (C3).
     let mass_ss = p.m_s;
@@ -620,15 +692,15 @@ pub fn eliminate<T: Real>(
     let neg_f_rates_s_sz = p.m_s * (coriolis_1 + coriolis_1);
 
     // Origin of the first joint, eq. (A2), along B axes, m.
-    let reach_bx = arm_s_dx * p.mount_11 + p.k_2 + p.k_5;
-    let reach_by = arm_s_dx * p.mount_21 + p.k_3 + p.k_6;
-    let reach_bz = arm_s_dx * p.mount_31 + p.k_4 + p.k_7;
+    let reach_bx = p.k_2.add_mul(arm_s_dx, p.mount_11) + p.k_5;
+    let reach_by = p.k_3.add_mul(arm_s_dx, p.mount_21) + p.k_6;
+    let reach_bz = p.k_4.add_mul(arm_s_dx, p.mount_31) + p.k_7;
 
     // M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment about B per unit
     // acceleration, along B axes.
-    let n_s_bx = reach_by * p.f_s_bz - reach_bz * p.f_s_by;
-    let n_s_by = reach_bz * p.f_s_bx - reach_bx * p.f_s_bz;
-    let n_s_bz = reach_bx * p.f_s_by - reach_by * p.f_s_bx;
+    let n_s_bx = (reach_by * p.f_s_bz).sub_mul(reach_bz, p.f_s_by);
+    let n_s_by = (reach_bz * p.f_s_bx).sub_mul(reach_bx, p.f_s_bz);
+    let n_s_bz = (reach_bx * p.f_s_by).sub_mul(reach_by, p.f_s_bx);
 
     // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
     // (76), kg m².
@@ -647,24 +719,27 @@ pub fn eliminate<T: Real>(
 
     // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
     // N and N m.
-    let f_rates_bx = p.mount_12 * f_rates_s_sy - p.mount_13 * neg_f_rates_s_sz;
-    let f_rates_by = p.mount_22 * f_rates_s_sy - p.mount_23 * neg_f_rates_s_sz;
-    let f_rates_bz = p.mount_32 * f_rates_s_sy - p.mount_33 * neg_f_rates_s_sz;
-    let n_rates_bx = reach_by * f_rates_bz - reach_bz * f_rates_by;
-    let n_rates_by = reach_bz * f_rates_bx - reach_bx * f_rates_bz;
-    let n_rates_bz = reach_bx * f_rates_by - reach_by * f_rates_bx;
+    let bias_0 = p.mount_12 * f_rates_s_sy;
+    let f_rates_bx = bias_0.sub_mul(p.mount_13, neg_f_rates_s_sz);
+    let bias_1 = p.mount_22 * f_rates_s_sy;
+    let f_rates_by = bias_1.sub_mul(p.mount_23, neg_f_rates_s_sz);
+    let bias_2 = p.mount_32 * f_rates_s_sy;
+    let f_rates_bz = bias_2.sub_mul(p.mount_33, neg_f_rates_s_sz);
+    let n_rates_bx = (reach_by * f_rates_bz).sub_mul(reach_bz, f_rates_by);
+    let n_rates_by = (reach_bz * f_rates_bx).sub_mul(reach_bx, f_rates_bz);
+    let n_rates_bz = (reach_bx * f_rates_by).sub_mul(reach_by, f_rates_bx);
 
     // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
-    let reach_0 = w.omega_bz * reach_bx - w.omega_bx * reach_bz;
-    let reach_1 = w.omega_bx * reach_by - w.omega_by * reach_bx;
-    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
-    let reach_2 = w.omega_by * reach_bz - w.omega_bz * reach_by;
-    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
-    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+    let reach_0 = (w.omega_bz * reach_bx).sub_mul(w.omega_bx, reach_bz);
+    let reach_1 = (w.omega_bx * reach_by).sub_mul(w.omega_by, reach_bx);
+    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
+    let reach_2 = (w.omega_by * reach_bz).sub_mul(w.omega_bz, reach_by);
+    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
+    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
     // Bias of each joint with it, eq. (C3).
-    let bias_0 = p.f_s_bx * r_first_rest_bx + p.f_s_by * r_first_rest_by;
-    let u_rest_s = bias_0 + p.f_s_bz * r_first_rest_bz;
+    let bias_3 = (p.f_s_bx * r_first_rest_bx).add_mul(p.f_s_by, r_first_rest_by);
+    let u_rest_s = bias_3.add_mul(p.f_s_bz, r_first_rest_bz);
 
     // Right side of each joint, eq. (80): motor torque less what the rest asks for, N.
     let tau_s = u.u_s - u_rest_s;
@@ -678,7 +753,7 @@ pub fn eliminate<T: Real>(
     let gain_s_w1 = n_s_bx * recip_s;
     let gain_s_w2 = n_s_by * recip_s;
     let gain_s_w3 = n_s_bz * recip_s;
-    let free_s = m.given_s + tau_s * recip_s;
+    let free_s = m.given_s.add_mul(tau_s, recip_s);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_vv.
     let m_vv_11 = p.f_s_bx * gain_s_v1;
@@ -708,12 +783,12 @@ pub fn eliminate<T: Real>(
     let m_ww_33 = n_s_bz * gain_s_w3;
 
     // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = f_rates_bx + p.f_s_bx * free_s;
-    let h_v_2 = f_rates_by + p.f_s_by * free_s;
-    let h_v_3 = f_rates_bz + p.f_s_bz * free_s;
-    let h_w_1 = n_rates_bx + n_s_bx * free_s;
-    let h_w_2 = n_rates_by + n_s_by * free_s;
-    let h_w_3 = n_rates_bz + n_s_bz * free_s;
+    let h_v_1 = f_rates_bx.add_mul(p.f_s_bx, free_s);
+    let h_v_2 = f_rates_by.add_mul(p.f_s_by, free_s);
+    let h_v_3 = f_rates_bz.add_mul(p.f_s_bz, free_s);
+    let h_w_1 = n_rates_bx.add_mul(n_s_bx, free_s);
+    let h_w_2 = n_rates_by.add_mul(n_s_by, free_s);
+    let h_w_3 = n_rates_bz.add_mul(n_s_bz, free_s);
 
     Eliminated {
         share: HubShare {
@@ -769,16 +844,19 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_s - a.r_b_n_ddot_bx * e.gain_s_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_s_v2;
-    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_s_v3 - a.omega_dot_bx * e.gain_s_w1;
-    let x_ddot = row_2 - a.omega_dot_by * e.gain_s_w2 - a.omega_dot_bz * e.gain_s_w3;
+    let row_0 = e.free_s.sub_mul(a.r_b_n_ddot_bx, e.gain_s_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_s_v2);
+    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_s_v3);
+    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_s_w1);
+    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_s_w2);
+    let x_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_s_w3);
 
     JointAccelerations { x_ddot }
 }

@@ -336,6 +336,131 @@ pub struct Prepared<T> {
     pub k_34: T,
 }
 
+impl<T: Copy> Prepared<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Prepared<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &Prepared<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Prepared<W> {
+        Prepared {
+            mount_11: join(self.mount_11, other.mount_11),
+            mount_12: join(self.mount_12, other.mount_12),
+            mount_13: join(self.mount_13, other.mount_13),
+            mount_21: join(self.mount_21, other.mount_21),
+            mount_22: join(self.mount_22, other.mount_22),
+            mount_23: join(self.mount_23, other.mount_23),
+            mount_31: join(self.mount_31, other.mount_31),
+            mount_32: join(self.mount_32, other.mount_32),
+            mount_33: join(self.mount_33, other.mount_33),
+            r_g_b_bx: join(self.r_g_b_bx, other.r_g_b_bx),
+            r_g_b_by: join(self.r_g_b_by, other.r_g_b_by),
+            r_g_b_bz: join(self.r_g_b_bz, other.r_g_b_bz),
+            r_gc_g_gx: join(self.r_gc_g_gx, other.r_gc_g_gx),
+            r_gc_g_gy: join(self.r_gc_g_gy, other.r_gc_g_gy),
+            m_g: join(self.m_g, other.m_g),
+            i_g_11: join(self.i_g_11, other.i_g_11),
+            i_g_12: join(self.i_g_12, other.i_g_12),
+            i_g_13: join(self.i_g_13, other.i_g_13),
+            i_g_22: join(self.i_g_22, other.i_g_22),
+            i_g_23: join(self.i_g_23, other.i_g_23),
+            i_g_33: join(self.i_g_33, other.i_g_33),
+            l_g_x: join(self.l_g_x, other.l_g_x),
+            l_g_y: join(self.l_g_y, other.l_g_y),
+            l_g_z: join(self.l_g_z, other.l_g_z),
+            d: join(self.d, other.d),
+            m_w: join(self.m_w, other.m_w),
+            j_11: join(self.j_11, other.j_11),
+            j_12: join(self.j_12, other.j_12),
+            j_13: join(self.j_13, other.j_13),
+            j_22: join(self.j_22, other.j_22),
+            j_23: join(self.j_23, other.j_23),
+            j_33: join(self.j_33, other.j_33),
+            m_d: join(self.m_d, other.m_d),
+            r_gc_b_bz: join(self.r_gc_b_bz, other.r_gc_b_bz),
+            arm_g_dz: join(self.arm_g_dz, other.arm_g_dz),
+            k_0: join(self.k_0, other.k_0),
+            mr_wc_w_wy: join(self.mr_wc_w_wy, other.mr_wc_w_wy),
+            i_w_w_11: join(self.i_w_w_11, other.i_w_w_11),
+            i_w_w_33: join(self.i_w_w_33, other.i_w_w_33),
+            mass_ww: join(self.mass_ww, other.mass_ww),
+            k_1: join(self.k_1, other.k_1),
+            k_2: join(self.k_2, other.k_2),
+            k_3: join(self.k_3, other.k_3),
+            k_4: join(self.k_4, other.k_4),
+            k_5: join(self.k_5, other.k_5),
+            k_6: join(self.k_6, other.k_6),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            mr_gc_g_gx: join(self.mr_gc_g_gx, other.mr_gc_g_gx),
+            mr_gc_g_gy: join(self.mr_gc_g_gy, other.mr_gc_g_gy),
+            mr_gc_g_gz: join(self.mr_gc_g_gz, other.mr_gc_g_gz),
+            i_g_g_11: join(self.i_g_g_11, other.i_g_g_11),
+            i_g_g_12: join(self.i_g_g_12, other.i_g_g_12),
+            i_g_g_13: join(self.i_g_g_13, other.i_g_g_13),
+            i_g_g_22: join(self.i_g_g_22, other.i_g_g_22),
+            i_g_g_23: join(self.i_g_g_23, other.i_g_g_23),
+            i_g_g_33: join(self.i_g_g_33, other.i_g_g_33),
+            mr_d_g_gx: join(self.mr_d_g_gx, other.mr_d_g_gx),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+            k_17: join(self.k_17, other.k_17),
+            k_18: join(self.k_18, other.k_18),
+            k_19: join(self.k_19, other.k_19),
+            k_20: join(self.k_20, other.k_20),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
+            mr_g_base_gy: join(self.mr_g_base_gy, other.mr_g_base_gy),
+            i_g_base_11: join(self.i_g_base_11, other.i_g_base_11),
+            i_g_base_12: join(self.i_g_base_12, other.i_g_base_12),
+            i_g_base_13: join(self.i_g_base_13, other.i_g_base_13),
+            i_g_base_23: join(self.i_g_base_23, other.i_g_base_23),
+            i_g_base_33: join(self.i_g_base_33, other.i_g_base_33),
+            i_w_base_12: join(self.i_w_base_12, other.i_w_base_12),
+            i_w_base_22: join(self.i_w_base_22, other.i_w_base_22),
+            reach_bx: join(self.reach_bx, other.reach_bx),
+            reach_by: join(self.reach_by, other.reach_by),
+            reach_bz: join(self.reach_bz, other.reach_bz),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
+            hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
+            hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
+            hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
+            hand_i_11: join(self.hand_i_11, other.hand_i_11),
+            hand_i_12: join(self.hand_i_12, other.hand_i_12),
+            hand_i_13: join(self.hand_i_13, other.hand_i_13),
+            hand_i_22: join(self.hand_i_22, other.hand_i_22),
+            hand_i_23: join(self.hand_i_23, other.hand_i_23),
+            hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_29: join(self.k_29, other.k_29),
+            k_30: join(self.k_30, other.k_30),
+            k_31: join(self.k_31, other.k_31),
+            k_32: join(self.k_32, other.k_32),
+            k_33: join(self.k_33, other.k_33),
+            k_34: join(self.k_34, other.k_34),
+        }
+    }
+}
+
 /// Sines and cosines of the joint angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trig<T> {
@@ -652,6 +777,29 @@ pub struct JointAccelerations<T> {
     pub gamma_ddot: T,
     /// Ω̇: acceleration of the wheel, rad/s².
     pub spin_dot: T,
+}
+
+impl<T: Copy> JointAccelerations<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> JointAccelerations<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &JointAccelerations<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        JointAccelerations {
+            gamma_ddot: join(self.gamma_ddot, other.gamma_ddot),
+            spin_dot: join(self.spin_dot, other.spin_dot),
+        }
+    }
 }
 
 /// Axes of the bodies and origins of their joints, along the device's B axes.
@@ -1524,6 +1672,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
 /// Operations: 293 mul, 222 add, 1 neg, 2 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
     p: &Prepared<T>,
@@ -1534,20 +1683,20 @@ pub fn eliminate<T: Real>(
     m: &Modes<T>,
 ) -> Eliminated<T> {
     // Axes of the gimbal, eq. (A1), along B axes, 1.
-    let e_x_bx = q.cos_gamma * p.mount_11 + q.sin_gamma * p.mount_12;
-    let e_x_by = q.cos_gamma * p.mount_21 + q.sin_gamma * p.mount_22;
-    let e_x_bz = q.cos_gamma * p.mount_31 + q.sin_gamma * p.mount_32;
-    let e_y_bx = q.cos_gamma * p.mount_12 - q.sin_gamma * p.mount_11;
-    let e_y_by = q.cos_gamma * p.mount_22 - q.sin_gamma * p.mount_21;
-    let e_y_bz = q.cos_gamma * p.mount_32 - q.sin_gamma * p.mount_31;
+    let e_x_bx = (q.cos_gamma * p.mount_11).add_mul(q.sin_gamma, p.mount_12);
+    let e_x_by = (q.cos_gamma * p.mount_21).add_mul(q.sin_gamma, p.mount_22);
+    let e_x_bz = (q.cos_gamma * p.mount_31).add_mul(q.sin_gamma, p.mount_32);
+    let e_y_bx = (q.cos_gamma * p.mount_12).sub_mul(q.sin_gamma, p.mount_11);
+    let e_y_by = (q.cos_gamma * p.mount_22).sub_mul(q.sin_gamma, p.mount_21);
+    let e_y_bz = (q.cos_gamma * p.mount_32).sub_mul(q.sin_gamma, p.mount_31);
 
     // ω_{B/N} along the axes of the gimbal, eq. (C1), rad/s.
-    let rate_0 = w.omega_bx * e_x_bx + w.omega_by * e_x_by;
-    let omega_b_n_gx = rate_0 + w.omega_bz * e_x_bz;
-    let rate_1 = w.omega_bx * e_y_bx + w.omega_by * e_y_by;
-    let omega_b_n_gy = rate_1 + w.omega_bz * e_y_bz;
-    let rate_2 = w.omega_bx * p.mount_13 + w.omega_by * p.mount_23;
-    let omega_b_n_gz = rate_2 + w.omega_bz * p.mount_33;
+    let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
+    let omega_b_n_gx = rate_0.add_mul(w.omega_bz, e_x_bz);
+    let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
+    let omega_b_n_gy = rate_1.add_mul(w.omega_bz, e_y_bz);
+    let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
+    let omega_b_n_gz = rate_2.add_mul(w.omega_bz, p.mount_33);
 
     // ω_{G/N}, eq. (31), along its own axes, rad/s.
     let omega_g_n_gz = v.gamma_dot + omega_b_n_gz;
@@ -1567,38 +1716,41 @@ pub fn eliminate<T: Real>(
     // moment, kg m, and inertia, kg m².
     let mr_behind_w_gy = q.cos_theta * p.mr_wc_w_wy;
     let mr_behind_w_gz = q.sin_theta * p.mr_wc_w_wy;
-    let i_behind_w_12 = q.cos_theta * p.i_w_base_12 - q.sin_theta * p.j_13;
-    let i_behind_w_13 = q.cos_theta * p.j_13 + q.sin_theta * p.i_w_base_12;
-    let lump_0 = q.cos_theta * p.k_2 + q.sin_theta * p.i_w_base_22;
+    let i_behind_w_12 = (q.cos_theta * p.i_w_base_12).sub_mul(q.sin_theta, p.j_13);
+    let i_behind_w_13 = (q.cos_theta * p.j_13).add_mul(q.sin_theta, p.i_w_base_12);
+    let lump_0 = (q.cos_theta * p.k_2).add_mul(q.sin_theta, p.i_w_base_22);
     let i_behind_w_33 = q.sin_theta * lump_0;
     let i_behind_w_22 = p.i_w_base_22 - i_behind_w_33;
-    let i_behind_w_23 = p.k_3 + q.cos_theta * lump_0;
+    let i_behind_w_23 = p.k_3.add_mul(q.cos_theta, lump_0);
 
     // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_ww = p.i_w_w_11;
     let row_0 = omega_b_n_gy * omega_b_n_gy;
     let row_1 = omega_b_n_gx * omega_b_n_gy;
     let row_2 = i_behind_w_22 - i_behind_w_33;
-    let row_3 = (neg_alpha_g_gy + omega_b_n_gx * omega_g_n_gz) * i_behind_w_12;
-    let row_4 = row_1 * i_behind_w_13 - row_3 + p.i_w_w_11 * alpha_g_gx;
-    let row_5 = mr_behind_w_gy * r_w_rest_gz + mr_behind_w_gz * neg_r_w_rest_gy;
-    let row_6 = row_4 + (i_behind_w_23 * (row_0 - path_1) - path_2 * row_2);
-    let field_w = row_5 + row_6;
+    let row_3 = mr_behind_w_gy * r_w_rest_gz;
+    let row_4 = neg_alpha_g_gy.add_mul(omega_b_n_gx, omega_g_n_gz);
+    let row_5 = (row_1 * i_behind_w_13).sub_mul(row_4, i_behind_w_12);
+    let row_6 = (i_behind_w_23 * (row_0 - path_1)).sub_mul(path_2, row_2);
+    let row_7 = row_3.add_mul(mr_behind_w_gz, neg_r_w_rest_gy);
+    let field_w = row_7 + (row_5.add_mul(p.i_w_w_11, alpha_g_gx) + row_6);
 
     // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
     let coriolis_0 = v.spin * omega_b_n_gy;
     let coriolis_1 = v.spin * omega_g_n_gz;
-    let coriolis_2 = mr_behind_w_gy * coriolis_0 + mr_behind_w_gz * coriolis_1;
-    let f_rates_w_gx = coriolis_2 + coriolis_2;
-    let coriolis_3 = v.spin * (v.spin + omega_b_n_gx + omega_b_n_gx);
-    let neg_f_rates_w_gy = mr_behind_w_gy * coriolis_3;
-    let coriolis_4 = mr_behind_w_gz * coriolis_3;
-    let f_rates_w_gz = -coriolis_4;
-    let coriolis_5 = i_behind_w_23 + i_behind_w_23;
-    let coriolis_6 = coriolis_1 * (p.i_w_w_11 + row_2) - coriolis_0 * coriolis_5;
-    let n_rates_w_gy = coriolis_6 - i_behind_w_13 * coriolis_3;
-    let coriolis_7 = i_behind_w_12 * coriolis_3 + coriolis_1 * coriolis_5;
-    let n_rates_w_gz = coriolis_7 - coriolis_0 * (p.i_w_w_11 - row_2);
+    let coriolis_2 = mr_behind_w_gy * coriolis_0;
+    let coriolis_3 = coriolis_2.add_mul(mr_behind_w_gz, coriolis_1);
+    let f_rates_w_gx = coriolis_3 + coriolis_3;
+    let coriolis_4 = v.spin * (v.spin + omega_b_n_gx + omega_b_n_gx);
+    let neg_f_rates_w_gy = mr_behind_w_gy * coriolis_4;
+    let coriolis_5 = mr_behind_w_gz * coriolis_4;
+    let f_rates_w_gz = -coriolis_5;
+    let coriolis_6 = i_behind_w_23 + i_behind_w_23;
+    let coriolis_7 = coriolis_1 * (p.i_w_w_11 + row_2);
+    let coriolis_8 = coriolis_7.sub_mul(coriolis_0, coriolis_6);
+    let n_rates_w_gy = coriolis_8.sub_mul(i_behind_w_13, coriolis_4);
+    let coriolis_9 = (i_behind_w_12 * coriolis_4).add_mul(coriolis_1, coriolis_6);
+    let n_rates_w_gz = coriolis_9.sub_mul(coriolis_0, p.i_w_w_11 - row_2);
 
     // What lies behind the gimbal's joint, of D, by base parameters, eqs. (B1), (B2): first
     // moment, kg m, and inertia, kg m².
@@ -1607,129 +1759,134 @@ pub fn eliminate<T: Real>(
     let i_behind_d_11 = p.i_w_w_11 + lump_1 + p.i_g_base_11;
     let i_behind_d_12 = p.i_g_base_12 + i_behind_w_12;
     let i_behind_d_13 = p.i_g_base_13 + i_behind_w_13;
-    let i_behind_d_23 = i_behind_w_23 - p.l_g_y * mr_behind_w_gz + p.i_g_base_23;
+    let lump_2 = i_behind_w_23.sub_mul(p.l_g_y, mr_behind_w_gz);
+    let i_behind_d_23 = lump_2 + p.i_g_base_23;
     let i_behind_d_33 = lump_1 + i_behind_w_33 + p.i_g_base_33;
 
     // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_gg = i_behind_d_33;
     let mass_gw = i_behind_w_13;
-    let n_rates_g_gz = n_rates_w_gz - p.l_g_y * f_rates_w_gx;
-    let row_7 = i_behind_d_11 - i_behind_w_22;
-    let row_8 = omega_b_n_gy * omega_b_n_gz * i_behind_d_13;
-    let row_9 = omega_b_n_gx * omega_b_n_gz * i_behind_d_23 - row_8;
-    let row_10 = row_9 + (i_behind_d_12 * (path_0 - row_0) - row_1 * row_7);
-    let field_g = row_10 + n_rates_g_gz;
+    let n_rates_g_gz = n_rates_w_gz.sub_mul(p.l_g_y, f_rates_w_gx);
+    let row_8 = i_behind_d_11 - i_behind_w_22;
+    let row_9 = omega_b_n_gx * omega_b_n_gz * i_behind_d_23;
+    let row_10 = row_9.sub_mul(i_behind_d_13, omega_b_n_gy * omega_b_n_gz);
+    let row_11 = row_10 + (i_behind_d_12 * (path_0 - row_0)).sub_mul(row_1, row_8);
+    let field_g = row_11 + n_rates_g_gz;
 
     // Force, N, and moment, N m, that the joints' rates from the gimbal's on ask for, eq. (C2).
-    let coriolis_8 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
-    let f_rates_g_gx = f_rates_w_gx - p.mr_d_g_gx * coriolis_8;
-    let neg_f_rates_g_gy = neg_f_rates_w_gy + mr_behind_d_gy * coriolis_8;
-    let coriolis_9 = p.mr_d_g_gx * neg_alpha_g_gy + alpha_g_gx * mr_behind_d_gy;
-    let f_rates_g_gz = coriolis_9 + coriolis_9 + f_rates_w_gz;
-    let coriolis_10 = i_behind_d_12 + i_behind_d_12;
-    let coriolis_11 = alpha_g_gx * (i_behind_d_33 + row_7);
-    let coriolis_12 = coriolis_11 - neg_alpha_g_gy * coriolis_10;
-    let coriolis_13 = coriolis_12 - i_behind_d_23 * coriolis_8;
-    let n_rates_g_gx = coriolis_13 - p.l_g_y * coriolis_4;
-    let coriolis_14 = i_behind_d_13 * coriolis_8 + alpha_g_gx * coriolis_10;
-    let coriolis_15 = coriolis_14 - neg_alpha_g_gy * (i_behind_d_33 - row_7);
-    let n_rates_g_gy = coriolis_15 + n_rates_w_gy;
+    let coriolis_10 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
+    let f_rates_g_gx = f_rates_w_gx.sub_mul(p.mr_d_g_gx, coriolis_10);
+    let neg_f_rates_g_gy = neg_f_rates_w_gy.add_mul(mr_behind_d_gy, coriolis_10);
+    let coriolis_11 = p.mr_d_g_gx * neg_alpha_g_gy;
+    let coriolis_12 = coriolis_11.add_mul(alpha_g_gx, mr_behind_d_gy);
+    let f_rates_g_gz = coriolis_12 + coriolis_12 + f_rates_w_gz;
+    let coriolis_13 = i_behind_d_12 + i_behind_d_12;
+    let coriolis_14 = alpha_g_gx * (i_behind_d_33 + row_8);
+    let coriolis_15 = coriolis_14.sub_mul(neg_alpha_g_gy, coriolis_13);
+    let coriolis_16 = coriolis_15.sub_mul(i_behind_d_23, coriolis_10);
+    let n_rates_g_gx = coriolis_16.sub_mul(p.l_g_y, coriolis_5);
+    let coriolis_17 = (i_behind_d_13 * coriolis_10).add_mul(alpha_g_gx, coriolis_13);
+    let coriolis_18 = coriolis_17.sub_mul(neg_alpha_g_gy, i_behind_d_33 - row_8);
+    let n_rates_g_gy = coriolis_18 + n_rates_w_gy;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration, along B axes.
-    let f_g_bx = p.mr_d_g_gx * e_y_bx - e_x_bx * mr_behind_d_gy;
-    let f_g_by = p.mr_d_g_gx * e_y_by - e_x_by * mr_behind_d_gy;
-    let f_g_bz = p.mr_d_g_gx * e_y_bz - e_x_bz * mr_behind_d_gy;
-    let col_0 = e_x_bx * i_behind_d_13 + e_y_bx * i_behind_d_23;
-    let col_1 = col_0 + p.mount_13 * i_behind_d_33;
-    let n_g_bx = p.reach_by * f_g_bz - p.reach_bz * f_g_by + col_1;
-    let col_2 = e_x_by * i_behind_d_13 + e_y_by * i_behind_d_23;
-    let col_3 = col_2 + p.mount_23 * i_behind_d_33;
-    let n_g_by = p.reach_bz * f_g_bx - p.reach_bx * f_g_bz + col_3;
-    let col_4 = e_x_bz * i_behind_d_13 + e_y_bz * i_behind_d_23;
-    let col_5 = col_4 + p.mount_33 * i_behind_d_33;
-    let n_g_bz = p.reach_bx * f_g_by - p.reach_by * f_g_bx + col_5;
-    let f_w_bx = p.mount_13 * mr_behind_w_gy - mr_behind_w_gz * e_y_bx;
-    let f_w_by = p.mount_23 * mr_behind_w_gy - mr_behind_w_gz * e_y_by;
-    let f_w_bz = p.mount_33 * mr_behind_w_gy - mr_behind_w_gz * e_y_bz;
-    let col_6 = p.i_w_w_11 + p.l_g_y * mr_behind_w_gy;
-    let col_7 = e_x_bx * col_6 + e_y_bx * i_behind_w_12 + p.mount_13 * i_behind_w_13;
-    let n_w_bx = col_7 + (p.reach_by * f_w_bz - p.reach_bz * f_w_by);
-    let col_8 = e_x_by * col_6 + e_y_by * i_behind_w_12 + p.mount_23 * i_behind_w_13;
-    let n_w_by = col_8 + (p.reach_bz * f_w_bx - p.reach_bx * f_w_bz);
-    let col_9 = e_x_bz * col_6 + e_y_bz * i_behind_w_12 + p.mount_33 * i_behind_w_13;
-    let n_w_bz = col_9 + (p.reach_bx * f_w_by - p.reach_by * f_w_bx);
+    let f_g_bx = (p.mr_d_g_gx * e_y_bx).sub_mul(e_x_bx, mr_behind_d_gy);
+    let f_g_by = (p.mr_d_g_gx * e_y_by).sub_mul(e_x_by, mr_behind_d_gy);
+    let f_g_bz = (p.mr_d_g_gx * e_y_bz).sub_mul(e_x_bz, mr_behind_d_gy);
+    let col_0 = (e_x_bx * i_behind_d_13).add_mul(e_y_bx, i_behind_d_23);
+    let col_1 = col_0.add_mul(p.mount_13, i_behind_d_33);
+    let n_g_bx = (p.reach_by * f_g_bz).sub_mul(p.reach_bz, f_g_by) + col_1;
+    let col_2 = (e_x_by * i_behind_d_13).add_mul(e_y_by, i_behind_d_23);
+    let col_3 = col_2.add_mul(p.mount_23, i_behind_d_33);
+    let n_g_by = (p.reach_bz * f_g_bx).sub_mul(p.reach_bx, f_g_bz) + col_3;
+    let col_4 = (e_x_bz * i_behind_d_13).add_mul(e_y_bz, i_behind_d_23);
+    let col_5 = col_4.add_mul(p.mount_33, i_behind_d_33);
+    let n_g_bz = (p.reach_bx * f_g_by).sub_mul(p.reach_by, f_g_bx) + col_5;
+    let f_w_bx = (p.mount_13 * mr_behind_w_gy).sub_mul(mr_behind_w_gz, e_y_bx);
+    let f_w_by = (p.mount_23 * mr_behind_w_gy).sub_mul(mr_behind_w_gz, e_y_by);
+    let f_w_bz = (p.mount_33 * mr_behind_w_gy).sub_mul(mr_behind_w_gz, e_y_bz);
+    let col_6 = p.i_w_w_11.add_mul(p.l_g_y, mr_behind_w_gy);
+    let col_7 = (e_x_bx * col_6).add_mul(e_y_bx, i_behind_w_12);
+    let col_8 = (p.reach_by * f_w_bz).sub_mul(p.reach_bz, f_w_by);
+    let n_w_bx = col_7.add_mul(p.mount_13, i_behind_w_13) + col_8;
+    let col_9 = (e_x_by * col_6).add_mul(e_y_by, i_behind_w_12);
+    let col_10 = (p.reach_bz * f_w_bx).sub_mul(p.reach_bx, f_w_bz);
+    let n_w_by = col_9.add_mul(p.mount_23, i_behind_w_13) + col_10;
+    let col_11 = (e_x_bz * col_6).add_mul(e_y_bz, i_behind_w_12);
+    let col_12 = (p.reach_bx * f_w_by).sub_mul(p.reach_by, f_w_bx);
+    let n_w_bz = col_11.add_mul(p.mount_33, i_behind_w_13) + col_12;
 
     // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
     // (76), kg m².
-    let moment_0 = p.mr_d_g_gx * e_x_bx + e_y_bx * mr_behind_d_gy;
-    let mr_moving_bx = moment_0 + p.mount_13 * mr_behind_w_gz;
-    let moment_1 = p.mr_d_g_gx * e_x_by + e_y_by * mr_behind_d_gy;
-    let mr_moving_by = moment_1 + p.mount_23 * mr_behind_w_gz;
-    let moment_2 = p.mr_d_g_gx * e_x_bz + e_y_bz * mr_behind_d_gy;
-    let mr_moving_bz = moment_2 + p.mount_33 * mr_behind_w_gz;
+    let moment_0 = (p.mr_d_g_gx * e_x_bx).add_mul(e_y_bx, mr_behind_d_gy);
+    let mr_moving_bx = moment_0.add_mul(p.mount_13, mr_behind_w_gz);
+    let moment_1 = (p.mr_d_g_gx * e_x_by).add_mul(e_y_by, mr_behind_d_gy);
+    let mr_moving_by = moment_1.add_mul(p.mount_23, mr_behind_w_gz);
+    let moment_2 = (p.mr_d_g_gx * e_x_bz).add_mul(e_y_bz, mr_behind_d_gy);
+    let mr_moving_bz = moment_2.add_mul(p.mount_33, mr_behind_w_gz);
     let half = q.sin_gamma.like(0.5);
-    let moment_3 = half * row_7;
-    let moment_4 = e_x_bx * moment_3 + e_y_bx * i_behind_d_12;
+    let moment_3 = half * row_8;
+    let moment_4 = (e_x_bx * moment_3).add_mul(e_y_bx, i_behind_d_12);
     let moment_5 = half * (i_behind_w_22 + i_behind_d_33);
-    let moment_6 = col_1 - p.mount_13 * moment_5;
-    let moment_7 = e_x_bx * moment_4 + p.mount_13 * moment_6;
+    let moment_6 = col_1.sub_mul(p.mount_13, moment_5);
+    let moment_7 = (e_x_bx * moment_4).add_mul(p.mount_13, moment_6);
     let moment_8 = mr_moving_by * p.k_27;
     let moment_9 = mr_moving_bz * p.k_28;
     let i_moving_11 = moment_7 + moment_7 + i_behind_w_22 + (moment_8 + moment_9);
-    let moment_10 = e_x_by * moment_3 + e_y_by * i_behind_d_12;
-    let moment_11 = col_3 - p.mount_23 * moment_5;
-    let moment_12 = e_x_bx * moment_10 + p.mount_13 * moment_11;
-    let moment_13 = moment_12 + (e_x_by * moment_4 + p.mount_23 * moment_6);
-    let moment_14 = p.reach_bx * mr_moving_by + p.reach_by * mr_moving_bx;
-    let i_moving_12 = moment_13 - moment_14;
-    let moment_15 = e_x_bz * moment_3 + e_y_bz * i_behind_d_12;
-    let moment_16 = col_5 - p.mount_33 * moment_5;
-    let moment_17 = e_x_bx * moment_15 + p.mount_13 * moment_16;
-    let moment_18 = moment_17 + (e_x_bz * moment_4 + p.mount_33 * moment_6);
-    let moment_19 = p.reach_bx * mr_moving_bz + p.reach_bz * mr_moving_bx;
-    let i_moving_13 = moment_18 - moment_19;
-    let moment_20 = e_x_by * moment_10 + p.mount_23 * moment_11;
+    let moment_10 = (e_x_by * moment_3).add_mul(e_y_by, i_behind_d_12);
+    let moment_11 = col_3.sub_mul(p.mount_23, moment_5);
+    let moment_12 = (e_x_bx * moment_10).add_mul(p.mount_13, moment_11);
+    let moment_13 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
+    let moment_14 = moment_12 + (e_x_by * moment_4).add_mul(p.mount_23, moment_6);
+    let i_moving_12 = moment_14 - moment_13;
+    let moment_15 = (e_x_bz * moment_3).add_mul(e_y_bz, i_behind_d_12);
+    let moment_16 = col_5.sub_mul(p.mount_33, moment_5);
+    let moment_17 = (e_x_bx * moment_15).add_mul(p.mount_13, moment_16);
+    let moment_18 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
+    let moment_19 = moment_17 + (e_x_bz * moment_4).add_mul(p.mount_33, moment_6);
+    let i_moving_13 = moment_19 - moment_18;
+    let moment_20 = (e_x_by * moment_10).add_mul(p.mount_23, moment_11);
     let moment_21 = mr_moving_bx * p.k_26;
     let i_moving_22 = moment_20 + moment_20 + i_behind_w_22 + (moment_21 + moment_9);
-    let moment_22 = e_x_bz * moment_10 + p.mount_33 * moment_11;
-    let moment_23 = e_x_by * moment_15 + p.mount_23 * moment_16 + moment_22;
-    let moment_24 = p.reach_by * mr_moving_bz + p.reach_bz * mr_moving_by;
+    let moment_22 = (e_x_bz * moment_10).add_mul(p.mount_33, moment_11);
+    let moment_23 = (e_x_by * moment_15).add_mul(p.mount_23, moment_16) + moment_22;
+    let moment_24 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
     let i_moving_23 = moment_23 - moment_24;
-    let moment_25 = e_x_bz * moment_15 + p.mount_33 * moment_16;
+    let moment_25 = (e_x_bz * moment_15).add_mul(p.mount_33, moment_16);
     let i_moving_33 = moment_25 + moment_25 + i_behind_w_22 + (moment_21 + moment_8);
 
     // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
     // N and N m.
-    let bias_0 = e_x_bx * f_rates_g_gx - e_y_bx * neg_f_rates_g_gy;
-    let f_rates_bx = bias_0 + p.mount_13 * f_rates_g_gz;
-    let bias_1 = e_x_by * f_rates_g_gx - e_y_by * neg_f_rates_g_gy;
-    let f_rates_by = bias_1 + p.mount_23 * f_rates_g_gz;
-    let bias_2 = e_x_bz * f_rates_g_gx - e_y_bz * neg_f_rates_g_gy;
-    let f_rates_bz = bias_2 + p.mount_33 * f_rates_g_gz;
-    let bias_3 = e_x_bx * n_rates_g_gx + e_y_bx * n_rates_g_gy;
-    let bias_4 = p.reach_by * f_rates_bz - p.reach_bz * f_rates_by;
-    let n_rates_bx = bias_3 + p.mount_13 * n_rates_g_gz + bias_4;
-    let bias_5 = e_x_by * n_rates_g_gx + e_y_by * n_rates_g_gy;
-    let bias_6 = p.reach_bz * f_rates_bx - p.reach_bx * f_rates_bz;
-    let n_rates_by = bias_5 + p.mount_23 * n_rates_g_gz + bias_6;
-    let bias_7 = e_x_bz * n_rates_g_gx + e_y_bz * n_rates_g_gy;
-    let bias_8 = p.reach_bx * f_rates_by - p.reach_by * f_rates_bx;
-    let n_rates_bz = bias_7 + p.mount_33 * n_rates_g_gz + bias_8;
+    let bias_0 = (e_x_bx * f_rates_g_gx).sub_mul(e_y_bx, neg_f_rates_g_gy);
+    let f_rates_bx = bias_0.add_mul(p.mount_13, f_rates_g_gz);
+    let bias_1 = (e_x_by * f_rates_g_gx).sub_mul(e_y_by, neg_f_rates_g_gy);
+    let f_rates_by = bias_1.add_mul(p.mount_23, f_rates_g_gz);
+    let bias_2 = (e_x_bz * f_rates_g_gx).sub_mul(e_y_bz, neg_f_rates_g_gy);
+    let f_rates_bz = bias_2.add_mul(p.mount_33, f_rates_g_gz);
+    let bias_3 = (e_x_bx * n_rates_g_gx).add_mul(e_y_bx, n_rates_g_gy);
+    let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
+    let n_rates_bx = bias_3.add_mul(p.mount_13, n_rates_g_gz) + bias_4;
+    let bias_5 = (e_x_by * n_rates_g_gx).add_mul(e_y_by, n_rates_g_gy);
+    let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
+    let n_rates_by = bias_5.add_mul(p.mount_23, n_rates_g_gz) + bias_6;
+    let bias_7 = (e_x_bz * n_rates_g_gx).add_mul(e_y_bz, n_rates_g_gy);
+    let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
+    let n_rates_bz = bias_7.add_mul(p.mount_33, n_rates_g_gz) + bias_8;
 
     // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
-    let reach_0 = w.omega_bz * p.reach_bx - w.omega_bx * p.reach_bz;
-    let reach_1 = w.omega_bx * p.reach_by - w.omega_by * p.reach_bx;
-    let r_first_rest_bx = w.omega_by * reach_1 - w.omega_bz * reach_0;
-    let reach_2 = w.omega_by * p.reach_bz - w.omega_bz * p.reach_by;
-    let r_first_rest_by = w.omega_bz * reach_2 - w.omega_bx * reach_1;
-    let r_first_rest_bz = w.omega_bx * reach_0 - w.omega_by * reach_2;
+    let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
+    let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
+    let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
+    let reach_2 = (w.omega_by * p.reach_bz).sub_mul(w.omega_bz, p.reach_by);
+    let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
+    let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
     // Bias of each joint with it, eq. (C3).
-    let bias_9 = f_g_bx * r_first_rest_bx + f_g_by * r_first_rest_by;
-    let u_rest_g = bias_9 + f_g_bz * r_first_rest_bz + field_g;
-    let bias_10 = f_w_bx * r_first_rest_bx + f_w_by * r_first_rest_by;
-    let u_rest_w = bias_10 + f_w_bz * r_first_rest_bz + field_w;
+    let bias_9 = (f_g_bx * r_first_rest_bx).add_mul(f_g_by, r_first_rest_by);
+    let u_rest_g = bias_9.add_mul(f_g_bz, r_first_rest_bz) + field_g;
+    let bias_10 = (f_w_bx * r_first_rest_bx).add_mul(f_w_by, r_first_rest_by);
+    let u_rest_w = bias_10.add_mul(f_w_bz, r_first_rest_bz) + field_w;
 
     // Right side of each joint, eqs. (80), (119): motor torque less what the rest asks for, N m.
     let tau_g = u.u_g - u_rest_g;
@@ -1745,17 +1902,17 @@ pub fn eliminate<T: Real>(
     let gain_w_w2 = n_w_by * recip_w;
     let gain_w_w3 = n_w_bz * recip_w;
     let gain_w_g = mass_gw * recip_w;
-    let free_w = m.given_w + tau_w * recip_w;
+    let free_w = m.given_w.add_mul(tau_w, recip_w);
 
     // Joint w taken out of the rows nearer the hub, eq. (E2).
-    let f_g_bx_w = f_g_bx - f_w_bx * gain_w_g;
-    let f_g_by_w = f_g_by - f_w_by * gain_w_g;
-    let f_g_bz_w = f_g_bz - f_w_bz * gain_w_g;
-    let n_g_bx_w = n_g_bx - n_w_bx * gain_w_g;
-    let n_g_by_w = n_g_by - n_w_by * gain_w_g;
-    let n_g_bz_w = n_g_bz - n_w_bz * gain_w_g;
-    let mass_gg_w = mass_gg - mass_gw * gain_w_g;
-    let tau_g_w = tau_g - mass_gw * free_w;
+    let f_g_bx_w = f_g_bx.sub_mul(f_w_bx, gain_w_g);
+    let f_g_by_w = f_g_by.sub_mul(f_w_by, gain_w_g);
+    let f_g_bz_w = f_g_bz.sub_mul(f_w_bz, gain_w_g);
+    let n_g_bx_w = n_g_bx.sub_mul(n_w_bx, gain_w_g);
+    let n_g_by_w = n_g_by.sub_mul(n_w_by, gain_w_g);
+    let n_g_bz_w = n_g_bz.sub_mul(n_w_bz, gain_w_g);
+    let mass_gg_w = mass_gg.sub_mul(mass_gw, gain_w_g);
+    let tau_g_w = tau_g.sub_mul(mass_gw, free_w);
 
     // Joint g, eq. (E1): its pivot `mass_gg_w`, kg m², and its gains.
     let divisor_g = m.held_g + mass_gg_w;
@@ -1766,42 +1923,42 @@ pub fn eliminate<T: Real>(
     let gain_g_w1 = n_g_bx_w * recip_g;
     let gain_g_w2 = n_g_by_w * recip_g;
     let gain_g_w3 = n_g_bz_w * recip_g;
-    let free_g = m.given_g + tau_g_w * recip_g;
+    let free_g = m.given_g.add_mul(tau_g_w, recip_g);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_vv.
-    let m_vv_11 = f_w_bx * gain_w_v1 + f_g_bx_w * gain_g_v1;
-    let m_vv_12 = f_w_by * gain_w_v1 + f_g_by_w * gain_g_v1;
-    let m_vv_13 = f_w_bz * gain_w_v1 + f_g_bz_w * gain_g_v1;
-    let m_vv_22 = f_w_by * gain_w_v2 + f_g_by_w * gain_g_v2;
-    let m_vv_23 = f_w_bz * gain_w_v2 + f_g_bz_w * gain_g_v2;
-    let m_vv_33 = f_w_bz * gain_w_v3 + f_g_bz_w * gain_g_v3;
+    let m_vv_11 = (f_w_bx * gain_w_v1).add_mul(f_g_bx_w, gain_g_v1);
+    let m_vv_12 = (f_w_by * gain_w_v1).add_mul(f_g_by_w, gain_g_v1);
+    let m_vv_13 = (f_w_bz * gain_w_v1).add_mul(f_g_bz_w, gain_g_v1);
+    let m_vv_22 = (f_w_by * gain_w_v2).add_mul(f_g_by_w, gain_g_v2);
+    let m_vv_23 = (f_w_bz * gain_w_v2).add_mul(f_g_bz_w, gain_g_v2);
+    let m_vv_33 = (f_w_bz * gain_w_v3).add_mul(f_g_bz_w, gain_g_v3);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_vw.
-    let m_vw_11 = n_w_bx * gain_w_v1 + n_g_bx_w * gain_g_v1;
-    let m_vw_12 = n_w_by * gain_w_v1 + n_g_by_w * gain_g_v1;
-    let m_vw_13 = n_w_bz * gain_w_v1 + n_g_bz_w * gain_g_v1;
-    let m_vw_21 = n_w_bx * gain_w_v2 + n_g_bx_w * gain_g_v2;
-    let m_vw_22 = n_w_by * gain_w_v2 + n_g_by_w * gain_g_v2;
-    let m_vw_23 = n_w_bz * gain_w_v2 + n_g_bz_w * gain_g_v2;
-    let m_vw_31 = n_w_bx * gain_w_v3 + n_g_bx_w * gain_g_v3;
-    let m_vw_32 = n_w_by * gain_w_v3 + n_g_by_w * gain_g_v3;
-    let m_vw_33 = n_w_bz * gain_w_v3 + n_g_bz_w * gain_g_v3;
+    let m_vw_11 = (n_w_bx * gain_w_v1).add_mul(n_g_bx_w, gain_g_v1);
+    let m_vw_12 = (n_w_by * gain_w_v1).add_mul(n_g_by_w, gain_g_v1);
+    let m_vw_13 = (n_w_bz * gain_w_v1).add_mul(n_g_bz_w, gain_g_v1);
+    let m_vw_21 = (n_w_bx * gain_w_v2).add_mul(n_g_bx_w, gain_g_v2);
+    let m_vw_22 = (n_w_by * gain_w_v2).add_mul(n_g_by_w, gain_g_v2);
+    let m_vw_23 = (n_w_bz * gain_w_v2).add_mul(n_g_bz_w, gain_g_v2);
+    let m_vw_31 = (n_w_bx * gain_w_v3).add_mul(n_g_bx_w, gain_g_v3);
+    let m_vw_32 = (n_w_by * gain_w_v3).add_mul(n_g_by_w, gain_g_v3);
+    let m_vw_33 = (n_w_bz * gain_w_v3).add_mul(n_g_bz_w, gain_g_v3);
 
     // Taken out of the hub's mass matrix, eq. (E3): M_ww.
-    let m_ww_11 = n_w_bx * gain_w_w1 + n_g_bx_w * gain_g_w1;
-    let m_ww_12 = n_w_by * gain_w_w1 + n_g_by_w * gain_g_w1;
-    let m_ww_13 = n_w_bz * gain_w_w1 + n_g_bz_w * gain_g_w1;
-    let m_ww_22 = n_w_by * gain_w_w2 + n_g_by_w * gain_g_w2;
-    let m_ww_23 = n_w_bz * gain_w_w2 + n_g_bz_w * gain_g_w2;
-    let m_ww_33 = n_w_bz * gain_w_w3 + n_g_bz_w * gain_g_w3;
+    let m_ww_11 = (n_w_bx * gain_w_w1).add_mul(n_g_bx_w, gain_g_w1);
+    let m_ww_12 = (n_w_by * gain_w_w1).add_mul(n_g_by_w, gain_g_w1);
+    let m_ww_13 = (n_w_bz * gain_w_w1).add_mul(n_g_bz_w, gain_g_w1);
+    let m_ww_22 = (n_w_by * gain_w_w2).add_mul(n_g_by_w, gain_g_w2);
+    let m_ww_23 = (n_w_bz * gain_w_w2).add_mul(n_g_bz_w, gain_g_w2);
+    let m_ww_33 = (n_w_bz * gain_w_w3).add_mul(n_g_bz_w, gain_g_w3);
 
     // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
-    let h_v_1 = f_rates_bx + f_w_bx * free_w + f_g_bx_w * free_g;
-    let h_v_2 = f_rates_by + f_w_by * free_w + f_g_by_w * free_g;
-    let h_v_3 = f_rates_bz + f_w_bz * free_w + f_g_bz_w * free_g;
-    let h_w_1 = n_rates_bx + n_w_bx * free_w + n_g_bx_w * free_g;
-    let h_w_2 = n_rates_by + n_w_by * free_w + n_g_by_w * free_g;
-    let h_w_3 = n_rates_bz + n_w_bz * free_w + n_g_bz_w * free_g;
+    let h_v_1 = f_rates_bx.add_mul(f_w_bx, free_w).add_mul(f_g_bx_w, free_g);
+    let h_v_2 = f_rates_by.add_mul(f_w_by, free_w).add_mul(f_g_by_w, free_g);
+    let h_v_3 = f_rates_bz.add_mul(f_w_bz, free_w).add_mul(f_g_bz_w, free_g);
+    let h_w_1 = n_rates_bx.add_mul(n_w_bx, free_w).add_mul(n_g_bx_w, free_g);
+    let h_w_2 = n_rates_by.add_mul(n_w_by, free_w).add_mul(n_g_by_w, free_g);
+    let h_w_3 = n_rates_bz.add_mul(n_w_bz, free_w).add_mul(n_g_bz_w, free_g);
 
     Eliminated {
         share: HubShare {
@@ -1867,24 +2024,26 @@ pub fn eliminate<T: Real>(
 /// Joint accelerations from those of the hub.
 ///
 /// Operations: 13 mul, 13 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(
     e: &Eliminated<T>,
     a: &BodyAcceleration<T>,
 ) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
-    let row_0 = e.free_g - a.r_b_n_ddot_bx * e.gain_g_v1;
-    let row_1 = row_0 - a.r_b_n_ddot_by * e.gain_g_v2;
-    let row_2 = row_1 - a.r_b_n_ddot_bz * e.gain_g_v3;
-    let row_3 = row_2 - a.omega_dot_bx * e.gain_g_w1;
-    let row_4 = row_3 - a.omega_dot_by * e.gain_g_w2;
-    let gamma_ddot = row_4 - a.omega_dot_bz * e.gain_g_w3;
-    let row_5 = e.free_w - a.r_b_n_ddot_bx * e.gain_w_v1;
-    let row_6 = row_5 - a.r_b_n_ddot_by * e.gain_w_v2;
-    let row_7 = row_6 - a.r_b_n_ddot_bz * e.gain_w_v3;
-    let row_8 = row_7 - a.omega_dot_bx * e.gain_w_w1;
-    let row_9 = row_8 - a.omega_dot_by * e.gain_w_w2;
-    let spin_dot = row_9 - a.omega_dot_bz * e.gain_w_w3 - gamma_ddot * e.gain_w_g;
+    let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
+    let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
+    let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_g_v3);
+    let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_g_w1);
+    let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_g_w2);
+    let gamma_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_g_w3);
+    let row_5 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
+    let row_6 = row_5.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
+    let row_7 = row_6.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
+    let row_8 = row_7.sub_mul(a.omega_dot_bx, e.gain_w_w1);
+    let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_w_w2);
+    let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_w_w3);
+    let spin_dot = row_10.sub_mul(gamma_ddot, e.gain_w_g);
 
     JointAccelerations { gamma_ddot, spin_dot }
 }

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use precess_dynamics::kind::JointStates;
-use precess_dynamics::{Scalar, Spacecraft, State};
+use precess_dynamics::{Angle, Spacecraft, State};
 use precess_tests::counted::{Counted, count};
 use precess_tests::measured::{Measured, dgvscmg};
 use precess_tests::stored::Stored;
@@ -39,7 +39,7 @@ impl Service for Sines {
     fn run(&mut self, calls: u32) -> Result<(), Refused> {
         for _ in 0..calls {
             for angle in black_box(&self.0) {
-                black_box(Scalar::sin_cos(*angle));
+                black_box(Angle::sin_cos(*angle));
             }
         }
         Ok(())

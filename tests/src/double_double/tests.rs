@@ -1,6 +1,6 @@
 //! The scalar against digits computed elsewhere (60-digit arithmetic) and against exact identities.
 
-use precess_dynamics::{Real, Scalar};
+use precess_dynamics::{Angle, Real, Scalar};
 
 use super::DoubleDouble;
 use crate::random::Random;

@@ -13,10 +13,10 @@ use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
-    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kind, Value, Wrenches,
+    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kernels, Kind, Value, Wrenches,
     components, diagonal, entries, no_inertia, unit, vector, zero,
 };
-use crate::{Passive, Scalar, Wrench};
+use crate::{Angle, Passive, Real, Scalar, Wrench};
 
 /// Double-gimbal control moment gyro with a balanced wheel.
 ///
@@ -150,7 +150,7 @@ impl<V: Value> Each<V> for PerJoint<V> {
     }
 }
 
-impl<T: Scalar> JointStates<T> for Joints<T> {
+impl<T: Value> JointStates<T> for Joints<T> {
     fn states(&self) -> impl Iterator<Item = [T; 2]> {
         [
             [self.gamma_o, self.gamma_o_dot],
@@ -170,7 +170,54 @@ impl<T: Scalar> JointStates<T> for Joints<T> {
     }
 }
 
-impl<T: Scalar> Each<T> for MotorTorques<T> {
+impl<T: Value> Joints<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Joints<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(&self, other: &Joints<U>, mut join: impl FnMut(T, U) -> W) -> Joints<W> {
+        Joints {
+            gamma_o: join(self.gamma_o, other.gamma_o),
+            gamma_i: join(self.gamma_i, other.gamma_i),
+            theta: join(self.theta, other.theta),
+            gamma_o_dot: join(self.gamma_o_dot, other.gamma_o_dot),
+            gamma_i_dot: join(self.gamma_i_dot, other.gamma_i_dot),
+            spin: join(self.spin, other.spin),
+        }
+    }
+}
+
+impl<V: Value> PerJoint<V> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(V) -> U) -> PerJoint<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &PerJoint<U>,
+        mut join: impl FnMut(V, U) -> W,
+    ) -> PerJoint<W> {
+        PerJoint {
+            outer_gimbal: join(self.outer_gimbal, other.outer_gimbal),
+            inner_gimbal: join(self.inner_gimbal, other.inner_gimbal),
+            wheel: join(self.wheel, other.wheel),
+        }
+    }
+}
+
+impl<T: Value> Each<T> for MotorTorques<T> {
     fn values(&self) -> impl Iterator<Item = T> {
         [self.u_o, self.u_i, self.u_w].into_iter()
     }
@@ -180,7 +227,7 @@ impl<T: Scalar> Each<T> for MotorTorques<T> {
     }
 }
 
-impl<T: Scalar> Each<T> for JointAccelerations<T> {
+impl<T: Value> Each<T> for JointAccelerations<T> {
     fn values(&self) -> impl Iterator<Item = T> {
         [self.gamma_o_ddot, self.gamma_i_ddot, self.spin_dot].into_iter()
     }
@@ -190,15 +237,116 @@ impl<T: Scalar> Each<T> for JointAccelerations<T> {
     }
 }
 
+impl<S: Scalar> Kernels for BalancedDgcmg<S> {
+    type Constants<T: Value> = super::Prepared<T>;
+    type Joints<T: Value> = Joints<T>;
+    type Accelerations<T: Value> = JointAccelerations<T>;
+    type PerJoint<V: Value> = PerJoint<V>;
+    type Pose<T: Value> = super::Trig<T>;
+    type Eliminated<T: Value> = super::Eliminated<T>;
+
+    #[inline(always)]
+    fn pose<T: Angle>(joints: &Joints<T>) -> Self::Pose<T> {
+        let (sin_gamma_o, cos_gamma_o) = joints.gamma_o.sin_cos();
+        let (sin_gamma_i, cos_gamma_i) = joints.gamma_i.sin_cos();
+        super::Trig { sin_gamma_o, cos_gamma_o, sin_gamma_i, cos_gamma_i }
+    }
+
+    #[inline(always)]
+    fn eliminate<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        joints: &Joints<T>,
+        omega: &BodyRate<T>,
+        drives: &PerJoint<Drive<T>>,
+    ) -> Self::Eliminated<T> {
+        let motors =
+            super::Motors { u_o: drives.outer_gimbal.torque, u_i: drives.inner_gimbal.torque };
+        let modes = super::Modes {
+            driven_o: drives.outer_gimbal.driven,
+            held_o: drives.outer_gimbal.held,
+            given_o: drives.outer_gimbal.given,
+            driven_i: drives.inner_gimbal.driven,
+            held_i: drives.inner_gimbal.held,
+            given_i: drives.inner_gimbal.given,
+        };
+        super::eliminate(constants, pose, &rates(joints), omega, &motors, &modes)
+    }
+
+    #[inline(always)]
+    fn share<T: Real>(eliminated: &Self::Eliminated<T>) -> &HubShare<T> {
+        &eliminated.share
+    }
+
+    #[inline(always)]
+    fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
+        PerJoint {
+            outer_gimbal: Some([eliminated.pivot_o, eliminated.diagonal_o]),
+            inner_gimbal: Some([eliminated.pivot_i, eliminated.diagonal_i]),
+            wheel: None,
+        }
+    }
+
+    #[inline(always)]
+    fn back_substitute<T: Real>(
+        eliminated: &Self::Eliminated<T>,
+        hub: &BodyAcceleration<T>,
+    ) -> JointAccelerations<T> {
+        super::back_substitute(eliminated, hub)
+    }
+
+    #[inline(always)]
+    fn slope<T: Value>(joints: &Joints<T>, accelerations: &JointAccelerations<T>) -> Joints<T> {
+        Joints {
+            gamma_o: joints.gamma_o_dot,
+            gamma_i: joints.gamma_i_dot,
+            theta: joints.spin,
+            gamma_o_dot: accelerations.gamma_o_ddot,
+            gamma_i_dot: accelerations.gamma_i_ddot,
+            spin: accelerations.spin_dot,
+        }
+    }
+
+    #[inline(always)]
+    fn zip_constants<T: Value, U: Value, W: Value>(
+        a: &super::Prepared<T>,
+        b: &super::Prepared<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> super::Prepared<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
+    fn zip_joints<T: Value, U: Value, W: Value>(
+        a: &Joints<T>,
+        b: &Joints<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> Joints<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
+    fn zip_accelerations<T: Value, U: Value, W: Value>(
+        a: &JointAccelerations<T>,
+        b: &JointAccelerations<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
+    fn zip_per_joint<T: Value, U: Value, W: Value>(
+        a: &PerJoint<T>,
+        b: &PerJoint<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> PerJoint<W> {
+        a.zip(b, join)
+    }
+}
+
 impl<T: Scalar> Kind for BalancedDgcmg<T> {
     type Scalar = T;
-    type Constants = super::Prepared<T>;
-    type Joints = Joints<T>;
     type Motors = MotorTorques<T>;
-    type Accelerations = JointAccelerations<T>;
-    type PerJoint<V: Value> = PerJoint<V>;
-    type Pose = super::Trig<T>;
-    type Eliminated = super::Eliminated<T>;
 
     const JOINTS: &'static [JointInfo] = &[
         JointInfo {
@@ -343,57 +491,12 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
         })
     }
 
-    fn handed(constants: &Self::Constants) -> Handed<T> {
+    fn handed(constants: &super::Prepared<T>) -> Handed<T> {
         super::handed(constants)
     }
 
-    fn pose(joints: &Joints<T>) -> Self::Pose {
-        let (sin_gamma_o, cos_gamma_o) = joints.gamma_o.sin_cos();
-        let (sin_gamma_i, cos_gamma_i) = joints.gamma_i.sin_cos();
-        super::Trig { sin_gamma_o, cos_gamma_o, sin_gamma_i, cos_gamma_i }
-    }
-
-    fn eliminate(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
-        joints: &Joints<T>,
-        omega: &BodyRate<T>,
-        drives: &PerJoint<Drive<T>>,
-    ) -> Self::Eliminated {
-        let motors =
-            super::Motors { u_o: drives.outer_gimbal.torque, u_i: drives.inner_gimbal.torque };
-        let modes = super::Modes {
-            driven_o: drives.outer_gimbal.driven,
-            held_o: drives.outer_gimbal.held,
-            given_o: drives.outer_gimbal.given,
-            driven_i: drives.inner_gimbal.driven,
-            held_i: drives.inner_gimbal.held,
-            given_i: drives.inner_gimbal.given,
-        };
-        super::eliminate(constants, pose, &rates(joints), omega, &motors, &modes)
-    }
-
-    fn share(eliminated: &Self::Eliminated) -> &HubShare<T> {
-        &eliminated.share
-    }
-
-    fn pivots(eliminated: &Self::Eliminated) -> PerJoint<Option<[T; 2]>> {
-        PerJoint {
-            outer_gimbal: Some([eliminated.pivot_o, eliminated.diagonal_o]),
-            inner_gimbal: Some([eliminated.pivot_i, eliminated.diagonal_i]),
-            wheel: None,
-        }
-    }
-
-    fn back_substitute(
-        eliminated: &Self::Eliminated,
-        hub: &BodyAcceleration<T>,
-    ) -> JointAccelerations<T> {
-        super::back_substitute(eliminated, hub)
-    }
-
     fn energy_momentum(
-        constants: &Self::Constants,
+        constants: &Self::Constants<T>,
         joints: &Joints<T>,
         hub: &BodyVelocity<T>,
     ) -> EnergyMomentum<T> {
@@ -401,7 +504,7 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
         super::energy_momentum(constants, pose, &rates(joints), hub)
     }
 
-    fn first_moment(constants: &Self::Constants, joints: &Joints<T>) -> [[T; 3]; 2] {
+    fn first_moment(constants: &Self::Constants<T>, joints: &Joints<T>) -> [[T; 3]; 2] {
         let pose = &Self::pose(joints);
         let found = super::first_moment(constants, pose, &rates(joints));
         [
@@ -410,7 +513,7 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
         ]
     }
 
-    fn axes(constants: &Self::Constants, pose: &Self::Pose) -> PerJoint<[[T; 3]; 3]> {
+    fn axes(constants: &Self::Constants<T>, pose: &Self::Pose<T>) -> PerJoint<[[T; 3]; 3]> {
         let axes = super::axes(constants, pose);
         PerJoint {
             outer_gimbal: [
@@ -432,8 +535,8 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
     }
 
     fn loads(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
         joints: &Joints<T>,
         omega: &BodyRate<T>,
         hub: &BodyAcceleration<T>,
@@ -462,8 +565,8 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
     }
 
     fn external(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
         bodies: &Wrenches<Self>,
     ) -> Carried<Wrenches<Self>, Wrench<T>> {
         let wrenches = super::Wrenches {
@@ -509,8 +612,8 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
     }
 
     fn gravity(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
         gradient: [T; 6],
     ) -> (Wrenches<Self>, [T; 6]) {
         let [g_11, g_12, g_13, g_22, g_23, g_33] = gradient;
@@ -566,7 +669,8 @@ impl<T: Scalar> Kind for BalancedDgcmg<T> {
     }
 }
 
-fn rates<T: Scalar>(joints: &Joints<T>) -> super::Rates<T> {
+#[inline(always)]
+fn rates<T: Real>(joints: &Joints<T>) -> super::Rates<T> {
     super::Rates {
         gamma_o_dot: joints.gamma_o_dot,
         gamma_i_dot: joints.gamma_i_dot,

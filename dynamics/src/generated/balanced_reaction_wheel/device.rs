@@ -13,10 +13,10 @@ use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
-    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kind, Value, Wrenches,
+    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kernels, Kind, Value, Wrenches,
     components, diagonal, unit, vector, zero,
 };
-use crate::{Passive, Scalar, Wrench};
+use crate::{Angle, Passive, Real, Scalar, Wrench};
 
 /// Balanced reaction wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +95,7 @@ impl<V: Value> Each<V> for PerJoint<V> {
     }
 }
 
-impl<T: Scalar> JointStates<T> for Joints<T> {
+impl<T: Value> JointStates<T> for Joints<T> {
     fn states(&self) -> impl Iterator<Item = [T; 2]> {
         [[self.theta, self.spin]].into_iter()
     }
@@ -105,7 +105,43 @@ impl<T: Scalar> JointStates<T> for Joints<T> {
     }
 }
 
-impl<T: Scalar> Each<T> for MotorTorques<T> {
+impl<T: Value> Joints<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Joints<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(&self, other: &Joints<U>, mut join: impl FnMut(T, U) -> W) -> Joints<W> {
+        Joints { theta: join(self.theta, other.theta), spin: join(self.spin, other.spin) }
+    }
+}
+
+impl<V: Value> PerJoint<V> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(V) -> U) -> PerJoint<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &PerJoint<U>,
+        mut join: impl FnMut(V, U) -> W,
+    ) -> PerJoint<W> {
+        PerJoint { wheel: join(self.wheel, other.wheel) }
+    }
+}
+
+impl<T: Value> Each<T> for MotorTorques<T> {
     fn values(&self) -> impl Iterator<Item = T> {
         [self.u_w].into_iter()
     }
@@ -115,7 +151,7 @@ impl<T: Scalar> Each<T> for MotorTorques<T> {
     }
 }
 
-impl<T: Scalar> Each<T> for JointAccelerations<T> {
+impl<T: Value> Each<T> for JointAccelerations<T> {
     fn values(&self) -> impl Iterator<Item = T> {
         [self.spin_dot].into_iter()
     }
@@ -125,15 +161,97 @@ impl<T: Scalar> Each<T> for JointAccelerations<T> {
     }
 }
 
+impl<S: Scalar> Kernels for BalancedReactionWheel<S> {
+    type Constants<T: Value> = super::Prepared<T>;
+    type Joints<T: Value> = Joints<T>;
+    type Accelerations<T: Value> = JointAccelerations<T>;
+    type PerJoint<V: Value> = PerJoint<V>;
+    type Pose<T: Value> = ();
+    type Eliminated<T: Value> = super::Eliminated<T>;
+
+    #[inline(always)]
+    fn pose<T: Angle>(_: &Joints<T>) -> Self::Pose<T> {}
+
+    #[inline(always)]
+    fn eliminate<T: Real>(
+        constants: &Self::Constants<T>,
+        (): &Self::Pose<T>,
+        joints: &Joints<T>,
+        omega: &BodyRate<T>,
+        drives: &PerJoint<Drive<T>>,
+    ) -> Self::Eliminated<T> {
+        let motors = super::Motors { u_w: drives.wheel.torque };
+        let modes = super::Modes {
+            driven_w: drives.wheel.driven,
+            held_w: drives.wheel.held,
+            given_w: drives.wheel.given,
+        };
+        super::eliminate(constants, &rates(joints), omega, &motors, &modes)
+    }
+
+    #[inline(always)]
+    fn share<T: Real>(eliminated: &Self::Eliminated<T>) -> &HubShare<T> {
+        &eliminated.share
+    }
+
+    #[inline(always)]
+    fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
+        PerJoint { wheel: Some([eliminated.pivot_w, eliminated.diagonal_w]) }
+    }
+
+    #[inline(always)]
+    fn back_substitute<T: Real>(
+        eliminated: &Self::Eliminated<T>,
+        hub: &BodyAcceleration<T>,
+    ) -> JointAccelerations<T> {
+        super::back_substitute(eliminated, hub)
+    }
+
+    #[inline(always)]
+    fn slope<T: Value>(joints: &Joints<T>, accelerations: &JointAccelerations<T>) -> Joints<T> {
+        Joints { theta: joints.spin, spin: accelerations.spin_dot }
+    }
+
+    #[inline(always)]
+    fn zip_constants<T: Value, U: Value, W: Value>(
+        a: &super::Prepared<T>,
+        b: &super::Prepared<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> super::Prepared<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
+    fn zip_joints<T: Value, U: Value, W: Value>(
+        a: &Joints<T>,
+        b: &Joints<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> Joints<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
+    fn zip_accelerations<T: Value, U: Value, W: Value>(
+        a: &JointAccelerations<T>,
+        b: &JointAccelerations<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
+    fn zip_per_joint<T: Value, U: Value, W: Value>(
+        a: &PerJoint<T>,
+        b: &PerJoint<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> PerJoint<W> {
+        a.zip(b, join)
+    }
+}
+
 impl<T: Scalar> Kind for BalancedReactionWheel<T> {
     type Scalar = T;
-    type Constants = super::Prepared<T>;
-    type Joints = Joints<T>;
     type Motors = MotorTorques<T>;
-    type Accelerations = JointAccelerations<T>;
-    type PerJoint<V: Value> = PerJoint<V>;
-    type Pose = ();
-    type Eliminated = super::Eliminated<T>;
 
     const JOINTS: &'static [JointInfo] = &[JointInfo {
         index: 0,
@@ -203,57 +321,24 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
         })
     }
 
-    fn handed(constants: &Self::Constants) -> Handed<T> {
+    fn handed(constants: &super::Prepared<T>) -> Handed<T> {
         super::handed(constants)
     }
 
-    fn pose(_: &Joints<T>) -> Self::Pose {}
-
-    fn eliminate(
-        constants: &Self::Constants,
-        (): &Self::Pose,
-        joints: &Joints<T>,
-        omega: &BodyRate<T>,
-        drives: &PerJoint<Drive<T>>,
-    ) -> Self::Eliminated {
-        let motors = super::Motors { u_w: drives.wheel.torque };
-        let modes = super::Modes {
-            driven_w: drives.wheel.driven,
-            held_w: drives.wheel.held,
-            given_w: drives.wheel.given,
-        };
-        super::eliminate(constants, &rates(joints), omega, &motors, &modes)
-    }
-
-    fn share(eliminated: &Self::Eliminated) -> &HubShare<T> {
-        &eliminated.share
-    }
-
-    fn pivots(eliminated: &Self::Eliminated) -> PerJoint<Option<[T; 2]>> {
-        PerJoint { wheel: Some([eliminated.pivot_w, eliminated.diagonal_w]) }
-    }
-
-    fn back_substitute(
-        eliminated: &Self::Eliminated,
-        hub: &BodyAcceleration<T>,
-    ) -> JointAccelerations<T> {
-        super::back_substitute(eliminated, hub)
-    }
-
     fn energy_momentum(
-        constants: &Self::Constants,
+        constants: &Self::Constants<T>,
         joints: &Joints<T>,
         hub: &BodyVelocity<T>,
     ) -> EnergyMomentum<T> {
         super::energy_momentum(constants, &rates(joints), hub)
     }
 
-    fn first_moment(constants: &Self::Constants, _: &Joints<T>) -> [[T; 3]; 2] {
+    fn first_moment(constants: &Self::Constants<T>, _: &Joints<T>) -> [[T; 3]; 2] {
         let found = super::first_moment(constants);
         [[found.mc_bx, found.mc_by, found.mc_bz], [zero(), zero(), zero()]]
     }
 
-    fn axes(constants: &Self::Constants, (): &Self::Pose) -> PerJoint<[[T; 3]; 3]> {
+    fn axes(constants: &Self::Constants<T>, (): &Self::Pose<T>) -> PerJoint<[[T; 3]; 3]> {
         let axes = super::axes(constants);
         PerJoint {
             wheel: [
@@ -265,8 +350,8 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
     }
 
     fn loads(
-        constants: &Self::Constants,
-        (): &Self::Pose,
+        constants: &Self::Constants<T>,
+        (): &Self::Pose<T>,
         joints: &Joints<T>,
         omega: &BodyRate<T>,
         hub: &BodyAcceleration<T>,
@@ -287,8 +372,8 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
     }
 
     fn external(
-        constants: &Self::Constants,
-        (): &Self::Pose,
+        constants: &Self::Constants<T>,
+        (): &Self::Pose<T>,
         bodies: &Wrenches<Self>,
     ) -> Carried<Wrenches<Self>, Wrench<T>> {
         let wrenches = super::Wrenches {
@@ -314,8 +399,8 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
     }
 
     fn gravity(
-        constants: &Self::Constants,
-        (): &Self::Pose,
+        constants: &Self::Constants<T>,
+        (): &Self::Pose<T>,
         gradient: [T; 6],
     ) -> (Wrenches<Self>, [T; 6]) {
         let [g_11, g_12, g_13, g_22, g_23, g_33] = gradient;
@@ -347,6 +432,7 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
     }
 }
 
-fn rates<T: Scalar>(joints: &Joints<T>) -> super::Rates<T> {
+#[inline(always)]
+fn rates<T: Real>(joints: &Joints<T>) -> super::Rates<T> {
     super::Rates { spin: joints.spin }
 }

@@ -13,10 +13,10 @@ use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
-    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kind, Value, Wrenches,
+    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kernels, Kind, Value, Wrenches,
     components, entries, unit, vector, zero,
 };
-use crate::{Passive, Scalar, Wrench};
+use crate::{Angle, Passive, Real, Scalar, Wrench};
 
 /// Hinged panel.
 ///
@@ -98,7 +98,7 @@ impl<V: Value> Each<V> for PerJoint<V> {
     }
 }
 
-impl<T: Scalar> JointStates<T> for Joints<T> {
+impl<T: Value> JointStates<T> for Joints<T> {
     fn states(&self) -> impl Iterator<Item = [T; 2]> {
         [[self.phi, self.phi_dot]].into_iter()
     }
@@ -108,7 +108,43 @@ impl<T: Scalar> JointStates<T> for Joints<T> {
     }
 }
 
-impl<T: Scalar> Each<T> for MotorTorques<T> {
+impl<T: Value> Joints<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Joints<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(&self, other: &Joints<U>, mut join: impl FnMut(T, U) -> W) -> Joints<W> {
+        Joints { phi: join(self.phi, other.phi), phi_dot: join(self.phi_dot, other.phi_dot) }
+    }
+}
+
+impl<V: Value> PerJoint<V> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(V) -> U) -> PerJoint<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(
+        &self,
+        other: &PerJoint<U>,
+        mut join: impl FnMut(V, U) -> W,
+    ) -> PerJoint<W> {
+        PerJoint { panel: join(self.panel, other.panel) }
+    }
+}
+
+impl<T: Value> Each<T> for MotorTorques<T> {
     fn values(&self) -> impl Iterator<Item = T> {
         [self.u_p].into_iter()
     }
@@ -118,7 +154,7 @@ impl<T: Scalar> Each<T> for MotorTorques<T> {
     }
 }
 
-impl<T: Scalar> Each<T> for JointAccelerations<T> {
+impl<T: Value> Each<T> for JointAccelerations<T> {
     fn values(&self) -> impl Iterator<Item = T> {
         [self.phi_ddot].into_iter()
     }
@@ -128,15 +164,100 @@ impl<T: Scalar> Each<T> for JointAccelerations<T> {
     }
 }
 
+impl<S: Scalar> Kernels for HingedPanel<S> {
+    type Constants<T: Value> = super::Prepared<T>;
+    type Joints<T: Value> = Joints<T>;
+    type Accelerations<T: Value> = JointAccelerations<T>;
+    type PerJoint<V: Value> = PerJoint<V>;
+    type Pose<T: Value> = super::Trig<T>;
+    type Eliminated<T: Value> = super::Eliminated<T>;
+
+    #[inline(always)]
+    fn pose<T: Angle>(joints: &Joints<T>) -> Self::Pose<T> {
+        let (sin_phi, cos_phi) = joints.phi.sin_cos();
+        super::Trig { sin_phi, cos_phi }
+    }
+
+    #[inline(always)]
+    fn eliminate<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        joints: &Joints<T>,
+        omega: &BodyRate<T>,
+        drives: &PerJoint<Drive<T>>,
+    ) -> Self::Eliminated<T> {
+        let motors = super::Motors { u_p: drives.panel.torque };
+        let modes = super::Modes {
+            driven_p: drives.panel.driven,
+            held_p: drives.panel.held,
+            given_p: drives.panel.given,
+        };
+        super::eliminate(constants, pose, &rates(joints), omega, &motors, &modes)
+    }
+
+    #[inline(always)]
+    fn share<T: Real>(eliminated: &Self::Eliminated<T>) -> &HubShare<T> {
+        &eliminated.share
+    }
+
+    #[inline(always)]
+    fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
+        PerJoint { panel: Some([eliminated.pivot_p, eliminated.diagonal_p]) }
+    }
+
+    #[inline(always)]
+    fn back_substitute<T: Real>(
+        eliminated: &Self::Eliminated<T>,
+        hub: &BodyAcceleration<T>,
+    ) -> JointAccelerations<T> {
+        super::back_substitute(eliminated, hub)
+    }
+
+    #[inline(always)]
+    fn slope<T: Value>(joints: &Joints<T>, accelerations: &JointAccelerations<T>) -> Joints<T> {
+        Joints { phi: joints.phi_dot, phi_dot: accelerations.phi_ddot }
+    }
+
+    #[inline(always)]
+    fn zip_constants<T: Value, U: Value, W: Value>(
+        a: &super::Prepared<T>,
+        b: &super::Prepared<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> super::Prepared<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
+    fn zip_joints<T: Value, U: Value, W: Value>(
+        a: &Joints<T>,
+        b: &Joints<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> Joints<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
+    fn zip_accelerations<T: Value, U: Value, W: Value>(
+        a: &JointAccelerations<T>,
+        b: &JointAccelerations<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> JointAccelerations<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
+    fn zip_per_joint<T: Value, U: Value, W: Value>(
+        a: &PerJoint<T>,
+        b: &PerJoint<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> PerJoint<W> {
+        a.zip(b, join)
+    }
+}
+
 impl<T: Scalar> Kind for HingedPanel<T> {
     type Scalar = T;
-    type Constants = super::Prepared<T>;
-    type Joints = Joints<T>;
     type Motors = MotorTorques<T>;
-    type Accelerations = JointAccelerations<T>;
-    type PerJoint<V: Value> = PerJoint<V>;
-    type Pose = super::Trig<T>;
-    type Eliminated = super::Eliminated<T>;
 
     const JOINTS: &'static [JointInfo] = &[JointInfo {
         index: 0,
@@ -215,48 +336,12 @@ impl<T: Scalar> Kind for HingedPanel<T> {
         })
     }
 
-    fn handed(constants: &Self::Constants) -> Handed<T> {
+    fn handed(constants: &super::Prepared<T>) -> Handed<T> {
         super::handed(constants)
     }
 
-    fn pose(joints: &Joints<T>) -> Self::Pose {
-        let (sin_phi, cos_phi) = joints.phi.sin_cos();
-        super::Trig { sin_phi, cos_phi }
-    }
-
-    fn eliminate(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
-        joints: &Joints<T>,
-        omega: &BodyRate<T>,
-        drives: &PerJoint<Drive<T>>,
-    ) -> Self::Eliminated {
-        let motors = super::Motors { u_p: drives.panel.torque };
-        let modes = super::Modes {
-            driven_p: drives.panel.driven,
-            held_p: drives.panel.held,
-            given_p: drives.panel.given,
-        };
-        super::eliminate(constants, pose, &rates(joints), omega, &motors, &modes)
-    }
-
-    fn share(eliminated: &Self::Eliminated) -> &HubShare<T> {
-        &eliminated.share
-    }
-
-    fn pivots(eliminated: &Self::Eliminated) -> PerJoint<Option<[T; 2]>> {
-        PerJoint { panel: Some([eliminated.pivot_p, eliminated.diagonal_p]) }
-    }
-
-    fn back_substitute(
-        eliminated: &Self::Eliminated,
-        hub: &BodyAcceleration<T>,
-    ) -> JointAccelerations<T> {
-        super::back_substitute(eliminated, hub)
-    }
-
     fn energy_momentum(
-        constants: &Self::Constants,
+        constants: &Self::Constants<T>,
         joints: &Joints<T>,
         hub: &BodyVelocity<T>,
     ) -> EnergyMomentum<T> {
@@ -264,7 +349,7 @@ impl<T: Scalar> Kind for HingedPanel<T> {
         super::energy_momentum(constants, pose, &rates(joints), hub)
     }
 
-    fn first_moment(constants: &Self::Constants, joints: &Joints<T>) -> [[T; 3]; 2] {
+    fn first_moment(constants: &Self::Constants<T>, joints: &Joints<T>) -> [[T; 3]; 2] {
         let pose = &Self::pose(joints);
         let found = super::first_moment(constants, pose, &rates(joints));
         [
@@ -273,7 +358,7 @@ impl<T: Scalar> Kind for HingedPanel<T> {
         ]
     }
 
-    fn axes(constants: &Self::Constants, pose: &Self::Pose) -> PerJoint<[[T; 3]; 3]> {
+    fn axes(constants: &Self::Constants<T>, pose: &Self::Pose<T>) -> PerJoint<[[T; 3]; 3]> {
         let axes = super::axes(constants, pose);
         PerJoint {
             panel: [
@@ -285,8 +370,8 @@ impl<T: Scalar> Kind for HingedPanel<T> {
     }
 
     fn loads(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
         joints: &Joints<T>,
         omega: &BodyRate<T>,
         hub: &BodyAcceleration<T>,
@@ -307,8 +392,8 @@ impl<T: Scalar> Kind for HingedPanel<T> {
     }
 
     fn external(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
         bodies: &Wrenches<Self>,
     ) -> Carried<Wrenches<Self>, Wrench<T>> {
         let wrenches = super::Wrenches {
@@ -334,8 +419,8 @@ impl<T: Scalar> Kind for HingedPanel<T> {
     }
 
     fn gravity(
-        constants: &Self::Constants,
-        pose: &Self::Pose,
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
         gradient: [T; 6],
     ) -> (Wrenches<Self>, [T; 6]) {
         let [g_11, g_12, g_13, g_22, g_23, g_33] = gradient;
@@ -367,6 +452,7 @@ impl<T: Scalar> Kind for HingedPanel<T> {
     }
 }
 
-fn rates<T: Scalar>(joints: &Joints<T>) -> super::Rates<T> {
+#[inline(always)]
+fn rates<T: Real>(joints: &Joints<T>) -> super::Rates<T> {
     super::Rates { phi_dot: joints.phi_dot }
 }

@@ -1,0 +1,267 @@
+//! [`AcrossDevices`]: one state of a spacecraft with many devices of one kind, devices side by side in
+//! the lanes.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use std::vec::Vec;
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::evaluate::{regular, with_passive, within_reach};
+use super::lane::Lane;
+use super::number::{Block, Number, WIDEST};
+use super::slot::{put_drives, put_joints};
+use super::width::{lanes_for, width};
+use crate::accelerations::{Outset, sound as sound_inputs, with_devices};
+use crate::assembly::along_b;
+use crate::attitude::Attitude;
+use crate::device::Device;
+use crate::devices::Devices;
+use crate::devices::Given;
+use crate::each::Each;
+use crate::error::SolveError;
+use crate::gravity::Gravity;
+use crate::inputs::Inputs;
+use crate::kernels::Kernels;
+use crate::kind::Kind;
+use crate::mode::Drive;
+use crate::parameter_error::ParameterError;
+use crate::parameters::Hub;
+use crate::passive::Passive;
+use crate::solve::Solution;
+use crate::spacecraft::Spacecraft;
+use crate::state::{Accelerations, State};
+use crate::vec3::map;
+
+/// A hub with `N` devices of one kind, evaluated as many at a time as there are lanes.
+///
+/// Worth it from four devices on. Lanes add up what the devices exert on the hub in another order than
+/// [`Spacecraft`] does, so the last bits differ.
+#[derive(Clone, Debug)]
+pub struct AcrossDevices<K: Kind<Scalar = f64>, const N: usize> {
+    craft: Spacecraft<[K; N]>,
+    lanes: Arch,
+    groups: Vec<Group<K>>,
+    /// Whether every device has what lanes have.
+    laned: bool,
+}
+
+/// The constants of as many devices as there are lanes.
+#[derive(Clone, Debug)]
+struct Group<K: Kernels> {
+    constants: K::Constants<Block>,
+    passive: K::PerJoint<Passive<Block>>,
+    /// One in the lanes that have a device.
+    weight: Block,
+    /// Whether no joint has a spring or friction.
+    free: bool,
+}
+
+impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
+    /// Checks the parameters and computes everything that depends on them alone.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::new`].
+    pub fn new(hub: &Hub, devices: &[K; N]) -> Result<Self, ParameterError<f64>> {
+        let craft = Spacecraft::new(hub, devices)?;
+        let lanes = lanes_for(N);
+        let groups = craft.devices.chunks(width(lanes)).filter_map(Group::new).collect();
+        let laned = craft.devices.iter().all(Device::is_laned);
+        Ok(Self { craft, lanes, groups, laned })
+    }
+
+    /// The spacecraft, for everything else that is asked of it.
+    #[must_use]
+    pub fn spacecraft(&self) -> &Spacecraft<[K; N]> {
+        &self.craft
+    }
+
+    /// All accelerations, as [`Spacecraft::accelerations`] gives them, to rounding.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::accelerations`].
+    pub fn accelerations<A: Attitude<f64>>(
+        &self,
+        state: &State<[K; N], A>,
+        inputs: &Inputs<[K; N]>,
+    ) -> Result<Accelerations<[K; N]>, SolveError<f64>> {
+        let found = if sound_inputs(state, inputs) { self.solve(state, inputs) } else { None };
+        found.map_or_else(|| self.craft.accelerations(state, inputs), Ok)
+    }
+
+    /// The state after `dt` seconds, as [`Spacecraft::step`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::step`].
+    pub fn step<A: Attitude<f64>>(
+        &self,
+        state: &State<[K; N], A>,
+        inputs: &Inputs<[K; N]>,
+        dt: f64,
+    ) -> Result<State<[K; N], A>, SolveError<f64>> {
+        self.craft.stepped(state, inputs, dt, |_, stage| {
+            self.solve(stage, inputs).map_or_else(|| self.craft.solve(stage, inputs), Ok)
+        })
+    }
+
+    /// The accelerations in lanes; none where lanes have not what is asked, or fail.
+    fn solve<A: Attitude<f64>>(
+        &self,
+        state: &State<[K; N], A>,
+        inputs: &Inputs<[K; N]>,
+    ) -> Option<Accelerations<[K; N]>> {
+        let central = matches!(inputs.gravity, Gravity::Central { .. });
+        if !self.laned || central || inputs.bodies.is_some() {
+            return None;
+        }
+        self.lanes.dispatch(Evaluation { across: self, state, inputs })
+    }
+}
+
+impl<K: Kind<Scalar = f64>> Group<K> {
+    /// The constants of these devices side by side; lanes without one repeat the last.
+    fn new(devices: &[Device<K>]) -> Option<Self> {
+        let (first, last) = (devices.first()?, devices.last()?);
+        let mut group = Self {
+            constants: K::zip_constants(&first.constants, &first.constants, |_, _| Block::ZERO),
+            passive: K::zip_per_joint(&first.passive, &first.passive, |passive, _| {
+                passive.map(|_| Block::ZERO)
+            }),
+            weight: Block::ZERO,
+            free: devices.iter().all(|device| device.free),
+        };
+        for lane in 0..WIDEST {
+            let device = devices.get(lane).unwrap_or(last);
+            let put = |mut block: Block, number| {
+                block.put(lane, number);
+                block
+            };
+            group.constants = K::zip_constants(&group.constants, &device.constants, put);
+            group.passive = K::zip_per_joint(&group.passive, &device.passive, |blocks, passive| {
+                let [a, b, c, d, e] = passive.named().map(|(_, number)| number);
+                Passive {
+                    stiffness: put(blocks.stiffness, a),
+                    rest: put(blocks.rest, b),
+                    viscous: put(blocks.viscous, c),
+                    coulomb: put(blocks.coulomb, d),
+                    coulomb_rate: put(blocks.coulomb_rate, e),
+                }
+            });
+            group.weight.put(lane, if lane < devices.len() { 1.0 } else { 0.0 });
+        }
+        Some(group)
+    }
+}
+
+/// One evaluation.
+struct Evaluation<'a, K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> {
+    across: &'a AcrossDevices<K, N>,
+    state: &'a State<[K; N], A>,
+    inputs: &'a Inputs<[K; N]>,
+}
+
+impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> WithSimd for Evaluation<'_, K, A, N> {
+    type Output = Option<Accelerations<[K; N]>>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        self.evaluate(Lane::<S, true>::splat(simd, 0.0))
+    }
+}
+
+impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, A, N> {
+    #[inline(always)]
+    fn evaluate<T: Number>(self, zero: T) -> Option<Accelerations<[K; N]>> {
+        let Self { across: AcrossDevices { craft, groups, .. }, state, inputs } = self;
+        let Outset { around, mut assembly, at_b } = craft.outset(state, inputs).ok()?;
+        let omega = map(around.omega, |component| zero.like(component));
+        let mut eliminations = Vec::with_capacity(groups.len());
+        let (mut holds, mut shares) = (zero.same(zero), None);
+        let mut start = 0;
+        for group in groups {
+            let (joints, drives) = gather::<K, T, N>(craft, start, &state.devices, inputs, zero)?;
+            start += T::WIDTH;
+            let load = |block| zero.load(&block);
+            let constants =
+                K::zip_constants(&group.constants, &group.constants, |block, _| load(block));
+            let drives = if group.free {
+                drives
+            } else {
+                let passive = K::zip_per_joint(&group.passive, &group.passive, |passive, _| {
+                    passive.map(load)
+                });
+                with_passive::<K, T>(&joints, &drives, &passive)
+            };
+            let pose = K::pose(&joints);
+            let eliminated = K::eliminate(&constants, &pose, &joints, &along_b(omega), &drives);
+            let regular = regular::<K, T>(zero, &eliminated, &drives);
+            let within = within_reach::<K, T>(zero, &joints);
+            holds = zero.both(holds, zero.both(within, regular));
+            let real = load(group.weight).above(zero);
+            let share = K::share(&eliminated).map(|number| number.or(real, zero));
+            shares = Some(match &shares {
+                Some(sum) => share.zip(sum, |number, sum| sum + number),
+                None => share,
+            });
+            eliminations.push(eliminated);
+        }
+        assembly.add(&shares?.map(Number::sum));
+        let hub = craft.hub_moves(inputs, &around, assembly, at_b).ok()?;
+        let splat = |v| map(v, |component| zero.like(component));
+        let of_hub =
+            Solution { r_b_n_ddot: splat(hub.r_b_n_ddot), omega_dot: splat(hub.omega_dot) };
+        let of_hub = of_hub.along_b();
+        let (mut devices, mut vanishing) = (<[K; N]>::no_accelerations_for(&craft.devices), zero);
+        let mut rest = devices.iter_mut();
+        for eliminated in &eliminations {
+            let found = K::back_substitute(eliminated, &of_hub);
+            let mut found = K::zip_accelerations(&found, &found, |number, _| {
+                vanishing = vanishing + number * zero;
+                number.store()
+            });
+            for lane in 0..T::WIDTH {
+                let Some(device) = rest.next() else { break };
+                for (number, block) in device.values_mut().zip(found.values_mut()) {
+                    *number = block.at(lane);
+                }
+            }
+        }
+        let holds = zero.like(1.0).or(zero.both(holds, vanishing.same(zero)), zero).store();
+        let all = (0..T::WIDTH).all(|lane| holds.at(lane) == 1.0);
+        if all { with_devices(inputs, &hub, at_b, devices).ok() } else { None }
+    }
+}
+
+/// The joints of a group's devices, and what is given of them.
+type Gathered<K, T> = (<K as Kernels>::Joints<T>, <K as Kernels>::PerJoint<Drive<T>>);
+
+/// Gathers the joints of a group's devices, and what is given of them.
+#[inline(always)]
+fn gather<K: Kind<Scalar = f64>, T: Number, const N: usize>(
+    craft: &Spacecraft<[K; N]>,
+    start: usize,
+    joints: &[K::Joints<f64>; N],
+    inputs: &Inputs<[K; N]>,
+    zero: T,
+) -> Option<Gathered<K, T>> {
+    let rest = <K as Kind>::at_rest();
+    let mut joints_of = K::zip_joints(&rest, &rest, |_, _| Block::ZERO);
+    let drive = <K as Kind>::all(Drive { torque: 0.0, driven: 0.0, held: 0.0, given: 0.0 });
+    let mut drives_of = K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| Block::ZERO));
+    for lane in 0..T::WIDTH {
+        let index = (start + lane).min(N - 1);
+        let (device, joints) = (craft.devices.get(index)?, joints.get(index)?);
+        let (motors, modes) = (inputs.motors.get(index)?, inputs.modes.get(index)?);
+        let drives = device.given_drives(joints, Given { motors, modes, bodies: None })?;
+        put_joints::<K>(&mut joints_of, lane, joints);
+        put_drives::<K>(&mut drives_of, lane, &drives);
+    }
+    let load = |block: Block| zero.load(&block);
+    Some((
+        K::zip_joints(&joints_of, &joints_of, |block, _| load(block)),
+        K::zip_per_joint(&drives_of, &drives_of, |drive, _| drive.map(load)),
+    ))
+}

@@ -1,0 +1,332 @@
+//! [`Batch`]: many states of one spacecraft, in the lanes of the widest registers at hand.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use std::vec::Vec;
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::evaluate::{Acting, evaluate};
+use super::lane::Lane;
+use super::motion::{Forces, Motion, at};
+use super::number::{Block, Number, WIDEST};
+use super::run::Runs;
+use super::slot::{Enter, LanedSet, Leave};
+use crate::devices::Given;
+use crate::each::Each;
+use crate::error::{Quantity, SolveError};
+use crate::gravity::Gravity;
+use crate::inputs::Inputs;
+use crate::mode::{HubMode, Mode};
+use crate::parameter_error::ParameterError;
+use crate::parameters::Hub;
+use crate::quaternion::{Quaternion, bn, norm_squared};
+use crate::spacecraft::Spacecraft;
+use crate::state::{Accelerations, State};
+use crate::vec3::{add, components, map, rotate, vector};
+
+/// What acts on the states of a batch.
+#[derive(Clone, Copy, Debug)]
+pub enum BatchInputs<'a, D: LanedSet> {
+    /// The same on each.
+    Same(&'a Inputs<D>),
+    /// One for each state, in order.
+    Each(&'a [Inputs<D>]),
+}
+
+impl<'a, D: LanedSet> From<&'a Inputs<D>> for BatchInputs<'a, D> {
+    fn from(inputs: &'a Inputs<D>) -> Self {
+        Self::Same(inputs)
+    }
+}
+
+impl<'a, D: LanedSet> From<&'a [Inputs<D>]> for BatchInputs<'a, D> {
+    fn from(inputs: &'a [Inputs<D>]) -> Self {
+        Self::Each(inputs)
+    }
+}
+
+impl<'a, D: LanedSet> From<&'a Vec<Inputs<D>>> for BatchInputs<'a, D> {
+    fn from(inputs: &'a Vec<Inputs<D>>) -> Self {
+        Self::Each(inputs)
+    }
+}
+
+impl<'a, D: LanedSet> BatchInputs<'a, D> {
+    pub(super) fn at(&self, index: usize) -> Option<&'a Inputs<D>> {
+        match self {
+            Self::Same(inputs) => Some(inputs),
+            Self::Each(inputs) => inputs.get(index),
+        }
+    }
+
+    /// The inputs from a state on.
+    pub(super) fn starting(&self, start: usize) -> Self {
+        match self {
+            Self::Same(inputs) => Self::Same(inputs),
+            Self::Each(inputs) => Self::Each(inputs.get(start..).unwrap_or(&[])),
+        }
+    }
+
+    fn fit(&self, states: usize) -> Result<(), SolveError<f64>> {
+        match self {
+            Self::Each(inputs) if inputs.len() != states => {
+                Err(SolveError::Count { expected: states, found: inputs.len() })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What became of each state of a batch, in order.
+pub type BatchAccelerations<D> = Vec<Result<Accelerations<D>, SolveError<f64>>>;
+
+/// A spacecraft that is evaluated at many states at a time.
+///
+/// A state has the result, or the error, that [`Spacecraft`] gives it by itself, to the bit: lanes that
+/// fuse are asked for by [`Self::fused`]. What lanes have not is found one state after another: a
+/// central field, wrenches on bodies, dry friction, lumped imbalance, a hub that is not free, angles
+/// beyond `2^24` rad, and whatever fails.
+#[derive(Clone, Debug)]
+pub struct Batch<D: LanedSet> {
+    pub(super) craft: Spacecraft<D>,
+    pub(super) fused: bool,
+}
+
+impl<D: LanedSet> Batch<D> {
+    /// Checks the parameters and computes everything that depends on them alone.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::new`].
+    pub fn new(hub: &Hub, devices: &D) -> Result<Self, ParameterError<f64>> {
+        Ok(Self { craft: Spacecraft::new(hub, devices)?, fused: false })
+    }
+
+    /// The same with products and sums rounded once where the CPU does that: other bits, and faster on
+    /// some CPUs.
+    #[must_use]
+    pub fn fused(self) -> Self {
+        Self { fused: true, ..self }
+    }
+
+    /// The spacecraft, for everything that is asked of one state.
+    #[must_use]
+    pub fn spacecraft(&self) -> &Spacecraft<D> {
+        &self.craft
+    }
+
+    /// All accelerations of each state, as [`Spacecraft::accelerations`]. `out` is cleared first.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Count`] where there are inputs for another number of states; a state that cannot
+    /// be evaluated has its own error in `out`.
+    pub fn accelerations<'a>(
+        &self,
+        states: &[State<D>],
+        inputs: impl Into<BatchInputs<'a, D>>,
+        out: &mut BatchAccelerations<D>,
+    ) -> Result<(), SolveError<f64>>
+    where
+        D: 'a,
+    {
+        let inputs = inputs.into();
+        inputs.fit(states.len())?;
+        out.clear();
+        out.reserve(states.len());
+        Arch::new().dispatch(Evaluation { batch: self, states, inputs, out });
+        Ok(())
+    }
+
+    /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is left
+    /// as it was before the step that failed. `out` is cleared first.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::accelerations`].
+    pub fn run<'a>(
+        &self,
+        states: &mut [State<D>],
+        inputs: impl Into<BatchInputs<'a, D>>,
+        dt: f64,
+        steps: usize,
+        out: &mut Vec<Result<(), SolveError<f64>>>,
+    ) -> Result<(), SolveError<f64>>
+    where
+        D: 'a,
+    {
+        let inputs = inputs.into();
+        inputs.fit(states.len())?;
+        if !dt.is_finite() {
+            return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
+        }
+        out.clear();
+        out.reserve(states.len());
+        Arch::new().dispatch(Runs { batch: self, states, inputs, dt, steps, out });
+        Ok(())
+    }
+
+    /// One state by itself, step after step.
+    pub(super) fn alone(
+        &self,
+        state: &mut State<D>,
+        inputs: &Inputs<D>,
+        dt: f64,
+        steps: usize,
+    ) -> Result<(), SolveError<f64>> {
+        for _ in 0..steps {
+            *state = self.craft.step(state, inputs, dt)?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether lanes have this state: a quaternion as it is, and numbers where the result may not show
+/// that they are none.
+#[inline(always)]
+fn laned_state<D: LanedSet>(state: &State<D>) -> bool {
+    let Quaternion { q0, q1, q2, q3 } = state.attitude;
+    let [[a, b, c], [d, e, f]] = [components(&state.r_b_n), components(&state.r_b_n_dot)];
+    (NEAR_ONE..=NEAR_ONE.recip()).contains(&norm_squared([q0, q1, q2, q3]))
+        && (a + b + c + d + e + f).is_finite()
+}
+
+/// Whether lanes have what is asked of the hub and of the world around, in numbers.
+#[inline(always)]
+fn laned_inputs<D: LanedSet>(inputs: &Inputs<D>) -> bool {
+    let [[a, b, c], [d, e, f]] = [components(&inputs.force), components(&inputs.torque_b)];
+    inputs.hub == HubMode::Free
+        && inputs.bodies.is_none()
+        && !matches!(inputs.gravity, Gravity::Central { .. })
+        && inputs.motors.values().fold(a + b + c + d + e + f, |sum, u| sum + u).is_finite()
+}
+
+/// A quaternion whose squared length is between this and its reciprocal is taken as it is.
+pub(super) const NEAR_ONE: f64 = 1e-20;
+
+/// The accelerations of a batch.
+struct Evaluation<'a, 'o, D: LanedSet> {
+    batch: &'a Batch<D>,
+    states: &'a [State<D>],
+    inputs: BatchInputs<'a, D>,
+    out: &'o mut BatchAccelerations<D>,
+}
+
+impl<D: LanedSet> WithSimd for Evaluation<'_, '_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        if self.batch.fused {
+            self.evaluate(Lane::<S, true>::splat(simd, 0.0));
+        } else {
+            self.evaluate(Lane::<S, false>::splat(simd, 0.0));
+        }
+    }
+}
+
+impl<D: LanedSet> Evaluation<'_, '_, D> {
+    #[inline(always)]
+    fn evaluate<T: Number>(self, zero: T) {
+        let craft = &self.batch.craft;
+        let mut group = Group::<D, T>::new(craft, zero);
+        for (index, states) in self.states.chunks(T::WIDTH).enumerate() {
+            let inputs = self.inputs.starting(index * T::WIDTH);
+            group.gather(zero, craft, states, &inputs);
+            let acting = group.acting(zero);
+            let found = evaluate(craft, &mut group.slots, &acting);
+            D::each(&craft.devices, &mut group.slots, &mut Leave);
+            let holds = zero.like(1.0).or(found.holds, zero).store();
+            let r_b_n_ddot = map(found.r_b_n_ddot, Number::store);
+            let omega_dot = map(found.omega_dot, Number::store);
+            for (lane, state) in states.iter().enumerate() {
+                let Some(inputs) = inputs.at(lane) else { continue };
+                self.out.push(if group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0 {
+                    let r_b_n_ddot = vector(at(&r_b_n_ddot, lane));
+                    let omega_dot = vector(at(&omega_dot, lane));
+                    let mut devices = D::no_accelerations_for(&craft.devices);
+                    D::take_found(&mut group.slots, lane, &mut devices);
+                    Ok(Accelerations { r_b_n_ddot, omega_dot, devices })
+                } else {
+                    craft.accelerations(state, inputs)
+                });
+            }
+        }
+    }
+}
+
+/// As many states as there are lanes.
+pub(super) struct Group<D: LanedSet, T: Number> {
+    pub(super) slots: D::Slots<T>,
+    /// The lanes that have what is asked.
+    pub(super) laned: [bool; WIDEST],
+    /// Whether what is given of the joints stands there already, the same for every state.
+    given: bool,
+    /// The hub's motion on its way in.
+    pub(super) motion: Motion<Block>,
+    /// What acts on the hub, on its way in.
+    forces: Forces<Block>,
+}
+
+impl<D: LanedSet, T: Number> Group<D, T> {
+    pub(super) fn new(craft: &Spacecraft<D>, zero: T) -> Self {
+        Self {
+            slots: D::slots(&craft.devices, zero),
+            laned: [true; WIDEST],
+            given: false,
+            motion: Motion::ZERO,
+            forces: Forces::ZERO,
+        }
+    }
+
+    /// Takes states in. Lanes beyond the last of them repeat it: they cost nothing and harm nothing.
+    #[inline(always)]
+    pub(super) fn gather(
+        &mut self,
+        zero: T,
+        craft: &Spacecraft<D>,
+        states: &[State<D>],
+        all: &BatchInputs<'_, D>,
+    ) {
+        let Some(last) = states.len().checked_sub(1) else { return };
+        for lane in 0..T::WIDTH {
+            let index = lane.min(last);
+            let (Some(state), Some(inputs)) = (states.get(index), all.at(index)) else { return };
+            let given = (!self.given).then(|| Given::of(inputs));
+            self.laned[lane & (WIDEST - 1)] = (self.given || laned_inputs(inputs))
+                && laned_state(state)
+                && D::put(&craft.devices, &mut self.slots, lane, &state.devices, given);
+            self.motion.put(lane, state);
+            if !self.given {
+                self.forces.put(lane, inputs);
+            }
+        }
+        // A locked joint is looked at in each state.
+        self.given = match all {
+            BatchInputs::Same(inputs) => {
+                self.laned == [true; WIDEST]
+                    && inputs.modes.values().all(|mode| mode != Mode::Locked)
+            }
+            BatchInputs::Each(_) => false,
+        };
+        D::each(&craft.devices, &mut self.slots, &mut Enter(zero));
+    }
+
+    /// What acts at the state that was taken in.
+    #[inline(always)]
+    fn acting(&self, zero: T) -> Acting<T> {
+        let q = |index: usize| zero.load(&self.motion.q[index]);
+        let omega = map(self.motion.omega, |block| zero.load(&block));
+        self.acting_at(zero, [q(0), q(1), q(2), q(3)], omega)
+    }
+
+    /// What acts at another attitude and angular velocity.
+    #[inline(always)]
+    pub(super) fn acting_at(&self, zero: T, attitude: [T; 4], omega: [T; 3]) -> Acting<T> {
+        let Forces { force, torque_b, field } = self.forces.map(|block| zero.load(&block));
+        // No field is `0.0` in a single evaluation, never `-0.0`.
+        let at_b = add(rotate(&bn(attitude), field), [zero; 3]);
+        Acting { omega, force, torque_b, at_b }
+    }
+}

@@ -1,0 +1,187 @@
+//! One evaluation in lanes: what [`Spacecraft::accelerations`] does, several states at a time.
+//!
+//! The same kernels and the same arithmetic in the same order: lanes that do not fuse have the bits of
+//! single numbers. Nothing stops where a lane fails; what holds of each lane is told at the end.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use super::number::Number;
+use super::slot::{LanedSet, Slot, Visit};
+use crate::assembly::{Assembly, along_b};
+use crate::device::Device;
+use crate::each::JointStates;
+use crate::generated::hub::BodyAcceleration;
+use crate::kernels::Kernels;
+use crate::kind::Kind;
+use crate::mode::Drive;
+use crate::passive::Passive;
+use crate::sincos::LARGEST_ANGLE;
+use crate::solve::PIVOT_EPSILONS;
+use crate::spacecraft::Spacecraft;
+use crate::vec3::{Vec3, add};
+
+/// What acts on the hub, along B axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Acting<T> {
+    pub(crate) omega: Vec3<T>,
+    pub(crate) force: Vec3<T>,
+    pub(crate) torque_b: Vec3<T>,
+    /// A uniform field.
+    pub(crate) at_b: Vec3<T>,
+}
+
+/// What an evaluation finds of the hub, and the lanes where it holds; what it finds of the devices
+/// stands in their slots.
+#[derive(Clone, Copy)]
+pub(crate) struct Found<T: Number> {
+    pub(crate) r_b_n_ddot: Vec3<T>,
+    pub(crate) omega_dot: Vec3<T>,
+    pub(crate) holds: T::Holds,
+}
+
+/// Evaluates the devices in their slots, and the hub.
+#[inline(always)]
+pub(crate) fn evaluate<D: LanedSet, T: Number>(
+    craft: &Spacecraft<D>,
+    slots: &mut D::Slots<T>,
+    acting: &Acting<T>,
+) -> Found<T> {
+    let [like, ..] = acting.omega;
+    let body = craft.body.map(|constant| like.like(constant));
+    let mut elimination = Elimination {
+        omega: acting.omega,
+        assembly: Assembly::new(&body, acting.force, acting.torque_b),
+        holds: like.same(like),
+    };
+    D::each(&craft.devices, slots, &mut elimination);
+    let Elimination { assembly, mut holds, .. } = elimination;
+    let (solution, pivots) = assembly.system(acting.omega).solved();
+    let [a, b, c, d, e, f] = pivots;
+    let [ab, cd, ef] = [[a, b], [c, d], [e, f]];
+    holds = like.both(like.both(both_sound(ab), both_sound(cd)), like.both(both_sound(ef), holds));
+    let zero = like.like(0.0);
+    let [x, y, z] = solution.r_b_n_ddot;
+    let [p, q, r] = solution.omega_dot;
+    let vanishing = (x + y + z + p + q + r) * zero;
+    let mut back = BackSubstitution { hub: solution.along_b(), zero, vanishing };
+    D::each(&craft.devices, slots, &mut back);
+    let r_b_n_ddot = add(solution.r_b_n_ddot, acting.at_b);
+    let [x, y, z] = r_b_n_ddot;
+    let vanishing = back.vanishing + (x + y + z) * zero;
+    let holds = like.both(holds, vanishing.same(zero));
+    Found { r_b_n_ddot, omega_dot: solution.omega_dot, holds }
+}
+
+/// Where a pivot is more than rounding of its diagonal.
+#[inline(always)]
+fn sound<T: Number>(pivot: T, diagonal: T) -> T::Holds {
+    pivot.above(pivot.like(PIVOT_EPSILONS * f64::EPSILON) * diagonal)
+}
+
+/// Where two pivots are.
+#[inline(always)]
+fn both_sound<T: Number>([[a, of_a], [b, of_b]]: [[T; 2]; 2]) -> T::Holds {
+    a.both(sound(a, of_a), sound(b, of_b))
+}
+
+/// Eliminates each device into the hub's system.
+struct Elimination<T: Number> {
+    omega: Vec3<T>,
+    assembly: Assembly<T>,
+    holds: T::Holds,
+}
+
+impl<T: Number> Visit<T> for Elimination<T> {
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(&mut self, device: &Device<K>, slot: &mut Slot<K, T>) {
+        let [like, ..] = self.omega;
+        let constants = K::zip_constants(&device.constants, &device.constants, |constant, _| {
+            like.like(constant)
+        });
+        let within = within_reach::<K, T>(like, &slot.joints);
+        let pose = K::pose(&slot.joints);
+        let drives = if device.free {
+            slot.drives
+        } else {
+            let passive = K::zip_per_joint(&device.passive, &device.passive, |passive, _| {
+                passive.map(|number| like.like(number))
+            });
+            with_passive::<K, T>(&slot.joints, &slot.drives, &passive)
+        };
+        let omega = along_b(self.omega);
+        let eliminated = K::eliminate(&constants, &pose, &slot.joints, &omega, &drives);
+        let regular = regular::<K, T>(like, &eliminated, &drives);
+        self.holds = like.both(self.holds, like.both(within, regular));
+        self.assembly.add(K::share(&eliminated));
+        slot.eliminated = Some(eliminated);
+    }
+}
+
+/// Where every angle is one whose sine is right.
+#[inline(always)]
+pub(super) fn within_reach<K: Kernels, T: Number>(like: T, joints: &K::Joints<T>) -> T::Holds {
+    let (limit, mut holds) = (like.like(LARGEST_ANGLE), like.same(like));
+    K::zip_joints(joints, joints, |number, _| {
+        holds = like.both(holds, limit.above(number.abs()));
+        number
+    });
+    holds
+}
+
+/// Where the pivot of each joint that is driven is more than rounding.
+#[inline(always)]
+pub(super) fn regular<K: Kernels, T: Number>(
+    like: T,
+    eliminated: &K::Eliminated<T>,
+    drives: &K::PerJoint<Drive<T>>,
+) -> T::Holds {
+    let (zero, mut holds) = (like.like(0.0), like.same(like));
+    K::zip_per_joint(&K::pivots(eliminated), drives, |pivot, drive| {
+        if let Some([pivot, diagonal]) = pivot {
+            let idle = drive.driven.same(zero);
+            holds = like.both(holds, like.either(idle, sound(pivot, diagonal)));
+        }
+        zero
+    });
+    holds
+}
+
+/// What is given of the joints, springs and dampers with the motors.
+#[inline(always)]
+pub(super) fn with_passive<K: Kernels, T: Number>(
+    joints: &K::Joints<T>,
+    drives: &K::PerJoint<Drive<T>>,
+    passive: &K::PerJoint<Passive<T>>,
+) -> K::PerJoint<Drive<T>> {
+    let mut states = joints.states();
+    let states =
+        K::zip_per_joint(drives, drives, |drive, _| states.next().unwrap_or([drive.torque; 2]));
+    let own = K::zip_per_joint(&states, passive, |[coordinate, rate], passive| {
+        let spring = -(passive.stiffness * (coordinate - passive.rest));
+        spring + -(passive.viscous * rate)
+    });
+    K::zip_per_joint(drives, &own, |drive, own| Drive {
+        torque: drive.torque + own * drive.driven,
+        ..drive
+    })
+}
+
+/// Finds each device's own accelerations.
+struct BackSubstitution<T> {
+    hub: BodyAcceleration<T>,
+    zero: T,
+    /// Zero where every acceleration so far is finite, else NaN.
+    vanishing: T,
+}
+
+impl<T: Number> Visit<T> for BackSubstitution<T> {
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+        let Some(eliminated) = &slot.eliminated else { return };
+        let found = K::back_substitute(eliminated, &self.hub);
+        slot.found = K::zip_accelerations(&found, &found, |number, _| {
+            self.vanishing = self.vanishing + number * self.zero;
+            number
+        });
+    }
+}

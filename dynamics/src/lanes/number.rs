@@ -1,0 +1,69 @@
+//! [`Number`]: what an evaluation in lanes asks of its lanes beyond the kernels, and [`Block`], what
+//! lanes are gathered in.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use crate::real::Angle;
+
+/// The widest lanes there are.
+pub(crate) const WIDEST: usize = 8;
+
+/// One number for each lane, in memory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Block(pub(crate) [f64; WIDEST]);
+
+impl Block {
+    /// Zero in every lane.
+    pub(crate) const ZERO: Self = Self([0.0; WIDEST]);
+
+    /// Puts a number into one lane; there is none beyond the widest.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, lane: usize, number: f64) {
+        if let Some(place) = self.0.get_mut(lane) {
+            *place = number;
+        }
+    }
+
+    /// The number in one lane.
+    #[inline(always)]
+    pub(crate) fn at(&self, lane: usize) -> f64 {
+        self.0.get(lane).copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// Several numbers side by side, one per lane.
+///
+/// Everything is part of what calls it, down to the function that may use the instructions.
+pub trait Number: Angle {
+    /// Whether something holds, lane by lane.
+    type Holds: Copy;
+
+    /// How many lanes there are, at most [`WIDEST`].
+    const WIDTH: usize;
+
+    /// The first lanes of a block, as numbers of the same kind as `self`.
+    #[must_use]
+    fn load(self, block: &Block) -> Self;
+    /// The lanes as a block; what is beyond the width is zero.
+    fn store(self) -> Block;
+    /// The sum over the lanes.
+    fn sum(self) -> f64;
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// Magnitude.
+    #[must_use]
+    fn abs(self) -> Self;
+    /// Whether `self > other`, which a NaN never is.
+    fn above(self, other: Self) -> Self::Holds;
+    /// Whether `self == other`.
+    fn same(self, other: Self) -> Self::Holds;
+    /// Whether both hold.
+    fn both(self, a: Self::Holds, b: Self::Holds) -> Self::Holds;
+    /// Whether one of both holds.
+    fn either(self, a: Self::Holds, b: Self::Holds) -> Self::Holds;
+    /// `self` where it holds, else `other`.
+    #[must_use]
+    fn or(self, holds: Self::Holds, other: Self) -> Self;
+}

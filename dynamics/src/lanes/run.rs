@@ -1,0 +1,162 @@
+//! Whole runs of a batch: the steps of [`Spacecraft::step`](crate::Spacecraft::step), quaternions and
+//! joints in lanes from the first step to the last.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use std::vec::Vec;
+
+use pulp::{Simd, WithSimd};
+
+use super::batch::{Batch, BatchInputs, Group, NEAR_ONE};
+use super::evaluate::evaluate;
+use super::lane::Lane;
+use super::motion::Motion;
+use super::number::{Number, WIDEST};
+use super::slot::{LanedSet, Leave, Slot, Visit};
+use crate::device::Device;
+use crate::error::SolveError;
+use crate::kind::Kind;
+use crate::quaternion::{bn, norm_squared, rate};
+use crate::spacecraft::Spacecraft;
+use crate::state::State;
+use crate::vec3::rotate_transposed;
+
+/// The runs of a batch.
+pub(super) struct Runs<'a, 's, 'o, D: LanedSet> {
+    pub(super) batch: &'a Batch<D>,
+    pub(super) states: &'s mut [State<D>],
+    pub(super) inputs: BatchInputs<'a, D>,
+    pub(super) dt: f64,
+    pub(super) steps: usize,
+    pub(super) out: &'o mut Vec<Result<(), SolveError<f64>>>,
+}
+
+impl<D: LanedSet> WithSimd for Runs<'_, '_, '_, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        if self.batch.fused {
+            self.run(Lane::<S, true>::splat(simd, 0.0));
+        } else {
+            self.run(Lane::<S, false>::splat(simd, 0.0));
+        }
+    }
+}
+
+impl<D: LanedSet> Runs<'_, '_, '_, D> {
+    #[inline(always)]
+    fn run<T: Number>(self, zero: T) {
+        let craft = &self.batch.craft;
+        let mut group = Group::<D, T>::new(craft, zero);
+        for (index, states) in self.states.chunks_mut(T::WIDTH).enumerate() {
+            let inputs = self.inputs.starting(index * T::WIDTH);
+            group.gather(zero, craft, states, &inputs);
+            let mut motion = group.motion.map(|block| zero.load(&block));
+            let mut holds = zero.same(zero);
+            for _ in 0..self.steps {
+                let step_holds = step(craft, &mut group, zero, self.dt, &mut motion);
+                holds = zero.both(holds, step_holds);
+            }
+            D::each(&craft.devices, &mut group.slots, &mut Leave);
+            let motion = motion.map(Number::store);
+            let holds = zero.like(1.0).or(holds, zero).store();
+            for (lane, state) in states.iter_mut().enumerate() {
+                let Some(inputs) = inputs.at(lane) else { continue };
+                self.out.push(if group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0 {
+                    motion.take(lane, state);
+                    D::take_joints(&mut group.slots, lane, &mut state.devices);
+                    Ok(())
+                } else {
+                    self.batch.alone(state, inputs, self.dt, self.steps)
+                });
+            }
+        }
+    }
+}
+
+/// One step of the hub's motion and of the joints in their slots; the lanes where it holds.
+#[inline(always)]
+fn step<D: LanedSet, T: Number>(
+    craft: &Spacecraft<D>,
+    group: &mut Group<D, T>,
+    zero: T,
+    dt: f64,
+    motion: &mut Motion<T>,
+) -> T::Holds {
+    let (middle, sixth, third) = (0.5 * dt, dt * 6.0_f64.recip(), dt * 3.0_f64.recip());
+    let (start, near) = (*motion, zero.like(NEAR_ONE));
+    let (mut now, mut sum) = (start, start.map(|_| zero));
+    let mut holds = zero.same(zero);
+    for (weight, time) in [(sixth, middle), (third, middle), (third, dt), (sixth, 0.0)] {
+        let (attitude, omega) = (now.q, now.omega);
+        let square = norm_squared(attitude);
+        let long = square.above(near);
+        holds = zero.both(holds, zero.both(long, zero.like(NEAR_ONE.recip()).above(square)));
+        let acting = group.acting_at(zero, attitude, omega);
+        let found = evaluate(craft, &mut group.slots, &acting);
+        holds = zero.both(holds, found.holds);
+        let slope = Motion {
+            r: now.v,
+            v: rotate_transposed(&bn(attitude), found.r_b_n_ddot),
+            q: rate(attitude, omega),
+            omega: found.omega_dot,
+        };
+        let (weight, time) = (zero.like(weight), zero.like(time));
+        sum = sum.zip(&slope, |sum, slope| sum.add_mul(weight, slope));
+        now = start.zip(&slope, |start, slope| start + zero.add_mul(time, slope));
+        D::each(&craft.devices, &mut group.slots, &mut Stage { zero, weight, time });
+    }
+    let mut end = End { zero, vanishing: zero };
+    D::each(&craft.devices, &mut group.slots, &mut end);
+    let mut next = start.zip(&sum, |start, sum| start + sum);
+    let length = norm_squared(next.q);
+    let long = length.above(near);
+    holds = zero.both(holds, zero.both(long, zero.like(NEAR_ONE.recip()).above(length)));
+    let (scale, [q0, q1, q2, q3]) = (length.sqrt().recip(), next.q);
+    next.q = [scale * q0, scale * q1, scale * q2, scale * q3];
+    let mut vanishing = end.vanishing;
+    *motion = next.map(|number| {
+        vanishing = vanishing + number * zero;
+        number
+    });
+    zero.both(holds, vanishing.same(zero))
+}
+
+/// Adds a stage's slope to what the step adds up to, and moves on to the next stage.
+struct Stage<T> {
+    zero: T,
+    weight: T,
+    time: T,
+}
+
+impl<T: Number> Visit<T> for Stage<T> {
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+        let Self { zero, weight, time } = *self;
+        let slope = K::slope(&slot.joints, &slot.found);
+        slot.sum = K::zip_joints(&slot.sum, &slope, |sum, slope| sum.add_mul(weight, slope));
+        slot.joints =
+            K::zip_joints(&slot.start, &slope, |start, slope| start + zero.add_mul(time, slope));
+    }
+}
+
+/// Ends a step: the next one begins where it leads.
+struct End<T> {
+    zero: T,
+    /// Zero where every number so far is finite, else NaN.
+    vanishing: T,
+}
+
+impl<T: Number> Visit<T> for End<T> {
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+        slot.start = K::zip_joints(&slot.start, &slot.sum, |start, sum| {
+            let next = start + sum;
+            self.vanishing = self.vanishing + next * self.zero;
+            next
+        });
+        slot.joints = slot.start;
+        slot.sum = K::zip_joints(&slot.sum, &slot.sum, |_, _| self.zero);
+    }
+}

@@ -1,0 +1,159 @@
+//! Sets of sets in lanes: arrays and tuples. Each call goes on to the members, in order.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use std::vec::Vec;
+
+use super::slot::{LanedSet, Visit};
+use crate::devices::Given;
+use crate::each::Value;
+use crate::real::Real;
+
+impl<D: LanedSet, const N: usize> LanedSet for [D; N] {
+    type Slots<T: Value> = Vec<D::Slots<T>>;
+
+    fn slots<T: Real>(devices: &[D::Prepared; N], fill: T) -> Self::Slots<T> {
+        devices.iter().map(|device| D::slots(device, fill)).collect()
+    }
+
+    #[inline(always)]
+    fn each<T: Value>(
+        devices: &[D::Prepared; N],
+        slots: &mut Self::Slots<T>,
+        visitor: &mut impl Visit<T>,
+    ) {
+        let mut slots = slots.iter_mut();
+        for device in devices {
+            let Some(slot) = slots.next() else { return };
+            D::each(device, slot, visitor);
+        }
+    }
+
+    #[inline(always)]
+    fn put<T: Value>(
+        devices: &[D::Prepared; N],
+        slots: &mut Self::Slots<T>,
+        lane: usize,
+        joints: &[D::Joints; N],
+        given: Option<Given<'_, Self>>,
+    ) -> bool {
+        let (mut slots, mut joints) = (slots.iter_mut(), joints.iter());
+        let mut motors = given.map(|given| given.motors.iter());
+        let mut modes = given.map(|given| given.modes.iter());
+        for device in devices {
+            let (Some(slot), Some(joints)) = (slots.next(), joints.next()) else { return false };
+            let given = match (motors.as_mut(), modes.as_mut()) {
+                (Some(motors), Some(modes)) => match (motors.next(), modes.next()) {
+                    (Some(motors), Some(modes)) => Some(Given { motors, modes, bodies: None }),
+                    _ => return false,
+                },
+                _ => None,
+            };
+            if !D::put(device, slot, lane, joints, given) {
+                return false;
+            }
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn take_joints<T: Value>(slots: &mut Self::Slots<T>, lane: usize, joints: &mut [D::Joints; N]) {
+        let mut joints = joints.iter_mut();
+        for slot in slots {
+            let Some(joints) = joints.next() else { return };
+            D::take_joints(slot, lane, joints);
+        }
+    }
+
+    #[inline(always)]
+    fn take_found<T: Value>(
+        slots: &mut Self::Slots<T>,
+        lane: usize,
+        found: &mut [D::Accelerations; N],
+    ) {
+        let mut found = found.iter_mut();
+        for slot in slots {
+            let Some(found) = found.next() else { return };
+            D::take_found(slot, lane, found);
+        }
+    }
+}
+
+macro_rules! tuples {
+    ($(($($rest:ident $place:tt),*);)*) => {$(
+        impl<A: LanedSet, $($rest: LanedSet),*> LanedSet for (A, $($rest,)*) {
+            type Slots<T: Value> = (A::Slots<T>, $($rest::Slots<T>,)*);
+
+            fn slots<T: Real>(devices: &Self::Prepared, fill: T) -> Self::Slots<T> {
+                (A::slots(&devices.0, fill), $($rest::slots(&devices.$place, fill),)*)
+            }
+
+            #[inline(always)]
+            fn each<T: Value>(
+                devices: &Self::Prepared,
+                slots: &mut Self::Slots<T>,
+                visitor: &mut impl Visit<T>,
+            ) {
+                A::each(&devices.0, &mut slots.0, visitor);
+                $($rest::each(&devices.$place, &mut slots.$place, visitor);)*
+            }
+
+            #[inline(always)]
+            fn put<T: Value>(
+                devices: &Self::Prepared,
+                slots: &mut Self::Slots<T>,
+                lane: usize,
+                joints: &Self::Joints,
+                given: Option<Given<'_, Self>>,
+            ) -> bool {
+                A::put(&devices.0, &mut slots.0, lane, &joints.0, given.map(|given| Given {
+                    motors: &given.motors.0,
+                    modes: &given.modes.0,
+                    bodies: None,
+                }))
+                $(&& $rest::put(
+                    &devices.$place,
+                    &mut slots.$place,
+                    lane,
+                    &joints.$place,
+                    given.map(|given| Given {
+                        motors: &given.motors.$place,
+                        modes: &given.modes.$place,
+                        bodies: None,
+                    }),
+                ))*
+            }
+
+            #[inline(always)]
+            fn take_joints<T: Value>(
+                slots: &mut Self::Slots<T>,
+                lane: usize,
+                joints: &mut Self::Joints,
+            ) {
+                A::take_joints(&mut slots.0, lane, &mut joints.0);
+                $($rest::take_joints(&mut slots.$place, lane, &mut joints.$place);)*
+            }
+
+            #[inline(always)]
+            fn take_found<T: Value>(
+                slots: &mut Self::Slots<T>,
+                lane: usize,
+                found: &mut Self::Accelerations,
+            ) {
+                A::take_found(&mut slots.0, lane, &mut found.0);
+                $($rest::take_found(&mut slots.$place, lane, &mut found.$place);)*
+            }
+        }
+    )*};
+}
+
+tuples! {
+    ();
+    (B 1);
+    (B 1, C 2);
+    (B 1, C 2, D 3);
+    (B 1, C 2, D 3, E 4);
+    (B 1, C 2, D 3, E 4, F 5);
+    (B 1, C 2, D 3, E 4, F 5, G 6);
+    (B 1, C 2, D 3, E 4, F 5, G 6, H 7);
+}

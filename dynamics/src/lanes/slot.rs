@@ -1,0 +1,186 @@
+//! [`Slot`]: one device in lanes, and [`LanedSet`]: the slots of a whole set.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use super::number::{Block, Number};
+use crate::device::Device;
+use crate::devices::{Devices, Given};
+use crate::each::{Each, JointStates, Value};
+use crate::kernels::Kernels;
+use crate::kind::Kind;
+use crate::mode::Drive;
+use crate::real::Real;
+
+/// One device in lanes: what it is given, and what an evaluation and a step make of it.
+#[derive(Clone, Debug)]
+pub struct Slot<K: Kernels, T: Value> {
+    /// Coordinates and rates on their way in and out.
+    pub(crate) block: K::Joints<Block>,
+    /// Torques and modes on their way in.
+    pub(crate) given: K::PerJoint<Drive<Block>>,
+    /// Accelerations on their way out.
+    pub(crate) out: K::Accelerations<Block>,
+    /// Coordinates and rates where the step began.
+    pub(crate) start: K::Joints<T>,
+    /// Coordinates and rates now.
+    pub(crate) joints: K::Joints<T>,
+    /// What the step adds up to.
+    pub(crate) sum: K::Joints<T>,
+    /// Torques and modes, without what joints do by themselves.
+    pub(crate) drives: K::PerJoint<Drive<T>>,
+    /// What back substitution needs; none before the first evaluation.
+    pub(crate) eliminated: Option<K::Eliminated<T>>,
+    /// The accelerations.
+    pub(crate) found: K::Accelerations<T>,
+}
+
+/// What is done with each device of a set.
+pub trait Visit<T: Value> {
+    /// Does it with one device.
+    fn visit<K: Kind<Scalar = f64>>(&mut self, device: &Device<K>, slot: &mut Slot<K, T>);
+}
+
+/// A set of devices that can be evaluated in lanes: every kind, arrays, tuples, vectors.
+pub trait LanedSet: Devices<Scalar = f64> {
+    /// The devices in lanes.
+    type Slots<T: Value>;
+
+    /// Slots filled with a number.
+    fn slots<T: Real>(devices: &Self::Prepared, fill: T) -> Self::Slots<T>;
+    /// Each device in order.
+    fn each<T: Value>(
+        devices: &Self::Prepared,
+        slots: &mut Self::Slots<T>,
+        visitor: &mut impl Visit<T>,
+    );
+    /// Puts the joints and what is given of them into one lane. False where a device or its modes ask
+    /// for what lanes have not, or for what an evaluation refuses.
+    fn put<T: Value>(
+        devices: &Self::Prepared,
+        slots: &mut Self::Slots<T>,
+        lane: usize,
+        joints: &Self::Joints,
+        given: Option<Given<'_, Self>>,
+    ) -> bool;
+    /// Takes the joints of one lane out.
+    fn take_joints<T: Value>(slots: &mut Self::Slots<T>, lane: usize, joints: &mut Self::Joints);
+    /// Takes the accelerations of one lane out.
+    fn take_found<T: Value>(
+        slots: &mut Self::Slots<T>,
+        lane: usize,
+        found: &mut Self::Accelerations,
+    );
+}
+
+impl<K: Kind<Scalar = f64>> LanedSet for K {
+    type Slots<T: Value> = Slot<K, T>;
+
+    fn slots<T: Real>(_: &Device<K>, fill: T) -> Slot<K, T> {
+        let rest = <K as Kind>::at_rest();
+        let still = K::no_accelerations();
+        let drive = <K as Kind>::all(Drive { torque: 0.0, driven: 0.0, held: 0.0, given: 0.0 });
+        let joints = K::zip_joints(&rest, &rest, |_, _| fill);
+        Slot {
+            block: K::zip_joints(&rest, &rest, |_, _| Block::ZERO),
+            given: K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| Block::ZERO)),
+            out: K::zip_accelerations(&still, &still, |_, _| Block::ZERO),
+            start: joints,
+            joints,
+            sum: joints,
+            drives: K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| fill)),
+            eliminated: None,
+            found: K::zip_accelerations(&still, &still, |_, _| fill),
+        }
+    }
+
+    #[inline(always)]
+    fn each<T: Value>(device: &Device<K>, slot: &mut Slot<K, T>, visitor: &mut impl Visit<T>) {
+        visitor.visit(device, slot);
+    }
+
+    #[inline(always)]
+    fn put<T: Value>(
+        device: &Device<K>,
+        slot: &mut Slot<K, T>,
+        lane: usize,
+        joints: &K::Joints<f64>,
+        given: Option<Given<'_, Self>>,
+    ) -> bool {
+        put_joints::<K>(&mut slot.block, lane, joints);
+        if let Some(given) = given {
+            let Some(drives) = device.given_drives(joints, given) else { return false };
+            put_drives::<K>(&mut slot.given, lane, &drives);
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn take_joints<T: Value>(slot: &mut Slot<K, T>, lane: usize, joints: &mut K::Joints<f64>) {
+        // The blocks in place: by value, each would be copied for one of its numbers.
+        for (numbers, blocks) in joints.states_mut().zip(slot.block.states_mut()) {
+            let ([q, q_dot], [coordinate, rate]) = (numbers, blocks);
+            (*q, *q_dot) = (coordinate.at(lane), rate.at(lane));
+        }
+    }
+
+    #[inline(always)]
+    fn take_found<T: Value>(slot: &mut Slot<K, T>, lane: usize, found: &mut K::Accelerations<f64>) {
+        for (number, block) in found.values_mut().zip(slot.out.values_mut()) {
+            *number = block.at(lane);
+        }
+    }
+}
+
+/// Puts joints into one lane, in place: a block that is moved while its lanes are written one by one
+/// costs more than an evaluation.
+#[inline(always)]
+pub(super) fn put_joints<K: Kernels>(
+    blocks: &mut K::Joints<Block>,
+    lane: usize,
+    joints: &K::Joints<f64>,
+) {
+    for ([coordinate, rate], [q, q_dot]) in blocks.states_mut().zip(joints.states()) {
+        coordinate.put(lane, q);
+        rate.put(lane, q_dot);
+    }
+}
+
+/// Puts torques and modes into one lane.
+#[inline(always)]
+pub(super) fn put_drives<K: Kernels>(
+    blocks: &mut K::PerJoint<Drive<Block>>,
+    lane: usize,
+    drives: &K::PerJoint<Drive<f64>>,
+) {
+    for (blocks, drive) in blocks.values_mut().zip(drives.values()) {
+        blocks.torque.put(lane, drive.torque);
+        blocks.driven.put(lane, drive.driven);
+        blocks.held.put(lane, drive.held);
+        blocks.given.put(lane, drive.given);
+    }
+}
+
+/// Takes what was put into blocks into lanes, where a step begins.
+pub(crate) struct Enter<T>(pub(crate) T);
+
+impl<T: Number> Visit<T> for Enter<T> {
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+        slot.joints = K::zip_joints(&slot.block, &slot.block, |block, _| self.0.load(&block));
+        slot.start = slot.joints;
+        slot.sum = K::zip_joints(&slot.joints, &slot.joints, |_, _| self.0);
+        slot.drives =
+            K::zip_per_joint(&slot.given, &slot.given, |given, _| given.map(|b| self.0.load(&b)));
+    }
+}
+
+/// Brings joints and accelerations from lanes into blocks.
+pub(crate) struct Leave;
+
+impl<T: Number> Visit<T> for Leave {
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+        slot.block = K::zip_joints(&slot.joints, &slot.joints, |number, _| number.store());
+        slot.out = K::zip_accelerations(&slot.found, &slot.found, |number, _| number.store());
+    }
+}

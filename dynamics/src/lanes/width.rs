@@ -1,0 +1,32 @@
+//! Which registers serve how many devices.
+
+use pulp::{Arch, Simd, WithSimd};
+
+/// Up to so many devices are as fast in registers of four, of which less is left empty.
+const FEW: usize = 4;
+
+/// The widest registers of the CPU at hand that so many devices fill.
+pub(super) fn lanes_for(devices: usize) -> Arch {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if let (true, Some(simd)) = (devices <= FEW, pulp::x86::V3::try_new()) {
+        return Arch::V3(simd);
+    }
+    Arch::new()
+}
+
+/// How many numbers they hold.
+pub(super) fn width(lanes: Arch) -> usize {
+    lanes.dispatch(Width)
+}
+
+struct Width;
+
+impl WithSimd for Width {
+    type Output = usize;
+
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as pulp asks")]
+    fn with_simd<S: Simd>(self, _: S) -> usize {
+        S::F64_LANES
+    }
+}

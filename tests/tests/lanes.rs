@@ -1,0 +1,230 @@
+//! The services in lanes against single evaluations, to the bit where that is promised, and against
+//! higher precision (row A2).
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::lanes::{AcrossDevices, Batch};
+use precess_dynamics::{
+    Accelerations, Dgvscmg, Gravity, Hub, HubMode, Inputs, Mode, Passive, ReactionWheel, Sgcmg,
+    SloshMass, SolveError, Spacecraft, State,
+};
+use precess_tests::blocks::{Figures, errors, worst};
+use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, SPACECRAFT};
+use precess_tests::case::{Case, Set};
+use precess_tests::double_double::DoubleDouble as Wide;
+use precess_tests::random::{Sample, Visitor, visit};
+
+/// The accelerations of a case in a batch of one.
+fn batched<const N: usize>(case: &Case<N>, fused: bool) -> Accelerations<Set<N>> {
+    let batch = Batch::new(&case.hub, &case.devices).unwrap();
+    let batch = if fused { batch.fused() } else { batch };
+    let mut found = Vec::new();
+    batch.accelerations(&[case.state], &case.inputs, &mut found).unwrap();
+    found.remove(0).unwrap()
+}
+
+/// The accelerations of a case with its devices side by side.
+fn across<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
+    let across = AcrossDevices::new(&case.hub, &case.devices).unwrap();
+    across.accelerations(&case.state, &case.inputs).unwrap()
+}
+
+#[test]
+fn batch_has_the_bits_of_single_evaluations() {
+    struct Bits;
+    impl Visitor for Bits {
+        fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
+            let case = sample.case::<f64>();
+            assert_eq!(batched(&case, false), case.solved(sample), "{sample}");
+        }
+    }
+    visit(SPACECRAFT, &mut Bits);
+}
+
+#[test]
+fn services_agree_with_higher_precision() {
+    struct Services {
+        fused: Figures,
+        across: Figures,
+    }
+    impl Visitor for Services {
+        fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
+            let (case, reference) = (sample.case::<f64>(), sample.case::<Wide>().reference());
+            let found = [
+                ("fused batch", batched(&case, true), &mut self.fused),
+                ("across devices", across(&case), &mut self.across),
+            ];
+            for (service, found, figures) in found {
+                let (error, what) = worst(errors(&found, &reference));
+                figures.add(error);
+                assert!(error <= ACCELERATIONS_WORST, "{service}: {error:e} in {what} ({sample})");
+            }
+        }
+    }
+    let mut services = Services { fused: Figures::default(), across: Figures::default() };
+    visit(SPACECRAFT, &mut services);
+    for (service, figures) in [("fused batch", services.fused), ("across", services.across)] {
+        let (worst, median) = (figures.worst(), figures.median());
+        println!("A2, {service}: worst {worst:.2e}, median {median:.2e} of the block");
+        assert!(median <= ACCELERATIONS_MEDIAN, "{service}: median {median:e}");
+    }
+}
+
+type Mixed = ([ReactionWheel; 2], Sgcmg, SloshMass);
+
+fn hub() -> Hub {
+    Hub {
+        m_b: 120.0,
+        r_bc_b: Vector3::new(0.01, -0.02, 0.05),
+        i_b_bc: Matrix3::new(20.0, 0.3, -0.2, 0.3, 18.0, 0.1, -0.2, 0.1, 15.0),
+    }
+}
+
+fn mixed() -> Mixed {
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, 0.01));
+    let wheel = ReactionWheel { d: 1e-5, ..ReactionWheel::bare_wheel(3.0, disc) };
+    let mut tank = SloshMass::bare_slosh_mass(4.0);
+    tank.passive.slosh_mass = Passive::spring(9.0, 0.1);
+    ([wheel, ReactionWheel { r_w_b: Vector3::new(0.1, 0.0, 0.2), ..wheel }], gyro(), tank)
+}
+
+fn gyro() -> Sgcmg {
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, 0.01));
+    Sgcmg { d: 2e-5, ..Sgcmg::bare_wheel(5.0, disc) }
+}
+
+/// States that differ in everything.
+fn states(count: u32) -> Vec<State<Mixed>> {
+    let state = |k: u32| {
+        let x = f64::from(k);
+        let mut state: State<Mixed> = State::at_rest();
+        state.r_b_n = Vector3::new(x, 1.0, -x);
+        state.r_b_n_dot = Vector3::new(0.1, 0.2 * x, 0.3);
+        state.omega = Vector3::new(0.1 * x.sin(), 0.2, 0.1 * x.cos());
+        state.attitude.q1 = 0.1 * x;
+        state.devices.0[0].theta = 40.0 * x;
+        state.devices.0[0].spin = 300.0 - x;
+        state.devices.0[1].spin = -200.0 + x;
+        state.devices.1.gamma = x.sin();
+        state.devices.1.spin = 500.0;
+        state.devices.2.x = 0.01 * x;
+        state.devices.2.x_dot = -0.02 * x;
+        state
+    };
+    (0..count).map(state).collect()
+}
+
+/// Inputs with a prescribed gimbal, a locked wheel and a uniform field, each a little different.
+fn inputs(k: u32) -> Inputs<Mixed> {
+    let mut inputs: Inputs<Mixed> = Inputs::none();
+    inputs.force = Vector3::new(1.0, f64::from(k), -2.0);
+    inputs.motors.0[1].u_w = 0.05 * f64::from(k);
+    inputs.modes.1.gimbal = Mode::Prescribed(0.2);
+    inputs.gravity = Gravity::Uniform(Vector3::new(0.0, 0.1, -9.81));
+    inputs
+}
+
+#[test]
+fn any_number_of_states_has_the_bits_of_single_evaluations() {
+    let (craft, batch) =
+        (Spacecraft::new(&hub(), &mixed()).unwrap(), Batch::new(&hub(), &mixed()).unwrap());
+    let mut found = Vec::new();
+    for count in [0, 1, 2, 7, 8, 9, 17] {
+        let (states, each) = (states(count), (0..count).map(inputs).collect::<Vec<_>>());
+        batch.accelerations(&states, &each, &mut found).unwrap();
+        let single =
+            states.iter().zip(&each).map(|(state, inputs)| craft.accelerations(state, inputs));
+        assert_eq!(found, single.collect::<Vec<_>>(), "{count} states");
+        batch.accelerations(&states, &inputs(3), &mut found).unwrap();
+        let single = states.iter().map(|state| craft.accelerations(state, &inputs(3)));
+        assert_eq!(found, single.collect::<Vec<_>>(), "{count} states, one input");
+    }
+}
+
+#[test]
+fn runs_have_the_bits_of_single_steps() {
+    let (craft, batch) =
+        (Spacecraft::new(&hub(), &mixed()).unwrap(), Batch::new(&hub(), &mixed()).unwrap());
+    let mut found = Vec::new();
+    for count in [1, 8, 9] {
+        let (mut run, inputs) = (states(count), inputs(2));
+        batch.run(&mut run, &inputs, 1e-3, 20, &mut found).unwrap();
+        assert!(found.iter().all(Result::is_ok), "{found:?}");
+        for (start, end) in states(count).iter().zip(&run) {
+            let step = |state, _| craft.step(&state, &inputs, 1e-3).unwrap();
+            assert_eq!((0..20).fold(*start, step), *end);
+        }
+    }
+}
+
+#[test]
+fn each_state_has_its_own_error_and_the_others_their_result() {
+    let (craft, batch) =
+        (Spacecraft::new(&hub(), &mixed()).unwrap(), Batch::new(&hub(), &mixed()).unwrap());
+    let mut states = states(9);
+    let mut each: Vec<_> = (0..9).map(inputs).collect();
+    states[1].omega.x = f64::NAN;
+    states[2].r_b_n.y = f64::INFINITY;
+    states[3].attitude.q0 = 0.0;
+    states[3].attitude.q1 = 0.0;
+    each[4].modes.0[0].wheel = Mode::Locked;
+    each[5].hub = HubMode::Fixed;
+    each[6].gravity = Gravity::Central { mu: 4e14 };
+    states[7].devices.0[0].theta = 1e9;
+    each[8].force.z = f64::MAX;
+    states[8].omega.z = 1e160;
+    let mut found = Vec::new();
+    batch.accelerations(&states, &each, &mut found).unwrap();
+    for (k, (state, inputs)) in states.iter().zip(&each).enumerate() {
+        let single = craft.accelerations(state, inputs);
+        assert_eq!(format!("{:?}", found[k]), format!("{single:?}"), "state {k}");
+    }
+    let refused: Vec<_> = found.iter().map(Result::is_err).collect();
+    assert_eq!(refused, [false, true, true, true, true, true, false, false, true]);
+    // A run that fails is left where the last step that did not fail led.
+    let (mut run, mut ends) = (states.clone(), Vec::new());
+    batch.run(&mut run, &each, 1e-3, 3, &mut ends).unwrap();
+    for (k, (start, inputs)) in states.iter().zip(&each).enumerate() {
+        let mut state = *start;
+        let end = (0..3).try_for_each(|_| {
+            state = craft.step(&state, inputs, 1e-3)?;
+            Ok::<_, SolveError<f64>>(())
+        });
+        assert_eq!(format!("{:?}", (run[k], &ends[k])), format!("{:?}", (state, &end)), "run {k}");
+    }
+}
+
+#[test]
+fn inputs_for_another_number_of_states_are_refused() {
+    let batch = Batch::new(&hub(), &mixed()).unwrap();
+    let each: Vec<_> = (0..3).map(inputs).collect();
+    assert!(batch.accelerations(&states(2), &each, &mut Vec::new()).is_err());
+}
+
+#[test]
+fn singular_device_is_named_across_lanes() {
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    let devices = [Dgvscmg::bare_wheel(4.0, disc); 11];
+    let across = AcrossDevices::new(&hub(), &devices).unwrap();
+    let craft = Spacecraft::new(&hub(), &devices).unwrap();
+    let mut state: State<[Dgvscmg; 11]> = State::at_rest();
+    state.devices[9].gamma_i = core::f64::consts::FRAC_PI_2;
+    let refused = across.accelerations(&state, &Inputs::none());
+    assert!(refused.is_err());
+    assert_eq!(refused, craft.accelerations(&state, &Inputs::none()));
+}
+
+#[test]
+fn steps_across_devices_follow_single_steps() {
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    let devices = [Sgcmg { d: 1e-4, ..Sgcmg::bare_wheel(4.0, disc) }; 5];
+    let across = AcrossDevices::new(&hub(), &devices).unwrap();
+    let craft = Spacecraft::new(&hub(), &devices).unwrap();
+    let mut state: State<[Sgcmg; 5]> = State::at_rest();
+    state.omega.x = 0.1;
+    state.devices[3].spin = 400.0;
+    let inputs = Inputs::none();
+    let there = across.step(&state, &inputs, 1e-3).unwrap();
+    let single = craft.step(&state, &inputs, 1e-3).unwrap();
+    // Sums in another order: some bits of velocities of order 0.1 rad/s.
+    assert!((there.omega - single.omega).norm() <= 1e-15);
+}
