@@ -1,5 +1,7 @@
 //! The services: ways of asking the solver for accelerations.
 
+mod across;
+mod batch;
 mod one;
 mod step;
 
@@ -12,6 +14,9 @@ use serde_json::json;
 
 /// What a service could not do.
 pub(crate) type Refused = Box<dyn Error>;
+
+/// The row of the issue floor that bounds fused lanes.
+const WIDEST: &str = "8 lanes, fused";
 
 /// A spacecraft opened for one of the services.
 pub(crate) trait Service {
@@ -31,6 +36,12 @@ pub(crate) enum Name {
     One,
     /// One state, whole steps of the Runge-Kutta method, by four evaluations each
     Step,
+    /// One state, its devices side by side in lanes
+    Across,
+    /// Many states in lanes
+    Batch,
+    /// Runs of many states in lanes
+    Runs,
 }
 
 impl Name {
@@ -40,6 +51,9 @@ impl Name {
         let (name, title, checked, floor) = match self {
             Self::One => ("one", "Precess, one state", true, "f64"),
             Self::Step => ("step", "Precess, RK4 steps of one state, per evaluation", false, "f64"),
+            Self::Across => ("across", "Precess, devices in lanes", true, WIDEST),
+            Self::Batch => ("batch", "Precess, batch of states, per state", true, WIDEST),
+            Self::Runs => ("runs", "Precess, RK4 runs of a batch, per evaluation", false, WIDEST),
         };
         json!({ "name": name, "title": title, "checked": checked, "floor": floor })
     }
@@ -51,7 +65,7 @@ pub(crate) fn open(name: Name, stored: &Stored) -> Result<Box<dyn Service>, Refu
     macro_rules! arrays {
         ($($n:literal)*) => {
             match stored.devices.len() {
-                $($n => of(name, stored, &array::<$n>(stored)?),)*
+                $($n => of_array(name, stored, &array::<$n>(stored)?),)*
                 _ => of(name, stored, &stored.dgvscmgs().collect::<Vec<_>>()),
             }
         };
@@ -72,6 +86,20 @@ fn array<const N: usize>(stored: &Stored) -> Result<[Dgvscmg; N], Refused> {
     devices.try_into().map_err(|_| format!("{found} devices, not {N}").into())
 }
 
+fn of_array<const N: usize>(
+    name: Name,
+    stored: &Stored,
+    devices: &[Dgvscmg; N],
+) -> Result<Box<dyn Service>, Refused> {
+    let many = || batch::Many::open(stored, devices);
+    Ok(match name {
+        Name::Across => Box::new(across::Across::open(stored, devices)?),
+        Name::Batch => Box::new(batch::Evaluated(many()?)),
+        Name::Runs => Box::new(batch::Runs(many()?)),
+        Name::One | Name::Step => of(name, stored, devices)?,
+    })
+}
+
 fn of<D: Devices<Scalar = f64> + 'static>(
     name: Name,
     stored: &Stored,
@@ -80,5 +108,8 @@ fn of<D: Devices<Scalar = f64> + 'static>(
     Ok(match name {
         Name::One => Box::new(one::One::open(stored, devices)?),
         Name::Step => Box::new(step::Step(one::One::open(stored, devices)?)),
+        Name::Across | Name::Batch | Name::Runs => {
+            return Err(format!("{} devices: lanes take arrays", stored.devices.len()).into());
+        }
     })
 }

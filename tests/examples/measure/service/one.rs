@@ -10,7 +10,7 @@ use super::{Refused, Service};
 
 /// By what share of its derivative the angular velocity of a call exceeds that of the one before:
 /// enough to make each call wait for the last, not enough to move the state.
-const NUDGE: f64 = 1e-15;
+pub(super) const NUDGE: f64 = 1e-15;
 
 /// A spacecraft in a state.
 pub(crate) struct One<D: Devices> {

@@ -1,0 +1,44 @@
+//! One state, its devices side by side in lanes.
+
+use std::hint::black_box;
+
+use precess_dynamics::lanes::AcrossDevices;
+use precess_dynamics::{Dgvscmg, Inputs, State};
+use precess_tests::stored::Stored;
+
+use super::one::{NUDGE, flat};
+use super::{Refused, Service};
+
+/// A spacecraft in a state.
+pub(crate) struct Across<const N: usize> {
+    craft: AcrossDevices<Dgvscmg, N>,
+    state: State<[Dgvscmg; N]>,
+    inputs: Inputs<[Dgvscmg; N]>,
+}
+
+impl<const N: usize> Across<N> {
+    pub(super) fn open(stored: &Stored, devices: &[Dgvscmg; N]) -> Result<Self, Refused> {
+        let craft = AcrossDevices::new(&stored.hub(), devices)?;
+        let state = stored.motion(State::at_rest_for(craft.spacecraft()));
+        let inputs = stored.forces(Inputs::none_for(craft.spacecraft()));
+        Ok(Self { craft, state, inputs })
+    }
+}
+
+impl<const N: usize> Service for Across<N> {
+    fn accelerations(&mut self) -> Result<Vec<f64>, Refused> {
+        Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
+    }
+
+    fn run(&mut self, calls: u32) -> Result<(), Refused> {
+        for _ in 0..calls {
+            let found = self.craft.accelerations(black_box(&self.state), &self.inputs)?;
+            self.state.omega += black_box(&found).omega_dot * NUDGE;
+        }
+        Ok(())
+    }
+
+    fn evaluations(&self) -> u32 {
+        1
+    }
+}
