@@ -117,12 +117,6 @@ fn a_control_moment_gyro_is_its_variable_speed_twin_with_the_wheel_prescribed() 
     }
 }
 
-/// Without mass and at zero, where the wheel's imbalance pulls across `b_x` alone.
-#[test]
-fn a_reaction_wheel_is_a_vscmg_with_its_gimbal_prescribed() {
-    assert_prescribed(&VSCMG, "g", &["m_g", "f_w_bx"], &REACTION_WHEEL);
-}
-
 #[test]
 fn a_driven_joint_is_not_a_prescribed_one() {
     let (driven, given) = (eliminated(&VSCMG, &[], &[]), eliminated(&VSCMG, &["w"], &[]));

@@ -15,7 +15,7 @@ use crate::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
 use crate::mode::{Drive, Mode};
 use crate::passive::Passive;
 use crate::real::{Scalar, one, zero};
-use crate::solve::{Solution, check_pivot};
+use crate::solve::check_pivot;
 use crate::symmetric::Symmetric;
 use crate::validation::triangle_excess;
 use crate::vec3::{Columns, Vec3, add, columns, components, rotate, rotate_transposed, vector};
@@ -232,15 +232,6 @@ impl<K: Kind> Device<K> {
         let entries = [g.xx, g.xy, g.xz, g.yy, g.yz, g.zz];
         let (wrenches, [xx, xy, xz, yy, yz, zz]) = K::gravity(&self.constants, pose, entries);
         (wrenches, Symmetric { xx, xy, xz, yy, yz, zz })
-    }
-
-    /// The joints' accelerations once the hub's are known.
-    pub(crate) fn back_substitute(
-        &self,
-        e: &K::Eliminated<K::Scalar>,
-        hub: &Solution<K::Scalar>,
-    ) -> K::Accelerations<K::Scalar> {
-        K::back_substitute(e, &hub.along_b())
     }
 
     /// Adds kinetic energy and momenta for the inertial velocity of B, along B axes.

@@ -190,7 +190,7 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         hub: &Solution<K::Scalar>,
     ) -> Option<Vec<K::Scalar>> {
         let eliminated = eliminated.downcast_ref::<K::Eliminated<K::Scalar>>()?;
-        Some(self.back_substitute(eliminated, hub).values().collect())
+        Some(K::back_substitute(eliminated, &hub.along_b()).values().collect())
     }
 
     fn add_sums(

@@ -108,13 +108,13 @@ impl<K: Kind> Devices for K {
     }
 
     fn back_substitute(
-        device: &Device<K>,
+        _: &Device<K>,
         scratch: &Option<K::Eliminated<K::Scalar>>,
         hub: &Solution<K::Scalar>,
         out: &mut K::Accelerations<K::Scalar>,
     ) {
         if let Some(eliminated) = scratch {
-            *out = device.back_substitute(eliminated, hub);
+            *out = K::back_substitute(eliminated, &hub.along_b());
         }
     }
 

@@ -76,6 +76,9 @@ pub(crate) fn regen(options: &Options) -> Result<(), String> {
     }
 }
 
+/// What every function costs, and what each pass brings.
+const OPERATIONS: &str = "docs/operations.md";
+
 fn print(made: &Regeneration, quiet: bool) {
     let shown: Vec<_> = made.rows.iter().filter(|row| !quiet || !row.holds()).collect();
     if !shown.is_empty() {
@@ -88,6 +91,10 @@ fn print(made: &Regeneration, quiet: bool) {
             say!("\n{}", kind.unwrap_or("as printed"));
         }
         say!("{row}");
+    }
+    let operations = made.files.iter().find(|file| file.path == OPERATIONS);
+    if let Some(EmittedFile { text, .. }) = operations.filter(|_| !quiet) {
+        say!("\n{text}");
     }
     let held = made.rows.iter().filter(|row| row.holds()).count();
     say!("{held} of {} claims proven equal", made.rows.len());

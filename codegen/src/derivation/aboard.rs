@@ -10,7 +10,7 @@
 //! equations.
 
 use super::Share;
-use super::base::{Based, Passes, based};
+use super::base::{Based, based};
 use super::carriers::{Carrying, carriers};
 use super::chain::{Chain, Coordinate};
 use super::joint::AtJoint;
@@ -25,8 +25,8 @@ use crate::space::{Carrier, Hub, Own, Symmetric, Vector};
 /// blocks of the joints, and the bias without what the hub's own motion asks for. Along B axes; the
 /// mass is the hub's.
 #[must_use]
-pub fn aboard<'g>(chain: &Chain<'g>, passes: Passes, script: &mut Script<'g>) -> Share<'g> {
-    let based = based(chain, passes, script);
+pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
+    let based = based(chain, script);
     let axes = first_axes(chain, script);
     let omega = Vector::new(axes.map(|axis| axis.dot(chain.hub.omega)));
     let data = &chain.kind.links[0].body;
@@ -94,15 +94,15 @@ impl<'g> Walk<'g> {
         let inner = chain.kind.links[k - 1].body.frame;
         let lump = based.links[k].lump.plus(self.lump).turned_back(link).handed_back();
         let back = |v: Vector<'g, Own>| v.turned(link.turn.inverse()).handed_back();
-        let turned = |w: &Wrench<'g, Own>| Wrench { force: back(w.force), moment: back(w.moment) };
-        self.rates = turned(&self.rates);
-        self.columns = self.columns.iter().map(turned).collect();
+        for wrench in self.columns.iter_mut().chain([&mut self.rates]) {
+            *wrench = Wrench { force: back(wrench.force), moment: back(wrench.moment) };
+        }
         self.row(chain, k, inner, lump, carrying, script);
         let arm = based.links[k].origin.handed_back();
-        let moved = |w: &Wrench<'g, Own>| Wrench { moment: w.moment + arm.cross(w.force), ..*w };
         self.lump = lump.shifted(arm);
-        self.rates = moved(&self.rates);
-        self.columns = self.columns.iter().map(moved).collect();
+        for wrench in self.columns.iter_mut().chain([&mut self.rates]) {
+            wrench.moment = wrench.moment + arm.cross(wrench.force);
+        }
     }
 
     /// The first joint's row, along its body's own axes.
@@ -309,8 +309,8 @@ impl<'g> Walk<'g> {
 }
 
 /// What the hub takes over of a device, about B along B axes: parameters alone.
-pub fn handed<'g>(chain: &Chain<'g>, passes: Passes, script: &mut Script<'g>) {
-    let Lump { first_moment, inertia, .. } = based(chain, passes, script).handed;
+pub fn handed<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
+    let Lump { first_moment, inertia, .. } = based(chain, script).handed;
     let mass = chain.links.iter().skip(1).fold(chain.links[0].mass, |sum, link| sum + link.mass);
     script.section(
         "hand",

@@ -35,6 +35,13 @@ impl Passes {
     pub const ALL: Self = Self { slide: true, regroup: true };
     /// Bodies and origins as they are given.
     pub const NONE: Self = Self { slide: false, regroup: false };
+    /// One after the other, and both.
+    pub const EACH: [Self; 4] = [
+        Self::NONE,
+        Self { slide: true, ..Self::NONE },
+        Self { regroup: true, ..Self::NONE },
+        Self::ALL,
+    ];
 }
 
 /// A joint's origin and what turns or slides with it, after the passes.
@@ -55,7 +62,8 @@ pub(super) struct Based<'g> {
 }
 
 /// Makes the passes; the bodies' own lumps go to `script`.
-pub(super) fn based<'g>(chain: &Chain<'g>, passes: Passes, script: &mut Script<'g>) -> Based<'g> {
+pub(super) fn based<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Based<'g> {
+    let passes = chain.passes;
     let bodies = chain.links.iter().zip(chain.kind.links);
     let links =
         bodies.map(|(link, data)| Base { origin: link.origin, lump: Lump::of(link, data, script) });

@@ -1,5 +1,6 @@
 //! The symbols of a device and of the hub that carries it.
 
+use super::base::Passes;
 use crate::graph::{Expr, Graph, Stage};
 use crate::kinds::{Centre, Kind, Motion};
 use crate::space::{Carrier, ENTRIES, Hub, Own, Symmetric, Turn, Vector};
@@ -17,6 +18,8 @@ pub struct Chain<'g> {
     pub links: Vec<Link<'g>>,
     /// What belongs to the hub and to the whole.
     pub hub: HubSymbols<'g>,
+    /// What the derivation of the equations of motion does to the chain first.
+    pub passes: Passes,
     /// The device's axes along B axes: `mount`, column by column.
     pub mount: [Vector<'g, Hub>; 3],
 }
@@ -98,6 +101,12 @@ impl<'g> Chain<'g> {
     /// The symbols of `kind` and of the hub.
     #[must_use]
     pub fn new(graph: &'g Graph, kind: &'static Kind) -> Self {
+        Self::after(graph, kind, Passes::ALL)
+    }
+
+    /// The same for other passes, to see what they bring.
+    #[must_use]
+    pub fn after(graph: &'g Graph, kind: &'static Kind, passes: Passes) -> Self {
         let hub = HubSymbols::new(graph);
         let mut links: Vec<_> = (0..kind.links.len()).map(|k| Link::new(graph, kind, k)).collect();
         for k in (0..links.len().saturating_sub(1)).rev() {
@@ -109,7 +118,7 @@ impl<'g> Chain<'g> {
             let entry = |row| graph.symbol(&mount_entry(row, column), Stage::Parameter);
             Vector::new([0, 1, 2].map(entry))
         });
-        Self { graph, kind, links, hub, mount }
+        Self { graph, kind, links, hub, passes, mount }
     }
 }
 

@@ -14,8 +14,9 @@ use super::home::Home;
 use super::prepare::{Prepared, prepared};
 use super::render::Rendered;
 use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
+use crate::derivation::base::Passes;
 use crate::derivation::chain::Chain;
-use crate::graph::{Node, NodeId};
+use crate::graph::{Graph, Node, NodeId};
 use crate::kernel::{Kernel, Record, Source, kernels, parameters};
 use crate::kernel::{joint_accelerations, modes, motors, pose, rates, shared_records, wrenches};
 use crate::kinds::{Kind, Motion};
@@ -116,9 +117,29 @@ pub struct Emitted {
     pub(super) module: &'static str,
     pub(super) device_type: String,
     pub(super) counts: Vec<CountText>,
+    /// Operations of `eliminate` after each set of passes over the chain.
+    pub(super) passes: Vec<usize>,
+}
+
+/// Operations of `eliminate` after each of [`Passes::EACH`].
+fn passes(kind: &'static Kind) -> Vec<usize> {
+    let after = |passes| {
+        let graph = Graph::new();
+        let chain = Chain::after(&graph, kind, passes);
+        let kernels = kernels(&chain);
+        let prepared = prepared(&graph, &kernels, &parameters(kind));
+        let eliminate = kernels.iter().find(|kernel| kernel.name == "eliminate");
+        eliminate.map_or(0, |kernel| kernel_body(&chain, kernel, &prepared).counts.total())
+    };
+    Passes::EACH.map(after).to_vec()
 }
 
 impl Emitted {
+    /// Kind, and operations of `eliminate` after each of [`Passes::EACH`].
+    pub(crate) fn passes(&self) -> (&'static str, &[usize]) {
+        (self.module, &self.passes)
+    }
+
     /// Each function and what a call of it costs.
     pub(crate) fn operations(&self) -> Vec<(String, usize)> {
         self.counts.iter().map(|count| (count.function.clone(), count.total)).collect()
@@ -135,7 +156,9 @@ pub fn of_kind(chain: &Chain<'_>, home: Home<'_>) -> Result<Emitted, EmitError> 
     let kernels = kind_file(&tera, chain, home, &mut counts, &mut signatures)?;
     let device = device_file(&tera, chain.kind, home, &signatures)?;
     let device_type = type_name(chain.kind);
-    Ok(Emitted { files: vec![kernels, device], module: chain.kind.name, device_type, counts })
+    let files = vec![kernels, device];
+    let passes = passes(chain.kind);
+    Ok(Emitted { files, module: chain.kind.name, device_type, counts, passes })
 }
 
 pub(super) fn templates() -> Result<Tera, EmitError> {

@@ -47,6 +47,8 @@ pub fn shared(kinds: &[Emitted]) -> Result<Vec<EmittedFile>, EmitError> {
     let mut context = Context::new();
     let rows: Vec<_> = kinds.iter().flat_map(|kind| &kind.counts).collect();
     context.insert("rows", &rows);
+    let passes: Vec<_> = kinds.iter().map(Emitted::passes).collect();
+    context.insert("passes", &passes);
     let text = tera.render("operations.md", &context)?;
     Ok(vec![hub, list, EmittedFile { path: "docs/operations.md".to_owned(), text }])
 }

@@ -2,7 +2,6 @@
 
 use super::{Claim, Kernel, Record, inputs, records};
 use crate::derivation::aboard::aboard;
-use crate::derivation::base::Passes;
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::{Eliminated, HUB, eliminate};
 use crate::derivation::script::Script;
@@ -11,9 +10,9 @@ use crate::kinds::{Kind, Link, Motion};
 
 /// The kernel and the elimination behind it.
 #[must_use]
-pub(super) fn kernel<'g>(chain: &Chain<'g>, passes: Passes) -> (Kernel<'g>, Eliminated<'g>) {
+pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
     let mut script = Script::new(chain.graph);
-    let share = aboard(chain, passes, &mut script);
+    let share = aboard(chain, &mut script);
     let eliminated = eliminate(chain, &share, &mut script);
     let kind = chain.kind;
     let torques: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();

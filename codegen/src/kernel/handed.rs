@@ -2,15 +2,14 @@
 
 use super::{Claim, Kernel, Record, records};
 use crate::derivation::aboard::handed;
-use crate::derivation::base::Passes;
 use crate::derivation::chain::Chain;
 use crate::derivation::script::Script;
 
 /// The kernel.
 #[must_use]
-pub(super) fn kernel<'g>(chain: &Chain<'g>, passes: Passes) -> Kernel<'g> {
+pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let mut script = Script::new(chain.graph);
-    handed(chain, passes, &mut script);
+    handed(chain, &mut script);
     let mass = chain.links.iter().skip(1).fold(chain.links[0].mass, |sum, link| sum + link.mass);
     Kernel {
         name: "handed".to_owned(),

@@ -16,7 +16,6 @@ pub use records::{
     shared_records, wrenches,
 };
 
-use crate::derivation::base::Passes;
 use crate::derivation::chain::Chain;
 use crate::derivation::script::{Section, pairs, triple};
 use crate::derivation::wrench::Wrench;
@@ -85,16 +84,10 @@ impl<'g> Claim<'g> {
 /// Every kernel of a chain, in the order of the emitted file.
 #[must_use]
 pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
-    kernels_after(chain, Passes::ALL)
-}
-
-/// The same with these passes over the chain.
-#[must_use]
-pub fn kernels_after<'g>(chain: &Chain<'g>, passes: Passes) -> Vec<Kernel<'g>> {
     let mut list = kinematics::kernels(chain);
-    let (kernel, eliminated) = eliminate::kernel(chain, passes);
+    let (kernel, eliminated) = eliminate::kernel(chain);
     let back = back_substitute::kernel(chain, &eliminated, kernel.output.clone());
-    list.extend([handed::kernel(chain, passes), kernel, back]);
+    list.extend([handed::kernel(chain), kernel, back]);
     list.push(momenta::kernel(chain));
     list.push(axes::kernel(chain));
     list.push(loads::kernel(chain));

@@ -111,6 +111,8 @@ fn motion(parts: &[&str]) -> Option<Symbol> {
             plain("\\omega", with_axis(frames, rest)?)
         }
         ["alpha", of] => plain("\\alpha", frame(of)?),
+        // The device's axes in the hub.
+        ["mount", entry] => plain("\\mathcal{B}", *entry),
         ["h", of, wrt] => plain("H", format!("{},{}", point(of)?, point(wrt)?)),
         ["l", arm @ ("o" | "i" | "g")] => plain(&format!("L^{{{arm}}}"), ""),
         ["l", arm @ ("o" | "i" | "g"), component] => plain(&format!("L^{{{arm}}}"), *component),

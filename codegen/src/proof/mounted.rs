@@ -138,7 +138,7 @@ fn bound(file: &syn::File) -> Vec<String> {
 struct Turned<'g> {
     /// Its columns.
     axes: [Vector<'g, Hub>; 3],
-    turned: Vec<(SymbolId, Expr<'g>)>,
+    along_b: Vec<(SymbolId, Expr<'g>)>,
     unit: Vec<(SymbolId, Expr<'g>)>,
 }
 
@@ -155,7 +155,7 @@ impl<'g> Turned<'g> {
             let v = v.handed_back().turned(back(Axis::Y, "mount_b"));
             v.handed_back().turned(back(Axis::Z, "mount_a")).on_hub()
         });
-        let mut made = Self { axes, turned: Vec::new(), unit: Vec::new() };
+        let mut made = Self { axes, along_b: Vec::new(), unit: Vec::new() };
         let symbol = |name: &str| match graph.find(name).map(Expr::node) {
             Some(Node::Symbol(symbol)) => Some(symbol),
             _ => None,
@@ -164,7 +164,7 @@ impl<'g> Turned<'g> {
             for (row, entry) in axis.components().into_iter().enumerate() {
                 if let Some(symbol) = symbol(&mount_entry(row, column)) {
                     let unit = graph.constant(i64::from(row == column));
-                    made.turned.push((symbol, entry));
+                    made.along_b.push((symbol, entry));
                     made.unit.push((symbol, unit));
                 }
             }
@@ -173,7 +173,7 @@ impl<'g> Turned<'g> {
             let names = components(&stem);
             let own = names.each_ref().map(|name| graph.find(name).unwrap_or(graph.zero()));
             for (name, value) in names.iter().zip(made.vector(own)) {
-                made.turned.extend(symbol(name).map(|symbol| (symbol, value)));
+                made.along_b.extend(symbol(name).map(|symbol| (symbol, value)));
             }
         }
         made
@@ -181,7 +181,7 @@ impl<'g> Turned<'g> {
 
     /// With the mount C and every vector along B turned by it.
     fn by(&self, e: Expr<'g>) -> Expr<'g> {
-        e.with(&self.turned)
+        e.with(&self.along_b)
     }
 
     /// With the device's axes along B's.

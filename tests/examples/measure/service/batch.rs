@@ -61,7 +61,7 @@ impl<D: LanedSet> Service for Evaluated<D> {
         for _ in 0..calls {
             craft.accelerations(black_box(states), &*inputs, &mut found)?;
             for (state, found) in states.iter_mut().zip(&found) {
-                let found = found.as_ref().map_err(|error| error.to_string())?;
+                let found = found.as_ref().map_err(ToString::to_string)?;
                 state.omega += found.omega_dot * NUDGE;
             }
         }
@@ -91,7 +91,7 @@ impl<D: LanedSet> Service for Runs<D> {
         for _ in 0..calls {
             craft.run(black_box(&mut states), inputs, STEP, STEPS, &mut found)?;
             for found in &found {
-                found.as_ref().map_err(|error| error.to_string())?;
+                found.as_ref().map_err(ToString::to_string)?;
             }
         }
         black_box(states);

@@ -1,0 +1,39 @@
+//! The passes over a chain change what is computed and in which order, and nothing else: with none,
+//! with each and with both, what is emitted is proven by the same claims.
+
+use precess_codegen::derivation::base::Passes;
+use precess_codegen::derivation::chain::Chain;
+use precess_codegen::emit::{Home, of_kind};
+use precess_codegen::graph::Graph;
+use precess_codegen::kinds::{
+    BALANCED_VSCMG, DGVSCMG, HINGED_PANEL, Kind, REACTION_WHEEL, SLOSH_MASS, VSCMG,
+};
+use precess_codegen::regen::prove_kind;
+
+/// A kind after some passes: its proofs hold.
+fn holds(kind: &'static Kind, passes: Passes) {
+    let graph = Graph::new();
+    let chain = Chain::after(&graph, kind, passes);
+    let emitted = of_kind(&chain, Home::Dynamics).unwrap();
+    let rows = prove_kind(&chain, &emitted.files).unwrap();
+    assert!(rows.len() > 50, "{} has {} rows", kind.name, rows.len());
+    if let Some(row) = rows.iter().find(|row| !row.holds()) {
+        panic!("{} after {passes:?}: {row}", kind.name);
+    }
+}
+
+#[test]
+fn a_long_chain_is_proven_after_each_pass() {
+    for passes in Passes::EACH {
+        holds(&DGVSCMG, passes);
+    }
+}
+
+#[test]
+fn short_chains_are_proven_after_each_pass() {
+    for kind in [&VSCMG, &BALANCED_VSCMG, &REACTION_WHEEL, &HINGED_PANEL, &SLOSH_MASS] {
+        for passes in Passes::EACH {
+            holds(kind, passes);
+        }
+    }
+}
