@@ -10,8 +10,8 @@ use precess_codegen::derivation::chain::Chain;
 use precess_codegen::graph::{Expr, Graph, Node, SymbolId};
 use precess_codegen::kernel::{Record, Source, kernels};
 use precess_codegen::kinds::{
-    BALANCED_DGCMG, BALANCED_DGVSCMG, BALANCED_SGCMG, BALANCED_VSCMG, DGCMG, DGVSCMG, Kind,
-    REACTION_WHEEL, SGCMG, VSCMG,
+    BALANCED_DGCMG, BALANCED_DGVSCMG, BALANCED_SGCMG, BALANCED_VSCMG, DGCMG, DGVSCMG, Kind, SGCMG,
+    VSCMG,
 };
 use precess_codegen::normal::Ring;
 
