@@ -102,19 +102,19 @@ impl<K: Kind> Devices for K {
         scratch: &mut Option<K::Eliminated<K::Scalar>>,
         index: &mut usize,
     ) -> Result<(), SolveError<K::Scalar>> {
-        *scratch = Some(device.eliminate(joints, given, around, assembly, *index)?);
+        device.eliminate(joints, given, around, assembly, scratch, *index)?;
         *index = index.wrapping_add(1);
         Ok(())
     }
 
     fn back_substitute(
-        device: &Device<K>,
+        _: &Device<K>,
         scratch: &Option<K::Eliminated<K::Scalar>>,
         hub: &Solution<K::Scalar>,
         out: &mut K::Accelerations<K::Scalar>,
     ) {
         if let Some(eliminated) = scratch {
-            *out = device.back_substitute(eliminated, hub);
+            *out = Device::<K>::back_substitute(eliminated, hub);
         }
     }
 
