@@ -66,8 +66,10 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<Outset<D::Scalar>, SolveError<D::Scalar>> {
         check_fixed(state, inputs)?;
         let omega = components(&state.omega);
-        let bn = columns(&state.attitude.dcm());
-        let field = inputs.gravity.field(&bn, &state.r_b_n);
+        let field = match &inputs.gravity {
+            Gravity::None => None,
+            gravity => gravity.field(&columns(&state.attitude.dcm()), &state.r_b_n),
+        };
         let at_b = at_b(field.as_ref());
         let central = field.and_then(|field| field.central);
         let around = Around { omega, central, impulse: false };

@@ -64,7 +64,8 @@ impl<K: Kind> Device<K> {
         }
     }
 
-    /// Eliminates the joints and adds what is left to the hub's system.
+    /// Eliminates the joints, adds what is left to the hub's system, and writes what back substitution
+    /// needs in its place: to move so many numbers there afterwards takes time.
     ///
     /// Never inlined: one copy of the kernel, whatever the sets it stands in.
     #[inline(never)]
@@ -74,8 +75,9 @@ impl<K: Kind> Device<K> {
         given: Given<'_, K>,
         around: &Around<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
+        place: &mut Option<K::Eliminated<K::Scalar>>,
         device: usize,
-    ) -> Result<K::Eliminated<K::Scalar>, SolveError<K::Scalar>> {
+    ) -> Result<(), SolveError<K::Scalar>> {
         let pose = K::pose(joints);
         let mut drives = self.drives(joints, given, around.impulse, device)?;
         if !around.impulse {
@@ -98,10 +100,11 @@ impl<K: Kind> Device<K> {
             joints.states_mut().for_each(|[_, rate]| *rate = zero());
         }
         let omega = along_b(around.omega);
-        let eliminated = K::eliminate(&self.constants, &pose, &joints, &omega, &drives);
-        check_pivots::<K>(device, &eliminated, &drives)?;
-        assembly.add(K::share(&eliminated));
-        Ok(eliminated)
+        let eliminated =
+            place.insert(K::eliminate(&self.constants, &pose, &joints, &omega, &drives));
+        check_pivots::<K>(device, eliminated, &drives)?;
+        assembly.add(K::share(eliminated));
+        Ok(())
     }
 
     /// Torques and modes of the joints.

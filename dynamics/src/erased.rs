@@ -180,7 +180,8 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         device: usize,
     ) -> Result<Box<dyn Any>, SolveError<K::Scalar>> {
         let (joints, typed) = (joints_of::<K>(joints), Typed::<K>::of(given));
-        let eliminated = self.eliminate(&joints, typed.given(), around, assembly, device)?;
+        let mut eliminated = None;
+        self.eliminate(&joints, typed.given(), around, assembly, &mut eliminated, device)?;
         Ok(Box::new(eliminated))
     }
 
@@ -189,7 +190,7 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         eliminated: &dyn Any,
         hub: &Solution<K::Scalar>,
     ) -> Option<Vec<K::Scalar>> {
-        let eliminated = eliminated.downcast_ref::<K::Eliminated<K::Scalar>>()?;
+        let eliminated = eliminated.downcast_ref::<Option<K::Eliminated<K::Scalar>>>()?.as_ref()?;
         Some(K::back_substitute(eliminated, &hub.along_b()).values().collect())
     }
 

@@ -102,7 +102,7 @@ impl<K: Kind> Devices for K {
         scratch: &mut Option<K::Eliminated<K::Scalar>>,
         index: &mut usize,
     ) -> Result<(), SolveError<K::Scalar>> {
-        *scratch = Some(device.eliminate(joints, given, around, assembly, *index)?);
+        device.eliminate(joints, given, around, assembly, scratch, *index)?;
         *index = index.wrapping_add(1);
         Ok(())
     }

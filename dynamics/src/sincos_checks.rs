@@ -16,7 +16,7 @@ const NEXT: u64 = 0x2520;
 const APART: u64 = 1;
 
 /// An `f64` whose `mul_add` rounds once.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Fused(f64);
 
 impl Add for Fused {

@@ -8,9 +8,10 @@ use std::vec::Vec;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::evaluate::{regular, with_passive, within_reach};
+use super::gather::{joints_in_lanes, values_in_lanes};
 use super::lane::Lane;
 use super::number::{Block, Number, WIDEST};
-use super::slot::{put_drives, put_joints};
+use super::slot::put_drives;
 use super::width::{lanes_for, width};
 use crate::accelerations::{Outset, sound as sound_inputs, with_devices};
 use crate::assembly::along_b;
@@ -24,7 +25,7 @@ use crate::gravity::Gravity;
 use crate::inputs::Inputs;
 use crate::kernels::Kernels;
 use crate::kind::Kind;
-use crate::mode::Drive;
+use crate::mode::{Drive, Mode};
 use crate::parameter_error::ParameterError;
 use crate::parameters::Hub;
 use crate::passive::Passive;
@@ -238,7 +239,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
 /// The joints of a group's devices, and what is given of them.
 type Gathered<K, T> = (<K as Kernels>::Joints<T>, <K as Kernels>::PerJoint<Drive<T>>);
 
-/// Gathers the joints of a group's devices, and what is given of them.
+/// Gathers the joints of a group's devices, and what is given of them; lanes without a device repeat
+/// the last.
 #[inline(always)]
 fn gather<K: Kind<Scalar = f64>, T: Number, const N: usize>(
     craft: &Spacecraft<[K; N]>,
@@ -247,21 +249,38 @@ fn gather<K: Kind<Scalar = f64>, T: Number, const N: usize>(
     inputs: &Inputs<[K; N]>,
     zero: T,
 ) -> Option<Gathered<K, T>> {
-    let rest = <K as Kind>::at_rest();
-    let mut joints_of = K::zip_joints(&rest, &rest, |_, _| Block::ZERO);
-    let drive = <K as Kind>::all(Drive { torque: 0.0, driven: 0.0, held: 0.0, given: 0.0 });
+    let at = |lane: usize| (start + lane).min(N - 1);
+    let (first, mut joints_of) = (joints.get(at(0))?, [None; WIDEST]);
+    let (mut torques, mut driven) = ([<K as Kind>::all(0.0); WIDEST], true);
+    for (lane, (joint, torques)) in joints_of.iter_mut().zip(&mut torques).enumerate() {
+        *joint = joints.get(at(lane));
+        if lane < T::WIDTH {
+            let (motors, modes) = (inputs.motors.get(at(lane))?, inputs.modes.get(at(lane))?);
+            driven &= modes.values().all(|mode| mode == Mode::Driven);
+            torques.values_mut().zip(motors.values()).for_each(|(place, torque)| *place = torque);
+        }
+    }
+    let joints_of = joints_of.map(|joints| joints.unwrap_or(first));
+    let laned = joints_in_lanes::<K, T>(zero, joints_of);
+    if driven && K::JOINTS.iter().all(|info| info.driven) {
+        let one = zero.like(1.0);
+        let torques = values_in_lanes::<K, T>(zero, torques.each_ref());
+        let drives = K::zip_per_joint(&torques, &torques, |torque, _| Drive {
+            torque,
+            driven: one,
+            held: zero,
+            given: zero,
+        });
+        return Some((laned, drives));
+    }
+    let drive = <K as Kind>::all(Mode::Driven.drive(0.0));
     let mut drives_of = K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| Block::ZERO));
-    for lane in 0..T::WIDTH {
-        let index = (start + lane).min(N - 1);
-        let (device, joints) = (craft.devices.get(index)?, joints.get(index)?);
-        let (motors, modes) = (inputs.motors.get(index)?, inputs.modes.get(index)?);
-        let drives = device.given_drives(joints, Given { motors, modes, bodies: None })?;
-        put_joints::<K>(&mut joints_of, lane, joints);
+    for (lane, joints) in joints_of.into_iter().enumerate().take(T::WIDTH) {
+        let (motors, modes) = (inputs.motors.get(at(lane))?, inputs.modes.get(at(lane))?);
+        let given = Given { motors, modes, bodies: None };
+        let drives = craft.devices.get(at(lane))?.given_drives(joints, given)?;
         put_drives::<K>(&mut drives_of, lane, &drives);
     }
     let load = |block: Block| zero.load(&block);
-    Some((
-        K::zip_joints(&joints_of, &joints_of, |block, _| load(block)),
-        K::zip_per_joint(&drives_of, &drives_of, |drive, _| drive.map(load)),
-    ))
+    Some((laned, K::zip_per_joint(&drives_of, &drives_of, |drive, _| drive.map(load))))
 }

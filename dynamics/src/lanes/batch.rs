@@ -263,8 +263,8 @@ pub(super) struct Group<D: LanedSet, T: Number> {
     pub(super) laned: [bool; WIDEST],
     /// Whether what is given of the joints stands there already, the same for every state.
     given: bool,
-    /// The hub's motion on its way in.
-    pub(super) motion: Motion<Block>,
+    /// The hub's motion.
+    pub(super) motion: Motion<T>,
     /// What acts on the hub, on its way in.
     forces: Forces<Block>,
 }
@@ -275,7 +275,7 @@ impl<D: LanedSet, T: Number> Group<D, T> {
             slots: D::slots(&craft.devices, zero),
             laned: [true; WIDEST],
             given: false,
-            motion: Motion::ZERO,
+            motion: Motion::filled(zero),
             forces: Forces::ZERO,
         }
     }
@@ -289,19 +289,27 @@ impl<D: LanedSet, T: Number> Group<D, T> {
         states: &[State<D>],
         all: &BatchInputs<'_, D>,
     ) {
-        let Some(last) = states.len().checked_sub(1) else { return };
+        let (Some(last), Some(end)) = (states.len().checked_sub(1), states.last()) else { return };
+        let mut lanes = [end; WIDEST];
+        lanes.iter_mut().zip(states).for_each(|(lane, state)| *lane = state);
+        self.motion = Motion::in_lanes(zero, lanes);
+        D::load(&craft.devices, &mut self.slots, zero, lanes.map(|state| &state.devices));
         for lane in 0..T::WIDTH {
             let index = lane.min(last);
             let (Some(state), Some(inputs)) = (states.get(index), all.at(index)) else { return };
-            let given = (!self.given).then(|| Given::of(inputs));
-            self.laned[lane & (WIDEST - 1)] = (self.given || laned_inputs(inputs))
-                && laned_state(state)
-                && D::put(&craft.devices, &mut self.slots, lane, &state.devices, given);
-            self.motion.put(lane, state);
+            let mut laned = laned_state(state);
             if !self.given {
+                let given = Given::of(inputs);
+                laned &= laned_inputs(inputs)
+                    && D::put(&craft.devices, &mut self.slots, lane, &state.devices, given);
                 self.forces.put(lane, inputs);
             }
+            self.laned[lane & (WIDEST - 1)] = laned;
         }
+        if self.given {
+            return;
+        }
+        D::each(&craft.devices, &mut self.slots, &mut Enter(zero));
         // A locked joint is looked at in each state.
         self.given = match all {
             BatchInputs::Same(inputs) => {
@@ -310,15 +318,12 @@ impl<D: LanedSet, T: Number> Group<D, T> {
             }
             BatchInputs::Each(_) => false,
         };
-        D::each(&craft.devices, &mut self.slots, &mut Enter(zero));
     }
 
     /// What acts at the state that was taken in.
     #[inline(always)]
     fn acting(&self, zero: T) -> Acting<T> {
-        let q = |index: usize| zero.load(&self.motion.q[index]);
-        let omega = map(self.motion.omega, |block| zero.load(&block));
-        self.acting_at(zero, [q(0), q(1), q(2), q(3)], omega)
+        self.acting_at(zero, self.motion.q, self.motion.omega)
     }
 
     /// What acts at another attitude and angular velocity.

@@ -75,7 +75,13 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
 /// Where a pivot is more than rounding of its diagonal.
 #[inline(always)]
 fn sound<T: Number>(pivot: T, diagonal: T) -> T::Holds {
-    pivot.above(pivot.like(PIVOT_EPSILONS * f64::EPSILON) * diagonal)
+    pivot.above(bound(diagonal))
+}
+
+/// What a pivot must exceed.
+#[inline(always)]
+fn bound<T: Number>(diagonal: T) -> T {
+    diagonal.like(PIVOT_EPSILONS * f64::EPSILON) * diagonal
 }
 
 /// Where two pivots are.
@@ -136,14 +142,21 @@ pub(super) fn regular<K: Kernels, T: Number>(
     drives: &K::PerJoint<Drive<T>>,
 ) -> T::Holds {
     let (zero, mut holds) = (like.like(0.0), like.same(like));
-    K::zip_per_joint(&K::pivots(eliminated), drives, |pivot, drive| {
-        if let Some([pivot, diagonal]) = pivot {
-            let idle = drive.driven.same(zero);
-            holds = like.both(holds, like.either(idle, sound(pivot, diagonal)));
-        }
+    // A named function, since a closure of this size is not inlined.
+    let margins = K::zip_per_joint(&K::pivots(eliminated), drives, margin::<T>);
+    K::zip_per_joint(&margins, &margins, |margin, _| {
+        holds = like.both(holds, margin.above(zero));
         zero
     });
     holds
+}
+
+/// By how much the pivot of a joint is above its bound; one where none is asked for.
+#[inline(always)]
+fn margin<T: Number>(pivot: Option<[T; 2]>, drive: Drive<T>) -> T {
+    let one = drive.driven.like(1.0);
+    let Some([pivot, diagonal]) = pivot else { return one };
+    one.or(drive.driven.same(one.like(0.0)), pivot - bound(diagonal))
 }
 
 /// What is given of the joints, springs and dampers with the motors.

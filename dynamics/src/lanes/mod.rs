@@ -23,6 +23,7 @@
 mod across;
 mod batch;
 mod evaluate;
+mod gather;
 mod lane;
 mod motion;
 mod number;

@@ -2,7 +2,8 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::number::Block;
+use super::gather::{joined, wide};
+use super::number::{Block, Number, WIDEST};
 use super::slot::LanedSet;
 use crate::gravity::Gravity;
 use crate::inputs::Inputs;
@@ -92,25 +93,38 @@ pub(super) fn at<const N: usize>(blocks: &[Block; N], lane: usize) -> [f64; N] {
     blocks.each_ref().map(|block| block.at(lane))
 }
 
-impl Motion<Block> {
-    /// Zero in every lane.
-    pub(super) const ZERO: Self = Self {
-        r: [Block::ZERO; 3],
-        v: [Block::ZERO; 3],
-        q: [Block::ZERO; 4],
-        omega: [Block::ZERO; 3],
-    };
-
-    /// Puts the hub's part of a state into one lane.
-    pub(super) fn put<D: LanedSet>(&mut self, lane: usize, state: &State<D>) {
-        let Quaternion { q0, q1, q2, q3 } = state.attitude;
-        put(&mut self.r, lane, components(&state.r_b_n));
-        put(&mut self.v, lane, components(&state.r_b_n_dot));
-        put(&mut self.q, lane, [q0, q1, q2, q3]);
-        put(&mut self.omega, lane, components(&state.omega));
+impl<T: Number> Motion<T> {
+    /// The same number everywhere.
+    pub(super) fn filled(number: T) -> Self {
+        Self { r: [number; 3], v: [number; 3], q: [number; 4], omega: [number; 3] }
     }
 
-    /// Takes it out again.
+    /// The hub's part of as many states as the widest lanes have.
+    #[inline(always)]
+    pub(super) fn in_lanes<D: LanedSet>(
+        like: T,
+        [a, b, c, d, e, f, g, h]: [&State<D>; WIDEST],
+    ) -> Self {
+        let two = |a, b| Motion::of(a).zip(&Motion::of(b), |a, b| [a, b]);
+        let four = |a, b, c, d| two(a, b).zip(&two(c, d), |[a, b], [c, d]| [a, b, c, d]);
+        let low = four(a, b, c, d);
+        let high = if wide::<T>() { four(e, f, g, h) } else { low };
+        low.zip(&high, |low, high| joined(like, low, high))
+    }
+}
+
+impl Motion<f64> {
+    /// The hub's part of a state.
+    #[inline(always)]
+    fn of<D: LanedSet>(state: &State<D>) -> Self {
+        let Quaternion { q0, q1, q2, q3 } = state.attitude;
+        let (r, v) = (components(&state.r_b_n), components(&state.r_b_n_dot));
+        Self { r, v, q: [q0, q1, q2, q3], omega: components(&state.omega) }
+    }
+}
+
+impl Motion<Block> {
+    /// Takes the hub's part of a state out of one lane.
     pub(super) fn take<D: LanedSet>(&self, lane: usize, state: &mut State<D>) {
         let [q0, q1, q2, q3] = at(&self.q, lane);
         state.r_b_n = vector(at(&self.r, lane));

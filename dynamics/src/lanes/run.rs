@@ -12,7 +12,7 @@ use super::evaluate::evaluate;
 use super::lane::Lane;
 use super::motion::Motion;
 use super::number::{Number, WIDEST};
-use super::slot::{LanedSet, Leave, Slot, Visit};
+use super::slot::{LanedSet, Slot, Visit};
 use crate::device::Device;
 use crate::error::SolveError;
 use crate::kind::Kind;
@@ -52,13 +52,14 @@ impl<D: LanedSet> Runs<'_, '_, '_, D> {
         for (index, states) in self.states.chunks_mut(T::WIDTH).enumerate() {
             let inputs = self.inputs.starting(index * T::WIDTH);
             group.gather(zero, craft, states, &inputs);
-            let mut motion = group.motion.map(|block| zero.load(&block));
+            D::each(&craft.devices, &mut group.slots, &mut Begin(zero));
+            let mut motion = group.motion;
             let mut holds = zero.same(zero);
             for _ in 0..self.steps {
                 let step_holds = step(craft, &mut group, zero, self.dt, &mut motion);
                 holds = zero.both(holds, step_holds);
             }
-            D::each(&craft.devices, &mut group.slots, &mut Leave);
+            D::each(&craft.devices, &mut group.slots, &mut LeaveJoints);
             let motion = motion.map(Number::store);
             let holds = zero.like(1.0).or(holds, zero).store();
             for (lane, state) in states.iter_mut().enumerate() {
@@ -121,6 +122,27 @@ fn step<D: LanedSet, T: Number>(
         number
     });
     zero.both(holds, vanishing.same(zero))
+}
+
+/// Begins the first step where the joints are.
+struct Begin<T>(T);
+
+impl<T: Number> Visit<T> for Begin<T> {
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+        slot.start = slot.joints;
+        slot.sum = K::zip_joints(&slot.joints, &slot.joints, |_, _| self.0);
+    }
+}
+
+/// Brings joints from lanes into blocks.
+struct LeaveJoints;
+
+impl<T: Number> Visit<T> for LeaveJoints {
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+        slot.block = K::zip_joints(&slot.joints, &slot.joints, |number, _| number.store());
+    }
 }
 
 /// Adds a stage's slope to what the step adds up to, and moves on to the next stage.

@@ -4,6 +4,7 @@
 
 use std::vec::Vec;
 
+use super::number::{Number, WIDEST};
 use super::slot::{LanedSet, Visit};
 use crate::devices::Given;
 use crate::each::Value;
@@ -30,30 +31,35 @@ impl<D: LanedSet, const N: usize> LanedSet for [D; N] {
     }
 
     #[inline(always)]
+    fn load<T: Number>(
+        devices: &[D::Prepared; N],
+        slots: &mut Self::Slots<T>,
+        like: T,
+        joints: [&[D::Joints; N]; WIDEST],
+    ) {
+        let [a, b, c, d, e, f, g, h] = joints;
+        let joints = a.iter().zip(b).zip(c).zip(d).zip(e).zip(f).zip(g).zip(h);
+        for ((device, slot), (((((((a, b), c), d), e), f), g), h)) in
+            devices.iter().zip(slots).zip(joints)
+        {
+            D::load(device, slot, like, [a, b, c, d, e, f, g, h]);
+        }
+    }
+
+    #[inline(always)]
     fn put<T: Value>(
         devices: &[D::Prepared; N],
         slots: &mut Self::Slots<T>,
         lane: usize,
         joints: &[D::Joints; N],
-        given: Option<Given<'_, Self>>,
+        given: Given<'_, Self>,
     ) -> bool {
-        let (mut slots, mut joints) = (slots.iter_mut(), joints.iter());
-        let mut motors = given.map(|given| given.motors.iter());
-        let mut modes = given.map(|given| given.modes.iter());
-        for device in devices {
-            let (Some(slot), Some(joints)) = (slots.next(), joints.next()) else { return false };
-            let given = match (motors.as_mut(), modes.as_mut()) {
-                (Some(motors), Some(modes)) => match (motors.next(), modes.next()) {
-                    (Some(motors), Some(modes)) => Some(Given { motors, modes, bodies: None }),
-                    _ => return false,
-                },
-                _ => None,
-            };
-            if !D::put(device, slot, lane, joints, given) {
-                return false;
-            }
-        }
-        true
+        let given = given.motors.iter().zip(given.modes);
+        devices.iter().zip(slots).zip(joints.iter().zip(given)).all(
+            |((device, slot), (joints, (motors, modes)))| {
+                D::put(device, slot, lane, joints, Given { motors, modes, bodies: None })
+            },
+        )
     }
 
     #[inline(always)]
@@ -99,28 +105,44 @@ macro_rules! tuples {
             }
 
             #[inline(always)]
+            fn load<T: Number>(
+                devices: &Self::Prepared,
+                slots: &mut Self::Slots<T>,
+                like: T,
+                joints: [&Self::Joints; WIDEST],
+            ) {
+                A::load(&devices.0, &mut slots.0, like, joints.map(|joints| &joints.0));
+                $($rest::load(
+                    &devices.$place,
+                    &mut slots.$place,
+                    like,
+                    joints.map(|joints| &joints.$place),
+                );)*
+            }
+
+            #[inline(always)]
             fn put<T: Value>(
                 devices: &Self::Prepared,
                 slots: &mut Self::Slots<T>,
                 lane: usize,
                 joints: &Self::Joints,
-                given: Option<Given<'_, Self>>,
+                given: Given<'_, Self>,
             ) -> bool {
-                A::put(&devices.0, &mut slots.0, lane, &joints.0, given.map(|given| Given {
+                A::put(&devices.0, &mut slots.0, lane, &joints.0, Given {
                     motors: &given.motors.0,
                     modes: &given.modes.0,
                     bodies: None,
-                }))
+                })
                 $(&& $rest::put(
                     &devices.$place,
                     &mut slots.$place,
                     lane,
                     &joints.$place,
-                    given.map(|given| Given {
+                    Given {
                         motors: &given.motors.$place,
                         modes: &given.modes.$place,
                         bodies: None,
-                    }),
+                    },
                 ))*
             }
 

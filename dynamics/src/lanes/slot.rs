@@ -2,7 +2,8 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::number::{Block, Number};
+use super::gather::joints_in_lanes;
+use super::number::{Block, Number, WIDEST};
 use crate::device::Device;
 use crate::devices::{Devices, Given};
 use crate::each::{Each, JointStates, Value};
@@ -14,7 +15,7 @@ use crate::real::Real;
 /// One device in lanes: what it is given, and what an evaluation and a step make of it.
 #[derive(Clone, Debug)]
 pub struct Slot<K: Kernels, T: Value> {
-    /// Coordinates and rates on their way in and out.
+    /// Coordinates and rates on their way out.
     pub(crate) block: K::Joints<Block>,
     /// Torques and modes on their way in.
     pub(crate) given: K::PerJoint<Drive<Block>>,
@@ -53,14 +54,21 @@ pub trait LanedSet: Devices<Scalar = f64> {
         slots: &mut Self::Slots<T>,
         visitor: &mut impl Visit<T>,
     );
-    /// Puts the joints and what is given of them into one lane. False where a device or its modes ask
-    /// for what lanes have not, or for what an evaluation refuses.
+    /// Takes the joints of as many states in as the widest lanes have.
+    fn load<T: Number>(
+        devices: &Self::Prepared,
+        slots: &mut Self::Slots<T>,
+        like: T,
+        joints: [&Self::Joints; WIDEST],
+    );
+    /// Puts what is given of the joints into one lane. False where a device or its modes ask for what
+    /// lanes have not, or for what an evaluation refuses.
     fn put<T: Value>(
         devices: &Self::Prepared,
         slots: &mut Self::Slots<T>,
         lane: usize,
         joints: &Self::Joints,
-        given: Option<Given<'_, Self>>,
+        given: Given<'_, Self>,
     ) -> bool;
     /// Takes the joints of one lane out.
     fn take_joints<T: Value>(slots: &mut Self::Slots<T>, lane: usize, joints: &mut Self::Joints);
@@ -99,18 +107,25 @@ impl<K: Kind<Scalar = f64>> LanedSet for K {
     }
 
     #[inline(always)]
+    fn load<T: Number>(
+        _: &Device<K>,
+        slot: &mut Slot<K, T>,
+        like: T,
+        joints: [&K::Joints<f64>; WIDEST],
+    ) {
+        slot.joints = joints_in_lanes::<K, T>(like, joints);
+    }
+
+    #[inline(always)]
     fn put<T: Value>(
         device: &Device<K>,
         slot: &mut Slot<K, T>,
         lane: usize,
         joints: &K::Joints<f64>,
-        given: Option<Given<'_, Self>>,
+        given: Given<'_, Self>,
     ) -> bool {
-        put_joints::<K>(&mut slot.block, lane, joints);
-        if let Some(given) = given {
-            let Some(drives) = device.given_drives(joints, given) else { return false };
-            put_drives::<K>(&mut slot.given, lane, &drives);
-        }
+        let Some(drives) = device.given_drives(joints, given) else { return false };
+        put_drives::<K>(&mut slot.given, lane, &drives);
         true
     }
 
@@ -131,21 +146,8 @@ impl<K: Kind<Scalar = f64>> LanedSet for K {
     }
 }
 
-/// Puts joints into one lane, in place: a block that is moved while its lanes are written one by one
-/// costs more than an evaluation.
-#[inline(always)]
-pub(super) fn put_joints<K: Kernels>(
-    blocks: &mut K::Joints<Block>,
-    lane: usize,
-    joints: &K::Joints<f64>,
-) {
-    for ([coordinate, rate], [q, q_dot]) in blocks.states_mut().zip(joints.states()) {
-        coordinate.put(lane, q);
-        rate.put(lane, q_dot);
-    }
-}
-
-/// Puts torques and modes into one lane.
+/// Puts torques and modes into one lane, in place: a block that is moved while its lanes are written
+/// one by one costs more than an evaluation.
 #[inline(always)]
 pub(super) fn put_drives<K: Kernels>(
     blocks: &mut K::PerJoint<Drive<Block>>,
@@ -160,27 +162,23 @@ pub(super) fn put_drives<K: Kernels>(
     }
 }
 
-/// Takes what was put into blocks into lanes, where a step begins.
+/// Takes the torques and modes that were put into blocks into lanes.
 pub(crate) struct Enter<T>(pub(crate) T);
 
 impl<T: Number> Visit<T> for Enter<T> {
     #[inline(always)]
     fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
-        slot.joints = K::zip_joints(&slot.block, &slot.block, |block, _| self.0.load(&block));
-        slot.start = slot.joints;
-        slot.sum = K::zip_joints(&slot.joints, &slot.joints, |_, _| self.0);
         slot.drives =
             K::zip_per_joint(&slot.given, &slot.given, |given, _| given.map(|b| self.0.load(&b)));
     }
 }
 
-/// Brings joints and accelerations from lanes into blocks.
+/// Brings accelerations from lanes into blocks.
 pub(crate) struct Leave;
 
 impl<T: Number> Visit<T> for Leave {
     #[inline(always)]
     fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
-        slot.block = K::zip_joints(&slot.joints, &slot.joints, |number, _| number.store());
         slot.out = K::zip_accelerations(&slot.found, &slot.found, |number, _| number.store());
     }
 }
