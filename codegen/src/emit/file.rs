@@ -9,14 +9,14 @@ use tera::{Context, Tera};
 
 use super::body::{Counts, FunctionBody, Writer};
 use super::by_number::by_number;
+use super::cost::{CountText, count, passes};
 use super::device::{Signature, Signatures, device_file, type_name};
 use super::home::Home;
 use super::prepare::{Prepared, prepared};
 use super::render::Rendered;
 use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
-use crate::derivation::base::Passes;
 use crate::derivation::chain::Chain;
-use crate::graph::{Graph, Node, NodeId};
+use crate::graph::{Node, NodeId};
 use crate::kernel::{Kernel, Record, Source, kernels, parameters};
 use crate::kernel::{joint_accelerations, modes, motors, pose, rates, shared_records, wrenches};
 use crate::kinds::{Kind, Motion};
@@ -98,17 +98,6 @@ struct FunctionText {
     result: Vec<String>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct CountText {
-    kind: String,
-    function: String,
-    mul: usize,
-    add: usize,
-    neg: usize,
-    div: usize,
-    total: usize,
-}
-
 /// What is emitted of one kind.
 #[derive(Clone, Debug)]
 pub struct Emitted {
@@ -121,21 +110,8 @@ pub struct Emitted {
     pub(super) passes: Vec<usize>,
 }
 
-/// Operations of `eliminate` after each of [`Passes::EACH`].
-fn passes(kind: &'static Kind) -> Vec<usize> {
-    let after = |passes| {
-        let graph = Graph::new();
-        let chain = Chain::after(&graph, kind, passes);
-        let kernels = kernels(&chain);
-        let prepared = prepared(&graph, &kernels, &parameters(kind));
-        let eliminate = kernels.iter().find(|kernel| kernel.name == "eliminate");
-        eliminate.map_or(0, |kernel| kernel_body(&chain, kernel, &prepared).counts.total())
-    };
-    Passes::EACH.map(after).to_vec()
-}
-
 impl Emitted {
-    /// Kind, and operations of `eliminate` after each of [`Passes::EACH`].
+    /// Kind, and operations of `eliminate` after each set of passes over the chain.
     pub(crate) fn passes(&self) -> (&'static str, &[usize]) {
         (self.module, &self.passes)
     }
@@ -288,7 +264,7 @@ fn symmetric(kind: &Kind) -> Vec<String> {
     text.flat_map(|text| wrapped(&text, COMMENT)).collect()
 }
 
-fn kernel_body<'g>(
+pub(super) fn kernel_body<'g>(
     chain: &Chain<'g>,
     kernel: &Kernel<'g>,
     prepared: &Prepared<'g>,
@@ -410,10 +386,4 @@ fn record_fields(record: &Record) -> Vec<(String, String)> {
         (field.name.clone(), value)
     };
     record.fields.iter().map(field).collect()
-}
-
-fn count(kind: &str, function: &str, counts: Counts) -> CountText {
-    let Counts { mul, add, neg, div } = counts;
-    let (kind, function) = (kind.to_owned(), function.to_owned());
-    CountText { kind, function, mul, add, neg, div, total: counts.total() }
 }

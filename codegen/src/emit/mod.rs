@@ -6,6 +6,7 @@
 
 mod body;
 mod by_number;
+mod cost;
 mod device;
 mod device_calls;
 mod device_items;

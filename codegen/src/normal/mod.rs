@@ -5,6 +5,7 @@
 //! reciprocal of anything else has no normal form: it is named (made a symbol) first.
 
 mod difference;
+mod expression;
 mod polynomial;
 mod ring;
 

@@ -68,7 +68,7 @@ pub struct Factor {
 
 /// Expands expressions of one graph over a set of variables that grows as they are met.
 pub struct Ring<'g> {
-    graph: &'g Graph,
+    pub(super) graph: &'g Graph,
     variables: Vec<Variable>,
     index: HashMap<Variable, usize>,
     reductions: Vec<Reduction>,
@@ -89,26 +89,6 @@ impl<'g> Ring<'g> {
             expanded: BTreeMap::new(),
             settled: None,
         }
-    }
-
-    /// The polynomial as an expression: a sum of products.
-    ///
-    /// Reciprocals and powers are written out; the order is that of the terms.
-    #[must_use]
-    pub fn expression(&self, polynomial: &Polynomial) -> Expr<'g> {
-        let one = self.graph.constant(1);
-        let power = |factor: &Factor| {
-            let symbol = self
-                .graph
-                .find(&factor.name)
-                .map_or(one, |symbol| if factor.recip { symbol.recip() } else { symbol });
-            (0..factor.exponent).fold(one, |product, _| product * symbol)
-        };
-        polynomial.terms().fold(self.graph.zero(), |sum, (monomial, coefficient)| {
-            let factors = self.factors(monomial);
-            let product = factors.iter().map(power).fold(one, |product, factor| product * factor);
-            sum + self.graph.constant(*coefficient) * product
-        })
     }
 
     /// The normal form of `e`.
