@@ -203,8 +203,8 @@ impl<T: Scalar> Devices for AnyDevice<T> {
         hub: &Solution<T>,
         out: &mut AnyPerJoint<T>,
     ) {
-        let eliminated = scratch.as_deref();
-        if let Some(found) = eliminated.and_then(|e| device.back_substitute(e, hub)) {
+        let gains = scratch.as_deref();
+        if let Some(found) = gains.and_then(|gains| device.back_substitute(gains, hub)) {
             *out = AnyPerJoint(found);
         }
     }

@@ -75,7 +75,7 @@ impl<K: Kind> Device<K> {
         given: Given<'_, K>,
         around: &Around<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
-        place: &mut Option<K::Eliminated<K::Scalar>>,
+        place: &mut Option<K::Gains<K::Scalar>>,
         device: usize,
     ) -> Result<(), SolveError<K::Scalar>> {
         let pose = K::pose(joints);
@@ -100,10 +100,10 @@ impl<K: Kind> Device<K> {
             joints.states_mut().for_each(|[_, rate]| *rate = zero());
         }
         let omega = along_b(around.omega);
-        let eliminated =
-            place.insert(K::eliminate(&self.constants, &pose, &joints, &omega, &drives));
-        check_pivots::<K>(device, eliminated, &drives)?;
-        assembly.add(K::share(eliminated));
+        let eliminated = K::eliminate(&self.constants, &pose, &joints, &omega, &drives);
+        check_pivots::<K>(device, &eliminated, &drives)?;
+        assembly.add(K::share(&eliminated));
+        *place = Some(*K::gains(&eliminated));
         Ok(())
     }
 

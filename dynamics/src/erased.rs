@@ -87,7 +87,7 @@ pub trait Ready<T>: Debug + Send + Sync {
     where
         T: Scalar;
     /// As [`Devices::back_substitute`].
-    fn back_substitute(&self, eliminated: &dyn Any, hub: &Solution<T>) -> Option<Vec<T>>;
+    fn back_substitute(&self, gains: &dyn Any, hub: &Solution<T>) -> Option<Vec<T>>;
     /// As [`Devices::add_sums`].
     fn add_sums(
         &self,
@@ -180,18 +180,18 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         device: usize,
     ) -> Result<Box<dyn Any>, SolveError<K::Scalar>> {
         let (joints, typed) = (joints_of::<K>(joints), Typed::<K>::of(given));
-        let mut eliminated = None;
-        self.eliminate(&joints, typed.given(), around, assembly, &mut eliminated, device)?;
-        Ok(Box::new(eliminated))
+        let mut gains = None;
+        self.eliminate(&joints, typed.given(), around, assembly, &mut gains, device)?;
+        Ok(Box::new(gains))
     }
 
     fn back_substitute(
         &self,
-        eliminated: &dyn Any,
+        gains: &dyn Any,
         hub: &Solution<K::Scalar>,
     ) -> Option<Vec<K::Scalar>> {
-        let eliminated = eliminated.downcast_ref::<Option<K::Eliminated<K::Scalar>>>()?.as_ref()?;
-        Some(K::back_substitute(eliminated, &hub.along_b()).values().collect())
+        let gains = gains.downcast_ref::<Option<K::Gains<K::Scalar>>>()?.as_ref()?;
+        Some(K::back_substitute(gains, &hub.along_b()).values().collect())
     }
 
     fn add_sums(

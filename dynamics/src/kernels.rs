@@ -26,8 +26,10 @@ pub trait Kernels: 'static {
     type PerJoint<V: Value>: Each<V> + Copy;
     /// Sines, cosines and lengths.
     type Pose<T: Value>: Copy;
-    /// What back substitution needs.
+    /// What is left of a device once its joints are eliminated.
     type Eliminated<T: Value>: Copy + Debug;
+    /// How the joints follow the hub: what back substitution needs.
+    type Gains<T: Value>: Copy + Debug;
 
     /// Sines, cosines and lengths of the joints.
     fn pose<T: Angle>(joints: &Self::Joints<T>) -> Self::Pose<T>;
@@ -41,11 +43,13 @@ pub trait Kernels: 'static {
     ) -> Self::Eliminated<T>;
     /// The share of the hub's equations.
     fn share<T: Real>(eliminated: &Self::Eliminated<T>) -> &HubShare<T>;
+    /// How the joints follow the hub.
+    fn gains<T: Real>(eliminated: &Self::Eliminated<T>) -> &Self::Gains<T>;
     /// Pivot and diagonal of each driven joint; none of the others.
     fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> Self::PerJoint<Option<[T; 2]>>;
     /// The emitted `back_substitute`.
     fn back_substitute<T: Real>(
-        eliminated: &Self::Eliminated<T>,
+        gains: &Self::Gains<T>,
         hub: &BodyAcceleration<T>,
     ) -> Self::Accelerations<T>;
     /// What coordinates and rates change by: rates and accelerations.

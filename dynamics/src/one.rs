@@ -27,7 +27,7 @@ impl<K: Kind> Devices for K {
     type Accelerations = K::Accelerations<K::Scalar>;
     type PerJoint<V: Value> = K::PerJoint<V>;
     type Loads = LoadsOf<K>;
-    type Scratch = Option<K::Eliminated<K::Scalar>>;
+    type Scratch = Option<K::Gains<K::Scalar>>;
 
     fn check(&self, device: &mut usize) -> Result<(), ParameterError<K::Scalar>> {
         check_device(*device, self)?;
@@ -80,7 +80,7 @@ impl<K: Kind> Devices for K {
         }
     }
 
-    fn scratch(_: &Device<K>) -> Option<K::Eliminated<K::Scalar>> {
+    fn scratch(_: &Device<K>) -> Option<K::Gains<K::Scalar>> {
         None
     }
 
@@ -99,7 +99,7 @@ impl<K: Kind> Devices for K {
         given: Given<'_, Self>,
         around: &Around<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
-        scratch: &mut Option<K::Eliminated<K::Scalar>>,
+        scratch: &mut Option<K::Gains<K::Scalar>>,
         index: &mut usize,
     ) -> Result<(), SolveError<K::Scalar>> {
         device.eliminate(joints, given, around, assembly, scratch, *index)?;
@@ -109,12 +109,12 @@ impl<K: Kind> Devices for K {
 
     fn back_substitute(
         _: &Device<K>,
-        scratch: &Option<K::Eliminated<K::Scalar>>,
+        scratch: &Option<K::Gains<K::Scalar>>,
         hub: &Solution<K::Scalar>,
         out: &mut K::Accelerations<K::Scalar>,
     ) {
-        if let Some(eliminated) = scratch {
-            *out = K::back_substitute(eliminated, &hub.along_b());
+        if let Some(gains) = scratch {
+            *out = K::back_substitute(gains, &hub.along_b());
         }
     }
 

@@ -161,11 +161,13 @@ impl Items<'_> {
             "Self::Eliminated<T>",
             &body.join("\n"),
         );
-        let share = function(
-            "share<T: Real>(eliminated: &Self::Eliminated<T>) -> &HubShare<T>",
-            "        &eliminated.share",
-        );
-        [asked, share].map(|item| inlined(&item)).join("\n\n")
+        let part = |name: &str, of: &str| {
+            let signature =
+                format!("{name}<T: Real>(eliminated: &Self::Eliminated<T>) -> &{of}<T>");
+            function(&signature, &format!("        &eliminated.{name}"))
+        };
+        let [share, gains] = [part("share", "HubShare"), part("gains", "Self::Gains")];
+        [asked, share, gains].map(|item| inlined(&item)).join("\n\n")
     }
 
     pub(super) fn pivots(&self) -> String {
@@ -187,13 +189,13 @@ impl Items<'_> {
         let name = |letter, name| if back.contains(&letter) { name } else { "_" };
         let arguments: Vec<_> = back
             .iter()
-            .map(|letter| if *letter == "e" { "eliminated" } else { "hub" }.to_owned())
+            .map(|letter| if *letter == "e" { "gains" } else { "hub" }.to_owned())
             .collect();
         let head = fitted(
             4,
             "fn back_substitute<T: Real>(",
             &[
-                format!("{}: &Self::Eliminated<T>", name("e", "eliminated")),
+                format!("{}: &Self::Gains<T>", name("e", "gains")),
                 format!("{}: &BodyAcceleration<T>", name("a", "hub")),
             ],
             ") -> JointAccelerations<T> {",

@@ -200,7 +200,8 @@ impl Items<'_> {
                  type Accelerations<T: Value> = JointAccelerations<T>;\n    \
                  type PerJoint<V: Value> = PerJoint<V>;\n    \
                  type Pose<T: Value> = {pose_type};\n    \
-                 type Eliminated<T: Value> = super::Eliminated<T>;"
+                 type Eliminated<T: Value> = super::Eliminated<T>;\n    \
+                 type Gains<T: Value> = super::Gains<T>;"
             ),
             self.pose(),
             self.eliminate(),

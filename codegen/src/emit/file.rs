@@ -230,8 +230,12 @@ fn kind_file(
     // A kind whose joints all keep their rates has neither motors nor modes.
     let given = [rates(kind), motors(kind), modes(kind), wrenches(kind)].into_iter();
     records.extend(given.filter(|record| !record.fields.is_empty()));
-    let outputs = kernels.iter().map(|kernel| kernel.output.clone());
-    records.extend(outputs.filter(|record| !record.shared));
+    let outputs = kernels.iter().flat_map(|kernel| kernel.output.with_nested());
+    for output in outputs.filter(|record| !record.shared) {
+        if !records.contains(&output) {
+            records.push(output);
+        }
+    }
     debug_assert!(records.contains(&joint_accelerations(kind)));
     let texts: Vec<_> = records.iter().map(record_text).collect();
     let mut imports: Vec<_> = shared_records().into_iter().map(|record| record.name).collect();

@@ -11,7 +11,7 @@ use crate::graph::{Expr, Stage};
 pub(super) fn kernel<'g>(
     chain: &Chain<'g>,
     eliminated: &Eliminated<'g>,
-    result: Record,
+    gains: Record,
 ) -> Kernel<'g> {
     let graph = chain.graph;
     let hub = ["r_b_n_ddot_bx", "r_b_n_ddot_by", "r_b_n_ddot_bz"].into_iter().chain([
@@ -44,7 +44,7 @@ pub(super) fn kernel<'g>(
     Kernel {
         name: "back_substitute".to_owned(),
         doc: vec!["Joint accelerations from those of the hub.".to_owned()],
-        inputs: vec![("e", result), ("a", records::body_acceleration())],
+        inputs: vec![("e", gains), ("a", records::body_acceleration())],
         sections: script.sections,
         output: records::joint_accelerations(chain.kind),
         claims: Vec::new(),

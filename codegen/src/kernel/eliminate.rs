@@ -8,14 +8,15 @@ use crate::derivation::script::Script;
 use crate::derivation::{Named, by_body};
 use crate::kinds::{Kind, Link, Motion};
 
-/// The kernel and the elimination behind it.
+/// The kernel, the elimination behind it, and what back substitution needs of its result.
 #[must_use]
-pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
+pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>, Record) {
     let mut script = Script::new(chain.graph);
     let share = aboard(chain, &mut script);
     let eliminated = eliminate(chain, &share, &mut script);
     let kind = chain.kind;
     let torques: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
+    let gains = gains(kind, &eliminated);
     let drives = [("u", records::motors(kind)), ("m", records::modes(kind))];
     let kernel = Kernel {
         name: "eliminate".to_owned(),
@@ -32,13 +33,13 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>) {
         ],
         inputs: inputs(kind, [("w", records::body_rate())].into_iter().chain(drives)),
         sections: script.sections,
-        output: output(kind, &eliminated),
+        output: output(kind, &eliminated, &gains),
         claims: claims(kind, by_body::share(chain).named(kind, Link::is_driven)),
     };
-    (kernel, eliminated)
+    (kernel, eliminated, gains)
 }
 
-fn output(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {
+fn output(kind: &Kind, eliminated: &Eliminated<'_>, gains: &Record) -> Record {
     let doc = "What is left of a device once its joints are eliminated.";
     let mut record = Record::new("Eliminated", doc);
     record.nested("share", records::hub_share(), "Share of the hub's equations.");
@@ -59,6 +60,18 @@ fn output(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {
             &pivot.diagonal.0,
             format!("Diagonal of the {title} before the elimination, {}.", units.pivot),
         );
+    }
+    record.nested("gains", gains.clone(), "What back substitution needs.");
+    record
+}
+
+/// The rows of eq. (E4): kept for each device until the hub is solved, and so apart from the rest.
+fn gains(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {
+    let doc = "How the joints of a device follow the hub, eq. (E4), once they are eliminated.";
+    let mut record = Record::new("Gains", doc);
+    for pivot in &eliminated.pivots {
+        let link = link_of(kind, pivot.tag);
+        let (title, units) = (link.body.title, link.joint.motion.units());
         for (name, _) in pivot.gains.iter().filter(|(_, gain)| !gain.is_zero()) {
             let of = name.rsplit('_').next().unwrap_or_default();
             let (what, slides) = match (of.split_at(1), HUB.contains(&of)) {

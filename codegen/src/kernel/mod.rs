@@ -85,8 +85,8 @@ impl<'g> Claim<'g> {
 #[must_use]
 pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     let mut list = kinematics::kernels(chain);
-    let (kernel, eliminated) = eliminate::kernel(chain);
-    let back = back_substitute::kernel(chain, &eliminated, kernel.output.clone());
+    let (kernel, eliminated, gains) = eliminate::kernel(chain);
+    let back = back_substitute::kernel(chain, &eliminated, gains);
     list.extend([handed::kernel(chain), kernel, back]);
     list.push(momenta::kernel(chain));
     list.push(axes::kernel(chain));

@@ -57,6 +57,16 @@ impl Record {
         self.fields.iter().flat_map(source).collect()
     }
 
+    /// The records it is made of, each before the one that contains it.
+    #[must_use]
+    pub fn with_nested(&self) -> Vec<Self> {
+        let nested = self.fields.iter().filter_map(|field| match &field.source {
+            Source::Nested(record) => Some(record.with_nested()),
+            Source::Own | Source::Named(_) => None,
+        });
+        nested.flatten().chain([self.clone()]).collect()
+    }
+
     fn shared(mut self) -> Self {
         self.shared = true;
         self

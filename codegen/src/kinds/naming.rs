@@ -58,7 +58,7 @@ const STEMS: [&str; 24] = [
 ];
 
 /// Functions and records of every emitted file, as titles that would give their names.
-const TITLES: [&str; 21] = [
+const TITLES: [&str; 22] = [
     "axes",
     "back substitute",
     "body acceleration",
@@ -69,6 +69,7 @@ const TITLES: [&str; 21] = [
     "energy momentum",
     "external",
     "first moment",
+    "gains",
     "gradient",
     "gravity",
     "hub share",

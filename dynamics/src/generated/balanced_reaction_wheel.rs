@@ -332,6 +332,19 @@ pub struct FirstMoment<T> {
     pub mc_bz: T,
 }
 
+/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gains<T> {
+    /// Gain of the wheel on component 1 of ω̇_{B/N}.
+    pub gain_w_w1: T,
+    /// Gain of the wheel on component 2 of ω̇_{B/N}.
+    pub gain_w_w2: T,
+    /// Gain of the wheel on component 3 of ω̇_{B/N}.
+    pub gain_w_w3: T,
+    /// Acceleration of the wheel with all else at rest, or as given, rad/s².
+    pub free_w: T,
+}
+
 /// What is left of a device once its joints are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eliminated<T> {
@@ -341,14 +354,8 @@ pub struct Eliminated<T> {
     pub pivot_w: T,
     /// Diagonal of the wheel before the elimination, kg m².
     pub diagonal_w: T,
-    /// Gain of the wheel on component 1 of ω̇_{B/N}.
-    pub gain_w_w1: T,
-    /// Gain of the wheel on component 2 of ω̇_{B/N}.
-    pub gain_w_w2: T,
-    /// Gain of the wheel on component 3 of ω̇_{B/N}.
-    pub gain_w_w3: T,
-    /// Acceleration of the wheel with all else at rest, or as given, rad/s².
-    pub free_w: T,
+    /// What back substitution needs.
+    pub gains: Gains<T>,
 }
 
 /// The second-order states of the joints.
@@ -901,10 +908,7 @@ pub fn eliminate<T: Real>(
         },
         pivot_w: mass_ww,
         diagonal_w: mass_ww,
-        gain_w_w1,
-        gain_w_w2,
-        gain_w_w3,
-        free_w,
+        gains: Gains { gain_w_w1, gain_w_w2, gain_w_w3, free_w },
     }
 }
 
@@ -913,10 +917,7 @@ pub fn eliminate<T: Real>(
 /// Operations: 3 mul, 3 add, 0 neg, 0 div, 0 trig.
 #[inline(always)]
 #[must_use]
-pub fn back_substitute<T: Real>(
-    e: &Eliminated<T>,
-    a: &BodyAcceleration<T>,
-) -> JointAccelerations<T> {
+pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_w.sub_mul(a.omega_dot_bx, e.gain_w_w1);
     let row_1 = row_0.sub_mul(a.omega_dot_by, e.gain_w_w2);

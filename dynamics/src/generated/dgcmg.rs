@@ -1015,15 +1015,9 @@ pub struct FirstMoment<T> {
     pub f_tilde_bz: T,
 }
 
-/// What is left of a device once its joints are eliminated.
+/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eliminated<T> {
-    /// Share of the hub's equations.
-    pub share: HubShare<T>,
-    /// Pivot of the inner gimbal, kg m²; singular unless well above zero beside the diagonal.
-    pub pivot_i: T,
-    /// Diagonal of the inner gimbal before the elimination, kg m².
-    pub diagonal_i: T,
+pub struct Gains<T> {
     /// Gain of the inner gimbal on component 1 of r̈_{B/N}, 1/m.
     pub gain_i_v1: T,
     /// Gain of the inner gimbal on component 2 of r̈_{B/N}, 1/m.
@@ -1040,10 +1034,6 @@ pub struct Eliminated<T> {
     pub gain_i_o: T,
     /// Acceleration of the inner gimbal with all else at rest, or as given, rad/s².
     pub free_i: T,
-    /// Pivot of the outer gimbal, kg m²; singular unless well above zero beside the diagonal.
-    pub pivot_o: T,
-    /// Diagonal of the outer gimbal before the elimination, kg m².
-    pub diagonal_o: T,
     /// Gain of the outer gimbal on component 1 of r̈_{B/N}, 1/m.
     pub gain_o_v1: T,
     /// Gain of the outer gimbal on component 2 of r̈_{B/N}, 1/m.
@@ -1058,6 +1048,23 @@ pub struct Eliminated<T> {
     pub gain_o_w3: T,
     /// Acceleration of the outer gimbal with all else at rest, or as given, rad/s².
     pub free_o: T,
+}
+
+/// What is left of a device once its joints are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eliminated<T> {
+    /// Share of the hub's equations.
+    pub share: HubShare<T>,
+    /// Pivot of the inner gimbal, kg m²; singular unless well above zero beside the diagonal.
+    pub pivot_i: T,
+    /// Diagonal of the inner gimbal before the elimination, kg m².
+    pub diagonal_i: T,
+    /// Pivot of the outer gimbal, kg m²; singular unless well above zero beside the diagonal.
+    pub pivot_o: T,
+    /// Diagonal of the outer gimbal before the elimination, kg m².
+    pub diagonal_o: T,
+    /// What back substitution needs.
+    pub gains: Gains<T>,
 }
 
 /// The second-order states of the joints.
@@ -2817,23 +2824,25 @@ pub fn eliminate<T: Real>(
         },
         pivot_i: mass_ii,
         diagonal_i: mass_ii,
-        gain_i_v1,
-        gain_i_v2,
-        gain_i_v3,
-        gain_i_w1,
-        gain_i_w2,
-        gain_i_w3,
-        gain_i_o,
-        free_i,
         pivot_o: mass_oo_i,
         diagonal_o: mass_oo,
-        gain_o_v1,
-        gain_o_v2,
-        gain_o_v3,
-        gain_o_w1,
-        gain_o_w2,
-        gain_o_w3,
-        free_o,
+        gains: Gains {
+            gain_i_v1,
+            gain_i_v2,
+            gain_i_v3,
+            gain_i_w1,
+            gain_i_w2,
+            gain_i_w3,
+            gain_i_o,
+            free_i,
+            gain_o_v1,
+            gain_o_v2,
+            gain_o_v3,
+            gain_o_w1,
+            gain_o_w2,
+            gain_o_w3,
+            free_o,
+        },
     }
 }
 
@@ -2842,10 +2851,7 @@ pub fn eliminate<T: Real>(
 /// Operations: 13 mul, 13 add, 0 neg, 0 div, 0 trig.
 #[inline(always)]
 #[must_use]
-pub fn back_substitute<T: Real>(
-    e: &Eliminated<T>,
-    a: &BodyAcceleration<T>,
-) -> JointAccelerations<T> {
+pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_o.sub_mul(a.r_b_n_ddot_bx, e.gain_o_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_o_v2);
@@ -2860,7 +2866,7 @@ pub fn back_substitute<T: Real>(
     let row_9 = row_8.sub_mul(a.omega_dot_by, e.gain_i_w2);
     let row_10 = row_9.sub_mul(a.omega_dot_bz, e.gain_i_w3);
     let gamma_i_ddot = row_10.sub_mul(gamma_o_ddot, e.gain_i_o);
-    let zero = e.pivot_i.like(0.0);
+    let zero = e.gain_i_v1.like(0.0);
     let spin_dot = zero;
 
     JointAccelerations { gamma_o_ddot, gamma_i_ddot, spin_dot }

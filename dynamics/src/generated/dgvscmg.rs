@@ -1028,15 +1028,9 @@ pub struct FirstMoment<T> {
     pub f_tilde_bz: T,
 }
 
-/// What is left of a device once its joints are eliminated.
+/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eliminated<T> {
-    /// Share of the hub's equations.
-    pub share: HubShare<T>,
-    /// Pivot of the wheel, kg m²; singular unless well above zero beside the diagonal.
-    pub pivot_w: T,
-    /// Diagonal of the wheel before the elimination, kg m².
-    pub diagonal_w: T,
+pub struct Gains<T> {
     /// Gain of the wheel on component 1 of r̈_{B/N}, 1/m.
     pub gain_w_v1: T,
     /// Gain of the wheel on component 2 of r̈_{B/N}, 1/m.
@@ -1055,10 +1049,6 @@ pub struct Eliminated<T> {
     pub gain_w_i: T,
     /// Acceleration of the wheel with all else at rest, or as given, rad/s².
     pub free_w: T,
-    /// Pivot of the inner gimbal, kg m²; singular unless well above zero beside the diagonal.
-    pub pivot_i: T,
-    /// Diagonal of the inner gimbal before the elimination, kg m².
-    pub diagonal_i: T,
     /// Gain of the inner gimbal on component 1 of r̈_{B/N}, 1/m.
     pub gain_i_v1: T,
     /// Gain of the inner gimbal on component 2 of r̈_{B/N}, 1/m.
@@ -1075,10 +1065,6 @@ pub struct Eliminated<T> {
     pub gain_i_o: T,
     /// Acceleration of the inner gimbal with all else at rest, or as given, rad/s².
     pub free_i: T,
-    /// Pivot of the outer gimbal, kg m²; singular unless well above zero beside the diagonal.
-    pub pivot_o: T,
-    /// Diagonal of the outer gimbal before the elimination, kg m².
-    pub diagonal_o: T,
     /// Gain of the outer gimbal on component 1 of r̈_{B/N}, 1/m.
     pub gain_o_v1: T,
     /// Gain of the outer gimbal on component 2 of r̈_{B/N}, 1/m.
@@ -1093,6 +1079,27 @@ pub struct Eliminated<T> {
     pub gain_o_w3: T,
     /// Acceleration of the outer gimbal with all else at rest, or as given, rad/s².
     pub free_o: T,
+}
+
+/// What is left of a device once its joints are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eliminated<T> {
+    /// Share of the hub's equations.
+    pub share: HubShare<T>,
+    /// Pivot of the wheel, kg m²; singular unless well above zero beside the diagonal.
+    pub pivot_w: T,
+    /// Diagonal of the wheel before the elimination, kg m².
+    pub diagonal_w: T,
+    /// Pivot of the inner gimbal, kg m²; singular unless well above zero beside the diagonal.
+    pub pivot_i: T,
+    /// Diagonal of the inner gimbal before the elimination, kg m².
+    pub diagonal_i: T,
+    /// Pivot of the outer gimbal, kg m²; singular unless well above zero beside the diagonal.
+    pub pivot_o: T,
+    /// Diagonal of the outer gimbal before the elimination, kg m².
+    pub diagonal_o: T,
+    /// What back substitution needs.
+    pub gains: Gains<T>,
 }
 
 /// The second-order states of the joints.
@@ -2971,34 +2978,36 @@ pub fn eliminate<T: Real>(
         },
         pivot_w: mass_ww,
         diagonal_w: mass_ww,
-        gain_w_v1,
-        gain_w_v2,
-        gain_w_v3,
-        gain_w_w1,
-        gain_w_w2,
-        gain_w_w3,
-        gain_w_o,
-        gain_w_i,
-        free_w,
         pivot_i: mass_ii_w,
         diagonal_i: mass_ii,
-        gain_i_v1,
-        gain_i_v2,
-        gain_i_v3,
-        gain_i_w1,
-        gain_i_w2,
-        gain_i_w3,
-        gain_i_o,
-        free_i,
         pivot_o: mass_oo_wi,
         diagonal_o: mass_oo,
-        gain_o_v1,
-        gain_o_v2,
-        gain_o_v3,
-        gain_o_w1,
-        gain_o_w2,
-        gain_o_w3,
-        free_o,
+        gains: Gains {
+            gain_w_v1,
+            gain_w_v2,
+            gain_w_v3,
+            gain_w_w1,
+            gain_w_w2,
+            gain_w_w3,
+            gain_w_o,
+            gain_w_i,
+            free_w,
+            gain_i_v1,
+            gain_i_v2,
+            gain_i_v3,
+            gain_i_w1,
+            gain_i_w2,
+            gain_i_w3,
+            gain_i_o,
+            free_i,
+            gain_o_v1,
+            gain_o_v2,
+            gain_o_v3,
+            gain_o_w1,
+            gain_o_w2,
+            gain_o_w3,
+            free_o,
+        },
     }
 }
 
@@ -3007,10 +3016,7 @@ pub fn eliminate<T: Real>(
 /// Operations: 21 mul, 21 add, 0 neg, 0 div, 0 trig.
 #[inline(always)]
 #[must_use]
-pub fn back_substitute<T: Real>(
-    e: &Eliminated<T>,
-    a: &BodyAcceleration<T>,
-) -> JointAccelerations<T> {
+pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_o.sub_mul(a.r_b_n_ddot_bx, e.gain_o_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_o_v2);

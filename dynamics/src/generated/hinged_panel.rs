@@ -518,15 +518,9 @@ pub struct FirstMoment<T> {
     pub f_tilde_bz: T,
 }
 
-/// What is left of a device once its joints are eliminated.
+/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eliminated<T> {
-    /// Share of the hub's equations.
-    pub share: HubShare<T>,
-    /// Pivot of the panel, kg m²; singular unless well above zero beside the diagonal.
-    pub pivot_p: T,
-    /// Diagonal of the panel before the elimination, kg m².
-    pub diagonal_p: T,
+pub struct Gains<T> {
     /// Gain of the panel on component 1 of r̈_{B/N}, 1/m.
     pub gain_p_v1: T,
     /// Gain of the panel on component 2 of r̈_{B/N}, 1/m.
@@ -541,6 +535,19 @@ pub struct Eliminated<T> {
     pub gain_p_w3: T,
     /// Acceleration of the panel with all else at rest, or as given, rad/s².
     pub free_p: T,
+}
+
+/// What is left of a device once its joints are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eliminated<T> {
+    /// Share of the hub's equations.
+    pub share: HubShare<T>,
+    /// Pivot of the panel, kg m²; singular unless well above zero beside the diagonal.
+    pub pivot_p: T,
+    /// Diagonal of the panel before the elimination, kg m².
+    pub diagonal_p: T,
+    /// What back substitution needs.
+    pub gains: Gains<T>,
 }
 
 /// The second-order states of the joints.
@@ -1346,13 +1353,7 @@ pub fn eliminate<T: Real>(
         },
         pivot_p: mass_pp,
         diagonal_p: mass_pp,
-        gain_p_v1,
-        gain_p_v2,
-        gain_p_v3,
-        gain_p_w1,
-        gain_p_w2,
-        gain_p_w3,
-        free_p,
+        gains: Gains { gain_p_v1, gain_p_v2, gain_p_v3, gain_p_w1, gain_p_w2, gain_p_w3, free_p },
     }
 }
 
@@ -1361,10 +1362,7 @@ pub fn eliminate<T: Real>(
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
 #[inline(always)]
 #[must_use]
-pub fn back_substitute<T: Real>(
-    e: &Eliminated<T>,
-    a: &BodyAcceleration<T>,
-) -> JointAccelerations<T> {
+pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_p.sub_mul(a.r_b_n_ddot_bx, e.gain_p_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_p_v2);

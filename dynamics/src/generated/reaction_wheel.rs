@@ -460,15 +460,9 @@ pub struct FirstMoment<T> {
     pub f_tilde_bz: T,
 }
 
-/// What is left of a device once its joints are eliminated.
+/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eliminated<T> {
-    /// Share of the hub's equations.
-    pub share: HubShare<T>,
-    /// Pivot of the wheel, kg m²; singular unless well above zero beside the diagonal.
-    pub pivot_w: T,
-    /// Diagonal of the wheel before the elimination, kg m².
-    pub diagonal_w: T,
+pub struct Gains<T> {
     /// Gain of the wheel on component 1 of r̈_{B/N}, 1/m.
     pub gain_w_v1: T,
     /// Gain of the wheel on component 2 of r̈_{B/N}, 1/m.
@@ -483,6 +477,19 @@ pub struct Eliminated<T> {
     pub gain_w_w3: T,
     /// Acceleration of the wheel with all else at rest, or as given, rad/s².
     pub free_w: T,
+}
+
+/// What is left of a device once its joints are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eliminated<T> {
+    /// Share of the hub's equations.
+    pub share: HubShare<T>,
+    /// Pivot of the wheel, kg m²; singular unless well above zero beside the diagonal.
+    pub pivot_w: T,
+    /// Diagonal of the wheel before the elimination, kg m².
+    pub diagonal_w: T,
+    /// What back substitution needs.
+    pub gains: Gains<T>,
 }
 
 /// The second-order states of the joints.
@@ -1242,13 +1249,7 @@ pub fn eliminate<T: Real>(
         },
         pivot_w: mass_ww,
         diagonal_w: mass_ww,
-        gain_w_v1,
-        gain_w_v2,
-        gain_w_v3,
-        gain_w_w1,
-        gain_w_w2,
-        gain_w_w3,
-        free_w,
+        gains: Gains { gain_w_v1, gain_w_v2, gain_w_v3, gain_w_w1, gain_w_w2, gain_w_w3, free_w },
     }
 }
 
@@ -1257,10 +1258,7 @@ pub fn eliminate<T: Real>(
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
 #[inline(always)]
 #[must_use]
-pub fn back_substitute<T: Real>(
-    e: &Eliminated<T>,
-    a: &BodyAcceleration<T>,
-) -> JointAccelerations<T> {
+pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);

@@ -712,15 +712,9 @@ pub struct FirstMoment<T> {
     pub f_tilde_bz: T,
 }
 
-/// What is left of a device once its joints are eliminated.
+/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eliminated<T> {
-    /// Share of the hub's equations.
-    pub share: HubShare<T>,
-    /// Pivot of the gimbal, kg m²; singular unless well above zero beside the diagonal.
-    pub pivot_g: T,
-    /// Diagonal of the gimbal before the elimination, kg m².
-    pub diagonal_g: T,
+pub struct Gains<T> {
     /// Gain of the gimbal on component 1 of r̈_{B/N}, 1/m.
     pub gain_g_v1: T,
     /// Gain of the gimbal on component 2 of r̈_{B/N}, 1/m.
@@ -735,6 +729,19 @@ pub struct Eliminated<T> {
     pub gain_g_w3: T,
     /// Acceleration of the gimbal with all else at rest, or as given, rad/s².
     pub free_g: T,
+}
+
+/// What is left of a device once its joints are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eliminated<T> {
+    /// Share of the hub's equations.
+    pub share: HubShare<T>,
+    /// Pivot of the gimbal, kg m²; singular unless well above zero beside the diagonal.
+    pub pivot_g: T,
+    /// Diagonal of the gimbal before the elimination, kg m².
+    pub diagonal_g: T,
+    /// What back substitution needs.
+    pub gains: Gains<T>,
 }
 
 /// The second-order states of the joints.
@@ -1908,13 +1915,7 @@ pub fn eliminate<T: Real>(
         },
         pivot_g: mass_gg,
         diagonal_g: mass_gg,
-        gain_g_v1,
-        gain_g_v2,
-        gain_g_v3,
-        gain_g_w1,
-        gain_g_w2,
-        gain_g_w3,
-        free_g,
+        gains: Gains { gain_g_v1, gain_g_v2, gain_g_v3, gain_g_w1, gain_g_w2, gain_g_w3, free_g },
     }
 }
 
@@ -1923,10 +1924,7 @@ pub fn eliminate<T: Real>(
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
 #[inline(always)]
 #[must_use]
-pub fn back_substitute<T: Real>(
-    e: &Eliminated<T>,
-    a: &BodyAcceleration<T>,
-) -> JointAccelerations<T> {
+pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
@@ -1934,7 +1932,7 @@ pub fn back_substitute<T: Real>(
     let row_3 = row_2.sub_mul(a.omega_dot_bx, e.gain_g_w1);
     let row_4 = row_3.sub_mul(a.omega_dot_by, e.gain_g_w2);
     let gamma_ddot = row_4.sub_mul(a.omega_dot_bz, e.gain_g_w3);
-    let zero = e.pivot_g.like(0.0);
+    let zero = e.gain_g_v1.like(0.0);
     let spin_dot = zero;
 
     JointAccelerations { gamma_ddot, spin_dot }

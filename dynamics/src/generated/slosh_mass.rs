@@ -286,15 +286,9 @@ pub struct FirstMoment<T> {
     pub mc_dprime_s_bz: T,
 }
 
-/// What is left of a device once its joints are eliminated.
+/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eliminated<T> {
-    /// Share of the hub's equations.
-    pub share: HubShare<T>,
-    /// Pivot of the slosh mass, kg; singular unless well above zero beside the diagonal.
-    pub pivot_s: T,
-    /// Diagonal of the slosh mass before the elimination, kg.
-    pub diagonal_s: T,
+pub struct Gains<T> {
     /// Gain of the slosh mass on component 1 of r̈_{B/N}.
     pub gain_s_v1: T,
     /// Gain of the slosh mass on component 2 of r̈_{B/N}.
@@ -309,6 +303,19 @@ pub struct Eliminated<T> {
     pub gain_s_w3: T,
     /// Acceleration of the slosh mass with all else at rest, or as given, m/s².
     pub free_s: T,
+}
+
+/// What is left of a device once its joints are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Eliminated<T> {
+    /// Share of the hub's equations.
+    pub share: HubShare<T>,
+    /// Pivot of the slosh mass, kg; singular unless well above zero beside the diagonal.
+    pub pivot_s: T,
+    /// Diagonal of the slosh mass before the elimination, kg.
+    pub diagonal_s: T,
+    /// What back substitution needs.
+    pub gains: Gains<T>,
 }
 
 /// The second-order states of the joints.
@@ -831,13 +838,7 @@ pub fn eliminate<T: Real>(
         },
         pivot_s: mass_ss,
         diagonal_s: mass_ss,
-        gain_s_v1,
-        gain_s_v2,
-        gain_s_v3,
-        gain_s_w1,
-        gain_s_w2,
-        gain_s_w3,
-        free_s,
+        gains: Gains { gain_s_v1, gain_s_v2, gain_s_v3, gain_s_w1, gain_s_w2, gain_s_w3, free_s },
     }
 }
 
@@ -846,10 +847,7 @@ pub fn eliminate<T: Real>(
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
 #[inline(always)]
 #[must_use]
-pub fn back_substitute<T: Real>(
-    e: &Eliminated<T>,
-    a: &BodyAcceleration<T>,
-) -> JointAccelerations<T> {
+pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
     // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
     let row_0 = e.free_s.sub_mul(a.r_b_n_ddot_bx, e.gain_s_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_s_v2);

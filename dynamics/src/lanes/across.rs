@@ -11,7 +11,7 @@ use super::evaluate::{regular, with_passive, within_reach};
 use super::gather::{joints_in_lanes, values_in_lanes};
 use super::lane::Lane;
 use super::number::{Block, Number, WIDEST};
-use super::slot::put_drives;
+use super::slot::{Aligned, put_drives};
 use super::width::{lanes_for, width};
 use crate::accelerations::{Outset, sound as sound_inputs, with_devices};
 use crate::assembly::along_b;
@@ -179,7 +179,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
         let Self { across: AcrossDevices { craft, groups, .. }, state, inputs } = self;
         let Outset { around, mut assembly, at_b } = craft.outset(state, inputs).ok()?;
         let omega = map(around.omega, |component| zero.like(component));
-        let mut eliminations = Vec::with_capacity(groups.len());
+        // The first without the heap: where there is one group alone, that takes time.
+        let (mut gains, mut of_first) = (Vec::new(), None);
         let (mut holds, mut shares) = (zero.same(zero), None);
         let mut start = 0;
         for group in groups {
@@ -207,7 +208,10 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
                 Some(sum) => share.zip(sum, |number, sum| sum + number),
                 None => share,
             });
-            eliminations.push(eliminated);
+            match &of_first {
+                None => of_first = Some(Aligned(*K::gains(&eliminated))),
+                Some(_) => gains.push(Aligned(*K::gains(&eliminated))),
+            }
         }
         assembly.add(&shares?.map(Number::sum));
         let hub = craft.hub_moves(inputs, &around, assembly, at_b).ok()?;
@@ -217,8 +221,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
         let of_hub = of_hub.along_b();
         let (mut devices, mut vanishing) = (<[K; N]>::no_accelerations_for(&craft.devices), zero);
         let mut rest = devices.iter_mut();
-        for eliminated in &eliminations {
-            let found = K::back_substitute(eliminated, &of_hub);
+        for Aligned(gains) in of_first.iter().chain(&gains) {
+            let found = K::back_substitute(gains, &of_hub);
             let mut found = K::zip_accelerations(&found, &found, |number, _| {
                 vanishing = vanishing + number * zero;
                 number.store()

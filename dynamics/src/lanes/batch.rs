@@ -23,7 +23,7 @@ use crate::parameters::Hub;
 use crate::quaternion::{Quaternion, bn, norm_squared};
 use crate::spacecraft::Spacecraft;
 use crate::state::{Accelerations, State};
-use crate::vec3::{add, components, map, rotate, vector};
+use crate::vec3::{add, components, map, rotate, vector, zeros};
 
 /// What acts on the states of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -231,6 +231,9 @@ impl<D: LanedSet> Evaluation<'_, '_, D> {
     fn evaluate<T: Number>(self, zero: T) {
         let craft = &self.batch.craft;
         let mut group = Group::<D, T>::new(craft, zero);
+        let devices = D::no_accelerations_for(&craft.devices);
+        let still =
+            Accelerations { r_b_n_ddot: vector(zeros()), omega_dot: vector(zeros()), devices };
         for (index, states) in self.states.chunks(T::WIDTH).enumerate() {
             let inputs = self.inputs.starting(index * T::WIDTH);
             group.gather(zero, craft, states, &inputs);
@@ -240,17 +243,21 @@ impl<D: LanedSet> Evaluation<'_, '_, D> {
             let holds = zero.like(1.0).or(found.holds, zero).store();
             let r_b_n_ddot = map(found.r_b_n_ddot, Number::store);
             let omega_dot = map(found.omega_dot, Number::store);
-            for (lane, state) in states.iter().enumerate() {
-                let Some(inputs) = inputs.at(lane) else { continue };
-                self.out.push(if group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0 {
-                    let r_b_n_ddot = vector(at(&r_b_n_ddot, lane));
-                    let omega_dot = vector(at(&omega_dot, lane));
-                    let mut devices = D::no_accelerations_for(&craft.devices);
-                    D::take_found(&mut group.slots, lane, &mut devices);
-                    Ok(Accelerations { r_b_n_ddot, omega_dot, devices })
-                } else {
-                    craft.accelerations(state, inputs)
-                });
+            // Filled in place: what was just put together number by number is slow to move.
+            let first = self.out.len();
+            self.out.resize(first + states.len(), Ok(still.clone()));
+            let places = self.out.iter_mut().skip(first);
+            for (lane, (state, place)) in states.iter().zip(places).enumerate() {
+                let sound = group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0;
+                match (place, inputs.at(lane)) {
+                    (Ok(found), _) if sound => {
+                        found.r_b_n_ddot = vector(at(&r_b_n_ddot, lane));
+                        found.omega_dot = vector(at(&omega_dot, lane));
+                        D::take_found(&mut group.slots, lane, &mut found.devices);
+                    }
+                    (place, Some(inputs)) => *place = craft.accelerations(state, inputs),
+                    (_, None) => {}
+                }
             }
         }
     }

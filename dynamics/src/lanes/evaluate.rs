@@ -6,7 +6,7 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::number::Number;
-use super::slot::{LanedSet, Slot, Visit};
+use super::slot::{Aligned, LanedSet, Slot, Visit};
 use crate::assembly::{Assembly, along_b};
 use crate::device::Device;
 use crate::each::JointStates;
@@ -119,7 +119,7 @@ impl<T: Number> Visit<T> for Elimination<T> {
         let regular = regular::<K, T>(like, &eliminated, &drives);
         self.holds = like.both(self.holds, like.both(within, regular));
         self.assembly.add(K::share(&eliminated));
-        slot.eliminated = Some(eliminated);
+        slot.gains = Some(Aligned(*K::gains(&eliminated)));
     }
 }
 
@@ -190,8 +190,8 @@ struct BackSubstitution<T> {
 impl<T: Number> Visit<T> for BackSubstitution<T> {
     #[inline(always)]
     fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
-        let Some(eliminated) = &slot.eliminated else { return };
-        let found = K::back_substitute(eliminated, &self.hub);
+        let Some(Aligned(gains)) = &slot.gains else { return };
+        let found = K::back_substitute(gains, &self.hub);
         slot.found = K::zip_accelerations(&found, &found, |number, _| {
             self.vanishing = self.vanishing + number * self.zero;
             number

@@ -30,10 +30,15 @@ pub struct Slot<K: Kernels, T: Value> {
     /// Torques and modes, without what joints do by themselves.
     pub(crate) drives: K::PerJoint<Drive<T>>,
     /// What back substitution needs; none before the first evaluation.
-    pub(crate) eliminated: Option<K::Eliminated<T>>,
+    pub(crate) gains: Option<Aligned<K::Gains<T>>>,
     /// The accelerations.
     pub(crate) found: K::Accelerations<T>,
 }
+
+/// As aligned as the widest lanes: what is not is stored and loaded in two halves.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct Aligned<V>(pub(crate) V);
 
 /// What is done with each device of a set.
 pub trait Visit<T: Value> {
@@ -96,7 +101,7 @@ impl<K: Kind<Scalar = f64>> LanedSet for K {
             joints,
             sum: joints,
             drives: K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| fill)),
-            eliminated: None,
+            gains: None,
             found: K::zip_accelerations(&still, &still, |_, _| fill),
         }
     }

@@ -244,6 +244,7 @@ impl<S: Scalar> Kernels for BalancedDgcmg<S> {
     type PerJoint<V: Value> = PerJoint<V>;
     type Pose<T: Value> = super::Trig<T>;
     type Eliminated<T: Value> = super::Eliminated<T>;
+    type Gains<T: Value> = super::Gains<T>;
 
     #[inline(always)]
     fn pose<T: Angle>(joints: &Joints<T>) -> Self::Pose<T> {
@@ -279,6 +280,11 @@ impl<S: Scalar> Kernels for BalancedDgcmg<S> {
     }
 
     #[inline(always)]
+    fn gains<T: Real>(eliminated: &Self::Eliminated<T>) -> &Self::Gains<T> {
+        &eliminated.gains
+    }
+
+    #[inline(always)]
     fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
         PerJoint {
             outer_gimbal: Some([eliminated.pivot_o, eliminated.diagonal_o]),
@@ -289,10 +295,10 @@ impl<S: Scalar> Kernels for BalancedDgcmg<S> {
 
     #[inline(always)]
     fn back_substitute<T: Real>(
-        eliminated: &Self::Eliminated<T>,
+        gains: &Self::Gains<T>,
         hub: &BodyAcceleration<T>,
     ) -> JointAccelerations<T> {
-        super::back_substitute(eliminated, hub)
+        super::back_substitute(gains, hub)
     }
 
     #[inline(always)]

@@ -241,6 +241,7 @@ impl<S: Scalar> Kernels for BalancedDgvscmg<S> {
     type PerJoint<V: Value> = PerJoint<V>;
     type Pose<T: Value> = super::Trig<T>;
     type Eliminated<T: Value> = super::Eliminated<T>;
+    type Gains<T: Value> = super::Gains<T>;
 
     #[inline(always)]
     fn pose<T: Angle>(joints: &Joints<T>) -> Self::Pose<T> {
@@ -282,6 +283,11 @@ impl<S: Scalar> Kernels for BalancedDgvscmg<S> {
     }
 
     #[inline(always)]
+    fn gains<T: Real>(eliminated: &Self::Eliminated<T>) -> &Self::Gains<T> {
+        &eliminated.gains
+    }
+
+    #[inline(always)]
     fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
         PerJoint {
             outer_gimbal: Some([eliminated.pivot_o, eliminated.diagonal_o]),
@@ -292,10 +298,10 @@ impl<S: Scalar> Kernels for BalancedDgvscmg<S> {
 
     #[inline(always)]
     fn back_substitute<T: Real>(
-        eliminated: &Self::Eliminated<T>,
+        gains: &Self::Gains<T>,
         hub: &BodyAcceleration<T>,
     ) -> JointAccelerations<T> {
-        super::back_substitute(eliminated, hub)
+        super::back_substitute(gains, hub)
     }
 
     #[inline(always)]

@@ -168,6 +168,7 @@ impl<S: Scalar> Kernels for BalancedReactionWheel<S> {
     type PerJoint<V: Value> = PerJoint<V>;
     type Pose<T: Value> = ();
     type Eliminated<T: Value> = super::Eliminated<T>;
+    type Gains<T: Value> = super::Gains<T>;
 
     #[inline(always)]
     fn pose<T: Angle>(_: &Joints<T>) -> Self::Pose<T> {}
@@ -195,16 +196,21 @@ impl<S: Scalar> Kernels for BalancedReactionWheel<S> {
     }
 
     #[inline(always)]
+    fn gains<T: Real>(eliminated: &Self::Eliminated<T>) -> &Self::Gains<T> {
+        &eliminated.gains
+    }
+
+    #[inline(always)]
     fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
         PerJoint { wheel: Some([eliminated.pivot_w, eliminated.diagonal_w]) }
     }
 
     #[inline(always)]
     fn back_substitute<T: Real>(
-        eliminated: &Self::Eliminated<T>,
+        gains: &Self::Gains<T>,
         hub: &BodyAcceleration<T>,
     ) -> JointAccelerations<T> {
-        super::back_substitute(eliminated, hub)
+        super::back_substitute(gains, hub)
     }
 
     #[inline(always)]

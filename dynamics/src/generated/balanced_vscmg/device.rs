@@ -200,6 +200,7 @@ impl<S: Scalar> Kernels for BalancedVscmg<S> {
     type PerJoint<V: Value> = PerJoint<V>;
     type Pose<T: Value> = super::Trig<T>;
     type Eliminated<T: Value> = super::Eliminated<T>;
+    type Gains<T: Value> = super::Gains<T>;
 
     #[inline(always)]
     fn pose<T: Angle>(joints: &Joints<T>) -> Self::Pose<T> {
@@ -233,6 +234,11 @@ impl<S: Scalar> Kernels for BalancedVscmg<S> {
     }
 
     #[inline(always)]
+    fn gains<T: Real>(eliminated: &Self::Eliminated<T>) -> &Self::Gains<T> {
+        &eliminated.gains
+    }
+
+    #[inline(always)]
     fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
         PerJoint {
             gimbal: Some([eliminated.pivot_g, eliminated.diagonal_g]),
@@ -242,10 +248,10 @@ impl<S: Scalar> Kernels for BalancedVscmg<S> {
 
     #[inline(always)]
     fn back_substitute<T: Real>(
-        eliminated: &Self::Eliminated<T>,
+        gains: &Self::Gains<T>,
         hub: &BodyAcceleration<T>,
     ) -> JointAccelerations<T> {
-        super::back_substitute(eliminated, hub)
+        super::back_substitute(gains, hub)
     }
 
     #[inline(always)]

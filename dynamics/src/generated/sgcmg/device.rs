@@ -208,6 +208,7 @@ impl<S: Scalar> Kernels for Sgcmg<S> {
     type PerJoint<V: Value> = PerJoint<V>;
     type Pose<T: Value> = super::Trig<T>;
     type Eliminated<T: Value> = super::Eliminated<T>;
+    type Gains<T: Value> = super::Gains<T>;
 
     #[inline(always)]
     fn pose<T: Angle>(joints: &Joints<T>) -> Self::Pose<T> {
@@ -239,16 +240,21 @@ impl<S: Scalar> Kernels for Sgcmg<S> {
     }
 
     #[inline(always)]
+    fn gains<T: Real>(eliminated: &Self::Eliminated<T>) -> &Self::Gains<T> {
+        &eliminated.gains
+    }
+
+    #[inline(always)]
     fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
         PerJoint { gimbal: Some([eliminated.pivot_g, eliminated.diagonal_g]), wheel: None }
     }
 
     #[inline(always)]
     fn back_substitute<T: Real>(
-        eliminated: &Self::Eliminated<T>,
+        gains: &Self::Gains<T>,
         hub: &BodyAcceleration<T>,
     ) -> JointAccelerations<T> {
-        super::back_substitute(eliminated, hub)
+        super::back_substitute(gains, hub)
     }
 
     #[inline(always)]
