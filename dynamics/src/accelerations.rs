@@ -3,6 +3,9 @@
 //! Devices meet only in the hub's six equations: each is eliminated into them, they are solved, and
 //! each device's own accelerations follow. The number of devices is a loop bound and nothing else.
 
+#![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
+
+use crate::arithmetic::{Arithmetic, Plainly, Way};
 use crate::assembly::Assembly;
 use crate::attitude::Attitude;
 use crate::devices::{Around, Devices, Given};
@@ -10,6 +13,8 @@ use crate::each::Each;
 use crate::error::SolveError;
 use crate::gravity::{Gravity, at_b};
 use crate::inputs::Inputs;
+#[cfg(feature = "lanes")]
+use crate::lanes::fused::Solving;
 use crate::mode::HubMode;
 use crate::real::{Scalar, zero};
 use crate::solve::Solution;
@@ -41,50 +46,66 @@ impl<D: Devices> Spacecraft<D> {
         if !sound(state, inputs) {
             return Err(self.diagnosis(state, inputs, SolveError::Overflow));
         }
-        self.solve(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))
+        let mut found = self.no_accelerations();
+        match self.solve(state, inputs, &mut found) {
+            Ok(()) => Ok(found),
+            Err(failure) => Err(self.diagnosis(state, inputs, failure)),
+        }
     }
 
-    /// [`Self::accelerations`] without the search for a culprit.
+    /// [`Self::accelerations`] without the search for a culprit, in their place: to move what was just
+    /// put together takes time.
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
-    ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
-        let Outset { around, mut assembly, at_b } = self.outset(state, inputs)?;
-        let (given, mut scratch) = (Given::of(inputs), D::scratch(&self.devices));
-        self.eliminate(state, given, &around, &mut assembly, &mut scratch)?;
-        let hub = self.hub_moves(inputs, &around, assembly, at_b)?;
-        let devices = self.back_substitute(&scratch, &hub)?;
-        with_devices(inputs, &hub, at_b, devices)
+        found: &mut Accelerations<D>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        match self.arithmetic {
+            Arithmetic::Plain => self.solve_by::<_, Plainly>(state, inputs, found),
+            #[cfg(feature = "lanes")]
+            Arithmetic::Fused(cpu) => cpu.dispatch(Solving { craft: self, state, inputs, found }),
+        }
     }
 
-    /// Where an evaluation sets out: the hub's own system, and what the devices feel.
-    pub(crate) fn outset<A: Attitude<D::Scalar>>(
+    /// [`Self::solve`] in a way.
+    #[inline(always)]
+    pub(crate) fn solve_by<A: Attitude<D::Scalar>, W: Way>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
-    ) -> Result<Outset<D::Scalar>, SolveError<D::Scalar>> {
-        check_fixed(state, inputs)?;
-        let omega = components(&state.omega);
-        let field = match &inputs.gravity {
-            Gravity::None => None,
-            gravity => gravity.field(&columns(&state.attitude.dcm()), &state.r_b_n),
-        };
-        let at_b = at_b(field.as_ref());
-        let central = field.and_then(|field| field.central);
-        let around = Around { omega, central, impulse: false };
-        let (force, moment) = (components(&inputs.force), components(&inputs.torque_b));
-        let assembly = Assembly::new(&self.body, force, moment);
-        Ok(Outset { around, assembly, at_b })
+        found: &mut Accelerations<D>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        let Outset { around, at_b } = outset(state, inputs)?;
+        let mut assembly = self.assembly(inputs);
+        let mut scratch = D::scratch(&self.devices);
+        self.eliminate::<_, W>(state, Given::of(inputs), &around, &mut assembly, &mut scratch)?;
+        let hub = self.hub_moves(inputs, &around, &mut assembly, at_b)?;
+        D::back_substitute(&self.devices, &scratch, &hub, &mut found.devices);
+        found.finish(inputs, &hub, at_b)
+    }
+
+    /// Accelerations to be filled in.
+    pub(crate) fn no_accelerations(&self) -> Accelerations<D> {
+        let still = vector(zeros());
+        let devices = D::no_accelerations_for(&self.devices);
+        Accelerations { r_b_n_ddot: still, omega_dot: still, devices }
+    }
+
+    /// The hub's system before any device is asked.
+    #[inline]
+    pub(crate) fn assembly(&self, inputs: &Inputs<D>) -> Assembly<D::Scalar> {
+        Assembly::new(&self.body, components(&inputs.force), components(&inputs.torque_b))
     }
 
     /// The hub's accelerations once every device is eliminated, in the frame that falls with the
     /// field at B, where there is no uniform one.
+    #[inline(always)]
     pub(crate) fn hub_moves(
         &self,
         inputs: &Inputs<D>,
         around: &Around<D::Scalar>,
-        mut assembly: Assembly<D::Scalar>,
+        assembly: &mut Assembly<D::Scalar>,
         at_b: Vec3<D::Scalar>,
     ) -> Result<Solution<D::Scalar>, SolveError<D::Scalar>> {
         if let Some(central) = around.central {
@@ -107,7 +128,8 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     /// Eliminates every device, keeps what back substitution needs, adds to the hub.
-    pub(crate) fn eliminate<A>(
+    #[inline(always)]
+    pub(crate) fn eliminate<A, W: Way>(
         &self,
         state: &State<D, A>,
         given: Given<'_, D>,
@@ -116,7 +138,7 @@ impl<D: Devices> Spacecraft<D> {
         scratch: &mut D::Scratch,
     ) -> Result<(), SolveError<D::Scalar>> {
         D::fits(&self.devices, &state.devices, Some(given), None)?;
-        D::eliminate(&self.devices, &state.devices, given, around, assembly, scratch, &mut 0)
+        D::eliminate::<W>(&self.devices, &state.devices, given, around, assembly, scratch, &mut 0)
     }
 
     /// The accelerations of every device's joints, checked finite.
@@ -164,27 +186,47 @@ impl<D: Devices> Spacecraft<D> {
 /// What is known before any device is asked.
 pub(crate) struct Outset<T> {
     pub(crate) around: Around<T>,
-    pub(crate) assembly: Assembly<T>,
     /// The field at B.
     pub(crate) at_b: Vec3<T>,
 }
 
-/// All accelerations, the hub's no longer relative to the frame that falls with it.
-pub(crate) fn with_devices<D: Devices>(
+/// Where an evaluation sets out: what the devices feel.
+#[inline(always)]
+pub(crate) fn outset<D: Devices, A: Attitude<D::Scalar>>(
+    state: &State<D, A>,
     inputs: &Inputs<D>,
-    hub: &Solution<D::Scalar>,
-    at_b: Vec3<D::Scalar>,
-    devices: D::Accelerations,
-) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
-    let r_b_n_ddot = match &inputs.hub {
-        HubMode::Free => vector(add(hub.r_b_n_ddot, at_b)),
-        HubMode::Fixed => vector(zeros()),
-        HubMode::Prescribed { r_b_n_ddot, .. } => *r_b_n_ddot,
+) -> Result<Outset<D::Scalar>, SolveError<D::Scalar>> {
+    check_fixed(state, inputs)?;
+    let omega = components(&state.omega);
+    let field = match &inputs.gravity {
+        Gravity::None => None,
+        gravity => gravity.field(&columns(&state.attitude.dcm()), &state.r_b_n),
     };
-    if !finite(components(&r_b_n_ddot)) {
-        return Err(SolveError::Overflow);
+    let at_b = at_b(field.as_ref());
+    let central = field.and_then(|field| field.central);
+    let around = Around { omega, central, impulse: false };
+    Ok(Outset { around, at_b })
+}
+
+impl<D: Devices> Accelerations<D> {
+    /// Fills the hub's in, no longer relative to the frame that falls with it; all must be finite.
+    #[inline]
+    pub(crate) fn finish(
+        &mut self,
+        inputs: &Inputs<D>,
+        hub: &Solution<D::Scalar>,
+        at_b: Vec3<D::Scalar>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        self.r_b_n_ddot = match &inputs.hub {
+            HubMode::Free => vector(add(hub.r_b_n_ddot, at_b)),
+            HubMode::Fixed => vector(zeros()),
+            HubMode::Prescribed { r_b_n_ddot, .. } => *r_b_n_ddot,
+        };
+        self.omega_dot = vector(hub.omega_dot);
+        let is_finite =
+            finite(components(&self.r_b_n_ddot)) && self.devices.values().all(Scalar::is_finite);
+        if is_finite { Ok(()) } else { Err(SolveError::Overflow) }
     }
-    Ok(Accelerations { r_b_n_ddot, omega_dot: vector(hub.omega_dot), devices })
 }
 
 /// Refuses a fixed hub that moves.

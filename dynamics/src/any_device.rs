@@ -10,6 +10,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::any::Any;
 
+use crate::arithmetic::Way;
 use crate::assembly::Assembly;
 use crate::devices::{Around, Devices, Given};
 use crate::each::{Each, JointStates, Value};
@@ -183,7 +184,7 @@ impl<T: Scalar> Devices for AnyDevice<T> {
         wrong.map_or(Ok(()), |found| Err(SolveError::Count { expected, found }))
     }
 
-    fn eliminate(
+    fn eliminate<W: Way>(
         device: &Arc<dyn Ready<T>>,
         joints: &AnyJoints<T>,
         given: Given<'_, Self>,

@@ -4,6 +4,9 @@
 //! the axes of the device's first joint at zero: what comes from the hub is rotated into it by
 //! `mount^T`, results out of it by `mount`.
 
+#![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
+
+use crate::arithmetic::{Asked, Pivots, Places};
 use crate::assembly::{Assembly, along_b};
 use crate::devices::{Around, Given, own_mode};
 use crate::each::{Each, JointStates};
@@ -64,51 +67,68 @@ impl<K: Kind> Device<K> {
         }
     }
 
-    /// Eliminates the joints, adds what is left to the hub's system, and writes what back substitution
-    /// needs in its place: to move so many numbers there afterwards takes time.
-    ///
-    /// Never inlined: one copy of the kernel, whatever the sets it stands in.
-    #[inline(never)]
+    /// Eliminates the joints in a way, adds what is left to the hub's system, and leaves what back
+    /// substitution needs.
+    #[inline(always)]
     pub(crate) fn eliminate(
         &self,
         joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         around: &Around<K::Scalar>,
-        assembly: &mut Assembly<K::Scalar>,
-        place: &mut Option<K::Gains<K::Scalar>>,
+        places: Places<'_, K, K::Scalar>,
         device: usize,
+        way: impl Fn(
+            &Asked<'_, K, K::Scalar>,
+            Option<K::Pose<K::Scalar>>,
+            Places<'_, K, K::Scalar>,
+        ) -> Pivots<K, K::Scalar>,
     ) -> Result<(), SolveError<K::Scalar>> {
-        let pose = K::pose(joints);
+        let mut pose = None;
         let mut drives = self.drives(joints, given, around.impulse, device)?;
+        let Places { assembly, gains } = places;
         if !around.impulse {
-            let acting = self.acting(&pose, joints, given.bodies, around.central.as_ref());
-            if let Some((wrenches, second_moment)) = acting {
-                let carried = K::external(&self.constants, &pose, &wrenches);
-                for ((drive, wrench), info) in
-                    drives.values_mut().zip(carried.joints.values()).zip(K::JOINTS)
-                {
-                    drive.torque = drive.torque + wrench.along(info) * drive.driven;
-                }
-                let hub = carried.hub.turned(&self.mount);
-                assembly.push(components(&hub.force), components(&hub.moment));
-                let second_moment = second_moment.rotated(&self.mount);
-                assembly.second_moment = assembly.second_moment.plus(second_moment);
+            let central = around.central.as_ref();
+            if given.bodies.is_some() || central.is_some() || self.lumped.is_some() {
+                let pose = pose.get_or_insert_with(|| K::pose(joints));
+                self.push(pose, joints, given.bodies, central, &mut drives, assembly);
             }
         }
         let mut joints = *joints;
         if around.impulse {
             joints.states_mut().for_each(|[_, rate]| *rate = zero());
         }
-        let omega = along_b(around.omega);
-        let eliminated = K::eliminate(&self.constants, &pose, &joints, &omega, &drives);
-        check_pivots::<K>(device, &eliminated, &drives)?;
-        assembly.add(K::share(&eliminated));
-        *place = Some(*K::gains(&eliminated));
-        Ok(())
+        let (constants, omega) = (&self.constants, along_b(around.omega));
+        let asked = Asked::<K, _> { constants, joints: &joints, omega, drives: &drives };
+        let pivots = way(&asked, pose, Places { assembly, gains });
+        check_pivots::<K>(device, &pivots, &drives)
+    }
+
+    /// Adds what acts on the bodies from outside to the joints' torques and to the hub's system.
+    #[inline(never)]
+    fn push(
+        &self,
+        pose: &K::Pose<K::Scalar>,
+        joints: &K::Joints<K::Scalar>,
+        bodies: Option<&Wrenches<K>>,
+        central: Option<&Central<K::Scalar>>,
+        drives: &mut Drives<K>,
+        assembly: &mut Assembly<K::Scalar>,
+    ) {
+        let (wrenches, second_moment) = self.acting(pose, joints, bodies, central);
+        let carried = K::external(&self.constants, pose, &wrenches);
+        for ((drive, wrench), info) in
+            drives.values_mut().zip(carried.joints.values()).zip(K::JOINTS)
+        {
+            drive.torque = drive.torque + wrench.along(info) * drive.driven;
+        }
+        let hub = carried.hub.turned(&self.mount);
+        assembly.push(components(&hub.force), components(&hub.moment));
+        let second_moment = second_moment.rotated(&self.mount);
+        assembly.second_moment = assembly.second_moment.plus(second_moment);
     }
 
     /// Torques and modes of the joints.
-    #[inline]
+    #[inline(always)]
     fn by_mode(
         joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
@@ -164,6 +184,7 @@ impl<K: Kind> Device<K> {
     }
 
     /// Torques and modes of the joints, springs and friction with the motors.
+    #[inline(always)]
     fn drives(
         &self,
         joints: &K::Joints<K::Scalar>,
@@ -183,17 +204,14 @@ impl<K: Kind> Device<K> {
     }
 
     /// Wrenches on the bodies from outside, the simplified model's among them, and the second moment
-    /// that the gradient of gravity asks for; none where there is nothing.
+    /// that the gradient of gravity asks for.
     pub(crate) fn acting(
         &self,
         pose: &K::Pose<K::Scalar>,
         joints: &K::Joints<K::Scalar>,
         bodies: Option<&Wrenches<K>>,
         central: Option<&Central<K::Scalar>>,
-    ) -> Option<(Wrenches<K>, Symmetric<K::Scalar>)> {
-        if bodies.is_none() && central.is_none() && self.lumped.is_none() {
-            return None;
-        }
+    ) -> (Wrenches<K>, Symmetric<K::Scalar>) {
         let mut sum = self.applied(joints, bodies);
         let mut second_moment = Symmetric::zero();
         if let Some(central) = central {
@@ -203,7 +221,7 @@ impl<K: Kind> Device<K> {
                 *sum = sum.plus(&wrench);
             }
         }
-        Some((sum, second_moment))
+        (sum, second_moment)
     }
 
     /// Wrenches on the bodies from outside, the simplified model's among them.
@@ -294,11 +312,10 @@ impl<T: Scalar> Lumped<T> {
 /// one refused is the cause, those after it may be its consequence.
 fn check_pivots<K: Kind>(
     device: usize,
-    eliminated: &K::Eliminated<K::Scalar>,
+    joints: &Pivots<K, K::Scalar>,
     drives: &K::PerJoint<Drive<K::Scalar>>,
 ) -> Result<(), SolveError<K::Scalar>> {
     let mut refused = None;
-    let joints = K::pivots(eliminated);
     for ((pivot, drive), info) in joints.values().zip(drives.values()).zip(K::JOINTS) {
         if let (Some([pivot, diagonal]), true) = (pivot, drive.driven == one())
             && let Err(small) = check_pivot(pivot, diagonal)

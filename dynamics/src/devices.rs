@@ -7,6 +7,7 @@
 
 use core::fmt::Debug;
 
+use crate::arithmetic::Way;
 use crate::assembly::Assembly;
 use crate::each::{Each, JointStates, Value};
 use crate::error::SolveError;
@@ -98,7 +99,7 @@ pub trait Devices: Clone + Debug + PartialEq {
     ///
     /// # Errors
     /// The first [`SolveError`].
-    fn eliminate(
+    fn eliminate<W: Way>(
         devices: &Self::Prepared,
         joints: &Self::Joints,
         given: Given<'_, Self>,

@@ -8,6 +8,7 @@ use core::any::Any;
 use core::fmt::Debug;
 
 use crate::any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
+use crate::arithmetic::{Places, Plainly, Way};
 use crate::assembly::Assembly;
 use crate::device::Device;
 use crate::devices::{Around, Given};
@@ -181,7 +182,8 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
     ) -> Result<Box<dyn Any>, SolveError<K::Scalar>> {
         let (joints, typed) = (joints_of::<K>(joints), Typed::<K>::of(given));
         let mut gains = None;
-        self.eliminate(&joints, typed.given(), around, assembly, &mut gains, device)?;
+        let places = Places { assembly, gains: &mut gains };
+        Plainly::eliminate(self, &joints, typed.given(), around, places, device)?;
         Ok(Box::new(gains))
     }
 

@@ -70,6 +70,12 @@ pub trait Kernels: 'static {
         b: &Self::Joints<U>,
         join: impl FnMut(T, U) -> W,
     ) -> Self::Joints<W>;
+    /// Gains joined number by number.
+    fn zip_gains<T: Value, U: Value, W: Value>(
+        a: &Self::Gains<T>,
+        b: &Self::Gains<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> Self::Gains<W>;
     /// Accelerations joined number by number.
     fn zip_accelerations<T: Value, U: Value, W: Value>(
         a: &Self::Accelerations<T>,

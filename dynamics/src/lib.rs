@@ -60,6 +60,7 @@ extern crate std;
 mod accelerations;
 #[cfg(feature = "alloc")]
 mod any_device;
+mod arithmetic;
 mod assembly;
 mod attitude;
 #[cfg(test)]

@@ -1,5 +1,8 @@
 //! A single device as a set.
 
+#![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
+
+use crate::arithmetic::{Places, Way};
 use crate::assembly::Assembly;
 use crate::device::Device;
 use crate::device_loads::LoadsOf;
@@ -93,7 +96,8 @@ impl<K: Kind> Devices for K {
         Ok(())
     }
 
-    fn eliminate(
+    #[inline(always)]
+    fn eliminate<W: Way>(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
         given: Given<'_, Self>,
@@ -102,11 +106,12 @@ impl<K: Kind> Devices for K {
         scratch: &mut Option<K::Gains<K::Scalar>>,
         index: &mut usize,
     ) -> Result<(), SolveError<K::Scalar>> {
-        device.eliminate(joints, given, around, assembly, scratch, *index)?;
+        W::eliminate(device, joints, given, around, Places { assembly, gains: scratch }, *index)?;
         *index = index.wrapping_add(1);
         Ok(())
     }
 
+    #[inline(always)]
     fn back_substitute(
         _: &Device<K>,
         scratch: &Option<K::Gains<K::Scalar>>,

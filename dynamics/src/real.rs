@@ -10,7 +10,13 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
+#[cfg(feature = "lanes")]
+use crate::arithmetic::{Asked, Pivots, Places};
 use crate::each::Value;
+#[cfg(feature = "lanes")]
+use crate::kernels::Kernels;
+#[cfg(feature = "lanes")]
+use crate::lanes::fused;
 use crate::sincos::{LARGEST_ANGLE, sin_cos};
 
 /// What an emitted kernel does with a number.
@@ -81,6 +87,17 @@ pub trait Scalar: Angle + PartialOrd {
     #[must_use]
     fn is_finite(self) -> bool;
 
+    /// Eliminates the joints of a device by fused numbers, where there are any. The solver's own.
+    #[cfg(feature = "lanes")]
+    #[doc(hidden)]
+    #[inline(always)]
+    fn eliminate_fused<K: Kernels>(
+        asked: &Asked<'_, K, Self>,
+        places: Places<'_, K, Self>,
+    ) -> Pivots<K, Self> {
+        asked.plainly(None, places)
+    }
+
     /// Magnitude. NaN stays NaN.
     #[must_use]
     fn abs(self) -> Self {
@@ -139,6 +156,15 @@ impl Scalar for f64 {
     #[inline]
     fn is_finite(self) -> bool {
         Self::is_finite(self)
+    }
+
+    #[cfg(feature = "lanes")]
+    #[inline(always)]
+    fn eliminate_fused<K: Kernels>(
+        asked: &Asked<'_, K, Self>,
+        places: Places<'_, K, Self>,
+    ) -> Pivots<K, Self> {
+        fused::eliminate(asked, places)
     }
 }
 

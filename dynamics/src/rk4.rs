@@ -3,6 +3,8 @@
 //! Fixed cost, no error estimate: four evaluations and one normalisation of the attitude. The step
 //! must resolve the fastest wheel; a tenth of a radian of `theta` per step is a sound start.
 
+use nalgebra::Vector3;
+
 use crate::accelerations::sound;
 use crate::attitude::Attitude;
 use crate::devices::Devices;
@@ -10,21 +12,10 @@ use crate::each::{Each, JointStates};
 use crate::error::{Quantity, SolveError};
 use crate::inputs::Inputs;
 use crate::ledger::Power;
-use crate::real::{Real, Scalar, half, one};
+use crate::real::{Real, Scalar, half, zero};
 use crate::spacecraft::Spacecraft;
 use crate::state::{Accelerations, State};
-use crate::vec3::{Vec3, add, columns, components, rotate_transposed, scale, vector, zeros};
-
-/// Time derivative of a state; of the joints, rates stand for coordinates and accelerations for
-/// rates.
-#[derive(Clone)]
-struct Slope<T, J, R> {
-    r_b_n: Vec3<T>,
-    r_b_n_dot: Vec3<T>,
-    omega: Vec3<T>,
-    devices: J,
-    attitude: R,
-}
+use crate::vec3::{add, columns, components, rotate_transposed, scale, vector, zeros};
 
 /// What a step leaves, and what it took.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,14 +27,7 @@ pub struct Stepped<D: Devices, A> {
 }
 
 /// What becomes of a stage of a step.
-type Evaluated<D> = Result<Accelerations<D>, SolveError<<D as Devices>::Scalar>>;
-
-/// The slope of a state.
-type SlopeOf<D, A> = Slope<
-    <D as Devices>::Scalar,
-    <D as Devices>::Joints,
-    <A as Attitude<<D as Devices>::Scalar>>::Rate,
->;
+type Evaluated<D> = Result<(), SolveError<<D as Devices>::Scalar>>;
 
 impl<D: Devices> Spacecraft<D> {
     /// The state after `dt` seconds, with the inputs constant along the axes they stand along.
@@ -60,7 +44,7 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
         dt: D::Scalar,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
-        self.stepped(state, inputs, dt, |_, stage| self.solve(stage, inputs))
+        self.stepped(state, inputs, dt, |_, stage, found| self.solve(stage, inputs, found))
     }
 
     /// [`Self::step`], with the work of each source during the step: what the ledger calls power, in
@@ -76,11 +60,11 @@ impl<D: Devices> Spacecraft<D> {
         dt: D::Scalar,
     ) -> Result<Stepped<D, A>, SolveError<D::Scalar>> {
         let mut work = Power::none();
-        let state = self.stepped(state, inputs, dt, |time, stage| {
-            let found = self.solve(stage, inputs)?;
-            let power = self.ledger(stage, inputs, &found)?.power;
+        let state = self.stepped(state, inputs, dt, |time, stage, found| {
+            self.solve(stage, inputs, found)?;
+            let power = self.ledger(stage, inputs, found)?.power;
             work = work.plus_scaled(time, &power);
-            Ok(found)
+            Ok(())
         })?;
         Ok(Stepped { state, work })
     }
@@ -91,7 +75,7 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
         dt: D::Scalar,
-        evaluate: impl FnMut(D::Scalar, &State<D, A>) -> Evaluated<D>,
+        evaluate: impl FnMut(D::Scalar, &State<D, A>, &mut Accelerations<D>) -> Evaluated<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         if !dt.is_finite() {
             return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
@@ -107,91 +91,82 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
         dt: D::Scalar,
-        mut evaluate: impl FnMut(D::Scalar, &State<D, A>) -> Evaluated<D>,
+        mut evaluate: impl FnMut(D::Scalar, &State<D, A>, &mut Accelerations<D>) -> Evaluated<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         let middle = half::<D::Scalar>() * dt;
         let sixth = dt * D::Scalar::from_f64(6.0).recip();
         let third = dt * D::Scalar::from_f64(3.0).recip();
 
-        let mut slope = |weight: D::Scalar, stage: &State<D, A>| {
-            let found = evaluate(weight, stage)?;
-            Ok::<_, SolveError<D::Scalar>>(slope_of(stage, &found))
-        };
-        let k_1 = slope(sixth, state)?;
-        let k_2 = slope(third, &self.moved(state, [(middle, &k_1)]))?;
-        let k_3 = slope(third, &self.moved(state, [(middle, &k_2)]))?;
-        let k_4 = slope(sixth, &self.moved(state, [(dt, &k_3)]))?;
-        let terms = [(sixth, &k_1), (third, &k_2), (third, &k_3), (sixth, &k_4)];
-        let mut next = self.moved(state, terms);
-        next.attitude = next.attitude.normalised();
+        // All in place: what was just put together number by number is slow to move.
+        let mut found = self.no_accelerations();
+        let mut stage = state.clone();
+        let mut sum = State::at_rest_for(self);
+        let mut rates = [(zero(), state.attitude.rate(&state.omega)); 4];
+        let stages = [(sixth, middle), (third, middle), (third, dt), (sixth, zero())];
+        for ((weight, time), rate) in stages.into_iter().zip(&mut rates) {
+            evaluate(weight, &stage, &mut found)?;
+            *rate = (weight, stage.attitude.rate(&stage.omega));
+            stage.follow(state, &found, [weight, time], &mut sum);
+            stage.attitude = state.attitude.advanced(&[(time, rate.1)]);
+        }
+        let mut next = stage;
+        next.add(state, &sum);
+        next.attitude = state.attitude.advanced(&rates).normalised();
         match self.culprit_in_state(&next) {
             Some(_) => Err(SolveError::Overflow),
             None => Ok(next),
         }
     }
+}
 
-    /// The state plus the sum of `time * slope`, the sum taken before it meets the state.
-    fn moved<const TERMS: usize, A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A>,
-        terms: [(D::Scalar, &SlopeOf<D, A>); TERMS],
-    ) -> State<D, A> {
-        let mut sum = Slope {
-            r_b_n: zeros(),
-            r_b_n_dot: zeros(),
-            omega: zeros(),
-            devices: D::at_rest_for(&self.devices),
-            attitude: (),
+impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
+    /// Adds `weight` times its slope to `sum`, and goes on to `start` plus `time` times the slope; the
+    /// attitude stays behind.
+    fn follow(
+        &mut self,
+        start: &Self,
+        found: &Accelerations<D>,
+        [weight, time]: [D::Scalar; 2],
+        sum: &mut Self,
+    ) {
+        let bn = columns(&self.attitude.dcm());
+        let acceleration = rotate_transposed(&bn, components(&found.r_b_n_ddot));
+        let step = |sum: &mut Vector3<_>, stage: &mut Vector3<_>, start: &Vector3<_>, slope| {
+            *sum = vector(add(components(sum), scale(weight, slope)));
+            *stage = vector(add(components(start), add(zeros(), scale(time, slope))));
         };
-        for (time, slope) in terms {
-            sum.r_b_n = add(sum.r_b_n, scale(time, slope.r_b_n));
-            sum.r_b_n_dot = add(sum.r_b_n_dot, scale(time, slope.r_b_n_dot));
-            sum.omega = add(sum.omega, scale(time, slope.omega));
-            add_scaled(&mut sum.devices, time, &slope.devices);
-        }
-        let mut devices = state.devices.clone();
-        add_scaled(&mut devices, one(), &sum.devices);
-        State {
-            r_b_n: vector(add(components(&state.r_b_n), sum.r_b_n)),
-            r_b_n_dot: vector(add(components(&state.r_b_n_dot), sum.r_b_n_dot)),
-            attitude: state.attitude.advanced(&terms.map(|(time, slope)| (time, slope.attitude))),
-            omega: vector(add(components(&state.omega), sum.omega)),
-            devices,
+        step(&mut sum.r_b_n, &mut self.r_b_n, &start.r_b_n, components(&self.r_b_n_dot));
+        step(&mut sum.r_b_n_dot, &mut self.r_b_n_dot, &start.r_b_n_dot, acceleration);
+        step(&mut sum.omega, &mut self.omega, &start.omega, components(&found.omega_dot));
+        let joints = self.devices.states_mut().zip(start.devices.states());
+        let joints = joints.zip(sum.devices.states_mut()).zip(found.devices.values());
+        for ((([coordinate, rate], start), [sum, sum_of_rate]), acceleration) in joints {
+            let [from, rate_from] = start;
+            *sum = *sum + weight * *rate;
+            *sum_of_rate = *sum_of_rate + weight * acceleration;
+            *coordinate = from + (zero::<D::Scalar>() + time * *rate);
+            *rate = rate_from + (zero::<D::Scalar>() + time * acceleration);
         }
     }
-}
 
-/// The slope of a state with its accelerations.
-fn slope_of<D: Devices, A: Attitude<D::Scalar>>(
-    state: &State<D, A>,
-    found: &Accelerations<D>,
-) -> SlopeOf<D, A> {
-    let bn = columns(&state.attitude.dcm());
-    let mut devices = state.devices.clone();
-    for ([coordinate, rate], acceleration) in devices.states_mut().zip(found.devices.values()) {
-        *coordinate = *rate;
-        *rate = acceleration;
-    }
-    Slope {
-        r_b_n: components(&state.r_b_n_dot),
-        r_b_n_dot: rotate_transposed(&bn, components(&found.r_b_n_ddot)),
-        omega: components(&found.omega_dot),
-        devices,
-        attitude: state.attitude.rate(&state.omega),
-    }
-}
-
-/// `a + time * slope`, joint by joint.
-fn add_scaled<T: Scalar, J: JointStates<T>>(a: &mut J, time: T, slope: &J) {
-    for ([coordinate, rate], [of_coordinate, of_rate]) in a.states_mut().zip(slope.states()) {
-        *coordinate = *coordinate + time * of_coordinate;
-        *rate = *rate + time * of_rate;
+    /// Becomes `start + sum`, attitude left out.
+    fn add(&mut self, start: &Self, sum: &Self) {
+        let plus = |a, b| vector(add(components(a), components(b)));
+        self.r_b_n = plus(&start.r_b_n, &sum.r_b_n);
+        self.r_b_n_dot = plus(&start.r_b_n_dot, &sum.r_b_n_dot);
+        self.omega = plus(&start.omega, &sum.omega);
+        let joints =
+            self.devices.states_mut().zip(start.devices.states().zip(sum.devices.states()));
+        for ([coordinate, rate], ([from, rate_from], [by, rate_by])) in joints {
+            *coordinate = from + by;
+            *rate = rate_from + rate_by;
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Matrix3, Vector3};
+    use nalgebra::Matrix3;
 
     use super::*;
     use crate::Dgvscmg;

@@ -1,5 +1,6 @@
 //! Sets of sets: arrays, tuples, vectors. Each call goes on to the members, in order.
 
+use crate::arithmetic::Way;
 use crate::assembly::Assembly;
 use crate::devices::{Around, Devices, FixedSet, Given};
 use crate::each::Value;
@@ -115,7 +116,8 @@ macro_rules! row {
                 Ok(())
             }
 
-            fn eliminate(
+            #[inline(always)]
+            fn eliminate<W: Way>(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
                 given: Given<'_, Self>,
@@ -126,11 +128,12 @@ macro_rules! row {
             ) -> Result<(), SolveError<Self::Scalar>> {
                 let members = devices.iter().zip(joints).zip(given.members()).zip(scratch);
                 for (((member, joints), given), scratch) in members {
-                    D::eliminate(member, joints, given, around, assembly, scratch, device)?;
+                    D::eliminate::<W>(member, joints, given, around, assembly, scratch, device)?;
                 }
                 Ok(())
             }
 
+            #[inline(always)]
             fn back_substitute(
                 devices: &Self::Prepared,
                 scratch: &Self::Scratch,

@@ -65,6 +65,7 @@ pub(crate) fn check_pivot<T: Scalar>(pivot: T, diagonal: T) -> Result<(), SmallP
 
 impl<T: Scalar> System<T> {
     /// Solves the system.
+    #[inline]
     pub(crate) fn solve(&self) -> Result<Solution<T>, SmallPivot<T>> {
         let (solution, pivots) = self.solved();
         let mut pivots = pivots.into_iter();

@@ -1,5 +1,6 @@
 //! [`Spacecraft`]: a hub and its devices, checked and prepared once, and what is odd about them.
 
+use crate::arithmetic::Arithmetic;
 use crate::devices::Devices;
 use crate::hub::PreparedHub;
 use crate::parameter_error::{ParameterError, Part, Warning};
@@ -15,6 +16,7 @@ pub struct Spacecraft<D: Devices> {
     pub(crate) body: PreparedHub<D::Scalar>,
     pub(crate) devices: D::Prepared,
     hub_excess: D::Scalar,
+    pub(crate) arithmetic: Arithmetic,
 }
 
 impl<D: Devices> Spacecraft<D> {
@@ -37,7 +39,18 @@ impl<D: Devices> Spacecraft<D> {
         if !body.m_b.is_finite() {
             return Err(ParameterError::TotalMass { value: body.m_b });
         }
-        Ok(Self { hub, body, devices, hub_excess })
+        Ok(Self { hub, body, devices, hub_excess, arithmetic: Arithmetic::Plain })
+    }
+
+    /// The same with products and sums of the devices' equations rounded once, where the CPU does
+    /// that: accelerations and steps have other bits, and take less time.
+    ///
+    /// The instructions are looked for now, at run time. Numbers other than `f64`, and lists of
+    /// [`AnyDevice`](crate::AnyDevice), stay as they are; so do loads, energies and momenta.
+    #[cfg(feature = "lanes")]
+    #[must_use]
+    pub fn fused(self) -> Self {
+        Self { arithmetic: Arithmetic::fused(), ..self }
     }
 
     /// What is odd about the parameters without being wrong; see [`Warning`].

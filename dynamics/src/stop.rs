@@ -5,6 +5,7 @@
 //! M the mass matrix of the pose, `M Δ = impulses`, which is the equations of motion at rest with
 //! jumps for accelerations: the same kernels answer.
 
+use crate::arithmetic::Plainly;
 use crate::assembly::Assembly;
 use crate::attitude::Attitude;
 use crate::devices::{Around, Devices, Given};
@@ -88,7 +89,13 @@ impl<D: Devices> Spacecraft<D> {
         let around = Around { omega: still, central: None, impulse: true };
         let mut assembly = Assembly::new(&self.body, still, still);
         let mut scratch = D::scratch(&self.devices);
-        self.eliminate(state, Given::of(inputs), &around, &mut assembly, &mut scratch)?;
+        self.eliminate::<_, Plainly>(
+            state,
+            Given::of(inputs),
+            &around,
+            &mut assembly,
+            &mut scratch,
+        )?;
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let hub = match inputs.hub {

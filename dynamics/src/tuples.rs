@@ -1,5 +1,6 @@
 //! Sets of different members: tuples. Each call goes on to the members, in order.
 
+use crate::arithmetic::Way;
 use crate::assembly::Assembly;
 use crate::devices::{Around, Devices, FixedSet, Given};
 use crate::each::Value;
@@ -98,7 +99,8 @@ macro_rules! tuples {
                 Ok(())
             }
 
-            fn eliminate(
+            #[inline(always)]
+            fn eliminate<W: Way>(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
                 given: Given<'_, Self>,
@@ -112,7 +114,7 @@ macro_rules! tuples {
                     modes: &given.modes.0,
                     bodies: given.bodies.map(|all| &all.0),
                 };
-                A::eliminate(
+                A::eliminate::<W>(
                     &devices.0, &joints.0, of, around, assembly, &mut scratch.0, device,
                 )?;
                 $(
@@ -121,7 +123,7 @@ macro_rules! tuples {
                         modes: &given.modes.$place,
                         bodies: given.bodies.map(|all| &all.$place),
                     };
-                    $rest::eliminate(
+                    $rest::eliminate::<W>(
                         &devices.$place,
                         &joints.$place,
                         of,
@@ -134,6 +136,7 @@ macro_rules! tuples {
                 Ok(())
             }
 
+            #[inline(always)]
             fn back_substitute(
                 devices: &Self::Prepared,
                 scratch: &Self::Scratch,

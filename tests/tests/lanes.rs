@@ -28,6 +28,12 @@ fn across<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
     across.accelerations(&case.state, &case.inputs).unwrap()
 }
 
+/// The accelerations of a case, products and sums rounded once.
+fn fused<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
+    let craft = Spacecraft::new(&case.hub, &case.devices).unwrap().fused();
+    craft.accelerations(&case.state, &case.inputs).unwrap()
+}
+
 #[test]
 fn batch_has_the_bits_of_single_evaluations() {
     struct Bits;
@@ -42,15 +48,18 @@ fn batch_has_the_bits_of_single_evaluations() {
 
 #[test]
 fn services_agree_with_higher_precision() {
+    #[derive(Default)]
     struct Services {
-        fused: Figures,
+        one: Figures,
+        batch: Figures,
         across: Figures,
     }
     impl Visitor for Services {
         fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
             let (case, reference) = (sample.case::<f64>(), sample.case::<Wide>().reference());
             let found = [
-                ("fused batch", batched(&case, true), &mut self.fused),
+                ("one state, fused", fused(&case), &mut self.one),
+                ("fused batch", batched(&case, true), &mut self.batch),
                 ("across devices", across(&case), &mut self.across),
             ];
             for (service, found, figures) in found {
@@ -60,9 +69,10 @@ fn services_agree_with_higher_precision() {
             }
         }
     }
-    let mut services = Services { fused: Figures::default(), across: Figures::default() };
+    let mut services = Services::default();
     visit(SPACECRAFT, &mut services);
-    for (service, figures) in [("fused batch", services.fused), ("across", services.across)] {
+    let Services { one, batch, across } = services;
+    for (service, figures) in [("one state", one), ("fused batch", batch), ("across", across)] {
         let (worst, median) = (figures.worst(), figures.median());
         println!("A2, {service}: worst {worst:.2e}, median {median:.2e} of the block");
         assert!(median <= ACCELERATIONS_MEDIAN, "{service}: median {median:e}");
@@ -211,6 +221,27 @@ fn singular_device_is_named_across_lanes() {
     let refused = across.accelerations(&state, &Inputs::none());
     assert!(refused.is_err());
     assert_eq!(refused, craft.accelerations(&state, &Inputs::none()));
+}
+
+#[test]
+fn fused_spacecraft_answers_all_questions_of_a_plain_one() {
+    let plain = Spacecraft::new(&hub(), &mixed()).unwrap();
+    let fused = plain.fused();
+    let (mut state, inputs) = (states(3)[2], inputs(2));
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs().max(1.0);
+    let [found, single] = [fused, plain].map(|craft| craft.accelerations(&state, &inputs).unwrap());
+    assert_ne!(found, single, "not a bit of a difference: nothing was fused");
+    assert!(near((found.omega_dot - single.omega_dot).norm(), 0.0));
+    let [there, beside] = [fused, plain].map(|craft| craft.step(&state, &inputs, 1e-3).unwrap());
+    assert!(near((there.omega - beside.omega).norm(), 0.0));
+    assert_eq!(fused.energy(&state), plain.energy(&state));
+    // Beyond where fused sines are right, and what is refused.
+    state.devices.0[0].theta = 1e9;
+    let [found, single] = [fused, plain].map(|craft| craft.accelerations(&state, &inputs).unwrap());
+    assert!(near((found.omega_dot - single.omega_dot).norm(), 0.0));
+    state.omega.x = f64::NAN;
+    let [found, single] = [fused, plain].map(|craft| craft.accelerations(&state, &inputs));
+    assert_eq!(format!("{found:?}"), format!("{single:?}"));
 }
 
 #[test]

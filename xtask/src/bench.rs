@@ -39,7 +39,8 @@ pub(crate) fn bench(options: &Options) -> Result<(), String> {
         return Err(format!("no spacecraft in {PEERS}; run `python3 {SETUP} --into {PEERS}`"));
     }
     let examples = ["--example", "measure", "--example", "performance"];
-    cargo(&[&["build", "--release", "-p", "precess-tests"][..], &examples].concat())?;
+    let build = ["build", "--release", "-p", "precess-tests", "--features", "bench"];
+    cargo(&[&build[..], &examples].concat())?;
     let examples = target()?.join("release/examples");
     let mut performance = Command::new(examples.join("performance"));
     performance.arg("--measure").arg(examples.join("measure")).args(["--peers", PEERS]);

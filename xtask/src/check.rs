@@ -10,6 +10,7 @@ pub(crate) fn check() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
     mutate::mutate(&mutate::Options::check_only())?;
     cargo(&["fmt", "--all", "--check"])?;
-    cargo(&["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"])?;
+    let all = ["--workspace", "--all-targets", "--all-features"];
+    cargo(&[&["clippy", "--quiet"][..], &all, &["--", "--deny", "warnings"]].concat())?;
     cargo(&["test", "--workspace", "--lib", "--bins", "--quiet"])
 }

@@ -234,6 +234,7 @@ impl Items<'_> {
         vec![
             zip("constants", "super::Prepared"),
             zip("joints", "Joints"),
+            zip("gains", "super::Gains"),
             zip("accelerations", "JointAccelerations"),
             zip("per_joint", "PerJoint"),
         ]

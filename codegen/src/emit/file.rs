@@ -25,7 +25,7 @@ use crate::kinds::{Kind, Motion};
 /// Inlined, since lanes reach the wide instructions of their caller only so.
 const FUSED: [&str; 2] = ["eliminate", "back_substitute"];
 /// The records that are gathered into lanes or spread from them.
-const LANED: [&str; 3] = ["Prepared", "JointAccelerations", "HubShare"];
+const LANED: [&str; 4] = ["Prepared", "JointAccelerations", "HubShare", "Gains"];
 
 /// One emitted file.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1081,6 +1081,47 @@ pub struct Gains<T> {
     pub free_o: T,
 }
 
+impl<T: Copy> Gains<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Gains<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(&self, other: &Gains<U>, mut join: impl FnMut(T, U) -> W) -> Gains<W> {
+        Gains {
+            gain_w_v1: join(self.gain_w_v1, other.gain_w_v1),
+            gain_w_v2: join(self.gain_w_v2, other.gain_w_v2),
+            gain_w_v3: join(self.gain_w_v3, other.gain_w_v3),
+            gain_w_w1: join(self.gain_w_w1, other.gain_w_w1),
+            gain_w_w2: join(self.gain_w_w2, other.gain_w_w2),
+            gain_w_w3: join(self.gain_w_w3, other.gain_w_w3),
+            gain_w_o: join(self.gain_w_o, other.gain_w_o),
+            gain_w_i: join(self.gain_w_i, other.gain_w_i),
+            free_w: join(self.free_w, other.free_w),
+            gain_i_v1: join(self.gain_i_v1, other.gain_i_v1),
+            gain_i_v2: join(self.gain_i_v2, other.gain_i_v2),
+            gain_i_v3: join(self.gain_i_v3, other.gain_i_v3),
+            gain_i_w1: join(self.gain_i_w1, other.gain_i_w1),
+            gain_i_w2: join(self.gain_i_w2, other.gain_i_w2),
+            gain_i_w3: join(self.gain_i_w3, other.gain_i_w3),
+            gain_i_o: join(self.gain_i_o, other.gain_i_o),
+            free_i: join(self.free_i, other.free_i),
+            gain_o_v1: join(self.gain_o_v1, other.gain_o_v1),
+            gain_o_v2: join(self.gain_o_v2, other.gain_o_v2),
+            gain_o_v3: join(self.gain_o_v3, other.gain_o_v3),
+            gain_o_w1: join(self.gain_o_w1, other.gain_o_w1),
+            gain_o_w2: join(self.gain_o_w2, other.gain_o_w2),
+            gain_o_w3: join(self.gain_o_w3, other.gain_o_w3),
+            free_o: join(self.free_o, other.free_o),
+        }
+    }
+}
+
 /// What is left of a device once its joints are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eliminated<T> {

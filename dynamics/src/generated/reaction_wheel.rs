@@ -479,6 +479,30 @@ pub struct Gains<T> {
     pub free_w: T,
 }
 
+impl<T: Copy> Gains<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Gains<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(&self, other: &Gains<U>, mut join: impl FnMut(T, U) -> W) -> Gains<W> {
+        Gains {
+            gain_w_v1: join(self.gain_w_v1, other.gain_w_v1),
+            gain_w_v2: join(self.gain_w_v2, other.gain_w_v2),
+            gain_w_v3: join(self.gain_w_v3, other.gain_w_v3),
+            gain_w_w1: join(self.gain_w_w1, other.gain_w_w1),
+            gain_w_w2: join(self.gain_w_w2, other.gain_w_w2),
+            gain_w_w3: join(self.gain_w_w3, other.gain_w_w3),
+            free_w: join(self.free_w, other.free_w),
+        }
+    }
+}
+
 /// What is left of a device once its joints are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eliminated<T> {

@@ -305,6 +305,30 @@ pub struct Gains<T> {
     pub free_s: T,
 }
 
+impl<T: Copy> Gains<T> {
+    /// The record with each of its numbers changed.
+    #[inline(always)]
+    #[must_use]
+    pub fn map<U: Copy>(&self, mut change: impl FnMut(T) -> U) -> Gains<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two records joined number by number.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip<U: Copy, W>(&self, other: &Gains<U>, mut join: impl FnMut(T, U) -> W) -> Gains<W> {
+        Gains {
+            gain_s_v1: join(self.gain_s_v1, other.gain_s_v1),
+            gain_s_v2: join(self.gain_s_v2, other.gain_s_v2),
+            gain_s_v3: join(self.gain_s_v3, other.gain_s_v3),
+            gain_s_w1: join(self.gain_s_w1, other.gain_s_w1),
+            gain_s_w2: join(self.gain_s_w2, other.gain_s_w2),
+            gain_s_w3: join(self.gain_s_w3, other.gain_s_w3),
+            free_s: join(self.free_s, other.free_s),
+        }
+    }
+}
+
 /// What is left of a device once its joints are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eliminated<T> {

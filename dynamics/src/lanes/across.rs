@@ -13,11 +13,10 @@ use super::lane::Lane;
 use super::number::{Block, Number, WIDEST};
 use super::slot::{Aligned, put_drives};
 use super::width::{lanes_for, width};
-use crate::accelerations::{Outset, sound as sound_inputs, with_devices};
+use crate::accelerations::{Outset, outset, sound as sound_inputs};
 use crate::assembly::along_b;
 use crate::attitude::Attitude;
 use crate::device::Device;
-use crate::devices::Devices;
 use crate::devices::Given;
 use crate::each::Each;
 use crate::error::SolveError;
@@ -88,8 +87,11 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         state: &State<[K; N], A>,
         inputs: &Inputs<[K; N]>,
     ) -> Result<Accelerations<[K; N]>, SolveError<f64>> {
-        let found = if sound_inputs(state, inputs) { self.solve(state, inputs) } else { None };
-        found.map_or_else(|| self.craft.accelerations(state, inputs), Ok)
+        let mut found = self.craft.no_accelerations();
+        if sound_inputs(state, inputs) && self.solve(state, inputs, &mut found).is_some() {
+            return Ok(found);
+        }
+        self.craft.accelerations(state, inputs)
     }
 
     /// The state after `dt` seconds, as [`Spacecraft::step`].
@@ -103,8 +105,9 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         inputs: &Inputs<[K; N]>,
         dt: f64,
     ) -> Result<State<[K; N], A>, SolveError<f64>> {
-        self.craft.stepped(state, inputs, dt, |_, stage| {
-            self.solve(stage, inputs).map_or_else(|| self.craft.solve(stage, inputs), Ok)
+        self.craft.stepped(state, inputs, dt, |_, stage, found| {
+            self.solve(stage, inputs, found)
+                .map_or_else(|| self.craft.solve(stage, inputs, found), Ok)
         })
     }
 
@@ -113,12 +116,13 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         &self,
         state: &State<[K; N], A>,
         inputs: &Inputs<[K; N]>,
-    ) -> Option<Accelerations<[K; N]>> {
+        found: &mut Accelerations<[K; N]>,
+    ) -> Option<()> {
         let central = matches!(inputs.gravity, Gravity::Central { .. });
         if !self.laned || central || inputs.bodies.is_some() {
             return None;
         }
-        self.lanes.dispatch(Evaluation { across: self, state, inputs })
+        self.lanes.dispatch(Evaluation { across: self, state, inputs, found })
     }
 }
 
@@ -162,10 +166,11 @@ struct Evaluation<'a, K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> {
     across: &'a AcrossDevices<K, N>,
     state: &'a State<[K; N], A>,
     inputs: &'a Inputs<[K; N]>,
+    found: &'a mut Accelerations<[K; N]>,
 }
 
 impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> WithSimd for Evaluation<'_, K, A, N> {
-    type Output = Option<Accelerations<[K; N]>>;
+    type Output = Option<()>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
@@ -175,9 +180,10 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> WithSimd for Evalu
 
 impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, A, N> {
     #[inline(always)]
-    fn evaluate<T: Number>(self, zero: T) -> Option<Accelerations<[K; N]>> {
-        let Self { across: AcrossDevices { craft, groups, .. }, state, inputs } = self;
-        let Outset { around, mut assembly, at_b } = craft.outset(state, inputs).ok()?;
+    fn evaluate<T: Number>(self, zero: T) -> Option<()> {
+        let Self { across: AcrossDevices { craft, groups, .. }, state, inputs, found: all } = self;
+        let Outset { around, at_b } = outset(state, inputs).ok()?;
+        let mut assembly = craft.assembly(inputs);
         let omega = map(around.omega, |component| zero.like(component));
         // The first without the heap: where there is one group alone, that takes time.
         let (mut gains, mut of_first) = (Vec::new(), None);
@@ -214,13 +220,13 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             }
         }
         assembly.add(&shares?.map(Number::sum));
-        let hub = craft.hub_moves(inputs, &around, assembly, at_b).ok()?;
+        let hub = craft.hub_moves(inputs, &around, &mut assembly, at_b).ok()?;
         let splat = |v| map(v, |component| zero.like(component));
         let of_hub =
             Solution { r_b_n_ddot: splat(hub.r_b_n_ddot), omega_dot: splat(hub.omega_dot) };
         let of_hub = of_hub.along_b();
-        let (mut devices, mut vanishing) = (<[K; N]>::no_accelerations_for(&craft.devices), zero);
-        let mut rest = devices.iter_mut();
+        let mut vanishing = zero;
+        let mut rest = all.devices.iter_mut();
         for Aligned(gains) in of_first.iter().chain(&gains) {
             let found = K::back_substitute(gains, &of_hub);
             let mut found = K::zip_accelerations(&found, &found, |number, _| {
@@ -235,8 +241,10 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             }
         }
         let holds = zero.like(1.0).or(zero.both(holds, vanishing.same(zero)), zero).store();
-        let all = (0..T::WIDTH).all(|lane| holds.at(lane) == 1.0);
-        if all { with_devices(inputs, &hub, at_b, devices).ok() } else { None }
+        if (0..T::WIDTH).any(|lane| holds.at(lane) != 1.0) {
+            return None;
+        }
+        all.finish(inputs, &hub, at_b).ok()
     }
 }
 

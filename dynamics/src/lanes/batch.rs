@@ -23,7 +23,7 @@ use crate::parameters::Hub;
 use crate::quaternion::{Quaternion, bn, norm_squared};
 use crate::spacecraft::Spacecraft;
 use crate::state::{Accelerations, State};
-use crate::vec3::{add, components, map, rotate, vector, zeros};
+use crate::vec3::{add, components, map, rotate, vector};
 
 /// What acts on the states of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -231,9 +231,7 @@ impl<D: LanedSet> Evaluation<'_, '_, D> {
     fn evaluate<T: Number>(self, zero: T) {
         let craft = &self.batch.craft;
         let mut group = Group::<D, T>::new(craft, zero);
-        let devices = D::no_accelerations_for(&craft.devices);
-        let still =
-            Accelerations { r_b_n_ddot: vector(zeros()), omega_dot: vector(zeros()), devices };
+        let still = craft.no_accelerations();
         for (index, states) in self.states.chunks(T::WIDTH).enumerate() {
             let inputs = self.inputs.starting(index * T::WIDTH);
             group.gather(zero, craft, states, &inputs);

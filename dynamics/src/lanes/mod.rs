@@ -3,6 +3,7 @@
 //! | to evaluate | use | result |
 //! |---|---|---|
 //! | one state after another, few devices | [`Spacecraft`](crate::Spacecraft) | |
+//! | the same, other bits | [`Spacecraft::fused`](crate::Spacecraft::fused) | to rounding |
 //! | one state after another, four or more devices of one kind | [`AcrossDevices`] | to rounding |
 //! | many states of one spacecraft, or their runs | [`Batch`] | to the bit |
 //! | the same, other bits | [`Batch::fused`] | to rounding |
@@ -23,6 +24,7 @@
 mod across;
 mod batch;
 mod evaluate;
+pub(crate) mod fused;
 mod gather;
 mod lane;
 mod motion;

@@ -13,9 +13,16 @@ use crate::race::Time;
 const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
 const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);
 const PEER: RGBColor = RGBColor(0x8a, 0x8a, 0x8e);
-/// Services in order, told apart by colour-blind readers too; the theme of a dark screen knows them.
-const SERVICES: [RGBColor; 3] =
-    [RGBColor(0x00, 0x5f, 0xb3), RGBColor(0xd5, 0x5e, 0x00), RGBColor(0x00, 0x8a, 0x64)];
+/// Services in order, after Okabe and Ito: told apart by colour-blind readers too, on white and on
+/// black.
+const SERVICES: [RGBColor; 6] = [
+    RGBColor(0x00, 0x5f, 0xb3),
+    RGBColor(0xcc, 0x79, 0xa7),
+    RGBColor(0x56, 0xb4, 0xe9),
+    RGBColor(0xd5, 0x5e, 0x00),
+    RGBColor(0x00, 0x8a, 0x64),
+    RGBColor(0xe6, 0x9f, 0x00),
+];
 const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
 
 /// Everything is drawn in tenths of a unit, because plotters rounds to whole ones.

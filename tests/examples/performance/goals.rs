@@ -76,9 +76,11 @@ pub(crate) fn goals(contenders: &[Contender], times: &[Time], machine: &Machine)
         Some(time(named(contenders, peer), count)? / time(service(name), count)?)
     };
     let mut rows = Vec::new();
-    for (peer, goal) in ONE_STATE {
-        let what = format!("one state, N = 4, against {peer}");
-        rows.push(Goal::at_least("S3", what, goal, ratio(peer, "one", 4), " times"));
+    for (name, rounded) in [("one", ""), ("fused", ", fused")] {
+        for (peer, goal) in ONE_STATE {
+            let what = format!("one state{rounded}, N = 4, against {peer}");
+            rows.push(Goal::at_least("S3", what, goal, ratio(peer, name, 4), " times"));
+        }
     }
     for (count, goal) in ACROSS {
         let what = format!("lanes across devices, N = {count}, against Pinocchio's {BEST}");

@@ -248,6 +248,15 @@ impl<S: Scalar> Kernels for ReactionWheel<S> {
     }
 
     #[inline(always)]
+    fn zip_gains<T: Value, U: Value, W: Value>(
+        a: &super::Gains<T>,
+        b: &super::Gains<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> super::Gains<W> {
+        a.zip(b, join)
+    }
+
+    #[inline(always)]
     fn zip_accelerations<T: Value, U: Value, W: Value>(
         a: &JointAccelerations<T>,
         b: &JointAccelerations<U>,

@@ -34,6 +34,8 @@ pub(crate) trait Service {
 pub(crate) enum Name {
     /// One state, one evaluation after another
     One,
+    /// One state, one evaluation after another, products and sums rounded once
+    Fused,
     /// One state, whole steps of the Runge-Kutta method, by four evaluations each
     Step,
     /// One state, its devices side by side in lanes
@@ -50,6 +52,7 @@ impl Name {
     pub(crate) fn told(self) -> serde_json::Value {
         let (name, title, checked, floor) = match self {
             Self::One => ("one", "Precess, one state", true, "f64"),
+            Self::Fused => ("fused", "Precess, one state, fused", true, "fused f64"),
             Self::Step => ("step", "Precess, RK4 steps of one state, per evaluation", false, "f64"),
             Self::Across => ("across", "Precess, devices in lanes", true, WIDEST),
             Self::Batch => ("batch", "Precess, batch of states, per state", true, WIDEST),
@@ -96,7 +99,7 @@ fn of_array<const N: usize>(
         Name::Across => Box::new(across::Across::open(stored, devices)?),
         Name::Batch => Box::new(batch::Evaluated(many()?)),
         Name::Runs => Box::new(batch::Runs(many()?)),
-        Name::One | Name::Step => of(name, stored, devices)?,
+        Name::One | Name::Fused | Name::Step => of(name, stored, devices)?,
     })
 }
 
@@ -107,6 +110,7 @@ fn of<D: Devices<Scalar = f64> + 'static>(
 ) -> Result<Box<dyn Service>, Refused> {
     Ok(match name {
         Name::One => Box::new(one::One::open(stored, devices)?),
+        Name::Fused => Box::new(one::One::open_fused(stored, devices)?),
         Name::Step => Box::new(step::Step(one::One::open(stored, devices)?)),
         Name::Across | Name::Batch | Name::Runs => {
             return Err(format!("{} devices: lanes take arrays", stored.devices.len()).into());
