@@ -130,7 +130,7 @@ fn a_wrong_sliding_kernel_is_caught() {
         (".sub_mul(a.omega_dot_by, e.gain_s_w2)", ""),
         ("let n_s_bz = (reach_bx * p.f_s_by)", "let n_s_bz = (reach_by * p.f_s_by)"),
         ("let f_s_by = p.m_s * p.mount_21;", "let f_s_by = p.m_s * p.mount_12;"),
-        ("gain_s_w3,\n        free_s", "free_s"),
+        ("gain_s_w3, free_s", "free_s"),
     ] {
         let mut wrong = right.clone();
         let file = wrong.iter_mut().find(|file| file.path.ends_with("/slosh_mass.rs")).unwrap();
