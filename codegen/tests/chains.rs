@@ -121,16 +121,16 @@ fn a_wrong_sliding_kernel_is_caught() {
         ("let arm_s_dx = p.r_s_b_bx + s.x;", "let arm_s_dx = p.r_s_b_bx - s.x;"),
         ("let mass_ss = p.m_s;", "let mass_ss = p.m_s + p.m_s;"),
         ("let m_vv_11 = p.f_s_bx * gain_s_v1;", "let m_vv_11 = zero;"),
-        ("let k_5 = p.r_s_b_bz * p.mount_13;", "let k_5 = p.r_s_b_bz * p.mount_31;"),
+        ("+ p.r_s_b_bz * p.mount_13;", "+ p.r_s_b_bz * p.mount_31;"),
         ("let divisor_s = m.held_s + p.m_s;", "let divisor_s = p.m_s;"),
         ("let recip_s = m.driven_s * divisor_s.recip();", "let recip_s = divisor_s.recip();"),
         ("let free_s = m.given_s.add_mul(tau_s, recip_s);", "let free_s = tau_s * recip_s;"),
         ("let m_vv_12 = p.f_s_by * gain_s_v1;", "let m_vv_12 = p.m_s;"),
         ("let gain_s_w2 = n_s_by * recip_s;", "let gain_s_w2 = n_s_bz * recip_s;"),
         (".sub_mul(a.omega_dot_by, e.gain_s_w2)", ""),
-        ("let n_s_bz = (reach_bx * p.f_s_by)", "let n_s_bz = (reach_by * p.f_s_by)"),
+        ("let n_s_bz = (p.f_s_by * reach_bx)", "let n_s_bz = (p.f_s_by * reach_by)"),
         ("let f_s_by = p.m_s * p.mount_21;", "let f_s_by = p.m_s * p.mount_12;"),
-        ("gain_s_w3,\n        free_s", "free_s"),
+        ("gain_s_w3, free_s", "free_s"),
     ] {
         let mut wrong = right.clone();
         let file = wrong.iter_mut().find(|file| file.path.ends_with("/slosh_mass.rs")).unwrap();

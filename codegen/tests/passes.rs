@@ -1,5 +1,5 @@
-//! The passes over a chain change what is computed and in which order, and nothing else: with none,
-//! with each and with both, what is emitted is proven by the same claims.
+//! The passes change what is computed and in which order, and nothing else: with none, with each and
+//! with all, what is emitted is proven by the same claims.
 
 use precess_codegen::derivation::base::Passes;
 use precess_codegen::derivation::chain::Chain;

@@ -1,7 +1,7 @@
 //! Base parameters: of a body, what must stay behind its joint; all else may as well be its carrier's.
 //!
 //! Two passes over the chain, arithmetic on parameters alone. Neither changes an equation, which the
-//! proof shows of what is emitted:
+//! proof shows of what is emitted (a third, over the functions, is [`crate::emit`]'s):
 //!
 //! - *slide* (B1): the origin of a turning joint may lie anywhere on its axis. Slid along it, each
 //!   offset between two joints loses a component.
@@ -28,18 +28,24 @@ pub struct Passes {
     pub slide: bool,
     /// Move what may belong to the carrier.
     pub regroup: bool,
+    /// Take common factors out of the functions' sums.
+    pub factor: bool,
 }
 
 impl Passes {
     /// What is emitted.
-    pub const ALL: Self = Self { slide: true, regroup: true };
-    /// Bodies and origins as they are given.
-    pub const NONE: Self = Self { slide: false, regroup: false };
-    /// One after the other, and both.
-    pub const EACH: [Self; 4] = [
+    pub const ALL: Self = Self { factor: true, ..Self::CHAIN };
+    /// Both passes over the chain.
+    pub const CHAIN: Self = Self { slide: true, regroup: true, factor: false };
+    /// Bodies, origins and sums as they are given.
+    pub const NONE: Self = Self { slide: false, regroup: false, factor: false };
+    /// Each by itself, those over the chain together, and all.
+    pub const EACH: [Self; 6] = [
         Self::NONE,
         Self { slide: true, ..Self::NONE },
         Self { regroup: true, ..Self::NONE },
+        Self::CHAIN,
+        Self { factor: true, ..Self::NONE },
         Self::ALL,
     ];
 }
@@ -73,7 +79,7 @@ pub(super) fn based<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Based<'g>
     }
     let handed = if passes.regroup { regroup(chain, &mut links) } else { Lump::zero(chain.graph) };
     let mut based = Based { links, handed };
-    if passes != Passes::NONE {
+    if passes.slide || passes.regroup {
         based.settle(chain, script);
     }
     based

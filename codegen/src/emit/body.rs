@@ -54,6 +54,16 @@ impl FunctionBody {
     }
 }
 
+/// What there is to write of a function.
+pub(super) struct Shape {
+    /// Names of the statements that the outputs need.
+    pub(super) live: HashSet<String>,
+    /// Names of nodes.
+    pub(super) names: HashMap<NodeId, String>,
+    /// How often each node is an operand.
+    pub(super) uses: HashMap<NodeId, usize>,
+}
+
 fn mention(tokens: TokenStream, name: &str) -> bool {
     tokens.into_iter().any(|tree| match tree {
         TokenTree::Ident(ident) => ident == name,
@@ -125,6 +135,12 @@ impl<'a, 'g> Writer<'a, 'g> {
             }
         }
         FunctionBody { sections: written, counts: self.counts }
+    }
+
+    /// What there is to write, without writing it.
+    pub(super) fn shape(mut self, sections: &[Section<'g>], outputs: &[String]) -> Shape {
+        let live = self.live(sections, outputs);
+        Shape { live, names: self.names, uses: self.uses }
     }
 
     /// Names of the statements that outputs need; names and use counts of their nodes.

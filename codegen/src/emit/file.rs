@@ -1,6 +1,6 @@
 //! The files: records and functions laid out by templates.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 use proc_macro2::TokenStream;
@@ -9,15 +9,16 @@ use tera::{Context, Tera};
 
 use super::body::{Counts, FunctionBody, Writer};
 use super::by_number::by_number;
-use super::cost::{CountText, count, passes};
+use super::cost::{CountText, chain_passes, count, factoring};
 use super::device::{Signature, Signatures, device_file, type_name};
+use super::functions::{Functions, functions};
 use super::home::Home;
-use super::prepare::{Prepared, prepared};
+use super::prepare::Prepared;
 use super::render::Rendered;
 use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
 use crate::derivation::chain::Chain;
 use crate::graph::{Node, NodeId};
-use crate::kernel::{Kernel, Record, Source, kernels, parameters};
+use crate::kernel::{Kernel, Record, Source, parameters};
 use crate::kernel::{joint_accelerations, modes, motors, pose, rates, shared_records, wrenches};
 use crate::kinds::{Kind, Motion};
 
@@ -108,6 +109,8 @@ pub struct Emitted {
     pub(super) counts: Vec<CountText>,
     /// Operations of `eliminate` after each set of passes over the chain.
     pub(super) passes: Vec<usize>,
+    /// Function, and its operations before and after common factors are taken out of it.
+    pub(super) factoring: Vec<(String, usize, usize)>,
 }
 
 impl Emitted {
@@ -133,8 +136,9 @@ pub fn of_kind(chain: &Chain<'_>, home: Home<'_>) -> Result<Emitted, EmitError> 
     let device = device_file(&tera, chain.kind, home, &signatures)?;
     let device_type = type_name(chain.kind);
     let files = vec![kernels, device];
-    let passes = passes(chain.kind);
-    Ok(Emitted { files, module: chain.kind.name, device_type, counts, passes })
+    let passes = chain_passes(chain.kind);
+    let factoring = factoring(chain.kind, &counts);
+    Ok(Emitted { files, module: chain.kind.name, device_type, counts, passes, factoring })
 }
 
 pub(super) fn templates() -> Result<Tera, EmitError> {
@@ -167,33 +171,15 @@ fn kind_file(
     rows: &mut Vec<CountText>,
     signatures: &mut Signatures,
 ) -> Result<EmittedFile, EmitError> {
-    let (graph, kind) = (chain.graph, chain.kind);
-    let kernels = kernels(chain);
+    let kind = chain.kind;
+    let Functions { kernels, mut prepared } = functions(chain);
     let raw = parameters(kind);
-    let mut prepared = prepared(graph, &kernels, &raw);
 
-    // `prepare` itself.
-    let argument: HashMap<&str, &str> =
-        raw.fields.iter().map(|field| (field.name.as_str(), "p")).collect();
-    let given = |id: NodeId| match graph.node(id) {
-        Node::Symbol(symbol) => {
-            let name = graph.symbol_info(symbol).name;
-            argument.get(name.as_str()).map(|p| Rendered::field(p, &name))
-        }
-        _ => None,
-    };
-    let computed: Vec<String> = prepared
-        .record
-        .fields
-        .iter()
-        .map(|field| field.name.clone())
-        .filter(|name| !argument.contains_key(name.as_str()))
-        .collect();
-    let witness = Rendered::field("p", &raw.fields[0].name);
-    let body = Writer::new(graph, &given, witness).write(&prepared.sections, &computed);
+    let body = prepare_body(chain, &prepared);
     describe(&mut prepared.record, &body);
+    let computed = prepared.computed(&raw);
     let fields = prepared.record.fields.iter().map(|field| {
-        let own = argument.contains_key(field.name.as_str());
+        let own = !computed.contains(&field.name);
         (field.name.clone(), if own { format!("p.{}", field.name) } else { field.name.clone() })
     });
     let mut functions = vec![function(
@@ -266,6 +252,21 @@ fn symmetric(kind: &Kind) -> Vec<String> {
         )
     });
     text.flat_map(|text| wrapped(&text, COMMENT)).collect()
+}
+
+/// The body of `prepare`.
+pub(super) fn prepare_body<'g>(chain: &Chain<'g>, prepared: &Prepared<'g>) -> FunctionBody {
+    let (graph, raw) = (chain.graph, parameters(chain.kind));
+    let argument: HashSet<&str> = raw.fields.iter().map(|field| field.name.as_str()).collect();
+    let given = |id: NodeId| match graph.node(id) {
+        Node::Symbol(symbol) => {
+            let name = graph.symbol_info(symbol).name;
+            argument.contains(name.as_str()).then(|| Rendered::field("p", &name))
+        }
+        _ => None,
+    };
+    let witness = Rendered::field("p", &raw.fields[0].name);
+    Writer::new(graph, &given, witness).write(&prepared.sections, &prepared.computed(&raw))
 }
 
 pub(super) fn kernel_body<'g>(

@@ -10,7 +10,9 @@ mod cost;
 mod device;
 mod device_calls;
 mod device_items;
+mod factor;
 mod file;
+mod functions;
 mod home;
 mod layout;
 mod prepare;
@@ -20,6 +22,6 @@ mod text;
 
 pub use body::{Counts, FunctionBody};
 pub use file::{EmitError, Emitted, EmittedFile, of_kind};
+pub(crate) use functions::{Functions, functions};
 pub use home::Home;
-pub(crate) use prepare::prepared;
 pub use shared::{files, shared};

@@ -16,6 +16,38 @@ pub(crate) struct Prepared<'g> {
     pub(crate) sections: Vec<Section<'g>>,
 }
 
+impl<'g> Prepared<'g> {
+    /// `e` with each field that it reads as it is `computed`.
+    pub(super) fn read(
+        &self,
+        graph: &'g Graph,
+        e: Expr<'g>,
+        computed: &HashMap<String, Expr<'g>>,
+    ) -> Expr<'g> {
+        let mut made: HashMap<NodeId, Expr<'g>> = HashMap::new();
+        for id in graph.reachable([e.id()]) {
+            let field = self.fields.get(&id).and_then(|name| computed.get(name));
+            let new = match (graph.node(id), field) {
+                (Node::Constant(_) | Node::Symbol(_), _) => graph.expr(id),
+                (_, Some(field)) => *field,
+                (Node::Sum(a, b), None) => made[&a] + made[&b],
+                (Node::Product(a, b), None) => made[&a] * made[&b],
+                (Node::Neg(a), None) => -made[&a],
+                (Node::Recip(a), None) => made[&a].recip(),
+            };
+            made.insert(id, new);
+        }
+        made[&e.id()]
+    }
+
+    /// The names of the fields that are not among the `raw` parameters.
+    pub(super) fn computed(&self, raw: &Record) -> Vec<String> {
+        let given = |name: &String| raw.fields.iter().any(|field| field.name == *name);
+        let names = self.record.fields.iter().map(|field| field.name.clone());
+        names.filter(|name| !given(name)).collect()
+    }
+}
+
 /// Finds what the kernels can share of parameters alone.
 pub(crate) fn prepared<'g>(
     graph: &'g Graph,

@@ -49,6 +49,8 @@ pub fn shared(kinds: &[Emitted]) -> Result<Vec<EmittedFile>, EmitError> {
     context.insert("rows", &rows);
     let passes: Vec<_> = kinds.iter().map(Emitted::passes).collect();
     context.insert("passes", &passes);
+    let factoring: Vec<_> = kinds.iter().map(|kind| (kind.module, &kind.factoring)).collect();
+    context.insert("factoring", &factoring);
     let text = tera.render("operations.md", &context)?;
     Ok(vec![hub, list, EmittedFile { path: "docs/operations.md".to_owned(), text }])
 }

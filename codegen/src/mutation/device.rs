@@ -18,9 +18,9 @@ use super::site::Site;
 use super::state::{Accelerations, Case, Motion, parameters_of};
 use super::tape::{Returned, Tape, Values};
 use crate::derivation::chain::{Chain, Coordinate, Mode};
-use crate::emit::prepared;
+use crate::emit;
 use crate::graph::{Expr, Stage};
-use crate::kernel::{Kernel, kernels, parameters};
+use crate::kernel::Kernel;
 
 /// Number of the function that all others read.
 pub(super) const PREPARE: usize = 0;
@@ -60,11 +60,10 @@ impl<'a, 'g> Device<'a, 'g> {
     /// When the kind lacks a function that a law reads.
     pub(super) fn new(chain: &'a Chain<'g>) -> Result<Self, MutationError> {
         let graph = chain.graph;
-        let kernels = kernels(chain);
-        let hoisted = prepared(graph, &kernels, &parameters(chain.kind));
+        let emit::Functions { kernels, prepared } = emit::functions(chain).joined(graph);
         let claims: Vec<_> = kernels.iter().flat_map(|kernel| kernel.claims.clone()).collect();
         let mut listings =
-            vec![Listing::new(graph, "prepare", &hoisted.sections, &hoisted.record, &claims)];
+            vec![Listing::new(graph, "prepare", &prepared.sections, &prepared.record, &claims)];
         let listing = |kernel: &Kernel<'g>| {
             let Kernel { name, sections, output, claims, .. } = kernel;
             Listing::new(graph, name, sections, output, claims)

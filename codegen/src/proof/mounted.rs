@@ -10,7 +10,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Row;
 use super::read_back::{EmittedError, Reading, function, read};
-use super::unknowns::moving;
 use crate::derivation::chain::{Chain, mount_entry};
 use crate::graph::{Expr, Node, Stage, SymbolId};
 use crate::kernel::{Kernel, parameters};
@@ -78,8 +77,10 @@ fn values<'g>(
     let graph = chain.graph;
     let along_own =
         ["omega_", "alpha_", "mr_behind_", "i_behind_", "f_rates_", "n_rates_", "field_"];
-    let mut along_b: Vec<_> = vectors(chain).iter().flat_map(|stem| components(stem)).collect();
-    along_b.extend(moving().concat());
+    // Of what moves, inertia and first moment are made of the same sums: neither is a symbol in the
+    // other.
+    let made = vectors(chain).into_iter().filter(|stem| stem != "mr_moving");
+    let along_b: Vec<_> = made.flat_map(|stem| components(&stem)).collect();
     let stands = |name: &String| {
         along_b.contains(name) || along_own.iter().any(|stem| name.starts_with(stem))
     };

@@ -190,12 +190,14 @@ pub struct Prepared<T> {
     pub hand_m: T,
     /// `p.r_go_b_bz + p.r_goc_go_goz`. r_{Gᵒc/B}, behind eq. (12), m.
     pub r_goc_b_bz: T,
-    /// `p.r_go_b_bz + p.l_o_z`. Base parameters of the outer gimbal, eqs. (B1), (B2): arm, m,
-    /// first moment, kg m, inertia, kg m².
+    /// `p.r_go_b_bz + p.l_o_z`. What the hub takes over, eq. (B2): mass, kg, first moment, kg
+    /// m, and inertia about B, kg m², along B axes.
     pub arm_o_dz: T,
     /// `r_goc_b_bz * r_goc_b_bz`.
     pub k_0: T,
-    /// `-(p.l_o_y + p.r_gic_gi_giy)`. r″_{Gⁱc/B}, eq. (13), per ᵒγ̈, m.
+    /// `p.l_o_y + p.r_gic_gi_giy`.
+    pub k_1: T,
+    /// `-k_1`. r″_{Gⁱc/B}, eq. (13), per ᵒγ̈, m.
     pub r_gic_b_dprime_o_gox: T,
     /// `-p.l_i_x`. r″_{Wc/B}, eq. (14), per ⁱγ̈, m.
     pub r_wc_b_dprime_i_giz: T,
@@ -208,7 +210,7 @@ pub struct Prepared<T> {
     /// `p.m_gi * p.r_gic_gi_giz`. The inner gimbal about its origin: first moment, kg m, and
     /// inertia as in eq. (55), kg m².
     pub mr_gic_gi_giz: T,
-    /// `p.i_gi_11 + p.m_gi * (base_5 + base_6)`. The inner gimbal about its origin: first
+    /// `p.i_gi_11 + p.m_gi * (base_3 + base_4)`. The inner gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (55), kg m².
     pub i_gi_gi_11: T,
     /// `p.i_gi_12 - p.r_gic_gi_gix * p.r_gic_gi_giy * p.m_gi`. The inner gimbal about its
@@ -217,13 +219,13 @@ pub struct Prepared<T> {
     /// `p.i_gi_13 - p.r_gic_gi_gix * p.r_gic_gi_giz * p.m_gi`. The inner gimbal about its
     /// origin: first moment, kg m, and inertia as in eq. (55), kg m².
     pub i_gi_gi_13: T,
-    /// `p.i_gi_22 + p.m_gi * (base_34 + base_6)`. The inner gimbal about its origin: first
-    /// moment, kg m, and inertia as in eq. (55), kg m².
+    /// `p.i_gi_22 + base_25`. The inner gimbal about its origin: first moment, kg m, and
+    /// inertia as in eq. (55), kg m².
     pub i_gi_gi_22: T,
     /// `p.i_gi_23 - p.r_gic_gi_giy * p.r_gic_gi_giz * p.m_gi`. The inner gimbal about its
     /// origin: first moment, kg m, and inertia as in eq. (55), kg m².
     pub i_gi_gi_23: T,
-    /// `p.i_gi_33 + p.m_gi * (base_34 + base_5)`. The inner gimbal about its origin: first
+    /// `p.i_gi_33 + p.m_gi * (base_24 + base_3)`. The inner gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (55), kg m².
     pub i_gi_gi_33: T,
     /// `p.l_i_x * p.m_w + mr_gic_gi_gix`. V, the inner gimbal and what it carries, eq. (108):
@@ -232,56 +234,23 @@ pub struct Prepared<T> {
     /// `p.l_i_z * p.m_w + mr_gic_gi_giz`. V, the inner gimbal and what it carries, eq. (108):
     /// mass, kg; first moment, kg m, and inertia, kg m², about Gⁱ.
     pub mr_v_gi_giz: T,
-    /// `p.j_11 + p.m_w * (base_3 + base_4) + i_gi_gi_11`. V, the inner gimbal and what it
-    /// carries, eq. (108): mass, kg; first moment, kg m, and inertia, kg m², about Gⁱ.
-    pub i_v_gi_11: T,
     /// `i_gi_gi_12 - p.l_i_x * p.l_i_y * p.m_w`. V, the inner gimbal and what it carries, eq.
     /// (108): mass, kg; first moment, kg m, and inertia, kg m², about Gⁱ.
     pub i_v_gi_12: T,
-    /// `p.j_22 + p.m_w * (base_33 + base_4) + i_gi_gi_22`. V, the inner gimbal and what it
-    /// carries, eq. (108): mass, kg; first moment, kg m, and inertia, kg m², about Gⁱ.
-    pub i_v_gi_22: T,
     /// `i_gi_gi_23 - p.l_i_y * p.l_i_z * p.m_w`. V, the inner gimbal and what it carries, eq.
     /// (108): mass, kg; first moment, kg m, and inertia, kg m², about Gⁱ.
     pub i_v_gi_23: T,
-    /// `p.j_22 + p.m_w * (base_33 + base_3) + i_gi_gi_33`. V, the inner gimbal and what it
-    /// carries, eq. (108): mass, kg; first moment, kg m, and inertia, kg m², about Gⁱ.
-    pub i_v_gi_33: T,
     /// `i_i_base_22`. Row of the inner gimbal's joint, eq. (101), along its axis: M_ij, kg
     /// m², and bias, N m, eq. (C3).
     pub mass_ii: T,
     /// `i_v_gi_11 - i_v_gi_33`.
-    pub k_1: T,
-    /// `i_v_gi_13 + i_v_gi_13`.
     pub k_2: T,
-    /// `-i_v_gi_13`.
+    /// `i_v_gi_13 + i_v_gi_13`.
     pub k_3: T,
     /// `p.l_o_x + p.l_o_x`.
     pub k_4: T,
-    /// `mr_v_gi_giy * (p.l_o_y + p.l_o_y)`.
-    pub k_5: T,
     /// `p.l_o_z + p.l_o_z`.
-    pub k_6: T,
-    /// `p.l_o_x * mr_v_gi_giy`.
-    pub k_7: T,
-    /// `p.l_o_z * mr_v_gi_giy`.
-    pub k_8: T,
-    /// `m_v * (base_7 + hand_14)`.
-    pub k_9: T,
-    /// `-(m_v * base_22)`.
-    pub k_10: T,
-    /// `-(p.l_o_x * p.l_o_z * m_v)`.
-    pub k_11: T,
-    /// `m_v * (hand_13 + hand_14)`.
-    pub k_12: T,
-    /// `-(p.l_o_y * p.l_o_z * m_v)`.
-    pub k_13: T,
-    /// `m_v * (hand_13 + base_7)`.
-    pub k_14: T,
-    /// `p.l_o_x * m_v`.
-    pub k_15: T,
-    /// `p.l_o_z * m_v`.
-    pub k_16: T,
+    pub k_5: T,
     /// `p.m_go * p.r_goc_go_gox`. The outer gimbal about its origin: first moment, kg m, and
     /// inertia as in eq. (40), kg m².
     pub mr_goc_go_gox: T,
@@ -291,7 +260,7 @@ pub struct Prepared<T> {
     /// `p.m_go * p.r_goc_go_goz`. The outer gimbal about its origin: first moment, kg m, and
     /// inertia as in eq. (40), kg m².
     pub mr_goc_go_goz: T,
-    /// `p.i_go_11 + p.m_go * (base_8 + hand_16)`. The outer gimbal about its origin: first
+    /// `p.i_go_11 + p.m_go * (base_6 + hand_5)`. The outer gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_go_go_11: T,
     /// `p.i_go_12 - p.r_goc_go_gox * p.r_goc_go_goy * p.m_go`. The outer gimbal about its
@@ -300,84 +269,88 @@ pub struct Prepared<T> {
     /// `p.i_go_13 - p.r_goc_go_gox * p.r_goc_go_goz * p.m_go`. The outer gimbal about its
     /// origin: first moment, kg m, and inertia as in eq. (40), kg m².
     pub i_go_go_13: T,
-    /// `p.i_go_22 + p.m_go * (hand_15 + hand_16)`. The outer gimbal about its origin: first
-    /// moment, kg m, and inertia as in eq. (40), kg m².
+    /// `p.i_go_22 + p.m_go * hand_6`. The outer gimbal about its origin: first moment, kg m,
+    /// and inertia as in eq. (40), kg m².
     pub i_go_go_22: T,
     /// `p.i_go_23 - p.r_goc_go_goy * p.r_goc_go_goz * p.m_go`. The outer gimbal about its
     /// origin: first moment, kg m, and inertia as in eq. (40), kg m².
     pub i_go_go_23: T,
-    /// `p.i_go_33 + p.m_go * (hand_15 + base_8)`. The outer gimbal about its origin: first
-    /// moment, kg m, and inertia as in eq. (40), kg m².
+    /// `p.i_go_33 + base_16`. The outer gimbal about its origin: first moment, kg m, and
+    /// inertia as in eq. (40), kg m².
     pub i_go_go_33: T,
-    /// `mr_v_gi_giy + p.l_o_y * m_v + mr_goc_go_goy`. D, the outer gimbal and what it
-    /// carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg m², about Gᵒ.
+    /// `lump_2 + mr_goc_go_goy`. D, the outer gimbal and what it carries, eq. (89): mass, kg;
+    /// first moment, kg m, and inertia, kg m², about Gᵒ.
     pub mr_d_go_goy: T,
     /// `p.r_go_b_bx + p.r_go_b_bx`.
-    pub k_17: T,
+    pub k_6: T,
     /// `p.r_go_b_by + p.r_go_b_by`.
-    pub k_18: T,
+    pub k_7: T,
     /// `p.r_go_b_bz + p.r_go_b_bz`.
-    pub k_19: T,
-    /// `m_d * (hand_18 + hand_19)`.
-    pub k_20: T,
+    pub k_8: T,
+    /// `m_d * (hand_8 + hand_9)`.
+    pub k_9: T,
     /// `-(p.r_go_b_bx * p.r_go_b_by * m_d)`.
-    pub k_21: T,
+    pub k_10: T,
     /// `-(p.r_go_b_bx * p.r_go_b_bz * m_d)`.
-    pub k_22: T,
-    /// `m_d * (hand_17 + hand_19)`.
-    pub k_23: T,
+    pub k_11: T,
+    /// `m_d * (hand_7 + hand_9)`.
+    pub k_12: T,
     /// `-(p.r_go_b_by * p.r_go_b_bz * m_d)`.
-    pub k_24: T,
-    /// `m_d * (hand_17 + hand_18)`.
-    pub k_25: T,
+    pub k_13: T,
+    /// `m_d * (hand_7 + hand_8)`.
+    pub k_14: T,
     /// `p.r_go_b_bx * m_d`.
-    pub k_26: T,
+    pub k_15: T,
     /// `p.r_go_b_by * m_d`.
-    pub k_27: T,
+    pub k_16: T,
     /// `p.r_go_b_bz * m_d`.
-    pub k_28: T,
-    /// `p.l_o_y + p.l_i_y`. Base parameters of the inner gimbal, eqs. (B1), (B2): arm, m,
+    pub k_17: T,
+    /// `p.m_go * r_goc_b_bz`.
+    pub k_18: T,
+    /// `p.l_o_y + p.l_i_y`. Base parameters of the outer gimbal, eqs. (B1), (B2): arm, m,
     /// first moment, kg m, inertia, kg m².
     pub arm_i_goy: T,
-    /// `mr_goc_go_gox + base_0 + p.l_o_x * p.m_w`. Base parameters of the outer gimbal, eqs.
-    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `mr_o_base_gox`.
+    pub k_19: T,
+    /// `p.l_o_x * m_v + mr_goc_go_gox`. Base parameters of the outer gimbal, eqs. (B1), (B2):
+    /// arm, m, first moment, kg m, inertia, kg m².
     pub mr_o_base_gox: T,
-    /// `base_2 + lump_0`. Base parameters of the outer gimbal, eqs. (B1), (B2): arm, m, first
-    /// moment, kg m, inertia, kg m².
+    /// `base_0 + mr_gic_gi_giy`. Base parameters of the outer gimbal, eqs. (B1), (B2): arm,
+    /// m, first moment, kg m, inertia, kg m².
     pub mr_o_base_goy: T,
-    /// `base_21 + base_18 + base_19 + p.i_go_11 - p.i_go_22`. Base parameters of the outer
-    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
-    pub i_o_base_11: T,
-    /// `base_24 - p.l_o_x * p.l_i_y * p.m_w`. Base parameters of the outer gimbal, eqs. (B1),
+    /// `base_11 + p.i_go_11 - p.i_go_22`. Base parameters of the outer gimbal, eqs. (B1),
     /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    pub i_o_base_11: T,
+    /// `p.i_go_12 - p.r_goc_go_goy * mr_goc_go_gox - base_12`. Base parameters of the outer
+    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_o_base_12: T,
-    /// `base_26 - p.r_goc_go_goz * mr_goc_go_gox`. Base parameters of the outer gimbal, eqs.
+    /// `base_14 - p.r_goc_go_goz * mr_goc_go_gox`. Base parameters of the outer gimbal, eqs.
     /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_o_base_13: T,
-    /// `base_27 - p.r_goc_go_goz * mr_goc_go_goy`. Base parameters of the outer gimbal, eqs.
+    /// `base_15 - p.r_goc_go_goz * mr_goc_go_goy`. Base parameters of the outer gimbal, eqs.
     /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_o_base_23: T,
-    /// `base_29 + base_16 + base_18 + base_19`. Base parameters of the outer gimbal, eqs.
-    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_18 + p.i_go_33 + p.i_gi_11`. Base parameters of the outer gimbal, eqs. (B1),
+    /// (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_o_base_33: T,
-    /// `base_31 + p.r_gic_gi_gix * base_30`. Base parameters of the inner gimbal, eqs. (B1),
+    /// `base_20 + p.r_gic_gi_gix * base_19`. Base parameters of the inner gimbal, eqs. (B1),
     /// (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_i_base_12: T,
-    /// `p.i_gi_22 + p.j_22 + base_10 + base_36 + base_9 + base_35`. Base parameters of the
-    /// inner gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_23 + base_25 + p.i_gi_22 + p.j_22`. Base parameters of the inner gimbal, eqs.
+    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_i_base_22: T,
-    /// `base_37 + p.r_gic_gi_giz * base_30`. Base parameters of the inner gimbal, eqs. (B1),
-    /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_gi_23 + p.r_gic_gi_giz * (base_19 - mr_gic_gi_giy)`. Base parameters of the inner
+    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_i_base_23: T,
-    /// `base_38 + base_35`. Base parameters of the inner gimbal, eqs. (B1), (B2): arm, m,
-    /// first moment, kg m, inertia, kg m².
+    /// `base_26 + p.j_22 - p.i_gi_11 + p.i_gi_33`. Base parameters of the inner gimbal, eqs.
+    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_i_base_33: T,
     /// `p.j_11 - i_i_base_33`.
-    pub k_29: T,
+    pub k_20: T,
     /// `i_i_base_13 + i_i_base_13`.
-    pub k_30: T,
+    pub k_21: T,
     /// `-i_i_base_13`.
-    pub k_31: T,
+    pub k_22: T,
     /// `place_0 + p.mount_13 * arm_o_dz`. Origin of the first joint, eq. (A2), along B axes,
     /// m.
     pub reach_bx: T,
@@ -388,57 +361,81 @@ pub struct Prepared<T> {
     /// m.
     pub reach_bz: T,
     /// `reach_bx + reach_bx`.
-    pub k_32: T,
+    pub k_23: T,
     /// `reach_by + reach_by`.
-    pub k_33: T,
+    pub k_24: T,
     /// `reach_bz + reach_bz`.
-    pub k_34: T,
-    /// `p.mount_11 * hand_3 + p.mount_12 * hand_7 + p.mount_13 * hand_12`. What the hub takes
+    pub k_25: T,
+    /// `p.mount_11 * k_15 + p.mount_12 * k_16 + p.mount_13 * hand_0`. What the hub takes
     /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
     /// axes.
     pub hand_mr_bx: T,
-    /// `p.mount_21 * hand_3 + p.mount_22 * hand_7 + p.mount_23 * hand_12`. What the hub takes
+    /// `p.mount_21 * k_15 + p.mount_22 * k_16 + p.mount_23 * hand_0`. What the hub takes
     /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
     /// axes.
     pub hand_mr_by: T,
-    /// `p.mount_31 * hand_3 + p.mount_32 * hand_7 + p.mount_33 * hand_12`. What the hub takes
+    /// `p.mount_31 * k_15 + p.mount_32 * k_16 + p.mount_33 * hand_0`. What the hub takes
     /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
     /// axes.
     pub hand_mr_bz: T,
-    /// `hand_68 - hand_64 + hand_65 * (hand_66 + hand_66)`. What the hub takes over, eq.
+    /// `half * (hand_27 + p.mount_13 * hand_12 * hand_10)`. What the hub takes over, eq.
     /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_11: T,
-    /// `hand_76 - hand_73 + hand_65 * (hand_74 + hand_74)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_35 - hand_34)`. What the hub takes over, eq. (B2): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_12: T,
-    /// `hand_84 - hand_81 + hand_65 * (hand_82 + hand_82)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_43 - hand_42)`. What the hub takes over, eq. (B2): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_13: T,
-    /// `hand_95 - hand_92 + hand_65 * (hand_93 + hand_93)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * hand_46`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
+    /// inertia about B, kg m², along B axes.
     pub hand_i_22: T,
-    /// `hand_103 - hand_100 + hand_65 * (hand_101 + hand_101)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_51 - hand_50)`. What the hub takes over, eq. (B2): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_23: T,
-    /// `hand_114 - hand_111 + hand_65 * (hand_112 + hand_112)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * hand_54`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
+    /// inertia about B, kg m², along B axes.
     pub hand_i_33: T,
     /// `i_go_go_22 - i_go_go_33`.
-    pub k_35: T,
+    pub k_26: T,
     /// `i_go_go_33 - i_go_go_11`.
-    pub k_36: T,
+    pub k_27: T,
     /// `i_go_go_11 - i_go_go_22`.
-    pub k_37: T,
+    pub k_28: T,
     /// `i_gi_gi_22 - i_gi_gi_33`.
-    pub k_38: T,
+    pub k_29: T,
     /// `i_gi_gi_33 - i_gi_gi_11`.
-    pub k_39: T,
+    pub k_30: T,
     /// `i_gi_gi_11 - i_gi_gi_22`.
-    pub k_40: T,
+    pub k_31: T,
     /// `p.j_22 - p.j_11`.
-    pub k_41: T,
+    pub k_32: T,
     /// `p.j_11 - p.j_22`.
+    pub k_33: T,
+    /// `p.i_go_11 - p.i_go_22`.
+    pub k_34: T,
+    /// `p.i_go_12 + p.i_go_12`.
+    pub k_35: T,
+    /// `p.i_gi_11 - p.i_gi_22`.
+    pub k_36: T,
+    /// `p.i_gi_33 - p.i_gi_11`.
+    pub k_37: T,
+    /// `p.i_gi_33 - p.i_gi_22`.
+    pub k_38: T,
+    /// `p.l_o_z * m_v + mr_goc_go_goz`.
+    pub k_39: T,
+    /// `i_v_gi_11 + prep_0 + m_v * (base_5 + hand_2) + i_go_go_11`.
+    pub k_40: T,
+    /// `i_go_go_12 - p.l_o_x * lump_2`.
+    pub k_41: T,
+    /// `i_go_go_13 - (i_v_gi_13 + p.l_o_x * p.l_o_z * m_v)`.
     pub k_42: T,
+    /// `i_v_gi_22 + m_v * hand_3 + i_go_go_22`.
+    pub k_43: T,
+    /// `i_go_go_23 - p.l_o_z * lump_2`.
+    pub k_44: T,
+    /// `i_v_gi_33 + prep_0 + m_v * (hand_1 + base_5) + i_go_go_33`.
+    pub k_45: T,
 }
 
 impl<T: Copy> Prepared<T> {
@@ -502,6 +499,7 @@ impl<T: Copy> Prepared<T> {
             r_goc_b_bz: join(self.r_goc_b_bz, other.r_goc_b_bz),
             arm_o_dz: join(self.arm_o_dz, other.arm_o_dz),
             k_0: join(self.k_0, other.k_0),
+            k_1: join(self.k_1, other.k_1),
             r_gic_b_dprime_o_gox: join(self.r_gic_b_dprime_o_gox, other.r_gic_b_dprime_o_gox),
             r_wc_b_dprime_i_giz: join(self.r_wc_b_dprime_i_giz, other.r_wc_b_dprime_i_giz),
             mr_gic_gi_gix: join(self.mr_gic_gi_gix, other.mr_gic_gi_gix),
@@ -515,17 +513,23 @@ impl<T: Copy> Prepared<T> {
             i_gi_gi_33: join(self.i_gi_gi_33, other.i_gi_gi_33),
             mr_v_gi_gix: join(self.mr_v_gi_gix, other.mr_v_gi_gix),
             mr_v_gi_giz: join(self.mr_v_gi_giz, other.mr_v_gi_giz),
-            i_v_gi_11: join(self.i_v_gi_11, other.i_v_gi_11),
             i_v_gi_12: join(self.i_v_gi_12, other.i_v_gi_12),
-            i_v_gi_22: join(self.i_v_gi_22, other.i_v_gi_22),
             i_v_gi_23: join(self.i_v_gi_23, other.i_v_gi_23),
-            i_v_gi_33: join(self.i_v_gi_33, other.i_v_gi_33),
             mass_ii: join(self.mass_ii, other.mass_ii),
-            k_1: join(self.k_1, other.k_1),
             k_2: join(self.k_2, other.k_2),
             k_3: join(self.k_3, other.k_3),
             k_4: join(self.k_4, other.k_4),
             k_5: join(self.k_5, other.k_5),
+            mr_goc_go_gox: join(self.mr_goc_go_gox, other.mr_goc_go_gox),
+            mr_goc_go_goy: join(self.mr_goc_go_goy, other.mr_goc_go_goy),
+            mr_goc_go_goz: join(self.mr_goc_go_goz, other.mr_goc_go_goz),
+            i_go_go_11: join(self.i_go_go_11, other.i_go_go_11),
+            i_go_go_12: join(self.i_go_go_12, other.i_go_go_12),
+            i_go_go_13: join(self.i_go_go_13, other.i_go_go_13),
+            i_go_go_22: join(self.i_go_go_22, other.i_go_go_22),
+            i_go_go_23: join(self.i_go_go_23, other.i_go_go_23),
+            i_go_go_33: join(self.i_go_go_33, other.i_go_go_33),
+            mr_d_go_goy: join(self.mr_d_go_goy, other.mr_d_go_goy),
             k_6: join(self.k_6, other.k_6),
             k_7: join(self.k_7, other.k_7),
             k_8: join(self.k_8, other.k_8),
@@ -537,29 +541,10 @@ impl<T: Copy> Prepared<T> {
             k_14: join(self.k_14, other.k_14),
             k_15: join(self.k_15, other.k_15),
             k_16: join(self.k_16, other.k_16),
-            mr_goc_go_gox: join(self.mr_goc_go_gox, other.mr_goc_go_gox),
-            mr_goc_go_goy: join(self.mr_goc_go_goy, other.mr_goc_go_goy),
-            mr_goc_go_goz: join(self.mr_goc_go_goz, other.mr_goc_go_goz),
-            i_go_go_11: join(self.i_go_go_11, other.i_go_go_11),
-            i_go_go_12: join(self.i_go_go_12, other.i_go_go_12),
-            i_go_go_13: join(self.i_go_go_13, other.i_go_go_13),
-            i_go_go_22: join(self.i_go_go_22, other.i_go_go_22),
-            i_go_go_23: join(self.i_go_go_23, other.i_go_go_23),
-            i_go_go_33: join(self.i_go_go_33, other.i_go_go_33),
-            mr_d_go_goy: join(self.mr_d_go_goy, other.mr_d_go_goy),
             k_17: join(self.k_17, other.k_17),
             k_18: join(self.k_18, other.k_18),
-            k_19: join(self.k_19, other.k_19),
-            k_20: join(self.k_20, other.k_20),
-            k_21: join(self.k_21, other.k_21),
-            k_22: join(self.k_22, other.k_22),
-            k_23: join(self.k_23, other.k_23),
-            k_24: join(self.k_24, other.k_24),
-            k_25: join(self.k_25, other.k_25),
-            k_26: join(self.k_26, other.k_26),
-            k_27: join(self.k_27, other.k_27),
-            k_28: join(self.k_28, other.k_28),
             arm_i_goy: join(self.arm_i_goy, other.arm_i_goy),
+            k_19: join(self.k_19, other.k_19),
             mr_o_base_gox: join(self.mr_o_base_gox, other.mr_o_base_gox),
             mr_o_base_goy: join(self.mr_o_base_goy, other.mr_o_base_goy),
             i_o_base_11: join(self.i_o_base_11, other.i_o_base_11),
@@ -571,15 +556,15 @@ impl<T: Copy> Prepared<T> {
             i_i_base_22: join(self.i_i_base_22, other.i_i_base_22),
             i_i_base_23: join(self.i_i_base_23, other.i_i_base_23),
             i_i_base_33: join(self.i_i_base_33, other.i_i_base_33),
-            k_29: join(self.k_29, other.k_29),
-            k_30: join(self.k_30, other.k_30),
-            k_31: join(self.k_31, other.k_31),
+            k_20: join(self.k_20, other.k_20),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
             reach_bx: join(self.reach_bx, other.reach_bx),
             reach_by: join(self.reach_by, other.reach_by),
             reach_bz: join(self.reach_bz, other.reach_bz),
-            k_32: join(self.k_32, other.k_32),
-            k_33: join(self.k_33, other.k_33),
-            k_34: join(self.k_34, other.k_34),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
             hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
             hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
             hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
@@ -589,6 +574,15 @@ impl<T: Copy> Prepared<T> {
             hand_i_22: join(self.hand_i_22, other.hand_i_22),
             hand_i_23: join(self.hand_i_23, other.hand_i_23),
             hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
+            k_29: join(self.k_29, other.k_29),
+            k_30: join(self.k_30, other.k_30),
+            k_31: join(self.k_31, other.k_31),
+            k_32: join(self.k_32, other.k_32),
+            k_33: join(self.k_33, other.k_33),
+            k_34: join(self.k_34, other.k_34),
             k_35: join(self.k_35, other.k_35),
             k_36: join(self.k_36, other.k_36),
             k_37: join(self.k_37, other.k_37),
@@ -597,6 +591,9 @@ impl<T: Copy> Prepared<T> {
             k_40: join(self.k_40, other.k_40),
             k_41: join(self.k_41, other.k_41),
             k_42: join(self.k_42, other.k_42),
+            k_43: join(self.k_43, other.k_43),
+            k_44: join(self.k_44, other.k_44),
+            k_45: join(self.k_45, other.k_45),
         }
     }
 }
@@ -1293,14 +1290,15 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 261 mul, 286 add, 10 neg, 0 div, 0 trig.
+/// Operations: 211 mul, 228 add, 6 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // r_{Gᵒc/B}, behind eq. (12), m.
     let r_goc_b_bz = p.r_go_b_bz + p.r_goc_go_goz;
 
     // r″_{Gⁱc/B}, eq. (13), per ᵒγ̈, m.
-    let r_gic_b_dprime_o_gox = -(p.l_o_y + p.r_gic_gi_giy);
+    let k_1 = p.l_o_y + p.r_gic_gi_giy;
+    let r_gic_b_dprime_o_gox = -k_1;
 
     // r″_{Wc/B}, eq. (14), per ⁱγ̈, m.
     let r_wc_b_dprime_i_giz = -p.l_i_x;
@@ -1326,195 +1324,129 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // D, the outer gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gᵒ.
     let m_d = p.m_go + m_v;
-    let mr_d_go_goy = mr_v_gi_giy + p.l_o_y * m_v + mr_goc_go_goy;
+    let lump_1 = p.l_o_y * m_v;
+    let lump_2 = mr_v_gi_giy + lump_1;
+    let mr_d_go_goy = lump_2 + mr_goc_go_goy;
 
     // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
     // m², along B axes.
     let hand_m = p.m_go + p.m_gi + p.m_w;
-    let hand_0 = p.r_go_b_bx * p.m_go;
-    let hand_1 = p.r_go_b_bx * p.m_gi;
-    let hand_2 = p.r_go_b_bx * p.m_w;
-    let hand_3 = hand_0 + hand_1 + hand_2;
-    let hand_4 = p.r_go_b_by * p.m_go;
-    let hand_5 = p.r_go_b_by * p.m_gi;
-    let hand_6 = p.r_go_b_by * p.m_w;
-    let hand_7 = hand_4 + hand_5 + hand_6;
-    let hand_8 = p.r_go_b_bz * p.m_go;
-    let hand_9 = p.l_o_z * p.m_gi;
-    let hand_10 = p.l_o_z * p.m_w;
-    let hand_11 = hand_8 + p.r_go_b_bz * p.m_gi + hand_9 + p.r_go_b_bz * p.m_w;
-    let hand_12 = hand_11 + hand_10 + mr_goc_go_goz;
-    let hand_mr_bx = p.mount_11 * hand_3 + p.mount_12 * hand_7 + p.mount_13 * hand_12;
-    let hand_mr_by = p.mount_21 * hand_3 + p.mount_22 * hand_7 + p.mount_23 * hand_12;
-    let hand_mr_bz = p.mount_31 * hand_3 + p.mount_32 * hand_7 + p.mount_33 * hand_12;
-    let hand_13 = p.l_o_x * p.l_o_x;
-    let hand_14 = p.l_o_z * p.l_o_z;
-    let hand_15 = p.r_goc_go_gox * p.r_goc_go_gox;
-    let hand_16 = p.r_goc_go_goz * p.r_goc_go_goz;
-    let hand_17 = p.r_go_b_bx * p.r_go_b_bx;
-    let hand_18 = p.r_go_b_by * p.r_go_b_by;
-    let hand_19 = p.r_go_b_bz * p.r_go_b_bz;
-    let hand_20 = p.m_go * hand_15;
-    let hand_21 = p.m_gi * hand_13;
-    let hand_22 = p.m_w * hand_13;
-    let hand_23 = p.m_go * hand_18;
-    let hand_24 = p.m_go * hand_19;
-    let hand_25 = p.m_gi * hand_18;
-    let hand_26 = p.m_gi * hand_19;
-    let hand_27 = p.r_go_b_bz * hand_9;
-    let hand_28 = hand_27 + hand_27;
-    let hand_29 = p.m_gi * hand_14;
-    let hand_30 = p.m_w * hand_18;
-    let hand_31 = p.m_w * hand_19;
-    let hand_32 = p.r_go_b_bz * hand_10;
-    let hand_33 = hand_32 + hand_32;
-    let hand_34 = p.m_w * hand_14;
-    let hand_35 = p.r_goc_go_goz * hand_8;
-    let hand_36 = hand_35 + hand_35;
-    let hand_37 = p.m_go * hand_16;
-    let hand_38 = p.m_go * hand_17;
-    let hand_39 = p.m_gi * hand_17;
-    let hand_40 = p.m_w * hand_17;
+    let arm_o_dz = p.r_go_b_bz + p.l_o_z;
+    let k_15 = p.r_go_b_bx * m_d;
+    let k_16 = p.r_go_b_by * m_d;
+    let hand_0 = p.r_go_b_bz * p.m_go + m_v * arm_o_dz + mr_goc_go_goz;
+    let hand_mr_bx = p.mount_11 * k_15 + p.mount_12 * k_16 + p.mount_13 * hand_0;
+    let hand_mr_by = p.mount_21 * k_15 + p.mount_22 * k_16 + p.mount_23 * hand_0;
+    let hand_mr_bz = p.mount_31 * k_15 + p.mount_32 * k_16 + p.mount_33 * hand_0;
+    let hand_1 = p.l_o_x * p.l_o_x;
+    let hand_2 = p.l_o_z * p.l_o_z;
+    let hand_3 = hand_1 + hand_2;
+    let hand_4 = p.r_goc_go_gox * p.r_goc_go_gox;
+    let hand_5 = p.r_goc_go_goz * p.r_goc_go_goz;
+    let hand_6 = hand_4 + hand_5;
+    let k_8 = p.r_go_b_bz + p.r_go_b_bz;
+    let hand_7 = p.r_go_b_bx * p.r_go_b_bx;
+    let hand_8 = p.r_go_b_by * p.r_go_b_by;
+    let hand_9 = p.r_go_b_bz * p.r_go_b_bz;
+    let k_39 = p.l_o_z * m_v + mr_goc_go_goz;
+    let hand_10 = p.r_go_b_bx * k_15 + p.r_go_b_by * k_16;
+    let hand_11 = p.mount_12 + p.mount_12;
+    let hand_12 = p.mount_13 + p.mount_13;
+    let hand_13 = p.r_go_b_bz * k_15 + p.r_go_b_bx * k_39;
+    let hand_14 = p.r_go_b_bz * k_16 + p.r_go_b_by * k_39;
+    let hand_15 = p.r_go_b_by * (k_15 + k_15);
+    let hand_16 = hand_13 + hand_13;
+    let hand_17 = hand_14 + hand_14;
+    let hand_18 = p.r_go_b_bz * (p.r_goc_go_goz + p.r_goc_go_goz + p.r_go_b_bz);
+    let hand_19 = p.l_o_z * k_8;
+    let hand_20 = m_v * (hand_1 + hand_8 + hand_9 + hand_2 + hand_19);
+    let hand_21 = p.m_go * (hand_5 + hand_18 + hand_4 + hand_8) + hand_20;
+    let hand_22 = hand_21 + p.i_go_22;
+    let hand_23 = m_v * (hand_3 + hand_9 + hand_7 + hand_19);
+    let hand_24 = p.m_go * (hand_7 + hand_18 + hand_6) + hand_23 + p.i_go_22;
     let half = p.mount_11.like(0.5);
-    let hand_41 = hand_23 + hand_24 + hand_20 + hand_25 + hand_26 + hand_28;
-    let hand_42 = hand_41 + hand_29 + hand_21 + hand_30 + hand_31 + hand_33;
-    let hand_43 = hand_42 + hand_34 + hand_22 + hand_36 + hand_37 + p.i_go_22;
-    let hand_44 = half * hand_43;
-    let hand_45 = p.mount_11 * p.mount_11;
-    let hand_46 = p.r_go_b_by * hand_0 + p.r_go_b_by * hand_1 + p.r_go_b_by * hand_2;
-    let hand_47 = half * hand_46;
-    let hand_48 = p.mount_11 * p.mount_12;
-    let hand_49 = hand_47 * (hand_48 + hand_48);
-    let hand_50 = p.r_go_b_bz * hand_0 + p.r_go_b_bz * hand_1 + p.r_go_b_bx * hand_9;
-    let hand_51 = hand_50 + p.r_go_b_bz * hand_2 + p.r_go_b_bx * hand_10;
-    let hand_52 = half * (hand_51 + p.r_goc_go_goz * hand_0);
-    let hand_53 = p.mount_11 * p.mount_13;
-    let hand_54 = hand_52 * (hand_53 + hand_53);
-    let hand_55 = hand_24 + hand_38 + hand_20 + hand_39 + hand_26 + hand_28;
-    let hand_56 = hand_55 + hand_29 + hand_21 + hand_40 + hand_31 + hand_33;
-    let hand_57 = hand_56 + hand_34 + hand_22 + hand_36 + hand_37 + p.i_go_22;
-    let hand_58 = half * hand_57;
-    let hand_59 = p.mount_12 * p.mount_12;
-    let hand_60 = p.r_go_b_bz * hand_4 + p.r_go_b_bz * hand_5 + p.r_go_b_by * hand_9;
-    let hand_61 = hand_60 + p.r_go_b_bz * hand_6 + p.r_go_b_by * hand_10;
-    let hand_62 = half * (hand_61 + p.r_goc_go_goz * hand_4);
-    let hand_63 = p.mount_12 * p.mount_13;
-    let hand_64 = hand_62 * (hand_63 + hand_63);
-    let hand_65 = half * (hand_23 + hand_38 + hand_39 + hand_25 + hand_40 + hand_30);
-    let hand_66 = p.mount_13 * p.mount_13;
-    let hand_67 = hand_44 * (hand_45 + hand_45) - hand_49 - hand_54 - hand_49;
-    let hand_68 = hand_67 + hand_58 * (hand_59 + hand_59) - hand_64 - hand_54;
-    let hand_i_11 = hand_68 - hand_64 + hand_65 * (hand_66 + hand_66);
-    let hand_69 = p.mount_11 * p.mount_21;
-    let hand_70 = hand_47 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
-    let hand_71 = hand_52 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
-    let hand_72 = p.mount_12 * p.mount_22;
-    let hand_73 = hand_62 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
-    let hand_74 = p.mount_13 * p.mount_23;
-    let hand_75 = hand_44 * (hand_69 + hand_69) - hand_70 - hand_71 - hand_70;
-    let hand_76 = hand_75 + hand_58 * (hand_72 + hand_72) - hand_73 - hand_71;
-    let hand_i_12 = hand_76 - hand_73 + hand_65 * (hand_74 + hand_74);
-    let hand_77 = p.mount_11 * p.mount_31;
-    let hand_78 = hand_47 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
-    let hand_79 = hand_52 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
-    let hand_80 = p.mount_12 * p.mount_32;
-    let hand_81 = hand_62 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
-    let hand_82 = p.mount_13 * p.mount_33;
-    let hand_83 = hand_44 * (hand_77 + hand_77) - hand_78 - hand_79 - hand_78;
-    let hand_84 = hand_83 + hand_58 * (hand_80 + hand_80) - hand_81 - hand_79;
-    let hand_i_13 = hand_84 - hand_81 + hand_65 * (hand_82 + hand_82);
-    let hand_85 = p.mount_21 * p.mount_21;
-    let hand_86 = p.mount_21 * p.mount_22;
-    let hand_87 = hand_47 * (hand_86 + hand_86);
-    let hand_88 = p.mount_21 * p.mount_23;
-    let hand_89 = hand_52 * (hand_88 + hand_88);
-    let hand_90 = p.mount_22 * p.mount_22;
-    let hand_91 = p.mount_22 * p.mount_23;
-    let hand_92 = hand_62 * (hand_91 + hand_91);
-    let hand_93 = p.mount_23 * p.mount_23;
-    let hand_94 = hand_44 * (hand_85 + hand_85) - hand_87 - hand_89 - hand_87;
-    let hand_95 = hand_94 + hand_58 * (hand_90 + hand_90) - hand_92 - hand_89;
-    let hand_i_22 = hand_95 - hand_92 + hand_65 * (hand_93 + hand_93);
-    let hand_96 = p.mount_21 * p.mount_31;
-    let hand_97 = hand_47 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
-    let hand_98 = hand_52 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
-    let hand_99 = p.mount_22 * p.mount_32;
-    let hand_100 = hand_62 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
-    let hand_101 = p.mount_23 * p.mount_33;
-    let hand_102 = hand_44 * (hand_96 + hand_96) - hand_97 - hand_98 - hand_97;
-    let hand_103 = hand_102 + hand_58 * (hand_99 + hand_99) - hand_100 - hand_98;
-    let hand_i_23 = hand_103 - hand_100 + hand_65 * (hand_101 + hand_101);
-    let hand_104 = p.mount_31 * p.mount_31;
-    let hand_105 = p.mount_31 * p.mount_32;
-    let hand_106 = hand_47 * (hand_105 + hand_105);
-    let hand_107 = p.mount_31 * p.mount_33;
-    let hand_108 = hand_52 * (hand_107 + hand_107);
-    let hand_109 = p.mount_32 * p.mount_32;
-    let hand_110 = p.mount_32 * p.mount_33;
-    let hand_111 = hand_62 * (hand_110 + hand_110);
-    let hand_112 = p.mount_33 * p.mount_33;
-    let hand_113 = hand_44 * (hand_104 + hand_104) - hand_106 - hand_108 - hand_106;
-    let hand_114 = hand_113 + hand_58 * (hand_109 + hand_109) - hand_111 - hand_108;
-    let hand_i_33 = hand_114 - hand_111 + hand_65 * (hand_112 + hand_112);
+    let hand_25 = (p.mount_11 + p.mount_11) * hand_22 - hand_11 * hand_15;
+    let hand_26 = p.mount_12 * (hand_11 * hand_24 - hand_12 * hand_17);
+    let hand_27 = p.mount_11 * (hand_25 - hand_12 * hand_16) + hand_26;
+    let hand_i_11 = half * (hand_27 + p.mount_13 * hand_12 * hand_10);
+    let hand_28 = p.mount_21 + p.mount_21;
+    let hand_29 = p.mount_22 + p.mount_22;
+    let hand_30 = p.mount_23 + p.mount_23;
+    let hand_31 = p.mount_13 * hand_30 * hand_10 + p.mount_12 * hand_29 * hand_24;
+    let hand_32 = (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12) * hand_15;
+    let hand_33 = (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13) * hand_16;
+    let hand_34 = (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13) * hand_17;
+    let hand_35 = hand_31 + p.mount_11 * hand_28 * hand_22 - hand_32 - hand_33;
+    let hand_i_12 = half * (hand_35 - hand_34);
+    let hand_36 = p.mount_31 + p.mount_31;
+    let hand_37 = p.mount_32 + p.mount_32;
+    let hand_38 = p.mount_33 + p.mount_33;
+    let hand_39 = p.mount_13 * hand_38 * hand_10 + p.mount_12 * hand_37 * hand_24;
+    let hand_40 = (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12) * hand_15;
+    let hand_41 = (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13) * hand_16;
+    let hand_42 = (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13) * hand_17;
+    let hand_43 = hand_39 + p.mount_11 * hand_36 * hand_22 - hand_40 - hand_41;
+    let hand_i_13 = half * (hand_43 - hand_42);
+    let hand_44 = hand_28 * hand_22 - hand_29 * hand_15 - hand_30 * hand_16;
+    let hand_45 = p.mount_22 * (hand_29 * hand_24 - hand_30 * hand_17);
+    let hand_46 = p.mount_21 * hand_44 + hand_45 + p.mount_23 * hand_30 * hand_10;
+    let hand_i_22 = half * hand_46;
+    let hand_47 = p.mount_23 * hand_38 * hand_10 + p.mount_22 * hand_37 * hand_24;
+    let hand_48 = (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22) * hand_15;
+    let hand_49 = (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23) * hand_16;
+    let hand_50 = (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23) * hand_17;
+    let hand_51 = hand_47 + p.mount_21 * hand_36 * hand_22 - hand_48 - hand_49;
+    let hand_i_23 = half * (hand_51 - hand_50);
+    let hand_52 = hand_36 * hand_22 - hand_37 * hand_15 - hand_38 * hand_16;
+    let hand_53 = p.mount_32 * (hand_37 * hand_24 - hand_38 * hand_17);
+    let hand_54 = p.mount_31 * hand_52 + hand_53 + p.mount_33 * hand_38 * hand_10;
+    let hand_i_33 = half * hand_54;
 
     // Base parameters of the outer gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia,
     // kg m².
-    let arm_o_dz = p.r_go_b_bz + p.l_o_z;
-    let base_0 = p.l_o_x * p.m_gi;
-    let mr_o_base_gox = mr_goc_go_gox + base_0 + p.l_o_x * p.m_w;
-    let base_1 = p.l_o_y * p.m_gi;
-    let base_2 = mr_goc_go_goy + base_1 + p.l_o_y * p.m_w + mr_gic_gi_giy;
-    let mr_o_base_goy = base_2 + lump_0;
-    let base_3 = p.l_i_y * p.l_i_y;
-    let base_4 = p.l_i_z * p.l_i_z;
-    let base_5 = p.r_gic_gi_giy * p.r_gic_gi_giy;
-    let base_6 = p.r_gic_gi_giz * p.r_gic_gi_giz;
-    let base_7 = p.l_o_y * p.l_o_y;
-    let base_8 = p.r_goc_go_goy * p.r_goc_go_goy;
-    let base_9 = p.m_w * base_4;
-    let base_10 = p.m_gi * base_6;
-    let base_11 = p.m_go * base_8;
-    let base_12 = p.m_gi * base_7;
-    let base_13 = p.m_w * base_7;
-    let base_14 = p.r_gic_gi_giy * base_1;
-    let base_15 = base_14 + base_14;
-    let base_16 = p.m_gi * base_5;
-    let base_17 = p.l_o_y * p.l_i_y * p.m_w;
-    let base_18 = base_17 + base_17;
-    let base_19 = p.m_w * base_3;
-    let base_20 = p.i_gi_11 - hand_20 + base_10 - hand_21 + base_9 - hand_22;
-    let base_21 = base_20 + base_11 + base_12 + base_13 + base_15 + base_16;
-    let i_o_base_11 = base_21 + base_18 + base_19 + p.i_go_11 - p.i_go_22;
-    let base_22 = p.l_o_x * p.l_o_y;
-    let base_23 = p.i_go_12 - p.r_goc_go_goy * mr_goc_go_gox - p.m_gi * base_22;
-    let base_24 = base_23 - p.m_w * base_22 - p.r_gic_gi_giy * base_0;
-    let i_o_base_12 = base_24 - p.l_o_x * p.l_i_y * p.m_w;
-    let base_25 = p.m_go * p.l_o_z;
-    let base_26 = p.i_go_13 + p.r_goc_go_gox * base_25;
-    let i_o_base_13 = base_26 - p.r_goc_go_goz * mr_goc_go_gox;
-    let base_27 = p.i_go_23 + p.r_goc_go_goy * base_25;
-    let i_o_base_23 = base_27 - p.r_goc_go_goz * mr_goc_go_goy;
-    let base_28 = p.i_go_33 + p.i_gi_11 + hand_20 + base_10 + hand_21 + base_9;
-    let base_29 = base_28 + hand_22 + base_11 + base_12 + base_13 + base_15;
-    let i_o_base_33 = base_29 + base_16 + base_18 + base_19;
+    let mr_o_base_gox = p.l_o_x * m_v + mr_goc_go_gox;
+    let arm_i_goy = p.l_o_y + p.l_i_y;
+    let base_0 = p.l_o_y * p.m_gi + p.m_w * arm_i_goy + mr_goc_go_goy;
+    let mr_o_base_goy = base_0 + mr_gic_gi_giy;
+    let base_1 = p.l_i_y * p.l_i_y;
+    let base_2 = p.l_i_z * p.l_i_z;
+    let base_3 = p.r_gic_gi_giy * p.r_gic_gi_giy;
+    let base_4 = p.r_gic_gi_giz * p.r_gic_gi_giz;
+    let base_5 = p.l_o_y * p.l_o_y;
+    let base_6 = p.r_goc_go_goy * p.r_goc_go_goy;
+    let base_7 = p.m_gi * (p.r_gic_gi_giy + p.r_gic_gi_giy);
+    let base_8 = p.l_o_y * (base_7 + p.l_i_y * (p.m_w + p.m_w));
+    let base_9 = p.m_gi * (base_4 - hand_1 + base_5 + base_3) + base_8;
+    let base_10 = p.m_w * (base_2 - hand_1 + base_5 + base_1);
+    let base_11 = base_9 + p.m_go * (base_6 - hand_4) + base_10 + p.i_gi_11;
+    let i_o_base_11 = base_11 + p.i_go_11 - p.i_go_22;
+    let base_12 = p.l_o_x * (mr_gic_gi_giy + lump_1 + lump_0);
+    let i_o_base_12 = p.i_go_12 - p.r_goc_go_goy * mr_goc_go_gox - base_12;
+    let base_13 = p.m_go * p.l_o_z;
+    let base_14 = p.i_go_13 + p.r_goc_go_gox * base_13;
+    let i_o_base_13 = base_14 - p.r_goc_go_goz * mr_goc_go_gox;
+    let base_15 = p.i_go_23 + p.r_goc_go_goy * base_13;
+    let i_o_base_23 = base_15 - p.r_goc_go_goz * mr_goc_go_goy;
+    let base_16 = p.m_go * (hand_4 + base_6);
+    let base_17 = base_16 + base_8 + p.m_gi * (base_3 + base_5 + hand_1 + base_4);
+    let base_18 = base_17 + p.m_w * (base_1 + base_5 + hand_1 + base_2);
+    let i_o_base_33 = base_18 + p.i_go_33 + p.i_gi_11;
 
     // Base parameters of the inner gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia,
     // kg m².
-    let arm_i_goy = p.l_o_y + p.l_i_y;
-    let base_30 = p.m_gi * p.l_i_y;
-    let base_31 = p.i_gi_12 - p.r_gic_gi_giy * mr_gic_gi_gix;
-    let i_i_base_12 = base_31 + p.r_gic_gi_gix * base_30;
-    let base_32 = p.l_i_x * p.l_i_z * p.m_w;
-    let i_i_base_13 = p.i_gi_13 - p.r_gic_gi_giz * mr_gic_gi_gix - base_32;
-    let base_33 = p.l_i_x * p.l_i_x;
-    let base_34 = p.r_gic_gi_gix * p.r_gic_gi_gix;
-    let base_35 = p.m_w * base_33;
-    let base_36 = p.m_gi * base_34;
-    let i_i_base_22 = p.i_gi_22 + p.j_22 + base_10 + base_36 + base_9 + base_35;
-    let base_37 = p.i_gi_23 - p.r_gic_gi_giz * mr_gic_gi_giy;
-    let i_i_base_23 = base_37 + p.r_gic_gi_giz * base_30;
-    let base_38 = p.j_22 - p.i_gi_11 + p.i_gi_33 - base_10 + base_36 - base_9;
-    let i_i_base_33 = base_38 + base_35;
+    let base_19 = p.m_gi * p.l_i_y;
+    let base_20 = p.i_gi_12 - p.r_gic_gi_giy * mr_gic_gi_gix;
+    let i_i_base_12 = base_20 + p.r_gic_gi_gix * base_19;
+    let base_21 = p.l_i_x * p.l_i_z * p.m_w;
+    let i_i_base_13 = p.i_gi_13 - p.r_gic_gi_giz * mr_gic_gi_gix - base_21;
+    let base_22 = p.l_i_x * p.l_i_x;
+    let base_23 = p.m_w * (base_22 + base_2);
+    let base_24 = p.r_gic_gi_gix * p.r_gic_gi_gix;
+    let base_25 = p.m_gi * (base_24 + base_4);
+    let i_i_base_22 = base_23 + base_25 + p.i_gi_22 + p.j_22;
+    let i_i_base_23 = p.i_gi_23 + p.r_gic_gi_giz * (base_19 - mr_gic_gi_giy);
+    let base_26 = p.m_gi * (base_24 - base_4) + p.m_w * (base_22 - base_2);
+    let i_i_base_33 = base_26 + p.j_22 - p.i_gi_11 + p.i_gi_33;
 
     // Row of the inner gimbal's joint, eq. (101), along its axis: M_ij, kg m², and bias, N m,
     // eq. (C3).
@@ -1529,74 +1461,73 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let reach_bz = place_2 + p.mount_33 * arm_o_dz;
 
     // The inner gimbal about its origin: first moment, kg m, and inertia as in eq. (55), kg m².
-    let i_gi_gi_11 = p.i_gi_11 + p.m_gi * (base_5 + base_6);
+    let i_gi_gi_11 = p.i_gi_11 + p.m_gi * (base_3 + base_4);
     let i_gi_gi_12 = p.i_gi_12 - p.r_gic_gi_gix * p.r_gic_gi_giy * p.m_gi;
     let i_gi_gi_13 = p.i_gi_13 - p.r_gic_gi_gix * p.r_gic_gi_giz * p.m_gi;
-    let i_gi_gi_22 = p.i_gi_22 + p.m_gi * (base_34 + base_6);
+    let i_gi_gi_22 = p.i_gi_22 + base_25;
     let i_gi_gi_23 = p.i_gi_23 - p.r_gic_gi_giy * p.r_gic_gi_giz * p.m_gi;
-    let i_gi_gi_33 = p.i_gi_33 + p.m_gi * (base_34 + base_5);
+    let i_gi_gi_33 = p.i_gi_33 + p.m_gi * (base_24 + base_3);
 
     // The outer gimbal about its origin: first moment, kg m, and inertia as in eq. (40), kg m².
-    let i_go_go_11 = p.i_go_11 + p.m_go * (base_8 + hand_16);
+    let i_go_go_11 = p.i_go_11 + p.m_go * (base_6 + hand_5);
     let i_go_go_12 = p.i_go_12 - p.r_goc_go_gox * p.r_goc_go_goy * p.m_go;
     let i_go_go_13 = p.i_go_13 - p.r_goc_go_gox * p.r_goc_go_goz * p.m_go;
-    let i_go_go_22 = p.i_go_22 + p.m_go * (hand_15 + hand_16);
+    let i_go_go_22 = p.i_go_22 + p.m_go * hand_6;
     let i_go_go_23 = p.i_go_23 - p.r_goc_go_goy * p.r_goc_go_goz * p.m_go;
-    let i_go_go_33 = p.i_go_33 + p.m_go * (hand_15 + base_8);
+    let i_go_go_33 = p.i_go_33 + base_16;
 
     // V, the inner gimbal and what it carries, eq. (108): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gⁱ.
-    let i_v_gi_11 = p.j_11 + p.m_w * (base_3 + base_4) + i_gi_gi_11;
+    let i_v_gi_11 = p.j_11 + p.m_w * (base_1 + base_2) + i_gi_gi_11;
     let i_v_gi_12 = i_gi_gi_12 - p.l_i_x * p.l_i_y * p.m_w;
-    let i_v_gi_13 = i_gi_gi_13 - base_32;
-    let i_v_gi_22 = p.j_22 + p.m_w * (base_33 + base_4) + i_gi_gi_22;
+    let i_v_gi_13 = i_gi_gi_13 - base_21;
+    let i_v_gi_22 = p.j_22 + base_23 + i_gi_gi_22;
     let i_v_gi_23 = i_gi_gi_23 - p.l_i_y * p.l_i_z * p.m_w;
-    let i_v_gi_33 = p.j_22 + p.m_w * (base_33 + base_3) + i_gi_gi_33;
+    let i_v_gi_33 = p.j_22 + p.m_w * (base_22 + base_1) + i_gi_gi_33;
 
     // Products and sums of parameters that occur more deeply.
     let k_0 = r_goc_b_bz * r_goc_b_bz;
-    let k_1 = i_v_gi_11 - i_v_gi_33;
-    let k_2 = i_v_gi_13 + i_v_gi_13;
-    let k_3 = -i_v_gi_13;
+    let k_2 = i_v_gi_11 - i_v_gi_33;
+    let k_3 = i_v_gi_13 + i_v_gi_13;
     let k_4 = p.l_o_x + p.l_o_x;
-    let k_5 = mr_v_gi_giy * (p.l_o_y + p.l_o_y);
-    let k_6 = p.l_o_z + p.l_o_z;
-    let k_7 = p.l_o_x * mr_v_gi_giy;
-    let k_8 = p.l_o_z * mr_v_gi_giy;
-    let k_9 = m_v * (base_7 + hand_14);
-    let k_10 = -(m_v * base_22);
-    let k_11 = -(p.l_o_x * p.l_o_z * m_v);
-    let k_12 = m_v * (hand_13 + hand_14);
-    let k_13 = -(p.l_o_y * p.l_o_z * m_v);
-    let k_14 = m_v * (hand_13 + base_7);
-    let k_15 = p.l_o_x * m_v;
-    let k_16 = p.l_o_z * m_v;
-    let k_17 = p.r_go_b_bx + p.r_go_b_bx;
-    let k_18 = p.r_go_b_by + p.r_go_b_by;
-    let k_19 = p.r_go_b_bz + p.r_go_b_bz;
-    let k_20 = m_d * (hand_18 + hand_19);
-    let k_21 = -(p.r_go_b_bx * p.r_go_b_by * m_d);
-    let k_22 = -(p.r_go_b_bx * p.r_go_b_bz * m_d);
-    let k_23 = m_d * (hand_17 + hand_19);
-    let k_24 = -(p.r_go_b_by * p.r_go_b_bz * m_d);
-    let k_25 = m_d * (hand_17 + hand_18);
-    let k_26 = p.r_go_b_bx * m_d;
-    let k_27 = p.r_go_b_by * m_d;
-    let k_28 = p.r_go_b_bz * m_d;
-    let k_29 = p.j_11 - i_i_base_33;
-    let k_30 = i_i_base_13 + i_i_base_13;
-    let k_31 = -i_i_base_13;
-    let k_32 = reach_bx + reach_bx;
-    let k_33 = reach_by + reach_by;
-    let k_34 = reach_bz + reach_bz;
-    let k_35 = i_go_go_22 - i_go_go_33;
-    let k_36 = i_go_go_33 - i_go_go_11;
-    let k_37 = i_go_go_11 - i_go_go_22;
-    let k_38 = i_gi_gi_22 - i_gi_gi_33;
-    let k_39 = i_gi_gi_33 - i_gi_gi_11;
-    let k_40 = i_gi_gi_11 - i_gi_gi_22;
-    let k_41 = p.j_22 - p.j_11;
-    let k_42 = p.j_11 - p.j_22;
+    let k_5 = p.l_o_z + p.l_o_z;
+    let k_6 = p.r_go_b_bx + p.r_go_b_bx;
+    let k_7 = p.r_go_b_by + p.r_go_b_by;
+    let k_9 = m_d * (hand_8 + hand_9);
+    let k_10 = -(p.r_go_b_bx * p.r_go_b_by * m_d);
+    let k_11 = -(p.r_go_b_bx * p.r_go_b_bz * m_d);
+    let k_12 = m_d * (hand_7 + hand_9);
+    let k_13 = -(p.r_go_b_by * p.r_go_b_bz * m_d);
+    let k_14 = m_d * (hand_7 + hand_8);
+    let k_17 = p.r_go_b_bz * m_d;
+    let k_18 = p.m_go * r_goc_b_bz;
+    let k_19 = mr_o_base_gox;
+    let k_20 = p.j_11 - i_i_base_33;
+    let k_21 = i_i_base_13 + i_i_base_13;
+    let k_22 = -i_i_base_13;
+    let k_23 = reach_bx + reach_bx;
+    let k_24 = reach_by + reach_by;
+    let k_25 = reach_bz + reach_bz;
+    let k_26 = i_go_go_22 - i_go_go_33;
+    let k_27 = i_go_go_33 - i_go_go_11;
+    let k_28 = i_go_go_11 - i_go_go_22;
+    let k_29 = i_gi_gi_22 - i_gi_gi_33;
+    let k_30 = i_gi_gi_33 - i_gi_gi_11;
+    let k_31 = i_gi_gi_11 - i_gi_gi_22;
+    let k_32 = p.j_22 - p.j_11;
+    let k_33 = p.j_11 - p.j_22;
+    let k_34 = p.i_go_11 - p.i_go_22;
+    let k_35 = p.i_go_12 + p.i_go_12;
+    let k_36 = p.i_gi_11 - p.i_gi_22;
+    let k_37 = p.i_gi_33 - p.i_gi_11;
+    let k_38 = p.i_gi_33 - p.i_gi_22;
+    let prep_0 = mr_v_gi_giy * (p.l_o_y + p.l_o_y);
+    let k_40 = i_v_gi_11 + prep_0 + m_v * (base_5 + hand_2) + i_go_go_11;
+    let k_41 = i_go_go_12 - p.l_o_x * lump_2;
+    let k_42 = i_go_go_13 - (i_v_gi_13 + p.l_o_x * p.l_o_z * m_v);
+    let k_43 = i_v_gi_22 + m_v * hand_3 + i_go_go_22;
+    let k_44 = i_go_go_23 - p.l_o_z * lump_2;
+    let k_45 = i_v_gi_33 + prep_0 + m_v * (hand_1 + base_5) + i_go_go_33;
 
     Prepared {
         mount_11: p.mount_11,
@@ -1643,6 +1574,7 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         r_goc_b_bz,
         arm_o_dz,
         k_0,
+        k_1,
         r_gic_b_dprime_o_gox,
         r_wc_b_dprime_i_giz,
         mr_gic_gi_gix,
@@ -1656,17 +1588,23 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         i_gi_gi_33,
         mr_v_gi_gix,
         mr_v_gi_giz,
-        i_v_gi_11,
         i_v_gi_12,
-        i_v_gi_22,
         i_v_gi_23,
-        i_v_gi_33,
         mass_ii,
-        k_1,
         k_2,
         k_3,
         k_4,
         k_5,
+        mr_goc_go_gox,
+        mr_goc_go_goy,
+        mr_goc_go_goz,
+        i_go_go_11,
+        i_go_go_12,
+        i_go_go_13,
+        i_go_go_22,
+        i_go_go_23,
+        i_go_go_33,
+        mr_d_go_goy,
         k_6,
         k_7,
         k_8,
@@ -1678,29 +1616,10 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_14,
         k_15,
         k_16,
-        mr_goc_go_gox,
-        mr_goc_go_goy,
-        mr_goc_go_goz,
-        i_go_go_11,
-        i_go_go_12,
-        i_go_go_13,
-        i_go_go_22,
-        i_go_go_23,
-        i_go_go_33,
-        mr_d_go_goy,
         k_17,
         k_18,
-        k_19,
-        k_20,
-        k_21,
-        k_22,
-        k_23,
-        k_24,
-        k_25,
-        k_26,
-        k_27,
-        k_28,
         arm_i_goy,
+        k_19,
         mr_o_base_gox,
         mr_o_base_goy,
         i_o_base_11,
@@ -1712,15 +1631,15 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         i_i_base_22,
         i_i_base_23,
         i_i_base_33,
-        k_29,
-        k_30,
-        k_31,
+        k_20,
+        k_21,
+        k_22,
         reach_bx,
         reach_by,
         reach_bz,
-        k_32,
-        k_33,
-        k_34,
+        k_23,
+        k_24,
+        k_25,
         hand_mr_bx,
         hand_mr_by,
         hand_mr_bz,
@@ -1730,6 +1649,15 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         hand_i_22,
         hand_i_23,
         hand_i_33,
+        k_26,
+        k_27,
+        k_28,
+        k_29,
+        k_30,
+        k_31,
+        k_32,
+        k_33,
+        k_34,
         k_35,
         k_36,
         k_37,
@@ -1738,12 +1666,15 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_40,
         k_41,
         k_42,
+        k_43,
+        k_44,
+        k_45,
     }
 }
 
 /// The outer gimbal: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 52 mul, 32 add, 7 neg, 0 div, 0 trig.
+/// Operations: 39 mul, 26 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> OuterGimbal<T> {
     // ω_{Gᵒ/B}, eq. (31), rad/s.
@@ -1761,11 +1692,9 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
     let r_goc_b_bz = p.r_goc_b_bz;
 
     // r′_{Gᵒc/B}, behind eq. (12), m/s.
-    let vel_0 = v.gamma_o_dot * q.cos_gamma_o;
-    let vel_1 = v.gamma_o_dot * q.sin_gamma_o;
-    let vel_2 = vel_1 * p.r_goc_go_gox + vel_0 * p.r_goc_go_goy;
-    let r_goc_b_prime_bx = -vel_2;
-    let r_goc_b_prime_by = vel_0 * p.r_goc_go_gox - vel_1 * p.r_goc_go_goy;
+    let vel_0 = v.gamma_o_dot * pos_1;
+    let r_goc_b_prime_bx = -vel_0;
+    let r_goc_b_prime_by = v.gamma_o_dot * r_goc_b_dprime_o_by;
     let r_goc_b_prime_bz = zero;
 
     // r″_{Gᵒc/B}, eq. (12), per ᵒγ̈, m.
@@ -1773,19 +1702,16 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
     let r_goc_b_dprime_o_bz = zero;
 
     // r″_{Gᵒc/B}, eq. (12), with no joint accelerating, m/s².
-    let acc_0 = v.gamma_o_dot * vel_1;
-    let acc_1 = v.gamma_o_dot * vel_0;
-    let r_goc_b_dprime_rest_bx = -(p.r_goc_go_gox * acc_1 - p.r_goc_go_goy * acc_0);
-    let r_goc_b_dprime_rest_by = -(p.r_goc_go_goy * acc_1 + p.r_goc_go_gox * acc_0);
+    let r_goc_b_dprime_rest_bx = -(v.gamma_o_dot * r_goc_b_prime_by);
+    let r_goc_b_dprime_rest_by = -(v.gamma_o_dot * vel_0);
     let r_goc_b_dprime_rest_bz = zero;
 
     // [I_{Gᵒ,Gᵒc}]′, eq. (36), along the axes of the outer gimbal, kg m²/s.
-    let turn_0 = v.gamma_o_dot * p.i_go_12;
-    let i_go_goc_prime_22 = turn_0 + turn_0;
+    let i_go_goc_prime_22 = v.gamma_o_dot * p.k_35;
     let i_go_goc_prime_11 = -i_go_goc_prime_22;
-    let i_go_goc_prime_12 = v.gamma_o_dot * p.i_go_11 - v.gamma_o_dot * p.i_go_22;
-    let turn_1 = v.gamma_o_dot * p.i_go_23;
-    let i_go_goc_prime_13 = -turn_1;
+    let i_go_goc_prime_12 = v.gamma_o_dot * p.k_34;
+    let turn_0 = v.gamma_o_dot * p.i_go_23;
+    let i_go_goc_prime_13 = -turn_0;
     let i_go_goc_prime_23 = v.gamma_o_dot * p.i_go_13;
     let i_go_goc_prime_33 = zero;
 
@@ -1795,23 +1721,23 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
     let i_go_b_11 = p.i_go_11 + p.m_go * (p.k_0 + axis_1);
     let axis_2 = q.cos_gamma_o * r_goc_b_bx + q.sin_gamma_o * r_goc_b_by;
     let i_go_b_12 = p.i_go_12 - axis_2 * axis_0 * p.m_go;
-    let i_go_b_13 = p.i_go_13 - p.r_goc_b_bz * axis_2 * p.m_go;
+    let i_go_b_13 = p.i_go_13 - axis_2 * p.k_18;
     let axis_3 = axis_2 * axis_2;
     let i_go_b_22 = p.i_go_22 + p.m_go * (p.k_0 + axis_3);
-    let i_go_b_23 = p.i_go_23 - p.r_goc_b_bz * axis_0 * p.m_go;
+    let i_go_b_23 = p.i_go_23 - axis_0 * p.k_18;
     let i_go_b_33 = p.i_go_33 + p.m_go * (axis_3 + axis_1);
 
     // [I_{Gᵒ,B}]′, eq. (42), along the axes of the outer gimbal, kg m²/s.
-    let shift_0 = q.cos_gamma_o * r_goc_b_prime_by + q.sin_gamma_o * vel_2;
+    let shift_0 = q.cos_gamma_o * r_goc_b_prime_by + q.sin_gamma_o * vel_0;
     let shift_1 = axis_0 * (shift_0 + shift_0);
     let i_go_b_prime_11 = i_go_goc_prime_11 + p.m_go * shift_1;
-    let shift_2 = q.sin_gamma_o * r_goc_b_prime_by - q.cos_gamma_o * vel_2;
+    let shift_2 = q.sin_gamma_o * r_goc_b_prime_by - q.cos_gamma_o * vel_0;
     let shift_3 = p.m_go * (axis_0 * shift_2 + axis_2 * shift_0);
     let i_go_b_prime_12 = i_go_goc_prime_12 - shift_3;
-    let i_go_b_prime_13 = -(turn_1 + p.r_goc_b_bz * shift_2 * p.m_go);
+    let i_go_b_prime_13 = -(turn_0 + p.k_18 * shift_2);
     let shift_4 = axis_2 * (shift_2 + shift_2);
     let i_go_b_prime_22 = i_go_goc_prime_22 + p.m_go * shift_4;
-    let i_go_b_prime_23 = i_go_goc_prime_23 - p.r_goc_b_bz * shift_0 * p.m_go;
+    let i_go_b_prime_23 = i_go_goc_prime_23 - p.k_18 * shift_0;
     let i_go_b_prime_33 = p.m_go * (shift_4 + shift_1);
 
     OuterGimbal {
@@ -1853,7 +1779,7 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
 
 /// The inner gimbal: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 81 mul, 64 add, 6 neg, 0 div, 0 trig.
+/// Operations: 66 mul, 54 add, 6 neg, 0 div, 0 trig.
 #[must_use]
 pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> InnerGimbal<T> {
     // ω_{Gⁱ/B}, eq. (44), rad/s.
@@ -1867,27 +1793,23 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
     let pos_1 = p.r_go_b_bx * q.cos_gamma_o + p.r_go_b_by * q.sin_gamma_o;
     let r_gic_b_gox = pos_1 + p.l_o_x + pos_0;
     let pos_2 = p.r_go_b_by * q.cos_gamma_o - p.r_go_b_bx * q.sin_gamma_o;
-    let r_gic_b_goy = pos_2 + p.l_o_y + p.r_gic_gi_giy;
+    let r_gic_b_goy = pos_2 + p.k_1;
     let pos_3 = q.sin_gamma_i * p.r_gic_gi_gix;
     let r_gic_b_dprime_i_gox = q.cos_gamma_i * p.r_gic_gi_giz - pos_3;
     let r_gic_b_goz = p.arm_o_dz + r_gic_b_dprime_i_gox;
 
     // r′_{Gⁱc/B}, behind eq. (13), m/s.
-    let vel_0 = v.gamma_i_dot * q.cos_gamma_i;
-    let vel_1 = v.gamma_i_dot * q.sin_gamma_i;
-    let vel_2 = v.gamma_o_dot * p.l_o_y;
-    let vel_3 = vel_0 * p.r_gic_gi_giz - vel_1 * p.r_gic_gi_gix;
-    let vel_4 = vel_3 - v.gamma_o_dot * p.r_gic_gi_giy;
-    let r_gic_b_prime_gox = vel_4 - vel_2;
-    let vel_5 = v.gamma_o_dot * p.l_o_x;
-    let vel_6 = v.gamma_o_dot * pos_0;
-    let r_gic_b_prime_goy = vel_5 + vel_6;
-    let vel_7 = vel_1 * p.r_gic_gi_giz + vel_0 * p.r_gic_gi_gix;
-    let r_gic_b_prime_goz = -vel_7;
+    let vel_0 = v.gamma_o_dot * p.l_o_y;
+    let vel_1 = v.gamma_i_dot * r_gic_b_dprime_i_gox;
+    let vel_2 = vel_1 - v.gamma_o_dot * p.r_gic_gi_giy;
+    let r_gic_b_prime_gox = vel_2 - vel_0;
+    let r_gic_b_dprime_o_goy = p.l_o_x + pos_0;
+    let r_gic_b_prime_goy = v.gamma_o_dot * r_gic_b_dprime_o_goy;
+    let vel_3 = v.gamma_i_dot * pos_0;
+    let r_gic_b_prime_goz = -vel_3;
 
     // r″_{Gⁱc/B}, eq. (13), per ᵒγ̈, m.
     let r_gic_b_dprime_o_gox = p.r_gic_b_dprime_o_gox;
-    let r_gic_b_dprime_o_goy = p.l_o_x + pos_0;
     let zero = q.sin_gamma_o.like(0.0);
     let r_gic_b_dprime_o_goz = zero;
 
@@ -1896,60 +1818,56 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
     let r_gic_b_dprime_i_goz = -pos_0;
 
     // r″_{Gⁱc/B}, eq. (13), with no joint accelerating, m/s².
-    let acc_0 = v.gamma_i_dot * vel_1;
-    let acc_1 = v.gamma_i_dot * vel_0;
-    let acc_2 = p.r_gic_gi_gix * acc_1 + p.r_gic_gi_giz * acc_0;
-    let acc_3 = acc_2 + v.gamma_o_dot * vel_6;
-    let r_gic_b_dprime_rest_gox = -(acc_3 + v.gamma_o_dot * vel_5);
-    let acc_4 = v.gamma_o_dot * vel_3 + v.gamma_o_dot * vel_4;
-    let r_gic_b_dprime_rest_goy = acc_4 - v.gamma_o_dot * vel_2;
-    let r_gic_b_dprime_rest_goz = -(p.r_gic_gi_giz * acc_1 - p.r_gic_gi_gix * acc_0);
+    let acc_0 = v.gamma_o_dot * r_gic_b_prime_goy;
+    let r_gic_b_dprime_rest_gox = -(acc_0 + v.gamma_i_dot * vel_3);
+    let r_gic_b_dprime_rest_goy = v.gamma_o_dot * (vel_1 + vel_2 - vel_0);
+    let r_gic_b_dprime_rest_goz = -(v.gamma_i_dot * vel_1);
 
     // [I_{Gⁱ,Gⁱc}]′, eq. (49)-(52), along the axes of the inner gimbal, kg m²/s.
     let turn_0 = v.gamma_i_dot * p.i_gi_13;
     let turn_1 = p.i_gi_12 * omega_gi_b_giz;
     let turn_2 = turn_0 - turn_1;
     let i_gi_gic_prime_11 = turn_2 + turn_2;
-    let turn_3 = v.gamma_i_dot * p.i_gi_23 - p.i_gi_22 * omega_gi_b_giz;
-    let i_gi_gic_prime_12 = turn_3 + p.i_gi_11 * omega_gi_b_giz + p.i_gi_13 * rate_0;
-    let turn_4 = v.gamma_i_dot * p.i_gi_33 - p.i_gi_23 * omega_gi_b_giz;
-    let i_gi_gic_prime_13 = turn_4 - p.i_gi_12 * rate_0 - v.gamma_i_dot * p.i_gi_11;
+    let turn_3 = v.gamma_i_dot * p.i_gi_23 + omega_gi_b_giz * p.k_36;
+    let i_gi_gic_prime_12 = turn_3 + p.i_gi_13 * rate_0;
+    let turn_4 = v.gamma_i_dot * p.k_37 - p.i_gi_23 * omega_gi_b_giz;
+    let i_gi_gic_prime_13 = turn_4 - p.i_gi_12 * rate_0;
     let turn_5 = p.i_gi_23 * rate_0;
     let turn_6 = turn_1 + turn_5;
     let i_gi_gic_prime_22 = turn_6 + turn_6;
-    let turn_7 = p.i_gi_13 * omega_gi_b_giz + p.i_gi_33 * rate_0;
-    let i_gi_gic_prime_23 = turn_7 - p.i_gi_22 * rate_0 - v.gamma_i_dot * p.i_gi_12;
+    let turn_7 = p.i_gi_13 * omega_gi_b_giz + rate_0 * p.k_38;
+    let i_gi_gic_prime_23 = turn_7 - v.gamma_i_dot * p.i_gi_12;
     let turn_8 = turn_0 + turn_5;
     let i_gi_gic_prime_33 = -(turn_8 + turn_8);
 
     // [I_{Gⁱ,B}], eq. (55), along the axes of the inner gimbal, kg m².
     let axis_0 = q.cos_gamma_i * r_gic_b_goz + q.sin_gamma_i * r_gic_b_gox;
-    let axis_1 = r_gic_b_goy * r_gic_b_goy;
-    let axis_2 = axis_0 * axis_0;
+    let axis_1 = axis_0 * axis_0;
+    let axis_2 = r_gic_b_goy * r_gic_b_goy;
     let i_gi_b_11 = p.i_gi_11 + p.m_gi * (axis_1 + axis_2);
     let axis_3 = q.cos_gamma_i * r_gic_b_gox - q.sin_gamma_i * r_gic_b_goz;
-    let i_gi_b_12 = p.i_gi_12 - r_gic_b_goy * axis_3 * p.m_gi;
+    let i_gi_b_12 = p.i_gi_12 - axis_3 * r_gic_b_goy * p.m_gi;
     let i_gi_b_13 = p.i_gi_13 - axis_0 * axis_3 * p.m_gi;
     let axis_4 = axis_3 * axis_3;
-    let i_gi_b_22 = p.i_gi_22 + p.m_gi * (axis_4 + axis_2);
-    let i_gi_b_23 = p.i_gi_23 - r_gic_b_goy * axis_0 * p.m_gi;
-    let i_gi_b_33 = p.i_gi_33 + p.m_gi * (axis_4 + axis_1);
+    let i_gi_b_22 = p.i_gi_22 + p.m_gi * (axis_4 + axis_1);
+    let i_gi_b_23 = p.i_gi_23 - axis_0 * r_gic_b_goy * p.m_gi;
+    let i_gi_b_33 = p.i_gi_33 + p.m_gi * (axis_4 + axis_2);
 
     // [I_{Gⁱ,B}]′, eq. (57), along the axes of the inner gimbal, kg m²/s.
-    let shift_0 = q.sin_gamma_i * r_gic_b_prime_gox - q.cos_gamma_i * vel_7;
-    let shift_1 = r_gic_b_goy * (r_gic_b_prime_goy + r_gic_b_prime_goy);
-    let shift_2 = axis_0 * (shift_0 + shift_0);
-    let i_gi_b_prime_11 = i_gi_gic_prime_11 + p.m_gi * (shift_1 + shift_2);
-    let shift_3 = q.cos_gamma_i * r_gic_b_prime_gox + q.sin_gamma_i * vel_7;
-    let shift_4 = r_gic_b_goy * shift_3 + r_gic_b_prime_goy * axis_3;
+    let shift_0 = r_gic_b_goy * (r_gic_b_prime_goy + r_gic_b_prime_goy);
+    let shift_1 = q.sin_gamma_i * r_gic_b_prime_gox - q.cos_gamma_i * vel_3;
+    let shift_2 = axis_0 * (shift_1 + shift_1);
+    let i_gi_b_prime_11 = i_gi_gic_prime_11 + p.m_gi * (shift_0 + shift_2);
+    let shift_3 = q.cos_gamma_i * r_gic_b_prime_gox + q.sin_gamma_i * vel_3;
+    let shift_4 = axis_3 * r_gic_b_prime_goy + r_gic_b_goy * shift_3;
     let i_gi_b_prime_12 = i_gi_gic_prime_12 - p.m_gi * shift_4;
-    let shift_5 = p.m_gi * (axis_0 * shift_3 + axis_3 * shift_0);
+    let shift_5 = p.m_gi * (axis_0 * shift_3 + axis_3 * shift_1);
     let i_gi_b_prime_13 = i_gi_gic_prime_13 - shift_5;
     let shift_6 = axis_3 * (shift_3 + shift_3);
     let i_gi_b_prime_22 = i_gi_gic_prime_22 + p.m_gi * (shift_6 + shift_2);
-    let shift_7 = r_gic_b_prime_goy * axis_0 + r_gic_b_goy * shift_0;
+    let shift_7 = axis_0 * r_gic_b_prime_goy + r_gic_b_goy * shift_1;
     let i_gi_b_prime_23 = i_gi_gic_prime_23 - p.m_gi * shift_7;
-    let i_gi_b_prime_33 = i_gi_gic_prime_33 + p.m_gi * (shift_6 + shift_1);
+    let i_gi_b_prime_33 = i_gi_gic_prime_33 + p.m_gi * (shift_0 + shift_6);
 
     InnerGimbal {
         omega_gi_b_gix,
@@ -1993,7 +1911,7 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
 
 /// The wheel: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 75 mul, 49 add, 8 neg, 0 div, 0 trig.
+/// Operations: 67 mul, 43 add, 8 neg, 0 div, 0 trig.
 #[must_use]
 pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // ω_{W/B}, eq. (59), rad/s.
@@ -2006,25 +1924,26 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let pos_0 = p.r_go_b_bx * q.cos_gamma_o + p.r_go_b_by * q.sin_gamma_o + p.l_o_x;
     let r_wc_b_gix = q.cos_gamma_i * pos_0 - q.sin_gamma_i * p.arm_o_dz + p.l_i_x;
     let pos_1 = p.r_go_b_by * q.cos_gamma_o - p.r_go_b_bx * q.sin_gamma_o;
-    let r_wc_b_giy = pos_1 + p.l_o_y + p.l_i_y;
+    let r_wc_b_giy = pos_1 + p.arm_i_goy;
     let r_wc_b_giz = q.cos_gamma_i * p.arm_o_dz + q.sin_gamma_i * pos_0 + p.l_i_z;
 
     // r′_{Wc/B}, behind eq. (14), m/s.
     let vel_0 = v.gamma_o_dot * p.l_o_y;
     let vel_1 = v.gamma_i_dot * p.l_i_z - p.l_i_y * omega_w_b_wz;
     let r_wc_b_prime_gix = vel_1 - q.cos_gamma_i * vel_0;
-    let vel_2 = v.gamma_o_dot * p.l_o_x;
-    let vel_3 = p.l_i_x * omega_w_b_wz + p.l_i_z * rate_0;
-    let r_wc_b_prime_giy = vel_2 + vel_3;
-    let vel_4 = p.l_i_y * rate_0 + v.gamma_i_dot * p.l_i_x;
-    let vel_5 = q.sin_gamma_i * vel_0 + vel_4;
-    let r_wc_b_prime_giz = -vel_5;
+    let vel_2 = p.l_i_x * omega_w_b_wz + p.l_i_z * rate_0;
+    let r_wc_b_prime_giy = v.gamma_o_dot * p.l_o_x + vel_2;
+    let vel_3 = p.l_i_y * rate_0;
+    let vel_4 = v.gamma_i_dot * p.l_i_x;
+    let vel_5 = vel_3 + vel_4;
+    let vel_6 = q.sin_gamma_i * vel_0 + vel_5;
+    let r_wc_b_prime_giz = -vel_6;
 
     // r″_{Wc/B}, eq. (14), per ᵒγ̈, m.
-    let r_wc_b_dprime_o_gix = -(p.l_o_y * q.cos_gamma_i + q.cos_gamma_i * p.l_i_y);
+    let r_wc_b_dprime_o_gix = -(q.cos_gamma_i * p.arm_i_goy);
     let col_0 = q.cos_gamma_i * p.l_i_x + q.sin_gamma_i * p.l_i_z;
     let r_wc_b_dprime_o_giy = col_0 + p.l_o_x;
-    let r_wc_b_dprime_o_giz = -(p.l_o_y * q.sin_gamma_i + q.sin_gamma_i * p.l_i_y);
+    let r_wc_b_dprime_o_giz = -(q.sin_gamma_i * p.arm_i_goy);
 
     // r″_{Wc/B}, eq. (14), per ⁱγ̈, m.
     let r_wc_b_dprime_i_gix = p.l_i_z;
@@ -2033,49 +1952,48 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let r_wc_b_dprime_i_giz = p.r_wc_b_dprime_i_giz;
 
     // r″_{Wc/B}, eq. (14), with no joint accelerating, m/s².
-    let acc_0 = v.gamma_o_dot * vel_2;
-    let acc_1 = v.gamma_i_dot * q.sin_gamma_i * v.gamma_o_dot;
-    let acc_2 = v.gamma_i_dot * vel_4 + omega_w_b_wz * vel_3;
-    let r_wc_b_dprime_rest_gix = p.l_i_y * acc_1 - acc_2 - q.cos_gamma_i * acc_0;
-    let acc_3 = v.gamma_i_dot * q.cos_gamma_i * v.gamma_o_dot;
-    let acc_4 = omega_w_b_wz * vel_1 - rate_0 * vel_4;
-    let acc_5 = acc_4 + (p.l_i_z * acc_3 - p.l_i_x * acc_1);
-    let r_wc_b_dprime_rest_giy = acc_5 - v.gamma_o_dot * vel_0;
-    let acc_6 = rate_0 * vel_3 + v.gamma_i_dot * vel_1;
-    let r_wc_b_dprime_rest_giz = -(acc_6 + p.l_i_y * acc_3 + q.sin_gamma_i * acc_0);
+    let acc_0 = v.gamma_i_dot * (vel_3 - vel_5);
+    let acc_1 = v.gamma_o_dot * v.gamma_o_dot * q.cos_gamma_i;
+    let r_wc_b_dprime_rest_gix = acc_0 - omega_w_b_wz * vel_2 - acc_1 * p.l_o_x;
+    let acc_2 = v.gamma_i_dot * q.cos_gamma_i;
+    let acc_3 = acc_2 * p.l_i_z - q.sin_gamma_i * (vel_4 + vel_5);
+    let acc_4 = v.gamma_o_dot * (acc_3 - vel_0);
+    let r_wc_b_dprime_rest_giy = omega_w_b_wz * vel_1 + acc_4;
+    let acc_5 = acc_2 * p.l_i_y + q.sin_gamma_i * r_wc_b_prime_giy;
+    let r_wc_b_dprime_rest_giz = -(v.gamma_i_dot * vel_1 + v.gamma_o_dot * acc_5);
 
     // [I_{W,Wc}]′, eq. (64), along the axes of the wheel, kg m²/s.
     let i_w_wc_prime_11 = zero;
-    let i_w_wc_prime_12 = p.j_11 * omega_w_b_wz - p.j_22 * omega_w_b_wz;
-    let i_w_wc_prime_13 = v.gamma_i_dot * p.j_22 - v.gamma_i_dot * p.j_11;
+    let i_w_wc_prime_12 = omega_w_b_wz * p.k_33;
+    let i_w_wc_prime_13 = v.gamma_i_dot * p.k_32;
     let i_w_wc_prime_22 = zero;
     let i_w_wc_prime_23 = zero;
     let i_w_wc_prime_33 = zero;
 
     // [I_{W,B}], eq. (71), along the axes of the wheel, kg m².
-    let axis_0 = r_wc_b_giy * r_wc_b_giy;
-    let axis_1 = r_wc_b_giz * r_wc_b_giz;
+    let axis_0 = r_wc_b_giz * r_wc_b_giz;
+    let axis_1 = r_wc_b_giy * r_wc_b_giy;
     let i_w_b_11 = p.j_11 + p.m_w * (axis_0 + axis_1);
     let i_w_b_12 = -(r_wc_b_gix * r_wc_b_giy * p.m_w);
     let i_w_b_13 = -(r_wc_b_gix * r_wc_b_giz * p.m_w);
     let axis_2 = r_wc_b_gix * r_wc_b_gix;
-    let i_w_b_22 = p.j_22 + p.m_w * (axis_2 + axis_1);
-    let i_w_b_23 = -(r_wc_b_giy * r_wc_b_giz * p.m_w);
-    let i_w_b_33 = p.j_22 + p.m_w * (axis_2 + axis_0);
+    let i_w_b_22 = p.j_22 + p.m_w * (axis_2 + axis_0);
+    let i_w_b_23 = -(r_wc_b_giz * r_wc_b_giy * p.m_w);
+    let i_w_b_33 = p.j_22 + p.m_w * (axis_2 + axis_1);
 
     // [I_{W,B}]′, eq. (73), along the axes of the wheel, kg m²/s.
-    let shift_0 = r_wc_b_giy * (r_wc_b_prime_giy + r_wc_b_prime_giy);
-    let shift_1 = r_wc_b_giz * (vel_5 + vel_5);
-    let i_w_b_prime_11 = p.m_w * (shift_0 - shift_1);
-    let shift_2 = r_wc_b_gix * r_wc_b_prime_giy;
-    let shift_3 = p.m_w * (r_wc_b_giy * r_wc_b_prime_gix + shift_2);
+    let shift_0 = r_wc_b_giz * (vel_6 + vel_6);
+    let shift_1 = (r_wc_b_prime_giy + r_wc_b_prime_giy) * r_wc_b_giy;
+    let i_w_b_prime_11 = p.m_w * (shift_1 - shift_0);
+    let shift_2 = r_wc_b_prime_gix * r_wc_b_giy;
+    let shift_3 = p.m_w * (r_wc_b_gix * r_wc_b_prime_giy + shift_2);
     let i_w_b_prime_12 = i_w_wc_prime_12 - shift_3;
-    let shift_4 = p.m_w * (r_wc_b_giz * r_wc_b_prime_gix - r_wc_b_gix * vel_5);
+    let shift_4 = p.m_w * (r_wc_b_giz * r_wc_b_prime_gix - r_wc_b_gix * vel_6);
     let i_w_b_prime_13 = i_w_wc_prime_13 - shift_4;
     let shift_5 = r_wc_b_gix * (r_wc_b_prime_gix + r_wc_b_prime_gix);
-    let i_w_b_prime_22 = p.m_w * (shift_5 - shift_1);
-    let i_w_b_prime_23 = -(p.m_w * (r_wc_b_giz * r_wc_b_prime_giy - r_wc_b_giy * vel_5));
-    let i_w_b_prime_33 = p.m_w * (shift_5 + shift_0);
+    let i_w_b_prime_22 = p.m_w * (shift_5 - shift_0);
+    let i_w_b_prime_23 = -(p.m_w * (r_wc_b_giz * r_wc_b_prime_giy - vel_6 * r_wc_b_giy));
+    let i_w_b_prime_33 = p.m_w * (shift_5 + shift_1);
 
     Wheel {
         omega_w_b_wx,
@@ -2119,7 +2037,7 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
 
 /// Centre of mass of the device and its derivatives, seen from B.
 ///
-/// Operations: 88 mul, 61 add, 7 neg, 0 div, 0 trig.
+/// Operations: 88 mul, 59 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> FirstMoment<T> {
     // ω_{Gⁱ/B}, eq. (44), along its own axes, rad/s.
@@ -2179,9 +2097,9 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     // D, the outer gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gᵒ.
     let lump_0 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * p.mr_v_gi_giz;
-    let mr_d_go_gox = lump_0 + p.k_15 + p.mr_goc_go_gox;
+    let mr_d_go_gox = lump_0 + p.k_19;
     let f_i_gox = q.cos_gamma_i * p.mr_v_gi_giz - q.sin_gamma_i * p.mr_v_gi_gix;
-    let mr_d_go_goz = f_i_gox + p.k_16 + p.mr_goc_go_goz;
+    let mr_d_go_goz = f_i_gox + p.k_39;
 
     // D with no joint accelerating, eq. (78): force, N, and moment about Gᵒ, N m.
     let p_go_goy = v.gamma_o_dot * p.mr_goc_go_gox;
@@ -2212,10 +2130,10 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_dprime_o_by = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * p.mr_d_go_goy;
-    let mc_bx = mc_dprime_o_by + p.k_26;
+    let mc_bx = p.k_15 + mc_dprime_o_by;
     let mom_2 = q.cos_gamma_o * p.mr_d_go_goy + q.sin_gamma_o * mr_d_go_gox;
-    let mc_by = mom_2 + p.k_27;
-    let mc_bz = mr_d_go_goz + p.k_28;
+    let mc_by = p.k_16 + mom_2;
+    let mc_bz = p.k_17 + mr_d_go_goz;
 
     // Σ m r′, share of m_sc c′, behind eq. (11), kg m/s.
     let rate_0 = p_w_wx + p_gi_gix;
@@ -2299,7 +2217,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 309 mul, 236 add, 1 neg, 2 div, 0 trig.
+/// Operations: 308 mul, 236 add, 1 neg, 2 div, 0 trig.
 #[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
@@ -2359,12 +2277,12 @@ pub fn eliminate<T: Real>(
     let mr_behind_v_gox = lump_0.add_mul(q.sin_gamma_i, p.mr_v_gi_giz);
     let lump_1 = q.cos_gamma_i * p.mr_v_gi_giz;
     let mr_behind_v_goz = lump_1.sub_mul(q.sin_gamma_i, p.mr_v_gi_gix);
-    let lump_2 = (q.cos_gamma_i * p.k_30).sub_mul(q.sin_gamma_i, p.k_29);
+    let lump_2 = (q.cos_gamma_i * p.k_21).sub_mul(q.sin_gamma_i, p.k_20);
     let lump_3 = q.sin_gamma_i * lump_2;
     let i_behind_v_11 = p.j_11 + lump_3;
     let lump_4 = q.cos_gamma_i * p.i_i_base_12;
     let i_behind_v_12 = lump_4.add_mul(q.sin_gamma_i, p.i_i_base_23);
-    let i_behind_v_13 = p.k_31.add_mul(q.cos_gamma_i, lump_2);
+    let i_behind_v_13 = p.k_22.add_mul(q.cos_gamma_i, lump_2);
     let lump_5 = q.cos_gamma_i * p.i_i_base_23;
     let i_behind_v_23 = lump_5.sub_mul(q.sin_gamma_i, p.i_i_base_12);
     let i_behind_v_33 = p.i_i_base_33 - lump_3;
@@ -2421,10 +2339,10 @@ pub fn eliminate<T: Real>(
     let row_7 = p.l_o_x * f_rates_i_goy;
     let n_rates_o_goz = row_7.add_mul(p.arm_i_goy, neg_f_rates_i_gox) + n_rates_i_goz;
     let row_8 = i_behind_d_11 - i_behind_d_22;
-    let row_9 = omega_b_n_gox * omega_b_n_goz * i_behind_d_23;
-    let row_10 = row_9.sub_mul(i_behind_d_13, omega_b_n_goy * omega_b_n_goz);
-    let row_11 = row_10 + (i_behind_d_12 * (row_0 - path_0)).sub_mul(path_2, row_8);
-    let field_o = row_11 + n_rates_o_goz;
+    let row_9 = omega_b_n_gox * i_behind_d_23;
+    let row_10 = row_9.sub_mul(omega_b_n_goy, i_behind_d_13);
+    let row_11 = (i_behind_d_12 * (row_0 - path_0)).add_mul(omega_b_n_goz, row_10);
+    let field_o = row_11.sub_mul(path_2, row_8) + n_rates_o_goz;
 
     // Force, N, and moment, N m, that the joints' rates from the outer gimbal's on ask for, eq.
     // (C2).
@@ -2486,8 +2404,8 @@ pub fn eliminate<T: Real>(
     let moment_5 = half * (i_behind_d_22 + i_behind_d_33);
     let moment_6 = col_1.sub_mul(p.mount_13, moment_5);
     let moment_7 = (e_x_bx * moment_4).add_mul(p.mount_13, moment_6);
-    let moment_8 = mr_moving_by * p.k_33;
-    let moment_9 = mr_moving_bz * p.k_34;
+    let moment_8 = mr_moving_by * p.k_24;
+    let moment_9 = mr_moving_bz * p.k_25;
     let i_moving_11 = moment_7 + moment_7 + i_behind_d_22 + (moment_8 + moment_9);
     let moment_10 = (e_x_by * moment_3).add_mul(e_y_by, i_behind_d_12);
     let moment_11 = col_3.sub_mul(p.mount_23, moment_5);
@@ -2502,7 +2420,7 @@ pub fn eliminate<T: Real>(
     let moment_19 = moment_17 + (e_x_bz * moment_4).add_mul(p.mount_33, moment_6);
     let i_moving_13 = moment_19 - moment_18;
     let moment_20 = (e_x_by * moment_10).add_mul(p.mount_23, moment_11);
-    let moment_21 = mr_moving_bx * p.k_32;
+    let moment_21 = mr_moving_bx * p.k_23;
     let i_moving_22 = moment_20 + moment_20 + i_behind_d_22 + (moment_21 + moment_9);
     let moment_22 = (e_x_bz * moment_10).add_mul(p.mount_33, moment_11);
     let moment_23 = (e_x_by * moment_15).add_mul(p.mount_23, moment_16) + moment_22;
@@ -2706,7 +2624,7 @@ pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointA
 
 /// Kinetic energy, linear momentum and moment of momentum about B (20).
 ///
-/// Operations: 141 mul, 120 add, 0 neg, 0 div, 0 trig.
+/// Operations: 139 mul, 120 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn energy_momentum<T: Real>(
     p: &Prepared<T>,
@@ -2789,38 +2707,37 @@ pub fn energy_momentum<T: Real>(
 
     // Kinetic energy, and momenta as in eq. (20), of the device, along B axes.
     let half = q.sin_gamma_o.like(0.5);
-    let sum_0 = omega_w_n_wx * h_w_wx + omega_gi_n_giy * h_w_wy;
-    let sum_1 = mom_10 * p_w_wx + mom_13 * p_w_wy + mom_15 * p_w_wz;
-    let sum_2 = omega_gi_n_gix * h_gi_gix + omega_gi_n_giy * h_gi_giy;
-    let sum_3 = mom_9 * p_gi_gix + mom_12 * p_gi_giy + mom_14 * p_gi_giz;
-    let sum_4 = sum_3 + (sum_2 + omega_gi_n_giz * h_gi_giz);
-    let sum_5 = omega_go_n_gox * h_go_gox + omega_go_n_goy * h_go_goy;
-    let sum_6 = mom_6 * p_go_gox + mom_11 * p_go_goy + mom_5 * p_go_goz;
-    let sum_7 = sum_1 + (sum_0 + omega_gi_n_giz * h_w_wz) + sum_4;
-    let energy = half * (sum_7 + (sum_6 + (sum_5 + omega_go_n_goz * h_go_goz)));
-    let sum_8 = p_w_wx + p_gi_gix;
-    let sum_9 = p_w_wy + p_gi_giy;
-    let sum_10 = p_w_wz + p_gi_giz;
-    let sum_11 = q.cos_gamma_i * sum_8 + q.sin_gamma_i * sum_10;
-    let sum_12 = sum_11 + p_go_gox;
-    let sum_13 = sum_9 + p_go_goy;
-    let linear_bx = q.cos_gamma_o * sum_12 - q.sin_gamma_o * sum_13;
-    let linear_by = q.cos_gamma_o * sum_13 + q.sin_gamma_o * sum_12;
-    let sum_14 = q.cos_gamma_i * sum_10 - q.sin_gamma_i * sum_8;
-    let linear_bz = sum_14 + p_go_goz;
-    let sum_15 = p.l_i_y * p_w_wz - p.l_i_z * p_w_wy + h_w_wx + h_gi_gix;
-    let sum_16 = p.l_i_x * p_w_wy - p.l_i_y * p_w_wx + h_w_wz + h_gi_giz;
-    let sum_17 = q.cos_gamma_i * sum_15 + q.sin_gamma_i * sum_16;
-    let sum_18 = sum_17 + (p.l_o_y * sum_14 - p.l_o_z * sum_9) + h_go_gox;
-    let sum_19 = p.l_i_z * p_w_wx - p.l_i_x * p_w_wz + h_w_wy + h_gi_giy;
-    let sum_20 = sum_19 + (p.l_o_z * sum_11 - p.l_o_x * sum_14) + h_go_goy;
-    let sum_21 = p.r_go_b_by * linear_bz - p.r_go_b_bz * linear_by;
-    let angular_b_bx = q.cos_gamma_o * sum_18 - q.sin_gamma_o * sum_20 + sum_21;
-    let sum_22 = p.r_go_b_bz * linear_bx - p.r_go_b_bx * linear_bz;
-    let angular_b_by = q.cos_gamma_o * sum_20 + q.sin_gamma_o * sum_18 + sum_22;
-    let sum_23 = q.cos_gamma_i * sum_16 - q.sin_gamma_i * sum_15;
-    let sum_24 = sum_23 + (p.l_o_x * sum_9 - p.l_o_y * sum_11) + h_go_goz;
-    let angular_b_bz = sum_24 + (p.r_go_b_bx * linear_by - p.r_go_b_by * linear_bx);
+    let sum_0 = mom_10 * p_w_wx + mom_13 * p_w_wy + mom_15 * p_w_wz;
+    let sum_1 = sum_0 + omega_w_n_wx * h_w_wx + omega_gi_n_giy * (h_w_wy + h_gi_giy);
+    let sum_2 = sum_1 + omega_gi_n_giz * (h_w_wz + h_gi_giz) + mom_9 * p_gi_gix;
+    let sum_3 = sum_2 + mom_12 * p_gi_giy + mom_14 * p_gi_giz;
+    let sum_4 = sum_3 + omega_gi_n_gix * h_gi_gix + mom_6 * p_go_gox;
+    let sum_5 = sum_4 + mom_11 * p_go_goy + mom_5 * p_go_goz;
+    let sum_6 = sum_5 + omega_go_n_gox * h_go_gox + omega_go_n_goy * h_go_goy;
+    let energy = half * (sum_6 + omega_go_n_goz * h_go_goz);
+    let sum_7 = p_w_wx + p_gi_gix;
+    let sum_8 = p_w_wy + p_gi_giy;
+    let sum_9 = p_w_wz + p_gi_giz;
+    let sum_10 = q.cos_gamma_i * sum_7 + q.sin_gamma_i * sum_9;
+    let sum_11 = sum_10 + p_go_gox;
+    let sum_12 = sum_8 + p_go_goy;
+    let linear_bx = q.cos_gamma_o * sum_11 - q.sin_gamma_o * sum_12;
+    let linear_by = q.cos_gamma_o * sum_12 + q.sin_gamma_o * sum_11;
+    let sum_13 = q.cos_gamma_i * sum_9 - q.sin_gamma_i * sum_7;
+    let linear_bz = sum_13 + p_go_goz;
+    let sum_14 = p.l_i_y * p_w_wz - p.l_i_z * p_w_wy + h_w_wx + h_gi_gix;
+    let sum_15 = p.l_i_x * p_w_wy - p.l_i_y * p_w_wx + h_w_wz + h_gi_giz;
+    let sum_16 = q.cos_gamma_i * sum_14 + q.sin_gamma_i * sum_15;
+    let sum_17 = sum_16 + (p.l_o_y * sum_13 - p.l_o_z * sum_8) + h_go_gox;
+    let sum_18 = p.l_i_z * p_w_wx - p.l_i_x * p_w_wz + h_w_wy + h_gi_giy;
+    let sum_19 = sum_18 + (p.l_o_z * sum_10 - p.l_o_x * sum_13) + h_go_goy;
+    let sum_20 = p.r_go_b_by * linear_bz - p.r_go_b_bz * linear_by;
+    let angular_b_bx = q.cos_gamma_o * sum_17 - q.sin_gamma_o * sum_19 + sum_20;
+    let sum_21 = p.r_go_b_bz * linear_bx - p.r_go_b_bx * linear_bz;
+    let angular_b_by = q.cos_gamma_o * sum_19 + q.sin_gamma_o * sum_17 + sum_21;
+    let sum_22 = q.cos_gamma_i * sum_15 - q.sin_gamma_i * sum_14;
+    let sum_23 = sum_22 + (p.l_o_x * sum_8 - p.l_o_y * sum_10) + h_go_goz;
+    let angular_b_bz = sum_23 + (p.r_go_b_bx * linear_by - p.r_go_b_by * linear_bx);
 
     EnergyMomentum {
         energy,
@@ -2935,7 +2852,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
 /// What the carrier of each joint exerts on all outside it, so that these accelerations
 /// happen: the torques of (77), (98), (116).
 ///
-/// Operations: 241 mul, 193 add, 0 neg, 0 div, 0 trig.
+/// Operations: 230 mul, 187 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn loads<T: Real>(
     p: &Prepared<T>,
@@ -2951,14 +2868,10 @@ pub fn loads<T: Real>(
     let omega_go_n_goz = w.omega_bz + v.gamma_o_dot;
 
     // Its derivative by components, as in eq. (34), along the same axes, rad/s².
-    let turn_0 = v.gamma_o_dot * q.cos_gamma_o;
-    let turn_1 = v.gamma_o_dot * q.sin_gamma_o;
-    let turn_2 = a.omega_dot_by * q.sin_gamma_o + w.omega_by * turn_0;
-    let turn_3 = a.omega_dot_bx * q.cos_gamma_o - w.omega_bx * turn_1;
-    let omega_go_n_dot_gox = turn_3 + turn_2;
-    let turn_4 = a.omega_dot_bx * q.sin_gamma_o + w.omega_bx * turn_0;
-    let turn_5 = a.omega_dot_by * q.cos_gamma_o - w.omega_by * turn_1;
-    let omega_go_n_dot_goy = turn_5 - turn_4;
+    let turn_0 = a.omega_dot_by - w.omega_bx * v.gamma_o_dot;
+    let turn_1 = a.omega_dot_bx + w.omega_by * v.gamma_o_dot;
+    let omega_go_n_dot_gox = q.cos_gamma_o * turn_1 + q.sin_gamma_o * turn_0;
+    let omega_go_n_dot_goy = q.cos_gamma_o * turn_0 - q.sin_gamma_o * turn_1;
     let omega_go_n_dot_goz = a.omega_dot_bz + j.gamma_o_ddot;
 
     // Inertial acceleration of Gᵒ as in eq. (38), same axes, m/s².
@@ -2985,32 +2898,26 @@ pub fn loads<T: Real>(
     let omega_gi_n_giz = q.cos_gamma_i * omega_go_n_goz + rate_1;
 
     // Its derivative by components, as in eq. (47), along the same axes, rad/s².
-    let turn_6 = v.gamma_i_dot * q.cos_gamma_i;
-    let turn_7 = v.gamma_i_dot * q.sin_gamma_i;
-    let turn_8 = q.cos_gamma_i * omega_go_n_dot_gox;
-    let turn_9 = q.sin_gamma_i * omega_go_n_dot_goz;
-    let turn_10 = turn_6 * omega_go_n_goz + turn_9;
-    let omega_gi_n_dot_gix = turn_8 - turn_7 * omega_go_n_gox - turn_10;
+    let turn_2 = omega_go_n_dot_goz + v.gamma_i_dot * omega_go_n_gox;
+    let turn_3 = omega_go_n_dot_gox - v.gamma_i_dot * omega_go_n_goz;
+    let omega_gi_n_dot_gix = q.cos_gamma_i * turn_3 - q.sin_gamma_i * turn_2;
     let omega_gi_n_dot_giy = j.gamma_i_ddot + omega_go_n_dot_goy;
-    let turn_11 = q.cos_gamma_i * omega_go_n_dot_goz;
-    let turn_12 = q.sin_gamma_i * omega_go_n_dot_gox;
-    let turn_13 = turn_6 * omega_go_n_gox + turn_12;
-    let omega_gi_n_dot_giz = turn_11 - turn_7 * omega_go_n_goz + turn_13;
+    let omega_gi_n_dot_giz = q.cos_gamma_i * turn_2 + q.sin_gamma_i * turn_3;
 
     // Inertial acceleration of Gⁱ as in eq. (53), same axes, m/s².
     let path_11 = p.l_o_z * omega_go_n_goy - p.l_o_y * omega_go_n_goz;
     let path_12 = p.l_o_x * omega_go_n_goz - p.l_o_z * omega_go_n_gox;
     let path_13 = p.l_o_y * omega_go_n_gox - p.l_o_x * omega_go_n_goy;
     let path_14 = p.l_o_z * omega_go_n_dot_goy - p.l_o_y * omega_go_n_dot_goz;
-    let path_15 = path_14 + (omega_go_n_goy * path_13 - omega_go_n_goz * path_12);
+    let path_15 = omega_go_n_goy * path_13 - omega_go_n_goz * path_12 + path_14;
     let path_16 = path_15 + r_go_n_ddot_gox;
     let path_17 = p.l_o_y * omega_go_n_dot_gox - p.l_o_x * omega_go_n_dot_goy;
-    let path_18 = path_17 + (omega_go_n_gox * path_12 - omega_go_n_goy * path_11);
+    let path_18 = omega_go_n_gox * path_12 - omega_go_n_goy * path_11 + path_17;
     let path_19 = path_18 + r_go_n_ddot_goz;
     let r_gi_n_ddot_gix = q.cos_gamma_i * path_16 - q.sin_gamma_i * path_19;
     let path_20 = p.l_o_x * omega_go_n_dot_goz - p.l_o_z * omega_go_n_dot_gox;
     let path_21 = omega_go_n_goz * path_11 - omega_go_n_gox * path_13;
-    let r_gi_n_ddot_giy = path_20 + path_21 + r_go_n_ddot_goy;
+    let r_gi_n_ddot_giy = path_21 + path_20 + r_go_n_ddot_goy;
     let r_gi_n_ddot_giz = q.cos_gamma_i * path_19 + q.sin_gamma_i * path_16;
 
     // ω_{W/N}, eq. (59), along the carrier's axes, rad/s.
@@ -3023,139 +2930,135 @@ pub fn loads<T: Real>(
     let path_22 = p.l_i_x * omega_gi_n_giz - p.l_i_z * omega_gi_n_gix;
     let path_23 = p.l_i_y * omega_gi_n_gix - p.l_i_x * omega_gi_n_giy;
     let path_24 = p.l_i_z * omega_gi_n_dot_giy - p.l_i_y * omega_gi_n_dot_giz;
-    let path_25 = omega_gi_n_giy * path_23 - omega_gi_n_giz * path_22;
-    let r_w_n_ddot_wx = path_24 + path_25 + r_gi_n_ddot_gix;
+    let path_25 = omega_gi_n_giy * path_23 - omega_gi_n_giz * path_22 + path_24;
+    let r_w_n_ddot_wx = path_25 + r_gi_n_ddot_gix;
     let path_26 = p.l_i_z * omega_gi_n_giy - p.l_i_y * omega_gi_n_giz;
     let path_27 = p.l_i_x * omega_gi_n_dot_giz - p.l_i_z * omega_gi_n_dot_gix;
-    let path_28 = omega_gi_n_giz * path_26 - omega_gi_n_gix * path_23;
-    let r_w_n_ddot_wy = path_27 + path_28 + r_gi_n_ddot_giy;
+    let path_28 = omega_gi_n_giz * path_26 - omega_gi_n_gix * path_23 + path_27;
+    let r_w_n_ddot_wy = path_28 + r_gi_n_ddot_giy;
     let path_29 = p.l_i_y * omega_gi_n_dot_gix - p.l_i_x * omega_gi_n_dot_giy;
-    let path_30 = omega_gi_n_gix * path_22 - omega_gi_n_giy * path_26;
-    let r_w_n_ddot_wz = path_29 + path_30 + r_gi_n_ddot_giz;
+    let path_30 = omega_gi_n_gix * path_22 - omega_gi_n_giy * path_26 + path_29;
+    let r_w_n_ddot_wz = path_30 + r_gi_n_ddot_giz;
 
     // On W, the wheel and what it carries, at its joint, eq. (116): force, N, and moment about
     // W, N m.
     let f_load_wx = p.m_w * r_w_n_ddot_wx;
     let f_load_wy = p.m_w * r_w_n_ddot_wy;
     let f_load_wz = p.m_w * r_w_n_ddot_wz;
-    let load_0 = p.j_22 * omega_gi_n_giy;
-    let load_1 = p.j_22 * omega_gi_n_giz;
-    let load_2 = omega_gi_n_giy * load_1 - omega_gi_n_giz * load_0;
-    let n_load_wx = load_2 + p.j_11 * omega_w_n_dot_wx;
-    let load_3 = p.j_11 * omega_w_n_wx;
-    let load_4 = omega_gi_n_giz * load_3 - omega_gi_n_gix * load_1;
-    let n_load_wy = load_4 + p.j_22 * omega_gi_n_dot_giy;
-    let load_5 = omega_gi_n_gix * load_0 - omega_gi_n_giy * load_3;
-    let n_load_wz = load_5 + p.j_22 * omega_gi_n_dot_giz;
+    let n_load_wx = p.j_11 * omega_w_n_dot_wx;
+    let load_0 = p.j_22 * (omega_gi_n_dot_giy - omega_gi_n_giz * omega_gi_n_gix);
+    let n_load_wy = omega_gi_n_giz * omega_w_n_wx * p.j_11 + load_0;
+    let load_1 = p.j_22 * (omega_gi_n_dot_giz + omega_gi_n_gix * omega_gi_n_giy);
+    let n_load_wz = load_1 - omega_gi_n_giy * omega_w_n_wx * p.j_11;
 
     // On V, the inner gimbal and what it carries, at its joint, eq. (98): force, N, and moment
     // about Gⁱ, N m.
-    let load_6 = p.mr_gic_gi_giz * omega_gi_n_gix;
-    let load_7 = p.mr_gic_gi_gix * omega_gi_n_giz - load_6;
-    let load_8 = p.mr_gic_gi_gix * omega_gi_n_giy;
-    let load_9 = p.mr_gic_gi_giy * omega_gi_n_gix - load_8;
-    let load_10 = p.mr_gic_gi_giy * omega_gi_n_dot_giz;
-    let load_11 = omega_gi_n_giy * load_9 - omega_gi_n_giz * load_7;
-    let load_12 = p.mr_gic_gi_giz * omega_gi_n_dot_giy - load_10 + load_11;
-    let f_load_gix = load_12 + p.m_gi * r_gi_n_ddot_gix + f_load_wx;
-    let load_13 = p.mr_gic_gi_giy * omega_gi_n_giz;
-    let load_14 = p.mr_gic_gi_giz * omega_gi_n_giy - load_13;
-    let load_15 = p.mr_gic_gi_giz * omega_gi_n_dot_gix;
-    let load_16 = omega_gi_n_giz * load_14 - omega_gi_n_gix * load_9;
-    let load_17 = p.mr_gic_gi_gix * omega_gi_n_dot_giz - load_15 + load_16;
-    let f_load_giy = load_17 + p.m_gi * r_gi_n_ddot_giy + f_load_wy;
-    let load_18 = p.mr_gic_gi_gix * omega_gi_n_dot_giy;
-    let load_19 = omega_gi_n_gix * load_7 - omega_gi_n_giy * load_14;
-    let load_20 = p.mr_gic_gi_giy * omega_gi_n_dot_gix - load_18 + load_19;
-    let f_load_giz = load_20 + p.m_gi * r_gi_n_ddot_giz + f_load_wz;
-    let load_21 = p.i_gi_gi_12 * omega_gi_n_gix + p.i_gi_gi_22 * omega_gi_n_giy;
-    let load_22 = load_21 + p.i_gi_gi_23 * omega_gi_n_giz;
-    let load_23 = p.i_gi_gi_13 * omega_gi_n_gix + p.i_gi_gi_23 * omega_gi_n_giy;
-    let load_24 = load_23 + p.i_gi_gi_33 * omega_gi_n_giz;
-    let load_25 = p.i_gi_gi_12 * omega_gi_n_dot_giy;
-    let load_26 = p.i_gi_gi_11 * omega_gi_n_dot_gix + load_25;
-    let load_27 = omega_gi_n_giy * load_24 - omega_gi_n_giz * load_22;
-    let load_28 = p.mr_gic_gi_giz * r_gi_n_ddot_giy;
-    let load_29 = load_26 + p.i_gi_gi_13 * omega_gi_n_dot_giz + load_27;
-    let load_30 = load_29 + (p.mr_gic_gi_giy * r_gi_n_ddot_giz - load_28);
-    let n_load_gix = p.l_i_y * f_load_wz - p.l_i_z * f_load_wy + n_load_wx + load_30;
-    let load_31 = p.i_gi_gi_11 * omega_gi_n_gix + p.i_gi_gi_12 * omega_gi_n_giy;
-    let load_32 = load_31 + p.i_gi_gi_13 * omega_gi_n_giz;
-    let load_33 = p.i_gi_gi_22 * omega_gi_n_dot_giy;
-    let load_34 = p.i_gi_gi_12 * omega_gi_n_dot_gix + load_33;
-    let load_35 = omega_gi_n_giz * load_32 - omega_gi_n_gix * load_24;
-    let load_36 = p.mr_gic_gi_gix * r_gi_n_ddot_giz;
-    let load_37 = load_34 + p.i_gi_gi_23 * omega_gi_n_dot_giz + load_35;
-    let load_38 = load_37 + (p.mr_gic_gi_giz * r_gi_n_ddot_gix - load_36);
-    let n_load_giy = p.l_i_z * f_load_wx - p.l_i_x * f_load_wz + n_load_wy + load_38;
-    let load_39 = p.i_gi_gi_23 * omega_gi_n_dot_giy;
-    let load_40 = p.i_gi_gi_13 * omega_gi_n_dot_gix + load_39;
-    let load_41 = omega_gi_n_gix * load_22 - omega_gi_n_giy * load_32;
-    let load_42 = p.mr_gic_gi_giy * r_gi_n_ddot_gix;
-    let load_43 = load_40 + p.i_gi_gi_33 * omega_gi_n_dot_giz + load_41;
-    let load_44 = load_43 + (p.mr_gic_gi_gix * r_gi_n_ddot_giy - load_42);
-    let n_load_giz = p.l_i_x * f_load_wy - p.l_i_y * f_load_wx + n_load_wz + load_44;
+    let load_2 = p.mr_gic_gi_giz * omega_gi_n_gix;
+    let load_3 = p.mr_gic_gi_gix * omega_gi_n_giz - load_2;
+    let load_4 = p.mr_gic_gi_gix * omega_gi_n_giy;
+    let load_5 = p.mr_gic_gi_giy * omega_gi_n_gix - load_4;
+    let load_6 = p.mr_gic_gi_giy * omega_gi_n_dot_giz;
+    let load_7 = omega_gi_n_giy * load_5 - omega_gi_n_giz * load_3;
+    let load_8 = load_7 + (p.mr_gic_gi_giz * omega_gi_n_dot_giy - load_6);
+    let f_load_gix = load_8 + p.m_gi * r_gi_n_ddot_gix + f_load_wx;
+    let load_9 = p.mr_gic_gi_giy * omega_gi_n_giz;
+    let load_10 = p.mr_gic_gi_giz * omega_gi_n_giy - load_9;
+    let load_11 = p.mr_gic_gi_giz * omega_gi_n_dot_gix;
+    let load_12 = omega_gi_n_giz * load_10 - omega_gi_n_gix * load_5;
+    let load_13 = load_12 + (p.mr_gic_gi_gix * omega_gi_n_dot_giz - load_11);
+    let f_load_giy = load_13 + p.m_gi * r_gi_n_ddot_giy + f_load_wy;
+    let load_14 = p.mr_gic_gi_gix * omega_gi_n_dot_giy;
+    let load_15 = omega_gi_n_gix * load_3 - omega_gi_n_giy * load_10;
+    let load_16 = load_15 + (p.mr_gic_gi_giy * omega_gi_n_dot_gix - load_14);
+    let f_load_giz = load_16 + p.m_gi * r_gi_n_ddot_giz + f_load_wz;
+    let load_17 = p.i_gi_gi_12 * omega_gi_n_gix + p.i_gi_gi_22 * omega_gi_n_giy;
+    let load_18 = load_17 + p.i_gi_gi_23 * omega_gi_n_giz;
+    let load_19 = p.i_gi_gi_13 * omega_gi_n_gix + p.i_gi_gi_23 * omega_gi_n_giy;
+    let load_20 = load_19 + p.i_gi_gi_33 * omega_gi_n_giz;
+    let load_21 = p.i_gi_gi_12 * omega_gi_n_dot_giy;
+    let load_22 = p.i_gi_gi_11 * omega_gi_n_dot_gix + load_21;
+    let load_23 = omega_gi_n_giy * load_20 - omega_gi_n_giz * load_18;
+    let load_24 = p.mr_gic_gi_giz * r_gi_n_ddot_giy;
+    let load_25 = load_23 + (load_22 + p.i_gi_gi_13 * omega_gi_n_dot_giz);
+    let load_26 = load_25 + (p.mr_gic_gi_giy * r_gi_n_ddot_giz - load_24);
+    let n_load_gix = p.l_i_y * f_load_wz - p.l_i_z * f_load_wy + n_load_wx + load_26;
+    let load_27 = p.i_gi_gi_11 * omega_gi_n_gix + p.i_gi_gi_12 * omega_gi_n_giy;
+    let load_28 = load_27 + p.i_gi_gi_13 * omega_gi_n_giz;
+    let load_29 = p.i_gi_gi_22 * omega_gi_n_dot_giy;
+    let load_30 = p.i_gi_gi_12 * omega_gi_n_dot_gix + load_29;
+    let load_31 = omega_gi_n_giz * load_28 - omega_gi_n_gix * load_20;
+    let load_32 = p.mr_gic_gi_gix * r_gi_n_ddot_giz;
+    let load_33 = load_31 + (load_30 + p.i_gi_gi_23 * omega_gi_n_dot_giz);
+    let load_34 = load_33 + (p.mr_gic_gi_giz * r_gi_n_ddot_gix - load_32);
+    let n_load_giy = p.l_i_z * f_load_wx - p.l_i_x * f_load_wz + n_load_wy + load_34;
+    let load_35 = p.i_gi_gi_23 * omega_gi_n_dot_giy;
+    let load_36 = p.i_gi_gi_13 * omega_gi_n_dot_gix + load_35;
+    let load_37 = omega_gi_n_gix * load_18 - omega_gi_n_giy * load_28;
+    let load_38 = p.mr_gic_gi_giy * r_gi_n_ddot_gix;
+    let load_39 = load_37 + (load_36 + p.i_gi_gi_33 * omega_gi_n_dot_giz);
+    let load_40 = load_39 + (p.mr_gic_gi_gix * r_gi_n_ddot_giy - load_38);
+    let n_load_giz = p.l_i_x * f_load_wy - p.l_i_y * f_load_wx + n_load_wz + load_40;
 
     // On D, the outer gimbal and what it carries, at its joint, eq. (77): force, N, and moment
     // about Gᵒ, N m.
-    let load_45 = p.mr_goc_go_goz * omega_go_n_gox;
-    let load_46 = p.mr_goc_go_gox * omega_go_n_goz - load_45;
-    let load_47 = p.mr_goc_go_gox * omega_go_n_goy;
-    let load_48 = p.mr_goc_go_goy * omega_go_n_gox - load_47;
-    let load_49 = q.cos_gamma_i * f_load_gix + q.sin_gamma_i * f_load_giz;
-    let load_50 = p.mr_goc_go_goy * omega_go_n_dot_goz;
-    let load_51 = omega_go_n_goy * load_48 - omega_go_n_goz * load_46;
-    let load_52 = p.mr_goc_go_goz * omega_go_n_dot_goy - load_50 + load_51;
-    let f_load_gox = load_52 + p.m_go * r_go_n_ddot_gox + load_49;
-    let load_53 = p.mr_goc_go_goy * omega_go_n_goz;
-    let load_54 = p.mr_goc_go_goz * omega_go_n_goy - load_53;
-    let load_55 = p.mr_goc_go_goz * omega_go_n_dot_gox;
-    let load_56 = omega_go_n_goz * load_54 - omega_go_n_gox * load_48;
-    let load_57 = p.mr_goc_go_gox * omega_go_n_dot_goz - load_55 + load_56;
-    let f_load_goy = load_57 + p.m_go * r_go_n_ddot_goy + f_load_giy;
-    let load_58 = q.cos_gamma_i * f_load_giz - q.sin_gamma_i * f_load_gix;
-    let load_59 = p.mr_goc_go_gox * omega_go_n_dot_goy;
-    let load_60 = omega_go_n_gox * load_46 - omega_go_n_goy * load_54;
-    let load_61 = p.mr_goc_go_goy * omega_go_n_dot_gox - load_59 + load_60;
-    let f_load_goz = load_61 + p.m_go * r_go_n_ddot_goz + load_58;
-    let load_62 = p.i_go_go_12 * omega_go_n_gox + p.i_go_go_22 * omega_go_n_goy;
-    let load_63 = load_62 + p.i_go_go_23 * omega_go_n_goz;
-    let load_64 = p.i_go_go_13 * omega_go_n_gox + p.i_go_go_23 * omega_go_n_goy;
-    let load_65 = load_64 + p.i_go_go_33 * omega_go_n_goz;
-    let load_66 = q.cos_gamma_i * n_load_gix + q.sin_gamma_i * n_load_giz;
-    let load_67 = p.i_go_go_12 * omega_go_n_dot_goy;
-    let load_68 = p.i_go_go_11 * omega_go_n_dot_gox + load_67;
-    let load_69 = omega_go_n_goy * load_65 - omega_go_n_goz * load_63;
-    let load_70 = p.mr_goc_go_goz * r_go_n_ddot_goy;
-    let load_71 = load_68 + p.i_go_go_13 * omega_go_n_dot_goz + load_69;
-    let load_72 = load_71 + (p.mr_goc_go_goy * r_go_n_ddot_goz - load_70);
-    let n_load_gox = load_66 + (p.l_o_y * load_58 - p.l_o_z * f_load_giy) + load_72;
-    let load_73 = p.i_go_go_11 * omega_go_n_gox + p.i_go_go_12 * omega_go_n_goy;
-    let load_74 = load_73 + p.i_go_go_13 * omega_go_n_goz;
-    let load_75 = p.i_go_go_22 * omega_go_n_dot_goy;
-    let load_76 = p.i_go_go_12 * omega_go_n_dot_gox + load_75;
-    let load_77 = omega_go_n_goz * load_74 - omega_go_n_gox * load_65;
-    let load_78 = p.mr_goc_go_gox * r_go_n_ddot_goz;
-    let load_79 = load_76 + p.i_go_go_23 * omega_go_n_dot_goz + load_77;
-    let load_80 = load_79 + (p.mr_goc_go_goz * r_go_n_ddot_gox - load_78);
-    let n_load_goy = p.l_o_z * load_49 - p.l_o_x * load_58 + n_load_giy + load_80;
-    let load_81 = q.cos_gamma_i * n_load_giz - q.sin_gamma_i * n_load_gix;
-    let load_82 = p.i_go_go_23 * omega_go_n_dot_goy;
-    let load_83 = p.i_go_go_13 * omega_go_n_dot_gox + load_82;
-    let load_84 = omega_go_n_gox * load_63 - omega_go_n_goy * load_74;
-    let load_85 = p.mr_goc_go_goy * r_go_n_ddot_gox;
-    let load_86 = load_83 + p.i_go_go_33 * omega_go_n_dot_goz + load_84;
-    let load_87 = load_86 + (p.mr_goc_go_gox * r_go_n_ddot_goy - load_85);
-    let n_load_goz = load_81 + (p.l_o_x * f_load_giy - p.l_o_y * load_49) + load_87;
+    let load_41 = p.mr_goc_go_goz * omega_go_n_gox;
+    let load_42 = p.mr_goc_go_gox * omega_go_n_goz - load_41;
+    let load_43 = p.mr_goc_go_gox * omega_go_n_goy;
+    let load_44 = p.mr_goc_go_goy * omega_go_n_gox - load_43;
+    let load_45 = q.cos_gamma_i * f_load_gix + q.sin_gamma_i * f_load_giz;
+    let load_46 = p.mr_goc_go_goy * omega_go_n_dot_goz;
+    let load_47 = omega_go_n_goy * load_44 - omega_go_n_goz * load_42;
+    let load_48 = load_47 + (p.mr_goc_go_goz * omega_go_n_dot_goy - load_46);
+    let f_load_gox = load_48 + p.m_go * r_go_n_ddot_gox + load_45;
+    let load_49 = p.mr_goc_go_goy * omega_go_n_goz;
+    let load_50 = p.mr_goc_go_goz * omega_go_n_goy - load_49;
+    let load_51 = p.mr_goc_go_goz * omega_go_n_dot_gox;
+    let load_52 = omega_go_n_goz * load_50 - omega_go_n_gox * load_44;
+    let load_53 = load_52 + (p.mr_goc_go_gox * omega_go_n_dot_goz - load_51);
+    let f_load_goy = load_53 + p.m_go * r_go_n_ddot_goy + f_load_giy;
+    let load_54 = q.cos_gamma_i * f_load_giz - q.sin_gamma_i * f_load_gix;
+    let load_55 = p.mr_goc_go_gox * omega_go_n_dot_goy;
+    let load_56 = omega_go_n_gox * load_42 - omega_go_n_goy * load_50;
+    let load_57 = load_56 + (p.mr_goc_go_goy * omega_go_n_dot_gox - load_55);
+    let f_load_goz = load_57 + p.m_go * r_go_n_ddot_goz + load_54;
+    let load_58 = p.i_go_go_12 * omega_go_n_gox + p.i_go_go_22 * omega_go_n_goy;
+    let load_59 = load_58 + p.i_go_go_23 * omega_go_n_goz;
+    let load_60 = p.i_go_go_13 * omega_go_n_gox + p.i_go_go_23 * omega_go_n_goy;
+    let load_61 = load_60 + p.i_go_go_33 * omega_go_n_goz;
+    let load_62 = q.cos_gamma_i * n_load_gix + q.sin_gamma_i * n_load_giz;
+    let load_63 = p.mr_goc_go_goz * r_go_n_ddot_goy;
+    let load_64 = p.i_go_go_12 * omega_go_n_dot_goy;
+    let load_65 = p.i_go_go_11 * omega_go_n_dot_gox + load_64;
+    let load_66 = omega_go_n_goy * load_61 - omega_go_n_goz * load_59;
+    let load_67 = load_66 + (load_65 + p.i_go_go_13 * omega_go_n_dot_goz);
+    let load_68 = p.mr_goc_go_goy * r_go_n_ddot_goz - load_63 + load_67;
+    let n_load_gox = load_62 + (p.l_o_y * load_54 - p.l_o_z * f_load_giy) + load_68;
+    let load_69 = p.i_go_go_11 * omega_go_n_gox + p.i_go_go_12 * omega_go_n_goy;
+    let load_70 = load_69 + p.i_go_go_13 * omega_go_n_goz;
+    let load_71 = p.mr_goc_go_gox * r_go_n_ddot_goz;
+    let load_72 = p.i_go_go_22 * omega_go_n_dot_goy;
+    let load_73 = p.i_go_go_12 * omega_go_n_dot_gox + load_72;
+    let load_74 = omega_go_n_goz * load_70 - omega_go_n_gox * load_61;
+    let load_75 = load_74 + (load_73 + p.i_go_go_23 * omega_go_n_dot_goz);
+    let load_76 = p.mr_goc_go_goz * r_go_n_ddot_gox - load_71 + load_75;
+    let n_load_goy = p.l_o_z * load_45 - p.l_o_x * load_54 + n_load_giy + load_76;
+    let load_77 = q.cos_gamma_i * n_load_giz - q.sin_gamma_i * n_load_gix;
+    let load_78 = p.mr_goc_go_goy * r_go_n_ddot_gox;
+    let load_79 = p.i_go_go_23 * omega_go_n_dot_goy;
+    let load_80 = p.i_go_go_13 * omega_go_n_dot_gox + load_79;
+    let load_81 = omega_go_n_gox * load_59 - omega_go_n_goy * load_70;
+    let load_82 = load_81 + (load_80 + p.i_go_go_33 * omega_go_n_dot_goz);
+    let load_83 = p.mr_goc_go_gox * r_go_n_ddot_goy - load_78 + load_82;
+    let n_load_goz = load_77 + (p.l_o_x * f_load_giy - p.l_o_y * load_45) + load_83;
 
     // On the whole device, eqs. (16), (75): force, N, and moment about B, N m.
     let f_load_bx = q.cos_gamma_o * f_load_gox - q.sin_gamma_o * f_load_goy;
     let f_load_by = q.cos_gamma_o * f_load_goy + q.sin_gamma_o * f_load_gox;
     let f_load_bz = f_load_goz;
-    let load_88 = q.cos_gamma_o * n_load_gox - q.sin_gamma_o * n_load_goy;
-    let n_load_bx = load_88 + (p.r_go_b_by * f_load_goz - p.r_go_b_bz * f_load_by);
-    let load_89 = q.cos_gamma_o * n_load_goy + q.sin_gamma_o * n_load_gox;
-    let n_load_by = load_89 + (p.r_go_b_bz * f_load_bx - p.r_go_b_bx * f_load_goz);
+    let load_84 = q.cos_gamma_o * n_load_gox - q.sin_gamma_o * n_load_goy;
+    let n_load_bx = load_84 + (p.r_go_b_by * f_load_goz - p.r_go_b_bz * f_load_by);
+    let load_85 = q.cos_gamma_o * n_load_goy + q.sin_gamma_o * n_load_gox;
+    let n_load_by = load_85 + (p.r_go_b_bz * f_load_bx - p.r_go_b_bx * f_load_goz);
     let n_load_bz = p.r_go_b_bx * f_load_by - p.r_go_b_by * f_load_bx + n_load_goz;
 
     Loads {
@@ -3274,7 +3177,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 156 mul, 166 add, 5 neg, 0 div, 0 trig.
+/// Operations: 156 mul, 150 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (G1), along the axes of the outer gimbal, 1/s².
@@ -3304,14 +3207,14 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_goy = pull_1 + p.mr_goc_go_goz * g_go_23 + p.m_go * g_r_go_goy;
     let pull_2 = p.mr_goc_go_gox * g_go_13 + p.mr_goc_go_goy * g_go_23;
     let f_on_goz = pull_2 + p.mr_goc_go_goz * g.g_33 + p.m_go * g_r_go_goz;
-    let pull_3 = p.i_go_go_12 * g_go_13 - p.i_go_go_13 * g_go_12 + g_go_23 * p.k_35;
+    let pull_3 = p.i_go_go_12 * g_go_13 - p.i_go_go_13 * g_go_12 + g_go_23 * p.k_26;
     let pull_4 = p.mr_goc_go_goy * g_r_go_goz - p.mr_goc_go_goz * g_r_go_goy;
     let n_on_gox = pull_4 - (pull_3 + p.i_go_go_23 * (g.g_33 - g_go_22));
     let pull_5 = g_go_11 - g.g_33;
-    let pull_6 = p.i_go_go_23 * g_go_12 - p.i_go_go_12 * g_go_23 + g_go_13 * p.k_36;
+    let pull_6 = p.i_go_go_23 * g_go_12 - p.i_go_go_12 * g_go_23 + g_go_13 * p.k_27;
     let pull_7 = p.mr_goc_go_goz * g_r_go_gox - p.mr_goc_go_gox * g_r_go_goz;
     let n_on_goy = pull_7 - (pull_6 + p.i_go_go_13 * pull_5);
-    let pull_8 = p.i_go_go_13 * g_go_23 - p.i_go_go_23 * g_go_13 + g_go_12 * p.k_37;
+    let pull_8 = p.i_go_go_13 * g_go_23 - p.i_go_go_23 * g_go_13 + g_go_12 * p.k_28;
     let pull_9 = p.mr_goc_go_gox * g_r_go_goy - p.mr_goc_go_goy * g_r_go_gox;
     let n_on_goz = pull_9 - (pull_8 + p.i_go_go_12 * (g_go_22 - g_go_11));
 
@@ -3341,13 +3244,13 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_giy = pull_11 + p.mr_gic_gi_giz * g_gi_23 + p.m_gi * g_r_gi_giy;
     let pull_12 = p.mr_gic_gi_gix * g_gi_13 + p.mr_gic_gi_giy * g_gi_23;
     let f_on_giz = pull_12 + p.mr_gic_gi_giz * g_gi_33 + p.m_gi * g_r_gi_giz;
-    let pull_13 = p.i_gi_gi_12 * g_gi_13 - p.i_gi_gi_13 * g_gi_12 + g_gi_23 * p.k_38;
+    let pull_13 = p.i_gi_gi_12 * g_gi_13 - p.i_gi_gi_13 * g_gi_12 + g_gi_23 * p.k_29;
     let pull_14 = p.mr_gic_gi_giy * g_r_gi_giz - p.mr_gic_gi_giz * g_r_gi_giy;
     let n_on_gix = pull_14 - (pull_13 + p.i_gi_gi_23 * (g_gi_33 - g_go_22));
-    let pull_15 = p.i_gi_gi_23 * g_gi_12 - p.i_gi_gi_12 * g_gi_23 + g_gi_13 * p.k_39;
+    let pull_15 = p.i_gi_gi_23 * g_gi_12 - p.i_gi_gi_12 * g_gi_23 + g_gi_13 * p.k_30;
     let pull_16 = p.mr_gic_gi_giz * g_r_gi_gix - p.mr_gic_gi_gix * g_r_gi_giz;
     let n_on_giy = pull_16 - (pull_15 + p.i_gi_gi_13 * (g_gi_11 - g_gi_33));
-    let pull_17 = p.i_gi_gi_13 * g_gi_23 - p.i_gi_gi_23 * g_gi_13 + g_gi_12 * p.k_40;
+    let pull_17 = p.i_gi_gi_13 * g_gi_23 - p.i_gi_gi_23 * g_gi_13 + g_gi_12 * p.k_31;
     let pull_18 = p.mr_gic_gi_gix * g_r_gi_giy - p.mr_gic_gi_giy * g_r_gi_gix;
     let n_on_giz = pull_18 - (pull_17 + p.i_gi_gi_12 * (g_go_22 - g_gi_11));
 
@@ -3365,28 +3268,28 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_wz = p.m_w * g_r_w_wz;
     let zero = q.sin_gamma_o.like(0.0);
     let n_on_wx = zero;
-    let n_on_wy = -(g_gi_13 * p.k_41);
-    let n_on_wz = -(g_gi_12 * p.k_42);
+    let n_on_wy = -(g_gi_13 * p.k_32);
+    let n_on_wz = -(g_gi_12 * p.k_33);
 
     // D, the outer gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and
     // inertia, kg m², about Gᵒ.
     let lump_0 = q.cos_gamma_i * p.mr_v_gi_gix + q.sin_gamma_i * p.mr_v_gi_giz;
-    let mr_d_go_gox = lump_0 + p.k_15 + p.mr_goc_go_gox;
+    let mr_d_go_gox = lump_0 + p.k_19;
     let lump_1 = q.cos_gamma_i * p.mr_v_gi_giz - q.sin_gamma_i * p.mr_v_gi_gix;
-    let mr_d_go_goz = lump_1 + p.k_16 + p.mr_goc_go_goz;
-    let lump_2 = q.cos_gamma_i * p.k_2 - q.sin_gamma_i * p.k_1;
+    let mr_d_go_goz = lump_1 + p.k_39;
+    let lump_2 = q.cos_gamma_i * p.k_3 - q.sin_gamma_i * p.k_2;
     let lump_3 = q.sin_gamma_i * lump_2;
-    let lump_4 = lump_1 * p.k_6;
-    let i_d_go_11 = p.i_v_gi_11 + lump_3 + (p.k_5 + lump_4) + p.k_9 + p.i_go_go_11;
+    let lump_4 = lump_1 * p.k_5;
+    let i_d_go_11 = lump_3 + lump_4 + p.k_40;
     let lump_5 = q.cos_gamma_i * p.i_v_gi_12 + q.sin_gamma_i * p.i_v_gi_23;
-    let i_d_go_12 = lump_5 - (p.k_7 + p.l_o_y * lump_0) + p.k_10 + p.i_go_go_12;
-    let lump_6 = p.l_o_x * lump_1 + p.l_o_z * lump_0;
-    let i_d_go_13 = q.cos_gamma_i * lump_2 + p.k_3 - lump_6 + p.k_11 + p.i_go_go_13;
+    let i_d_go_12 = lump_5 - p.l_o_y * lump_0 + p.k_41;
+    let lump_6 = q.cos_gamma_i * lump_2 - p.l_o_x * lump_1 - p.l_o_z * lump_0;
+    let i_d_go_13 = lump_6 + p.k_42;
     let lump_7 = lump_0 * p.k_4;
-    let i_d_go_22 = lump_7 + lump_4 + p.i_v_gi_22 + p.k_12 + p.i_go_go_22;
+    let i_d_go_22 = lump_7 + lump_4 + p.k_43;
     let lump_8 = q.cos_gamma_i * p.i_v_gi_23 - q.sin_gamma_i * p.i_v_gi_12;
-    let i_d_go_23 = lump_8 - (p.l_o_y * lump_1 + p.k_8) + p.k_13 + p.i_go_go_23;
-    let i_d_go_33 = p.i_v_gi_33 - lump_3 + (lump_7 + p.k_5) + p.k_14 + p.i_go_go_33;
+    let i_d_go_23 = lump_8 - p.l_o_y * lump_1 + p.k_44;
+    let i_d_go_33 = lump_7 - lump_3 + p.k_45;
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
     let axis_0 = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * p.mr_d_go_goy;
@@ -3394,24 +3297,24 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let axis_2 = q.sin_gamma_o * (i_d_go_22 - i_d_go_11);
     let axis_3 = q.cos_gamma_o * (i_d_go_12 + i_d_go_12) - axis_2;
     let axis_4 = q.sin_gamma_o * axis_3;
-    let axis_5 = axis_0 * p.k_17;
-    let axis_6 = axis_1 * p.k_18;
-    let axis_7 = mr_d_go_goz * p.k_19;
-    let axis_8 = i_d_go_11 - axis_4 + (axis_6 + axis_7) + p.k_20;
-    let axis_9 = i_d_go_22 + axis_4 + (axis_5 + axis_7) + p.k_23;
-    let axis_10 = axis_5 + axis_6 + i_d_go_33 + p.k_25;
+    let axis_5 = p.k_6 * axis_0;
+    let axis_6 = p.k_7 * axis_1;
+    let axis_7 = p.k_8 * mr_d_go_goz;
+    let axis_8 = i_d_go_11 - axis_4 + (axis_6 + axis_7) + p.k_9;
+    let axis_9 = i_d_go_22 + axis_4 + (axis_5 + axis_7) + p.k_12;
+    let axis_10 = axis_5 + axis_6 + i_d_go_33 + p.k_14;
     let half = q.sin_gamma_o.like(0.5);
     let axis_11 = half * (axis_8 + axis_9 + axis_10);
     let second_moment_11 = axis_11 - axis_8;
     let axis_12 = p.r_go_b_bx * axis_1 + p.r_go_b_by * axis_0;
-    let second_moment_12 = -(q.cos_gamma_o * axis_3 - i_d_go_12 - axis_12 + p.k_21);
+    let second_moment_12 = -(q.cos_gamma_o * axis_3 - i_d_go_12 - axis_12 + p.k_10);
     let axis_13 = q.cos_gamma_o * i_d_go_13 - q.sin_gamma_o * i_d_go_23;
     let axis_14 = p.r_go_b_bx * mr_d_go_goz + p.r_go_b_bz * axis_0;
-    let second_moment_13 = -(axis_13 - axis_14 + p.k_22);
+    let second_moment_13 = -(axis_13 - axis_14 + p.k_11);
     let second_moment_22 = axis_11 - axis_9;
     let axis_15 = q.cos_gamma_o * i_d_go_23 + q.sin_gamma_o * i_d_go_13;
     let axis_16 = p.r_go_b_by * mr_d_go_goz + p.r_go_b_bz * axis_1;
-    let second_moment_23 = -(axis_15 - axis_16 + p.k_24);
+    let second_moment_23 = -(axis_15 - axis_16 + p.k_13);
     let second_moment_33 = axis_11 - axis_10;
 
     Gravity {

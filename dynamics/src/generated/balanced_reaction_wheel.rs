@@ -92,13 +92,12 @@ pub struct Prepared<T> {
     pub second_moment_23: T,
     /// `-second_moment_23`. [I_{W,B}], eq. (71), along the axes of the wheel, kg m².
     pub i_w_b_23: T,
-    /// `p.j_11 + p.m_w * (axis_0 + axis_1)`. [I_{W,B}], eq. (71), along the axes of the
-    /// wheel, kg m².
+    /// `p.j_11 + axis_2`. [I_{W,B}], eq. (71), along the axes of the wheel, kg m².
     pub i_w_b_11: T,
-    /// `p.j_22 + p.m_w * (axis_2 + axis_1)`. [I_{W,B}], eq. (71), along the axes of the
+    /// `p.j_22 + p.m_w * (axis_3 + axis_1)`. [I_{W,B}], eq. (71), along the axes of the
     /// wheel, kg m².
     pub i_w_b_22: T,
-    /// `p.j_22 + p.m_w * (axis_2 + axis_0)`. [I_{W,B}], eq. (71), along the axes of the
+    /// `p.j_22 + p.m_w * (axis_3 + axis_0)`. [I_{W,B}], eq. (71), along the axes of the
     /// wheel, kg m².
     pub i_w_b_33: T,
     /// `p.r_w_b_bx * p.m_w`. Σ m r, share of m_sc c, eq. (9), kg m.
@@ -116,23 +115,23 @@ pub struct Prepared<T> {
     /// `p.j_11 * p.mount_31`. M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and
     /// moment about B per unit acceleration, along B axes.
     pub n_w_bz: T,
-    /// `moment_2 + moment_2`. What moves of D, about B, along B axes: first moment, eq. (9),
-    /// kg m, and inertia, eq. (76), kg m².
+    /// `p.mount_11 * (moment_1 + moment_1)`. What moves of D, about B, along B axes: first
+    /// moment, eq. (9), kg m, and inertia, eq. (76), kg m².
     pub i_moving_11: T,
-    /// `p.mount_11 * moment_3 + p.mount_21 * moment_1`. What moves of D, about B, along B
+    /// `p.mount_11 * moment_2 + p.mount_21 * moment_1`. What moves of D, about B, along B
     /// axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
     pub i_moving_12: T,
-    /// `p.mount_11 * moment_4 + p.mount_31 * moment_1`. What moves of D, about B, along B
+    /// `p.mount_11 * moment_3 + p.mount_31 * moment_1`. What moves of D, about B, along B
     /// axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
     pub i_moving_13: T,
-    /// `moment_5 + moment_5`. What moves of D, about B, along B axes: first moment, eq. (9),
-    /// kg m, and inertia, eq. (76), kg m².
+    /// `p.mount_21 * (moment_2 + moment_2)`. What moves of D, about B, along B axes: first
+    /// moment, eq. (9), kg m, and inertia, eq. (76), kg m².
     pub i_moving_22: T,
-    /// `p.mount_21 * moment_4 + p.mount_31 * moment_3`. What moves of D, about B, along B
+    /// `p.mount_21 * moment_3 + p.mount_31 * moment_2`. What moves of D, about B, along B
     /// axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
     pub i_moving_23: T,
-    /// `moment_6 + moment_6`. What moves of D, about B, along B axes: first moment, eq. (9),
-    /// kg m, and inertia, eq. (76), kg m².
+    /// `p.mount_31 * (moment_3 + moment_3)`. What moves of D, about B, along B axes: first
+    /// moment, eq. (9), kg m, and inertia, eq. (76), kg m².
     pub i_moving_33: T,
     /// `p.mount_11 * mc_bx + p.mount_12 * mc_by + p.mount_13 * mc_bz`. What the hub takes
     /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
@@ -146,35 +145,37 @@ pub struct Prepared<T> {
     /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
     /// axes.
     pub hand_mr_bz: T,
-    /// `hand_19 - hand_15 + hand_16 * (hand_17 + hand_17)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_13 * hand_1 * i_w_b_33 + hand_4 + hand_5)`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_11: T,
-    /// `hand_27 - hand_24 + hand_16 * (hand_25 + hand_25)`. What the hub takes over, eq.
+    /// `half * (hand_15 + p.mount_13 * hand_11 * i_w_b_33)`. What the hub takes over, eq.
     /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_12: T,
-    /// `hand_35 - hand_32 + hand_16 * (hand_33 + hand_33)`. What the hub takes over, eq.
+    /// `half * (hand_26 + p.mount_13 * hand_21 * i_w_b_33)`. What the hub takes over, eq.
     /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_13: T,
-    /// `hand_46 - hand_43 + hand_16 * (hand_44 + hand_44)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_23 * hand_11 * i_w_b_33 + hand_29 + hand_30)`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
     pub hand_i_22: T,
-    /// `hand_54 - hand_51 + hand_16 * (hand_52 + hand_52)`. What the hub takes over, eq.
+    /// `half * (hand_38 + p.mount_23 * hand_21 * i_w_b_33)`. What the hub takes over, eq.
     /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_23: T,
-    /// `hand_65 - hand_62 + hand_16 * (hand_63 + hand_63)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_33 * hand_21 * i_w_b_33 + hand_41 + hand_42)`. What the hub takes
+    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
+    /// axes.
     pub hand_i_33: T,
     /// `p.j_22 - p.j_11`.
     pub k_0: T,
     /// `p.j_11 - p.j_22`.
     pub k_1: T,
-    /// `axis_3 - i_w_b_11`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg
+    /// `axis_4 - i_w_b_11`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg
     /// m².
     pub second_moment_11: T,
-    /// `axis_3 - i_w_b_22`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg
+    /// `axis_4 - i_w_b_22`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg
     /// m².
     pub second_moment_22: T,
-    /// `axis_3 - i_w_b_33`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg
+    /// `axis_4 - i_w_b_33`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg
     /// m².
     pub second_moment_33: T,
 }
@@ -524,22 +525,23 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 134 mul, 117 add, 3 neg, 0 div, 0 trig.
+/// Operations: 131 mul, 91 add, 3 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // [I_{W,B}], eq. (71), along the axes of the wheel, kg m².
     let axis_0 = p.r_w_b_by * p.r_w_b_by;
     let axis_1 = p.r_w_b_bz * p.r_w_b_bz;
-    let i_w_b_11 = p.j_11 + p.m_w * (axis_0 + axis_1);
+    let axis_2 = p.m_w * (axis_0 + axis_1);
+    let i_w_b_11 = p.j_11 + axis_2;
     let second_moment_12 = p.r_w_b_bx * p.r_w_b_by * p.m_w;
     let i_w_b_12 = -second_moment_12;
     let second_moment_13 = p.r_w_b_bx * p.r_w_b_bz * p.m_w;
     let i_w_b_13 = -second_moment_13;
-    let axis_2 = p.r_w_b_bx * p.r_w_b_bx;
-    let i_w_b_22 = p.j_22 + p.m_w * (axis_2 + axis_1);
+    let axis_3 = p.r_w_b_bx * p.r_w_b_bx;
+    let i_w_b_22 = p.j_22 + p.m_w * (axis_3 + axis_1);
     let second_moment_23 = p.r_w_b_by * p.r_w_b_bz * p.m_w;
     let i_w_b_23 = -second_moment_23;
-    let i_w_b_33 = p.j_22 + p.m_w * (axis_2 + axis_0);
+    let i_w_b_33 = p.j_22 + p.m_w * (axis_3 + axis_0);
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_bx = p.r_w_b_bx * p.m_w;
@@ -551,79 +553,56 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let hand_mr_bx = p.mount_11 * mc_bx + p.mount_12 * mc_by + p.mount_13 * mc_bz;
     let hand_mr_by = p.mount_21 * mc_bx + p.mount_22 * mc_by + p.mount_23 * mc_bz;
     let hand_mr_bz = p.mount_31 * mc_bx + p.mount_32 * mc_by + p.mount_33 * mc_bz;
-    let hand_0 = p.m_w * axis_2;
-    let hand_1 = p.m_w * axis_1;
-    let hand_2 = p.m_w * axis_0;
+    let hand_0 = p.mount_12 + p.mount_12;
+    let hand_1 = p.mount_13 + p.mount_13;
+    let hand_2 = hand_1 + hand_1;
     let half = p.mount_11.like(0.5);
-    let hand_3 = half * (hand_1 + hand_2);
-    let hand_4 = p.mount_11 * p.mount_11;
-    let hand_5 = p.r_w_b_by * mc_bx * half;
-    let hand_6 = p.mount_11 * p.mount_12;
-    let hand_7 = hand_5 * (hand_6 + hand_6);
-    let hand_8 = p.r_w_b_bz * mc_bx * half;
-    let hand_9 = p.mount_11 * p.mount_13;
-    let hand_10 = hand_8 * (hand_9 + hand_9);
-    let hand_11 = half * (hand_0 + hand_1 + p.j_22);
-    let hand_12 = p.mount_12 * p.mount_12;
-    let hand_13 = p.r_w_b_bz * mc_by * half;
-    let hand_14 = p.mount_12 * p.mount_13;
-    let hand_15 = hand_13 * (hand_14 + hand_14);
-    let hand_16 = half * (hand_0 + hand_2 + p.j_22);
-    let hand_17 = p.mount_13 * p.mount_13;
-    let hand_18 = hand_3 * (hand_4 + hand_4) - hand_7 - hand_10 - hand_7;
-    let hand_19 = hand_18 + hand_11 * (hand_12 + hand_12) - hand_15 - hand_10;
-    let hand_i_11 = hand_19 - hand_15 + hand_16 * (hand_17 + hand_17);
-    let hand_20 = p.mount_11 * p.mount_21;
-    let hand_21 = hand_5 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
-    let hand_22 = hand_8 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
-    let hand_23 = p.mount_12 * p.mount_22;
-    let hand_24 = hand_13 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
-    let hand_25 = p.mount_13 * p.mount_23;
-    let hand_26 = hand_3 * (hand_20 + hand_20) - hand_21 - hand_22 - hand_21;
-    let hand_27 = hand_26 + hand_11 * (hand_23 + hand_23) - hand_24 - hand_22;
-    let hand_i_12 = hand_27 - hand_24 + hand_16 * (hand_25 + hand_25);
-    let hand_28 = p.mount_11 * p.mount_31;
-    let hand_29 = hand_5 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
-    let hand_30 = hand_8 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
-    let hand_31 = p.mount_12 * p.mount_32;
-    let hand_32 = hand_13 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
-    let hand_33 = p.mount_13 * p.mount_33;
-    let hand_34 = hand_3 * (hand_28 + hand_28) - hand_29 - hand_30 - hand_29;
-    let hand_35 = hand_34 + hand_11 * (hand_31 + hand_31) - hand_32 - hand_30;
-    let hand_i_13 = hand_35 - hand_32 + hand_16 * (hand_33 + hand_33);
-    let hand_36 = p.mount_21 * p.mount_21;
-    let hand_37 = p.mount_21 * p.mount_22;
-    let hand_38 = hand_5 * (hand_37 + hand_37);
-    let hand_39 = p.mount_21 * p.mount_23;
-    let hand_40 = hand_8 * (hand_39 + hand_39);
-    let hand_41 = p.mount_22 * p.mount_22;
-    let hand_42 = p.mount_22 * p.mount_23;
-    let hand_43 = hand_13 * (hand_42 + hand_42);
-    let hand_44 = p.mount_23 * p.mount_23;
-    let hand_45 = hand_3 * (hand_36 + hand_36) - hand_38 - hand_40 - hand_38;
-    let hand_46 = hand_45 + hand_11 * (hand_41 + hand_41) - hand_43 - hand_40;
-    let hand_i_22 = hand_46 - hand_43 + hand_16 * (hand_44 + hand_44);
-    let hand_47 = p.mount_21 * p.mount_31;
-    let hand_48 = hand_5 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
-    let hand_49 = hand_8 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
-    let hand_50 = p.mount_22 * p.mount_32;
-    let hand_51 = hand_13 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
-    let hand_52 = p.mount_23 * p.mount_33;
-    let hand_53 = hand_3 * (hand_47 + hand_47) - hand_48 - hand_49 - hand_48;
-    let hand_54 = hand_53 + hand_11 * (hand_50 + hand_50) - hand_51 - hand_49;
-    let hand_i_23 = hand_54 - hand_51 + hand_16 * (hand_52 + hand_52);
-    let hand_55 = p.mount_31 * p.mount_31;
-    let hand_56 = p.mount_31 * p.mount_32;
-    let hand_57 = hand_5 * (hand_56 + hand_56);
-    let hand_58 = p.mount_31 * p.mount_33;
-    let hand_59 = hand_8 * (hand_58 + hand_58);
-    let hand_60 = p.mount_32 * p.mount_32;
-    let hand_61 = p.mount_32 * p.mount_33;
-    let hand_62 = hand_13 * (hand_61 + hand_61);
-    let hand_63 = p.mount_33 * p.mount_33;
-    let hand_64 = hand_3 * (hand_55 + hand_55) - hand_57 - hand_59 - hand_57;
-    let hand_65 = hand_64 + hand_11 * (hand_60 + hand_60) - hand_62 - hand_59;
-    let hand_i_33 = hand_65 - hand_62 + hand_16 * (hand_63 + hand_63);
+    let hand_3 = mc_bx * (p.r_w_b_by * (hand_0 + hand_0) + p.r_w_b_bz * hand_2);
+    let hand_4 = p.mount_11 * (axis_2 * (p.mount_11 + p.mount_11) - hand_3);
+    let hand_5 = p.mount_12 * (i_w_b_22 * hand_0 - mc_by * hand_2 * p.r_w_b_bz);
+    let hand_i_11 = half * (p.mount_13 * hand_1 * i_w_b_33 + hand_4 + hand_5);
+    let hand_6 = p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12;
+    let hand_7 = p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13;
+    let hand_8 = p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13;
+    let hand_9 = p.mount_21 + p.mount_21;
+    let hand_10 = p.mount_22 + p.mount_22;
+    let hand_11 = p.mount_23 + p.mount_23;
+    let hand_12 = p.r_w_b_by * (hand_6 + hand_6) + p.r_w_b_bz * (hand_7 + hand_7);
+    let hand_13 = p.mount_11 * hand_9 * axis_2 - mc_bx * hand_12;
+    let hand_14 = hand_13 + p.mount_12 * hand_10 * i_w_b_22;
+    let hand_15 = hand_14 - mc_by * (hand_8 + hand_8) * p.r_w_b_bz;
+    let hand_i_12 = half * (hand_15 + p.mount_13 * hand_11 * i_w_b_33);
+    let hand_16 = p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12;
+    let hand_17 = p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13;
+    let hand_18 = p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13;
+    let hand_19 = p.mount_31 + p.mount_31;
+    let hand_20 = p.mount_32 + p.mount_32;
+    let hand_21 = p.mount_33 + p.mount_33;
+    let hand_22 = p.r_w_b_bz * (hand_17 + hand_17);
+    let hand_23 = mc_bx * (p.r_w_b_by * (hand_16 + hand_16) + hand_22);
+    let hand_24 = p.mount_11 * hand_19 * axis_2 - hand_23;
+    let hand_25 = hand_24 + p.mount_12 * hand_20 * i_w_b_22;
+    let hand_26 = hand_25 - mc_by * (hand_18 + hand_18) * p.r_w_b_bz;
+    let hand_i_13 = half * (hand_26 + p.mount_13 * hand_21 * i_w_b_33);
+    let hand_27 = hand_11 + hand_11;
+    let hand_28 = mc_bx * (p.r_w_b_by * (hand_10 + hand_10) + p.r_w_b_bz * hand_27);
+    let hand_29 = p.mount_21 * (axis_2 * hand_9 - hand_28);
+    let hand_30 = p.mount_22 * (i_w_b_22 * hand_10 - mc_by * hand_27 * p.r_w_b_bz);
+    let hand_i_22 = half * (p.mount_23 * hand_11 * i_w_b_33 + hand_29 + hand_30);
+    let hand_31 = p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22;
+    let hand_32 = p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23;
+    let hand_33 = p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23;
+    let hand_34 = p.r_w_b_bz * (hand_32 + hand_32);
+    let hand_35 = mc_bx * (p.r_w_b_by * (hand_31 + hand_31) + hand_34);
+    let hand_36 = p.mount_21 * hand_19 * axis_2 - hand_35;
+    let hand_37 = hand_36 + p.mount_22 * hand_20 * i_w_b_22;
+    let hand_38 = hand_37 - mc_by * (hand_33 + hand_33) * p.r_w_b_bz;
+    let hand_i_23 = half * (hand_38 + p.mount_23 * hand_21 * i_w_b_33);
+    let hand_39 = hand_21 + hand_21;
+    let hand_40 = mc_bx * (p.r_w_b_by * (hand_20 + hand_20) + p.r_w_b_bz * hand_39);
+    let hand_41 = p.mount_31 * (axis_2 * hand_19 - hand_40);
+    let hand_42 = p.mount_32 * (i_w_b_22 * hand_20 - mc_by * hand_39 * p.r_w_b_bz);
+    let hand_i_33 = half * (p.mount_33 * hand_21 * i_w_b_33 + hand_41 + hand_42);
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration, along B axes.
@@ -635,23 +614,20 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // (76), kg m².
     let moment_0 = p.j_11 * half;
     let moment_1 = n_w_bx - p.mount_11 * moment_0;
-    let moment_2 = p.mount_11 * moment_1;
-    let i_moving_11 = moment_2 + moment_2;
-    let moment_3 = n_w_by - p.mount_21 * moment_0;
-    let i_moving_12 = p.mount_11 * moment_3 + p.mount_21 * moment_1;
-    let moment_4 = n_w_bz - p.mount_31 * moment_0;
-    let i_moving_13 = p.mount_11 * moment_4 + p.mount_31 * moment_1;
-    let moment_5 = p.mount_21 * moment_3;
-    let i_moving_22 = moment_5 + moment_5;
-    let i_moving_23 = p.mount_21 * moment_4 + p.mount_31 * moment_3;
-    let moment_6 = p.mount_31 * moment_4;
-    let i_moving_33 = moment_6 + moment_6;
+    let i_moving_11 = p.mount_11 * (moment_1 + moment_1);
+    let moment_2 = n_w_by - p.mount_21 * moment_0;
+    let i_moving_12 = p.mount_11 * moment_2 + p.mount_21 * moment_1;
+    let moment_3 = n_w_bz - p.mount_31 * moment_0;
+    let i_moving_13 = p.mount_11 * moment_3 + p.mount_31 * moment_1;
+    let i_moving_22 = p.mount_21 * (moment_2 + moment_2);
+    let i_moving_23 = p.mount_21 * moment_3 + p.mount_31 * moment_2;
+    let i_moving_33 = p.mount_31 * (moment_3 + moment_3);
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
-    let axis_3 = half * (i_w_b_11 + i_w_b_22 + i_w_b_33);
-    let second_moment_11 = axis_3 - i_w_b_11;
-    let second_moment_22 = axis_3 - i_w_b_22;
-    let second_moment_33 = axis_3 - i_w_b_33;
+    let axis_4 = half * (i_w_b_11 + i_w_b_22 + i_w_b_33);
+    let second_moment_11 = axis_4 - i_w_b_11;
+    let second_moment_22 = axis_4 - i_w_b_22;
+    let second_moment_33 = axis_4 - i_w_b_33;
 
     // Products and sums of parameters that occur more deeply.
     let k_0 = p.j_22 - p.j_11;
@@ -1034,7 +1010,7 @@ pub fn axes<T: Real>(p: &Prepared<T>) -> Axes<T> {
 /// What the carrier of each joint exerts on all outside it, so that these accelerations
 /// happen: the torques of (116).
 ///
-/// Operations: 39 mul, 29 add, 0 neg, 0 div, 0 trig.
+/// Operations: 36 mul, 27 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn loads<T: Real>(
     p: &Prepared<T>,
@@ -1068,15 +1044,11 @@ pub fn loads<T: Real>(
     let f_load_wx = p.m_w * r_w_n_ddot_wx;
     let f_load_wy = p.m_w * r_w_n_ddot_wy;
     let f_load_wz = p.m_w * r_w_n_ddot_wz;
-    let load_0 = w.omega_by * p.j_22;
-    let load_1 = w.omega_bz * p.j_22;
-    let load_2 = w.omega_by * load_1 - w.omega_bz * load_0;
-    let n_load_wx = load_2 + p.j_11 * omega_w_n_dot_wx;
-    let load_3 = p.j_11 * omega_w_n_wx;
-    let load_4 = w.omega_bz * load_3 - w.omega_bx * load_1;
-    let n_load_wy = load_4 + a.omega_dot_by * p.j_22;
-    let load_5 = w.omega_bx * load_0 - w.omega_by * load_3;
-    let n_load_wz = load_5 + a.omega_dot_bz * p.j_22;
+    let n_load_wx = p.j_11 * omega_w_n_dot_wx;
+    let load_0 = p.j_22 * (a.omega_dot_by - w.omega_bx * w.omega_bz);
+    let n_load_wy = w.omega_bz * omega_w_n_wx * p.j_11 + load_0;
+    let load_1 = p.j_22 * (a.omega_dot_bz + w.omega_bx * w.omega_by);
+    let n_load_wz = load_1 - w.omega_by * omega_w_n_wx * p.j_11;
 
     // On the whole device, eqs. (16), (75): force, N, and moment about B, N m.
     let f_load_bx = f_load_wx;

@@ -155,7 +155,7 @@ pub struct Prepared<T> {
     /// `p.m_g * p.r_gc_g_gz`. The gimbal about its origin: first moment, kg m, and inertia as
     /// in eq. (40), kg m².
     pub mr_gc_g_gz: T,
-    /// `p.i_g_11 + p.m_g * (base_1 + hand_11)`. The gimbal about its origin: first moment, kg
+    /// `p.i_g_11 + p.m_g * (base_1 + hand_5)`. The gimbal about its origin: first moment, kg
     /// m, and inertia as in eq. (40), kg m².
     pub i_g_g_11: T,
     /// `p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g`. The gimbal about its origin: first
@@ -164,14 +164,14 @@ pub struct Prepared<T> {
     /// `p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_13: T,
-    /// `p.i_g_22 + p.m_g * (hand_10 + hand_11)`. The gimbal about its origin: first moment,
-    /// kg m, and inertia as in eq. (40), kg m².
+    /// `p.i_g_22 + p.m_g * hand_6`. The gimbal about its origin: first moment, kg m, and
+    /// inertia as in eq. (40), kg m².
     pub i_g_g_22: T,
     /// `p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_23: T,
-    /// `p.i_g_33 + p.m_g * (hand_10 + base_1)`. The gimbal about its origin: first moment, kg
-    /// m, and inertia as in eq. (40), kg m².
+    /// `p.i_g_33 + base_6`. The gimbal about its origin: first moment, kg m, and inertia as
+    /// in eq. (40), kg m².
     pub i_g_g_33: T,
     /// `p.l_g_x * p.m_w + mr_gc_g_gx`. D, the gimbal and what it carries, eq. (89): mass, kg;
     /// first moment, kg m, and inertia, kg m², about G.
@@ -179,21 +179,12 @@ pub struct Prepared<T> {
     /// `p.l_g_y * p.m_w + mr_gc_g_gy`. D, the gimbal and what it carries, eq. (89): mass, kg;
     /// first moment, kg m, and inertia, kg m², about G.
     pub mr_d_g_gy: T,
-    /// `p.j_11 + p.m_w * (base_0 + hand_9) + i_g_g_11`. D, the gimbal and what it carries,
-    /// eq. (89): mass, kg; first moment, kg m, and inertia, kg m², about G.
-    pub i_d_g_11: T,
     /// `i_g_g_13 - p.l_g_x * p.l_g_z * p.m_w`. D, the gimbal and what it carries, eq. (89):
     /// mass, kg; first moment, kg m, and inertia, kg m², about G.
     pub i_d_g_13: T,
-    /// `p.j_22 + p.m_w * (hand_8 + hand_9) + i_g_g_22`. D, the gimbal and what it carries,
-    /// eq. (89): mass, kg; first moment, kg m, and inertia, kg m², about G.
-    pub i_d_g_22: T,
     /// `i_g_g_23 - p.l_g_y * p.l_g_z * p.m_w`. D, the gimbal and what it carries, eq. (89):
     /// mass, kg; first moment, kg m, and inertia, kg m², about G.
     pub i_d_g_23: T,
-    /// `p.j_22 + p.m_w * (hand_8 + base_0) + i_g_g_33`. D, the gimbal and what it carries,
-    /// eq. (89): mass, kg; first moment, kg m, and inertia, kg m², about G.
-    pub i_d_g_33: T,
     /// `i_g_base_33`. Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and
     /// bias, N m, eq. (C3).
     pub mass_gg: T,
@@ -201,57 +192,41 @@ pub struct Prepared<T> {
     pub k_2: T,
     /// `i_d_g_12 + i_d_g_12`.
     pub k_3: T,
-    /// `-i_d_g_12`.
-    pub k_4: T,
     /// `p.r_g_b_bx + p.r_g_b_bx`.
-    pub k_5: T,
+    pub k_4: T,
     /// `p.r_g_b_by + p.r_g_b_by`.
-    pub k_6: T,
-    /// `mr_d_g_gz * (p.r_g_b_bz + p.r_g_b_bz)`.
-    pub k_7: T,
-    /// `p.r_g_b_bx * mr_d_g_gz`.
-    pub k_8: T,
-    /// `p.r_g_b_by * mr_d_g_gz`.
-    pub k_9: T,
-    /// `m_d * (hand_13 + hand_14)`.
-    pub k_10: T,
-    /// `-(p.r_g_b_bx * p.r_g_b_by * m_d)`.
-    pub k_11: T,
-    /// `-(p.r_g_b_bx * p.r_g_b_bz * m_d)`.
-    pub k_12: T,
-    /// `m_d * (hand_12 + hand_14)`.
-    pub k_13: T,
-    /// `-(p.r_g_b_by * p.r_g_b_bz * m_d)`.
-    pub k_14: T,
-    /// `m_d * (hand_12 + hand_13)`.
-    pub k_15: T,
+    pub k_5: T,
     /// `p.r_g_b_bx * m_d`.
-    pub k_16: T,
+    pub k_6: T,
     /// `p.r_g_b_by * m_d`.
-    pub k_17: T,
+    pub k_7: T,
     /// `mr_d_g_gz + p.r_g_b_bz * m_d`. Σ m r, share of m_sc c, eq. (9), kg m.
     pub mc_bz: T,
-    /// `p.i_g_12 - (base_5 + p.r_gc_g_gy * mr_gc_g_gx)`. Base parameters of the gimbal, eqs.
+    /// `p.m_g * r_gc_b_bz`.
+    pub k_8: T,
+    /// `p.m_w * r_wc_b_gz`.
+    pub k_9: T,
+    /// `p.i_g_12 - (base_3 + p.r_gc_g_gy * mr_gc_g_gx)`. Base parameters of the gimbal, eqs.
     /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_g_base_12: T,
-    /// `p.r_gc_g_gx * base_6 - p.r_gc_g_gz * mr_gc_g_gx + p.i_g_13`. Base parameters of the
+    /// `p.r_gc_g_gx * base_4 - p.r_gc_g_gz * mr_gc_g_gx + p.i_g_13`. Base parameters of the
     /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_g_base_13: T,
-    /// `p.i_g_23 + p.r_gc_g_gy * base_6 - p.r_gc_g_gz * mr_gc_g_gy`. Base parameters of the
+    /// `p.i_g_23 + p.r_gc_g_gy * base_4 - p.r_gc_g_gz * mr_gc_g_gy`. Base parameters of the
     /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_g_base_23: T,
-    /// `p.i_g_33 + hand_16 + hand_15 + base_3 + base_2 + p.j_22`. Base parameters of the
-    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_5 + base_6 + p.i_g_33 + p.j_22`. Base parameters of the gimbal, eqs. (B1), (B2):
+    /// arm, m, first moment, kg m, inertia, kg m².
     pub i_g_base_33: T,
     /// `p.j_11 + i_g_base_11`. What lies behind the gimbal's joint, of D, by base parameters,
     /// eqs. (B1), (B2): first moment, kg m, and inertia, kg m².
     pub i_behind_d_11: T,
     /// `i_g_base_12 + i_g_base_12`.
-    pub k_18: T,
+    pub k_10: T,
     /// `i_g_base_33 + i_behind_d_11`.
-    pub k_19: T,
+    pub k_11: T,
     /// `i_g_base_33 - i_behind_d_11`.
-    pub k_20: T,
+    pub k_12: T,
     /// `place_0 + p.mount_13 * r_wc_b_gz`. Origin of the first joint, eq. (A2), along B axes,
     /// m.
     pub reach_bx: T,
@@ -262,64 +237,77 @@ pub struct Prepared<T> {
     /// m.
     pub reach_bz: T,
     /// `p.mount_13 * i_g_base_33`.
-    pub k_21: T,
+    pub k_13: T,
     /// `p.mount_23 * i_g_base_33`.
-    pub k_22: T,
+    pub k_14: T,
     /// `p.mount_33 * i_g_base_33`.
-    pub k_23: T,
+    pub k_15: T,
     /// `half * i_behind_d_11`.
-    pub k_24: T,
+    pub k_16: T,
     /// `-(p.mount_13 * prep_0)`.
-    pub k_25: T,
+    pub k_17: T,
     /// `-(p.mount_23 * prep_0)`.
-    pub k_26: T,
+    pub k_18: T,
     /// `-(p.mount_33 * prep_0)`.
-    pub k_27: T,
+    pub k_19: T,
     /// `reach_bx + reach_bx`.
-    pub k_28: T,
+    pub k_20: T,
     /// `reach_by + reach_by`.
-    pub k_29: T,
+    pub k_21: T,
     /// `reach_bz + reach_bz`.
-    pub k_30: T,
-    /// `p.mount_11 * hand_2 + p.mount_12 * hand_5 + p.mount_13 * hand_7`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    pub k_22: T,
+    /// `p.mount_11 * k_6 + p.mount_12 * k_7 + p.mount_13 * hand_0`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_mr_bx: T,
-    /// `p.mount_21 * hand_2 + p.mount_22 * hand_5 + p.mount_23 * hand_7`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `p.mount_21 * k_6 + p.mount_22 * k_7 + p.mount_23 * hand_0`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_mr_by: T,
-    /// `p.mount_31 * hand_2 + p.mount_32 * hand_5 + p.mount_33 * hand_7`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `p.mount_31 * k_6 + p.mount_32 * k_7 + p.mount_33 * hand_0`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_mr_bz: T,
-    /// `hand_51 - hand_47 + hand_48 * (hand_49 + hand_49)`. What the hub takes over, eq.
+    /// `half * (hand_29 + p.mount_13 * hand_13 * hand_11)`. What the hub takes over, eq.
     /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_11: T,
-    /// `hand_59 - hand_56 + hand_48 * (hand_57 + hand_57)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_37 - hand_36)`. What the hub takes over, eq. (B2): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_12: T,
-    /// `hand_67 - hand_64 + hand_48 * (hand_65 + hand_65)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_45 - hand_44)`. What the hub takes over, eq. (B2): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_13: T,
-    /// `hand_78 - hand_75 + hand_48 * (hand_76 + hand_76)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * hand_48`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
+    /// inertia about B, kg m², along B axes.
     pub hand_i_22: T,
-    /// `hand_86 - hand_83 + hand_48 * (hand_84 + hand_84)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_53 - hand_52)`. What the hub takes over, eq. (B2): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_23: T,
-    /// `hand_97 - hand_94 + hand_48 * (hand_95 + hand_95)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * hand_56`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
+    /// inertia about B, kg m², along B axes.
     pub hand_i_33: T,
     /// `i_g_g_22 - i_g_g_33`.
-    pub k_31: T,
+    pub k_23: T,
     /// `i_g_g_33 - i_g_g_11`.
-    pub k_32: T,
+    pub k_24: T,
     /// `i_g_g_11 - i_g_g_22`.
-    pub k_33: T,
+    pub k_25: T,
     /// `p.j_22 - p.j_11`.
-    pub k_34: T,
+    pub k_26: T,
     /// `p.j_11 - p.j_22`.
+    pub k_27: T,
+    /// `p.i_g_11 - p.i_g_22`.
+    pub k_28: T,
+    /// `p.i_g_12 + p.i_g_12`.
+    pub k_29: T,
+    /// `i_d_g_11 + prep_1 + m_d * (hand_9 + hand_10)`.
+    pub k_30: T,
+    /// `-(i_d_g_12 + p.r_g_b_bx * p.r_g_b_by * m_d)`.
+    pub k_31: T,
+    /// `-(p.r_g_b_bx * mc_bz)`.
+    pub k_32: T,
+    /// `i_d_g_22 + prep_1 + m_d * (hand_8 + hand_10)`.
+    pub k_33: T,
+    /// `-(p.r_g_b_by * mc_bz)`.
+    pub k_34: T,
+    /// `i_d_g_33 + m_d * (hand_8 + hand_9)`.
     pub k_35: T,
 }
 
@@ -384,11 +372,8 @@ impl<T: Copy> Prepared<T> {
             i_g_g_33: join(self.i_g_g_33, other.i_g_g_33),
             mr_d_g_gx: join(self.mr_d_g_gx, other.mr_d_g_gx),
             mr_d_g_gy: join(self.mr_d_g_gy, other.mr_d_g_gy),
-            i_d_g_11: join(self.i_d_g_11, other.i_d_g_11),
             i_d_g_13: join(self.i_d_g_13, other.i_d_g_13),
-            i_d_g_22: join(self.i_d_g_22, other.i_d_g_22),
             i_d_g_23: join(self.i_d_g_23, other.i_d_g_23),
-            i_d_g_33: join(self.i_d_g_33, other.i_d_g_33),
             mass_gg: join(self.mass_gg, other.mass_gg),
             k_2: join(self.k_2, other.k_2),
             k_3: join(self.k_3, other.k_3),
@@ -396,38 +381,30 @@ impl<T: Copy> Prepared<T> {
             k_5: join(self.k_5, other.k_5),
             k_6: join(self.k_6, other.k_6),
             k_7: join(self.k_7, other.k_7),
+            mc_bz: join(self.mc_bz, other.mc_bz),
             k_8: join(self.k_8, other.k_8),
             k_9: join(self.k_9, other.k_9),
-            k_10: join(self.k_10, other.k_10),
-            k_11: join(self.k_11, other.k_11),
-            k_12: join(self.k_12, other.k_12),
-            k_13: join(self.k_13, other.k_13),
-            k_14: join(self.k_14, other.k_14),
-            k_15: join(self.k_15, other.k_15),
-            k_16: join(self.k_16, other.k_16),
-            k_17: join(self.k_17, other.k_17),
-            mc_bz: join(self.mc_bz, other.mc_bz),
             i_g_base_12: join(self.i_g_base_12, other.i_g_base_12),
             i_g_base_13: join(self.i_g_base_13, other.i_g_base_13),
             i_g_base_23: join(self.i_g_base_23, other.i_g_base_23),
             i_g_base_33: join(self.i_g_base_33, other.i_g_base_33),
             i_behind_d_11: join(self.i_behind_d_11, other.i_behind_d_11),
-            k_18: join(self.k_18, other.k_18),
-            k_19: join(self.k_19, other.k_19),
-            k_20: join(self.k_20, other.k_20),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
             reach_bx: join(self.reach_bx, other.reach_bx),
             reach_by: join(self.reach_by, other.reach_by),
             reach_bz: join(self.reach_bz, other.reach_bz),
+            k_13: join(self.k_13, other.k_13),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
+            k_16: join(self.k_16, other.k_16),
+            k_17: join(self.k_17, other.k_17),
+            k_18: join(self.k_18, other.k_18),
+            k_19: join(self.k_19, other.k_19),
+            k_20: join(self.k_20, other.k_20),
             k_21: join(self.k_21, other.k_21),
             k_22: join(self.k_22, other.k_22),
-            k_23: join(self.k_23, other.k_23),
-            k_24: join(self.k_24, other.k_24),
-            k_25: join(self.k_25, other.k_25),
-            k_26: join(self.k_26, other.k_26),
-            k_27: join(self.k_27, other.k_27),
-            k_28: join(self.k_28, other.k_28),
-            k_29: join(self.k_29, other.k_29),
-            k_30: join(self.k_30, other.k_30),
             hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
             hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
             hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
@@ -437,6 +414,14 @@ impl<T: Copy> Prepared<T> {
             hand_i_22: join(self.hand_i_22, other.hand_i_22),
             hand_i_23: join(self.hand_i_23, other.hand_i_23),
             hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
+            k_29: join(self.k_29, other.k_29),
+            k_30: join(self.k_30, other.k_30),
             k_31: join(self.k_31, other.k_31),
             k_32: join(self.k_32, other.k_32),
             k_33: join(self.k_33, other.k_33),
@@ -966,7 +951,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 199 mul, 200 add, 8 neg, 0 div, 0 trig.
+/// Operations: 174 mul, 160 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // r_{Gc/B}, behind eq. (12), m.
@@ -988,137 +973,98 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let m_d = p.m_g + p.m_w;
     let mr_d_g_gx = p.l_g_x * p.m_w + mr_gc_g_gx;
     let mr_d_g_gy = p.l_g_y * p.m_w + mr_gc_g_gy;
-    let lump_0 = p.l_g_z * p.m_w;
-    let mr_d_g_gz = lump_0 + mr_gc_g_gz;
+    let mr_d_g_gz = p.l_g_z * p.m_w + mr_gc_g_gz;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_bz = mr_d_g_gz + p.r_g_b_bz * m_d;
 
     // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
     // m², along B axes.
-    let hand_0 = p.r_g_b_bx * p.m_g;
-    let hand_1 = p.r_g_b_bx * p.m_w;
-    let hand_2 = hand_0 + hand_1;
-    let hand_3 = p.r_g_b_by * p.m_g;
-    let hand_4 = p.r_g_b_by * p.m_w;
-    let hand_5 = hand_3 + hand_4;
-    let hand_6 = p.r_g_b_bz * p.m_g;
-    let hand_7 = hand_6 + p.r_g_b_bz * p.m_w + lump_0 + mr_gc_g_gz;
-    let hand_mr_bx = p.mount_11 * hand_2 + p.mount_12 * hand_5 + p.mount_13 * hand_7;
-    let hand_mr_by = p.mount_21 * hand_2 + p.mount_22 * hand_5 + p.mount_23 * hand_7;
-    let hand_mr_bz = p.mount_31 * hand_2 + p.mount_32 * hand_5 + p.mount_33 * hand_7;
-    let hand_8 = p.l_g_x * p.l_g_x;
-    let hand_9 = p.l_g_z * p.l_g_z;
-    let hand_10 = p.r_gc_g_gx * p.r_gc_g_gx;
-    let hand_11 = p.r_gc_g_gz * p.r_gc_g_gz;
-    let hand_12 = p.r_g_b_bx * p.r_g_b_bx;
-    let hand_13 = p.r_g_b_by * p.r_g_b_by;
-    let hand_14 = p.r_g_b_bz * p.r_g_b_bz;
-    let hand_15 = p.m_w * hand_8;
-    let hand_16 = p.m_g * hand_10;
-    let hand_17 = p.m_g * hand_13;
-    let hand_18 = p.m_g * hand_14;
-    let hand_19 = p.m_w * hand_13;
-    let hand_20 = p.m_w * hand_14;
-    let hand_21 = p.r_g_b_bz * lump_0;
-    let hand_22 = hand_21 + hand_21;
-    let hand_23 = p.m_w * hand_9;
-    let hand_24 = p.r_gc_g_gz * hand_6;
-    let hand_25 = hand_24 + hand_24;
-    let hand_26 = p.m_g * hand_11;
-    let hand_27 = p.m_g * hand_12;
-    let hand_28 = p.m_w * hand_12;
+    let k_6 = p.r_g_b_bx * m_d;
+    let k_7 = p.r_g_b_by * m_d;
+    let k_9 = p.m_w * r_wc_b_gz;
+    let hand_0 = k_9 + p.r_g_b_bz * p.m_g + mr_gc_g_gz;
+    let hand_mr_bx = p.mount_11 * k_6 + p.mount_12 * k_7 + p.mount_13 * hand_0;
+    let hand_mr_by = p.mount_21 * k_6 + p.mount_22 * k_7 + p.mount_23 * hand_0;
+    let hand_mr_bz = p.mount_31 * k_6 + p.mount_32 * k_7 + p.mount_33 * hand_0;
+    let hand_1 = p.l_g_x * p.l_g_x;
+    let hand_2 = p.l_g_z * p.l_g_z;
+    let hand_3 = hand_1 + hand_2;
+    let hand_4 = p.r_gc_g_gx * p.r_gc_g_gx;
+    let hand_5 = p.r_gc_g_gz * p.r_gc_g_gz;
+    let hand_6 = hand_4 + hand_5;
+    let hand_7 = p.r_g_b_bz + p.r_g_b_bz;
+    let hand_8 = p.r_g_b_bx * p.r_g_b_bx;
+    let hand_9 = p.r_g_b_by * p.r_g_b_by;
+    let hand_10 = p.r_g_b_bz * p.r_g_b_bz;
+    let hand_11 = p.r_g_b_bx * k_6 + p.r_g_b_by * k_7;
+    let hand_12 = p.mount_12 + p.mount_12;
+    let hand_13 = p.mount_13 + p.mount_13;
+    let hand_14 = p.r_g_b_bx * mr_d_g_gz + p.r_g_b_bz * k_6;
+    let hand_15 = p.r_g_b_by * mr_d_g_gz + p.r_g_b_bz * k_7;
+    let hand_16 = p.r_g_b_by * (k_6 + k_6);
+    let hand_17 = hand_14 + hand_14;
+    let hand_18 = hand_15 + hand_15;
+    let hand_19 = p.l_g_z * hand_7;
+    let hand_20 = p.r_g_b_bz * (p.r_gc_g_gz + p.r_gc_g_gz);
+    let hand_21 = p.m_g * (hand_4 + hand_9 + hand_10 + hand_5 + hand_20);
+    let hand_22 = p.m_w * (hand_1 + hand_9 + hand_10 + hand_2 + hand_19) + hand_21;
+    let hand_23 = hand_22 + p.i_g_22 + p.j_22;
+    let hand_24 = p.m_g * (hand_6 + hand_10 + hand_8 + hand_20);
+    let hand_25 = p.m_w * (hand_3 + hand_10 + hand_8 + hand_19) + hand_24 + p.i_g_22;
+    let hand_26 = hand_25 + p.j_22;
     let half = p.mount_11.like(0.5);
-    let hand_29 = hand_17 + hand_18 + hand_16 + hand_19 + hand_20 + hand_22;
-    let hand_30 = hand_29 + hand_23 + hand_15 + hand_25 + hand_26 + p.i_g_22;
-    let hand_31 = half * (hand_30 + p.j_22);
-    let hand_32 = p.mount_11 * p.mount_11;
-    let hand_33 = half * (p.r_g_b_by * hand_0 + p.r_g_b_by * hand_1);
-    let hand_34 = p.mount_11 * p.mount_12;
-    let hand_35 = hand_33 * (hand_34 + hand_34);
-    let hand_36 = p.r_g_b_bz * hand_0 + p.r_g_b_bz * hand_1 + p.r_g_b_bx * lump_0;
-    let hand_37 = half * (hand_36 + p.r_gc_g_gz * hand_0);
-    let hand_38 = p.mount_11 * p.mount_13;
-    let hand_39 = hand_37 * (hand_38 + hand_38);
-    let hand_40 = hand_18 + hand_27 + hand_16 + hand_28 + hand_20 + hand_22;
-    let hand_41 = hand_40 + hand_23 + hand_15 + hand_25 + hand_26 + p.i_g_22;
-    let hand_42 = half * (hand_41 + p.j_22);
-    let hand_43 = p.mount_12 * p.mount_12;
-    let hand_44 = p.r_g_b_bz * hand_3 + p.r_g_b_bz * hand_4 + p.r_g_b_by * lump_0;
-    let hand_45 = half * (hand_44 + p.r_gc_g_gz * hand_3);
-    let hand_46 = p.mount_12 * p.mount_13;
-    let hand_47 = hand_45 * (hand_46 + hand_46);
-    let hand_48 = half * (hand_17 + hand_27 + hand_28 + hand_19);
-    let hand_49 = p.mount_13 * p.mount_13;
-    let hand_50 = hand_31 * (hand_32 + hand_32) - hand_35 - hand_39 - hand_35;
-    let hand_51 = hand_50 + hand_42 * (hand_43 + hand_43) - hand_47 - hand_39;
-    let hand_i_11 = hand_51 - hand_47 + hand_48 * (hand_49 + hand_49);
-    let hand_52 = p.mount_11 * p.mount_21;
-    let hand_53 = hand_33 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
-    let hand_54 = hand_37 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
-    let hand_55 = p.mount_12 * p.mount_22;
-    let hand_56 = hand_45 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
-    let hand_57 = p.mount_13 * p.mount_23;
-    let hand_58 = hand_31 * (hand_52 + hand_52) - hand_53 - hand_54 - hand_53;
-    let hand_59 = hand_58 + hand_42 * (hand_55 + hand_55) - hand_56 - hand_54;
-    let hand_i_12 = hand_59 - hand_56 + hand_48 * (hand_57 + hand_57);
-    let hand_60 = p.mount_11 * p.mount_31;
-    let hand_61 = hand_33 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
-    let hand_62 = hand_37 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
-    let hand_63 = p.mount_12 * p.mount_32;
-    let hand_64 = hand_45 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
-    let hand_65 = p.mount_13 * p.mount_33;
-    let hand_66 = hand_31 * (hand_60 + hand_60) - hand_61 - hand_62 - hand_61;
-    let hand_67 = hand_66 + hand_42 * (hand_63 + hand_63) - hand_64 - hand_62;
-    let hand_i_13 = hand_67 - hand_64 + hand_48 * (hand_65 + hand_65);
-    let hand_68 = p.mount_21 * p.mount_21;
-    let hand_69 = p.mount_21 * p.mount_22;
-    let hand_70 = hand_33 * (hand_69 + hand_69);
-    let hand_71 = p.mount_21 * p.mount_23;
-    let hand_72 = hand_37 * (hand_71 + hand_71);
-    let hand_73 = p.mount_22 * p.mount_22;
-    let hand_74 = p.mount_22 * p.mount_23;
-    let hand_75 = hand_45 * (hand_74 + hand_74);
-    let hand_76 = p.mount_23 * p.mount_23;
-    let hand_77 = hand_31 * (hand_68 + hand_68) - hand_70 - hand_72 - hand_70;
-    let hand_78 = hand_77 + hand_42 * (hand_73 + hand_73) - hand_75 - hand_72;
-    let hand_i_22 = hand_78 - hand_75 + hand_48 * (hand_76 + hand_76);
-    let hand_79 = p.mount_21 * p.mount_31;
-    let hand_80 = hand_33 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
-    let hand_81 = hand_37 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
-    let hand_82 = p.mount_22 * p.mount_32;
-    let hand_83 = hand_45 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
-    let hand_84 = p.mount_23 * p.mount_33;
-    let hand_85 = hand_31 * (hand_79 + hand_79) - hand_80 - hand_81 - hand_80;
-    let hand_86 = hand_85 + hand_42 * (hand_82 + hand_82) - hand_83 - hand_81;
-    let hand_i_23 = hand_86 - hand_83 + hand_48 * (hand_84 + hand_84);
-    let hand_87 = p.mount_31 * p.mount_31;
-    let hand_88 = p.mount_31 * p.mount_32;
-    let hand_89 = hand_33 * (hand_88 + hand_88);
-    let hand_90 = p.mount_31 * p.mount_33;
-    let hand_91 = hand_37 * (hand_90 + hand_90);
-    let hand_92 = p.mount_32 * p.mount_32;
-    let hand_93 = p.mount_32 * p.mount_33;
-    let hand_94 = hand_45 * (hand_93 + hand_93);
-    let hand_95 = p.mount_33 * p.mount_33;
-    let hand_96 = hand_31 * (hand_87 + hand_87) - hand_89 - hand_91 - hand_89;
-    let hand_97 = hand_96 + hand_42 * (hand_92 + hand_92) - hand_94 - hand_91;
-    let hand_i_33 = hand_97 - hand_94 + hand_48 * (hand_95 + hand_95);
+    let hand_27 = (p.mount_11 + p.mount_11) * hand_23 - hand_12 * hand_16;
+    let hand_28 = p.mount_12 * (hand_12 * hand_26 - hand_13 * hand_18);
+    let hand_29 = p.mount_11 * (hand_27 - hand_13 * hand_17) + hand_28;
+    let hand_i_11 = half * (hand_29 + p.mount_13 * hand_13 * hand_11);
+    let hand_30 = p.mount_21 + p.mount_21;
+    let hand_31 = p.mount_22 + p.mount_22;
+    let hand_32 = p.mount_23 + p.mount_23;
+    let hand_33 = p.mount_13 * hand_32 * hand_11 + p.mount_12 * hand_31 * hand_26;
+    let hand_34 = (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12) * hand_16;
+    let hand_35 = (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13) * hand_17;
+    let hand_36 = (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13) * hand_18;
+    let hand_37 = hand_33 + p.mount_11 * hand_30 * hand_23 - hand_34 - hand_35;
+    let hand_i_12 = half * (hand_37 - hand_36);
+    let hand_38 = p.mount_31 + p.mount_31;
+    let hand_39 = p.mount_32 + p.mount_32;
+    let hand_40 = p.mount_33 + p.mount_33;
+    let hand_41 = p.mount_13 * hand_40 * hand_11 + p.mount_12 * hand_39 * hand_26;
+    let hand_42 = (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12) * hand_16;
+    let hand_43 = (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13) * hand_17;
+    let hand_44 = (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13) * hand_18;
+    let hand_45 = hand_41 + p.mount_11 * hand_38 * hand_23 - hand_42 - hand_43;
+    let hand_i_13 = half * (hand_45 - hand_44);
+    let hand_46 = hand_30 * hand_23 - hand_31 * hand_16 - hand_32 * hand_17;
+    let hand_47 = p.mount_22 * (hand_31 * hand_26 - hand_32 * hand_18);
+    let hand_48 = p.mount_21 * hand_46 + hand_47 + p.mount_23 * hand_32 * hand_11;
+    let hand_i_22 = half * hand_48;
+    let hand_49 = p.mount_23 * hand_40 * hand_11 + p.mount_22 * hand_39 * hand_26;
+    let hand_50 = (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22) * hand_16;
+    let hand_51 = (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23) * hand_17;
+    let hand_52 = (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23) * hand_18;
+    let hand_53 = hand_49 + p.mount_21 * hand_38 * hand_23 - hand_50 - hand_51;
+    let hand_i_23 = half * (hand_53 - hand_52);
+    let hand_54 = hand_38 * hand_23 - hand_39 * hand_16 - hand_40 * hand_17;
+    let hand_55 = p.mount_32 * (hand_39 * hand_26 - hand_40 * hand_18);
+    let hand_56 = p.mount_31 * hand_54 + hand_55 + p.mount_33 * hand_40 * hand_11;
+    let hand_i_33 = half * hand_56;
 
     // Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg
     // m².
     let base_0 = p.l_g_y * p.l_g_y;
     let base_1 = p.r_gc_g_gy * p.r_gc_g_gy;
-    let base_2 = p.m_w * base_0;
-    let base_3 = p.m_g * base_1;
-    let base_4 = base_3 - (hand_15 + hand_16) + base_2 + p.i_g_11 - p.i_g_22;
-    let i_g_base_11 = base_4 - p.j_22;
-    let base_5 = p.l_g_x * p.l_g_y * p.m_w;
-    let i_g_base_12 = p.i_g_12 - (base_5 + p.r_gc_g_gy * mr_gc_g_gx);
-    let base_6 = p.m_g * p.l_g_z;
-    let i_g_base_13 = p.r_gc_g_gx * base_6 - p.r_gc_g_gz * mr_gc_g_gx + p.i_g_13;
-    let i_g_base_23 = p.i_g_23 + p.r_gc_g_gy * base_6 - p.r_gc_g_gz * mr_gc_g_gy;
-    let i_g_base_33 = p.i_g_33 + hand_16 + hand_15 + base_3 + base_2 + p.j_22;
+    let base_2 = p.m_g * (base_1 - hand_4) + p.m_w * (base_0 - hand_1);
+    let i_g_base_11 = base_2 + p.i_g_11 - p.i_g_22 - p.j_22;
+    let base_3 = p.l_g_x * p.l_g_y * p.m_w;
+    let i_g_base_12 = p.i_g_12 - (base_3 + p.r_gc_g_gy * mr_gc_g_gx);
+    let base_4 = p.m_g * p.l_g_z;
+    let i_g_base_13 = p.r_gc_g_gx * base_4 - p.r_gc_g_gz * mr_gc_g_gx + p.i_g_13;
+    let i_g_base_23 = p.i_g_23 + p.r_gc_g_gy * base_4 - p.r_gc_g_gz * mr_gc_g_gy;
+    let base_5 = p.m_w * (hand_1 + base_0);
+    let base_6 = p.m_g * (hand_4 + base_1);
+    let i_g_base_33 = base_5 + base_6 + p.i_g_33 + p.j_22;
 
     // What lies behind the gimbal's joint, of D, by base parameters, eqs. (B1), (B2): first
     // moment, kg m, and inertia, kg m².
@@ -1136,60 +1082,58 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let reach_bz = place_2 + p.mount_33 * r_wc_b_gz;
 
     // The gimbal about its origin: first moment, kg m, and inertia as in eq. (40), kg m².
-    let i_g_g_11 = p.i_g_11 + p.m_g * (base_1 + hand_11);
+    let i_g_g_11 = p.i_g_11 + p.m_g * (base_1 + hand_5);
     let i_g_g_12 = p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g;
     let i_g_g_13 = p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g;
-    let i_g_g_22 = p.i_g_22 + p.m_g * (hand_10 + hand_11);
+    let i_g_g_22 = p.i_g_22 + p.m_g * hand_6;
     let i_g_g_23 = p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g;
-    let i_g_g_33 = p.i_g_33 + p.m_g * (hand_10 + base_1);
+    let i_g_g_33 = p.i_g_33 + base_6;
 
     // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
     // m², about G.
-    let i_d_g_11 = p.j_11 + p.m_w * (base_0 + hand_9) + i_g_g_11;
-    let i_d_g_12 = i_g_g_12 - base_5;
+    let i_d_g_11 = p.j_11 + p.m_w * (base_0 + hand_2) + i_g_g_11;
+    let i_d_g_12 = i_g_g_12 - base_3;
     let i_d_g_13 = i_g_g_13 - p.l_g_x * p.l_g_z * p.m_w;
-    let i_d_g_22 = p.j_22 + p.m_w * (hand_8 + hand_9) + i_g_g_22;
+    let i_d_g_22 = p.j_22 + p.m_w * hand_3 + i_g_g_22;
     let i_d_g_23 = i_g_g_23 - p.l_g_y * p.l_g_z * p.m_w;
-    let i_d_g_33 = p.j_22 + p.m_w * (hand_8 + base_0) + i_g_g_33;
+    let i_d_g_33 = p.j_22 + base_5 + i_g_g_33;
 
     // Products and sums of parameters that occur more deeply.
     let k_0 = r_gc_b_bz * r_gc_b_bz;
     let k_1 = r_wc_b_gz * r_wc_b_gz;
     let k_2 = i_d_g_22 - i_d_g_11;
     let k_3 = i_d_g_12 + i_d_g_12;
-    let k_4 = -i_d_g_12;
-    let k_5 = p.r_g_b_bx + p.r_g_b_bx;
-    let k_6 = p.r_g_b_by + p.r_g_b_by;
-    let k_7 = mr_d_g_gz * (p.r_g_b_bz + p.r_g_b_bz);
-    let k_8 = p.r_g_b_bx * mr_d_g_gz;
-    let k_9 = p.r_g_b_by * mr_d_g_gz;
-    let k_10 = m_d * (hand_13 + hand_14);
-    let k_11 = -(p.r_g_b_bx * p.r_g_b_by * m_d);
-    let k_12 = -(p.r_g_b_bx * p.r_g_b_bz * m_d);
-    let k_13 = m_d * (hand_12 + hand_14);
-    let k_14 = -(p.r_g_b_by * p.r_g_b_bz * m_d);
-    let k_15 = m_d * (hand_12 + hand_13);
-    let k_16 = p.r_g_b_bx * m_d;
-    let k_17 = p.r_g_b_by * m_d;
-    let k_18 = i_g_base_12 + i_g_base_12;
-    let k_19 = i_g_base_33 + i_behind_d_11;
-    let k_20 = i_g_base_33 - i_behind_d_11;
-    let k_21 = p.mount_13 * i_g_base_33;
-    let k_22 = p.mount_23 * i_g_base_33;
-    let k_23 = p.mount_33 * i_g_base_33;
-    let k_24 = half * i_behind_d_11;
+    let k_4 = p.r_g_b_bx + p.r_g_b_bx;
+    let k_5 = p.r_g_b_by + p.r_g_b_by;
+    let k_8 = p.m_g * r_gc_b_bz;
+    let k_10 = i_g_base_12 + i_g_base_12;
+    let k_11 = i_g_base_33 + i_behind_d_11;
+    let k_12 = i_g_base_33 - i_behind_d_11;
+    let k_13 = p.mount_13 * i_g_base_33;
+    let k_14 = p.mount_23 * i_g_base_33;
+    let k_15 = p.mount_33 * i_g_base_33;
+    let k_16 = half * i_behind_d_11;
     let prep_0 = half * i_g_base_33;
-    let k_25 = -(p.mount_13 * prep_0);
-    let k_26 = -(p.mount_23 * prep_0);
-    let k_27 = -(p.mount_33 * prep_0);
-    let k_28 = reach_bx + reach_bx;
-    let k_29 = reach_by + reach_by;
-    let k_30 = reach_bz + reach_bz;
-    let k_31 = i_g_g_22 - i_g_g_33;
-    let k_32 = i_g_g_33 - i_g_g_11;
-    let k_33 = i_g_g_11 - i_g_g_22;
-    let k_34 = p.j_22 - p.j_11;
-    let k_35 = p.j_11 - p.j_22;
+    let k_17 = -(p.mount_13 * prep_0);
+    let k_18 = -(p.mount_23 * prep_0);
+    let k_19 = -(p.mount_33 * prep_0);
+    let k_20 = reach_bx + reach_bx;
+    let k_21 = reach_by + reach_by;
+    let k_22 = reach_bz + reach_bz;
+    let k_23 = i_g_g_22 - i_g_g_33;
+    let k_24 = i_g_g_33 - i_g_g_11;
+    let k_25 = i_g_g_11 - i_g_g_22;
+    let k_26 = p.j_22 - p.j_11;
+    let k_27 = p.j_11 - p.j_22;
+    let k_28 = p.i_g_11 - p.i_g_22;
+    let k_29 = p.i_g_12 + p.i_g_12;
+    let prep_1 = mr_d_g_gz * hand_7;
+    let k_30 = i_d_g_11 + prep_1 + m_d * (hand_9 + hand_10);
+    let k_31 = -(i_d_g_12 + p.r_g_b_bx * p.r_g_b_by * m_d);
+    let k_32 = -(p.r_g_b_bx * mc_bz);
+    let k_33 = i_d_g_22 + prep_1 + m_d * (hand_8 + hand_10);
+    let k_34 = -(p.r_g_b_by * mc_bz);
+    let k_35 = i_d_g_33 + m_d * (hand_8 + hand_9);
 
     Prepared {
         mount_11: p.mount_11,
@@ -1236,11 +1180,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         i_g_g_33,
         mr_d_g_gx,
         mr_d_g_gy,
-        i_d_g_11,
         i_d_g_13,
-        i_d_g_22,
         i_d_g_23,
-        i_d_g_33,
         mass_gg,
         k_2,
         k_3,
@@ -1248,38 +1189,30 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_5,
         k_6,
         k_7,
+        mc_bz,
         k_8,
         k_9,
-        k_10,
-        k_11,
-        k_12,
-        k_13,
-        k_14,
-        k_15,
-        k_16,
-        k_17,
-        mc_bz,
         i_g_base_12,
         i_g_base_13,
         i_g_base_23,
         i_g_base_33,
         i_behind_d_11,
-        k_18,
-        k_19,
-        k_20,
+        k_10,
+        k_11,
+        k_12,
         reach_bx,
         reach_by,
         reach_bz,
+        k_13,
+        k_14,
+        k_15,
+        k_16,
+        k_17,
+        k_18,
+        k_19,
+        k_20,
         k_21,
         k_22,
-        k_23,
-        k_24,
-        k_25,
-        k_26,
-        k_27,
-        k_28,
-        k_29,
-        k_30,
         hand_mr_bx,
         hand_mr_by,
         hand_mr_bz,
@@ -1289,6 +1222,14 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         hand_i_22,
         hand_i_23,
         hand_i_33,
+        k_23,
+        k_24,
+        k_25,
+        k_26,
+        k_27,
+        k_28,
+        k_29,
+        k_30,
         k_31,
         k_32,
         k_33,
@@ -1299,7 +1240,7 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
 
 /// The gimbal: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 52 mul, 32 add, 7 neg, 0 div, 0 trig.
+/// Operations: 39 mul, 26 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> {
     // ω_{G/B}, eq. (31), rad/s.
@@ -1316,11 +1257,9 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
     let r_gc_b_bz = p.r_gc_b_bz;
 
     // r′_{Gc/B}, behind eq. (12), m/s.
-    let vel_0 = v.gamma_dot * q.cos_gamma;
-    let vel_1 = v.gamma_dot * q.sin_gamma;
-    let vel_2 = vel_1 * p.r_gc_g_gx + vel_0 * p.r_gc_g_gy;
-    let r_gc_b_prime_bx = -vel_2;
-    let r_gc_b_prime_by = vel_0 * p.r_gc_g_gx - vel_1 * p.r_gc_g_gy;
+    let vel_0 = v.gamma_dot * pos_0;
+    let r_gc_b_prime_bx = -vel_0;
+    let r_gc_b_prime_by = v.gamma_dot * r_gc_b_dprime_g_by;
     let r_gc_b_prime_bz = zero;
 
     // r″_{Gc/B}, eq. (12), per γ̈, m.
@@ -1328,19 +1267,16 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
     let r_gc_b_dprime_g_bz = zero;
 
     // r″_{Gc/B}, eq. (12), with no joint accelerating, m/s².
-    let acc_0 = v.gamma_dot * vel_1;
-    let acc_1 = v.gamma_dot * vel_0;
-    let r_gc_b_dprime_rest_bx = -(p.r_gc_g_gx * acc_1 - p.r_gc_g_gy * acc_0);
-    let r_gc_b_dprime_rest_by = -(p.r_gc_g_gy * acc_1 + p.r_gc_g_gx * acc_0);
+    let r_gc_b_dprime_rest_bx = -(v.gamma_dot * r_gc_b_prime_by);
+    let r_gc_b_dprime_rest_by = -(v.gamma_dot * vel_0);
     let r_gc_b_dprime_rest_bz = zero;
 
     // [I_{G,Gc}]′, eq. (36), along the axes of the gimbal, kg m²/s.
-    let turn_0 = v.gamma_dot * p.i_g_12;
-    let i_g_gc_prime_22 = turn_0 + turn_0;
+    let i_g_gc_prime_22 = v.gamma_dot * p.k_29;
     let i_g_gc_prime_11 = -i_g_gc_prime_22;
-    let i_g_gc_prime_12 = v.gamma_dot * p.i_g_11 - v.gamma_dot * p.i_g_22;
-    let turn_1 = v.gamma_dot * p.i_g_23;
-    let i_g_gc_prime_13 = -turn_1;
+    let i_g_gc_prime_12 = v.gamma_dot * p.k_28;
+    let turn_0 = v.gamma_dot * p.i_g_23;
+    let i_g_gc_prime_13 = -turn_0;
     let i_g_gc_prime_23 = v.gamma_dot * p.i_g_13;
     let i_g_gc_prime_33 = zero;
 
@@ -1350,23 +1286,23 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
     let i_g_b_11 = p.i_g_11 + p.m_g * (p.k_0 + axis_1);
     let axis_2 = q.cos_gamma * r_gc_b_bx + q.sin_gamma * r_gc_b_by;
     let i_g_b_12 = p.i_g_12 - axis_2 * axis_0 * p.m_g;
-    let i_g_b_13 = p.i_g_13 - p.r_gc_b_bz * axis_2 * p.m_g;
+    let i_g_b_13 = p.i_g_13 - axis_2 * p.k_8;
     let axis_3 = axis_2 * axis_2;
     let i_g_b_22 = p.i_g_22 + p.m_g * (p.k_0 + axis_3);
-    let i_g_b_23 = p.i_g_23 - p.r_gc_b_bz * axis_0 * p.m_g;
+    let i_g_b_23 = p.i_g_23 - axis_0 * p.k_8;
     let i_g_b_33 = p.i_g_33 + p.m_g * (axis_3 + axis_1);
 
     // [I_{G,B}]′, eq. (42), along the axes of the gimbal, kg m²/s.
-    let shift_0 = q.cos_gamma * r_gc_b_prime_by + q.sin_gamma * vel_2;
+    let shift_0 = q.cos_gamma * r_gc_b_prime_by + q.sin_gamma * vel_0;
     let shift_1 = axis_0 * (shift_0 + shift_0);
     let i_g_b_prime_11 = i_g_gc_prime_11 + p.m_g * shift_1;
-    let shift_2 = q.sin_gamma * r_gc_b_prime_by - q.cos_gamma * vel_2;
+    let shift_2 = q.sin_gamma * r_gc_b_prime_by - q.cos_gamma * vel_0;
     let shift_3 = p.m_g * (axis_0 * shift_2 + axis_2 * shift_0);
     let i_g_b_prime_12 = i_g_gc_prime_12 - shift_3;
-    let i_g_b_prime_13 = -(turn_1 + p.r_gc_b_bz * shift_2 * p.m_g);
+    let i_g_b_prime_13 = -(turn_0 + p.k_8 * shift_2);
     let shift_4 = axis_2 * (shift_2 + shift_2);
     let i_g_b_prime_22 = i_g_gc_prime_22 + p.m_g * shift_4;
-    let i_g_b_prime_23 = i_g_gc_prime_23 - p.r_gc_b_bz * shift_0 * p.m_g;
+    let i_g_b_prime_23 = i_g_gc_prime_23 - p.k_8 * shift_0;
     let i_g_b_prime_33 = p.m_g * (shift_4 + shift_1);
 
     Gimbal {
@@ -1408,7 +1344,7 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
 
 /// The wheel: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 33 mul, 16 add, 8 neg, 0 div, 0 trig.
+/// Operations: 28 mul, 15 add, 8 neg, 0 div, 0 trig.
 #[must_use]
 pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // ω_{W/B}, eq. (59), rad/s.
@@ -1440,7 +1376,7 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
 
     // [I_{W,Wc}]′, eq. (64), along the axes of the wheel, kg m²/s.
     let i_w_wc_prime_11 = zero;
-    let i_w_wc_prime_12 = v.gamma_dot * p.j_11 - v.gamma_dot * p.j_22;
+    let i_w_wc_prime_12 = v.gamma_dot * p.k_27;
     let i_w_wc_prime_13 = zero;
     let i_w_wc_prime_22 = zero;
     let i_w_wc_prime_23 = zero;
@@ -1450,10 +1386,10 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let axis_0 = r_wc_b_gy * r_wc_b_gy;
     let i_w_b_11 = p.j_11 + p.m_w * (p.k_1 + axis_0);
     let i_w_b_12 = -(r_wc_b_gx * r_wc_b_gy * p.m_w);
-    let i_w_b_13 = -(r_wc_b_gx * p.r_wc_b_gz * p.m_w);
+    let i_w_b_13 = -(r_wc_b_gx * p.k_9);
     let axis_1 = r_wc_b_gx * r_wc_b_gx;
     let i_w_b_22 = p.j_22 + p.m_w * (p.k_1 + axis_1);
-    let i_w_b_23 = -(r_wc_b_gy * p.r_wc_b_gz * p.m_w);
+    let i_w_b_23 = -(r_wc_b_gy * p.k_9);
     let i_w_b_33 = p.j_22 + p.m_w * (axis_1 + axis_0);
 
     // [I_{W,B}]′, eq. (73), along the axes of the wheel, kg m²/s.
@@ -1461,10 +1397,10 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let i_w_b_prime_11 = p.m_w * shift_0;
     let shift_1 = p.m_w * (r_wc_b_prime_gy * r_wc_b_gx - vel_0 * r_wc_b_gy);
     let i_w_b_prime_12 = i_w_wc_prime_12 - shift_1;
-    let i_w_b_prime_13 = vel_0 * p.r_wc_b_gz * p.m_w;
+    let i_w_b_prime_13 = vel_0 * p.k_9;
     let shift_2 = r_wc_b_gx * (vel_0 + vel_0);
     let i_w_b_prime_22 = -(p.m_w * shift_2);
-    let i_w_b_prime_23 = -(r_wc_b_prime_gy * p.r_wc_b_gz * p.m_w);
+    let i_w_b_prime_23 = -(r_wc_b_prime_gy * p.k_9);
     let i_w_b_prime_33 = p.m_w * (shift_0 - shift_2);
 
     Wheel {
@@ -1531,9 +1467,9 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_dprime_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * p.mr_d_g_gy;
-    let mc_bx = mc_dprime_g_by + p.k_16;
+    let mc_bx = mc_dprime_g_by + p.k_6;
     let mom_0 = q.cos_gamma * p.mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
-    let mc_by = mom_0 + p.k_17;
+    let mc_by = mom_0 + p.k_7;
     let mc_bz = p.mc_bz;
 
     // Σ m r′, share of m_sc c′, behind eq. (11), kg m/s.
@@ -1608,7 +1544,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 196 mul, 125 add, 1 neg, 2 div, 0 trig.
+/// Operations: 195 mul, 125 add, 1 neg, 2 div, 0 trig.
 #[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
@@ -1653,12 +1589,11 @@ pub fn eliminate<T: Real>(
 
     // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_gg = p.i_g_base_33;
-    let row_0 = omega_b_n_gx * omega_b_n_gz * p.i_g_base_23;
-    let row_1 = (omega_b_n_gx * omega_b_n_gx).sub_mul(omega_b_n_gy, omega_b_n_gy);
-    let row_2 = omega_b_n_gx * omega_b_n_gy;
-    let row_3 = row_0.sub_mul(p.i_g_base_13, omega_b_n_gy * omega_b_n_gz);
-    let row_4 = row_3 + (p.i_g_base_12 * row_1).sub_mul(row_2, p.i_behind_d_11);
-    let field_g = row_4 + n_rates_w_gz;
+    let row_0 = p.i_g_base_23 * omega_b_n_gz;
+    let row_1 = omega_b_n_gx * row_0.sub_mul(omega_b_n_gy, p.i_behind_d_11);
+    let row_2 = (omega_b_n_gx * omega_b_n_gx).sub_mul(omega_b_n_gy, omega_b_n_gy);
+    let row_3 = row_1.sub_mul(p.i_g_base_13, omega_b_n_gy * omega_b_n_gz);
+    let field_g = row_3.add_mul(p.i_g_base_12, row_2) + n_rates_w_gz;
 
     // Force, N, and moment, N m, that the joints' rates from the gimbal's on ask for, eq. (C2).
     let coriolis_1 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
@@ -1667,21 +1602,21 @@ pub fn eliminate<T: Real>(
     let coriolis_2 = p.mr_d_g_gx * neg_alpha_g_gy;
     let coriolis_3 = coriolis_2.add_mul(p.mr_d_g_gy, alpha_g_gx);
     let f_rates_g_gz = coriolis_3 + coriolis_3;
-    let coriolis_4 = (alpha_g_gx * p.k_19).sub_mul(neg_alpha_g_gy, p.k_18);
+    let coriolis_4 = (alpha_g_gx * p.k_11).sub_mul(neg_alpha_g_gy, p.k_10);
     let n_rates_g_gx = coriolis_4.sub_mul(p.i_g_base_23, coriolis_1);
-    let coriolis_5 = (p.i_g_base_13 * coriolis_1).add_mul(alpha_g_gx, p.k_18);
-    let n_rates_g_gy = coriolis_5.sub_mul(neg_alpha_g_gy, p.k_20) + n_rates_w_gy;
+    let coriolis_5 = (p.i_g_base_13 * coriolis_1).add_mul(alpha_g_gx, p.k_10);
+    let n_rates_g_gy = coriolis_5.sub_mul(neg_alpha_g_gy, p.k_12) + n_rates_w_gy;
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration, along B axes.
     let f_g_bx = (p.mr_d_g_gx * e_y_bx).sub_mul(p.mr_d_g_gy, e_x_bx);
     let f_g_by = (p.mr_d_g_gx * e_y_by).sub_mul(p.mr_d_g_gy, e_x_by);
     let f_g_bz = (p.mr_d_g_gx * e_y_bz).sub_mul(p.mr_d_g_gy, e_x_bz);
-    let col_0 = (p.i_g_base_13 * e_x_bx).add_mul(p.i_g_base_23, e_y_bx) + p.k_21;
+    let col_0 = (p.i_g_base_13 * e_x_bx).add_mul(p.i_g_base_23, e_y_bx) + p.k_13;
     let n_g_bx = (p.reach_by * f_g_bz).sub_mul(p.reach_bz, f_g_by) + col_0;
-    let col_1 = (p.i_g_base_13 * e_x_by).add_mul(p.i_g_base_23, e_y_by) + p.k_22;
+    let col_1 = (p.i_g_base_13 * e_x_by).add_mul(p.i_g_base_23, e_y_by) + p.k_14;
     let n_g_by = (p.reach_bz * f_g_bx).sub_mul(p.reach_bx, f_g_bz) + col_1;
-    let col_2 = (p.i_g_base_13 * e_x_bz).add_mul(p.i_g_base_23, e_y_bz) + p.k_23;
+    let col_2 = (p.i_g_base_13 * e_x_bz).add_mul(p.i_g_base_23, e_y_bz) + p.k_15;
     let n_g_bz = (p.reach_bx * f_g_by).sub_mul(p.reach_by, f_g_bx) + col_2;
     let n_w_bx = p.j_11 * e_x_bx;
     let n_w_by = p.j_11 * e_x_by;
@@ -1692,26 +1627,26 @@ pub fn eliminate<T: Real>(
     let mr_moving_bx = (p.mr_d_g_gx * e_x_bx).add_mul(p.mr_d_g_gy, e_y_bx);
     let mr_moving_by = (p.mr_d_g_gx * e_x_by).add_mul(p.mr_d_g_gy, e_y_by);
     let mr_moving_bz = (p.mr_d_g_gx * e_x_bz).add_mul(p.mr_d_g_gy, e_y_bz);
-    let moment_0 = (e_x_bx * p.k_24).add_mul(p.i_g_base_12, e_y_bx);
-    let moment_1 = col_0 + p.k_25;
+    let moment_0 = (e_x_bx * p.k_16).add_mul(p.i_g_base_12, e_y_bx);
+    let moment_1 = col_0 + p.k_17;
     let moment_2 = (e_x_bx * moment_0).add_mul(p.mount_13, moment_1);
-    let moment_3 = mr_moving_by * p.k_29;
-    let moment_4 = mr_moving_bz * p.k_30;
+    let moment_3 = mr_moving_by * p.k_21;
+    let moment_4 = mr_moving_bz * p.k_22;
     let i_moving_11 = moment_2 + moment_2 + (moment_3 + moment_4);
-    let moment_5 = (e_x_by * p.k_24).add_mul(p.i_g_base_12, e_y_by);
-    let moment_6 = col_1 + p.k_26;
+    let moment_5 = (e_x_by * p.k_16).add_mul(p.i_g_base_12, e_y_by);
+    let moment_6 = col_1 + p.k_18;
     let moment_7 = (e_x_by * moment_0).add_mul(p.mount_23, moment_1);
     let moment_8 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
     let moment_9 = (e_x_bx * moment_5).add_mul(p.mount_13, moment_6) + moment_7;
     let i_moving_12 = moment_9 - moment_8;
-    let moment_10 = (e_x_bz * p.k_24).add_mul(p.i_g_base_12, e_y_bz);
-    let moment_11 = col_2 + p.k_27;
+    let moment_10 = (e_x_bz * p.k_16).add_mul(p.i_g_base_12, e_y_bz);
+    let moment_11 = col_2 + p.k_19;
     let moment_12 = (e_x_bx * moment_10).add_mul(p.mount_13, moment_11);
     let moment_13 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
     let moment_14 = moment_12 + (e_x_bz * moment_0).add_mul(p.mount_33, moment_1);
     let i_moving_13 = moment_14 - moment_13;
     let moment_15 = (e_x_by * moment_5).add_mul(p.mount_23, moment_6);
-    let moment_16 = mr_moving_bx * p.k_28;
+    let moment_16 = mr_moving_bx * p.k_20;
     let i_moving_22 = moment_15 + moment_15 + (moment_16 + moment_4);
     let moment_17 = (e_x_by * moment_10).add_mul(p.mount_23, moment_11);
     let moment_18 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
@@ -1890,7 +1825,7 @@ pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointA
 
 /// Kinetic energy, linear momentum and moment of momentum about B (20).
 ///
-/// Operations: 83 mul, 69 add, 0 neg, 0 div, 0 trig.
+/// Operations: 81 mul, 69 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn energy_momentum<T: Real>(
     p: &Prepared<T>,
@@ -1941,25 +1876,24 @@ pub fn energy_momentum<T: Real>(
 
     // Kinetic energy, and momenta as in eq. (20), of the device, along B axes.
     let half = q.sin_gamma.like(0.5);
-    let sum_0 = omega_w_n_wx * h_w_wx + omega_g_n_gy * h_w_wy;
-    let sum_1 = mom_3 * p_w_wx + mom_5 * p_w_wy + mom_7 * p_w_wz;
-    let sum_2 = omega_g_n_gx * h_g_gx + omega_g_n_gy * h_g_gy;
-    let sum_3 = mom_2 * p_g_gx + mom_4 * p_g_gy + mom_6 * p_g_gz;
-    let sum_4 = sum_3 + (sum_2 + omega_g_n_gz * h_g_gz);
-    let energy = half * (sum_1 + (sum_0 + omega_g_n_gz * h_w_wz) + sum_4);
-    let sum_5 = p_w_wx + p_g_gx;
-    let sum_6 = p_w_wy + p_g_gy;
-    let linear_bx = q.cos_gamma * sum_5 - q.sin_gamma * sum_6;
-    let linear_by = q.cos_gamma * sum_6 + q.sin_gamma * sum_5;
+    let sum_0 = mom_3 * p_w_wx + mom_5 * p_w_wy + mom_7 * p_w_wz;
+    let sum_1 = sum_0 + omega_w_n_wx * h_w_wx + omega_g_n_gy * (h_w_wy + h_g_gy);
+    let sum_2 = sum_1 + omega_g_n_gz * (h_w_wz + h_g_gz) + mom_2 * p_g_gx;
+    let sum_3 = sum_2 + mom_4 * p_g_gy + mom_6 * p_g_gz + omega_g_n_gx * h_g_gx;
+    let energy = half * sum_3;
+    let sum_4 = p_w_wx + p_g_gx;
+    let sum_5 = p_w_wy + p_g_gy;
+    let linear_bx = q.cos_gamma * sum_4 - q.sin_gamma * sum_5;
+    let linear_by = q.cos_gamma * sum_5 + q.sin_gamma * sum_4;
     let linear_bz = p_w_wz + p_g_gz;
-    let sum_7 = p.l_g_y * p_w_wz - p.l_g_z * p_w_wy + h_w_wx + h_g_gx;
-    let sum_8 = p.l_g_z * p_w_wx - p.l_g_x * p_w_wz + h_w_wy + h_g_gy;
-    let sum_9 = p.r_g_b_by * linear_bz - p.r_g_b_bz * linear_by;
-    let angular_b_bx = q.cos_gamma * sum_7 - q.sin_gamma * sum_8 + sum_9;
-    let sum_10 = p.r_g_b_bz * linear_bx - p.r_g_b_bx * linear_bz;
-    let angular_b_by = q.cos_gamma * sum_8 + q.sin_gamma * sum_7 + sum_10;
-    let sum_11 = p.l_g_x * p_w_wy - p.l_g_y * p_w_wx + h_w_wz + h_g_gz;
-    let angular_b_bz = sum_11 + (p.r_g_b_bx * linear_by - p.r_g_b_by * linear_bx);
+    let sum_6 = p.l_g_y * p_w_wz - p.l_g_z * p_w_wy + h_w_wx + h_g_gx;
+    let sum_7 = p.l_g_z * p_w_wx - p.l_g_x * p_w_wz + h_w_wy + h_g_gy;
+    let sum_8 = p.r_g_b_by * linear_bz - p.r_g_b_bz * linear_by;
+    let angular_b_bx = q.cos_gamma * sum_6 - q.sin_gamma * sum_7 + sum_8;
+    let sum_9 = p.r_g_b_bz * linear_bx - p.r_g_b_bx * linear_bz;
+    let angular_b_by = q.cos_gamma * sum_7 + q.sin_gamma * sum_6 + sum_9;
+    let sum_10 = p.l_g_x * p_w_wy - p.l_g_y * p_w_wx + h_w_wz + h_g_gz;
+    let angular_b_bz = sum_10 + (p.r_g_b_bx * linear_by - p.r_g_b_by * linear_bx);
 
     EnergyMomentum {
         energy,
@@ -2042,7 +1976,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
 /// What the carrier of each joint exerts on all outside it, so that these accelerations
 /// happen: the torques of (77), (116).
 ///
-/// Operations: 140 mul, 111 add, 0 neg, 0 div, 0 trig.
+/// Operations: 133 mul, 107 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn loads<T: Real>(
     p: &Prepared<T>,
@@ -2058,14 +1992,10 @@ pub fn loads<T: Real>(
     let omega_g_n_gz = w.omega_bz + v.gamma_dot;
 
     // Its derivative by components, as in eq. (34), along the same axes, rad/s².
-    let turn_0 = v.gamma_dot * q.cos_gamma;
-    let turn_1 = v.gamma_dot * q.sin_gamma;
-    let turn_2 = a.omega_dot_by * q.sin_gamma + w.omega_by * turn_0;
-    let turn_3 = a.omega_dot_bx * q.cos_gamma - w.omega_bx * turn_1;
-    let omega_g_n_dot_gx = turn_3 + turn_2;
-    let turn_4 = a.omega_dot_bx * q.sin_gamma + w.omega_bx * turn_0;
-    let turn_5 = a.omega_dot_by * q.cos_gamma - w.omega_by * turn_1;
-    let omega_g_n_dot_gy = turn_5 - turn_4;
+    let turn_0 = a.omega_dot_by - w.omega_bx * v.gamma_dot;
+    let turn_1 = a.omega_dot_bx + w.omega_by * v.gamma_dot;
+    let omega_g_n_dot_gx = q.cos_gamma * turn_1 + q.sin_gamma * turn_0;
+    let omega_g_n_dot_gy = q.cos_gamma * turn_0 - q.sin_gamma * turn_1;
     let omega_g_n_dot_gz = a.omega_dot_bz + j.gamma_ddot;
 
     // Inertial acceleration of G as in eq. (38), same axes, m/s².
@@ -2094,14 +2024,14 @@ pub fn loads<T: Real>(
     let path_11 = p.l_g_x * omega_g_n_gz - p.l_g_z * omega_g_n_gx;
     let path_12 = p.l_g_y * omega_g_n_gx - p.l_g_x * omega_g_n_gy;
     let path_13 = p.l_g_z * omega_g_n_dot_gy - p.l_g_y * omega_g_n_dot_gz;
-    let path_14 = path_13 + (omega_g_n_gy * path_12 - omega_g_n_gz * path_11);
+    let path_14 = omega_g_n_gy * path_12 - omega_g_n_gz * path_11 + path_13;
     let r_w_n_ddot_wx = path_14 + r_g_n_ddot_gx;
     let path_15 = p.l_g_z * omega_g_n_gy - p.l_g_y * omega_g_n_gz;
     let path_16 = p.l_g_x * omega_g_n_dot_gz - p.l_g_z * omega_g_n_dot_gx;
-    let path_17 = path_16 + (omega_g_n_gz * path_15 - omega_g_n_gx * path_12);
+    let path_17 = omega_g_n_gz * path_15 - omega_g_n_gx * path_12 + path_16;
     let r_w_n_ddot_wy = path_17 + r_g_n_ddot_gy;
     let path_18 = p.l_g_y * omega_g_n_dot_gx - p.l_g_x * omega_g_n_dot_gy;
-    let path_19 = path_18 + (omega_g_n_gx * path_11 - omega_g_n_gy * path_15);
+    let path_19 = omega_g_n_gx * path_11 - omega_g_n_gy * path_15 + path_18;
     let r_w_n_ddot_wz = path_19 + r_g_n_ddot_gz;
 
     // On W, the wheel and what it carries, at its joint, eq. (116): force, N, and moment about
@@ -2109,60 +2039,56 @@ pub fn loads<T: Real>(
     let f_load_wx = p.m_w * r_w_n_ddot_wx;
     let f_load_wy = p.m_w * r_w_n_ddot_wy;
     let f_load_wz = p.m_w * r_w_n_ddot_wz;
-    let load_0 = p.j_22 * omega_g_n_gy;
-    let load_1 = p.j_22 * omega_g_n_gz;
-    let load_2 = omega_g_n_gy * load_1 - omega_g_n_gz * load_0;
-    let n_load_wx = load_2 + p.j_11 * omega_w_n_dot_wx;
-    let load_3 = p.j_11 * omega_w_n_wx;
-    let load_4 = omega_g_n_gz * load_3 - omega_g_n_gx * load_1;
-    let n_load_wy = load_4 + p.j_22 * omega_g_n_dot_gy;
-    let load_5 = omega_g_n_gx * load_0 - omega_g_n_gy * load_3;
-    let n_load_wz = load_5 + p.j_22 * omega_g_n_dot_gz;
+    let n_load_wx = p.j_11 * omega_w_n_dot_wx;
+    let load_0 = p.j_22 * (omega_g_n_dot_gy - omega_g_n_gz * omega_g_n_gx);
+    let n_load_wy = omega_g_n_gz * omega_w_n_wx * p.j_11 + load_0;
+    let load_1 = p.j_22 * (omega_g_n_dot_gz + omega_g_n_gx * omega_g_n_gy);
+    let n_load_wz = load_1 - omega_g_n_gy * omega_w_n_wx * p.j_11;
 
     // On D, the gimbal and what it carries, at its joint, eq. (77): force, N, and moment about
     // G, N m.
-    let load_6 = p.mr_gc_g_gx * omega_g_n_gz - p.mr_gc_g_gz * omega_g_n_gx;
-    let load_7 = p.mr_gc_g_gy * omega_g_n_gx - p.mr_gc_g_gx * omega_g_n_gy;
-    let load_8 = p.mr_gc_g_gz * omega_g_n_dot_gy - p.mr_gc_g_gy * omega_g_n_dot_gz;
-    let load_9 = load_8 + (omega_g_n_gy * load_7 - omega_g_n_gz * load_6);
-    let f_load_gx = load_9 + p.m_g * r_g_n_ddot_gx + f_load_wx;
-    let load_10 = p.mr_gc_g_gz * omega_g_n_gy - p.mr_gc_g_gy * omega_g_n_gz;
-    let load_11 = p.mr_gc_g_gx * omega_g_n_dot_gz - p.mr_gc_g_gz * omega_g_n_dot_gx;
-    let load_12 = load_11 + (omega_g_n_gz * load_10 - omega_g_n_gx * load_7);
-    let f_load_gy = load_12 + p.m_g * r_g_n_ddot_gy + f_load_wy;
-    let load_13 = p.mr_gc_g_gy * omega_g_n_dot_gx - p.mr_gc_g_gx * omega_g_n_dot_gy;
-    let load_14 = load_13 + (omega_g_n_gx * load_6 - omega_g_n_gy * load_10);
-    let f_load_gz = load_14 + p.m_g * r_g_n_ddot_gz + f_load_wz;
-    let load_15 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
-    let load_16 = load_15 + p.i_g_g_23 * omega_g_n_gz;
-    let load_17 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
-    let load_18 = load_17 + p.i_g_g_33 * omega_g_n_gz;
-    let load_19 = p.i_g_g_11 * omega_g_n_dot_gx + p.i_g_g_12 * omega_g_n_dot_gy;
-    let load_20 = omega_g_n_gy * load_18 - omega_g_n_gz * load_16;
-    let load_21 = p.mr_gc_g_gy * r_g_n_ddot_gz - p.mr_gc_g_gz * r_g_n_ddot_gy;
-    let load_22 = load_19 + p.i_g_g_13 * omega_g_n_dot_gz + load_20 + load_21;
-    let n_load_gx = p.l_g_y * f_load_wz - p.l_g_z * f_load_wy + n_load_wx + load_22;
-    let load_23 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
-    let load_24 = load_23 + p.i_g_g_13 * omega_g_n_gz;
-    let load_25 = p.i_g_g_12 * omega_g_n_dot_gx + p.i_g_g_22 * omega_g_n_dot_gy;
-    let load_26 = omega_g_n_gz * load_24 - omega_g_n_gx * load_18;
-    let load_27 = p.mr_gc_g_gz * r_g_n_ddot_gx - p.mr_gc_g_gx * r_g_n_ddot_gz;
-    let load_28 = load_25 + p.i_g_g_23 * omega_g_n_dot_gz + load_26 + load_27;
-    let n_load_gy = p.l_g_z * f_load_wx - p.l_g_x * f_load_wz + n_load_wy + load_28;
-    let load_29 = p.i_g_g_13 * omega_g_n_dot_gx + p.i_g_g_23 * omega_g_n_dot_gy;
-    let load_30 = omega_g_n_gx * load_16 - omega_g_n_gy * load_24;
-    let load_31 = p.mr_gc_g_gx * r_g_n_ddot_gy - p.mr_gc_g_gy * r_g_n_ddot_gx;
-    let load_32 = load_29 + p.i_g_g_33 * omega_g_n_dot_gz + load_30 + load_31;
-    let n_load_gz = p.l_g_x * f_load_wy - p.l_g_y * f_load_wx + n_load_wz + load_32;
+    let load_2 = p.mr_gc_g_gx * omega_g_n_gz - p.mr_gc_g_gz * omega_g_n_gx;
+    let load_3 = p.mr_gc_g_gy * omega_g_n_gx - p.mr_gc_g_gx * omega_g_n_gy;
+    let load_4 = p.mr_gc_g_gz * omega_g_n_dot_gy - p.mr_gc_g_gy * omega_g_n_dot_gz;
+    let load_5 = omega_g_n_gy * load_3 - omega_g_n_gz * load_2 + load_4;
+    let f_load_gx = load_5 + p.m_g * r_g_n_ddot_gx + f_load_wx;
+    let load_6 = p.mr_gc_g_gz * omega_g_n_gy - p.mr_gc_g_gy * omega_g_n_gz;
+    let load_7 = p.mr_gc_g_gx * omega_g_n_dot_gz - p.mr_gc_g_gz * omega_g_n_dot_gx;
+    let load_8 = omega_g_n_gz * load_6 - omega_g_n_gx * load_3 + load_7;
+    let f_load_gy = load_8 + p.m_g * r_g_n_ddot_gy + f_load_wy;
+    let load_9 = p.mr_gc_g_gy * omega_g_n_dot_gx - p.mr_gc_g_gx * omega_g_n_dot_gy;
+    let load_10 = omega_g_n_gx * load_2 - omega_g_n_gy * load_6 + load_9;
+    let f_load_gz = load_10 + p.m_g * r_g_n_ddot_gz + f_load_wz;
+    let load_11 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
+    let load_12 = load_11 + p.i_g_g_23 * omega_g_n_gz;
+    let load_13 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
+    let load_14 = load_13 + p.i_g_g_33 * omega_g_n_gz;
+    let load_15 = p.i_g_g_11 * omega_g_n_dot_gx + p.i_g_g_12 * omega_g_n_dot_gy;
+    let load_16 = omega_g_n_gy * load_14 - omega_g_n_gz * load_12;
+    let load_17 = p.mr_gc_g_gy * r_g_n_ddot_gz - p.mr_gc_g_gz * r_g_n_ddot_gy;
+    let load_18 = load_17 + (load_16 + (load_15 + p.i_g_g_13 * omega_g_n_dot_gz));
+    let n_load_gx = p.l_g_y * f_load_wz - p.l_g_z * f_load_wy + n_load_wx + load_18;
+    let load_19 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
+    let load_20 = load_19 + p.i_g_g_13 * omega_g_n_gz;
+    let load_21 = p.i_g_g_12 * omega_g_n_dot_gx + p.i_g_g_22 * omega_g_n_dot_gy;
+    let load_22 = omega_g_n_gz * load_20 - omega_g_n_gx * load_14;
+    let load_23 = p.mr_gc_g_gz * r_g_n_ddot_gx - p.mr_gc_g_gx * r_g_n_ddot_gz;
+    let load_24 = load_23 + (load_22 + (load_21 + p.i_g_g_23 * omega_g_n_dot_gz));
+    let n_load_gy = p.l_g_z * f_load_wx - p.l_g_x * f_load_wz + n_load_wy + load_24;
+    let load_25 = p.i_g_g_13 * omega_g_n_dot_gx + p.i_g_g_23 * omega_g_n_dot_gy;
+    let load_26 = omega_g_n_gx * load_12 - omega_g_n_gy * load_20;
+    let load_27 = p.mr_gc_g_gx * r_g_n_ddot_gy - p.mr_gc_g_gy * r_g_n_ddot_gx;
+    let load_28 = load_27 + (load_26 + (load_25 + p.i_g_g_33 * omega_g_n_dot_gz));
+    let n_load_gz = p.l_g_x * f_load_wy - p.l_g_y * f_load_wx + n_load_wz + load_28;
 
     // On the whole device, eqs. (16), (75): force, N, and moment about B, N m.
     let f_load_bx = q.cos_gamma * f_load_gx - q.sin_gamma * f_load_gy;
     let f_load_by = q.cos_gamma * f_load_gy + q.sin_gamma * f_load_gx;
     let f_load_bz = f_load_gz;
-    let load_33 = q.cos_gamma * n_load_gx - q.sin_gamma * n_load_gy;
-    let n_load_bx = load_33 + (p.r_g_b_by * f_load_gz - p.r_g_b_bz * f_load_by);
-    let load_34 = q.cos_gamma * n_load_gy + q.sin_gamma * n_load_gx;
-    let n_load_by = load_34 + (p.r_g_b_bz * f_load_bx - p.r_g_b_bx * f_load_gz);
+    let load_29 = q.cos_gamma * n_load_gx - q.sin_gamma * n_load_gy;
+    let n_load_bx = load_29 + (p.r_g_b_by * f_load_gz - p.r_g_b_bz * f_load_by);
+    let load_30 = q.cos_gamma * n_load_gy + q.sin_gamma * n_load_gx;
+    let n_load_by = load_30 + (p.r_g_b_bz * f_load_bx - p.r_g_b_bx * f_load_gz);
     let n_load_bz = p.r_g_b_bx * f_load_by - p.r_g_b_by * f_load_bx + n_load_gz;
 
     Loads {
@@ -2250,7 +2176,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 84 mul, 83 add, 5 neg, 0 div, 0 trig.
+/// Operations: 84 mul, 75 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (G1), along the axes of the gimbal, 1/s².
@@ -2276,13 +2202,13 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_gy = pull_1 + p.mr_gc_g_gz * g_g_23 + p.m_g * g_r_g_gy;
     let pull_2 = p.mr_gc_g_gx * g_g_13 + p.mr_gc_g_gy * g_g_23;
     let f_on_gz = pull_2 + p.mr_gc_g_gz * g.g_33 + p.m_g * g_r_g_gz;
-    let pull_3 = p.i_g_g_12 * g_g_13 - p.i_g_g_13 * g_g_12 + g_g_23 * p.k_31;
+    let pull_3 = p.i_g_g_12 * g_g_13 - p.i_g_g_13 * g_g_12 + g_g_23 * p.k_23;
     let pull_4 = p.mr_gc_g_gy * g_r_g_gz - p.mr_gc_g_gz * g_r_g_gy;
     let n_on_gx = pull_4 - (pull_3 + p.i_g_g_23 * (g.g_33 - g_g_22));
-    let pull_5 = p.i_g_g_23 * g_g_12 - p.i_g_g_12 * g_g_23 + g_g_13 * p.k_32;
+    let pull_5 = p.i_g_g_23 * g_g_12 - p.i_g_g_12 * g_g_23 + g_g_13 * p.k_24;
     let pull_6 = p.mr_gc_g_gz * g_r_g_gx - p.mr_gc_g_gx * g_r_g_gz;
     let n_on_gy = pull_6 - (pull_5 + p.i_g_g_13 * (g_g_11 - g.g_33));
-    let pull_7 = p.i_g_g_13 * g_g_23 - p.i_g_g_23 * g_g_13 + g_g_12 * p.k_33;
+    let pull_7 = p.i_g_g_13 * g_g_23 - p.i_g_g_23 * g_g_13 + g_g_12 * p.k_25;
     let pull_8 = p.mr_gc_g_gx * g_r_g_gy - p.mr_gc_g_gy * g_r_g_gx;
     let n_on_gz = pull_8 - (pull_7 + p.i_g_g_12 * (g_g_22 - g_g_11));
 
@@ -2297,29 +2223,29 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_wz = p.m_w * g_r_w_wz;
     let zero = q.sin_gamma.like(0.0);
     let n_on_wx = zero;
-    let n_on_wy = -(g_g_13 * p.k_34);
-    let n_on_wz = -(g_g_12 * p.k_35);
+    let n_on_wy = -(g_g_13 * p.k_26);
+    let n_on_wz = -(g_g_12 * p.k_27);
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
     let axis_0 = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * p.mr_d_g_gy;
     let axis_1 = q.cos_gamma * p.mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
     let axis_2 = q.cos_gamma * p.k_3 - q.sin_gamma * p.k_2;
     let axis_3 = q.sin_gamma * axis_2;
-    let axis_4 = axis_0 * p.k_5;
-    let axis_5 = axis_1 * p.k_6;
-    let axis_6 = p.i_d_g_11 - axis_3 + (axis_5 + p.k_7) + p.k_10;
-    let axis_7 = p.i_d_g_22 + axis_3 + (axis_4 + p.k_7) + p.k_13;
-    let axis_8 = axis_4 + axis_5 + p.i_d_g_33 + p.k_15;
+    let axis_4 = axis_0 * p.k_4;
+    let axis_5 = axis_1 * p.k_5;
+    let axis_6 = axis_5 - axis_3 + p.k_30;
+    let axis_7 = axis_3 + axis_4 + p.k_33;
+    let axis_8 = axis_4 + axis_5 + p.k_35;
     let half = q.sin_gamma.like(0.5);
     let axis_9 = half * (axis_6 + axis_7 + axis_8);
     let second_moment_11 = axis_9 - axis_6;
-    let axis_10 = p.r_g_b_bx * axis_1 + p.r_g_b_by * axis_0;
-    let second_moment_12 = -(q.cos_gamma * axis_2 + p.k_4 - axis_10 + p.k_11);
+    let axis_10 = q.cos_gamma * axis_2 - p.r_g_b_bx * axis_1;
+    let second_moment_12 = -(axis_10 - p.r_g_b_by * axis_0 + p.k_31);
     let axis_11 = q.cos_gamma * p.i_d_g_13 - q.sin_gamma * p.i_d_g_23;
-    let second_moment_13 = -(axis_11 - (p.k_8 + p.r_g_b_bz * axis_0) + p.k_12);
+    let second_moment_13 = -(axis_11 - p.r_g_b_bz * axis_0 + p.k_32);
     let second_moment_22 = axis_9 - axis_7;
     let axis_12 = q.cos_gamma * p.i_d_g_23 + q.sin_gamma * p.i_d_g_13;
-    let second_moment_23 = -(axis_12 - (p.k_9 + p.r_g_b_bz * axis_1) + p.k_14);
+    let second_moment_23 = -(axis_12 - p.r_g_b_bz * axis_1 + p.k_34);
     let second_moment_33 = axis_9 - axis_8;
 
     Gravity {

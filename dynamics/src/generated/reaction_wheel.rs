@@ -106,10 +106,10 @@ pub struct Prepared<T> {
     /// `p.m_w * p.d`. The wheel about its origin: first moment, kg m, and inertia as in eq.
     /// (71), kg m².
     pub mr_wc_w_wy: T,
-    /// `p.j_11 + hand_0`. The wheel about its origin: first moment, kg m, and inertia as in
+    /// `p.j_11 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_11: T,
-    /// `p.j_33 + hand_0`. The wheel about its origin: first moment, kg m, and inertia as in
+    /// `p.j_33 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_33: T,
     /// `i_w_w_11`. Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and
@@ -119,40 +119,26 @@ pub struct Prepared<T> {
     pub k_1: T,
     /// `p.j_23 + p.j_23`.
     pub k_2: T,
-    /// `-p.j_23`.
-    pub k_3: T,
-    /// `p.r_w_b_by + p.r_w_b_by`.
-    pub k_4: T,
-    /// `p.r_w_b_bz + p.r_w_b_bz`.
-    pub k_5: T,
-    /// `p.m_w * (hand_1 + hand_2)`.
-    pub k_6: T,
     /// `-(p.r_w_b_bx * p.r_w_b_by * p.m_w)`.
-    pub k_7: T,
+    pub k_3: T,
     /// `-(p.r_w_b_bx * p.r_w_b_bz * p.m_w)`.
-    pub k_8: T,
-    /// `p.m_w * (k_0 + hand_2)`.
-    pub k_9: T,
-    /// `-(p.r_w_b_by * p.r_w_b_bz * p.m_w)`.
-    pub k_10: T,
-    /// `p.m_w * (k_0 + hand_1)`.
-    pub k_11: T,
+    pub k_4: T,
     /// `p.r_w_b_bx * p.m_w`. Σ m r, share of m_sc c, eq. (9), kg m.
     pub mc_bx: T,
     /// `p.r_w_b_by * p.m_w`.
-    pub k_12: T,
+    pub k_5: T,
     /// `p.r_w_b_bz * p.m_w`.
-    pub k_13: T,
+    pub k_6: T,
     /// `p.j_12 - p.r_w_b_bx * mr_wc_w_wy`. Base parameters of the wheel, eqs. (B1), (B2):
     /// arm, m, first moment, kg m, inertia, kg m².
     pub i_w_base_12: T,
-    /// `p.j_22 - hand_0 - p.j_33`. Base parameters of the wheel, eqs. (B1), (B2): arm, m,
+    /// `p.j_22 - own_0 - p.j_33`. Base parameters of the wheel, eqs. (B1), (B2): arm, m,
     /// first moment, kg m, inertia, kg m².
     pub i_w_base_22: T,
     /// `i_w_w_11 + i_w_base_22`.
-    pub k_14: T,
+    pub k_7: T,
     /// `i_w_w_11 - i_w_base_22`.
-    pub k_15: T,
+    pub k_8: T,
     /// `p.r_w_b_by * p.mount_12 + p.r_w_b_bz * p.mount_13`. Origin of the first joint, eq.
     /// (A2), along B axes, m.
     pub reach_bx: T,
@@ -163,58 +149,76 @@ pub struct Prepared<T> {
     /// (A2), along B axes, m.
     pub reach_bz: T,
     /// `p.mount_11 * i_w_w_11`.
-    pub k_16: T,
+    pub k_9: T,
     /// `p.mount_21 * i_w_w_11`.
-    pub k_17: T,
+    pub k_10: T,
     /// `p.mount_31 * i_w_w_11`.
-    pub k_18: T,
+    pub k_11: T,
     /// `half * i_w_base_22`.
-    pub k_19: T,
+    pub k_12: T,
     /// `-(p.mount_11 * prep_0)`.
-    pub k_20: T,
+    pub k_13: T,
     /// `-(p.mount_21 * prep_0)`.
-    pub k_21: T,
+    pub k_14: T,
     /// `-(p.mount_31 * prep_0)`.
-    pub k_22: T,
+    pub k_15: T,
     /// `reach_bx + reach_bx`.
-    pub k_23: T,
+    pub k_16: T,
     /// `reach_by + reach_by`.
-    pub k_24: T,
+    pub k_17: T,
     /// `reach_bz + reach_bz`.
-    pub k_25: T,
-    /// `p.mount_11 * mc_bx + p.mount_12 * k_12 + p.mount_13 * k_13`. What the hub takes over,
+    pub k_18: T,
+    /// `p.mount_11 * mc_bx + p.mount_12 * k_5 + p.mount_13 * k_6`. What the hub takes over,
     /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_mr_bx: T,
-    /// `p.mount_21 * mc_bx + p.mount_22 * k_12 + p.mount_23 * k_13`. What the hub takes over,
+    /// `p.mount_21 * mc_bx + p.mount_22 * k_5 + p.mount_23 * k_6`. What the hub takes over,
     /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_mr_by: T,
-    /// `p.mount_31 * mc_bx + p.mount_32 * k_12 + p.mount_33 * k_13`. What the hub takes over,
+    /// `p.mount_31 * mc_bx + p.mount_32 * k_5 + p.mount_33 * k_6`. What the hub takes over,
     /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_mr_bz: T,
-    /// `hand_22 - hand_18 + hand_19 * (hand_20 + hand_20)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_13 * hand_8 * hand_6 + hand_11 + hand_12)`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_11: T,
-    /// `hand_30 - hand_27 + hand_19 * (hand_28 + hand_28)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_23 + p.mount_13 * hand_18 * hand_6)`. What the hub takes over, eq. (B2):
+    /// mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_12: T,
-    /// `hand_38 - hand_35 + hand_19 * (hand_36 + hand_36)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_34 + p.mount_13 * hand_29 * hand_6)`. What the hub takes over, eq. (B2):
+    /// mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_13: T,
-    /// `hand_49 - hand_46 + hand_19 * (hand_47 + hand_47)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_23 * hand_18 * hand_6 + hand_37 + hand_38)`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_22: T,
-    /// `hand_57 - hand_54 + hand_19 * (hand_55 + hand_55)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_46 + p.mount_23 * hand_29 * hand_6)`. What the hub takes over, eq. (B2):
+    /// mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_23: T,
-    /// `hand_68 - hand_65 + hand_19 * (hand_66 + hand_66)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_33 * hand_29 * hand_6 + hand_49 + hand_50)`. What the hub takes over,
+    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_33: T,
     /// `p.j_22 - i_w_w_33`.
-    pub k_26: T,
+    pub k_19: T,
     /// `i_w_w_33 - i_w_w_11`.
-    pub k_27: T,
+    pub k_20: T,
     /// `i_w_w_11 - p.j_22`.
+    pub k_21: T,
+    /// `p.j_22 - p.j_33`.
+    pub k_22: T,
+    /// `i_w_w_11 + hand_3`.
+    pub k_23: T,
+    /// `p.j_22 + p.m_w * (k_0 + hand_2)`.
+    pub k_24: T,
+    /// `-(p.j_23 + p.r_w_b_by * p.r_w_b_bz * p.m_w)`.
+    pub k_25: T,
+    /// `i_w_w_33 + p.m_w * (k_0 + hand_1)`.
+    pub k_26: T,
+    /// `mr_wc_w_wy * (p.r_w_b_by + p.r_w_b_by)`.
+    pub k_27: T,
+    /// `mr_wc_w_wy * (p.r_w_b_bz + p.r_w_b_bz)`.
     pub k_28: T,
+    /// `p.r_w_b_by * mr_wc_w_wy`.
+    pub k_29: T,
+    /// `-(p.r_w_b_bz * mr_wc_w_wy)`.
+    pub k_30: T,
 }
 
 impl<T: Copy> Prepared<T> {
@@ -263,33 +267,26 @@ impl<T: Copy> Prepared<T> {
             k_2: join(self.k_2, other.k_2),
             k_3: join(self.k_3, other.k_3),
             k_4: join(self.k_4, other.k_4),
+            mc_bx: join(self.mc_bx, other.mc_bx),
             k_5: join(self.k_5, other.k_5),
             k_6: join(self.k_6, other.k_6),
-            k_7: join(self.k_7, other.k_7),
-            k_8: join(self.k_8, other.k_8),
-            k_9: join(self.k_9, other.k_9),
-            k_10: join(self.k_10, other.k_10),
-            k_11: join(self.k_11, other.k_11),
-            mc_bx: join(self.mc_bx, other.mc_bx),
-            k_12: join(self.k_12, other.k_12),
-            k_13: join(self.k_13, other.k_13),
             i_w_base_12: join(self.i_w_base_12, other.i_w_base_12),
             i_w_base_22: join(self.i_w_base_22, other.i_w_base_22),
-            k_14: join(self.k_14, other.k_14),
-            k_15: join(self.k_15, other.k_15),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
             reach_bx: join(self.reach_bx, other.reach_bx),
             reach_by: join(self.reach_by, other.reach_by),
             reach_bz: join(self.reach_bz, other.reach_bz),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
+            k_14: join(self.k_14, other.k_14),
+            k_15: join(self.k_15, other.k_15),
             k_16: join(self.k_16, other.k_16),
             k_17: join(self.k_17, other.k_17),
             k_18: join(self.k_18, other.k_18),
-            k_19: join(self.k_19, other.k_19),
-            k_20: join(self.k_20, other.k_20),
-            k_21: join(self.k_21, other.k_21),
-            k_22: join(self.k_22, other.k_22),
-            k_23: join(self.k_23, other.k_23),
-            k_24: join(self.k_24, other.k_24),
-            k_25: join(self.k_25, other.k_25),
             hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
             hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
             hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
@@ -299,9 +296,18 @@ impl<T: Copy> Prepared<T> {
             hand_i_22: join(self.hand_i_22, other.hand_i_22),
             hand_i_23: join(self.hand_i_23, other.hand_i_23),
             hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_19: join(self.k_19, other.k_19),
+            k_20: join(self.k_20, other.k_20),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
             k_26: join(self.k_26, other.k_26),
             k_27: join(self.k_27, other.k_27),
             k_28: join(self.k_28, other.k_28),
+            k_29: join(self.k_29, other.k_29),
+            k_30: join(self.k_30, other.k_30),
         }
     }
 }
@@ -661,7 +667,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 135 mul, 120 add, 7 neg, 0 div, 0 trig.
+/// Operations: 138 mul, 102 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
@@ -672,95 +678,78 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
 
     // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
     // m², along B axes.
-    let k_12 = p.r_w_b_by * p.m_w;
-    let k_13 = p.r_w_b_bz * p.m_w;
-    let hand_mr_bx = p.mount_11 * mc_bx + p.mount_12 * k_12 + p.mount_13 * k_13;
-    let hand_mr_by = p.mount_21 * mc_bx + p.mount_22 * k_12 + p.mount_23 * k_13;
-    let hand_mr_bz = p.mount_31 * mc_bx + p.mount_32 * k_12 + p.mount_33 * k_13;
+    let k_5 = p.r_w_b_by * p.m_w;
+    let k_6 = p.r_w_b_bz * p.m_w;
+    let hand_mr_bx = p.mount_11 * mc_bx + p.mount_12 * k_5 + p.mount_13 * k_6;
+    let hand_mr_by = p.mount_21 * mc_bx + p.mount_22 * k_5 + p.mount_23 * k_6;
+    let hand_mr_bz = p.mount_31 * mc_bx + p.mount_32 * k_5 + p.mount_33 * k_6;
     let k_0 = p.r_w_b_bx * p.r_w_b_bx;
-    let hand_0 = p.d * p.d * p.m_w;
+    let hand_0 = p.d * p.d;
     let hand_1 = p.r_w_b_by * p.r_w_b_by;
     let hand_2 = p.r_w_b_bz * p.r_w_b_bz;
-    let hand_3 = p.m_w * k_0;
-    let hand_4 = p.m_w * hand_2;
-    let hand_5 = p.m_w * hand_1;
+    let hand_3 = p.m_w * (hand_1 + hand_2);
+    let hand_4 = k_0 + hand_0;
+    let hand_5 = p.j_33 + p.m_w * (hand_2 + hand_4);
+    let hand_6 = p.j_33 + p.m_w * (hand_1 + hand_4);
+    let hand_7 = p.mount_12 + p.mount_12;
+    let hand_8 = p.mount_13 + p.mount_13;
+    let hand_9 = hand_8 + hand_8;
     let half = p.mount_11.like(0.5);
-    let hand_6 = half * (hand_4 + hand_5);
-    let hand_7 = p.mount_11 * p.mount_11;
-    let hand_8 = p.r_w_b_by * mc_bx * half;
-    let hand_9 = p.mount_11 * p.mount_12;
-    let hand_10 = hand_8 * (hand_9 + hand_9);
-    let hand_11 = p.r_w_b_bz * mc_bx * half;
-    let hand_12 = p.mount_11 * p.mount_13;
-    let hand_13 = hand_11 * (hand_12 + hand_12);
-    let hand_14 = half * (hand_0 + hand_4 + hand_3 + p.j_33);
-    let hand_15 = p.mount_12 * p.mount_12;
-    let hand_16 = p.r_w_b_bz * k_12 * half;
-    let hand_17 = p.mount_12 * p.mount_13;
-    let hand_18 = hand_16 * (hand_17 + hand_17);
-    let hand_19 = half * (hand_0 + hand_5 + hand_3 + p.j_33);
-    let hand_20 = p.mount_13 * p.mount_13;
-    let hand_21 = hand_6 * (hand_7 + hand_7) - hand_10 - hand_13 - hand_10;
-    let hand_22 = hand_21 + hand_14 * (hand_15 + hand_15) - hand_18 - hand_13;
-    let hand_i_11 = hand_22 - hand_18 + hand_19 * (hand_20 + hand_20);
-    let hand_23 = p.mount_11 * p.mount_21;
-    let hand_24 = hand_8 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
-    let hand_25 = hand_11 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
-    let hand_26 = p.mount_12 * p.mount_22;
-    let hand_27 = hand_16 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
-    let hand_28 = p.mount_13 * p.mount_23;
-    let hand_29 = hand_6 * (hand_23 + hand_23) - hand_24 - hand_25 - hand_24;
-    let hand_30 = hand_29 + hand_14 * (hand_26 + hand_26) - hand_27 - hand_25;
-    let hand_i_12 = hand_30 - hand_27 + hand_19 * (hand_28 + hand_28);
-    let hand_31 = p.mount_11 * p.mount_31;
-    let hand_32 = hand_8 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
-    let hand_33 = hand_11 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
-    let hand_34 = p.mount_12 * p.mount_32;
-    let hand_35 = hand_16 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
-    let hand_36 = p.mount_13 * p.mount_33;
-    let hand_37 = hand_6 * (hand_31 + hand_31) - hand_32 - hand_33 - hand_32;
-    let hand_38 = hand_37 + hand_14 * (hand_34 + hand_34) - hand_35 - hand_33;
-    let hand_i_13 = hand_38 - hand_35 + hand_19 * (hand_36 + hand_36);
-    let hand_39 = p.mount_21 * p.mount_21;
-    let hand_40 = p.mount_21 * p.mount_22;
-    let hand_41 = hand_8 * (hand_40 + hand_40);
-    let hand_42 = p.mount_21 * p.mount_23;
-    let hand_43 = hand_11 * (hand_42 + hand_42);
-    let hand_44 = p.mount_22 * p.mount_22;
-    let hand_45 = p.mount_22 * p.mount_23;
-    let hand_46 = hand_16 * (hand_45 + hand_45);
-    let hand_47 = p.mount_23 * p.mount_23;
-    let hand_48 = hand_6 * (hand_39 + hand_39) - hand_41 - hand_43 - hand_41;
-    let hand_49 = hand_48 + hand_14 * (hand_44 + hand_44) - hand_46 - hand_43;
-    let hand_i_22 = hand_49 - hand_46 + hand_19 * (hand_47 + hand_47);
-    let hand_50 = p.mount_21 * p.mount_31;
-    let hand_51 = hand_8 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
-    let hand_52 = hand_11 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
-    let hand_53 = p.mount_22 * p.mount_32;
-    let hand_54 = hand_16 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
-    let hand_55 = p.mount_23 * p.mount_33;
-    let hand_56 = hand_6 * (hand_50 + hand_50) - hand_51 - hand_52 - hand_51;
-    let hand_57 = hand_56 + hand_14 * (hand_53 + hand_53) - hand_54 - hand_52;
-    let hand_i_23 = hand_57 - hand_54 + hand_19 * (hand_55 + hand_55);
-    let hand_58 = p.mount_31 * p.mount_31;
-    let hand_59 = p.mount_31 * p.mount_32;
-    let hand_60 = hand_8 * (hand_59 + hand_59);
-    let hand_61 = p.mount_31 * p.mount_33;
-    let hand_62 = hand_11 * (hand_61 + hand_61);
-    let hand_63 = p.mount_32 * p.mount_32;
-    let hand_64 = p.mount_32 * p.mount_33;
-    let hand_65 = hand_16 * (hand_64 + hand_64);
-    let hand_66 = p.mount_33 * p.mount_33;
-    let hand_67 = hand_6 * (hand_58 + hand_58) - hand_60 - hand_62 - hand_60;
-    let hand_68 = hand_67 + hand_14 * (hand_63 + hand_63) - hand_65 - hand_62;
-    let hand_i_33 = hand_68 - hand_65 + hand_19 * (hand_66 + hand_66);
+    let hand_10 = mc_bx * (p.r_w_b_by * (hand_7 + hand_7) + p.r_w_b_bz * hand_9);
+    let hand_11 = p.mount_11 * (hand_3 * (p.mount_11 + p.mount_11) - hand_10);
+    let hand_12 = p.mount_12 * (hand_5 * hand_7 - k_5 * hand_9 * p.r_w_b_bz);
+    let hand_i_11 = half * (p.mount_13 * hand_8 * hand_6 + hand_11 + hand_12);
+    let hand_13 = p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12;
+    let hand_14 = p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13;
+    let hand_15 = p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13;
+    let hand_16 = p.mount_21 + p.mount_21;
+    let hand_17 = p.mount_22 + p.mount_22;
+    let hand_18 = p.mount_23 + p.mount_23;
+    let hand_19 = p.r_w_b_bz * (hand_14 + hand_14);
+    let hand_20 = mc_bx * (p.r_w_b_by * (hand_13 + hand_13) + hand_19);
+    let hand_21 = p.mount_11 * hand_16 * hand_3 - hand_20;
+    let hand_22 = hand_21 + p.mount_12 * hand_17 * hand_5;
+    let hand_23 = hand_22 - k_5 * (hand_15 + hand_15) * p.r_w_b_bz;
+    let hand_i_12 = half * (hand_23 + p.mount_13 * hand_18 * hand_6);
+    let hand_24 = p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12;
+    let hand_25 = p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13;
+    let hand_26 = p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13;
+    let hand_27 = p.mount_31 + p.mount_31;
+    let hand_28 = p.mount_32 + p.mount_32;
+    let hand_29 = p.mount_33 + p.mount_33;
+    let hand_30 = p.r_w_b_bz * (hand_25 + hand_25);
+    let hand_31 = mc_bx * (p.r_w_b_by * (hand_24 + hand_24) + hand_30);
+    let hand_32 = p.mount_11 * hand_27 * hand_3 - hand_31;
+    let hand_33 = hand_32 + p.mount_12 * hand_28 * hand_5;
+    let hand_34 = hand_33 - k_5 * (hand_26 + hand_26) * p.r_w_b_bz;
+    let hand_i_13 = half * (hand_34 + p.mount_13 * hand_29 * hand_6);
+    let hand_35 = hand_18 + hand_18;
+    let hand_36 = mc_bx * (p.r_w_b_by * (hand_17 + hand_17) + p.r_w_b_bz * hand_35);
+    let hand_37 = p.mount_21 * (hand_3 * hand_16 - hand_36);
+    let hand_38 = p.mount_22 * (hand_5 * hand_17 - k_5 * hand_35 * p.r_w_b_bz);
+    let hand_i_22 = half * (p.mount_23 * hand_18 * hand_6 + hand_37 + hand_38);
+    let hand_39 = p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22;
+    let hand_40 = p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23;
+    let hand_41 = p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23;
+    let hand_42 = p.r_w_b_bz * (hand_40 + hand_40);
+    let hand_43 = mc_bx * (p.r_w_b_by * (hand_39 + hand_39) + hand_42);
+    let hand_44 = p.mount_21 * hand_27 * hand_3 - hand_43;
+    let hand_45 = hand_44 + p.mount_22 * hand_28 * hand_5;
+    let hand_46 = hand_45 - k_5 * (hand_41 + hand_41) * p.r_w_b_bz;
+    let hand_i_23 = half * (hand_46 + p.mount_23 * hand_29 * hand_6);
+    let hand_47 = hand_29 + hand_29;
+    let hand_48 = mc_bx * (p.r_w_b_by * (hand_28 + hand_28) + p.r_w_b_bz * hand_47);
+    let hand_49 = p.mount_31 * (hand_3 * hand_27 - hand_48);
+    let hand_50 = p.mount_32 * (hand_5 * hand_28 - k_5 * hand_47 * p.r_w_b_bz);
+    let hand_i_33 = half * (p.mount_33 * hand_29 * hand_6 + hand_49 + hand_50);
 
     // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
-    let i_w_w_11 = p.j_11 + hand_0;
+    let own_0 = p.m_w * hand_0;
+    let i_w_w_11 = p.j_11 + own_0;
 
     // Base parameters of the wheel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     let i_w_base_12 = p.j_12 - p.r_w_b_bx * mr_wc_w_wy;
-    let i_w_base_22 = p.j_22 - hand_0 - p.j_33;
+    let i_w_base_22 = p.j_22 - own_0 - p.j_33;
 
     // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_ww = i_w_w_11;
@@ -771,36 +760,38 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let reach_bz = p.r_w_b_by * p.mount_32 + p.r_w_b_bz * p.mount_33;
 
     // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
-    let i_w_w_33 = p.j_33 + hand_0;
+    let i_w_w_33 = p.j_33 + own_0;
 
     // Products and sums of parameters that occur more deeply.
     let k_1 = i_w_w_33 - p.j_22;
     let k_2 = p.j_23 + p.j_23;
-    let k_3 = -p.j_23;
-    let k_4 = p.r_w_b_by + p.r_w_b_by;
-    let k_5 = p.r_w_b_bz + p.r_w_b_bz;
-    let k_6 = p.m_w * (hand_1 + hand_2);
-    let k_7 = -(p.r_w_b_bx * p.r_w_b_by * p.m_w);
-    let k_8 = -(p.r_w_b_bx * p.r_w_b_bz * p.m_w);
-    let k_9 = p.m_w * (k_0 + hand_2);
-    let k_10 = -(p.r_w_b_by * p.r_w_b_bz * p.m_w);
-    let k_11 = p.m_w * (k_0 + hand_1);
-    let k_14 = i_w_w_11 + i_w_base_22;
-    let k_15 = i_w_w_11 - i_w_base_22;
-    let k_16 = p.mount_11 * i_w_w_11;
-    let k_17 = p.mount_21 * i_w_w_11;
-    let k_18 = p.mount_31 * i_w_w_11;
-    let k_19 = half * i_w_base_22;
+    let k_3 = -(p.r_w_b_bx * p.r_w_b_by * p.m_w);
+    let k_4 = -(p.r_w_b_bx * p.r_w_b_bz * p.m_w);
+    let k_7 = i_w_w_11 + i_w_base_22;
+    let k_8 = i_w_w_11 - i_w_base_22;
+    let k_9 = p.mount_11 * i_w_w_11;
+    let k_10 = p.mount_21 * i_w_w_11;
+    let k_11 = p.mount_31 * i_w_w_11;
+    let k_12 = half * i_w_base_22;
     let prep_0 = half * i_w_w_11;
-    let k_20 = -(p.mount_11 * prep_0);
-    let k_21 = -(p.mount_21 * prep_0);
-    let k_22 = -(p.mount_31 * prep_0);
-    let k_23 = reach_bx + reach_bx;
-    let k_24 = reach_by + reach_by;
-    let k_25 = reach_bz + reach_bz;
-    let k_26 = p.j_22 - i_w_w_33;
-    let k_27 = i_w_w_33 - i_w_w_11;
-    let k_28 = i_w_w_11 - p.j_22;
+    let k_13 = -(p.mount_11 * prep_0);
+    let k_14 = -(p.mount_21 * prep_0);
+    let k_15 = -(p.mount_31 * prep_0);
+    let k_16 = reach_bx + reach_bx;
+    let k_17 = reach_by + reach_by;
+    let k_18 = reach_bz + reach_bz;
+    let k_19 = p.j_22 - i_w_w_33;
+    let k_20 = i_w_w_33 - i_w_w_11;
+    let k_21 = i_w_w_11 - p.j_22;
+    let k_22 = p.j_22 - p.j_33;
+    let k_23 = i_w_w_11 + hand_3;
+    let k_24 = p.j_22 + p.m_w * (k_0 + hand_2);
+    let k_25 = -(p.j_23 + p.r_w_b_by * p.r_w_b_bz * p.m_w);
+    let k_26 = i_w_w_33 + p.m_w * (k_0 + hand_1);
+    let k_27 = mr_wc_w_wy * (p.r_w_b_by + p.r_w_b_by);
+    let k_28 = mr_wc_w_wy * (p.r_w_b_bz + p.r_w_b_bz);
+    let k_29 = p.r_w_b_by * mr_wc_w_wy;
+    let k_30 = -(p.r_w_b_bz * mr_wc_w_wy);
 
     Prepared {
         mount_11: p.mount_11,
@@ -832,33 +823,26 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_2,
         k_3,
         k_4,
+        mc_bx,
         k_5,
         k_6,
-        k_7,
-        k_8,
-        k_9,
-        k_10,
-        k_11,
-        mc_bx,
-        k_12,
-        k_13,
         i_w_base_12,
         i_w_base_22,
-        k_14,
-        k_15,
+        k_7,
+        k_8,
         reach_bx,
         reach_by,
         reach_bz,
+        k_9,
+        k_10,
+        k_11,
+        k_12,
+        k_13,
+        k_14,
+        k_15,
         k_16,
         k_17,
         k_18,
-        k_19,
-        k_20,
-        k_21,
-        k_22,
-        k_23,
-        k_24,
-        k_25,
         hand_mr_bx,
         hand_mr_by,
         hand_mr_bz,
@@ -868,15 +852,24 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         hand_i_22,
         hand_i_23,
         hand_i_33,
+        k_19,
+        k_20,
+        k_21,
+        k_22,
+        k_23,
+        k_24,
+        k_25,
         k_26,
         k_27,
         k_28,
+        k_29,
+        k_30,
     }
 }
 
 /// The wheel: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 46 mul, 26 add, 7 neg, 0 div, 0 trig.
+/// Operations: 34 mul, 18 add, 6 neg, 0 div, 0 trig.
 #[must_use]
 pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // ω_{W/B}, eq. (59), rad/s.
@@ -911,13 +904,11 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
 
     // [I_{W,Wc}]′, eq. (64), along the axes of the wheel, kg m²/s.
     let i_w_wc_prime_11 = zero;
-    let turn_0 = v.spin * p.j_13;
-    let i_w_wc_prime_12 = -turn_0;
+    let i_w_wc_prime_12 = -(v.spin * p.j_13);
     let i_w_wc_prime_13 = v.spin * p.j_12;
-    let turn_1 = v.spin * p.j_23;
-    let i_w_wc_prime_33 = turn_1 + turn_1;
+    let i_w_wc_prime_33 = v.spin * p.k_2;
     let i_w_wc_prime_22 = -i_w_wc_prime_33;
-    let i_w_wc_prime_23 = v.spin * p.j_22 - v.spin * p.j_33;
+    let i_w_wc_prime_23 = v.spin * p.k_22;
 
     // [I_{W,B}], eq. (71), along the axes of the wheel, kg m².
     let axis_0 = q.cos_theta * r_wc_b_by + q.sin_theta * r_wc_b_bz;
@@ -925,24 +916,20 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let axis_2 = axis_0 * axis_0;
     let axis_3 = axis_1 * axis_1;
     let i_w_b_11 = p.j_11 + p.m_w * (axis_2 + axis_3);
-    let i_w_b_12 = p.j_12 - p.r_w_b_bx * axis_0 * p.m_w;
-    let i_w_b_13 = p.j_13 - p.r_w_b_bx * axis_1 * p.m_w;
+    let i_w_b_12 = p.j_12 - axis_0 * p.mc_bx;
+    let i_w_b_13 = p.j_13 - axis_1 * p.mc_bx;
     let i_w_b_22 = p.j_22 + p.m_w * (p.k_0 + axis_3);
     let i_w_b_23 = p.j_23 - axis_0 * axis_1 * p.m_w;
     let i_w_b_33 = p.j_33 + p.m_w * (p.k_0 + axis_2);
 
     // [I_{W,B}]′, eq. (73), along the axes of the wheel, kg m²/s.
-    let shift_0 = q.sin_theta * r_wc_b_prime_bz - q.cos_theta * vel_1;
-    let shift_1 = q.cos_theta * r_wc_b_prime_bz + q.sin_theta * vel_1;
-    let shift_2 = axis_0 * (shift_0 + shift_0);
-    let shift_3 = axis_1 * (shift_1 + shift_1);
-    let i_w_b_prime_11 = p.m_w * (shift_2 + shift_3);
-    let i_w_b_prime_12 = -(turn_0 + p.r_w_b_bx * shift_0 * p.m_w);
-    let i_w_b_prime_13 = i_w_wc_prime_13 - p.r_w_b_bx * shift_1 * p.m_w;
-    let i_w_b_prime_22 = i_w_wc_prime_22 + p.m_w * shift_3;
-    let shift_4 = p.m_w * (axis_1 * shift_0 + axis_0 * shift_1);
-    let i_w_b_prime_23 = i_w_wc_prime_23 - shift_4;
-    let i_w_b_prime_33 = i_w_wc_prime_33 + p.m_w * shift_2;
+    let shift_0 = q.cos_theta * r_wc_b_prime_bz + q.sin_theta * vel_1;
+    let i_w_b_prime_11 = axis_1 * (shift_0 + shift_0) * p.m_w;
+    let i_w_b_prime_12 = i_w_wc_prime_12;
+    let i_w_b_prime_13 = i_w_wc_prime_13 - shift_0 * p.mc_bx;
+    let i_w_b_prime_22 = i_w_b_prime_11 + i_w_wc_prime_22;
+    let i_w_b_prime_23 = i_w_wc_prime_23 - axis_0 * shift_0 * p.m_w;
+    let i_w_b_prime_33 = i_w_wc_prime_33;
 
     Wheel {
         omega_w_b_wx,
@@ -993,9 +980,9 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_bx = p.mc_bx;
     let mc_dprime_w_bz = q.cos_theta * p.mr_wc_w_wy;
-    let mc_by = mc_dprime_w_bz + p.k_12;
+    let mc_by = mc_dprime_w_bz + p.k_5;
     let mom_0 = q.sin_theta * p.mr_wc_w_wy;
-    let mc_bz = mom_0 + p.k_13;
+    let mc_bz = mom_0 + p.k_6;
 
     // Σ m r′, share of m_sc c′, behind eq. (11), kg m/s.
     let zero = q.sin_theta.like(0.0);
@@ -1067,7 +1054,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 160 mul, 98 add, 0 neg, 1 div, 0 trig.
+/// Operations: 159 mul, 98 add, 0 neg, 1 div, 0 trig.
 #[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
@@ -1096,11 +1083,10 @@ pub fn eliminate<T: Real>(
 
     // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
     let mass_ww = p.i_w_w_11;
-    let row_0 = omega_b_n_wx * omega_b_n_wy * p.j_13;
-    let row_1 = (omega_b_n_wy * omega_b_n_wy).sub_mul(omega_b_n_wz, omega_b_n_wz);
-    let row_2 = omega_b_n_wy * omega_b_n_wz;
-    let row_3 = row_0.sub_mul(p.i_w_base_12, omega_b_n_wx * omega_b_n_wz);
-    let field_w = row_3 + (p.j_23 * row_1).sub_mul(p.i_w_base_22, row_2);
+    let row_0 = (omega_b_n_wy * omega_b_n_wy).sub_mul(omega_b_n_wz, omega_b_n_wz);
+    let row_1 = (p.j_13 * omega_b_n_wy).sub_mul(p.i_w_base_12, omega_b_n_wz);
+    let row_2 = (p.j_23 * row_0).add_mul(omega_b_n_wx, row_1);
+    let field_w = row_2.sub_mul(p.i_w_base_22, omega_b_n_wy * omega_b_n_wz);
 
     // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
     let coriolis_0 = v.spin * omega_b_n_wy;
@@ -1109,21 +1095,21 @@ pub fn eliminate<T: Real>(
     let coriolis_2 = v.spin * (v.spin + omega_b_n_wx + omega_b_n_wx);
     let neg_f_rates_w_wy = p.mr_wc_w_wy * coriolis_2;
     let coriolis_3 = v.spin * omega_b_n_wz;
-    let coriolis_4 = (coriolis_3 * p.k_14).sub_mul(p.k_2, coriolis_0);
+    let coriolis_4 = (coriolis_3 * p.k_7).sub_mul(p.k_2, coriolis_0);
     let n_rates_w_wy = coriolis_4.sub_mul(p.j_13, coriolis_2);
     let coriolis_5 = (p.i_w_base_12 * coriolis_2).add_mul(p.k_2, coriolis_3);
-    let n_rates_w_wz = coriolis_5.sub_mul(coriolis_0, p.k_15);
+    let n_rates_w_wz = coriolis_5.sub_mul(coriolis_0, p.k_8);
 
     // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
     // acceleration, along B axes.
     let f_w_bx = p.mr_wc_w_wy * e_z_bx;
     let f_w_by = p.mr_wc_w_wy * e_z_by;
     let f_w_bz = p.mr_wc_w_wy * e_z_bz;
-    let col_0 = p.k_16.add_mul(p.i_w_base_12, e_y_bx).add_mul(p.j_13, e_z_bx);
+    let col_0 = p.k_9.add_mul(p.i_w_base_12, e_y_bx).add_mul(p.j_13, e_z_bx);
     let n_w_bx = (p.reach_by * f_w_bz).sub_mul(p.reach_bz, f_w_by) + col_0;
-    let col_1 = p.k_17.add_mul(p.i_w_base_12, e_y_by).add_mul(p.j_13, e_z_by);
+    let col_1 = p.k_10.add_mul(p.i_w_base_12, e_y_by).add_mul(p.j_13, e_z_by);
     let n_w_by = (p.reach_bz * f_w_bx).sub_mul(p.reach_bx, f_w_bz) + col_1;
-    let col_2 = p.k_18.add_mul(p.i_w_base_12, e_y_bz).add_mul(p.j_13, e_z_bz);
+    let col_2 = p.k_11.add_mul(p.i_w_base_12, e_y_bz).add_mul(p.j_13, e_z_bz);
     let n_w_bz = (p.reach_bx * f_w_by).sub_mul(p.reach_by, f_w_bx) + col_2;
 
     // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
@@ -1131,26 +1117,26 @@ pub fn eliminate<T: Real>(
     let mr_moving_bx = p.mr_wc_w_wy * e_y_bx;
     let mr_moving_by = p.mr_wc_w_wy * e_y_by;
     let mr_moving_bz = p.mr_wc_w_wy * e_y_bz;
-    let moment_0 = (e_y_bx * p.k_19).add_mul(p.j_23, e_z_bx);
-    let moment_1 = col_0 + p.k_20;
+    let moment_0 = (e_y_bx * p.k_12).add_mul(p.j_23, e_z_bx);
+    let moment_1 = col_0 + p.k_13;
     let moment_2 = (e_y_bx * moment_0).add_mul(p.mount_11, moment_1);
-    let moment_3 = mr_moving_by * p.k_24;
-    let moment_4 = mr_moving_bz * p.k_25;
+    let moment_3 = mr_moving_by * p.k_17;
+    let moment_4 = mr_moving_bz * p.k_18;
     let i_moving_11 = moment_2 + moment_2 + (moment_3 + moment_4);
-    let moment_5 = (e_y_by * p.k_19).add_mul(p.j_23, e_z_by);
-    let moment_6 = col_1 + p.k_21;
+    let moment_5 = (e_y_by * p.k_12).add_mul(p.j_23, e_z_by);
+    let moment_6 = col_1 + p.k_14;
     let moment_7 = (e_y_by * moment_0).add_mul(p.mount_21, moment_1);
     let moment_8 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
     let moment_9 = (e_y_bx * moment_5).add_mul(p.mount_11, moment_6) + moment_7;
     let i_moving_12 = moment_9 - moment_8;
-    let moment_10 = (e_y_bz * p.k_19).add_mul(p.j_23, e_z_bz);
-    let moment_11 = col_2 + p.k_22;
+    let moment_10 = (e_y_bz * p.k_12).add_mul(p.j_23, e_z_bz);
+    let moment_11 = col_2 + p.k_15;
     let moment_12 = (e_y_bx * moment_10).add_mul(p.mount_11, moment_11);
     let moment_13 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
     let moment_14 = moment_12 + (e_y_bz * moment_0).add_mul(p.mount_31, moment_1);
     let i_moving_13 = moment_14 - moment_13;
     let moment_15 = (e_y_by * moment_5).add_mul(p.mount_21, moment_6);
-    let moment_16 = mr_moving_bx * p.k_23;
+    let moment_16 = mr_moving_bx * p.k_16;
     let i_moving_22 = moment_15 + moment_15 + (moment_16 + moment_4);
     let moment_17 = (e_y_by * moment_10).add_mul(p.mount_21, moment_11);
     let moment_18 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
@@ -1392,7 +1378,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
 /// What the carrier of each joint exerts on all outside it, so that these accelerations
 /// happen: the torques of (116).
 ///
-/// Operations: 87 mul, 63 add, 0 neg, 0 div, 0 trig.
+/// Operations: 82 mul, 61 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn loads<T: Real>(
     p: &Prepared<T>,
@@ -1409,14 +1395,10 @@ pub fn loads<T: Real>(
 
     // Its derivative by components, as in eq. (62), along the same axes, rad/s².
     let omega_w_n_dot_wx = a.omega_dot_bx + j.spin_dot;
-    let turn_0 = v.spin * q.cos_theta;
-    let turn_1 = v.spin * q.sin_theta;
-    let turn_2 = a.omega_dot_bz * q.sin_theta + w.omega_bz * turn_0;
-    let turn_3 = a.omega_dot_by * q.cos_theta - w.omega_by * turn_1;
-    let omega_w_n_dot_wy = turn_3 + turn_2;
-    let turn_4 = a.omega_dot_by * q.sin_theta + w.omega_by * turn_0;
-    let turn_5 = a.omega_dot_bz * q.cos_theta - w.omega_bz * turn_1;
-    let omega_w_n_dot_wz = turn_5 - turn_4;
+    let turn_0 = a.omega_dot_by + w.omega_bz * v.spin;
+    let turn_1 = a.omega_dot_bz - w.omega_by * v.spin;
+    let omega_w_n_dot_wy = q.cos_theta * turn_0 + q.sin_theta * turn_1;
+    let omega_w_n_dot_wz = q.cos_theta * turn_1 - q.sin_theta * turn_0;
 
     // Inertial acceleration of W as in eq. (69), same axes, m/s².
     let path_0 = w.omega_bz * p.r_w_b_bx - w.omega_bx * p.r_w_b_bz;
@@ -1436,41 +1418,39 @@ pub fn loads<T: Real>(
 
     // On D, the wheel and what it carries, at its joint, eq. (116): force, N, and moment about
     // W, N m.
-    let load_0 = p.mr_wc_w_wy * omega_w_n_wx;
-    let load_1 = omega_w_n_wy * load_0 - p.mr_wc_w_wy * omega_w_n_dot_wz;
-    let f_load_wx = load_1 + p.m_w * r_w_n_ddot_wx;
-    let load_2 = p.mr_wc_w_wy * omega_w_n_wz;
-    let load_3 = omega_w_n_wz * load_2 + omega_w_n_wx * load_0;
-    let f_load_wy = p.m_w * r_w_n_ddot_wy - load_3;
-    let load_4 = p.mr_wc_w_wy * omega_w_n_dot_wx + omega_w_n_wy * load_2;
-    let f_load_wz = load_4 + p.m_w * r_w_n_ddot_wz;
-    let load_5 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
-    let load_6 = load_5 + p.j_23 * omega_w_n_wz;
-    let load_7 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
-    let load_8 = load_7 + p.i_w_w_33 * omega_w_n_wz;
-    let load_9 = p.i_w_w_11 * omega_w_n_dot_wx + p.j_12 * omega_w_n_dot_wy;
-    let load_10 = omega_w_n_wy * load_8 - omega_w_n_wz * load_6;
-    let load_11 = load_9 + p.j_13 * omega_w_n_dot_wz + load_10;
-    let n_load_wx = load_11 + p.mr_wc_w_wy * r_w_n_ddot_wz;
-    let load_12 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
-    let load_13 = load_12 + p.j_13 * omega_w_n_wz;
-    let load_14 = p.j_12 * omega_w_n_dot_wx + p.j_22 * omega_w_n_dot_wy;
-    let load_15 = omega_w_n_wz * load_13 - omega_w_n_wx * load_8;
-    let n_load_wy = load_14 + p.j_23 * omega_w_n_dot_wz + load_15;
-    let load_16 = p.j_13 * omega_w_n_dot_wx + p.j_23 * omega_w_n_dot_wy;
-    let load_17 = omega_w_n_wx * load_6 - omega_w_n_wy * load_13;
-    let load_18 = load_16 + p.i_w_w_33 * omega_w_n_dot_wz + load_17;
-    let n_load_wz = load_18 - p.mr_wc_w_wy * r_w_n_ddot_wx;
+    let load_0 = p.mr_wc_w_wy * (omega_w_n_wx * omega_w_n_wy - omega_w_n_dot_wz);
+    let f_load_wx = p.m_w * r_w_n_ddot_wx + load_0;
+    let load_1 = omega_w_n_wz * omega_w_n_wz + omega_w_n_wx * omega_w_n_wx;
+    let f_load_wy = p.m_w * r_w_n_ddot_wy - p.mr_wc_w_wy * load_1;
+    let load_2 = p.mr_wc_w_wy * (omega_w_n_dot_wx + omega_w_n_wy * omega_w_n_wz);
+    let f_load_wz = p.m_w * r_w_n_ddot_wz + load_2;
+    let load_3 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
+    let load_4 = load_3 + p.j_23 * omega_w_n_wz;
+    let load_5 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
+    let load_6 = load_5 + p.i_w_w_33 * omega_w_n_wz;
+    let load_7 = p.i_w_w_11 * omega_w_n_dot_wx + p.j_12 * omega_w_n_dot_wy;
+    let load_8 = omega_w_n_wy * load_6 - omega_w_n_wz * load_4;
+    let load_9 = load_8 + (load_7 + p.j_13 * omega_w_n_dot_wz);
+    let n_load_wx = load_9 + p.mr_wc_w_wy * r_w_n_ddot_wz;
+    let load_10 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
+    let load_11 = load_10 + p.j_13 * omega_w_n_wz;
+    let load_12 = p.j_12 * omega_w_n_dot_wx + p.j_22 * omega_w_n_dot_wy;
+    let load_13 = omega_w_n_wz * load_11 - omega_w_n_wx * load_6;
+    let n_load_wy = load_13 + (load_12 + p.j_23 * omega_w_n_dot_wz);
+    let load_14 = p.j_13 * omega_w_n_dot_wx + p.j_23 * omega_w_n_dot_wy;
+    let load_15 = omega_w_n_wx * load_4 - omega_w_n_wy * load_11;
+    let load_16 = load_15 + (load_14 + p.i_w_w_33 * omega_w_n_dot_wz);
+    let n_load_wz = load_16 - p.mr_wc_w_wy * r_w_n_ddot_wx;
 
     // On the whole device, eqs. (16), (75): force, N, and moment about B, N m.
     let f_load_bx = f_load_wx;
     let f_load_by = q.cos_theta * f_load_wy - q.sin_theta * f_load_wz;
     let f_load_bz = q.cos_theta * f_load_wz + q.sin_theta * f_load_wy;
     let n_load_bx = p.r_w_b_by * f_load_bz - p.r_w_b_bz * f_load_by + n_load_wx;
-    let load_19 = q.cos_theta * n_load_wy - q.sin_theta * n_load_wz;
-    let n_load_by = load_19 + (p.r_w_b_bz * f_load_wx - p.r_w_b_bx * f_load_bz);
-    let load_20 = q.cos_theta * n_load_wz + q.sin_theta * n_load_wy;
-    let n_load_bz = load_20 + (p.r_w_b_bx * f_load_by - p.r_w_b_by * f_load_wx);
+    let load_17 = q.cos_theta * n_load_wy - q.sin_theta * n_load_wz;
+    let n_load_by = load_17 + (p.r_w_b_bz * f_load_wx - p.r_w_b_bx * f_load_bz);
+    let load_18 = q.cos_theta * n_load_wz + q.sin_theta * n_load_wy;
+    let n_load_bz = load_18 + (p.r_w_b_bx * f_load_by - p.r_w_b_by * f_load_wx);
 
     Loads {
         f_load_wx,
@@ -1533,7 +1513,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 58 mul, 58 add, 5 neg, 0 div, 0 trig.
+/// Operations: 54 mul, 52 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (G1), along the axes of the wheel, 1/s².
@@ -1556,34 +1536,28 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_wx = p.m_w * g_r_w_wx + p.mr_wc_w_wy * g_w_12;
     let f_on_wy = p.m_w * g_r_w_wy + p.mr_wc_w_wy * g_w_22;
     let f_on_wz = p.m_w * g_r_w_wz + p.mr_wc_w_wy * g_w_23;
-    let pull_0 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_26;
+    let pull_0 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_19;
     let n_on_wx = p.mr_wc_w_wy * g_r_w_wz - (pull_0 + p.j_23 * (g_w_33 - g_w_22));
-    let pull_1 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_27;
+    let pull_1 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_20;
     let n_on_wy = -(pull_1 + p.j_13 * (g.g_11 - g_w_33));
-    let pull_2 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_28;
+    let pull_2 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_21;
     let n_on_wz = -(pull_2 + p.j_12 * (g_w_22 - g.g_11) + p.mr_wc_w_wy * g_r_w_wx);
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
-    let axis_0 = q.cos_theta * p.mr_wc_w_wy;
-    let axis_1 = q.sin_theta * p.mr_wc_w_wy;
-    let axis_2 = q.cos_theta * p.k_2 - q.sin_theta * p.k_1;
-    let axis_3 = q.sin_theta * axis_2;
-    let axis_4 = axis_0 * p.k_4;
-    let axis_5 = axis_1 * p.k_5;
-    let axis_6 = axis_4 + axis_5 + p.i_w_w_11 + p.k_6;
-    let axis_7 = p.j_22 - axis_3 + axis_5 + p.k_9;
-    let axis_8 = p.i_w_w_33 + axis_3 + axis_4 + p.k_11;
+    let axis_0 = q.cos_theta * p.k_2 - q.sin_theta * p.k_1;
+    let axis_1 = q.cos_theta * p.k_27;
+    let axis_2 = axis_1 + q.sin_theta * p.k_28 + p.k_23;
+    let axis_3 = p.k_24 + q.sin_theta * (p.k_28 - axis_0);
+    let axis_4 = q.sin_theta * axis_0 + axis_1 + p.k_26;
     let half = q.sin_theta.like(0.5);
-    let axis_9 = half * (axis_6 + axis_7 + axis_8);
-    let second_moment_11 = axis_9 - axis_6;
-    let axis_10 = q.cos_theta * p.j_12 - q.sin_theta * p.j_13;
-    let second_moment_12 = -(axis_10 - p.r_w_b_bx * axis_0 + p.k_7);
-    let axis_11 = q.cos_theta * p.j_13 + q.sin_theta * p.j_12;
-    let second_moment_13 = -(axis_11 - p.r_w_b_bx * axis_1 + p.k_8);
-    let second_moment_22 = axis_9 - axis_7;
-    let axis_12 = p.r_w_b_by * axis_1 + p.r_w_b_bz * axis_0;
-    let second_moment_23 = -(q.cos_theta * axis_2 + p.k_3 - axis_12 + p.k_10);
-    let second_moment_33 = axis_9 - axis_8;
+    let axis_5 = half * (axis_2 + axis_3 + axis_4);
+    let second_moment_11 = axis_5 - axis_2;
+    let second_moment_12 = -(q.cos_theta * p.i_w_base_12 - q.sin_theta * p.j_13 + p.k_3);
+    let second_moment_13 = -(q.cos_theta * p.j_13 + q.sin_theta * p.i_w_base_12 + p.k_4);
+    let second_moment_22 = axis_5 - axis_3;
+    let axis_6 = q.cos_theta * (axis_0 + p.k_30) - q.sin_theta * p.k_29;
+    let second_moment_23 = -(axis_6 + p.k_25);
+    let second_moment_33 = axis_5 - axis_4;
 
     Gravity {
         wrenches: Wrenches { f_on_wx, f_on_wy, f_on_wz, n_on_wx, n_on_wy, n_on_wz },

@@ -156,18 +156,18 @@ pub struct Prepared<T> {
     pub m_d: T,
     /// `p.r_g_b_bz + p.r_gc_g_gz`. r_{Gc/B}, behind eq. (12), m.
     pub r_gc_b_bz: T,
-    /// `p.r_g_b_bz + p.l_g_z`. Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first
-    /// moment, kg m, inertia, kg m².
+    /// `p.r_g_b_bz + p.l_g_z`. What the hub takes over, eq. (B2): mass, kg, first moment, kg
+    /// m, and inertia about B, kg m², along B axes.
     pub arm_g_dz: T,
     /// `r_gc_b_bz * r_gc_b_bz`.
     pub k_0: T,
     /// `p.m_w * p.d`. The wheel about its origin: first moment, kg m, and inertia as in eq.
     /// (71), kg m².
     pub mr_wc_w_wy: T,
-    /// `p.j_11 + hand_8`. The wheel about its origin: first moment, kg m, and inertia as in
+    /// `p.j_11 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_11: T,
-    /// `p.j_33 + hand_8`. The wheel about its origin: first moment, kg m, and inertia as in
+    /// `p.j_33 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_33: T,
     /// `i_w_w_33 - p.j_22`.
@@ -178,24 +178,10 @@ pub struct Prepared<T> {
     pub k_3: T,
     /// `p.l_g_y + p.l_g_y`.
     pub k_4: T,
-    /// `p.l_g_z + p.l_g_z`.
+    /// `p.l_g_x * p.m_w`.
     pub k_5: T,
-    /// `p.m_w * (base_0 + hand_10)`.
-    pub k_6: T,
-    /// `-base_5`.
-    pub k_7: T,
-    /// `-(p.l_g_x * p.l_g_z * p.m_w)`.
-    pub k_8: T,
-    /// `p.m_w * (hand_9 + hand_10)`.
-    pub k_9: T,
-    /// `-(p.l_g_y * p.l_g_z * p.m_w)`.
-    pub k_10: T,
-    /// `p.m_w * (hand_9 + base_0)`.
-    pub k_11: T,
     /// `p.l_g_y * p.m_w`.
-    pub k_12: T,
-    /// `p.l_g_z * p.m_w`.
-    pub k_13: T,
+    pub k_6: T,
     /// `p.m_g * p.r_gc_g_gx`. The gimbal about its origin: first moment, kg m, and inertia as
     /// in eq. (40), kg m².
     pub mr_gc_g_gx: T,
@@ -205,7 +191,7 @@ pub struct Prepared<T> {
     /// `p.m_g * p.r_gc_g_gz`. The gimbal about its origin: first moment, kg m, and inertia as
     /// in eq. (40), kg m².
     pub mr_gc_g_gz: T,
-    /// `p.i_g_11 + p.m_g * (base_1 + hand_12)`. The gimbal about its origin: first moment, kg
+    /// `p.i_g_11 + p.m_g * (base_1 + hand_4)`. The gimbal about its origin: first moment, kg
     /// m, and inertia as in eq. (40), kg m².
     pub i_g_g_11: T,
     /// `p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g`. The gimbal about its origin: first
@@ -214,64 +200,65 @@ pub struct Prepared<T> {
     /// `p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_13: T,
-    /// `p.i_g_22 + p.m_g * (hand_11 + hand_12)`. The gimbal about its origin: first moment,
-    /// kg m, and inertia as in eq. (40), kg m².
+    /// `p.i_g_22 + p.m_g * hand_5`. The gimbal about its origin: first moment, kg m, and
+    /// inertia as in eq. (40), kg m².
     pub i_g_g_22: T,
     /// `p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g`. The gimbal about its origin: first
     /// moment, kg m, and inertia as in eq. (40), kg m².
     pub i_g_g_23: T,
-    /// `p.i_g_33 + p.m_g * (hand_11 + base_1)`. The gimbal about its origin: first moment, kg
-    /// m, and inertia as in eq. (40), kg m².
+    /// `p.i_g_33 + base_5`. The gimbal about its origin: first moment, kg m, and inertia as
+    /// in eq. (40), kg m².
     pub i_g_g_33: T,
-    /// `p.l_g_x * p.m_w + mr_gc_g_gx`. D, the gimbal and what it carries, eq. (89): mass, kg;
-    /// first moment, kg m, and inertia, kg m², about G.
+    /// `k_5 + mr_gc_g_gx`. D, the gimbal and what it carries, eq. (89): mass, kg; first
+    /// moment, kg m, and inertia, kg m², about G.
     pub mr_d_g_gx: T,
     /// `p.r_g_b_bx + p.r_g_b_bx`.
-    pub k_14: T,
+    pub k_7: T,
     /// `p.r_g_b_by + p.r_g_b_by`.
-    pub k_15: T,
+    pub k_8: T,
     /// `p.r_g_b_bz + p.r_g_b_bz`.
-    pub k_16: T,
-    /// `m_d * (hand_14 + hand_15)`.
-    pub k_17: T,
+    pub k_9: T,
+    /// `m_d * (hand_7 + hand_8)`.
+    pub k_10: T,
     /// `-(p.r_g_b_bx * p.r_g_b_by * m_d)`.
-    pub k_18: T,
+    pub k_11: T,
     /// `-(p.r_g_b_bx * p.r_g_b_bz * m_d)`.
-    pub k_19: T,
-    /// `m_d * (hand_13 + hand_15)`.
-    pub k_20: T,
+    pub k_12: T,
+    /// `m_d * hand_9`.
+    pub k_13: T,
     /// `-(p.r_g_b_by * p.r_g_b_bz * m_d)`.
-    pub k_21: T,
-    /// `m_d * (hand_13 + hand_14)`.
-    pub k_22: T,
+    pub k_14: T,
+    /// `m_d * (hand_6 + hand_7)`.
+    pub k_15: T,
     /// `p.r_g_b_bx * m_d`.
-    pub k_23: T,
+    pub k_16: T,
     /// `p.r_g_b_by * m_d`.
-    pub k_24: T,
+    pub k_17: T,
     /// `p.r_g_b_bz * m_d`.
-    pub k_25: T,
-    /// `k_12 + mr_gc_g_gy`. Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first
+    pub k_18: T,
+    /// `p.m_g * r_gc_b_bz`.
+    pub k_19: T,
+    /// `p.j_12 - p.l_g_x * mr_wc_w_wy`.
+    pub k_20: T,
+    /// `k_6 + mr_gc_g_gy`. Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first
     /// moment, kg m, inertia, kg m².
     pub mr_g_base_gy: T,
-    /// `base_4 - hand_8 - p.j_33`. Base parameters of the gimbal, eqs. (B1), (B2): arm, m,
-    /// first moment, kg m, inertia, kg m².
-    pub i_g_base_11: T,
-    /// `p.i_g_12 - (base_5 + p.r_gc_g_gy * mr_gc_g_gx)`. Base parameters of the gimbal, eqs.
+    /// `p.i_g_12 - (base_3 + p.r_gc_g_gy * mr_gc_g_gx)`. Base parameters of the gimbal, eqs.
     /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_g_base_12: T,
-    /// `p.i_g_13 + p.r_gc_g_gx * base_6 - p.r_gc_g_gz * mr_gc_g_gx`. Base parameters of the
+    /// `p.i_g_13 + p.r_gc_g_gx * base_4 - p.r_gc_g_gz * mr_gc_g_gx`. Base parameters of the
     /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_g_base_13: T,
-    /// `p.i_g_23 + p.r_gc_g_gy * base_6 - p.r_gc_g_gz * mr_gc_g_gy`. Base parameters of the
+    /// `p.i_g_23 + p.r_gc_g_gy * base_4 - p.r_gc_g_gz * mr_gc_g_gy`. Base parameters of the
     /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_g_base_23: T,
-    /// `base_7 + p.j_33`. Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first
-    /// moment, kg m, inertia, kg m².
+    /// `base_5 + p.m_w * (hand_1 + base_0 + hand_2) + p.i_g_33 + p.j_33`. Base parameters of
+    /// the gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     pub i_g_base_33: T,
     /// `p.j_12 - p.l_g_x * p.d * p.m_w`. Base parameters of the wheel, eqs. (B1), (B2): arm,
     /// m, first moment, kg m, inertia, kg m².
     pub i_w_base_12: T,
-    /// `p.j_22 - hand_8 - p.j_33`. Base parameters of the wheel, eqs. (B1), (B2): arm, m,
+    /// `p.j_22 - own_0 - p.j_33`. Base parameters of the wheel, eqs. (B1), (B2): arm, m,
     /// first moment, kg m, inertia, kg m².
     pub i_w_base_22: T,
     /// `place_0 + p.mount_13 * arm_g_dz`. Origin of the first joint, eq. (A2), along B axes,
@@ -284,53 +271,87 @@ pub struct Prepared<T> {
     /// m.
     pub reach_bz: T,
     /// `reach_bx + reach_bx`.
-    pub k_26: T,
+    pub k_21: T,
     /// `reach_by + reach_by`.
-    pub k_27: T,
+    pub k_22: T,
     /// `reach_bz + reach_bz`.
-    pub k_28: T,
-    /// `p.mount_11 * hand_2 + p.mount_12 * hand_5 + p.mount_13 * hand_7`. What the hub takes
+    pub k_23: T,
+    /// `p.mount_11 * k_16 + p.mount_12 * k_17 + p.mount_13 * hand_0`. What the hub takes
     /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
     /// axes.
     pub hand_mr_bx: T,
-    /// `p.mount_21 * hand_2 + p.mount_22 * hand_5 + p.mount_23 * hand_7`. What the hub takes
+    /// `p.mount_21 * k_16 + p.mount_22 * k_17 + p.mount_23 * hand_0`. What the hub takes
     /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
     /// axes.
     pub hand_mr_by: T,
-    /// `p.mount_31 * hand_2 + p.mount_32 * hand_5 + p.mount_33 * hand_7`. What the hub takes
+    /// `p.mount_31 * k_16 + p.mount_32 * k_17 + p.mount_33 * hand_0`. What the hub takes
     /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
     /// axes.
     pub hand_mr_bz: T,
-    /// `hand_52 - hand_48 + hand_49 * (hand_50 + hand_50)`. What the hub takes over, eq.
+    /// `half * (hand_28 + p.mount_13 * hand_13 * hand_11)`. What the hub takes over, eq.
     /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_11: T,
-    /// `hand_60 - hand_57 + hand_49 * (hand_58 + hand_58)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_36 - hand_35)`. What the hub takes over, eq. (B2): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_12: T,
-    /// `hand_68 - hand_65 + hand_49 * (hand_66 + hand_66)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_44 - hand_43)`. What the hub takes over, eq. (B2): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_13: T,
-    /// `hand_79 - hand_76 + hand_49 * (hand_77 + hand_77)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * hand_47`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
+    /// inertia about B, kg m², along B axes.
     pub hand_i_22: T,
-    /// `hand_87 - hand_84 + hand_49 * (hand_85 + hand_85)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_52 - hand_51)`. What the hub takes over, eq. (B2): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², along B axes.
     pub hand_i_23: T,
-    /// `hand_98 - hand_95 + hand_49 * (hand_96 + hand_96)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * hand_55`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
+    /// inertia about B, kg m², along B axes.
     pub hand_i_33: T,
     /// `i_g_g_22 - i_g_g_33`.
-    pub k_29: T,
+    pub k_24: T,
     /// `i_g_g_33 - i_g_g_11`.
-    pub k_30: T,
+    pub k_25: T,
     /// `i_g_g_11 - i_g_g_22`.
-    pub k_31: T,
+    pub k_26: T,
     /// `p.j_22 - i_w_w_33`.
-    pub k_32: T,
+    pub k_27: T,
     /// `i_w_w_33 - i_w_w_11`.
-    pub k_33: T,
+    pub k_28: T,
     /// `i_w_w_11 - p.j_22`.
+    pub k_29: T,
+    /// `p.i_g_11 - p.i_g_22`.
+    pub k_30: T,
+    /// `p.i_g_12 + p.i_g_12`.
+    pub k_31: T,
+    /// `p.j_11 - p.j_22`.
+    pub k_32: T,
+    /// `p.j_33 - p.j_11`.
+    pub k_33: T,
+    /// `p.j_22 - p.j_33`.
     pub k_34: T,
+    /// `p.l_g_z * p.m_w + mr_gc_g_gz`.
+    pub k_35: T,
+    /// `i_w_w_11 + i_g_base_11`.
+    pub k_36: T,
+    /// `i_w_w_11 + p.m_w * (base_0 + prep_0) + i_g_g_11`.
+    pub k_37: T,
+    /// `i_g_g_12 - base_3`.
+    pub k_38: T,
+    /// `i_g_g_13 - p.l_g_x * p.l_g_z * p.m_w`.
+    pub k_39: T,
+    /// `p.j_22 + p.m_w * (hand_2 + prep_0) + i_g_g_22`.
+    pub k_40: T,
+    /// `i_g_g_23 - (p.j_23 + p.l_g_y * p.l_g_z * p.m_w)`.
+    pub k_41: T,
+    /// `i_w_w_33 + p.m_w * (hand_2 + base_0) + i_g_g_33`.
+    pub k_42: T,
+    /// `mr_wc_w_wy * k_4`.
+    pub k_43: T,
+    /// `mr_wc_w_wy * (p.l_g_z + p.l_g_z)`.
+    pub k_44: T,
+    /// `p.l_g_y * mr_wc_w_wy`.
+    pub k_45: T,
+    /// `-(p.l_g_z * mr_wc_w_wy)`.
+    pub k_46: T,
 }
 
 impl<T: Copy> Prepared<T> {
@@ -395,13 +416,6 @@ impl<T: Copy> Prepared<T> {
             k_4: join(self.k_4, other.k_4),
             k_5: join(self.k_5, other.k_5),
             k_6: join(self.k_6, other.k_6),
-            k_7: join(self.k_7, other.k_7),
-            k_8: join(self.k_8, other.k_8),
-            k_9: join(self.k_9, other.k_9),
-            k_10: join(self.k_10, other.k_10),
-            k_11: join(self.k_11, other.k_11),
-            k_12: join(self.k_12, other.k_12),
-            k_13: join(self.k_13, other.k_13),
             mr_gc_g_gx: join(self.mr_gc_g_gx, other.mr_gc_g_gx),
             mr_gc_g_gy: join(self.mr_gc_g_gy, other.mr_gc_g_gy),
             mr_gc_g_gz: join(self.mr_gc_g_gz, other.mr_gc_g_gz),
@@ -412,6 +426,13 @@ impl<T: Copy> Prepared<T> {
             i_g_g_23: join(self.i_g_g_23, other.i_g_g_23),
             i_g_g_33: join(self.i_g_g_33, other.i_g_g_33),
             mr_d_g_gx: join(self.mr_d_g_gx, other.mr_d_g_gx),
+            k_7: join(self.k_7, other.k_7),
+            k_8: join(self.k_8, other.k_8),
+            k_9: join(self.k_9, other.k_9),
+            k_10: join(self.k_10, other.k_10),
+            k_11: join(self.k_11, other.k_11),
+            k_12: join(self.k_12, other.k_12),
+            k_13: join(self.k_13, other.k_13),
             k_14: join(self.k_14, other.k_14),
             k_15: join(self.k_15, other.k_15),
             k_16: join(self.k_16, other.k_16),
@@ -419,13 +440,7 @@ impl<T: Copy> Prepared<T> {
             k_18: join(self.k_18, other.k_18),
             k_19: join(self.k_19, other.k_19),
             k_20: join(self.k_20, other.k_20),
-            k_21: join(self.k_21, other.k_21),
-            k_22: join(self.k_22, other.k_22),
-            k_23: join(self.k_23, other.k_23),
-            k_24: join(self.k_24, other.k_24),
-            k_25: join(self.k_25, other.k_25),
             mr_g_base_gy: join(self.mr_g_base_gy, other.mr_g_base_gy),
-            i_g_base_11: join(self.i_g_base_11, other.i_g_base_11),
             i_g_base_12: join(self.i_g_base_12, other.i_g_base_12),
             i_g_base_13: join(self.i_g_base_13, other.i_g_base_13),
             i_g_base_23: join(self.i_g_base_23, other.i_g_base_23),
@@ -435,9 +450,9 @@ impl<T: Copy> Prepared<T> {
             reach_bx: join(self.reach_bx, other.reach_bx),
             reach_by: join(self.reach_by, other.reach_by),
             reach_bz: join(self.reach_bz, other.reach_bz),
-            k_26: join(self.k_26, other.k_26),
-            k_27: join(self.k_27, other.k_27),
-            k_28: join(self.k_28, other.k_28),
+            k_21: join(self.k_21, other.k_21),
+            k_22: join(self.k_22, other.k_22),
+            k_23: join(self.k_23, other.k_23),
             hand_mr_bx: join(self.hand_mr_bx, other.hand_mr_bx),
             hand_mr_by: join(self.hand_mr_by, other.hand_mr_by),
             hand_mr_bz: join(self.hand_mr_bz, other.hand_mr_bz),
@@ -447,12 +462,29 @@ impl<T: Copy> Prepared<T> {
             hand_i_22: join(self.hand_i_22, other.hand_i_22),
             hand_i_23: join(self.hand_i_23, other.hand_i_23),
             hand_i_33: join(self.hand_i_33, other.hand_i_33),
+            k_24: join(self.k_24, other.k_24),
+            k_25: join(self.k_25, other.k_25),
+            k_26: join(self.k_26, other.k_26),
+            k_27: join(self.k_27, other.k_27),
+            k_28: join(self.k_28, other.k_28),
             k_29: join(self.k_29, other.k_29),
             k_30: join(self.k_30, other.k_30),
             k_31: join(self.k_31, other.k_31),
             k_32: join(self.k_32, other.k_32),
             k_33: join(self.k_33, other.k_33),
             k_34: join(self.k_34, other.k_34),
+            k_35: join(self.k_35, other.k_35),
+            k_36: join(self.k_36, other.k_36),
+            k_37: join(self.k_37, other.k_37),
+            k_38: join(self.k_38, other.k_38),
+            k_39: join(self.k_39, other.k_39),
+            k_40: join(self.k_40, other.k_40),
+            k_41: join(self.k_41, other.k_41),
+            k_42: join(self.k_42, other.k_42),
+            k_43: join(self.k_43, other.k_43),
+            k_44: join(self.k_44, other.k_44),
+            k_45: join(self.k_45, other.k_45),
+            k_46: join(self.k_46, other.k_46),
         }
     }
 }
@@ -968,7 +1000,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 192 mul, 197 add, 7 neg, 0 div, 0 trig.
+/// Operations: 177 mul, 165 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // r_{Gc/B}, behind eq. (12), m.
@@ -985,146 +1017,106 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
     // m², about G.
     let m_d = p.m_g + p.m_w;
-    let mr_d_g_gx = p.l_g_x * p.m_w + mr_gc_g_gx;
+    let k_5 = p.l_g_x * p.m_w;
+    let mr_d_g_gx = k_5 + mr_gc_g_gx;
 
     // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
     // m², along B axes.
-    let k_13 = p.l_g_z * p.m_w;
-    let hand_0 = p.r_g_b_bx * p.m_g;
-    let hand_1 = p.r_g_b_bx * p.m_w;
-    let hand_2 = hand_0 + hand_1;
-    let hand_3 = p.r_g_b_by * p.m_g;
-    let hand_4 = p.r_g_b_by * p.m_w;
+    let arm_g_dz = p.r_g_b_bz + p.l_g_z;
+    let k_16 = p.r_g_b_bx * m_d;
+    let k_17 = p.r_g_b_by * m_d;
+    let hand_0 = p.r_g_b_bz * p.m_g + p.m_w * arm_g_dz + mr_gc_g_gz;
+    let hand_mr_bx = p.mount_11 * k_16 + p.mount_12 * k_17 + p.mount_13 * hand_0;
+    let hand_mr_by = p.mount_21 * k_16 + p.mount_22 * k_17 + p.mount_23 * hand_0;
+    let hand_mr_bz = p.mount_31 * k_16 + p.mount_32 * k_17 + p.mount_33 * hand_0;
+    let hand_1 = p.d * p.d;
+    let hand_2 = p.l_g_x * p.l_g_x;
+    let hand_3 = p.r_gc_g_gx * p.r_gc_g_gx;
+    let hand_4 = p.r_gc_g_gz * p.r_gc_g_gz;
     let hand_5 = hand_3 + hand_4;
-    let hand_6 = p.r_g_b_bz * p.m_g;
-    let hand_7 = hand_6 + p.r_g_b_bz * p.m_w + k_13 + mr_gc_g_gz;
-    let hand_mr_bx = p.mount_11 * hand_2 + p.mount_12 * hand_5 + p.mount_13 * hand_7;
-    let hand_mr_by = p.mount_21 * hand_2 + p.mount_22 * hand_5 + p.mount_23 * hand_7;
-    let hand_mr_bz = p.mount_31 * hand_2 + p.mount_32 * hand_5 + p.mount_33 * hand_7;
-    let hand_8 = p.d * p.d * p.m_w;
-    let hand_9 = p.l_g_x * p.l_g_x;
-    let hand_10 = p.l_g_z * p.l_g_z;
-    let hand_11 = p.r_gc_g_gx * p.r_gc_g_gx;
-    let hand_12 = p.r_gc_g_gz * p.r_gc_g_gz;
-    let hand_13 = p.r_g_b_bx * p.r_g_b_bx;
-    let hand_14 = p.r_g_b_by * p.r_g_b_by;
-    let hand_15 = p.r_g_b_bz * p.r_g_b_bz;
-    let hand_16 = p.m_w * hand_9;
-    let hand_17 = p.m_g * hand_11;
-    let hand_18 = p.m_g * hand_14;
-    let hand_19 = p.m_g * hand_15;
-    let hand_20 = p.m_w * hand_14;
-    let hand_21 = p.m_w * hand_15;
-    let hand_22 = p.r_g_b_bz * k_13;
-    let hand_23 = hand_22 + hand_22;
-    let hand_24 = p.m_w * hand_10;
-    let hand_25 = p.r_gc_g_gz * hand_6;
-    let hand_26 = hand_25 + hand_25;
-    let hand_27 = p.m_g * hand_12;
-    let hand_28 = p.m_g * hand_13;
-    let hand_29 = p.m_w * hand_13;
+    let k_9 = p.r_g_b_bz + p.r_g_b_bz;
+    let hand_6 = p.r_g_b_bx * p.r_g_b_bx;
+    let hand_7 = p.r_g_b_by * p.r_g_b_by;
+    let hand_8 = p.r_g_b_bz * p.r_g_b_bz;
+    let hand_9 = hand_6 + hand_8;
+    let k_35 = p.l_g_z * p.m_w + mr_gc_g_gz;
+    let hand_10 = hand_1 + hand_2;
+    let hand_11 = p.r_g_b_bx * k_16 + p.r_g_b_by * k_17;
+    let hand_12 = p.mount_12 + p.mount_12;
+    let hand_13 = p.mount_13 + p.mount_13;
+    let hand_14 = p.r_g_b_bz * k_16 + p.r_g_b_bx * k_35;
+    let hand_15 = p.r_g_b_bz * k_17 + p.r_g_b_by * k_35;
+    let hand_16 = p.r_g_b_by * (k_16 + k_16);
+    let hand_17 = hand_14 + hand_14;
+    let hand_18 = hand_15 + hand_15;
+    let hand_19 = p.l_g_z * (p.l_g_z + k_9);
+    let hand_20 = p.r_g_b_bz * (p.r_gc_g_gz + p.r_gc_g_gz + p.r_g_b_bz);
+    let hand_21 = p.m_w * (hand_8 + hand_19 + hand_7 + hand_10);
+    let hand_22 = hand_21 + p.m_g * (hand_4 + hand_20 + hand_3 + hand_7) + p.i_g_22;
+    let hand_23 = hand_22 + p.j_33;
+    let hand_24 = p.m_w * (hand_9 + hand_19 + hand_10);
+    let hand_25 = hand_24 + p.m_g * (hand_6 + hand_20 + hand_5) + p.i_g_22 + p.j_33;
     let half = p.mount_11.like(0.5);
-    let hand_30 = hand_18 + hand_19 + hand_17 + hand_20 + hand_21 + hand_23;
-    let hand_31 = hand_30 + hand_24 + hand_16 + hand_26 + hand_27 + p.i_g_22;
-    let hand_32 = half * (hand_31 + hand_8 + p.j_33);
-    let hand_33 = p.mount_11 * p.mount_11;
-    let hand_34 = half * (p.r_g_b_by * hand_0 + p.r_g_b_by * hand_1);
-    let hand_35 = p.mount_11 * p.mount_12;
-    let hand_36 = hand_34 * (hand_35 + hand_35);
-    let hand_37 = p.r_g_b_bz * hand_0 + p.r_g_b_bz * hand_1 + p.r_g_b_bx * k_13;
-    let hand_38 = half * (hand_37 + p.r_gc_g_gz * hand_0);
-    let hand_39 = p.mount_11 * p.mount_13;
-    let hand_40 = hand_38 * (hand_39 + hand_39);
-    let hand_41 = hand_19 + hand_28 + hand_17 + hand_29 + hand_21 + hand_23;
-    let hand_42 = hand_41 + hand_24 + hand_16 + hand_26 + hand_27 + p.i_g_22;
-    let hand_43 = half * (hand_42 + hand_8 + p.j_33);
-    let hand_44 = p.mount_12 * p.mount_12;
-    let hand_45 = p.r_g_b_bz * hand_3 + p.r_g_b_bz * hand_4 + p.r_g_b_by * k_13;
-    let hand_46 = half * (hand_45 + p.r_gc_g_gz * hand_3);
-    let hand_47 = p.mount_12 * p.mount_13;
-    let hand_48 = hand_46 * (hand_47 + hand_47);
-    let hand_49 = half * (hand_18 + hand_28 + hand_29 + hand_20);
-    let hand_50 = p.mount_13 * p.mount_13;
-    let hand_51 = hand_32 * (hand_33 + hand_33) - hand_36 - hand_40 - hand_36;
-    let hand_52 = hand_51 + hand_43 * (hand_44 + hand_44) - hand_48 - hand_40;
-    let hand_i_11 = hand_52 - hand_48 + hand_49 * (hand_50 + hand_50);
-    let hand_53 = p.mount_11 * p.mount_21;
-    let hand_54 = hand_34 * (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12);
-    let hand_55 = hand_38 * (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13);
-    let hand_56 = p.mount_12 * p.mount_22;
-    let hand_57 = hand_46 * (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13);
-    let hand_58 = p.mount_13 * p.mount_23;
-    let hand_59 = hand_32 * (hand_53 + hand_53) - hand_54 - hand_55 - hand_54;
-    let hand_60 = hand_59 + hand_43 * (hand_56 + hand_56) - hand_57 - hand_55;
-    let hand_i_12 = hand_60 - hand_57 + hand_49 * (hand_58 + hand_58);
-    let hand_61 = p.mount_11 * p.mount_31;
-    let hand_62 = hand_34 * (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12);
-    let hand_63 = hand_38 * (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13);
-    let hand_64 = p.mount_12 * p.mount_32;
-    let hand_65 = hand_46 * (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13);
-    let hand_66 = p.mount_13 * p.mount_33;
-    let hand_67 = hand_32 * (hand_61 + hand_61) - hand_62 - hand_63 - hand_62;
-    let hand_68 = hand_67 + hand_43 * (hand_64 + hand_64) - hand_65 - hand_63;
-    let hand_i_13 = hand_68 - hand_65 + hand_49 * (hand_66 + hand_66);
-    let hand_69 = p.mount_21 * p.mount_21;
-    let hand_70 = p.mount_21 * p.mount_22;
-    let hand_71 = hand_34 * (hand_70 + hand_70);
-    let hand_72 = p.mount_21 * p.mount_23;
-    let hand_73 = hand_38 * (hand_72 + hand_72);
-    let hand_74 = p.mount_22 * p.mount_22;
-    let hand_75 = p.mount_22 * p.mount_23;
-    let hand_76 = hand_46 * (hand_75 + hand_75);
-    let hand_77 = p.mount_23 * p.mount_23;
-    let hand_78 = hand_32 * (hand_69 + hand_69) - hand_71 - hand_73 - hand_71;
-    let hand_79 = hand_78 + hand_43 * (hand_74 + hand_74) - hand_76 - hand_73;
-    let hand_i_22 = hand_79 - hand_76 + hand_49 * (hand_77 + hand_77);
-    let hand_80 = p.mount_21 * p.mount_31;
-    let hand_81 = hand_34 * (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22);
-    let hand_82 = hand_38 * (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23);
-    let hand_83 = p.mount_22 * p.mount_32;
-    let hand_84 = hand_46 * (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23);
-    let hand_85 = p.mount_23 * p.mount_33;
-    let hand_86 = hand_32 * (hand_80 + hand_80) - hand_81 - hand_82 - hand_81;
-    let hand_87 = hand_86 + hand_43 * (hand_83 + hand_83) - hand_84 - hand_82;
-    let hand_i_23 = hand_87 - hand_84 + hand_49 * (hand_85 + hand_85);
-    let hand_88 = p.mount_31 * p.mount_31;
-    let hand_89 = p.mount_31 * p.mount_32;
-    let hand_90 = hand_34 * (hand_89 + hand_89);
-    let hand_91 = p.mount_31 * p.mount_33;
-    let hand_92 = hand_38 * (hand_91 + hand_91);
-    let hand_93 = p.mount_32 * p.mount_32;
-    let hand_94 = p.mount_32 * p.mount_33;
-    let hand_95 = hand_46 * (hand_94 + hand_94);
-    let hand_96 = p.mount_33 * p.mount_33;
-    let hand_97 = hand_32 * (hand_88 + hand_88) - hand_90 - hand_92 - hand_90;
-    let hand_98 = hand_97 + hand_43 * (hand_93 + hand_93) - hand_95 - hand_92;
-    let hand_i_33 = hand_98 - hand_95 + hand_49 * (hand_96 + hand_96);
+    let hand_26 = (p.mount_11 + p.mount_11) * hand_23 - hand_12 * hand_16;
+    let hand_27 = p.mount_12 * (hand_12 * hand_25 - hand_13 * hand_18);
+    let hand_28 = p.mount_11 * (hand_26 - hand_13 * hand_17) + hand_27;
+    let hand_i_11 = half * (hand_28 + p.mount_13 * hand_13 * hand_11);
+    let hand_29 = p.mount_21 + p.mount_21;
+    let hand_30 = p.mount_22 + p.mount_22;
+    let hand_31 = p.mount_23 + p.mount_23;
+    let hand_32 = p.mount_13 * hand_31 * hand_11 + p.mount_12 * hand_30 * hand_25;
+    let hand_33 = (p.mount_11 * p.mount_22 + p.mount_21 * p.mount_12) * hand_16;
+    let hand_34 = (p.mount_11 * p.mount_23 + p.mount_21 * p.mount_13) * hand_17;
+    let hand_35 = (p.mount_12 * p.mount_23 + p.mount_22 * p.mount_13) * hand_18;
+    let hand_36 = hand_32 + p.mount_11 * hand_29 * hand_23 - hand_33 - hand_34;
+    let hand_i_12 = half * (hand_36 - hand_35);
+    let hand_37 = p.mount_31 + p.mount_31;
+    let hand_38 = p.mount_32 + p.mount_32;
+    let hand_39 = p.mount_33 + p.mount_33;
+    let hand_40 = p.mount_13 * hand_39 * hand_11 + p.mount_12 * hand_38 * hand_25;
+    let hand_41 = (p.mount_11 * p.mount_32 + p.mount_31 * p.mount_12) * hand_16;
+    let hand_42 = (p.mount_11 * p.mount_33 + p.mount_31 * p.mount_13) * hand_17;
+    let hand_43 = (p.mount_12 * p.mount_33 + p.mount_32 * p.mount_13) * hand_18;
+    let hand_44 = hand_40 + p.mount_11 * hand_37 * hand_23 - hand_41 - hand_42;
+    let hand_i_13 = half * (hand_44 - hand_43);
+    let hand_45 = hand_29 * hand_23 - hand_30 * hand_16 - hand_31 * hand_17;
+    let hand_46 = p.mount_22 * (hand_30 * hand_25 - hand_31 * hand_18);
+    let hand_47 = p.mount_21 * hand_45 + hand_46 + p.mount_23 * hand_31 * hand_11;
+    let hand_i_22 = half * hand_47;
+    let hand_48 = p.mount_23 * hand_39 * hand_11 + p.mount_22 * hand_38 * hand_25;
+    let hand_49 = (p.mount_21 * p.mount_32 + p.mount_31 * p.mount_22) * hand_16;
+    let hand_50 = (p.mount_21 * p.mount_33 + p.mount_31 * p.mount_23) * hand_17;
+    let hand_51 = (p.mount_22 * p.mount_33 + p.mount_32 * p.mount_23) * hand_18;
+    let hand_52 = hand_48 + p.mount_21 * hand_37 * hand_23 - hand_49 - hand_50;
+    let hand_i_23 = half * (hand_52 - hand_51);
+    let hand_53 = hand_37 * hand_23 - hand_38 * hand_16 - hand_39 * hand_17;
+    let hand_54 = p.mount_32 * (hand_38 * hand_25 - hand_39 * hand_18);
+    let hand_55 = p.mount_31 * hand_53 + hand_54 + p.mount_33 * hand_39 * hand_11;
+    let hand_i_33 = half * hand_55;
 
     // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
-    let i_w_w_11 = p.j_11 + hand_8;
+    let own_0 = p.m_w * hand_1;
+    let i_w_w_11 = p.j_11 + own_0;
 
     // Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg
     // m².
-    let arm_g_dz = p.r_g_b_bz + p.l_g_z;
-    let k_12 = p.l_g_y * p.m_w;
-    let mr_g_base_gy = k_12 + mr_gc_g_gy;
+    let k_6 = p.l_g_y * p.m_w;
+    let mr_g_base_gy = k_6 + mr_gc_g_gy;
     let base_0 = p.l_g_y * p.l_g_y;
     let base_1 = p.r_gc_g_gy * p.r_gc_g_gy;
-    let base_2 = p.m_w * base_0;
-    let base_3 = p.m_g * base_1;
-    let base_4 = base_3 - (hand_16 + hand_17) + base_2 + p.i_g_11 - p.i_g_22;
-    let i_g_base_11 = base_4 - hand_8 - p.j_33;
-    let base_5 = p.l_g_x * p.l_g_y * p.m_w;
-    let i_g_base_12 = p.i_g_12 - (base_5 + p.r_gc_g_gy * mr_gc_g_gx);
-    let base_6 = p.m_g * p.l_g_z;
-    let i_g_base_13 = p.i_g_13 + p.r_gc_g_gx * base_6 - p.r_gc_g_gz * mr_gc_g_gx;
-    let i_g_base_23 = p.i_g_23 + p.r_gc_g_gy * base_6 - p.r_gc_g_gz * mr_gc_g_gy;
-    let base_7 = p.i_g_33 + hand_17 + hand_16 + base_3 + base_2 + hand_8;
-    let i_g_base_33 = base_7 + p.j_33;
+    let base_2 = p.m_g * (base_1 - hand_3) + p.m_w * (base_0 - hand_2 - hand_1);
+    let i_g_base_11 = base_2 + p.i_g_11 - p.i_g_22 - p.j_33;
+    let base_3 = p.l_g_x * p.l_g_y * p.m_w;
+    let i_g_base_12 = p.i_g_12 - (base_3 + p.r_gc_g_gy * mr_gc_g_gx);
+    let base_4 = p.m_g * p.l_g_z;
+    let i_g_base_13 = p.i_g_13 + p.r_gc_g_gx * base_4 - p.r_gc_g_gz * mr_gc_g_gx;
+    let i_g_base_23 = p.i_g_23 + p.r_gc_g_gy * base_4 - p.r_gc_g_gz * mr_gc_g_gy;
+    let base_5 = p.m_g * (hand_3 + base_1);
+    let i_g_base_33 = base_5 + p.m_w * (hand_1 + base_0 + hand_2) + p.i_g_33 + p.j_33;
 
     // Base parameters of the wheel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
     let i_w_base_12 = p.j_12 - p.l_g_x * p.d * p.m_w;
-    let i_w_base_22 = p.j_22 - hand_8 - p.j_33;
+    let i_w_base_22 = p.j_22 - own_0 - p.j_33;
 
     // Origin of the first joint, eq. (A2), along B axes, m.
     let place_0 = p.r_g_b_bx * p.mount_11 + p.r_g_b_by * p.mount_12;
@@ -1135,15 +1127,15 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let reach_bz = place_2 + p.mount_33 * arm_g_dz;
 
     // The wheel about its origin: first moment, kg m, and inertia as in eq. (71), kg m².
-    let i_w_w_33 = p.j_33 + hand_8;
+    let i_w_w_33 = p.j_33 + own_0;
 
     // The gimbal about its origin: first moment, kg m, and inertia as in eq. (40), kg m².
-    let i_g_g_11 = p.i_g_11 + p.m_g * (base_1 + hand_12);
+    let i_g_g_11 = p.i_g_11 + p.m_g * (base_1 + hand_4);
     let i_g_g_12 = p.i_g_12 - p.r_gc_g_gx * p.r_gc_g_gy * p.m_g;
     let i_g_g_13 = p.i_g_13 - p.r_gc_g_gx * p.r_gc_g_gz * p.m_g;
-    let i_g_g_22 = p.i_g_22 + p.m_g * (hand_11 + hand_12);
+    let i_g_g_22 = p.i_g_22 + p.m_g * hand_5;
     let i_g_g_23 = p.i_g_23 - p.r_gc_g_gy * p.r_gc_g_gz * p.m_g;
-    let i_g_g_33 = p.i_g_33 + p.m_g * (hand_11 + base_1);
+    let i_g_g_33 = p.i_g_33 + base_5;
 
     // Products and sums of parameters that occur more deeply.
     let k_0 = r_gc_b_bz * r_gc_b_bz;
@@ -1151,34 +1143,43 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let k_2 = p.j_23 + p.j_23;
     let k_3 = -p.j_23;
     let k_4 = p.l_g_y + p.l_g_y;
-    let k_5 = p.l_g_z + p.l_g_z;
-    let k_6 = p.m_w * (base_0 + hand_10);
-    let k_7 = -base_5;
-    let k_8 = -(p.l_g_x * p.l_g_z * p.m_w);
-    let k_9 = p.m_w * (hand_9 + hand_10);
-    let k_10 = -(p.l_g_y * p.l_g_z * p.m_w);
-    let k_11 = p.m_w * (hand_9 + base_0);
-    let k_14 = p.r_g_b_bx + p.r_g_b_bx;
-    let k_15 = p.r_g_b_by + p.r_g_b_by;
-    let k_16 = p.r_g_b_bz + p.r_g_b_bz;
-    let k_17 = m_d * (hand_14 + hand_15);
-    let k_18 = -(p.r_g_b_bx * p.r_g_b_by * m_d);
-    let k_19 = -(p.r_g_b_bx * p.r_g_b_bz * m_d);
-    let k_20 = m_d * (hand_13 + hand_15);
-    let k_21 = -(p.r_g_b_by * p.r_g_b_bz * m_d);
-    let k_22 = m_d * (hand_13 + hand_14);
-    let k_23 = p.r_g_b_bx * m_d;
-    let k_24 = p.r_g_b_by * m_d;
-    let k_25 = p.r_g_b_bz * m_d;
-    let k_26 = reach_bx + reach_bx;
-    let k_27 = reach_by + reach_by;
-    let k_28 = reach_bz + reach_bz;
-    let k_29 = i_g_g_22 - i_g_g_33;
-    let k_30 = i_g_g_33 - i_g_g_11;
-    let k_31 = i_g_g_11 - i_g_g_22;
-    let k_32 = p.j_22 - i_w_w_33;
-    let k_33 = i_w_w_33 - i_w_w_11;
-    let k_34 = i_w_w_11 - p.j_22;
+    let k_7 = p.r_g_b_bx + p.r_g_b_bx;
+    let k_8 = p.r_g_b_by + p.r_g_b_by;
+    let k_10 = m_d * (hand_7 + hand_8);
+    let k_11 = -(p.r_g_b_bx * p.r_g_b_by * m_d);
+    let k_12 = -(p.r_g_b_bx * p.r_g_b_bz * m_d);
+    let k_13 = m_d * hand_9;
+    let k_14 = -(p.r_g_b_by * p.r_g_b_bz * m_d);
+    let k_15 = m_d * (hand_6 + hand_7);
+    let k_18 = p.r_g_b_bz * m_d;
+    let k_19 = p.m_g * r_gc_b_bz;
+    let k_20 = p.j_12 - p.l_g_x * mr_wc_w_wy;
+    let k_21 = reach_bx + reach_bx;
+    let k_22 = reach_by + reach_by;
+    let k_23 = reach_bz + reach_bz;
+    let k_24 = i_g_g_22 - i_g_g_33;
+    let k_25 = i_g_g_33 - i_g_g_11;
+    let k_26 = i_g_g_11 - i_g_g_22;
+    let k_27 = p.j_22 - i_w_w_33;
+    let k_28 = i_w_w_33 - i_w_w_11;
+    let k_29 = i_w_w_11 - p.j_22;
+    let k_30 = p.i_g_11 - p.i_g_22;
+    let k_31 = p.i_g_12 + p.i_g_12;
+    let k_32 = p.j_11 - p.j_22;
+    let k_33 = p.j_33 - p.j_11;
+    let k_34 = p.j_22 - p.j_33;
+    let k_36 = i_w_w_11 + i_g_base_11;
+    let prep_0 = p.l_g_z * p.l_g_z;
+    let k_37 = i_w_w_11 + p.m_w * (base_0 + prep_0) + i_g_g_11;
+    let k_38 = i_g_g_12 - base_3;
+    let k_39 = i_g_g_13 - p.l_g_x * p.l_g_z * p.m_w;
+    let k_40 = p.j_22 + p.m_w * (hand_2 + prep_0) + i_g_g_22;
+    let k_41 = i_g_g_23 - (p.j_23 + p.l_g_y * p.l_g_z * p.m_w);
+    let k_42 = i_w_w_33 + p.m_w * (hand_2 + base_0) + i_g_g_33;
+    let k_43 = mr_wc_w_wy * k_4;
+    let k_44 = mr_wc_w_wy * (p.l_g_z + p.l_g_z);
+    let k_45 = p.l_g_y * mr_wc_w_wy;
+    let k_46 = -(p.l_g_z * mr_wc_w_wy);
 
     Prepared {
         mount_11: p.mount_11,
@@ -1226,13 +1227,6 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_4,
         k_5,
         k_6,
-        k_7,
-        k_8,
-        k_9,
-        k_10,
-        k_11,
-        k_12,
-        k_13,
         mr_gc_g_gx,
         mr_gc_g_gy,
         mr_gc_g_gz,
@@ -1243,6 +1237,13 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         i_g_g_23,
         i_g_g_33,
         mr_d_g_gx,
+        k_7,
+        k_8,
+        k_9,
+        k_10,
+        k_11,
+        k_12,
+        k_13,
         k_14,
         k_15,
         k_16,
@@ -1250,13 +1251,7 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         k_18,
         k_19,
         k_20,
-        k_21,
-        k_22,
-        k_23,
-        k_24,
-        k_25,
         mr_g_base_gy,
-        i_g_base_11,
         i_g_base_12,
         i_g_base_13,
         i_g_base_23,
@@ -1266,9 +1261,9 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         reach_bx,
         reach_by,
         reach_bz,
-        k_26,
-        k_27,
-        k_28,
+        k_21,
+        k_22,
+        k_23,
         hand_mr_bx,
         hand_mr_by,
         hand_mr_bz,
@@ -1278,18 +1273,35 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         hand_i_22,
         hand_i_23,
         hand_i_33,
+        k_24,
+        k_25,
+        k_26,
+        k_27,
+        k_28,
         k_29,
         k_30,
         k_31,
         k_32,
         k_33,
         k_34,
+        k_35,
+        k_36,
+        k_37,
+        k_38,
+        k_39,
+        k_40,
+        k_41,
+        k_42,
+        k_43,
+        k_44,
+        k_45,
+        k_46,
     }
 }
 
 /// The gimbal: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 52 mul, 32 add, 7 neg, 0 div, 0 trig.
+/// Operations: 39 mul, 26 add, 7 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> {
     // ω_{G/B}, eq. (31), rad/s.
@@ -1306,11 +1318,9 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
     let r_gc_b_bz = p.r_gc_b_bz;
 
     // r′_{Gc/B}, behind eq. (12), m/s.
-    let vel_0 = v.gamma_dot * q.cos_gamma;
-    let vel_1 = v.gamma_dot * q.sin_gamma;
-    let vel_2 = vel_1 * p.r_gc_g_gx + vel_0 * p.r_gc_g_gy;
-    let r_gc_b_prime_bx = -vel_2;
-    let r_gc_b_prime_by = vel_0 * p.r_gc_g_gx - vel_1 * p.r_gc_g_gy;
+    let vel_0 = v.gamma_dot * pos_0;
+    let r_gc_b_prime_bx = -vel_0;
+    let r_gc_b_prime_by = v.gamma_dot * r_gc_b_dprime_g_by;
     let r_gc_b_prime_bz = zero;
 
     // r″_{Gc/B}, eq. (12), per γ̈, m.
@@ -1318,19 +1328,16 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
     let r_gc_b_dprime_g_bz = zero;
 
     // r″_{Gc/B}, eq. (12), with no joint accelerating, m/s².
-    let acc_0 = v.gamma_dot * vel_1;
-    let acc_1 = v.gamma_dot * vel_0;
-    let r_gc_b_dprime_rest_bx = -(p.r_gc_g_gx * acc_1 - p.r_gc_g_gy * acc_0);
-    let r_gc_b_dprime_rest_by = -(p.r_gc_g_gy * acc_1 + p.r_gc_g_gx * acc_0);
+    let r_gc_b_dprime_rest_bx = -(v.gamma_dot * r_gc_b_prime_by);
+    let r_gc_b_dprime_rest_by = -(v.gamma_dot * vel_0);
     let r_gc_b_dprime_rest_bz = zero;
 
     // [I_{G,Gc}]′, eq. (36), along the axes of the gimbal, kg m²/s.
-    let turn_0 = v.gamma_dot * p.i_g_12;
-    let i_g_gc_prime_22 = turn_0 + turn_0;
+    let i_g_gc_prime_22 = v.gamma_dot * p.k_31;
     let i_g_gc_prime_11 = -i_g_gc_prime_22;
-    let i_g_gc_prime_12 = v.gamma_dot * p.i_g_11 - v.gamma_dot * p.i_g_22;
-    let turn_1 = v.gamma_dot * p.i_g_23;
-    let i_g_gc_prime_13 = -turn_1;
+    let i_g_gc_prime_12 = v.gamma_dot * p.k_30;
+    let turn_0 = v.gamma_dot * p.i_g_23;
+    let i_g_gc_prime_13 = -turn_0;
     let i_g_gc_prime_23 = v.gamma_dot * p.i_g_13;
     let i_g_gc_prime_33 = zero;
 
@@ -1340,23 +1347,23 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
     let i_g_b_11 = p.i_g_11 + p.m_g * (p.k_0 + axis_1);
     let axis_2 = q.cos_gamma * r_gc_b_bx + q.sin_gamma * r_gc_b_by;
     let i_g_b_12 = p.i_g_12 - axis_2 * axis_0 * p.m_g;
-    let i_g_b_13 = p.i_g_13 - p.r_gc_b_bz * axis_2 * p.m_g;
+    let i_g_b_13 = p.i_g_13 - axis_2 * p.k_19;
     let axis_3 = axis_2 * axis_2;
     let i_g_b_22 = p.i_g_22 + p.m_g * (p.k_0 + axis_3);
-    let i_g_b_23 = p.i_g_23 - p.r_gc_b_bz * axis_0 * p.m_g;
+    let i_g_b_23 = p.i_g_23 - axis_0 * p.k_19;
     let i_g_b_33 = p.i_g_33 + p.m_g * (axis_3 + axis_1);
 
     // [I_{G,B}]′, eq. (42), along the axes of the gimbal, kg m²/s.
-    let shift_0 = q.cos_gamma * r_gc_b_prime_by + q.sin_gamma * vel_2;
+    let shift_0 = q.cos_gamma * r_gc_b_prime_by + q.sin_gamma * vel_0;
     let shift_1 = axis_0 * (shift_0 + shift_0);
     let i_g_b_prime_11 = i_g_gc_prime_11 + p.m_g * shift_1;
-    let shift_2 = q.sin_gamma * r_gc_b_prime_by - q.cos_gamma * vel_2;
+    let shift_2 = q.sin_gamma * r_gc_b_prime_by - q.cos_gamma * vel_0;
     let shift_3 = p.m_g * (axis_0 * shift_2 + axis_2 * shift_0);
     let i_g_b_prime_12 = i_g_gc_prime_12 - shift_3;
-    let i_g_b_prime_13 = -(turn_1 + p.r_gc_b_bz * shift_2 * p.m_g);
+    let i_g_b_prime_13 = -(turn_0 + p.k_19 * shift_2);
     let shift_4 = axis_2 * (shift_2 + shift_2);
     let i_g_b_prime_22 = i_g_gc_prime_22 + p.m_g * shift_4;
-    let i_g_b_prime_23 = i_g_gc_prime_23 - p.r_gc_b_bz * shift_0 * p.m_g;
+    let i_g_b_prime_23 = i_g_gc_prime_23 - p.k_19 * shift_0;
     let i_g_b_prime_33 = p.m_g * (shift_4 + shift_1);
 
     Gimbal {
@@ -1398,7 +1405,7 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
 
 /// The wheel: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 73 mul, 56 add, 5 neg, 0 div, 0 trig.
+/// Operations: 68 mul, 51 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     // ω_{W/B}, eq. (59), rad/s.
@@ -1415,19 +1422,18 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let r_wc_b_gz = p.arm_g_dz + pos_1;
 
     // r′_{Wc/B}, behind eq. (14), m/s.
-    let vel_0 = v.gamma_dot * p.l_g_y;
-    let vel_1 = v.gamma_dot * r_wc_b_dprime_w_gz;
-    let vel_2 = vel_0 + vel_1;
-    let r_wc_b_prime_gx = -vel_2;
-    let vel_3 = v.spin * q.sin_theta;
-    let vel_4 = v.gamma_dot * p.l_g_x;
-    let vel_5 = vel_3 * p.d;
-    let r_wc_b_prime_gy = vel_4 - vel_5;
-    let vel_6 = v.spin * q.cos_theta;
-    let r_wc_b_prime_gz = vel_6 * p.d;
+    let vel_0 = p.l_g_y + r_wc_b_dprime_w_gz;
+    let vel_1 = v.gamma_dot * vel_0;
+    let r_wc_b_prime_gx = -vel_1;
+    let vel_2 = v.spin * q.sin_theta;
+    let vel_3 = v.gamma_dot * p.l_g_x;
+    let vel_4 = vel_2 * p.d;
+    let r_wc_b_prime_gy = vel_3 - vel_4;
+    let vel_5 = v.spin * q.cos_theta;
+    let r_wc_b_prime_gz = vel_5 * p.d;
 
     // r″_{Wc/B}, eq. (14), per γ̈, m.
-    let r_wc_b_dprime_g_gx = -(p.l_g_y + r_wc_b_dprime_w_gz);
+    let r_wc_b_dprime_g_gx = -vel_0;
     let r_wc_b_dprime_g_gy = p.l_g_x;
     let zero = q.sin_gamma.like(0.0);
     let r_wc_b_dprime_g_gz = zero;
@@ -1437,25 +1443,24 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let r_wc_b_dprime_w_gy = -pos_1;
 
     // r″_{Wc/B}, eq. (14), with no joint accelerating, m/s².
-    let acc_0 = v.gamma_dot * vel_5;
-    let r_wc_b_dprime_rest_gx = acc_0 + acc_0 - v.gamma_dot * vel_4;
-    let acc_1 = v.gamma_dot * vel_1 + v.spin * vel_6 * p.d;
-    let r_wc_b_dprime_rest_gy = -(acc_1 + v.gamma_dot * vel_0);
-    let r_wc_b_dprime_rest_gz = -(v.spin * vel_3 * p.d);
+    let acc_0 = v.gamma_dot * vel_4;
+    let r_wc_b_dprime_rest_gx = acc_0 + acc_0 - v.gamma_dot * vel_3;
+    let r_wc_b_dprime_rest_gy = -(v.spin * vel_5 * p.d + v.gamma_dot * vel_1);
+    let r_wc_b_dprime_rest_gz = -(v.spin * vel_2 * p.d);
 
     // [I_{W,Wc}]′, eq. (64), along the axes of the wheel, kg m²/s.
     let turn_0 = p.j_13 * omega_w_b_wy;
     let turn_1 = p.j_12 * omega_w_b_wz;
     let turn_2 = turn_0 - turn_1;
     let i_w_wc_prime_11 = turn_2 + turn_2;
-    let turn_3 = p.j_23 * omega_w_b_wy - p.j_22 * omega_w_b_wz;
-    let i_w_wc_prime_12 = turn_3 + p.j_11 * omega_w_b_wz - v.spin * p.j_13;
-    let turn_4 = p.j_33 * omega_w_b_wy - p.j_23 * omega_w_b_wz;
-    let i_w_wc_prime_13 = turn_4 + v.spin * p.j_12 - p.j_11 * omega_w_b_wy;
+    let turn_3 = p.j_23 * omega_w_b_wy + omega_w_b_wz * p.k_32;
+    let i_w_wc_prime_12 = turn_3 - v.spin * p.j_13;
+    let turn_4 = omega_w_b_wy * p.k_33 - p.j_23 * omega_w_b_wz;
+    let i_w_wc_prime_13 = turn_4 + v.spin * p.j_12;
     let turn_5 = v.spin * p.j_23;
     let turn_6 = turn_1 - turn_5;
     let i_w_wc_prime_22 = turn_6 + turn_6;
-    let turn_7 = p.j_13 * omega_w_b_wz - v.spin * p.j_33 + v.spin * p.j_22;
+    let turn_7 = p.j_13 * omega_w_b_wz + v.spin * p.k_34;
     let i_w_wc_prime_23 = turn_7 - p.j_12 * omega_w_b_wy;
     let turn_8 = turn_5 - turn_0;
     let i_w_wc_prime_33 = turn_8 + turn_8;
@@ -1479,11 +1484,11 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
     let shift_2 = axis_0 * (shift_0 + shift_0);
     let shift_3 = axis_1 * (shift_1 + shift_1);
     let i_w_b_prime_11 = i_w_wc_prime_11 + p.m_w * (shift_2 + shift_3);
-    let shift_4 = p.m_w * (r_wc_b_gx * shift_0 - vel_2 * axis_0);
+    let shift_4 = p.m_w * (r_wc_b_gx * shift_0 - axis_0 * vel_1);
     let i_w_b_prime_12 = i_w_wc_prime_12 - shift_4;
-    let shift_5 = p.m_w * (r_wc_b_gx * shift_1 - vel_2 * axis_1);
+    let shift_5 = p.m_w * (r_wc_b_gx * shift_1 - axis_1 * vel_1);
     let i_w_b_prime_13 = i_w_wc_prime_13 - shift_5;
-    let shift_6 = r_wc_b_gx * (vel_2 + vel_2);
+    let shift_6 = r_wc_b_gx * (vel_1 + vel_1);
     let i_w_b_prime_22 = i_w_wc_prime_22 + p.m_w * (shift_3 - shift_6);
     let shift_7 = p.m_w * (axis_1 * shift_0 + axis_0 * shift_1);
     let i_w_b_prime_23 = i_w_wc_prime_23 - shift_7;
@@ -1531,7 +1536,7 @@ pub fn wheel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Wheel<T> {
 
 /// Centre of mass of the device and its derivatives, seen from B.
 ///
-/// Operations: 53 mul, 28 add, 3 neg, 0 div, 0 trig.
+/// Operations: 52 mul, 26 add, 3 neg, 0 div, 0 trig.
 #[must_use]
 pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> FirstMoment<T> {
     // ω_{W/B}, eq. (59), along its own axes, rad/s.
@@ -1542,48 +1547,45 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
     let neg_omega_w_b_rest_wz = v.spin * q.sin_theta * v.gamma_dot;
 
     // Acceleration of W relative to B as in eq. (69), no joint accelerating, same axes, m/s².
-    let path_0 = v.gamma_dot * p.l_g_x;
-    let neg_r_w_rest_wx = v.gamma_dot * path_0;
-    let path_1 = v.gamma_dot * p.l_g_y;
-    let path_2 = v.gamma_dot * path_1;
-    let neg_r_w_rest_wy = q.cos_theta * path_2;
-    let r_w_rest_wz = q.sin_theta * path_2;
+    let neg_r_w_rest_wx = v.gamma_dot * p.l_g_x * v.gamma_dot;
+    let path_0 = v.gamma_dot * p.l_g_y * v.gamma_dot;
+    let neg_r_w_rest_wy = q.cos_theta * path_0;
+    let r_w_rest_wz = q.sin_theta * path_0;
 
     // W with no joint accelerating, eq. (117): force, N, and moment about W, N m.
-    let bias_0 = v.spin * p.mr_wc_w_wy;
-    let bias_1 = omega_w_b_wy * bias_0 + neg_omega_w_b_rest_wz * p.mr_wc_w_wy;
-    let f_rest_wx = bias_1 - p.m_w * neg_r_w_rest_wx;
+    let bias_0 = p.mr_wc_w_wy * (neg_omega_w_b_rest_wz + v.spin * omega_w_b_wy);
+    let f_rest_wx = bias_0 - p.m_w * neg_r_w_rest_wx;
+    let bias_1 = omega_w_b_wz * omega_w_b_wz + v.spin * v.spin;
+    let neg_f_rest_wy = p.m_w * neg_r_w_rest_wy + p.mr_wc_w_wy * bias_1;
     let bias_2 = omega_w_b_wz * p.mr_wc_w_wy;
-    let bias_3 = omega_w_b_wz * bias_2 + v.spin * bias_0;
-    let neg_f_rest_wy = bias_3 + p.m_w * neg_r_w_rest_wy;
     let f_rest_wz = omega_w_b_wy * bias_2 + p.m_w * r_w_rest_wz;
 
     // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
     // m², about G.
     let f_w_gz = q.cos_theta * p.mr_wc_w_wy;
-    let mr_d_g_gy = f_w_gz + p.k_12 + p.mr_gc_g_gy;
+    let mr_d_g_gy = f_w_gz + p.mr_g_base_gy;
     let neg_f_w_gy = q.sin_theta * p.mr_wc_w_wy;
-    let mr_d_g_gz = neg_f_w_gy + p.k_13 + p.mr_gc_g_gz;
+    let mr_d_g_gz = neg_f_w_gy + p.k_35;
 
     // D with no joint accelerating, eq. (78): force, N, and moment about G, N m.
     let p_g_gy = v.gamma_dot * p.mr_gc_g_gx;
     let f_rest_gx = f_rest_wx - v.gamma_dot * p_g_gy;
     let neg_p_g_gx = v.gamma_dot * p.mr_gc_g_gy;
-    let bias_4 = q.cos_theta * neg_f_rest_wy + q.sin_theta * f_rest_wz;
-    let neg_f_rest_gy = bias_4 + v.gamma_dot * neg_p_g_gx;
+    let bias_3 = q.sin_theta * f_rest_wz + q.cos_theta * neg_f_rest_wy;
+    let neg_f_rest_gy = bias_3 + v.gamma_dot * neg_p_g_gx;
     let f_rest_gz = q.cos_theta * f_rest_wz - q.sin_theta * neg_f_rest_wy;
 
     // The wheel: momentum, kg m/s; its moment as in eq. (61), but about W, kg m²/s.
-    let neg_p_w_wx = bias_2 + p.m_w * path_1;
-    let p_w_wy = q.cos_theta * path_0 * p.m_w;
-    let p_w_wz = bias_0 - q.sin_theta * path_0 * p.m_w;
+    let neg_p_w_wx = bias_2 + v.gamma_dot * p.k_6;
+    let p_w_wy = omega_w_b_wz * p.k_5;
+    let p_w_wz = v.spin * p.mr_wc_w_wy - omega_w_b_wy * p.k_5;
 
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_dprime_g_by = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * mr_d_g_gy;
-    let mc_bx = mc_dprime_g_by + p.k_23;
-    let mom_0 = q.cos_gamma * mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
-    let mc_by = mom_0 + p.k_24;
-    let mc_bz = mr_d_g_gz + p.k_25;
+    let mc_bx = p.k_16 + mc_dprime_g_by;
+    let mom_0 = q.sin_gamma * p.mr_d_g_gx + q.cos_gamma * mr_d_g_gy;
+    let mc_by = p.k_17 + mom_0;
+    let mc_bz = p.k_18 + mr_d_g_gz;
 
     // Σ m r′, share of m_sc c′, behind eq. (11), kg m/s.
     let rate_0 = neg_p_g_gx + neg_p_w_wx;
@@ -1665,7 +1667,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 212 mul, 155 add, 1 neg, 1 div, 0 trig.
+/// Operations: 211 mul, 154 add, 1 neg, 1 div, 0 trig.
 #[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
@@ -1732,7 +1734,7 @@ pub fn eliminate<T: Real>(
     // moment, kg m, and inertia, kg m².
     let mr_behind_d_gy = mr_behind_w_gy + p.mr_g_base_gy;
     let lump_1 = mr_behind_w_gy * p.k_4;
-    let i_behind_d_11 = p.i_w_w_11 + lump_1 + p.i_g_base_11;
+    let i_behind_d_11 = lump_1 + p.k_36;
     let i_behind_d_12 = p.i_g_base_12 + i_behind_w_12;
     let i_behind_d_13 = p.i_g_base_13 + i_behind_w_13;
     let lump_2 = i_behind_w_23.sub_mul(p.l_g_y, mr_behind_w_gz);
@@ -1743,11 +1745,11 @@ pub fn eliminate<T: Real>(
     let mass_gg = i_behind_d_33;
     let n_rates_g_gz = n_rates_w_gz.sub_mul(p.l_g_y, f_rates_w_gx);
     let row_0 = i_behind_d_11 - i_behind_w_22;
-    let row_1 = omega_b_n_gx * omega_b_n_gz * i_behind_d_23;
-    let row_2 = (omega_b_n_gx * omega_b_n_gx).sub_mul(omega_b_n_gy, omega_b_n_gy);
-    let row_3 = (i_behind_d_12 * row_2).sub_mul(omega_b_n_gx * omega_b_n_gy, row_0);
-    let row_4 = row_1.sub_mul(i_behind_d_13, omega_b_n_gy * omega_b_n_gz) + row_3;
-    let field_g = row_4 + n_rates_g_gz;
+    let row_1 = (omega_b_n_gz * i_behind_d_23).sub_mul(omega_b_n_gy, row_0);
+    let row_2 = omega_b_n_gy * omega_b_n_gz;
+    let row_3 = (omega_b_n_gx * omega_b_n_gx).sub_mul(omega_b_n_gy, omega_b_n_gy);
+    let row_4 = (omega_b_n_gx * row_1).sub_mul(i_behind_d_13, row_2);
+    let field_g = row_4.add_mul(i_behind_d_12, row_3) + n_rates_g_gz;
 
     // Force, N, and moment, N m, that the joints' rates from the gimbal's on ask for, eq. (C2).
     let coriolis_11 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
@@ -1789,35 +1791,35 @@ pub fn eliminate<T: Real>(
     let moment_2 = (p.mr_d_g_gx * e_x_bz).add_mul(e_y_bz, mr_behind_d_gy);
     let mr_moving_bz = moment_2.add_mul(p.mount_33, mr_behind_w_gz);
     let half = q.sin_gamma.like(0.5);
-    let moment_3 = half * row_0;
-    let moment_4 = (e_x_bx * moment_3).add_mul(e_y_bx, i_behind_d_12);
-    let moment_5 = half * (i_behind_w_22 + i_behind_d_33);
-    let moment_6 = col_1.sub_mul(p.mount_13, moment_5);
-    let moment_7 = (e_x_bx * moment_4).add_mul(p.mount_13, moment_6);
-    let moment_8 = mr_moving_by * p.k_27;
-    let moment_9 = mr_moving_bz * p.k_28;
-    let i_moving_11 = moment_7 + moment_7 + i_behind_w_22 + (moment_8 + moment_9);
-    let moment_10 = (e_x_by * moment_3).add_mul(e_y_by, i_behind_d_12);
-    let moment_11 = col_3.sub_mul(p.mount_23, moment_5);
-    let moment_12 = (e_x_bx * moment_10).add_mul(p.mount_13, moment_11);
+    let moment_3 = half * (i_behind_w_22 + i_behind_d_33);
+    let moment_4 = col_1.sub_mul(p.mount_13, moment_3);
+    let moment_5 = mr_moving_by * p.k_22;
+    let moment_6 = mr_moving_bz * p.k_23;
+    let moment_7 = half * row_0;
+    let moment_8 = (e_y_bx * i_behind_d_12).add_mul(e_x_bx, moment_7);
+    let moment_9 = (p.mount_13 * moment_4).add_mul(e_x_bx, moment_8);
+    let i_moving_11 = moment_5 + moment_6 + (moment_9 + moment_9 + i_behind_w_22);
+    let moment_10 = col_3.sub_mul(p.mount_23, moment_3);
+    let moment_11 = (e_y_by * i_behind_d_12).add_mul(e_x_by, moment_7);
+    let moment_12 = (p.mount_13 * moment_10).add_mul(e_x_bx, moment_11);
     let moment_13 = (p.reach_bx * mr_moving_by).add_mul(p.reach_by, mr_moving_bx);
-    let moment_14 = moment_12 + (e_x_by * moment_4).add_mul(p.mount_23, moment_6);
+    let moment_14 = moment_12 + (p.mount_23 * moment_4).add_mul(e_x_by, moment_8);
     let i_moving_12 = moment_14 - moment_13;
-    let moment_15 = (e_x_bz * moment_3).add_mul(e_y_bz, i_behind_d_12);
-    let moment_16 = col_5.sub_mul(p.mount_33, moment_5);
-    let moment_17 = (e_x_bx * moment_15).add_mul(p.mount_13, moment_16);
+    let moment_15 = col_5.sub_mul(p.mount_33, moment_3);
+    let moment_16 = (e_y_bz * i_behind_d_12).add_mul(e_x_bz, moment_7);
+    let moment_17 = (p.mount_13 * moment_15).add_mul(e_x_bx, moment_16);
     let moment_18 = (p.reach_bx * mr_moving_bz).add_mul(p.reach_bz, mr_moving_bx);
-    let moment_19 = moment_17 + (e_x_bz * moment_4).add_mul(p.mount_33, moment_6);
+    let moment_19 = moment_17 + (p.mount_33 * moment_4).add_mul(e_x_bz, moment_8);
     let i_moving_13 = moment_19 - moment_18;
-    let moment_20 = (e_x_by * moment_10).add_mul(p.mount_23, moment_11);
-    let moment_21 = mr_moving_bx * p.k_26;
-    let i_moving_22 = moment_20 + moment_20 + i_behind_w_22 + (moment_21 + moment_9);
-    let moment_22 = (e_x_bz * moment_10).add_mul(p.mount_33, moment_11);
-    let moment_23 = (e_x_by * moment_15).add_mul(p.mount_23, moment_16) + moment_22;
+    let moment_20 = mr_moving_bx * p.k_21;
+    let moment_21 = (p.mount_23 * moment_10).add_mul(e_x_by, moment_11);
+    let i_moving_22 = moment_20 + moment_6 + (moment_21 + moment_21 + i_behind_w_22);
+    let moment_22 = (p.mount_33 * moment_10).add_mul(e_x_bz, moment_11);
+    let moment_23 = (p.mount_23 * moment_15).add_mul(e_x_by, moment_16) + moment_22;
     let moment_24 = (p.reach_by * mr_moving_bz).add_mul(p.reach_bz, mr_moving_by);
     let i_moving_23 = moment_23 - moment_24;
-    let moment_25 = (e_x_bz * moment_15).add_mul(p.mount_33, moment_16);
-    let i_moving_33 = moment_25 + moment_25 + i_behind_w_22 + (moment_21 + moment_8);
+    let moment_25 = (p.mount_33 * moment_15).add_mul(e_x_bz, moment_16);
+    let i_moving_33 = moment_20 + moment_5 + (moment_25 + moment_25 + i_behind_w_22);
 
     // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
     // N and N m.
@@ -1829,13 +1831,13 @@ pub fn eliminate<T: Real>(
     let f_rates_bz = bias_2.add_mul(p.mount_33, f_rates_g_gz);
     let bias_3 = (e_x_bx * n_rates_g_gx).add_mul(e_y_bx, n_rates_g_gy);
     let bias_4 = (p.reach_by * f_rates_bz).sub_mul(p.reach_bz, f_rates_by);
-    let n_rates_bx = bias_3.add_mul(p.mount_13, n_rates_g_gz) + bias_4;
+    let n_rates_bx = bias_4 + bias_3.add_mul(p.mount_13, n_rates_g_gz);
     let bias_5 = (e_x_by * n_rates_g_gx).add_mul(e_y_by, n_rates_g_gy);
     let bias_6 = (p.reach_bz * f_rates_bx).sub_mul(p.reach_bx, f_rates_bz);
-    let n_rates_by = bias_5.add_mul(p.mount_23, n_rates_g_gz) + bias_6;
+    let n_rates_by = bias_6 + bias_5.add_mul(p.mount_23, n_rates_g_gz);
     let bias_7 = (e_x_bz * n_rates_g_gx).add_mul(e_y_bz, n_rates_g_gy);
     let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
-    let n_rates_bz = bias_7.add_mul(p.mount_33, n_rates_g_gz) + bias_8;
+    let n_rates_bz = bias_8 + bias_7.add_mul(p.mount_33, n_rates_g_gz);
 
     // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
     let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
@@ -2127,7 +2129,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
 /// What the carrier of each joint exerts on all outside it, so that these accelerations
 /// happen: the torques of (77), (116).
 ///
-/// Operations: 188 mul, 145 add, 0 neg, 0 div, 0 trig.
+/// Operations: 179 mul, 141 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn loads<T: Real>(
     p: &Prepared<T>,
@@ -2143,14 +2145,10 @@ pub fn loads<T: Real>(
     let omega_g_n_gz = w.omega_bz + v.gamma_dot;
 
     // Its derivative by components, as in eq. (34), along the same axes, rad/s².
-    let turn_0 = v.gamma_dot * q.cos_gamma;
-    let turn_1 = v.gamma_dot * q.sin_gamma;
-    let turn_2 = a.omega_dot_by * q.sin_gamma + w.omega_by * turn_0;
-    let turn_3 = a.omega_dot_bx * q.cos_gamma - w.omega_bx * turn_1;
-    let omega_g_n_dot_gx = turn_3 + turn_2;
-    let turn_4 = a.omega_dot_bx * q.sin_gamma + w.omega_bx * turn_0;
-    let turn_5 = a.omega_dot_by * q.cos_gamma - w.omega_by * turn_1;
-    let omega_g_n_dot_gy = turn_5 - turn_4;
+    let turn_0 = a.omega_dot_by - w.omega_bx * v.gamma_dot;
+    let turn_1 = a.omega_dot_bx + w.omega_by * v.gamma_dot;
+    let omega_g_n_dot_gx = q.cos_gamma * turn_1 + q.sin_gamma * turn_0;
+    let omega_g_n_dot_gy = q.cos_gamma * turn_0 - q.sin_gamma * turn_1;
     let omega_g_n_dot_gz = a.omega_dot_bz + j.gamma_ddot;
 
     // Inertial acceleration of G as in eq. (38), same axes, m/s².
@@ -2176,107 +2174,101 @@ pub fn loads<T: Real>(
 
     // Its derivative by components, as in eq. (62), along the same axes, rad/s².
     let omega_w_n_dot_wx = j.spin_dot + omega_g_n_dot_gx;
-    let turn_6 = v.spin * q.cos_theta;
-    let turn_7 = v.spin * q.sin_theta;
-    let turn_8 = turn_6 * omega_g_n_gz + q.sin_theta * omega_g_n_dot_gz;
-    let turn_9 = q.cos_theta * omega_g_n_dot_gy - turn_7 * omega_g_n_gy;
-    let omega_w_n_dot_wy = turn_9 + turn_8;
-    let turn_10 = turn_6 * omega_g_n_gy + q.sin_theta * omega_g_n_dot_gy;
-    let turn_11 = q.cos_theta * omega_g_n_dot_gz - turn_7 * omega_g_n_gz;
-    let omega_w_n_dot_wz = turn_11 - turn_10;
+    let turn_2 = omega_g_n_dot_gy + v.spin * omega_g_n_gz;
+    let turn_3 = omega_g_n_dot_gz - v.spin * omega_g_n_gy;
+    let omega_w_n_dot_wy = q.cos_theta * turn_2 + q.sin_theta * turn_3;
+    let omega_w_n_dot_wz = q.cos_theta * turn_3 - q.sin_theta * turn_2;
 
     // Inertial acceleration of W as in eq. (69), same axes, m/s².
     let path_11 = p.l_g_x * omega_g_n_gz - p.l_g_z * omega_g_n_gx;
     let path_12 = p.l_g_y * omega_g_n_gx - p.l_g_x * omega_g_n_gy;
     let path_13 = p.l_g_z * omega_g_n_dot_gy - p.l_g_y * omega_g_n_dot_gz;
-    let path_14 = path_13 + (omega_g_n_gy * path_12 - omega_g_n_gz * path_11);
+    let path_14 = omega_g_n_gy * path_12 - omega_g_n_gz * path_11 + path_13;
     let r_w_n_ddot_wx = path_14 + r_g_n_ddot_gx;
     let path_15 = p.l_g_z * omega_g_n_gy - p.l_g_y * omega_g_n_gz;
     let path_16 = p.l_g_x * omega_g_n_dot_gz - p.l_g_z * omega_g_n_dot_gx;
-    let path_17 = path_16 + (omega_g_n_gz * path_15 - omega_g_n_gx * path_12);
+    let path_17 = omega_g_n_gz * path_15 - omega_g_n_gx * path_12 + path_16;
     let path_18 = path_17 + r_g_n_ddot_gy;
     let path_19 = p.l_g_y * omega_g_n_dot_gx - p.l_g_x * omega_g_n_dot_gy;
-    let path_20 = path_19 + (omega_g_n_gx * path_11 - omega_g_n_gy * path_15);
+    let path_20 = omega_g_n_gx * path_11 - omega_g_n_gy * path_15 + path_19;
     let path_21 = path_20 + r_g_n_ddot_gz;
     let r_w_n_ddot_wy = q.cos_theta * path_18 + q.sin_theta * path_21;
     let r_w_n_ddot_wz = q.cos_theta * path_21 - q.sin_theta * path_18;
 
     // On W, the wheel and what it carries, at its joint, eq. (116): force, N, and moment about
     // W, N m.
-    let load_0 = p.mr_wc_w_wy * omega_w_n_wx;
-    let load_1 = omega_w_n_wy * load_0 - p.mr_wc_w_wy * omega_w_n_dot_wz;
-    let f_load_wx = load_1 + p.m_w * r_w_n_ddot_wx;
-    let load_2 = p.mr_wc_w_wy * omega_w_n_wz;
-    let load_3 = omega_w_n_wz * load_2 + omega_w_n_wx * load_0;
-    let f_load_wy = p.m_w * r_w_n_ddot_wy - load_3;
-    let load_4 = p.mr_wc_w_wy * omega_w_n_dot_wx + omega_w_n_wy * load_2;
-    let f_load_wz = load_4 + p.m_w * r_w_n_ddot_wz;
-    let load_5 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
-    let load_6 = load_5 + p.j_23 * omega_w_n_wz;
-    let load_7 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
-    let load_8 = load_7 + p.i_w_w_33 * omega_w_n_wz;
-    let load_9 = p.i_w_w_11 * omega_w_n_dot_wx + p.j_12 * omega_w_n_dot_wy;
-    let load_10 = omega_w_n_wy * load_8 - omega_w_n_wz * load_6;
-    let load_11 = load_9 + p.j_13 * omega_w_n_dot_wz + load_10;
-    let n_load_wx = load_11 + p.mr_wc_w_wy * r_w_n_ddot_wz;
-    let load_12 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
-    let load_13 = load_12 + p.j_13 * omega_w_n_wz;
-    let load_14 = p.j_12 * omega_w_n_dot_wx + p.j_22 * omega_w_n_dot_wy;
-    let load_15 = omega_w_n_wz * load_13 - omega_w_n_wx * load_8;
-    let n_load_wy = load_14 + p.j_23 * omega_w_n_dot_wz + load_15;
-    let load_16 = p.j_13 * omega_w_n_dot_wx + p.j_23 * omega_w_n_dot_wy;
-    let load_17 = omega_w_n_wx * load_6 - omega_w_n_wy * load_13;
-    let load_18 = load_16 + p.i_w_w_33 * omega_w_n_dot_wz + load_17;
-    let n_load_wz = load_18 - p.mr_wc_w_wy * r_w_n_ddot_wx;
+    let load_0 = p.mr_wc_w_wy * (omega_w_n_wy * omega_w_n_wx - omega_w_n_dot_wz);
+    let f_load_wx = load_0 + p.m_w * r_w_n_ddot_wx;
+    let load_1 = omega_w_n_wz * omega_w_n_wz + omega_w_n_wx * omega_w_n_wx;
+    let f_load_wy = p.m_w * r_w_n_ddot_wy - p.mr_wc_w_wy * load_1;
+    let load_2 = p.mr_wc_w_wy * (omega_w_n_dot_wx + omega_w_n_wy * omega_w_n_wz);
+    let f_load_wz = load_2 + p.m_w * r_w_n_ddot_wz;
+    let load_3 = p.j_12 * omega_w_n_wx + p.j_22 * omega_w_n_wy;
+    let load_4 = load_3 + p.j_23 * omega_w_n_wz;
+    let load_5 = p.j_13 * omega_w_n_wx + p.j_23 * omega_w_n_wy;
+    let load_6 = load_5 + p.i_w_w_33 * omega_w_n_wz;
+    let load_7 = p.i_w_w_11 * omega_w_n_dot_wx + p.j_12 * omega_w_n_dot_wy;
+    let load_8 = omega_w_n_wy * load_6 - omega_w_n_wz * load_4;
+    let load_9 = load_8 + (load_7 + p.j_13 * omega_w_n_dot_wz);
+    let n_load_wx = load_9 + p.mr_wc_w_wy * r_w_n_ddot_wz;
+    let load_10 = p.i_w_w_11 * omega_w_n_wx + p.j_12 * omega_w_n_wy;
+    let load_11 = load_10 + p.j_13 * omega_w_n_wz;
+    let load_12 = p.j_12 * omega_w_n_dot_wx + p.j_22 * omega_w_n_dot_wy;
+    let load_13 = omega_w_n_wz * load_11 - omega_w_n_wx * load_6;
+    let n_load_wy = load_13 + (load_12 + p.j_23 * omega_w_n_dot_wz);
+    let load_14 = p.j_13 * omega_w_n_dot_wx + p.j_23 * omega_w_n_dot_wy;
+    let load_15 = omega_w_n_wx * load_4 - omega_w_n_wy * load_11;
+    let load_16 = load_15 + (load_14 + p.i_w_w_33 * omega_w_n_dot_wz);
+    let n_load_wz = load_16 - p.mr_wc_w_wy * r_w_n_ddot_wx;
 
     // On D, the gimbal and what it carries, at its joint, eq. (77): force, N, and moment about
     // G, N m.
-    let load_19 = p.mr_gc_g_gx * omega_g_n_gz - p.mr_gc_g_gz * omega_g_n_gx;
-    let load_20 = p.mr_gc_g_gy * omega_g_n_gx - p.mr_gc_g_gx * omega_g_n_gy;
-    let load_21 = p.mr_gc_g_gz * omega_g_n_dot_gy - p.mr_gc_g_gy * omega_g_n_dot_gz;
-    let load_22 = load_21 + (omega_g_n_gy * load_20 - omega_g_n_gz * load_19);
-    let f_load_gx = load_22 + p.m_g * r_g_n_ddot_gx + f_load_wx;
-    let load_23 = p.mr_gc_g_gz * omega_g_n_gy - p.mr_gc_g_gy * omega_g_n_gz;
-    let load_24 = q.cos_theta * f_load_wy - q.sin_theta * f_load_wz;
-    let load_25 = p.mr_gc_g_gx * omega_g_n_dot_gz - p.mr_gc_g_gz * omega_g_n_dot_gx;
-    let load_26 = load_25 + (omega_g_n_gz * load_23 - omega_g_n_gx * load_20);
-    let f_load_gy = load_26 + p.m_g * r_g_n_ddot_gy + load_24;
-    let load_27 = q.cos_theta * f_load_wz + q.sin_theta * f_load_wy;
-    let load_28 = p.mr_gc_g_gy * omega_g_n_dot_gx - p.mr_gc_g_gx * omega_g_n_dot_gy;
-    let load_29 = load_28 + (omega_g_n_gx * load_19 - omega_g_n_gy * load_23);
-    let f_load_gz = load_29 + p.m_g * r_g_n_ddot_gz + load_27;
-    let load_30 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
-    let load_31 = load_30 + p.i_g_g_23 * omega_g_n_gz;
-    let load_32 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
-    let load_33 = load_32 + p.i_g_g_33 * omega_g_n_gz;
-    let load_34 = p.i_g_g_11 * omega_g_n_dot_gx + p.i_g_g_12 * omega_g_n_dot_gy;
-    let load_35 = omega_g_n_gy * load_33 - omega_g_n_gz * load_31;
-    let load_36 = p.mr_gc_g_gy * r_g_n_ddot_gz - p.mr_gc_g_gz * r_g_n_ddot_gy;
-    let load_37 = load_34 + p.i_g_g_13 * omega_g_n_dot_gz + load_35 + load_36;
-    let n_load_gx = p.l_g_y * load_27 - p.l_g_z * load_24 + n_load_wx + load_37;
-    let load_38 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
-    let load_39 = load_38 + p.i_g_g_13 * omega_g_n_gz;
-    let load_40 = q.cos_theta * n_load_wy - q.sin_theta * n_load_wz;
-    let load_41 = p.i_g_g_12 * omega_g_n_dot_gx + p.i_g_g_22 * omega_g_n_dot_gy;
-    let load_42 = omega_g_n_gz * load_39 - omega_g_n_gx * load_33;
-    let load_43 = p.mr_gc_g_gz * r_g_n_ddot_gx - p.mr_gc_g_gx * r_g_n_ddot_gz;
-    let load_44 = load_41 + p.i_g_g_23 * omega_g_n_dot_gz + load_42 + load_43;
-    let n_load_gy = load_40 + (p.l_g_z * f_load_wx - p.l_g_x * load_27) + load_44;
-    let load_45 = q.cos_theta * n_load_wz + q.sin_theta * n_load_wy;
-    let load_46 = p.i_g_g_13 * omega_g_n_dot_gx + p.i_g_g_23 * omega_g_n_dot_gy;
-    let load_47 = omega_g_n_gx * load_31 - omega_g_n_gy * load_39;
-    let load_48 = p.mr_gc_g_gx * r_g_n_ddot_gy - p.mr_gc_g_gy * r_g_n_ddot_gx;
-    let load_49 = load_46 + p.i_g_g_33 * omega_g_n_dot_gz + load_47 + load_48;
-    let n_load_gz = load_45 + (p.l_g_x * load_24 - p.l_g_y * f_load_wx) + load_49;
+    let load_17 = p.mr_gc_g_gx * omega_g_n_gz - p.mr_gc_g_gz * omega_g_n_gx;
+    let load_18 = p.mr_gc_g_gy * omega_g_n_gx - p.mr_gc_g_gx * omega_g_n_gy;
+    let load_19 = p.mr_gc_g_gz * omega_g_n_dot_gy - p.mr_gc_g_gy * omega_g_n_dot_gz;
+    let load_20 = omega_g_n_gy * load_18 - omega_g_n_gz * load_17 + load_19;
+    let f_load_gx = load_20 + p.m_g * r_g_n_ddot_gx + f_load_wx;
+    let load_21 = p.mr_gc_g_gz * omega_g_n_gy - p.mr_gc_g_gy * omega_g_n_gz;
+    let load_22 = q.cos_theta * f_load_wy - q.sin_theta * f_load_wz;
+    let load_23 = p.mr_gc_g_gx * omega_g_n_dot_gz - p.mr_gc_g_gz * omega_g_n_dot_gx;
+    let load_24 = omega_g_n_gz * load_21 - omega_g_n_gx * load_18 + load_23;
+    let f_load_gy = load_24 + p.m_g * r_g_n_ddot_gy + load_22;
+    let load_25 = q.cos_theta * f_load_wz + q.sin_theta * f_load_wy;
+    let load_26 = p.mr_gc_g_gy * omega_g_n_dot_gx - p.mr_gc_g_gx * omega_g_n_dot_gy;
+    let load_27 = omega_g_n_gx * load_17 - omega_g_n_gy * load_21 + load_26;
+    let f_load_gz = load_27 + p.m_g * r_g_n_ddot_gz + load_25;
+    let load_28 = p.i_g_g_12 * omega_g_n_gx + p.i_g_g_22 * omega_g_n_gy;
+    let load_29 = load_28 + p.i_g_g_23 * omega_g_n_gz;
+    let load_30 = p.i_g_g_13 * omega_g_n_gx + p.i_g_g_23 * omega_g_n_gy;
+    let load_31 = load_30 + p.i_g_g_33 * omega_g_n_gz;
+    let load_32 = p.i_g_g_11 * omega_g_n_dot_gx + p.i_g_g_12 * omega_g_n_dot_gy;
+    let load_33 = omega_g_n_gy * load_31 - omega_g_n_gz * load_29;
+    let load_34 = p.mr_gc_g_gy * r_g_n_ddot_gz - p.mr_gc_g_gz * r_g_n_ddot_gy;
+    let load_35 = load_34 + (load_33 + (load_32 + p.i_g_g_13 * omega_g_n_dot_gz));
+    let n_load_gx = p.l_g_y * load_25 - p.l_g_z * load_22 + n_load_wx + load_35;
+    let load_36 = p.i_g_g_11 * omega_g_n_gx + p.i_g_g_12 * omega_g_n_gy;
+    let load_37 = load_36 + p.i_g_g_13 * omega_g_n_gz;
+    let load_38 = q.cos_theta * n_load_wy - q.sin_theta * n_load_wz;
+    let load_39 = p.i_g_g_12 * omega_g_n_dot_gx + p.i_g_g_22 * omega_g_n_dot_gy;
+    let load_40 = omega_g_n_gz * load_37 - omega_g_n_gx * load_31;
+    let load_41 = p.mr_gc_g_gz * r_g_n_ddot_gx - p.mr_gc_g_gx * r_g_n_ddot_gz;
+    let load_42 = load_41 + (load_40 + (load_39 + p.i_g_g_23 * omega_g_n_dot_gz));
+    let n_load_gy = load_38 + (p.l_g_z * f_load_wx - p.l_g_x * load_25) + load_42;
+    let load_43 = q.cos_theta * n_load_wz + q.sin_theta * n_load_wy;
+    let load_44 = p.i_g_g_13 * omega_g_n_dot_gx + p.i_g_g_23 * omega_g_n_dot_gy;
+    let load_45 = omega_g_n_gx * load_29 - omega_g_n_gy * load_37;
+    let load_46 = p.mr_gc_g_gx * r_g_n_ddot_gy - p.mr_gc_g_gy * r_g_n_ddot_gx;
+    let load_47 = load_46 + (load_45 + (load_44 + p.i_g_g_33 * omega_g_n_dot_gz));
+    let n_load_gz = load_43 + (p.l_g_x * load_22 - p.l_g_y * f_load_wx) + load_47;
 
     // On the whole device, eqs. (16), (75): force, N, and moment about B, N m.
     let f_load_bx = q.cos_gamma * f_load_gx - q.sin_gamma * f_load_gy;
     let f_load_by = q.cos_gamma * f_load_gy + q.sin_gamma * f_load_gx;
     let f_load_bz = f_load_gz;
-    let load_50 = q.cos_gamma * n_load_gx - q.sin_gamma * n_load_gy;
-    let n_load_bx = load_50 + (p.r_g_b_by * f_load_gz - p.r_g_b_bz * f_load_by);
-    let load_51 = q.cos_gamma * n_load_gy + q.sin_gamma * n_load_gx;
-    let n_load_by = load_51 + (p.r_g_b_bz * f_load_bx - p.r_g_b_bx * f_load_gz);
+    let load_48 = q.cos_gamma * n_load_gx - q.sin_gamma * n_load_gy;
+    let n_load_bx = load_48 + (p.r_g_b_by * f_load_gz - p.r_g_b_bz * f_load_by);
+    let load_49 = q.cos_gamma * n_load_gy + q.sin_gamma * n_load_gx;
+    let n_load_by = load_49 + (p.r_g_b_bz * f_load_bx - p.r_g_b_bx * f_load_gz);
     let n_load_bz = p.r_g_b_bx * f_load_by - p.r_g_b_by * f_load_bx + n_load_gz;
 
     Loads {
@@ -2368,7 +2360,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 130 mul, 141 add, 5 neg, 0 div, 0 trig.
+/// Operations: 128 mul, 127 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (G1), along the axes of the gimbal, 1/s².
@@ -2395,13 +2387,13 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let pull_2 = p.mr_gc_g_gx * g_g_13 + p.mr_gc_g_gy * g_g_23;
     let f_on_gz = pull_2 + p.mr_gc_g_gz * g.g_33 + p.m_g * g_r_g_gz;
     let pull_3 = g.g_33 - g_g_22;
-    let pull_4 = p.i_g_g_12 * g_g_13 - p.i_g_g_13 * g_g_12 + g_g_23 * p.k_29;
+    let pull_4 = p.i_g_g_12 * g_g_13 - p.i_g_g_13 * g_g_12 + g_g_23 * p.k_24;
     let pull_5 = p.mr_gc_g_gy * g_r_g_gz - p.mr_gc_g_gz * g_r_g_gy;
     let n_on_gx = pull_5 - (pull_4 + p.i_g_g_23 * pull_3);
-    let pull_6 = p.i_g_g_23 * g_g_12 - p.i_g_g_12 * g_g_23 + g_g_13 * p.k_30;
+    let pull_6 = p.i_g_g_23 * g_g_12 - p.i_g_g_12 * g_g_23 + g_g_13 * p.k_25;
     let pull_7 = p.mr_gc_g_gz * g_r_g_gx - p.mr_gc_g_gx * g_r_g_gz;
     let n_on_gy = pull_7 - (pull_6 + p.i_g_g_13 * (g_g_11 - g.g_33));
-    let pull_8 = p.i_g_g_13 * g_g_23 - p.i_g_g_23 * g_g_13 + g_g_12 * p.k_31;
+    let pull_8 = p.i_g_g_13 * g_g_23 - p.i_g_g_23 * g_g_13 + g_g_12 * p.k_26;
     let pull_9 = p.mr_gc_g_gx * g_r_g_gy - p.mr_gc_g_gy * g_r_g_gx;
     let n_on_gz = pull_9 - (pull_8 + p.i_g_g_12 * (g_g_22 - g_g_11));
 
@@ -2425,57 +2417,50 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let f_on_wx = p.m_w * g_r_w_wx + p.mr_wc_w_wy * g_w_12;
     let f_on_wy = p.m_w * g_r_w_wy + p.mr_wc_w_wy * g_w_22;
     let f_on_wz = p.m_w * g_r_w_wz + p.mr_wc_w_wy * g_w_23;
-    let pull_10 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_32;
+    let pull_10 = p.j_12 * g_w_13 - p.j_13 * g_w_12 + g_w_23 * p.k_27;
     let n_on_wx = p.mr_wc_w_wy * g_r_w_wz - (pull_10 + p.j_23 * (g_w_33 - g_w_22));
-    let pull_11 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_33;
+    let pull_11 = p.j_23 * g_w_12 - p.j_12 * g_w_23 + g_w_13 * p.k_28;
     let n_on_wy = -(pull_11 + p.j_13 * (g_g_11 - g_w_33));
-    let pull_12 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_34;
+    let pull_12 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_29;
     let n_on_wz = -(pull_12 + p.j_12 * (g_w_22 - g_g_11) + p.mr_wc_w_wy * g_r_w_wx);
 
     // D, the gimbal and what it carries, eq. (89): mass, kg; first moment, kg m, and inertia, kg
     // m², about G.
-    let lump_0 = q.cos_theta * p.mr_wc_w_wy;
-    let mr_d_g_gy = lump_0 + p.k_12 + p.mr_gc_g_gy;
-    let lump_1 = q.sin_theta * p.mr_wc_w_wy;
-    let mr_d_g_gz = lump_1 + p.k_13 + p.mr_gc_g_gz;
-    let lump_2 = lump_0 * p.k_4;
-    let lump_3 = lump_1 * p.k_5;
-    let i_d_g_11 = lump_2 + lump_3 + p.i_w_w_11 + p.k_6 + p.i_g_g_11;
-    let lump_4 = q.cos_theta * p.j_12 - q.sin_theta * p.j_13 - p.l_g_x * lump_0;
-    let i_d_g_12 = lump_4 + p.k_7 + p.i_g_g_12;
-    let lump_5 = q.cos_theta * p.j_13 + q.sin_theta * p.j_12 - p.l_g_x * lump_1;
-    let i_d_g_13 = lump_5 + p.k_8 + p.i_g_g_13;
-    let lump_6 = q.cos_theta * p.k_2 - q.sin_theta * p.k_1;
-    let lump_7 = q.sin_theta * lump_6;
-    let i_d_g_22 = p.j_22 - lump_7 + lump_3 + p.k_9 + p.i_g_g_22;
-    let lump_8 = p.l_g_y * lump_1 + p.l_g_z * lump_0;
-    let i_d_g_23 = q.cos_theta * lump_6 + p.k_3 - lump_8 + p.k_10 + p.i_g_g_23;
-    let i_d_g_33 = p.i_w_w_33 + lump_7 + lump_2 + p.k_11 + p.i_g_g_33;
+    let mr_d_g_gy = q.cos_theta * p.mr_wc_w_wy + p.mr_g_base_gy;
+    let mr_d_g_gz = q.sin_theta * p.mr_wc_w_wy + p.k_35;
+    let lump_0 = q.cos_theta * p.k_43;
+    let i_d_g_11 = lump_0 + q.sin_theta * p.k_44 + p.k_37;
+    let i_d_g_12 = q.cos_theta * p.k_20 - q.sin_theta * p.j_13 + p.k_38;
+    let i_d_g_13 = q.cos_theta * p.j_13 + q.sin_theta * p.k_20 + p.k_39;
+    let lump_1 = q.cos_theta * p.k_2 - q.sin_theta * p.k_1;
+    let i_d_g_22 = p.k_40 + q.sin_theta * (p.k_44 - lump_1);
+    let i_d_g_23 = q.cos_theta * (lump_1 + p.k_46) - q.sin_theta * p.k_45 + p.k_41;
+    let i_d_g_33 = q.sin_theta * lump_1 + lump_0 + p.k_42;
 
     // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
     let axis_0 = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * mr_d_g_gy;
-    let axis_1 = q.cos_gamma * mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
-    let axis_2 = q.sin_gamma * (i_d_g_22 - i_d_g_11);
-    let axis_3 = q.cos_gamma * (i_d_g_12 + i_d_g_12) - axis_2;
-    let axis_4 = q.sin_gamma * axis_3;
-    let axis_5 = axis_0 * p.k_14;
-    let axis_6 = axis_1 * p.k_15;
-    let axis_7 = mr_d_g_gz * p.k_16;
-    let axis_8 = i_d_g_11 - axis_4 + (axis_6 + axis_7) + p.k_17;
-    let axis_9 = i_d_g_22 + axis_4 + (axis_5 + axis_7) + p.k_20;
-    let axis_10 = axis_5 + axis_6 + i_d_g_33 + p.k_22;
+    let axis_1 = q.sin_gamma * p.mr_d_g_gx + q.cos_gamma * mr_d_g_gy;
+    let axis_2 = p.k_7 * axis_0;
+    let axis_3 = p.k_8 * axis_1;
+    let axis_4 = p.k_9 * mr_d_g_gz;
+    let axis_5 = q.sin_gamma * (i_d_g_22 - i_d_g_11);
+    let axis_6 = q.cos_gamma * (i_d_g_12 + i_d_g_12) - axis_5;
+    let axis_7 = q.sin_gamma * axis_6;
+    let axis_8 = axis_3 + axis_4 + (i_d_g_11 - axis_7) + p.k_10;
+    let axis_9 = axis_2 + axis_4 + (i_d_g_22 + axis_7) + p.k_13;
+    let axis_10 = axis_2 + axis_3 + i_d_g_33 + p.k_15;
     let half = q.sin_gamma.like(0.5);
     let axis_11 = half * (axis_8 + axis_9 + axis_10);
     let second_moment_11 = axis_11 - axis_8;
     let axis_12 = p.r_g_b_bx * axis_1 + p.r_g_b_by * axis_0;
-    let second_moment_12 = -(q.cos_gamma * axis_3 - i_d_g_12 - axis_12 + p.k_18);
+    let second_moment_12 = -(q.cos_gamma * axis_6 - i_d_g_12 - axis_12 + p.k_11);
     let axis_13 = q.cos_gamma * i_d_g_13 - q.sin_gamma * i_d_g_23;
     let axis_14 = axis_13 - (p.r_g_b_bx * mr_d_g_gz + p.r_g_b_bz * axis_0);
-    let second_moment_13 = -(axis_14 + p.k_19);
+    let second_moment_13 = -(axis_14 + p.k_12);
     let second_moment_22 = axis_11 - axis_9;
     let axis_15 = q.cos_gamma * i_d_g_23 + q.sin_gamma * i_d_g_13;
     let axis_16 = axis_15 - (p.r_g_b_by * mr_d_g_gz + p.r_g_b_bz * axis_1);
-    let second_moment_23 = -(axis_16 + p.k_21);
+    let second_moment_23 = -(axis_16 + p.k_14);
     let second_moment_33 = axis_11 - axis_10;
 
     Gravity {

@@ -88,18 +88,6 @@ pub struct Prepared<T> {
     pub mc_by: T,
     /// `p.r_s_b_bz * p.m_s`. Σ m r, share of m_sc c, eq. (9), kg m.
     pub mc_bz: T,
-    /// `p.r_s_b_by * p.mount_12`.
-    pub k_2: T,
-    /// `p.r_s_b_by * p.mount_22`.
-    pub k_3: T,
-    /// `p.r_s_b_by * p.mount_32`.
-    pub k_4: T,
-    /// `p.r_s_b_bz * p.mount_13`.
-    pub k_5: T,
-    /// `p.r_s_b_bz * p.mount_23`.
-    pub k_6: T,
-    /// `p.r_s_b_bz * p.mount_33`.
-    pub k_7: T,
     /// `p.m_s * p.mount_11`. M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment
     /// about B per unit acceleration, along B axes.
     pub f_s_bx: T,
@@ -110,7 +98,13 @@ pub struct Prepared<T> {
     /// about B per unit acceleration, along B axes.
     pub f_s_bz: T,
     /// `-i_s_b_11`.
-    pub k_8: T,
+    pub k_2: T,
+    /// `p.r_s_b_by * p.mount_12 + p.r_s_b_bz * p.mount_13`.
+    pub k_3: T,
+    /// `p.r_s_b_by * p.mount_22 + p.r_s_b_bz * p.mount_23`.
+    pub k_4: T,
+    /// `p.r_s_b_by * p.mount_32 + p.r_s_b_bz * p.mount_33`.
+    pub k_5: T,
 }
 
 impl<T: Copy> Prepared<T> {
@@ -150,16 +144,13 @@ impl<T: Copy> Prepared<T> {
             i_s_b_23: join(self.i_s_b_23, other.i_s_b_23),
             mc_by: join(self.mc_by, other.mc_by),
             mc_bz: join(self.mc_bz, other.mc_bz),
+            f_s_bx: join(self.f_s_bx, other.f_s_bx),
+            f_s_by: join(self.f_s_by, other.f_s_by),
+            f_s_bz: join(self.f_s_bz, other.f_s_bz),
             k_2: join(self.k_2, other.k_2),
             k_3: join(self.k_3, other.k_3),
             k_4: join(self.k_4, other.k_4),
             k_5: join(self.k_5, other.k_5),
-            k_6: join(self.k_6, other.k_6),
-            k_7: join(self.k_7, other.k_7),
-            f_s_bx: join(self.f_s_bx, other.f_s_bx),
-            f_s_by: join(self.f_s_by, other.f_s_by),
-            f_s_bz: join(self.f_s_bz, other.f_s_bz),
-            k_8: join(self.k_8, other.k_8),
         }
     }
 }
@@ -487,7 +478,7 @@ pub struct Gravity<T> {
 
 /// What depends on parameters alone, once per device.
 ///
-/// Operations: 16 mul, 1 add, 2 neg, 0 div, 0 trig.
+/// Operations: 16 mul, 4 add, 2 neg, 0 div, 0 trig.
 #[must_use]
 pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // [I_{S,B}], eq. (40), along the axes of the slosh mass, kg m².
@@ -508,13 +499,10 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let f_s_bz = p.m_s * p.mount_31;
 
     // Products and sums of parameters that occur more deeply.
-    let k_2 = p.r_s_b_by * p.mount_12;
-    let k_3 = p.r_s_b_by * p.mount_22;
-    let k_4 = p.r_s_b_by * p.mount_32;
-    let k_5 = p.r_s_b_bz * p.mount_13;
-    let k_6 = p.r_s_b_bz * p.mount_23;
-    let k_7 = p.r_s_b_bz * p.mount_33;
-    let k_8 = -i_s_b_11;
+    let k_2 = -i_s_b_11;
+    let k_3 = p.r_s_b_by * p.mount_12 + p.r_s_b_bz * p.mount_13;
+    let k_4 = p.r_s_b_by * p.mount_22 + p.r_s_b_bz * p.mount_23;
+    let k_5 = p.r_s_b_by * p.mount_32 + p.r_s_b_bz * p.mount_33;
 
     Prepared {
         mount_11: p.mount_11,
@@ -537,22 +525,19 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
         i_s_b_23,
         mc_by,
         mc_bz,
+        f_s_bx,
+        f_s_by,
+        f_s_bz,
         k_2,
         k_3,
         k_4,
         k_5,
-        k_6,
-        k_7,
-        f_s_bx,
-        f_s_by,
-        f_s_bz,
-        k_8,
     }
 }
 
 /// The slosh mass: position, angular velocity, inertia and their derivatives.
 ///
-/// Operations: 13 mul, 4 add, 4 neg, 0 div, 0 trig.
+/// Operations: 9 mul, 4 add, 4 neg, 0 div, 0 trig.
 #[must_use]
 pub fn slosh_mass<T: Real>(p: &Prepared<T>, s: &Positions<T>, v: &Rates<T>) -> SloshMass<T> {
     // r_{Sc/B}, behind eq. (12), m.
@@ -574,8 +559,8 @@ pub fn slosh_mass<T: Real>(p: &Prepared<T>, s: &Positions<T>, v: &Rates<T>) -> S
 
     // [I_{S,B}], eq. (40), along the axes of the slosh mass, kg m².
     let i_s_b_11 = p.i_s_b_11;
-    let i_s_b_12 = -(p.r_s_b_by * r_sc_b_bx * p.m_s);
-    let i_s_b_13 = -(p.r_s_b_bz * r_sc_b_bx * p.m_s);
+    let i_s_b_12 = -(r_sc_b_bx * p.mc_by);
+    let i_s_b_13 = -(r_sc_b_bx * p.mc_bz);
     let axis_0 = r_sc_b_bx * r_sc_b_bx;
     let i_s_b_22 = p.m_s * (axis_0 + p.k_1);
     let i_s_b_23 = p.i_s_b_23;
@@ -583,8 +568,8 @@ pub fn slosh_mass<T: Real>(p: &Prepared<T>, s: &Positions<T>, v: &Rates<T>) -> S
 
     // [I_{S,B}]′, eq. (42), along the axes of the slosh mass, kg m²/s.
     let i_s_b_prime_11 = zero;
-    let i_s_b_prime_12 = -(v.x_dot * p.r_s_b_by * p.m_s);
-    let i_s_b_prime_13 = -(v.x_dot * p.r_s_b_bz * p.m_s);
+    let i_s_b_prime_12 = -(v.x_dot * p.mc_by);
+    let i_s_b_prime_13 = -(v.x_dot * p.mc_bz);
     let i_s_b_prime_22 = r_sc_b_bx * (v.x_dot + v.x_dot) * p.m_s;
     let i_s_b_prime_23 = zero;
     let i_s_b_prime_33 = i_s_b_prime_22;
@@ -691,7 +676,7 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
 /// acceleration is given has no equation: what it asks for goes to the right side.
 ///
-/// Operations: 96 mul, 42 add, 3 neg, 1 div, 0 trig.
+/// Operations: 96 mul, 39 add, 3 neg, 1 div, 0 trig.
 #[inline(always)]
 #[must_use]
 pub fn eliminate<T: Real>(
@@ -723,15 +708,15 @@ pub fn eliminate<T: Real>(
     let neg_f_rates_s_sz = p.m_s * (coriolis_1 + coriolis_1);
 
     // Origin of the first joint, eq. (A2), along B axes, m.
-    let reach_bx = p.k_2.add_mul(arm_s_dx, p.mount_11) + p.k_5;
-    let reach_by = p.k_3.add_mul(arm_s_dx, p.mount_21) + p.k_6;
-    let reach_bz = p.k_4.add_mul(arm_s_dx, p.mount_31) + p.k_7;
+    let reach_bx = p.k_3.add_mul(arm_s_dx, p.mount_11);
+    let reach_by = p.k_4.add_mul(arm_s_dx, p.mount_21);
+    let reach_bz = p.k_5.add_mul(arm_s_dx, p.mount_31);
 
     // M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment about B per unit
     // acceleration, along B axes.
-    let n_s_bx = (reach_by * p.f_s_bz).sub_mul(reach_bz, p.f_s_by);
-    let n_s_by = (reach_bz * p.f_s_bx).sub_mul(reach_bx, p.f_s_bz);
-    let n_s_bz = (reach_bx * p.f_s_by).sub_mul(reach_by, p.f_s_bx);
+    let n_s_bx = (p.f_s_bz * reach_by).sub_mul(p.f_s_by, reach_bz);
+    let n_s_by = (p.f_s_bx * reach_bz).sub_mul(p.f_s_bz, reach_bx);
+    let n_s_bz = (p.f_s_by * reach_bx).sub_mul(p.f_s_bx, reach_by);
 
     // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
     // (76), kg m².
@@ -756,9 +741,9 @@ pub fn eliminate<T: Real>(
     let f_rates_by = bias_1.sub_mul(p.mount_23, neg_f_rates_s_sz);
     let bias_2 = p.mount_32 * f_rates_s_sy;
     let f_rates_bz = bias_2.sub_mul(p.mount_33, neg_f_rates_s_sz);
-    let n_rates_bx = (reach_by * f_rates_bz).sub_mul(reach_bz, f_rates_by);
-    let n_rates_by = (reach_bz * f_rates_bx).sub_mul(reach_bx, f_rates_bz);
-    let n_rates_bz = (reach_bx * f_rates_by).sub_mul(reach_by, f_rates_bx);
+    let n_rates_bx = (f_rates_bz * reach_by).sub_mul(f_rates_by, reach_bz);
+    let n_rates_by = (f_rates_bx * reach_bz).sub_mul(f_rates_bz, reach_bx);
+    let n_rates_bz = (f_rates_by * reach_bx).sub_mul(f_rates_bx, reach_by);
 
     // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
     let reach_0 = (w.omega_bz * reach_bx).sub_mul(w.omega_bx, reach_bz);
@@ -966,7 +951,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, s: &Positions<T>) -> Axes<T> {
 /// What the carrier of each joint exerts on all outside it, so that these accelerations
 /// happen: the torques of (77).
 ///
-/// Operations: 29 mul, 23 add, 0 neg, 0 div, 0 trig.
+/// Operations: 27 mul, 22 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn loads<T: Real>(
     p: &Prepared<T>,
@@ -984,14 +969,13 @@ pub fn loads<T: Real>(
     let path_4 = w.omega_by * path_2 - w.omega_bz * path_1;
     let r_s_n_ddot_sx = path_4 + (path_3 + j.x_ddot) + a.r_b_n_ddot_bx;
     let path_5 = w.omega_by * p.r_s_b_bz - w.omega_bz * p.r_s_b_by + v.x_dot;
-    let path_6 = w.omega_bz * v.x_dot + a.omega_dot_bz * path_0;
-    let path_7 = w.omega_bz * path_5 - w.omega_bx * path_2;
-    let path_8 = path_6 - a.omega_dot_bx * p.r_s_b_bz + path_7;
+    let path_6 = path_5 + v.x_dot;
+    let path_7 = a.omega_dot_bz * path_0 + w.omega_bz * path_6;
+    let path_8 = path_7 - a.omega_dot_bx * p.r_s_b_bz - w.omega_bx * path_2;
     let r_s_n_ddot_sy = path_8 + a.r_b_n_ddot_by;
-    let path_9 = w.omega_by * v.x_dot + a.omega_dot_by * path_0;
-    let path_10 = w.omega_bx * path_1 - w.omega_by * path_5;
-    let path_11 = a.omega_dot_bx * p.r_s_b_by - path_9 + path_10;
-    let r_s_n_ddot_sz = path_11 + a.r_b_n_ddot_bz;
+    let path_9 = a.omega_dot_bx * p.r_s_b_by - w.omega_by * path_6;
+    let path_10 = path_9 - a.omega_dot_by * path_0 + w.omega_bx * path_1;
+    let r_s_n_ddot_sz = path_10 + a.r_b_n_ddot_bz;
 
     // On D, the slosh mass and what it carries, at its joint, eq. (77): force, N, and moment
     // about S, N m.
@@ -1071,7 +1055,7 @@ pub fn external<T: Real>(p: &Prepared<T>, s: &Positions<T>, x: &Wrenches<T>) -> 
 
 /// What a field of acceleration `G r` does to each body: hand it to [`external`].
 ///
-/// Operations: 20 mul, 14 add, 0 neg, 0 div, 0 trig.
+/// Operations: 18 mul, 14 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, s: &Positions<T>, g: &Gradient<T>) -> Gravity<T> {
     // G r at S, eq. (G1), along the same axes, m/s².
@@ -1095,9 +1079,9 @@ pub fn gravity<T: Real>(p: &Prepared<T>, s: &Positions<T>, g: &Gradient<T>) -> G
     let axis_2 = p.m_s * (axis_0 + p.k_0);
     let half = s.x.like(0.5);
     let axis_3 = half * (p.i_s_b_11 + axis_1 + axis_2);
-    let second_moment_11 = axis_3 + p.k_8;
-    let second_moment_12 = p.r_s_b_by * field_0 * p.m_s;
-    let second_moment_13 = p.r_s_b_bz * field_0 * p.m_s;
+    let second_moment_11 = axis_3 + p.k_2;
+    let second_moment_12 = field_0 * p.mc_by;
+    let second_moment_13 = field_0 * p.mc_bz;
     let second_moment_22 = axis_3 - axis_1;
     let second_moment_23 = p.second_moment_23;
     let second_moment_33 = axis_3 - axis_2;

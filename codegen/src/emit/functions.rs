@@ -1,0 +1,54 @@
+//! What is emitted of a chain: its kernels and `prepare`, after all passes.
+
+use std::collections::HashMap;
+
+use super::factor::factored;
+use super::prepare::{Prepared, prepared};
+use crate::derivation::chain::Chain;
+use crate::graph::{Graph, Stage};
+use crate::kernel::{Kernel, kernels, parameters};
+
+/// The functions of a kind.
+pub(crate) struct Functions<'g> {
+    /// What depends on parameters alone.
+    pub(crate) prepared: Prepared<'g>,
+    /// All others, in the order of the emitted file.
+    pub(crate) kernels: Vec<Kernel<'g>>,
+}
+
+/// The functions of the chain's kind.
+pub(crate) fn functions<'g>(chain: &Chain<'g>) -> Functions<'g> {
+    let (graph, raw) = (chain.graph, parameters(chain.kind));
+    let mut kernels = kernels(chain);
+    if chain.passes.factor {
+        for kernel in &mut kernels {
+            let sections = std::mem::take(&mut kernel.sections);
+            kernel.sections = factored(graph, sections, &kernel.output.sources(), true);
+        }
+    }
+    let mut prepared = prepared(graph, &kernels, &raw);
+    if chain.passes.factor {
+        let sections = std::mem::take(&mut prepared.sections);
+        prepared.sections = factored(graph, sections, &prepared.computed(&raw), false);
+    }
+    Functions { prepared, kernels }
+}
+
+impl<'g> Functions<'g> {
+    /// The same with what `prepare` computes put where the others read it: they share its nodes.
+    pub(crate) fn joined(mut self, graph: &'g Graph) -> Self {
+        let computed = self.prepared.sections.iter().flat_map(|section| &section.statements);
+        let computed: HashMap<_, _> = computed.map(|s| (s.name.clone(), s.value)).collect();
+        for kernel in &mut self.kernels {
+            let sections = kernel.sections.iter_mut();
+            for statement in sections.flat_map(|section| &mut section.statements) {
+                let own = statement.value.stage() > Stage::Parameter;
+                let known = computed.get(&statement.name).filter(|_| !own);
+                statement.value = known
+                    .copied()
+                    .unwrap_or_else(|| self.prepared.read(graph, statement.value, &computed));
+            }
+        }
+        self
+    }
+}
