@@ -1,10 +1,12 @@
-//! A scalar that counts its operations: what an evaluation takes, of the arithmetic as it is run.
+//! A scalar that counts its operations: what an evaluation takes, of the arithmetic as it is run, and
+//! the longest chain of operations that wait for each other.
 //!
 //! The table `docs/operations.md` counts what is written in the emitted text; this counts the
 //! solver's own work with it. Comparisons, copies and constants count nothing, and neither do the
 //! checks that ask for a magnitude or a maximum, which are comparisons, too.
 
 use core::cell::Cell;
+use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
 
 use precess_dynamics::{Angle, Real, Scalar};
@@ -35,8 +37,22 @@ impl Operations {
     }
 }
 
+/// How long the result of an operation is waited for, ns.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Latencies {
+    /// Of a product.
+    pub mul: f64,
+    /// Of a sum.
+    pub add: f64,
+    /// Of a reciprocal.
+    pub recip: f64,
+    /// Of a sine and a cosine.
+    pub sin_cos: f64,
+}
+
 thread_local! {
     static COUNT: Cell<Operations> = Cell::default();
+    static LATENCIES: Cell<Latencies> = Cell::default();
 }
 
 /// What is computed in [`Counted`] numbers meanwhile, by this thread.
@@ -44,6 +60,14 @@ pub fn count<R>(work: impl FnOnce() -> R) -> (R, Operations) {
     COUNT.set(Operations::default());
     let result = work();
     (result, COUNT.get())
+}
+
+/// What is computed meanwhile, by this thread, tells when it was ready: see [`Counted::ready`].
+pub fn timed<R>(latencies: Latencies, work: impl FnOnce() -> R) -> R {
+    LATENCIES.set(latencies);
+    let result = work();
+    LATENCIES.set(Latencies::default());
+    result
 }
 
 /// Adds one to a count.
@@ -54,15 +78,50 @@ fn tick(of: impl FnOnce(&mut Operations) -> &mut u64) {
 }
 
 /// An `f64` whose operations are counted.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub struct Counted(f64);
+#[derive(Clone, Copy, Debug)]
+pub struct Counted {
+    value: f64,
+    ready: f64,
+}
+
+impl Counted {
+    /// When it was ready, ns, if every operation ran as soon as it could: the longest chain of
+    /// operations behind it. Of constants, zero.
+    #[must_use]
+    pub fn ready(self) -> f64 {
+        self.ready
+    }
+
+    /// A number that was there from the start.
+    const fn given(value: f64) -> Self {
+        Self { value, ready: 0.0 }
+    }
+
+    /// The result of an operation that had to wait for its operands.
+    fn after<const N: usize>(value: f64, operands: [Self; N], time: fn(&Latencies) -> f64) -> Self {
+        let start = operands.iter().map(|operand| operand.ready).fold(0.0, f64::max);
+        Self { value, ready: start + time(&LATENCIES.get()) }
+    }
+}
+
+impl PartialEq for Counted {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}
+
+impl PartialOrd for Counted {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.value.partial_cmp(&other.value)
+    }
+}
 
 impl Add for Counted {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
         tick(|count| &mut count.add);
-        Self(self.0 + other.0)
+        Self::after(self.value + other.value, [self, other], |time| time.add)
     }
 }
 
@@ -71,7 +130,7 @@ impl Sub for Counted {
 
     fn sub(self, other: Self) -> Self {
         tick(|count| &mut count.add);
-        Self(self.0 - other.0)
+        Self::after(self.value - other.value, [self, other], |time| time.add)
     }
 }
 
@@ -80,7 +139,7 @@ impl Mul for Counted {
 
     fn mul(self, other: Self) -> Self {
         tick(|count| &mut count.mul);
-        Self(self.0 * other.0)
+        Self::after(self.value * other.value, [self, other], |time| time.mul)
     }
 }
 
@@ -89,14 +148,14 @@ impl Neg for Counted {
 
     fn neg(self) -> Self {
         tick(|count| &mut count.neg);
-        Self(-self.0)
+        Self { value: -self.value, ..self }
     }
 }
 
 impl Real for Counted {
     fn recip(self) -> Self {
         tick(|count| &mut count.recip);
-        Self(self.0.recip())
+        Self::after(self.value.recip(), [self], |time| time.recip)
     }
 
     /// A product and a sum, fused or not.
@@ -105,51 +164,59 @@ impl Real for Counted {
     }
 
     fn like(self, value: f64) -> Self {
-        Self(value)
+        Self::given(value)
     }
 }
 
 impl Angle for Counted {
     fn sin_cos(self) -> (Self, Self) {
         tick(|count| &mut count.sin_cos);
-        let (sin, cos) = self.0.sin_cos();
-        (Self(sin), Self(cos))
+        let (sin, cos) = self.value.sin_cos();
+        let found = [sin, cos].map(|value| Self::after(value, [self], |time| time.sin_cos));
+        found.into()
     }
 }
 
 impl Scalar for Counted {
-    const EPSILON: Self = Self(f64::EPSILON);
+    const EPSILON: Self = Self::given(f64::EPSILON);
 
     fn from_f64(value: f64) -> Self {
-        Self(value)
+        Self::given(value)
     }
 
     fn to_f64(self) -> f64 {
-        self.0
+        self.value
     }
 
     fn sqrt(self) -> Self {
         tick(|count| &mut count.sqrt);
-        Self(self.0.sqrt())
+        Self::after(self.value.sqrt(), [self], |time| time.recip)
     }
 
     fn is_finite(self) -> bool {
-        self.0.is_finite()
+        self.value.is_finite()
     }
 
     fn abs(self) -> Self {
-        Self(self.0.abs())
+        Self { value: self.value.abs(), ..self }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Counted, Operations, Real, count};
+    use super::{Counted, Latencies, Operations, Real, count, timed};
 
     #[test]
     fn every_operation_counts_once() {
-        let [a, b] = [3.0, 2.0].map(Counted);
+        let [a, b] = [3.0, 2.0].map(Counted::given);
         let (_, found) = count(|| -((a + b) * (a - b)).recip().mul_add(a, b));
         assert_eq!(found, Operations { mul: 2, add: 3, neg: 1, recip: 1, ..Operations::default() });
+    }
+    #[test]
+    fn result_is_ready_after_the_longest_chain() {
+        let [a, b] = [3.0, 2.0].map(Counted::given);
+        let latencies = Latencies { mul: 4.0, add: 3.0, recip: 13.0, sin_cos: 60.0 };
+        let found = timed(latencies, || (a + b) * (a * b * b) + a.recip());
+        assert_eq!(found.ready(), 4.0 + 4.0 + 4.0 + 3.0);
     }
 }

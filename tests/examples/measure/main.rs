@@ -10,6 +10,7 @@
 //! ```
 
 mod floor;
+mod latency;
 mod parts;
 mod service;
 mod timing;
@@ -41,7 +42,7 @@ enum Command {
     Services,
     /// Operations per nanosecond that this CPU can issue
     Floor,
-    /// Operations, sines, hub: what an evaluation is made of
+    /// Operations, sines, hub, the longest chain: what an evaluation is made of
     Parts {
         /// The spacecraft
         file: PathBuf,

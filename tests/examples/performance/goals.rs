@@ -23,7 +23,7 @@ const ACROSS: [(usize, f64); 3] = [(4, 14.0), (16, 25.0), (64, 30.0)];
 
 /// S5: a batch, per state with four devices: times faster than Pinocchio's best build, and of the
 /// issue floor.
-const BATCH: (f64, f64) = (35.0, 0.65);
+pub(crate) const BATCH: (f64, f64) = (35.0, 0.65);
 
 /// S6: over these numbers of devices, the largest cost per device is at most so many times the least.
 /// Linear is 1; the hub and noise take some per cent, and one count that falls out shows.
@@ -64,13 +64,27 @@ impl Goal {
     }
 }
 
+/// A state of four devices at S2's budget and the issue floor of what a batch runs on, ns.
+pub(crate) fn batch_floor(contenders: &[Contender], machine: &Machine) -> Option<f64> {
+    let batch = contenders.iter().find(|contender| contender.serves("batch"))?;
+    let budget = BUDGET[0] + 4.0 * BUDGET[1];
+    Some(budget / machine.per_ns(&batch.service.as_ref()?.floor)?)
+}
+
+/// What S5 asks of such a state beside Pinocchio's best build, ns.
+pub(crate) fn best_batch(contenders: &[Contender], times: &[Time]) -> Option<f64> {
+    Some(time(times, named(contenders, BEST), 4)? / BATCH.0)
+}
+
+/// The time of a contender.
+fn time(times: &[Time], contender: Option<&Contender>, count: usize) -> Option<f64> {
+    let name = &contender?.name;
+    Some(times.iter().find(|time| time.name == *name && time.count == count)?.ns)
+}
+
 /// S3 to S6.
 pub(crate) fn goals(contenders: &[Contender], times: &[Time], machine: &Machine) -> Vec<Goal> {
-    let time = |contender: Option<&Contender>, count: usize| {
-        let name = &contender?.name;
-        let time = times.iter().find(|time| time.name == *name && time.count == count)?;
-        Some(time.ns)
-    };
+    let time = |contender, count| time(times, contender, count);
     let service = |name: &str| contenders.iter().find(|contender| contender.serves(name));
     let ratio = |peer: &str, name: &str, count: usize| {
         Some(time(named(contenders, peer), count)? / time(service(name), count)?)
@@ -90,11 +104,8 @@ pub(crate) fn goals(contenders: &[Contender], times: &[Time], machine: &Machine)
     let (goal, share) = BATCH;
     let what = format!("batch, per state, N = 4, against Pinocchio's {BEST}");
     rows.push(Goal::at_least("S5", what, goal, ratio(BEST, "batch", 4), " times"));
-    let reached = service("batch").and_then(|batch| {
-        let floor = &batch.service.as_ref()?.floor;
-        let budget = BUDGET[0] + 4.0 * BUDGET[1];
-        Some(100.0 * budget / machine.per_ns(floor)? / time(Some(batch), 4)?)
-    });
+    let reached = batch_floor(contenders, machine)
+        .and_then(|floor| Some(100.0 * floor / time(service("batch"), 4)?));
     let what = "batch, N = 4, of the issue floor at S2's budget".to_owned();
     rows.push(Goal::at_least("S5", what, 100.0 * share, reached, " %"));
     rows.push(linear(|count| time(service("one"), count)));

@@ -8,7 +8,7 @@ use tera::{Context, Tera};
 
 use crate::chart::chart;
 use crate::contender::{Contender, Missing};
-use crate::goals::{Goal, goals};
+use crate::goals::{BATCH, Goal, batch_floor, best_batch, goals};
 use crate::machine::Machine;
 use crate::program::Program;
 use crate::race::{Plan, Time, file};
@@ -30,6 +30,7 @@ pub(crate) struct Parts {
     #[serde(skip)]
     count: usize,
     operations: u32,
+    chain_ns: f64,
     sin_cos: u32,
     sin_cos_ns: Vec<f64>,
     hub_ns: Vec<f64>,
@@ -51,9 +52,25 @@ struct Share {
     ns: String,
     operations: u32,
     floor: String,
+    chain: String,
     sines: String,
     hub: String,
     rest: String,
+}
+
+/// What keeps the services from more, in ns.
+#[derive(Serialize)]
+struct Limits {
+    /// The chain of an evaluation with one device, and the evaluation.
+    chain: String,
+    one: String,
+    /// What one more costs.
+    device: String,
+    /// S2's budget at the issue floor, what S5 asks for, and its share of the floor.
+    budget: String,
+    times: f64,
+    target: String,
+    share: String,
 }
 
 /// Which share of the issue floor a service reaches.
@@ -106,6 +123,7 @@ impl Page {
         context.insert("goals", &self.goals());
         context.insert("shares", &self.shares());
         context.insert("reached", &self.reached());
+        context.insert("limits", &self.limits());
         let mut tera = Tera::default();
         tera.autoescape_on(Vec::<&str>::new());
         tera.add_raw_template("page", include_str!("performance.md.tera"))?;
@@ -164,12 +182,32 @@ impl Page {
                 ns: digits(ns),
                 operations: parts.operations,
                 floor: with_share(floor),
+                chain: with_share(parts.chain_ns),
                 sines: format!("{} × {}", with_share(sines), parts.sin_cos),
                 hub: with_share(median(&parts.hub_ns)),
                 rest: with_share(ns - floor - sines),
             })
         };
         self.parts.iter().filter_map(share).collect()
+    }
+
+    /// A dash stands for what was not measured.
+    fn limits(&self) -> Limits {
+        let told = |ns: Option<f64>| ns.map_or_else(|| "-".to_owned(), digits);
+        let chain = self.parts.iter().find(|parts| parts.count == 1).map(|parts| parts.chain_ns);
+        let device = self.one(16).zip(self.one(4)).map(|(more, few)| (more - few) / 12.0);
+        let budget = batch_floor(&self.contenders, &self.machine);
+        let target = best_batch(&self.contenders, &self.times);
+        let share = budget.zip(target).map(|(floor, target)| 100.0 * floor / target);
+        Limits {
+            chain: told(chain),
+            one: told(self.one(1)),
+            device: told(device),
+            budget: told(budget),
+            times: BATCH.0,
+            target: told(target),
+            share: share.map_or_else(|| "-".to_owned(), |share| format!("{share:.0} %")),
+        }
     }
 
     fn reached(&self) -> Vec<Reached> {

@@ -21,18 +21,18 @@ pub(crate) struct One<D: Devices> {
 
 impl<D: Devices<Scalar = f64>> One<D> {
     pub(super) fn open(stored: &Stored, devices: &D) -> Result<Self, Refused> {
-        Self::of(stored, Spacecraft::new(&stored.hub(), devices)?)
+        Ok(Self::of(stored, Spacecraft::new(&stored.hub(), devices)?))
     }
 
     /// The same, products and sums rounded once.
     pub(super) fn open_fused(stored: &Stored, devices: &D) -> Result<Self, Refused> {
-        Self::of(stored, Spacecraft::new(&stored.hub(), devices)?.fused())
+        Ok(Self::of(stored, Spacecraft::new(&stored.hub(), devices)?.fused()))
     }
 
-    fn of(stored: &Stored, craft: Spacecraft<D>) -> Result<Self, Refused> {
+    fn of(stored: &Stored, craft: Spacecraft<D>) -> Self {
         let state = stored.motion(State::at_rest_for(&craft));
         let inputs = stored.forces(Inputs::none_for(&craft));
-        Ok(Self { craft, state, inputs })
+        Self { craft, state, inputs }
     }
 }
 
