@@ -50,32 +50,21 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
-        let Outset { around, mut assembly, at_b } = self.outset(state, inputs)?;
+        check_fixed(state, inputs)?;
+        let (around, at_b) = surroundings(state, inputs);
+        let mut assembly = self.assembly(inputs);
         let (given, mut scratch) = (Given::of(inputs), D::scratch(&self.devices));
         self.eliminate(state, given, &around, &mut assembly, &mut scratch)?;
-        let hub = self.hub_moves(inputs, &around, assembly, at_b)?;
+        let hub = self.hub_moves(inputs, &around, &mut assembly, at_b)?;
         let devices = self.back_substitute(&scratch, &hub)?;
         with_devices(inputs, &hub, at_b, devices)
     }
 
-    /// Where an evaluation sets out: the hub's own system, and what the devices feel.
-    pub(crate) fn outset<A: Attitude<D::Scalar>>(
-        &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-    ) -> Result<Outset<D::Scalar>, SolveError<D::Scalar>> {
-        check_fixed(state, inputs)?;
-        let omega = components(&state.omega);
-        let field = match &inputs.gravity {
-            Gravity::None => None,
-            gravity => gravity.field(&columns(&state.attitude.dcm()), &state.r_b_n),
-        };
-        let at_b = at_b(field.as_ref());
-        let central = field.and_then(|field| field.central);
-        let around = Around { omega, central, impulse: false };
+    /// The hub's own system, before any device is asked.
+    #[inline]
+    pub(crate) fn assembly(&self, inputs: &Inputs<D>) -> Assembly<D::Scalar> {
         let (force, moment) = (components(&inputs.force), components(&inputs.torque_b));
-        let assembly = Assembly::new(&self.body, force, moment);
-        Ok(Outset { around, assembly, at_b })
+        Assembly::new(&self.body, force, moment)
     }
 
     /// The hub's accelerations once every device is eliminated, in the frame that falls with the
@@ -84,7 +73,7 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         inputs: &Inputs<D>,
         around: &Around<D::Scalar>,
-        mut assembly: Assembly<D::Scalar>,
+        assembly: &mut Assembly<D::Scalar>,
         at_b: Vec3<D::Scalar>,
     ) -> Result<Solution<D::Scalar>, SolveError<D::Scalar>> {
         if let Some(central) = around.central {
@@ -161,12 +150,20 @@ impl<D: Devices> Spacecraft<D> {
     }
 }
 
-/// What is known before any device is asked.
-pub(crate) struct Outset<T> {
-    pub(crate) around: Around<T>,
-    pub(crate) assembly: Assembly<T>,
-    /// The field at B.
-    pub(crate) at_b: Vec3<T>,
+/// What the devices feel, and the field at B. Apart from the hub's system: a pair of both is large,
+/// and was copied where a processor has no wide registers.
+#[inline]
+pub(crate) fn surroundings<D: Devices, A: Attitude<D::Scalar>>(
+    state: &State<D, A>,
+    inputs: &Inputs<D>,
+) -> (Around<D::Scalar>, Vec3<D::Scalar>) {
+    let field = match &inputs.gravity {
+        Gravity::None => None,
+        gravity => gravity.field(&columns(&state.attitude.dcm()), &state.r_b_n),
+    };
+    let at_b = at_b(field.as_ref());
+    let central = field.and_then(|field| field.central);
+    (Around { omega: components(&state.omega), central, impulse: false }, at_b)
 }
 
 /// All accelerations, the hub's no longer relative to the frame that falls with it.

@@ -13,7 +13,7 @@ use super::lane::Lane;
 use super::number::{Block, Number, WIDEST};
 use super::slot::{Aligned, put_drives};
 use super::width::{lanes_for, width};
-use crate::accelerations::{Outset, sound as sound_inputs, with_devices};
+use crate::accelerations::{check_fixed, sound as sound_inputs, surroundings, with_devices};
 use crate::assembly::along_b;
 use crate::attitude::Attitude;
 use crate::device::Device;
@@ -177,7 +177,9 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
     #[inline(always)]
     fn evaluate<T: Number>(self, zero: T) -> Option<Accelerations<[K; N]>> {
         let Self { across: AcrossDevices { craft, groups, .. }, state, inputs } = self;
-        let Outset { around, mut assembly, at_b } = craft.outset(state, inputs).ok()?;
+        check_fixed(state, inputs).ok()?;
+        let (around, at_b) = surroundings(state, inputs);
+        let mut assembly = craft.assembly(inputs);
         let omega = map(around.omega, |component| zero.like(component));
         // The first without the heap: where there is one group alone, that takes time.
         let (mut gains, mut of_first) = (Vec::new(), None);
@@ -214,7 +216,7 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             }
         }
         assembly.add(&shares?.map(Number::sum));
-        let hub = craft.hub_moves(inputs, &around, assembly, at_b).ok()?;
+        let hub = craft.hub_moves(inputs, &around, &mut assembly, at_b).ok()?;
         let splat = |v| map(v, |component| zero.like(component));
         let of_hub =
             Solution { r_b_n_ddot: splat(hub.r_b_n_ddot), omega_dot: splat(hub.omega_dot) };
