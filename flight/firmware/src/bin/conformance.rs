@@ -9,6 +9,6 @@ use precess_firmware::conformance::{Stop, report};
 
 precess_firmware::program!(program);
 
-fn program(out: &mut dyn Write, options: &Options) -> Result<(), Stop<f64>> {
+fn program(out: &mut dyn Write, options: Options) -> Result<(), Stop<f64>> {
     report(out, options.nudge)
 }

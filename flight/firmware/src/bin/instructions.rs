@@ -68,7 +68,7 @@ macro_rules! count {
     )*};
 }
 
-fn program(out: &mut dyn Write, _: &Options) -> Result<(), Stop> {
+fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
     let mut counts = Counts { out, lines: 0 };
     counts.line("sin_cos", || {
         black_box(Angle::sin_cos(black_box(1.25_f64)));

@@ -42,7 +42,7 @@ const LARGEST_TORQUE: f64 = 0.02;
 const DRIFT: f64 = 1e-9;
 
 /// Runs the application, as the scheduler of a flight computer would.
-fn program(out: &mut dyn Write, _: &Options) -> Result<(), Fault> {
+fn program(out: &mut dyn Write, _: Options) -> Result<(), Fault> {
     let mut app = App::init()?;
     for wake_up in 1..=WAKE_UPS {
         app.wake_up()?;

@@ -17,7 +17,7 @@ mod machine;
 
 pub use machine::*;
 
-/// Makes a function the program: `fn(&mut dyn Write, &Options) -> Result<(), E>`, `E` with a message.
+/// Makes a function the program: `fn(&mut dyn Write, Options) -> Result<(), E>`, `E` with a message.
 #[macro_export]
 macro_rules! program {
     ($main:path) => {
@@ -28,7 +28,7 @@ macro_rules! program {
         extern "C" fn rust_main() -> ! {
             use core::fmt::Write;
             let mut console = $crate::board::Console;
-            let done = $main(&mut console, &$crate::board::Options::none());
+            let done = $main(&mut console, $crate::board::Options::none());
             if let Err(stop) = &done {
                 let _ = writeln!(console, "stopped: {stop}");
             }
@@ -37,7 +37,7 @@ macro_rules! program {
 
         #[cfg(not(target_os = "none"))]
         fn main() -> std::process::ExitCode {
-            let done = $main(&mut $crate::board::Console, &$crate::board::Options::of_process());
+            let done = $main(&mut $crate::board::Console, $crate::board::Options::of_process());
             match done {
                 Ok(()) => std::process::ExitCode::SUCCESS,
                 Err(stop) => {

@@ -3,7 +3,6 @@
 //! Without a feature it is a good one: its export does what the bad ones do wrongly.
 
 #![no_std]
-#![expect(unsafe_code, reason = "an exported name is unsafe: two of a kind would be undefined")]
 
 #[cfg(feature = "allocates")]
 extern crate alloc;
