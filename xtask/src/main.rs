@@ -6,6 +6,7 @@ mod check;
 mod demo;
 mod engines;
 mod files;
+mod flight;
 mod instructions;
 mod mutate;
 mod printed;
@@ -50,6 +51,10 @@ enum Command {
     /// Count the instructions of a call under callgrind; write the table
     #[command(after_help = "Example: cargo xtask instructions --check")]
     Instructions(instructions::Options),
+    /// Build for boards, run under emulation, compare with this machine bit for bit, pass the gates;
+    /// measure, write the page
+    #[command(after_help = "Example: cargo xtask flight --check")]
+    Flight(flight::Options),
     /// Derive, prove, solve the paper's scenario and draw the report
     #[command(after_help = "Example: cargo xtask demo")]
     Demo,
@@ -64,6 +69,7 @@ fn main() -> ExitCode {
         Command::Engines => engines::engines(),
         Command::Bench(options) => bench::bench(&options),
         Command::Instructions(options) => instructions::instructions(&options),
+        Command::Flight(options) => flight::flight(&options),
         Command::Demo => demo::demo(),
     };
     match done {

@@ -1,0 +1,187 @@
+//! Counts the instructions of evaluations and steps on a Cortex-M, per kind, of one device and four.
+//!
+//! QEMU's `-icount shift=0` makes an instruction a nanosecond; SysTick counts at 25 MHz, a tick every
+//! 40 instructions. Costs hang on the set and on what the inputs ask for, not on the numbers: a free
+//! hub, every motor driven, no gravity, as in the committed counts of the desktop.
+
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use core::fmt::{self, Display, Write};
+use core::hint::black_box;
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::{
+    Accelerations, Angle, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
+    BalancedVscmg, Dgcmg, Dgvscmg, Each, FixedSet, HingedPanel, Hub, Inputs, JointStates,
+    ParameterError, ReactionWheel, Scalar, Sgcmg, SloshMass, SolveError, Spacecraft, State, Vscmg,
+};
+use precess_firmware::board::{Options, Timer};
+use precess_firmware::random::Random;
+use precess_flight_library as library;
+use precess_flight_library::{Evaluate, Step};
+
+precess_firmware::program!(program);
+
+/// Instructions in a tick of the timer.
+const PER_TICK: u32 = 40;
+
+/// Calls per count: a tick more or less is less than half an instruction.
+const CALLS: u32 = 100;
+
+/// Step of the integrator, s.
+const STEP: f64 = 1e-3;
+
+/// Why the program stopped.
+enum Stop {
+    Console,
+    Parameters(ParameterError<f64>),
+    Solve(SolveError<f64>),
+    Refused,
+}
+
+impl Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Console => write!(f, "the console took no more"),
+            Self::Parameters(error) => write!(f, "{error}"),
+            Self::Solve(error) => write!(f, "{error}"),
+            Self::Refused => write!(f, "a call was refused"),
+        }
+    }
+}
+
+impl From<fmt::Error> for Stop {
+    fn from(_: fmt::Error) -> Self {
+        Self::Console
+    }
+}
+
+/// Counts each of these: `module device devices;`.
+macro_rules! count {
+    ($counts:ident, $($module:ident $device:ident $devices:literal;)*) => {$(
+        $counts.of(
+            stringify!($module),
+            &[$device; $devices],
+            library::$module::accelerations,
+            library::$module::step,
+        )?;
+    )*};
+}
+
+fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
+    let mut counts = Counts { out, lines: 0 };
+    counts.line("sin_cos", || {
+        black_box(Angle::sin_cos(black_box(1.25_f64)));
+        true
+    })?;
+    counts.line("sqrt", || {
+        black_box(Scalar::sqrt(black_box(1.25_f64)));
+        true
+    })?;
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    let dgvscmg = Dgvscmg::bare_wheel(4.0, disc);
+    let balanced_dgvscmg = BalancedDgvscmg::bare_wheel(4.0, 0.2, 0.1);
+    let dgcmg = Dgcmg::bare_wheel(4.0, disc);
+    let balanced_dgcmg = BalancedDgcmg::bare_wheel(4.0, 0.2, 0.1);
+    let vscmg = Vscmg::bare_wheel(4.0, disc);
+    let balanced_vscmg = BalancedVscmg::bare_wheel(4.0, 0.2, 0.1);
+    let sgcmg = Sgcmg::bare_wheel(4.0, disc);
+    let balanced_sgcmg = BalancedSgcmg::bare_wheel(4.0, 0.2, 0.1);
+    let reaction_wheel = ReactionWheel::bare_wheel(4.0, disc);
+    let balanced_reaction_wheel = BalancedReactionWheel::bare_wheel(4.0, 0.2, 0.1);
+    let hinged_panel = HingedPanel::bare_panel(4.0, disc);
+    let slosh_mass = SloshMass::bare_slosh_mass(4.0);
+    count! { counts,
+        dgvscmg_1 dgvscmg 1;
+        dgvscmg_4 dgvscmg 4;
+        balanced_dgvscmg_1 balanced_dgvscmg 1;
+        balanced_dgvscmg_4 balanced_dgvscmg 4;
+        dgcmg_1 dgcmg 1;
+        dgcmg_4 dgcmg 4;
+        balanced_dgcmg_1 balanced_dgcmg 1;
+        balanced_dgcmg_4 balanced_dgcmg 4;
+        vscmg_1 vscmg 1;
+        vscmg_4 vscmg 4;
+        balanced_vscmg_1 balanced_vscmg 1;
+        balanced_vscmg_4 balanced_vscmg 4;
+        sgcmg_1 sgcmg 1;
+        sgcmg_4 sgcmg 4;
+        balanced_sgcmg_1 balanced_sgcmg 1;
+        balanced_sgcmg_4 balanced_sgcmg 4;
+        reaction_wheel_1 reaction_wheel 1;
+        reaction_wheel_4 reaction_wheel 4;
+        balanced_reaction_wheel_1 balanced_reaction_wheel 1;
+        balanced_reaction_wheel_4 balanced_reaction_wheel 4;
+        hinged_panel_1 hinged_panel 1;
+        hinged_panel_4 hinged_panel 4;
+        slosh_mass_1 slosh_mass 1;
+        slosh_mass_4 slosh_mass 4;
+    }
+    Ok(writeln!(counts.out, "end: {} lines", counts.lines)?)
+}
+
+/// Prints counts, and counts the lines.
+struct Counts<'a> {
+    out: &'a mut dyn Write,
+    lines: u32,
+}
+
+impl Counts<'_> {
+    /// An evaluation and a step of these devices.
+    fn of<D: FixedSet<Scalar = f64>>(
+        &mut self,
+        name: &str,
+        devices: &D,
+        evaluate: Evaluate<D>,
+        step: Step<D>,
+    ) -> Result<(), Stop> {
+        let hub = Hub {
+            m_b: 800.0,
+            r_bc_b: Vector3::new(0.1, -0.2, 0.3),
+            i_b_bc: Matrix3::new(900.0, 50.0, 30.0, 50.0, 800.0, 20.0, 30.0, 20.0, 600.0),
+        };
+        let craft = Spacecraft::new(&hub, devices).map_err(Stop::Parameters)?;
+        let (mut state, mut inputs) = (State::<D>::at_rest(), Inputs::<D>::none());
+        moving(&mut state, &mut inputs);
+        let mut found: Accelerations<D> =
+            craft.accelerations(&state, &inputs).map_err(Stop::Solve)?;
+        // Known to the compiler neither by address nor by value: nothing is inlined.
+        let (evaluate, step) = (black_box(evaluate), black_box(step));
+        write!(self.out, "{name} accelerations")?;
+        self.line("", || evaluate(&craft, black_box(&state), &inputs, black_box(&mut found)))?;
+        write!(self.out, "{name} step")?;
+        self.line("", || step(&craft, black_box(&mut state), &inputs, STEP))
+    }
+
+    fn line(&mut self, name: &str, mut call: impl FnMut() -> bool) -> Result<(), Stop> {
+        let timer = Timer::start();
+        let mut done = true;
+        for _ in 0..CALLS {
+            done &= call();
+        }
+        let ticks = timer.ticks();
+        if !done {
+            return Err(Stop::Refused);
+        }
+        self.lines += 1;
+        // To the nearest.
+        Ok(writeln!(self.out, "{name}: {}", (ticks * PER_TICK + CALLS / 2) / CALLS)?)
+    }
+}
+
+/// General motion: nothing is zero, no gimbal stands where it loses its inertia.
+fn moving<D: FixedSet<Scalar = f64>>(state: &mut State<D>, inputs: &mut Inputs<D>) {
+    let random = &mut Random::new(0x1AC_17C1);
+    let mut number = |size: f64| random.within(0.5 * size, size);
+    state.r_b_n = Vector3::from_fn(|_, _| number(100.0));
+    state.r_b_n_dot = Vector3::from_fn(|_, _| number(10.0));
+    state.omega = Vector3::from_fn(|_, _| number(0.5));
+    inputs.force = Vector3::from_fn(|_, _| number(10.0));
+    inputs.torque_b = Vector3::from_fn(|_, _| number(1.0));
+    for [coordinate, rate] in state.devices.states_mut() {
+        (*coordinate, *rate) = (number(1.0), number(2.0));
+    }
+    for motor in inputs.motors.values_mut() {
+        *motor = number(0.2);
+    }
+}

@@ -1,0 +1,162 @@
+//! A device of each kind, drawn at random: physical bodies, off centre, out of balance, with springs.
+
+use precess_dynamics::kind::Kind;
+use precess_dynamics::{
+    BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
+    Dgvscmg, HingedPanel, ImbalanceModel, Passive, ReactionWheel, Scalar, Sgcmg, SloshMass, Vscmg,
+};
+
+use crate::random::Random;
+
+/// A kind of which a device can be drawn.
+pub trait Drawn: Kind {
+    /// What the kind is called.
+    const NAME: &'static str;
+
+    /// The next device.
+    fn drawn(random: &mut Random) -> Self;
+}
+
+/// How far a body's origin or centre of mass is from its carrier's origin, m.
+const OFFSET: f64 = 0.1;
+
+/// How far a device is from the hub's point B, m.
+const PLACE: f64 = 0.8;
+
+/// A wheel out of balance: mass, offset, inertia.
+macro_rules! wheel {
+    ($kind:ident, $random:ident) => {{
+        let mass = $random.within(2.0, 8.0);
+        let bare = $kind::bare_wheel(T::from_f64(mass), $random.tilted_disc(mass));
+        let model = match $random.one_of(4) {
+            0 => ImbalanceModel::Lumped,
+            _ => ImbalanceModel::Coupled,
+        };
+        $kind { d: $random.number(1e-5, 5e-3), model, ..bare }
+    }};
+}
+
+/// A wheel in balance.
+macro_rules! balanced_wheel {
+    ($kind:ident, $random:ident) => {{
+        let mass = $random.within(2.0, 8.0);
+        let [axial, across] = $random.disc(mass).map(T::from_f64);
+        $kind::bare_wheel(T::from_f64(mass), axial, across)
+    }};
+}
+
+macro_rules! drawn {
+    ($($kind:ident $name:literal $wheel:ident $carriers:ident;)*) => {$(
+        impl<T: Scalar> Drawn for $kind<T> {
+            const NAME: &'static str = $name;
+
+            fn drawn(random: &mut Random) -> Self {
+                let wheel = $wheel!($kind, random);
+                let mut device = $carriers!($kind, random, wheel);
+                device.mount = random.rotation();
+                suspend(&mut device.passive, random);
+                device
+            }
+        }
+    )*};
+}
+
+/// Two gimbals around a wheel.
+macro_rules! two_gimbals {
+    ($kind:ident, $random:ident, $wheel:ident) => {{
+        let (outer, inner) = ($random.within(1.0, 5.0), $random.within(1.0, 5.0));
+        $kind {
+            r_go_b: $random.vector(PLACE),
+            m_go: T::from_f64(outer),
+            r_goc_go: $random.vector(OFFSET),
+            i_go_goc: $random.block(outer),
+            l_o: $random.vector(OFFSET),
+            m_gi: T::from_f64(inner),
+            r_gic_gi: $random.vector(OFFSET),
+            i_gi_gic: $random.block(inner),
+            l_i: $random.vector(OFFSET),
+            ..$wheel
+        }
+    }};
+}
+
+/// One gimbal around a wheel.
+macro_rules! one_gimbal {
+    ($kind:ident, $random:ident, $wheel:ident) => {{
+        let gimbal = $random.within(1.0, 5.0);
+        $kind {
+            r_g_b: $random.vector(PLACE),
+            m_g: T::from_f64(gimbal),
+            r_gc_g: $random.vector(OFFSET),
+            i_g_gc: $random.block(gimbal),
+            l_g: $random.vector(OFFSET),
+            ..$wheel
+        }
+    }};
+}
+
+/// A wheel on the hub.
+macro_rules! no_gimbal {
+    ($kind:ident, $random:ident, $wheel:ident) => {
+        $kind { r_w_b: $random.vector(PLACE), ..$wheel }
+    };
+}
+
+drawn! {
+    Dgvscmg "dgvscmg" wheel two_gimbals;
+    BalancedDgvscmg "balanced_dgvscmg" balanced_wheel two_gimbals;
+    Dgcmg "dgcmg" wheel two_gimbals;
+    BalancedDgcmg "balanced_dgcmg" balanced_wheel two_gimbals;
+    Vscmg "vscmg" wheel one_gimbal;
+    BalancedVscmg "balanced_vscmg" balanced_wheel one_gimbal;
+    Sgcmg "sgcmg" wheel one_gimbal;
+    BalancedSgcmg "balanced_sgcmg" balanced_wheel one_gimbal;
+    ReactionWheel "reaction_wheel" wheel no_gimbal;
+    BalancedReactionWheel "balanced_reaction_wheel" balanced_wheel no_gimbal;
+}
+
+impl<T: Scalar> Drawn for HingedPanel<T> {
+    const NAME: &'static str = "hinged_panel";
+
+    fn drawn(random: &mut Random) -> Self {
+        let mass = random.within(2.0, 20.0);
+        let mut panel = Self {
+            mount: random.rotation(),
+            r_p_b: random.vector(PLACE),
+            r_pc_p: random.vector(0.5),
+            ..Self::bare_panel(T::from_f64(mass), random.block(mass))
+        };
+        suspend(&mut panel.passive, random);
+        panel
+    }
+}
+
+impl<T: Scalar> Drawn for SloshMass<T> {
+    const NAME: &'static str = "slosh_mass";
+
+    fn drawn(random: &mut Random) -> Self {
+        let mut mass = Self {
+            mount: random.rotation(),
+            r_s_b: random.vector(PLACE),
+            ..Self::bare_slosh_mass(random.number(1.0, 10.0))
+        };
+        suspend(&mut mass.passive, random);
+        mass
+    }
+}
+
+/// Gives half of the joints a spring with its damper and dry friction: so soft that a millisecond
+/// resolves them.
+fn suspend<T: Scalar>(joints: &mut impl precess_dynamics::Each<Passive<T>>, random: &mut Random) {
+    for joint in joints.values_mut() {
+        if random.one_of(2) == 0 {
+            *joint = Passive {
+                stiffness: random.number(0.1, 10.0),
+                rest: random.number(-0.1, 0.1),
+                viscous: random.number(1e-3, 1e-1),
+                coulomb: random.number(1e-4, 1e-2),
+                coulomb_rate: random.number(0.1, 1.0),
+            };
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! What the bare-metal programs share: seeded spacecraft of every kind, runs of them told in bits, and
+//! the boards they run on.
+//!
+//! One source for every target: on this machine the same text is an ordinary program, whose output is
+//! what a board has to print. Nothing here allocates; `unsafe` stands in [`board`] alone.
+
+#![cfg_attr(target_os = "none", no_std)]
+// LEON3 is a SPARC, whose inline assembly is not stable yet.
+#![cfg_attr(target_arch = "sparc", feature(asm_experimental_arch))]
+
+pub mod bits;
+pub mod board;
+pub mod conformance;
+pub mod craft;
+pub mod devices;
+pub mod random;
+pub mod sets;

@@ -1,0 +1,244 @@
+//! `docs/flight.md`: what a call takes on a Cortex-M7, beside what is asked of it.
+
+use std::fmt::Write;
+use std::fs;
+
+use precess_codegen::emit::EmittedFile;
+
+use super::gates::LARGEST_STACK;
+use super::image::Image;
+use super::tally::Tally;
+use crate::files::write;
+use crate::run::{root, say};
+
+/// The committed page.
+const PAGE: &str = "docs/flight.md";
+
+/// A figure may exceed the committed one by one in so many.
+const GATE: u64 = 50;
+
+/// Instructions an evaluation of DGVSCMGs may take, by how many there are (S7).
+const BOUNDS: [(u32, u64); 2] = [(1, 3500), (4, 12_000)];
+
+/// A set of devices that is measured.
+pub(super) struct Set {
+    pub(super) kind: &'static str,
+    pub(super) devices: u32,
+}
+
+/// Every kind, one device and four.
+pub(super) const SETS: [Set; 24] = [
+    Set { kind: "dgvscmg", devices: 1 },
+    Set { kind: "dgvscmg", devices: 4 },
+    Set { kind: "balanced_dgvscmg", devices: 1 },
+    Set { kind: "balanced_dgvscmg", devices: 4 },
+    Set { kind: "dgcmg", devices: 1 },
+    Set { kind: "dgcmg", devices: 4 },
+    Set { kind: "balanced_dgcmg", devices: 1 },
+    Set { kind: "balanced_dgcmg", devices: 4 },
+    Set { kind: "vscmg", devices: 1 },
+    Set { kind: "vscmg", devices: 4 },
+    Set { kind: "balanced_vscmg", devices: 1 },
+    Set { kind: "balanced_vscmg", devices: 4 },
+    Set { kind: "sgcmg", devices: 1 },
+    Set { kind: "sgcmg", devices: 4 },
+    Set { kind: "balanced_sgcmg", devices: 1 },
+    Set { kind: "balanced_sgcmg", devices: 4 },
+    Set { kind: "reaction_wheel", devices: 1 },
+    Set { kind: "reaction_wheel", devices: 4 },
+    Set { kind: "balanced_reaction_wheel", devices: 1 },
+    Set { kind: "balanced_reaction_wheel", devices: 4 },
+    Set { kind: "hinged_panel", devices: 1 },
+    Set { kind: "hinged_panel", devices: 4 },
+    Set { kind: "slosh_mass", devices: 1 },
+    Set { kind: "slosh_mass", devices: 4 },
+];
+
+/// Columns of the table, behind the name.
+const COLUMNS: [&str; 6] = [
+    "instructions of an evaluation",
+    "instructions of a step",
+    "stack of an evaluation",
+    "stack of a step",
+    "code of an evaluation",
+    "code of a step",
+];
+
+/// Everything measured.
+pub(super) struct Figures {
+    /// Name and columns of each set.
+    rows: Vec<(String, [u64; 6])>,
+    /// Code and constants of the whole library, bytes.
+    text: u64,
+    /// Instructions of a sine with its cosine, and of a square root.
+    parts: [u64; 2],
+}
+
+impl Figures {
+    /// From the library's image and the lines of the program that counts.
+    pub(super) fn of(image: &Image, counts: &[String]) -> Result<Self, String> {
+        let counted = |name: &str| {
+            let of_line = |line: &String| line.strip_prefix(name)?.strip_prefix(": ")?.parse().ok();
+            counts.iter().find_map(of_line).ok_or_else(|| format!("no count of `{name}`"))
+        };
+        let row = |Set { kind, devices }: &Set| {
+            let module = format!("{kind}_{devices}");
+            let [evaluation, step] =
+                ["accelerations", "step"].map(|call| format!("precess_{module}_{call}"));
+            let columns = [
+                counted(&format!("{module} accelerations"))?,
+                counted(&format!("{module} step"))?,
+                image.stack(&evaluation)?,
+                image.stack(&step)?,
+                image.reach(&evaluation)?,
+                image.reach(&step)?,
+            ];
+            Ok((format!("{kind} {devices}"), columns))
+        };
+        Ok(Self {
+            rows: SETS.iter().map(row).collect::<Result<_, String>>()?,
+            text: image.text,
+            parts: [counted("sin_cos")?, counted("sqrt")?],
+        })
+    }
+
+    fn instructions(&self, devices: u32) -> u64 {
+        let name = format!("dgvscmg {devices}");
+        let row = self.rows.iter().find(|(row, _)| *row == name);
+        row.map_or(u64::MAX, |(_, columns)| columns[0])
+    }
+}
+
+/// Writes the page, or holds each figure to the committed one.
+pub(super) fn settle(
+    compiler: &str,
+    figures: &Figures,
+    check: bool,
+    tally: &mut Tally,
+) -> Result<(), String> {
+    if !check {
+        return write(
+            &[EmittedFile { path: PAGE.to_owned(), text: page(compiler, figures) }],
+            &root(),
+        );
+    }
+    let committed = fs::read_to_string(root().join(PAGE)).unwrap_or_default();
+    tally.check(
+        "figures: none exceeds the committed one by more than 2 %",
+        held(figures, &committed),
+    );
+    // The same figures, each committed a tenth smaller, have to be refused.
+    let smaller = Figures {
+        rows: figures
+            .rows
+            .iter()
+            .map(|(name, row)| (name.clone(), row.map(|n| n - n / 10)))
+            .collect(),
+        text: figures.text - figures.text / 10,
+        parts: figures.parts,
+    };
+    let caught = match held(figures, &page(compiler, &smaller)) {
+        Ok(()) => Err("they passed: the gate is blind".to_owned()),
+        Err(_) => Ok(()),
+    };
+    tally.check("figures: some that have grown by a tenth are caught", caught);
+    if !committed.contains(compiler) {
+        say!("{PAGE} was not measured with {compiler}; run `cargo xtask flight`");
+    }
+    Ok(())
+}
+
+fn held(figures: &Figures, committed: &str) -> Result<(), String> {
+    let mut wrong = String::new();
+    let mut hold = |what: &str, now: u64, before: Option<u64>| {
+        // Writing to a string cannot fail.
+        let _ = match before {
+            Some(before) if now <= before + before / GATE => Ok(()),
+            Some(before) => write!(wrong, "\n  {what}: {now}, {before} committed"),
+            None => write!(wrong, "\n  {what}: {now}, none committed"),
+        };
+    };
+    for (name, columns) in &figures.rows {
+        let before = committed_row(committed, name);
+        for ((column, now), index) in COLUMNS.iter().zip(columns).zip(0..) {
+            let before =
+                before.as_ref().and_then(|row: &Vec<u64>| row.get::<usize>(index).copied());
+            hold(&format!("{name}, {column}"), *now, before);
+        }
+    }
+    let text = committed_row(committed, "whole library").and_then(|row| row.first().copied());
+    hold("whole library", figures.text, text);
+    if wrong.is_empty() {
+        return Ok(());
+    }
+    Err(format!("beyond {PAGE}:{wrong}\nif that is meant, run `cargo xtask flight`"))
+}
+
+/// The numbers behind a name.
+fn committed_row(page: &str, name: &str) -> Option<Vec<u64>> {
+    let start = format!("| `{name}` |");
+    let row = page.lines().find_map(|line| line.strip_prefix(&start))?;
+    row.split('|')
+        .filter(|cell| !cell.trim().is_empty())
+        .map(|cell| cell.trim().parse().ok())
+        .collect()
+}
+
+fn page(compiler: &str, figures: &Figures) -> String {
+    let mut text = format!(
+        "<!-- @generated by `cargo xtask flight`; do not edit. -->\n\n{}",
+        include_str!("flight.md")
+            .replace("{compiler}", compiler)
+            .replace("{stack}", &LARGEST_STACK.to_string())
+            .replace("{sin_cos}", &figures.parts[0].to_string())
+            .replace("{sqrt}", &figures.parts[1].to_string())
+            .replace("{bounds}", &bounds(figures))
+            .replace("{text}", &figures.text.to_string())
+    );
+    for (name, columns) in &figures.rows {
+        let cells = columns.map(|number| number.to_string()).join(" | ");
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "| `{name}` | {cells} |");
+    }
+    text
+}
+
+/// What is asked of an evaluation, and whether it holds.
+fn bounds(figures: &Figures) -> String {
+    let rows = BOUNDS.map(|(devices, bound)| {
+        let now = figures.instructions(devices);
+        let verdict = if now <= bound {
+            "holds".to_owned()
+        } else {
+            format!("does not hold, by {}", now - bound)
+        };
+        format!("| {devices} | {bound} | {now} | {verdict} |")
+    });
+    rows.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn figures(number: u64) -> Figures {
+        let row = |Set { kind, devices }: &Set| (format!("{kind} {devices}"), [number; 6]);
+        Figures { rows: SETS.iter().map(row).collect(), text: number, parts: [1, 2] }
+    }
+
+    #[test]
+    fn a_figure_may_exceed_the_committed_one_by_a_fiftieth() {
+        let committed = page("a compiler", &figures(10_000));
+        assert_eq!(held(&figures(10_200), &committed), Ok(()));
+        assert_eq!(held(&figures(5000), &committed), Ok(()));
+        let refused = held(&figures(10_201), &committed).unwrap_err();
+        assert!(refused.ends_with("run `cargo xtask flight`"), "{refused}");
+        assert!(held(&figures(1), "").is_err(), "nothing is committed");
+    }
+
+    #[test]
+    fn page_says_whether_the_bounds_hold() {
+        let rows = bounds(&figures(3501));
+        assert_eq!(rows, "| 1 | 3500 | 3501 | does not hold, by 1 |\n| 4 | 12000 | 3501 | holds |");
+    }
+}
