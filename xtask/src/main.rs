@@ -2,6 +2,7 @@
 
 mod bench;
 mod callgrind;
+mod capi;
 mod check;
 mod demo;
 mod engines;
@@ -50,6 +51,9 @@ enum Command {
     /// Count the instructions of a call under callgrind; write the table
     #[command(after_help = "Example: cargo xtask instructions --check")]
     Instructions(instructions::Options),
+    /// Build the library for flight software, and see it from C and C++
+    #[command(after_help = "Example: cargo xtask capi")]
+    Capi,
     /// Derive, prove, solve the paper's scenario and draw the report
     #[command(after_help = "Example: cargo xtask demo")]
     Demo,
@@ -64,6 +68,7 @@ fn main() -> ExitCode {
         Command::Engines => engines::engines(),
         Command::Bench(options) => bench::bench(&options),
         Command::Instructions(options) => instructions::instructions(&options),
+        Command::Capi => capi::host(),
         Command::Demo => demo::demo(),
     };
     match done {
