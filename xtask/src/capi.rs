@@ -129,7 +129,12 @@ impl Host {
         if let Some(odd) = asked.find(|name| !["memcpy", "memset"].contains(name)) {
             return Err(format!("the library asks for {odd}; only memcpy and memset are promised"));
         }
-        say!("{} functions, in the header and in the library", declared.len());
+        let all = printed(Command::new("nm").arg(&self.shared))?;
+        let panics = ["panick", "unwrap_failed", "expect_failed", "_fail"];
+        if let Some(odd) = all.lines().find(|line| panics.iter().any(|part| line.contains(part))) {
+            return Err(format!("the library has a path that panics, {odd}; find its caller"));
+        }
+        say!("{} functions, in the header and in the library; none can panic", declared.len());
         Ok(())
     }
 

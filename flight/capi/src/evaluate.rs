@@ -225,3 +225,117 @@ pub unsafe extern "C" fn precess_momentum_of(
     // SAFETY: by contract.
     unsafe { with(craft, fault, ask) }
 }
+
+#[cfg(test)]
+mod tests {
+    use core::mem::MaybeUninit;
+    use core::ptr::null_mut;
+
+    use nalgebra::Matrix3;
+    use precess_dynamics::{Dgvscmg, Hub, ReactionWheel};
+
+    use super::*;
+    use crate::craft::precess_init;
+    use crate::device::number_of;
+
+    /// What a C caller states and what a Rust caller states is one spacecraft, to the last bit.
+    #[test]
+    fn c_interface_has_the_bits_of_the_typed_spacecraft() {
+        let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+        let gyro = Dgvscmg {
+            d: 8e-5,
+            r_go_b: Vector3::new(0.3, 0.0, 0.0),
+            ..Dgvscmg::bare_wheel(4.0, disc)
+        };
+        let wheel = ReactionWheel { d: 2e-5, ..ReactionWheel::bare_wheel(3.0, disc) };
+        let moments = Vector3::new(900.0, 800.0, 600.0);
+        let hub = Hub {
+            m_b: 800.0,
+            r_bc_b: Vector3::new(0.1, 0.2, 0.3),
+            i_b_bc: Matrix3::from_diagonal(&moments),
+        };
+        let typed = Spacecraft::new(&hub, &(gyro, wheel)).unwrap();
+        let mut state: State<(Dgvscmg, ReactionWheel)> = State::at_rest();
+        state.omega = Vector3::new(0.1, -0.2, 0.3);
+        (state.devices.0.gamma_i, state.devices.0.spin, state.devices.1.spin) = (0.4, 50.0, 90.0);
+        let mut inputs: Inputs<(Dgvscmg, ReactionWheel)> = Inputs::none();
+        inputs.motors.0.u_w = 0.2;
+
+        let diagonal = |[x, y, z]: [f64; 3]| [x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z];
+        let devices = [gyro.into(), wheel.into()].map(|device: precess_dynamics::BuiltIn| {
+            let stated = device.stated();
+            let rows = |m: &Matrix3<f64>| m.transpose().as_slice().try_into().unwrap();
+            types::Device {
+                kind: number_of(device.kind()),
+                model: 0,
+                mount: rows(&stated.mount),
+                bodies: stated.bodies.map(|body| types::Body {
+                    mass: body.mass,
+                    origin: body.origin,
+                    centre: body.centre,
+                    inertia: rows(&body.inertia),
+                }),
+                passive: stated.passive.map(|_| types::Passive {
+                    stiffness: 0.0,
+                    rest: 0.0,
+                    viscous: 0.0,
+                    coulomb: 0.0,
+                    coulomb_rate: 0.0,
+                }),
+            }
+        });
+        let hub = types::Hub {
+            mass: hub.m_b,
+            centre: hub.r_bc_b.into(),
+            inertia: diagonal(moments.into()),
+        };
+        let mut memory = MaybeUninit::<[u64; crate::craft::SIZE / 8]>::zeroed();
+        let craft = memory.as_mut_ptr().cast::<Craft>();
+        let (mut c_state, mut c_inputs) =
+            (MaybeUninit::<types::State>::zeroed(), MaybeUninit::<types::Inputs>::zeroed());
+        let none = null_mut();
+        // SAFETY: every pointer is to a local of its type, or null where that is allowed.
+        let answers = unsafe {
+            [
+                precess_init(
+                    craft.cast(),
+                    crate::craft::SIZE,
+                    &raw const hub,
+                    devices.as_ptr(),
+                    2,
+                    none,
+                ),
+                crate::state::precess_state_at_rest(craft, c_state.as_mut_ptr()),
+                crate::inputs::precess_inputs_none(craft, c_inputs.as_mut_ptr()),
+            ]
+        };
+        assert_eq!(answers, [0; 3]);
+        // SAFETY: both have been written.
+        let (mut c_state, mut c_inputs) =
+            unsafe { (c_state.assume_init(), c_inputs.assume_init()) };
+        c_state.omega = state.omega.into();
+        c_state.coordinate[0][1] = 0.4;
+        (c_state.rate[0][2], c_state.rate[1][0]) = (50.0, 90.0);
+        c_inputs.motor[0][2] = 0.2;
+        for _ in 0..1000 {
+            state = typed.step(&state, &inputs, 1e-3).unwrap();
+        }
+        // SAFETY: as before.
+        let answer = unsafe {
+            precess_step(craft, &raw mut c_state, &raw const c_inputs, 1e-3, 1000, null_mut(), none)
+        };
+        assert_eq!(answer, 0);
+        let bits = |numbers: &[f64]| numbers.iter().map(|n| n.to_bits()).collect::<Vec<_>>();
+        let (gyro, wheel) = (&state.devices.0, &state.devices.1);
+        assert_eq!(bits(&c_state.omega), bits(state.omega.as_slice()));
+        assert_eq!(bits(&c_state.position), bits(state.r_b_n.as_slice()));
+        assert_eq!(bits(&c_state.coordinate[0]), bits(&[gyro.gamma_o, gyro.gamma_i, gyro.theta]));
+        assert_eq!(bits(&c_state.rate[1]), bits(&[wheel.spin, 0.0, 0.0]));
+        let of_attitude = state.attitude;
+        let attitude = [of_attitude.q0, of_attitude.q1, of_attitude.q2, of_attitude.q3];
+        assert_eq!(bits(&c_state.attitude), bits(&attitude));
+        let size = size_of::<Craft>();
+        assert!(size > crate::craft::SIZE / 2, "{size} bytes: the header asks for far too much");
+        println!("{size} bytes of {}", crate::craft::SIZE);
+    }
+}
