@@ -108,7 +108,7 @@ enum { PRECESS_AXES_BODY = 0, PRECESS_AXES_CARRIER = 1, PRECESS_AXES_HUB = 2, PR
  * spacecraft; a point fixed in N. */
 enum { PRECESS_ABOUT_ORIGIN = 0, PRECESS_ABOUT_CENTRE_OF_MASS = 1, PRECESS_ABOUT_POINT = 2 };
 
-/* Memory of a spacecraft; its contents are the library's. */
+/* Memory of a spacecraft; its contents are the library's. May be copied as a whole. */
 typedef struct precess_spacecraft {
     uint64_t opaque[PRECESS_SPACECRAFT_SIZE / 8];
 } precess_spacecraft;
@@ -278,7 +278,8 @@ int32_t precess_state_length(const precess_spacecraft *craft, uint32_t *count);
 int32_t precess_state_save(const precess_spacecraft *craft, const precess_state *state,
                            double *numbers, uint32_t count);
 
-/* Restores a saved state of exactly `count` doubles; refused if one is not finite. */
+/* Restores a saved state. `count` must be precess_state_length (PRECESS_ERROR_TOO_SMALL for any
+ * other); refused if a number is not finite. */
 int32_t precess_state_restore(const precess_spacecraft *craft, const double *numbers,
                               uint32_t count, precess_state *state, precess_fault *fault);
 
