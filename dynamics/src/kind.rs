@@ -106,6 +106,14 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     fn bodies(&self) -> Self::PerJoint<BodyParameters<Self::Scalar>>;
     /// Springs, dampers, friction.
     fn passive(&self) -> Self::PerJoint<Passive<Self::Scalar>>;
+    /// The device of these bodies, the first origin along *B* axes. What it has no parameter for, such
+    /// as a product of inertia of a balanced rotor, is left out: [`Self::bodies`] shows what it took.
+    fn of_bodies(
+        mount: &Matrix3<Self::Scalar>,
+        bodies: &Self::PerJoint<BodyParameters<Self::Scalar>>,
+        passive: &Self::PerJoint<Passive<Self::Scalar>>,
+        model: ImbalanceModel,
+    ) -> Self;
     /// Which model its wheel's imbalance has.
     fn model(&self) -> ImbalanceModel {
         ImbalanceModel::Coupled

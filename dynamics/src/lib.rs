@@ -65,6 +65,11 @@ mod assembly;
 mod attitude;
 #[cfg(test)]
 mod attitude_checks;
+mod built_in;
+mod built_in_calls;
+#[cfg(test)]
+mod built_in_checks;
+mod built_in_parameters;
 mod device;
 mod device_loads;
 mod devices;
@@ -72,6 +77,7 @@ mod each;
 #[cfg(feature = "alloc")]
 mod erased;
 mod error;
+mod few;
 mod finite;
 pub mod generated;
 mod gravity;
@@ -91,6 +97,7 @@ mod mode;
 mod momentum;
 mod mrp;
 mod one;
+mod optional;
 #[cfg(test)]
 mod overflow_checks;
 mod parameter_error;
@@ -121,9 +128,12 @@ mod wrench;
 #[cfg(feature = "alloc")]
 pub use any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
 pub use attitude::Attitude;
+pub use built_in::{BuiltIn, BuiltInKind, BuiltInLoads};
+pub use built_in_parameters::{BuiltInParameters, Misfit};
 pub use devices::{Devices, FixedSet};
 pub use each::{Each, JointStates, Value};
 pub use error::{Quantity, SolveError};
+pub use few::{Few, MAX_JOINTS};
 pub use generated::devices::*;
 pub use gravity::Gravity;
 pub use imbalance::{Imbalance, WheelImbalance};

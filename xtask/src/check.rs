@@ -1,8 +1,9 @@
 //! `check`: what every commit passes.
 
+use crate::capi::MANIFEST;
 use crate::mutate;
 use crate::regen;
-use crate::run::cargo;
+use crate::run::{cargo, target};
 
 /// `regen --check`, `mutate --check`, format, clippy with warnings denied, unit tests: a stale or
 /// broken generated file is named as such before anything tries to compile it.
@@ -12,5 +13,10 @@ pub(crate) fn check() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"])?;
     let all = ["--workspace", "--all-targets", "--all-features"];
     cargo(&[&["clippy", "--quiet"][..], &all, &["--", "--deny", "warnings"]].concat())?;
+    cargo(&["fmt", "--all", "--check", "--manifest-path", MANIFEST])?;
+    let folder = target()?.join("flight");
+    let place = ["--manifest-path", MANIFEST, "--target-dir", &folder.to_string_lossy()];
+    let place = [&place[..], &["--all-targets", "--", "--deny", "warnings"]].concat();
+    cargo(&[&["clippy", "--quiet"][..], &place].concat())?;
     cargo(&["test", "--workspace", "--lib", "--bins", "--quiet"])
 }

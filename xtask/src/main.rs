@@ -2,6 +2,7 @@
 
 mod bench;
 mod callgrind;
+mod capi;
 mod check;
 mod demo;
 mod engines;
@@ -55,6 +56,9 @@ enum Command {
     /// measure, write the page
     #[command(after_help = "Example: cargo xtask flight --check")]
     Flight(flight::Options),
+    /// Build the library for flight software, and see it from C and C++
+    #[command(after_help = "Example: cargo xtask capi")]
+    Capi,
     /// Derive, prove, solve the paper's scenario and draw the report
     #[command(after_help = "Example: cargo xtask demo")]
     Demo,
@@ -70,6 +74,7 @@ fn main() -> ExitCode {
         Command::Bench(options) => bench::bench(&options),
         Command::Instructions(options) => instructions::instructions(&options),
         Command::Flight(options) => flight::flight(&options),
+        Command::Capi => capi::host(),
         Command::Demo => demo::demo(),
     };
     match done {

@@ -16,7 +16,7 @@ pub(super) struct Items<'a> {
 }
 
 /// The number of an axis.
-fn number(axis: Axis) -> usize {
+pub(super) fn number(axis: Axis) -> usize {
     axis.cycle()[0]
 }
 
@@ -34,7 +34,7 @@ impl Items<'_> {
         text.lines().map(str::to_owned).collect()
     }
 
-    fn links(&self) -> &'static [Link] {
+    pub(super) fn links(&self) -> &'static [Link] {
         self.kind.links
     }
 
@@ -243,6 +243,7 @@ impl Items<'_> {
             function("mount(&self) -> &Matrix3<T>", "        &self.mount"),
             self.body_parameters(),
             function("passive(&self) -> PerJoint<Passive<T>>", "        self.passive"),
+            self.of_bodies(),
         ];
         items.extend(self.balanced());
         items.push(self.constants());
@@ -272,35 +273,6 @@ impl Items<'_> {
         };
         let infos: Vec<_> = self.links().iter().enumerate().map(info).collect();
         fitted(4, "const JOINTS: &'static [JointInfo] = &[", &infos, "];")
-    }
-
-    fn body_parameters(&self) -> String {
-        let text = self.per_joint(8, "", "}", |link| {
-            let body = &link.body;
-            let centre = match body.centre {
-                Centre::Free(triple) => format!("components(&self.{})", triple.name),
-                Centre::On(axis, name) => {
-                    let mut components = ["zero()".to_owned(), "zero()".into(), "zero()".into()];
-                    components[number(axis)] = format!("self.{name}");
-                    format!("[{}]", components.join(", "))
-                }
-                Centre::At => "[zero(); 3]".to_owned(),
-            };
-            let inertia = match body.inertia {
-                Inertia::Full(_) => format!("self.{}", inertia_name(body)),
-                Inertia::Point => "no_inertia()".to_owned(),
-                _ => {
-                    let [xx, _, _, yy, _, zz] = body.inertia.names().map(Option::unwrap_or_default);
-                    format!("diagonal([self.{xx}, self.{yy}, self.{zz}])")
-                }
-            };
-            format!(
-                "BodyParameters {{\n    origin: components(&self.{}),\n    mass: self.{},\n    \
-                 centre: {centre},\n    inertia: {inertia},\n}}",
-                link.joint.origin.name, body.mass
-            )
-        });
-        function("bodies(&self) -> PerJoint<BodyParameters<T>>", &text)
     }
 
     fn balanced(&self) -> Vec<String> {

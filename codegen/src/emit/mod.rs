@@ -8,6 +8,7 @@ mod body;
 mod by_number;
 mod cost;
 mod device;
+mod device_bodies;
 mod device_calls;
 mod device_items;
 mod factor;

@@ -51,3 +51,25 @@ pub mod devices {
     pub use super::vscmg::device as vscmg;
     pub use super::vscmg::device::Vscmg;
 }
+
+/// Hands the kinds, by their types, to a macro.
+macro_rules! every_kind {
+    ($then:ident) => {
+        $then! {
+            BalancedDgcmg
+            BalancedDgvscmg
+            BalancedReactionWheel
+            BalancedSgcmg
+            BalancedVscmg
+            Dgcmg
+            Dgvscmg
+            HingedPanel
+            ReactionWheel
+            Sgcmg
+            SloshMass
+            Vscmg
+        }
+    };
+}
+
+pub(crate) use every_kind;

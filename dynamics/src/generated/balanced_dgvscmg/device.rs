@@ -13,8 +13,8 @@ use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
-    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kernels, Kind, Value, Wrenches,
-    components, diagonal, entries, no_inertia, unit, vector, zero,
+    BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
+    Value, Wrenches, components, diagonal, entries, no_inertia, unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -454,6 +454,30 @@ impl<T: Scalar> Kind for BalancedDgvscmg<T> {
 
     fn passive(&self) -> PerJoint<Passive<T>> {
         self.passive
+    }
+
+    fn of_bodies(
+        mount: &Matrix3<T>,
+        bodies: &PerJoint<BodyParameters<T>>,
+        passive: &PerJoint<Passive<T>>,
+        _: ImbalanceModel,
+    ) -> Self {
+        Self {
+            mount: *mount,
+            r_go_b: vector(bodies.outer_gimbal.origin),
+            m_go: bodies.outer_gimbal.mass,
+            r_goc_go: vector(bodies.outer_gimbal.centre),
+            i_go_goc: bodies.outer_gimbal.inertia,
+            l_o: vector(bodies.inner_gimbal.origin),
+            m_gi: bodies.inner_gimbal.mass,
+            r_gic_gi: vector(bodies.inner_gimbal.centre),
+            i_gi_gic: bodies.inner_gimbal.inertia,
+            l_i: vector(bodies.wheel.origin),
+            m_w: bodies.wheel.mass,
+            j_11: bodies.wheel.inertia.m11,
+            j_22: bodies.wheel.inertia.m22,
+            passive: *passive,
+        }
     }
 
     fn constants(&self, origin: [T; 3]) -> super::Prepared<T> {

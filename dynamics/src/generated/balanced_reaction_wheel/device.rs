@@ -13,8 +13,8 @@ use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
-    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kernels, Kind, Value, Wrenches,
-    components, diagonal, unit, vector, zero,
+    BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
+    Value, Wrenches, components, diagonal, unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -313,6 +313,22 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
 
     fn passive(&self) -> PerJoint<Passive<T>> {
         self.passive
+    }
+
+    fn of_bodies(
+        mount: &Matrix3<T>,
+        bodies: &PerJoint<BodyParameters<T>>,
+        passive: &PerJoint<Passive<T>>,
+        _: ImbalanceModel,
+    ) -> Self {
+        Self {
+            mount: *mount,
+            r_w_b: vector(bodies.wheel.origin),
+            m_w: bodies.wheel.mass,
+            j_11: bodies.wheel.inertia.m11,
+            j_22: bodies.wheel.inertia.m22,
+            passive: *passive,
+        }
     }
 
     fn constants(&self, origin: [T; 3]) -> super::Prepared<T> {

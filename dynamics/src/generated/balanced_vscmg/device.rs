@@ -13,8 +13,8 @@ use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
-    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kernels, Kind, Value, Wrenches,
-    components, diagonal, entries, no_inertia, unit, vector, zero,
+    BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
+    Value, Wrenches, components, diagonal, entries, no_inertia, unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -378,6 +378,26 @@ impl<T: Scalar> Kind for BalancedVscmg<T> {
 
     fn passive(&self) -> PerJoint<Passive<T>> {
         self.passive
+    }
+
+    fn of_bodies(
+        mount: &Matrix3<T>,
+        bodies: &PerJoint<BodyParameters<T>>,
+        passive: &PerJoint<Passive<T>>,
+        _: ImbalanceModel,
+    ) -> Self {
+        Self {
+            mount: *mount,
+            r_g_b: vector(bodies.gimbal.origin),
+            m_g: bodies.gimbal.mass,
+            r_gc_g: vector(bodies.gimbal.centre),
+            i_g_gc: bodies.gimbal.inertia,
+            l_g: vector(bodies.wheel.origin),
+            m_w: bodies.wheel.mass,
+            j_11: bodies.wheel.inertia.m11,
+            j_22: bodies.wheel.inertia.m22,
+            passive: *passive,
+        }
     }
 
     fn constants(&self, origin: [T; 3]) -> super::Prepared<T> {

@@ -462,6 +462,31 @@ impl<T: Scalar> Kind for Dgvscmg<T> {
         self.passive
     }
 
+    fn of_bodies(
+        mount: &Matrix3<T>,
+        bodies: &PerJoint<BodyParameters<T>>,
+        passive: &PerJoint<Passive<T>>,
+        model: ImbalanceModel,
+    ) -> Self {
+        Self {
+            mount: *mount,
+            r_go_b: vector(bodies.outer_gimbal.origin),
+            m_go: bodies.outer_gimbal.mass,
+            r_goc_go: vector(bodies.outer_gimbal.centre),
+            i_go_goc: bodies.outer_gimbal.inertia,
+            l_o: vector(bodies.inner_gimbal.origin),
+            m_gi: bodies.inner_gimbal.mass,
+            r_gic_gi: vector(bodies.inner_gimbal.centre),
+            i_gi_gic: bodies.inner_gimbal.inertia,
+            l_i: vector(bodies.wheel.origin),
+            m_w: bodies.wheel.mass,
+            d: bodies.wheel.centre[1],
+            i_w_wc: bodies.wheel.inertia,
+            passive: *passive,
+            model,
+        }
+    }
+
     fn model(&self) -> ImbalanceModel {
         self.model
     }

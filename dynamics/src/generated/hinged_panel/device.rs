@@ -13,8 +13,8 @@ use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
-    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kernels, Kind, Value, Wrenches,
-    components, entries, unit, vector, zero,
+    BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
+    Value, Wrenches, components, entries, unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -319,6 +319,22 @@ impl<T: Scalar> Kind for HingedPanel<T> {
 
     fn passive(&self) -> PerJoint<Passive<T>> {
         self.passive
+    }
+
+    fn of_bodies(
+        mount: &Matrix3<T>,
+        bodies: &PerJoint<BodyParameters<T>>,
+        passive: &PerJoint<Passive<T>>,
+        _: ImbalanceModel,
+    ) -> Self {
+        Self {
+            mount: *mount,
+            r_p_b: vector(bodies.panel.origin),
+            m_p: bodies.panel.mass,
+            r_pc_p: vector(bodies.panel.centre),
+            i_p_pc: bodies.panel.inertia,
+            passive: *passive,
+        }
     }
 
     fn constants(&self, origin: [T; 3]) -> super::Prepared<T> {

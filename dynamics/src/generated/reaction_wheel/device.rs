@@ -326,6 +326,23 @@ impl<T: Scalar> Kind for ReactionWheel<T> {
         self.passive
     }
 
+    fn of_bodies(
+        mount: &Matrix3<T>,
+        bodies: &PerJoint<BodyParameters<T>>,
+        passive: &PerJoint<Passive<T>>,
+        model: ImbalanceModel,
+    ) -> Self {
+        Self {
+            mount: *mount,
+            r_w_b: vector(bodies.wheel.origin),
+            m_w: bodies.wheel.mass,
+            d: bodies.wheel.centre[1],
+            i_w_wc: bodies.wheel.inertia,
+            passive: *passive,
+            model,
+        }
+    }
+
     fn model(&self) -> ImbalanceModel {
         self.model
     }

@@ -383,6 +383,27 @@ impl<T: Scalar> Kind for Sgcmg<T> {
         self.passive
     }
 
+    fn of_bodies(
+        mount: &Matrix3<T>,
+        bodies: &PerJoint<BodyParameters<T>>,
+        passive: &PerJoint<Passive<T>>,
+        model: ImbalanceModel,
+    ) -> Self {
+        Self {
+            mount: *mount,
+            r_g_b: vector(bodies.gimbal.origin),
+            m_g: bodies.gimbal.mass,
+            r_gc_g: vector(bodies.gimbal.centre),
+            i_g_gc: bodies.gimbal.inertia,
+            l_g: vector(bodies.wheel.origin),
+            m_w: bodies.wheel.mass,
+            d: bodies.wheel.centre[1],
+            i_w_wc: bodies.wheel.inertia,
+            passive: *passive,
+            model,
+        }
+    }
+
     fn model(&self) -> ImbalanceModel {
         self.model
     }

@@ -13,8 +13,8 @@ use crate::generated::hub::{
     BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Gradient, Handed, HubShare,
 };
 use crate::kind::{
-    BodyParameters, Carried, Drive, Each, JointInfo, JointStates, Kernels, Kind, Value, Wrenches,
-    components, no_inertia, unit, vector, zero,
+    BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
+    Value, Wrenches, components, no_inertia, unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -309,6 +309,20 @@ impl<T: Scalar> Kind for SloshMass<T> {
 
     fn passive(&self) -> PerJoint<Passive<T>> {
         self.passive
+    }
+
+    fn of_bodies(
+        mount: &Matrix3<T>,
+        bodies: &PerJoint<BodyParameters<T>>,
+        passive: &PerJoint<Passive<T>>,
+        _: ImbalanceModel,
+    ) -> Self {
+        Self {
+            mount: *mount,
+            r_s_b: vector(bodies.slosh_mass.origin),
+            m_s: bodies.slosh_mass.mass,
+            passive: *passive,
+        }
     }
 
     fn constants(&self, origin: [T; 3]) -> super::Prepared<T> {

@@ -1,0 +1,326 @@
+/* Precess: fully coupled dynamics of a spacecraft with momentum devices, for flight software.
+ *
+ * Everything is in SI units and radians. A spacecraft stands in memory that the caller owns; states
+ * and inputs are plain structures. No function allocates, keeps anything elsewhere, or unwinds. All
+ * may be called by several tasks at once, each with its own state; a spacecraft may be shared, since
+ * only precess_init and precess_init_from_table change it.
+ *
+ * Every function that can be refused returns an error code, 0 (PRECESS_OK) if all went well; then,
+ * and only then, has it written its results (a text or saved state that does not fit is cut).
+ * `fault` may be null; otherwise it is told where the refusal comes from. Any other pointer that is
+ * null or misaligned is refused.
+ *
+ * Axes: N is inertial, B fixed in the hub. A device's own axes are those of its first body where its
+ * joint is at zero. Vectors are x, y, z; matrices stand row by row. What belongs to joints stands in
+ * [device][joint], joints counted from the hub outwards; places without a joint are not read, and
+ * are 0 in results.
+ */
+#ifndef PRECESS_H
+#define PRECESS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Version of this header, 0x00MMmmpp; precess_version() is that of the library. */
+#define PRECESS_VERSION 0x00000100
+
+#define PRECESS_MAX_DEVICES 8
+#define PRECESS_MAX_JOINTS 3
+#define PRECESS_MAX_SUBSTEPS 1000
+
+/* Memory of a spacecraft, in bytes. */
+#define PRECESS_SPACECRAFT_SIZE 16384
+#define PRECESS_SPACECRAFT_ALIGN 8
+
+/* Version of the layout of a parameter table, and its length in bytes for so many devices. */
+#define PRECESS_TABLE_VERSION 1
+#define PRECESS_TABLE_SIZE(devices) (124 + 584 * (devices))
+
+/* Error codes. precess_error_text tells the remedy. */
+enum {
+    PRECESS_OK = 0,
+    PRECESS_ERROR_NULL = 1,
+    PRECESS_ERROR_MISALIGNED = 2,
+    PRECESS_ERROR_TOO_SMALL = 3,
+    PRECESS_ERROR_NOT_INITIALISED = 4,
+    PRECESS_ERROR_TOO_MANY = 5,
+    PRECESS_ERROR_UNKNOWN_KIND = 6,
+    PRECESS_ERROR_UNKNOWN_CHOICE = 7,
+    PRECESS_ERROR_MISFIT = 8,
+    PRECESS_ERROR_NOT_FINITE = 9,
+    PRECESS_ERROR_MASS = 10,
+    PRECESS_ERROR_INERTIA = 11,
+    PRECESS_ERROR_MOUNT = 12,
+    PRECESS_ERROR_PASSIVE = 13,
+    PRECESS_ERROR_SINGULAR = 14,
+    PRECESS_ERROR_LOCKED_JOINT_MOVES = 15,
+    PRECESS_ERROR_FIXED_HUB_MOVES = 16,
+    PRECESS_ERROR_NOT_DRIVEN = 17,
+    PRECESS_ERROR_AT_CENTRE = 18,
+    PRECESS_ERROR_OVERFLOW = 19,
+    PRECESS_ERROR_TABLE_MAGIC = 20,
+    PRECESS_ERROR_TABLE_VERSION = 21,
+    PRECESS_ERROR_TABLE_LENGTH = 22,
+    PRECESS_ERROR_TABLE_CHECKSUM = 23,
+    PRECESS_ERROR_OTHER = 24
+};
+
+/* Kinds of devices, with their joints from the hub outwards. At zero, outer and only gimbals turn
+ * about z, inner gimbals about y, wheels about x. A balanced kind has a wheel that is the same from
+ * every angle; what it has no parameter for must be 0. The wheel of a DGCMG or SGCMG keeps its rate:
+ * its torque is found by precess_loads. */
+enum {
+    PRECESS_KIND_DGVSCMG = 1,                 /* outer gimbal, inner gimbal, wheel */
+    PRECESS_KIND_BALANCED_DGVSCMG = 2,        /* outer gimbal, inner gimbal, wheel */
+    PRECESS_KIND_DGCMG = 3,                   /* outer gimbal, inner gimbal, wheel at its rate */
+    PRECESS_KIND_BALANCED_DGCMG = 4,          /* outer gimbal, inner gimbal, wheel at its rate */
+    PRECESS_KIND_VSCMG = 5,                   /* gimbal, wheel */
+    PRECESS_KIND_BALANCED_VSCMG = 6,          /* gimbal, wheel */
+    PRECESS_KIND_SGCMG = 7,                   /* gimbal, wheel at its rate */
+    PRECESS_KIND_BALANCED_SGCMG = 8,          /* gimbal, wheel at its rate */
+    PRECESS_KIND_REACTION_WHEEL = 9,          /* wheel */
+    PRECESS_KIND_BALANCED_REACTION_WHEEL = 10, /* wheel */
+    PRECESS_KIND_HINGED_PANEL = 11,           /* panel, which turns about z */
+    PRECESS_KIND_SLOSH_MASS = 12              /* point mass, which slides along x */
+};
+
+/* Model of a wheel's imbalance: the rotor itself, or the usual lumped disturbance (imbalanced kinds
+ * alone). */
+enum { PRECESS_COUPLED = 0, PRECESS_LUMPED = 1 };
+
+/* What is given of a joint: its torque; its acceleration; that it stands still. */
+enum { PRECESS_DRIVEN = 0, PRECESS_PRESCRIBED = 1, PRECESS_LOCKED = 2 };
+
+/* What is given of the hub: what acts on it; that it stands still; its accelerations. */
+enum { PRECESS_HUB_FREE = 0, PRECESS_HUB_FIXED = 1, PRECESS_HUB_PRESCRIBED = 2 };
+
+/* Gravity: none; the same everywhere; of a central body at the origin of N, with its gradient. */
+enum { PRECESS_GRAVITY_NONE = 0, PRECESS_GRAVITY_UNIFORM = 1, PRECESS_GRAVITY_CENTRAL = 2 };
+
+/* Axes of loads: of the body behind the joint; of what carries it; B; N. */
+enum { PRECESS_AXES_BODY = 0, PRECESS_AXES_CARRIER = 1, PRECESS_AXES_HUB = 2, PRECESS_AXES_INERTIAL = 3 };
+
+/* The point about which angular momentum is taken: the origin of N; the centre of mass of the whole
+ * spacecraft; a point fixed in N. */
+enum { PRECESS_ABOUT_ORIGIN = 0, PRECESS_ABOUT_CENTRE_OF_MASS = 1, PRECESS_ABOUT_POINT = 2 };
+
+/* Memory of a spacecraft; its contents are the library's. May be copied as a whole. */
+typedef struct precess_spacecraft {
+    uint64_t opaque[PRECESS_SPACECRAFT_SIZE / 8];
+} precess_spacecraft;
+
+/* Where a refusal comes from. */
+typedef struct precess_fault {
+    int32_t code;     /* the error code */
+    int32_t device;   /* index of the device; -1 for the hub, or for none */
+    int32_t joint;    /* index of the joint in its device; -1 for none */
+    int32_t reserved; /* 0 */
+    double value;     /* the value at fault; 0 where there is none */
+    double bound;     /* the bound it breaks; 0 where there is none */
+} precess_fault;
+
+/* The hub without its devices. */
+typedef struct precess_hub {
+    double mass;       /* kg, above 0 */
+    double centre[3];  /* centre of mass from the reference point B, B axes, m */
+    double inertia[9]; /* about the centre of mass, B axes, kg m^2 */
+} precess_hub;
+
+/* A body of a device. */
+typedef struct precess_body {
+    double mass;       /* kg; above 0 for the outermost body, 0 is legal for its carriers */
+    double origin[3];  /* origin of its joint; of the first body from B along B axes, of the others
+                          from the origin of the body before along that body's axes, m */
+    double centre[3];  /* centre of mass from its origin, own axes, m; of a wheel on its y axis, 0 of
+                          a balanced one and of a slosh mass */
+    double inertia[9]; /* about its centre of mass, own axes, kg m^2; 0 of a slosh mass; diagonal
+                          with equal y and z moments of a balanced wheel */
+} precess_body;
+
+/* What a joint does by itself: u = -k (q - rest) - viscous q' - coulomb q' / sqrt(q'^2 + rate^2). */
+typedef struct precess_passive {
+    double stiffness;    /* N m/rad, sliding joint N/m; not below 0 */
+    double rest;         /* coordinate at which the spring rests, rad or m */
+    double viscous;      /* N m s/rad or N s/m; not below 0 */
+    double coulomb;      /* N m or N; not below 0 */
+    double coulomb_rate; /* rad/s or m/s; above 0 where coulomb is */
+} precess_passive;
+
+/* A device: as many bodies and joints are read as its kind has. */
+typedef struct precess_device {
+    int32_t kind;                                /* PRECESS_KIND_ */
+    int32_t model;                               /* PRECESS_COUPLED or PRECESS_LUMPED */
+    double mount[9];                             /* its columns are the device's axes along B */
+    precess_body bodies[PRECESS_MAX_JOINTS];     /* from the hub outwards */
+    precess_passive passive[PRECESS_MAX_JOINTS]; /* of the joint before each body */
+} precess_device;
+
+/* State of the hub and of the joints. */
+typedef struct precess_state {
+    double position[3]; /* of B from the origin of N, N axes, m */
+    double velocity[3]; /* of B, N axes, m/s */
+    double attitude[4]; /* of B in N: quaternion, scalar first */
+    double omega[3];    /* angular velocity of B in N, B axes, rad/s */
+    double coordinate[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* rad, sliding joint m */
+    double rate[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* relative to the carrier, rad/s or m/s */
+} precess_state;
+
+/* A force and its moment about a point told where it stands. */
+typedef struct precess_wrench {
+    double force[3];  /* N */
+    double moment[3]; /* N m */
+} precess_wrench;
+
+/* What acts, and what is given; constant during a call, along the axes told. */
+typedef struct precess_inputs {
+    double force[3];  /* external force through B, B axes, N */
+    double torque[3]; /* external torque about B, B axes, N m */
+    double motor[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS];      /* of driven joints, N m or N */
+    double prescribed[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* of prescribed joints, rad/s^2 or
+                                                                   m/s^2 */
+    double hub_linear[3];  /* of a prescribed hub: acceleration of B, B axes, m/s^2 */
+    double hub_angular[3]; /* of a prescribed hub: angular acceleration, B axes, rad/s^2 */
+    double gravity[3];     /* uniform field, N axes, m/s^2 */
+    double mu;             /* gravitational parameter of the central body, m^3/s^2 */
+    precess_wrench wrench[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* on the body behind each joint,
+                              about its origin, the body's own axes */
+    int32_t mode[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* PRECESS_DRIVEN, _PRESCRIBED, _LOCKED */
+    int32_t hub_mode;      /* PRECESS_HUB_ */
+    int32_t gravity_model; /* PRECESS_GRAVITY_ */
+    int32_t wrenches;      /* 1: wrench is read; 0: it is not */
+    int32_t reserved;      /* 0 */
+} precess_inputs;
+
+/* All accelerations. */
+typedef struct precess_accelerations {
+    double linear[3];  /* inertial acceleration of B, B axes (velocity is along N), m/s^2 */
+    double angular[3]; /* angular acceleration of B, B axes, rad/s^2 */
+    double joint[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* rad/s^2 or m/s^2 */
+} precess_accelerations;
+
+/* Momenta of the whole spacecraft. */
+typedef struct precess_momentum {
+    double linear[3];  /* N axes, kg m/s */
+    double angular[3]; /* N axes, kg m^2/s */
+} precess_momentum;
+
+/* Work of each source during a step, J. */
+typedef struct precess_power {
+    double external; /* force, torque, wrenches on bodies, lumped disturbances */
+    double hub;      /* what holds a prescribed hub to its motion */
+    double gravity;
+    double motors;   /* those of prescribed joints among them */
+    double springs;
+    double friction; /* not above 0 */
+} precess_power;
+
+/* What joints and mounts carry. */
+typedef struct precess_loads {
+    precess_wrench hub; /* what must act on the hub beside the inputs, about B, B axes: rounding on a
+                           free hub, what a table exerts on a fixed one */
+    precess_wrench mount[PRECESS_MAX_DEVICES]; /* what the hub exerts on each device, about the origin
+                           of its first joint; N axes with PRECESS_AXES_INERTIAL, otherwise B axes */
+    precess_wrench joint[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* what the carrier exerts on the
+                           body behind each joint, about its origin, along the axes asked for */
+    double motor[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* torque of each motor, N m or N: given
+                           for a driven joint, found for a prescribed or locked one */
+} precess_loads;
+
+/* Version of the library: PRECESS_VERSION of the header it belongs to. */
+uint32_t precess_version(void);
+
+/* Name of an error code, "PRECESS_ERROR_NULL"; static, never null. */
+const char *precess_error_name(int32_t code);
+
+/* Writes what a code means and its remedy, cut to `length` bytes with the zero that ends it
+ * (PRECESS_ERROR_TOO_SMALL if it was cut). 128 bytes hold every text. */
+int32_t precess_error_text(int32_t code, char *buffer, size_t length);
+
+/* Makes a spacecraft in `size` bytes of `memory`, of a hub and `count` devices (null if none). Until
+ * this has returned PRECESS_OK, the memory holds no spacecraft. */
+int32_t precess_init(void *memory, size_t size, const precess_hub *hub,
+                     const precess_device *devices, uint32_t count, precess_fault *fault);
+
+/* The same from a parameter table of `length` bytes, aligned or not. */
+int32_t precess_init_from_table(void *memory, size_t size, const uint8_t *table, size_t length,
+                                precess_fault *fault);
+
+/* Writes the parameter table of a hub and `count` devices; `length` is told how many bytes. What
+ * stands in it is not checked here but by precess_init_from_table. Little-endian on every target:
+ * offset 0 "PREC"; 4 version; 8 length in bytes; 12 number of devices n (32 bits each); 16 the hub,
+ * 13 doubles; 120 + 584 k device k, 2 integers of 32 bits and 72 doubles; both in the order of their
+ * structures, nothing padded; 120 + 584 n CRC-32 of all before (ISO-HDLC, that of zip). */
+int32_t precess_table_write(const precess_hub *hub, const precess_device *devices, uint32_t count,
+                            uint8_t *table, size_t capacity, size_t *length);
+
+/* Mass of hub and devices, kg. */
+int32_t precess_mass(const precess_spacecraft *craft, double *mass);
+
+/* How many joints a device has: 0 for one that is not there. */
+int32_t precess_joints(const precess_spacecraft *craft, uint32_t device, uint32_t *joints);
+
+/* The state in which all is at zero: B at the origin of N, axes along N, nothing moving. */
+int32_t precess_state_at_rest(const precess_spacecraft *craft, precess_state *state);
+
+/* Brings every joint angle into [-pi, pi] (rad), without a jump in anything else. Angles run on
+ * otherwise; wrap a wheel's from time to time, since sines of large angles cost more. */
+int32_t precess_state_wrap(const precess_spacecraft *craft, precess_state *state);
+
+/* How many doubles save a state: 13 and two per joint. */
+int32_t precess_state_length(const precess_spacecraft *craft, uint32_t *count);
+
+/* Saves a state as doubles in a row, bit by bit: position (m), velocity (m/s), attitude, omega
+ * (rad/s), then coordinate and rate of each joint. `count` is the room there is. */
+int32_t precess_state_save(const precess_spacecraft *craft, const precess_state *state,
+                           double *numbers, uint32_t count);
+
+/* Restores a saved state. `count` must be precess_state_length (PRECESS_ERROR_TOO_SMALL for any
+ * other); refused if a number is not finite. */
+int32_t precess_state_restore(const precess_spacecraft *craft, const double *numbers,
+                              uint32_t count, precess_state *state, precess_fault *fault);
+
+/* The inputs in which nothing acts: motors off, hub free, every joint as its kind has it (a wheel
+ * that keeps its rate is PRECESS_PRESCRIBED with 0). Start from these. */
+int32_t precess_inputs_none(const precess_spacecraft *craft, precess_inputs *inputs);
+
+/* All accelerations (m/s^2, rad/s^2) for a state and its inputs. */
+int32_t precess_accelerations_of(const precess_spacecraft *craft, const precess_state *state,
+                                 const precess_inputs *inputs, precess_accelerations *out,
+                                 precess_fault *fault);
+
+/* Advances the state by `substeps` Runge-Kutta steps (fourth order) of `dt` seconds each, 1 to
+ * PRECESS_MAX_SUBSTEPS. A sound dt turns the fastest wheel by a tenth of a radian. `work` (J) may be
+ * null, which is cheaper. If refused, the state is as it was. */
+int32_t precess_step(const precess_spacecraft *craft, precess_state *state,
+                     const precess_inputs *inputs, double dt, uint32_t substeps,
+                     precess_power *work, precess_fault *fault);
+
+/* Stops every locked joint, and a fixed hub, in no time: momentum stays (unless the hub is fixed or
+ * prescribed), energy is lost, in J (`lost` may be null). Needed before what moves is locked. */
+int32_t precess_stop(const precess_spacecraft *craft, precess_state *state,
+                     const precess_inputs *inputs, double *lost, precess_fault *fault);
+
+/* Kinetic energy of hub and devices, J. */
+int32_t precess_energy(const precess_spacecraft *craft, const precess_state *state, double *energy,
+                       precess_fault *fault);
+
+/* Linear momentum, kg m/s, and angular momentum, kg m^2/s, about PRECESS_ABOUT_; `point` (N axes, m,
+ * three doubles) is read for PRECESS_ABOUT_POINT alone, otherwise null will do. */
+int32_t precess_momentum_of(const precess_spacecraft *craft, const precess_state *state,
+                            int32_t about, const double *point, precess_momentum *out,
+                            precess_fault *fault);
+
+/* Loads (N, N m) at this instant, joints' along PRECESS_AXES_. */
+int32_t precess_loads_of(const precess_spacecraft *craft, const precess_state *state,
+                         const precess_inputs *inputs, int32_t axes, precess_loads *out,
+                         precess_fault *fault);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,209 @@
+//! A spacecraft in the caller's memory: made of plain structures, checked, asked what it has.
+
+use core::ffi::c_void;
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::{self as dynamics, Spacecraft};
+
+use crate::device::device_of;
+use crate::error::{Code, Fault, Refusal};
+use crate::memory::{self, Plain, check, slice};
+use crate::types::{Device, Hub};
+use crate::{List, MAX_DEVICES};
+
+/// `PRECESS_SPACECRAFT_SIZE`: a little more than any target needs.
+pub const SIZE: usize = 16_384;
+/// `PRECESS_SPACECRAFT_ALIGN`.
+pub const ALIGN: usize = 8;
+
+/// Stands where a spacecraft has been made; the version keeps apart what other builds have made.
+const MADE: u64 = 0x5052_4543_0000_0000 | crate::VERSION as u64;
+
+/// What stands in the caller's memory.
+#[repr(C)]
+pub struct Craft {
+    made: u64,
+    pub(crate) spacecraft: Spacecraft<List>,
+}
+
+const _: () = assert!(size_of::<Craft>() <= SIZE && align_of::<Craft>() <= ALIGN);
+
+/// The spacecraft at a pointer.
+///
+/// # Errors
+///
+/// [`Code::Null`], [`Code::Misaligned`], [`Code::NotInitialised`].
+///
+/// # Safety
+///
+/// The pointer points to `PRECESS_SPACECRAFT_SIZE` readable bytes, which nobody but `precess_init`
+/// has written to if they begin as a spacecraft.
+pub(crate) unsafe fn craft<'a>(pointer: *const Craft) -> Result<&'a Craft, Code> {
+    check(pointer)?;
+    // SAFETY: not null, aligned, readable; the first field is a number.
+    let made = unsafe { (&raw const (*pointer).made).read() };
+    if made != MADE {
+        return Err(Code::NotInitialised);
+    }
+    // SAFETY: `precess_init` has made it.
+    Ok(unsafe { &*pointer })
+}
+
+/// Answers a call: the code, and where it comes from.
+///
+/// # Safety
+///
+/// `fault` is null or points to a writable [`Fault`].
+pub(crate) unsafe fn answer(
+    spacecraft: Option<&Spacecraft<List>>,
+    result: Result<(), Refusal>,
+    fault: *mut Fault,
+) -> i32 {
+    let refusal = result.err().unwrap_or(Code::Ok.into());
+    let small = |index: usize| i32::try_from(index).unwrap_or(i32::MAX);
+    let joint = refusal.joint.and_then(|name| {
+        let mut joints = spacecraft?.joints();
+        let named = |info: &dynamics::kind::JointInfo| {
+            // Byte by byte: no call of the C library's `memcmp`.
+            [info.body, info.coordinate, info.rate].iter().any(|own| own.bytes().eq(name.bytes()))
+        };
+        let (_, info) =
+            joints.find(|(device, info)| Some(*device) == refusal.device && named(info))?;
+        Some(info.index)
+    });
+    let told = Fault {
+        code: refusal.code as i32,
+        device: refusal.device.map_or(-1, small),
+        joint: joint.map_or(-1, small),
+        reserved: 0,
+        value: refusal.value,
+        bound: refusal.bound,
+    };
+    // SAFETY: as promised to this function.
+    match unsafe { memory::offer(fault, told) } {
+        Err(code) if refusal.code == Code::Ok => code as i32,
+        _ => refusal.code as i32,
+    }
+}
+
+/// Makes a spacecraft of a hub and devices.
+pub(crate) fn made(hub: &Hub, devices: &[Device]) -> Result<Spacecraft<List>, Refusal> {
+    if devices.len() > MAX_DEVICES {
+        return Err(Code::TooMany.into());
+    }
+    let mut list: List = [None; MAX_DEVICES];
+    for (index, (place, device)) in list.iter_mut().zip(devices).enumerate() {
+        *place = Some(device_of(index, device)?);
+    }
+    let hub = dynamics::Hub {
+        m_b: hub.mass,
+        r_bc_b: Vector3::from(hub.centre),
+        i_b_bc: matrix(&hub.inertia),
+    };
+    Ok(Spacecraft::new(&hub, &list)?)
+}
+
+/// Puts a spacecraft into the caller's memory.
+///
+/// # Errors
+///
+/// [`Code::Null`], [`Code::Misaligned`], [`Code::TooSmall`], and what `make` answers.
+///
+/// # Safety
+///
+/// `memory` points to `size` writable bytes.
+pub(crate) unsafe fn place(
+    memory: *mut c_void,
+    size: usize,
+    make: impl FnOnce() -> Result<Spacecraft<List>, Refusal>,
+) -> Result<(), Refusal> {
+    let craft = memory.cast::<Craft>();
+    check(craft)?;
+    if size < SIZE {
+        return Err(Code::TooSmall.into());
+    }
+    // SAFETY: not null, aligned, large enough; a spacecraft that stood here is no longer one.
+    unsafe { (&raw mut (*craft).made).write(0) };
+    let spacecraft = make()?;
+    // SAFETY: as before.
+    unsafe { craft.write(Craft { made: MADE, spacecraft }) };
+    Ok(())
+}
+
+/// A matrix from its rows.
+pub(crate) fn matrix(rows: &[f64; 9]) -> Matrix3<f64> {
+    Matrix3::from_row_slice(rows)
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `memory` points to `size` writable bytes, `hub` to a hub, `devices` to `count` devices, `fault` is
+/// null or points to a fault.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_init(
+    memory: *mut c_void,
+    size: usize,
+    hub: *const Hub,
+    devices: *const Device,
+    count: u32,
+    fault: *mut Fault,
+) -> i32 {
+    let make = || {
+        if count as usize > MAX_DEVICES {
+            return Err(Refusal::from(Code::TooMany));
+        }
+        // SAFETY: by contract.
+        let (hub, devices) = unsafe { (memory::read(hub)?, slice(devices, count as usize)?) };
+        made(&hub, devices)
+    };
+    // SAFETY: by contract.
+    let result = unsafe { place(memory, size, make) };
+    // SAFETY: by contract.
+    unsafe { answer(None, result, fault) }
+}
+
+/// Writes one number the caller asked for.
+///
+/// # Safety
+///
+/// As [`craft`]; `to` points to a writable `T`.
+unsafe fn ask<T: Plain>(
+    pointer: *const Craft,
+    to: *mut T,
+    of: impl FnOnce(&Spacecraft<List>) -> T,
+) -> i32 {
+    // SAFETY: by contract.
+    let told = unsafe { craft(pointer) }.and_then(|craft| {
+        // SAFETY: by contract.
+        unsafe { memory::write(to, of(&craft.spacecraft)) }
+    });
+    told.err().unwrap_or(Code::Ok) as i32
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `craft` points to a spacecraft, `mass` to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_mass(craft: *const Craft, mass: *mut f64) -> i32 {
+    // SAFETY: by contract.
+    unsafe { ask(craft, mass, Spacecraft::mass) }
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `craft` points to a spacecraft, `joints` to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_joints(craft: *const Craft, device: u32, joints: *mut u32) -> i32 {
+    let count = |craft: &Spacecraft<List>| {
+        let of_device = craft.joints().filter(|(index, _)| *index == device as usize);
+        u32::try_from(of_device.count()).unwrap_or(u32::MAX)
+    };
+    // SAFETY: by contract.
+    unsafe { ask(craft, joints, count) }
+}

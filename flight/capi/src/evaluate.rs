@@ -1,0 +1,341 @@
+//! Accelerations, steps, the impulsive stop, energy and momentum.
+
+use nalgebra::Vector3;
+use precess_dynamics::{About, Accelerations, Inputs, Spacecraft, State};
+
+use crate::List;
+use crate::craft::{Craft, answer, craft};
+use crate::error::{Code, Fault, Refusal};
+use crate::inputs::inputs_of;
+use crate::memory::{self, offer, read, write};
+use crate::state::{give, state_of, told};
+use crate::types;
+
+/// `PRECESS_MAX_SUBSTEPS`: what one call does is bounded.
+pub const MAX_SUBSTEPS: u32 = 1000;
+
+/// Does what is asked of a spacecraft and answers.
+///
+/// # Safety
+///
+/// As `craft::craft`; `fault` is null or points to a writable fault.
+pub(crate) unsafe fn with(
+    pointer: *const Craft,
+    fault: *mut Fault,
+    ask: impl FnOnce(&Spacecraft<List>) -> Result<(), Refusal>,
+) -> i32 {
+    // SAFETY: by contract.
+    match unsafe { craft(pointer) } {
+        Ok(craft) => {
+            let result = ask(&craft.spacecraft);
+            // SAFETY: by contract.
+            unsafe { answer(Some(&craft.spacecraft), result, fault) }
+        }
+        // SAFETY: by contract.
+        Err(code) => unsafe { answer(None, Err(code.into()), fault) },
+    }
+}
+
+/// State and inputs.
+///
+/// # Safety
+///
+/// Both pointers are null, misaligned, or point to readable structures.
+pub(crate) unsafe fn given(
+    spacecraft: &Spacecraft<List>,
+    state: *const types::State,
+    inputs: *const types::Inputs,
+) -> Result<(State<List>, Inputs<List>), Refusal> {
+    // SAFETY: by contract.
+    let state = state_of(spacecraft, &unsafe { read(state) }?);
+    // SAFETY: by contract.
+    let inputs = inputs_of(spacecraft, &unsafe { read(inputs) }?)?;
+    Ok((state, inputs))
+}
+
+fn of_accelerations(found: &Accelerations<List>) -> types::Accelerations {
+    let mut to = types::Accelerations {
+        linear: found.r_b_n_ddot.into(),
+        angular: found.omega_dot.into(),
+        joint: Default::default(),
+    };
+    give(&mut to.joint, &found.devices, |acceleration| *acceleration);
+    to
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `craft` points to a spacecraft, the others to their structures; `fault` may be null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_accelerations_of(
+    craft: *const Craft,
+    state: *const types::State,
+    inputs: *const types::Inputs,
+    out: *mut types::Accelerations,
+    fault: *mut Fault,
+) -> i32 {
+    let ask = |craft: &Spacecraft<List>| {
+        // SAFETY: by contract.
+        let (state, inputs) = unsafe { given(craft, state, inputs) }?;
+        let found = craft.accelerations(&state, &inputs)?;
+        // SAFETY: by contract.
+        Ok(unsafe { write(out, of_accelerations(&found)) }?)
+    };
+    // SAFETY: by contract.
+    unsafe { with(craft, fault, ask) }
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `craft` points to a spacecraft, the others to their structures; `work` and `fault` may be null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_step(
+    craft: *const Craft,
+    state: *mut types::State,
+    inputs: *const types::Inputs,
+    dt: f64,
+    substeps: u32,
+    work: *mut types::Power,
+    fault: *mut Fault,
+) -> i32 {
+    let ask = |craft: &Spacecraft<List>| {
+        if substeps == 0 || substeps > MAX_SUBSTEPS {
+            return Err(Code::TooMany.into());
+        }
+        // SAFETY: by contract.
+        let (mut next, inputs) = unsafe { given(craft, state.cast_const(), inputs) }?;
+        let mut sum = types::Power {
+            external: 0.0,
+            hub: 0.0,
+            gravity: 0.0,
+            motors: 0.0,
+            springs: 0.0,
+            friction: 0.0,
+        };
+        for _ in 0..substeps {
+            if work.is_null() {
+                next = craft.step(&next, &inputs, dt)?;
+            } else {
+                let stepped = craft.step_with_work(&next, &inputs, dt)?;
+                next = stepped.state;
+                sum.external += stepped.work.external;
+                sum.hub += stepped.work.hub;
+                sum.gravity += stepped.work.gravity;
+                sum.motors += stepped.work.motors;
+                sum.springs += stepped.work.springs;
+                sum.friction += stepped.work.friction;
+            }
+        }
+        // SAFETY: by contract; `work` first, so that a refusal leaves the state as it was.
+        unsafe { offer(work, sum) }?;
+        // SAFETY: by contract.
+        Ok(unsafe { write(state, told(&next)) }?)
+    };
+    // SAFETY: by contract.
+    unsafe { with(craft, fault, ask) }
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `craft` points to a spacecraft, the others to their structures; `lost` and `fault` may be null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_stop(
+    craft: *const Craft,
+    state: *mut types::State,
+    inputs: *const types::Inputs,
+    lost: *mut f64,
+    fault: *mut Fault,
+) -> i32 {
+    let ask = |craft: &Spacecraft<List>| {
+        // SAFETY: by contract.
+        let (before, inputs) = unsafe { given(craft, state.cast_const(), inputs) }?;
+        let stopped = craft.stop(&before, &inputs)?;
+        // SAFETY: by contract.
+        unsafe { offer(lost, stopped.energy_lost) }?;
+        // SAFETY: by contract.
+        Ok(unsafe { write(state, told(&stopped.state)) }?)
+    };
+    // SAFETY: by contract.
+    unsafe { with(craft, fault, ask) }
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `craft` points to a spacecraft, the others to their structures; `fault` may be null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_energy(
+    craft: *const Craft,
+    state: *const types::State,
+    energy: *mut f64,
+    fault: *mut Fault,
+) -> i32 {
+    let ask = |craft: &Spacecraft<List>| {
+        // SAFETY: by contract.
+        let state = state_of(craft, &unsafe { read(state) }?);
+        // SAFETY: by contract.
+        Ok(unsafe { write(energy, craft.energy(&state)?) }?)
+    };
+    // SAFETY: by contract.
+    unsafe { with(craft, fault, ask) }
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `craft` points to a spacecraft, the others to their structures; `point` is read for
+/// `PRECESS_ABOUT_POINT` alone; `fault` may be null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_momentum_of(
+    craft: *const Craft,
+    state: *const types::State,
+    about: i32,
+    point: *const f64,
+    out: *mut types::Momentum,
+    fault: *mut Fault,
+) -> i32 {
+    let ask = |craft: &Spacecraft<List>| {
+        // SAFETY: by contract.
+        let state = state_of(craft, &unsafe { read(state) }?);
+        let about = match about {
+            0 => About::InertialOrigin,
+            1 => About::CentreOfMass,
+            2 => {
+                // SAFETY: by contract.
+                let &[x, y, z] = unsafe { memory::slice(point, 3) }? else {
+                    return Err(Code::Null.into());
+                };
+                About::Point(Vector3::new(x, y, z))
+            }
+            _ => return Err(Code::UnknownChoice.into()),
+        };
+        let found = craft.momentum(&state, about)?;
+        let found = types::Momentum { linear: found.linear.into(), angular: found.angular.into() };
+        // SAFETY: by contract.
+        Ok(unsafe { write(out, found) }?)
+    };
+    // SAFETY: by contract.
+    unsafe { with(craft, fault, ask) }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::mem::MaybeUninit;
+    use core::ptr::null_mut;
+
+    use nalgebra::Matrix3;
+    use precess_dynamics::{Dgvscmg, Hub, ReactionWheel};
+
+    use super::*;
+    use crate::craft::precess_init;
+    use crate::device::number_of;
+
+    /// What a C caller states and what a Rust caller states is one spacecraft, to the last bit.
+    #[test]
+    fn c_interface_has_the_bits_of_the_typed_spacecraft() {
+        let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+        let gyro = Dgvscmg {
+            d: 8e-5,
+            r_go_b: Vector3::new(0.3, 0.0, 0.0),
+            ..Dgvscmg::bare_wheel(4.0, disc)
+        };
+        let wheel = ReactionWheel { d: 2e-5, ..ReactionWheel::bare_wheel(3.0, disc) };
+        let moments = Vector3::new(900.0, 800.0, 600.0);
+        let hub = Hub {
+            m_b: 800.0,
+            r_bc_b: Vector3::new(0.1, 0.2, 0.3),
+            i_b_bc: Matrix3::from_diagonal(&moments),
+        };
+        let typed = Spacecraft::new(&hub, &(gyro, wheel)).unwrap();
+        let mut state: State<(Dgvscmg, ReactionWheel)> = State::at_rest();
+        state.omega = Vector3::new(0.1, -0.2, 0.3);
+        (state.devices.0.gamma_i, state.devices.0.spin, state.devices.1.spin) = (0.4, 50.0, 90.0);
+        let mut inputs: Inputs<(Dgvscmg, ReactionWheel)> = Inputs::none();
+        inputs.motors.0.u_w = 0.2;
+
+        let diagonal = |[x, y, z]: [f64; 3]| [x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z];
+        let devices = [gyro.into(), wheel.into()].map(|device: precess_dynamics::BuiltIn| {
+            let stated = device.stated();
+            let rows = |m: &Matrix3<f64>| m.transpose().as_slice().try_into().unwrap();
+            types::Device {
+                kind: number_of(device.kind()),
+                model: 0,
+                mount: rows(&stated.mount),
+                bodies: stated.bodies.map(|body| types::Body {
+                    mass: body.mass,
+                    origin: body.origin,
+                    centre: body.centre,
+                    inertia: rows(&body.inertia),
+                }),
+                passive: stated.passive.map(|_| types::Passive {
+                    stiffness: 0.0,
+                    rest: 0.0,
+                    viscous: 0.0,
+                    coulomb: 0.0,
+                    coulomb_rate: 0.0,
+                }),
+            }
+        });
+        let hub = types::Hub {
+            mass: hub.m_b,
+            centre: hub.r_bc_b.into(),
+            inertia: diagonal(moments.into()),
+        };
+        let mut memory = MaybeUninit::<[u64; crate::craft::SIZE / 8]>::zeroed();
+        let craft = memory.as_mut_ptr().cast::<Craft>();
+        let (mut c_state, mut c_inputs) =
+            (MaybeUninit::<types::State>::zeroed(), MaybeUninit::<types::Inputs>::zeroed());
+        let none = null_mut();
+        // SAFETY: every pointer is to a local of its type, or null where that is allowed.
+        let answers = unsafe {
+            [
+                precess_init(
+                    craft.cast(),
+                    crate::craft::SIZE,
+                    &raw const hub,
+                    devices.as_ptr(),
+                    2,
+                    none,
+                ),
+                crate::state::precess_state_at_rest(craft, c_state.as_mut_ptr()),
+                crate::inputs::precess_inputs_none(craft, c_inputs.as_mut_ptr()),
+            ]
+        };
+        assert_eq!(answers, [0; 3]);
+        // SAFETY: both have been written.
+        let (mut c_state, mut c_inputs) =
+            unsafe { (c_state.assume_init(), c_inputs.assume_init()) };
+        c_state.omega = state.omega.into();
+        c_state.coordinate[0][1] = 0.4;
+        (c_state.rate[0][2], c_state.rate[1][0]) = (50.0, 90.0);
+        c_inputs.motor[0][2] = 0.2;
+        for _ in 0..1000 {
+            state = typed.step(&state, &inputs, 1e-3).unwrap();
+        }
+        // SAFETY: as before.
+        let answer = unsafe {
+            precess_step(craft, &raw mut c_state, &raw const c_inputs, 1e-3, 1000, null_mut(), none)
+        };
+        assert_eq!(answer, 0);
+        let bits = |numbers: &[f64]| numbers.iter().map(|n| n.to_bits()).collect::<Vec<_>>();
+        let (gyro, wheel) = (&state.devices.0, &state.devices.1);
+        assert_eq!(bits(&c_state.omega), bits(state.omega.as_slice()));
+        assert_eq!(bits(&c_state.position), bits(state.r_b_n.as_slice()));
+        assert_eq!(bits(&c_state.coordinate[0]), bits(&[gyro.gamma_o, gyro.gamma_i, gyro.theta]));
+        assert_eq!(bits(&c_state.rate[1]), bits(&[wheel.spin, 0.0, 0.0]));
+        let of_attitude = state.attitude;
+        let attitude = [of_attitude.q0, of_attitude.q1, of_attitude.q2, of_attitude.q3];
+        assert_eq!(bits(&c_state.attitude), bits(&attitude));
+        let size = size_of::<Craft>();
+        assert!(size > crate::craft::SIZE / 2, "{size} bytes: the header asks for far too much");
+        println!("{size} bytes of {}", crate::craft::SIZE);
+    }
+}

@@ -1,0 +1,49 @@
+//! Precess behind a C interface: `include/precess.h` is what callers read, this is what they call.
+//!
+//! A spacecraft lives in memory that the caller owns, states and inputs are plain structures, every
+//! function answers with an [error code](error::Code). No allocation, no global state, nothing kept
+//! between calls but what stands in the caller's memory: any number of tasks may call, each on its
+//! own data, and may share a spacecraft, which no call but `precess_init` changes.
+//!
+//! `unsafe` is where a pointer becomes a value, in [`memory`], and at the functions that C calls.
+//! Numbers are copied in and out, so pointers may overlap.
+
+#![cfg_attr(not(test), no_std)]
+
+pub mod craft;
+mod device;
+pub mod error;
+pub mod evaluate;
+pub mod inputs;
+#[cfg(test)]
+mod layout;
+pub mod loads;
+pub mod memory;
+pub mod state;
+pub mod table;
+pub mod types;
+
+use precess_dynamics::BuiltIn;
+
+/// The devices that a spacecraft has at most: `PRECESS_MAX_DEVICES`.
+pub const MAX_DEVICES: usize = 8;
+
+/// The devices of a spacecraft.
+pub type List = [Option<BuiltIn>; MAX_DEVICES];
+
+/// Version of the library, `0x00MMmmpp`: `PRECESS_VERSION` of the header it was built with.
+pub const VERSION: u32 = 0x0000_0100;
+
+/// Version of the library that is linked, to be compared with `PRECESS_VERSION` of the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn precess_version() -> u32 {
+    VERSION
+}
+
+/// Never reached: no function of this library panics, and a gate looks for paths that could. A panic
+/// handler must exist in a library without the standard one.
+#[cfg(not(test))]
+#[panic_handler]
+fn halt(_: &core::panic::PanicInfo<'_>) -> ! {
+    loop {}
+}

@@ -1,0 +1,64 @@
+//! What joints and mounts carry, and the torques that prescribed and locked joints need.
+
+use precess_dynamics::{LoadAxes, Spacecraft, Wrench};
+
+use crate::List;
+use crate::craft::Craft;
+use crate::error::{Code, Fault};
+use crate::evaluate::{given, with};
+use crate::memory::write;
+use crate::types;
+
+fn of_wrench(wrench: &Wrench) -> types::Wrench {
+    types::Wrench { force: wrench.force.into(), moment: wrench.moment.into() }
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `craft` points to a spacecraft, the others to their structures; `fault` may be null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_loads_of(
+    craft: *const Craft,
+    state: *const types::State,
+    inputs: *const types::Inputs,
+    axes: i32,
+    out: *mut types::Loads,
+    fault: *mut Fault,
+) -> i32 {
+    let ask = |craft: &Spacecraft<List>| {
+        let axes = match axes {
+            0 => LoadAxes::Body,
+            1 => LoadAxes::Carrier,
+            2 => LoadAxes::Hub,
+            3 => LoadAxes::Inertial,
+            _ => return Err(Code::UnknownChoice.into()),
+        };
+        // SAFETY: by contract.
+        let (state, inputs) = unsafe { given(craft, state, inputs) }?;
+        let accelerations = craft.accelerations(&state, &inputs)?;
+        let found = craft.loads(&state, &inputs, &accelerations, axes)?;
+        let none = types::Wrench { force: [0.0; 3], moment: [0.0; 3] };
+        let mut to = types::Loads {
+            hub: of_wrench(&found.hub),
+            mount: [none; crate::MAX_DEVICES],
+            joint: [[none; 3]; crate::MAX_DEVICES],
+            motor: Default::default(),
+        };
+        let places = to.mount.iter_mut().zip(&mut to.joint).zip(&mut to.motor);
+        for (((mount, joints), motors), device) in places.zip(found.devices.iter().flatten()) {
+            *mount = of_wrench(&device.mount);
+            for (to, from) in joints.iter_mut().zip(device.joints.as_slice()) {
+                *to = of_wrench(from);
+            }
+            for (to, from) in motors.iter_mut().zip(device.motors.as_slice()) {
+                *to = *from;
+            }
+        }
+        // SAFETY: by contract.
+        Ok(unsafe { write(out, to) }?)
+    };
+    // SAFETY: by contract.
+    unsafe { with(craft, fault, ask) }
+}

@@ -1,0 +1,125 @@
+//! Pointers of C made values: null and misaligned ones are refused, everything else is the caller's
+//! promise.
+
+use crate::error::Code;
+
+/// A structure of numbers alone: every pattern of bits is a value of it.
+///
+/// # Safety
+///
+/// Implemented for `repr(C)` structures of integers and floating-point numbers only.
+pub unsafe trait Plain: Copy {}
+
+// SAFETY: every pattern of bits is a number.
+unsafe impl Plain for f64 {}
+// SAFETY: every pattern of bits is a number.
+unsafe impl Plain for u32 {}
+// SAFETY: every pattern of bits is a number.
+unsafe impl Plain for usize {}
+// SAFETY: every pattern of bits is a number.
+unsafe impl Plain for u8 {}
+
+/// Whether a pointer may be followed, as far as it tells itself.
+///
+/// # Errors
+///
+/// [`Code::Null`], [`Code::Misaligned`].
+pub fn check<T>(pointer: *const T) -> Result<(), Code> {
+    if pointer.is_null() {
+        Err(Code::Null)
+    } else if pointer.is_aligned() {
+        Ok(())
+    } else {
+        Err(Code::Misaligned)
+    }
+}
+
+/// The value at a pointer.
+///
+/// # Errors
+///
+/// [`Code::Null`], [`Code::Misaligned`].
+///
+/// # Safety
+///
+/// A pointer that is neither points to a readable `T`.
+pub unsafe fn read<T: Plain>(pointer: *const T) -> Result<T, Code> {
+    check(pointer)?;
+    // SAFETY: not null, aligned, readable by contract; `Plain` has no invalid bits.
+    Ok(unsafe { pointer.read() })
+}
+
+/// Puts a value where a pointer says.
+///
+/// # Errors
+///
+/// [`Code::Null`], [`Code::Misaligned`].
+///
+/// # Safety
+///
+/// A pointer that is neither points to a writable `T`.
+pub unsafe fn write<T: Plain>(pointer: *mut T, value: T) -> Result<(), Code> {
+    check(pointer)?;
+    // SAFETY: not null, aligned, writable by contract.
+    unsafe { pointer.write(value) };
+    Ok(())
+}
+
+/// As [`write`], for what the caller need not ask for: null takes nothing.
+///
+/// # Errors
+///
+/// [`Code::Misaligned`].
+///
+/// # Safety
+///
+/// As [`write`].
+pub unsafe fn offer<T: Plain>(pointer: *mut T, value: T) -> Result<(), Code> {
+    if pointer.is_null() {
+        return Ok(());
+    }
+    // SAFETY: as promised to this function.
+    unsafe { write(pointer, value) }
+}
+
+/// Numbers in a row; none needs no pointer.
+///
+/// # Errors
+///
+/// [`Code::Null`], [`Code::Misaligned`], [`Code::TooMany`] for more than fits into any memory.
+///
+/// # Safety
+///
+/// The pointer points to `count` readable `T` that nobody changes while the slice is in use.
+pub unsafe fn slice<'a, T: Plain>(pointer: *const T, count: usize) -> Result<&'a [T], Code> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    check(pointer)?;
+    if count > isize::MAX as usize / size_of::<T>() {
+        return Err(Code::TooMany);
+    }
+    // SAFETY: not null, aligned, not too long; readable and unchanged by contract.
+    Ok(unsafe { core::slice::from_raw_parts(pointer, count) })
+}
+
+/// Room for numbers in a row, to be written.
+///
+/// # Errors
+///
+/// [`Code::Null`], [`Code::Misaligned`], [`Code::TooMany`].
+///
+/// # Safety
+///
+/// The pointer points to `count` initialised, writable `T` that nobody else touches meanwhile.
+pub unsafe fn slice_mut<'a, T: Plain>(pointer: *mut T, count: usize) -> Result<&'a mut [T], Code> {
+    if count == 0 {
+        return Ok(&mut []);
+    }
+    check(pointer)?;
+    if count > isize::MAX as usize / size_of::<T>() {
+        return Err(Code::TooMany);
+    }
+    // SAFETY: not null, aligned, not too long; writable and alone by contract.
+    Ok(unsafe { core::slice::from_raw_parts_mut(pointer, count) })
+}

@@ -1,0 +1,265 @@
+//! Parameters as a binary table: versioned, checksummed, the same bytes on every target.
+//!
+//! Little-endian; numbers are IEEE-754 doubles, integers 32 bits, nothing is padded.
+//!
+//! ```text
+//! offset          bytes  what
+//! 0               4      "PREC"
+//! 4               4      version of the layout, 1
+//! 8               4      length of the table, checksum included
+//! 12              4      number of devices n, up to 8
+//! 16              104    hub: mass, centre of mass (3), inertia (9)
+//! 120 + 584 k     584    device k: kind, model (4 each); mount (9);
+//!                        3 bodies: mass, origin (3), centre of mass (3), inertia (9);
+//!                        3 joints: stiffness, rest, viscous, coulomb, coulomb_rate
+//! 120 + 584 n     4      CRC-32 of all before (ISO-HDLC: that of zip and Ethernet)
+//! ```
+//!
+//! Units, axes and order of entries are those of the structures.
+
+use core::ffi::c_void;
+
+use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
+
+use crate::MAX_DEVICES;
+use crate::craft::{answer, made, place};
+use crate::error::{Code, Fault, Refusal};
+use crate::memory::{read, slice, slice_mut, write};
+use crate::types::{Body, Device, Hub, Passive};
+
+/// `PRECESS_TABLE_VERSION`.
+pub const VERSION: u32 = 1;
+/// `PRECESS_TABLE_SIZE(0)`: without devices.
+pub const BARE: usize = 124;
+/// What each device adds.
+pub const PER_DEVICE: usize = 584;
+
+const MAGIC: u32 = u32::from_le_bytes(*b"PREC");
+const NO_BODY: Body = Body { mass: 0.0, origin: [0.0; 3], centre: [0.0; 3], inertia: [0.0; 9] };
+const NO_PASSIVE: Passive =
+    Passive { stiffness: 0.0, rest: 0.0, viscous: 0.0, coulomb: 0.0, coulomb_rate: 0.0 };
+const NO_DEVICE: Device =
+    Device { kind: 0, model: 0, mount: [0.0; 9], bodies: [NO_BODY; 3], passive: [NO_PASSIVE; 3] };
+
+/// Length of a table of so many devices.
+#[must_use]
+pub const fn size(devices: usize) -> usize {
+    BARE + PER_DEVICE * devices
+}
+
+/// The checksum, bit by bit: no table of its own in memory.
+fn checksum(bytes: &[u8]) -> u32 {
+    Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC).checksum(bytes)
+}
+
+/// What is passed over each entry of a table in its order; reading and writing differ in it alone.
+trait Pass {
+    fn integer(&mut self, value: &mut i32) -> Option<()>;
+    fn number(&mut self, value: &mut f64) -> Option<()>;
+
+    fn numbers<'a>(&mut self, values: impl IntoIterator<Item = &'a mut f64>) -> Option<()> {
+        values.into_iter().try_for_each(|value| self.number(value))
+    }
+
+    fn hub(&mut self, hub: &mut Hub) -> Option<()> {
+        self.number(&mut hub.mass)?;
+        self.numbers(hub.centre.iter_mut().chain(&mut hub.inertia))
+    }
+
+    fn device(&mut self, device: &mut Device) -> Option<()> {
+        self.integer(&mut device.kind)?;
+        self.integer(&mut device.model)?;
+        self.numbers(&mut device.mount)?;
+        for body in &mut device.bodies {
+            self.number(&mut body.mass)?;
+            self.numbers(body.origin.iter_mut().chain(&mut body.centre).chain(&mut body.inertia))?;
+        }
+        for joint in &mut device.passive {
+            let Passive { stiffness, rest, viscous, coulomb, coulomb_rate } = joint;
+            self.numbers([stiffness, rest, viscous, coulomb, coulomb_rate])?;
+        }
+        Some(())
+    }
+}
+
+/// What is left to be read.
+struct Reading<'a>(&'a [u8]);
+
+impl Reading<'_> {
+    fn bytes<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (first, rest) = self.0.split_first_chunk()?;
+        self.0 = rest;
+        Some(*first)
+    }
+}
+
+impl Pass for Reading<'_> {
+    fn integer(&mut self, value: &mut i32) -> Option<()> {
+        *value = i32::from_le_bytes(self.bytes()?);
+        Some(())
+    }
+
+    fn number(&mut self, value: &mut f64) -> Option<()> {
+        *value = f64::from_le_bytes(self.bytes()?);
+        Some(())
+    }
+}
+
+/// Where there is room to write.
+struct Writing<'a>(&'a mut [u8]);
+
+impl Writing<'_> {
+    fn bytes<const N: usize>(&mut self, value: [u8; N]) -> Option<()> {
+        let (first, rest) = core::mem::take(&mut self.0).split_first_chunk_mut()?;
+        *first = value;
+        self.0 = rest;
+        Some(())
+    }
+}
+
+impl Pass for Writing<'_> {
+    fn integer(&mut self, value: &mut i32) -> Option<()> {
+        self.bytes(value.to_le_bytes())
+    }
+
+    fn number(&mut self, value: &mut f64) -> Option<()> {
+        self.bytes(value.to_le_bytes())
+    }
+}
+
+/// Hub and devices of a table, and how many devices there are.
+fn read_table(table: &[u8]) -> Result<(Hub, [Device; MAX_DEVICES], usize), Code> {
+    let mut reading = Reading(table);
+    let mut word = || reading.bytes().map(u32::from_le_bytes).ok_or(Code::TableLength);
+    if word()? != MAGIC {
+        return Err(Code::TableMagic);
+    }
+    if word()? != VERSION {
+        return Err(Code::TableVersion);
+    }
+    let (length, count) = (word()? as usize, word()? as usize);
+    if count > MAX_DEVICES {
+        return Err(Code::TooMany);
+    }
+    let (body, sum) = table.split_last_chunk().ok_or(Code::TableLength)?;
+    if length != table.len() || length != size(count) {
+        return Err(Code::TableLength);
+    }
+    if checksum(body) != u32::from_le_bytes(*sum) {
+        return Err(Code::TableChecksum);
+    }
+    let mut hub = Hub { mass: 0.0, centre: [0.0; 3], inertia: [0.0; 9] };
+    let mut devices = [NO_DEVICE; MAX_DEVICES];
+    let passed = reading.hub(&mut hub).and_then(|()| {
+        devices.iter_mut().take(count).try_for_each(|device| reading.device(device))
+    });
+    passed.map(|()| (hub, devices, count)).ok_or(Code::TableLength)
+}
+
+fn write_table(hub: &Hub, devices: &[Device], table: &mut [u8]) -> Option<()> {
+    let length = u32::try_from(table.len()).ok()?;
+    let count = u32::try_from(devices.len()).ok()?;
+    let (body, sum) = table.split_last_chunk_mut()?;
+    let mut writing = Writing(body);
+    for word in [MAGIC, VERSION, length, count] {
+        writing.bytes(word.to_le_bytes())?;
+    }
+    writing.hub(&mut { *hub })?;
+    devices.iter().try_for_each(|device| writing.device(&mut { *device }))?;
+    *sum = checksum(body).to_le_bytes();
+    Some(())
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `memory` points to `size` writable bytes, `table` to `length` readable ones, `fault` is null or
+/// points to a fault.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_init_from_table(
+    memory: *mut c_void,
+    size: usize,
+    table: *const u8,
+    length: usize,
+    fault: *mut Fault,
+) -> i32 {
+    let make = || {
+        if table.is_null() {
+            return Err(Refusal::from(Code::Null));
+        }
+        // SAFETY: by contract.
+        let (hub, devices, count) = read_table(unsafe { slice(table, length) }?)?;
+        made(&hub, devices.get(..count).unwrap_or(&devices))
+    };
+    // SAFETY: by contract.
+    let result = unsafe { place(memory, size, make) };
+    // SAFETY: by contract.
+    unsafe { answer(None, result, fault) }
+}
+
+/// See `precess.h`.
+///
+/// # Safety
+///
+/// `hub` points to a hub, `devices` to `count` devices, `table` to `capacity` writable bytes,
+/// `length` to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn precess_table_write(
+    hub: *const Hub,
+    devices: *const Device,
+    count: u32,
+    table: *mut u8,
+    capacity: usize,
+    length: *mut usize,
+) -> i32 {
+    let done = || {
+        let count = count as usize;
+        if count > MAX_DEVICES {
+            return Err(Code::TooMany);
+        }
+        // SAFETY: by contract.
+        let (hub, devices) = unsafe { (read(hub)?, slice(devices, count)?) };
+        if table.is_null() {
+            return Err(Code::Null);
+        }
+        // SAFETY: by contract.
+        let table = unsafe { slice_mut(table, capacity) }?;
+        let table = table.get_mut(..size(count)).ok_or(Code::TooSmall)?;
+        write_table(&hub, devices, table).ok_or(Code::TooSmall)?;
+        // SAFETY: by contract.
+        unsafe { write(length, size(count)) }
+    };
+    done().err().unwrap_or(Code::Ok) as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The check value of the catalogue, so that others can write tables.
+    #[test]
+    fn checksum_is_that_of_zip() {
+        assert_eq!(checksum(b"123456789"), 0xcbf4_3926);
+    }
+
+    #[test]
+    fn what_is_written_is_read_and_every_changed_byte_is_seen() {
+        let hub = Hub { mass: 10.0, centre: [1.0, 2.0, 3.0], inertia: [4.0; 9] };
+        let mut device = NO_DEVICE;
+        (device.kind, device.model, device.mount) = (9, 1, [7.0; 9]);
+        device.passive[2].coulomb_rate = 5.0;
+        let mut table = [0; size(2)];
+        write_table(&hub, &[device, NO_DEVICE], &mut table).unwrap();
+        let (found, devices, count) = read_table(&table).unwrap();
+        assert_eq!((found, devices[0], devices[1], count), (hub, device, NO_DEVICE, 2));
+        for place in 0..table.len() {
+            let mut changed = table;
+            changed[place] ^= 0x10;
+            assert!(read_table(&changed).is_err(), "byte {place}");
+        }
+        for short in 0..table.len() {
+            assert!(read_table(&table[..short]).is_err(), "{short} bytes");
+        }
+    }
+}

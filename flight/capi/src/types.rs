@@ -1,0 +1,178 @@
+//! The structures of the header, field by field. Vectors are x, y, z; matrices row by row; what
+//! belongs to joints stands in `[device][joint]`, from the hub outwards, and is 0 where there is none.
+
+use precess_dynamics::MAX_JOINTS;
+
+use crate::MAX_DEVICES;
+use crate::memory::Plain;
+
+/// A value for each joint.
+pub type PerJoint<T> = [[T; MAX_JOINTS]; MAX_DEVICES];
+
+macro_rules! structures {
+    ($($(#[$doc:meta])* $name:ident { $($(#[$of:meta])* $field:ident: $ty:ty,)* })*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[repr(C)]
+        pub struct $name {
+            $($(#[$of])* pub $field: $ty,)*
+        }
+
+        // SAFETY: integers and floating-point numbers.
+        unsafe impl Plain for $name {}
+    )*};
+}
+
+structures! {
+    /// `precess_hub`.
+    Hub {
+        /// kg.
+        mass: f64,
+        /// B axes, m.
+        centre: [f64; 3],
+        /// kg m².
+        inertia: [f64; 9],
+    }
+
+    /// `precess_body`.
+    Body {
+        /// kg.
+        mass: f64,
+        /// m.
+        origin: [f64; 3],
+        /// m.
+        centre: [f64; 3],
+        /// kg m².
+        inertia: [f64; 9],
+    }
+
+    /// `precess_passive`.
+    Passive {
+        /// N m/rad or N/m.
+        stiffness: f64,
+        /// rad or m.
+        rest: f64,
+        /// N m s/rad or N s/m.
+        viscous: f64,
+        /// N m or N.
+        coulomb: f64,
+        /// rad/s or m/s.
+        coulomb_rate: f64,
+    }
+
+    /// `precess_device`.
+    Device {
+        /// `PRECESS_KIND_`.
+        kind: i32,
+        /// `PRECESS_COUPLED` or `PRECESS_LUMPED`.
+        model: i32,
+        /// Columns are the device's axes along B.
+        mount: [f64; 9],
+        /// From the hub outwards.
+        bodies: [Body; MAX_JOINTS],
+        /// Of the joint before each body.
+        passive: [Passive; MAX_JOINTS],
+    }
+
+    /// `precess_state`.
+    State {
+        /// N axes, m.
+        position: [f64; 3],
+        /// N axes, m/s.
+        velocity: [f64; 3],
+        /// Quaternion, scalar first.
+        attitude: [f64; 4],
+        /// B axes, rad/s.
+        omega: [f64; 3],
+        /// rad or m.
+        coordinate: PerJoint<f64>,
+        /// rad/s or m/s.
+        rate: PerJoint<f64>,
+    }
+
+    /// `precess_wrench`.
+    Wrench {
+        /// N.
+        force: [f64; 3],
+        /// N m.
+        moment: [f64; 3],
+    }
+
+    /// `precess_inputs`.
+    Inputs {
+        /// Through B, B axes, N.
+        force: [f64; 3],
+        /// About B, B axes, N m.
+        torque: [f64; 3],
+        /// N m or N.
+        motor: PerJoint<f64>,
+        /// rad/s² or m/s².
+        prescribed: PerJoint<f64>,
+        /// Prescribed acceleration of B, B axes, m/s².
+        hub_linear: [f64; 3],
+        /// Prescribed angular acceleration of B, B axes, rad/s².
+        hub_angular: [f64; 3],
+        /// Uniform field, N axes, m/s².
+        gravity: [f64; 3],
+        /// Central field, m³/s².
+        mu: f64,
+        /// On the bodies.
+        wrench: PerJoint<Wrench>,
+        /// `PRECESS_DRIVEN`, `PRECESS_PRESCRIBED`, `PRECESS_LOCKED`.
+        mode: PerJoint<i32>,
+        /// `PRECESS_HUB_`.
+        hub_mode: i32,
+        /// `PRECESS_GRAVITY_`.
+        gravity_model: i32,
+        /// Whether `wrench` is read: 0 or 1.
+        wrenches: i32,
+        /// Not read; 0.
+        reserved: i32,
+    }
+
+    /// `precess_accelerations`.
+    Accelerations {
+        /// B axes, m/s².
+        linear: [f64; 3],
+        /// B axes, rad/s².
+        angular: [f64; 3],
+        /// rad/s² or m/s².
+        joint: PerJoint<f64>,
+    }
+
+    /// `precess_momentum`.
+    Momentum {
+        /// N axes, kg m/s.
+        linear: [f64; 3],
+        /// N axes, kg m²/s.
+        angular: [f64; 3],
+    }
+
+    /// `precess_power`.
+    Power {
+        /// W or J.
+        external: f64,
+        /// W or J.
+        hub: f64,
+        /// W or J.
+        gravity: f64,
+        /// W or J.
+        motors: f64,
+        /// W or J.
+        springs: f64,
+        /// W or J.
+        friction: f64,
+    }
+
+    /// `precess_loads`.
+    Loads {
+        /// About B, B axes.
+        hub: Wrench,
+        /// At each device's mount.
+        mount: [Wrench; MAX_DEVICES],
+        /// Across each joint.
+        joint: PerJoint<Wrench>,
+        /// N m or N.
+        motor: PerJoint<f64>,
+    }
+}

@@ -1,0 +1,127 @@
+/* The ground and the scheduler, on this machine: ten seconds of the app, with a table, commands, and
+ * what goes wrong. Prints telemetry; exits with 1 unless all is as it must be. */
+
+#include <stdio.h>
+#include <string.h>
+
+#include "dyn_app.h"
+
+/* Bounds of the residuals after ten seconds: energy to 1e-12 of what the motors did. */
+#define ENERGY_BOUND 1e-9   /* J */
+#define MOMENTUM_BOUND 1e-11 /* kg m^2/s */
+
+static dyn_app app;
+static uint8_t table[PRECESS_TABLE_SIZE(PRECESS_MAX_DEVICES)];
+
+/* The table as a tool on the ground writes it: a hub, a DGVSCMG off balance, a wheel, a panel. */
+static size_t write_table(void)
+{
+    static const double unit[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    static const double across[9] = {0, 0, 1, 1, 0, 0, 0, 1, 0};
+    precess_hub hub;
+    precess_device devices[3];
+    size_t length = 0;
+    int axis, joint;
+    memset(&hub, 0, sizeof hub);
+    memset(devices, 0, sizeof devices);
+    hub.mass = 800.0;
+    devices[0].kind = PRECESS_KIND_DGVSCMG;
+    devices[1].kind = PRECESS_KIND_REACTION_WHEEL;
+    devices[2].kind = PRECESS_KIND_HINGED_PANEL;
+    for (axis = 0; axis < 3; axis++) {
+        hub.inertia[4 * axis] = 600.0 + 100.0 * axis;
+        for (joint = 0; joint < 3; joint++) {
+            devices[joint].bodies[0].inertia[4 * axis] = 0.1;
+            devices[0].bodies[joint].inertia[4 * axis] = 0.1;
+            devices[0].bodies[joint].mass = 4.0;
+        }
+    }
+    memcpy(devices[0].mount, unit, sizeof unit);
+    memcpy(devices[1].mount, across, sizeof across);
+    memcpy(devices[2].mount, unit, sizeof unit);
+    devices[0].bodies[0].origin[0] = 0.3;
+    devices[0].bodies[2].centre[1] = 8e-5;
+    devices[1].bodies[0].mass = 4.0;
+    devices[1].bodies[0].centre[1] = 8e-5;
+    devices[2].bodies[0].mass = 15.0;
+    devices[2].bodies[0].origin[0] = 1.0;
+    devices[2].bodies[0].centre[0] = 0.8;
+    devices[2].passive[0].stiffness = 20.0;
+    devices[2].passive[0].viscous = 0.5;
+    if (precess_table_write(&hub, devices, 3, table, sizeof table, &length) != PRECESS_OK) {
+        return 0;
+    }
+    return length;
+}
+
+static void send(int32_t expected, uint32_t device, uint32_t joint, int32_t mode, double value)
+{
+    dyn_joint_command command;
+    char text[128];
+    int32_t code;
+    command.device = device;
+    command.joint = joint;
+    command.mode = mode;
+    command.value = value;
+    code = dyn_app_command(&app, &command);
+    (void)precess_error_text(code, text, sizeof text);
+    printf("command to joint %u of device %u: %s\n", (unsigned)joint, (unsigned)device, text);
+    if (code != expected) {
+        printf("expected %s\n", precess_error_name(expected));
+        app.telemetry.last_error = -1;
+    }
+}
+
+int main(void)
+{
+    const dyn_housekeeping *told = &app.telemetry;
+    size_t length = write_table();
+    int cycle, sound;
+    if (dyn_app_load(&app, table, length) != PRECESS_OK) {
+        printf("table refused: %s\n", precess_error_name(told->last_error));
+        return 1;
+    }
+    for (cycle = 0; cycle < 100; cycle++) {
+        if (cycle == 0) {
+            send(PRECESS_OK, 0, 2, PRECESS_DRIVEN, 0.2);
+            send(PRECESS_OK, 1, 0, PRECESS_PRESCRIBED, 5.0);
+        }
+        if (cycle == 30) {
+            send(PRECESS_OK, 0, 0, PRECESS_LOCKED, 0.0);
+            send(PRECESS_ERROR_UNKNOWN_CHOICE, 1, 0, 7, 0.0);
+        }
+        if (cycle == 60) {
+            send(PRECESS_OK, 1, 0, PRECESS_LOCKED, 0.0);
+            send(PRECESS_OK, 0, 0, PRECESS_DRIVEN, 0.0);
+            send(PRECESS_ERROR_UNKNOWN_CHOICE, 5, 0, PRECESS_LOCKED, 0.0);
+        }
+        if (dyn_app_wake_up(&app) != PRECESS_OK) {
+            printf("step refused: %s\n", precess_error_name(told->last_error));
+            return 1;
+        }
+        if (cycle % 20 == 19) {
+            printf("%4.1f s  omega %+.6e %+.6e %+.6e rad/s  energy %.6f J\n", 0.1 * (cycle + 1),
+                   told->omega[0], told->omega[1], told->omega[2], told->energy);
+            sound = told->energy_residual < ENERGY_BOUND && told->energy_residual > -ENERGY_BOUND &&
+                    told->momentum_residual < MOMENTUM_BOUND && told->last_error >= 0;
+            if (!sound) {
+                printf("residuals %.1e J, %.1e kg m^2/s out of bounds\n", told->energy_residual,
+                       told->momentum_residual);
+                return 1;
+            }
+        }
+    }
+    fprintf(stderr, "residuals %.1e J, %.1e kg m^2/s\n", told->energy_residual,
+            told->momentum_residual);
+
+    /* A table that was damaged on its way up changes nothing. */
+    table[500] ^= 0x40;
+    if (dyn_app_load(&app, table, length) != PRECESS_ERROR_TABLE_CHECKSUM || told->tables != 1 ||
+        dyn_app_wake_up(&app) != PRECESS_OK || told->wake_ups != 101) {
+        printf("damaged table: not refused as it must be\n");
+        return 1;
+    }
+    printf("damaged table refused, %u commands accepted, %u refused\n", (unsigned)told->commands,
+           (unsigned)told->commands_refused);
+    return 0;
+}

@@ -1,0 +1,274 @@
+//! `capi`: the library for flight software on this machine, as C and C++ see it.
+//!
+//! Builds it, holds the header against it, and runs the programs in C under every compiler that is
+//! there, without a C library, under valgrind and under the sanitizers: all must print the same bits.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::run::{cargo, root, say, target};
+use crate::skip::skip;
+
+/// Warnings, each an error.
+const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-ffp-contract=off"];
+/// The workspace of what is linked on board.
+pub(crate) const MANIFEST: &str = "flight/Cargo.toml";
+const HEADER: &str = "flight/capi/include/precess.h";
+const LAYOUT: &str = "flight/capi/tests/layout.c";
+const PROGRAM: &[&str] = &["flight/capi/tests/abi.c"];
+const GUIDE: &str = "flight/README.md";
+const APP: &[&str] = &["flight/examples/cfs_app/main.c", "flight/examples/cfs_app/dyn_app.c"];
+/// What the application prints.
+const APP_OUTPUT: &str = "flight/examples/cfs_app/expected.txt";
+
+/// A compiler and the language it is asked to take a file for.
+struct Compiler {
+    name: &'static str,
+    arguments: &'static [&'static str],
+    install: &'static str,
+}
+
+const COMPILERS: [Compiler; 4] = [
+    Compiler { name: "gcc", arguments: &["-std=c11"], install: "apt-get install gcc libc6-dev" },
+    Compiler {
+        name: "g++",
+        arguments: &["-std=c++11", "-x", "c++"],
+        install: "apt-get install g++",
+    },
+    Compiler { name: "clang", arguments: &["-std=c11"], install: "apt-get install clang" },
+    Compiler {
+        name: "clang++",
+        arguments: &["-std=c++11", "-x", "c++"],
+        install: "apt-get install clang",
+    },
+];
+
+/// Where things stand.
+struct Host {
+    /// The static library.
+    library: PathBuf,
+    /// The shared one.
+    shared: PathBuf,
+    /// For programs.
+    programs: PathBuf,
+}
+
+/// All of it.
+pub(crate) fn host() -> Result<(), String> {
+    let host = built()?;
+    host.exports()?;
+    let mut outputs = Vec::new();
+    for compiler in &COMPILERS {
+        if !is_there(compiler.name) {
+            skip(&format!("C interface by {}", compiler.name), compiler.install)?;
+            continue;
+        }
+        host.compile(compiler, "layout", &[LAYOUT], &["-c"], false)?;
+        let program = host.compile(compiler, "abi", PROGRAM, &["-O2", "-DHOSTED"], true)?;
+        outputs.push((program.clone(), printed(&mut Command::new(&program))?));
+        let first = host.guide()?;
+        let first = host.compile(compiler, "first", &[&first], &["-O2"], true)?;
+        printed(&mut Command::new(first))?;
+        let app = host.compile(compiler, "app", APP, &["-O2"], true)?;
+        host.app(&mut Command::new(app))?;
+    }
+    let gcc = &COMPILERS[0];
+    if is_there(gcc.name) {
+        outputs.extend(host.checked(gcc)?);
+    }
+    for (program, output) in &outputs {
+        let passed = output.ends_with("passed\n") && output.lines().count() > 100;
+        if !passed || Some(output) != outputs.first().map(|(_, first)| first) {
+            return Err(format!("{} prints other bits, or fails:\n{output}", program.display()));
+        }
+    }
+    say!("{} programs in C and C++ print the same bits", outputs.len());
+    Ok(())
+}
+
+/// Builds both libraries, and tests them from within.
+fn built() -> Result<Host, String> {
+    let folder = target()?.join("flight");
+    let text = folder.to_string_lossy().into_owned();
+    let place = ["--manifest-path", MANIFEST, "--target-dir", &text, "--quiet"];
+    cargo(&[&["build", "--release"][..], &place].concat())?;
+    cargo(&[&["test"][..], &place].concat())?;
+    let programs = folder.join("programs");
+    std::fs::create_dir_all(&programs)
+        .map_err(|error| format!("cannot make {}: {error}", programs.display()))?;
+    let release = folder.join("release");
+    let (library, shared) = (release.join("libprecess.a"), release.join("libprecess.so"));
+    Ok(Host { library, shared, programs })
+}
+
+impl Host {
+    /// The functions of the header are those of the library, and what it asks for is what the header's
+    /// readers are told.
+    fn exports(&self) -> Result<(), String> {
+        if !is_there("nm") {
+            return skip("exports of the library", "apt-get install binutils");
+        }
+        let header = read(&root().join(HEADER))?;
+        let declared: BTreeSet<_> = functions(&header).collect();
+        let nm = |option: &str| {
+            printed(Command::new("nm").args(["--dynamic", option]).arg(&self.shared))
+        };
+        let defined = nm("--defined-only")?;
+        let defined: BTreeSet<_> =
+            defined.lines().filter_map(|line| line.split(' ').nth(2)).collect();
+        if let Some(odd) = declared.symmetric_difference(&defined).next() {
+            return Err(format!(
+                "{odd} stands in one of {HEADER} and the library; write it in both"
+            ));
+        }
+        let asked = nm("--undefined-only")?;
+        let asked = asked.lines().filter_map(|line| line.trim().strip_prefix("U "));
+        // A version may follow the name.
+        let mut asked = asked.map(|name| name.split('@').next().unwrap_or(name));
+        if let Some(odd) = asked.find(|name| !["memcpy", "memset"].contains(name)) {
+            return Err(format!("the library asks for {odd}; only memcpy and memset are promised"));
+        }
+        let all = printed(Command::new("nm").arg(&self.shared))?;
+        let panics = ["panick", "unwrap_failed", "expect_failed", "_fail"];
+        if let Some(odd) = all.lines().find(|line| panics.iter().any(|part| line.contains(part))) {
+            return Err(format!("the library has a path that panics, {odd}; find its caller"));
+        }
+        say!("{} functions, in the header and in the library; none can panic", declared.len());
+        Ok(())
+    }
+
+    /// The program of the guide, in a file.
+    fn guide(&self) -> Result<String, String> {
+        let guide = read(&root().join(GUIDE))?;
+        let program = guide.split_once("```c\n").and_then(|(_, rest)| rest.split_once("```"));
+        let (program, _) = program.ok_or(format!("{GUIDE} has no program in C"))?;
+        let to = self.programs.join("first.c");
+        std::fs::write(&to, program)
+            .map_err(|error| format!("cannot write {}: {error}", to.display()))?;
+        Ok(to.to_string_lossy().into_owned())
+    }
+
+    /// Compiles a program; returns where it is.
+    fn compile(
+        &self,
+        compiler: &Compiler,
+        name: &str,
+        sources: &[&str],
+        options: &[&str],
+        link: bool,
+    ) -> Result<PathBuf, String> {
+        let kind = options.iter().find_map(|option| option.strip_prefix("-fsanitize="));
+        let kind = kind.map_or("", |_| "-sanitized");
+        let to = self.programs.join(format!("{name}-{}{kind}", compiler.name));
+        let mut command = Command::new(compiler.name);
+        command.args(compiler.arguments).args(WARNINGS).args(options);
+        command.args(["-Iflight/capi/include", "-o"]).arg(&to).args(sources);
+        if link {
+            // What follows is no source.
+            if compiler.arguments.contains(&"-x") {
+                command.args(["-x", "none"]);
+            }
+            command.arg(&self.library);
+        }
+        printed(&mut command)?;
+        Ok(to)
+    }
+
+    /// Without a C library, under valgrind, under the sanitizers, and with the shared library.
+    fn checked(&self, gcc: &Compiler) -> Result<Vec<(PathBuf, String)>, String> {
+        let mut outputs = Vec::new();
+        let mut run = |program: PathBuf, by: &mut Command| {
+            outputs.push((program, printed(by)?));
+            Ok::<_, String>(())
+        };
+        if cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+            let sources = [PROGRAM, &["flight/capi/tests/start.c"]].concat();
+            let bare = [
+                "-O2",
+                "-ffreestanding",
+                "-nostdlib",
+                "-static",
+                "-fno-stack-protector",
+                "-fno-tree-loop-distribute-patterns",
+                "-Wl,--gc-sections",
+            ];
+            let program = self.compile(gcc, "bare", &sources, &bare, true)?;
+            run(program.clone(), &mut Command::new(program))?;
+        }
+        let options = ["-g", "-O1", "-DHOSTED", "-fsanitize=address,undefined"];
+        let options = [&options[..], &["-fno-sanitize-recover=all"]].concat();
+        let program = self.compile(gcc, "abi", PROGRAM, &options, true)?;
+        run(program.clone(), &mut Command::new(program))?;
+        let app = self.compile(gcc, "app", APP, &options, true)?;
+        self.app(&mut Command::new(app))?;
+        if is_there("valgrind") {
+            for name in ["abi", "app"] {
+                let program = self.programs.join(format!("{name}-gcc"));
+                let mut valgrind = Command::new("valgrind");
+                valgrind.args(["--quiet", "--error-exitcode=9", "--leak-check=full"]).arg(&program);
+                if name == "app" {
+                    self.app(&mut valgrind)?;
+                } else {
+                    run(program, &mut valgrind)?;
+                }
+            }
+        } else {
+            skip("C interface under valgrind", "apt-get install valgrind")?;
+        }
+        Ok(outputs)
+    }
+
+    /// Runs the application, which prints what it always does.
+    fn app(&self, command: &mut Command) -> Result<(), String> {
+        let (found, expected) = (printed(command)?, read(&root().join(APP_OUTPUT))?);
+        if found == expected {
+            return Ok(());
+        }
+        let kept = self.programs.join("app.txt");
+        std::fs::write(&kept, found).map_err(|error| format!("cannot write: {error}"))?;
+        Err(format!("{} is not {APP_OUTPUT}; compare them", kept.display()))
+    }
+}
+
+/// The functions that a header declares.
+fn functions(header: &str) -> impl Iterator<Item = &str> {
+    header.lines().filter(|line| !line.starts_with([' ', '#', '/', '*'])).filter_map(|line| {
+        let (before, _) = line.split_once('(')?;
+        before.rsplit([' ', '*']).next().filter(|name| name.starts_with("precess_"))
+    })
+}
+
+fn is_there(program: &str) -> bool {
+    Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path)
+        .map_err(|error| format!("cannot read {}: {error}", path.display()))
+}
+
+/// What a program prints, if it succeeds.
+fn printed(command: &mut Command) -> Result<String, String> {
+    let line = format!("{command:?}").replace('"', "");
+    let output = command.current_dir(root()).output();
+    let output = output.map_err(|error| format!("`{line}` did not start: {error}"))?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    if output.status.success() {
+        return Ok(text);
+    }
+    let errors = String::from_utf8_lossy(&output.stderr);
+    Err(format!("`{line}` failed ({}):\n{text}{errors}", output.status))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn functions_are_found_by_their_declarations() {
+        let header = "/* precess_no(1) */\nint32_t precess_yes(void);\nconst char *precess_too(int \
+                      a,\n                precess_not(b));\n#define precess_never(x) x\n";
+        assert_eq!(functions(header).collect::<Vec<_>>(), ["precess_yes", "precess_too"]);
+    }
+}
