@@ -6,6 +6,7 @@
 
 mod body;
 mod by_number;
+pub mod c;
 mod cost;
 mod device;
 mod device_calls;
@@ -15,6 +16,7 @@ mod file;
 mod functions;
 mod home;
 mod layout;
+mod parts;
 mod prepare;
 mod render;
 mod shared;
