@@ -21,6 +21,14 @@ use crate::kernel::{Record, Source, shared_records};
 use crate::kinds::{KINDS, Kind};
 use crate::threads::side_by_side;
 
+/// What an evaluation needs besides: the solver's own work, for which there is no derivation.
+const BY_HAND: [(&str, &str); 4] = [
+    ("precess_solve.h", include_str!("by_hand/precess_solve.h")),
+    ("precess_solve.c", include_str!("by_hand/precess_solve.c")),
+    ("precess_sin_cos.h", include_str!("by_hand/precess_sin_cos.h")),
+    ("precess_sin_cos.c", include_str!("by_hand/precess_sin_cos.c")),
+];
+
 /// The kernels of every kind, the records that they share, and the hub's equations.
 ///
 /// # Errors
@@ -36,6 +44,9 @@ pub fn files() -> Result<Vec<EmittedFile>, EmitError> {
     context.insert("records", &records);
     let text = templates()?.render("hub.h", &context)?;
     files.push(EmittedFile { path: "precess_hub.h".to_owned(), text });
+    let by_hand =
+        BY_HAND.map(|(path, text)| EmittedFile { path: path.to_owned(), text: text.to_owned() });
+    files.extend(by_hand);
     Ok(files)
 }
 
@@ -177,7 +188,8 @@ mod tests {
         let files = files().unwrap();
         let stems = KINDS.map(|kind| format!("precess_{}", kind.name));
         let expected = stems.iter().flat_map(|stem| ["h", "c"].map(|end| format!("{stem}.{end}")));
-        let expected: Vec<_> = expected.chain(["precess_hub.h".to_owned()]).collect();
+        let shared = ["precess_hub.h"].into_iter().chain(BY_HAND.map(|(path, _)| path));
+        let expected: Vec<_> = expected.chain(shared.map(str::to_owned)).collect();
         assert_eq!(files.iter().map(|file| file.path.clone()).collect::<Vec<_>>(), expected);
         for file in &files {
             let wide = file.text.lines().find(|line| line.chars().count() > LINE);
