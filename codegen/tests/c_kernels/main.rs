@@ -8,9 +8,10 @@ mod build;
 mod programs;
 mod random;
 
-use std::env;
 use std::path::PathBuf;
+use std::process::Command;
 use std::sync::LazyLock;
+use std::{env, fs};
 
 use precess_codegen::emit::{EmittedFile, c};
 
@@ -166,6 +167,45 @@ fn a_whole_evaluation_has_the_bits_of_rust() {
         let program = build::c(&at, compiler, &files, &sources, &[]);
         assert_ne!(run(&program, &numbers), found, "{compiler}");
     }
+}
+
+/// The program asserts, and says which line does not hold; a twin that accepts any pivot fails.
+#[test]
+fn what_has_no_solution_is_refused() {
+    let main = [("main.c", include_str!("edges.c"))];
+    let bound = "pivot > 64.0 * DBL_EPSILON * diagonal";
+    for compiler in compilers() {
+        let mut files = FILES.clone();
+        let known = ["precess_hub", "precess_solve", "precess_sin_cos"];
+        files.retain(|file| known.iter().any(|name| file.path.starts_with(name)));
+        let at = folder(&format!("edges-{compiler}"));
+        let succeeds = |files: &[EmittedFile]| {
+            let program = build::c(&at, compiler, files, &main, &[]);
+            Command::new(program).status().expect("the program starts").success()
+        };
+        assert!(succeeds(&files), "{compiler}");
+        let solver = files.iter_mut().find(|file| file.text.contains(bound)).expect("the bound");
+        solver.text = solver.text.replace(bound, "pivot >= 0.0 * diagonal");
+        assert!(!succeeds(&files), "{compiler}");
+    }
+}
+
+/// Clang needs nothing but itself for that; GCC's C++ is a package of its own.
+#[test]
+fn the_headers_are_good_cpp_too() {
+    if !compilers().contains(&"clang") {
+        return;
+    }
+    let headers = FILES.iter().filter(|file| !file.path.ends_with('c'));
+    let headers: Vec<_> = headers.map(|file| file.path.as_str()).collect();
+    let at = folder("cpp");
+    for file in FILES.iter() {
+        fs::write(at.join(&file.path), &file.text).expect("an emitted file");
+    }
+    let mut clang = Command::new("clang");
+    clang.args(["-x", "c++", "-std=c++11", "-fsyntax-only", "-Wall", "-Wextra", "-pedantic"]);
+    let output = clang.arg("-Werror").args(&headers).current_dir(&at).output().expect("clang");
+    assert!(headers.len() == 12 + 3 && output.status.success(), "{output:?}");
 }
 
 #[test]
