@@ -31,7 +31,9 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Derive, emit and prove every kernel; write the files if every proof holds
-    #[command(after_help = "Example: cargo xtask regen --check")]
+    #[command(
+        after_help = "Examples: cargo xtask regen --check\n          cargo xtask regen --emit c --out DIR"
+    )]
     Regen(regen::Options),
     /// The quick loop: `regen --check`, `mutate --check`, format, clippy, unit tests
     #[command(after_help = "Example: cargo xtask check")]

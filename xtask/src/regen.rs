@@ -1,10 +1,12 @@
 //! `regen`: pages in, proofs and files out. Nothing is written unless every proof holds.
+//!
+//! With `--emit c` the files are the same kernels as C, for those who cannot link Rust.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
-use precess_codegen::emit::EmittedFile;
+use clap::{Args, ValueEnum};
+use precess_codegen::emit::{self, EmittedFile};
 use precess_codegen::proof::Row;
 use precess_codegen::regen::{Regeneration, regenerate};
 
@@ -14,6 +16,19 @@ use crate::run::{root, say};
 
 /// Where the hand-checked pages stand.
 pub(crate) const PAGES: &str = "tests/derivation";
+
+/// Where the C kernels are written unless something else is said; not part of the repository.
+const C_FOLDER: &str = "target/c";
+
+/// What the kernels are written as.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Language {
+    /// The files of this repository
+    #[default]
+    Rust,
+    /// C99 with the same bits, into target/c
+    C,
+}
 
 /// Options of `regen`.
 #[derive(Args, Default)]
@@ -27,10 +42,13 @@ pub(crate) struct Options {
     /// Show the verdict on each equation as it is printed, and stop
     #[arg(long)]
     printed: bool,
+    /// Write the kernels in this language
+    #[arg(long, value_name = "LANGUAGE", value_enum, default_value_t, conflicts_with = "printed")]
+    emit: Language,
     /// Read the hand-checked pages from this folder
     #[arg(long, value_name = "DIR")]
     pages: Option<PathBuf>,
-    /// Write the files below this folder instead of the repository
+    /// Write the files below this folder instead of the repository, or of target/c
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -47,7 +65,17 @@ impl Options {
         let given = options.filter_map(|(option, folder)| {
             folder.as_ref().map(|folder| format!(" {option} {}", folder.display()))
         });
-        format!("cargo xtask regen{}", given.collect::<String>())
+        let emit = if self.emit == Language::C { " --emit c" } else { "" };
+        format!("cargo xtask regen{emit}{}", given.collect::<String>())
+    }
+
+    /// The folder that the files are written below.
+    fn into(&self) -> PathBuf {
+        let usual = match self.emit {
+            Language::Rust => root(),
+            Language::C => root().join(C_FOLDER),
+        };
+        self.out.clone().unwrap_or(usual)
     }
 }
 
@@ -68,11 +96,14 @@ pub(crate) fn regen(options: &Options) -> Result<(), String> {
             made.rows.len()
         ));
     }
-    let into = options.out.clone().unwrap_or_else(root);
+    let files = match options.emit {
+        Language::Rust => made.files,
+        Language::C => emit::c::files().map_err(|error| error.to_string())?,
+    };
     if options.check {
-        compare(&made.files, &into, &options.remedy())
+        compare(&files, &options.into(), &options.remedy())
     } else {
-        write(&made.files, &into)
+        write(&files, &options.into())
     }
 }
 
@@ -150,6 +181,26 @@ mod tests {
         assert!(a.contains_key("dynamics/src/generated/hub.rs"), "{:?}", a.keys());
         assert!(a.contains_key("docs/derivation.html"), "{:?}", a.keys());
         assert!(a == b, "of {:?} and {:?} some differ", a.keys(), b.keys());
+    }
+
+    #[test]
+    fn c_is_written_by_itself_and_checked_like_the_rest() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = Some(folder.path().to_path_buf());
+        let options = |check| {
+            let (out, emit) = (out.clone(), Language::C);
+            Options { check, quiet: true, out, emit, ..Options::default() }
+        };
+        assert_eq!(regen(&options(false)), Ok(()));
+        let written = tree(folder.path(), "");
+        assert!(written.contains_key("precess_dgvscmg.c"), "{:?}", written.keys());
+        assert!(written.keys().all(|path| path.starts_with("precess_")), "{:?}", written.keys());
+        assert_eq!(regen(&options(true)), Ok(()));
+        fs::write(folder.path().join("precess_hub.h"), "").unwrap();
+        let message = regen(&options(true)).unwrap_err();
+        let all = written.len();
+        let start = format!("1 of {all} files are stale; run `cargo xtask regen --emit c --out ");
+        assert!(message.starts_with(&start), "{message}");
     }
 
     /// Every file below a folder, by its path from there.

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::body::Counts;
-use super::file::{kernel_body, prepare_body};
 use super::functions::{Functions, functions};
+use super::parts::{kernel_body, prepare_body};
 use crate::derivation::base::Passes;
 use crate::derivation::chain::Chain;
 use crate::graph::Graph;

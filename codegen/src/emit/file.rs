@@ -1,30 +1,23 @@
 //! The files: records and functions laid out by templates.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::fmt;
 
 use proc_macro2::TokenStream;
 use serde::Serialize;
 use tera::{Context, Tera};
 
-use super::body::{Counts, FunctionBody, Writer};
+use super::body::Counts;
 use super::by_number::by_number;
 use super::cost::{CountText, chain_passes, count, factoring};
 use super::device::{Signature, Signatures, device_file, type_name};
-use super::functions::{Functions, functions};
 use super::home::Home;
-use super::prepare::Prepared;
-use super::render::Rendered;
+use super::parts::{FUSED, Part, Parts, parts};
 use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
 use crate::derivation::chain::Chain;
-use crate::graph::{Node, NodeId};
-use crate::kernel::{Kernel, Record, Source, parameters};
-use crate::kernel::{joint_accelerations, modes, motors, pose, rates, shared_records, wrenches};
+use crate::kernel::{Record, Source, shared_records};
 use crate::kinds::{Kind, Motion};
 
-/// Where the time of an evaluation goes. What is asked once in a while keeps plain operators.
-/// Inlined, since lanes reach the wide instructions of their caller only so.
-const FUSED: [&str; 2] = ["eliminate", "back_substitute"];
 /// The records that are gathered into lanes or spread from them.
 const LANED: [&str; 4] = ["Prepared", "JointAccelerations", "HubShare", "Gains"];
 
@@ -46,6 +39,13 @@ pub enum EmitError {
     Syntax(String, syn::Error),
     /// A line is too wide.
     Width(String, usize),
+    /// A statement that C has not.
+    NoC {
+        /// The function that it stands in.
+        function: String,
+        /// As Rust.
+        statement: String,
+    },
 }
 
 impl fmt::Display for EmitError {
@@ -55,6 +55,9 @@ impl fmt::Display for EmitError {
             Self::Syntax(path, error) => write!(f, "{path} would not parse: {error}"),
             Self::Width(path, line) => {
                 write!(f, "{path}:{line} would be wider than {LINE} columns; shorten its name")
+            }
+            Self::NoC { function, statement } => {
+                write!(f, "{function}: `{statement}` cannot be written as C")
             }
         }
     }
@@ -172,57 +175,20 @@ fn kind_file(
     signatures: &mut Signatures,
 ) -> Result<EmittedFile, EmitError> {
     let kind = chain.kind;
-    let Functions { kernels, mut prepared } = functions(chain);
-    let raw = parameters(kind);
-
-    let body = prepare_body(chain, &prepared);
-    describe(&mut prepared.record, &body);
-    let computed = prepared.computed(&raw);
-    let fields = prepared.record.fields.iter().map(|field| {
-        let own = !computed.contains(&field.name);
-        (field.name.clone(), if own { format!("p.{}", field.name) } else { field.name.clone() })
-    });
-    let mut functions = vec![function(
-        "prepare",
-        &["What depends on parameters alone, once per device.".to_owned()],
-        &[("p", "Parameters".to_owned())],
-        &body,
-        literal("Prepared", &fields.collect::<Vec<_>>()),
-        "Prepared",
-    )];
-    rows.push(count(kind.name, "prepare", body.counts));
-
-    for kernel in &kernels {
-        let body = kernel_body(chain, kernel, &prepared);
-        rows.push(count(kind.name, &kernel.name, body.counts));
-        let read = kernel.inputs.iter().filter(|(letter, _)| body.mentions(letter));
-        let inputs: Vec<_> = read.map(|(letter, record)| (*letter, record.name.clone())).collect();
-        let letters = inputs.iter().map(|(letter, _)| *letter).collect();
-        let fields = kernel.output.fields.iter().map(|field| field.name.clone()).collect();
-        signatures.insert(kernel.name.clone(), Signature { letters, fields });
-        let result = literal(&kernel.output.name, &record_fields(&kernel.output));
-        functions.push(function(
-            &kernel.name,
-            &kernel.doc,
-            &inputs,
-            &body,
-            result,
-            &kernel.output.name,
-        ));
-    }
-
-    let mut records = vec![raw, prepared.record];
-    records.extend(pose(kind).into_iter().map(|(_, record)| record));
-    // A kind whose joints all keep their rates has neither motors nor modes.
-    let given = [rates(kind), motors(kind), modes(kind), wrenches(kind)].into_iter();
-    records.extend(given.filter(|record| !record.fields.is_empty()));
-    let outputs = kernels.iter().flat_map(|kernel| kernel.output.with_nested());
-    for output in outputs.filter(|record| !record.shared) {
-        if !records.contains(&output) {
-            records.push(output);
+    let Parts { mut records, functions: parts } = parts(chain);
+    let mut functions = Vec::new();
+    for part in &parts {
+        rows.push(count(kind.name, &part.name, part.body.counts));
+        let letters = part.inputs.iter().map(|(letter, _)| *letter).collect();
+        let fields = part.output.fields.iter().map(|field| field.name.clone()).collect();
+        signatures.insert(part.name.clone(), Signature { letters, fields });
+        functions.push(function(part));
+        if let Some(own) =
+            records.iter_mut().find(|own| part.name == "prepare" && **own == part.output)
+        {
+            describe(own, part.body.sections.iter().map(|(title, s)| (title.as_str(), pretty(s))));
         }
     }
-    debug_assert!(records.contains(&joint_accelerations(kind)));
     let texts: Vec<_> = records.iter().map(record_text).collect();
     let mut imports: Vec<_> = shared_records().into_iter().map(|record| record.name).collect();
     imports.sort_unstable();
@@ -239,7 +205,7 @@ fn kind_file(
 }
 
 /// What is said of a body whose axes do not turn with it.
-fn symmetric(kind: &Kind) -> Vec<String> {
+pub(super) fn symmetric(kind: &Kind) -> Vec<String> {
     let turning: Vec<_> = kind.turning().map(|link| link.joint.tag).collect();
     let told = kind.links.iter().filter(|link| {
         matches!(link.joint.motion, Motion::Turn(_)) && !turning.contains(&link.joint.tag)
@@ -254,60 +220,17 @@ fn symmetric(kind: &Kind) -> Vec<String> {
     text.flat_map(|text| wrapped(&text, COMMENT)).collect()
 }
 
-/// The body of `prepare`.
-pub(super) fn prepare_body<'g>(chain: &Chain<'g>, prepared: &Prepared<'g>) -> FunctionBody {
-    let (graph, raw) = (chain.graph, parameters(chain.kind));
-    let argument: HashSet<&str> = raw.fields.iter().map(|field| field.name.as_str()).collect();
-    let given = |id: NodeId| match graph.node(id) {
-        Node::Symbol(symbol) => {
-            let name = graph.symbol_info(symbol).name;
-            argument.contains(name.as_str()).then(|| Rendered::field("p", &name))
-        }
-        _ => None,
-    };
-    let witness = Rendered::field("p", &raw.fields[0].name);
-    Writer::new(graph, &given, witness).write(&prepared.sections, &prepared.computed(&raw))
-}
-
-pub(super) fn kernel_body<'g>(
-    chain: &Chain<'g>,
-    kernel: &Kernel<'g>,
-    prepared: &Prepared<'g>,
-) -> FunctionBody {
-    let graph = chain.graph;
-    let mut argument: HashMap<String, &str> = HashMap::new();
-    for (letter, record) in &kernel.inputs {
-        for name in record.fields.iter().map(|field| field.name.clone()) {
-            argument.insert(name, letter);
-        }
-    }
-    let given = |id: NodeId| {
-        if let Some(name) = prepared.fields.get(&id) {
-            return Some(Rendered::field("p", name));
-        }
-        let Node::Symbol(symbol) = graph.node(id) else { return None };
-        let name = graph.symbol_info(symbol).name;
-        argument.get(&name).map(|letter| Rendered::field(letter, &name))
-    };
-    // The fields of `Prepared` are not among the kernel's own: without a state, one of them.
-    let of_record = |letter: &str, record: &Record| {
-        let number = record.fields.iter().find(|field| !matches!(field.source, Source::Nested(_)));
-        number.map(|field| Rendered::field(letter, &field.name))
-    };
-    let stated = kernel.inputs.iter().find_map(|(letter, record)| of_record(letter, record));
-    let witness = stated.or_else(|| of_record("p", &prepared.record));
-    let witness = witness.expect("a kernel reads something");
-    let writer = Writer::new(graph, &given, witness);
-    let writer = if FUSED.contains(&kernel.name.as_str()) { writer.fusing() } else { writer };
-    writer.write(&kernel.sections, &kernel.output.sources())
-}
-
-/// Documents a constant by the formula that computes it, and a named one by its section.
-fn describe(record: &mut Record, body: &FunctionBody) {
+/// Documents a constant by the formula that computes it, and a named one by its section: titles, and
+/// statements line by line.
+pub(super) fn describe<'a>(
+    record: &mut Record,
+    sections: impl Iterator<Item = (&'a str, Vec<String>)>,
+) {
     let mut docs = HashMap::new();
-    for (title, statements) in &body.sections {
-        for line in pretty(statements) {
-            if let Some((name, formula)) = line.trim_start_matches("let ").split_once(" = ") {
+    for (title, lines) in sections {
+        for line in lines {
+            if let Some((name, formula)) = line.split_once(" = ") {
+                let name = name.rsplit(' ').next().unwrap_or(name);
                 let formula = format!("`{}`.", formula.trim_end_matches(';'));
                 let numbered = name.starts_with("k_");
                 let doc = if numbered { formula } else { format!("{formula} {title}") };
@@ -344,19 +267,15 @@ pub(super) fn record_text(record: &Record) -> RecordText {
     }
 }
 
-fn function(
-    name: &str,
-    doc: &[String],
-    inputs: &[(&str, String)],
-    body: &FunctionBody,
-    result: Vec<String>,
-    output: &str,
-) -> FunctionText {
+fn function(part: &Part) -> FunctionText {
+    let Part { name, body, .. } = part;
+    let output = &part.output.name;
     let Counts { mul, add, neg, div } = body.counts;
-    let mut lines: Vec<_> = doc.iter().map(|line| spaced(line)).collect();
+    let mut lines: Vec<_> = part.doc.iter().map(|line| spaced(line)).collect();
     lines.push(String::new());
     lines.push(format!(" Operations: {mul} mul, {add} add, {neg} neg, {div} div, 0 trig."));
-    let arguments: Vec<_> = inputs.iter().map(|(p, record)| format!("{p}: &{record}<T>")).collect();
+    let arguments = part.inputs.iter().map(|(p, record)| format!("{p}: &{}<T>", record.name));
+    let arguments: Vec<_> = arguments.collect();
     let line = format!("pub fn {name}<T: Real>({}) -> {output}<T>", arguments.join(", "));
     let signature = if line.len() + " {".len() <= LINE {
         line
@@ -370,21 +289,24 @@ fn function(
     };
     FunctionText {
         doc: lines,
-        inlined: FUSED.contains(&name),
+        inlined: FUSED.contains(&name.as_str()),
         signature,
         sections: body.sections.iter().map(section).collect(),
-        result,
+        result: literal(output, &record_fields(part, &part.output)),
     }
 }
 
 /// Field and value of every number of a record.
-fn record_fields(record: &Record) -> Vec<(String, String)> {
+fn record_fields(part: &Part, record: &Record) -> Vec<(String, String)> {
     let field = |field: &crate::kernel::Field| {
         let value = match &field.source {
+            Source::Own if part.copied.contains(&field.name) => {
+                format!("{}.{}", part.inputs[0].0, field.name)
+            }
             Source::Own => field.name.clone(),
             Source::Named(name) => name.clone(),
             Source::Nested(record) => {
-                let inside = literal(&record.name, &record_fields(record));
+                let inside = literal(&record.name, &record_fields(part, record));
                 inside.join("\n")
             }
         };

@@ -6,6 +6,7 @@
 
 mod body;
 mod by_number;
+pub mod c;
 mod cost;
 mod device;
 mod device_bodies;
@@ -16,6 +17,7 @@ mod file;
 mod functions;
 mod home;
 mod layout;
+mod parts;
 mod prepare;
 mod render;
 mod shared;

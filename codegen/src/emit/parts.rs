@@ -1,0 +1,136 @@
+//! What is emitted of a kind before it has a syntax: its records, and its functions with their bodies.
+
+use std::collections::{HashMap, HashSet};
+
+use super::body::{FunctionBody, Writer};
+use super::functions::{Functions, functions};
+use super::prepare::Prepared;
+use super::render::Rendered;
+use crate::derivation::chain::Chain;
+use crate::graph::{Node, NodeId};
+use crate::kernel::{Kernel, Record, Source, parameters};
+use crate::kernel::{joint_accelerations, modes, motors, pose, rates, wrenches};
+
+/// Where the time of an evaluation goes. What is asked once in a while keeps plain operators.
+/// Inlined, since lanes reach the wide instructions of their caller only so.
+pub(super) const FUSED: [&str; 2] = ["eliminate", "back_substitute"];
+
+/// Records and functions of a kind, in the order of the emitted files.
+pub(super) struct Parts {
+    /// Those of the kind alone, each before those that contain it.
+    pub(super) records: Vec<Record>,
+    /// `prepare` first.
+    pub(super) functions: Vec<Part>,
+}
+
+/// One function.
+pub(super) struct Part {
+    /// Its name.
+    pub(super) name: String,
+    /// Its documentation, line by line.
+    pub(super) doc: Vec<String>,
+    /// The arguments that its body reads: their letters and records.
+    pub(super) inputs: Vec<(&'static str, Record)>,
+    /// Its statements, in the emitted Rust.
+    pub(super) body: FunctionBody,
+    /// What it returns.
+    pub(super) output: Record,
+    /// The fields of `output` that are those of the first argument.
+    pub(super) copied: HashSet<String>,
+}
+
+/// The parts of the chain's kind.
+pub(super) fn parts(chain: &Chain<'_>) -> Parts {
+    let kind = chain.kind;
+    let Functions { kernels, prepared } = functions(chain);
+    let raw = parameters(kind);
+    let computed = prepared.computed(&raw);
+    let names = prepared.record.fields.iter().map(|field| field.name.clone());
+    let prepare = Part {
+        name: "prepare".to_owned(),
+        doc: vec!["What depends on parameters alone, once per device.".to_owned()],
+        inputs: vec![("p", raw.clone())],
+        body: prepare_body(chain, &prepared),
+        output: prepared.record.clone(),
+        copied: names.filter(|name| !computed.contains(name)).collect(),
+    };
+    let part = |kernel: &Kernel<'_>| {
+        let body = kernel_body(chain, kernel, &prepared);
+        let read = kernel.inputs.iter().filter(|(letter, _)| body.mentions(letter));
+        let whole = |record: &Record| {
+            let constants = record.name == prepared.record.name;
+            if constants { prepared.record.clone() } else { record.clone() }
+        };
+        Part {
+            name: kernel.name.clone(),
+            doc: kernel.doc.clone(),
+            inputs: read.map(|(letter, record)| (*letter, whole(record))).collect(),
+            body,
+            output: kernel.output.clone(),
+            copied: HashSet::new(),
+        }
+    };
+    let functions = std::iter::once(prepare).chain(kernels.iter().map(part)).collect();
+
+    let mut records = vec![raw, prepared.record.clone()];
+    records.extend(pose(kind).into_iter().map(|(_, record)| record));
+    // A kind whose joints all keep their rates has neither motors nor modes.
+    let given = [rates(kind), motors(kind), modes(kind), wrenches(kind)].into_iter();
+    records.extend(given.filter(|record| !record.fields.is_empty()));
+    let outputs = kernels.iter().flat_map(|kernel| kernel.output.with_nested());
+    for output in outputs.filter(|record| !record.shared) {
+        if !records.contains(&output) {
+            records.push(output);
+        }
+    }
+    debug_assert!(records.contains(&joint_accelerations(kind)));
+    Parts { records, functions }
+}
+
+/// The body of `prepare`.
+pub(super) fn prepare_body<'g>(chain: &Chain<'g>, prepared: &Prepared<'g>) -> FunctionBody {
+    let (graph, raw) = (chain.graph, parameters(chain.kind));
+    let argument: HashSet<&str> = raw.fields.iter().map(|field| field.name.as_str()).collect();
+    let given = |id: NodeId| match graph.node(id) {
+        Node::Symbol(symbol) => {
+            let name = graph.symbol_info(symbol).name;
+            argument.contains(name.as_str()).then(|| Rendered::field("p", &name))
+        }
+        _ => None,
+    };
+    let witness = Rendered::field("p", &raw.fields[0].name);
+    Writer::new(graph, &given, witness).write(&prepared.sections, &prepared.computed(&raw))
+}
+
+pub(super) fn kernel_body<'g>(
+    chain: &Chain<'g>,
+    kernel: &Kernel<'g>,
+    prepared: &Prepared<'g>,
+) -> FunctionBody {
+    let graph = chain.graph;
+    let mut argument: HashMap<String, &str> = HashMap::new();
+    for (letter, record) in &kernel.inputs {
+        for name in record.fields.iter().map(|field| field.name.clone()) {
+            argument.insert(name, letter);
+        }
+    }
+    let given = |id: NodeId| {
+        if let Some(name) = prepared.fields.get(&id) {
+            return Some(Rendered::field("p", name));
+        }
+        let Node::Symbol(symbol) = graph.node(id) else { return None };
+        let name = graph.symbol_info(symbol).name;
+        argument.get(&name).map(|letter| Rendered::field(letter, &name))
+    };
+    // The fields of `Prepared` are not among the kernel's own: without a state, one of them.
+    let of_record = |letter: &str, record: &Record| {
+        let number = record.fields.iter().find(|field| !matches!(field.source, Source::Nested(_)));
+        number.map(|field| Rendered::field(letter, &field.name))
+    };
+    let stated = kernel.inputs.iter().find_map(|(letter, record)| of_record(letter, record));
+    let witness = stated.or_else(|| of_record("p", &prepared.record));
+    let witness = witness.expect("a kernel reads something");
+    let writer = Writer::new(graph, &given, witness);
+    let writer = if FUSED.contains(&kernel.name.as_str()) { writer.fusing() } else { writer };
+    writer.write(&kernel.sections, &kernel.output.sources())
+}

@@ -1,0 +1,116 @@
+//! Compilers, and programs built and run in folders of their own.
+
+use std::env;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use precess_codegen::emit::EmittedFile;
+
+/// As flight software compiles: every warning that the page asks for is an error.
+pub(crate) const FLAGS: [&str; 8] = [
+    "-std=c99",
+    "-O2",
+    "-Wall",
+    "-Wextra",
+    "-Wconversion",
+    "-pedantic",
+    "-Werror",
+    "-ffp-contract=off",
+];
+/// Set to 1, it makes a skip a failure: for machines on which everything is to be run.
+const REQUIRE_ALL: &str = "PRECESS_REQUIRE_ALL";
+
+/// The compilers that this machine has; what is missing is told, or refused.
+pub(crate) fn compilers() -> Vec<&'static str> {
+    let there = |name: &&str| {
+        let asked = Command::new(name).arg("--version").output();
+        let there = asked.is_ok_and(|output| output.status.success());
+        if !there {
+            let skipped =
+                format!("skipped: {name} (install with: apt-get install {name} libc6-dev)");
+            assert!(env::var_os(REQUIRE_ALL).is_none_or(|value| value != "1"), "{skipped}");
+            eprintln!("{skipped}");
+        }
+        there
+    };
+    ["gcc", "clang"].into_iter().filter(there).collect()
+}
+
+/// A folder of this suite, made anew.
+pub(crate) fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c_kernels").join(name);
+    fs::create_dir_all(&folder).expect("a folder for the build");
+    folder
+}
+
+/// The program that the emitted files and others make, compiled with `FLAGS` and what comes after them.
+pub(crate) fn c(
+    folder: &Path,
+    compiler: &str,
+    files: &[EmittedFile],
+    others: &[(&str, &str)],
+    more: &[&str],
+) -> PathBuf {
+    let emitted = files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
+    let all: Vec<_> = emitted.chain(others.iter().copied()).collect();
+    for (name, text) in &all {
+        fs::write(folder.join(name), text).expect("a file to compile");
+    }
+    let program = folder.join("program");
+    let sources = all.iter().map(|(name, _)| Path::new(name));
+    let sources = sources.filter(|path| path.extension().is_some_and(|ending| ending == "c"));
+    let mut command = Command::new(compiler);
+    command.args(FLAGS).args(more).args(sources).arg("-o").arg(&program).current_dir(folder);
+    let output = command.output().expect("the compiler starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{compiler} refuses what was emitted: {errors}");
+    program
+}
+
+/// Programs over the dynamics crate, by name: the folder that they stand in.
+pub(crate) fn rust(folder: &Path, programs: &[(&str, &str)]) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let source = folder.join("src/bin");
+    fs::create_dir_all(&source).expect("a folder for the programs");
+    for (name, text) in programs {
+        fs::write(source.join(format!("{name}.rs")), text).expect("a program");
+    }
+    let manifest = format!(
+        "[package]\nname = \"rust-kernels\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
+         [workspace]\n\
+         [dependencies]\nprecess-dynamics = {{ path = '{}' }}\n\
+         nalgebra = {{ version = '0.35', default-features = false, features = ['libm'] }}\n\
+         [profile.dev]\nopt-level = 1\ndebug = false\n",
+        root.join("dynamics").display()
+    );
+    fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
+    // The versions that the workspace has: cargo drops what the programs do not need.
+    fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("the versions");
+    let target = folder.join("target");
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["build", "--offline", "--quiet", "--message-format", "short", "--manifest-path"]);
+    cargo.arg(folder.join("Cargo.toml")).arg("--target-dir").arg(&target).current_dir(&root);
+    // Flags of the outer build (coverage, sanitizers) are not the programs'.
+    for flags in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET"] {
+        cargo.env_remove(flags);
+    }
+    let output = cargo.output().expect("cargo starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "the programs do not build: {errors}");
+    target.join("debug")
+}
+
+/// What a program makes of these numbers, as it writes them.
+pub(crate) fn run(program: &Path, numbers: &[f64]) -> Vec<f64> {
+    let given = program.with_extension("numbers");
+    let bytes: Vec<_> = numbers.iter().flat_map(|number| number.to_ne_bytes()).collect();
+    fs::write(&given, bytes).expect("the numbers");
+    let mut command = Command::new(program);
+    command.stdin(File::open(&given).expect("the numbers")).stderr(Stdio::inherit());
+    let output = command.output().expect("the program starts");
+    assert!(output.status.success(), "{} fails: {}", program.display(), output.status);
+    let (numbers, rest) = output.stdout.as_chunks();
+    assert!(rest.is_empty(), "{} wrote part of a number", program.display());
+    numbers.iter().map(|bytes| f64::from_ne_bytes(*bytes)).collect()
+}
