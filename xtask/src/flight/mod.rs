@@ -17,6 +17,7 @@ use std::thread;
 
 use clap::Args;
 
+use crate::capi;
 use crate::skip::skip;
 use board::{BOARDS, Board};
 use gates::Library;
@@ -40,8 +41,12 @@ pub(crate) struct Options {
     board: Option<String>,
 }
 
-/// Builds, runs, compares and measures everything; writes the page or compares with it.
+/// The library as C sees it; then builds, runs, compares and measures everything on boards, and writes
+/// the page or compares with it.
 pub(crate) fn flight(options: &Options) -> Result<(), String> {
+    if options.board.is_none() {
+        capi::host()?;
+    }
     if let Some(install) = tools::missing() {
         return skip("flight", &install);
     }
