@@ -49,7 +49,7 @@ pub(super) fn twins(board: &Board, tally: &mut Tally) {
     for (feature, reason) in [
         ("allocates", "E0463"),
         ("panics", "can panic"),
-        ("incomplete", "undefined symbol: precess_twin"),
+        ("incomplete", "is no function of the library"),
         ("deep", "bytes of stack"),
         ("recursive", "calls itself"),
         ("indirect", "through a pointer"),

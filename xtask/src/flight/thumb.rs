@@ -1,5 +1,5 @@
 //! Thumb code read for one thing: where control may go from a function. Encodings are those of the
-//! Armv7-M architecture reference manual, A7.7 (B, BL, BLX, BX, LDR, MOV).
+//! Armv7-M architecture reference manual, A7.7 (B, BL, BLX, BX, LDR, MOV, ADD).
 
 /// Where control goes from an instruction, besides the next one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,11 +70,10 @@ fn of_two(first: u16, second: u16, pc: u32) -> Option<Flow> {
             _ => None,
         };
     }
-    // LDR to the program counter, but from the stack, which returns.
+    // LDR to the program counter, but from the stack, which returns. TBB and TBH jump forward by a
+    // table that the compiler lays into the function itself, and stay within it.
     let loads = high & 0xFF70 == 0xF850 && low >> 12 == 15;
-    // TBB and TBH, jumps by a table: within the function, but how far the table tells.
-    let table = high & 0xFFF0 == 0xE8D0 && low & 0xFFE0 == 0xF000;
-    (loads && high & 0xF != 13 || table).then_some(Flow::Anywhere)
+    (loads && high & 0xF != 13).then_some(Flow::Anywhere)
 }
 
 /// A number of so many bits with its sign, as a wrapping offset.
