@@ -215,7 +215,7 @@ mod tests {
     #[test]
     fn result_is_ready_after_the_longest_chain() {
         let [a, b] = [3.0, 2.0].map(Counted::given);
-        let latencies = Latencies { mul: 4.0, add: 3.0, recip: 13.0, sin_cos: 60.0 };
+        let latencies = Latencies { mul: 4.0, add: 3.0, recip: 5.0, sin_cos: 60.0 };
         let found = timed(latencies, || (a + b) * (a * b * b) + a.recip());
         assert_eq!(found.ready(), 4.0 + 4.0 + 4.0 + 3.0);
     }
