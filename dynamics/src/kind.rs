@@ -15,6 +15,7 @@ use crate::wrench::Wrench;
 
 /// A joint and the body behind it: names, and how the joint moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts about a joint")]
 pub struct JointInfo {
     /// From 0, from the hub outwards.
     pub index: usize,
@@ -30,6 +31,9 @@ pub struct JointInfo {
     pub axis: usize,
     /// Whether it slides.
     pub slides: bool,
+    /// Whether no equation of motion depends on the coordinate: that of a rotor which is symmetric
+    /// about its axis.
+    pub ignorable: bool,
     /// Whether its torque may be given; otherwise the kind holds its acceleration at zero.
     pub driven: bool,
     /// Whether nothing is behind the body.

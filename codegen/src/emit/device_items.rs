@@ -258,10 +258,11 @@ impl Items<'_> {
         let info = |(k, link): (usize, &Link)| {
             let (joint, body) = (&link.joint, &link.body);
             let slides = matches!(joint.motion, Motion::Slide(_));
+            let ignorable = !slides && !self.kind.axes_turn(k);
             format!(
                 "JointInfo {{\n    index: {k},\n    body: \"{}\",\n    coordinate: \"{}\",\n    \
                  rate: \"{}\",\n    motor: \"{}\",\n    axis: {},\n    slides: {slides},\n    \
-                 driven: {},\n    tip: {},\n}}",
+                 ignorable: {ignorable},\n    driven: {},\n    tip: {},\n}}",
                 body.title,
                 joint.coordinate,
                 joint.rate,

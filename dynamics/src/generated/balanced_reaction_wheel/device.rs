@@ -276,6 +276,7 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
         motor: "u_w",
         axis: 0,
         slides: false,
+        ignorable: true,
         driven: true,
         tip: true,
     }];

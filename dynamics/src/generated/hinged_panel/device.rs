@@ -282,6 +282,7 @@ impl<T: Scalar> Kind for HingedPanel<T> {
         motor: "u_p",
         axis: 2,
         slides: false,
+        ignorable: false,
         driven: true,
         tip: true,
     }];

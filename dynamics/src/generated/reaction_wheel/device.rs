@@ -287,6 +287,7 @@ impl<T: Scalar> Kind for ReactionWheel<T> {
         motor: "u_w",
         axis: 0,
         slides: false,
+        ignorable: false,
         driven: true,
         tip: true,
     }];

@@ -272,6 +272,7 @@ impl<T: Scalar> Kind for SloshMass<T> {
         motor: "u_s",
         axis: 0,
         slides: true,
+        ignorable: false,
         driven: true,
         tip: true,
     }];
