@@ -10,7 +10,7 @@ use crate::assembly::Assembly;
 use crate::attitude::Attitude;
 use crate::devices::{Around, Devices, Given};
 use crate::each::Each;
-use crate::error::SolveError;
+use crate::error::{Quantity, SolveError};
 use crate::gravity::{Gravity, at_b};
 use crate::inputs::Inputs;
 #[cfg(feature = "lanes")]
@@ -19,6 +19,7 @@ use crate::mode::HubMode;
 use crate::real::{Scalar, zero};
 use crate::solve::Solution;
 use crate::spacecraft::Spacecraft;
+use crate::stability::Stiffness;
 use crate::state::{Accelerations, State};
 use crate::vec3::{Vec3, add, columns, components, extreme, finite, sub, vector, zeros};
 
@@ -34,8 +35,8 @@ impl<D: Devices> Spacecraft<D> {
     ///
     /// [`SolveError::Singular`] where a driven joint or the hub is left without inertia,
     /// [`SolveError::NotFinite`] naming the first input that is infinite or NaN (also one that the
-    /// accelerations do not depend on, such as the position), [`SolveError::Overflow`] where the
-    /// result is not finite though every input is, [`SolveError::LockedJointMoves`] and
+    /// accelerations do not depend on, such as the position), [`SolveError::Overflow`] naming the
+    /// acceleration that is not finite though every input is, [`SolveError::LockedJointMoves`] and
     /// [`SolveError::FixedHubMoves`] where what is locked moves, [`SolveError::NotDriven`] where a
     /// mode asks of a joint what its kind has not.
     pub fn accelerations<A: Attitude<D::Scalar>>(
@@ -43,24 +44,21 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
-        if !sound(state, inputs) {
-            return Err(self.diagnosis(state, inputs, SolveError::Overflow));
-        }
         let mut found = self.no_accelerations();
-        match self.solve(state, inputs, &mut found) {
-            Ok(()) => Ok(found),
+        match check_inputs(state, inputs).and_then(|()| self.solve(state, inputs, &mut found)) {
+            Ok(_) => Ok(found),
             Err(failure) => Err(self.diagnosis(state, inputs, failure)),
         }
     }
 
     /// [`Self::accelerations`] without the search for a culprit, in their place: to move what was just
-    /// put together takes time.
+    /// put together takes time. Returns what springs and friction demand of a step.
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
         found: &mut Accelerations<D>,
-    ) -> Result<(), SolveError<D::Scalar>> {
+    ) -> Evaluated<D> {
         match self.arithmetic {
             Arithmetic::Plain => self.solve_by::<_, Plainly>(state, inputs, found),
             #[cfg(feature = "lanes")]
@@ -75,14 +73,15 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
         found: &mut Accelerations<D>,
-    ) -> Result<(), SolveError<D::Scalar>> {
+    ) -> Evaluated<D> {
         let Outset { around, at_b } = outset(state, inputs)?;
         let mut assembly = self.assembly(inputs);
         let mut scratch = D::scratch(&self.devices);
         self.eliminate::<_, W>(state, Given::of(inputs), &around, &mut assembly, &mut scratch)?;
         let hub = self.hub_moves(inputs, &around, &mut assembly, at_b)?;
         D::back_substitute(&self.devices, &scratch, &hub, &mut found.devices);
-        found.finish(inputs, &hub, at_b)
+        found.finish(inputs, &hub, at_b)?;
+        Ok(assembly.stiffness)
     }
 
     /// Accelerations to be filled in.
@@ -116,7 +115,12 @@ impl<D: Devices> Spacecraft<D> {
         }
         let hub = match &inputs.hub {
             HubMode::Free => {
-                assembly.system(around.omega).solve().map_err(|small| small.of(None, None))?
+                let system = assembly.system(around.omega);
+                let (solution, pivots) = system.solve().map_err(|small| small.of(None, None))?;
+                if self.passive {
+                    assembly.stiffness = assembly.stiffness.on_free_hub(pivots);
+                }
+                solution
             }
             HubMode::Fixed => Solution { r_b_n_ddot: sub(zeros(), at_b), omega_dot: zeros() },
             HubMode::Prescribed { r_b_n_ddot, omega_dot } => Solution {
@@ -124,7 +128,7 @@ impl<D: Devices> Spacecraft<D> {
                 omega_dot: components(omega_dot),
             },
         };
-        if hub.is_finite() { Ok(hub) } else { Err(SolveError::Overflow) }
+        if hub.is_finite() { Ok(hub) } else { Err(overflow()) }
     }
 
     /// Eliminates every device, keeps what back substitution needs, adds to the hub.
@@ -149,7 +153,7 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<D::Accelerations, SolveError<D::Scalar>> {
         let mut found = D::no_accelerations_for(&self.devices);
         D::back_substitute(&self.devices, scratch, hub, &mut found);
-        if found.values().all(Scalar::is_finite) { Ok(found) } else { Err(SolveError::Overflow) }
+        if found.values().all(Scalar::is_finite) { Ok(found) } else { Err(overflow()) }
     }
 
     /// What to report for a failed evaluation: an input that is not finite explains everything else,
@@ -167,20 +171,78 @@ impl<D: Devices> Spacecraft<D> {
         if let Err(culprit) = self.refuse(state, inputs) {
             return culprit;
         }
+        self.cause(state, inputs, failure)
+    }
+
+    /// What to report for a failed evaluation of finite inputs.
+    #[cold]
+    pub(crate) fn cause<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        failure: SolveError<D::Scalar>,
+    ) -> SolveError<D::Scalar> {
         match failure {
             _ if matches!(inputs.gravity, Gravity::Central { .. })
                 && extreme(components(&state.r_b_n)) == zero() =>
             {
                 SolveError::AtCentre
             }
+            SolveError::Singular { device: Some(device), joint: Some(joint), pivot, bound }
+                if !(pivot.is_finite() && bound.is_finite()) =>
+            {
+                SolveError::Overflow { what: Quantity::JointAcceleration { device, joint } }
+            }
             SolveError::Singular { pivot, bound, .. }
                 if !(pivot.is_finite() && bound.is_finite()) =>
             {
-                SolveError::Overflow
+                SolveError::Overflow { what: self.overflowing(state, inputs) }
+            }
+            SolveError::Overflow { what: Quantity::HubAcceleration } => {
+                SolveError::Overflow { what: self.overflowing(state, inputs) }
             }
             failure => failure,
         }
     }
+
+    /// The acceleration whose terms overflow: the hub's where those of the hub alone do, else that of the
+    /// first device with one that is not finite on a hub that does not accelerate, of the joint
+    /// nearest the tip, which was eliminated first.
+    fn overflowing<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Quantity {
+        let joint = || -> Result<Option<Quantity>, SolveError<D::Scalar>> {
+            let around = outset(state, inputs)?.around;
+            let (mut assembly, mut scratch) = (self.assembly(inputs), D::scratch(&self.devices));
+            let alone = assembly.system(around.omega);
+            if !(finite(alone.h_v) && finite(alone.h_w)) {
+                return Ok(None);
+            }
+            let given = Given::of(inputs);
+            self.eliminate::<_, Plainly>(state, given, &around, &mut assembly, &mut scratch)?;
+            let still = Solution { r_b_n_ddot: zeros(), omega_dot: zeros() };
+            let mut found = D::no_accelerations_for(&self.devices);
+            D::back_substitute(&self.devices, &scratch, &still, &mut found);
+            let joints = found.values().zip(self.joints());
+            let mut joints = joints.filter(|(value, _)| !value.is_finite()).map(|(_, joint)| joint);
+            let first = joints.next();
+            let last = first.map(|(device, _)| joints.take_while(move |(of, _)| *of == device));
+            let joint = last.and_then(Iterator::last).or(first);
+            Ok(joint.map(|(device, info)| Quantity::JointAcceleration { device, joint: info.body }))
+        };
+        joint().ok().flatten().unwrap_or(Quantity::HubAcceleration)
+    }
+}
+
+/// What an evaluation returns beside the accelerations.
+pub(crate) type Evaluated<D> =
+    Result<Stiffness<<D as Devices>::Scalar>, SolveError<<D as Devices>::Scalar>>;
+
+/// An acceleration is not finite; [`Spacecraft::diagnosis`] finds which.
+pub(crate) fn overflow<T>() -> SolveError<T> {
+    SolveError::Overflow { what: Quantity::HubAcceleration }
 }
 
 /// What is known before any device is asked.
@@ -225,7 +287,7 @@ impl<D: Devices> Accelerations<D> {
         self.omega_dot = vector(hub.omega_dot);
         let is_finite =
             finite(components(&self.r_b_n_ddot)) && self.devices.values().all(Scalar::is_finite);
-        if is_finite { Ok(()) } else { Err(SolveError::Overflow) }
+        if is_finite { Ok(()) } else { Err(overflow()) }
     }
 }
 
@@ -243,15 +305,16 @@ pub(crate) fn check_fixed<D: Devices, A>(
     if value == zero() { Ok(()) } else { Err(SolveError::FixedHubMoves { value }) }
 }
 
-/// Whether what the accelerations may not depend on is finite: the position, forces on a hub that
-/// is held, motors of joints that are. All else shows in the result.
-pub(crate) fn sound<D: Devices, A: Attitude<D::Scalar>>(
+/// Rejects what the accelerations may not depend on where it is not finite: the position, forces on a
+/// hub that is held, motors of joints that are. All else shows in the result.
+pub(crate) fn check_inputs<D: Devices, A: Attitude<D::Scalar>>(
     state: &State<D, A>,
     inputs: &Inputs<D>,
-) -> bool {
+) -> Result<(), SolveError<D::Scalar>> {
     let vectors = [&state.r_b_n, &state.r_b_n_dot, &inputs.force, &inputs.torque_b];
-    vectors.into_iter().all(|v| finite(components(v)))
+    let finite = vectors.into_iter().all(|v| finite(components(v)))
         && state.attitude.is_valid()
         && inputs.motors.values().all(Scalar::is_finite)
-        && inputs.bodies.iter().flat_map(Each::values).all(|wrench| wrench.is_finite())
+        && inputs.bodies.iter().flat_map(Each::values).all(|wrench| wrench.is_finite());
+    if finite { Ok(()) } else { Err(overflow()) }
 }

@@ -11,6 +11,7 @@ use crate::generated::hub::{BodyAcceleration, BodyRate, Handed, HubShare};
 use crate::hub::PreparedHub;
 use crate::real::Real;
 use crate::solve::{Solution, System};
+use crate::stability::Stiffness;
 use crate::symmetric::Symmetric;
 use crate::vec3::{Vec3, add};
 
@@ -19,11 +20,15 @@ use crate::vec3::{Vec3, add};
 pub struct Assembly<T> {
     /// Hub and devices as one rigid body.
     body: PreparedHub<T>,
+    /// Moments of inertia of its constant share: what the moving share may cancel.
+    constant: Vec3<T>,
     /// What acts from outside: force, and moment about B.
     force: Vec3<T>,
     moment: Vec3<T>,
     /// What the joints take out of the equations.
     taken: System<T>,
+    /// Of springs and friction.
+    pub(crate) stiffness: Stiffness<T>,
     /// Second moment about B of what was added, kg m²; only with a central field.
     pub(crate) second_moment: Symmetric<T>,
 }
@@ -34,7 +39,9 @@ impl<T: Real> Assembly<T> {
     pub(crate) fn new(body: &PreparedHub<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
         let zero = body.m_b.like(0.0);
         let second_moment = Symmetric::filled(zero);
-        Self { body: *body, force, moment, taken: System::filled(zero), second_moment }
+        let constant = body.i_b_b.diagonal();
+        let (taken, stiffness) = (System::filled(zero), Stiffness::none(zero));
+        Self { body: *body, constant, force, moment, taken, stiffness, second_moment }
     }
 
     /// Adds a force and a moment about B from outside.
@@ -73,10 +80,15 @@ impl<T: Real> Assembly<T> {
         taken.h_w = add(taken.h_w, [e.h_w_1, e.h_w_2, e.h_w_3]);
     }
 
-    /// What is to be solved where the hub turns at `omega`.
+    /// The hub's system, joints eliminated, where the hub turns at `omega`.
+    ///
+    /// Its scale is of the spacecraft with every joint locked. The moving share of inertia may cancel
+    /// nearly all of the constant one, whose rounding stays: both count.
     #[inline(always)]
     pub(crate) fn system(&self, omega: Vec3<T>) -> System<T> {
-        self.body.system(omega, self.force, self.moment).less(&self.taken)
+        let whole = self.body.system(omega, self.force, self.moment);
+        let (mass, locked) = whole.scale;
+        System { scale: (mass, add(self.constant, locked)), ..whole.less(&self.taken) }
     }
 }
 

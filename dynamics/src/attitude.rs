@@ -31,6 +31,12 @@ pub trait Attitude<T: Scalar>: Copy + Debug + PartialEq {
     #[must_use]
     fn advanced(&self, terms: &[(T, Self::Rate)]) -> Self;
 
+    /// The same attitude by parameters that a step may start from: those given, unless they are so
+    /// large or small that their rates lose digits. MRPs beyond a half turn become their shadow set, a
+    /// quaternion that is very short or long is divided by its largest component.
+    #[must_use]
+    fn regular(&self) -> Self;
+
     /// The same attitude by the preferred parameters: unit length, or the inner of two sets.
     #[must_use]
     fn normalised(&self) -> Self;

@@ -10,13 +10,14 @@ use crate::arithmetic::{Asked, Pivots, Places};
 use crate::assembly::{Assembly, along_b};
 use crate::devices::{Around, Given, own_mode};
 use crate::each::{Each, JointStates};
-use crate::error::SolveError;
+use crate::error::{Quantity, SolveError};
 use crate::generated::hub::BodyVelocity;
 use crate::gravity::Central;
 use crate::hub::BodySums;
 use crate::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
 use crate::mode::{Drive, Mode};
 use crate::passive::Passive;
+use crate::pivot_scale::pivot_scales;
 use crate::real::{Scalar, one, zero};
 use crate::solve::check_pivot;
 use crate::symmetric::Symmetric;
@@ -33,6 +34,8 @@ pub struct Device<K: Kind> {
     pub(crate) mount: Columns<K::Scalar>,
     pub(crate) constants: K::Constants<K::Scalar>,
     pub(crate) passive: K::PerJoint<Passive<K::Scalar>>,
+    /// What the pivot of each joint is checked against.
+    pub(crate) scale: K::PerJoint<K::Scalar>,
     /// Whether no joint has a spring or friction.
     pub(crate) free: bool,
     /// What the simplified model puts in the place of the rotor's imbalance.
@@ -55,12 +58,13 @@ impl<K: Kind> Device<K> {
         for (excess, body) in excess.values_mut().zip(parameters.bodies().values()) {
             *excess = triangle_excess(&body.inertia);
         }
-        let passive = made.passive();
+        let (passive, scale) = (made.passive(), pivot_scales::<K>(&bodies));
         let free = passive.values().all(|joint| joint == Passive::none());
         Self {
             mount,
             constants: made.constants(rotate_transposed(&mount, origin)),
             passive,
+            scale,
             free,
             lumped,
             excess,
@@ -99,8 +103,28 @@ impl<K: Kind> Device<K> {
         }
         let (constants, omega) = (&self.constants, along_b(around.omega));
         let asked = Asked::<K, _> { constants, joints: &joints, omega, drives: &drives };
-        let pivots = way(&asked, pose, Places { assembly, gains });
-        check_pivots::<K>(device, &pivots, &drives)
+        let pivots = way(&asked, pose, Places { assembly: &mut *assembly, gains });
+        if !(self.free || around.impulse) {
+            self.add_stiffness(&joints, &pivots, &drives, assembly);
+        }
+        self.check_pivots(device, &pivots, &drives)
+    }
+
+    /// Adds springs and friction to what a step has to resolve.
+    #[inline(never)]
+    fn add_stiffness(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        pivots: &Pivots<K, K::Scalar>,
+        drives: &Drives<K>,
+        assembly: &mut Assembly<K::Scalar>,
+    ) {
+        let mut coefficients = K::all([zero::<K::Scalar>(); 2]);
+        let states = joints.states().zip(self.passive.values());
+        for (place, ([_, rate], passive)) in coefficients.values_mut().zip(states) {
+            *place = [passive.damping(rate), passive.stiffness];
+        }
+        assembly.stiffness.add::<K>(&coefficients, pivots, drives);
     }
 
     /// Adds what acts on the bodies from outside to the joints' torques and to the hub's system.
@@ -127,6 +151,28 @@ impl<K: Kind> Device<K> {
         assembly.second_moment = assembly.second_moment.plus(second_moment);
     }
 
+    /// Rejects pivots that are rounding, in the order of the elimination: the first one rejected is the
+    /// cause, those after it may be its consequence.
+    #[inline(always)]
+    fn check_pivots(
+        &self,
+        device: usize,
+        pivots: &Pivots<K, K::Scalar>,
+        drives: &Drives<K>,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        let mut rejected = None;
+        let joints = pivots.values().zip(self.scale.values());
+        for (((pivot, scale), drive), info) in joints.zip(drives.values()).zip(K::JOINTS) {
+            if let (Some([pivot, diagonal]), true) = (pivot, drive.driven == one())
+                && let Err(small) = check_pivot(pivot, diagonal.max(scale))
+            {
+                // From the hub outwards: the one nearest the tip was eliminated first.
+                rejected = Some(small.of(Some(device), Some(info.body)));
+            }
+        }
+        rejected.map_or(Ok(()), Err)
+    }
+
     /// Torques and modes of the joints.
     #[inline(always)]
     fn by_mode(
@@ -138,19 +184,21 @@ impl<K: Kind> Device<K> {
         let mut drives = K::all(Mode::Driven.drive(zero()));
         let motors = given.motors.values().zip(given.modes.values());
         let states = joints.states().zip(K::JOINTS);
-        for ((drive, (torque, mode)), ([_, rate], info)) in
+        for ((drive, (torque, mode)), ([coordinate, rate], info)) in
             drives.values_mut().zip(motors).zip(states)
         {
+            if info.ignorable && !coordinate.is_finite() {
+                let what = Quantity::Joint { device, field: info.coordinate };
+                return Err(SolveError::Overflow { what });
+            }
             // Locked at rest is what the kind does anyway.
             let still = mode == Mode::Locked && rate == zero();
             if !(info.driven || still || mode == own_mode(info)) {
                 return Err(SolveError::NotDriven { device, joint: info.body });
             }
             *drive = match mode {
-                Mode::Driven if !impulse => mode.drive(torque),
                 Mode::Locked if impulse => Mode::Prescribed(-rate).drive(zero()),
                 Mode::Prescribed(_) if impulse => Mode::Locked.drive(zero()),
-                Mode::Driven if impulse => Mode::Driven.drive(zero()),
                 Mode::Locked if rate != zero() => {
                     return Err(SolveError::LockedJointMoves { device, joint: info.body, rate });
                 }
@@ -196,8 +244,11 @@ impl<K: Kind> Device<K> {
         if !(self.free || impulse) {
             let states = joints.states().zip(self.passive.values());
             for (drive, ([coordinate, rate], passive)) in drives.values_mut().zip(states) {
-                let own = passive.of_spring(coordinate) + passive.of_friction(rate);
-                drive.torque = drive.torque + own * drive.driven;
+                // Of no other joint: what is too large for a number would spoil what it does not move.
+                if drive.driven == one() {
+                    let own = passive.of_spring(coordinate) + passive.of_friction(rate);
+                    drive.torque = drive.torque + own;
+                }
             }
         }
         Ok(drives)
@@ -306,23 +357,4 @@ impl<T: Scalar> Lumped<T> {
             moment: vector([zero(), self.j_13 * square, -(self.j_12 * square)]),
         }
     }
-}
-
-/// Refuses pivots that are rounding of their diagonals, in the order of the elimination: the first
-/// one refused is the cause, those after it may be its consequence.
-fn check_pivots<K: Kind>(
-    device: usize,
-    joints: &Pivots<K, K::Scalar>,
-    drives: &K::PerJoint<Drive<K::Scalar>>,
-) -> Result<(), SolveError<K::Scalar>> {
-    let mut refused = None;
-    for ((pivot, drive), info) in joints.values().zip(drives.values()).zip(K::JOINTS) {
-        if let (Some([pivot, diagonal]), true) = (pivot, drive.driven == one())
-            && let Err(small) = check_pivot(pivot, diagonal)
-        {
-            // From the hub outwards: the one nearest the tip was eliminated first.
-            refused = Some(small.of(Some(device), Some(info.body)));
-        }
-    }
-    refused.map_or(Ok(()), Err)
 }

@@ -86,10 +86,14 @@ impl<K: Kind> Device<K> {
             *load = load.minus(&applied).minus(&gradient);
         }
         let (mount, joints) = self.told(&pose, loads, along);
-        totals.sound = totals.sound
-            && mount.is_finite()
-            && joints.values().all(|load| load.is_finite())
-            && motors.values().all(Scalar::is_finite);
+        let finite = joints.values().zip(motors.values()).zip(powers.values());
+        let first = finite.map(|((load, motor), power)| {
+            mount.is_finite() && load.is_finite() && motor.is_finite() && power.is_finite()
+        });
+        let first = first.enumerate().find(|(_, finite)| !finite);
+        totals.overflow =
+            totals.overflow.or(first.map(|(joint, _)| totals.joints.wrapping_add(joint)));
+        totals.joints = totals.joints.wrapping_add(K::JOINTS.len());
         DeviceLoads { mount, joints, motors, powers }
     }
 

@@ -5,7 +5,7 @@ use core::fmt::{self, Display, Formatter};
 
 use crate::real::Scalar;
 
-/// An input of the solver. Devices count from 0, as in the arrays given.
+/// An input of the solver, or a result of it. Devices count from 0, as in the arrays given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Quantity {
@@ -35,14 +35,14 @@ pub enum Quantity {
         /// The body that the motor drives.
         joint: &'static str,
     },
-    /// A joint's acceleration, prescribed or asked for.
+    /// A joint's acceleration: prescribed, required of [`loads`](crate::Spacecraft::loads), or found.
     JointAcceleration {
         /// Index of the device.
         device: usize,
         /// The body behind the joint.
         joint: &'static str,
     },
-    /// An acceleration of the hub, prescribed or asked for.
+    /// An acceleration of the hub: prescribed, required of [`loads`](crate::Spacecraft::loads), or found.
     HubAcceleration,
     /// `Inputs::gravity`.
     Gravity,
@@ -57,6 +57,25 @@ pub enum Quantity {
     TimeStep,
     /// The point of [`About::Point`](crate::About::Point).
     ReferencePoint,
+    /// Kinetic or potential energy, or the energy lost in a stop.
+    Energy,
+    /// Linear or angular momentum.
+    Momentum,
+    /// The centre of mass or its velocity seen from B.
+    CentreOfMass,
+    /// Force and moment that the hub needs: `Loads::hub`.
+    HubLoad,
+    /// Load, motor torque or power of a joint in [`Loads`](crate::Loads), or the load of the mount.
+    Load {
+        /// Index of the device.
+        device: usize,
+        /// The body outboard of the joint.
+        joint: &'static str,
+    },
+    /// A power or a rate of the [`Ledger`](crate::Ledger).
+    Power,
+    /// The work of a step: `Stepped::work`.
+    Work,
 }
 
 /// Why a state gives no accelerations, energy, momentum or next state.
@@ -71,7 +90,8 @@ pub enum SolveError<T = f64> {
         joint: Option<&'static str>,
         /// The pivot: the inertia left to that joint, kg m^2 (hub, sliding joint: also kg).
         pivot: T,
-        /// The bound it is not above: 64 epsilons of the diagonal before the elimination.
+        /// The bound it is not above: 64 epsilons of the mass or inertia that was there before any
+        /// joint was eliminated, in the pose that makes the most of it.
         bound: T,
     },
     /// An input is infinite or NaN, or an attitude without a usable length.
@@ -113,8 +133,23 @@ pub enum SolveError<T = f64> {
         /// How many are given.
         found: usize,
     },
+    /// Spring, damper or friction of a joint are too stiff for the step: Runge-Kutta's method of
+    /// fourth order is unstable with them, and would make energy or lose it without end.
+    Unstable {
+        /// Index of the device.
+        device: usize,
+        /// The body outboard of the joint.
+        joint: &'static str,
+        /// The step's length, s.
+        dt: T,
+        /// The longest step that is stable at this state, s.
+        longest: T,
+    },
     /// Every input is finite, but they are so large (or small) that the result is not.
-    Overflow,
+    Overflow {
+        /// The first result that is not finite; of accelerations, a joint's before the hub's.
+        what: Quantity,
+    },
 }
 
 impl Display for Quantity {
@@ -138,6 +173,13 @@ impl Display for Quantity {
             Self::Wrench { device, body } => write!(f, "wrench on device {device} ({body})"),
             Self::TimeStep => f.write_str("time step dt"),
             Self::ReferencePoint => f.write_str("reference point"),
+            Self::Energy => f.write_str("energy"),
+            Self::Momentum => f.write_str("momentum"),
+            Self::CentreOfMass => f.write_str("centre of mass"),
+            Self::HubLoad => f.write_str("load of the hub"),
+            Self::Load { device, joint } => write!(f, "load of device {device} ({joint})"),
+            Self::Power => f.write_str("power"),
+            Self::Work => f.write_str("work of the step"),
         }
     }
 }
@@ -207,9 +249,17 @@ impl<T: Scalar> Display for SolveError<T> {
                 "{found} given in a list where there are {expected}; give one for each device, \
                  and in it one for each joint"
             ),
-            Self::Overflow => f.write_str(
-                "the result is not finite although every input is; check the units of large \
-                 or tiny inputs",
+            Self::Unstable { device, joint, dt, longest } => write!(
+                f,
+                "step of {:?} s is too long for spring and friction of device {device} ({joint}): \
+                 the method is stable up to {:?} s; shorten the step, or raise coulomb_rate",
+                dt.to_f64(),
+                longest.to_f64(),
+            ),
+            Self::Overflow { what } => write!(
+                f,
+                "{what} is not finite although every input is; check the units of large or tiny \
+                 inputs",
             ),
         }
     }
@@ -299,6 +349,18 @@ mod tests {
 
     #[test]
     fn overflow_tells_the_remedy() {
-        assert!(SolveError::<f32>::Overflow.to_string().contains("check the units"));
+        let error =
+            SolveError::<f32>::Overflow { what: Quantity::Load { device: 1, joint: "wheel" } };
+        assert_eq!(
+            error.to_string(),
+            "load of device 1 (wheel) is not finite although every input is; check the units of \
+             large or tiny inputs"
+        );
+        let error = SolveError::Unstable { device: 0, joint: "wheel", dt: 1e-3, longest: 2.5e-4 };
+        assert_eq!(
+            error.to_string(),
+            "step of 0.001 s is too long for spring and friction of device 0 (wheel): the method is \
+             stable up to 0.00025 s; shorten the step, or raise coulomb_rate"
+        );
     }
 }

@@ -14,9 +14,9 @@
 
 use nalgebra::Vector3;
 
-use crate::real::{Scalar, half, one};
+use crate::real::{Scalar, half, one, reciprocal_in_two};
 use crate::symmetric::Symmetric;
-use crate::vec3::{Columns, Vec3, add, components, dot, rotate, scale, zeros};
+use crate::vec3::{Columns, Vec3, add, components, dot, largest, map, rotate, scale, zeros};
 
 /// The gravity that acts on hub and devices.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,20 +62,34 @@ impl<T: Scalar> Gravity<T> {
             Self::Uniform(g) => Some(Field { at_b: rotate(bn, components(g)), central: None }),
             Self::Central { mu } => {
                 let r = rotate(bn, components(r_b_n));
-                let per_r = dot(r, r).sqrt().recip();
-                let n = scale(per_r, r);
-                let potential = *mu * per_r;
-                let per_square = per_r * per_r;
-                let slope = potential * per_r * per_square;
-                let three = T::from_f64(3.0);
-                let square = potential * per_square;
-                let gradient =
-                    Symmetric::dyad(n).scaled(three * square).plus(Symmetric::scalar(-square));
-                let at_b = scale(-(potential * per_r), n);
+                let (n, [potential, at_b, square, slope]) = central(*mu, r);
+                let gradient = Symmetric::dyad(n)
+                    .scaled(T::from_f64(3.0) * square)
+                    .plus(Symmetric::scalar(-square));
+                let at_b = scale(-at_b, n);
                 Some(Field { at_b, central: Some(Central { gradient, n, potential, slope }) })
             }
         }
     }
+}
+
+/// The direction `r / R`, and `mu / R` to `mu / R⁴`.
+fn central<T: Scalar>(mu: T, r: Vec3<T>) -> (Vec3<T>, [T; 4]) {
+    let (size, near) = (largest(r), T::EPSILON * T::EPSILON);
+    if near < size && size < near.recip() {
+        let per_r = dot(r, r).sqrt().recip();
+        let (potential, per_square) = (mu * per_r, per_r * per_r);
+        let powers =
+            [potential, potential * per_r, potential * per_square, potential * per_r * per_square];
+        return (scale(per_r, r), powers);
+    }
+    // Beyond, R² or 1/R² may be no number although the field is one.
+    let (first, second) = reciprocal_in_two(size);
+    let r = map(r, |component| component * first * second);
+    let per_r = dot(r, r).sqrt().recip();
+    let over_r = |x: T| x * per_r * first * second;
+    let (potential, at_b) = (over_r(mu), over_r(over_r(mu)));
+    (scale(per_r, r), [potential, at_b, over_r(at_b), over_r(over_r(at_b))])
 }
 
 impl<T: Scalar> Field<T> {
@@ -157,6 +171,29 @@ mod tests {
             for (found, expected) in scale(0.5 / step, change).iter().zip(&gradient[k]) {
                 assert!((found - expected).abs() < DIFFERENCE);
             }
+        }
+    }
+
+    #[test]
+    fn field_at_extreme_radius_is_the_quotient_where_it_is_a_number() {
+        for (mu, radius, expected) in [
+            (1e300, 1e160, 1e-20),
+            (1e-300, 1e-160, 1e20),
+            (1e300, 1e20, 1e260),
+            (1.0, 1e-150, 1e300),
+        ] {
+            let central = Gravity::Central { mu };
+            let r = Vector3::new(0.0, -0.6 * radius, 0.8 * radius);
+            let [_, y, z] = central.field(&IDENTITY, &r).expect("a field").at_b;
+            assert!((y / expected - 0.6).abs() < 1e-15 && (z / expected + 0.8).abs() < 1e-15);
+        }
+        // The same on both sides of where the way changes.
+        for radius in [4e-32, 6e-32, 1.9e31, 2.2e31] {
+            let (n, [potential, at_b, square, slope]) = central(2.0, [radius, 0.0, 0.0]);
+            assert_eq!(n, [1.0, 0.0, 0.0]);
+            let powers = [potential * radius, at_b * radius / potential, square * radius / at_b];
+            let ratios = [powers[0] / 2.0, powers[1], powers[2], slope * radius / square];
+            assert!(ratios.iter().all(|ratio| (ratio - 1.0).abs() < 1e-15), "{ratios:?}");
         }
     }
 

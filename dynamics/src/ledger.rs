@@ -10,7 +10,7 @@
 
 use crate::attitude::Attitude;
 use crate::devices::Devices;
-use crate::error::SolveError;
+use crate::error::{Quantity, SolveError};
 use crate::gravity::Field;
 use crate::inputs::Inputs;
 use crate::loads::{Along, Totals};
@@ -87,6 +87,12 @@ impl<T: Scalar> Power<T> {
         }
     }
 
+    /// Whether the power of every source is finite, and their sum.
+    pub(crate) fn is_finite(&self) -> bool {
+        let sources = [self.external, self.hub, self.gravity, self.motors, self.springs];
+        sources.into_iter().chain([self.friction, self.total()]).all(Scalar::is_finite)
+    }
+
     /// The sum of all sources.
     #[must_use]
     pub fn total(&self) -> T {
@@ -117,6 +123,18 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<Ledger<D::Scalar>, SolveError<D::Scalar>> {
         self.refuse(state, inputs)?;
         self.refuse_accelerations(state, accelerations)?;
+        let ledger = self.ledger_of(state, inputs, accelerations);
+        ledger.map_err(|failure| self.diagnosis(state, inputs, failure))
+    }
+
+    /// [`Self::ledger`] without the search for an input that is not finite: of a stage of a step, which
+    /// nobody gave.
+    pub(crate) fn ledger_of<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        accelerations: &Accelerations<D>,
+    ) -> Result<Ledger<D::Scalar>, SolveError<D::Scalar>> {
         let (bn, sums) = self.sums(state);
         let field = inputs.gravity.field(&bn, &state.r_b_n);
         let (_, hub, totals) =
@@ -148,7 +166,8 @@ impl<D: Devices> Spacecraft<D> {
                 + dot(components(&wrench.moment), omega).abs()
         });
         let ledger = Ledger {
-            kinetic: sums.energy,
+            // A sum of squares, but for the rounding of what cancels in it.
+            kinetic: sums.energy.max(zero()),
             gravity: self.potential(state, &bn, field.as_ref(), &totals),
             springs: joints.stored,
             kinetic_rate,
@@ -157,12 +176,15 @@ impl<D: Devices> Spacecraft<D> {
             magnitude: terms + joints.magnitude,
             momentum: self.momentum_of(state, &bn, &sums, About::InertialOrigin)?,
         };
-        let sums = [ledger.residual, ledger.magnitude, ledger.energy()];
-        if totals.sound && sums.into_iter().all(Scalar::is_finite) {
-            Ok(ledger)
-        } else {
-            Err(self.diagnosis(state, inputs, SolveError::Overflow))
+        self.check_joints(&totals)?;
+        let rates = [ledger.residual, ledger.magnitude, ledger.kinetic_rate];
+        let energies = [ledger.kinetic, ledger.gravity, ledger.springs, ledger.energy()];
+        let power = ledger.power.is_finite() && rates.into_iter().all(Scalar::is_finite);
+        if !(power && energies.into_iter().all(Scalar::is_finite)) {
+            let what = if power { Quantity::Energy } else { Quantity::Power };
+            return Err(SolveError::Overflow { what });
         }
+        Ok(ledger)
     }
 
     /// Potential energy of gravity, J.

@@ -103,6 +103,7 @@ mod overflow_checks;
 mod parameter_error;
 mod parameters;
 mod passive;
+mod pivot_scale;
 mod quaternion;
 mod real;
 mod rk4;
@@ -114,6 +115,7 @@ mod solve;
 mod spacecraft;
 #[cfg(test)]
 mod spacecraft_checks;
+mod stability;
 mod state;
 mod stop;
 mod symmetric;

@@ -8,7 +8,7 @@
 
 use crate::attitude::Attitude;
 use crate::devices::{Around, Devices, Given};
-use crate::error::SolveError;
+use crate::error::{Quantity, SolveError};
 use crate::gravity::{Field, at_b};
 use crate::inputs::Inputs;
 use crate::real::{Scalar, zero};
@@ -77,6 +77,11 @@ impl<T: Scalar> JointPower<T> {
     pub(crate) fn none() -> Self {
         Self { motor: zero(), spring: zero(), friction: zero() }
     }
+
+    /// Whether all three are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        [self.motor, self.spring, self.friction].into_iter().all(Scalar::is_finite)
+    }
 }
 
 /// Axes for the loads of joints.
@@ -110,8 +115,10 @@ pub struct Totals<T> {
     pub(crate) second_moment: Symmetric<T>,
     /// Powers of the joints.
     pub(crate) power: JointPowers<T>,
-    /// Whether every load and motor torque is finite.
-    pub(crate) sound: bool,
+    /// How many joints have been added.
+    pub(crate) joints: usize,
+    /// The first joint of a device whose loads, motor torques or powers are not all finite.
+    pub(crate) overflow: Option<usize>,
 }
 
 /// Powers at the joints, W: the part of each source that the joints' rates take up.
@@ -149,7 +156,15 @@ impl<T: Scalar> Totals<T> {
         let none = Wrench::none();
         let power = JointPowers::none();
         let second_moment = Symmetric::zero();
-        Self { inertial: none, applied: none, gradient: none, second_moment, power, sound: true }
+        Self {
+            inertial: none,
+            applied: none,
+            gradient: none,
+            second_moment,
+            power,
+            joints: 0,
+            overflow: None,
+        }
     }
 }
 
@@ -185,11 +200,25 @@ impl<D: Devices> Spacecraft<D> {
         let field = inputs.gravity.field(&bn, &state.r_b_n);
         let (devices, hub, totals) =
             self.weigh(state, inputs, accelerations, field.as_ref(), &along);
-        if totals.sound && hub.is_finite() {
-            Ok(Loads { devices, hub })
-        } else {
-            Err(self.diagnosis(state, inputs, SolveError::Overflow))
+        let finite = self.check_joints(&totals).and_then(|()| {
+            let what = Quantity::HubLoad;
+            if hub.is_finite() { Ok(()) } else { Err(SolveError::Overflow { what }) }
+        });
+        match finite {
+            Ok(()) => Ok(Loads { devices, hub }),
+            Err(failure) => Err(self.diagnosis(state, inputs, failure)),
         }
+    }
+
+    /// Rejects loads of a joint that are not finite.
+    pub(crate) fn check_joints(
+        &self,
+        totals: &Totals<D::Scalar>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        let joint = totals.overflow.and_then(|joint| self.joints().nth(joint));
+        joint.map_or(Ok(()), |(device, info)| {
+            Err(SolveError::Overflow { what: Quantity::Load { device, joint: info.body } })
+        })
     }
 
     /// Loads of the devices, what the hub needs beside the inputs, and the sums of both.

@@ -10,7 +10,7 @@ use crate::devices::Devices;
 use crate::error::{Quantity, SolveError};
 use crate::finite::culprit_in_vector;
 use crate::hub::BodySums;
-use crate::real::{Real, Scalar};
+use crate::real::{Real, Scalar, zero};
 use crate::spacecraft::Spacecraft;
 use crate::state::State;
 use crate::vec3::{
@@ -61,7 +61,8 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<D::Scalar, SolveError<D::Scalar>> {
         self.refuse_state(state)?;
         let (_, BodySums { energy, .. }) = self.sums(state);
-        checked(energy, energy.is_finite())
+        // A sum of squares, but for the rounding of what cancels in it.
+        checked(Quantity::Energy, energy.max(zero()), energy.is_finite())
     }
 
     /// Linear momentum, and angular momentum about a point.
@@ -101,7 +102,7 @@ impl<D: Devices> Spacecraft<D> {
         };
         let angular_n = add(about_b, cross(r_b_p, linear_n));
         let found = Momentum { linear: vector(linear_n), angular: vector(angular_n) };
-        checked(found, finite(linear_n) && finite(angular_n))
+        checked(Quantity::Momentum, found, finite(linear_n) && finite(angular_n))
     }
 
     /// Centre of mass of hub and devices.
@@ -117,7 +118,7 @@ impl<D: Devices> Spacecraft<D> {
         self.refuse_state(state)?;
         let [c, c_prime] = self.centre(state);
         let found = CentreOfMass { c: vector(c), c_prime: vector(c_prime) };
-        checked(found, finite(c) && finite(c_prime))
+        checked(Quantity::CentreOfMass, found, finite(c) && finite(c_prime))
     }
 
     /// `[BN]` by its columns, and energy and momenta along B axes.
@@ -166,6 +167,6 @@ pub(crate) fn refuse<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), So
 }
 
 /// With every input finite, a result that is not has overflowed.
-fn checked<R, T: Scalar>(result: R, sound: bool) -> Result<R, SolveError<T>> {
-    if sound { Ok(result) } else { Err(SolveError::Overflow) }
+fn checked<R, T: Scalar>(what: Quantity, result: R, is_finite: bool) -> Result<R, SolveError<T>> {
+    if is_finite { Ok(result) } else { Err(SolveError::Overflow { what }) }
 }

@@ -82,6 +82,11 @@ impl<T: Scalar> Attitude<T> for Mrp<T> {
         Self(vector(add(components(&self.0), sum)))
     }
 
+    /// The inner of the two sets: the rate of the outer one grows with the square of its length.
+    fn regular(&self) -> Self {
+        self.normalised()
+    }
+
     /// The inner of the two sets: switches to the shadow set where `|sigma| > 1`.
     fn normalised(&self) -> Self {
         let sigma = components(&self.0);

@@ -120,6 +120,12 @@ impl<T: Scalar> Attitude<T> for Quaternion<T> {
         }
     }
 
+    /// The quaternion as it is, or divided by its largest component where that is below an epsilon or
+    /// above its reciprocal.
+    fn regular(&self) -> Self {
+        self.scaled().0
+    }
+
     /// The quaternion of unit length. One whose length is zero or not finite becomes NaN.
     fn normalised(&self) -> Self {
         let (scaled, _) = self.scaled();

@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use crate::accelerations::sound;
+use crate::accelerations::{Evaluated, check_inputs};
 use crate::attitude::Attitude;
 use crate::devices::Devices;
 use crate::each::{Each, JointStates};
@@ -14,6 +14,7 @@ use crate::inputs::Inputs;
 use crate::ledger::Power;
 use crate::real::{Real, Scalar, half, zero};
 use crate::spacecraft::Spacecraft;
+use crate::stability::PassiveStep;
 use crate::state::{Accelerations, State};
 use crate::vec3::{add, columns, components, rotate_transposed, scale, vector, zeros};
 
@@ -26,9 +27,6 @@ pub struct Stepped<D: Devices, A> {
     pub work: Power<D::Scalar>,
 }
 
-/// What becomes of a stage of a step.
-type Evaluated<D> = Result<(), SolveError<<D as Devices>::Scalar>>;
-
 impl<D: Devices> Spacecraft<D> {
     /// The state after `dt` seconds, with the inputs constant along the axes they stand along.
     ///
@@ -37,7 +35,8 @@ impl<D: Devices> Spacecraft<D> {
     ///
     /// # Errors
     ///
-    /// As [`Spacecraft::accelerations`], and [`Quantity::TimeStep`] for a `dt` that is not finite.
+    /// As [`Spacecraft::accelerations`], [`Quantity::TimeStep`] for a `dt` that is not finite, and
+    /// [`SolveError::Unstable`] for one that is too long for a spring, damper or friction.
     pub fn step<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -60,13 +59,17 @@ impl<D: Devices> Spacecraft<D> {
         dt: D::Scalar,
     ) -> Result<Stepped<D, A>, SolveError<D::Scalar>> {
         let mut work = Power::none();
-        let state = self.stepped(state, inputs, dt, |time, stage, found| {
-            self.solve(stage, inputs, found)?;
-            let power = self.ledger(stage, inputs, found)?.power;
+        let next = self.stepped(state, inputs, dt, |time, stage, found| {
+            let stiffness = self.solve(stage, inputs, found)?;
+            let power = self.ledger_of(stage, inputs, found)?.power;
             work = work.plus_scaled(time, &power);
-            Ok(())
+            Ok(stiffness)
         })?;
-        Ok(Stepped { state, work })
+        if work.is_finite() {
+            Ok(Stepped { state: next, work })
+        } else {
+            Err(SolveError::Overflow { what: Quantity::Work })
+        }
     }
 
     /// The step, by whatever evaluates a stage; it is told for how long the stage counts.
@@ -80,16 +83,15 @@ impl<D: Devices> Spacecraft<D> {
         if !dt.is_finite() {
             return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
         }
-        if !sound(state, inputs) {
-            return Err(self.diagnosis(state, inputs, SolveError::Overflow));
-        }
-        let next = self.advance(state, dt, evaluate);
+        let next =
+            check_inputs(state, inputs).and_then(|()| self.advance(state, inputs, dt, evaluate));
         next.map_err(|failure| self.diagnosis(state, inputs, failure))
     }
 
     fn advance<A: Attitude<D::Scalar>>(
         &self,
-        state: &State<D, A>,
+        start: &State<D, A>,
+        inputs: &Inputs<D>,
         dt: D::Scalar,
         mut evaluate: impl FnMut(D::Scalar, &State<D, A>, &mut Accelerations<D>) -> Evaluated<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
@@ -99,21 +101,30 @@ impl<D: Devices> Spacecraft<D> {
 
         // All in place: what was just put together number by number is slow to move.
         let mut found = self.no_accelerations();
-        let mut stage = state.clone();
+        let mut stage = State { attitude: start.attitude.regular(), ..start.clone() };
+        let attitude = stage.attitude;
         let mut sum = State::at_rest_for(self);
-        let mut rates = [(zero(), state.attitude.rate(&state.omega)); 4];
+        let mut rates = [(zero(), attitude.rate(&start.omega)); 4];
+        let mut passive = self.passive.then(|| PassiveStep::new(self, start));
         let stages = [(sixth, middle), (third, middle), (third, dt), (sixth, zero())];
         for ((weight, time), rate) in stages.into_iter().zip(&mut rates) {
-            evaluate(weight, &stage, &mut found)?;
+            let stiffness = evaluate(weight, &stage, &mut found)
+                .map_err(|failure| self.cause(&stage, inputs, failure))?;
+            if let Some(passive) = &mut passive {
+                passive.stage(&stage, stiffness);
+            }
             *rate = (weight, stage.attitude.rate(&stage.omega));
-            stage.follow(state, &found, [weight, time], &mut sum);
-            stage.attitude = state.attitude.advanced(&[(time, rate.1)]);
+            stage.follow(start, &found, [weight, time], &mut sum);
+            stage.attitude = attitude.advanced(&[(time, rate.1)]);
         }
         let mut next = stage;
-        next.add(state, &sum);
-        next.attitude = state.attitude.advanced(&rates).normalised();
-        match self.culprit_in_state(&next) {
-            Some(_) => Err(SolveError::Overflow),
+        next.add(start, &sum);
+        next.attitude = attitude.advanced(&rates).normalised();
+        if let Some((what, _)) = self.culprit_in_state(&next) {
+            return Err(SolveError::Overflow { what });
+        }
+        match passive {
+            Some(passive) => passive.check(self, start, &next, inputs, dt).map(|()| next),
             None => Ok(next),
         }
     }
@@ -263,7 +274,8 @@ mod tests {
         }
         let refused = step(f64::NAN).unwrap_err();
         assert!(matches!(refused, SolveError::NotFinite { value, .. } if value.is_nan()));
-        assert_eq!(step(1e200), Err(SolveError::Overflow));
+        let what = Quantity::HubAcceleration;
+        assert_eq!(step(1e200), Err(SolveError::Overflow { what }));
     }
 
     #[test]

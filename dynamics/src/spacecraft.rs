@@ -5,6 +5,7 @@ use crate::devices::Devices;
 use crate::hub::PreparedHub;
 use crate::parameter_error::{ParameterError, Part, Warning};
 use crate::parameters::Hub;
+use crate::passive::Passive;
 use crate::real::{Scalar, zero};
 use crate::validation::check_hub;
 
@@ -15,6 +16,8 @@ pub struct Spacecraft<D: Devices> {
     /// The hub with what it has taken over of its devices.
     pub(crate) body: PreparedHub<D::Scalar>,
     pub(crate) devices: D::Prepared,
+    /// Whether a joint has a spring, a damper or dry friction.
+    pub(crate) passive: bool,
     hub_excess: D::Scalar,
     pub(crate) arithmetic: Arithmetic,
 }
@@ -39,7 +42,8 @@ impl<D: Devices> Spacecraft<D> {
         if !body.m_b.is_finite() {
             return Err(ParameterError::TotalMass { value: body.m_b });
         }
-        Ok(Self { hub, body, devices, hub_excess, arithmetic: Arithmetic::Plain })
+        let passive = D::passives(&devices).any(|joint| joint != Passive::none());
+        Ok(Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::Plain })
     }
 
     /// The same with products and sums of the devices' equations rounded once, where the CPU does

@@ -177,7 +177,10 @@ fn input_that_is_not_finite_is_named() {
     assert_eq!(found(|_, t| t.motors[0].u_i = BAD), refused(motor));
     assert_eq!(found(|_, t| t.torque_b.y = BAD), refused(Quantity::TorqueB));
     // The square of this rate is beyond f64.
-    assert_eq!(found(|s, _| s.omega.x = 1e200), Err(SolveError::Overflow));
+    assert_eq!(
+        found(|s, _| s.omega.x = 1e200),
+        Err(SolveError::Overflow { what: Quantity::HubAcceleration })
+    );
 }
 
 #[test]
@@ -240,8 +243,9 @@ fn loads_that_overflow_are_refused() {
         devices: [Dgvscmg::no_accelerations()],
     };
     let loads = spacecraft.loads(&state, &inputs, &still, LoadAxes::Body);
-    assert_eq!(loads, Err(SolveError::Overflow));
-    assert_eq!(spacecraft.ledger(&state, &inputs, &still), Err(SolveError::Overflow));
+    let what = Quantity::Load { device: 0, joint: "wheel" };
+    assert_eq!(loads, Err(SolveError::Overflow { what }));
+    assert_eq!(spacecraft.ledger(&state, &inputs, &still), Err(SolveError::Overflow { what }));
 }
 
 #[test]

@@ -8,9 +8,8 @@ use nalgebra::Vector3;
 use crate::attitude::Attitude;
 use crate::devices::{Devices, FixedSet};
 use crate::each::JointStates;
-use crate::kind::JointInfo;
 use crate::quaternion::Quaternion;
-use crate::real::Scalar;
+use crate::real::{Scalar, zero};
 use crate::spacecraft::Spacecraft;
 use crate::vec3::{vector, zeros};
 
@@ -53,16 +52,6 @@ impl<D: FixedSet, A: Attitude<D::Scalar>> State<D, A> {
     pub fn at_rest() -> Self {
         Self::with(D::at_rest())
     }
-
-    /// The same state with every joint angle brought into `[-pi, pi]`.
-    ///
-    /// Nothing else changes, and an angle already in that range keeps its bits. An infinite or NaN
-    /// angle is left as it is, for the solver to report.
-    #[must_use]
-    pub fn wrapped(mut self) -> Self {
-        wrap(&mut self.devices, D::joint_infos());
-        self
-    }
 }
 
 impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
@@ -72,10 +61,19 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
         Self::with(D::at_rest_for(&spacecraft.devices))
     }
 
-    /// As [`State::wrapped`], for a set whose devices are known at run time alone.
+    /// The same state with joint angles brought into `[-pi, pi]` where whole turns change nothing: the
+    /// angle of a joint with a spring stays, because its spring counts the turns.
+    ///
+    /// Nothing else changes, and an angle already in that range keeps its bits. An infinite or NaN
+    /// angle is left as it is, for the solver to report.
     #[must_use]
-    pub fn wrapped_for(mut self, spacecraft: &Spacecraft<D>) -> Self {
-        wrap(&mut self.devices, D::infos(&spacecraft.devices));
+    pub fn wrapped(mut self, spacecraft: &Spacecraft<D>) -> Self {
+        let joints = D::infos(&spacecraft.devices).zip(D::passives(&spacecraft.devices));
+        for ([coordinate, _], (info, passive)) in self.devices.states_mut().zip(joints) {
+            if !info.slides && passive.stiffness == zero() {
+                *coordinate = wrapped(*coordinate);
+            }
+        }
         self
     }
 
@@ -86,18 +84,6 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
             attitude: A::identity(),
             omega: vector(zeros()),
             devices,
-        }
-    }
-}
-
-/// Brings the angles among the coordinates into `[-pi, pi]`.
-fn wrap<T: Scalar>(
-    joints: &mut impl JointStates<T>,
-    infos: impl Iterator<Item = &'static JointInfo>,
-) {
-    for ([coordinate, _], info) in joints.states_mut().zip(infos) {
-        if !info.slides {
-            *coordinate = wrapped(*coordinate);
         }
     }
 }
@@ -121,8 +107,10 @@ fn wrapped<T: Scalar>(angle: T) -> T {
 mod tests {
     use core::f64::consts::PI;
 
+    use nalgebra::Matrix3;
+
     use super::*;
-    use crate::{Dgvscmg, SloshMass, dgvscmg};
+    use crate::{Dgvscmg, Hub, SloshMass, dgvscmg};
 
     /// Half a unit in the last place of pi, plus the rounding of two sines.
     const ROUNDING: f64 = 6e-16;
@@ -156,6 +144,13 @@ mod tests {
         assert!(wrapped(f64::NAN).is_nan());
     }
 
+    fn spacecraft(stiffness: f64) -> Spacecraft<(Dgvscmg, SloshMass)> {
+        let hub = Hub { m_b: 9.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
+        let mut device = Dgvscmg::bare_wheel(1.0, Matrix3::identity());
+        device.passive.wheel.stiffness = stiffness;
+        Spacecraft::new(&hub, &(device, SloshMass::bare_slosh_mass(1.0))).unwrap()
+    }
+
     #[test]
     fn wrapping_a_state_changes_angles_only() {
         let mut state = State::<(Dgvscmg, SloshMass)>::at_rest();
@@ -170,12 +165,16 @@ mod tests {
             spin: 50.0,
         };
         state.devices.1.x = 60.0;
-        let wrapped = state.wrapped();
+        let wrapped = state.wrapped(&spacecraft(0.0));
         let angles = |d: &dgvscmg::Joints| [d.gamma_o, d.gamma_i, d.theta];
         let (found, given) = (angles(&wrapped.devices.0), angles(&state.devices.0));
         assert!(found.iter().zip(&given).all(|(found, given)| found != given));
         let [gamma_o, gamma_i, theta] = given;
         let device = dgvscmg::Joints { gamma_o, gamma_i, theta, ..wrapped.devices.0 };
         assert_eq!(State { devices: (device, wrapped.devices.1), ..wrapped }, state);
+
+        // A spring counts the turns of its own joint.
+        let sprung = state.wrapped(&spacecraft(1e-3)).devices.0;
+        assert_eq!(sprung, dgvscmg::Joints { theta, ..wrapped.devices.0 });
     }
 }

@@ -10,7 +10,7 @@ use crate::assembly::Assembly;
 use crate::attitude::Attitude;
 use crate::devices::{Around, Devices, Given};
 use crate::each::{Each, JointStates};
-use crate::error::SolveError;
+use crate::error::{Quantity, SolveError};
 use crate::inputs::Inputs;
 use crate::mode::{HubMode, Mode};
 use crate::real::zero;
@@ -77,7 +77,10 @@ impl<D: Devices> Spacecraft<D> {
             (before.r_b_n_dot, after.r_b_n_dot) = (vector(zeros()), vector(sub(new, old)));
         }
         let energy_lost = self.energy(&before)? - self.energy(&after)?;
-        Ok(Stopped { state: next, energy_lost })
+        match self.culprit_in_state(&next) {
+            Some((what, _)) => Err(SolveError::Overflow { what }),
+            None => Ok(Stopped { state: next, energy_lost }),
+        }
     }
 
     fn jump<A: Attitude<D::Scalar>>(
@@ -89,18 +92,15 @@ impl<D: Devices> Spacecraft<D> {
         let around = Around { omega: still, central: None, impulse: true };
         let mut assembly = Assembly::new(&self.body, still, still);
         let mut scratch = D::scratch(&self.devices);
-        self.eliminate::<_, Plainly>(
-            state,
-            Given::of(inputs),
-            &around,
-            &mut assembly,
-            &mut scratch,
-        )?;
+        let motors = D::motors_off_for(&self.devices);
+        let given = Given { motors: &motors, modes: &inputs.modes, bodies: None };
+        D::fits(&self.devices, &state.devices, Some(Given::of(inputs)), None)?;
+        self.eliminate::<_, Plainly>(state, given, &around, &mut assembly, &mut scratch)?;
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let hub = match inputs.hub {
             HubMode::Free => {
-                assembly.system(still).solve().map_err(|small| small.of(None, None))?
+                assembly.system(still).solve().map_err(|small| small.of(None, None))?.0
             }
             HubMode::Fixed => {
                 Solution { r_b_n_ddot: neg(velocity), omega_dot: neg(components(&state.omega)) }
@@ -108,7 +108,7 @@ impl<D: Devices> Spacecraft<D> {
             HubMode::Prescribed { .. } => Solution { r_b_n_ddot: still, omega_dot: still },
         };
         if !hub.is_finite() {
-            return Err(SolveError::Overflow);
+            return Err(SolveError::Overflow { what: Quantity::HubAcceleration });
         }
         let jumps = self.back_substitute(&scratch, &hub)?;
         let mut next = state.clone();

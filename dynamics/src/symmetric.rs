@@ -145,6 +145,12 @@ impl<T: Real> Symmetric<T> {
         Self { xx: x * x, xy: x * y, xz: x * z, yy: y * y, yz: y * z, zz: z * z }
     }
 
+    /// The moments, without the products.
+    #[inline(always)]
+    pub(crate) fn diagonal(&self) -> Vec3<T> {
+        [self.xx, self.yy, self.zz]
+    }
+
     /// The sum of the diagonal.
     #[inline(always)]
     pub(crate) fn trace(&self) -> T {

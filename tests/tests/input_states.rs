@@ -188,10 +188,12 @@ fn quaternion_of_length_zero_is_named() {
 #[test]
 fn result_that_overflows_is_a_typed_error() {
     let error = unsolved(|case| case.state.devices[1].spin = 1e200);
-    assert_eq!(error, SolveError::Overflow);
+    let what = Quantity::JointAcceleration { device: 1, joint: "wheel" };
+    assert_eq!(error, SolveError::Overflow { what });
     assert_eq!(
         error.to_string(),
-        "the result is not finite although every input is; check the units of large or tiny inputs",
+        "acceleration of device 1 (wheel) is not finite although every input is; check the \
+         units of large or tiny inputs",
     );
 }
 

@@ -64,7 +64,8 @@ fn changes<const N: usize, T: Scalar>(sample: &Sample<N>) -> Vec<Error> {
         joints.gamma_o = joints.gamma_o + turns;
         joints.gamma_i = joints.gamma_i - turns;
     }
-    let wrapped = Case { state: plain.state.wrapped(), ..plain };
+    let spacecraft = plain.spacecraft(sample);
+    let wrapped = Case { state: plain.state.wrapped(&spacecraft), ..plain };
     for joints in &wrapped.state.devices {
         for angle in [joints.gamma_o, joints.gamma_i, joints.theta] {
             assert!(angle.to_f64().abs() <= PI, "{angle:?} ({sample})");
@@ -72,7 +73,6 @@ fn changes<const N: usize, T: Scalar>(sample: &Sample<N>) -> Vec<Error> {
     }
 
     let refused = |error: SolveError<T>| -> ! { panic!("{sample}: {error}") };
-    let spacecraft = plain.spacecraft(sample);
     let dt = T::from_f64(STEP);
     let [expected, found] = [&plain, &wrapped].map(|case| {
         let energy = spacecraft.energy(&case.state).unwrap_or_else(|e| refused(e));

@@ -7,13 +7,13 @@ use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::evaluate::{regular, with_passive, within_reach};
+use super::evaluate::{add_stiffness, regular, with_passive, within_reach};
 use super::gather::{joints_in_lanes, values_in_lanes};
 use super::lane::Lane;
 use super::number::{Block, Number, WIDEST};
 use super::slot::{Aligned, put_drives};
 use super::width::{lanes_for, width};
-use crate::accelerations::{Outset, outset, sound as sound_inputs};
+use crate::accelerations::{Outset, check_inputs, outset};
 use crate::assembly::along_b;
 use crate::attitude::Attitude;
 use crate::device::Device;
@@ -30,6 +30,7 @@ use crate::parameters::Hub;
 use crate::passive::Passive;
 use crate::solve::Solution;
 use crate::spacecraft::Spacecraft;
+use crate::stability::Stiffness;
 use crate::state::{Accelerations, State};
 use crate::vec3::map;
 
@@ -51,6 +52,8 @@ pub struct AcrossDevices<K: Kind<Scalar = f64>, const N: usize> {
 struct Group<K: Kernels> {
     constants: K::Constants<Block>,
     passive: K::PerJoint<Passive<Block>>,
+    /// What the pivots are checked against.
+    scale: K::PerJoint<Block>,
     /// One in the lanes that have a device.
     weight: Block,
     /// Whether no joint has a spring or friction.
@@ -88,7 +91,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         inputs: &Inputs<[K; N]>,
     ) -> Result<Accelerations<[K; N]>, SolveError<f64>> {
         let mut found = self.craft.no_accelerations();
-        if sound_inputs(state, inputs) && self.solve(state, inputs, &mut found).is_some() {
+        if check_inputs(state, inputs).is_ok() && self.solve(state, inputs, &mut found).is_some() {
             return Ok(found);
         }
         self.craft.accelerations(state, inputs)
@@ -117,7 +120,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         state: &State<[K; N], A>,
         inputs: &Inputs<[K; N]>,
         found: &mut Accelerations<[K; N]>,
-    ) -> Option<()> {
+    ) -> Option<Stiffness<f64>> {
         let central = matches!(inputs.gravity, Gravity::Central { .. });
         if !self.laned || central || inputs.bodies.is_some() {
             return None;
@@ -135,6 +138,7 @@ impl<K: Kind<Scalar = f64>> Group<K> {
             passive: K::zip_per_joint(&first.passive, &first.passive, |passive, _| {
                 passive.map(|_| Block::ZERO)
             }),
+            scale: K::zip_per_joint(&first.scale, &first.scale, |_, _| Block::ZERO),
             weight: Block::ZERO,
             free: devices.iter().all(|device| device.free),
         };
@@ -145,6 +149,7 @@ impl<K: Kind<Scalar = f64>> Group<K> {
                 block
             };
             group.constants = K::zip_constants(&group.constants, &device.constants, put);
+            group.scale = K::zip_per_joint(&group.scale, &device.scale, put);
             group.passive = K::zip_per_joint(&group.passive, &device.passive, |blocks, passive| {
                 let [a, b, c, d, e] = passive.named().map(|(_, number)| number);
                 Passive {
@@ -170,7 +175,7 @@ struct Evaluation<'a, K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> {
 }
 
 impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> WithSimd for Evaluation<'_, K, A, N> {
-    type Output = Option<()>;
+    type Output = Option<Stiffness<f64>>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
@@ -180,7 +185,7 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> WithSimd for Evalu
 
 impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, A, N> {
     #[inline(always)]
-    fn evaluate<T: Number>(self, zero: T) -> Option<()> {
+    fn evaluate<T: Number>(self, zero: T) -> Option<Stiffness<f64>> {
         let Self { across: AcrossDevices { craft, groups, .. }, state, inputs, found: all } = self;
         let Outset { around, at_b } = outset(state, inputs).ok()?;
         let mut assembly = craft.assembly(inputs);
@@ -195,20 +200,27 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             let load = |block| zero.load(&block);
             let constants =
                 K::zip_constants(&group.constants, &group.constants, |block, _| load(block));
-            let drives = if group.free {
-                drives
-            } else {
-                let passive = K::zip_per_joint(&group.passive, &group.passive, |passive, _| {
-                    passive.map(load)
-                });
-                with_passive::<K, T>(&joints, &drives, &passive)
+            let passive = (!group.free).then(|| {
+                K::zip_per_joint(&group.passive, &group.passive, |passive, _| passive.map(load))
+            });
+            let drives = match &passive {
+                Some(passive) => with_passive::<K, T>(&joints, &drives, passive),
+                None => drives,
             };
             let pose = K::pose(&joints);
             let eliminated = K::eliminate(&constants, &pose, &joints, &along_b(omega), &drives);
-            let regular = regular::<K, T>(zero, &eliminated, &drives);
+            let scale = K::zip_per_joint(&group.scale, &group.scale, |block, _| load(block));
+            let regular = regular::<K, T>(zero, &eliminated, &drives, &scale);
             let within = within_reach::<K, T>(zero, &joints);
             holds = zero.both(holds, zero.both(within, regular));
             let real = load(group.weight).above(zero);
+            if let Some(passive) = &passive {
+                let mut stiffness = Stiffness::none(zero);
+                add_stiffness::<K, T>(&mut stiffness, passive, &eliminated, &drives);
+                let Stiffness { damping, spring } = stiffness;
+                assembly.stiffness.damping += damping.or(real, zero).sum();
+                assembly.stiffness.spring += spring.or(real, zero).sum();
+            }
             let share = K::share(&eliminated).map(|number| number.or(real, zero));
             shares = Some(match &shares {
                 Some(sum) => share.zip(sum, |number, sum| sum + number),
@@ -244,7 +256,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
         if (0..T::WIDTH).any(|lane| holds.at(lane) != 1.0) {
             return None;
         }
-        all.finish(inputs, &hub, at_b).ok()
+        all.finish(inputs, &hub, at_b).ok()?;
+        Some(assembly.stiffness)
     }
 }
 

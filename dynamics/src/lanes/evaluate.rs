@@ -18,6 +18,7 @@ use crate::passive::Passive;
 use crate::sincos::LARGEST_ANGLE;
 use crate::solve::PIVOT_EPSILONS;
 use crate::spacecraft::Spacecraft;
+use crate::stability::Stiffness;
 use crate::vec3::{Vec3, add};
 
 /// What acts on the hub, along B axes.
@@ -36,6 +37,8 @@ pub(crate) struct Acting<T> {
 pub(crate) struct Found<T: Number> {
     pub(crate) r_b_n_ddot: Vec3<T>,
     pub(crate) omega_dot: Vec3<T>,
+    /// Of springs and friction.
+    pub(crate) stiffness: Stiffness<T>,
     pub(crate) holds: T::Holds,
 }
 
@@ -56,6 +59,10 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
     D::each(&craft.devices, slots, &mut elimination);
     let Elimination { assembly, mut holds, .. } = elimination;
     let (solution, pivots) = assembly.system(acting.omega).solved();
+    let mut stiffness = assembly.stiffness;
+    if craft.passive {
+        stiffness = stiffness.on_free_hub(pivots);
+    }
     let [a, b, c, d, e, f] = pivots;
     let [ab, cd, ef] = [[a, b], [c, d], [e, f]];
     holds = like.both(like.both(both_sound(ab), both_sound(cd)), like.both(both_sound(ef), holds));
@@ -69,19 +76,19 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
     let [x, y, z] = r_b_n_ddot;
     let vanishing = back.vanishing + (x + y + z) * zero;
     let holds = like.both(holds, vanishing.same(zero));
-    Found { r_b_n_ddot, omega_dot: solution.omega_dot, holds }
+    Found { r_b_n_ddot, omega_dot: solution.omega_dot, stiffness, holds }
 }
 
-/// Where a pivot is more than rounding of its diagonal.
+/// Where a pivot is more than rounding beside its scale.
 #[inline(always)]
-fn sound<T: Number>(pivot: T, diagonal: T) -> T::Holds {
-    pivot.above(bound(diagonal))
+fn sound<T: Number>(pivot: T, scale: T) -> T::Holds {
+    pivot.above(bound(scale))
 }
 
 /// What a pivot must exceed.
 #[inline(always)]
-fn bound<T: Number>(diagonal: T) -> T {
-    diagonal.like(PIVOT_EPSILONS * f64::EPSILON) * diagonal
+fn bound<T: Number>(scale: T) -> T {
+    scale.like(PIVOT_EPSILONS * f64::EPSILON) * scale
 }
 
 /// Where two pivots are.
@@ -106,18 +113,23 @@ impl<T: Number> Visit<T> for Elimination<T> {
         });
         let within = within_reach::<K, T>(like, &slot.joints);
         let pose = K::pose(&slot.joints);
-        let drives = if device.free {
-            slot.drives
-        } else {
-            let passive = K::zip_per_joint(&device.passive, &device.passive, |passive, _| {
+        let passive = (!device.free).then(|| {
+            K::zip_per_joint(&device.passive, &device.passive, |passive, _| {
                 passive.map(|number| like.like(number))
-            });
-            with_passive::<K, T>(&slot.joints, &slot.drives, &passive)
+            })
+        });
+        let drives = match &passive {
+            Some(passive) => with_passive::<K, T>(&slot.joints, &slot.drives, passive),
+            None => slot.drives,
         };
         let omega = along_b(self.omega);
         let eliminated = K::eliminate(&constants, &pose, &slot.joints, &omega, &drives);
-        let regular = regular::<K, T>(like, &eliminated, &drives);
+        let scale = K::zip_per_joint(&device.scale, &device.scale, |scale, _| like.like(scale));
+        let regular = regular::<K, T>(like, &eliminated, &drives, &scale);
         self.holds = like.both(self.holds, like.both(within, regular));
+        if let Some(passive) = &passive {
+            add_stiffness::<K, T>(&mut self.assembly.stiffness, passive, &eliminated, &drives);
+        }
         self.assembly.add(K::share(&eliminated));
         slot.gains = Some(Aligned(*K::gains(&eliminated)));
     }
@@ -134,16 +146,18 @@ pub(super) fn within_reach<K: Kernels, T: Number>(like: T, joints: &K::Joints<T>
     holds
 }
 
-/// Where the pivot of each joint that is driven is more than rounding.
+/// Where the pivot of each joint that is driven is more than rounding beside its scale.
 #[inline(always)]
 pub(super) fn regular<K: Kernels, T: Number>(
     like: T,
     eliminated: &K::Eliminated<T>,
     drives: &K::PerJoint<Drive<T>>,
+    scale: &K::PerJoint<T>,
 ) -> T::Holds {
     let (zero, mut holds) = (like.like(0.0), like.same(like));
-    // A named function, since a closure of this size is not inlined.
-    let margins = K::zip_per_joint(&K::pivots(eliminated), drives, margin::<T>);
+    // Named functions, since a closure of this size is not inlined.
+    let pivots = K::zip_per_joint(&K::pivots(eliminated), scale, scaled::<T>);
+    let margins = K::zip_per_joint(&pivots, drives, margin::<T>);
     K::zip_per_joint(&margins, &margins, |margin, _| {
         holds = like.both(holds, margin.above(zero));
         zero
@@ -151,12 +165,19 @@ pub(super) fn regular<K: Kernels, T: Number>(
     holds
 }
 
-/// By how much the pivot of a joint is above its bound; one where none is asked for.
+/// A pivot with what it is checked against: its diagonal, or its scale if that is larger.
+#[inline(always)]
+fn scaled<T: Number>(pivot: Option<[T; 2]>, scale: T) -> Option<[T; 2]> {
+    let [pivot, diagonal] = pivot?;
+    Some([pivot, scale.or(scale.above(diagonal), diagonal)])
+}
+
+/// By how much the pivot of a joint is above its bound; one where the joint is not driven.
 #[inline(always)]
 fn margin<T: Number>(pivot: Option<[T; 2]>, drive: Drive<T>) -> T {
     let one = drive.driven.like(1.0);
-    let Some([pivot, diagonal]) = pivot else { return one };
-    one.or(drive.driven.same(one.like(0.0)), pivot - bound(diagonal))
+    let Some([pivot, scale]) = pivot else { return one };
+    one.or(drive.driven.same(one.like(0.0)), pivot - bound(scale))
 }
 
 /// What is given of the joints, springs and dampers with the motors.
@@ -177,6 +198,19 @@ pub(super) fn with_passive<K: Kernels, T: Number>(
         torque: drive.torque + own * drive.driven,
         ..drive
     })
+}
+
+/// Adds springs and dampers to what a step has to resolve.
+#[inline(always)]
+pub(super) fn add_stiffness<K: Kernels, T: Number>(
+    stiffness: &mut Stiffness<T>,
+    passive: &K::PerJoint<Passive<T>>,
+    eliminated: &K::Eliminated<T>,
+    drives: &K::PerJoint<Drive<T>>,
+) {
+    let coefficients =
+        K::zip_per_joint(passive, passive, |passive, _| [passive.viscous, passive.stiffness]);
+    stiffness.add::<K>(&coefficients, &K::pivots(eliminated), drives);
 }
 
 /// Finds each device's own accelerations.

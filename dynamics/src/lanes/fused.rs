@@ -6,11 +6,11 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 use pulp::{Simd, WithSimd};
 
+use crate::accelerations::Evaluated;
 use crate::arithmetic::{Asked, AtOnce, Pivots, Places};
 use crate::assembly::along_b;
 use crate::attitude::Attitude;
 use crate::devices::Devices;
-use crate::error::SolveError;
 use crate::generated::hub::BodyRate;
 use crate::inputs::Inputs;
 use crate::kernels::Kernels;
@@ -33,7 +33,7 @@ pub(crate) struct Solving<'a, D: Devices, A> {
 }
 
 impl<D: Devices, A: Attitude<D::Scalar>> WithSimd for Solving<'_, D, A> {
-    type Output = Result<(), SolveError<D::Scalar>>;
+    type Output = Evaluated<D>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Self::Output {

@@ -18,6 +18,7 @@ use crate::error::SolveError;
 use crate::kind::Kind;
 use crate::quaternion::{bn, norm_squared, rate};
 use crate::spacecraft::Spacecraft;
+use crate::stability::ACCEPTED;
 use crate::state::State;
 use crate::vec3::rotate_transposed;
 
@@ -97,6 +98,14 @@ fn step<D: LanedSet, T: Number>(
         let acting = group.acting_at(zero, attitude, omega);
         let found = evaluate(craft, &mut group.slots, &acting);
         holds = zero.both(holds, found.holds);
+        if craft.passive {
+            // What a single step would look at closer is left to it.
+            let accepted = zero.like(ACCEPTED);
+            let [dt, square] = [dt.abs(), dt * dt].map(|time| zero.like(time));
+            let damping = accepted.above(found.stiffness.damping * dt);
+            let spring = accepted.above(found.stiffness.spring * square);
+            holds = zero.both(holds, zero.both(damping, spring));
+        }
         let slope = Motion {
             r: now.v,
             v: rotate_transposed(&bn(attitude), found.r_b_n_ddot),

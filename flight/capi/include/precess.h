@@ -66,7 +66,8 @@ enum {
     PRECESS_ERROR_TABLE_VERSION = 21,
     PRECESS_ERROR_TABLE_LENGTH = 22,
     PRECESS_ERROR_TABLE_CHECKSUM = 23,
-    PRECESS_ERROR_OTHER = 24
+    PRECESS_ERROR_OTHER = 24,
+    PRECESS_ERROR_UNSTABLE = 25
 };
 
 /* Kinds of devices, with their joints from the hub outwards. At zero, outer and only gimbals turn
@@ -266,8 +267,9 @@ int32_t precess_joints(const precess_spacecraft *craft, uint32_t device, uint32_
 /* The state in which all is at zero: B at the origin of N, axes along N, nothing moving. */
 int32_t precess_state_at_rest(const precess_spacecraft *craft, precess_state *state);
 
-/* Brings every joint angle into [-pi, pi] (rad), without a jump in anything else. Angles run on
- * otherwise; wrap a wheel's from time to time, since sines of large angles cost more. */
+/* Brings joint angles into [-pi, pi] (rad), without a jump in anything else: the angle of a joint with
+ * a spring stays, because its spring counts the turns. Angles run on otherwise; wrap a wheel's from
+ * time to time, since sines of large angles cost more. */
 int32_t precess_state_wrap(const precess_spacecraft *craft, precess_state *state);
 
 /* How many doubles save a state: 13 and two per joint. */
@@ -293,8 +295,9 @@ int32_t precess_accelerations_of(const precess_spacecraft *craft, const precess_
                                  precess_fault *fault);
 
 /* Advances the state by `substeps` Runge-Kutta steps (fourth order) of `dt` seconds each, 1 to
- * PRECESS_MAX_SUBSTEPS. A sound dt turns the fastest wheel by a tenth of a radian. `work` (J) may be
- * null, which is cheaper. If refused, the state is as it was. */
+ * PRECESS_MAX_SUBSTEPS. A sound dt turns the fastest wheel by a tenth of a radian. A dt that a spring,
+ * damper or dry friction makes unstable is PRECESS_ERROR_UNSTABLE, with the longest one that holds in
+ * fault.bound. `work` (J) may be null, which is cheaper. If refused, the state is as it was. */
 int32_t precess_step(const precess_spacecraft *craft, precess_state *state,
                      const precess_inputs *inputs, double dt, uint32_t substeps,
                      precess_power *work, precess_fault *fault);

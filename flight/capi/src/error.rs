@@ -106,6 +106,9 @@ codes! {
         c"the checksum of the table does not match; load it again";
     /// Of a kind that this version of the library does not name.
     Other = 24, c"PRECESS_ERROR_OTHER", c"an error without a code of its own";
+    /// A step is too long for a spring, damper or friction.
+    Unstable = 25, c"PRECESS_ERROR_UNSTABLE",
+        c"dt is too long for a spring or friction; fault.bound is the longest, or raise coulomb_rate";
 }
 
 /// Where a refusal comes from: `precess_fault`.
@@ -152,6 +155,17 @@ impl Refusal {
 
     fn at(self, device: impl Into<Option<usize>>, joint: impl Into<Option<&'static str>>) -> Self {
         Self { device: device.into(), joint: joint.into(), ..self }
+    }
+
+    fn about(self, what: Quantity) -> Self {
+        match what {
+            Quantity::Motor { device, joint }
+            | Quantity::JointAcceleration { device, joint }
+            | Quantity::Load { device, joint }
+            | Quantity::Wrench { device, body: joint } => self.at(device, joint),
+            Quantity::Joint { device, field } => self.at(device, field),
+            _ => self,
+        }
     }
 
     fn of(self, part: Part) -> Self {
@@ -202,14 +216,7 @@ impl From<SolveError> for Refusal {
                 Self::valued(Code::Singular, pivot, bound).at(device, joint)
             }
             SolveError::NotFinite { what, value } => {
-                let refusal = Self::valued(Code::NotFinite, value, 0.0);
-                match what {
-                    Quantity::Motor { device, joint }
-                    | Quantity::JointAcceleration { device, joint }
-                    | Quantity::Wrench { device, body: joint } => refusal.at(device, joint),
-                    Quantity::Joint { device, field } => refusal.at(device, field),
-                    _ => refusal,
-                }
+                Self::valued(Code::NotFinite, value, 0.0).about(what)
             }
             SolveError::LockedJointMoves { device, joint, rate } => {
                 Self::valued(Code::LockedJointMoves, rate, 0.0).at(device, joint)
@@ -219,7 +226,10 @@ impl From<SolveError> for Refusal {
                 Refusal::from(Code::NotDriven).at(device, joint)
             }
             SolveError::AtCentre => Code::AtCentre.into(),
-            SolveError::Overflow => Code::Overflow.into(),
+            SolveError::Unstable { device, joint, dt, longest } => {
+                Self::valued(Code::Unstable, dt, longest).at(device, joint)
+            }
+            SolveError::Overflow { what } => Self::from(Code::Overflow).about(what),
             _ => Code::Other.into(),
         }
     }

@@ -123,7 +123,7 @@ pub unsafe extern "C" fn precess_state_wrap(
         // SAFETY: by contract.
         let from = state_of(&craft.spacecraft, &unsafe { memory::read(state.cast_const()) }?);
         // SAFETY: by contract.
-        unsafe { memory::write(state, told(&from.wrapped_for(&craft.spacecraft))) }
+        unsafe { memory::write(state, told(&from.wrapped(&craft.spacecraft))) }
     });
     done.err().unwrap_or(Code::Ok) as i32
 }

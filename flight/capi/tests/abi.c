@@ -331,7 +331,7 @@ static void texts(void)
 {
     char text[128], little[5];
     int32_t code;
-    for (code = PRECESS_OK; code <= PRECESS_ERROR_OTHER; code++) {
+    for (code = PRECESS_OK; code <= PRECESS_ERROR_UNSTABLE; code++) {
         IS(precess_error_text(code, text, sizeof text), PRECESS_OK);
         IS(text[0] != '\0', 1);
     }
@@ -344,6 +344,8 @@ static void texts(void)
     IS(precess_version(), PRECESS_VERSION);
 }
 
+#include "promises.h"
+
 int main(void)
 {
     example();
@@ -354,5 +356,6 @@ int main(void)
     refused_pointers();
     tables();
     texts();
+    promises();
     return finish();
 }

@@ -59,6 +59,7 @@ IS(PRECESS_ERROR_TABLE_VERSION, 21);
 IS(PRECESS_ERROR_TABLE_LENGTH, 22);
 IS(PRECESS_ERROR_TABLE_CHECKSUM, 23);
 IS(PRECESS_ERROR_OTHER, 24);
+IS(PRECESS_ERROR_UNSTABLE, 25);
 IS(sizeof(precess_fault), 32);
 IS(offsetof(precess_fault, code), 0);
 IS(offsetof(precess_fault, device), 4);

@@ -109,7 +109,7 @@ impl App {
             self.work += stepped.work.total();
         }
         // Angles stay where their sines are cheap and exact, however long the mission.
-        self.state = self.state.wrapped();
+        self.state = self.state.wrapped(&self.craft);
         Ok(())
     }
 

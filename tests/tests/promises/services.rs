@@ -1,0 +1,69 @@
+//! One state of one device in every service that evaluates it.
+
+use precess_dynamics::kind::{Each, JointStates, Kind};
+use precess_dynamics::lanes::{AcrossDevices, Batch};
+use precess_dynamics::{AnyDevice, BuiltIn, Hub, Inputs, SolveError, Spacecraft, State};
+
+/// A device of a kind, its joints and motors.
+#[derive(Clone, Copy)]
+pub(crate) struct Alone<K: Kind<Scalar = f64>> {
+    pub(crate) hub: Hub,
+    pub(crate) device: K,
+    pub(crate) state: State<[K; 1]>,
+    pub(crate) inputs: Inputs<[K; 1]>,
+}
+
+/// Angular acceleration of the hub, or why there is none.
+pub(crate) type Outcome = Result<[f64; 3], SolveError>;
+
+/// What each service answers, by its name.
+pub(crate) fn outcomes<K>(case: &Alone<K>) -> Vec<(&'static str, Outcome)>
+where
+    K: Kind<Scalar = f64> + Into<BuiltIn>,
+{
+    let Alone { hub, device, state, inputs } = case;
+    let craft = Spacecraft::new(hub, &[*device]).expect("sound parameters");
+    let across = AcrossDevices::new(hub, &[*device]).expect("sound parameters");
+    let mut all = vec![
+        ("one state", craft.accelerations(state, inputs).map(|found| found.omega_dot.into())),
+        ("fused", craft.fused().accelerations(state, inputs).map(|found| found.omega_dot.into())),
+        ("across", across.accelerations(state, inputs).map(|found| found.omega_dot.into())),
+    ];
+    let batch = Batch::new(hub, &[*device]).expect("sound parameters");
+    for (name, batch) in [("batch", batch.clone()), ("fused batch", batch.fused())] {
+        let mut out = Vec::new();
+        batch.accelerations(&[*state; 9], inputs, &mut out).expect("as many inputs as states");
+        all.extend(out.into_iter().map(|found| (name, found.map(|found| found.omega_dot.into()))));
+    }
+    all.push((
+        "list on board",
+        listed::<K, [Option<BuiltIn>; 2]>(case, &[Some((*device).into()), None]),
+    ));
+    all.push(("list", listed::<K, Vec<AnyDevice>>(case, &vec![AnyDevice::from(*device)])));
+    all
+}
+
+/// The same by a set whose devices are known at run time only.
+fn listed<K, D>(case: &Alone<K>, devices: &D) -> Outcome
+where
+    K: Kind<Scalar = f64>,
+    D: precess_dynamics::Devices<Scalar = f64>,
+{
+    let craft = Spacecraft::new(&case.hub, devices).expect("sound parameters");
+    let mut state = State::at_rest_for(&craft);
+    state.r_b_n = case.state.r_b_n;
+    state.r_b_n_dot = case.state.r_b_n_dot;
+    state.attitude = case.state.attitude;
+    state.omega = case.state.omega;
+    for ([q, rate], [from, from_rate]) in
+        state.devices.states_mut().zip(case.state.devices.states())
+    {
+        (*q, *rate) = (from, from_rate);
+    }
+    let mut inputs = Inputs::none_for(&craft);
+    let motors = inputs.motors.values_mut().zip(case.inputs.motors.values());
+    motors.for_each(|(to, from)| *to = from);
+    let modes = inputs.modes.values_mut().zip(case.inputs.modes.values());
+    modes.for_each(|(to, from)| *to = from);
+    craft.accelerations(&state, &inputs).map(|found| found.omega_dot.into())
+}
