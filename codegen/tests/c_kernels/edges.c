@@ -47,7 +47,27 @@ int main(void)
     CHECK(solve(4.0, inertia, 1.0, &moves) == PRECESS_SOLVED);
     CHECK(moves.r_b_n_ddot_bx == 0.25 && moves.omega_dot_bz == 0.0);
 
-    /* A pivot that is rounding of its diagonal, and one that is no number. */
+    /* A moment of the hub that the moving share of a device cancels to rounding. */
+    {
+        static const struct precess_hub_share none;
+        const struct precess_body_rate still = {0.0, 0.0, 0.0};
+        struct precess_hub_share share = none;
+        struct precess_body body;
+        struct precess_assembly assembly;
+        precess_body_of_hub(4.0, NOTHING, inertia, &body);
+        precess_assembly_start(&body, NOTHING, NOTHING, &assembly);
+        share.i_moving_22 = -2.0 * (1.0 - 4.0 * DBL_EPSILON);
+        precess_assembly_add(&assembly, &share);
+        CHECK(precess_assembly_solve(&assembly, &still, &moves) == PRECESS_SINGULAR);
+        /* The same inertia, taken out by a joint. */
+        precess_assembly_start(&body, NOTHING, NOTHING, &assembly);
+        share.m_ww_22 = -share.i_moving_22;
+        share.i_moving_22 = 0.0;
+        precess_assembly_add(&assembly, &share);
+        CHECK(precess_assembly_solve(&assembly, &still, &moves) == PRECESS_SINGULAR);
+    }
+
+    /* A pivot that is rounding of its scale, and one that is no number. */
     CHECK(!precess_pivot_is_sound(64.0 * DBL_EPSILON, 1.0));
     CHECK(precess_pivot_is_sound(128.0 * DBL_EPSILON, 1.0));
     CHECK(!precess_pivot_is_sound(DBL_MAX * 2.0 - DBL_MAX * 2.0, 1.0));

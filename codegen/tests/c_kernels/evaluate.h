@@ -13,12 +13,14 @@ struct device {
     struct precess_dgvscmg_rates rates;
     struct precess_dgvscmg_motors motors;
     struct precess_dgvscmg_modes modes;
+    /* What the pivots of outer gimbal, inner gimbal and wheel are checked against, kg m^2. */
+    double scale[3];
 };
 
 /* Whether a joint that is driven has a pivot that is more than rounding. */
-static int is_sound(double driven, double pivot, double diagonal)
+static int is_sound(double driven, double pivot, double diagonal, double scale)
 {
-    return driven == 0.0 || precess_pivot_is_sound(pivot, diagonal);
+    return driven == 0.0 || precess_pivot_is_sound(pivot, diagonal > scale ? diagonal : scale);
 }
 
 /* Accelerations of the hub and of every joint. */
@@ -47,9 +49,9 @@ static enum precess_solved evaluate(
         precess_sin_cos(d->theta, &trig.sin_theta, &trig.cos_theta);
         precess_dgvscmg_eliminate(
             &d->constants, &trig, &d->rates, omega, &d->motors, &d->modes, &e);
-        if (!is_sound(d->modes.driven_o, e.pivot_o, e.diagonal_o)
-            || !is_sound(d->modes.driven_i, e.pivot_i, e.diagonal_i)
-            || !is_sound(d->modes.driven_w, e.pivot_w, e.diagonal_w)) {
+        if (!is_sound(d->modes.driven_o, e.pivot_o, e.diagonal_o, d->scale[0])
+            || !is_sound(d->modes.driven_i, e.pivot_i, e.diagonal_i, d->scale[1])
+            || !is_sound(d->modes.driven_w, e.pivot_w, e.diagonal_w, d->scale[2])) {
             return PRECESS_SINGULAR;
         }
         precess_assembly_add(&assembly, &e.share);

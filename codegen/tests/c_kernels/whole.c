@@ -68,6 +68,8 @@ int main(void)
             devices[k].rates = given.rates;
             devices[k].motors = given.motors;
             devices[k].modes = given.modes;
+            /* These spacecraft have no joint without inertia in any pose. */
+            devices[k].scale[0] = devices[k].scale[1] = devices[k].scale[2] = 0.0;
         }
         if (evaluate(&body, devices, &hub.omega, hub.force, hub.torque_b, &hub_moves, joints)
             != PRECESS_SOLVED) {

@@ -79,6 +79,9 @@ void precess_assembly_start(
     int k;
 
     out->body = *body;
+    out->constant[0] = body->inertia[0];
+    out->constant[1] = body->inertia[3];
+    out->constant[2] = body->inertia[5];
     for (k = 0; k < 3; k++) {
         out->force[k] = force[k];
         out->torque_b[k] = torque_b[k];
@@ -137,9 +140,9 @@ void precess_assembly_add(struct precess_assembly *assembly, const struct preces
     assembly->h_w[2] += share->h_w_3;
 }
 
-int precess_pivot_is_sound(double pivot, double diagonal)
+int precess_pivot_is_sound(double pivot, double scale)
 {
-    return pivot > 64.0 * DBL_EPSILON * diagonal;
+    return pivot > 64.0 * DBL_EPSILON * scale;
 }
 
 /* L D L^T of a symmetric block: L below its unit diagonal, D and its reciprocals. */
@@ -261,6 +264,7 @@ enum precess_solved precess_assembly_solve(
     struct precess_body_acceleration *out)
 {
     static const int DIAGONAL[3] = {0, 3, 5};
+    const double *const locked = assembly->body.inertia;
     const double rate[3] = {omega->omega_bx, omega->omega_by, omega->omega_bz};
     struct system system;
     struct factors vv;
@@ -307,8 +311,9 @@ enum precess_solved precess_assembly_solve(
     backward(&vv, reduced, r_b_n_ddot);
 
     for (k = 0; k < 3; k++) {
-        if (!precess_pivot_is_sound(vv.pivots[k], system.m_vv[DIAGONAL[k]])
-            || !precess_pivot_is_sound(ww.pivots[k], system.m_ww[DIAGONAL[k]])) {
+        const double scale = assembly->constant[k] + locked[DIAGONAL[k]];
+        if (!precess_pivot_is_sound(vv.pivots[k], assembly->body.mass)
+            || !precess_pivot_is_sound(ww.pivots[k], scale)) {
             return PRECESS_SINGULAR;
         }
     }

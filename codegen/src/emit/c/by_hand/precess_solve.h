@@ -22,7 +22,8 @@ extern "C" {
 enum precess_solved {
     /** The accelerations are found. */
     PRECESS_SOLVED = 0,
-    /** A pivot of the hub is only rounding beside its diagonal: it is left without inertia. */
+    /** A pivot of the hub is only rounding beside the mass or inertia that was there before any joint
+     * was eliminated: it is left without inertia. */
     PRECESS_SINGULAR = 1,
     /** An acceleration is infinite or no number: so is an input, or a result overflows. */
     PRECESS_NOT_FINITE = 2
@@ -42,6 +43,8 @@ struct precess_body {
 struct precess_assembly {
     /** Hub and devices as one rigid body. */
     struct precess_body body;
+    /** Moments of inertia of its constant share, entries 11, 22, 33: what the moving share may cancel. */
+    double constant[3];
     /** What acts from outside through B, N. */
     double force[3];
     /** What acts from outside about B, N m. */
@@ -98,10 +101,11 @@ enum precess_solved precess_assembly_solve(
     struct precess_body_acceleration *out);
 
 /**
- * Whether a pivot is above 64 epsilons of its diagonal. To be asked of each driven joint after
- * `eliminate`: below, its acceleration is only rounding.
+ * Whether a pivot is above 64 epsilons of its scale; below, the acceleration is only rounding. To be
+ * checked of each driven joint after `eliminate`. The scale of a joint is the larger of its diagonal and
+ * of the inertia of all bodies outboard of it in the pose that makes the most of it.
  */
-int precess_pivot_is_sound(double pivot, double diagonal);
+int precess_pivot_is_sound(double pivot, double scale);
 
 #ifdef __cplusplus
 }
