@@ -9,9 +9,11 @@
 //! - [`stored`]: spacecraft as files hold them, for engines and peers.
 //! - [`measured`]: spacecraft of every kind, for what is measured; [`counted`]: a scalar that counts
 //!   its operations.
+//! - [`accuracy`]: where the bound on the accelerations holds and where it is lost.
 //! - [`blocks`]: the unit in which accelerations are compared.
 //! - [`bounds`]: what the project promises, as the suites assert it.
 
+pub mod accuracy;
 pub mod assembly;
 pub mod blocks;
 pub mod bounds;

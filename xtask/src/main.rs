@@ -1,5 +1,6 @@
 //! The workbench: one short file per command.
 
+mod accuracy;
 mod bench;
 mod callgrind;
 mod capi;
@@ -51,6 +52,9 @@ enum Command {
     /// Time every service beside the peers, in one run on one core, and write the page that says so
     #[command(after_help = "Example: cargo xtask bench --quick --skip-peers")]
     Bench(bench::Options),
+    /// Measure where the bound on the accelerations holds and where it is lost; write the page and draw it
+    #[command(after_help = "Example: cargo xtask accuracy --check")]
+    Accuracy(accuracy::Options),
     /// Count the instructions of a call under callgrind; write the table
     #[command(after_help = "Example: cargo xtask instructions --check")]
     Instructions(instructions::Options),
@@ -74,6 +78,7 @@ fn main() -> ExitCode {
         Command::Test => test::test(),
         Command::Engines => engines::engines(),
         Command::Bench(options) => bench::bench(&options),
+        Command::Accuracy(options) => accuracy::accuracy(&options),
         Command::Instructions(options) => instructions::instructions(&options),
         Command::Flight(options) => flight::flight(&options),
         Command::Capi => capi::host(),

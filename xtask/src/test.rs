@@ -1,17 +1,19 @@
 //! `test`: every test of the workspace, documentation examples included.
 
+use crate::accuracy;
 use crate::engines;
 use crate::instructions;
 use crate::mutate;
 use crate::regen;
 use crate::run::cargo;
 
-/// `regen --check`, `mutate --check`, all tests, instruction counts, and the engines behind the stored
-/// values. The last two need more than Rust, and are skipped with a message where that is missing.
+/// `regen --check`, `mutate --check`, all tests, `accuracy --check`, instruction counts, and the engines
+/// behind the stored values. The last two need more than Rust, and are skipped with a message where that is missing.
 pub(crate) fn test() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
     mutate::mutate(&mutate::Options::check_only())?;
     cargo(&["test", "--workspace"])?;
+    accuracy::accuracy(&accuracy::Options::check_only())?;
     instructions::instructions(&instructions::Options::check_only())?;
     engines::engines()
 }

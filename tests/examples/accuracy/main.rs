@@ -1,0 +1,78 @@
+//! Where the bound on the accelerations holds and where it is lost: `docs/accuracy.md`.
+//!
+//! Run by `cargo xtask accuracy`, which puts the page in its place or compares. The same bytes on
+//! every run: spacecraft are seeded, and solver and reference give the same bits on every machine.
+
+mod chart;
+mod limit;
+mod page;
+
+use std::error::Error;
+use std::fs;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use precess_tests::accuracy::kinds::{BareBalancedDgvscmg, BareDgcmg, BareDgvscmg, BareVscmg};
+use precess_tests::accuracy::{Row, offset, pose};
+
+/// Measures both sweeps and writes the page with its figure.
+#[derive(Parser)]
+#[command(after_help = "Example: accuracy --out target/accuracy")]
+struct Arguments {
+    /// Where the page goes
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Both sweeps, each from where the bound holds to where it is lost.
+struct Sweeps {
+    /// Imbalanced wheels on the massless gimbals of a DGVSCMG, by the distance from the pose.
+    dgvscmg: Vec<Row>,
+    /// Balanced ones.
+    balanced: Vec<Row>,
+    /// Kinds that no pose makes singular, at the least distance from that of a DGVSCMG.
+    others: Vec<(&'static str, Row)>,
+    /// By the distance of the centre of mass from B.
+    offset: Vec<Row>,
+}
+
+impl Sweeps {
+    fn measured() -> Self {
+        let distances = pose::distances();
+        let least = distances[0];
+        let falling = || distances.iter().rev().copied();
+        Self {
+            dgvscmg: falling().map(pose::at::<BareDgvscmg>).collect(),
+            balanced: falling().map(pose::at::<BareBalancedDgvscmg>).collect(),
+            others: vec![
+                ("dgcmg", pose::at::<BareDgcmg>(least)),
+                ("vscmg", pose::at::<BareVscmg>(least)),
+            ],
+            offset: offset::distances().into_iter().map(offset::at).collect(),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let sweeps = Sweeps::measured();
+    let out = &arguments.out;
+    fs::create_dir_all(out).map_err(|error| format!("cannot make {}: {error}", out.display()))?;
+    let text = page::page(&sweeps)?;
+    for (name, text) in [("accuracy.md", text), ("accuracy.svg", chart::chart(&sweeps)?)] {
+        let path = out.join(name);
+        fs::write(&path, text)
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    }
+    Ok(())
+}

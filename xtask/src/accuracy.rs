@@ -1,0 +1,58 @@
+//! `accuracy`: where the bound on the accelerations holds and where it is lost, measured and drawn.
+
+use std::fs;
+
+use clap::Args;
+use precess_codegen::emit::EmittedFile;
+
+use crate::files::{differing, write};
+use crate::run::{cargo, root, say, target};
+
+/// The page and its figure, in `docs`.
+const FILES: [&str; 2] = ["accuracy.md", "accuracy.svg"];
+
+/// Options of `accuracy`.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Write nothing; show what would change and fail if anything would
+    #[arg(long)]
+    check: bool,
+}
+
+impl Options {
+    /// `accuracy --check`.
+    pub(crate) fn check_only() -> Self {
+        Self { check: true }
+    }
+}
+
+/// Measures by the example `accuracy`; writes the page with its figure, or compares.
+pub(crate) fn accuracy(options: &Options) -> Result<(), String> {
+    let out = target()?.join("accuracy");
+    // As `cargo test` builds it: a release build takes minutes, to the same bytes.
+    let example = ["run", "--profile", "test", "--quiet", "-p", "precess-tests"];
+    let arguments = ["--example", "accuracy", "--", "--out", &out.to_string_lossy()];
+    cargo(&[&example[..], &arguments].concat())?;
+    let files = FILES.map(|name| {
+        let text = fs::read_to_string(out.join(name));
+        let text = text.map_err(|error| format!("cannot read {name}: {error}"))?;
+        Ok(EmittedFile { path: format!("docs/{name}"), text })
+    });
+    let files = files.into_iter().collect::<Result<Vec<_>, String>>()?;
+    if options.check {
+        return match differing(&files, &root()) {
+            0 => {
+                say!("{} files are fresh", files.len());
+                Ok(())
+            }
+            stale => Err(format!(
+                "{stale} of {} files are stale; run `cargo xtask accuracy`",
+                files.len()
+            )),
+        };
+    }
+    if let Some(EmittedFile { text, .. }) = files.first() {
+        say!("{text}");
+    }
+    write(&files, &root())
+}
