@@ -91,7 +91,8 @@ pub enum SolveError<T = f64> {
         /// The pivot: the inertia left to that joint, kg m^2 (hub, sliding joint: also kg).
         pivot: T,
         /// The bound it is not above: 64 epsilons of the mass or inertia that was there before any
-        /// joint was eliminated, in the pose that makes the most of it.
+        /// joint was eliminated (of a joint, in the pose that makes the most of it), and of what the
+        /// rounding of earlier pivots makes of it.
         bound: T,
     },
     /// An input is infinite or NaN, or an attitude without a usable length.
@@ -196,7 +197,10 @@ impl<T: Scalar> Display for SolveError<T> {
                 }
                 write!(f, " is not above {:?}; ", bound.to_f64())?;
                 match joint {
-                    None => f.write_str("check the hub's mass and inertia"),
+                    None => f.write_str(
+                        "check the hub's mass and inertia, and that its centre of mass is not far \
+                         from B",
+                    ),
                     Some(joint) => {
                         write!(f, "check mass and inertia of the {joint} and of what it carries")?;
                         if joint.ends_with("gimbal") {
@@ -290,7 +294,8 @@ mod tests {
         let error = SolveError::Singular { device: None, joint: None, pivot: -1.0, bound: 0.5 };
         assert_eq!(
             error.to_string(),
-            "pivot -1.0 of the hub is not above 0.5; check the hub's mass and inertia"
+            "pivot -1.0 of the hub is not above 0.5; check the hub's mass and inertia, and that its \
+             centre of mass is not far from B"
         );
     }
 

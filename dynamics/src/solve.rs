@@ -9,7 +9,7 @@
 use crate::error::SolveError;
 use crate::real::{Real, Scalar};
 use crate::symmetric::Symmetric;
-use crate::vec3::{Columns, Vec3, dot, finite, map, sub};
+use crate::vec3::{Columns, Vec3, add, dot, finite, map, rotate, scale, sub};
 
 /// A pivot must exceed this many epsilons of its scale: of the largest numbers that were added up and
 /// cancelled on the way to it.
@@ -17,6 +17,10 @@ use crate::vec3::{Columns, Vec3, dot, finite, map, sub};
 /// What is left at the bound has at most some bits that are not rounding; a state that close to
 /// singular has no meaningful accelerations.
 pub(crate) const PIVOT_EPSILONS: f64 = 64.0;
+
+/// Where every pivot exceeds this share of its own scale, none is near its bound, however much the
+/// rounding of one grows in those after it.
+pub(crate) const WELL_SCALED: f64 = 1.0 / 1024.0;
 
 /// The symmetric system: row of `vw` = force, column = angular acceleration; `vw` by its columns.
 #[derive(Clone, Copy, Debug)]
@@ -75,8 +79,18 @@ impl<T: Scalar> System<T> {
     #[inline]
     pub(crate) fn solve(&self) -> Result<(Solution<T>, Pivots<T>), SmallPivot<T>> {
         let (solution, pivots) = self.solved();
-        pivots.iter().try_for_each(|[pivot, scale]| check_pivot(*pivot, *scale))?;
+        let share = T::from_f64(WELL_SCALED);
+        if !pivots.iter().all(|[pivot, scale]| *pivot > share * *scale) {
+            self.check_pivots(&pivots)?;
+        }
         Ok((solution, pivots))
+    }
+
+    /// Checks each pivot beside its scale, grown by the rounding of those before it.
+    #[cold]
+    fn check_pivots(&self, pivots: &Pivots<T>) -> Result<(), SmallPivot<T>> {
+        let mut pivots = pivots.iter().zip(self.grown_scales());
+        pivots.try_for_each(|([pivot, _], scale)| check_pivot(*pivot, scale))
     }
 }
 
@@ -103,10 +117,9 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// The solution, to be taken only where each of the pivots, in order, exceeds its bound beside its
-    /// scale.
+    /// Rows one to three factorised, rows four to six of L by columns, and what is left factorised.
     #[inline(always)]
-    pub(crate) fn solved(&self) -> (Solution<T>, Pivots<T>) {
+    fn factorised(&self) -> (Factors<T>, Columns<T>, Factors<T>) {
         let vv = Factors::of(&self.m_vv);
 
         // Rows four to six of L times D, and of L: w = L_vv^-1 M_vw, z = D_vv^-1 w.
@@ -122,8 +135,36 @@ impl<T: Real> System<T> {
             yz: self.m_ww.yz - dot(wy, zz),
             zz: self.m_ww.zz - dot(wz, zz),
         };
-        let ww = Factors::of(&schur);
+        (vv, z, Factors::of(&schur))
+    }
 
+    /// Scale of each pivot: what is rounded in M, as it comes together in that pivot.
+    ///
+    /// Pivot k is `v · M v` with `Lᵀ v = e_k`, so rounding of `M_ii` counts `v_i²` times. Small pivots
+    /// before it make v long.
+    #[inline(always)]
+    pub(crate) fn grown_scales(&self) -> [T; 6] {
+        let (vv, z, ww) = self.factorised();
+        let (mass, moments) = self.scale;
+        let weighed = |weights: Vec3<T>, v: Vec3<T>| {
+            weights[0] * (v[0] * v[0]) + weights[1] * (v[1] * v[1]) + weights[2] * (v[2] * v[2])
+        };
+        let [a, b, c] = map(vv.columns(), |v| weighed([mass; 3], v));
+        let [first, second, third] = ww.columns();
+        // Of each only what was eliminated before it: what follows a pivot of zero is no number.
+        let [zx, zy, _] = z;
+        let before = [zx, add(scale(second[0], zx), zy), rotate(&z, third)];
+        let [x, y, z] = map(before, |coupled| weighed([mass; 3], vv.backward(coupled)));
+        let own = map([first, second, third], |v| weighed(moments, v));
+        [a, b, c, x + own[0], y + own[1], z + own[2]]
+    }
+
+    /// The solution, to be taken only where each of the pivots, in order, exceeds its bound beside its
+    /// scale.
+    #[inline(always)]
+    pub(crate) fn solved(&self) -> (Solution<T>, Pivots<T>) {
+        let (vv, z, ww) = self.factorised();
+        let [zx, zy, zz] = z;
         let y_v = vv.forward(self.h_v);
         let y_w = ww.forward(sub(self.h_w, [dot(zx, y_v), dot(zy, y_v), dot(zz, y_v)]));
         let omega_dot = ww.backward(ww.divide(y_w));
@@ -181,6 +222,14 @@ impl<T: Real> Factors<T> {
     fn divide(&self, b: Vec3<T>) -> Vec3<T> {
         let [r_1, r_2, r_3] = self.reciprocals;
         [b[0] * r_1, b[1] * r_2, b[2] * r_3]
+    }
+
+    /// The columns of `L^-T`.
+    #[inline(always)]
+    fn columns(&self) -> Columns<T> {
+        let (zero, one) = (self.l_21.like(0.0), self.l_21.like(1.0));
+        let last = [self.l_21 * self.l_32 - self.l_31, -self.l_32, one];
+        [[one, zero, zero], [-self.l_21, one, zero], last]
     }
 
     /// `L^-T b`.
@@ -264,6 +313,25 @@ mod tests {
         m.fixed_view_mut::<3, 3>(3, 0).copy_from(&s);
         m.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-s * s));
         assert!(solve(&m, &Vector6::zeros()).is_err());
+    }
+
+    #[test]
+    fn rounding_that_a_small_pivot_before_it_makes_grow_is_refused() {
+        // 1 - n nᵀ with n nearly in the plane of the first two axes: the second pivot is small.
+        let n = nalgebra::Vector3::new(0.6, 0.8, 3e-3).normalize();
+        let mut m = Matrix6::identity();
+        let block = (nalgebra::Matrix3::identity() - n * n.transpose()) * 0.3;
+        m.fixed_view_mut::<3, 3>(3, 3).copy_from(&block);
+        let system = system(&m, &Vector6::zeros());
+        let [.., [fifth, _], [sixth, _]] = system.solved().1;
+        assert!(fifth < 1e-4 && sixth.abs() < 1e-9);
+        let [.., grown] = system.grown_scales();
+        assert!(grown > 1e4 * 0.3, "{grown}");
+        assert!(solve(&m, &Vector6::zeros()).is_err());
+        // Its own scale is that of the row where nothing is coupled.
+        let plain = Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
+        let scales = self::system(&plain, &Vector6::zeros()).grown_scales();
+        assert_eq!(scales, [3.0, 3.0, 3.0, 4.0, 5.0, 6.0]);
     }
 
     #[test]

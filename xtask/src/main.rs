@@ -1,6 +1,7 @@
 //! The workbench: one short file per command.
 
 mod accuracy;
+mod attack;
 mod bench;
 mod callgrind;
 mod capi;
@@ -46,6 +47,12 @@ enum Command {
     /// Run all tests
     #[command(after_help = "Example: cargo xtask test")]
     Test,
+    /// Try to break what the README promises with random spacecraft, on every core; print what fails as
+    /// a test to paste
+    #[command(
+        after_help = "Examples: cargo xtask attack --minutes 10\n          cargo xtask attack --property singular-is-refused --seed 7"
+    )]
+    Attack(attack::Options),
     /// Ask the engines behind the stored values again, if their Python packages are installed
     #[command(after_help = "Example: cargo xtask engines")]
     Engines,
@@ -76,6 +83,7 @@ fn main() -> ExitCode {
         Command::Check => check::check(),
         Command::Mutate(options) => mutate::mutate(&options),
         Command::Test => test::test(),
+        Command::Attack(options) => attack::attack(&options),
         Command::Engines => engines::engines(),
         Command::Bench(options) => bench::bench(&options),
         Command::Accuracy(options) => accuracy::accuracy(&options),

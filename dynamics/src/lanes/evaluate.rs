@@ -16,7 +16,7 @@ use crate::kind::Kind;
 use crate::mode::Drive;
 use crate::passive::Passive;
 use crate::sincos::LARGEST_ANGLE;
-use crate::solve::PIVOT_EPSILONS;
+use crate::solve::{PIVOT_EPSILONS, Pivots, WELL_SCALED};
 use crate::spacecraft::Spacecraft;
 use crate::stability::Stiffness;
 use crate::vec3::{Vec3, add};
@@ -58,15 +58,21 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
     };
     D::each(&craft.devices, slots, &mut elimination);
     let Elimination { assembly, mut holds, .. } = elimination;
-    let (solution, pivots) = assembly.system(acting.omega).solved();
+    let system = assembly.system(acting.omega);
+    let (solution, pivots) = system.solved();
     let mut stiffness = assembly.stiffness;
     if craft.passive {
         stiffness = stiffness.on_free_hub(pivots);
     }
-    let [a, b, c, d, e, f] = pivots;
-    let [ab, cd, ef] = [[a, b], [c, d], [e, f]];
-    holds = like.both(like.both(both_sound(ab), both_sound(cd)), like.both(both_sound(ef), holds));
     let zero = like.like(0.0);
+    let mut regular = all_above(pivots, like.like(WELL_SCALED));
+    if like.like(1.0).or(regular, zero).store().0.iter().take(T::WIDTH).any(|holds| *holds != 1.0) {
+        let [a, b, c, d, e, f] = system.grown_scales();
+        let [[p, _], [q, _], [r, _], [s, _], [t, _], [u, _]] = pivots;
+        let grown = [[p, a], [q, b], [r, c], [s, d], [t, e], [u, f]];
+        regular = all_above(grown, like.like(PIVOT_EPSILONS * f64::EPSILON));
+    }
+    holds = like.both(regular, holds);
     let [x, y, z] = solution.r_b_n_ddot;
     let [p, q, r] = solution.omega_dot;
     let vanishing = (x + y + z + p + q + r) * zero;
@@ -79,22 +85,19 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
     Found { r_b_n_ddot, omega_dot: solution.omega_dot, stiffness, holds }
 }
 
-/// Where a pivot is more than rounding beside its scale.
+/// Where each pivot exceeds a share of its scale.
 #[inline(always)]
-fn sound<T: Number>(pivot: T, scale: T) -> T::Holds {
-    pivot.above(bound(scale))
+fn all_above<T: Number>(pivots: Pivots<T>, share: T) -> T::Holds {
+    let above = |[pivot, scale]: [T; 2]| pivot.above(share * scale);
+    let [a, b, c, d, e, f] = pivots;
+    let first = share.both(above(a), share.both(above(b), above(c)));
+    share.both(first, share.both(above(d), share.both(above(e), above(f))))
 }
 
 /// What a pivot must exceed.
 #[inline(always)]
 fn bound<T: Number>(scale: T) -> T {
     scale.like(PIVOT_EPSILONS * f64::EPSILON) * scale
-}
-
-/// Where two pivots are.
-#[inline(always)]
-fn both_sound<T: Number>([[a, of_a], [b, of_b]]: [[T; 2]; 2]) -> T::Holds {
-    a.both(sound(a, of_a), sound(b, of_b))
 }
 
 /// Eliminates each device into the hub's system.

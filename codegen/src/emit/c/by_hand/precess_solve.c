@@ -253,6 +253,38 @@ static void put_together(
     }
 }
 
+/* Scale of each pivot: what is rounded in M, as it comes together in that pivot. Pivot k is v . M v with
+ * L^T v = e_k; small pivots before it make v long. */
+static void grow(
+    double mass,
+    const double moments[3],
+    const struct factors *vv,
+    const double z[3][3],
+    const struct factors *ww,
+    double out[6])
+{
+    int k;
+    int j;
+
+    for (k = 0; k < 3; k++) {
+        double unit[3] = {0.0, 0.0, 0.0};
+        double coupled[3];
+        double v[3];
+        double w[3];
+
+        unit[k] = 1.0;
+        backward(vv, unit, v);
+        out[k] = mass * (v[0] * v[0]) + mass * (v[1] * v[1]) + mass * (v[2] * v[2]);
+        backward(ww, unit, w);
+        for (j = 0; j < 3; j++) {
+            coupled[j] = z[0][j] * w[0] + z[1][j] * w[1] + z[2][j] * w[2];
+        }
+        backward(vv, coupled, v);
+        out[3 + k] = (mass * (v[0] * v[0]) + mass * (v[1] * v[1]) + mass * (v[2] * v[2]))
+            + (moments[0] * (w[0] * w[0]) + moments[1] * (w[1] * w[1]) + moments[2] * (w[2] * w[2]));
+    }
+}
+
 static int is_finite(double x)
 {
     return x - x == 0.0;
@@ -278,6 +310,8 @@ enum precess_solved precess_assembly_solve(
     double divided[3];
     double omega_dot[3];
     double r_b_n_ddot[3];
+    double moments[3];
+    double scales[6];
     int k;
 
     put_together(assembly, rate, &system);
@@ -311,9 +345,12 @@ enum precess_solved precess_assembly_solve(
     backward(&vv, reduced, r_b_n_ddot);
 
     for (k = 0; k < 3; k++) {
-        const double scale = assembly->constant[k] + locked[DIAGONAL[k]];
-        if (!precess_pivot_is_sound(vv.pivots[k], assembly->body.mass)
-            || !precess_pivot_is_sound(ww.pivots[k], scale)) {
+        moments[k] = assembly->constant[k] + locked[DIAGONAL[k]];
+    }
+    grow(assembly->body.mass, moments, &vv, (const double(*)[3])z, &ww, scales);
+    for (k = 0; k < 3; k++) {
+        if (!precess_pivot_is_sound(vv.pivots[k], scales[k])
+            || !precess_pivot_is_sound(ww.pivots[k], scales[3 + k])) {
             return PRECESS_SINGULAR;
         }
     }

@@ -1,0 +1,443 @@
+//! How cases are drawn: any kinds, parameters, motions and inputs that a profile allows.
+//!
+//! Real bodies by default: masses 0.1 to 100 kg on a hub of 1 to 5000 kg, solid blocks and discs,
+//! lengths to 3 m, rates to 5 rad/s and 600 rad/s. A profile lets a share of all numbers have any
+//! magnitude, or be no number.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix3, Quaternion as Turn, UnitQuaternion, Vector3};
+use precess_dynamics::kind::BodyParameters;
+use precess_dynamics::{
+    BuiltIn, BuiltInKind, BuiltInParameters, Each, Few, Gravity, Hub, HubMode, ImbalanceModel,
+    Inputs, JointStates, Mode, Passive, Quaternion, State, Wrench,
+};
+use proptest::collection::vec;
+use proptest::prelude::{BoxedStrategy, Strategy};
+
+use super::case::{Case, List, template};
+use super::number::Number;
+
+/// What may be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Profile {
+    /// Share of numbers of states, inputs and parameters that have any magnitude.
+    pub wild: f64,
+    /// Share of numbers of states and inputs that are infinite or NaN.
+    pub not_finite: f64,
+    /// The lists of kinds to draw from; any up to five devices where there is none.
+    pub sets: &'static [&'static [BuiltInKind]],
+    /// Whether joints may be prescribed and locked.
+    pub modes: bool,
+    /// Whether joints may have springs and friction.
+    pub passive: bool,
+    /// Whether imbalance may be lumped.
+    pub lumped: bool,
+    /// Whether the hub may be fixed or prescribed.
+    pub held: bool,
+    /// Whether there may be gravity.
+    pub gravity: bool,
+    /// Whether anything acts from outside or by motors.
+    pub driven: bool,
+    /// How many more states there may be.
+    pub more: usize,
+}
+
+impl Profile {
+    /// Real bodies with everything on.
+    pub const REAL: Self = Self {
+        wild: 0.0,
+        not_finite: 0.0,
+        sets: &[],
+        modes: true,
+        passive: true,
+        lumped: true,
+        held: true,
+        gravity: true,
+        driven: true,
+        more: 0,
+    };
+}
+
+/// Kinds, the simplest first.
+const KINDS: [BuiltInKind; 12] = [
+    BuiltInKind::ReactionWheel,
+    BuiltInKind::BalancedReactionWheel,
+    BuiltInKind::HingedPanel,
+    BuiltInKind::SloshMass,
+    BuiltInKind::Sgcmg,
+    BuiltInKind::BalancedSgcmg,
+    BuiltInKind::Vscmg,
+    BuiltInKind::BalancedVscmg,
+    BuiltInKind::Dgcmg,
+    BuiltInKind::BalancedDgcmg,
+    BuiltInKind::Dgvscmg,
+    BuiltInKind::BalancedDgvscmg,
+];
+
+/// A body: mass, where it stands, where its centre is, how long its edges are, how it is turned.
+#[derive(Clone, Debug)]
+struct Body {
+    mass: f64,
+    origin: [f64; 3],
+    centre: [f64; 3],
+    edges: [f64; 3],
+    turn: [f64; 4],
+    /// Without mass, where the kind allows that, and without inertia.
+    hollow: bool,
+}
+
+/// What a joint does by itself and what is given of it.
+#[derive(Clone, Debug)]
+struct Joint {
+    motion: [f64; 2],
+    torque: f64,
+    mode: u8,
+    acceleration: f64,
+    passive: [f64; 5],
+    bound: [bool; 2],
+    wrench: [[f64; 3]; 2],
+}
+
+#[derive(Clone, Debug)]
+struct Device {
+    kind: usize,
+    mount: [f64; 4],
+    bodies: [Body; 3],
+    joints: [Joint; 3],
+    lumped: bool,
+}
+
+/// How the hub moves and what acts on it.
+#[derive(Clone, Debug)]
+struct World {
+    place: [[f64; 3]; 3],
+    attitude: [f64; 4],
+    acting: [[f64; 3]; 2],
+    held: u8,
+    given: [[f64; 3]; 2],
+    field: u8,
+    gravity: [f64; 3],
+    wrenches: bool,
+    dt: f64,
+    steps: usize,
+    compatible: bool,
+}
+
+impl Profile {
+    /// A number of a state or of inputs.
+    fn number(&self, number: Number) -> Number {
+        number.or_any(self.wild).or_not_finite(self.not_finite)
+    }
+
+    fn vector(&self, size: f64) -> impl Strategy<Value = [f64; 3]> + use<> {
+        [(); 3].map(|()| self.number(Number::within(-size, size)))
+    }
+
+    fn turn(&self) -> impl Strategy<Value = [f64; 4]> + use<> {
+        let first = Number::new(1.0, |random| random.within(-1.0, 1.0));
+        let rest = [(); 3].map(|()| Number::within(-1.0, 1.0));
+        (first, rest).prop_map(|(first, [x, y, z])| [first, x, y, z])
+    }
+
+    fn body(&self, lightest: f64, heaviest: f64) -> impl Strategy<Value = Body> + use<> {
+        let wild = self.wild * 0.5;
+        let length = |size: f64| [(); 3].map(|()| Number::within(-size, size).or_any(wild));
+        let mass = Number::log_within(lightest, heaviest).or_any(wild);
+        let edges = [(); 3].map(|()| Number::log_within(0.05, 3.0).or_any(wild));
+        let hollow = proptest::bool::weighted(0.2);
+        (mass, length(1.7), length(0.5), edges, self.turn(), hollow).prop_map(
+            |(mass, origin, centre, edges, turn, hollow)| Body {
+                mass: mass.abs(),
+                origin,
+                centre,
+                edges,
+                turn,
+                hollow,
+            },
+        )
+    }
+
+    fn joint(&self) -> impl Strategy<Value = Joint> + use<> {
+        let angle = Number::new(0.0, |random| {
+            if random.bits() & 3 == 0 { random.within(-1e3, 1e3) } else { random.within(-PI, PI) }
+        });
+        let motion = [self.number(angle), self.number(Number::within(-1.0, 1.0))];
+        let share = |low: f64| Number::log_within(low, 1.0).or_any(self.wild * 0.5);
+        let passive =
+            (share(1e-3), Number::within(-1.0, 1.0), share(1e-4), share(1e-4), share(1e-3));
+        let bound = proptest::array::uniform2(proptest::bool::weighted(0.4));
+        let wrench = [self.vector(10.0), self.vector(10.0)];
+        let torque = self.number(Number::within(-10.0, 10.0));
+        let acceleration = self.number(Number::within(-10.0, 10.0));
+        (motion, torque, 0_u8..10, acceleration, passive, bound, wrench).prop_map(
+            |(motion, torque, mode, acceleration, (k, rest, c, u, w), bound, wrench)| Joint {
+                motion,
+                torque,
+                mode,
+                acceleration,
+                passive: [100.0 * k.abs(), rest, 10.0 * c.abs(), 10.0 * u.abs(), 0.1 * w.abs()],
+                bound,
+                wrench,
+            },
+        )
+    }
+
+    fn device(&self) -> impl Strategy<Value = Device> + use<> {
+        let bodies = [(); 3].map(|()| self.body(0.1, 100.0));
+        let joints = [(); 3].map(|()| self.joint());
+        (0..KINDS.len(), self.turn(), bodies, joints, proptest::bool::weighted(0.2)).prop_map(
+            |(kind, mount, bodies, joints, lumped)| Device { kind, mount, bodies, joints, lumped },
+        )
+    }
+
+    fn world(&self) -> impl Strategy<Value = World> + use<> {
+        let place = [self.vector(100.0), self.vector(10.0), self.vector(0.6)];
+        let acting = [self.vector(60.0), self.vector(6.0)];
+        let given = [self.vector(6.0), self.vector(0.6)];
+        let [first, second, third, fourth] = [1.0, 0.0, 0.0, 0.0]
+            .map(|simplest| self.number(Number::new(simplest, |random| random.within(-1.0, 1.0))));
+        let attitude = [first, second, third, fourth];
+        let dt = Number::log_within(1e-5, 1e-2).or_any(self.wild).or_not_finite(self.not_finite);
+        let motion = (place, attitude, acting, proptest::bool::weighted(0.7));
+        let modes = (0_u8..8, given, 0_u8..6, self.vector(6.0), proptest::bool::weighted(0.4));
+        (motion, modes, dt, 1_usize..6).prop_map(|(motion, modes, dt, steps)| {
+            let (place, attitude, acting, compatible) = motion;
+            let (held, given, field, gravity, wrenches) = modes;
+            World {
+                place,
+                attitude,
+                acting,
+                held,
+                given,
+                field,
+                gravity,
+                wrenches,
+                dt,
+                steps,
+                compatible,
+            }
+        })
+    }
+
+    /// A case of this profile.
+    pub fn cases(self) -> BoxedStrategy<Case> {
+        let hub = self.body(1.0, 5000.0);
+        let most = self.sets.iter().map(|set| set.len()).max();
+        let count = most.map_or(0..=5, |most| most..=most);
+        let set = 0..self.sets.len().max(1);
+        let more = vec((self.world(), vec(self.joint(), 18)), 0..=self.more);
+        (hub, vec(self.device(), count), set, self.world(), more)
+            .prop_map(move |(hub, devices, set, world, more)| {
+                self.case(&hub, devices, set, &world, &more)
+            })
+            .boxed()
+    }
+
+    fn case(
+        &self,
+        hub: &Body,
+        mut devices: Vec<Device>,
+        set: usize,
+        world: &World,
+        more: &[(World, Vec<Joint>)],
+    ) -> Case {
+        if let Some(kinds) = self.sets.get(set) {
+            devices.truncate(kinds.len());
+            for (device, kind) in devices.iter_mut().zip(*kinds) {
+                device.kind = KINDS.iter().position(|known| known == kind).unwrap_or(0);
+            }
+        }
+        let list: List = devices.iter().map(|device| self.built_in(device)).collect();
+        let Body { mass, centre, .. } = *hub;
+        let hub = Hub { m_b: mass, r_bc_b: centre.into(), i_b_bc: block(hub) };
+        let mut case = Case::still(hub, list);
+        let counts = devices
+            .iter()
+            .zip(&case.devices)
+            .map(|(device, made)| device.joints.iter().take(made.kind().joints().len()));
+        let joints: Vec<&Joint> = counts.flatten().collect();
+        let nothing = Inputs::no_wrenches_for(&template(&case.devices));
+        self.inputs(&mut case.inputs, world, &joints, &case.devices, &nothing);
+        self.state(&mut case.state, world, &joints, &case.devices);
+        self.compatible(&mut case.state, &case.inputs);
+        (case.dt, case.steps) = (world.dt, world.steps);
+        for (world, joints) in more {
+            let joints: Vec<&Joint> = joints.iter().collect();
+            let (mut state, mut inputs) = (case.state.clone(), case.inputs.clone());
+            self.inputs(&mut inputs, world, &joints, &case.devices, &nothing);
+            self.state(&mut state, world, &joints, &case.devices);
+            // Some may move where they are locked.
+            if world.compatible {
+                self.compatible(&mut state, &inputs);
+            }
+            case.more.push((state, inputs));
+        }
+        case
+    }
+
+    fn built_in(&self, device: &Device) -> BuiltIn {
+        let kind = KINDS[device.kind];
+        let infos = kind.joints();
+        let balanced = format!("{kind:?}").starts_with("Balanced");
+        let mut bodies = device.bodies.clone().map(|body| {
+            let mass = if body.hollow { 0.0 } else { body.mass };
+            let inertia = if body.hollow { Matrix3::zeros() } else { block(&body) };
+            BodyParameters { origin: body.origin, mass, centre: body.centre, inertia }
+        });
+        for ((body, drawn), info) in bodies.iter_mut().zip(&device.bodies).zip(infos) {
+            if !info.tip {
+                continue;
+            }
+            body.mass = drawn.mass;
+            match info.body {
+                "wheel" if balanced => {
+                    body.centre = [0.0; 3];
+                    let [axial, across] = disc(drawn);
+                    body.inertia = Matrix3::from_diagonal(&Vector3::new(axial, across, across));
+                }
+                "wheel" => {
+                    body.centre = [0.0, 0.1 * drawn.centre[1], 0.0];
+                    let [axial, across] = disc(drawn);
+                    let [w, x, y, z] = drawn.turn;
+                    let tilt = rotation([w.signum() * (1.0 + w.abs()), 0.1 * x, 0.1 * y, 0.1 * z]);
+                    body.inertia = turned(Vector3::new(axial, across, across), &tilt);
+                }
+                "slosh mass" => {
+                    (body.centre, body.inertia) = ([0.0; 3], Matrix3::zeros());
+                }
+                _ => {}
+            }
+        }
+        let mut passive = [Passive::none(); 3];
+        for (passive, joint) in passive.iter_mut().zip(&device.joints) {
+            let [stiffness, rest, viscous, coulomb, coulomb_rate] = joint.passive;
+            let [sprung, dry] = joint.bound.map(|bound| bound && self.passive);
+            if sprung {
+                *passive = Passive { rest, ..Passive::spring(stiffness, viscous) };
+            }
+            if dry {
+                *passive = Passive { coulomb, coulomb_rate, ..*passive };
+            }
+        }
+        let lumped = device.lumped
+            && self.lumped
+            && !balanced
+            && infos.last().is_some_and(|info| info.body == "wheel");
+        let model = if lumped { ImbalanceModel::Lumped } else { ImbalanceModel::Coupled };
+        let stated = BuiltInParameters { mount: rotation(device.mount), bodies, passive, model };
+        BuiltIn::new(kind, &stated).expect("what the kind has no parameter for is zero")
+    }
+
+    fn inputs(
+        &self,
+        inputs: &mut Inputs<List>,
+        world: &World,
+        joints: &[&Joint],
+        list: &List,
+        nothing: &Vec<Few<Wrench>>,
+    ) {
+        if self.driven {
+            let [force, torque_b] = world.acting;
+            (inputs.force, inputs.torque_b) = (force.into(), torque_b.into());
+            for (motor, joint) in inputs.motors.values_mut().zip(joints) {
+                *motor = joint.torque;
+            }
+        }
+        let infos = list.iter().flat_map(|device| device.kind().joints());
+        for ((mode, joint), info) in inputs.modes.values_mut().zip(joints).zip(infos) {
+            if self.modes && info.driven {
+                *mode = match joint.mode {
+                    6 | 7 => Mode::Prescribed(joint.acceleration),
+                    8 | 9 => Mode::Locked,
+                    _ => Mode::Driven,
+                };
+            }
+        }
+        let [r_b_n_ddot, omega_dot] = world.given.map(Vector3::from);
+        inputs.hub = match world.held {
+            6 if self.held => HubMode::Fixed,
+            7 if self.held => HubMode::Prescribed { r_b_n_ddot, omega_dot },
+            _ => HubMode::Free,
+        };
+        let g = Vector3::from(world.gravity);
+        inputs.gravity = match world.field {
+            2 | 3 if self.gravity => Gravity::Uniform(g),
+            4 | 5 if self.gravity => {
+                let [place, ..] = world.place.map(Vector3::from);
+                let mu = g.norm() * place.norm_squared();
+                Gravity::Central { mu: if mu.is_finite() { mu } else { world.gravity[0] } }
+            }
+            _ => Gravity::None,
+        };
+        inputs.bodies = (world.wrenches && self.driven).then(|| {
+            let mut bodies = nothing.clone();
+            for (wrench, joint) in bodies.values_mut().zip(joints) {
+                let [force, moment] = joint.wrench.map(Vector3::from);
+                *wrench = Wrench { force, moment };
+            }
+            bodies
+        });
+    }
+
+    fn state(&self, state: &mut State<List>, world: &World, joints: &[&Joint], list: &List) {
+        let [place, velocity, omega] = world.place.map(Vector3::from);
+        (state.r_b_n, state.r_b_n_dot, state.omega) = (place, velocity, omega);
+        let real = self.wild == 0.0 && self.not_finite == 0.0;
+        let [q0, q1, q2, q3] = if real { unit(world.attitude) } else { world.attitude };
+        state.attitude = Quaternion { q0, q1, q2, q3 };
+        let infos = list.iter().flat_map(|device| device.kind().joints());
+        for (([coordinate, rate], joint), info) in state.devices.states_mut().zip(joints).zip(infos)
+        {
+            let [q, q_dot] = joint.motion;
+            let size = if info.body == "wheel" { 600.0 } else { 5.0 };
+            (*coordinate, *rate) = (if info.slides { q * 0.1 } else { q }, size * q_dot);
+        }
+    }
+
+    /// Brings to rest what the inputs hold.
+    fn compatible(&self, state: &mut State<List>, inputs: &Inputs<List>) {
+        for ([_, rate], mode) in state.devices.states_mut().zip(inputs.modes.values()) {
+            if mode == Mode::Locked && rate.is_finite() {
+                *rate = 0.0;
+            }
+        }
+        if inputs.hub == HubMode::Fixed && self.not_finite == 0.0 {
+            (state.r_b_n_dot, state.omega) = (Vector3::zeros(), Vector3::zeros());
+        }
+    }
+}
+
+/// The quaternion of unit length, or the identity for one that is too short.
+fn unit(q: [f64; 4]) -> [f64; 4] {
+    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if length > 1e-3 { q.map(|x| x / length) } else { [1.0, 0.0, 0.0, 0.0] }
+}
+
+/// The rotation of a quaternion of any length.
+#[must_use]
+pub fn rotation(q: [f64; 4]) -> Matrix3<f64> {
+    let [w, x, y, z] = unit(q);
+    *UnitQuaternion::from_quaternion(Turn::new(w, x, y, z)).to_rotation_matrix().matrix()
+}
+
+/// The inertia of a solid block.
+fn block(body: &Body) -> Matrix3<f64> {
+    let edges = Vector3::from(body.edges);
+    let squares = edges.component_mul(&edges);
+    let [x, y, z] = squares.into();
+    turned(Vector3::new(y + z, z + x, x + y) * (body.mass / 12.0), &rotation(body.turn))
+}
+
+/// Moments of a solid disc about its axis and across it.
+fn disc(body: &Body) -> [f64; 2] {
+    let [radius, thickness, _] = body.edges.map(|edge| 0.2 * edge);
+    let axial = body.mass * radius * radius / 2.0;
+    [axial, axial / 2.0 + body.mass * thickness * thickness / 12.0]
+}
+
+/// Principal moments along turned axes: a matrix symmetric to the last bit.
+fn turned(moments: Vector3<f64>, axes: &Matrix3<f64>) -> Matrix3<f64> {
+    let inertia = axes * Matrix3::from_diagonal(&moments) * axes.transpose();
+    (inertia + inertia.transpose()) * 0.5
+}

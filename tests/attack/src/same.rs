@@ -1,0 +1,174 @@
+//! The same bits in every shape, in a batch, and, to rounding, in whatever fuses.
+
+use precess_dynamics::{Scalar, SolveError};
+
+use super::answers::{Answer, answers, of_state};
+use super::case::{Case, List, Placed};
+use super::residual::{numbers, solves};
+use super::shapes::{Batched, across, batched, in_every_shape};
+use super::{Checked, Verdict};
+
+/// Numbers by their bits, errors as text: NaN equals itself.
+fn text<T: Scalar>(answer: &Answer<T>) -> String {
+    match answer {
+        Ok(all) => {
+            let bits = all.iter().map(|x| format!("{:x}", x.to_f64().to_bits()));
+            bits.collect::<Vec<_>>().join(" ")
+        }
+        Err(error) => format!("{error:?}"),
+    }
+}
+
+/// `shapes-are-bit-identical`: an array, a tuple, a nested tuple, a list and the set on board give the
+/// same bits or the same error.
+///
+/// # Errors
+/// Where it does not hold.
+pub fn shapes_are_identical(case: &Case) -> Verdict {
+    let mut checked = Checked::Rejected;
+    macro_rules! every_shape {
+        ($number:tt) => {
+            let mut first = None;
+            in_every_shape!(case, $number, |shape, placed| {
+                let dt = <$number as Scalar>::from_f64(case.dt);
+                let texts: Result<Vec<_>, _> = match &placed {
+                    Ok(placed) => Ok(answers(placed, dt)
+                        .into_iter()
+                        .map(|(call, answer)| (call, text(&answer)))
+                        .collect()),
+                    Err(error) => Err(format!("{error:?}")),
+                };
+                if texts.is_ok() {
+                    checked = Checked::Holds;
+                }
+                let first = first.get_or_insert_with(|| texts.clone());
+                compare(first, &texts, shape)?;
+            });
+        };
+    }
+    every_shape!(f64);
+    every_shape!(f32);
+    Ok(checked)
+}
+
+type Texts = Result<Vec<(&'static str, String)>, String>;
+
+fn compare(first: &Texts, other: &Texts, shape: &str) -> Result<(), String> {
+    match (first, other) {
+        (Ok(first), Ok(other)) => {
+            for ((call, first), (_, other)) in first.iter().zip(other) {
+                if first != other {
+                    return Err(format!("{call} of {shape}: {other}, not {first}"));
+                }
+            }
+            Ok(())
+        }
+        (Err(first), Err(other)) if first == other => Ok(()),
+        _ => Err(format!("{shape} is {other:?}, not {first:?}")),
+    }
+}
+
+/// What single evaluations and steps make of each state.
+fn single(case: &Case, each: bool) -> Option<Batched> {
+    let Placed { craft, .. } = case.list().ok()?;
+    let mut all = Batched { accelerations: Vec::new(), runs: Vec::new() };
+    for (state, inputs) in case.all() {
+        let inputs = if each { inputs } else { case.inputs.clone() };
+        let found = craft.accelerations(&state, &inputs);
+        all.accelerations.push(found.map(|found| super::answers::of_accelerations(&found)));
+        let mut now = state;
+        let end = (0..case.steps).try_for_each(|_| {
+            now = craft.step(&now, &inputs, case.dt)?;
+            Ok(())
+        });
+        all.runs.push((of_state(&now), end));
+    }
+    Some(all)
+}
+
+/// `batch-is-spacecraft`: each state of a batch has the result or error that it has by itself, to the
+/// bit, whatever its neighbours are.
+///
+/// # Errors
+/// Where it does not hold.
+pub fn batch_is_spacecraft(case: &Case) -> Verdict {
+    let mut checked = Checked::Rejected;
+    for each in [false, true] {
+        let (Some(found), Some(alone)) = (batched(case, false, each), single(case, each)) else {
+            continue;
+        };
+        checked = Checked::Holds;
+        let all = found.accelerations.iter().zip(&alone.accelerations);
+        for (index, (found, alone)) in all.enumerate() {
+            if text(found) != text(alone) {
+                return Err(format!("accelerations of state {index}: {found:?}, not {alone:?}"));
+            }
+        }
+        for (index, ((found, end), (alone, end_alone))) in
+            found.runs.iter().zip(&alone.runs).enumerate()
+        {
+            let [f, a] = [found, alone].map(|state| text::<f64>(&Ok(state.clone())));
+            if f != a || format!("{end:?}") != format!("{end_alone:?}") {
+                return Err(format!(
+                    "run of state {index}: {end:?} {found:?}, not {end_alone:?} {alone:?}"
+                ));
+            }
+        }
+    }
+    Ok(checked)
+}
+
+/// Whether two outcomes are of the same kind, or one is singular by a pivot near its bound.
+fn same_outcome(found: &Answer, single: &Answer) -> bool {
+    let near = |answer: &Answer| match answer {
+        Err(SolveError::Singular { pivot, bound, .. }) => {
+            // Other rounding may lead just above the bound.
+            pivot.abs() > bound / 4.0 || *pivot < 0.0
+        }
+        _ => false,
+    };
+    match (found, single) {
+        (Ok(_), Ok(_)) => true,
+        (Err(a), Err(b)) if std::mem::discriminant(a) == std::mem::discriminant(b) => true,
+        _ => near(found) || near(single),
+    }
+}
+
+/// `lanes-and-fused-agree`: devices side by side, fused numbers and fused batches give accelerations
+/// that solve the same equations, or the same kind of error.
+///
+/// # Errors
+/// Where it does not hold.
+pub fn lanes_and_fused_agree(case: &Case) -> Verdict {
+    let Ok(list) = case.list() else { return Ok(Checked::Rejected) };
+    let single = list.craft.accelerations(&list.state, &list.inputs).map(|f| numbers(&f));
+    let mut others: Vec<(String, Answer)> = Vec::new();
+    in_every_shape!(case, f64, |shape, placed| {
+        if let Ok(Placed { craft, state, inputs }) = placed {
+            let found = craft.fused().accelerations(&state, &inputs);
+            others.push((format!("{shape}, fused"), found.map(|found| numbers(&found))));
+        }
+    });
+    for (name, answer) in across(case).unwrap_or_default() {
+        if name == "accelerations across" {
+            others.push((name.to_owned(), answer));
+        }
+    }
+    let alone = Case { more: Vec::new(), ..case.clone() };
+    if let Some(found) = batched(&alone, true, false) {
+        others.extend(found.accelerations.into_iter().map(|found| ("fused batch".into(), found)));
+    }
+    for (name, found) in others {
+        if !same_outcome(&found, &single) {
+            return Err(format!("{name}: {found:?}, not {single:?}"));
+        }
+        if let Ok(found) = &found {
+            agrees(case, &list, found, &name)?;
+        }
+    }
+    Ok(Checked::Holds)
+}
+
+fn agrees(case: &Case, list: &Placed<List>, found: &[f64], name: &str) -> Verdict {
+    solves(case, list, found, name)
+}
