@@ -8,8 +8,8 @@ use precess_dynamics::{
 use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Strategy};
 
+use super::bodies::rotation;
 use super::case::{Case, List, Placed};
-use super::draw::rotation;
 use super::number::Number;
 use super::{Checked, Verdict};
 

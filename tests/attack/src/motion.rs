@@ -58,8 +58,8 @@ pub fn wrapping_changes_nothing(case: &Case) -> Verdict {
         _ => return Err(format!("{found:?}, not {before:?}")),
     };
     solves(case, &list, found, "accelerations of wrapped angles")?;
-    let ledger =
-        |placed: &Placed<List>| craft.ledger(&placed.state, inputs, &from_numbers(craft, before));
+    let accelerations = from_numbers(craft, before)?;
+    let ledger = |placed: &Placed<List>| craft.ledger(&placed.state, inputs, &accelerations);
     let (Ok(old), Ok(new)) = (ledger(&list), ledger(&after)) else {
         return Ok(Checked::Rejected);
     };
