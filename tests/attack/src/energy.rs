@@ -1,11 +1,8 @@
 //! Energy and momentum: the ledger balances, kinetic energy is not negative, stops lose energy and keep
 //! momentum, what is locked stays.
 
-use nalgebra::Matrix3;
-use nalgebra::Vector3;
-use precess_dynamics::{
-    About, Each, HingedPanel, Hub, HubMode, JointStates, Mode, ReactionWheel, SloshMass, Vscmg,
-};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use precess_dynamics::{About, Dgvscmg, Each, Hub, HubMode, JointStates, Mode, SloshMass};
 use proptest::prelude::{BoxedStrategy, Strategy};
 
 use super::answers::no_accelerations;
@@ -47,40 +44,49 @@ pub fn ledger_balances(case: &Case) -> Verdict {
     Ok(Checked::Holds)
 }
 
-/// Cases in which the parts of the kinetic energy cancel: heavy devices that stand still on a light
-/// hub that moves.
+/// Cases in which the parts of the kinetic energy cancel: a heavy body that stands still on a light hub
+/// that moves.
 pub fn cancelling() -> BoxedStrategy<Case> {
     let turn = [(); 4].map(|()| Number::within(-1.0, 1.0));
     let light = Number::log_within(1e-30, 1.0);
     let speed = Number::log_within(1e-3, 1e3);
-    let odd = Number::within(-1e-3, 1e-3);
-    (0_usize..4, turn, light, speed, odd)
-        .prop_map(|(form, turn, light, speed, odd)| {
+    let place = [(); 3].map(|()| Number::within(-1.0, 1.0));
+    let motion = [(); 5].map(|()| Number::within(-1.0, 1.0));
+    (proptest::bool::ANY, turn, light, speed, place, motion)
+        .prop_map(|(slides, turn, light, speed, place, motion)| {
             let mount = rotation(turn);
-            let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
-            let device = match form {
-                0 => ReactionWheel { mount, ..ReactionWheel::bare_wheel(4.0, disc) }.into(),
-                1 => SloshMass { mount, ..SloshMass::bare_slosh_mass(4.0) }.into(),
-                2 => HingedPanel { mount, ..HingedPanel::bare_panel(4.0, disc) }.into(),
-                _ => Vscmg { mount, ..Vscmg::bare_wheel(4.0, disc) }.into(),
-            };
+            let place = Vector3::from(place);
             let i_b_bc = Matrix3::identity() * light;
             let hub = Hub { m_b: light, r_bc_b: Vector3::zeros(), i_b_bc };
-            let mut case = Case::still(hub, vec![device]);
-            let axis = mount.column([0, 0, 2, 2][form]).into_owned();
-            if form == 1 {
-                case.state.r_b_n_dot = speed * axis;
-            } else {
-                case.state.omega = speed * axis;
+            if slides {
+                let mass = SloshMass { mount, r_s_b: place, ..SloshMass::bare_slosh_mass(4.0) };
+                let mut case = Case::still(hub, vec![mass.into()]);
+                case.state.r_b_n_dot = speed * mount.column(0);
+                set(&mut case, &[[motion[0], -speed]]);
+                return case;
             }
-            let mut states = case.state.devices.states_mut();
-            if let Some([q, rate]) = states.next() {
-                (*q, *rate) = (odd, -speed);
-            }
-            drop(states);
+            // The hub turns back what the joints turn the wheel, about the wheel's centre.
+            let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+            let wheel = Dgvscmg { mount, r_go_b: place, ..Dgvscmg::bare_wheel(4.0, disc) };
+            let mut case = Case::still(hub, vec![wheel.into()]);
+            let [gamma_o, gamma_i, o, i, w] = motion;
+            let [o, i, w] = [o, i, w].map(|rate| speed * rate);
+            let outer = Rotation3::from_axis_angle(&Vector3::z_axis(), 3.0 * gamma_o);
+            let inner = outer * Rotation3::from_axis_angle(&Vector3::y_axis(), gamma_i);
+            let rates = o * Vector3::z() + outer * (i * Vector3::y()) + inner * (w * Vector3::x());
+            case.state.omega = -(mount * rates);
+            case.state.r_b_n_dot = -case.state.omega.cross(&place);
+            set(&mut case, &[[3.0 * gamma_o, o], [gamma_i, i], [0.0, w]]);
             case
         })
         .boxed()
+}
+
+/// Sets coordinates and rates.
+fn set(case: &mut Case, joints: &[[f64; 2]]) {
+    for ([q, rate], to) in case.state.devices.states_mut().zip(joints) {
+        [*q, *rate] = *to;
+    }
 }
 
 /// `kinetic-energy-is-not-negative`.
