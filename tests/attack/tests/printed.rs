@@ -10,6 +10,7 @@ use precess_dynamics::{
 /// The file that is included below: exactly what is printed.
 const PRINTED: &str = include_str!("fixtures/printed.rs");
 
+#[expect(clippy::unreadable_literal, reason = "numbers as `{:?}` prints them")]
 mod printed {
     include!("fixtures/printed.rs");
 }
