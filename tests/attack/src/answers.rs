@@ -34,19 +34,25 @@ impl<T: Scalar, W: Each<Wrench<T>>, U: Each<T>, P: Each<JointPower<T>>> Numbers<
 
 impl<T, L: Numbers<T>> Numbers<T> for Vec<L> {
     fn add_to(&self, all: &mut Vec<T>) {
-        self.iter().for_each(|member| member.add_to(all));
+        for member in self {
+            member.add_to(all);
+        }
     }
 }
 
 impl<T, L: Numbers<T>, const N: usize> Numbers<T> for [L; N] {
     fn add_to(&self, all: &mut Vec<T>) {
-        self.iter().for_each(|member| member.add_to(all));
+        for member in self {
+            member.add_to(all);
+        }
     }
 }
 
 impl<T, L: Numbers<T>> Numbers<T> for Option<L> {
     fn add_to(&self, all: &mut Vec<T>) {
-        self.iter().for_each(|member| member.add_to(all));
+        if let Some(member) = self {
+            member.add_to(all);
+        }
     }
 }
 
@@ -104,31 +110,29 @@ fn of_loads<D: Devices<Loads: Numbers<D::Scalar>>>(loads: &Loads<D>) -> Vec<D::S
     all
 }
 
-/// Accelerations of this shape, all zero: everything is held at rest.
-///
-/// # Panics
-/// If the solver refuses what is at rest.
+/// Accelerations of this shape, all zero: everything is held at rest. None where even that overflows.
 #[must_use]
-pub fn no_accelerations<D: Devices>(craft: &Spacecraft<D>) -> Accelerations<D> {
+pub fn no_accelerations<D: Devices>(craft: &Spacecraft<D>) -> Option<Accelerations<D>> {
     let mut inputs = Inputs::none_for(craft);
     inputs.hub = HubMode::Fixed;
     inputs.modes.values_mut().for_each(|mode| *mode = Mode::Locked);
     let state: State<D> = State::at_rest_for(craft);
-    craft.accelerations(&state, &inputs).expect("everything is held at rest")
+    craft.accelerations(&state, &inputs).ok()
 }
 
 /// Accelerations to ask loads for: those found, or, where there are none, what motors and forces are
 /// as numbers.
-fn wished<D: Devices>(placed: &Placed<D>) -> Accelerations<D> {
+fn wished<D: Devices>(placed: &Placed<D>) -> Option<Accelerations<D>> {
     let Placed { craft, state, inputs } = placed;
-    craft.accelerations(state, inputs).unwrap_or_else(|_| {
-        let mut wished = no_accelerations(craft);
-        (wished.r_b_n_ddot, wished.omega_dot) = (inputs.force, inputs.torque_b);
-        for (wished, motor) in wished.devices.values_mut().zip(inputs.motors.values()) {
-            *wished = motor;
-        }
-        wished
-    })
+    if let Ok(found) = craft.accelerations(state, inputs) {
+        return Some(found);
+    }
+    let mut wished = no_accelerations(craft)?;
+    (wished.r_b_n_ddot, wished.omega_dot) = (inputs.force, inputs.torque_b);
+    for (wished, motor) in wished.devices.values_mut().zip(inputs.motors.values()) {
+        *wished = motor;
+    }
+    Some(wished)
 }
 
 /// What every call answers.
@@ -174,7 +178,7 @@ pub fn answers<D: Devices<Loads: Numbers<D::Scalar>>>(
             })
         }),
     ];
-    let wished = wished(placed);
+    let Some(wished) = wished(placed) else { return all };
     for (name, axes) in [
         ("loads along body axes", LoadAxes::Body),
         ("loads along the carrier's axes", LoadAxes::Carrier),

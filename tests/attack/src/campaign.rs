@@ -66,7 +66,12 @@ impl Failure {
         let Self { property, seed, chunk, message, case, .. } = self;
         let name = format!("{}_{seed}_{chunk}", self.name().replace('-', "_"));
         let test = code::test(&name, property.function, case);
-        let message: String = message.lines().map(|line| format!("// {line}\n")).collect();
+        let message = message.lines().fold(String::new(), |text, line| {
+            text + "// "
+                + line
+                + "
+"
+        });
         let imports = code::imports(&test);
         format!(
             "{imports}\n// {}: {}\n// {}\n{message}{test}",

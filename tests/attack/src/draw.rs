@@ -6,20 +6,21 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Quaternion as Turn, UnitQuaternion, Vector3};
-use precess_dynamics::kind::BodyParameters;
+use nalgebra::Vector3;
 use precess_dynamics::{
-    BuiltIn, BuiltInKind, BuiltInParameters, Each, Few, Gravity, Hub, HubMode, ImbalanceModel,
-    Inputs, JointStates, Mode, Passive, Quaternion, State, Wrench,
+    BuiltInKind, Each, Few, Gravity, Hub, HubMode, Inputs, JointStates, Mode, Passive, Quaternion,
+    State, Wrench,
 };
 use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Strategy};
 
+use super::bodies::{Body, block, built_in, unit};
 use super::case::{Case, List, template};
 use super::number::Number;
 
 /// What may be drawn.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a thing that is on or off by itself")]
 pub struct Profile {
     /// Share of numbers of states, inputs and parameters that have any magnitude.
     pub wild: f64,
@@ -75,18 +76,6 @@ const KINDS: [BuiltInKind; 12] = [
     BuiltInKind::BalancedDgvscmg,
 ];
 
-/// A body: mass, where it stands, where its centre is, how long its edges are, how it is turned.
-#[derive(Clone, Debug)]
-struct Body {
-    mass: f64,
-    origin: [f64; 3],
-    centre: [f64; 3],
-    edges: [f64; 3],
-    turn: [f64; 4],
-    /// Without mass, where the kind allows that, and without inertia.
-    hollow: bool,
-}
-
 /// What a joint does by itself and what is given of it.
 #[derive(Clone, Debug)]
 struct Joint {
@@ -134,7 +123,7 @@ impl Profile {
         [(); 3].map(|()| self.number(Number::within(-size, size)))
     }
 
-    fn turn(&self) -> impl Strategy<Value = [f64; 4]> + use<> {
+    fn turn() -> impl Strategy<Value = [f64; 4]> + use<> {
         let first = Number::new(1.0, |random| random.within(-1.0, 1.0));
         let rest = [(); 3].map(|()| Number::within(-1.0, 1.0));
         (first, rest).prop_map(|(first, [x, y, z])| [first, x, y, z])
@@ -146,7 +135,7 @@ impl Profile {
         let mass = Number::log_within(lightest, heaviest).or_any(wild);
         let edges = [(); 3].map(|()| Number::log_within(0.05, 3.0).or_any(wild));
         let hollow = proptest::bool::weighted(0.2);
-        (mass, length(1.7), length(0.5), edges, self.turn(), hollow).prop_map(
+        (mass, length(1.7), length(0.5), edges, Self::turn(), hollow).prop_map(
             |(mass, origin, centre, edges, turn, hollow)| Body {
                 mass: mass.abs(),
                 origin,
@@ -160,7 +149,7 @@ impl Profile {
 
     fn joint(&self) -> impl Strategy<Value = Joint> + use<> {
         let angle = Number::new(0.0, |random| {
-            if random.bits() & 3 == 0 { random.within(-1e3, 1e3) } else { random.within(-PI, PI) }
+            if random.bits() % 4 == 0 { random.within(-1e3, 1e3) } else { random.within(-PI, PI) }
         });
         let motion = [self.number(angle), self.number(Number::within(-1.0, 1.0))];
         let share = |low: f64| Number::log_within(low, 1.0).or_any(self.wild * 0.5);
@@ -186,7 +175,7 @@ impl Profile {
     fn device(&self) -> impl Strategy<Value = Device> + use<> {
         let bodies = [(); 3].map(|()| self.body(0.1, 100.0));
         let joints = [(); 3].map(|()| self.joint());
-        (0..KINDS.len(), self.turn(), bodies, joints, proptest::bool::weighted(0.2)).prop_map(
+        (0..KINDS.len(), Self::turn(), bodies, joints, proptest::bool::weighted(0.2)).prop_map(
             |(kind, mount, bodies, joints, lumped)| Device { kind, mount, bodies, joints, lumped },
         )
     }
@@ -248,7 +237,11 @@ impl Profile {
                 device.kind = KINDS.iter().position(|known| known == kind).unwrap_or(0);
             }
         }
-        let list: List = devices.iter().map(|device| self.built_in(device)).collect();
+        let made = |device: &Device| {
+            let Device { kind, mount, ref bodies, lumped, .. } = *device;
+            built_in(KINDS[kind], mount, bodies, self.passives(device), lumped && self.lumped)
+        };
+        let list: List = devices.iter().map(made).collect();
         let Body { mass, centre, .. } = *hub;
         let hub = Hub { m_b: mass, r_bc_b: centre.into(), i_b_bc: block(hub) };
         let mut case = Case::still(hub, list);
@@ -276,39 +269,7 @@ impl Profile {
         case
     }
 
-    fn built_in(&self, device: &Device) -> BuiltIn {
-        let kind = KINDS[device.kind];
-        let infos = kind.joints();
-        let balanced = format!("{kind:?}").starts_with("Balanced");
-        let mut bodies = device.bodies.clone().map(|body| {
-            let mass = if body.hollow { 0.0 } else { body.mass };
-            let inertia = if body.hollow { Matrix3::zeros() } else { block(&body) };
-            BodyParameters { origin: body.origin, mass, centre: body.centre, inertia }
-        });
-        for ((body, drawn), info) in bodies.iter_mut().zip(&device.bodies).zip(infos) {
-            if !info.tip {
-                continue;
-            }
-            body.mass = drawn.mass;
-            match info.body {
-                "wheel" if balanced => {
-                    body.centre = [0.0; 3];
-                    let [axial, across] = disc(drawn);
-                    body.inertia = Matrix3::from_diagonal(&Vector3::new(axial, across, across));
-                }
-                "wheel" => {
-                    body.centre = [0.0, 0.1 * drawn.centre[1], 0.0];
-                    let [axial, across] = disc(drawn);
-                    let [w, x, y, z] = drawn.turn;
-                    let tilt = rotation([w.signum() * (1.0 + w.abs()), 0.1 * x, 0.1 * y, 0.1 * z]);
-                    body.inertia = turned(Vector3::new(axial, across, across), &tilt);
-                }
-                "slosh mass" => {
-                    (body.centre, body.inertia) = ([0.0; 3], Matrix3::zeros());
-                }
-                _ => {}
-            }
-        }
+    fn passives(&self, device: &Device) -> [Passive; 3] {
         let mut passive = [Passive::none(); 3];
         for (passive, joint) in passive.iter_mut().zip(&device.joints) {
             let [stiffness, rest, viscous, coulomb, coulomb_rate] = joint.passive;
@@ -320,13 +281,7 @@ impl Profile {
                 *passive = Passive { coulomb, coulomb_rate, ..*passive };
             }
         }
-        let lumped = device.lumped
-            && self.lumped
-            && !balanced
-            && infos.last().is_some_and(|info| info.body == "wheel");
-        let model = if lumped { ImbalanceModel::Lumped } else { ImbalanceModel::Coupled };
-        let stated = BuiltInParameters { mount: rotation(device.mount), bodies, passive, model };
-        BuiltIn::new(kind, &stated).expect("what the kind has no parameter for is zero")
+        passive
     }
 
     fn inputs(
@@ -335,7 +290,7 @@ impl Profile {
         world: &World,
         joints: &[&Joint],
         list: &List,
-        nothing: &Vec<Few<Wrench>>,
+        nothing: &[Few<Wrench>],
     ) {
         if self.driven {
             let [force, torque_b] = world.acting;
@@ -371,7 +326,7 @@ impl Profile {
             _ => Gravity::None,
         };
         inputs.bodies = (world.wrenches && self.driven).then(|| {
-            let mut bodies = nothing.clone();
+            let mut bodies = nothing.to_vec();
             for (wrench, joint) in bodies.values_mut().zip(joints) {
                 let [force, moment] = joint.wrench.map(Vector3::from);
                 *wrench = Wrench { force, moment };
@@ -406,38 +361,4 @@ impl Profile {
             (state.r_b_n_dot, state.omega) = (Vector3::zeros(), Vector3::zeros());
         }
     }
-}
-
-/// The quaternion of unit length, or the identity for one that is too short.
-fn unit(q: [f64; 4]) -> [f64; 4] {
-    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if length > 1e-3 { q.map(|x| x / length) } else { [1.0, 0.0, 0.0, 0.0] }
-}
-
-/// The rotation of a quaternion of any length.
-#[must_use]
-pub fn rotation(q: [f64; 4]) -> Matrix3<f64> {
-    let [w, x, y, z] = unit(q);
-    *UnitQuaternion::from_quaternion(Turn::new(w, x, y, z)).to_rotation_matrix().matrix()
-}
-
-/// The inertia of a solid block.
-fn block(body: &Body) -> Matrix3<f64> {
-    let edges = Vector3::from(body.edges);
-    let squares = edges.component_mul(&edges);
-    let [x, y, z] = squares.into();
-    turned(Vector3::new(y + z, z + x, x + y) * (body.mass / 12.0), &rotation(body.turn))
-}
-
-/// Moments of a solid disc about its axis and across it.
-fn disc(body: &Body) -> [f64; 2] {
-    let [radius, thickness, _] = body.edges.map(|edge| 0.2 * edge);
-    let axial = body.mass * radius * radius / 2.0;
-    [axial, axial / 2.0 + body.mass * thickness * thickness / 12.0]
-}
-
-/// Principal moments along turned axes: a matrix symmetric to the last bit.
-fn turned(moments: Vector3<f64>, axes: &Matrix3<f64>) -> Matrix3<f64> {
-    let inertia = axes * Matrix3::from_diagonal(&moments) * axes.transpose();
-    (inertia + inertia.transpose()) * 0.5
 }

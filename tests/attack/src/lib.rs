@@ -6,6 +6,7 @@
 //! A campaign for workstations: nothing of it goes on board.
 
 pub mod answers;
+pub mod bodies;
 pub mod campaign;
 pub mod case;
 pub mod code;

@@ -56,9 +56,9 @@ fn main() -> ExitCode {
 /// Whether every promise held.
 fn attack(options: &Options) -> Result<bool, String> {
     if options.list {
-        PROPERTIES
-            .iter()
-            .for_each(|property| println!("{}: {}", property.name, property.statement));
+        for property in PROPERTIES {
+            println!("{}: {}", property.name, property.statement);
+        }
         return Ok(true);
     }
     let properties: Vec<&'static Property> = match &options.property {

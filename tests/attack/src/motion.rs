@@ -58,8 +58,8 @@ pub fn wrapping_changes_nothing(case: &Case) -> Verdict {
         _ => return Err(format!("{found:?}, not {before:?}")),
     };
     solves(case, &list, found, "accelerations of wrapped angles")?;
-    let ledger =
-        |placed: &Placed<List>| craft.ledger(&placed.state, inputs, &from_numbers(craft, before));
+    let accelerations = from_numbers(craft, before)?;
+    let ledger = |placed: &Placed<List>| craft.ledger(&placed.state, inputs, &accelerations);
     let (Ok(old), Ok(new)) = (ledger(&list), ledger(&after)) else {
         return Ok(Checked::Rejected);
     };
@@ -117,7 +117,8 @@ pub fn order_changes_only_rounding(case: &Case) -> Verdict {
 /// Where it does not hold.
 pub fn attitudes_agree(case: &Case) -> Verdict {
     let Ok(list) = case.list() else { return Ok(Checked::Rejected) };
-    let dt = case.dt.clamp(-1e-3, 1e-3);
+    // So short that what RK4 leaves out of either parameters' motion is nothing: wheels turn by 6e-3.
+    let dt = case.dt.clamp(-1e-5, 1e-5);
     let mut checked = Checked::Rejected;
     // From near the identity, where the outer set is large, to any attitude.
     for share in [1.0, 1e-2, 1e-3] {

@@ -1,6 +1,7 @@
 //! What a campaign has behind it: the next chunk of each seed and property, in a small text file.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -76,11 +77,10 @@ impl Progress {
 
     /// Writes the file under another name first, so that it is never half there.
     fn write(&self) -> io::Result<()> {
-        let text: String = self
-            .chunks
-            .iter()
-            .map(|((seed, name), chunks)| format!("{seed} {name} {}\n", chunks.next))
-            .collect();
+        let mut text = String::new();
+        for ((seed, name), chunks) in &self.chunks {
+            let _ = writeln!(text, "{seed} {name} {}", chunks.next);
+        }
         if let Some(folder) = self.path.parent() {
             fs::create_dir_all(folder)?;
         }

@@ -4,29 +4,33 @@
 //! conditioning: a backward error.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Accelerations, Devices, Each, HubMode, LoadAxes, Mode, Scalar, Spacecraft};
+use precess_dynamics::{
+    Accelerations, Devices, Each, Few, HubMode, LoadAxes, Mode, Scalar, Spacecraft,
+};
 
 use super::answers::{no_accelerations, of_accelerations};
 use super::case::{Case, List, Placed};
 use super::sizes::sizes;
 use super::{Checked, Verdict};
 
-/// Backward error of accelerations, in epsilons: the worst measured in some millions of cases, and as
-/// much again.
-pub const BACKWARD: f64 = 200.0;
+/// Backward error of accelerations, in epsilons of the sizes: the worst of 40 000 cases is 1.3, in `f32`
+/// as in `f64`.
+pub const BACKWARD: f64 = 10.0;
 
 /// Accelerations of a list from their numbers.
-#[must_use]
+///
+/// # Errors
+/// Where not even a spacecraft at rest can be evaluated.
 pub fn from_numbers<T: Scalar>(
     craft: &Spacecraft<List<T>>,
     numbers: &[T],
-) -> Accelerations<List<T>> {
-    let mut found = no_accelerations(craft);
+) -> Result<Accelerations<List<T>>, String> {
+    let mut found = no_accelerations(craft).ok_or("a spacecraft at rest overflows")?;
     let hub = found.r_b_n_ddot.iter_mut().chain(found.omega_dot.iter_mut());
-    hub.chain(found.devices.iter_mut().flat_map(|few| few.as_mut_slice()))
+    hub.chain(found.devices.iter_mut().flat_map(Few::as_mut_slice))
         .zip(numbers)
         .for_each(|(to, from)| *to = *from);
-    found
+    Ok(found)
 }
 
 /// The largest backward error of accelerations, in epsilons of their number, and where.
@@ -39,7 +43,7 @@ pub fn residual<T: Scalar>(
     numbers: &[T],
 ) -> Result<(f64, String), String> {
     let Placed { craft, state, inputs } = list;
-    let found = from_numbers(craft, numbers);
+    let found = from_numbers(craft, numbers)?;
     let loads = craft
         .loads(state, inputs, &found, LoadAxes::Body)
         .map_err(|error| format!("loads of these accelerations: {error}"))?;

@@ -10,8 +10,8 @@ use precess_dynamics::{
 use proptest::prelude::{BoxedStrategy, Strategy};
 
 use super::answers::Answer;
+use super::bodies::rotation;
 use super::case::{Case, List, Placed};
-use super::draw::rotation;
 use super::number::Number;
 use super::residual::numbers;
 use super::shapes::{ABREAST, across, batched, in_every_shape};

@@ -20,7 +20,7 @@ fn failure_keeps_the_digits_it_needs() {
     assert_eq!(minimised(3.456_789, 0.0, |x| x > 0.5), 1.0);
     assert_eq!(minimised(3.456_789, 0.0, |x| x > 2.0), 3.0);
     assert_eq!(minimised(3.456_789, 0.0, |x| x > 3.4), 3.5);
-    assert_eq!(minimised(3.456_789, 0.0, |x| x > 3.456_78 && x < 3.456_789_5), 3.456_79);
+    assert_eq!(minimised(3.456_789, 0.0, |x| x > 3.456_78 && x < 3.456_791), 3.456_79);
     assert_eq!(minimised(-3.456_789, 0.0, |x| x < 0.0), -1.0);
     assert!(minimised(f64::NAN, 0.0, f64::is_nan).is_nan());
     assert_eq!(minimised(f64::MAX, 0.0, |x| x > 1e308), f64::MAX);

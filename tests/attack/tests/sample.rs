@@ -33,10 +33,10 @@ macro_rules! sample {
 }
 
 sample! {
-    result_or_error: "result-or-error", 300;
-    first_bad_input_is_named: "first-bad-input-is-named", 300;
-    shapes_are_bit_identical: "shapes-are-bit-identical", 100;
-    batch_is_spacecraft: "batch-is-spacecraft", 50;
+    result_or_error: "result-or-error", 600;
+    first_bad_input_is_named: "first-bad-input-is-named", 1500;
+    shapes_are_bit_identical: "shapes-are-bit-identical", 200;
+    batch_is_spacecraft: "batch-is-spacecraft", 150;
     lanes_and_fused_agree: "lanes-and-fused-agree", 300;
     singular_is_refused: "singular-is-refused", 2000;
     inverse_dynamics_residual: "inverse-dynamics-residual", 1000;
@@ -44,7 +44,7 @@ sample! {
     order_changes_only_rounding: "order-changes-only-rounding", 500;
     attitudes_agree: "attitudes-agree", 100;
     ledger_balances: "ledger-balances", 1000;
-    kinetic_energy_is_not_negative: "kinetic-energy-is-not-negative", 2000;
+    kinetic_energy_is_not_negative: "kinetic-energy-is-not-negative", 5000;
     stop_conserves: "stop-conserves", 500;
     locked_stays_locked: "locked-stays-locked", 200;
     runs_conserve_or_refuse: "runs-conserve-or-refuse", 100;
