@@ -9,7 +9,7 @@ use crate::arithmetic::{Arithmetic, Plainly, Way};
 use crate::assembly::Assembly;
 use crate::attitude::Attitude;
 use crate::devices::{Around, Devices, Given};
-use crate::each::Each;
+use crate::each::{Each, JointStates};
 use crate::error::{Quantity, SolveError};
 use crate::gravity::{Gravity, at_b};
 use crate::inputs::Inputs;
@@ -305,8 +305,14 @@ pub(crate) fn check_fixed<D: Devices, A>(
     if value == zero() { Ok(()) } else { Err(SolveError::FixedHubMoves { value }) }
 }
 
-/// Rejects what the accelerations may not depend on where it is not finite: the position, forces on a
-/// hub that is held, motors of joints that are. All else shows in the result.
+/// Whether the rates are finite: on a free hub they show in its accelerations, on a held one they may
+/// show nowhere.
+fn rates_are_finite<D: Devices, A>(state: &State<D, A>) -> bool {
+    finite(components(&state.omega)) && state.devices.states().all(|[_, rate]| rate.is_finite())
+}
+
+/// Rejects what the accelerations may not depend on where it is not finite: the position, forces and
+/// rates on a hub that is held, motors of joints that are. All else shows in the result.
 pub(crate) fn check_inputs<D: Devices, A: Attitude<D::Scalar>>(
     state: &State<D, A>,
     inputs: &Inputs<D>,
@@ -315,6 +321,7 @@ pub(crate) fn check_inputs<D: Devices, A: Attitude<D::Scalar>>(
     let finite = vectors.into_iter().all(|v| finite(components(v)))
         && state.attitude.is_valid()
         && inputs.motors.values().all(Scalar::is_finite)
-        && inputs.bodies.iter().flat_map(Each::values).all(|wrench| wrench.is_finite());
+        && inputs.bodies.iter().flat_map(Each::values).all(|wrench| wrench.is_finite())
+        && (inputs.hub == HubMode::Free || rates_are_finite(state));
     if finite { Ok(()) } else { Err(overflow()) }
 }

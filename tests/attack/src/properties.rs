@@ -235,7 +235,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "runs-conserve-or-refuse",
-        statement: "in a run energy does not grow by itself, or the step is refused",
+        statement: "a step that a spring or damper makes unstable is refused; one that resolves them keeps energy less work",
         cases: 100,
         function: "runs::runs_conserve_or_refuse",
         draw: runs::cases,

@@ -4,13 +4,33 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{JointStates, Kind};
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, BuiltIn,
-    FixedSet, Hub, Inputs, Quantity, SolveError, Spacecraft, State,
+    FixedSet, Hub, HubMode, Inputs, Quantity, ReactionWheel, SolveError, Spacecraft, State,
 };
 
 use super::services::{Alone, outcomes};
 
 fn hub() -> Hub {
     Hub { m_b: 10.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() }
+}
+
+/// On a held hub nothing but its own acceleration could depend on a wheel's rate.
+#[test]
+fn rate_of_a_wheel_on_a_held_hub_is_refused_where_it_is_not_finite() {
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    let device = ReactionWheel::bare_wheel(4.0, disc);
+    let still = HubMode::Prescribed { r_b_n_ddot: Vector3::zeros(), omega_dot: Vector3::zeros() };
+    for held in [HubMode::Fixed, still] {
+        let mut state = State::<[ReactionWheel; 1]>::at_rest();
+        state.devices[0].spin = f64::NAN;
+        let inputs = Inputs { hub: held, ..Inputs::<[ReactionWheel; 1]>::none() };
+        for (service, outcome) in outcomes(&Alone { hub: hub(), device, state, inputs }) {
+            let named = matches!(
+                outcome,
+                Err(SolveError::NotFinite { what: Quantity::Joint { field: "spin", .. }, .. })
+            );
+            assert!(named, "{service}: {outcome:?}");
+        }
+    }
 }
 
 fn refused<K: Kind<Scalar = f64> + Into<BuiltIn>>(device: K) {

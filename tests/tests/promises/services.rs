@@ -65,5 +65,6 @@ where
     motors.for_each(|(to, from)| *to = from);
     let modes = inputs.modes.values_mut().zip(case.inputs.modes.values());
     modes.for_each(|(to, from)| *to = from);
+    inputs.hub = case.inputs.hub;
     craft.accelerations(&state, &inputs).map(|found| found.omega_dot.into())
 }
