@@ -23,7 +23,7 @@ const BALANCED_HOLDS_FROM: f64 = 1.0;
 const HOLDS_TO: f64 = 5.0;
 
 /// Least distance from the pose, rad, at which no spacecraft is refused: the pivot is above 64 eps of
-/// its diagonal from about 2e-7 on.
+/// the inertia outboard of the joint in any pose from about 2e-7 on.
 const SOLVED_FROM: f64 = 5e-7;
 
 /// Largest distance from B, m, at which no spacecraft is refused: those of the least radius of gyration
