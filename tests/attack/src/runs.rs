@@ -15,7 +15,7 @@ use super::{Checked, Verdict};
 
 /// How far energy may grow by itself in a run that the step resolves, of what there is: truncation, a
 /// tenth of a radian at most, 300 times.
-const GROWTH: f64 = 1e-5;
+const GROWTH: f64 = 1e-3;
 
 /// How many times the energy may become what it was in a run that is stable but not resolved: a step
 /// near the limit turns one form of energy into another at the wrong ratio before both decay. Five
@@ -23,10 +23,13 @@ const GROWTH: f64 = 1e-5;
 const TRANSIENT: f64 = 100.0;
 
 /// How far energy less work may drift in a run whose springs and dampers the step resolves too.
-const DRIFT: f64 = 1e-5;
+const DRIFT: f64 = 1e-3;
 
 /// What a step resolves: a tenth of the time in which a damper or spring acts.
 const RESOLVED: f64 = 0.1;
+
+/// How far joints and hub move in a step that resolves the motion, rad or m.
+const MOTION: f64 = 0.2;
 
 /// Steps of a run.
 const STEPS: usize = 300;
@@ -85,6 +88,15 @@ fn spacecraft(bound: &[Bound], omega: [f64; 3], mass: f64, dt: f64) -> Case {
     for (([q, rate], info), [to_q, to_rate]) in motions.zip(case.state.devices.states_mut()) {
         (*to_q, *to_rate) = (q, if info.body == "wheel" { 50.0 * rate } else { rate });
     }
+    // A spring is stretched so far that what it sets in motion is resolved by the step.
+    let passives: Vec<_> = passives(&case.devices).collect();
+    for ([q, _], (own, [_, spring, _])) in case.state.devices.states_mut().zip(passives.iter().zip(
+        bound.iter().zip(&counts).flat_map(|(bound, infos)| infos.iter().map(|_| bound.stiff)),
+    )) {
+        if own.stiffness != 0.0 {
+            *q *= 0.03 / spring.max(1.0);
+        }
+    }
     case
 }
 
@@ -136,26 +148,44 @@ fn device(bound: &Bound, dt: f64) -> BuiltIn {
     }
 }
 
-/// How fast springs and dampers act, times the step: damper and friction over the inertia that the
-/// joint moves, and the root of the spring over it.
-fn stiffness(case: &Case, craft: &Spacecraft<List>) -> Option<f64> {
+/// Spring, damper and friction of each joint.
+fn passives(list: &List) -> impl Iterator<Item = Passive> + '_ {
+    list.iter()
+        .flat_map(|device| device.stated().passive.into_iter().take(device.kind().joints().len()))
+}
+
+/// How fast things are, times the step.
+struct Speeds {
+    /// Springs and dampers: damper and friction over the inertia that the joint moves, and the root of
+    /// the spring over it.
+    passive: f64,
+    /// Joints and hub, with all of the energy.
+    motion: f64,
+}
+
+fn speeds(case: &Case, craft: &Spacecraft<List>, energy: f64) -> Option<Speeds> {
     let rest: State<List> = State::at_rest_for(craft);
     let mut inputs = case.inputs.clone();
     let none = craft.accelerations(&rest, &inputs).ok()?;
-    let mut worst: f64 = 0.0;
-    let passives = case
-        .devices
-        .iter()
-        .flat_map(|device| device.stated().passive.into_iter().take(device.kind().joints().len()));
-    for (index, own) in passives.enumerate() {
+    let mut worst = Speeds { passive: 0.0, motion: 0.0 };
+    let moves = |per_inertia: f64| case.dt * (2.0 * energy * per_inertia).sqrt();
+    for axis in 0..3 {
+        inputs.torque_b[axis] = 1.0;
+        let moved = craft.accelerations(&rest, &inputs).ok()?;
+        inputs.torque_b[axis] = 0.0;
+        let per_inertia = (moved.omega_dot[axis] - none.omega_dot[axis]).abs();
+        worst.motion = worst.motion.max(moves(per_inertia));
+    }
+    for (index, own) in passives(&case.devices).enumerate() {
         *inputs.motors.values_mut().nth(index)? = 1.0;
         let moved = craft.accelerations(&rest, &inputs).ok()?;
         *inputs.motors.values_mut().nth(index)? = 0.0;
         let per_inertia =
             (moved.devices.values().nth(index)? - none.devices.values().nth(index)?).abs();
         let dry = if own.coulomb == 0.0 { 0.0 } else { own.coulomb / own.coulomb_rate };
-        worst = worst.max(case.dt * (own.viscous + dry) * per_inertia);
-        worst = worst.max(case.dt * (own.stiffness * per_inertia).sqrt());
+        worst.passive = worst.passive.max(case.dt * (own.viscous + dry) * per_inertia);
+        worst.passive = worst.passive.max(case.dt * (own.stiffness * per_inertia).sqrt());
+        worst.motion = worst.motion.max(moves(per_inertia));
     }
     Some(worst)
 }
@@ -173,9 +203,14 @@ pub fn runs_conserve_or_refuse(case: &Case) -> Verdict {
         let ledger = craft.ledger(state, &inputs, &found).map_err(|error| error.to_string())?;
         Ok(ledger.energy())
     };
-    let (Ok(start), Some(stiffness)) = (energy(&state), stiffness(case, &craft)) else {
+    let Ok(start) = energy(&state) else { return Ok(Checked::Rejected) };
+    let Some(Speeds { passive: stiffness, motion }) = speeds(case, &craft, start) else {
         return Ok(Checked::Rejected);
     };
+    // A step that does not resolve the motion itself promises nothing.
+    if motion > MOTION {
+        return Ok(Checked::Rejected);
+    }
     let (mut now, mut work) = (state.clone(), 0.0);
     for step in 1..=STEPS {
         let Ok(stepped) = craft.step_with_work(&now, &inputs, case.dt) else {
