@@ -116,9 +116,11 @@ impl<D: Devices> Spacecraft<D> {
         let hub = match &inputs.hub {
             HubMode::Free => {
                 let system = assembly.system(around.omega);
-                let (solution, pivots) = system.solve().map_err(|small| small.of(None, None))?;
+                let scale = assembly.scale(&self.body);
+                let solution = system.solve(&scale).map_err(|small| small.of(None, None))?;
                 if self.passive {
-                    assembly.stiffness = assembly.stiffness.on_free_hub(pivots);
+                    let pivots = system.solved().1;
+                    assembly.stiffness = assembly.stiffness.on_free_hub(pivots, scale);
                 }
                 solution
             }

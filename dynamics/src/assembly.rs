@@ -10,7 +10,7 @@
 use crate::generated::hub::{BodyAcceleration, BodyRate, Handed, HubShare};
 use crate::hub::PreparedHub;
 use crate::real::Real;
-use crate::solve::{Solution, System};
+use crate::solve::{Scale, Solution, System};
 use crate::stability::Stiffness;
 use crate::symmetric::Symmetric;
 use crate::vec3::{Vec3, add};
@@ -20,8 +20,6 @@ use crate::vec3::{Vec3, add};
 pub struct Assembly<T> {
     /// Hub and devices as one rigid body.
     body: PreparedHub<T>,
-    /// Moments of inertia of its constant share: what the moving share may cancel.
-    constant: Vec3<T>,
     /// What acts from outside: force, and moment about B.
     force: Vec3<T>,
     moment: Vec3<T>,
@@ -39,9 +37,8 @@ impl<T: Real> Assembly<T> {
     pub(crate) fn new(body: &PreparedHub<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
         let zero = body.m_b.like(0.0);
         let second_moment = Symmetric::filled(zero);
-        let constant = body.i_b_b.diagonal();
         let (taken, stiffness) = (System::filled(zero), Stiffness::none(zero));
-        Self { body: *body, constant, force, moment, taken, stiffness, second_moment }
+        Self { body: *body, force, moment, taken, stiffness, second_moment }
     }
 
     /// Adds a force and a moment about B from outside.
@@ -81,14 +78,16 @@ impl<T: Real> Assembly<T> {
     }
 
     /// The hub's system, joints eliminated, where the hub turns at `omega`.
-    ///
-    /// Its scale is of the spacecraft with every joint locked. The moving share of inertia may cancel
-    /// nearly all of the constant one, whose rounding stays: both count.
     #[inline(always)]
     pub(crate) fn system(&self, omega: Vec3<T>) -> System<T> {
-        let whole = self.body.system(omega, self.force, self.moment);
-        let (mass, locked) = whole.scale;
-        System { scale: (mass, add(self.constant, locked)), ..whole.less(&self.taken) }
+        self.body.system(omega, self.force, self.moment).less(&self.taken)
+    }
+
+    /// Mass and moments of inertia of the spacecraft with every joint locked. The moving share of inertia
+    /// may cancel nearly all of the constant one, whose rounding stays: both count.
+    #[inline(always)]
+    pub(crate) fn scale(&self, body: &PreparedHub<T>) -> Scale<T> {
+        (self.body.m_b, add(body.i_b_b.diagonal(), self.body.i_b_b.diagonal()))
     }
 }
 

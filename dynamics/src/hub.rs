@@ -57,7 +57,6 @@ impl<T: Real> PreparedHub<T> {
             m_ww: self.i_b_b,
             h_v: sub(force, centrifugal),
             h_w: sub(torque_b, gyroscopic),
-            scale: (m, self.i_b_b.diagonal()),
         }
     }
 }

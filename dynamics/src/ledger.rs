@@ -37,7 +37,8 @@ pub struct Ledger<T = f64> {
     pub power: Power<T>,
     /// `dT/dt` less all powers, W: rounding.
     pub residual: T,
-    /// Sum of the magnitudes of the terms that the residual is a difference of, W.
+    /// Sum of the magnitudes of the terms that the residual is a difference of, W. Where a term is itself
+    /// small because forces cancel in it, the residual is rounding of those forces, and can exceed this.
     pub magnitude: T,
     /// Linear momentum, and angular momentum about the inertial origin, N axes.
     pub momentum: Momentum<T>,

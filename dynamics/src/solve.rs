@@ -30,10 +30,11 @@ pub(crate) struct System<T> {
     pub(crate) m_ww: Symmetric<T>,
     pub(crate) h_v: Vec3<T>,
     pub(crate) h_w: Vec3<T>,
-    /// What the pivots are held against: mass, kg, of the first three rows; inertia, kg m², of each of
-    /// the last three. Both before any joint is eliminated.
-    pub(crate) scale: (T, Vec3<T>),
 }
+
+/// What the pivots are checked against: mass, kg, of the first three rows; inertia, kg m², of each of the
+/// last three. Both before any joint is eliminated.
+pub(crate) type Scale<T> = (T, Vec3<T>);
 
 /// The solution of a [`System`].
 #[derive(Clone, Copy, Debug)]
@@ -42,8 +43,8 @@ pub struct Solution<T> {
     pub(crate) omega_dot: Vec3<T>,
 }
 
-/// The six pivots in order, each with its scale.
-pub(crate) type Pivots<T> = [[T; 2]; 6];
+/// The six pivots in order.
+pub(crate) type Pivots<T> = [T; 6];
 
 /// A pivot that is not above its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,22 +76,24 @@ pub(crate) fn check_pivot<T: Scalar>(pivot: T, scale: T) -> Result<(), SmallPivo
 }
 
 impl<T: Scalar> System<T> {
-    /// Solves the system; the pivots come with the solution.
+    /// Solves the system.
     #[inline]
-    pub(crate) fn solve(&self) -> Result<(Solution<T>, Pivots<T>), SmallPivot<T>> {
-        let (solution, pivots) = self.solved();
-        let share = T::from_f64(WELL_SCALED);
-        if !pivots.iter().all(|[pivot, scale]| *pivot > share * *scale) {
-            self.check_pivots(&pivots)?;
+    pub(crate) fn solve(&self, scale: &Scale<T>) -> Result<Solution<T>, SmallPivot<T>> {
+        let (solution, [a, b, c, d, e, f]) = self.solved();
+        let (share, (mass, [x, y, z])) = (T::from_f64(WELL_SCALED), *scale);
+        let (mass, x, y, z) = (share * mass, share * x, share * y, share * z);
+        if a > mass && b > mass && c > mass && d > x && e > y && f > z {
+            return Ok(solution);
         }
-        Ok((solution, pivots))
+        self.check_pivots(scale)?;
+        Ok(solution)
     }
 
     /// Checks each pivot beside its scale, grown by the rounding of those before it.
     #[cold]
-    fn check_pivots(&self, pivots: &Pivots<T>) -> Result<(), SmallPivot<T>> {
-        let mut pivots = pivots.iter().zip(self.grown_scales());
-        pivots.try_for_each(|([pivot, _], scale)| check_pivot(*pivot, scale))
+    fn check_pivots(&self, scale: &Scale<T>) -> Result<(), SmallPivot<T>> {
+        let mut pivots = self.solved().1.into_iter().zip(self.grown_scales(scale));
+        pivots.try_for_each(|(pivot, scale)| check_pivot(pivot, scale))
     }
 }
 
@@ -99,11 +102,10 @@ impl<T: Real> System<T> {
     #[inline(always)]
     pub(crate) fn filled(value: T) -> Self {
         let (block, row) = (Symmetric::filled(value), [value; 3]);
-        let scale = (value, row);
-        Self { m_vv: block, m_vw: [row; 3], m_ww: block, h_v: row, h_w: row, scale }
+        Self { m_vv: block, m_vw: [row; 3], m_ww: block, h_v: row, h_w: row }
     }
 
-    /// What is left without `other`, on the same scale: subtracting leaves the rounding that was there.
+    /// What is left without `other`.
     #[inline(always)]
     pub(crate) fn less(&self, other: &Self) -> Self {
         let ([x, y, z], [ox, oy, oz]) = (self.m_vw, other.m_vw);
@@ -113,7 +115,6 @@ impl<T: Real> System<T> {
             m_ww: self.m_ww.less(other.m_ww),
             h_v: sub(self.h_v, other.h_v),
             h_w: sub(self.h_w, other.h_w),
-            scale: self.scale,
         }
     }
 
@@ -143,9 +144,9 @@ impl<T: Real> System<T> {
     /// Pivot k is `v · M v` with `Lᵀ v = e_k`, so rounding of `M_ii` counts `v_i²` times. Small pivots
     /// before it make v long.
     #[inline(always)]
-    pub(crate) fn grown_scales(&self) -> [T; 6] {
+    pub(crate) fn grown_scales(&self, scales: &Scale<T>) -> [T; 6] {
         let (vv, z, ww) = self.factorised();
-        let (mass, moments) = self.scale;
+        let (mass, moments) = *scales;
         let weighed = |weights: Vec3<T>, v: Vec3<T>| {
             weights[0] * (v[0] * v[0]) + weights[1] * (v[1] * v[1]) + weights[2] * (v[2] * v[2])
         };
@@ -175,10 +176,8 @@ impl<T: Real> System<T> {
             zx[2] * x + zy[2] * y + zz[2] * z,
         ];
         let r_b_n_ddot = vv.backward(sub(vv.divide(y_v), coupled));
-        let (mass, [scale_x, scale_y, scale_z]) = self.scale;
         let ([a, b, c], [d, e, f]) = (vv.pivots, ww.pivots);
-        let pivots = [[a, mass], [b, mass], [c, mass], [d, scale_x], [e, scale_y], [f, scale_z]];
-        (Solution { r_b_n_ddot, omega_dot }, pivots)
+        (Solution { r_b_n_ddot, omega_dot }, [a, b, c, d, e, f])
     }
 }
 
@@ -253,9 +252,7 @@ mod tests {
     fn system(m: &Matrix6<f64>, h: &Vector6<f64>) -> System<f64> {
         let block = |r: usize, c: usize| m.fixed_view::<3, 3>(r, c).into_owned();
         let part = |r: usize| [h[r], h[r + 1], h[r + 2]];
-        let largest = |range: core::ops::Range<usize>| range.fold(0.0, |sum, k| m[(k, k)].max(sum));
         System {
-            scale: (largest(0..3), [m[(3, 3)], m[(4, 4)], m[(5, 5)]]),
             m_vv: Symmetric::part_of(&block(0, 0)),
             m_vw: crate::vec3::columns(&block(0, 3)),
             m_ww: Symmetric::part_of(&block(3, 3)),
@@ -264,8 +261,13 @@ mod tests {
         }
     }
 
+    fn scale_of(m: &Matrix6<f64>) -> Scale<f64> {
+        let mass = (0..3).fold(0.0, |sum: f64, k| sum.max(m[(k, k)]));
+        (mass, [m[(3, 3)], m[(4, 4)], m[(5, 5)]])
+    }
+
     fn solve(m: &Matrix6<f64>, h: &Vector6<f64>) -> Result<Vector6<f64>, SmallPivot<f64>> {
-        let (Solution { r_b_n_ddot: v, omega_dot: w }, _) = system(m, h).solve()?;
+        let Solution { r_b_n_ddot: v, omega_dot: w } = system(m, h).solve(&scale_of(m))?;
         Ok(Vector6::new(v[0], v[1], v[2], w[0], w[1], w[2]))
     }
 
@@ -323,14 +325,14 @@ mod tests {
         let block = (nalgebra::Matrix3::identity() - n * n.transpose()) * 0.3;
         m.fixed_view_mut::<3, 3>(3, 3).copy_from(&block);
         let system = system(&m, &Vector6::zeros());
-        let [.., [fifth, _], [sixth, _]] = system.solved().1;
+        let [.., fifth, sixth] = system.solved().1;
         assert!(fifth < 1e-4 && sixth.abs() < 1e-9);
-        let [.., grown] = system.grown_scales();
+        let [.., grown] = system.grown_scales(&scale_of(&m));
         assert!(grown > 1e4 * 0.3, "{grown}");
         assert!(solve(&m, &Vector6::zeros()).is_err());
         // Its own scale is that of the row where nothing is coupled.
         let plain = Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
-        let scales = self::system(&plain, &Vector6::zeros()).grown_scales();
+        let scales = self::system(&plain, &Vector6::zeros()).grown_scales(&scale_of(&plain));
         assert_eq!(scales, [3.0, 3.0, 3.0, 4.0, 5.0, 6.0]);
     }
 

@@ -23,7 +23,7 @@ use crate::kernels::Kernels;
 use crate::mode::{Drive, HubMode};
 use crate::passive::Passive;
 use crate::real::{Real, Scalar, half, one, zero};
-use crate::solve::Solution;
+use crate::solve::{Pivots, Scale, Solution};
 use crate::spacecraft::Spacecraft;
 use crate::state::State;
 use crate::vec3::zeros;
@@ -73,10 +73,10 @@ impl<T: Real> Stiffness<T> {
 
     /// The same where the hub moves: the response grows with it, which shows in the hub's pivots.
     #[inline(always)]
-    pub(crate) fn on_free_hub(self, pivots: [[T; 2]; 6]) -> Self {
+    pub(crate) fn on_free_hub(self, pivots: Pivots<T>, (mass, [x, y, z]): Scale<T>) -> Self {
         let [a, b, c, d, e, f] = pivots;
-        let over = |[pivot, scale]: [T; 2]| scale * pivot.recip();
-        let growth = over(a) + over(b) + over(c) + over(d) + over(e) + over(f);
+        let of_mass = mass * (a.recip() + b.recip() + c.recip());
+        let growth = of_mass + x * d.recip() + y * e.recip() + z * f.recip();
         let growth = growth * growth.like(1.0 / 6.0);
         Self { damping: self.damping * growth, spring: self.spring * growth }
     }
@@ -236,7 +236,8 @@ impl<D: Devices> Spacecraft<D> {
         self.eliminate::<_, Plainly>(&at_rest, given, &around, &mut assembly, &mut scratch)?;
         let hub = match inputs.hub {
             HubMode::Free => {
-                assembly.system(still).solve().map_err(|small| small.of(None, None))?.0
+                let system = assembly.system(still).solve(&assembly.scale(&self.body));
+                system.map_err(|small| small.of(None, None))?
             }
             HubMode::Fixed | HubMode::Prescribed { .. } => {
                 Solution { r_b_n_ddot: still, omega_dot: still }

@@ -100,7 +100,8 @@ impl<D: Devices> Spacecraft<D> {
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let hub = match inputs.hub {
             HubMode::Free => {
-                assembly.system(still).solve().map_err(|small| small.of(None, None))?.0
+                let solution = assembly.system(still).solve(&assembly.scale(&self.body));
+                solution.map_err(|small| small.of(None, None))?
             }
             HubMode::Fixed => {
                 Solution { r_b_n_ddot: neg(velocity), omega_dot: neg(components(&state.omega)) }

@@ -59,18 +59,18 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
     D::each(&craft.devices, slots, &mut elimination);
     let Elimination { assembly, mut holds, .. } = elimination;
     let system = assembly.system(acting.omega);
+    let scale = assembly.scale(&body);
     let (solution, pivots) = system.solved();
     let mut stiffness = assembly.stiffness;
     if craft.passive {
-        stiffness = stiffness.on_free_hub(pivots);
+        stiffness = stiffness.on_free_hub(pivots, scale);
     }
     let zero = like.like(0.0);
-    let mut regular = all_above(pivots, like.like(WELL_SCALED));
+    let (mass, [x, y, z]) = scale;
+    let mut regular = all_above(pivots, [mass, mass, mass, x, y, z], like.like(WELL_SCALED));
     if like.like(1.0).or(regular, zero).store().0.iter().take(T::WIDTH).any(|holds| *holds != 1.0) {
-        let [a, b, c, d, e, f] = system.grown_scales();
-        let [[p, _], [q, _], [r, _], [s, _], [t, _], [u, _]] = pivots;
-        let grown = [[p, a], [q, b], [r, c], [s, d], [t, e], [u, f]];
-        regular = all_above(grown, like.like(PIVOT_EPSILONS * f64::EPSILON));
+        let grown = system.grown_scales(&scale);
+        regular = all_above(pivots, grown, like.like(PIVOT_EPSILONS * f64::EPSILON));
     }
     holds = like.both(regular, holds);
     let [x, y, z] = solution.r_b_n_ddot;
@@ -87,11 +87,11 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
 
 /// Where each pivot exceeds a share of its scale.
 #[inline(always)]
-fn all_above<T: Number>(pivots: Pivots<T>, share: T) -> T::Holds {
-    let above = |[pivot, scale]: [T; 2]| pivot.above(share * scale);
-    let [a, b, c, d, e, f] = pivots;
-    let first = share.both(above(a), share.both(above(b), above(c)));
-    share.both(first, share.both(above(d), share.both(above(e), above(f))))
+fn all_above<T: Number>(pivots: Pivots<T>, scales: [T; 6], share: T) -> T::Holds {
+    let above = |pivot: T, scale: T| pivot.above(share * scale);
+    let ([a, b, c, d, e, f], [p, q, r, s, t, u]) = (pivots, scales);
+    let first = share.both(above(a, p), share.both(above(b, q), above(c, r)));
+    share.both(first, share.both(above(d, s), share.both(above(e, t), above(f, u))))
 }
 
 /// What a pivot must exceed.
