@@ -24,9 +24,6 @@ const SPRING: f64 = 3.0;
 /// What a step resolves: a tenth of the time in which a damper or spring acts.
 const RESOLVED: f64 = 0.1;
 
-/// How far joints and hub move in a step that resolves the motion, rad or m.
-const MOTION: f64 = 0.2;
-
 /// Steps of a run.
 const STEPS: usize = 50;
 
@@ -83,15 +80,6 @@ fn spacecraft(bound: &[Bound], omega: [f64; 3], mass: f64, dt: f64) -> Case {
     });
     for (([q, rate], info), [to_q, to_rate]) in motions.zip(case.state.devices.states_mut()) {
         (*to_q, *to_rate) = (q, if info.body == "wheel" { 50.0 * rate } else { rate });
-    }
-    // A spring is stretched so far that what it sets in motion is resolved by the step.
-    let passives: Vec<_> = passives(&case.devices).collect();
-    for ([q, _], (own, [_, spring, _])) in case.state.devices.states_mut().zip(passives.iter().zip(
-        bound.iter().zip(&counts).flat_map(|(bound, infos)| infos.iter().map(|_| bound.stiff)),
-    )) {
-        if own.stiffness != 0.0 {
-            *q *= 0.03 / spring.max(1.0);
-        }
     }
     case
 }
