@@ -11,6 +11,7 @@ use crate::attitude::Attitude;
 use crate::devices::{Around, Devices, Given};
 use crate::each::{Each, JointStates};
 use crate::error::{Quantity, SolveError};
+use crate::finite::all_finite;
 use crate::gravity::{Gravity, at_b};
 use crate::inputs::Inputs;
 #[cfg(feature = "lanes")]
@@ -44,25 +45,31 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
+        if !sound(state, inputs) {
+            return Err(self.diagnosis(state, inputs, overflow()));
+        }
         let mut found = self.no_accelerations();
-        match check_inputs(state, inputs).and_then(|()| self.solve(state, inputs, &mut found)) {
-            Ok(_) => Ok(found),
+        match self.solve(state, inputs, &mut found, None) {
+            Ok(()) => Ok(found),
             Err(failure) => Err(self.diagnosis(state, inputs, failure)),
         }
     }
 
     /// [`Self::accelerations`] without the search for a culprit, in their place: to move what was just
-    /// put together takes time. Returns what springs and friction demand of a step.
+    /// put together takes time. So is what springs and friction demand of a step, where that is asked.
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
         found: &mut Accelerations<D>,
-    ) -> Evaluated<D> {
+        stiffness: Option<&mut Stiffness<D::Scalar>>,
+    ) -> Result<(), SolveError<D::Scalar>> {
         match self.arithmetic {
-            Arithmetic::Plain => self.solve_by::<_, Plainly>(state, inputs, found),
+            Arithmetic::Plain => self.solve_by::<_, Plainly>(state, inputs, found, stiffness),
             #[cfg(feature = "lanes")]
-            Arithmetic::Fused(cpu) => cpu.dispatch(Solving { craft: self, state, inputs, found }),
+            Arithmetic::Fused(cpu) => {
+                cpu.dispatch(Solving { craft: self, state, inputs, found, stiffness })
+            }
         }
     }
 
@@ -73,15 +80,18 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
         found: &mut Accelerations<D>,
-    ) -> Evaluated<D> {
+        stiffness: Option<&mut Stiffness<D::Scalar>>,
+    ) -> Result<(), SolveError<D::Scalar>> {
         let Outset { around, at_b } = outset(state, inputs)?;
         let mut assembly = self.assembly(inputs);
         let mut scratch = D::scratch(&self.devices);
         self.eliminate::<_, W>(state, Given::of(inputs), &around, &mut assembly, &mut scratch)?;
         let hub = self.hub_moves(inputs, &around, &mut assembly, at_b)?;
         D::back_substitute(&self.devices, &scratch, &hub, &mut found.devices);
-        found.finish(inputs, &hub, at_b)?;
-        Ok(assembly.stiffness)
+        if let Some(stiffness) = stiffness {
+            *stiffness = self.stiffness(inputs, &assembly);
+        }
+        found.finish(inputs, &hub, at_b)
     }
 
     /// Accelerations to be filled in.
@@ -117,12 +127,7 @@ impl<D: Devices> Spacecraft<D> {
             HubMode::Free => {
                 let system = assembly.system(around.omega);
                 let scale = assembly.scale(&self.body);
-                let solution = system.solve(&scale).map_err(|small| small.of(None, None))?;
-                if self.passive {
-                    let pivots = system.solved().1;
-                    assembly.stiffness = assembly.stiffness.on_free_hub(pivots, scale);
-                }
-                solution
+                system.solve(&scale).map_err(|small| small.of(None, None))?
             }
             HubMode::Fixed => Solution { r_b_n_ddot: sub(zeros(), at_b), omega_dot: zeros() },
             HubMode::Prescribed { r_b_n_ddot, omega_dot } => Solution {
@@ -238,10 +243,6 @@ impl<D: Devices> Spacecraft<D> {
     }
 }
 
-/// What an evaluation returns beside the accelerations.
-pub(crate) type Evaluated<D> =
-    Result<Stiffness<<D as Devices>::Scalar>, SolveError<<D as Devices>::Scalar>>;
-
 /// An acceleration is not finite; [`Spacecraft::diagnosis`] finds which.
 pub(crate) fn overflow<T>() -> SolveError<T> {
     SolveError::Overflow { what: Quantity::HubAcceleration }
@@ -313,17 +314,15 @@ fn rates_are_finite<D: Devices, A>(state: &State<D, A>) -> bool {
     finite(components(&state.omega)) && state.devices.states().all(|[_, rate]| rate.is_finite())
 }
 
-/// Rejects what the accelerations may not depend on where it is not finite: the position, forces and
-/// rates on a hub that is held, motors of joints that are. All else shows in the result.
-pub(crate) fn check_inputs<D: Devices, A: Attitude<D::Scalar>>(
+/// Whether what the accelerations may not depend on is finite: the position, forces and rates on a hub
+/// that is held, motors of joints that are. All else shows in the result.
+pub(crate) fn sound<D: Devices, A: Attitude<D::Scalar>>(
     state: &State<D, A>,
     inputs: &Inputs<D>,
-) -> Result<(), SolveError<D::Scalar>> {
-    let vectors = [&state.r_b_n, &state.r_b_n_dot, &inputs.force, &inputs.torque_b];
-    let finite = vectors.into_iter().all(|v| finite(components(v)))
+) -> bool {
+    all_finite([&state.r_b_n, &state.r_b_n_dot, &inputs.force, &inputs.torque_b])
         && state.attitude.is_valid()
         && inputs.motors.values().all(Scalar::is_finite)
         && inputs.bodies.iter().flat_map(Each::values).all(|wrench| wrench.is_finite())
-        && (inputs.hub == HubMode::Free || rates_are_finite(state));
-    if finite { Ok(()) } else { Err(overflow()) }
+        && (matches!(inputs.hub, HubMode::Free) || rates_are_finite(state))
 }

@@ -17,7 +17,7 @@ use crate::hub::BodySums;
 use crate::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
 use crate::mode::{Drive, Mode};
 use crate::passive::Passive;
-use crate::pivot_scale::pivot_scales;
+use crate::pivot_bound::pivot_bounds;
 use crate::real::{Scalar, one, zero};
 use crate::solve::check_pivot;
 use crate::symmetric::Symmetric;
@@ -34,8 +34,8 @@ pub struct Device<K: Kind> {
     pub(crate) mount: Columns<K::Scalar>,
     pub(crate) constants: K::Constants<K::Scalar>,
     pub(crate) passive: K::PerJoint<Passive<K::Scalar>>,
-    /// What the pivot of each joint is checked against.
-    pub(crate) scale: K::PerJoint<K::Scalar>,
+    /// What the pivot of each joint must exceed.
+    pub(crate) bound: K::PerJoint<K::Scalar>,
     /// Whether no joint has a spring or friction.
     pub(crate) free: bool,
     /// What the simplified model puts in the place of the rotor's imbalance.
@@ -58,13 +58,13 @@ impl<K: Kind> Device<K> {
         for (excess, body) in excess.values_mut().zip(parameters.bodies().values()) {
             *excess = triangle_excess(&body.inertia);
         }
-        let (passive, scale) = (made.passive(), pivot_scales::<K>(&bodies));
+        let (passive, bound) = (made.passive(), pivot_bounds::<K>(&bodies));
         let free = passive.values().all(|joint| joint == Passive::none());
         Self {
             mount,
             constants: made.constants(rotate_transposed(&mount, origin)),
             passive,
-            scale,
+            bound,
             free,
             lumped,
             excess,
@@ -151,8 +151,7 @@ impl<K: Kind> Device<K> {
         assembly.second_moment = assembly.second_moment.plus(second_moment);
     }
 
-    /// Rejects pivots that are rounding, in the order of the elimination: the first one rejected is the
-    /// cause, those after it may be its consequence.
+    /// Rejects pivots that are rounding.
     #[inline(always)]
     fn check_pivots(
         &self,
@@ -160,22 +159,62 @@ impl<K: Kind> Device<K> {
         pivots: &Pivots<K, K::Scalar>,
         drives: &Drives<K>,
     ) -> Result<(), SolveError<K::Scalar>> {
-        let mut rejected = None;
-        let joints = pivots.values().zip(self.scale.values());
-        for (((pivot, scale), drive), info) in joints.zip(drives.values()).zip(K::JOINTS) {
-            if let (Some([pivot, diagonal]), true) = (pivot, drive.driven == one())
-                && let Err(small) = check_pivot(pivot, diagonal.max(scale))
+        let above = K::zip_per_joint(pivots, &self.bound, |pivot, bound| {
+            pivot.is_none_or(|[pivot, _]| pivot > bound)
+        });
+        let mut sound = true;
+        K::zip_per_joint(&above, drives, |above, drive| {
+            sound &= above || drive.driven != one();
+        });
+        if sound { Ok(()) } else { self.small_pivot(device, pivots, drives) }
+    }
+
+    /// The pivot rejected, in the order of the elimination: the first one is the cause, those after it
+    /// may be its consequence.
+    #[cold]
+    fn small_pivot(
+        &self,
+        device: usize,
+        pivots: &Pivots<K, K::Scalar>,
+        drives: &Drives<K>,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        let mut rejected = Ok(());
+        let joints = pivots.values().zip(self.bound.values());
+        for (((pivot, bound), drive), info) in joints.zip(drives.values()).zip(K::JOINTS) {
+            if let (Some([pivot, _]), true) = (pivot, drive.driven == one())
+                && let Err(small) = check_pivot(pivot, bound)
             {
                 // From the hub outwards: the one nearest the tip was eliminated first.
-                rejected = Some(small.of(Some(device), Some(info.body)));
+                rejected = Err(small.of(Some(device), Some(info.body)));
             }
         }
-        rejected.map_or(Ok(()), Err)
+        rejected
     }
 
     /// Torques and modes of the joints.
     #[inline(always)]
     fn by_mode(
+        joints: &K::Joints<K::Scalar>,
+        given: Given<'_, K>,
+        impulse: bool,
+        device: usize,
+    ) -> Result<Drives<K>, SolveError<K::Scalar>> {
+        let mut usual = !impulse;
+        let mut each = joints.states().zip(given.motors.values()).zip(K::JOINTS);
+        let drives = K::zip_per_joint(given.modes, given.modes, |mode, _| {
+            let Some((([coordinate, _], torque), info)) = each.next() else {
+                return Mode::Driven.drive(zero());
+            };
+            let own = own_mode(info);
+            usual &= mode == own && (!info.ignorable || coordinate.is_finite());
+            own.drive(torque)
+        });
+        if usual { Ok(drives) } else { Self::by_other_mode(joints, given, impulse, device) }
+    }
+
+    /// Torques and modes of the joints where one has a mode that is not its own.
+    #[inline(never)]
+    fn by_other_mode(
         joints: &K::Joints<K::Scalar>,
         given: Given<'_, K>,
         impulse: bool,

@@ -12,10 +12,22 @@ use crate::gravity::Gravity;
 use crate::inputs::Inputs;
 use crate::mode::{HubMode, Mode};
 use crate::momentum::refuse;
-use crate::real::Scalar;
+use crate::real::{Scalar, zero};
 use crate::spacecraft::Spacecraft;
 use crate::state::{Accelerations, State};
-use crate::vec3::components;
+use crate::vec3::{add, components, finite, scale, zeros};
+
+/// Whether all vectors are finite, by one comparison: a number times zero is zero unless it is infinite
+/// or NaN.
+#[inline]
+pub(crate) fn all_finite<T: Scalar, const N: usize>(vectors: [&Vector3<T>; N]) -> bool {
+    let mut vanishing = zeros();
+    for vector in vectors {
+        vanishing = add(vanishing, scale(zero(), components(vector)));
+    }
+    let [x, y, z] = vanishing;
+    x + y + z == zero()
+}
 
 impl<D: Devices> Spacecraft<D> {
     /// Refuses the first input that is not finite.
@@ -45,6 +57,28 @@ impl<D: Devices> Spacecraft<D> {
         let hub = culprit_in_vector(Quantity::HubAcceleration, r_b_n_ddot)
             .or_else(|| culprit_in_vector(Quantity::HubAcceleration, omega_dot));
         refuse(hub.or_else(joint))
+    }
+
+    /// Rejects a state that a step or a stop leads to unless it is finite.
+    #[inline]
+    pub(crate) fn check_reached<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        let vectors = [&state.r_b_n, &state.r_b_n_dot, &state.omega];
+        let finite = vectors.into_iter().all(|v| finite(components(v)))
+            && state.attitude.is_valid()
+            && state.devices.states().all(|[x, rate]| x.is_finite() && rate.is_finite());
+        if finite { Ok(()) } else { self.refuse_reached(state) }
+    }
+
+    #[cold]
+    fn refuse_reached<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        let culprit = self.culprit_in_state(state);
+        culprit.map_or(Ok(()), |(what, _)| Err(SolveError::Overflow { what }))
     }
 
     /// The first part of a state that is not finite, and the value that spoils it.

@@ -103,7 +103,7 @@ mod overflow_checks;
 mod parameter_error;
 mod parameters;
 mod passive;
-mod pivot_scale;
+mod pivot_bound;
 mod quaternion;
 mod real;
 mod rk4;

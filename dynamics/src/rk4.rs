@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use crate::accelerations::{Evaluated, check_inputs};
+use crate::accelerations::{overflow, sound};
 use crate::attitude::Attitude;
 use crate::devices::Devices;
 use crate::each::{Each, JointStates};
@@ -14,7 +14,7 @@ use crate::inputs::Inputs;
 use crate::ledger::Power;
 use crate::real::{Real, Scalar, half, zero};
 use crate::spacecraft::Spacecraft;
-use crate::stability::PassiveStep;
+use crate::stability::{PassiveStep, Stiffness};
 use crate::state::{Accelerations, State};
 use crate::vec3::{add, columns, components, rotate_transposed, scale, vector, zeros};
 
@@ -43,7 +43,9 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
         dt: D::Scalar,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
-        self.stepped(state, inputs, dt, |_, stage, found| self.solve(stage, inputs, found))
+        self.stepped(state, inputs, dt, |_, stage, found, stiffness| {
+            self.solve(stage, inputs, found, stiffness)
+        })
     }
 
     /// [`Self::step`], with the work of each source during the step: what the ledger calls power, in
@@ -59,11 +61,11 @@ impl<D: Devices> Spacecraft<D> {
         dt: D::Scalar,
     ) -> Result<Stepped<D, A>, SolveError<D::Scalar>> {
         let mut work = Power::none();
-        let next = self.stepped(state, inputs, dt, |time, stage, found| {
-            let stiffness = self.solve(stage, inputs, found)?;
+        let next = self.stepped(state, inputs, dt, |time, stage, found, stiffness| {
+            self.solve(stage, inputs, found, stiffness)?;
             let power = self.ledger_of(stage, inputs, found)?.power;
             work = work.plus_scaled(time, &power);
-            Ok(stiffness)
+            Ok(())
         })?;
         if work.is_finite() {
             Ok(Stepped { state: next, work })
@@ -72,20 +74,28 @@ impl<D: Devices> Spacecraft<D> {
         }
     }
 
-    /// The step, by whatever evaluates a stage; it is told for how long the stage counts.
+    /// The step, by whatever evaluates a stage: given the time that the stage counts for and its state,
+    /// in the places given.
     pub(crate) fn stepped<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
         dt: D::Scalar,
-        evaluate: impl FnMut(D::Scalar, &State<D, A>, &mut Accelerations<D>) -> Evaluated<D>,
+        evaluate: impl FnMut(
+            D::Scalar,
+            &State<D, A>,
+            &mut Accelerations<D>,
+            Option<&mut Stiffness<D::Scalar>>,
+        ) -> Result<(), SolveError<D::Scalar>>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         if !dt.is_finite() {
             return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
         }
-        let next =
-            check_inputs(state, inputs).and_then(|()| self.advance(state, inputs, dt, evaluate));
-        next.map_err(|failure| self.diagnosis(state, inputs, failure))
+        if !sound(state, inputs) {
+            return Err(self.diagnosis(state, inputs, overflow()));
+        }
+        self.advance(state, inputs, dt, evaluate)
+            .map_err(|failure| self.diagnosis(state, inputs, failure))
     }
 
     fn advance<A: Attitude<D::Scalar>>(
@@ -93,7 +103,12 @@ impl<D: Devices> Spacecraft<D> {
         start: &State<D, A>,
         inputs: &Inputs<D>,
         dt: D::Scalar,
-        mut evaluate: impl FnMut(D::Scalar, &State<D, A>, &mut Accelerations<D>) -> Evaluated<D>,
+        mut evaluate: impl FnMut(
+            D::Scalar,
+            &State<D, A>,
+            &mut Accelerations<D>,
+            Option<&mut Stiffness<D::Scalar>>,
+        ) -> Result<(), SolveError<D::Scalar>>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         let middle = half::<D::Scalar>() * dt;
         let sixth = dt * D::Scalar::from_f64(6.0).recip();
@@ -108,11 +123,9 @@ impl<D: Devices> Spacecraft<D> {
         let mut passive = self.passive.then(|| PassiveStep::new(self, start));
         let stages = [(sixth, middle), (third, middle), (third, dt), (sixth, zero())];
         for ((weight, time), rate) in stages.into_iter().zip(&mut rates) {
-            let stiffness = evaluate(weight, &stage, &mut found)
+            let stiffness = passive.as_mut().map(|passive| passive.stage(&stage));
+            evaluate(weight, &stage, &mut found, stiffness)
                 .map_err(|failure| self.cause(&stage, inputs, failure))?;
-            if let Some(passive) = &mut passive {
-                passive.stage(&stage, stiffness);
-            }
             *rate = (weight, stage.attitude.rate(&stage.omega));
             stage.follow(start, &found, [weight, time], &mut sum);
             stage.attitude = attitude.advanced(&[(time, rate.1)]);
@@ -120,9 +133,7 @@ impl<D: Devices> Spacecraft<D> {
         let mut next = stage;
         next.add(start, &sum);
         next.attitude = attitude.advanced(&rates).normalised();
-        if let Some((what, _)) = self.culprit_in_state(&next) {
-            return Err(SolveError::Overflow { what });
-        }
+        self.check_reached(&next)?;
         match passive {
             Some(passive) => passive.check(self, start, &next, inputs, dt).map(|()| next),
             None => Ok(next),

@@ -68,10 +68,15 @@ impl<T: Scalar> Solution<T> {
     }
 }
 
-/// Passes a pivot that exceeds 64 epsilons of its scale; NaN never does.
+/// What a pivot of this scale must exceed.
 #[inline]
-pub(crate) fn check_pivot<T: Scalar>(pivot: T, scale: T) -> Result<(), SmallPivot<T>> {
-    let bound = T::from_f64(PIVOT_EPSILONS) * T::EPSILON * scale;
+pub(crate) fn bound<T: Scalar>(scale: T) -> T {
+    T::from_f64(PIVOT_EPSILONS) * T::EPSILON * scale
+}
+
+/// Passes a pivot that exceeds its bound; NaN never does.
+#[inline]
+pub(crate) fn check_pivot<T: Scalar>(pivot: T, bound: T) -> Result<(), SmallPivot<T>> {
     if pivot > bound { Ok(()) } else { Err(SmallPivot { pivot, bound }) }
 }
 
@@ -79,21 +84,21 @@ impl<T: Scalar> System<T> {
     /// Solves the system.
     #[inline]
     pub(crate) fn solve(&self, scale: &Scale<T>) -> Result<Solution<T>, SmallPivot<T>> {
-        let (solution, [a, b, c, d, e, f]) = self.solved();
+        let (solution, pivots) = self.solved();
         let (share, (mass, [x, y, z])) = (T::from_f64(WELL_SCALED), *scale);
         let (mass, x, y, z) = (share * mass, share * x, share * y, share * z);
-        if a > mass && b > mass && c > mass && d > x && e > y && f > z {
-            return Ok(solution);
+        let [a, b, c, d, e, f] = pivots;
+        if !(a > mass && b > mass && c > mass && d > x && e > y && f > z) {
+            self.check_pivots(pivots, scale)?;
         }
-        self.check_pivots(scale)?;
         Ok(solution)
     }
 
     /// Checks each pivot beside its scale, grown by the rounding of those before it.
     #[cold]
-    fn check_pivots(&self, scale: &Scale<T>) -> Result<(), SmallPivot<T>> {
-        let mut pivots = self.solved().1.into_iter().zip(self.grown_scales(scale));
-        pivots.try_for_each(|(pivot, scale)| check_pivot(pivot, scale))
+    fn check_pivots(&self, pivots: Pivots<T>, scale: &Scale<T>) -> Result<(), SmallPivot<T>> {
+        let mut pivots = pivots.into_iter().zip(self.grown_scales(scale));
+        pivots.try_for_each(|(pivot, scale)| check_pivot(pivot, bound(scale)))
     }
 }
 
@@ -338,10 +343,11 @@ mod tests {
 
     #[test]
     fn pivot_that_is_rounding_of_its_scale_is_refused() {
-        let bound = 64.0 * f64::EPSILON;
-        assert_eq!(check_pivot(bound, 1.0), Err(SmallPivot { pivot: bound, bound }));
-        assert_eq!(check_pivot(2.0 * bound, 1.0), Ok(()));
-        assert_eq!(check_pivot(1e-300, 1e-290), Ok(()));
+        let bound = bound(1.0);
+        assert_eq!(bound, 64.0 * f64::EPSILON);
+        assert_eq!(check_pivot(bound, bound), Err(SmallPivot { pivot: bound, bound }));
+        assert_eq!(check_pivot(2.0 * bound, bound), Ok(()));
+        assert_eq!(check_pivot(1e-300, super::bound(1e-290)), Ok(()));
     }
 
     #[test]

@@ -137,7 +137,10 @@ impl<T: Scalar> Slowest<T> {
 
 /// What a step has seen of springs and friction.
 pub(crate) struct PassiveStep<D: Devices> {
+    /// Of the stage at hand.
     stiffness: Stiffness<D::Scalar>,
+    /// Of those before it.
+    largest: Stiffness<D::Scalar>,
     slowest: D::PerJoint<Slowest<D::Scalar>>,
 }
 
@@ -148,13 +151,15 @@ impl<D: Devices> PassiveStep<D> {
         for (slowest, [_, rate]) in slowest.values_mut().zip(start.devices.states()) {
             *slowest = Slowest::at(rate);
         }
-        Self { stiffness: Stiffness::none(zero()), slowest }
+        let none = Stiffness::none(zero());
+        Self { stiffness: none, largest: none, slowest }
     }
 
-    /// After an evaluation.
-    pub(crate) fn stage<A>(&mut self, stage: &State<D, A>, stiffness: Stiffness<D::Scalar>) {
-        self.stiffness = self.stiffness.max(stiffness);
+    /// Before an evaluation: where it leaves its stiffness.
+    pub(crate) fn stage<A>(&mut self, stage: &State<D, A>) -> &mut Stiffness<D::Scalar> {
+        self.largest = self.largest.max(self.stiffness);
         self.pass(stage);
+        &mut self.stiffness
     }
 
     fn pass<A>(&mut self, stage: &State<D, A>) {
@@ -172,10 +177,10 @@ impl<D: Devices> PassiveStep<D> {
         inputs: &Inputs<D>,
         dt: D::Scalar,
     ) -> Result<(), SolveError<D::Scalar>> {
-        self.pass(next);
+        self.stage(next);
         let mut joints = self.slowest.values().zip(D::passives(&craft.devices));
         let rests = joints.any(|(slowest, passive)| slowest.rests(&passive));
-        if self.stiffness.accepts(dt) && !rests {
+        if self.largest.accepts(dt) && !rests {
             return Ok(());
         }
         craft.check_stability(start, inputs, dt, &self.slowest)
@@ -183,6 +188,23 @@ impl<D: Devices> PassiveStep<D> {
 }
 
 impl<D: Devices> Spacecraft<D> {
+    /// What springs and friction demand of a step, estimated once every device is eliminated. Factorises
+    /// the hub's system once more, which spares those that do not ask from keeping its pivots.
+    #[inline(never)]
+    pub(crate) fn stiffness(
+        &self,
+        inputs: &Inputs<D>,
+        assembly: &Assembly<D::Scalar>,
+    ) -> Stiffness<D::Scalar> {
+        match inputs.hub {
+            HubMode::Free => {
+                let (_, pivots) = assembly.system(zeros()).solved();
+                assembly.stiffness.on_free_hub(pivots, assembly.scale(&self.body))
+            }
+            HubMode::Fixed | HubMode::Prescribed { .. } => assembly.stiffness,
+        }
+    }
+
     /// Rejects a step that spring, damper or friction of a joint makes unstable.
     #[cold]
     fn check_stability<A: Attitude<D::Scalar>>(

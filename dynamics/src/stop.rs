@@ -77,10 +77,8 @@ impl<D: Devices> Spacecraft<D> {
             (before.r_b_n_dot, after.r_b_n_dot) = (vector(zeros()), vector(sub(new, old)));
         }
         let energy_lost = self.energy(&before)? - self.energy(&after)?;
-        match self.culprit_in_state(&next) {
-            Some((what, _)) => Err(SolveError::Overflow { what }),
-            None => Ok(Stopped { state: next, energy_lost }),
-        }
+        self.check_reached(&next)?;
+        Ok(Stopped { state: next, energy_lost })
     }
 
     fn jump<A: Attitude<D::Scalar>>(

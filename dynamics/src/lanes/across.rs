@@ -13,7 +13,7 @@ use super::lane::Lane;
 use super::number::{Block, Number, WIDEST};
 use super::slot::{Aligned, put_drives};
 use super::width::{lanes_for, width};
-use crate::accelerations::{Outset, check_inputs, outset};
+use crate::accelerations::{Outset, outset, sound};
 use crate::assembly::along_b;
 use crate::attitude::Attitude;
 use crate::device::Device;
@@ -53,7 +53,7 @@ struct Group<K: Kernels> {
     constants: K::Constants<Block>,
     passive: K::PerJoint<Passive<Block>>,
     /// What the pivots are checked against.
-    scale: K::PerJoint<Block>,
+    bound: K::PerJoint<Block>,
     /// One in the lanes that have a device.
     weight: Block,
     /// Whether no joint has a spring or friction.
@@ -91,7 +91,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         inputs: &Inputs<[K; N]>,
     ) -> Result<Accelerations<[K; N]>, SolveError<f64>> {
         let mut found = self.craft.no_accelerations();
-        if check_inputs(state, inputs).is_ok() && self.solve(state, inputs, &mut found).is_some() {
+        if sound(state, inputs) && self.solve(state, inputs, &mut found, None).is_some() {
             return Ok(found);
         }
         self.craft.accelerations(state, inputs)
@@ -108,9 +108,11 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         inputs: &Inputs<[K; N]>,
         dt: f64,
     ) -> Result<State<[K; N], A>, SolveError<f64>> {
-        self.craft.stepped(state, inputs, dt, |_, stage, found| {
-            self.solve(stage, inputs, found)
-                .map_or_else(|| self.craft.solve(stage, inputs, found), Ok)
+        self.craft.stepped(state, inputs, dt, |_, stage, found, mut stiffness| {
+            match self.solve(stage, inputs, found, stiffness.as_deref_mut()) {
+                Some(()) => Ok(()),
+                None => self.craft.solve(stage, inputs, found, stiffness),
+            }
         })
     }
 
@@ -120,12 +122,13 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         state: &State<[K; N], A>,
         inputs: &Inputs<[K; N]>,
         found: &mut Accelerations<[K; N]>,
-    ) -> Option<Stiffness<f64>> {
+        stiffness: Option<&mut Stiffness<f64>>,
+    ) -> Option<()> {
         let central = matches!(inputs.gravity, Gravity::Central { .. });
         if !self.laned || central || inputs.bodies.is_some() {
             return None;
         }
-        self.lanes.dispatch(Evaluation { across: self, state, inputs, found })
+        self.lanes.dispatch(Evaluation { across: self, state, inputs, found, stiffness })
     }
 }
 
@@ -138,7 +141,7 @@ impl<K: Kind<Scalar = f64>> Group<K> {
             passive: K::zip_per_joint(&first.passive, &first.passive, |passive, _| {
                 passive.map(|_| Block::ZERO)
             }),
-            scale: K::zip_per_joint(&first.scale, &first.scale, |_, _| Block::ZERO),
+            bound: K::zip_per_joint(&first.bound, &first.bound, |_, _| Block::ZERO),
             weight: Block::ZERO,
             free: devices.iter().all(|device| device.free),
         };
@@ -149,7 +152,7 @@ impl<K: Kind<Scalar = f64>> Group<K> {
                 block
             };
             group.constants = K::zip_constants(&group.constants, &device.constants, put);
-            group.scale = K::zip_per_joint(&group.scale, &device.scale, put);
+            group.bound = K::zip_per_joint(&group.bound, &device.bound, put);
             group.passive = K::zip_per_joint(&group.passive, &device.passive, |blocks, passive| {
                 let [a, b, c, d, e] = passive.named().map(|(_, number)| number);
                 Passive {
@@ -172,10 +175,11 @@ struct Evaluation<'a, K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> {
     state: &'a State<[K; N], A>,
     inputs: &'a Inputs<[K; N]>,
     found: &'a mut Accelerations<[K; N]>,
+    stiffness: Option<&'a mut Stiffness<f64>>,
 }
 
 impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> WithSimd for Evaluation<'_, K, A, N> {
-    type Output = Option<Stiffness<f64>>;
+    type Output = Option<()>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
@@ -185,8 +189,9 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> WithSimd for Evalu
 
 impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, A, N> {
     #[inline(always)]
-    fn evaluate<T: Number>(self, zero: T) -> Option<Stiffness<f64>> {
-        let Self { across: AcrossDevices { craft, groups, .. }, state, inputs, found: all } = self;
+    fn evaluate<T: Number>(self, zero: T) -> Option<()> {
+        let Self { across, state, inputs, found: all, stiffness: demanded } = self;
+        let AcrossDevices { craft, groups, .. } = across;
         let Outset { around, at_b } = outset(state, inputs).ok()?;
         let mut assembly = craft.assembly(inputs);
         let omega = map(around.omega, |component| zero.like(component));
@@ -209,8 +214,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             };
             let pose = K::pose(&joints);
             let eliminated = K::eliminate(&constants, &pose, &joints, &along_b(omega), &drives);
-            let scale = K::zip_per_joint(&group.scale, &group.scale, |block, _| load(block));
-            let regular = regular::<K, T>(zero, &eliminated, &drives, &scale);
+            let bound = K::zip_per_joint(&group.bound, &group.bound, |block, _| load(block));
+            let regular = regular::<K, T>(zero, &eliminated, &drives, &bound);
             let within = within_reach::<K, T>(zero, &joints);
             holds = zero.both(holds, zero.both(within, regular));
             let real = load(group.weight).above(zero);
@@ -256,8 +261,10 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
         if (0..T::WIDTH).any(|lane| holds.at(lane) != 1.0) {
             return None;
         }
-        all.finish(inputs, &hub, at_b).ok()?;
-        Some(assembly.stiffness)
+        if let Some(demanded) = demanded {
+            *demanded = craft.stiffness(inputs, &assembly);
+        }
+        all.finish(inputs, &hub, at_b).ok()
     }
 }
 

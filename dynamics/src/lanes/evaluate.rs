@@ -94,12 +94,6 @@ fn all_above<T: Number>(pivots: Pivots<T>, scales: [T; 6], share: T) -> T::Holds
     share.both(first, share.both(above(d, s), share.both(above(e, t), above(f, u))))
 }
 
-/// What a pivot must exceed.
-#[inline(always)]
-fn bound<T: Number>(scale: T) -> T {
-    scale.like(PIVOT_EPSILONS * f64::EPSILON) * scale
-}
-
 /// Eliminates each device into the hub's system.
 struct Elimination<T: Number> {
     omega: Vec3<T>,
@@ -127,8 +121,8 @@ impl<T: Number> Visit<T> for Elimination<T> {
         };
         let omega = along_b(self.omega);
         let eliminated = K::eliminate(&constants, &pose, &slot.joints, &omega, &drives);
-        let scale = K::zip_per_joint(&device.scale, &device.scale, |scale, _| like.like(scale));
-        let regular = regular::<K, T>(like, &eliminated, &drives, &scale);
+        let bound = K::zip_per_joint(&device.bound, &device.bound, |bound, _| like.like(bound));
+        let regular = regular::<K, T>(like, &eliminated, &drives, &bound);
         self.holds = like.both(self.holds, like.both(within, regular));
         if let Some(passive) = &passive {
             add_stiffness::<K, T>(&mut self.assembly.stiffness, passive, &eliminated, &drives);
@@ -149,18 +143,18 @@ pub(super) fn within_reach<K: Kernels, T: Number>(like: T, joints: &K::Joints<T>
     holds
 }
 
-/// Where the pivot of each joint that is driven is more than rounding beside its scale.
+/// Where the pivot of each joint that is driven exceeds its bound.
 #[inline(always)]
 pub(super) fn regular<K: Kernels, T: Number>(
     like: T,
     eliminated: &K::Eliminated<T>,
     drives: &K::PerJoint<Drive<T>>,
-    scale: &K::PerJoint<T>,
+    bound: &K::PerJoint<T>,
 ) -> T::Holds {
     let (zero, mut holds) = (like.like(0.0), like.same(like));
     // Named functions, since a closure of this size is not inlined.
-    let pivots = K::zip_per_joint(&K::pivots(eliminated), scale, scaled::<T>);
-    let margins = K::zip_per_joint(&pivots, drives, margin::<T>);
+    let margins = K::zip_per_joint(&K::pivots(eliminated), bound, margin::<T>);
+    let margins = K::zip_per_joint(&margins, drives, of_driven::<T>);
     K::zip_per_joint(&margins, &margins, |margin, _| {
         holds = like.both(holds, margin.above(zero));
         zero
@@ -168,19 +162,16 @@ pub(super) fn regular<K: Kernels, T: Number>(
     holds
 }
 
-/// A pivot with what it is checked against: its diagonal, or its scale if that is larger.
+/// By how much the pivot of a joint is above its bound; one for a joint without a pivot.
 #[inline(always)]
-fn scaled<T: Number>(pivot: Option<[T; 2]>, scale: T) -> Option<[T; 2]> {
-    let [pivot, diagonal] = pivot?;
-    Some([pivot, scale.or(scale.above(diagonal), diagonal)])
+fn margin<T: Number>(pivot: Option<[T; 2]>, bound: T) -> T {
+    pivot.map_or(bound.like(1.0), |[pivot, _]| pivot - bound)
 }
 
-/// By how much the pivot of a joint is above its bound; one where the joint is not driven.
+/// A margin; one where the joint is not driven.
 #[inline(always)]
-fn margin<T: Number>(pivot: Option<[T; 2]>, drive: Drive<T>) -> T {
-    let one = drive.driven.like(1.0);
-    let Some([pivot, scale]) = pivot else { return one };
-    one.or(drive.driven.same(one.like(0.0)), pivot - bound(scale))
+fn of_driven<T: Number>(margin: T, drive: Drive<T>) -> T {
+    drive.driven.like(1.0).or(drive.driven.same(drive.driven.like(0.0)), margin)
 }
 
 /// What is given of the joints, springs and dampers with the motors.

@@ -6,17 +6,18 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 use pulp::{Simd, WithSimd};
 
-use crate::accelerations::Evaluated;
 use crate::arithmetic::{Asked, AtOnce, Pivots, Places};
 use crate::assembly::along_b;
 use crate::attitude::Attitude;
 use crate::devices::Devices;
+use crate::error::SolveError;
 use crate::generated::hub::BodyRate;
 use crate::inputs::Inputs;
 use crate::kernels::Kernels;
 use crate::real::{Angle, Real};
 use crate::sincos::{LARGEST_ANGLE, QuarterTurns, sin_cos};
 use crate::spacecraft::Spacecraft;
+use crate::stability::Stiffness;
 use crate::state::{Accelerations, State};
 
 /// An `f64` that is fused. Where the CPU has no such instruction, or a caller does not use it, the
@@ -30,14 +31,16 @@ pub(crate) struct Solving<'a, D: Devices, A> {
     pub(crate) state: &'a State<D, A>,
     pub(crate) inputs: &'a Inputs<D>,
     pub(crate) found: &'a mut Accelerations<D>,
+    pub(crate) stiffness: Option<&'a mut Stiffness<D::Scalar>>,
 }
 
 impl<D: Devices, A: Attitude<D::Scalar>> WithSimd for Solving<'_, D, A> {
-    type Output = Evaluated<D>;
+    type Output = Result<(), SolveError<D::Scalar>>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Self::Output {
-        self.craft.solve_by::<_, AtOnce>(self.state, self.inputs, self.found)
+        let Self { craft, state, inputs, found, stiffness } = self;
+        craft.solve_by::<_, AtOnce>(state, inputs, found, stiffness)
     }
 }
 

@@ -22,8 +22,8 @@ extern "C" {
 enum precess_solved {
     /** The accelerations are found. */
     PRECESS_SOLVED = 0,
-    /** A pivot of the hub is only rounding beside the mass or inertia that was there before any joint
-     * was eliminated: it is left without inertia. */
+    /** A pivot of the hub is only rounding beside the mass or inertia that was there before any
+     * joint was eliminated: it is left without inertia. */
     PRECESS_SINGULAR = 1,
     /** An acceleration is infinite or no number: so is an input, or a result overflows. */
     PRECESS_NOT_FINITE = 2

@@ -1,25 +1,27 @@
-//! The scale of each joint's pivot: a bound, whatever the pose, of the mass or inertia outboard of it.
+//! What the pivot of each joint must exceed: 64 epsilons of its scale, which is the largest mass or
+//! inertia outboard of it in any pose.
 //!
 //! In a pose where that inertia vanishes, because the bodies come to lie on the joint's axis, what the
-//! kernels compute of it is the rounding of numbers of this size. A pivot is checked against them.
+//! kernels compute of it is the rounding of numbers of this size.
+//!
+//! No kind has a sliding joint outboard of another one, so the scale is never below the pivot's diagonal.
 
 use crate::each::Each;
 use crate::kind::{BodyParameters, Kind};
 use crate::real::{Scalar, zero};
+use crate::solve::bound;
 use crate::vec3::{Vec3, dot};
 
 /// The bodies of a device.
 type Bodies<K> = <K as crate::kernels::Kernels>::PerJoint<BodyParameters<<K as Kind>::Scalar>>;
 
-/// Scale of the pivot of each joint, kg m²; of a sliding joint kg.
-///
-/// A sliding joint outboard counts as at zero: where its coordinate is large, so is the diagonal.
-pub(crate) fn pivot_scales<K: Kind>(bodies: &Bodies<K>) -> K::PerJoint<K::Scalar> {
-    let mut scales = K::all(zero());
-    for (joint, scale) in scales.values_mut().enumerate() {
-        *scale = outboard::<K>(bodies, joint);
+/// Bound of the pivot of each joint, kg m²; of a sliding joint kg.
+pub(crate) fn pivot_bounds<K: Kind>(bodies: &Bodies<K>) -> K::PerJoint<K::Scalar> {
+    let mut bounds = K::all(zero());
+    for (joint, place) in bounds.values_mut().enumerate() {
+        *place = bound(outboard::<K>(bodies, joint));
     }
-    scales
+    bounds
 }
 
 /// Mass or inertia outboard of a joint, in the pose that makes the most of it.
@@ -73,7 +75,8 @@ mod tests {
     use crate::{Dgvscmg, ReactionWheel, SloshMass};
 
     fn scales<K: Kind>(device: &K) -> Vec<K::Scalar> {
-        pivot_scales::<K>(&device.bodies()).values().collect()
+        let bodies = device.bodies();
+        (0..K::JOINTS.len()).map(|joint| outboard::<K>(&bodies, joint)).collect()
     }
 
     #[test]
