@@ -27,8 +27,8 @@ const HOLDS_TO: f64 = 5.0;
 const SOLVED_FROM: f64 = 5e-7;
 
 /// Largest distance from B, m, at which no spacecraft is refused: those of the least radius of gyration
-/// are from 500 km on.
-const SOLVED_TO: f64 = 2e5;
+/// are from 200 km on.
+const SOLVED_TO: f64 = 1e5;
 
 /// The squares are asserted from this distance on, rad: farther away other roundings show.
 const NEAR: f64 = 0.01;

@@ -93,7 +93,7 @@ fn hub_without_inertia_and_devices_is_a_typed_error() {
         panic!("{error}");
     };
     assert!(pivot <= bound, "{pivot}, {bound}");
-    assert!(error.to_string().ends_with("check the hub's mass and inertia"), "{error}");
+    assert!(error.to_string().contains("check the hub's mass and inertia"), "{error}");
 }
 
 /// The sine of a large angle is as good as the angle: nothing is lost after 160,000 turns.
