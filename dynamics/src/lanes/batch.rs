@@ -12,18 +12,18 @@ use super::motion::{Forces, Motion, at};
 use super::number::{Block, Number, WIDEST};
 use super::run::Runs;
 use super::slot::{Enter, LanedSet, Leave};
-use crate::devices::Given;
-use crate::each::Each;
-use crate::error::{Quantity, SolveError};
-use crate::gravity::Gravity;
-use crate::inputs::Inputs;
-use crate::mode::{HubMode, Mode};
-use crate::parameter_error::ParameterError;
-use crate::parameters::Hub;
-use crate::quaternion::{Quaternion, bn, norm_squared};
-use crate::spacecraft::Spacecraft;
-use crate::state::{Accelerations, State};
-use crate::vec3::{add, components, map, rotate, vector};
+use crate::attitude::quaternion::{Quaternion, bn, norm_squared};
+use crate::model::each::Each;
+use crate::model::mode::{HubMode, Mode};
+use crate::model::parameters::Hub;
+use crate::model::spacecraft::Spacecraft;
+use crate::numbers::vec3::{add, components, map, rotate, vector};
+use crate::sets::devices::Given;
+use crate::solve::error::{Quantity, SolveError};
+use crate::solve::gravity::Gravity;
+use crate::solve::inputs::Inputs;
+use crate::solve::state::{Accelerations, State};
+use crate::validation::parameter_error::ParameterError;
 
 /// What acts on the states of a batch.
 #[derive(Clone, Copy, Debug)]

@@ -7,19 +7,19 @@
 
 use super::number::Number;
 use super::slot::{Aligned, LanedSet, Slot, Visit};
-use crate::assembly::{Assembly, along_b};
-use crate::device::Device;
-use crate::each::JointStates;
 use crate::generated::hub::BodyAcceleration;
-use crate::kernels::Kernels;
-use crate::kind::Kind;
-use crate::mode::Drive;
-use crate::passive::Passive;
-use crate::sincos::LARGEST_ANGLE;
-use crate::solve::{PIVOT_EPSILONS, Pivots, WELL_SCALED};
-use crate::spacecraft::Spacecraft;
-use crate::stability::Stiffness;
-use crate::vec3::{Vec3, add};
+use crate::model::each::JointStates;
+use crate::model::kernels::Kernels;
+use crate::model::kind::Kind;
+use crate::model::mode::Drive;
+use crate::model::passive::Passive;
+use crate::model::spacecraft::Spacecraft;
+use crate::numbers::sincos::LARGEST_ANGLE;
+use crate::numbers::vec3::{Vec3, add};
+use crate::solve::assembly::{Assembly, along_b};
+use crate::solve::device::Device;
+use crate::solve::stability::Stiffness;
+use crate::solve::system::{PIVOT_EPSILONS, Pivots, WELL_SCALED};
 
 /// What acts on the hub, along B axes.
 #[derive(Clone, Copy, Debug)]

@@ -6,19 +6,19 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 use pulp::{Simd, WithSimd};
 
-use crate::arithmetic::{Asked, AtOnce, Pivots, Places};
-use crate::assembly::along_b;
-use crate::attitude::Attitude;
-use crate::devices::Devices;
-use crate::error::SolveError;
+use crate::attitude::parameterisation::Attitude;
 use crate::generated::hub::BodyRate;
-use crate::inputs::Inputs;
-use crate::kernels::Kernels;
-use crate::real::{Angle, Real};
-use crate::sincos::{LARGEST_ANGLE, QuarterTurns, sin_cos};
-use crate::spacecraft::Spacecraft;
-use crate::stability::Stiffness;
-use crate::state::{Accelerations, State};
+use crate::model::kernels::Kernels;
+use crate::model::spacecraft::Spacecraft;
+use crate::numbers::real::{Angle, Real};
+use crate::numbers::sincos::{LARGEST_ANGLE, QuarterTurns, sin_cos};
+use crate::sets::devices::Devices;
+use crate::solve::arithmetic::{Asked, AtOnce, Pivots, Places};
+use crate::solve::assembly::along_b;
+use crate::solve::error::SolveError;
+use crate::solve::inputs::Inputs;
+use crate::solve::stability::Stiffness;
+use crate::solve::state::{Accelerations, State};
 
 /// An `f64` that is fused. Where the CPU has no such instruction, or a caller does not use it, the
 /// result is the same and takes long.

@@ -6,7 +6,7 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::number::{Block, Number, WIDEST};
-use crate::kernels::Kernels;
+use crate::model::kernels::Kernels;
 
 /// Numbers for the lower or the upper half of the widest lanes.
 type Half = [f64; WIDEST / 2];

@@ -5,11 +5,11 @@
 use super::gather::{joined, wide};
 use super::number::{Block, Number, WIDEST};
 use super::slot::LanedSet;
-use crate::gravity::Gravity;
-use crate::inputs::Inputs;
-use crate::quaternion::Quaternion;
-use crate::state::State;
-use crate::vec3::{Vec3, components, vector};
+use crate::attitude::quaternion::Quaternion;
+use crate::numbers::vec3::{Vec3, components, vector};
+use crate::solve::gravity::Gravity;
+use crate::solve::inputs::Inputs;
+use crate::solve::state::State;
 
 /// The hub's part of a state, or of its slope.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use crate::real::Angle;
+use crate::numbers::real::Angle;
 
 /// The widest lanes there are.
 pub(crate) const WIDEST: usize = 8;

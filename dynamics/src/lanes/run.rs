@@ -13,14 +13,14 @@ use super::lane::Lane;
 use super::motion::Motion;
 use super::number::{Number, WIDEST};
 use super::slot::{LanedSet, Slot, Visit};
-use crate::device::Device;
-use crate::error::SolveError;
-use crate::kind::Kind;
-use crate::quaternion::{bn, norm_squared, rate};
-use crate::spacecraft::Spacecraft;
-use crate::stability::ACCEPTED;
-use crate::state::State;
-use crate::vec3::rotate_transposed;
+use crate::attitude::quaternion::{bn, norm_squared, rate};
+use crate::model::kind::Kind;
+use crate::model::spacecraft::Spacecraft;
+use crate::numbers::vec3::rotate_transposed;
+use crate::solve::device::Device;
+use crate::solve::error::SolveError;
+use crate::solve::stability::ACCEPTED;
+use crate::solve::state::State;
 
 /// The runs of a batch.
 pub(super) struct Runs<'a, 's, 'o, D: LanedSet> {

@@ -6,9 +6,9 @@ use std::vec::Vec;
 
 use super::number::{Number, WIDEST};
 use super::slot::{LanedSet, Visit};
-use crate::devices::Given;
-use crate::each::Value;
-use crate::real::Real;
+use crate::model::each::Value;
+use crate::numbers::real::Real;
+use crate::sets::devices::Given;
 
 impl<D: LanedSet, const N: usize> LanedSet for [D; N] {
     type Slots<T: Value> = Vec<D::Slots<T>>;

@@ -4,13 +4,13 @@
 
 use super::gather::joints_in_lanes;
 use super::number::{Block, Number, WIDEST};
-use crate::device::Device;
-use crate::devices::{Devices, Given};
-use crate::each::{Each, JointStates, Value};
-use crate::kernels::Kernels;
-use crate::kind::Kind;
-use crate::mode::Drive;
-use crate::real::Real;
+use crate::model::each::{Each, JointStates, Value};
+use crate::model::kernels::Kernels;
+use crate::model::kind::Kind;
+use crate::model::mode::Drive;
+use crate::numbers::real::Real;
+use crate::sets::devices::{Devices, Given};
+use crate::solve::device::Device;
 
 /// One device in lanes: what it is given, and what an evaluation and a step make of it.
 #[derive(Clone, Debug)]

@@ -1,0 +1,152 @@
+//! [`Arithmetic`]: how an evaluation is rounded, and [`Way`], what that is for one device.
+
+#![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
+
+use crate::generated::hub::BodyRate;
+use crate::model::each::Value;
+use crate::model::kernels::Kernels;
+use crate::model::kind::Kind;
+use crate::model::mode::Drive;
+#[cfg(feature = "lanes")]
+use crate::numbers::real::Scalar;
+use crate::numbers::real::{Angle, Real};
+use crate::sets::devices::{Around, Given};
+use crate::solve::assembly::Assembly;
+use crate::solve::device::Device;
+use crate::solve::error::SolveError;
+
+/// How products and sums of an evaluation are rounded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Arithmetic {
+    /// One by one: the same bits on every target.
+    Plain,
+    /// A product and a sum once in the devices' equations, by instructions of this CPU.
+    #[cfg(feature = "lanes")]
+    Fused(pulp::Arch),
+}
+
+#[cfg(feature = "lanes")]
+impl Arithmetic {
+    /// Fused where the CPU at hand has the instruction: without, the same would take long.
+    pub(crate) fn fused() -> Self {
+        let cpu = pulp::Arch::new();
+        if matches!(cpu, pulp::Arch::Scalar) { Self::Plain } else { Self::Fused(cpu) }
+    }
+}
+
+/// A way of eliminating a device: that of one [`Arithmetic`].
+pub trait Way {
+    /// Eliminates the joints; see [`Device::eliminate`].
+    ///
+    /// # Errors
+    ///
+    /// The first [`SolveError`].
+    fn eliminate<K: Kind>(
+        device: &Device<K>,
+        joints: &K::Joints<K::Scalar>,
+        given: Given<'_, K>,
+        around: &Around<K::Scalar>,
+        places: Places<'_, K, K::Scalar>,
+        index: usize,
+    ) -> Result<(), SolveError<K::Scalar>>;
+}
+
+/// Product and sum one by one.
+#[derive(Debug)]
+pub(crate) struct Plainly;
+
+impl Way for Plainly {
+    // Never inlined: one copy of the kernel, whatever the sets it stands in.
+    #[inline(never)]
+    fn eliminate<K: Kind>(
+        device: &Device<K>,
+        joints: &K::Joints<K::Scalar>,
+        given: Given<'_, K>,
+        around: &Around<K::Scalar>,
+        places: Places<'_, K, K::Scalar>,
+        index: usize,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        device.eliminate(joints, given, around, places, index, |asked, pose, places| {
+            asked.plainly(pose, places)
+        })
+    }
+}
+
+/// Product and sum at once. Part of what calls it, which may use the instruction.
+#[cfg(feature = "lanes")]
+#[derive(Debug)]
+pub(crate) struct AtOnce;
+
+#[cfg(feature = "lanes")]
+impl Way for AtOnce {
+    #[inline(always)]
+    fn eliminate<K: Kind>(
+        device: &Device<K>,
+        joints: &K::Joints<K::Scalar>,
+        given: Given<'_, K>,
+        around: &Around<K::Scalar>,
+        places: Places<'_, K, K::Scalar>,
+        index: usize,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        device.eliminate(
+            joints,
+            given,
+            around,
+            places,
+            index,
+            #[inline(always)]
+            |asked, _, places| K::Scalar::eliminate_fused(asked, places),
+        )
+    }
+}
+
+/// What the kernel `eliminate` is asked of one device.
+#[derive(Debug)]
+#[cfg_attr(not(feature = "lanes"), expect(unreachable_pub, reason = "asked of scalars in lanes"))]
+pub struct Asked<'a, K: Kernels, T: Value> {
+    pub(crate) constants: &'a K::Constants<T>,
+    pub(crate) joints: &'a K::Joints<T>,
+    pub(crate) omega: BodyRate<T>,
+    pub(crate) drives: &'a K::PerJoint<Drive<T>>,
+}
+
+/// Where the answer goes, written in its place: to move so many numbers there afterwards takes time.
+#[derive(Debug)]
+pub struct Places<'a, K: Kernels, T: Value> {
+    pub(crate) assembly: &'a mut Assembly<T>,
+    pub(crate) gains: &'a mut Option<K::Gains<T>>,
+}
+
+/// Pivot and diagonal of each driven joint.
+pub(crate) type Pivots<K, T> = <K as Kernels>::PerJoint<Option<[T; 2]>>;
+
+impl<K: Kernels, T: Angle> Asked<'_, K, T> {
+    /// Eliminates the joints, whose sines may be known, by the numbers as they are.
+    #[inline(always)]
+    pub(crate) fn plainly(
+        &self,
+        pose: Option<K::Pose<T>>,
+        places: Places<'_, K, T>,
+    ) -> Pivots<K, T> {
+        let pose = pose.unwrap_or_else(|| K::pose(self.joints));
+        self.eliminate(&pose, |number| number, places)
+    }
+
+    /// Eliminates the joints by numbers that are brought into `places` as others.
+    #[inline(always)]
+    pub(crate) fn eliminate<U: Real>(
+        &self,
+        pose: &K::Pose<T>,
+        number: impl Fn(T) -> U,
+        places: Places<'_, K, U>,
+    ) -> Pivots<K, U> {
+        let Self { constants, joints, omega, drives } = self;
+        let eliminated = K::eliminate(constants, pose, joints, omega, drives);
+        let Places { assembly, gains: place } = places;
+        assembly.add(&K::share(&eliminated).map(&number));
+        let gains = K::gains(&eliminated);
+        *place = Some(K::zip_gains(gains, gains, |gain, _| number(gain)));
+        let pivots = K::pivots(&eliminated);
+        K::zip_per_joint(&pivots, &pivots, |pivot, _| pivot.map(|pivot| pivot.map(&number)))
+    }
+}
