@@ -3,4 +3,5 @@
 //! Both evaluate through [`solve`](crate::solve).
 
 pub(crate) mod rk4;
+pub(crate) mod stability;
 pub(crate) mod stop;

@@ -6,16 +6,17 @@
 use nalgebra::Vector3;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::model::each::{Each, JointStates};
-use crate::model::spacecraft::Spacecraft;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::stiffness::Stiffness;
+use crate::integrate::stability::PassiveStep;
+use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::vec3::{add, columns, components, rotate_transposed, scale, vector, zeros};
 use crate::results::ledger::Power;
 use crate::sets::devices::Devices;
 use crate::solve::accelerations::{overflow, sound};
-use crate::solve::error::{Quantity, SolveError};
 use crate::solve::inputs::Inputs;
-use crate::solve::stability::{PassiveStep, Stiffness};
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
 /// What a step leaves, and what it took.

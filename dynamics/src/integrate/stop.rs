@@ -6,20 +6,22 @@
 //! jumps for accelerations: the same kernels answer.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::model::each::{Each, JointStates};
+use crate::equations::arithmetic::Plainly;
+use crate::equations::assembly::Assembly;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::joint_inputs::Environment;
+use crate::equations::joint_inputs::JointInputs;
+use crate::equations::system::Solution;
+use crate::numbers::each::{Each, JointStates};
 use crate::model::mode::{HubMode, Mode};
-use crate::model::spacecraft::Spacecraft;
 use crate::numbers::real::zero;
 use crate::numbers::vec3::{
     add, columns, components, neg, rotate, rotate_transposed, sub, vector, zeros,
 };
-use crate::sets::devices::{Around, Devices, Given};
-use crate::solve::arithmetic::Plainly;
-use crate::solve::assembly::Assembly;
-use crate::solve::error::{Quantity, SolveError};
+use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
-use crate::solve::system::Solution;
 
 /// What an impulsive stop leaves.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,12 +91,12 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         let still = zeros();
-        let around = Around { omega: still, central: None, impulse: true };
+        let around = Environment { omega: still, central: None, impulse: true };
         let mut assembly = Assembly::new(&self.body, still, still);
         let mut scratch = D::scratch(&self.devices);
         let motors = D::motors_off_for(&self.devices);
-        let given = Given { motors: &motors, modes: &inputs.modes, bodies: None };
-        D::fits(&self.devices, &state.devices, Some(Given::of(inputs)), None)?;
+        let given = JointInputs { motors: &motors, modes: &inputs.modes, bodies: None };
+        D::fits(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
         self.eliminate::<_, Plainly>(state, given, &around, &mut assembly, &mut scratch)?;
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));

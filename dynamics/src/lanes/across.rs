@@ -14,24 +14,23 @@ use super::number::{Block, Number, WIDEST};
 use super::slot::{Aligned, put_drives};
 use super::width::{lanes_for, width};
 use crate::attitude::parameterisation::Attitude;
-use crate::model::each::Each;
+use crate::equations::assembly::along_b;
+use crate::equations::device::Device;
+use crate::equations::error::SolveError;
+use crate::equations::joint_inputs::JointInputs;
+use crate::equations::stiffness::Stiffness;
+use crate::equations::system::Solution;
+use crate::numbers::each::Each;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::{Drive, Mode};
 use crate::model::parameters::Hub;
 use crate::model::passive::Passive;
-use crate::model::spacecraft::Spacecraft;
 use crate::numbers::vec3::map;
-use crate::sets::devices::Given;
 use crate::solve::accelerations::{Outset, outset, sound};
-use crate::solve::assembly::along_b;
-use crate::solve::device::Device;
-use crate::solve::error::SolveError;
-use crate::solve::gravity::Gravity;
 use crate::solve::inputs::Inputs;
-use crate::solve::stability::Stiffness;
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
-use crate::solve::system::Solution;
 use crate::validation::parameter_error::ParameterError;
 
 /// A hub with `N` devices of one kind, evaluated as many at a time as there are lanes.
@@ -124,8 +123,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         found: &mut Accelerations<[K; N]>,
         stiffness: Option<&mut Stiffness<f64>>,
     ) -> Option<()> {
-        let central = matches!(inputs.gravity, Gravity::Central { .. });
-        if !self.laned || central || inputs.bodies.is_some() {
+        if !self.laned || inputs.gravity.uniform().is_none() || inputs.bodies.is_some() {
             return None;
         }
         self.lanes.dispatch(Evaluation { across: self, state, inputs, found, stiffness })
@@ -309,7 +307,7 @@ fn gather<K: Kind<Scalar = f64>, T: Number, const N: usize>(
     let mut drives_of = K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| Block::ZERO));
     for (lane, joints) in joints_of.into_iter().enumerate().take(T::WIDTH) {
         let (motors, modes) = (inputs.motors.get(at(lane))?, inputs.modes.get(at(lane))?);
-        let given = Given { motors, modes, bodies: None };
+        let given = JointInputs { motors, modes, bodies: None };
         let drives = craft.devices.get(at(lane))?.given_drives(joints, given)?;
         put_drives::<K>(&mut drives_of, lane, &drives);
     }

@@ -13,15 +13,13 @@ use super::number::{Block, Number, WIDEST};
 use super::run::Runs;
 use super::slot::{Enter, LanedSet, Leave};
 use crate::attitude::quaternion::{Quaternion, bn, norm_squared};
-use crate::model::each::Each;
+use crate::equations::error::{Quantity, SolveError};
+use crate::numbers::each::Each;
 use crate::model::mode::{HubMode, Mode};
 use crate::model::parameters::Hub;
-use crate::model::spacecraft::Spacecraft;
 use crate::numbers::vec3::{add, components, map, rotate, vector};
-use crate::sets::devices::Given;
-use crate::solve::error::{Quantity, SolveError};
-use crate::solve::gravity::Gravity;
 use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 use crate::validation::parameter_error::ParameterError;
 
@@ -198,7 +196,7 @@ fn laned_inputs<D: LanedSet>(inputs: &Inputs<D>) -> bool {
     let [[a, b, c], [d, e, f]] = [components(&inputs.force), components(&inputs.torque_b)];
     inputs.hub == HubMode::Free
         && inputs.bodies.is_none()
-        && !matches!(inputs.gravity, Gravity::Central { .. })
+        && inputs.gravity.uniform().is_some()
         && inputs.motors.values().fold(a + b + c + d + e + f, |sum, u| sum + u).is_finite()
 }
 
@@ -304,7 +302,7 @@ impl<D: LanedSet, T: Number> Group<D, T> {
             let (Some(state), Some(inputs)) = (states.get(index), all.at(index)) else { return };
             let mut laned = laned_state(state);
             if !self.given {
-                let given = Given::of(inputs);
+                let given = inputs.of_joints();
                 laned &= laned_inputs(inputs)
                     && D::put(&craft.devices, &mut self.slots, lane, &state.devices, given);
                 self.forces.put(lane, inputs);

@@ -7,19 +7,19 @@
 
 use super::number::Number;
 use super::slot::{Aligned, LanedSet, Slot, Visit};
+use crate::equations::assembly::{Assembly, along_b};
+use crate::equations::device::Device;
+use crate::equations::stiffness::Stiffness;
+use crate::equations::system::{PIVOT_EPSILONS, Pivots, WELL_SCALED};
 use crate::generated::hub::BodyAcceleration;
-use crate::model::each::JointStates;
+use crate::numbers::each::JointStates;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
 use crate::model::passive::Passive;
-use crate::model::spacecraft::Spacecraft;
 use crate::numbers::sincos::LARGEST_ANGLE;
 use crate::numbers::vec3::{Vec3, add};
-use crate::solve::assembly::{Assembly, along_b};
-use crate::solve::device::Device;
-use crate::solve::stability::Stiffness;
-use crate::solve::system::{PIVOT_EPSILONS, Pivots, WELL_SCALED};
+use crate::solve::spacecraft::Spacecraft;
 
 /// What acts on the hub, along B axes.
 #[derive(Clone, Copy, Debug)]

@@ -24,7 +24,6 @@
 mod across;
 mod batch;
 mod evaluate;
-pub(crate) mod fused;
 mod gather;
 mod lane;
 mod motion;

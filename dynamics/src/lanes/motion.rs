@@ -7,7 +7,6 @@ use super::number::{Block, Number, WIDEST};
 use super::slot::LanedSet;
 use crate::attitude::quaternion::Quaternion;
 use crate::numbers::vec3::{Vec3, components, vector};
-use crate::solve::gravity::Gravity;
 use crate::solve::inputs::Inputs;
 use crate::solve::state::State;
 
@@ -143,10 +142,6 @@ impl Forces<Block> {
     pub(super) fn put<D: LanedSet>(&mut self, lane: usize, inputs: &Inputs<D>) {
         put(&mut self.force, lane, components(&inputs.force));
         put(&mut self.torque_b, lane, components(&inputs.torque_b));
-        let field = match &inputs.gravity {
-            Gravity::Uniform(field) => components(field),
-            _ => [0.0; 3],
-        };
-        put(&mut self.field, lane, field);
+        put(&mut self.field, lane, inputs.gravity.uniform().unwrap_or([0.0; 3]));
     }
 }

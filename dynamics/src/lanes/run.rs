@@ -14,12 +14,12 @@ use super::motion::Motion;
 use super::number::{Number, WIDEST};
 use super::slot::{LanedSet, Slot, Visit};
 use crate::attitude::quaternion::{bn, norm_squared, rate};
+use crate::equations::device::Device;
+use crate::equations::error::SolveError;
+use crate::equations::stiffness::ACCEPTED;
 use crate::model::kind::Kind;
-use crate::model::spacecraft::Spacecraft;
 use crate::numbers::vec3::rotate_transposed;
-use crate::solve::device::Device;
-use crate::solve::error::SolveError;
-use crate::solve::stability::ACCEPTED;
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
 /// The runs of a batch.

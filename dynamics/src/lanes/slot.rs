@@ -4,13 +4,13 @@
 
 use super::gather::joints_in_lanes;
 use super::number::{Block, Number, WIDEST};
-use crate::model::each::{Each, JointStates, Value};
+use crate::equations::device::Device;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
 use crate::numbers::real::Real;
-use crate::sets::devices::{Devices, Given};
-use crate::solve::device::Device;
+use crate::sets::devices::{Devices, SetInputs};
 
 /// One device in lanes: what it is given, and what an evaluation and a step make of it.
 #[derive(Clone, Debug)]
@@ -73,7 +73,7 @@ pub trait LanedSet: Devices<Scalar = f64> {
         slots: &mut Self::Slots<T>,
         lane: usize,
         joints: &Self::Joints,
-        given: Given<'_, Self>,
+        given: SetInputs<'_, Self>,
     ) -> bool;
     /// Takes the joints of one lane out.
     fn take_joints<T: Value>(slots: &mut Self::Slots<T>, lane: usize, joints: &mut Self::Joints);
@@ -127,7 +127,7 @@ impl<K: Kind<Scalar = f64>> LanedSet for K {
         slot: &mut Slot<K, T>,
         lane: usize,
         joints: &K::Joints<f64>,
-        given: Given<'_, Self>,
+        given: SetInputs<'_, Self>,
     ) -> bool {
         let Some(drives) = device.given_drives(joints, given) else { return false };
         put_drives::<K>(&mut slot.given, lane, &drives);

@@ -1,6 +1,6 @@
 //! [`Few`]: what belongs to the joints of one device, in an array that holds those of any kind.
 
-use crate::model::each::{Each, JointStates, Value};
+use crate::numbers::each::{Each, JointStates, Value};
 
 /// The joints that a device of this crate's kinds has at most.
 pub const MAX_JOINTS: usize = 3;

@@ -7,7 +7,7 @@
 use core::fmt::Debug;
 
 use crate::generated::hub::{BodyAcceleration, BodyRate, HubShare};
-use crate::model::each::{Each, JointStates, Value};
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::mode::Drive;
 use crate::numbers::real::{Angle, Real};
 

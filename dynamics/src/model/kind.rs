@@ -5,9 +5,10 @@ use core::fmt::Debug;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Handed};
-pub use crate::model::each::{Each, JointStates, Value};
+pub use crate::numbers::each::{Each, JointStates, Value};
 pub use crate::model::kernels::Kernels;
 pub use crate::model::mode::Drive;
+use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
@@ -38,6 +39,13 @@ pub struct JointInfo {
     pub driven: bool,
     /// Whether nothing is behind the body.
     pub tip: bool,
+}
+
+impl JointInfo {
+    /// The mode that the kind gives the joint.
+    pub(crate) fn own_mode<T: Scalar>(&self) -> Mode<T> {
+        if self.driven { Mode::Driven } else { Mode::Prescribed(zero()) }
+    }
 }
 
 /// A body as the user states it, and where its joint stands.

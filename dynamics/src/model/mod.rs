@@ -3,16 +3,11 @@
 //! Parameters and precomputed constants, which never change during a run. The equations of a kind are
 //! emitted, under [`generated`](crate::generated).
 
-pub(crate) mod each;
 pub(crate) mod few;
-pub(crate) mod hub;
 pub(crate) mod kernels;
 pub mod kind;
 pub(crate) mod mode;
 pub(crate) mod parameters;
 pub(crate) mod passive;
-pub(crate) mod spacecraft;
-#[cfg(test)]
-mod spacecraft_checks;
 pub mod units;
 pub(crate) mod wrench;

@@ -2,6 +2,7 @@
 //!
 //! Nothing here knows of a spacecraft. Everything above computes with these.
 
+pub(crate) mod each;
 pub(crate) mod real;
 pub(crate) mod sincos;
 #[cfg(test)]

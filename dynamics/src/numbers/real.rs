@@ -10,14 +10,8 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-#[cfg(feature = "lanes")]
-use crate::lanes::fused;
-use crate::model::each::Value;
-#[cfg(feature = "lanes")]
-use crate::model::kernels::Kernels;
+use crate::numbers::each::Value;
 use crate::numbers::sincos::{LARGEST_ANGLE, sin_cos};
-#[cfg(feature = "lanes")]
-use crate::solve::arithmetic::{Asked, Pivots, Places};
 
 /// What an emitted kernel does with a number.
 pub trait Real:
@@ -87,16 +81,9 @@ pub trait Scalar: Angle + PartialOrd {
     #[must_use]
     fn is_finite(self) -> bool;
 
-    /// Eliminates the joints of a device by fused numbers, where there are any. The solver's own.
-    #[cfg(feature = "lanes")]
-    #[doc(hidden)]
-    #[inline(always)]
-    fn eliminate_fused<K: Kernels>(
-        asked: &Asked<'_, K, Self>,
-        places: Places<'_, K, Self>,
-    ) -> Pivots<K, Self> {
-        asked.plainly(None, places)
-    }
+    /// Whether it converts to `f64` and back exactly, so that its equations may be evaluated by fused
+    /// `f64`s.
+    const IS_F64: bool = false;
 
     /// Magnitude. NaN stays NaN.
     #[must_use]
@@ -137,6 +124,7 @@ impl Angle for f64 {
 
 impl Scalar for f64 {
     const EPSILON: Self = Self::EPSILON;
+    const IS_F64: bool = true;
 
     #[inline]
     fn from_f64(value: f64) -> Self {
@@ -156,15 +144,6 @@ impl Scalar for f64 {
     #[inline]
     fn is_finite(self) -> bool {
         Self::is_finite(self)
-    }
-
-    #[cfg(feature = "lanes")]
-    #[inline(always)]
-    fn eliminate_fused<K: Kernels>(
-        asked: &Asked<'_, K, Self>,
-        places: Places<'_, K, Self>,
-    ) -> Pivots<K, Self> {
-        fused::eliminate(asked, places)
     }
 }
 

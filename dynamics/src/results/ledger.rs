@@ -9,17 +9,17 @@
 //! and what is left between them is the ledger's residual: rounding, or a fault.
 
 use crate::attitude::parameterisation::Attitude;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::gravity::Field;
+use crate::equations::load_sums::{Along, Totals};
 use crate::model::mode::HubMode;
-use crate::model::spacecraft::Spacecraft;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Columns, components, dot, rotate, scale};
-use crate::results::loads::{Along, Totals};
 use crate::results::momentum::{About, Momentum};
 use crate::sets::devices::Devices;
-use crate::solve::error::{Quantity, SolveError};
-use crate::solve::gravity::Field;
 use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
 /// The books of a spacecraft at one instant.

@@ -7,15 +7,16 @@
 //! that falls with it.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::model::spacecraft::Spacecraft;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::gravity::{Field, at_b};
+use crate::equations::joint_inputs::Environment;
+use crate::equations::load_sums::{Along, HubMotion, Totals};
 use crate::model::wrench::Wrench;
-use crate::numbers::real::{Scalar, zero};
-use crate::numbers::symmetric::Symmetric;
-use crate::numbers::vec3::{Columns, Vec3, columns, components, sub};
-use crate::sets::devices::{Around, Devices, Given};
-use crate::solve::error::{Quantity, SolveError};
-use crate::solve::gravity::{Field, at_b};
+use crate::numbers::real::zero;
+use crate::numbers::vec3::{columns, components, sub};
+use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
 /// The axes along which the loads of joints are told.
@@ -42,130 +43,6 @@ pub struct Loads<D: Devices> {
     /// free hub with its own accelerations; on a [fixed](crate::HubMode::Fixed) one, what the table
     /// exerts on it. A dynamometer reads the opposite.
     pub hub: Wrench<D::Scalar>,
-}
-
-/// The loads of one device; `W` has a wrench, `U` a number, `P` a [`JointPower`] per joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DeviceLoads<W, U, P, T> {
-    /// What the hub exerts on the device at its mount, about the origin of its first joint where it
-    /// stands now (of a sliding joint it moves along); along N axes if the joints' loads are,
-    /// otherwise along B axes. About another point: [`Wrench::moved`].
-    pub mount: Wrench<T>,
-    /// What its carrier exerts on the body behind each joint, motor, spring and friction included,
-    /// about the joint's origin, along the axes asked for.
-    pub joints: W,
-    /// The motor torque, N m (force, N, of a sliding joint), that each joint's acceleration needs:
-    /// the load about its axis less spring and friction. (80), (101), (119).
-    pub motors: U,
-    /// The power of each joint's motor, spring and friction: the ledger's sums one by one.
-    pub powers: P,
-}
-
-/// What acts at one joint, as power on the spacecraft's motion, W.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointPower<T = f64> {
-    /// Of the motor: with the torque that is given, or the one that is found.
-    pub motor: T,
-    /// Of the spring.
-    pub spring: T,
-    /// Of friction; not above zero.
-    pub friction: T,
-}
-
-impl<T: Scalar> JointPower<T> {
-    /// Nothing acts.
-    pub(crate) fn none() -> Self {
-        Self { motor: zero(), spring: zero(), friction: zero() }
-    }
-
-    /// Whether all three are finite.
-    pub(crate) fn is_finite(&self) -> bool {
-        [self.motor, self.spring, self.friction].into_iter().all(Scalar::is_finite)
-    }
-}
-
-/// Axes for the loads of joints.
-#[derive(Clone, Copy, Debug)]
-pub enum Along<T> {
-    /// The body's own.
-    Body,
-    /// The carrier's.
-    Carrier,
-    /// Those along which B axes are the columns; none for B axes themselves.
-    Hub(Option<Columns<T>>),
-}
-
-/// How the hub moves, along B axes, seen from a frame that falls with gravity.
-#[derive(Clone, Copy, Debug)]
-pub struct HubMotion<T> {
-    pub(crate) r_b_n_ddot: Vec3<T>,
-    pub(crate) omega_dot: Vec3<T>,
-}
-
-/// What the devices ask of the hub and what their joints transmit, added up.
-#[derive(Clone, Copy, Debug)]
-pub struct Totals<T> {
-    /// What the devices need for their accelerations, about B along B axes.
-    pub(crate) inertial: Wrench<T>,
-    /// What acts on their bodies from outside.
-    pub(crate) applied: Wrench<T>,
-    /// What the gradient of gravity exerts on them.
-    pub(crate) gradient: Wrench<T>,
-    /// Second moment about B; only with a central field.
-    pub(crate) second_moment: Symmetric<T>,
-    /// Powers of the joints.
-    pub(crate) power: JointPowers<T>,
-    /// How many joints have been added.
-    pub(crate) joints: usize,
-    /// The first joint of a device whose loads, motor torques or powers are not all finite.
-    pub(crate) overflow: Option<usize>,
-}
-
-/// Powers at the joints, W: the part of each source that the joints' rates take up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct JointPowers<T> {
-    pub(crate) inertial: T,
-    pub(crate) applied: T,
-    pub(crate) gradient: T,
-    pub(crate) motors: T,
-    pub(crate) springs: T,
-    pub(crate) friction: T,
-    /// Energy of the springs, J.
-    pub(crate) stored: T,
-    /// Sum of the powers' magnitudes.
-    pub(crate) magnitude: T,
-}
-
-impl<T: Scalar> JointPowers<T> {
-    fn none() -> Self {
-        Self {
-            inertial: zero(),
-            applied: zero(),
-            gradient: zero(),
-            motors: zero(),
-            springs: zero(),
-            friction: zero(),
-            stored: zero(),
-            magnitude: zero(),
-        }
-    }
-}
-
-impl<T: Scalar> Totals<T> {
-    pub(crate) fn none() -> Self {
-        let none = Wrench::none();
-        let power = JointPowers::none();
-        let second_moment = Symmetric::zero();
-        Self {
-            inertial: none,
-            applied: none,
-            gradient: none,
-            second_moment,
-            power,
-            joints: 0,
-            overflow: None,
-        }
-    }
 }
 
 impl<D: Devices> Spacecraft<D> {
@@ -237,8 +114,8 @@ impl<D: Devices> Spacecraft<D> {
             omega_dot: components(&accelerations.omega_dot),
         };
         let central = field.and_then(|field| field.central);
-        let around = Around { omega, central, impulse: false };
-        let given = Given::of(inputs);
+        let around = Environment { omega, central, impulse: false };
+        let given = inputs.of_joints();
         let mut devices = D::no_loads_for(&self.devices);
         let mut totals = Totals::none();
         D::loads(

@@ -2,7 +2,6 @@
 //!
 //! Evaluated only where they are called for; a step does not pass here.
 
-pub(crate) mod device_loads;
 pub(crate) mod ledger;
 pub(crate) mod loads;
 pub(crate) mod momentum;

@@ -6,16 +6,16 @@
 use nalgebra::Vector3;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::model::hub::BodySums;
-use crate::model::spacecraft::Spacecraft;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::hub::BodySums;
 use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::vec3::{
     Columns, Vec3, add, columns, components, cross, finite, neg, rotate, rotate_transposed, scale,
     sub, vector, zeros,
 };
 use crate::sets::devices::Devices;
-use crate::solve::error::{Quantity, SolveError};
-use crate::solve::finite::culprit_in_vector;
+use crate::solve::finite::{culprit_in_vector, refuse};
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
 /// The point about which angular momentum is taken.
@@ -156,13 +156,6 @@ fn culprit_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {
     match about {
         About::Point(point) => culprit_in_vector(Quantity::ReferencePoint, point),
         About::InertialOrigin | About::CentreOfMass => None,
-    }
-}
-
-pub(crate) fn refuse<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), SolveError<T>> {
-    match culprit {
-        Some((what, value)) => Err(SolveError::NotFinite { what, value }),
-        None => Ok(()),
     }
 }
 

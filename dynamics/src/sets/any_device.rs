@@ -10,21 +10,23 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::any::Any;
 
+use crate::equations::arithmetic::Way;
+use crate::equations::assembly::Assembly;
+use crate::equations::device_loads::{DeviceLoads, JointPower};
+use crate::equations::error::SolveError;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::Environment;
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::model::each::{Each, JointStates, Value};
-use crate::model::hub::BodySums;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::Vec3;
-use crate::results::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
-use crate::sets::devices::{Around, Devices, Given};
+use crate::sets::devices::{Devices, SetInputs};
 use crate::sets::erased::{Ready, Stated};
-use crate::solve::arithmetic::Way;
-use crate::solve::assembly::Assembly;
-use crate::solve::error::SolveError;
-use crate::solve::system::Solution;
 use crate::validation::parameter_error::ParameterError;
 
 /// A device of any kind, also of one from outside this crate.
@@ -169,7 +171,7 @@ impl<T: Scalar> Devices for AnyDevice<T> {
     fn fits(
         device: &Arc<dyn Ready<T>>,
         joints: &AnyJoints<T>,
-        given: Option<Given<'_, Self>>,
+        given: Option<SetInputs<'_, Self>>,
         accelerations: Option<&AnyPerJoint<T>>,
     ) -> Result<(), SolveError<T>> {
         let expected = device.infos().len();
@@ -187,8 +189,8 @@ impl<T: Scalar> Devices for AnyDevice<T> {
     fn eliminate<W: Way>(
         device: &Arc<dyn Ready<T>>,
         joints: &AnyJoints<T>,
-        given: Given<'_, Self>,
-        around: &Around<T>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<T>,
         assembly: &mut Assembly<T>,
         scratch: &mut Option<Box<dyn Any>>,
         index: &mut usize,
@@ -231,8 +233,8 @@ impl<T: Scalar> Devices for AnyDevice<T> {
     fn loads(
         device: &Arc<dyn Ready<T>>,
         joints: &AnyJoints<T>,
-        given: Given<'_, Self>,
-        around: &Around<T>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<T>,
         hub: &HubMotion<T>,
         accelerations: &AnyPerJoint<T>,
         along: &Along<T>,

@@ -1,18 +1,19 @@
 //! Sets of sets: arrays, tuples, vectors. Each call goes on to the members, in order.
 
+use crate::equations::arithmetic::Way;
+use crate::equations::assembly::Assembly;
+use crate::equations::error::SolveError;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::{Environment, JointInputs};
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::model::each::Value;
-use crate::model::hub::BodySums;
+use crate::numbers::each::Value;
 use crate::model::kind::JointInfo;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::numbers::vec3::Vec3;
-use crate::results::loads::{Along, HubMotion, Totals};
-use crate::sets::devices::{Around, Devices, FixedSet, Given};
-use crate::solve::arithmetic::Way;
-use crate::solve::assembly::Assembly;
-use crate::solve::error::SolveError;
-use crate::solve::system::Solution;
+use crate::sets::devices::{Devices, FixedSet, SetInputs};
 use crate::validation::parameter_error::ParameterError;
 
 /// An array of members.
@@ -93,7 +94,7 @@ macro_rules! row {
             fn fits(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
-                given: Option<Given<'_, Self>>,
+                given: Option<SetInputs<'_, Self>>,
                 accelerations: Option<&Self::Accelerations>,
             ) -> Result<(), SolveError<Self::Scalar>> {
                 let expected = devices.len();
@@ -120,8 +121,8 @@ macro_rules! row {
             fn eliminate<W: Way>(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
-                given: Given<'_, Self>,
-                around: &Around<Self::Scalar>,
+                given: SetInputs<'_, Self>,
+                around: &Environment<Self::Scalar>,
                 assembly: &mut Assembly<Self::Scalar>,
                 scratch: &mut Self::Scratch,
                 device: &mut usize,
@@ -170,8 +171,8 @@ macro_rules! row {
             fn loads(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
-                given: Given<'_, Self>,
-                around: &Around<Self::Scalar>,
+                given: SetInputs<'_, Self>,
+                around: &Environment<Self::Scalar>,
                 hub: &HubMotion<Self::Scalar>,
                 accelerations: &Self::Accelerations,
                 along: &Along<Self::Scalar>,
@@ -187,19 +188,19 @@ macro_rules! row {
             }
         }
 
-        impl<'a, D: Devices $(, const $n: usize)?> Given<'a, $row!(D)> {
+        impl<'a, M, P, W $(, const $n: usize)?> JointInputs<'a, $row!(M), $row!(P), $row!(W)> {
             /// What is given of one member.
-            fn member(self, index: usize) -> Option<Given<'a, D>> {
+            fn member(self, index: usize) -> Option<JointInputs<'a, M, P, W>> {
                 let (motors, modes) = (self.motors.get(index)?, self.modes.get(index)?);
-                Some(Given { motors, modes, bodies: self.bodies.and_then(|all| all.get(index)) })
+                Some(JointInputs { motors, modes, bodies: self.bodies.and_then(|all| all.get(index)) })
             }
 
             /// What is given of each member.
-            fn members(self) -> impl Iterator<Item = Given<'a, D>> {
+            fn members(self) -> impl Iterator<Item = JointInputs<'a, M, P, W>> {
                 let pairs = self.motors.iter().zip(self.modes).enumerate();
                 pairs.map(move |(index, (motors, modes))| {
                     let bodies = self.bodies.and_then(|all| all.get(index));
-                    Given { motors, modes, bodies }
+                    JointInputs { motors, modes, bodies }
                 })
             }
         }

@@ -5,28 +5,30 @@
 //! call; the equations are those of the kind, with the same bits. Kinds from outside the crate are
 //! not among them: `AnyDevice` takes those, with a heap.
 
+use crate::equations::arithmetic::Way;
+use crate::equations::assembly::Assembly;
+use crate::equations::device::Device;
+use crate::equations::device_loads::{DeviceLoads, JointPower};
+use crate::equations::error::SolveError;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::Environment;
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
 #[allow(clippy::wildcard_imports, reason = "every kind, also one to come")]
 use crate::generated::devices::*;
 use crate::generated::every_kind;
 use crate::generated::hub::Handed;
-use crate::model::each::Value;
+use crate::numbers::each::Value;
 use crate::model::few::{Few, MAX_JOINTS};
-use crate::model::hub::BodySums;
 use crate::model::kernels::Kernels;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::Vec3;
-use crate::results::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
 use crate::sets::built_in_calls as calls;
 use crate::sets::built_in_parameters::{BuiltInParameters, Misfit};
-use crate::sets::devices::{Around, Devices, Given};
-use crate::solve::arithmetic::Way;
-use crate::solve::assembly::Assembly;
-use crate::solve::device::Device;
-use crate::solve::error::SolveError;
-use crate::solve::system::Solution;
+use crate::sets::devices::{Devices, SetInputs};
 use crate::validation::parameter_error::ParameterError;
 
 /// The enumerations over all kinds, and what passes a call on.
@@ -156,8 +158,8 @@ macro_rules! built_in {
             fn eliminate<W: Way>(
                 &self,
                 joints: &Few<[T; 2]>,
-                given: Given<'_, BuiltIn<T>>,
-                around: &Around<T>,
+                given: SetInputs<'_, BuiltIn<T>>,
+                around: &Environment<T>,
                 assembly: &mut Assembly<T>,
                 scratch: &mut BuiltInGains<T>,
                 index: &mut usize,
@@ -199,8 +201,8 @@ macro_rules! built_in {
             fn loads(
                 &self,
                 joints: &Few<[T; 2]>,
-                given: Given<'_, BuiltIn<T>>,
-                around: &Around<T>,
+                given: SetInputs<'_, BuiltIn<T>>,
+                around: &Environment<T>,
                 hub: &HubMotion<T>,
                 accelerations: &Few<T>,
                 along: &Along<T>,
@@ -305,7 +307,7 @@ impl<T: Scalar> Devices for BuiltIn<T> {
     fn fits(
         device: &ReadyBuiltIn<T>,
         joints: &Few<[T; 2]>,
-        given: Option<Given<'_, Self>>,
+        given: Option<SetInputs<'_, Self>>,
         accelerations: Option<&Few<T>>,
     ) -> Result<(), SolveError<T>> {
         let expected = device.joints().len();
@@ -323,8 +325,8 @@ impl<T: Scalar> Devices for BuiltIn<T> {
     fn eliminate<W: Way>(
         device: &ReadyBuiltIn<T>,
         joints: &Few<[T; 2]>,
-        given: Given<'_, Self>,
-        around: &Around<T>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<T>,
         assembly: &mut Assembly<T>,
         scratch: &mut BuiltInGains<T>,
         index: &mut usize,
@@ -358,8 +360,8 @@ impl<T: Scalar> Devices for BuiltIn<T> {
     fn loads(
         device: &ReadyBuiltIn<T>,
         joints: &Few<[T; 2]>,
-        given: Given<'_, Self>,
-        around: &Around<T>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<T>,
         hub: &HubMotion<T>,
         accelerations: &Few<T>,
         along: &Along<T>,

@@ -1,7 +1,15 @@
 //! What [`BuiltIn`] asks of the one kind it is: data of its joints into the kind's own structures,
 //! and results out of them.
 
-use crate::model::each::{Each, JointStates, Value};
+use crate::equations::arithmetic::Way;
+use crate::equations::assembly::Assembly;
+use crate::equations::device::Device;
+use crate::equations::device_loads::{DeviceLoads, JointPower};
+use crate::equations::error::SolveError;
+use crate::equations::joint_inputs::{Environment, JointInputs};
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::few::{Few, MAX_JOINTS};
 use crate::model::kernels::Kernels;
 use crate::model::kind::{BodyParameters, Kind, no_inertia};
@@ -9,15 +17,9 @@ use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
-use crate::results::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
 use crate::sets::built_in::{BuiltIn, BuiltInLoads};
 use crate::sets::built_in_parameters::{BuiltInParameters, Misfit};
-use crate::sets::devices::{Around, Devices, Given};
-use crate::solve::arithmetic::Way;
-use crate::solve::assembly::Assembly;
-use crate::solve::device::Device;
-use crate::solve::error::SolveError;
-use crate::solve::system::Solution;
+use crate::sets::devices::{Devices, SetInputs};
 use crate::validation::parameter_error::Parameter;
 
 /// What back substitution needs of a device.
@@ -81,8 +83,8 @@ pub(crate) fn joints<K: Kind>(few: &Few<[K::Scalar; 2]>) -> K::Joints<K::Scalar>
 pub(crate) fn eliminate<K: Kind, W: Way>(
     device: &Device<K>,
     few: &Few<[K::Scalar; 2]>,
-    given: Given<'_, BuiltIn<K::Scalar>>,
-    around: &Around<K::Scalar>,
+    given: SetInputs<'_, BuiltIn<K::Scalar>>,
+    around: &Environment<K::Scalar>,
     assembly: &mut Assembly<K::Scalar>,
     index: &mut usize,
 ) -> Eliminated<K> {
@@ -115,8 +117,8 @@ pub(crate) fn back_substitute<K: Kind>(
 pub(crate) fn loads<K: Kind>(
     device: &Device<K>,
     few_joints: &Few<[K::Scalar; 2]>,
-    given: Given<'_, BuiltIn<K::Scalar>>,
-    around: &Around<K::Scalar>,
+    given: SetInputs<'_, BuiltIn<K::Scalar>>,
+    around: &Environment<K::Scalar>,
     hub: &HubMotion<K::Scalar>,
     accelerations: &Few<K::Scalar>,
     along: &Along<K::Scalar>,
@@ -142,7 +144,7 @@ struct Typed<K: Kind> {
 }
 
 impl<K: Kind> Typed<K> {
-    fn of(given: Given<'_, BuiltIn<K::Scalar>>) -> Self {
+    fn of(given: SetInputs<'_, BuiltIn<K::Scalar>>) -> Self {
         let mut motors = <K as Kind>::motors_off();
         copy(&mut motors, given.motors.values());
         let mut modes = <K as Kind>::all(Mode::Driven);
@@ -155,8 +157,8 @@ impl<K: Kind> Typed<K> {
         Self { motors, modes, bodies }
     }
 
-    fn given(&self) -> Given<'_, K> {
-        Given { motors: &self.motors, modes: &self.modes, bodies: self.bodies.as_ref() }
+    fn given(&self) -> SetInputs<'_, K> {
+        JointInputs { motors: &self.motors, modes: &self.modes, bodies: self.bodies.as_ref() }
     }
 }
 

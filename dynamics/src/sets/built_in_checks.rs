@@ -4,11 +4,12 @@ use std::vec::Vec;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use crate::equations::device_loads::{DeviceLoads, JointPower};
 use crate::generated::devices::*;
 use crate::generated::every_kind;
-use crate::model::each::{Each, JointStates};
+use crate::numbers::each::{Each, JointStates};
 use crate::model::kind::{BodyParameters, ImbalanceModel, Kind, Wrenches};
-use crate::results::loads::{DeviceLoads, JointPower, Loads};
+use crate::results::loads::Loads;
 use crate::sets::built_in::{BuiltIn, BuiltInKind};
 use crate::sets::built_in_parameters::{BuiltInParameters, Misfit};
 use crate::validation::parameter_error::{Parameter, ParameterError};

@@ -7,22 +7,21 @@
 
 use core::fmt::Debug;
 
+use crate::equations::arithmetic::Way;
+use crate::equations::assembly::Assembly;
+use crate::equations::error::SolveError;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::{Environment, JointInputs};
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::model::each::{Each, JointStates, Value};
-use crate::model::hub::BodySums;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kind::JointInfo;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::Vec3;
-use crate::results::loads::{Along, HubMotion, Totals};
-use crate::solve::arithmetic::Way;
-use crate::solve::assembly::Assembly;
-use crate::solve::error::SolveError;
-use crate::solve::gravity::Central;
-use crate::solve::inputs::Inputs;
-use crate::solve::system::Solution;
 use crate::validation::parameter_error::ParameterError;
 
 /// A set of devices, by their parameters.
@@ -76,7 +75,7 @@ pub trait Devices: Clone + Debug + PartialEq {
     fn modes_for(devices: &Self::Prepared) -> Self::PerJoint<Mode<Self::Scalar>> {
         let mut modes = Self::all_for(devices, Mode::Driven);
         for (mode, info) in modes.values_mut().zip(Self::infos(devices)) {
-            *mode = own_mode(info);
+            *mode = info.own_mode();
         }
         modes
     }
@@ -92,7 +91,7 @@ pub trait Devices: Clone + Debug + PartialEq {
     fn fits(
         devices: &Self::Prepared,
         joints: &Self::Joints,
-        given: Option<Given<'_, Self>>,
+        given: Option<SetInputs<'_, Self>>,
         accelerations: Option<&Self::Accelerations>,
     ) -> Result<(), SolveError<Self::Scalar>>;
     /// Eliminates every joint, adds what is left to the hub's system; `device` counts.
@@ -102,8 +101,8 @@ pub trait Devices: Clone + Debug + PartialEq {
     fn eliminate<W: Way>(
         devices: &Self::Prepared,
         joints: &Self::Joints,
-        given: Given<'_, Self>,
-        around: &Around<Self::Scalar>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<Self::Scalar>,
         assembly: &mut Assembly<Self::Scalar>,
         scratch: &mut Self::Scratch,
         device: &mut usize,
@@ -134,8 +133,8 @@ pub trait Devices: Clone + Debug + PartialEq {
     fn loads(
         devices: &Self::Prepared,
         joints: &Self::Joints,
-        given: Given<'_, Self>,
-        around: &Around<Self::Scalar>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<Self::Scalar>,
         hub: &HubMotion<Self::Scalar>,
         accelerations: &Self::Accelerations,
         along: &Along<Self::Scalar>,
@@ -158,44 +157,10 @@ pub trait FixedSet: Devices {
     fn joint_infos() -> impl Iterator<Item = &'static JointInfo>;
 }
 
-/// What is given of a set's joints.
-#[derive(Debug)]
-pub struct Given<'a, D: Devices> {
-    pub(crate) motors: &'a D::Motors,
-    pub(crate) modes: &'a D::PerJoint<Mode<D::Scalar>>,
-    pub(crate) bodies: Option<&'a D::PerJoint<Wrench<D::Scalar>>>,
-}
-
-impl<'a, D: Devices> Given<'a, D> {
-    /// What the inputs give.
-    pub(crate) fn of(inputs: &'a Inputs<D>) -> Self {
-        Self { motors: &inputs.motors, modes: &inputs.modes, bodies: inputs.bodies.as_ref() }
-    }
-}
-
-// Derived, both would ask `D` to be `Copy`; only references are copied.
-#[expect(clippy::expl_impl_clone_on_copy, reason = "a derived one would bound `D`")]
-impl<D: Devices> Clone for Given<'_, D> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<D: Devices> Copy for Given<'_, D> {}
-
-/// What a device feels of the hub and of the world, along B axes.
-#[derive(Clone, Copy, Debug)]
-pub struct Around<T> {
-    /// Angular velocity of B.
-    pub(crate) omega: Vec3<T>,
-    /// The gradient of a central field.
-    pub(crate) central: Option<Central<T>>,
-    /// Whether velocities jump: then torques are impulses, no other force matters, and rates count as
-    /// zero.
-    pub(crate) impulse: bool,
-}
-
-/// What a kind gives of a joint by itself.
-pub(crate) fn own_mode<T: Scalar>(info: &JointInfo) -> Mode<T> {
-    if info.driven { Mode::Driven } else { Mode::Prescribed(crate::numbers::real::zero()) }
-}
+/// What is given of the joints of a set.
+pub(crate) type SetInputs<'a, D> = JointInputs<
+    'a,
+    <D as Devices>::Motors,
+    <D as Devices>::PerJoint<Mode<<D as Devices>::Scalar>>,
+    <D as Devices>::PerJoint<Wrench<<D as Devices>::Scalar>>,
+>;

@@ -7,23 +7,25 @@ use alloc::vec::Vec;
 use core::any::Any;
 use core::fmt::Debug;
 
+use crate::equations::arithmetic::{Places, Plainly, Way};
+use crate::equations::assembly::Assembly;
+use crate::equations::device::Device;
+use crate::equations::device_loads::DeviceLoads;
+use crate::equations::error::SolveError;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::{Environment, JointInputs};
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::model::each::{Each, JointStates, Value};
-use crate::model::hub::BodySums;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::Vec3;
-use crate::results::loads::{Along, DeviceLoads, HubMotion, Totals};
 use crate::sets::any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
-use crate::sets::devices::{Around, Given};
-use crate::solve::arithmetic::{Places, Plainly, Way};
-use crate::solve::assembly::Assembly;
-use crate::solve::device::Device;
-use crate::solve::error::SolveError;
-use crate::solve::system::Solution;
+use crate::sets::devices::SetInputs;
 use crate::validation::check::check_device;
 use crate::validation::parameter_error::ParameterError;
 
@@ -61,7 +63,7 @@ impl<K: Kind> Stated<K::Scalar> for K {
 }
 
 /// Motors, modes and external wrenches of one device.
-type Erased<'a, T> = Given<'a, AnyDevice<T>>;
+type Erased<'a, T> = SetInputs<'a, AnyDevice<T>>;
 
 /// A device made ready, behind a pointer.
 pub trait Ready<T>: Debug + Send + Sync {
@@ -81,7 +83,7 @@ pub trait Ready<T>: Debug + Send + Sync {
         &self,
         joints: &AnyJoints<T>,
         given: Erased<'_, T>,
-        around: &Around<T>,
+        around: &Environment<T>,
         assembly: &mut Assembly<T>,
         device: usize,
     ) -> Result<Box<dyn Any>, SolveError<T>>
@@ -105,7 +107,7 @@ pub trait Ready<T>: Debug + Send + Sync {
         &self,
         joints: &AnyJoints<T>,
         given: Erased<'_, T>,
-        around: &Around<T>,
+        around: &Environment<T>,
         hub: &HubMotion<T>,
         accelerations: &AnyPerJoint<T>,
         along: &Along<T>,
@@ -136,8 +138,8 @@ impl<K: Kind> Typed<K> {
         Self { motors, modes, bodies }
     }
 
-    fn given(&self) -> Given<'_, K> {
-        Given { motors: &self.motors, modes: &self.modes, bodies: self.bodies.as_ref() }
+    fn given(&self) -> SetInputs<'_, K> {
+        JointInputs { motors: &self.motors, modes: &self.modes, bodies: self.bodies.as_ref() }
     }
 }
 
@@ -176,7 +178,7 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         &self,
         joints: &AnyJoints<K::Scalar>,
         given: Erased<'_, K::Scalar>,
-        around: &Around<K::Scalar>,
+        around: &Environment<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
         device: usize,
     ) -> Result<Box<dyn Any>, SolveError<K::Scalar>> {
@@ -214,7 +216,7 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         &self,
         joints: &AnyJoints<K::Scalar>,
         given: Erased<'_, K::Scalar>,
-        around: &Around<K::Scalar>,
+        around: &Environment<K::Scalar>,
         hub: &HubMotion<K::Scalar>,
         accelerations: &AnyPerJoint<K::Scalar>,
         along: &Along<K::Scalar>,

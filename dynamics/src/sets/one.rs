@@ -2,23 +2,25 @@
 
 #![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
 
+use crate::equations::arithmetic::{Places, Way};
+use crate::equations::assembly::Assembly;
+use crate::equations::device::Device;
+use crate::equations::device_loads::LoadsOf;
+use crate::equations::device_loads::{DeviceLoads, JointPower};
+use crate::equations::error::SolveError;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::Environment;
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::model::each::{Each, Value};
-use crate::model::hub::BodySums;
+use crate::numbers::each::{Each, Value};
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::zero;
 use crate::numbers::vec3::Vec3;
-use crate::results::device_loads::LoadsOf;
-use crate::results::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
-use crate::sets::devices::{Around, Devices, FixedSet, Given, own_mode};
-use crate::solve::arithmetic::{Places, Way};
-use crate::solve::assembly::Assembly;
-use crate::solve::device::Device;
-use crate::solve::error::SolveError;
-use crate::solve::system::Solution;
+use crate::sets::devices::{Devices, FixedSet, SetInputs};
 use crate::validation::check::check_device;
 use crate::validation::parameter_error::ParameterError;
 
@@ -90,7 +92,7 @@ impl<K: Kind> Devices for K {
     fn fits(
         _: &Device<K>,
         _: &K::Joints<K::Scalar>,
-        _: Option<Given<'_, Self>>,
+        _: Option<SetInputs<'_, Self>>,
         _: Option<&K::Accelerations<K::Scalar>>,
     ) -> Result<(), SolveError<K::Scalar>> {
         Ok(())
@@ -100,8 +102,8 @@ impl<K: Kind> Devices for K {
     fn eliminate<W: Way>(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, Self>,
-        around: &Around<K::Scalar>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
         scratch: &mut Option<K::Gains<K::Scalar>>,
         index: &mut usize,
@@ -144,8 +146,8 @@ impl<K: Kind> Devices for K {
     fn loads(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, Self>,
-        around: &Around<K::Scalar>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<K::Scalar>,
         hub: &HubMotion<K::Scalar>,
         accelerations: &K::Accelerations<K::Scalar>,
         along: &Along<K::Scalar>,
@@ -172,7 +174,7 @@ impl<K: Kind> FixedSet for K {
     fn modes() -> K::PerJoint<Mode<K::Scalar>> {
         let mut modes = <K as Kind>::all(Mode::Driven);
         for (mode, info) in modes.values_mut().zip(K::JOINTS) {
-            *mode = own_mode(info);
+            *mode = info.own_mode();
         }
         modes
     }

@@ -4,18 +4,19 @@
 
 #![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
 
+use crate::equations::arithmetic::Way;
+use crate::equations::assembly::Assembly;
+use crate::equations::error::SolveError;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::{Environment, JointInputs};
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::model::each::{Each, JointStates, Value};
-use crate::model::hub::BodySums;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kind::JointInfo;
 use crate::model::passive::Passive;
 use crate::numbers::vec3::Vec3;
-use crate::results::loads::{Along, HubMotion, Totals};
-use crate::sets::devices::{Around, Devices, Given};
-use crate::solve::arithmetic::Way;
-use crate::solve::assembly::Assembly;
-use crate::solve::error::SolveError;
-use crate::solve::system::Solution;
+use crate::sets::devices::{Devices, SetInputs};
 use crate::validation::parameter_error::ParameterError;
 
 impl<V: Value, P: Each<V>> Each<V> for Option<P> {
@@ -38,11 +39,11 @@ impl<T: Value, J: JointStates<T>> JointStates<T> for Option<J> {
     }
 }
 
-impl<'a, D: Devices> Given<'a, Option<D>> {
+impl<'a, M, P, W> JointInputs<'a, Option<M>, Option<P>, Option<W>> {
     /// What is given of the member that there is.
-    fn present(self) -> Option<Given<'a, D>> {
+    fn present(self) -> Option<JointInputs<'a, M, P, W>> {
         let bodies = self.bodies.and_then(Option::as_ref);
-        Some(Given { motors: self.motors.as_ref()?, modes: self.modes.as_ref()?, bodies })
+        Some(JointInputs { motors: self.motors.as_ref()?, modes: self.modes.as_ref()?, bodies })
     }
 }
 
@@ -107,7 +108,7 @@ impl<D: Devices> Devices for Option<D> {
     fn fits(
         devices: &Self::Prepared,
         joints: &Self::Joints,
-        given: Option<Given<'_, Self>>,
+        given: Option<SetInputs<'_, Self>>,
         accelerations: Option<&Self::Accelerations>,
     ) -> Result<(), SolveError<D::Scalar>> {
         let expected = usize::from(devices.is_some());
@@ -126,7 +127,7 @@ impl<D: Devices> Devices for Option<D> {
         D::fits(
             member,
             joints,
-            given.and_then(Given::present),
+            given.and_then(JointInputs::present),
             accelerations.and_then(Option::as_ref),
         )
     }
@@ -135,8 +136,8 @@ impl<D: Devices> Devices for Option<D> {
     fn eliminate<W: Way>(
         devices: &Self::Prepared,
         joints: &Self::Joints,
-        given: Given<'_, Self>,
-        around: &Around<D::Scalar>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<D::Scalar>,
         assembly: &mut Assembly<D::Scalar>,
         scratch: &mut Self::Scratch,
         device: &mut usize,
@@ -185,8 +186,8 @@ impl<D: Devices> Devices for Option<D> {
     fn loads(
         devices: &Self::Prepared,
         joints: &Self::Joints,
-        given: Given<'_, Self>,
-        around: &Around<D::Scalar>,
+        given: SetInputs<'_, Self>,
+        around: &Environment<D::Scalar>,
         hub: &HubMotion<D::Scalar>,
         accelerations: &Self::Accelerations,
         along: &Along<D::Scalar>,

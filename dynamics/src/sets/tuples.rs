@@ -1,18 +1,19 @@
 //! Sets of different members: tuples. Each call goes on to the members, in order.
 
+use crate::equations::arithmetic::Way;
+use crate::equations::assembly::Assembly;
+use crate::equations::error::SolveError;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::{Environment, JointInputs};
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::model::each::Value;
-use crate::model::hub::BodySums;
+use crate::numbers::each::Value;
 use crate::model::kind::JointInfo;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::numbers::vec3::Vec3;
-use crate::results::loads::{Along, HubMotion, Totals};
-use crate::sets::devices::{Around, Devices, FixedSet, Given};
-use crate::solve::arithmetic::Way;
-use crate::solve::assembly::Assembly;
-use crate::solve::error::SolveError;
-use crate::solve::system::Solution;
+use crate::sets::devices::{Devices, FixedSet, SetInputs};
 use crate::validation::parameter_error::ParameterError;
 
 macro_rules! tuples {
@@ -83,15 +84,15 @@ macro_rules! tuples {
             fn fits(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
-                given: Option<Given<'_, Self>>,
+                given: Option<SetInputs<'_, Self>>,
                 accelerations: Option<&Self::Accelerations>,
             ) -> Result<(), SolveError<Self::Scalar>> {
-                A::fits(&devices.0, &joints.0, given.map(|given| Given {
+                A::fits(&devices.0, &joints.0, given.map(|given| JointInputs {
                     motors: &given.motors.0,
                     modes: &given.modes.0,
                     bodies: given.bodies.map(|all| &all.0),
                 }), accelerations.map(|found| &found.0))?;
-                $($rest::fits(&devices.$place, &joints.$place, given.map(|given| Given {
+                $($rest::fits(&devices.$place, &joints.$place, given.map(|given| JointInputs {
                     motors: &given.motors.$place,
                     modes: &given.modes.$place,
                     bodies: given.bodies.map(|all| &all.$place),
@@ -103,13 +104,13 @@ macro_rules! tuples {
             fn eliminate<W: Way>(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
-                given: Given<'_, Self>,
-                around: &Around<Self::Scalar>,
+                given: SetInputs<'_, Self>,
+                around: &Environment<Self::Scalar>,
                 assembly: &mut Assembly<Self::Scalar>,
                 scratch: &mut Self::Scratch,
                 device: &mut usize,
             ) -> Result<(), SolveError<Self::Scalar>> {
-                let of = Given {
+                let of = JointInputs {
                     motors: &given.motors.0,
                     modes: &given.modes.0,
                     bodies: given.bodies.map(|all| &all.0),
@@ -118,7 +119,7 @@ macro_rules! tuples {
                     &devices.0, &joints.0, of, around, assembly, &mut scratch.0, device,
                 )?;
                 $(
-                    let of = Given {
+                    let of = JointInputs {
                         motors: &given.motors.$place,
                         modes: &given.modes.$place,
                         bodies: given.bodies.map(|all| &all.$place),
@@ -170,15 +171,15 @@ macro_rules! tuples {
             fn loads(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
-                given: Given<'_, Self>,
-                around: &Around<Self::Scalar>,
+                given: SetInputs<'_, Self>,
+                around: &Environment<Self::Scalar>,
                 hub: &HubMotion<Self::Scalar>,
                 accelerations: &Self::Accelerations,
                 along: &Along<Self::Scalar>,
                 out: &mut Self::Loads,
                 totals: &mut Totals<Self::Scalar>,
             ) {
-                let of = Given {
+                let of = JointInputs {
                     motors: &given.motors.0,
                     modes: &given.modes.0,
                     bodies: given.bodies.map(|all| &all.0),
@@ -195,7 +196,7 @@ macro_rules! tuples {
                     totals,
                 );
                 $(
-                    let of = Given {
+                    let of = JointInputs {
                         motors: &given.motors.$place,
                         modes: &given.modes.$place,
                         bodies: given.bodies.map(|all| &all.$place),

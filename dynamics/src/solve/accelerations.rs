@@ -6,23 +6,24 @@
 #![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
 
 use crate::attitude::parameterisation::Attitude;
-#[cfg(feature = "lanes")]
-use crate::lanes::fused::Solving;
-use crate::model::each::{Each, JointStates};
+use crate::equations::arithmetic::{Arithmetic, Plainly, Way};
+use crate::equations::assembly::Assembly;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::gravity::{Gravity, at_b};
+use crate::equations::joint_inputs::Environment;
+use crate::equations::stiffness::Stiffness;
+use crate::equations::system::Solution;
+use crate::numbers::each::{Each, JointStates};
 use crate::model::mode::HubMode;
-use crate::model::spacecraft::Spacecraft;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Vec3, add, columns, components, extreme, finite, sub, vector, zeros};
-use crate::sets::devices::{Around, Devices, Given};
-use crate::solve::arithmetic::{Arithmetic, Plainly, Way};
-use crate::solve::assembly::Assembly;
-use crate::solve::error::{Quantity, SolveError};
+use crate::sets::devices::{Devices, SetInputs};
 use crate::solve::finite::all_finite;
-use crate::solve::gravity::{Gravity, at_b};
+#[cfg(feature = "lanes")]
+use crate::solve::fused::Solving;
 use crate::solve::inputs::Inputs;
-use crate::solve::stability::Stiffness;
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
-use crate::solve::system::Solution;
 
 impl<D: Devices> Spacecraft<D> {
     /// All second derivatives of the state: six numbers and one per joint, from (16), (75), (80),
@@ -85,7 +86,7 @@ impl<D: Devices> Spacecraft<D> {
         let Outset { around, at_b } = outset(state, inputs)?;
         let mut assembly = self.assembly(inputs);
         let mut scratch = D::scratch(&self.devices);
-        self.eliminate::<_, W>(state, Given::of(inputs), &around, &mut assembly, &mut scratch)?;
+        self.eliminate::<_, W>(state, inputs.of_joints(), &around, &mut assembly, &mut scratch)?;
         let hub = self.hub_moves(inputs, &around, &mut assembly, at_b)?;
         D::back_substitute(&self.devices, &scratch, &hub, &mut found.devices);
         if let Some(stiffness) = stiffness {
@@ -113,7 +114,7 @@ impl<D: Devices> Spacecraft<D> {
     pub(crate) fn hub_moves(
         &self,
         inputs: &Inputs<D>,
-        around: &Around<D::Scalar>,
+        around: &Environment<D::Scalar>,
         assembly: &mut Assembly<D::Scalar>,
         at_b: Vec3<D::Scalar>,
     ) -> Result<Solution<D::Scalar>, SolveError<D::Scalar>> {
@@ -138,13 +139,30 @@ impl<D: Devices> Spacecraft<D> {
         if hub.is_finite() { Ok(hub) } else { Err(overflow()) }
     }
 
+    /// What springs and friction demand of a step, estimated once every device is eliminated. Factorises
+    /// the hub's system once more, which spares those that do not ask from keeping its pivots.
+    #[inline(never)]
+    pub(crate) fn stiffness(
+        &self,
+        inputs: &Inputs<D>,
+        assembly: &Assembly<D::Scalar>,
+    ) -> Stiffness<D::Scalar> {
+        match inputs.hub {
+            HubMode::Free => {
+                let (_, pivots) = assembly.system(zeros()).solved();
+                assembly.stiffness.on_free_hub(pivots, assembly.scale(&self.body))
+            }
+            HubMode::Fixed | HubMode::Prescribed { .. } => assembly.stiffness,
+        }
+    }
+
     /// Eliminates every device, keeps what back substitution needs, adds to the hub.
     #[inline(always)]
     pub(crate) fn eliminate<A, W: Way>(
         &self,
         state: &State<D, A>,
-        given: Given<'_, D>,
-        around: &Around<D::Scalar>,
+        given: SetInputs<'_, D>,
+        around: &Environment<D::Scalar>,
         assembly: &mut Assembly<D::Scalar>,
         scratch: &mut D::Scratch,
     ) -> Result<(), SolveError<D::Scalar>> {
@@ -227,7 +245,7 @@ impl<D: Devices> Spacecraft<D> {
             if !(finite(alone.h_v) && finite(alone.h_w)) {
                 return Ok(None);
             }
-            let given = Given::of(inputs);
+            let given = inputs.of_joints();
             self.eliminate::<_, Plainly>(state, given, &around, &mut assembly, &mut scratch)?;
             let still = Solution { r_b_n_ddot: zeros(), omega_dot: zeros() };
             let mut found = D::no_accelerations_for(&self.devices);
@@ -250,7 +268,7 @@ pub(crate) fn overflow<T>() -> SolveError<T> {
 
 /// What is known before any device is asked.
 pub(crate) struct Outset<T> {
-    pub(crate) around: Around<T>,
+    pub(crate) around: Environment<T>,
     /// The field at B.
     pub(crate) at_b: Vec3<T>,
 }
@@ -269,7 +287,7 @@ pub(crate) fn outset<D: Devices, A: Attitude<D::Scalar>>(
     };
     let at_b = at_b(field.as_ref());
     let central = field.and_then(|field| field.central);
-    let around = Around { omega, central, impulse: false };
+    let around = Environment { omega, central, impulse: false };
     Ok(Outset { around, at_b })
 }
 

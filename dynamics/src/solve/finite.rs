@@ -5,16 +5,15 @@
 use nalgebra::Vector3;
 
 use crate::attitude::parameterisation::Attitude;
-use crate::model::each::{Each, JointStates};
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::gravity::Gravity;
+use crate::numbers::each::{Each, JointStates};
 use crate::model::mode::{HubMode, Mode};
-use crate::model::spacecraft::Spacecraft;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{add, components, finite, scale, zeros};
-use crate::results::momentum::refuse;
-use crate::sets::devices::{Devices, Given};
-use crate::solve::error::{Quantity, SolveError};
-use crate::solve::gravity::Gravity;
+use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
 /// Whether all vectors are finite, by one comparison: a number times zero is zero unless it is infinite
@@ -29,6 +28,14 @@ pub(crate) fn all_finite<T: Scalar, const N: usize>(vectors: [&Vector3<T>; N]) -
     x + y + z == zero()
 }
 
+/// Rejects a value that is not finite.
+pub(crate) fn refuse<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), SolveError<T>> {
+    match culprit {
+        Some((what, value)) => Err(SolveError::NotFinite { what, value }),
+        None => Ok(()),
+    }
+}
+
 impl<D: Devices> Spacecraft<D> {
     /// Refuses the first input that is not finite.
     pub(crate) fn refuse<A: Attitude<D::Scalar>>(
@@ -36,7 +43,7 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        D::fits(&self.devices, &state.devices, Some(Given::of(inputs)), None)?;
+        D::fits(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
         refuse(self.culprit_in_state(state).or_else(|| self.culprit_in_inputs(inputs)))
     }
 

@@ -2,12 +2,13 @@
 
 use nalgebra::Vector3;
 
+use crate::equations::gravity::Gravity;
+use crate::equations::joint_inputs::JointInputs;
 use crate::model::mode::{HubMode, Mode};
-use crate::model::spacecraft::Spacecraft;
 use crate::model::wrench::Wrench;
 use crate::numbers::vec3::{add, components, cross, vector, zeros};
-use crate::sets::devices::{Devices, FixedSet};
-use crate::solve::gravity::Gravity;
+use crate::sets::devices::{Devices, FixedSet, SetInputs};
+use crate::solve::spacecraft::Spacecraft;
 
 /// Forces, torques and modes. Constant during a step, along the axes told at each.
 ///
@@ -34,6 +35,13 @@ pub struct Inputs<D: Devices> {
     /// kind's) has the axes of what carries it, so the same numbers mean another force there than on
     /// an imbalanced rotor.
     pub bodies: Option<D::PerJoint<Wrench<D::Scalar>>>,
+}
+
+impl<D: Devices> Inputs<D> {
+    /// Those of the joints.
+    pub(crate) fn of_joints(&self) -> SetInputs<'_, D> {
+        JointInputs { motors: &self.motors, modes: &self.modes, bodies: self.bodies.as_ref() }
+    }
 }
 
 impl<D: FixedSet> Inputs<D> {

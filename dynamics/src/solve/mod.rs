@@ -1,19 +1,15 @@
-//! Accelerations for a state and inputs: elimination of the joints device by device, the hub's system, back
-//! substitution.
+//! A spacecraft, its state and inputs, and the accelerations that follow.
 //!
-//! [`accelerations`] is the entry, [`device`] the share of one device, [`system`] the hub's six equations.
+//! [`accelerations`] is the entry: eliminate every device, solve the hub's system, substitute back.
 
 pub(crate) mod accelerations;
-pub(crate) mod arithmetic;
-pub(crate) mod assembly;
-pub(crate) mod device;
-pub(crate) mod error;
 pub(crate) mod finite;
-pub(crate) mod gravity;
+#[cfg(feature = "lanes")]
+pub(crate) mod fused;
 pub(crate) mod inputs;
 #[cfg(test)]
 mod overflow_checks;
-pub(crate) mod pivot_bound;
-pub(crate) mod stability;
+pub(crate) mod spacecraft;
+#[cfg(test)]
+mod spacecraft_checks;
 pub(crate) mod state;
-pub(crate) mod system;

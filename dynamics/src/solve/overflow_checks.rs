@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::equations::error::{Quantity, SolveError};
 use crate::results::momentum::About;
-use crate::solve::error::{Quantity, SolveError};
 use crate::{Dgvscmg, Hub, Inputs, Spacecraft, State};
 
 fn hub() -> Hub {

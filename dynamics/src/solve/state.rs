@@ -7,11 +7,11 @@ use nalgebra::Vector3;
 
 use crate::attitude::parameterisation::Attitude;
 use crate::attitude::quaternion::Quaternion;
-use crate::model::each::JointStates;
-use crate::model::spacecraft::Spacecraft;
+use crate::numbers::each::JointStates;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{vector, zeros};
 use crate::sets::devices::{Devices, FixedSet};
+use crate::solve::spacecraft::Spacecraft;
 
 /// State of the hub and of its devices; `A` is the attitude's parameterisation.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 
 use nalgebra::Matrix3;
 
-use crate::model::each::Each;
+use crate::numbers::each::Each;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::parameters::Hub;
 use crate::model::passive::Passive;

@@ -6,8 +6,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::dgvscmg::Joints;
 use crate::model::kind::Kind;
-use crate::model::spacecraft::Spacecraft;
 use crate::numbers::real::Scalar;
+use crate::solve::spacecraft::Spacecraft;
 use crate::validation::imbalance::{Imbalance, WheelImbalance};
 use crate::{Dgvscmg, Hub, Inputs, State};
 

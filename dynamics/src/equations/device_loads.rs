@@ -1,16 +1,56 @@
 //! The loads of one device, and the powers at its joints.
 
-use crate::model::each::{Each, JointStates};
+use crate::equations::assembly::along_b;
+use crate::equations::device::Device;
+use crate::equations::joint_inputs::{DeviceInputs, Environment};
+use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::system::Solution;
+use crate::numbers::each::{Each, JointStates};
 use crate::model::kind::{Carried, Kernels, Kind, Wrenches};
 use crate::model::mode::Mode;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Columns, rotate_transposed};
-use crate::results::loads::{Along, DeviceLoads, HubMotion, JointPower, Totals};
-use crate::sets::devices::{Around, Given};
-use crate::solve::assembly::along_b;
-use crate::solve::device::Device;
-use crate::solve::system::Solution;
+
+/// The loads of one device; `W` has a wrench, `U` a number, `P` a [`JointPower`] per joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeviceLoads<W, U, P, T> {
+    /// What the hub exerts on the device at its mount, about the origin of its first joint where it
+    /// stands now (of a sliding joint it moves along); along N axes if the joints' loads are,
+    /// otherwise along B axes. About another point: [`Wrench::moved`].
+    pub mount: Wrench<T>,
+    /// What its carrier exerts on the body behind each joint, motor, spring and friction included,
+    /// about the joint's origin, along the axes asked for.
+    pub joints: W,
+    /// The motor torque, N m (force, N, of a sliding joint), that each joint's acceleration needs:
+    /// the load about its axis less spring and friction. (80), (101), (119).
+    pub motors: U,
+    /// The power of each joint's motor, spring and friction: the ledger's sums one by one.
+    pub powers: P,
+}
+
+/// What acts at one joint, as power on the spacecraft's motion, W.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointPower<T = f64> {
+    /// Of the motor: with the torque that is given, or the one that is found.
+    pub motor: T,
+    /// Of the spring.
+    pub spring: T,
+    /// Of friction; not above zero.
+    pub friction: T,
+}
+
+impl<T: Scalar> JointPower<T> {
+    /// Nothing acts.
+    pub(crate) fn none() -> Self {
+        Self { motor: zero(), spring: zero(), friction: zero() }
+    }
+
+    /// Whether all three are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        [self.motor, self.spring, self.friction].into_iter().all(Scalar::is_finite)
+    }
+}
 
 /// The loads of a device of a kind.
 pub(crate) type LoadsOf<K> = DeviceLoads<
@@ -43,8 +83,8 @@ impl<K: Kind> Device<K> {
     pub(crate) fn loads(
         &self,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
-        around: &Around<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        around: &Environment<K::Scalar>,
         hub: &HubMotion<K::Scalar>,
         accelerations: &K::Accelerations<K::Scalar>,
         along: &Along<K::Scalar>,
@@ -102,7 +142,7 @@ impl<K: Kind> Device<K> {
     fn book(
         &self,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
+        given: DeviceInputs<'_, K>,
         felt: &Felt<K>,
         totals: &mut Totals<K::Scalar>,
     ) -> Booked<K> {

@@ -2,18 +2,18 @@
 
 #![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
 
+use crate::equations::assembly::Assembly;
+use crate::equations::device::Device;
+use crate::equations::error::SolveError;
+use crate::equations::joint_inputs::{DeviceInputs, Environment};
 use crate::generated::hub::BodyRate;
-use crate::model::each::Value;
+use crate::numbers::each::Value;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
 #[cfg(feature = "lanes")]
 use crate::numbers::real::Scalar;
 use crate::numbers::real::{Angle, Real};
-use crate::sets::devices::{Around, Given};
-use crate::solve::assembly::Assembly;
-use crate::solve::device::Device;
-use crate::solve::error::SolveError;
 
 /// How products and sums of an evaluation are rounded.
 #[derive(Clone, Copy, Debug)]
@@ -44,8 +44,8 @@ pub trait Way {
     fn eliminate<K: Kind>(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
-        around: &Around<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        around: &Environment<K::Scalar>,
         places: Places<'_, K, K::Scalar>,
         index: usize,
     ) -> Result<(), SolveError<K::Scalar>>;
@@ -61,8 +61,8 @@ impl Way for Plainly {
     fn eliminate<K: Kind>(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
-        around: &Around<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        around: &Environment<K::Scalar>,
         places: Places<'_, K, K::Scalar>,
         index: usize,
     ) -> Result<(), SolveError<K::Scalar>> {
@@ -83,8 +83,8 @@ impl Way for AtOnce {
     fn eliminate<K: Kind>(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
-        around: &Around<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        around: &Environment<K::Scalar>,
         places: Places<'_, K, K::Scalar>,
         index: usize,
     ) -> Result<(), SolveError<K::Scalar>> {
@@ -95,15 +95,20 @@ impl Way for AtOnce {
             places,
             index,
             #[inline(always)]
-            |asked, _, places| K::Scalar::eliminate_fused(asked, places),
+            |asked, pose, places| {
+                if K::Scalar::IS_F64 {
+                    crate::equations::fused::eliminate(asked, places)
+                } else {
+                    asked.plainly(pose, places)
+                }
+            },
         )
     }
 }
 
 /// What the kernel `eliminate` is asked of one device.
 #[derive(Debug)]
-#[cfg_attr(not(feature = "lanes"), expect(unreachable_pub, reason = "asked of scalars in lanes"))]
-pub struct Asked<'a, K: Kernels, T: Value> {
+pub(crate) struct Asked<'a, K: Kernels, T: Value> {
     pub(crate) constants: &'a K::Constants<T>,
     pub(crate) joints: &'a K::Joints<T>,
     pub(crate) omega: BodyRate<T>,

@@ -6,10 +6,10 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
+use crate::equations::error::SolveError;
 use crate::numbers::real::{Real, Scalar};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Columns, Vec3, add, dot, finite, map, rotate, scale, sub};
-use crate::solve::error::SolveError;
 
 /// A pivot must exceed this many epsilons of its scale: of the largest numbers that were added up and
 /// cancelled on the way to it.

@@ -1,11 +1,11 @@
 //! [`Spacecraft`]: a hub and its devices, checked and prepared once, and what is odd about them.
 
-use crate::model::hub::PreparedHub;
+use crate::equations::arithmetic::Arithmetic;
+use crate::equations::hub::PreparedHub;
 use crate::model::parameters::Hub;
 use crate::model::passive::Passive;
 use crate::numbers::real::{Scalar, zero};
 use crate::sets::devices::Devices;
-use crate::solve::arithmetic::Arithmetic;
 use crate::validation::check::check_hub;
 use crate::validation::parameter_error::{ParameterError, Part, Warning};
 

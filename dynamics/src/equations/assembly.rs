@@ -7,13 +7,13 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
+use crate::equations::hub::PreparedHub;
+use crate::equations::stiffness::Stiffness;
+use crate::equations::system::{Scale, Solution, System};
 use crate::generated::hub::{BodyAcceleration, BodyRate, Handed, HubShare};
-use crate::model::hub::PreparedHub;
 use crate::numbers::real::Real;
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add};
-use crate::solve::stability::Stiffness;
-use crate::solve::system::{Scale, Solution, System};
 
 /// The hub's equations so far.
 #[derive(Clone, Copy, Debug)]

@@ -5,9 +5,9 @@ use std::string::ToString;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::attitude::mrp::Mrp;
+use crate::equations::error::{Quantity, SolveError};
 use crate::model::kind::Kind;
 use crate::results::momentum::{About, Momentum};
-use crate::solve::error::{Quantity, SolveError};
 use crate::{
     Accelerations, Attitude, Dgvscmg, Gravity, Hub, HubMode, Inputs, JointPower, LoadAxes, Mode,
     ParameterError, Part, Passive, Spacecraft, State, Warning, dgvscmg,

@@ -10,99 +10,26 @@
 //! that an evaluation has at hand; what it leaves far below the limit is accepted. Above, the
 //! responses themselves are found, one impulsive evaluation per joint.
 
-#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
-
 use crate::attitude::parameterisation::Attitude;
-use crate::model::each::{Each, JointStates};
-use crate::model::kernels::Kernels;
-use crate::model::mode::{Drive, HubMode};
+use crate::equations::arithmetic::Plainly;
+use crate::equations::assembly::Assembly;
+use crate::equations::error::SolveError;
+use crate::equations::joint_inputs::Environment;
+use crate::equations::joint_inputs::JointInputs;
+use crate::equations::stiffness::Stiffness;
+use crate::equations::system::Solution;
+use crate::numbers::each::{Each, JointStates};
+use crate::model::mode::HubMode;
 use crate::model::passive::Passive;
-use crate::model::spacecraft::Spacecraft;
-use crate::numbers::real::{Real, Scalar, half, one, zero};
+use crate::numbers::real::{Scalar, half, one, zero};
 use crate::numbers::vec3::zeros;
-use crate::sets::devices::{Around, Devices, Given};
-use crate::solve::arithmetic::Plainly;
-use crate::solve::assembly::Assembly;
-use crate::solve::error::SolveError;
+use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
-use crate::solve::system::{Pivots, Scale, Solution};
-
-/// `damping * dt`, and `spring * dt²`, up to which a step needs no closer look. The stability limit is
-/// eleven times this, and more than thirty times.
-pub(crate) const ACCEPTED: f64 = 0.25;
 
 /// Largest magnitude of `λ dt` tried; RK4 is unstable there in every direction.
 const BEYOND: f64 = 3.5;
-
-/// Estimates of the sums over all joints of `a`, 1/s, and `b`, 1/s², from pivots.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Stiffness<T> {
-    pub(crate) damping: T,
-    pub(crate) spring: T,
-}
-
-impl<T: Real> Stiffness<T> {
-    /// No spring, no friction.
-    #[inline(always)]
-    pub(crate) fn none(zero: T) -> Self {
-        Self { damping: zero, spring: zero }
-    }
-
-    /// Adds the joints of one device: damping and stiffness of each, its pivot with its diagonal, and
-    /// its mode. How much a joint's response grows because its parents move shows in how far their
-    /// pivots are below their diagonals.
-    #[inline(always)]
-    pub(crate) fn add<K: Kernels>(
-        &mut self,
-        coefficients: &K::PerJoint<[T; 2]>,
-        pivots: &K::PerJoint<Option<[T; 2]>>,
-        drives: &K::PerJoint<Drive<T>>,
-    ) {
-        let (mut damping, mut spring) = (self.damping.like(0.0), self.damping.like(0.0));
-        let mut growth = damping;
-        let joints = K::zip_per_joint(pivots, drives, response::<T>);
-        K::zip_per_joint(coefficients, &joints, |[c, k], [response, over_pivot]| {
-            (damping, spring) = (damping + c * response, spring + k * response);
-            growth = growth + over_pivot;
-            growth
-        });
-        self.damping = self.damping + damping * growth;
-        self.spring = self.spring + spring * growth;
-    }
-
-    /// The same where the hub moves: the response grows with it, which shows in the hub's pivots.
-    #[inline(always)]
-    pub(crate) fn on_free_hub(self, pivots: Pivots<T>, (mass, [x, y, z]): Scale<T>) -> Self {
-        let [a, b, c, d, e, f] = pivots;
-        let of_mass = mass * (a.recip() + b.recip() + c.recip());
-        let growth = of_mass + x * d.recip() + y * e.recip() + z * f.recip();
-        let growth = growth * growth.like(1.0 / 6.0);
-        Self { damping: self.damping * growth, spring: self.spring * growth }
-    }
-}
-
-/// A joint's response to a unit torque, parents held, and diagonal over pivot; zero unless driven.
-#[inline(always)]
-fn response<T: Real>(pivot: Option<[T; 2]>, drive: Drive<T>) -> [T; 2] {
-    let Some([pivot, diagonal]) = pivot else { return [drive.driven.like(0.0); 2] };
-    // As in the kernel: of a joint that is not driven the pivot may be zero.
-    let response = drive.driven * (pivot + drive.held).recip();
-    [response, diagonal * response]
-}
-
-impl<T: Scalar> Stiffness<T> {
-    /// The larger of both estimates.
-    pub(crate) fn max(self, other: Self) -> Self {
-        Self { damping: self.damping.max(other.damping), spring: self.spring.max(other.spring) }
-    }
-
-    /// Whether a step is far below the limit; NaN is not.
-    pub(crate) fn accepts(&self, dt: T) -> bool {
-        let (dt, accepted) = (dt.abs(), T::from_f64(ACCEPTED));
-        self.damping * dt <= accepted && self.spring * dt * dt <= accepted
-    }
-}
 
 /// How a joint's rate has gone during a step: its smallest magnitude, and whether it passed zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -188,23 +115,6 @@ impl<D: Devices> PassiveStep<D> {
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// What springs and friction demand of a step, estimated once every device is eliminated. Factorises
-    /// the hub's system once more, which spares those that do not ask from keeping its pivots.
-    #[inline(never)]
-    pub(crate) fn stiffness(
-        &self,
-        inputs: &Inputs<D>,
-        assembly: &Assembly<D::Scalar>,
-    ) -> Stiffness<D::Scalar> {
-        match inputs.hub {
-            HubMode::Free => {
-                let (_, pivots) = assembly.system(zeros()).solved();
-                assembly.stiffness.on_free_hub(pivots, assembly.scale(&self.body))
-            }
-            HubMode::Fixed | HubMode::Prescribed { .. } => assembly.stiffness,
-        }
-    }
-
     /// Rejects a step that spring, damper or friction of a joint makes unstable.
     #[cold]
     fn check_stability<A: Attitude<D::Scalar>>(
@@ -245,14 +155,14 @@ impl<D: Devices> Spacecraft<D> {
         joint: usize,
     ) -> Result<D::Accelerations, SolveError<D::Scalar>> {
         let still = zeros();
-        let around = Around { omega: still, central: None, impulse: true };
+        let around = Environment { omega: still, central: None, impulse: true };
         let mut at_rest = state.clone();
         at_rest.devices.states_mut().for_each(|[_, rate]| *rate = zero());
         let mut motors = D::motors_off_for(&self.devices);
         if let Some(torque) = motors.values_mut().nth(joint) {
             *torque = one();
         }
-        let given = Given { motors: &motors, modes: &inputs.modes, bodies: None };
+        let given = JointInputs { motors: &motors, modes: &inputs.modes, bodies: None };
         let mut assembly = Assembly::new(&self.body, still, still);
         let mut scratch = D::scratch(&self.devices);
         self.eliminate::<_, Plainly>(&at_rest, given, &around, &mut assembly, &mut scratch)?;

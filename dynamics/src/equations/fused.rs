@@ -4,60 +4,33 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use pulp::{Simd, WithSimd};
-
-use crate::attitude::parameterisation::Attitude;
+use crate::equations::arithmetic::{Asked, Pivots, Places};
+use crate::equations::assembly::along_b;
 use crate::generated::hub::BodyRate;
 use crate::model::kernels::Kernels;
-use crate::model::spacecraft::Spacecraft;
-use crate::numbers::real::{Angle, Real};
+use crate::numbers::real::{Angle, Real, Scalar};
 use crate::numbers::sincos::{LARGEST_ANGLE, QuarterTurns, sin_cos};
-use crate::sets::devices::Devices;
-use crate::solve::arithmetic::{Asked, AtOnce, Pivots, Places};
-use crate::solve::assembly::along_b;
-use crate::solve::error::SolveError;
-use crate::solve::inputs::Inputs;
-use crate::solve::stability::Stiffness;
-use crate::solve::state::{Accelerations, State};
 
 /// An `f64` that is fused. Where the CPU has no such instruction, or a caller does not use it, the
 /// result is the same and takes long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fused(pub(crate) f64);
 
-/// An evaluation by fused numbers.
-pub(crate) struct Solving<'a, D: Devices, A> {
-    pub(crate) craft: &'a Spacecraft<D>,
-    pub(crate) state: &'a State<D, A>,
-    pub(crate) inputs: &'a Inputs<D>,
-    pub(crate) found: &'a mut Accelerations<D>,
-    pub(crate) stiffness: Option<&'a mut Stiffness<D::Scalar>>,
-}
-
-impl<D: Devices, A: Attitude<D::Scalar>> WithSimd for Solving<'_, D, A> {
-    type Output = Result<(), SolveError<D::Scalar>>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
-        let Self { craft, state, inputs, found, stiffness } = self;
-        craft.solve_by::<_, AtOnce>(state, inputs, found, stiffness)
-    }
-}
-
-/// Eliminates a device's joints by fused numbers.
+/// Eliminates a device's joints by fused numbers: for a scalar that converts to `f64` and back exactly.
 #[inline(always)]
-pub(crate) fn eliminate<K: Kernels>(
-    asked: &Asked<'_, K, f64>,
-    places: Places<'_, K, f64>,
-) -> Pivots<K, f64> {
+pub(crate) fn eliminate<K: Kernels, T: Scalar>(
+    asked: &Asked<'_, K, T>,
+    places: Places<'_, K, T>,
+) -> Pivots<K, T> {
+    let fused = |number: T| Fused(number.to_f64());
     let Asked { constants, joints, omega, drives } = asked;
-    let constants = K::zip_constants(constants, constants, |number, _| Fused(number));
-    let joints = K::zip_joints(joints, joints, |number, _| Fused(number));
-    let drives = K::zip_per_joint(drives, drives, |drive, _| drive.map(Fused));
+    let constants = K::zip_constants(constants, constants, |number, _| fused(number));
+    let joints = K::zip_joints(joints, joints, |number, _| fused(number));
+    let drives = K::zip_per_joint(drives, drives, |drive, _| drive.map(fused));
     let BodyRate { omega_bx, omega_by, omega_bz } = *omega;
-    let omega = along_b([omega_bx, omega_by, omega_bz].map(Fused));
+    let omega = along_b([omega_bx, omega_by, omega_bz].map(fused));
     let asked = Asked::<K, _> { constants: &constants, joints: &joints, omega, drives: &drives };
-    asked.eliminate(&K::pose(&joints), |Fused(number)| number, places)
+    asked.eliminate(&K::pose(&joints), |Fused(number)| T::from_f64(number), places)
 }
 
 macro_rules! operation {

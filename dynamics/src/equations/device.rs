@@ -6,9 +6,16 @@
 
 #![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
 
+use crate::equations::arithmetic::{Asked, Pivots, Places};
+use crate::equations::assembly::{Assembly, along_b};
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::gravity::Central;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::{DeviceInputs, Environment};
+use crate::equations::pivot_bound::pivot_bounds;
+use crate::equations::system::check_pivot;
 use crate::generated::hub::BodyVelocity;
-use crate::model::each::{Each, JointStates};
-use crate::model::hub::BodySums;
+use crate::numbers::each::{Each, JointStates};
 use crate::model::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
 use crate::model::mode::{Drive, Mode};
 use crate::model::passive::Passive;
@@ -18,13 +25,6 @@ use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{
     Columns, Vec3, add, columns, components, rotate, rotate_transposed, vector,
 };
-use crate::sets::devices::{Around, Given, own_mode};
-use crate::solve::arithmetic::{Asked, Pivots, Places};
-use crate::solve::assembly::{Assembly, along_b};
-use crate::solve::error::{Quantity, SolveError};
-use crate::solve::gravity::Central;
-use crate::solve::pivot_bound::pivot_bounds;
-use crate::solve::system::check_pivot;
 use crate::validation::check::triangle_excess;
 
 /// Torques and weights of the joints of a kind.
@@ -79,8 +79,8 @@ impl<K: Kind> Device<K> {
     pub(crate) fn eliminate(
         &self,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
-        around: &Around<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        around: &Environment<K::Scalar>,
         places: Places<'_, K, K::Scalar>,
         device: usize,
         way: impl Fn(
@@ -197,7 +197,7 @@ impl<K: Kind> Device<K> {
     #[inline(always)]
     fn by_mode(
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
+        given: DeviceInputs<'_, K>,
         impulse: bool,
         device: usize,
     ) -> Result<Drives<K>, SolveError<K::Scalar>> {
@@ -207,7 +207,7 @@ impl<K: Kind> Device<K> {
             let Some((([coordinate, _], torque), info)) = each.next() else {
                 return Mode::Driven.drive(zero());
             };
-            let own = own_mode(info);
+            let own = info.own_mode();
             usual &= mode == own && (!info.ignorable || coordinate.is_finite());
             own.drive(torque)
         });
@@ -218,7 +218,7 @@ impl<K: Kind> Device<K> {
     #[inline(never)]
     fn by_other_mode(
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
+        given: DeviceInputs<'_, K>,
         impulse: bool,
         device: usize,
     ) -> Result<Drives<K>, SolveError<K::Scalar>> {
@@ -234,7 +234,7 @@ impl<K: Kind> Device<K> {
             }
             // Locked at rest is what the kind does anyway.
             let still = mode == Mode::Locked && rate == zero();
-            if !(info.driven || still || mode == own_mode(info)) {
+            if !(info.driven || still || mode == info.own_mode()) {
                 return Err(SolveError::NotDriven { device, joint: info.body });
             }
             *drive = match mode {
@@ -264,7 +264,7 @@ impl<K: Kind> Device<K> {
     pub(crate) fn given_drives(
         &self,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
+        given: DeviceInputs<'_, K>,
     ) -> Option<Drives<K>> {
         if !self.is_laned() {
             return None;
@@ -277,7 +277,7 @@ impl<K: Kind> Device<K> {
     fn drives(
         &self,
         joints: &K::Joints<K::Scalar>,
-        given: Given<'_, K>,
+        given: DeviceInputs<'_, K>,
         impulse: bool,
         device: usize,
     ) -> Result<Drives<K>, SolveError<K::Scalar>> {

@@ -6,11 +6,11 @@
 //!
 //! No kind has a sliding joint outboard of another one, so the scale is never below the pivot's diagonal.
 
-use crate::model::each::Each;
+use crate::equations::system::bound;
+use crate::numbers::each::Each;
 use crate::model::kind::{BodyParameters, Kind};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Vec3, dot};
-use crate::solve::system::bound;
 
 /// The bodies of a device.
 type Bodies<K> =

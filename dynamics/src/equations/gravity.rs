@@ -57,6 +57,17 @@ pub(crate) struct Central<T> {
 }
 
 impl<T: Scalar> Gravity<T> {
+    /// The acceleration that is the same everywhere, expressed in N; none for a field that is not.
+    /// Whoever takes only uniform fields asks here.
+    #[cfg(feature = "lanes")]
+    pub(crate) fn uniform(&self) -> Option<Vec3<T>> {
+        match self {
+            Self::None => Some(zeros()),
+            Self::Uniform(g) => Some(components(g)),
+            Self::Central { .. } => None,
+        }
+    }
+
     /// The field about B for `[BN]` and the position of B, N axes; no field is none.
     pub(crate) fn field(&self, bn: &Columns<T>, r_b_n: &Vector3<T>) -> Option<Field<T>> {
         match self {

@@ -2,13 +2,13 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
+use crate::equations::gravity::second_moment;
+use crate::equations::system::System;
 use crate::model::parameters::Hub;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Real, Scalar, half};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, components, cross, dot, scale, sub};
-use crate::solve::gravity::second_moment;
-use crate::solve::system::System;
 
 /// Constants of the hub, all along B axes.
 #[derive(Clone, Copy, Debug)]
