@@ -1,4 +1,4 @@
-//! What the solver asks of an attitude parameterisation; [`Mrp`](crate::Mrp) and
+//! What the solver requires of an attitude parameterisation; [`Mrp`](crate::Mrp) and
 //! [`Quaternion`](crate::Quaternion) provide it.
 
 use core::fmt::Debug;
@@ -12,11 +12,11 @@ pub trait Attitude<T: Scalar>: Copy + Debug + PartialEq {
     /// Time derivatives of the parameters, 1/s.
     type Rate: Copy + Debug + PartialEq;
 
-    /// B axes along N axes.
+    /// B axes expressed in N.
     #[must_use]
     fn identity() -> Self;
 
-    /// `[BN]`: maps components along N axes to components along B axes.
+    /// `[BN]`: maps components expressed in N to components expressed in B.
     #[must_use]
     fn dcm(&self) -> Matrix3<T>;
 
@@ -32,8 +32,8 @@ pub trait Attitude<T: Scalar>: Copy + Debug + PartialEq {
     fn advanced(&self, terms: &[(T, Self::Rate)]) -> Self;
 
     /// The same attitude by parameters that a step may start from: those given, unless they are so
-    /// large or small that their rates lose digits. MRPs beyond a half turn become their shadow set, a
-    /// quaternion that is very short or long is divided by its largest component.
+    /// large or small that their rates lose digits. MRPs beyond a half turn become their shadow
+    /// set, a quaternion that is very short or long is divided by its largest component.
     #[must_use]
     fn regular(&self) -> Self;
 

@@ -120,8 +120,8 @@ impl<T: Scalar> Attitude<T> for Quaternion<T> {
         }
     }
 
-    /// The quaternion as it is, or divided by its largest component where that is below an epsilon or
-    /// above its reciprocal.
+    /// The quaternion as it is, or divided by its largest component where that is below an epsilon
+    /// or above its reciprocal.
     fn regular(&self) -> Self {
         self.scaled().0
     }

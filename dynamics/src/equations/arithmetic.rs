@@ -1,16 +1,19 @@
-//! [`Arithmetic`]: how an evaluation is rounded, and [`Way`], what that is for one device.
+//! [`Arithmetic`]: how an evaluation is rounded, and [`Rounding`], what that is for one device.
 
-#![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
+#![expect(
+    clippy::inline_always,
+    reason = "fused numbers reach their instruction only where inlined"
+)]
 
 use crate::equations::assembly::Assembly;
 use crate::equations::device::Device;
 use crate::equations::error::SolveError;
 use crate::equations::joint_inputs::{DeviceInputs, Environment};
 use crate::generated::hub::BodyRate;
-use crate::numbers::each::Value;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
+use crate::numbers::each::Value;
 #[cfg(feature = "lanes")]
 use crate::numbers::real::Scalar;
 use crate::numbers::real::{Angle, Real};
@@ -19,7 +22,7 @@ use crate::numbers::real::{Angle, Real};
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Arithmetic {
     /// One by one: the same bits on every target.
-    Plain,
+    Unfused,
     /// A product and a sum once in the devices' equations, by instructions of this CPU.
     #[cfg(feature = "lanes")]
     Fused(pulp::Arch),
@@ -30,76 +33,85 @@ impl Arithmetic {
     /// Fused where the CPU at hand has the instruction: without, the same would take long.
     pub(crate) fn fused() -> Self {
         let cpu = pulp::Arch::new();
-        if matches!(cpu, pulp::Arch::Scalar) { Self::Plain } else { Self::Fused(cpu) }
+        if matches!(cpu, pulp::Arch::Scalar) { Self::Unfused } else { Self::Fused(cpu) }
     }
 }
 
 /// A way of eliminating a device: that of one [`Arithmetic`].
-pub trait Way {
-    /// Eliminates the joints; see [`Device::eliminate`].
+pub trait Rounding {
+    /// Eliminates the joints; see [`Device::eliminate_joints`].
     ///
     /// # Errors
     ///
     /// The first [`SolveError`].
-    fn eliminate<K: Kind>(
+    fn eliminate_device<K: Kind>(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
-        around: &Environment<K::Scalar>,
-        places: Places<'_, K, K::Scalar>,
+        environment: &Environment<K::Scalar>,
+        outputs: EliminationOutputs<'_, K, K::Scalar>,
         index: usize,
     ) -> Result<(), SolveError<K::Scalar>>;
 }
 
 /// Product and sum one by one.
 #[derive(Debug)]
-pub(crate) struct Plainly;
+pub(crate) struct Unfused;
 
-impl Way for Plainly {
+impl Rounding for Unfused {
     // Never inlined: one copy of the kernel, whatever the sets it stands in.
     #[inline(never)]
-    fn eliminate<K: Kind>(
+    fn eliminate_device<K: Kind>(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
-        around: &Environment<K::Scalar>,
-        places: Places<'_, K, K::Scalar>,
+        environment: &Environment<K::Scalar>,
+        outputs: EliminationOutputs<'_, K, K::Scalar>,
         index: usize,
     ) -> Result<(), SolveError<K::Scalar>> {
-        device.eliminate(joints, given, around, places, index, |asked, pose, places| {
-            asked.plainly(pose, places)
-        })
+        device.eliminate_joints(
+            joints,
+            given,
+            environment,
+            outputs,
+            index,
+            #[expect(
+                clippy::redundant_closure_for_method_calls,
+                reason = "the method by itself is of one lifetime"
+            )]
+            |inputs, pose, outputs| inputs.evaluate_unfused(pose, outputs),
+        )
     }
 }
 
 /// Product and sum at once. Part of what calls it, which may use the instruction.
 #[cfg(feature = "lanes")]
 #[derive(Debug)]
-pub(crate) struct AtOnce;
+pub(crate) struct FusedMultiplyAdd;
 
 #[cfg(feature = "lanes")]
-impl Way for AtOnce {
+impl Rounding for FusedMultiplyAdd {
     #[inline(always)]
-    fn eliminate<K: Kind>(
+    fn eliminate_device<K: Kind>(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
-        around: &Environment<K::Scalar>,
-        places: Places<'_, K, K::Scalar>,
+        environment: &Environment<K::Scalar>,
+        outputs: EliminationOutputs<'_, K, K::Scalar>,
         index: usize,
     ) -> Result<(), SolveError<K::Scalar>> {
-        device.eliminate(
+        device.eliminate_joints(
             joints,
             given,
-            around,
-            places,
+            environment,
+            outputs,
             index,
             #[inline(always)]
-            |asked, pose, places| {
+            |inputs, pose, outputs| {
                 if K::Scalar::IS_F64 {
-                    crate::equations::fused::eliminate(asked, places)
+                    crate::equations::fused::evaluate(inputs, outputs)
                 } else {
-                    asked.plainly(pose, places)
+                    inputs.evaluate_unfused(pose, outputs)
                 }
             },
         )
@@ -108,16 +120,17 @@ impl Way for AtOnce {
 
 /// What the kernel `eliminate` is asked of one device.
 #[derive(Debug)]
-pub(crate) struct Asked<'a, K: Kernels, T: Value> {
+pub(crate) struct EliminationInputs<'a, K: Kernels, T: Value> {
     pub(crate) constants: &'a K::Constants<T>,
     pub(crate) joints: &'a K::Joints<T>,
     pub(crate) omega: BodyRate<T>,
     pub(crate) drives: &'a K::PerJoint<Drive<T>>,
 }
 
-/// Where the answer goes, written in its place: to move so many numbers there afterwards takes time.
+/// Where the answer goes, written in its place: to move so many numbers there afterwards takes
+/// time.
 #[derive(Debug)]
-pub struct Places<'a, K: Kernels, T: Value> {
+pub struct EliminationOutputs<'a, K: Kernels, T: Value> {
     pub(crate) assembly: &'a mut Assembly<T>,
     pub(crate) gains: &'a mut Option<K::Gains<T>>,
 }
@@ -125,29 +138,29 @@ pub struct Places<'a, K: Kernels, T: Value> {
 /// Pivot and diagonal of each driven joint.
 pub(crate) type Pivots<K, T> = <K as Kernels>::PerJoint<Option<[T; 2]>>;
 
-impl<K: Kernels, T: Angle> Asked<'_, K, T> {
+impl<K: Kernels, T: Angle> EliminationInputs<'_, K, T> {
     /// Eliminates the joints, whose sines may be known, by the numbers as they are.
     #[inline(always)]
-    pub(crate) fn plainly(
+    pub(crate) fn evaluate_unfused(
         &self,
         pose: Option<K::Pose<T>>,
-        places: Places<'_, K, T>,
+        outputs: EliminationOutputs<'_, K, T>,
     ) -> Pivots<K, T> {
         let pose = pose.unwrap_or_else(|| K::pose(self.joints));
-        self.eliminate(&pose, |number| number, places)
+        self.evaluate(&pose, |number| number, outputs)
     }
 
     /// Eliminates the joints by numbers that are brought into `places` as others.
     #[inline(always)]
-    pub(crate) fn eliminate<U: Real>(
+    pub(crate) fn evaluate<U: Real>(
         &self,
         pose: &K::Pose<T>,
         number: impl Fn(T) -> U,
-        places: Places<'_, K, U>,
+        outputs: EliminationOutputs<'_, K, U>,
     ) -> Pivots<K, U> {
         let Self { constants, joints, omega, drives } = self;
         let eliminated = K::eliminate(constants, pose, joints, omega, drives);
-        let Places { assembly, gains: place } = places;
+        let EliminationOutputs { assembly, gains: place } = outputs;
         assembly.add(&K::share(&eliminated).map(&number));
         let gains = K::gains(&eliminated);
         *place = Some(K::zip_gains(gains, gains, |gain, _| number(gain)));

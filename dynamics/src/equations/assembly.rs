@@ -1,13 +1,13 @@
-//! [`Assembly`]: the hub's six equations, put together device by device, along B axes.
+//! [`Assembly`]: the hub's six equations, added up device by device, expressed in B.
 //!
-//! What does not notice that the joints move belongs to the hub from the start, so that what the hub's
-//! own motion asks for is worked out once, of one rigid body; a device adds the part of its first
-//! moment and inertia that moves, and what its joints take out of the equations. Over any number:
-//! lanes do the same.
+//! What does not notice that the joints move belongs to the hub from the start, so that what the
+//! hub's own motion asks for is computed once, of one rigid body; a device adds the part of its
+//! first moment and inertia that moves, and what its joints take out of the equations. Over any
+//! number: lanes do the same.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use crate::equations::hub::PreparedHub;
+use crate::equations::hub::HubConstants;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::{Scale, Solution, System};
 use crate::generated::hub::{BodyAcceleration, BodyRate, Handed, HubShare};
@@ -19,7 +19,7 @@ use crate::numbers::vec3::{Vec3, add};
 #[derive(Clone, Copy, Debug)]
 pub struct Assembly<T> {
     /// Hub and devices as one rigid body.
-    body: PreparedHub<T>,
+    body: HubConstants<T>,
     /// What acts from outside: force, and moment about B.
     force: Vec3<T>,
     moment: Vec3<T>,
@@ -32,9 +32,9 @@ pub struct Assembly<T> {
 }
 
 impl<T: Real> Assembly<T> {
-    /// The hub, with what it has taken over, and what acts on it.
+    /// The hub, with the constant shares, and what acts on it.
     #[inline(always)]
-    pub(crate) fn new(body: &PreparedHub<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
+    pub(crate) fn new(body: &HubConstants<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
         let zero = body.m_b.like(0.0);
         let second_moment = Symmetric::filled(zero);
         let (taken, stiffness) = (System::filled(zero), Stiffness::none(zero));
@@ -83,15 +83,15 @@ impl<T: Real> Assembly<T> {
         self.body.system(omega, self.force, self.moment).less(&self.taken)
     }
 
-    /// Mass and moments of inertia of the spacecraft with every joint locked. The moving share of inertia
-    /// may cancel nearly all of the constant one, whose rounding stays: both count.
+    /// Mass and moments of inertia of the spacecraft with every joint locked. The moving share of
+    /// inertia may cancel nearly all of the constant one, whose rounding stays: both count.
     #[inline(always)]
-    pub(crate) fn scale(&self, body: &PreparedHub<T>) -> Scale<T> {
+    pub(crate) fn scale(&self, body: &HubConstants<T>) -> Scale<T> {
         (self.body.m_b, add(body.i_b_b.diagonal(), self.body.i_b_b.diagonal()))
     }
 }
 
-impl<T: Real> PreparedHub<T> {
+impl<T: Real> HubConstants<T> {
     /// The hub with what it takes over of its devices.
     pub(crate) fn taking_over(self, devices: impl Iterator<Item = Handed<T>>) -> Self {
         devices.fold(self, |hub, e| Self {
@@ -112,7 +112,7 @@ impl<T: Real> PreparedHub<T> {
 impl<T: Copy> Solution<T> {
     /// The hub's accelerations as the kernels take them.
     #[inline(always)]
-    pub(crate) fn along_b(&self) -> BodyAcceleration<T> {
+    pub(crate) fn expressed_in_b(&self) -> BodyAcceleration<T> {
         let [r_b_n_ddot_bx, r_b_n_ddot_by, r_b_n_ddot_bz] = self.r_b_n_ddot;
         let [omega_dot_bx, omega_dot_by, omega_dot_bz] = self.omega_dot;
         BodyAcceleration {
@@ -128,6 +128,6 @@ impl<T: Copy> Solution<T> {
 
 /// The hub's angular velocity as the kernels take it.
 #[inline(always)]
-pub(crate) fn along_b<T>([omega_bx, omega_by, omega_bz]: Vec3<T>) -> BodyRate<T> {
+pub(crate) fn expressed_in_b<T>([omega_bx, omega_by, omega_bz]: Vec3<T>) -> BodyRate<T> {
     BodyRate { omega_bx, omega_by, omega_bz }
 }

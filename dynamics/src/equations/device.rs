@@ -1,13 +1,16 @@
-//! [`Device`]: one device made ready, and what an evaluation asks of it.
+//! [`Device`]: the precomputed constants of one device, and what an evaluation asks of it.
 //!
-//! The equations of motion know the mount and stand along B axes. All other kernels know one frame,
-//! the axes of the device's first joint at zero: what comes from the hub is rotated into it by
-//! `mount^T`, results out of it by `mount`.
+//! The equations of motion know the mount and stand expressed in B. All other kernels know one
+//! frame, the axes of the device's first joint at zero: what comes from the hub is rotated into it
+//! by `mount^T`, results out of it by `mount`.
 
-#![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
+#![expect(
+    clippy::inline_always,
+    reason = "fused numbers reach their instruction only where inlined"
+)]
 
-use crate::equations::arithmetic::{Asked, Pivots, Places};
-use crate::equations::assembly::{Assembly, along_b};
+use crate::equations::arithmetic::{EliminationInputs, EliminationOutputs, Pivots};
+use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::Central;
 use crate::equations::hub::BodySums;
@@ -15,11 +18,11 @@ use crate::equations::joint_inputs::{DeviceInputs, Environment};
 use crate::equations::pivot_bound::pivot_bounds;
 use crate::equations::system::check_pivot;
 use crate::generated::hub::BodyVelocity;
-use crate::numbers::each::{Each, JointStates};
 use crate::model::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
 use crate::model::mode::{Drive, Mode};
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{
@@ -47,7 +50,7 @@ pub struct Device<K: Kind> {
 }
 
 impl<K: Kind> Device<K> {
-    /// Computes what depends on parameters alone; they have been checked.
+    /// Computes what depends only on parameters; they have been checked.
     pub(crate) fn new(parameters: &K) -> Self {
         let (made, lumped) = match (parameters.model(), parameters.balanced()) {
             (ImbalanceModel::Lumped, Some((balanced, lumped))) => (balanced, Some(lumped)),
@@ -76,37 +79,38 @@ impl<K: Kind> Device<K> {
     /// Eliminates the joints in a way, adds what is left to the hub's system, and leaves what back
     /// substitution needs.
     #[inline(always)]
-    pub(crate) fn eliminate(
+    pub(crate) fn eliminate_joints(
         &self,
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
-        around: &Environment<K::Scalar>,
-        places: Places<'_, K, K::Scalar>,
+        environment: &Environment<K::Scalar>,
+        outputs: EliminationOutputs<'_, K, K::Scalar>,
         device: usize,
         way: impl Fn(
-            &Asked<'_, K, K::Scalar>,
+            &EliminationInputs<'_, K, K::Scalar>,
             Option<K::Pose<K::Scalar>>,
-            Places<'_, K, K::Scalar>,
+            EliminationOutputs<'_, K, K::Scalar>,
         ) -> Pivots<K, K::Scalar>,
     ) -> Result<(), SolveError<K::Scalar>> {
         let mut pose = None;
-        let mut drives = self.drives(joints, given, around.impulse, device)?;
-        let Places { assembly, gains } = places;
-        if !around.impulse {
-            let central = around.central.as_ref();
+        let mut drives = self.drives(joints, given, environment.impulse, device)?;
+        let EliminationOutputs { assembly, gains } = outputs;
+        if !environment.impulse {
+            let central = environment.central.as_ref();
             if given.bodies.is_some() || central.is_some() || self.lumped.is_some() {
                 let pose = pose.get_or_insert_with(|| K::pose(joints));
                 self.push(pose, joints, given.bodies, central, &mut drives, assembly);
             }
         }
         let mut joints = *joints;
-        if around.impulse {
+        if environment.impulse {
             joints.states_mut().for_each(|[_, rate]| *rate = zero());
         }
-        let (constants, omega) = (&self.constants, along_b(around.omega));
-        let asked = Asked::<K, _> { constants, joints: &joints, omega, drives: &drives };
-        let pivots = way(&asked, pose, Places { assembly: &mut *assembly, gains });
-        if !(self.free || around.impulse) {
+        let (constants, omega) = (&self.constants, expressed_in_b(environment.omega));
+        let inputs =
+            EliminationInputs::<K, _> { constants, joints: &joints, omega, drives: &drives };
+        let pivots = way(&inputs, pose, EliminationOutputs { assembly: &mut *assembly, gains });
+        if !(self.free || environment.impulse) {
             self.add_stiffness(&joints, &pivots, &drives, assembly);
         }
         self.check_pivots(device, &pivots, &drives)
@@ -164,15 +168,15 @@ impl<K: Kind> Device<K> {
         let above = K::zip_per_joint(pivots, &self.bound, |pivot, bound| {
             pivot.is_none_or(|[pivot, _]| pivot > bound)
         });
-        let mut sound = true;
+        let mut all_above = true;
         K::zip_per_joint(&above, drives, |above, drive| {
-            sound &= above || drive.driven != one();
+            all_above &= above || drive.driven != one();
         });
-        if sound { Ok(()) } else { self.small_pivot(device, pivots, drives) }
+        if all_above { Ok(()) } else { self.small_pivot(device, pivots, drives) }
     }
 
-    /// The pivot rejected, in the order of the elimination: the first one is the cause, those after it
-    /// may be its consequence.
+    /// The pivot rejected, in the order of the elimination: the first one is the cause, those after
+    /// it may be its consequence.
     #[cold]
     fn small_pivot(
         &self,
@@ -186,7 +190,7 @@ impl<K: Kind> Device<K> {
             if let (Some([pivot, _]), true) = (pivot, drive.driven == one())
                 && let Err(small) = check_pivot(pivot, bound)
             {
-                // From the hub outwards: the one nearest the tip was eliminated first.
+                // From the hub to the tip: the one nearest the tip was eliminated first.
                 rejected = Err(small.of(Some(device), Some(info.body)));
             }
         }
@@ -252,7 +256,7 @@ impl<K: Kind> Device<K> {
     /// Whether lanes have all that the device has.
     #[cfg(feature = "lanes")]
     #[inline]
-    pub(crate) fn is_laned(&self) -> bool {
+    pub(crate) fn lanes_support(&self) -> bool {
         let dry = |passive: Passive<K::Scalar>| passive.coulomb != zero();
         self.lumped.is_none() && (self.free || !self.passive.values().any(dry))
     }
@@ -266,7 +270,7 @@ impl<K: Kind> Device<K> {
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
     ) -> Option<Drives<K>> {
-        if !self.is_laned() {
+        if !self.lanes_support() {
             return None;
         }
         Self::by_mode(joints, given, false, 0).ok()
@@ -285,7 +289,8 @@ impl<K: Kind> Device<K> {
         if !(self.free || impulse) {
             let states = joints.states().zip(self.passive.values());
             for (drive, ([coordinate, rate], passive)) in drives.values_mut().zip(states) {
-                // Of no other joint: what is too large for a number would spoil what it does not move.
+                // Of no other joint: what is too large for a number would spoil what it does not
+                // move.
                 if drive.driven == one() {
                     let own = passive.of_spring(coordinate) + passive.of_friction(rate);
                     drive.torque = drive.torque + own;
@@ -295,8 +300,8 @@ impl<K: Kind> Device<K> {
         Ok(drives)
     }
 
-    /// Wrenches on the bodies from outside, the simplified model's among them, and the second moment
-    /// that the gradient of gravity asks for.
+    /// Wrenches on the bodies from outside, the simplified model's among them, and the second
+    /// moment that the gradient of gravity asks for.
     pub(crate) fn acting(
         &self,
         pose: &K::Pose<K::Scalar>,
@@ -347,7 +352,7 @@ impl<K: Kind> Device<K> {
         (wrenches, Symmetric { xx, xy, xz, yy, yz, zz })
     }
 
-    /// Adds kinetic energy and momenta for the inertial velocity of B, along B axes.
+    /// Adds kinetic energy and momenta for the inertial velocity of B, expressed in B.
     pub(crate) fn add_sums(
         &self,
         joints: &K::Joints<K::Scalar>,
@@ -367,7 +372,7 @@ impl<K: Kind> Device<K> {
         sums.angular_b = add(sums.angular_b, rotate(&self.mount, angular_b));
     }
 
-    /// Adds the first moment about B and its derivative seen from B, along B axes.
+    /// Adds the first moment about B and its derivative seen from B, expressed in B.
     pub(crate) fn add_first_moment(
         &self,
         joints: &K::Joints<K::Scalar>,

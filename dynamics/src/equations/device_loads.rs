@@ -1,14 +1,14 @@
 //! The loads of one device, and the powers at its joints.
 
-use crate::equations::assembly::along_b;
+use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::joint_inputs::{DeviceInputs, Environment};
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::numbers::each::{Each, JointStates};
 use crate::model::kind::{Carried, Kernels, Kind, Wrenches};
 use crate::model::mode::Mode;
 use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Columns, rotate_transposed};
 
@@ -16,11 +16,11 @@ use crate::numbers::vec3::{Columns, rotate_transposed};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeviceLoads<W, U, P, T> {
     /// What the hub exerts on the device at its mount, about the origin of its first joint where it
-    /// stands now (of a sliding joint it moves along); along N axes if the joints' loads are,
-    /// otherwise along B axes. About another point: [`Wrench::moved`].
+    /// stands now (of a sliding joint it moves along); expressed in N if the joints' loads are,
+    /// otherwise expressed in B. About another point: [`Wrench::moved`].
     pub mount: Wrench<T>,
-    /// What its carrier exerts on the body behind each joint, motor, spring and friction included,
-    /// about the joint's origin, along the axes asked for.
+    /// What its parent body exerts on the child body of each joint, motor, spring and friction
+    /// included, about the joint's origin, expressed in the axes given.
     pub joints: W,
     /// The motor torque, N m (force, N, of a sliding joint), that each joint's acceleration needs:
     /// the load about its axis less spring and friction. (80), (101), (119).
@@ -84,11 +84,11 @@ impl<K: Kind> Device<K> {
         &self,
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
-        around: &Environment<K::Scalar>,
-        hub: &HubMotion<K::Scalar>,
+        environment: &Environment<K::Scalar>,
+        hub: &HubAccelerations<K::Scalar>,
         accelerations: &K::Accelerations<K::Scalar>,
         along: &Along<K::Scalar>,
-        totals: &mut Totals<K::Scalar>,
+        totals: &mut LoadSums<K::Scalar>,
     ) -> LoadsOf<K> {
         let pose = K::pose(joints);
         // Along the device's axes, in which this kernel knows B.
@@ -98,13 +98,13 @@ impl<K: Kind> Device<K> {
             &self.constants,
             &pose,
             joints,
-            &along_b(within(around.omega)),
-            &hub.along_b(),
+            &expressed_in_b(within(environment.omega)),
+            &hub.expressed_in_b(),
             accelerations,
         );
         let applied = self.carried(&pose, &self.applied(joints, given.bodies));
         let mut gradient = Carried { joints: K::all(Wrench::none()), hub: Wrench::none() };
-        if let Some(central) = &around.central {
+        if let Some(central) = &environment.central {
             let (wrenches, second_moment) = self.gradient(&pose, central);
             let second_moment = second_moment.rotated(&self.mount);
             totals.second_moment = totals.second_moment.plus(second_moment);
@@ -144,7 +144,7 @@ impl<K: Kind> Device<K> {
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
         felt: &Felt<K>,
-        totals: &mut Totals<K::Scalar>,
+        totals: &mut LoadSums<K::Scalar>,
     ) -> Booked<K> {
         let power = &mut totals.power;
         let mut motors = K::all(zero::<K::Scalar>());
@@ -180,7 +180,7 @@ impl<K: Kind> Device<K> {
         (motors, powers)
     }
 
-    /// The load of the mount, and those of the joints along the axes asked for.
+    /// The load of the mount, and those of the joints expressed in the axes given.
     fn told(
         &self,
         pose: &K::Pose<K::Scalar>,

@@ -35,14 +35,16 @@ pub enum Quantity {
         /// The body that the motor drives.
         joint: &'static str,
     },
-    /// A joint's acceleration: prescribed, required of [`loads`](crate::Spacecraft::loads), or found.
+    /// A joint's acceleration: prescribed, required of [`loads`](crate::Spacecraft::loads), or
+    /// found.
     JointAcceleration {
         /// Index of the device.
         device: usize,
-        /// The body behind the joint.
+        /// The child body of the joint.
         joint: &'static str,
     },
-    /// An acceleration of the hub: prescribed, required of [`loads`](crate::Spacecraft::loads), or found.
+    /// An acceleration of the hub: prescribed, required of [`loads`](crate::Spacecraft::loads), or
+    /// found.
     HubAcceleration,
     /// `Inputs::gravity`.
     Gravity,
@@ -86,13 +88,13 @@ pub enum SolveError<T = f64> {
     Singular {
         /// Index of the device, or `None` for the hub's six equations.
         device: Option<usize>,
-        /// The joint whose pivot it is, by the body behind it, or `None` for the hub.
+        /// The joint whose pivot it is, by its child body, or `None` for the hub.
         joint: Option<&'static str>,
         /// The pivot: the inertia left to that joint, kg m^2 (hub, sliding joint: also kg).
         pivot: T,
         /// The bound it is not above: 64 epsilons of the mass or inertia that was there before any
-        /// joint was eliminated (of a joint, in the pose that makes the most of it), and of what the
-        /// rounding of earlier pivots makes of it.
+        /// joint was eliminated (of a joint, in the pose that makes the most of it), and of what
+        /// the rounding of earlier pivots makes of it.
         bound: T,
     },
     /// An input is infinite or NaN, or an attitude without a usable length.
@@ -108,7 +110,7 @@ pub enum SolveError<T = f64> {
     LockedJointMoves {
         /// Index of the device.
         device: usize,
-        /// The body behind the joint.
+        /// The child body of the joint.
         joint: &'static str,
         /// Its rate, rad/s (or m/s).
         rate: T,
@@ -122,7 +124,7 @@ pub enum SolveError<T = f64> {
     NotDriven {
         /// Index of the device.
         device: usize,
-        /// The body behind the joint.
+        /// The child body of the joint.
         joint: &'static str,
     },
     /// The field of a central body has no value at its centre, where B stands.

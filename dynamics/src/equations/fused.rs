@@ -4,8 +4,8 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::equations::arithmetic::{Asked, Pivots, Places};
-use crate::equations::assembly::along_b;
+use crate::equations::arithmetic::{EliminationInputs, EliminationOutputs, Pivots};
+use crate::equations::assembly::expressed_in_b;
 use crate::generated::hub::BodyRate;
 use crate::model::kernels::Kernels;
 use crate::numbers::real::{Angle, Real, Scalar};
@@ -16,21 +16,27 @@ use crate::numbers::sincos::{LARGEST_ANGLE, QuarterTurns, sin_cos};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Fused(pub(crate) f64);
 
-/// Eliminates a device's joints by fused numbers: for a scalar that converts to `f64` and back exactly.
+/// Eliminates a device's joints by fused numbers: for a scalar that converts to `f64` and back
+/// exactly.
 #[inline(always)]
-pub(crate) fn eliminate<K: Kernels, T: Scalar>(
-    asked: &Asked<'_, K, T>,
-    places: Places<'_, K, T>,
+pub(crate) fn evaluate<K: Kernels, T: Scalar>(
+    inputs: &EliminationInputs<'_, K, T>,
+    outputs: EliminationOutputs<'_, K, T>,
 ) -> Pivots<K, T> {
     let fused = |number: T| Fused(number.to_f64());
-    let Asked { constants, joints, omega, drives } = asked;
+    let EliminationInputs { constants, joints, omega, drives } = inputs;
     let constants = K::zip_constants(constants, constants, |number, _| fused(number));
     let joints = K::zip_joints(joints, joints, |number, _| fused(number));
     let drives = K::zip_per_joint(drives, drives, |drive, _| drive.map(fused));
     let BodyRate { omega_bx, omega_by, omega_bz } = *omega;
-    let omega = along_b([omega_bx, omega_by, omega_bz].map(fused));
-    let asked = Asked::<K, _> { constants: &constants, joints: &joints, omega, drives: &drives };
-    asked.eliminate(&K::pose(&joints), |Fused(number)| T::from_f64(number), places)
+    let omega = expressed_in_b([omega_bx, omega_by, omega_bz].map(fused));
+    let inputs = EliminationInputs::<K, _> {
+        constants: &constants,
+        joints: &joints,
+        omega,
+        drives: &drives,
+    };
+    inputs.evaluate(&K::pose(&joints), |Fused(number)| T::from_f64(number), outputs)
 }
 
 macro_rules! operation {

@@ -9,8 +9,9 @@
 //! potential   V = -m mu / R - g . m c - ½ G : S,             S = integral of r rᵀ dm
 //! ```
 //!
-//! V is what the ledger books, so the force on the whole is its gradient to the last term, that of
-//! G with the position of B included: `½ ∂(G : S)/∂R = mu / R⁴ (3 S n - 15/2 (n . S n) n + 3/2 tr S n)`.
+//! V is what the ledger counts, so the force on the whole is its gradient to the last term, that of
+//! G with the position of B included: `½ ∂(G : S)/∂R = mu / R⁴ (3 S n - 15/2 (n . S n) n + 3/2 tr S
+//! n)`.
 
 use nalgebra::Vector3;
 
@@ -34,7 +35,7 @@ pub enum Gravity<T = f64> {
     },
 }
 
-/// Gravity about B, along B axes.
+/// Gravity about B, expressed in B.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Field<T> {
     /// At B, m/s².
@@ -106,7 +107,7 @@ fn central<T: Scalar>(mu: T, r: Vec3<T>) -> (Vec3<T>, [T; 4]) {
 }
 
 impl<T: Scalar> Field<T> {
-    /// Potential energy of a spacecraft, J: its mass, its first moment about B, along B axes; and
+    /// Potential energy of a spacecraft, J: its mass, its first moment about B, expressed in B; and
     /// for a central field its second moment, else of the position of B, N axes.
     pub(crate) fn potential(
         &self,

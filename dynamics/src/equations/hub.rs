@@ -10,9 +10,9 @@ use crate::numbers::real::{Real, Scalar, half};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, components, cross, dot, scale, sub};
 
-/// Constants of the hub, all along B axes.
+/// Constants of the hub, all expressed in B.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PreparedHub<T> {
+pub(crate) struct HubConstants<T> {
     /// `m_B`, kg.
     pub(crate) m_b: T,
     /// `m_B r_{Bc/B}`, kg m.
@@ -21,7 +21,7 @@ pub(crate) struct PreparedHub<T> {
     pub(crate) i_b_b: Symmetric<T>,
 }
 
-/// Energy, linear momentum and angular momentum about B, along B axes.
+/// Energy, linear momentum and angular momentum about B, expressed in B.
 #[derive(Clone, Copy, Debug)]
 pub struct BodySums<T> {
     pub(crate) energy: T,
@@ -29,13 +29,13 @@ pub struct BodySums<T> {
     pub(crate) angular_b: Vec3<T>,
 }
 
-impl<T: Real> PreparedHub<T> {
+impl<T: Real> HubConstants<T> {
     /// The constants with each of their numbers changed.
     #[cfg(feature = "lanes")]
     #[inline(always)]
-    pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> PreparedHub<U> {
+    pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> HubConstants<U> {
         let [x, y, z] = self.first_moment;
-        PreparedHub {
+        HubConstants {
             m_b: change(self.m_b),
             first_moment: [change(x), change(y), change(z)],
             i_b_b: self.i_b_b.map(change),
@@ -61,7 +61,7 @@ impl<T: Real> PreparedHub<T> {
     }
 }
 
-impl<T: Scalar> PreparedHub<T> {
+impl<T: Scalar> HubConstants<T> {
     pub(crate) fn new(hub: &Hub<T>) -> Self {
         let r_bc_b = components(&hub.r_bc_b);
         Self {

@@ -37,7 +37,7 @@ pub struct Environment<T> {
     pub(crate) omega: Vec3<T>,
     /// The gradient of a central field.
     pub(crate) central: Option<Central<T>>,
-    /// Whether velocities jump: then torques are impulses, no other force matters, and rates count as
-    /// zero.
+    /// Whether velocities jump: then torques are impulses, no other force matters, and rates count
+    /// as zero.
     pub(crate) impulse: bool,
 }

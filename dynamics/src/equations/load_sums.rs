@@ -1,4 +1,5 @@
-//! What the loads of the devices add up to for the hub and the ledger, and the axes they are expressed in.
+//! What the loads of the devices add up to for the hub and the ledger, and the axes they are
+//! expressed in.
 
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
@@ -10,23 +11,23 @@ use crate::numbers::vec3::{Columns, Vec3};
 pub enum Along<T> {
     /// The body's own.
     Body,
-    /// The carrier's.
+    /// Those of the parent body.
     Carrier,
     /// Those along which B axes are the columns; none for B axes themselves.
     Hub(Option<Columns<T>>),
 }
 
-/// How the hub moves, along B axes, seen from a frame that falls with gravity.
+/// How the hub moves, expressed in B, seen from a frame that falls with gravity.
 #[derive(Clone, Copy, Debug)]
-pub struct HubMotion<T> {
+pub struct HubAccelerations<T> {
     pub(crate) r_b_n_ddot: Vec3<T>,
     pub(crate) omega_dot: Vec3<T>,
 }
 
 /// What the devices ask of the hub and what their joints transmit, added up.
 #[derive(Clone, Copy, Debug)]
-pub struct Totals<T> {
-    /// What the devices need for their accelerations, about B along B axes.
+pub struct LoadSums<T> {
+    /// What the devices need for their accelerations, about B, expressed in B.
     pub(crate) inertial: Wrench<T>,
     /// What acts on their bodies from outside.
     pub(crate) applied: Wrench<T>,
@@ -72,7 +73,7 @@ impl<T: Scalar> JointPowers<T> {
     }
 }
 
-impl<T: Scalar> Totals<T> {
+impl<T: Scalar> LoadSums<T> {
     pub(crate) fn none() -> Self {
         let none = Wrench::none();
         let power = JointPowers::none();

@@ -1,8 +1,8 @@
-//! Equations of one device and of the hub: elimination of the joints into the hub's system, its solution,
-//! gravity, loads, energy and momentum.
+//! Equations of one device and of the hub: elimination of the joints into the hub's system, its
+//! solution, gravity, loads, energy and momentum.
 //!
-//! [`device`] is the entry for a device, [`assembly`] adds the devices to the hub, [`system`] solves the hub's
-//! six equations. Nothing here knows of sets of devices.
+//! [`device`] is the entry for a device, [`assembly`] adds the devices to the hub, [`system`]
+//! solves the hub's six equations. Nothing here knows of sets of devices.
 
 pub(crate) mod arithmetic;
 pub(crate) mod assembly;

@@ -1,14 +1,15 @@
 //! What the pivot of each joint must exceed: 64 epsilons of its scale, which is the largest mass or
 //! inertia outboard of it in any pose.
 //!
-//! In a pose where that inertia vanishes, because the bodies come to lie on the joint's axis, what the
-//! kernels compute of it is the rounding of numbers of this size.
+//! In a pose where that inertia vanishes, because the bodies come to lie on the joint's axis, what
+//! the kernels compute of it is the rounding of numbers of this size.
 //!
-//! No kind has a sliding joint outboard of another one, so the scale is never below the pivot's diagonal.
+//! No kind has a sliding joint outboard of another one, so the scale is never below the pivot's
+//! diagonal.
 
 use crate::equations::system::bound;
-use crate::numbers::each::Each;
 use crate::model::kind::{BodyParameters, Kind};
+use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Vec3, dot};
 

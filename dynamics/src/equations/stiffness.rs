@@ -1,5 +1,6 @@
-//! Estimates of what springs, dampers and dry friction demand of a step, from pivots that an evaluation has
-//! at hand; [`stability`](crate::integrate::stability) says what they are compared with.
+//! Estimates of what springs, dampers and dry friction demand of a step, from pivots that an
+//! evaluation has at hand; [`stability`](crate::integrate::stability) says what they are compared
+//! with.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
@@ -8,8 +9,8 @@ use crate::model::kernels::Kernels;
 use crate::model::mode::Drive;
 use crate::numbers::real::{Real, Scalar};
 
-/// `damping * dt`, and `spring * dt²`, up to which a step needs no closer look. The stability limit is
-/// eleven times this, and more than thirty times.
+/// `damping * dt`, and `spring * dt²`, up to which a step needs no closer look. The stability limit
+/// is eleven times this, and more than thirty times.
 pub(crate) const ACCEPTED: f64 = 0.25;
 
 /// Estimates of the sums over all joints of `a`, 1/s, and `b`, 1/s², from pivots.
@@ -26,9 +27,9 @@ impl<T: Real> Stiffness<T> {
         Self { damping: zero, spring: zero }
     }
 
-    /// Adds the joints of one device: damping and stiffness of each, its pivot with its diagonal, and
-    /// its mode. How much a joint's response grows because its parents move shows in how far their
-    /// pivots are below their diagonals.
+    /// Adds the joints of one device: damping and stiffness of each, its pivot with its diagonal,
+    /// and its mode. How much a joint's response grows because its parents move shows in how far
+    /// their pivots are below their diagonals.
     #[inline(always)]
     pub(crate) fn add<K: Kernels>(
         &mut self,

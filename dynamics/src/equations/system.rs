@@ -1,6 +1,6 @@
 //! The hub's six equations, `M [r_b_n_ddot; omega_dot] = h`, by LDL^T without a square root.
 //!
-//! `M` is symmetric, in 3x3 blocks `vv`, `vw`, `ww`; all components along B axes. Taking three
+//! `M` is symmetric, in 3x3 blocks `vv`, `vw`, `ww`; all components expressed in B. Taking three
 //! columns at a time is the same factorisation in the same order of operations as taking one, and
 //! leaves no index to go out of range.
 
@@ -11,8 +11,8 @@ use crate::numbers::real::{Real, Scalar};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Columns, Vec3, add, dot, finite, map, rotate, scale, sub};
 
-/// A pivot must exceed this many epsilons of its scale: of the largest numbers that were added up and
-/// cancelled on the way to it.
+/// A pivot must exceed this many epsilons of its scale: of the largest numbers that were added up
+/// and cancelled on the way to it.
 ///
 /// What is left at the bound has at most some bits that are not rounding; a state that close to
 /// singular has no meaningful accelerations.
@@ -32,8 +32,8 @@ pub(crate) struct System<T> {
     pub(crate) h_w: Vec3<T>,
 }
 
-/// What the pivots are checked against: mass, kg, of the first three rows; inertia, kg m², of each of the
-/// last three. Both before any joint is eliminated.
+/// What the pivots are checked against: mass, kg, of the first three rows; inertia, kg m², of each
+/// of the last three. Both before any joint is eliminated.
 pub(crate) type Scale<T> = (T, Vec3<T>);
 
 /// The solution of a [`System`].
@@ -146,8 +146,8 @@ impl<T: Real> System<T> {
 
     /// Scale of each pivot: what is rounded in M, as it comes together in that pivot.
     ///
-    /// Pivot k is `v · M v` with `Lᵀ v = e_k`, so rounding of `M_ii` counts `v_i²` times. Small pivots
-    /// before it make v long.
+    /// Pivot k is `v · M v` with `Lᵀ v = e_k`, so rounding of `M_ii` counts `v_i²` times. Small
+    /// pivots before it make v long.
     #[inline(always)]
     pub(crate) fn grown_scales(&self, scales: &Scale<T>) -> [T; 6] {
         let (vv, z, ww) = self.factorised();
@@ -165,8 +165,8 @@ impl<T: Real> System<T> {
         [a, b, c, x + own[0], y + own[1], z + own[2]]
     }
 
-    /// The solution, to be taken only where each of the pivots, in order, exceeds its bound beside its
-    /// scale.
+    /// The solution, to be taken only where each of the pivots, in order, exceeds its bound beside
+    /// its scale.
     #[inline(always)]
     pub(crate) fn solved(&self) -> (Solution<T>, Pivots<T>) {
         let (vv, z, ww) = self.factorised();

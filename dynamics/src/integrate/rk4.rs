@@ -1,7 +1,7 @@
 //! The classical fourth-order Runge-Kutta step, the integrator on board.
 //!
 //! Fixed cost, no error estimate: four evaluations and one normalisation of the attitude. The step
-//! must resolve the fastest wheel; a tenth of a radian of `theta` per step is a sound start.
+//! must resolve the fastest wheel; start with a tenth of a radian of `theta` per step.
 
 use nalgebra::Vector3;
 
@@ -14,7 +14,7 @@ use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::vec3::{add, columns, components, rotate_transposed, scale, vector, zeros};
 use crate::results::ledger::Power;
 use crate::sets::devices::Devices;
-use crate::solve::accelerations::{overflow, sound};
+use crate::solve::accelerations::{inputs_are_finite, overflow};
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
@@ -49,8 +49,8 @@ impl<D: Devices> Spacecraft<D> {
         })
     }
 
-    /// [`Self::step`], with the work of each source during the step: what the ledger calls power, in
-    /// J, integrated to the order of the step.
+    /// [`Self::step`], with the work of each source during the step: what the ledger calls power,
+    /// in J, integrated to the order of the step.
     ///
     /// # Errors
     ///
@@ -75,8 +75,8 @@ impl<D: Devices> Spacecraft<D> {
         }
     }
 
-    /// The step, by whatever evaluates a stage: given the time that the stage counts for and its state,
-    /// in the places given.
+    /// The step, by whatever evaluates a stage: given the time that the stage counts for and its
+    /// state, in the places given.
     pub(crate) fn stepped<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -92,7 +92,7 @@ impl<D: Devices> Spacecraft<D> {
         if !dt.is_finite() {
             return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
         }
-        if !sound(state, inputs) {
+        if !inputs_are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
         self.advance(state, inputs, dt, evaluate)
@@ -143,8 +143,8 @@ impl<D: Devices> Spacecraft<D> {
 }
 
 impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
-    /// Adds `weight` times its slope to `sum`, and goes on to `start` plus `time` times the slope; the
-    /// attitude stays behind.
+    /// Adds `weight` times its slope to `sum`, and goes on to `start` plus `time` times the slope;
+    /// the attitude stays behind.
     fn follow(
         &mut self,
         start: &Self,

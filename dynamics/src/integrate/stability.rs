@@ -1,26 +1,27 @@
-//! The longest step at which Runge-Kutta's method of fourth order is stable with the springs, dampers
-//! and dry friction of the joints.
+//! The longest step at which Runge-Kutta's method of fourth order is stable with the springs,
+//! dampers and dry friction of the joints.
 //!
 //! A joint with the responses `a = c m`, 1/s, and `b = k m`, 1/s², of its damping c and stiffness k
-//! (m its acceleration for a unit torque) moves as `q'' + a q' + b q = 0`. A step multiplies its modes by
-//! `R(z) = 1 + z + z²/2 + z³/6 + z⁴/24` with `z = λ dt`, `λ² + a λ + b = 0`, and is stable while
-//! `|R(z)| <= 1`: up to 2.785 on the real axis (friction), to 2.828 on the imaginary one (springs).
+//! (m its acceleration for a unit torque) moves as `q'' + a q' + b q = 0`. A step multiplies its
+//! modes by `R(z) = 1 + z + z²/2 + z³/6 + z⁴/24` with `z = λ dt`, `λ² + a λ + b = 0`, and is stable
+//! while `|R(z)| <= 1`: up to 2.785 on the real axis (friction), to 2.828 on the imaginary one
+//! (springs).
 //!
-//! Two estimates of the responses. [`Stiffness`] costs some operations per joint and comes from pivots
-//! that an evaluation has at hand; what it leaves far below the limit is accepted. Above, the
-//! responses themselves are found, one impulsive evaluation per joint.
+//! Two estimates of the responses. [`Stiffness`] costs some operations per joint and comes from
+//! pivots that an evaluation has at hand; what it leaves far below the limit is accepted. Above,
+//! the responses themselves are found, one impulsive evaluation per joint.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::arithmetic::Plainly;
+use crate::equations::arithmetic::Unfused;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::SolveError;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::joint_inputs::JointInputs;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::Solution;
-use crate::numbers::each::{Each, JointStates};
 use crate::model::mode::HubMode;
 use crate::model::passive::Passive;
+use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, half, one, zero};
 use crate::numbers::vec3::zeros;
 use crate::sets::devices::Devices;
@@ -155,7 +156,7 @@ impl<D: Devices> Spacecraft<D> {
         joint: usize,
     ) -> Result<D::Accelerations, SolveError<D::Scalar>> {
         let still = zeros();
-        let around = Environment { omega: still, central: None, impulse: true };
+        let environment = Environment { omega: still, central: None, impulse: true };
         let mut at_rest = state.clone();
         at_rest.devices.states_mut().for_each(|[_, rate]| *rate = zero());
         let mut motors = D::motors_off_for(&self.devices);
@@ -165,7 +166,13 @@ impl<D: Devices> Spacecraft<D> {
         let given = JointInputs { motors: &motors, modes: &inputs.modes, bodies: None };
         let mut assembly = Assembly::new(&self.body, still, still);
         let mut scratch = D::scratch(&self.devices);
-        self.eliminate::<_, Plainly>(&at_rest, given, &around, &mut assembly, &mut scratch)?;
+        self.eliminate_devices::<_, Unfused>(
+            &at_rest,
+            given,
+            &environment,
+            &mut assembly,
+            &mut scratch,
+        )?;
         let hub = match inputs.hub {
             HubMode::Free => {
                 let system = assembly.system(still).solve(&assembly.scale(&self.body));
@@ -179,7 +186,8 @@ impl<D: Devices> Spacecraft<D> {
     }
 }
 
-/// The longest stable step of `q'' + a q' + b q = 0`, s; infinite where both are zero, zero for NaN.
+/// The longest stable step of `q'' + a q' + b q = 0`, s; infinite where both are zero, zero for
+/// NaN.
 fn longest<T: Scalar>(a: T, b: T) -> T {
     // λ = -a/2 ± sqrt(a²/4 - b), over a size that keeps the squares in range.
     let size = a.max(b.sqrt());
@@ -227,7 +235,7 @@ mod tests {
 
     #[test]
     fn limits_are_those_of_the_method() {
-        // Friction alone: the real root of R(z) = 1. A spring alone: sqrt 8.
+        // Friction only: the real root of R(z) = 1. A spring only: sqrt 8.
         assert!((longest(10.0, 0.0) - 0.278_529_356_340_528).abs() < 1e-12);
         assert!((longest(0.0, 100.0) - 0.282_842_712_474_619).abs() < 1e-6);
         // Critical damping has both roots at half the damping.

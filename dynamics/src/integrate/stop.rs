@@ -1,4 +1,4 @@
-//! The impulsive stop: joints brought to rest in no time, by a brake that is stiff.
+//! The impulsive stop: joints stopped impulsively, as by a rigid brake.
 //!
 //! Velocities jump, positions do not. Over the jump finite forces do nothing; what acts are the
 //! impulses of the brakes, inside the spacecraft, so momentum is conserved and energy is lost. With
@@ -6,14 +6,14 @@
 //! jumps for accelerations: the same kernels answer.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::arithmetic::Plainly;
+use crate::equations::arithmetic::Unfused;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::joint_inputs::Environment;
 use crate::equations::joint_inputs::JointInputs;
 use crate::equations::system::Solution;
-use crate::numbers::each::{Each, JointStates};
 use crate::model::mode::{HubMode, Mode};
+use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::zero;
 use crate::numbers::vec3::{
     add, columns, components, neg, rotate, rotate_transposed, sub, vector, zeros,
@@ -35,11 +35,11 @@ pub struct Stopped<D: Devices, A> {
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// Stops every joint that `inputs` has locked, and the hub if it is fixed, in no time.
+    /// Stops every joint that `inputs` has locked, and the hub if it is fixed, impulsively.
     ///
     /// Driven joints take what impulse reaches them through the structure, prescribed ones keep
-    /// their rates. Linear and angular momentum stay, unless the hub is fixed or prescribed; energy is
-    /// lost.
+    /// their rates. Linear and angular momentum stay, unless the hub is fixed or prescribed; energy
+    /// is lost.
     ///
     /// ```
     /// # use nalgebra::{Matrix3, Vector3};
@@ -71,7 +71,7 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<Stopped<D, A>, SolveError<D::Scalar>> {
-        self.refuse(state, inputs)?;
+        self.reject(state, inputs)?;
         let next =
             self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
         let (mut before, mut after) = (state.clone(), next.clone());
@@ -91,13 +91,19 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
         let still = zeros();
-        let around = Environment { omega: still, central: None, impulse: true };
+        let environment = Environment { omega: still, central: None, impulse: true };
         let mut assembly = Assembly::new(&self.body, still, still);
         let mut scratch = D::scratch(&self.devices);
         let motors = D::motors_off_for(&self.devices);
         let given = JointInputs { motors: &motors, modes: &inputs.modes, bodies: None };
         D::fits(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
-        self.eliminate::<_, Plainly>(state, given, &around, &mut assembly, &mut scratch)?;
+        self.eliminate_devices::<_, Unfused>(
+            state,
+            given,
+            &environment,
+            &mut assembly,
+            &mut scratch,
+        )?;
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let hub = match inputs.hub {

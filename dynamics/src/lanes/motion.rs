@@ -79,8 +79,8 @@ impl<T: Copy> Forces<T> {
     }
 }
 
-/// Puts numbers into one lane of blocks, in place: a block that is moved while its lanes are written
-/// one by one costs more than an evaluation.
+/// Puts numbers into one lane of blocks, in place: a block that is moved while its lanes are
+/// written one by one costs more than an evaluation.
 fn put<const N: usize>(blocks: &mut [Block; N], lane: usize, numbers: [f64; N]) {
     for (block, number) in blocks.iter_mut().zip(numbers) {
         block.put(lane, number);

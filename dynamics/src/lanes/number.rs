@@ -1,5 +1,5 @@
-//! [`Number`]: what an evaluation in lanes asks of its lanes beyond the kernels, and [`Block`], what
-//! lanes are gathered in.
+//! [`Number`]: what an evaluation in lanes asks of its lanes beyond the kernels, and [`Block`],
+//! what lanes are gathered in.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 

@@ -1,5 +1,5 @@
-//! Whole runs of a batch: the steps of [`Spacecraft::step`](crate::Spacecraft::step), quaternions and
-//! joints in lanes from the first step to the last.
+//! Whole runs of a batch: the steps of [`Spacecraft::step`](crate::Spacecraft::step), quaternions
+//! and joints in lanes from the first step to the last.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 

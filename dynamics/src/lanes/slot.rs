@@ -5,10 +5,10 @@
 use super::gather::joints_in_lanes;
 use super::number::{Block, Number, WIDEST};
 use crate::equations::device::Device;
-use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Real;
 use crate::sets::devices::{Devices, SetInputs};
 
@@ -66,8 +66,8 @@ pub trait LanedSet: Devices<Scalar = f64> {
         like: T,
         joints: [&Self::Joints; WIDEST],
     );
-    /// Puts what is given of the joints into one lane. False where a device or its modes ask for what
-    /// lanes have not, or for what an evaluation refuses.
+    /// Puts what is given of the joints into one lane. False where a device or its modes ask for
+    /// what lanes have not, or for what an evaluation refuses.
     fn put<T: Value>(
         devices: &Self::Prepared,
         slots: &mut Self::Slots<T>,
@@ -151,8 +151,8 @@ impl<K: Kind<Scalar = f64>> LanedSet for K {
     }
 }
 
-/// Puts torques and modes into one lane, in place: a block that is moved while its lanes are written
-/// one by one costs more than an evaluation.
+/// Puts torques and modes into one lane, in place: a block that is moved while its lanes are
+/// written one by one costs more than an evaluation.
 #[inline(always)]
 pub(super) fn put_drives<K: Kernels>(
     blocks: &mut K::PerJoint<Drive<Block>>,

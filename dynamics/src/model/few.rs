@@ -5,7 +5,7 @@ use crate::numbers::each::{Each, JointStates, Value};
 /// The joints that a device of this crate's kinds has at most.
 pub const MAX_JOINTS: usize = 3;
 
-/// One value per joint of a device, from the hub outwards: up to [`MAX_JOINTS`], without a heap.
+/// One value per joint of a device, from the hub to the tip: up to [`MAX_JOINTS`], without a heap.
 #[derive(Clone, Copy, Debug)]
 pub struct Few<V> {
     values: [V; MAX_JOINTS],

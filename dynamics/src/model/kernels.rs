@@ -1,14 +1,14 @@
 //! [`Kernels`]: the emitted kernels of one kind, over any number. The emitted text answers.
 //!
 //! Pure arithmetic over [`Real`]: what compares, takes a root or finds an error stands with
-//! [`Kind`](crate::model::kind::Kind), for single numbers. Lanes of numbers run what is here and nothing
-//! else.
+//! [`Kind`](crate::model::kind::Kind), for single numbers. Lanes of numbers run what is here and
+//! nothing else.
 
 use core::fmt::Debug;
 
 use crate::generated::hub::{BodyAcceleration, BodyRate, HubShare};
-use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::mode::Drive;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::{Angle, Real};
 
 /// The kernels of a device kind, and their records for numbers of any type.
@@ -16,7 +16,7 @@ use crate::numbers::real::{Angle, Real};
 /// Implemented by emitted text, next to each kernel; written by hand for nothing. Every function is
 /// part of what calls it: lanes reach the wide instructions of their caller only so.
 pub trait Kernels: 'static {
-    /// What depends on parameters alone.
+    /// What depends only on parameters.
     type Constants<T: Value>: Copy + Debug + Send + Sync;
     /// Coordinates and rates.
     type Joints<T: Value>: JointStates<T> + Copy;

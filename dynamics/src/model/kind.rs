@@ -1,26 +1,26 @@
-//! [`Kind`]: what the solver asks of one device kind. The emitted text answers.
+//! [`Kind`]: what the solver requires of a device kind. The emitted text answers.
 
 use core::fmt::Debug;
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Handed};
-pub use crate::numbers::each::{Each, JointStates, Value};
 pub use crate::model::kernels::Kernels;
 pub use crate::model::mode::Drive;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
+pub use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Scalar;
 use crate::numbers::symmetric::Symmetric;
 
-/// A joint and the body behind it: names, and how the joint moves.
+/// A joint and its child body: names, and how the joint moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts about a joint")]
 pub struct JointInfo {
-    /// From 0, from the hub outwards.
+    /// From 0, from the hub to the tip.
     pub index: usize,
-    /// The body behind it, which also names the joint: `inner gimbal`.
+    /// Its child body, which also names the joint: `inner gimbal`.
     pub body: &'static str,
     /// Its coordinate: `gamma_i`.
     pub coordinate: &'static str,
@@ -51,7 +51,8 @@ impl JointInfo {
 /// A body as the user states it, and where its joint stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyParameters<T> {
-    /// Origin of the joint from the carrier's origin, along the carrier's axes, m.
+    /// Origin of the joint from the origin of its parent body, expressed in the parent body's axes,
+    /// m.
     pub origin: [T; 3],
     /// Mass, kg.
     pub mass: T,
@@ -81,26 +82,26 @@ pub enum ImbalanceModel {
     /// A balanced rotor (`d`, `J_12`, `J_13` zero) with the usual lumped disturbance on it: force
     /// `U_s Omega²` through W along `w_y`, torque `U_d Omega²` ahead of it by the phase.
     ///
-    /// Omega is the wheel's rate relative to its carrier. The disturbance comes from outside, so
-    /// neither momentum nor energy is conserved under it; the ledger books it as external.
+    /// Omega is the wheel's rate relative to its parent body. The disturbance comes from outside,
+    /// so neither momentum nor energy is conserved under it; the ledger counts it as external.
     Lumped,
 }
 
-/// A wrench on the body behind each joint of a kind.
+/// A wrench on the child body of each joint of a kind.
 pub type Wrenches<K> = <K as Kernels>::PerJoint<Wrench<<K as Kind>::Scalar>>;
 
 /// A device kind: a structure of parameters, and functions over the emitted kernels.
 ///
 /// Implemented by emitted text, next to each kernel; written by hand for nothing. The equations of
-/// motion (`handed`, `eliminate`, `back_substitute`) are along B axes; everything else stands along
-/// the device's own: those of its first joint at zero, `mount` in the hub.
+/// motion (`handed`, `eliminate`, `back_substitute`) are expressed in B; everything else stands
+/// along the device's own: those of its first joint at zero, `mount` in the hub.
 pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// The number type.
     type Scalar: Scalar;
     /// Motor torques.
     type Motors: Each<Self::Scalar> + Copy;
 
-    /// The joints from the hub outwards.
+    /// The joints from the hub to the tip.
     const JOINTS: &'static [JointInfo];
 
     /// All coordinates and rates zero.
@@ -112,14 +113,15 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// One value at every joint.
     fn all<V: Value>(value: V) -> Self::PerJoint<V>;
 
-    /// Columns: the device's axes along B axes.
+    /// Columns: the device's axes expressed in B.
     fn mount(&self) -> &Matrix3<Self::Scalar>;
     /// The bodies; the first origin along *B* axes.
     fn bodies(&self) -> Self::PerJoint<BodyParameters<Self::Scalar>>;
     /// Springs, dampers, friction.
     fn passive(&self) -> Self::PerJoint<Passive<Self::Scalar>>;
-    /// The device of these bodies, the first origin along *B* axes. What it has no parameter for, such
-    /// as a product of inertia of a balanced rotor, is left out: [`Self::bodies`] shows what it took.
+    /// The device of these bodies, the first origin along *B* axes. What it has no parameter for,
+    /// such as a product of inertia of a balanced rotor, is left out: [`Self::bodies`] shows what
+    /// it took.
     fn of_bodies(
         mount: &Matrix3<Self::Scalar>,
         bodies: &Self::PerJoint<BodyParameters<Self::Scalar>>,
@@ -138,7 +140,7 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// The constants, the first origin turned into the device's axes.
     fn constants(&self, origin: [Self::Scalar; 3]) -> Self::Constants<Self::Scalar>;
 
-    /// The emitted `handed`: what the hub takes over, along B axes.
+    /// The emitted `handed`: the constant share of the hub, expressed in B.
     fn handed(constants: &Self::Constants<Self::Scalar>) -> Handed<Self::Scalar>;
 
     /// The emitted `energy_momentum`.
@@ -185,7 +187,7 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
 /// Wrenches across the joints of a device, and what comes of them at B.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Carried<W, B> {
-    /// About each joint's origin along the axes of the body behind it.
+    /// About each joint's origin along the axes of its child body.
     pub joints: W,
     /// About B, along the device's axes.
     pub hub: B,

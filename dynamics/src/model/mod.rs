@@ -1,7 +1,7 @@
 //! What a spacecraft consists of: hub, device kinds, joints with their modes, springs and friction.
 //!
-//! Parameters and precomputed constants, which never change during a run. The equations of a kind are
-//! emitted, under [`generated`](crate::generated).
+//! Parameters and precomputed constants, which never change during a run. The equations of a kind
+//! are emitted, under [`generated`](crate::generated).
 
 pub(crate) mod few;
 pub(crate) mod kernels;

@@ -27,7 +27,7 @@ pub enum HubMode<T = f64> {
     /// the clamp are found by [`Spacecraft::loads`](crate::Spacecraft::loads). Its velocities must
     /// be zero.
     Fixed,
-    /// The hub's accelerations are given, along B axes.
+    /// The hub's accelerations are given, expressed in B.
     Prescribed {
         /// Inertial acceleration of B, m/s².
         r_b_n_ddot: Vector3<T>,
@@ -53,7 +53,7 @@ pub struct Drive<T> {
 impl<T: Copy> Drive<T> {
     /// The drive with each of its numbers changed.
     #[inline(always)]
-    #[expect(clippy::inline_always, reason = "lanes reach wide instructions inlined alone")]
+    #[expect(clippy::inline_always, reason = "lanes reach wide instructions only where inlined")]
     #[must_use]
     pub fn map<U>(&self, mut change: impl FnMut(T) -> U) -> Drive<U> {
         Drive {

@@ -14,8 +14,8 @@ pub struct Hub<T = f64> {
     /// `r_{Bc/B}`, centre of mass from the reference point B, B axes, m.
     ///
     /// Choose B near it. The equations stand about B, and digits are lost with the square of the
-    /// distance over the radius of gyration: an error of 1e-11 is exceeded from 200 such radii on: from
-    /// 4 m for a hub of some centimetres, from 200 m for one of some metres.
+    /// distance over the radius of gyration: an error of 1e-11 is exceeded from 200 such radii on:
+    /// from 4 m for a hub of some centimetres, from 200 m for one of some metres.
     pub r_bc_b: Vector3<T>,
     /// `[I_{hub,Bc}]`, inertia about the hub's centre of mass, B axes, kg m^2.
     pub i_b_bc: Matrix3<T>,

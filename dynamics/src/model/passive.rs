@@ -8,14 +8,14 @@ use crate::numbers::real::{Scalar, half, reciprocal_in_two, zero};
 /// u = -k (q - q_0) - c q' - u_c q' / sqrt(q'^2 + w^2)
 /// ```
 ///
-/// acts beside the motor, on the body and reversed on its carrier. The last term is Coulomb's
+/// acts beside the motor, on the body and reversed on its parent body. The last term is Coulomb's
 /// friction made smooth: its full size well above the rate `w`, and a stiff damper `u_c / w` below.
 /// It never sticks: a joint that shall not move is [locked](crate::Mode::Locked).
 ///
 /// A step of Runge-Kutta's method must resolve what is stiff. With `J` the inertia that the joint
-/// moves, `dt` is at most `2.785 J / c` for a damper, `2.828 sqrt(J / k)` for a spring, and
-/// `2.785 J w / u_c` for dry friction where the joint comes to rest or reverses: at a rate of 1e-4
-/// rad/s, a torque of 1e-3 N m and 1e-3 kg m², 0.28 ms. [`Spacecraft::step`](crate::Spacecraft::step)
+/// moves, `dt` is at most `2.785 J / c` for a damper, `2.828 sqrt(J / k)` for a spring, and `2.785
+/// J w / u_c` for dry friction where the joint comes to rest or reverses: at a rate of 1e-4 rad/s,
+/// a torque of 1e-3 N m and 1e-3 kg m², 0.28 ms. [`Spacecraft::step`](crate::Spacecraft::step)
 /// rejects a longer one with [`SolveError::Unstable`](crate::SolveError::Unstable), which tells the
 /// longest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,14 +28,15 @@ pub struct Passive<T = f64> {
     pub viscous: T,
     /// `u_c`, Coulomb friction, N m or N. Not negative.
     pub coulomb: T,
-    /// `w`, the rate below which Coulomb friction fades, rad/s or m/s; above zero where there is any.
+    /// `w`, the rate below which Coulomb friction fades, rad/s or m/s; above zero where there is
+    /// any.
     pub coulomb_rate: T,
 }
 
 impl<T: Copy> Passive<T> {
     /// Spring, damper and friction with each number changed.
     #[inline(always)]
-    #[expect(clippy::inline_always, reason = "lanes reach wide instructions inlined alone")]
+    #[expect(clippy::inline_always, reason = "lanes reach wide instructions only where inlined")]
     #[must_use]
     pub fn map<U>(&self, mut change: impl FnMut(T) -> U) -> Passive<U> {
         Passive {
@@ -61,13 +62,13 @@ impl<T: Scalar> Passive<T> {
         }
     }
 
-    /// Spring and damper alone, at rest at zero.
+    /// Only a spring and a damper, at rest at zero.
     #[must_use]
     pub fn spring(stiffness: T, viscous: T) -> Self {
         Self { stiffness, viscous, ..Self::none() }
     }
 
-    /// Viscous and Coulomb friction alone.
+    /// Only viscous and Coulomb friction.
     #[must_use]
     pub fn friction(viscous: T, coulomb: T, coulomb_rate: T) -> Self {
         Self { viscous, coulomb, coulomb_rate, ..Self::none() }

@@ -35,7 +35,7 @@ impl<T: Scalar> Wrench<T> {
         Self { force: *force, moment: vector(moment) }
     }
 
-    /// A torque alone.
+    /// Only a torque.
     #[must_use]
     pub fn torque(torque: &Vector3<T>) -> Self {
         Self { force: vector(zeros()), moment: *torque }
@@ -84,7 +84,7 @@ impl<T: Scalar> Wrench<T> {
         Self::of(turn(&self.force), turn(&self.moment))
     }
 
-    /// What a joint feels of a wrench about its origin along the axes of the body behind it: the
+    /// What a joint feels of a wrench about its origin along the axes of its child body: the
     /// moment about its axis, or the force along it.
     pub(crate) fn along(&self, joint: &JointInfo) -> T {
         let [x, y, z] = components(if joint.slides { &self.force } else { &self.moment });

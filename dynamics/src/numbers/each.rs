@@ -1,8 +1,8 @@
 //! What belongs to each joint of a set of devices, whatever the set's shape: one after another.
 //!
-//! A device has a structure with a name per joint; an array of devices has an array of them, a tuple
-//! a tuple, a list a list. [`Each`] and [`JointStates`] walk all of them in one order: device by
-//! device as given, in a device from the hub outwards.
+//! A device has a structure with a name per joint; an array of devices has an array of them, a
+//! tuple a tuple, a list a list. [`Each`] and [`JointStates`] walk all of them in one order: device
+//! by device as given, in a device from the hub to the tip.
 
 use core::fmt::Debug;
 

@@ -1,5 +1,5 @@
-//! The number traits: [`Real`] for the emitted kernels, [`Angle`] for what they are given of a joint,
-//! [`Scalar`] for the solver around them.
+//! The number traits: [`Real`] for the emitted kernels, [`Angle`] for what they are given of a
+//! joint, [`Scalar`] for the solver around them.
 //!
 //! A kernel needs nothing but ring arithmetic and a reciprocal, so it can also run on lanes or dual
 //! numbers, which have no total order. Everything that compares or takes a root asks for
@@ -81,8 +81,8 @@ pub trait Scalar: Angle + PartialOrd {
     #[must_use]
     fn is_finite(self) -> bool;
 
-    /// Whether it converts to `f64` and back exactly, so that its equations may be evaluated by fused
-    /// `f64`s.
+    /// Whether it converts to `f64` and back exactly, so that its equations may be evaluated by
+    /// fused `f64`s.
     const IS_F64: bool = false;
 
     /// Magnitude. NaN stays NaN.

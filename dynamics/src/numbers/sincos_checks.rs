@@ -72,7 +72,8 @@ impl QuarterTurns for Fused {
     }
 }
 
-/// Angles a hundredth apart around zero, others over the whole range, zeros and the smallest number.
+/// Angles a hundredth apart around zero, others over the whole range, zeros and the smallest
+/// number.
 fn angles() -> impl Iterator<Item = f64> {
     let near = (-2000..=2000).map(|step| f64::from(step) / 100.0);
     let far = (-2000..=2000).map(|step| f64::from(step) / 2000.0 * LARGEST_ANGLE);

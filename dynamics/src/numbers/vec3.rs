@@ -34,7 +34,8 @@ pub(crate) fn vector<T>([x, y, z]: Vec3<T>) -> Vector3<T> {
     Vector3::new(x, y, z)
 }
 
-/// The vector with each component changed. An array's own `map` is a call, which lanes must not make.
+/// The vector with each component changed. An array's own `map` is a call, which lanes must not
+/// make.
 #[inline(always)]
 pub(crate) fn map<T, U>([x, y, z]: Vec3<T>, mut change: impl FnMut(T) -> U) -> Vec3<U> {
     [change(x), change(y), change(z)]

@@ -5,13 +5,13 @@
 //! ```
 //!
 //! The left side is what Newton and Euler of every body say of the accelerations, times the
-//! velocities; the right side is each source's own force times the same. The two are computed apart,
-//! and what is left between them is the ledger's residual: rounding, or a fault.
+//! velocities; the right side is each source's own force times the same. The two are computed
+//! apart, and what is left between them is the ledger's residual: rounding, or a fault.
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::Field;
-use crate::equations::load_sums::{Along, Totals};
+use crate::equations::load_sums::{Along, LoadSums};
 use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
@@ -22,7 +22,7 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
-/// The books of a spacecraft at one instant.
+/// The energy ledger of a spacecraft at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ledger<T = f64> {
     /// Kinetic energy T of hub and devices, J.
@@ -37,8 +37,9 @@ pub struct Ledger<T = f64> {
     pub power: Power<T>,
     /// `dT/dt` less all powers, W: rounding.
     pub residual: T,
-    /// Sum of the magnitudes of the terms that the residual is a difference of, W. Where a term is itself
-    /// small because forces cancel in it, the residual is rounding of those forces, and can exceed this.
+    /// Sum of the magnitudes of the terms that the residual is a difference of, W. Where a term is
+    /// itself small because forces cancel in it, the residual is rounding of those forces, and can
+    /// exceed this.
     pub magnitude: T,
     /// Linear momentum, and angular momentum about the inertial origin, N axes.
     pub momentum: Momentum<T>,
@@ -110,7 +111,7 @@ impl<T: Scalar> Ledger<T> {
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// The books for a state, its inputs and the accelerations that they give.
+    /// The energy ledger for a state, its inputs and the accelerations that they give.
     ///
     /// # Errors
     ///
@@ -122,14 +123,14 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
         accelerations: &Accelerations<D>,
     ) -> Result<Ledger<D::Scalar>, SolveError<D::Scalar>> {
-        self.refuse(state, inputs)?;
-        self.refuse_accelerations(state, accelerations)?;
+        self.reject(state, inputs)?;
+        self.reject_accelerations(state, accelerations)?;
         let ledger = self.ledger_of(state, inputs, accelerations);
         ledger.map_err(|failure| self.diagnosis(state, inputs, failure))
     }
 
-    /// [`Self::ledger`] without the search for an input that is not finite: of a stage of a step, which
-    /// nobody gave.
+    /// [`Self::ledger`] without the search for an input that is not finite: of a stage of a step,
+    /// which nobody gave.
     pub(crate) fn ledger_of<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -194,7 +195,7 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         bn: &Columns<D::Scalar>,
         field: Option<&Field<D::Scalar>>,
-        totals: &Totals<D::Scalar>,
+        totals: &LoadSums<D::Scalar>,
     ) -> D::Scalar {
         let Some(field) = field else { return zero() };
         let moment = scale(self.mass(), self.centre(state)[0]);

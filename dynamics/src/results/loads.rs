@@ -3,14 +3,14 @@
 //!
 //! The paper names these structural torques in (77), (98), (116) and never solves for them. Each
 //! joint carries what all bodies outward of it need, by Newton and Euler, less what acts on them
-//! from outside. Gravity's uniform part is a change of frame: accelerations are counted in the frame
-//! that falls with it.
+//! from outside. Gravity's uniform part is a change of frame: accelerations are counted in the
+//! frame that falls with it.
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Field, at_b};
 use crate::equations::joint_inputs::Environment;
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::model::wrench::Wrench;
 use crate::numbers::real::zero;
 use crate::numbers::vec3::{columns, components, sub};
@@ -19,14 +19,14 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
-/// The axes along which the loads of joints are told.
+/// The axes in which the loads of joints are expressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoadAxes {
-    /// Those of the body behind the joint. A rotor that is the same from every angle has those of
-    /// what carries it.
+    /// Those of the child body of the joint. A rotor that is the same from every angle has those of
+    /// its parent body.
     #[default]
     Body,
-    /// Those of what carries it; of a first joint, the device's at zero angle.
+    /// Those of its parent body; of a first joint, the device's at zero angle.
     Carrier,
     /// B.
     Hub,
@@ -39,17 +39,17 @@ pub enum LoadAxes {
 pub struct Loads<D: Devices> {
     /// Device by device; a [`DeviceLoads`] for each.
     pub devices: D::Loads,
-    /// What must act on the hub beside the inputs, about B along B axes: nothing but rounding on a
-    /// free hub with its own accelerations; on a [fixed](crate::HubMode::Fixed) one, what the table
-    /// exerts on it. A dynamometer reads the opposite.
+    /// What must act on the hub beside the inputs, about B, expressed in B: nothing but rounding on
+    /// a free hub with its own accelerations; on a [fixed](crate::HubMode::Fixed) one, what the
+    /// table exerts on it. A dynamometer reads the opposite.
     pub hub: Wrench<D::Scalar>,
 }
 
 impl<D: Devices> Spacecraft<D> {
     /// The loads that these accelerations need: inverse dynamics.
     ///
-    /// With what [`Self::accelerations`] found for the same state and inputs, these are the loads at
-    /// that instant, and prescribed and locked joints find the torque they need in
+    /// With what [`Self::accelerations`] found for the same state and inputs, these are the loads
+    /// at that instant, and prescribed and locked joints find the torque they need in
     /// [`DeviceLoads::motors`]. With accelerations that are wished for, they are the motor torques
     /// and the wrench on the hub that fulfil the wish. Motor torques and modes in `inputs` are not
     /// asked; forces, torques and gravity are.
@@ -65,8 +65,8 @@ impl<D: Devices> Spacecraft<D> {
         accelerations: &Accelerations<D>,
         axes: LoadAxes,
     ) -> Result<Loads<D>, SolveError<D::Scalar>> {
-        self.refuse(state, inputs)?;
-        self.refuse_accelerations(state, accelerations)?;
+        self.reject(state, inputs)?;
+        self.reject_accelerations(state, accelerations)?;
         let bn = columns(&state.attitude.dcm());
         let along = match axes {
             LoadAxes::Body => Along::Body,
@@ -90,7 +90,7 @@ impl<D: Devices> Spacecraft<D> {
     /// Rejects loads of a joint that are not finite.
     pub(crate) fn check_joints(
         &self,
-        totals: &Totals<D::Scalar>,
+        totals: &LoadSums<D::Scalar>,
     ) -> Result<(), SolveError<D::Scalar>> {
         let joint = totals.overflow.and_then(|joint| self.joints().nth(joint));
         joint.map_or(Ok(()), |(device, info)| {
@@ -106,23 +106,23 @@ impl<D: Devices> Spacecraft<D> {
         accelerations: &Accelerations<D>,
         field: Option<&Field<D::Scalar>>,
         along: &Along<D::Scalar>,
-    ) -> (D::Loads, Wrench<D::Scalar>, Totals<D::Scalar>) {
+    ) -> (D::Loads, Wrench<D::Scalar>, LoadSums<D::Scalar>) {
         let omega = components(&state.omega);
         let falling = at_b(field);
-        let hub = HubMotion {
+        let hub = HubAccelerations {
             r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), falling),
             omega_dot: components(&accelerations.omega_dot),
         };
         let central = field.and_then(|field| field.central);
-        let around = Environment { omega, central, impulse: false };
+        let environment = Environment { omega, central, impulse: false };
         let given = inputs.of_joints();
         let mut devices = D::no_loads_for(&self.devices);
-        let mut totals = Totals::none();
+        let mut totals = LoadSums::none();
         D::loads(
             &self.devices,
             &state.devices,
             given,
-            &around,
+            &environment,
             &hub,
             &accelerations.devices,
             along,

@@ -1,4 +1,5 @@
-//! What follows from a solution: loads at every joint and mount, momenta and energy, the energy ledger.
+//! What follows from a solution: loads at every joint and mount, momenta and energy, the energy
+//! ledger.
 //!
 //! Evaluated only where they are called for; a step does not pass here.
 

@@ -14,7 +14,7 @@ use crate::numbers::vec3::{
     sub, vector, zeros,
 };
 use crate::sets::devices::Devices;
-use crate::solve::finite::{culprit_in_vector, refuse};
+use crate::solve::finite::{not_finite_in_vector, reject};
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
@@ -34,7 +34,7 @@ pub enum About<T = f64> {
 pub struct Momentum<T = f64> {
     /// Linear momentum, N axes, kg m/s.
     pub linear: Vector3<T>,
-    /// Angular momentum about the point asked for, N axes, kg m^2/s.
+    /// Angular momentum about the point given, N axes, kg m^2/s.
     pub angular: Vector3<T>,
 }
 
@@ -59,7 +59,7 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
     ) -> Result<D::Scalar, SolveError<D::Scalar>> {
-        self.refuse_state(state)?;
+        self.reject_state(state)?;
         let (_, BodySums { energy, .. }) = self.sums(state);
         // A sum of squares, but for the rounding of what cancels in it.
         checked(Quantity::Energy, energy.max(zero()), energy.is_finite())
@@ -76,8 +76,8 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         about: About<D::Scalar>,
     ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
-        self.refuse_state(state)?;
-        refuse(culprit_in_point(&about))?;
+        self.reject_state(state)?;
+        reject(not_finite_in_point(&about))?;
         let (bn, sums) = self.sums(state);
         self.momentum_of(state, &bn, &sums, about)
     }
@@ -115,13 +115,13 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
     ) -> Result<CentreOfMass<D::Scalar>, SolveError<D::Scalar>> {
-        self.refuse_state(state)?;
+        self.reject_state(state)?;
         let [c, c_prime] = self.centre(state);
         let found = CentreOfMass { c: vector(c), c_prime: vector(c_prime) };
         checked(Quantity::CentreOfMass, found, finite(c) && finite(c_prime))
     }
 
-    /// `[BN]` by its columns, and energy and momenta along B axes.
+    /// `[BN]` by its columns, and energy and momenta expressed in B.
     pub(crate) fn sums<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -134,7 +134,7 @@ impl<D: Devices> Spacecraft<D> {
         (bn, sums)
     }
 
-    /// `c` and `c'`, along B axes.
+    /// `c` and `c'`, expressed in B.
     pub(crate) fn centre<A>(&self, state: &State<D, A>) -> [Vec3<D::Scalar>; 2] {
         let mut moment = [self.hub.first_moment, zeros()];
         D::add_first_moment(&self.devices, &state.devices, &mut moment);
@@ -143,18 +143,18 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     /// Refuses a state that is not finite, or of another number of devices.
-    fn refuse_state<A: Attitude<D::Scalar>>(
+    fn reject_state<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
     ) -> Result<(), SolveError<D::Scalar>> {
         D::fits(&self.devices, &state.devices, None, None)?;
-        refuse(self.culprit_in_state(state))
+        reject(self.not_finite_in_state(state))
     }
 }
 
-fn culprit_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {
+fn not_finite_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {
     match about {
-        About::Point(point) => culprit_in_vector(Quantity::ReferencePoint, point),
+        About::Point(point) => not_finite_in_vector(Quantity::ReferencePoint, point),
         About::InertialOrigin | About::CentreOfMass => None,
     }
 }

@@ -1,8 +1,8 @@
-//! [`AnyDevice`]: a device whose kind is known at run time alone, for lists read from a file.
+//! [`AnyDevice`]: a device whose kind is known only at run time, for lists read from a file.
 //!
 //! The same equations behind a pointer: every call goes through a table of functions, and every
-//! joint's data stand in vectors in the order of the joints, from the hub outwards. For the desktop;
-//! an array or a tuple of kinds costs neither.
+//! joint's data stand in vectors in the order of the joints, from the hub to the tip. For the
+//! desktop; an array or a tuple of kinds costs neither.
 
 use alloc::boxed::Box;
 use alloc::sync::Arc;
@@ -10,19 +10,19 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::any::Any;
 
-use crate::equations::arithmetic::Way;
+use crate::equations::arithmetic::Rounding;
 use crate::equations::assembly::Assembly;
 use crate::equations::device_loads::{DeviceLoads, JointPower};
 use crate::equations::error::SolveError;
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::Environment;
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::Vec3;
 use crate::sets::devices::{Devices, SetInputs};
@@ -51,11 +51,11 @@ use crate::validation::parameter_error::ParameterError;
 #[derive(Clone, Debug)]
 pub struct AnyDevice<T = f64>(Arc<dyn Stated<T>>);
 
-/// Coordinate and rate of each joint, from the hub outwards.
+/// Coordinate and rate of each joint, from the hub to the tip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnyJoints<T = f64>(pub Vec<[T; 2]>);
 
-/// A value for each joint, from the hub outwards.
+/// A value for each joint, from the hub to the tip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnyPerJoint<V>(pub Vec<V>);
 
@@ -186,16 +186,16 @@ impl<T: Scalar> Devices for AnyDevice<T> {
         wrong.map_or(Ok(()), |found| Err(SolveError::Count { expected, found }))
     }
 
-    fn eliminate<W: Way>(
+    fn eliminate_set<W: Rounding>(
         device: &Arc<dyn Ready<T>>,
         joints: &AnyJoints<T>,
         given: SetInputs<'_, Self>,
-        around: &Environment<T>,
+        environment: &Environment<T>,
         assembly: &mut Assembly<T>,
         scratch: &mut Option<Box<dyn Any>>,
         index: &mut usize,
     ) -> Result<(), SolveError<T>> {
-        *scratch = Some(device.eliminate(joints, given, around, assembly, *index)?);
+        *scratch = Some(device.eliminate_erased(joints, given, environment, assembly, *index)?);
         *index = index.wrapping_add(1);
         Ok(())
     }
@@ -234,13 +234,13 @@ impl<T: Scalar> Devices for AnyDevice<T> {
         device: &Arc<dyn Ready<T>>,
         joints: &AnyJoints<T>,
         given: SetInputs<'_, Self>,
-        around: &Environment<T>,
-        hub: &HubMotion<T>,
+        environment: &Environment<T>,
+        hub: &HubAccelerations<T>,
         accelerations: &AnyPerJoint<T>,
         along: &Along<T>,
         out: &mut AnyLoads<T>,
-        totals: &mut Totals<T>,
+        totals: &mut LoadSums<T>,
     ) {
-        *out = device.loads(joints, given, around, hub, accelerations, along, totals);
+        *out = device.loads(joints, given, environment, hub, accelerations, along, totals);
     }
 }

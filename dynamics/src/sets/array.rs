@@ -1,17 +1,17 @@
 //! Sets of sets: arrays, tuples, vectors. Each call goes on to the members, in order.
 
-use crate::equations::arithmetic::Way;
+use crate::equations::arithmetic::Rounding;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::SolveError;
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::numbers::each::Value;
 use crate::model::kind::JointInfo;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
+use crate::numbers::each::Value;
 use crate::numbers::vec3::Vec3;
 use crate::sets::devices::{Devices, FixedSet, SetInputs};
 use crate::validation::parameter_error::ParameterError;
@@ -118,18 +118,18 @@ macro_rules! row {
             }
 
             #[inline(always)]
-            fn eliminate<W: Way>(
+            fn eliminate_set<W: Rounding>(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
                 given: SetInputs<'_, Self>,
-                around: &Environment<Self::Scalar>,
+                environment: &Environment<Self::Scalar>,
                 assembly: &mut Assembly<Self::Scalar>,
                 scratch: &mut Self::Scratch,
                 device: &mut usize,
             ) -> Result<(), SolveError<Self::Scalar>> {
                 let members = devices.iter().zip(joints).zip(given.members()).zip(scratch);
                 for (((member, joints), given), scratch) in members {
-                    D::eliminate::<W>(member, joints, given, around, assembly, scratch, device)?;
+                    D::eliminate_set::<W>(member, joints, given, environment, assembly, scratch, device)?;
                 }
                 Ok(())
             }
@@ -172,17 +172,17 @@ macro_rules! row {
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
                 given: SetInputs<'_, Self>,
-                around: &Environment<Self::Scalar>,
-                hub: &HubMotion<Self::Scalar>,
+                environment: &Environment<Self::Scalar>,
+                hub: &HubAccelerations<Self::Scalar>,
                 accelerations: &Self::Accelerations,
                 along: &Along<Self::Scalar>,
                 out: &mut Self::Loads,
-                totals: &mut Totals<Self::Scalar>,
+                totals: &mut LoadSums<Self::Scalar>,
             ) {
                 let members = devices.iter().zip(joints).zip(given.members()).zip(accelerations);
                 for ((((member, joints), given), accelerations), out) in members.zip(out) {
                     D::loads(
-                        member, joints, given, around, hub, accelerations, along, out, totals,
+                        member, joints, given, environment, hub, accelerations, along, out, totals,
                     );
                 }
             }

@@ -1,29 +1,29 @@
 //! [`BuiltIn`]: a device of any of this crate's kinds, without a heap, for parameters that come on
 //! board at run time.
 //!
-//! `[Option<BuiltIn>; 8]` is a set of up to eight of them. Which kind a device is costs one branch a
-//! call; the equations are those of the kind, with the same bits. Kinds from outside the crate are
-//! not among them: `AnyDevice` takes those, with a heap.
+//! `[Option<BuiltIn>; 8]` is a set of up to eight of them. Which kind a device is costs one branch
+//! a call; the equations are those of the kind, with the same bits. Kinds from outside the crate
+//! are not among them: `AnyDevice` takes those, with a heap.
 
-use crate::equations::arithmetic::Way;
+use crate::equations::arithmetic::Rounding;
 use crate::equations::assembly::Assembly;
 use crate::equations::device::Device;
 use crate::equations::device_loads::{DeviceLoads, JointPower};
 use crate::equations::error::SolveError;
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::Environment;
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
 #[allow(clippy::wildcard_imports, reason = "every kind, also one to come")]
 use crate::generated::devices::*;
 use crate::generated::every_kind;
 use crate::generated::hub::Handed;
-use crate::numbers::each::Value;
 use crate::model::few::{Few, MAX_JOINTS};
 use crate::model::kernels::Kernels;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
+use crate::numbers::each::Value;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::Vec3;
 use crate::sets::built_in_calls as calls;
@@ -52,7 +52,7 @@ macro_rules! built_in {
             )*
         }
 
-        /// A device of one of this crate's kinds, made ready.
+        /// A device of one of this crate's kinds, precomputed.
         #[derive(Clone, Copy, Debug)]
         pub enum ReadyBuiltIn<T: Scalar> {
             $(
@@ -86,7 +86,7 @@ macro_rules! built_in {
             /// Every kind.
             pub const ALL: &'static [Self] = &[$(Self::$kind),*];
 
-            /// The joints of the kind, from the hub outwards.
+            /// The joints of the kind, from the hub to the tip.
             #[must_use]
             pub fn joints(self) -> &'static [JointInfo] {
                 match self {
@@ -155,19 +155,19 @@ macro_rules! built_in {
                 }
             }
 
-            fn eliminate<W: Way>(
+            fn eliminate_kind<W: Rounding>(
                 &self,
                 joints: &Few<[T; 2]>,
                 given: SetInputs<'_, BuiltIn<T>>,
-                around: &Environment<T>,
+                environment: &Environment<T>,
                 assembly: &mut Assembly<T>,
                 scratch: &mut BuiltInGains<T>,
                 index: &mut usize,
             ) -> Result<(), SolveError<T>> {
                 match self {
                     $(Self::$kind(device) => {
-                        let gains = calls::eliminate::<_, W>(
-                            device, joints, given, around, assembly, index,
+                        let gains = calls::eliminate_typed::<_, W>(
+                            device, joints, given, environment, assembly, index,
                         )?;
                         *scratch = gains.map_or(BuiltInGains::None, BuiltInGains::$kind);
                     })*
@@ -202,15 +202,15 @@ macro_rules! built_in {
                 &self,
                 joints: &Few<[T; 2]>,
                 given: SetInputs<'_, BuiltIn<T>>,
-                around: &Environment<T>,
-                hub: &HubMotion<T>,
+                environment: &Environment<T>,
+                hub: &HubAccelerations<T>,
                 accelerations: &Few<T>,
                 along: &Along<T>,
-                totals: &mut Totals<T>,
+                totals: &mut LoadSums<T>,
             ) -> BuiltInLoads<T> {
                 match self {
                     $(Self::$kind(device) => calls::loads(
-                        device, joints, given, around, hub, accelerations, along, totals,
+                        device, joints, given, environment, hub, accelerations, along, totals,
                     ),)*
                 }
             }
@@ -322,16 +322,16 @@ impl<T: Scalar> Devices for BuiltIn<T> {
         wrong.map_or(Ok(()), |found| Err(SolveError::Count { expected, found }))
     }
 
-    fn eliminate<W: Way>(
+    fn eliminate_set<W: Rounding>(
         device: &ReadyBuiltIn<T>,
         joints: &Few<[T; 2]>,
         given: SetInputs<'_, Self>,
-        around: &Environment<T>,
+        environment: &Environment<T>,
         assembly: &mut Assembly<T>,
         scratch: &mut BuiltInGains<T>,
         index: &mut usize,
     ) -> Result<(), SolveError<T>> {
-        device.eliminate::<W>(joints, given, around, assembly, scratch, index)
+        device.eliminate_kind::<W>(joints, given, environment, assembly, scratch, index)
     }
 
     fn back_substitute(
@@ -361,13 +361,13 @@ impl<T: Scalar> Devices for BuiltIn<T> {
         device: &ReadyBuiltIn<T>,
         joints: &Few<[T; 2]>,
         given: SetInputs<'_, Self>,
-        around: &Environment<T>,
-        hub: &HubMotion<T>,
+        environment: &Environment<T>,
+        hub: &HubAccelerations<T>,
         accelerations: &Few<T>,
         along: &Along<T>,
         out: &mut BuiltInLoads<T>,
-        totals: &mut Totals<T>,
+        totals: &mut LoadSums<T>,
     ) {
-        *out = device.loads(joints, given, around, hub, accelerations, along, totals);
+        *out = device.loads(joints, given, environment, hub, accelerations, along, totals);
     }
 }

@@ -1,21 +1,21 @@
 //! What [`BuiltIn`] asks of the one kind it is: data of its joints into the kind's own structures,
 //! and results out of them.
 
-use crate::equations::arithmetic::Way;
+use crate::equations::arithmetic::Rounding;
 use crate::equations::assembly::Assembly;
 use crate::equations::device::Device;
 use crate::equations::device_loads::{DeviceLoads, JointPower};
 use crate::equations::error::SolveError;
 use crate::equations::joint_inputs::{Environment, JointInputs};
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::few::{Few, MAX_JOINTS};
 use crate::model::kernels::Kernels;
 use crate::model::kind::{BodyParameters, Kind, no_inertia};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::{Scalar, zero};
 use crate::sets::built_in::{BuiltIn, BuiltInLoads};
 use crate::sets::built_in_parameters::{BuiltInParameters, Misfit};
@@ -80,22 +80,22 @@ pub(crate) fn joints<K: Kind>(few: &Few<[K::Scalar; 2]>) -> K::Joints<K::Scalar>
 }
 
 /// As [`Devices::eliminate`]; what back substitution needs.
-pub(crate) fn eliminate<K: Kind, W: Way>(
+pub(crate) fn eliminate_typed<K: Kind, W: Rounding>(
     device: &Device<K>,
     few: &Few<[K::Scalar; 2]>,
     given: SetInputs<'_, BuiltIn<K::Scalar>>,
-    around: &Environment<K::Scalar>,
+    environment: &Environment<K::Scalar>,
     assembly: &mut Assembly<K::Scalar>,
     index: &mut usize,
 ) -> Eliminated<K> {
     let mut gains = None;
     let typed = Typed::<K>::of(given);
     let joints = joints::<K>(few);
-    <K as Devices>::eliminate::<W>(
+    <K as Devices>::eliminate_set::<W>(
         device,
         &joints,
         typed.given(),
-        around,
+        environment,
         assembly,
         &mut gains,
         index,
@@ -109,7 +109,7 @@ pub(crate) fn back_substitute<K: Kind>(
     hub: &Solution<K::Scalar>,
     out: &mut Few<K::Scalar>,
 ) {
-    out.fill(K::back_substitute(gains, &hub.along_b()).values());
+    out.fill(K::back_substitute(gains, &hub.expressed_in_b()).values());
 }
 
 /// As [`Devices::loads`].
@@ -118,16 +118,16 @@ pub(crate) fn loads<K: Kind>(
     device: &Device<K>,
     few_joints: &Few<[K::Scalar; 2]>,
     given: SetInputs<'_, BuiltIn<K::Scalar>>,
-    around: &Environment<K::Scalar>,
-    hub: &HubMotion<K::Scalar>,
+    environment: &Environment<K::Scalar>,
+    hub: &HubAccelerations<K::Scalar>,
     accelerations: &Few<K::Scalar>,
     along: &Along<K::Scalar>,
-    totals: &mut Totals<K::Scalar>,
+    totals: &mut LoadSums<K::Scalar>,
 ) -> BuiltInLoads<K::Scalar> {
     let (joints, typed) = (joints::<K>(few_joints), Typed::<K>::of(given));
     let mut of_joints = K::no_accelerations();
     copy(&mut of_joints, accelerations.values());
-    let found = device.loads(&joints, typed.given(), around, hub, &of_joints, along, totals);
+    let found = device.loads(&joints, typed.given(), environment, hub, &of_joints, along, totals);
     DeviceLoads {
         mount: found.mount,
         joints: few(&found.joints, Wrench::none()),

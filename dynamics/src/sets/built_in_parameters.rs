@@ -1,5 +1,5 @@
-//! [`BuiltInParameters`]: a device of whatever kind as bodies and joints, and [`Misfit`], what a kind
-//! has no parameter for.
+//! [`BuiltInParameters`]: a device of whatever kind as bodies and joints, and [`Misfit`], what a
+//! kind has no parameter for.
 
 use core::error::Error;
 use core::fmt::{self, Display, Formatter};
@@ -14,10 +14,11 @@ use crate::validation::parameter_error::Parameter;
 /// A device as bodies and joints, which every kind can be stated in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BuiltInParameters<T = f64> {
-    /// Columns: the device's axes along B axes, which are those of its first body at zero.
+    /// Columns: the device's axes expressed in B, which are those of its first body at zero.
     pub mount: Matrix3<T>,
-    /// The bodies from the hub outwards, as many as the kind has joints; the first origin is along
-    /// *B axes*, the others along those of the body before. What stands behind them is not read.
+    /// The bodies from the hub to the tip, as many as the kind has joints; the first origin is
+    /// along *B axes*, the others along those of the body before. What stands behind them is not
+    /// read.
     pub bodies: [BodyParameters<T>; MAX_JOINTS],
     /// Spring, damper and friction of the joint before each body.
     pub passive: [Passive<T>; MAX_JOINTS],

@@ -2,38 +2,38 @@
 //! nest.
 //!
 //! Nothing here knows a kind: a set passes each call on to its members, in order, so that a device
-//! costs the same wherever it stands. The set of a spacecraft is known when it is compiled, and every
-//! call is direct; only a list of [`AnyDevice`](crate::AnyDevice) asks at run time.
+//! costs the same wherever it stands. The set of a spacecraft is known when it is compiled, and
+//! every call is direct; only a list of [`AnyDevice`](crate::AnyDevice) asks at run time.
 
 use core::fmt::Debug;
 
-use crate::equations::arithmetic::Way;
+use crate::equations::arithmetic::Rounding;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::SolveError;
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kind::JointInfo;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::Vec3;
 use crate::validation::parameter_error::ParameterError;
 
 /// A set of devices, by their parameters.
 ///
-/// Implemented for every [`Kind`](crate::model::kind::Kind), and for arrays, tuples (up to eight members)
-/// and, with the feature `alloc`, vectors of sets. The data of a set have its shape: the joints of
-/// `([ReactionWheel; 4], Dgvscmg)` are `([reaction_wheel::Joints; 4], dgvscmg::Joints)`. Devices
-/// count from 0 through the whole set, in order.
+/// Implemented for every [`Kind`](crate::model::kind::Kind), and for arrays, tuples (up to eight
+/// members) and, with the feature `alloc`, vectors of sets. The data of a set have its shape: the
+/// joints of `([ReactionWheel; 4], Dgvscmg)` are `([reaction_wheel::Joints; 4], dgvscmg::Joints)`.
+/// Devices count from 0 through the whole set, in order.
 pub trait Devices: Clone + Debug + PartialEq {
     /// The number type.
     type Scalar: Scalar;
-    /// The devices, checked and made ready.
+    /// The devices, checked and precomputed.
     type Prepared: Clone + Debug;
     /// Coordinates and rates of the joints.
     type Joints: JointStates<Self::Scalar>;
@@ -53,7 +53,7 @@ pub trait Devices: Clone + Debug + PartialEq {
     /// # Errors
     /// The first [`ParameterError`].
     fn check(&self, device: &mut usize) -> Result<(), ParameterError<Self::Scalar>>;
-    /// The devices made ready: what depends on parameters alone, computed.
+    /// The devices, precomputed: what depends only on parameters, computed.
     fn prepare(&self) -> Self::Prepared;
     /// What the hub takes over of each device.
     fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<Self::Scalar>>;
@@ -98,11 +98,11 @@ pub trait Devices: Clone + Debug + PartialEq {
     ///
     /// # Errors
     /// The first [`SolveError`].
-    fn eliminate<W: Way>(
+    fn eliminate_set<W: Rounding>(
         devices: &Self::Prepared,
         joints: &Self::Joints,
         given: SetInputs<'_, Self>,
-        around: &Environment<Self::Scalar>,
+        environment: &Environment<Self::Scalar>,
         assembly: &mut Assembly<Self::Scalar>,
         scratch: &mut Self::Scratch,
         device: &mut usize,
@@ -134,12 +134,12 @@ pub trait Devices: Clone + Debug + PartialEq {
         devices: &Self::Prepared,
         joints: &Self::Joints,
         given: SetInputs<'_, Self>,
-        around: &Environment<Self::Scalar>,
-        hub: &HubMotion<Self::Scalar>,
+        environment: &Environment<Self::Scalar>,
+        hub: &HubAccelerations<Self::Scalar>,
         accelerations: &Self::Accelerations,
         along: &Along<Self::Scalar>,
         out: &mut Self::Loads,
-        totals: &mut Totals<Self::Scalar>,
+        totals: &mut LoadSums<Self::Scalar>,
     );
 }
 

@@ -1,4 +1,4 @@
-//! A device of a kind that is known at run time alone, as a table of functions: what
+//! A device of a kind that is known only at run time, as a table of functions: what
 //! [`AnyDevice`](crate::AnyDevice) points to.
 
 use alloc::boxed::Box;
@@ -7,21 +7,21 @@ use alloc::vec::Vec;
 use core::any::Any;
 use core::fmt::Debug;
 
-use crate::equations::arithmetic::{Places, Plainly, Way};
+use crate::equations::arithmetic::{EliminationOutputs, Rounding, Unfused};
 use crate::equations::assembly::Assembly;
 use crate::equations::device::Device;
 use crate::equations::device_loads::DeviceLoads;
 use crate::equations::error::SolveError;
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Scalar;
 use crate::numbers::vec3::Vec3;
 use crate::sets::any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
@@ -65,7 +65,7 @@ impl<K: Kind> Stated<K::Scalar> for K {
 /// Motors, modes and external wrenches of one device.
 type Erased<'a, T> = SetInputs<'a, AnyDevice<T>>;
 
-/// A device made ready, behind a pointer.
+/// A precomputed device behind a pointer.
 pub trait Ready<T>: Debug + Send + Sync {
     /// Its joints.
     fn infos(&self) -> &'static [JointInfo];
@@ -79,11 +79,11 @@ pub trait Ready<T>: Debug + Send + Sync {
     ///
     /// # Errors
     /// The first [`SolveError`].
-    fn eliminate(
+    fn eliminate_erased(
         &self,
         joints: &AnyJoints<T>,
         given: Erased<'_, T>,
-        around: &Environment<T>,
+        environment: &Environment<T>,
         assembly: &mut Assembly<T>,
         device: usize,
     ) -> Result<Box<dyn Any>, SolveError<T>>
@@ -107,11 +107,11 @@ pub trait Ready<T>: Debug + Send + Sync {
         &self,
         joints: &AnyJoints<T>,
         given: Erased<'_, T>,
-        around: &Environment<T>,
-        hub: &HubMotion<T>,
+        environment: &Environment<T>,
+        hub: &HubAccelerations<T>,
         accelerations: &AnyPerJoint<T>,
         along: &Along<T>,
-        totals: &mut Totals<T>,
+        totals: &mut LoadSums<T>,
     ) -> AnyLoads<T>
     where
         T: Scalar;
@@ -174,18 +174,18 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         self.passive.values().collect()
     }
 
-    fn eliminate(
+    fn eliminate_erased(
         &self,
         joints: &AnyJoints<K::Scalar>,
         given: Erased<'_, K::Scalar>,
-        around: &Environment<K::Scalar>,
+        environment: &Environment<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
         device: usize,
     ) -> Result<Box<dyn Any>, SolveError<K::Scalar>> {
         let (joints, typed) = (joints_of::<K>(joints), Typed::<K>::of(given));
         let mut gains = None;
-        let places = Places { assembly, gains: &mut gains };
-        Plainly::eliminate(self, &joints, typed.given(), around, places, device)?;
+        let places = EliminationOutputs { assembly, gains: &mut gains };
+        Unfused::eliminate_device(self, &joints, typed.given(), environment, places, device)?;
         Ok(Box::new(gains))
     }
 
@@ -195,7 +195,7 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         hub: &Solution<K::Scalar>,
     ) -> Option<Vec<K::Scalar>> {
         let gains = gains.downcast_ref::<Option<K::Gains<K::Scalar>>>()?.as_ref()?;
-        Some(K::back_substitute(gains, &hub.along_b()).values().collect())
+        Some(K::back_substitute(gains, &hub.expressed_in_b()).values().collect())
     }
 
     fn add_sums(
@@ -216,17 +216,17 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         &self,
         joints: &AnyJoints<K::Scalar>,
         given: Erased<'_, K::Scalar>,
-        around: &Environment<K::Scalar>,
-        hub: &HubMotion<K::Scalar>,
+        environment: &Environment<K::Scalar>,
+        hub: &HubAccelerations<K::Scalar>,
         accelerations: &AnyPerJoint<K::Scalar>,
         along: &Along<K::Scalar>,
-        totals: &mut Totals<K::Scalar>,
+        totals: &mut LoadSums<K::Scalar>,
     ) -> AnyLoads<K::Scalar> {
         let (joints, typed) = (joints_of::<K>(joints), Typed::<K>::of(given));
         let mut of_joints = K::no_accelerations();
         copy(&mut of_joints, accelerations);
         let given = typed.given();
-        let found = self.loads(&joints, given, around, hub, &of_joints, along, totals);
+        let found = self.loads(&joints, given, environment, hub, &of_joints, along, totals);
         DeviceLoads {
             mount: found.mount,
             joints: AnyPerJoint(found.joints.values().collect()),

@@ -1,7 +1,8 @@
-//! Sets of devices: one device, arrays, tuples, options, vectors, and devices whose kind is known only at
-//! run time.
+//! Sets of devices: one device, arrays, tuples, options, vectors, and devices whose kind is known
+//! only at run time.
 //!
-//! [`Devices`](devices::Devices) is what the solver calls; a set passes each call on to its members in order.
+//! [`Devices`](devices::Devices) is what the solver calls; a set passes each call on to its members
+//! in order.
 
 #[cfg(feature = "alloc")]
 pub(crate) mod any_device;

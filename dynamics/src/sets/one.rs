@@ -1,8 +1,11 @@
 //! A single device as a set.
 
-#![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
+#![expect(
+    clippy::inline_always,
+    reason = "fused numbers reach their instruction only where inlined"
+)]
 
-use crate::equations::arithmetic::{Places, Way};
+use crate::equations::arithmetic::{EliminationOutputs, Rounding};
 use crate::equations::assembly::Assembly;
 use crate::equations::device::Device;
 use crate::equations::device_loads::LoadsOf;
@@ -10,14 +13,14 @@ use crate::equations::device_loads::{DeviceLoads, JointPower};
 use crate::equations::error::SolveError;
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::Environment;
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::numbers::each::{Each, Value};
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, Value};
 use crate::numbers::real::zero;
 use crate::numbers::vec3::Vec3;
 use crate::sets::devices::{Devices, FixedSet, SetInputs};
@@ -99,16 +102,23 @@ impl<K: Kind> Devices for K {
     }
 
     #[inline(always)]
-    fn eliminate<W: Way>(
+    fn eliminate_set<W: Rounding>(
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
         given: SetInputs<'_, Self>,
-        around: &Environment<K::Scalar>,
+        environment: &Environment<K::Scalar>,
         assembly: &mut Assembly<K::Scalar>,
         scratch: &mut Option<K::Gains<K::Scalar>>,
         index: &mut usize,
     ) -> Result<(), SolveError<K::Scalar>> {
-        W::eliminate(device, joints, given, around, Places { assembly, gains: scratch }, *index)?;
+        W::eliminate_device(
+            device,
+            joints,
+            given,
+            environment,
+            EliminationOutputs { assembly, gains: scratch },
+            *index,
+        )?;
         *index = index.wrapping_add(1);
         Ok(())
     }
@@ -121,7 +131,7 @@ impl<K: Kind> Devices for K {
         out: &mut K::Accelerations<K::Scalar>,
     ) {
         if let Some(gains) = scratch {
-            *out = K::back_substitute(gains, &hub.along_b());
+            *out = K::back_substitute(gains, &hub.expressed_in_b());
         }
     }
 
@@ -147,14 +157,14 @@ impl<K: Kind> Devices for K {
         device: &Device<K>,
         joints: &K::Joints<K::Scalar>,
         given: SetInputs<'_, Self>,
-        around: &Environment<K::Scalar>,
-        hub: &HubMotion<K::Scalar>,
+        environment: &Environment<K::Scalar>,
+        hub: &HubAccelerations<K::Scalar>,
         accelerations: &K::Accelerations<K::Scalar>,
         along: &Along<K::Scalar>,
         out: &mut Self::Loads,
-        totals: &mut Totals<K::Scalar>,
+        totals: &mut LoadSums<K::Scalar>,
     ) {
-        *out = device.loads(joints, given, around, hub, accelerations, along, totals);
+        *out = device.loads(joints, given, environment, hub, accelerations, along, totals);
     }
 }
 

@@ -2,19 +2,22 @@
 //!
 //! What is absent has no joints, counts as no device and costs nothing but its place.
 
-#![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
+#![expect(
+    clippy::inline_always,
+    reason = "fused numbers reach their instruction only where inlined"
+)]
 
-use crate::equations::arithmetic::Way;
+use crate::equations::arithmetic::Rounding;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::SolveError;
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::numbers::each::{Each, JointStates, Value};
 use crate::model::kind::JointInfo;
 use crate::model::passive::Passive;
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::vec3::Vec3;
 use crate::sets::devices::{Devices, SetInputs};
 use crate::validation::parameter_error::ParameterError;
@@ -133,18 +136,18 @@ impl<D: Devices> Devices for Option<D> {
     }
 
     #[inline(always)]
-    fn eliminate<W: Way>(
+    fn eliminate_set<W: Rounding>(
         devices: &Self::Prepared,
         joints: &Self::Joints,
         given: SetInputs<'_, Self>,
-        around: &Environment<D::Scalar>,
+        environment: &Environment<D::Scalar>,
         assembly: &mut Assembly<D::Scalar>,
         scratch: &mut Self::Scratch,
         device: &mut usize,
     ) -> Result<(), SolveError<D::Scalar>> {
         let present = devices.as_ref().zip(joints.as_ref()).zip(given.present());
         if let (Some(((member, joints), given)), Some(scratch)) = (present, scratch) {
-            D::eliminate::<W>(member, joints, given, around, assembly, scratch, device)?;
+            D::eliminate_set::<W>(member, joints, given, environment, assembly, scratch, device)?;
         }
         Ok(())
     }
@@ -187,18 +190,18 @@ impl<D: Devices> Devices for Option<D> {
         devices: &Self::Prepared,
         joints: &Self::Joints,
         given: SetInputs<'_, Self>,
-        around: &Environment<D::Scalar>,
-        hub: &HubMotion<D::Scalar>,
+        environment: &Environment<D::Scalar>,
+        hub: &HubAccelerations<D::Scalar>,
         accelerations: &Self::Accelerations,
         along: &Along<D::Scalar>,
         out: &mut Self::Loads,
-        totals: &mut Totals<D::Scalar>,
+        totals: &mut LoadSums<D::Scalar>,
     ) {
         let present = devices.as_ref().zip(joints.as_ref()).zip(given.present());
         if let (Some(((member, joints), given)), Some(accelerations), Some(out)) =
             (present, accelerations, out)
         {
-            D::loads(member, joints, given, around, hub, accelerations, along, out, totals);
+            D::loads(member, joints, given, environment, hub, accelerations, along, out, totals);
         }
     }
 }

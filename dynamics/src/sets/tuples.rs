@@ -1,17 +1,17 @@
 //! Sets of different members: tuples. Each call goes on to the members, in order.
 
-use crate::equations::arithmetic::Way;
+use crate::equations::arithmetic::Rounding;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::SolveError;
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
-use crate::equations::load_sums::{Along, HubMotion, Totals};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
 use crate::generated::hub::Handed;
-use crate::numbers::each::Value;
 use crate::model::kind::JointInfo;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
+use crate::numbers::each::Value;
 use crate::numbers::vec3::Vec3;
 use crate::sets::devices::{Devices, FixedSet, SetInputs};
 use crate::validation::parameter_error::ParameterError;
@@ -101,11 +101,11 @@ macro_rules! tuples {
             }
 
             #[inline(always)]
-            fn eliminate<W: Way>(
+            fn eliminate_set<W: Rounding>(
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
                 given: SetInputs<'_, Self>,
-                around: &Environment<Self::Scalar>,
+                environment: &Environment<Self::Scalar>,
                 assembly: &mut Assembly<Self::Scalar>,
                 scratch: &mut Self::Scratch,
                 device: &mut usize,
@@ -115,8 +115,8 @@ macro_rules! tuples {
                     modes: &given.modes.0,
                     bodies: given.bodies.map(|all| &all.0),
                 };
-                A::eliminate::<W>(
-                    &devices.0, &joints.0, of, around, assembly, &mut scratch.0, device,
+                A::eliminate_set::<W>(
+                    &devices.0, &joints.0, of, environment, assembly, &mut scratch.0, device,
                 )?;
                 $(
                     let of = JointInputs {
@@ -124,11 +124,11 @@ macro_rules! tuples {
                         modes: &given.modes.$place,
                         bodies: given.bodies.map(|all| &all.$place),
                     };
-                    $rest::eliminate::<W>(
+                    $rest::eliminate_set::<W>(
                         &devices.$place,
                         &joints.$place,
                         of,
-                        around,
+                        environment,
                         assembly,
                         &mut scratch.$place,
                         device,
@@ -172,12 +172,12 @@ macro_rules! tuples {
                 devices: &Self::Prepared,
                 joints: &Self::Joints,
                 given: SetInputs<'_, Self>,
-                around: &Environment<Self::Scalar>,
-                hub: &HubMotion<Self::Scalar>,
+                environment: &Environment<Self::Scalar>,
+                hub: &HubAccelerations<Self::Scalar>,
                 accelerations: &Self::Accelerations,
                 along: &Along<Self::Scalar>,
                 out: &mut Self::Loads,
-                totals: &mut Totals<Self::Scalar>,
+                totals: &mut LoadSums<Self::Scalar>,
             ) {
                 let of = JointInputs {
                     motors: &given.motors.0,
@@ -188,7 +188,7 @@ macro_rules! tuples {
                     &devices.0,
                     &joints.0,
                     of,
-                    around,
+                    environment,
                     hub,
                     &accelerations.0,
                     along,
@@ -205,7 +205,7 @@ macro_rules! tuples {
                         &devices.$place,
                         &joints.$place,
                         of,
-                        around,
+                        environment,
                         hub,
                         &accelerations.$place,
                         along,

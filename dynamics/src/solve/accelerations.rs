@@ -3,24 +3,27 @@
 //! Devices meet only in the hub's six equations: each is eliminated into them, they are solved, and
 //! each device's own accelerations follow. The number of devices is a loop bound and nothing else.
 
-#![expect(clippy::inline_always, reason = "fused numbers reach their instruction inlined alone")]
+#![expect(
+    clippy::inline_always,
+    reason = "fused numbers reach their instruction only where inlined"
+)]
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::arithmetic::{Arithmetic, Plainly, Way};
+use crate::equations::arithmetic::{Arithmetic, Rounding, Unfused};
 use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Gravity, at_b};
 use crate::equations::joint_inputs::Environment;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::Solution;
-use crate::numbers::each::{Each, JointStates};
 use crate::model::mode::HubMode;
+use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Vec3, add, columns, components, extreme, finite, sub, vector, zeros};
 use crate::sets::devices::{Devices, SetInputs};
 use crate::solve::finite::all_finite;
 #[cfg(feature = "lanes")]
-use crate::solve::fused::Solving;
+use crate::solve::fused::FusedEvaluation;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
@@ -46,7 +49,7 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
-        if !sound(state, inputs) {
+        if !inputs_are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
         let mut found = self.no_accelerations();
@@ -56,8 +59,9 @@ impl<D: Devices> Spacecraft<D> {
         }
     }
 
-    /// [`Self::accelerations`] without the search for a culprit, in their place: to move what was just
-    /// put together takes time. So is what springs and friction demand of a step, where that is asked.
+    /// [`Self::accelerations`] without the search for a culprit, in their place: to move what was
+    /// just put together takes time. So is what springs and friction demand of a step, where that
+    /// is asked.
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -66,28 +70,34 @@ impl<D: Devices> Spacecraft<D> {
         stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Result<(), SolveError<D::Scalar>> {
         match self.arithmetic {
-            Arithmetic::Plain => self.solve_by::<_, Plainly>(state, inputs, found, stiffness),
+            Arithmetic::Unfused => self.solve_by::<_, Unfused>(state, inputs, found, stiffness),
             #[cfg(feature = "lanes")]
             Arithmetic::Fused(cpu) => {
-                cpu.dispatch(Solving { craft: self, state, inputs, found, stiffness })
+                cpu.dispatch(FusedEvaluation { craft: self, state, inputs, found, stiffness })
             }
         }
     }
 
     /// [`Self::solve`] in a way.
     #[inline(always)]
-    pub(crate) fn solve_by<A: Attitude<D::Scalar>, W: Way>(
+    pub(crate) fn solve_by<A: Attitude<D::Scalar>, W: Rounding>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
         found: &mut Accelerations<D>,
         stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let Outset { around, at_b } = outset(state, inputs)?;
+        let EvaluationStart { environment, at_b } = evaluation_start(state, inputs)?;
         let mut assembly = self.assembly(inputs);
         let mut scratch = D::scratch(&self.devices);
-        self.eliminate::<_, W>(state, inputs.of_joints(), &around, &mut assembly, &mut scratch)?;
-        let hub = self.hub_moves(inputs, &around, &mut assembly, at_b)?;
+        self.eliminate_devices::<_, W>(
+            state,
+            inputs.of_joints(),
+            &environment,
+            &mut assembly,
+            &mut scratch,
+        )?;
+        let hub = self.hub_accelerations(inputs, &environment, &mut assembly, at_b)?;
         D::back_substitute(&self.devices, &scratch, &hub, &mut found.devices);
         if let Some(stiffness) = stiffness {
             *stiffness = self.stiffness(inputs, &assembly);
@@ -102,7 +112,7 @@ impl<D: Devices> Spacecraft<D> {
         Accelerations { r_b_n_ddot: still, omega_dot: still, devices }
     }
 
-    /// The hub's system before any device is asked.
+    /// The hub's system before any device is evaluated.
     #[inline]
     pub(crate) fn assembly(&self, inputs: &Inputs<D>) -> Assembly<D::Scalar> {
         Assembly::new(&self.body, components(&inputs.force), components(&inputs.torque_b))
@@ -111,14 +121,14 @@ impl<D: Devices> Spacecraft<D> {
     /// The hub's accelerations once every device is eliminated, in the frame that falls with the
     /// field at B, where there is no uniform one.
     #[inline(always)]
-    pub(crate) fn hub_moves(
+    pub(crate) fn hub_accelerations(
         &self,
         inputs: &Inputs<D>,
-        around: &Environment<D::Scalar>,
+        environment: &Environment<D::Scalar>,
         assembly: &mut Assembly<D::Scalar>,
         at_b: Vec3<D::Scalar>,
     ) -> Result<Solution<D::Scalar>, SolveError<D::Scalar>> {
-        if let Some(central) = around.central {
+        if let Some(central) = environment.central {
             let second = self.hub.second_moment();
             let (force, moment) = central.wrench(self.hub.first_moment, &second);
             let whole = central.third_order(&assembly.second_moment.plus(second));
@@ -126,7 +136,7 @@ impl<D: Devices> Spacecraft<D> {
         }
         let hub = match &inputs.hub {
             HubMode::Free => {
-                let system = assembly.system(around.omega);
+                let system = assembly.system(environment.omega);
                 let scale = assembly.scale(&self.body);
                 system.solve(&scale).map_err(|small| small.of(None, None))?
             }
@@ -139,8 +149,9 @@ impl<D: Devices> Spacecraft<D> {
         if hub.is_finite() { Ok(hub) } else { Err(overflow()) }
     }
 
-    /// What springs and friction demand of a step, estimated once every device is eliminated. Factorises
-    /// the hub's system once more, which spares those that do not ask from keeping its pivots.
+    /// What springs and friction demand of a step, estimated once every device is eliminated.
+    /// Factorises the hub's system once more, which spares those that do not ask from keeping its
+    /// pivots.
     #[inline(never)]
     pub(crate) fn stiffness(
         &self,
@@ -158,16 +169,24 @@ impl<D: Devices> Spacecraft<D> {
 
     /// Eliminates every device, keeps what back substitution needs, adds to the hub.
     #[inline(always)]
-    pub(crate) fn eliminate<A, W: Way>(
+    pub(crate) fn eliminate_devices<A, W: Rounding>(
         &self,
         state: &State<D, A>,
         given: SetInputs<'_, D>,
-        around: &Environment<D::Scalar>,
+        environment: &Environment<D::Scalar>,
         assembly: &mut Assembly<D::Scalar>,
         scratch: &mut D::Scratch,
     ) -> Result<(), SolveError<D::Scalar>> {
         D::fits(&self.devices, &state.devices, Some(given), None)?;
-        D::eliminate::<W>(&self.devices, &state.devices, given, around, assembly, scratch, &mut 0)
+        D::eliminate_set::<W>(
+            &self.devices,
+            &state.devices,
+            given,
+            environment,
+            assembly,
+            scratch,
+            &mut 0,
+        )
     }
 
     /// The accelerations of every device's joints, checked finite.
@@ -181,8 +200,8 @@ impl<D: Devices> Spacecraft<D> {
         if found.values().all(Scalar::is_finite) { Ok(found) } else { Err(overflow()) }
     }
 
-    /// What to report for a failed evaluation: an input that is not finite explains everything else,
-    /// and a pivot that is not finite is an overflow, not a singularity.
+    /// What to report for a failed evaluation: an input that is not finite explains everything
+    /// else, and a pivot that is not finite is an overflow, not a singularity.
     #[cold]
     pub(crate) fn diagnosis<A: Attitude<D::Scalar>>(
         &self,
@@ -193,7 +212,7 @@ impl<D: Devices> Spacecraft<D> {
         if matches!(failure, SolveError::Count { .. }) {
             return failure;
         }
-        if let Err(culprit) = self.refuse(state, inputs) {
+        if let Err(culprit) = self.reject(state, inputs) {
             return culprit;
         }
         self.cause(state, inputs, failure)
@@ -230,23 +249,29 @@ impl<D: Devices> Spacecraft<D> {
         }
     }
 
-    /// The acceleration whose terms overflow: the hub's where those of the hub alone do, else that of the
-    /// first device with one that is not finite on a hub that does not accelerate, of the joint
-    /// nearest the tip, which was eliminated first.
+    /// The acceleration whose terms overflow: the hub's where those of the hub alone do, else that
+    /// of the first device with one that is not finite on a hub that does not accelerate, of the
+    /// joint nearest the tip, which was eliminated first.
     fn overflowing<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Quantity {
         let joint = || -> Result<Option<Quantity>, SolveError<D::Scalar>> {
-            let around = outset(state, inputs)?.around;
+            let environment = evaluation_start(state, inputs)?.environment;
             let (mut assembly, mut scratch) = (self.assembly(inputs), D::scratch(&self.devices));
-            let alone = assembly.system(around.omega);
+            let alone = assembly.system(environment.omega);
             if !(finite(alone.h_v) && finite(alone.h_w)) {
                 return Ok(None);
             }
             let given = inputs.of_joints();
-            self.eliminate::<_, Plainly>(state, given, &around, &mut assembly, &mut scratch)?;
+            self.eliminate_devices::<_, Unfused>(
+                state,
+                given,
+                &environment,
+                &mut assembly,
+                &mut scratch,
+            )?;
             let still = Solution { r_b_n_ddot: zeros(), omega_dot: zeros() };
             let mut found = D::no_accelerations_for(&self.devices);
             D::back_substitute(&self.devices, &scratch, &still, &mut found);
@@ -266,19 +291,19 @@ pub(crate) fn overflow<T>() -> SolveError<T> {
     SolveError::Overflow { what: Quantity::HubAcceleration }
 }
 
-/// What is known before any device is asked.
-pub(crate) struct Outset<T> {
-    pub(crate) around: Environment<T>,
+/// What is known before any device is evaluated.
+pub(crate) struct EvaluationStart<T> {
+    pub(crate) environment: Environment<T>,
     /// The field at B.
     pub(crate) at_b: Vec3<T>,
 }
 
 /// Where an evaluation sets out: what the devices feel.
 #[inline(always)]
-pub(crate) fn outset<D: Devices, A: Attitude<D::Scalar>>(
+pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>>(
     state: &State<D, A>,
     inputs: &Inputs<D>,
-) -> Result<Outset<D::Scalar>, SolveError<D::Scalar>> {
+) -> Result<EvaluationStart<D::Scalar>, SolveError<D::Scalar>> {
     check_fixed(state, inputs)?;
     let omega = components(&state.omega);
     let field = match &inputs.gravity {
@@ -287,8 +312,8 @@ pub(crate) fn outset<D: Devices, A: Attitude<D::Scalar>>(
     };
     let at_b = at_b(field.as_ref());
     let central = field.and_then(|field| field.central);
-    let around = Environment { omega, central, impulse: false };
-    Ok(Outset { around, at_b })
+    let environment = Environment { omega, central, impulse: false };
+    Ok(EvaluationStart { environment, at_b })
 }
 
 impl<D: Devices> Accelerations<D> {
@@ -326,15 +351,15 @@ pub(crate) fn check_fixed<D: Devices, A>(
     if value == zero() { Ok(()) } else { Err(SolveError::FixedHubMoves { value }) }
 }
 
-/// Whether the rates are finite: on a free hub they show in its accelerations, on a held one they may
-/// show nowhere.
+/// Whether the rates are finite: on a free hub they show in its accelerations, on a held one they
+/// may show nowhere.
 fn rates_are_finite<D: Devices, A>(state: &State<D, A>) -> bool {
     finite(components(&state.omega)) && state.devices.states().all(|[_, rate]| rate.is_finite())
 }
 
-/// Whether what the accelerations may not depend on is finite: the position, forces and rates on a hub
-/// that is held, motors of joints that are. All else shows in the result.
-pub(crate) fn sound<D: Devices, A: Attitude<D::Scalar>>(
+/// Whether what the accelerations may not depend on is finite: the position, forces and rates on a
+/// hub that is held, motors of joints that are. All else shows in the result.
+pub(crate) fn inputs_are_finite<D: Devices, A: Attitude<D::Scalar>>(
     state: &State<D, A>,
     inputs: &Inputs<D>,
 ) -> bool {

@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::Gravity;
-use crate::numbers::each::{Each, JointStates};
 use crate::model::mode::{HubMode, Mode};
+use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{add, components, finite, scale, zeros};
 use crate::sets::devices::Devices;
@@ -16,8 +16,8 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
-/// Whether all vectors are finite, by one comparison: a number times zero is zero unless it is infinite
-/// or NaN.
+/// Whether all vectors are finite, by one comparison: a number times zero is zero unless it is
+/// infinite or NaN.
 #[inline]
 pub(crate) fn all_finite<T: Scalar, const N: usize>(vectors: [&Vector3<T>; N]) -> bool {
     let mut vanishing = zeros();
@@ -29,7 +29,7 @@ pub(crate) fn all_finite<T: Scalar, const N: usize>(vectors: [&Vector3<T>; N]) -
 }
 
 /// Rejects a value that is not finite.
-pub(crate) fn refuse<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), SolveError<T>> {
+pub(crate) fn reject<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), SolveError<T>> {
     match culprit {
         Some((what, value)) => Err(SolveError::NotFinite { what, value }),
         None => Ok(()),
@@ -38,17 +38,17 @@ pub(crate) fn refuse<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), So
 
 impl<D: Devices> Spacecraft<D> {
     /// Refuses the first input that is not finite.
-    pub(crate) fn refuse<A: Attitude<D::Scalar>>(
+    pub(crate) fn reject<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
         D::fits(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
-        refuse(self.culprit_in_state(state).or_else(|| self.culprit_in_inputs(inputs)))
+        reject(self.not_finite_in_state(state).or_else(|| self.not_finite_in_inputs(inputs)))
     }
 
     /// Refuses accelerations that are not finite, or of another number of devices.
-    pub(crate) fn refuse_accelerations<A>(
+    pub(crate) fn reject_accelerations<A>(
         &self,
         state: &State<D, A>,
         accelerations: &Accelerations<D>,
@@ -61,9 +61,9 @@ impl<D: Devices> Spacecraft<D> {
                 (Quantity::JointAcceleration { device, joint: info.body }, value)
             })
         };
-        let hub = culprit_in_vector(Quantity::HubAcceleration, r_b_n_ddot)
-            .or_else(|| culprit_in_vector(Quantity::HubAcceleration, omega_dot));
-        refuse(hub.or_else(joint))
+        let hub = not_finite_in_vector(Quantity::HubAcceleration, r_b_n_ddot)
+            .or_else(|| not_finite_in_vector(Quantity::HubAcceleration, omega_dot));
+        reject(hub.or_else(joint))
     }
 
     /// Rejects a state that a step or a stop leads to unless it is finite.
@@ -76,20 +76,20 @@ impl<D: Devices> Spacecraft<D> {
         let finite = vectors.into_iter().all(|v| finite(components(v)))
             && state.attitude.is_valid()
             && state.devices.states().all(|[x, rate]| x.is_finite() && rate.is_finite());
-        if finite { Ok(()) } else { self.refuse_reached(state) }
+        if finite { Ok(()) } else { self.reject_reached(state) }
     }
 
     #[cold]
-    fn refuse_reached<A: Attitude<D::Scalar>>(
+    fn reject_reached<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let culprit = self.culprit_in_state(state);
+        let culprit = self.not_finite_in_state(state);
         culprit.map_or(Ok(()), |(what, _)| Err(SolveError::Overflow { what }))
     }
 
     /// The first part of a state that is not finite, and the value that spoils it.
-    pub(crate) fn culprit_in_state<A: Attitude<D::Scalar>>(
+    pub(crate) fn not_finite_in_state<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
     ) -> Option<(Quantity, D::Scalar)> {
@@ -105,32 +105,32 @@ impl<D: Devices> Spacecraft<D> {
             });
             fields.find(|(_, value)| !value.is_finite())
         };
-        culprit_in_vector(Quantity::Position, &state.r_b_n)
-            .or_else(|| culprit_in_vector(Quantity::Velocity, &state.r_b_n_dot))
+        not_finite_in_vector(Quantity::Position, &state.r_b_n)
+            .or_else(|| not_finite_in_vector(Quantity::Velocity, &state.r_b_n_dot))
             .or_else(attitude)
-            .or_else(|| culprit_in_vector(Quantity::BodyRate, &state.omega))
+            .or_else(|| not_finite_in_vector(Quantity::BodyRate, &state.omega))
             .or_else(joint)
     }
 
     /// The first input that is not finite, and its value.
-    pub(crate) fn culprit_in_inputs(&self, inputs: &Inputs<D>) -> Option<(Quantity, D::Scalar)> {
+    pub(crate) fn not_finite_in_inputs(&self, inputs: &Inputs<D>) -> Option<(Quantity, D::Scalar)> {
         let Inputs { force, torque_b, motors, modes, hub, gravity, bodies } = inputs;
         let hub = || match hub {
             HubMode::Free | HubMode::Fixed => None,
             HubMode::Prescribed { r_b_n_ddot, omega_dot } => {
-                culprit_in_vector(Quantity::HubAcceleration, r_b_n_ddot)
-                    .or_else(|| culprit_in_vector(Quantity::HubAcceleration, omega_dot))
+                not_finite_in_vector(Quantity::HubAcceleration, r_b_n_ddot)
+                    .or_else(|| not_finite_in_vector(Quantity::HubAcceleration, omega_dot))
             }
         };
         let gravity = || match gravity {
             Gravity::None => None,
-            Gravity::Uniform(g) => culprit_in_vector(Quantity::Gravity, g),
+            Gravity::Uniform(g) => not_finite_in_vector(Quantity::Gravity, g),
             Gravity::Central { mu } => {
                 Some((Quantity::Gravity, *mu)).filter(|(_, mu)| !mu.is_finite())
             }
         };
-        culprit_in_vector(Quantity::Force, force)
-            .or_else(|| culprit_in_vector(Quantity::TorqueB, torque_b))
+        not_finite_in_vector(Quantity::Force, force)
+            .or_else(|| not_finite_in_vector(Quantity::TorqueB, torque_b))
             .or_else(|| {
                 let mut joints = motors.values().zip(modes.values()).zip(self.joints());
                 joints.find_map(|((torque, mode), (device, info))| {
@@ -152,15 +152,15 @@ impl<D: Devices> Spacecraft<D> {
                 let mut wrenches = wrenches.zip(self.joints());
                 wrenches.find_map(|(wrench, (device, info))| {
                     let what = Quantity::Wrench { device, body: info.body };
-                    culprit_in_vector(what, &wrench.force)
-                        .or_else(|| culprit_in_vector(what, &wrench.moment))
+                    not_finite_in_vector(what, &wrench.force)
+                        .or_else(|| not_finite_in_vector(what, &wrench.moment))
                 })
             })
     }
 }
 
 /// The vector's name and its first component that is not finite.
-pub(crate) fn culprit_in_vector<T: Scalar>(
+pub(crate) fn not_finite_in_vector<T: Scalar>(
     what: Quantity,
     v: &Vector3<T>,
 ) -> Option<(Quantity, T)> {
@@ -186,7 +186,7 @@ mod tests {
     fn culprit(change: impl Fn(&mut State<Two>)) -> Option<Quantity> {
         let mut state = State::at_rest();
         change(&mut state);
-        spacecraft().culprit_in_state(&state).map(|(what, _)| what)
+        spacecraft().not_finite_in_state(&state).map(|(what, _)| what)
     }
 
     #[test]
@@ -215,7 +215,7 @@ mod tests {
         let culprit = |change: fn(&mut Inputs<Two>)| {
             let mut inputs = Inputs::none();
             change(&mut inputs);
-            spacecraft().culprit_in_inputs(&inputs).map(|(what, _)| what)
+            spacecraft().not_finite_in_inputs(&inputs).map(|(what, _)| what)
         };
         let motor = |joint| Some(Quantity::Motor { device: 0, joint });
         assert_eq!(culprit(|_| ()), None);
@@ -250,17 +250,17 @@ mod tests {
         let mut state = State::<Two>::at_rest();
         state.devices[0].spin = up;
         let spin = Quantity::Joint { device: 0, field: "spin" };
-        assert_eq!(spacecraft.culprit_in_state(&state), Some((spin, up)));
+        assert_eq!(spacecraft.not_finite_in_state(&state), Some((spin, up)));
         state.omega = Vector3::new(1.0, down, up);
-        assert_eq!(spacecraft.culprit_in_state(&state), Some((Quantity::BodyRate, down)));
+        assert_eq!(spacecraft.not_finite_in_state(&state), Some((Quantity::BodyRate, down)));
         state.attitude = Quaternion { q2: down, ..Quaternion::identity() };
-        assert_eq!(spacecraft.culprit_in_state(&state), Some((Quantity::Attitude, down)));
+        assert_eq!(spacecraft.not_finite_in_state(&state), Some((Quantity::Attitude, down)));
 
         let mut inputs = Inputs::<Two>::none();
         inputs.motors[0].u_w = down;
         let motor = Quantity::Motor { device: 0, joint: "wheel" };
-        assert_eq!(spacecraft.culprit_in_inputs(&inputs), Some((motor, down)));
+        assert_eq!(spacecraft.not_finite_in_inputs(&inputs), Some((motor, down)));
         inputs.torque_b.z = up;
-        assert_eq!(spacecraft.culprit_in_inputs(&inputs), Some((Quantity::TorqueB, up)));
+        assert_eq!(spacecraft.not_finite_in_inputs(&inputs), Some((Quantity::TorqueB, up)));
     }
 }

@@ -10,7 +10,7 @@ use crate::numbers::vec3::{add, components, cross, vector, zeros};
 use crate::sets::devices::{Devices, FixedSet, SetInputs};
 use crate::solve::spacecraft::Spacecraft;
 
-/// Forces, torques and modes. Constant during a step, along the axes told at each.
+/// Forces, torques and modes. Constant during a step, expressed in the axes that each field names.
 ///
 /// `Inputs { motors, ..Inputs::none() }` is a free hub with every joint driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,13 +27,13 @@ pub struct Inputs<D: Devices> {
     pub hub: HubMode<D::Scalar>,
     /// Gravity on every body.
     pub gravity: Gravity<D::Scalar>,
-    /// External wrench on the body behind each joint, about the joint's origin along the body's own
-    /// axes; none where no device has one.
+    /// External wrench on the child body of each joint, about the joint's origin along the body's
+    /// own axes; none where no device has one.
     ///
     /// During a step such a wrench turns with its body: for one that keeps its direction in N or in
     /// B, steps must resolve the turning. A rotor that is the same from every angle (a balanced
-    /// kind's) has the axes of what carries it, so the same numbers mean another force there than on
-    /// an imbalanced rotor.
+    /// kind's) has the axes of its parent body, so the same numbers mean another force there than
+    /// on an imbalanced rotor.
     pub bodies: Option<D::PerJoint<Wrench<D::Scalar>>>,
 }
 
@@ -67,7 +67,7 @@ impl<D: FixedSet> Inputs<D> {
 }
 
 impl<D: Devices> Inputs<D> {
-    /// As [`Inputs::none`], for a set whose devices are known at run time alone.
+    /// As [`Inputs::none`], for a set whose devices are known only at run time.
     #[must_use]
     pub fn none_for(spacecraft: &Spacecraft<D>) -> Self {
         Self {
@@ -81,13 +81,13 @@ impl<D: Devices> Inputs<D> {
         }
     }
 
-    /// As [`Inputs::no_wrenches`], for a set whose devices are known at run time alone.
+    /// As [`Inputs::no_wrenches`], for a set whose devices are known only at run time.
     #[must_use]
     pub fn no_wrenches_for(spacecraft: &Spacecraft<D>) -> D::PerJoint<Wrench<D::Scalar>> {
         D::all_for(&spacecraft.devices, Wrench::none())
     }
 
-    /// Adds a force on the hub at a point from B, both along B axes, m and N.
+    /// Adds a force on the hub at a point from B, both expressed in B, m and N.
     pub fn push(&mut self, point: &Vector3<D::Scalar>, force: &Vector3<D::Scalar>) {
         let (point, force) = (components(point), components(force));
         self.force = vector(add(components(&self.force), force));

@@ -1,7 +1,7 @@
 //! [`Spacecraft`]: a hub and its devices, checked and prepared once, and what is odd about them.
 
 use crate::equations::arithmetic::Arithmetic;
-use crate::equations::hub::PreparedHub;
+use crate::equations::hub::HubConstants;
 use crate::model::parameters::Hub;
 use crate::model::passive::Passive;
 use crate::numbers::real::{Scalar, zero};
@@ -12,9 +12,9 @@ use crate::validation::parameter_error::{ParameterError, Part, Warning};
 /// A rigid hub with devices, prepared for evaluation. Never changes; `[Dgvscmg; 0]` is a plain hub.
 #[derive(Clone, Copy, Debug)]
 pub struct Spacecraft<D: Devices> {
-    pub(crate) hub: PreparedHub<D::Scalar>,
-    /// The hub with what it has taken over of its devices.
-    pub(crate) body: PreparedHub<D::Scalar>,
+    pub(crate) hub: HubConstants<D::Scalar>,
+    /// The hub with the constant shares of its devices.
+    pub(crate) body: HubConstants<D::Scalar>,
     pub(crate) devices: D::Prepared,
     /// Whether a joint has a spring, a damper or dry friction.
     pub(crate) passive: bool,
@@ -23,27 +23,27 @@ pub struct Spacecraft<D: Devices> {
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// Checks the parameters and computes everything that depends on them alone.
+    /// Checks the parameters and computes everything that depends only on them.
     ///
     /// # Errors
     ///
     /// [`ParameterError`] names the body, the value and the bound: a number that is not finite, a
-    /// mass of hub or outermost body that is not above zero, a negative mass of a gimbal, an inertia
-    /// that is not symmetric or has a negative principal moment, a mount that is not a right-handed
-    /// rotation, a negative stiffness or friction; or it tells that the total mass or a principal
-    /// moment is not finite. Deviations up to 4096 epsilons of the largest element count as
-    /// rounding.
+    /// mass of hub or outermost body that is not above zero, a negative mass of a gimbal, an
+    /// inertia that is not symmetric or has a negative principal moment, a mount that is not a
+    /// right-handed rotation, a negative stiffness or friction; or it tells that the total mass or
+    /// a principal moment is not finite. Deviations up to 4096 epsilons of the largest element
+    /// count as rounding.
     pub fn new(hub: &Hub<D::Scalar>, devices: &D) -> Result<Self, ParameterError<D::Scalar>> {
         let hub_excess = check_hub(hub)?;
         devices.check(&mut 0)?;
         let devices = devices.prepare();
-        let hub = PreparedHub::new(hub);
+        let hub = HubConstants::new(hub);
         let body = hub.taking_over(D::handed(&devices));
         if !body.m_b.is_finite() {
             return Err(ParameterError::TotalMass { value: body.m_b });
         }
         let passive = D::passives(&devices).any(|joint| joint != Passive::none());
-        Ok(Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::Plain })
+        Ok(Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::Unfused })
     }
 
     /// The same with products and sums of the devices' equations rounded once, where the CPU does

@@ -1,7 +1,7 @@
 //! State and accelerations of a hub with its devices: plain data, SI units and radians.
 //!
-//! A joint's rates are relative to its carrier, so `spin` is the wheel's rate seen from the gimbal
-//! that carries it. `theta` is a state because an imbalanced wheel's angle matters.
+//! A joint's rates are relative to its parent body, so `spin` is the wheel's rate seen from the
+//! gimbal that carries it. `theta` is a state because an imbalanced wheel's angle matters.
 
 use nalgebra::Vector3;
 
@@ -18,7 +18,8 @@ use crate::solve::spacecraft::Spacecraft;
 pub struct State<D: Devices, A = Quaternion<<D as Devices>::Scalar>> {
     /// `r_{B/N}`, position of the hub's reference point B from the inertial origin, N axes, m.
     pub r_b_n: Vector3<D::Scalar>,
-    /// Inertial velocity of B, *N axes*, m/s. Its derivative in [`Accelerations`] is along B axes.
+    /// Inertial velocity of B, *N axes*, m/s. Its derivative in [`Accelerations`] is expressed in
+    /// B.
     pub r_b_n_dot: Vector3<D::Scalar>,
     /// Attitude of B with respect to N.
     pub attitude: A,
@@ -37,8 +38,8 @@ pub struct State<D: Devices, A = Quaternion<<D as Devices>::Scalar>> {
 /// [`Spacecraft::step`]: crate::Spacecraft::step
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accelerations<D: Devices> {
-    /// Inertial acceleration of B, *along B axes*, m/s^2: the derivative of
-    /// [`State::r_b_n_dot`], which is along N axes, is `[BN]^T` times this.
+    /// Inertial acceleration of B, *expressed in B*, m/s^2: the derivative of
+    /// [`State::r_b_n_dot`], which is expressed in N, is `[BN]^T` times this.
     pub r_b_n_ddot: Vector3<D::Scalar>,
     /// Angular acceleration of the hub, B axes, rad/s^2.
     pub omega_dot: Vector3<D::Scalar>,
@@ -47,7 +48,7 @@ pub struct Accelerations<D: Devices> {
 }
 
 impl<D: FixedSet, A: Attitude<D::Scalar>> State<D, A> {
-    /// Everything at zero: B at the inertial origin, B axes along N axes, nothing moving.
+    /// Everything at zero: B at the inertial origin, B axes expressed in N, nothing moving.
     #[must_use]
     pub fn at_rest() -> Self {
         Self::with(D::at_rest())
@@ -55,14 +56,14 @@ impl<D: FixedSet, A: Attitude<D::Scalar>> State<D, A> {
 }
 
 impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
-    /// As [`State::at_rest`], for a set whose devices are known at run time alone.
+    /// As [`State::at_rest`], for a set whose devices are known only at run time.
     #[must_use]
     pub fn at_rest_for(spacecraft: &Spacecraft<D>) -> Self {
         Self::with(D::at_rest_for(&spacecraft.devices))
     }
 
-    /// The same state with joint angles brought into `[-pi, pi]` where whole turns change nothing: the
-    /// angle of a joint with a spring stays, because its spring counts the turns.
+    /// The same state with joint angles brought into `[-pi, pi]` where whole turns change nothing:
+    /// the angle of a joint with a spring stays, because its spring counts the turns.
     ///
     /// Nothing else changes, and an angle already in that range keeps its bits. An infinite or NaN
     /// angle is left as it is, for the solver to report.

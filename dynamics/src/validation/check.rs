@@ -3,10 +3,10 @@
 
 use nalgebra::Matrix3;
 
-use crate::numbers::each::Each;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::parameters::Hub;
 use crate::model::passive::Passive;
+use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Columns, columns, components, cross, dot};

@@ -1,9 +1,9 @@
-//! Imbalance as data sheets state it, [`Imbalance`], and as the model holds it,
-//! [`WheelImbalance`]: (122) to (125) of the paper, with the phase that (124) and (125) fix at zero.
+//! Imbalance as data sheets state it, [`Imbalance`], and as the model holds it, [`WheelImbalance`]:
+//! (122) to (125) of the paper, with the phase that (124) and (125) fix at zero.
 //!
-//! The wheel turns at the rate `Omega` about `w_x`, with its centre of mass at `d w_y` from W on the
-//! axis. `J_12` and `J_13` are elements of its inertia tensor about that centre of mass. On a mount
-//! that stands still, Newton and Euler ask of the bearings, at constant rate,
+//! The wheel turns at the rate `Omega` about `w_x`, with its centre of mass at `d w_y` from W on
+//! the axis. `J_12` and `J_13` are elements of its inertia tensor about that centre of mass. On a
+//! mount that stands still, Newton and Euler ask of the bearings, at constant rate,
 //!
 //! ```text
 //! force    m_W (Omega w_x) x ((Omega w_x) x d w_y)                = -Omega² m_W d w_y

@@ -67,7 +67,7 @@ pub enum ParameterError<T = f64> {
     /// A stiffness or a friction is below zero, or Coulomb friction has no rate above zero at which
     /// it fades.
     Passive {
-        /// The body behind the joint.
+        /// The child body of the joint.
         part: Part,
         /// Which one.
         name: &'static str,
