@@ -80,6 +80,7 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     #[cold]
+    #[inline(never)]
     fn reject_reached<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
