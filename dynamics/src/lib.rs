@@ -57,106 +57,51 @@ extern crate alloc;
 #[cfg(all(feature = "lanes", not(test)))]
 extern crate std;
 
-mod accelerations;
-#[cfg(feature = "alloc")]
-mod any_device;
-mod arithmetic;
-mod assembly;
 mod attitude;
-#[cfg(test)]
-mod attitude_checks;
-mod built_in;
-mod built_in_calls;
-#[cfg(test)]
-mod built_in_checks;
-mod built_in_parameters;
-mod device;
-mod device_loads;
-mod devices;
-mod each;
-#[cfg(feature = "alloc")]
-mod erased;
-mod error;
-mod few;
-mod finite;
+mod equations;
 pub mod generated;
-mod gravity;
-mod hub;
-mod imbalance;
-#[cfg(test)]
-mod imbalance_checks;
-mod imbalance_error;
-mod inputs;
-mod kernels;
-pub mod kind;
+mod integrate;
 #[cfg(feature = "lanes")]
 pub mod lanes;
-mod ledger;
-mod loads;
-mod mode;
-mod momentum;
-mod mrp;
-mod one;
-mod optional;
-#[cfg(test)]
-mod overflow_checks;
-mod parameter_error;
-mod parameters;
-mod passive;
-mod pivot_bound;
-mod quaternion;
-mod real;
-mod rk4;
+mod model;
+mod numbers;
+mod results;
 mod sets;
-mod sincos;
-#[cfg(test)]
-mod sincos_checks;
 mod solve;
-mod spacecraft;
-#[cfg(test)]
-mod spacecraft_checks;
-mod stability;
-mod state;
-mod stop;
-mod symmetric;
-mod tuples;
-pub mod units;
 mod validation;
-#[cfg(test)]
-mod validation_checks;
-mod vec3;
-mod wrench;
 
-#[cfg(feature = "alloc")]
-pub use any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
-pub use attitude::Attitude;
-pub use built_in::{BuiltIn, BuiltInKind, BuiltInLoads};
-pub use built_in_parameters::{BuiltInParameters, Misfit};
-pub use devices::{Devices, FixedSet};
-pub use each::{Each, JointStates, Value};
-pub use error::{Quantity, SolveError};
-pub use few::{Few, MAX_JOINTS};
+pub use attitude::mrp::Mrp;
+pub use attitude::parameterisation::Attitude;
+pub use attitude::quaternion::Quaternion;
+pub use equations::device_loads::{DeviceLoads, JointPower};
+pub use equations::error::{Quantity, SolveError};
+pub use equations::gravity::Gravity;
 pub use generated::devices::*;
-pub use gravity::Gravity;
-pub use imbalance::{Imbalance, WheelImbalance};
-pub use imbalance_error::{ImbalanceError, ImbalanceQuantity};
-pub use inputs::Inputs;
-pub use kind::ImbalanceModel;
-pub use ledger::{Ledger, Power};
-pub use loads::{DeviceLoads, JointPower, LoadAxes, Loads};
-pub use mode::{HubMode, Mode};
-pub use momentum::{About, CentreOfMass, Momentum};
-pub use mrp::Mrp;
-pub use parameter_error::{Parameter, ParameterError, Part, Warning};
-pub use parameters::Hub;
-pub use passive::Passive;
-pub use quaternion::Quaternion;
-pub use real::{Angle, Real, Scalar};
-pub use rk4::Stepped;
-pub use spacecraft::Spacecraft;
-pub use state::{Accelerations, State};
-pub use stop::Stopped;
-pub use wrench::Wrench;
+pub use integrate::rk4::Stepped;
+pub use integrate::stop::Stopped;
+pub use model::few::{Few, MAX_JOINTS};
+pub use model::kind::{self, ImbalanceModel};
+pub use model::mode::{HubMode, Mode};
+pub use model::parameters::Hub;
+pub use model::passive::Passive;
+pub use model::units;
+pub use model::wrench::Wrench;
+pub use numbers::each::{Each, JointStates, Value};
+pub use numbers::real::{Angle, Real, Scalar};
+pub use results::ledger::{Ledger, Power};
+pub use results::loads::{LoadAxes, Loads};
+pub use results::momentum::{About, CentreOfMass, Momentum};
+#[cfg(feature = "alloc")]
+pub use sets::any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
+pub use sets::built_in::{BuiltIn, BuiltInKind, BuiltInLoads};
+pub use sets::built_in_parameters::{BuiltInParameters, Misfit};
+pub use sets::devices::{Devices, FixedSet};
+pub use solve::inputs::Inputs;
+pub use solve::spacecraft::Spacecraft;
+pub use solve::state::{Accelerations, State};
+pub use validation::imbalance::{Imbalance, WheelImbalance};
+pub use validation::imbalance_error::{ImbalanceError, ImbalanceQuantity};
+pub use validation::parameter_error::{Parameter, ParameterError, Part, Warning};
 
 /// Any thread may own or borrow any value of this crate: checked when the tests are compiled.
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! [`AcrossDevices`]: one state of a spacecraft with many devices of one kind, devices side by side in
-//! the lanes.
+//! [`AcrossDevices`]: one state of a spacecraft with many devices of one kind, devices side by side
+//! in the lanes.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
@@ -13,31 +13,30 @@ use super::lane::Lane;
 use super::number::{Block, Number, WIDEST};
 use super::slot::{Aligned, put_drives};
 use super::width::{lanes_for, width};
-use crate::accelerations::{Outset, outset, sound};
-use crate::assembly::along_b;
-use crate::attitude::Attitude;
-use crate::device::Device;
-use crate::devices::Given;
-use crate::each::Each;
-use crate::error::SolveError;
-use crate::gravity::Gravity;
-use crate::inputs::Inputs;
-use crate::kernels::Kernels;
-use crate::kind::Kind;
-use crate::mode::{Drive, Mode};
-use crate::parameter_error::ParameterError;
-use crate::parameters::Hub;
-use crate::passive::Passive;
-use crate::solve::Solution;
-use crate::spacecraft::Spacecraft;
-use crate::stability::Stiffness;
-use crate::state::{Accelerations, State};
-use crate::vec3::map;
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::assembly::expressed_in_b;
+use crate::equations::device::Device;
+use crate::equations::error::SolveError;
+use crate::equations::joint_inputs::JointInputs;
+use crate::equations::stiffness::Stiffness;
+use crate::equations::system::Solution;
+use crate::model::kernels::Kernels;
+use crate::model::kind::Kind;
+use crate::model::mode::{Drive, Mode};
+use crate::model::parameters::Hub;
+use crate::model::passive::Passive;
+use crate::numbers::each::Each;
+use crate::numbers::vec3::map;
+use crate::solve::accelerations::{EvaluationStart, evaluation_start, inputs_are_finite};
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
+use crate::validation::parameter_error::ParameterError;
 
 /// A hub with `N` devices of one kind, evaluated as many at a time as there are lanes.
 ///
-/// Worth it from four devices on. Lanes add up what the devices exert on the hub in another order than
-/// [`Spacecraft`] does, so the last bits differ.
+/// Worth it from four devices on. Lanes add up what the devices exert on the hub in another order
+/// than [`Spacecraft`] does, so the last bits differ.
 #[derive(Clone, Debug)]
 pub struct AcrossDevices<K: Kind<Scalar = f64>, const N: usize> {
     craft: Spacecraft<[K; N]>,
@@ -61,7 +60,7 @@ struct Group<K: Kernels> {
 }
 
 impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
-    /// Checks the parameters and computes everything that depends on them alone.
+    /// Checks the parameters and computes everything that depends only on them.
     ///
     /// # Errors
     ///
@@ -70,7 +69,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         let craft = Spacecraft::new(hub, devices)?;
         let lanes = lanes_for(N);
         let groups = craft.devices.chunks(width(lanes)).filter_map(Group::new).collect();
-        let laned = craft.devices.iter().all(Device::is_laned);
+        let laned = craft.devices.iter().all(Device::lanes_support);
         Ok(Self { craft, lanes, groups, laned })
     }
 
@@ -91,7 +90,8 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         inputs: &Inputs<[K; N]>,
     ) -> Result<Accelerations<[K; N]>, SolveError<f64>> {
         let mut found = self.craft.no_accelerations();
-        if sound(state, inputs) && self.solve(state, inputs, &mut found, None).is_some() {
+        if inputs_are_finite(state, inputs) && self.solve(state, inputs, &mut found, None).is_some()
+        {
             return Ok(found);
         }
         self.craft.accelerations(state, inputs)
@@ -124,8 +124,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         found: &mut Accelerations<[K; N]>,
         stiffness: Option<&mut Stiffness<f64>>,
     ) -> Option<()> {
-        let central = matches!(inputs.gravity, Gravity::Central { .. });
-        if !self.laned || central || inputs.bodies.is_some() {
+        if !self.laned || inputs.gravity.uniform().is_none() || inputs.bodies.is_some() {
             return None;
         }
         self.lanes.dispatch(Evaluation { across: self, state, inputs, found, stiffness })
@@ -192,9 +191,9 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
     fn evaluate<T: Number>(self, zero: T) -> Option<()> {
         let Self { across, state, inputs, found: all, stiffness: demanded } = self;
         let AcrossDevices { craft, groups, .. } = across;
-        let Outset { around, at_b } = outset(state, inputs).ok()?;
+        let EvaluationStart { environment, at_b } = evaluation_start(state, inputs).ok()?;
         let mut assembly = craft.assembly(inputs);
-        let omega = map(around.omega, |component| zero.like(component));
+        let omega = map(environment.omega, |component| zero.like(component));
         // The first without the heap: where there is one group alone, that takes time.
         let (mut gains, mut of_first) = (Vec::new(), None);
         let (mut holds, mut shares) = (zero.same(zero), None);
@@ -213,7 +212,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
                 None => drives,
             };
             let pose = K::pose(&joints);
-            let eliminated = K::eliminate(&constants, &pose, &joints, &along_b(omega), &drives);
+            let eliminated =
+                K::eliminate(&constants, &pose, &joints, &expressed_in_b(omega), &drives);
             let bound = K::zip_per_joint(&group.bound, &group.bound, |block, _| load(block));
             let regular = regular::<K, T>(zero, &eliminated, &drives, &bound);
             let within = within_reach::<K, T>(zero, &joints);
@@ -237,11 +237,11 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             }
         }
         assembly.add(&shares?.map(Number::sum));
-        let hub = craft.hub_moves(inputs, &around, &mut assembly, at_b).ok()?;
+        let hub = craft.hub_accelerations(inputs, &environment, &mut assembly, at_b).ok()?;
         let splat = |v| map(v, |component| zero.like(component));
         let of_hub =
             Solution { r_b_n_ddot: splat(hub.r_b_n_ddot), omega_dot: splat(hub.omega_dot) };
-        let of_hub = of_hub.along_b();
+        let of_hub = of_hub.expressed_in_b();
         let mut vanishing = zero;
         let mut rest = all.devices.iter_mut();
         for Aligned(gains) in of_first.iter().chain(&gains) {
@@ -271,8 +271,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
 /// The joints of a group's devices, and what is given of them.
 type Gathered<K, T> = (<K as Kernels>::Joints<T>, <K as Kernels>::PerJoint<Drive<T>>);
 
-/// Gathers the joints of a group's devices, and what is given of them; lanes without a device repeat
-/// the last.
+/// Gathers the joints of a group's devices, and what is given of them; lanes without a device
+/// repeat the last.
 #[inline(always)]
 fn gather<K: Kind<Scalar = f64>, T: Number, const N: usize>(
     craft: &Spacecraft<[K; N]>,
@@ -309,7 +309,7 @@ fn gather<K: Kind<Scalar = f64>, T: Number, const N: usize>(
     let mut drives_of = K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| Block::ZERO));
     for (lane, joints) in joints_of.into_iter().enumerate().take(T::WIDTH) {
         let (motors, modes) = (inputs.motors.get(at(lane))?, inputs.modes.get(at(lane))?);
-        let given = Given { motors, modes, bodies: None };
+        let given = JointInputs { motors, modes, bodies: None };
         let drives = craft.devices.get(at(lane))?.given_drives(joints, given)?;
         put_drives::<K>(&mut drives_of, lane, &drives);
     }

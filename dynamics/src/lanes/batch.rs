@@ -12,18 +12,16 @@ use super::motion::{Forces, Motion, at};
 use super::number::{Block, Number, WIDEST};
 use super::run::Runs;
 use super::slot::{Enter, LanedSet, Leave};
-use crate::devices::Given;
-use crate::each::Each;
-use crate::error::{Quantity, SolveError};
-use crate::gravity::Gravity;
-use crate::inputs::Inputs;
-use crate::mode::{HubMode, Mode};
-use crate::parameter_error::ParameterError;
-use crate::parameters::Hub;
-use crate::quaternion::{Quaternion, bn, norm_squared};
-use crate::spacecraft::Spacecraft;
-use crate::state::{Accelerations, State};
-use crate::vec3::{add, components, map, rotate, vector};
+use crate::attitude::quaternion::{Quaternion, bn, norm_squared};
+use crate::equations::error::{Quantity, SolveError};
+use crate::model::mode::{HubMode, Mode};
+use crate::model::parameters::Hub;
+use crate::numbers::each::Each;
+use crate::numbers::vec3::{add, components, map, rotate, vector};
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
+use crate::validation::parameter_error::ParameterError;
 
 /// What acts on the states of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -83,10 +81,10 @@ pub type BatchAccelerations<D> = Vec<Result<Accelerations<D>, SolveError<f64>>>;
 
 /// A spacecraft that is evaluated at many states at a time.
 ///
-/// A state has the result, or the error, that [`Spacecraft`] gives it by itself, to the bit: lanes that
-/// fuse are asked for by [`Self::fused`]. What lanes have not is found one state after another: a
-/// central field, wrenches on bodies, dry friction, lumped imbalance, a hub that is not free, angles
-/// beyond `2^24` rad, and whatever fails.
+/// A state has the result, or the error, that [`Spacecraft`] gives it by itself, to the bit: lanes
+/// that fuse are asked for by [`Self::fused`]. What lanes have not is found one state after
+/// another: a central field, wrenches on bodies, dry friction, lumped imbalance, a hub that is not
+/// free, angles beyond `2^24` rad, and whatever fails.
 #[derive(Clone, Debug)]
 pub struct Batch<D: LanedSet> {
     pub(super) craft: Spacecraft<D>,
@@ -94,7 +92,7 @@ pub struct Batch<D: LanedSet> {
 }
 
 impl<D: LanedSet> Batch<D> {
-    /// Checks the parameters and computes everything that depends on them alone.
+    /// Checks the parameters and computes everything that depends only on them.
     ///
     /// # Errors
     ///
@@ -103,8 +101,8 @@ impl<D: LanedSet> Batch<D> {
         Ok(Self { craft: Spacecraft::new(hub, devices)?, fused: false })
     }
 
-    /// The same with products and sums rounded once where the CPU does that: other bits, and faster on
-    /// some CPUs.
+    /// The same with products and sums rounded once where the CPU does that: other bits, and faster
+    /// on some CPUs.
     #[must_use]
     pub fn fused(self) -> Self {
         Self { fused: true, ..self }
@@ -120,8 +118,8 @@ impl<D: LanedSet> Batch<D> {
     ///
     /// # Errors
     ///
-    /// [`SolveError::Count`] where there are inputs for another number of states; a state that cannot
-    /// be evaluated has its own error in `out`.
+    /// [`SolveError::Count`] where there are inputs for another number of states; a state that
+    /// cannot be evaluated has its own error in `out`.
     pub fn accelerations<'a>(
         &self,
         states: &[State<D>],
@@ -139,8 +137,8 @@ impl<D: LanedSet> Batch<D> {
         Ok(())
     }
 
-    /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is left
-    /// as it was before the step that failed. `out` is cleared first.
+    /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is
+    /// left as it was before the step that failed. `out` is cleared first.
     ///
     /// # Errors
     ///
@@ -194,11 +192,11 @@ fn laned_state<D: LanedSet>(state: &State<D>) -> bool {
 
 /// Whether lanes have what is asked of the hub and of the world around, in numbers.
 #[inline(always)]
-fn laned_inputs<D: LanedSet>(inputs: &Inputs<D>) -> bool {
+fn lanes_support_inputs<D: LanedSet>(inputs: &Inputs<D>) -> bool {
     let [[a, b, c], [d, e, f]] = [components(&inputs.force), components(&inputs.torque_b)];
     inputs.hub == HubMode::Free
         && inputs.bodies.is_none()
-        && !matches!(inputs.gravity, Gravity::Central { .. })
+        && inputs.gravity.uniform().is_some()
         && inputs.motors.values().fold(a + b + c + d + e + f, |sum, u| sum + u).is_finite()
 }
 
@@ -285,7 +283,8 @@ impl<D: LanedSet, T: Number> Group<D, T> {
         }
     }
 
-    /// Takes states in. Lanes beyond the last of them repeat it: they cost nothing and harm nothing.
+    /// Takes states in. Lanes beyond the last of them repeat it: they cost nothing and harm
+    /// nothing.
     #[inline(always)]
     pub(super) fn gather(
         &mut self,
@@ -304,8 +303,8 @@ impl<D: LanedSet, T: Number> Group<D, T> {
             let (Some(state), Some(inputs)) = (states.get(index), all.at(index)) else { return };
             let mut laned = laned_state(state);
             if !self.given {
-                let given = Given::of(inputs);
-                laned &= laned_inputs(inputs)
+                let given = inputs.of_joints();
+                laned &= lanes_support_inputs(inputs)
                     && D::put(&craft.devices, &mut self.slots, lane, &state.devices, given);
                 self.forces.put(lane, inputs);
             }

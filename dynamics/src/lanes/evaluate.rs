@@ -1,27 +1,27 @@
 //! One evaluation in lanes: what [`Spacecraft::accelerations`] does, several states at a time.
 //!
-//! The same kernels and the same arithmetic in the same order: lanes that do not fuse have the bits of
-//! single numbers. Nothing stops where a lane fails; what holds of each lane is told at the end.
+//! The same kernels and the same arithmetic in the same order: lanes that do not fuse have the bits
+//! of single numbers. Nothing stops where a lane fails; what holds of each lane is told at the end.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::number::Number;
 use super::slot::{Aligned, LanedSet, Slot, Visit};
-use crate::assembly::{Assembly, along_b};
-use crate::device::Device;
-use crate::each::JointStates;
+use crate::equations::assembly::{Assembly, expressed_in_b};
+use crate::equations::device::Device;
+use crate::equations::stiffness::Stiffness;
+use crate::equations::system::{PIVOT_EPSILONS, Pivots, WELL_SCALED};
 use crate::generated::hub::BodyAcceleration;
-use crate::kernels::Kernels;
-use crate::kind::Kind;
-use crate::mode::Drive;
-use crate::passive::Passive;
-use crate::sincos::LARGEST_ANGLE;
-use crate::solve::{PIVOT_EPSILONS, Pivots, WELL_SCALED};
-use crate::spacecraft::Spacecraft;
-use crate::stability::Stiffness;
-use crate::vec3::{Vec3, add};
+use crate::model::kernels::Kernels;
+use crate::model::kind::Kind;
+use crate::model::mode::Drive;
+use crate::model::passive::Passive;
+use crate::numbers::each::JointStates;
+use crate::numbers::sincos::LARGEST_ANGLE;
+use crate::numbers::vec3::{Vec3, add};
+use crate::solve::spacecraft::Spacecraft;
 
-/// What acts on the hub, along B axes.
+/// What acts on the hub, expressed in B.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Acting<T> {
     pub(crate) omega: Vec3<T>,
@@ -76,7 +76,7 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
     let [x, y, z] = solution.r_b_n_ddot;
     let [p, q, r] = solution.omega_dot;
     let vanishing = (x + y + z + p + q + r) * zero;
-    let mut back = BackSubstitution { hub: solution.along_b(), zero, vanishing };
+    let mut back = BackSubstitution { hub: solution.expressed_in_b(), zero, vanishing };
     D::each(&craft.devices, slots, &mut back);
     let r_b_n_ddot = add(solution.r_b_n_ddot, acting.at_b);
     let [x, y, z] = r_b_n_ddot;
@@ -119,7 +119,7 @@ impl<T: Number> Visit<T> for Elimination<T> {
             Some(passive) => with_passive::<K, T>(&slot.joints, &slot.drives, passive),
             None => slot.drives,
         };
-        let omega = along_b(self.omega);
+        let omega = expressed_in_b(self.omega);
         let eliminated = K::eliminate(&constants, &pose, &slot.joints, &omega, &drives);
         let bound = K::zip_per_joint(&device.bound, &device.bound, |bound, _| like.like(bound));
         let regular = regular::<K, T>(like, &eliminated, &drives, &bound);

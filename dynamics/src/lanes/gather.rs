@@ -1,12 +1,12 @@
 //! Numbers of several joints or devices, side by side in lanes.
 //!
-//! A register is put together from registers. Written to memory one by one and read back at once, its
-//! numbers would have to wait for each other.
+//! A register is put together from registers. Written to memory one by one and read back at once,
+//! its numbers would have to wait for each other.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::number::{Block, Number, WIDEST};
-use crate::kernels::Kernels;
+use crate::model::kernels::Kernels;
 
 /// Numbers for the lower or the upper half of the widest lanes.
 type Half = [f64; WIDEST / 2];

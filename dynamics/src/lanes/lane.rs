@@ -10,11 +10,11 @@ use core::ops::{Add, Mul, Neg, Sub};
 use pulp::{Simd, bytemuck};
 
 use super::number::{Block, Number, WIDEST};
-use crate::real::{Angle, Real};
-use crate::sincos::{QuarterTurns, sin_cos};
+use crate::numbers::real::{Angle, Real};
+use crate::numbers::sincos::{QuarterTurns, sin_cos};
 
-/// Lanes of `f64`. Where they are fused, a product and a sum are rounded once; where not, a lane has
-/// the bits that a single `f64` has.
+/// Lanes of `f64`. Where they are fused, a product and a sum are rounded once; where not, a lane
+/// has the bits that a single `f64` has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lane<S: Simd, const FUSED: bool> {
     simd: S,

@@ -5,11 +5,10 @@
 use super::gather::{joined, wide};
 use super::number::{Block, Number, WIDEST};
 use super::slot::LanedSet;
-use crate::gravity::Gravity;
-use crate::inputs::Inputs;
-use crate::quaternion::Quaternion;
-use crate::state::State;
-use crate::vec3::{Vec3, components, vector};
+use crate::attitude::quaternion::Quaternion;
+use crate::numbers::vec3::{Vec3, components, vector};
+use crate::solve::inputs::Inputs;
+use crate::solve::state::State;
 
 /// The hub's part of a state, or of its slope.
 #[derive(Clone, Copy, Debug)]
@@ -80,8 +79,8 @@ impl<T: Copy> Forces<T> {
     }
 }
 
-/// Puts numbers into one lane of blocks, in place: a block that is moved while its lanes are written
-/// one by one costs more than an evaluation.
+/// Puts numbers into one lane of blocks, in place: a block that is moved while its lanes are
+/// written one by one costs more than an evaluation.
 fn put<const N: usize>(blocks: &mut [Block; N], lane: usize, numbers: [f64; N]) {
     for (block, number) in blocks.iter_mut().zip(numbers) {
         block.put(lane, number);
@@ -143,10 +142,6 @@ impl Forces<Block> {
     pub(super) fn put<D: LanedSet>(&mut self, lane: usize, inputs: &Inputs<D>) {
         put(&mut self.force, lane, components(&inputs.force));
         put(&mut self.torque_b, lane, components(&inputs.torque_b));
-        let field = match &inputs.gravity {
-            Gravity::Uniform(field) => components(field),
-            _ => [0.0; 3],
-        };
-        put(&mut self.field, lane, field);
+        put(&mut self.field, lane, inputs.gravity.uniform().unwrap_or([0.0; 3]));
     }
 }

@@ -1,9 +1,9 @@
-//! [`Number`]: what an evaluation in lanes asks of its lanes beyond the kernels, and [`Block`], what
-//! lanes are gathered in.
+//! [`Number`]: what an evaluation in lanes asks of its lanes beyond the kernels, and [`Block`],
+//! what lanes are gathered in.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use crate::real::Angle;
+use crate::numbers::real::Angle;
 
 /// The widest lanes there are.
 pub(crate) const WIDEST: usize = 8;

@@ -1,5 +1,5 @@
-//! Whole runs of a batch: the steps of [`Spacecraft::step`](crate::Spacecraft::step), quaternions and
-//! joints in lanes from the first step to the last.
+//! Whole runs of a batch: the steps of [`Spacecraft::step`](crate::Spacecraft::step), quaternions
+//! and joints in lanes from the first step to the last.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
@@ -13,14 +13,14 @@ use super::lane::Lane;
 use super::motion::Motion;
 use super::number::{Number, WIDEST};
 use super::slot::{LanedSet, Slot, Visit};
-use crate::device::Device;
-use crate::error::SolveError;
-use crate::kind::Kind;
-use crate::quaternion::{bn, norm_squared, rate};
-use crate::spacecraft::Spacecraft;
-use crate::stability::ACCEPTED;
-use crate::state::State;
-use crate::vec3::rotate_transposed;
+use crate::attitude::quaternion::{bn, norm_squared, rate};
+use crate::equations::device::Device;
+use crate::equations::error::SolveError;
+use crate::equations::stiffness::ACCEPTED;
+use crate::model::kind::Kind;
+use crate::numbers::vec3::rotate_transposed;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
 
 /// The runs of a batch.
 pub(super) struct Runs<'a, 's, 'o, D: LanedSet> {

@@ -6,9 +6,10 @@ use std::vec::Vec;
 
 use super::number::{Number, WIDEST};
 use super::slot::{LanedSet, Visit};
-use crate::devices::Given;
-use crate::each::Value;
-use crate::real::Real;
+use crate::equations::joint_inputs::JointInputs;
+use crate::numbers::each::Value;
+use crate::numbers::real::Real;
+use crate::sets::devices::SetInputs;
 
 impl<D: LanedSet, const N: usize> LanedSet for [D; N] {
     type Slots<T: Value> = Vec<D::Slots<T>>;
@@ -52,12 +53,12 @@ impl<D: LanedSet, const N: usize> LanedSet for [D; N] {
         slots: &mut Self::Slots<T>,
         lane: usize,
         joints: &[D::Joints; N],
-        given: Given<'_, Self>,
+        given: SetInputs<'_, Self>,
     ) -> bool {
         let given = given.motors.iter().zip(given.modes);
         devices.iter().zip(slots).zip(joints.iter().zip(given)).all(
             |((device, slot), (joints, (motors, modes)))| {
-                D::put(device, slot, lane, joints, Given { motors, modes, bodies: None })
+                D::put(device, slot, lane, joints, JointInputs { motors, modes, bodies: None })
             },
         )
     }
@@ -126,9 +127,9 @@ macro_rules! tuples {
                 slots: &mut Self::Slots<T>,
                 lane: usize,
                 joints: &Self::Joints,
-                given: Given<'_, Self>,
+                given: SetInputs<'_, Self>,
             ) -> bool {
-                A::put(&devices.0, &mut slots.0, lane, &joints.0, Given {
+                A::put(&devices.0, &mut slots.0, lane, &joints.0, JointInputs {
                     motors: &given.motors.0,
                     modes: &given.modes.0,
                     bodies: None,
@@ -138,7 +139,7 @@ macro_rules! tuples {
                     &mut slots.$place,
                     lane,
                     &joints.$place,
-                    Given {
+                    JointInputs {
                         motors: &given.motors.$place,
                         modes: &given.modes.$place,
                         bodies: None,

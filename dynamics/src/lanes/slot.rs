@@ -4,13 +4,13 @@
 
 use super::gather::joints_in_lanes;
 use super::number::{Block, Number, WIDEST};
-use crate::device::Device;
-use crate::devices::{Devices, Given};
-use crate::each::{Each, JointStates, Value};
-use crate::kernels::Kernels;
-use crate::kind::Kind;
-use crate::mode::Drive;
-use crate::real::Real;
+use crate::equations::device::Device;
+use crate::model::kernels::Kernels;
+use crate::model::kind::Kind;
+use crate::model::mode::Drive;
+use crate::numbers::each::{Each, JointStates, Value};
+use crate::numbers::real::Real;
+use crate::sets::devices::{Devices, SetInputs};
 
 /// One device in lanes: what it is given, and what an evaluation and a step make of it.
 #[derive(Clone, Debug)]
@@ -66,14 +66,14 @@ pub trait LanedSet: Devices<Scalar = f64> {
         like: T,
         joints: [&Self::Joints; WIDEST],
     );
-    /// Puts what is given of the joints into one lane. False where a device or its modes ask for what
-    /// lanes have not, or for what an evaluation refuses.
+    /// Puts what is given of the joints into one lane. False where a device or its modes ask for
+    /// what lanes have not, or for what an evaluation refuses.
     fn put<T: Value>(
         devices: &Self::Prepared,
         slots: &mut Self::Slots<T>,
         lane: usize,
         joints: &Self::Joints,
-        given: Given<'_, Self>,
+        given: SetInputs<'_, Self>,
     ) -> bool;
     /// Takes the joints of one lane out.
     fn take_joints<T: Value>(slots: &mut Self::Slots<T>, lane: usize, joints: &mut Self::Joints);
@@ -127,7 +127,7 @@ impl<K: Kind<Scalar = f64>> LanedSet for K {
         slot: &mut Slot<K, T>,
         lane: usize,
         joints: &K::Joints<f64>,
-        given: Given<'_, Self>,
+        given: SetInputs<'_, Self>,
     ) -> bool {
         let Some(drives) = device.given_drives(joints, given) else { return false };
         put_drives::<K>(&mut slot.given, lane, &drives);
@@ -151,8 +151,8 @@ impl<K: Kind<Scalar = f64>> LanedSet for K {
     }
 }
 
-/// Puts torques and modes into one lane, in place: a block that is moved while its lanes are written
-/// one by one costs more than an evaluation.
+/// Puts torques and modes into one lane, in place: a block that is moved while its lanes are
+/// written one by one costs more than an evaluation.
 #[inline(always)]
 pub(super) fn put_drives<K: Kernels>(
     blocks: &mut K::PerJoint<Drive<Block>>,

@@ -1,0 +1,133 @@
+//! [`Assembly`]: the hub's six equations, added up device by device, expressed in B.
+//!
+//! What does not notice that the joints move belongs to the hub from the start, so that what the
+//! hub's own motion asks for is computed once, of one rigid body; a device adds the part of its
+//! first moment and inertia that moves, and what its joints take out of the equations. Over any
+//! number: lanes do the same.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use crate::equations::hub::HubConstants;
+use crate::equations::stiffness::Stiffness;
+use crate::equations::system::{Scale, Solution, System};
+use crate::generated::hub::{BodyAcceleration, BodyRate, Handed, HubShare};
+use crate::numbers::real::Real;
+use crate::numbers::symmetric::Symmetric;
+use crate::numbers::vec3::{Vec3, add};
+
+/// The hub's equations so far.
+#[derive(Clone, Copy, Debug)]
+pub struct Assembly<T> {
+    /// Hub and devices as one rigid body.
+    body: HubConstants<T>,
+    /// What acts from outside: force, and moment about B.
+    force: Vec3<T>,
+    moment: Vec3<T>,
+    /// What the joints take out of the equations.
+    taken: System<T>,
+    /// Of springs and friction.
+    pub(crate) stiffness: Stiffness<T>,
+    /// Second moment about B of what was added, kg m²; only with a central field.
+    pub(crate) second_moment: Symmetric<T>,
+}
+
+impl<T: Real> Assembly<T> {
+    /// The hub, with the constant shares, and what acts on it.
+    #[inline(always)]
+    pub(crate) fn new(body: &HubConstants<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
+        let zero = body.m_b.like(0.0);
+        let second_moment = Symmetric::filled(zero);
+        let (taken, stiffness) = (System::filled(zero), Stiffness::none(zero));
+        Self { body: *body, force, moment, taken, stiffness, second_moment }
+    }
+
+    /// Adds a force and a moment about B from outside.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, force: Vec3<T>, moment: Vec3<T>) {
+        self.force = add(self.force, force);
+        self.moment = add(self.moment, moment);
+    }
+
+    /// Adds a device whose joints are eliminated, or several together.
+    #[inline(always)]
+    #[rustfmt::skip]
+    pub(crate) fn add(&mut self, e: &HubShare<T>) {
+        let (body, taken) = (&mut self.body, &mut self.taken);
+        body.first_moment =
+            add(body.first_moment, [e.mr_moving_bx, e.mr_moving_by, e.mr_moving_bz]);
+        body.i_b_b = body.i_b_b.plus(Symmetric {
+            xx: e.i_moving_11, xy: e.i_moving_12, xz: e.i_moving_13,
+            yy: e.i_moving_22, yz: e.i_moving_23, zz: e.i_moving_33,
+        });
+        taken.m_vv = taken.m_vv.plus(Symmetric {
+            xx: e.m_vv_11, xy: e.m_vv_12, xz: e.m_vv_13,
+            yy: e.m_vv_22, yz: e.m_vv_23, zz: e.m_vv_33,
+        });
+        let [x, y, z] = taken.m_vw;
+        taken.m_vw = [
+            add(x, [e.m_vw_11, e.m_vw_21, e.m_vw_31]),
+            add(y, [e.m_vw_12, e.m_vw_22, e.m_vw_32]),
+            add(z, [e.m_vw_13, e.m_vw_23, e.m_vw_33]),
+        ];
+        taken.m_ww = taken.m_ww.plus(Symmetric {
+            xx: e.m_ww_11, xy: e.m_ww_12, xz: e.m_ww_13,
+            yy: e.m_ww_22, yz: e.m_ww_23, zz: e.m_ww_33,
+        });
+        taken.h_v = add(taken.h_v, [e.h_v_1, e.h_v_2, e.h_v_3]);
+        taken.h_w = add(taken.h_w, [e.h_w_1, e.h_w_2, e.h_w_3]);
+    }
+
+    /// The hub's system, joints eliminated, where the hub turns at `omega`.
+    #[inline(always)]
+    pub(crate) fn system(&self, omega: Vec3<T>) -> System<T> {
+        self.body.system(omega, self.force, self.moment).less(&self.taken)
+    }
+
+    /// Mass and moments of inertia of the spacecraft with every joint locked. The moving share of
+    /// inertia may cancel nearly all of the constant one, whose rounding stays: both count.
+    #[inline(always)]
+    pub(crate) fn scale(&self, body: &HubConstants<T>) -> Scale<T> {
+        (self.body.m_b, add(body.i_b_b.diagonal(), self.body.i_b_b.diagonal()))
+    }
+}
+
+impl<T: Real> HubConstants<T> {
+    /// The hub with what it takes over of its devices.
+    pub(crate) fn taking_over(self, devices: impl Iterator<Item = Handed<T>>) -> Self {
+        devices.fold(self, |hub, e| Self {
+            m_b: hub.m_b + e.hand_m,
+            first_moment: add(hub.first_moment, [e.hand_mr_bx, e.hand_mr_by, e.hand_mr_bz]),
+            i_b_b: hub.i_b_b.plus(Symmetric {
+                xx: e.hand_i_11,
+                xy: e.hand_i_12,
+                xz: e.hand_i_13,
+                yy: e.hand_i_22,
+                yz: e.hand_i_23,
+                zz: e.hand_i_33,
+            }),
+        })
+    }
+}
+
+impl<T: Copy> Solution<T> {
+    /// The hub's accelerations as the kernels take them.
+    #[inline(always)]
+    pub(crate) fn expressed_in_b(&self) -> BodyAcceleration<T> {
+        let [r_b_n_ddot_bx, r_b_n_ddot_by, r_b_n_ddot_bz] = self.r_b_n_ddot;
+        let [omega_dot_bx, omega_dot_by, omega_dot_bz] = self.omega_dot;
+        BodyAcceleration {
+            r_b_n_ddot_bx,
+            r_b_n_ddot_by,
+            r_b_n_ddot_bz,
+            omega_dot_bx,
+            omega_dot_by,
+            omega_dot_bz,
+        }
+    }
+}
+
+/// The hub's angular velocity as the kernels take it.
+#[inline(always)]
+pub(crate) fn expressed_in_b<T>([omega_bx, omega_by, omega_bz]: Vec3<T>) -> BodyRate<T> {
+    BodyRate { omega_bx, omega_by, omega_bz }
+}

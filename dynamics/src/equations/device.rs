@@ -1,0 +1,407 @@
+//! [`Device`]: the precomputed constants of one device, and what an evaluation asks of it.
+//!
+//! The equations of motion know the mount and stand expressed in B. All other kernels know one
+//! frame, the axes of the device's first joint at zero: what comes from the hub is rotated into it
+//! by `mount^T`, results out of it by `mount`.
+
+#![expect(
+    clippy::inline_always,
+    reason = "fused numbers reach their instruction only where inlined"
+)]
+
+use crate::equations::arithmetic::{EliminationInputs, EliminationOutputs, Pivots};
+use crate::equations::assembly::{Assembly, expressed_in_b};
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::gravity::Central;
+use crate::equations::hub::BodySums;
+use crate::equations::joint_inputs::{DeviceInputs, Environment};
+use crate::equations::pivot_bound::pivot_bounds;
+use crate::equations::system::check_pivot;
+use crate::generated::hub::BodyVelocity;
+use crate::model::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
+use crate::model::mode::{Drive, Mode};
+use crate::model::passive::Passive;
+use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, JointStates};
+use crate::numbers::real::{Scalar, one, zero};
+use crate::numbers::symmetric::Symmetric;
+use crate::numbers::vec3::{
+    Columns, Vec3, add, columns, components, rotate, rotate_transposed, vector,
+};
+use crate::validation::check::triangle_excess;
+
+/// Torques and weights of the joints of a kind.
+type Drives<K> = <K as Kernels>::PerJoint<Drive<<K as Kind>::Scalar>>;
+
+/// Constants of one device.
+#[derive(Clone, Copy, Debug)]
+pub struct Device<K: Kind> {
+    pub(crate) mount: Columns<K::Scalar>,
+    pub(crate) constants: K::Constants<K::Scalar>,
+    pub(crate) passive: K::PerJoint<Passive<K::Scalar>>,
+    /// What the pivot of each joint must exceed.
+    pub(crate) bound: K::PerJoint<K::Scalar>,
+    /// Whether no joint has a spring or friction.
+    pub(crate) free: bool,
+    /// What the simplified model puts in the place of the rotor's imbalance.
+    pub(crate) lumped: Option<Lumped<K::Scalar>>,
+    /// By how much each inertia breaks the triangle inequality, kg m².
+    pub(crate) excess: K::PerJoint<K::Scalar>,
+}
+
+impl<K: Kind> Device<K> {
+    /// Computes what depends only on parameters; they have been checked.
+    pub(crate) fn new(parameters: &K) -> Self {
+        let (made, lumped) = match (parameters.model(), parameters.balanced()) {
+            (ImbalanceModel::Lumped, Some((balanced, lumped))) => (balanced, Some(lumped)),
+            _ => (*parameters, None),
+        };
+        let mount = columns(made.mount());
+        let bodies = made.bodies();
+        let origin = bodies.values().next().map_or([zero(); 3], |body| body.origin);
+        let mut excess = K::all(zero());
+        for (excess, body) in excess.values_mut().zip(parameters.bodies().values()) {
+            *excess = triangle_excess(&body.inertia);
+        }
+        let (passive, bound) = (made.passive(), pivot_bounds::<K>(&bodies));
+        let free = passive.values().all(|joint| joint == Passive::none());
+        Self {
+            mount,
+            constants: made.constants(rotate_transposed(&mount, origin)),
+            passive,
+            bound,
+            free,
+            lumped,
+            excess,
+        }
+    }
+
+    /// Eliminates the joints in a way, adds what is left to the hub's system, and leaves what back
+    /// substitution needs.
+    #[inline(always)]
+    pub(crate) fn eliminate_joints(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        environment: &Environment<K::Scalar>,
+        outputs: EliminationOutputs<'_, K, K::Scalar>,
+        device: usize,
+        way: impl Fn(
+            &EliminationInputs<'_, K, K::Scalar>,
+            Option<K::Pose<K::Scalar>>,
+            EliminationOutputs<'_, K, K::Scalar>,
+        ) -> Pivots<K, K::Scalar>,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        let mut pose = None;
+        let mut drives = self.drives(joints, given, environment.impulse, device)?;
+        let EliminationOutputs { assembly, gains } = outputs;
+        if !environment.impulse {
+            let central = environment.central.as_ref();
+            if given.bodies.is_some() || central.is_some() || self.lumped.is_some() {
+                let pose = pose.get_or_insert_with(|| K::pose(joints));
+                self.push(pose, joints, given.bodies, central, &mut drives, assembly);
+            }
+        }
+        let mut joints = *joints;
+        if environment.impulse {
+            joints.states_mut().for_each(|[_, rate]| *rate = zero());
+        }
+        let (constants, omega) = (&self.constants, expressed_in_b(environment.omega));
+        let inputs =
+            EliminationInputs::<K, _> { constants, joints: &joints, omega, drives: &drives };
+        let pivots = way(&inputs, pose, EliminationOutputs { assembly: &mut *assembly, gains });
+        if !(self.free || environment.impulse) {
+            self.add_stiffness(&joints, &pivots, &drives, assembly);
+        }
+        self.check_pivots(device, &pivots, &drives)
+    }
+
+    /// Adds springs and friction to what a step has to resolve.
+    #[inline(never)]
+    fn add_stiffness(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        pivots: &Pivots<K, K::Scalar>,
+        drives: &Drives<K>,
+        assembly: &mut Assembly<K::Scalar>,
+    ) {
+        let mut coefficients = K::all([zero::<K::Scalar>(); 2]);
+        let states = joints.states().zip(self.passive.values());
+        for (place, ([_, rate], passive)) in coefficients.values_mut().zip(states) {
+            *place = [passive.damping(rate), passive.stiffness];
+        }
+        assembly.stiffness.add::<K>(&coefficients, pivots, drives);
+    }
+
+    /// Adds what acts on the bodies from outside to the joints' torques and to the hub's system.
+    #[inline(never)]
+    fn push(
+        &self,
+        pose: &K::Pose<K::Scalar>,
+        joints: &K::Joints<K::Scalar>,
+        bodies: Option<&Wrenches<K>>,
+        central: Option<&Central<K::Scalar>>,
+        drives: &mut Drives<K>,
+        assembly: &mut Assembly<K::Scalar>,
+    ) {
+        let (wrenches, second_moment) = self.acting(pose, joints, bodies, central);
+        let carried = K::external(&self.constants, pose, &wrenches);
+        for ((drive, wrench), info) in
+            drives.values_mut().zip(carried.joints.values()).zip(K::JOINTS)
+        {
+            drive.torque = drive.torque + wrench.along(info) * drive.driven;
+        }
+        let hub = carried.hub.turned(&self.mount);
+        assembly.push(components(&hub.force), components(&hub.moment));
+        let second_moment = second_moment.rotated(&self.mount);
+        assembly.second_moment = assembly.second_moment.plus(second_moment);
+    }
+
+    /// Rejects pivots that are rounding.
+    #[inline(always)]
+    fn check_pivots(
+        &self,
+        device: usize,
+        pivots: &Pivots<K, K::Scalar>,
+        drives: &Drives<K>,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        let above = K::zip_per_joint(pivots, &self.bound, |pivot, bound| {
+            pivot.is_none_or(|[pivot, _]| pivot > bound)
+        });
+        let mut all_above = true;
+        K::zip_per_joint(&above, drives, |above, drive| {
+            all_above &= above || drive.driven != one();
+        });
+        if all_above { Ok(()) } else { self.small_pivot(device, pivots, drives) }
+    }
+
+    /// The pivot rejected, in the order of the elimination: the first one is the cause, those after
+    /// it may be its consequence.
+    #[cold]
+    #[inline(never)]
+    fn small_pivot(
+        &self,
+        device: usize,
+        pivots: &Pivots<K, K::Scalar>,
+        drives: &Drives<K>,
+    ) -> Result<(), SolveError<K::Scalar>> {
+        let mut rejected = Ok(());
+        let joints = pivots.values().zip(self.bound.values());
+        for (((pivot, bound), drive), info) in joints.zip(drives.values()).zip(K::JOINTS) {
+            if let (Some([pivot, _]), true) = (pivot, drive.driven == one())
+                && let Err(small) = check_pivot(pivot, bound)
+            {
+                // From the hub to the tip: the one nearest the tip was eliminated first.
+                rejected = Err(small.of(Some(device), Some(info.body)));
+            }
+        }
+        rejected
+    }
+
+    /// Torques and modes of the joints.
+    #[inline(always)]
+    fn by_mode(
+        joints: &K::Joints<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        impulse: bool,
+        device: usize,
+    ) -> Result<Drives<K>, SolveError<K::Scalar>> {
+        let mut usual = !impulse;
+        let mut each = joints.states().zip(given.motors.values()).zip(K::JOINTS);
+        let drives = K::zip_per_joint(given.modes, given.modes, |mode, _| {
+            let Some((([coordinate, _], torque), info)) = each.next() else {
+                return Mode::Driven.drive(zero());
+            };
+            let own = info.own_mode();
+            usual &= mode == own && (!info.ignorable || coordinate.is_finite());
+            own.drive(torque)
+        });
+        if usual { Ok(drives) } else { Self::by_other_mode(joints, given, impulse, device) }
+    }
+
+    /// Torques and modes of the joints where one has a mode that is not its own.
+    #[inline(never)]
+    fn by_other_mode(
+        joints: &K::Joints<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        impulse: bool,
+        device: usize,
+    ) -> Result<Drives<K>, SolveError<K::Scalar>> {
+        let mut drives = K::all(Mode::Driven.drive(zero()));
+        let motors = given.motors.values().zip(given.modes.values());
+        let states = joints.states().zip(K::JOINTS);
+        for ((drive, (torque, mode)), ([coordinate, rate], info)) in
+            drives.values_mut().zip(motors).zip(states)
+        {
+            if info.ignorable && !coordinate.is_finite() {
+                let what = Quantity::Joint { device, field: info.coordinate };
+                return Err(SolveError::Overflow { what });
+            }
+            // Locked at rest is what the kind does anyway.
+            let still = mode == Mode::Locked && rate == zero();
+            if !(info.driven || still || mode == info.own_mode()) {
+                return Err(SolveError::NotDriven { device, joint: info.body });
+            }
+            *drive = match mode {
+                Mode::Locked if impulse => Mode::Prescribed(-rate).drive(zero()),
+                Mode::Prescribed(_) if impulse => Mode::Locked.drive(zero()),
+                Mode::Locked if rate != zero() => {
+                    return Err(SolveError::LockedJointMoves { device, joint: info.body, rate });
+                }
+                mode => mode.drive(torque),
+            };
+        }
+        Ok(drives)
+    }
+
+    /// Whether lanes have all that the device has.
+    #[cfg(feature = "lanes")]
+    #[inline]
+    pub(crate) fn lanes_support(&self) -> bool {
+        let dry = |passive: Passive<K::Scalar>| passive.coulomb != zero();
+        self.lumped.is_none() && (self.free || !self.passive.values().any(dry))
+    }
+
+    /// What is given of the joints, for lanes: without what joints do by themselves. None where the
+    /// device or its modes ask for what lanes have not, or for what is refused.
+    #[cfg(feature = "lanes")]
+    #[inline]
+    pub(crate) fn given_drives(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+    ) -> Option<Drives<K>> {
+        if !self.lanes_support() {
+            return None;
+        }
+        Self::by_mode(joints, given, false, 0).ok()
+    }
+
+    /// Torques and modes of the joints, springs and friction with the motors.
+    #[inline(always)]
+    fn drives(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        impulse: bool,
+        device: usize,
+    ) -> Result<Drives<K>, SolveError<K::Scalar>> {
+        let mut drives = Self::by_mode(joints, given, impulse, device)?;
+        if !(self.free || impulse) {
+            let states = joints.states().zip(self.passive.values());
+            for (drive, ([coordinate, rate], passive)) in drives.values_mut().zip(states) {
+                // Of no other joint: what is too large for a number would spoil what it does not
+                // move.
+                if drive.driven == one() {
+                    let own = passive.of_spring(coordinate) + passive.of_friction(rate);
+                    drive.torque = drive.torque + own;
+                }
+            }
+        }
+        Ok(drives)
+    }
+
+    /// Wrenches on the bodies from outside, the simplified model's among them, and the second
+    /// moment that the gradient of gravity asks for.
+    pub(crate) fn acting(
+        &self,
+        pose: &K::Pose<K::Scalar>,
+        joints: &K::Joints<K::Scalar>,
+        bodies: Option<&Wrenches<K>>,
+        central: Option<&Central<K::Scalar>>,
+    ) -> (Wrenches<K>, Symmetric<K::Scalar>) {
+        let mut sum = self.applied(joints, bodies);
+        let mut second_moment = Symmetric::zero();
+        if let Some(central) = central {
+            let (wrenches, second) = self.gradient(pose, central);
+            second_moment = second;
+            for (sum, wrench) in sum.values_mut().zip(wrenches.values()) {
+                *sum = sum.plus(&wrench);
+            }
+        }
+        (sum, second_moment)
+    }
+
+    /// Wrenches on the bodies from outside, the simplified model's among them.
+    pub(crate) fn applied(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        bodies: Option<&Wrenches<K>>,
+    ) -> Wrenches<K> {
+        let mut sum = bodies.copied().unwrap_or_else(|| K::all(Wrench::none()));
+        if let Some(lumped) = &self.lumped {
+            let tip = sum.values_mut().zip(joints.states()).last();
+            if let Some((wrench, [_, spin])) = tip {
+                *wrench = wrench.plus(&lumped.at(spin));
+            }
+        }
+        sum
+    }
+
+    /// Wrenches of the gradient of gravity on the bodies, and the device's second moment about B,
+    /// along its own axes.
+    pub(crate) fn gradient(
+        &self,
+        pose: &K::Pose<K::Scalar>,
+        central: &Central<K::Scalar>,
+    ) -> (Wrenches<K>, Symmetric<K::Scalar>) {
+        let [x, y, z] = self.mount;
+        let transposed = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
+        let g = central.gradient.rotated(&transposed);
+        let entries = [g.xx, g.xy, g.xz, g.yy, g.yz, g.zz];
+        let (wrenches, [xx, xy, xz, yy, yz, zz]) = K::gravity(&self.constants, pose, entries);
+        (wrenches, Symmetric { xx, xy, xz, yy, yz, zz })
+    }
+
+    /// Adds kinetic energy and momenta for the inertial velocity of B, expressed in B.
+    pub(crate) fn add_sums(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        r_b_n_dot: Vec3<K::Scalar>,
+        omega: Vec3<K::Scalar>,
+        sums: &mut BodySums<K::Scalar>,
+    ) {
+        let [r_b_n_dot_bx, r_b_n_dot_by, r_b_n_dot_bz] = rotate_transposed(&self.mount, r_b_n_dot);
+        let [omega_bx, omega_by, omega_bz] = rotate_transposed(&self.mount, omega);
+        let hub =
+            BodyVelocity { r_b_n_dot_bx, r_b_n_dot_by, r_b_n_dot_bz, omega_bx, omega_by, omega_bz };
+        let found = K::energy_momentum(&self.constants, joints, &hub);
+        let linear = [found.linear_bx, found.linear_by, found.linear_bz];
+        let angular_b = [found.angular_b_bx, found.angular_b_by, found.angular_b_bz];
+        sums.energy = sums.energy + found.energy;
+        sums.linear = add(sums.linear, rotate(&self.mount, linear));
+        sums.angular_b = add(sums.angular_b, rotate(&self.mount, angular_b));
+    }
+
+    /// Adds the first moment about B and its derivative seen from B, expressed in B.
+    pub(crate) fn add_first_moment(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        moment: &mut [Vec3<K::Scalar>; 2],
+    ) {
+        for (sum, share) in moment.iter_mut().zip(K::first_moment(&self.constants, joints)) {
+            *sum = add(*sum, rotate(&self.mount, share));
+        }
+    }
+
+    /// `external`, in the device's axes.
+    pub(crate) fn carried(
+        &self,
+        pose: &K::Pose<K::Scalar>,
+        bodies: &Wrenches<K>,
+    ) -> Carried<Wrenches<K>, Wrench<K::Scalar>> {
+        K::external(&self.constants, pose, bodies)
+    }
+}
+
+impl<T: Scalar> Lumped<T> {
+    /// The disturbance at a wheel rate, W axes, about W: force `U_s Omega²` along `w_y`, torque
+    /// `Omega² (J_13 w_y - J_12 w_z)`.
+    fn at(&self, spin: T) -> Wrench<T> {
+        let square = spin * spin;
+        Wrench {
+            force: vector([zero(), self.u_s * square, zero()]),
+            moment: vector([zero(), self.j_13 * square, -(self.j_12 * square)]),
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! The loads of one device, and the powers at its joints.
+
+use crate::equations::assembly::expressed_in_b;
+use crate::equations::device::Device;
+use crate::equations::joint_inputs::{DeviceInputs, Environment};
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
+use crate::equations::system::Solution;
+use crate::model::kind::{Carried, Kernels, Kind, Wrenches};
+use crate::model::mode::Mode;
+use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, JointStates};
+use crate::numbers::real::{Scalar, zero};
+use crate::numbers::vec3::{Columns, rotate_transposed};
+
+/// The loads of one device; `W` has a wrench, `U` a number, `P` a [`JointPower`] per joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeviceLoads<W, U, P, T> {
+    /// What the hub exerts on the device at its mount, about the origin of its first joint where it
+    /// stands now (of a sliding joint it moves along); expressed in N if the joints' loads are,
+    /// otherwise expressed in B. About another point: [`Wrench::moved`].
+    pub mount: Wrench<T>,
+    /// What its parent body exerts on the child body of each joint, motor, spring and friction
+    /// included, about the joint's origin, expressed in the axes given.
+    pub joints: W,
+    /// The motor torque, N m (force, N, of a sliding joint), that each joint's acceleration needs:
+    /// the load about its axis less spring and friction. (80), (101), (119).
+    pub motors: U,
+    /// The power of each joint's motor, spring and friction: the ledger's sums one by one.
+    pub powers: P,
+}
+
+/// What acts at one joint, as power on the spacecraft's motion, W.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointPower<T = f64> {
+    /// Of the motor: with the torque that is given, or the one that is found.
+    pub motor: T,
+    /// Of the spring.
+    pub spring: T,
+    /// Of friction; not above zero.
+    pub friction: T,
+}
+
+impl<T: Scalar> JointPower<T> {
+    /// Nothing acts.
+    pub(crate) fn none() -> Self {
+        Self { motor: zero(), spring: zero(), friction: zero() }
+    }
+
+    /// Whether all three are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        [self.motor, self.spring, self.friction].into_iter().all(Scalar::is_finite)
+    }
+}
+
+/// The loads of a device of a kind.
+pub(crate) type LoadsOf<K> = DeviceLoads<
+    Wrenches<K>,
+    <K as Kernels>::PerJoint<<K as Kind>::Scalar>,
+    <K as Kernels>::PerJoint<JointPower<<K as Kind>::Scalar>>,
+    <K as Kind>::Scalar,
+>;
+
+/// Motor torque and power of each joint.
+type Booked<K> = (
+    <K as Kernels>::PerJoint<<K as Kind>::Scalar>,
+    <K as Kernels>::PerJoint<JointPower<<K as Kind>::Scalar>>,
+);
+
+/// What the joints feel along their axes.
+struct Felt<K: Kind> {
+    /// For the accelerations.
+    needed: K::PerJoint<K::Scalar>,
+    /// From outside.
+    applied: K::PerJoint<K::Scalar>,
+    /// From the gradient of gravity.
+    gradient: K::PerJoint<K::Scalar>,
+}
+
+impl<K: Kind> Device<K> {
+    /// The loads of one device; adds to the totals.
+    #[inline(never)]
+    #[expect(clippy::too_many_arguments, reason = "state, inputs and accelerations, then results")]
+    pub(crate) fn loads(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        environment: &Environment<K::Scalar>,
+        hub: &HubAccelerations<K::Scalar>,
+        accelerations: &K::Accelerations<K::Scalar>,
+        along: &Along<K::Scalar>,
+        totals: &mut LoadSums<K::Scalar>,
+    ) -> LoadsOf<K> {
+        let pose = K::pose(joints);
+        // Along the device's axes, in which this kernel knows B.
+        let within = |v| rotate_transposed(&self.mount, v);
+        let hub = Solution { r_b_n_ddot: within(hub.r_b_n_ddot), omega_dot: within(hub.omega_dot) };
+        let needed = K::loads(
+            &self.constants,
+            &pose,
+            joints,
+            &expressed_in_b(within(environment.omega)),
+            &hub.expressed_in_b(),
+            accelerations,
+        );
+        let applied = self.carried(&pose, &self.applied(joints, given.bodies));
+        let mut gradient = Carried { joints: K::all(Wrench::none()), hub: Wrench::none() };
+        if let Some(central) = &environment.central {
+            let (wrenches, second_moment) = self.gradient(&pose, central);
+            let second_moment = second_moment.rotated(&self.mount);
+            totals.second_moment = totals.second_moment.plus(second_moment);
+            gradient = self.carried(&pose, &wrenches);
+        }
+        totals.inertial = totals.inertial.plus(&needed.hub.turned(&self.mount));
+        totals.applied = totals.applied.plus(&applied.hub.turned(&self.mount));
+        totals.gradient = totals.gradient.plus(&gradient.hub.turned(&self.mount));
+        let felt = Felt {
+            needed: felt::<K>(&needed.joints),
+            applied: felt::<K>(&applied.joints),
+            gradient: felt::<K>(&gradient.joints),
+        };
+        let (motors, powers) = self.book(joints, given, &felt, totals);
+
+        let mut loads = needed.joints;
+        let outside = applied.joints.values().zip(gradient.joints.values());
+        for (load, (applied, gradient)) in loads.values_mut().zip(outside) {
+            *load = load.minus(&applied).minus(&gradient);
+        }
+        let (mount, joints) = self.told(&pose, loads, along);
+        let finite = joints.values().zip(motors.values()).zip(powers.values());
+        let first = finite.map(|((load, motor), power)| {
+            mount.is_finite() && load.is_finite() && motor.is_finite() && power.is_finite()
+        });
+        let first = first.enumerate().find(|(_, finite)| !finite);
+        totals.overflow =
+            totals.overflow.or(first.map(|(joint, _)| totals.joints.wrapping_add(joint)));
+        totals.joints = totals.joints.wrapping_add(K::JOINTS.len());
+        DeviceLoads { mount, joints, motors, powers }
+    }
+
+    /// Books the powers of the joints; returns them and the motor torques that the accelerations
+    /// need.
+    fn book(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        felt: &Felt<K>,
+        totals: &mut LoadSums<K::Scalar>,
+    ) -> Booked<K> {
+        let power = &mut totals.power;
+        let mut motors = K::all(zero::<K::Scalar>());
+        let mut powers = K::all(JointPower::none());
+        let felt = felt.needed.values().zip(felt.applied.values()).zip(felt.gradient.values());
+        let given = given.motors.values().zip(given.modes.values());
+        let states = joints.states().zip(self.passive.values());
+        let found = motors.values_mut().zip(powers.values_mut());
+        for ((((motor, told), felt), given), state) in found.zip(felt).zip(given).zip(states) {
+            let (((needed, applied), gradient), (torque, mode)) = (felt, given);
+            let ([coordinate, rate], passive) = state;
+            let (spring, friction) = (passive.of_spring(coordinate), passive.of_friction(rate));
+            *motor = needed - applied - gradient - spring - friction;
+            let driven = if mode == Mode::Driven { torque } else { *motor };
+            for (sum, drive) in [
+                (&mut power.inertial, needed),
+                (&mut power.applied, applied),
+                (&mut power.gradient, gradient),
+                (&mut power.motors, driven),
+                (&mut power.springs, spring),
+                (&mut power.friction, friction),
+            ] {
+                *sum = *sum + drive * rate;
+                power.magnitude = power.magnitude + (drive * rate).abs();
+            }
+            *told = JointPower {
+                motor: driven * rate,
+                spring: spring * rate,
+                friction: friction * rate,
+            };
+            power.stored = power.stored + passive.potential(coordinate);
+        }
+        (motors, powers)
+    }
+
+    /// The load of the mount, and those of the joints expressed in the axes given.
+    fn told(
+        &self,
+        pose: &K::Pose<K::Scalar>,
+        mut loads: Wrenches<K>,
+        along: &Along<K::Scalar>,
+    ) -> (Wrench<K::Scalar>, Wrenches<K>) {
+        let axes = K::axes(&self.constants, pose);
+        let first = loads.values().zip(axes.values()).next();
+        let first = first.map_or_else(Wrench::none, |(load, own)| load.turned(&own));
+        let hub = first.turned(&self.mount);
+        let mut mount = hub;
+        if let Along::Hub(Some(bn)) = along {
+            mount = hub.turned_back(bn);
+        }
+        // The axes of what carries each body: the device's own for the first.
+        let mut carrier = identity();
+        for (load, own) in loads.values_mut().zip(axes.values()) {
+            let in_device = load.turned(&own);
+            *load = match along {
+                Along::Body => *load,
+                Along::Carrier => in_device.turned_back(&carrier),
+                Along::Hub(None) => in_device.turned(&self.mount),
+                Along::Hub(Some(bn)) => in_device.turned(&self.mount).turned_back(bn),
+            };
+            carrier = own;
+        }
+        (mount, loads)
+    }
+}
+
+/// What each joint feels of a wrench.
+fn felt<K: Kind>(wrenches: &Wrenches<K>) -> K::PerJoint<K::Scalar> {
+    let mut felt = K::all(zero());
+    for ((felt, wrench), info) in felt.values_mut().zip(wrenches.values()).zip(K::JOINTS) {
+        *felt = wrench.along(info);
+    }
+    felt
+}
+
+fn identity<T: Scalar>() -> Columns<T> {
+    let (one, zero) = (crate::numbers::real::one(), zero());
+    [[one, zero, zero], [zero, one, zero], [zero, zero, one]]
+}

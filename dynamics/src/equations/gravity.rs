@@ -1,0 +1,250 @@
+//! [`Gravity`]: a uniform field, or that of a central body with its gradient.
+//!
+//! A uniform field is a change of frame: in the frame that falls with it there is none, so every
+//! body feels it exactly and no kernel knows of it. The gradient of a central field is a linear
+//! field about B; each body feels it in force and torque.
+//!
+//! ```text
+//! field       a(r) = g + G r,   G = mu / R³ (3 n nᵀ - 1),   r from B, n from the centre to B
+//! potential   V = -m mu / R - g . m c - ½ G : S,             S = integral of r rᵀ dm
+//! ```
+//!
+//! V is what the ledger counts, so the force on the whole is its gradient to the last term, that of
+//! G with the position of B included: `½ ∂(G : S)/∂R = mu / R⁴ (3 S n - 15/2 (n . S n) n + 3/2 tr S
+//! n)`.
+
+use nalgebra::Vector3;
+
+use crate::numbers::real::{Scalar, half, one, reciprocal_in_two};
+use crate::numbers::symmetric::Symmetric;
+use crate::numbers::vec3::{
+    Columns, Vec3, add, components, dot, largest, map, rotate, scale, zeros,
+};
+
+/// The gravity that acts on hub and devices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Gravity<T = f64> {
+    /// None.
+    None,
+    /// The same acceleration everywhere, N axes, m/s².
+    Uniform(Vector3<T>),
+    /// A central body at the inertial origin.
+    Central {
+        /// `mu`, its gravitational parameter, m³/s².
+        mu: T,
+    },
+}
+
+/// Gravity about B, expressed in B.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Field<T> {
+    /// At B, m/s².
+    pub(crate) at_b: Vec3<T>,
+    /// Of a central body; none where the field is uniform.
+    pub(crate) central: Option<Central<T>>,
+}
+
+/// What a central body adds to the field at B.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Central<T> {
+    /// G, 1/s².
+    pub(crate) gradient: Symmetric<T>,
+    /// n, from the centre to B.
+    n: Vec3<T>,
+    /// `mu / R`, m²/s².
+    potential: T,
+    /// `mu / R⁴`, 1/(m s²).
+    slope: T,
+}
+
+impl<T: Scalar> Gravity<T> {
+    /// The acceleration that is the same everywhere, expressed in N; none for a field that is not.
+    /// Whoever takes only uniform fields asks here.
+    #[cfg(feature = "lanes")]
+    pub(crate) fn uniform(&self) -> Option<Vec3<T>> {
+        match self {
+            Self::None => Some(zeros()),
+            Self::Uniform(g) => Some(components(g)),
+            Self::Central { .. } => None,
+        }
+    }
+
+    /// The field about B for `[BN]` and the position of B, N axes; no field is none.
+    pub(crate) fn field(&self, bn: &Columns<T>, r_b_n: &Vector3<T>) -> Option<Field<T>> {
+        match self {
+            Self::None => None,
+            Self::Uniform(g) => Some(Field { at_b: rotate(bn, components(g)), central: None }),
+            Self::Central { mu } => {
+                let r = rotate(bn, components(r_b_n));
+                let (n, [potential, at_b, square, slope]) = central(*mu, r);
+                let gradient = Symmetric::dyad(n)
+                    .scaled(T::from_f64(3.0) * square)
+                    .plus(Symmetric::scalar(-square));
+                let at_b = scale(-at_b, n);
+                Some(Field { at_b, central: Some(Central { gradient, n, potential, slope }) })
+            }
+        }
+    }
+}
+
+/// The direction `r / R`, and `mu / R` to `mu / R⁴`.
+fn central<T: Scalar>(mu: T, r: Vec3<T>) -> (Vec3<T>, [T; 4]) {
+    let (size, near) = (largest(r), T::EPSILON * T::EPSILON);
+    if near < size && size < near.recip() {
+        let per_r = dot(r, r).sqrt().recip();
+        let (potential, per_square) = (mu * per_r, per_r * per_r);
+        let powers =
+            [potential, potential * per_r, potential * per_square, potential * per_r * per_square];
+        return (scale(per_r, r), powers);
+    }
+    // Beyond, R² or 1/R² may be no number although the field is one.
+    let (first, second) = reciprocal_in_two(size);
+    let r = map(r, |component| component * first * second);
+    let per_r = dot(r, r).sqrt().recip();
+    let over_r = |x: T| x * per_r * first * second;
+    let (potential, at_b) = (over_r(mu), over_r(over_r(mu)));
+    (scale(per_r, r), [potential, at_b, over_r(at_b), over_r(over_r(at_b))])
+}
+
+impl<T: Scalar> Field<T> {
+    /// Potential energy of a spacecraft, J: its mass, its first moment about B, expressed in B; and
+    /// for a central field its second moment, else of the position of B, N axes.
+    pub(crate) fn potential(
+        &self,
+        mass: T,
+        first_moment: Vec3<T>,
+        second_moment: &Symmetric<T>,
+        r_b: Vec3<T>,
+    ) -> T {
+        match &self.central {
+            None => -(dot(self.at_b, add(scale(mass, r_b), first_moment))),
+            Some(central) => {
+                let linear = mass * central.potential + dot(self.at_b, first_moment);
+                -(linear + half::<T>() * central.gradient.double_dot(second_moment))
+            }
+        }
+    }
+}
+
+impl<T: Scalar> Central<T> {
+    /// Force on the whole, beside that of the field and of its gradient, N.
+    pub(crate) fn third_order(&self, second_moment: &Symmetric<T>) -> Vec3<T> {
+        let along = second_moment.times(self.n);
+        let three = T::from_f64(3.0);
+        let spread = half::<T>() * second_moment.trace() - T::from_f64(2.5) * dot(self.n, along);
+        scale(three * self.slope, add(along, scale(spread, self.n)))
+    }
+
+    /// Force and moment about B that the gradient exerts on a rigid body, by its first and second
+    /// moment about B: `G s` and `integral of r x G r dm`.
+    pub(crate) fn wrench(
+        &self,
+        first_moment: Vec3<T>,
+        second_moment: &Symmetric<T>,
+    ) -> (Vec3<T>, Vec3<T>) {
+        let [x, y, z] = second_moment.columns().map(|column| self.gradient.times(column));
+        // Component i: epsilon_ijk (S G)_jk.
+        let moment = [y[2] - z[1], z[0] - x[2], x[1] - y[0]];
+        (self.gradient.times(first_moment), moment)
+    }
+}
+
+/// `½ tr(I) 1 - I`: the second moment of a mass distribution from its inertia about the same point.
+pub(crate) fn second_moment<T: Scalar>(inertia: &Symmetric<T>) -> Symmetric<T> {
+    Symmetric::scalar(half::<T>() * inertia.trace()).plus(inertia.scaled(-one::<T>()))
+}
+
+/// Nothing moves it: no field.
+pub(crate) fn at_b<T: Scalar>(field: Option<&Field<T>>) -> Vec3<T> {
+    field.map_or_else(zeros, |field| field.at_b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numbers::vec3::{neg, sub};
+
+    /// Differences over a step of 1e-4 of fields of size one: rounding 1e-12, curvature 1e-8.
+    const DIFFERENCE: f64 = 1e-7;
+
+    const IDENTITY: Columns<f64> = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+    fn field(r: Vec3<f64>) -> Field<f64> {
+        let central = Gravity::Central { mu: 2.0 };
+        central.field(&IDENTITY, &Vector3::from(r)).expect("a field")
+    }
+
+    #[test]
+    fn the_gradient_is_the_derivative_of_the_field() {
+        let (r, step) = ([0.8, -0.5, 0.9], 1e-4);
+        let gradient = field(r).central.expect("central").gradient.columns();
+        for k in 0..3 {
+            let mut arm = [0.0; 3];
+            arm[k] = step;
+            let change = sub(field(add(r, arm)).at_b, field(sub(r, arm)).at_b);
+            for (found, expected) in scale(0.5 / step, change).iter().zip(&gradient[k]) {
+                assert!((found - expected).abs() < DIFFERENCE);
+            }
+        }
+    }
+
+    #[test]
+    fn field_at_extreme_radius_is_the_quotient_where_it_is_a_number() {
+        for (mu, radius, expected) in [
+            (1e300, 1e160, 1e-20),
+            (1e-300, 1e-160, 1e20),
+            (1e300, 1e20, 1e260),
+            (1.0, 1e-150, 1e300),
+        ] {
+            let central = Gravity::Central { mu };
+            let r = Vector3::new(0.0, -0.6 * radius, 0.8 * radius);
+            let [_, y, z] = central.field(&IDENTITY, &r).expect("a field").at_b;
+            assert!((y / expected - 0.6).abs() < 1e-15 && (z / expected + 0.8).abs() < 1e-15);
+        }
+        // The same on both sides of where the way changes.
+        for radius in [4e-32, 6e-32, 1.9e31, 2.2e31] {
+            let (n, [potential, at_b, square, slope]) = central(2.0, [radius, 0.0, 0.0]);
+            assert_eq!(n, [1.0, 0.0, 0.0]);
+            let powers = [potential * radius, at_b * radius / potential, square * radius / at_b];
+            let ratios = [powers[0] / 2.0, powers[1], powers[2], slope * radius / square];
+            assert!(ratios.iter().all(|ratio| (ratio - 1.0).abs() < 1e-15), "{ratios:?}");
+        }
+    }
+
+    #[test]
+    fn force_on_the_whole_is_the_gradient_of_the_potential() {
+        let (r, step) = ([0.8, -0.5, 0.9], 1e-4);
+        let (mass, s) = (1.3, [0.3, 0.2, -0.4]);
+        let second = Symmetric { xx: 0.5, xy: 0.1, xz: -0.2, yy: 0.7, yz: 0.05, zz: 0.4 };
+        let here = field(r);
+        let central = here.central.expect("central");
+        let force = add(
+            add(scale(mass, here.at_b), central.wrench(s, &second).0),
+            central.third_order(&second),
+        );
+        let potential = |r| field(r).potential(mass, s, &second, r);
+        for k in 0..3 {
+            let mut arm = [0.0; 3];
+            arm[k] = step;
+            let found = (potential(sub(r, arm)) - potential(add(r, arm))) * 0.5 / step;
+            assert!((found - force[k]).abs() < DIFFERENCE, "{k}: {found} and {}", force[k]);
+        }
+    }
+
+    #[test]
+    fn moment_of_the_gradient_is_that_of_its_masses() {
+        let central = field([0.8, -0.5, 0.9]).central.expect("central");
+        let masses = [(0.7, [0.3, -0.1, 0.2]), (1.1, [-0.2, 0.5, 0.4])];
+        let mut second = Symmetric::scalar(0.0);
+        let (mut first, mut moment) = ([0.0; 3], [0.0; 3]);
+        for (mass, r) in masses {
+            let force = scale(mass, central.gradient.times(r));
+            first = add(first, scale(mass, r));
+            second = second.plus(Symmetric::dyad(r).scaled(mass));
+            moment = add(moment, crate::numbers::vec3::cross(r, force));
+        }
+        let (force, found) = central.wrench(first, &second);
+        let off = add(sub(moment, found), neg([0.0; 3]));
+        assert!(dot(off, off).sqrt() < 1e-15 && force.iter().all(|f| f.is_finite()));
+    }
+}

@@ -1,0 +1,103 @@
+//! The rigid hub's own share of the equations, of energy and of momentum.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use crate::equations::gravity::second_moment;
+use crate::equations::system::System;
+use crate::model::parameters::Hub;
+use crate::model::wrench::Wrench;
+use crate::numbers::real::{Real, Scalar, half};
+use crate::numbers::symmetric::Symmetric;
+use crate::numbers::vec3::{Vec3, add, components, cross, dot, scale, sub};
+
+/// Constants of the hub, all expressed in B.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HubConstants<T> {
+    /// `m_B`, kg.
+    pub(crate) m_b: T,
+    /// `m_B r_{Bc/B}`, kg m.
+    pub(crate) first_moment: Vec3<T>,
+    /// `[I_{B,B}]`, inertia about B, kg m^2.
+    pub(crate) i_b_b: Symmetric<T>,
+}
+
+/// Energy, linear momentum and angular momentum about B, expressed in B.
+#[derive(Clone, Copy, Debug)]
+pub struct BodySums<T> {
+    pub(crate) energy: T,
+    pub(crate) linear: Vec3<T>,
+    pub(crate) angular_b: Vec3<T>,
+}
+
+impl<T: Real> HubConstants<T> {
+    /// The constants with each of their numbers changed.
+    #[cfg(feature = "lanes")]
+    #[inline(always)]
+    pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> HubConstants<U> {
+        let [x, y, z] = self.first_moment;
+        HubConstants {
+            m_b: change(self.m_b),
+            first_moment: [change(x), change(y), change(z)],
+            i_b_b: self.i_b_b.map(change),
+        }
+    }
+
+    /// The hub's own `M` and `h`: `m (r'' + omega' x c + omega x (omega x c)) = F` and
+    /// `I omega' + m c x r'' + omega x (I omega) = L_B`.
+    #[inline(always)]
+    pub(crate) fn system(&self, omega: Vec3<T>, force: Vec3<T>, torque_b: Vec3<T>) -> System<T> {
+        let ([x, y, z], zero) = (self.first_moment, self.m_b.like(0.0));
+        let centrifugal = cross(omega, cross(omega, self.first_moment));
+        let gyroscopic = cross(omega, self.i_b_b.times(omega));
+        let m = self.m_b;
+        System {
+            m_vv: Symmetric { xx: m, xy: zero, xz: zero, yy: m, yz: zero, zz: m },
+            // -tilde(m c), column by column.
+            m_vw: [[zero, -z, y], [z, zero, -x], [-y, x, zero]],
+            m_ww: self.i_b_b,
+            h_v: sub(force, centrifugal),
+            h_w: sub(torque_b, gyroscopic),
+        }
+    }
+}
+
+impl<T: Scalar> HubConstants<T> {
+    pub(crate) fn new(hub: &Hub<T>) -> Self {
+        let r_bc_b = components(&hub.r_bc_b);
+        Self {
+            m_b: hub.m_b,
+            first_moment: scale(hub.m_b, r_bc_b),
+            i_b_b: Symmetric::part_of(&hub.i_b_bc).plus(Symmetric::parallel_axis(hub.m_b, r_bc_b)),
+        }
+    }
+
+    /// The wrench about B that these accelerations need.
+    pub(crate) fn needs(
+        &self,
+        omega: Vec3<T>,
+        r_b_n_ddot: Vec3<T>,
+        omega_dot: Vec3<T>,
+    ) -> Wrench<T> {
+        let s = self.first_moment;
+        let turning = add(cross(omega_dot, s), cross(omega, cross(omega, s)));
+        let force = add(scale(self.m_b, r_b_n_ddot), turning);
+        let gyroscopic = cross(omega, self.i_b_b.times(omega));
+        let moment = add(self.i_b_b.times(omega_dot), add(cross(s, r_b_n_ddot), gyroscopic));
+        Wrench::of(force, moment)
+    }
+
+    /// Second moment of the hub about B, kg m^2.
+    pub(crate) fn second_moment(&self) -> Symmetric<T> {
+        second_moment(&self.i_b_b)
+    }
+
+    /// Kinetic energy and momenta for the inertial velocity of B and the angular velocity.
+    pub(crate) fn sums(&self, r_b_n_dot: Vec3<T>, omega: Vec3<T>) -> BodySums<T> {
+        let relative = cross(omega, self.first_moment);
+        let linear = add(scale(self.m_b, r_b_n_dot), relative);
+        let angular_b = add(self.i_b_b.times(omega), cross(self.first_moment, r_b_n_dot));
+        // Twice the energy is v . p + omega . H_B.
+        let energy = half::<T>() * (dot(r_b_n_dot, linear) + dot(omega, angular_b));
+        BodySums { energy, linear, angular_b }
+    }
+}

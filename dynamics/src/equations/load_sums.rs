@@ -1,0 +1,91 @@
+//! What the loads of the devices add up to for the hub and the ledger, and the axes they are
+//! expressed in.
+
+use crate::model::wrench::Wrench;
+use crate::numbers::real::{Scalar, zero};
+use crate::numbers::symmetric::Symmetric;
+use crate::numbers::vec3::{Columns, Vec3};
+
+/// Axes for the loads of joints.
+#[derive(Clone, Copy, Debug)]
+pub enum Along<T> {
+    /// The body's own.
+    Body,
+    /// Those of the parent body.
+    Carrier,
+    /// Those along which B axes are the columns; none for B axes themselves.
+    Hub(Option<Columns<T>>),
+}
+
+/// How the hub moves, expressed in B, seen from a frame that falls with gravity.
+#[derive(Clone, Copy, Debug)]
+pub struct HubAccelerations<T> {
+    pub(crate) r_b_n_ddot: Vec3<T>,
+    pub(crate) omega_dot: Vec3<T>,
+}
+
+/// What the devices ask of the hub and what their joints transmit, added up.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadSums<T> {
+    /// What the devices need for their accelerations, about B, expressed in B.
+    pub(crate) inertial: Wrench<T>,
+    /// What acts on their bodies from outside.
+    pub(crate) applied: Wrench<T>,
+    /// What the gradient of gravity exerts on them.
+    pub(crate) gradient: Wrench<T>,
+    /// Second moment about B; only with a central field.
+    pub(crate) second_moment: Symmetric<T>,
+    /// Powers of the joints.
+    pub(crate) power: JointPowers<T>,
+    /// How many joints have been added.
+    pub(crate) joints: usize,
+    /// The first joint of a device whose loads, motor torques or powers are not all finite.
+    pub(crate) overflow: Option<usize>,
+}
+
+/// Powers at the joints, W: the part of each source that the joints' rates take up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct JointPowers<T> {
+    pub(crate) inertial: T,
+    pub(crate) applied: T,
+    pub(crate) gradient: T,
+    pub(crate) motors: T,
+    pub(crate) springs: T,
+    pub(crate) friction: T,
+    /// Energy of the springs, J.
+    pub(crate) stored: T,
+    /// Sum of the powers' magnitudes.
+    pub(crate) magnitude: T,
+}
+
+impl<T: Scalar> JointPowers<T> {
+    fn none() -> Self {
+        Self {
+            inertial: zero(),
+            applied: zero(),
+            gradient: zero(),
+            motors: zero(),
+            springs: zero(),
+            friction: zero(),
+            stored: zero(),
+            magnitude: zero(),
+        }
+    }
+}
+
+impl<T: Scalar> LoadSums<T> {
+    pub(crate) fn none() -> Self {
+        let none = Wrench::none();
+        let power = JointPowers::none();
+        let second_moment = Symmetric::zero();
+        Self {
+            inertial: none,
+            applied: none,
+            gradient: none,
+            second_moment,
+            power,
+            joints: 0,
+            overflow: None,
+        }
+    }
+}

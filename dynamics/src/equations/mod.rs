@@ -1,0 +1,20 @@
+//! Equations of one device and of the hub: elimination of the joints into the hub's system, its
+//! solution, gravity, loads, energy and momentum.
+//!
+//! [`device`] is the entry for a device, [`assembly`] adds the devices to the hub, [`system`]
+//! solves the hub's six equations. Nothing here knows of sets of devices.
+
+pub(crate) mod arithmetic;
+pub(crate) mod assembly;
+pub(crate) mod device;
+pub(crate) mod device_loads;
+pub(crate) mod error;
+#[cfg(feature = "lanes")]
+pub(crate) mod fused;
+pub(crate) mod gravity;
+pub(crate) mod hub;
+pub(crate) mod joint_inputs;
+pub(crate) mod load_sums;
+pub(crate) mod pivot_bound;
+pub(crate) mod stiffness;
+pub(crate) mod system;

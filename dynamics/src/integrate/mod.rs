@@ -1,0 +1,7 @@
+//! From one state to the next: the fourth-order Runge-Kutta step, and the impulsive stop.
+//!
+//! Both evaluate through [`solve`](crate::solve).
+
+pub(crate) mod rk4;
+pub(crate) mod stability;
+pub(crate) mod stop;

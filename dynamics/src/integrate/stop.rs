@@ -1,0 +1,137 @@
+//! The impulsive stop: joints stopped impulsively, as by a rigid brake.
+//!
+//! Velocities jump, positions do not. Over the jump finite forces do nothing; what acts are the
+//! impulses of the brakes, inside the spacecraft, so momentum is conserved and energy is lost. With
+//! M the mass matrix of the pose, `M Δ = impulses`, which is the equations of motion at rest with
+//! jumps for accelerations: the same kernels answer.
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::arithmetic::Unfused;
+use crate::equations::assembly::Assembly;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::joint_inputs::Environment;
+use crate::equations::joint_inputs::JointInputs;
+use crate::equations::system::Solution;
+use crate::model::mode::{HubMode, Mode};
+use crate::numbers::each::{Each, JointStates};
+use crate::numbers::real::zero;
+use crate::numbers::vec3::{
+    add, columns, components, neg, rotate, rotate_transposed, sub, vector, zeros,
+};
+use crate::sets::devices::Devices;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
+
+/// What an impulsive stop leaves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stopped<D: Devices, A> {
+    /// The state with its new velocities; every locked joint is at rest.
+    pub state: State<D, A>,
+    /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero but
+    /// for rounding, unless a joint or the hub is prescribed. Of a free hub it is counted in the
+    /// frame that moved with B, where no digit is lost to the orbit's speed.
+    pub energy_lost: D::Scalar,
+}
+
+impl<D: Devices> Spacecraft<D> {
+    /// Stops every joint that `inputs` has locked, and the hub if it is fixed, impulsively.
+    ///
+    /// Driven joints take what impulse reaches them through the structure, prescribed ones keep
+    /// their rates. Linear and angular momentum stay, unless the hub is fixed or prescribed; energy
+    /// is lost.
+    ///
+    /// ```
+    /// # use nalgebra::{Matrix3, Vector3};
+    /// use precess_dynamics::{About, Hub, Inputs, Mode, ReactionWheel, Spacecraft, State};
+    ///
+    /// let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
+    /// let hub = Hub { m_b: 50.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
+    /// let craft = Spacecraft::new(&hub, &[ReactionWheel::bare_wheel(4.0, disc)])?;
+    /// let mut state: State<[ReactionWheel; 1]> = State::at_rest();
+    /// state.devices[0].spin = 100.0;
+    /// let before = craft.momentum(&state, About::CentreOfMass)?;
+    ///
+    /// let mut brake: Inputs<[ReactionWheel; 1]> = Inputs::none();
+    /// brake.modes[0].wheel = Mode::Locked;
+    /// assert!(craft.accelerations(&state, &brake).is_err()); // it still turns
+    /// let stopped = craft.stop(&state, &brake)?;
+    /// assert_eq!(stopped.state.devices[0].spin, 0.0);
+    /// assert!(stopped.energy_lost > 800.0); // of 1000 J
+    /// let after = craft.momentum(&stopped.state, About::CentreOfMass)?;
+    /// assert!((after.angular - before.angular).norm() < 1e-14 * before.angular.norm());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::accelerations`], but a moving joint may be locked.
+    pub fn stop<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<Stopped<D, A>, SolveError<D::Scalar>> {
+        self.reject(state, inputs)?;
+        let next =
+            self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
+        let (mut before, mut after) = (state.clone(), next.clone());
+        if inputs.hub == HubMode::Free {
+            // Momentum stays, so every frame counts the same loss.
+            let (old, new) = (components(&state.r_b_n_dot), components(&next.r_b_n_dot));
+            (before.r_b_n_dot, after.r_b_n_dot) = (vector(zeros()), vector(sub(new, old)));
+        }
+        let energy_lost = self.energy(&before)? - self.energy(&after)?;
+        self.check_reached(&next)?;
+        Ok(Stopped { state: next, energy_lost })
+    }
+
+    fn jump<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<State<D, A>, SolveError<D::Scalar>> {
+        let still = zeros();
+        let environment = Environment { omega: still, central: None, impulse: true };
+        let mut assembly = Assembly::new(&self.body, still, still);
+        let mut scratch = D::scratch(&self.devices);
+        let motors = D::motors_off_for(&self.devices);
+        let given = JointInputs { motors: &motors, modes: &inputs.modes, bodies: None };
+        D::fits(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
+        self.eliminate_devices::<_, Unfused>(
+            state,
+            given,
+            &environment,
+            &mut assembly,
+            &mut scratch,
+        )?;
+        let bn = columns(&state.attitude.dcm());
+        let velocity = rotate(&bn, components(&state.r_b_n_dot));
+        let hub = match inputs.hub {
+            HubMode::Free => {
+                let solution = assembly.system(still).solve(&assembly.scale(&self.body));
+                solution.map_err(|small| small.of(None, None))?
+            }
+            HubMode::Fixed => {
+                Solution { r_b_n_ddot: neg(velocity), omega_dot: neg(components(&state.omega)) }
+            }
+            HubMode::Prescribed { .. } => Solution { r_b_n_ddot: still, omega_dot: still },
+        };
+        if !hub.is_finite() {
+            return Err(SolveError::Overflow { what: Quantity::HubAcceleration });
+        }
+        let jumps = self.back_substitute(&scratch, &hub)?;
+        let mut next = state.clone();
+        let of_joints = jumps.values().zip(inputs.modes.values());
+        for ([_, rate], (jump, mode)) in next.devices.states_mut().zip(of_joints) {
+            // At rest exactly, whatever the rounding.
+            *rate = if mode == Mode::Locked { zero() } else { *rate + jump };
+        }
+        next.omega = vector(add(components(&state.omega), hub.omega_dot));
+        let jump = rotate_transposed(&bn, hub.r_b_n_ddot);
+        next.r_b_n_dot = vector(add(components(&state.r_b_n_dot), jump));
+        if inputs.hub == HubMode::Fixed {
+            (next.omega, next.r_b_n_dot) = (vector(still), vector(still));
+        }
+        Ok(next)
+    }
+}

@@ -1,0 +1,91 @@
+//! [`Kernels`]: the emitted kernels of one kind, over any number. The emitted text answers.
+//!
+//! Pure arithmetic over [`Real`]: what compares, takes a root or finds an error stands with
+//! [`Kind`](crate::model::kind::Kind), for single numbers. Lanes of numbers run what is here and
+//! nothing else.
+
+use core::fmt::Debug;
+
+use crate::generated::hub::{BodyAcceleration, BodyRate, HubShare};
+use crate::model::mode::Drive;
+use crate::numbers::each::{Each, JointStates, Value};
+use crate::numbers::real::{Angle, Real};
+
+/// The kernels of a device kind, and their records for numbers of any type.
+///
+/// Implemented by emitted text, next to each kernel; written by hand for nothing. Every function is
+/// part of what calls it: lanes reach the wide instructions of their caller only so.
+pub trait Kernels: 'static {
+    /// What depends only on parameters.
+    type Constants<T: Value>: Copy + Debug + Send + Sync;
+    /// Coordinates and rates.
+    type Joints<T: Value>: JointStates<T> + Copy;
+    /// Joint accelerations.
+    type Accelerations<T: Value>: Each<T> + Copy;
+    /// A value per joint.
+    type PerJoint<V: Value>: Each<V> + Copy;
+    /// Sines, cosines and lengths.
+    type Pose<T: Value>: Copy;
+    /// What is left of a device once its joints are eliminated.
+    type Eliminated<T: Value>: Copy + Debug;
+    /// How the joints follow the hub: what back substitution needs.
+    type Gains<T: Value>: Copy + Debug;
+
+    /// Sines, cosines and lengths of the joints.
+    fn pose<T: Angle>(joints: &Self::Joints<T>) -> Self::Pose<T>;
+    /// The emitted `eliminate`.
+    fn eliminate<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        joints: &Self::Joints<T>,
+        omega: &BodyRate<T>,
+        drives: &Self::PerJoint<Drive<T>>,
+    ) -> Self::Eliminated<T>;
+    /// The share of the hub's equations.
+    fn share<T: Real>(eliminated: &Self::Eliminated<T>) -> &HubShare<T>;
+    /// How the joints follow the hub.
+    fn gains<T: Real>(eliminated: &Self::Eliminated<T>) -> &Self::Gains<T>;
+    /// Pivot and diagonal of each driven joint; none of the others.
+    fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> Self::PerJoint<Option<[T; 2]>>;
+    /// The emitted `back_substitute`.
+    fn back_substitute<T: Real>(
+        gains: &Self::Gains<T>,
+        hub: &BodyAcceleration<T>,
+    ) -> Self::Accelerations<T>;
+    /// What coordinates and rates change by: rates and accelerations.
+    fn slope<T: Value>(
+        joints: &Self::Joints<T>,
+        accelerations: &Self::Accelerations<T>,
+    ) -> Self::Joints<T>;
+
+    /// Constants joined number by number.
+    fn zip_constants<T: Value, U: Value, W: Value>(
+        a: &Self::Constants<T>,
+        b: &Self::Constants<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> Self::Constants<W>;
+    /// Coordinates and rates joined number by number.
+    fn zip_joints<T: Value, U: Value, W: Value>(
+        a: &Self::Joints<T>,
+        b: &Self::Joints<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> Self::Joints<W>;
+    /// Gains joined number by number.
+    fn zip_gains<T: Value, U: Value, W: Value>(
+        a: &Self::Gains<T>,
+        b: &Self::Gains<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> Self::Gains<W>;
+    /// Accelerations joined number by number.
+    fn zip_accelerations<T: Value, U: Value, W: Value>(
+        a: &Self::Accelerations<T>,
+        b: &Self::Accelerations<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> Self::Accelerations<W>;
+    /// Values of the joints joined one by one.
+    fn zip_per_joint<T: Value, U: Value, W: Value>(
+        a: &Self::PerJoint<T>,
+        b: &Self::PerJoint<U>,
+        join: impl FnMut(T, U) -> W,
+    ) -> Self::PerJoint<W>;
+}

@@ -1,0 +1,238 @@
+//! [`Kind`]: what the solver requires of a device kind. The emitted text answers.
+
+use core::fmt::Debug;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Handed};
+pub use crate::model::kernels::Kernels;
+pub use crate::model::mode::Drive;
+use crate::model::mode::Mode;
+use crate::model::passive::Passive;
+use crate::model::wrench::Wrench;
+pub use crate::numbers::each::{Each, JointStates, Value};
+use crate::numbers::real::Scalar;
+use crate::numbers::symmetric::Symmetric;
+
+/// A joint and its child body: names, and how the joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts about a joint")]
+pub struct JointInfo {
+    /// From 0, from the hub to the tip.
+    pub index: usize,
+    /// Its child body, which also names the joint: `inner gimbal`.
+    pub body: &'static str,
+    /// Its coordinate: `gamma_i`.
+    pub coordinate: &'static str,
+    /// Its rate: `gamma_i_dot`.
+    pub rate: &'static str,
+    /// Its motor torque or force: `u_i`.
+    pub motor: &'static str,
+    /// The axis it turns about or slides along, of x, y, z.
+    pub axis: usize,
+    /// Whether it slides.
+    pub slides: bool,
+    /// Whether no equation of motion depends on the coordinate: that of a rotor which is symmetric
+    /// about its axis.
+    pub ignorable: bool,
+    /// Whether its torque may be given; otherwise the kind holds its acceleration at zero.
+    pub driven: bool,
+    /// Whether nothing is behind the body.
+    pub tip: bool,
+}
+
+impl JointInfo {
+    /// The mode that the kind gives the joint.
+    pub(crate) fn own_mode<T: Scalar>(&self) -> Mode<T> {
+        if self.driven { Mode::Driven } else { Mode::Prescribed(zero()) }
+    }
+}
+
+/// A body as the user states it, and where its joint stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyParameters<T> {
+    /// Origin of the joint from the origin of its parent body, expressed in the parent body's axes,
+    /// m.
+    pub origin: [T; 3],
+    /// Mass, kg.
+    pub mass: T,
+    /// Centre of mass from the origin, own axes, m.
+    pub centre: [T; 3],
+    /// Inertia about the centre of mass, own axes, kg m².
+    pub inertia: Matrix3<T>,
+}
+
+/// A wheel's imbalance as a force and a torque of the simplified model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lumped<T> {
+    /// `U_s = m_W d`, along the wheel's y axis, kg m.
+    pub u_s: T,
+    /// `J_12`, kg m².
+    pub j_12: T,
+    /// `J_13`, kg m².
+    pub j_13: T,
+}
+
+/// Which model of its wheel's imbalance a device has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImbalanceModel {
+    /// The imbalanced rotor itself, coupled with everything else.
+    #[default]
+    Coupled,
+    /// A balanced rotor (`d`, `J_12`, `J_13` zero) with the usual lumped disturbance on it: force
+    /// `U_s Omega²` through W along `w_y`, torque `U_d Omega²` ahead of it by the phase.
+    ///
+    /// Omega is the wheel's rate relative to its parent body. The disturbance comes from outside,
+    /// so neither momentum nor energy is conserved under it; the ledger counts it as external.
+    Lumped,
+}
+
+/// A wrench on the child body of each joint of a kind.
+pub type Wrenches<K> = <K as Kernels>::PerJoint<Wrench<<K as Kind>::Scalar>>;
+
+/// A device kind: a structure of parameters, and functions over the emitted kernels.
+///
+/// Implemented by emitted text, next to each kernel; written by hand for nothing. The equations of
+/// motion (`handed`, `eliminate`, `back_substitute`) are expressed in B; everything else stands
+/// along the device's own: those of its first joint at zero, `mount` in the hub.
+pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
+    /// The number type.
+    type Scalar: Scalar;
+    /// Motor torques.
+    type Motors: Each<Self::Scalar> + Copy;
+
+    /// The joints from the hub to the tip.
+    const JOINTS: &'static [JointInfo];
+
+    /// All coordinates and rates zero.
+    fn at_rest() -> Self::Joints<Self::Scalar>;
+    /// All motors off.
+    fn motors_off() -> Self::Motors;
+    /// No joint accelerating.
+    fn no_accelerations() -> Self::Accelerations<Self::Scalar>;
+    /// One value at every joint.
+    fn all<V: Value>(value: V) -> Self::PerJoint<V>;
+
+    /// Columns: the device's axes expressed in B.
+    fn mount(&self) -> &Matrix3<Self::Scalar>;
+    /// The bodies; the first origin along *B* axes.
+    fn bodies(&self) -> Self::PerJoint<BodyParameters<Self::Scalar>>;
+    /// Springs, dampers, friction.
+    fn passive(&self) -> Self::PerJoint<Passive<Self::Scalar>>;
+    /// The device of these bodies, the first origin along *B* axes. What it has no parameter for,
+    /// such as a product of inertia of a balanced rotor, is left out: [`Self::bodies`] shows what
+    /// it took.
+    fn of_bodies(
+        mount: &Matrix3<Self::Scalar>,
+        bodies: &Self::PerJoint<BodyParameters<Self::Scalar>>,
+        passive: &Self::PerJoint<Passive<Self::Scalar>>,
+        model: ImbalanceModel,
+    ) -> Self;
+    /// Which model its wheel's imbalance has.
+    fn model(&self) -> ImbalanceModel {
+        ImbalanceModel::Coupled
+    }
+    /// The same device with a balanced wheel, and what was taken out; none where there is no wheel
+    /// that can be imbalanced.
+    fn balanced(&self) -> Option<(Self, Lumped<Self::Scalar>)> {
+        None
+    }
+    /// The constants, the first origin turned into the device's axes.
+    fn constants(&self, origin: [Self::Scalar; 3]) -> Self::Constants<Self::Scalar>;
+
+    /// The emitted `handed`: the constant share of the hub, expressed in B.
+    fn handed(constants: &Self::Constants<Self::Scalar>) -> Handed<Self::Scalar>;
+
+    /// The emitted `energy_momentum`.
+    fn energy_momentum(
+        constants: &Self::Constants<Self::Scalar>,
+        joints: &Self::Joints<Self::Scalar>,
+        hub: &BodyVelocity<Self::Scalar>,
+    ) -> EnergyMomentum<Self::Scalar>;
+    /// The emitted `first_moment`: it and its derivative seen from B.
+    fn first_moment(
+        constants: &Self::Constants<Self::Scalar>,
+        joints: &Self::Joints<Self::Scalar>,
+    ) -> [[Self::Scalar; 3]; 2];
+    /// The emitted `axes`: each body's own, as columns.
+    fn axes(
+        constants: &Self::Constants<Self::Scalar>,
+        pose: &Self::Pose<Self::Scalar>,
+    ) -> Self::PerJoint<[[Self::Scalar; 3]; 3]>;
+    /// The emitted `loads`: what each carrier exerts on what it carries, about the joint's origin
+    /// along the body's own axes.
+    fn loads(
+        constants: &Self::Constants<Self::Scalar>,
+        pose: &Self::Pose<Self::Scalar>,
+        joints: &Self::Joints<Self::Scalar>,
+        omega: &BodyRate<Self::Scalar>,
+        hub: &BodyAcceleration<Self::Scalar>,
+        accelerations: &Self::Accelerations<Self::Scalar>,
+    ) -> Carried<Wrenches<Self>, Wrench<Self::Scalar>>;
+    /// The emitted `external`: wrenches on the bodies carried inwards.
+    fn external(
+        constants: &Self::Constants<Self::Scalar>,
+        pose: &Self::Pose<Self::Scalar>,
+        bodies: &Wrenches<Self>,
+    ) -> Carried<Wrenches<Self>, Wrench<Self::Scalar>>;
+    /// The emitted `gravity`: the wrench on each body in the linear field, and the device's second
+    /// moment about B, entries 11, 12, 13, 22, 23, 33.
+    fn gravity(
+        constants: &Self::Constants<Self::Scalar>,
+        pose: &Self::Pose<Self::Scalar>,
+        gradient: [Self::Scalar; 6],
+    ) -> (Wrenches<Self>, [Self::Scalar; 6]);
+}
+
+/// Wrenches across the joints of a device, and what comes of them at B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carried<W, B> {
+    /// About each joint's origin along the axes of its child body.
+    pub joints: W,
+    /// About B, along the device's axes.
+    pub hub: B,
+}
+
+/// Entries 11, 12, 13, 22, 23, 33 of a tensor's symmetric part, exact where it is symmetric.
+#[must_use]
+pub fn entries<T: Scalar>(tensor: &Matrix3<T>) -> [T; 6] {
+    let s = Symmetric::part_of(tensor);
+    [s.xx, s.xy, s.xz, s.yy, s.yz, s.zz]
+}
+
+/// The components of a vector.
+#[must_use]
+pub fn components<T: Scalar>(v: &Vector3<T>) -> [T; 3] {
+    crate::numbers::vec3::components(v)
+}
+
+/// A vector from its components.
+#[must_use]
+pub fn vector<T: Scalar>(components: [T; 3]) -> Vector3<T> {
+    crate::numbers::vec3::vector(components)
+}
+
+/// Zero.
+#[must_use]
+pub fn zero<T: Scalar>() -> T {
+    crate::numbers::real::zero()
+}
+
+/// A tensor with these moments and no products.
+#[must_use]
+pub fn diagonal<T: Scalar>([xx, yy, zz]: [T; 3]) -> Matrix3<T> {
+    let o = zero();
+    Matrix3::new(xx, o, o, o, yy, o, o, o, zz)
+}
+
+/// The tensor that is zero.
+#[must_use]
+pub fn no_inertia<T: Scalar>() -> Matrix3<T> {
+    diagonal([zero(); 3])
+}
+
+/// The tensor that changes nothing.
+#[must_use]
+pub fn unit<T: Scalar>() -> Matrix3<T> {
+    diagonal([T::from_f64(1.0); 3])
+}

@@ -1,0 +1,22 @@
+//! The rigid hub, as a user states it. The devices stand with their kinds, under
+//! [`generated`](crate::generated).
+//!
+//! Plain data in SI units. [`Spacecraft::new`](crate::Spacecraft::new) checks it and turns it into
+//! constants once; parameters never change during a run.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// The rigid hub.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hub<T = f64> {
+    /// `m_B`, mass without the devices, kg; above zero.
+    pub m_b: T,
+    /// `r_{Bc/B}`, centre of mass from the reference point B, B axes, m.
+    ///
+    /// Choose B near it. The equations stand about B, and digits are lost with the square of the
+    /// distance over the radius of gyration: an error of 1e-11 is exceeded from 200 such radii on:
+    /// from 4 m for a hub of some centimetres, from 200 m for one of some metres.
+    pub r_bc_b: Vector3<T>,
+    /// `[I_{hub,Bc}]`, inertia about the hub's centre of mass, B axes, kg m^2.
+    pub i_b_bc: Matrix3<T>,
+}

@@ -1,0 +1,284 @@
+//! The number traits: [`Real`] for the emitted kernels, [`Angle`] for what they are given of a
+//! joint, [`Scalar`] for the solver around them.
+//!
+//! A kernel needs nothing but ring arithmetic and a reciprocal, so it can also run on lanes or dual
+//! numbers, which have no total order. Everything that compares or takes a root asks for
+//! [`Scalar`]. All are implemented for `f64` and `f32`; nothing in this crate rounds through `f64`
+//! on the way to a result, so a wider type keeps its full accuracy.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use core::ops::{Add, Mul, Neg, Sub};
+
+use crate::numbers::each::Value;
+use crate::numbers::sincos::{LARGEST_ANGLE, sin_cos};
+
+/// What an emitted kernel does with a number.
+pub trait Real:
+    Value + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// `1 / self`.
+    #[must_use]
+    fn recip(self) -> Self;
+
+    /// `self * a + b`. For `f64` and `f32` the product is rounded before the sum, so the bits are
+    /// the same on every IEEE-754 target, with or without a fused instruction.
+    #[must_use]
+    fn mul_add(self, a: Self, b: Self) -> Self;
+
+    /// `self + a * b`, rounded as [`Self::mul_add`] rounds.
+    #[must_use]
+    #[inline(always)]
+    fn add_mul(self, a: Self, b: Self) -> Self {
+        a.mul_add(b, self)
+    }
+
+    /// `self - a * b`, rounded as [`Self::mul_add`] rounds.
+    #[must_use]
+    #[inline(always)]
+    fn sub_mul(self, a: Self, b: Self) -> Self {
+        (-a).mul_add(b, self)
+    }
+
+    /// `self * a - b`, rounded as [`Self::mul_add`] rounds.
+    #[must_use]
+    #[inline(always)]
+    fn mul_sub(self, a: Self, b: Self) -> Self {
+        self.mul_add(a, -b)
+    }
+
+    /// The constant `value` as a number of the same kind as `self`.
+    #[must_use]
+    fn like(self, value: f64) -> Self;
+}
+
+/// What a kernel's arguments are made of: a number that has a sine.
+pub trait Angle: Real {
+    /// Sine and cosine of an angle in radians, with the same bits on every target.
+    #[must_use]
+    fn sin_cos(self) -> (Self, Self);
+}
+
+/// What the solver does with a number, on top of [`Angle`].
+pub trait Scalar: Angle + PartialOrd {
+    /// Distance from 1 to the next larger number: `2^-52` for `f64`, `2^-23` for `f32`.
+    const EPSILON: Self;
+
+    /// The nearest number to `value`. The solver passes small exact constants and first guesses
+    /// only.
+    #[must_use]
+    fn from_f64(value: f64) -> Self;
+
+    /// The nearest `f64`, for messages and first guesses.
+    #[must_use]
+    fn to_f64(self) -> f64;
+
+    /// Square root; NaN for a negative number.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// Whether the number is neither infinite nor NaN.
+    #[must_use]
+    fn is_finite(self) -> bool;
+
+    /// Whether it converts to `f64` and back exactly, so that its equations may be evaluated by
+    /// fused `f64`s.
+    const IS_F64: bool = false;
+
+    /// Magnitude. NaN stays NaN.
+    #[must_use]
+    fn abs(self) -> Self {
+        if self < zero() { -self } else { self }
+    }
+
+    /// The larger of two numbers; `self` if either is NaN.
+    #[must_use]
+    fn max(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+}
+
+impl Real for f64 {
+    #[inline]
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+
+    #[inline]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
+
+    #[inline]
+    fn like(self, value: f64) -> Self {
+        value
+    }
+}
+
+impl Angle for f64 {
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        if self.abs() <= LARGEST_ANGLE { sin_cos(self) } else { libm::sincos(self) }
+    }
+}
+
+impl Scalar for f64 {
+    const EPSILON: Self = Self::EPSILON;
+    const IS_F64: bool = true;
+
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        libm::sqrt(self)
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        Self::is_finite(self)
+    }
+}
+
+impl Real for f32 {
+    #[inline]
+    fn recip(self) -> Self {
+        1.0 / self
+    }
+
+    #[inline]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked for")]
+    fn like(self, value: f64) -> Self {
+        value as Self
+    }
+}
+
+impl Angle for f32 {
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincosf(self)
+    }
+}
+
+impl Scalar for f32 {
+    const EPSILON: Self = Self::EPSILON;
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked for")]
+    fn from_f64(value: f64) -> Self {
+        value as Self
+    }
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        libm::sqrtf(self)
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        Self::is_finite(self)
+    }
+}
+
+/// 0 as a `T`.
+pub(crate) fn zero<T: Scalar>() -> T {
+    T::from_f64(0.0)
+}
+
+/// 1 as a `T`.
+pub(crate) fn one<T: Scalar>() -> T {
+    T::from_f64(1.0)
+}
+
+/// 2 as a `T`.
+pub(crate) fn two<T: Scalar>() -> T {
+    T::from_f64(2.0)
+}
+
+/// 1/2 as a `T`.
+pub(crate) fn half<T: Scalar>() -> T {
+    T::from_f64(0.5)
+}
+
+/// The reciprocal of a magnitude, in two factors to be multiplied by one after the other.
+///
+/// The first is a power of two, so that neither the reciprocal of a subnormal magnitude overflows
+/// nor that of a huge one is subnormal. Both factors are finite for every finite magnitude but
+/// zero, whose product with them is NaN, as is that of infinity.
+pub(crate) fn reciprocal_in_two<T: Scalar>(magnitude: T) -> (T, T) {
+    let power = if magnitude < T::EPSILON {
+        T::EPSILON.recip()
+    } else if magnitude > T::EPSILON.recip() {
+        T::EPSILON
+    } else {
+        one()
+    };
+    (power, (power * magnitude).recip())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Real, Scalar, reciprocal_in_two};
+
+    #[test]
+    fn mul_add_rounds_the_product_first() {
+        // (1 + e)(1 - e) = 1 - e^2 rounds to 1; a fused operation would leave -e^2.
+        let e = f64::EPSILON;
+        assert_eq!(Real::mul_add(1.0 + e, 1.0 - e, -1.0), (1.0 + e) * (1.0 - e) - 1.0);
+        assert_eq!(Real::mul_add(1.0_f32 + f32::EPSILON, 1.0 - f32::EPSILON, -1.0), 0.0);
+    }
+
+    #[test]
+    fn epsilon_is_the_step_above_one() {
+        assert_eq!(<f64 as Scalar>::EPSILON, 2.0_f64.powi(-52));
+        assert_eq!(<f32 as Scalar>::EPSILON, 2.0_f32.powi(-23));
+    }
+
+    #[test]
+    fn reciprocal_in_two_factors_is_finite_down_to_the_smallest_number() {
+        for x in [f64::from_bits(1), 1e-310, f64::MIN_POSITIVE, 3.0, f64::MAX] {
+            let (first, second) = reciprocal_in_two(x);
+            assert!((x * first * second - 1.0).abs() <= 2.0 * f64::EPSILON, "{x}");
+        }
+        for x in [f32::from_bits(1), f32::MIN_POSITIVE, f32::MAX] {
+            let (first, second) = reciprocal_in_two(x);
+            assert!((x * first * second - 1.0).abs() <= 2.0 * f32::EPSILON, "{x}");
+        }
+        for x in [0.0, f64::INFINITY, f64::NAN] {
+            let (first, second) = reciprocal_in_two(x);
+            assert!((x * first * second).is_nan(), "{x}");
+        }
+    }
+
+    #[test]
+    fn provided_magnitude_and_maximum_agree_with_the_standard_ones() {
+        fn magnitude<T: Scalar>(x: T) -> T {
+            x.abs()
+        }
+        fn larger<T: Scalar>(a: T, b: T) -> T {
+            a.max(b)
+        }
+        assert_eq!(magnitude(-2.5), 2.5);
+        assert_eq!(magnitude(2.5_f32), 2.5);
+        assert!(magnitude(f64::NAN).is_nan());
+        assert_eq!(larger(-1.0, 3.0), 3.0);
+        assert_eq!(larger(3.0, f64::NAN), 3.0);
+    }
+}

@@ -1,0 +1,146 @@
+//! Loads: the force and torque across every joint and at every mount, the motor torques, and the
+//! wrench that the hub needs, for given accelerations. Inverse dynamics is the same question.
+//!
+//! The paper names these structural torques in (77), (98), (116) and never solves for them. Each
+//! joint carries what all bodies outward of it need, by Newton and Euler, less what acts on them
+//! from outside. Gravity's uniform part is a change of frame: accelerations are counted in the
+//! frame that falls with it.
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::gravity::{Field, at_b};
+use crate::equations::joint_inputs::Environment;
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
+use crate::model::wrench::Wrench;
+use crate::numbers::real::zero;
+use crate::numbers::vec3::{columns, components, sub};
+use crate::sets::devices::Devices;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
+
+/// The axes in which the loads of joints are expressed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LoadAxes {
+    /// Those of the child body of the joint. A rotor that is the same from every angle has those of
+    /// its parent body.
+    #[default]
+    Body,
+    /// Those of its parent body; of a first joint, the device's at zero angle.
+    Carrier,
+    /// B.
+    Hub,
+    /// N.
+    Inertial,
+}
+
+/// The loads of a spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loads<D: Devices> {
+    /// Device by device; a [`DeviceLoads`] for each.
+    pub devices: D::Loads,
+    /// What must act on the hub beside the inputs, about B, expressed in B: nothing but rounding on
+    /// a free hub with its own accelerations; on a [fixed](crate::HubMode::Fixed) one, what the
+    /// table exerts on it. A dynamometer reads the opposite.
+    pub hub: Wrench<D::Scalar>,
+}
+
+impl<D: Devices> Spacecraft<D> {
+    /// The loads that these accelerations need: inverse dynamics.
+    ///
+    /// With what [`Self::accelerations`] found for the same state and inputs, these are the loads
+    /// at that instant, and prescribed and locked joints find the torque they need in
+    /// [`DeviceLoads::motors`]. With accelerations that are wished for, they are the motor torques
+    /// and the wrench on the hub that fulfil the wish. Motor torques and modes in `inputs` are not
+    /// asked; forces, torques and gravity are.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming an input or acceleration, [`SolveError::Overflow`],
+    /// [`SolveError::Count`] for a list of another length.
+    pub fn loads<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        accelerations: &Accelerations<D>,
+        axes: LoadAxes,
+    ) -> Result<Loads<D>, SolveError<D::Scalar>> {
+        self.reject(state, inputs)?;
+        self.reject_accelerations(state, accelerations)?;
+        let bn = columns(&state.attitude.dcm());
+        let along = match axes {
+            LoadAxes::Body => Along::Body,
+            LoadAxes::Carrier => Along::Carrier,
+            LoadAxes::Hub => Along::Hub(None),
+            LoadAxes::Inertial => Along::Hub(Some(bn)),
+        };
+        let field = inputs.gravity.field(&bn, &state.r_b_n);
+        let (devices, hub, totals) =
+            self.weigh(state, inputs, accelerations, field.as_ref(), &along);
+        let finite = self.check_joints(&totals).and_then(|()| {
+            let what = Quantity::HubLoad;
+            if hub.is_finite() { Ok(()) } else { Err(SolveError::Overflow { what }) }
+        });
+        match finite {
+            Ok(()) => Ok(Loads { devices, hub }),
+            Err(failure) => Err(self.diagnosis(state, inputs, failure)),
+        }
+    }
+
+    /// Rejects loads of a joint that are not finite.
+    pub(crate) fn check_joints(
+        &self,
+        totals: &LoadSums<D::Scalar>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        let joint = totals.overflow.and_then(|joint| self.joints().nth(joint));
+        joint.map_or(Ok(()), |(device, info)| {
+            Err(SolveError::Overflow { what: Quantity::Load { device, joint: info.body } })
+        })
+    }
+
+    /// Loads of the devices, what the hub needs beside the inputs, and the sums of both.
+    pub(crate) fn weigh<A>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        accelerations: &Accelerations<D>,
+        field: Option<&Field<D::Scalar>>,
+        along: &Along<D::Scalar>,
+    ) -> (D::Loads, Wrench<D::Scalar>, LoadSums<D::Scalar>) {
+        let omega = components(&state.omega);
+        let falling = at_b(field);
+        let hub = HubAccelerations {
+            r_b_n_ddot: sub(components(&accelerations.r_b_n_ddot), falling),
+            omega_dot: components(&accelerations.omega_dot),
+        };
+        let central = field.and_then(|field| field.central);
+        let environment = Environment { omega, central, impulse: false };
+        let given = inputs.of_joints();
+        let mut devices = D::no_loads_for(&self.devices);
+        let mut totals = LoadSums::none();
+        D::loads(
+            &self.devices,
+            &state.devices,
+            given,
+            &environment,
+            &hub,
+            &accelerations.devices,
+            along,
+            &mut devices,
+            &mut totals,
+        );
+        let own = self.hub.needs(omega, hub.r_b_n_ddot, hub.omega_dot);
+        totals.inertial = totals.inertial.plus(&own);
+        if let Some(central) = central {
+            let second = self.hub.second_moment();
+            let (force, moment) = central.wrench(self.hub.first_moment, &second);
+            totals.second_moment = totals.second_moment.plus(second);
+            let whole = central.third_order(&totals.second_moment);
+            totals.gradient = totals.gradient.plus(&Wrench::of(force, moment));
+            totals.gradient = totals.gradient.plus(&Wrench::of(whole, [zero(); 3]));
+        }
+        let inputs = Wrench { force: inputs.force, moment: inputs.torque_b };
+        let needed = totals.inertial.minus(&totals.applied).minus(&totals.gradient).minus(&inputs);
+        (devices, needed, totals)
+    }
+}

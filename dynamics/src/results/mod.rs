@@ -1,0 +1,8 @@
+//! What follows from a solution: loads at every joint and mount, momenta and energy, the energy
+//! ledger.
+//!
+//! Evaluated only where they are called for; a step does not pass here.
+
+pub(crate) mod ledger;
+pub(crate) mod loads;
+pub(crate) mod momentum;

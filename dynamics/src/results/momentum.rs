@@ -1,0 +1,165 @@
+//! Energy, momentum and centre of mass of the whole spacecraft.
+//!
+//! With motors running, momentum is conserved and `dE/dt = F . v_B + L_B . omega + sum(u rate)`.
+//! Angular momentum is conserved about a point fixed in N or about the centre of mass, not about B.
+
+use nalgebra::Vector3;
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::hub::BodySums;
+use crate::numbers::real::{Real, Scalar, zero};
+use crate::numbers::vec3::{
+    Columns, Vec3, add, columns, components, cross, finite, neg, rotate, rotate_transposed, scale,
+    sub, vector, zeros,
+};
+use crate::sets::devices::Devices;
+use crate::solve::finite::{not_finite_in_vector, reject};
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
+
+/// The point about which angular momentum is taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum About<T = f64> {
+    /// The origin of N.
+    InertialOrigin,
+    /// The spacecraft's centre of mass, with velocities relative to N.
+    CentreOfMass,
+    /// A point fixed in N, N axes, m.
+    Point(Vector3<T>),
+}
+
+/// Momenta of the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Momentum<T = f64> {
+    /// Linear momentum, N axes, kg m/s.
+    pub linear: Vector3<T>,
+    /// Angular momentum about the point given, N axes, kg m^2/s.
+    pub angular: Vector3<T>,
+}
+
+/// Where the centre of mass is and how it moves seen from B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CentreOfMass<T = f64> {
+    /// `c`, position from B, B axes, m; (9).
+    pub c: Vector3<T>,
+    /// `c'`, derivative seen from B, B axes, m/s.
+    pub c_prime: Vector3<T>,
+}
+
+impl<D: Devices> Spacecraft<D> {
+    /// Kinetic energy of hub and devices, J. Gravity and springs have theirs in the
+    /// [ledger](Self::ledger).
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN, or
+    /// [`SolveError::Overflow`].
+    pub fn energy<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> Result<D::Scalar, SolveError<D::Scalar>> {
+        self.reject_state(state)?;
+        let (_, BodySums { energy, .. }) = self.sums(state);
+        // A sum of squares, but for the rounding of what cancels in it.
+        checked(Quantity::Energy, energy.max(zero()), energy.is_finite())
+    }
+
+    /// Linear momentum, and angular momentum about a point.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming the part of the state (or the point) that is infinite or
+    /// NaN, or [`SolveError::Overflow`].
+    pub fn momentum<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        about: About<D::Scalar>,
+    ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
+        self.reject_state(state)?;
+        reject(not_finite_in_point(&about))?;
+        let (bn, sums) = self.sums(state);
+        self.momentum_of(state, &bn, &sums, about)
+    }
+
+    /// [`Self::momentum`] from the sums over the bodies.
+    pub(crate) fn momentum_of<A>(
+        &self,
+        state: &State<D, A>,
+        bn: &Columns<D::Scalar>,
+        sums: &BodySums<D::Scalar>,
+        about: About<D::Scalar>,
+    ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
+        let BodySums { linear, angular_b, .. } = *sums;
+        let linear_n = rotate_transposed(bn, linear);
+        let about_b = rotate_transposed(bn, angular_b);
+        // H about P is H_B + r_{B/P} x p, whatever B does.
+        let r_b_n = components(&state.r_b_n);
+        let r_b_p = match about {
+            About::InertialOrigin => r_b_n,
+            About::Point(point) => sub(r_b_n, components(&point)),
+            About::CentreOfMass => neg(rotate_transposed(bn, self.centre(state)[0])),
+        };
+        let angular_n = add(about_b, cross(r_b_p, linear_n));
+        let found = Momentum { linear: vector(linear_n), angular: vector(angular_n) };
+        checked(Quantity::Momentum, found, finite(linear_n) && finite(angular_n))
+    }
+
+    /// Centre of mass of hub and devices.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN, or
+    /// [`SolveError::Overflow`].
+    pub fn centre_of_mass<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> Result<CentreOfMass<D::Scalar>, SolveError<D::Scalar>> {
+        self.reject_state(state)?;
+        let [c, c_prime] = self.centre(state);
+        let found = CentreOfMass { c: vector(c), c_prime: vector(c_prime) };
+        checked(Quantity::CentreOfMass, found, finite(c) && finite(c_prime))
+    }
+
+    /// `[BN]` by its columns, and energy and momenta expressed in B.
+    pub(crate) fn sums<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> (Columns<D::Scalar>, BodySums<D::Scalar>) {
+        let bn = columns(&state.attitude.dcm());
+        let r_b_n_dot = rotate(&bn, components(&state.r_b_n_dot));
+        let omega = components(&state.omega);
+        let mut sums = self.hub.sums(r_b_n_dot, omega);
+        D::add_sums(&self.devices, &state.devices, r_b_n_dot, omega, &mut sums);
+        (bn, sums)
+    }
+
+    /// `c` and `c'`, expressed in B.
+    pub(crate) fn centre<A>(&self, state: &State<D, A>) -> [Vec3<D::Scalar>; 2] {
+        let mut moment = [self.hub.first_moment, zeros()];
+        D::add_first_moment(&self.devices, &state.devices, &mut moment);
+        let per_mass = self.mass().recip();
+        moment.map(|moment| scale(per_mass, moment))
+    }
+
+    /// Refuses a state that is not finite, or of another number of devices.
+    fn reject_state<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        D::fits(&self.devices, &state.devices, None, None)?;
+        reject(self.not_finite_in_state(state))
+    }
+}
+
+fn not_finite_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {
+    match about {
+        About::Point(point) => not_finite_in_vector(Quantity::ReferencePoint, point),
+        About::InertialOrigin | About::CentreOfMass => None,
+    }
+}
+
+/// With every input finite, a result that is not has overflowed.
+fn checked<R, T: Scalar>(what: Quantity, result: R, is_finite: bool) -> Result<R, SolveError<T>> {
+    if is_finite { Ok(result) } else { Err(SolveError::Overflow { what }) }
+}

@@ -1,0 +1,375 @@
+//! All accelerations from state and inputs.
+//!
+//! Devices meet only in the hub's six equations: each is eliminated into them, they are solved, and
+//! each device's own accelerations follow. The number of devices is a loop bound and nothing else.
+
+#![expect(
+    clippy::inline_always,
+    reason = "fused numbers reach their instruction only where inlined"
+)]
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::arithmetic::{Arithmetic, Rounding, Unfused};
+use crate::equations::assembly::Assembly;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::gravity::{Gravity, at_b};
+use crate::equations::joint_inputs::Environment;
+use crate::equations::stiffness::Stiffness;
+use crate::equations::system::Solution;
+use crate::model::mode::HubMode;
+use crate::numbers::each::{Each, JointStates};
+use crate::numbers::real::{Scalar, zero};
+use crate::numbers::vec3::{Vec3, add, columns, components, extreme, finite, sub, vector, zeros};
+use crate::sets::devices::{Devices, SetInputs};
+use crate::solve::finite::all_finite;
+#[cfg(feature = "lanes")]
+use crate::solve::fused::FusedEvaluation;
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
+
+impl<D: Devices> Spacecraft<D> {
+    /// All second derivatives of the state: six numbers and one per joint, from (16), (75), (80),
+    /// (101), (119).
+    ///
+    /// A joint that is [prescribed or locked](crate::Mode), and a hub that is
+    /// [fixed or prescribed](crate::HubMode), come out as they are given; what that takes is found
+    /// by [`Self::loads`].
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Singular`] where a driven joint or the hub is left without inertia,
+    /// [`SolveError::NotFinite`] naming the first input that is infinite or NaN (also one that the
+    /// accelerations do not depend on, such as the position), [`SolveError::Overflow`] naming the
+    /// acceleration that is not finite though every input is, [`SolveError::LockedJointMoves`] and
+    /// [`SolveError::FixedHubMoves`] where what is locked moves, [`SolveError::NotDriven`] where a
+    /// mode asks of a joint what its kind has not.
+    pub fn accelerations<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
+        if !inputs_are_finite(state, inputs) {
+            return Err(self.diagnosis(state, inputs, overflow()));
+        }
+        let mut found = self.no_accelerations();
+        match self.solve(state, inputs, &mut found, None) {
+            Ok(()) => Ok(found),
+            Err(failure) => Err(self.diagnosis(state, inputs, failure)),
+        }
+    }
+
+    /// [`Self::accelerations`] without the search for a culprit, in their place: to move what was
+    /// just put together takes time. So is what springs and friction demand of a step, where that
+    /// is asked.
+    pub(crate) fn solve<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        found: &mut Accelerations<D>,
+        stiffness: Option<&mut Stiffness<D::Scalar>>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        match self.arithmetic {
+            Arithmetic::Unfused => self.solve_by::<_, Unfused>(state, inputs, found, stiffness),
+            #[cfg(feature = "lanes")]
+            Arithmetic::Fused(cpu) => {
+                cpu.dispatch(FusedEvaluation { craft: self, state, inputs, found, stiffness })
+            }
+        }
+    }
+
+    /// [`Self::solve`] in a way.
+    #[inline(always)]
+    pub(crate) fn solve_by<A: Attitude<D::Scalar>, W: Rounding>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        found: &mut Accelerations<D>,
+        stiffness: Option<&mut Stiffness<D::Scalar>>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        let EvaluationStart { environment, at_b } = evaluation_start(state, inputs)?;
+        let mut assembly = self.assembly(inputs);
+        let mut scratch = D::scratch(&self.devices);
+        self.eliminate_devices::<_, W>(
+            state,
+            inputs.of_joints(),
+            &environment,
+            &mut assembly,
+            &mut scratch,
+        )?;
+        let hub = self.hub_accelerations(inputs, &environment, &mut assembly, at_b)?;
+        D::back_substitute(&self.devices, &scratch, &hub, &mut found.devices);
+        if let Some(stiffness) = stiffness {
+            *stiffness = self.stiffness(inputs, &assembly);
+        }
+        found.finish(inputs, &hub, at_b)
+    }
+
+    /// Accelerations to be filled in.
+    pub(crate) fn no_accelerations(&self) -> Accelerations<D> {
+        let still = vector(zeros());
+        let devices = D::no_accelerations_for(&self.devices);
+        Accelerations { r_b_n_ddot: still, omega_dot: still, devices }
+    }
+
+    /// The hub's system before any device is evaluated.
+    #[inline]
+    pub(crate) fn assembly(&self, inputs: &Inputs<D>) -> Assembly<D::Scalar> {
+        Assembly::new(&self.body, components(&inputs.force), components(&inputs.torque_b))
+    }
+
+    /// The hub's accelerations once every device is eliminated, in the frame that falls with the
+    /// field at B, where there is no uniform one.
+    #[inline(always)]
+    pub(crate) fn hub_accelerations(
+        &self,
+        inputs: &Inputs<D>,
+        environment: &Environment<D::Scalar>,
+        assembly: &mut Assembly<D::Scalar>,
+        at_b: Vec3<D::Scalar>,
+    ) -> Result<Solution<D::Scalar>, SolveError<D::Scalar>> {
+        if let Some(central) = environment.central {
+            let second = self.hub.second_moment();
+            let (force, moment) = central.wrench(self.hub.first_moment, &second);
+            let whole = central.third_order(&assembly.second_moment.plus(second));
+            assembly.push(add(force, whole), moment);
+        }
+        let hub = match &inputs.hub {
+            HubMode::Free => {
+                let system = assembly.system(environment.omega);
+                let scale = assembly.scale(&self.body);
+                system.solve(&scale).map_err(|small| small.of(None, None))?
+            }
+            HubMode::Fixed => Solution { r_b_n_ddot: sub(zeros(), at_b), omega_dot: zeros() },
+            HubMode::Prescribed { r_b_n_ddot, omega_dot } => Solution {
+                r_b_n_ddot: sub(components(r_b_n_ddot), at_b),
+                omega_dot: components(omega_dot),
+            },
+        };
+        if hub.is_finite() { Ok(hub) } else { Err(overflow()) }
+    }
+
+    /// What springs and friction demand of a step, estimated once every device is eliminated.
+    /// Factorises the hub's system once more, which spares those that do not ask from keeping its
+    /// pivots.
+    #[inline(never)]
+    pub(crate) fn stiffness(
+        &self,
+        inputs: &Inputs<D>,
+        assembly: &Assembly<D::Scalar>,
+    ) -> Stiffness<D::Scalar> {
+        match inputs.hub {
+            HubMode::Free => {
+                let (_, pivots) = assembly.system(zeros()).solved();
+                assembly.stiffness.on_free_hub(pivots, assembly.scale(&self.body))
+            }
+            HubMode::Fixed | HubMode::Prescribed { .. } => assembly.stiffness,
+        }
+    }
+
+    /// Eliminates every device, keeps what back substitution needs, adds to the hub.
+    #[inline(always)]
+    pub(crate) fn eliminate_devices<A, W: Rounding>(
+        &self,
+        state: &State<D, A>,
+        given: SetInputs<'_, D>,
+        environment: &Environment<D::Scalar>,
+        assembly: &mut Assembly<D::Scalar>,
+        scratch: &mut D::Scratch,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        D::fits(&self.devices, &state.devices, Some(given), None)?;
+        D::eliminate_set::<W>(
+            &self.devices,
+            &state.devices,
+            given,
+            environment,
+            assembly,
+            scratch,
+            &mut 0,
+        )
+    }
+
+    /// The accelerations of every device's joints, checked finite.
+    pub(crate) fn back_substitute(
+        &self,
+        scratch: &D::Scratch,
+        hub: &Solution<D::Scalar>,
+    ) -> Result<D::Accelerations, SolveError<D::Scalar>> {
+        let mut found = D::no_accelerations_for(&self.devices);
+        D::back_substitute(&self.devices, scratch, hub, &mut found);
+        if found.values().all(Scalar::is_finite) { Ok(found) } else { Err(overflow()) }
+    }
+
+    /// What to report for a failed evaluation: an input that is not finite explains everything
+    /// else, and a pivot that is not finite is an overflow, not a singularity.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn diagnosis<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        failure: SolveError<D::Scalar>,
+    ) -> SolveError<D::Scalar> {
+        if matches!(failure, SolveError::Count { .. }) {
+            return failure;
+        }
+        if let Err(culprit) = self.reject(state, inputs) {
+            return culprit;
+        }
+        self.cause(state, inputs, failure)
+    }
+
+    /// What to report for a failed evaluation of finite inputs.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn cause<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        failure: SolveError<D::Scalar>,
+    ) -> SolveError<D::Scalar> {
+        match failure {
+            _ if matches!(inputs.gravity, Gravity::Central { .. })
+                && extreme(components(&state.r_b_n)) == zero() =>
+            {
+                SolveError::AtCentre
+            }
+            SolveError::Singular { device: Some(device), joint: Some(joint), pivot, bound }
+                if !(pivot.is_finite() && bound.is_finite()) =>
+            {
+                SolveError::Overflow { what: Quantity::JointAcceleration { device, joint } }
+            }
+            SolveError::Singular { pivot, bound, .. }
+                if !(pivot.is_finite() && bound.is_finite()) =>
+            {
+                SolveError::Overflow { what: self.overflowing(state, inputs) }
+            }
+            SolveError::Overflow { what: Quantity::HubAcceleration } => {
+                SolveError::Overflow { what: self.overflowing(state, inputs) }
+            }
+            failure => failure,
+        }
+    }
+
+    /// The acceleration whose terms overflow: the hub's where those of the hub alone do, else that
+    /// of the first device with one that is not finite on a hub that does not accelerate, of the
+    /// joint nearest the tip, which was eliminated first.
+    #[cold]
+    #[inline(never)]
+    fn overflowing<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Quantity {
+        let joint = || -> Result<Option<Quantity>, SolveError<D::Scalar>> {
+            let environment = evaluation_start(state, inputs)?.environment;
+            let (mut assembly, mut scratch) = (self.assembly(inputs), D::scratch(&self.devices));
+            let alone = assembly.system(environment.omega);
+            if !(finite(alone.h_v) && finite(alone.h_w)) {
+                return Ok(None);
+            }
+            let given = inputs.of_joints();
+            self.eliminate_devices::<_, Unfused>(
+                state,
+                given,
+                &environment,
+                &mut assembly,
+                &mut scratch,
+            )?;
+            let still = Solution { r_b_n_ddot: zeros(), omega_dot: zeros() };
+            let mut found = D::no_accelerations_for(&self.devices);
+            D::back_substitute(&self.devices, &scratch, &still, &mut found);
+            let joints = found.values().zip(self.joints());
+            let mut joints = joints.filter(|(value, _)| !value.is_finite()).map(|(_, joint)| joint);
+            let first = joints.next();
+            let last = first.map(|(device, _)| joints.take_while(move |(of, _)| *of == device));
+            let joint = last.and_then(Iterator::last).or(first);
+            Ok(joint.map(|(device, info)| Quantity::JointAcceleration { device, joint: info.body }))
+        };
+        joint().ok().flatten().unwrap_or(Quantity::HubAcceleration)
+    }
+}
+
+/// An acceleration is not finite; [`Spacecraft::diagnosis`] finds which.
+pub(crate) fn overflow<T>() -> SolveError<T> {
+    SolveError::Overflow { what: Quantity::HubAcceleration }
+}
+
+/// What is known before any device is evaluated.
+pub(crate) struct EvaluationStart<T> {
+    pub(crate) environment: Environment<T>,
+    /// The field at B.
+    pub(crate) at_b: Vec3<T>,
+}
+
+/// Where an evaluation sets out: what the devices feel.
+#[inline(always)]
+pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>>(
+    state: &State<D, A>,
+    inputs: &Inputs<D>,
+) -> Result<EvaluationStart<D::Scalar>, SolveError<D::Scalar>> {
+    check_fixed(state, inputs)?;
+    let omega = components(&state.omega);
+    let field = match &inputs.gravity {
+        Gravity::None => None,
+        gravity => gravity.field(&columns(&state.attitude.dcm()), &state.r_b_n),
+    };
+    let at_b = at_b(field.as_ref());
+    let central = field.and_then(|field| field.central);
+    let environment = Environment { omega, central, impulse: false };
+    Ok(EvaluationStart { environment, at_b })
+}
+
+impl<D: Devices> Accelerations<D> {
+    /// Fills the hub's in, no longer relative to the frame that falls with it; all must be finite.
+    #[inline]
+    pub(crate) fn finish(
+        &mut self,
+        inputs: &Inputs<D>,
+        hub: &Solution<D::Scalar>,
+        at_b: Vec3<D::Scalar>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        self.r_b_n_ddot = match &inputs.hub {
+            HubMode::Free => vector(add(hub.r_b_n_ddot, at_b)),
+            HubMode::Fixed => vector(zeros()),
+            HubMode::Prescribed { r_b_n_ddot, .. } => *r_b_n_ddot,
+        };
+        self.omega_dot = vector(hub.omega_dot);
+        let is_finite =
+            finite(components(&self.r_b_n_ddot)) && self.devices.values().all(Scalar::is_finite);
+        if is_finite { Ok(()) } else { Err(overflow()) }
+    }
+}
+
+/// Refuses a fixed hub that moves.
+pub(crate) fn check_fixed<D: Devices, A>(
+    state: &State<D, A>,
+    inputs: &Inputs<D>,
+) -> Result<(), SolveError<D::Scalar>> {
+    if inputs.hub != HubMode::Fixed {
+        return Ok(());
+    }
+    let [x, y, z] = components(&state.r_b_n_dot);
+    let [p, q, r] = components(&state.omega);
+    let value = extreme([x, y, z, p, q, r]);
+    if value == zero() { Ok(()) } else { Err(SolveError::FixedHubMoves { value }) }
+}
+
+/// Whether the rates are finite: on a free hub they show in its accelerations, on a held one they
+/// may show nowhere.
+fn rates_are_finite<D: Devices, A>(state: &State<D, A>) -> bool {
+    finite(components(&state.omega)) && state.devices.states().all(|[_, rate]| rate.is_finite())
+}
+
+/// Whether what the accelerations may not depend on is finite: the position, forces and rates on a
+/// hub that is held, motors of joints that are. All else shows in the result.
+pub(crate) fn inputs_are_finite<D: Devices, A: Attitude<D::Scalar>>(
+    state: &State<D, A>,
+    inputs: &Inputs<D>,
+) -> bool {
+    all_finite([&state.r_b_n, &state.r_b_n_dot, &inputs.force, &inputs.torque_b])
+        && state.attitude.is_valid()
+        && inputs.motors.values().all(Scalar::is_finite)
+        && inputs.bodies.iter().flat_map(Each::values).all(|wrench| wrench.is_finite())
+        && (matches!(inputs.hub, HubMode::Free) || rates_are_finite(state))
+}

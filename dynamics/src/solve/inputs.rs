@@ -1,0 +1,96 @@
+//! [`Inputs`]: what acts on a spacecraft at one instant, and what is given of its joints and hub.
+
+use nalgebra::Vector3;
+
+use crate::equations::gravity::Gravity;
+use crate::equations::joint_inputs::JointInputs;
+use crate::model::mode::{HubMode, Mode};
+use crate::model::wrench::Wrench;
+use crate::numbers::vec3::{add, components, cross, vector, zeros};
+use crate::sets::devices::{Devices, FixedSet, SetInputs};
+use crate::solve::spacecraft::Spacecraft;
+
+/// Forces, torques and modes. Constant during a step, expressed in the axes that each field names.
+///
+/// `Inputs { motors, ..Inputs::none() }` is a free hub with every joint driven.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inputs<D: Devices> {
+    /// External force F through B, B axes, N; see [`Self::push`] for other points.
+    pub force: Vector3<D::Scalar>,
+    /// `L_B`, external torque about B, B axes, N m.
+    pub torque_b: Vector3<D::Scalar>,
+    /// Motor torques, device by device; what stands at a joint that is not driven does nothing.
+    pub motors: D::Motors,
+    /// What is given of each joint.
+    pub modes: D::PerJoint<Mode<D::Scalar>>,
+    /// What is given of the hub.
+    pub hub: HubMode<D::Scalar>,
+    /// Gravity on every body.
+    pub gravity: Gravity<D::Scalar>,
+    /// External wrench on the child body of each joint, about the joint's origin along the body's
+    /// own axes; none where no device has one.
+    ///
+    /// During a step such a wrench turns with its body: for one that keeps its direction in N or in
+    /// B, steps must resolve the turning. A rotor that is the same from every angle (a balanced
+    /// kind's) has the axes of its parent body, so the same numbers mean another force there than
+    /// on an imbalanced rotor.
+    pub bodies: Option<D::PerJoint<Wrench<D::Scalar>>>,
+}
+
+impl<D: Devices> Inputs<D> {
+    /// Those of the joints.
+    pub(crate) fn of_joints(&self) -> SetInputs<'_, D> {
+        JointInputs { motors: &self.motors, modes: &self.modes, bodies: self.bodies.as_ref() }
+    }
+}
+
+impl<D: FixedSet> Inputs<D> {
+    /// Nothing acts, motors are off, every joint is as its kind has it, the hub is free.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            force: vector(zeros()),
+            torque_b: vector(zeros()),
+            motors: D::motors_off(),
+            modes: D::modes(),
+            hub: HubMode::Free,
+            gravity: Gravity::None,
+            bodies: None,
+        }
+    }
+
+    /// No wrench on any body, to be changed and handed to [`Self::bodies`].
+    #[must_use]
+    pub fn no_wrenches() -> D::PerJoint<Wrench<D::Scalar>> {
+        D::all(Wrench::none())
+    }
+}
+
+impl<D: Devices> Inputs<D> {
+    /// As [`Inputs::none`], for a set whose devices are known only at run time.
+    #[must_use]
+    pub fn none_for(spacecraft: &Spacecraft<D>) -> Self {
+        Self {
+            force: vector(zeros()),
+            torque_b: vector(zeros()),
+            motors: D::motors_off_for(&spacecraft.devices),
+            modes: D::modes_for(&spacecraft.devices),
+            hub: HubMode::Free,
+            gravity: Gravity::None,
+            bodies: None,
+        }
+    }
+
+    /// As [`Inputs::no_wrenches`], for a set whose devices are known only at run time.
+    #[must_use]
+    pub fn no_wrenches_for(spacecraft: &Spacecraft<D>) -> D::PerJoint<Wrench<D::Scalar>> {
+        D::all_for(&spacecraft.devices, Wrench::none())
+    }
+
+    /// Adds a force on the hub at a point from B, both expressed in B, m and N.
+    pub fn push(&mut self, point: &Vector3<D::Scalar>, force: &Vector3<D::Scalar>) {
+        let (point, force) = (components(point), components(force));
+        self.force = vector(add(components(&self.force), force));
+        self.torque_b = vector(add(components(&self.torque_b), cross(point, force)));
+    }
+}

@@ -1,0 +1,15 @@
+//! A spacecraft, its state and inputs, and the accelerations that follow.
+//!
+//! [`accelerations`] is the entry: eliminate every device, solve the hub's system, substitute back.
+
+pub(crate) mod accelerations;
+pub(crate) mod finite;
+#[cfg(feature = "lanes")]
+pub(crate) mod fused;
+pub(crate) mod inputs;
+#[cfg(test)]
+mod overflow_checks;
+pub(crate) mod spacecraft;
+#[cfg(test)]
+mod spacecraft_checks;
+pub(crate) mod state;

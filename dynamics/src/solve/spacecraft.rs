@@ -1,0 +1,88 @@
+//! [`Spacecraft`]: a hub and its devices, checked and prepared once, and what is odd about them.
+
+use crate::equations::arithmetic::Arithmetic;
+use crate::equations::hub::HubConstants;
+use crate::model::parameters::Hub;
+use crate::model::passive::Passive;
+use crate::numbers::real::{Scalar, zero};
+use crate::sets::devices::Devices;
+use crate::validation::check::check_hub;
+use crate::validation::parameter_error::{ParameterError, Part, Warning};
+
+/// A rigid hub with devices, prepared for evaluation. Never changes; `[Dgvscmg; 0]` is a plain hub.
+#[derive(Clone, Copy, Debug)]
+pub struct Spacecraft<D: Devices> {
+    pub(crate) hub: HubConstants<D::Scalar>,
+    /// The hub with the constant shares of its devices.
+    pub(crate) body: HubConstants<D::Scalar>,
+    pub(crate) devices: D::Prepared,
+    /// Whether a joint has a spring, a damper or dry friction.
+    pub(crate) passive: bool,
+    hub_excess: D::Scalar,
+    pub(crate) arithmetic: Arithmetic,
+}
+
+impl<D: Devices> Spacecraft<D> {
+    /// Checks the parameters and computes everything that depends only on them.
+    ///
+    /// # Errors
+    ///
+    /// [`ParameterError`] names the body, the value and the bound: a number that is not finite, a
+    /// mass of hub or outermost body that is not above zero, a negative mass of a gimbal, an
+    /// inertia that is not symmetric or has a negative principal moment, a mount that is not a
+    /// right-handed rotation, a negative stiffness or friction; or it tells that the total mass or
+    /// a principal moment is not finite. Deviations up to 4096 epsilons of the largest element
+    /// count as rounding.
+    pub fn new(hub: &Hub<D::Scalar>, devices: &D) -> Result<Self, ParameterError<D::Scalar>> {
+        let hub_excess = check_hub(hub)?;
+        devices.check(&mut 0)?;
+        let devices = devices.prepare();
+        let hub = HubConstants::new(hub);
+        let body = hub.taking_over(D::handed(&devices));
+        if !body.m_b.is_finite() {
+            return Err(ParameterError::TotalMass { value: body.m_b });
+        }
+        let passive = D::passives(&devices).any(|joint| joint != Passive::none());
+        Ok(Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::Unfused })
+    }
+
+    /// The same with products and sums of the devices' equations rounded once, where the CPU does
+    /// that: accelerations and steps have other bits, and take less time.
+    ///
+    /// The instructions are looked for now, at run time. Numbers other than `f64`, and lists of
+    /// [`AnyDevice`](crate::AnyDevice), stay as they are; so do loads, energies and momenta.
+    #[cfg(feature = "lanes")]
+    #[must_use]
+    pub fn fused(self) -> Self {
+        Self { arithmetic: Arithmetic::fused(), ..self }
+    }
+
+    /// What is odd about the parameters without being wrong; see [`Warning`].
+    #[must_use = "warnings do nothing unless they are read"]
+    pub fn warnings(&self) -> impl Iterator<Item = Warning<D::Scalar>> + '_ {
+        let numbered = self.joints().map(|(device, info)| Part::Body { device, body: info.body });
+        let bodies = numbered.zip(D::excesses(&self.devices));
+        core::iter::once((Part::Hub, self.hub_excess))
+            .chain(bodies)
+            .filter(|&(_, excess)| excess > zero())
+            .map(|(part, excess)| Warning::Triangle { part, excess })
+    }
+
+    /// `m_sc`, mass of hub and devices, kg.
+    #[must_use]
+    pub fn mass(&self) -> D::Scalar {
+        self.body.m_b
+    }
+
+    /// The joints in order, each with the number of its device.
+    pub fn joints(
+        &self,
+    ) -> impl Iterator<Item = (usize, &'static crate::model::kind::JointInfo)> + '_ {
+        D::infos(&self.devices).scan(0_usize, |next, info| {
+            if info.index == 0 {
+                *next = next.wrapping_add(1);
+            }
+            Some((next.wrapping_sub(1), info))
+        })
+    }
+}
