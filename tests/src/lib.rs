@@ -27,7 +27,15 @@ pub mod spatial;
 pub mod stored;
 pub mod table1;
 
-/// The examples of the README compile and run.
+/// The examples of the README and of the pages compile and run.
 #[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
-struct Readme;
+mod pages {
+    #[doc = include_str!("../../README.md")]
+    struct Readme;
+
+    #[doc = include_str!("../../docs/guide.md")]
+    struct Guide;
+
+    #[doc = include_str!("../../docs/adding-a-kind.md")]
+    struct AddingAKind;
+}

@@ -1,4 +1,4 @@
-//! `attack`: random spacecraft against what the README promises.
+//! `attack`: random spacecraft against the promises of docs/promises.md.
 
 use clap::Args;
 

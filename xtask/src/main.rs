@@ -47,8 +47,8 @@ enum Command {
     /// Run all tests
     #[command(after_help = "Example: cargo xtask test")]
     Test,
-    /// Try to break what the README promises with random spacecraft, on every core; print what fails as
-    /// a test to paste
+    /// Try to break the promises of docs/promises.md with random spacecraft, on every core; print what
+    /// fails as a test to paste
     #[command(
         after_help = "Examples: cargo xtask attack --minutes 10\n          cargo xtask attack --property singular-is-refused --seed 7"
     )]

@@ -14,7 +14,7 @@ use super::residual::numbers;
 use super::sizes::{Motion, motion, sizes};
 use super::{Checked, Verdict};
 
-/// Row E1 of the README: the ledger's residual, in epsilons of its magnitude.
+/// The bound of docs/promises.md on the ledger's residual, in epsilons of its magnitude.
 const LEDGER: f64 = 50.0;
 
 /// Momentum and energy over a stop, in epsilons of the sums of magnitudes before and after.

@@ -1,4 +1,4 @@
-//! A randomised campaign against what the README promises: each promise a property with a name.
+//! A randomised campaign against the promises of docs/promises.md, each a property with a name.
 //!
 //! Cases are drawn and minimised by proptest and printed as a test to paste. `cargo xtask attack` runs
 //! the campaign, the suite `sample` a fixed sample of it.

@@ -1,4 +1,4 @@
-//! `cargo xtask attack`: the campaign against the README's promises, from the command line.
+//! `cargo xtask attack`: the campaign against the promises of docs/promises.md, from the command line.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use precess_attack::campaign::{Campaign, Failure, Row, chunk};
 use precess_attack::progress::Progress;
 use precess_attack::properties::{PROPERTIES, Property, named};
 
-/// Try to break a promise of the README with random spacecraft
+/// Try to break a promise of docs/promises.md with random spacecraft
 #[derive(Parser)]
 #[command(
     name = "cargo xtask attack",

@@ -1,7 +1,7 @@
-//! A kind that another crate makes, by the README's own lines: emitted, proven, compiled against the
-//! dynamics crate and run. Needs cargo and the linker that every build needs, and no network.
+//! A kind that another crate makes, by the lines of docs/adding-a-kind.md: emitted, proven, compiled
+//! against the dynamics crate and run. Needs cargo and the linker that every build needs, and no network.
 
-#[expect(unreachable_pub, reason = "the README's lines, which a crate of its own exports")]
+#[expect(unreachable_pub, reason = "the page's lines, which a crate of its own exports")]
 mod robot_arm;
 
 use std::path::Path;
@@ -14,10 +14,11 @@ use precess_codegen::{emit_kind, prove_kind};
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
 #[test]
-fn the_readme_shows_these_lines() {
-    let readme = fs::read_to_string(Path::new(ROOT).join("README.md")).expect("the README");
+fn the_page_shows_these_lines() {
+    let page = Path::new(ROOT).join("docs/adding-a-kind.md");
+    let page = fs::read_to_string(page).expect("the page on adding a kind");
     let block = format!("```rust\n{}```\n", include_str!("robot_arm.rs"));
-    assert!(readme.contains(&block), "the README and tests/tests/outside/robot_arm.rs differ");
+    assert!(page.contains(&block), "the page and tests/tests/outside/robot_arm.rs differ");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Promises of the README at the points where each has been broken once, in every service.
+//! The promises of docs/promises.md at the points where each has been broken once, in every service.
 
 mod finite;
 mod inputs;
