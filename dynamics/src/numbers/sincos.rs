@@ -1,11 +1,11 @@
 //! Sine and cosine together, without a branch: one text for `f64`, a fused `f64` and lanes.
 //!
-//! The angle is taken less its nearest whole number `k` of quarter turns (after Cody and Waite,
-//! with pi / 2 in four parts), sine and cosine of what is left come from two polynomials, and `k`
-//! modulo 4 swaps them and sets their signs. Worst error of 1.2e8 angles up to [`LARGEST_ANGLE`]:
-//! 0.83 of the last place, 0.50 next to multiples of pi / 2; the suite `sines` holds it against 31
-//! digits. Sine is odd to the bit, `-0.0` included, and cosine even. Only `+ - *` and what
-//! [`QuarterTurns`] adds: a number that does not fuse has the same bits on every IEEE-754 target.
+//! The angle is taken less its nearest whole number `k` of quarter turns (after Cody and Waite, with
+//! pi / 2 in four parts), sine and cosine of what is left come from two polynomials, and `k` modulo 4
+//! swaps them and sets their signs. Worst error of 1.2e8 angles up to [`LARGEST_ANGLE`]: 0.83 of the
+//! last place, 0.50 next to multiples of pi / 2; the suite `sines` holds it against 31 digits. Sine is
+//! odd to the bit, `-0.0` included, and cosine even. Only `+ - *` and what [`QuarterTurns`] adds: a
+//! number that does not fuse has the same bits on every IEEE-754 target.
 
 use core::f64::consts::FRAC_2_PI;
 
@@ -56,8 +56,8 @@ pub(crate) const HALF_PI: [f64; 4] = [
     f64::from_bits(0x3a94_5c06_e0e6_8948),
 ];
 
-/// `(x - sin x) / x^3` in powers of `x^2`, for `|x|` up to pi / 4: each coefficient by Remez'
-/// method after the one before it was rounded. Error below `2^-57.8` of the sine.
+/// `(x - sin x) / x^3` in powers of `x^2`, for `|x|` up to pi / 4: each coefficient by Remez' method
+/// after the one before it was rounded. Error below `2^-57.8` of the sine.
 const SINE: [f64; 6] = [
     0.166_666_666_666_666_3,
     -0.008_333_333_333_321_84,
@@ -89,22 +89,24 @@ pub(crate) fn sin_cos<T: QuarterTurns>(angle: T) -> (T, T) {
     T::turned(count, sine, cosine)
 }
 
-/// `angle - k pi / 2` as the difference `rest - excess`, right to `2^-114` and `2^-106` of itself,
-/// for the nearest `k`, which [`LARGEST_ANGLE`] keeps below `2^23.4`.
+/// `angle - k pi / 2` as the difference `rest - excess`, right to `2^-114` and `2^-106` of itself, for
+/// the nearest `k`, which [`LARGEST_ANGLE`] keeps below `2^23.4`.
 ///
 /// Nothing is rounded on the way to `rest` but the last sum, and `excess` has what that sum gained.
 /// For `k = 0` all is `angle`; else `|angle| > 1/2`, a multiple of `2^-53`, and:
 ///
 /// 1. The first part is a multiple of `2^-28` below 2: its product with `k` is one below `2^25`, so
-/// has 53 bits at most. The difference is a multiple of `2^-53` and, since the angle is within pi /
-/// 4 (and `2^-28`, for the rounding of `k`) of `k pi / 2` and the parts left out are worth `2^-29`
-/// of `k`, below 1: 53 bits, exact. 2. The second part, below `2^-29`, is a multiple of `2^-53`: so
-/// are product and difference, both below 1. Exact. 3. The third part, below `2^-53.8`, is a
-/// multiple of `2^-82`: its product with `k`, below `2^-30`, has 52 bits at most. If the difference
-/// so far is the larger of the two, `(rest - before) - step` is what their sum gained by rounding
-/// (Dekker). If not, both are multiples of `2^-82` below `2^-30`: the sum is exact, and has gained
-/// nothing. 4. The fourth part, below `2^-85`, is rounded at `2^-139`, which `k` takes to `2^-115`;
-/// its product with `k`, below `2^-61`, is rounded at `2^-115`.
+///    has 53 bits at most. The difference is a multiple of `2^-53` and, since the angle is within
+///    pi / 4 (and `2^-28`, for the rounding of `k`) of `k pi / 2` and the parts left out are worth
+///    `2^-29` of `k`, below 1: 53 bits, exact.
+/// 2. The second part, below `2^-29`, is a multiple of `2^-53`: so are product and difference, both
+///    below 1. Exact.
+/// 3. The third part, below `2^-53.8`, is a multiple of `2^-82`: its product with `k`, below `2^-30`,
+///    has 52 bits at most. If the difference so far is the larger of the two, `(rest - before) - step`
+///    is what their sum gained by rounding (Dekker). If not, both are multiples of `2^-82` below
+///    `2^-30`: the sum is exact, and has gained nothing.
+/// 4. The fourth part, below `2^-85`, is rounded at `2^-139`, which `k` takes to `2^-115`; its
+///    product with `k`, below `2^-61`, is rounded at `2^-115`.
 ///
 /// The angle nearest to a multiple of pi / 2, of all up to [`LARGEST_ANGLE`], is off by `2^-60.5`.
 #[inline(always)]
@@ -120,8 +122,8 @@ fn reduced<T: Real>(angle: T, k: T) -> (T, T) {
 
 /// Sine and cosine of `x - excess`, for `|x|` up to pi / 4 and an excess that is lost in it.
 ///
-/// To first order in the excess `e`, `sin(x - e) = sin x - e cos x` and `cos(x - e) = cos x + e sin
-/// x`; at most `1 - x^2 / 2` of that cosine and `x` of that sine count. What `1 - x^2 / 2` loses by
+/// To first order in the excess `e`, `sin(x - e) = sin x - e cos x` and `cos(x - e) = cos x + e sin x`;
+/// at most `1 - x^2 / 2` of that cosine and `x` of that sine count. What `1 - x^2 / 2` loses by
 /// rounding is added to its small companions. Of the sine everything but `x` is subtracted, so that
 /// `x = -0.0` remains what it is.
 #[inline(always)]
