@@ -28,6 +28,9 @@ use crate::mutation::Report;
 use crate::page::{Block, Page, PageError};
 use crate::verdict::{Entry, Verdicts};
 
+/// Where files stand that are built and not committed, from the repository's root.
+pub const BUILT: &str = "target/";
+
 /// Why a document cannot be laid out: a fault of the generator, or of a page that it sets.
 #[derive(Debug)]
 pub enum ReportError {
@@ -159,7 +162,7 @@ fn page_links(entry: &Entry) -> String {
     pages.join(", ")
 }
 
-/// A document as Markdown and as HTML.
+/// A document as Markdown, which is committed, and as HTML for a browser, which is not.
 pub(crate) fn document(
     path: &str,
     template: &str,
@@ -171,6 +174,8 @@ pub(crate) fn document(
     tera.add_raw_template("document", template)?;
     let text = tera.render("document", context)?;
     let page = html::html(&text, pictures)?;
-    let file = |ending: &str, text| EmittedFile { path: format!("{path}.{ending}"), text };
-    Ok(vec![file("md", text), file("html", page)])
+    Ok(vec![
+        EmittedFile { path: format!("{path}.md"), text },
+        EmittedFile { path: format!("{BUILT}{path}.html"), text: page },
+    ])
 }
