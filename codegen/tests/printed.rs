@@ -145,7 +145,12 @@ fn an_equation_that_nobody_derived_is_named() {
 #[test]
 fn an_unused_an_unknown_and_a_forgotten_cause_are_named() {
     let right = "## M. Without";
-    assert_error(right, &format!("## N. No\n\n{right}"), "causes.md", "no note names cause N");
+    assert_error(
+        right,
+        &format!("## X. No\n\nIn short: no.\n\n{right}"),
+        "causes.md",
+        "no note names cause X",
+    );
     let (right, page) = ("(14) has the same square. Cause E.", "3.1b-translation.md");
     let with = |cause: &str| right.replace(" Cause E.", cause);
     assert_error(right, &with(" Cause Z."), page, "cause Z is not on the page of causes");

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
+use super::errata::tag_and_case;
 use crate::derivation::chain::Chain;
 use crate::derivation::placed::Placed;
 use crate::derivation::quantities::{Quantity, quantities};
@@ -222,7 +223,7 @@ fn quantity_text<'g>(
         let place = format!("{}:{}", block.page, block.line);
         let set =
             equation(&latex, &block.body).map_err(|error| NotationError::Block(place, error))?;
-        Ok(FormText { tag: block.tag.clone(), page: block.page.clone(), latex: set })
+        Ok(FormText { tag: tag_and_case(block), page: block.page.clone(), latex: set })
     };
     let forms = stated.iter().map(form).collect::<Result<Vec<_>, _>>()?;
     let named = stated.iter().flat_map(|block| numbers(&block.tag)).filter(|named| named.numbered);
