@@ -115,7 +115,8 @@ pub fn kinds(kinds: &[KindText]) -> Result<Vec<EmittedFile>, ReportError> {
     document("docs/kinds", include_str!("templates/kinds.md.tera"), &context, &[])
 }
 
-/// The errata of the paper: what is printed, what is right, and what the difference does.
+/// The errata of the paper: what is printed, what is right, and what the difference does; and the
+/// letter that says it to its authors on one page.
 ///
 /// # Errors
 /// When a block or a note cannot be set, or the print cannot be put into the system.
@@ -130,7 +131,11 @@ pub fn errata(
     let figures = Figures::of(pages, printed, verdicts)?;
     let mut context = Context::new();
     context.insert("errata", &errata::errata(verdicts, &figures, &balance)?);
-    document("docs/errata", include_str!("templates/errata.md.tera"), &context, &[])
+    let [errata, letter] =
+        [include_str!("templates/errata.md.tera"), include_str!("templates/letter.md.tera")];
+    let mut files = document("docs/errata", errata, &context, &[])?;
+    files.extend(document("docs/letter", letter, &context, &[])?);
+    Ok(files)
 }
 
 /// From each equation to the line, the page, the code and the laws that see it wrong; `sources` are
