@@ -336,11 +336,15 @@ fn emitted<'g>(
     }
 }
 
-/// `fn` and names of the claims that fit.
-fn claims(kernels: &[Kernel<'_>], fits: impl Fn(&str, &str) -> bool) -> Vec<String> {
+/// `fn` and names of the claims that fit: of a vector its own, of a scalar the emitted one.
+pub(super) fn claims(kernels: &[Kernel<'_>], fits: impl Fn(&str, &str) -> bool) -> Vec<String> {
     let of_kernel = |kernel: &Kernel<'_>| {
         let names = kernel.claims.iter().filter(|claim| fits(&claim.tag, &claim.name));
-        let names: Vec<_> = names.map(|claim| format!("`{}`", claim.name)).collect();
+        let names = names.map(|claim| match &claim.components[..] {
+            [(emitted, _)] => format!("`{emitted}`"),
+            _ => format!("`{}`", claim.name),
+        });
+        let names: Vec<_> = names.collect();
         (!names.is_empty()).then(|| format!("`fn {}`: {}", kernel.name, names.join(", ")))
     };
     kernels.iter().filter_map(of_kernel).collect()
