@@ -95,7 +95,7 @@ fn rows_are_found_by_equation() {
     let [markdown, html] = pages(&[report]).unwrap().try_into().unwrap();
     assert_eq!(
         (markdown.path.as_str(), html.path.as_str()),
-        ("docs/mutation.md", "docs/mutation.html")
+        ("docs/mutation.md", "target/docs/mutation.html")
     );
     assert!(markdown.text.contains("| `wheel` |"));
     assert!(html.text.contains("<td><code>wheel</code></td>"));

@@ -10,7 +10,7 @@ use precess_codegen::normal::Term;
 use precess_codegen::page::Page;
 use precess_codegen::proof::{Row, Verdict};
 use precess_codegen::regen::RegenError;
-use precess_codegen::verdict::{HandChecked, Printed, Verdicts, verdicts};
+use precess_codegen::verdict::{Counts, HandChecked, Printed, Verdicts, verdicts};
 
 #[test]
 fn every_number_has_its_verdict_and_every_row_holds() {
@@ -47,6 +47,58 @@ fn every_number_has_its_verdict_and_every_row_holds() {
         ("i_w_wc_prime", 23, 20),
     ];
     assert_eq!(counts[..5], signs);
+}
+
+/// The text of a committed page, its lines joined.
+fn document(name: &str) -> String {
+    let path = format!("{}/../docs/{name}", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).unwrap();
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn errata_and_letter_state_the_counts_of_the_verdicts() {
+    let made = verdicts(&pages(""), &pages("printed")).unwrap();
+    let counts = made.counts();
+    let Counts { numbered, agree, definitions, differing, papers, copys, .. } = counts.clone();
+    assert_eq!(numbered, 120);
+    assert_eq!(agree + definitions + differing + counts.lost.len(), numbered);
+    assert_eq!(papers + copys, differing);
+    assert_eq!(
+        (&counts.lost[..], &counts.contradicted[..]),
+        (&["(60)".into()][..], &["(122)".into()][..])
+    );
+
+    let errata = document("errata.md");
+    let summary = errata.split("| cause | energy |").nth(1).unwrap();
+    let summary = summary.split("## Equation by equation").next().unwrap();
+    let rows = summary.matches(" | (").count();
+    assert_eq!(rows, papers + counts.asserted + counts.contradicted.len(), "{summary}");
+    let slips = made.slips_of('A');
+    assert!(made.causes.iter().all(|cause| made.slips_of(cause.letter) <= slips));
+    let letter = document("letter.md");
+    for (text, stated) in [
+        (
+            &errata,
+            format!("{differing} of the {numbered} equations (6)-(125) differ as read: {papers} "),
+        ),
+        (
+            &errata,
+            format!("and {copys} only by losses of the copy. {agree} agree, {definitions} are"),
+        ),
+        (&errata, format!("Beside them, {} equalities", counts.asserted)),
+        (
+            &letter,
+            format!("Of {numbered} equations, {agree} agree as printed and {definitions} are"),
+        ),
+        (&letter, format!("{differing} differ as read: {papers} in a way that is, or may be,")),
+        (&letter, format!("the paper's, and {copys} only by losses of the copy. (60) is lost")),
+        (&letter, format!("{slips} of the {} differences that we count as slips", counts.slips)),
+        (&letter, format!("{} sentences share", counts.asserted)),
+        (&letter, format!("tell slip from scan in {}.", counts.open.join(", "))),
+    ] {
+        assert!(text.contains(&stated), "the page does not say: {stated}");
+    }
 }
 
 /// The verdicts on the pages with `right`, which stands there once, replaced by `wrong`.
@@ -145,7 +197,12 @@ fn an_equation_that_nobody_derived_is_named() {
 #[test]
 fn an_unused_an_unknown_and_a_forgotten_cause_are_named() {
     let right = "## M. Without";
-    assert_error(right, &format!("## N. No\n\n{right}"), "causes.md", "no note names cause N");
+    assert_error(
+        right,
+        &format!("## X. No\n\nIn short: no.\n\n{right}"),
+        "causes.md",
+        "no note names cause X",
+    );
     let (right, page) = ("(14) has the same square. Cause E.", "3.1b-translation.md");
     let with = |cause: &str| right.replace(" Cause E.", cause);
     assert_error(right, &with(" Cause Z."), page, "cause Z is not on the page of causes");

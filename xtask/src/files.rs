@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::page::Page;
+use precess_codegen::report::BUILT;
 use similar::TextDiff;
 
 use crate::run::say;
@@ -34,6 +35,12 @@ pub(crate) fn read_files(folder: &Path, ending: &str) -> Result<Vec<Page>, Strin
     }
     pages.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(pages)
+}
+
+/// Those of the files that are committed, and so can be stale; pages for a browser are only built.
+pub(crate) fn committed(mut files: Vec<EmittedFile>) -> Vec<EmittedFile> {
+    files.retain(|file| !file.path.starts_with(BUILT));
+    files
 }
 
 /// Writes what changed. All text is on disk before the first file is replaced, and nothing is left

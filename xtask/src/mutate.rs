@@ -13,7 +13,7 @@ use precess_codegen::page::Page;
 use precess_codegen::report::traceability;
 use precess_codegen::verdict::verdicts;
 
-use crate::files::{differing, read_files, read_pages, write};
+use crate::files::{committed, differing, read_files, read_pages, write};
 use crate::regen::PAGES;
 use crate::run::{root, say};
 
@@ -101,6 +101,7 @@ fn keep(reports: &[Report], check: bool) -> Result<(), String> {
     if !check {
         return write(&files, &root());
     }
+    let files = committed(files);
     let (stale, all) = (differing(&files, &root()), files.len());
     if stale > 0 {
         return Err(format!("{stale} of {all} pages are stale; run `cargo xtask mutate`"));

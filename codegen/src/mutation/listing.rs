@@ -157,10 +157,12 @@ fn stage(graph: &Graph, id: NodeId, known: &HashMap<NodeId, Stage>) -> Stage {
     }
 }
 
-/// The number a claim gives the name, else what its heading cites.
+/// The numbers that claims give the name, else what its heading cites.
 fn tag(name: &str, title: &str, claims: &[Claim<'_>]) -> Option<String> {
-    let claimed = claims.iter().find(|claim| claim.components.iter().any(|(own, _)| own == name));
-    claimed.map(|claim| claim.tag.clone()).or_else(|| cited(title))
+    let own = claims.iter().filter(|claim| claim.components.iter().any(|(own, _)| own == name));
+    let mut tags: Vec<_> = own.map(|claim| claim.tag.as_str()).collect();
+    tags.dedup();
+    if tags.is_empty() { cited(title) } else { Some(tags.join(", ")) }
 }
 
 /// The equations that a heading cites: `(14)`, `(49)-(52)`, or several, `(17), (78)`.

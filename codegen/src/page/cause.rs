@@ -10,7 +10,9 @@ pub struct CausePage {
     pub letter: char,
     /// What it is.
     pub title: String,
-    /// The paragraphs below the heading.
+    /// What it does to the print, in one line: the paragraph that begins with "In short:".
+    pub in_short: String,
+    /// The other paragraphs below the heading.
     pub prose: Vec<String>,
     /// The mends, in order.
     pub mends: Vec<Mend>,
@@ -33,10 +35,14 @@ pub struct Mend {
     pub line: usize,
 }
 
+/// How the paragraph begins that says it in one line.
+const IN_SHORT: &str = "In short: ";
+
 /// The causes of a page, in order.
 ///
 /// # Errors
-/// When a heading is not `## A. title`, or a mend not a tag, a name and `` `printed` -> `right` ``.
+/// When a heading is not `## A. title`, nothing below it begins with "In short:", or a mend is not a
+/// tag, a name and `` `printed` -> `right` ``.
 pub fn causes(page: &Page) -> Result<Vec<CausePage>, PageError> {
     let wrong = |line, text: &str| PageError {
         page: page.name.clone(),
@@ -56,7 +62,11 @@ pub fn causes(page: &Page) -> Result<Vec<CausePage>, PageError> {
         }
     }
     for cause in &mut found {
-        cause.prose = paragraphs(&cause.prose);
+        let (short, prose): (Vec<_>, Vec<_>) =
+            paragraphs(&cause.prose).into_iter().partition(|text| text.starts_with(IN_SHORT));
+        let [short] = &short[..] else { return Err(wrong(cause.line, &cause.title)) };
+        cause.in_short = short.replacen(IN_SHORT, "", 1);
+        cause.prose = prose;
     }
     for fence in fences(&page.name, &page.text, "mend")? {
         let mend = mend(&fence.inside, fence.line)
@@ -73,6 +83,7 @@ fn heading_of(heading: &str, page: &Page, line: usize) -> Option<CausePage> {
     letter.is_ascii_uppercase().then(|| CausePage {
         letter,
         title: title.to_owned(),
+        in_short: String::new(),
         prose: Vec::new(),
         mends: Vec::new(),
         page: page.name.clone(),
@@ -116,10 +127,11 @@ mod tests {
 
     #[test]
     fn a_cause_has_prose_and_mends() {
-        let text = "# Causes\n\n## A. A sign\n\nIt is\nwrong.\n\n\
+        let text = "# Causes\n\n## A. A sign\n\nIn short: a\nsign.\n\nIt is\nwrong.\n\n\
                     ```mend\n(17) f_o\n`a` -> `b`\n`0`\n-> `c`\n```\n\nSo.\n";
         let [cause] = causes(&page(text)).unwrap().try_into().unwrap();
         assert_eq!((cause.letter, cause.title.as_str(), cause.line), ('A', "A sign", 3));
+        assert_eq!(cause.in_short, "a sign.");
         assert_eq!(cause.prose, ["It is wrong.", "So."]);
         let [mend] = &cause.mends[..] else { panic!("one mend") };
         assert_eq!((mend.tag.as_str(), mend.name.as_str()), ("(17)", "f_o"));
@@ -129,9 +141,10 @@ mod tests {
 
     #[test]
     fn what_is_no_mend_is_named_with_its_place() {
-        let text = "## A. A sign\n\n```mend\n(17) f_o\n`a` => `b`\n```\n";
+        let text = "## A. A sign\n\nIn short: it.\n\n```mend\n(17) f_o\n`a` => `b`\n```\n";
         let error = causes(&page(text)).unwrap_err();
-        assert!(error.to_string().starts_with("causes.md:3: `(17) f_o `a` => `b`` is no cause"));
-        assert!(causes(&page("## A sign\n")).is_err());
+        assert!(error.to_string().starts_with("causes.md:5: `(17) f_o `a` => `b`` is no cause"));
+        assert!(causes(&page("## A sign\n\nIn short: it.\n")).is_err());
+        assert!(causes(&page("## A. A sign\n")).is_err());
     }
 }

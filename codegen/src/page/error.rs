@@ -50,8 +50,8 @@ impl fmt::Display for ReadError {
             }
             Self::Cause(text) => write!(
                 f,
-                "`{text}` is no cause `A. title`, no printed block `(number) name`, or no mend \
-                 `printed` -> `right`"
+                "`{text}` is no cause `A. title` with one paragraph `In short: ...`, no printed \
+                 block `(number) name`, or no mend `printed` -> `right`"
             ),
             Self::Given(text) => write!(
                 f,

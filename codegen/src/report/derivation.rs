@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
+use super::errata::tag_and_case;
 use crate::derivation::chain::Chain;
 use crate::derivation::placed::Placed;
 use crate::derivation::quantities::{Quantity, quantities};
@@ -222,7 +223,7 @@ fn quantity_text<'g>(
         let place = format!("{}:{}", block.page, block.line);
         let set =
             equation(&latex, &block.body).map_err(|error| NotationError::Block(place, error))?;
-        Ok(FormText { tag: block.tag.clone(), page: block.page.clone(), latex: set })
+        Ok(FormText { tag: tag_and_case(block), page: block.page.clone(), latex: set })
     };
     let forms = stated.iter().map(form).collect::<Result<Vec<_>, _>>()?;
     let named = stated.iter().flat_map(|block| numbers(&block.tag)).filter(|named| named.numbered);
@@ -335,11 +336,15 @@ fn emitted<'g>(
     }
 }
 
-/// `fn` and names of the claims that fit.
-fn claims(kernels: &[Kernel<'_>], fits: impl Fn(&str, &str) -> bool) -> Vec<String> {
+/// `fn` and names of the claims that fit: of a vector its own, of a scalar the emitted one.
+pub(super) fn claims(kernels: &[Kernel<'_>], fits: impl Fn(&str, &str) -> bool) -> Vec<String> {
     let of_kernel = |kernel: &Kernel<'_>| {
         let names = kernel.claims.iter().filter(|claim| fits(&claim.tag, &claim.name));
-        let names: Vec<_> = names.map(|claim| format!("`{}`", claim.name)).collect();
+        let names = names.map(|claim| match &claim.components[..] {
+            [(emitted, _)] => format!("`{emitted}`"),
+            _ => format!("`{}`", claim.name),
+        });
+        let names: Vec<_> = names.collect();
         (!names.is_empty()).then(|| format!("`fn {}`: {}", kernel.name, names.join(", ")))
     };
     kernels.iter().filter_map(of_kernel).collect()

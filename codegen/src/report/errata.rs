@@ -8,27 +8,34 @@ use super::derivation::NotationError;
 use super::figures::Figures;
 use super::page_links;
 use super::words::mathematics;
-use crate::consequence::{Consequence, DURATION, Drift, Effect, RESOLUTION};
+use crate::consequence::{Consequence, DURATION, Drift, Effect, RESOLUTION, table1};
 use crate::notation::{Accent, equation, expression, side_by_side, symbol};
-use crate::page::{Block, Class, Kind, Note};
-use crate::verdict::{Cause, Component, Entry, Form, Printed, Verdicts};
+use crate::page::{Block, Kind, Note};
+use crate::verdict::{Cause, Component, Counts, Entry, Form, Verdicts};
 
 /// A change of so many characters stands on the line of its note.
 const INLINE: usize = 100;
 /// So many differing terms are listed; of more, the number is told.
 const LISTED: usize = 6;
 
-/// What the template is filled with.
+/// What the templates of the errata and of the letter are filled with.
 #[derive(Serialize)]
 pub(super) struct Errata {
     tally: Vec<(String, usize)>,
-    differing: usize,
-    numbered: usize,
-    duration: f64,
+    counts: Counts,
+    /// Length of the run that the figures are of, s.
+    duration: String,
+    /// The wheel's offset, mm, and its motor's torque, mN m, in that run.
+    offset: String,
+    motor: String,
     resolution: String,
     floor: DriftText,
     parts: [PartText; 2],
     causes: Vec<CauseText>,
+    /// The cause of most slips.
+    most: Option<CauseText>,
+    /// The other causes of slips, from the one that does most on Table 1 to those that vanish there.
+    weighed: Vec<CauseText>,
     all: Vec<LineText>,
 }
 
@@ -90,18 +97,21 @@ struct NoteText {
     causes: String,
 }
 
-#[derive(Serialize)]
+#[derive(Clone, Serialize)]
 struct CauseText {
     letter: char,
     title: String,
+    in_short: String,
     prose: Vec<String>,
     equations: String,
+    /// How many differences that are slips have it.
+    slips: usize,
     mended: Vec<MendedText>,
     /// What all its differences do to Table 1.
     effect: String,
 }
 
-#[derive(Serialize)]
+#[derive(Clone, Serialize)]
 struct MendedText {
     equation: String,
     before: usize,
@@ -126,34 +136,35 @@ pub(super) fn errata(
     figures: &Figures,
     balance: &Balance,
 ) -> Result<Errata, NotationError> {
-    let differs = |entry: &&Entry| {
-        matches!(entry.printed, Printed::Differs { .. } | Printed::Unreadable { .. })
-    };
-    let told = |entry: &&Entry| {
-        let definition = matches!(entry.printed, Printed::Definition);
-        differs(entry) || definition && entry.notes().any(|note| note.class == Class::Slip)
-    };
+    let told = |entry: &&Entry| entry.differs() || entry.is_lost() || entry.is_contradicted();
     let mut shown = Vec::new();
     let mut findings = Vec::new();
     for entry in verdicts.entries.iter().filter(told) {
         findings.push(finding(entry, figures, balance, &mut shown)?);
     }
-    let numbered: Vec<_> = verdicts.entries.iter().filter(|e| e.number.is_some()).collect();
-    let differing = numbered.iter().copied().filter(differs).count();
     let (papers, scans) =
         findings.into_iter().partition(|finding: &FindingText| finding.of_the_paper);
+    let causes: Vec<_> =
+        verdicts.causes.iter().map(|cause| cause_text(cause, verdicts, figures)).collect();
+    let most = causes.iter().max_by_key(|cause| cause.slips).cloned();
+    let first = most.as_ref().map(|cause| cause.letter);
+    let weighed = weighed(&causes, figures).into_iter();
+    let weighed = weighed.filter(|cause| Some(cause.letter) != first);
     Ok(Errata {
         tally: verdicts.tally(),
-        differing,
-        numbered: numbered.len(),
-        duration: DURATION,
+        counts: verdicts.counts(),
+        duration: DURATION.to_string(),
+        offset: (table1::parameter("d").unwrap_or_default() * 1e3).to_string(),
+        motor: (table1::TORQUES[2] * 1e3).to_string(),
         resolution: format!("{RESOLUTION:.0e}"),
         floor: drift_text(figures.floor),
         parts: [
             PartText { papers: true, findings: papers },
             PartText { papers: false, findings: scans },
         ],
-        causes: verdicts.causes.iter().map(|cause| cause_text(cause, figures)).collect(),
+        most,
+        weighed: weighed.collect(),
+        causes,
         all: verdicts.entries.iter().map(line).collect(),
     })
 }
@@ -185,14 +196,13 @@ fn finding(
     });
     let slips = figures.of_entry(&entry.tag);
     let [energy, linear, angular] = columns(slips);
-    let label = entry.printed.label();
     let in_short = entry.in_short.as_deref().unwrap_or_default();
     Ok(FindingText {
         tag: entry.tag.clone(),
         title: mathematics(&entry.title),
         in_short: mathematics(in_short.trim_end_matches('.')),
-        of_the_paper: ["slip", "undecided", "definition"].iter().any(|class| label.contains(class)),
-        label,
+        of_the_paper: entry.is_papers() || entry.is_contradicted(),
+        label: entry.printed.label(),
         causes: letters(entry.printed.causes()),
         as_read: as_read.collect::<Vec<_>>().join("; "),
         slips: slips.map(|effect| effect.to_string()).unwrap_or_default(),
@@ -234,16 +244,11 @@ fn form_text(form: &Form, above: bool, balance: &Balance) -> Result<FormText, No
     };
     let words = block.kind == Kind::Text || above;
     let agrees = form.components.is_empty();
-    let given: Vec<_> = block
-        .given
-        .iter()
-        .map(|(a, b)| format!("${} = {}$", symbol(a, Accent::Plain), value(b)))
-        .collect();
-    let case = if given.is_empty() { String::new() } else { format!(" for {}", given.join(", ")) };
-    let notes =
-        block.notes.iter().map(|note| note_text(block, note)).collect::<Result<Vec<_>, _>>()?;
+    // Of a block that several numbers share, what concerns them all stands with the first.
+    let notes = block.notes.iter().filter(|note| !above || note.place.is_some());
+    let notes = notes.map(|note| note_text(block, note)).collect::<Result<Vec<_>, _>>()?;
     Ok(FormText {
-        tag: format!("{}{case}", block.tag),
+        tag: tag_and_case(block),
         printed: if words { String::new() } else { set(block)? },
         right: match &form.right {
             Some(right) if !words && !agrees => set(right)?,
@@ -254,6 +259,18 @@ fn form_text(form: &Form, above: bool, balance: &Balance) -> Result<FormText, No
         unbalanced: balance.fails(block),
         notes,
     })
+}
+
+/// The tag of a block, with the special case in which it holds.
+pub(super) fn tag_and_case(block: &Block) -> String {
+    let given = block.given.iter();
+    let given: Vec<_> =
+        given.map(|(a, b)| format!("${} = {}$", symbol(a, Accent::Plain), value(b))).collect();
+    if given.is_empty() {
+        block.tag.clone()
+    } else {
+        format!("{} for {}", block.tag, given.join(", "))
+    }
 }
 
 fn value(text: &str) -> String {
@@ -327,7 +344,24 @@ fn letters(causes: &[char]) -> String {
     causes.iter().map(char::to_string).collect::<Vec<_>>().join(", ")
 }
 
-fn cause_text(cause: &Cause, figures: &Figures) -> CauseText {
+/// The causes of slips, heaviest first.
+fn weighed(causes: &[CauseText], figures: &Figures) -> Vec<CauseText> {
+    let mut causes: Vec<_> = causes.iter().filter(|cause| cause.slips > 0).cloned().collect();
+    let weight = |cause: &CauseText| figures.of_cause(cause.letter).map_or(0.0, weight);
+    causes.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    causes
+}
+
+/// The largest drift.
+fn weight(effect: Effect) -> f64 {
+    match effect {
+        Effect::Diverges { .. } | Effect::Singular { .. } => f64::INFINITY,
+        Effect::Drift(Drift { energy, linear, angular }) => energy.max(linear).max(angular),
+        Effect::Vanishes | Effect::Unchanged => 0.0,
+    }
+}
+
+fn cause_text(cause: &Cause, verdicts: &Verdicts, figures: &Figures) -> CauseText {
     let mended = cause.mended.iter().map(|mended| MendedText {
         equation: format!("{} ${}$", mended.tag, symbol(&mended.name, Accent::Plain)),
         before: mended.before,
@@ -338,7 +372,9 @@ fn cause_text(cause: &Cause, figures: &Figures) -> CauseText {
     CauseText {
         letter: cause.letter,
         title: cause.title.clone(),
+        in_short: cause.in_short.trim_end_matches('.').to_owned(),
         prose: cause.prose.clone(),
+        slips: verdicts.slips_of(cause.letter),
         equations: cause.entries.join(", "),
         mended: mended.collect(),
         effect: figures.of_cause(cause.letter).map(|effect| effect.to_string()).unwrap_or_default(),

@@ -45,9 +45,9 @@ impl From<tera::Error> for HtmlError {
     }
 }
 
-/// The documents that have their HTML beside them.
-const DOCUMENTS: [&str; 5] =
-    ["derivation.md", "errata.md", "kinds.md", "mutation.md", "traceability.md"];
+/// The documents that are built as HTML, side by side in `target/docs`.
+const DOCUMENTS: [&str; 6] =
+    ["derivation.md", "errata.md", "kinds.md", "letter.md", "mutation.md", "traceability.md"];
 
 /// The page; `pictures` are put where an image of that name stands.
 ///
@@ -118,11 +118,8 @@ impl Page {
             }
             Event::End(TagEnd::Image) => self.image = false,
             _ if self.image => {}
-            // Another document has its HTML beside it too.
-            Event::Start(Tag::Link { link_type, dest_url, title, id })
-                if DOCUMENTS.contains(&&*dest_url) =>
-            {
-                let dest_url = dest_url.replace(".md", ".html").into();
+            Event::Start(Tag::Link { link_type, dest_url, title, id }) => {
+                let dest_url = from_target(&dest_url).into();
                 events.push(Event::Start(Tag::Link { link_type, dest_url, title, id }));
             }
             Event::Start(Tag::Heading { level, .. }) => {
@@ -154,6 +151,20 @@ impl Page {
         let before = self.addresses.entry(address.clone()).or_default();
         *before += 1;
         if *before == 1 { address } else { format!("{address}-{}", *before - 1) }
+    }
+}
+
+/// Where a link of a document in `docs` leads to from its HTML in `target/docs`.
+fn from_target(link: &str) -> String {
+    if DOCUMENTS.contains(&link) {
+        return link.replace(".md", ".html");
+    }
+    if link.starts_with('#') || link.contains("://") {
+        return link.to_owned();
+    }
+    match link.strip_prefix("../") {
+        Some(above) => format!("../../{above}"),
+        None => format!("../../docs/{link}"),
     }
 }
 
@@ -197,6 +208,15 @@ mod tests {
             assert!(page.contains(part), "{part} is not in\n{page}");
         }
         assert!(!page.contains("axes"), "an inline picture needs no second text:\n{page}");
+    }
+
+    #[test]
+    fn links_lead_from_the_folder_of_the_html() {
+        let links = ["letter.md", "operations.md", "../codegen/src/lib.rs#L1", "#a", "https://a.b"];
+        let found = links.map(from_target);
+        let wanted = ["letter.html", "../../docs/operations.md", "../../codegen/src/lib.rs#L1"];
+        assert_eq!(found[..3], wanted);
+        assert_eq!(found[3..], links[3..]);
     }
 
     #[test]

@@ -28,6 +28,9 @@ use crate::mutation::Report;
 use crate::page::{Block, Page, PageError};
 use crate::verdict::{Entry, Verdicts};
 
+/// Where files stand that are built and not committed, from the repository's root.
+pub const BUILT: &str = "target/";
+
 /// Why a document cannot be laid out: a fault of the generator, or of a page that it sets.
 #[derive(Debug)]
 pub enum ReportError {
@@ -112,7 +115,8 @@ pub fn kinds(kinds: &[KindText]) -> Result<Vec<EmittedFile>, ReportError> {
     document("docs/kinds", include_str!("templates/kinds.md.tera"), &context, &[])
 }
 
-/// The errata of the paper: what is printed, what is right, and what the difference does.
+/// The errata of the paper: what is printed, what is right, and what the difference does; and the
+/// letter that says it to its authors on one page.
 ///
 /// # Errors
 /// When a block or a note cannot be set, or the print cannot be put into the system.
@@ -127,7 +131,11 @@ pub fn errata(
     let figures = Figures::of(pages, printed, verdicts)?;
     let mut context = Context::new();
     context.insert("errata", &errata::errata(verdicts, &figures, &balance)?);
-    document("docs/errata", include_str!("templates/errata.md.tera"), &context, &[])
+    let [errata, letter] =
+        [include_str!("templates/errata.md.tera"), include_str!("templates/letter.md.tera")];
+    let mut files = document("docs/errata", errata, &context, &[])?;
+    files.extend(document("docs/letter", letter, &context, &[])?);
+    Ok(files)
 }
 
 /// From each equation to the line, the page, the code and the laws that see it wrong; `sources` are
@@ -159,7 +167,7 @@ fn page_links(entry: &Entry) -> String {
     pages.join(", ")
 }
 
-/// A document as Markdown and as HTML.
+/// A document as Markdown, which is committed, and as HTML for a browser, which is not.
 pub(crate) fn document(
     path: &str,
     template: &str,
@@ -171,6 +179,8 @@ pub(crate) fn document(
     tera.add_raw_template("document", template)?;
     let text = tera.render("document", context)?;
     let page = html::html(&text, pictures)?;
-    let file = |ending: &str, text| EmittedFile { path: format!("{path}.{ending}"), text };
-    Ok(vec![file("md", text), file("html", page)])
+    Ok(vec![
+        EmittedFile { path: format!("{path}.md"), text },
+        EmittedFile { path: format!("{BUILT}{path}.html"), text: page },
+    ])
 }

@@ -2,7 +2,12 @@
 
 use serde::Serialize;
 
+use super::derivation::claims;
 use super::page_links;
+use crate::derivation::chain::Chain;
+use crate::graph::Graph;
+use crate::kernel::kernels;
+use crate::kinds::DGVSCMG;
 use crate::mutation::{Kind, Outcome, Report};
 use crate::page::{Page, numbers};
 use crate::verdict::{Entry, HandChecked, Verdicts};
@@ -52,7 +57,11 @@ struct RowText {
     /// Where the derivation states or derives it.
     lines: String,
     pages: String,
-    proof: String,
+    /// The derivation against the page.
+    derived: &'static str,
+    /// The emitted values that are proven to be what it states.
+    proven: String,
+    /// All emitted values that stand under it.
     emitted: String,
     /// Mutants under it, and how many of them each kind of law sees.
     mutants: usize,
@@ -71,7 +80,8 @@ struct SystemText {
 
 /// The table; `sources` are the files of the derivation, by path from the repository's root.
 pub(super) fn traceability(verdicts: &Verdicts, report: &Report, sources: &[Page]) -> Traceability {
-    let places = places(sources);
+    let (graph, places) = (Graph::new(), places(sources));
+    let kernels = kernels(&Chain::new(&graph, &DGVSCMG));
     let numbered = verdicts.entries.iter().filter_map(|entry| Some((entry.number?, entry)));
     let rows = numbered.map(|(number, entry)| {
         let under = |tag: &str| names(tag, number);
@@ -81,7 +91,8 @@ pub(super) fn traceability(verdicts: &Verdicts, report: &Report, sources: &[Page
             title: entry.title.clone(),
             lines: lines_of(&places, number, entry),
             pages: page_links(entry),
-            proof: entry.hand_checked.label().to_owned(),
+            derived: entry.derivation(),
+            proven: claims(&kernels, |tag, _| names(tag, number)).join("; "),
             emitted: emitted(report, under),
             mutants,
             killed,
@@ -170,14 +181,29 @@ struct Place {
     last: u16,
     path: String,
     line: usize,
+    /// The function that it stands in, or is the summary of.
+    function: Option<String>,
 }
 
-/// Every place that names an equation, a range being one place.
+/// Every place that names an equation, a range being one place. A module's own comment is none: it
+/// computes nothing.
 fn places(sources: &[Page]) -> Vec<Place> {
     let mut found = Vec::new();
     for source in sources {
-        for (line, text) in (1..).zip(source.text.lines()) {
+        let lines: Vec<_> = source.text.lines().collect();
+        let mut inside = None;
+        for (line, text) in (1..).zip(&lines) {
+            inside = function(text).or(inside);
             let Some((_, comment)) = text.split_once("//") else { continue };
+            if comment.starts_with('!') {
+                continue;
+            }
+            let mut below = lines[line..].iter().map(|text| text.trim_start());
+            let own = if comment.starts_with('/') {
+                below.find(|text| !text.starts_with(['/', '#'])).and_then(function)
+            } else {
+                inside
+            };
             let numbers = comment.split('(').skip(1).filter_map(|part| {
                 let (number, rest) = part.split_once(')')?;
                 Some((number.parse::<u16>().ok()?, rest))
@@ -188,12 +214,21 @@ fn places(sources: &[Page]) -> Vec<Place> {
                 if [" to ", "-"].contains(&rest) {
                     range_from = Some(first);
                 } else {
-                    found.push(Place { first, last: number, path: source.name.clone(), line });
+                    let (path, function) = (source.name.clone(), own.map(str::to_owned));
+                    found.push(Place { first, last: number, path, line, function });
                 }
             }
         }
     }
     found
+}
+
+/// The name of the function that begins on a line.
+fn function(line: &str) -> Option<&str> {
+    let (before, rest) = line.split_once("fn ")?;
+    let begins = before.split_whitespace().all(|word| word.starts_with("pub") || word == "const");
+    let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_')?;
+    begins.then_some(&rest[..end])
 }
 
 /// The most particular places that name an equation.
@@ -206,8 +241,12 @@ fn lines_of(places: &[Place], number: u16, entry: &Entry) -> String {
         return String::new();
     };
     let shown = naming().filter(|place| place.last - place.first == narrowest).map(|place| {
-        let name = place.path.rsplit('/').next().unwrap_or_default();
-        format!("[{name}:{0}](../{1}#L{0})", place.line, place.path)
+        let file = place.path.rsplit('/').next().unwrap_or_default();
+        let name = match &place.function {
+            Some(function) => format!("`{}::{function}`", file.trim_end_matches(".rs")),
+            None => format!("{file}:{}", place.line),
+        };
+        format!("[{name}](../{}#L{})", place.path, place.line)
     });
     shown.collect::<Vec<_>>().join(", ")
 }
@@ -232,10 +271,14 @@ mod tests {
 
     #[test]
     fn comments_name_equations_and_ranges() {
-        let text = "// (31), (44): rates\nlet a = f(7);\n/// (20) to (76)\n// (49)-(52); (64)\n";
+        let text = "//! (8)\n// (31), (44): rates\nlet a = f(7);\n/// (20) to (76)\n#[must_use]\n\
+                    pub(super) fn b(c: u8) {\n    // (49)-(52); (64)\n}\n";
         let sources = [Page { name: "a.rs".to_owned(), text: text.to_owned() }];
-        let found: Vec<_> =
-            places(&sources).iter().map(|place| (place.first, place.last, place.line)).collect();
-        assert_eq!(found, [(31, 31, 1), (44, 44, 1), (20, 76, 3), (49, 52, 4), (64, 64, 4)]);
+        let places = places(&sources);
+        let found = places.iter().map(|place| (place.first, place.last, place.line));
+        let found: Vec<_> = found.collect();
+        assert_eq!(found, [(31, 31, 2), (44, 44, 2), (20, 76, 4), (49, 52, 7), (64, 64, 7)]);
+        let functions: Vec<_> = places.iter().map(|place| place.function.as_deref()).collect();
+        assert_eq!(functions, [None, None, Some("b"), Some("b"), Some("b")]);
     }
 }

@@ -14,6 +14,8 @@ pub struct Cause {
     pub letter: char,
     /// What it is.
     pub title: String,
+    /// What it does to the print, in one line of Markdown.
+    pub in_short: String,
     /// The paragraphs of its page, without the mends.
     pub prose: Vec<String>,
     /// What each mend does, in the page's order.
@@ -50,6 +52,7 @@ impl Cause {
         Self {
             letter: cause.letter,
             title: cause.title.clone(),
+            in_short: cause.in_short.clone(),
             prose: cause.prose.clone(),
             mended: cause.mends.iter().filter_map(effect).collect(),
             entries: naming(blocks, cause.letter),

@@ -109,6 +109,36 @@ impl Entry {
         }
     }
 
+    /// Whether print and page differ, left side included, as the print is read; what is lost
+    /// altogether cannot differ.
+    #[must_use]
+    pub fn differs(&self) -> bool {
+        match &self.printed {
+            Printed::Agrees | Printed::Definition => false,
+            Printed::Differs { .. } => true,
+            Printed::Unreadable { components, .. } => !components.is_empty(),
+        }
+    }
+
+    /// Whether nothing of the equation is left.
+    #[must_use]
+    pub fn is_lost(&self) -> bool {
+        matches!(self.printed, Printed::Unreadable { .. }) && !self.differs()
+    }
+
+    /// Whether it differs in a way that is, or may be, the paper's.
+    #[must_use]
+    pub fn is_papers(&self) -> bool {
+        let of_paper = |class: &Class| matches!(class, Class::Slip | Class::Undecided);
+        matches!(&self.printed, Printed::Differs { classes, .. } if classes.iter().any(of_paper))
+    }
+
+    /// Whether it is a definition that the paper contradicts elsewhere.
+    #[must_use]
+    pub fn is_contradicted(&self) -> bool {
+        self.printed == Printed::Definition && self.notes().any(|note| note.class == Class::Slip)
+    }
+
     /// How many terms of the print differ.
     #[must_use]
     pub fn differing(&self) -> usize {

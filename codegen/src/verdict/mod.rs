@@ -5,6 +5,7 @@
 //! add up to them, and mending a cause is done on the printed text and counted.
 
 mod cause;
+mod counts;
 mod entry;
 mod fault;
 mod mend;
@@ -12,6 +13,7 @@ mod print;
 mod sorted;
 
 pub use cause::{Cause, Mended};
+pub use counts::Counts;
 pub use entry::{Component, Entry, Form, HandChecked, Printed};
 pub use fault::{Fault, VerdictError};
 

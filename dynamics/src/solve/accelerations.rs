@@ -62,6 +62,8 @@ impl<D: Devices> Spacecraft<D> {
     /// [`Self::accelerations`] without the search for a culprit, in their place: to move what was
     /// just put together takes time. So is what springs and friction demand of a step, where that
     /// is asked.
+    // Never inlined: its stack frame is left before a failure is diagnosed.
+    #[inline(never)]
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
