@@ -253,8 +253,8 @@ static void put_together(
     }
 }
 
-/* Scale of each pivot: what is rounded in M, as it comes together in that pivot. Pivot k is v . M v with
- * L^T v = e_k; small pivots before it make v long. */
+/* Scale of each pivot: what is rounded in M, as it comes together in that pivot. Pivot k is
+ * v . M v with L^T v = e_k; small pivots before it make v long. */
 static void grow(
     double mass,
     const double moments[3],
@@ -281,7 +281,8 @@ static void grow(
         }
         backward(vv, coupled, v);
         out[3 + k] = (mass * (v[0] * v[0]) + mass * (v[1] * v[1]) + mass * (v[2] * v[2]))
-            + (moments[0] * (w[0] * w[0]) + moments[1] * (w[1] * w[1]) + moments[2] * (w[2] * w[2]));
+            + (moments[0] * (w[0] * w[0]) + moments[1] * (w[1] * w[1])
+               + moments[2] * (w[2] * w[2]));
     }
 }
 

@@ -43,7 +43,8 @@ struct precess_body {
 struct precess_assembly {
     /** Hub and devices as one rigid body. */
     struct precess_body body;
-    /** Moments of inertia of its constant share, entries 11, 22, 33: what the moving share may cancel. */
+    /** Moments of inertia of its constant share, entries 11, 22, 33: what the moving share may
+     * cancel. */
     double constant[3];
     /** What acts from outside through B, N. */
     double force[3];
@@ -101,9 +102,9 @@ enum precess_solved precess_assembly_solve(
     struct precess_body_acceleration *out);
 
 /**
- * Whether a pivot is above 64 epsilons of its scale; below, the acceleration is only rounding. To be
- * checked of each driven joint after `eliminate`. The scale of a joint is the larger of its diagonal and
- * of the inertia of all bodies outboard of it in the pose that makes the most of it.
+ * Whether a pivot is above 64 epsilons of its scale; below, the acceleration is only rounding. To
+ * be checked of each driven joint after `eliminate`. The scale of a joint is the larger of its
+ * diagonal and of the inertia of all bodies outboard of it in the pose that makes the most of it.
  */
 int precess_pivot_is_sound(double pivot, double scale);
 
