@@ -178,7 +178,6 @@ impl<K: Kind> Device<K> {
     /// The pivot rejected, in the order of the elimination: the first one is the cause, those after
     /// it may be its consequence.
     #[cold]
-    #[inline(never)]
     fn small_pivot(
         &self,
         device: usize,

@@ -96,7 +96,6 @@ impl<T: Scalar> System<T> {
 
     /// Checks each pivot beside its scale, grown by the rounding of those before it.
     #[cold]
-    #[inline(never)]
     fn check_pivots(&self, pivots: Pivots<T>, scale: &Scale<T>) -> Result<(), SmallPivot<T>> {
         let mut pivots = pivots.into_iter().zip(self.grown_scales(scale));
         pivots.try_for_each(|(pivot, scale)| check_pivot(pivot, bound(scale)))

@@ -118,7 +118,6 @@ impl<D: Devices> PassiveStep<D> {
 impl<D: Devices> Spacecraft<D> {
     /// Rejects a step that spring, damper or friction of a joint makes unstable.
     #[cold]
-    #[inline(never)]
     fn check_stability<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -150,7 +149,6 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     /// Accelerations of all joints for a unit torque at one of them, nothing else acting.
-    #[inline(never)]
     fn response_to<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,

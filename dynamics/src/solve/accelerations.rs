@@ -62,8 +62,6 @@ impl<D: Devices> Spacecraft<D> {
     /// [`Self::accelerations`] without the search for a culprit, in their place: to move what was
     /// just put together takes time. So is what springs and friction demand of a step, where that
     /// is asked.
-    // Never inlined: its stack frame is left before a failure is diagnosed.
-    #[inline(never)]
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -205,7 +203,6 @@ impl<D: Devices> Spacecraft<D> {
     /// What to report for a failed evaluation: an input that is not finite explains everything
     /// else, and a pivot that is not finite is an overflow, not a singularity.
     #[cold]
-    #[inline(never)]
     pub(crate) fn diagnosis<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -223,7 +220,6 @@ impl<D: Devices> Spacecraft<D> {
 
     /// What to report for a failed evaluation of finite inputs.
     #[cold]
-    #[inline(never)]
     pub(crate) fn cause<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -256,8 +252,6 @@ impl<D: Devices> Spacecraft<D> {
     /// The acceleration whose terms overflow: the hub's where those of the hub alone do, else that
     /// of the first device with one that is not finite on a hub that does not accelerate, of the
     /// joint nearest the tip, which was eliminated first.
-    #[cold]
-    #[inline(never)]
     fn overflowing<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,

@@ -80,7 +80,6 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     #[cold]
-    #[inline(never)]
     fn reject_reached<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
