@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
 /// Folders of pages, each with whether the folders in it are searched too.
@@ -66,7 +68,7 @@ fn slugs_are_those_of_github() {
         ("snake_case & two  spaces", "snake_case--two--spaces"),
         ("Größe ²", "größe-"),
     ] {
-        assert_eq!(slug(heading), expected);
+        assert_eq!(slugs(&format!("# {heading}\n")), BTreeSet::from([expected.to_owned()]));
     }
 }
 
@@ -147,99 +149,61 @@ fn is_relative(target: &str) -> bool {
     !scheme.contains(':')
 }
 
-/// Targets of links, images, link definitions and `src` and `href` attributes outside code.
+/// The text as a viewer of Markdown reads it, formulas and tables included.
+fn events(text: &str) -> Parser<'_> {
+    Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_MATH)
+}
+
+/// Targets of links and images, `src` and `href` attributes among them.
 fn targets(text: &str) -> Vec<String> {
-    let text = without_code(text);
     let mut found = Vec::new();
-    for after in text.split("](").skip(1) {
-        found.extend(after.split([')', ' ', '\n']).next().map(str::to_owned));
-    }
-    for line in text.lines().filter(|line| line.starts_with('[')) {
-        let definition = line.split_once("]: ").map(|(_, target)| target.split(' ').next());
-        found.extend(definition.flatten().map(str::to_owned));
-    }
-    for attribute in [" src=\"", " href=\""] {
-        for after in text.split(attribute).skip(1) {
-            found.extend(after.split('"').next().map(str::to_owned));
+    for event in events(text) {
+        match event {
+            Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+                found.push(dest_url.into_string());
+            }
+            Event::Html(tags) | Event::InlineHtml(tags) => {
+                for after in
+                    [" src=\"", " href=\""].into_iter().flat_map(|name| tags.split(name).skip(1))
+                {
+                    found.extend(after.split('"').next().map(str::to_owned));
+                }
+            }
+            _ => {}
         }
     }
     found
 }
 
-/// The text without fenced blocks, displayed formulas and code spans: brackets there are no links.
-fn without_code(text: &str) -> String {
-    let mut outside = String::new();
-    for line in outside_fences(text) {
-        outside.push_str(line);
-        outside.push('\n');
-    }
-    without_spans(&outside)
-}
-
-fn outside_fences(text: &str) -> Vec<&str> {
-    let mut fence = None;
-    let mut lines = Vec::new();
-    for line in text.lines() {
-        let start = line.trim_start();
-        let mark = ["```", "~~~", "$$"].into_iter().find(|mark| start.starts_with(mark));
-        let one_line = mark.is_some_and(|mark| start[mark.len()..].contains(mark));
-        match (fence, mark) {
-            _ if one_line => {}
-            (None, None) => lines.push(line),
-            (None, Some(opened)) => fence = Some(opened),
-            (Some(opened), Some(closed)) if opened == closed => fence = None,
-            (Some(_), _) => {}
-        }
-    }
-    lines
-}
-
-/// The text without what stands between backticks on one line.
-fn without_spans(text: &str) -> String {
-    let mut outside = String::new();
-    for line in text.split_inclusive('\n') {
-        let mut parts = line.split('`').peekable();
-        let mut inside = false;
-        while let Some(part) = parts.next() {
-            // A backtick without a partner opens nothing.
-            if !inside || parts.peek().is_none() {
-                outside.push_str(part);
-            }
-            inside = !inside;
-        }
-    }
-    outside
-}
-
 /// The fragments that lead into a page: its headings, numbered where they repeat.
 fn slugs(text: &str) -> BTreeSet<String> {
-    let mut slugs = BTreeSet::new();
-    for line in outside_fences(text) {
-        let heading = line.trim_start_matches('#');
-        let level = line.len() - heading.len();
-        if !(1..=6).contains(&level) || !heading.starts_with(' ') {
-            continue;
+    let (mut slugs, mut heading) = (BTreeSet::new(), None);
+    for event in events(text) {
+        match event {
+            Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
+            Event::Text(text) | Event::Code(text) | Event::InlineMath(text) => {
+                if let Some(heading) = &mut heading {
+                    heading.push_str(&text);
+                }
+            }
+            Event::End(TagEnd::Heading(_)) => {
+                let slug = slug(&heading.take().unwrap_or_default());
+                let numbered = (1..).map(|number| format!("{slug}-{number}"));
+                let mut all = std::iter::once(slug.clone()).chain(numbered);
+                slugs.extend(all.find(|slug| !slugs.contains(slug)));
+            }
+            _ => {}
         }
-        let slug = slug(heading.trim().trim_end_matches('#').trim_end());
-        let numbered = (1..).map(|number| format!("{slug}-{number}"));
-        let free = std::iter::once(slug.clone()).chain(numbered).find(|slug| !slugs.contains(slug));
-        slugs.extend(free);
     }
     slugs
 }
 
 /// GitHub's rule: lower case, spaces to hyphens, everything else that is no letter, digit, hyphen or
-/// underscore dropped. Of a link its text counts.
+/// underscore dropped.
 fn slug(heading: &str) -> String {
-    let mut text = String::new();
-    let mut rest = heading;
-    while let Some((before, after)) = rest.split_once("](") {
-        text.push_str(before);
-        rest = after.split_once(')').map_or("", |(_, rest)| rest);
-    }
-    text.push_str(rest);
     let kept = |c: char| c.is_alphabetic() || c.is_ascii_digit() || matches!(c, '_' | '-' | ' ');
     let accent = |c: char| ('\u{300}'..='\u{36f}').contains(&c);
-    let slug = text.to_lowercase().chars().filter(|c| kept(*c) || accent(*c)).collect::<String>();
+    let slug =
+        heading.to_lowercase().chars().filter(|c| kept(*c) || accent(*c)).collect::<String>();
     slug.replace(' ', "-")
 }
