@@ -118,7 +118,7 @@ impl Rounding for FusedMultiplyAdd {
     }
 }
 
-/// What the kernel `eliminate` is asked of one device.
+/// What the kernel `eliminate` takes of one device.
 #[derive(Debug)]
 pub(crate) struct EliminationInputs<'a, K: Kernels, T: Value> {
     pub(crate) constants: &'a K::Constants<T>,
@@ -150,7 +150,7 @@ impl<K: Kernels, T: Angle> EliminationInputs<'_, K, T> {
         self.evaluate(&pose, |number| number, outputs)
     }
 
-    /// Eliminates the joints by numbers that are brought into `places` as others.
+    /// Eliminates the joints by numbers that are written to `outputs` as others.
     #[inline(always)]
     pub(crate) fn evaluate<U: Real>(
         &self,

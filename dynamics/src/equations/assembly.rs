@@ -1,17 +1,18 @@
 //! [`Assembly`]: the hub's six equations, added up device by device, expressed in B.
 //!
 //! What does not notice that the joints move belongs to the hub from the start, so that what the
-//! hub's own motion asks for is computed once, of one rigid body; a device adds the part of its
+//! hub's own motion requires is computed once, of one rigid body; a device adds the part of its
 //! first moment and inertia that moves, and what its joints take out of the equations. Over any
 //! number: lanes do the same.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
+use crate::equations::error::SolveError;
 use crate::equations::hub::HubConstants;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::{Scale, Solution, System};
 use crate::generated::hub::{BodyAcceleration, BodyRate, Handed, HubShare};
-use crate::numbers::real::Real;
+use crate::numbers::real::{Real, Scalar};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add};
 
@@ -88,6 +89,20 @@ impl<T: Real> Assembly<T> {
     #[inline(always)]
     pub(crate) fn scale(&self, body: &HubConstants<T>) -> Scale<T> {
         (self.body.m_b, add(body.i_b_b.diagonal(), self.body.i_b_b.diagonal()))
+    }
+}
+
+impl<T: Scalar> Assembly<T> {
+    /// Accelerations of a free hub that turns at `omega`, of the constants that the assembly began
+    /// with.
+    #[inline(always)]
+    pub(crate) fn solve(
+        &self,
+        omega: Vec3<T>,
+        body: &HubConstants<T>,
+    ) -> Result<Solution<T>, SolveError<T>> {
+        let solution = self.system(omega).solve(&self.scale(body));
+        solution.map_err(|small| small.of(None, None))
     }
 }
 

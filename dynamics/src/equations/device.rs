@@ -1,4 +1,4 @@
-//! [`Device`]: the precomputed constants of one device, and what an evaluation asks of it.
+//! [`Device`]: the precomputed constants of one device, and its part of an evaluation.
 //!
 //! The equations of motion know the mount and stand expressed in B. All other kernels know one
 //! frame, the axes of the device's first joint at zero: what comes from the hub is rotated into it
@@ -25,9 +25,7 @@ use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::symmetric::Symmetric;
-use crate::numbers::vec3::{
-    Columns, Vec3, add, columns, components, rotate, rotate_transposed, vector,
-};
+use crate::numbers::vec3::{Columns, Vec3, add, columns, components, rotate, rotate_transposed};
 use crate::validation::check::triangle_excess;
 
 /// Torques and weights of the joints of a kind.
@@ -262,7 +260,7 @@ impl<K: Kind> Device<K> {
     }
 
     /// What is given of the joints, for lanes: without what joints do by themselves. None where the
-    /// device or its modes ask for what lanes have not, or for what is refused.
+    /// device or its modes are unsupported in lanes, or are rejected.
     #[cfg(feature = "lanes")]
     #[inline]
     pub(crate) fn given_drives(
@@ -301,7 +299,7 @@ impl<K: Kind> Device<K> {
     }
 
     /// Wrenches on the bodies from outside, the simplified model's among them, and the second
-    /// moment that the gradient of gravity asks for.
+    /// moment that the gradient of gravity requires.
     pub(crate) fn acting(
         &self,
         pose: &K::Pose<K::Scalar>,
@@ -390,17 +388,5 @@ impl<K: Kind> Device<K> {
         bodies: &Wrenches<K>,
     ) -> Carried<Wrenches<K>, Wrench<K::Scalar>> {
         K::external(&self.constants, pose, bodies)
-    }
-}
-
-impl<T: Scalar> Lumped<T> {
-    /// The disturbance at a wheel rate, W axes, about W: force `U_s Omega²` along `w_y`, torque
-    /// `Omega² (J_13 w_y - J_12 w_z)`.
-    fn at(&self, spin: T) -> Wrench<T> {
-        let square = spin * spin;
-        Wrench {
-            force: vector([zero(), self.u_s * square, zero()]),
-            moment: vector([zero(), self.j_13 * square, -(self.j_12 * square)]),
-        }
     }
 }

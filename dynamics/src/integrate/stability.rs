@@ -12,11 +12,7 @@
 //! the responses themselves are found, one impulsive evaluation per joint.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::arithmetic::Unfused;
-use crate::equations::assembly::Assembly;
 use crate::equations::error::SolveError;
-use crate::equations::joint_inputs::Environment;
-use crate::equations::joint_inputs::JointInputs;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::Solution;
 use crate::model::mode::HubMode;
@@ -156,28 +152,16 @@ impl<D: Devices> Spacecraft<D> {
         joint: usize,
     ) -> Result<D::Accelerations, SolveError<D::Scalar>> {
         let still = zeros();
-        let environment = Environment { omega: still, central: None, impulse: true };
         let mut at_rest = state.clone();
         at_rest.devices.states_mut().for_each(|[_, rate]| *rate = zero());
         let mut motors = D::motors_off_for(&self.devices);
         if let Some(torque) = motors.values_mut().nth(joint) {
             *torque = one();
         }
-        let given = JointInputs { motors: &motors, modes: &inputs.modes, bodies: None };
-        let mut assembly = Assembly::new(&self.body, still, still);
         let mut scratch = D::scratch(&self.devices);
-        self.eliminate_devices::<_, Unfused>(
-            &at_rest,
-            given,
-            &environment,
-            &mut assembly,
-            &mut scratch,
-        )?;
+        let assembly = self.eliminate_for_impulses(&at_rest, &motors, inputs, &mut scratch)?;
         let hub = match inputs.hub {
-            HubMode::Free => {
-                let system = assembly.system(still).solve(&assembly.scale(&self.body));
-                system.map_err(|small| small.of(None, None))?
-            }
+            HubMode::Free => assembly.solve(still, &self.body)?,
             HubMode::Fixed | HubMode::Prescribed { .. } => {
                 Solution { r_b_n_ddot: still, omega_dot: still }
             }

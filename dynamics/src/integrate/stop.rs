@@ -9,8 +9,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::equations::arithmetic::Unfused;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
-use crate::equations::joint_inputs::Environment;
-use crate::equations::joint_inputs::JointInputs;
+use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::system::Solution;
 use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::{Each, JointStates};
@@ -90,27 +89,14 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
-        let still = zeros();
-        let environment = Environment { omega: still, central: None, impulse: true };
-        let mut assembly = Assembly::new(&self.body, still, still);
-        let mut scratch = D::scratch(&self.devices);
-        let motors = D::motors_off_for(&self.devices);
-        let given = JointInputs { motors: &motors, modes: &inputs.modes, bodies: None };
+        let (still, motors) = (zeros(), D::motors_off_for(&self.devices));
         D::fits(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
-        self.eliminate_devices::<_, Unfused>(
-            state,
-            given,
-            &environment,
-            &mut assembly,
-            &mut scratch,
-        )?;
+        let mut scratch = D::scratch(&self.devices);
+        let assembly = self.eliminate_for_impulses(state, &motors, inputs, &mut scratch)?;
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let hub = match inputs.hub {
-            HubMode::Free => {
-                let solution = assembly.system(still).solve(&assembly.scale(&self.body));
-                solution.map_err(|small| small.of(None, None))?
-            }
+            HubMode::Free => assembly.solve(still, &self.body)?,
             HubMode::Fixed => {
                 Solution { r_b_n_ddot: neg(velocity), omega_dot: neg(components(&state.omega)) }
             }
@@ -133,5 +119,20 @@ impl<D: Devices> Spacecraft<D> {
             (next.omega, next.r_b_n_dot) = (vector(still), vector(still));
         }
         Ok(next)
+    }
+
+    /// Eliminates every joint where velocities jump and nothing acts but impulses at the motors.
+    pub(super) fn eliminate_for_impulses<A>(
+        &self,
+        state: &State<D, A>,
+        motors: &D::Motors,
+        inputs: &Inputs<D>,
+        scratch: &mut D::Scratch,
+    ) -> Result<Assembly<D::Scalar>, SolveError<D::Scalar>> {
+        let environment = Environment { omega: zeros(), central: None, impulse: true };
+        let given = JointInputs { motors, modes: &inputs.modes, bodies: None };
+        let mut assembly = Assembly::new(&self.body, zeros(), zeros());
+        self.eliminate_devices::<_, Unfused>(state, given, &environment, &mut assembly, scratch)?;
+        Ok(assembly)
     }
 }

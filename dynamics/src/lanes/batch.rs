@@ -81,10 +81,10 @@ pub type BatchAccelerations<D> = Vec<Result<Accelerations<D>, SolveError<f64>>>;
 
 /// A spacecraft that is evaluated at many states at a time.
 ///
-/// A state has the result, or the error, that [`Spacecraft`] gives it by itself, to the bit: lanes
-/// that fuse are asked for by [`Self::fused`]. What lanes have not is found one state after
-/// another: a central field, wrenches on bodies, dry friction, lumped imbalance, a hub that is not
-/// free, angles beyond `2^24` rad, and whatever fails.
+/// A state has the result, or the error, that [`Spacecraft`] gives it by itself, to the bit, unless
+/// the lanes fuse ([`Self::fused`]). One state after another falls back to the scalar path where
+/// lanes do not support it (a central field, wrenches on bodies, dry friction, lumped imbalance, a
+/// hub that is not free, angles beyond `2^24` rad), and where anything fails.
 #[derive(Clone, Debug)]
 pub struct Batch<D: LanedSet> {
     pub(super) craft: Spacecraft<D>,

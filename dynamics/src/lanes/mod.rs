@@ -11,10 +11,10 @@
 //! Registers are chosen at run time, AVX-512, AVX2 with FMA, NEON, or single numbers: a portable
 //! build reaches them. State, inputs, accelerations and errors are those of `Spacecraft`.
 //!
-//! Lanes have: every kind, arrays and tuples; every mode of a joint; springs and dampers; a uniform
-//! field; of the hub's modes, [`Batch`] the free one and [`AcrossDevices`] all. What lanes have not
-//! goes the way of a single evaluation: a central field, wrenches on bodies, Coulomb friction, the
-//! lumped imbalance, rates and angles beyond `2^24`, quaternions far from unit length. So does
+//! Lanes support every kind, arrays and tuples; every mode of a joint; springs and dampers; a
+//! uniform field; of the hub's modes, [`Batch`] the free one and [`AcrossDevices`] all. What they do
+//! not support falls back to the scalar path: a central field, wrenches on bodies, Coulomb friction,
+//! the lumped imbalance, rates and angles beyond `2^24`, quaternions far from unit length. So does
 //! whatever fails in a lane, which is how its error is found; the other lanes keep their results.
 //!
 //! Everything down to the arithmetic is part of the one function that may use the instructions. A

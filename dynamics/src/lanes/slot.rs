@@ -66,8 +66,8 @@ pub trait LanedSet: Devices<Scalar = f64> {
         like: T,
         joints: [&Self::Joints; WIDEST],
     );
-    /// Puts what is given of the joints into one lane. False where a device or its modes ask for
-    /// what lanes have not, or for what an evaluation refuses.
+    /// Puts what is given of the joints into one lane. False where a device or its modes are
+    /// unsupported in lanes, or are rejected.
     fn put<T: Value>(
         devices: &Self::Prepared,
         slots: &mut Self::Slots<T>,

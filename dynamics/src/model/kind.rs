@@ -73,6 +73,18 @@ pub struct Lumped<T> {
     pub j_13: T,
 }
 
+impl<T: Scalar> Lumped<T> {
+    /// The disturbance at a wheel rate, W axes, about W: force `U_s Omega²` along `w_y`, torque
+    /// `Omega² (J_13 w_y - J_12 w_z)`.
+    pub(crate) fn at(&self, spin: T) -> Wrench<T> {
+        let square = spin * spin;
+        Wrench {
+            force: vector([zero(), self.u_s * square, zero()]),
+            moment: vector([zero(), self.j_13 * square, -(self.j_12 * square)]),
+        }
+    }
+}
+
 /// Which model of its wheel's imbalance a device has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ImbalanceModel {

@@ -135,11 +135,7 @@ impl<D: Devices> Spacecraft<D> {
             assembly.push(add(force, whole), moment);
         }
         let hub = match &inputs.hub {
-            HubMode::Free => {
-                let system = assembly.system(environment.omega);
-                let scale = assembly.scale(&self.body);
-                system.solve(&scale).map_err(|small| small.of(None, None))?
-            }
+            HubMode::Free => assembly.solve(environment.omega, &self.body)?,
             HubMode::Fixed => Solution { r_b_n_ddot: sub(zeros(), at_b), omega_dot: zeros() },
             HubMode::Prescribed { r_b_n_ddot, omega_dot } => Solution {
                 r_b_n_ddot: sub(components(r_b_n_ddot), at_b),
