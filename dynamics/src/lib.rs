@@ -8,7 +8,7 @@
 //!
 //! A spacecraft carries any [set of devices](Devices): `[Dgvscmg; 4]`, or
 //! `([ReactionWheel; 3], Sgcmg, HingedPanel)`, or with the feature `alloc` a vector of
-//! [`AnyDevice`]. Joints may be driven, prescribed or locked ([`Mode`]), the hub free, fixed or
+//! [`BuiltIn`]. Joints may be driven, prescribed or locked ([`Mode`]), the hub free, fixed or
 //! prescribed ([`HubMode`]); [`Spacecraft::loads`] answers what that takes and what every joint
 //! carries, [`Spacecraft::ledger`] where the energy goes.
 //!
@@ -91,17 +91,29 @@ pub use numbers::real::{Angle, Real, Scalar};
 pub use results::ledger::{Ledger, Power};
 pub use results::loads::{LoadAxes, Loads};
 pub use results::momentum::{About, CentreOfMass, Momentum};
-#[cfg(feature = "alloc")]
-pub use sets::any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
-pub use sets::built_in::{BuiltIn, BuiltInKind, BuiltInLoads};
+pub use sets::built_in::{BuiltIn, BuiltInKind};
 pub use sets::built_in_parameters::{BuiltInParameters, Misfit};
-pub use sets::devices::{Devices, FixedSet};
+pub use sets::devices::{DeviceSet, Devices, FixedSet};
 pub use solve::inputs::Inputs;
 pub use solve::spacecraft::Spacecraft;
 pub use solve::state::{Accelerations, State};
 pub use validation::imbalance::{Imbalance, WheelImbalance};
 pub use validation::imbalance_error::{ImbalanceError, ImbalanceQuantity};
 pub use validation::parameter_error::{Parameter, ParameterError, Part, Warning};
+
+/// Sets of devices from the inside: data in the shape of a set, and visitors of its members.
+pub mod set {
+    pub use crate::equations::device::Device;
+    pub use crate::equations::joint_inputs::JointInputs;
+    pub use crate::sets::bundle::{Bundle, Given, Maybe, Part, Shared, Unique};
+    pub use crate::sets::devices::{List, Visit};
+    pub use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
+    #[doc(hidden)]
+    pub use crate::sets::enumeration::{Listed, NewData, Visited};
+    pub use crate::sets::per_device::{
+        Accelerations, EnumLoads, Gains, Joints, Loads, Motors, PerDevice, PerJoint,
+    };
+}
 
 /// Any thread may own or borrow any value of this crate: checked when the tests are compiled.
 #[cfg(test)]

@@ -38,7 +38,7 @@ impl Arithmetic {
 }
 
 /// A way of eliminating a device: that of one [`Arithmetic`].
-pub trait Rounding {
+pub(crate) trait Rounding {
     /// Eliminates the joints; see [`Device::eliminate_joints`].
     ///
     /// # Errors
@@ -130,7 +130,7 @@ pub(crate) struct EliminationInputs<'a, K: Kernels, T: Value> {
 /// Where the answer goes, written in its place: to move so many numbers there afterwards takes
 /// time.
 #[derive(Debug)]
-pub struct EliminationOutputs<'a, K: Kernels, T: Value> {
+pub(crate) struct EliminationOutputs<'a, K: Kernels, T: Value> {
     pub(crate) assembly: &'a mut Assembly<T>,
     pub(crate) gains: &'a mut Option<K::Gains<T>>,
 }

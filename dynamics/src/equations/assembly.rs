@@ -18,7 +18,7 @@ use crate::numbers::vec3::{Vec3, add};
 
 /// The hub's equations so far.
 #[derive(Clone, Copy, Debug)]
-pub struct Assembly<T> {
+pub(crate) struct Assembly<T> {
     /// Hub and devices as one rigid body.
     body: HubConstants<T>,
     /// What acts from outside: force, and moment about B.

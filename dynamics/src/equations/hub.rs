@@ -23,7 +23,7 @@ pub(crate) struct HubConstants<T> {
 
 /// Energy, linear momentum and angular momentum about B, expressed in B.
 #[derive(Clone, Copy, Debug)]
-pub struct BodySums<T> {
+pub(crate) struct BodySums<T> {
     pub(crate) energy: T,
     pub(crate) linear: Vec3<T>,
     pub(crate) angular_b: Vec3<T>,

@@ -32,7 +32,7 @@ impl<Motors, Modes, Wrenches> Copy for JointInputs<'_, Motors, Modes, Wrenches> 
 
 /// Motion of the hub and gravity as a device's equations need them, expressed in B.
 #[derive(Clone, Copy, Debug)]
-pub struct Environment<T> {
+pub(crate) struct Environment<T> {
     /// Angular velocity of B.
     pub(crate) omega: Vec3<T>,
     /// The gradient of a central field.

@@ -8,7 +8,7 @@ use crate::numbers::vec3::{Columns, Vec3};
 
 /// Axes for the loads of joints.
 #[derive(Clone, Copy, Debug)]
-pub enum Along<T> {
+pub(crate) enum Along<T> {
     /// The body's own.
     Body,
     /// Those of the parent body.
@@ -19,14 +19,14 @@ pub enum Along<T> {
 
 /// How the hub moves, expressed in B, seen from a frame that falls with gravity.
 #[derive(Clone, Copy, Debug)]
-pub struct HubAccelerations<T> {
+pub(crate) struct HubAccelerations<T> {
     pub(crate) r_b_n_ddot: Vec3<T>,
     pub(crate) omega_dot: Vec3<T>,
 }
 
 /// What the devices ask of the hub and what their joints transmit, added up.
 #[derive(Clone, Copy, Debug)]
-pub struct LoadSums<T> {
+pub(crate) struct LoadSums<T> {
     /// What the devices need for their accelerations, about B, expressed in B.
     pub(crate) inertial: Wrench<T>,
     /// What acts on their bodies from outside.

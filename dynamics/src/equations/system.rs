@@ -38,7 +38,7 @@ pub(crate) type Scale<T> = (T, Vec3<T>);
 
 /// The solution of a [`System`].
 #[derive(Clone, Copy, Debug)]
-pub struct Solution<T> {
+pub(crate) struct Solution<T> {
     pub(crate) r_b_n_ddot: Vec3<T>,
     pub(crate) omega_dot: Vec3<T>,
 }

@@ -20,7 +20,8 @@ use crate::model::passive::Passive;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, half, one, zero};
 use crate::numbers::vec3::zeros;
-use crate::sets::devices::Devices;
+use crate::sets::devices::{Devices, Passives};
+use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
@@ -28,35 +29,19 @@ use crate::solve::state::State;
 /// Largest magnitude of `λ dt` tried; RK4 is unstable there in every direction.
 const BEYOND: f64 = 3.5;
 
-/// How a joint's rate has gone during a step: its smallest magnitude, and whether it passed zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Slowest<T> {
-    first: T,
-    smallest: T,
-    reversed: bool,
+/// How a joint's rate has gone during a step: where it began, and its smallest magnitude, zero once
+/// it has changed its sign.
+type Slowest<T> = [T; 2];
+
+/// The same after another stage.
+fn pass<T: Scalar>([first, smallest]: Slowest<T>, rate: T) -> Slowest<T> {
+    let size = if rate * first < zero() { zero() } else { rate.abs() };
+    [first, if size < smallest { size } else { smallest }]
 }
 
-impl<T: Scalar> Slowest<T> {
-    /// At the start of a step.
-    pub(crate) fn at(rate: T) -> Self {
-        Self { first: rate, smallest: rate.abs(), reversed: false }
-    }
-
-    /// At another of its stages.
-    pub(crate) fn pass(&mut self, rate: T) {
-        self.smallest = if rate.abs() < self.smallest { rate.abs() } else { self.smallest };
-        self.reversed = self.reversed || rate * self.first < zero();
-    }
-
-    /// Whether the friction of a joint that reversed has to be resolved near rest.
-    pub(crate) fn rests(&self, passive: &Passive<T>) -> bool {
-        self.reversed && passive.coulomb > zero()
-    }
-
-    /// The smallest magnitude that the rate has had.
-    fn rate(&self) -> T {
-        if self.reversed { zero() } else { self.smallest }
-    }
+/// Whether friction has to be resolved near rest: the joint has come to rest, or reversed.
+fn rests<T: Scalar>([first, smallest]: Slowest<T>, passive: &Passive<T>) -> bool {
+    first != zero() && smallest == zero() && passive.coulomb > zero()
 }
 
 /// What a step has seen of springs and friction.
@@ -65,15 +50,15 @@ pub(crate) struct PassiveStep<D: Devices> {
     stiffness: Stiffness<D::Scalar>,
     /// Of those before it.
     largest: Stiffness<D::Scalar>,
-    slowest: D::PerJoint<Slowest<D::Scalar>>,
+    slowest: D::Per<data::PerJoint<Slowest<D::Scalar>>>,
 }
 
 impl<D: Devices> PassiveStep<D> {
     /// At the start.
     pub(crate) fn new<A>(craft: &Spacecraft<D>, start: &State<D, A>) -> Self {
-        let mut slowest = D::all_for(&craft.devices, Slowest::at(zero()));
+        let mut slowest = D::new_data(&craft.devices, &data::PerJoint([zero(); 2]));
         for (slowest, [_, rate]) in slowest.values_mut().zip(start.devices.states()) {
-            *slowest = Slowest::at(rate);
+            *slowest = [rate, rate.abs()];
         }
         let none = Stiffness::none(zero());
         Self { stiffness: none, largest: none, slowest }
@@ -88,7 +73,7 @@ impl<D: Devices> PassiveStep<D> {
 
     fn pass<A>(&mut self, stage: &State<D, A>) {
         for (slowest, [_, rate]) in self.slowest.values_mut().zip(stage.devices.states()) {
-            slowest.pass(rate);
+            *slowest = pass(*slowest, rate);
         }
     }
 
@@ -102,8 +87,8 @@ impl<D: Devices> PassiveStep<D> {
         dt: D::Scalar,
     ) -> Result<(), SolveError<D::Scalar>> {
         self.stage(next);
-        let mut joints = self.slowest.values().zip(D::passives(&craft.devices));
-        let rests = joints.any(|(slowest, passive)| slowest.rests(&passive));
+        let mut joints = self.slowest.values().zip(D::list::<Passives>(&craft.devices));
+        let rests = joints.any(|(slowest, passive)| rests(slowest, &passive));
         if self.largest.accepts(dt) && !rests {
             return Ok(());
         }
@@ -119,12 +104,13 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
         dt: D::Scalar,
-        slowest: &D::PerJoint<Slowest<D::Scalar>>,
+        slowest: &D::Per<data::PerJoint<Slowest<D::Scalar>>>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let mut coefficients = D::all_for(&self.devices, [zero::<D::Scalar>(); 2]);
-        let joints = D::passives(&self.devices).zip(slowest.values());
-        for (place, (passive, slowest)) in coefficients.values_mut().zip(joints) {
-            *place = [passive.damping(slowest.rate()), passive.stiffness];
+        let mut coefficients =
+            D::new_data(&self.devices, &data::PerJoint([zero::<D::Scalar>(); 2]));
+        let joints = D::list::<Passives>(&self.devices).zip(slowest.values());
+        for (place, (passive, [_, slowest])) in coefficients.values_mut().zip(joints) {
+            *place = [passive.damping(slowest), passive.stiffness];
         }
         for (joint, ([c, k], (device, info))) in
             coefficients.values().zip(self.joints()).enumerate()
@@ -150,15 +136,15 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
         joint: usize,
-    ) -> Result<D::Accelerations, SolveError<D::Scalar>> {
+    ) -> Result<D::Per<data::Accelerations>, SolveError<D::Scalar>> {
         let still = zeros();
         let mut at_rest = state.clone();
         at_rest.devices.states_mut().for_each(|[_, rate]| *rate = zero());
-        let mut motors = D::motors_off_for(&self.devices);
+        let mut motors = D::new_data(&self.devices, &data::Motors);
         if let Some(torque) = motors.values_mut().nth(joint) {
             *torque = one();
         }
-        let mut scratch = D::scratch(&self.devices);
+        let mut scratch = D::new_data(&self.devices, &data::Gains);
         let assembly = self.eliminate_for_impulses(&at_rest, &motors, inputs, &mut scratch)?;
         let hub = match inputs.hub {
             HubMode::Free => assembly.solve(still, &self.body)?,
@@ -239,12 +225,12 @@ mod tests {
 
     #[test]
     fn smallest_rate_is_zero_where_the_joint_reversed() {
-        let mut slowest = Slowest::at(2.0);
-        slowest.pass(1.0);
-        assert_eq!(slowest.rate(), 1.0);
-        slowest.pass(-3.0);
-        assert_eq!(slowest.rate(), 0.0);
-        assert!(slowest.rests(&Passive::friction(0.0, 1.0, 1.0)));
-        assert!(!slowest.rests(&Passive::friction(1.0, 0.0, 0.0)));
+        let slower = pass([2.0, 2.0], 1.0);
+        assert_eq!(slower, [2.0, 1.0]);
+        assert!(!rests(slower, &Passive::friction(0.0, 1.0, 1.0)));
+        let reversed = pass(slower, -3.0);
+        assert_eq!(reversed, [2.0, 0.0]);
+        assert!(rests(reversed, &Passive::friction(0.0, 1.0, 1.0)));
+        assert!(!rests(reversed, &Passive::friction(1.0, 0.0, 0.0)));
     }
 }

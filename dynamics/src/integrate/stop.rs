@@ -17,7 +17,9 @@ use crate::numbers::real::zero;
 use crate::numbers::vec3::{
     add, columns, components, neg, rotate, rotate_transposed, sub, vector, zeros,
 };
+use crate::sets::counts::check_counts;
 use crate::sets::devices::Devices;
+use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
@@ -89,9 +91,9 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<State<D, A>, SolveError<D::Scalar>> {
-        let (still, motors) = (zeros(), D::motors_off_for(&self.devices));
-        D::fits(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
-        let mut scratch = D::scratch(&self.devices);
+        let (still, motors) = (zeros(), D::new_data(&self.devices, &data::Motors));
+        check_counts::<D>(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
+        let mut scratch = D::new_data(&self.devices, &data::Gains);
         let assembly = self.eliminate_for_impulses(state, &motors, inputs, &mut scratch)?;
         let bn = columns(&state.attitude.dcm());
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
@@ -125,9 +127,9 @@ impl<D: Devices> Spacecraft<D> {
     pub(super) fn eliminate_for_impulses<A>(
         &self,
         state: &State<D, A>,
-        motors: &D::Motors,
+        motors: &D::Per<data::Motors>,
         inputs: &Inputs<D>,
-        scratch: &mut D::Scratch,
+        scratch: &mut D::Per<data::Gains>,
     ) -> Result<Assembly<D::Scalar>, SolveError<D::Scalar>> {
         let environment = Environment { omega: zeros(), central: None, impulse: true };
         let given = JointInputs { motors, modes: &inputs.modes, bodies: None };

@@ -11,7 +11,9 @@ use super::lane::Lane;
 use super::motion::{Forces, Motion, at};
 use super::number::{Block, Number, WIDEST};
 use super::run::Runs;
-use super::slot::{Enter, LanedSet, Leave};
+use super::slot::{
+    Enter, LanedSet, Leave, Slots, SlotsOf, each_slot, load_joints, put_given, take_found,
+};
 use crate::attitude::quaternion::{Quaternion, bn, norm_squared};
 use crate::equations::error::{Quantity, SolveError};
 use crate::model::mode::{HubMode, Mode};
@@ -235,7 +237,7 @@ impl<D: LanedSet> Evaluation<'_, '_, D> {
             group.gather(zero, craft, states, &inputs);
             let acting = group.acting(zero);
             let found = evaluate(craft, &mut group.slots, &acting);
-            D::each(&craft.devices, &mut group.slots, &mut Leave);
+            each_slot::<D, _>(&craft.devices, &mut group.slots, &mut Leave);
             let holds = zero.like(1.0).or(found.holds, zero).store();
             let r_b_n_ddot = map(found.r_b_n_ddot, Number::store);
             let omega_dot = map(found.omega_dot, Number::store);
@@ -249,7 +251,12 @@ impl<D: LanedSet> Evaluation<'_, '_, D> {
                     (Ok(found), _) if sound => {
                         found.r_b_n_ddot = vector(at(&r_b_n_ddot, lane));
                         found.omega_dot = vector(at(&omega_dot, lane));
-                        D::take_found(&mut group.slots, lane, &mut found.devices);
+                        take_found::<D, _>(
+                            &craft.devices,
+                            &mut group.slots,
+                            lane,
+                            &mut found.devices,
+                        );
                     }
                     (place, Some(inputs)) => *place = craft.accelerations(state, inputs),
                     (_, None) => {}
@@ -261,7 +268,7 @@ impl<D: LanedSet> Evaluation<'_, '_, D> {
 
 /// As many states as there are lanes.
 pub(super) struct Group<D: LanedSet, T: Number> {
-    pub(super) slots: D::Slots<T>,
+    pub(super) slots: SlotsOf<D, T>,
     /// The lanes that have what is asked.
     pub(super) laned: [bool; WIDEST],
     /// Whether what is given of the joints stands there already, the same for every state.
@@ -275,7 +282,7 @@ pub(super) struct Group<D: LanedSet, T: Number> {
 impl<D: LanedSet, T: Number> Group<D, T> {
     pub(super) fn new(craft: &Spacecraft<D>, zero: T) -> Self {
         Self {
-            slots: D::slots(&craft.devices, zero),
+            slots: D::new_data(&craft.devices, &Slots(zero)),
             laned: [true; WIDEST],
             given: false,
             motion: Motion::filled(zero),
@@ -297,7 +304,12 @@ impl<D: LanedSet, T: Number> Group<D, T> {
         let mut lanes = [end; WIDEST];
         lanes.iter_mut().zip(states).for_each(|(lane, state)| *lane = state);
         self.motion = Motion::in_lanes(zero, lanes);
-        D::load(&craft.devices, &mut self.slots, zero, lanes.map(|state| &state.devices));
+        load_joints::<D, _>(
+            &craft.devices,
+            &mut self.slots,
+            zero,
+            lanes.map(|state| &state.devices),
+        );
         for lane in 0..T::WIDTH {
             let index = lane.min(last);
             let (Some(state), Some(inputs)) = (states.get(index), all.at(index)) else { return };
@@ -305,7 +317,13 @@ impl<D: LanedSet, T: Number> Group<D, T> {
             if !self.given {
                 let given = inputs.of_joints();
                 laned &= lanes_support_inputs(inputs)
-                    && D::put(&craft.devices, &mut self.slots, lane, &state.devices, given);
+                    && put_given::<D, _>(
+                        &craft.devices,
+                        &mut self.slots,
+                        lane,
+                        &state.devices,
+                        given,
+                    );
                 self.forces.put(lane, inputs);
             }
             self.laned[lane & (WIDEST - 1)] = laned;
@@ -313,7 +331,7 @@ impl<D: LanedSet, T: Number> Group<D, T> {
         if self.given {
             return;
         }
-        D::each(&craft.devices, &mut self.slots, &mut Enter(zero));
+        each_slot::<D, _>(&craft.devices, &mut self.slots, &mut Enter(zero));
         // A locked joint is looked at in each state.
         self.given = match all {
             BatchInputs::Same(inputs) => {

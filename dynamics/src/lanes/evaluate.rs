@@ -6,7 +6,7 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::number::Number;
-use super::slot::{Aligned, LanedSet, Slot, Visit};
+use super::slot::{Aligned, EachSlot, LanedSet, Slot, SlotsOf, each_slot};
 use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::device::Device;
 use crate::equations::stiffness::Stiffness;
@@ -46,7 +46,7 @@ pub(crate) struct Found<T: Number> {
 #[inline(always)]
 pub(crate) fn evaluate<D: LanedSet, T: Number>(
     craft: &Spacecraft<D>,
-    slots: &mut D::Slots<T>,
+    slots: &mut SlotsOf<D, T>,
     acting: &Acting<T>,
 ) -> Found<T> {
     let [like, ..] = acting.omega;
@@ -56,7 +56,7 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
         assembly: Assembly::new(&body, acting.force, acting.torque_b),
         holds: like.same(like),
     };
-    D::each(&craft.devices, slots, &mut elimination);
+    each_slot::<D, _>(&craft.devices, slots, &mut elimination);
     let Elimination { assembly, mut holds, .. } = elimination;
     let system = assembly.system(acting.omega);
     let scale = assembly.scale(&body);
@@ -77,7 +77,7 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
     let [p, q, r] = solution.omega_dot;
     let vanishing = (x + y + z + p + q + r) * zero;
     let mut back = BackSubstitution { hub: solution.expressed_in_b(), zero, vanishing };
-    D::each(&craft.devices, slots, &mut back);
+    each_slot::<D, _>(&craft.devices, slots, &mut back);
     let r_b_n_ddot = add(solution.r_b_n_ddot, acting.at_b);
     let [x, y, z] = r_b_n_ddot;
     let vanishing = back.vanishing + (x + y + z) * zero;
@@ -101,9 +101,9 @@ struct Elimination<T: Number> {
     holds: T::Holds,
 }
 
-impl<T: Number> Visit<T> for Elimination<T> {
+impl<T: Number> EachSlot<T> for Elimination<T> {
     #[inline(always)]
-    fn visit<K: Kind<Scalar = f64>>(&mut self, device: &Device<K>, slot: &mut Slot<K, T>) {
+    fn each<K: Kind<Scalar = f64>>(&mut self, device: &Device<K>, slot: &mut Slot<K, T>) {
         let [like, ..] = self.omega;
         let constants = K::zip_constants(&device.constants, &device.constants, |constant, _| {
             like.like(constant)
@@ -215,9 +215,9 @@ struct BackSubstitution<T> {
     vanishing: T,
 }
 
-impl<T: Number> Visit<T> for BackSubstitution<T> {
+impl<T: Number> EachSlot<T> for BackSubstitution<T> {
     #[inline(always)]
-    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+    fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         let Some(Aligned(gains)) = &slot.gains else { return };
         let found = K::back_substitute(gains, &self.hub);
         slot.found = K::zip_accelerations(&found, &found, |number, _| {

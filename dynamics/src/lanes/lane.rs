@@ -190,11 +190,6 @@ impl<S: Simd, const FUSED: bool> Number for Lane<S, FUSED> {
     }
 
     #[inline(always)]
-    fn either(self, a: S::m64s, b: S::m64s) -> S::m64s {
-        self.simd.or_m64s(a, b)
-    }
-
-    #[inline(always)]
     fn or(self, holds: S::m64s, other: Self) -> Self {
         self.of(self.simd.select_f64s(holds, self.numbers, other.numbers))
     }

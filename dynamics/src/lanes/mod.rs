@@ -29,11 +29,10 @@ mod lane;
 mod motion;
 mod number;
 mod run;
-mod sets;
 mod slot;
+mod states;
 mod width;
 
 pub use across::AcrossDevices;
 pub use batch::{Batch, BatchAccelerations, BatchInputs};
-pub use number::{Block, Number};
-pub use slot::{LanedSet, Slot, Visit};
+pub use slot::LanedSet;

@@ -11,7 +11,7 @@ pub(crate) const WIDEST: usize = 8;
 /// One number for each lane, in memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct Block(pub(crate) [f64; WIDEST]);
+pub(super) struct Block(pub(crate) [f64; WIDEST]);
 
 impl Block {
     /// Zero in every lane.
@@ -35,7 +35,7 @@ impl Block {
 /// Several numbers side by side, one per lane.
 ///
 /// Everything is part of what calls it, down to the function that may use the instructions.
-pub trait Number: Angle {
+pub(super) trait Number: Angle {
     /// Whether something holds, lane by lane.
     type Holds: Copy;
 
@@ -61,8 +61,6 @@ pub trait Number: Angle {
     fn same(self, other: Self) -> Self::Holds;
     /// Whether both hold.
     fn both(self, a: Self::Holds, b: Self::Holds) -> Self::Holds;
-    /// Whether one of both holds.
-    fn either(self, a: Self::Holds, b: Self::Holds) -> Self::Holds;
     /// `self` where it holds, else `other`.
     #[must_use]
     fn or(self, holds: Self::Holds, other: Self) -> Self;

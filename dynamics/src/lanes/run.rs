@@ -12,7 +12,7 @@ use super::evaluate::evaluate;
 use super::lane::Lane;
 use super::motion::Motion;
 use super::number::{Number, WIDEST};
-use super::slot::{LanedSet, Slot, Visit};
+use super::slot::{EachSlot, LanedSet, Slot, each_slot, take_joints};
 use crate::attitude::quaternion::{bn, norm_squared, rate};
 use crate::equations::device::Device;
 use crate::equations::error::SolveError;
@@ -53,21 +53,21 @@ impl<D: LanedSet> Runs<'_, '_, '_, D> {
         for (index, states) in self.states.chunks_mut(T::WIDTH).enumerate() {
             let inputs = self.inputs.starting(index * T::WIDTH);
             group.gather(zero, craft, states, &inputs);
-            D::each(&craft.devices, &mut group.slots, &mut Begin(zero));
+            each_slot::<D, _>(&craft.devices, &mut group.slots, &mut Begin(zero));
             let mut motion = group.motion;
             let mut holds = zero.same(zero);
             for _ in 0..self.steps {
                 let step_holds = step(craft, &mut group, zero, self.dt, &mut motion);
                 holds = zero.both(holds, step_holds);
             }
-            D::each(&craft.devices, &mut group.slots, &mut LeaveJoints);
+            each_slot::<D, _>(&craft.devices, &mut group.slots, &mut LeaveJoints);
             let motion = motion.map(Number::store);
             let holds = zero.like(1.0).or(holds, zero).store();
             for (lane, state) in states.iter_mut().enumerate() {
                 let Some(inputs) = inputs.at(lane) else { continue };
                 self.out.push(if group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0 {
                     motion.take(lane, state);
-                    D::take_joints(&mut group.slots, lane, &mut state.devices);
+                    take_joints::<D, _>(&craft.devices, &mut group.slots, lane, &mut state.devices);
                     Ok(())
                 } else {
                     self.batch.alone(state, inputs, self.dt, self.steps)
@@ -115,10 +115,10 @@ fn step<D: LanedSet, T: Number>(
         let (weight, time) = (zero.like(weight), zero.like(time));
         sum = sum.zip(&slope, |sum, slope| sum.add_mul(weight, slope));
         now = start.zip(&slope, |start, slope| start + zero.add_mul(time, slope));
-        D::each(&craft.devices, &mut group.slots, &mut Stage { zero, weight, time });
+        each_slot::<D, _>(&craft.devices, &mut group.slots, &mut Stage { zero, weight, time });
     }
     let mut end = End { zero, vanishing: zero };
-    D::each(&craft.devices, &mut group.slots, &mut end);
+    each_slot::<D, _>(&craft.devices, &mut group.slots, &mut end);
     let mut next = start.zip(&sum, |start, sum| start + sum);
     let length = norm_squared(next.q);
     let long = length.above(near);
@@ -136,9 +136,9 @@ fn step<D: LanedSet, T: Number>(
 /// Begins the first step where the joints are.
 struct Begin<T>(T);
 
-impl<T: Number> Visit<T> for Begin<T> {
+impl<T: Number> EachSlot<T> for Begin<T> {
     #[inline(always)]
-    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+    fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.start = slot.joints;
         slot.sum = K::zip_joints(&slot.joints, &slot.joints, |_, _| self.0);
     }
@@ -147,9 +147,9 @@ impl<T: Number> Visit<T> for Begin<T> {
 /// Brings joints from lanes into blocks.
 struct LeaveJoints;
 
-impl<T: Number> Visit<T> for LeaveJoints {
+impl<T: Number> EachSlot<T> for LeaveJoints {
     #[inline(always)]
-    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+    fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.block = K::zip_joints(&slot.joints, &slot.joints, |number, _| number.store());
     }
 }
@@ -161,9 +161,9 @@ struct Stage<T> {
     time: T,
 }
 
-impl<T: Number> Visit<T> for Stage<T> {
+impl<T: Number> EachSlot<T> for Stage<T> {
     #[inline(always)]
-    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+    fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         let Self { zero, weight, time } = *self;
         let slope = K::slope(&slot.joints, &slot.found);
         slot.sum = K::zip_joints(&slot.sum, &slope, |sum, slope| sum.add_mul(weight, slope));
@@ -179,9 +179,9 @@ struct End<T> {
     vanishing: T,
 }
 
-impl<T: Number> Visit<T> for End<T> {
+impl<T: Number> EachSlot<T> for End<T> {
     #[inline(always)]
-    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+    fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.start = K::zip_joints(&slot.start, &slot.sum, |start, sum| {
             let next = start + sum;
             self.vanishing = self.vanishing + next * self.zero;

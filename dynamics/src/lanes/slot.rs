@@ -1,20 +1,27 @@
-//! [`Slot`]: one device in lanes, and [`LanedSet`]: the slots of a whole set.
+//! [`Slot`]: one device in lanes, and what is done with the slots of a whole set.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
+use std::boxed::Box;
+
+use core::convert::Infallible;
+
 use super::gather::joints_in_lanes;
 use super::number::{Block, Number, WIDEST};
+use super::states::States;
 use crate::equations::device::Device;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
 use crate::numbers::each::{Each, JointStates, Value};
-use crate::numbers::real::Real;
-use crate::sets::devices::{Devices, SetInputs};
+use crate::sets::bundle::{Bundle, Given, Shared, Unique};
+use crate::sets::devices::{DeviceSet, Devices, SetInputs, Visit};
+use crate::sets::enumeration::{DeviceEnum, Variant};
+use crate::sets::per_device::{self as data, PerDevice};
 
 /// One device in lanes: what it is given, and what an evaluation and a step make of it.
 #[derive(Clone, Debug)]
-pub struct Slot<K: Kernels, T: Value> {
+pub(super) struct Slot<K: Kernels, T: Value> {
     /// Coordinates and rates on their way out.
     pub(crate) block: K::Joints<Block>,
     /// Torques and modes on their way in.
@@ -40,114 +47,237 @@ pub struct Slot<K: Kernels, T: Value> {
 #[repr(align(64))]
 pub(crate) struct Aligned<V>(pub(crate) V);
 
-/// What is done with each device of a set.
-pub trait Visit<T: Value> {
+/// What is done with each device of a set and its slot.
+pub(crate) trait EachSlot<T: Value> {
     /// Does it with one device.
-    fn visit<K: Kind<Scalar = f64>>(&mut self, device: &Device<K>, slot: &mut Slot<K, T>);
+    fn each<K: Kind<Scalar = f64>>(&mut self, device: &Device<K>, slot: &mut Slot<K, T>);
 }
 
-/// A set of devices that can be evaluated in lanes: every kind, arrays, tuples, vectors.
-pub trait LanedSet: Devices<Scalar = f64> {
-    /// The devices in lanes.
-    type Slots<T: Value>;
+/// The slots of a set, at first filled with a number. No enumeration has any.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slots<T>(pub(crate) T);
 
-    /// Slots filled with a number.
-    fn slots<T: Real>(devices: &Self::Prepared, fill: T) -> Self::Slots<T>;
-    /// Each device in order.
-    fn each<T: Value>(
-        devices: &Self::Prepared,
-        slots: &mut Self::Slots<T>,
-        visitor: &mut impl Visit<T>,
-    );
-    /// Takes the joints of as many states in as the widest lanes have.
-    fn load<T: Number>(
-        devices: &Self::Prepared,
-        slots: &mut Self::Slots<T>,
-        like: T,
-        joints: [&Self::Joints; WIDEST],
-    );
-    /// Puts what is given of the joints into one lane. False where a device or its modes are
-    /// unsupported in lanes, or are rejected.
-    fn put<T: Value>(
-        devices: &Self::Prepared,
-        slots: &mut Self::Slots<T>,
-        lane: usize,
-        joints: &Self::Joints,
-        given: SetInputs<'_, Self>,
-    ) -> bool;
-    /// Takes the joints of one lane out.
-    fn take_joints<T: Value>(slots: &mut Self::Slots<T>, lane: usize, joints: &mut Self::Joints);
-    /// Takes the accelerations of one lane out.
-    fn take_found<T: Value>(
-        slots: &mut Self::Slots<T>,
-        lane: usize,
-        found: &mut Self::Accelerations,
-    );
-}
+impl<T: Value> PerDevice<f64> for Slots<T> {
+    type Of<K: Kind<Scalar = f64>> = Box<Slot<K, T>>;
+    type OfEnum<E: DeviceEnum<Scalar = f64>> = ();
 
-impl<K: Kind<Scalar = f64>> LanedSet for K {
-    type Slots<T: Value> = Slot<K, T>;
-
-    fn slots<T: Real>(_: &Device<K>, fill: T) -> Slot<K, T> {
-        let rest = <K as Kind>::at_rest();
-        let still = K::no_accelerations();
+    fn initial<K: Kind<Scalar = f64>>(&self) -> Box<Slot<K, T>> {
+        let (rest, still) = (K::at_rest(), K::no_accelerations());
         let drive = <K as Kind>::all(Drive { torque: 0.0, driven: 0.0, held: 0.0, given: 0.0 });
-        let joints = K::zip_joints(&rest, &rest, |_, _| fill);
-        Slot {
+        let joints = K::zip_joints(&rest, &rest, |_, _| self.0);
+        Box::new(Slot {
             block: K::zip_joints(&rest, &rest, |_, _| Block::ZERO),
             given: K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| Block::ZERO)),
             out: K::zip_accelerations(&still, &still, |_, _| Block::ZERO),
             start: joints,
             joints,
             sum: joints,
-            drives: K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| fill)),
+            drives: K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| self.0)),
             gains: None,
-            found: K::zip_accelerations(&still, &still, |_, _| fill),
-        }
+            found: K::zip_accelerations(&still, &still, |_, _| self.0),
+        })
     }
 
-    #[inline(always)]
-    fn each<T: Value>(device: &Device<K>, slot: &mut Slot<K, T>, visitor: &mut impl Visit<T>) {
-        visitor.visit(device, slot);
+    fn initial_of_enum<K: Variant<E>, E: DeviceEnum<Scalar = f64>>(&self) {}
+
+    fn get<K: Variant<E>, E: DeviceEnum<Scalar = f64>>((): &()) -> Option<Box<Slot<K, T>>> {
+        None
     }
 
-    #[inline(always)]
-    fn load<T: Number>(
-        _: &Device<K>,
-        slot: &mut Slot<K, T>,
-        like: T,
-        joints: [&K::Joints<f64>; WIDEST],
-    ) {
-        slot.joints = joints_in_lanes::<K, T>(like, joints);
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = f64>>(_: &Box<Slot<K, T>>, (): &mut ()) {}
+
+    fn count<E: DeviceEnum<Scalar = f64>>((): &()) -> Option<usize> {
+        None
     }
+}
+
+/// A set of devices that can be evaluated in lanes: every kind, arrays, tuples.
+pub trait LanedSet: Devices<Scalar = f64> {}
+
+impl<K: Kind<Scalar = f64>> LanedSet for K {}
+
+impl<D: LanedSet, const N: usize> LanedSet for [D; N] {}
+
+macro_rules! tuples {
+    ($($($member:ident)*;)*) => {$(
+        impl<$($member: LanedSet),*> LanedSet for ($($member,)*) {}
+    )*};
+}
+
+tuples! {
+    A;
+    A B;
+    A B C;
+    A B C D;
+    A B C D E;
+    A B C D E F;
+    A B C D E F G;
+    A B C D E F G H;
+}
+
+/// The slots of a set.
+pub(crate) type SlotsOf<D, T> = <D as DeviceSet>::Per<Slots<T>>;
+
+/// Does something with each device in order.
+#[inline(always)]
+pub(crate) fn each_slot<D: LanedSet, T: Value>(
+    devices: &D::Prepared,
+    slots: &mut SlotsOf<D, T>,
+    each: &mut impl EachSlot<T>,
+) {
+    let Ok(()) = D::visit::<Unique<Slots<T>>, _>(devices, slots, &mut ByEach(each));
+}
+
+/// A visitor that does something with each slot.
+struct ByEach<'a, E>(&'a mut E);
+
+impl<T: Value, E: EachSlot<T>> Visit<f64, Unique<Slots<T>>> for ByEach<'_, E> {
+    type Error = Infallible;
 
     #[inline(always)]
-    fn put<T: Value>(
+    fn visit<K: Kind<Scalar = f64>>(
+        &mut self,
         device: &Device<K>,
-        slot: &mut Slot<K, T>,
-        lane: usize,
-        joints: &K::Joints<f64>,
-        given: SetInputs<'_, Self>,
-    ) -> bool {
-        let Some(drives) = device.given_drives(joints, given) else { return false };
-        put_drives::<K>(&mut slot.given, lane, &drives);
-        true
+        slot: &mut Box<Slot<K, T>>,
+    ) -> Result<(), Infallible> {
+        self.0.each(device, slot);
+        Ok(())
     }
+}
+
+/// Takes the joints of as many states in as the widest lanes have.
+#[inline(always)]
+pub(crate) fn load_joints<D: LanedSet, T: Number>(
+    devices: &D::Prepared,
+    slots: &mut SlotsOf<D, T>,
+    like: T,
+    states: [&D::Per<data::Joints>; WIDEST],
+) {
+    let data = (slots, states);
+    let Ok(()) = D::visit::<(Unique<Slots<T>>, States), _>(devices, data, &mut Load(like));
+}
+
+/// Takes joints in.
+struct Load<T>(T);
+
+impl<T: Number> Visit<f64, (Unique<Slots<T>>, States)> for Load<T> {
+    type Error = Infallible;
 
     #[inline(always)]
-    fn take_joints<T: Value>(slot: &mut Slot<K, T>, lane: usize, joints: &mut K::Joints<f64>) {
+    fn visit<K: Kind<Scalar = f64>>(
+        &mut self,
+        _: &Device<K>,
+        (slot, states): (&mut Box<Slot<K, T>>, [&K::Joints<f64>; WIDEST]),
+    ) -> Result<(), Infallible> {
+        slot.joints = joints_in_lanes::<K, T>(self.0, states);
+        Ok(())
+    }
+}
+
+/// Puts what is given of the joints into one lane. False where a device or its modes are
+/// unsupported in lanes, or are rejected.
+#[inline(always)]
+pub(crate) fn put_given<D: LanedSet, T: Value>(
+    devices: &D::Prepared,
+    slots: &mut SlotsOf<D, T>,
+    lane: usize,
+    joints: &D::Per<data::Joints>,
+    given: SetInputs<'_, D>,
+) -> bool {
+    let data = (slots, joints, given);
+    D::visit::<PutData<T>, _>(devices, data, &mut Put { lane }).is_ok()
+}
+
+type PutData<T> = (Unique<Slots<T>>, Shared<data::Joints>, Given);
+
+/// Puts what is given into a lane.
+struct Put {
+    lane: usize,
+}
+
+impl<T: Value> Visit<f64, PutData<T>> for Put {
+    type Error = Unsupported;
+
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(
+        &mut self,
+        device: &Device<K>,
+        (slot, joints, given): <PutData<T> as Bundle<f64>>::Of<'_, K>,
+    ) -> Result<(), Unsupported> {
+        let drives = device.given_drives(joints, given).ok_or(Unsupported)?;
+        put_drives::<K>(&mut slot.given, self.lane, &drives);
+        Ok(())
+    }
+}
+
+/// A device or its modes that lanes do not support.
+struct Unsupported;
+
+/// Takes the joints of one lane out.
+#[inline(always)]
+pub(crate) fn take_joints<D: LanedSet, T: Value>(
+    devices: &D::Prepared,
+    slots: &mut SlotsOf<D, T>,
+    lane: usize,
+    joints: &mut D::Per<data::Joints>,
+) {
+    let data = (slots, joints);
+    let Ok(()) =
+        D::visit::<(Unique<Slots<T>>, Unique<data::Joints>), _>(devices, data, &mut Take { lane });
+}
+
+/// Takes the accelerations of one lane out.
+#[inline(always)]
+pub(crate) fn take_found<D: LanedSet, T: Value>(
+    devices: &D::Prepared,
+    slots: &mut SlotsOf<D, T>,
+    lane: usize,
+    found: &mut D::Per<data::Accelerations>,
+) {
+    let data = (slots, found);
+    let Ok(()) = D::visit::<(Unique<Slots<T>>, Unique<data::Accelerations>), _>(
+        devices,
+        data,
+        &mut Take { lane },
+    );
+}
+
+/// Takes something out of a lane.
+struct Take {
+    lane: usize,
+}
+
+impl<T: Value> Visit<f64, (Unique<Slots<T>>, Unique<data::Joints>)> for Take {
+    type Error = Infallible;
+
+    #[inline(always)]
+    fn visit<K: Kind<Scalar = f64>>(
+        &mut self,
+        _: &Device<K>,
+        (slot, joints): (&mut Box<Slot<K, T>>, &mut K::Joints<f64>),
+    ) -> Result<(), Infallible> {
         // The blocks in place: by value, each would be copied for one of its numbers.
         for (numbers, blocks) in joints.states_mut().zip(slot.block.states_mut()) {
             let ([q, q_dot], [coordinate, rate]) = (numbers, blocks);
-            (*q, *q_dot) = (coordinate.at(lane), rate.at(lane));
+            (*q, *q_dot) = (coordinate.at(self.lane), rate.at(self.lane));
         }
+        Ok(())
     }
+}
+
+impl<T: Value> Visit<f64, (Unique<Slots<T>>, Unique<data::Accelerations>)> for Take {
+    type Error = Infallible;
 
     #[inline(always)]
-    fn take_found<T: Value>(slot: &mut Slot<K, T>, lane: usize, found: &mut K::Accelerations<f64>) {
+    fn visit<K: Kind<Scalar = f64>>(
+        &mut self,
+        _: &Device<K>,
+        (slot, found): (&mut Box<Slot<K, T>>, &mut K::Accelerations<f64>),
+    ) -> Result<(), Infallible> {
         for (number, block) in found.values_mut().zip(slot.out.values_mut()) {
-            *number = block.at(lane);
+            *number = block.at(self.lane);
         }
+        Ok(())
     }
 }
 
@@ -170,9 +300,9 @@ pub(super) fn put_drives<K: Kernels>(
 /// Takes the torques and modes that were put into blocks into lanes.
 pub(crate) struct Enter<T>(pub(crate) T);
 
-impl<T: Number> Visit<T> for Enter<T> {
+impl<T: Number> EachSlot<T> for Enter<T> {
     #[inline(always)]
-    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+    fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.drives =
             K::zip_per_joint(&slot.given, &slot.given, |given, _| given.map(|b| self.0.load(&b)));
     }
@@ -181,9 +311,9 @@ impl<T: Number> Visit<T> for Enter<T> {
 /// Brings accelerations from lanes into blocks.
 pub(crate) struct Leave;
 
-impl<T: Number> Visit<T> for Leave {
+impl<T: Number> EachSlot<T> for Leave {
     #[inline(always)]
-    fn visit<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+    fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.out = K::zip_accelerations(&slot.found, &slot.found, |number, _| number.store());
     }
 }

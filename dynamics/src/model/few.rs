@@ -1,5 +1,7 @@
 //! [`Few`]: what belongs to the joints of one device, in an array that holds those of any kind.
 
+use core::ops::{Deref, DerefMut};
+
 use crate::numbers::each::{Each, JointStates, Value};
 
 /// The joints that a device of this crate's kinds has at most.
@@ -35,6 +37,20 @@ impl<V: Value> Few<V> {
         for (to, from) in self.as_mut_slice().iter_mut().zip(from) {
             *to = from;
         }
+    }
+}
+
+impl<V: Value> Deref for Few<V> {
+    type Target = [V];
+
+    fn deref(&self) -> &[V] {
+        self.as_slice()
+    }
+}
+
+impl<V: Value> DerefMut for Few<V> {
+    fn deref_mut(&mut self) -> &mut [V] {
+        self.as_mut_slice()
     }
 }
 

@@ -6,18 +6,31 @@
 //! from outside. Gravity's uniform part is a change of frame: accelerations are counted in the
 //! frame that falls with it.
 
+use core::convert::Infallible;
+
 use crate::attitude::parameterisation::Attitude;
+use crate::equations::device::Device;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Field, at_b};
 use crate::equations::joint_inputs::Environment;
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
+use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
-use crate::numbers::real::zero;
+use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{columns, components, sub};
-use crate::sets::devices::Devices;
+use crate::sets::bundle::{Bundle, Given, Shared, Unique};
+use crate::sets::devices::{DeviceSet, Devices, Visit};
+use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
+
+/// Loads of the devices, what the hub needs beside the inputs, and the sums of both.
+type Weights<D> = (
+    <D as DeviceSet>::Per<data::Loads>,
+    Wrench<<D as DeviceSet>::Scalar>,
+    LoadSums<<D as DeviceSet>::Scalar>,
+);
 
 /// The axes in which the loads of joints are expressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,11 +51,36 @@ pub enum LoadAxes {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loads<D: Devices> {
     /// Device by device; a [`DeviceLoads`] for each.
-    pub devices: D::Loads,
+    pub devices: D::Per<data::Loads>,
     /// What must act on the hub beside the inputs, about B, expressed in B: nothing but rounding on
     /// a free hub with its own accelerations; on a [fixed](crate::HubMode::Fixed) one, what the
     /// table exerts on it. A dynamometer reads the opposite.
     pub hub: Wrench<D::Scalar>,
+}
+
+/// State, inputs and accelerations of the joints, and the loads that come of them.
+type Weighed = (Shared<data::Joints>, Given, Shared<data::Accelerations>, Unique<data::Loads>);
+
+/// The loads that the accelerations need; adds what the devices require of the hub.
+struct Weighing<'a, T> {
+    environment: &'a Environment<T>,
+    hub: &'a HubAccelerations<T>,
+    along: &'a Along<T>,
+    totals: &'a mut LoadSums<T>,
+}
+
+impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
+    type Error = Infallible;
+
+    fn visit<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        (joints, given, accelerations, out): <Weighed as Bundle<T>>::Of<'_, K>,
+    ) -> Result<(), Infallible> {
+        let Self { environment, hub, along, totals } = self;
+        *out = device.loads(joints, given, environment, hub, accelerations, along, totals);
+        Ok(())
+    }
 }
 
 impl<D: Devices> Spacecraft<D> {
@@ -106,7 +144,7 @@ impl<D: Devices> Spacecraft<D> {
         accelerations: &Accelerations<D>,
         field: Option<&Field<D::Scalar>>,
         along: &Along<D::Scalar>,
-    ) -> (D::Loads, Wrench<D::Scalar>, LoadSums<D::Scalar>) {
+    ) -> Weights<D> {
         let omega = components(&state.omega);
         let falling = at_b(field);
         let hub = HubAccelerations {
@@ -116,19 +154,12 @@ impl<D: Devices> Spacecraft<D> {
         let central = field.and_then(|field| field.central);
         let environment = Environment { omega, central, impulse: false };
         let given = inputs.of_joints();
-        let mut devices = D::no_loads_for(&self.devices);
+        let mut devices = D::new_data(&self.devices, &data::Loads);
         let mut totals = LoadSums::none();
-        D::loads(
-            &self.devices,
-            &state.devices,
-            given,
-            &environment,
-            &hub,
-            &accelerations.devices,
-            along,
-            &mut devices,
-            &mut totals,
-        );
+        let data = (&state.devices, given, &accelerations.devices, &mut devices);
+        let mut weighing =
+            Weighing { environment: &environment, hub: &hub, along, totals: &mut totals };
+        let Ok(()) = D::visit::<Weighed, _>(&self.devices, data, &mut weighing);
         let own = self.hub.needs(omega, hub.r_b_n_ddot, hub.omega_dot);
         totals.inertial = totals.inertial.plus(&own);
         if let Some(central) = central {

@@ -5,15 +5,22 @@
 
 use nalgebra::Vector3;
 
+use core::convert::Infallible;
+
 use crate::attitude::parameterisation::Attitude;
+use crate::equations::device::Device;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::hub::BodySums;
+use crate::model::kind::Kind;
 use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::vec3::{
     Columns, Vec3, add, columns, components, cross, finite, neg, rotate, rotate_transposed, scale,
     sub, vector, zeros,
 };
-use crate::sets::devices::Devices;
+use crate::sets::bundle::Shared;
+use crate::sets::counts::check_counts;
+use crate::sets::devices::{Devices, Visit};
+use crate::sets::per_device::Joints;
 use crate::solve::finite::{not_finite_in_vector, reject};
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
@@ -45,6 +52,42 @@ pub struct CentreOfMass<T = f64> {
     pub c: Vector3<T>,
     /// `c'`, derivative seen from B, B axes, m/s.
     pub c_prime: Vector3<T>,
+}
+
+/// Adds kinetic energy and momenta for the velocity of B and the angular velocity, B axes.
+struct Addition<'a, T> {
+    r_b_n_dot: Vec3<T>,
+    omega: Vec3<T>,
+    sums: &'a mut BodySums<T>,
+}
+
+impl<T: Scalar> Visit<T, Shared<Joints>> for Addition<'_, T> {
+    type Error = Infallible;
+
+    fn visit<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        joints: &K::Joints<T>,
+    ) -> Result<(), Infallible> {
+        device.add_sums(joints, self.r_b_n_dot, self.omega, self.sums);
+        Ok(())
+    }
+}
+
+/// Adds the first moment about B and its derivative seen from B, B axes.
+struct FirstMoments<'a, T>(&'a mut [Vec3<T>; 2]);
+
+impl<T: Scalar> Visit<T, Shared<Joints>> for FirstMoments<'_, T> {
+    type Error = Infallible;
+
+    fn visit<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        joints: &K::Joints<T>,
+    ) -> Result<(), Infallible> {
+        device.add_first_moment(joints, self.0);
+        Ok(())
+    }
 }
 
 impl<D: Devices> Spacecraft<D> {
@@ -130,14 +173,16 @@ impl<D: Devices> Spacecraft<D> {
         let r_b_n_dot = rotate(&bn, components(&state.r_b_n_dot));
         let omega = components(&state.omega);
         let mut sums = self.hub.sums(r_b_n_dot, omega);
-        D::add_sums(&self.devices, &state.devices, r_b_n_dot, omega, &mut sums);
+        let mut addition = Addition { r_b_n_dot, omega, sums: &mut sums };
+        let Ok(()) = D::visit::<Shared<Joints>, _>(&self.devices, &state.devices, &mut addition);
         (bn, sums)
     }
 
     /// `c` and `c'`, expressed in B.
     pub(crate) fn centre<A>(&self, state: &State<D, A>) -> [Vec3<D::Scalar>; 2] {
         let mut moment = [self.hub.first_moment, zeros()];
-        D::add_first_moment(&self.devices, &state.devices, &mut moment);
+        let mut addition = FirstMoments(&mut moment);
+        let Ok(()) = D::visit::<Shared<Joints>, _>(&self.devices, &state.devices, &mut addition);
         let per_mass = self.mass().recip();
         moment.map(|moment| scale(per_mass, moment))
     }
@@ -147,7 +192,7 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        D::fits(&self.devices, &state.devices, None, None)?;
+        check_counts::<D>(&self.devices, &state.devices, None, None)?;
         reject(self.not_finite_in_state(state))
     }
 }

@@ -1,20 +1,19 @@
-//! Sets of sets: arrays, tuples, vectors. Each call goes on to the members, in order.
+//! Members in a row: arrays and, with the feature `alloc`, vectors.
 
-use crate::equations::arithmetic::Rounding;
-use crate::equations::assembly::Assembly;
-use crate::equations::error::SolveError;
-use crate::equations::hub::BodySums;
-use crate::equations::joint_inputs::{Environment, JointInputs};
-use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
-use crate::equations::system::Solution;
-use crate::generated::hub::Handed;
+#![expect(
+    clippy::inline_always,
+    reason = "fused numbers reach their instruction only where inlined"
+)]
+
 use crate::model::kind::JointInfo;
-use crate::model::mode::Mode;
-use crate::model::passive::Passive;
-use crate::numbers::each::Value;
-use crate::numbers::vec3::Vec3;
-use crate::sets::devices::{Devices, FixedSet, SetInputs};
+use crate::sets::bundle::{Bundle, Part};
+use crate::sets::devices::{DeviceSet, FixedSet, List, Visit};
+use crate::sets::per_device::PerDevice;
 use crate::validation::parameter_error::ParameterError;
+
+/// A member by its number.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct At(usize);
 
 /// An array of members.
 macro_rules! array {
@@ -30,20 +29,33 @@ macro_rules! array_of {
     };
 }
 
-/// Members in a row: an array, or a vector. `$map` makes one of the same length.
+/// Members in a row. `$map` makes one of the same length, `$count` is the length of data unless it
+/// is known when the program is compiled.
 macro_rules! row {
-    ($row:ident, $map:ident $(, $n:ident)?) => {
-        impl<D: Devices $(, const $n: usize)?> Devices for $row!(D) {
+    ($row:ident, $map:ident, $data:ident => $count:expr $(, $n:ident)?) => {
+        impl<D: DeviceSet $(, const $n: usize)?> Part<$row!(D)> for At {
+            type Of = D;
+
+            #[inline(always)]
+            fn of<F: PerDevice<D::Scalar>>(self, whole: &$row!(D::Per<F>)) -> Option<&D::Per<F>> {
+                whole.get(self.0)
+            }
+
+            #[inline(always)]
+            fn of_mut<F: PerDevice<D::Scalar>>(
+                self,
+                whole: &mut $row!(D::Per<F>),
+            ) -> Option<&mut D::Per<F>> {
+                whole.get_mut(self.0)
+            }
+        }
+
+        impl<D: DeviceSet $(, const $n: usize)?> DeviceSet for $row!(D) {
             type Scalar = D::Scalar;
             type Prepared = $row!(D::Prepared);
-            type Joints = $row!(D::Joints);
-            type Motors = $row!(D::Motors);
-            type Accelerations = $row!(D::Accelerations);
-            type PerJoint<V: Value> = $row!(D::PerJoint<V>);
-            type Loads = $row!(D::Loads);
-            type Scratch = $row!(D::Scratch);
+            type Per<F: PerDevice<D::Scalar>> = $row!(D::Per<F>);
 
-            fn check(&self, device: &mut usize) -> Result<(), ParameterError<Self::Scalar>> {
+            fn check(&self, device: &mut usize) -> Result<(), ParameterError<D::Scalar>> {
                 self.iter().try_for_each(|member| member.check(device))
             }
 
@@ -51,179 +63,61 @@ macro_rules! row {
                 $map!(self, D::prepare)
             }
 
-            fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<Self::Scalar>> {
-                devices.iter().flat_map(D::handed)
-            }
-
-            fn infos(devices: &Self::Prepared) -> impl Iterator<Item = &'static JointInfo> {
-                devices.iter().flat_map(D::infos)
-            }
-
-            fn excesses(devices: &Self::Prepared) -> impl Iterator<Item = Self::Scalar> {
-                devices.iter().flat_map(D::excesses)
-            }
-
-            fn passives(devices: &Self::Prepared) -> impl Iterator<Item = Passive<Self::Scalar>> {
-                devices.iter().flat_map(D::passives)
-            }
-
-            fn at_rest_for(devices: &Self::Prepared) -> Self::Joints {
-                $map!(devices, D::at_rest_for)
-            }
-
-            fn motors_off_for(devices: &Self::Prepared) -> Self::Motors {
-                $map!(devices, D::motors_off_for)
-            }
-
-            fn no_accelerations_for(devices: &Self::Prepared) -> Self::Accelerations {
-                $map!(devices, D::no_accelerations_for)
-            }
-
-            fn all_for<V: Value>(devices: &Self::Prepared, value: V) -> Self::PerJoint<V> {
-                $map!(devices, |device| D::all_for(device, value))
-            }
-
-            fn no_loads_for(devices: &Self::Prepared) -> Self::Loads {
-                $map!(devices, D::no_loads_for)
-            }
-
-            fn scratch(devices: &Self::Prepared) -> Self::Scratch {
-                $map!(devices, D::scratch)
-            }
-
-            fn fits(
+            fn new_data<F: PerDevice<D::Scalar>>(
                 devices: &Self::Prepared,
-                joints: &Self::Joints,
-                given: Option<SetInputs<'_, Self>>,
-                accelerations: Option<&Self::Accelerations>,
-            ) -> Result<(), SolveError<Self::Scalar>> {
-                let expected = devices.len();
-                let counts = [
-                    Some(joints.len()),
-                    given.map(|given| given.motors.len()),
-                    given.map(|given| given.modes.len()),
-                    given.and_then(|given| Some(given.bodies?.len())),
-                    accelerations.map(|found| found.len()),
-                ];
-                if let Some(found) = counts.into_iter().flatten().find(|count| *count != expected) {
-                    return Err(SolveError::Count { expected, found });
-                }
-                let members = devices.iter().zip(joints).enumerate();
-                for (index, (member, joints)) in members {
-                    let given = given.and_then(|given| given.member(index));
-                    let accelerations = accelerations.and_then(|found| found.get(index));
-                    D::fits(member, joints, given, accelerations)?;
+                family: &F,
+            ) -> Self::Per<F> {
+                $map!(devices, |device| D::new_data(device, family))
+            }
+
+            fn list<L: List<D::Scalar>>(
+                devices: &Self::Prepared,
+            ) -> impl Iterator<Item = L::Item> {
+                devices.iter().flat_map(D::list::<L>)
+            }
+
+            #[inline(always)]
+            fn visit<B: Bundle<D::Scalar>, V: Visit<D::Scalar, B>>(
+                devices: &Self::Prepared,
+                mut data: B::Of<'_, Self>,
+                visitor: &mut V,
+            ) -> Result<(), V::Error> {
+                compare::<Self, B, V>(devices.len(), &data, visitor)?;
+                for (index, device) in devices.iter().enumerate() {
+                    let Some(data) = B::part::<Self, At>(&mut data, At(index)) else { break };
+                    D::visit::<B, V>(device, data, visitor)?;
                 }
                 Ok(())
             }
 
-            #[inline(always)]
-            fn eliminate_set<W: Rounding>(
-                devices: &Self::Prepared,
-                joints: &Self::Joints,
-                given: SetInputs<'_, Self>,
-                environment: &Environment<Self::Scalar>,
-                assembly: &mut Assembly<Self::Scalar>,
-                scratch: &mut Self::Scratch,
-                device: &mut usize,
-            ) -> Result<(), SolveError<Self::Scalar>> {
-                let members = devices.iter().zip(joints).zip(given.members()).zip(scratch);
-                for (((member, joints), given), scratch) in members {
-                    D::eliminate_set::<W>(member, joints, given, environment, assembly, scratch, device)?;
-                }
-                Ok(())
-            }
-
-            #[inline(always)]
-            fn back_substitute(
-                devices: &Self::Prepared,
-                scratch: &Self::Scratch,
-                hub: &Solution<Self::Scalar>,
-                out: &mut Self::Accelerations,
-            ) {
-                for ((member, scratch), out) in devices.iter().zip(scratch).zip(out) {
-                    D::back_substitute(member, scratch, hub, out);
-                }
-            }
-
-            fn add_sums(
-                devices: &Self::Prepared,
-                joints: &Self::Joints,
-                r_b_n_dot: Vec3<Self::Scalar>,
-                omega: Vec3<Self::Scalar>,
-                sums: &mut BodySums<Self::Scalar>,
-            ) {
-                for (member, joints) in devices.iter().zip(joints) {
-                    D::add_sums(member, joints, r_b_n_dot, omega, sums);
-                }
-            }
-
-            fn add_first_moment(
-                devices: &Self::Prepared,
-                joints: &Self::Joints,
-                moment: &mut [Vec3<Self::Scalar>; 2],
-            ) {
-                for (member, joints) in devices.iter().zip(joints) {
-                    D::add_first_moment(member, joints, moment);
-                }
-            }
-
-            fn loads(
-                devices: &Self::Prepared,
-                joints: &Self::Joints,
-                given: SetInputs<'_, Self>,
-                environment: &Environment<Self::Scalar>,
-                hub: &HubAccelerations<Self::Scalar>,
-                accelerations: &Self::Accelerations,
-                along: &Along<Self::Scalar>,
-                out: &mut Self::Loads,
-                totals: &mut LoadSums<Self::Scalar>,
-            ) {
-                let members = devices.iter().zip(joints).zip(given.members()).zip(accelerations);
-                for ((((member, joints), given), accelerations), out) in members.zip(out) {
-                    D::loads(
-                        member, joints, given, environment, hub, accelerations, along, out, totals,
-                    );
-                }
-            }
-        }
-
-        impl<'a, M, P, W $(, const $n: usize)?> JointInputs<'a, $row!(M), $row!(P), $row!(W)> {
-            /// What is given of one member.
-            fn member(self, index: usize) -> Option<JointInputs<'a, M, P, W>> {
-                let (motors, modes) = (self.motors.get(index)?, self.modes.get(index)?);
-                Some(JointInputs { motors, modes, bodies: self.bodies.and_then(|all| all.get(index)) })
-            }
-
-            /// What is given of each member.
-            fn members(self) -> impl Iterator<Item = JointInputs<'a, M, P, W>> {
-                let pairs = self.motors.iter().zip(self.modes).enumerate();
-                pairs.map(move |(index, (motors, modes))| {
-                    let bodies = self.bodies.and_then(|all| all.get(index));
-                    JointInputs { motors, modes, bodies }
-                })
+            fn count<F: PerDevice<D::Scalar>>($data: &Self::Per<F>) -> Option<usize> {
+                $count
             }
         }
     };
 }
 
-row!(array, array_of, N);
+/// Tells a visitor of how many members the data are.
+#[inline(always)]
+pub(crate) fn compare<W: DeviceSet, B: Bundle<W::Scalar>, V: Visit<W::Scalar, B>>(
+    expected: usize,
+    data: &B::Of<'_, W>,
+    visitor: &mut V,
+) -> Result<(), V::Error> {
+    let mut compared = Ok(());
+    B::counts::<W>(data, &mut |found| {
+        if compared.is_ok() {
+            compared = visitor.compare(expected, found);
+        }
+    });
+    compared
+}
+
+row!(array, array_of, _data => None, N);
 
 impl<D: FixedSet, const N: usize> FixedSet for [D; N] {
-    fn at_rest() -> Self::Joints {
-        [(); N].map(|()| D::at_rest())
-    }
-
-    fn motors_off() -> Self::Motors {
-        [(); N].map(|()| D::motors_off())
-    }
-
-    fn all<V: Value>(value: V) -> Self::PerJoint<V> {
-        [(); N].map(|()| D::all(value))
-    }
-
-    fn modes() -> Self::PerJoint<Mode<Self::Scalar>> {
-        [(); N].map(|()| D::modes())
+    fn new_fixed<F: PerDevice<D::Scalar>>(family: &F) -> Self::Per<F> {
+        [(); N].map(|()| D::new_fixed(family))
     }
 
     fn joint_infos() -> impl Iterator<Item = &'static JointInfo> {
@@ -248,4 +142,4 @@ macro_rules! vector_of {
 }
 
 #[cfg(feature = "alloc")]
-row!(vector, vector_of);
+row!(vector, vector_of, data => Some(data.len()));

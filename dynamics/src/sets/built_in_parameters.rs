@@ -7,8 +7,10 @@ use core::fmt::{self, Display, Formatter};
 use nalgebra::Matrix3;
 
 use crate::model::few::MAX_JOINTS;
-use crate::model::kind::{BodyParameters, ImbalanceModel};
+use crate::model::kind::{BodyParameters, ImbalanceModel, Kind, no_inertia};
 use crate::model::passive::Passive;
+use crate::numbers::each::{Each, Value};
+use crate::numbers::real::{Scalar, zero};
 use crate::validation::parameter_error::Parameter;
 
 /// A device as bodies and joints, which every kind can be stated in.
@@ -53,3 +55,55 @@ impl Display for Misfit {
 }
 
 impl Error for Misfit {}
+
+/// The device of a kind that is made of these bodies.
+pub(crate) fn made<K: Kind>(stated: &BuiltInParameters<K::Scalar>) -> Result<K, Misfit> {
+    let mut bodies = K::all(no_body());
+    copy(&mut bodies, stated.bodies);
+    let mut passive = K::all(Passive::none());
+    copy(&mut passive, stated.passive);
+    let made = K::of_bodies(&stated.mount, &bodies, &passive, stated.model);
+    let taken = made.bodies();
+    for ((asked, taken), info) in bodies.values().zip(taken.values()).zip(K::JOINTS) {
+        let misfit = |parameter| Err(Misfit { body: info.body, parameter: Some(parameter) });
+        if !same(&asked.centre, &taken.centre) {
+            return misfit(Parameter::CentreOfMass);
+        }
+        if !same(asked.inertia.as_slice(), taken.inertia.as_slice()) {
+            return misfit(Parameter::Inertia);
+        }
+    }
+    if made.model() != stated.model {
+        let body = K::JOINTS.last().map_or("device", |tip| tip.body);
+        return Err(Misfit { body, parameter: None });
+    }
+    Ok(made)
+}
+
+/// The bodies of a device.
+pub(crate) fn stated<K: Kind>(device: &K) -> BuiltInParameters<K::Scalar> {
+    let mut bodies = [no_body(); MAX_JOINTS];
+    for (to, from) in bodies.iter_mut().zip(device.bodies().values()) {
+        *to = from;
+    }
+    let mut passive = [Passive::none(); MAX_JOINTS];
+    for (to, from) in passive.iter_mut().zip(device.passive().values()) {
+        *to = from;
+    }
+    BuiltInParameters { mount: *device.mount(), bodies, passive, model: device.model() }
+}
+
+fn copy<V: Value>(to: &mut impl Each<V>, from: impl IntoIterator<Item = V>) {
+    for (to, from) in to.values_mut().zip(from) {
+        *to = from;
+    }
+}
+
+fn no_body<T: Scalar>() -> BodyParameters<T> {
+    BodyParameters { origin: [zero(); 3], mass: zero(), centre: [zero(); 3], inertia: no_inertia() }
+}
+
+/// Whether all numbers are equal; what is no number equals itself, for validation to name.
+fn same<T: Scalar>(a: &[T], b: &[T]) -> bool {
+    a.iter().zip(b).all(|(a, b)| a == b || !(a.is_finite() || b.is_finite()))
+}

@@ -1,52 +1,38 @@
 //! [`Devices`]: what a hub carries. One device, an array, a tuple, a list: each is a set, and sets
 //! nest.
 //!
-//! Nothing here knows a kind: a set passes each call on to its members, in order, so that a device
-//! costs the same wherever it stands. The set of a spacecraft is known when it is compiled, and
-//! every call is direct; only a list of [`AnyDevice`](crate::AnyDevice) asks at run time.
+//! A set knows no operation. It has data of any family in its shape ([`PerDevice`]), and shows its
+//! members in order to a visitor ([`Visit`]), which is what an operation is: written once, for any
+//! kind. Devices known when the program is compiled cost the same wherever they stand: every call
+//! is direct.
 
 use core::fmt::Debug;
 
-use crate::equations::arithmetic::Rounding;
-use crate::equations::assembly::Assembly;
-use crate::equations::error::SolveError;
-use crate::equations::hub::BodySums;
-use crate::equations::joint_inputs::{Environment, JointInputs};
-use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
-use crate::equations::system::Solution;
+use crate::equations::device::Device;
+use crate::equations::joint_inputs::JointInputs;
 use crate::generated::hub::Handed;
-use crate::model::kind::JointInfo;
+use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
-use crate::numbers::each::{Each, JointStates, Value};
+use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::Scalar;
-use crate::numbers::vec3::Vec3;
+use crate::sets::bundle::Bundle;
+use crate::sets::per_device::{Accelerations, Joints, Loads, Motors, PerDevice, PerJoint};
 use crate::validation::parameter_error::ParameterError;
 
 /// A set of devices, by their parameters.
 ///
-/// Implemented for every [`Kind`](crate::model::kind::Kind), and for arrays, tuples (up to eight
-/// members) and, with the feature `alloc`, vectors of sets. The data of a set have its shape: the
-/// joints of `([ReactionWheel; 4], Dgvscmg)` are `([reaction_wheel::Joints; 4], dgvscmg::Joints)`.
-/// Devices count from 0 through the whole set, in order.
-pub trait Devices: Clone + Debug + PartialEq {
+/// Implemented for every [`Kind`], for [`BuiltIn`](crate::BuiltIn), and for arrays, tuples (up to
+/// eight members), options and, with the feature `alloc`, vectors of sets. Devices count from 0
+/// through the whole set, in order.
+pub trait DeviceSet: Clone + Debug + PartialEq + 'static {
     /// The number type.
     type Scalar: Scalar;
     /// The devices, checked and precomputed.
     type Prepared: Clone + Debug;
-    /// Coordinates and rates of the joints.
-    type Joints: JointStates<Self::Scalar>;
-    /// Motor torques.
-    type Motors: Each<Self::Scalar>;
-    /// Joint accelerations.
-    type Accelerations: Each<Self::Scalar>;
-    /// A value per joint.
-    type PerJoint<V: Value>: Each<V>;
-    /// Loads of the joints and of the mounts.
-    type Loads: Clone + Debug + PartialEq;
-    /// What an evaluation keeps from elimination to back substitution.
-    type Scratch;
+    /// Data of a family, in the shape of the set.
+    type Per<F: PerDevice<Self::Scalar>>;
 
     /// Checks the parameters; `device` counts.
     ///
@@ -55,104 +41,88 @@ pub trait Devices: Clone + Debug + PartialEq {
     fn check(&self, device: &mut usize) -> Result<(), ParameterError<Self::Scalar>>;
     /// The devices, precomputed: what depends only on parameters, computed.
     fn prepare(&self) -> Self::Prepared;
-    /// What the hub takes over of each device.
-    fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<Self::Scalar>>;
-    /// The joints in order.
-    fn infos(devices: &Self::Prepared) -> impl Iterator<Item = &'static JointInfo>;
-    /// By how much each body's inertia breaks the triangle inequality, kg m².
-    fn excesses(devices: &Self::Prepared) -> impl Iterator<Item = Self::Scalar>;
-    /// Springs, dampers, friction of each joint.
-    fn passives(devices: &Self::Prepared) -> impl Iterator<Item = Passive<Self::Scalar>>;
-    /// All coordinates and rates zero.
-    fn at_rest_for(devices: &Self::Prepared) -> Self::Joints;
-    /// All motors off.
-    fn motors_off_for(devices: &Self::Prepared) -> Self::Motors;
-    /// No joint accelerating.
-    fn no_accelerations_for(devices: &Self::Prepared) -> Self::Accelerations;
-    /// One value at every joint.
-    fn all_for<V: Value>(devices: &Self::Prepared, value: V) -> Self::PerJoint<V>;
-    /// The modes that the kinds have by themselves.
-    fn modes_for(devices: &Self::Prepared) -> Self::PerJoint<Mode<Self::Scalar>> {
-        let mut modes = Self::all_for(devices, Mode::Driven);
-        for (mode, info) in modes.values_mut().zip(Self::infos(devices)) {
-            *mode = info.own_mode();
-        }
-        modes
-    }
-    /// No loads.
-    fn no_loads_for(devices: &Self::Prepared) -> Self::Loads;
-    /// Room for an evaluation.
-    fn scratch(devices: &Self::Prepared) -> Self::Scratch;
+    /// New data of a family for these devices.
+    fn new_data<F: PerDevice<Self::Scalar>>(devices: &Self::Prepared, family: &F) -> Self::Per<F>;
+    /// What each device lists, in order.
+    fn list<L: List<Self::Scalar>>(devices: &Self::Prepared) -> impl Iterator<Item = L::Item>;
+    /// Shows each device in order, with its part of some data.
+    ///
+    /// # Errors
+    /// The visitor's first.
+    fn visit<B: Bundle<Self::Scalar>, V: Visit<Self::Scalar, B>>(
+        devices: &Self::Prepared,
+        data: B::Of<'_, Self>,
+        visitor: &mut V,
+    ) -> Result<(), V::Error>;
+    /// The number of members that data are of, where that is known only at run time.
+    fn count<F: PerDevice<Self::Scalar>>(data: &Self::Per<F>) -> Option<usize>;
+}
 
-    /// Whether there is data for as many devices as there are; sets of fixed size always fit.
+/// What is done with each device of a set and its part of some data.
+pub trait Visit<T: Scalar, B: Bundle<T>> {
+    /// Why it ends early.
+    type Error;
+    /// Does it with one device.
     ///
     /// # Errors
-    /// [`SolveError::Count`].
-    fn fits(
-        devices: &Self::Prepared,
-        joints: &Self::Joints,
-        given: Option<SetInputs<'_, Self>>,
-        accelerations: Option<&Self::Accelerations>,
-    ) -> Result<(), SolveError<Self::Scalar>>;
-    /// Eliminates every joint, adds what is left to the hub's system; `device` counts.
+    /// Ends the visit.
+    fn visit<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        data: B::Of<'_, K>,
+    ) -> Result<(), Self::Error>;
+    /// Told of each part of the data whether it is of as many members as the set has.
     ///
     /// # Errors
-    /// The first [`SolveError`].
-    fn eliminate_set<W: Rounding>(
-        devices: &Self::Prepared,
-        joints: &Self::Joints,
-        given: SetInputs<'_, Self>,
-        environment: &Environment<Self::Scalar>,
-        assembly: &mut Assembly<Self::Scalar>,
-        scratch: &mut Self::Scratch,
-        device: &mut usize,
-    ) -> Result<(), SolveError<Self::Scalar>>;
-    /// The joints' accelerations once the hub's are known.
-    fn back_substitute(
-        devices: &Self::Prepared,
-        scratch: &Self::Scratch,
-        hub: &Solution<Self::Scalar>,
-        out: &mut Self::Accelerations,
-    );
-    /// Adds kinetic energy and momenta for the velocity of B and the angular velocity, B axes.
-    fn add_sums(
-        devices: &Self::Prepared,
-        joints: &Self::Joints,
-        r_b_n_dot: Vec3<Self::Scalar>,
-        omega: Vec3<Self::Scalar>,
-        sums: &mut BodySums<Self::Scalar>,
-    );
-    /// Adds the first moment about B and its derivative seen from B, B axes.
-    fn add_first_moment(
-        devices: &Self::Prepared,
-        joints: &Self::Joints,
-        moment: &mut [Vec3<Self::Scalar>; 2],
-    );
-    /// The loads that the accelerations need; adds what the devices ask of the hub.
-    #[expect(clippy::too_many_arguments, reason = "state, inputs and accelerations, then results")]
-    fn loads(
-        devices: &Self::Prepared,
-        joints: &Self::Joints,
-        given: SetInputs<'_, Self>,
-        environment: &Environment<Self::Scalar>,
-        hub: &HubAccelerations<Self::Scalar>,
-        accelerations: &Self::Accelerations,
-        along: &Along<Self::Scalar>,
-        out: &mut Self::Loads,
-        totals: &mut LoadSums<Self::Scalar>,
-    );
+    /// Ends the visit.
+    fn compare(&mut self, _expected: usize, _found: usize) -> Result<(), Self::Error> {
+        Ok(())
+    }
+}
+
+/// What can be listed of every device.
+pub trait List<T: Scalar> {
+    /// One entry: of a device, or of a joint.
+    type Item;
+    /// The entries of one device.
+    fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = Self::Item>;
+}
+
+/// [`DeviceSet`], with what its data of the families used everywhere can do.
+///
+/// Implemented for every [`DeviceSet`].
+pub trait Devices:
+    DeviceSet<
+        Per<Joints>: JointStates<<Self as DeviceSet>::Scalar>,
+        Per<Motors>: Each<<Self as DeviceSet>::Scalar>,
+        Per<Accelerations>: Each<<Self as DeviceSet>::Scalar>,
+        Per<PerJoint<Mode<<Self as DeviceSet>::Scalar>>>: Each<Mode<<Self as DeviceSet>::Scalar>>,
+        Per<PerJoint<Wrench<<Self as DeviceSet>::Scalar>>>: Each<
+            Wrench<<Self as DeviceSet>::Scalar>,
+        >,
+        Per<PerJoint<[<Self as DeviceSet>::Scalar; 2]>>: Each<[<Self as DeviceSet>::Scalar; 2]>,
+        Per<Loads>: Clone + Debug + PartialEq,
+    >
+{
+}
+
+impl<D> Devices for D where
+    D: DeviceSet<
+            Per<Joints>: JointStates<<D as DeviceSet>::Scalar>,
+            Per<Motors>: Each<<D as DeviceSet>::Scalar>,
+            Per<Accelerations>: Each<<D as DeviceSet>::Scalar>,
+            Per<PerJoint<Mode<<D as DeviceSet>::Scalar>>>: Each<Mode<<D as DeviceSet>::Scalar>>,
+            Per<PerJoint<Wrench<<D as DeviceSet>::Scalar>>>: Each<Wrench<<D as DeviceSet>::Scalar>>,
+            Per<PerJoint<[<D as DeviceSet>::Scalar; 2]>>: Each<[<D as DeviceSet>::Scalar; 2]>,
+            Per<Loads>: Clone + Debug + PartialEq,
+        >
+{
 }
 
 /// A set whose devices are known when it is compiled.
 pub trait FixedSet: Devices {
-    /// All coordinates and rates zero.
-    fn at_rest() -> Self::Joints;
-    /// All motors off.
-    fn motors_off() -> Self::Motors;
-    /// One value at every joint.
-    fn all<V: Value>(value: V) -> Self::PerJoint<V>;
-    /// The modes that the kinds have by themselves.
-    fn modes() -> Self::PerJoint<Mode<Self::Scalar>>;
+    /// New data of a family.
+    fn new_fixed<F: PerDevice<Self::Scalar>>(family: &F) -> Self::Per<F>;
     /// The joints in order.
     fn joint_infos() -> impl Iterator<Item = &'static JointInfo>;
 }
@@ -160,7 +130,62 @@ pub trait FixedSet: Devices {
 /// What is given of the joints of a set.
 pub(crate) type SetInputs<'a, D> = JointInputs<
     'a,
-    <D as Devices>::Motors,
-    <D as Devices>::PerJoint<Mode<<D as Devices>::Scalar>>,
-    <D as Devices>::PerJoint<Wrench<<D as Devices>::Scalar>>,
+    <D as DeviceSet>::Per<Motors>,
+    <D as DeviceSet>::Per<PerJoint<Mode<<D as DeviceSet>::Scalar>>>,
+    <D as DeviceSet>::Per<PerJoint<Wrench<<D as DeviceSet>::Scalar>>>,
 >;
+
+/// What the hub takes over of each device.
+pub(crate) struct ConstantShares;
+
+/// The joints.
+pub(crate) struct JointInfos;
+
+/// By how much the inertia of each body breaks the triangle inequality, kg m².
+pub(crate) struct TriangleExcesses;
+
+/// Spring, damper and friction of each joint.
+pub(crate) struct Passives;
+
+impl<T: Scalar> List<T> for ConstantShares {
+    type Item = Handed<T>;
+
+    fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = Handed<T>> {
+        core::iter::once(K::handed(&device.constants))
+    }
+}
+
+impl<T: Scalar> List<T> for JointInfos {
+    type Item = &'static JointInfo;
+
+    fn of<K: Kind<Scalar = T>>(_: &Device<K>) -> impl Iterator<Item = &'static JointInfo> {
+        K::JOINTS.iter()
+    }
+}
+
+impl<T: Scalar> List<T> for TriangleExcesses {
+    type Item = T;
+
+    fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = T> {
+        device.excess.values()
+    }
+}
+
+impl<T: Scalar> List<T> for Passives {
+    type Item = Passive<T>;
+
+    fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = Passive<T>> {
+        device.passive.values()
+    }
+}
+
+/// The modes that the kinds give their joints.
+pub(crate) fn own_modes<'a, T: Scalar, P: Each<Mode<T>>>(
+    mut modes: P,
+    infos: impl Iterator<Item = &'a JointInfo>,
+) -> P {
+    for (mode, info) in modes.values_mut().zip(infos) {
+        *mode = info.own_mode();
+    }
+    modes
+}

@@ -1,20 +1,19 @@
 //! Sets of devices: one device, arrays, tuples, options, vectors, and devices whose kind is known
 //! only at run time.
 //!
-//! [`Devices`](devices::Devices) is what the solver calls; a set passes each call on to its members
-//! in order.
+//! [`DeviceSet`](devices::DeviceSet) offers the members in order; what is done with them stands
+//! where it is used, as a [`Visit`](devices::Visit).
 
-#[cfg(feature = "alloc")]
-pub(crate) mod any_device;
 pub(crate) mod array;
 pub(crate) mod built_in;
-pub(crate) mod built_in_calls;
 #[cfg(test)]
 mod built_in_checks;
 pub(crate) mod built_in_parameters;
+pub(crate) mod bundle;
+pub(crate) mod counts;
 pub(crate) mod devices;
-#[cfg(feature = "alloc")]
-pub(crate) mod erased;
+pub(crate) mod enumeration;
 pub(crate) mod one;
 pub(crate) mod optional;
+pub(crate) mod per_device;
 pub(crate) mod tuples;

@@ -8,6 +8,8 @@
     reason = "fused numbers reach their instruction only where inlined"
 )]
 
+use core::marker::PhantomData;
+
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::arithmetic::{Arithmetic, Rounding, Unfused};
 use crate::equations::assembly::Assembly;
@@ -20,7 +22,10 @@ use crate::model::mode::HubMode;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{Vec3, add, columns, components, extreme, finite, sub, vector, zeros};
+use crate::sets::counts::check_counts;
 use crate::sets::devices::{Devices, SetInputs};
+use crate::sets::per_device as data;
+use crate::solve::elimination::{Eliminated, Elimination, back_substitute};
 use crate::solve::finite::all_finite;
 #[cfg(feature = "lanes")]
 use crate::solve::fused::FusedEvaluation;
@@ -89,7 +94,7 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<(), SolveError<D::Scalar>> {
         let EvaluationStart { environment, at_b } = evaluation_start(state, inputs)?;
         let mut assembly = self.assembly(inputs);
-        let mut scratch = D::scratch(&self.devices);
+        let mut scratch = D::new_data(&self.devices, &data::Gains);
         self.eliminate_devices::<_, W>(
             state,
             inputs.of_joints(),
@@ -98,7 +103,7 @@ impl<D: Devices> Spacecraft<D> {
             &mut scratch,
         )?;
         let hub = self.hub_accelerations(inputs, &environment, &mut assembly, at_b)?;
-        D::back_substitute(&self.devices, &scratch, &hub, &mut found.devices);
+        back_substitute::<D>(&self.devices, &scratch, &hub, &mut found.devices);
         if let Some(stiffness) = stiffness {
             *stiffness = self.stiffness(inputs, &assembly);
         }
@@ -108,7 +113,7 @@ impl<D: Devices> Spacecraft<D> {
     /// Accelerations to be filled in.
     pub(crate) fn no_accelerations(&self) -> Accelerations<D> {
         let still = vector(zeros());
-        let devices = D::no_accelerations_for(&self.devices);
+        let devices = D::new_data(&self.devices, &data::Accelerations);
         Accelerations { r_b_n_ddot: still, omega_dot: still, devices }
     }
 
@@ -171,28 +176,23 @@ impl<D: Devices> Spacecraft<D> {
         given: SetInputs<'_, D>,
         environment: &Environment<D::Scalar>,
         assembly: &mut Assembly<D::Scalar>,
-        scratch: &mut D::Scratch,
+        scratch: &mut D::Per<data::Gains>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        D::fits(&self.devices, &state.devices, Some(given), None)?;
-        D::eliminate_set::<W>(
-            &self.devices,
-            &state.devices,
-            given,
-            environment,
-            assembly,
-            scratch,
-            &mut 0,
-        )
+        check_counts::<D>(&self.devices, &state.devices, Some(given), None)?;
+        let mut elimination =
+            Elimination { environment, assembly, device: 0, rounding: PhantomData::<W> };
+        let data = (&state.devices, given, scratch);
+        D::visit::<Eliminated, _>(&self.devices, data, &mut elimination)
     }
 
     /// The accelerations of every device's joints, checked finite.
     pub(crate) fn back_substitute(
         &self,
-        scratch: &D::Scratch,
+        scratch: &D::Per<data::Gains>,
         hub: &Solution<D::Scalar>,
-    ) -> Result<D::Accelerations, SolveError<D::Scalar>> {
-        let mut found = D::no_accelerations_for(&self.devices);
-        D::back_substitute(&self.devices, scratch, hub, &mut found);
+    ) -> Result<D::Per<data::Accelerations>, SolveError<D::Scalar>> {
+        let mut found = D::new_data(&self.devices, &data::Accelerations);
+        back_substitute::<D>(&self.devices, scratch, hub, &mut found);
         if found.values().all(Scalar::is_finite) { Ok(found) } else { Err(overflow()) }
     }
 
@@ -255,7 +255,8 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Quantity {
         let joint = || -> Result<Option<Quantity>, SolveError<D::Scalar>> {
             let environment = evaluation_start(state, inputs)?.environment;
-            let (mut assembly, mut scratch) = (self.assembly(inputs), D::scratch(&self.devices));
+            let (mut assembly, mut scratch) =
+                (self.assembly(inputs), D::new_data(&self.devices, &data::Gains));
             let alone = assembly.system(environment.omega);
             if !(finite(alone.h_v) && finite(alone.h_w)) {
                 return Ok(None);
@@ -269,8 +270,8 @@ impl<D: Devices> Spacecraft<D> {
                 &mut scratch,
             )?;
             let still = Solution { r_b_n_ddot: zeros(), omega_dot: zeros() };
-            let mut found = D::no_accelerations_for(&self.devices);
-            D::back_substitute(&self.devices, &scratch, &still, &mut found);
+            let mut found = D::new_data(&self.devices, &data::Accelerations);
+            back_substitute::<D>(&self.devices, &scratch, &still, &mut found);
             let joints = found.values().zip(self.joints());
             let mut joints = joints.filter(|(value, _)| !value.is_finite()).map(|(_, joint)| joint);
             let first = joints.next();

@@ -11,6 +11,7 @@ use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{add, components, finite, scale, zeros};
+use crate::sets::counts::check_counts;
 use crate::sets::devices::Devices;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -43,7 +44,7 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        D::fits(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
+        check_counts::<D>(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
         reject(self.not_finite_in_state(state).or_else(|| self.not_finite_in_inputs(inputs)))
     }
 
@@ -53,7 +54,7 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         accelerations: &Accelerations<D>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        D::fits(&self.devices, &state.devices, None, Some(&accelerations.devices))?;
+        check_counts::<D>(&self.devices, &state.devices, None, Some(&accelerations.devices))?;
         let Accelerations { r_b_n_ddot, omega_dot, devices } = accelerations;
         let joint = || {
             let mut joints = devices.values().zip(self.joints());
@@ -174,7 +175,7 @@ mod tests {
 
     use super::*;
     use crate::attitude::quaternion::Quaternion;
-    use crate::{Dgvscmg, Hub, Wrench};
+    use crate::{Dgvscmg, Hub};
 
     type Two = [Dgvscmg; 2];
 
@@ -235,7 +236,7 @@ mod tests {
         assert_eq!(culprit(prescribed), Some(Quantity::HubAcceleration));
         assert_eq!(culprit(|t| t.gravity = Gravity::Central { mu: BAD }), Some(Quantity::Gravity));
         let wrench = |t: &mut Inputs<Two>| {
-            let mut bodies = <Two as crate::FixedSet>::all(Wrench::none());
+            let mut bodies = Inputs::<Two>::no_wrenches();
             bodies[1].inner_gimbal.moment.y = BAD;
             t.bodies = Some(bodies);
         };

@@ -7,7 +7,8 @@ use crate::equations::joint_inputs::JointInputs;
 use crate::model::mode::{HubMode, Mode};
 use crate::model::wrench::Wrench;
 use crate::numbers::vec3::{add, components, cross, vector, zeros};
-use crate::sets::devices::{Devices, FixedSet, SetInputs};
+use crate::sets::devices::{Devices, FixedSet, JointInfos, SetInputs, own_modes};
+use crate::sets::per_device as data;
 use crate::solve::spacecraft::Spacecraft;
 
 /// Forces, torques and modes. Constant during a step, expressed in the axes that each field names.
@@ -20,9 +21,9 @@ pub struct Inputs<D: Devices> {
     /// `L_B`, external torque about B, B axes, N m.
     pub torque_b: Vector3<D::Scalar>,
     /// Motor torques, device by device; what stands at a joint that is not driven does nothing.
-    pub motors: D::Motors,
+    pub motors: D::Per<data::Motors>,
     /// What is given of each joint.
-    pub modes: D::PerJoint<Mode<D::Scalar>>,
+    pub modes: D::Per<data::PerJoint<Mode<D::Scalar>>>,
     /// What is given of the hub.
     pub hub: HubMode<D::Scalar>,
     /// Gravity on every body.
@@ -34,7 +35,7 @@ pub struct Inputs<D: Devices> {
     /// B, steps must resolve the turning. A rotor that is the same from every angle (a balanced
     /// kind's) has the axes of its parent body, so the same numbers mean another force there than
     /// on an imbalanced rotor.
-    pub bodies: Option<D::PerJoint<Wrench<D::Scalar>>>,
+    pub bodies: Option<D::Per<data::PerJoint<Wrench<D::Scalar>>>>,
 }
 
 impl<D: Devices> Inputs<D> {
@@ -51,8 +52,8 @@ impl<D: FixedSet> Inputs<D> {
         Self {
             force: vector(zeros()),
             torque_b: vector(zeros()),
-            motors: D::motors_off(),
-            modes: D::modes(),
+            motors: D::new_fixed(&data::Motors),
+            modes: own_modes(D::new_fixed(&data::PerJoint(Mode::Driven)), D::joint_infos()),
             hub: HubMode::Free,
             gravity: Gravity::None,
             bodies: None,
@@ -61,8 +62,8 @@ impl<D: FixedSet> Inputs<D> {
 
     /// No wrench on any body, to be changed and handed to [`Self::bodies`].
     #[must_use]
-    pub fn no_wrenches() -> D::PerJoint<Wrench<D::Scalar>> {
-        D::all(Wrench::none())
+    pub fn no_wrenches() -> D::Per<data::PerJoint<Wrench<D::Scalar>>> {
+        D::new_fixed(&data::PerJoint(Wrench::none()))
     }
 }
 
@@ -73,8 +74,11 @@ impl<D: Devices> Inputs<D> {
         Self {
             force: vector(zeros()),
             torque_b: vector(zeros()),
-            motors: D::motors_off_for(&spacecraft.devices),
-            modes: D::modes_for(&spacecraft.devices),
+            motors: D::new_data(&spacecraft.devices, &data::Motors),
+            modes: own_modes(
+                D::new_data(&spacecraft.devices, &data::PerJoint(Mode::Driven)),
+                D::list::<JointInfos>(&spacecraft.devices),
+            ),
             hub: HubMode::Free,
             gravity: Gravity::None,
             bodies: None,
@@ -83,8 +87,10 @@ impl<D: Devices> Inputs<D> {
 
     /// As [`Inputs::no_wrenches`], for a set whose devices are known only at run time.
     #[must_use]
-    pub fn no_wrenches_for(spacecraft: &Spacecraft<D>) -> D::PerJoint<Wrench<D::Scalar>> {
-        D::all_for(&spacecraft.devices, Wrench::none())
+    pub fn no_wrenches_for(
+        spacecraft: &Spacecraft<D>,
+    ) -> D::Per<data::PerJoint<Wrench<D::Scalar>>> {
+        D::new_data(&spacecraft.devices, &data::PerJoint(Wrench::none()))
     }
 
     /// Adds a force on the hub at a point from B, both expressed in B, m and N.

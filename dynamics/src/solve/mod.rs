@@ -3,6 +3,7 @@
 //! [`accelerations`] is the entry: eliminate every device, solve the hub's system, substitute back.
 
 pub(crate) mod accelerations;
+pub(crate) mod elimination;
 pub(crate) mod finite;
 #[cfg(feature = "lanes")]
 pub(crate) mod fused;

@@ -5,7 +5,7 @@ use crate::equations::hub::HubConstants;
 use crate::model::parameters::Hub;
 use crate::model::passive::Passive;
 use crate::numbers::real::{Scalar, zero};
-use crate::sets::devices::Devices;
+use crate::sets::devices::{ConstantShares, Devices, JointInfos, Passives, TriangleExcesses};
 use crate::validation::check::check_hub;
 use crate::validation::parameter_error::{ParameterError, Part, Warning};
 
@@ -38,19 +38,19 @@ impl<D: Devices> Spacecraft<D> {
         devices.check(&mut 0)?;
         let devices = devices.prepare();
         let hub = HubConstants::new(hub);
-        let body = hub.taking_over(D::handed(&devices));
+        let body = hub.taking_over(D::list::<ConstantShares>(&devices));
         if !body.m_b.is_finite() {
             return Err(ParameterError::TotalMass { value: body.m_b });
         }
-        let passive = D::passives(&devices).any(|joint| joint != Passive::none());
+        let passive = D::list::<Passives>(&devices).any(|joint| joint != Passive::none());
         Ok(Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::Unfused })
     }
 
     /// The same with products and sums of the devices' equations rounded once, where the CPU does
     /// that: accelerations and steps have other bits, and take less time.
     ///
-    /// The instructions are looked for now, at run time. Numbers other than `f64`, and lists of
-    /// [`AnyDevice`](crate::AnyDevice), stay as they are; so do loads, energies and momenta.
+    /// The instructions are looked for now, at run time. Numbers other than `f64`
+    /// stay as they are; so do loads, energies and momenta.
     #[cfg(feature = "lanes")]
     #[must_use]
     pub fn fused(self) -> Self {
@@ -61,7 +61,7 @@ impl<D: Devices> Spacecraft<D> {
     #[must_use = "warnings do nothing unless they are read"]
     pub fn warnings(&self) -> impl Iterator<Item = Warning<D::Scalar>> + '_ {
         let numbered = self.joints().map(|(device, info)| Part::Body { device, body: info.body });
-        let bodies = numbered.zip(D::excesses(&self.devices));
+        let bodies = numbered.zip(D::list::<TriangleExcesses>(&self.devices));
         core::iter::once((Part::Hub, self.hub_excess))
             .chain(bodies)
             .filter(|&(_, excess)| excess > zero())
@@ -78,7 +78,7 @@ impl<D: Devices> Spacecraft<D> {
     pub fn joints(
         &self,
     ) -> impl Iterator<Item = (usize, &'static crate::model::kind::JointInfo)> + '_ {
-        D::infos(&self.devices).scan(0_usize, |next, info| {
+        D::list::<JointInfos>(&self.devices).scan(0_usize, |next, info| {
             if info.index == 0 {
                 *next = next.wrapping_add(1);
             }

@@ -10,12 +10,13 @@ use crate::attitude::quaternion::Quaternion;
 use crate::numbers::each::JointStates;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::{vector, zeros};
-use crate::sets::devices::{Devices, FixedSet};
+use crate::sets::devices::{DeviceSet, Devices, FixedSet, JointInfos, Passives};
+use crate::sets::per_device as data;
 use crate::solve::spacecraft::Spacecraft;
 
 /// State of the hub and of its devices; `A` is the attitude's parameterisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<D: Devices, A = Quaternion<<D as Devices>::Scalar>> {
+pub struct State<D: Devices, A = Quaternion<<D as DeviceSet>::Scalar>> {
     /// `r_{B/N}`, position of the hub's reference point B from the inertial origin, N axes, m.
     pub r_b_n: Vector3<D::Scalar>,
     /// Inertial velocity of B, *N axes*, m/s. Its derivative in [`Accelerations`] is expressed in
@@ -26,7 +27,7 @@ pub struct State<D: Devices, A = Quaternion<<D as Devices>::Scalar>> {
     /// `omega_{B/N}`, angular velocity of the hub, B axes, rad/s.
     pub omega: Vector3<D::Scalar>,
     /// Joint coordinates and rates, device by device.
-    pub devices: D::Joints,
+    pub devices: D::Per<data::Joints>,
 }
 
 /// All second derivatives of the state.
@@ -44,14 +45,14 @@ pub struct Accelerations<D: Devices> {
     /// Angular acceleration of the hub, B axes, rad/s^2.
     pub omega_dot: Vector3<D::Scalar>,
     /// Joint accelerations, device by device.
-    pub devices: D::Accelerations,
+    pub devices: D::Per<data::Accelerations>,
 }
 
 impl<D: FixedSet, A: Attitude<D::Scalar>> State<D, A> {
     /// Everything at zero: B at the inertial origin, B axes expressed in N, nothing moving.
     #[must_use]
     pub fn at_rest() -> Self {
-        Self::with(D::at_rest())
+        Self::with(D::new_fixed(&data::Joints))
     }
 }
 
@@ -59,7 +60,7 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
     /// As [`State::at_rest`], for a set whose devices are known only at run time.
     #[must_use]
     pub fn at_rest_for(spacecraft: &Spacecraft<D>) -> Self {
-        Self::with(D::at_rest_for(&spacecraft.devices))
+        Self::with(D::new_data(&spacecraft.devices, &data::Joints))
     }
 
     /// The same state with joint angles brought into `[-pi, pi]` where whole turns change nothing:
@@ -69,7 +70,8 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
     /// angle is left as it is, for the solver to report.
     #[must_use]
     pub fn wrapped(mut self, spacecraft: &Spacecraft<D>) -> Self {
-        let joints = D::infos(&spacecraft.devices).zip(D::passives(&spacecraft.devices));
+        let joints = D::list::<JointInfos>(&spacecraft.devices)
+            .zip(D::list::<Passives>(&spacecraft.devices));
         for ([coordinate, _], (info, passive)) in self.devices.states_mut().zip(joints) {
             if !info.slides && passive.stiffness == zero() {
                 *coordinate = wrapped(*coordinate);
@@ -78,7 +80,7 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
         self
     }
 
-    fn with(devices: D::Joints) -> Self {
+    fn with(devices: D::Per<data::Joints>) -> Self {
         Self {
             r_b_n: vector(zeros()),
             r_b_n_dot: vector(zeros()),

@@ -1,9 +1,9 @@
 //! What every public call of a spacecraft answers, as numbers or as an error.
 
 use precess_dynamics::{
-    About, Accelerations, Attitude, DeviceLoads, Devices, Each, HubMode, Inputs, JointPower,
-    JointStates, Ledger, LoadAxes, Loads, Mode, Power, Quaternion, Scalar, SolveError, Spacecraft,
-    State, Wrench,
+    About, Accelerations, Attitude, DeviceLoads, DeviceSet, Devices, Each, HubMode, Inputs,
+    JointPower, JointStates, Ledger, LoadAxes, Loads, Mode, Power, Quaternion, Scalar, SolveError,
+    Spacecraft, State, Wrench, set,
 };
 
 use super::Placed;
@@ -104,7 +104,9 @@ pub fn of_state<D: Devices>(state: &State<D>) -> Vec<D::Scalar> {
     hub.chain([q0, q1, q2, q3]).chain(state.devices.states().flatten()).collect()
 }
 
-fn of_loads<D: Devices<Loads: Numbers<D::Scalar>>>(loads: &Loads<D>) -> Vec<D::Scalar> {
+fn of_loads<D: Devices<Per<set::Loads>: Numbers<<D as DeviceSet>::Scalar>>>(
+    loads: &Loads<D>,
+) -> Vec<D::Scalar> {
     let mut all: Vec<_> = loads.hub.force.iter().chain(&loads.hub.moment).copied().collect();
     loads.devices.add_to(&mut all);
     all
@@ -136,7 +138,7 @@ fn wished<D: Devices>(placed: &Placed<D>) -> Option<Accelerations<D>> {
 }
 
 /// What every call answers.
-pub fn answers<D: Devices<Loads: Numbers<D::Scalar>>>(
+pub fn answers<D: Devices<Per<set::Loads>: Numbers<<D as DeviceSet>::Scalar>>>(
     placed: &Placed<D>,
     dt: D::Scalar,
 ) -> Vec<(&'static str, Answer<D::Scalar>)> {

@@ -2,9 +2,9 @@
 
 use precess_dynamics::lanes::{AcrossDevices, Batch, LanedSet};
 use precess_dynamics::{
-    AnyDevice, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg,
-    BuiltIn, BuiltInKind, Dgcmg, Dgvscmg, HingedPanel, Inputs, ReactionWheel, Scalar, Sgcmg,
-    SloshMass, SolveError, Spacecraft, State, Vscmg,
+    BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, BuiltIn,
+    BuiltInKind, Dgcmg, Dgvscmg, HingedPanel, Inputs, ReactionWheel, Scalar, Sgcmg, SloshMass,
+    SolveError, Spacecraft, State, Vscmg,
 };
 
 use super::answers::{Answer, of_accelerations, of_state};
@@ -75,15 +75,6 @@ macro_rules! kinds {
                 }
             }
         })*
-
-        /// The devices behind pointers.
-        #[must_use]
-        pub fn any<T: Scalar>(devices: &[BuiltIn<T>]) -> Vec<AnyDevice<T>> {
-            let any = |device: &BuiltIn<T>| match *device {
-                $(BuiltIn::$kind(device) => device.into(),)*
-            };
-            devices.iter().map(any).collect()
-        }
     };
 }
 
@@ -214,8 +205,6 @@ macro_rules! in_every_shape {
     (@all $case:ident $number:ty, |$name:ident, $placed:ident| $then:expr) => {
         let list = $case.devices_in::<$number>();
         in_every_shape!(@shape $case |$name, $placed| $then; "Vec<BuiltIn>", Some(list.clone()));
-        in_every_shape!(@shape $case |$name, $placed| $then;
-            "Vec<AnyDevice>", Some($crate::shapes::any(&list)));
         in_every_shape!(@shape $case |$name, $placed| $then;
             "[Option<BuiltIn>; 8]", $crate::shapes::on_board(&list));
     };

@@ -3,8 +3,7 @@
 
 use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::{
-    About, AnyDevice, AnyJoints, AnyPerJoint, Devices, Inputs, LoadAxes, Mode, SolveError, State,
-    Wrench,
+    About, BuiltIn, Devices, Inputs, LoadAxes, Mode, SolveError, State, Wrench,
 };
 
 use crate::balance::disturb;
@@ -17,10 +16,10 @@ const SEEDS: u64 = 100;
 /// Short enough for every spring and friction drawn, in s.
 const STEP: f64 = 1e-7;
 
-type List = Vec<AnyDevice>;
+type List = Vec<BuiltIn>;
 
 fn listed((wheels, sgcmg, double, (panel, slosh)): &Mixed) -> List {
-    let [first, second] = wheels.map(AnyDevice::from);
+    let [first, second] = wheels.map(BuiltIn::from);
     vec![first, second, (*sgcmg).into(), (*double).into(), (*panel).into(), (*slosh).into()]
 }
 
@@ -34,9 +33,9 @@ fn both(seed: u64) -> (Bench<Mixed>, Bench<List>) {
     let mut list = world.bench(&listed(&devices), &told.concat());
     list.inputs.gravity = set.inputs.gravity;
     let wrenches: Vec<Wrench> = set.inputs.bodies.iter().flat_map(Each::values).collect();
-    let mut rest = wrenches.into_iter();
-    let of_device = |device: &Vec<_>| AnyPerJoint(rest.by_ref().take(device.len()).collect());
-    list.inputs.bodies = Some(told.iter().map(of_device).collect());
+    let mut bodies = Inputs::no_wrenches_for(&list.craft);
+    bodies.values_mut().zip(wrenches).for_each(|(body, wrench)| *body = wrench);
+    list.inputs.bodies = Some(bodies);
     (set, list)
 }
 
@@ -92,9 +91,9 @@ fn books_and_loads_of_a_list_are_those_of_the_set_to_the_bit() {
         let mounts = [first.mount, double.mount, slosh.mount];
         assert_eq!(mounts, [0, 3, 5].map(|device| of_list.devices[device].mount), "seed {seed}");
         let torques: Vec<_> = double.motors.values().collect();
-        assert_eq!(torques, of_list.devices[3].motors.0, "seed {seed}");
+        assert_eq!(torques, *of_list.devices[3].motors, "seed {seed}");
         let joints: Vec<_> = double.joints.values().collect();
-        assert_eq!(joints, of_list.devices[3].joints.0, "seed {seed}");
+        assert_eq!(joints, *of_list.devices[3].joints, "seed {seed}");
     }
 }
 
@@ -102,7 +101,7 @@ fn books_and_loads_of_a_list_are_those_of_the_set_to_the_bit() {
 fn stop_of_a_list_is_that_of_the_set_to_the_bit() {
     for seed in 1..=SEEDS {
         let (mut set, mut list) = both(seed);
-        for modes in [&mut set.inputs.modes.0[1].wheel, &mut list.inputs.modes[1].0[0]] {
+        for modes in [&mut set.inputs.modes.0[1].wheel, &mut list.inputs.modes[1][0]] {
             *modes = Mode::Locked;
         }
         let of_set = set.sound(set.craft.stop(&set.state, &set.inputs));
@@ -130,14 +129,14 @@ fn list_of_another_length_is_refused_wherever_it_stands() {
     assert_eq!(loads, Err(count(6, 5)));
     assert_eq!(list.craft.ledger(&list.state, &list.inputs, &found), Err(count(6, 5)));
     assert_eq!(refused(|state, _| drop(state.devices.pop())), count(6, 5));
-    assert_eq!(refused(|state, _| state.devices.push(AnyJoints(Vec::new()))), count(6, 7));
+    assert_eq!(refused(|state, _| state.devices.push(state.devices[0])), count(6, 7));
     assert_eq!(refused(|_, inputs| drop(inputs.motors.pop())), count(6, 5));
     assert_eq!(refused(|_, inputs| inputs.modes.clear()), count(6, 0));
     assert_eq!(refused(|_, inputs| inputs.bodies.iter_mut().for_each(Vec::clear)), count(6, 0));
-    // Of one device: the SGCMG has two joints, the DGVSCMG three.
-    assert_eq!(refused(|state, _| state.devices[2].0.truncate(1)), count(2, 1));
-    assert_eq!(refused(|_, inputs| inputs.motors[3].0.push(0.0)), count(3, 4));
-    assert_eq!(refused(|_, inputs| inputs.modes[3].0.clear()), count(3, 0));
+    // Of one device: the wheel has one joint, the SGCMG two, the DGVSCMG three, the panel one.
+    assert_eq!(refused(|state, _| state.devices.swap(1, 2)), count(1, 2));
+    assert_eq!(refused(|_, inputs| inputs.motors.swap(2, 3)), count(2, 3));
+    assert_eq!(refused(|_, inputs| inputs.modes.swap(3, 4)), count(3, 1));
     let energy = |state: &State<List>| list.craft.energy(state);
     let mut state = list.state.clone();
     state.devices.clear();

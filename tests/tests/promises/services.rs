@@ -2,7 +2,7 @@
 
 use precess_dynamics::kind::{Each, JointStates, Kind};
 use precess_dynamics::lanes::{AcrossDevices, Batch};
-use precess_dynamics::{AnyDevice, BuiltIn, Hub, Inputs, SolveError, Spacecraft, State};
+use precess_dynamics::{BuiltIn, Hub, Inputs, SolveError, Spacecraft, State};
 
 /// A device of a kind, its joints and motors.
 #[derive(Clone, Copy)]
@@ -39,7 +39,7 @@ where
         "list on board",
         listed::<K, [Option<BuiltIn>; 2]>(case, &[Some((*device).into()), None]),
     ));
-    all.push(("list", listed::<K, Vec<AnyDevice>>(case, &vec![AnyDevice::from(*device)])));
+    all.push(("list", listed::<K, Vec<BuiltIn>>(case, &vec![(*device).into()])));
     all
 }
 

@@ -4,8 +4,7 @@
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::lanes::{AcrossDevices, Batch};
 use precess_dynamics::{
-    AnyDevice, BuiltIn, HingedPanel, Hub, Inputs, Passive, ReactionWheel, SolveError, Spacecraft,
-    State,
+    BuiltIn, HingedPanel, Hub, Inputs, Passive, ReactionWheel, SolveError, Spacecraft, State,
 };
 
 type One = [ReactionWheel; 1];
@@ -134,7 +133,7 @@ fn every_service_refuses_the_same_step() {
         }
         let on_board = [Some(BuiltIn::from(device)), None];
         assert_eq!(listed(&Spacecraft::new(&hub(2.0), &on_board).expect("sound"), dt), expected);
-        let list = vec![AnyDevice::from(device)];
+        let list = vec![BuiltIn::from(device)];
         assert_eq!(listed(&Spacecraft::new(&hub(2.0), &list).expect("sound"), dt), expected);
     }
 }

@@ -2,8 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
-    AnyDevice, BuiltIn, HingedPanel, Hub, Inputs, JointStates, Passive, ReactionWheel, Spacecraft,
-    State,
+    BuiltIn, HingedPanel, Hub, Inputs, JointStates, Passive, ReactionWheel, Spacecraft, State,
 };
 
 type Set = (ReactionWheel, ReactionWheel, HingedPanel);
@@ -50,7 +49,7 @@ fn lists_keep_the_turns_of_a_spring_too() {
     let on_board: [Option<BuiltIn>; 4] =
         [Some(sprung.into()), None, Some(free.into()), Some(panel.into())];
     kept(&Spacecraft::new(&hub(), &on_board).expect("sound parameters"));
-    let list = vec![AnyDevice::from(sprung), free.into(), panel.into()];
+    let list = vec![BuiltIn::from(sprung), free.into(), panel.into()];
     kept(&Spacecraft::new(&hub(), &list).expect("sound parameters"));
 }
 

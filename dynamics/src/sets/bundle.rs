@@ -1,0 +1,284 @@
+//! [`Bundle`]: references to some data of a set, taken apart member by member; [`Part`]: where a
+//! member stands in its set.
+
+#![expect(
+    clippy::inline_always,
+    reason = "fused numbers reach their instruction only where inlined"
+)]
+
+use crate::equations::joint_inputs::JointInputs;
+use crate::model::kind::Kind;
+use crate::model::mode::Mode;
+use crate::model::wrench::Wrench;
+use crate::numbers::real::Scalar;
+use crate::sets::devices::{DeviceSet, SetInputs};
+use crate::sets::enumeration::{DeviceEnum, Variant};
+use crate::sets::per_device::{Motors, PerDevice, PerJoint};
+
+/// Where a member stands in a set `W`.
+pub trait Part<W: DeviceSet>: Copy {
+    /// The member.
+    type Of: DeviceSet<Scalar = W::Scalar>;
+    /// Its part of data; none where there is no such member.
+    fn of<F: PerDevice<W::Scalar>>(
+        self,
+        whole: &W::Per<F>,
+    ) -> Option<&<Self::Of as DeviceSet>::Per<F>>;
+    /// Its part of data, to be changed.
+    fn of_mut<F: PerDevice<W::Scalar>>(
+        self,
+        whole: &mut W::Per<F>,
+    ) -> Option<&mut <Self::Of as DeviceSet>::Per<F>>;
+}
+
+/// References to data of a set: some [`Shared`], some [`Unique`].
+pub trait Bundle<T: Scalar> {
+    /// The references, for a set.
+    type Of<'a, D: DeviceSet<Scalar = T>>;
+    /// A kind's data out of an enumeration's.
+    type Typed<K: Kind<Scalar = T>>;
+
+    /// Those of one member.
+    fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
+        data: &'b mut Self::Of<'a, W>,
+        part: P,
+    ) -> Option<Self::Of<'b, P::Of>>;
+    /// The number of members that each of the data is of, where it is known only at run time.
+    fn counts<W: DeviceSet<Scalar = T>>(data: &Self::Of<'_, W>, each: &mut impl FnMut(usize));
+    /// Copies of an enumeration's data as a kind's; none where they are of another kind.
+    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: &Self::Of<'_, E>,
+    ) -> Option<Self::Typed<K>>;
+    /// References to them.
+    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K>;
+    /// What was changed of them, put back.
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(typed: &Self::Typed<K>, data: Self::Of<'_, E>);
+}
+
+/// Data of a family, to be read.
+#[derive(Debug)]
+pub struct Shared<F>(F);
+
+/// Data of a family, to be changed.
+#[derive(Debug)]
+pub struct Unique<F>(F);
+
+/// What there may be or not.
+#[derive(Debug)]
+pub struct Maybe<B>(B);
+
+/// Motor torques, modes and wrenches: [`SetInputs`].
+#[derive(Debug)]
+pub struct Given;
+
+impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Shared<F> {
+    type Of<'a, D: DeviceSet<Scalar = T>> = &'a D::Per<F>;
+    type Typed<K: Kind<Scalar = T>> = F::Of<K>;
+
+    #[inline(always)]
+    fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
+        data: &'b mut Self::Of<'a, W>,
+        part: P,
+    ) -> Option<Self::Of<'b, P::Of>> {
+        part.of::<F>(data)
+    }
+
+    #[inline(always)]
+    fn counts<W: DeviceSet<Scalar = T>>(data: &Self::Of<'_, W>, each: &mut impl FnMut(usize)) {
+        if let Some(count) = W::count::<F>(data) {
+            each(count);
+        }
+    }
+
+    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: &Self::Of<'_, E>,
+    ) -> Option<Self::Typed<K>> {
+        E::get::<F, K>(data)
+    }
+
+    #[inline(always)]
+    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
+        typed
+    }
+
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(_: &Self::Typed<K>, _: Self::Of<'_, E>) {}
+}
+
+impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Unique<F> {
+    type Of<'a, D: DeviceSet<Scalar = T>> = &'a mut D::Per<F>;
+    type Typed<K: Kind<Scalar = T>> = F::Of<K>;
+
+    #[inline(always)]
+    fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
+        data: &'b mut Self::Of<'a, W>,
+        part: P,
+    ) -> Option<Self::Of<'b, P::Of>> {
+        part.of_mut::<F>(data)
+    }
+
+    #[inline(always)]
+    fn counts<W: DeviceSet<Scalar = T>>(data: &Self::Of<'_, W>, each: &mut impl FnMut(usize)) {
+        if let Some(count) = W::count::<F>(data) {
+            each(count);
+        }
+    }
+
+    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: &Self::Of<'_, E>,
+    ) -> Option<Self::Typed<K>> {
+        E::get::<F, K>(data)
+    }
+
+    #[inline(always)]
+    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
+        typed
+    }
+
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        typed: &Self::Typed<K>,
+        data: Self::Of<'_, E>,
+    ) {
+        E::put::<F, K>(typed, data);
+    }
+}
+
+impl<T: Scalar, B: Bundle<T>> Bundle<T> for Maybe<B> {
+    type Of<'a, D: DeviceSet<Scalar = T>> = Option<B::Of<'a, D>>;
+    type Typed<K: Kind<Scalar = T>> = Option<B::Typed<K>>;
+
+    #[inline(always)]
+    fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
+        data: &'b mut Self::Of<'a, W>,
+        part: P,
+    ) -> Option<Self::Of<'b, P::Of>> {
+        match data {
+            Some(data) => B::part(data, part).map(Some),
+            None => Some(None),
+        }
+    }
+
+    #[inline(always)]
+    fn counts<W: DeviceSet<Scalar = T>>(data: &Self::Of<'_, W>, each: &mut impl FnMut(usize)) {
+        if let Some(data) = data {
+            B::counts::<W>(data, each);
+        }
+    }
+
+    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: &Self::Of<'_, E>,
+    ) -> Option<Self::Typed<K>> {
+        match data {
+            Some(data) => B::get::<K, E>(data).map(Some),
+            None => Some(None),
+        }
+    }
+
+    #[inline(always)]
+    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
+        typed.as_mut().map(B::refer)
+    }
+
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        typed: &Self::Typed<K>,
+        data: Self::Of<'_, E>,
+    ) {
+        if let (Some(typed), Some(data)) = (typed, data) {
+            B::put::<K, E>(typed, data);
+        }
+    }
+}
+
+impl<T: Scalar> Bundle<T> for Given {
+    type Of<'a, D: DeviceSet<Scalar = T>> = SetInputs<'a, D>;
+    type Typed<K: Kind<Scalar = T>> =
+        (K::Motors, K::PerJoint<Mode<T>>, Option<K::PerJoint<Wrench<T>>>);
+
+    #[inline(always)]
+    fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
+        data: &'b mut Self::Of<'a, W>,
+        part: P,
+    ) -> Option<Self::Of<'b, P::Of>> {
+        let bodies = match data.bodies {
+            Some(bodies) => Some(part.of::<PerJoint<Wrench<T>>>(bodies)?),
+            None => None,
+        };
+        let motors = part.of::<Motors>(data.motors)?;
+        Some(JointInputs { motors, modes: part.of::<PerJoint<Mode<T>>>(data.modes)?, bodies })
+    }
+
+    #[inline(always)]
+    fn counts<W: DeviceSet<Scalar = T>>(data: &Self::Of<'_, W>, each: &mut impl FnMut(usize)) {
+        let bodies = data.bodies.and_then(W::count::<PerJoint<Wrench<T>>>);
+        let counts =
+            [W::count::<Motors>(data.motors), W::count::<PerJoint<Mode<T>>>(data.modes), bodies];
+        counts.into_iter().flatten().for_each(each);
+    }
+
+    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: &Self::Of<'_, E>,
+    ) -> Option<Self::Typed<K>> {
+        let bodies = match data.bodies {
+            Some(bodies) => Some(E::get::<PerJoint<Wrench<T>>, K>(bodies)?),
+            None => None,
+        };
+        let motors = E::get::<Motors, K>(data.motors)?;
+        Some((motors, E::get::<PerJoint<Mode<T>>, K>(data.modes)?, bodies))
+    }
+
+    #[inline(always)]
+    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
+        let (motors, modes, bodies) = typed;
+        JointInputs { motors, modes, bodies: bodies.as_ref() }
+    }
+
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(_: &Self::Typed<K>, _: Self::Of<'_, E>) {}
+}
+
+macro_rules! tuples {
+    ($(($($bundle:ident $place:tt),*);)*) => {$(
+        impl<T: Scalar, $($bundle: Bundle<T>),*> Bundle<T> for ($($bundle,)*) {
+            type Of<'a, D: DeviceSet<Scalar = T>> = ($($bundle::Of<'a, D>,)*);
+            type Typed<K: Kind<Scalar = T>> = ($($bundle::Typed<K>,)*);
+
+            #[inline(always)]
+            fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
+                data: &'b mut Self::Of<'a, W>,
+                part: P,
+            ) -> Option<Self::Of<'b, P::Of>> {
+                Some(($($bundle::part(&mut data.$place, part)?,)*))
+            }
+
+            #[inline(always)]
+            fn counts<W: DeviceSet<Scalar = T>>(
+                data: &Self::Of<'_, W>,
+                each: &mut impl FnMut(usize),
+            ) {
+                $($bundle::counts::<W>(&data.$place, each);)*
+            }
+
+            fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+                data: &Self::Of<'_, E>,
+            ) -> Option<Self::Typed<K>> {
+                Some(($($bundle::get::<K, E>(&data.$place)?,)*))
+            }
+
+            #[inline(always)]
+            fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
+                ($($bundle::refer(&mut typed.$place),)*)
+            }
+
+            fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+                typed: &Self::Typed<K>,
+                data: Self::Of<'_, E>,
+            ) {
+                $($bundle::put::<K, E>(&typed.$place, data.$place);)*
+            }
+        }
+    )*};
+}
+
+tuples! {
+    (A 0, B 1);
+    (A 0, B 1, C 2);
+    (A 0, B 1, C 2, D0 3);
+}

@@ -1,0 +1,255 @@
+//! [`DeviceEnum`]: an enumeration of kinds, so that a device's kind may be known only at run time,
+//! without a heap. It is a set of one device.
+//!
+//! Data of the joints stand in [`Few`](crate::Few), whatever the kind. A visitor sees them in the
+//! kind's own structures, as of any other device; what it changes is put back.
+
+use crate::equations::device::Device;
+use crate::model::few::MAX_JOINTS;
+use crate::model::kind::Kind;
+use crate::sets::array::compare;
+use crate::sets::bundle::Bundle;
+use crate::sets::devices::{DeviceSet, List, Visit};
+use crate::sets::per_device::PerDevice;
+
+/// An enumeration of kinds. Written by [`device_enum`](crate::device_enum).
+pub trait DeviceEnum: DeviceSet {
+    /// What an evaluation keeps of a device from elimination to back substitution.
+    type Gains: Clone + core::fmt::Debug;
+
+    /// Does something with the device, whose kind it is.
+    fn with<W: WithKind<Self>>(prepared: &Self::Prepared, with: W) -> W::Output;
+    /// [`PerDevice::get`] of this enumeration.
+    fn get<F: PerDevice<Self::Scalar>, K: Variant<Self>>(of: &Self::Per<F>) -> Option<F::Of<K>>;
+    /// [`PerDevice::put`] into this enumeration.
+    fn put<F: PerDevice<Self::Scalar>, K: Variant<Self>>(of: &F::Of<K>, to: &mut Self::Per<F>);
+}
+
+/// What is done with the device of an enumeration.
+pub trait WithKind<E: DeviceEnum> {
+    /// What it gives.
+    type Output;
+    /// Does it.
+    fn with<K: Variant<E>>(self, device: &Device<K>) -> Self::Output;
+}
+
+/// A kind that an enumeration has.
+pub trait Variant<E: DeviceEnum>: Kind<Scalar = E::Scalar> {
+    /// The kind's gains, if they are of this kind.
+    fn gains_in_enum(gains: &E::Gains) -> Option<&Self::Gains<E::Scalar>>;
+    /// The gains as the enumeration's.
+    fn gains_of_enum(gains: Option<Self::Gains<E::Scalar>>) -> E::Gains;
+}
+
+/// New data of a family.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct NewData<'a, F>(pub &'a F);
+
+impl<E: DeviceEnum, F: PerDevice<E::Scalar>> WithKind<E> for NewData<'_, F> {
+    type Output = F::OfEnum<E>;
+
+    fn with<K: Variant<E>>(self, _: &Device<K>) -> F::OfEnum<E> {
+        self.0.initial_of_enum::<K, E>()
+    }
+}
+
+/// What a device lists: one entry per joint at most.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct Listed<L>(pub core::marker::PhantomData<L>);
+
+impl<E: DeviceEnum, L: List<E::Scalar>> WithKind<E> for Listed<L> {
+    type Output = [Option<L::Item>; MAX_JOINTS];
+
+    fn with<K: Variant<E>>(self, device: &Device<K>) -> Self::Output {
+        let mut items = L::of(device);
+        [(); MAX_JOINTS].map(|()| items.next())
+    }
+}
+
+/// A visit by the kind's own structures.
+#[doc(hidden)]
+#[expect(missing_debug_implementations, reason = "what it refers to may have none")]
+pub struct Visited<'a, 'd, E: DeviceEnum, B: Bundle<E::Scalar>, V> {
+    pub data: B::Of<'d, E>,
+    pub visitor: &'a mut V,
+}
+
+impl<E: DeviceEnum, B: Bundle<E::Scalar>, V: Visit<E::Scalar, B>> WithKind<E>
+    for Visited<'_, '_, E, B, V>
+{
+    type Output = Result<(), V::Error>;
+
+    fn with<K: Variant<E>>(self, device: &Device<K>) -> Self::Output {
+        let Self { data, visitor } = self;
+        compare::<E, B, V>(K::JOINTS.len(), &data, visitor)?;
+        let Some(mut typed) = B::get::<K, E>(&data) else { return Ok(()) };
+        visitor.visit(device, B::refer::<K>(&mut typed))?;
+        B::put::<K, E>(&typed, data);
+        Ok(())
+    }
+}
+
+/// Enumerates kinds, also of other crates, so that a device's kind may be known only at run time:
+/// the enumeration is a set of one device, as [`BuiltIn`](crate::BuiltIn) is of this crate's kinds.
+///
+/// ```
+/// use precess_dynamics::{ReactionWheel, Sgcmg, device_enum};
+///
+/// device_enum! {
+///     /// What the catalogue has.
+///     pub enum Catalogue { ReactionWheel, Sgcmg }
+///     prepared PreparedCatalogue;
+///     gains CatalogueGains;
+/// }
+///
+/// # use nalgebra::Matrix3;
+/// let wheel = ReactionWheel::bare_wheel(4.0, Matrix3::identity());
+/// let list: Vec<Catalogue> = vec![wheel.into(), Sgcmg::bare_wheel(4.0, Matrix3::identity()).into()];
+/// # let hub = precess_dynamics::Hub {
+/// #     m_b: 50.0,
+/// #     r_bc_b: Default::default(),
+/// #     i_b_bc: Matrix3::identity(),
+/// # };
+/// let craft = precess_dynamics::Spacecraft::new(&hub, &list)?;
+/// let names: Vec<_> = craft.joints().map(|(device, joint)| (device, joint.coordinate)).collect();
+/// assert_eq!(names, [(0, "theta"), (1, "gamma"), (1, "theta")]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[macro_export]
+macro_rules! device_enum {
+    (
+        $(#[$attribute:meta])*
+        $vis:vis enum $name:ident { $($kind:ident),* $(,)? }
+        prepared $prepared:ident;
+        gains $gains:ident;
+    ) => {
+        $(#[$attribute])*
+        #[derive(Clone, Debug, PartialEq)]
+        $vis enum $name<T = f64> {
+            $(
+                #[doc = concat!("A [`", stringify!($kind), "`].")]
+                $kind($kind<T>),
+            )*
+        }
+
+        #[doc = concat!("A device of [`", stringify!($name), "`], precomputed.")]
+        #[derive(Clone, Copy, Debug)]
+        $vis enum $prepared<T: $crate::Scalar> {
+            $(
+                #[doc = concat!("Of a [`", stringify!($kind), "`].")]
+                $kind($crate::set::Device<$kind<T>>),
+            )*
+        }
+
+        /// What an evaluation keeps of a device from elimination to back substitution.
+        #[derive(Clone, Copy, Debug)]
+        $vis enum $gains<T: $crate::Scalar> {
+            /// Not yet eliminated.
+            None,
+            $(
+                #[doc = concat!("Of a [`", stringify!($kind), "`].")]
+                $kind(<$kind<T> as $crate::kind::Kernels>::Gains<T>),
+            )*
+        }
+
+        impl<T: $crate::Scalar> $crate::DeviceSet for $name<T> {
+            type Scalar = T;
+            type Prepared = $prepared<T>;
+            type Per<F: $crate::set::PerDevice<T>> = F::OfEnum<Self>;
+
+            fn check(&self, device: &mut usize) -> Result<(), $crate::ParameterError<T>> {
+                match self {
+                    $(Self::$kind(member) => $crate::DeviceSet::check(member, device),)*
+                }
+            }
+
+            fn prepare(&self) -> $prepared<T> {
+                match self {
+                    $(Self::$kind(member) => $prepared::$kind($crate::DeviceSet::prepare(member)),)*
+                }
+            }
+
+            fn new_data<F: $crate::set::PerDevice<T>>(
+                device: &$prepared<T>,
+                family: &F,
+            ) -> F::OfEnum<Self> {
+                <Self as $crate::set::DeviceEnum>::with(device, $crate::set::NewData(family))
+            }
+
+            fn list<L: $crate::set::List<T>>(
+                device: &$prepared<T>,
+            ) -> impl Iterator<Item = L::Item> {
+                let listed = $crate::set::Listed::<L>(core::marker::PhantomData);
+                <Self as $crate::set::DeviceEnum>::with(device, listed).into_iter().flatten()
+            }
+
+            fn visit<B: $crate::set::Bundle<T>, V: $crate::set::Visit<T, B>>(
+                device: &$prepared<T>,
+                data: B::Of<'_, Self>,
+                visitor: &mut V,
+            ) -> Result<(), V::Error> {
+                let visited = $crate::set::Visited::<Self, B, V> { data, visitor };
+                <Self as $crate::set::DeviceEnum>::with(device, visited)
+            }
+
+            fn count<F: $crate::set::PerDevice<T>>(data: &F::OfEnum<Self>) -> Option<usize> {
+                F::count::<Self>(data)
+            }
+        }
+
+        impl<T: $crate::Scalar> $crate::set::DeviceEnum for $name<T> {
+            type Gains = $gains<T>;
+
+            fn with<W: $crate::set::WithKind<Self>>(device: &$prepared<T>, with: W) -> W::Output {
+                match device {
+                    $($prepared::$kind(device) => with.with(device),)*
+                }
+            }
+
+            fn get<F: $crate::set::PerDevice<T>, K: $crate::set::Variant<Self>>(
+                of: &F::OfEnum<Self>,
+            ) -> Option<F::Of<K>> {
+                F::get::<K, Self>(of)
+            }
+
+            fn put<F: $crate::set::PerDevice<T>, K: $crate::set::Variant<Self>>(
+                of: &F::Of<K>,
+                to: &mut F::OfEnum<Self>,
+            ) {
+                F::put::<K, Self>(of, to);
+            }
+        }
+
+        $(
+            const _: () = assert!(
+                <$kind as $crate::kind::Kind>::JOINTS.len() <= $crate::MAX_JOINTS,
+                "a device of an enumeration has at most MAX_JOINTS joints"
+            );
+
+            impl<T: $crate::Scalar> From<$kind<T>> for $name<T> {
+                fn from(device: $kind<T>) -> Self {
+                    Self::$kind(device)
+                }
+            }
+
+            impl<T: $crate::Scalar> $crate::set::Variant<$name<T>> for $kind<T> {
+                fn gains_in_enum(
+                    gains: &$gains<T>,
+                ) -> Option<&<Self as $crate::kind::Kernels>::Gains<T>> {
+                    match gains {
+                        $gains::$kind(gains) => Some(gains),
+                        _ => None,
+                    }
+                }
+
+                fn gains_of_enum(
+                    gains: Option<<Self as $crate::kind::Kernels>::Gains<T>>,
+                ) -> $gains<T> {
+                    gains.map_or($gains::None, $gains::$kind)
+                }
+            }
+        )*
+    };
+}
