@@ -144,12 +144,22 @@ pub(super) fn moments(body: &Body) -> Vec<String> {
     names
 }
 
-/// Whether the outermost body is a rotor that can be off balance.
-pub(super) fn imbalanced(kind: &Kind) -> Option<&Body> {
-    let body = &kind.links.last()?.body;
-    let spins = matches!(kind.links.last()?.joint.motion, Motion::Turn(_));
-    let off = matches!((body.centre, body.inertia), (Centre::On(..), Inertia::Full(_)));
-    (spins && off).then_some(body)
+/// The outermost body and the name of its offset, where it is a rotor that can be off balance.
+pub(super) fn imbalanced(kind: &Kind) -> Option<(&Body, &'static str)> {
+    let Link { joint, body, .. } = kind.links.last()?;
+    let offset = match body.centre {
+        Centre::On(_, offset) => offset,
+        Centre::Free(_) | Centre::At => return None,
+    };
+    let full = match body.inertia {
+        Inertia::Full(_) => true,
+        Inertia::Diagonal(_) | Inertia::Symmetric(..) | Inertia::Point => false,
+    };
+    let turns = match joint.motion {
+        Motion::Turn(_) => true,
+        Motion::Slide(_) => false,
+    };
+    (turns && full).then_some((body, offset))
 }
 
 fn field(name: &str, doc: &str, ty: &str) -> Field {

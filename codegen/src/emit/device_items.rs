@@ -277,10 +277,8 @@ impl Items<'_> {
     }
 
     fn balanced(&self) -> Vec<String> {
-        let Some(body) = imbalanced(self.kind) else { return Vec::new() };
-        let (Centre::On(_, offset), name) = (body.centre, inertia_name(body)) else {
-            return Vec::new();
-        };
+        let Some((body, offset)) = imbalanced(self.kind) else { return Vec::new() };
+        let name = inertia_name(body);
         let text = format!(
             "        let [_, j_12, j_13, ..] = entries(&self.{name});\n        \
              let mut {name} = self.{name};\n        \

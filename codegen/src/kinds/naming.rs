@@ -120,9 +120,13 @@ pub(super) fn check(kind: &Kind) -> Result<(), KindError> {
         [joint.coordinate, joint.rate, joint.acceleration]
             .into_iter()
             .try_for_each(|name| given.add(name))?;
-        if let Centre::On(_, distance) = body.centre {
-            own_word(distance, "distance")?;
-            given.add(distance)?;
+        match body.centre {
+            Centre::On(_, distance) => {
+                own_word(distance, "distance")?;
+                given.add(distance)?;
+            }
+            // Named after the body's letter, or not at all.
+            Centre::Free(_) | Centre::At => {}
         }
     }
     pairs(kind)
