@@ -7,7 +7,7 @@ use crate::derivation::chain::Chain;
 use crate::derivation::quantities::quantities;
 use crate::emit::{self, EmitError, Emitted, EmittedFile, Home, files, shared};
 use crate::graph::Graph;
-use crate::kinds::{DGVSCMG, KINDS, Kind};
+use crate::kinds::{DGVSCMG, KINDS, Kind, REGISTRY};
 use crate::normal::Ring;
 use crate::page::{Page, PageError, read};
 use crate::proof::{EmittedError, Prover, Row, against_pages, zero_traces};
@@ -113,7 +113,7 @@ pub fn regenerate(pages: &[Page], printed: &[Page]) -> Result<Regeneration, Rege
         told.push(text);
         rows.extend(proofs);
     }
-    let shared = shared(&emitted)?;
+    let shared = shared(&REGISTRY, &emitted)?;
     let files = emitted.into_iter().flat_map(|kind| kind.files).chain(shared);
     let mut files: Vec<_> = files.collect();
     // The print is judged by pages that hold, and documents tell of nothing else: what was found

@@ -118,11 +118,6 @@ fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
     used.iter().flat_map(|text| text.lines()).map(str::to_owned).collect()
 }
 
-/// `balanced_vscmg` -> `BalancedVscmg`.
-pub(super) fn type_name(kind: &Kind) -> String {
-    kind.name.split('_').map(capital).collect()
-}
-
 /// The name of the body behind a joint: `outer_gimbal`.
 pub(super) fn body_name(body: &Body) -> String {
     body.title.replace(' ', "_")
@@ -210,7 +205,7 @@ fn parameters(kind: &Kind) -> Record {
              the element).",
         );
     }
-    record(&format!("{}<T = f64>", type_name(kind)), &doc, fields)
+    record(&format!("{}<T = f64>", kind.type_name()), &doc, fields)
 }
 
 fn mount(kind: &Kind) -> String {

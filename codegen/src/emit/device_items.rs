@@ -1,7 +1,7 @@
 //! The functions and implementations of a kind's second file, line by line, as `rustfmt` has them.
 
 use super::by_number::by_number;
-use super::device::{Signatures, body_name, imbalanced, inertia_name, moments, type_name};
+use super::device::{Signatures, body_name, imbalanced, inertia_name, moments};
 use super::device_calls::rates_function;
 use super::layout::fitted;
 use super::text::{COMMENT, wrapped};
@@ -62,7 +62,7 @@ impl Items<'_> {
 
     /// The device with nothing but its outermost body.
     fn bare(&self) -> String {
-        let (name, tip) = (type_name(self.kind), &self.links()[self.links().len() - 1].body);
+        let (name, tip) = (self.kind.type_name(), &self.links()[self.links().len() - 1].body);
         let mut arguments = vec![format!("{}: T", tip.mass)];
         match tip.inertia {
             Inertia::Full(_) => arguments.push(format!("{}: Matrix3<T>", inertia_name(tip))),
@@ -183,7 +183,7 @@ impl Items<'_> {
 
     /// The kernels, over any number.
     fn kernels(&self) -> String {
-        let name = type_name(self.kind);
+        let name = self.kind.type_name();
         let pose_type = match self.pose_letters().as_slice() {
             [] => "()".to_owned(),
             [one] => format!("super::{}<T>", record_of(one)),
@@ -215,7 +215,7 @@ impl Items<'_> {
 
     /// The implementation of the solver's interface.
     fn kind(&self) -> String {
-        let name = type_name(self.kind);
+        let name = self.kind.type_name();
         let zeros = |of: &dyn Fn(&Link) -> Vec<&'static str>| {
             let names: Vec<_> = self.links().iter().flat_map(of).collect();
             names.iter().map(|name| format!("{name}: zero()")).collect::<Vec<_>>()

@@ -10,7 +10,7 @@ use tera::{Context, Tera};
 use super::body::Counts;
 use super::by_number::by_number;
 use super::cost::{CountText, chain_passes, count, factoring};
-use super::device::{Signature, Signatures, device_file, type_name};
+use super::device::{Signature, Signatures, device_file};
 use super::home::Home;
 use super::parts::{FUSED, Part, Parts, parts};
 use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
@@ -108,7 +108,6 @@ pub struct Emitted {
     /// Its files.
     pub files: Vec<EmittedFile>,
     pub(super) module: &'static str,
-    pub(super) device_type: String,
     pub(super) counts: Vec<CountText>,
     /// Operations of `eliminate` after each set of passes over the chain.
     pub(super) passes: Vec<usize>,
@@ -137,11 +136,10 @@ pub fn of_kind(chain: &Chain<'_>, home: Home<'_>) -> Result<Emitted, EmitError> 
     let (tera, mut signatures) = (templates()?, Signatures::new());
     let kernels = kind_file(&tera, chain, home, &mut counts, &mut signatures)?;
     let device = device_file(&tera, chain.kind, home, &signatures)?;
-    let device_type = type_name(chain.kind);
     let files = vec![kernels, device];
     let passes = chain_passes(chain.kind);
     let factoring = factoring(chain.kind, &counts);
-    Ok(Emitted { files, module: chain.kind.name, device_type, counts, passes, factoring })
+    Ok(Emitted { files, module: chain.kind.name, counts, passes, factoring })
 }
 
 pub(super) fn templates() -> Result<Tera, EmitError> {

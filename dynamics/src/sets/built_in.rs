@@ -14,9 +14,9 @@ use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
+use crate::every_kind;
 #[allow(clippy::wildcard_imports, reason = "every kind, also one to come")]
 use crate::generated::devices::*;
-use crate::generated::every_kind;
 use crate::generated::hub::Handed;
 use crate::model::few::{Few, MAX_JOINTS};
 use crate::model::kernels::Kernels;
@@ -33,7 +33,7 @@ use crate::validation::parameter_error::ParameterError;
 
 /// The enumerations over all kinds, and what passes a call on.
 macro_rules! built_in {
-    ($($kind:ident)*) => {
+    ($($kind:ident $module:ident $number:literal;)*) => {
         /// A device of one of this crate's kinds.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum BuiltIn<T = f64> {
@@ -43,12 +43,13 @@ macro_rules! built_in {
             )*
         }
 
-        /// Which of this crate's kinds.
+        /// Which of this crate's kinds, by numbers that never change: those of the C interface.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(u8)]
         pub enum BuiltInKind {
             $(
-                #[doc = concat!("[`", stringify!($kind), "`].")]
-                $kind,
+                #[doc = concat!("[`", stringify!($kind), "`], number ", $number, ".")]
+                $kind = $number,
             )*
         }
 
@@ -83,8 +84,23 @@ macro_rules! built_in {
         )*
 
         impl BuiltInKind {
-            /// Every kind.
+            /// Every kind, in the order of the numbers.
             pub const ALL: &'static [Self] = &[$(Self::$kind),*];
+
+            /// Its number: the discriminant, and `PRECESS_KIND_` of C.
+            #[must_use]
+            pub const fn number(self) -> u8 {
+                self as u8
+            }
+
+            /// The kind with a number, where there is one.
+            #[must_use]
+            pub const fn of_number(number: u8) -> Option<Self> {
+                match number {
+                    $($number => Some(Self::$kind),)*
+                    _ => None,
+                }
+            }
 
             /// The joints of the kind, from the hub to the tip.
             #[must_use]
@@ -246,7 +262,7 @@ impl<T: Scalar> Devices for BuiltIn<T> {
 
     fn check(&self, device: &mut usize) -> Result<(), ParameterError<T>> {
         macro_rules! each {
-            ($($kind:ident)*) => {
+            ($($kind:ident $module:ident $number:literal;)*) => {
                 match self {
                     $(Self::$kind(member) => member.check(device),)*
                 }

@@ -1,4 +1,4 @@
-//! A device from its structure, and the numbers of kinds.
+//! A device from its structure.
 
 use precess_dynamics::kind::{BodyParameters, ImbalanceModel};
 use precess_dynamics::{BuiltIn, BuiltInKind, BuiltInParameters, Passive};
@@ -7,26 +7,9 @@ use crate::craft::matrix;
 use crate::error::{Code, Refusal};
 use crate::types;
 
-/// `PRECESS_KIND_`: a number that stands for a kind for ever.
-pub(crate) const fn number_of(kind: BuiltInKind) -> i32 {
-    match kind {
-        BuiltInKind::Dgvscmg => 1,
-        BuiltInKind::BalancedDgvscmg => 2,
-        BuiltInKind::Dgcmg => 3,
-        BuiltInKind::BalancedDgcmg => 4,
-        BuiltInKind::Vscmg => 5,
-        BuiltInKind::BalancedVscmg => 6,
-        BuiltInKind::Sgcmg => 7,
-        BuiltInKind::BalancedSgcmg => 8,
-        BuiltInKind::ReactionWheel => 9,
-        BuiltInKind::BalancedReactionWheel => 10,
-        BuiltInKind::HingedPanel => 11,
-        BuiltInKind::SloshMass => 12,
-    }
-}
-
+/// The kind of a `PRECESS_KIND_`.
 fn kind_of(number: i32) -> Option<BuiltInKind> {
-    BuiltInKind::ALL.iter().copied().find(|kind| number_of(*kind) == number)
+    u8::try_from(number).ok().and_then(BuiltInKind::of_number)
 }
 
 /// The device that a structure states.

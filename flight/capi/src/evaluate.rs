@@ -236,7 +236,6 @@ mod tests {
 
     use super::*;
     use crate::craft::precess_init;
-    use crate::device::number_of;
 
     /// What a C caller states and what a Rust caller states is one spacecraft, to the last bit.
     #[test]
@@ -266,7 +265,7 @@ mod tests {
             let stated = device.stated();
             let rows = |m: &Matrix3<f64>| m.transpose().as_slice().try_into().unwrap();
             types::Device {
-                kind: number_of(device.kind()),
+                kind: device.kind().number().into(),
                 model: 0,
                 mount: rows(&stated.mount),
                 bodies: stated.bodies.map(|body| types::Body {

@@ -62,7 +62,7 @@ fn layout() -> String {
             }
             name.push(letter.to_ascii_uppercase());
         }
-        lines.push(format!("IS(PRECESS_KIND{name}, {});", crate::device::number_of(*kind)));
+        lines.push(format!("IS(PRECESS_KIND{name}, {});", kind.number()));
     }
     for code in Code::ALL {
         lines.push(format!("IS({}, {});", code.name().to_str().unwrap(), *code as i32));

@@ -22,7 +22,7 @@ use crate::skip::skip;
 use board::{BOARDS, Board};
 use gates::Library;
 use output::{lines, same, whole};
-use page::{Figures, SETS};
+use page::Figures;
 use tally::Tally;
 
 /// The library that is gated and measured, and the programs around it.
@@ -133,7 +133,7 @@ fn compare(board: &Board, images: &Path, here: &Path, tally: &mut Tally) {
 
 /// What is measured of the library; none if it does not pass or was not counted.
 fn figures(board: &Board, tally: &mut Tally) -> Option<Figures> {
-    let exports = SETS.iter().flat_map(|set| {
+    let exports = page::sets().flat_map(|set| {
         ["accelerations", "step"].map(|call| format!("precess_{}_{}_{call}", set.kind, set.devices))
     });
     let library =
