@@ -82,6 +82,7 @@ pub use integrate::stop::Stopped;
 pub use model::few::{Few, MAX_JOINTS};
 pub use model::kind::{self, ImbalanceModel};
 pub use model::mode::{HubMode, Mode};
+pub use model::parameter_info::{NameError, ParameterInfo, ParameterMut, ParameterValue, Shape};
 pub use model::parameters::Hub;
 pub use model::passive::Passive;
 pub use model::units;

@@ -9,6 +9,7 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use super::device_items::Items;
+use super::device_parameters::{Parameter, parameters};
 use super::file::{EmitError, EmittedFile, rust_file};
 use super::home::Home;
 use super::layout::packed;
@@ -56,7 +57,7 @@ pub(super) fn device_file(
     context.insert("hash", &fnv1a64(&format!("{kind:?}")));
     context.insert("title", &capital(kind.title));
     context.insert("imports", &imports(home.dynamics(), &body));
-    context.insert("records", &[parameters(kind), joints(kind), motors(kind), per_joint(kind)]);
+    context.insert("records", &[structure(kind), joints(kind), motors(kind), per_joint(kind)]);
     context.insert("body", &body);
     rust_file(home.path(&format!("{}/device.rs", kind.name)), tera.render("device.rs", &context)?)
 }
@@ -100,6 +101,9 @@ fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
         "Kernels",
         "Kind",
         "Lumped",
+        "ParameterInfo",
+        "ParameterMut",
+        "Shape",
         "Value",
         "Wrenches",
         "components",
@@ -175,21 +179,16 @@ fn record(name: &str, doc: &str, fields: Vec<Field>) -> Record {
 }
 
 /// What the device is made of, as a user states it.
-fn parameters(kind: &Kind) -> Record {
-    let mut fields = vec![field("mount", &mount(kind), "Matrix3<T>")];
-    for (k, link) in kind.links.iter().enumerate() {
-        fields.extend(of_link(kind, k, link));
-    }
-    fields.push(field(
+fn structure(kind: &Kind) -> Record {
+    let passive = field(
         "passive",
         "Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.",
         "PerJoint<Passive<T>>",
-    ));
-    if imbalanced(kind).is_some() {
-        let doc = "Whether the imbalance is coupled with everything else, or lumped as in the \
-                   simplified model.";
-        fields.push(field("model", doc, "ImbalanceModel"));
-    }
+    );
+    let own = |row: &Parameter| field(&row.name, &row.doc(), row.field_type());
+    let mut fields: Vec<_> = parameters(kind).iter().map(own).collect();
+    let last = fields.len() - usize::from(imbalanced(kind).is_some());
+    fields.insert(last, passive);
     let mut doc = format!("{}.", capital(kind.title));
     for link in kind.links.iter().filter(|link| !link.is_driven()) {
         let kept = format!(
@@ -206,71 +205,6 @@ fn parameters(kind: &Kind) -> Record {
         );
     }
     record(&format!("{}<T = f64>", kind.type_name()), &doc, fields)
-}
-
-fn mount(kind: &Kind) -> String {
-    let joint = |link: &Link| {
-        let (verb, axis) = match link.joint.motion {
-            Motion::Turn(axis) => ("turns about", axis),
-            Motion::Slide(axis) => ("slides along", axis),
-        };
-        format!("the {} {verb} {axis:?}", link.body.title).to_lowercase()
-    };
-    let joints: Vec<_> = kind.links.iter().map(joint).collect();
-    format!(
-        "Columns: the device's axes along B axes, which are those of its first body at zero. At \
-         zero {}.",
-        joints.join(", ")
-    )
-}
-
-fn of_link(kind: &Kind, k: usize, link: &Link) -> Vec<Field> {
-    let (joint, body) = (&link.joint, &link.body);
-    let [letter, point] = body.letters;
-    let title = body.title;
-    let carrier = if k == 0 {
-        "from B, *B axes*".to_owned()
-    } else {
-        let carrier = &kind.links[k - 1].body;
-        format!("from the origin of the {0}, axes of the {0}", carrier.title)
-    };
-    let slides = match joint.motion {
-        Motion::Turn(_) => "",
-        Motion::Slide(_) => ", where its coordinate is zero",
-    };
-    let doc = format!("`{}`, origin of the {title} {carrier}{slides}, m.", joint.origin.symbol);
-    let mut fields = vec![field(joint.origin.name, &doc, "Vector3<T>")];
-    let massless = if k + 1 == kind.links.len() { "above zero" } else { "zero is legal" };
-    let doc = format!("`m_{letter}`, mass of the {title}, kg; {massless}.");
-    fields.push(field(body.mass, &doc, "T"));
-    match body.centre {
-        Centre::Free(triple) => {
-            let doc =
-                format!("`{}`, centre of mass of the {title}, its own axes, m.", triple.symbol);
-            fields.push(field(triple.name, &doc, "Vector3<T>"));
-        }
-        Centre::On(axis, name) => {
-            let doc = format!(
-                "`{name}`: the centre of mass of the {title} stands on its {axis:?} axis, this far \
-                 from its origin, m."
-            );
-            fields.push(field(name, &doc, "T"));
-        }
-        Centre::At => {}
-    }
-    let doc =
-        format!("`[I_{{{letter},{point}}}]`, inertia of the {title} about its centre of mass");
-    match body.inertia {
-        Inertia::Full(_) => {
-            let doc = format!("{doc}, its own axes, kg m².");
-            fields.push(field(&inertia_name(body), &doc, "Matrix3<T>"));
-        }
-        _ => fields.extend(moments(body).iter().map(|name| {
-            let entry = &name[name.len() - 2..];
-            field(name, &format!("{doc}, entry {entry}, kg m²."), "T")
-        })),
-    }
-    fields
 }
 
 /// Coordinates and rates.

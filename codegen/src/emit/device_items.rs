@@ -3,8 +3,9 @@
 use super::by_number::by_number;
 use super::device::{Signatures, body_name, imbalanced, inertia_name, moments};
 use super::device_calls::rates_function;
+use super::device_parameters::named;
 use super::layout::fitted;
-use super::text::{COMMENT, wrapped};
+use super::text::{COMMENT, pretty_item, wrapped};
 use crate::derivation::chain::mount_entry;
 use crate::kinds::{Centre, Inertia, Kind, Link, Motion};
 use crate::space::Axis;
@@ -222,9 +223,15 @@ impl Items<'_> {
         };
         let mut at_rest = zeros(&|link| vec![link.joint.coordinate]);
         at_rest.extend(zeros(&|link| vec![link.joint.rate]));
+        let [name_item, table, parameter_mut, passive_mut] =
+            named(self.kind).map(|item| pretty_item(&item).join("\n"));
         let mut items = vec![
             "    type Scalar = T;\n    type Motors = MotorTorques<T>;".to_owned(),
+            name_item,
             self.infos(),
+            table,
+            parameter_mut,
+            passive_mut,
             function("at_rest() -> Joints<T>", &fitted(8, "Joints {", &at_rest, "}")),
             function(
                 "motors_off() -> MotorTorques<T>",
@@ -261,11 +268,13 @@ impl Items<'_> {
             let ignorable = !slides && !self.kind.axes_turn(k);
             format!(
                 "JointInfo {{\n    index: {k},\n    body: \"{}\",\n    coordinate: \"{}\",\n    \
-                 rate: \"{}\",\n    motor: \"{}\",\n    axis: {},\n    slides: {slides},\n    \
+                 rate: \"{}\",\n    \
+                 acceleration: \"{}\",\n    motor: \"{}\",\n    axis: {},\n    slides: {slides},\n    \
                  ignorable: {ignorable},\n    driven: {},\n    tip: {},\n}}",
                 body.title,
                 joint.coordinate,
                 joint.rate,
+                joint.acceleration,
                 joint.torque,
                 number(joint.motion.axis()),
                 link.is_driven(),

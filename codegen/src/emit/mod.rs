@@ -12,6 +12,7 @@ mod device;
 mod device_bodies;
 mod device_calls;
 mod device_items;
+mod device_parameters;
 mod factor;
 mod file;
 mod functions;

@@ -8,6 +8,10 @@ use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMome
 pub use crate::model::kernels::Kernels;
 pub use crate::model::mode::Drive;
 use crate::model::mode::Mode;
+use crate::model::parameter_info;
+pub use crate::model::parameter_info::{
+    NameError, ParameterInfo, ParameterMut, ParameterValue, Shape,
+};
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 pub use crate::numbers::each::{Each, JointStates, Value};
@@ -26,6 +30,8 @@ pub struct JointInfo {
     pub coordinate: &'static str,
     /// Its rate: `gamma_i_dot`.
     pub rate: &'static str,
+    /// Its acceleration: `gamma_i_ddot`.
+    pub acceleration: &'static str,
     /// Its motor torque or force: `u_i`.
     pub motor: &'static str,
     /// The axis it turns about or slides along, of x, y, z.
@@ -42,6 +48,12 @@ pub struct JointInfo {
 }
 
 impl JointInfo {
+    /// Units of coordinate, rate, acceleration and motor.
+    #[must_use]
+    pub const fn units(&self) -> [&'static str; 4] {
+        if self.slides { ["m", "m/s", "m/s²", "N"] } else { ["rad", "rad/s", "rad/s²", "N m"] }
+    }
+
     /// The mode that the kind gives the joint.
     pub(crate) fn own_mode<T: Scalar>(&self) -> Mode<T> {
         if self.driven { Mode::Driven } else { Mode::Prescribed(zero()) }
@@ -113,8 +125,39 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// Motor torques.
     type Motors: Each<Self::Scalar> + Copy;
 
+    /// The name of the kind, that of its module: `reaction_wheel`.
+    const NAME: &'static str;
     /// The joints from the hub to the tip.
     const JOINTS: &'static [JointInfo];
+    /// The fields of the structure in order, without `passive`.
+    const PARAMETERS: &'static [ParameterInfo];
+
+    /// The value of a parameter by its name in the structure, `r_goc_go`, or of a joint's spring,
+    /// damper and friction, `passive.inner_gimbal.stiffness`.
+    ///
+    /// # Errors
+    ///
+    /// [`NameError::Unknown`].
+    fn parameter(&self, name: &str) -> Result<ParameterValue<Self::Scalar>, NameError> {
+        parameter_info::value(self, name)
+    }
+    /// Writes a parameter by its name, as [`Self::parameter`] reads it. Nothing is checked:
+    /// [`Spacecraft::new`](crate::Spacecraft::new) does that.
+    ///
+    /// # Errors
+    ///
+    /// [`NameError`] where there is no such parameter, or where the value has another shape.
+    fn set_parameter(
+        &mut self,
+        name: &str,
+        value: ParameterValue<Self::Scalar>,
+    ) -> Result<(), NameError> {
+        parameter_info::write(self, name, value)
+    }
+    /// A field of the structure by its name, `passive` left out; none where there is no such.
+    fn parameter_mut(&mut self, name: &str) -> Option<ParameterMut<'_, Self::Scalar>>;
+    /// Springs, dampers, friction, to be written.
+    fn passive_mut(&mut self) -> &mut Self::PerJoint<Passive<Self::Scalar>>;
 
     /// All coordinates and rates zero.
     fn at_rest() -> Self::Joints<Self::Scalar>;

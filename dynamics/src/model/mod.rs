@@ -7,6 +7,9 @@ pub(crate) mod few;
 pub(crate) mod kernels;
 pub mod kind;
 pub(crate) mod mode;
+pub(crate) mod parameter_info;
+#[cfg(test)]
+mod parameter_info_checks;
 pub(crate) mod parameters;
 pub(crate) mod passive;
 pub mod units;

@@ -11,6 +11,7 @@ pub(crate) mod built_in;
 pub(crate) mod built_in_calls;
 #[cfg(test)]
 mod built_in_checks;
+mod built_in_names;
 pub(crate) mod built_in_parameters;
 pub(crate) mod devices;
 #[cfg(feature = "alloc")]

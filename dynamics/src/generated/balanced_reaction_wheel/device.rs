@@ -14,23 +14,23 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
-    Value, Wrenches, components, diagonal, unit, vector, zero,
+    ParameterInfo, ParameterMut, Shape, Value, Wrenches, components, diagonal, unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
 /// Balanced reaction wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BalancedReactionWheel<T = f64> {
-    /// Columns: the device's axes along B axes, which are those of its first body at zero. At
-    /// zero the wheel turns about x.
+    /// Columns: the device's axes, those of its first body at zero, expressed in *B*. At
+    /// zero, the wheel turns about x.
     pub mount: Matrix3<T>,
-    /// `r_{W/B}`, origin of the wheel from B, *B axes*, m.
+    /// `r_{W/B}`, origin of the wheel from B, expressed in *B*, m.
     pub r_w_b: Vector3<T>,
-    /// `m_W`, mass of the wheel, kg; above zero.
+    /// `m_W`, mass of the wheel, kg. Above zero.
     pub m_w: T,
-    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, entry 11, kg m².
+    /// `[I_{W,Wc}]_11`, entry 11 of the inertia of the wheel about its centre of mass, kg m².
     pub j_11: T,
-    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, entry 22, kg m².
+    /// `[I_{W,Wc}]_22`, entry 22 of the inertia of the wheel about its centre of mass, kg m².
     pub j_22: T,
     /// Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.
     pub passive: PerJoint<Passive<T>>,
@@ -268,11 +268,14 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
     type Scalar = T;
     type Motors = MotorTorques<T>;
 
+    const NAME: &'static str = "balanced_reaction_wheel";
+
     const JOINTS: &'static [JointInfo] = &[JointInfo {
         index: 0,
         body: "wheel",
         coordinate: "theta",
         rate: "spin",
+        acceleration: "spin_dot",
         motor: "u_w",
         axis: 0,
         slides: false,
@@ -280,6 +283,70 @@ impl<T: Scalar> Kind for BalancedReactionWheel<T> {
         driven: true,
         tip: true,
     }];
+
+    const PARAMETERS: &'static [ParameterInfo] = &[
+        ParameterInfo {
+            name: "mount",
+            symbol: "mount",
+            unit: "1",
+            shape: Shape::Rotation,
+            frame: Some("B"),
+            body: None,
+            meaning: "columns: the device's axes, those of its first body at zero",
+        },
+        ParameterInfo {
+            name: "r_w_b",
+            symbol: "r_{W/B}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("B"),
+            body: Some("wheel"),
+            meaning: "origin of the wheel from B",
+        },
+        ParameterInfo {
+            name: "m_w",
+            symbol: "m_W",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("wheel"),
+            meaning: "mass of the wheel",
+        },
+        ParameterInfo {
+            name: "j_11",
+            symbol: "[I_{W,Wc}]_11",
+            unit: "kg m²",
+            shape: Shape::Scalar,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "entry 11 of the inertia of the wheel about its centre of mass",
+        },
+        ParameterInfo {
+            name: "j_22",
+            symbol: "[I_{W,Wc}]_22",
+            unit: "kg m²",
+            shape: Shape::Scalar,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "entry 22 of the inertia of the wheel about its centre of mass",
+        },
+    ];
+
+    fn parameter_mut(&mut self, name: &str) -> Option<ParameterMut<'_, T>> {
+        let field = match name {
+            "mount" => ParameterMut::Matrix(&mut self.mount),
+            "r_w_b" => ParameterMut::Vector(&mut self.r_w_b),
+            "m_w" => ParameterMut::Scalar(&mut self.m_w),
+            "j_11" => ParameterMut::Scalar(&mut self.j_11),
+            "j_22" => ParameterMut::Scalar(&mut self.j_22),
+            _ => return None,
+        };
+        Some(field)
+    }
+
+    fn passive_mut(&mut self) -> &mut PerJoint<Passive<T>> {
+        &mut self.passive
+    }
 
     fn at_rest() -> Joints<T> {
         Joints { theta: zero(), spin: zero() }

@@ -14,7 +14,8 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
-    Value, Wrenches, components, diagonal, entries, no_inertia, unit, vector, zero,
+    ParameterInfo, ParameterMut, Shape, Value, Wrenches, components, diagonal, entries, no_inertia,
+    unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -24,24 +25,27 @@ use crate::{Angle, Passive, Real, Scalar, Wrench};
 /// element).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BalancedVscmg<T = f64> {
-    /// Columns: the device's axes along B axes, which are those of its first body at zero. At
-    /// zero the gimbal turns about z, the wheel turns about x.
+    /// Columns: the device's axes, those of its first body at zero, expressed in *B*. At
+    /// zero, the gimbal turns about z, the wheel turns about x.
     pub mount: Matrix3<T>,
-    /// `r_{G/B}`, origin of the gimbal from B, *B axes*, m.
+    /// `r_{G/B}`, origin of the gimbal from B, expressed in *B*, m.
     pub r_g_b: Vector3<T>,
-    /// `m_G`, mass of the gimbal, kg; zero is legal.
+    /// `m_G`, mass of the gimbal, kg. Zero is legal.
     pub m_g: T,
-    /// `r_{Gc/G}`, centre of mass of the gimbal, its own axes, m.
+    /// `r_{Gc/G}`, centre of mass of the gimbal from its origin, expressed in the axes of the
+    /// gimbal, m.
     pub r_gc_g: Vector3<T>,
-    /// `[I_{G,Gc}]`, inertia of the gimbal about its centre of mass, its own axes, kg m².
+    /// `[I_{G,Gc}]`, inertia of the gimbal about its centre of mass, expressed in the axes of
+    /// the gimbal, kg m².
     pub i_g_gc: Matrix3<T>,
-    /// `Lᵍ`, origin of the wheel from the origin of the gimbal, axes of the gimbal, m.
+    /// `Lᵍ`, origin of the wheel from the origin of the gimbal, expressed in the axes of the
+    /// gimbal, m.
     pub l_g: Vector3<T>,
-    /// `m_W`, mass of the wheel, kg; above zero.
+    /// `m_W`, mass of the wheel, kg. Above zero.
     pub m_w: T,
-    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, entry 11, kg m².
+    /// `[I_{W,Wc}]_11`, entry 11 of the inertia of the wheel about its centre of mass, kg m².
     pub j_11: T,
-    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, entry 22, kg m².
+    /// `[I_{W,Wc}]_22`, entry 22 of the inertia of the wheel about its centre of mass, kg m².
     pub j_22: T,
     /// Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.
     pub passive: PerJoint<Passive<T>>,
@@ -314,12 +318,15 @@ impl<T: Scalar> Kind for BalancedVscmg<T> {
     type Scalar = T;
     type Motors = MotorTorques<T>;
 
+    const NAME: &'static str = "balanced_vscmg";
+
     const JOINTS: &'static [JointInfo] = &[
         JointInfo {
             index: 0,
             body: "gimbal",
             coordinate: "gamma",
             rate: "gamma_dot",
+            acceleration: "gamma_ddot",
             motor: "u_g",
             axis: 2,
             slides: false,
@@ -332,6 +339,7 @@ impl<T: Scalar> Kind for BalancedVscmg<T> {
             body: "wheel",
             coordinate: "theta",
             rate: "spin",
+            acceleration: "spin_dot",
             motor: "u_w",
             axis: 0,
             slides: false,
@@ -340,6 +348,110 @@ impl<T: Scalar> Kind for BalancedVscmg<T> {
             tip: true,
         },
     ];
+
+    const PARAMETERS: &'static [ParameterInfo] = &[
+        ParameterInfo {
+            name: "mount",
+            symbol: "mount",
+            unit: "1",
+            shape: Shape::Rotation,
+            frame: Some("B"),
+            body: None,
+            meaning: "columns: the device's axes, those of its first body at zero",
+        },
+        ParameterInfo {
+            name: "r_g_b",
+            symbol: "r_{G/B}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("B"),
+            body: Some("gimbal"),
+            meaning: "origin of the gimbal from B",
+        },
+        ParameterInfo {
+            name: "m_g",
+            symbol: "m_G",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("gimbal"),
+            meaning: "mass of the gimbal",
+        },
+        ParameterInfo {
+            name: "r_gc_g",
+            symbol: "r_{Gc/G}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("gimbal"),
+            body: Some("gimbal"),
+            meaning: "centre of mass of the gimbal from its origin",
+        },
+        ParameterInfo {
+            name: "i_g_gc",
+            symbol: "[I_{G,Gc}]",
+            unit: "kg m²",
+            shape: Shape::Symmetric,
+            frame: Some("gimbal"),
+            body: Some("gimbal"),
+            meaning: "inertia of the gimbal about its centre of mass",
+        },
+        ParameterInfo {
+            name: "l_g",
+            symbol: "Lᵍ",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("gimbal"),
+            body: Some("wheel"),
+            meaning: "origin of the wheel from the origin of the gimbal",
+        },
+        ParameterInfo {
+            name: "m_w",
+            symbol: "m_W",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("wheel"),
+            meaning: "mass of the wheel",
+        },
+        ParameterInfo {
+            name: "j_11",
+            symbol: "[I_{W,Wc}]_11",
+            unit: "kg m²",
+            shape: Shape::Scalar,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "entry 11 of the inertia of the wheel about its centre of mass",
+        },
+        ParameterInfo {
+            name: "j_22",
+            symbol: "[I_{W,Wc}]_22",
+            unit: "kg m²",
+            shape: Shape::Scalar,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "entry 22 of the inertia of the wheel about its centre of mass",
+        },
+    ];
+
+    fn parameter_mut(&mut self, name: &str) -> Option<ParameterMut<'_, T>> {
+        let field = match name {
+            "mount" => ParameterMut::Matrix(&mut self.mount),
+            "r_g_b" => ParameterMut::Vector(&mut self.r_g_b),
+            "m_g" => ParameterMut::Scalar(&mut self.m_g),
+            "r_gc_g" => ParameterMut::Vector(&mut self.r_gc_g),
+            "i_g_gc" => ParameterMut::Matrix(&mut self.i_g_gc),
+            "l_g" => ParameterMut::Vector(&mut self.l_g),
+            "m_w" => ParameterMut::Scalar(&mut self.m_w),
+            "j_11" => ParameterMut::Scalar(&mut self.j_11),
+            "j_22" => ParameterMut::Scalar(&mut self.j_22),
+            _ => return None,
+        };
+        Some(field)
+    }
+
+    fn passive_mut(&mut self) -> &mut PerJoint<Passive<T>> {
+        &mut self.passive
+    }
 
     fn at_rest() -> Joints<T> {
         Joints { gamma: zero(), theta: zero(), gamma_dot: zero(), spin: zero() }

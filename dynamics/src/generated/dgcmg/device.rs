@@ -14,7 +14,8 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
-    Lumped, Value, Wrenches, components, entries, no_inertia, unit, vector, zero,
+    Lumped, ParameterInfo, ParameterMut, Shape, Value, Wrenches, components, entries, no_inertia,
+    unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -27,43 +28,44 @@ use crate::{Angle, Passive, Real, Scalar, Wrench};
 /// element).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dgcmg<T = f64> {
-    /// Columns: the device's axes along B axes, which are those of its first body at zero. At
-    /// zero the outer gimbal turns about z, the inner gimbal turns about y, the wheel turns
+    /// Columns: the device's axes, those of its first body at zero, expressed in *B*. At
+    /// zero, the outer gimbal turns about z, the inner gimbal turns about y, the wheel turns
     /// about x.
     pub mount: Matrix3<T>,
-    /// `r_{Gᵒ/B}`, origin of the outer gimbal from B, *B axes*, m.
+    /// `r_{Gᵒ/B}`, origin of the outer gimbal from B, expressed in *B*, m.
     pub r_go_b: Vector3<T>,
-    /// `m_Gᵒ`, mass of the outer gimbal, kg; zero is legal.
+    /// `m_Gᵒ`, mass of the outer gimbal, kg. Zero is legal.
     pub m_go: T,
-    /// `r_{Gᵒc/Gᵒ}`, centre of mass of the outer gimbal, its own axes, m.
+    /// `r_{Gᵒc/Gᵒ}`, centre of mass of the outer gimbal from its origin, expressed in the
+    /// axes of the outer gimbal, m.
     pub r_goc_go: Vector3<T>,
-    /// `[I_{Gᵒ,Gᵒc}]`, inertia of the outer gimbal about its centre of mass, its own axes, kg
-    /// m².
+    /// `[I_{Gᵒ,Gᵒc}]`, inertia of the outer gimbal about its centre of mass, expressed in the
+    /// axes of the outer gimbal, kg m².
     pub i_go_goc: Matrix3<T>,
-    /// `Lᵒ`, origin of the inner gimbal from the origin of the outer gimbal, axes of the
-    /// outer gimbal, m.
+    /// `Lᵒ`, origin of the inner gimbal from the origin of the outer gimbal, expressed in the
+    /// axes of the outer gimbal, m.
     pub l_o: Vector3<T>,
-    /// `m_Gⁱ`, mass of the inner gimbal, kg; zero is legal.
+    /// `m_Gⁱ`, mass of the inner gimbal, kg. Zero is legal.
     pub m_gi: T,
-    /// `r_{Gⁱc/Gⁱ}`, centre of mass of the inner gimbal, its own axes, m.
+    /// `r_{Gⁱc/Gⁱ}`, centre of mass of the inner gimbal from its origin, expressed in the
+    /// axes of the inner gimbal, m.
     pub r_gic_gi: Vector3<T>,
-    /// `[I_{Gⁱ,Gⁱc}]`, inertia of the inner gimbal about its centre of mass, its own axes, kg
-    /// m².
+    /// `[I_{Gⁱ,Gⁱc}]`, inertia of the inner gimbal about its centre of mass, expressed in the
+    /// axes of the inner gimbal, kg m².
     pub i_gi_gic: Matrix3<T>,
-    /// `Lⁱ`, origin of the wheel from the origin of the inner gimbal, axes of the inner
-    /// gimbal, m.
+    /// `Lⁱ`, origin of the wheel from the origin of the inner gimbal, expressed in the axes
+    /// of the inner gimbal, m.
     pub l_i: Vector3<T>,
-    /// `m_W`, mass of the wheel, kg; above zero.
+    /// `m_W`, mass of the wheel, kg. Above zero.
     pub m_w: T,
-    /// `d`: the centre of mass of the wheel stands on its Y axis, this far from its origin,
-    /// m.
+    /// `d`, centre of mass of the wheel from its origin, on its y axis, m.
     pub d: T,
-    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, its own axes, kg m².
+    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, expressed in the axes of
+    /// the wheel, kg m².
     pub i_w_wc: Matrix3<T>,
     /// Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.
     pub passive: PerJoint<Passive<T>>,
-    /// Whether the imbalance is coupled with everything else, or lumped as in the simplified
-    /// model.
+    /// Whether the imbalance is coupled with all motion or lumped.
     pub model: ImbalanceModel,
 }
 
@@ -369,12 +371,15 @@ impl<T: Scalar> Kind for Dgcmg<T> {
     type Scalar = T;
     type Motors = MotorTorques<T>;
 
+    const NAME: &'static str = "dgcmg";
+
     const JOINTS: &'static [JointInfo] = &[
         JointInfo {
             index: 0,
             body: "outer gimbal",
             coordinate: "gamma_o",
             rate: "gamma_o_dot",
+            acceleration: "gamma_o_ddot",
             motor: "u_o",
             axis: 2,
             slides: false,
@@ -387,6 +392,7 @@ impl<T: Scalar> Kind for Dgcmg<T> {
             body: "inner gimbal",
             coordinate: "gamma_i",
             rate: "gamma_i_dot",
+            acceleration: "gamma_i_ddot",
             motor: "u_i",
             axis: 1,
             slides: false,
@@ -399,6 +405,7 @@ impl<T: Scalar> Kind for Dgcmg<T> {
             body: "wheel",
             coordinate: "theta",
             rate: "spin",
+            acceleration: "spin_dot",
             motor: "u_w",
             axis: 0,
             slides: false,
@@ -407,6 +414,160 @@ impl<T: Scalar> Kind for Dgcmg<T> {
             tip: true,
         },
     ];
+
+    const PARAMETERS: &'static [ParameterInfo] = &[
+        ParameterInfo {
+            name: "mount",
+            symbol: "mount",
+            unit: "1",
+            shape: Shape::Rotation,
+            frame: Some("B"),
+            body: None,
+            meaning: "columns: the device's axes, those of its first body at zero",
+        },
+        ParameterInfo {
+            name: "r_go_b",
+            symbol: "r_{Gᵒ/B}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("B"),
+            body: Some("outer gimbal"),
+            meaning: "origin of the outer gimbal from B",
+        },
+        ParameterInfo {
+            name: "m_go",
+            symbol: "m_Gᵒ",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("outer gimbal"),
+            meaning: "mass of the outer gimbal",
+        },
+        ParameterInfo {
+            name: "r_goc_go",
+            symbol: "r_{Gᵒc/Gᵒ}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("outer gimbal"),
+            body: Some("outer gimbal"),
+            meaning: "centre of mass of the outer gimbal from its origin",
+        },
+        ParameterInfo {
+            name: "i_go_goc",
+            symbol: "[I_{Gᵒ,Gᵒc}]",
+            unit: "kg m²",
+            shape: Shape::Symmetric,
+            frame: Some("outer gimbal"),
+            body: Some("outer gimbal"),
+            meaning: "inertia of the outer gimbal about its centre of mass",
+        },
+        ParameterInfo {
+            name: "l_o",
+            symbol: "Lᵒ",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("outer gimbal"),
+            body: Some("inner gimbal"),
+            meaning: "origin of the inner gimbal from the origin of the outer gimbal",
+        },
+        ParameterInfo {
+            name: "m_gi",
+            symbol: "m_Gⁱ",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("inner gimbal"),
+            meaning: "mass of the inner gimbal",
+        },
+        ParameterInfo {
+            name: "r_gic_gi",
+            symbol: "r_{Gⁱc/Gⁱ}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("inner gimbal"),
+            body: Some("inner gimbal"),
+            meaning: "centre of mass of the inner gimbal from its origin",
+        },
+        ParameterInfo {
+            name: "i_gi_gic",
+            symbol: "[I_{Gⁱ,Gⁱc}]",
+            unit: "kg m²",
+            shape: Shape::Symmetric,
+            frame: Some("inner gimbal"),
+            body: Some("inner gimbal"),
+            meaning: "inertia of the inner gimbal about its centre of mass",
+        },
+        ParameterInfo {
+            name: "l_i",
+            symbol: "Lⁱ",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("inner gimbal"),
+            body: Some("wheel"),
+            meaning: "origin of the wheel from the origin of the inner gimbal",
+        },
+        ParameterInfo {
+            name: "m_w",
+            symbol: "m_W",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("wheel"),
+            meaning: "mass of the wheel",
+        },
+        ParameterInfo {
+            name: "d",
+            symbol: "d",
+            unit: "m",
+            shape: Shape::Scalar,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "centre of mass of the wheel from its origin, on its y axis",
+        },
+        ParameterInfo {
+            name: "i_w_wc",
+            symbol: "[I_{W,Wc}]",
+            unit: "kg m²",
+            shape: Shape::Symmetric,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "inertia of the wheel about its centre of mass",
+        },
+        ParameterInfo {
+            name: "model",
+            symbol: "",
+            unit: "",
+            shape: Shape::Model,
+            frame: None,
+            body: Some("wheel"),
+            meaning: "whether the imbalance is coupled with all motion or lumped",
+        },
+    ];
+
+    fn parameter_mut(&mut self, name: &str) -> Option<ParameterMut<'_, T>> {
+        let field = match name {
+            "mount" => ParameterMut::Matrix(&mut self.mount),
+            "r_go_b" => ParameterMut::Vector(&mut self.r_go_b),
+            "m_go" => ParameterMut::Scalar(&mut self.m_go),
+            "r_goc_go" => ParameterMut::Vector(&mut self.r_goc_go),
+            "i_go_goc" => ParameterMut::Matrix(&mut self.i_go_goc),
+            "l_o" => ParameterMut::Vector(&mut self.l_o),
+            "m_gi" => ParameterMut::Scalar(&mut self.m_gi),
+            "r_gic_gi" => ParameterMut::Vector(&mut self.r_gic_gi),
+            "i_gi_gic" => ParameterMut::Matrix(&mut self.i_gi_gic),
+            "l_i" => ParameterMut::Vector(&mut self.l_i),
+            "m_w" => ParameterMut::Scalar(&mut self.m_w),
+            "d" => ParameterMut::Scalar(&mut self.d),
+            "i_w_wc" => ParameterMut::Matrix(&mut self.i_w_wc),
+            "model" => ParameterMut::Model(&mut self.model),
+            _ => return None,
+        };
+        Some(field)
+    }
+
+    fn passive_mut(&mut self) -> &mut PerJoint<Passive<T>> {
+        &mut self.passive
+    }
 
     fn at_rest() -> Joints<T> {
         Joints {

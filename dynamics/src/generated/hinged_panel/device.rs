@@ -14,7 +14,7 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
-    Value, Wrenches, components, entries, unit, vector, zero,
+    ParameterInfo, ParameterMut, Shape, Value, Wrenches, components, entries, unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -24,16 +24,18 @@ use crate::{Angle, Passive, Real, Scalar, Wrench};
 /// element).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HingedPanel<T = f64> {
-    /// Columns: the device's axes along B axes, which are those of its first body at zero. At
-    /// zero the panel turns about z.
+    /// Columns: the device's axes, those of its first body at zero, expressed in *B*. At
+    /// zero, the panel turns about z.
     pub mount: Matrix3<T>,
-    /// `r_{P/B}`, origin of the panel from B, *B axes*, m.
+    /// `r_{P/B}`, origin of the panel from B, expressed in *B*, m.
     pub r_p_b: Vector3<T>,
-    /// `m_P`, mass of the panel, kg; above zero.
+    /// `m_P`, mass of the panel, kg. Above zero.
     pub m_p: T,
-    /// `r_{Pc/P}`, centre of mass of the panel, its own axes, m.
+    /// `r_{Pc/P}`, centre of mass of the panel from its origin, expressed in the axes of the
+    /// panel, m.
     pub r_pc_p: Vector3<T>,
-    /// `[I_{P,Pc}]`, inertia of the panel about its centre of mass, its own axes, kg m².
+    /// `[I_{P,Pc}]`, inertia of the panel about its centre of mass, expressed in the axes of
+    /// the panel, kg m².
     pub i_p_pc: Matrix3<T>,
     /// Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.
     pub passive: PerJoint<Passive<T>>,
@@ -274,11 +276,14 @@ impl<T: Scalar> Kind for HingedPanel<T> {
     type Scalar = T;
     type Motors = MotorTorques<T>;
 
+    const NAME: &'static str = "hinged_panel";
+
     const JOINTS: &'static [JointInfo] = &[JointInfo {
         index: 0,
         body: "panel",
         coordinate: "phi",
         rate: "phi_dot",
+        acceleration: "phi_ddot",
         motor: "u_p",
         axis: 2,
         slides: false,
@@ -286,6 +291,70 @@ impl<T: Scalar> Kind for HingedPanel<T> {
         driven: true,
         tip: true,
     }];
+
+    const PARAMETERS: &'static [ParameterInfo] = &[
+        ParameterInfo {
+            name: "mount",
+            symbol: "mount",
+            unit: "1",
+            shape: Shape::Rotation,
+            frame: Some("B"),
+            body: None,
+            meaning: "columns: the device's axes, those of its first body at zero",
+        },
+        ParameterInfo {
+            name: "r_p_b",
+            symbol: "r_{P/B}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("B"),
+            body: Some("panel"),
+            meaning: "origin of the panel from B",
+        },
+        ParameterInfo {
+            name: "m_p",
+            symbol: "m_P",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("panel"),
+            meaning: "mass of the panel",
+        },
+        ParameterInfo {
+            name: "r_pc_p",
+            symbol: "r_{Pc/P}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("panel"),
+            body: Some("panel"),
+            meaning: "centre of mass of the panel from its origin",
+        },
+        ParameterInfo {
+            name: "i_p_pc",
+            symbol: "[I_{P,Pc}]",
+            unit: "kg m²",
+            shape: Shape::Symmetric,
+            frame: Some("panel"),
+            body: Some("panel"),
+            meaning: "inertia of the panel about its centre of mass",
+        },
+    ];
+
+    fn parameter_mut(&mut self, name: &str) -> Option<ParameterMut<'_, T>> {
+        let field = match name {
+            "mount" => ParameterMut::Matrix(&mut self.mount),
+            "r_p_b" => ParameterMut::Vector(&mut self.r_p_b),
+            "m_p" => ParameterMut::Scalar(&mut self.m_p),
+            "r_pc_p" => ParameterMut::Vector(&mut self.r_pc_p),
+            "i_p_pc" => ParameterMut::Matrix(&mut self.i_p_pc),
+            _ => return None,
+        };
+        Some(field)
+    }
+
+    fn passive_mut(&mut self) -> &mut PerJoint<Passive<T>> {
+        &mut self.passive
+    }
 
     fn at_rest() -> Joints<T> {
         Joints { phi: zero(), phi_dot: zero() }

@@ -14,7 +14,8 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
-    Lumped, Value, Wrenches, components, entries, unit, vector, zero,
+    Lumped, ParameterInfo, ParameterMut, Shape, Value, Wrenches, components, entries, unit, vector,
+    zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -24,22 +25,21 @@ use crate::{Angle, Passive, Real, Scalar, Wrench};
 /// element).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReactionWheel<T = f64> {
-    /// Columns: the device's axes along B axes, which are those of its first body at zero. At
-    /// zero the wheel turns about x.
+    /// Columns: the device's axes, those of its first body at zero, expressed in *B*. At
+    /// zero, the wheel turns about x.
     pub mount: Matrix3<T>,
-    /// `r_{W/B}`, origin of the wheel from B, *B axes*, m.
+    /// `r_{W/B}`, origin of the wheel from B, expressed in *B*, m.
     pub r_w_b: Vector3<T>,
-    /// `m_W`, mass of the wheel, kg; above zero.
+    /// `m_W`, mass of the wheel, kg. Above zero.
     pub m_w: T,
-    /// `d`: the centre of mass of the wheel stands on its Y axis, this far from its origin,
-    /// m.
+    /// `d`, centre of mass of the wheel from its origin, on its y axis, m.
     pub d: T,
-    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, its own axes, kg m².
+    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, expressed in the axes of
+    /// the wheel, kg m².
     pub i_w_wc: Matrix3<T>,
     /// Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.
     pub passive: PerJoint<Passive<T>>,
-    /// Whether the imbalance is coupled with everything else, or lumped as in the simplified
-    /// model.
+    /// Whether the imbalance is coupled with all motion or lumped.
     pub model: ImbalanceModel,
 }
 
@@ -279,11 +279,14 @@ impl<T: Scalar> Kind for ReactionWheel<T> {
     type Scalar = T;
     type Motors = MotorTorques<T>;
 
+    const NAME: &'static str = "reaction_wheel";
+
     const JOINTS: &'static [JointInfo] = &[JointInfo {
         index: 0,
         body: "wheel",
         coordinate: "theta",
         rate: "spin",
+        acceleration: "spin_dot",
         motor: "u_w",
         axis: 0,
         slides: false,
@@ -291,6 +294,80 @@ impl<T: Scalar> Kind for ReactionWheel<T> {
         driven: true,
         tip: true,
     }];
+
+    const PARAMETERS: &'static [ParameterInfo] = &[
+        ParameterInfo {
+            name: "mount",
+            symbol: "mount",
+            unit: "1",
+            shape: Shape::Rotation,
+            frame: Some("B"),
+            body: None,
+            meaning: "columns: the device's axes, those of its first body at zero",
+        },
+        ParameterInfo {
+            name: "r_w_b",
+            symbol: "r_{W/B}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("B"),
+            body: Some("wheel"),
+            meaning: "origin of the wheel from B",
+        },
+        ParameterInfo {
+            name: "m_w",
+            symbol: "m_W",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("wheel"),
+            meaning: "mass of the wheel",
+        },
+        ParameterInfo {
+            name: "d",
+            symbol: "d",
+            unit: "m",
+            shape: Shape::Scalar,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "centre of mass of the wheel from its origin, on its y axis",
+        },
+        ParameterInfo {
+            name: "i_w_wc",
+            symbol: "[I_{W,Wc}]",
+            unit: "kg m²",
+            shape: Shape::Symmetric,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "inertia of the wheel about its centre of mass",
+        },
+        ParameterInfo {
+            name: "model",
+            symbol: "",
+            unit: "",
+            shape: Shape::Model,
+            frame: None,
+            body: Some("wheel"),
+            meaning: "whether the imbalance is coupled with all motion or lumped",
+        },
+    ];
+
+    fn parameter_mut(&mut self, name: &str) -> Option<ParameterMut<'_, T>> {
+        let field = match name {
+            "mount" => ParameterMut::Matrix(&mut self.mount),
+            "r_w_b" => ParameterMut::Vector(&mut self.r_w_b),
+            "m_w" => ParameterMut::Scalar(&mut self.m_w),
+            "d" => ParameterMut::Scalar(&mut self.d),
+            "i_w_wc" => ParameterMut::Matrix(&mut self.i_w_wc),
+            "model" => ParameterMut::Model(&mut self.model),
+            _ => return None,
+        };
+        Some(field)
+    }
+
+    fn passive_mut(&mut self) -> &mut PerJoint<Passive<T>> {
+        &mut self.passive
+    }
 
     fn at_rest() -> Joints<T> {
         Joints { theta: zero(), spin: zero() }

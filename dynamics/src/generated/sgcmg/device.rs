@@ -14,7 +14,8 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
-    Lumped, Value, Wrenches, components, entries, no_inertia, unit, vector, zero,
+    Lumped, ParameterInfo, ParameterMut, Shape, Value, Wrenches, components, entries, no_inertia,
+    unit, vector, zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
@@ -27,30 +28,32 @@ use crate::{Angle, Passive, Real, Scalar, Wrench};
 /// element).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sgcmg<T = f64> {
-    /// Columns: the device's axes along B axes, which are those of its first body at zero. At
-    /// zero the gimbal turns about z, the wheel turns about x.
+    /// Columns: the device's axes, those of its first body at zero, expressed in *B*. At
+    /// zero, the gimbal turns about z, the wheel turns about x.
     pub mount: Matrix3<T>,
-    /// `r_{G/B}`, origin of the gimbal from B, *B axes*, m.
+    /// `r_{G/B}`, origin of the gimbal from B, expressed in *B*, m.
     pub r_g_b: Vector3<T>,
-    /// `m_G`, mass of the gimbal, kg; zero is legal.
+    /// `m_G`, mass of the gimbal, kg. Zero is legal.
     pub m_g: T,
-    /// `r_{Gc/G}`, centre of mass of the gimbal, its own axes, m.
+    /// `r_{Gc/G}`, centre of mass of the gimbal from its origin, expressed in the axes of the
+    /// gimbal, m.
     pub r_gc_g: Vector3<T>,
-    /// `[I_{G,Gc}]`, inertia of the gimbal about its centre of mass, its own axes, kg m².
+    /// `[I_{G,Gc}]`, inertia of the gimbal about its centre of mass, expressed in the axes of
+    /// the gimbal, kg m².
     pub i_g_gc: Matrix3<T>,
-    /// `Lᵍ`, origin of the wheel from the origin of the gimbal, axes of the gimbal, m.
+    /// `Lᵍ`, origin of the wheel from the origin of the gimbal, expressed in the axes of the
+    /// gimbal, m.
     pub l_g: Vector3<T>,
-    /// `m_W`, mass of the wheel, kg; above zero.
+    /// `m_W`, mass of the wheel, kg. Above zero.
     pub m_w: T,
-    /// `d`: the centre of mass of the wheel stands on its Y axis, this far from its origin,
-    /// m.
+    /// `d`, centre of mass of the wheel from its origin, on its y axis, m.
     pub d: T,
-    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, its own axes, kg m².
+    /// `[I_{W,Wc}]`, inertia of the wheel about its centre of mass, expressed in the axes of
+    /// the wheel, kg m².
     pub i_w_wc: Matrix3<T>,
     /// Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.
     pub passive: PerJoint<Passive<T>>,
-    /// Whether the imbalance is coupled with everything else, or lumped as in the simplified
-    /// model.
+    /// Whether the imbalance is coupled with all motion or lumped.
     pub model: ImbalanceModel,
 }
 
@@ -317,12 +320,15 @@ impl<T: Scalar> Kind for Sgcmg<T> {
     type Scalar = T;
     type Motors = MotorTorques<T>;
 
+    const NAME: &'static str = "sgcmg";
+
     const JOINTS: &'static [JointInfo] = &[
         JointInfo {
             index: 0,
             body: "gimbal",
             coordinate: "gamma",
             rate: "gamma_dot",
+            acceleration: "gamma_ddot",
             motor: "u_g",
             axis: 2,
             slides: false,
@@ -335,6 +341,7 @@ impl<T: Scalar> Kind for Sgcmg<T> {
             body: "wheel",
             coordinate: "theta",
             rate: "spin",
+            acceleration: "spin_dot",
             motor: "u_w",
             axis: 0,
             slides: false,
@@ -343,6 +350,120 @@ impl<T: Scalar> Kind for Sgcmg<T> {
             tip: true,
         },
     ];
+
+    const PARAMETERS: &'static [ParameterInfo] = &[
+        ParameterInfo {
+            name: "mount",
+            symbol: "mount",
+            unit: "1",
+            shape: Shape::Rotation,
+            frame: Some("B"),
+            body: None,
+            meaning: "columns: the device's axes, those of its first body at zero",
+        },
+        ParameterInfo {
+            name: "r_g_b",
+            symbol: "r_{G/B}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("B"),
+            body: Some("gimbal"),
+            meaning: "origin of the gimbal from B",
+        },
+        ParameterInfo {
+            name: "m_g",
+            symbol: "m_G",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("gimbal"),
+            meaning: "mass of the gimbal",
+        },
+        ParameterInfo {
+            name: "r_gc_g",
+            symbol: "r_{Gc/G}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("gimbal"),
+            body: Some("gimbal"),
+            meaning: "centre of mass of the gimbal from its origin",
+        },
+        ParameterInfo {
+            name: "i_g_gc",
+            symbol: "[I_{G,Gc}]",
+            unit: "kg m²",
+            shape: Shape::Symmetric,
+            frame: Some("gimbal"),
+            body: Some("gimbal"),
+            meaning: "inertia of the gimbal about its centre of mass",
+        },
+        ParameterInfo {
+            name: "l_g",
+            symbol: "Lᵍ",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("gimbal"),
+            body: Some("wheel"),
+            meaning: "origin of the wheel from the origin of the gimbal",
+        },
+        ParameterInfo {
+            name: "m_w",
+            symbol: "m_W",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("wheel"),
+            meaning: "mass of the wheel",
+        },
+        ParameterInfo {
+            name: "d",
+            symbol: "d",
+            unit: "m",
+            shape: Shape::Scalar,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "centre of mass of the wheel from its origin, on its y axis",
+        },
+        ParameterInfo {
+            name: "i_w_wc",
+            symbol: "[I_{W,Wc}]",
+            unit: "kg m²",
+            shape: Shape::Symmetric,
+            frame: Some("wheel"),
+            body: Some("wheel"),
+            meaning: "inertia of the wheel about its centre of mass",
+        },
+        ParameterInfo {
+            name: "model",
+            symbol: "",
+            unit: "",
+            shape: Shape::Model,
+            frame: None,
+            body: Some("wheel"),
+            meaning: "whether the imbalance is coupled with all motion or lumped",
+        },
+    ];
+
+    fn parameter_mut(&mut self, name: &str) -> Option<ParameterMut<'_, T>> {
+        let field = match name {
+            "mount" => ParameterMut::Matrix(&mut self.mount),
+            "r_g_b" => ParameterMut::Vector(&mut self.r_g_b),
+            "m_g" => ParameterMut::Scalar(&mut self.m_g),
+            "r_gc_g" => ParameterMut::Vector(&mut self.r_gc_g),
+            "i_g_gc" => ParameterMut::Matrix(&mut self.i_g_gc),
+            "l_g" => ParameterMut::Vector(&mut self.l_g),
+            "m_w" => ParameterMut::Scalar(&mut self.m_w),
+            "d" => ParameterMut::Scalar(&mut self.d),
+            "i_w_wc" => ParameterMut::Matrix(&mut self.i_w_wc),
+            "model" => ParameterMut::Model(&mut self.model),
+            _ => return None,
+        };
+        Some(field)
+    }
+
+    fn passive_mut(&mut self) -> &mut PerJoint<Passive<T>> {
+        &mut self.passive
+    }
 
     fn at_rest() -> Joints<T> {
         Joints { gamma: zero(), theta: zero(), gamma_dot: zero(), spin: zero() }

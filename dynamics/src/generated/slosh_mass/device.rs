@@ -14,19 +14,21 @@ use crate::generated::hub::{
 };
 use crate::kind::{
     BodyParameters, Carried, Drive, Each, ImbalanceModel, JointInfo, JointStates, Kernels, Kind,
-    Value, Wrenches, components, no_inertia, unit, vector, zero,
+    ParameterInfo, ParameterMut, Shape, Value, Wrenches, components, no_inertia, unit, vector,
+    zero,
 };
 use crate::{Angle, Passive, Real, Scalar, Wrench};
 
 /// Slosh mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SloshMass<T = f64> {
-    /// Columns: the device's axes along B axes, which are those of its first body at zero. At
-    /// zero the slosh mass slides along x.
+    /// Columns: the device's axes, those of its first body at zero, expressed in *B*. At
+    /// zero, the slosh mass slides along x.
     pub mount: Matrix3<T>,
-    /// `r_{S/B}`, origin of the slosh mass from B, *B axes*, where its coordinate is zero, m.
+    /// `r_{S/B}`, origin of the slosh mass from B, where its coordinate is zero, expressed in
+    /// *B*, m.
     pub r_s_b: Vector3<T>,
-    /// `m_S`, mass of the slosh mass, kg; above zero.
+    /// `m_S`, mass of the slosh mass, kg. Above zero.
     pub m_s: T,
     /// Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.
     pub passive: PerJoint<Passive<T>>,
@@ -264,11 +266,14 @@ impl<T: Scalar> Kind for SloshMass<T> {
     type Scalar = T;
     type Motors = MotorTorques<T>;
 
+    const NAME: &'static str = "slosh_mass";
+
     const JOINTS: &'static [JointInfo] = &[JointInfo {
         index: 0,
         body: "slosh mass",
         coordinate: "x",
         rate: "x_dot",
+        acceleration: "x_ddot",
         motor: "u_s",
         axis: 0,
         slides: true,
@@ -276,6 +281,50 @@ impl<T: Scalar> Kind for SloshMass<T> {
         driven: true,
         tip: true,
     }];
+
+    const PARAMETERS: &'static [ParameterInfo] = &[
+        ParameterInfo {
+            name: "mount",
+            symbol: "mount",
+            unit: "1",
+            shape: Shape::Rotation,
+            frame: Some("B"),
+            body: None,
+            meaning: "columns: the device's axes, those of its first body at zero",
+        },
+        ParameterInfo {
+            name: "r_s_b",
+            symbol: "r_{S/B}",
+            unit: "m",
+            shape: Shape::Vector,
+            frame: Some("B"),
+            body: Some("slosh mass"),
+            meaning: "origin of the slosh mass from B, where its coordinate is zero",
+        },
+        ParameterInfo {
+            name: "m_s",
+            symbol: "m_S",
+            unit: "kg",
+            shape: Shape::Scalar,
+            frame: None,
+            body: Some("slosh mass"),
+            meaning: "mass of the slosh mass",
+        },
+    ];
+
+    fn parameter_mut(&mut self, name: &str) -> Option<ParameterMut<'_, T>> {
+        let field = match name {
+            "mount" => ParameterMut::Matrix(&mut self.mount),
+            "r_s_b" => ParameterMut::Vector(&mut self.r_s_b),
+            "m_s" => ParameterMut::Scalar(&mut self.m_s),
+            _ => return None,
+        };
+        Some(field)
+    }
+
+    fn passive_mut(&mut self) -> &mut PerJoint<Passive<T>> {
+        &mut self.passive
+    }
 
     fn at_rest() -> Joints<T> {
         Joints { x: zero(), x_dot: zero() }
