@@ -32,7 +32,7 @@ pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
     let data = &chain.kind.links[0].body;
     script.section(
         "rate",
-        format!("ω_{{B/N}} along the axes of the {}, eq. (C1), rad/s.", data.title),
+        format!("ω_{{B/N}}, expressed in the axes of the {}, eq. (C1), rad/s.", data.title),
     );
     script.names(pairs(triple("omega_b_n", data.frame), omega.components()));
     let carriers = carriers(chain, &based, omega, script);
@@ -52,7 +52,7 @@ fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub
     let along_b = |v: Vector<'g, Carrier>| chain.mounted(v);
     let axes = [X, Y, Z]
         .map(|axis| along_b(Vector::<Own>::unit(chain.graph, axis).turned(link.turn.inverse())));
-    script.section("axis", format!("Axes of the {}, eq. (A1), along B axes, 1.", data.title));
+    script.section("axis", format!("Axes of the {}, eq. (A1), expressed in B, 1.", data.title));
     for (axis, letter) in axes.into_iter().zip(["x", "y", "z"]) {
         script.names(pairs(triple(&format!("e_{letter}"), "b"), axis.components()));
     }
@@ -136,8 +136,8 @@ impl<'g> Walk<'g> {
         script.section(
             "lump",
             format!(
-                "What lies behind the {}'s joint, of {whole}, by base parameters, eqs. (B1), (B2): \
-                 first moment, kg m, and inertia, kg m².",
+                "Outboard composite of the {}'s joint, {whole} by base parameters, eqs. (B1), \
+                 (B2): first moment, kg m, and inertia, kg m².",
                 data.body.title
             ),
         );
@@ -179,8 +179,8 @@ impl<'g> Walk<'g> {
         script.section(
             "coriolis",
             format!(
-                "Force, N, and moment, N m, that the joints' rates from the {}'s on ask for, eq. \
-                 (C2).",
+                "Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of \
+                 the {}'s joint, eq. (C2).",
                 data.body.title
             ),
         );
@@ -197,7 +197,7 @@ impl<'g> Walk<'g> {
         script: &mut Script<'g>,
     ) -> Share<'g> {
         let reach = chain.mounted(based.links[0].origin);
-        script.section("place", "Origin of the first joint, eq. (A2), along B axes, m.");
+        script.section("place", "Origin of the first joint, eq. (A2), expressed in B, m.");
         let reach = named(script, "reach", reach);
         let along_b = |v: Vector<'g, Own>| {
             let [x, y, z] = v.components();
@@ -213,7 +213,7 @@ impl<'g> Walk<'g> {
             "col",
             format!(
                 "M_vi, eq. (17), {}, and M_wi, eq. (75), {}: force and moment about B per unit \
-                 acceleration, along B axes.",
+                 acceleration, expressed in B.",
                 units(links, |units| units.force),
                 units(links, |units| units.moment),
             ),
@@ -233,8 +233,8 @@ impl<'g> Walk<'g> {
         script.section(
             "moment",
             format!(
-                "What moves of {}, about B, along B axes: first moment, eq. (9), kg m, and \
-                 inertia, eq. (76), kg m².",
+                "{} without the constant share, about B, expressed in B: first moment, eq. (9), \
+                 kg m, and inertia, eq. (76), kg m².",
                 whole.to_uppercase()
             ),
         );
@@ -249,8 +249,8 @@ impl<'g> Walk<'g> {
 
         script.section(
             "bias",
-            "Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B \
-             axes, N and N m.",
+            "Coriolis and centrifugal force, N, and moment about B, N m, of the joints' rates, eqs. \
+             (16), (75), expressed in B.",
         );
         let (f, n, arm) = on_hub(&self.rates);
         let bias_force = cut(script, "f_rates", f);
@@ -258,7 +258,7 @@ impl<'g> Walk<'g> {
 
         script.section(
             "reach",
-            "Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².",
+            "Acceleration of the first joint's origin as fixed in the hub, eq. (C1), m/s².",
         );
         let carried = chain.hub.omega.cross(chain.hub.omega.cross(reach));
         let carried = named(script, "r_first_rest", carried);
@@ -308,18 +308,18 @@ impl<'g> Walk<'g> {
     }
 }
 
-/// What the hub takes over of a device, about B along B axes: parameters alone.
-pub fn handed<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
-    let Lump { first_moment, inertia, .. } = based(chain, script).handed;
+/// Constant share of the hub: what a device adds to it whatever its joints do.
+pub fn constant_share<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
+    let Lump { first_moment, inertia, .. } = based(chain, script).constant_share;
     let mass = chain.links.iter().skip(1).fold(chain.links[0].mass, |sum, link| sum + link.mass);
     script.section(
-        "hand",
-        "What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg \
-         m², along B axes.",
+        "share",
+        "Constant share of the hub, eq. (B2): mass, kg, first moment, kg m, and inertia about B, \
+         kg m², expressed in B.",
     );
-    script.name("hand_m", mass);
-    named(script, "hand_mr", chain.mounted(first_moment));
-    script.names(pairs(sextuple("hand_i"), chain.mounted_tensor(inertia).entries()));
+    script.name("constant_m", mass);
+    named(script, "constant_mr", chain.mounted(first_moment));
+    script.names(pairs(sextuple("constant_i"), chain.mounted_tensor(inertia).entries()));
 }
 
 fn named<'g>(script: &mut Script<'g>, stem: &str, v: Vector<'g, Hub>) -> Vector<'g, Hub> {

@@ -8,7 +8,7 @@
 //! - *regroup* (B2): a mass on the axis of a turning joint, or spread along it, does not notice the
 //!   turning. Three of a body's ten parameters move to its carrier: its mass, the first moment along
 //!   the axis, and one moment of inertia across it. Behind a sliding joint the whole inertia does.
-//!   What reaches the hub is handed over to it: a massless device is left.
+//!   What reaches the hub is its constant share: a massless device is left.
 //!
 //! What the passes leave is a polynomial in the parameters, and is stated as its normal form: where a
 //! large moment was added and taken out again, `m l^2` of a long arm, no rounding of it stays behind.
@@ -63,8 +63,8 @@ pub(super) struct Base<'g> {
 pub(super) struct Based<'g> {
     /// From the hub outwards.
     pub(super) links: Vec<Base<'g>>,
-    /// What the hub takes over, about B along the device's axes.
-    pub(super) handed: Lump<'g, Carrier>,
+    /// Constant share of the hub, about B along the device's axes.
+    pub(super) constant_share: Lump<'g, Carrier>,
 }
 
 /// Makes the passes; the bodies' own lumps go to `script`.
@@ -77,8 +77,9 @@ pub(super) fn based<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Based<'g>
     if passes.slide {
         slide(chain, &mut links);
     }
-    let handed = if passes.regroup { regroup(chain, &mut links) } else { Lump::zero(chain.graph) };
-    let mut based = Based { links, handed };
+    let constant_share =
+        if passes.regroup { regroup(chain, &mut links) } else { Lump::zero(chain.graph) };
+    let mut based = Based { links, constant_share };
     if passes.slide || passes.regroup {
         based.settle(chain, script);
     }
@@ -100,7 +101,7 @@ impl<'g> Based<'g> {
             let carrier = k.checked_sub(1).map_or("d", |inner| chain.kind.links[inner].body.frame);
             base.name(data, carrier, script);
         }
-        self.handed = self.handed.map(&mut settled);
+        self.constant_share = self.constant_share.map(&mut settled);
     }
 }
 
@@ -148,10 +149,10 @@ fn slide<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) {
 
 /// (B2), from the tip to the hub.
 fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
-    let mut handed = Lump::zero(chain.graph);
+    let mut constant_share = Lump::zero(chain.graph);
     for (k, link) in chain.links.iter().enumerate().rev() {
         let own = &mut links[k];
-        own.lump = own.lump.plus(handed.handed_back());
+        own.lump = own.lump.plus(constant_share.handed_back());
         let axis = chain.kind.links[k].joint.motion.axis();
         let moved = movable(own.lump, link.coordinate, axis);
         own.lump = own.lump.less(moved);
@@ -161,13 +162,13 @@ fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
             first_moment: Vector::new(moved.first_moment.components()),
             inertia: Symmetric::new(moved.inertia.entries()),
         };
-        handed = match link.coordinate {
+        constant_share = match link.coordinate {
             Coordinate::Angle(_) => moved.shifted(own.origin),
             // No mass goes with it, and an inertia alone is the same about every origin.
             Coordinate::Length(_) => moved,
         };
     }
-    handed
+    constant_share
 }
 
 /// What does not notice that its joint moves.

@@ -68,7 +68,7 @@ pub(super) fn carriers<'g>(
         script.section(
             "rate",
             format!(
-                "ω_{{{letter}/N}}, eq. {}, along its own axes, rad/s.",
+                "ω_{{{letter}/N}}, eq. {}, expressed in its own axes, rad/s.",
                 data.body.equations.omega
             ),
         );
@@ -77,7 +77,7 @@ pub(super) fn carriers<'g>(
         script.section(
             "turn",
             format!(
-                "Its derivative as in eq. {}, no joint accelerating, along the same axes, rad/s².",
+                "Its derivative as in eq. {}, no joint accelerating, expressed in the same axes, rad/s².",
                 data.body.equations.h_dot
             ),
         );
@@ -97,7 +97,7 @@ pub(super) fn carriers<'g>(
         script.section(
             "path",
             format!(
-                "Acceleration of {} as the {body} carries it, eq. (C1), along the {body}'s axes, \
+                "Acceleration of {} as fixed in the {body}, eq. (C1), expressed in its axes, \
                  m/s².",
                 outer.letters[0],
             ),

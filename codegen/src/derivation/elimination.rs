@@ -93,7 +93,7 @@ fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Ve
     let kind = chain.kind;
     let equations: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
     let title = format!(
-        "Right side of each joint, {} {}: motor torque less what the rest asks for, {}.",
+        "Right side of each joint, {} {}: motor torque less what the other terms require, {}.",
         if equations.len() == 1 { "eq." } else { "eqs." },
         equations.join(", "),
         units(kind.driven(), |units| units.drive)

@@ -19,7 +19,7 @@ pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         script.section(
             "sum",
             format!(
-                "On {whole}, the {} and what it carries, eq. (F1): force, N, and moment \
+                "On {whole}, the {} and the bodies outboard of it, eq. (F1): force, N, and moment \
                  about {}, N m.",
                 body.title, body.letters[0],
             ),

@@ -1,5 +1,5 @@
-//! The second file of a kind: its parameters, joints and motors as a user states them, and the
-//! interface between them and the emitted kernels that the solver asks.
+//! The second file of a kind: its parameters, joints and motors as a user states them, and the calls
+//! of the emitted kernels by the solver.
 //!
 //! Everything here follows from the kind's data and from the signatures of its kernels: no equation.
 
@@ -20,6 +20,7 @@ use crate::kinds::{Body, Centre, Inertia, Kind, Link, Motion};
 pub(super) type Signatures = BTreeMap<String, Signature>;
 
 /// How a kernel is called.
+#[derive(Debug)]
 pub(super) struct Signature {
     /// The letters of its arguments.
     pub(super) letters: Vec<&'static str>,
@@ -54,7 +55,8 @@ pub(super) fn device_file(
     let mut context = Context::new();
     context.insert("command", home.command());
     context.insert("source", kind.source);
-    context.insert("hash", &fnv1a64(&format!("{kind:?}")));
+    let made_from = format!("{kind:?}{signatures:?}");
+    context.insert("hash", &fnv1a64(&(made_from + include_str!("templates/device.rs.tera"))));
     context.insert("title", &capital(kind.title));
     context.insert("imports", &imports(home.dynamics(), &body));
     context.insert("records", &[structure(kind), joints(kind), motors(kind), per_joint(kind)]);
@@ -85,9 +87,9 @@ fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
         "BodyAcceleration",
         "BodyRate",
         "BodyVelocity",
+        "ConstantShare",
         "EnergyMomentum",
         "Gradient",
-        "Handed",
         "HubShare",
     ];
     let kind = [
@@ -200,8 +202,7 @@ fn structure(kind: &Kind) -> Record {
     }
     if kind.links.iter().any(|link| matches!(link.body.inertia, Inertia::Full(_))) {
         doc.push_str(
-            "\n\nProducts of inertia stand in the tensors with the sign they have there (`J_13` is \
-             the element).",
+            "\n\nProducts of inertia have the sign of the tensor's entries: `J_13` is entry 13.",
         );
     }
     record(&format!("{}<T = f64>", kind.type_name()), &doc, fields)
@@ -212,7 +213,7 @@ fn joints(kind: &Kind) -> Record {
     let (mut coordinates, mut rates) = (Vec::new(), Vec::new());
     for (k, link) in kind.links.iter().enumerate() {
         let (joint, title) = (&link.joint, link.body.title);
-        let carrier = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
+        let parent = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
         let (what, unit, axis) = match joint.motion {
             Motion::Turn(axis) => ("Angle", "rad", axis),
             Motion::Slide(axis) => ("Position", "m", axis),
@@ -222,7 +223,7 @@ fn joints(kind: &Kind) -> Record {
         let doc = format!("{what} of the {title}, {about} its {axis} axis, {unit}.");
         coordinates.push(field(joint.coordinate, &doc, "T"));
         let unit = joint.motion.units().rate;
-        let doc = format!("`{}`, its rate relative to the {carrier}, {unit}.", joint.symbols[0]);
+        let doc = format!("`{}`, its rate relative to the {parent}, {unit}.", joint.symbols[0]);
         rates.push(field(joint.rate, &doc, "T"));
     }
     coordinates.extend(rates);
@@ -232,16 +233,16 @@ fn joints(kind: &Kind) -> Record {
 /// What the motors exert.
 fn motors(kind: &Kind) -> Record {
     let fields = kind.links.iter().enumerate().map(|(k, link)| {
-        let carrier = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
+        let parent = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
         let unit = link.joint.motion.units().drive;
         field(
             link.joint.torque,
-            &format!("{} on {}, {unit}.", capital(carrier), link.body.title),
+            &format!("{} on {}, {unit}.", capital(parent), link.body.title),
             "T",
         )
     });
-    let doc = "What the motors exert, each on the body it drives and, reversed, on its carrier. \
-               Not asked at a joint whose acceleration is given.";
+    let doc = "Torques or forces of the motors, each on the child body and, reversed, on the parent \
+               body. Not read at a joint whose acceleration is given.";
     record("MotorTorques<T = f64>", doc, fields.collect())
 }
 
@@ -251,6 +252,6 @@ fn per_joint(kind: &Kind) -> Record {
         let doc = format!("Of the {}.", link.body.title);
         field(&body_name(&link.body), &doc, "V")
     });
-    let doc = "A value for each joint, by the body behind it.";
+    let doc = "A value for each joint, by its child body.";
     record("PerJoint<V>", doc, fields.collect())
 }

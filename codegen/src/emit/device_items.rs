@@ -103,18 +103,18 @@ impl Items<'_> {
             fields.push("model: ImbalanceModel::Coupled".to_owned());
         }
         let carried = self.links().len() > 1;
-        let carriers = if carried { "carriers without mass, " } else { "" };
+        let carriers = if carried { "other bodies without mass, " } else { "" };
         let mut doc = vec![
             format!(
-                "A bare {} at the hub's point B: {carriers}nothing offset, mount along B axes.",
+                "A bare {} at the hub's point B: {carriers}nothing offset, mount the identity.",
                 tip.title
             ),
             "Meant as a start for struct update syntax.".to_owned(),
         ];
         if carried {
             doc.push(
-                "Massless carriers are legal, and singular in the pose where one would turn about \
-                 the axis of the outermost body."
+                "Massless bodies are legal, and singular in the pose where one would turn about \
+                 the axis of the tip."
                     .to_owned(),
             );
         }
@@ -254,8 +254,8 @@ impl Items<'_> {
         ];
         items.extend(self.balanced());
         items.push(self.constants());
-        let handed = "handed(constants: &super::Prepared<T>) -> Handed<T>";
-        items.push(function(handed, "        super::handed(constants)"));
+        let share = "constant_share(constants: &super::Prepared<T>) -> ConstantShare<T>";
+        items.push(function(share, "        super::constant_share(constants)"));
         items.extend(self.motion());
         items.extend(self.carried());
         format!("impl<T: Scalar> Kind for {name}<T> {{\n{}\n}}", items.join("\n\n"))

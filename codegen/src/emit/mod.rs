@@ -17,6 +17,7 @@ mod factor;
 mod file;
 mod functions;
 mod home;
+mod inputs;
 mod layout;
 mod parts;
 mod prepare;

@@ -32,7 +32,10 @@ pub fn shared(registry: &[Entry], kinds: &[Emitted]) -> Result<Vec<EmittedFile>,
     let rust_file = |name: &str, text| rust_file(Home::Dynamics.path(name), text);
     let records: Vec<_> = shared_records().iter().map(record_text).collect();
     let mut context = Context::new();
-    context.insert("hash", &fnv1a64(&format!("{:?}", shared_records())));
+    context.insert(
+        "hash",
+        &fnv1a64(&(format!("{:?}", shared_records()) + include_str!("templates/hub.rs.tera"))),
+    );
     context.insert("records", &records);
     let hub = rust_file("hub.rs", tera.render("hub.rs", &context)?)?;
 
@@ -41,7 +44,8 @@ pub fn shared(registry: &[Entry], kinds: &[Emitted]) -> Result<Vec<EmittedFile>,
         .iter()
         .map(|entry| (entry.kind.type_name(), entry.kind.name, entry.number))
         .collect();
-    context.insert("hash", &fnv1a64(&format!("{listed:?}")));
+    context
+        .insert("hash", &fnv1a64(&(format!("{listed:?}") + include_str!("templates/mod.rs.tera"))));
     context.insert("kinds", &listed);
     listed.sort_unstable_by_key(|(_, module, _)| *module);
     context.insert("by_module", &listed);

@@ -14,7 +14,9 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     axes(chain, &mut script);
     Kernel {
         name: "axes".to_owned(),
-        doc: vec!["Axes of each body and origin of its joint, along the device's B axes.".into()],
+        doc: vec![
+            "Axes of each body and origin of its joint, expressed in the device's axes.".into(),
+        ],
         inputs: records::placed(chain.kind),
         sections: script.sections,
         output: output(chain.kind),
@@ -23,11 +25,11 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
 }
 
 fn output(kind: &Kind) -> Record {
-    let doc = "Axes of the bodies and origins of their joints, along the device's B axes.";
+    let doc = "Axes of the bodies and origins of their joints, expressed in the device's axes.";
     let mut record = Record::new("Axes", doc);
     for (k, link) in kind.links.iter().enumerate() {
         let (frame, [letter, _]) = (link.body.frame, link.body.letters);
-        let whose = if kind.axes_turn(k) { "" } else { "carrier of the " };
+        let whose = if kind.axes_turn(k) { "" } else { "parent body of the " };
         for (axis, symbol) in XYZ.iter().zip(["First", "Second", "Third"]) {
             let title = link.body.title;
             let doc = format!("{symbol} axis of the {whose}{title}, eq. (A1)");

@@ -28,7 +28,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>, Reco
                 torques.join(", ")
             ),
             "eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose".into(),
-            "acceleration is given has no equation: what it asks for goes to the right side."
+            "acceleration is given has no equation: what it requires goes to the right side."
                 .into(),
         ],
         inputs: inputs(kind, [("w", records::body_rate())].into_iter().chain(drives)),

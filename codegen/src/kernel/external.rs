@@ -16,7 +16,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     inputs.push(("x", records::wrenches(chain.kind)));
     Kernel {
         name: "external".to_owned(),
-        doc: vec!["What acts on the bodies from outside, carried inwards.".to_owned()],
+        doc: vec!["External wrenches on the bodies, summed from the tip inwards.".to_owned()],
         inputs,
         sections: script.sections,
         output: output(chain.kind),
@@ -25,12 +25,13 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
 }
 
 fn output(kind: &Kind) -> Record {
-    let doc = "What acts from outside: on each body and all outside it, along own axes, moments \
-               about its joint's origin; along each joint, to be added to its motor's; on the hub.";
+    let doc = "External wrenches: on each body with all bodies outboard of it, expressed in its own \
+               axes, moments about its joint's origin; along each joint, to be added to its \
+               motor's; on the hub.";
     let mut record = Record::new("External", doc);
     for link in kind.links {
         let (body, joint) = (&link.body, &link.joint);
-        let on = format!("the {} and what it carries, eq. (F1)", body.title);
+        let on = format!("the {} and the bodies outboard of it, eq. (F1)", body.title);
         record.wrench("sum", body.frame, &on, body.letters[0]);
         let doc =
             format!("Along the {}'s joint, eq. (F2), {}.", body.title, joint.motion.units().drive);

@@ -17,7 +17,8 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     Kernel {
         name: "gravity".to_owned(),
         doc: vec![
-            "What a field of acceleration `G r` does to each body: hand it to [`external`].".into(),
+            "Wrench of a field of acceleration `G r` on each body, an argument of [`external`]."
+                .into(),
         ],
         inputs,
         sections: script.sections,
@@ -27,9 +28,12 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
 }
 
 fn output(kind: &Kind) -> Record {
-    let mut record = Record::new("Gravity", "What a field of acceleration does to a device.");
+    let mut record = Record::new(
+        "Gravity",
+        "Wrenches of a field of acceleration, and the second moment of the device.",
+    );
     record.nested("wrenches", records::wrenches(kind), "On each body, eq. (G2).");
-    let doc = "S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3)";
+    let doc = "S = ∫ r rᵀ dm of the device about B, expressed in the device's axes, eq. (G3)";
     record.tensor("second_moment", doc, "kg m²");
     record
 }

@@ -112,11 +112,11 @@ fn body<'g>(
     b.vector(["rate", equations.omega, &stem, own, &title, "rad/s"], motion.omega, omega);
 
     let r = format!("r_{point}_b");
-    let title = format!("r_{{{point_letter}/B}}, behind eq. {}", equations.r_dprime);
+    let title = format!("r_{{{point_letter}/B}}, see eq. {}", equations.r_dprime);
     let whole = vector(reference.r, k).components();
     b.vector(["pos", "(step)", &r, carrier, &title, "m"], motion.centre.position, whole);
     let prime = format!("{r}_prime");
-    let title = format!("r′_{{{point_letter}/B}}, behind eq. {}", equations.r_dprime);
+    let title = format!("r′_{{{point_letter}/B}}, see eq. {}", equations.r_dprime);
     let whole = vector(r_prime, k).components();
     b.vector(["vel", "(step)", &prime, carrier, &title, "m/s"], motion.centre.velocity, whole);
 
@@ -145,7 +145,7 @@ fn body<'g>(
     let rest = acceleration.without(Stage::Acceleration);
     b.vector(["acc", tag, &stem, carrier, &title, "m/s²"], rest, whole);
 
-    let along = format!("along the axes of the {}", data.title);
+    let along = format!("expressed in the axes of the {}", data.title);
     let i_prime = link.inertia.prime(motion.axes);
     let stem = format!("i_{own}_{point}_prime");
     let title =
@@ -189,8 +189,8 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
     let record = Record::new(
         "FirstMoment",
         &format!(
-            "A device's share of `m_sc c` and its derivatives seen from B, along the device's B \
-             axes: `m_sc c″ = {} + f̃`.",
+            "A device's share of `m_sc c` and its derivatives seen from B, expressed in the \
+             device's axes: `m_sc c″ = {} + f̃`.",
             terms.join(" + ")
         ),
     );
@@ -203,7 +203,7 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
     let mc_dprime = mc_prime.component_rates();
     let title = "Σ m r, share of m_sc c, eq. (9)";
     b.vector(["mom", "(9)", "mc", "b", title, "kg m"], share.first_moment, mc.components());
-    let title = "Σ m r′, share of m_sc c′, behind eq. (11)";
+    let title = "Σ m r′, share of m_sc c′, see eq. (11)";
     b.vector(
         ["rate", "(step)", "mc_prime", "b", title, "kg m/s"],
         momenta.linear,

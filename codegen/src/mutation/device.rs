@@ -30,7 +30,7 @@ struct Functions {
     /// One per body, from the hub outwards.
     bodies: Vec<usize>,
     first_moment: usize,
-    handed: usize,
+    constant_share: usize,
     eliminate: usize,
     back_substitute: usize,
     energy_momentum: usize,
@@ -50,7 +50,7 @@ pub(super) struct Device<'a, 'g> {
     /// Sine and cosine of each joint.
     trigonometry: Vec<[Expr<'g>; 2]>,
     /// Fields that `eliminate` hands to `back_substitute`.
-    handed: Vec<(String, Expr<'g>)>,
+    constant_share: Vec<(String, Expr<'g>)>,
 }
 
 impl<'a, 'g> Device<'a, 'g> {
@@ -78,14 +78,14 @@ impl<'a, 'g> Device<'a, 'g> {
         });
         let functions = Functions::of(chain, &listings)?;
         let fields = listings[functions.eliminate].fields.iter();
-        let handed = fields
+        let constant_share = fields
             .filter(|(field, _)| field.starts_with("gain_") || field.starts_with("free_"))
             .map(|(field, _)| (field.clone(), graph.symbol(field, Stage::Rate)));
         Ok(Self {
             chain,
             parameters: parameters_of(chain.kind).iter().map(|name| symbol(name)).collect(),
             trigonometry: trigonometry.collect(),
-            handed: handed.collect(),
+            constant_share: constant_share.collect(),
             listings,
             tapes,
             functions,
@@ -100,7 +100,7 @@ impl<'a, 'g> Device<'a, 'g> {
         }
         let roles = [
             (functions.first_moment, Role::FirstMoment),
-            (functions.handed, Role::Solution),
+            (functions.constant_share, Role::Solution),
             (functions.eliminate, Role::Solution),
             (functions.back_substitute, Role::Solution),
             (functions.energy_momentum, Role::Momenta),
@@ -186,8 +186,11 @@ impl<'a, 'g> Device<'a, 'g> {
     /// All accelerations of hub and device: `eliminate`, the hub's own six equations by Newton and
     /// Euler for one rigid body, `back_substitute`.
     pub(super) fn accelerations(&self, case: &Case, fault: &Fault) -> Accelerations {
-        let functions =
-            [self.functions.eliminate, self.functions.back_substitute, self.functions.handed];
+        let functions = [
+            self.functions.eliminate,
+            self.functions.back_substitute,
+            self.functions.constant_share,
+        ];
         let find = || self.solved(case, fault);
         fault.answer(|known| &known.accelerations, &functions, case, &case.motion, find)
     }
@@ -199,16 +202,16 @@ impl<'a, 'g> Device<'a, 'g> {
         let omega = mount * case.motion.omega;
         values.set_vector(self.chain.hub.omega.components(), omega);
         let device = self.call(self.functions.eliminate, &values, fault);
-        let handed = self.call(self.functions.handed, &values, fault);
+        let constant_share = self.call(self.functions.constant_share, &values, fault);
         let hub = &case.hub;
         let centre = mount * hub.centre;
         let lever = centre.cross_matrix();
         let own = mount * hub.inertia * mount.transpose() - hub.mass * lever * lever;
         // Hub and device as one rigid body.
-        let mass = hub.mass + handed.scalar("hand_m");
-        let moment =
-            hub.mass * centre + (handed.vector("hand_mr", "b") + device.vector("mr_moving", "b"));
-        let inertia = own + (handed.tensor("hand_i") + device.tensor("i_moving"));
+        let mass = hub.mass + constant_share.scalar("constant_m");
+        let moment = hub.mass * centre
+            + (constant_share.vector("constant_mr", "b") + device.vector("mr_moving", "b"));
+        let inertia = own + (constant_share.tensor("constant_i") + device.tensor("i_moving"));
         let mut m = Matrix6::zeros();
         let mut put = |row: usize, column: usize, block: Matrix3<f64>| {
             m.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
@@ -234,7 +237,7 @@ impl<'a, 'g> Device<'a, 'g> {
 
         values.set_vector(self.chain.hub.r_b_n_ddot.components(), part(0));
         values.set_vector(self.chain.hub.omega_dot.components(), part(3));
-        for (field, symbol) in &self.handed {
+        for (field, symbol) in &self.constant_share {
             values.set(*symbol, device.scalar(field));
         }
         let joints = self.call(self.functions.back_substitute, &values, fault);
@@ -290,7 +293,7 @@ impl Functions {
         Ok(Self {
             bodies: bodies.collect::<Result<_, _>>()?,
             first_moment: find("first_moment")?,
-            handed: find("handed")?,
+            constant_share: find("constant_share")?,
             eliminate: find("eliminate")?,
             back_substitute: find("back_substitute")?,
             energy_momentum: find("energy_momentum")?,

@@ -16,4 +16,5 @@ pub use name::{Accent, frame, symbol};
 pub use syntax::{equation, expression, side_by_side};
 pub use terms::terms;
 pub use tex::aligned;
+pub(crate) use unit::unit_of;
 pub use unit::{Balance, Unit, unit};

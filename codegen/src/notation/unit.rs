@@ -96,6 +96,14 @@ impl Balance {
 /// # Errors
 /// The name of a symbol whose unit is not known.
 pub fn unit(e: Expr<'_>) -> Result<Balance, String> {
+    unit_of(e, &HashMap::new())
+}
+
+/// The unit of `e`, with those of the symbols that stand for `named` values.
+///
+/// # Errors
+/// The name of a symbol whose unit is not known.
+pub(crate) fn unit_of(e: Expr<'_>, named: &HashMap<String, Unit>) -> Result<Balance, String> {
     let graph = e.graph();
     let mut known: HashMap<NodeId, Balance> = HashMap::new();
     for id in graph.reachable([e.id()]) {
@@ -104,7 +112,8 @@ pub fn unit(e: Expr<'_>) -> Result<Balance, String> {
             Node::Constant(_) => Balance::Is(Unit::default()),
             Node::Symbol(symbol) => {
                 let name = graph.symbol_info(symbol).name;
-                Balance::Is(of_symbol(&name).ok_or(name)?)
+                let unit = named.get(&name).copied().or_else(|| of_symbol(&name));
+                Balance::Is(unit.ok_or(name)?)
             }
             Node::Neg(a) => known[&a],
             Node::Recip(a) => match known[&a] {

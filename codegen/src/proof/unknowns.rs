@@ -96,14 +96,15 @@ impl<'g> Unknowns<'g> {
         &self,
         chain: &Chain<'g>,
         values: &HashMap<String, Expr<'g>>,
-        handed: &BTreeMap<String, Expr<'g>>,
+        constant_share: &BTreeMap<String, Expr<'g>>,
     ) -> HashMap<String, Expr<'g>> {
         let zero = self.zero;
         let named = |name: &String| values.get(name).copied().unwrap_or(zero);
-        let taken = |name: &String| handed.get(name).copied().unwrap_or(zero);
+        let taken = |name: &String| constant_share.get(name).copied().unwrap_or(zero);
         let [moment, inertia, force, couple] = moving();
-        let sum =
-            |name: &String| named(name) + taken(&format!("hand_{}", name.replace("_moving", "")));
+        let sum = |name: &String| {
+            named(name) + taken(&format!("constant_{}", name.replace("_moving", "")))
+        };
         let moment: Vec<_> = moment.iter().map(sum).collect();
         let inertia: Vec<_> = inertia.iter().map(sum).collect();
         let (s, i) = (vector(&moment), Symmetric::<Hub>::new(std::array::from_fn(|k| inertia[k])));

@@ -27,7 +27,7 @@ const UNNUMBERED: [(&str, &str); 20] = [
     ("(step)", "positions, velocities and first moments, behind (11) to (14)"),
     ("(M_ij)", "mass matrix of the joints"),
     ("(B1)", "origins slid along their axes"),
-    ("(B2)", "base parameters, and what the hub takes over"),
+    ("(B2)", "base parameters, and the constant share of the hub"),
     ("(C1)", "how a body carries what is joined to it"),
     ("(C2)", "what a joint's rate asks for"),
     ("(C3)", "what the carrier asks of the joint's equation"),

@@ -11,7 +11,7 @@ use crate::sites::{Change, changed, count};
 /// Every function of the file.
 const ALL: [&str; 13] = [
     "prepare",
-    "handed",
+    "constant_share",
     "outer_gimbal",
     "inner_gimbal",
     "wheel",
@@ -87,9 +87,9 @@ fn every_mutant_of_the_kinematics_is_named() {
 
 #[test]
 fn every_mutant_of_the_elimination_is_named() {
-    // What only another mount than none shows is judged with what the hub takes over.
+    // What only another mount than none shows is judged with the constant share of the hub.
     for (name, judged, least) in [
-        ("eliminate", &["eliminate", "handed"][..], 1200),
+        ("eliminate", &["eliminate", "constant_share"][..], 1200),
         ("back_substitute", &["back_substitute"], 60),
     ] {
         let (mutants, named) = every_mutant_is_caught(name, judged);
@@ -139,7 +139,7 @@ fn every_doubled_statement_is_caught() {
             *value(&mut file, name, index).unwrap() = doubled;
             let judged = match *name {
                 "prepare" => &ALL[..],
-                "eliminate" | "handed" => &["eliminate", "handed"],
+                "eliminate" | "constant_share" => &["eliminate", "constant_share"],
                 _ => std::slice::from_ref(name),
             };
             let caught = judged

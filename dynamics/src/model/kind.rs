@@ -4,7 +4,9 @@ use core::fmt::Debug;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Handed};
+use crate::generated::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, ConstantShare, EnergyMomentum,
+};
 pub use crate::model::kernels::Kernels;
 pub use crate::model::mode::Drive;
 use crate::model::mode::Mode;
@@ -117,7 +119,7 @@ pub type Wrenches<K> = <K as Kernels>::PerJoint<Wrench<<K as Kind>::Scalar>>;
 /// A device kind: a structure of parameters, and functions over the emitted kernels.
 ///
 /// Implemented by emitted text, next to each kernel; written by hand for nothing. The equations of
-/// motion (`handed`, `eliminate`, `back_substitute`) are expressed in B; everything else stands
+/// motion (`constant_share`, `eliminate`, `back_substitute`) are expressed in B; everything else stands
 /// along the device's own: those of its first joint at zero, `mount` in the hub.
 pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// The number type.
@@ -195,8 +197,8 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// The constants, the first origin turned into the device's axes.
     fn constants(&self, origin: [Self::Scalar; 3]) -> Self::Constants<Self::Scalar>;
 
-    /// The emitted `handed`: the constant share of the hub, expressed in B.
-    fn handed(constants: &Self::Constants<Self::Scalar>) -> Handed<Self::Scalar>;
+    /// The emitted `constant_share`: the constant share of the hub, expressed in B.
+    fn constant_share(constants: &Self::Constants<Self::Scalar>) -> ConstantShare<Self::Scalar>;
 
     /// The emitted `energy_momentum`.
     fn energy_momentum(

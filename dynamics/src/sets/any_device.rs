@@ -18,7 +18,7 @@ use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::generated::hub::Handed;
+use crate::generated::hub::ConstantShare;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
@@ -123,8 +123,8 @@ impl<T: Scalar> Devices for AnyDevice<T> {
         self.0.ready()
     }
 
-    fn handed(device: &Arc<dyn Ready<T>>) -> impl Iterator<Item = Handed<T>> {
-        core::iter::once(device.handed())
+    fn constant_shares(device: &Arc<dyn Ready<T>>) -> impl Iterator<Item = ConstantShare<T>> {
+        core::iter::once(device.constant_share())
     }
 
     fn infos(device: &Arc<dyn Ready<T>>) -> impl Iterator<Item = &'static JointInfo> {

@@ -7,7 +7,7 @@ use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::generated::hub::Handed;
+use crate::generated::hub::ConstantShare;
 use crate::model::kind::JointInfo;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
@@ -51,8 +51,8 @@ macro_rules! row {
                 $map!(self, D::prepare)
             }
 
-            fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<Self::Scalar>> {
-                devices.iter().flat_map(D::handed)
+            fn constant_shares(devices: &Self::Prepared) -> impl Iterator<Item = ConstantShare<Self::Scalar>> {
+                devices.iter().flat_map(D::constant_shares)
             }
 
             fn infos(devices: &Self::Prepared) -> impl Iterator<Item = &'static JointInfo> {

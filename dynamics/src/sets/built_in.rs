@@ -17,7 +17,7 @@ use crate::equations::system::Solution;
 use crate::every_kind;
 #[allow(clippy::wildcard_imports, reason = "every kind, also one to come")]
 use crate::generated::devices::*;
-use crate::generated::hub::Handed;
+use crate::generated::hub::ConstantShare;
 use crate::model::few::{Few, MAX_JOINTS};
 use crate::model::kernels::Kernels;
 use crate::model::kind::{JointInfo, Kind};
@@ -153,9 +153,9 @@ macro_rules! built_in {
                 }
             }
 
-            fn handed(&self) -> Handed<T> {
+            fn constant_share(&self) -> ConstantShare<T> {
                 match self {
-                    $(Self::$kind(device) => <$kind<T> as Kind>::handed(&device.constants),)*
+                    $(Self::$kind(device) => <$kind<T> as Kind>::constant_share(&device.constants),)*
                 }
             }
 
@@ -275,8 +275,8 @@ impl<T: Scalar> Devices for BuiltIn<T> {
         self.ready()
     }
 
-    fn handed(device: &ReadyBuiltIn<T>) -> impl Iterator<Item = Handed<T>> {
-        core::iter::once(device.handed())
+    fn constant_shares(device: &ReadyBuiltIn<T>) -> impl Iterator<Item = ConstantShare<T>> {
+        core::iter::once(device.constant_share())
     }
 
     fn infos(device: &ReadyBuiltIn<T>) -> impl Iterator<Item = &'static JointInfo> {

@@ -14,7 +14,7 @@ use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::generated::hub::Handed;
+use crate::generated::hub::ConstantShare;
 use crate::model::kind::JointInfo;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
@@ -55,8 +55,10 @@ pub trait Devices: Clone + Debug + PartialEq {
     fn check(&self, device: &mut usize) -> Result<(), ParameterError<Self::Scalar>>;
     /// The devices, precomputed: what depends only on parameters, computed.
     fn prepare(&self) -> Self::Prepared;
-    /// What the hub takes over of each device.
-    fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<Self::Scalar>>;
+    /// The constant share of the hub of each device.
+    fn constant_shares(
+        devices: &Self::Prepared,
+    ) -> impl Iterator<Item = ConstantShare<Self::Scalar>>;
     /// The joints in order.
     fn infos(devices: &Self::Prepared) -> impl Iterator<Item = &'static JointInfo>;
     /// By how much each body's inertia breaks the triangle inequality, kg m².

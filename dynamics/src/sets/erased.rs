@@ -16,7 +16,7 @@ use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::generated::hub::Handed;
+use crate::generated::hub::ConstantShare;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
@@ -69,8 +69,8 @@ type Erased<'a, T> = SetInputs<'a, AnyDevice<T>>;
 pub trait Ready<T>: Debug + Send + Sync {
     /// Its joints.
     fn infos(&self) -> &'static [JointInfo];
-    /// What the hub takes over of it.
-    fn handed(&self) -> Handed<T>;
+    /// Its constant share of the hub.
+    fn constant_share(&self) -> ConstantShare<T>;
     /// By how much its inertias break the triangle inequality.
     fn excesses(&self) -> Vec<T>;
     /// Springs and friction.
@@ -162,8 +162,8 @@ impl<K: Kind> Ready<K::Scalar> for Device<K> {
         K::JOINTS
     }
 
-    fn handed(&self) -> Handed<K::Scalar> {
-        K::handed(&self.constants)
+    fn constant_share(&self) -> ConstantShare<K::Scalar> {
+        K::constant_share(&self.constants)
     }
 
     fn excesses(&self) -> Vec<K::Scalar> {

@@ -15,7 +15,7 @@ use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::generated::hub::Handed;
+use crate::generated::hub::ConstantShare;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
@@ -47,8 +47,8 @@ impl<K: Kind> Devices for K {
         Device::new(self)
     }
 
-    fn handed(device: &Device<K>) -> impl Iterator<Item = Handed<K::Scalar>> {
-        core::iter::once(K::handed(&device.constants))
+    fn constant_shares(device: &Device<K>) -> impl Iterator<Item = ConstantShare<K::Scalar>> {
+        core::iter::once(K::constant_share(&device.constants))
     }
 
     fn infos(_: &Device<K>) -> impl Iterator<Item = &'static JointInfo> {

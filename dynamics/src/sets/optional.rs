@@ -14,7 +14,7 @@ use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::generated::hub::Handed;
+use crate::generated::hub::ConstantShare;
 use crate::model::kind::JointInfo;
 use crate::model::passive::Passive;
 use crate::numbers::each::{Each, JointStates, Value};
@@ -68,8 +68,8 @@ impl<D: Devices> Devices for Option<D> {
         self.as_ref().map(D::prepare)
     }
 
-    fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<D::Scalar>> {
-        devices.iter().flat_map(D::handed)
+    fn constant_shares(devices: &Self::Prepared) -> impl Iterator<Item = ConstantShare<D::Scalar>> {
+        devices.iter().flat_map(D::constant_shares)
     }
 
     fn infos(devices: &Self::Prepared) -> impl Iterator<Item = &'static JointInfo> {

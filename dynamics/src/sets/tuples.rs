@@ -7,7 +7,7 @@ use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::generated::hub::Handed;
+use crate::generated::hub::ConstantShare;
 use crate::model::kind::JointInfo;
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
@@ -38,8 +38,8 @@ macro_rules! tuples {
                 (self.0.prepare(), $(self.$place.prepare(),)*)
             }
 
-            fn handed(devices: &Self::Prepared) -> impl Iterator<Item = Handed<Self::Scalar>> {
-                A::handed(&devices.0)$(.chain($rest::handed(&devices.$place)))*
+            fn constant_shares(devices: &Self::Prepared) -> impl Iterator<Item = ConstantShare<Self::Scalar>> {
+                A::constant_shares(&devices.0)$(.chain($rest::constant_shares(&devices.$place)))*
             }
 
             fn infos(devices: &Self::Prepared) -> impl Iterator<Item = &'static JointInfo> {

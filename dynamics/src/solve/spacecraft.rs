@@ -38,7 +38,7 @@ impl<D: Devices> Spacecraft<D> {
         devices.check(&mut 0)?;
         let devices = devices.prepare();
         let hub = HubConstants::new(hub);
-        let body = hub.taking_over(D::handed(&devices));
+        let body = hub.with_constant_shares(D::constant_shares(&devices));
         if !body.m_b.is_finite() {
             return Err(ParameterError::TotalMass { value: body.m_b });
         }

@@ -1,7 +1,7 @@
-//! The kernel `handed`: what the hub takes over of a device, once for each spacecraft.
+//! The kernel `constant_share`: what a device adds to the hub whatever its joints do.
 
 use super::{Claim, Kernel, Record, records};
-use crate::derivation::aboard::handed;
+use crate::derivation::aboard::constant_share;
 use crate::derivation::chain::Chain;
 use crate::derivation::script::Script;
 
@@ -9,22 +9,22 @@ use crate::derivation::script::Script;
 #[must_use]
 pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let mut script = Script::new(chain.graph);
-    handed(chain, &mut script);
+    constant_share(chain, &mut script);
     let mass = chain.links.iter().skip(1).fold(chain.links[0].mass, |sum, link| sum + link.mass);
     Kernel {
-        name: "handed".to_owned(),
+        name: "constant_share".to_owned(),
         doc: vec![
-            "What the hub takes over of a device: mass, and what does not notice that the joints"
+            "Constant share of the hub: mass, first moment and inertia that the device adds to the"
                 .into(),
-            "move.".into(),
+            "hub whatever its joints do.".into(),
         ],
         inputs: vec![("p", Record::new("Prepared", ""))],
         sections: script.sections,
-        output: records::handed(),
+        output: records::constant_share(),
         claims: vec![Claim {
             tag: "(B2)".to_owned(),
-            name: "hand_m".to_owned(),
-            components: vec![("hand_m".to_owned(), mass)],
+            name: "constant_m".to_owned(),
+            components: vec![("constant_m".to_owned(), mass)],
         }],
     }
 }
