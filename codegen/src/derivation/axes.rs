@@ -14,11 +14,11 @@ pub fn axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         let (frame, title) = (data.body.frame, data.body.title);
         let letter = data.body.letters[0];
         let whose = if link.turn.is_none() { "the carrier's axes" } else { "its own axes" };
-        script.section("axis", format!("Of the {title}: {whose} along B, eq. (A1)."));
+        script.section("axis", format!("Of the {title}: {whose} along B, eq. (D1)."));
         for (column, axis) in here.columns.into_iter().zip(XYZ) {
             script.names(pairs(triple(&format!("{frame}_{axis}"), "b"), column.components()));
         }
-        script.section("pos", format!("{letter} from B, eq. (A2), along B axes, m."));
+        script.section("pos", format!("{letter} from B, eq. (D2), along B axes, m."));
         script.names(pairs(triple(&format!("origin_{frame}"), "b"), here.origin.components()));
     }
 }

@@ -30,10 +30,10 @@ fn output(kind: &Kind) -> Record {
         let whose = if kind.axes_turn(k) { "" } else { "carrier of the " };
         for (axis, symbol) in XYZ.iter().zip(["First", "Second", "Third"]) {
             let title = link.body.title;
-            let doc = format!("{symbol} axis of the {whose}{title}, eq. (A1)");
+            let doc = format!("{symbol} axis of the {whose}{title}, eq. (D1)");
             record.vector(&format!("{frame}_{axis}"), "b", &doc, "1");
         }
-        let doc = format!("{letter}, origin of its joint, from B, eq. (A2)");
+        let doc = format!("{letter}, origin of its joint, from B, eq. (D2)");
         record.vector(&format!("origin_{frame}"), "b", &doc, "m");
     }
     record
@@ -47,9 +47,9 @@ fn claims<'g>(chain: &Chain<'g>) -> Vec<Claim<'g>> {
         let frame = data.body.frame;
         let own = if link.turn.is_none() { carrier } else { body.axes };
         for (axis, column) in XYZ.iter().zip(own) {
-            made.push(Claim::vector("(A1)", &format!("{frame}_{axis}"), "b", column));
+            made.push(Claim::vector("(D1)", &format!("{frame}_{axis}"), "b", column));
         }
-        made.push(Claim::vector("(A2)", &format!("origin_{frame}"), "b", body.origin()));
+        made.push(Claim::vector("(D2)", &format!("origin_{frame}"), "b", body.origin()));
         carrier = own;
     }
     made

@@ -22,7 +22,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         sections: script.sections,
         output: records::handed(),
         claims: vec![Claim {
-            tag: "(B2)".to_owned(),
+            tag: "(D4)".to_owned(),
             name: "hand_m".to_owned(),
             components: vec![("hand_m".to_owned(), mass)],
         }],

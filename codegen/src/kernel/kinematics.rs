@@ -11,9 +11,9 @@ use crate::derivation::composite;
 use crate::derivation::motion::{Motion, Observer, motions};
 use crate::derivation::placed::Placed;
 use crate::derivation::script::{Script, pairs, sextuple, triple};
-use crate::graph::{Expr, Stage};
+use crate::graph::{Expr, Node, Stage};
 use crate::kinds;
-use crate::space::{Frame, Hub, Symmetric, Vector};
+use crate::space::{Carrier, Frame, Hub, Symmetric, Vector};
 
 /// One kernel per body, then the centre of mass.
 #[must_use]
@@ -111,6 +111,7 @@ fn body<'g>(
     let omega = vector(reference.omega_b, k + 1).components();
     b.vector(["rate", equations.omega, &stem, own, &title, "rad/s"], motion.omega, omega);
 
+    arm(&mut b.script, chain, k, motion);
     let r = format!("r_{point}_b");
     let title = format!("r_{{{point_letter}/B}}, behind eq. {}", equations.r_dprime);
     let whole = vector(reference.r, k).components();
@@ -177,6 +178,31 @@ fn body<'g>(
         output: b.record,
         claims: b.claims,
     }
+}
+
+/// Names the centre of mass from its joint's origin, as far as a component is a sum that is also a part
+/// of an acceleration, whose name it would bear otherwise.
+fn arm<'g>(script: &mut Script<'g>, chain: &Chain<'g>, k: usize, motion: &Motion<'g>) {
+    let (link, body) = (&chain.links[k], &chain.kind.links[k].body);
+    let carrier = k.checked_sub(1).map_or("b", |parent| chain.kind.links[parent].body.frame);
+    let acceleration = motion.centre.acceleration;
+    let accelerations = chain.links.iter().map(|joint| joint.acceleration);
+    let parts: Vec<_> =
+        accelerations.flat_map(|q_ddot| acceleration.partial(q_ddot).components()).collect();
+    let is_part = |e: Expr<'g>| {
+        matches!(e.node(), Node::Sum(..)) && parts.iter().any(|part| *part == e || *part == -e)
+    };
+    let stem = format!("r_{}_{}", body.point, body.origin);
+    let centre = link.centre.turned::<Carrier>(link.turn.inverse());
+    let components = pairs(triple(&stem, carrier), centre.components());
+    let named: Vec<_> = components.filter(|(_, component)| is_part(*component)).collect();
+    if named.is_empty() {
+        return;
+    }
+    let [origin, point] = body.letters;
+    let equation = body.equations.r_dprime;
+    script.section("arm", format!("r_{{{point}/{origin}}}, behind eq. {equation}, m."));
+    script.names(named);
 }
 
 /// The device's share of `m_sc c` (9), of its derivatives (11), and the f of (17), along B axes.

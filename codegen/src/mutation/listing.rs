@@ -183,7 +183,7 @@ mod tests {
         assert_eq!(cited("Products and sums of parameters that occur more deeply."), None);
         assert_eq!(cited("As in eq. five, m."), None);
         let cited = |title| cited(title).unwrap();
-        assert_eq!(cited("Joint w taken out of the rows nearer the hub, eq. (E2)."), "(E2)");
+        assert_eq!(cited("Joint w taken out of the rows nearer the hub, eq. (D11)."), "(D11)");
         assert_eq!(cited("[I]′, eq. (49)-(52), along the axes, kg m²/s."), "(49)-(52)");
         assert_eq!(cited("About B: first moment, eq. (9), kg m, and inertia, eq. (76)."), "(9)");
         assert_eq!(cited("Force and moment of each joint, eqs. (17), (99)."), "(17), (99)");

@@ -111,7 +111,7 @@ impl Report {
     }
 
     /// One tally per equation, over all functions: by number, alone before among several, those of
-    /// the derivation's own sections, (A1) to (G3), after the paper's, what has none last.
+    /// the derivation's own sections, (D1) to (D18), after the paper's, what has none last.
     #[must_use]
     pub fn by_tag(&self) -> Vec<(String, Tally)> {
         let mut tags = self.grouped(|mutant| mutant.tag.clone());
@@ -145,8 +145,11 @@ impl Report {
     }
 }
 
-/// The first number of a tag: 49 of `(49)-(52)`.
-fn number(tag: &str) -> usize {
-    let digits = tag.trim_start_matches('(').split(|c: char| !c.is_ascii_digit()).next();
-    digits.and_then(|digits| digits.parse().ok()).unwrap_or(usize::MAX)
+/// The first number of a tag, the paper's before our own: 49 of `(49)-(52)`, 3 of `(D3)`.
+fn number(tag: &str) -> (bool, usize) {
+    let inside = tag.trim_start_matches('(');
+    let own = inside.strip_prefix('D');
+    let digits = own.unwrap_or(inside).split(|c: char| !c.is_ascii_digit()).next();
+    let number = digits.and_then(|digits| digits.parse().ok());
+    (own.is_some() || number.is_none(), number.unwrap_or(usize::MAX))
 }

@@ -23,27 +23,29 @@ pub(super) struct Traceability {
 }
 
 /// What is emitted and not numbered by the paper, in the order of the page.
-const UNNUMBERED: [(&str, &str); 20] = [
+const UNNUMBERED: [(&str, &str); 22] = [
     ("(step)", "positions, velocities and first moments, behind (11) to (14)"),
     ("(M_ij)", "mass matrix of the joints"),
-    ("(B1)", "origins slid along their axes"),
-    ("(B2)", "base parameters, and what the hub takes over"),
-    ("(C1)", "how a body carries what is joined to it"),
-    ("(C2)", "what a joint's rate asks for"),
-    ("(C3)", "what the carrier asks of the joint's equation"),
-    ("(E1)", "a joint's divisor, gains and free acceleration"),
-    ("(E2)", "a joint taken out of the rows nearer the hub"),
-    ("(E3)", "share of the hub's mass matrix and right side"),
-    ("(E4)", "joint accelerations from those of the hub"),
     ("(energy)", "kinetic energy"),
     ("(momentum)", "linear momentum"),
-    ("(A1)", "axes of the bodies"),
-    ("(A2)", "origins of the joints"),
-    ("(F1)", "what acts from outside, at joints and hub"),
-    ("(F2)", "the same along a joint"),
-    ("(G1)", "a field of acceleration at a joint"),
-    ("(G2)", "what it does to a body"),
-    ("(G3)", "second moment of the device"),
+    ("(D1)", "axes of the bodies"),
+    ("(D2)", "origins of the joints"),
+    ("(D3)", "origins moved along their axes"),
+    ("(D4)", "base inertial parameters and constant share of the hub"),
+    ("(D5)", "motion of a joint's parent body, no joint accelerating"),
+    ("(D6)", "outboard composite"),
+    ("(D7)", "columns of the mass matrix"),
+    ("(D8)", "Coriolis and centrifugal wrench of a joint's rate"),
+    ("(D9)", "bias of a joint row"),
+    ("(D10)", "divisor, gains and free acceleration of a joint"),
+    ("(D11)", "a joint eliminated from the rows of the inboard joints"),
+    ("(D12)", "share of the hub's mass matrix and right side"),
+    ("(D13)", "joint accelerations from those of the hub"),
+    ("(D14)", "applied wrenches at joints and hub"),
+    ("(D15)", "the same along a joint"),
+    ("(D16)", "a field of acceleration at a joint"),
+    ("(D17)", "what it does to a body"),
+    ("(D18)", "second moment of the device"),
 ];
 
 /// So many groups of names are shown of one function, the others counted.
@@ -117,17 +119,22 @@ fn numbered(tag: &str) -> impl Iterator<Item = u16> {
     named.map(|named| named.number)
 }
 
+/// Whether a tag is one of those that another consists of: `(D4)` of `(D3), (D4)`.
+fn cites(tag: &str, one: &str) -> bool {
+    tag.split(", ").any(|part| part == one)
+}
+
 /// A row for every tag without a number, the known ones first.
 fn unnumbered(report: &Report) -> Vec<SystemText> {
     let mut tags = UNNUMBERED.to_vec();
     for tag in report.computed.iter().filter_map(|value| value.tag.as_deref()) {
-        if numbered(tag).next().is_none() && !tags.iter().any(|(known, _)| *known == tag) {
+        if numbered(tag).next().is_none() && !tags.iter().any(|(known, _)| cites(tag, known)) {
             tags.push((tag, ""));
         }
     }
     let row = |(tag, what): (&str, &'static str)| {
-        let (mutants, killed) = put_to_the_laws(report, |other| other == tag);
-        let emitted = emitted(report, |other| other == tag);
+        let (mutants, killed) = put_to_the_laws(report, |other| cites(other, tag));
+        let emitted = emitted(report, |other| cites(other, tag));
         SystemText { tag: tag.to_owned(), what, emitted, mutants, killed }
     };
     tags.into_iter().map(row).collect()
@@ -266,7 +273,8 @@ mod tests {
     fn a_tag_names_each_of_its_numbers() {
         assert!(names("(17), (78)", 17) && names("(17), (78)", 78));
         assert!(names("(49)-(52)", 51));
-        assert!(!names("(E1)", 1) && !names("(17), (78)", 7));
+        assert!(cites("(76), (D6)", "(D6)") && !cites("(D10)", "(D1)"));
+        assert!(!names("(D10)", 1) && !names("(17), (78)", 7));
     }
 
     #[test]

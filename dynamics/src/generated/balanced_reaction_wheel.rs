@@ -106,76 +106,83 @@ pub struct Prepared<T> {
     pub mc_by: T,
     /// `p.r_w_b_bz * p.m_w`. Σ m r, share of m_sc c, eq. (9), kg m.
     pub mc_bz: T,
-    /// `p.j_11 * p.mount_11`. M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and
-    /// moment about B per unit acceleration, along B axes.
+    /// `p.j_11 * p.mount_11`. M_vi, eqs. (17), (D7), kg m, and M_wi, eqs. (75), (D7), kg m²:
+    /// force and moment about B per unit joint acceleration, expressed in B.
     pub n_w_bx: T,
-    /// `p.j_11 * p.mount_21`. M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and
-    /// moment about B per unit acceleration, along B axes.
+    /// `p.j_11 * p.mount_21`. M_vi, eqs. (17), (D7), kg m, and M_wi, eqs. (75), (D7), kg m²:
+    /// force and moment about B per unit joint acceleration, expressed in B.
     pub n_w_by: T,
-    /// `p.j_11 * p.mount_31`. M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and
-    /// moment about B per unit acceleration, along B axes.
+    /// `p.j_11 * p.mount_31`. M_vi, eqs. (17), (D7), kg m, and M_wi, eqs. (75), (D7), kg m²:
+    /// force and moment about B per unit joint acceleration, expressed in B.
     pub n_w_bz: T,
-    /// `p.mount_11 * (moment_1 + moment_1)`. What moves of D, about B, along B axes: first
-    /// moment, eq. (9), kg m, and inertia, eq. (76), kg m².
+    /// `p.mount_11 * (moment_1 + moment_1)`. D without its constant share of the hub, about
+    /// B, expressed in B: first moment, eqs. (9), (D6), kg m, and inertia, eqs. (76), (D6),
+    /// kg m².
     pub i_moving_11: T,
-    /// `p.mount_11 * moment_2 + p.mount_21 * moment_1`. What moves of D, about B, along B
-    /// axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
+    /// `p.mount_11 * moment_2 + p.mount_21 * moment_1`. D without its constant share of the
+    /// hub, about B, expressed in B: first moment, eqs. (9), (D6), kg m, and inertia, eqs.
+    /// (76), (D6), kg m².
     pub i_moving_12: T,
-    /// `p.mount_11 * moment_3 + p.mount_31 * moment_1`. What moves of D, about B, along B
-    /// axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
+    /// `p.mount_11 * moment_3 + p.mount_31 * moment_1`. D without its constant share of the
+    /// hub, about B, expressed in B: first moment, eqs. (9), (D6), kg m, and inertia, eqs.
+    /// (76), (D6), kg m².
     pub i_moving_13: T,
-    /// `p.mount_21 * (moment_2 + moment_2)`. What moves of D, about B, along B axes: first
-    /// moment, eq. (9), kg m, and inertia, eq. (76), kg m².
+    /// `p.mount_21 * (moment_2 + moment_2)`. D without its constant share of the hub, about
+    /// B, expressed in B: first moment, eqs. (9), (D6), kg m, and inertia, eqs. (76), (D6),
+    /// kg m².
     pub i_moving_22: T,
-    /// `p.mount_21 * moment_3 + p.mount_31 * moment_2`. What moves of D, about B, along B
-    /// axes: first moment, eq. (9), kg m, and inertia, eq. (76), kg m².
+    /// `p.mount_21 * moment_3 + p.mount_31 * moment_2`. D without its constant share of the
+    /// hub, about B, expressed in B: first moment, eqs. (9), (D6), kg m, and inertia, eqs.
+    /// (76), (D6), kg m².
     pub i_moving_23: T,
-    /// `p.mount_31 * (moment_3 + moment_3)`. What moves of D, about B, along B axes: first
-    /// moment, eq. (9), kg m, and inertia, eq. (76), kg m².
+    /// `p.mount_31 * (moment_3 + moment_3)`. D without its constant share of the hub, about
+    /// B, expressed in B: first moment, eqs. (9), (D6), kg m, and inertia, eqs. (76), (D6),
+    /// kg m².
     pub i_moving_33: T,
-    /// `p.mount_11 * mc_bx + p.mount_12 * mc_by + p.mount_13 * mc_bz`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `p.mount_11 * mc_bx + p.mount_12 * mc_by + p.mount_13 * mc_bz`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_mr_bx: T,
-    /// `p.mount_21 * mc_bx + p.mount_22 * mc_by + p.mount_23 * mc_bz`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `p.mount_21 * mc_bx + p.mount_22 * mc_by + p.mount_23 * mc_bz`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_mr_by: T,
-    /// `p.mount_31 * mc_bx + p.mount_32 * mc_by + p.mount_33 * mc_bz`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `p.mount_31 * mc_bx + p.mount_32 * mc_by + p.mount_33 * mc_bz`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_mr_bz: T,
-    /// `half * (p.mount_13 * hand_1 * i_w_b_33 + hand_4 + hand_5)`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_13 * hand_1 * i_w_b_33 + hand_4 + hand_5)`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_i_11: T,
-    /// `half * (hand_15 + p.mount_13 * hand_11 * i_w_b_33)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_15 + p.mount_13 * hand_11 * i_w_b_33)`. Constant share of the hub, eq.
+    /// (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_12: T,
-    /// `half * (hand_26 + p.mount_13 * hand_21 * i_w_b_33)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_26 + p.mount_13 * hand_21 * i_w_b_33)`. Constant share of the hub, eq.
+    /// (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_13: T,
-    /// `half * (p.mount_23 * hand_11 * i_w_b_33 + hand_29 + hand_30)`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `half * (p.mount_23 * hand_11 * i_w_b_33 + hand_29 + hand_30)`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_i_22: T,
-    /// `half * (hand_38 + p.mount_23 * hand_21 * i_w_b_33)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_38 + p.mount_23 * hand_21 * i_w_b_33)`. Constant share of the hub, eq.
+    /// (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_23: T,
-    /// `half * (p.mount_33 * hand_21 * i_w_b_33 + hand_41 + hand_42)`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `half * (p.mount_33 * hand_21 * i_w_b_33 + hand_41 + hand_42)`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_i_33: T,
     /// `p.j_22 - p.j_11`.
     pub k_0: T,
     /// `p.j_11 - p.j_22`.
     pub k_1: T,
-    /// `axis_4 - i_w_b_11`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg
+    /// `axis_4 - i_w_b_11`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg
     /// m².
     pub second_moment_11: T,
-    /// `axis_4 - i_w_b_22`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg
+    /// `axis_4 - i_w_b_22`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg
     /// m².
     pub second_moment_22: T,
-    /// `axis_4 - i_w_b_33`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg
+    /// `axis_4 - i_w_b_33`. S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg
     /// m².
     pub second_moment_33: T,
 }
@@ -333,7 +340,7 @@ pub struct FirstMoment<T> {
     pub mc_bz: T,
 }
 
-/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
+/// How the joints of a device follow the hub, eq. (D13), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gains<T> {
     /// Gain of the wheel on component 1 of ω̇_{B/N}.
@@ -410,29 +417,29 @@ impl<T: Copy> JointAccelerations<T> {
 /// Axes of the bodies and origins of their joints, along the device's B axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes<T> {
-    /// First axis of the carrier of the wheel, eq. (A1), along bx, 1.
+    /// First axis of the carrier of the wheel, eq. (D1), along bx, 1.
     pub w_x_bx: T,
-    /// First axis of the carrier of the wheel, eq. (A1), along by, 1.
+    /// First axis of the carrier of the wheel, eq. (D1), along by, 1.
     pub w_x_by: T,
-    /// First axis of the carrier of the wheel, eq. (A1), along bz, 1.
+    /// First axis of the carrier of the wheel, eq. (D1), along bz, 1.
     pub w_x_bz: T,
-    /// Second axis of the carrier of the wheel, eq. (A1), along bx, 1.
+    /// Second axis of the carrier of the wheel, eq. (D1), along bx, 1.
     pub w_y_bx: T,
-    /// Second axis of the carrier of the wheel, eq. (A1), along by, 1.
+    /// Second axis of the carrier of the wheel, eq. (D1), along by, 1.
     pub w_y_by: T,
-    /// Second axis of the carrier of the wheel, eq. (A1), along bz, 1.
+    /// Second axis of the carrier of the wheel, eq. (D1), along bz, 1.
     pub w_y_bz: T,
-    /// Third axis of the carrier of the wheel, eq. (A1), along bx, 1.
+    /// Third axis of the carrier of the wheel, eq. (D1), along bx, 1.
     pub w_z_bx: T,
-    /// Third axis of the carrier of the wheel, eq. (A1), along by, 1.
+    /// Third axis of the carrier of the wheel, eq. (D1), along by, 1.
     pub w_z_by: T,
-    /// Third axis of the carrier of the wheel, eq. (A1), along bz, 1.
+    /// Third axis of the carrier of the wheel, eq. (D1), along bz, 1.
     pub w_z_bz: T,
-    /// W, origin of its joint, from B, eq. (A2), along bx, m.
+    /// W, origin of its joint, from B, eq. (D2), along bx, m.
     pub origin_w_bx: T,
-    /// W, origin of its joint, from B, eq. (A2), along by, m.
+    /// W, origin of its joint, from B, eq. (D2), along by, m.
     pub origin_w_by: T,
-    /// W, origin of its joint, from B, eq. (A2), along bz, m.
+    /// W, origin of its joint, from B, eq. (D2), along bz, m.
     pub origin_w_bz: T,
 }
 
@@ -470,56 +477,56 @@ pub struct Loads<T> {
 /// joint's origin; along each joint, to be added to its motor's; on the hub.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct External<T> {
-    /// Force on the wheel and what it carries, eq. (F1), along wx, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wx, N.
     pub f_sum_wx: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wy, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wy, N.
     pub f_sum_wy: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wz, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wz, N.
     pub f_sum_wz: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wx, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wx, N m.
     pub n_sum_wx: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wy, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wy, N m.
     pub n_sum_wy: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wz, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wz, N m.
     pub n_sum_wz: T,
-    /// Along the wheel's joint, eq. (F2), N m.
+    /// Along the wheel's joint, eq. (D15), N m.
     pub drive_w: T,
-    /// Force on the hub, eq. (F1), along bx, N.
+    /// Force on the hub, eq. (D14), along bx, N.
     pub f_sum_bx: T,
-    /// Force on the hub, eq. (F1), along by, N.
+    /// Force on the hub, eq. (D14), along by, N.
     pub f_sum_by: T,
-    /// Force on the hub, eq. (F1), along bz, N.
+    /// Force on the hub, eq. (D14), along bz, N.
     pub f_sum_bz: T,
-    /// Moment about B on the hub, eq. (F1), along bx, N m.
+    /// Moment about B on the hub, eq. (D14), along bx, N m.
     pub n_sum_bx: T,
-    /// Moment about B on the hub, eq. (F1), along by, N m.
+    /// Moment about B on the hub, eq. (D14), along by, N m.
     pub n_sum_by: T,
-    /// Moment about B on the hub, eq. (F1), along bz, N m.
+    /// Moment about B on the hub, eq. (D14), along bz, N m.
     pub n_sum_bz: T,
 }
 
 /// What a field of acceleration does to a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity<T> {
-    /// On each body, eq. (G2).
+    /// On each body, eq. (D17).
     pub wrenches: Wrenches<T>,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 11, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 11,
+    /// kg m².
     pub second_moment_11: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 12, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 12,
+    /// kg m².
     pub second_moment_12: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 13, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 13,
+    /// kg m².
     pub second_moment_13: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 22, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 22,
+    /// kg m².
     pub second_moment_22: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 23, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 23,
+    /// kg m².
     pub second_moment_23: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 33, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 33,
+    /// kg m².
     pub second_moment_33: T,
 }
 
@@ -548,8 +555,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let mc_by = p.r_w_b_by * p.m_w;
     let mc_bz = p.r_w_b_bz * p.m_w;
 
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let hand_mr_bx = p.mount_11 * mc_bx + p.mount_12 * mc_by + p.mount_13 * mc_bz;
     let hand_mr_by = p.mount_21 * mc_bx + p.mount_22 * mc_by + p.mount_23 * mc_bz;
     let hand_mr_bz = p.mount_31 * mc_bx + p.mount_32 * mc_by + p.mount_33 * mc_bz;
@@ -604,14 +611,14 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let hand_42 = p.mount_32 * (i_w_b_22 * hand_20 - mc_by * hand_39 * p.r_w_b_bz);
     let hand_i_33 = half * (p.mount_33 * hand_21 * i_w_b_33 + hand_41 + hand_42);
 
-    // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration, along B axes.
+    // M_vi, eqs. (17), (D7), kg m, and M_wi, eqs. (75), (D7), kg m²: force and moment about B
+    // per unit joint acceleration, expressed in B.
     let n_w_bx = p.j_11 * p.mount_11;
     let n_w_by = p.j_11 * p.mount_21;
     let n_w_bz = p.j_11 * p.mount_31;
 
-    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    // (76), kg m².
+    // D without its constant share of the hub, about B, expressed in B: first moment, eqs. (9),
+    // (D6), kg m, and inertia, eqs. (76), (D6), kg m².
     let moment_0 = p.j_11 * half;
     let moment_1 = n_w_bx - p.mount_11 * moment_0;
     let i_moving_11 = p.mount_11 * (moment_1 + moment_1);
@@ -623,7 +630,7 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let i_moving_23 = p.mount_21 * moment_3 + p.mount_31 * moment_2;
     let i_moving_33 = p.mount_31 * (moment_3 + moment_3);
 
-    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
+    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg m².
     let axis_4 = half * (i_w_b_11 + i_w_b_22 + i_w_b_33);
     let second_moment_11 = axis_4 - i_w_b_11;
     let second_moment_22 = axis_4 - i_w_b_22;
@@ -743,8 +750,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>) -> FirstMoment<T> {
 /// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let hand_m = p.m_w;
     let hand_mr_bx = p.hand_mr_bx;
     let hand_mr_by = p.hand_mr_by;
@@ -774,7 +781,10 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 ///
 /// Translation (16), rotation (75), motor torques (119); with the joints
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
-/// acceleration is given has no equation: what it asks for goes to the right side.
+/// acceleration is given has no equation: what it requires goes to the right side.
+///
+/// Equations (D1) to (D13) are derived in `tests/derivation/kernels`. By (D3), the origin
+/// of a turning joint is elsewhere on its axis than where the paper places it.
 ///
 /// Operations: 30 mul, 12 add, 0 neg, 1 div, 0 trig.
 #[inline(always)]
@@ -786,21 +796,23 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // ω_{B/N} along the axes of the wheel, eq. (C1), rad/s.
+    // ω_{B/N} expressed in the axes of the wheel, eq. (D5), rad/s.
     let rate_0 = (w.omega_bx * p.mount_12).add_mul(w.omega_by, p.mount_22);
     let omega_b_n_wy = rate_0.add_mul(w.omega_bz, p.mount_32);
     let rate_1 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
     let omega_b_n_wz = rate_1.add_mul(w.omega_bz, p.mount_33);
 
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    // Joint row of the wheel, eqs. (119), (D7), (D9): M_ij, kg m², and bias without the hub's
+    // part, N m.
     let mass_ww = p.j_11;
 
-    // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
+    // Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the joint of
+    // the wheel, about W moved by (D3), eq. (D8).
     let n_rates_w_wy = v.spin * omega_b_n_wz * p.j_11;
     let neg_n_rates_w_wz = v.spin * omega_b_n_wy * p.j_11;
 
-    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    // (76), kg m².
+    // D without its constant share of the hub, about B, expressed in B: first moment, eqs. (9),
+    // (D6), kg m, and inertia, eqs. (76), (D6), kg m².
     let zero = v.spin.like(0.0);
     let mr_moving_bx = zero;
     let mr_moving_by = zero;
@@ -812,8 +824,8 @@ pub fn eliminate<T: Real>(
     let i_moving_23 = p.i_moving_23;
     let i_moving_33 = p.i_moving_33;
 
-    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
-    // N and N m.
+    // Coriolis and centrifugal force, N, and moment about B, N m, of the joints' rates, of eqs.
+    // (16), (75), (D8), expressed in B.
     let bias_0 = p.mount_12 * n_rates_w_wy;
     let n_rates_bx = bias_0.sub_mul(p.mount_13, neg_n_rates_w_wz);
     let bias_1 = p.mount_22 * n_rates_w_wy;
@@ -821,7 +833,7 @@ pub fn eliminate<T: Real>(
     let bias_2 = p.mount_32 * n_rates_w_wy;
     let n_rates_bz = bias_2.sub_mul(p.mount_33, neg_n_rates_w_wz);
 
-    // Joint w, eq. (E1): its pivot `mass_ww`, kg m², and its gains.
+    // Joint w, eq. (D10): its pivot `mass_ww`, kg m², and its gains.
     let divisor_w = m.held_w + p.j_11;
     let recip_w = m.driven_w * divisor_w.recip();
     let gain_w_w1 = p.n_w_bx * recip_w;
@@ -829,7 +841,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w3 = p.n_w_bz * recip_w;
     let free_w = m.given_w.add_mul(u.u_w, recip_w);
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = zero;
     let m_vv_12 = zero;
     let m_vv_13 = zero;
@@ -837,7 +849,7 @@ pub fn eliminate<T: Real>(
     let m_vv_23 = zero;
     let m_vv_33 = zero;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
     let m_vw_11 = zero;
     let m_vw_12 = zero;
     let m_vw_13 = zero;
@@ -848,7 +860,7 @@ pub fn eliminate<T: Real>(
     let m_vw_32 = zero;
     let m_vw_33 = zero;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
     let m_ww_11 = p.n_w_bx * gain_w_w1;
     let m_ww_12 = p.n_w_by * gain_w_w1;
     let m_ww_13 = p.n_w_bz * gain_w_w1;
@@ -856,7 +868,7 @@ pub fn eliminate<T: Real>(
     let m_ww_23 = p.n_w_bz * gain_w_w2;
     let m_ww_33 = p.n_w_bz * gain_w_w3;
 
-    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    // Subtracted from the hub's right side, eq. (D12): force, N, and moment about B, N m.
     let h_v_1 = zero;
     let h_v_2 = zero;
     let h_v_3 = zero;
@@ -915,7 +927,7 @@ pub fn eliminate<T: Real>(
 #[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
-    // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
+    // Row by row, outboard, eq. (D13): the free acceleration less the gains.
     let row_0 = e.free_w.sub_mul(a.omega_dot_bx, e.gain_w_w1);
     let row_1 = row_0.sub_mul(a.omega_dot_by, e.gain_w_w2);
     let spin_dot = row_1.sub_mul(a.omega_dot_bz, e.gain_w_w3);
@@ -973,7 +985,7 @@ pub fn energy_momentum<T: Real>(
 /// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn axes<T: Real>(p: &Prepared<T>) -> Axes<T> {
-    // Of the wheel: the carrier's axes along B, eq. (A1).
+    // Of the wheel: the carrier's axes along B, eq. (D1).
     let one = p.mount_12.like(1.0);
     let w_x_bx = one;
     let zero = p.mount_12.like(0.0);
@@ -986,7 +998,7 @@ pub fn axes<T: Real>(p: &Prepared<T>) -> Axes<T> {
     let w_z_by = zero;
     let w_z_bz = one;
 
-    // W from B, eq. (A2), along B axes, m.
+    // W from B, eq. (D2), along B axes, m.
     let origin_w_bx = p.r_w_b_bx;
     let origin_w_by = p.r_w_b_by;
     let origin_w_bz = p.r_w_b_bz;
@@ -1079,7 +1091,7 @@ pub fn loads<T: Real>(
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, x: &Wrenches<T>) -> External<T> {
-    // On D, the wheel and what it carries, eq. (F1): force, N, and moment about W, N m.
+    // On D, the wheel and what it carries, eq. (D14): force, N, and moment about W, N m.
     let f_sum_wx = x.f_on_wx;
     let f_sum_wy = x.f_on_wy;
     let f_sum_wz = x.f_on_wz;
@@ -1087,10 +1099,10 @@ pub fn external<T: Real>(p: &Prepared<T>, x: &Wrenches<T>) -> External<T> {
     let n_sum_wy = x.n_on_wy;
     let n_sum_wz = x.n_on_wz;
 
-    // Along the wheel's joint, beside its motor, eq. (F2), N m.
+    // Along the wheel's joint, beside its motor, eq. (D15), N m.
     let drive_w = x.n_on_wx;
 
-    // On the hub, eq. (F1): force, N, and moment about B, N m.
+    // On the hub, eq. (D14): force, N, and moment about B, N m.
     let f_sum_bx = x.f_on_wx;
     let f_sum_by = x.f_on_wy;
     let f_sum_bz = x.f_on_wz;
@@ -1120,12 +1132,12 @@ pub fn external<T: Real>(p: &Prepared<T>, x: &Wrenches<T>) -> External<T> {
 /// Operations: 14 mul, 6 add, 2 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, g: &Gradient<T>) -> Gravity<T> {
-    // G r at W, eq. (G1), along the same axes, m/s².
+    // G r at W, eq. (D16), along the same axes, m/s².
     let g_r_w_wx = p.r_w_b_bx * g.g_11 + p.r_w_b_by * g.g_12 + p.r_w_b_bz * g.g_13;
     let g_r_w_wy = p.r_w_b_bx * g.g_12 + p.r_w_b_by * g.g_22 + p.r_w_b_bz * g.g_23;
     let g_r_w_wz = p.r_w_b_bx * g.g_13 + p.r_w_b_by * g.g_23 + p.r_w_b_bz * g.g_33;
 
-    // On the wheel alone, eq. (G2): force, N, and moment about W, N m.
+    // On the wheel alone, eq. (D17): force, N, and moment about W, N m.
     let f_on_wx = p.m_w * g_r_w_wx;
     let f_on_wy = p.m_w * g_r_w_wy;
     let f_on_wz = p.m_w * g_r_w_wz;
@@ -1134,7 +1146,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, g: &Gradient<T>) -> Gravity<T> {
     let n_on_wy = -(g.g_13 * p.k_0);
     let n_on_wz = -(g.g_12 * p.k_1);
 
-    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
+    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg m².
     let second_moment_11 = p.second_moment_11;
     let second_moment_12 = p.second_moment_12;
     let second_moment_13 = p.second_moment_13;

@@ -185,8 +185,8 @@ pub struct Prepared<T> {
     /// `i_g_g_23 - p.l_g_y * p.l_g_z * p.m_w`. D, the gimbal and what it carries, eq. (89):
     /// mass, kg; first moment, kg m, and inertia, kg m², about G.
     pub i_d_g_23: T,
-    /// `i_g_base_33`. Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and
-    /// bias, N m, eq. (C3).
+    /// `i_g_base_33`. Joint row of the gimbal, eqs. (80), (D7), (D9): M_ij, kg m², and bias
+    /// without the hub's part, N m.
     pub mass_gg: T,
     /// `i_d_g_22 - i_d_g_11`.
     pub k_2: T,
@@ -206,20 +206,24 @@ pub struct Prepared<T> {
     pub k_8: T,
     /// `p.m_w * r_wc_b_gz`.
     pub k_9: T,
-    /// `p.i_g_12 - (base_3 + p.r_gc_g_gy * mr_gc_g_gx)`. Base parameters of the gimbal, eqs.
-    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_g_12 - (base_3 + p.r_gc_g_gy * mr_gc_g_gx)`. Base inertial parameters of the
+    /// gimbal, eqs. (D3), (D4): G moved by (D3) from the parent's origin, m; first moment, kg
+    /// m, and inertia, kg m², about it.
     pub i_g_base_12: T,
-    /// `p.r_gc_g_gx * base_4 - p.r_gc_g_gz * mr_gc_g_gx + p.i_g_13`. Base parameters of the
-    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.r_gc_g_gx * base_4 - p.r_gc_g_gz * mr_gc_g_gx + p.i_g_13`. Base inertial parameters
+    /// of the gimbal, eqs. (D3), (D4): G moved by (D3) from the parent's origin, m; first
+    /// moment, kg m, and inertia, kg m², about it.
     pub i_g_base_13: T,
-    /// `p.i_g_23 + p.r_gc_g_gy * base_4 - p.r_gc_g_gz * mr_gc_g_gy`. Base parameters of the
-    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_g_23 + p.r_gc_g_gy * base_4 - p.r_gc_g_gz * mr_gc_g_gy`. Base inertial parameters
+    /// of the gimbal, eqs. (D3), (D4): G moved by (D3) from the parent's origin, m; first
+    /// moment, kg m, and inertia, kg m², about it.
     pub i_g_base_23: T,
-    /// `base_5 + base_6 + p.i_g_33 + p.j_22`. Base parameters of the gimbal, eqs. (B1), (B2):
-    /// arm, m, first moment, kg m, inertia, kg m².
+    /// `base_5 + base_6 + p.i_g_33 + p.j_22`. Base inertial parameters of the gimbal, eqs.
+    /// (D3), (D4): G moved by (D3) from the parent's origin, m; first moment, kg m, and
+    /// inertia, kg m², about it.
     pub i_g_base_33: T,
-    /// `p.j_11 + i_g_base_11`. What lies behind the gimbal's joint, of D, by base parameters,
-    /// eqs. (B1), (B2): first moment, kg m, and inertia, kg m².
+    /// `p.j_11 + i_g_base_11`. Outboard composite of the joint of the gimbal, D, by base
+    /// parameters, eq. (D6): first moment, kg m, and inertia, kg m², about G moved by (D3).
     pub i_behind_d_11: T,
     /// `i_g_base_12 + i_g_base_12`.
     pub k_10: T,
@@ -227,14 +231,14 @@ pub struct Prepared<T> {
     pub k_11: T,
     /// `i_g_base_33 - i_behind_d_11`.
     pub k_12: T,
-    /// `place_0 + p.mount_13 * r_wc_b_gz`. Origin of the first joint, eq. (A2), along B axes,
-    /// m.
+    /// `place_0 + p.mount_13 * r_wc_b_gz`. Origin of the first joint from B, moved by (D3),
+    /// eq. (D2), expressed in B, m.
     pub reach_bx: T,
-    /// `place_1 + p.mount_23 * r_wc_b_gz`. Origin of the first joint, eq. (A2), along B axes,
-    /// m.
+    /// `place_1 + p.mount_23 * r_wc_b_gz`. Origin of the first joint from B, moved by (D3),
+    /// eq. (D2), expressed in B, m.
     pub reach_by: T,
-    /// `place_2 + p.mount_33 * r_wc_b_gz`. Origin of the first joint, eq. (A2), along B axes,
-    /// m.
+    /// `place_2 + p.mount_33 * r_wc_b_gz`. Origin of the first joint from B, moved by (D3),
+    /// eq. (D2), expressed in B, m.
     pub reach_bz: T,
     /// `p.mount_13 * i_g_base_33`.
     pub k_13: T,
@@ -256,32 +260,35 @@ pub struct Prepared<T> {
     pub k_21: T,
     /// `reach_bz + reach_bz`.
     pub k_22: T,
-    /// `p.mount_11 * k_6 + p.mount_12 * k_7 + p.mount_13 * hand_0`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `p.mount_11 * k_6 + p.mount_12 * k_7 + p.mount_13 * hand_0`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_mr_bx: T,
-    /// `p.mount_21 * k_6 + p.mount_22 * k_7 + p.mount_23 * hand_0`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `p.mount_21 * k_6 + p.mount_22 * k_7 + p.mount_23 * hand_0`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_mr_by: T,
-    /// `p.mount_31 * k_6 + p.mount_32 * k_7 + p.mount_33 * hand_0`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `p.mount_31 * k_6 + p.mount_32 * k_7 + p.mount_33 * hand_0`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_mr_bz: T,
-    /// `half * (hand_29 + p.mount_13 * hand_13 * hand_11)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_29 + p.mount_13 * hand_13 * hand_11)`. Constant share of the hub, eq.
+    /// (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_11: T,
-    /// `half * (hand_37 - hand_36)`. What the hub takes over, eq. (B2): mass, kg, first
-    /// moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_37 - hand_36)`. Constant share of the hub, eq. (D4): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_12: T,
-    /// `half * (hand_45 - hand_44)`. What the hub takes over, eq. (B2): mass, kg, first
-    /// moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_45 - hand_44)`. Constant share of the hub, eq. (D4): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_13: T,
-    /// `half * hand_48`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
-    /// inertia about B, kg m², along B axes.
+    /// `half * hand_48`. Constant share of the hub, eq. (D4): mass, kg, first moment, kg m,
+    /// and inertia about B, kg m², expressed in B.
     pub hand_i_22: T,
-    /// `half * (hand_53 - hand_52)`. What the hub takes over, eq. (B2): mass, kg, first
-    /// moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_53 - hand_52)`. Constant share of the hub, eq. (D4): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_23: T,
-    /// `half * hand_56`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
-    /// inertia about B, kg m², along B axes.
+    /// `half * hand_56`. Constant share of the hub, eq. (D4): mass, kg, first moment, kg m,
+    /// and inertia about B, kg m², expressed in B.
     pub hand_i_33: T,
     /// `i_g_g_22 - i_g_g_33`.
     pub k_23: T,
@@ -670,7 +677,7 @@ pub struct FirstMoment<T> {
     pub f_tilde_bz: T,
 }
 
-/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
+/// How the joints of a device follow the hub, eq. (D13), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gains<T> {
     /// Gain of the gimbal on component 1 of r̈_{B/N}, 1/m.
@@ -761,53 +768,53 @@ impl<T: Copy> JointAccelerations<T> {
 /// Axes of the bodies and origins of their joints, along the device's B axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes<T> {
-    /// First axis of the gimbal, eq. (A1), along bx, 1.
+    /// First axis of the gimbal, eq. (D1), along bx, 1.
     pub g_x_bx: T,
-    /// First axis of the gimbal, eq. (A1), along by, 1.
+    /// First axis of the gimbal, eq. (D1), along by, 1.
     pub g_x_by: T,
-    /// First axis of the gimbal, eq. (A1), along bz, 1.
+    /// First axis of the gimbal, eq. (D1), along bz, 1.
     pub g_x_bz: T,
-    /// Second axis of the gimbal, eq. (A1), along bx, 1.
+    /// Second axis of the gimbal, eq. (D1), along bx, 1.
     pub g_y_bx: T,
-    /// Second axis of the gimbal, eq. (A1), along by, 1.
+    /// Second axis of the gimbal, eq. (D1), along by, 1.
     pub g_y_by: T,
-    /// Second axis of the gimbal, eq. (A1), along bz, 1.
+    /// Second axis of the gimbal, eq. (D1), along bz, 1.
     pub g_y_bz: T,
-    /// Third axis of the gimbal, eq. (A1), along bx, 1.
+    /// Third axis of the gimbal, eq. (D1), along bx, 1.
     pub g_z_bx: T,
-    /// Third axis of the gimbal, eq. (A1), along by, 1.
+    /// Third axis of the gimbal, eq. (D1), along by, 1.
     pub g_z_by: T,
-    /// Third axis of the gimbal, eq. (A1), along bz, 1.
+    /// Third axis of the gimbal, eq. (D1), along bz, 1.
     pub g_z_bz: T,
-    /// G, origin of its joint, from B, eq. (A2), along bx, m.
+    /// G, origin of its joint, from B, eq. (D2), along bx, m.
     pub origin_g_bx: T,
-    /// G, origin of its joint, from B, eq. (A2), along by, m.
+    /// G, origin of its joint, from B, eq. (D2), along by, m.
     pub origin_g_by: T,
-    /// G, origin of its joint, from B, eq. (A2), along bz, m.
+    /// G, origin of its joint, from B, eq. (D2), along bz, m.
     pub origin_g_bz: T,
-    /// First axis of the carrier of the wheel, eq. (A1), along bx, 1.
+    /// First axis of the carrier of the wheel, eq. (D1), along bx, 1.
     pub w_x_bx: T,
-    /// First axis of the carrier of the wheel, eq. (A1), along by, 1.
+    /// First axis of the carrier of the wheel, eq. (D1), along by, 1.
     pub w_x_by: T,
-    /// First axis of the carrier of the wheel, eq. (A1), along bz, 1.
+    /// First axis of the carrier of the wheel, eq. (D1), along bz, 1.
     pub w_x_bz: T,
-    /// Second axis of the carrier of the wheel, eq. (A1), along bx, 1.
+    /// Second axis of the carrier of the wheel, eq. (D1), along bx, 1.
     pub w_y_bx: T,
-    /// Second axis of the carrier of the wheel, eq. (A1), along by, 1.
+    /// Second axis of the carrier of the wheel, eq. (D1), along by, 1.
     pub w_y_by: T,
-    /// Second axis of the carrier of the wheel, eq. (A1), along bz, 1.
+    /// Second axis of the carrier of the wheel, eq. (D1), along bz, 1.
     pub w_y_bz: T,
-    /// Third axis of the carrier of the wheel, eq. (A1), along bx, 1.
+    /// Third axis of the carrier of the wheel, eq. (D1), along bx, 1.
     pub w_z_bx: T,
-    /// Third axis of the carrier of the wheel, eq. (A1), along by, 1.
+    /// Third axis of the carrier of the wheel, eq. (D1), along by, 1.
     pub w_z_by: T,
-    /// Third axis of the carrier of the wheel, eq. (A1), along bz, 1.
+    /// Third axis of the carrier of the wheel, eq. (D1), along bz, 1.
     pub w_z_bz: T,
-    /// W, origin of its joint, from B, eq. (A2), along bx, m.
+    /// W, origin of its joint, from B, eq. (D2), along bx, m.
     pub origin_w_bx: T,
-    /// W, origin of its joint, from B, eq. (A2), along by, m.
+    /// W, origin of its joint, from B, eq. (D2), along by, m.
     pub origin_w_by: T,
-    /// W, origin of its joint, from B, eq. (A2), along bz, m.
+    /// W, origin of its joint, from B, eq. (D2), along bz, m.
     pub origin_w_bz: T,
 }
 
@@ -857,70 +864,70 @@ pub struct Loads<T> {
 /// joint's origin; along each joint, to be added to its motor's; on the hub.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct External<T> {
-    /// Force on the gimbal and what it carries, eq. (F1), along gx, N.
+    /// Force on the gimbal and what it carries, eq. (D14), along gx, N.
     pub f_sum_gx: T,
-    /// Force on the gimbal and what it carries, eq. (F1), along gy, N.
+    /// Force on the gimbal and what it carries, eq. (D14), along gy, N.
     pub f_sum_gy: T,
-    /// Force on the gimbal and what it carries, eq. (F1), along gz, N.
+    /// Force on the gimbal and what it carries, eq. (D14), along gz, N.
     pub f_sum_gz: T,
-    /// Moment about G on the gimbal and what it carries, eq. (F1), along gx, N m.
+    /// Moment about G on the gimbal and what it carries, eq. (D14), along gx, N m.
     pub n_sum_gx: T,
-    /// Moment about G on the gimbal and what it carries, eq. (F1), along gy, N m.
+    /// Moment about G on the gimbal and what it carries, eq. (D14), along gy, N m.
     pub n_sum_gy: T,
-    /// Moment about G on the gimbal and what it carries, eq. (F1), along gz, N m.
+    /// Moment about G on the gimbal and what it carries, eq. (D14), along gz, N m.
     pub n_sum_gz: T,
-    /// Along the gimbal's joint, eq. (F2), N m.
+    /// Along the gimbal's joint, eq. (D15), N m.
     pub drive_g: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wx, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wx, N.
     pub f_sum_wx: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wy, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wy, N.
     pub f_sum_wy: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wz, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wz, N.
     pub f_sum_wz: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wx, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wx, N m.
     pub n_sum_wx: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wy, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wy, N m.
     pub n_sum_wy: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wz, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wz, N m.
     pub n_sum_wz: T,
-    /// Along the wheel's joint, eq. (F2), N m.
+    /// Along the wheel's joint, eq. (D15), N m.
     pub drive_w: T,
-    /// Force on the hub, eq. (F1), along bx, N.
+    /// Force on the hub, eq. (D14), along bx, N.
     pub f_sum_bx: T,
-    /// Force on the hub, eq. (F1), along by, N.
+    /// Force on the hub, eq. (D14), along by, N.
     pub f_sum_by: T,
-    /// Force on the hub, eq. (F1), along bz, N.
+    /// Force on the hub, eq. (D14), along bz, N.
     pub f_sum_bz: T,
-    /// Moment about B on the hub, eq. (F1), along bx, N m.
+    /// Moment about B on the hub, eq. (D14), along bx, N m.
     pub n_sum_bx: T,
-    /// Moment about B on the hub, eq. (F1), along by, N m.
+    /// Moment about B on the hub, eq. (D14), along by, N m.
     pub n_sum_by: T,
-    /// Moment about B on the hub, eq. (F1), along bz, N m.
+    /// Moment about B on the hub, eq. (D14), along bz, N m.
     pub n_sum_bz: T,
 }
 
 /// What a field of acceleration does to a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity<T> {
-    /// On each body, eq. (G2).
+    /// On each body, eq. (D17).
     pub wrenches: Wrenches<T>,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 11, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 11,
+    /// kg m².
     pub second_moment_11: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 12, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 12,
+    /// kg m².
     pub second_moment_12: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 13, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 13,
+    /// kg m².
     pub second_moment_13: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 22, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 22,
+    /// kg m².
     pub second_moment_22: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 23, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 23,
+    /// kg m².
     pub second_moment_23: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 33, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 33,
+    /// kg m².
     pub second_moment_33: T,
 }
 
@@ -953,8 +960,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_bz = mr_d_g_gz + p.r_g_b_bz * m_d;
 
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let k_6 = p.r_g_b_bx * m_d;
     let k_7 = p.r_g_b_by * m_d;
     let k_9 = p.m_w * r_wc_b_gz;
@@ -1026,8 +1033,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let hand_56 = p.mount_31 * hand_54 + hand_55 + p.mount_33 * hand_40 * hand_11;
     let hand_i_33 = half * hand_56;
 
-    // Base parameters of the gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg
-    // m².
+    // Base inertial parameters of the gimbal, eqs. (D3), (D4): G moved by (D3) from the parent's
+    // origin, m; first moment, kg m, and inertia, kg m², about it.
     let base_0 = p.l_g_y * p.l_g_y;
     let base_1 = p.r_gc_g_gy * p.r_gc_g_gy;
     let base_2 = p.m_g * (base_1 - hand_4) + p.m_w * (base_0 - hand_1);
@@ -1041,14 +1048,15 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let base_6 = p.m_g * (hand_4 + base_1);
     let i_g_base_33 = base_5 + base_6 + p.i_g_33 + p.j_22;
 
-    // What lies behind the gimbal's joint, of D, by base parameters, eqs. (B1), (B2): first
-    // moment, kg m, and inertia, kg m².
+    // Outboard composite of the joint of the gimbal, D, by base parameters, eq. (D6): first
+    // moment, kg m, and inertia, kg m², about G moved by (D3).
     let i_behind_d_11 = p.j_11 + i_g_base_11;
 
-    // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    // Joint row of the gimbal, eqs. (80), (D7), (D9): M_ij, kg m², and bias without the hub's
+    // part, N m.
     let mass_gg = i_g_base_33;
 
-    // Origin of the first joint, eq. (A2), along B axes, m.
+    // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in B, m.
     let place_0 = p.r_g_b_bx * p.mount_11 + p.r_g_b_by * p.mount_12;
     let reach_bx = place_0 + p.mount_13 * r_wc_b_gz;
     let place_1 = p.r_g_b_bx * p.mount_21 + p.r_g_b_by * p.mount_22;
@@ -1224,21 +1232,24 @@ pub fn gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Gimbal<T> 
     let omega_g_b_gy = zero;
     let omega_g_b_gz = v.gamma_dot;
 
+    // r_{Gc/G}, behind eq. (12), m.
+    let r_gc_g_bx = q.cos_gamma * p.r_gc_g_gx - q.sin_gamma * p.r_gc_g_gy;
+    let r_gc_g_by = q.cos_gamma * p.r_gc_g_gy + q.sin_gamma * p.r_gc_g_gx;
+
     // r_{Gc/B}, behind eq. (12), m.
-    let r_gc_b_dprime_g_by = q.cos_gamma * p.r_gc_g_gx - q.sin_gamma * p.r_gc_g_gy;
-    let r_gc_b_bx = p.r_g_b_bx + r_gc_b_dprime_g_by;
-    let pos_0 = q.cos_gamma * p.r_gc_g_gy + q.sin_gamma * p.r_gc_g_gx;
-    let r_gc_b_by = p.r_g_b_by + pos_0;
+    let r_gc_b_bx = p.r_g_b_bx + r_gc_g_bx;
+    let r_gc_b_by = p.r_g_b_by + r_gc_g_by;
     let r_gc_b_bz = p.r_gc_b_bz;
 
     // r′_{Gc/B}, behind eq. (12), m/s.
-    let vel_0 = v.gamma_dot * pos_0;
+    let vel_0 = v.gamma_dot * r_gc_g_by;
     let r_gc_b_prime_bx = -vel_0;
-    let r_gc_b_prime_by = v.gamma_dot * r_gc_b_dprime_g_by;
+    let r_gc_b_prime_by = v.gamma_dot * r_gc_g_bx;
     let r_gc_b_prime_bz = zero;
 
     // r″_{Gc/B}, eq. (12), per γ̈, m.
-    let r_gc_b_dprime_g_bx = -pos_0;
+    let r_gc_b_dprime_g_bx = -r_gc_g_by;
+    let r_gc_b_dprime_g_by = r_gc_g_bx;
     let r_gc_b_dprime_g_bz = zero;
 
     // r″_{Gc/B}, eq. (12), with no joint accelerating, m/s².
@@ -1486,8 +1497,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let hand_m = p.m_d;
     let hand_mr_bx = p.hand_mr_bx;
     let hand_mr_by = p.hand_mr_by;
@@ -1517,7 +1528,10 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 ///
 /// Translation (16), rotation (75), motor torques (80); with the joints
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
-/// acceleration is given has no equation: what it asks for goes to the right side.
+/// acceleration is given has no equation: what it requires goes to the right side.
+///
+/// Equations (D1) to (D13) are derived in `tests/derivation/kernels`. By (D3), the origin
+/// of a turning joint is elsewhere on its axis than where the paper places it.
 ///
 /// Operations: 177 mul, 113 add, 1 neg, 1 div, 0 trig.
 #[inline(always)]
@@ -1530,7 +1544,7 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // Axes of the gimbal, eq. (A1), along B axes, 1.
+    // Axes of the gimbal, eq. (D1), expressed in B, 1.
     let e_x_bx = (q.cos_gamma * p.mount_11).add_mul(q.sin_gamma, p.mount_12);
     let e_x_by = (q.cos_gamma * p.mount_21).add_mul(q.sin_gamma, p.mount_22);
     let e_x_bz = (q.cos_gamma * p.mount_31).add_mul(q.sin_gamma, p.mount_32);
@@ -1538,7 +1552,7 @@ pub fn eliminate<T: Real>(
     let e_y_by = (q.cos_gamma * p.mount_22).sub_mul(q.sin_gamma, p.mount_21);
     let e_y_bz = (q.cos_gamma * p.mount_32).sub_mul(q.sin_gamma, p.mount_31);
 
-    // ω_{B/N} along the axes of the gimbal, eq. (C1), rad/s.
+    // ω_{B/N} expressed in the axes of the gimbal, eq. (D5), rad/s.
     let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
     let omega_b_n_gx = rate_0.add_mul(w.omega_bz, e_x_bz);
     let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
@@ -1553,12 +1567,14 @@ pub fn eliminate<T: Real>(
     let alpha_g_gx = v.gamma_dot * omega_b_n_gy;
     let neg_alpha_g_gy = v.gamma_dot * omega_b_n_gx;
 
-    // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
+    // Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the joint of
+    // the wheel, about W moved by (D3), eq. (D8).
     let n_rates_w_gy = v.spin * omega_g_n_gz * p.j_11;
     let coriolis_0 = v.spin * omega_b_n_gy * p.j_11;
     let n_rates_w_gz = -coriolis_0;
 
-    // Row of the gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    // Joint row of the gimbal, eqs. (80), (D7), (D9): M_ij, kg m², and bias without the hub's
+    // part, N m.
     let mass_gg = p.i_g_base_33;
     let row_0 = p.i_g_base_23 * omega_b_n_gz;
     let row_1 = omega_b_n_gx * row_0.sub_mul(omega_b_n_gy, p.i_behind_d_11);
@@ -1566,7 +1582,8 @@ pub fn eliminate<T: Real>(
     let row_3 = row_1.sub_mul(p.i_g_base_13, omega_b_n_gy * omega_b_n_gz);
     let field_g = row_3.add_mul(p.i_g_base_12, row_2) + n_rates_w_gz;
 
-    // Force, N, and moment, N m, that the joints' rates from the gimbal's on ask for, eq. (C2).
+    // Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the joint of
+    // the gimbal, about G moved by (D3), eq. (D8).
     let coriolis_1 = v.gamma_dot * (omega_b_n_gz + omega_g_n_gz);
     let neg_f_rates_g_gx = p.mr_d_g_gx * coriolis_1;
     let neg_f_rates_g_gy = p.mr_d_g_gy * coriolis_1;
@@ -1578,8 +1595,8 @@ pub fn eliminate<T: Real>(
     let coriolis_5 = (p.i_g_base_13 * coriolis_1).add_mul(alpha_g_gx, p.k_10);
     let n_rates_g_gy = coriolis_5.sub_mul(neg_alpha_g_gy, p.k_12) + n_rates_w_gy;
 
-    // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration, along B axes.
+    // M_vi, eqs. (17), (D7), kg m, and M_wi, eqs. (75), (D7), kg m²: force and moment about B
+    // per unit joint acceleration, expressed in B.
     let f_g_bx = (p.mr_d_g_gx * e_y_bx).sub_mul(p.mr_d_g_gy, e_x_bx);
     let f_g_by = (p.mr_d_g_gx * e_y_by).sub_mul(p.mr_d_g_gy, e_x_by);
     let f_g_bz = (p.mr_d_g_gx * e_y_bz).sub_mul(p.mr_d_g_gy, e_x_bz);
@@ -1590,8 +1607,8 @@ pub fn eliminate<T: Real>(
     let col_2 = (p.i_g_base_13 * e_x_bz).add_mul(p.i_g_base_23, e_y_bz) + p.k_15;
     let n_g_bz = (p.reach_bx * f_g_by).sub_mul(p.reach_by, f_g_bx) + col_2;
 
-    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    // (76), kg m².
+    // D without its constant share of the hub, about B, expressed in B: first moment, eqs. (9),
+    // (D6), kg m, and inertia, eqs. (76), (D6), kg m².
     let mr_moving_bx = (p.mr_d_g_gx * e_x_bx).add_mul(p.mr_d_g_gy, e_y_bx);
     let mr_moving_by = (p.mr_d_g_gx * e_x_by).add_mul(p.mr_d_g_gy, e_y_by);
     let mr_moving_bz = (p.mr_d_g_gx * e_x_bz).add_mul(p.mr_d_g_gy, e_y_bz);
@@ -1623,8 +1640,8 @@ pub fn eliminate<T: Real>(
     let moment_20 = (e_x_bz * moment_10).add_mul(p.mount_33, moment_11);
     let i_moving_33 = moment_20 + moment_20 + (moment_16 + moment_3);
 
-    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
-    // N and N m.
+    // Coriolis and centrifugal force, N, and moment about B, N m, of the joints' rates, of eqs.
+    // (16), (75), (D8), expressed in B.
     let bias_0 = (e_x_bx * neg_f_rates_g_gx).add_mul(e_y_bx, neg_f_rates_g_gy);
     let f_rates_bx = p.mount_13.mul_sub(f_rates_g_gz, bias_0);
     let bias_1 = (e_x_by * neg_f_rates_g_gx).add_mul(e_y_by, neg_f_rates_g_gy);
@@ -1641,7 +1658,7 @@ pub fn eliminate<T: Real>(
     let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
     let n_rates_bz = bias_7.sub_mul(p.mount_33, coriolis_0) + bias_8;
 
-    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), m/s².
     let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
     let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
     let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
@@ -1649,14 +1666,14 @@ pub fn eliminate<T: Real>(
     let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
     let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
-    // Bias of each joint with it, eq. (C3).
+    // Bias of each joint row with it, eq. (D9).
     let bias_9 = (f_g_bx * r_first_rest_bx).add_mul(f_g_by, r_first_rest_by);
     let u_rest_g = bias_9.add_mul(f_g_bz, r_first_rest_bz) + field_g;
 
-    // Right side of each joint, eq. (80): motor torque less what the rest asks for, N m.
+    // Right side of each joint row, eq. (80): motor torque less bias, N m.
     let tau_g = u.u_g - u_rest_g;
 
-    // Joint g, eq. (E1): its pivot `mass_gg`, kg m², and its gains.
+    // Joint g, eq. (D10): its pivot `mass_gg`, kg m², and its gains.
     let divisor_g = m.held_g + mass_gg;
     let recip_g = m.driven_g * divisor_g.recip();
     let gain_g_v1 = f_g_bx * recip_g;
@@ -1667,7 +1684,7 @@ pub fn eliminate<T: Real>(
     let gain_g_w3 = n_g_bz * recip_g;
     let free_g = m.given_g.add_mul(tau_g, recip_g);
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_g_bx * gain_g_v1;
     let m_vv_12 = f_g_by * gain_g_v1;
     let m_vv_13 = f_g_bz * gain_g_v1;
@@ -1675,7 +1692,7 @@ pub fn eliminate<T: Real>(
     let m_vv_23 = f_g_bz * gain_g_v2;
     let m_vv_33 = f_g_bz * gain_g_v3;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
     let m_vw_11 = n_g_bx * gain_g_v1;
     let m_vw_12 = n_g_by * gain_g_v1;
     let m_vw_13 = n_g_bz * gain_g_v1;
@@ -1686,7 +1703,7 @@ pub fn eliminate<T: Real>(
     let m_vw_32 = n_g_by * gain_g_v3;
     let m_vw_33 = n_g_bz * gain_g_v3;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
     let m_ww_11 = n_g_bx * gain_g_w1;
     let m_ww_12 = n_g_by * gain_g_w1;
     let m_ww_13 = n_g_bz * gain_g_w1;
@@ -1694,7 +1711,7 @@ pub fn eliminate<T: Real>(
     let m_ww_23 = n_g_bz * gain_g_w2;
     let m_ww_33 = n_g_bz * gain_g_w3;
 
-    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    // Subtracted from the hub's right side, eq. (D12): force, N, and moment about B, N m.
     let h_v_1 = f_rates_bx.add_mul(f_g_bx, free_g);
     let h_v_2 = f_rates_by.add_mul(f_g_by, free_g);
     let h_v_3 = f_rates_bz.add_mul(f_g_bz, free_g);
@@ -1753,7 +1770,7 @@ pub fn eliminate<T: Real>(
 #[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
-    // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
+    // Row by row, outboard, eq. (D13): the free acceleration less the gains.
     let row_0 = e.free_g.sub_mul(a.r_b_n_ddot_bx, e.gain_g_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_g_v2);
     let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_g_v3);
@@ -1854,7 +1871,7 @@ pub fn energy_momentum<T: Real>(
 /// Operations: 4 mul, 4 add, 1 neg, 0 div, 0 trig.
 #[must_use]
 pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
-    // Of the gimbal: its own axes along B, eq. (A1).
+    // Of the gimbal: its own axes along B, eq. (D1).
     let g_x_bx = q.cos_gamma;
     let g_x_by = q.sin_gamma;
     let zero = q.sin_gamma.like(0.0);
@@ -1867,12 +1884,12 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     let one = q.sin_gamma.like(1.0);
     let g_z_bz = one;
 
-    // G from B, eq. (A2), along B axes, m.
+    // G from B, eq. (D2), along B axes, m.
     let origin_g_bx = p.r_g_b_bx;
     let origin_g_by = p.r_g_b_by;
     let origin_g_bz = p.r_g_b_bz;
 
-    // Of the wheel: the carrier's axes along B, eq. (A1).
+    // Of the wheel: the carrier's axes along B, eq. (D1).
     let w_x_bx = q.cos_gamma;
     let w_x_by = q.sin_gamma;
     let w_x_bz = zero;
@@ -1883,7 +1900,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     let w_z_by = zero;
     let w_z_bz = one;
 
-    // W from B, eq. (A2), along B axes, m.
+    // W from B, eq. (D2), along B axes, m.
     let origin_w_bx = q.cos_gamma * p.l_g_x - q.sin_gamma * p.l_g_y + p.r_g_b_bx;
     let origin_w_by = q.sin_gamma * p.l_g_x + q.cos_gamma * p.l_g_y + p.r_g_b_by;
     let origin_w_bz = p.r_wc_b_gz;
@@ -2061,7 +2078,7 @@ pub fn loads<T: Real>(
 /// Operations: 20 mul, 22 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> External<T> {
-    // On W, the wheel and what it carries, eq. (F1): force, N, and moment about W, N m.
+    // On W, the wheel and what it carries, eq. (D14): force, N, and moment about W, N m.
     let f_sum_wx = x.f_on_wx;
     let f_sum_wy = x.f_on_wy;
     let f_sum_wz = x.f_on_wz;
@@ -2069,10 +2086,10 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
     let n_sum_wy = x.n_on_wy;
     let n_sum_wz = x.n_on_wz;
 
-    // Along the wheel's joint, beside its motor, eq. (F2), N m.
+    // Along the wheel's joint, beside its motor, eq. (D15), N m.
     let drive_w = x.n_on_wx;
 
-    // On D, the gimbal and what it carries, eq. (F1): force, N, and moment about G, N m.
+    // On D, the gimbal and what it carries, eq. (D14): force, N, and moment about G, N m.
     let f_sum_gx = x.f_on_gx + x.f_on_wx;
     let f_sum_gy = x.f_on_gy + x.f_on_wy;
     let f_sum_gz = x.f_on_gz + x.f_on_wz;
@@ -2080,10 +2097,10 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
     let n_sum_gy = p.l_g_z * x.f_on_wx - p.l_g_x * x.f_on_wz + x.n_on_wy + x.n_on_gy;
     let n_sum_gz = p.l_g_x * x.f_on_wy - p.l_g_y * x.f_on_wx + x.n_on_wz + x.n_on_gz;
 
-    // Along the gimbal's joint, beside its motor, eq. (F2), N m.
+    // Along the gimbal's joint, beside its motor, eq. (D15), N m.
     let drive_g = n_sum_gz;
 
-    // On the hub, eq. (F1): force, N, and moment about B, N m.
+    // On the hub, eq. (D14): force, N, and moment about B, N m.
     let f_sum_bx = q.cos_gamma * f_sum_gx - q.sin_gamma * f_sum_gy;
     let f_sum_by = q.cos_gamma * f_sum_gy + q.sin_gamma * f_sum_gx;
     let f_sum_bz = f_sum_gz;
@@ -2122,7 +2139,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 /// Operations: 84 mul, 75 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
-    // G, as in eq. (G1), along the axes of the gimbal, 1/s².
+    // G, as in eq. (D16), along the axes of the gimbal, 1/s².
     let field_0 = q.sin_gamma * (g.g_22 - g.g_11) + q.cos_gamma * (g.g_12 + g.g_12);
     let field_1 = q.sin_gamma * field_0;
     let g_g_11 = g.g_11 + field_1;
@@ -2131,14 +2148,14 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let g_g_22 = g.g_22 - field_1;
     let g_g_23 = q.cos_gamma * g.g_23 - q.sin_gamma * g.g_13;
 
-    // G r at G, eq. (G1), along the same axes, m/s².
+    // G r at G, eq. (D16), along the same axes, m/s².
     let field_2 = p.r_g_b_bx * g.g_11 + p.r_g_b_by * g.g_12 + p.r_g_b_bz * g.g_13;
     let field_3 = p.r_g_b_bx * g.g_12 + p.r_g_b_by * g.g_22 + p.r_g_b_bz * g.g_23;
     let g_r_g_gx = q.cos_gamma * field_2 + q.sin_gamma * field_3;
     let g_r_g_gy = q.cos_gamma * field_3 - q.sin_gamma * field_2;
     let g_r_g_gz = p.r_g_b_bx * g.g_13 + p.r_g_b_by * g.g_23 + p.r_g_b_bz * g.g_33;
 
-    // On the gimbal alone, eq. (G2): force, N, and moment about G, N m.
+    // On the gimbal alone, eq. (D17): force, N, and moment about G, N m.
     let pull_0 = p.mr_gc_g_gx * g_g_11 + p.mr_gc_g_gy * g_g_12;
     let f_on_gx = pull_0 + p.mr_gc_g_gz * g_g_13 + p.m_g * g_r_g_gx;
     let pull_1 = p.mr_gc_g_gx * g_g_12 + p.mr_gc_g_gy * g_g_22;
@@ -2155,12 +2172,12 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let pull_8 = p.mr_gc_g_gx * g_r_g_gy - p.mr_gc_g_gy * g_r_g_gx;
     let n_on_gz = pull_8 - (pull_7 + p.i_g_g_12 * (g_g_22 - g_g_11));
 
-    // G r at W, eq. (G1), along the same axes, m/s².
+    // G r at W, eq. (D16), along the same axes, m/s².
     let g_r_w_wx = p.l_g_x * g_g_11 + p.l_g_y * g_g_12 + p.l_g_z * g_g_13 + g_r_g_gx;
     let g_r_w_wy = p.l_g_x * g_g_12 + p.l_g_y * g_g_22 + p.l_g_z * g_g_23 + g_r_g_gy;
     let g_r_w_wz = p.l_g_x * g_g_13 + p.l_g_y * g_g_23 + p.l_g_z * g.g_33 + g_r_g_gz;
 
-    // On the wheel alone, eq. (G2): force, N, and moment about W, N m.
+    // On the wheel alone, eq. (D17): force, N, and moment about W, N m.
     let f_on_wx = p.m_w * g_r_w_wx;
     let f_on_wy = p.m_w * g_r_w_wy;
     let f_on_wz = p.m_w * g_r_w_wz;
@@ -2169,7 +2186,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let n_on_wy = -(g_g_13 * p.k_26);
     let n_on_wz = -(g_g_12 * p.k_27);
 
-    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
+    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg m².
     let axis_0 = q.cos_gamma * p.mr_d_g_gx - q.sin_gamma * p.mr_d_g_gy;
     let axis_1 = q.cos_gamma * p.mr_d_g_gy + q.sin_gamma * p.mr_d_g_gx;
     let axis_2 = q.cos_gamma * p.k_3 - q.sin_gamma * p.k_2;

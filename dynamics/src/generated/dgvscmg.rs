@@ -203,13 +203,13 @@ pub struct Prepared<T> {
     pub j_23: T,
     /// [I_{W,Wc}]: inertia of the wheel, its own axes, entry 33, kg m².
     pub j_33: T,
-    /// `p.m_go + p.m_gi + p.m_w`. What the hub takes over, eq. (B2): mass, kg, first moment,
-    /// kg m, and inertia about B, kg m², along B axes.
+    /// `p.m_go + p.m_gi + p.m_w`. Constant share of the hub, eq. (D4): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_m: T,
     /// `p.r_go_b_bz + p.r_goc_go_goz`. r_{Gᵒc/B}, behind eq. (12), m.
     pub r_goc_b_bz: T,
-    /// `p.r_go_b_bz + p.l_o_z`. What the hub takes over, eq. (B2): mass, kg, first moment, kg
-    /// m, and inertia about B, kg m², along B axes.
+    /// `p.r_go_b_bz + p.l_o_z`. Constant share of the hub, eq. (D4): mass, kg, first moment,
+    /// kg m, and inertia about B, kg m², expressed in B.
     pub arm_o_dz: T,
     /// `r_goc_b_bz * r_goc_b_bz`.
     pub k_0: T,
@@ -228,8 +228,8 @@ pub struct Prepared<T> {
     /// `p.j_33 + own_1`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_33: T,
-    /// `i_w_w_11`. Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and
-    /// bias, N m, eq. (C3).
+    /// `i_w_w_11`. Joint row of the wheel, eqs. (119), (D7), (D9): M_ij, kg m², and bias
+    /// without the hub's part, N m.
     pub mass_ww: T,
     /// `i_w_w_33 - p.j_22`.
     pub k_2: T,
@@ -330,68 +330,83 @@ pub struct Prepared<T> {
     pub k_21: T,
     /// `p.j_12 - p.l_i_x * mr_wc_w_wy`.
     pub k_22: T,
-    /// `p.l_o_y + p.l_i_y`. Base parameters of the outer gimbal, eqs. (B1), (B2): arm, m,
-    /// first moment, kg m, inertia, kg m².
+    /// `p.l_o_y + p.l_i_y`. Base inertial parameters of the outer gimbal, eqs. (D3), (D4): Gᵒ
+    /// moved by (D3) from the parent's origin, m; first moment, kg m, and inertia, kg m²,
+    /// about it.
     pub arm_i_goy: T,
-    /// `p.l_i_z * p.m_w + mr_gic_gi_giz`. Base parameters of the inner gimbal, eqs. (B1),
-    /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.l_i_z * p.m_w + mr_gic_gi_giz`. Base inertial parameters of the inner gimbal, eqs.
+    /// (D3), (D4): Gⁱ moved by (D3) from the parent's origin, m; first moment, kg m, and
+    /// inertia, kg m², about it.
     pub mr_i_base_giz: T,
     /// `arm_i_goy + arm_i_goy`.
     pub k_23: T,
     /// `mr_o_base_gox`.
     pub k_24: T,
-    /// `p.l_o_x * m_v + mr_goc_go_gox`. Base parameters of the outer gimbal, eqs. (B1), (B2):
-    /// arm, m, first moment, kg m, inertia, kg m².
+    /// `p.l_o_x * m_v + mr_goc_go_gox`. Base inertial parameters of the outer gimbal, eqs.
+    /// (D3), (D4): Gᵒ moved by (D3) from the parent's origin, m; first moment, kg m, and
+    /// inertia, kg m², about it.
     pub mr_o_base_gox: T,
-    /// `base_0 + mr_gic_gi_giy`. Base parameters of the outer gimbal, eqs. (B1), (B2): arm,
-    /// m, first moment, kg m, inertia, kg m².
+    /// `base_0 + mr_gic_gi_giy`. Base inertial parameters of the outer gimbal, eqs. (D3),
+    /// (D4): Gᵒ moved by (D3) from the parent's origin, m; first moment, kg m, and inertia,
+    /// kg m², about it.
     pub mr_o_base_goy: T,
-    /// `base_11 + p.i_go_11 - p.i_go_22`. Base parameters of the outer gimbal, eqs. (B1),
-    /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_11 + p.i_go_11 - p.i_go_22`. Base inertial parameters of the outer gimbal, eqs.
+    /// (D3), (D4): Gᵒ moved by (D3) from the parent's origin, m; first moment, kg m, and
+    /// inertia, kg m², about it.
     pub i_o_base_11: T,
-    /// `p.i_go_12 - p.r_goc_go_goy * mr_goc_go_gox - base_14`. Base parameters of the outer
-    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_go_12 - p.r_goc_go_goy * mr_goc_go_gox - base_14`. Base inertial parameters of
+    /// the outer gimbal, eqs. (D3), (D4): Gᵒ moved by (D3) from the parent's origin, m; first
+    /// moment, kg m, and inertia, kg m², about it.
     pub i_o_base_12: T,
-    /// `base_16 - p.r_goc_go_goz * mr_goc_go_gox`. Base parameters of the outer gimbal, eqs.
-    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_16 - p.r_goc_go_goz * mr_goc_go_gox`. Base inertial parameters of the outer
+    /// gimbal, eqs. (D3), (D4): Gᵒ moved by (D3) from the parent's origin, m; first moment,
+    /// kg m, and inertia, kg m², about it.
     pub i_o_base_13: T,
-    /// `base_17 - p.r_goc_go_goz * mr_goc_go_goy`. Base parameters of the outer gimbal, eqs.
-    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_17 - p.r_goc_go_goz * mr_goc_go_goy`. Base inertial parameters of the outer
+    /// gimbal, eqs. (D3), (D4): Gᵒ moved by (D3) from the parent's origin, m; first moment,
+    /// kg m, and inertia, kg m², about it.
     pub i_o_base_23: T,
-    /// `base_20 + p.i_go_33 + p.i_gi_11`. Base parameters of the outer gimbal, eqs. (B1),
-    /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_20 + p.i_go_33 + p.i_gi_11`. Base inertial parameters of the outer gimbal, eqs.
+    /// (D3), (D4): Gᵒ moved by (D3) from the parent's origin, m; first moment, kg m, and
+    /// inertia, kg m², about it.
     pub i_o_base_33: T,
-    /// `base_22 + p.r_gic_gi_gix * base_21`. Base parameters of the inner gimbal, eqs. (B1),
-    /// (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_22 + p.r_gic_gi_gix * base_21`. Base inertial parameters of the inner gimbal,
+    /// eqs. (D3), (D4): Gⁱ moved by (D3) from the parent's origin, m; first moment, kg m, and
+    /// inertia, kg m², about it.
     pub i_i_base_12: T,
-    /// `p.i_gi_13 - p.r_gic_gi_giz * mr_gic_gi_gix - base_23`. Base parameters of the inner
-    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_gi_13 - p.r_gic_gi_giz * mr_gic_gi_gix - base_23`. Base inertial parameters of
+    /// the inner gimbal, eqs. (D3), (D4): Gⁱ moved by (D3) from the parent's origin, m; first
+    /// moment, kg m, and inertia, kg m², about it.
     pub i_i_base_13: T,
-    /// `base_26 + p.m_w * (base_2 + base_27) + p.i_gi_22 + p.j_33`. Base parameters of the
-    /// inner gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_26 + p.m_w * (base_2 + base_27) + p.i_gi_22 + p.j_33`. Base inertial parameters
+    /// of the inner gimbal, eqs. (D3), (D4): Gⁱ moved by (D3) from the parent's origin, m;
+    /// first moment, kg m, and inertia, kg m², about it.
     pub i_i_base_22: T,
-    /// `p.i_gi_23 + p.r_gic_gi_giz * (base_21 - mr_gic_gi_giy)`. Base parameters of the inner
-    /// gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_gi_23 + p.r_gic_gi_giz * (base_21 - mr_gic_gi_giy)`. Base inertial parameters of
+    /// the inner gimbal, eqs. (D3), (D4): Gⁱ moved by (D3) from the parent's origin, m; first
+    /// moment, kg m, and inertia, kg m², about it.
     pub i_i_base_23: T,
-    /// `base_28 + p.j_33 - p.i_gi_11 + p.i_gi_33`. Base parameters of the inner gimbal, eqs.
-    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `base_28 + p.j_33 - p.i_gi_11 + p.i_gi_33`. Base inertial parameters of the inner
+    /// gimbal, eqs. (D3), (D4): Gⁱ moved by (D3) from the parent's origin, m; first moment,
+    /// kg m, and inertia, kg m², about it.
     pub i_i_base_33: T,
-    /// `p.j_12 - p.l_i_x * p.d * p.m_w`. Base parameters of the wheel, eqs. (B1), (B2): arm,
-    /// m, first moment, kg m, inertia, kg m².
+    /// `p.j_12 - p.l_i_x * p.d * p.m_w`. Base inertial parameters of the wheel, eqs. (D3),
+    /// (D4): W moved by (D3) from the parent's origin, m; first moment, kg m, and inertia, kg
+    /// m², about it.
     pub i_w_base_12: T,
     /// `p.j_22 - p.j_33`.
     pub k_25: T,
-    /// `k_25 - own_1`. Base parameters of the wheel, eqs. (B1), (B2): arm, m, first moment,
-    /// kg m, inertia, kg m².
+    /// `k_25 - own_1`. Base inertial parameters of the wheel, eqs. (D3), (D4): W moved by
+    /// (D3) from the parent's origin, m; first moment, kg m, and inertia, kg m², about it.
     pub i_w_base_22: T,
-    /// `place_0 + p.mount_13 * arm_o_dz`. Origin of the first joint, eq. (A2), along B axes,
-    /// m.
+    /// `place_0 + p.mount_13 * arm_o_dz`. Origin of the first joint from B, moved by (D3),
+    /// eq. (D2), expressed in B, m.
     pub reach_bx: T,
-    /// `place_1 + p.mount_23 * arm_o_dz`. Origin of the first joint, eq. (A2), along B axes,
-    /// m.
+    /// `place_1 + p.mount_23 * arm_o_dz`. Origin of the first joint from B, moved by (D3),
+    /// eq. (D2), expressed in B, m.
     pub reach_by: T,
-    /// `place_2 + p.mount_33 * arm_o_dz`. Origin of the first joint, eq. (A2), along B axes,
-    /// m.
+    /// `place_2 + p.mount_33 * arm_o_dz`. Origin of the first joint from B, moved by (D3),
+    /// eq. (D2), expressed in B, m.
     pub reach_bz: T,
     /// `reach_bx + reach_bx`.
     pub k_26: T,
@@ -399,35 +414,35 @@ pub struct Prepared<T> {
     pub k_27: T,
     /// `reach_bz + reach_bz`.
     pub k_28: T,
-    /// `p.mount_11 * k_18 + p.mount_12 * k_19 + p.mount_13 * hand_0`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `p.mount_11 * k_18 + p.mount_12 * k_19 + p.mount_13 * hand_0`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_mr_bx: T,
-    /// `p.mount_21 * k_18 + p.mount_22 * k_19 + p.mount_23 * hand_0`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `p.mount_21 * k_18 + p.mount_22 * k_19 + p.mount_23 * hand_0`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_mr_by: T,
-    /// `p.mount_31 * k_18 + p.mount_32 * k_19 + p.mount_33 * hand_0`. What the hub takes
-    /// over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B
-    /// axes.
+    /// `p.mount_31 * k_18 + p.mount_32 * k_19 + p.mount_33 * hand_0`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_mr_bz: T,
-    /// `half * (hand_27 + p.mount_13 * hand_12 * hand_10)`. What the hub takes over, eq.
-    /// (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_27 + p.mount_13 * hand_12 * hand_10)`. Constant share of the hub, eq.
+    /// (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_11: T,
-    /// `half * (hand_35 - hand_34)`. What the hub takes over, eq. (B2): mass, kg, first
-    /// moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_35 - hand_34)`. Constant share of the hub, eq. (D4): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_12: T,
-    /// `half * (hand_43 - hand_42)`. What the hub takes over, eq. (B2): mass, kg, first
-    /// moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_43 - hand_42)`. Constant share of the hub, eq. (D4): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_13: T,
-    /// `half * hand_46`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
-    /// inertia about B, kg m², along B axes.
+    /// `half * hand_46`. Constant share of the hub, eq. (D4): mass, kg, first moment, kg m,
+    /// and inertia about B, kg m², expressed in B.
     pub hand_i_22: T,
-    /// `half * (hand_51 - hand_50)`. What the hub takes over, eq. (B2): mass, kg, first
-    /// moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_51 - hand_50)`. Constant share of the hub, eq. (D4): mass, kg, first
+    /// moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_23: T,
-    /// `half * hand_54`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
-    /// inertia about B, kg m², along B axes.
+    /// `half * hand_54`. Constant share of the hub, eq. (D4): mass, kg, first moment, kg m,
+    /// and inertia about B, kg m², expressed in B.
     pub hand_i_33: T,
     /// `i_go_go_22 - i_go_go_33`.
     pub k_29: T,
@@ -1067,7 +1082,7 @@ pub struct FirstMoment<T> {
     pub f_tilde_bz: T,
 }
 
-/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
+/// How the joints of a device follow the hub, eq. (D13), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gains<T> {
     /// Gain of the wheel on component 1 of r̈_{B/N}, 1/m.
@@ -1220,77 +1235,77 @@ impl<T: Copy> JointAccelerations<T> {
 /// Axes of the bodies and origins of their joints, along the device's B axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes<T> {
-    /// First axis of the outer gimbal, eq. (A1), along bx, 1.
+    /// First axis of the outer gimbal, eq. (D1), along bx, 1.
     pub go_x_bx: T,
-    /// First axis of the outer gimbal, eq. (A1), along by, 1.
+    /// First axis of the outer gimbal, eq. (D1), along by, 1.
     pub go_x_by: T,
-    /// First axis of the outer gimbal, eq. (A1), along bz, 1.
+    /// First axis of the outer gimbal, eq. (D1), along bz, 1.
     pub go_x_bz: T,
-    /// Second axis of the outer gimbal, eq. (A1), along bx, 1.
+    /// Second axis of the outer gimbal, eq. (D1), along bx, 1.
     pub go_y_bx: T,
-    /// Second axis of the outer gimbal, eq. (A1), along by, 1.
+    /// Second axis of the outer gimbal, eq. (D1), along by, 1.
     pub go_y_by: T,
-    /// Second axis of the outer gimbal, eq. (A1), along bz, 1.
+    /// Second axis of the outer gimbal, eq. (D1), along bz, 1.
     pub go_y_bz: T,
-    /// Third axis of the outer gimbal, eq. (A1), along bx, 1.
+    /// Third axis of the outer gimbal, eq. (D1), along bx, 1.
     pub go_z_bx: T,
-    /// Third axis of the outer gimbal, eq. (A1), along by, 1.
+    /// Third axis of the outer gimbal, eq. (D1), along by, 1.
     pub go_z_by: T,
-    /// Third axis of the outer gimbal, eq. (A1), along bz, 1.
+    /// Third axis of the outer gimbal, eq. (D1), along bz, 1.
     pub go_z_bz: T,
-    /// Gᵒ, origin of its joint, from B, eq. (A2), along bx, m.
+    /// Gᵒ, origin of its joint, from B, eq. (D2), along bx, m.
     pub origin_go_bx: T,
-    /// Gᵒ, origin of its joint, from B, eq. (A2), along by, m.
+    /// Gᵒ, origin of its joint, from B, eq. (D2), along by, m.
     pub origin_go_by: T,
-    /// Gᵒ, origin of its joint, from B, eq. (A2), along bz, m.
+    /// Gᵒ, origin of its joint, from B, eq. (D2), along bz, m.
     pub origin_go_bz: T,
-    /// First axis of the inner gimbal, eq. (A1), along bx, 1.
+    /// First axis of the inner gimbal, eq. (D1), along bx, 1.
     pub gi_x_bx: T,
-    /// First axis of the inner gimbal, eq. (A1), along by, 1.
+    /// First axis of the inner gimbal, eq. (D1), along by, 1.
     pub gi_x_by: T,
-    /// First axis of the inner gimbal, eq. (A1), along bz, 1.
+    /// First axis of the inner gimbal, eq. (D1), along bz, 1.
     pub gi_x_bz: T,
-    /// Second axis of the inner gimbal, eq. (A1), along bx, 1.
+    /// Second axis of the inner gimbal, eq. (D1), along bx, 1.
     pub gi_y_bx: T,
-    /// Second axis of the inner gimbal, eq. (A1), along by, 1.
+    /// Second axis of the inner gimbal, eq. (D1), along by, 1.
     pub gi_y_by: T,
-    /// Second axis of the inner gimbal, eq. (A1), along bz, 1.
+    /// Second axis of the inner gimbal, eq. (D1), along bz, 1.
     pub gi_y_bz: T,
-    /// Third axis of the inner gimbal, eq. (A1), along bx, 1.
+    /// Third axis of the inner gimbal, eq. (D1), along bx, 1.
     pub gi_z_bx: T,
-    /// Third axis of the inner gimbal, eq. (A1), along by, 1.
+    /// Third axis of the inner gimbal, eq. (D1), along by, 1.
     pub gi_z_by: T,
-    /// Third axis of the inner gimbal, eq. (A1), along bz, 1.
+    /// Third axis of the inner gimbal, eq. (D1), along bz, 1.
     pub gi_z_bz: T,
-    /// Gⁱ, origin of its joint, from B, eq. (A2), along bx, m.
+    /// Gⁱ, origin of its joint, from B, eq. (D2), along bx, m.
     pub origin_gi_bx: T,
-    /// Gⁱ, origin of its joint, from B, eq. (A2), along by, m.
+    /// Gⁱ, origin of its joint, from B, eq. (D2), along by, m.
     pub origin_gi_by: T,
-    /// Gⁱ, origin of its joint, from B, eq. (A2), along bz, m.
+    /// Gⁱ, origin of its joint, from B, eq. (D2), along bz, m.
     pub origin_gi_bz: T,
-    /// First axis of the wheel, eq. (A1), along bx, 1.
+    /// First axis of the wheel, eq. (D1), along bx, 1.
     pub w_x_bx: T,
-    /// First axis of the wheel, eq. (A1), along by, 1.
+    /// First axis of the wheel, eq. (D1), along by, 1.
     pub w_x_by: T,
-    /// First axis of the wheel, eq. (A1), along bz, 1.
+    /// First axis of the wheel, eq. (D1), along bz, 1.
     pub w_x_bz: T,
-    /// Second axis of the wheel, eq. (A1), along bx, 1.
+    /// Second axis of the wheel, eq. (D1), along bx, 1.
     pub w_y_bx: T,
-    /// Second axis of the wheel, eq. (A1), along by, 1.
+    /// Second axis of the wheel, eq. (D1), along by, 1.
     pub w_y_by: T,
-    /// Second axis of the wheel, eq. (A1), along bz, 1.
+    /// Second axis of the wheel, eq. (D1), along bz, 1.
     pub w_y_bz: T,
-    /// Third axis of the wheel, eq. (A1), along bx, 1.
+    /// Third axis of the wheel, eq. (D1), along bx, 1.
     pub w_z_bx: T,
-    /// Third axis of the wheel, eq. (A1), along by, 1.
+    /// Third axis of the wheel, eq. (D1), along by, 1.
     pub w_z_by: T,
-    /// Third axis of the wheel, eq. (A1), along bz, 1.
+    /// Third axis of the wheel, eq. (D1), along bz, 1.
     pub w_z_bz: T,
-    /// W, origin of its joint, from B, eq. (A2), along bx, m.
+    /// W, origin of its joint, from B, eq. (D2), along bx, m.
     pub origin_w_bx: T,
-    /// W, origin of its joint, from B, eq. (A2), along by, m.
+    /// W, origin of its joint, from B, eq. (D2), along by, m.
     pub origin_w_by: T,
-    /// W, origin of its joint, from B, eq. (A2), along bz, m.
+    /// W, origin of its joint, from B, eq. (D2), along bz, m.
     pub origin_w_bz: T,
 }
 
@@ -1352,84 +1367,84 @@ pub struct Loads<T> {
 /// joint's origin; along each joint, to be added to its motor's; on the hub.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct External<T> {
-    /// Force on the outer gimbal and what it carries, eq. (F1), along gox, N.
+    /// Force on the outer gimbal and what it carries, eq. (D14), along gox, N.
     pub f_sum_gox: T,
-    /// Force on the outer gimbal and what it carries, eq. (F1), along goy, N.
+    /// Force on the outer gimbal and what it carries, eq. (D14), along goy, N.
     pub f_sum_goy: T,
-    /// Force on the outer gimbal and what it carries, eq. (F1), along goz, N.
+    /// Force on the outer gimbal and what it carries, eq. (D14), along goz, N.
     pub f_sum_goz: T,
-    /// Moment about Gᵒ on the outer gimbal and what it carries, eq. (F1), along gox, N m.
+    /// Moment about Gᵒ on the outer gimbal and what it carries, eq. (D14), along gox, N m.
     pub n_sum_gox: T,
-    /// Moment about Gᵒ on the outer gimbal and what it carries, eq. (F1), along goy, N m.
+    /// Moment about Gᵒ on the outer gimbal and what it carries, eq. (D14), along goy, N m.
     pub n_sum_goy: T,
-    /// Moment about Gᵒ on the outer gimbal and what it carries, eq. (F1), along goz, N m.
+    /// Moment about Gᵒ on the outer gimbal and what it carries, eq. (D14), along goz, N m.
     pub n_sum_goz: T,
-    /// Along the outer gimbal's joint, eq. (F2), N m.
+    /// Along the outer gimbal's joint, eq. (D15), N m.
     pub drive_o: T,
-    /// Force on the inner gimbal and what it carries, eq. (F1), along gix, N.
+    /// Force on the inner gimbal and what it carries, eq. (D14), along gix, N.
     pub f_sum_gix: T,
-    /// Force on the inner gimbal and what it carries, eq. (F1), along giy, N.
+    /// Force on the inner gimbal and what it carries, eq. (D14), along giy, N.
     pub f_sum_giy: T,
-    /// Force on the inner gimbal and what it carries, eq. (F1), along giz, N.
+    /// Force on the inner gimbal and what it carries, eq. (D14), along giz, N.
     pub f_sum_giz: T,
-    /// Moment about Gⁱ on the inner gimbal and what it carries, eq. (F1), along gix, N m.
+    /// Moment about Gⁱ on the inner gimbal and what it carries, eq. (D14), along gix, N m.
     pub n_sum_gix: T,
-    /// Moment about Gⁱ on the inner gimbal and what it carries, eq. (F1), along giy, N m.
+    /// Moment about Gⁱ on the inner gimbal and what it carries, eq. (D14), along giy, N m.
     pub n_sum_giy: T,
-    /// Moment about Gⁱ on the inner gimbal and what it carries, eq. (F1), along giz, N m.
+    /// Moment about Gⁱ on the inner gimbal and what it carries, eq. (D14), along giz, N m.
     pub n_sum_giz: T,
-    /// Along the inner gimbal's joint, eq. (F2), N m.
+    /// Along the inner gimbal's joint, eq. (D15), N m.
     pub drive_i: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wx, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wx, N.
     pub f_sum_wx: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wy, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wy, N.
     pub f_sum_wy: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wz, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wz, N.
     pub f_sum_wz: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wx, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wx, N m.
     pub n_sum_wx: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wy, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wy, N m.
     pub n_sum_wy: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wz, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wz, N m.
     pub n_sum_wz: T,
-    /// Along the wheel's joint, eq. (F2), N m.
+    /// Along the wheel's joint, eq. (D15), N m.
     pub drive_w: T,
-    /// Force on the hub, eq. (F1), along bx, N.
+    /// Force on the hub, eq. (D14), along bx, N.
     pub f_sum_bx: T,
-    /// Force on the hub, eq. (F1), along by, N.
+    /// Force on the hub, eq. (D14), along by, N.
     pub f_sum_by: T,
-    /// Force on the hub, eq. (F1), along bz, N.
+    /// Force on the hub, eq. (D14), along bz, N.
     pub f_sum_bz: T,
-    /// Moment about B on the hub, eq. (F1), along bx, N m.
+    /// Moment about B on the hub, eq. (D14), along bx, N m.
     pub n_sum_bx: T,
-    /// Moment about B on the hub, eq. (F1), along by, N m.
+    /// Moment about B on the hub, eq. (D14), along by, N m.
     pub n_sum_by: T,
-    /// Moment about B on the hub, eq. (F1), along bz, N m.
+    /// Moment about B on the hub, eq. (D14), along bz, N m.
     pub n_sum_bz: T,
 }
 
 /// What a field of acceleration does to a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity<T> {
-    /// On each body, eq. (G2).
+    /// On each body, eq. (D17).
     pub wrenches: Wrenches<T>,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 11, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 11,
+    /// kg m².
     pub second_moment_11: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 12, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 12,
+    /// kg m².
     pub second_moment_12: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 13, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 13,
+    /// kg m².
     pub second_moment_13: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 22, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 22,
+    /// kg m².
     pub second_moment_22: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 23, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 23,
+    /// kg m².
     pub second_moment_23: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 33, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 33,
+    /// kg m².
     pub second_moment_33: T,
 }
 
@@ -1470,8 +1485,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // inertia, kg m², about Gᵒ.
     let m_d = p.m_go + m_v;
 
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let hand_m = p.m_go + p.m_gi + p.m_w;
     let arm_o_dz = p.r_go_b_bz + p.l_o_z;
     let k_18 = p.r_go_b_bx * m_d;
@@ -1549,8 +1564,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let own_1 = p.m_w * own_0;
     let i_w_w_11 = p.j_11 + own_1;
 
-    // Base parameters of the outer gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia,
-    // kg m².
+    // Base inertial parameters of the outer gimbal, eqs. (D3), (D4): Gᵒ moved by (D3) from the
+    // parent's origin, m; first moment, kg m, and inertia, kg m², about it.
     let mr_o_base_gox = p.l_o_x * m_v + mr_goc_go_gox;
     let arm_i_goy = p.l_o_y + p.l_i_y;
     let base_0 = p.l_o_y * p.m_gi + p.m_w * arm_i_goy + mr_goc_go_goy;
@@ -1581,8 +1596,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let base_20 = base_19 + p.m_w * (base_1 + base_5 + hand_1 + base_2);
     let i_o_base_33 = base_20 + p.i_go_33 + p.i_gi_11;
 
-    // Base parameters of the inner gimbal, eqs. (B1), (B2): arm, m, first moment, kg m, inertia,
-    // kg m².
+    // Base inertial parameters of the inner gimbal, eqs. (D3), (D4): Gⁱ moved by (D3) from the
+    // parent's origin, m; first moment, kg m, and inertia, kg m², about it.
     let mr_i_base_giz = p.l_i_z * p.m_w + mr_gic_gi_giz;
     let base_21 = p.m_gi * p.l_i_y;
     let base_22 = p.i_gi_12 - p.r_gic_gi_giy * mr_gic_gi_gix;
@@ -1598,15 +1613,17 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let base_28 = p.m_gi * (base_25 - base_4) + p.m_w * (base_27 - base_2);
     let i_i_base_33 = base_28 + p.j_33 - p.i_gi_11 + p.i_gi_33;
 
-    // Base parameters of the wheel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    // Base inertial parameters of the wheel, eqs. (D3), (D4): W moved by (D3) from the parent's
+    // origin, m; first moment, kg m, and inertia, kg m², about it.
     let i_w_base_12 = p.j_12 - p.l_i_x * p.d * p.m_w;
     let k_25 = p.j_22 - p.j_33;
     let i_w_base_22 = k_25 - own_1;
 
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    // Joint row of the wheel, eqs. (119), (D7), (D9): M_ij, kg m², and bias without the hub's
+    // part, N m.
     let mass_ww = i_w_w_11;
 
-    // Origin of the first joint, eq. (A2), along B axes, m.
+    // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in B, m.
     let place_0 = p.r_go_b_bx * p.mount_11 + p.r_go_b_by * p.mount_12;
     let reach_bx = place_0 + p.mount_13 * arm_o_dz;
     let place_1 = p.r_go_b_bx * p.mount_21 + p.r_go_b_by * p.mount_22;
@@ -1873,22 +1890,24 @@ pub fn outer_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Oute
     let omega_go_b_goy = zero;
     let omega_go_b_goz = v.gamma_o_dot;
 
+    // r_{Gᵒc/Gᵒ}, behind eq. (12), m.
+    let r_goc_go_bx = q.cos_gamma_o * p.r_goc_go_gox - q.sin_gamma_o * p.r_goc_go_goy;
+    let r_goc_go_by = q.cos_gamma_o * p.r_goc_go_goy + q.sin_gamma_o * p.r_goc_go_gox;
+
     // r_{Gᵒc/B}, behind eq. (12), m.
-    let pos_0 = q.sin_gamma_o * p.r_goc_go_goy;
-    let r_goc_b_dprime_o_by = q.cos_gamma_o * p.r_goc_go_gox - pos_0;
-    let r_goc_b_bx = p.r_go_b_bx + r_goc_b_dprime_o_by;
-    let pos_1 = q.cos_gamma_o * p.r_goc_go_goy + q.sin_gamma_o * p.r_goc_go_gox;
-    let r_goc_b_by = p.r_go_b_by + pos_1;
+    let r_goc_b_bx = p.r_go_b_bx + r_goc_go_bx;
+    let r_goc_b_by = p.r_go_b_by + r_goc_go_by;
     let r_goc_b_bz = p.r_goc_b_bz;
 
     // r′_{Gᵒc/B}, behind eq. (12), m/s.
-    let vel_0 = v.gamma_o_dot * pos_1;
+    let vel_0 = v.gamma_o_dot * r_goc_go_by;
     let r_goc_b_prime_bx = -vel_0;
-    let r_goc_b_prime_by = v.gamma_o_dot * r_goc_b_dprime_o_by;
+    let r_goc_b_prime_by = v.gamma_o_dot * r_goc_go_bx;
     let r_goc_b_prime_bz = zero;
 
     // r″_{Gᵒc/B}, eq. (12), per ᵒγ̈, m.
-    let r_goc_b_dprime_o_bx = -pos_1;
+    let r_goc_b_dprime_o_bx = -r_goc_go_by;
+    let r_goc_b_dprime_o_by = r_goc_go_bx;
     let r_goc_b_dprime_o_bz = zero;
 
     // r″_{Gᵒc/B}, eq. (12), with no joint accelerating, m/s².
@@ -1978,24 +1997,27 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
     let omega_gi_b_giy = v.gamma_i_dot;
     let omega_gi_b_giz = v.gamma_o_dot * q.cos_gamma_i;
 
+    // r_{Gⁱc/Gⁱ}, behind eq. (13), m.
+    let arm_0 = q.sin_gamma_i * p.r_gic_gi_giz;
+    let r_gic_gi_gox = q.cos_gamma_i * p.r_gic_gi_gix + arm_0;
+    let arm_1 = q.sin_gamma_i * p.r_gic_gi_gix;
+    let r_gic_gi_goz = q.cos_gamma_i * p.r_gic_gi_giz - arm_1;
+
     // r_{Gⁱc/B}, behind eq. (13), m.
-    let pos_0 = q.cos_gamma_i * p.r_gic_gi_gix + q.sin_gamma_i * p.r_gic_gi_giz;
-    let pos_1 = p.r_go_b_bx * q.cos_gamma_o + p.r_go_b_by * q.sin_gamma_o;
-    let r_gic_b_gox = pos_1 + p.l_o_x + pos_0;
-    let pos_2 = p.r_go_b_by * q.cos_gamma_o - p.r_go_b_bx * q.sin_gamma_o;
-    let r_gic_b_goy = pos_2 + p.k_1;
-    let pos_3 = q.sin_gamma_i * p.r_gic_gi_gix;
-    let r_gic_b_dprime_i_gox = q.cos_gamma_i * p.r_gic_gi_giz - pos_3;
-    let r_gic_b_goz = p.arm_o_dz + r_gic_b_dprime_i_gox;
+    let pos_0 = p.r_go_b_bx * q.cos_gamma_o + p.r_go_b_by * q.sin_gamma_o;
+    let r_gic_b_gox = pos_0 + p.l_o_x + r_gic_gi_gox;
+    let pos_1 = p.r_go_b_by * q.cos_gamma_o - p.r_go_b_bx * q.sin_gamma_o;
+    let r_gic_b_goy = pos_1 + p.k_1;
+    let r_gic_b_goz = p.arm_o_dz + r_gic_gi_goz;
 
     // r′_{Gⁱc/B}, behind eq. (13), m/s.
     let vel_0 = v.gamma_o_dot * p.l_o_y;
-    let vel_1 = v.gamma_i_dot * r_gic_b_dprime_i_gox;
+    let vel_1 = v.gamma_i_dot * r_gic_gi_goz;
     let vel_2 = vel_1 - v.gamma_o_dot * p.r_gic_gi_giy;
     let r_gic_b_prime_gox = vel_2 - vel_0;
-    let r_gic_b_dprime_o_goy = p.l_o_x + pos_0;
+    let r_gic_b_dprime_o_goy = p.l_o_x + r_gic_gi_gox;
     let r_gic_b_prime_goy = v.gamma_o_dot * r_gic_b_dprime_o_goy;
-    let vel_3 = v.gamma_i_dot * pos_0;
+    let vel_3 = v.gamma_i_dot * r_gic_gi_gox;
     let r_gic_b_prime_goz = -vel_3;
 
     // r″_{Gⁱc/B}, eq. (13), per ᵒγ̈, m.
@@ -2004,8 +2026,9 @@ pub fn inner_gimbal<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Inne
     let r_gic_b_dprime_o_goz = zero;
 
     // r″_{Gⁱc/B}, eq. (13), per ⁱγ̈, m.
+    let r_gic_b_dprime_i_gox = r_gic_gi_goz;
     let r_gic_b_dprime_i_goy = zero;
-    let r_gic_b_dprime_i_goz = -pos_0;
+    let r_gic_b_dprime_i_goz = -r_gic_gi_gox;
 
     // r″_{Gⁱc/B}, eq. (13), with no joint accelerating, m/s².
     let acc_0 = v.gamma_o_dot * r_gic_b_prime_goy;
@@ -2447,8 +2470,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let hand_m = p.hand_m;
     let hand_mr_bx = p.hand_mr_bx;
     let hand_mr_by = p.hand_mr_by;
@@ -2478,7 +2501,10 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 ///
 /// Translation (16), rotation (75), motor torques (80), (101), (119); with the joints
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
-/// acceleration is given has no equation: what it asks for goes to the right side.
+/// acceleration is given has no equation: what it requires goes to the right side.
+///
+/// Equations (D1) to (D13) are derived in `tests/derivation/kernels`. By (D3), the origin
+/// of a turning joint is elsewhere on its axis than where the paper places it.
 ///
 /// Operations: 456 mul, 371 add, 2 neg, 3 div, 0 trig.
 #[inline(always)]
@@ -2491,7 +2517,7 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // Axes of the outer gimbal, eq. (A1), along B axes, 1.
+    // Axes of the outer gimbal, eq. (D1), expressed in B, 1.
     let e_x_bx = (q.cos_gamma_o * p.mount_11).add_mul(q.sin_gamma_o, p.mount_12);
     let e_x_by = (q.cos_gamma_o * p.mount_21).add_mul(q.sin_gamma_o, p.mount_22);
     let e_x_bz = (q.cos_gamma_o * p.mount_31).add_mul(q.sin_gamma_o, p.mount_32);
@@ -2499,7 +2525,7 @@ pub fn eliminate<T: Real>(
     let e_y_by = (q.cos_gamma_o * p.mount_22).sub_mul(q.sin_gamma_o, p.mount_21);
     let e_y_bz = (q.cos_gamma_o * p.mount_32).sub_mul(q.sin_gamma_o, p.mount_31);
 
-    // ω_{B/N} along the axes of the outer gimbal, eq. (C1), rad/s.
+    // ω_{B/N} expressed in the axes of the outer gimbal, eq. (D5), rad/s.
     let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
     let omega_b_n_gox = rate_0.add_mul(w.omega_bz, e_x_bz);
     let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
@@ -2514,8 +2540,8 @@ pub fn eliminate<T: Real>(
     let alpha_go_gox = v.gamma_o_dot * omega_b_n_goy;
     let neg_alpha_go_goy = v.gamma_o_dot * omega_b_n_gox;
 
-    // Acceleration of Gⁱ as the outer gimbal carries it, eq. (C1), along the outer gimbal's
-    // axes, m/s².
+    // Acceleration of Gⁱ moved by (D3), no joint accelerating, without that of B and the hub's
+    // part, eq. (D5), expressed in the axes of the outer gimbal, m/s².
     let path_0 = omega_b_n_goy * omega_b_n_goy;
     let path_1 = omega_go_n_goz * omega_go_n_goz;
     let path_2 = omega_b_n_gox * omega_b_n_goy;
@@ -2540,8 +2566,8 @@ pub fn eliminate<T: Real>(
     let turn_1 = q.sin_gamma_i * alpha_go_gox;
     let alpha_gi_giz = turn_1.add_mul(v.gamma_i_dot, omega_gi_n_gix);
 
-    // Acceleration of W as the inner gimbal carries it, eq. (C1), along the inner gimbal's axes,
-    // m/s².
+    // Acceleration of W moved by (D3), no joint accelerating, without that of B and the hub's
+    // part, eq. (D5), expressed in the axes of the inner gimbal, m/s².
     let path_7 = omega_gi_n_giz * omega_gi_n_giy;
     let r_w_rest_giy = r_gi_rest_goy.add_mul(p.l_i_z, path_7 - alpha_gi_gix);
     let path_8 = omega_gi_n_giy * omega_gi_n_giy;
@@ -2550,8 +2576,8 @@ pub fn eliminate<T: Real>(
     let path_11 = path_9.add_mul(q.sin_gamma_i, r_gi_rest_gox);
     let r_w_rest_giz = path_11.sub_mul(p.l_i_z, path_10);
 
-    // What lies behind the wheel's joint, of W, by base parameters, eqs. (B1), (B2): first
-    // moment, kg m, and inertia, kg m².
+    // Outboard composite of the joint of the wheel, W, by base parameters, eq. (D6): first
+    // moment, kg m, and inertia, kg m², about W moved by (D3).
     let mr_behind_w_giy = q.cos_theta * p.mr_wc_w_wy;
     let mr_behind_w_giz = q.sin_theta * p.mr_wc_w_wy;
     let i_behind_w_12 = (q.cos_theta * p.i_w_base_12).sub_mul(q.sin_theta, p.j_13);
@@ -2561,7 +2587,8 @@ pub fn eliminate<T: Real>(
     let i_behind_w_22 = p.i_w_base_22 - i_behind_w_33;
     let i_behind_w_23 = p.k_4.add_mul(q.cos_theta, lump_0);
 
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    // Joint row of the wheel, eqs. (119), (D7), (D9): M_ij, kg m², and bias without the hub's
+    // part, N m.
     let mass_ww = p.i_w_w_11;
     let row_0 = i_behind_w_22 - i_behind_w_33;
     let row_1 = mr_behind_w_giy * r_w_rest_giz;
@@ -2573,7 +2600,8 @@ pub fn eliminate<T: Real>(
     let row_7 = row_1.sub_mul(mr_behind_w_giz, r_w_rest_giy);
     let field_w = row_7 + (row_6 + row_5.sub_mul(path_7, row_0));
 
-    // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
+    // Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the joint of
+    // the wheel, about W moved by (D3), eq. (D8).
     let coriolis_0 = v.spin * omega_gi_n_giy;
     let coriolis_1 = v.spin * omega_gi_n_giz;
     let coriolis_2 = mr_behind_w_giy * coriolis_0;
@@ -2590,8 +2618,8 @@ pub fn eliminate<T: Real>(
     let coriolis_9 = (i_behind_w_12 * coriolis_4).add_mul(coriolis_1, coriolis_6);
     let n_rates_w_giz = coriolis_9.sub_mul(coriolis_0, p.i_w_w_11 - row_0);
 
-    // What lies behind the inner gimbal's joint, of V, by base parameters, eqs. (B1), (B2):
-    // first moment, kg m, and inertia, kg m².
+    // Outboard composite of the joint of the inner gimbal, V, by base parameters, eq. (D6):
+    // first moment, kg m, and inertia, kg m², about Gⁱ moved by (D3).
     let lump_1 = mr_behind_w_giz + p.mr_i_base_giz;
     let lump_2 = q.cos_gamma_i * p.mr_v_gi_gix;
     let mr_behind_v_gox = lump_2.add_mul(q.sin_gamma_i, lump_1);
@@ -2613,8 +2641,8 @@ pub fn eliminate<T: Real>(
     let i_behind_v_23 = (q.cos_gamma_i * lump_12).sub_mul(q.sin_gamma_i, lump_11);
     let i_behind_v_33 = lump_7 - lump_10;
 
-    // Row of the inner gimbal's joint, eq. (101), along its axis: M_ij, kg m², and bias, N m,
-    // eq. (C3).
+    // Joint row of the inner gimbal, eqs. (101), (D7), (D9): M_ij, kg m², and bias without the
+    // hub's part, N m.
     let mass_ii = i_behind_v_22;
     let mass_iw = i_behind_w_12;
     let n_rates_i_goy = n_rates_w_giy.add_mul(p.l_i_z, f_rates_w_gix);
@@ -2626,8 +2654,8 @@ pub fn eliminate<T: Real>(
     let row_13 = row_9.sub_mul(r_gi_rest_goz, mr_behind_v_gox) + row_12;
     let field_i = row_13 + n_rates_i_goy;
 
-    // Force, N, and moment, N m, that the joints' rates from the inner gimbal's on ask for, eq.
-    // (C2).
+    // Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the joint of
+    // the inner gimbal, about Gⁱ moved by (D3), eq. (D8).
     let coriolis_10 = v.gamma_i_dot * (omega_b_n_goy + omega_gi_n_giy);
     let coriolis_11 = q.cos_gamma_i * f_rates_w_gix;
     let coriolis_12 = coriolis_11.sub_mul(q.sin_gamma_i, neg_f_rates_w_giz);
@@ -2655,8 +2683,8 @@ pub fn eliminate<T: Real>(
     let coriolis_30 = coriolis_29.sub_mul(i_behind_v_12, coriolis_10);
     let n_rates_i_goz = coriolis_27.sub_mul(q.sin_gamma_i, coriolis_20) + coriolis_30;
 
-    // What lies behind the outer gimbal's joint, of D, by base parameters, eqs. (B1), (B2):
-    // first moment, kg m, and inertia, kg m².
+    // Outboard composite of the joint of the outer gimbal, D, by base parameters, eq. (D6):
+    // first moment, kg m, and inertia, kg m², about Gᵒ moved by (D3).
     let mr_behind_d_gox = p.mr_o_base_gox + mr_behind_v_gox;
     let mr_behind_d_goy = mr_behind_w_giy + p.mr_o_base_goy;
     let lump_13 = mr_behind_w_giy * p.k_23;
@@ -2672,8 +2700,8 @@ pub fn eliminate<T: Real>(
     let i_behind_d_23 = p.i_o_base_23 + mass_oi;
     let i_behind_d_33 = lump_17 + lump_13 + i_behind_v_33 + p.i_o_base_33;
 
-    // Row of the outer gimbal's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq.
-    // (C3).
+    // Joint row of the outer gimbal, eqs. (80), (D7), (D9): M_ij, kg m², and bias without the
+    // hub's part, N m.
     let mass_oo = i_behind_d_33;
     let row_14 = q.sin_gamma_i * mr_behind_w_giy;
     let row_15 = p.i_w_w_11.add_mul(p.l_i_z, mr_behind_w_giz);
@@ -2687,8 +2715,8 @@ pub fn eliminate<T: Real>(
     let row_21 = (i_behind_d_12 * (path_3 - path_0)).add_mul(omega_b_n_goz, row_20);
     let field_o = row_21.sub_mul(path_2, row_18) + n_rates_o_goz;
 
-    // Force, N, and moment, N m, that the joints' rates from the outer gimbal's on ask for, eq.
-    // (C2).
+    // Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the joint of
+    // the outer gimbal, about Gᵒ moved by (D3), eq. (D8).
     let coriolis_31 = v.gamma_o_dot * (omega_b_n_goz + omega_go_n_goz);
     let f_rates_o_gox = f_rates_i_gox.sub_mul(mr_behind_d_gox, coriolis_31);
     let f_rates_o_goy = f_rates_i_goy.sub_mul(mr_behind_d_goy, coriolis_31);
@@ -2705,8 +2733,8 @@ pub fn eliminate<T: Real>(
     let coriolis_40 = coriolis_39.sub_mul(neg_alpha_go_goy, i_behind_d_33 - row_18);
     let n_rates_o_goy = n_rates_i_goy.add_mul(p.l_o_x, coriolis_19) + coriolis_40;
 
-    // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration, along B axes.
+    // M_vi, eqs. (17), (D7), kg m, and M_wi, eqs. (75), (D7), kg m²: force and moment about B
+    // per unit joint acceleration, expressed in B.
     let f_o_bx = (e_y_bx * mr_behind_d_gox).sub_mul(e_x_bx, mr_behind_d_goy);
     let f_o_by = (e_y_by * mr_behind_d_gox).sub_mul(e_x_by, mr_behind_d_goy);
     let f_o_bz = (e_y_bz * mr_behind_d_gox).sub_mul(e_x_bz, mr_behind_d_goy);
@@ -2750,8 +2778,8 @@ pub fn eliminate<T: Real>(
     let col_23 = (p.reach_bx * f_w_by).sub_mul(p.reach_by, f_w_bx);
     let n_w_bz = col_22.add_mul(p.mount_33, mass_ow) + col_23;
 
-    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    // (76), kg m².
+    // D without its constant share of the hub, about B, expressed in B: first moment, eqs. (9),
+    // (D6), kg m, and inertia, eqs. (76), (D6), kg m².
     let moment_0 = (e_x_bx * mr_behind_d_gox).add_mul(e_y_bx, mr_behind_d_goy);
     let mr_moving_bx = moment_0.add_mul(p.mount_13, mr_behind_v_goz);
     let moment_1 = (e_x_by * mr_behind_d_gox).add_mul(e_y_by, mr_behind_d_goy);
@@ -2789,8 +2817,8 @@ pub fn eliminate<T: Real>(
     let moment_25 = (e_x_bz * moment_15).add_mul(p.mount_33, moment_16);
     let i_moving_33 = moment_25 + moment_25 + i_behind_d_22 + (moment_21 + moment_8);
 
-    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
-    // N and N m.
+    // Coriolis and centrifugal force, N, and moment about B, N m, of the joints' rates, of eqs.
+    // (16), (75), (D8), expressed in B.
     let bias_0 = (e_x_bx * f_rates_o_gox).add_mul(e_y_bx, f_rates_o_goy);
     let f_rates_bx = bias_0.add_mul(p.mount_13, f_rates_o_goz);
     let bias_1 = (e_x_by * f_rates_o_gox).add_mul(e_y_by, f_rates_o_goy);
@@ -2807,7 +2835,7 @@ pub fn eliminate<T: Real>(
     let bias_8 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
     let n_rates_bz = bias_7.add_mul(p.mount_33, n_rates_o_goz) + bias_8;
 
-    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), m/s².
     let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
     let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
     let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
@@ -2815,7 +2843,7 @@ pub fn eliminate<T: Real>(
     let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
     let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
-    // Bias of each joint with it, eq. (C3).
+    // Bias of each joint row with it, eq. (D9).
     let bias_9 = (f_o_bx * r_first_rest_bx).add_mul(f_o_by, r_first_rest_by);
     let u_rest_o = bias_9.add_mul(f_o_bz, r_first_rest_bz) + field_o;
     let bias_10 = (f_i_bx * r_first_rest_bx).add_mul(f_i_by, r_first_rest_by);
@@ -2823,13 +2851,12 @@ pub fn eliminate<T: Real>(
     let bias_11 = (f_w_bx * r_first_rest_bx).add_mul(f_w_by, r_first_rest_by);
     let u_rest_w = bias_11.add_mul(f_w_bz, r_first_rest_bz) + field_w;
 
-    // Right side of each joint, eqs. (80), (101), (119): motor torque less what the rest asks
-    // for, N m.
+    // Right side of each joint row, eqs. (80), (101), (119): motor torque less bias, N m.
     let tau_o = u.u_o - u_rest_o;
     let tau_i = u.u_i - u_rest_i;
     let tau_w = u.u_w - u_rest_w;
 
-    // Joint w, eq. (E1): its pivot `mass_ww`, kg m², and its gains.
+    // Joint w, eq. (D10): its pivot `mass_ww`, kg m², and its gains.
     let divisor_w = m.held_w + mass_ww;
     let recip_w = m.driven_w * divisor_w.recip();
     let gain_w_v1 = f_w_bx * recip_w;
@@ -2842,7 +2869,7 @@ pub fn eliminate<T: Real>(
     let gain_w_i = mass_iw * recip_w;
     let free_w = m.given_w.add_mul(tau_w, recip_w);
 
-    // Joint w taken out of the rows nearer the hub, eq. (E2).
+    // Joint w eliminated from the rows of the inboard joints, eq. (D11).
     let f_o_bx_w = f_o_bx.sub_mul(f_w_bx, gain_w_o);
     let f_o_by_w = f_o_by.sub_mul(f_w_by, gain_w_o);
     let f_o_bz_w = f_o_bz.sub_mul(f_w_bz, gain_w_o);
@@ -2861,7 +2888,7 @@ pub fn eliminate<T: Real>(
     let mass_ii_w = mass_ii.sub_mul(mass_iw, gain_w_i);
     let tau_i_w = tau_i.sub_mul(mass_iw, free_w);
 
-    // Joint i, eq. (E1): its pivot `mass_ii_w`, kg m², and its gains.
+    // Joint i, eq. (D10): its pivot `mass_ii_w`, kg m², and its gains.
     let divisor_i = m.held_i + mass_ii_w;
     let recip_i = m.driven_i * divisor_i.recip();
     let gain_i_v1 = f_i_bx_w * recip_i;
@@ -2873,7 +2900,7 @@ pub fn eliminate<T: Real>(
     let gain_i_o = mass_oi_w * recip_i;
     let free_i = m.given_i.add_mul(tau_i_w, recip_i);
 
-    // Joint i taken out of the rows nearer the hub, eq. (E2).
+    // Joint i eliminated from the rows of the inboard joints, eq. (D11).
     let f_o_bx_wi = f_o_bx_w.sub_mul(f_i_bx_w, gain_i_o);
     let f_o_by_wi = f_o_by_w.sub_mul(f_i_by_w, gain_i_o);
     let f_o_bz_wi = f_o_bz_w.sub_mul(f_i_bz_w, gain_i_o);
@@ -2883,7 +2910,7 @@ pub fn eliminate<T: Real>(
     let mass_oo_wi = mass_oo_w.sub_mul(mass_oi_w, gain_i_o);
     let tau_o_wi = tau_o_w.sub_mul(mass_oi_w, free_i);
 
-    // Joint o, eq. (E1): its pivot `mass_oo_wi`, kg m², and its gains.
+    // Joint o, eq. (D10): its pivot `mass_oo_wi`, kg m², and its gains.
     let divisor_o = m.held_o + mass_oo_wi;
     let recip_o = m.driven_o * divisor_o.recip();
     let gain_o_v1 = f_o_bx_wi * recip_o;
@@ -2894,7 +2921,7 @@ pub fn eliminate<T: Real>(
     let gain_o_w3 = n_o_bz_wi * recip_o;
     let free_o = m.given_o.add_mul(tau_o_wi, recip_o);
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let hub_0 = (f_w_bx * gain_w_v1).add_mul(f_i_bx_w, gain_i_v1);
     let m_vv_11 = hub_0.add_mul(f_o_bx_wi, gain_o_v1);
     let hub_1 = (f_w_by * gain_w_v1).add_mul(f_i_by_w, gain_i_v1);
@@ -2908,7 +2935,7 @@ pub fn eliminate<T: Real>(
     let hub_5 = (f_w_bz * gain_w_v3).add_mul(f_i_bz_w, gain_i_v3);
     let m_vv_33 = hub_5.add_mul(f_o_bz_wi, gain_o_v3);
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
     let hub_6 = (n_w_bx * gain_w_v1).add_mul(n_i_bx_w, gain_i_v1);
     let m_vw_11 = hub_6.add_mul(n_o_bx_wi, gain_o_v1);
     let hub_7 = (n_w_by * gain_w_v1).add_mul(n_i_by_w, gain_i_v1);
@@ -2928,7 +2955,7 @@ pub fn eliminate<T: Real>(
     let hub_14 = (n_w_bz * gain_w_v3).add_mul(n_i_bz_w, gain_i_v3);
     let m_vw_33 = hub_14.add_mul(n_o_bz_wi, gain_o_v3);
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
     let hub_15 = (n_w_bx * gain_w_w1).add_mul(n_i_bx_w, gain_i_w1);
     let m_ww_11 = hub_15.add_mul(n_o_bx_wi, gain_o_w1);
     let hub_16 = (n_w_by * gain_w_w1).add_mul(n_i_by_w, gain_i_w1);
@@ -2942,7 +2969,7 @@ pub fn eliminate<T: Real>(
     let hub_20 = (n_w_bz * gain_w_w3).add_mul(n_i_bz_w, gain_i_w3);
     let m_ww_33 = hub_20.add_mul(n_o_bz_wi, gain_o_w3);
 
-    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    // Subtracted from the hub's right side, eq. (D12): force, N, and moment about B, N m.
     let hub_21 = f_rates_bx.add_mul(f_w_bx, free_w).add_mul(f_i_bx_w, free_i);
     let h_v_1 = hub_21.add_mul(f_o_bx_wi, free_o);
     let hub_22 = f_rates_by.add_mul(f_w_by, free_w).add_mul(f_i_by_w, free_i);
@@ -3036,7 +3063,7 @@ pub fn eliminate<T: Real>(
 #[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
-    // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
+    // Row by row, outboard, eq. (D13): the free acceleration less the gains.
     let row_0 = e.free_o.sub_mul(a.r_b_n_ddot_bx, e.gain_o_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_o_v2);
     let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_o_v3);
@@ -3207,7 +3234,7 @@ pub fn energy_momentum<T: Real>(
 /// Operations: 26 mul, 16 add, 2 neg, 0 div, 0 trig.
 #[must_use]
 pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
-    // Of the outer gimbal: its own axes along B, eq. (A1).
+    // Of the outer gimbal: its own axes along B, eq. (D1).
     let go_x_bx = q.cos_gamma_o;
     let go_x_by = q.sin_gamma_o;
     let zero = q.sin_gamma_o.like(0.0);
@@ -3220,12 +3247,12 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     let one = q.sin_gamma_o.like(1.0);
     let go_z_bz = one;
 
-    // Gᵒ from B, eq. (A2), along B axes, m.
+    // Gᵒ from B, eq. (D2), along B axes, m.
     let origin_go_bx = p.r_go_b_bx;
     let origin_go_by = p.r_go_b_by;
     let origin_go_bz = p.r_go_b_bz;
 
-    // Of the inner gimbal: its own axes along B, eq. (A1).
+    // Of the inner gimbal: its own axes along B, eq. (D1).
     let gi_x_bx = q.cos_gamma_o * q.cos_gamma_i;
     let gi_x_by = q.sin_gamma_o * q.cos_gamma_i;
     let gi_x_bz = -q.sin_gamma_i;
@@ -3236,14 +3263,14 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     let gi_z_by = q.sin_gamma_o * q.sin_gamma_i;
     let gi_z_bz = q.cos_gamma_i;
 
-    // Gⁱ from B, eq. (A2), along B axes, m.
+    // Gⁱ from B, eq. (D2), along B axes, m.
     let pos_0 = q.cos_gamma_o * p.l_o_x - q.sin_gamma_o * p.l_o_y;
     let origin_gi_bx = pos_0 + p.r_go_b_bx;
     let pos_1 = q.sin_gamma_o * p.l_o_x + q.cos_gamma_o * p.l_o_y;
     let origin_gi_by = pos_1 + p.r_go_b_by;
     let origin_gi_bz = p.arm_o_dz;
 
-    // Of the wheel: its own axes along B, eq. (A1).
+    // Of the wheel: its own axes along B, eq. (D1).
     let w_x_bx = gi_x_bx;
     let w_x_by = gi_x_by;
     let w_x_bz = gi_x_bz;
@@ -3254,7 +3281,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     let w_z_by = q.cos_theta * gi_z_by - q.cos_gamma_o * q.sin_theta;
     let w_z_bz = q.cos_gamma_i * q.cos_theta;
 
-    // W from B, eq. (A2), along B axes, m.
+    // W from B, eq. (D2), along B axes, m.
     let pos_2 = p.l_i_x * gi_x_bx - q.sin_gamma_o * p.l_i_y + p.l_i_z * gi_z_bx;
     let origin_w_bx = pos_2 + origin_gi_bx;
     let pos_3 = p.l_i_x * gi_x_by + q.cos_gamma_o * p.l_i_y + p.l_i_z * gi_z_by;
@@ -3573,7 +3600,7 @@ pub fn loads<T: Real>(
 /// Operations: 42 mul, 42 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> External<T> {
-    // On W, the wheel and what it carries, eq. (F1): force, N, and moment about W, N m.
+    // On W, the wheel and what it carries, eq. (D14): force, N, and moment about W, N m.
     let f_sum_wx = x.f_on_wx;
     let f_sum_wy = x.f_on_wy;
     let f_sum_wz = x.f_on_wz;
@@ -3581,10 +3608,10 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
     let n_sum_wy = x.n_on_wy;
     let n_sum_wz = x.n_on_wz;
 
-    // Along the wheel's joint, beside its motor, eq. (F2), N m.
+    // Along the wheel's joint, beside its motor, eq. (D15), N m.
     let drive_w = x.n_on_wx;
 
-    // On V, the inner gimbal and what it carries, eq. (F1): force, N, and moment about Gⁱ, N m.
+    // On V, the inner gimbal and what it carries, eq. (D14): force, N, and moment about Gⁱ, N m.
     let f_sum_gix = x.f_on_gix + x.f_on_wx;
     let sum_0 = q.cos_theta * x.f_on_wy - q.sin_theta * x.f_on_wz;
     let f_sum_giy = x.f_on_giy + sum_0;
@@ -3596,10 +3623,10 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
     let sum_3 = q.cos_theta * x.n_on_wz + q.sin_theta * x.n_on_wy;
     let n_sum_giz = sum_3 + (p.l_i_x * sum_0 - p.l_i_y * x.f_on_wx) + x.n_on_giz;
 
-    // Along the inner gimbal's joint, beside its motor, eq. (F2), N m.
+    // Along the inner gimbal's joint, beside its motor, eq. (D15), N m.
     let drive_i = n_sum_giy;
 
-    // On D, the outer gimbal and what it carries, eq. (F1): force, N, and moment about Gᵒ, N m.
+    // On D, the outer gimbal and what it carries, eq. (D14): force, N, and moment about Gᵒ, N m.
     let sum_4 = q.cos_gamma_i * f_sum_gix + q.sin_gamma_i * f_sum_giz;
     let f_sum_gox = x.f_on_gox + sum_4;
     let f_sum_goy = x.f_on_goy + f_sum_giy;
@@ -3611,10 +3638,10 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
     let sum_7 = q.cos_gamma_i * n_sum_giz - q.sin_gamma_i * n_sum_gix;
     let n_sum_goz = sum_7 + (p.l_o_x * f_sum_giy - p.l_o_y * sum_4) + x.n_on_goz;
 
-    // Along the outer gimbal's joint, beside its motor, eq. (F2), N m.
+    // Along the outer gimbal's joint, beside its motor, eq. (D15), N m.
     let drive_o = n_sum_goz;
 
-    // On the hub, eq. (F1): force, N, and moment about B, N m.
+    // On the hub, eq. (D14): force, N, and moment about B, N m.
     let f_sum_bx = q.cos_gamma_o * f_sum_gox - q.sin_gamma_o * f_sum_goy;
     let f_sum_by = q.cos_gamma_o * f_sum_goy + q.sin_gamma_o * f_sum_gox;
     let f_sum_bz = f_sum_goz;
@@ -3660,7 +3687,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 /// Operations: 200 mul, 203 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
-    // G, as in eq. (G1), along the axes of the outer gimbal, 1/s².
+    // G, as in eq. (D16), along the axes of the outer gimbal, 1/s².
     let field_0 = q.cos_gamma_o * (g.g_12 + g.g_12);
     let field_1 = q.sin_gamma_o * (g.g_22 - g.g_11) + field_0;
     let field_2 = q.sin_gamma_o * field_1;
@@ -3670,7 +3697,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let g_go_22 = g.g_22 - field_2;
     let g_go_23 = q.cos_gamma_o * g.g_23 - q.sin_gamma_o * g.g_13;
 
-    // G r at Gᵒ, eq. (G1), along the same axes, m/s².
+    // G r at Gᵒ, eq. (D16), along the same axes, m/s².
     let field_3 = p.r_go_b_bx * g.g_11 + p.r_go_b_by * g.g_12;
     let field_4 = field_3 + p.r_go_b_bz * g.g_13;
     let field_5 = p.r_go_b_bx * g.g_12 + p.r_go_b_by * g.g_22;
@@ -3680,7 +3707,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let field_7 = p.r_go_b_bx * g.g_13 + p.r_go_b_by * g.g_23;
     let g_r_go_goz = field_7 + p.r_go_b_bz * g.g_33;
 
-    // On the outer gimbal alone, eq. (G2): force, N, and moment about Gᵒ, N m.
+    // On the outer gimbal alone, eq. (D17): force, N, and moment about Gᵒ, N m.
     let pull_0 = p.mr_goc_go_gox * g_go_11 + p.mr_goc_go_goy * g_go_12;
     let f_on_gox = pull_0 + p.mr_goc_go_goz * g_go_13 + p.m_go * g_r_go_gox;
     let pull_1 = p.mr_goc_go_gox * g_go_12 + p.mr_goc_go_goy * g_go_22;
@@ -3698,7 +3725,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let pull_9 = p.mr_goc_go_gox * g_r_go_goy - p.mr_goc_go_goy * g_r_go_gox;
     let n_on_goz = pull_9 - (pull_8 + p.i_go_go_12 * (g_go_22 - g_go_11));
 
-    // G, as in eq. (G1), along the axes of the inner gimbal, 1/s².
+    // G, as in eq. (D16), along the axes of the inner gimbal, 1/s².
     let field_8 = q.sin_gamma_i * pull_5 + q.cos_gamma_i * (g_go_13 + g_go_13);
     let field_9 = q.sin_gamma_i * field_8;
     let g_gi_11 = g_go_11 - field_9;
@@ -3707,7 +3734,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let g_gi_23 = q.cos_gamma_i * g_go_23 + q.sin_gamma_i * g_go_12;
     let g_gi_33 = g.g_33 + field_9;
 
-    // G r at Gⁱ, eq. (G1), along the same axes, m/s².
+    // G r at Gⁱ, eq. (D16), along the same axes, m/s².
     let field_10 = p.l_o_x * g_go_11 + p.l_o_y * g_go_12 + p.l_o_z * g_go_13;
     let field_11 = field_10 + g_r_go_gox;
     let field_12 = p.l_o_x * g_go_13 + p.l_o_y * g_go_23 + p.l_o_z * g.g_33;
@@ -3717,7 +3744,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let g_r_gi_giy = field_14 + g_r_go_goy;
     let g_r_gi_giz = q.cos_gamma_i * field_13 + q.sin_gamma_i * field_11;
 
-    // On the inner gimbal alone, eq. (G2): force, N, and moment about Gⁱ, N m.
+    // On the inner gimbal alone, eq. (D17): force, N, and moment about Gⁱ, N m.
     let pull_10 = p.mr_gic_gi_gix * g_gi_11 + p.mr_gic_gi_giy * g_gi_12;
     let f_on_gix = pull_10 + p.mr_gic_gi_giz * g_gi_13 + p.m_gi * g_r_gi_gix;
     let pull_11 = p.mr_gic_gi_gix * g_gi_12 + p.mr_gic_gi_giy * g_go_22;
@@ -3735,7 +3762,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let pull_19 = p.mr_gic_gi_gix * g_r_gi_giy - p.mr_gic_gi_giy * g_r_gi_gix;
     let n_on_giz = pull_19 - (pull_18 + p.i_gi_gi_12 * (g_go_22 - g_gi_11));
 
-    // G, as in eq. (G1), along the axes of the wheel, 1/s².
+    // G, as in eq. (D16), along the axes of the wheel, 1/s².
     let g_w_12 = q.cos_theta * g_gi_12 + q.sin_theta * g_gi_13;
     let g_w_13 = q.cos_theta * g_gi_13 - q.sin_theta * g_gi_12;
     let field_15 = q.sin_theta * pull_13 + q.cos_theta * (g_gi_23 + g_gi_23);
@@ -3744,7 +3771,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let g_w_23 = q.cos_theta * field_15 - g_gi_23;
     let g_w_33 = g_gi_33 - field_16;
 
-    // G r at W, eq. (G1), along the same axes, m/s².
+    // G r at W, eq. (D16), along the same axes, m/s².
     let field_17 = p.l_i_x * g_gi_11 + p.l_i_y * g_gi_12 + p.l_i_z * g_gi_13;
     let g_r_w_wx = field_17 + g_r_gi_gix;
     let field_18 = p.l_i_x * g_gi_12 + p.l_i_y * g_go_22 + p.l_i_z * g_gi_23;
@@ -3754,7 +3781,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let g_r_w_wy = q.cos_theta * field_19 + q.sin_theta * field_21;
     let g_r_w_wz = q.cos_theta * field_21 - q.sin_theta * field_19;
 
-    // On the wheel alone, eq. (G2): force, N, and moment about W, N m.
+    // On the wheel alone, eq. (D17): force, N, and moment about W, N m.
     let f_on_wx = p.m_w * g_r_w_wx + p.mr_wc_w_wy * g_w_12;
     let f_on_wy = p.m_w * g_r_w_wy + p.mr_wc_w_wy * g_w_22;
     let f_on_wz = p.m_w * g_r_w_wz + p.mr_wc_w_wy * g_w_23;
@@ -3801,7 +3828,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let i_d_go_23 = lump_12 - p.l_o_y * lump_3 - p.l_o_z * mr_v_gi_giy + p.k_58;
     let i_d_go_33 = i_v_gi_33 - lump_8 + lump_11 + lump_4 + p.k_59;
 
-    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
+    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg m².
     let axis_0 = q.cos_gamma_o * mr_d_go_gox - q.sin_gamma_o * mr_d_go_goy;
     let axis_1 = q.cos_gamma_o * mr_d_go_goy + q.sin_gamma_o * mr_d_go_gox;
     let axis_2 = p.k_9 * axis_0;

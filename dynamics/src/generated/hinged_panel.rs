@@ -138,8 +138,8 @@ pub struct Prepared<T> {
     /// `i_p_base_33`. The panel about its origin: first moment, kg m, and inertia as in eq.
     /// (40), kg m².
     pub i_p_p_33: T,
-    /// `i_p_base_33`. Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and
-    /// bias, N m, eq. (C3).
+    /// `i_p_base_33`. Joint row of the panel, eqs. (80), (D7), (D9): M_ij, kg m², and bias
+    /// without the hub's part, N m.
     pub mass_pp: T,
     /// `i_p_p_22 - i_p_p_11`.
     pub k_1: T,
@@ -157,20 +157,25 @@ pub struct Prepared<T> {
     pub mc_bz: T,
     /// `p.m_p * r_pc_b_bz`.
     pub k_7: T,
-    /// `p.i_p_11 + p.m_p * (base_0 - hand_0) - p.i_p_22`. Base parameters of the panel, eqs.
-    /// (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_p_11 + p.m_p * (base_0 - hand_0) - p.i_p_22`. Base inertial parameters of the
+    /// panel, eqs. (D3), (D4): P moved by (D3) from the parent's origin, m; first moment, kg
+    /// m, and inertia, kg m², about it.
     pub i_p_base_11: T,
-    /// `p.i_p_12 - p.r_pc_p_py * mr_pc_p_px`. Base parameters of the panel, eqs. (B1), (B2):
-    /// arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_p_12 - p.r_pc_p_py * mr_pc_p_px`. Base inertial parameters of the panel, eqs.
+    /// (D3), (D4): P moved by (D3) from the parent's origin, m; first moment, kg m, and
+    /// inertia, kg m², about it.
     pub i_p_base_12: T,
-    /// `p.i_p_13 - (p.r_pc_p_px * mom_0 + p.r_pc_p_pz * mr_pc_p_px)`. Base parameters of the
-    /// panel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_p_13 - (p.r_pc_p_px * mom_0 + p.r_pc_p_pz * mr_pc_p_px)`. Base inertial
+    /// parameters of the panel, eqs. (D3), (D4): P moved by (D3) from the parent's origin, m;
+    /// first moment, kg m, and inertia, kg m², about it.
     pub i_p_base_13: T,
-    /// `p.i_p_23 - (p.r_pc_p_py * mom_0 + p.r_pc_p_pz * mr_pc_p_py)`. Base parameters of the
-    /// panel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_p_23 - (p.r_pc_p_py * mom_0 + p.r_pc_p_pz * mr_pc_p_py)`. Base inertial
+    /// parameters of the panel, eqs. (D3), (D4): P moved by (D3) from the parent's origin, m;
+    /// first moment, kg m, and inertia, kg m², about it.
     pub i_p_base_23: T,
-    /// `p.i_p_33 + p.m_p * (hand_0 + base_0)`. Base parameters of the panel, eqs. (B1), (B2):
-    /// arm, m, first moment, kg m, inertia, kg m².
+    /// `p.i_p_33 + p.m_p * (hand_0 + base_0)`. Base inertial parameters of the panel, eqs.
+    /// (D3), (D4): P moved by (D3) from the parent's origin, m; first moment, kg m, and
+    /// inertia, kg m², about it.
     pub i_p_base_33: T,
     /// `i_p_base_12 + i_p_base_12`.
     pub k_8: T,
@@ -178,14 +183,14 @@ pub struct Prepared<T> {
     pub k_9: T,
     /// `i_p_base_33 - i_p_base_11`.
     pub k_10: T,
-    /// `p.r_p_b_bx * p.mount_11 + p.r_p_b_by * p.mount_12`. Origin of the first joint, eq.
-    /// (A2), along B axes, m.
+    /// `p.r_p_b_bx * p.mount_11 + p.r_p_b_by * p.mount_12`. Origin of the first joint from B,
+    /// moved by (D3), eq. (D2), expressed in B, m.
     pub reach_bx: T,
-    /// `p.r_p_b_bx * p.mount_21 + p.r_p_b_by * p.mount_22`. Origin of the first joint, eq.
-    /// (A2), along B axes, m.
+    /// `p.r_p_b_bx * p.mount_21 + p.r_p_b_by * p.mount_22`. Origin of the first joint from B,
+    /// moved by (D3), eq. (D2), expressed in B, m.
     pub reach_by: T,
-    /// `p.r_p_b_bx * p.mount_31 + p.r_p_b_by * p.mount_32`. Origin of the first joint, eq.
-    /// (A2), along B axes, m.
+    /// `p.r_p_b_bx * p.mount_31 + p.r_p_b_by * p.mount_32`. Origin of the first joint from B,
+    /// moved by (D3), eq. (D2), expressed in B, m.
     pub reach_bz: T,
     /// `p.mount_13 * i_p_base_33`.
     pub k_11: T,
@@ -207,32 +212,35 @@ pub struct Prepared<T> {
     pub k_19: T,
     /// `reach_bz + reach_bz`.
     pub k_20: T,
-    /// `p.mount_11 * k_5 + p.mount_12 * k_6 + p.mount_13 * mc_bz`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `p.mount_11 * k_5 + p.mount_12 * k_6 + p.mount_13 * mc_bz`. Constant share of the hub,
+    /// eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_mr_bx: T,
-    /// `p.mount_21 * k_5 + p.mount_22 * k_6 + p.mount_23 * mc_bz`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `p.mount_21 * k_5 + p.mount_22 * k_6 + p.mount_23 * mc_bz`. Constant share of the hub,
+    /// eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_mr_by: T,
-    /// `p.mount_31 * k_5 + p.mount_32 * k_6 + p.mount_33 * mc_bz`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `p.mount_31 * k_5 + p.mount_32 * k_6 + p.mount_33 * mc_bz`. Constant share of the hub,
+    /// eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_mr_bz: T,
-    /// `half * (p.mount_13 * hand_8 * hand_6 + hand_15 + hand_16)`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_13 * hand_8 * hand_6 + hand_15 + hand_16)`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_i_11: T,
-    /// `half * hand_25`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
-    /// inertia about B, kg m², along B axes.
+    /// `half * hand_25`. Constant share of the hub, eq. (D4): mass, kg, first moment, kg m,
+    /// and inertia about B, kg m², expressed in B.
     pub hand_i_12: T,
-    /// `half * hand_34`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
-    /// inertia about B, kg m², along B axes.
+    /// `half * hand_34`. Constant share of the hub, eq. (D4): mass, kg, first moment, kg m,
+    /// and inertia about B, kg m², expressed in B.
     pub hand_i_13: T,
-    /// `half * (p.mount_23 * hand_20 * hand_6 + hand_36 + hand_37)`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_23 * hand_20 * hand_6 + hand_36 + hand_37)`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_i_22: T,
-    /// `half * hand_43`. What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and
-    /// inertia about B, kg m², along B axes.
+    /// `half * hand_43`. Constant share of the hub, eq. (D4): mass, kg, first moment, kg m,
+    /// and inertia about B, kg m², expressed in B.
     pub hand_i_23: T,
-    /// `half * (p.mount_33 * hand_29 * hand_6 + hand_45 + hand_46)`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_33 * hand_29 * hand_6 + hand_45 + hand_46)`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_i_33: T,
     /// `i_p_p_22 - i_p_base_33`.
     pub k_21: T,
@@ -515,7 +523,7 @@ pub struct FirstMoment<T> {
     pub f_tilde_bz: T,
 }
 
-/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
+/// How the joints of a device follow the hub, eq. (D13), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gains<T> {
     /// Gain of the panel on component 1 of r̈_{B/N}, 1/m.
@@ -601,29 +609,29 @@ impl<T: Copy> JointAccelerations<T> {
 /// Axes of the bodies and origins of their joints, along the device's B axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes<T> {
-    /// First axis of the panel, eq. (A1), along bx, 1.
+    /// First axis of the panel, eq. (D1), along bx, 1.
     pub p_x_bx: T,
-    /// First axis of the panel, eq. (A1), along by, 1.
+    /// First axis of the panel, eq. (D1), along by, 1.
     pub p_x_by: T,
-    /// First axis of the panel, eq. (A1), along bz, 1.
+    /// First axis of the panel, eq. (D1), along bz, 1.
     pub p_x_bz: T,
-    /// Second axis of the panel, eq. (A1), along bx, 1.
+    /// Second axis of the panel, eq. (D1), along bx, 1.
     pub p_y_bx: T,
-    /// Second axis of the panel, eq. (A1), along by, 1.
+    /// Second axis of the panel, eq. (D1), along by, 1.
     pub p_y_by: T,
-    /// Second axis of the panel, eq. (A1), along bz, 1.
+    /// Second axis of the panel, eq. (D1), along bz, 1.
     pub p_y_bz: T,
-    /// Third axis of the panel, eq. (A1), along bx, 1.
+    /// Third axis of the panel, eq. (D1), along bx, 1.
     pub p_z_bx: T,
-    /// Third axis of the panel, eq. (A1), along by, 1.
+    /// Third axis of the panel, eq. (D1), along by, 1.
     pub p_z_by: T,
-    /// Third axis of the panel, eq. (A1), along bz, 1.
+    /// Third axis of the panel, eq. (D1), along bz, 1.
     pub p_z_bz: T,
-    /// P, origin of its joint, from B, eq. (A2), along bx, m.
+    /// P, origin of its joint, from B, eq. (D2), along bx, m.
     pub origin_p_bx: T,
-    /// P, origin of its joint, from B, eq. (A2), along by, m.
+    /// P, origin of its joint, from B, eq. (D2), along by, m.
     pub origin_p_by: T,
-    /// P, origin of its joint, from B, eq. (A2), along bz, m.
+    /// P, origin of its joint, from B, eq. (D2), along bz, m.
     pub origin_p_bz: T,
 }
 
@@ -661,56 +669,56 @@ pub struct Loads<T> {
 /// joint's origin; along each joint, to be added to its motor's; on the hub.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct External<T> {
-    /// Force on the panel and what it carries, eq. (F1), along px, N.
+    /// Force on the panel and what it carries, eq. (D14), along px, N.
     pub f_sum_px: T,
-    /// Force on the panel and what it carries, eq. (F1), along py, N.
+    /// Force on the panel and what it carries, eq. (D14), along py, N.
     pub f_sum_py: T,
-    /// Force on the panel and what it carries, eq. (F1), along pz, N.
+    /// Force on the panel and what it carries, eq. (D14), along pz, N.
     pub f_sum_pz: T,
-    /// Moment about P on the panel and what it carries, eq. (F1), along px, N m.
+    /// Moment about P on the panel and what it carries, eq. (D14), along px, N m.
     pub n_sum_px: T,
-    /// Moment about P on the panel and what it carries, eq. (F1), along py, N m.
+    /// Moment about P on the panel and what it carries, eq. (D14), along py, N m.
     pub n_sum_py: T,
-    /// Moment about P on the panel and what it carries, eq. (F1), along pz, N m.
+    /// Moment about P on the panel and what it carries, eq. (D14), along pz, N m.
     pub n_sum_pz: T,
-    /// Along the panel's joint, eq. (F2), N m.
+    /// Along the panel's joint, eq. (D15), N m.
     pub drive_p: T,
-    /// Force on the hub, eq. (F1), along bx, N.
+    /// Force on the hub, eq. (D14), along bx, N.
     pub f_sum_bx: T,
-    /// Force on the hub, eq. (F1), along by, N.
+    /// Force on the hub, eq. (D14), along by, N.
     pub f_sum_by: T,
-    /// Force on the hub, eq. (F1), along bz, N.
+    /// Force on the hub, eq. (D14), along bz, N.
     pub f_sum_bz: T,
-    /// Moment about B on the hub, eq. (F1), along bx, N m.
+    /// Moment about B on the hub, eq. (D14), along bx, N m.
     pub n_sum_bx: T,
-    /// Moment about B on the hub, eq. (F1), along by, N m.
+    /// Moment about B on the hub, eq. (D14), along by, N m.
     pub n_sum_by: T,
-    /// Moment about B on the hub, eq. (F1), along bz, N m.
+    /// Moment about B on the hub, eq. (D14), along bz, N m.
     pub n_sum_bz: T,
 }
 
 /// What a field of acceleration does to a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity<T> {
-    /// On each body, eq. (G2).
+    /// On each body, eq. (D17).
     pub wrenches: Wrenches<T>,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 11, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 11,
+    /// kg m².
     pub second_moment_11: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 12, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 12,
+    /// kg m².
     pub second_moment_12: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 13, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 13,
+    /// kg m².
     pub second_moment_13: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 22, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 22,
+    /// kg m².
     pub second_moment_22: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 23, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 23,
+    /// kg m².
     pub second_moment_23: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 33, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 33,
+    /// kg m².
     pub second_moment_33: T,
 }
 
@@ -731,8 +739,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let mom_0 = p.r_p_b_bz * p.m_p;
     let mc_bz = mr_pc_p_pz + mom_0;
 
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let k_5 = p.r_p_b_bx * p.m_p;
     let k_6 = p.r_p_b_by * p.m_p;
     let hand_mr_bx = p.mount_11 * k_5 + p.mount_12 * k_6 + p.mount_13 * mc_bz;
@@ -793,7 +801,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let hand_46 = p.mount_32 * (hand_28 * hand_13 - hand_29 * hand_10);
     let hand_i_33 = half * (p.mount_33 * hand_29 * hand_6 + hand_45 + hand_46);
 
-    // Base parameters of the panel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    // Base inertial parameters of the panel, eqs. (D3), (D4): P moved by (D3) from the parent's
+    // origin, m; first moment, kg m, and inertia, kg m², about it.
     let base_0 = p.r_pc_p_py * p.r_pc_p_py;
     let i_p_base_11 = p.i_p_11 + p.m_p * (base_0 - hand_0) - p.i_p_22;
     let i_p_base_12 = p.i_p_12 - p.r_pc_p_py * mr_pc_p_px;
@@ -801,10 +810,11 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let i_p_base_23 = p.i_p_23 - (p.r_pc_p_py * mom_0 + p.r_pc_p_pz * mr_pc_p_py);
     let i_p_base_33 = p.i_p_33 + p.m_p * (hand_0 + base_0);
 
-    // Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    // Joint row of the panel, eqs. (80), (D7), (D9): M_ij, kg m², and bias without the hub's
+    // part, N m.
     let mass_pp = i_p_base_33;
 
-    // Origin of the first joint, eq. (A2), along B axes, m.
+    // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in B, m.
     let reach_bx = p.r_p_b_bx * p.mount_11 + p.r_p_b_by * p.mount_12;
     let reach_by = p.r_p_b_bx * p.mount_21 + p.r_p_b_by * p.mount_22;
     let reach_bz = p.r_p_b_bx * p.mount_31 + p.r_p_b_by * p.mount_32;
@@ -948,21 +958,24 @@ pub fn panel<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Panel<T> {
     let omega_p_b_py = zero;
     let omega_p_b_pz = v.phi_dot;
 
+    // r_{Pc/P}, behind eq. (12), m.
+    let r_pc_p_bx = q.cos_phi * p.r_pc_p_px - q.sin_phi * p.r_pc_p_py;
+    let r_pc_p_by = q.cos_phi * p.r_pc_p_py + q.sin_phi * p.r_pc_p_px;
+
     // r_{Pc/B}, behind eq. (12), m.
-    let r_pc_b_dprime_p_by = q.cos_phi * p.r_pc_p_px - q.sin_phi * p.r_pc_p_py;
-    let r_pc_b_bx = p.r_p_b_bx + r_pc_b_dprime_p_by;
-    let pos_0 = q.cos_phi * p.r_pc_p_py + q.sin_phi * p.r_pc_p_px;
-    let r_pc_b_by = p.r_p_b_by + pos_0;
+    let r_pc_b_bx = p.r_p_b_bx + r_pc_p_bx;
+    let r_pc_b_by = p.r_p_b_by + r_pc_p_by;
     let r_pc_b_bz = p.r_pc_b_bz;
 
     // r′_{Pc/B}, behind eq. (12), m/s.
-    let vel_0 = v.phi_dot * pos_0;
+    let vel_0 = v.phi_dot * r_pc_p_by;
     let r_pc_b_prime_bx = -vel_0;
-    let r_pc_b_prime_by = v.phi_dot * r_pc_b_dprime_p_by;
+    let r_pc_b_prime_by = v.phi_dot * r_pc_p_bx;
     let r_pc_b_prime_bz = zero;
 
     // r″_{Pc/B}, eq. (12), per φ̈, m.
-    let r_pc_b_dprime_p_bx = -pos_0;
+    let r_pc_b_dprime_p_bx = -r_pc_p_by;
+    let r_pc_b_dprime_p_by = r_pc_p_bx;
     let r_pc_b_dprime_p_bz = zero;
 
     // r″_{Pc/B}, eq. (12), with no joint accelerating, m/s².
@@ -1096,8 +1109,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let hand_m = p.m_p;
     let hand_mr_bx = p.hand_mr_bx;
     let hand_mr_by = p.hand_mr_by;
@@ -1127,7 +1140,10 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 ///
 /// Translation (16), rotation (75), motor torques (80); with the joints
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
-/// acceleration is given has no equation: what it asks for goes to the right side.
+/// acceleration is given has no equation: what it requires goes to the right side.
+///
+/// Equations (D1) to (D13) are derived in `tests/derivation/kernels`. By (D3), the origin
+/// of a turning joint is elsewhere on its axis than where the paper places it.
 ///
 /// Operations: 170 mul, 108 add, 0 neg, 1 div, 0 trig.
 #[inline(always)]
@@ -1140,7 +1156,7 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // Axes of the panel, eq. (A1), along B axes, 1.
+    // Axes of the panel, eq. (D1), expressed in B, 1.
     let e_x_bx = (q.cos_phi * p.mount_11).add_mul(q.sin_phi, p.mount_12);
     let e_x_by = (q.cos_phi * p.mount_21).add_mul(q.sin_phi, p.mount_22);
     let e_x_bz = (q.cos_phi * p.mount_31).add_mul(q.sin_phi, p.mount_32);
@@ -1148,7 +1164,7 @@ pub fn eliminate<T: Real>(
     let e_y_by = (q.cos_phi * p.mount_22).sub_mul(q.sin_phi, p.mount_21);
     let e_y_bz = (q.cos_phi * p.mount_32).sub_mul(q.sin_phi, p.mount_31);
 
-    // ω_{B/N} along the axes of the panel, eq. (C1), rad/s.
+    // ω_{B/N} expressed in the axes of the panel, eq. (D5), rad/s.
     let rate_0 = (w.omega_bx * e_x_bx).add_mul(w.omega_by, e_x_by);
     let omega_b_n_px = rate_0.add_mul(w.omega_bz, e_x_bz);
     let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
@@ -1156,7 +1172,8 @@ pub fn eliminate<T: Real>(
     let rate_2 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
     let omega_b_n_pz = rate_2.add_mul(w.omega_bz, p.mount_33);
 
-    // Row of the panel's joint, eq. (80), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    // Joint row of the panel, eqs. (80), (D7), (D9): M_ij, kg m², and bias without the hub's
+    // part, N m.
     let mass_pp = p.i_p_base_33;
     let row_0 = (p.i_p_base_23 * omega_b_n_pz).sub_mul(p.i_p_base_11, omega_b_n_py);
     let row_1 = omega_b_n_py * omega_b_n_pz;
@@ -1164,7 +1181,8 @@ pub fn eliminate<T: Real>(
     let row_3 = (omega_b_n_px * row_0).sub_mul(p.i_p_base_13, row_1);
     let field_p = row_3.add_mul(p.i_p_base_12, row_2);
 
-    // Force, N, and moment, N m, that the joints' rates from the panel's on ask for, eq. (C2).
+    // Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the joint of
+    // the panel, about P moved by (D3), eq. (D8).
     let coriolis_0 = v.phi_dot * (v.phi_dot + omega_b_n_pz + omega_b_n_pz);
     let neg_f_rates_p_px = p.mr_pc_p_px * coriolis_0;
     let neg_f_rates_p_py = p.mr_pc_p_py * coriolis_0;
@@ -1177,8 +1195,8 @@ pub fn eliminate<T: Real>(
     let coriolis_5 = (p.i_p_base_13 * coriolis_0).add_mul(coriolis_2, p.k_8);
     let n_rates_p_py = coriolis_5.sub_mul(coriolis_1, p.k_10);
 
-    // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration, along B axes.
+    // M_vi, eqs. (17), (D7), kg m, and M_wi, eqs. (75), (D7), kg m²: force and moment about B
+    // per unit joint acceleration, expressed in B.
     let f_p_bx = (p.mr_pc_p_px * e_y_bx).sub_mul(p.mr_pc_p_py, e_x_bx);
     let f_p_by = (p.mr_pc_p_px * e_y_by).sub_mul(p.mr_pc_p_py, e_x_by);
     let f_p_bz = (p.mr_pc_p_px * e_y_bz).sub_mul(p.mr_pc_p_py, e_x_bz);
@@ -1189,8 +1207,8 @@ pub fn eliminate<T: Real>(
     let col_2 = (p.i_p_base_13 * e_x_bz).add_mul(p.i_p_base_23, e_y_bz) + p.k_13;
     let n_p_bz = (p.reach_bx * f_p_by).sub_mul(p.reach_by, f_p_bx) + col_2;
 
-    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    // (76), kg m².
+    // D without its constant share of the hub, about B, expressed in B: first moment, eqs. (9),
+    // (D6), kg m, and inertia, eqs. (76), (D6), kg m².
     let mr_moving_bx = (p.mr_pc_p_px * e_x_bx).add_mul(p.mr_pc_p_py, e_y_bx);
     let mr_moving_by = (p.mr_pc_p_px * e_x_by).add_mul(p.mr_pc_p_py, e_y_by);
     let mr_moving_bz = (p.mr_pc_p_px * e_x_bz).add_mul(p.mr_pc_p_py, e_y_bz);
@@ -1222,8 +1240,8 @@ pub fn eliminate<T: Real>(
     let moment_20 = (e_x_bz * moment_10).add_mul(p.mount_33, moment_11);
     let i_moving_33 = moment_20 + moment_20 + (moment_16 + moment_3);
 
-    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
-    // N and N m.
+    // Coriolis and centrifugal force, N, and moment about B, N m, of the joints' rates, of eqs.
+    // (16), (75), (D8), expressed in B.
     let bias_0 = (e_x_bx * neg_f_rates_p_px).add_mul(e_y_bx, neg_f_rates_p_py);
     let f_rates_bx = p.mount_13.mul_sub(f_rates_p_pz, bias_0);
     let bias_1 = (e_x_by * neg_f_rates_p_px).add_mul(e_y_by, neg_f_rates_p_py);
@@ -1237,7 +1255,7 @@ pub fn eliminate<T: Real>(
     let bias_5 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
     let n_rates_bz = (e_x_bz * n_rates_p_px).add_mul(e_y_bz, n_rates_p_py) + bias_5;
 
-    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), m/s².
     let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
     let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
     let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
@@ -1245,14 +1263,14 @@ pub fn eliminate<T: Real>(
     let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
     let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
-    // Bias of each joint with it, eq. (C3).
+    // Bias of each joint row with it, eq. (D9).
     let bias_6 = (f_p_bx * r_first_rest_bx).add_mul(f_p_by, r_first_rest_by);
     let u_rest_p = bias_6.add_mul(f_p_bz, r_first_rest_bz) + field_p;
 
-    // Right side of each joint, eq. (80): motor torque less what the rest asks for, N m.
+    // Right side of each joint row, eq. (80): motor torque less bias, N m.
     let tau_p = u.u_p - u_rest_p;
 
-    // Joint p, eq. (E1): its pivot `mass_pp`, kg m², and its gains.
+    // Joint p, eq. (D10): its pivot `mass_pp`, kg m², and its gains.
     let divisor_p = m.held_p + mass_pp;
     let recip_p = m.driven_p * divisor_p.recip();
     let gain_p_v1 = f_p_bx * recip_p;
@@ -1263,7 +1281,7 @@ pub fn eliminate<T: Real>(
     let gain_p_w3 = n_p_bz * recip_p;
     let free_p = m.given_p.add_mul(tau_p, recip_p);
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_p_bx * gain_p_v1;
     let m_vv_12 = f_p_by * gain_p_v1;
     let m_vv_13 = f_p_bz * gain_p_v1;
@@ -1271,7 +1289,7 @@ pub fn eliminate<T: Real>(
     let m_vv_23 = f_p_bz * gain_p_v2;
     let m_vv_33 = f_p_bz * gain_p_v3;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
     let m_vw_11 = n_p_bx * gain_p_v1;
     let m_vw_12 = n_p_by * gain_p_v1;
     let m_vw_13 = n_p_bz * gain_p_v1;
@@ -1282,7 +1300,7 @@ pub fn eliminate<T: Real>(
     let m_vw_32 = n_p_by * gain_p_v3;
     let m_vw_33 = n_p_bz * gain_p_v3;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
     let m_ww_11 = n_p_bx * gain_p_w1;
     let m_ww_12 = n_p_by * gain_p_w1;
     let m_ww_13 = n_p_bz * gain_p_w1;
@@ -1290,7 +1308,7 @@ pub fn eliminate<T: Real>(
     let m_ww_23 = n_p_bz * gain_p_w2;
     let m_ww_33 = n_p_bz * gain_p_w3;
 
-    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    // Subtracted from the hub's right side, eq. (D12): force, N, and moment about B, N m.
     let h_v_1 = f_rates_bx.add_mul(f_p_bx, free_p);
     let h_v_2 = f_rates_by.add_mul(f_p_by, free_p);
     let h_v_3 = f_rates_bz.add_mul(f_p_bz, free_p);
@@ -1349,7 +1367,7 @@ pub fn eliminate<T: Real>(
 #[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
-    // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
+    // Row by row, outboard, eq. (D13): the free acceleration less the gains.
     let row_0 = e.free_p.sub_mul(a.r_b_n_ddot_bx, e.gain_p_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_p_v2);
     let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_p_v3);
@@ -1427,7 +1445,7 @@ pub fn energy_momentum<T: Real>(
 /// Operations: 0 mul, 0 add, 1 neg, 0 div, 0 trig.
 #[must_use]
 pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
-    // Of the panel: its own axes along B, eq. (A1).
+    // Of the panel: its own axes along B, eq. (D1).
     let p_x_bx = q.cos_phi;
     let p_x_by = q.sin_phi;
     let zero = q.sin_phi.like(0.0);
@@ -1440,7 +1458,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     let one = q.sin_phi.like(1.0);
     let p_z_bz = one;
 
-    // P from B, eq. (A2), along B axes, m.
+    // P from B, eq. (D2), along B axes, m.
     let origin_p_bx = p.r_p_b_bx;
     let origin_p_by = p.r_p_b_by;
     let origin_p_bz = p.r_p_b_bz;
@@ -1566,7 +1584,7 @@ pub fn loads<T: Real>(
 /// Operations: 14 mul, 10 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> External<T> {
-    // On D, the panel and what it carries, eq. (F1): force, N, and moment about P, N m.
+    // On D, the panel and what it carries, eq. (D14): force, N, and moment about P, N m.
     let f_sum_px = x.f_on_px;
     let f_sum_py = x.f_on_py;
     let f_sum_pz = x.f_on_pz;
@@ -1574,10 +1592,10 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
     let n_sum_py = x.n_on_py;
     let n_sum_pz = x.n_on_pz;
 
-    // Along the panel's joint, beside its motor, eq. (F2), N m.
+    // Along the panel's joint, beside its motor, eq. (D15), N m.
     let drive_p = x.n_on_pz;
 
-    // On the hub, eq. (F1): force, N, and moment about B, N m.
+    // On the hub, eq. (D14): force, N, and moment about B, N m.
     let f_sum_bx = q.cos_phi * x.f_on_px - q.sin_phi * x.f_on_py;
     let f_sum_by = q.cos_phi * x.f_on_py + q.sin_phi * x.f_on_px;
     let f_sum_bz = x.f_on_pz;
@@ -1609,7 +1627,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 /// Operations: 70 mul, 66 add, 3 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
-    // G, as in eq. (G1), along the axes of the panel, 1/s².
+    // G, as in eq. (D16), along the axes of the panel, 1/s².
     let field_0 = q.sin_phi * (g.g_22 - g.g_11) + q.cos_phi * (g.g_12 + g.g_12);
     let field_1 = q.sin_phi * field_0;
     let g_p_11 = g.g_11 + field_1;
@@ -1618,14 +1636,14 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let g_p_22 = g.g_22 - field_1;
     let g_p_23 = q.cos_phi * g.g_23 - q.sin_phi * g.g_13;
 
-    // G r at P, eq. (G1), along the same axes, m/s².
+    // G r at P, eq. (D16), along the same axes, m/s².
     let field_2 = p.r_p_b_bx * g.g_11 + p.r_p_b_by * g.g_12 + p.r_p_b_bz * g.g_13;
     let field_3 = p.r_p_b_bx * g.g_12 + p.r_p_b_by * g.g_22 + p.r_p_b_bz * g.g_23;
     let g_r_p_px = q.cos_phi * field_2 + q.sin_phi * field_3;
     let g_r_p_py = q.cos_phi * field_3 - q.sin_phi * field_2;
     let g_r_p_pz = p.r_p_b_bx * g.g_13 + p.r_p_b_by * g.g_23 + p.r_p_b_bz * g.g_33;
 
-    // On the panel alone, eq. (G2): force, N, and moment about P, N m.
+    // On the panel alone, eq. (D17): force, N, and moment about P, N m.
     let pull_0 = p.mr_pc_p_px * g_p_11 + p.mr_pc_p_py * g_p_12;
     let f_on_px = pull_0 + p.mr_pc_p_pz * g_p_13 + p.m_p * g_r_p_px;
     let pull_1 = p.mr_pc_p_px * g_p_12 + p.mr_pc_p_py * g_p_22;
@@ -1642,7 +1660,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let pull_8 = p.mr_pc_p_px * g_r_p_py - p.mr_pc_p_py * g_r_p_px;
     let n_on_pz = pull_8 - (pull_7 + p.i_p_p_12 * (g_p_22 - g_p_11));
 
-    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
+    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg m².
     let axis_0 = q.cos_phi * p.mr_pc_p_px - q.sin_phi * p.mr_pc_p_py;
     let axis_1 = q.cos_phi * p.mr_pc_p_py + q.sin_phi * p.mr_pc_p_px;
     let axis_2 = q.cos_phi * p.k_2 - q.sin_phi * p.k_1;

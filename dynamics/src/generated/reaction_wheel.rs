@@ -112,8 +112,8 @@ pub struct Prepared<T> {
     /// `p.j_33 + own_0`. The wheel about its origin: first moment, kg m, and inertia as in
     /// eq. (71), kg m².
     pub i_w_w_33: T,
-    /// `i_w_w_11`. Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and
-    /// bias, N m, eq. (C3).
+    /// `i_w_w_11`. Joint row of the wheel, eqs. (119), (D7), (D9): M_ij, kg m², and bias
+    /// without the hub's part, N m.
     pub mass_ww: T,
     /// `i_w_w_33 - p.j_22`.
     pub k_1: T,
@@ -129,24 +129,26 @@ pub struct Prepared<T> {
     pub k_5: T,
     /// `p.r_w_b_bz * p.m_w`.
     pub k_6: T,
-    /// `p.j_12 - p.r_w_b_bx * mr_wc_w_wy`. Base parameters of the wheel, eqs. (B1), (B2):
-    /// arm, m, first moment, kg m, inertia, kg m².
+    /// `p.j_12 - p.r_w_b_bx * mr_wc_w_wy`. Base inertial parameters of the wheel, eqs. (D3),
+    /// (D4): W moved by (D3) from the parent's origin, m; first moment, kg m, and inertia, kg
+    /// m², about it.
     pub i_w_base_12: T,
-    /// `p.j_22 - own_0 - p.j_33`. Base parameters of the wheel, eqs. (B1), (B2): arm, m,
-    /// first moment, kg m, inertia, kg m².
+    /// `p.j_22 - own_0 - p.j_33`. Base inertial parameters of the wheel, eqs. (D3), (D4): W
+    /// moved by (D3) from the parent's origin, m; first moment, kg m, and inertia, kg m²,
+    /// about it.
     pub i_w_base_22: T,
     /// `i_w_w_11 + i_w_base_22`.
     pub k_7: T,
     /// `i_w_w_11 - i_w_base_22`.
     pub k_8: T,
-    /// `p.r_w_b_by * p.mount_12 + p.r_w_b_bz * p.mount_13`. Origin of the first joint, eq.
-    /// (A2), along B axes, m.
+    /// `p.r_w_b_by * p.mount_12 + p.r_w_b_bz * p.mount_13`. Origin of the first joint from B,
+    /// moved by (D3), eq. (D2), expressed in B, m.
     pub reach_bx: T,
-    /// `p.r_w_b_by * p.mount_22 + p.r_w_b_bz * p.mount_23`. Origin of the first joint, eq.
-    /// (A2), along B axes, m.
+    /// `p.r_w_b_by * p.mount_22 + p.r_w_b_bz * p.mount_23`. Origin of the first joint from B,
+    /// moved by (D3), eq. (D2), expressed in B, m.
     pub reach_by: T,
-    /// `p.r_w_b_by * p.mount_32 + p.r_w_b_bz * p.mount_33`. Origin of the first joint, eq.
-    /// (A2), along B axes, m.
+    /// `p.r_w_b_by * p.mount_32 + p.r_w_b_bz * p.mount_33`. Origin of the first joint from B,
+    /// moved by (D3), eq. (D2), expressed in B, m.
     pub reach_bz: T,
     /// `p.mount_11 * i_w_w_11`.
     pub k_9: T,
@@ -168,32 +170,35 @@ pub struct Prepared<T> {
     pub k_17: T,
     /// `reach_bz + reach_bz`.
     pub k_18: T,
-    /// `p.mount_11 * mc_bx + p.mount_12 * k_5 + p.mount_13 * k_6`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `p.mount_11 * mc_bx + p.mount_12 * k_5 + p.mount_13 * k_6`. Constant share of the hub,
+    /// eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_mr_bx: T,
-    /// `p.mount_21 * mc_bx + p.mount_22 * k_5 + p.mount_23 * k_6`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `p.mount_21 * mc_bx + p.mount_22 * k_5 + p.mount_23 * k_6`. Constant share of the hub,
+    /// eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_mr_by: T,
-    /// `p.mount_31 * mc_bx + p.mount_32 * k_5 + p.mount_33 * k_6`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `p.mount_31 * mc_bx + p.mount_32 * k_5 + p.mount_33 * k_6`. Constant share of the hub,
+    /// eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_mr_bz: T,
-    /// `half * (p.mount_13 * hand_8 * hand_6 + hand_11 + hand_12)`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_13 * hand_8 * hand_6 + hand_11 + hand_12)`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_i_11: T,
-    /// `half * (hand_23 + p.mount_13 * hand_18 * hand_6)`. What the hub takes over, eq. (B2):
-    /// mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_23 + p.mount_13 * hand_18 * hand_6)`. Constant share of the hub, eq.
+    /// (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_12: T,
-    /// `half * (hand_34 + p.mount_13 * hand_29 * hand_6)`. What the hub takes over, eq. (B2):
-    /// mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_34 + p.mount_13 * hand_29 * hand_6)`. Constant share of the hub, eq.
+    /// (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_13: T,
-    /// `half * (p.mount_23 * hand_18 * hand_6 + hand_37 + hand_38)`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_23 * hand_18 * hand_6 + hand_37 + hand_38)`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_i_22: T,
-    /// `half * (hand_46 + p.mount_23 * hand_29 * hand_6)`. What the hub takes over, eq. (B2):
-    /// mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (hand_46 + p.mount_23 * hand_29 * hand_6)`. Constant share of the hub, eq.
+    /// (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in B.
     pub hand_i_23: T,
-    /// `half * (p.mount_33 * hand_29 * hand_6 + hand_49 + hand_50)`. What the hub takes over,
-    /// eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg m², along B axes.
+    /// `half * (p.mount_33 * hand_29 * hand_6 + hand_49 + hand_50)`. Constant share of the
+    /// hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg m², expressed in
+    /// B.
     pub hand_i_33: T,
     /// `p.j_22 - i_w_w_33`.
     pub k_19: T,
@@ -466,7 +471,7 @@ pub struct FirstMoment<T> {
     pub f_tilde_bz: T,
 }
 
-/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
+/// How the joints of a device follow the hub, eq. (D13), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gains<T> {
     /// Gain of the wheel on component 1 of r̈_{B/N}, 1/m.
@@ -552,29 +557,29 @@ impl<T: Copy> JointAccelerations<T> {
 /// Axes of the bodies and origins of their joints, along the device's B axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes<T> {
-    /// First axis of the wheel, eq. (A1), along bx, 1.
+    /// First axis of the wheel, eq. (D1), along bx, 1.
     pub w_x_bx: T,
-    /// First axis of the wheel, eq. (A1), along by, 1.
+    /// First axis of the wheel, eq. (D1), along by, 1.
     pub w_x_by: T,
-    /// First axis of the wheel, eq. (A1), along bz, 1.
+    /// First axis of the wheel, eq. (D1), along bz, 1.
     pub w_x_bz: T,
-    /// Second axis of the wheel, eq. (A1), along bx, 1.
+    /// Second axis of the wheel, eq. (D1), along bx, 1.
     pub w_y_bx: T,
-    /// Second axis of the wheel, eq. (A1), along by, 1.
+    /// Second axis of the wheel, eq. (D1), along by, 1.
     pub w_y_by: T,
-    /// Second axis of the wheel, eq. (A1), along bz, 1.
+    /// Second axis of the wheel, eq. (D1), along bz, 1.
     pub w_y_bz: T,
-    /// Third axis of the wheel, eq. (A1), along bx, 1.
+    /// Third axis of the wheel, eq. (D1), along bx, 1.
     pub w_z_bx: T,
-    /// Third axis of the wheel, eq. (A1), along by, 1.
+    /// Third axis of the wheel, eq. (D1), along by, 1.
     pub w_z_by: T,
-    /// Third axis of the wheel, eq. (A1), along bz, 1.
+    /// Third axis of the wheel, eq. (D1), along bz, 1.
     pub w_z_bz: T,
-    /// W, origin of its joint, from B, eq. (A2), along bx, m.
+    /// W, origin of its joint, from B, eq. (D2), along bx, m.
     pub origin_w_bx: T,
-    /// W, origin of its joint, from B, eq. (A2), along by, m.
+    /// W, origin of its joint, from B, eq. (D2), along by, m.
     pub origin_w_by: T,
-    /// W, origin of its joint, from B, eq. (A2), along bz, m.
+    /// W, origin of its joint, from B, eq. (D2), along bz, m.
     pub origin_w_bz: T,
 }
 
@@ -612,56 +617,56 @@ pub struct Loads<T> {
 /// joint's origin; along each joint, to be added to its motor's; on the hub.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct External<T> {
-    /// Force on the wheel and what it carries, eq. (F1), along wx, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wx, N.
     pub f_sum_wx: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wy, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wy, N.
     pub f_sum_wy: T,
-    /// Force on the wheel and what it carries, eq. (F1), along wz, N.
+    /// Force on the wheel and what it carries, eq. (D14), along wz, N.
     pub f_sum_wz: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wx, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wx, N m.
     pub n_sum_wx: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wy, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wy, N m.
     pub n_sum_wy: T,
-    /// Moment about W on the wheel and what it carries, eq. (F1), along wz, N m.
+    /// Moment about W on the wheel and what it carries, eq. (D14), along wz, N m.
     pub n_sum_wz: T,
-    /// Along the wheel's joint, eq. (F2), N m.
+    /// Along the wheel's joint, eq. (D15), N m.
     pub drive_w: T,
-    /// Force on the hub, eq. (F1), along bx, N.
+    /// Force on the hub, eq. (D14), along bx, N.
     pub f_sum_bx: T,
-    /// Force on the hub, eq. (F1), along by, N.
+    /// Force on the hub, eq. (D14), along by, N.
     pub f_sum_by: T,
-    /// Force on the hub, eq. (F1), along bz, N.
+    /// Force on the hub, eq. (D14), along bz, N.
     pub f_sum_bz: T,
-    /// Moment about B on the hub, eq. (F1), along bx, N m.
+    /// Moment about B on the hub, eq. (D14), along bx, N m.
     pub n_sum_bx: T,
-    /// Moment about B on the hub, eq. (F1), along by, N m.
+    /// Moment about B on the hub, eq. (D14), along by, N m.
     pub n_sum_by: T,
-    /// Moment about B on the hub, eq. (F1), along bz, N m.
+    /// Moment about B on the hub, eq. (D14), along bz, N m.
     pub n_sum_bz: T,
 }
 
 /// What a field of acceleration does to a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity<T> {
-    /// On each body, eq. (G2).
+    /// On each body, eq. (D17).
     pub wrenches: Wrenches<T>,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 11, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 11,
+    /// kg m².
     pub second_moment_11: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 12, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 12,
+    /// kg m².
     pub second_moment_12: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 13, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 13,
+    /// kg m².
     pub second_moment_13: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 22, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 22,
+    /// kg m².
     pub second_moment_22: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 23, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 23,
+    /// kg m².
     pub second_moment_23: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 33, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 33,
+    /// kg m².
     pub second_moment_33: T,
 }
 
@@ -676,8 +681,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     // Σ m r, share of m_sc c, eq. (9), kg m.
     let mc_bx = p.r_w_b_bx * p.m_w;
 
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let k_5 = p.r_w_b_by * p.m_w;
     let k_6 = p.r_w_b_bz * p.m_w;
     let hand_mr_bx = p.mount_11 * mc_bx + p.mount_12 * k_5 + p.mount_13 * k_6;
@@ -747,14 +752,16 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let own_0 = p.m_w * hand_0;
     let i_w_w_11 = p.j_11 + own_0;
 
-    // Base parameters of the wheel, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, kg m².
+    // Base inertial parameters of the wheel, eqs. (D3), (D4): W moved by (D3) from the parent's
+    // origin, m; first moment, kg m, and inertia, kg m², about it.
     let i_w_base_12 = p.j_12 - p.r_w_b_bx * mr_wc_w_wy;
     let i_w_base_22 = p.j_22 - own_0 - p.j_33;
 
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    // Joint row of the wheel, eqs. (119), (D7), (D9): M_ij, kg m², and bias without the hub's
+    // part, N m.
     let mass_ww = i_w_w_11;
 
-    // Origin of the first joint, eq. (A2), along B axes, m.
+    // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in B, m.
     let reach_bx = p.r_w_b_by * p.mount_12 + p.r_w_b_bz * p.mount_13;
     let reach_by = p.r_w_b_by * p.mount_22 + p.r_w_b_bz * p.mount_23;
     let reach_bz = p.r_w_b_by * p.mount_32 + p.r_w_b_bz * p.mount_33;
@@ -1021,8 +1028,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, q: &Trig<T>, v: &Rates<T>) -> Firs
 /// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let hand_m = p.m_w;
     let hand_mr_bx = p.hand_mr_bx;
     let hand_mr_by = p.hand_mr_by;
@@ -1052,7 +1059,10 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 ///
 /// Translation (16), rotation (75), motor torques (119); with the joints
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
-/// acceleration is given has no equation: what it asks for goes to the right side.
+/// acceleration is given has no equation: what it requires goes to the right side.
+///
+/// Equations (D1) to (D13) are derived in `tests/derivation/kernels`. By (D3), the origin
+/// of a turning joint is elsewhere on its axis than where the paper places it.
 ///
 /// Operations: 159 mul, 98 add, 0 neg, 1 div, 0 trig.
 #[inline(always)]
@@ -1065,7 +1075,7 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // Axes of the wheel, eq. (A1), along B axes, 1.
+    // Axes of the wheel, eq. (D1), expressed in B, 1.
     let e_y_bx = (q.cos_theta * p.mount_12).add_mul(q.sin_theta, p.mount_13);
     let e_y_by = (q.cos_theta * p.mount_22).add_mul(q.sin_theta, p.mount_23);
     let e_y_bz = (q.cos_theta * p.mount_32).add_mul(q.sin_theta, p.mount_33);
@@ -1073,7 +1083,7 @@ pub fn eliminate<T: Real>(
     let e_z_by = (q.cos_theta * p.mount_23).sub_mul(q.sin_theta, p.mount_22);
     let e_z_bz = (q.cos_theta * p.mount_33).sub_mul(q.sin_theta, p.mount_32);
 
-    // ω_{B/N} along the axes of the wheel, eq. (C1), rad/s.
+    // ω_{B/N} expressed in the axes of the wheel, eq. (D5), rad/s.
     let rate_0 = (w.omega_bx * p.mount_11).add_mul(w.omega_by, p.mount_21);
     let omega_b_n_wx = rate_0.add_mul(w.omega_bz, p.mount_31);
     let rate_1 = (w.omega_bx * e_y_bx).add_mul(w.omega_by, e_y_by);
@@ -1081,14 +1091,16 @@ pub fn eliminate<T: Real>(
     let rate_2 = (w.omega_bx * e_z_bx).add_mul(w.omega_by, e_z_by);
     let omega_b_n_wz = rate_2.add_mul(w.omega_bz, e_z_bz);
 
-    // Row of the wheel's joint, eq. (119), along its axis: M_ij, kg m², and bias, N m, eq. (C3).
+    // Joint row of the wheel, eqs. (119), (D7), (D9): M_ij, kg m², and bias without the hub's
+    // part, N m.
     let mass_ww = p.i_w_w_11;
     let row_0 = (omega_b_n_wy * omega_b_n_wy).sub_mul(omega_b_n_wz, omega_b_n_wz);
     let row_1 = (p.j_13 * omega_b_n_wy).sub_mul(p.i_w_base_12, omega_b_n_wz);
     let row_2 = (p.j_23 * row_0).add_mul(omega_b_n_wx, row_1);
     let field_w = row_2.sub_mul(p.i_w_base_22, omega_b_n_wy * omega_b_n_wz);
 
-    // Force, N, and moment, N m, that the joints' rates from the wheel's on ask for, eq. (C2).
+    // Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the joint of
+    // the wheel, about W moved by (D3), eq. (D8).
     let coriolis_0 = v.spin * omega_b_n_wy;
     let coriolis_1 = p.mr_wc_w_wy * coriolis_0;
     let f_rates_w_wx = coriolis_1 + coriolis_1;
@@ -1100,8 +1112,8 @@ pub fn eliminate<T: Real>(
     let coriolis_5 = (p.i_w_base_12 * coriolis_2).add_mul(p.k_2, coriolis_3);
     let n_rates_w_wz = coriolis_5.sub_mul(coriolis_0, p.k_8);
 
-    // M_vi, eq. (17), kg m, and M_wi, eq. (75), kg m²: force and moment about B per unit
-    // acceleration, along B axes.
+    // M_vi, eqs. (17), (D7), kg m, and M_wi, eqs. (75), (D7), kg m²: force and moment about B
+    // per unit joint acceleration, expressed in B.
     let f_w_bx = p.mr_wc_w_wy * e_z_bx;
     let f_w_by = p.mr_wc_w_wy * e_z_by;
     let f_w_bz = p.mr_wc_w_wy * e_z_bz;
@@ -1112,8 +1124,8 @@ pub fn eliminate<T: Real>(
     let col_2 = p.k_11.add_mul(p.i_w_base_12, e_y_bz).add_mul(p.j_13, e_z_bz);
     let n_w_bz = (p.reach_bx * f_w_by).sub_mul(p.reach_by, f_w_bx) + col_2;
 
-    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    // (76), kg m².
+    // D without its constant share of the hub, about B, expressed in B: first moment, eqs. (9),
+    // (D6), kg m, and inertia, eqs. (76), (D6), kg m².
     let mr_moving_bx = p.mr_wc_w_wy * e_y_bx;
     let mr_moving_by = p.mr_wc_w_wy * e_y_by;
     let mr_moving_bz = p.mr_wc_w_wy * e_y_bz;
@@ -1145,8 +1157,8 @@ pub fn eliminate<T: Real>(
     let moment_20 = (e_y_bz * moment_10).add_mul(p.mount_31, moment_11);
     let i_moving_33 = moment_20 + moment_20 + (moment_16 + moment_3);
 
-    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
-    // N and N m.
+    // Coriolis and centrifugal force, N, and moment about B, N m, of the joints' rates, of eqs.
+    // (16), (75), (D8), expressed in B.
     let f_rates_bx = (p.mount_11 * f_rates_w_wx).sub_mul(e_y_bx, neg_f_rates_w_wy);
     let f_rates_by = (p.mount_21 * f_rates_w_wx).sub_mul(e_y_by, neg_f_rates_w_wy);
     let f_rates_bz = (p.mount_31 * f_rates_w_wx).sub_mul(e_y_bz, neg_f_rates_w_wy);
@@ -1157,7 +1169,7 @@ pub fn eliminate<T: Real>(
     let bias_2 = (p.reach_bx * f_rates_by).sub_mul(p.reach_by, f_rates_bx);
     let n_rates_bz = (e_y_bz * n_rates_w_wy).add_mul(e_z_bz, n_rates_w_wz) + bias_2;
 
-    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), m/s².
     let reach_0 = (w.omega_bz * p.reach_bx).sub_mul(w.omega_bx, p.reach_bz);
     let reach_1 = (w.omega_bx * p.reach_by).sub_mul(w.omega_by, p.reach_bx);
     let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
@@ -1165,14 +1177,14 @@ pub fn eliminate<T: Real>(
     let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
     let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
-    // Bias of each joint with it, eq. (C3).
+    // Bias of each joint row with it, eq. (D9).
     let bias_3 = (f_w_bx * r_first_rest_bx).add_mul(f_w_by, r_first_rest_by);
     let u_rest_w = bias_3.add_mul(f_w_bz, r_first_rest_bz) + field_w;
 
-    // Right side of each joint, eq. (119): motor torque less what the rest asks for, N m.
+    // Right side of each joint row, eq. (119): motor torque less bias, N m.
     let tau_w = u.u_w - u_rest_w;
 
-    // Joint w, eq. (E1): its pivot `mass_ww`, kg m², and its gains.
+    // Joint w, eq. (D10): its pivot `mass_ww`, kg m², and its gains.
     let divisor_w = m.held_w + mass_ww;
     let recip_w = m.driven_w * divisor_w.recip();
     let gain_w_v1 = f_w_bx * recip_w;
@@ -1183,7 +1195,7 @@ pub fn eliminate<T: Real>(
     let gain_w_w3 = n_w_bz * recip_w;
     let free_w = m.given_w.add_mul(tau_w, recip_w);
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = f_w_bx * gain_w_v1;
     let m_vv_12 = f_w_by * gain_w_v1;
     let m_vv_13 = f_w_bz * gain_w_v1;
@@ -1191,7 +1203,7 @@ pub fn eliminate<T: Real>(
     let m_vv_23 = f_w_bz * gain_w_v2;
     let m_vv_33 = f_w_bz * gain_w_v3;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
     let m_vw_11 = n_w_bx * gain_w_v1;
     let m_vw_12 = n_w_by * gain_w_v1;
     let m_vw_13 = n_w_bz * gain_w_v1;
@@ -1202,7 +1214,7 @@ pub fn eliminate<T: Real>(
     let m_vw_32 = n_w_by * gain_w_v3;
     let m_vw_33 = n_w_bz * gain_w_v3;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
     let m_ww_11 = n_w_bx * gain_w_w1;
     let m_ww_12 = n_w_by * gain_w_w1;
     let m_ww_13 = n_w_bz * gain_w_w1;
@@ -1210,7 +1222,7 @@ pub fn eliminate<T: Real>(
     let m_ww_23 = n_w_bz * gain_w_w2;
     let m_ww_33 = n_w_bz * gain_w_w3;
 
-    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    // Subtracted from the hub's right side, eq. (D12): force, N, and moment about B, N m.
     let h_v_1 = f_rates_bx.add_mul(f_w_bx, free_w);
     let h_v_2 = f_rates_by.add_mul(f_w_by, free_w);
     let h_v_3 = f_rates_bz.add_mul(f_w_bz, free_w);
@@ -1269,7 +1281,7 @@ pub fn eliminate<T: Real>(
 #[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
-    // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
+    // Row by row, outboard, eq. (D13): the free acceleration less the gains.
     let row_0 = e.free_w.sub_mul(a.r_b_n_ddot_bx, e.gain_w_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_w_v2);
     let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_w_v3);
@@ -1341,7 +1353,7 @@ pub fn energy_momentum<T: Real>(
 /// Operations: 0 mul, 0 add, 1 neg, 0 div, 0 trig.
 #[must_use]
 pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
-    // Of the wheel: its own axes along B, eq. (A1).
+    // Of the wheel: its own axes along B, eq. (D1).
     let one = q.sin_theta.like(1.0);
     let w_x_bx = one;
     let zero = q.sin_theta.like(0.0);
@@ -1354,7 +1366,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, q: &Trig<T>) -> Axes<T> {
     let w_z_by = -q.sin_theta;
     let w_z_bz = q.cos_theta;
 
-    // W from B, eq. (A2), along B axes, m.
+    // W from B, eq. (D2), along B axes, m.
     let origin_w_bx = p.r_w_b_bx;
     let origin_w_by = p.r_w_b_by;
     let origin_w_bz = p.r_w_b_bz;
@@ -1473,7 +1485,7 @@ pub fn loads<T: Real>(
 /// Operations: 14 mul, 10 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> External<T> {
-    // On D, the wheel and what it carries, eq. (F1): force, N, and moment about W, N m.
+    // On D, the wheel and what it carries, eq. (D14): force, N, and moment about W, N m.
     let f_sum_wx = x.f_on_wx;
     let f_sum_wy = x.f_on_wy;
     let f_sum_wz = x.f_on_wz;
@@ -1481,10 +1493,10 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
     let n_sum_wy = x.n_on_wy;
     let n_sum_wz = x.n_on_wz;
 
-    // Along the wheel's joint, beside its motor, eq. (F2), N m.
+    // Along the wheel's joint, beside its motor, eq. (D15), N m.
     let drive_w = x.n_on_wx;
 
-    // On the hub, eq. (F1): force, N, and moment about B, N m.
+    // On the hub, eq. (D14): force, N, and moment about B, N m.
     let f_sum_bx = x.f_on_wx;
     let f_sum_by = q.cos_theta * x.f_on_wy - q.sin_theta * x.f_on_wz;
     let f_sum_bz = q.cos_theta * x.f_on_wz + q.sin_theta * x.f_on_wy;
@@ -1516,7 +1528,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 /// Operations: 54 mul, 52 add, 5 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
-    // G, as in eq. (G1), along the axes of the wheel, 1/s².
+    // G, as in eq. (D16), along the axes of the wheel, 1/s².
     let g_w_12 = q.cos_theta * g.g_12 + q.sin_theta * g.g_13;
     let g_w_13 = q.cos_theta * g.g_13 - q.sin_theta * g.g_12;
     let field_0 = q.sin_theta * (g.g_33 - g.g_22) + q.cos_theta * (g.g_23 + g.g_23);
@@ -1525,14 +1537,14 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let g_w_23 = q.cos_theta * field_0 - g.g_23;
     let g_w_33 = g.g_33 - field_1;
 
-    // G r at W, eq. (G1), along the same axes, m/s².
+    // G r at W, eq. (D16), along the same axes, m/s².
     let g_r_w_wx = p.r_w_b_bx * g.g_11 + p.r_w_b_by * g.g_12 + p.r_w_b_bz * g.g_13;
     let field_2 = p.r_w_b_bx * g.g_12 + p.r_w_b_by * g.g_22 + p.r_w_b_bz * g.g_23;
     let field_3 = p.r_w_b_bx * g.g_13 + p.r_w_b_by * g.g_23 + p.r_w_b_bz * g.g_33;
     let g_r_w_wy = q.cos_theta * field_2 + q.sin_theta * field_3;
     let g_r_w_wz = q.cos_theta * field_3 - q.sin_theta * field_2;
 
-    // On the wheel alone, eq. (G2): force, N, and moment about W, N m.
+    // On the wheel alone, eq. (D17): force, N, and moment about W, N m.
     let f_on_wx = p.m_w * g_r_w_wx + p.mr_wc_w_wy * g_w_12;
     let f_on_wy = p.m_w * g_r_w_wy + p.mr_wc_w_wy * g_w_22;
     let f_on_wz = p.m_w * g_r_w_wz + p.mr_wc_w_wy * g_w_23;
@@ -1543,7 +1555,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravit
     let pull_2 = p.j_13 * g_w_23 - p.j_23 * g_w_13 + g_w_12 * p.k_21;
     let n_on_wz = -(pull_2 + p.j_12 * (g_w_22 - g.g_11) + p.mr_wc_w_wy * g_r_w_wx);
 
-    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
+    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg m².
     let axis_0 = q.cos_theta * p.k_2 - q.sin_theta * p.k_1;
     let axis_1 = q.cos_theta * p.k_27;
     let axis_2 = axis_1 + q.sin_theta * p.k_28 + p.k_23;

@@ -88,14 +88,14 @@ pub struct Prepared<T> {
     pub mc_by: T,
     /// `p.r_s_b_bz * p.m_s`. Σ m r, share of m_sc c, eq. (9), kg m.
     pub mc_bz: T,
-    /// `p.m_s * p.mount_11`. M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment
-    /// about B per unit acceleration, along B axes.
+    /// `p.m_s * p.mount_11`. M_vi, eqs. (17), (D7), kg, and M_wi, eqs. (75), (D7), kg m:
+    /// force and moment about B per unit joint acceleration, expressed in B.
     pub f_s_bx: T,
-    /// `p.m_s * p.mount_21`. M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment
-    /// about B per unit acceleration, along B axes.
+    /// `p.m_s * p.mount_21`. M_vi, eqs. (17), (D7), kg, and M_wi, eqs. (75), (D7), kg m:
+    /// force and moment about B per unit joint acceleration, expressed in B.
     pub f_s_by: T,
-    /// `p.m_s * p.mount_31`. M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment
-    /// about B per unit acceleration, along B axes.
+    /// `p.m_s * p.mount_31`. M_vi, eqs. (17), (D7), kg, and M_wi, eqs. (75), (D7), kg m:
+    /// force and moment about B per unit joint acceleration, expressed in B.
     pub f_s_bz: T,
     /// `-i_s_b_11`.
     pub k_2: T,
@@ -277,7 +277,7 @@ pub struct FirstMoment<T> {
     pub mc_dprime_s_bz: T,
 }
 
-/// How the joints of a device follow the hub, eq. (E4), once they are eliminated.
+/// How the joints of a device follow the hub, eq. (D13), once they are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gains<T> {
     /// Gain of the slosh mass on component 1 of r̈_{B/N}.
@@ -363,29 +363,29 @@ impl<T: Copy> JointAccelerations<T> {
 /// Axes of the bodies and origins of their joints, along the device's B axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes<T> {
-    /// First axis of the carrier of the slosh mass, eq. (A1), along bx, 1.
+    /// First axis of the carrier of the slosh mass, eq. (D1), along bx, 1.
     pub s_x_bx: T,
-    /// First axis of the carrier of the slosh mass, eq. (A1), along by, 1.
+    /// First axis of the carrier of the slosh mass, eq. (D1), along by, 1.
     pub s_x_by: T,
-    /// First axis of the carrier of the slosh mass, eq. (A1), along bz, 1.
+    /// First axis of the carrier of the slosh mass, eq. (D1), along bz, 1.
     pub s_x_bz: T,
-    /// Second axis of the carrier of the slosh mass, eq. (A1), along bx, 1.
+    /// Second axis of the carrier of the slosh mass, eq. (D1), along bx, 1.
     pub s_y_bx: T,
-    /// Second axis of the carrier of the slosh mass, eq. (A1), along by, 1.
+    /// Second axis of the carrier of the slosh mass, eq. (D1), along by, 1.
     pub s_y_by: T,
-    /// Second axis of the carrier of the slosh mass, eq. (A1), along bz, 1.
+    /// Second axis of the carrier of the slosh mass, eq. (D1), along bz, 1.
     pub s_y_bz: T,
-    /// Third axis of the carrier of the slosh mass, eq. (A1), along bx, 1.
+    /// Third axis of the carrier of the slosh mass, eq. (D1), along bx, 1.
     pub s_z_bx: T,
-    /// Third axis of the carrier of the slosh mass, eq. (A1), along by, 1.
+    /// Third axis of the carrier of the slosh mass, eq. (D1), along by, 1.
     pub s_z_by: T,
-    /// Third axis of the carrier of the slosh mass, eq. (A1), along bz, 1.
+    /// Third axis of the carrier of the slosh mass, eq. (D1), along bz, 1.
     pub s_z_bz: T,
-    /// S, origin of its joint, from B, eq. (A2), along bx, m.
+    /// S, origin of its joint, from B, eq. (D2), along bx, m.
     pub origin_s_bx: T,
-    /// S, origin of its joint, from B, eq. (A2), along by, m.
+    /// S, origin of its joint, from B, eq. (D2), along by, m.
     pub origin_s_by: T,
-    /// S, origin of its joint, from B, eq. (A2), along bz, m.
+    /// S, origin of its joint, from B, eq. (D2), along bz, m.
     pub origin_s_bz: T,
 }
 
@@ -423,56 +423,56 @@ pub struct Loads<T> {
 /// joint's origin; along each joint, to be added to its motor's; on the hub.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct External<T> {
-    /// Force on the slosh mass and what it carries, eq. (F1), along sx, N.
+    /// Force on the slosh mass and what it carries, eq. (D14), along sx, N.
     pub f_sum_sx: T,
-    /// Force on the slosh mass and what it carries, eq. (F1), along sy, N.
+    /// Force on the slosh mass and what it carries, eq. (D14), along sy, N.
     pub f_sum_sy: T,
-    /// Force on the slosh mass and what it carries, eq. (F1), along sz, N.
+    /// Force on the slosh mass and what it carries, eq. (D14), along sz, N.
     pub f_sum_sz: T,
-    /// Moment about S on the slosh mass and what it carries, eq. (F1), along sx, N m.
+    /// Moment about S on the slosh mass and what it carries, eq. (D14), along sx, N m.
     pub n_sum_sx: T,
-    /// Moment about S on the slosh mass and what it carries, eq. (F1), along sy, N m.
+    /// Moment about S on the slosh mass and what it carries, eq. (D14), along sy, N m.
     pub n_sum_sy: T,
-    /// Moment about S on the slosh mass and what it carries, eq. (F1), along sz, N m.
+    /// Moment about S on the slosh mass and what it carries, eq. (D14), along sz, N m.
     pub n_sum_sz: T,
-    /// Along the slosh mass's joint, eq. (F2), N.
+    /// Along the slosh mass's joint, eq. (D15), N.
     pub drive_s: T,
-    /// Force on the hub, eq. (F1), along bx, N.
+    /// Force on the hub, eq. (D14), along bx, N.
     pub f_sum_bx: T,
-    /// Force on the hub, eq. (F1), along by, N.
+    /// Force on the hub, eq. (D14), along by, N.
     pub f_sum_by: T,
-    /// Force on the hub, eq. (F1), along bz, N.
+    /// Force on the hub, eq. (D14), along bz, N.
     pub f_sum_bz: T,
-    /// Moment about B on the hub, eq. (F1), along bx, N m.
+    /// Moment about B on the hub, eq. (D14), along bx, N m.
     pub n_sum_bx: T,
-    /// Moment about B on the hub, eq. (F1), along by, N m.
+    /// Moment about B on the hub, eq. (D14), along by, N m.
     pub n_sum_by: T,
-    /// Moment about B on the hub, eq. (F1), along bz, N m.
+    /// Moment about B on the hub, eq. (D14), along bz, N m.
     pub n_sum_bz: T,
 }
 
 /// What a field of acceleration does to a device.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity<T> {
-    /// On each body, eq. (G2).
+    /// On each body, eq. (D17).
     pub wrenches: Wrenches<T>,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 11, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 11,
+    /// kg m².
     pub second_moment_11: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 12, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 12,
+    /// kg m².
     pub second_moment_12: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 13, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 13,
+    /// kg m².
     pub second_moment_13: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 22, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 22,
+    /// kg m².
     pub second_moment_22: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 23, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 23,
+    /// kg m².
     pub second_moment_23: T,
-    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3), entry 33, kg
-    /// m².
+    /// S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (D18), entry 33,
+    /// kg m².
     pub second_moment_33: T,
 }
 
@@ -492,8 +492,8 @@ pub fn prepare<T: Real>(p: &Parameters<T>) -> Prepared<T> {
     let mc_by = p.r_s_b_by * p.m_s;
     let mc_bz = p.r_s_b_bz * p.m_s;
 
-    // M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment about B per unit
-    // acceleration, along B axes.
+    // M_vi, eqs. (17), (D7), kg, and M_wi, eqs. (75), (D7), kg m: force and moment about B per
+    // unit joint acceleration, expressed in B.
     let f_s_bx = p.m_s * p.mount_11;
     let f_s_by = p.m_s * p.mount_21;
     let f_s_bz = p.m_s * p.mount_31;
@@ -642,8 +642,8 @@ pub fn first_moment<T: Real>(p: &Prepared<T>, s: &Positions<T>, v: &Rates<T>) ->
 /// Operations: 0 mul, 0 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
-    // What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg
-    // m², along B axes.
+    // Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, kg
+    // m², expressed in B.
     let hand_m = p.m_s;
     let zero = p.mount_11.like(0.0);
     let hand_mr_bx = zero;
@@ -674,7 +674,10 @@ pub fn handed<T: Real>(p: &Prepared<T>) -> Handed<T> {
 ///
 /// Translation (16), rotation (75), motor torques (80); with the joints
 /// eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose
-/// acceleration is given has no equation: what it asks for goes to the right side.
+/// acceleration is given has no equation: what it requires goes to the right side.
+///
+/// Equations (D1) to (D13) are derived in `tests/derivation/kernels`. By (D3), the origin
+/// of a turning joint is elsewhere on its axis than where the paper places it.
 ///
 /// Operations: 96 mul, 39 add, 3 neg, 1 div, 0 trig.
 #[inline(always)]
@@ -687,39 +690,40 @@ pub fn eliminate<T: Real>(
     u: &Motors<T>,
     m: &Modes<T>,
 ) -> Eliminated<T> {
-    // Base parameters of the slosh mass, eqs. (B1), (B2): arm, m, first moment, kg m, inertia,
-    // kg m².
+    // Base inertial parameters of the slosh mass, eqs. (D3), (D4): S from the parent's origin,
+    // m; first moment, kg m, and inertia, kg m², about it.
     let arm_s_dx = p.r_s_b_bx + s.x;
 
-    // ω_{B/N} along the axes of the slosh mass, eq. (C1), rad/s.
+    // ω_{B/N} expressed in the axes of the slosh mass, eq. (D5), rad/s.
     let rate_0 = (w.omega_bx * p.mount_12).add_mul(w.omega_by, p.mount_22);
     let omega_b_n_sy = rate_0.add_mul(w.omega_bz, p.mount_32);
     let rate_1 = (w.omega_bx * p.mount_13).add_mul(w.omega_by, p.mount_23);
     let omega_b_n_sz = rate_1.add_mul(w.omega_bz, p.mount_33);
 
-    // Row of the slosh mass's joint, eq. (80), along its axis: M_ij, kg, and bias, N, eq. (C3).
+    // Joint row of the slosh mass, eqs. (80), (D7), (D9): M_ij, kg, and bias without the hub's
+    // part, N.
     let mass_ss = p.m_s;
 
-    // Force, N, and moment, N m, that the joints' rates from the slosh mass's on ask for, eq.
-    // (C2).
+    // Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the joint of
+    // the slosh mass, about S, eq. (D8).
     let coriolis_0 = v.x_dot * omega_b_n_sz;
     let f_rates_s_sy = p.m_s * (coriolis_0 + coriolis_0);
     let coriolis_1 = v.x_dot * omega_b_n_sy;
     let neg_f_rates_s_sz = p.m_s * (coriolis_1 + coriolis_1);
 
-    // Origin of the first joint, eq. (A2), along B axes, m.
+    // Origin of the first joint from B, moved by (D3), eq. (D2), expressed in B, m.
     let reach_bx = p.k_3.add_mul(arm_s_dx, p.mount_11);
     let reach_by = p.k_4.add_mul(arm_s_dx, p.mount_21);
     let reach_bz = p.k_5.add_mul(arm_s_dx, p.mount_31);
 
-    // M_vi, eq. (17), kg, and M_wi, eq. (75), kg m: force and moment about B per unit
-    // acceleration, along B axes.
+    // M_vi, eqs. (17), (D7), kg, and M_wi, eqs. (75), (D7), kg m: force and moment about B per
+    // unit joint acceleration, expressed in B.
     let n_s_bx = (p.f_s_bz * reach_by).sub_mul(p.f_s_by, reach_bz);
     let n_s_by = (p.f_s_bx * reach_bz).sub_mul(p.f_s_bz, reach_bx);
     let n_s_bz = (p.f_s_by * reach_bx).sub_mul(p.f_s_bx, reach_by);
 
-    // What moves of D, about B, along B axes: first moment, eq. (9), kg m, and inertia, eq.
-    // (76), kg m².
+    // D without its constant share of the hub, about B, expressed in B: first moment, eqs. (9),
+    // (D6), kg m, and inertia, eqs. (76), (D6), kg m².
     let mr_moving_bx = p.m_s * reach_bx;
     let mr_moving_by = p.m_s * reach_by;
     let mr_moving_bz = p.m_s * reach_bz;
@@ -733,8 +737,8 @@ pub fn eliminate<T: Real>(
     let i_moving_23 = -(reach_by * reach_bz * p.m_s);
     let i_moving_33 = p.m_s * (moment_2 + moment_0);
 
-    // Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B axes,
-    // N and N m.
+    // Coriolis and centrifugal force, N, and moment about B, N m, of the joints' rates, of eqs.
+    // (16), (75), (D8), expressed in B.
     let bias_0 = p.mount_12 * f_rates_s_sy;
     let f_rates_bx = bias_0.sub_mul(p.mount_13, neg_f_rates_s_sz);
     let bias_1 = p.mount_22 * f_rates_s_sy;
@@ -745,7 +749,7 @@ pub fn eliminate<T: Real>(
     let n_rates_by = (f_rates_bx * reach_bz).sub_mul(f_rates_bz, reach_bx);
     let n_rates_bz = (f_rates_by * reach_bx).sub_mul(f_rates_bx, reach_by);
 
-    // Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².
+    // Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), m/s².
     let reach_0 = (w.omega_bz * reach_bx).sub_mul(w.omega_bx, reach_bz);
     let reach_1 = (w.omega_bx * reach_by).sub_mul(w.omega_by, reach_bx);
     let r_first_rest_bx = (w.omega_by * reach_1).sub_mul(w.omega_bz, reach_0);
@@ -753,14 +757,14 @@ pub fn eliminate<T: Real>(
     let r_first_rest_by = (w.omega_bz * reach_2).sub_mul(w.omega_bx, reach_1);
     let r_first_rest_bz = (w.omega_bx * reach_0).sub_mul(w.omega_by, reach_2);
 
-    // Bias of each joint with it, eq. (C3).
+    // Bias of each joint row with it, eq. (D9).
     let bias_3 = (p.f_s_bx * r_first_rest_bx).add_mul(p.f_s_by, r_first_rest_by);
     let u_rest_s = bias_3.add_mul(p.f_s_bz, r_first_rest_bz);
 
-    // Right side of each joint, eq. (80): motor torque less what the rest asks for, N.
+    // Right side of each joint row, eq. (80): motor torque less bias, N.
     let tau_s = u.u_s - u_rest_s;
 
-    // Joint s, eq. (E1): its pivot `mass_ss`, kg, and its gains.
+    // Joint s, eq. (D10): its pivot `mass_ss`, kg, and its gains.
     let divisor_s = m.held_s + p.m_s;
     let recip_s = m.driven_s * divisor_s.recip();
     let gain_s_v1 = p.f_s_bx * recip_s;
@@ -771,7 +775,7 @@ pub fn eliminate<T: Real>(
     let gain_s_w3 = n_s_bz * recip_s;
     let free_s = m.given_s.add_mul(tau_s, recip_s);
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vv.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vv.
     let m_vv_11 = p.f_s_bx * gain_s_v1;
     let m_vv_12 = p.f_s_by * gain_s_v1;
     let m_vv_13 = p.f_s_bz * gain_s_v1;
@@ -779,7 +783,7 @@ pub fn eliminate<T: Real>(
     let m_vv_23 = p.f_s_bz * gain_s_v2;
     let m_vv_33 = p.f_s_bz * gain_s_v3;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_vw.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_vw.
     let m_vw_11 = n_s_bx * gain_s_v1;
     let m_vw_12 = n_s_by * gain_s_v1;
     let m_vw_13 = n_s_bz * gain_s_v1;
@@ -790,7 +794,7 @@ pub fn eliminate<T: Real>(
     let m_vw_32 = n_s_by * gain_s_v3;
     let m_vw_33 = n_s_bz * gain_s_v3;
 
-    // Taken out of the hub's mass matrix, eq. (E3): M_ww.
+    // Subtracted from the hub's mass matrix, eq. (D12): M_ww.
     let m_ww_11 = n_s_bx * gain_s_w1;
     let m_ww_12 = n_s_by * gain_s_w1;
     let m_ww_13 = n_s_bz * gain_s_w1;
@@ -798,7 +802,7 @@ pub fn eliminate<T: Real>(
     let m_ww_23 = n_s_bz * gain_s_w2;
     let m_ww_33 = n_s_bz * gain_s_w3;
 
-    // Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.
+    // Subtracted from the hub's right side, eq. (D12): force, N, and moment about B, N m.
     let h_v_1 = f_rates_bx.add_mul(p.f_s_bx, free_s);
     let h_v_2 = f_rates_by.add_mul(p.f_s_by, free_s);
     let h_v_3 = f_rates_bz.add_mul(p.f_s_bz, free_s);
@@ -857,7 +861,7 @@ pub fn eliminate<T: Real>(
 #[inline(always)]
 #[must_use]
 pub fn back_substitute<T: Real>(e: &Gains<T>, a: &BodyAcceleration<T>) -> JointAccelerations<T> {
-    // Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.
+    // Row by row, outboard, eq. (D13): the free acceleration less the gains.
     let row_0 = e.free_s.sub_mul(a.r_b_n_ddot_bx, e.gain_s_v1);
     let row_1 = row_0.sub_mul(a.r_b_n_ddot_by, e.gain_s_v2);
     let row_2 = row_1.sub_mul(a.r_b_n_ddot_bz, e.gain_s_v3);
@@ -914,7 +918,7 @@ pub fn energy_momentum<T: Real>(
 /// Operations: 0 mul, 1 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn axes<T: Real>(p: &Prepared<T>, s: &Positions<T>) -> Axes<T> {
-    // Of the slosh mass: the carrier's axes along B, eq. (A1).
+    // Of the slosh mass: the carrier's axes along B, eq. (D1).
     let one = s.x.like(1.0);
     let s_x_bx = one;
     let zero = s.x.like(0.0);
@@ -927,7 +931,7 @@ pub fn axes<T: Real>(p: &Prepared<T>, s: &Positions<T>) -> Axes<T> {
     let s_z_by = zero;
     let s_z_bz = one;
 
-    // S from B, eq. (A2), along B axes, m.
+    // S from B, eq. (D2), along B axes, m.
     let origin_s_bx = p.r_s_b_bx + s.x;
     let origin_s_by = p.r_s_b_by;
     let origin_s_bz = p.r_s_b_bz;
@@ -1016,7 +1020,7 @@ pub fn loads<T: Real>(
 /// Operations: 6 mul, 7 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, s: &Positions<T>, x: &Wrenches<T>) -> External<T> {
-    // On D, the slosh mass and what it carries, eq. (F1): force, N, and moment about S, N m.
+    // On D, the slosh mass and what it carries, eq. (D14): force, N, and moment about S, N m.
     let f_sum_sx = x.f_on_sx;
     let f_sum_sy = x.f_on_sy;
     let f_sum_sz = x.f_on_sz;
@@ -1024,10 +1028,10 @@ pub fn external<T: Real>(p: &Prepared<T>, s: &Positions<T>, x: &Wrenches<T>) -> 
     let n_sum_sy = x.n_on_sy;
     let n_sum_sz = x.n_on_sz;
 
-    // Along the slosh mass's joint, beside its motor, eq. (F2), N.
+    // Along the slosh mass's joint, beside its motor, eq. (D15), N.
     let drive_s = x.f_on_sx;
 
-    // On the hub, eq. (F1): force, N, and moment about B, N m.
+    // On the hub, eq. (D14): force, N, and moment about B, N m.
     let f_sum_bx = x.f_on_sx;
     let f_sum_by = x.f_on_sy;
     let f_sum_bz = x.f_on_sz;
@@ -1058,13 +1062,13 @@ pub fn external<T: Real>(p: &Prepared<T>, s: &Positions<T>, x: &Wrenches<T>) -> 
 /// Operations: 18 mul, 14 add, 0 neg, 0 div, 0 trig.
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, s: &Positions<T>, g: &Gradient<T>) -> Gravity<T> {
-    // G r at S, eq. (G1), along the same axes, m/s².
+    // G r at S, eq. (D16), along the same axes, m/s².
     let field_0 = p.r_s_b_bx + s.x;
     let g_r_s_sx = field_0 * g.g_11 + p.r_s_b_by * g.g_12 + p.r_s_b_bz * g.g_13;
     let g_r_s_sy = field_0 * g.g_12 + p.r_s_b_by * g.g_22 + p.r_s_b_bz * g.g_23;
     let g_r_s_sz = field_0 * g.g_13 + p.r_s_b_by * g.g_23 + p.r_s_b_bz * g.g_33;
 
-    // On the slosh mass alone, eq. (G2): force, N, and moment about S, N m.
+    // On the slosh mass alone, eq. (D17): force, N, and moment about S, N m.
     let f_on_sx = p.m_s * g_r_s_sx;
     let f_on_sy = p.m_s * g_r_s_sy;
     let f_on_sz = p.m_s * g_r_s_sz;
@@ -1073,7 +1077,7 @@ pub fn gravity<T: Real>(p: &Prepared<T>, s: &Positions<T>, g: &Gradient<T>) -> G
     let n_on_sy = zero;
     let n_on_sz = zero;
 
-    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².
+    // S = ∫ r rᵀ dm of the device about B, along B axes, eq. (D18), kg m².
     let axis_0 = field_0 * field_0;
     let axis_1 = p.m_s * (axis_0 + p.k_1);
     let axis_2 = p.m_s * (axis_0 + p.k_0);
