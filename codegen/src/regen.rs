@@ -10,10 +10,23 @@ use crate::graph::Graph;
 use crate::kinds::{DGVSCMG, KINDS, Kind};
 use crate::normal::Ring;
 use crate::page::{Page, PageError, read};
-use crate::proof::{EmittedError, Prover, Row, against_pages, zero_traces};
+use crate::proof::{EmittedError, KernelPages, Prover, Row, against_pages, zero_traces};
 use crate::report::{self, KindText, ReportError};
 use crate::threads::{joined, side_by_side};
 use crate::verdict::{VerdictError, Verdicts, verdicts};
+
+/// The hand-checked pages, and what is printed.
+#[derive(Clone, Debug)]
+pub struct Pages {
+    /// The paper's equations.
+    pub paper: Vec<Page>,
+    /// Our own equations that the kernels rest on.
+    pub kernels: Vec<Page>,
+    /// Those of the elimination.
+    pub elimination: Vec<Page>,
+    /// The paper's equations as printed.
+    pub printed: Vec<Page>,
+}
 
 /// What a regeneration yields.
 #[derive(Clone, Debug)]
@@ -98,15 +111,18 @@ impl From<VerdictError> for RegenError {
 /// # Errors
 /// When a page or an emitted file cannot be read, or when an equation of the paper lacks its
 /// verdict. A failed proof is no error but a row.
-pub fn regenerate(pages: &[Page], printed: &[Page]) -> Result<Regeneration, RegenError> {
-    let (kinds, by_hand, verdicts, documents) = scope(|threads| {
+pub fn regenerate(all: &Pages) -> Result<Regeneration, RegenError> {
+    let (pages, printed) = (&all.paper[..], &all.printed[..]);
+    let (kinds, by_hand, own, verdicts, documents) = scope(|threads| {
         let by_hand = threads.spawn(|| prove_pages(pages));
+        let own = threads.spawn(|| prove_kernel_pages(all));
         let verdicts = threads.spawn(|| verdicts(pages, printed));
         let documents = threads.spawn(|| documents(pages));
         let kinds = side_by_side(KINDS, of_kind);
-        (kinds, joined(by_hand), joined(verdicts), joined(documents))
+        (kinds, joined(by_hand), joined(own), joined(verdicts), joined(documents))
     });
     let (mut rows, mut emitted, mut told) = (by_hand?, Vec::new(), Vec::new());
+    rows.extend(own?);
     for kind in kinds {
         let Proven { files, text, rows: proofs } = kind?;
         emitted.push(files);
@@ -173,6 +189,15 @@ fn prove_pages(pages: &[Page]) -> Result<Vec<Row>, RegenError> {
     let chain = Chain::new(&graph, &DGVSCMG);
     let equations = read(&graph, pages)?;
     let rows = against_pages(&mut Ring::new(&graph), &chain, &quantities(&chain), &equations);
+    Ok(of(&DGVSCMG, rows))
+}
+
+/// Holds the pages of our own equations against the kernels that rest on them.
+fn prove_kernel_pages(pages: &Pages) -> Result<Vec<Row>, RegenError> {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, &DGVSCMG);
+    let mut rows = KernelPages::composites(&chain, &pages.paper, &pages.kernels)?.rows();
+    rows.extend(KernelPages::elimination(&chain, &pages.elimination)?.rows());
     Ok(of(&DGVSCMG, rows))
 }
 

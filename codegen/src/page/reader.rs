@@ -33,6 +33,11 @@ impl<'g> Reader<'g> {
         Self { symbols: false, ..Self::new(graph) }
     }
 
+    /// Where the symbols live.
+    pub(super) fn graph(&self) -> &'g Graph {
+        self.graph
+    }
+
     /// Gives `name` a meaning from here on.
     pub fn define(&mut self, name: &str, value: Value<'g>) {
         self.names.insert(name.to_owned(), value);

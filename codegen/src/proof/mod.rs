@@ -2,6 +2,7 @@
 
 mod emitted;
 mod factors;
+mod kernel_pages;
 mod laws;
 mod modes;
 mod mounted;
@@ -12,6 +13,7 @@ mod row;
 mod unknowns;
 
 pub use emitted::Prover;
+pub use kernel_pages::KernelPages;
 pub use pages::{against_block, against_pages, zero_traces};
 pub use read_back::EmittedError;
 pub use row::{Row, Verdict};

@@ -81,7 +81,7 @@ pub fn zero_traces<'g>(ring: &mut Ring<'g>, chain: &Chain<'g>) -> Vec<Row> {
 }
 
 /// The number of the frame with these axes.
-fn frame_of(chain: &Chain<'_>, axes: &[String; 3]) -> Option<usize> {
+pub(super) fn frame_of(chain: &Chain<'_>, axes: &[String; 3]) -> Option<usize> {
     let hub = ["b_x", "b_y", "b_z"];
     let triads = chain.kind.links.iter().map(|link| link.body.triad);
     std::iter::once(hub).chain(triads).position(|triad| triad == *axes)
