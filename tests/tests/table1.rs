@@ -3,12 +3,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess::scenario::table1::{self as tool, variants};
-use precess_codegen::consequence::table1 as derived;
 use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};
 use precess_dynamics::{
     Dgvscmg, FixedSet, Gravity, Hub, HubMode, ImbalanceModel, Inputs, Mode, Passive, Quaternion,
     State,
 };
+use precess_review::consequence::table1 as derived;
 use precess_tests::case::Set;
 use precess_tests::table1::{Drive, Imbalance, SCENARIOS, scenario};
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::page::Page;
-use precess_codegen::report::BUILT;
+use precess_review::report::BUILT;
 use similar::TextDiff;
 
 use crate::run::say;

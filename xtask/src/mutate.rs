@@ -6,12 +6,12 @@ use std::fs;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use precess_codegen::kinds::{self, DGVSCMG, KINDS};
-use precess_codegen::mutation::{
+use precess_codegen::page::Page;
+use precess_review::mutation::{
     self, Engines, Kind, Progress, Report, Selection, Tally, mutate_all,
 };
-use precess_codegen::page::Page;
-use precess_codegen::report::traceability;
-use precess_codegen::verdict::verdicts;
+use precess_review::report::traceability;
+use precess_review::verdict::verdicts;
 
 use crate::files::{committed, differing, read_files, read_pages, write};
 use crate::regen::PAGES;

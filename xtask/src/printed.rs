@@ -1,6 +1,6 @@
 //! `regen --printed`: the three-way verdict on every equation of the paper, and the causes.
 
-use precess_codegen::verdict::{Cause, Component, Entry, Mended, Verdicts};
+use precess_review::verdict::{Cause, Component, Entry, Mended, Verdicts};
 
 use crate::run::say;
 

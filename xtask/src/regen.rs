@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use precess_codegen::emit::{self, EmittedFile};
 use precess_codegen::proof::Row;
-use precess_codegen::regen::{Pages, Regeneration, regenerate};
+use precess_review::regen::{Pages, Regeneration, regenerate};
 
 use crate::files::{committed, differing, read_pages, write};
 use crate::printed;
@@ -177,7 +177,7 @@ fn orphan(files: &[EmittedFile], into: &Path) -> Option<PathBuf> {
 mod tests {
     use std::collections::BTreeMap;
 
-    use precess_codegen::report::BUILT;
+    use precess_review::report::BUILT;
 
     use super::*;
 

@@ -123,7 +123,8 @@ impl Emitted {
     }
 
     /// Each function and what a call of it costs.
-    pub(crate) fn operations(&self) -> Vec<(String, usize)> {
+    #[must_use]
+    pub fn operations(&self) -> Vec<(String, usize)> {
         self.counts.iter().map(|count| (count.function.clone(), count.total)).collect()
     }
 }

@@ -25,6 +25,6 @@ mod text;
 
 pub use body::{Counts, FunctionBody};
 pub use file::{EmitError, Emitted, EmittedFile, of_kind};
-pub(crate) use functions::{Functions, functions};
+pub use functions::{Functions, functions};
 pub use home::Home;
-pub use shared::{files, shared};
+pub use shared::{every_kind, files, shared};

@@ -6,7 +6,9 @@ use super::file::{EmitError, Emitted, EmittedFile, of_kind, record_text, rust_fi
 use super::home::Home;
 use super::text::fnv1a64;
 use crate::derivation::chain::Chain;
+use crate::graph::Graph;
 use crate::kernel::shared_records;
+use crate::kinds::KINDS;
 
 /// Every file of the emitted code and the table of operations, for these chains.
 ///
@@ -53,4 +55,15 @@ pub fn shared(kinds: &[Emitted]) -> Result<Vec<EmittedFile>, EmitError> {
     context.insert("factoring", &factoring);
     let text = tera.render("operations.md", &context)?;
     Ok(vec![hub, list, EmittedFile { path: "docs/operations.md".to_owned(), text }])
+}
+
+/// Derives every kind and lays out the files.
+///
+/// # Errors
+/// When a file cannot be laid out.
+pub fn every_kind() -> Result<Vec<EmittedFile>, EmitError> {
+    let graphs: Vec<_> = KINDS.iter().map(|_| Graph::new()).collect();
+    let pairs = graphs.iter().zip(KINDS);
+    let chains: Vec<_> = pairs.map(|(graph, kind)| Chain::new(graph, kind)).collect();
+    files(&chains)
 }

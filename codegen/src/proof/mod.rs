@@ -3,6 +3,7 @@
 mod emitted;
 mod factors;
 mod kernel_pages;
+mod kind;
 mod laws;
 mod modes;
 mod mounted;
@@ -14,6 +15,7 @@ mod unknowns;
 
 pub use emitted::Prover;
 pub use kernel_pages::KernelPages;
+pub use kind::prove_kind;
 pub use pages::{against_block, against_pages, zero_traces};
 pub use read_back::EmittedError;
 pub use row::{Row, Verdict};

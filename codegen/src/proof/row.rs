@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::graph::Expr;
+use crate::kinds::Kind;
 use crate::normal::{Difference, NormalError, Ring, Term};
 
 /// How a comparison went.
@@ -42,6 +43,13 @@ impl Row {
     #[must_use]
     pub fn at(mut self, place: String) -> Self {
         self.place = Some(place);
+        self
+    }
+
+    /// The same as a row about a kind.
+    #[must_use]
+    pub fn of(mut self, kind: &Kind) -> Self {
+        self.kind = Some(kind.name);
         self
     }
 

@@ -1,10 +1,10 @@
 //! Mutants of the emitted text: every operand of every sum of every statement.
 
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::emit::every_kind;
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::proof::{EmittedError, Prover, Row, Verdict};
-use precess_codegen::regen::emit;
 
 use crate::sites::{Change, changed, count};
 
@@ -26,7 +26,7 @@ const ALL: [&str; 13] = [
 ];
 
 fn emitted() -> syn::File {
-    let files = emit().unwrap();
+    let files = every_kind().unwrap();
     let file = files.iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap();
     syn::parse_file(&file.text).unwrap()
 }
@@ -155,7 +155,7 @@ fn every_doubled_statement_is_caught() {
 fn with(right: &str, wrong: &str) -> Result<Vec<Row>, EmittedError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
-    let files = emit().unwrap();
+    let files = every_kind().unwrap();
     let file = files.iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap();
     assert!(file.text.contains(right), "{right}");
     let rows = Prover::new(&chain).rows(&file.text.replace(right, wrong))?;
