@@ -132,7 +132,7 @@ pub fn regenerate(all: &Pages) -> Result<Regeneration, RegenError> {
     let shared = shared(&emitted)?;
     let files = emitted.into_iter().flat_map(|kind| kind.files).chain(shared);
     let mut files: Vec<_> = files.collect();
-    // The print is judged by pages that hold, and documents tell of nothing else: what was found
+    // The print is judged by pages that hold, and documents state nothing else: what was found
     // meanwhile is worth nothing where a proof fails.
     if !rows.iter().all(Row::holds) {
         return Ok(Regeneration { files, rows, verdicts: Verdicts::default() });
@@ -145,7 +145,7 @@ pub fn regenerate(all: &Pages) -> Result<Regeneration, RegenError> {
     Ok(Regeneration { files, rows, verdicts })
 }
 
-/// One kind: what is emitted, what is told of it, what is proven.
+/// One kind: what is emitted, what is stated of it, what is proven.
 struct Proven {
     files: Emitted,
     text: KindText,
@@ -172,7 +172,7 @@ pub fn documents(pages: &[Page]) -> Result<Vec<EmittedFile>, RegenError> {
     Ok(report::derivation(&chain, &blocks)?)
 }
 
-/// Holds the pages against the derivation; they are of one kind alone.
+/// Compares the pages with the derivation; they are of one kind only.
 fn prove_pages(pages: &[Page]) -> Result<Vec<Row>, RegenError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
@@ -181,7 +181,7 @@ fn prove_pages(pages: &[Page]) -> Result<Vec<Row>, RegenError> {
     Ok(rows.into_iter().map(|row| row.of(&DGVSCMG)).collect())
 }
 
-/// Holds the pages of our own equations against the kernels that rest on them.
+/// Compares the pages of our own equations with the kernels that rest on them.
 fn prove_kernel_pages(pages: &Pages) -> Result<Vec<Row>, RegenError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);

@@ -70,7 +70,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         Ok(rows)
     }
 
-    /// The derivation itself against the equations that follow from the kinetic energy alone.
+    /// The derivation itself against the equations that follow from the kinetic energy only.
     #[must_use]
     pub fn derivation(&self) -> Vec<Row> {
         let mut ring = Ring::new(self.chain.graph);

@@ -27,7 +27,7 @@ pub fn against_pages<'g>(
     stated.into_iter().chain(lacking).collect()
 }
 
-/// Whether a block states the quantity, and not of a special case alone.
+/// Whether a block states the quantity, and not of a special case only.
 fn states(block: &Block, quantity: &Quantity<'_>) -> bool {
     block.name == quantity.name && block.given.is_empty()
 }

@@ -34,7 +34,7 @@ pub struct Row {
     pub verdict: Verdict,
     /// Page and line of what was checked, where it stands on a page.
     pub place: Option<String>,
-    /// The kind whose derivation and text it is about; none where it is about the paper alone.
+    /// The kind whose derivation and text it is about; none where it is about the paper only.
     pub kind: Option<&'static str>,
 }
 

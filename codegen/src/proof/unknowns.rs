@@ -15,7 +15,7 @@ pub(super) const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
 const AXES: [&str; 3] = ["bx", "by", "bz"];
 
 /// Names of what `eliminate` states of the part that moves: first moment, inertia, and force and
-/// moment that the joints' rates ask for.
+/// moment that the joints' rates require.
 pub(super) fn moving() -> [Vec<String>; 4] {
     let along = |stem: &str| AXES.map(|axis| format!("{stem}_{axis}")).to_vec();
     let entries = ENTRIES.map(|entry| format!("i_moving_{entry}")).to_vec();
@@ -155,13 +155,13 @@ impl<'g> Unknowns<'g> {
         }
     }
 
-    /// What equation `x` asks for with nothing accelerating.
+    /// What equation `x` requires with nothing accelerating.
     pub(super) fn rest(&self, x: usize, named: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
         self.asked(x, "rest", named)
     }
 
-    /// What the joints' rates ask of equation `x` of the hub, and all that equation `x` of a joint
-    /// asks for.
+    /// What the joints' rates require in equation `x` of the hub, and all that one of a joint
+    /// requires.
     pub(super) fn of_rates(&self, x: usize, named: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
         self.asked(x, "rates", named)
     }

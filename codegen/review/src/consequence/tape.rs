@@ -1,6 +1,6 @@
 //! Expressions flattened for repeated evaluation: batches of one operation over plain numbers.
 //!
-//! What depends on parameters alone is calculated once, when the tape is made.
+//! What depends on parameters only is computed once, when the tape is made.
 
 use std::collections::BTreeMap;
 

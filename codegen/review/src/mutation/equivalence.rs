@@ -37,7 +37,7 @@ fn is_zero<'g>(device: &Device<'_, 'g>, index: usize, value: Expr<'g>) -> bool {
     Ring::new(value.graph()).normal(whole).is_ok_and(|normal| normal.is_empty())
 }
 
-/// `e` with what stands behind its symbols.
+/// `e` with what its symbols stand for.
 fn put_in<'g>(e: Expr<'g>, behind: &HashMap<NodeId, Expr<'g>>) -> Expr<'g> {
     e.rebuild(|symbol| behind.get(&e.graph().named(symbol).id()).copied())
 }

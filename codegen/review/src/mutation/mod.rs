@@ -3,11 +3,11 @@
 //!
 //! A mutant drops or flips one operand of one sum, or exchanges one sine for its cosine, in what an
 //! emitted function computes (the graph it is printed from). Only that function is changed: the laws
-//! hold between functions, and the others stay right. What depends on parameters alone is computed
+//! hold between functions, and the others stay right. What depends on parameters only is computed
 //! once, in `prepare`, for all of them: changed there, it is changed in every function.
 //!
 //! A mutant that no law notices is a hole in the laws, or it is the same function written otherwise,
-//! which its normal form shows. The derivation is asked nothing else.
+//! which its normal form shows. The derivation is used for nothing else.
 
 mod device;
 mod equivalence;
@@ -51,7 +51,7 @@ const TRIALS: u64 = 3;
 /// Which mutants to make.
 #[derive(Clone, Copy, Debug)]
 pub struct Selection<'a> {
-    /// Of this function alone.
+    /// Of this function only.
     pub kernel: Option<&'a str>,
     /// Of them, every so many: 1 is all.
     pub every: usize,
@@ -102,7 +102,7 @@ impl fmt::Display for MutationError {
 
 impl std::error::Error for MutationError {}
 
-/// What is told on the way, from any of the threads.
+/// What is reported on the way, from any of the threads.
 #[derive(Clone, Copy, Debug)]
 pub enum Progress {
     /// So many more mutants will be made.

@@ -15,9 +15,9 @@ use precess_codegen::kinds::DGVSCMG;
 struct Page {
     kinds: [&'static str; 3],
     devices: Vec<DeviceRow>,
-    /// What the mutants of kinds other than the one that is told of in full survive as.
+    /// What the mutants of kinds other than the one that is listed in full survive as.
     elsewhere: Vec<String>,
-    /// The kind that is told of in full.
+    /// The kind that is listed in full.
     name: &'static str,
     functions: Vec<Row>,
     noticed: String,
@@ -72,7 +72,7 @@ struct LawText {
     killed: usize,
 }
 
-/// The page that states what became of every mutant of every kind, and tells of the DGVSCMG in full.
+/// The page that states what became of every mutant of every kind, and lists the DGVSCMG in full.
 /// The same reports give the same bytes.
 ///
 /// # Errors

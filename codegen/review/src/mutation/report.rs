@@ -110,8 +110,8 @@ impl Report {
         self.grouped(|mutant| Some(mutant.kernel.clone()))
     }
 
-    /// One tally per equation, over all functions: by number, alone before among several, those of
-    /// the derivation's own sections, (D1) to (D18), after the paper's, what has none last.
+    /// One tally per equation, over all functions: by number, single ones before several, those of
+    /// our own, (D1) to (D18), after the paper's, what has none last.
     #[must_use]
     pub fn by_tag(&self) -> Vec<(String, Tally)> {
         let mut tags = self.grouped(|mutant| mutant.tag.clone());

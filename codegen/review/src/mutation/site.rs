@@ -71,7 +71,7 @@ pub(super) struct Site {
     pub(super) place: Place,
 }
 
-/// Every mutant of a function, in the order of its text. What depends on parameters alone belongs
+/// Every mutant of a function, in the order of its text. What depends on parameters only belongs
 /// to `prepare`, where it is computed.
 pub(super) fn sites<'g>(graph: &'g Graph, listing: &Listing<'g>, hoisted: bool) -> Vec<Site> {
     let mut names = HashMap::new();

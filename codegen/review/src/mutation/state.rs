@@ -112,7 +112,7 @@ pub(super) struct Wrench {
 /// What a device is put to beside its motion.
 #[derive(Clone)]
 pub(super) struct Probe {
-    /// On each body alone: along own axes, about its joint's origin.
+    /// On each body only: expressed in its own axes, about its joint's origin.
     pub(super) acting: Vec<Wrench>,
     /// Of a field of acceleration `G r`: symmetric, and not free of a trace.
     pub(super) gradient: Matrix3<f64>,

@@ -64,7 +64,7 @@ impl Tape {
         }
         for (field, source) in &listing.fields {
             if let Some(slot) = named.get(source.as_str()) {
-                // A slot of its own, so that what is returned can be changed alone.
+                // A slot of its own, so that what is returned can be changed by itself.
                 made.steps.push(Step::Copy(*slot));
                 made.returned.insert(field.clone(), made.steps.len() - 1);
             }
@@ -99,7 +99,7 @@ impl Tape {
         });
     }
 
-    /// The change of this function that a mutant asks for; none where it does not compute the node.
+    /// The change of this function that a mutant requires; none where it does not compute the node.
     pub(super) fn changed(&self, graph: &Graph, place: &Place, change: Change) -> Option<Changed> {
         let swapped = |id: NodeId| Some(self.slots[&partner(graph, graph.expr(id))?.id()]);
         match place {

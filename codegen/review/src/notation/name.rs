@@ -163,7 +163,7 @@ fn with_axis(below: String, rest: &[&str]) -> Option<String> {
     }
 }
 
-/// `bx`, `gix`: the axis alone, for the frame is told by the table of symbols.
+/// `bx`, `gix`: the axis only, for the frame is in the table of symbols.
 fn axis(component: &str) -> Option<&str> {
     let (frame, axis) = component.split_at_checked(component.len().checked_sub(1)?)?;
     let known =

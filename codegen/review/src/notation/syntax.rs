@@ -43,7 +43,7 @@ pub fn expression(body: &str, text: &str) -> Result<String, ReadError> {
     Ok(Tex::sum(&Setter::within(body)?.terms(&expr)?).text)
 }
 
-/// Expressions one above the other, each behind its label, as an aligned display; `body` is the
+/// Expressions one above the other, each after its label, as an aligned display; `body` is the
 /// block in whose scope they stand.
 ///
 /// # Errors
@@ -211,7 +211,7 @@ impl Setter {
                 let base = self.single(a)?;
                 let width = base.width + 1;
                 let text = match base.text.split_once("\\,{}") {
-                    // The square of a sine is written behind the s.
+                    // The square of a sine is written after the s.
                     Some((function, angle)) if base.text.starts_with("\\mathrm") => {
                         format!("{function}^{{2}}\\,{{}}{angle}")
                     }

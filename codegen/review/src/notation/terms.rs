@@ -34,7 +34,7 @@ fn power(factor: &Factor) -> Tex {
     let base = symbol(&factor.name, Accent::Plain);
     let text = match factor.exponent {
         1 => base,
-        // The power of a sine is written behind the s.
+        // The power of a sine is written after the s.
         exponent if base.starts_with("\\mathrm") => {
             base.replacen('}', &format!("}}^{{{exponent}}}"), 1)
         }

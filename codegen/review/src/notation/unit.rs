@@ -164,7 +164,7 @@ mod tests {
         }
     }
 
-    /// No bias holds a symbol of a drive: its unit comes from masses, lengths and rates alone.
+    /// No bias holds a symbol of a drive: its unit comes from masses, lengths and rates only.
     #[test]
     fn the_units_of_a_joint_are_those_of_its_equations() {
         for kind in KINDS {

@@ -15,7 +15,7 @@ use precess_codegen::page::{Block, Kind, Note};
 
 /// A change of so many characters stands on the line of its note.
 const INLINE: usize = 100;
-/// So many differing terms are listed; of more, the number is told.
+/// So many differing terms are listed; of more, the number is stated.
 const LISTED: usize = 6;
 
 /// What the templates of the errata and of the letter are filled with.
@@ -64,7 +64,7 @@ struct FindingText {
     of_the_paper: bool,
     causes: String,
     forms: Vec<FormText>,
-    /// What the form as read does, and what its slips alone do.
+    /// What the form as read does, and what only its slips do.
     as_read: String,
     slips: String,
     energy: String,

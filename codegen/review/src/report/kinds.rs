@@ -9,7 +9,7 @@ use precess_codegen::emit::Emitted;
 use precess_codegen::kernel::{Kernel, Record, kernels, motors, parameters, pose, rates};
 use precess_codegen::kinds::{Centre, Inertia, Kind, Link, Motion};
 
-/// One kind, as the page tells of it.
+/// One kind, as the page describes it.
 #[derive(Clone, Debug, Serialize)]
 pub struct KindText {
     name: &'static str,

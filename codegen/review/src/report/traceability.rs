@@ -162,7 +162,7 @@ fn emitted(report: &Report, fits: impl Fn(&str) -> bool) -> String {
     shown.collect::<Vec<_>>().join("; ")
 }
 
-/// Names that differ in their last part alone as one, `mc_*`, and of many the first.
+/// Names that differ in their last part only as one, `mc_*`, and of many the first.
 fn short(names: &[&str]) -> String {
     let stem = |name: &str| name.rsplit_once('_').map(|(stem, _)| stem.to_owned());
     let mut groups: Vec<String> = Vec::new();

@@ -35,7 +35,7 @@ pub struct Mended {
     pub name: String,
     /// Terms of printed less right: as printed,
     pub before: usize,
-    /// with this mend alone,
+    /// with this mend only,
     pub alone: usize,
     /// with this one and all before it on the page,
     pub so_far: usize,
@@ -67,7 +67,7 @@ pub(super) struct Mends<'p> {
     steps: Vec<Step<'p>>,
 }
 
-/// The text of a block with one mend alone, and with all up to it.
+/// The text of a block with one mend only, and with all up to it.
 struct Step<'p> {
     mend: &'p Mend,
     alone: String,

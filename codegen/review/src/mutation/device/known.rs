@@ -1,5 +1,5 @@
 //! What is changed, and what has been found under it: the laws ask the same of the same motions
-//! again and again, and of functions that are not changed the answer is the right ones'.
+//! again and again, and of functions that are not changed the result is the right ones'.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -35,10 +35,10 @@ pub(super) struct Known {
     pub(super) stands: Memo<Rc<[Stand]>>,
 }
 
-/// Answers by what was asked.
+/// Results by what was requested.
 pub(super) struct Memo<V>(RefCell<HashMap<Asked, V>>);
 
-/// All that an answer depends on; a case stands for its parameters and all else that it is put to.
+/// All that a result depends on; a case stands for its parameters and all else that it is put to.
 #[derive(PartialEq, Eq, Hash)]
 struct Asked {
     function: Option<usize>,

@@ -122,7 +122,7 @@ impl Device<'_, '_> {
         }
     }
 
-    /// The axes that the functions use behind so many joints, as columns along B: the geometry
+    /// The axes that the functions use outboard of so many joints, as columns in B: the geometry
     /// itself.
     pub(super) fn axes(&self, joints: usize, motion: &Motion) -> Matrix3<f64> {
         let turning = (0..joints).filter(|k| self.chain.kind.axes_turn(*k));

@@ -52,7 +52,7 @@ fn balances(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
         let torque = if drive.modes[k].is_driven() {
             drive.motors[k]
         } else {
-            // What the joint takes to move as it is told.
+            // What moves the joint as prescribed.
             let [momentum, by_coordinate] = lagrange(device, k, case, &accelerations, fault);
             momentum - by_coordinate
         };

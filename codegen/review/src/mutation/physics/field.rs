@@ -49,7 +49,7 @@ fn second_moment(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     gap(pulled.second_moment.as_slice(), sum.sum::<Matrix3<f64>>().as_slice())
 }
 
-/// The joints alone move, and the field rests.
+/// Only the joints move, and the field rests.
 fn power(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     let (case, motion, gradient) = (&trial.case, &trial.case.motion, &trial.probe.gradient);
     let pulled = device.gravity(case, motion, gradient, fault);

@@ -26,7 +26,7 @@ use super::state::{Accelerations, Case, Probe};
 pub enum Kind {
     /// Energy and momenta: balances, and sums over bodies.
     Conservation,
-    /// Derivatives against differences, and joints against what they are told.
+    /// Derivatives against differences, and joints against what is prescribed.
     Differences,
     /// What other engines compute.
     Engines,

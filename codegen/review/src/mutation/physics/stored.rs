@@ -34,7 +34,7 @@ pub enum EngineError {
         /// The quantity.
         name: String,
     },
-    /// A list has more or fewer entries than the kind asks for.
+    /// A list has more or fewer entries than the kind requires.
     Count {
         /// The spacecraft.
         spacecraft: String,
@@ -215,7 +215,7 @@ impl Stored {
     }
 }
 
-/// Takes the numbers of one spacecraft: each that the kind asks for, and no more.
+/// Takes the numbers of one spacecraft: each that the kind requires, and no more.
 struct Reader<'a> {
     kind: &'a Kind,
     spacecraft: &'a str,
