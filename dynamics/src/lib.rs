@@ -79,7 +79,7 @@ pub use equations::gravity::Gravity;
 pub use generated::devices::*;
 pub use integrate::rk4::Stepped;
 pub use integrate::stop::Stopped;
-pub use model::few::{Few, MAX_JOINTS};
+pub use model::joint_array::{JointArray, MAX_JOINTS};
 pub use model::kind::{self, ImbalanceModel};
 pub use model::mode::{HubMode, Mode};
 pub use model::parameters::Hub;
@@ -94,7 +94,7 @@ pub use results::momentum::{About, CentreOfMass, Momentum};
 #[cfg(feature = "alloc")]
 pub use sets::any_device::{AnyDevice, AnyJoints, AnyLoads, AnyPerJoint};
 pub use sets::built_in::{BuiltIn, BuiltInKind, BuiltInLoads};
-pub use sets::built_in_parameters::{BuiltInParameters, Misfit};
+pub use sets::device_parameters::{DeviceParameters, UnsupportedParameter};
 pub use sets::devices::{Devices, FixedSet};
 pub use solve::inputs::Inputs;
 pub use solve::spacecraft::Spacecraft;

@@ -44,7 +44,7 @@ impl<T: Real> Assembly<T> {
 
     /// Adds a force and a moment about B from outside.
     #[inline(always)]
-    pub(crate) fn push(&mut self, force: Vec3<T>, moment: Vec3<T>) {
+    pub(crate) fn add_wrench(&mut self, force: Vec3<T>, moment: Vec3<T>) {
         self.force = add(self.force, force);
         self.moment = add(self.moment, moment);
     }

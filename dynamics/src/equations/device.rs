@@ -97,7 +97,7 @@ impl<K: Kind> Device<K> {
             let central = environment.central.as_ref();
             if given.bodies.is_some() || central.is_some() || self.lumped.is_some() {
                 let pose = pose.get_or_insert_with(|| K::pose(joints));
-                self.push(pose, joints, given.bodies, central, &mut drives, assembly);
+                self.add_wrenches(pose, joints, given.bodies, central, &mut drives, assembly);
             }
         }
         let mut joints = *joints;
@@ -133,7 +133,7 @@ impl<K: Kind> Device<K> {
 
     /// Adds what acts on the bodies from outside to the joints' torques and to the hub's system.
     #[inline(never)]
-    fn push(
+    fn add_wrenches(
         &self,
         pose: &K::Pose<K::Scalar>,
         joints: &K::Joints<K::Scalar>,
@@ -150,7 +150,7 @@ impl<K: Kind> Device<K> {
             drive.torque = drive.torque + wrench.along(info) * drive.driven;
         }
         let hub = carried.hub.turned(&self.mount);
-        assembly.push(components(&hub.force), components(&hub.moment));
+        assembly.add_wrench(components(&hub.force), components(&hub.moment));
         let second_moment = second_moment.rotated(&self.mount);
         assembly.second_moment = assembly.second_moment.plus(second_moment);
     }

@@ -201,7 +201,7 @@ impl<K: Kind> Device<K> {
             let in_device = load.turned(&own);
             *load = match along {
                 Along::Body => *load,
-                Along::Carrier => in_device.turned_back(&carrier),
+                Along::Parent => in_device.turned_back(&carrier),
                 Along::Hub(None) => in_device.turned(&self.mount),
                 Along::Hub(Some(bn)) => in_device.turned(&self.mount).turned_back(bn),
             };

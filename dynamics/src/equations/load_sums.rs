@@ -12,7 +12,7 @@ pub enum Along<T> {
     /// The body's own.
     Body,
     /// Those of the parent body.
-    Carrier,
+    Parent,
     /// Those along which B axes are the columns; none for B axes themselves.
     Hub(Option<Columns<T>>),
 }

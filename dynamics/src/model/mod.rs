@@ -3,7 +3,7 @@
 //! Parameters and precomputed constants, which never change during a run. The equations of a kind
 //! are emitted, under [`generated`](crate::generated).
 
-pub(crate) mod few;
+pub(crate) mod joint_array;
 pub(crate) mod kernels;
 pub mod kind;
 pub(crate) mod mode;

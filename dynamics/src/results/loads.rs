@@ -27,7 +27,7 @@ pub enum LoadAxes {
     #[default]
     Body,
     /// Those of its parent body; of a first joint, the device's at zero angle.
-    Carrier,
+    Parent,
     /// B.
     Hub,
     /// N.
@@ -70,7 +70,7 @@ impl<D: Devices> Spacecraft<D> {
         let bn = columns(&state.attitude.dcm());
         let along = match axes {
             LoadAxes::Body => Along::Body,
-            LoadAxes::Carrier => Along::Carrier,
+            LoadAxes::Parent => Along::Parent,
             LoadAxes::Hub => Along::Hub(None),
             LoadAxes::Inertial => Along::Hub(Some(bn)),
         };

@@ -18,7 +18,7 @@ use crate::equations::system::Solution;
 use crate::generated::devices::*;
 use crate::generated::every_kind;
 use crate::generated::hub::Handed;
-use crate::model::few::{Few, MAX_JOINTS};
+use crate::model::joint_array::{JointArray, MAX_JOINTS};
 use crate::model::kernels::Kernels;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::passive::Passive;
@@ -27,7 +27,7 @@ use crate::numbers::each::Value;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::Vec3;
 use crate::sets::built_in_calls as calls;
-use crate::sets::built_in_parameters::{BuiltInParameters, Misfit};
+use crate::sets::device_parameters::{DeviceParameters, UnsupportedParameter};
 use crate::sets::devices::{Devices, SetInputs};
 use crate::validation::parameter_error::ParameterError;
 
@@ -96,14 +96,14 @@ macro_rules! built_in {
         }
 
         impl<T: Scalar> BuiltIn<T> {
-            /// A device of a kind, of its bodies.
+            /// A device of a kind with these parameters.
             ///
             /// # Errors
             ///
-            /// [`Misfit`] names what the kind has no parameter for.
-            pub fn new(kind: BuiltInKind, stated: &BuiltInParameters<T>) -> Result<Self, Misfit> {
+            /// [`UnsupportedParameter`] names what the kind has no parameter for.
+            pub fn new(kind: BuiltInKind, parameters: &DeviceParameters<T>) -> Result<Self, UnsupportedParameter> {
                 match kind {
-                    $(BuiltInKind::$kind => calls::made(stated).map(Self::$kind),)*
+                    $(BuiltInKind::$kind => calls::device_of(parameters).map(Self::$kind),)*
                 }
             }
 
@@ -115,11 +115,11 @@ macro_rules! built_in {
                 }
             }
 
-            /// The device as bodies and joints; zero behind the last.
+            /// Its parameters by body and joint; zero outboard of the last body.
             #[must_use]
-            pub fn stated(&self) -> BuiltInParameters<T> {
+            pub fn parameters(&self) -> DeviceParameters<T> {
                 match self {
-                    $(Self::$kind(device) => calls::stated(device),)*
+                    $(Self::$kind(device) => calls::parameters_of(device),)*
                 }
             }
 
@@ -143,21 +143,21 @@ macro_rules! built_in {
                 }
             }
 
-            fn excesses(&self) -> Few<T> {
+            fn excesses(&self) -> JointArray<T> {
                 match self {
-                    $(Self::$kind(device) => calls::few(&device.excess, zero()),)*
+                    $(Self::$kind(device) => calls::joint_array(&device.excess, zero()),)*
                 }
             }
 
-            fn passives(&self) -> Few<Passive<T>> {
+            fn passives(&self) -> JointArray<Passive<T>> {
                 match self {
-                    $(Self::$kind(device) => calls::few(&device.passive, Passive::none()),)*
+                    $(Self::$kind(device) => calls::joint_array(&device.passive, Passive::none()),)*
                 }
             }
 
             fn eliminate_kind<W: Rounding>(
                 &self,
-                joints: &Few<[T; 2]>,
+                joints: &JointArray<[T; 2]>,
                 given: SetInputs<'_, BuiltIn<T>>,
                 environment: &Environment<T>,
                 assembly: &mut Assembly<T>,
@@ -177,7 +177,7 @@ macro_rules! built_in {
 
             fn add_sums(
                 &self,
-                joints: &Few<[T; 2]>,
+                joints: &JointArray<[T; 2]>,
                 r_b_n_dot: Vec3<T>,
                 omega: Vec3<T>,
                 sums: &mut BodySums<T>,
@@ -189,7 +189,7 @@ macro_rules! built_in {
                 }
             }
 
-            fn add_first_moment(&self, joints: &Few<[T; 2]>, moment: &mut [Vec3<T>; 2]) {
+            fn add_first_moment(&self, joints: &JointArray<[T; 2]>, moment: &mut [Vec3<T>; 2]) {
                 match self {
                     $(Self::$kind(device) => {
                         device.add_first_moment(&calls::joints::<$kind<T>>(joints), moment);
@@ -200,11 +200,11 @@ macro_rules! built_in {
             #[expect(clippy::too_many_arguments, reason = "as `Devices::loads`")]
             fn loads(
                 &self,
-                joints: &Few<[T; 2]>,
+                joints: &JointArray<[T; 2]>,
                 given: SetInputs<'_, BuiltIn<T>>,
                 environment: &Environment<T>,
                 hub: &HubAccelerations<T>,
-                accelerations: &Few<T>,
+                accelerations: &JointArray<T>,
                 along: &Along<T>,
                 totals: &mut LoadSums<T>,
             ) -> BuiltInLoads<T> {
@@ -217,7 +217,7 @@ macro_rules! built_in {
         }
 
         impl<T: Scalar> BuiltInGains<T> {
-            fn back_substitute(&self, hub: &Solution<T>, out: &mut Few<T>) {
+            fn back_substitute(&self, hub: &Solution<T>, out: &mut JointArray<T>) {
                 match self {
                     Self::None => {}
                     $(Self::$kind(gains) => {
@@ -232,15 +232,16 @@ macro_rules! built_in {
 every_kind!(built_in);
 
 /// Loads of a device of one of this crate's kinds.
-pub type BuiltInLoads<T = f64> = DeviceLoads<Few<Wrench<T>>, Few<T>, Few<JointPower<T>>, T>;
+pub type BuiltInLoads<T = f64> =
+    DeviceLoads<JointArray<Wrench<T>>, JointArray<T>, JointArray<JointPower<T>>, T>;
 
 impl<T: Scalar> Devices for BuiltIn<T> {
     type Scalar = T;
     type Prepared = ReadyBuiltIn<T>;
-    type Joints = Few<[T; 2]>;
-    type Motors = Few<T>;
-    type Accelerations = Few<T>;
-    type PerJoint<V: Value> = Few<V>;
+    type Joints = JointArray<[T; 2]>;
+    type Motors = JointArray<T>;
+    type Accelerations = JointArray<T>;
+    type PerJoint<V: Value> = JointArray<V>;
     type Loads = BuiltInLoads<T>;
     type Scratch = BuiltInGains<T>;
 
@@ -275,20 +276,20 @@ impl<T: Scalar> Devices for BuiltIn<T> {
         device.passives().into_iter()
     }
 
-    fn at_rest_for(device: &ReadyBuiltIn<T>) -> Few<[T; 2]> {
+    fn at_rest_for(device: &ReadyBuiltIn<T>) -> JointArray<[T; 2]> {
         Self::all_for(device, [zero(); 2])
     }
 
-    fn motors_off_for(device: &ReadyBuiltIn<T>) -> Few<T> {
+    fn motors_off_for(device: &ReadyBuiltIn<T>) -> JointArray<T> {
         Self::all_for(device, zero())
     }
 
-    fn no_accelerations_for(device: &ReadyBuiltIn<T>) -> Few<T> {
+    fn no_accelerations_for(device: &ReadyBuiltIn<T>) -> JointArray<T> {
         Self::all_for(device, zero())
     }
 
-    fn all_for<V: Value>(device: &ReadyBuiltIn<T>, value: V) -> Few<V> {
-        Few::all(device.joints().len(), value)
+    fn all_for<V: Value>(device: &ReadyBuiltIn<T>, value: V) -> JointArray<V> {
+        JointArray::all(device.joints().len(), value)
     }
 
     fn no_loads_for(device: &ReadyBuiltIn<T>) -> BuiltInLoads<T> {
@@ -306,9 +307,9 @@ impl<T: Scalar> Devices for BuiltIn<T> {
 
     fn fits(
         device: &ReadyBuiltIn<T>,
-        joints: &Few<[T; 2]>,
+        joints: &JointArray<[T; 2]>,
         given: Option<SetInputs<'_, Self>>,
-        accelerations: Option<&Few<T>>,
+        accelerations: Option<&JointArray<T>>,
     ) -> Result<(), SolveError<T>> {
         let expected = device.joints().len();
         let counts = [
@@ -324,7 +325,7 @@ impl<T: Scalar> Devices for BuiltIn<T> {
 
     fn eliminate_set<W: Rounding>(
         device: &ReadyBuiltIn<T>,
-        joints: &Few<[T; 2]>,
+        joints: &JointArray<[T; 2]>,
         given: SetInputs<'_, Self>,
         environment: &Environment<T>,
         assembly: &mut Assembly<T>,
@@ -338,14 +339,14 @@ impl<T: Scalar> Devices for BuiltIn<T> {
         _: &ReadyBuiltIn<T>,
         scratch: &BuiltInGains<T>,
         hub: &Solution<T>,
-        out: &mut Few<T>,
+        out: &mut JointArray<T>,
     ) {
         scratch.back_substitute(hub, out);
     }
 
     fn add_sums(
         device: &ReadyBuiltIn<T>,
-        joints: &Few<[T; 2]>,
+        joints: &JointArray<[T; 2]>,
         r_b_n_dot: Vec3<T>,
         omega: Vec3<T>,
         sums: &mut BodySums<T>,
@@ -353,17 +354,21 @@ impl<T: Scalar> Devices for BuiltIn<T> {
         device.add_sums(joints, r_b_n_dot, omega, sums);
     }
 
-    fn add_first_moment(device: &ReadyBuiltIn<T>, joints: &Few<[T; 2]>, moment: &mut [Vec3<T>; 2]) {
+    fn add_first_moment(
+        device: &ReadyBuiltIn<T>,
+        joints: &JointArray<[T; 2]>,
+        moment: &mut [Vec3<T>; 2],
+    ) {
         device.add_first_moment(joints, moment);
     }
 
     fn loads(
         device: &ReadyBuiltIn<T>,
-        joints: &Few<[T; 2]>,
+        joints: &JointArray<[T; 2]>,
         given: SetInputs<'_, Self>,
         environment: &Environment<T>,
         hub: &HubAccelerations<T>,
-        accelerations: &Few<T>,
+        accelerations: &JointArray<T>,
         along: &Along<T>,
         out: &mut BuiltInLoads<T>,
         totals: &mut LoadSums<T>,

@@ -9,7 +9,7 @@ use crate::equations::error::SolveError;
 use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
-use crate::model::few::{Few, MAX_JOINTS};
+use crate::model::joint_array::{JointArray, MAX_JOINTS};
 use crate::model::kernels::Kernels;
 use crate::model::kind::{BodyParameters, Kind, no_inertia};
 use crate::model::mode::Mode;
@@ -18,7 +18,7 @@ use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::{Scalar, zero};
 use crate::sets::built_in::{BuiltIn, BuiltInLoads};
-use crate::sets::built_in_parameters::{BuiltInParameters, Misfit};
+use crate::sets::device_parameters::{DeviceParameters, UnsupportedParameter};
 use crate::sets::devices::{Devices, SetInputs};
 use crate::validation::parameter_error::Parameter;
 
@@ -26,32 +26,35 @@ use crate::validation::parameter_error::Parameter;
 type Eliminated<K> =
     Result<Option<<K as Kernels>::Gains<<K as Kind>::Scalar>>, SolveError<<K as Kind>::Scalar>>;
 
-/// The device of a kind that is made of these bodies.
-pub(crate) fn made<K: Kind>(stated: &BuiltInParameters<K::Scalar>) -> Result<K, Misfit> {
+/// The device of a kind with these parameters.
+pub(crate) fn device_of<K: Kind>(
+    parameters: &DeviceParameters<K::Scalar>,
+) -> Result<K, UnsupportedParameter> {
     let mut bodies = <K as Kind>::all(no_body());
-    copy(&mut bodies, stated.bodies);
+    copy(&mut bodies, parameters.bodies);
     let mut passive = <K as Kind>::all(Passive::none());
-    copy(&mut passive, stated.passive);
-    let made = K::of_bodies(&stated.mount, &bodies, &passive, stated.model);
+    copy(&mut passive, parameters.passive);
+    let made = K::of_bodies(&parameters.mount, &bodies, &passive, parameters.model);
     let taken = made.bodies();
     for ((asked, taken), info) in bodies.values().zip(taken.values()).zip(K::JOINTS) {
-        let misfit = |parameter| Err(Misfit { body: info.body, parameter: Some(parameter) });
+        let unsupported =
+            |parameter| Err(UnsupportedParameter { body: info.body, parameter: Some(parameter) });
         if !same(&asked.centre, &taken.centre) {
-            return misfit(Parameter::CentreOfMass);
+            return unsupported(Parameter::CentreOfMass);
         }
         if !same(asked.inertia.as_slice(), taken.inertia.as_slice()) {
-            return misfit(Parameter::Inertia);
+            return unsupported(Parameter::Inertia);
         }
     }
-    if made.model() != stated.model {
+    if made.model() != parameters.model {
         let body = K::JOINTS.last().map_or("device", |tip| tip.body);
-        return Err(Misfit { body, parameter: None });
+        return Err(UnsupportedParameter { body, parameter: None });
     }
     Ok(made)
 }
 
-/// The bodies of a device.
-pub(crate) fn stated<K: Kind>(device: &K) -> BuiltInParameters<K::Scalar> {
+/// The parameters of a device.
+pub(crate) fn parameters_of<K: Kind>(device: &K) -> DeviceParameters<K::Scalar> {
     let mut bodies = [no_body(); MAX_JOINTS];
     for (to, from) in bodies.iter_mut().zip(device.bodies().values()) {
         *to = from;
@@ -60,20 +63,20 @@ pub(crate) fn stated<K: Kind>(device: &K) -> BuiltInParameters<K::Scalar> {
     for (to, from) in passive.iter_mut().zip(device.passive().values()) {
         *to = from;
     }
-    BuiltInParameters { mount: *device.mount(), bodies, passive, model: device.model() }
+    DeviceParameters { mount: *device.mount(), bodies, passive, model: device.model() }
 }
 
-/// Values of joints; `fill` stands where there is none.
-pub(crate) fn few<V: Value>(values: &impl Each<V>, fill: V) -> Few<V> {
-    let mut few = Few::all(values.values().count(), fill);
-    few.fill(values.values());
-    few
+/// Values of joints; `fill` where there is none.
+pub(crate) fn joint_array<V: Value>(values: &impl Each<V>, fill: V) -> JointArray<V> {
+    let mut array = JointArray::all(values.values().count(), fill);
+    array.fill(values.values());
+    array
 }
 
 /// Coordinates and rates in the kind's own structure.
-pub(crate) fn joints<K: Kind>(few: &Few<[K::Scalar; 2]>) -> K::Joints<K::Scalar> {
+pub(crate) fn joints<K: Kind>(array: &JointArray<[K::Scalar; 2]>) -> K::Joints<K::Scalar> {
     let mut joints = <K as Kind>::at_rest();
-    for ([coordinate, rate], [from, rate_from]) in joints.states_mut().zip(few.states()) {
+    for ([coordinate, rate], [from, rate_from]) in joints.states_mut().zip(array.states()) {
         (*coordinate, *rate) = (from, rate_from);
     }
     joints
@@ -82,7 +85,7 @@ pub(crate) fn joints<K: Kind>(few: &Few<[K::Scalar; 2]>) -> K::Joints<K::Scalar>
 /// As [`Devices::eliminate`]; what back substitution needs.
 pub(crate) fn eliminate_typed<K: Kind, W: Rounding>(
     device: &Device<K>,
-    few: &Few<[K::Scalar; 2]>,
+    array: &JointArray<[K::Scalar; 2]>,
     given: SetInputs<'_, BuiltIn<K::Scalar>>,
     environment: &Environment<K::Scalar>,
     assembly: &mut Assembly<K::Scalar>,
@@ -90,7 +93,7 @@ pub(crate) fn eliminate_typed<K: Kind, W: Rounding>(
 ) -> Eliminated<K> {
     let mut gains = None;
     let typed = Typed::<K>::of(given);
-    let joints = joints::<K>(few);
+    let joints = joints::<K>(array);
     <K as Devices>::eliminate_set::<W>(
         device,
         &joints,
@@ -107,7 +110,7 @@ pub(crate) fn eliminate_typed<K: Kind, W: Rounding>(
 pub(crate) fn back_substitute<K: Kind>(
     gains: &K::Gains<K::Scalar>,
     hub: &Solution<K::Scalar>,
-    out: &mut Few<K::Scalar>,
+    out: &mut JointArray<K::Scalar>,
 ) {
     out.fill(K::back_substitute(gains, &hub.expressed_in_b()).values());
 }
@@ -116,23 +119,23 @@ pub(crate) fn back_substitute<K: Kind>(
 #[expect(clippy::too_many_arguments, reason = "as `Devices::loads`")]
 pub(crate) fn loads<K: Kind>(
     device: &Device<K>,
-    few_joints: &Few<[K::Scalar; 2]>,
+    array: &JointArray<[K::Scalar; 2]>,
     given: SetInputs<'_, BuiltIn<K::Scalar>>,
     environment: &Environment<K::Scalar>,
     hub: &HubAccelerations<K::Scalar>,
-    accelerations: &Few<K::Scalar>,
+    accelerations: &JointArray<K::Scalar>,
     along: &Along<K::Scalar>,
     totals: &mut LoadSums<K::Scalar>,
 ) -> BuiltInLoads<K::Scalar> {
-    let (joints, typed) = (joints::<K>(few_joints), Typed::<K>::of(given));
+    let (joints, typed) = (joints::<K>(array), Typed::<K>::of(given));
     let mut of_joints = K::no_accelerations();
     copy(&mut of_joints, accelerations.values());
     let found = device.loads(&joints, typed.given(), environment, hub, &of_joints, along, totals);
     DeviceLoads {
         mount: found.mount,
-        joints: few(&found.joints, Wrench::none()),
-        motors: few(&found.motors, zero()),
-        powers: few(&found.powers, JointPower::none()),
+        joints: joint_array(&found.joints, Wrench::none()),
+        motors: joint_array(&found.motors, zero()),
+        powers: joint_array(&found.powers, JointPower::none()),
     }
 }
 

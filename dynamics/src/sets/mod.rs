@@ -11,7 +11,7 @@ pub(crate) mod built_in;
 pub(crate) mod built_in_calls;
 #[cfg(test)]
 mod built_in_checks;
-pub(crate) mod built_in_parameters;
+pub(crate) mod device_parameters;
 pub(crate) mod devices;
 #[cfg(feature = "alloc")]
 pub(crate) mod erased;

@@ -132,7 +132,7 @@ impl<D: Devices> Spacecraft<D> {
             let second = self.hub.second_moment();
             let (force, moment) = central.wrench(self.hub.first_moment, &second);
             let whole = central.third_order(&assembly.second_moment.plus(second));
-            assembly.push(add(force, whole), moment);
+            assembly.add_wrench(add(force, whole), moment);
         }
         let hub = match &inputs.hub {
             HubMode::Free => assembly.solve(environment.omega, &self.body)?,

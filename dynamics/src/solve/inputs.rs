@@ -15,7 +15,7 @@ use crate::solve::spacecraft::Spacecraft;
 /// `Inputs { motors, ..Inputs::none() }` is a free hub with every joint driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<D: Devices> {
-    /// External force F through B, B axes, N; see [`Self::push`] for other points.
+    /// External force F through B, B axes, N; see [`Self::add_force`] for other points.
     pub force: Vector3<D::Scalar>,
     /// `L_B`, external torque about B, B axes, N m.
     pub torque_b: Vector3<D::Scalar>,
@@ -88,7 +88,7 @@ impl<D: Devices> Inputs<D> {
     }
 
     /// Adds a force on the hub at a point from B, both expressed in B, m and N.
-    pub fn push(&mut self, point: &Vector3<D::Scalar>, force: &Vector3<D::Scalar>) {
+    pub fn add_force(&mut self, point: &Vector3<D::Scalar>, force: &Vector3<D::Scalar>) {
         let (point, force) = (components(point), components(force));
         self.force = vector(add(components(&self.force), force));
         self.torque_b = vector(add(components(&self.torque_b), cross(point, force)));

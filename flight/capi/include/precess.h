@@ -50,7 +50,7 @@ enum {
     PRECESS_ERROR_TOO_MANY = 5,
     PRECESS_ERROR_UNKNOWN_KIND = 6,
     PRECESS_ERROR_UNKNOWN_CHOICE = 7,
-    PRECESS_ERROR_MISFIT = 8,
+    PRECESS_ERROR_UNSUPPORTED_PARAMETER = 8,
     PRECESS_ERROR_NOT_FINITE = 9,
     PRECESS_ERROR_MASS = 10,
     PRECESS_ERROR_INERTIA = 11,
@@ -103,7 +103,7 @@ enum { PRECESS_HUB_FREE = 0, PRECESS_HUB_FIXED = 1, PRECESS_HUB_PRESCRIBED = 2 }
 enum { PRECESS_GRAVITY_NONE = 0, PRECESS_GRAVITY_UNIFORM = 1, PRECESS_GRAVITY_CENTRAL = 2 };
 
 /* Axes of loads: of the body behind the joint; of what carries it; B; N. */
-enum { PRECESS_AXES_BODY = 0, PRECESS_AXES_CARRIER = 1, PRECESS_AXES_HUB = 2, PRECESS_AXES_INERTIAL = 3 };
+enum { PRECESS_AXES_BODY = 0, PRECESS_AXES_PARENT = 1, PRECESS_AXES_HUB = 2, PRECESS_AXES_INERTIAL = 3 };
 
 /* The point about which angular momentum is taken: the origin of N; the centre of mass of the whole
  * spacecraft; a point fixed in N. */

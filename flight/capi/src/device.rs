@@ -1,7 +1,7 @@
 //! A device from its structure, and the numbers of kinds.
 
 use precess_dynamics::kind::{BodyParameters, ImbalanceModel};
-use precess_dynamics::{BuiltIn, BuiltInKind, BuiltInParameters, Passive};
+use precess_dynamics::{BuiltIn, BuiltInKind, DeviceParameters, Passive};
 
 use crate::craft::matrix;
 use crate::error::{Code, Refusal};
@@ -38,7 +38,7 @@ pub(crate) fn device_of(index: usize, device: &types::Device) -> Result<BuiltIn,
         1 => ImbalanceModel::Lumped,
         _ => return Err(refuse(Code::UnknownChoice)),
     };
-    let parameters = BuiltInParameters {
+    let parameters = DeviceParameters {
         mount: matrix(&device.mount),
         bodies: device.bodies.map(|body| BodyParameters {
             origin: body.origin,
@@ -56,5 +56,5 @@ pub(crate) fn device_of(index: usize, device: &types::Device) -> Result<BuiltIn,
         model,
     };
     BuiltIn::new(kind, &parameters)
-        .map_err(|misfit| Refusal { joint: Some(misfit.body), ..refuse(Code::Misfit) })
+        .map_err(|unsupported| Refusal { joint: Some(unsupported.body), ..refuse(Code::UnsupportedParameter) })
 }

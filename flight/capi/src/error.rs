@@ -58,7 +58,7 @@ codes! {
     UnknownChoice = 7, c"PRECESS_ERROR_UNKNOWN_CHOICE",
         c"no such mode, model, axes or point; use the constants of the header";
     /// The kind has no such parameter.
-    Misfit = 8, c"PRECESS_ERROR_MISFIT",
+    UnsupportedParameter = 8, c"PRECESS_ERROR_UNSUPPORTED_PARAMETER",
         c"a body has what its kind has no parameter for; set it to 0, or use an imbalanced kind";
     /// A parameter, state or input is no finite number.
     NotFinite = 9, c"PRECESS_ERROR_NOT_FINITE",

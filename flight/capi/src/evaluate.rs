@@ -263,19 +263,19 @@ mod tests {
 
         let diagonal = |[x, y, z]: [f64; 3]| [x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z];
         let devices = [gyro.into(), wheel.into()].map(|device: precess_dynamics::BuiltIn| {
-            let stated = device.stated();
+            let parameters = device.parameters();
             let rows = |m: &Matrix3<f64>| m.transpose().as_slice().try_into().unwrap();
             types::Device {
                 kind: number_of(device.kind()),
                 model: 0,
-                mount: rows(&stated.mount),
-                bodies: stated.bodies.map(|body| types::Body {
+                mount: rows(&parameters.mount),
+                bodies: parameters.bodies.map(|body| types::Body {
                     mass: body.mass,
                     origin: body.origin,
                     centre: body.centre,
                     inertia: rows(&body.inertia),
                 }),
-                passive: stated.passive.map(|_| types::Passive {
+                passive: parameters.passive.map(|_| types::Passive {
                     stiffness: 0.0,
                     rest: 0.0,
                     viscous: 0.0,

@@ -1,7 +1,7 @@
 //! Inputs: from a structure, and the structure in which nothing acts.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Few, Gravity, HubMode, Inputs, Mode, Spacecraft, Wrench};
+use precess_dynamics::{JointArray, Gravity, HubMode, Inputs, Mode, Spacecraft, Wrench};
 
 use crate::List;
 use crate::craft::{Craft, craft};
@@ -22,7 +22,7 @@ pub(crate) fn inputs_of(
     take(&mut inputs.motors, &from.motor);
     let given = from.mode.iter().zip(&from.prescribed).enumerate();
     for (to, (device, (modes, prescribed))) in inputs.modes.iter_mut().zip(given) {
-        let to = to.iter_mut().flat_map(Few::as_mut_slice);
+        let to = to.iter_mut().flat_map(JointArray::as_mut_slice);
         for (to, (mode, prescribed)) in to.zip(modes.iter().zip(prescribed)) {
             *to = match mode {
                 0 => Mode::Driven,

@@ -30,7 +30,7 @@ pub unsafe extern "C" fn precess_loads_of(
     let ask = |craft: &Spacecraft<List>| {
         let axes = match axes {
             0 => LoadAxes::Body,
-            1 => LoadAxes::Carrier,
+            1 => LoadAxes::Parent,
             2 => LoadAxes::Hub,
             3 => LoadAxes::Inertial,
             _ => return Err(Code::UnknownChoice.into()),

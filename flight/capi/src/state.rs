@@ -1,7 +1,7 @@
 //! States: from structures and back, and as numbers in a row to be saved and restored.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Few, Quaternion, Spacecraft, State};
+use precess_dynamics::{JointArray, Quaternion, Spacecraft, State};
 
 use crate::craft::{Craft, answer, craft};
 use crate::error::{Code, Fault, Refusal};
@@ -11,11 +11,11 @@ use crate::{List, MAX_DEVICES};
 
 /// Copies from `[device][joint]` to what has one for each joint there is.
 pub(crate) fn take<V: precess_dynamics::Value>(
-    to: &mut [Option<Few<V>>; MAX_DEVICES],
+    to: &mut [Option<JointArray<V>>; MAX_DEVICES],
     from: &[impl AsRef<[V]>; MAX_DEVICES],
 ) {
     for (to, from) in to.iter_mut().zip(from) {
-        let to = to.iter_mut().flat_map(Few::as_mut_slice);
+        let to = to.iter_mut().flat_map(JointArray::as_mut_slice);
         for (to, from) in to.zip(from.as_ref()) {
             *to = *from;
         }
@@ -25,11 +25,11 @@ pub(crate) fn take<V: precess_dynamics::Value>(
 /// Copies to `[device][joint]` by a function.
 pub(crate) fn give<V: precess_dynamics::Value, U>(
     to: &mut PerJoint<U>,
-    from: &[Option<Few<V>>; MAX_DEVICES],
+    from: &[Option<JointArray<V>>; MAX_DEVICES],
     of: impl Fn(&V) -> U,
 ) {
     for (to, from) in to.iter_mut().zip(from) {
-        let from = from.iter().flat_map(Few::as_slice);
+        let from = from.iter().flat_map(JointArray::as_slice);
         for (to, from) in to.iter_mut().zip(from) {
             *to = of(from);
         }
@@ -46,7 +46,7 @@ pub(crate) fn state_of(spacecraft: &Spacecraft<List>, from: &types::State) -> St
     state.omega = Vector3::from(from.omega);
     let joints = from.coordinate.iter().zip(&from.rate);
     for (to, (coordinates, rates)) in state.devices.iter_mut().zip(joints) {
-        let to = to.iter_mut().flat_map(Few::as_mut_slice);
+        let to = to.iter_mut().flat_map(JointArray::as_mut_slice);
         for (to, (coordinate, rate)) in to.zip(coordinates.iter().zip(rates)) {
             *to = [*coordinate, *rate];
         }

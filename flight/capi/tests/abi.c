@@ -232,7 +232,7 @@ static void refused_parameters(void)
     IS(init(3, &fault), PRECESS_ERROR_UNKNOWN_CHOICE);
     example();
     devices[1].bodies[0].centre[2] = 0.1;
-    IS(init(3, &fault), PRECESS_ERROR_MISFIT);
+    IS(init(3, &fault), PRECESS_ERROR_UNSUPPORTED_PARAMETER);
     example();
     hub.mass = 0.0;
     IS(init(3, &fault), PRECESS_ERROR_MASS);

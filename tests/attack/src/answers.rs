@@ -181,7 +181,7 @@ pub fn answers<D: Devices<Loads: Numbers<D::Scalar>>>(
     let Some(wished) = wished(placed) else { return all };
     for (name, axes) in [
         ("loads along body axes", LoadAxes::Body),
-        ("loads along the carrier's axes", LoadAxes::Carrier),
+        ("loads along the carrier's axes", LoadAxes::Parent),
         ("loads along B axes", LoadAxes::Hub),
         ("loads along N axes", LoadAxes::Inertial),
     ] {

@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 use precess_dynamics::{
-    BuiltInKind, Each, Few, Gravity, Hub, HubMode, Inputs, JointStates, Mode, Passive, Quaternion,
-    State, Wrench,
+    BuiltInKind, Each, Gravity, Hub, HubMode, Inputs, JointArray, JointStates, Mode, Passive,
+    Quaternion, State, Wrench,
 };
 use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Strategy};
@@ -290,7 +290,7 @@ impl Profile {
         world: &World,
         joints: &[&Joint],
         list: &List,
-        nothing: &[Few<Wrench>],
+        nothing: &[JointArray<Wrench>],
     ) {
         if self.driven {
             let [force, torque_b] = world.acting;

@@ -23,7 +23,7 @@ const ATTITUDE: f64 = 1e-12;
 fn passives(list: &List) -> Vec<Passive> {
     let of_device = |device: &BuiltIn| {
         let count = device.kind().joints().len();
-        device.stated().passive.into_iter().take(count)
+        device.parameters().passive.into_iter().take(count)
     };
     list.iter().flat_map(of_device).collect()
 }

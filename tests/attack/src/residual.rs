@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::{
-    Accelerations, Devices, Each, Few, HubMode, LoadAxes, Mode, Scalar, Spacecraft,
+    Accelerations, Devices, Each, HubMode, JointArray, LoadAxes, Mode, Scalar, Spacecraft,
 };
 
 use super::answers::{no_accelerations, of_accelerations};
@@ -27,7 +27,7 @@ pub fn from_numbers<T: Scalar>(
 ) -> Result<Accelerations<List<T>>, String> {
     let mut found = no_accelerations(craft).ok_or("a spacecraft at rest overflows")?;
     let hub = found.r_b_n_ddot.iter_mut().chain(found.omega_dot.iter_mut());
-    hub.chain(found.devices.iter_mut().flat_map(Few::as_mut_slice))
+    hub.chain(found.devices.iter_mut().flat_map(JointArray::as_mut_slice))
         .zip(numbers)
         .for_each(|(to, from)| *to = *from);
     Ok(found)

@@ -150,10 +150,9 @@ fn fast(case: &Case, craft: &Spacecraft<List>, state: &State<List>) -> Option<Fa
     let mut inputs = case.inputs.clone();
     let none = craft.accelerations(&rest, &inputs).ok()?;
     let mut worst = Fast { damper: 0.0, spring: 0.0, dry: 0.0 };
-    let passives = case
-        .devices
-        .iter()
-        .flat_map(|device| device.stated().passive.into_iter().take(device.kind().joints().len()));
+    let passives = case.devices.iter().flat_map(|device| {
+        device.parameters().passive.into_iter().take(device.kind().joints().len())
+    });
     for (index, own) in passives.enumerate() {
         // So large that the difference has its digits beside what springs do.
         let torque = 1.0 + own.stiffness;

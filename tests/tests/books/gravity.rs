@@ -223,7 +223,7 @@ fn point_force_on_a_locked_body_is_one_on_the_hub() {
             assert_eq!(with(force_alone.moved(&point)), on_body, "{case}");
 
             let mut inputs = case.inputs.clone();
-            inputs.push(&(body.frame.origin + body.told * point), &(body.told * force));
+            inputs.add_force(&(body.frame.origin + body.told * point), &(body.told * force));
             let on_hub = case.craft.accelerations(&case.state, &inputs).expect("a solution");
             for (a, b) in
                 [(on_body.r_b_n_ddot, on_hub.r_b_n_ddot), (on_body.omega_dot, on_hub.omega_dot)]

@@ -10,7 +10,7 @@ use crate::craft::{Case, Craft, Mixed, Others, Told};
 use crate::random::SEED;
 use crate::walk::{self, Body, turned};
 
-const AXES: [LoadAxes; 4] = [LoadAxes::Body, LoadAxes::Carrier, LoadAxes::Hub, LoadAxes::Inertial];
+const AXES: [LoadAxes; 4] = [LoadAxes::Body, LoadAxes::Parent, LoadAxes::Hub, LoadAxes::Inertial];
 
 fn loads<D: Craft>(case: &Case<D>, axes: LoadAxes) -> Loads<D> {
     let found = case.craft.loads(&case.state, &case.inputs, &case.accelerations(), axes);
@@ -21,7 +21,7 @@ fn loads<D: Craft>(case: &Case<D>, axes: LoadAxes) -> Loads<D> {
 fn axes_of(body: &Body, axes: LoadAxes, nb: &Matrix3<f64>) -> Matrix3<f64> {
     match axes {
         LoadAxes::Body => body.told,
-        LoadAxes::Carrier => body.carrier,
+        LoadAxes::Parent => body.carrier,
         LoadAxes::Hub => Matrix3::identity(),
         LoadAxes::Inertial => nb.transpose(),
     }
@@ -208,7 +208,7 @@ fn load_about_a_joint_is_motor_spring_and_friction() {
     println!("motor torques: worst {:.2} eps", worst.0);
 }
 
-/// `-k (q - q_0) - c q' - u_c q' / sqrt(q'² + w²)`.
+/// `-k (q - q_0) - c q' - u_c q' / sqrt(q'² + q_c'²)`.
 fn own_torque(passive: &Passive, q: f64, rate: f64) -> f64 {
     let Passive { stiffness, rest, viscous, coulomb, coulomb_rate } = *passive;
     let dry = if coulomb == 0.0 { 0.0 } else { coulomb * rate / rate.hypot(coulomb_rate) };

@@ -84,7 +84,7 @@ fn books_and_loads_of_a_list_are_those_of_the_set_to_the_bit() {
             list.sound(list.craft.momentum(&list.state, About::CentreOfMass)),
             "seed {seed}"
         );
-        let axes = LoadAxes::Carrier;
+        let axes = LoadAxes::Parent;
         let of_set = set.sound(set.craft.loads(&set.state, &set.inputs, &of_set, axes));
         let of_list = list.sound(list.craft.loads(&list.state, &list.inputs, &of_list, axes));
         assert_eq!(of_set.hub, of_list.hub, "seed {seed}");

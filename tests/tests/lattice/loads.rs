@@ -107,7 +107,7 @@ fn error_along<K: Drawn>(bench: &Bench<[K; 2]>, cloud: &Cloud, axes: LoadAxes) -
             let needed = transmitted(&bodies, &wrenches, g, joint);
             let along = match axes {
                 LoadAxes::Body => body.own,
-                LoadAxes::Carrier => body.carrier,
+                LoadAxes::Parent => body.carrier,
                 LoadAxes::Hub => Matrix3::identity(),
                 LoadAxes::Inertial => inertial.transpose(),
             };
@@ -158,7 +158,7 @@ fn of_hub<K: Drawn>(bench: &Bench<[K; 2]>, bodies: &[Body], g: Vector3<f64>) -> 
 fn loads_are_those_of_the_masses<K: Drawn>() {
     let error = |random: &mut Random| {
         let (_, bench, cloud) = pair::<K>(random);
-        let all = [LoadAxes::Body, LoadAxes::Carrier, LoadAxes::Hub, LoadAxes::Inertial];
+        let all = [LoadAxes::Body, LoadAxes::Parent, LoadAxes::Hub, LoadAxes::Inertial];
         largest(all.map(|axes| error_along(&bench, &cloud, axes)))
     };
     errors_of(SEEDS, error).are_within(ROUNDING);

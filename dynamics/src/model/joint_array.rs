@@ -1,19 +1,19 @@
-//! [`Few`]: what belongs to the joints of one device, in an array that holds those of any kind.
+//! [`JointArray`]: one value per joint of a device, in an array that holds those of any kind.
 
 use crate::numbers::each::{Each, JointStates, Value};
 
-/// The joints that a device of this crate's kinds has at most.
+/// Largest number of joints of a device of this crate's kinds.
 pub const MAX_JOINTS: usize = 3;
 
 /// One value per joint of a device, from the hub to the tip: up to [`MAX_JOINTS`], without a heap.
 #[derive(Clone, Copy, Debug)]
-pub struct Few<V> {
+pub struct JointArray<V> {
     values: [V; MAX_JOINTS],
     count: usize,
 }
 
-impl<V: Value> Few<V> {
-    /// One value at each of so many joints.
+impl<V: Value> JointArray<V> {
+    /// The same value for each of `count` joints.
     pub(crate) fn all(count: usize, value: V) -> Self {
         Self { values: [value; MAX_JOINTS], count }
     }
@@ -24,13 +24,13 @@ impl<V: Value> Few<V> {
         self.values.get(..self.count).unwrap_or(&self.values)
     }
 
-    /// The values, to be changed.
+    /// The values, mutable.
     pub fn as_mut_slice(&mut self) -> &mut [V] {
         let count = self.count.min(MAX_JOINTS);
         self.values.split_at_mut_checked(count).map_or(&mut [], |(values, _)| values)
     }
 
-    /// Takes values over, one by one.
+    /// Copies values in order; the rest keep theirs.
     pub(crate) fn fill(&mut self, from: impl Iterator<Item = V>) {
         for (to, from) in self.as_mut_slice().iter_mut().zip(from) {
             *to = from;
@@ -38,13 +38,13 @@ impl<V: Value> Few<V> {
     }
 }
 
-impl<V: Value> PartialEq for Few<V> {
+impl<V: Value> PartialEq for JointArray<V> {
     fn eq(&self, other: &Self) -> bool {
         self.as_slice() == other.as_slice()
     }
 }
 
-impl<V: Value> Each<V> for Few<V> {
+impl<V: Value> Each<V> for JointArray<V> {
     fn values(&self) -> impl Iterator<Item = V> {
         self.as_slice().iter().copied()
     }
@@ -54,7 +54,7 @@ impl<V: Value> Each<V> for Few<V> {
     }
 }
 
-impl<T: Value> JointStates<T> for Few<[T; 2]> {
+impl<T: Value> JointStates<T> for JointArray<[T; 2]> {
     fn states(&self) -> impl Iterator<Item = [T; 2]> {
         self.as_slice().iter().copied()
     }
@@ -64,7 +64,7 @@ impl<T: Value> JointStates<T> for Few<[T; 2]> {
     }
 }
 
-impl<V: Value> IntoIterator for Few<V> {
+impl<V: Value> IntoIterator for JointArray<V> {
     type Item = V;
     type IntoIter = core::iter::Take<core::array::IntoIter<V, MAX_JOINTS>>;
 
