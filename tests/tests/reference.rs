@@ -44,12 +44,12 @@ fn moved<const N: usize>(
         later.state.r_b_n[axis] = case.state.r_b_n[axis] + t * case.state.r_b_n_dot[axis];
     }
     let Quaternion { q0, q1, q2, q3 } = case.state.attitude;
-    let w = case.state.omega;
+    let omega = case.state.omega;
     later.state.attitude = Quaternion {
-        q0: q0 - half * (q1 * w.x + q2 * w.y + q3 * w.z),
-        q1: q1 + half * (q0 * w.x + q2 * w.z - q3 * w.y),
-        q2: q2 + half * (q0 * w.y + q3 * w.x - q1 * w.z),
-        q3: q3 + half * (q0 * w.z + q1 * w.y - q2 * w.x),
+        q0: q0 - half * (q1 * omega.x + q2 * omega.y + q3 * omega.z),
+        q1: q1 + half * (q0 * omega.x + q2 * omega.z - q3 * omega.y),
+        q2: q2 + half * (q0 * omega.y + q3 * omega.x - q1 * omega.z),
+        q3: q3 + half * (q0 * omega.z + q1 * omega.y - q2 * omega.x),
     };
     for (joints, a) in later.state.devices.iter_mut().zip(&accelerations.devices) {
         joints.gamma_o = joints.gamma_o + t * (joints.gamma_o_dot + half * a.gamma_o_ddot);

@@ -30,7 +30,7 @@ fn draw(random: &mut Random, number: u64) -> (String, Case<1, f32>) {
     let drive = [Drive::Free, Drive::Wheel200, Drive::Wheel250][(number / 2 % 3) as usize];
     let mut case = table1::scenario(imbalance, drive);
     let (degree, wheel) = (PI / 180.0, 500.0 * TAU / 60.0);
-    case.state.omega.iter_mut().for_each(|w| *w = random.within(-4.85, 4.85) * degree);
+    case.state.omega.iter_mut().for_each(|rate| *rate = random.within(-4.85, 4.85) * degree);
     case.state.devices[0] = Joints {
         gamma_o: random.within(-PI, PI),
         gamma_i: random.within(-PI, PI),

@@ -24,10 +24,10 @@ pub trait Attitude<T: Scalar>: Copy + Debug + PartialEq {
     #[must_use]
     fn rate(&self, omega: &Vector3<T>) -> Self::Rate;
 
-    /// The parameters plus the sum of `time * rate` over the terms, without normalising.
+    /// The parameters plus the sum of `offset * rate` over the terms, without normalising.
     ///
-    /// The terms are summed before they meet the parameters, which costs fewer rounded bits than
-    /// adding them one by one.
+    /// The terms are summed before the sum is added to the parameters, which rounds less than adding
+    /// them one by one.
     #[must_use]
     fn advanced(&self, terms: &[(T, Self::Rate)]) -> Self;
 

@@ -123,23 +123,23 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Rows one to three factorised, rows four to six of L by columns, and what is left factorised.
+    /// Factors of rows one to three, rows four to six of L by columns, factors of the Schur complement.
     #[inline(always)]
     fn factorised(&self) -> (Factors<T>, Columns<T>, Factors<T>) {
         let vv = Factors::of(&self.m_vv);
 
-        // Rows four to six of L times D, and of L: w = L_vv^-1 M_vw, z = D_vv^-1 w.
-        let w = map(self.m_vw, |column| vv.forward(column));
-        let z = map(w, |column| vv.divide(column));
-        let [wx, wy, wz] = w;
+        // Rows four to six of L times D, and of L: f = L_vv^-1 M_vw, z = D_vv^-1 f.
+        let f = map(self.m_vw, |column| vv.forward(column));
+        let z = map(f, |column| vv.divide(column));
+        let [fx, fy, fz] = f;
         let [zx, zy, zz] = z;
         let schur = Symmetric {
-            xx: self.m_ww.xx - dot(wx, zx),
-            xy: self.m_ww.xy - dot(wx, zy),
-            xz: self.m_ww.xz - dot(wx, zz),
-            yy: self.m_ww.yy - dot(wy, zy),
-            yz: self.m_ww.yz - dot(wy, zz),
-            zz: self.m_ww.zz - dot(wz, zz),
+            xx: self.m_ww.xx - dot(fx, zx),
+            xy: self.m_ww.xy - dot(fx, zy),
+            xz: self.m_ww.xz - dot(fx, zz),
+            yy: self.m_ww.yy - dot(fy, zy),
+            yz: self.m_ww.yz - dot(fy, zz),
+            zz: self.m_ww.zz - dot(fz, zz),
         };
         (vv, z, Factors::of(&schur))
     }
@@ -272,8 +272,9 @@ mod tests {
     }
 
     fn solve(m: &Matrix6<f64>, h: &Vector6<f64>) -> Result<Vector6<f64>, SmallPivot<f64>> {
-        let Solution { r_b_n_ddot: v, omega_dot: w } = system(m, h).solve(&scale_of(m))?;
-        Ok(Vector6::new(v[0], v[1], v[2], w[0], w[1], w[2]))
+        let Solution { r_b_n_ddot: [x, y, z], omega_dot: [p, q, r] } =
+            system(m, h).solve(&scale_of(m))?;
+        Ok(Vector6::new(x, y, z, p, q, r))
     }
 
     /// Integers, unsymmetric on purpose; `G^T G + 1` is positive definite and exact.

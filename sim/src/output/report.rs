@@ -122,7 +122,7 @@ fn row<const N: usize>(outcome: &Outcome<N>) -> Vec<String> {
     let jitter = |of: fn((f64, f64)) -> f64| f.jitter.map_or("–".into(), |j| three(of(j)));
     vec![
         format!("{:.4}", f.omega_peak.to_degrees()),
-        jitter(|(w, _)| 1e3 * w.to_degrees()),
+        jitter(|(omega, _)| 1e3 * omega.to_degrees()),
         jitter(|(_, r)| 1e6 * r),
         format!("{:.2}", 1e3 * f.position_drift),
         power(f.drift.energy, 0),

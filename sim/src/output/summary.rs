@@ -45,7 +45,7 @@ pub fn summary<const N: usize>(
         let f = outcome.figures();
         let (omega, position) = f.jitter.map_or_else(
             || ("-".to_owned(), "-".to_owned()),
-            |(w, r)| (format!("{:.3e}", w.to_degrees()), format!("{:.4}", 1e6 * r)),
+            |(omega, r)| (format!("{:.3e}", omega.to_degrees()), format!("{:.4}", 1e6 * r)),
         );
         // Writing to a string cannot fail.
         let _ = writeln!(

@@ -216,7 +216,7 @@ mod tests {
         let kept = decimated(&points);
         assert!(kept.len() <= 4 * COLUMNS);
         assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[19_999]));
-        assert!(kept.windows(2).all(|w| w[0].0 < w[1].0));
+        assert!(kept.windows(2).all(|pair| pair[0].0 < pair[1].0));
         let most = |p: &[(f64, f64)]| p.iter().map(|p| p.1).fold(f64::MIN, f64::max);
         assert_eq!(most(&kept), most(&points));
     }

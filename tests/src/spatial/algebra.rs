@@ -63,16 +63,16 @@ impl<T: Scalar> Matrix<T> {
     }
 }
 
-/// `[w; v] x [m; n] = [w x m; w x n + v x m]`: rate of a motion vector that is carried along.
+/// `[omega; v] x [m; n] = [omega x m; omega x n + v x m]`: rate of a motion vector fixed in a frame that moves with `[omega; v]`.
 pub(super) fn motion_cross<T: Scalar>(v: Spatial<T>, motion: Spatial<T>) -> Spatial<T> {
-    let ([w, v], [m, n]) = (v.halves(), motion.halves());
-    Spatial::new(cross(w, m), sum(cross(w, n), cross(v, m)))
+    let ([omega, v], [m, n]) = (v.halves(), motion.halves());
+    Spatial::new(cross(omega, m), sum(cross(omega, n), cross(v, m)))
 }
 
-/// `[w; v] x* [m; f] = [w x m + v x f; w x f]`: rate of a force vector that is carried along.
+/// `[omega; v] x* [m; f] = [omega x m + v x f; omega x f]`: rate of a force vector fixed in that frame.
 pub(super) fn force_cross<T: Scalar>(v: Spatial<T>, force: Spatial<T>) -> Spatial<T> {
-    let ([w, v], [m, f]) = (v.halves(), force.halves());
-    Spatial::new(sum(cross(w, m), cross(v, f)), cross(w, f))
+    let ([omega, v], [m, f]) = (v.halves(), force.halves());
+    Spatial::new(sum(cross(omega, m), cross(v, f)), cross(omega, f))
 }
 
 /// The vector product of ordinary vectors.

@@ -44,7 +44,8 @@ fn powers_are_forces_times_velocities() {
         let found = case.accelerations();
         let books = ledger(&case);
         let hub = walk::hub_frame(&case, &found);
-        let of_hub = |w: &Wrench| w.force.dot(&hub.velocity) + w.moment.dot(&hub.omega);
+        let of_hub =
+            |wrench: &Wrench| wrench.force.dot(&hub.velocity) + wrench.moment.dot(&hub.omega);
         let given = Wrench { force: case.inputs.force, moment: case.inputs.torque_b };
         let devices = walk::bodies(&case, &found);
         let (needed, pull) = (walk::hub_needs(&case, &found), walk::hub_pull(&case, &devices));
@@ -53,7 +54,7 @@ fn powers_are_forces_times_velocities() {
         let mut unit = books.magnitude;
         for body in devices.iter().flatten() {
             let Frame { velocity, omega, .. } = body.frame;
-            let power = |w: &Wrench| w.force.dot(&velocity) + w.moment.dot(&omega);
+            let power = |wrench: &Wrench| wrench.force.dot(&velocity) + wrench.moment.dot(&omega);
             outside += power(&body.applied);
             kinetic_rate += power(&body.needs());
             let [force, moment] = body.sizes();

@@ -108,9 +108,9 @@ pub(crate) fn bits(found: &Found) -> Vec<u64> {
 /// Devices as DGVSCMGs, springs left behind; a slosh mass has no such form.
 fn as_dgvscmgs(devices: &Mixed) -> ([Dgvscmg; 5], SloshMass) {
     let (wheels, s, b, (p, slosh)) = devices;
-    let [first, second] = wheels.map(|w| {
-        let bare = Dgvscmg::bare_wheel(w.m_w, w.i_w_wc);
-        Dgvscmg { mount: w.mount, r_go_b: w.r_w_b, d: w.d, ..bare }
+    let [first, second] = wheels.map(|wheel| {
+        let bare = Dgvscmg::bare_wheel(wheel.m_w, wheel.i_w_wc);
+        Dgvscmg { mount: wheel.mount, r_go_b: wheel.r_w_b, d: wheel.d, ..bare }
     });
     let bare = Dgvscmg { mount: s.mount, r_go_b: s.r_g_b, ..Dgvscmg::bare_wheel(s.m_w, s.i_w_wc) };
     let (m_go, r_goc_go, i_go_goc) = (s.m_g, s.r_gc_g, s.i_g_gc);
