@@ -14,7 +14,7 @@
 //! needs no second notation: what is left of them without any rates, under one acceleration of 1,
 //! is a column of the matrix; what is left without any accelerations changes sides.
 
-mod given;
+mod known;
 mod inertias;
 mod motors;
 mod positions;
@@ -31,7 +31,7 @@ use crate::case::{Case, Set};
 use crate::newton_euler::equations::System;
 use crate::newton_euler::vector::{Tensor, Vector};
 use crate::newton_euler::{elimination, from_list};
-use given::{Given, Motion};
+use known::{Known, Motion};
 use inertias::Inertias;
 use positions::Positions;
 
@@ -89,7 +89,7 @@ fn left_sides<const N: usize, T: Scalar>(
     };
     let device = |j: usize| {
         let (joints, ddot) = (&state.devices[j], &accelerations.devices[j]);
-        Device::new(Given::new(&case.devices[j], joints, ddot, motion))
+        Device::new(Known::new(&case.devices[j], joints, ddot, motion))
     };
     let devices: Vec<Device<T>> = moved.clone().map(device).collect();
     let body = Body::new(&case.hub);
@@ -139,16 +139,16 @@ impl<T: Scalar> Body<T> {
 
 /// What the pages define for one device, ready for its equations.
 struct Device<T> {
-    given: Given<T>,
+    known: Known<T>,
     positions: Positions<T>,
     inertias: Inertias<T>,
 }
 
 impl<T: Scalar> Device<T> {
-    fn new(given: Given<T>) -> Self {
-        let positions = Positions::new(&given);
-        let inertias = Inertias::new(&given, &positions);
-        Self { given, positions, inertias }
+    fn new(known: Known<T>) -> Self {
+        let positions = Positions::new(&known);
+        let inertias = Inertias::new(&known, &positions);
+        Self { known, positions, inertias }
     }
 }
 

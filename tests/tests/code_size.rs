@@ -48,7 +48,7 @@ fn code(feature: Option<&str>) -> u64 {
 
 /// The fixture's manifest: what is general is compiled with the dynamics crate.
 fn manifest(tests: &Path) -> String {
-    let source = tests.join("fixtures/accelerations_alone.rs");
+    let source = tests.join("fixtures/accelerations_only.rs");
     let dynamics = tests.join("../dynamics");
     format!(
         "[package]\nname = \"accelerations-alone\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
@@ -65,7 +65,7 @@ fn manifest(tests: &Path) -> String {
 /// The one dynamic library there, whatever the platform calls it.
 fn library(folder: &Path) -> PathBuf {
     folder.join(format!(
-        "{}accelerations_alone{}",
+        "{}accelerations_only{}",
         env::consts::DLL_PREFIX,
         env::consts::DLL_SUFFIX
     ))

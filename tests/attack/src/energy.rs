@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::{About, Dgvscmg, Each, Hub, HubMode, JointStates, Mode, SloshMass};
 use proptest::prelude::{BoxedStrategy, Strategy};
 
-use super::answers::no_accelerations;
+use super::call_results::no_accelerations;
 use super::bodies::rotation;
 use super::case::{Case, Placed};
 use super::draw::Profile;

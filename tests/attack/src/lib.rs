@@ -5,7 +5,7 @@
 //!
 //! A campaign for workstations: nothing of it goes on board.
 
-pub mod answers;
+pub mod call_results;
 pub mod bodies;
 pub mod campaign;
 pub mod case;
@@ -18,7 +18,7 @@ pub mod motion;
 pub mod number;
 pub mod progress;
 pub mod properties;
-pub mod refusals;
+pub mod typed_errors;
 pub mod residual;
 pub mod runs;
 pub mod same;

@@ -7,7 +7,7 @@ use precess_dynamics::{Dgvscmg, Gravity, Hub, JointStates, SolveError};
 use precess_tests::double_double::DoubleDouble;
 use proptest::prelude::{BoxedStrategy, Strategy};
 
-use super::answers::of_accelerations;
+use super::call_results::of_accelerations;
 use super::case::{Case, Placed};
 use super::number::Number;
 use super::residual::{numbers, wide};

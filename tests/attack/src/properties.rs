@@ -6,7 +6,7 @@ use proptest::prop_oneof;
 
 use super::draw::Profile;
 use super::{
-    Case, Verdict, energy, finite, limits, motion, refusals, residual, runs, same, shapes, singular,
+    Case, Verdict, energy, finite, limits, motion, typed_errors, residual, runs, same, shapes, singular,
 };
 
 /// A promise.
@@ -245,9 +245,9 @@ pub const PROPERTIES: &[Property] = &[
         name: "errors-are-typed",
         statement: "what is locked and moves, not driven, at the centre or miscounted has its own error",
         cases: 500,
-        function: "refusals::errors_are_typed",
-        draw: refusals::cases,
-        check: refusals::errors_are_typed,
+        function: "typed_errors::errors_are_typed",
+        draw: typed_errors::cases,
+        check: typed_errors::errors_are_typed,
     },
     Property {
         name: "central-gravity",

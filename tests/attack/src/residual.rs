@@ -8,7 +8,7 @@ use precess_dynamics::{
     Accelerations, Devices, Each, HubMode, JointArray, LoadAxes, Mode, Scalar, Spacecraft,
 };
 
-use super::answers::{no_accelerations, of_accelerations};
+use super::call_results::{no_accelerations, of_accelerations};
 use super::case::{Case, List, Placed};
 use super::sizes::sizes;
 use super::{Checked, Verdict};

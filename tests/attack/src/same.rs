@@ -2,15 +2,15 @@
 
 use precess_dynamics::{Scalar, SolveError};
 
-use super::answers::{Answer, answers, of_state};
+use super::call_results::{CallResult, call_results, of_state};
 use super::case::{Case, List, Placed};
 use super::residual::{numbers, solves};
 use super::shapes::{Batched, across, batched, in_every_shape};
 use super::{Checked, Verdict};
 
 /// Numbers by their bits, errors as text: NaN equals itself.
-fn text<T: Scalar>(answer: &Answer<T>) -> String {
-    match answer {
+fn text<T: Scalar>(result: &CallResult<T>) -> String {
+    match result {
         Ok(all) => {
             let bits = all.iter().map(|x| format!("{:x}", x.to_f64().to_bits()));
             bits.collect::<Vec<_>>().join(" ")
@@ -32,9 +32,9 @@ pub fn shapes_are_identical(case: &Case) -> Verdict {
             in_every_shape!(case, $number, |shape, placed| {
                 let dt = <$number as Scalar>::from_f64(case.dt);
                 let texts: Result<Vec<_>, _> = match &placed {
-                    Ok(placed) => Ok(answers(placed, dt)
+                    Ok(placed) => Ok(call_results(placed, dt)
                         .into_iter()
-                        .map(|(call, answer)| (call, text(&answer)))
+                        .map(|(call, result)| (call, text(&result)))
                         .collect()),
                     Err(error) => Err(format!("{error:?}")),
                 };
@@ -75,7 +75,7 @@ fn single(case: &Case, each: bool) -> Option<Batched> {
     for (state, inputs) in case.all() {
         let inputs = if each { inputs } else { case.inputs.clone() };
         let found = craft.accelerations(&state, &inputs);
-        all.accelerations.push(found.map(|found| super::answers::of_accelerations(&found)));
+        all.accelerations.push(found.map(|found| super::call_results::of_accelerations(&found)));
         let mut now = state;
         let end = (0..case.steps).try_for_each(|_| {
             now = craft.step(&now, &inputs, case.dt)?;
@@ -119,8 +119,8 @@ pub fn batch_is_spacecraft(case: &Case) -> Verdict {
 }
 
 /// Whether two outcomes are of the same kind, or one is singular by a pivot near its bound.
-fn same_outcome(found: &Answer, single: &Answer) -> bool {
-    let near = |answer: &Answer| match answer {
+fn same_outcome(found: &CallResult, single: &CallResult) -> bool {
+    let near = |result: &CallResult| match result {
         Err(SolveError::Singular { pivot, bound, .. }) => {
             // Other rounding may lead just above the bound.
             pivot.abs() > bound / 4.0 || *pivot < 0.0
@@ -142,16 +142,16 @@ fn same_outcome(found: &Answer, single: &Answer) -> bool {
 pub fn lanes_and_fused_agree(case: &Case) -> Verdict {
     let Ok(list) = case.list() else { return Ok(Checked::Rejected) };
     let single = list.craft.accelerations(&list.state, &list.inputs).map(|f| numbers(&f));
-    let mut others: Vec<(String, Answer)> = Vec::new();
+    let mut others: Vec<(String, CallResult)> = Vec::new();
     in_every_shape!(case, f64, |shape, placed| {
         if let Ok(Placed { craft, state, inputs }) = placed {
             let found = craft.fused().accelerations(&state, &inputs);
             others.push((format!("{shape}, fused"), found.map(|found| numbers(&found))));
         }
     });
-    for (name, answer) in across(case).unwrap_or_default() {
+    for (name, result) in across(case).unwrap_or_default() {
         if name == "accelerations across" {
-            others.push((name.to_owned(), answer));
+            others.push((name.to_owned(), result));
         }
     }
     let alone = Case { more: Vec::new(), ..case.clone() };

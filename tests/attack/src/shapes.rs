@@ -7,7 +7,7 @@ use precess_dynamics::{
     SloshMass, SolveError, Spacecraft, State, Vscmg,
 };
 
-use super::answers::{Answer, of_accelerations, of_state};
+use super::call_results::{CallResult, of_accelerations, of_state};
 use super::case::{Case, Placed, given, moved};
 
 /// Six kinds; with [`Others`] all of them.
@@ -132,7 +132,7 @@ trait AcrossKind: precess_dynamics::kind::Kind<Scalar = f64> + Taken<f64> {}
 
 impl<K: precess_dynamics::kind::Kind<Scalar = f64> + Taken<f64>> AcrossKind for K {}
 
-fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, Answer)>> {
+fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     let devices: [K; ABREAST] = exactly(&case.devices)?;
     let across = AcrossDevices::new(&case.hub, &devices).ok()?;
     let Placed { state, inputs, .. } = case.placed(&devices).ok()?;
@@ -145,10 +145,10 @@ fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, Answer)>> 
     ])
 }
 
-/// What devices of one kind, side by side, answer; none for other lists. Compiled for some kinds: with
+/// What devices of one kind, side by side, result; none for other lists. Compiled for some kinds: with
 /// and without imbalance, a motor on the wheel, a sliding joint.
 #[must_use]
-pub fn across(case: &Case) -> Option<Vec<(&'static str, Answer)>> {
+pub fn across(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     across_of::<ReactionWheel>(case)
         .or_else(|| across_of::<SloshMass>(case))
         .or_else(|| across_of::<BalancedSgcmg>(case))
@@ -169,7 +169,7 @@ pub fn batched(case: &Case, fused: bool, each: bool) -> Option<Batched> {
 #[derive(Clone, Debug)]
 pub struct Batched {
     /// Accelerations, state by state.
-    pub accelerations: Vec<Answer>,
+    pub accelerations: Vec<CallResult>,
     /// The states after the run, and how each run ended.
     pub runs: Vec<(Vec<f64>, Result<(), SolveError>)>,
 }

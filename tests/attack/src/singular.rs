@@ -9,7 +9,7 @@ use precess_dynamics::{
 };
 use proptest::prelude::{BoxedStrategy, Strategy};
 
-use super::answers::Answer;
+use super::call_results::CallResult;
 use super::bodies::rotation;
 use super::case::{Case, List, Placed};
 use super::number::Number;
@@ -129,7 +129,7 @@ fn spacecraft(
 /// # Errors
 /// Where it does not hold.
 pub fn singular_is_refused(case: &Case) -> Verdict {
-    let refused = |answer: &Answer, what: &str| match answer {
+    let refused = |result: &CallResult, what: &str| match result {
         Err(SolveError::Singular { .. }) => Ok(()),
         other => Err(format!("{what} gives {other:?}")),
     };
@@ -144,8 +144,8 @@ pub fn singular_is_refused(case: &Case) -> Verdict {
         let fused = craft.fused().accelerations(&state, &inputs).map(|f| numbers(&f));
         refused(&fused, &format!("{shape}, fused,"))?;
     });
-    for (call, answer) in across(case).unwrap_or_default() {
-        refused(&answer, call)?;
+    for (call, result) in across(case).unwrap_or_default() {
+        refused(&result, call)?;
     }
     for fused in [false, true] {
         if let Some(found) = batched(case, fused, false) {

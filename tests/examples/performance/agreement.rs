@@ -7,7 +7,7 @@ use serde::Deserialize;
 use crate::contender::Contender;
 use crate::race::{Plan, file};
 
-/// How far results may lie apart, of a block: A2, other orders of summation and nothing else.
+/// Largest difference of results, of a block: only the order of summation differs.
 const AGREEMENT: f64 = 1e-11;
 
 /// What a contender finds.

@@ -68,7 +68,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         contenders.extend(peers.present);
         missing = peers.missing;
     }
-    refuse_skips(&missing)?;
+    reject_skips(&missing)?;
     let worst = agreement::check(&contenders, &plan, &arguments.peers)?;
     let machine = Machine::new(&measure, &pinned)?;
     let times = race(&contenders, &plan, &arguments.peers)?;
@@ -87,7 +87,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 }
 
 /// Says what is missing; fails where nothing may be.
-fn refuse_skips(missing: &[contender::Missing]) -> Result<(), String> {
+fn reject_skips(missing: &[contender::Missing]) -> Result<(), String> {
     for contender::Missing { name, missing } in missing {
         eprintln!("skipped: {name}; {missing}");
     }
