@@ -1,4 +1,4 @@
-//! Where A2's bound on the accelerations holds and where it is lost: the solver in `f64` against the
+//! Error of the accelerations where they are ill conditioned: the solver in `f64` against the
 //! same kernels in double-double, over two sweeps.
 //!
 //! - [`pose`]: the distance from the pose in which massless gimbals are singular;
@@ -83,8 +83,8 @@ pub struct Row {
     pub joints: Figures,
     /// Spacecraft that are solved.
     pub solved: usize,
-    /// Spacecraft that the solver refuses as singular.
-    pub refused: usize,
+    /// Spacecraft that the solver rejects as singular.
+    pub rejected: usize,
 }
 
 impl Row {
@@ -107,7 +107,7 @@ impl Row {
         let found = match found {
             Ok(found) => found,
             Err(SolveError::Singular { .. }) => {
-                self.refused += 1;
+                self.rejected += 1;
                 return;
             }
             Err(error) => panic!("{whose}: {error}"),
@@ -128,7 +128,7 @@ impl Row {
 ///
 /// If the solver gives an error, saying whose case it is.
 #[must_use]
-pub fn yardstick<const N: usize>(case: &Case<N, Wide>, whose: &str) -> Accelerations<Set<N, Wide>> {
+pub fn reference<const N: usize>(case: &Case<N, Wide>, whose: &str) -> Accelerations<Set<N, Wide>> {
     let found = Drawn::new(case).solved::<Whole>(whose);
     let found = found.unwrap_or_else(|error| panic!("{whose}, double-double: {error}"));
     Accelerations {

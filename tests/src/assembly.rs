@@ -14,8 +14,8 @@
 //! needs no second notation: what is left of them without any rates, under one acceleration of 1,
 //! is a column of the matrix; what is left without any accelerations changes sides.
 
-mod known;
 mod inertias;
+mod known;
 mod motors;
 mod positions;
 mod rotation;
@@ -31,8 +31,8 @@ use crate::case::{Case, Set};
 use crate::newton_euler::equations::System;
 use crate::newton_euler::vector::{Tensor, Vector};
 use crate::newton_euler::{elimination, from_list};
-use known::{Known, Motion};
 use inertias::Inertias;
+use known::{Known, Motion};
 use positions::Positions;
 
 /// The accelerations by the paper's assembly; `None` where the matrix is singular.

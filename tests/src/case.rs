@@ -44,7 +44,7 @@ impl<const N: usize, T: Scalar> Case<N, T> {
     ///
     /// # Panics
     ///
-    /// If the solver refuses the parameters, saying whose they are: a seed or a scenario.
+    /// If the solver rejects the parameters, saying whose they are: a seed or a scenario.
     #[must_use]
     pub fn spacecraft(&self, whose: impl Display) -> Spacecraft<Set<N, T>> {
         Spacecraft::new(&self.hub, &self.devices).unwrap_or_else(|error| panic!("{whose}: {error}"))

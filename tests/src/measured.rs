@@ -30,7 +30,7 @@ impl<D: Devices> Measured<D> {
     /// These devices on a hub, in motion.
     ///
     /// # Panics
-    /// If the solver refuses the devices.
+    /// If the solver rejects the devices.
     #[must_use]
     pub fn new(devices: &D) -> Self {
         let random = &mut Random::new(SEED);

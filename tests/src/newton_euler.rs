@@ -1,4 +1,4 @@
-//! The plain reference: Newton and Euler body by body, with nothing optimised.
+//! The Newton-Euler reference: each body by itself, with nothing optimised.
 //!
 //! The paper's laws, sections 3.1 to 3.3: force (6), (8), moment (75), motor torques about the
 //! centres of mass of D and V, (78)-(83), (99)-(103), (117)-(119), over kinematics that follow from
@@ -6,7 +6,7 @@
 //! (expanded positions, coefficients of (17), inertias about B): those are
 //! [`assembly`](crate::assembly). It yields the full system of `6 + 3 N` equations, whose matrix is
 //! *not* assumed symmetric, and solves it by Gaussian elimination. Generic over the scalar: in
-//! [`DoubleDouble`] it is the yardstick of the solver. It shares with the solver the parameter and
+//! [`DoubleDouble`] it is the reference of the solver. It shares with the solver the parameter and
 //! state types and nothing else.
 //!
 //! Everything is resolved along B axes. Quantities of the state that are given along N axes (the
@@ -88,7 +88,7 @@ impl<T: Scalar> Snapshot<T> {
     }
 }
 
-/// The accelerations by the plain equations; `None` where the matrix is singular.
+/// The accelerations by these equations; `None` where the matrix is singular.
 #[must_use]
 pub fn accelerations<const N: usize, T: Scalar>(
     hub: &Hub<T>,

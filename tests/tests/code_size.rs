@@ -1,4 +1,4 @@
-//! S6: the machine code of an evaluation does not grow with the number of devices.
+//! The machine code of an evaluation does not grow with the number of devices.
 //!
 //! A library with `accelerations` for four devices and one for 64 are built with optimisation and
 //! linked; the linker drops what they do not call. Needs cargo and the linker that every build needs,
@@ -51,7 +51,7 @@ fn manifest(tests: &Path) -> String {
     let source = tests.join("fixtures/accelerations_only.rs");
     let dynamics = tests.join("../dynamics");
     format!(
-        "[package]\nname = \"accelerations-alone\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
+        "[package]\nname = \"accelerations-only\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
          [workspace]\n\
          [lib]\npath = '{}'\ncrate-type = [\"cdylib\"]\n\
          [features]\nfew = []\n\
@@ -64,11 +64,7 @@ fn manifest(tests: &Path) -> String {
 
 /// The one dynamic library there, whatever the platform calls it.
 fn library(folder: &Path) -> PathBuf {
-    folder.join(format!(
-        "{}accelerations_only{}",
-        env::consts::DLL_PREFIX,
-        env::consts::DLL_SUFFIX
-    ))
+    folder.join(format!("{}accelerations_only{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX))
 }
 
 #[test]

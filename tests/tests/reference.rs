@@ -1,5 +1,5 @@
-//! The plain reference is right by itself: against finite differences of positions and against the
-//! kinetic energy alone (Boltzmann and Hamel's equations).
+//! The Newton-Euler reference against finite differences of positions and against equations derived
+//! from the kinetic energy only (Boltzmann and Hamel).
 
 use nalgebra::Vector3;
 use precess_dynamics::dgvscmg::JointAccelerations;
@@ -30,7 +30,7 @@ fn wide(x: f64) -> Wide {
 
 /// The case moved along its own motion by `time`, to second order in the angles.
 ///
-/// The attitude is left alone where it is the identity and only body components matter; it is moved
+/// The attitude is unchanged where it is the identity and only body components matter; it is moved
 /// to first order by `time * omega` otherwise, which is all a first derivative sees.
 fn moved<const N: usize>(
     case: &Case<N, Wide>,

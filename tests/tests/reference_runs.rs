@@ -1,4 +1,5 @@
-//! Runs of the plain reference by itself, in double-double: it conserves what it should.
+//! Runs of the Newton-Euler reference in double-double conserve energy less work and both momenta to
+//! the order of the method.
 //!
 //! Accelerations, kinematics, energy and momenta are the reference's own; the fourth-order steps
 //! are taken here on a list of numbers. Run with `--nocapture` to see the figures.
@@ -121,7 +122,7 @@ fn drift_of_the_reference_falls_sixteenfold() {
             coarse.into_iter().zip(fine).zip(["energy less work", "linear", "angular momentum"])
         {
             let ratio = coarse / fine;
-            println!("E4, seed {seed}, {what}: {coarse:.2e} -> {fine:.2e}, {ratio:.2}-fold");
+            println!("seed {seed}, {what}: {coarse:.2e} -> {fine:.2e}, {ratio:.2}-fold");
             assert!(ORDER.contains(&ratio), "seed {seed}, {what}: {coarse:e} to {fine:e}, {ratio}");
         }
     }

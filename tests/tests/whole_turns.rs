@@ -72,20 +72,20 @@ fn changes<const N: usize, T: Scalar>(sample: &Sample<N>) -> Vec<Error> {
         }
     }
 
-    let refused = |error: SolveError<T>| -> ! { panic!("{sample}: {error}") };
+    let rejected = |error: SolveError<T>| -> ! { panic!("{sample}: {error}") };
     let dt = T::from_f64(STEP);
     let [expected, found] = [&plain, &wrapped].map(|case| {
-        let energy = spacecraft.energy(&case.state).unwrap_or_else(|e| refused(e));
+        let energy = spacecraft.energy(&case.state).unwrap_or_else(|e| rejected(e));
         let momentum = spacecraft.momentum(&case.state, About::CentreOfMass);
-        let momentum = momentum.unwrap_or_else(|e| refused(e));
-        let centre = spacecraft.centre_of_mass(&case.state).unwrap_or_else(|e| refused(e));
-        let next = spacecraft.step(&case.state, &case.inputs, dt).unwrap_or_else(|e| refused(e));
+        let momentum = momentum.unwrap_or_else(|e| rejected(e));
+        let centre = spacecraft.centre_of_mass(&case.state).unwrap_or_else(|e| rejected(e));
+        let next = spacecraft.step(&case.state, &case.inputs, dt).unwrap_or_else(|e| rejected(e));
         (energy.to_f64(), energy, momentum, centre, next)
     });
     let (size, energy, momentum, centre, next) = expected;
     let (_, found_energy, found_momentum, found_centre, found_next) = found;
 
-    // Momenta may cancel between bodies: their unit is the sum over bodies, as in E3.
+    // Momenta may cancel between bodies: their unit is the sum over bodies.
     let magnitudes = plain.snapshot().momenta();
     let (p, h) = (magnitudes.linear_magnitudes.to_f64(), magnitudes.angular_magnitudes.to_f64());
     vec![
@@ -146,7 +146,7 @@ fn whole_turns_of_any_joint_change_nothing() {
             changes::<N, f64>(sample)
         }
     }
-    check("A4", LIMITS, InDouble);
+    check("f64", LIMITS, InDouble);
 }
 
 #[test]
@@ -158,5 +158,5 @@ fn whole_turns_of_any_joint_change_nothing_in_double_double() {
         }
     }
     // Only because the wrapped angle is corrected by a Newton step in the scalar's own precision.
-    check("A3", ROUTES_IN_DOUBLE_DOUBLE, InDoubleDouble);
+    check("double-double", ROUTES_IN_DOUBLE_DOUBLE, InDoubleDouble);
 }

@@ -1,4 +1,4 @@
-//! What every public call of a spacecraft call_results, as numbers or as an error.
+//! Results of every public call of a spacecraft, as numbers or as an error.
 
 use precess_dynamics::{
     About, Accelerations, Attitude, DeviceLoads, Devices, Each, HubMode, Inputs, JointPower,
@@ -8,10 +8,10 @@ use precess_dynamics::{
 
 use super::Placed;
 
-/// Numbers, or why there are none.
+/// Numbers, or the error.
 pub type CallResult<T = f64> = Result<Vec<T>, SolveError<T>>;
 
-/// Something that is made of numbers.
+/// A result that consists of numbers.
 pub trait Numbers<T> {
     /// Adds the numbers, in order.
     fn add_to(&self, all: &mut Vec<T>);
@@ -110,7 +110,7 @@ fn of_loads<D: Devices<Loads: Numbers<D::Scalar>>>(loads: &Loads<D>) -> Vec<D::S
     all
 }
 
-/// Accelerations of this shape, all zero: everything is held at rest. None where even that overflows.
+/// Accelerations of this shape, all zero: everything is held at rest. None if that overflows.
 #[must_use]
 pub fn no_accelerations<D: Devices>(craft: &Spacecraft<D>) -> Option<Accelerations<D>> {
     let mut inputs = Inputs::none_for(craft);
@@ -120,8 +120,8 @@ pub fn no_accelerations<D: Devices>(craft: &Spacecraft<D>) -> Option<Acceleratio
     craft.accelerations(&state, &inputs).ok()
 }
 
-/// Accelerations to ask loads for: those found, or, where there are none, what motors and forces are
-/// as numbers.
+/// Accelerations for which loads are computed: those of the state, or, if there are none, the numbers
+/// of motors and forces.
 fn wished<D: Devices>(placed: &Placed<D>) -> Option<Accelerations<D>> {
     let Placed { craft, state, inputs } = placed;
     if let Ok(found) = craft.accelerations(state, inputs) {
@@ -135,7 +135,7 @@ fn wished<D: Devices>(placed: &Placed<D>) -> Option<Accelerations<D>> {
     Some(wished)
 }
 
-/// What every call call_results.
+/// The result of every call.
 pub fn call_results<D: Devices<Loads: Numbers<D::Scalar>>>(
     placed: &Placed<D>,
     dt: D::Scalar,

@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::{About, Dgvscmg, Each, Hub, HubMode, JointStates, Mode, SloshMass};
 use proptest::prelude::{BoxedStrategy, Strategy};
 
-use super::call_results::no_accelerations;
 use super::bodies::rotation;
+use super::call_results::no_accelerations;
 use super::case::{Case, Placed};
 use super::draw::Profile;
 use super::number::Number;

@@ -5,8 +5,8 @@
 //!
 //! A campaign for workstations: nothing of it goes on board.
 
-pub mod call_results;
 pub mod bodies;
+pub mod call_results;
 pub mod campaign;
 pub mod case;
 pub mod code;
@@ -18,13 +18,13 @@ pub mod motion;
 pub mod number;
 pub mod progress;
 pub mod properties;
-pub mod typed_errors;
 pub mod residual;
 pub mod runs;
 pub mod same;
 pub mod shapes;
 pub mod singular;
 pub mod sizes;
+pub mod typed_errors;
 
 pub use case::{Case, List, Placed};
 

@@ -6,7 +6,8 @@ use proptest::prop_oneof;
 
 use super::draw::Profile;
 use super::{
-    Case, Verdict, energy, finite, limits, motion, typed_errors, residual, runs, same, shapes, singular,
+    Case, Verdict, energy, finite, limits, motion, residual, runs, same, shapes, singular,
+    typed_errors,
 };
 
 /// A promise.

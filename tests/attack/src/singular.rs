@@ -9,8 +9,8 @@ use precess_dynamics::{
 };
 use proptest::prelude::{BoxedStrategy, Strategy};
 
-use super::call_results::CallResult;
 use super::bodies::rotation;
+use super::call_results::CallResult;
 use super::case::{Case, List, Placed};
 use super::number::Number;
 use super::residual::numbers;

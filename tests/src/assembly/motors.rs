@@ -3,8 +3,8 @@
 use precess_dynamics::Scalar;
 
 use super::Device;
-use super::known::Known;
 use super::inertias::Inertias;
+use super::known::Known;
 use super::positions::{Positions, sq};
 use super::rotation::alpha_w;
 use crate::newton_euler::vector::{Vector, cross, dot, tilde};

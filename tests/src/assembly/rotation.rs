@@ -2,8 +2,8 @@
 
 use precess_dynamics::Scalar;
 
-use super::known::{Known, Motion};
 use super::inertias::{Inertias, parallel_axis};
+use super::known::{Known, Motion};
 use super::positions::Positions;
 use super::translation::{c, m_sc};
 use super::{Body, Device};

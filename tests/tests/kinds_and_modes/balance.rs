@@ -10,9 +10,9 @@ use precess_dynamics::{
 use precess_dynamics::{FixedSet, HubMode};
 
 use crate::case::{Case, Found, SEEDS, World, joints, largest};
-use crate::point_masses::{Body, PointMasses, Rates};
 use crate::devices::{Chain, Drawn};
 use crate::mixed::{Mixed, chains, drawn};
+use crate::point_masses::{Body, PointMasses, Rates};
 use crate::random::{Random, errors_of};
 
 /// Largest backward error of the accelerations, in units of the sum of the magnitudes of all terms, so

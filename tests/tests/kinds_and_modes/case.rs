@@ -108,7 +108,11 @@ impl World {
     }
 
     /// The spacecraft with these devices, with the settings of each joint in the order of the devices.
-    pub(crate) fn case<D: Devices<Scalar = f64>>(&self, devices: &D, settings: &[Joint]) -> Case<D> {
+    pub(crate) fn case<D: Devices<Scalar = f64>>(
+        &self,
+        devices: &D,
+        settings: &[Joint],
+    ) -> Case<D> {
         let Self { seed, .. } = self;
         let craft = Spacecraft::new(&self.hub, devices)
             .unwrap_or_else(|error| panic!("seed {seed:#x}: {error}"));

@@ -8,8 +8,8 @@ use precess_dynamics::{
 };
 
 use crate::case::{Case, Joint, World, joints, largest};
-use crate::point_masses::PointMasses;
 use crate::devices::Drawn;
+use crate::point_masses::PointMasses;
 use crate::random::{Random, errors_of};
 use crate::stops::sizes;
 

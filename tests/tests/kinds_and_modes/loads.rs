@@ -10,8 +10,8 @@ use precess_dynamics::{
 
 use crate::balance::{disturb, pair};
 use crate::case::{Case, World, joints, largest};
-use crate::point_masses::{Body, PointMasses, Mass, Rates};
 use crate::devices::{Chain, Drawn};
+use crate::point_masses::{Body, Mass, PointMasses, Rates};
 use crate::random::{Random, errors_of};
 
 /// Largest error, in units of the sum of the magnitudes of all terms.
@@ -118,7 +118,8 @@ fn error_along<K: Drawn>(case: &Case<[K; 2]>, masses: &PointMasses, axes: LoadAx
             let off = (axis.dot(&felt.sum) - passive[joint] - motor).abs();
             errors.push(off / (felt.size + passive[joint].abs()));
             if info.index == 0 {
-                let along = if axes == LoadAxes::Inertial { masses.bn } else { Matrix3::identity() };
+                let along =
+                    if axes == LoadAxes::Inertial { masses.bn } else { Matrix3::identity() };
                 errors.push(needed.error(mount, &along));
             }
         }
@@ -195,7 +196,8 @@ fn what_was_found_gives_the_motors_back<K: Drawn>() {
         let (_, case, masses) = pair::<K>(random);
         let found = case.accelerations();
         let Rates { r_b_n_dot: r_b_n_ddot, omega: omega_dot, joints } = Rates::of(&found);
-        let settings: Vec<_> = case.settings().iter().zip(joints).map(|(j, a)| j.prescribed(a)).collect();
+        let settings: Vec<_> =
+            case.settings().iter().zip(joints).map(|(j, a)| j.prescribed(a)).collect();
         // What a kind prescribes by itself is what it already was: zero.
         let mut given = case.with_settings(&settings);
         given.inputs.hub = HubMode::Prescribed { r_b_n_ddot, omega_dot };

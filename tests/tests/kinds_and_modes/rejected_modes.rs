@@ -19,8 +19,8 @@ fn case<K: Drawn>() -> Case<[K; 2]> {
 }
 
 /// Accelerations and steps reject with the same error.
-fn refused<K: Drawn>(case: &Case<[K; 2]>) -> SolveError {
-    let error = case.craft.accelerations(&case.state, &case.inputs).expect_err("refused");
+fn rejected<K: Drawn>(case: &Case<[K; 2]>) -> SolveError {
+    let error = case.craft.accelerations(&case.state, &case.inputs).expect_err("rejected");
     assert_eq!(case.craft.step(&case.state, &case.inputs, 1e-3), Err(error));
     error
 }
@@ -35,7 +35,7 @@ fn locking_a_joint_that_moves_names_device_joint_and_rate() {
             moving.mode = Mode::Locked;
             let rate = moving.state[1];
             let expected = SolveError::LockedJointMoves { device, joint: name, rate };
-            assert_eq!(refused(&case.with_settings(&settings)), expected);
+            assert_eq!(rejected(&case.with_settings(&settings)), expected);
             settings[3 * device + joint].state[1] = 0.0;
             case.with_settings(&settings).accelerations();
         }
@@ -44,7 +44,7 @@ fn locking_a_joint_that_moves_names_device_joint_and_rate() {
     sliding.inputs.modes[1].slosh_mass = Mode::Locked;
     let rate = sliding.state.devices[1].x_dot;
     let expected = SolveError::LockedJointMoves { device: 1, joint: "slosh mass", rate };
-    assert_eq!(refused(&sliding), expected);
+    assert_eq!(rejected(&sliding), expected);
 }
 
 #[test]
@@ -53,9 +53,9 @@ fn fixing_a_hub_that_moves_tells_its_velocity() {
     let mut case = case::<Dgvscmg>();
     case.inputs.hub = HubMode::Fixed;
     (case.state.r_b_n_dot, case.state.omega) = (still, Vector3::new(0.1, -0.4, 0.2));
-    assert_eq!(refused(&case), SolveError::FixedHubMoves { value: -0.4 });
+    assert_eq!(rejected(&case), SolveError::FixedHubMoves { value: -0.4 });
     (case.state.r_b_n_dot, case.state.omega) = (Vector3::new(0.0, 0.0, 3.0), still);
-    assert_eq!(refused(&case), SolveError::FixedHubMoves { value: 3.0 });
+    assert_eq!(rejected(&case), SolveError::FixedHubMoves { value: 3.0 });
     case.state.r_b_n_dot = still;
     assert!(case.craft.accelerations(&case.state, &case.inputs).is_ok());
 }
@@ -70,7 +70,7 @@ fn wheel_takes_no_other_mode<K: Drawn>() {
         settings[K::JOINTS.len() + last].mode = mode;
         let asked = case.with_settings(&settings);
         let expected = SolveError::NotDriven { device: 1, joint: "wheel" };
-        assert_eq!(refused(&asked), expected, "{mode:?}");
+        assert_eq!(rejected(&asked), expected, "{mode:?}");
         assert_eq!(asked.craft.stop(&asked.state, &asked.inputs), Err(expected), "{mode:?}");
     }
     assert_eq!(case.inputs.modes.values().last(), Some(Mode::Prescribed(0.0)));

@@ -8,9 +8,9 @@ use precess_dynamics::{
 };
 
 use crate::case::{Case, Joint, SEEDS, World, joints, largest};
-use crate::point_masses::{Body, PointMasses, Rates};
 use crate::devices::Drawn;
 use crate::mixed::{Mixed, chains, drawn};
+use crate::point_masses::{Body, PointMasses, Rates};
 use crate::random::{Random, errors_of};
 
 /// Largest error of energy and momentum, of the kinetic energy and of the sum of the bodies' momenta:

@@ -1,5 +1,5 @@
-//! The blocked-force test: on a table that stands still, a wheel at constant speed is felt as the
-//! rotating force and torque that its data sheet states.
+//! The blocked-force test: on a table that stands still, a wheel at constant speed exerts the
+//! rotating force and torque of its data sheet.
 
 use core::f64::consts::TAU;
 
@@ -13,8 +13,8 @@ use precess_dynamics::{
 use crate::bounds::Worst;
 use crate::craft::{Case, Craft, LoadsOfDevice};
 use crate::draw::Drawn;
-use crate::random::{Random, SEED};
 use crate::kinematics::{self, Frame, turned};
+use crate::random::{Random, SEED};
 
 /// A dozen roundings of forces of this size.
 const READING: f64 = 1e-12;
@@ -54,20 +54,21 @@ fn clamped_case<K: Drawn>(seed: u64, device: K, [theta, spin]: [f64; 2]) -> Case
     Case { seed, hub, devices: device, craft, state, inputs }
 }
 
-/// What the table feels about B, what the mount feels about its own origin, and where the wheel is.
+/// Wrench on the table about B, wrench on the mount about its origin, and the frame of the wheel.
 fn reading<K: Drawn>(case: &Case<K>) -> (Wrench, Wrench, Frame, Vector3<f64>) {
     let found = case.accelerations();
     let loads = case.craft.loads(&case.state, &case.inputs, &found, LoadAxes::Hub);
     let loads = loads.unwrap_or_else(|error| panic!("{case}: {error}"));
     let none = Wrench::none();
     let table = none.minus(&loads.hub);
-    let [LoadsOfDevice { mount, .. }] = <K as Craft>::loads_of_devices(&loads.devices).try_into().expect("one device");
+    let [LoadsOfDevice { mount, .. }] =
+        <K as Craft>::loads_of_devices(&loads.devices).try_into().expect("one device");
     let [device] = kinematics::bodies(case, &found).try_into().expect("one device");
     let wheel = device.last().expect("a wheel").frame;
     (table, none.minus(&mount), wheel, device[0].frame.origin)
 }
 
-/// Eight phases, both senses, twenty-four places of a turn.
+/// Eight phases, both senses, twenty-four angles of a turn.
 fn check<K: OffBalance>(model: ImbalanceModel, worst: &mut Worst) {
     for number in 0..8_u32 {
         let seed = SEED + u64::from(number);
@@ -78,9 +79,9 @@ fn check<K: OffBalance>(model: ImbalanceModel, worst: &mut Worst) {
             phase: TAU * f64::from(number) / 8.0 + 0.1,
         };
         let device = <K as Drawn>::drawn(random, 100.0).with(&sheet, model);
-        for place in 0..24_u32 {
-            let spin = if place % 2 == 0 { 300.0 } else { -450.0 };
-            let case = clamped_case(seed, device, [TAU * f64::from(place) / 24.0, spin]);
+        for angle in 0..24_u32 {
+            let spin = if angle % 2 == 0 { 300.0 } else { -450.0 };
+            let case = clamped_case(seed, device, [TAU * f64::from(angle) / 24.0, spin]);
             let (table, mount, wheel, origin) = reading(&case);
 
             // By the data sheet, through W along the wheel's axes at this angle.
@@ -123,17 +124,17 @@ fn readings_over_a_turn_have_the_size_and_the_lead_of_the_data_sheet() {
     let sheet = Imbalance { u_s: 3.2e-4, u_d: 1.54e-6, phase: 0.7 };
     let disc = Matrix3::from_diagonal(&Vector3::new(0.02, 0.011, 0.011));
     let wheel = ReactionWheel::bare_wheel(4.0, disc).with_imbalance(&sheet).expect("an imbalance");
-    let (places, spin) = (16_u32, 500.0);
+    let (angles, spin) = (16_u32, 500.0);
     // First harmonics of y and z as cosine and sine of the angle.
     let mut harmonics = [[0.0; 2]; 4];
-    for place in 0..places {
-        let theta = TAU * f64::from(place) / f64::from(places);
+    for angle in 0..angles {
+        let theta = TAU * f64::from(angle) / f64::from(angles);
         let (table, ..) = reading(&clamped_case(SEED, wheel, [theta, spin]));
         let (sin, cos) = libm::sincos(theta);
         let readings = [table.force.y, table.force.z, table.moment.y, table.moment.z];
         for (harmonic, reading) in harmonics.iter_mut().zip(readings) {
-            harmonic[0] += reading * cos * 2.0 / f64::from(places);
-            harmonic[1] += reading * sin * 2.0 / f64::from(places);
+            harmonic[0] += reading * cos * 2.0 / f64::from(angles);
+            harmonic[1] += reading * sin * 2.0 / f64::from(angles);
         }
         assert_eq!(table.force.x, 0.0);
     }
@@ -164,7 +165,7 @@ fn balanced_wheels_leave_the_table_still() {
             let (table, mount, ..) = reading(&case);
             let [chain] = device.chains().try_into().expect("one device");
             let rotor = chain.bodies.last().expect("a wheel");
-            // Of what a rotor standing across its axis would give.
+            // Of what a rotor across its axis would give.
             let unit = READING * rotor.inertia[(0, 0)] * 600.0 * 600.0;
             for felt in [table, mount] {
                 assert_eq!(felt.force, Vector3::zeros(), "{case}");

@@ -1,12 +1,12 @@
-//! The numbers that more than one suite is held to, and how many spacecraft.
+//! Bounds that more than one module uses, and the number of spacecraft.
 
-/// E1 and A1: rounding of a dozen roundings in a row, in epsilons of the sum of magnitudes.
+/// Largest residual, in epsilons of the sum of magnitudes: a dozen roundings in a row.
 pub(crate) const EPSILONS: f64 = 50.0;
 
-/// E2 and E3: what an integrator at a tolerance of 1e-13 keeps, of the unit named at the place.
+/// Largest drift of energy less work and of momentum with a tolerance of 1e-13, of the unit named there.
 pub(crate) const DRIFT: f64 = 1e-12;
 
-/// A4: the same physics with other rounding, of the block.
+/// Largest difference of the same physics with other rounding, of the block.
 pub(crate) const LIMIT: f64 = 1e-12;
 
 /// Spacecraft drawn of each set; the two sets hold every kind.

@@ -25,20 +25,20 @@ pub(crate) type Others =
 /// 6000 rpm.
 const FASTEST_WHEEL: f64 = 6000.0 * TAU / 60.0;
 
-/// A device as its bodies: what a plain walk needs.
+/// A device as its bodies: what the reference kinematics need.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
     pub(crate) mount: Matrix3<f64>,
     pub(crate) bodies: Vec<BodyParameters<f64>>,
     pub(crate) infos: &'static [JointInfo],
-    /// Whether the outermost body is told along its carrier's axes.
+    /// Whether wrenches on the last body are expressed in its parent body's axes.
     pub(crate) round: bool,
     pub(crate) passives: Vec<Passive>,
-    /// `U_s`, `J_12`, `J_13` of the simplified model; the last body is without them then.
+    /// `U_s`, `J_12`, `J_13` of the simplified model; the last body is without them in this case.
     pub(crate) lumped: Option<[f64; 3]>,
 }
 
-/// Loads of one device, of whatever kind.
+/// Loads of one device of any kind.
 #[derive(Clone, Debug)]
 pub(crate) struct LoadsOfDevice {
     pub(crate) mount: Wrench,
@@ -46,7 +46,7 @@ pub(crate) struct LoadsOfDevice {
     pub(crate) motors: Vec<f64>,
 }
 
-/// A set that can be drawn and taken apart.
+/// A set that can be drawn at random and split into chains of bodies.
 pub(crate) trait Craft: FixedSet<Scalar = f64> {
     fn drawn(random: &mut Random, heaviest: f64) -> Self;
     fn chains(&self) -> Vec<Chain>;
@@ -72,25 +72,27 @@ impl<K: Drawn> Craft for K {
         vec![Chain { mount, bodies, infos, round, passives, lumped }]
     }
 
-    fn loads_of_devices(DeviceLoads { mount, joints, motors, .. }: &Self::Loads) -> Vec<LoadsOfDevice> {
+    fn loads_of_devices(
+        DeviceLoads { mount, joints, motors, .. }: &Self::Loads,
+    ) -> Vec<LoadsOfDevice> {
         let (joints, motors) = (joints.values().collect(), motors.values().collect());
         vec![LoadsOfDevice { mount: *mount, joints, motors }]
     }
 }
 
 macro_rules! sets {
-    ($($($member:ident $place:tt),*;)*) => {$(
+    ($($($member:ident $index:tt),*;)*) => {$(
         impl<$($member: Craft),*> Craft for ($($member,)*) {
             fn drawn(random: &mut Random, heaviest: f64) -> Self {
                 ($($member::drawn(random, heaviest),)*)
             }
 
             fn chains(&self) -> Vec<Chain> {
-                [$(self.$place.chains()),*].concat()
+                [$(self.$index.chains()),*].concat()
             }
 
             fn loads_of_devices(loads: &Self::Loads) -> Vec<LoadsOfDevice> {
-                [$($member::told(&loads.$place)),*].concat()
+                [$($member::loads_of_devices(&loads.$index)),*].concat()
             }
         }
     )*};
@@ -200,7 +202,7 @@ impl<D: Craft> Case<D> {
     }
 }
 
-/// All that is needed to have the spacecraft again.
+/// All that is needed to draw the spacecraft again.
 impl<D: Craft> Display for Case<D> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let first = self.craft.joints().next().map_or("none", |(_, info)| info.body);

@@ -1,7 +1,7 @@
 //! Every kind with random parameters: over the declared ranges, as real bodies have them.
 //!
 //! Masses log-uniform from 0.1 kg to the hub's; positions and offsets to 3 m; wheels are discs of
-//! 0.02 to 0.5 m, tilted by 1e-6 to 0.1 rad, their centres 1e-6 m to a radius beside the axis. One
+//! 0.02 to 0.5 m, tilted by 1e-6 to 0.1 rad, their centres 1e-6 m to a radius off the axis. One
 //! imbalanced wheel in four has the simplified model. Two joints in three have spring, damper and
 //! Coulomb friction.
 
@@ -16,7 +16,7 @@ use crate::random::Random;
 
 /// A kind that can be drawn.
 pub(crate) trait Drawn: Kind<Scalar = f64> {
-    /// Whether its outermost body is the same from every angle: told along its carrier's axes.
+    /// Whether its last body is symmetric about its joint: its axes are then its parent body's.
     const ROUND: bool;
 
     /// A device with no body heavier than this, kg.
@@ -61,7 +61,7 @@ fn passive<K: Kind<Scalar = f64>>(random: &mut Random) -> K::PerJoint<Passive> {
     all
 }
 
-/// Mass, inertia, and how far the centre stands beside the axis.
+/// Mass, inertia, and offset of the centre from the axis.
 fn wheel(random: &mut Random, heaviest: f64) -> (f64, Matrix3<f64>, f64) {
     let m_w = mass(random, heaviest);
     let (inertia, radius) = random.tilted_disc(m_w);

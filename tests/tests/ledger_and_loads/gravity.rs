@@ -1,4 +1,4 @@
-//! Gravity and point forces against what a textbook says of them.
+//! Gravity and point forces against textbook formulas.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
@@ -8,8 +8,8 @@ use precess_dynamics::{
 
 use crate::bounds::{LIMIT, SPACECRAFT, Worst};
 use crate::craft::{Case, Craft, Mixed, Others};
-use crate::random::SEED;
 use crate::kinematics;
+use crate::random::SEED;
 
 /// A step of RK4 for a comparison of two runs that take the same steps, s: a wheel turns by 0.6 rad.
 const STEP: f64 = 1e-3;
@@ -223,7 +223,10 @@ fn point_force_on_a_locked_body_is_one_on_the_hub() {
             assert_eq!(with(force_alone.moved(&point)), on_body, "{case}");
 
             let mut inputs = case.inputs.clone();
-            inputs.add_force(&(body.frame.origin + body.load_axes * point), &(body.load_axes * force));
+            inputs.add_force(
+                &(body.frame.origin + body.load_axes * point),
+                &(body.load_axes * force),
+            );
             let on_hub = case.craft.accelerations(&case.state, &inputs).expect("a solution");
             for (a, b) in
                 [(on_body.r_b_n_ddot, on_hub.r_b_n_ddot), (on_body.omega_dot, on_hub.omega_dot)]

@@ -1,5 +1,5 @@
-//! Bodies outward from the hub by the two theorems of rigid motion, velocities and accelerations of
-//! points, written down plainly: the other side of every comparison.
+//! The reference of this suite: motion of the bodies from the hub to the tip, by velocity and
+//! acceleration of points of a rigid body, without emitted code.
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use precess_dynamics::kind::JointInfo;
@@ -22,13 +22,13 @@ pub(crate) struct Frame {
     pub(crate) of_acceleration: f64,
 }
 
-/// A body behind its joint.
+/// The child body of a joint.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     pub(crate) frame: Frame,
-    /// The axes along which its wrenches are told.
+    /// The axes in which its wrenches are expressed.
     pub(crate) load_axes: Matrix3<f64>,
-    pub(crate) carrier: Matrix3<f64>,
+    pub(crate) parent: Matrix3<f64>,
     pub(crate) mass: f64,
     /// Its centre of mass from its joint's origin, along B axes.
     pub(crate) arm: Vector3<f64>,
@@ -52,8 +52,8 @@ impl Frame {
         (self.velocity + relative, acceleration, of_terms)
     }
 
-    /// The frame behind a joint, and its origin's place on the carrier.
-    fn behind(
+    /// The frame of the child body of a joint, from the joint's origin in this frame.
+    fn child(
         &self,
         info: &JointInfo,
         origin: &Vector3<f64>,
@@ -64,15 +64,15 @@ impl Frame {
         let hat = self.axes * axis;
         let slide = if info.slides { hat * q } else { Vector3::zeros() };
         let arm = self.axes * origin + slide;
-        let (velocity, of_place, of_terms) = self.of_point(&arm);
+        let (velocity, of_origin, of_terms) = self.of_point(&arm);
         let mut next = Self {
             origin: self.origin + arm,
             velocity,
-            acceleration: of_place,
+            acceleration: of_origin,
             of_acceleration: of_terms,
             ..*self
         };
-        // Twice the carrier's rate times the relative one, for a velocity or an angular velocity.
+        // Twice the parent body's rate times the relative one, for a velocity or an angular velocity.
         let turned = self.omega.cross(&(hat * rate));
         if info.slides {
             next.velocity += hat * rate;
@@ -146,17 +146,17 @@ fn outwards<D: Craft>(
     hub: &Frame,
     joints: &[([f64; 3], Wrench)],
 ) -> Vec<Body> {
-    // The first origin is along B axes, everything after it along the carrier's.
-    let mut carrier = Frame { axes: chain.mount, ..*hub };
+    // The first origin is along B axes, all others along the parent body's.
+    let mut parent = Frame { axes: chain.mount, ..*hub };
     let mut bodies = Vec::new();
     for ((parameters, info), (joint, wrench)) in chain.bodies.iter().zip(chain.infos).zip(joints) {
         let mut origin = Vector3::from(parameters.origin);
         if info.index == 0 {
             origin = chain.mount.transpose() * origin;
         }
-        let frame = carrier.behind(info, &origin, *joint);
-        let told = if info.tip && chain.round { carrier.axes } else { frame.axes };
-        let mut applied = turned(&told, wrench);
+        let frame = parent.child(info, &origin, *joint);
+        let load_axes = if info.tip && chain.round { parent.axes } else { frame.axes };
+        let mut applied = turned(&load_axes, wrench);
         if let (true, Some([u_s, j_12, j_13])) = (info.tip, chain.lumped) {
             let square = joint[1] * joint[1];
             let force = Vector3::new(0.0, u_s, 0.0) * square;
@@ -166,8 +166,8 @@ fn outwards<D: Craft>(
         let arm = frame.axes * Vector3::from(parameters.centre);
         let body = Body {
             frame,
-            told,
-            carrier: carrier.axes,
+            load_axes,
+            parent: parent.axes,
             mass: parameters.mass,
             arm,
             centre: frame.origin + arm,
@@ -178,7 +178,7 @@ fn outwards<D: Craft>(
         let pull = pull(case, body.mass, &body.centre, &body.inertia);
         let applied = body.applied.plus(&pull.moved(&arm));
         bodies.push(Body { applied, ..body });
-        carrier = frame;
+        parent = frame;
     }
     bodies
 }
@@ -206,7 +206,7 @@ pub(crate) fn pull<D: Craft>(
     }
 }
 
-/// Along B axes, from these axes.
+/// Expressed in B, from these axes.
 pub(crate) fn turned(axes: &Matrix3<f64>, wrench: &Wrench) -> Wrench {
     Wrench { force: axes * wrench.force, moment: axes * wrench.moment }
 }
@@ -221,7 +221,7 @@ pub(crate) fn hub_needs<D: Craft>(case: &Case<D>, found: &Accelerations<D>) -> W
     Wrench { force, moment: euler + case.hub.r_bc_b.cross(&force) }
 }
 
-/// What gravity exerts on the hub about B, with the force on the whole that goes with the potential:
+/// What gravity exerts on the hub about B, with the third-order force on the spacecraft that belongs to the potential:
 /// `½ ∂(G : S)/∂R`, S the second moment of all bodies about B.
 pub(crate) fn hub_pull<D: Craft>(case: &Case<D>, devices: &[Vec<Body>]) -> Wrench {
     let own = pull(case, case.hub.m_b, &case.hub.r_bc_b, &case.hub.i_b_bc);
@@ -254,7 +254,7 @@ pub(crate) fn weight<D: Craft>(case: &Case<D>, found: &Accelerations<D>) -> Vect
 }
 
 /// Sums over the bodies of the magnitudes of linear momentum and, about a point from B along B axes,
-/// of angular momentum: what drifts are told in.
+/// of angular momentum: the units of drifts.
 pub(crate) fn momentum_units<D: Craft>(
     case: &Case<D>,
     found: &Accelerations<D>,

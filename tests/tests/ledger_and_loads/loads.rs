@@ -1,14 +1,13 @@
-//! Loads by free bodies: what each body feels of its joints, of gravity and from outside makes it
-//! move as it does, and the hub alone, pushed by the reversed mount loads, accelerates as it was
-//! found to.
+//! Loads on free bodies: each body has the acceleration that its joint loads, gravity and external
+//! wrenches give it by Newton and Euler, and the hub the one that the reversed mount loads give it.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Attitude, Each, HubMode, LoadAxes, Loads, Mode, Passive, Wrench};
 
 use crate::bounds::{EPSILONS, SPACECRAFT, Worst};
-use crate::craft::{Case, Craft, Mixed, Others, LoadsOfDevice};
-use crate::random::SEED;
+use crate::craft::{Case, Craft, LoadsOfDevice, Mixed, Others};
 use crate::kinematics::{self, Body, turned};
+use crate::random::SEED;
 
 const AXES: [LoadAxes; 4] = [LoadAxes::Body, LoadAxes::Parent, LoadAxes::Hub, LoadAxes::Inertial];
 
@@ -17,11 +16,11 @@ fn loads<D: Craft>(case: &Case<D>, axes: LoadAxes) -> Loads<D> {
     found.unwrap_or_else(|error| panic!("{case}: {error}"))
 }
 
-/// The axes along which the load of a body's joint is told.
+/// The axes in which the load of a body's joint is expressed.
 fn axes_of(body: &Body, axes: LoadAxes, nb: &Matrix3<f64>) -> Matrix3<f64> {
     match axes {
         LoadAxes::Body => body.load_axes,
-        LoadAxes::Parent => body.carrier,
+        LoadAxes::Parent => body.parent,
         LoadAxes::Hub => Matrix3::identity(),
         LoadAxes::Inertial => nb.transpose(),
     }
@@ -29,12 +28,12 @@ fn axes_of(body: &Body, axes: LoadAxes, nb: &Matrix3<f64>) -> Matrix3<f64> {
 
 /// Newton and Euler of one device's bodies; the largest error, in epsilons of the terms of all bodies
 /// from this one outwards.
-fn free_bodies(bodies: &[Body], told: &[Wrench]) -> f64 {
+fn free_bodies(bodies: &[Body], loads: &[Wrench]) -> f64 {
     let mut worst = Worst::default();
     let (mut of_force, mut of_moment) = (0.0, 0.0);
-    // From the tip inwards: what a joint carries is as large as all that is behind it.
+    // From the tip inwards: the load of a joint is as large as all terms outboard of it.
     let mut beyond = None;
-    for (body, load) in bodies.iter().zip(told).rev() {
+    for (body, load) in bodies.iter().zip(loads).rev() {
         let mut felt = load.plus(&body.applied);
         let origin = body.frame.origin;
         if let Some((next, of_next)) = beyond {
@@ -54,7 +53,7 @@ fn free_bodies(bodies: &[Body], told: &[Wrench]) -> f64 {
     worst.0
 }
 
-/// Zero of nothing is zero.
+/// Zero where the unit is zero too.
 fn share(error: f64, unit: f64) -> f64 {
     if error == 0.0 { 0.0 } else { error / unit }
 }
@@ -66,9 +65,9 @@ fn loads_move_every_body_as_it_moves_along_any_axes() {
         let devices = kinematics::bodies(&case, &case.accelerations());
         let nb = case.state.attitude.dcm().transpose();
         for axes in AXES {
-            let told = D::loads_of_devices(&loads(&case, axes).devices);
-            assert_eq!(told.len(), devices.len());
-            for (bodies, LoadsOfDevice { mount, joints, .. }) in devices.iter().zip(told) {
+            let loads = D::loads_of_devices(&loads(&case, axes).devices);
+            assert_eq!(loads.len(), devices.len());
+            for (bodies, LoadsOfDevice { mount, joints, .. }) in devices.iter().zip(loads) {
                 let joints: Vec<_> = bodies
                     .iter()
                     .zip(joints)
@@ -97,31 +96,33 @@ fn loads_move_every_body_as_it_moves_along_any_axes() {
 }
 
 /// The hub as a body of its own: what acts on it are the reversed loads of the mounts, the inputs,
-/// gravity and, where it is held, what holds it.
+/// gravity and, on a fixed hub, the load of its table.
 #[test]
 fn reversed_mount_loads_accelerate_the_hub() {
     fn check<D: Craft>(seed: u64, worst: &mut Worst) {
         let case = Case::<D>::drawn(seed);
         let found = case.accelerations();
-        let told = loads(&case, LoadAxes::Hub);
+        let loads = loads(&case, LoadAxes::Hub);
         let devices = kinematics::bodies(&case, &found);
         let mut acting = Wrench { force: case.inputs.force, moment: case.inputs.torque_b }
             .plus(&kinematics::hub_pull(&case, &devices));
         if case.inputs.hub != HubMode::Free {
-            acting = acting.plus(&told.hub);
+            acting = acting.plus(&loads.hub);
         }
         let (mut of_force, mut of_moment) = (acting.force.norm(), acting.moment.norm());
-        for (bodies, LoadsOfDevice { mount, .. }) in devices.iter().zip(D::loads_of_devices(&told.devices)) {
+        for (bodies, LoadsOfDevice { mount, .. }) in
+            devices.iter().zip(D::loads_of_devices(&loads.devices))
+        {
             let carried = mount.moved(&bodies[0].frame.origin);
             acting = acting.minus(&carried);
             of_force += carried.force.norm();
             of_moment +=
                 carried.moment.norm() + bodies[0].frame.origin.norm() * carried.force.norm();
         }
-        // A free hub needs nothing beside what acts on it.
+        // A free hub needs no further wrench.
         if case.inputs.hub == HubMode::Free {
             let [force, moment] =
-                [told.hub.force.norm() / of_force, told.hub.moment.norm() / of_moment];
+                [loads.hub.force.norm() / of_force, loads.hub.moment.norm() / of_moment];
             assert!(force.max(moment) <= EPSILONS * f64::EPSILON, "{force:e}, {moment:e}; {case}");
         }
         // About the centre of mass, and back to B.
@@ -153,24 +154,24 @@ fn reversed_mount_loads_accelerate_the_hub() {
     println!("hub as a free body: worst {:.2e}", worst.0);
 }
 
-/// A joint's load about its axis is motor, spring and friction together; a driven joint's motor is
-/// the one that was given.
+/// A joint's load about its axis is motor, spring and friction together; a driven joint's motor
+/// torque is the input.
 #[test]
 fn load_about_a_joint_is_motor_spring_and_friction() {
     fn check<D: Craft>(seed: u64, worst: &mut Worst) {
         let case = Case::<D>::drawn(seed);
-        let told = D::loads_of_devices(&loads(&case, LoadAxes::Hub).devices);
+        let devices = D::loads_of_devices(&loads(&case, LoadAxes::Hub).devices);
         let found = case.accelerations();
         let mut given = case.inputs.motors.values().zip(case.inputs.modes.values());
         let chains = case.devices.chains();
         let mut states =
             case.joints().into_iter().zip(chains.iter().flat_map(|chain| chain.passives.clone()));
-        for (bodies, told) in kinematics::bodies(&case, &found).iter().zip(told) {
+        for (bodies, device) in kinematics::bodies(&case, &found).iter().zip(devices) {
             let (mut of_force, mut of_moment) = (0.0, 0.0);
             let mut errors = Vec::new();
             // The joints' own data, and from the tip inwards what each is a sum of.
             let joints: Vec<_> = given.by_ref().zip(states.by_ref()).take(bodies.len()).collect();
-            let loads = bodies.iter().zip(&told.joints).zip(&told.motors);
+            let loads = bodies.iter().zip(&device.joints).zip(&device.motors);
             let mut beyond = None;
             for (((body, load), motor), joint) in loads.zip(joints).rev() {
                 let ((torque, mode), ([q, rate], passive)) = joint;

@@ -1,6 +1,5 @@
-//! The ledger of mixed spacecraft: where the energy goes, what joints and mounts carry, what a
-//! dynamometer reads, what gravity does. Against laws and Newton's own, with no emitted kernel on the
-//! other side.
+//! Energy ledger, loads and gravity of mixed spacecraft, against conservation laws and Newton and
+//! Euler for each body, without emitted kernels in the reference.
 //!
 //! Run with `--nocapture` to see the figures.
 
@@ -9,6 +8,7 @@ mod bounds;
 mod craft;
 mod draw;
 mod gravity;
+mod kinematics;
 mod loads;
 mod orbit;
 mod pointwise;
@@ -17,4 +17,3 @@ mod rates;
 mod run;
 mod runs;
 mod simplified;
-mod kinematics;

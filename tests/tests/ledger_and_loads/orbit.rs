@@ -1,5 +1,5 @@
-//! An orbit with fast wheels and nothing that drives or rubs: kinetic, potential and spring energy
-//! stay in sum, and so does angular momentum about the centre.
+//! An orbit with fast wheels, without motors and friction: the sum of kinetic, potential and spring
+//! energy is conserved, and so is angular momentum about the centre.
 
 use core::f64::consts::TAU;
 
@@ -11,8 +11,8 @@ use precess_dynamics::{
 
 use crate::bounds::{DRIFT, Worst};
 use crate::craft::Case;
-use crate::run::run;
 use crate::kinematics;
+use crate::run::run;
 
 type Craft = (BalancedVscmg, Dgvscmg, HingedPanel);
 
@@ -79,6 +79,6 @@ fn energy_and_angular_momentum_about_the_centre_stay_once_round() {
     println!("orbit: {steps} steps; energy {:.1e}, angular {:.1e}", energy.0, angular.0);
     assert!(energy.0 <= DRIFT, "energy drifts by {:e}", energy.0);
     assert!(angular.0 <= DRIFT, "angular momentum drifts by {:e}", angular.0);
-    // Gravity did work on the way: B's orbit is no circle of the whole.
+    // Gravity does work along the orbit: B's orbit is no circle of the whole.
     assert!(exchanged > 1e-3, "gravity exchanged {exchanged:e} of the energy");
 }

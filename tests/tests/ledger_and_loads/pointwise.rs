@@ -1,11 +1,11 @@
-//! The ledger at one instant: row E1.
+//! The energy ledger at one instant: its residual, and each power as force times velocity.
 
 use precess_dynamics::{HubMode, Ledger, Wrench};
 
 use crate::bounds::{EPSILONS, SPACECRAFT, Worst};
 use crate::craft::{Case, Craft, Mixed, Others};
-use crate::random::SEED;
 use crate::kinematics::{self, Frame};
+use crate::random::SEED;
 
 fn ledger<D: Craft>(case: &Case<D>) -> Ledger {
     let found = case.craft.ledger(&case.state, &case.inputs, &case.accelerations());
@@ -21,7 +21,7 @@ fn powers_of_all_sources_are_the_rate_of_kinetic_energy() {
         let error = ledger.residual.abs();
         // Nothing moves on a fixed hub with every joint locked, and zero is zero.
         worst.add(if error == 0.0 { 0.0 } else { error / unit });
-        assert!(error <= EPSILONS * unit, "E1: {} eps; {case}", error / unit);
+        assert!(error <= EPSILONS * unit, "residual of {} eps; {case}", error / unit);
         assert!(ledger.power.friction <= 0.0, "{case}");
         let held = matches!(case.inputs.hub, HubMode::Prescribed { .. });
         assert!(held || ledger.power.hub == 0.0, "{case}");
@@ -31,12 +31,12 @@ fn powers_of_all_sources_are_the_rate_of_kinetic_energy() {
         check::<Mixed>(seed, &mut worst);
         check::<Others>(seed, &mut worst);
     }
-    println!("E1, mixed kinds: worst {:.2} eps", worst.0);
+    println!("residual, mixed kinds: worst {:.2} eps", worst.0);
 }
 
-/// The residual cannot see what both sides have wrong: each power once more, as force times velocity
-/// of the point it acts on, from the plain walk. Its unit is the sum of the walk's own terms: a body's
-/// force as a part of its centripetal one, and so on.
+/// An error in both sides of the balance leaves the residual zero. So each power is compared with force
+/// times velocity of its point, from the reference kinematics. The unit is the sum of the magnitudes of
+/// their terms: a body's force as a part of its centripetal one, and so on.
 #[test]
 fn powers_are_forces_times_velocities() {
     fn check<D: Craft>(seed: u64, worst: &mut Worst) {
@@ -48,7 +48,8 @@ fn powers_are_forces_times_velocities() {
             |wrench: &Wrench| wrench.force.dot(&hub.velocity) + wrench.moment.dot(&hub.omega);
         let given = Wrench { force: case.inputs.force, moment: case.inputs.torque_b };
         let devices = kinematics::bodies(&case, &found);
-        let (needed, pull) = (kinematics::hub_needs(&case, &found), kinematics::hub_pull(&case, &devices));
+        let (needed, pull) =
+            (kinematics::hub_needs(&case, &found), kinematics::hub_pull(&case, &devices));
         let mut outside = of_hub(&given) + of_hub(&pull);
         let mut kinetic_rate = of_hub(&needed);
         let mut unit = ledger.magnitude;

@@ -9,7 +9,7 @@ use precess_tests::random;
 /// All suites start here; spacecraft `n` of a suite is drawn from `SEED + n`.
 pub(crate) const SEED: u64 = 0x1AC_17C1;
 
-/// The suites' generator, with what mixed spacecraft are drawn from beside it.
+/// The suites' generator, with the distributions that mixed spacecraft are drawn from.
 #[derive(Clone, Debug)]
 pub(crate) struct Random(random::Random);
 

@@ -1,7 +1,7 @@
-//! A run of minutes that keeps thirteen digits: state and works together through DOP853.
+//! Runs of minutes to thirteen digits: DOP853 over the state and the works of all sources.
 //!
 //! Attitude as a quaternion, normalised wherever it is read. A wheel's angle is brought back by whole
-//! turns, since rounding it in every step would walk momentum away from the hub.
+//! turns, since rounding it in every step would change the hub's momentum step by step.
 
 use core::cell::RefCell;
 use core::f64::consts::TAU;
@@ -50,7 +50,7 @@ pub(crate) struct Works {
 /// The equations of motion in the integrator's terms.
 struct Motion<'a, D: Craft> {
     case: &'a Case<D>,
-    /// The integrator has no way to hear of an error: it is kept here, and the step is refused.
+    /// The integrator's interface has no errors: the error is kept here, and the step is rejected.
     failure: RefCell<Option<SolveError>>,
 }
 
@@ -74,15 +74,15 @@ pub(crate) fn run<D: Craft>(
     controlled[y.len() - 1] = f64::INFINITY;
     let mut method =
         ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(controlled).max_steps(STEPS_MAX).h0(1e-4);
-    let refused = |error| -> ! { panic!("{case}: {error:?}, {:?}", motion.failure.borrow()) };
-    method.init(&motion, 0.0, duration, &y).unwrap_or_else(|error| refused(error));
+    let rejected = |error| -> ! { panic!("{case}: {error:?}, {:?}", motion.failure.borrow()) };
+    method.init(&motion, 0.0, duration, &y).unwrap_or_else(|error| rejected(error));
     let mut steps = 0;
     // The last sum of times may miss the end by its rounding.
     while duration - method.t() > 4.0 * f64::EPSILON * duration {
         method.set_h(method.h().min(duration - method.t()));
         let mut rejections = 0;
         loop {
-            method.step(&motion).unwrap_or_else(|error| refused(error));
+            method.step(&motion).unwrap_or_else(|error| rejected(error));
             if !matches!(method.status(), Status::RejectedStep) {
                 break;
             }
@@ -97,7 +97,7 @@ pub(crate) fn run<D: Craft>(
             method.h0 = method.h().min(rest);
             let time = method.t();
             if rest > 0.0 {
-                method.init(&motion, time, duration, &y).unwrap_or_else(|error| refused(error));
+                method.init(&motion, time, duration, &y).unwrap_or_else(|error| rejected(error));
             }
         }
         report(&y, &mut show);

@@ -1,5 +1,5 @@
-//! A minute of six kinds together: energy is what the works of all sources made of it, momentum what
-//! gravity did. Rows E2 and E3.
+//! A minute with six kinds: the change of energy is the sum of all works, the change of momentum the
+//! impulse of gravity.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::{
@@ -10,8 +10,8 @@ use precess_dynamics::{
 
 use crate::bounds::{DRIFT, Worst};
 use crate::craft::{Case, Mixed};
-use crate::run::{Works, run};
 use crate::kinematics;
+use crate::run::{Works, run};
 
 const DURATION: f64 = 60.0;
 
@@ -163,7 +163,8 @@ fn check(case: &Case<Mixed>, what: &str, about: About) -> Works {
             About::CentreOfMass => here.craft.centre_of_mass(&here.state).expect("finite").c,
             _ => -(here.state.attitude.dcm() * here.state.r_b_n),
         };
-        let [of_linear, of_angular] = kinematics::momentum_units(here, &here.accelerations(), &from);
+        let [of_linear, of_angular] =
+            kinematics::momentum_units(here, &here.accelerations(), &from);
         let off = ledger.momentum.linear - first.momentum.linear - works.impulse;
         linear.add(off.norm() / of_linear);
         angular.add((momentum.angular - first_angular).norm() / of_angular);
@@ -202,7 +203,7 @@ fn books_close_over_a_minute_in_a_uniform_field() {
 }
 
 /// An ellipse of 10 to 20 m, once round in three quarters of a minute: a tenth of it is the spacecraft,
-/// so that the gradient is felt and the orbit's energy does not hide the rest.
+/// so that the gradient matters and the orbit's energy does not hide the rest.
 #[test]
 fn books_close_over_a_minute_around_a_centre() {
     let mu = 60.0;

@@ -19,7 +19,7 @@ use crate::bounds::LIMIT;
 use crate::draw::Drawn;
 use crate::random::{Random, SEED};
 
-/// Allowed off a slope: at these scales the next order is a hundredth of the one that is asked for.
+/// Allowed off a slope: at these scales the next order is a hundredth of the one compared.
 const SLOPE: f64 = 0.1;
 const SCALES: u32 = 7;
 const SPIN: f64 = 300.0;
@@ -220,7 +220,7 @@ fn from_rest_trajectories_differ_to_second_order() {
     all_kinds!(check);
 }
 
-/// Nothing but the wheel moves, whatever the imbalance: the table feels the same.
+/// Nothing but the wheel moves, whatever the imbalance: the load on the table is the same.
 #[test]
 fn blocked_the_models_are_the_same() {
     fn check<K: OffBalance>(seed: u64) {

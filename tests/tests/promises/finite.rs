@@ -36,14 +36,14 @@ fn powerful<T: Scalar>(torque: T, spin: T) {
 }
 
 #[test]
-fn powers_beyond_the_largest_number_are_refused() {
+fn powers_beyond_the_largest_number_are_rejected() {
     powerful(1e200, 1e150);
     powerful(1e25_f32, 1e18);
 }
 
 /// Friction takes 1e300 W from a wheel that is kept at its rate, for 1e10 s.
 #[test]
-fn work_beyond_the_largest_number_is_refused() {
+fn work_beyond_the_largest_number_is_rejected() {
     let mut wheel = BalancedReactionWheel::bare_wheel(1.0, 1.0, 0.5);
     wheel.passive.wheel = Passive::friction(1e100, 0.0, 0.0);
     let craft = Spacecraft::new(&hub(), &[wheel]).expect("sound parameters");
@@ -52,8 +52,8 @@ fn work_beyond_the_largest_number_is_refused() {
     let mut inputs = Inputs::<One<f64>>::none();
     inputs.modes[0].wheel = Mode::Prescribed(0.0);
     assert!(craft.step(&state, &inputs, 1e10).is_ok());
-    let refused = craft.step_with_work(&state, &inputs, 1e10).unwrap_err();
-    assert_eq!(refused, SolveError::Overflow { what: Quantity::Work });
+    let rejected = craft.step_with_work(&state, &inputs, 1e10).unwrap_err();
+    assert_eq!(rejected, SolveError::Overflow { what: Quantity::Work });
 }
 
 /// A stage that leaves the range of numbers is no input that somebody gave.

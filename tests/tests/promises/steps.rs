@@ -1,4 +1,4 @@
-//! A step that spring, damper or friction makes unstable is refused with the longest one that holds, in
+//! A step that spring, damper or friction makes unstable is rejected with the longest one that holds, in
 //! every service that steps; one at that length keeps the energy ledger.
 
 use nalgebra::{Matrix3, Vector3};
@@ -43,14 +43,14 @@ fn run(
 
 /// Dry friction brings a wheel to rest: too long a step would chatter there for ever.
 #[test]
-fn dry_friction_is_resolved_or_refused_where_the_wheel_comes_to_rest() {
+fn dry_friction_is_resolved_or_rejected_where_the_wheel_comes_to_rest() {
     let friction = Passive::friction(0.0, 1e-3, 1e-4);
     let craft = Spacecraft::new(&hub(10.0), &[wheel(1e-3, friction)]).expect("sound parameters");
     // Far from rest friction is a constant torque, whatever the step.
     assert!(run(&craft, spinning(1.0), 1e-3, 900).is_ok());
-    let refused = run(&craft, spinning(1.0), 1e-3, 1100).unwrap_err();
-    let SolveError::Unstable { device: 0, joint: "wheel", dt, longest } = refused else {
-        panic!("{refused:?}");
+    let rejected = run(&craft, spinning(1.0), 1e-3, 1100).unwrap_err();
+    let SolveError::Unstable { device: 0, joint: "wheel", dt, longest } = rejected else {
+        panic!("{rejected:?}");
     };
     assert_eq!(dt, 1e-3);
     // 2.785 J w / u_c, with the little by which the hub gives way.
@@ -71,7 +71,7 @@ fn dry_friction_is_resolved_or_refused_where_the_wheel_comes_to_rest() {
     assert!((after - before - work).abs() < 0.02 * before, "{before} {after} {work}");
 }
 
-/// Just below the limit a disturbance dies out, just above it is refused.
+/// Just below the limit a disturbance dies out, just above it is rejected.
 #[test]
 fn limit_of_a_damper_and_of_a_spring_is_that_of_the_method() {
     // The wheel against the hub: 1/m = 1/0.5 + 1/2.
@@ -84,8 +84,8 @@ fn limit_of_a_damper_and_of_a_spring_is_that_of_the_method() {
             let craft = Spacecraft::new(&hub(inertia), &[wheel(0.5, passive)]).expect("sound");
             let held = run(&craft, spinning(1.0), 0.999 * limit, 500).expect("a stable step");
             assert!(held.devices[0].spin.abs() <= 1.0, "{}", held.devices[0].spin);
-            let refused = run(&craft, spinning(1.0), 1.001 * limit, 1).unwrap_err();
-            let SolveError::Unstable { longest, .. } = refused else { panic!("{refused:?}") };
+            let rejected = run(&craft, spinning(1.0), 1.001 * limit, 1).unwrap_err();
+            let SolveError::Unstable { longest, .. } = rejected else { panic!("{rejected:?}") };
             assert!((longest / limit - 1.0).abs() < 1e-6, "{longest} {limit}");
         }
     }
@@ -102,13 +102,13 @@ fn two_wheels_on_a_light_hub_count_together() {
     (state.devices[0].spin, state.devices[1].spin) = (1.0, 1.0);
     let limit = 2.785_293_563_405_28 / fastest;
     assert!(craft.step(&state, &Inputs::none(), 0.99 * limit).is_ok());
-    let refused = craft.step(&state, &Inputs::none(), 1.01 * limit).unwrap_err();
-    assert!(matches!(refused, SolveError::Unstable { .. }), "{refused:?}");
+    let rejected = craft.step(&state, &Inputs::none(), 1.01 * limit).unwrap_err();
+    assert!(matches!(rejected, SolveError::Unstable { .. }), "{rejected:?}");
 }
 
 /// Every service that steps: the same error, for a damper, a spring and dry friction.
 #[test]
-fn every_service_refuses_the_same_step() {
+fn every_service_rejects_the_same_step() {
     let reversing = spinning(1e-5);
     for (passive, dt) in [
         (Passive::spring(0.0, 4.0), 1.0),
