@@ -100,7 +100,7 @@ impl Run {
         let Name::Table1 = self.scenario;
         let variants = variants(self.imbalance, self.drive);
         let names = variants.iter().flat_map(|v| file_names(&v.name())).collect::<Vec<_>>();
-        // Refused before the work, not after it.
+        // Rejected before the work, not after it.
         files::prepare(&self.out, names.iter().map(String::as_str).chain([REPORT]))?;
         let outcomes = run_all(&variants, settings)?;
         let mut results = Vec::new();

@@ -75,7 +75,7 @@ pub enum RunError {
 /// A report of the integrator that is a fault of this program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
-    /// It refuses the span or the first step; the reason is known in its own words only.
+    /// It rejects the span or the first step; the reason is known in its own words only.
     Input {
         /// Its words.
         reason: String,
@@ -114,7 +114,7 @@ impl fmt::Display for RunError {
                 "rate {value} samples/s is outside {lowest} to {highest} for this duration; give \
                  one in between"
             ),
-            Self::Parameters(error) => write!(f, "spacecraft refused: {error}"),
+            Self::Parameters(error) => write!(f, "spacecraft rejected: {error}"),
             Self::Solve { time, source } => write!(f, "at t = {time} s: {source}"),
             Self::TooManySteps { time } => write!(
                 f,
@@ -151,7 +151,7 @@ impl std::error::Error for RunError {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Input { reason } => write!(f, "its input is refused ({reason})"),
+            Self::Input { reason } => write!(f, "its input is rejected ({reason})"),
             Self::Interpolation { asked, from, to } => {
                 write!(f, "a state at {asked} s, outside its last step, {from} s to {to} s")
             }
@@ -169,7 +169,7 @@ pub enum WriteError {
         /// The file.
         path: PathBuf,
     },
-    /// The operating system refused.
+    /// The operating system returned an error.
     Io {
         /// The file or folder.
         path: PathBuf,
@@ -279,13 +279,13 @@ mod tests {
     fn a_cause_can_be_followed_to_the_solver() {
         let mut hub = crate::scenario::table1::variants(None, None)[0].scenario().hub;
         hub.m_b = -1.0;
-        let refused = Spacecraft::<Set<0>>::new(&hub, &[]).expect_err("a negative mass");
+        let rejected = Spacecraft::<Set<0>>::new(&hub, &[]).expect_err("a negative mass");
         let error =
-            CliError::Run { scenario: "table1".into(), source: RunError::Parameters(refused) };
+            CliError::Run { scenario: "table1".into(), source: RunError::Parameters(rejected) };
         let run = error.source().expect("the run's error");
         let solver = run.source().expect("the solver's error");
         assert_eq!(error.to_string(), format!("table1: {run}"));
-        assert_eq!(solver.downcast_ref(), Some(&refused));
+        assert_eq!(solver.downcast_ref(), Some(&rejected));
     }
 
     #[test]

@@ -26,7 +26,7 @@ type Dop853 = ExplicitRungeKutta<Ordinary, DormandPrince, f64, Vec<f64>, 8, 12, 
 pub(crate) struct System<const N: usize> {
     spacecraft: Spacecraft<Set<N>>,
     inputs: Inputs<Set<N>>,
-    /// The integrator has no way to hear of an error: it is kept here, and the step is refused.
+    /// The integrator has no way to hear of an error: it is kept here, and the step is rejected.
     failure: RefCell<Option<(f64, SolveError)>>,
     evaluations: Cell<usize>,
 }

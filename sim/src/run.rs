@@ -223,22 +223,22 @@ mod tests {
     }
 
     #[test]
-    fn settings_out_of_bounds_are_refused_with_value_bound_and_remedy() {
-        let refused = |settings: Settings| {
+    fn settings_out_of_bounds_are_rejected_with_value_bound_and_remedy() {
+        let rejected = |settings: Settings| {
             let error = run(&printed(), &settings, &mut |_| {}).expect_err("out of bounds");
             error.to_string()
         };
         let default = Settings::default();
         assert_eq!(
-            refused(Settings { duration: -1.0, ..default }),
+            rejected(Settings { duration: -1.0, ..default }),
             "duration -1 s is outside 0.001 s to 10000 s; the default is 10"
         );
         assert_eq!(
-            refused(Settings { tolerance: f64::NAN, ..default }),
+            rejected(Settings { tolerance: f64::NAN, ..default }),
             "tolerance NaN is outside 1e-15 to 1e-3; the default is 1e-13"
         );
         assert_eq!(
-            refused(Settings { rate: 1e9, ..default }),
+            rejected(Settings { rate: 1e9, ..default }),
             "rate 1000000000 samples/s is outside 0.2 to 20000 for this duration; give one in \
              between"
         );

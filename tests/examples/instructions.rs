@@ -22,18 +22,18 @@ fn main() -> ExitCode {
         ["list"] => {}
         [name, calls] => match calls.parse() {
             Ok(calls) => cases.wanted = Some(((*name).to_owned(), calls)),
-            Err(error) => return refused(&format!("`{calls}` calls: {error}")),
+            Err(error) => return rejected(&format!("`{calls}` calls: {error}")),
         },
-        _ => return refused("usage: instructions list | instructions CASE CALLS"),
+        _ => return rejected("usage: instructions list | instructions CASE CALLS"),
     }
     cases.all();
     match &cases.wanted {
-        Some((name, _)) if !cases.found => refused(&format!("no case is called `{name}`")),
+        Some((name, _)) if !cases.found => rejected(&format!("no case is called `{name}`")),
         _ => ExitCode::SUCCESS,
     }
 }
 
-fn refused(why: &str) -> ExitCode {
+fn rejected(why: &str) -> ExitCode {
     eprintln!("error: {why}");
     ExitCode::FAILURE
 }

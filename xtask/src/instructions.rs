@@ -164,8 +164,8 @@ mod tests {
         let committed = table("a compiler", &case(10_000));
         assert_eq!(compare(&case(10_100), &committed), Ok(()));
         assert_eq!(compare(&case(5000), &committed), Ok(()));
-        let refused = compare(&case(10_101), &committed).unwrap_err();
-        assert!(refused.ends_with("run `cargo xtask instructions`"), "{refused}");
+        let rejected = compare(&case(10_101), &committed).unwrap_err();
+        assert!(rejected.ends_with("run `cargo xtask instructions`"), "{rejected}");
         assert!(compare(&case(1), "").is_err(), "nothing is committed");
     }
 }

@@ -202,13 +202,13 @@ mod tests {
 
     #[test]
     fn valid_parameters_are_those_with_a_finite_dcm() {
-        let mut refused = 0;
+        let mut rejected = 0;
         for x in [1.0, 1e16, 1e100, 5e153, 6.703e153, 6.705e153, 1e154, 1.3e154, 1.4e154, 1e200] {
             let sigma: Mrp = Mrp::from_components(0.0, -x, 0.0);
             let finite = sigma.dcm().iter().all(|element| element.is_finite());
             assert_eq!(sigma.is_valid(), finite, "{x:e}");
-            refused += u32::from(!finite);
+            rejected += u32::from(!finite);
         }
-        assert_eq!(refused, 5);
+        assert_eq!(rejected, 5);
     }
 }

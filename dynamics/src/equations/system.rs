@@ -306,12 +306,12 @@ mod tests {
     }
 
     #[test]
-    fn singular_system_is_refused_at_each_pivot() {
+    fn singular_system_is_rejected_at_each_pivot() {
         for zeroed in 0..6 {
             let mut m = Matrix6::identity() * 2.0;
             m[(zeroed, zeroed)] = 0.0;
-            let refused = solve(&m, &Vector6::zeros());
-            assert!(matches!(refused, Err(SmallPivot { pivot: 0.0, .. })), "pivot {zeroed}");
+            let rejected = solve(&m, &Vector6::zeros());
+            assert!(matches!(rejected, Err(SmallPivot { pivot: 0.0, .. })), "pivot {zeroed}");
         }
         // A point mass off B: no inertia about the line from B to it.
         let r = nalgebra::Vector3::new(0.0, 0.0, 3.0);
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_that_a_small_pivot_before_it_makes_grow_is_refused() {
+    fn rounding_that_a_small_pivot_before_it_makes_grow_is_rejected() {
         // 1 - n nᵀ with n nearly in the plane of the first two axes: the second pivot is small.
         let n = nalgebra::Vector3::new(0.6, 0.8, 3e-3).normalize();
         let mut m = Matrix6::identity();
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn pivot_that_is_rounding_of_its_scale_is_refused() {
+    fn pivot_that_is_rounding_of_its_scale_is_rejected() {
         let bound = bound(1.0);
         assert_eq!(bound, 64.0 * f64::EPSILON);
         assert_eq!(check_pivot(bound, bound), Err(SmallPivot { pivot: bound, bound }));
@@ -352,7 +352,7 @@ mod tests {
     }
 
     #[test]
-    fn pivot_that_is_not_a_number_is_refused() {
+    fn pivot_that_is_not_a_number_is_rejected() {
         assert!(check_pivot(f64::NAN, 1.0).is_err());
         assert!(check_pivot(1.0, f64::NAN).is_err());
         let mut m = Matrix6::identity();

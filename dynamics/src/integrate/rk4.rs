@@ -278,14 +278,14 @@ mod tests {
     }
 
     #[test]
-    fn step_that_is_not_finite_is_refused() {
+    fn step_that_is_not_finite_is_rejected() {
         let step = |dt| hub().step(&tumbling::<Mrp>(), &Inputs::none(), dt);
         let what = Quantity::TimeStep;
         for value in [f64::INFINITY, f64::NEG_INFINITY] {
             assert_eq!(step(value), Err(SolveError::NotFinite { what, value }));
         }
-        let refused = step(f64::NAN).unwrap_err();
-        assert!(matches!(refused, SolveError::NotFinite { value, .. } if value.is_nan()));
+        let rejected = step(f64::NAN).unwrap_err();
+        assert!(matches!(rejected, SolveError::NotFinite { value, .. } if value.is_nan()));
         let what = Quantity::HubAcceleration;
         assert_eq!(step(1e200), Err(SolveError::Overflow { what }));
     }
@@ -295,7 +295,7 @@ mod tests {
         let mut state = tumbling::<Mrp>();
         state.r_b_n.x = f64::INFINITY;
         let (what, value) = (Quantity::Position, f64::INFINITY);
-        let refused = Err(SolveError::NotFinite { what, value });
-        assert_eq!(hub().step(&state, &Inputs::none(), 0.1), refused);
+        let rejected = Err(SolveError::NotFinite { what, value });
+        assert_eq!(hub().step(&state, &Inputs::none(), 0.1), rejected);
     }
 }

@@ -142,7 +142,7 @@ impl<D: Devices> Spacecraft<D> {
         moment.map(|moment| scale(per_mass, moment))
     }
 
-    /// Refuses a state that is not finite, or of another number of devices.
+    /// Rejects a state that is not finite, or of another number of devices.
     fn reject_state<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,

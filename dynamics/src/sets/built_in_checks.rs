@@ -205,9 +205,9 @@ fn list_of_built_in_devices_has_the_bits_of_the_typed_set() {
 }
 
 #[test]
-fn what_a_kind_has_no_parameter_for_is_refused() {
+fn what_a_kind_has_no_parameter_for_is_rejected() {
     let wheel = BuiltIn::from(ReactionWheel::bare_wheel(4.0, Matrix3::identity()));
-    let refused = |kind, change: fn(&mut DeviceParameters)| {
+    let rejected = |kind, change: fn(&mut DeviceParameters)| {
         let mut parameters = wheel.parameters();
         change(&mut parameters);
         BuiltIn::new(kind, &parameters).unwrap_err()
@@ -215,11 +215,11 @@ fn what_a_kind_has_no_parameter_for_is_refused() {
     let of = |parameter| UnsupportedParameter { body: "wheel", parameter };
     let (coupled, balanced) = (BuiltInKind::ReactionWheel, BuiltInKind::BalancedReactionWheel);
     assert_eq!(
-        refused(coupled, |p| p.bodies[0].centre[2] = 0.1),
+        rejected(coupled, |p| p.bodies[0].centre[2] = 0.1),
         of(Some(Parameter::CentreOfMass))
     );
-    assert_eq!(refused(balanced, |p| p.bodies[0].inertia.m33 = 2.0), of(Some(Parameter::Inertia)));
-    assert_eq!(refused(balanced, |p| p.model = ImbalanceModel::Lumped), of(None));
+    assert_eq!(rejected(balanced, |p| p.bodies[0].inertia.m33 = 2.0), of(Some(Parameter::Inertia)));
+    assert_eq!(rejected(balanced, |p| p.model = ImbalanceModel::Lumped), of(None));
     assert!(BuiltIn::new(balanced, &wheel.parameters()).is_ok());
 }
 
@@ -231,6 +231,6 @@ fn nan_is_named_by_the_validation() {
     parameters.bodies[0].inertia.m12 = f64::NAN;
     let device = BuiltIn::new(BuiltInKind::ReactionWheel, &parameters).unwrap();
     let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
-    let refused = Spacecraft::new(&hub, &[Some(device)]).unwrap_err();
-    assert!(matches!(refused, ParameterError::NotFinite { parameter: Parameter::Inertia, .. }));
+    let rejected = Spacecraft::new(&hub, &[Some(device)]).unwrap_err();
+    assert!(matches!(rejected, ParameterError::NotFinite { parameter: Parameter::Inertia, .. }));
 }

@@ -333,7 +333,7 @@ impl<D: Devices> Accelerations<D> {
     }
 }
 
-/// Refuses a fixed hub that moves.
+/// Rejects a fixed hub that moves.
 pub(crate) fn check_fixed<D: Devices, A>(
     state: &State<D, A>,
     inputs: &Inputs<D>,

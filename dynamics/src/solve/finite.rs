@@ -37,7 +37,7 @@ pub(crate) fn reject<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), So
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// Refuses the first input that is not finite.
+    /// Rejects the first input that is not finite.
     pub(crate) fn reject<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -47,7 +47,7 @@ impl<D: Devices> Spacecraft<D> {
         reject(self.not_finite_in_state(state).or_else(|| self.not_finite_in_inputs(inputs)))
     }
 
-    /// Refuses accelerations that are not finite, or of another number of devices.
+    /// Rejects accelerations that are not finite, or of another number of devices.
     pub(crate) fn reject_accelerations<A>(
         &self,
         state: &State<D, A>,

@@ -1,4 +1,4 @@
-//! Why parameters are refused ([`ParameterError`]) or doubted ([`Warning`]).
+//! Why parameters are rejected ([`ParameterError`]) or doubted ([`Warning`]).
 
 use core::error::Error;
 use core::fmt::{self, Display, Formatter};
@@ -36,7 +36,7 @@ pub enum Parameter {
     Passive(&'static str),
 }
 
-/// Why [`Spacecraft::new`](crate::Spacecraft::new) refuses parameters.
+/// Why [`Spacecraft::new`](crate::Spacecraft::new) rejects parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ParameterError<T = f64> {

@@ -5,10 +5,10 @@
  * may be called by several tasks at once, each with its own state; a spacecraft may be shared, since
  * only precess_init and precess_init_from_table change it.
  *
- * Every function that can be refused returns an error code, 0 (PRECESS_OK) if all went well; then,
+ * Every function that can be rejected returns an error code, 0 (PRECESS_OK) if all went well; then,
  * and only then, has it written its results (a text or saved state that does not fit is cut).
- * `fault` may be null; otherwise it is told where the refusal comes from. Any other pointer that is
- * null or misaligned is refused.
+ * `fault` may be null; otherwise it is told where the rejection comes from. Any other pointer that is
+ * null or misaligned is rejected.
  *
  * Axes: N is inertial, B fixed in the hub. A device's own axes are those of its first body where its
  * joint is at zero. Vectors are x, y, z; matrices stand row by row. What belongs to joints stands in
@@ -114,7 +114,7 @@ typedef struct precess_spacecraft {
     uint64_t opaque[PRECESS_SPACECRAFT_SIZE / 8];
 } precess_spacecraft;
 
-/* Where a refusal comes from. */
+/* Where a rejection comes from. */
 typedef struct precess_fault {
     int32_t code;     /* the error code */
     int32_t device;   /* index of the device; -1 for the hub, or for none */
@@ -281,7 +281,7 @@ int32_t precess_state_save(const precess_spacecraft *craft, const precess_state 
                            double *numbers, uint32_t count);
 
 /* Restores a saved state. `count` must be precess_state_length (PRECESS_ERROR_TOO_SMALL for any
- * other); refused if a number is not finite. */
+ * other); rejected if a number is not finite. */
 int32_t precess_state_restore(const precess_spacecraft *craft, const double *numbers,
                               uint32_t count, precess_state *state, precess_fault *fault);
 
@@ -297,7 +297,7 @@ int32_t precess_accelerations_of(const precess_spacecraft *craft, const precess_
 /* Advances the state by `substeps` Runge-Kutta steps (fourth order) of `dt` seconds each, 1 to
  * PRECESS_MAX_SUBSTEPS. A sound dt turns the fastest wheel by a tenth of a radian. A dt that a spring,
  * damper or dry friction makes unstable is PRECESS_ERROR_UNSTABLE, with the longest one that holds in
- * fault.bound. `work` (J) may be null, which is cheaper. If refused, the state is as it was. */
+ * fault.bound. `work` (J) may be null, which is cheaper. If rejected, the state is as it was. */
 int32_t precess_step(const precess_spacecraft *craft, precess_state *state,
                      const precess_inputs *inputs, double dt, uint32_t substeps,
                      precess_power *work, precess_fault *fault);

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{self as dynamics, Spacecraft};
 
 use crate::device::device_of;
-use crate::error::{Code, Fault, Refusal};
+use crate::error::{Code, Fault, Rejection};
 use crate::memory::{self, Plain, check, slice};
 use crate::types::{Device, Hub};
 use crate::{List, MAX_DEVICES};
@@ -56,38 +56,38 @@ pub(crate) unsafe fn craft<'a>(pointer: *const Craft) -> Result<&'a Craft, Code>
 /// `fault` is null or points to a writable [`Fault`].
 pub(crate) unsafe fn answer(
     spacecraft: Option<&Spacecraft<List>>,
-    result: Result<(), Refusal>,
+    result: Result<(), Rejection>,
     fault: *mut Fault,
 ) -> i32 {
-    let refusal = result.err().unwrap_or(Code::Ok.into());
+    let rejection = result.err().unwrap_or(Code::Ok.into());
     let small = |index: usize| i32::try_from(index).unwrap_or(i32::MAX);
-    let joint = refusal.joint.and_then(|name| {
+    let joint = rejection.joint.and_then(|name| {
         let mut joints = spacecraft?.joints();
         let named = |info: &dynamics::kind::JointInfo| {
             // Byte by byte: no call of the C library's `memcmp`.
             [info.body, info.coordinate, info.rate].iter().any(|own| own.bytes().eq(name.bytes()))
         };
         let (_, info) =
-            joints.find(|(device, info)| Some(*device) == refusal.device && named(info))?;
+            joints.find(|(device, info)| Some(*device) == rejection.device && named(info))?;
         Some(info.index)
     });
     let told = Fault {
-        code: refusal.code as i32,
-        device: refusal.device.map_or(-1, small),
+        code: rejection.code as i32,
+        device: rejection.device.map_or(-1, small),
         joint: joint.map_or(-1, small),
         reserved: 0,
-        value: refusal.value,
-        bound: refusal.bound,
+        value: rejection.value,
+        bound: rejection.bound,
     };
     // SAFETY: as promised to this function.
     match unsafe { memory::offer(fault, told) } {
-        Err(code) if refusal.code == Code::Ok => code as i32,
-        _ => refusal.code as i32,
+        Err(code) if rejection.code == Code::Ok => code as i32,
+        _ => rejection.code as i32,
     }
 }
 
 /// Makes a spacecraft of a hub and devices.
-pub(crate) fn made(hub: &Hub, devices: &[Device]) -> Result<Spacecraft<List>, Refusal> {
+pub(crate) fn made(hub: &Hub, devices: &[Device]) -> Result<Spacecraft<List>, Rejection> {
     if devices.len() > MAX_DEVICES {
         return Err(Code::TooMany.into());
     }
@@ -115,8 +115,8 @@ pub(crate) fn made(hub: &Hub, devices: &[Device]) -> Result<Spacecraft<List>, Re
 pub(crate) unsafe fn place(
     memory: *mut c_void,
     size: usize,
-    make: impl FnOnce() -> Result<Spacecraft<List>, Refusal>,
-) -> Result<(), Refusal> {
+    make: impl FnOnce() -> Result<Spacecraft<List>, Rejection>,
+) -> Result<(), Rejection> {
     let craft = memory.cast::<Craft>();
     check(craft)?;
     if size < SIZE {
@@ -152,7 +152,7 @@ pub unsafe extern "C" fn precess_init(
 ) -> i32 {
     let make = || {
         if count as usize > MAX_DEVICES {
-            return Err(Refusal::from(Code::TooMany));
+            return Err(Rejection::from(Code::TooMany));
         }
         // SAFETY: by contract.
         let (hub, devices) = unsafe { (memory::read(hub)?, slice(devices, count as usize)?) };

@@ -4,7 +4,7 @@ use precess_dynamics::kind::{BodyParameters, ImbalanceModel};
 use precess_dynamics::{BuiltIn, BuiltInKind, DeviceParameters, Passive};
 
 use crate::craft::matrix;
-use crate::error::{Code, Refusal};
+use crate::error::{Code, Rejection};
 use crate::types;
 
 /// `PRECESS_KIND_`: a number that stands for a kind for ever.
@@ -30,13 +30,13 @@ fn kind_of(number: i32) -> Option<BuiltInKind> {
 }
 
 /// The device that a structure states.
-pub(crate) fn device_of(index: usize, device: &types::Device) -> Result<BuiltIn, Refusal> {
-    let refuse = |code: Code| Refusal { device: Some(index), ..code.into() };
-    let kind = kind_of(device.kind).ok_or(refuse(Code::UnknownKind))?;
+pub(crate) fn device_of(index: usize, device: &types::Device) -> Result<BuiltIn, Rejection> {
+    let reject = |code: Code| Rejection { device: Some(index), ..code.into() };
+    let kind = kind_of(device.kind).ok_or(reject(Code::UnknownKind))?;
     let model = match device.model {
         0 => ImbalanceModel::Coupled,
         1 => ImbalanceModel::Lumped,
-        _ => return Err(refuse(Code::UnknownChoice)),
+        _ => return Err(reject(Code::UnknownChoice)),
     };
     let parameters = DeviceParameters {
         mount: matrix(&device.mount),
@@ -55,6 +55,8 @@ pub(crate) fn device_of(index: usize, device: &types::Device) -> Result<BuiltIn,
         }),
         model,
     };
-    BuiltIn::new(kind, &parameters)
-        .map_err(|unsupported| Refusal { joint: Some(unsupported.body), ..refuse(Code::UnsupportedParameter) })
+    BuiltIn::new(kind, &parameters).map_err(|unsupported| Rejection {
+        joint: Some(unsupported.body),
+        ..reject(Code::UnsupportedParameter)
+    })
 }

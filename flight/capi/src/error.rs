@@ -1,4 +1,4 @@
-//! [`Code`]: why a call was refused, as a number with a name and a sentence; [`Fault`]: where.
+//! [`Code`]: why a call was rejected, as a number with a name and a sentence; [`Fault`]: where.
 
 use core::ffi::{CStr, c_char};
 
@@ -111,7 +111,7 @@ codes! {
         c"dt is too long for a spring or friction; fault.bound is the longest, or raise coulomb_rate";
 }
 
-/// Where a refusal comes from: `precess_fault`.
+/// Where a rejection comes from: `precess_fault`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Fault {
@@ -132,9 +132,9 @@ pub struct Fault {
 // SAFETY: integers and floating-point numbers.
 unsafe impl Plain for Fault {}
 
-/// A refusal on its way out; names of joints become numbers when it leaves.
+/// A rejection on its way out; names of joints become numbers when it leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refusal {
+pub struct Rejection {
     pub(crate) code: Code,
     pub(crate) device: Option<usize>,
     pub(crate) joint: Option<&'static str>,
@@ -142,13 +142,13 @@ pub struct Refusal {
     pub(crate) bound: f64,
 }
 
-impl From<Code> for Refusal {
+impl From<Code> for Rejection {
     fn from(code: Code) -> Self {
         Self { code, device: None, joint: None, value: 0.0, bound: 0.0 }
     }
 }
 
-impl Refusal {
+impl Rejection {
     fn valued(code: Code, value: f64, bound: f64) -> Self {
         Self { value, bound, ..code.into() }
     }
@@ -176,7 +176,7 @@ impl Refusal {
     }
 }
 
-impl From<ParameterError> for Refusal {
+impl From<ParameterError> for Rejection {
     fn from(error: ParameterError) -> Self {
         match error {
             ParameterError::NotFinite { part, value, .. } => {
@@ -209,7 +209,7 @@ impl From<ParameterError> for Refusal {
     }
 }
 
-impl From<SolveError> for Refusal {
+impl From<SolveError> for Rejection {
     fn from(error: SolveError) -> Self {
         match error {
             SolveError::Singular { device, joint, pivot, bound } => {
@@ -223,7 +223,7 @@ impl From<SolveError> for Refusal {
             }
             SolveError::FixedHubMoves { value } => Self::valued(Code::FixedHubMoves, value, 0.0),
             SolveError::NotDriven { device, joint } => {
-                Refusal::from(Code::NotDriven).at(device, joint)
+                Rejection::from(Code::NotDriven).at(device, joint)
             }
             SolveError::AtCentre => Code::AtCentre.into(),
             SolveError::Unstable { device, joint, dt, longest } => {

@@ -5,7 +5,7 @@ use precess_dynamics::{About, Accelerations, Inputs, Spacecraft, State};
 
 use crate::List;
 use crate::craft::{Craft, answer, craft};
-use crate::error::{Code, Fault, Refusal};
+use crate::error::{Code, Fault, Rejection};
 use crate::inputs::inputs_of;
 use crate::memory::{self, offer, read, write};
 use crate::state::{give, state_of, told};
@@ -22,7 +22,7 @@ pub const MAX_SUBSTEPS: u32 = 1000;
 pub(crate) unsafe fn with(
     pointer: *const Craft,
     fault: *mut Fault,
-    ask: impl FnOnce(&Spacecraft<List>) -> Result<(), Refusal>,
+    ask: impl FnOnce(&Spacecraft<List>) -> Result<(), Rejection>,
 ) -> i32 {
     // SAFETY: by contract.
     match unsafe { craft(pointer) } {
@@ -45,7 +45,7 @@ pub(crate) unsafe fn given(
     spacecraft: &Spacecraft<List>,
     state: *const types::State,
     inputs: *const types::Inputs,
-) -> Result<(State<List>, Inputs<List>), Refusal> {
+) -> Result<(State<List>, Inputs<List>), Rejection> {
     // SAFETY: by contract.
     let state = state_of(spacecraft, &unsafe { read(state) }?);
     // SAFETY: by contract.
@@ -130,7 +130,7 @@ pub unsafe extern "C" fn precess_step(
                 sum.friction += stepped.work.friction;
             }
         }
-        // SAFETY: by contract; `work` first, so that a refusal leaves the state as it was.
+        // SAFETY: by contract; `work` first, so that a rejection leaves the state as it was.
         unsafe { offer(work, sum) }?;
         // SAFETY: by contract.
         Ok(unsafe { write(state, told(&next)) }?)

@@ -1,11 +1,11 @@
 //! Inputs: from a structure, and the structure in which nothing acts.
 
 use nalgebra::Vector3;
-use precess_dynamics::{JointArray, Gravity, HubMode, Inputs, Mode, Spacecraft, Wrench};
+use precess_dynamics::{Gravity, HubMode, Inputs, JointArray, Mode, Spacecraft, Wrench};
 
 use crate::List;
 use crate::craft::{Craft, craft};
-use crate::error::{Code, Refusal};
+use crate::error::{Code, Rejection};
 use crate::memory;
 use crate::state::{give, take};
 use crate::types;
@@ -14,7 +14,7 @@ use crate::types;
 pub(crate) fn inputs_of(
     spacecraft: &Spacecraft<List>,
     from: &types::Inputs,
-) -> Result<Inputs<List>, Refusal> {
+) -> Result<Inputs<List>, Rejection> {
     let vector = Vector3::from;
     let mut inputs = Inputs::none_for(spacecraft);
     inputs.force = vector(from.force);
@@ -28,7 +28,7 @@ pub(crate) fn inputs_of(
                 0 => Mode::Driven,
                 1 => Mode::Prescribed(*prescribed),
                 2 => Mode::Locked,
-                _ => return Err(Refusal { device: Some(device), ..Code::UnknownChoice.into() }),
+                _ => return Err(Rejection { device: Some(device), ..Code::UnknownChoice.into() }),
             };
         }
     }

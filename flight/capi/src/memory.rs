@@ -1,4 +1,4 @@
-//! Pointers of C made values: null and misaligned ones are refused, everything else is the caller's
+//! Pointers of C made values: null and misaligned ones are rejected, everything else is the caller's
 //! promise.
 
 use crate::error::Code;

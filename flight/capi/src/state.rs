@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use precess_dynamics::{JointArray, Quaternion, Spacecraft, State};
 
 use crate::craft::{Craft, answer, craft};
-use crate::error::{Code, Fault, Refusal};
+use crate::error::{Code, Fault, Rejection};
 use crate::memory::{self, slice, slice_mut};
 use crate::types::{self, PerJoint};
 use crate::{List, MAX_DEVICES};
@@ -192,13 +192,13 @@ pub unsafe extern "C" fn precess_state_restore(
         // SAFETY: by contract.
         let craft = &unsafe { craft(pointer) }?.spacecraft;
         if count as usize != length(craft) {
-            return Err(Refusal::from(Code::TooSmall));
+            return Err(Rejection::from(Code::TooSmall));
         }
         // SAFETY: by contract.
         let from = unsafe { slice(from, count as usize) }?;
         let mut restored = told(&State::at_rest_for(craft));
         numbers(craft, &mut restored).zip(from).for_each(|(to, from)| *to = *from);
-        // What is not finite, or no attitude, is refused here, not at the next step.
+        // What is not finite, or no attitude, is rejected here, not at the next step.
         craft.energy(&state_of(craft, &restored))?;
         // SAFETY: by contract.
         unsafe { memory::write(state, restored) }?;

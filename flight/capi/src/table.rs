@@ -23,7 +23,7 @@ use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
 use crate::MAX_DEVICES;
 use crate::craft::{answer, made, place};
-use crate::error::{Code, Fault, Refusal};
+use crate::error::{Code, Fault, Rejection};
 use crate::memory::{read, slice, slice_mut, write};
 use crate::types::{Body, Device, Hub, Passive};
 
@@ -186,7 +186,7 @@ pub unsafe extern "C" fn precess_init_from_table(
 ) -> i32 {
     let make = || {
         if table.is_null() {
-            return Err(Refusal::from(Code::Null));
+            return Err(Rejection::from(Code::Null));
         }
         // SAFETY: by contract.
         let (hub, devices, count) = read_table(unsafe { slice(table, length) }?)?;

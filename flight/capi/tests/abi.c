@@ -1,4 +1,4 @@
-/* The library as C sees it: what is right works, what is wrong is refused with a code of its own.
+/* The library as C sees it: what is right works, what is wrong is rejected with a code of its own.
  * Also C++. Prints what it computes as bit patterns and needs nothing of a C library but its output. */
 
 #include "check.h"
@@ -201,7 +201,7 @@ static void modes_and_loads(void)
 }
 
 /* What is wrong with parameters, each named. */
-static void refused_parameters(void)
+static void rejected_parameters(void)
 {
     precess_fault fault;
     example();
@@ -243,7 +243,7 @@ static void refused_parameters(void)
 }
 
 /* Memory and pointers. */
-static void refused_pointers(void)
+static void rejected_pointers(void)
 {
     static precess_spacecraft blank;
     precess_state state;
@@ -260,7 +260,7 @@ static void refused_pointers(void)
     IS(precess_init(&craft, sizeof craft, 0, devices, 3, 0), PRECESS_ERROR_NULL);
     IS(precess_init(&craft, sizeof craft, &hub, 0, 3, &fault), PRECESS_ERROR_NULL);
     IS(fault.code, PRECESS_ERROR_NULL);
-    /* What is refused leaves no spacecraft behind. */
+    /* What is rejected leaves no spacecraft behind. */
     IS(precess_mass(&craft, &mass), PRECESS_ERROR_NOT_INITIALISED);
     IS(init(3, 0), PRECESS_OK);
     IS(precess_mass(&craft, &mass), PRECESS_OK);
@@ -352,8 +352,8 @@ int main(void)
     every_kind();
     books();
     modes_and_loads();
-    refused_parameters();
-    refused_pointers();
+    rejected_parameters();
+    rejected_pointers();
     tables();
     texts();
     promises();

@@ -87,7 +87,7 @@ static void angles(void)
     IS(precess_step(&craft, &state, &inputs, 1e-3, 1, 0, &fault), PRECESS_ERROR_NOT_FINITE);
 }
 
-/* A step that friction makes unstable is refused, with the longest that holds. */
+/* A step that friction makes unstable is rejected, with the longest that holds. */
 static void stability(void)
 {
     precess_state state;

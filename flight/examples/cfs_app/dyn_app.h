@@ -13,9 +13,9 @@
 typedef struct {
     uint32_t wake_ups;
     uint32_t commands;         /* accepted */
-    uint32_t commands_refused;
+    uint32_t commands_rejected;
     uint32_t tables;           /* loaded */
-    int32_t last_error;        /* PRECESS_ERROR_ of the last refusal */
+    int32_t last_error;        /* PRECESS_ERROR_ of the last rejection */
     int32_t fault_device;      /* where it came from; -1 for none */
     int32_t fault_joint;
     double omega[3];           /* B axes, rad/s */
@@ -42,7 +42,7 @@ typedef struct {
     dyn_housekeeping telemetry;
 } dyn_app;
 
-/* Starts from a parameter table, at rest. A later table is checked first: one that is refused leaves
+/* Starts from a parameter table, at rest. A later table is checked first: one that is rejected leaves
  * all as it was. All three return a PRECESS_ code. */
 int32_t dyn_app_load(dyn_app *app, const uint8_t *table, size_t length);
 

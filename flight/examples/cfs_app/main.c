@@ -78,7 +78,7 @@ int main(void)
     size_t length = write_table();
     int cycle, sound;
     if (dyn_app_load(&app, table, length) != PRECESS_OK) {
-        printf("table refused: %s\n", precess_error_name(told->last_error));
+        printf("table rejected: %s\n", precess_error_name(told->last_error));
         return 1;
     }
     for (cycle = 0; cycle < 100; cycle++) {
@@ -96,7 +96,7 @@ int main(void)
             send(PRECESS_ERROR_UNKNOWN_CHOICE, 5, 0, PRECESS_LOCKED, 0.0);
         }
         if (dyn_app_wake_up(&app) != PRECESS_OK) {
-            printf("step refused: %s\n", precess_error_name(told->last_error));
+            printf("step rejected: %s\n", precess_error_name(told->last_error));
             return 1;
         }
         if (cycle % 20 == 19) {
@@ -118,10 +118,10 @@ int main(void)
     table[500] ^= 0x40;
     if (dyn_app_load(&app, table, length) != PRECESS_ERROR_TABLE_CHECKSUM || told->tables != 1 ||
         dyn_app_wake_up(&app) != PRECESS_OK || told->wake_ups != 101) {
-        printf("damaged table: not refused as it must be\n");
+        printf("damaged table: not rejected as it must be\n");
         return 1;
     }
-    printf("damaged table refused, %u commands accepted, %u refused\n", (unsigned)told->commands,
-           (unsigned)told->commands_refused);
+    printf("damaged table rejected, %u commands accepted, %u rejected\n", (unsigned)told->commands,
+           (unsigned)told->commands_rejected);
     return 0;
 }

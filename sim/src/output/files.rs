@@ -7,7 +7,7 @@
 //! run removes.
 //!
 //! A list in the folder names the files that runs have written there; a file of a wanted name that
-//! is not on the list is somebody else's, and the run is refused before anything is written.
+//! is not on the list is somebody else's, and the run is rejected before anything is written.
 
 use std::collections::BTreeSet;
 use std::fs::{self, OpenOptions};
@@ -58,7 +58,7 @@ pub fn prepare<'a>(
 /// Writes the files into a folder, which is made if it is missing.
 ///
 /// # Errors
-/// As [`prepare`], and whatever else the operating system refuses. Until every file is on the disk
+/// As [`prepare`], and whatever else the operating system rejects. Until every file is on the disk
 /// as a part, none gets its name; of a rename that fails, only the files before it are replaced.
 pub fn write(folder: &Path, files: &[File]) -> Result<(), WriteError> {
     prepare(folder, files.iter().map(|f| f.name.as_str()))?;
@@ -185,12 +185,12 @@ mod tests {
     }
 
     #[test]
-    fn somebody_elses_file_is_refused_and_kept() {
+    fn somebody_elses_file_is_rejected_and_kept() {
         let folder = folder("foreign");
         fs::create_dir_all(&folder).expect("folder");
         fs::write(folder.join("b.csv"), "mine").expect("b.csv");
-        let refused = write(&folder, &[file("a.csv", "1"), file("b.csv", "2")]);
-        assert!(matches!(refused, Err(WriteError::Foreign { path }) if path.ends_with("b.csv")));
+        let rejected = write(&folder, &[file("a.csv", "1"), file("b.csv", "2")]);
+        assert!(matches!(rejected, Err(WriteError::Foreign { path }) if path.ends_with("b.csv")));
         assert_eq!(fs::read_to_string(folder.join("b.csv")).expect("b.csv"), "mine");
         assert_eq!(names(&folder), ["b.csv"]);
         fs::remove_dir_all(&folder).expect("cleanup");
@@ -201,8 +201,8 @@ mod tests {
         let folder = folder("fails");
         write(&folder, &[file("a.csv", "1")]).expect("first");
         // No name for a file: the folder it asks for is not there.
-        let refused = write(&folder, &[file("a.csv", "2"), file("nowhere/b.csv", "3")]);
-        assert!(matches!(refused, Err(WriteError::Io { path, .. }) if path.ends_with("b.csv")));
+        let rejected = write(&folder, &[file("a.csv", "2"), file("nowhere/b.csv", "3")]);
+        assert!(matches!(rejected, Err(WriteError::Io { path, .. }) if path.ends_with("b.csv")));
         assert_eq!(fs::read_to_string(folder.join("a.csv")).expect("a.csv"), "1");
         assert_eq!(names(&folder), ["a.csv", LIST]);
         fs::remove_dir_all(&folder).expect("cleanup");
@@ -226,13 +226,13 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_under_a_wanted_name_is_refused() {
+    fn a_folder_under_a_wanted_name_is_rejected() {
         let folder = folder("taken");
         write(&folder, &[file("a.csv", "1")]).expect("first");
         fs::remove_file(folder.join("a.csv")).expect("a.csv");
         fs::create_dir(folder.join("a.csv")).expect("a folder instead");
-        let refused = prepare(&folder, ["a.csv"]);
-        assert!(matches!(refused, Err(WriteError::Foreign { path }) if path.ends_with("a.csv")));
+        let rejected = prepare(&folder, ["a.csv"]);
+        assert!(matches!(rejected, Err(WriteError::Foreign { path }) if path.ends_with("a.csv")));
         fs::remove_dir_all(&folder).expect("cleanup");
     }
 
@@ -251,8 +251,8 @@ mod tests {
         let folder = folder("link");
         let _ = fs::remove_file(&folder);
         std::os::unix::fs::symlink("nowhere-at-all", &folder).expect("a link");
-        let refused = prepare(&folder, ["a.csv"]);
-        assert!(matches!(refused, Err(WriteError::Io { path, .. }) if path == folder));
+        let rejected = prepare(&folder, ["a.csv"]);
+        assert!(matches!(rejected, Err(WriteError::Io { path, .. }) if path == folder));
         fs::remove_file(&folder).expect("cleanup");
     }
 
@@ -274,8 +274,8 @@ mod tests {
     fn a_folder_that_is_a_file_is_an_error_with_its_path() {
         let folder = folder("file");
         fs::write(&folder, "a file").expect("file");
-        let refused = write(&folder, &[file("a.csv", "1")]);
-        assert!(matches!(refused, Err(WriteError::Io { .. })));
+        let rejected = write(&folder, &[file("a.csv", "1")]);
+        assert!(matches!(rejected, Err(WriteError::Io { .. })));
         fs::remove_file(&folder).expect("cleanup");
     }
 }

@@ -135,7 +135,7 @@ fn draw(
         line(&mut chart, ends, INK, &mark)?;
         names.add(&format!("{name}, {}", ten_to(bound)), INK, &mark)?;
     }
-    refused(&mut chart, panel)
+    rejected(&mut chart, panel)
 }
 
 /// Worst with dots, median without, where there are any.
@@ -189,9 +189,9 @@ fn line(
     Ok(())
 }
 
-/// A line where the solver refuses the first spacecraft, with what it says.
-fn refused(chart: &mut Chart<'_, '_>, panel: &Panel<'_>) -> Result<(), Box<dyn Error>> {
-    let first = panel.curves.first().and_then(|(_, rows)| Limit::of(rows).refused);
+/// A line where the solver rejects the first spacecraft, with what it says.
+fn rejected(chart: &mut Chart<'_, '_>, panel: &Panel<'_>) -> Result<(), Box<dyn Error>> {
+    let first = panel.curves.first().and_then(|(_, rows)| Limit::of(rows).rejected);
     let Some(first) = first else { return Ok(()) };
     let x = libm::log10(first);
     let ends = [(x, ERRORS.start), (x, ERRORS.end)];
@@ -203,7 +203,7 @@ fn refused(chart: &mut Chart<'_, '_>, panel: &Panel<'_>) -> Result<(), Box<dyn E
     let area = chart.plotting_area().strip_coord_spec();
     let (left, top) = area.get_base_pixel();
     let style = text(12.0).pos(Pos::new(side, VPos::Center));
-    area.draw_text("first refused as singular", &style, (x - left + by * FINE, y - top))?;
+    area.draw_text("first rejected as singular", &style, (x - left + by * FINE, y - top))?;
     Ok(())
 }
 

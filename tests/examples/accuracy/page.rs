@@ -19,8 +19,8 @@ struct Line {
     worst_lost: String,
     median_holds: String,
     median_lost: String,
-    refused: String,
-    all_refused: String,
+    rejected: String,
+    all_rejected: String,
     power: String,
     /// Whether the error grows as the square of the distance or of its reciprocal.
     square: bool,
@@ -51,7 +51,7 @@ struct Moved {
 struct Cells {
     worst: String,
     median: String,
-    refused: usize,
+    rejected: usize,
 }
 
 /// A kind without the pose.
@@ -94,8 +94,8 @@ fn line(name: &'static str, limit: &Limit, square: f64, unit: fn(f64) -> String)
         worst_lost: of(limit.worst.lost),
         median_holds: of(limit.median.holds),
         median_lost: of(limit.median.lost),
-        refused: of(limit.refused),
-        all_refused: of(limit.all_refused),
+        rejected: of(limit.rejected),
+        all_rejected: of(limit.all_rejected),
         power: format!("{power:.2}"),
         square: (power - square).abs() < 0.1,
     }
@@ -129,7 +129,7 @@ fn moved(row: &Row) -> Moved {
 fn cells(row: &Row) -> Cells {
     let some = |value: f64| if row.solved == 0 { "-".to_owned() } else { error(value) };
     let (worst, median) = (row.worst_block.worst(), row.worst_block.median());
-    Cells { worst: some(worst), median: some(median), refused: row.refused }
+    Cells { worst: some(worst), median: some(median), rejected: row.rejected }
 }
 
 fn error(value: f64) -> String {

@@ -11,11 +11,11 @@ use precess_tests::stored::Stored;
 use serde_json::{Value, json};
 
 use crate::latency::latencies;
-use crate::service::{Refused, Service, open_hub};
+use crate::service::{Rejected, Service, open_hub};
 use crate::timing::time;
 
 /// The parts of an evaluation of this spacecraft.
-pub(crate) fn parts(stored: &Stored) -> Result<Value, Refused> {
+pub(crate) fn parts(stored: &Stored) -> Result<Value, Rejected> {
     let counted = Measured::new(&vec![dgvscmg::<Counted>(); stored.devices.len()]);
     let (found, operations) = count(|| counted.accelerations());
     found.map_err(|error| error.to_string())?;
@@ -39,11 +39,11 @@ pub(crate) fn parts(stored: &Stored) -> Result<Value, Refused> {
 struct Sines(Vec<f64>);
 
 impl Service for Sines {
-    fn accelerations(&mut self) -> Result<Vec<f64>, Refused> {
+    fn accelerations(&mut self) -> Result<Vec<f64>, Rejected> {
         Ok(Vec::new())
     }
 
-    fn run(&mut self, calls: u32) -> Result<(), Refused> {
+    fn run(&mut self, calls: u32) -> Result<(), Rejected> {
         for _ in 0..calls {
             for angle in black_box(&self.0) {
                 black_box(Angle::sin_cos(*angle));

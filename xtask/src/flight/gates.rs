@@ -41,9 +41,9 @@ pub(super) fn passed(board: &Board, library: &Library<'_>) -> Result<Image, Stri
     Ok(image)
 }
 
-/// Each bad library has to be refused, for its own reason.
+/// Each bad library has to be rejected, for its own reason.
 pub(super) fn twins(board: &Board, tally: &mut Tally) {
-    // A good one first: else a refusal would prove nothing.
+    // A good one first: else a rejection would prove nothing.
     let good = twin(board, &[]).map(|_| ());
     tally.check("gates: a library that is in order passes", good);
     for (feature, reason) in [
@@ -57,7 +57,7 @@ pub(super) fn twins(board: &Board, tally: &mut Tally) {
         let caught = match twin(board, &[feature]) {
             Ok(_) => Err("it passed: the gate is blind".to_owned()),
             Err(why) if why.contains(reason) => Ok(()),
-            Err(why) => Err(format!("refused, but not since `{reason}`: {why}")),
+            Err(why) => Err(format!("rejected, but not since `{reason}`: {why}")),
         };
         tally.check(&format!("gates: a library that is bad ({feature}) is caught"), caught);
     }

@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn stack_that_no_sum_bounds_is_refused() {
+    fn stack_that_no_sum_bounds_is_rejected() {
         let recursive = image(&[(0, 8, &[2], false), (2, 8, &[0], false)]);
         assert!(recursive.stack("f0").unwrap_err().contains("calls itself"));
         let indirect = image(&[(0, 8, &[], true)]);

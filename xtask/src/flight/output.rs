@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn output_that_is_empty_or_short_is_refused() {
+    fn output_that_is_empty_or_short_is_rejected() {
         for lines in [&[][..], &["end: 0 lines"], &["a: 1"], &["a: 1", "end: 2 lines"]] {
             assert!(whole(of(lines)).is_err(), "{lines:?}");
         }
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_that_fails_is_refused_whatever_it_printed() {
+    fn a_program_that_fails_is_rejected_whatever_it_printed() {
         let printed = lines(Command::new("sh").args(["-c", "echo end: 0 lines; exit 1"]));
         assert!(printed.unwrap_err().contains("end: 0 lines"));
     }

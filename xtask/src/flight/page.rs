@@ -127,7 +127,7 @@ pub(super) fn settle(
         "figures: none exceeds the committed one by more than 2 %",
         held(figures, &committed),
     );
-    // The same figures, each committed a tenth smaller, have to be refused.
+    // The same figures, each committed a tenth smaller, have to be rejected.
     let smaller = Figures {
         rows: figures
             .rows
@@ -231,8 +231,8 @@ mod tests {
         let committed = page("a compiler", &figures(10_000));
         assert_eq!(held(&figures(10_200), &committed), Ok(()));
         assert_eq!(held(&figures(5000), &committed), Ok(()));
-        let refused = held(&figures(10_201), &committed).unwrap_err();
-        assert!(refused.ends_with("run `cargo xtask flight`"), "{refused}");
+        let rejected = held(&figures(10_201), &committed).unwrap_err();
+        assert!(rejected.ends_with("run `cargo xtask flight`"), "{rejected}");
         assert!(held(&figures(1), "").is_err(), "nothing is committed");
     }
 

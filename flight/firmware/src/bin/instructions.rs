@@ -36,7 +36,7 @@ enum Stop {
     Console,
     Parameters(ParameterError<f64>),
     Solve(SolveError<f64>),
-    Refused,
+    Rejected,
 }
 
 impl Display for Stop {
@@ -45,7 +45,7 @@ impl Display for Stop {
             Self::Console => write!(f, "the console took no more"),
             Self::Parameters(error) => write!(f, "{error}"),
             Self::Solve(error) => write!(f, "{error}"),
-            Self::Refused => write!(f, "a call was refused"),
+            Self::Rejected => write!(f, "a call was rejected"),
         }
     }
 }
@@ -161,7 +161,7 @@ impl Counts<'_> {
         }
         let ticks = timer.ticks();
         if !done {
-            return Err(Stop::Refused);
+            return Err(Stop::Rejected);
         }
         self.lines += 1;
         // To the nearest.
