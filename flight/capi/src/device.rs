@@ -7,7 +7,7 @@ use crate::craft::matrix;
 use crate::error::{Code, Rejection};
 use crate::types;
 
-/// `PRECESS_KIND_`: a number that stands for a kind for ever.
+/// `PRECESS_KIND_`: the number of a kind, which never changes.
 pub(crate) const fn number_of(kind: BuiltInKind) -> i32 {
     match kind {
         BuiltInKind::Dgvscmg => 1,

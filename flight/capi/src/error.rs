@@ -8,7 +8,7 @@ use crate::memory::{self, Plain};
 
 macro_rules! codes {
     ($($(#[$doc:meta])* $variant:ident = $number:literal, $name:literal, $text:literal;)*) => {
-        /// The answer of every function.
+        /// The code that every function returns.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(i32)]
         pub enum Code {
@@ -44,7 +44,7 @@ codes! {
         c"a pointer is not aligned for its type; the spacecraft needs PRECESS_SPACECRAFT_ALIGN";
     /// Memory is too small.
     TooSmall = 3, c"PRECESS_ERROR_TOO_SMALL",
-        c"the room given is too small; see PRECESS_SPACECRAFT_SIZE, _TABLE_SIZE, state_length";
+        c"the memory is too small; see PRECESS_SPACECRAFT_SIZE, _TABLE_SIZE, state_length";
     /// Memory holds no spacecraft.
     NotInitialised = 4, c"PRECESS_ERROR_NOT_INITIALISED",
         c"the memory holds no spacecraft; call precess_init or precess_init_from_table first";
@@ -65,12 +65,12 @@ codes! {
         c"a number is NaN or infinite, or an attitude has no length; give finite SI units";
     /// A mass is out of range.
     Mass = 10, c"PRECESS_ERROR_MASS",
-        c"a mass is not above 0 (of a carrier: below 0), or the sum of all is not finite";
+        c"a mass is not above 0 (0 is allowed inboard), or the sum of all is not finite";
     /// An inertia is none.
     Inertia = 11, c"PRECESS_ERROR_INERTIA",
         c"an inertia is not symmetric, or has a negative or infinite principal moment";
     /// A mount is no rotation.
-    Mount = 12, c"PRECESS_ERROR_MOUNT", c"a mount is no right-handed rotation to rounding";
+    Mount = 12, c"PRECESS_ERROR_MOUNT", c"a mount is not a right-handed rotation to rounding";
     /// A spring or friction is out of range.
     Passive = 13, c"PRECESS_ERROR_PASSIVE",
         c"a stiffness or friction is below 0, or Coulomb friction has no rate above 0";
@@ -83,12 +83,12 @@ codes! {
     /// A fixed hub moves.
     FixedHubMoves = 16, c"PRECESS_ERROR_FIXED_HUB_MOVES",
         c"a fixed hub moves; set its velocities to 0, or call precess_stop first";
-    /// A joint has one mode alone.
+    /// A joint has only one mode.
     NotDriven = 17, c"PRECESS_ERROR_NOT_DRIVEN",
         c"a joint is held at its rate by its kind and takes no other mode; use another kind";
     /// No field at the centre of gravity.
     AtCentre = 18, c"PRECESS_ERROR_AT_CENTRE",
-        c"B stands at the centre of gravity, where there is no field; set the position";
+        c"B is at the centre of gravity, where there is no field; set the position";
     /// The result is not finite.
     Overflow = 19, c"PRECESS_ERROR_OVERFLOW",
         c"the result is not finite although every input is; check units of large or tiny inputs";
@@ -132,7 +132,7 @@ pub struct Fault {
 // SAFETY: integers and floating-point numbers.
 unsafe impl Plain for Fault {}
 
-/// A rejection on its way out; names of joints become numbers when it leaves.
+/// A rejection with the name of its joint; [`Fault`] has the number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rejection {
     pub(crate) code: Code,

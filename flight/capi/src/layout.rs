@@ -1,4 +1,4 @@
-//! `tests/layout.c` tells a C compiler what Rust takes the structures and constants of the header
+//! `tests/layout.c` asserts in C what Rust takes the structures and constants of the header
 //! for. It is written by the test below, and compiled with the header by `cargo xtask capi`.
 
 use core::mem::{offset_of, size_of};

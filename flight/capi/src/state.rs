@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use precess_dynamics::{JointArray, Quaternion, Spacecraft, State};
 
-use crate::craft::{Craft, answer, craft};
+use crate::craft::{Craft, craft, report};
 use crate::error::{Code, Fault, Rejection};
 use crate::memory::{self, slice, slice_mut};
 use crate::types::{self, PerJoint};
@@ -55,7 +55,7 @@ pub(crate) fn state_of(spacecraft: &Spacecraft<List>, from: &types::State) -> St
 }
 
 /// A state as a structure.
-pub(crate) fn told(state: &State<List>) -> types::State {
+pub(crate) fn structure_of(state: &State<List>) -> types::State {
     let Quaternion { q0, q1, q2, q3 } = state.attitude;
     let mut to = types::State {
         position: state.r_b_n.into(),
@@ -101,7 +101,7 @@ pub unsafe extern "C" fn precess_state_at_rest(
 ) -> i32 {
     // SAFETY: by contract.
     let done = unsafe { craft(pointer) }.and_then(|craft| {
-        let at_rest = told(&State::at_rest_for(&craft.spacecraft));
+        let at_rest = structure_of(&State::at_rest_for(&craft.spacecraft));
         // SAFETY: by contract.
         unsafe { memory::write(state, at_rest) }
     });
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn precess_state_wrap(
         // SAFETY: by contract.
         let from = state_of(&craft.spacecraft, &unsafe { memory::read(state.cast_const()) }?);
         // SAFETY: by contract.
-        unsafe { memory::write(state, told(&from.wrapped(&craft.spacecraft))) }
+        unsafe { memory::write(state, structure_of(&from.wrapped(&craft.spacecraft))) }
     });
     done.err().unwrap_or(Code::Ok) as i32
 }
@@ -196,7 +196,7 @@ pub unsafe extern "C" fn precess_state_restore(
         }
         // SAFETY: by contract.
         let from = unsafe { slice(from, count as usize) }?;
-        let mut restored = told(&State::at_rest_for(craft));
+        let mut restored = structure_of(&State::at_rest_for(craft));
         numbers(craft, &mut restored).zip(from).for_each(|(to, from)| *to = *from);
         // What is not finite, or no attitude, is rejected here, not at the next step.
         craft.energy(&state_of(craft, &restored))?;
@@ -206,5 +206,5 @@ pub unsafe extern "C" fn precess_state_restore(
     };
     let result = restore();
     // SAFETY: by contract.
-    unsafe { answer(craft(pointer).ok().map(|craft| &craft.spacecraft), result, fault) }
+    unsafe { report(craft(pointer).ok().map(|craft| &craft.spacecraft), result, fault) }
 }

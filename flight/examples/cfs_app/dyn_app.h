@@ -1,11 +1,11 @@
-/* A flight-software application in the shape of a cFS app: it carries the dynamics of its own
+/* A flight-software application in the shape of a cFS app: it computes the dynamics of its own
  * spacecraft along, woken up by the scheduler, commanded and watched from the ground. */
 #ifndef DYN_APP_H
 #define DYN_APP_H
 
 #include "precess.h"
 
-/* The scheduler wakes the app up at 10 Hz; the fastest wheel asks for steps of 1 ms. */
+/* The scheduler wakes the app up at 10 Hz; the fastest wheel needs steps of 1 ms. */
 #define DYN_SUBSTEPS 100
 #define DYN_STEP 1e-3 /* s */
 
@@ -24,7 +24,7 @@ typedef struct {
     double momentum_residual;  /* largest change of a component since the start, kg m^2/s */
 } dyn_housekeeping;
 
-/* Command: what is given of a joint from now on. A joint that moves is stopped before it is locked. */
+/* Command: torque, acceleration or mode of a joint from now on. A joint that moves is stopped before it is locked. */
 typedef struct {
     uint32_t device;
     uint32_t joint;

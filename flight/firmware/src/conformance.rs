@@ -75,7 +75,7 @@ impl<T> From<SolveError<T>> for Stop<T> {
 }
 
 /// Prints every line for numbers of one type; `nudge` changes one component of the first
-/// run's angular velocity by one unit in the last place, which has to show.
+/// run's angular velocity by one unit in the last place, which has to be found.
 ///
 /// # Errors
 /// [`Stop`] where a spacecraft is rejected: none should be.

@@ -17,7 +17,7 @@ pub trait Drawn: Kind {
     fn drawn(random: &mut Random) -> Self;
 }
 
-/// How far a body's origin or centre of mass is from its carrier's origin, m.
+/// How far a body's origin or centre of mass is from its parent body's origin, m.
 const OFFSET: f64 = 0.1;
 
 /// How far a device is from the hub's point B, m.
@@ -46,13 +46,13 @@ macro_rules! balanced_wheel {
 }
 
 macro_rules! drawn {
-    ($($kind:ident $name:literal $wheel:ident $carriers:ident;)*) => {$(
+    ($($kind:ident $name:literal $wheel:ident $inboard:ident;)*) => {$(
         impl<T: Scalar> Drawn for $kind<T> {
             const NAME: &'static str = $name;
 
             fn drawn(random: &mut Random) -> Self {
                 let wheel = $wheel!($kind, random);
-                let mut device = $carriers!($kind, random, wheel);
+                let mut device = $inboard!($kind, random, wheel);
                 device.mount = random.rotation();
                 suspend(&mut device.passive, random);
                 device

@@ -1,4 +1,4 @@
-//! The sets of devices that are run: each kind alone, several of a kind, several kinds together.
+//! The sets of devices that are run: each kind by itself, several of a kind, several kinds together.
 
 use core::array::from_fn;
 
@@ -41,24 +41,24 @@ pub type Mixed<T> = (
 /// # Errors
 /// The first of the visitor.
 pub fn each_set<T: Scalar, V: EachSet<T>>(visitor: &mut V) -> Result<(), V::Error> {
-    alone::<Dgvscmg<T>, V>(visitor)?;
-    alone::<BalancedDgvscmg<T>, V>(visitor)?;
-    alone::<Dgcmg<T>, V>(visitor)?;
-    alone::<BalancedDgcmg<T>, V>(visitor)?;
-    alone::<Vscmg<T>, V>(visitor)?;
-    alone::<BalancedVscmg<T>, V>(visitor)?;
-    alone::<Sgcmg<T>, V>(visitor)?;
-    alone::<BalancedSgcmg<T>, V>(visitor)?;
-    alone::<ReactionWheel<T>, V>(visitor)?;
-    alone::<BalancedReactionWheel<T>, V>(visitor)?;
-    alone::<HingedPanel<T>, V>(visitor)?;
-    alone::<SloshMass<T>, V>(visitor)?;
+    single::<Dgvscmg<T>, V>(visitor)?;
+    single::<BalancedDgvscmg<T>, V>(visitor)?;
+    single::<Dgcmg<T>, V>(visitor)?;
+    single::<BalancedDgcmg<T>, V>(visitor)?;
+    single::<Vscmg<T>, V>(visitor)?;
+    single::<BalancedVscmg<T>, V>(visitor)?;
+    single::<Sgcmg<T>, V>(visitor)?;
+    single::<BalancedSgcmg<T>, V>(visitor)?;
+    single::<ReactionWheel<T>, V>(visitor)?;
+    single::<BalancedReactionWheel<T>, V>(visitor)?;
+    single::<HingedPanel<T>, V>(visitor)?;
+    single::<SloshMass<T>, V>(visitor)?;
     visitor
         .visit("dgvscmg", 4, |random| -> [Dgvscmg<T>; 4] { from_fn(|_| Drawn::drawn(random)) })?;
     visitor.visit("mixed", 7, mixed::<T>)
 }
 
-fn alone<K: Drawn, V: EachSet<K::Scalar>>(visitor: &mut V) -> Result<(), V::Error> {
+fn single<K: Drawn, V: EachSet<K::Scalar>>(visitor: &mut V) -> Result<(), V::Error> {
     visitor.visit(K::NAME, 1, |random| [K::drawn(random)])
 }
 

@@ -1,4 +1,4 @@
-//! `docs/flight.md`: what a call takes on a Cortex-M7, beside what is asked of it.
+//! `docs/flight.md`: instructions, stack and code of a call on a Cortex-M7, and the bounds on them.
 
 use std::fmt::Write;
 use std::fs;
@@ -17,7 +17,7 @@ const PAGE: &str = "docs/flight.md";
 /// A figure may exceed the committed one by one in so many.
 const GATE: u64 = 50;
 
-/// Instructions an evaluation of DGVSCMGs may take, by how many there are (S7).
+/// Largest number of instructions of an evaluation, by the number of DGVSCMGs.
 const BOUNDS: [(u32, u64); 2] = [(1, 3500), (4, 12_000)];
 
 /// A set of devices that is measured.
@@ -54,7 +54,7 @@ pub(super) const SETS: [Set; 24] = [
     Set { kind: "slosh_mass", devices: 4 },
 ];
 
-/// Columns of the table, behind the name.
+/// Columns of the table after the name.
 const COLUMNS: [&str; 6] = [
     "instructions of an evaluation",
     "instructions of a step",
@@ -174,7 +174,7 @@ fn held(figures: &Figures, committed: &str) -> Result<(), String> {
     Err(format!("beyond {PAGE}:{wrong}\nif that is meant, run `cargo xtask flight`"))
 }
 
-/// The numbers behind a name.
+/// The numbers after a name.
 fn committed_row(page: &str, name: &str) -> Option<Vec<u64>> {
     let start = format!("| `{name}` |");
     let row = page.lines().find_map(|line| line.strip_prefix(&start))?;
@@ -203,7 +203,7 @@ fn page(compiler: &str, figures: &Figures) -> String {
     text
 }
 
-/// What is asked of an evaluation, and whether it holds.
+/// The bounds on an evaluation, and whether they hold.
 fn bounds(figures: &Figures) -> String {
     let rows = BOUNDS.map(|(devices, bound)| {
         let now = figures.instructions(devices);

@@ -49,7 +49,7 @@ macro_rules! program {
     };
 }
 
-/// What a program is asked for beyond its usual run; a board asks for nothing.
+/// What a program does beyond its usual run; on a board nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// One number off by one unit in its last place, which a comparison has to find.
@@ -71,12 +71,12 @@ impl Options {
     }
 }
 
-/// A panic is told and ends the program without success: none passes in silence.
+/// A panic is printed and ends the program without success.
 #[cfg(target_os = "none")]
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
     use core::fmt::Write;
-    // The console is what tells; where it fails, the status is left.
+    // The console shows it; if that fails, the exit status does.
     let _ = writeln!(Console, "{info}");
     exit(false)
 }
