@@ -14,7 +14,7 @@ use crate::output::report::ReportError;
 pub enum RunError {
     /// The length of the run, s.
     Duration {
-        /// What was asked for.
+        /// The value of the option.
         value: f64,
         /// Shortest.
         lowest: f64,
@@ -23,7 +23,7 @@ pub enum RunError {
     },
     /// The relative tolerance of a step.
     Tolerance {
-        /// What was asked for.
+        /// The value of the option.
         value: f64,
         /// Smallest that can be met.
         lowest: f64,
@@ -32,7 +32,7 @@ pub enum RunError {
     },
     /// The sampling rate, 1/s.
     Rate {
-        /// What was asked for.
+        /// The value of the option.
         value: f64,
         /// Two samples in the run.
         lowest: f64,
@@ -80,10 +80,10 @@ pub enum Fault {
         /// Its words.
         reason: String,
     },
-    /// A state was asked of its interpolant outside the last step.
+    /// The interpolant was evaluated outside the last step.
     Interpolation {
-        /// The time asked for, s.
-        asked: f64,
+        /// The time of the state, s.
+        time: f64,
         /// Start of the last step, s.
         from: f64,
         /// End of the last step, s.
@@ -152,8 +152,8 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Input { reason } => write!(f, "its input is rejected ({reason})"),
-            Self::Interpolation { asked, from, to } => {
-                write!(f, "a state at {asked} s, outside its last step, {from} s to {to} s")
+            Self::Interpolation { time, from, to } => {
+                write!(f, "a state at {time} s, outside its last step, {from} s to {to} s")
             }
             Self::Delay => f.write_str("equations without a delay are taken for ones with one"),
             Self::LinearAlgebra { reason } => write!(f, "linear equations failed ({reason})"),
@@ -290,7 +290,7 @@ mod tests {
 
     #[test]
     fn a_fault_of_the_integrator_tells_when_and_what() {
-        let fault = Fault::Interpolation { asked: 3.0, from: 1.0, to: 2.0 };
+        let fault = Fault::Interpolation { time: 3.0, from: 1.0, to: 2.0 };
         assert_eq!(
             RunError::Integrator { time: 2.0, fault }.to_string(),
             "the integrator stopped at t = 2 s: a state at 3 s, outside its last step, 1 s to 2 s; \

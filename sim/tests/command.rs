@@ -133,12 +133,12 @@ fn a_folder_that_cannot_be_made_is_rejected_before_the_work() {
 /// The hub, the start and the columns: what a reader needs to run it again elsewhere.
 #[test]
 fn the_report_and_the_help_tell_what_was_run() {
-    let out = folder("told");
+    let out = folder("parameters");
     assert!(precess(&SHORT, Some(&out)).status.success());
     let report = fs::read_to_string(out.join("report.html")).expect("a report");
-    for told in ["810 kg", "900, 800, 600 kg m²", "4.15, 2.93, 2.75 kg m²", "4.85, 0.57, 0 deg/s"]
+    for value in ["810 kg", "900, 800, 600 kg m²", "4.15, 2.93, 2.75 kg m²", "4.85, 0.57, 0 deg/s"]
     {
-        assert!(report.contains(&format!(">{told}<")), "{told}");
+        assert!(report.contains(&format!(">{value}<")), "{value}");
     }
     assert!(report.contains("Wheel at the start</td><td class=\"number\">500 rpm<"));
     let help = String::from_utf8(precess(&["run", "--help"], None).stdout).expect("text");

@@ -64,7 +64,7 @@ fn compiler() -> Result<String, String> {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let field = |name: &str| {
         let line = text.lines().find_map(|line| line.strip_prefix(name));
-        line.ok_or_else(|| format!("`rustc -vV` tells no `{name}`"))
+        line.ok_or_else(|| format!("`rustc -vV` has no `{name}`"))
     };
     Ok(format!("rustc {} for {}", field("release: ")?, field("host: ")?))
 }

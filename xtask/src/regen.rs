@@ -14,7 +14,7 @@ use crate::files::{committed, differing, read_pages, write};
 use crate::printed;
 use crate::run::{root, say};
 
-/// Where the hand-checked pages stand.
+/// The folder of the hand-checked pages.
 pub(crate) const PAGES: &str = "tests/derivation";
 
 /// Where the C kernels are written unless something else is said; not part of the repository.
@@ -131,7 +131,7 @@ fn print(made: &Regeneration, quiet: bool) {
     say!("{held} of {} claims proven equal", made.rows.len());
 }
 
-/// Shows the difference to what stands on disk, which must hold nothing that is not emitted.
+/// Shows the difference from the files on disk, where every file must be an emitted one.
 fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), String> {
     let stale = differing(files, into);
     if let Some(orphan) = orphan(files, into) {

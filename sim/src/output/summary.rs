@@ -11,7 +11,7 @@ use crate::run::Settings;
 pub(super) const NO_JITTER: &str = "it takes a whole turn of the wheel (0.12 s at 500 rpm) and 8 \
                                     samples in it; run longer or raise the rate";
 
-/// The table of outcomes, as plain text.
+/// The table of outcomes, as text.
 #[must_use]
 pub fn summary<const N: usize>(
     outcomes: &[Outcome<N>],

@@ -19,7 +19,7 @@ const PADDING: f64 = 0.06;
 const PARTS: f64 = 6.5;
 
 impl Scale {
-    /// The value in the units of the axis; not a number if it has no place there.
+    /// The value in the units of the axis; not a number if it is not on the axis.
     #[must_use]
     pub fn apply(self, value: f64) -> f64 {
         match self {
@@ -122,7 +122,7 @@ impl Ranged for Axis {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
 
-    #[expect(clippy::cast_possible_truncation, reason = "a place in a picture")]
+    #[expect(clippy::cast_possible_truncation, reason = "a coordinate in a picture")]
     fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
         let share = (value - self.range.start) / (self.range.end - self.range.start);
         (f64::from(limit.0) + share * f64::from(limit.1 - limit.0)).round() as i32
