@@ -1,4 +1,4 @@
-//! Calls the solver as often as told: what `cargo xtask instructions` runs under callgrind.
+//! Calls the solver a number of times: what `cargo xtask instructions` runs under callgrind.
 //!
 //! ```sh
 //! instructions list                    # the cases, one a line
@@ -38,7 +38,7 @@ fn rejected(why: &str) -> ExitCode {
     ExitCode::FAILURE
 }
 
-/// The cases: all of them told, or one of them run.
+/// Lists the cases, or runs one of them.
 struct Cases {
     wanted: Option<(String, u32)>,
     found: bool,
@@ -88,7 +88,7 @@ impl Cases {
 
 impl EachKind<f64> for Cases {
     fn visit<K: Kind<Scalar = f64>>(&mut self, name: &'static str, device: K) {
-        // The paper's device stands there by its number already.
+        // The paper's device is listed by its number already.
         if name != "dgvscmg" {
             self.of(name, &[device]);
         }

@@ -126,7 +126,7 @@ impl Row {
 ///
 /// # Panics
 ///
-/// If the solver gives an error, saying whose case it is.
+/// If the solver gives an error, naming the case.
 #[must_use]
 pub fn reference<const N: usize>(case: &Case<N, Wide>, whose: &str) -> Accelerations<Set<N, Wide>> {
     let found = Drawn::new(case).solved::<Whole>(whose);

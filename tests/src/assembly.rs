@@ -1,6 +1,6 @@
 //! The paper's own assembly: (16), (75), (80), (101) and (119), from the hand-checked pages.
 //!
-//! Every statement is one equation of `tests/derivation`, with its number beside it, or `(step)`
+//! Every statement is one equation of `tests/derivation`, with its number in a comment, or `(step)`
 //! where the paper gives none, in the form that the pages arrive at: positions by the expanded
 //! (12)-(14), inertias by (35)-(73), the coefficients of (17), momenta by (30), (43), (58) and
 //! (74), motor torques about the centres of mass of D and V. Of the forms that a page gives for one
@@ -10,7 +10,7 @@
 //!
 //! With that the two share vectors, elimination and the layout of the system, and no equation.
 //!
-//! The left sides are evaluated for given accelerations, in which they are affine. So the system
+//! The left sides are evaluated for known accelerations, in which they are affine. So the system
 //! needs no second notation: what is left of them without any rates, under one acceleration of 1,
 //! is a column of the matrix; what is left without any accelerations changes sides.
 
@@ -73,7 +73,7 @@ fn moved_by<const N: usize>(unknown: usize) -> Range<usize> {
     }
 }
 
-/// The left sides of all equations under given accelerations; zero for devices not in `moved`.
+/// The left sides of all equations for these accelerations; zero for devices not in `moved`.
 fn left_sides<const N: usize, T: Scalar>(
     case: &Case<N, T>,
     state: &State<Set<N, T>>,

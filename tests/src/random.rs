@@ -91,7 +91,7 @@ impl<const N: usize> Sample<N> {
         Self { seed, case: Case { hub, devices, state, inputs }, mounts, attitude }
     }
 
-    /// The spacecraft in a scalar: plain numbers exactly as drawn, mounts orthonormal and the
+    /// The spacecraft in a scalar: numbers exactly as drawn, mounts orthonormal and the
     /// attitude of unit norm to the rounding of that scalar.
     #[must_use]
     pub fn case<T: Scalar>(&self) -> Case<N, T> {

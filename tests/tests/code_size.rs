@@ -62,7 +62,7 @@ fn manifest(tests: &Path) -> String {
     )
 }
 
-/// The one dynamic library there, whatever the platform calls it.
+/// The one dynamic library there, under the platform's name.
 fn library(folder: &Path) -> PathBuf {
     folder.join(format!("{}accelerations_only{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX))
 }

@@ -1,5 +1,4 @@
-//! What a user sees of faulty parameters: each gives a typed error that names it, with value, bound
-//! and remedy; unusual but valid ones are accepted.
+//! Faulty parameters: each is rejected by a typed error that names it, with value, bound and remedy; unusual but valid ones are accepted.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Hub, Inputs, Parameter, ParameterError, Part, Spacecraft, State, Warning};
@@ -13,7 +12,7 @@ const BODIES: [Part; 3] = [
     Part::Body { device: 1, body: "wheel" },
 ];
 
-/// A way to put a number into one input.
+/// Sets one parameter to a number.
 type Spoil = fn(&mut Case<2>, f64);
 
 fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<Set<N>> {

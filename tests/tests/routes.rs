@@ -90,7 +90,7 @@ struct Measured {
     wide: Tally,
 }
 
-/// All routes over all spacecraft: measured once, printed, then judged by each test below.
+/// All routes over all spacecraft: measured once, printed, then asserted by each test below.
 static MEASURED: LazyLock<Table> = LazyLock::new(|| {
     let mut table = Table(Route::ALL.map(|route| Measured {
         route,

@@ -1,4 +1,4 @@
-//! Table 1 stands three times, typed independently from the paper: here for the suites, in the
+//! Table 1 is written three times, independently from the paper: here for the suites, in the
 //! desktop tool for its runs, and in codegen for the consequences of printed slips. They agree.
 
 use nalgebra::{Matrix3, Vector3};

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Quaternion as Turn, UnitQuaternion, Vector3};
 use precess_dynamics::kind::BodyParameters;
 use precess_dynamics::{BuiltIn, BuiltInKind, DeviceParameters, ImbalanceModel, Passive};
 
-/// A body: mass, where it stands, where its centre is, how long its edges are, how it is turned.
+/// A body: mass, origin, centre of mass, edges, orientation.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     pub(crate) mass: f64,

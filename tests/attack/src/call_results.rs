@@ -181,7 +181,7 @@ pub fn call_results<D: Devices<Loads: Numbers<D::Scalar>>>(
     let Some(wished) = wished(placed) else { return all };
     for (name, axes) in [
         ("loads along body axes", LoadAxes::Body),
-        ("loads along the carrier's axes", LoadAxes::Parent),
+        ("loads in the parent body's axes", LoadAxes::Parent),
         ("loads along B axes", LoadAxes::Hub),
         ("loads along N axes", LoadAxes::Inertial),
     ] {

@@ -1,4 +1,4 @@
-//! A case: one spacecraft in one state under given inputs, as plain data, in any shape and number.
+//! A case: one spacecraft in one state with inputs, as numbers, for any set of devices and scalar.
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::BodyParameters;
@@ -26,7 +26,7 @@ pub struct Case {
     pub dt: f64,
     /// How many steps, where there are several.
     pub steps: usize,
-    /// More states with their inputs, where a batch is asked.
+    /// More states with their inputs, if a batch is evaluated.
     pub more: Vec<(State<List>, Inputs<List>)>,
 }
 

@@ -76,7 +76,7 @@ const KINDS: [BuiltInKind; 12] = [
     BuiltInKind::BalancedDgvscmg,
 ];
 
-/// What a joint does by itself and what is given of it.
+/// Motion, passive elements and inputs of a joint.
 #[derive(Clone, Debug)]
 struct Joint {
     motion: [f64; 2],

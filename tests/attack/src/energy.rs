@@ -44,7 +44,7 @@ pub fn ledger_balances(case: &Case) -> Verdict {
     Ok(Checked::Holds)
 }
 
-/// Cases in which the parts of the kinetic energy cancel: a heavy body that stands still on a light hub
+/// Cases in which the parts of the kinetic energy cancel: a heavy body at rest on a light hub
 /// that moves, or a hub that turns about its centre of mass, far from B and without much inertia.
 pub fn cancelling() -> BoxedStrategy<Case> {
     let turn = [(); 4].map(|()| Number::within(-1.0, 1.0));
@@ -179,7 +179,7 @@ pub fn stop_conserves(case: &Case) -> Verdict {
         let of = |state| craft.momentum(state, about).map_err(|error| error.to_string());
         Ok((of(next)?, of(&state)?))
     };
-    // About B, where it stands: nothing is lost to the distance from the origin.
+    // About B: no digits are lost to the distance from the origin.
     let (after, before) = momentum(About::Point(state.r_b_n))?;
     for (what, error, unit) in [
         ("linear", (after.linear - before.linear).norm(), unit.linear),

@@ -86,7 +86,7 @@ fn with_parameters(list: &Placed<List>, dt: f64) -> Verdict {
     Ok(Checked::Holds)
 }
 
-/// Every number of a state in the order in which they are asked.
+/// Every number of a state in the order in which they are checked.
 fn of_state(list: &Placed<List>) -> Vec<(Quantity, f64)> {
     let Placed { craft, state, .. } = list;
     let mut all = Vec::new();
@@ -104,7 +104,7 @@ fn of_state(list: &Placed<List>) -> Vec<(Quantity, f64)> {
     all
 }
 
-/// Every number of inputs in the order in which they are asked.
+/// Every number of inputs in the order in which they are checked.
 fn of_inputs(list: &Placed<List>) -> Vec<(Quantity, f64)> {
     let Placed { craft, inputs, .. } = list;
     let mut all = Vec::new();
@@ -142,7 +142,7 @@ fn first_bad(list: &Placed<List>, all: &[(Quantity, f64)]) -> Option<(Quantity, 
     Some((what, shown))
 }
 
-/// Calls that ask nothing but the state.
+/// Calls that depend only on the state.
 const OF_STATE: [&str; 4] =
     ["energy", "momentum about the origin", "momentum about the centre of mass", "centre of mass"];
 
@@ -170,7 +170,7 @@ fn named<T: Scalar>(
 }
 
 /// `first-bad-input-is-named`: the first input that is not finite is named with its value, and only
-/// what is given is named.
+/// inputs are named.
 ///
 /// # Errors
 /// Where it does not hold.

@@ -1,4 +1,4 @@
-//! At the ends of what numbers can hold: the field far from and near its centre, gimbals near lock.
+//! At the limits of the range of numbers: the field far from and near its centre, gimbals near lock.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -20,7 +20,7 @@ const FIELD: f64 = 1e-14;
 /// Error of accelerations near a singular pose, in epsilons over the square of the distance.
 const NEAR: f64 = 100.0;
 
-/// A hub alone at any distance from a centre, so small that it feels no gradient.
+/// A hub without devices at any distance from a centre, so small that no gradient matters.
 pub fn far_and_near() -> BoxedStrategy<Case> {
     let direction = [(); 3].map(|()| Number::within(-1.0, 1.0));
     let (distance, field) = (Number::within(-140.0, 160.0), Number::within(-20.0, 20.0));

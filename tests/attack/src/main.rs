@@ -25,7 +25,7 @@ struct Options {
     /// For how long new cases are drawn
     #[arg(long, default_value_t = 1.0)]
     minutes: f64,
-    /// The campaign: the same seed goes on where it was left; a new one if none is given
+    /// The campaign: the same seed continues where it ended; a new one without this option
     #[arg(long)]
     seed: Option<u64>,
     /// One property

@@ -124,7 +124,7 @@ fn in_lanes() -> BoxedStrategy<Case> {
 pub const PROPERTIES: &[Property] = &[
     Property {
         name: "result-or-error",
-        statement: "every public call gives finite numbers or an error, whatever it is given",
+        statement: "every public call gives finite numbers or an error for any input",
         cases: 300,
         function: "finite::result_or_error",
         draw: any_numbers,
@@ -204,7 +204,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "ledger-balances",
-        statement: "what the ledger leaves unexplained is rounding",
+        statement: "the residual of the ledger is rounding",
         cases: 1000,
         function: "energy::ledger_balances",
         draw: real,

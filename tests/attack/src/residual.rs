@@ -1,4 +1,4 @@
-//! Whether accelerations solve the equations: inverse dynamics asked of what was found.
+//! Whether accelerations solve the equations: inverse dynamics of the computed accelerations.
 //!
 //! Errors are in epsilons of the [`sizes`](super::sizes) of what is added, so they do not depend on
 //! conditioning: a backward error.
@@ -36,7 +36,7 @@ pub fn from_numbers<T: Scalar>(
 /// The largest backward error of accelerations, in epsilons of their number, and where.
 ///
 /// # Errors
-/// What inverse dynamics refuses, and a given acceleration that is not the one found.
+/// What inverse dynamics refuses, and a prescribed acceleration that differs from the computed one.
 pub fn residual<T: Scalar>(
     case: &Case,
     list: &Placed<List<T>>,

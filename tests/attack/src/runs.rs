@@ -154,7 +154,7 @@ fn fast(case: &Case, craft: &Spacecraft<List>, state: &State<List>) -> Option<Fa
         device.parameters().passive.into_iter().take(device.kind().joints().len())
     });
     for (index, own) in passives.enumerate() {
-        // So large that the difference has its digits beside what springs do.
+        // So large that the difference has digits next to the work of springs.
         let torque = 1.0 + own.stiffness;
         *inputs.motors.values_mut().nth(index)? = torque;
         let moved = craft.accelerations(&rest, &inputs).ok()?;

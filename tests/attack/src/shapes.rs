@@ -76,7 +76,7 @@ macro_rules! kinds {
             }
         })*
 
-        /// The devices behind pointers.
+        /// The devices as `AnyDevice`.
         #[must_use]
         pub fn any<T: Scalar>(devices: &[BuiltIn<T>]) -> Vec<AnyDevice<T>> {
             let any = |device: &BuiltIn<T>| match *device {
@@ -122,7 +122,7 @@ tuples! {
     A B C D E F;
 }
 
-/// The devices as a spacecraft carries them on board; none where there are too many.
+/// The devices as an array of `Option<BuiltIn>`; none if there are too many.
 #[must_use]
 pub fn on_board<T: Scalar>(devices: &[BuiltIn<T>]) -> Option<[Option<BuiltIn<T>>; 8]> {
     (devices.len() <= 8).then(|| std::array::from_fn(|index| devices.get(index).copied()))
@@ -201,7 +201,7 @@ fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> O
     Some(Batched { accelerations, runs })
 }
 
-/// Calls something with the case in every shape that its list fits, beside its name. Tuples of kinds
+/// Calls something with the case in every shape that its list fits, with its name. Tuples of kinds
 /// are compiled for `f64`, the other shapes for every number.
 macro_rules! in_every_shape {
     (@shape $case:ident |$name:ident, $placed:ident| $then:expr; $called:expr, $devices:expr) => {

@@ -1,6 +1,6 @@
 //! Magnitudes of what is added up in the equations: the unit of an error that is rounding.
 //!
-//! Bounds by lengths and norms, body by body: mass times every acceleration that its place can have,
+//! Bounds by lengths and norms, body by body: mass times every acceleration that its centre can have,
 //! inertia times every angular acceleration. They do not depend on how well the equations are
 //! conditioned.
 

@@ -1,4 +1,4 @@
-//! What a sweep says in a few figures: where the bound holds and is lost, where the solver rejects.
+//! Summary of a sweep: where the bound holds and is exceeded, where the solver rejects.
 
 use precess_tests::accuracy::Row;
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};

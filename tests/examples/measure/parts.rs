@@ -35,7 +35,7 @@ pub(crate) fn parts(stored: &Stored) -> Result<Value, Rejected> {
     }))
 }
 
-/// Sine and cosine of each angle: what an evaluation asks for, by itself.
+/// Sine and cosine of each angle: as many as an evaluation computes, by themselves.
 struct Sines(Vec<f64>);
 
 impl Service for Sines {

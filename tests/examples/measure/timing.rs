@@ -20,7 +20,7 @@ pub(crate) fn time(service: &mut dyn Service) -> Result<Value, Rejected> {
         service.run(calls)?;
         Ok::<_, Rejected>(start.elapsed().as_secs_f64())
     };
-    // As many calls as fill a batch; warms up on the way.
+    // As many calls as fill a batch; which also warms up.
     let mut calls = 1_u32;
     while seconds(service, calls)? < BATCH {
         calls = calls.saturating_mul(2);

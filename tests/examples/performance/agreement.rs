@@ -31,12 +31,12 @@ pub(crate) fn check(
     eprintln!("compared with {}", reference.name);
     for count in plan.checked() {
         let file = file(folder, count);
-        let expected = reference.ask::<Found>("check", &file)?.accelerations;
+        let expected = reference.query::<Found>("check", &file)?.accelerations;
         for (contender, (_, worst)) in checked.iter().zip(&mut worst) {
             if !contender.takes(count) {
                 continue;
             }
-            let found = contender.ask::<Found>("check", &file)?.accelerations;
+            let found = contender.query::<Found>("check", &file)?.accelerations;
             let deviation = deviation(&found, &expected, count)
                 .ok_or_else(|| format!("{}: {} numbers", contender.name, found.len()))?;
             *worst = worst.max(deviation);

@@ -33,7 +33,7 @@ struct Arguments {
     /// The program `measure`
     #[arg(long, value_name = "FILE")]
     measure: PathBuf,
-    /// Where the spacecraft and the peers stand
+    /// The folder of spacecraft and peers
     #[arg(long, value_name = "DIR", default_value = "target/peers")]
     peers: PathBuf,
     /// Where the page goes
@@ -42,7 +42,7 @@ struct Arguments {
     /// One round over few spacecraft; the page goes to the folder of the peers
     #[arg(long)]
     quick: bool,
-    /// Precess alone
+    /// Only Precess
     #[arg(long)]
     skip_peers: bool,
 }
@@ -75,7 +75,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let parts = page::parts(&measure, &plan, &arguments.peers)?;
     let page = Page { machine, contenders, missing, worst, times, parts };
     page.show();
-    // A quick look is no page to be kept.
+    // The page of a quick run is not kept.
     let out = if arguments.quick { &arguments.peers } else { &arguments.out };
     for (name, text) in page.files()? {
         let path = out.join(name);

@@ -83,11 +83,11 @@ struct Reached {
 
 /// Measures the parts of the plan's evaluations.
 pub(crate) fn parts(measure: &Program, plan: &Plan, folder: &Path) -> Result<Vec<Parts>, String> {
-    let ask = |count: &usize| {
+    let query = |count: &usize| {
         let file = file(folder, *count).display().to_string();
-        Ok(Parts { count: *count, ..measure.ask(&["parts", &file])? })
+        Ok(Parts { count: *count, ..measure.query(&["parts", &file])? })
     };
-    plan.counts.iter().map(ask).collect()
+    plan.counts.iter().map(query).collect()
 }
 
 impl Page {

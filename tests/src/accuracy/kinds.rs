@@ -30,7 +30,7 @@ impl Form for Whole {
     }
 }
 
-/// Declares the wheel of a device on the massless gimbals of a kind, with its place and its imbalance.
+/// Declares the wheel of a device on the massless gimbals of a kind, with its position and its imbalance.
 macro_rules! bare_wheels {
     ($($form:ident: $kind:ident, $name:literal, $origin:ident;)*) => {$(
         #[doc = concat!("The wheel on the massless gimbals of a `", $name, "`.")]

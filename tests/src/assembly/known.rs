@@ -1,6 +1,6 @@
 //! What is known of one device, pages 1 to 3: masses, axes, arms and angular velocities.
 //!
-//! Unit vectors and arms are resolved along the hub's axes. The pages take B's axes along the outer
+//! Unit vectors and arms are expressed in B. The pages take B's axes along the outer
 //! gimbal's at zero angle; those are the columns of the mount.
 
 use precess_dynamics::dgvscmg::{JointAccelerations, Joints};
@@ -16,7 +16,7 @@ pub(super) struct Motion<T> {
     pub(super) r_b_n_ddot: Vector<T>,
 }
 
-/// One device in one state, under given accelerations. Names are those of the pages.
+/// One device in one state with known accelerations. Names are those of the pages.
 #[derive(Clone, Copy)]
 pub(super) struct Known<T> {
     pub(super) m_go: T,
@@ -50,7 +50,7 @@ pub(super) struct Known<T> {
     pub(super) w_z_hat: Vector<T>,
     pub(super) r_go_b: Vector<T>,
     pub(super) r_goc_go: Vector<T>,
-    /// Components of `l_o` and `l_i` along their gimbals' axes, beside the vectors themselves.
+    /// Components of `l_o` and `l_i` in their gimbals' axes.
     pub(super) l_o_xyz: [T; 3],
     pub(super) l_o: Vector<T>,
     pub(super) r_gic_gi: Vector<T>,

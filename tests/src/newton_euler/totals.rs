@@ -24,7 +24,7 @@ pub struct Momenta<T> {
 /// Rate of the kinetic energy, and the power of forces and motors.
 #[derive(Clone, Copy, Debug)]
 pub struct PowerBalance<T> {
-    /// Time derivative of the kinetic energy from given accelerations, W.
+    /// Time derivative of the kinetic energy for these accelerations, W.
     pub energy_dot: T,
     /// `F.v_B + L_B.omega + sum(u * rate)`, W.
     pub power: T,
@@ -83,7 +83,7 @@ impl<T: Scalar> Snapshot<T> {
     /// Of each body: `m v.a + omega_{F/N} . H_dot about its centre` (the moment's gyroscopic part
     /// does no work, but is left in). One term is one product of two components, with `a` in the
     /// five parts of (8) and (10) and `H_dot` in the four of (84)-(86). The parts count one by one
-    /// because B's acceleration is what is given: on a hub that turns about a distant centre of
+    /// because B's acceleration is the unknown: on a hub that turns about a distant centre of
     /// mass, the sums `a` all but vanish, and even exact accelerations, rounded to f64, would
     /// exceed 50 epsilons of their products.
     #[must_use]

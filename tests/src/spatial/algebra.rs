@@ -1,7 +1,7 @@
 //! Spatial vectors and matrices of six components, angular part first: Featherstone, chapter 2.
 //!
 //! Motion vectors (velocity, acceleration, a joint's axis) and force vectors (force, momentum) are
-//! of one type here; which of the two an operation takes is said beside it. Nothing is packed: a
+//! of one type here; each operation states which of the two it takes. Nothing is packed: a
 //! coordinate transform and an inertia are full 6x6 matrices.
 
 use core::ops::{Add, Mul, Neg, Sub};

@@ -12,7 +12,7 @@ use super::links::Link;
 /// A link with all that hangs on it.
 #[derive(Clone, Debug)]
 pub(super) struct Articulated<T> {
-    /// What its parent feels of it, the link's own joint being free.
+    /// Its articulated inertia at the parent, with its joint free.
     pub(super) seen: Articulation<T>,
     link: Link<T>,
     /// The acceleration `c` due to rates.

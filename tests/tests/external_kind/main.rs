@@ -1,4 +1,4 @@
-//! A kind that another crate makes, by the lines of docs/adding-a-kind.md: emitted, proven, compiled
+//! A kind defined by another crate with the code of docs/adding-a-kind.md is emitted, proven, compiled
 //! against the dynamics crate and run. Needs cargo and the linker that every build needs, and no network.
 
 #[expect(unreachable_pub, reason = "the page's lines, which a crate of its own exports")]
@@ -18,7 +18,7 @@ fn the_page_shows_these_lines() {
     let page = Path::new(ROOT).join("docs/adding-a-kind.md");
     let page = fs::read_to_string(page).expect("the page on adding a kind");
     let block = format!("```rust\n{}```\n", include_str!("robot_arm.rs"));
-    assert!(page.contains(&block), "the page and tests/tests/outside/robot_arm.rs differ");
+    assert!(page.contains(&block), "the page and tests/tests/external_kind/robot_arm.rs differ");
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn every_claim_about_it_is_proven() {
 /// The program asserts that both hinges obey the textbook's equations of a planar arm.
 #[test]
 fn it_compiles_in_another_crate_and_moves_as_the_textbook_says() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("outside");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("external_kind");
     let source = folder.join("src");
     fs::create_dir_all(&source).expect("a folder for the build");
     robot_arm::write(&source).expect("the emitted kind");

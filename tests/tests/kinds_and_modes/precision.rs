@@ -85,7 +85,7 @@ fn set<T: Scalar>() -> (Hub<T>, Set<T>) {
 
 fn solved<T: Scalar>(random: &mut Random) -> Found {
     let (hub, devices) = set::<T>();
-    let craft = Spacecraft::new(&hub, &devices).expect("sound");
+    let craft = Spacecraft::new(&hub, &devices).expect("valid");
     let mut state = State::<Set<T>>::at_rest();
     let mut within = |size: f64| random.within(-size, size);
     state.omega = vector(within(0.05), within(0.05), within(0.05));

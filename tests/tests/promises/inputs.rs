@@ -52,7 +52,7 @@ fn rejected<K: Kind<Scalar = f64> + Into<BuiltIn>>(device: K) {
         for (service, outcome) in outcomes(&Alone { hub: hub(), device, state, inputs }) {
             assert!(outcome.as_ref().is_err_and(named), "{service}: {outcome:?}");
         }
-        let craft = Spacecraft::new(&hub(), &[device]).expect("sound parameters");
+        let craft = Spacecraft::new(&hub(), &[device]).expect("valid parameters");
         assert!(craft.step(&state, &inputs, 1e-3).as_ref().is_err_and(named));
         assert_eq!(<[K; 1]>::joint_infos().filter(|info| info.ignorable).count(), 1);
     }

@@ -1,4 +1,4 @@
-//! A pivot that is only rounding is rejected, whatever hides it.
+//! A pivot that is only rounding is rejected, also where other masses or inertias are large.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::kind::Kind;
@@ -63,7 +63,7 @@ fn hub_without_inertia_is_rejected_beside_what_the_devices_took_out() {
     }
 }
 
-/// More than rounding, so it is answered: to what the conditioning leaves.
+/// More than rounding, so it is solved, as accurately as the conditioning allows.
 #[test]
 fn hub_with_little_inertia_is_answered() {
     for number in 0..POSES {

@@ -45,15 +45,15 @@ fn run(
 #[test]
 fn dry_friction_is_resolved_or_rejected_where_the_wheel_comes_to_rest() {
     let friction = Passive::friction(0.0, 1e-3, 1e-4);
-    let craft = Spacecraft::new(&hub(10.0), &[wheel(1e-3, friction)]).expect("sound parameters");
-    // Far from rest friction is a constant torque, whatever the step.
+    let craft = Spacecraft::new(&hub(10.0), &[wheel(1e-3, friction)]).expect("valid parameters");
+    // Far from rest friction is a constant torque for any step.
     assert!(run(&craft, spinning(1.0), 1e-3, 900).is_ok());
     let rejected = run(&craft, spinning(1.0), 1e-3, 1100).unwrap_err();
     let SolveError::Unstable { device: 0, joint: "wheel", dt, longest } = rejected else {
         panic!("{rejected:?}");
     };
     assert_eq!(dt, 1e-3);
-    // 2.785 J w / u_c, with the little by which the hub gives way.
+    // 2.785 J q_c' / u_c, a little more since the hub is free.
     let wanted = 2.785_293_563_405_28e-4 * 10.0 / 10.001;
     assert!((longest / wanted - 1.0).abs() < 1e-9, "{longest}");
 
@@ -81,7 +81,7 @@ fn limit_of_a_damper_and_of_a_spring_is_that_of_the_method() {
             (Passive::spring(0.0, 4.0), 2.785_293_563_405_28 / (4.0 * response)),
             (Passive::spring(9.0, 0.0), 8.0_f64.sqrt() / (9.0 * response).sqrt()),
         ] {
-            let craft = Spacecraft::new(&hub(inertia), &[wheel(0.5, passive)]).expect("sound");
+            let craft = Spacecraft::new(&hub(inertia), &[wheel(0.5, passive)]).expect("valid");
             let held = run(&craft, spinning(1.0), 0.999 * limit, 500).expect("a stable step");
             assert!(held.devices[0].spin.abs() <= 1.0, "{}", held.devices[0].spin);
             let rejected = run(&craft, spinning(1.0), 1.001 * limit, 1).unwrap_err();
@@ -95,7 +95,7 @@ fn limit_of_a_damper_and_of_a_spring_is_that_of_the_method() {
 fn two_wheels_on_a_light_hub_count_together() {
     type Two = [ReactionWheel; 2];
     let passive = Passive::spring(0.0, 1.0);
-    let craft = Spacecraft::new(&hub(0.01), &[wheel(1.0, passive); 2]).expect("sound parameters");
+    let craft = Spacecraft::new(&hub(0.01), &[wheel(1.0, passive); 2]).expect("valid parameters");
     // Both turn against the hub: the fastest mode has c (1/J + 2/I), with their transverse inertia.
     let fastest = 1.0 + 2.0 / 0.01;
     let mut state = State::<Two>::at_rest();
@@ -116,16 +116,16 @@ fn every_service_rejects_the_same_step() {
         (Passive::friction(0.0, 1.0, 1e-6), 1e-2),
     ] {
         let device = wheel(0.5, passive);
-        let craft = Spacecraft::new(&hub(2.0), &[device]).expect("sound parameters");
+        let craft = Spacecraft::new(&hub(2.0), &[device]).expect("valid parameters");
         let (state, inputs) = (reversing, Inputs::<One>::none());
         let expected = craft.step(&state, &inputs, dt).unwrap_err();
         assert!(matches!(expected, SolveError::Unstable { .. }), "{expected:?}");
         assert_eq!(craft.step_with_work(&state, &inputs, dt).unwrap_err(), expected);
         assert_eq!(craft.fused().step(&state, &inputs, dt).unwrap_err(), expected);
 
-        let across = AcrossDevices::new(&hub(2.0), &[device]).expect("sound parameters");
+        let across = AcrossDevices::new(&hub(2.0), &[device]).expect("valid parameters");
         assert_eq!(across.step(&state, &inputs, dt).unwrap_err(), expected);
-        let batch = Batch::new(&hub(2.0), &[device]).expect("sound parameters");
+        let batch = Batch::new(&hub(2.0), &[device]).expect("valid parameters");
         for batch in [batch.clone(), batch.fused()] {
             let (mut states, mut out) = ([state; 9], Vec::new());
             batch.run(&mut states, &inputs, dt, 3, &mut out).expect("as many inputs as states");
@@ -133,9 +133,9 @@ fn every_service_rejects_the_same_step() {
             assert_eq!(states, [state; 9]);
         }
         let on_board = [Some(BuiltIn::from(device)), None];
-        assert_eq!(listed(&Spacecraft::new(&hub(2.0), &on_board).expect("sound"), dt), expected);
+        assert_eq!(listed(&Spacecraft::new(&hub(2.0), &on_board).expect("valid"), dt), expected);
         let list = vec![AnyDevice::from(device)];
-        assert_eq!(listed(&Spacecraft::new(&hub(2.0), &list).expect("sound"), dt), expected);
+        assert_eq!(listed(&Spacecraft::new(&hub(2.0), &list).expect("valid"), dt), expected);
     }
 }
 
@@ -149,12 +149,12 @@ fn listed<D: precess_dynamics::Devices<Scalar = f64>>(
     craft.step(&state, &Inputs::none_for(craft), dt).unwrap_err()
 }
 
-/// A joint that is not driven moves as it is told: no spring makes its step unstable.
+/// The motion of a joint that is not driven is prescribed: no spring makes its step unstable.
 #[test]
 fn spring_of_a_locked_joint_limits_nothing() {
     let mut panel = HingedPanel::bare_panel(3.0, Matrix3::identity());
     panel.passive.panel = Passive::spring(1e9, 0.0);
-    let craft = Spacecraft::new(&hub(2.0), &[panel]).expect("sound parameters");
+    let craft = Spacecraft::new(&hub(2.0), &[panel]).expect("valid parameters");
     let mut inputs = Inputs::<[HingedPanel; 1]>::none();
     let state = State::<[HingedPanel; 1]>::at_rest();
     assert!(craft.step(&state, &inputs, 1.0).is_err());

@@ -1,4 +1,4 @@
-//! The services: ways of asking the solver for accelerations.
+//! The services: calls of the solver that compute accelerations.
 
 mod across;
 mod batch;
@@ -49,7 +49,7 @@ pub(crate) enum Name {
 impl Name {
     /// Name, title, whether its accelerations are its own, to be checked, and the row of the issue
     /// floor that bounds it.
-    pub(crate) fn told(self) -> serde_json::Value {
+    pub(crate) fn description(self) -> serde_json::Value {
         let (name, title, checked, floor) = match self {
             Self::One => ("one", "Precess, one state", true, "f64"),
             Self::Fused => ("fused", "Precess, one state, fused", true, "fused f64"),
@@ -76,7 +76,7 @@ pub(crate) fn open(name: Name, stored: &Stored) -> Result<Box<dyn Service>, Reje
     arrays!(1 2 4 8 16 32 64 128 256)
 }
 
-/// The hub alone, one evaluation after another.
+/// Only the hub, one evaluation after another.
 pub(crate) fn open_hub(stored: &Stored) -> Result<Box<dyn Service>, Rejected> {
     let bare: [Dgvscmg; 0] = [];
     Ok(Box::new(one::One::open(stored, &bare)?))
