@@ -1,4 +1,5 @@
-//! Faulty parameters: each is rejected by a typed error that names it, with value, bound and remedy; unusual but valid ones are accepted.
+//! Faulty parameters: each is rejected by a typed error that names it, with value, bound and
+//! remedy; unusual but valid ones are accepted.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Hub, Inputs, Parameter, ParameterError, Part, Spacecraft, State, Warning};
@@ -92,7 +93,7 @@ fn hub_or_wheel_without_mass_is_rejected() {
     assert_eq!(error, ParameterError::Mass { part: Part::Hub, massless: false, value: 0.0 });
     assert_eq!(
         error.to_string(),
-        "mass 0.0 kg of the hub is not above 0; only what carries another body of its device may \
+        "mass 0.0 kg of the hub is not above 0; only a body with a child body in its device may \
          be massless"
     );
 
@@ -101,7 +102,7 @@ fn hub_or_wheel_without_mass_is_rejected() {
     assert_eq!(error, ParameterError::Mass { part: wheel, massless: false, value: 0.0 });
     assert_eq!(
         error.to_string(),
-        "mass 0.0 kg of the wheel of device 1 is not above 0; only what carries another body of \
+        "mass 0.0 kg of the wheel of device 1 is not above 0; only a body with a child body in \
          its device may be massless",
     );
 }
@@ -179,7 +180,7 @@ fn skewed_mount_is_rejected() {
         error.to_string(),
         format!(
             "mount of device 1 is off orthonormal by {residual:?}, more than {bound:?}; its \
-             columns are unit vectors at right angles, given to full precision"
+             columns must be orthogonal unit vectors to full precision"
         ),
     );
 }

@@ -64,7 +64,7 @@ fn massless_gimbals_at_ninety_degrees_are_a_typed_error() {
             error.to_string(),
             format!(
                 "pivot {pivot:?} of device 1 (outer gimbal) is not above {bound:?}; check \
-                 mass and inertia of the outer gimbal and of what it carries; a massless gimbal is \
+                 mass and inertia of the outer gimbal and of all bodies outboard of it; a massless gimbal is \
                  singular where it would turn about the spin axis"
             ),
         );
@@ -180,8 +180,8 @@ fn quaternion_of_length_zero_is_named() {
     let error = unsolved(|case| case.state.attitude = zero);
     assert_eq!(
         error.to_string(),
-        "0.0 as largest parameter of the attitude has no usable length; give a unit quaternion, \
-         or MRPs up to 1"
+        "largest attitude parameter 0.0 leaves no usable length; give a unit quaternion, or MRPs \
+         up to 1"
     );
 }
 

@@ -104,7 +104,7 @@ impl<T: Scalar> Attitude<T> for Mrp<T> {
     }
 }
 
-/// The inner set, whatever the quaternion's sign and length.
+/// The inner set, for any sign and length of the quaternion.
 ///
 /// NaN in all three components for a quaternion of length zero and for one with a component that is
 /// infinite or NaN: neither is an attitude.

@@ -24,7 +24,7 @@ pub struct HubAccelerations<T> {
     pub(crate) omega_dot: Vec3<T>,
 }
 
-/// What the devices ask of the hub and what their joints transmit, added up.
+/// Sums of the devices' wrenches on the hub and of the powers of their joints.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadSums<T> {
     /// What the devices need for their accelerations, about B, expressed in B.

@@ -34,7 +34,7 @@ fn outboard<K: Kind>(bodies: &Bodies<K>, joint: usize) -> K::Scalar {
         return outboard().fold(zero(), |sum, (body, _)| sum + body.mass);
     }
     let (mut sum, mut arm) = (zero::<K::Scalar>(), zero::<K::Scalar>());
-    // Whether a body turns about the joint's axis alone, whatever the pose.
+    // Whether a body turns only about the joint's axis, in any pose.
     let mut parallel = true;
     for (place, (body, info)) in outboard().enumerate() {
         if place > 0 {

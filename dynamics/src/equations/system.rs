@@ -12,7 +12,7 @@ use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Columns, Vec3, add, dot, finite, map, rotate, scale, sub};
 
 /// A pivot must exceed this many epsilons of its scale: of the largest numbers that were added up
-/// and cancelled on the way to it.
+/// and cancelled in it.
 ///
 /// What is left at the bound has at most some bits that are not rounding; a state that close to
 /// singular has no meaningful accelerations.
@@ -54,7 +54,7 @@ pub(crate) struct SmallPivot<T> {
 }
 
 impl<T> SmallPivot<T> {
-    /// The error that tells of it: a joint of a device, or the hub for none.
+    /// Its error: of a joint of a device, or of the hub.
     pub(crate) fn of(self, device: Option<usize>, joint: Option<&'static str>) -> SolveError<T> {
         let Self { pivot, bound } = self;
         SolveError::Singular { device, joint, pivot, bound }
@@ -94,7 +94,7 @@ impl<T: Scalar> System<T> {
         Ok(solution)
     }
 
-    /// Checks each pivot beside its scale, grown by the rounding of those before it.
+    /// Checks each pivot against its scale, grown by the rounding of those before it.
     #[cold]
     fn check_pivots(&self, pivots: Pivots<T>, scale: &Scale<T>) -> Result<(), SmallPivot<T>> {
         let mut pivots = pivots.into_iter().zip(self.grown_scales(scale));
@@ -123,7 +123,8 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Factors of rows one to three, rows four to six of L by columns, factors of the Schur complement.
+    /// Factors of rows one to three, rows four to six of L by columns, factors of the Schur
+    /// complement.
     #[inline(always)]
     fn factorised(&self) -> (Factors<T>, Columns<T>, Factors<T>) {
         let vv = Factors::of(&self.m_vv);
@@ -165,8 +166,7 @@ impl<T: Real> System<T> {
         [a, b, c, x + own[0], y + own[1], z + own[2]]
     }
 
-    /// The solution, to be taken only where each of the pivots, in order, exceeds its bound beside
-    /// its scale.
+    /// The solution, valid only if each of the pivots, in order, exceeds the bound of its scale.
     #[inline(always)]
     pub(crate) fn solved(&self) -> (Solution<T>, Pivots<T>) {
         let (vv, z, ww) = self.factorised();

@@ -32,7 +32,8 @@ impl<D: Devices> Spacecraft<D> {
     /// The state after `dt` seconds, with inputs constant in the axes in which they are expressed.
     ///
     /// The attitude is normalised at the end of the step: a quaternion gets unit length, MRPs
-    /// beyond a half turn become their shadow set. Joint angles are not wrapped; see [`State::wrapped`].
+    /// beyond a half turn become their shadow set. Joint angles are not wrapped; see
+    /// [`State::wrapped`].
     ///
     /// # Errors
     ///

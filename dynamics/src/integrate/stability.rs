@@ -8,8 +8,8 @@
 //! (springs).
 //!
 //! Two estimates of the responses. [`Stiffness`] costs some operations per joint and comes from
-//! pivots that an evaluation has at hand; what it leaves far below the limit is accepted. Above,
-//! the responses themselves are found, one impulsive evaluation per joint.
+//! the pivots of an evaluation; a step that is far below the limit by it is accepted. Otherwise the
+//! responses are computed, by one impulsive evaluation per joint.
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::SolveError;
@@ -59,9 +59,9 @@ impl<T: Scalar> Slowest<T> {
     }
 }
 
-/// What a step has seen of springs and friction.
+/// Stiffness of springs and friction during a step.
 pub(crate) struct PassiveStep<D: Devices> {
-    /// Of the stage at hand.
+    /// Of the present stage.
     stiffness: Stiffness<D::Scalar>,
     /// Of those before it.
     largest: Stiffness<D::Scalar>,

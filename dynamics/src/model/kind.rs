@@ -1,4 +1,4 @@
-//! [`Kind`]: what the solver requires of a device kind. The emitted text answers.
+//! [`Kind`]: what the solver requires of a device kind. Implemented by the emitted text.
 
 use core::fmt::Debug;
 
@@ -35,9 +35,9 @@ pub struct JointInfo {
     /// Whether no equation of motion depends on the coordinate: that of a rotor which is symmetric
     /// about its axis.
     pub ignorable: bool,
-    /// Whether its torque may be given; otherwise the kind holds its acceleration at zero.
+    /// Whether it has a motor torque as an input; otherwise the kind keeps its rate constant.
     pub driven: bool,
-    /// Whether nothing is behind the body.
+    /// Whether no body is outboard of this one.
     pub tip: bool,
 }
 
@@ -48,7 +48,7 @@ impl JointInfo {
     }
 }
 
-/// A body as the user states it, and where its joint stands.
+/// Parameters of a body, and the origin of its joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyParameters<T> {
     /// Origin of the joint from the origin of its parent body, expressed in the parent body's axes,
@@ -105,8 +105,8 @@ pub type Wrenches<K> = <K as Kernels>::PerJoint<Wrench<<K as Kind>::Scalar>>;
 /// A device kind: a structure of parameters, and functions over the emitted kernels.
 ///
 /// Implemented by emitted text, next to each kernel; written by hand for nothing. The equations of
-/// motion (`handed`, `eliminate`, `back_substitute`) are expressed in B; everything else stands
-/// along the device's own: those of its first joint at zero, `mount` in the hub.
+/// motion (`handed`, `eliminate`, `back_substitute`) are expressed in B; everything else is
+/// expressed in the device's own axes: those of its first joint at zero, `mount` in the hub.
 pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// The number type.
     type Scalar: Scalar;
@@ -171,8 +171,8 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
         constants: &Self::Constants<Self::Scalar>,
         pose: &Self::Pose<Self::Scalar>,
     ) -> Self::PerJoint<[[Self::Scalar; 3]; 3]>;
-    /// The emitted `loads`: what each carrier exerts on what it carries, about the joint's origin
-    /// along the body's own axes.
+    /// The emitted `loads`: what each parent body exerts on its child body, about the joint's
+    /// origin along the body's own axes.
     fn loads(
         constants: &Self::Constants<Self::Scalar>,
         pose: &Self::Pose<Self::Scalar>,
@@ -181,7 +181,7 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
         hub: &BodyAcceleration<Self::Scalar>,
         accelerations: &Self::Accelerations<Self::Scalar>,
     ) -> Carried<Wrenches<Self>, Wrench<Self::Scalar>>;
-    /// The emitted `external`: wrenches on the bodies carried inwards.
+    /// The emitted `external`: wrenches on the bodies, summed inwards.
     fn external(
         constants: &Self::Constants<Self::Scalar>,
         pose: &Self::Pose<Self::Scalar>,
@@ -196,7 +196,7 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     ) -> (Wrenches<Self>, [Self::Scalar; 6]);
 }
 
-/// Wrenches across the joints of a device, and what comes of them at B.
+/// Wrenches across the joints of a device, and their sum on the hub, about B.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Carried<W, B> {
     /// About each joint's origin along the axes of its child body.

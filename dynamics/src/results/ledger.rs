@@ -140,7 +140,7 @@ impl<D: Devices> Spacecraft<D> {
         let (bn, sums) = self.sums(state);
         let field = inputs.gravity.field(&bn, &state.r_b_n);
         let (_, hub, totals) =
-            self.weigh(state, inputs, accelerations, field.as_ref(), &Along::Body);
+            self.loads_and_sums(state, inputs, accelerations, field.as_ref(), &Along::Body);
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let omega = components(&state.omega);
         let of_hub = |wrench: &Wrench<D::Scalar>| wrench.power(velocity, omega);

@@ -1,5 +1,5 @@
-//! [`DeviceParameters`]: a device of any kind as bodies and joints, and [`UnsupportedParameter`]: one
-//! that a kind does not have.
+//! [`DeviceParameters`]: a device of any kind as bodies and joints, and [`UnsupportedParameter`]:
+//! one that a kind does not have.
 
 use core::error::Error;
 use core::fmt::{self, Display, Formatter};

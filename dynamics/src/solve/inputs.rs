@@ -1,4 +1,4 @@
-//! [`Inputs`]: what acts on a spacecraft at one instant, and what is given of its joints and hub.
+//! [`Inputs`]: forces and torques on a spacecraft at one instant, modes of its joints and hub.
 
 use nalgebra::Vector3;
 
@@ -19,16 +19,16 @@ pub struct Inputs<D: Devices> {
     pub force: Vector3<D::Scalar>,
     /// `L_B`, external torque about B, B axes, N m.
     pub torque_b: Vector3<D::Scalar>,
-    /// Motor torques, device by device; what stands at a joint that is not driven does nothing.
+    /// Motor torques, device by device; that of a joint that is not driven has no effect.
     pub motors: D::Motors,
-    /// What is given of each joint.
+    /// Mode of each joint.
     pub modes: D::PerJoint<Mode<D::Scalar>>,
-    /// What is given of the hub.
+    /// Mode of the hub.
     pub hub: HubMode<D::Scalar>,
     /// Gravity on every body.
     pub gravity: Gravity<D::Scalar>,
-    /// External wrench on the child body of each joint, about the joint's origin along the body's
-    /// own axes; none where no device has one.
+    /// External wrench on the child body of each joint, about the joint's origin, expressed in the
+    /// body's own axes; `None` if there is none.
     ///
     /// During a step such a wrench turns with its body: for one that keeps its direction in N or in
     /// B, steps must resolve the turning. A rotor that is the same from every angle (a balanced
@@ -45,7 +45,7 @@ impl<D: Devices> Inputs<D> {
 }
 
 impl<D: FixedSet> Inputs<D> {
-    /// Nothing acts, motors are off, every joint is as its kind has it, the hub is free.
+    /// No force, torque or gravity, motors off, every joint in the mode of its kind, a free hub.
     #[must_use]
     pub fn none() -> Self {
         Self {
@@ -59,7 +59,7 @@ impl<D: FixedSet> Inputs<D> {
         }
     }
 
-    /// No wrench on any body, to be changed and handed to [`Self::bodies`].
+    /// Zero wrenches on all bodies, to be changed and assigned to [`Self::bodies`].
     #[must_use]
     pub fn no_wrenches() -> D::PerJoint<Wrench<D::Scalar>> {
         D::all(Wrench::none())

@@ -18,7 +18,7 @@ fn plain(hub: Hub) -> Spacecraft<[Dgvscmg; 0]> {
     Spacecraft::new(&hub, &[]).unwrap()
 }
 
-/// A plain hub's state after a change of the one at rest.
+/// State of a hub without devices: at rest, then changed.
 fn state(change: fn(&mut State<[Dgvscmg; 0]>)) -> State<[Dgvscmg; 0]> {
     let mut state = State::at_rest();
     change(&mut state);
@@ -34,7 +34,7 @@ fn accelerations_that_overflow_are_rejected() {
     let turning = state(|s| s.omega.x = 1e200);
     rejected(plain(hub()).accelerations(&turning, &Inputs::none()), Quantity::HubAcceleration);
 
-    // One of the two vectors alone.
+    // Only one of the two vectors.
     let light = Hub { m_b: 1e-3, r_bc_b: Vector3::zeros(), ..hub() };
     let force = Vector3::new(1e308, 0.0, 0.0);
     let pushed = Inputs { force, ..Inputs::none() };
@@ -43,7 +43,7 @@ fn accelerations_that_overflow_are_rejected() {
         Quantity::HubAcceleration,
     );
 
-    // The hub does not feel it: what overflows is the wheel's own acceleration.
+    // It does not reach the hub: what overflows is the wheel's own acceleration.
     let light = Dgvscmg::bare_wheel(4.0, Matrix3::identity() * 1e-5);
     let spacecraft = Spacecraft::new(&hub(), &[light]).unwrap();
     let mut torques = Inputs::<[Dgvscmg; 1]>::none();

@@ -141,7 +141,7 @@ fn wheel_that_breaks_the_triangle_inequality_is_accepted_with_a_warning() {
         panic!("no warning");
     };
     assert_eq!(part, Part::Body { device: 1, body: "wheel" });
-    // Largest minus the others, of the block 0.2, 0.0154, 0.1 and the 0.1 beside it.
+    // Largest minus the others, of the block 0.2, 0.0154, 0.1 and the 0.1 next to it.
     let root = (0.05_f64.powi(2) + 0.0154_f64.powi(2)).sqrt();
     assert!((excess - (2.0 * root - 0.1)).abs() <= ROUNDING);
     assert_eq!(warnings.next(), None);

@@ -1,7 +1,7 @@
-//! State and accelerations of a hub with its devices: plain data, SI units and radians.
+//! State and accelerations of a hub with its devices: numbers, SI units and radians.
 //!
 //! A joint's rates are relative to its parent body, so `spin` is the wheel's rate seen from the
-//! gimbal that carries it. `theta` is a state because an imbalanced wheel's angle matters.
+//! gimbal. `theta` is a state because an imbalanced wheel's angle matters.
 
 use nalgebra::Vector3;
 

@@ -60,7 +60,7 @@ fn mass_of_hub_and_wheel_must_be_above_zero() {
     assert_eq!(error, ParameterError::Mass { part: Part::Hub, massless: false, value: 0.0 });
     assert_eq!(
         text,
-        "mass 0.0 kg of the hub is not above 0; only what carries another body of its device may \
+        "mass 0.0 kg of the hub is not above 0; only a body with a child body in its device may \
          be massless"
     );
     let (error, text) = rejected_device(|p| p.m_w = -4.0);
@@ -74,7 +74,7 @@ fn mass_of_hub_and_wheel_must_be_above_zero() {
     );
     assert_eq!(
         text,
-        "mass -4.0 kg of the wheel of device 2 is not above 0; only what carries another body of \
+        "mass -4.0 kg of the wheel of device 2 is not above 0; only a body with a child body in \
          its device may be massless"
     );
 }
@@ -215,9 +215,9 @@ fn mount_must_be_orthonormal() {
     assert_eq!(
         text,
         "mount of device 2 is off orthonormal by 1.25, more than 9.094947017729282e-13; its \
-         columns are unit vectors at right angles, given to full precision"
+         columns must be orthogonal unit vectors to full precision"
     );
-    // Unit columns that are not at right angles.
+    // Unit columns that are not orthogonal.
     let (error, _) = rejected_device(|p| {
         p.mount = Matrix3::new(1.0, 0.6, 0.0, 0.0, 0.8, 0.0, 0.0, 0.0, 1.0);
     });

@@ -29,7 +29,7 @@ pub enum ImbalanceQuantity {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ImbalanceError<T = f64> {
-    /// A quantity given is infinite or NaN.
+    /// An input is infinite or NaN.
     NotFinite {
         /// Which one.
         quantity: ImbalanceQuantity,
@@ -48,7 +48,7 @@ pub enum ImbalanceError<T = f64> {
         /// The mass, kg.
         value: T,
     },
-    /// Every quantity given is finite, but one that follows from them is not.
+    /// Every input is finite, but a result is not.
     Overflow {
         /// Which one.
         quantity: ImbalanceQuantity,
