@@ -1,8 +1,8 @@
 //! The bound on the drifts of a run, and the error of a run that exceeds it.
 //!
-//! Energy less work and both momenta, each in its unit of [`crate::ledger`], stay within the bound over
-//! ten seconds at tolerance 1e-13. A run that is no longer and has no larger tolerance fails if it
-//! drifts further; for other runs the bound does not hold.
+//! Energy less work and both momenta, each in its unit of [`crate::ledger`], stay within the bound
+//! over ten seconds at tolerance 1e-13. A run that is no longer and has no larger tolerance fails
+//! if it drifts further; for other runs the bound does not hold.
 
 use std::fmt;
 

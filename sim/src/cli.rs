@@ -65,7 +65,8 @@ struct Run {
     /// Relative tolerance of one step.
     #[arg(long, allow_negative_numbers = true, default_value = "1e-13")]
     tolerance: f64,
-    /// Samples recorded per second; 500 without this option, or the nearest that suits the duration.
+    /// Samples recorded per second; 500 without this option, or the nearest that suits the
+    /// duration.
     #[arg(long, value_name = "HERTZ", allow_negative_numbers = true)]
     rate: Option<f64>,
     /// Folder for the results; made if it is missing.
@@ -77,8 +78,9 @@ impl Cli {
     /// Executes the command; `print` gets the text for the reader.
     ///
     /// # Errors
-    /// Any error that ends the command early: no file has been written then, or only whole ones. And a
-    /// run whose files are written and printed, but whose drifts exceed the bound for its settings (see [`crate::bound`]).
+    /// Any error that ends the command early: no file has been written then, or only whole ones.
+    /// And a run whose files are written and printed, but whose drifts exceed the bound for its
+    /// settings (see [`crate::bound`]).
     pub fn execute(self, print: &mut dyn FnMut(&str)) -> Result<(), CliError> {
         match self.command {
             Command::Run(run) => run.execute(print),

@@ -3,8 +3,8 @@
 use precess::run::{Settings, run};
 use precess::scenario::table1::{Imbalance, variants};
 
-/// Largest drift of energy less work, unit = largest kinetic energy + integral of sum |u rate|; the bound is a
-/// hundred times what a good integrator has reached at this tolerance.
+/// Largest drift of energy less work, unit = largest kinetic energy + integral of sum |u rate|; the
+/// bound is a hundred times what a good integrator has reached at this tolerance.
 const ENERGY_DRIFT: f64 = 1e-12;
 /// Largest drift of both momenta, unit = sum over the bodies of magnitudes; the same runs.
 const MOMENTUM_DRIFT: f64 = 1e-12;

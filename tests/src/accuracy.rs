@@ -5,8 +5,8 @@
 //! - [`offset`]: the distance of the centre of mass from B.
 //!
 //! Both computations take the same doubles, angles among them, so that their difference is the
-//! solver's rounding. `docs/accuracy.md` is written from these sweeps and the suite `accuracy` asserts
-//! their bounds.
+//! solver's rounding. `docs/accuracy.md` is written from these sweeps and the suite `accuracy`
+//! asserts their bounds.
 
 mod drawn;
 pub mod kinds;
@@ -60,7 +60,8 @@ impl Errors {
     }
 }
 
-/// Largest difference, in units of the largest magnitude expected; as in [`errors`](crate::blocks::errors).
+/// Largest difference, in units of the largest magnitude expected; as in
+/// [`errors`](crate::blocks::errors).
 fn block(found: &[f64], expected: &[Wide]) -> f64 {
     let unit = largest(expected.iter().map(|e| e.abs().to_f64()));
     let pairs = found.iter().zip(expected);

@@ -3,8 +3,8 @@
 //! "Block" is one kind of acceleration over all devices, in units of its largest magnitude
 //! ([`blocks`](crate::blocks)); eps is the machine epsilon of `f64`.
 //!
-//! The drift of energy less work and of both momenta over 10 s of Table 1 (1e-12 of the energy moved
-//! and of the sum of magnitudes) needs an adaptive integrator: the desktop tool asserts it.
+//! The drift of energy less work and of both momenta over 10 s of Table 1 (1e-12 of the energy
+//! moved and of the sum of magnitudes) needs an adaptive integrator: the desktop tool asserts it.
 
 use core::ops::RangeInclusive;
 
@@ -26,8 +26,8 @@ pub const ACCELERATIONS_MEDIAN: f64 = 1e-13;
 /// rounding.
 pub const ROUTES_IN_DOUBLE_DOUBLE: f64 = 1e-25;
 
-/// Largest difference of the same physics described differently (split devices, another order, whole
-/// turns), of the block: only rounding differs.
+/// Largest difference of the same physics described differently (split devices, another order,
+/// whole turns), of the block: only rounding differs.
 pub const LIMITS: f64 = 1e-12;
 
 /// Largest difference of `f32` from `f64` over Table 1's ranges, in units of the size of what is

@@ -1,5 +1,5 @@
-//! A scalar that counts its operations: what an evaluation takes, of the arithmetic as it is run, and
-//! the longest chain of operations that wait for each other.
+//! A scalar that counts its operations: what an evaluation takes, of the arithmetic as it is run,
+//! and the longest chain of operations that wait for each other.
 //!
 //! The table `docs/operations.md` counts what is written in the emitted text; this counts the
 //! solver's own work with it. Comparisons, copies and constants count nothing, and neither do the
@@ -62,7 +62,8 @@ pub fn count<R>(work: impl FnOnce() -> R) -> (R, Operations) {
     (result, COUNT.get())
 }
 
-/// Every number computed meanwhile by this thread has the time at which it was ready: see [`Counted::ready`].
+/// Every number computed meanwhile by this thread has the time at which it was ready: see
+/// [`Counted::ready`].
 pub fn timed<R>(latencies: Latencies, work: impl FnOnce() -> R) -> R {
     LATENCIES.set(latencies);
     let result = work();

@@ -7,7 +7,8 @@
 //! - [`random`]: seeded spacecraft over the declared ranges; [`case`]: one spacecraft in one state.
 //! - [`table1`]: the paper's own numbers.
 //! - [`stored`]: spacecraft as files hold them, for engines and peers.
-//! - [`measured`]: spacecraft of every kind, for what is measured; [`counted`]: a scalar that counts
+//! - [`measured`]: spacecraft of every kind, for what is measured; [`counted`]: a scalar that
+//!   counts
 //!   its operations.
 //! - [`accuracy`]: where the bound on the accelerations holds and where it is lost.
 //! - [`blocks`]: the unit in which accelerations are compared.

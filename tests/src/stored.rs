@@ -218,7 +218,8 @@ fn one() -> f64 {
     1.0
 }
 
-/// The generated parameters, field by field, for serde; the files have the mount in a field of its own.
+/// The generated parameters, field by field, for serde; the files have the mount in a field of its
+/// own.
 #[derive(Deserialize)]
 #[serde(remote = "Parameters::<f64>")]
 struct ParametersInFile {

@@ -1,6 +1,6 @@
-//! The error of the accelerations near the singular pose of massless gimbals and with the centre of mass
-//! far from B: within its bounds where `docs/accuracy.md` states so, elsewhere within the square stated
-//! there.
+//! The error of the accelerations near the singular pose of massless gimbals and with the centre of
+//! mass far from B: within its bounds where `docs/accuracy.md` states so, elsewhere within the
+//! square stated there.
 //!
 //! Run with `--nocapture` to see the largest factor of each square.
 
@@ -23,12 +23,12 @@ const BALANCED_HOLDS_FROM: f64 = 1.0;
 /// sweep, 10, is above that of the worst.
 const HOLDS_TO: f64 = 5.0;
 
-/// Least distance from the pose, rad, at which no spacecraft is rejected: the pivot is above 64 eps of
-/// the inertia outboard of the joint in any pose from about 2e-7 on.
+/// Least distance from the pose, rad, at which no spacecraft is rejected: the pivot is above 64 eps
+/// of the inertia outboard of the joint in any pose from about 2e-7 on.
 const SOLVED_FROM: f64 = 5e-7;
 
-/// Largest distance from B, m, at which no spacecraft is rejected: those of the least radius of gyration
-/// are from 200 km on.
+/// Largest distance from B, m, at which no spacecraft is rejected: those of the least radius of
+/// gyration are from 200 km on.
 const SOLVED_TO: f64 = 1e5;
 
 /// The squares are asserted from this distance on, rad: farther away other roundings show.
@@ -38,8 +38,8 @@ const NEAR: f64 = 0.01;
 const FAR: f64 = 10.0;
 
 /// Worst error near the pose in units of eps/δ²: the rounding of gyroscopic torques that do not
-/// reach the hub, as large as a wheel at 6000 rpm in gimbals at 5 rad/s makes them, against loads of
-/// some N m. Measured: 684, and 2353 for balanced wheels.
+/// reach the hub, as large as a wheel at 6000 rpm in gimbals at 5 rad/s makes them, against loads
+/// of some N m. Measured: 684, and 2353 for balanced wheels.
 const POSE_WORST: f64 = 5000.0;
 
 /// The median likewise: a few roundings of the size of the wheel's inertia, in the outer gimbal's
@@ -70,7 +70,8 @@ fn within(what: &str, row: &Row, [most, middle]: [f64; 2]) {
     assert!(median <= middle, "{what}, {distance:e}: median {median:e} is above {middle:e}");
 }
 
-/// The errors of all rows with a solution are within factors of eps times a square; prints the largest.
+/// The errors of all rows with a solution are within factors of eps times a square; prints the
+/// largest.
 #[track_caller]
 fn grow_as<'a>(
     what: &str,

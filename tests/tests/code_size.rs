@@ -1,8 +1,8 @@
 //! The machine code of an evaluation does not grow with the number of devices.
 //!
 //! A library with `accelerations` for four devices and one for 64 are built with optimisation and
-//! linked; the linker drops what they do not call. Needs cargo and the linker that every build needs,
-//! and no network.
+//! linked; the linker drops what they do not call. Needs cargo and the linker that every build
+//! needs, and no network.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,8 +11,8 @@ use std::{env, fs};
 use object::{Object, ObjectSection, SectionKind};
 
 /// By how much the code for 64 devices may be larger than that for four. Copies of small arrays are
-/// written out and those of large ones are calls, so the two are not equal to the byte; a loop unrolled
-/// over the devices would be several times this size.
+/// written out and those of large ones are calls, so the two are not equal to the byte; a loop
+/// unrolled over the devices would be several times this size.
 const MORE: f64 = 1.05;
 
 /// Bytes of machine code in the fixture.

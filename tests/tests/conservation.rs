@@ -11,8 +11,9 @@ use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::Sample;
 use precess_tests::table1::{self, SCENARIOS};
 
-/// What rounding may add to a drift in `f64`, relative to its unit: a tenth of the 1e-12
-/// that docs/promises.md allows over ten seconds. A walk of 4096 steps of one epsilon each is at `64 eps = 1.4e-14`.
+/// What rounding may add to a drift in `f64`, relative to its unit: a tenth of the 1e-12 that
+/// docs/promises.md allows over ten seconds. A walk of 4096 steps of one epsilon each is at
+/// `64 eps = 1.4e-14`.
 const ROUNDING_FLOOR: f64 = 1e-13;
 
 /// What should not change.

@@ -1,5 +1,5 @@
-//! Invariance of the accelerations under the order of devices, the inertial frame and the splitting of
-//! a device; and the symmetry of the mass matrix.
+//! Invariance of the accelerations under the order of devices, the inertial frame and the splitting
+//! of a device; and the symmetry of the mass matrix.
 //!
 //! Run with `--nocapture` to see the figures.
 

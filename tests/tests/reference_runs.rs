@@ -1,5 +1,5 @@
-//! Runs of the Newton-Euler reference in double-double conserve energy less work and both momenta to
-//! the order of the method.
+//! Runs of the Newton-Euler reference in double-double conserve energy less work and both momenta
+//! to the order of the method.
 //!
 //! Accelerations, kinematics, energy and momenta are the reference's own; the fourth-order steps
 //! are taken here on a list of numbers. Run with `--nocapture` to see the figures.

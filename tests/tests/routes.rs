@@ -4,11 +4,12 @@
 //! - solver: the emitted kernels;
 //! - assembly: the paper's own equations, in the forms of the hand-checked pages;
 //! - recursion: articulated bodies in spatial vectors, none of the paper's equations;
-//! - Newton-Euler: laws body by body over differentiated positions, the reference of the other suites.
+//! - Newton-Euler: laws body by body over differentiated positions, the reference of the other
+//!   suites.
 //!
-//! The backward error is measured in the assembly's system, the error against the next formulation of
-//! this list (the last against the first) in double-double. Both are asserted of the solver and printed
-//! for all. The difference in double-double is asserted of every pair.
+//! The backward error is measured in the assembly's system, the error against the next formulation
+//! of this list (the last against the first) in double-double. Both are asserted of the solver and
+//! printed for all. The difference in double-double is asserted of every pair.
 //!
 //! Run with `--nocapture` to see the table.
 

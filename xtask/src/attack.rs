@@ -24,8 +24,8 @@ pub(crate) struct Options {
     list: bool,
 }
 
-/// Runs the campaign in the profile of the tests: its assertions are on, and what `cargo xtask test`
-/// has compiled is not compiled again.
+/// Runs the campaign in the profile of the tests: its assertions are on, and what
+/// `cargo xtask test` has compiled is not compiled again.
 pub(crate) fn attack(options: &Options) -> Result<(), String> {
     let Options { minutes, seed, property, chunk, list } = options;
     let mut arguments: Vec<String> =

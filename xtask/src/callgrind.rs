@@ -25,8 +25,8 @@ impl Counts {
 }
 
 /// Counts the instructions of a program. Its environment is empty, so that its stack is where it
-/// always does, and the C library is held to what every x86-64 has, so that copies count the same on
-/// every CPU.
+/// always does, and the C library is held to what every x86-64 has, so that copies count the same
+/// on every CPU.
 pub(crate) fn count(program: &Path, arguments: &[&str], into: &Path) -> Result<Counts, String> {
     const PORTABLE: &str = "glibc.cpu.hwcaps=-AVX_Fast_Unaligned_Load,-ERMS,-FSRM,-SSSE3";
     let mut valgrind = Command::new("valgrind");

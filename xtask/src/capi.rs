@@ -1,7 +1,8 @@
 //! `capi`: builds the library for flight software on this machine and tests it from C and C++.
 //!
 //! Builds it, holds the header against it, and runs the programs in C under every compiler that is
-//! there, without a C library, under valgrind and under the sanitizers: all must print the same bits.
+//! there, without a C library, under valgrind and under the sanitizers: all must print the same
+//! bits.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -103,8 +104,8 @@ fn built() -> Result<Host, String> {
 }
 
 impl Host {
-    /// The functions of the header are those of the library, and the library needs only the symbols that
-    /// the header names.
+    /// The functions of the header are those of the library, and the library needs only the symbols
+    /// that the header names.
     fn exports(&self) -> Result<(), String> {
         if !is_there("nm") {
             return skip("exports of the library", "apt-get install binutils");

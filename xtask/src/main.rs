@@ -47,8 +47,8 @@ enum Command {
     /// Run all tests
     #[command(after_help = "Example: cargo xtask test")]
     Test,
-    /// Try to break the promises of docs/promises.md with random spacecraft, on every core; print what
-    /// fails as a test to paste
+    /// Try to break the promises of docs/promises.md with random spacecraft, on every core; print
+    /// what fails as a test to paste
     #[command(
         after_help = "Examples: cargo xtask attack --minutes 10\n          cargo xtask attack --property singular-is-refused --seed 7"
     )]
@@ -59,14 +59,15 @@ enum Command {
     /// Time every service and the peers in one run on one core, and write the page
     #[command(after_help = "Example: cargo xtask bench --quick --skip-peers")]
     Bench(bench::Options),
-    /// Measure the error of the accelerations where they are ill conditioned; write the page and draw it
+    /// Measure the error of the accelerations where they are ill conditioned; write the page and
+    /// draw it
     #[command(after_help = "Example: cargo xtask accuracy --check")]
     Accuracy(accuracy::Options),
     /// Count the instructions of a call under callgrind; write the table
     #[command(after_help = "Example: cargo xtask instructions --check")]
     Instructions(instructions::Options),
-    /// Build for boards, run under emulation, compare with this machine bit for bit, pass the gates;
-    /// measure, write the page
+    /// Build for boards, run under emulation, compare with this machine bit for bit, pass the
+    /// gates; measure, write the page
     #[command(after_help = "Example: cargo xtask flight --check")]
     Flight(flight::Options),
     /// Build the library for flight software, and test it from C and C++

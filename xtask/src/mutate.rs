@@ -1,5 +1,5 @@
-//! `mutate`: one wrong term at a time, checked by the laws of physics; the pages with the results of
-//! it.
+//! `mutate`: one wrong term at a time, checked by the laws of physics; the pages with the results
+//! of it.
 
 use std::fs;
 

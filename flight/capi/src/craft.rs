@@ -139,8 +139,8 @@ pub(crate) fn matrix(rows: &[f64; 9]) -> Matrix3<f64> {
 ///
 /// # Safety
 ///
-/// `memory` points to `size` writable bytes, `hub` to a hub, `devices` to `count` devices, `fault` is
-/// null or points to a fault.
+/// `memory` points to `size` writable bytes, `hub` to a hub, `devices` to `count` devices, `fault`
+/// is null or points to a fault.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn precess_init(
     memory: *mut c_void,

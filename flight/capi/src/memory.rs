@@ -1,5 +1,5 @@
-//! Pointers of C made values: null and misaligned ones are rejected, everything else is the caller's
-//! promise.
+//! Pointers of C made values: null and misaligned ones are rejected, everything else is the
+//! caller's promise.
 
 use crate::error::Code;
 

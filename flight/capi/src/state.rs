@@ -178,8 +178,8 @@ pub unsafe extern "C" fn precess_state_save(
 ///
 /// # Safety
 ///
-/// `craft` points to a spacecraft, `from` to `count` numbers, `state` to a state, `fault` is null or
-/// points to a fault.
+/// `craft` points to a spacecraft, `from` to `count` numbers, `state` to a state, `fault` is null
+/// or points to a fault.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn precess_state_restore(
     pointer: *const Craft,

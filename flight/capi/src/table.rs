@@ -52,7 +52,8 @@ fn checksum(bytes: &[u8]) -> u32 {
     Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC).checksum(bytes)
 }
 
-/// What is passed over each entry of a table in its order; only it differs between reading and writing.
+/// What is passed over each entry of a table in its order; only it differs between reading and
+/// writing.
 trait Pass {
     fn integer(&mut self, value: &mut i32) -> Option<()>;
     fn number(&mut self, value: &mut f64) -> Option<()>;

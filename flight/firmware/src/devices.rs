@@ -1,4 +1,5 @@
-//! A device of each kind, drawn at random: physical bodies, off centre, out of balance, with springs.
+//! A device of each kind, drawn at random: physical bodies, off centre, out of balance, with
+//! springs.
 
 use precess_dynamics::kind::Kind;
 use precess_dynamics::{

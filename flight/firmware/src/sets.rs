@@ -1,4 +1,5 @@
-//! The sets of devices that are run: each kind by itself, several of a kind, several kinds together.
+//! The sets of devices that are run: each kind by itself, several of a kind, several kinds
+//! together.
 
 use core::array::from_fn;
 

@@ -120,8 +120,8 @@ pub fn no_accelerations<D: Devices>(craft: &Spacecraft<D>) -> Option<Acceleratio
     craft.accelerations(&state, &inputs).ok()
 }
 
-/// Accelerations for which loads are computed: those of the state, or, if there are none, the numbers
-/// of motors and forces.
+/// Accelerations for which loads are computed: those of the state, or, if there are none, the
+/// numbers of motors and forces.
 fn wished<D: Devices>(placed: &Placed<D>) -> Option<Accelerations<D>> {
     let Placed { craft, state, inputs } = placed;
     if let Ok(found) = craft.accelerations(state, inputs) {

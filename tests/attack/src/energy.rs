@@ -1,5 +1,5 @@
-//! Energy and momentum: the ledger balances, kinetic energy is not negative, stops lose energy and keep
-//! momentum, what is locked stays.
+//! Energy and momentum: the ledger balances, kinetic energy is not negative, stops lose energy and
+//! keep momentum, what is locked stays.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::{About, Dgvscmg, Each, Hub, HubMode, JointStates, Mode, SloshMass};
@@ -20,7 +20,8 @@ const LEDGER: f64 = 50.0;
 /// Momentum and energy over a stop, in epsilons of the sums of magnitudes before and after.
 const STOP: f64 = 200.0;
 
-/// `ledger-balances`: what is left between the rate of the kinetic energy and all powers is rounding.
+/// `ledger-balances`: what is left between the rate of the kinetic energy and all powers is
+/// rounding.
 ///
 /// # Errors
 /// Where it does not hold.
@@ -28,7 +29,8 @@ pub fn ledger_balances(case: &Case) -> Verdict {
     let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
     let Ok(found) = craft.accelerations(&state, &inputs) else { return Ok(Checked::Rejected) };
     let ledger = craft.ledger(&state, &inputs, &found).map_err(|error| error.to_string())?;
-    // The magnitude counts sums, not their terms: where terms cancel, rounding is that of the terms.
+    // The magnitude counts sums, not their terms: where terms cancel, rounding is that of the
+    // terms.
     let sizes = sizes(case, &state, &inputs, &numbers(&found));
     let rates = state.devices.states().map(|[_, rate]| rate.abs());
     let joints: f64 = rates.zip(&sizes.joints).map(|(rate, size)| rate * size).sum();
@@ -193,7 +195,8 @@ pub fn stop_conserves(case: &Case) -> Verdict {
     Ok(Checked::Holds)
 }
 
-/// `locked-stays-locked`: over steps, a locked joint's rate is zero and its coordinate keeps its bits.
+/// `locked-stays-locked`: over steps, a locked joint's rate is zero and its coordinate keeps its
+/// bits.
 ///
 /// # Errors
 /// Where it does not hold.

@@ -1,7 +1,7 @@
 //! A randomised campaign against the promises of docs/promises.md, each a property with a name.
 //!
-//! Cases are drawn and minimised by proptest and printed as a test to paste. `cargo xtask attack` runs
-//! the campaign, the suite `sample` a fixed sample of it.
+//! Cases are drawn and minimised by proptest and printed as a test to paste. `cargo xtask attack`
+//! runs the campaign, the suite `sample` a fixed sample of it.
 //!
 //! A campaign for workstations: nothing of it goes on board.
 

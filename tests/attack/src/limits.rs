@@ -1,4 +1,5 @@
-//! At the limits of the range of numbers: the field far from and near its centre, gimbals near lock.
+//! At the limits of the range of numbers: the field far from and near its centre, gimbals near
+//! lock.
 
 use std::f64::consts::FRAC_PI_2;
 

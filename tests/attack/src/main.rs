@@ -1,4 +1,5 @@
-//! `cargo xtask attack`: the campaign against the promises of docs/promises.md, from the command line.
+//! `cargo xtask attack`: the campaign against the promises of docs/promises.md, from the command
+//! line.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

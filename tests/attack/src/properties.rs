@@ -1,4 +1,5 @@
-//! The promises of docs/promises.md, each with a name, how its cases are drawn and how it is checked.
+//! The promises of docs/promises.md, each with a name, how its cases are drawn and how it is
+//! checked.
 
 use precess_dynamics::BuiltInKind;
 use proptest::prelude::{BoxedStrategy, Strategy};

@@ -13,8 +13,8 @@ use super::case::{Case, List, Placed};
 use super::sizes::sizes;
 use super::{Checked, Verdict};
 
-/// Backward error of accelerations, in epsilons of the sizes: the worst of 40 000 cases is 1.3, in `f32`
-/// as in `f64`.
+/// Backward error of accelerations, in epsilons of the sizes: the worst of 40 000 cases is 1.3, in
+/// `f32` as in `f64`.
 pub const BACKWARD: f64 = 10.0;
 
 /// Accelerations of a list from their numbers.
@@ -110,8 +110,8 @@ pub fn solves<T: Scalar>(
     }
 }
 
-/// `inverse-dynamics-residual`: loads of the accelerations need no wrench on a free hub and give back
-/// the torque of each driven motor, in `f64` and `f32`.
+/// `inverse-dynamics-residual`: loads of the accelerations need no wrench on a free hub and give
+/// back the torque of each driven motor, in `f64` and `f32`.
 ///
 /// # Errors
 /// Where it does not hold.

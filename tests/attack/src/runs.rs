@@ -13,12 +13,12 @@ use super::case::{Case, List, Placed};
 use super::number::Number;
 use super::{Checked, Verdict};
 
-/// How far energy less work may drift in a run that the step resolves, of what there is: truncation, a
-/// tenth of a radian at most in each of the steps.
+/// How far energy less work may drift in a run that the step resolves, of what there is:
+/// truncation, a tenth of a radian at most in each of the steps.
 const DRIFT: f64 = 1e-5;
 
-/// RK4 is unstable where a root of a joint's own equation is beyond 2.96 steps in any direction: surely
-/// where the product of both is, or half their sum.
+/// RK4 is unstable where a root of a joint's own equation is beyond 2.96 steps in any direction:
+/// surely where the product of both is, or half their sum.
 const SPRING: f64 = 3.0;
 
 /// What a step resolves: a tenth of the time in which a damper or spring acts.
@@ -169,8 +169,9 @@ fn fast(case: &Case, craft: &Spacecraft<List>, state: &State<List>) -> Option<Fa
     Some(worst)
 }
 
-/// `runs-conserve-or-refuse`: a step that a spring or damper of any joint makes unstable is refused, and
-/// a run that resolves springs and friction keeps energy less work, without motors and fields.
+/// `runs-conserve-or-refuse`: a step that a spring or damper of any joint makes unstable is
+/// refused, and a run that resolves springs and friction keeps energy less work, without motors and
+/// fields.
 ///
 /// # Errors
 /// Where it does not hold.

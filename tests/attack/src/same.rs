@@ -19,8 +19,8 @@ fn text<T: Scalar>(result: &CallResult<T>) -> String {
     }
 }
 
-/// `shapes-are-bit-identical`: an array, a tuple, a nested tuple, a list and the set on board give the
-/// same bits or the same error.
+/// `shapes-are-bit-identical`: an array, a tuple, a nested tuple, a list and the set on board give
+/// the same bits or the same error.
 ///
 /// # Errors
 /// Where it does not hold.
@@ -86,8 +86,8 @@ fn single(case: &Case, each: bool) -> Option<Batched> {
     Some(all)
 }
 
-/// `batch-is-spacecraft`: each state of a batch has the result or error that it has by itself, to the
-/// bit, whatever its neighbours are.
+/// `batch-is-spacecraft`: each state of a batch has the result or error that it has by itself, to
+/// the bit, whatever its neighbours are.
 ///
 /// # Errors
 /// Where it does not hold.
@@ -134,8 +134,8 @@ fn same_outcome(found: &CallResult, single: &CallResult) -> bool {
     }
 }
 
-/// `lanes-and-fused-agree`: devices side by side, fused numbers and fused batches give accelerations
-/// that solve the same equations, or the same kind of error.
+/// `lanes-and-fused-agree`: devices side by side, fused numbers and fused batches give
+/// accelerations that solve the same equations, or the same kind of error.
 ///
 /// # Errors
 /// Where it does not hold.

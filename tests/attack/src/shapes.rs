@@ -145,8 +145,8 @@ fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, CallResult
     ])
 }
 
-/// What devices of one kind, side by side, result; none for other lists. Compiled for some kinds: with
-/// and without imbalance, a motor on the wheel, a sliding joint.
+/// What devices of one kind, side by side, result; none for other lists. Compiled for some kinds:
+/// with and without imbalance, a motor on the wheel, a sliding joint.
 #[must_use]
 pub fn across(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     across_of::<ReactionWheel>(case)
@@ -156,8 +156,8 @@ pub fn across(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
         .or_else(|| across_of::<Dgvscmg>(case))
 }
 
-/// What a batch makes of all states of a case, with the inputs of the first or each with its own; none
-/// for lists of which no batch is compiled.
+/// What a batch makes of all states of a case, with the inputs of the first or each with its own;
+/// none for lists of which no batch is compiled.
 #[must_use]
 pub fn batched(case: &Case, fused: bool, each: bool) -> Option<Batched> {
     batch_of::<[Dgvscmg; 1]>(case, fused, each)

@@ -1,7 +1,7 @@
 //! Magnitudes of what is added up in the equations: the unit of an error that is rounding.
 //!
-//! Bounds by lengths and norms, body by body: mass times every acceleration that its centre can have,
-//! inertia times every angular acceleration. They do not depend on how well the equations are
+//! Bounds by lengths and norms, body by body: mass times every acceleration that its centre can
+//! have, inertia times every angular acceleration. They do not depend on how well the equations are
 //! conditioned.
 
 use nalgebra::Vector3;

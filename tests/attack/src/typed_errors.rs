@@ -74,8 +74,8 @@ fn expected(case: &Case, Placed { craft, state, inputs }: &Placed<super::List>) 
     all
 }
 
-/// `errors-are-typed`: what is locked and moves, a mode that the kind has not, the centre of the field
-/// and lists of another length are refused by their own errors, and nothing else is.
+/// `errors-are-typed`: what is locked and moves, a mode that the kind has not, the centre of the
+/// field and lists of another length are refused by their own errors, and nothing else is.
 ///
 /// # Errors
 /// Where it does not hold.

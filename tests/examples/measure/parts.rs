@@ -1,5 +1,5 @@
-//! What an evaluation is made of: operations as counted, sines and hub as timed by themselves, and the
-//! longest chain of operations that wait for each other.
+//! What an evaluation is made of: operations as counted, sines and hub as timed by themselves, and
+//! the longest chain of operations that wait for each other.
 
 use std::hint::black_box;
 

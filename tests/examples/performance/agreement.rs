@@ -57,8 +57,8 @@ pub(crate) fn check(
     Ok(worst)
 }
 
-/// The largest difference in units of the largest magnitude of its block, over all blocks: the hub's
-/// two vectors, and the accelerations of all joints of one name.
+/// The largest difference in units of the largest magnitude of its block, over all blocks: the
+/// hub's two vectors, and the accelerations of all joints of one name.
 fn deviation(found: &[f64], expected: &[f64], count: usize) -> Option<f64> {
     if found.len() != expected.len() || expected.len() != 6 + 3 * count {
         return None;

@@ -7,8 +7,8 @@ use crate::machine::Machine;
 use crate::named;
 use crate::race::Time;
 
-/// The largest number of operations allowed for a hub and for each device, as the suite `operations`
-/// asserts: the work of which a batch's share of the issue floor is stated.
+/// The largest number of operations allowed for a hub and for each device, as the suite
+/// `operations` asserts: the work of which a batch's share of the issue floor is stated.
 const BUDGET: [f64; 2] = [281.0, 1007.0];
 
 /// Words in the names of the peers that goals are stated for.

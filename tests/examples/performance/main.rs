@@ -1,7 +1,8 @@
-//! Services of Precess and peers, checked against each other and timed in one run: `docs/performance`.
+//! Services of Precess and peers, checked against each other and timed in one run:
+//! `docs/performance`.
 //!
-//! Run by `cargo xtask bench`, which sets the peers up and builds what is run here. Nothing is timed
-//! unless all results agree. Every number on the page comes from the run that writes it.
+//! Run by `cargo xtask bench`, which sets the peers up and builds what is run here. Nothing is
+//! timed unless all results agree. Every number on the page comes from the run that writes it.
 
 mod agreement;
 mod axis;

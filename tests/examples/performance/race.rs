@@ -1,4 +1,5 @@
-//! Timing: contenders take turns, round after round, so that a change of the machine meets them all.
+//! Timing: contenders take turns, round after round, so that a change of the machine meets them
+//! all.
 
 use std::path::{Path, PathBuf};
 

@@ -63,13 +63,15 @@ impl<T: Scalar> Matrix<T> {
     }
 }
 
-/// `[omega; v] x [m; n] = [omega x m; omega x n + v x m]`: rate of a motion vector fixed in a frame that moves with `[omega; v]`.
+/// `[omega; v] x [m; n] = [omega x m; omega x n + v x m]`: rate of a motion vector fixed in a frame
+/// that moves with `[omega; v]`.
 pub(super) fn motion_cross<T: Scalar>(v: Spatial<T>, motion: Spatial<T>) -> Spatial<T> {
     let ([omega, v], [m, n]) = (v.halves(), motion.halves());
     Spatial::new(cross(omega, m), sum(cross(omega, n), cross(v, m)))
 }
 
-/// `[omega; v] x* [m; f] = [omega x m + v x f; omega x f]`: rate of a force vector fixed in that frame.
+/// `[omega; v] x* [m; f] = [omega x m + v x f; omega x f]`: rate of a force vector fixed in that
+/// frame.
 pub(super) fn force_cross<T: Scalar>(v: Spatial<T>, force: Spatial<T>) -> Spatial<T> {
     let ([omega, v], [m, f]) = (v.halves(), force.halves());
     Spatial::new(sum(cross(omega, m), cross(v, f)), cross(omega, f))

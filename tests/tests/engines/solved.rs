@@ -1,5 +1,5 @@
-//! Results of the solver and of the Newton-Euler reference for a stored spacecraft with any number of
-//! devices.
+//! Results of the solver and of the Newton-Euler reference for a stored spacecraft with any number
+//! of devices.
 
 use nalgebra::Vector3;
 use precess_dynamics::{About, Accelerations, Attitude, Momentum, SolveError};

@@ -1,5 +1,6 @@
-//! A kind defined by another crate with the code of docs/adding-a-kind.md is emitted, proven, compiled
-//! against the dynamics crate and run. Needs cargo and the linker that every build needs, and no network.
+//! A kind defined by another crate with the code of docs/adding-a-kind.md is emitted, proven,
+//! compiled against the dynamics crate and run. Needs cargo and the linker that every build needs,
+//! and no network.
 
 #[expect(unreachable_pub, reason = "the page's lines, which a crate of its own exports")]
 mod robot_arm;

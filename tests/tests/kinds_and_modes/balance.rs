@@ -15,15 +15,15 @@ use crate::mixed::{Mixed, chains, drawn};
 use crate::point_masses::{Body, PointMasses, Rates};
 use crate::random::{Random, errors_of};
 
-/// Largest backward error of the accelerations, in units of the sum of the magnitudes of all terms, so
-/// that conditioning does not matter.
+/// Largest backward error of the accelerations, in units of the sum of the magnitudes of all terms,
+/// so that conditioning does not matter.
 const BACKWARD: f64 = 50.0 * f64::EPSILON;
 
 /// Largest median error of accelerations against a reference, of the block.
 const ACCELERATIONS_MEDIAN: f64 = 1e-13;
 
-/// Largest error of all. Against a reference in higher precision it is 1e-11; this one has doubles of its
-/// own, whose centripetal terms cancel, and as good a conditioning: ten times that.
+/// Largest error of all. Against a reference in higher precision it is 1e-11; this one has doubles
+/// of its own, whose centripetal terms cancel, and as good a conditioning: ten times that.
 const ACCELERATIONS_WORST: f64 = 1e-10;
 
 /// Uniform gravity, and a wrench on every body, at random.

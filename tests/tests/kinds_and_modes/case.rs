@@ -1,5 +1,5 @@
-//! A spacecraft of any set with a state and inputs, set joint by joint, and the comparison of two of
-//! them, block by block.
+//! A spacecraft of any set with a state and inputs, set joint by joint, and the comparison of two
+//! of them, block by block.
 
 use std::collections::BTreeMap;
 
@@ -107,7 +107,8 @@ impl World {
         Self { hub, ..self.clone() }
     }
 
-    /// The spacecraft with these devices, with the settings of each joint in the order of the devices.
+    /// The spacecraft with these devices, with the settings of each joint in the order of the
+    /// devices.
     pub(crate) fn case<D: Devices<Scalar = f64>>(
         &self,
         devices: &D,

@@ -1,5 +1,5 @@
-//! Mixed sets: the order and the nesting of a tuple change only rounding, and kinds that are special
-//! cases may be replaced by DGVSCMGs.
+//! Mixed sets: the order and the nesting of a tuple change only rounding, and kinds that are
+//! special cases may be replaced by DGVSCMGs.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{

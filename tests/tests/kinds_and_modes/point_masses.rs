@@ -4,7 +4,8 @@
 //!
 //! A body of mass m whose second moment about its centre, `½ tr(I) 1 - I`, has the eigenpairs
 //! `(λ_k, e_k)` moves as three pairs of masses m / 6 at `± sqrt(3 λ_k / m) e_k` do. Everything is
-//! expressed in fixed axes that coincide with B's at the instant; positions are from B at the instant.
+//! expressed in fixed axes that coincide with B's at the instant; positions are from B at the
+//! instant.
 
 use std::ops::{Add, Mul};
 

@@ -13,8 +13,8 @@ use crate::mixed::{Mixed, chains, drawn};
 use crate::point_masses::{Body, PointMasses, Rates};
 use crate::random::{Random, errors_of};
 
-/// Largest error of energy and momentum, of the kinetic energy and of the sum of the bodies' momenta:
-/// a stop has no integrator, so this is rounding.
+/// Largest error of energy and momentum, of the kinetic energy and of the sum of the bodies'
+/// momenta: a stop has no integrator, so this is rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// The mixed set with every other joint locked while it moves; those of the kinds themselves are

@@ -3,7 +3,8 @@
 /// Largest residual, in epsilons of the sum of magnitudes: a dozen roundings in a row.
 pub(crate) const EPSILONS: f64 = 50.0;
 
-/// Largest drift of energy less work and of momentum with a tolerance of 1e-13, of the unit named there.
+/// Largest drift of energy less work and of momentum with a tolerance of 1e-13, of the unit named
+/// there.
 pub(crate) const DRIFT: f64 = 1e-12;
 
 /// Largest difference of the same physics with other rounding, of the block.

@@ -11,7 +11,8 @@ use crate::craft::{Case, Craft, Mixed, Others};
 use crate::kinematics;
 use crate::random::SEED;
 
-/// A step of RK4 for a comparison of two runs that take the same steps, s: a wheel turns by 0.6 rad.
+/// A step of RK4 for a comparison of two runs that take the same steps, s: a wheel turns by 0.6
+/// rad.
 const STEP: f64 = 1e-3;
 
 /// Every joint locked, and nothing acting but gravity.

@@ -72,7 +72,8 @@ impl Frame {
             of_acceleration: of_terms,
             ..*self
         };
-        // Twice the parent body's rate times the relative one, for a velocity or an angular velocity.
+        // Twice the parent body's rate times the relative one, for a velocity or an angular
+        // velocity.
         let turned = self.omega.cross(&(hat * rate));
         if info.slides {
             next.velocity += hat * rate;
@@ -221,8 +222,8 @@ pub(crate) fn hub_needs<D: Craft>(case: &Case<D>, found: &Accelerations<D>) -> W
     Wrench { force, moment: euler + case.hub.r_bc_b.cross(&force) }
 }
 
-/// What gravity exerts on the hub about B, with the third-order force on the spacecraft that belongs to the potential:
-/// `½ ∂(G : S)/∂R`, S the second moment of all bodies about B.
+/// What gravity exerts on the hub about B, with the third-order force on the spacecraft that
+/// belongs to the potential: `½ ∂(G : S)/∂R`, S the second moment of all bodies about B.
 pub(crate) fn hub_pull<D: Craft>(case: &Case<D>, devices: &[Vec<Body>]) -> Wrench {
     let own = pull(case, case.hub.m_b, &case.hub.r_bc_b, &case.hub.i_b_bc);
     let own = own.moved(&case.hub.r_bc_b);
@@ -253,8 +254,8 @@ pub(crate) fn weight<D: Craft>(case: &Case<D>, found: &Accelerations<D>) -> Vect
     pulls.fold(hub, |sum, b| sum + pull(case, b.mass, &b.centre, &b.inertia).force)
 }
 
-/// Sums over the bodies of the magnitudes of linear momentum and, about a point from B along B axes,
-/// of angular momentum: the units of drifts.
+/// Sums over the bodies of the magnitudes of linear momentum and, about a point from B along B
+/// axes, of angular momentum: the units of drifts.
 pub(crate) fn momentum_units<D: Craft>(
     case: &Case<D>,
     found: &Accelerations<D>,

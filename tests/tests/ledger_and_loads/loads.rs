@@ -26,8 +26,8 @@ fn axes_of(body: &Body, axes: LoadAxes, nb: &Matrix3<f64>) -> Matrix3<f64> {
     }
 }
 
-/// Newton and Euler of one device's bodies; the largest error, in epsilons of the terms of all bodies
-/// from this one outwards.
+/// Newton and Euler of one device's bodies; the largest error, in epsilons of the terms of all
+/// bodies from this one outwards.
 fn free_bodies(bodies: &[Body], loads: &[Wrench]) -> f64 {
     let mut worst = Worst::default();
     let (mut of_force, mut of_moment) = (0.0, 0.0);

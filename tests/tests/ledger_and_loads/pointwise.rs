@@ -34,9 +34,9 @@ fn powers_of_all_sources_are_the_rate_of_kinetic_energy() {
     println!("residual, mixed kinds: worst {:.2} eps", worst.0);
 }
 
-/// An error in both sides of the balance leaves the residual zero. So each power is compared with force
-/// times velocity of its point, from the reference kinematics. The unit is the sum of the magnitudes of
-/// their terms: a body's force as a part of its centripetal one, and so on.
+/// An error in both sides of the balance leaves the residual zero. So each power is compared with
+/// force times velocity of its point, from the reference kinematics. The unit is the sum of the
+/// magnitudes of their terms: a body's force as a part of its centripetal one, and so on.
 #[test]
 fn powers_are_forces_times_velocities() {
     fn check<D: Craft>(seed: u64, worst: &mut Worst) {

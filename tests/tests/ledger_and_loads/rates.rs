@@ -9,7 +9,8 @@ use crate::random::SEED;
 /// Apart, s: the fastest wheel turns by 0.01 rad.
 const STEP: f64 = 1.5e-5;
 /// What a four-point difference leaves, of the rates' magnitude: the fourth power of 0.01 rad, as
-/// its remainder of a thirtieth is of a fifth derivative that harmonics may make thirty times larger.
+/// its remainder of a thirtieth is of a fifth derivative that harmonics may make thirty times
+/// larger.
 const CURVATURE: f64 = 1e-8;
 /// What the energies' own rounding leaves, in epsilons of their sizes divided by the step.
 const ROUNDING: f64 = 20.0;

@@ -1,7 +1,7 @@
 //! Runs of minutes to thirteen digits: DOP853 over the state and the works of all sources.
 //!
-//! Attitude as a quaternion, normalised wherever it is read. A wheel's angle is brought back by whole
-//! turns, since rounding it in every step would change the hub's momentum step by step.
+//! Attitude as a quaternion, normalised wherever it is read. A wheel's angle is brought back by
+//! whole turns, since rounding it in every step would change the hub's momentum step by step.
 
 use core::cell::RefCell;
 use core::f64::consts::TAU;

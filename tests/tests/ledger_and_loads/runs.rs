@@ -1,5 +1,5 @@
-//! A minute with six kinds: the change of energy is the sum of all works, the change of momentum the
-//! impulse of gravity.
+//! A minute with six kinds: the change of energy is the sum of all works, the change of momentum
+//! the impulse of gravity.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::{
@@ -15,8 +15,8 @@ use crate::run::{Works, run};
 
 const DURATION: f64 = 60.0;
 
-/// Below this rate Coulomb friction fades, rad/s (or m/s). Narrower, each change of sign is a corner
-/// that the integrator has to find.
+/// Below this rate Coulomb friction fades, rad/s (or m/s). Narrower, each change of sign is a
+/// corner that the integrator has to find.
 const FADING: f64 = 0.05;
 
 /// Moments, and products of this share of the first: no axis is a principal one.
@@ -45,8 +45,8 @@ fn passive<P: Each<Passive>>(mut all: P, stiffness: &[f64]) -> P {
     all
 }
 
-/// Gimbals with offsets on a hub of 60 kg; wheels with ten times a catalogue's imbalance, so that each
-/// shakes the hub by newtons.
+/// Gimbals with offsets on a hub of 60 kg; wheels with ten times a catalogue's imbalance, so that
+/// each shakes the hub by newtons.
 fn devices() -> Mixed {
     let v = Vector3::new;
     let (j, g) = (tensor([0.02, 0.012, 0.013], 1e-3), tensor([0.02, 0.03, 0.025], 0.1));
@@ -140,8 +140,8 @@ fn case(gravity: Gravity, r_b_n: Vector3<f64>, r_b_n_dot: Vector3<f64>) -> Case<
     Case { seed: 0, hub, devices, craft, state, inputs }
 }
 
-/// Holds the drifts of energy less work and of momentum less impulse, each in its unit, to the bound;
-/// returns the works.
+/// Holds the drifts of energy less work and of momentum less impulse, each in its unit, to the
+/// bound; returns the works.
 fn check(case: &Case<Mixed>, what: &str, about: About) -> Works {
     let (mut energy, mut linear, mut angular) =
         (Worst::default(), Worst::default(), Worst::default());
@@ -202,8 +202,8 @@ fn books_close_over_a_minute_in_a_uniform_field() {
     assert!((works.impulse - impulse).norm() <= DRIFT * impulse.norm(), "{}", works.impulse);
 }
 
-/// An ellipse of 10 to 20 m, once round in three quarters of a minute: a tenth of it is the spacecraft,
-/// so that the gradient matters and the orbit's energy does not hide the rest.
+/// An ellipse of 10 to 20 m, once round in three quarters of a minute: a tenth of it is the
+/// spacecraft, so that the gradient matters and the orbit's energy does not hide the rest.
 #[test]
 fn books_close_over_a_minute_around_a_centre() {
     let mu = 60.0;

@@ -1,12 +1,12 @@
 //! The simplified model against the coupled one: what it leaves out, by order of the imbalance.
 //!
 //! With `s` the scale of `d`, `J_12` and `J_13`, the coupled equations are
-//! `(M_0 + s M_1 + ..) q'' = h_0 + s h_1 + ..`, and the simplified model has `M_0 q'' = h_0 + s h_W`,
-//! with `h_W` the part of `h_1` in the square of the wheel's rate. Where nothing but the wheel moves
-//! and nothing drives, `h_0 = 0` and `h_1 = h_W`: the disturbances agree to first order and differ to
-//! second. Where the hub or a gimbal turns, `h_1` has products of its rate with the wheel's; where a
-//! motor drives, `M_1 q_0''` is of first order: what is left out is then as large as the disturbance,
-//! but for the ratio of those rates.
+//! `(M_0 + s M_1 + ..) q'' = h_0 + s h_1 + ..`, and the simplified model has
+//! `M_0 q'' = h_0 + s h_W`, with `h_W` the part of `h_1` in the square of the wheel's rate. Where
+//! nothing but the wheel moves and nothing drives, `h_0 = 0` and `h_1 = h_W`: the disturbances
+//! agree to first order and differ to second. Where the hub or a gimbal turns, `h_1` has products
+//! of its rate with the wheel's; where a motor drives, `M_1 q_0''` is of first order: what is left
+//! out is then as large as the disturbance, but for the ratio of those rates.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::Kind;
@@ -199,8 +199,8 @@ fn with_gimbals_turning_they_differ_to_first_order() {
     }
 }
 
-/// A tenth of a second of free flight, five turns of the wheel: hub and gimbals start to move by the
-/// disturbance alone, so that all that differs is still of second order.
+/// A tenth of a second of free flight, five turns of the wheel: hub and gimbals start to move by
+/// the disturbance alone, so that all that differs is still of second order.
 #[test]
 fn from_rest_trajectories_differ_to_second_order() {
     fn check<K: OffBalance>(seed: u64) {

@@ -1,4 +1,5 @@
-//! Regressions: for each promise of docs/promises.md, the cases that once broke it, in every service.
+//! Regressions: for each promise of docs/promises.md, the cases that once broke it, in every
+//! service.
 
 mod finite;
 mod inputs;

@@ -56,7 +56,8 @@ fn hub_without_inertia_is_rejected_beside_what_the_devices_took_out() {
         }
         let device =
             ReactionWheel { mount: skew(random), ..ReactionWheel::bare_wheel(4.0, disc()) };
-        // Nothing but the wheel's axis is left without inertia: its transverse moments are the hub's.
+        // Nothing but the wheel's axis is left without inertia: its transverse moments are the
+        // hub's.
         let mut state = State::<[ReactionWheel; 1]>::at_rest();
         state.devices[0].spin = 100.0;
         rejected(&Alone { hub: hub([0.0; 3]), device, state, inputs: Inputs::none() }, None);

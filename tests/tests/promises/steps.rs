@@ -1,5 +1,5 @@
-//! A step that spring, damper or friction makes unstable is rejected with the longest one that holds, in
-//! every service that steps; one at that length keeps the energy ledger.
+//! A step that spring, damper or friction makes unstable is rejected with the longest one that
+//! holds, in every service that steps; one at that length keeps the energy ledger.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::lanes::{AcrossDevices, Batch};

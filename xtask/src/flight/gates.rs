@@ -1,7 +1,7 @@
 //! The gates that a library for flight passes, and the deliberately bad ones that each must catch.
 //!
-//! A library is its package and its exports. By construction, the build has only `core` and so no allocator,
-//! and the link has only the library.
+//! A library is its package and its exports. By construction, the build has only `core` and so no
+//! allocator, and the link has only the library.
 
 use std::path::Path;
 

@@ -1,9 +1,9 @@
-//! A linked library for Cortex-M: its functions, how large they and their frames are, and which calls
-//! which.
+//! A linked library for Cortex-M: its functions, how large they and their frames are, and which
+//! calls which.
 //!
 //! Sizes come from the symbol table, frames from the section that the compiler writes for this
-//! (`-Z emit-stack-sizes`), calls from the instructions themselves: what was inlined, merged or turned
-//! into a jump is as the processor finds it.
+//! (`-Z emit-stack-sizes`), calls from the instructions themselves: what was inlined, merged or
+//! turned into a jump is as the processor finds it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -18,7 +18,8 @@ use super::thumb::{Flow, flows};
 pub(super) struct Function {
     pub(super) name: String,
     pub(super) size: u64,
-    /// Bytes of stack it takes, saved registers included; `None` where the compiler does not state it.
+    /// Bytes of stack it takes, saved registers included; `None` where the compiler does not state
+    /// it.
     frame: Option<u64>,
     /// The functions that it may call or jump to.
     calls: BTreeSet<u32>,
@@ -104,7 +105,8 @@ impl Image {
                 calls: calls.collect(),
                 indirect: found.contains(&Flow::Anywhere),
             };
-            // Of two names for one address the one that sorts first: it does not matter, but is the same.
+            // Of two names for one address the one that sorts first: it does not matter, but is the
+            // same.
             match functions.get(&at) {
                 Some(Function { name, .. }) if *name <= function.name => {}
                 _ => drop(functions.insert(at, function)),
@@ -136,8 +138,8 @@ impl Image {
         self.deepest(self.find(name)?, &mut BTreeMap::new())
     }
 
-    /// The largest sum of frames from a function on; `known` has the sums of others, `None` for one that is
-    /// being computed.
+    /// The largest sum of frames from a function on; `known` has the sums of others, `None` for one
+    /// that is being computed.
     fn deepest(&self, at: u32, known: &mut BTreeMap<u32, Option<u64>>) -> Result<u64, String> {
         let function = self.get(at)?;
         let name = &function.name;

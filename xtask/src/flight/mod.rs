@@ -1,5 +1,5 @@
-//! `flight`: builds the firmware for boards, runs it under emulation, compares it with this machine bit
-//! for bit, and measures it.
+//! `flight`: builds the firmware for boards, runs it under emulation, compares it with this machine
+//! bit for bit, and measures it.
 
 mod board;
 mod build;
@@ -41,8 +41,8 @@ pub(crate) struct Options {
     board: Option<String>,
 }
 
-/// Tests the library from C; then builds, runs, compares and measures everything on boards, and writes
-/// the page or compares with it.
+/// Tests the library from C; then builds, runs, compares and measures everything on boards, and
+/// writes the page or compares with it.
 pub(crate) fn flight(options: &Options) -> Result<(), String> {
     if options.board.is_none() {
         capi::host()?;

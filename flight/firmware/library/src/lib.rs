@@ -1,5 +1,5 @@
-//! Evaluate and step every kind, one device and four: the library whose size, stack and instructions
-//! `cargo xtask flight` measures.
+//! Evaluate and step every kind, one device and four: the library whose size, stack and
+//! instructions `cargo xtask flight` measures.
 //!
 //! Each module has a set of devices and two functions over it, exported as
 //! `precess_dgvscmg_4_accelerations` and `precess_dgvscmg_4_step`. They take Rust's types by

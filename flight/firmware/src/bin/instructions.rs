@@ -1,7 +1,8 @@
-//! Counts the instructions of evaluations and steps on a Cortex-M, per kind, of one device and four.
+//! Counts the instructions of evaluations and steps on a Cortex-M, per kind, of one device and
+//! four.
 //!
-//! QEMU's `-icount shift=0` makes an instruction a nanosecond; SysTick counts at 25 MHz, a tick every
-//! 40 instructions. Costs depend on the set, modes and gravity, not on the numbers: a free
+//! QEMU's `-icount shift=0` makes an instruction a nanosecond; SysTick counts at 25 MHz, a tick
+//! every 40 instructions. Costs depend on the set, modes and gravity, not on the numbers: a free
 //! hub, every motor driven, no gravity, as in the committed counts of the desktop.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]

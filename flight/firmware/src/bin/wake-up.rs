@@ -1,10 +1,11 @@
 //! An application in the shape flight software has: initialised once, woken up in turn, sending its
 //! health.
 //!
-//! Three imbalanced reaction wheels hold a small spacecraft's attitude. Each wake-up is a tenth of a
-//! second: the controller reads the state and sets the motors, the model makes a hundred sub-steps,
-//! and once a second a line of housekeeping goes out with the residuals of energy and momentum. Nothing is
-//! allocated; the data of the application are in one structure, which its caller owns.
+//! Three imbalanced reaction wheels hold a small spacecraft's attitude. Each wake-up is a tenth of
+//! a second: the controller reads the state and sets the motors, the model makes a hundred
+//! sub-steps, and once a second a line of housekeeping goes out with the residuals of energy and
+//! momentum. Nothing is allocated; the data of the application are in one structure, which its
+//! caller owns.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
@@ -27,7 +28,8 @@ type Wheels = [ReactionWheel; 3];
 const WAKE_UPS: u32 = 100;
 const PER_SECOND: u32 = 10;
 
-/// Steps of the model per wake-up, and their length in seconds: a wheel at 1500 rpm turns by 0.16 rad.
+/// Steps of the model per wake-up, and their length in seconds: a wheel at 1500 rpm turns by 0.16
+/// rad.
 const SUB_STEPS: u32 = 100;
 const STEP: f64 = 1e-3;
 

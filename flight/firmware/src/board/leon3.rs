@@ -120,8 +120,8 @@ pub struct Console;
 impl Write for Console {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         for byte in text.bytes() {
-            // SAFETY: the registers have these addresses on this board; 2 enables the transmitter, and the
-            // emulated UART is always ready.
+            // SAFETY: the registers have these addresses on this board; 2 enables the transmitter,
+            // and the emulated UART is always ready.
             unsafe {
                 UART[1].write_volatile(2);
                 UART[0].write_volatile(u32::from(byte));

@@ -1,6 +1,7 @@
 //! The boards: how a program starts, prints and ends on each, in one small file per architecture.
 //!
-//! All of them are what QEMU emulates; a real board needs its own console and its own linker script.
+//! All of them are what QEMU emulates; a real board needs its own console and its own linker
+//! script.
 
 #[cfg(all(target_os = "none", target_arch = "arm"))]
 #[path = "cortex_m.rs"]
@@ -17,7 +18,8 @@ mod machine;
 
 pub use machine::*;
 
-/// Makes a function the program: `fn(&mut dyn Write, Options) -> Result<(), E>`, `E` with a message.
+/// Makes a function the program: `fn(&mut dyn Write, Options) -> Result<(), E>`, `E` with a
+/// message.
 #[macro_export]
 macro_rules! program {
     ($main:path) => {

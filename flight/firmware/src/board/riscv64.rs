@@ -37,7 +37,8 @@ pub struct Console;
 impl Write for Console {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         for byte in text.bytes() {
-            // SAFETY: the register has this address on this board; the emulated UART is always ready.
+            // SAFETY: the register has this address on this board; the emulated UART is always
+            // ready.
             unsafe { UART.write_volatile(byte) };
         }
         Ok(())

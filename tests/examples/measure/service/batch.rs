@@ -1,5 +1,5 @@
-//! Many states of one spacecraft in lanes: evaluations, and whole runs. Putting the states into lanes
-//! and taking the results out counts.
+//! Many states of one spacecraft in lanes: evaluations, and whole runs. Putting the states into
+//! lanes and taking the results out counts.
 
 use std::hint::black_box;
 
