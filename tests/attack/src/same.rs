@@ -1,4 +1,4 @@
-//! The same bits in every shape, in a batch, and, to rounding, in whatever fuses.
+//! The same bits for every shape of the set and in a batch; the same to rounding where numbers are fused.
 
 use precess_dynamics::{Scalar, SolveError};
 
