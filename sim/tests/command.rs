@@ -1,4 +1,4 @@
-//! The command as a user meets it: files, messages and exit codes.
+//! The command line of `precess`: files, messages and exit codes.
 
 use std::collections::BTreeMap;
 use std::fs;

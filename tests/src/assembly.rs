@@ -53,9 +53,9 @@ pub fn system<const N: usize, T: Scalar>(case: &Case<N, T>) -> System<T> {
     let still = at_rest(&case.state);
     let columns: Vec<Vec<T>> = (0..size)
         .map(|unknown| {
-            let mut alone = vec![zero; size];
-            alone[unknown] = one;
-            left_sides(case, &still, &alone, moved_by::<N>(unknown))
+            let mut only_one = vec![zero; size];
+            only_one[unknown] = one;
+            left_sides(case, &still, &only_one, moved_by::<N>(unknown))
         })
         .collect();
     let matrix = (0..size).map(|row| columns.iter().map(|column| column[row]).collect()).collect();

@@ -1,7 +1,7 @@
 //! The Newton-Euler reference, two other formulations, and the suites that cross crates.
 //!
 //! - [`double_double`]: a scalar of 31 digits, for which solver and reference are both generic.
-//! - [`newton_euler`]: Newton and Euler written out plainly, body by body: the reference.
+//! - [`newton_euler`]: Newton and Euler, body by body: the reference.
 //! - [`assembly`]: the paper's own equations in the forms of the hand-checked pages; [`spatial`]:
 //!   a recursion over articulated bodies that takes nothing from the paper. Two more routes.
 //! - [`random`]: seeded spacecraft over the declared ranges; [`case`]: one spacecraft in one state.

@@ -122,11 +122,11 @@ fn random_device(random: &mut Random, heaviest: f64) -> Dgvscmg {
         random.vector(length)
     };
     let (r_goc_go, l_o, r_gic_gi, l_i) = (offset(3.0), offset(3.0), offset(3.0), offset(3.0));
-    let place = random.within(0.0, 3.0);
+    let distance = random.within(0.0, 3.0);
     let (i_w_wc, radius) = random.disc(m_w);
     Dgvscmg {
         mount: Matrix3::identity(),
-        r_go_b: random.vector(place),
+        r_go_b: random.vector(distance),
         m_go,
         r_goc_go,
         i_go_goc: random.block(m_go),

@@ -225,22 +225,25 @@ fn singular_device_is_named_across_lanes() {
 
 #[test]
 fn fused_spacecraft_answers_all_questions_of_a_plain_one() {
-    let plain = Spacecraft::new(&hub(), &mixed()).unwrap();
-    let fused = plain.fused();
+    let unfused = Spacecraft::new(&hub(), &mixed()).unwrap();
+    let fused = unfused.fused();
     let (mut state, inputs) = (states(3)[2], inputs(2));
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs().max(1.0);
-    let [found, single] = [fused, plain].map(|craft| craft.accelerations(&state, &inputs).unwrap());
+    let [found, single] =
+        [fused, unfused].map(|craft| craft.accelerations(&state, &inputs).unwrap());
     assert_ne!(found, single, "not a bit of a difference: nothing was fused");
     assert!(near((found.omega_dot - single.omega_dot).norm(), 0.0));
-    let [there, beside] = [fused, plain].map(|craft| craft.step(&state, &inputs, 1e-3).unwrap());
-    assert!(near((there.omega - beside.omega).norm(), 0.0));
-    assert_eq!(fused.energy(&state), plain.energy(&state));
+    let [there, expected] =
+        [fused, unfused].map(|craft| craft.step(&state, &inputs, 1e-3).unwrap());
+    assert!(near((there.omega - expected.omega).norm(), 0.0));
+    assert_eq!(fused.energy(&state), unfused.energy(&state));
     // Beyond where fused sines are right, and what is rejected.
     state.devices.0[0].theta = 1e9;
-    let [found, single] = [fused, plain].map(|craft| craft.accelerations(&state, &inputs).unwrap());
+    let [found, single] =
+        [fused, unfused].map(|craft| craft.accelerations(&state, &inputs).unwrap());
     assert!(near((found.omega_dot - single.omega_dot).norm(), 0.0));
     state.omega.x = f64::NAN;
-    let [found, single] = [fused, plain].map(|craft| craft.accelerations(&state, &inputs));
+    let [found, single] = [fused, unfused].map(|craft| craft.accelerations(&state, &inputs));
     assert_eq!(format!("{found:?}"), format!("{single:?}"));
 }
 

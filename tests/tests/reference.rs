@@ -150,11 +150,11 @@ fn momenta<const N: usize>(case: &Case<N, Wide>, rates: &[Wide]) -> Vec<Wide> {
     let here = energy(case, rates);
     (0..rates.len())
         .map(|i| {
-            let mut alone = vec![wide(0.0); rates.len()];
-            alone[i] = wide(1.0);
+            let mut only_one = vec![wide(0.0); rates.len()];
+            only_one[i] = wide(1.0);
             let mut shifted = rates.to_vec();
             shifted[i] = shifted[i] + wide(1.0);
-            energy(case, &shifted) - here - energy(case, &alone)
+            energy(case, &shifted) - here - energy(case, &only_one)
         })
         .collect()
 }
@@ -168,9 +168,9 @@ fn mass_matrix_is_symmetric_and_that_of_the_kinetic_energy() {
             let matrix = case.system().matrix;
             let size = 6 + 3 * N;
             for i in 0..size {
-                let mut alone = vec![wide(0.0); size];
-                alone[i] = wide(1.0);
-                let row = momenta(&case, &alone);
+                let mut only_one = vec![wide(0.0); size];
+                only_one[i] = wide(1.0);
+                let row = momenta(&case, &only_one);
                 for k in 0..size {
                     let unit = (matrix[i][i] * matrix[k][k]).sqrt().to_f64();
                     let asymmetry = (matrix[i][k] - matrix[k][i]).abs().to_f64();

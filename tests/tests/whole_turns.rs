@@ -58,14 +58,14 @@ fn of_angles<const N: usize, T: Scalar>(a: &State<Set<N, T>>, b: &State<Set<N, T
 
 /// Everything that wrapping could change, evaluated with and without.
 fn changes<const N: usize, T: Scalar>(sample: &Sample<N>) -> Vec<Error> {
-    let mut plain: Case<N, T> = sample.case();
+    let mut unwrapped: Case<N, T> = sample.case();
     let turns = T::from_f64(100.0);
-    for joints in &mut plain.state.devices {
+    for joints in &mut unwrapped.state.devices {
         joints.gamma_o = joints.gamma_o + turns;
         joints.gamma_i = joints.gamma_i - turns;
     }
-    let spacecraft = plain.spacecraft(sample);
-    let wrapped = Case { state: plain.state.wrapped(&spacecraft), ..plain };
+    let spacecraft = unwrapped.spacecraft(sample);
+    let wrapped = Case { state: unwrapped.state.wrapped(&spacecraft), ..unwrapped };
     for joints in &wrapped.state.devices {
         for angle in [joints.gamma_o, joints.gamma_i, joints.theta] {
             assert!(angle.to_f64().abs() <= PI, "{angle:?} ({sample})");
@@ -74,7 +74,7 @@ fn changes<const N: usize, T: Scalar>(sample: &Sample<N>) -> Vec<Error> {
 
     let rejected = |error: SolveError<T>| -> ! { panic!("{sample}: {error}") };
     let dt = T::from_f64(STEP);
-    let [expected, found] = [&plain, &wrapped].map(|case| {
+    let [expected, found] = [&unwrapped, &wrapped].map(|case| {
         let energy = spacecraft.energy(&case.state).unwrap_or_else(|e| rejected(e));
         let momentum = spacecraft.momentum(&case.state, About::CentreOfMass);
         let momentum = momentum.unwrap_or_else(|e| rejected(e));
@@ -86,10 +86,10 @@ fn changes<const N: usize, T: Scalar>(sample: &Sample<N>) -> Vec<Error> {
     let (_, found_energy, found_momentum, found_centre, found_next) = found;
 
     // Momenta may cancel between bodies: their unit is the sum over bodies.
-    let magnitudes = plain.snapshot().momenta();
+    let magnitudes = unwrapped.snapshot().momenta();
     let (p, h) = (magnitudes.linear_magnitudes.to_f64(), magnitudes.angular_magnitudes.to_f64());
     vec![
-        ("accelerations", worst(errors(&wrapped.solved(sample), &plain.solved(sample))).0),
+        ("accelerations", worst(errors(&wrapped.solved(sample), &unwrapped.solved(sample))).0),
         ("energy", (found_energy - energy).abs().to_f64() / size),
         ("linear momentum", distance(&found_momentum.linear, &momentum.linear) / p),
         ("angular momentum", distance(&found_momentum.angular, &momentum.angular) / h),

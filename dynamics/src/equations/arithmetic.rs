@@ -159,10 +159,10 @@ impl<K: Kernels, T: Angle> EliminationInputs<'_, K, T> {
     ) -> Pivots<K, U> {
         let Self { constants, joints, omega, drives } = self;
         let eliminated = K::eliminate(constants, pose, joints, omega, drives);
-        let EliminationOutputs { assembly, gains: place } = outputs;
+        let EliminationOutputs { assembly, gains: kept } = outputs;
         assembly.add(&K::share(&eliminated).map(&number));
         let gains = K::gains(&eliminated);
-        *place = Some(K::zip_gains(gains, gains, |gain, _| number(gain)));
+        *kept = Some(K::zip_gains(gains, gains, |gain, _| number(gain)));
         let pivots = K::pivots(&eliminated);
         K::zip_per_joint(&pivots, &pivots, |pivot, _| pivot.map(|pivot| pivot.map(&number)))
     }

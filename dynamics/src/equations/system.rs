@@ -337,8 +337,8 @@ mod tests {
         assert!(grown > 1e4 * 0.3, "{grown}");
         assert!(solve(&m, &Vector6::zeros()).is_err());
         // Its own scale is that of the row where nothing is coupled.
-        let plain = Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
-        let scales = self::system(&plain, &Vector6::zeros()).grown_scales(&scale_of(&plain));
+        let diagonal = Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
+        let scales = self::system(&diagonal, &Vector6::zeros()).grown_scales(&scale_of(&diagonal));
         assert_eq!(scales, [3.0, 3.0, 3.0, 4.0, 5.0, 6.0]);
     }
 

@@ -123,8 +123,8 @@ impl<D: Devices> Spacecraft<D> {
     ) -> Result<(), SolveError<D::Scalar>> {
         let mut coefficients = D::all_for(&self.devices, [zero::<D::Scalar>(); 2]);
         let joints = D::passives(&self.devices).zip(slowest.values());
-        for (place, (passive, slowest)) in coefficients.values_mut().zip(joints) {
-            *place = [passive.damping(slowest.rate()), passive.stiffness];
+        for (entry, (passive, slowest)) in coefficients.values_mut().zip(joints) {
+            *entry = [passive.damping(slowest.rate()), passive.stiffness];
         }
         for (joint, ([c, k], (device, info))) in
             coefficients.values().zip(self.joints()).enumerate()

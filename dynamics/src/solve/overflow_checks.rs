@@ -14,7 +14,7 @@ fn hub() -> Hub {
     }
 }
 
-fn plain(hub: Hub) -> Spacecraft<[Dgvscmg; 0]> {
+fn without_devices(hub: Hub) -> Spacecraft<[Dgvscmg; 0]> {
     Spacecraft::new(&hub, &[]).unwrap()
 }
 
@@ -32,14 +32,17 @@ fn rejected<R>(result: Result<R, SolveError>, what: Quantity) {
 #[test]
 fn accelerations_that_overflow_are_rejected() {
     let turning = state(|s| s.omega.x = 1e200);
-    rejected(plain(hub()).accelerations(&turning, &Inputs::none()), Quantity::HubAcceleration);
+    rejected(
+        without_devices(hub()).accelerations(&turning, &Inputs::none()),
+        Quantity::HubAcceleration,
+    );
 
     // Only one of the two vectors.
     let light = Hub { m_b: 1e-3, r_bc_b: Vector3::zeros(), ..hub() };
     let force = Vector3::new(1e308, 0.0, 0.0);
     let pushed = Inputs { force, ..Inputs::none() };
     rejected(
-        plain(light).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &pushed),
+        without_devices(light).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &pushed),
         Quantity::HubAcceleration,
     );
 
@@ -58,19 +61,20 @@ fn pivots_that_overflow_are_not_called_singular() {
     for hub in
         [Hub { m_b: 1e-310, ..hub() }, Hub { r_bc_b: Vector3::new(1e160, 0.0, 0.0), ..hub() }]
     {
-        let found = plain(hub).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &Inputs::none());
+        let found =
+            without_devices(hub).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &Inputs::none());
         rejected(found, Quantity::HubAcceleration);
     }
 }
 
 #[test]
 fn energy_that_overflows_is_rejected() {
-    rejected(plain(hub()).energy(&state(|s| s.r_b_n_dot.x = 1e200)), Quantity::Energy);
+    rejected(without_devices(hub()).energy(&state(|s| s.r_b_n_dot.x = 1e200)), Quantity::Energy);
 }
 
 #[test]
 fn momentum_that_overflows_is_rejected() {
-    let momentum = |change| plain(hub()).momentum(&state(change), About::InertialOrigin);
+    let momentum = |change| without_devices(hub()).momentum(&state(change), About::InertialOrigin);
     rejected(momentum(|s| s.r_b_n_dot.x = 1e308), Quantity::Momentum);
     rejected(momentum(|s| (s.r_b_n_dot.x, s.r_b_n.y) = (1e200, 1e200)), Quantity::Momentum);
 }
@@ -78,7 +82,10 @@ fn momentum_that_overflows_is_rejected() {
 #[test]
 fn centre_of_mass_that_overflows_is_rejected() {
     let far = Hub { r_bc_b: Vector3::new(1e308, 0.0, 0.0), ..hub() };
-    rejected(plain(far).centre_of_mass(&State::<[Dgvscmg; 0]>::at_rest()), Quantity::CentreOfMass);
+    rejected(
+        without_devices(far).centre_of_mass(&State::<[Dgvscmg; 0]>::at_rest()),
+        Quantity::CentreOfMass,
+    );
 
     let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
     let wide = Dgvscmg { d: 10.0, ..Dgvscmg::bare_wheel(4.0, disc) };

@@ -76,9 +76,9 @@ fn total_mass_must_be_finite() {
 fn mount_turns_the_wheel_axis_into_the_hub() {
     // The wheel's axis along b_z: the columns are the outer gimbal's x, y, z along B.
     let mount = Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
-    let plain = Hub { r_bc_b: Vector3::zeros(), ..hub() };
+    let hub_at_b = Hub { r_bc_b: Vector3::zeros(), ..hub() };
     let device = Dgvscmg { mount, r_go_b: Vector3::zeros(), ..wheel() };
-    let spacecraft = Spacecraft::new(&plain, &[device]).unwrap();
+    let spacecraft = Spacecraft::new(&hub_at_b, &[device]).unwrap();
     let mut state = State::<[Dgvscmg; 1]>::at_rest();
     state.devices[0].spin = 10.0;
     let Momentum { angular, .. } = spacecraft.momentum(&state, About::CentreOfMass).unwrap();
@@ -88,13 +88,13 @@ fn mount_turns_the_wheel_axis_into_the_hub() {
 
 #[test]
 fn motor_accelerates_wheel_and_hub_against_each_other() {
-    let plain = Hub {
+    let hub_at_b = Hub {
         r_bc_b: Vector3::zeros(),
         i_b_bc: Matrix3::from_diagonal(&Vector3::new(4.0, 5.0, 7.0)),
         ..hub()
     };
     let device = Dgvscmg { r_go_b: Vector3::zeros(), ..wheel() };
-    let spacecraft = Spacecraft::new(&plain, &[device]).unwrap();
+    let spacecraft = Spacecraft::new(&hub_at_b, &[device]).unwrap();
     let mut torques = Inputs::<[Dgvscmg; 1]>::none();
     torques.motors[0].u_w = 0.6;
     let found = spacecraft.accelerations(&State::<[Dgvscmg; 1]>::at_rest(), &torques).unwrap();

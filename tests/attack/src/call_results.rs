@@ -57,10 +57,10 @@ impl<T, L: Numbers<T>> Numbers<T> for Option<L> {
 }
 
 macro_rules! tuples {
-    ($($($member:ident $place:tt)*;)*) => {$(
+    ($($($member:ident $index:tt)*;)*) => {$(
         impl<T, $($member: Numbers<T>),*> Numbers<T> for ($($member,)*) {
             fn add_to(&self, all: &mut Vec<T>) {
-                $(self.$place.add_to(all);)*
+                $(self.$index.add_to(all);)*
             }
         }
     )*};

@@ -52,22 +52,22 @@ pub fn cancelling() -> BoxedStrategy<Case> {
     let turn = [(); 4].map(|()| Number::within(-1.0, 1.0));
     let light = Number::log_within(1e-30, 1.0);
     let speed = Number::log_within(1e-3, 1e3);
-    let place = [(); 3].map(|()| Number::within(-1.0, 1.0));
+    let position = [(); 3].map(|()| Number::within(-1.0, 1.0));
     let motion = [(); 5].map(|()| Number::within(-1.0, 1.0));
-    (0..3, turn, light, speed, place, motion)
-        .prop_map(|(form, turn, light, speed, place, motion)| {
+    (0..3, turn, light, speed, position, motion)
+        .prop_map(|(form, turn, light, speed, position, motion)| {
             let mount = rotation(turn);
-            let place = Vector3::from(place);
+            let position = Vector3::from(position);
             let i_b_bc = Matrix3::identity() * light;
             let hub = Hub { m_b: light, r_bc_b: Vector3::zeros(), i_b_bc };
             let omega = speed * Vector3::new(motion[0], motion[1], motion[2]);
             if form == 0 {
-                let mut case = Case::still(Hub { m_b: 4.0, r_bc_b: place, ..hub }, Vec::new());
-                (case.state.omega, case.state.r_b_n_dot) = (omega, -omega.cross(&place));
+                let mut case = Case::still(Hub { m_b: 4.0, r_bc_b: position, ..hub }, Vec::new());
+                (case.state.omega, case.state.r_b_n_dot) = (omega, -omega.cross(&position));
                 return case;
             }
             if form == 1 {
-                let mass = SloshMass { mount, r_s_b: place, ..SloshMass::bare_slosh_mass(4.0) };
+                let mass = SloshMass { mount, r_s_b: position, ..SloshMass::bare_slosh_mass(4.0) };
                 let mut case = Case::still(hub, vec![mass.into()]);
                 case.state.r_b_n_dot = speed * mount.column(0);
                 set(&mut case, &[[motion[0], -speed]]);
@@ -75,7 +75,7 @@ pub fn cancelling() -> BoxedStrategy<Case> {
             }
             // The hub turns back what the joints turn the wheel, about the wheel's centre.
             let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
-            let wheel = Dgvscmg { mount, r_go_b: place, ..Dgvscmg::bare_wheel(4.0, disc) };
+            let wheel = Dgvscmg { mount, r_go_b: position, ..Dgvscmg::bare_wheel(4.0, disc) };
             let mut case = Case::still(hub, vec![wheel.into()]);
             let [gamma_o, gamma_i, o, i, w] = motion;
             let [o, i, w] = [o, i, w].map(|rate| speed * rate);
@@ -83,7 +83,7 @@ pub fn cancelling() -> BoxedStrategy<Case> {
             let inner = outer * Rotation3::from_axis_angle(&Vector3::y_axis(), gamma_i);
             let rates = o * Vector3::z() + outer * (i * Vector3::y()) + inner * (w * Vector3::x());
             case.state.omega = -(mount * rates);
-            case.state.r_b_n_dot = -case.state.omega.cross(&place);
+            case.state.r_b_n_dot = -case.state.omega.cross(&position);
             set(&mut case, &[[3.0 * gamma_o, o], [gamma_i, i], [0.0, w]]);
             case
         })
@@ -122,8 +122,8 @@ pub fn moving() -> BoxedStrategy<Case> {
     Profile { modes: true, ..Profile::REAL }
         .cases()
         .prop_map(|mut case| {
-            let asked = case.inputs.modes.values().zip(case.inputs.motors.values());
-            for ([_, rate], (mode, motor)) in case.state.devices.states_mut().zip(asked) {
+            let held = case.inputs.modes.values().zip(case.inputs.motors.values());
+            for ([_, rate], (mode, motor)) in case.state.devices.states_mut().zip(held) {
                 if mode == Mode::Locked {
                     *rate = motor;
                 }

@@ -135,7 +135,7 @@ fn of_inputs(list: &Placed<List>) -> Vec<(Quantity, f64)> {
     all
 }
 
-/// What is refused first; the value of an attitude is what the attitude shows.
+/// What is rejected first; the value of an attitude is what the attitude shows.
 fn first_bad(list: &Placed<List>, all: &[(Quantity, f64)]) -> Option<(Quantity, f64)> {
     let (what, value) = *all.iter().find(|(_, value)| !value.is_finite())?;
     let shown = if what == Quantity::Attitude { list.state.attitude.extreme() } else { value };
@@ -203,9 +203,9 @@ pub fn first_bad_is_named(case: &Case) -> Verdict {
         }
     });
     check(&across(case).unwrap_or_default(), "devices side by side")?;
-    let alone = Case { more: Vec::new(), ..case.clone() };
+    let first_state = Case { more: Vec::new(), ..case.clone() };
     for fused in [false, true] {
-        if let Some(found) = batched(&alone, fused, fused) {
+        if let Some(found) = batched(&first_state, fused, fused) {
             for result in &found.accelerations {
                 named(result, first, "accelerations of a batch")?;
             }

@@ -165,7 +165,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "singular-is-refused",
-        statement: "a spacecraft without inertia where something turns freely is refused",
+        statement: "a spacecraft without inertia where something turns freely is rejected",
         cases: 2000,
         function: "singular::singular_is_refused",
         draw: singular::cases,
@@ -237,7 +237,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "runs-conserve-or-refuse",
-        statement: "a step that a spring or damper makes unstable is refused; one that resolves them keeps energy less work",
+        statement: "a step that a spring or damper makes unstable is rejected; one that resolves them keeps energy less work",
         cases: 100,
         function: "runs::runs_conserve_or_refuse",
         draw: runs::cases,
@@ -261,7 +261,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "near-singular",
-        statement: "near gimbal lock the error is that of the conditioning, or the pose is refused",
+        statement: "near gimbal lock the error is that of the conditioning, or the pose is rejected",
         cases: 500,
         function: "limits::near_singular",
         draw: limits::near_lock,

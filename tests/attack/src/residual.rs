@@ -36,7 +36,7 @@ pub fn from_numbers<T: Scalar>(
 /// The largest backward error of accelerations, in epsilons of their number, and where.
 ///
 /// # Errors
-/// What inverse dynamics refuses, and a prescribed acceleration that differs from the computed one.
+/// What inverse dynamics rejects, and a prescribed acceleration that differs from the computed one.
 pub fn residual<T: Scalar>(
     case: &Case,
     list: &Placed<List<T>>,
@@ -73,8 +73,8 @@ pub fn residual<T: Scalar>(
         _ => {}
     }
     let motors = loads.devices.iter().flat_map(|device| device.motors.values());
-    let asked = inputs.motors.values().zip(inputs.modes.values());
-    let joints = motors.zip(asked).zip(craft.joints()).zip(numbers.iter().skip(6));
+    let drives = inputs.motors.values().zip(inputs.modes.values());
+    let joints = motors.zip(drives).zip(craft.joints()).zip(numbers.iter().skip(6));
     for (index, (((motor, (given, mode)), (device, info)), found)) in joints.enumerate() {
         let what = format!("torque at the {} of device {device}", info.body);
         let held = match mode {
@@ -105,7 +105,7 @@ pub fn solves<T: Scalar>(
 ) -> Verdict {
     match residual(case, list, numbers) {
         Ok((error, _)) if error <= BACKWARD => Ok(Checked::Holds),
-        Ok((error, place)) => Err(format!("{what}: {error:.1} epsilons in the {place}")),
+        Ok((error, block)) => Err(format!("{what}: {error:.1} epsilons in the {block}")),
         Err(error) => Err(format!("{what}: {error}")),
     }
 }

@@ -1,4 +1,5 @@
-//! The same bits for every shape of the set and in a batch; the same to rounding where numbers are fused.
+//! The same bits for every shape of the set and in a batch; the same to rounding where numbers are
+//! fused.
 
 use precess_dynamics::{Scalar, SolveError};
 
@@ -94,23 +95,26 @@ fn single(case: &Case, each: bool) -> Option<Batched> {
 pub fn batch_is_spacecraft(case: &Case) -> Verdict {
     let mut checked = Checked::Rejected;
     for each in [false, true] {
-        let (Some(found), Some(alone)) = (batched(case, false, each), single(case, each)) else {
+        let (Some(found), Some(one_state)) = (batched(case, false, each), single(case, each))
+        else {
             continue;
         };
         checked = Checked::Holds;
-        let all = found.accelerations.iter().zip(&alone.accelerations);
-        for (index, (found, alone)) in all.enumerate() {
-            if text(found) != text(alone) {
-                return Err(format!("accelerations of state {index}: {found:?}, not {alone:?}"));
+        let all = found.accelerations.iter().zip(&one_state.accelerations);
+        for (index, (found, one_state)) in all.enumerate() {
+            if text(found) != text(one_state) {
+                return Err(format!(
+                    "accelerations of state {index}: {found:?}, not {one_state:?}"
+                ));
             }
         }
-        for (index, ((found, end), (alone, end_alone))) in
-            found.runs.iter().zip(&alone.runs).enumerate()
+        for (index, ((found, end), (one_state, end_of_one))) in
+            found.runs.iter().zip(&one_state.runs).enumerate()
         {
-            let [f, a] = [found, alone].map(|state| text::<f64>(&Ok(state.clone())));
-            if f != a || format!("{end:?}") != format!("{end_alone:?}") {
+            let [f, a] = [found, one_state].map(|state| text::<f64>(&Ok(state.clone())));
+            if f != a || format!("{end:?}") != format!("{end_of_one:?}") {
                 return Err(format!(
-                    "run of state {index}: {end:?} {found:?}, not {end_alone:?} {alone:?}"
+                    "run of state {index}: {end:?} {found:?}, not {end_of_one:?} {one_state:?}"
                 ));
             }
         }
@@ -154,8 +158,8 @@ pub fn lanes_and_fused_agree(case: &Case) -> Verdict {
             others.push((name.to_owned(), result));
         }
     }
-    let alone = Case { more: Vec::new(), ..case.clone() };
-    if let Some(found) = batched(&alone, true, false) {
+    let one_state = Case { more: Vec::new(), ..case.clone() };
+    if let Some(found) = batched(&one_state, true, false) {
         others.extend(found.accelerations.into_iter().map(|found| ("fused batch".into(), found)));
     }
     for (name, found) in others {

@@ -184,7 +184,7 @@ fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> O
         all.iter().map(|(state, _)| moved(state, State::at_rest_for(&craft))).collect();
     let inputs: Vec<Inputs<D>> = all.iter().map(|(_, inputs)| given(inputs, &craft)).collect();
     let (mut found, mut ends) = (Vec::new(), Vec::new());
-    let asked = if each {
+    let called = if each {
         batch
             .accelerations(&states, &inputs, &mut found)
             .and_then(|()| batch.run(&mut states, &inputs, case.dt, case.steps, &mut ends))
@@ -194,7 +194,7 @@ fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> O
             .and_then(|()| batch.run(&mut states, &inputs[0], case.dt, case.steps, &mut ends))
     };
     // One input for each state, and a step that is finite.
-    asked.ok()?;
+    called.ok()?;
     let accelerations =
         found.into_iter().map(|found| found.map(|found| of_accelerations(&found))).collect();
     let runs = states.iter().map(of_state).zip(ends).collect();

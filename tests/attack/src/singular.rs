@@ -1,4 +1,4 @@
-//! What is singular is refused.
+//! A singular mass matrix is rejected in every service.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -123,7 +123,7 @@ fn spacecraft(
     case
 }
 
-/// `singular-is-refused`: a spacecraft without inertia where something turns freely is refused by
+/// `singular-is-refused`: a spacecraft without inertia where something turns freely is rejected by
 /// every service.
 ///
 /// # Errors
@@ -135,7 +135,7 @@ pub fn singular_is_refused(case: &Case) -> Verdict {
     };
     in_every_shape!(case, f64, |shape, placed| {
         let Placed { craft, state, inputs } =
-            placed.map_err(|error| format!("parameters are refused: {error}"))?;
+            placed.map_err(|error| format!("parameters are rejected: {error}"))?;
         refused(&craft.accelerations(&state, &inputs).map(|f| numbers(&f)), shape)?;
         let step = craft.step(&state, &inputs, case.dt);
         refused(&step.map(|_| Vec::new()), &format!("step of {shape}"))?;

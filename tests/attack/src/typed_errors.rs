@@ -10,7 +10,7 @@ use super::residual::numbers;
 use super::shapes::across;
 use super::{Checked, Verdict};
 
-/// Cases with one thing that is refused, or none.
+/// Cases with one thing that is rejected, or none.
 pub fn cases() -> BoxedStrategy<Case> {
     (Profile { gravity: false, ..Profile::REAL }.cases(), 0_usize..5, 0_usize..15)
         .prop_map(|(mut case, form, joint)| {
@@ -47,7 +47,7 @@ pub fn cases() -> BoxedStrategy<Case> {
         .boxed()
 }
 
-/// What is to be refused, in the order hub, joints, field.
+/// What is to be rejected, in the order hub, joints, field.
 fn expected(case: &Case, Placed { craft, state, inputs }: &Placed<super::List>) -> Vec<SolveError> {
     let _ = case;
     let mut all = Vec::new();
@@ -75,7 +75,7 @@ fn expected(case: &Case, Placed { craft, state, inputs }: &Placed<super::List>) 
 }
 
 /// `errors-are-typed`: what is locked and moves, a mode that the kind has not, the centre of the
-/// field and lists of another length are refused by their own errors, and nothing else is.
+/// field and lists of another length are rejected by their own errors, and nothing else is.
 ///
 /// # Errors
 /// Where it does not hold.
@@ -99,7 +99,7 @@ pub fn errors_are_typed(case: &Case) -> Verdict {
             right(result.err(), call)?;
         }
     }
-    // A stop is there for what moves; what the kind has not is refused all the same.
+    // A stop is there for what moves; what the kind has not is rejected all the same.
     let stopped = craft.stop(state, inputs).err();
     let not_driven = all.iter().find(|error| matches!(error, SolveError::NotDriven { .. }));
     match (stopped, not_driven) {

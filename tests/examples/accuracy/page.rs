@@ -32,7 +32,7 @@ struct Posed {
     distance: String,
     kinds: [Cells; 2],
     square: String,
-    plain: String,
+    linear: String,
 }
 
 /// A distance of the centre of mass from B.
@@ -103,10 +103,10 @@ fn line(name: &'static str, limit: &Limit, square: f64, unit: fn(f64) -> String)
 
 fn posed(dgvscmg: &[Row], balanced: &[Row]) -> Vec<Posed> {
     let row = |(dgvscmg, balanced): (&Row, &Row)| Posed {
-        distance: plain(dgvscmg.distance),
+        distance: shortest(dgvscmg.distance),
         kinds: [cells(dgvscmg), cells(balanced)],
         square: error(f64::EPSILON / (dgvscmg.distance * dgvscmg.distance)),
-        plain: error(f64::EPSILON / dgvscmg.distance),
+        linear: error(f64::EPSILON / dgvscmg.distance),
     };
     dgvscmg.iter().zip(balanced).map(row).collect()
 }
@@ -137,12 +137,12 @@ fn error(value: f64) -> String {
 }
 
 /// Plain where that is short.
-fn plain(value: f64) -> String {
+fn shortest(value: f64) -> String {
     if value < 1e-3 { format!("{value:e}") } else { format!("{value}") }
 }
 
 fn radians(value: f64) -> String {
-    format!("{} rad", plain(value))
+    format!("{} rad", shortest(value))
 }
 
 fn metres(value: f64) -> String {

@@ -36,7 +36,7 @@ pub(crate) struct Link {
 pub(crate) struct Chain {
     pub(crate) mount: Matrix3<f64>,
     /// Of the first joint, from B, B axes; the first link's own origin is zero.
-    pub(crate) place: Vector3<f64>,
+    pub(crate) position: Vector3<f64>,
     pub(crate) links: Vec<Link>,
     pub(crate) passive: Vec<Passive>,
 }
@@ -195,7 +195,7 @@ impl Drawn for ReactionWheel {
     fn chain(&self) -> Chain {
         let links = vec![wheel(Vector3::zeros(), self.m_w, self.d, self.i_w_wc)];
         let passive = self.passive.values().collect();
-        Chain { mount: self.mount, place: self.r_w_b, links, passive }
+        Chain { mount: self.mount, position: self.r_w_b, links, passive }
     }
 }
 
@@ -215,7 +215,7 @@ impl Drawn for Vscmg {
         let gimbal = link(z, Vector3::zeros(), self.m_g, self.r_gc_g, self.i_g_gc);
         let links = vec![gimbal, wheel(self.l_g, self.m_w, self.d, self.i_w_wc)];
         let passive = self.passive.values().collect();
-        Chain { mount: self.mount, place: self.r_g_b, links, passive }
+        Chain { mount: self.mount, position: self.r_g_b, links, passive }
     }
 }
 
@@ -241,7 +241,7 @@ impl Drawn for Dgvscmg {
             wheel(self.l_i, self.m_w, self.d, self.i_w_wc),
         ];
         let passive = self.passive.values().collect();
-        Chain { mount: self.mount, place: self.r_go_b, links, passive }
+        Chain { mount: self.mount, position: self.r_go_b, links, passive }
     }
 }
 
@@ -258,7 +258,7 @@ impl Drawn for HingedPanel {
         let z = about(0.0, 0.0, 1.0);
         let links = vec![link(z, Vector3::zeros(), self.m_p, self.r_pc_p, self.i_p_pc)];
         let passive = self.passive.values().collect();
-        Chain { mount: self.mount, place: self.r_p_b, links, passive }
+        Chain { mount: self.mount, position: self.r_p_b, links, passive }
     }
 }
 
@@ -274,6 +274,6 @@ impl Drawn for SloshMass {
         let (x, o) = (Motion::Slides(Vector3::x()), Vector3::zeros());
         let links = vec![link(x, o, self.m_s, o, Matrix3::zeros())];
         let passive = self.passive.values().collect();
-        Chain { mount: self.mount, place: self.r_s_b, links, passive }
+        Chain { mount: self.mount, position: self.r_s_b, links, passive }
     }
 }

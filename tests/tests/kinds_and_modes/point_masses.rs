@@ -31,7 +31,7 @@ pub(crate) struct Frame {
 #[derive(Clone, Copy, Debug)]
 struct Point {
     mass: f64,
-    place: Vector3<f64>,
+    position: Vector3<f64>,
 }
 
 /// A body with its masses.
@@ -112,7 +112,7 @@ impl PointMasses {
             vec![Body { chain: None, frame: hub, parent, own, points: points(&self.hub) }];
         let mut joints = self.coordinates.iter().zip(&rates.joints).zip(&accelerations.joints);
         for (number, chain) in self.chains.iter().enumerate() {
-            let mut frame = hub.carried(&chain.place).turned_by(&chain.mount);
+            let mut frame = hub.carried(&chain.position).turned_by(&chain.mount);
             for (link, ((q, rate), acceleration)) in chain.links.iter().zip(&mut joints) {
                 let parent = frame.axes[0];
                 frame = frame.carried(&link.origin).moved(link.motion, [*q, *rate, *acceleration]);
@@ -211,7 +211,7 @@ impl Frame {
 impl Body {
     /// Its masses.
     pub(crate) fn masses(&self) -> impl Iterator<Item = Mass> + '_ {
-        self.points.iter().map(|point| Mass { mass: point.mass, r: self.frame.at(&point.place) })
+        self.points.iter().map(|point| Mass { mass: point.mass, r: self.frame.at(&point.position) })
     }
 }
 
@@ -239,5 +239,5 @@ fn points(body: &Rigid) -> Vec<Point> {
         let arm = axis * (3.0 * moment.max(0.0) / body.mass).sqrt();
         [body.centre + arm, body.centre - arm]
     });
-    pairs.map(|place| Point { mass: body.mass / 6.0, place }).collect()
+    pairs.map(|position| Point { mass: body.mass / 6.0, position }).collect()
 }

@@ -55,8 +55,8 @@ impl Errors {
     #[track_caller]
     pub(crate) fn are_within(&self, bound: f64) {
         let Some((worst, seed)) = self.0.last() else { return };
-        let place = std::panic::Location::caller();
-        println!("worst {worst:.1e} of {bound:.1e}, seed {seed:#x}: {place}");
+        let caller = std::panic::Location::caller();
+        println!("worst {worst:.1e} of {bound:.1e}, seed {seed:#x}: {caller}");
         assert!(*worst <= bound, "{worst:e} exceeds {bound:e} at seed {seed:#x}");
     }
 

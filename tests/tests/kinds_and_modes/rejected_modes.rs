@@ -68,10 +68,10 @@ fn wheel_takes_no_other_mode<K: Drawn>() {
     for mode in [Mode::Driven, Mode::Locked, Mode::Prescribed(0.5)] {
         let mut settings = case.settings();
         settings[K::JOINTS.len() + last].mode = mode;
-        let asked = case.with_settings(&settings);
+        let changed = case.with_settings(&settings);
         let expected = SolveError::NotDriven { device: 1, joint: "wheel" };
-        assert_eq!(rejected(&asked), expected, "{mode:?}");
-        assert_eq!(asked.craft.stop(&asked.state, &asked.inputs), Err(expected), "{mode:?}");
+        assert_eq!(rejected(&changed), expected, "{mode:?}");
+        assert_eq!(changed.craft.stop(&changed.state, &changed.inputs), Err(expected), "{mode:?}");
     }
     assert_eq!(case.inputs.modes.values().last(), Some(Mode::Prescribed(0.0)));
 }

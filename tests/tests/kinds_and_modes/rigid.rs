@@ -57,7 +57,7 @@ fn symmetric(tensor: &Matrix3<f64>) -> Matrix3<f64> {
 
 /// The bodies of a device in a pose, from B along B axes.
 pub(crate) fn posed(chain: &Chain, coordinates: &[f64]) -> Vec<Rigid> {
-    let (mut axes, mut origin) = (chain.mount, chain.place);
+    let (mut axes, mut origin) = (chain.mount, chain.position);
     let links = chain.links.iter().zip(coordinates);
     let walk = links.map(|(link, coordinate)| {
         origin += axes * link.origin;

@@ -1,4 +1,4 @@
-//! The blocked-force test: on a table that stands still, a wheel at constant speed exerts the
+//! The blocked-force test: on a table at rest, a wheel at constant speed exerts the
 //! rotating force and torque of its data sheet.
 
 use core::f64::consts::TAU;

@@ -35,8 +35,8 @@ fn rigid<D: Craft>(case: &Case<D>) -> Hub {
     let mass = bodies().fold(m_b, |sum, body| sum + body.mass);
     let moment = bodies().fold(r_bc_b * m_b, |sum, body| sum + body.centre * body.mass);
     let centre = moment / mass;
-    let about = |inertia: &Matrix3<f64>, mass: f64, place: &Vector3<f64>| {
-        let arm = place - centre;
+    let about = |inertia: &Matrix3<f64>, mass: f64, position: &Vector3<f64>| {
+        let arm = position - centre;
         let square = Matrix3::from_diagonal_element(arm.norm_squared());
         inertia + (square - arm * arm.transpose()) * mass
     };
@@ -79,7 +79,7 @@ fn in_a_uniform_field_everything_falls_and_nothing_else_changes() {
     }
 }
 
-/// Half a second of it: B falls by `g t² / 2` more, attitude and joints go the same way.
+/// Half a second of it: B falls by `g t² / 2` more, attitude and joints move the same.
 #[test]
 fn a_falling_run_is_a_floating_run_and_a_fall() {
     let g = Vector3::new(3.0, -5.0, 7.0);
@@ -138,13 +138,13 @@ fn gradient_turns_a_rigid_body_as_in_the_textbook_also_one_of_locked_devices() {
         let State { r_b_n, r_b_n_dot, attitude, omega, .. } = case.state;
         let state = State { r_b_n, r_b_n_dot, attitude, omega, devices: [] };
         let inputs = Inputs { gravity: case.inputs.gravity, ..Inputs::none() };
-        let plain = craft.accelerations(&state, &inputs).expect("a solution");
+        let jointed = craft.accelerations(&state, &inputs).expect("a solution");
         let locked = case.accelerations();
 
-        worst.add(gradient_turns(&whole, mu, &r, &plain.omega_dot, &format!("rigid, {case}")));
+        worst.add(gradient_turns(&whole, mu, &r, &jointed.omega_dot, &format!("rigid, {case}")));
         worst.add(gradient_turns(&whole, mu, &r, &locked.omega_dot, &format!("locked, {case}")));
-        let off = (plain.r_b_n_ddot - locked.r_b_n_ddot).norm();
-        assert!(off <= LIMIT * plain.r_b_n_ddot.norm(), "{off:e}; {case}");
+        let off = (jointed.r_b_n_ddot - locked.r_b_n_ddot).norm();
+        assert!(off <= LIMIT * jointed.r_b_n_ddot.norm(), "{off:e}; {case}");
     }
     let mut worst = Worst::default();
     for seed in SEED..SEED + SPACECRAFT {
@@ -165,9 +165,11 @@ fn locked_devices_are_one_rigid_body_in_a_central_field() {
         let State { r_b_n, r_b_n_dot, attitude, omega, .. } = case.state;
         let state = State { r_b_n, r_b_n_dot, attitude, omega, devices: [] };
         let inputs = Inputs { gravity: case.inputs.gravity, ..Inputs::none() };
-        let plain = craft.accelerations(&state, &inputs).expect("a solution");
+        let jointed = craft.accelerations(&state, &inputs).expect("a solution");
         let locked = case.accelerations();
-        for (a, b) in [(plain.r_b_n_ddot, locked.r_b_n_ddot), (plain.omega_dot, locked.omega_dot)] {
+        for (a, b) in
+            [(jointed.r_b_n_ddot, locked.r_b_n_ddot), (jointed.omega_dot, locked.omega_dot)]
+        {
             worst.add((a - b).norm() / a.norm());
             assert!((a - b).norm() <= LIMIT * a.norm(), "{a} and {b}; {case}");
         }
@@ -211,11 +213,11 @@ fn point_force_on_a_locked_body_is_one_on_the_hub() {
         lock(&mut case);
         case.inputs.gravity = Gravity::None;
         let bodies: Vec<_> = kinematics::bodies(&case, &case.accelerations()).concat();
-        for (place, body) in bodies.iter().enumerate() {
+        for (joint, body) in bodies.iter().enumerate() {
             let (point, force) = (Vector3::new(0.3, -0.8, 0.5), Vector3::new(20.0, 30.0, -10.0));
             let with = |wrench: Wrench| {
                 let mut all = D::all(Wrench::none());
-                *all.values_mut().nth(place).expect("a joint") = wrench;
+                *all.values_mut().nth(joint).expect("a joint") = wrench;
                 let inputs = Inputs { bodies: Some(all), ..case.inputs.clone() };
                 case.craft.accelerations(&case.state, &inputs).expect("a solution")
             };

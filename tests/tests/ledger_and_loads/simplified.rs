@@ -92,12 +92,12 @@ fn slopes<K: OffBalance>(
     seed: u64,
     spin: f64,
     change: Change<K>,
-    ask: impl Fn(&Spacecraft<K>, &State<K>, &Inputs<K>) -> Vec<f64>,
+    quantity: impl Fn(&Spacecraft<K>, &State<K>, &Inputs<K>) -> Vec<f64>,
 ) -> [[f64; 2]; 3] {
     let (device, hub, state, inputs) = situation::<K>(seed, spin, change);
     let with = |scale, model| {
         let craft = Spacecraft::new(&hub, &device.scaled(scale, model)).expect("valid parameters");
-        ask(&craft, &state, &inputs)
+        quantity(&craft, &state, &inputs)
     };
     let still = with(0.0, ImbalanceModel::Coupled);
     let mut curves: [Vec<f64>; 3] = Default::default();
@@ -200,7 +200,7 @@ fn with_gimbals_turning_they_differ_to_first_order() {
 }
 
 /// A tenth of a second of free flight, five turns of the wheel: hub and gimbals start to move by
-/// the disturbance alone, so that all that differs is still of second order.
+/// the disturbance only, so that all that differs is still of second order.
 #[test]
 fn from_rest_trajectories_differ_to_second_order() {
     fn check<K: OffBalance>(seed: u64) {

@@ -182,7 +182,7 @@ fn pieces<'a>(
     let end = at.wrapping_add(u32::try_from(code.len()).unwrap_or(u32::MAX));
     let inside = marks.range(at..end).map(|(address, is_code)| (*address, *is_code));
     let starts: Vec<(u32, bool)> = std::iter::once((at, true)).chain(inside).collect();
-    let ends: Vec<u32> = starts.iter().skip(1).map(|(place, _)| *place).chain([end]).collect();
+    let ends: Vec<u32> = starts.iter().skip(1).map(|(address, _)| *address).chain([end]).collect();
     starts.into_iter().zip(ends).filter(|((_, is_code), _)| *is_code).filter_map(
         move |((start, _), end)| {
             let range = start.wrapping_sub(at) as usize..end.wrapping_sub(at) as usize;
