@@ -4,8 +4,7 @@ use crate::derivation::chain::Chain;
 use crate::emit::{EmitError, EmittedFile, Home, of_kind};
 use crate::graph::Graph;
 use crate::kinds::Kind;
-use crate::proof::{EmittedError, Row};
-use crate::regen;
+use crate::proof::{self, EmittedError, Row};
 
 /// The emitted files of a kind, for a crate that knows the dynamics crate by the name `dynamics`.
 /// Their paths are plain names: where they are put is the caller's choice.
@@ -24,5 +23,5 @@ pub fn emit_kind(kind: &'static Kind, dynamics: &str) -> Result<Vec<EmittedFile>
 /// When the kind's file is not among them, or cannot be read.
 pub fn prove_kind(kind: &'static Kind, files: &[EmittedFile]) -> Result<Vec<Row>, EmittedError> {
     let graph = Graph::new();
-    regen::prove_kind(&Chain::new(&graph, kind), files)
+    proof::prove_kind(&Chain::new(&graph, kind), files)
 }

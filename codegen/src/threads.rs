@@ -5,7 +5,7 @@ use std::thread::{ScopedJoinHandle, scope};
 
 /// Does the same with each item, each on a thread of its own; the results stand in the order of the
 /// items, so that nothing depends on which thread was faster.
-pub(crate) fn side_by_side<T, R>(
+pub fn side_by_side<T, R>(
     items: impl IntoIterator<Item = T>,
     work: impl Fn(T) -> R + Sync,
 ) -> Vec<R>
@@ -22,7 +22,8 @@ where
 }
 
 /// What a thread came to; its panic is ours.
-pub(crate) fn joined<R>(thread: ScopedJoinHandle<'_, R>) -> R {
+#[must_use]
+pub fn joined<R>(thread: ScopedJoinHandle<'_, R>) -> R {
     thread.join().unwrap_or_else(|panic| resume_unwind(panic))
 }
 

@@ -10,7 +10,7 @@ use precess_codegen::kinds::{
     Triple, VSCMG,
 };
 use precess_codegen::proof::Row;
-use precess_codegen::regen::prove_kind;
+use precess_codegen::proof::prove_kind;
 use precess_codegen::space::Axis;
 
 const PANEL: Link = HINGED_PANEL.links[0];

@@ -8,7 +8,7 @@ use precess_codegen::graph::Graph;
 use precess_codegen::kinds::{
     BALANCED_VSCMG, DGVSCMG, HINGED_PANEL, Kind, REACTION_WHEEL, SLOSH_MASS, VSCMG,
 };
-use precess_codegen::regen::prove_kind;
+use precess_codegen::proof::prove_kind;
 
 /// A kind after some passes: its proofs hold.
 fn holds(kind: &'static Kind, passes: Passes) {

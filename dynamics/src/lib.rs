@@ -1,16 +1,16 @@
 //! The solver over the emitted kernels: fully coupled dynamics of a rigid hub with imbalanced
 //! momentum devices, hinged panels and slosh masses.
 //!
-//! State and inputs go in, all accelerations come out, or a typed error. `no_std`, no heap, no
-//! `unsafe`, no panic on input; the same bits on every IEEE-754 target. SI units and radians
-//! everywhere. Conventions stand with the kinds and [`State`], the equations in the emitted text
-//! under [`generated`].
+//! Computes all accelerations of a state and its inputs, or returns a typed error. `no_std`, no
+//! heap, no `unsafe`, no panic on input; bit-identical on every IEEE-754 target. SI units and
+//! radians everywhere. Conventions are documented with the kinds and [`State`], the equations in
+//! the emitted text under [`generated`].
 //!
-//! A spacecraft carries any [set of devices](Devices): `[Dgvscmg; 4]`, or
+//! A spacecraft has any [set of devices](Devices): `[Dgvscmg; 4]`, or
 //! `([ReactionWheel; 3], Sgcmg, HingedPanel)`, or with the feature `alloc` a vector of
 //! [`BuiltIn`]. Joints may be driven, prescribed or locked ([`Mode`]), the hub free, fixed or
-//! prescribed ([`HubMode`]); [`Spacecraft::loads`] answers what that takes and what every joint
-//! carries, [`Spacecraft::ledger`] where the energy goes.
+//! prescribed ([`HubMode`]); [`Spacecraft::loads`] returns the motor torques that this needs and
+//! the load on every joint, [`Spacecraft::ledger`] the power of every source.
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
@@ -79,9 +79,10 @@ pub use equations::gravity::Gravity;
 pub use generated::devices::*;
 pub use integrate::rk4::Stepped;
 pub use integrate::stop::Stopped;
-pub use model::few::{Few, MAX_JOINTS};
+pub use model::joint_array::{JointArray, MAX_JOINTS};
 pub use model::kind::{self, ImbalanceModel};
 pub use model::mode::{HubMode, Mode};
+pub use model::parameter_info::{NameError, ParameterInfo, ParameterMut, ParameterValue, Shape};
 pub use model::parameters::Hub;
 pub use model::passive::Passive;
 pub use model::units;
@@ -92,7 +93,7 @@ pub use results::ledger::{Ledger, Power};
 pub use results::loads::{LoadAxes, Loads};
 pub use results::momentum::{About, CentreOfMass, Momentum};
 pub use sets::built_in::{BuiltIn, BuiltInKind};
-pub use sets::built_in_parameters::{BuiltInParameters, Misfit};
+pub use sets::device_parameters::{DeviceParameters, UnsupportedParameter};
 pub use sets::devices::{DeviceSet, Devices, FixedSet};
 pub use solve::inputs::Inputs;
 pub use solve::spacecraft::Spacecraft;

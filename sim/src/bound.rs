@@ -1,15 +1,15 @@
-//! The bound that drifts are held to, and the error of a run that breaks it.
+//! The bound on the drifts of a run, and the error of a run that exceeds it.
 //!
-//! Rows E2 (energy less work) and E3 (linear and angular momentum), each in the unit that
-//! [`crate::ledger`] counts it in, hold over ten seconds at tolerance 1e-13. A run that asks for no
-//! more than that has failed if it drifts further; a longer or a looser one has only been told to.
+//! Energy less work and both momenta, each in its unit of [`crate::ledger`], stay within the bound
+//! over ten seconds at tolerance 1e-13. A run that is no longer and has no larger tolerance fails
+//! if it drifts further; for other runs the bound does not hold.
 
 use std::fmt;
 
 use crate::ledger::Drift;
 use crate::run::Settings;
 
-/// Drifts of energy less work and of both momenta are held to this: a hundred times what a good
+/// Largest drift of energy less work and of both momenta: a hundred times what a good
 /// integrator reaches over ten seconds of Table 1.
 pub const BOUND: f64 = 1e-12;
 

@@ -1,4 +1,4 @@
-//! The command line: what can be asked for, and what it does.
+//! The command line: its commands and options, and what they do.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -48,10 +48,10 @@ struct Run {
     /// The scenario.
     #[arg(value_enum, default_value = "table1")]
     scenario: Name,
-    /// The wheel's imbalance; both if not given.
+    /// The wheel's imbalance; both without this option.
     #[arg(long, value_enum)]
     imbalance: Option<Imbalance>,
-    /// The motors; all three if not given.
+    /// The motors; all three without this option.
     #[arg(long, value_enum)]
     drive: Option<Drive>,
     /// Length of the run, s.
@@ -65,7 +65,8 @@ struct Run {
     /// Relative tolerance of one step.
     #[arg(long, allow_negative_numbers = true, default_value = "1e-13")]
     tolerance: f64,
-    /// Samples recorded per second; 500 if not given, or the nearest that suits the duration.
+    /// Samples recorded per second; 500 without this option, or the nearest that suits the
+    /// duration.
     #[arg(long, value_name = "HERTZ", allow_negative_numbers = true)]
     rate: Option<f64>,
     /// Folder for the results; made if it is missing.
@@ -74,15 +75,15 @@ struct Run {
 }
 
 impl Cli {
-    /// Does what was asked for; `print` is given what a reader should see.
+    /// Executes the command; `print` gets the text for the reader.
     ///
     /// # Errors
-    /// Whatever ends the command early: no file has been written then, or only whole ones. And a
-    /// run whose files are written and printed, but whose drifts break the bound that its settings
-    /// promise (see [`crate::bound`]).
+    /// Any error that ends the command early: no file has been written then, or only whole ones.
+    /// And a run whose files are written and printed, but whose drifts exceed the bound for its
+    /// settings (see [`crate::bound`]).
     pub fn execute(self, print: &mut dyn FnMut(&str)) -> Result<(), CliError> {
         match self.command {
-            Command::Run(asked) => asked.execute(print),
+            Command::Run(run) => run.execute(print),
             Command::List => {
                 print(&list());
                 Ok(())
@@ -100,7 +101,7 @@ impl Run {
         let Name::Table1 = self.scenario;
         let variants = variants(self.imbalance, self.drive);
         let names = variants.iter().flat_map(|v| file_names(&v.name())).collect::<Vec<_>>();
-        // Refused before the work, not after it.
+        // Rejected before the work, not after it.
         files::prepare(&self.out, names.iter().map(String::as_str).chain([REPORT]))?;
         let outcomes = run_all(&variants, settings)?;
         let mut results = Vec::new();

@@ -14,7 +14,7 @@ use crate::output::report::ReportError;
 pub enum RunError {
     /// The length of the run, s.
     Duration {
-        /// What was asked for.
+        /// The value of the option.
         value: f64,
         /// Shortest.
         lowest: f64,
@@ -23,7 +23,7 @@ pub enum RunError {
     },
     /// The relative tolerance of a step.
     Tolerance {
-        /// What was asked for.
+        /// The value of the option.
         value: f64,
         /// Smallest that can be met.
         lowest: f64,
@@ -32,7 +32,7 @@ pub enum RunError {
     },
     /// The sampling rate, 1/s.
     Rate {
-        /// What was asked for.
+        /// The value of the option.
         value: f64,
         /// Two samples in the run.
         lowest: f64,
@@ -75,15 +75,15 @@ pub enum RunError {
 /// A report of the integrator that is a fault of this program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
-    /// It refuses the span or the first step; the reason is known in its own words only.
+    /// It rejects the span or the first step; the reason is known in its own words only.
     Input {
         /// Its words.
         reason: String,
     },
-    /// A state was asked of its interpolant outside the last step.
+    /// The interpolant was evaluated outside the last step.
     Interpolation {
-        /// The time asked for, s.
-        asked: f64,
+        /// The time of the state, s.
+        time: f64,
         /// Start of the last step, s.
         from: f64,
         /// End of the last step, s.
@@ -114,7 +114,7 @@ impl fmt::Display for RunError {
                 "rate {value} samples/s is outside {lowest} to {highest} for this duration; give \
                  one in between"
             ),
-            Self::Parameters(error) => write!(f, "spacecraft refused: {error}"),
+            Self::Parameters(error) => write!(f, "spacecraft rejected: {error}"),
             Self::Solve { time, source } => write!(f, "at t = {time} s: {source}"),
             Self::TooManySteps { time } => write!(
                 f,
@@ -151,9 +151,9 @@ impl std::error::Error for RunError {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Input { reason } => write!(f, "its input is refused ({reason})"),
-            Self::Interpolation { asked, from, to } => {
-                write!(f, "a state at {asked} s, outside its last step, {from} s to {to} s")
+            Self::Input { reason } => write!(f, "its input is rejected ({reason})"),
+            Self::Interpolation { time, from, to } => {
+                write!(f, "a state at {time} s, outside its last step, {from} s to {to} s")
             }
             Self::Delay => f.write_str("equations without a delay are taken for ones with one"),
             Self::LinearAlgebra { reason } => write!(f, "linear equations failed ({reason})"),
@@ -169,7 +169,7 @@ pub enum WriteError {
         /// The file.
         path: PathBuf,
     },
-    /// The operating system refused.
+    /// The operating system returned an error.
     Io {
         /// The file or folder.
         path: PathBuf,
@@ -279,18 +279,18 @@ mod tests {
     fn a_cause_can_be_followed_to_the_solver() {
         let mut hub = crate::scenario::table1::variants(None, None)[0].scenario().hub;
         hub.m_b = -1.0;
-        let refused = Spacecraft::<Set<0>>::new(&hub, &[]).expect_err("a negative mass");
+        let rejected = Spacecraft::<Set<0>>::new(&hub, &[]).expect_err("a negative mass");
         let error =
-            CliError::Run { scenario: "table1".into(), source: RunError::Parameters(refused) };
+            CliError::Run { scenario: "table1".into(), source: RunError::Parameters(rejected) };
         let run = error.source().expect("the run's error");
         let solver = run.source().expect("the solver's error");
         assert_eq!(error.to_string(), format!("table1: {run}"));
-        assert_eq!(solver.downcast_ref(), Some(&refused));
+        assert_eq!(solver.downcast_ref(), Some(&rejected));
     }
 
     #[test]
     fn a_fault_of_the_integrator_tells_when_and_what() {
-        let fault = Fault::Interpolation { asked: 3.0, from: 1.0, to: 2.0 };
+        let fault = Fault::Interpolation { time: 3.0, from: 1.0, to: 2.0 };
         assert_eq!(
             RunError::Integrator { time: 2.0, fault }.to_string(),
             "the integrator stopped at t = 2 s: a state at 3 s, outside its last step, 1 s to 2 s; \

@@ -1,4 +1,4 @@
-//! What a run leaves behind: evenly spaced samples, the ledger of its steps, and their number.
+//! The results of a run: evenly spaced samples, the ledger of its steps, and their number.
 
 use precess_dynamics::State;
 
@@ -8,7 +8,7 @@ use crate::scenario::Set;
 /// A run's results.
 #[derive(Clone, Debug)]
 pub struct History<const N: usize> {
-    /// Samples at the rate asked for, the last one at the end of the run.
+    /// Samples at the rate of the settings, the last one at the end of the run.
     pub samples: Vec<Sample<N>>,
     /// Energy, work and momentum at the start and after each accepted step.
     pub ledger: Ledger,

@@ -26,7 +26,7 @@ type Dop853 = ExplicitRungeKutta<Ordinary, DormandPrince, f64, Vec<f64>, 8, 12, 
 pub(crate) struct System<const N: usize> {
     spacecraft: Spacecraft<Set<N>>,
     inputs: Inputs<Set<N>>,
-    /// The integrator has no way to hear of an error: it is kept here, and the step is refused.
+    /// The integrator's interface has no errors: the error is kept here, and the step is rejected.
     failure: RefCell<Option<(f64, SolveError)>>,
     evaluations: Cell<usize>,
 }
@@ -59,7 +59,7 @@ impl<const N: usize> ODE<f64, Vec<f64>> for System<N> {
     }
 }
 
-/// An integration on its way.
+/// An integration in progress.
 pub(crate) struct Integrator<'a, const N: usize> {
     system: &'a System<N>,
     method: Dop853,
@@ -79,7 +79,7 @@ impl<'a, const N: usize> Integrator<'a, N> {
         first_step: Option<f64>,
     ) -> Result<Self, RunError> {
         let (start, end) = span;
-        // A state that cannot be solved is told from a step too long by trying it first.
+        // The state is evaluated first: an error there is not one of too long a step.
         Packed::from_slice(y)
             .rates(&system.spacecraft, &system.inputs)
             .map_err(|source| RunError::Solve { time: start, source })?;
@@ -169,7 +169,7 @@ impl<'a, const N: usize> Integrator<'a, N> {
             Stop::Stiffness { t, .. } => return RunError::Stiff { time: *t },
             Stop::BadInput { msg } => Fault::Input { reason: msg.clone() },
             Stop::OutOfBounds { t_interp, t_prev, t_curr } => {
-                Fault::Interpolation { asked: *t_interp, from: *t_prev, to: *t_curr }
+                Fault::Interpolation { time: *t_interp, from: *t_prev, to: *t_curr }
             }
             Stop::NoLags | Stop::InsufficientHistory { .. } => Fault::Delay,
             Stop::LinearAlgebra { msg, .. } => Fault::LinearAlgebra { reason: msg.clone() },

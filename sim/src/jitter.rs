@@ -1,8 +1,8 @@
 //! Jitter: what a wheel's imbalance adds to the motion, at the wheel's own rate.
 //!
 //! Imbalance does two things to a run. It shakes the hub once a turn, and it moves everything
-//! slowly elsewhere, because the same initial state carries another momentum. Jitter is the first
-//! alone: the difference from the same run with balanced wheels, less its mean over one turn of
+//! slowly elsewhere, because the same initial state carries another momentum. Jitter is only
+//! the first: the difference from the same run with balanced wheels, less its mean over one turn of
 //! the wheel.
 
 use nalgebra::Vector3;

@@ -19,7 +19,7 @@ pub struct Outcome<const N: usize> {
     pub history: History<N>,
     /// Its jitter, empty if there is none to be seen (see [`ripple`]).
     pub ripple: Vec<Ripple>,
-    /// What the solver finds odd in the spacecraft.
+    /// The solver's warnings about the parameters.
     pub warnings: Vec<Warning>,
 }
 
@@ -36,7 +36,7 @@ pub struct Figures {
     pub drift: Drift,
 }
 
-/// Runs a scenario, and the same scenario with balanced wheels to tell jitter from motion.
+/// Runs a scenario, and the same scenario with balanced wheels, to separate jitter from motion.
 ///
 /// `progress` hears how much of both runs is done, 0 to 1.
 ///

@@ -102,7 +102,7 @@ impl<const N: usize> Packed<N> {
         let bn = state.attitude.dcm();
         let mut y = Vec::with_capacity(Self::LENGTH);
         y.extend(&state.r_b_n_dot);
-        // The solver gives the inertial acceleration along B axes; positions are kept along N axes.
+        // The solver's inertial acceleration is expressed in B; positions are expressed in N.
         y.extend(&(bn.transpose() * acceleration.r_b_n_ddot));
         y.extend(&self.raw().attitude.rate(&state.omega));
         y.extend(&acceleration.omega_dot);

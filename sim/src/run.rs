@@ -6,14 +6,14 @@
 //! is judged.
 //!
 //! The wheel turns a hundred times in ten seconds. An angle of 600 rad is kept to 1e-13 rad only,
-//! and rounding it in every step walks the wheel's momentum away from the hub's; so every joint
+//! and rounding it in every step changes the sum of the momenta of wheel and hub; so every joint
 //! angle is brought back by whole turns, which are counted, once it has gone round.
 //!
 //! Samples between two accepted steps are steps of their own, started at the last accepted state,
 //! so they are as accurate as the run. The interpolant of differential-equations 0.7.0 is not: it
 //! evaluates the upper half of its polynomial with the factors s and 1 - s exchanged, which at
 //! tolerance 1e-13 costs five digits of momentum (8e-7 kg m/s instead of 5e-12, and 5e-12 once they
-//! are put right).
+//! are corrected).
 
 use precess_dynamics::Spacecraft;
 
@@ -41,9 +41,9 @@ impl Default for Settings {
     }
 }
 
-/// Samples per second unless another number is asked for: sixty in a turn of Table 1's wheel.
+/// Samples per second by default: sixty in a turn of Table 1's wheel.
 const RATE: f64 = 500.0;
-/// Fewer samples than this say nothing about a run, whatever its length.
+/// Fewer samples than this say nothing about a run of any length.
 const SAMPLES_MIN: f64 = 2.0;
 /// Shorter, and a turn of no wheel fits in; longer, and the ledger of steps outgrows memory.
 const DURATION_MIN: f64 = 1e-3;
@@ -131,7 +131,7 @@ pub fn run<const N: usize>(
     Ok(History { samples, ledger: Ledger { entries }, steps })
 }
 
-/// Enters every accepted step into the ledger, and fills the samples behind it.
+/// Enters every accepted step into the ledger, and fills the samples within it.
 struct Recorder<'a, const N: usize> {
     system: &'a System<N>,
     scenario: &'a Scenario<N>,
@@ -223,22 +223,22 @@ mod tests {
     }
 
     #[test]
-    fn settings_out_of_bounds_are_refused_with_value_bound_and_remedy() {
-        let refused = |settings: Settings| {
+    fn settings_out_of_bounds_are_rejected_with_value_bound_and_remedy() {
+        let rejected = |settings: Settings| {
             let error = run(&printed(), &settings, &mut |_| {}).expect_err("out of bounds");
             error.to_string()
         };
         let default = Settings::default();
         assert_eq!(
-            refused(Settings { duration: -1.0, ..default }),
+            rejected(Settings { duration: -1.0, ..default }),
             "duration -1 s is outside 0.001 s to 10000 s; the default is 10"
         );
         assert_eq!(
-            refused(Settings { tolerance: f64::NAN, ..default }),
+            rejected(Settings { tolerance: f64::NAN, ..default }),
             "tolerance NaN is outside 1e-15 to 1e-3; the default is 1e-13"
         );
         assert_eq!(
-            refused(Settings { rate: 1e9, ..default }),
+            rejected(Settings { rate: 1e9, ..default }),
             "rate 1000000000 samples/s is outside 0.2 to 20000 for this duration; give one in \
              between"
         );

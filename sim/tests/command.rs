@@ -1,4 +1,4 @@
-//! The command as a user meets it: files, messages and exit codes.
+//! The command line of `precess`: files, messages and exit codes.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -83,8 +83,8 @@ fn all_variants_are_summed_up_in_ten_lines() {
 }
 
 #[test]
-fn a_setting_out_of_bounds_is_refused_and_nothing_written() {
-    let out = folder("refused");
+fn a_setting_out_of_bounds_is_rejected_and_nothing_written() {
+    let out = folder("rejected");
     let ran = precess(&["run", "--tolerance", "1"], Some(&out));
     assert_eq!(ran.status.code(), Some(1));
     let text = String::from_utf8(ran.stderr).expect("text");
@@ -117,7 +117,7 @@ fn the_shortest_run_needs_no_rate_and_says_why_it_shows_no_jitter() {
 /// A link to nowhere: nothing is there, and yet no folder can be made.
 #[cfg(unix)]
 #[test]
-fn a_folder_that_cannot_be_made_is_refused_before_the_work() {
+fn a_folder_that_cannot_be_made_is_rejected_before_the_work() {
     let link = folder("link");
     let _ = fs::remove_file(&link);
     std::os::unix::fs::symlink("nowhere-at-all", &link).expect("a link");
@@ -126,19 +126,19 @@ fn a_folder_that_cannot_be_made_is_refused_before_the_work() {
     assert_eq!(ran.status.code(), Some(1));
     let text = String::from_utf8(ran.stderr).expect("text");
     assert!(text.contains("choose a folder you may write to with --out"), "{text}");
-    // The work would take minutes; a refusal takes none of it.
+    // The work would take minutes; a rejection takes none of it.
     assert!(started.elapsed() < Duration::from_secs(10), "{:?}", started.elapsed());
 }
 
 /// The hub, the start and the columns: what a reader needs to run it again elsewhere.
 #[test]
 fn the_report_and_the_help_tell_what_was_run() {
-    let out = folder("told");
+    let out = folder("parameters");
     assert!(precess(&SHORT, Some(&out)).status.success());
     let report = fs::read_to_string(out.join("report.html")).expect("a report");
-    for told in ["810 kg", "900, 800, 600 kg m²", "4.15, 2.93, 2.75 kg m²", "4.85, 0.57, 0 deg/s"]
+    for value in ["810 kg", "900, 800, 600 kg m²", "4.15, 2.93, 2.75 kg m²", "4.85, 0.57, 0 deg/s"]
     {
-        assert!(report.contains(&format!(">{told}<")), "{told}");
+        assert!(report.contains(&format!(">{value}<")), "{value}");
     }
     assert!(report.contains("Wheel at the start</td><td class=\"number\">500 rpm<"));
     let help = String::from_utf8(precess(&["run", "--help"], None).stdout).expect("text");
@@ -148,7 +148,7 @@ fn the_report_and_the_help_tell_what_was_run() {
 }
 
 #[test]
-fn a_file_of_somebody_else_stays_and_the_run_is_refused() {
+fn a_file_of_somebody_else_stays_and_the_run_is_rejected() {
     let out = folder("foreign");
     fs::create_dir_all(&out).expect("a folder");
     fs::write(out.join("report.html"), "mine").expect("a file");

@@ -1,4 +1,4 @@
-//! Calls the solver as often as told: what `cargo xtask instructions` runs under callgrind.
+//! Calls the solver a number of times: what `cargo xtask instructions` runs under callgrind.
 //!
 //! ```sh
 //! instructions list                    # the cases, one a line
@@ -22,23 +22,23 @@ fn main() -> ExitCode {
         ["list"] => {}
         [name, calls] => match calls.parse() {
             Ok(calls) => cases.wanted = Some(((*name).to_owned(), calls)),
-            Err(error) => return refused(&format!("`{calls}` calls: {error}")),
+            Err(error) => return rejected(&format!("`{calls}` calls: {error}")),
         },
-        _ => return refused("usage: instructions list | instructions CASE CALLS"),
+        _ => return rejected("usage: instructions list | instructions CASE CALLS"),
     }
     cases.all();
     match &cases.wanted {
-        Some((name, _)) if !cases.found => refused(&format!("no case is called `{name}`")),
+        Some((name, _)) if !cases.found => rejected(&format!("no case is called `{name}`")),
         _ => ExitCode::SUCCESS,
     }
 }
 
-fn refused(why: &str) -> ExitCode {
+fn rejected(why: &str) -> ExitCode {
     eprintln!("error: {why}");
     ExitCode::FAILURE
 }
 
-/// The cases: all of them told, or one of them run.
+/// Lists the cases, or runs one of them.
 struct Cases {
     wanted: Option<(String, u32)>,
     found: bool,
@@ -88,7 +88,7 @@ impl Cases {
 
 impl EachKind<f64> for Cases {
     fn visit<K: Kind<Scalar = f64>>(&mut self, name: &'static str, device: K) {
-        // The paper's device stands there by its number already.
+        // The paper's device is listed by its number already.
         if name != "dgvscmg" {
             self.of(name, &[device]);
         }

@@ -1,12 +1,12 @@
-//! Where A2's bound on the accelerations holds and where it is lost: the solver in `f64` against the
+//! Error of the accelerations where they are ill conditioned: the solver in `f64` against the
 //! same kernels in double-double, over two sweeps.
 //!
 //! - [`pose`]: the distance from the pose in which massless gimbals are singular;
 //! - [`offset`]: the distance of the centre of mass from B.
 //!
 //! Both computations take the same doubles, angles among them, so that their difference is the
-//! solver's rounding. `docs/accuracy.md` is written from these sweeps and the suite `accuracy` asserts
-//! their bounds.
+//! solver's rounding. `docs/accuracy.md` is written from these sweeps and the suite `accuracy`
+//! asserts their bounds.
 
 mod drawn;
 pub mod kinds;
@@ -60,7 +60,8 @@ impl Errors {
     }
 }
 
-/// Largest difference, in units of the largest magnitude expected; as in [`errors`](crate::blocks::errors).
+/// Largest difference, in units of the largest magnitude expected; as in
+/// [`errors`](crate::blocks::errors).
 fn block(found: &[f64], expected: &[Wide]) -> f64 {
     let unit = largest(expected.iter().map(|e| e.abs().to_f64()));
     let pairs = found.iter().zip(expected);
@@ -83,8 +84,8 @@ pub struct Row {
     pub joints: Figures,
     /// Spacecraft that are solved.
     pub solved: usize,
-    /// Spacecraft that the solver refuses as singular.
-    pub refused: usize,
+    /// Spacecraft that the solver rejects as singular.
+    pub rejected: usize,
 }
 
 impl Row {
@@ -107,7 +108,7 @@ impl Row {
         let found = match found {
             Ok(found) => found,
             Err(SolveError::Singular { .. }) => {
-                self.refused += 1;
+                self.rejected += 1;
                 return;
             }
             Err(error) => panic!("{whose}: {error}"),
@@ -126,9 +127,9 @@ impl Row {
 ///
 /// # Panics
 ///
-/// If the solver gives an error, saying whose case it is.
+/// If the solver gives an error, naming the case.
 #[must_use]
-pub fn yardstick<const N: usize>(case: &Case<N, Wide>, whose: &str) -> Accelerations<Set<N, Wide>> {
+pub fn reference<const N: usize>(case: &Case<N, Wide>, whose: &str) -> Accelerations<Set<N, Wide>> {
     let found = Drawn::new(case).solved::<Whole>(whose);
     let found = found.unwrap_or_else(|error| panic!("{whose}, double-double: {error}"));
     Accelerations {

@@ -1,6 +1,6 @@
 //! The paper's own assembly: (16), (75), (80), (101) and (119), from the hand-checked pages.
 //!
-//! Every statement is one equation of `tests/derivation`, with its number beside it, or `(step)`
+//! Every statement is one equation of `tests/derivation`, with its number in a comment, or `(step)`
 //! where the paper gives none, in the form that the pages arrive at: positions by the expanded
 //! (12)-(14), inertias by (35)-(73), the coefficients of (17), momenta by (30), (43), (58) and
 //! (74), motor torques about the centres of mass of D and V. Of the forms that a page gives for one
@@ -10,12 +10,12 @@
 //!
 //! With that the two share vectors, elimination and the layout of the system, and no equation.
 //!
-//! The left sides are evaluated for given accelerations, in which they are affine. So the system
+//! The left sides are evaluated for known accelerations, in which they are affine. So the system
 //! needs no second notation: what is left of them without any rates, under one acceleration of 1,
 //! is a column of the matrix; what is left without any accelerations changes sides.
 
-mod given;
 mod inertias;
+mod known;
 mod motors;
 mod positions;
 mod rotation;
@@ -31,8 +31,8 @@ use crate::case::{Case, Set};
 use crate::newton_euler::equations::System;
 use crate::newton_euler::vector::{Tensor, Vector};
 use crate::newton_euler::{elimination, from_list};
-use given::{Given, Motion};
 use inertias::Inertias;
+use known::{Known, Motion};
 use positions::Positions;
 
 /// The accelerations by the paper's assembly; `None` where the matrix is singular.
@@ -53,9 +53,9 @@ pub fn system<const N: usize, T: Scalar>(case: &Case<N, T>) -> System<T> {
     let still = at_rest(&case.state);
     let columns: Vec<Vec<T>> = (0..size)
         .map(|unknown| {
-            let mut alone = vec![zero; size];
-            alone[unknown] = one;
-            left_sides(case, &still, &alone, moved_by::<N>(unknown))
+            let mut only_one = vec![zero; size];
+            only_one[unknown] = one;
+            left_sides(case, &still, &only_one, moved_by::<N>(unknown))
         })
         .collect();
     let matrix = (0..size).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
@@ -73,7 +73,7 @@ fn moved_by<const N: usize>(unknown: usize) -> Range<usize> {
     }
 }
 
-/// The left sides of all equations under given accelerations; zero for devices not in `moved`.
+/// The left sides of all equations for these accelerations; zero for devices not in `moved`.
 fn left_sides<const N: usize, T: Scalar>(
     case: &Case<N, T>,
     state: &State<Set<N, T>>,
@@ -89,7 +89,7 @@ fn left_sides<const N: usize, T: Scalar>(
     };
     let device = |j: usize| {
         let (joints, ddot) = (&state.devices[j], &accelerations.devices[j]);
-        Device::new(Given::new(&case.devices[j], joints, ddot, motion))
+        Device::new(Known::new(&case.devices[j], joints, ddot, motion))
     };
     let devices: Vec<Device<T>> = moved.clone().map(device).collect();
     let body = Body::new(&case.hub);
@@ -139,16 +139,16 @@ impl<T: Scalar> Body<T> {
 
 /// What the pages define for one device, ready for its equations.
 struct Device<T> {
-    given: Given<T>,
+    known: Known<T>,
     positions: Positions<T>,
     inertias: Inertias<T>,
 }
 
 impl<T: Scalar> Device<T> {
-    fn new(given: Given<T>) -> Self {
-        let positions = Positions::new(&given);
-        let inertias = Inertias::new(&given, &positions);
-        Self { given, positions, inertias }
+    fn new(known: Known<T>) -> Self {
+        let positions = Positions::new(&known);
+        let inertias = Inertias::new(&known, &positions);
+        Self { known, positions, inertias }
     }
 }
 

@@ -13,7 +13,7 @@ pub const NAMES: [&str; 5] =
 /// Largest difference in each block, in units of the largest magnitude of `expected` there.
 ///
 /// The differences are taken in double-double. A block without entries, or zero in both, has no
-/// error; one that is zero in `expected` alone has an infinite one, as has one with a NaN.
+/// error; one that is zero only in `expected` has an infinite one, as has one with a NaN.
 #[must_use]
 pub fn errors<const N: usize, T: Scalar, U: Scalar>(
     actual: &Accelerations<Set<N, T>>,

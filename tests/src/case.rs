@@ -1,4 +1,4 @@
-//! One spacecraft in one state under given forces, in any scalar.
+//! One spacecraft in one state under known forces, in any scalar.
 
 mod conversion;
 
@@ -20,7 +20,7 @@ pub type Set<const N: usize, T = f64> = [Dgvscmg<T>; N];
 /// Parameters, state and inputs, as solver and references take them.
 ///
 /// The references know a free hub without gravity, and driven joints without springs or friction:
-/// of other inputs and parameters their answers are not the solver's.
+/// with other inputs and parameters their results differ from the solver's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case<const N: usize, T: Scalar = f64> {
     /// The hub.
@@ -44,7 +44,7 @@ impl<const N: usize, T: Scalar> Case<N, T> {
     ///
     /// # Panics
     ///
-    /// If the solver refuses the parameters, saying whose they are: a seed or a scenario.
+    /// If the solver rejects the parameters, saying whose they are: a seed or a scenario.
     #[must_use]
     pub fn spacecraft(&self, whose: impl Display) -> Spacecraft<Set<N, T>> {
         Spacecraft::new(&self.hub, &self.devices).unwrap_or_else(|error| panic!("{whose}: {error}"))
@@ -54,7 +54,7 @@ impl<const N: usize, T: Scalar> Case<N, T> {
     ///
     /// # Panics
     ///
-    /// If the solver gives an error, saying whose case it is: a seed or a scenario.
+    /// If the solver gives an error, naming the case: a seed or a scenario.
     #[must_use]
     pub fn solved(&self, whose: impl Display) -> Accelerations<Set<N, T>> {
         self.spacecraft(&whose)

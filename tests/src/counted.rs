@@ -1,9 +1,9 @@
-//! A scalar that counts its operations: what an evaluation takes, of the arithmetic as it is run, and
-//! the longest chain of operations that wait for each other.
+//! A scalar that counts its operations: what an evaluation takes, of the arithmetic as it is run,
+//! and the longest chain of operations that wait for each other.
 //!
 //! The table `docs/operations.md` counts what is written in the emitted text; this counts the
 //! solver's own work with it. Comparisons, copies and constants count nothing, and neither do the
-//! checks that ask for a magnitude or a maximum, which are comparisons, too.
+//! checks that take a magnitude or a maximum, which are comparisons, too.
 
 use core::cell::Cell;
 use core::cmp::Ordering;
@@ -62,7 +62,8 @@ pub fn count<R>(work: impl FnOnce() -> R) -> (R, Operations) {
     (result, COUNT.get())
 }
 
-/// What is computed meanwhile, by this thread, tells when it was ready: see [`Counted::ready`].
+/// Every number computed meanwhile by this thread has the time at which it was ready: see
+/// [`Counted::ready`].
 pub fn timed<R>(latencies: Latencies, work: impl FnOnce() -> R) -> R {
     LATENCIES.set(latencies);
     let result = work();
@@ -86,7 +87,7 @@ pub struct Counted {
 
 impl Counted {
     /// When it was ready, ns, if every operation ran as soon as it could: the longest chain of
-    /// operations behind it. Of constants, zero.
+    /// operations before it. Of constants, zero.
     #[must_use]
     pub fn ready(self) -> f64 {
         self.ready

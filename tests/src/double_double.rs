@@ -1,12 +1,12 @@
 //! A double-double scalar: the unevaluated sum of two `f64`, about 31 decimal digits.
 //!
 //! Algorithms and error bounds: Joldes, Muller, Popescu, "Tight and rigorous error bounds for basic
-//! building blocks of double-word arithmetic", ACM TOMS 44 (2017); their numbers stand beside the
+//! building blocks of double-word arithmetic", ACM TOMS 44 (2017); their numbers are given with the
 //! code. With `u = 2^-53`: sums are right to 3 u^2 of the exact sum (also under cancellation),
 //! products to 5 u^2, quotients to 10 u^2.
 //!
-//! Written here because the crates at hand do not reach it: `twofloat` 0.8.4 divides with a rounded
-//! remainder (measured: 2e-16, a plain f64) and its `sin(1)` is off by 6e-24; `qd` 0.8.0 has no
+//! Written here because no crate reaches this precision: `twofloat` 0.8.4 divides with a rounded
+//! remainder (measured: 2e-16, as an f64) and its `sin(1)` is off by 6e-24; `qd` 0.8.0 has no
 //! sine. Overflow, underflow and signed zeros are not cared for: the suites stay far from them.
 
 mod sin_cos;

@@ -1,13 +1,14 @@
-//! The plain reference and the suites that cross crates.
+//! The Newton-Euler reference, two other formulations, and the suites that cross crates.
 //!
 //! - [`double_double`]: a scalar of 31 digits, for which solver and reference are both generic.
-//! - [`newton_euler`]: Newton and Euler written out plainly, body by body: the yardstick.
+//! - [`newton_euler`]: Newton and Euler, body by body: the reference.
 //! - [`assembly`]: the paper's own equations in the forms of the hand-checked pages; [`spatial`]:
 //!   a recursion over articulated bodies that takes nothing from the paper. Two more routes.
 //! - [`random`]: seeded spacecraft over the declared ranges; [`case`]: one spacecraft in one state.
 //! - [`table1`]: the paper's own numbers.
 //! - [`stored`]: spacecraft as files hold them, for engines and peers.
-//! - [`measured`]: spacecraft of every kind, for what is measured; [`counted`]: a scalar that counts
+//! - [`measured`]: spacecraft of every kind, for what is measured; [`counted`]: a scalar that
+//!   counts
 //!   its operations.
 //! - [`accuracy`]: where the bound on the accelerations holds and where it is lost.
 //! - [`blocks`]: the unit in which accelerations are compared.

@@ -1,6 +1,6 @@
 //! Spacecraft of every kind in general motion: what is timed and counted.
 //!
-//! Costs hang on the set and on what the inputs ask for, not on the numbers, so bare devices will
+//! Costs depend on the set, the modes and gravity, not on the numbers, so bare devices will
 //! do; no coordinate, rate or torque is zero, and no gimbal is where it loses its inertia.
 
 use nalgebra::{Matrix3, Vector3};
@@ -13,7 +13,7 @@ use precess_dynamics::{
 
 use crate::random::{Random, SEED};
 
-const SOUND: &str = "the parameters of a bare device are sound";
+const VALID: &str = "the parameters of a bare device are valid";
 
 /// A spacecraft with its state and inputs.
 #[derive(Clone, Debug)]
@@ -30,12 +30,12 @@ impl<D: Devices> Measured<D> {
     /// These devices on a hub, in motion.
     ///
     /// # Panics
-    /// If the solver refuses the devices.
+    /// If the solver rejects the devices.
     #[must_use]
     pub fn new(devices: &D) -> Self {
         let random = &mut Random::new(SEED);
         let mut number = |size: f64| D::Scalar::from_f64(random.within(0.5 * size, size));
-        let craft = Spacecraft::new(&hub(), devices).expect(SOUND);
+        let craft = Spacecraft::new(&hub(), devices).expect(VALID);
         let (mut state, mut inputs) = (State::at_rest_for(&craft), Inputs::none_for(&craft));
         state.r_b_n = Vector3::from_fn(|_, _| number(100.0));
         state.r_b_n_dot = Vector3::from_fn(|_, _| number(10.0));
@@ -60,7 +60,7 @@ impl<D: Devices> Measured<D> {
     }
 }
 
-/// The hub that carries them.
+/// The hub of the measured spacecraft.
 #[must_use]
 pub fn hub<T: Scalar>() -> Hub<T> {
     let of = T::from_f64;
@@ -124,7 +124,7 @@ pub fn each_set(visitor: &mut impl EachSet) {
     visitor.visit("1", &[dgvscmg(); 1]);
     visitor.visit("4", &[dgvscmg(); 4]);
     visitor.visit("16", &[dgvscmg(); 16]);
-    let most: Box<[_; 64]> = vec![dgvscmg(); 64].try_into().expect("as many as asked for");
+    let most: Box<[_; 64]> = vec![dgvscmg(); 64].try_into().expect("64 devices");
     visitor.visit("64", &*most);
     each_kind(&mut OfFour(visitor));
 }

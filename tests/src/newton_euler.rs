@@ -1,15 +1,15 @@
-//! The plain reference: Newton and Euler body by body, with nothing optimised.
+//! The Newton-Euler reference: each body by itself, with nothing optimised.
 //!
 //! The paper's laws, sections 3.1 to 3.3: force (6), (8), moment (75), motor torques about the
 //! centres of mass of D and V, (78)-(83), (99)-(103), (117)-(119), over kinematics that follow from
-//! positions and angular velocities alone. None of the forms that the paper works out are typed in
+//! positions and angular velocities only. None of the paper's expanded forms is used
 //! (expanded positions, coefficients of (17), inertias about B): those are
 //! [`assembly`](crate::assembly). It yields the full system of `6 + 3 N` equations, whose matrix is
 //! *not* assumed symmetric, and solves it by Gaussian elimination. Generic over the scalar: in
-//! [`DoubleDouble`] it is the yardstick of the solver. It shares with the solver the parameter and
+//! [`DoubleDouble`] it is the reference of the solver. It shares with the solver the parameter and
 //! state types and nothing else.
 //!
-//! Everything is resolved along B axes. Quantities of the state that are given along N axes (the
+//! Everything is expressed in B. Quantities of the state that are expressed in N (the
 //! velocity of B) are rotated by a `[BN]` of its own.
 //!
 //! [`DoubleDouble`]: crate::double_double::DoubleDouble
@@ -31,7 +31,7 @@ use bodies::{Body, Device, hub_body};
 use equations::System;
 use vector::{Tensor, Vector};
 
-/// A spacecraft in one state, under given forces: all bodies placed, all rates known.
+/// A spacecraft in one state, under known forces: position and rates of every body.
 #[derive(Clone, Debug)]
 pub struct Snapshot<T> {
     /// The hub.
@@ -55,7 +55,7 @@ pub struct Snapshot<T> {
 }
 
 impl<T: Scalar> Snapshot<T> {
-    /// Places every body.
+    /// Computes the position of every body.
     #[must_use]
     pub fn new<const N: usize>(
         hub: &Hub<T>,
@@ -88,7 +88,7 @@ impl<T: Scalar> Snapshot<T> {
     }
 }
 
-/// The accelerations by the plain equations; `None` where the matrix is singular.
+/// The accelerations by these equations; `None` where the matrix is singular.
 #[must_use]
 pub fn accelerations<const N: usize, T: Scalar>(
     hub: &Hub<T>,

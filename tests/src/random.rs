@@ -91,7 +91,7 @@ impl<const N: usize> Sample<N> {
         Self { seed, case: Case { hub, devices, state, inputs }, mounts, attitude }
     }
 
-    /// The spacecraft in a scalar: plain numbers exactly as drawn, mounts orthonormal and the
+    /// The spacecraft in a scalar: numbers exactly as drawn, mounts orthonormal and the
     /// attitude of unit norm to the rounding of that scalar.
     #[must_use]
     pub fn case<T: Scalar>(&self) -> Case<N, T> {
@@ -122,11 +122,11 @@ fn random_device(random: &mut Random, heaviest: f64) -> Dgvscmg {
         random.vector(length)
     };
     let (r_goc_go, l_o, r_gic_gi, l_i) = (offset(3.0), offset(3.0), offset(3.0), offset(3.0));
-    let place = random.within(0.0, 3.0);
+    let distance = random.within(0.0, 3.0);
     let (i_w_wc, radius) = random.disc(m_w);
     Dgvscmg {
         mount: Matrix3::identity(),
-        r_go_b: random.vector(place),
+        r_go_b: random.vector(distance),
         m_go,
         r_goc_go,
         i_go_goc: random.block(m_go),

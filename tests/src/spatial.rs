@@ -45,7 +45,7 @@ pub fn accelerations<const N: usize, T: Scalar>(
         bias = bias + chain.seen.bias;
     }
 
-    // The base is free: its articulated inertia carries no force. Then outwards again.
+    // The base is free: no joint force acts on its articulated inertia. Then the outward pass.
     let a = solve(inertia, -bias)?;
     let devices = chains.map(|chain| {
         let [gamma_o_ddot, gamma_i_ddot, spin_dot] = chain.accelerate(a);
@@ -53,7 +53,7 @@ pub fn accelerations<const N: usize, T: Scalar>(
     });
 
     // A spatial acceleration is that of the flow through a point, not of the point; for B, which
-    // stands still in that frame, the two are the same.
+    // is at rest in that frame, the two are the same.
     let [omega_dot, r_b_n_ddot] = a.halves();
     Some(Accelerations {
         r_b_n_ddot: Vector3::from(r_b_n_ddot),

@@ -21,7 +21,7 @@ use crate::case::{Case, Set};
 /// taken along the wrong axes shows.
 pub const ATTITUDE: Quaternion = Quaternion { q0: 0.5, q1: 0.5, q2: 0.5, q3: 0.5 };
 
-/// A spacecraft with DGVSCMGs in one state under given forces.
+/// A spacecraft with DGVSCMGs in one state under known forces.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Stored {
     hub: StoredHub,
@@ -218,7 +218,8 @@ fn one() -> f64 {
     1.0
 }
 
-/// The generated parameters, field by field, for serde; the files have the mount beside them.
+/// The generated parameters, field by field, for serde; the files have the mount in a field of its
+/// own.
 #[derive(Deserialize)]
 #[serde(remote = "Parameters::<f64>")]
 struct ParametersInFile {

@@ -1,7 +1,7 @@
-//! The solver's accelerations against the plain reference: row A1 (backward error), A2 (against
-//! higher precision) and A3 (both in double-double).
+//! The solver's accelerations against the Newton-Euler reference: backward error, error against
+//! double-double, and difference with both in double-double.
 //!
-//! Run with `--nocapture` to see worst and median of each row.
+//! Run with `--nocapture` to see worst and median of each.
 
 use precess_tests::blocks::{Figures, errors, worst};
 use precess_tests::bounds::{
@@ -13,7 +13,7 @@ use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::newton_euler::to_list;
 use precess_tests::random::{Sample, Visitor, visit};
 
-/// The unit of A2 and A3.
+/// The unit of errors in accelerations.
 const BLOCK: &str = "of the block";
 
 /// Runs a measurement of one spacecraft over all of them; no single one may exceed `bound`.
@@ -67,7 +67,7 @@ fn backward_error_is_rounding() {
             (error / f64::EPSILON, "the worst row")
         }
     }
-    measure("A1, backward error", BACKWARD_EPSILONS, "eps", BackwardError);
+    measure("backward error", BACKWARD_EPSILONS, "eps", BackwardError);
 }
 
 #[test]
@@ -79,8 +79,12 @@ fn accelerations_agree_with_higher_precision() {
             worst(errors(&solution, &sample.case::<Wide>().reference()))
         }
     }
-    let figures = measure("A2, forward error", ACCELERATIONS_WORST, BLOCK, ForwardError);
-    assert!(figures.median() <= ACCELERATIONS_MEDIAN, "A2: median {:e}", figures.median());
+    let figures = measure("forward error", ACCELERATIONS_WORST, BLOCK, ForwardError);
+    assert!(
+        figures.median() <= ACCELERATIONS_MEDIAN,
+        "forward error: median {:e}",
+        figures.median()
+    );
 }
 
 #[test]
@@ -92,5 +96,5 @@ fn solver_and_reference_agree_in_double_double() {
             worst(errors(&case.solved(sample), &case.reference()))
         }
     }
-    measure("A3, double-double", ROUTES_IN_DOUBLE_DOUBLE, BLOCK, Routes);
+    measure("difference in double-double", ROUTES_IN_DOUBLE_DOUBLE, BLOCK, Routes);
 }

@@ -1,16 +1,17 @@
-//! Where A2's bound holds by `docs/accuracy.md`, it holds; where it is lost, the error grows as the
-//! square that is stated there, and no faster.
+//! The error of the accelerations near the singular pose of massless gimbals and with the centre of
+//! mass far from B: within its bounds where `docs/accuracy.md` states so, elsewhere within the
+//! square stated there.
 //!
 //! Run with `--nocapture` to see the largest factor of each square.
 
 use precess_tests::accuracy::kinds::{BareBalancedDgvscmg, BareDgvscmg, Form};
-use precess_tests::accuracy::{Row, offset, pose, yardstick};
+use precess_tests::accuracy::{Row, offset, pose, reference};
 use precess_tests::blocks::{errors, largest, worst};
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::{Sample, Visitor, visit};
 
-/// Least distance from the pose, rad, at which A2's bounds hold for bare wheels: the next one of the
+/// Least distance from the pose, rad, at which the bounds hold for bare wheels: the next one of the
 /// sweep, 0.05, is above both.
 const HOLDS_FROM: f64 = 0.1;
 
@@ -18,16 +19,16 @@ const HOLDS_FROM: f64 = 0.1;
 /// rounding, and what does move the hub can be far smaller.
 const BALANCED_HOLDS_FROM: f64 = 1.0;
 
-/// Largest distance of the centre of mass from B, m, at which A2's bounds hold: the next one of the
+/// Largest distance of the centre of mass from B, m, at which the bounds hold: the next one of the
 /// sweep, 10, is above that of the worst.
 const HOLDS_TO: f64 = 5.0;
 
-/// Least distance from the pose, rad, at which no spacecraft is refused: the pivot is above 64 eps of
-/// the inertia outboard of the joint in any pose from about 2e-7 on.
+/// Least distance from the pose, rad, at which no spacecraft is rejected: the pivot is above 64 eps
+/// of the inertia outboard of the joint in any pose from about 2e-7 on.
 const SOLVED_FROM: f64 = 5e-7;
 
-/// Largest distance from B, m, at which no spacecraft is refused: those of the least radius of gyration
-/// are from 200 km on.
+/// Largest distance from B, m, at which no spacecraft is rejected: those of the least radius of
+/// gyration are from 200 km on.
 const SOLVED_TO: f64 = 1e5;
 
 /// The squares are asserted from this distance on, rad: farther away other roundings show.
@@ -36,9 +37,9 @@ const NEAR: f64 = 0.01;
 /// The squares are asserted from this distance on, m.
 const FAR: f64 = 10.0;
 
-/// Worst error near the pose in units of eps/δ²: the rounding of gyroscopic torques that the hub does
-/// not feel, as large as a wheel at 6000 rpm in gimbals at 5 rad/s makes them, beside loads of some
-/// N m. Measured: 684, and 2353 for balanced wheels.
+/// Worst error near the pose in units of eps/δ²: the rounding of gyroscopic torques that do not
+/// reach the hub, as large as a wheel at 6000 rpm in gimbals at 5 rad/s makes them, against loads
+/// of some N m. Measured: 684, and 2353 for balanced wheels.
 const POSE_WORST: f64 = 5000.0;
 
 /// The median likewise: a few roundings of the size of the wheel's inertia, in the outer gimbal's
@@ -52,12 +53,12 @@ const OFFSET_WORST: f64 = 2500.0;
 /// The median likewise, for a radius of gyration of half a metre. Measured: 2.31.
 const OFFSET_MEDIAN: f64 = 5.0;
 
-/// Error of the yardstick, as a share of the error allowed to the solver: some roundings of
+/// Error of the reference, as a share of the error allowed to the solver: some roundings of
 /// double-double, whose epsilon is 2.2e-16 of that of `f64`. Measured: 5e-18.
-const YARDSTICK: f64 = 1e-15;
+const REFERENCE: f64 = 1e-15;
 
-/// Spacecraft on which the yardstick is measured: every number of devices five times.
-const YARDSTICK_SPACECRAFT: u64 = 45;
+/// Spacecraft on which the reference is measured: every number of devices five times.
+const REFERENCE_SPACECRAFT: u64 = 45;
 
 /// The errors of a row are within bounds of worst and median.
 #[track_caller]
@@ -69,7 +70,8 @@ fn within(what: &str, row: &Row, [most, middle]: [f64; 2]) {
     assert!(median <= middle, "{what}, {distance:e}: median {median:e} is above {middle:e}");
 }
 
-/// The errors of all rows with a solution are within factors of eps times a square; prints the largest.
+/// The errors of all rows with a solution are within factors of eps times a square; prints the
+/// largest.
 #[track_caller]
 fn grow_as<'a>(
     what: &str,
@@ -98,7 +100,7 @@ fn posed<F: Form>(holds_from: f64) {
     let near = rows.iter().filter(|row| row.distance <= NEAR);
     grow_as(what, near, |distance| distance.powi(-2), [POSE_WORST, POSE_MEDIAN]);
     for row in rows.iter().filter(|row| row.distance >= SOLVED_FROM) {
-        assert_eq!(row.refused, 0, "{what}, {:e} rad: refused", row.distance);
+        assert_eq!(row.rejected, 0, "{what}, {:e} rad: rejected", row.distance);
     }
     assert_eq!(rows[0].solved, 0, "{what}, {:e} rad: only rounding is left", rows[0].distance);
 }
@@ -118,13 +120,13 @@ fn error_with_the_centre_of_mass_far_from_b_is_within_its_bounds() {
     let far = rows.iter().filter(|row| row.distance >= FAR);
     grow_as("offset", far, |distance| distance.powi(2), [OFFSET_WORST, OFFSET_MEDIAN]);
     for row in rows.iter().filter(|row| row.distance <= SOLVED_TO) {
-        assert_eq!(row.refused, 0, "offset, {:e} m: refused", row.distance);
+        assert_eq!(row.rejected, 0, "offset, {:e} m: rejected", row.distance);
     }
 }
 
 /// The kernels in double-double lose digits likewise, but have 31 of them.
 #[test]
-fn yardstick_agrees_with_the_plain_reference() {
+fn reference_agrees_with_the_plain_reference() {
     struct Yardstick(f64);
     impl Visitor for Yardstick {
         fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
@@ -133,14 +135,14 @@ fn yardstick_agrees_with_the_plain_reference() {
             let posed = (pose::case::<Wide, N>(sample, near), POSE_WORST / (near * near));
             let moved = (offset::case::<Wide, N>(sample, far), OFFSET_WORST * far * far);
             for (case, factor) in [posed, moved] {
-                let (error, block) = worst(errors(&yardstick(&case, &whose), &case.reference()));
+                let (error, block) = worst(errors(&reference(&case, &whose), &case.reference()));
                 let share = error / (f64::EPSILON * factor);
                 self.0 = self.0.max(share);
-                assert!(share <= YARDSTICK, "{error:e} in {block} ({whose})");
+                assert!(share <= REFERENCE, "{error:e} in {block} ({whose})");
             }
         }
     }
-    let mut yardstick = Yardstick(0.0);
-    visit(YARDSTICK_SPACECRAFT, &mut yardstick);
-    println!("yardstick: {:.1e} of the error allowed", yardstick.0);
+    let mut reference = Yardstick(0.0);
+    visit(REFERENCE_SPACECRAFT, &mut reference);
+    println!("reference: {:.1e} of the error allowed", reference.0);
 }

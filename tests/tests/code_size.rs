@@ -1,8 +1,8 @@
-//! S6: the machine code of an evaluation does not grow with the number of devices.
+//! The machine code of an evaluation does not grow with the number of devices.
 //!
 //! A library with `accelerations` for four devices and one for 64 are built with optimisation and
-//! linked; the linker drops what they do not call. Needs cargo and the linker that every build needs,
-//! and no network.
+//! linked; the linker drops what they do not call. Needs cargo and the linker that every build
+//! needs, and no network.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,8 +11,8 @@ use std::{env, fs};
 use object::{Object, ObjectSection, SectionKind};
 
 /// By how much the code for 64 devices may be larger than that for four. Copies of small arrays are
-/// written out and those of large ones are calls, so the two are not equal to the byte; a loop unrolled
-/// over the devices would be several times this size.
+/// written out and those of large ones are calls, so the two are not equal to the byte; a loop
+/// unrolled over the devices would be several times this size.
 const MORE: f64 = 1.05;
 
 /// Bytes of machine code in the fixture.
@@ -48,10 +48,10 @@ fn code(feature: Option<&str>) -> u64 {
 
 /// The fixture's manifest: what is general is compiled with the dynamics crate.
 fn manifest(tests: &Path) -> String {
-    let source = tests.join("fixtures/accelerations_alone.rs");
+    let source = tests.join("fixtures/accelerations_only.rs");
     let dynamics = tests.join("../dynamics");
     format!(
-        "[package]\nname = \"accelerations-alone\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
+        "[package]\nname = \"accelerations-only\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
          [workspace]\n\
          [lib]\npath = '{}'\ncrate-type = [\"cdylib\"]\n\
          [features]\nfew = []\n\
@@ -62,13 +62,9 @@ fn manifest(tests: &Path) -> String {
     )
 }
 
-/// The one dynamic library there, whatever the platform calls it.
+/// The one dynamic library there, under the platform's name.
 fn library(folder: &Path) -> PathBuf {
-    folder.join(format!(
-        "{}accelerations_alone{}",
-        env::consts::DLL_PREFIX,
-        env::consts::DLL_SUFFIX
-    ))
+    folder.join(format!("{}accelerations_only{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX))
 }
 
 #[test]

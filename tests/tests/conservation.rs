@@ -1,4 +1,4 @@
-//! Energy less work and both momenta over fixed-step runs: row E4, the order of the method.
+//! Energy less work and both momenta over fixed-step runs: drifts fall by the order of the method.
 //!
 //! Run with `--nocapture` to see the figures.
 
@@ -11,8 +11,9 @@ use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::Sample;
 use precess_tests::table1::{self, SCENARIOS};
 
-/// What rounding may add to a drift in `f64`, in the units of E2 and E3: a tenth of the 1e-12 that
-/// those rows allow a whole run. A walk of 4096 steps of one epsilon each is at `64 eps = 1.4e-14`.
+/// What rounding may add to a drift in `f64`, relative to its unit: a tenth of the 1e-12 that
+/// docs/promises.md allows over ten seconds. A walk of 4096 steps of one epsilon each is at
+/// `64 eps = 1.4e-14`.
 const ROUNDING_FLOOR: f64 = 1e-13;
 
 /// What should not change.
@@ -42,7 +43,7 @@ fn invariants<const N: usize, T: Scalar>(
     Ok((energy_less_work, momentum.linear, momentum.angular))
 }
 
-/// Largest drift over a run, with the units of E2 and E3.
+/// Largest drift over a run, and its units: energy moved, sums of the magnitudes of momenta.
 #[derive(Debug)]
 struct Drift {
     of: [f64; 3],
@@ -61,12 +62,12 @@ fn drift<const N: usize, T: Scalar>(
     duration: f64,
     steps: u32,
 ) -> Drift {
-    let refused =
+    let rejected =
         |step: u32, error: SolveError<T>| -> ! { panic!("{whose}, step {step}: {error}") };
     let spacecraft = case.spacecraft(whose);
     let dt = T::from_f64(duration) * T::from_f64(f64::from(steps)).recip();
     let start = invariants(&spacecraft, case, &case.state);
-    let (energy, linear, angular) = start.unwrap_or_else(|error| refused(0, error));
+    let (energy, linear, angular) = start.unwrap_or_else(|error| rejected(0, error));
     let distance = |a: &Vector3<T>, b: &Vector3<T>| {
         a.iter().zip(b.iter()).map(|(a, b)| (*a - *b).to_f64()).map(|x| x * x).sum::<f64>().sqrt()
     };
@@ -74,16 +75,16 @@ fn drift<const N: usize, T: Scalar>(
     let (mut of, mut most_energy, mut work) = ([0.0_f64; 3], 0.0_f64, 0.0_f64);
     for step in 1..=steps {
         state =
-            spacecraft.step(&state, &case.inputs, dt).unwrap_or_else(|error| refused(step, error));
+            spacecraft.step(&state, &case.inputs, dt).unwrap_or_else(|error| rejected(step, error));
         let now = invariants(&spacecraft, case, &state);
-        let now = now.unwrap_or_else(|error| refused(step, error));
+        let now = now.unwrap_or_else(|error| rejected(step, error));
         let change = [
             (now.0 - energy).abs().to_f64(),
             distance(&now.1, &linear),
             distance(&now.2, &angular),
         ];
         of = core::array::from_fn(|k| largest([of[k], change[k]]));
-        let energy = spacecraft.energy(&state).unwrap_or_else(|error| refused(step, error));
+        let energy = spacecraft.energy(&state).unwrap_or_else(|error| rejected(step, error));
         most_energy = largest([most_energy, energy.to_f64()]);
         for (joints, motor) in state.devices.iter().zip(&case.inputs.motors) {
             let power = (motor.u_o * joints.gamma_o_dot).abs()
@@ -113,12 +114,10 @@ fn assert_order(whose: &str, steps: &[u32], drifts: &[[f64; 3]]) {
     for (steps, pair) in steps[1..].iter().zip(drifts.windows(2)) {
         for ((coarse, fine), name) in pair[0].into_iter().zip(pair[1]).zip(QUANTITIES) {
             let ratio = coarse / fine;
-            println!(
-                "E4, {whose}, {steps} steps, {name}: {coarse:.2e} -> {fine:.2e}, {ratio:.2}-fold"
-            );
+            println!("{whose}, {steps} steps, {name}: {coarse:.2e} -> {fine:.2e}, {ratio:.2}-fold");
             assert!(
                 ORDER.contains(&ratio),
-                "E4, {whose}, {steps} steps: drift of {name} falls {ratio}-fold, from {coarse:e} \
+                "{whose}, {steps} steps: drift of {name} falls {ratio}-fold, from {coarse:e} \
                  to {fine:e}"
             );
         }
@@ -140,10 +139,10 @@ fn drift_over_table_1_falls_sixteenfold_and_f64_adds_its_rounding_only() {
         for ((steps, exact), rounded) in steps.iter().zip(exact).zip(rounded) {
             for ((exact, rounded), name) in exact.into_iter().zip(rounded).zip(QUANTITIES) {
                 let excess = (rounded - exact).abs();
-                println!("E4, {whose}, {steps} steps, {name}: rounding {excess:.2e}");
+                println!("{whose}, {steps} steps, {name}: rounding {excess:.2e}");
                 assert!(
                     excess <= ROUNDING_FLOOR,
-                    "E4, {whose}, {steps} steps: drift of {name} is {rounded:e} in f64 and \
+                    "{whose}, {steps} steps: drift of {name} is {rounded:e} in f64 and \
                      {exact:e} without rounding; floor {ROUNDING_FLOOR:e}"
                 );
             }

@@ -1,5 +1,5 @@
-//! Imbalance in double-double: neither the way to the wheel's parameters and back nor a change of
-//! units rounds to `f64` on the way.
+//! Imbalance in double-double: neither the conversion to the wheel's parameters and back nor a
+//! change of units rounds to `f64`.
 
 use precess_dynamics::units::{
     from_deg, from_g_cm, from_g_cm2, from_rpm, to_g_cm, to_g_cm2, to_rpm,

@@ -1,5 +1,5 @@
-//! What a user sees of faulty parameters: each gives a typed error that names it, with value, bound
-//! and remedy; unusual but valid ones are accepted.
+//! Faulty parameters: each is rejected by a typed error that names it, with value, bound and
+//! remedy; unusual but valid ones are accepted.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Hub, Inputs, Parameter, ParameterError, Part, Spacecraft, State, Warning};
@@ -13,7 +13,7 @@ const BODIES: [Part; 3] = [
     Part::Body { device: 1, body: "wheel" },
 ];
 
-/// A way to put a number into one input.
+/// Sets one parameter to a number.
 type Spoil = fn(&mut Case<2>, f64);
 
 fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<Set<N>> {
@@ -21,7 +21,7 @@ fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<Set<N>> {
 }
 
 #[track_caller]
-fn refused(spoil: impl FnOnce(&mut Case<2>)) -> ParameterError {
+fn rejected(spoil: impl FnOnce(&mut Case<2>)) -> ParameterError {
     let mut case = pair();
     accepted(&case);
     spoil(&mut case);
@@ -68,7 +68,7 @@ fn nan_in_any_parameter_is_named() {
     ];
     for (spoil, part, parameter) in spoils {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            match refused(|case| spoil(case, bad)) {
+            match rejected(|case| spoil(case, bad)) {
                 ParameterError::NotFinite { part: p, parameter: q, value } => {
                     assert_eq!((p, q), (part, parameter));
                     assert_eq!(value.to_bits(), bad.to_bits());
@@ -78,45 +78,45 @@ fn nan_in_any_parameter_is_named() {
         }
     }
     assert_eq!(
-        refused(|case| case.devices[1].d = f64::NAN).to_string(),
+        rejected(|case| case.devices[1].d = f64::NAN).to_string(),
         "centre of mass of the wheel of device 1 contains NaN, which is not finite; give a number",
     );
     assert_eq!(
-        refused(|case| case.hub.m_b = f64::INFINITY).to_string(),
+        rejected(|case| case.hub.m_b = f64::INFINITY).to_string(),
         "mass of the hub contains inf, which is not finite; give a number",
     );
 }
 
 #[test]
-fn hub_or_wheel_without_mass_is_refused() {
-    let error = refused(|case| case.hub.m_b = 0.0);
+fn hub_or_wheel_without_mass_is_rejected() {
+    let error = rejected(|case| case.hub.m_b = 0.0);
     assert_eq!(error, ParameterError::Mass { part: Part::Hub, massless: false, value: 0.0 });
     assert_eq!(
         error.to_string(),
-        "mass 0.0 kg of the hub is not above 0; only what carries another body of its device may \
+        "mass 0.0 kg of the hub is not above 0; only a body with a child body in its device may \
          be massless"
     );
 
     let [.., wheel] = BODIES;
-    let error = refused(|case| case.devices[1].m_w = 0.0);
+    let error = rejected(|case| case.devices[1].m_w = 0.0);
     assert_eq!(error, ParameterError::Mass { part: wheel, massless: false, value: 0.0 });
     assert_eq!(
         error.to_string(),
-        "mass 0.0 kg of the wheel of device 1 is not above 0; only what carries another body of \
+        "mass 0.0 kg of the wheel of device 1 is not above 0; only a body with a child body in \
          its device may be massless",
     );
 }
 
 #[test]
-fn negative_mass_is_refused() {
+fn negative_mass_is_rejected() {
     let [outer, _, wheel] = BODIES;
-    let error = refused(|case| case.hub.m_b = -810.0);
+    let error = rejected(|case| case.hub.m_b = -810.0);
     assert_eq!(error, ParameterError::Mass { part: Part::Hub, massless: false, value: -810.0 });
-    let error = refused(|case| case.devices[1].m_w = -4.0);
+    let error = rejected(|case| case.devices[1].m_w = -4.0);
     assert_eq!(error, ParameterError::Mass { part: wheel, massless: false, value: -4.0 });
-    let error = refused(|case| case.devices[1].m_go = -24.0);
+    let error = rejected(|case| case.devices[1].m_go = -24.0);
     assert_eq!(error, ParameterError::Mass { part: outer, massless: true, value: -24.0 });
-    let error = refused(|case| case.devices[1].m_gi = -1e-9);
+    let error = rejected(|case| case.devices[1].m_gi = -1e-9);
     assert_eq!(
         error.to_string(),
         "mass -1e-9 kg of the inner gimbal of device 1 is below 0; use 0 for a massless one",
@@ -124,11 +124,11 @@ fn negative_mass_is_refused() {
 }
 
 #[test]
-fn inertia_with_a_negative_principal_moment_is_refused() {
+fn inertia_with_a_negative_principal_moment_is_rejected() {
     // [1, 2; 2, 1] has the principal moments 3 and -1.
     let indefinite = Matrix3::new(1.0, 2.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 1.0);
     for part in 0..4 {
-        let error = refused(|case| match part {
+        let error = rejected(|case| match part {
             0 => case.hub.i_b_bc = indefinite,
             1 => case.devices[1].i_go_goc = indefinite,
             2 => case.devices[1].i_gi_gic = indefinite,
@@ -153,8 +153,8 @@ fn inertia_with_a_negative_principal_moment_is_refused() {
 }
 
 #[test]
-fn asymmetric_inertia_is_refused() {
-    let error = refused(|case| case.hub.i_b_bc[(0, 1)] += 0.5);
+fn asymmetric_inertia_is_rejected() {
+    let error = rejected(|case| case.hub.i_b_bc[(0, 1)] += 0.5);
     let ParameterError::Asymmetric { part, row, column, difference, bound } = error else {
         panic!("{error}");
     };
@@ -170,8 +170,8 @@ fn asymmetric_inertia_is_refused() {
 }
 
 #[test]
-fn skewed_mount_is_refused() {
-    let error = refused(|case| case.devices[1].mount[(0, 1)] = 0.001);
+fn skewed_mount_is_rejected() {
+    let error = rejected(|case| case.devices[1].mount[(0, 1)] = 0.001);
     let ParameterError::SkewedMount { device: 1, residual, bound } = error else {
         panic!("{error}");
     };
@@ -180,14 +180,14 @@ fn skewed_mount_is_refused() {
         error.to_string(),
         format!(
             "mount of device 1 is off orthonormal by {residual:?}, more than {bound:?}; its \
-             columns are unit vectors at right angles, given to full precision"
+             columns must be orthogonal unit vectors to full precision"
         ),
     );
 }
 
 #[test]
-fn left_handed_mount_is_refused() {
-    let error = refused(|case| case.devices[1].mount[(2, 2)] = -1.0);
+fn left_handed_mount_is_rejected() {
+    let error = rejected(|case| case.devices[1].mount[(2, 2)] = -1.0);
     assert_eq!(error, ParameterError::LeftHandedMount { device: 1, determinant: -1.0 });
     assert_eq!(
         error.to_string(),

@@ -1,5 +1,5 @@
-//! What a user sees of faulty states and inputs: each gives a typed error that names it, with
-//! value, bound and remedy; unusual but valid ones give a result.
+//! Faulty states and inputs: each is rejected by a typed error that names it, with value, bound and
+//! remedy; unusual but valid ones give a result.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Debug;
@@ -16,7 +16,7 @@ use precess_tests::case::{Case, Set};
 use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::table1::{self, pair};
 
-/// A way to put a number into one input.
+/// Sets one input to a number.
 type Spoil = fn(&mut Case<2>, f64);
 
 fn accepted<const N: usize>(case: &Case<N>) -> Spacecraft<Set<N>> {
@@ -35,7 +35,7 @@ fn unsolved(spoil: impl FnOnce(&mut Case<2>)) -> SolveError {
     }
 }
 
-/// A device whose gimbals weigh nothing, in a given inner gimbal angle.
+/// A device whose gimbals weigh nothing, at an inner gimbal angle.
 fn massless_gimbals(gamma_i: f64) -> Case<2> {
     let mut case = pair();
     let device = &mut case.devices[1];
@@ -64,7 +64,7 @@ fn massless_gimbals_at_ninety_degrees_are_a_typed_error() {
             error.to_string(),
             format!(
                 "pivot {pivot:?} of device 1 (outer gimbal) is not above {bound:?}; check \
-                 mass and inertia of the outer gimbal and of what it carries; a massless gimbal is \
+                 mass and inertia of the outer gimbal and of all bodies outboard of it; a massless gimbal is \
                  singular where it would turn about the spin axis"
             ),
         );
@@ -111,7 +111,7 @@ fn angles_of_a_million_radians_are_solved() {
     assert!(error <= ACCELERATIONS_WORST, "{error:e} in {block}");
 }
 
-/// A hub whose accelerations are given, no other component than these.
+/// A hub with prescribed accelerations, of these components only.
 fn prescribed(r_b_n_ddot: f64, omega_dot: f64) -> HubMode {
     HubMode::Prescribed {
         r_b_n_ddot: Vector3::new(r_b_n_ddot, 0.0, 0.0),
@@ -180,8 +180,8 @@ fn quaternion_of_length_zero_is_named() {
     let error = unsolved(|case| case.state.attitude = zero);
     assert_eq!(
         error.to_string(),
-        "0.0 as largest parameter of the attitude has no usable length; give a unit quaternion, \
-         or MRPs up to 1"
+        "largest attitude parameter 0.0 leaves no usable length; give a unit quaternion, or MRPs \
+         up to 1"
     );
 }
 
@@ -197,13 +197,13 @@ fn result_that_overflows_is_a_typed_error() {
     );
 }
 
-/// Stepping, energy and momentum name the same culprit as the accelerations do.
+/// Stepping, energy and momentum name the same input as the accelerations do.
 #[test]
 fn nan_leaves_no_public_function_unnoticed() {
-    let sound = pair();
-    let spacecraft = accepted(&sound);
+    let valid = pair();
+    let spacecraft = accepted(&valid);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let mut case = sound;
+        let mut case = valid;
         case.state.omega.x = bad;
         let what = Quantity::BodyRate;
         assert_named(spacecraft.step(&case.state, &case.inputs, 0.01), what, bad);
@@ -211,9 +211,9 @@ fn nan_leaves_no_public_function_unnoticed() {
         assert_named(spacecraft.momentum(&case.state, About::CentreOfMass), what, bad);
         assert_named(spacecraft.centre_of_mass(&case.state), what, bad);
 
-        assert_named(spacecraft.step(&sound.state, &sound.inputs, bad), Quantity::TimeStep, bad);
+        assert_named(spacecraft.step(&valid.state, &valid.inputs, bad), Quantity::TimeStep, bad);
         let about = About::Point(Vector3::new(0.0, bad, 0.0));
-        assert_named(spacecraft.momentum(&sound.state, about), Quantity::ReferencePoint, bad);
+        assert_named(spacecraft.momentum(&valid.state, about), Quantity::ReferencePoint, bad);
     }
 }
 

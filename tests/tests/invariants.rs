@@ -1,5 +1,5 @@
-//! What must not change the answer: the order of devices, the inertial frame, how a device is
-//! split; and the symmetry of the mass matrix.
+//! Invariance of the accelerations under the order of devices, the inertial frame and the splitting
+//! of a device; and the symmetry of the mass matrix.
 //!
 //! Run with `--nocapture` to see the figures.
 
@@ -93,8 +93,8 @@ fn inverse_mass_matrix_of_the_solver_is_symmetric() {
             asymmetry::<N, Wide>(sample)
         }
     }
-    check("A4, symmetry", LIMITS, InDouble);
-    check("A3, symmetry in double-double", ROUTES_IN_DOUBLE_DOUBLE, InDoubleDouble);
+    check("symmetry", LIMITS, InDouble);
+    check("symmetry in double-double", ROUTES_IN_DOUBLE_DOUBLE, InDoubleDouble);
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn order_of_devices_changes_nothing() {
             worst(errors(&found, &expected)).0
         }
     }
-    check("A4, order of devices", LIMITS, Reversed);
+    check("order of devices", LIMITS, Reversed);
 }
 
 /// Where the spacecraft is, how fast B moves and how it is turned does not enter: the same bits.
@@ -186,7 +186,7 @@ fn device_and_its_two_halves_move_alike() {
             assert!(error <= LIMITS, "{error:e} in {block} is above {LIMITS:e} ({sample})");
         }
     }
-    println!("A4, halves: worst {:.2e}, median {:.2e}", figures.worst(), figures.median());
+    println!("halves: worst {:.2e}, median {:.2e}", figures.worst(), figures.median());
 }
 
 #[test]
@@ -200,11 +200,11 @@ fn energy_momentum_and_centre_of_mass_are_those_of_the_reference() {
             let momenta = snapshot.momenta();
             let (mass, centre) = snapshot.centre_of_mass();
 
-            let refused = |error: SolveError<Wide>| -> ! { panic!("{sample}: {error}") };
-            let energy = spacecraft.energy(&case.state).unwrap_or_else(|e| refused(e));
+            let rejected = |error: SolveError<Wide>| -> ! { panic!("{sample}: {error}") };
+            let energy = spacecraft.energy(&case.state).unwrap_or_else(|e| rejected(e));
             let found = spacecraft.momentum(&case.state, About::InertialOrigin);
-            let found = found.unwrap_or_else(|e| refused(e));
-            let c = spacecraft.centre_of_mass(&case.state).unwrap_or_else(|e| refused(e));
+            let found = found.unwrap_or_else(|e| rejected(e));
+            let c = spacecraft.centre_of_mass(&case.state).unwrap_or_else(|e| rejected(e));
             let one = Wide::from_f64(1.0);
             let errors = [
                 ((energy - snapshot.energy()).abs(), energy),
@@ -217,7 +217,7 @@ fn energy_momentum_and_centre_of_mass_are_those_of_the_reference() {
             largest(errors.map(|(error, unit)| (error * unit.recip()).to_f64()))
         }
     }
-    check("A3, totals", ROUTES_IN_DOUBLE_DOUBLE, Totals);
+    check("totals", ROUTES_IN_DOUBLE_DOUBLE, Totals);
 }
 
 fn distance(a: &Vector3<Wide>, b: Vector<Wide>) -> Wide {

@@ -1,4 +1,4 @@
-//! The plain reference in cases known in closed form.
+//! The Newton-Euler reference in cases known in closed form.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};

@@ -1,5 +1,5 @@
-//! The services in lanes against single evaluations, to the bit where that is promised, and against
-//! higher precision (row A2).
+//! The services in lanes against single evaluations, to the bit where they are unfused, and against
+//! double-double.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::lanes::{AcrossDevices, Batch};
@@ -74,7 +74,7 @@ fn services_agree_with_higher_precision() {
     let Services { one, batch, across } = services;
     for (service, figures) in [("one state", one), ("fused batch", batch), ("across", across)] {
         let (worst, median) = (figures.worst(), figures.median());
-        println!("A2, {service}: worst {worst:.2e}, median {median:.2e} of the block");
+        println!("{service}: worst {worst:.2e}, median {median:.2e} of the block");
         assert!(median <= ACCELERATIONS_MEDIAN, "{service}: median {median:e}");
     }
 }
@@ -188,8 +188,8 @@ fn each_state_has_its_own_error_and_the_others_their_result() {
         let single = craft.accelerations(state, inputs);
         assert_eq!(format!("{:?}", found[k]), format!("{single:?}"), "state {k}");
     }
-    let refused: Vec<_> = found.iter().map(Result::is_err).collect();
-    assert_eq!(refused, [false, true, true, true, true, true, false, false, true]);
+    let rejected: Vec<_> = found.iter().map(Result::is_err).collect();
+    assert_eq!(rejected, [false, true, true, true, true, true, false, false, true]);
     // A run that fails is left where the last step that did not fail led.
     let (mut run, mut ends) = (states.clone(), Vec::new());
     batch.run(&mut run, &each, 1e-3, 3, &mut ends).unwrap();
@@ -204,7 +204,7 @@ fn each_state_has_its_own_error_and_the_others_their_result() {
 }
 
 #[test]
-fn inputs_for_another_number_of_states_are_refused() {
+fn inputs_for_another_number_of_states_are_rejected() {
     let batch = Batch::new(&hub(), &mixed()).unwrap();
     let each: Vec<_> = (0..3).map(inputs).collect();
     assert!(batch.accelerations(&states(2), &each, &mut Vec::new()).is_err());
@@ -218,29 +218,32 @@ fn singular_device_is_named_across_lanes() {
     let craft = Spacecraft::new(&hub(), &devices).unwrap();
     let mut state: State<[Dgvscmg; 11]> = State::at_rest();
     state.devices[9].gamma_i = core::f64::consts::FRAC_PI_2;
-    let refused = across.accelerations(&state, &Inputs::none());
-    assert!(refused.is_err());
-    assert_eq!(refused, craft.accelerations(&state, &Inputs::none()));
+    let rejected = across.accelerations(&state, &Inputs::none());
+    assert!(rejected.is_err());
+    assert_eq!(rejected, craft.accelerations(&state, &Inputs::none()));
 }
 
 #[test]
 fn fused_spacecraft_answers_all_questions_of_a_plain_one() {
-    let plain = Spacecraft::new(&hub(), &mixed()).unwrap();
-    let fused = plain.fused();
+    let unfused = Spacecraft::new(&hub(), &mixed()).unwrap();
+    let fused = unfused.fused();
     let (mut state, inputs) = (states(3)[2], inputs(2));
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * b.abs().max(1.0);
-    let [found, single] = [fused, plain].map(|craft| craft.accelerations(&state, &inputs).unwrap());
+    let [found, single] =
+        [fused, unfused].map(|craft| craft.accelerations(&state, &inputs).unwrap());
     assert_ne!(found, single, "not a bit of a difference: nothing was fused");
     assert!(near((found.omega_dot - single.omega_dot).norm(), 0.0));
-    let [there, beside] = [fused, plain].map(|craft| craft.step(&state, &inputs, 1e-3).unwrap());
-    assert!(near((there.omega - beside.omega).norm(), 0.0));
-    assert_eq!(fused.energy(&state), plain.energy(&state));
-    // Beyond where fused sines are right, and what is refused.
+    let [there, expected] =
+        [fused, unfused].map(|craft| craft.step(&state, &inputs, 1e-3).unwrap());
+    assert!(near((there.omega - expected.omega).norm(), 0.0));
+    assert_eq!(fused.energy(&state), unfused.energy(&state));
+    // Beyond where fused sines are right, and what is rejected.
     state.devices.0[0].theta = 1e9;
-    let [found, single] = [fused, plain].map(|craft| craft.accelerations(&state, &inputs).unwrap());
+    let [found, single] =
+        [fused, unfused].map(|craft| craft.accelerations(&state, &inputs).unwrap());
     assert!(near((found.omega_dot - single.omega_dot).norm(), 0.0));
     state.omega.x = f64::NAN;
-    let [found, single] = [fused, plain].map(|craft| craft.accelerations(&state, &inputs));
+    let [found, single] = [fused, unfused].map(|craft| craft.accelerations(&state, &inputs));
     assert_eq!(format!("{found:?}"), format!("{single:?}"));
 }
 

@@ -1,7 +1,7 @@
-//! No input makes the solver panic: its linked machine code contains no way to a panic.
+//! No input makes the solver panic: its linked machine code contains no call that panics.
 //!
 //! A small `no_std` library that calls every public function (`fixtures/every_entry_point.rs`) is
-//! built with optimisation and linked. Its panic handler carries a mark, and the linker drops
+//! built with optimisation and linked. Its panic handler contains a mark, and the linker drops
 //! what nothing calls: the mark is in the file exactly if a panic can be reached. Needs cargo and
 //! the linker that every build needs, and no network.
 
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-/// What the fixture's panic handler carries.
+/// The mark in the fixture's panic handler.
 const MARK: &[u8] = b"a panic can be reached";
 
 /// Builds the fixture and says whether the mark is in it.
@@ -61,7 +61,7 @@ fn manifest(tests: &Path) -> String {
     )
 }
 
-/// The one dynamic library there, whatever the platform calls it.
+/// The one dynamic library there, under the platform's name.
 fn library(folder: &Path) -> PathBuf {
     let name = format!("{}every_entry_point{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
     folder.join(name)

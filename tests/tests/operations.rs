@@ -1,4 +1,4 @@
-//! S2: how many operations an evaluation takes, counted as it is run, hub, rotations and all.
+//! Number of operations of an evaluation, counted as it runs: hub and rotations included.
 //!
 //! Run with `--nocapture` to see the counts by what they are.
 
@@ -10,7 +10,7 @@ use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind};
 /// What a hub takes, and each DGVSCMG on it, sines and cosines apart.
 const EVALUATION: [u64; 2] = [255, 914];
 
-/// S2's budget for the same.
+/// The largest numbers that the project allows.
 const BUDGET: [u64; 2] = [281, 1007];
 
 /// What the graph of the strongest peer for few devices (`CasADi` on Pinocchio's algorithm) has at
@@ -52,8 +52,8 @@ fn dgvscmgs_take_what_is_recorded_each_as_much_as_the_first() {
         assert_eq!(found.sin_cos, 3 * n);
     }
     let [hub_budget, device_budget] = BUDGET;
-    println!("{hub} + {device} N recorded, {hub_budget} + {device_budget} N the budget of S2");
-    assert!(hub + 4 * device <= CASADI_AT_FOUR, "S2: the floor for credit");
+    println!("{hub} + {device} N recorded, {hub_budget} + {device_budget} N the budget");
+    assert!(hub + 4 * device <= CASADI_AT_FOUR, "more than the peer's graph at four devices");
 }
 
 #[test]

@@ -60,7 +60,7 @@ fn runs_in_mrps_and_in_euler_parameters_are_one_motion() {
         if let Some(coarser) = coarser {
             for ((coarse, fine), what) in coarser.iter().zip(finer).zip(["[BN]", "r_b_n"]) {
                 let ratio = coarse / fine;
-                println!("E4, {what}: {coarse:.2e} -> {fine:.2e}, {ratio:.2}-fold");
+                println!("{what}: {coarse:.2e} -> {fine:.2e}, {ratio:.2}-fold");
                 assert!(
                     ORDER.contains(&ratio),
                     "{what}: {coarse:e} falls {ratio}-fold to {fine:e}"

@@ -1,4 +1,5 @@
-//! The power balance of single states, with no integrator in it: row E1.
+//! The power balance of single states, with no integrator: the rate of the kinetic energy
+//! is the power of forces and motors.
 //!
 //! Run with `--nocapture` to see the figures.
 
@@ -37,13 +38,13 @@ fn power_fed_in_is_the_rate_of_the_energy_on_random_spacecraft() {
             self.0.add(error);
             assert!(
                 error <= POWER_EPSILONS,
-                "E1: {error} epsilons are above {POWER_EPSILONS} ({sample})"
+                "{error} epsilons are above {POWER_EPSILONS} ({sample})"
             );
         }
     }
     let mut check = Check(Figures::default());
     visit(SPACECRAFT, &mut check);
-    println!("E1: worst {:.2} eps, median {:.2} eps", check.0.worst(), check.0.median());
+    println!("worst {:.2} eps, median {:.2} eps", check.0.worst(), check.0.median());
 }
 
 /// Ten seconds of every scenario, every tenth of a second.
@@ -60,7 +61,7 @@ fn power_fed_in_is_the_rate_of_the_energy_along_table_1() {
                 figures.add(error);
                 assert!(
                     error <= POWER_EPSILONS,
-                    "E1: {error} epsilons are above {POWER_EPSILONS} ({whose}, step {step})"
+                    "{error} epsilons are above {POWER_EPSILONS} ({whose}, step {step})"
                 );
             }
             case.state = spacecraft
@@ -68,5 +69,5 @@ fn power_fed_in_is_the_rate_of_the_energy_along_table_1() {
                 .unwrap_or_else(|error| panic!("{whose}, step {step}: {error}"));
         }
     }
-    println!("E1, Table 1: worst {:.2} eps, median {:.2} eps", figures.worst(), figures.median());
+    println!("Table 1: worst {:.2} eps, median {:.2} eps", figures.worst(), figures.median());
 }

@@ -1,5 +1,5 @@
-//! The plain reference is right by itself: against finite differences of positions and against the
-//! kinetic energy alone (Boltzmann and Hamel's equations).
+//! The Newton-Euler reference against finite differences of positions and against equations derived
+//! from the kinetic energy only (Boltzmann and Hamel).
 
 use nalgebra::Vector3;
 use precess_dynamics::dgvscmg::JointAccelerations;
@@ -30,7 +30,7 @@ fn wide(x: f64) -> Wide {
 
 /// The case moved along its own motion by `time`, to second order in the angles.
 ///
-/// The attitude is left alone where it is the identity and only body components matter; it is moved
+/// The attitude is unchanged where it is the identity and only body components matter; it is moved
 /// to first order by `time * omega` otherwise, which is all a first derivative sees.
 fn moved<const N: usize>(
     case: &Case<N, Wide>,
@@ -44,12 +44,12 @@ fn moved<const N: usize>(
         later.state.r_b_n[axis] = case.state.r_b_n[axis] + t * case.state.r_b_n_dot[axis];
     }
     let Quaternion { q0, q1, q2, q3 } = case.state.attitude;
-    let w = case.state.omega;
+    let omega = case.state.omega;
     later.state.attitude = Quaternion {
-        q0: q0 - half * (q1 * w.x + q2 * w.y + q3 * w.z),
-        q1: q1 + half * (q0 * w.x + q2 * w.z - q3 * w.y),
-        q2: q2 + half * (q0 * w.y + q3 * w.x - q1 * w.z),
-        q3: q3 + half * (q0 * w.z + q1 * w.y - q2 * w.x),
+        q0: q0 - half * (q1 * omega.x + q2 * omega.y + q3 * omega.z),
+        q1: q1 + half * (q0 * omega.x + q2 * omega.z - q3 * omega.y),
+        q2: q2 + half * (q0 * omega.y + q3 * omega.x - q1 * omega.z),
+        q3: q3 + half * (q0 * omega.z + q1 * omega.y - q2 * omega.x),
     };
     for (joints, a) in later.state.devices.iter_mut().zip(&accelerations.devices) {
         joints.gamma_o = joints.gamma_o + t * (joints.gamma_o_dot + half * a.gamma_o_ddot);
@@ -150,11 +150,11 @@ fn momenta<const N: usize>(case: &Case<N, Wide>, rates: &[Wide]) -> Vec<Wide> {
     let here = energy(case, rates);
     (0..rates.len())
         .map(|i| {
-            let mut alone = vec![wide(0.0); rates.len()];
-            alone[i] = wide(1.0);
+            let mut only_one = vec![wide(0.0); rates.len()];
+            only_one[i] = wide(1.0);
             let mut shifted = rates.to_vec();
             shifted[i] = shifted[i] + wide(1.0);
-            energy(case, &shifted) - here - energy(case, &alone)
+            energy(case, &shifted) - here - energy(case, &only_one)
         })
         .collect()
 }
@@ -168,9 +168,9 @@ fn mass_matrix_is_symmetric_and_that_of_the_kinetic_energy() {
             let matrix = case.system().matrix;
             let size = 6 + 3 * N;
             for i in 0..size {
-                let mut alone = vec![wide(0.0); size];
-                alone[i] = wide(1.0);
-                let row = momenta(&case, &alone);
+                let mut only_one = vec![wide(0.0); size];
+                only_one[i] = wide(1.0);
+                let row = momenta(&case, &only_one);
                 for k in 0..size {
                     let unit = (matrix[i][i] * matrix[k][k]).sqrt().to_f64();
                     let asymmetry = (matrix[i][k] - matrix[k][i]).abs().to_f64();

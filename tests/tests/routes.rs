@@ -1,13 +1,15 @@
-//! Four routes to the same accelerations, against each other: rows A1, A2 and A3.
+//! Four formulations of the accelerations, each against the others: backward error, error against
+//! double-double, difference in double-double.
 //!
 //! - solver: the emitted kernels;
 //! - assembly: the paper's own equations, in the forms of the hand-checked pages;
-//! - recursion: articulated bodies in spatial vectors, nothing of the paper;
-//! - Newton-Euler: laws body by body over differentiated positions, the yardstick elsewhere.
+//! - recursion: articulated bodies in spatial vectors, none of the paper's equations;
+//! - Newton-Euler: laws body by body over differentiated positions, the reference of the other
+//!   suites.
 //!
-//! A1 is measured in the assembly's system, A2 against the next route of this list (the last against
-//! the first). Their bounds are promises about the solver and asserted of it; what the other routes
-//! reach in `f64` is printed beside it. A3 is asserted of every pair.
+//! The backward error is measured in the assembly's system, the error against the next formulation
+//! of this list (the last against the first) in double-double. Both are asserted of the solver and
+//! printed for all. The difference in double-double is asserted of every pair.
 //!
 //! Run with `--nocapture` to see the table.
 
@@ -81,15 +83,15 @@ impl Tally {
 #[derive(Debug)]
 struct Measured {
     route: Route,
-    /// A1, in epsilons.
+    /// Backward error, in epsilons.
     backward: Tally,
-    /// A2, of the block, against the next route in double-double.
+    /// Error, of the block, against the next formulation in double-double.
     forward: Tally,
-    /// A3, of the block, against each other route.
+    /// Difference in double-double, of the block, from each other formulation.
     wide: Tally,
 }
 
-/// All routes over all spacecraft: measured once, printed, then judged by each test below.
+/// All routes over all spacecraft: measured once, printed, then asserted by each test below.
 static MEASURED: LazyLock<Table> = LazyLock::new(|| {
     let mut table = Table(Route::ALL.map(|route| Measured {
         route,
@@ -131,7 +133,10 @@ impl Visitor for Table {
 
 impl Display for Table {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "| route | A1 worst, median (eps) | A2 worst, median | A3 worst, median |")?;
+        writeln!(
+            f,
+            "| formulation | backward error worst, median (eps) | error | in double-double |"
+        )?;
         writeln!(f, "|---|---|---|---|")?;
         for Measured { route, backward, forward, wide } in &self.0 {
             let [backward, forward, wide] = [backward, forward, wide].map(|row| &row.figures);
@@ -155,15 +160,15 @@ impl Display for Table {
 fn solver_satisfies_the_papers_assembly() {
     let Table([solver, ..]) = &*MEASURED;
     let Tally { worst, at, .. } = &solver.backward;
-    assert!(*worst <= BACKWARD_EPSILONS, "A1: {worst} eps are above {BACKWARD_EPSILONS} ({at})");
+    assert!(*worst <= BACKWARD_EPSILONS, "{worst} eps are above {BACKWARD_EPSILONS} ({at})");
 }
 
 #[test]
 fn solver_agrees_with_the_assembly_in_higher_precision() {
     let Table([solver, ..]) = &*MEASURED;
     let Tally { worst, at, figures } = &solver.forward;
-    assert!(*worst <= ACCELERATIONS_WORST, "A2: {worst:e} is above {ACCELERATIONS_WORST:e} ({at})");
-    assert!(figures.median() <= ACCELERATIONS_MEDIAN, "A2: median {:e}", figures.median());
+    assert!(*worst <= ACCELERATIONS_WORST, "{worst:e} is above {ACCELERATIONS_WORST:e} ({at})");
+    assert!(figures.median() <= ACCELERATIONS_MEDIAN, "median {:e}", figures.median());
 }
 
 #[test]
@@ -171,7 +176,7 @@ fn all_routes_agree_in_double_double() {
     for Measured { route, wide: Tally { worst, at, .. }, .. } in &MEASURED.0 {
         assert!(
             *worst <= ROUTES_IN_DOUBLE_DOUBLE,
-            "A3: {worst:e} is above {ROUTES_IN_DOUBLE_DOUBLE:e}, {} in {at}",
+            "{worst:e} is above {ROUTES_IN_DOUBLE_DOUBLE:e}, {} in {at}",
             route.name()
         );
     }

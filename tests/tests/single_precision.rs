@@ -1,7 +1,7 @@
-//! `f32` against `f64` over Table 1's ranges: row A5, for accelerations and for everything else the
-//! solver gives.
+//! `f32` against `f64` over Table 1's ranges: accelerations and all other results of the
+//! solver.
 //!
-//! The numbers are rounded to `f32` once, so that both precisions are asked the same question. Run
+//! The numbers are rounded to `f32` once, so that both precisions get the same inputs. Run
 //! with `--nocapture` to see the figures.
 
 use std::f64::consts::{PI, TAU};
@@ -15,7 +15,7 @@ use precess_tests::case::{Case, Set};
 use precess_tests::random::{Random, SEED};
 use precess_tests::table1::{self, Drive, Imbalance};
 
-/// States drawn; as many as there are spacecraft in the other rows.
+/// Number of random states.
 const STATES: u64 = 1000;
 
 /// Length of the step, s: 0.05 rad of the wheel at 500 rpm.
@@ -30,7 +30,7 @@ fn draw(random: &mut Random, number: u64) -> (String, Case<1, f32>) {
     let drive = [Drive::Free, Drive::Wheel200, Drive::Wheel250][(number / 2 % 3) as usize];
     let mut case = table1::scenario(imbalance, drive);
     let (degree, wheel) = (PI / 180.0, 500.0 * TAU / 60.0);
-    case.state.omega.iter_mut().for_each(|w| *w = random.within(-4.85, 4.85) * degree);
+    case.state.omega.iter_mut().for_each(|rate| *rate = random.within(-4.85, 4.85) * degree);
     case.state.devices[0] = Joints {
         gamma_o: random.within(-PI, PI),
         gamma_i: random.within(-PI, PI),
@@ -44,7 +44,7 @@ fn draw(random: &mut Random, number: u64) -> (String, Case<1, f32>) {
 }
 
 /// The part of a state that does not enter the accelerations.
-fn place(random: &mut Random, case: &mut Case<1, f32>) {
+fn draw_pose(random: &mut Random, case: &mut Case<1, f32>) {
     let single = <f32 as Scalar>::from_f64;
     case.state.r_b_n = Vector3::from_fn(|_, _| single(random.within(-10.0, 10.0)));
     case.state.r_b_n_dot = Vector3::from_fn(|_, _| single(random.within(-1.0, 1.0)));
@@ -54,7 +54,7 @@ fn place(random: &mut Random, case: &mut Case<1, f32>) {
 
 /// With one device a joint's block is one number, so the claim is about these states and not about
 /// all: where that number passes through zero its relative error has no bound. Of 50,000
-/// states drawn likewise, 36 were above A5.
+/// states drawn likewise, 36 were above the bound.
 #[test]
 fn accelerations_in_single_precision_are_those_in_double() {
     let random = &mut Random::new(SEED);
@@ -66,11 +66,11 @@ fn accelerations_in_single_precision_are_those_in_double() {
         figures.add(error);
         assert!(
             error <= SINGLE_PRECISION,
-            "A5: {error:e} in {block} is above {SINGLE_PRECISION:e} ({whose})"
+            "{error:e} in {block} is above {SINGLE_PRECISION:e} ({whose})"
         );
     }
     let (worst, median) = (figures.worst(), figures.median());
-    println!("A5, accelerations: worst {worst:.2e} of the block, median {median:.2e} of the block");
+    println!("accelerations: worst {worst:.2e} of the block, median {median:.2e} of the block");
 }
 
 /// One result: its name and its components, whose largest magnitude is its size.
@@ -128,7 +128,7 @@ fn steps_momenta_and_attitudes_in_single_precision_are_those_in_double() {
     let mut figures: Vec<(&str, Figures)> = Vec::new();
     for number in 0..STATES {
         let (whose, mut single) = draw(random, number);
-        place(random, &mut single);
+        draw_pose(random, &mut single);
         let double: Case<1> = single.converted();
         let found = results(&single).unwrap_or_else(|error| panic!("{whose}: {error}"));
         let expected = results(&double).unwrap_or_else(|error| panic!("{whose}: {error}"));
@@ -142,12 +142,12 @@ fn steps_momenta_and_attitudes_in_single_precision_are_those_in_double() {
             figures[index].1.add(error);
             assert!(
                 error <= SINGLE_PRECISION,
-                "A5: {error:e} in {what} is above {SINGLE_PRECISION:e} ({whose})"
+                "{error:e} in {what} is above {SINGLE_PRECISION:e} ({whose})"
             );
         }
     }
     for (what, figures) in figures {
         let (worst, median) = (figures.worst(), figures.median());
-        println!("A5, {what}: worst {worst:.2e}, median {median:.2e} of its size");
+        println!("{what}: worst {worst:.2e}, median {median:.2e} of its size");
     }
 }

@@ -1,14 +1,14 @@
-//! Table 1 stands three times, typed independently from the paper: here for the suites, in the
+//! Table 1 is written three times, independently from the paper: here for the suites, in the
 //! desktop tool for its runs, and in codegen for the consequences of printed slips. They agree.
 
 use nalgebra::{Matrix3, Vector3};
 use precess::scenario::table1::{self as tool, variants};
-use precess_codegen::consequence::table1 as derived;
 use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};
 use precess_dynamics::{
     Dgvscmg, FixedSet, Gravity, Hub, HubMode, ImbalanceModel, Inputs, Mode, Passive, Quaternion,
     State,
 };
+use precess_review::consequence::table1 as derived;
 use precess_tests::case::Set;
 use precess_tests::table1::{Drive, Imbalance, SCENARIOS, scenario};
 

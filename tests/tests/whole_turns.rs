@@ -58,38 +58,38 @@ fn of_angles<const N: usize, T: Scalar>(a: &State<Set<N, T>>, b: &State<Set<N, T
 
 /// Everything that wrapping could change, evaluated with and without.
 fn changes<const N: usize, T: Scalar>(sample: &Sample<N>) -> Vec<Error> {
-    let mut plain: Case<N, T> = sample.case();
+    let mut unwrapped: Case<N, T> = sample.case();
     let turns = T::from_f64(100.0);
-    for joints in &mut plain.state.devices {
+    for joints in &mut unwrapped.state.devices {
         joints.gamma_o = joints.gamma_o + turns;
         joints.gamma_i = joints.gamma_i - turns;
     }
-    let spacecraft = plain.spacecraft(sample);
-    let wrapped = Case { state: plain.state.wrapped(&spacecraft), ..plain };
+    let spacecraft = unwrapped.spacecraft(sample);
+    let wrapped = Case { state: unwrapped.state.wrapped(&spacecraft), ..unwrapped };
     for joints in &wrapped.state.devices {
         for angle in [joints.gamma_o, joints.gamma_i, joints.theta] {
             assert!(angle.to_f64().abs() <= PI, "{angle:?} ({sample})");
         }
     }
 
-    let refused = |error: SolveError<T>| -> ! { panic!("{sample}: {error}") };
+    let rejected = |error: SolveError<T>| -> ! { panic!("{sample}: {error}") };
     let dt = T::from_f64(STEP);
-    let [expected, found] = [&plain, &wrapped].map(|case| {
-        let energy = spacecraft.energy(&case.state).unwrap_or_else(|e| refused(e));
+    let [expected, found] = [&unwrapped, &wrapped].map(|case| {
+        let energy = spacecraft.energy(&case.state).unwrap_or_else(|e| rejected(e));
         let momentum = spacecraft.momentum(&case.state, About::CentreOfMass);
-        let momentum = momentum.unwrap_or_else(|e| refused(e));
-        let centre = spacecraft.centre_of_mass(&case.state).unwrap_or_else(|e| refused(e));
-        let next = spacecraft.step(&case.state, &case.inputs, dt).unwrap_or_else(|e| refused(e));
+        let momentum = momentum.unwrap_or_else(|e| rejected(e));
+        let centre = spacecraft.centre_of_mass(&case.state).unwrap_or_else(|e| rejected(e));
+        let next = spacecraft.step(&case.state, &case.inputs, dt).unwrap_or_else(|e| rejected(e));
         (energy.to_f64(), energy, momentum, centre, next)
     });
     let (size, energy, momentum, centre, next) = expected;
     let (_, found_energy, found_momentum, found_centre, found_next) = found;
 
-    // Momenta may cancel between bodies: their unit is the sum over bodies, as in E3.
-    let magnitudes = plain.snapshot().momenta();
+    // Momenta may cancel between bodies: their unit is the sum over bodies.
+    let magnitudes = unwrapped.snapshot().momenta();
     let (p, h) = (magnitudes.linear_magnitudes.to_f64(), magnitudes.angular_magnitudes.to_f64());
     vec![
-        ("accelerations", worst(errors(&wrapped.solved(sample), &plain.solved(sample))).0),
+        ("accelerations", worst(errors(&wrapped.solved(sample), &unwrapped.solved(sample))).0),
         ("energy", (found_energy - energy).abs().to_f64() / size),
         ("linear momentum", distance(&found_momentum.linear, &momentum.linear) / p),
         ("angular momentum", distance(&found_momentum.angular, &momentum.angular) / h),
@@ -146,7 +146,7 @@ fn whole_turns_of_any_joint_change_nothing() {
             changes::<N, f64>(sample)
         }
     }
-    check("A4", LIMITS, InDouble);
+    check("f64", LIMITS, InDouble);
 }
 
 #[test]
@@ -158,5 +158,5 @@ fn whole_turns_of_any_joint_change_nothing_in_double_double() {
         }
     }
     // Only because the wrapped angle is corrected by a Newton step in the scalar's own precision.
-    check("A3", ROUTES_IN_DOUBLE_DOUBLE, InDoubleDouble);
+    check("double-double", ROUTES_IN_DOUBLE_DOUBLE, InDoubleDouble);
 }

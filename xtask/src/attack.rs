@@ -10,7 +10,7 @@ pub(crate) struct Options {
     /// For how long new cases are drawn
     #[arg(long, default_value_t = 1.0)]
     minutes: f64,
-    /// The campaign: the same seed goes on where it was left; a new one if none is given
+    /// The campaign: the same seed continues where it ended; a new one without this option
     #[arg(long)]
     seed: Option<u64>,
     /// One property, by its name
@@ -24,8 +24,8 @@ pub(crate) struct Options {
     list: bool,
 }
 
-/// Runs the campaign in the profile of the tests: its assertions are on, and what `cargo xtask test`
-/// has compiled is not compiled again.
+/// Runs the campaign in the profile of the tests: its assertions are on, and what
+/// `cargo xtask test` has compiled is not compiled again.
 pub(crate) fn attack(options: &Options) -> Result<(), String> {
     let Options { minutes, seed, property, chunk, list } = options;
     let mut arguments: Vec<String> =

@@ -1,4 +1,4 @@
-//! `bench`: every service beside the peers, in one run.
+//! `bench`: times every service and the peers in one run.
 
 use std::process::Command;
 
@@ -10,16 +10,16 @@ use crate::skip::skip;
 /// Sets the peers up, and draws the spacecraft.
 const SETUP: &str = "tests/peers/setup.py";
 
-/// Where peers and spacecraft stand.
+/// The folder of peers and spacecraft.
 const PEERS: &str = "target/peers";
 
 /// Options of `bench`.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// One round over few spacecraft; writes the page beside the peers instead of docs
+    /// One round over few spacecraft; writes the page to the folder of the peers instead of docs
     #[arg(long)]
     quick: bool,
-    /// Time Precess alone, on the spacecraft that are there
+    /// Time only Precess, on the spacecraft that exist
     #[arg(long)]
     skip_peers: bool,
 }
@@ -27,7 +27,7 @@ pub(crate) struct Options {
 /// Sets up, builds, and leaves checking, timing and the page to the example `performance`.
 pub(crate) fn bench(options: &Options) -> Result<(), String> {
     let mut peers = !options.skip_peers;
-    if peers && !there("python3") {
+    if peers && !is_installed("python3") {
         skip("the peers", "apt-get install python3 python3-venv")?;
         peers = false;
     }
@@ -50,6 +50,6 @@ pub(crate) fn bench(options: &Options) -> Result<(), String> {
 }
 
 /// Whether a program can be started.
-fn there(program: &str) -> bool {
+fn is_installed(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
 }

@@ -24,9 +24,9 @@ impl Counts {
     }
 }
 
-/// Counts the instructions of a program. Its environment is empty, so that its stack stands where it
-/// always does, and the C library is held to what every x86-64 has, so that copies count the same on
-/// every CPU.
+/// Counts the instructions of a program. Its environment is empty, so that its stack is where it
+/// always does, and the C library is held to what every x86-64 has, so that copies count the same
+/// on every CPU.
 pub(crate) fn count(program: &Path, arguments: &[&str], into: &Path) -> Result<Counts, String> {
     const PORTABLE: &str = "glibc.cpu.hwcaps=-AVX_Fast_Unaligned_Load,-ERMS,-FSRM,-SSSE3";
     let mut valgrind = Command::new("valgrind");
@@ -45,7 +45,7 @@ pub(crate) fn count(program: &Path, arguments: &[&str], into: &Path) -> Result<C
     parse(&text).ok_or_else(|| format!("{} has no total", into.display()))
 }
 
-/// Reads callgrind's format: after a line `fn=(7) name` (later `fn=(7)`) stand lines of position and
+/// Reads callgrind's format: after a line `fn=(7) name` (later `fn=(7)`) come lines of position and
 /// cost, which are the function's own but for the one after each `calls=`.
 fn parse(text: &str) -> Option<Counts> {
     let mut copying = std::collections::BTreeMap::new();
@@ -55,7 +55,7 @@ fn parse(text: &str) -> Option<Counts> {
             let (id, name) = function.split_once(' ').unwrap_or((function, ""));
             inside = *copying.entry(id).or_insert_with(|| is_copy(name));
         } else if let Some(callee) = line.strip_prefix("cfn=") {
-            // A name may be told here first.
+            // A name may be defined here.
             if let Some((id, name)) = callee.split_once(' ') {
                 copying.entry(id).or_insert_with(|| is_copy(name));
             }

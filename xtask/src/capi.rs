@@ -1,7 +1,8 @@
-//! `capi`: the library for flight software on this machine, as C and C++ see it.
+//! `capi`: builds the library for flight software on this machine and tests it from C and C++.
 //!
 //! Builds it, holds the header against it, and runs the programs in C under every compiler that is
-//! there, without a C library, under valgrind and under the sanitizers: all must print the same bits.
+//! there, without a C library, under valgrind and under the sanitizers: all must print the same
+//! bits.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -22,7 +23,7 @@ const APP: &[&str] = &["flight/examples/cfs_app/main.c", "flight/examples/cfs_ap
 /// What the application prints.
 const APP_OUTPUT: &str = "flight/examples/cfs_app/expected.txt";
 
-/// A compiler and the language it is asked to take a file for.
+/// A compiler and the language of its files.
 struct Compiler {
     name: &'static str,
     arguments: &'static [&'static str],
@@ -44,7 +45,7 @@ const COMPILERS: [Compiler; 4] = [
     },
 ];
 
-/// Where things stand.
+/// Paths of what is built.
 struct Host {
     /// The static library.
     library: PathBuf,
@@ -87,13 +88,13 @@ pub(crate) fn host() -> Result<(), String> {
     Ok(())
 }
 
-/// Builds both libraries, and tests them from within.
+/// Builds both libraries, and runs their unit tests.
 fn built() -> Result<Host, String> {
     let folder = target()?.join("flight");
     let text = folder.to_string_lossy().into_owned();
-    let place = ["--manifest-path", MANIFEST, "--target-dir", &text, "--quiet"];
-    cargo(&[&["build", "--release"][..], &place].concat())?;
-    cargo(&[&["test"][..], &place].concat())?;
+    let options = ["--manifest-path", MANIFEST, "--target-dir", &text, "--quiet"];
+    cargo(&[&["build", "--release"][..], &options].concat())?;
+    cargo(&[&["test"][..], &options].concat())?;
     let programs = folder.join("programs");
     std::fs::create_dir_all(&programs)
         .map_err(|error| format!("cannot make {}: {error}", programs.display()))?;
@@ -103,8 +104,8 @@ fn built() -> Result<Host, String> {
 }
 
 impl Host {
-    /// The functions of the header are those of the library, and what it asks for is what the header's
-    /// readers are told.
+    /// The functions of the header are those of the library, and the library needs only the symbols
+    /// that the header names.
     fn exports(&self) -> Result<(), String> {
         if !is_there("nm") {
             return skip("exports of the library", "apt-get install binutils");
@@ -117,22 +118,22 @@ impl Host {
         let defined = nm("--defined-only")?;
         let defined: BTreeSet<_> =
             defined.lines().filter_map(|line| line.split(' ').nth(2)).collect();
-        if let Some(odd) = declared.symmetric_difference(&defined).next() {
+        if let Some(name) = declared.symmetric_difference(&defined).next() {
             return Err(format!(
-                "{odd} stands in one of {HEADER} and the library; write it in both"
+                "{name} is in only one of {HEADER} and the library; add it to the other"
             ));
         }
-        let asked = nm("--undefined-only")?;
-        let asked = asked.lines().filter_map(|line| line.trim().strip_prefix("U "));
+        let undefined = nm("--undefined-only")?;
+        let undefined = undefined.lines().filter_map(|line| line.trim().strip_prefix("U "));
         // A version may follow the name.
-        let mut asked = asked.map(|name| name.split('@').next().unwrap_or(name));
-        if let Some(odd) = asked.find(|name| !["memcpy", "memset"].contains(name)) {
-            return Err(format!("the library asks for {odd}; only memcpy and memset are promised"));
+        let mut undefined = undefined.map(|name| name.split('@').next().unwrap_or(name));
+        if let Some(name) = undefined.find(|name| !["memcpy", "memset"].contains(name)) {
+            return Err(format!("the library needs {name}; only memcpy and memset are allowed"));
         }
         let all = printed(Command::new("nm").arg(&self.shared))?;
         let panics = ["panick", "unwrap_failed", "expect_failed", "_fail"];
-        if let Some(odd) = all.lines().find(|line| panics.iter().any(|part| line.contains(part))) {
-            return Err(format!("the library has a path that panics, {odd}; find its caller"));
+        if let Some(name) = all.lines().find(|line| panics.iter().any(|part| line.contains(part))) {
+            return Err(format!("the library has a path that panics, {name}; find its caller"));
         }
         say!("{} functions, in the header and in the library; none can panic", declared.len());
         Ok(())

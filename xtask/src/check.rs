@@ -15,8 +15,8 @@ pub(crate) fn check() -> Result<(), String> {
     cargo(&[&["clippy", "--quiet"][..], &all, &["--", "--deny", "warnings"]].concat())?;
     cargo(&["fmt", "--all", "--check", "--manifest-path", MANIFEST])?;
     let folder = target()?.join("flight");
-    let place = ["--manifest-path", MANIFEST, "--target-dir", &folder.to_string_lossy()];
-    let place = [&place[..], &["--all-targets", "--", "--deny", "warnings"]].concat();
-    cargo(&[&["clippy", "--quiet"][..], &place].concat())?;
+    let options = ["--manifest-path", MANIFEST, "--target-dir", &folder.to_string_lossy()];
+    let options = [&options[..], &["--all-targets", "--", "--deny", "warnings"]].concat();
+    cargo(&[&["clippy", "--quiet"][..], &options].concat())?;
     cargo(&["test", "--workspace", "--lib", "--bins", "--quiet"])
 }

@@ -1,4 +1,4 @@
-//! `engines`: the engines behind the stored values, asked again.
+//! `engines`: computes the stored values again with the engines.
 
 use std::io::ErrorKind;
 use std::process::Command;
@@ -16,7 +16,7 @@ const MISSING: i32 = 77;
 pub(crate) fn engines() -> Result<(), String> {
     let line = format!("python3 {SCRIPT} --check");
     eprintln!("$ {line}");
-    // No bytecode: a check leaves nothing behind.
+    // No bytecode: a check leaves no files.
     let status =
         Command::new("python3").args(["-B", SCRIPT, "--check"]).current_dir(root()).status();
     match status {
@@ -29,5 +29,5 @@ pub(crate) fn engines() -> Result<(), String> {
 }
 
 fn skipped() -> Result<(), String> {
-    skip("the engines behind the stored values", "pip install -r tests/engines/requirements.txt")
+    skip("the engines of the stored values", "pip install -r tests/engines/requirements.txt")
 }

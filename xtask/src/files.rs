@@ -1,4 +1,4 @@
-//! Files: read by folder, compared with what stands on disk, written all or none.
+//! Files: read by folder, compared with the files on disk, written all or none.
 
 use std::fs;
 use std::io::Error;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::page::Page;
-use precess_codegen::report::BUILT;
+use precess_review::report::BUILT;
 use similar::TextDiff;
 
 use crate::run::say;
@@ -44,7 +44,7 @@ pub(crate) fn committed(mut files: Vec<EmittedFile>) -> Vec<EmittedFile> {
 }
 
 /// Writes what changed. All text is on disk before the first file is replaced, and nothing is left
-/// behind when some of it cannot be written.
+/// left when some of it cannot be written.
 pub(crate) fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
     let changed = files.iter().map(|file| (file, into.join(&file.path)));
     let changed: Vec<_> = changed
@@ -71,14 +71,14 @@ pub(crate) fn write(files: &[EmittedFile], into: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Where a file is written before it takes its place: a name that no other file has.
+/// Where a file is written before it is renamed: a name that no other file has.
 fn beside(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".partial");
     PathBuf::from(name)
 }
 
-/// Shows the difference to what stands on disk; how many files differ.
+/// Shows the difference from the files on disk; returns how many differ.
 pub(crate) fn differing(files: &[EmittedFile], into: &Path) -> usize {
     let mut stale = 0;
     for file in files {

@@ -64,7 +64,7 @@ fn compiler() -> Result<String, String> {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let field = |name: &str| {
         let line = text.lines().find_map(|line| line.strip_prefix(name));
-        line.ok_or_else(|| format!("`rustc -vV` tells no `{name}`"))
+        line.ok_or_else(|| format!("`rustc -vV` has no `{name}`"))
     };
     Ok(format!("rustc {} for {}", field("release: ")?, field("host: ")?))
 }
@@ -164,8 +164,8 @@ mod tests {
         let committed = table("a compiler", &case(10_000));
         assert_eq!(compare(&case(10_100), &committed), Ok(()));
         assert_eq!(compare(&case(5000), &committed), Ok(()));
-        let refused = compare(&case(10_101), &committed).unwrap_err();
-        assert!(refused.ends_with("run `cargo xtask instructions`"), "{refused}");
+        let rejected = compare(&case(10_101), &committed).unwrap_err();
+        assert!(rejected.ends_with("run `cargo xtask instructions`"), "{rejected}");
         assert!(compare(&case(1), "").is_err(), "nothing is committed");
     }
 }

@@ -41,35 +41,36 @@ enum Command {
     #[command(after_help = "Example: cargo xtask check")]
     Check,
     /// Make each term that the emitted functions compute wrong, and each sine and cosine, one at a
-    /// time, and see a law of physics broken
+    /// time, and check that a law of physics fails
     #[command(after_help = "Example: cargo xtask mutate --kernel wheel")]
     Mutate(mutate::Options),
     /// Run all tests
     #[command(after_help = "Example: cargo xtask test")]
     Test,
-    /// Try to break the promises of docs/promises.md with random spacecraft, on every core; print what
-    /// fails as a test to paste
+    /// Try to break the promises of docs/promises.md with random spacecraft, on every core; print
+    /// what fails as a test to paste
     #[command(
         after_help = "Examples: cargo xtask attack --minutes 10\n          cargo xtask attack --property singular-is-refused --seed 7"
     )]
     Attack(attack::Options),
-    /// Ask the engines behind the stored values again, if their Python packages are installed
+    /// Compute the stored values again with the engines, if their Python packages are installed
     #[command(after_help = "Example: cargo xtask engines")]
     Engines,
-    /// Time every service beside the peers, in one run on one core, and write the page that says so
+    /// Time every service and the peers in one run on one core, and write the page
     #[command(after_help = "Example: cargo xtask bench --quick --skip-peers")]
     Bench(bench::Options),
-    /// Measure where the bound on the accelerations holds and where it is lost; write the page and draw it
+    /// Measure the error of the accelerations where they are ill conditioned; write the page and
+    /// draw it
     #[command(after_help = "Example: cargo xtask accuracy --check")]
     Accuracy(accuracy::Options),
     /// Count the instructions of a call under callgrind; write the table
     #[command(after_help = "Example: cargo xtask instructions --check")]
     Instructions(instructions::Options),
-    /// Build for boards, run under emulation, compare with this machine bit for bit, pass the gates;
-    /// measure, write the page
+    /// Build for boards, run under emulation, compare with this machine bit for bit, pass the
+    /// gates; measure, write the page
     #[command(after_help = "Example: cargo xtask flight --check")]
     Flight(flight::Options),
-    /// Build the library for flight software, and see it from C and C++
+    /// Build the library for flight software, and test it from C and C++
     #[command(after_help = "Example: cargo xtask capi")]
     Capi,
     /// Derive, prove, solve the paper's scenario and draw the report

@@ -1,23 +1,23 @@
-//! `mutate`: one wrong term at a time, put to the laws of physics; the pages that say what came of
-//! it.
+//! `mutate`: one wrong term at a time, checked by the laws of physics; the pages with the results
+//! of it.
 
 use std::fs;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use precess_codegen::kinds::{self, DGVSCMG, KINDS};
-use precess_codegen::mutation::{
+use precess_codegen::page::Page;
+use precess_review::mutation::{
     self, Engines, Kind, Progress, Report, Selection, Tally, mutate_all,
 };
-use precess_codegen::page::Page;
-use precess_codegen::report::traceability;
-use precess_codegen::verdict::verdicts;
+use precess_review::report::traceability;
+use precess_review::verdict::verdicts;
 
 use crate::files::{committed, differing, read_files, read_pages, write};
 use crate::regen::PAGES;
 use crate::run::{root, say};
 
-/// Where the engines' stored values stand.
+/// The file of the engines' stored values.
 const ENGINES: &str = "tests/fixtures/engines.json";
 /// The derivation, whose comments name equations.
 const DERIVATION: &str = "codegen/src/derivation";
@@ -25,14 +25,14 @@ const DERIVATION: &str = "codegen/src/derivation";
 /// Options of `mutate`.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Make the mutants of this kind alone, and write no page
+    /// Make the mutants of only this kind, and write no page
     #[arg(long, value_name = "NAME")]
     kind: Option<String>,
-    /// Make the mutants of this function alone (of the DGVSCMG, unless a kind is named), and write
+    /// Make the mutants of only this function (of the DGVSCMG, unless a kind is named), and write
     /// no page
     #[arg(long, value_name = "NAME")]
     kernel: Option<String>,
-    /// Make every K-th mutant alone, and write no page
+    /// Make only every K-th mutant, and write no page
     #[arg(long, value_name = "K", default_value = "1")]
     #[arg(value_parser = clap::value_parser!(u16).range(1..))]
     sample: u16,
@@ -88,7 +88,7 @@ pub(crate) fn mutate(options: &Options) -> Result<(), String> {
     }
 }
 
-/// Writes the pages, or compares them with what stands there.
+/// Writes the pages, or compares them with the files there.
 fn keep(reports: &[Report], check: bool) -> Result<(), String> {
     let pages = root().join(PAGES);
     let verdicts = verdicts(&read_pages(&pages)?, &read_pages(&pages.join("printed"))?);
@@ -126,11 +126,12 @@ fn with_progress(
     let bar = ProgressBar::new(0);
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} mutants, {eta} left");
     bar.set_style(style.map_err(|error| error.to_string())?);
-    let tell = |progress| match progress {
+    let report_progress = |progress| match progress {
         Progress::Found(more) => bar.inc_length(u64::try_from(more).unwrap_or(u64::MAX)),
         Progress::Done => bar.inc(1),
     };
-    let reports = mutate_all(kinds, engines, selection, &tell).map_err(|error| error.to_string());
+    let reports =
+        mutate_all(kinds, engines, selection, &report_progress).map_err(|error| error.to_string());
     bar.finish_and_clear();
     reports
 }

@@ -1,6 +1,6 @@
 //! `regen --printed`: the three-way verdict on every equation of the paper, and the causes.
 
-use precess_codegen::verdict::{Cause, Component, Entry, Mended, Verdicts};
+use precess_review::verdict::{Cause, Component, Entry, Mended, Verdicts};
 
 use crate::run::say;
 
@@ -50,8 +50,8 @@ fn differing(entry: &Entry) {
     let components = entry.forms.iter().flat_map(|form| &form.components);
     let line = |component: &Component| {
         let along = if component.label.is_empty() { "" } else { " along " };
-        let place = format!("{along}{} of {}", component.label, component.name);
-        let lines = component.terms.iter().map(move |term| format!("    {term}{place}"));
+        let position = format!("{along}{} of {}", component.label, component.name);
+        let lines = component.terms.iter().map(move |term| format!("    {term}{position}"));
         lines.collect::<Vec<_>>()
     };
     let lines: Vec<_> = components.flat_map(line).collect();

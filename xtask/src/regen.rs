@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use precess_codegen::emit::{self, EmittedFile};
 use precess_codegen::proof::Row;
-use precess_codegen::regen::{Regeneration, regenerate};
+use precess_review::regen::{Pages, Regeneration, regenerate};
 
 use crate::files::{committed, differing, read_pages, write};
 use crate::printed;
 use crate::run::{root, say};
 
-/// Where the hand-checked pages stand.
+/// The folder of the hand-checked pages.
 pub(crate) const PAGES: &str = "tests/derivation";
 
 /// Where the C kernels are written unless something else is said; not part of the repository.
@@ -82,8 +82,7 @@ impl Options {
 /// Regenerates, prints one row per equation, and writes or compares the files.
 pub(crate) fn regen(options: &Options) -> Result<(), String> {
     let pages = options.pages.clone().unwrap_or_else(|| root().join(PAGES));
-    let made = regenerate(&read_pages(&pages)?, &read_pages(&pages.join("printed"))?);
-    let made = made.map_err(|error| error.to_string())?;
+    let made = regenerate(&all_pages(&pages)?).map_err(|error| error.to_string())?;
     if options.printed && made.holds() {
         printed::show(&made.verdicts);
         return Ok(());
@@ -105,6 +104,21 @@ pub(crate) fn regen(options: &Options) -> Result<(), String> {
     } else {
         write(&files, &options.into())
     }
+}
+
+/// Folders of the pages beside those of the paper's equations: our own, those of the elimination, and
+/// what is printed.
+const BESIDE: [&str; 3] = ["kernels", "kernels/elimination", "printed"];
+
+/// The pages below a folder.
+fn all_pages(folder: &Path) -> Result<Pages, String> {
+    let [kernels, elimination, printed] = BESIDE.map(|beside| read_pages(&folder.join(beside)));
+    Ok(Pages {
+        paper: read_pages(folder)?,
+        kernels: kernels?,
+        elimination: elimination?,
+        printed: printed?,
+    })
 }
 
 /// What every function costs, and what each pass brings.
@@ -131,7 +145,7 @@ fn print(made: &Regeneration, quiet: bool) {
     say!("{held} of {} claims proven equal", made.rows.len());
 }
 
-/// Shows the difference to what stands on disk, which must hold nothing that is not emitted.
+/// Shows the difference from the files on disk, where every file must be an emitted one.
 fn compare(files: &[EmittedFile], into: &Path, remedy: &str) -> Result<(), String> {
     let stale = differing(files, into);
     if let Some(orphan) = orphan(files, into) {
@@ -163,7 +177,7 @@ fn orphan(files: &[EmittedFile], into: &Path) -> Option<PathBuf> {
 mod tests {
     use std::collections::BTreeMap;
 
-    use precess_codegen::report::BUILT;
+    use precess_review::report::BUILT;
 
     use super::*;
 
@@ -240,13 +254,17 @@ mod tests {
     fn a_wrong_page_is_named_and_nothing_is_written() {
         let folder = tempfile::tempdir().unwrap();
         let (pages, out) = (folder.path().join("pages"), folder.path().join("out"));
-        fs::create_dir_all(pages.join("printed")).unwrap();
+        for beside in BESIDE {
+            fs::create_dir_all(pages.join(beside)).unwrap();
+        }
         for page in read_pages(&root().join(PAGES)).unwrap() {
             let text = page.text.replace("- i_go_22", "+ i_go_22");
             fs::write(pages.join(page.name), text).unwrap();
         }
-        for page in read_pages(&root().join(PAGES).join("printed")).unwrap() {
-            fs::write(pages.join("printed").join(page.name), page.text).unwrap();
+        for beside in BESIDE {
+            for page in read_pages(&root().join(PAGES).join(beside)).unwrap() {
+                fs::write(pages.join(beside).join(page.name), page.text).unwrap();
+            }
         }
         let options = Options {
             quiet: true,

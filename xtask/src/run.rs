@@ -6,7 +6,7 @@ use std::process::Command;
 /// Prints a line; a reader that has gone away is no error.
 macro_rules! say {
     ($($line:tt)*) => {
-        // Nobody is left to be told.
+        // The reader of the output has gone.
         let _ = std::io::Write::write_fmt(
             &mut std::io::stdout(),
             format_args!("{}\n", format_args!($($line)*)),
@@ -21,11 +21,11 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
 }
 
-/// Where cargo puts what it builds: this program stands in `release` there.
+/// Where cargo puts what it builds: this program is in `release` there.
 pub(crate) fn target() -> Result<PathBuf, String> {
     let here = std::env::current_exe().map_err(|error| format!("where am I: {error}"))?;
     let folder = here.parent().and_then(Path::parent).map(Path::to_path_buf);
-    folder.ok_or_else(|| format!("{} stands in no folder of a build", here.display()))
+    folder.ok_or_else(|| format!("{} is in no build folder", here.display()))
 }
 
 /// Runs cargo in the root and waits for it.
@@ -45,7 +45,7 @@ pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     }
 }
 
-/// A command as one would type it: its program without the folder it stands in.
+/// A command as one would type it: its program without its folder.
 fn shown(command: &Command) -> String {
     let program = Path::new(command.get_program());
     let program = program.file_name().unwrap_or(command.get_program());

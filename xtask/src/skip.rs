@@ -1,4 +1,4 @@
-//! What is not on this machine: skipped with the command that installs it, or refused.
+//! What is not on this machine: skipped with the command that installs it, or an error.
 
 /// Set to 1, it makes a skip a failure: for machines on which everything is to be run.
 pub(crate) const REQUIRE_ALL: &str = "PRECESS_REQUIRE_ALL";

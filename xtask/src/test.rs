@@ -7,8 +7,9 @@ use crate::mutate;
 use crate::regen;
 use crate::run::cargo;
 
-/// `regen --check`, `mutate --check`, all tests, `accuracy --check`, instruction counts, and the engines
-/// behind the stored values. The last two need more than Rust, and are skipped with a message where that is missing.
+/// `regen --check`, `mutate --check`, all tests, `accuracy --check`, instruction counts, and the
+/// engines of the stored values. The last two need more than Rust, and are skipped with a message
+/// where that is missing.
 pub(crate) fn test() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
     mutate::mutate(&mutate::Options::check_only())?;

@@ -10,7 +10,7 @@
 //! equations.
 
 use super::Share;
-use super::base::{Based, based};
+use super::base::{Based, based, origin_words};
 use super::carriers::{Carrying, carriers};
 use super::chain::{Chain, Coordinate};
 use super::joint::AtJoint;
@@ -32,7 +32,7 @@ pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
     let data = &chain.kind.links[0].body;
     script.section(
         "rate",
-        format!("ω_{{B/N}} along the axes of the {}, eq. (C1), rad/s.", data.title),
+        format!("ω_{{B/N}} expressed in the axes of the {}, eq. (D5), rad/s.", data.title),
     );
     script.names(pairs(triple("omega_b_n", data.frame), omega.components()));
     let carriers = carriers(chain, &based, omega, script);
@@ -52,7 +52,7 @@ fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub
     let along_b = |v: Vector<'g, Carrier>| chain.mounted(v);
     let axes = [X, Y, Z]
         .map(|axis| along_b(Vector::<Own>::unit(chain.graph, axis).turned(link.turn.inverse())));
-    script.section("axis", format!("Axes of the {}, eq. (A1), along B axes, 1.", data.title));
+    script.section("axis", format!("Axes of the {}, eq. (D1), expressed in B, 1.", data.title));
     for (axis, letter) in axes.into_iter().zip(["x", "y", "z"]) {
         script.names(pairs(triple(&format!("e_{letter}"), "b"), axis.components()));
     }
@@ -136,9 +136,10 @@ impl<'g> Walk<'g> {
         script.section(
             "lump",
             format!(
-                "What lies behind the {}'s joint, of {whole}, by base parameters, eqs. (B1), (B2): \
-                 first moment, kg m, and inertia, kg m².",
-                data.body.title
+                "Outboard composite of the joint of the {}, {whole}, by base parameters, eq. (D6): \
+                 first moment, kg m, and inertia, kg m², about {}.",
+                data.body.title,
+                origin_words(chain, k),
             ),
         );
         let stem = format!("mr_behind_{}", data.assembly);
@@ -157,7 +158,7 @@ impl<'g> Walk<'g> {
         script.section(
             "row",
             format!(
-                "Row of the {}'s joint, eq. {}, along its axis: M_ij, {}, and bias, {}, eq. (C3).",
+                "Joint row of the {}, eqs. {}, (D7), (D9): M_ij, {}, and bias without the hub's part, {}.",
                 data.body.title,
                 data.body.equations.torque,
                 units(behind, |units| match data.joint.motion {
@@ -179,9 +180,10 @@ impl<'g> Walk<'g> {
         script.section(
             "coriolis",
             format!(
-                "Force, N, and moment, N m, that the joints' rates from the {}'s on ask for, eq. \
-                 (C2).",
-                data.body.title
+                "Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the \
+                 joint of the {}, about {}, eq. (D8).",
+                data.body.title,
+                origin_words(chain, k),
             ),
         );
         self.rates = self.rates.plus(at.of_rate());
@@ -197,7 +199,10 @@ impl<'g> Walk<'g> {
         script: &mut Script<'g>,
     ) -> Share<'g> {
         let reach = chain.mounted(based.links[0].origin);
-        script.section("place", "Origin of the first joint, eq. (A2), along B axes, m.");
+        script.section(
+            "place",
+            "Origin of the first joint from B, moved by (D3), eq. (D2), expressed in B, m.",
+        );
         let reach = named(script, "reach", reach);
         let along_b = |v: Vector<'g, Own>| {
             let [x, y, z] = v.components();
@@ -212,8 +217,8 @@ impl<'g> Walk<'g> {
         script.section(
             "col",
             format!(
-                "M_vi, eq. (17), {}, and M_wi, eq. (75), {}: force and moment about B per unit \
-                 acceleration, along B axes.",
+                "M_vi, eqs. (17), (D7), {}, and M_wi, eqs. (75), (D7), {}: force and moment about B \
+                 per unit joint acceleration, expressed in B.",
                 units(links, |units| units.force),
                 units(links, |units| units.moment),
             ),
@@ -233,8 +238,8 @@ impl<'g> Walk<'g> {
         script.section(
             "moment",
             format!(
-                "What moves of {}, about B, along B axes: first moment, eq. (9), kg m, and \
-                 inertia, eq. (76), kg m².",
+                "{} without its constant share of the hub, about B, expressed in B: first moment, \
+                 eqs. (9), (D6), kg m, and inertia, eqs. (76), (D6), kg m².",
                 whole.to_uppercase()
             ),
         );
@@ -249,8 +254,8 @@ impl<'g> Walk<'g> {
 
         script.section(
             "bias",
-            "Force and moment about B that the joints' rates ask for: of eqs. (16), (75), along B \
-             axes, N and N m.",
+            "Coriolis and centrifugal force, N, and moment about B, N m, of the joints' rates, of \
+             eqs. (16), (75), (D8), expressed in B.",
         );
         let (f, n, arm) = on_hub(&self.rates);
         let bias_force = cut(script, "f_rates", f);
@@ -258,11 +263,11 @@ impl<'g> Walk<'g> {
 
         script.section(
             "reach",
-            "Acceleration of the first joint's origin as the hub carries it, eq. (C1), m/s².",
+            "Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), m/s².",
         );
         let carried = chain.hub.omega.cross(chain.hub.omega.cross(reach));
         let carried = named(script, "r_first_rest", carried);
-        script.section("bias", "Bias of each joint with it, eq. (C3).");
+        script.section("bias", "Bias of each joint row with it, eq. (D9).");
         let bias = self.bias_joint.iter().zip(&force).zip(links);
         let bias_joint = bias.map(|((asked, force), link)| {
             script.cut(format!("u_rest_{}", link.joint.tag), *asked + force.dot(carried))
@@ -308,18 +313,18 @@ impl<'g> Walk<'g> {
     }
 }
 
-/// What the hub takes over of a device, about B along B axes: parameters alone.
-pub fn handed<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
-    let Lump { first_moment, inertia, .. } = based(chain, script).handed;
+/// Constant share of the hub: what a device adds to it whatever its joints do.
+pub fn constant_share<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
+    let Lump { first_moment, inertia, .. } = based(chain, script).constant_share;
     let mass = chain.links.iter().skip(1).fold(chain.links[0].mass, |sum, link| sum + link.mass);
     script.section(
-        "hand",
-        "What the hub takes over, eq. (B2): mass, kg, first moment, kg m, and inertia about B, kg \
-         m², along B axes.",
+        "share",
+        "Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, \
+         kg m², expressed in B.",
     );
-    script.name("hand_m", mass);
-    named(script, "hand_mr", chain.mounted(first_moment));
-    script.names(pairs(sextuple("hand_i"), chain.mounted_tensor(inertia).entries()));
+    script.name("constant_m", mass);
+    named(script, "constant_mr", chain.mounted(first_moment));
+    script.names(pairs(sextuple("constant_i"), chain.mounted_tensor(inertia).entries()));
 }
 
 fn named<'g>(script: &mut Script<'g>, stem: &str, v: Vector<'g, Hub>) -> Vector<'g, Hub> {

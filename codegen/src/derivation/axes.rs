@@ -13,12 +13,18 @@ pub fn axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         here = here.across(link);
         let (frame, title) = (data.body.frame, data.body.title);
         let letter = data.body.letters[0];
-        let whose = if link.turn.is_none() { "the carrier's axes" } else { "its own axes" };
-        script.section("axis", format!("Of the {title}: {whose} along B, eq. (A1)."));
+        let whose = if link.turn.is_none() { "the parent body's axes" } else { "its own axes" };
+        script.section(
+            "axis",
+            format!("Of the {title}: {whose} expressed in the device's axes, eq. (D1)."),
+        );
         for (column, axis) in here.columns.into_iter().zip(XYZ) {
             script.names(pairs(triple(&format!("{frame}_{axis}"), "b"), column.components()));
         }
-        script.section("pos", format!("{letter} from B, eq. (A2), along B axes, m."));
+        script.section(
+            "pos",
+            format!("{letter} from B, eq. (D2), expressed in the device's axes, m."),
+        );
         script.names(pairs(triple(&format!("origin_{frame}"), "b"), here.origin.components()));
     }
 }

@@ -1,14 +1,15 @@
-//! Base parameters: of a body, what must stay behind its joint; all else may as well be its carrier's.
+//! Base inertial parameters: what of a body a joint's motion changes; the rest is regrouped to the
+//! parent body.
 //!
 //! Two passes over the chain, arithmetic on parameters alone. Neither changes an equation, which the
 //! proof shows of what is emitted (a third, over the functions, is [`crate::emit`]'s):
 //!
-//! - *slide* (B1): the origin of a turning joint may lie anywhere on its axis. Slid along it, each
+//! - *slide* (D3): the origin of a turning joint may lie anywhere on its axis. Moved along it, each
 //!   offset between two joints loses a component.
-//! - *regroup* (B2): a mass on the axis of a turning joint, or spread along it, does not notice the
-//!   turning. Three of a body's ten parameters move to its carrier: its mass, the first moment along
-//!   the axis, and one moment of inertia across it. Behind a sliding joint the whole inertia does.
-//!   What reaches the hub is handed over to it: a massless device is left.
+//! - *regroup* (D4): a mass on the axis of a turning joint, or spread along it, is not moved by the
+//!   joint. Three of a body's ten parameters are regrouped to its parent body: its mass, the first
+//!   moment along the axis, and one moment of inertia across it. Of a sliding body it is the inertia.
+//!   What reaches the hub is the device's constant share of it: a massless device is left.
 //!
 //! What the passes leave is a polynomial in the parameters, and is stated as its normal form: where a
 //! large moment was added and taken out again, `m l^2` of a long arm, no rounding of it stays behind.
@@ -63,8 +64,8 @@ pub(super) struct Base<'g> {
 pub(super) struct Based<'g> {
     /// From the hub outwards.
     pub(super) links: Vec<Base<'g>>,
-    /// What the hub takes over, about B along the device's axes.
-    pub(super) handed: Lump<'g, Carrier>,
+    /// Constant share of the hub, about B along the device's axes.
+    pub(super) constant_share: Lump<'g, Carrier>,
 }
 
 /// Makes the passes; the bodies' own lumps go to `script`.
@@ -77,8 +78,9 @@ pub(super) fn based<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Based<'g>
     if passes.slide {
         slide(chain, &mut links);
     }
-    let handed = if passes.regroup { regroup(chain, &mut links) } else { Lump::zero(chain.graph) };
-    let mut based = Based { links, handed };
+    let constant_share =
+        if passes.regroup { regroup(chain, &mut links) } else { Lump::zero(chain.graph) };
+    let mut based = Based { links, constant_share };
     if passes.slide || passes.regroup {
         based.settle(chain, script);
     }
@@ -98,21 +100,21 @@ impl<'g> Based<'g> {
             base.origin = Vector::new(base.origin.components().map(&mut settled));
             base.lump = base.lump.map(&mut settled);
             let carrier = k.checked_sub(1).map_or("d", |inner| chain.kind.links[inner].body.frame);
-            base.name(data, carrier, script);
+            base.name(data, &origin_words(chain, k), carrier, script);
         }
-        self.handed = self.handed.map(&mut settled);
+        self.constant_share = self.constant_share.map(&mut settled);
     }
 }
 
 impl<'g> Base<'g> {
-    fn name(&self, data: &Link, carrier: &str, script: &mut Script<'g>) {
+    fn name(&self, data: &Link, origin: &str, carrier: &str, script: &mut Script<'g>) {
         let (joint, body) = (&data.joint, &data.body);
         script.section(
             "base",
             format!(
-                "Base parameters of the {}, eqs. (B1), (B2): arm, m, first moment, kg m, inertia, \
-                 kg m².",
-                body.title
+                "Base inertial parameters of the {}, eqs. (D3), (D4): {origin} from the parent's \
+                 origin, m; first moment, kg m, and inertia, kg m², about it.",
+                body.title,
             ),
         );
         let tag = joint.tag;
@@ -124,7 +126,14 @@ impl<'g> Base<'g> {
     }
 }
 
-/// (B1). A joint's origin goes where the next offset has no component along its axis, the last one's
+/// The origin of a joint in the equations: of a turning joint it is not where the paper places it.
+pub(super) fn origin_words(chain: &Chain<'_>, k: usize) -> String {
+    let link = &chain.kind.links[k];
+    let moved = chain.passes.slide && matches!(link.joint.motion, Motion::Turn(_));
+    format!("{}{}", link.body.letters[0], if moved { " moved by (D3)" } else { "" })
+}
+
+/// (D3). A joint's origin goes where the next offset has no component along its axis, the last one's
 /// where its own has none.
 fn slide<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) {
     let zero = chain.graph.zero();
@@ -146,12 +155,12 @@ fn slide<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) {
     }
 }
 
-/// (B2), from the tip to the hub.
+/// (D4), from the tip to the hub.
 fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
-    let mut handed = Lump::zero(chain.graph);
+    let mut constant_share = Lump::zero(chain.graph);
     for (k, link) in chain.links.iter().enumerate().rev() {
         let own = &mut links[k];
-        own.lump = own.lump.plus(handed.handed_back());
+        own.lump = own.lump.plus(constant_share.handed_back());
         let axis = chain.kind.links[k].joint.motion.axis();
         let moved = movable(own.lump, link.coordinate, axis);
         own.lump = own.lump.less(moved);
@@ -161,13 +170,13 @@ fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
             first_moment: Vector::new(moved.first_moment.components()),
             inertia: Symmetric::new(moved.inertia.entries()),
         };
-        handed = match link.coordinate {
+        constant_share = match link.coordinate {
             Coordinate::Angle(_) => moved.shifted(own.origin),
             // No mass goes with it, and an inertia alone is the same about every origin.
             Coordinate::Length(_) => moved,
         };
     }
-    handed
+    constant_share
 }
 
 /// What does not notice that its joint moves.

@@ -1,4 +1,4 @@
-//! The equations of motion from the kinetic energy alone: Boltzmann and Hamel's.
+//! The equations of motion from the kinetic energy only: Boltzmann and Hamel's.
 //!
 //! With v the inertial velocity of point B and omega the body rate, both along B axes and neither
 //! the rate of a coordinate, and T(v, omega, q'; q):

@@ -4,7 +4,7 @@
 //! `[alpha~] + [omega~]^2` times the place from there. The hub's own part is the same for all and is
 //! left to the hub; what is here are its rates seen along each body's axes.
 
-use super::base::Based;
+use super::base::{Based, origin_words};
 use super::chain::{Chain, Coordinate};
 use super::script::{Script, pairs, triple};
 use crate::graph::Expr;
@@ -68,7 +68,7 @@ pub(super) fn carriers<'g>(
         script.section(
             "rate",
             format!(
-                "ω_{{{letter}/N}}, eq. {}, along its own axes, rad/s.",
+                "ω_{{{letter}/N}}, eq. {}, expressed in its own axes, rad/s.",
                 data.body.equations.omega
             ),
         );
@@ -77,7 +77,7 @@ pub(super) fn carriers<'g>(
         script.section(
             "turn",
             format!(
-                "Its derivative as in eq. {}, no joint accelerating, along the same axes, rad/s².",
+                "Its derivative as in eq. {}, no joint accelerating, expressed in the same axes, rad/s².",
                 data.body.equations.h_dot
             ),
         );
@@ -97,9 +97,9 @@ pub(super) fn carriers<'g>(
         script.section(
             "path",
             format!(
-                "Acceleration of {} as the {body} carries it, eq. (C1), along the {body}'s axes, \
-                 m/s².",
-                outer.letters[0],
+                "Acceleration of {}, no joint accelerating, without that of B and the hub's part, \
+                 eq. (D5), expressed in the axes of the {body}, m/s².",
+                origin_words(chain, k),
             ),
         );
         script

@@ -69,16 +69,16 @@ fn outwards<'g>(
         let body = &data.body;
         let (frame, letter, equation) = (body.frame, body.letters[0], body.equations.omega);
         let stem = format!("{frame}_{}", seen_from.to_lowercase());
-        let axes = if link.turn.is_none() { "the carrier's axes" } else { "its own axes" };
+        let axes = if link.turn.is_none() { "the parent body's axes" } else { "its own axes" };
         script.section(
             "rate",
-            format!("ω_{{{letter}/{seen_from}}}, eq. {equation}, along {axes}, rad/s."),
+            format!("ω_{{{letter}/{seen_from}}}, eq. {equation}, expressed in {axes}, rad/s."),
         );
         script.names(pairs(triple(&format!("omega_{stem}"), frame), motion.omega.components()));
         script.section(
             "turn",
             format!(
-                "Its derivative {}as in eq. {}, no joint accelerating, along the same axes, rad/s².",
+                "Its derivative {}as in eq. {}, no joint accelerating, expressed in the same axes, rad/s².",
                 if link.turn.is_none() { "by components " } else { "" },
                 body.equations.h_dot
             ),

@@ -69,7 +69,10 @@ pub fn eliminate<'g>(
     while let Some(row) = rows.pop() {
         let pivot = gains(&row, &rows, diagonals[rows.len()].clone(), script);
         done.push_str(pivot.tag);
-        let title = format!("Joint {} taken out of the rows nearer the hub, eq. (E2).", pivot.tag);
+        let title = format!(
+            "Joint {} eliminated from the rows of the inboard joints, eq. (D11).",
+            pivot.tag
+        );
         script.section("rest", title);
         for (l, inner) in rows.iter_mut().enumerate() {
             let (gain, coupling) = (pivot.gains[HUB.len() + l].1, pivot.couplings[HUB.len() + l]);
@@ -93,7 +96,7 @@ fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Ve
     let kind = chain.kind;
     let equations: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
     let title = format!(
-        "Right side of each joint, {} {}: motor torque less what the rest asks for, {}.",
+        "Right side of each joint row, {} {}: motor torque less bias, {}.",
         if equations.len() == 1 { "eq." } else { "eqs." },
         equations.join(", "),
         units(kind.driven(), |units| units.drive)
@@ -141,7 +144,7 @@ fn gains<'g>(
         _ => row.diagonal.clone(),
     };
     let title =
-        format!("Joint {tag}, eq. (E1): its pivot `{}`, {}, and its gains.", pivot.0, row.unit);
+        format!("Joint {tag}, eq. (D10): its pivot `{}`, {}, and its gains.", pivot.0, row.unit);
     script.section("gain", title);
     let Mode { driven, held, given } = row.mode;
     let divisor = script.cut(format!("divisor_{tag}"), pivot.1 + held);
@@ -168,7 +171,10 @@ fn gains<'g>(
 /// What the joints take of the hub's block and of its right side.
 fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
     for (block, rows, columns) in [("vv", 0..3, 0..3), ("vw", 0..3, 3..6), ("ww", 3..6, 3..6)] {
-        script.section("hub", format!("Taken out of the hub's mass matrix, eq. (E3): M_{block}."));
+        script.section(
+            "hub",
+            format!("Subtracted from the hub's mass matrix, eq. (D12): M_{block}."),
+        );
         for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
             if column >= row {
                 let taken = |pivot: &Pivot<'g>| pivot.gains[row].1 * pivot.couplings[column];
@@ -177,7 +183,8 @@ fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
             }
         }
     }
-    let title = "Taken from the hub's right side, eq. (E3): force, N, and moment about B, N m.";
+    let title =
+        "Subtracted from the hub's right side, eq. (D12): force, N, and moment about B, N m.";
     script.section("hub", title);
     let rest = [share.bias_force, share.bias_moment].map(Vector::components).concat();
     for (row, rest) in rest.into_iter().enumerate() {

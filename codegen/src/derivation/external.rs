@@ -19,7 +19,7 @@ pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         script.section(
             "sum",
             format!(
-                "On {whole}, the {} and what it carries, eq. (F1): force, N, and moment \
+                "On {whole}, the {} and the bodies outboard of it, eq. (D14): force, N, and moment \
                  about {}, N m.",
                 body.title, body.letters[0],
             ),
@@ -28,7 +28,7 @@ pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         script.section(
             "drive",
             format!(
-                "Along the {}'s joint, beside its motor, eq. (F2), {}.",
+                "Along the {}'s joint, beside its motor, eq. (D15), {}.",
                 body.title,
                 data.joint.motion.units().drive
             ),
@@ -36,7 +36,7 @@ pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         script.name(format!("drive_{}", data.joint.tag), sum.along(link));
         sum = sum.carried(link);
     }
-    script.section("sum", "On the hub, eq. (F1): force, N, and moment about B, N m.");
+    script.section("sum", "On the hub, eq. (D14): force, N, and moment about B, N m.");
     script.names(sum.named("sum", "b"));
 }
 

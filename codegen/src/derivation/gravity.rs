@@ -20,14 +20,20 @@ pub fn gravity<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         let (frame, origin) = (data.body.frame, data.body.origin);
         let (title, letter) = (data.body.title, data.body.letters[0]);
         let own = here.across(link);
-        script.section("field", format!("G, as in eq. (G1), along the axes of the {title}, 1/s²."));
+        script.section(
+            "field",
+            format!("G, as in eq. (D16), expressed in the axes of the {title}, 1/s²."),
+        );
         script.names(pairs(sextuple(&format!("g_{frame}")), own.gradient.entries()));
-        script.section("field", format!("G r at {letter}, eq. (G1), along the same axes, m/s²."));
+        script.section(
+            "field",
+            format!("G r at {letter}, eq. (D16), expressed in the same axes, m/s²."),
+        );
         script.names(pairs(triple(&format!("g_r_{origin}"), frame), own.origin.components()));
         let body = Lump::of(link, data, script);
         script.section(
             "pull",
-            format!("On the {title} alone, eq. (G2): force, N, and moment about {letter}, N m."),
+            format!("On the {title} only, eq. (D17): force, N, and moment about {letter}, N m."),
         );
         script.names(own.on(&body).named("on", frame));
         bodies.push(body);
@@ -40,7 +46,10 @@ pub fn gravity<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         lump = lump.carried(link);
     }
     let second_moment = lump.inertia.second_moment();
-    script.section("axis", "S = ∫ r rᵀ dm of the device about B, along B axes, eq. (G3), kg m².");
+    script.section(
+        "axis",
+        "S = ∫ r rᵀ dm of the device about B, expressed in the device's axes, eq. (D18), kg m².",
+    );
     script.names(pairs(sextuple("second_moment"), second_moment.entries()));
 }
 

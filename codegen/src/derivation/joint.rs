@@ -1,4 +1,4 @@
-//! One joint: what its rate asks for (C2), and its own equation (C3).
+//! One joint: Coriolis and centrifugal wrench of its rate (D8), and its own equation (D9).
 
 use super::carriers::Carrying;
 use super::chain::Coordinate;
@@ -20,10 +20,10 @@ pub(super) struct AtJoint<'g, F> {
 }
 
 impl<'g, F: Frame> AtJoint<'g, F> {
-    /// (C2): what the joint's rate alone adds to force and moment of the lump, about the joint's
-    /// origin. With `a` the axis of a turning joint, its bodies feel
-    /// `2 q' [omega~][a~] + q'^2 [a~]^2` on top of their carrier's field; of a sliding one,
-    /// `2 q' omega x a`. Neither has a part in the joint's own equation.
+    /// (D8): what the joint's rate adds to force and moment of the outboard composite, about the
+    /// joint's origin. With `a` the axis of a turning joint, `2 q' [omega~][a~] + q'^2 [a~]^2` is
+    /// added to the parent's field of acceleration; with that of a sliding one, `2 q' omega x a`.
+    /// Neither has a part in the joint's own equation.
     pub(super) fn of_rate(&self) -> Wrench<'g, F> {
         let [k, i, j] = self.axis.cycle();
         let omega = self.carrying.omega.components();
@@ -60,7 +60,7 @@ impl<'g, F: Frame> AtJoint<'g, F> {
         }
     }
 
-    /// (C3): what the carrier's field asks of the joint's own equation.
+    /// (D9): the joint row of what the parent body's field of acceleration requires.
     pub(super) fn of_field(&self) -> Expr<'g> {
         let [k, i, j] = self.axis.cycle();
         let Carrying { omega, alpha, origin } = self.carrying;

@@ -22,7 +22,7 @@ pub fn loads<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         script.section(
             "load",
             format!(
-                "On {}, the {} and what it carries, at its joint, eq. {}: force, N, and moment \
+                "On {}, the {} and the bodies outboard of it, at its joint, eq. {}: force, N, and moment \
                  about {}, N m.",
                 data.assembly.to_uppercase(),
                 data.body.title,
@@ -46,17 +46,17 @@ fn outwards<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Vec<Motion<'g>> {
     for ((link, data), motion) in chain.links.iter().zip(chain.kind.links).zip(&motions) {
         let (body, equations) = (&data.body, &data.body.equations);
         let (frame, [letter, _]) = (body.frame, body.letters);
-        let axes = if link.turn.is_none() { "the carrier's axes" } else { "its own axes" };
+        let axes = if link.turn.is_none() { "the parent body's axes" } else { "its own axes" };
         script.section(
             "rate",
-            format!("ω_{{{letter}/N}}, eq. {}, along {axes}, rad/s.", equations.omega),
+            format!("ω_{{{letter}/N}}, eq. {}, expressed in {axes}, rad/s.", equations.omega),
         );
         let stem = format!("omega_{frame}_n");
         script.names(pairs(triple(&stem, frame), motion.omega.components()));
         script.section(
             "turn",
             format!(
-                "Its derivative by components, as in eq. {}, along the same axes, rad/s².",
+                "Its derivative by components, as in eq. {}, expressed in the same axes, rad/s².",
                 equations.h_dot
             ),
         );

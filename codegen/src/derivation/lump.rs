@@ -121,7 +121,7 @@ impl<'g> Lump<'g> {
         script.section(
             "lump",
             format!(
-                "{}, the {} and what it carries, eq. {}: mass, kg; first moment, kg m, and \
+                "{}, the {} and the bodies outboard of it, eq. {}: mass, kg; first moment, kg m, and \
                  inertia, kg m², about {letter}.",
                 assembly.to_uppercase(),
                 body.title,

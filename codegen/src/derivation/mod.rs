@@ -7,11 +7,11 @@
 //!   (121), by the same names;
 //! - [`by_body`]: mass matrix and bias as sums over bodies, by plain differentiation in B: what
 //!   the rest is held against;
-//! - [`boltzmann_hamel`]: the same once more from the kinetic energy alone;
+//! - [`boltzmann_hamel`]: the same once more from the kinetic energy only;
 //! - [`composite`]: the same, inwards from the tip in local frames: what is emitted;
 //! - [`axes`], [`loads`], [`external`], [`gravity`]: on the same walks, where the bodies stand, what
 //!   their joints carry, what acts on them from outside, and what a field does to them;
-//! - [`script`]: the named steps the walks leave behind;
+//! - [`script`]: the named steps of the recursions;
 //! - [`elimination`]: the joints eliminated into the hub's six equations, tip first.
 
 pub mod aboard;

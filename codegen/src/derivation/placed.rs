@@ -1,7 +1,7 @@
 //! A derived vector or tensor with the link whose axes it stands in, to be read along any other.
 //!
 //! Inside a walk the frame is in the type. Where results of all links are listed together, as the
-//! proof does, it becomes a number: zero for the hub, k for the body behind joint k.
+//! proof does, it becomes a number: zero for the hub, k for the body outboard of joint k.
 
 use super::chain::Chain;
 use crate::graph::Expr;

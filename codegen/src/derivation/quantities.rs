@@ -26,7 +26,7 @@ pub struct Quantity<'g> {
 pub struct Chapter {
     /// `Inner gimbal`.
     pub title: String,
-    /// The equations that they go into; none for what the hub alone is made of.
+    /// The equations that they go into; none for what only the hub is made of.
     pub goes_into: String,
 }
 

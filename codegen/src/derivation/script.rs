@@ -1,4 +1,4 @@
-//! Named statements in sections: what a derivation leaves behind for the emitter and the proof.
+//! Named statements in sections: what a derivation yields for the emitter and the proof.
 //!
 //! A *named* value keeps the name the paper gives it and is expanded like any other in the proof.
 //! A *cut* value becomes a symbol for all that follows: the proof shows once what it stands for.

@@ -1,6 +1,6 @@
-//! Section 3.3: the torque across each joint, from Euler's law for what lies behind it.
+//! Section 3.3: the torque across each joint, from Euler's law for the bodies outboard.
 //!
-//! For joint k and the assembly A of all bodies behind it, along B axes: the torque about the
+//! For joint k and the assembly A of all bodies outboard, expressed in B: the torque about the
 //! joint's origin p is `sum d([I] omega)/dt + (r - p) x m r_ddot_{/N}`. The paper takes it about
 //! A's centre of mass first; those quantities are derived here as well, from their definitions.
 

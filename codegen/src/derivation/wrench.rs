@@ -56,7 +56,7 @@ impl<'g> Wrench<'g, Own> {
         })
     }
 
-    /// Of the body behind joint k: along B, about the same origin.
+    /// Of the body outboard of joint k: expressed in B, about the same origin.
     #[must_use]
     pub fn along_b(self, chain: &Chain<'g>, k: usize) -> Wrench<'g, Hub> {
         let along = |v: Vector<'g, Own>| resolved(v.components(), k + 1, chain, 0);
@@ -65,7 +65,7 @@ impl<'g> Wrench<'g, Own> {
 }
 
 impl<'g> Wrench<'g, Hub> {
-    /// Along the axes of frame `target`, zero for the hub, k for the body behind joint k; about the
+    /// Expressed in frame `target`, zero for the hub, k for that outboard of joint k; about the
     /// same origin.
     #[must_use]
     pub fn resolved(self, chain: &Chain<'g>, target: usize) -> Wrench<'g, Own> {

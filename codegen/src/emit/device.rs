@@ -1,5 +1,5 @@
-//! The second file of a kind: its parameters, joints and motors as a user states them, and the
-//! interface between them and the emitted kernels that the solver asks.
+//! The second file of a kind: its parameters, joints and motors as a user states them, and the calls
+//! of the emitted kernels by the solver.
 //!
 //! Everything here follows from the kind's data and from the signatures of its kernels: no equation.
 
@@ -9,6 +9,7 @@ use serde::Serialize;
 use tera::{Context, Tera};
 
 use super::device_items::Items;
+use super::device_parameters::{Parameter, parameters};
 use super::file::{EmitError, EmittedFile, rust_file};
 use super::home::Home;
 use super::layout::packed;
@@ -19,6 +20,7 @@ use crate::kinds::{Body, Centre, Inertia, Kind, Link, Motion};
 pub(super) type Signatures = BTreeMap<String, Signature>;
 
 /// How a kernel is called.
+#[derive(Debug)]
 pub(super) struct Signature {
     /// The letters of its arguments.
     pub(super) letters: Vec<&'static str>,
@@ -53,10 +55,11 @@ pub(super) fn device_file(
     let mut context = Context::new();
     context.insert("command", home.command());
     context.insert("source", kind.source);
-    context.insert("hash", &fnv1a64(&format!("{kind:?}")));
+    let made_from = format!("{kind:?}{signatures:?}");
+    context.insert("hash", &fnv1a64(&(made_from + include_str!("templates/device.rs.tera"))));
     context.insert("title", &capital(kind.title));
     context.insert("imports", &imports(home.dynamics(), &body));
-    context.insert("records", &[parameters(kind), joints(kind), motors(kind), per_joint(kind)]);
+    context.insert("records", &[structure(kind), joints(kind), motors(kind), per_joint(kind)]);
     context.insert("body", &body);
     rust_file(home.path(&format!("{}/device.rs", kind.name)), tera.render("device.rs", &context)?)
 }
@@ -84,9 +87,9 @@ fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
         "BodyAcceleration",
         "BodyRate",
         "BodyVelocity",
+        "ConstantShare",
         "EnergyMomentum",
         "Gradient",
-        "Handed",
         "HubShare",
     ];
     let kind = [
@@ -100,6 +103,9 @@ fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
         "Kernels",
         "Kind",
         "Lumped",
+        "ParameterInfo",
+        "ParameterMut",
+        "Shape",
         "Value",
         "Wrenches",
         "components",
@@ -116,11 +122,6 @@ fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
         list("", &["Angle", "Passive", "Real", "Scalar", "Wrench"], &[]),
     ];
     used.iter().flat_map(|text| text.lines()).map(str::to_owned).collect()
-}
-
-/// `balanced_vscmg` -> `BalancedVscmg`.
-pub(super) fn type_name(kind: &Kind) -> String {
-    kind.name.split('_').map(capital).collect()
 }
 
 /// The name of the body behind a joint: `outer_gimbal`.
@@ -144,12 +145,22 @@ pub(super) fn moments(body: &Body) -> Vec<String> {
     names
 }
 
-/// Whether the outermost body is a rotor that can be off balance.
-pub(super) fn imbalanced(kind: &Kind) -> Option<&Body> {
-    let body = &kind.links.last()?.body;
-    let spins = matches!(kind.links.last()?.joint.motion, Motion::Turn(_));
-    let off = matches!((body.centre, body.inertia), (Centre::On(..), Inertia::Full(_)));
-    (spins && off).then_some(body)
+/// The outermost body and the name of its offset, where it is a rotor that can be off balance.
+pub(super) fn imbalanced(kind: &Kind) -> Option<(&Body, &'static str)> {
+    let Link { joint, body, .. } = kind.links.last()?;
+    let offset = match body.centre {
+        Centre::On(_, offset) => offset,
+        Centre::Free(_) | Centre::At => return None,
+    };
+    let full = match body.inertia {
+        Inertia::Full(_) => true,
+        Inertia::Diagonal(_) | Inertia::Symmetric(..) | Inertia::Point => false,
+    };
+    let turns = match joint.motion {
+        Motion::Turn(_) => true,
+        Motion::Slide(_) => false,
+    };
+    (turns && full).then_some((body, offset))
 }
 
 fn field(name: &str, doc: &str, ty: &str) -> Field {
@@ -170,21 +181,16 @@ fn record(name: &str, doc: &str, fields: Vec<Field>) -> Record {
 }
 
 /// What the device is made of, as a user states it.
-fn parameters(kind: &Kind) -> Record {
-    let mut fields = vec![field("mount", &mount(kind), "Matrix3<T>")];
-    for (k, link) in kind.links.iter().enumerate() {
-        fields.extend(of_link(kind, k, link));
-    }
-    fields.push(field(
+fn structure(kind: &Kind) -> Record {
+    let passive = field(
         "passive",
         "Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.",
         "PerJoint<Passive<T>>",
-    ));
-    if imbalanced(kind).is_some() {
-        let doc = "Whether the imbalance is coupled with everything else, or lumped as in the \
-                   simplified model.";
-        fields.push(field("model", doc, "ImbalanceModel"));
-    }
+    );
+    let own = |row: &Parameter| field(&row.name, &row.doc(), row.field_type());
+    let mut fields: Vec<_> = parameters(kind).iter().map(own).collect();
+    let last = fields.len() - usize::from(imbalanced(kind).is_some());
+    fields.insert(last, passive);
     let mut doc = format!("{}.", capital(kind.title));
     for link in kind.links.iter().filter(|link| !link.is_driven()) {
         let kept = format!(
@@ -196,76 +202,10 @@ fn parameters(kind: &Kind) -> Record {
     }
     if kind.links.iter().any(|link| matches!(link.body.inertia, Inertia::Full(_))) {
         doc.push_str(
-            "\n\nProducts of inertia stand in the tensors with the sign they have there (`J_13` is \
-             the element).",
+            "\n\nProducts of inertia have the sign of the tensor's entries: `J_13` is entry 13.",
         );
     }
-    record(&format!("{}<T = f64>", type_name(kind)), &doc, fields)
-}
-
-fn mount(kind: &Kind) -> String {
-    let joint = |link: &Link| {
-        let (verb, axis) = match link.joint.motion {
-            Motion::Turn(axis) => ("turns about", axis),
-            Motion::Slide(axis) => ("slides along", axis),
-        };
-        format!("the {} {verb} {axis:?}", link.body.title).to_lowercase()
-    };
-    let joints: Vec<_> = kind.links.iter().map(joint).collect();
-    format!(
-        "Columns: the device's axes along B axes, which are those of its first body at zero. At \
-         zero {}.",
-        joints.join(", ")
-    )
-}
-
-fn of_link(kind: &Kind, k: usize, link: &Link) -> Vec<Field> {
-    let (joint, body) = (&link.joint, &link.body);
-    let [letter, point] = body.letters;
-    let title = body.title;
-    let carrier = if k == 0 {
-        "from B, *B axes*".to_owned()
-    } else {
-        let carrier = &kind.links[k - 1].body;
-        format!("from the origin of the {0}, axes of the {0}", carrier.title)
-    };
-    let slides = match joint.motion {
-        Motion::Turn(_) => "",
-        Motion::Slide(_) => ", where its coordinate is zero",
-    };
-    let doc = format!("`{}`, origin of the {title} {carrier}{slides}, m.", joint.origin.symbol);
-    let mut fields = vec![field(joint.origin.name, &doc, "Vector3<T>")];
-    let massless = if k + 1 == kind.links.len() { "above zero" } else { "zero is legal" };
-    let doc = format!("`m_{letter}`, mass of the {title}, kg; {massless}.");
-    fields.push(field(body.mass, &doc, "T"));
-    match body.centre {
-        Centre::Free(triple) => {
-            let doc =
-                format!("`{}`, centre of mass of the {title}, its own axes, m.", triple.symbol);
-            fields.push(field(triple.name, &doc, "Vector3<T>"));
-        }
-        Centre::On(axis, name) => {
-            let doc = format!(
-                "`{name}`: the centre of mass of the {title} stands on its {axis:?} axis, this far \
-                 from its origin, m."
-            );
-            fields.push(field(name, &doc, "T"));
-        }
-        Centre::At => {}
-    }
-    let doc =
-        format!("`[I_{{{letter},{point}}}]`, inertia of the {title} about its centre of mass");
-    match body.inertia {
-        Inertia::Full(_) => {
-            let doc = format!("{doc}, its own axes, kg m².");
-            fields.push(field(&inertia_name(body), &doc, "Matrix3<T>"));
-        }
-        _ => fields.extend(moments(body).iter().map(|name| {
-            let entry = &name[name.len() - 2..];
-            field(name, &format!("{doc}, entry {entry}, kg m²."), "T")
-        })),
-    }
-    fields
+    record(&format!("{}<T = f64>", kind.type_name()), &doc, fields)
 }
 
 /// Coordinates and rates.
@@ -273,7 +213,7 @@ fn joints(kind: &Kind) -> Record {
     let (mut coordinates, mut rates) = (Vec::new(), Vec::new());
     for (k, link) in kind.links.iter().enumerate() {
         let (joint, title) = (&link.joint, link.body.title);
-        let carrier = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
+        let parent = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
         let (what, unit, axis) = match joint.motion {
             Motion::Turn(axis) => ("Angle", "rad", axis),
             Motion::Slide(axis) => ("Position", "m", axis),
@@ -283,7 +223,7 @@ fn joints(kind: &Kind) -> Record {
         let doc = format!("{what} of the {title}, {about} its {axis} axis, {unit}.");
         coordinates.push(field(joint.coordinate, &doc, "T"));
         let unit = joint.motion.units().rate;
-        let doc = format!("`{}`, its rate relative to the {carrier}, {unit}.", joint.symbols[0]);
+        let doc = format!("`{}`, its rate relative to the {parent}, {unit}.", joint.symbols[0]);
         rates.push(field(joint.rate, &doc, "T"));
     }
     coordinates.extend(rates);
@@ -293,16 +233,16 @@ fn joints(kind: &Kind) -> Record {
 /// What the motors exert.
 fn motors(kind: &Kind) -> Record {
     let fields = kind.links.iter().enumerate().map(|(k, link)| {
-        let carrier = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
+        let parent = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
         let unit = link.joint.motion.units().drive;
         field(
             link.joint.torque,
-            &format!("{} on {}, {unit}.", capital(carrier), link.body.title),
+            &format!("{} on {}, {unit}.", capital(parent), link.body.title),
             "T",
         )
     });
-    let doc = "What the motors exert, each on the body it drives and, reversed, on its carrier. \
-               Not asked at a joint whose acceleration is given.";
+    let doc = "Torques or forces of the motors, each on the child body and, reversed, on the parent \
+               body. Not read at a joint whose acceleration is given.";
     record("MotorTorques<T = f64>", doc, fields.collect())
 }
 
@@ -312,6 +252,6 @@ fn per_joint(kind: &Kind) -> Record {
         let doc = format!("Of the {}.", link.body.title);
         field(&body_name(&link.body), &doc, "V")
     });
-    let doc = "A value for each joint, by the body behind it.";
+    let doc = "A value for each joint, by its child body.";
     record("PerJoint<V>", doc, fields.collect())
 }

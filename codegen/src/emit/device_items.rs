@@ -1,10 +1,11 @@
 //! The functions and implementations of a kind's second file, line by line, as `rustfmt` has them.
 
 use super::by_number::by_number;
-use super::device::{Signatures, body_name, imbalanced, inertia_name, moments, type_name};
+use super::device::{Signatures, body_name, imbalanced, inertia_name, moments};
 use super::device_calls::rates_function;
+use super::device_parameters::named;
 use super::layout::fitted;
-use super::text::{COMMENT, wrapped};
+use super::text::{COMMENT, pretty_item, wrapped};
 use crate::derivation::chain::mount_entry;
 use crate::kinds::{Centre, Inertia, Kind, Link, Motion};
 use crate::space::Axis;
@@ -62,7 +63,7 @@ impl Items<'_> {
 
     /// The device with nothing but its outermost body.
     fn bare(&self) -> String {
-        let (name, tip) = (type_name(self.kind), &self.links()[self.links().len() - 1].body);
+        let (name, tip) = (self.kind.type_name(), &self.links()[self.links().len() - 1].body);
         let mut arguments = vec![format!("{}: T", tip.mass)];
         match tip.inertia {
             Inertia::Full(_) => arguments.push(format!("{}: Matrix3<T>", inertia_name(tip))),
@@ -102,18 +103,18 @@ impl Items<'_> {
             fields.push("model: ImbalanceModel::Coupled".to_owned());
         }
         let carried = self.links().len() > 1;
-        let carriers = if carried { "carriers without mass, " } else { "" };
+        let carriers = if carried { "other bodies without mass, " } else { "" };
         let mut doc = vec![
             format!(
-                "A bare {} at the hub's point B: {carriers}nothing offset, mount along B axes.",
+                "A bare {} at the hub's point B: {carriers}nothing offset, mount the identity.",
                 tip.title
             ),
             "Meant as a start for struct update syntax.".to_owned(),
         ];
         if carried {
             doc.push(
-                "Massless carriers are legal, and singular in the pose where one would turn about \
-                 the axis of the outermost body."
+                "Massless bodies are legal, and singular in the pose where one would turn about \
+                 the axis of the tip."
                     .to_owned(),
             );
         }
@@ -183,7 +184,7 @@ impl Items<'_> {
 
     /// The kernels, over any number.
     fn kernels(&self) -> String {
-        let name = type_name(self.kind);
+        let name = self.kind.type_name();
         let pose_type = match self.pose_letters().as_slice() {
             [] => "()".to_owned(),
             [one] => format!("super::{}<T>", record_of(one)),
@@ -215,16 +216,22 @@ impl Items<'_> {
 
     /// The implementation of the solver's interface.
     fn kind(&self) -> String {
-        let name = type_name(self.kind);
+        let name = self.kind.type_name();
         let zeros = |of: &dyn Fn(&Link) -> Vec<&'static str>| {
             let names: Vec<_> = self.links().iter().flat_map(of).collect();
             names.iter().map(|name| format!("{name}: zero()")).collect::<Vec<_>>()
         };
         let mut at_rest = zeros(&|link| vec![link.joint.coordinate]);
         at_rest.extend(zeros(&|link| vec![link.joint.rate]));
+        let [name_item, table, parameter_mut, passive_mut] =
+            named(self.kind).map(|item| pretty_item(&item).join("\n"));
         let mut items = vec![
             "    type Scalar = T;\n    type Motors = MotorTorques<T>;".to_owned(),
+            name_item,
             self.infos(),
+            table,
+            parameter_mut,
+            passive_mut,
             function("at_rest() -> Joints<T>", &fitted(8, "Joints {", &at_rest, "}")),
             function(
                 "motors_off() -> MotorTorques<T>",
@@ -247,8 +254,8 @@ impl Items<'_> {
         ];
         items.extend(self.balanced());
         items.push(self.constants());
-        let handed = "handed(constants: &super::Prepared<T>) -> Handed<T>";
-        items.push(function(handed, "        super::handed(constants)"));
+        let share = "constant_share(constants: &super::Prepared<T>) -> ConstantShare<T>";
+        items.push(function(share, "        super::constant_share(constants)"));
         items.extend(self.motion());
         items.extend(self.carried());
         format!("impl<T: Scalar> Kind for {name}<T> {{\n{}\n}}", items.join("\n\n"))
@@ -261,11 +268,13 @@ impl Items<'_> {
             let ignorable = !slides && !self.kind.axes_turn(k);
             format!(
                 "JointInfo {{\n    index: {k},\n    body: \"{}\",\n    coordinate: \"{}\",\n    \
-                 rate: \"{}\",\n    motor: \"{}\",\n    axis: {},\n    slides: {slides},\n    \
+                 rate: \"{}\",\n    \
+                 acceleration: \"{}\",\n    motor: \"{}\",\n    axis: {},\n    slides: {slides},\n    \
                  ignorable: {ignorable},\n    driven: {},\n    tip: {},\n}}",
                 body.title,
                 joint.coordinate,
                 joint.rate,
+                joint.acceleration,
                 joint.torque,
                 number(joint.motion.axis()),
                 link.is_driven(),
@@ -277,10 +286,8 @@ impl Items<'_> {
     }
 
     fn balanced(&self) -> Vec<String> {
-        let Some(body) = imbalanced(self.kind) else { return Vec::new() };
-        let (Centre::On(_, offset), name) = (body.centre, inertia_name(body)) else {
-            return Vec::new();
-        };
+        let Some((body, offset)) = imbalanced(self.kind) else { return Vec::new() };
+        let name = inertia_name(body);
         let text = format!(
             "        let [_, j_12, j_13, ..] = entries(&self.{name});\n        \
              let mut {name} = self.{name};\n        \

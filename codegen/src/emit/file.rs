@@ -10,8 +10,9 @@ use tera::{Context, Tera};
 use super::body::Counts;
 use super::by_number::by_number;
 use super::cost::{CountText, chain_passes, count, factoring};
-use super::device::{Signature, Signatures, device_file, type_name};
+use super::device::{Signature, Signatures, device_file};
 use super::home::Home;
+use super::inputs::Stated;
 use super::parts::{FUSED, Part, Parts, parts};
 use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
 use crate::derivation::chain::Chain;
@@ -20,6 +21,9 @@ use crate::kinds::{Kind, Motion};
 
 /// The records that are gathered into lanes or spread from them.
 const LANED: [&str; 4] = ["Prepared", "JointAccelerations", "HubShare", "Gains"];
+
+/// The functions that contain the mount: their vectors are expressed in B.
+const OF_HUB: [&str; 3] = ["constant_share", "eliminate", "back_substitute"];
 
 /// One emitted file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -108,7 +112,6 @@ pub struct Emitted {
     /// Its files.
     pub files: Vec<EmittedFile>,
     pub(super) module: &'static str,
-    pub(super) device_type: String,
     pub(super) counts: Vec<CountText>,
     /// Operations of `eliminate` after each set of passes over the chain.
     pub(super) passes: Vec<usize>,
@@ -123,7 +126,8 @@ impl Emitted {
     }
 
     /// Each function and what a call of it costs.
-    pub(crate) fn operations(&self) -> Vec<(String, usize)> {
+    #[must_use]
+    pub fn operations(&self) -> Vec<(String, usize)> {
         self.counts.iter().map(|count| (count.function.clone(), count.total)).collect()
     }
 }
@@ -137,11 +141,10 @@ pub fn of_kind(chain: &Chain<'_>, home: Home<'_>) -> Result<Emitted, EmitError> 
     let (tera, mut signatures) = (templates()?, Signatures::new());
     let kernels = kind_file(&tera, chain, home, &mut counts, &mut signatures)?;
     let device = device_file(&tera, chain.kind, home, &signatures)?;
-    let device_type = type_name(chain.kind);
     let files = vec![kernels, device];
     let passes = chain_passes(chain.kind);
     let factoring = factoring(chain.kind, &counts);
-    Ok(Emitted { files, module: chain.kind.name, device_type, counts, passes, factoring })
+    Ok(Emitted { files, module: chain.kind.name, counts, passes, factoring })
 }
 
 pub(super) fn templates() -> Result<Tera, EmitError> {
@@ -175,7 +178,7 @@ fn kind_file(
     signatures: &mut Signatures,
 ) -> Result<EmittedFile, EmitError> {
     let kind = chain.kind;
-    let Parts { mut records, functions: parts } = parts(chain);
+    let Parts { mut records, functions: parts, stated, inputs } = parts(chain);
     let mut functions = Vec::new();
     for part in &parts {
         rows.push(count(kind.name, &part.name, part.body.counts));
@@ -186,7 +189,8 @@ fn kind_file(
         if let Some(own) =
             records.iter_mut().find(|own| part.name == "prepare" && **own == part.output)
         {
-            describe(own, part.body.sections.iter().map(|(title, s)| (title.as_str(), pretty(s))));
+            let lines = part.body.sections.iter().flat_map(|(_, statements)| pretty(statements));
+            describe(own, lines, &stated);
         }
     }
     let texts: Vec<_> = records.iter().map(record_text).collect();
@@ -195,7 +199,7 @@ fn kind_file(
     let mut context = Context::new();
     context.insert("command", home.command());
     context.insert("source", kind.source);
-    context.insert("hash", &fnv1a64(&format!("{kind:?}")));
+    context.insert("hash", &fnv1a64(&(inputs + include_str!("templates/kind.rs.tera"))));
     context.insert("title", &capital(kind.title));
     context.insert("symmetric", &symmetric(kind));
     context.insert("imports", &home.imports(&imports));
@@ -212,36 +216,36 @@ pub(super) fn symmetric(kind: &Kind) -> Vec<String> {
     });
     let text = told.map(|link| {
         format!(
-            "The {} is the same from every angle: `{}` enters no equation, and what stands along \
-             its axes stands along those that carry it.",
+            "The {} is symmetric about its joint: `{}` enters no equation, and quantities of the \
+             body are expressed in the axes of its parent body.",
             link.body.title, link.joint.coordinate
         )
     });
     text.flat_map(|text| wrapped(&text, COMMENT)).collect()
 }
 
-/// Documents a constant by the formula that computes it, and a named one by its section: titles, and
-/// statements line by line.
-pub(super) fn describe<'a>(
+/// Documents a constant by the formula that computes it, its unit and, where it has a name of its
+/// own, the section that states it. The formulas are those of the emitted `lines`.
+pub(super) fn describe(
     record: &mut Record,
-    sections: impl Iterator<Item = (&'a str, Vec<String>)>,
+    lines: impl Iterator<Item = String>,
+    stated: &HashMap<String, Stated>,
 ) {
-    let mut docs = HashMap::new();
-    for (title, lines) in sections {
-        for line in lines {
-            if let Some((name, formula)) = line.split_once(" = ") {
-                let name = name.rsplit(' ').next().unwrap_or(name);
-                let formula = format!("`{}`.", formula.trim_end_matches(';'));
-                let numbered = name.starts_with("k_");
-                let doc = if numbered { formula } else { format!("{formula} {title}") };
-                docs.insert(name.to_owned(), doc);
-            }
+    let mut formulas = HashMap::new();
+    for line in lines {
+        if let Some((name, formula)) = line.split_once(" = ") {
+            let name = name.rsplit(' ').next().unwrap_or(name);
+            formulas.insert(name.to_owned(), formula.trim_end_matches(';').to_owned());
         }
     }
     for field in &mut record.fields {
-        if let Some(doc) = docs.remove(&field.name) {
-            field.doc = doc;
-        }
+        let Some(formula) = formulas.remove(&field.name) else { continue };
+        let stated = stated.get(&field.name);
+        let unit = stated.and_then(|stated| stated.unit);
+        let unit = unit.map_or_else(String::new, |unit| format!(", {unit}"));
+        let numbered = field.name.starts_with("k_");
+        let title = stated.filter(|_| !numbered).map_or("", |stated| stated.title.as_str());
+        format!("`{formula}`{unit}. {title}").trim_end().clone_into(&mut field.doc);
     }
 }
 
@@ -273,6 +277,8 @@ fn function(part: &Part) -> FunctionText {
     let Counts { mul, add, neg, div } = body.counts;
     let mut lines: Vec<_> = part.doc.iter().map(|line| spaced(line)).collect();
     lines.push(String::new());
+    lines.extend(contract(part).iter().map(|line| spaced(line)));
+    lines.push(String::new());
     lines.push(format!(" Operations: {mul} mul, {add} add, {neg} neg, {div} div, 0 trig."));
     let arguments = part.inputs.iter().map(|(p, record)| format!("{p}: &{}<T>", record.name));
     let arguments: Vec<_> = arguments.collect();
@@ -294,6 +300,44 @@ fn function(part: &Part) -> FunctionText {
         sections: body.sections.iter().map(section).collect(),
         result: literal(output, &record_fields(part, &part.output)),
     }
+}
+
+/// What a function takes and what it promises, a line for each.
+fn contract(part: &Part) -> Vec<String> {
+    let argument = |(letter, record): &(&str, Record)| {
+        let what = match *letter {
+            "p" if part.name == "prepare" => "parameters",
+            "p" => "constants",
+            "q" => "sines and cosines",
+            "s" => "lengths",
+            "v" => "joint rates",
+            "w" => "the hub's rate",
+            "b" => "the hub's velocities",
+            "a" => "the hub's accelerations",
+            "u" => "motors",
+            "m" => "modes",
+            "j" => "joint accelerations",
+            "x" => "wrenches",
+            "g" => "the gradient",
+            "e" => "gains",
+            _ => record.name.as_str(),
+        };
+        format!("{what} `{letter}`")
+    };
+    let arguments: Vec<_> = part.inputs.iter().map(argument).collect();
+    // Other arguments have no frame, or state their own.
+    let of_hub = |(letter, _): &(&str, Record)| ["w", "b", "a", "g"].contains(letter);
+    let frame = match part.inputs.iter().any(of_hub) {
+        true if OF_HUB.contains(&part.name.as_str()) => ", expressed in B",
+        true => ", expressed in the device's axes",
+        false => "",
+    };
+    let takes = format!("Takes {}{frame}.", arguments.join(", "));
+    let returns = format!(
+        "Returns `{}`, proved equal to the equations cited. No branch, no panic.",
+        part.output.name
+    );
+    [takes, returns].iter().flat_map(|line| wrapped(line, COMMENT)).collect()
 }
 
 /// Field and value of every number of a record.

@@ -9,15 +9,16 @@ use crate::graph::{Graph, Stage};
 use crate::kernel::{Kernel, kernels, parameters};
 
 /// The functions of a kind.
-pub(crate) struct Functions<'g> {
+pub struct Functions<'g> {
     /// What depends on parameters alone.
-    pub(crate) prepared: Prepared<'g>,
+    pub prepared: Prepared<'g>,
     /// All others, in the order of the emitted file.
-    pub(crate) kernels: Vec<Kernel<'g>>,
+    pub kernels: Vec<Kernel<'g>>,
 }
 
 /// The functions of the chain's kind.
-pub(crate) fn functions<'g>(chain: &Chain<'g>) -> Functions<'g> {
+#[must_use]
+pub fn functions<'g>(chain: &Chain<'g>) -> Functions<'g> {
     let (graph, raw) = (chain.graph, parameters(chain.kind));
     let mut kernels = kernels(chain);
     if chain.passes.factor {
@@ -36,7 +37,8 @@ pub(crate) fn functions<'g>(chain: &Chain<'g>) -> Functions<'g> {
 
 impl<'g> Functions<'g> {
     /// The same with what `prepare` computes put where the others read it: they share its nodes.
-    pub(crate) fn joined(mut self, graph: &'g Graph) -> Self {
+    #[must_use]
+    pub fn joined(mut self, graph: &'g Graph) -> Self {
         let computed = self.prepared.sections.iter().flat_map(|section| &section.statements);
         let computed: HashMap<_, _> = computed.map(|s| (s.name.clone(), s.value)).collect();
         for kernel in &mut self.kernels {

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::body::{FunctionBody, Writer};
 use super::functions::{Functions, functions};
+use super::inputs::{self, Stated};
 use super::prepare::Prepared;
 use super::render::Rendered;
 use crate::derivation::chain::Chain;
@@ -21,6 +22,10 @@ pub(super) struct Parts {
     pub(super) records: Vec<Record>,
     /// `prepare` first.
     pub(super) functions: Vec<Part>,
+    /// Section and unit of each constant.
+    pub(super) stated: HashMap<String, Stated>,
+    /// The hash of the kind's data and of everything derived from them.
+    pub(super) inputs: String,
 }
 
 /// One function.
@@ -42,13 +47,16 @@ pub(super) struct Part {
 /// The parts of the chain's kind.
 pub(super) fn parts(chain: &Chain<'_>) -> Parts {
     let kind = chain.kind;
-    let Functions { kernels, prepared } = functions(chain);
+    let functions = functions(chain);
+    let inputs = inputs::derived(chain.graph, kind, &functions);
+    let Functions { kernels, prepared } = functions;
+    let stated = inputs::stated(&prepared.sections);
     let raw = parameters(kind);
     let computed = prepared.computed(&raw);
     let names = prepared.record.fields.iter().map(|field| field.name.clone());
     let prepare = Part {
         name: "prepare".to_owned(),
-        doc: vec!["What depends on parameters alone, once per device.".to_owned()],
+        doc: vec!["What depends only on parameters, once for each device.".to_owned()],
         inputs: vec![("p", raw.clone())],
         body: prepare_body(chain, &prepared),
         output: prepared.record.clone(),
@@ -84,7 +92,7 @@ pub(super) fn parts(chain: &Chain<'_>) -> Parts {
         }
     }
     debug_assert!(records.contains(&joint_accelerations(kind)));
-    Parts { records, functions }
+    Parts { records, functions, stated, inputs }
 }
 
 /// The body of `prepare`.

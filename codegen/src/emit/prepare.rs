@@ -7,13 +7,13 @@ use crate::graph::{Expr, Graph, Node, NodeId, Stage};
 use crate::kernel::{Field, Kernel, Record, Source};
 
 /// The constants of a kind: fields of `Prepared` and the statements that compute them.
-pub(crate) struct Prepared<'g> {
+pub struct Prepared<'g> {
     /// Field name of each node that a kernel reads.
     pub(super) fields: HashMap<NodeId, String>,
     /// In order of first use: raw parameters first.
-    pub(crate) record: Record,
+    pub record: Record,
     /// The statements of `prepare`.
-    pub(crate) sections: Vec<Section<'g>>,
+    pub sections: Vec<Section<'g>>,
 }
 
 impl<'g> Prepared<'g> {

@@ -17,6 +17,14 @@ pub(super) fn pretty(statements: &[TokenStream]) -> Vec<String> {
     lines[1..lines.len() - 1].iter().map(|line| line[4..].to_owned()).collect()
 }
 
+/// An item of an implementation, as formatted lines indented by four.
+pub(super) fn pretty_item(item: &TokenStream) -> Vec<String> {
+    let file = syn::parse2(quote!(impl Item { #item })).expect("the item is Rust");
+    let text = prettyplease::unparse(&file);
+    let lines: Vec<_> = text.lines().map(str::to_owned).collect();
+    lines[1..lines.len() - 1].to_vec()
+}
+
 /// A structure literal, on one line where it fits.
 pub(super) fn literal(name: &str, fields: &[(String, String)]) -> Vec<String> {
     let shown = |(field, value): &(String, String)| {

@@ -64,7 +64,8 @@ impl<'g> Expr<'g> {
     }
 
     /// `self` with every symbol replaced of which `value` says something.
-    pub(crate) fn rebuild(self, value: impl FnMut(SymbolId) -> Option<Self>) -> Self {
+    #[must_use]
+    pub fn rebuild(self, value: impl FnMut(SymbolId) -> Option<Self>) -> Self {
         self.graph.rebuilt([self.id], value)[&self.id]
     }
 

@@ -18,13 +18,12 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::{Add, Mul, Neg, Sub};
 
-pub use rational::Rational;
-pub(crate) use rational::float;
+pub use rational::{Rational, float};
 pub use rules::RULES;
 pub use symbol::{Stage, Symbol, SymbolId};
 
 /// Position of a node in its graph.
-pub(crate) type NodeId = u32;
+pub type NodeId = u32;
 
 /// One interned node. Operands of a sum and of a product stand in id order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,7 +44,7 @@ pub enum Node {
 
 impl Node {
     /// The ids of the operands, at most two.
-    pub(crate) fn operands(self) -> impl Iterator<Item = NodeId> {
+    pub fn operands(self) -> impl Iterator<Item = NodeId> {
         let (first, second) = match self {
             Self::Constant(_) | Self::Symbol(_) => (None, None),
             Self::Neg(a) | Self::Recip(a) => (Some(a), None),
@@ -96,11 +95,14 @@ impl Graph {
     }
 
     /// The node behind an id.
-    pub(crate) fn node(&self, id: NodeId) -> Node {
+    #[must_use]
+    pub fn node(&self, id: NodeId) -> Node {
         self.arena.borrow().nodes[id as usize]
     }
 
-    pub(crate) fn expr(&self, id: NodeId) -> Expr<'_> {
+    /// The expression of a node.
+    #[must_use]
+    pub fn expr(&self, id: NodeId) -> Expr<'_> {
         Expr { graph: self, id }
     }
 
@@ -122,7 +124,8 @@ impl Graph {
     }
 
     /// Every node that `roots` are made of, operands before their users.
-    pub(crate) fn reachable(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<NodeId> {
+    #[must_use]
+    pub fn reachable(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<NodeId> {
         let arena = self.arena.borrow();
         let mut seen = vec![false; arena.nodes.len()];
         let mut pending: Vec<NodeId> = roots.into_iter().collect();
@@ -146,7 +149,9 @@ impl<'g> Expr<'g> {
         self.graph
     }
 
-    pub(crate) fn id(self) -> NodeId {
+    /// Its node.
+    #[must_use]
+    pub fn id(self) -> NodeId {
         self.id
     }
 

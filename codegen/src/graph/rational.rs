@@ -24,7 +24,8 @@ pub(crate) fn product(a: Rational, b: Rational) -> Option<Rational> {
 
 /// The nearest double.
 #[expect(clippy::cast_precision_loss, reason = "both parts are below 2^31")]
-pub(crate) fn float(k: Rational) -> f64 {
+#[must_use]
+pub fn float(k: Rational) -> f64 {
     *k.numer() as f64 / *k.denom() as f64
 }
 

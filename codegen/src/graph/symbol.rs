@@ -6,6 +6,14 @@ use super::{Expr, Graph, Node, NodeId};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SymbolId(pub(crate) u16);
 
+impl SymbolId {
+    /// Its number among the symbols of its graph.
+    #[must_use]
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
 /// How late in an evaluation a quantity becomes known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
@@ -96,12 +104,14 @@ impl Graph {
     }
 
     /// How many symbols there are.
-    pub(crate) fn symbols(&self) -> usize {
+    #[must_use]
+    pub fn symbols(&self) -> usize {
         self.arena.borrow().symbols.len()
     }
 
     /// The symbol itself, as an expression.
-    pub(crate) fn named(&self, id: SymbolId) -> Expr<'_> {
+    #[must_use]
+    pub fn named(&self, id: SymbolId) -> Expr<'_> {
         self.intern(Node::Symbol(id))
     }
 

@@ -14,7 +14,9 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     axes(chain, &mut script);
     Kernel {
         name: "axes".to_owned(),
-        doc: vec!["Axes of each body and origin of its joint, along the device's B axes.".into()],
+        doc: vec![
+            "Axes of each body and origin of its joint, expressed in the device's axes.".into(),
+        ],
         inputs: records::placed(chain.kind),
         sections: script.sections,
         output: output(chain.kind),
@@ -23,17 +25,17 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
 }
 
 fn output(kind: &Kind) -> Record {
-    let doc = "Axes of the bodies and origins of their joints, along the device's B axes.";
+    let doc = "Axes of the bodies and origins of their joints, expressed in the device's axes.";
     let mut record = Record::new("Axes", doc);
     for (k, link) in kind.links.iter().enumerate() {
         let (frame, [letter, _]) = (link.body.frame, link.body.letters);
-        let whose = if kind.axes_turn(k) { "" } else { "carrier of the " };
+        let whose = if kind.axes_turn(k) { "" } else { "parent body of the " };
         for (axis, symbol) in XYZ.iter().zip(["First", "Second", "Third"]) {
             let title = link.body.title;
-            let doc = format!("{symbol} axis of the {whose}{title}, eq. (A1)");
+            let doc = format!("{symbol} axis of the {whose}{title}, eq. (D1)");
             record.vector(&format!("{frame}_{axis}"), "b", &doc, "1");
         }
-        let doc = format!("{letter}, origin of its joint, from B, eq. (A2)");
+        let doc = format!("{letter}, origin of its joint, from B, eq. (D2)");
         record.vector(&format!("origin_{frame}"), "b", &doc, "m");
     }
     record
@@ -47,9 +49,9 @@ fn claims<'g>(chain: &Chain<'g>) -> Vec<Claim<'g>> {
         let frame = data.body.frame;
         let own = if link.turn.is_none() { carrier } else { body.axes };
         for (axis, column) in XYZ.iter().zip(own) {
-            made.push(Claim::vector("(A1)", &format!("{frame}_{axis}"), "b", column));
+            made.push(Claim::vector("(D1)", &format!("{frame}_{axis}"), "b", column));
         }
-        made.push(Claim::vector("(A2)", &format!("origin_{frame}"), "b", body.origin()));
+        made.push(Claim::vector("(D2)", &format!("origin_{frame}"), "b", body.origin()));
         carrier = own;
     }
     made

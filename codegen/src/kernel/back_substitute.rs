@@ -23,7 +23,7 @@ pub(super) fn kernel<'g>(
         hub.map(|name| graph.symbol(name, Stage::Acceleration)).collect();
     let given = |name: &str| graph.symbol(name, Stage::Rate);
     let mut script = Script::new(graph);
-    let title = "Row by row from the hub outwards, eq. (E4): the free acceleration less the gains.";
+    let title = "Row by row, outboard, eq. (D13): the free acceleration less the gains.";
     script.section("row", title);
     for link in chain.kind.links {
         let (tag, name) = (link.joint.tag, link.joint.acceleration);

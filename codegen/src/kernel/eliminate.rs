@@ -28,8 +28,11 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>, Reco
                 torques.join(", ")
             ),
             "eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose".into(),
-            "acceleration is given has no equation: what it asks for goes to the right side."
+            "acceleration is given has no equation: what it requires goes to the right side.".into(),
+            String::new(),
+            "Equations (D1) to (D13) are derived in `tests/derivation/kernels`. By (D3), the origin"
                 .into(),
+            "of a turning joint is elsewhere on its axis than where the paper places it.".into(),
         ],
         inputs: inputs(kind, [("w", records::body_rate())].into_iter().chain(drives)),
         sections: script.sections,
@@ -65,9 +68,9 @@ fn output(kind: &Kind, eliminated: &Eliminated<'_>, gains: &Record) -> Record {
     record
 }
 
-/// The rows of eq. (E4): kept for each device until the hub is solved, and so apart from the rest.
+/// The rows of eq. (D13): kept for each device until the hub is solved, and so apart from the rest.
 fn gains(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {
-    let doc = "How the joints of a device follow the hub, eq. (E4), once they are eliminated.";
+    let doc = "How the joints of a device follow the hub, eq. (D13), once they are eliminated.";
     let mut record = Record::new("Gains", doc);
     for pivot in &eliminated.pivots {
         let link = link_of(kind, pivot.tag);

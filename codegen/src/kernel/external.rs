@@ -16,7 +16,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     inputs.push(("x", records::wrenches(chain.kind)));
     Kernel {
         name: "external".to_owned(),
-        doc: vec!["What acts on the bodies from outside, carried inwards.".to_owned()],
+        doc: vec!["External wrenches on the bodies, summed from the tip inwards.".to_owned()],
         inputs,
         sections: script.sections,
         output: output(chain.kind),
@@ -25,18 +25,19 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
 }
 
 fn output(kind: &Kind) -> Record {
-    let doc = "What acts from outside: on each body and all outside it, along own axes, moments \
-               about its joint's origin; along each joint, to be added to its motor's; on the hub.";
+    let doc = "External wrenches: on each body with all bodies outboard of it, expressed in its own \
+               axes, moments about its joint's origin; along each joint, to be added to its \
+               motor's; on the hub.";
     let mut record = Record::new("External", doc);
     for link in kind.links {
         let (body, joint) = (&link.body, &link.joint);
-        let on = format!("the {} and what it carries, eq. (F1)", body.title);
+        let on = format!("the {} and the bodies outboard of it, eq. (D14)", body.title);
         record.wrench("sum", body.frame, &on, body.letters[0]);
         let doc =
-            format!("Along the {}'s joint, eq. (F2), {}.", body.title, joint.motion.units().drive);
+            format!("Along the {}'s joint, eq. (D15), {}.", body.title, joint.motion.units().drive);
         record.field(format!("drive_{}", joint.tag), doc);
     }
-    record.wrench("sum", "b", "the hub, eq. (F1)", "B");
+    record.wrench("sum", "b", "the hub, eq. (D14)", "B");
     record
 }
 
@@ -46,12 +47,12 @@ fn claims<'g>(chain: &Chain<'g>) -> Vec<Claim<'g>> {
     let mut made = Vec::new();
     for (k, link) in chain.kind.links.iter().enumerate() {
         let wrench = acting::at_joint(chain, &on_bodies, k).resolved(chain, k + 1);
-        made.extend(Claim::wrench(["(F1)"; 2], "sum", link.body.frame, wrench));
+        made.extend(Claim::wrench(["(D14)"; 2], "sum", link.body.frame, wrench));
     }
-    made.extend(Claim::wrench(["(F1)"; 2], "sum", "b", acting::on_hub(chain, &on_bodies)));
+    made.extend(Claim::wrench(["(D14)"; 2], "sum", "b", acting::on_hub(chain, &on_bodies)));
     for (drive, link) in acting::virtual_work(chain, &on_bodies).into_iter().zip(chain.kind.links) {
         let name = format!("drive_{}", link.joint.tag);
-        let (tag, components) = ("(F2)".to_owned(), vec![(name.clone(), drive)]);
+        let (tag, components) = ("(D15)".to_owned(), vec![(name.clone(), drive)]);
         made.push(Claim { tag, name, components });
     }
     made

@@ -17,7 +17,8 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     Kernel {
         name: "gravity".to_owned(),
         doc: vec![
-            "What a field of acceleration `G r` does to each body: hand it to [`external`].".into(),
+            "Wrench of a field of acceleration `G r` on each body, an argument of [`external`]."
+                .into(),
         ],
         inputs,
         sections: script.sections,
@@ -27,9 +28,12 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
 }
 
 fn output(kind: &Kind) -> Record {
-    let mut record = Record::new("Gravity", "What a field of acceleration does to a device.");
-    record.nested("wrenches", records::wrenches(kind), "On each body, eq. (G2).");
-    let doc = "S = ∫ r rᵀ dm of the device about B, along the device's B axes, eq. (G3)";
+    let mut record = Record::new(
+        "Gravity",
+        "Wrenches of a field of acceleration, and the second moment of the device.",
+    );
+    record.nested("wrenches", records::wrenches(kind), "On each body, eq. (D17).");
+    let doc = "S = ∫ r rᵀ dm of the device about B, expressed in the device's axes, eq. (D18)";
     record.tensor("second_moment", doc, "kg m²");
     record
 }
@@ -38,11 +42,11 @@ fn claims<'g>(chain: &Chain<'g>) -> Vec<Claim<'g>> {
     let mut made = Vec::new();
     for (k, (on, link)) in field::wrenches(chain).into_iter().zip(chain.kind.links).enumerate() {
         let wrench = on.resolved(chain, k + 1);
-        made.extend(Claim::wrench(["(G2)"; 2], "on", link.body.frame, wrench));
+        made.extend(Claim::wrench(["(D17)"; 2], "on", link.body.frame, wrench));
     }
     let entries = field::second_moment(chain).entries();
     made.push(Claim {
-        tag: "(G3)".to_owned(),
+        tag: "(D18)".to_owned(),
         name: "second_moment".to_owned(),
         components: pairs(sextuple("second_moment"), entries).collect(),
     });

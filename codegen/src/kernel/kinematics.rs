@@ -11,9 +11,9 @@ use crate::derivation::composite;
 use crate::derivation::motion::{Motion, Observer, motions};
 use crate::derivation::placed::Placed;
 use crate::derivation::script::{Script, pairs, sextuple, triple};
-use crate::graph::{Expr, Stage};
+use crate::graph::{Expr, Node, Stage};
 use crate::kinds;
-use crate::space::{Frame, Hub, Symmetric, Vector};
+use crate::space::{Carrier, Frame, Hub, Symmetric, Vector};
 
 /// One kernel per body, then the centre of mass.
 #[must_use]
@@ -111,12 +111,13 @@ fn body<'g>(
     let omega = vector(reference.omega_b, k + 1).components();
     b.vector(["rate", equations.omega, &stem, own, &title, "rad/s"], motion.omega, omega);
 
+    arm(&mut b.script, chain, k, motion);
     let r = format!("r_{point}_b");
-    let title = format!("r_{{{point_letter}/B}}, behind eq. {}", equations.r_dprime);
+    let title = format!("r_{{{point_letter}/B}}, see eq. {}", equations.r_dprime);
     let whole = vector(reference.r, k).components();
     b.vector(["pos", "(step)", &r, carrier, &title, "m"], motion.centre.position, whole);
     let prime = format!("{r}_prime");
-    let title = format!("r′_{{{point_letter}/B}}, behind eq. {}", equations.r_dprime);
+    let title = format!("r′_{{{point_letter}/B}}, see eq. {}", equations.r_dprime);
     let whole = vector(r_prime, k).components();
     b.vector(["vel", "(step)", &prime, carrier, &title, "m/s"], motion.centre.velocity, whole);
 
@@ -145,7 +146,7 @@ fn body<'g>(
     let rest = acceleration.without(Stage::Acceleration);
     b.vector(["acc", tag, &stem, carrier, &title, "m/s²"], rest, whole);
 
-    let along = format!("along the axes of the {}", data.title);
+    let along = format!("expressed in the axes of the {}", data.title);
     let i_prime = link.inertia.prime(motion.axes);
     let stem = format!("i_{own}_{point}_prime");
     let title =
@@ -179,6 +180,31 @@ fn body<'g>(
     }
 }
 
+/// Names the centre of mass from its joint's origin, as far as a component is a sum that is also a part
+/// of an acceleration, whose name it would bear otherwise.
+fn arm<'g>(script: &mut Script<'g>, chain: &Chain<'g>, k: usize, motion: &Motion<'g>) {
+    let (link, body) = (&chain.links[k], &chain.kind.links[k].body);
+    let carrier = k.checked_sub(1).map_or("b", |parent| chain.kind.links[parent].body.frame);
+    let acceleration = motion.centre.acceleration;
+    let accelerations = chain.links.iter().map(|joint| joint.acceleration);
+    let parts: Vec<_> =
+        accelerations.flat_map(|q_ddot| acceleration.partial(q_ddot).components()).collect();
+    let is_part = |e: Expr<'g>| {
+        matches!(e.node(), Node::Sum(..)) && parts.iter().any(|part| *part == e || *part == -e)
+    };
+    let stem = format!("r_{}_{}", body.point, body.origin);
+    let centre = link.centre.turned::<Carrier>(link.turn.inverse());
+    let components = pairs(triple(&stem, carrier), centre.components());
+    let named: Vec<_> = components.filter(|(_, component)| is_part(*component)).collect();
+    if named.is_empty() {
+        return;
+    }
+    let [origin, point] = body.letters;
+    let equation = body.equations.r_dprime;
+    script.section("arm", format!("r_{{{point}/{origin}}}, behind eq. {equation}, m."));
+    script.names(named);
+}
+
 /// The device's share of `m_sc c` (9), of its derivatives (11), and the f of (17), along B axes.
 fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'g> {
     let graph = chain.graph;
@@ -189,8 +215,8 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
     let record = Record::new(
         "FirstMoment",
         &format!(
-            "A device's share of `m_sc c` and its derivatives seen from B, along the device's B \
-             axes: `m_sc c″ = {} + f̃`.",
+            "A device's share of `m_sc c` and its derivatives seen from B, expressed in the \
+             device's axes: `m_sc c″ = {} + f̃`.",
             terms.join(" + ")
         ),
     );
@@ -203,7 +229,7 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
     let mc_dprime = mc_prime.component_rates();
     let title = "Σ m r, share of m_sc c, eq. (9)";
     b.vector(["mom", "(9)", "mc", "b", title, "kg m"], share.first_moment, mc.components());
-    let title = "Σ m r′, share of m_sc c′, behind eq. (11)";
+    let title = "Σ m r′, share of m_sc c′, see eq. (11)";
     b.vector(
         ["rate", "(step)", "mc_prime", "b", title, "kg m/s"],
         momenta.linear,

@@ -17,9 +17,9 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     Kernel {
         name: "loads".to_owned(),
         doc: vec![
-            "What the carrier of each joint exerts on all outside it, so that these accelerations"
+            "Inverse dynamics: force and moment that each parent body exerts on its child body at"
                 .into(),
-            format!("happen: the torques of {}.", across.join(", ")),
+            format!("given accelerations, with the torques of {}.", across.join(", ")),
         ],
         inputs: inputs(
             kind,
@@ -36,8 +36,9 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
 }
 
 fn output(kind: &Kind) -> Record {
-    let doc = "What the carrier of each joint exerts on all outside it, nothing else acting: along \
-               own axes, moments about the joint's origin. Along its axis that is the motor's.";
+    let doc = "Loads across the joints without external wrenches: what the parent body exerts on \
+               the child body and all bodies outboard of it, expressed in the child body's axes, \
+               moments about the joint's origin. Along the joint's axis it is the motor's.";
     let mut record = Record::new("Loads", doc);
     for link in kind.links {
         let (body, equations) = (&link.body, &link.body.equations);

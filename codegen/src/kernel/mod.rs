@@ -2,10 +2,10 @@
 
 mod axes;
 mod back_substitute;
+mod constant_share;
 mod eliminate;
 mod external;
 mod gravity;
-mod handed;
 mod kinematics;
 mod loads;
 mod momenta;
@@ -87,7 +87,7 @@ pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
     let mut list = kinematics::kernels(chain);
     let (kernel, eliminated, gains) = eliminate::kernel(chain);
     let back = back_substitute::kernel(chain, &eliminated, gains);
-    list.extend([handed::kernel(chain), kernel, back]);
+    list.extend([constant_share::kernel(chain), kernel, back]);
     list.push(momenta::kernel(chain));
     list.push(axes::kernel(chain));
     list.push(loads::kernel(chain));

@@ -14,7 +14,7 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let mut script = Script::new(chain.graph);
     let momenta = composite::momenta(chain, &Observer::inertial(chain), &mut script);
     script
-        .section("sum", "Kinetic energy, and momenta as in eq. (20), of the device, along B axes.");
+        .section("sum", "Kinetic energy, and momenta as in eq. (20), of the device, expressed in the device's axes.");
     script.name("energy", momenta.energy);
     script.names(pairs(triple("linear", "b"), momenta.linear.components()));
     script.names(pairs(triple("angular_b", "b"), momenta.angular.components()));

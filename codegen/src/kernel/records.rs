@@ -116,7 +116,7 @@ pub fn parameters(kind: &Kind) -> Record {
         Record::new("Parameters", "What the device is made of: mount, masses, places, inertias.");
     for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
         let (of, axis) = (["x", "y", "z"][column], ["bx", "by", "bz"][row]);
-        let doc = format!("The device's {of} axis in the hub, along {axis}, 1.");
+        let doc = format!("The device's {of} axis expressed in B, {axis} component, 1.");
         record.field(mount_entry(row, column), doc);
     }
     for link in kind.links {
@@ -133,7 +133,7 @@ fn link_parameters(link: &Link, record: &mut Record) {
             record.field(name, format!("{symbol}: {what}, {axis} component, m."));
         }
     };
-    let carrier = format!("origin of the {} in the axes that carry it", body.title);
+    let carrier = format!("origin of the {}, expressed in the parent body's axes", body.title);
     place(joint.origin.symbol, joint.origin.names, &carrier);
     match body.centre {
         Centre::Free(triple) => {
@@ -196,8 +196,7 @@ fn trig(kind: &Kind) -> Record {
 /// The joint rates.
 #[must_use]
 pub fn rates(kind: &Kind) -> Record {
-    let mut record =
-        Record::new("Rates", "Joint rates, each relative to the body that carries it.");
+    let mut record = Record::new("Rates", "Joint rates, each relative to the parent body.");
     for link in kind.links {
         let (symbol, unit) = (link.joint.symbols[0], link.joint.motion.units().rate);
         let doc = format!("{symbol}: rate of the {}, {unit}.", link.body.title);
@@ -209,9 +208,12 @@ pub fn rates(kind: &Kind) -> Record {
 /// The motor torques.
 #[must_use]
 pub fn motors(kind: &Kind) -> Record {
-    let what = if kind.sliding().next().is_some() { "Torques and forces" } else { "Motor torques" };
-    let mut record =
-        Record::new("Motors", &format!("{what}, each on a body and against its carrier."));
+    let what =
+        if kind.sliding().next().is_some() { "Motor torques and forces" } else { "Motor torques" };
+    let mut record = Record::new(
+        "Motors",
+        &format!("{what}, each on the child body and reversed on the parent body."),
+    );
     for link in kind.driven() {
         let (what, unit) = match link.joint.motion {
             Motion::Turn(_) => ("Torque", link.joint.motion.units().drive),
@@ -270,10 +272,10 @@ pub fn joint_accelerations(kind: &Kind) -> Record {
     record
 }
 
-/// What acts on each body alone.
+/// Wrench on each body.
 #[must_use]
 pub fn wrenches(kind: &Kind) -> Record {
-    let doc = "What acts on each body alone, along own axes, moments about its joint's origin.";
+    let doc = "Wrench on each body, expressed in its own axes, moments about its joint's origin.";
     let mut record = Record::new("Wrenches", doc);
     for Link { body, .. } in kind.links {
         record.wrench("on", body.frame, &format!("the {}", body.title), body.letters[0]);
@@ -289,7 +291,7 @@ pub fn shared_records() -> [Record; 7] {
         body_velocity(),
         body_acceleration(),
         hub_share(),
-        handed(),
+        constant_share(),
         energy_momentum(),
         gradient(),
     ]
@@ -298,7 +300,7 @@ pub fn shared_records() -> [Record; 7] {
 /// Angular velocity of B.
 #[must_use]
 pub(super) fn body_rate() -> Record {
-    let doc = "ω_{B/N} along B axes; in kernels without a mount, along the device's.";
+    let doc = "ω_{B/N}, expressed in B; in functions without the mount, in the device's axes.";
     let mut record = Record::new("BodyRate", doc).shared();
     record.vector("omega", "b", "ω_{B/N}", "rad/s");
     record
@@ -307,7 +309,7 @@ pub(super) fn body_rate() -> Record {
 /// Velocity of point B and angular velocity of B.
 #[must_use]
 pub(super) fn body_velocity() -> Record {
-    let doc = "Velocity of point B and angular velocity of B, along the device's B axes.";
+    let doc = "Velocity of point B and angular velocity of B, expressed in the device's axes.";
     let mut record = Record::new("BodyVelocity", doc).shared();
     record.vector("r_b_n_dot", "b", "ṙ_{B/N}", "m/s");
     record.vector("omega", "b", "ω_{B/N}", "rad/s");
@@ -317,8 +319,8 @@ pub(super) fn body_velocity() -> Record {
 /// Acceleration of point B and angular acceleration of B.
 #[must_use]
 pub(super) fn body_acceleration() -> Record {
-    let doc = "Acceleration of point B and angular acceleration of B, along B axes; in kernels without a \
-               mount, along the device's.";
+    let doc = "Acceleration of point B and angular acceleration of B, expressed in B; in functions \
+               without the mount, in the device's axes.";
     let mut record = Record::new("BodyAcceleration", doc).shared();
     record.vector("r_b_n_ddot", "b", "r̈_{B/N}", "m/s²");
     record.vector("omega_dot", "b", "ω̇_{B/N}", "rad/s²");
@@ -328,48 +330,50 @@ pub(super) fn body_acceleration() -> Record {
 /// One device's share of the hub's equations.
 #[must_use]
 pub(super) fn hub_share() -> Record {
-    let doc = "What a device does to `M [r̈_{B/N}; ω̇] = [F; L_B] - h` along B axes: what its joints \
-               take out of M and add to h, and the part of first moment and inertia that moves.";
+    let doc = "Share of a device in `M [r̈_{B/N}; ω̇] = [F; L_B] - h`, expressed in B: what the elimination \
+               of its joints subtracts from M and adds to h, and its first moment and inertia \
+               without the constant share.";
     let mut record = Record::new("HubShare", doc).shared();
-    record.tensor("m_vv", "Taken out of M_vv", "kg");
+    record.tensor("m_vv", "Subtracted from M_vv", "kg");
     for row in 1..=3 {
         for column in 1..=3 {
-            let doc = format!("Taken out of M_vw, row {row} (force), column {column} (ω̇), kg m.");
+            let doc =
+                format!("Subtracted from M_vw, row {row} (force), column {column} (ω̇), kg m.");
             record.field(format!("m_vw_{row}{column}"), doc);
         }
     }
-    record.tensor("m_ww", "Taken out of M_ww", "kg m²");
+    record.tensor("m_ww", "Subtracted from M_ww", "kg m²");
     for row in 1..=3 {
         record.field(
             format!("h_v_{row}"),
-            format!("Force that the joints ask for, component {row}, N."),
+            format!("Force that the joints require, component {row}, N."),
         );
     }
     for row in 1..=3 {
-        let doc = format!("Moment about B that the joints ask for, component {row}, N m.");
+        let doc = format!("Moment about B that the joints require, component {row}, N m.");
         record.field(format!("h_w_{row}"), doc);
     }
-    record.vector("mr_moving", "b", "First moment about B, the part that moves", "kg m");
-    record.tensor("i_moving", "Inertia about B, the part that moves", "kg m²");
+    record.vector("mr_moving", "b", "First moment about B without the constant share", "kg m");
+    record.tensor("i_moving", "Inertia about B without the constant share", "kg m²");
     record
 }
 
-/// What the hub takes over of a device.
+/// The constant share of the hub.
 #[must_use]
-pub(super) fn handed() -> Record {
-    let doc = "What the hub takes over of a device: its mass, and of first moment and inertia what \
-               stays in the hub, about B along B axes.";
-    let mut record = Record::new("Handed", doc).shared();
-    record.field("hand_m", "Mass of the device, kg.");
-    record.vector("hand_mr", "b", "First moment about B", "kg m");
-    record.tensor("hand_i", "Inertia about B", "kg m²");
+pub(super) fn constant_share() -> Record {
+    let doc = "Constant share of the hub: the mass of a device, and the part of its first moment and \
+               inertia about B that no joint changes, expressed in B.";
+    let mut record = Record::new("ConstantShare", doc).shared();
+    record.field("constant_m", "Mass of the device, kg.");
+    record.vector("constant_mr", "b", "First moment about B", "kg m");
+    record.tensor("constant_i", "Inertia about B", "kg m²");
     record
 }
 
 /// One device's energy and momenta.
 #[must_use]
 pub(super) fn energy_momentum() -> Record {
-    let doc = "A device's share of kinetic energy and momenta, along the device's B axes.";
+    let doc = "A device's share of kinetic energy and momenta, expressed in the device's axes.";
     let mut record = Record::new("EnergyMomentum", doc).shared();
     record.field("energy", "Kinetic energy, J.");
     record.vector("linear", "b", "Linear momentum", "kg m/s");
@@ -380,8 +384,7 @@ pub(super) fn energy_momentum() -> Record {
 /// The gradient of a field of acceleration.
 #[must_use]
 pub(super) fn gradient() -> Record {
-    let doc =
-        "A field of acceleration that grows linearly from B, `G r`, along the device's B axes.";
+    let doc = "A field of acceleration that grows linearly from B, `G r`, expressed in the device's axes.";
     let mut record = Record::new("Gradient", doc).shared();
     record.tensor("g", "G, symmetric", "1/s²");
     record

@@ -16,6 +16,7 @@ mod equations;
 mod hinged_panel;
 mod naming;
 mod reaction_wheel;
+mod registry;
 mod sgcmg;
 mod slosh_mass;
 mod vscmg;
@@ -34,27 +35,12 @@ pub use equations::Equations;
 pub use hinged_panel::HINGED_PANEL;
 pub use naming::KindError;
 pub use reaction_wheel::REACTION_WHEEL;
+pub use registry::{Entry, KINDS, REGISTRY};
 pub use sgcmg::SGCMG;
 pub use slosh_mass::SLOSH_MASS;
 pub use vscmg::VSCMG;
 
 use crate::space::Axis;
-
-/// Every kind that is emitted.
-pub const KINDS: [&Kind; 12] = [
-    &DGVSCMG,
-    &BALANCED_DGVSCMG,
-    &DGCMG,
-    &BALANCED_DGCMG,
-    &VSCMG,
-    &BALANCED_VSCMG,
-    &SGCMG,
-    &BALANCED_SGCMG,
-    &REACTION_WHEEL,
-    &BALANCED_REACTION_WHEEL,
-    &HINGED_PANEL,
-    &SLOSH_MASS,
-];
 
 /// A device: joints and bodies from the hub outwards.
 #[derive(Clone, Copy, Debug)]

@@ -52,18 +52,20 @@ impl std::error::Error for KindError {}
 const LETTERS: [&str; 9] = ["b", "c", "d", "n", "sc", "rest", "tilde", "all", "bc"];
 
 /// First words of the names that the derivation makes.
-const STEMS: [&str; 24] = [
-    "angular", "cos", "diagonal", "driven", "energy", "f", "free", "gain", "given", "h", "held",
-    "i", "k", "linear", "m", "mass", "mr", "n", "omega", "pivot", "r", "recip", "sin", "u",
+const STEMS: [&str; 25] = [
+    "angular", "constant", "cos", "diagonal", "driven", "energy", "f", "free", "gain", "given",
+    "h", "held", "i", "k", "linear", "m", "mass", "mr", "n", "omega", "pivot", "r", "recip", "sin",
+    "u",
 ];
 
 /// Functions and records of every emitted file, as titles that would give their names.
-const TITLES: [&str; 22] = [
+const TITLES: [&str; 23] = [
     "axes",
     "back substitute",
     "body acceleration",
     "body rate",
     "body velocity",
+    "constant share",
     "eliminate",
     "eliminated",
     "energy momentum",
@@ -120,9 +122,13 @@ pub(super) fn check(kind: &Kind) -> Result<(), KindError> {
         [joint.coordinate, joint.rate, joint.acceleration]
             .into_iter()
             .try_for_each(|name| given.add(name))?;
-        if let Centre::On(_, distance) = body.centre {
-            own_word(distance, "distance")?;
-            given.add(distance)?;
+        match body.centre {
+            Centre::On(_, distance) => {
+                own_word(distance, "distance")?;
+                given.add(distance)?;
+            }
+            // Named after the body's letter, or not at all.
+            Centre::Free(_) | Centre::At => {}
         }
     }
     pairs(kind)

@@ -8,7 +8,7 @@ pub(super) struct Fence<'t> {
     pub(super) line: usize,
     /// The lines inside.
     pub(super) inside: Vec<&'t str>,
-    /// The lines behind it, up to the next block of this fence, with their numbers.
+    /// The lines after it, up to the next block of this fence, with their numbers.
     pub(super) after: Vec<(usize, &'t str)>,
 }
 

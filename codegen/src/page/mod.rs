@@ -83,19 +83,36 @@ pub fn read_on<'g>(
     for (axis, name) in ["s_x_hat", "s_y_hat", "g_z_hat"].into_iter().enumerate() {
         reader.define(name, Value::unit(graph, axis));
     }
-    let mut equations = Vec::new();
-    for page in pages {
-        for block in blocks(&page.name, &page.text, "equation")? {
-            let place = |error| PageError { page: page.name.clone(), line: block.line, error };
-            let value = reader.body(&block.body).map_err(place)?;
-            let components = reader.resolve(&block, value).map_err(place)?;
-            let components = in_the_case(graph, &block.given, components).map_err(place)?;
-            // What holds in a special case is no other meaning of the name.
-            if block.given.is_empty() {
-                reader.define(&block.name, value);
-            }
-            equations.push(Equation { block, components });
-        }
-    }
+    let equations = reader.pages(pages, |_, value| value)?;
     Ok((equations, reader))
+}
+
+impl<'g> Reader<'g> {
+    /// Reads every equation of further pages. `meaning` is what a name stands for once its block is
+    /// read: its value, or symbols in place of it.
+    ///
+    /// # Errors
+    /// The first block that is malformed or uses an unknown name.
+    pub fn pages(
+        &mut self,
+        pages: &[Page],
+        meaning: impl Fn(&Block, Value<'g>) -> Value<'g>,
+    ) -> Result<Vec<Equation<'g>>, PageError> {
+        let mut equations = Vec::new();
+        for page in pages {
+            for block in blocks(&page.name, &page.text, "equation")? {
+                let place = |error| PageError { page: page.name.clone(), line: block.line, error };
+                let value = self.body(&block.body).map_err(place)?;
+                let components = self.resolve(&block, value).map_err(place)?;
+                let components =
+                    in_the_case(self.graph(), &block.given, components).map_err(place)?;
+                // What holds in a special case is no other meaning of the name.
+                if block.given.is_empty() {
+                    self.define(&block.name, meaning(&block, value));
+                }
+                equations.push(Equation { block, components });
+            }
+        }
+        Ok(equations)
+    }
 }

@@ -1,4 +1,4 @@
-//! The notes behind a printed block: how it differs, and how we tell.
+//! The notes after a printed block: how it differs, and how we tell.
 
 use std::fmt;
 
@@ -86,7 +86,7 @@ impl Note {
     }
 }
 
-/// The notes among the lines behind a block.
+/// The notes among the lines after a block.
 ///
 /// # Errors
 /// The first item that begins with a class and is no note, with its line.

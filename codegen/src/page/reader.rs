@@ -27,10 +27,15 @@ impl<'g> Reader<'g> {
         Self { graph, names: HashMap::new(), symbols: true }
     }
 
-    /// A reader that knows only what it is told: emitted text names its arguments, `p.m_w`.
+    /// A reader that knows only what is defined: emitted text names its arguments, `p.m_w`.
     #[must_use]
     pub fn strict(graph: &'g Graph) -> Self {
         Self { symbols: false, ..Self::new(graph) }
+    }
+
+    /// Where the symbols live.
+    pub(super) fn graph(&self) -> &'g Graph {
+        self.graph
     }
 
     /// Gives `name` a meaning from here on.

@@ -77,6 +77,7 @@ impl<'g> Value<'g> {
                 let zero = x.graph().zero();
                 Tensor([[zero, -*z, *y], [*z, zero, -*x], [-*y, *x, zero]])
             }
+            ("outer", [Vector(a), Vector(b)]) => Tensor(each(|i| each(|j| a[i] * b[j]))),
             ("transpose", [Tensor(t)]) => Tensor(each(|i| each(|j| t[j][i]))),
             _ => return None,
         })

@@ -70,7 +70,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         Ok(rows)
     }
 
-    /// The derivation itself against the equations that follow from the kinetic energy alone.
+    /// The derivation itself against the equations that follow from the kinetic energy only.
     #[must_use]
     pub fn derivation(&self) -> Vec<Row> {
         let mut ring = Ring::new(self.chain.graph);
@@ -117,10 +117,10 @@ impl<'a, 'g> Prover<'a, 'g> {
             cut: reading(&constants.prepare.cut, &constants.cuts)?,
         };
         let assembled = if kernel.name == "eliminate" {
-            let handed = function(file, "handed")?;
+            let constant_share = function(file, "constant_share")?;
             let given = self.arguments(kernel, &constants.prepare.expanded);
-            let handed = read(self.chain.graph, handed, &given, &BTreeSet::new())?;
-            self.unknowns.with_hub(self.chain, &back.expanded.values, &handed.returned)
+            let constant_share = read(self.chain.graph, constant_share, &given, &BTreeSet::new())?;
+            self.unknowns.with_hub(self.chain, &back.expanded.values, &constant_share.returned)
         } else {
             back.expanded.values.clone()
         };
@@ -134,7 +134,7 @@ impl<'a, 'g> Prover<'a, 'g> {
                 rows.extend(self.laws.rows(expanded, &self.unknowns, &solved, who, named));
                 rows.extend(factors::of_elimination(cut, self.chain, &self.unknowns, &back.cut));
             }
-            "handed" => rows.push(mounted::row(self.chain, &self.kernels, file)?),
+            "constant_share" => rows.push(mounted::row(self.chain, &self.kernels, file)?),
             "back_substitute" => {
                 let row = factors::of_back_substitution;
                 rows.push(row(cut, self.chain, &self.unknowns, &back.cut));

@@ -1,6 +1,6 @@
 //! The emitted elimination multiplied out again: `S + L D L^T = M`, and the right sides with it.
 //!
-//! Stated here from the names of the outputs alone, without the code that eliminates. M is what the
+//! Stated here from the names of the outputs only, without the code that eliminates. M is what the
 //! joints bring, the hub's own block left out; -S is what they take out of that, L the gains, D the
 //! pivots. All of it holds whichever joints have their torque
 //! given and whichever their acceleration: see [`super::modes`].
@@ -95,7 +95,7 @@ fn of_matrix<'g>(
     }
 }
 
-/// The right side of each equation. What a given acceleration asks for goes to that side: of the
+/// The right side of each equation. What a given acceleration requires goes to that side: of the
 /// equations nearer the hub, all that the driven joints further out have not taken already.
 fn of_right_side<'g>(
     settled: &Settled<'_, 'g>,
@@ -122,7 +122,7 @@ fn of_right_side<'g>(
     }
 }
 
-/// A joint whose acceleration is given follows nothing, and moves as it is told.
+/// A joint whose acceleration is given has zero gains, and moves as prescribed.
 fn of_given<'g>(
     settled: &Settled<'_, 'g>,
     unknowns: &Unknowns<'g>,

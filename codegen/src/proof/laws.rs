@@ -1,4 +1,4 @@
-//! The system against Boltzmann and Hamel's equations, from the kinetic energy alone: what fixes the
+//! The system against Boltzmann and Hamel's equations, from the kinetic energy only: what fixes the
 //! place and the sign of every block.
 
 use std::collections::BTreeMap;

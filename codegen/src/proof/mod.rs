@@ -2,6 +2,8 @@
 
 mod emitted;
 mod factors;
+mod kernel_pages;
+mod kind;
 mod laws;
 mod modes;
 mod mounted;
@@ -12,6 +14,8 @@ mod row;
 mod unknowns;
 
 pub use emitted::Prover;
+pub use kernel_pages::KernelPages;
+pub use kind::prove_kind;
 pub use pages::{against_block, against_pages, zero_traces};
 pub use read_back::EmittedError;
 pub use row::{Row, Verdict};

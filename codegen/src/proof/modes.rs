@@ -115,7 +115,7 @@ impl<'a, 'g> Settled<'a, 'g> {
         joints.try_fold(self.unknowns.zero, |sum, &j| Some(sum + self.gain(x, j) * times(j)?))
     }
 
-    /// `d_j`, by its name alone.
+    /// `d_j`, by its name only.
     pub(super) fn pivot(&self, j: usize) -> Option<Expr<'g>> {
         self.output(&format!("pivot_{}", self.unknowns.suffix(j)))
     }

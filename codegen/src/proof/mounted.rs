@@ -20,7 +20,8 @@ use crate::space::{Axis, Carrier, ENTRIES, Hub, Own, Turn, Vector};
 fn vectors(chain: &Chain<'_>) -> Vec<String> {
     let tags = || chain.kind.links.iter().map(|link| link.joint.tag);
     let columns = tags().flat_map(|tag| [format!("f_{tag}"), format!("n_{tag}")]);
-    let single = ["omega", "reach", "r_first_rest", "mr_moving", "f_rates", "n_rates", "hand_mr"];
+    let single =
+        ["omega", "reach", "r_first_rest", "mr_moving", "f_rates", "n_rates", "constant_mr"];
     single.map(str::to_owned).into_iter().chain(columns).collect()
 }
 
@@ -29,7 +30,7 @@ fn components(stem: &str) -> [String; 3] {
     ["bx", "by", "bz"].map(|axis| format!("{stem}_{axis}"))
 }
 
-/// One row: every statement of `eliminate` and `handed` that leads to B.
+/// One row: every statement of `eliminate` and `constant_share` that leads to B.
 pub(super) fn row<'g>(
     chain: &Chain<'g>,
     kernels: &[Kernel<'g>],
@@ -51,7 +52,7 @@ pub(super) fn row<'g>(
             claim(name.clone(), turned.by(value(name)), ought);
         }
     }
-    for stem in ["i_moving", "hand_i"] {
+    for stem in ["i_moving", "constant_i"] {
         let names = ENTRIES.map(|entry| format!("{stem}_{entry}"));
         let at_unit = names.each_ref().map(|name| turned.at_unit(value(name)));
         for (name, ought) in names.iter().zip(turned.tensor(at_unit)) {
@@ -61,7 +62,7 @@ pub(super) fn row<'g>(
     let frame = chain.kind.links[0].body.frame;
     let numbers = ["x", "y", "z"].map(|axis| format!("omega_b_n_{frame}{axis}")).into_iter();
     let biases = chain.kind.links.iter().map(|link| format!("u_rest_{}", link.joint.tag));
-    for name in numbers.chain(biases).chain(["hand_m".to_owned()]) {
+    for name in numbers.chain(biases).chain(["constant_m".to_owned()]) {
         claim(name.clone(), turned.by(value(&name)), turned.at_unit(value(&name)));
     }
     let heading = ["(mount)", "along B", "fn eliminate turns with the mount"];
@@ -109,7 +110,9 @@ fn values<'g>(
         }
     };
     keep(&prepare);
-    for kernel in kernels.iter().filter(|k| ["handed", "eliminate"].contains(&k.name.as_str())) {
+    for kernel in
+        kernels.iter().filter(|k| ["constant_share", "eliminate"].contains(&k.name.as_str()))
+    {
         let mut given = BTreeMap::new();
         for (letter, record) in &kernel.inputs {
             given.extend(symbols(record, letter));

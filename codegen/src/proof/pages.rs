@@ -27,7 +27,7 @@ pub fn against_pages<'g>(
     stated.into_iter().chain(lacking).collect()
 }
 
-/// Whether a block states the quantity, and not of a special case alone.
+/// Whether a block states the quantity, and not of a special case only.
 fn states(block: &Block, quantity: &Quantity<'_>) -> bool {
     block.name == quantity.name && block.given.is_empty()
 }
@@ -81,7 +81,7 @@ pub fn zero_traces<'g>(ring: &mut Ring<'g>, chain: &Chain<'g>) -> Vec<Row> {
 }
 
 /// The number of the frame with these axes.
-fn frame_of(chain: &Chain<'_>, axes: &[String; 3]) -> Option<usize> {
+pub(super) fn frame_of(chain: &Chain<'_>, axes: &[String; 3]) -> Option<usize> {
     let hub = ["b_x", "b_y", "b_z"];
     let triads = chain.kind.links.iter().map(|link| link.body.triad);
     std::iter::once(hub).chain(triads).position(|triad| triad == *axes)

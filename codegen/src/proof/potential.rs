@@ -1,6 +1,6 @@
 //! The field's wrenches have a potential: carried inwards, they are the slopes of `G : S / 2`.
 //!
-//! Stated from the emitted wrenches and the emitted second moment S alone, by virtual work; the same
+//! Stated from the emitted wrenches and the emitted second moment S only, by virtual work; the same
 //! sums are what the emitted `external` is held against.
 
 use super::Row;

@@ -128,7 +128,7 @@ pub(super) fn read<'g>(
     Ok(Reading { values, returned, reader })
 }
 
-/// The names behind the fields of the returned literal, where they are plain names.
+/// The names of the values of the fields of the returned literal, where they are plain names.
 pub(super) fn returned_names(function: &syn::ItemFn) -> BTreeMap<String, String> {
     let literal = function.block.stmts.iter().find_map(|statement| match statement {
         syn::Stmt::Expr(syn::Expr::Struct(literal), None) => fields(literal).ok(),

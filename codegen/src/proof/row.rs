@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::graph::Expr;
+use crate::kinds::Kind;
 use crate::normal::{Difference, NormalError, Ring, Term};
 
 /// How a comparison went.
@@ -33,7 +34,7 @@ pub struct Row {
     pub verdict: Verdict,
     /// Page and line of what was checked, where it stands on a page.
     pub place: Option<String>,
-    /// The kind whose derivation and text it is about; none where it is about the paper alone.
+    /// The kind whose derivation and text it is about; none where it is about the paper only.
     pub kind: Option<&'static str>,
 }
 
@@ -42,6 +43,13 @@ impl Row {
     #[must_use]
     pub fn at(mut self, place: String) -> Self {
         self.place = Some(place);
+        self
+    }
+
+    /// The same as a row about a kind.
+    #[must_use]
+    pub fn of(mut self, kind: &Kind) -> Self {
+        self.kind = Some(kind.name);
         self
     }
 

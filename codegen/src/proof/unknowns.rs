@@ -15,7 +15,7 @@ pub(super) const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
 const AXES: [&str; 3] = ["bx", "by", "bz"];
 
 /// Names of what `eliminate` states of the part that moves: first moment, inertia, and force and
-/// moment that the joints' rates ask for.
+/// moment that the joints' rates require.
 pub(super) fn moving() -> [Vec<String>; 4] {
     let along = |stem: &str| AXES.map(|axis| format!("{stem}_{axis}")).to_vec();
     let entries = ENTRIES.map(|entry| format!("i_moving_{entry}")).to_vec();
@@ -96,14 +96,15 @@ impl<'g> Unknowns<'g> {
         &self,
         chain: &Chain<'g>,
         values: &HashMap<String, Expr<'g>>,
-        handed: &BTreeMap<String, Expr<'g>>,
+        constant_share: &BTreeMap<String, Expr<'g>>,
     ) -> HashMap<String, Expr<'g>> {
         let zero = self.zero;
         let named = |name: &String| values.get(name).copied().unwrap_or(zero);
-        let taken = |name: &String| handed.get(name).copied().unwrap_or(zero);
+        let taken = |name: &String| constant_share.get(name).copied().unwrap_or(zero);
         let [moment, inertia, force, couple] = moving();
-        let sum =
-            |name: &String| named(name) + taken(&format!("hand_{}", name.replace("_moving", "")));
+        let sum = |name: &String| {
+            named(name) + taken(&format!("constant_{}", name.replace("_moving", "")))
+        };
         let moment: Vec<_> = moment.iter().map(sum).collect();
         let inertia: Vec<_> = inertia.iter().map(sum).collect();
         let (s, i) = (vector(&moment), Symmetric::<Hub>::new(std::array::from_fn(|k| inertia[k])));
@@ -155,13 +156,13 @@ impl<'g> Unknowns<'g> {
         }
     }
 
-    /// What equation `x` asks for with nothing accelerating.
+    /// What equation `x` requires with nothing accelerating.
     pub(super) fn rest(&self, x: usize, named: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
         self.asked(x, "rest", named)
     }
 
-    /// What the joints' rates ask of equation `x` of the hub, and all that equation `x` of a joint
-    /// asks for.
+    /// What the joints' rates require in equation `x` of the hub, and all that one of a joint
+    /// requires.
     pub(super) fn of_rates(&self, x: usize, named: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
         self.asked(x, "rates", named)
     }

@@ -11,7 +11,8 @@ use crate::graph::{Expr, Graph};
 /// A frame of reference, as a type.
 pub trait Frame: Copy {}
 
-/// B, with axes along those of the outermost joint at zero angle; the mount is applied outside.
+/// B, with axes along those of the first joint, next to the hub, at zero angle; the mount is applied
+/// outside.
 #[derive(Clone, Copy, Debug)]
 pub struct Hub;
 

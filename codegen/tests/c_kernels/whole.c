@@ -35,7 +35,7 @@ int main(void)
         precess_body_of_hub(hub.mass, hub.r_bc_b, hub.i_b_bc, &body);
         for (k = 0; k < DEVICES; k++) {
             struct precess_dgvscmg_parameters *const p = &given.parameters;
-            struct precess_handed handed;
+            struct precess_constant_share constant_share;
             double mount[9];
             double along_b[3];
             double along_device[3];
@@ -60,8 +60,8 @@ int main(void)
             p->r_go_b_by = along_device[1];
             p->r_go_b_bz = along_device[2];
             precess_dgvscmg_prepare(p, &devices[k].constants);
-            precess_dgvscmg_handed(&devices[k].constants, &handed);
-            precess_body_take_over(&body, &handed);
+            precess_dgvscmg_constant_share(&devices[k].constants, &constant_share);
+            precess_body_add_constant_share(&body, &constant_share);
             devices[k].gamma_o = given.angles[0];
             devices[k].gamma_i = given.angles[1];
             devices[k].theta = given.angles[2];

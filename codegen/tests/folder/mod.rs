@@ -1,11 +1,16 @@
 //! The pages of a folder, as the tests read them, inside the crate and outside: `Page` is what the
 //! parent module calls by that name.
 
+use std::path::Path;
+
 use super::Page;
 
 /// The pages of `tests/derivation` or of a folder in it, by name; a README is none.
 pub(crate) fn pages(folder: &str) -> Vec<Page> {
-    let folder = format!("{}/../tests/derivation/{folder}", env!("CARGO_MANIFEST_DIR"));
+    // From the folder of either crate of the generator.
+    let mut above = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().skip(1);
+    let pages = above.find_map(|path| Some(path.join("tests/derivation")).filter(|p| p.is_dir()));
+    let folder = pages.expect("the pages stand in the repository").join(folder);
     let mut pages = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

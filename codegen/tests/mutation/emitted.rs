@@ -1,17 +1,17 @@
 //! Mutants of the emitted text: every operand of every sum of every statement.
 
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::emit::every_kind;
 use precess_codegen::graph::Graph;
 use precess_codegen::kinds::DGVSCMG;
 use precess_codegen::proof::{EmittedError, Prover, Row, Verdict};
-use precess_codegen::regen::emit;
 
 use crate::sites::{Change, changed, count};
 
 /// Every function of the file.
 const ALL: [&str; 13] = [
     "prepare",
-    "handed",
+    "constant_share",
     "outer_gimbal",
     "inner_gimbal",
     "wheel",
@@ -26,7 +26,7 @@ const ALL: [&str; 13] = [
 ];
 
 fn emitted() -> syn::File {
-    let files = emit().unwrap();
+    let files = every_kind().unwrap();
     let file = files.iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap();
     syn::parse_file(&file.text).unwrap()
 }
@@ -87,9 +87,9 @@ fn every_mutant_of_the_kinematics_is_named() {
 
 #[test]
 fn every_mutant_of_the_elimination_is_named() {
-    // What only another mount than none shows is judged with what the hub takes over.
+    // What only another mount than none shows is judged with the constant share of the hub.
     for (name, judged, least) in [
-        ("eliminate", &["eliminate", "handed"][..], 1200),
+        ("eliminate", &["eliminate", "constant_share"][..], 1200),
         ("back_substitute", &["back_substitute"], 60),
     ] {
         let (mutants, named) = every_mutant_is_caught(name, judged);
@@ -139,7 +139,7 @@ fn every_doubled_statement_is_caught() {
             *value(&mut file, name, index).unwrap() = doubled;
             let judged = match *name {
                 "prepare" => &ALL[..],
-                "eliminate" | "handed" => &["eliminate", "handed"],
+                "eliminate" | "constant_share" => &["eliminate", "constant_share"],
                 _ => std::slice::from_ref(name),
             };
             let caught = judged
@@ -155,7 +155,7 @@ fn every_doubled_statement_is_caught() {
 fn with(right: &str, wrong: &str) -> Result<Vec<Row>, EmittedError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
-    let files = emit().unwrap();
+    let files = every_kind().unwrap();
     let file = files.iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap();
     assert!(file.text.contains(right), "{right}");
     let rows = Prover::new(&chain).rows(&file.text.replace(right, wrong))?;

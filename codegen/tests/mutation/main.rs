@@ -4,6 +4,7 @@
 mod emitted;
 #[path = "../folder/mod.rs"]
 mod folder;
+mod kernel_pages;
 mod pages;
 mod sites;
 

@@ -133,7 +133,11 @@ fn every_term_of_a_page_as_written_is_named_when_it_is_wrong() {
     assert!(mutants > 1500, "only {mutants} mutants were tried");
 }
 
-fn same<'g>(ring: &mut Ring<'g>, a: &[(String, Expr<'g>)], b: &[(String, Expr<'g>)]) -> bool {
+pub(crate) fn same<'g>(
+    ring: &mut Ring<'g>,
+    a: &[(String, Expr<'g>)],
+    b: &[(String, Expr<'g>)],
+) -> bool {
     a.iter().zip(b).all(|((_, a), (_, b))| ring.normal(*a) == ring.normal(*b))
 }
 
@@ -142,7 +146,7 @@ fn is_root(equation: &Equation<'_>) -> bool {
     equation.block.tag != "(definition)"
 }
 
-fn sites_of(statement: &syn::Stmt) -> usize {
+pub(crate) fn sites_of(statement: &syn::Stmt) -> usize {
     match statement {
         syn::Stmt::Local(local) => local.init.as_ref().map_or(0, |init| count(&init.expr)),
         syn::Stmt::Expr(expr, None) => count(expr),
@@ -150,7 +154,7 @@ fn sites_of(statement: &syn::Stmt) -> usize {
     }
 }
 
-fn mutated(block: &syn::Block, statement: usize, site: usize, change: Change) -> String {
+pub(crate) fn mutated(block: &syn::Block, statement: usize, site: usize, change: Change) -> String {
     let mut statements = block.stmts.clone();
     match &mut statements[statement] {
         syn::Stmt::Local(local) => {
@@ -163,7 +167,7 @@ fn mutated(block: &syn::Block, statement: usize, site: usize, change: Change) ->
     statements.iter().map(|s| s.to_token_stream().to_string() + "\n").collect()
 }
 
-fn assert_named<'g>(
+pub(crate) fn assert_named<'g>(
     ring: &mut Ring<'g>,
     row: &Row,
     original: &Equation<'g>,

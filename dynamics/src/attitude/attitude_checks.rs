@@ -1,4 +1,4 @@
-//! What the tests of every attitude parameterisation assert in the same way.
+//! Assertions that the tests of both attitude parameterisations share.
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -104,7 +104,7 @@ impl<T: Scalar> Attitude<T> for Mrp<T> {
     }
 }
 
-/// The inner set, whatever the quaternion's sign and length.
+/// The inner set, for any sign and length of the quaternion.
 ///
 /// NaN in all three components for a quaternion of length zero and for one with a component that is
 /// infinite or NaN: neither is an attitude.
@@ -202,13 +202,13 @@ mod tests {
 
     #[test]
     fn valid_parameters_are_those_with_a_finite_dcm() {
-        let mut refused = 0;
+        let mut rejected = 0;
         for x in [1.0, 1e16, 1e100, 5e153, 6.703e153, 6.705e153, 1e154, 1.3e154, 1.4e154, 1e200] {
             let sigma: Mrp = Mrp::from_components(0.0, -x, 0.0);
             let finite = sigma.dcm().iter().all(|element| element.is_finite());
             assert_eq!(sigma.is_valid(), finite, "{x:e}");
-            refused += u32::from(!finite);
+            rejected += u32::from(!finite);
         }
-        assert_eq!(refused, 5);
+        assert_eq!(rejected, 5);
     }
 }

@@ -24,14 +24,14 @@ pub trait Attitude<T: Scalar>: Copy + Debug + PartialEq {
     #[must_use]
     fn rate(&self, omega: &Vector3<T>) -> Self::Rate;
 
-    /// The parameters plus the sum of `time * rate` over the terms, without normalising.
+    /// The parameters plus the sum of `offset * rate` over the terms, without normalising.
     ///
-    /// The terms are summed before they meet the parameters, which costs fewer rounded bits than
+    /// The terms are summed before the sum is added to the parameters, which rounds less than
     /// adding them one by one.
     #[must_use]
     fn advanced(&self, terms: &[(T, Self::Rate)]) -> Self;
 
-    /// The same attitude by parameters that a step may start from: those given, unless they are so
+    /// The same attitude by parameters that a step may start from: unchanged, unless they are so
     /// large or small that their rates lose digits. MRPs beyond a half turn become their shadow
     /// set, a quaternion that is very short or long is divided by its largest component.
     #[must_use]
@@ -41,7 +41,7 @@ pub trait Attitude<T: Scalar>: Copy + Debug + PartialEq {
     #[must_use]
     fn normalised(&self) -> Self;
 
-    /// Whether the parameters stand for an attitude that [`Self::dcm`] can tell: all finite, a
+    /// Whether the parameters are an attitude that [`Self::dcm`] can compute: all finite, a
     /// quaternion not zero, MRPs not so large that their squares overflow.
     #[must_use]
     fn is_valid(&self) -> bool;

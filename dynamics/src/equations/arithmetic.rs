@@ -30,14 +30,14 @@ pub(crate) enum Arithmetic {
 
 #[cfg(feature = "lanes")]
 impl Arithmetic {
-    /// Fused where the CPU at hand has the instruction: without, the same would take long.
+    /// Fused if this CPU has the instruction; without it, fused products would be slow.
     pub(crate) fn fused() -> Self {
         let cpu = pulp::Arch::new();
         if matches!(cpu, pulp::Arch::Scalar) { Self::Unfused } else { Self::Fused(cpu) }
     }
 }
 
-/// A way of eliminating a device: that of one [`Arithmetic`].
+/// Fused or unfused elimination of one device: that of one [`Arithmetic`].
 pub(crate) trait Rounding {
     /// Eliminates the joints; see [`Device::eliminate_joints`].
     ///
@@ -59,7 +59,7 @@ pub(crate) trait Rounding {
 pub(crate) struct Unfused;
 
 impl Rounding for Unfused {
-    // Never inlined: one copy of the kernel, whatever the sets it stands in.
+    // Never inlined: one copy of the kernel for all sets.
     #[inline(never)]
     fn eliminate_device<K: Kind>(
         device: &Device<K>,
@@ -77,7 +77,7 @@ impl Rounding for Unfused {
             index,
             #[expect(
                 clippy::redundant_closure_for_method_calls,
-                reason = "the method by itself is of one lifetime"
+                reason = "one method has only one lifetime"
             )]
             |inputs, pose, outputs| inputs.evaluate_unfused(pose, outputs),
         )
@@ -127,8 +127,7 @@ pub(crate) struct EliminationInputs<'a, K: Kernels, T: Value> {
     pub(crate) drives: &'a K::PerJoint<Drive<T>>,
 }
 
-/// Where the answer goes, written in its place: to move so many numbers there afterwards takes
-/// time.
+/// Where the results are written: moving so many numbers afterwards takes time.
 #[derive(Debug)]
 pub(crate) struct EliminationOutputs<'a, K: Kernels, T: Value> {
     pub(crate) assembly: &'a mut Assembly<T>,
@@ -160,10 +159,10 @@ impl<K: Kernels, T: Angle> EliminationInputs<'_, K, T> {
     ) -> Pivots<K, U> {
         let Self { constants, joints, omega, drives } = self;
         let eliminated = K::eliminate(constants, pose, joints, omega, drives);
-        let EliminationOutputs { assembly, gains: place } = outputs;
+        let EliminationOutputs { assembly, gains: kept } = outputs;
         assembly.add(&K::share(&eliminated).map(&number));
         let gains = K::gains(&eliminated);
-        *place = Some(K::zip_gains(gains, gains, |gain, _| number(gain)));
+        *kept = Some(K::zip_gains(gains, gains, |gain, _| number(gain)));
         let pivots = K::pivots(&eliminated);
         K::zip_per_joint(&pivots, &pivots, |pivot, _| pivot.map(|pivot| pivot.map(&number)))
     }

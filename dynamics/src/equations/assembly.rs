@@ -11,7 +11,7 @@ use crate::equations::error::SolveError;
 use crate::equations::hub::HubConstants;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::{Scale, Solution, System};
-use crate::generated::hub::{BodyAcceleration, BodyRate, Handed, HubShare};
+use crate::generated::hub::{BodyAcceleration, BodyRate, ConstantShare, HubShare};
 use crate::numbers::real::{Real, Scalar};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add};
@@ -44,7 +44,7 @@ impl<T: Real> Assembly<T> {
 
     /// Adds a force and a moment about B from outside.
     #[inline(always)]
-    pub(crate) fn push(&mut self, force: Vec3<T>, moment: Vec3<T>) {
+    pub(crate) fn add_wrench(&mut self, force: Vec3<T>, moment: Vec3<T>) {
         self.force = add(self.force, force);
         self.moment = add(self.moment, moment);
     }
@@ -107,18 +107,24 @@ impl<T: Scalar> Assembly<T> {
 }
 
 impl<T: Real> HubConstants<T> {
-    /// The hub with what it takes over of its devices.
-    pub(crate) fn taking_over(self, devices: impl Iterator<Item = Handed<T>>) -> Self {
+    /// The hub with the constant shares of its devices.
+    pub(crate) fn with_constant_shares(
+        self,
+        devices: impl Iterator<Item = ConstantShare<T>>,
+    ) -> Self {
         devices.fold(self, |hub, e| Self {
-            m_b: hub.m_b + e.hand_m,
-            first_moment: add(hub.first_moment, [e.hand_mr_bx, e.hand_mr_by, e.hand_mr_bz]),
+            m_b: hub.m_b + e.constant_m,
+            first_moment: add(
+                hub.first_moment,
+                [e.constant_mr_bx, e.constant_mr_by, e.constant_mr_bz],
+            ),
             i_b_b: hub.i_b_b.plus(Symmetric {
-                xx: e.hand_i_11,
-                xy: e.hand_i_12,
-                xz: e.hand_i_13,
-                yy: e.hand_i_22,
-                yz: e.hand_i_23,
-                zz: e.hand_i_33,
+                xx: e.constant_i_11,
+                xy: e.constant_i_12,
+                xz: e.constant_i_13,
+                yy: e.constant_i_22,
+                yz: e.constant_i_23,
+                zz: e.constant_i_33,
             }),
         })
     }

@@ -1,6 +1,6 @@
 //! [`Device`]: the precomputed constants of one device, and its part of an evaluation.
 //!
-//! The equations of motion know the mount and stand expressed in B. All other kernels know one
+//! The equations of motion contain the mount and are expressed in B. All other kernels have one
 //! frame, the axes of the device's first joint at zero: what comes from the hub is rotated into it
 //! by `mount^T`, results out of it by `mount`.
 
@@ -41,7 +41,7 @@ pub struct Device<K: Kind> {
     pub(crate) bound: K::PerJoint<K::Scalar>,
     /// Whether no joint has a spring or friction.
     pub(crate) free: bool,
-    /// What the simplified model puts in the place of the rotor's imbalance.
+    /// The lumped disturbance that replaces the rotor's imbalance in the lumped model.
     pub(crate) lumped: Option<Lumped<K::Scalar>>,
     /// By how much each inertia breaks the triangle inequality, kg m².
     pub(crate) excess: K::PerJoint<K::Scalar>,
@@ -74,8 +74,8 @@ impl<K: Kind> Device<K> {
         }
     }
 
-    /// Eliminates the joints in a way, adds what is left to the hub's system, and leaves what back
-    /// substitution needs.
+    /// Eliminates the joints, adds the device's share to the hub's system, and writes the gains of
+    /// back substitution. `eliminate` is fused or unfused.
     #[inline(always)]
     pub(crate) fn eliminate_joints(
         &self,
@@ -84,7 +84,7 @@ impl<K: Kind> Device<K> {
         environment: &Environment<K::Scalar>,
         outputs: EliminationOutputs<'_, K, K::Scalar>,
         device: usize,
-        way: impl Fn(
+        eliminate: impl Fn(
             &EliminationInputs<'_, K, K::Scalar>,
             Option<K::Pose<K::Scalar>>,
             EliminationOutputs<'_, K, K::Scalar>,
@@ -97,7 +97,7 @@ impl<K: Kind> Device<K> {
             let central = environment.central.as_ref();
             if given.bodies.is_some() || central.is_some() || self.lumped.is_some() {
                 let pose = pose.get_or_insert_with(|| K::pose(joints));
-                self.push(pose, joints, given.bodies, central, &mut drives, assembly);
+                self.add_wrenches(pose, joints, given.bodies, central, &mut drives, assembly);
             }
         }
         let mut joints = *joints;
@@ -107,14 +107,15 @@ impl<K: Kind> Device<K> {
         let (constants, omega) = (&self.constants, expressed_in_b(environment.omega));
         let inputs =
             EliminationInputs::<K, _> { constants, joints: &joints, omega, drives: &drives };
-        let pivots = way(&inputs, pose, EliminationOutputs { assembly: &mut *assembly, gains });
+        let pivots =
+            eliminate(&inputs, pose, EliminationOutputs { assembly: &mut *assembly, gains });
         if !(self.free || environment.impulse) {
             self.add_stiffness(&joints, &pivots, &drives, assembly);
         }
         self.check_pivots(device, &pivots, &drives)
     }
 
-    /// Adds springs and friction to what a step has to resolve.
+    /// Adds springs and friction to the stiffness that a step has to resolve.
     #[inline(never)]
     fn add_stiffness(
         &self,
@@ -125,15 +126,15 @@ impl<K: Kind> Device<K> {
     ) {
         let mut coefficients = K::all([zero::<K::Scalar>(); 2]);
         let states = joints.states().zip(self.passive.values());
-        for (place, ([_, rate], passive)) in coefficients.values_mut().zip(states) {
-            *place = [passive.damping(rate), passive.stiffness];
+        for (entry, ([_, rate], passive)) in coefficients.values_mut().zip(states) {
+            *entry = [passive.damping(rate), passive.stiffness];
         }
         assembly.stiffness.add::<K>(&coefficients, pivots, drives);
     }
 
     /// Adds what acts on the bodies from outside to the joints' torques and to the hub's system.
     #[inline(never)]
-    fn push(
+    fn add_wrenches(
         &self,
         pose: &K::Pose<K::Scalar>,
         joints: &K::Joints<K::Scalar>,
@@ -150,7 +151,7 @@ impl<K: Kind> Device<K> {
             drive.torque = drive.torque + wrench.along(info) * drive.driven;
         }
         let hub = carried.hub.turned(&self.mount);
-        assembly.push(components(&hub.force), components(&hub.moment));
+        assembly.add_wrench(components(&hub.force), components(&hub.moment));
         let second_moment = second_moment.rotated(&self.mount);
         assembly.second_moment = assembly.second_moment.plus(second_moment);
     }
@@ -251,7 +252,7 @@ impl<K: Kind> Device<K> {
         Ok(drives)
     }
 
-    /// Whether lanes have all that the device has.
+    /// Whether lanes support the device.
     #[cfg(feature = "lanes")]
     #[inline]
     pub(crate) fn lanes_support(&self) -> bool {
@@ -259,7 +260,7 @@ impl<K: Kind> Device<K> {
         self.lumped.is_none() && (self.free || !self.passive.values().any(dry))
     }
 
-    /// What is given of the joints, for lanes: without what joints do by themselves. None where the
+    /// Torques and modes of the joints for lanes, without springs and friction. `None` where the
     /// device or its modes are unsupported in lanes, or are rejected.
     #[cfg(feature = "lanes")]
     #[inline]
@@ -287,8 +288,8 @@ impl<K: Kind> Device<K> {
         if !(self.free || impulse) {
             let states = joints.states().zip(self.passive.values());
             for (drive, ([coordinate, rate], passive)) in drives.values_mut().zip(states) {
-                // Of no other joint: what is too large for a number would spoil what it does not
-                // move.
+                // Only of driven joints: an overflow of a torque that moves nothing must not
+                // reach other joints.
                 if drive.driven == one() {
                     let own = passive.of_spring(coordinate) + passive.of_friction(rate);
                     drive.torque = drive.torque + own;
@@ -336,7 +337,7 @@ impl<K: Kind> Device<K> {
     }
 
     /// Wrenches of the gradient of gravity on the bodies, and the device's second moment about B,
-    /// along its own axes.
+    /// expressed in its own axes.
     pub(crate) fn gradient(
         &self,
         pose: &K::Pose<K::Scalar>,

@@ -15,12 +15,12 @@ use crate::numbers::vec3::{Columns, rotate_transposed};
 /// The loads of one device; `W` has a wrench, `U` a number, `P` a [`JointPower`] per joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeviceLoads<W, U, P, T> {
-    /// What the hub exerts on the device at its mount, about the origin of its first joint where it
-    /// stands now (of a sliding joint it moves along); expressed in N if the joints' loads are,
+    /// What the hub exerts on the device at its mount, about the present origin of its first
+    /// joint (that of a sliding joint moves with it); expressed in N if the joints' loads are,
     /// otherwise expressed in B. About another point: [`Wrench::moved`].
     pub mount: Wrench<T>,
     /// What its parent body exerts on the child body of each joint, motor, spring and friction
-    /// included, about the joint's origin, expressed in the axes given.
+    /// included, about the joint's origin, expressed in the axes of the call.
     pub joints: W,
     /// The motor torque, N m (force, N, of a sliding joint), that each joint's acceleration needs:
     /// the load about its axis less spring and friction. (80), (101), (119).
@@ -32,7 +32,7 @@ pub struct DeviceLoads<W, U, P, T> {
 /// What acts at one joint, as power on the spacecraft's motion, W.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointPower<T = f64> {
-    /// Of the motor: with the torque that is given, or the one that is found.
+    /// Of the motor: with the input torque, or with the computed one of a joint that is not driven.
     pub motor: T,
     /// Of the spring.
     pub spring: T,
@@ -61,13 +61,13 @@ pub(crate) type LoadsOf<K> = DeviceLoads<
 >;
 
 /// Motor torque and power of each joint.
-type Booked<K> = (
+type MotorsAndPowers<K> = (
     <K as Kernels>::PerJoint<<K as Kind>::Scalar>,
     <K as Kernels>::PerJoint<JointPower<<K as Kind>::Scalar>>,
 );
 
-/// What the joints feel along their axes.
-struct Felt<K: Kind> {
+/// Moments about the joints' axes, forces along those of sliding joints.
+struct AlongJoints<K: Kind> {
     /// For the accelerations.
     needed: K::PerJoint<K::Scalar>,
     /// From outside.
@@ -91,7 +91,7 @@ impl<K: Kind> Device<K> {
         totals: &mut LoadSums<K::Scalar>,
     ) -> LoadsOf<K> {
         let pose = K::pose(joints);
-        // Along the device's axes, in which this kernel knows B.
+        // Expressed in the device's axes, as this kernel requires.
         let within = |v| rotate_transposed(&self.mount, v);
         let hub = Solution { r_b_n_ddot: within(hub.r_b_n_ddot), omega_dot: within(hub.omega_dot) };
         let needed = K::loads(
@@ -113,19 +113,19 @@ impl<K: Kind> Device<K> {
         totals.inertial = totals.inertial.plus(&needed.hub.turned(&self.mount));
         totals.applied = totals.applied.plus(&applied.hub.turned(&self.mount));
         totals.gradient = totals.gradient.plus(&gradient.hub.turned(&self.mount));
-        let felt = Felt {
-            needed: felt::<K>(&needed.joints),
-            applied: felt::<K>(&applied.joints),
-            gradient: felt::<K>(&gradient.joints),
+        let along_joints = AlongJoints {
+            needed: along_joints::<K>(&needed.joints),
+            applied: along_joints::<K>(&applied.joints),
+            gradient: along_joints::<K>(&gradient.joints),
         };
-        let (motors, powers) = self.book(joints, given, &felt, totals);
+        let (motors, powers) = self.add_powers(joints, given, &along_joints, totals);
 
         let mut loads = needed.joints;
         let outside = applied.joints.values().zip(gradient.joints.values());
         for (load, (applied, gradient)) in loads.values_mut().zip(outside) {
             *load = load.minus(&applied).minus(&gradient);
         }
-        let (mount, joints) = self.told(&pose, loads, along);
+        let (mount, joints) = self.expressed(&pose, loads, along);
         let finite = joints.values().zip(motors.values()).zip(powers.values());
         let first = finite.map(|((load, motor), power)| {
             mount.is_finite() && load.is_finite() && motor.is_finite() && power.is_finite()
@@ -137,24 +137,27 @@ impl<K: Kind> Device<K> {
         DeviceLoads { mount, joints, motors, powers }
     }
 
-    /// Books the powers of the joints; returns them and the motor torques that the accelerations
-    /// need.
-    fn book(
+    /// Adds the powers of the joints to the sums; returns them and the motor torques that the
+    /// accelerations need.
+    fn add_powers(
         &self,
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
-        felt: &Felt<K>,
+        along_joints: &AlongJoints<K>,
         totals: &mut LoadSums<K::Scalar>,
-    ) -> Booked<K> {
+    ) -> MotorsAndPowers<K> {
         let power = &mut totals.power;
         let mut motors = K::all(zero::<K::Scalar>());
         let mut powers = K::all(JointPower::none());
-        let felt = felt.needed.values().zip(felt.applied.values()).zip(felt.gradient.values());
+        let components = along_joints.needed.values().zip(along_joints.applied.values());
+        let components = components.zip(along_joints.gradient.values());
         let given = given.motors.values().zip(given.modes.values());
         let states = joints.states().zip(self.passive.values());
         let found = motors.values_mut().zip(powers.values_mut());
-        for ((((motor, told), felt), given), state) in found.zip(felt).zip(given).zip(states) {
-            let (((needed, applied), gradient), (torque, mode)) = (felt, given);
+        for ((((motor, joint_power), components), given), state) in
+            found.zip(components).zip(given).zip(states)
+        {
+            let (((needed, applied), gradient), (torque, mode)) = (components, given);
             let ([coordinate, rate], passive) = state;
             let (spring, friction) = (passive.of_spring(coordinate), passive.of_friction(rate));
             *motor = needed - applied - gradient - spring - friction;
@@ -170,7 +173,7 @@ impl<K: Kind> Device<K> {
                 *sum = *sum + drive * rate;
                 power.magnitude = power.magnitude + (drive * rate).abs();
             }
-            *told = JointPower {
+            *joint_power = JointPower {
                 motor: driven * rate,
                 spring: spring * rate,
                 friction: friction * rate,
@@ -180,8 +183,8 @@ impl<K: Kind> Device<K> {
         (motors, powers)
     }
 
-    /// The load of the mount, and those of the joints expressed in the axes given.
-    fn told(
+    /// The load of the mount, and those of the joints expressed in `along`.
+    fn expressed(
         &self,
         pose: &K::Pose<K::Scalar>,
         mut loads: Wrenches<K>,
@@ -195,29 +198,30 @@ impl<K: Kind> Device<K> {
         if let Along::Hub(Some(bn)) = along {
             mount = hub.turned_back(bn);
         }
-        // The axes of what carries each body: the device's own for the first.
-        let mut carrier = identity();
+        // The axes of each parent body: the device's own for the first.
+        let mut parent = identity();
         for (load, own) in loads.values_mut().zip(axes.values()) {
             let in_device = load.turned(&own);
             *load = match along {
                 Along::Body => *load,
-                Along::Carrier => in_device.turned_back(&carrier),
+                Along::Parent => in_device.turned_back(&parent),
                 Along::Hub(None) => in_device.turned(&self.mount),
                 Along::Hub(Some(bn)) => in_device.turned(&self.mount).turned_back(bn),
             };
-            carrier = own;
+            parent = own;
         }
         (mount, loads)
     }
 }
 
-/// What each joint feels of a wrench.
-fn felt<K: Kind>(wrenches: &Wrenches<K>) -> K::PerJoint<K::Scalar> {
-    let mut felt = K::all(zero());
-    for ((felt, wrench), info) in felt.values_mut().zip(wrenches.values()).zip(K::JOINTS) {
-        *felt = wrench.along(info);
+/// The component of each wrench along its joint.
+fn along_joints<K: Kind>(wrenches: &Wrenches<K>) -> K::PerJoint<K::Scalar> {
+    let mut components = K::all(zero());
+    let joints = components.values_mut().zip(wrenches.values()).zip(K::JOINTS);
+    for ((component, wrench), info) in joints {
+        *component = wrench.along(info);
     }
-    felt
+    components
 }
 
 fn identity<T: Scalar>() -> Columns<T> {

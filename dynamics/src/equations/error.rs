@@ -5,7 +5,7 @@ use core::fmt::{self, Display, Formatter};
 
 use crate::numbers::real::Scalar;
 
-/// An input of the solver, or a result of it. Devices count from 0, as in the arrays given.
+/// An input of the solver, or a result of it. Devices count from 0, as in the set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Quantity {
@@ -120,20 +120,20 @@ pub enum SolveError<T = f64> {
         /// The largest component of its velocities, m/s or rad/s.
         value: T,
     },
-    /// A mode asks of a joint what its kind has not: it holds the acceleration at zero.
+    /// A mode that the joint's kind does not have: it keeps the joint's rate constant.
     NotDriven {
         /// Index of the device.
         device: usize,
         /// The child body of the joint.
         joint: &'static str,
     },
-    /// The field of a central body has no value at its centre, where B stands.
+    /// The field of a central body has no value at its centre, where B is.
     AtCentre,
     /// A list has data for another number of devices, or of joints, than there are.
     Count {
-        /// How many there are.
+        /// The number of devices, or of joints.
         expected: usize,
-        /// How many are given.
+        /// The length of the list.
         found: usize,
     },
     /// Spring, damper or friction of a joint are too stiff for the step: Runge-Kutta's method of
@@ -204,7 +204,10 @@ impl<T: Scalar> Display for SolveError<T> {
                          from B",
                     ),
                     Some(joint) => {
-                        write!(f, "check mass and inertia of the {joint} and of what it carries")?;
+                        write!(
+                            f,
+                            "check mass and inertia of the {joint} and of all bodies outboard of it"
+                        )?;
                         if joint.ends_with("gimbal") {
                             f.write_str(
                                 "; a massless gimbal is singular where it would turn about the \
@@ -218,7 +221,7 @@ impl<T: Scalar> Display for SolveError<T> {
             Self::NotFinite { what: Quantity::Attitude, value } => {
                 let value = value.to_f64();
                 if value.is_finite() {
-                    write!(f, "{value:?} as largest parameter of the attitude has no usable length")
+                    write!(f, "largest attitude parameter {value:?} leaves no usable length")
                 } else {
                     write!(f, "{value:?} in the attitude is not finite")
                 }?;
@@ -247,13 +250,13 @@ impl<T: Scalar> Display for SolveError<T> {
                  other mode; use a kind that drives it"
             ),
             Self::AtCentre => f.write_str(
-                "B stands 0.0 m from the centre of gravity, where there is no field; give its \
-                 position r_b_n from that centre",
+                "B is 0.0 m from the centre of gravity, where there is no field; set r_b_n to its \
+                 position from that centre",
             ),
             Self::Count { expected, found } => write!(
                 f,
-                "{found} given in a list where there are {expected}; give one for each device, \
-                 and in it one for each joint"
+                "a list has {found} entries, not {expected}; give one for each device, and in it one \
+                 for each joint"
             ),
             Self::Unstable { device, joint, dt, longest } => write!(
                 f,
@@ -280,7 +283,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn singular_pivot_tells_value_bound_and_remedy() {
+    fn singular_pivot_shows_value_bound_and_remedy() {
         let error = SolveError::Singular {
             device: Some(2),
             joint: Some("outer gimbal"),
@@ -290,8 +293,8 @@ mod tests {
         assert_eq!(
             error.to_string(),
             "pivot 3e-19 of device 2 (outer gimbal) is not above 1e-12; check mass and inertia of \
-             the outer gimbal and of what it carries; a massless gimbal is singular where it would \
-             turn about the spin axis"
+             the outer gimbal and of all bodies outboard of it; a massless gimbal is singular where \
+             it would turn about the spin axis"
         );
         let error = SolveError::Singular { device: None, joint: None, pivot: -1.0, bound: 0.5 };
         assert_eq!(
@@ -316,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn attitude_tells_what_spoils_it() {
+    fn attitude_names_the_parameter_at_fault() {
         let text =
             |value: f32| SolveError::NotFinite { what: Quantity::Attitude, value }.to_string();
         assert_eq!(
@@ -325,8 +328,8 @@ mod tests {
         );
         assert_eq!(
             text(0.0),
-            "0.0 as largest parameter of the attitude has no usable length; give a unit \
-             quaternion, or MRPs up to 1"
+            "largest attitude parameter 0.0 leaves no usable length; give a unit quaternion, or MRPs \
+             up to 1"
         );
     }
 
@@ -349,13 +352,12 @@ mod tests {
         );
         assert_eq!(
             SolveError::<f64>::Count { expected: 3, found: 2 }.to_string(),
-            "2 given in a list where there are 3; give one for each device, and in it one for each \
-             joint"
+            "a list has 2 entries, not 3; give one for each device, and in it one for each joint"
         );
     }
 
     #[test]
-    fn overflow_tells_the_remedy() {
+    fn overflow_names_the_remedy() {
         let error =
             SolveError::<f32>::Overflow { what: Quantity::Load { device: 1, joint: "wheel" } };
         assert_eq!(

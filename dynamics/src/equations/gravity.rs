@@ -1,8 +1,8 @@
 //! [`Gravity`]: a uniform field, or that of a central body with its gradient.
 //!
-//! A uniform field is a change of frame: in the frame that falls with it there is none, so every
-//! body feels it exactly and no kernel knows of it. The gradient of a central field is a linear
-//! field about B; each body feels it in force and torque.
+//! A uniform field is a change of frame: in the frame that falls with it there is none, so it is
+//! exact for every body and in no kernel. The gradient of a central field is a linear field about
+//! B, with a force and a torque on each body.
 //!
 //! ```text
 //! field       a(r) = g + G r,   G = mu / R³ (3 n nᵀ - 1),   r from B, n from the centre to B
@@ -58,8 +58,8 @@ pub(crate) struct Central<T> {
 }
 
 impl<T: Scalar> Gravity<T> {
-    /// The acceleration that is the same everywhere, expressed in N; none for a field that is not.
-    /// Whoever takes only uniform fields asks here.
+    /// The acceleration that is the same everywhere, expressed in N; `None` for a field that is
+    /// not uniform.
     #[cfg(feature = "lanes")]
     pub(crate) fn uniform(&self) -> Option<Vec3<T>> {
         match self {
@@ -127,7 +127,7 @@ impl<T: Scalar> Field<T> {
 }
 
 impl<T: Scalar> Central<T> {
-    /// Force on the whole, beside that of the field and of its gradient, N.
+    /// Third-order force on the spacecraft, in addition to field and gradient, N.
     pub(crate) fn third_order(&self, second_moment: &Symmetric<T>) -> Vec3<T> {
         let along = second_moment.times(self.n);
         let three = T::from_f64(3.0);
@@ -201,7 +201,7 @@ mod tests {
             let [_, y, z] = central.field(&IDENTITY, &r).expect("a field").at_b;
             assert!((y / expected - 0.6).abs() < 1e-15 && (z / expected + 0.8).abs() < 1e-15);
         }
-        // The same on both sides of where the way changes.
+        // The same on both sides of the threshold between the two formulas.
         for radius in [4e-32, 6e-32, 1.9e31, 2.2e31] {
             let (n, [potential, at_b, square, slope]) = central(2.0, [radius, 0.0, 0.0]);
             assert_eq!(n, [1.0, 0.0, 0.0]);

@@ -1,4 +1,5 @@
-//! What an elimination takes beside the state of the joints: [`JointInputs`] and [`Environment`].
+//! Inputs of an elimination apart from the state of the joints: [`JointInputs`] and
+//! [`Environment`].
 
 use crate::equations::gravity::Central;
 use crate::model::kind::{Kernels, Kind, Wrenches};
@@ -21,7 +22,7 @@ pub(crate) type DeviceInputs<'a, K> = JointInputs<
     Wrenches<K>,
 >;
 
-// Derived, both would ask the members to be `Copy`; only references are copied.
+// Derived, both would require `Copy` members; only references are copied.
 impl<Motors, Modes, Wrenches> Clone for JointInputs<'_, Motors, Modes, Wrenches> {
     fn clone(&self) -> Self {
         *self

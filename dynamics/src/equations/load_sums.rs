@@ -12,7 +12,7 @@ pub(crate) enum Along<T> {
     /// The body's own.
     Body,
     /// Those of the parent body.
-    Carrier,
+    Parent,
     /// Those along which B axes are the columns; none for B axes themselves.
     Hub(Option<Columns<T>>),
 }
@@ -24,7 +24,7 @@ pub(crate) struct HubAccelerations<T> {
     pub(crate) omega_dot: Vec3<T>,
 }
 
-/// What the devices ask of the hub and what their joints transmit, added up.
+/// Sums of the devices' wrenches on the hub and of the powers of their joints.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LoadSums<T> {
     /// What the devices need for their accelerations, about B, expressed in B.

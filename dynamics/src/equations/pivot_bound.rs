@@ -20,8 +20,8 @@ type Bodies<K> =
 /// Bound of the pivot of each joint, kg m²; of a sliding joint kg.
 pub(crate) fn pivot_bounds<K: Kind>(bodies: &Bodies<K>) -> K::PerJoint<K::Scalar> {
     let mut bounds = K::all(zero());
-    for (joint, place) in bounds.values_mut().enumerate() {
-        *place = bound(outboard::<K>(bodies, joint));
+    for (joint, value) in bounds.values_mut().enumerate() {
+        *value = bound(outboard::<K>(bodies, joint));
     }
     bounds
 }
@@ -34,10 +34,10 @@ fn outboard<K: Kind>(bodies: &Bodies<K>, joint: usize) -> K::Scalar {
         return outboard().fold(zero(), |sum, (body, _)| sum + body.mass);
     }
     let (mut sum, mut arm) = (zero::<K::Scalar>(), zero::<K::Scalar>());
-    // Whether a body turns about the joint's axis alone, whatever the pose.
+    // Whether a body turns only about the joint's axis, in any pose.
     let mut parallel = true;
-    for (place, (body, info)) in outboard().enumerate() {
-        if place > 0 {
+    for (index, (body, info)) in outboard().enumerate() {
+        if index > 0 {
             arm = arm + lever(body.origin, own.axis, parallel);
             parallel = parallel && (info.slides || info.axis == own.axis);
         }

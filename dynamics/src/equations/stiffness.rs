@@ -1,6 +1,5 @@
-//! Estimates of what springs, dampers and dry friction demand of a step, from pivots that an
-//! evaluation has at hand; [`stability`](crate::integrate::stability) says what they are compared
-//! with.
+//! Estimates of the stiffness of springs, dampers and dry friction, from the pivots of an
+//! evaluation; [`stability`](crate::integrate::stability) compares them with the limit of a step.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 

@@ -12,7 +12,7 @@ use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Columns, Vec3, add, dot, finite, map, rotate, scale, sub};
 
 /// A pivot must exceed this many epsilons of its scale: of the largest numbers that were added up
-/// and cancelled on the way to it.
+/// and cancelled in it.
 ///
 /// What is left at the bound has at most some bits that are not rounding; a state that close to
 /// singular has no meaningful accelerations.
@@ -54,7 +54,7 @@ pub(crate) struct SmallPivot<T> {
 }
 
 impl<T> SmallPivot<T> {
-    /// The error that tells of it: a joint of a device, or the hub for none.
+    /// Its error: of a joint of a device, or of the hub.
     pub(crate) fn of(self, device: Option<usize>, joint: Option<&'static str>) -> SolveError<T> {
         let Self { pivot, bound } = self;
         SolveError::Singular { device, joint, pivot, bound }
@@ -94,7 +94,7 @@ impl<T: Scalar> System<T> {
         Ok(solution)
     }
 
-    /// Checks each pivot beside its scale, grown by the rounding of those before it.
+    /// Checks each pivot against its scale, grown by the rounding of those before it.
     #[cold]
     fn check_pivots(&self, pivots: Pivots<T>, scale: &Scale<T>) -> Result<(), SmallPivot<T>> {
         let mut pivots = pivots.into_iter().zip(self.grown_scales(scale));
@@ -123,23 +123,24 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Rows one to three factorised, rows four to six of L by columns, and what is left factorised.
+    /// Factors of rows one to three, rows four to six of L by columns, factors of the Schur
+    /// complement.
     #[inline(always)]
     fn factorised(&self) -> (Factors<T>, Columns<T>, Factors<T>) {
         let vv = Factors::of(&self.m_vv);
 
-        // Rows four to six of L times D, and of L: w = L_vv^-1 M_vw, z = D_vv^-1 w.
-        let w = map(self.m_vw, |column| vv.forward(column));
-        let z = map(w, |column| vv.divide(column));
-        let [wx, wy, wz] = w;
+        // Rows four to six of L times D, and of L: f = L_vv^-1 M_vw, z = D_vv^-1 f.
+        let f = map(self.m_vw, |column| vv.forward(column));
+        let z = map(f, |column| vv.divide(column));
+        let [fx, fy, fz] = f;
         let [zx, zy, zz] = z;
         let schur = Symmetric {
-            xx: self.m_ww.xx - dot(wx, zx),
-            xy: self.m_ww.xy - dot(wx, zy),
-            xz: self.m_ww.xz - dot(wx, zz),
-            yy: self.m_ww.yy - dot(wy, zy),
-            yz: self.m_ww.yz - dot(wy, zz),
-            zz: self.m_ww.zz - dot(wz, zz),
+            xx: self.m_ww.xx - dot(fx, zx),
+            xy: self.m_ww.xy - dot(fx, zy),
+            xz: self.m_ww.xz - dot(fx, zz),
+            yy: self.m_ww.yy - dot(fy, zy),
+            yz: self.m_ww.yz - dot(fy, zz),
+            zz: self.m_ww.zz - dot(fz, zz),
         };
         (vv, z, Factors::of(&schur))
     }
@@ -165,8 +166,7 @@ impl<T: Real> System<T> {
         [a, b, c, x + own[0], y + own[1], z + own[2]]
     }
 
-    /// The solution, to be taken only where each of the pivots, in order, exceeds its bound beside
-    /// its scale.
+    /// The solution, valid only if each of the pivots, in order, exceeds the bound of its scale.
     #[inline(always)]
     pub(crate) fn solved(&self) -> (Solution<T>, Pivots<T>) {
         let (vv, z, ww) = self.factorised();
@@ -272,8 +272,9 @@ mod tests {
     }
 
     fn solve(m: &Matrix6<f64>, h: &Vector6<f64>) -> Result<Vector6<f64>, SmallPivot<f64>> {
-        let Solution { r_b_n_ddot: v, omega_dot: w } = system(m, h).solve(&scale_of(m))?;
-        Ok(Vector6::new(v[0], v[1], v[2], w[0], w[1], w[2]))
+        let Solution { r_b_n_ddot: [x, y, z], omega_dot: [p, q, r] } =
+            system(m, h).solve(&scale_of(m))?;
+        Ok(Vector6::new(x, y, z, p, q, r))
     }
 
     /// Integers, unsymmetric on purpose; `G^T G + 1` is positive definite and exact.
@@ -305,12 +306,12 @@ mod tests {
     }
 
     #[test]
-    fn singular_system_is_refused_at_each_pivot() {
+    fn singular_system_is_rejected_at_each_pivot() {
         for zeroed in 0..6 {
             let mut m = Matrix6::identity() * 2.0;
             m[(zeroed, zeroed)] = 0.0;
-            let refused = solve(&m, &Vector6::zeros());
-            assert!(matches!(refused, Err(SmallPivot { pivot: 0.0, .. })), "pivot {zeroed}");
+            let rejected = solve(&m, &Vector6::zeros());
+            assert!(matches!(rejected, Err(SmallPivot { pivot: 0.0, .. })), "pivot {zeroed}");
         }
         // A point mass off B: no inertia about the line from B to it.
         let r = nalgebra::Vector3::new(0.0, 0.0, 3.0);
@@ -323,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_that_a_small_pivot_before_it_makes_grow_is_refused() {
+    fn rounding_that_a_small_pivot_before_it_makes_grow_is_rejected() {
         // 1 - n nᵀ with n nearly in the plane of the first two axes: the second pivot is small.
         let n = nalgebra::Vector3::new(0.6, 0.8, 3e-3).normalize();
         let mut m = Matrix6::identity();
@@ -336,13 +337,13 @@ mod tests {
         assert!(grown > 1e4 * 0.3, "{grown}");
         assert!(solve(&m, &Vector6::zeros()).is_err());
         // Its own scale is that of the row where nothing is coupled.
-        let plain = Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
-        let scales = self::system(&plain, &Vector6::zeros()).grown_scales(&scale_of(&plain));
+        let diagonal = Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
+        let scales = self::system(&diagonal, &Vector6::zeros()).grown_scales(&scale_of(&diagonal));
         assert_eq!(scales, [3.0, 3.0, 3.0, 4.0, 5.0, 6.0]);
     }
 
     #[test]
-    fn pivot_that_is_rounding_of_its_scale_is_refused() {
+    fn pivot_that_is_rounding_of_its_scale_is_rejected() {
         let bound = bound(1.0);
         assert_eq!(bound, 64.0 * f64::EPSILON);
         assert_eq!(check_pivot(bound, bound), Err(SmallPivot { pivot: bound, bound }));
@@ -351,7 +352,7 @@ mod tests {
     }
 
     #[test]
-    fn pivot_that_is_not_a_number_is_refused() {
+    fn pivot_that_is_not_a_number_is_rejected() {
         assert!(check_pivot(f64::NAN, 1.0).is_err());
         assert!(check_pivot(1.0, f64::NAN).is_err());
         let mut m = Matrix6::identity();

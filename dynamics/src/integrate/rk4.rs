@@ -19,7 +19,7 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
-/// What a step leaves, and what it took.
+/// The state after a step, and the work during it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stepped<D: Devices, A> {
     /// The state after the step.
@@ -29,10 +29,11 @@ pub struct Stepped<D: Devices, A> {
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// The state after `dt` seconds, with the inputs constant along the axes they stand along.
+    /// The state after `dt` seconds, with inputs constant in the axes in which they are expressed.
     ///
     /// The attitude is normalised at the end of the step: a quaternion gets unit length, MRPs
-    /// beyond a half turn become their shadow set. Joint angles run on; see [`State::wrapped`].
+    /// beyond a half turn become their shadow set. Joint angles are not wrapped; see
+    /// [`State::wrapped`].
     ///
     /// # Errors
     ///
@@ -62,10 +63,10 @@ impl<D: Devices> Spacecraft<D> {
         dt: D::Scalar,
     ) -> Result<Stepped<D, A>, SolveError<D::Scalar>> {
         let mut work = Power::none();
-        let next = self.stepped(state, inputs, dt, |time, stage, found, stiffness| {
+        let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
             self.solve(stage, inputs, found, stiffness)?;
             let power = self.ledger_of(stage, inputs, found)?.power;
-            work = work.plus_scaled(time, &power);
+            work = work.plus_scaled(weight, &power);
             Ok(())
         })?;
         if work.is_finite() {
@@ -75,8 +76,8 @@ impl<D: Devices> Spacecraft<D> {
         }
     }
 
-    /// The step, by whatever evaluates a stage: given the time that the stage counts for and its
-    /// state, in the places given.
+    /// One step; `evaluate` gets the weight of a stage in the sum of slopes, s, and its state, and
+    /// writes accelerations and, if there are springs or friction, stiffness.
     pub(crate) fn stepped<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -115,7 +116,7 @@ impl<D: Devices> Spacecraft<D> {
         let sixth = dt * D::Scalar::from_f64(6.0).recip();
         let third = dt * D::Scalar::from_f64(3.0).recip();
 
-        // All in place: what was just put together number by number is slow to move.
+        // Results are written in place: moving a structure just written is slow.
         let mut found = self.no_accelerations();
         let mut stage = State { attitude: start.attitude.regular(), ..start.clone() };
         let attitude = stage.attitude;
@@ -123,13 +124,13 @@ impl<D: Devices> Spacecraft<D> {
         let mut rates = [(zero(), attitude.rate(&start.omega)); 4];
         let mut passive = self.passive.then(|| PassiveStep::new(self, start));
         let stages = [(sixth, middle), (third, middle), (third, dt), (sixth, zero())];
-        for ((weight, time), rate) in stages.into_iter().zip(&mut rates) {
+        for ((weight, offset), rate) in stages.into_iter().zip(&mut rates) {
             let stiffness = passive.as_mut().map(|passive| passive.stage(&stage));
             evaluate(weight, &stage, &mut found, stiffness)
                 .map_err(|failure| self.cause(&stage, inputs, failure))?;
             *rate = (weight, stage.attitude.rate(&stage.omega));
-            stage.follow(start, &found, [weight, time], &mut sum);
-            stage.attitude = attitude.advanced(&[(time, rate.1)]);
+            stage.follow(start, &found, [weight, offset], &mut sum);
+            stage.attitude = attitude.advanced(&[(offset, rate.1)]);
         }
         let mut next = stage;
         next.add(start, &sum);
@@ -143,20 +144,20 @@ impl<D: Devices> Spacecraft<D> {
 }
 
 impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
-    /// Adds `weight` times its slope to `sum`, and goes on to `start` plus `time` times the slope;
-    /// the attitude stays behind.
+    /// Adds `weight` times the slope to `sum` and sets the next stage, `start` plus `offset` times
+    /// the slope, s both; the attitude is left out.
     fn follow(
         &mut self,
         start: &Self,
         found: &Accelerations<D>,
-        [weight, time]: [D::Scalar; 2],
+        [weight, offset]: [D::Scalar; 2],
         sum: &mut Self,
     ) {
         let bn = columns(&self.attitude.dcm());
         let acceleration = rotate_transposed(&bn, components(&found.r_b_n_ddot));
         let step = |sum: &mut Vector3<_>, stage: &mut Vector3<_>, start: &Vector3<_>, slope| {
             *sum = vector(add(components(sum), scale(weight, slope)));
-            *stage = vector(add(components(start), add(zeros(), scale(time, slope))));
+            *stage = vector(add(components(start), add(zeros(), scale(offset, slope))));
         };
         step(&mut sum.r_b_n, &mut self.r_b_n, &start.r_b_n, components(&self.r_b_n_dot));
         step(&mut sum.r_b_n_dot, &mut self.r_b_n_dot, &start.r_b_n_dot, acceleration);
@@ -167,8 +168,8 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
             let [from, rate_from] = start;
             *sum = *sum + weight * *rate;
             *sum_of_rate = *sum_of_rate + weight * acceleration;
-            *coordinate = from + (zero::<D::Scalar>() + time * *rate);
-            *rate = rate_from + (zero::<D::Scalar>() + time * acceleration);
+            *coordinate = from + (zero::<D::Scalar>() + offset * *rate);
+            *rate = rate_from + (zero::<D::Scalar>() + offset * acceleration);
         }
     }
 
@@ -278,14 +279,14 @@ mod tests {
     }
 
     #[test]
-    fn step_that_is_not_finite_is_refused() {
+    fn step_that_is_not_finite_is_rejected() {
         let step = |dt| hub().step(&tumbling::<Mrp>(), &Inputs::none(), dt);
         let what = Quantity::TimeStep;
         for value in [f64::INFINITY, f64::NEG_INFINITY] {
             assert_eq!(step(value), Err(SolveError::NotFinite { what, value }));
         }
-        let refused = step(f64::NAN).unwrap_err();
-        assert!(matches!(refused, SolveError::NotFinite { value, .. } if value.is_nan()));
+        let rejected = step(f64::NAN).unwrap_err();
+        assert!(matches!(rejected, SolveError::NotFinite { value, .. } if value.is_nan()));
         let what = Quantity::HubAcceleration;
         assert_eq!(step(1e200), Err(SolveError::Overflow { what }));
     }
@@ -295,7 +296,7 @@ mod tests {
         let mut state = tumbling::<Mrp>();
         state.r_b_n.x = f64::INFINITY;
         let (what, value) = (Quantity::Position, f64::INFINITY);
-        let refused = Err(SolveError::NotFinite { what, value });
-        assert_eq!(hub().step(&state, &Inputs::none(), 0.1), refused);
+        let rejected = Err(SolveError::NotFinite { what, value });
+        assert_eq!(hub().step(&state, &Inputs::none(), 0.1), rejected);
     }
 }

@@ -8,8 +8,8 @@
 //! (springs).
 //!
 //! Two estimates of the responses. [`Stiffness`] costs some operations per joint and comes from
-//! pivots that an evaluation has at hand; what it leaves far below the limit is accepted. Above,
-//! the responses themselves are found, one impulsive evaluation per joint.
+//! the pivots of an evaluation; a step that is far below the limit by it is accepted. Otherwise the
+//! responses are computed, by one impulsive evaluation per joint.
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::SolveError;
@@ -44,9 +44,9 @@ fn rests<T: Scalar>([first, smallest]: Slowest<T>, passive: &Passive<T>) -> bool
     first != zero() && smallest == zero() && passive.coulomb > zero()
 }
 
-/// What a step has seen of springs and friction.
+/// Stiffness of springs and friction during a step.
 pub(crate) struct PassiveStep<D: Devices> {
-    /// Of the stage at hand.
+    /// Of the present stage.
     stiffness: Stiffness<D::Scalar>,
     /// Of those before it.
     largest: Stiffness<D::Scalar>,
@@ -109,8 +109,8 @@ impl<D: Devices> Spacecraft<D> {
         let mut coefficients =
             D::new_data(&self.devices, &data::PerJoint([zero::<D::Scalar>(); 2]));
         let joints = D::list::<Passives>(&self.devices).zip(slowest.values());
-        for (place, (passive, [_, slowest])) in coefficients.values_mut().zip(joints) {
-            *place = [passive.damping(slowest), passive.stiffness];
+        for (entry, (passive, [_, slowest])) in coefficients.values_mut().zip(joints) {
+            *entry = [passive.damping(slowest), passive.stiffness];
         }
         for (joint, ([c, k], (device, info))) in
             coefficients.values().zip(self.joints()).enumerate()

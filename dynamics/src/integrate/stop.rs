@@ -3,7 +3,7 @@
 //! Velocities jump, positions do not. Over the jump finite forces do nothing; what acts are the
 //! impulses of the brakes, inside the spacecraft, so momentum is conserved and energy is lost. With
 //! M the mass matrix of the pose, `M Δ = impulses`, which is the equations of motion at rest with
-//! jumps for accelerations: the same kernels answer.
+//! jumps for accelerations: the same kernels compute them.
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::arithmetic::Unfused;
@@ -24,7 +24,7 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
-/// What an impulsive stop leaves.
+/// The state after an impulsive stop, and the energy lost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopped<D: Devices, A> {
     /// The state with its new velocities; every locked joint is at rest.
@@ -111,7 +111,7 @@ impl<D: Devices> Spacecraft<D> {
         let mut next = state.clone();
         let of_joints = jumps.values().zip(inputs.modes.values());
         for ([_, rate], (jump, mode)) in next.devices.states_mut().zip(of_joints) {
-            // At rest exactly, whatever the rounding.
+            // At rest exactly, without rounding.
             *rate = if mode == Mode::Locked { zero() } else { *rate + jump };
         }
         next.omega = vector(add(components(&state.omega), hub.omega_dot));

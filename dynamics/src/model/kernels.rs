@@ -1,8 +1,7 @@
-//! [`Kernels`]: the emitted kernels of one kind, over any number. The emitted text answers.
+//! [`Kernels`]: the emitted kernels of one kind, over any number. Implemented by the emitted text.
 //!
-//! Pure arithmetic over [`Real`]: what compares, takes a root or finds an error stands with
-//! [`Kind`](crate::model::kind::Kind), for single numbers. Lanes of numbers run what is here and
-//! nothing else.
+//! Pure arithmetic over [`Real`]: what compares, takes a root or finds an error is in
+//! [`Kind`](crate::model::kind::Kind), for single numbers. Lanes of numbers run only what is here.
 
 use core::fmt::Debug;
 

@@ -1,13 +1,19 @@
-//! [`Kind`]: what the solver requires of a device kind. The emitted text answers.
+//! [`Kind`]: what the solver requires of a device kind. Implemented by the emitted text.
 
 use core::fmt::Debug;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::generated::hub::{BodyAcceleration, BodyRate, BodyVelocity, EnergyMomentum, Handed};
+use crate::generated::hub::{
+    BodyAcceleration, BodyRate, BodyVelocity, ConstantShare, EnergyMomentum,
+};
 pub use crate::model::kernels::Kernels;
 pub use crate::model::mode::Drive;
 use crate::model::mode::Mode;
+use crate::model::parameter_info;
+pub use crate::model::parameter_info::{
+    NameError, ParameterInfo, ParameterMut, ParameterValue, Shape,
+};
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
 pub use crate::numbers::each::{Each, JointStates, Value};
@@ -26,6 +32,8 @@ pub struct JointInfo {
     pub coordinate: &'static str,
     /// Its rate: `gamma_i_dot`.
     pub rate: &'static str,
+    /// Its acceleration: `gamma_i_ddot`.
+    pub acceleration: &'static str,
     /// Its motor torque or force: `u_i`.
     pub motor: &'static str,
     /// The axis it turns about or slides along, of x, y, z.
@@ -35,20 +43,26 @@ pub struct JointInfo {
     /// Whether no equation of motion depends on the coordinate: that of a rotor which is symmetric
     /// about its axis.
     pub ignorable: bool,
-    /// Whether its torque may be given; otherwise the kind holds its acceleration at zero.
+    /// Whether it has a motor torque as an input; otherwise the kind keeps its rate constant.
     pub driven: bool,
-    /// Whether nothing is behind the body.
+    /// Whether no body is outboard of this one.
     pub tip: bool,
 }
 
 impl JointInfo {
+    /// Units of coordinate, rate, acceleration and motor.
+    #[must_use]
+    pub const fn units(&self) -> [&'static str; 4] {
+        if self.slides { ["m", "m/s", "m/s²", "N"] } else { ["rad", "rad/s", "rad/s²", "N m"] }
+    }
+
     /// The mode that the kind gives the joint.
     pub(crate) fn own_mode<T: Scalar>(&self) -> Mode<T> {
         if self.driven { Mode::Driven } else { Mode::Prescribed(zero()) }
     }
 }
 
-/// A body as the user states it, and where its joint stands.
+/// Parameters of a body, and the origin of its joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyParameters<T> {
     /// Origin of the joint from the origin of its parent body, expressed in the parent body's axes,
@@ -105,16 +119,47 @@ pub type Wrenches<K> = <K as Kernels>::PerJoint<Wrench<<K as Kind>::Scalar>>;
 /// A device kind: a structure of parameters, and functions over the emitted kernels.
 ///
 /// Implemented by emitted text, next to each kernel; written by hand for nothing. The equations of
-/// motion (`handed`, `eliminate`, `back_substitute`) are expressed in B; everything else stands
-/// along the device's own: those of its first joint at zero, `mount` in the hub.
+/// motion (`constant_share`, `eliminate`, `back_substitute`) are expressed in B; everything else is
+/// expressed in the device's own axes: those of its first joint at zero, `mount` in the hub.
 pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// The number type.
     type Scalar: Scalar;
     /// Motor torques.
     type Motors: Each<Self::Scalar> + Copy;
 
+    /// The name of the kind, that of its module: `reaction_wheel`.
+    const NAME: &'static str;
     /// The joints from the hub to the tip.
     const JOINTS: &'static [JointInfo];
+    /// The fields of the structure in order, without `passive`.
+    const PARAMETERS: &'static [ParameterInfo];
+
+    /// The value of a parameter by its name in the structure, `r_goc_go`, or of a joint's spring,
+    /// damper and friction, `passive.inner_gimbal.stiffness`.
+    ///
+    /// # Errors
+    ///
+    /// [`NameError::Unknown`].
+    fn parameter(&self, name: &str) -> Result<ParameterValue<Self::Scalar>, NameError> {
+        parameter_info::value(self, name)
+    }
+    /// Writes a parameter by its name, as [`Self::parameter`] reads it. Nothing is checked:
+    /// [`Spacecraft::new`](crate::Spacecraft::new) does that.
+    ///
+    /// # Errors
+    ///
+    /// [`NameError`] where there is no such parameter, or where the value has another shape.
+    fn set_parameter(
+        &mut self,
+        name: &str,
+        value: ParameterValue<Self::Scalar>,
+    ) -> Result<(), NameError> {
+        parameter_info::write(self, name, value)
+    }
+    /// A field of the structure by its name, `passive` left out; none where there is no such.
+    fn parameter_mut(&mut self, name: &str) -> Option<ParameterMut<'_, Self::Scalar>>;
+    /// Springs, dampers, friction, to be written.
+    fn passive_mut(&mut self) -> &mut Self::PerJoint<Passive<Self::Scalar>>;
 
     /// All coordinates and rates zero.
     fn at_rest() -> Self::Joints<Self::Scalar>;
@@ -152,8 +197,8 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     /// The constants, the first origin turned into the device's axes.
     fn constants(&self, origin: [Self::Scalar; 3]) -> Self::Constants<Self::Scalar>;
 
-    /// The emitted `handed`: the constant share of the hub, expressed in B.
-    fn handed(constants: &Self::Constants<Self::Scalar>) -> Handed<Self::Scalar>;
+    /// The emitted `constant_share`: the constant share of the hub, expressed in B.
+    fn constant_share(constants: &Self::Constants<Self::Scalar>) -> ConstantShare<Self::Scalar>;
 
     /// The emitted `energy_momentum`.
     fn energy_momentum(
@@ -171,8 +216,8 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
         constants: &Self::Constants<Self::Scalar>,
         pose: &Self::Pose<Self::Scalar>,
     ) -> Self::PerJoint<[[Self::Scalar; 3]; 3]>;
-    /// The emitted `loads`: what each carrier exerts on what it carries, about the joint's origin
-    /// along the body's own axes.
+    /// The emitted `loads`: what each parent body exerts on its child body, about the joint's
+    /// origin along the body's own axes.
     fn loads(
         constants: &Self::Constants<Self::Scalar>,
         pose: &Self::Pose<Self::Scalar>,
@@ -181,7 +226,7 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
         hub: &BodyAcceleration<Self::Scalar>,
         accelerations: &Self::Accelerations<Self::Scalar>,
     ) -> Carried<Wrenches<Self>, Wrench<Self::Scalar>>;
-    /// The emitted `external`: wrenches on the bodies carried inwards.
+    /// The emitted `external`: wrenches on the bodies, summed inwards.
     fn external(
         constants: &Self::Constants<Self::Scalar>,
         pose: &Self::Pose<Self::Scalar>,
@@ -196,7 +241,7 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     ) -> (Wrenches<Self>, [Self::Scalar; 6]);
 }
 
-/// Wrenches across the joints of a device, and what comes of them at B.
+/// Wrenches across the joints of a device, and their sum on the hub, about B.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Carried<W, B> {
     /// About each joint's origin along the axes of its child body.

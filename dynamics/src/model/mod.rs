@@ -3,10 +3,13 @@
 //! Parameters and precomputed constants, which never change during a run. The equations of a kind
 //! are emitted, under [`generated`](crate::generated).
 
-pub(crate) mod few;
+pub(crate) mod joint_array;
 pub(crate) mod kernels;
 pub mod kind;
 pub(crate) mod mode;
+pub(crate) mod parameter_info;
+#[cfg(test)]
+mod parameter_info_checks;
 pub(crate) mod parameters;
 pub(crate) mod passive;
 pub mod units;

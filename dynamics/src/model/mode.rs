@@ -1,33 +1,35 @@
-//! What is given of a joint or of the hub, and what is found: [`Mode`], [`HubMode`].
+//! Modes of a joint and of the hub, which say what is an input and what is computed: [`Mode`],
+//! [`HubMode`].
 
 use nalgebra::Vector3;
 
 use crate::numbers::real::{Scalar, one, zero};
 
-/// What is given of a joint at one instant. It may change from step to step.
+/// Mode of a joint at one instant. It may change from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode<T = f64> {
-    /// The motor torque is given, the acceleration is found.
+    /// The motor torque is an input, the acceleration is computed.
     Driven,
-    /// The acceleration is given, rad/s² (or m/s²); the torque is found by
+    /// The acceleration is an input, rad/s² (or m/s²); the torque is computed by
     /// [`Spacecraft::loads`](crate::Spacecraft::loads).
     Prescribed(T),
     /// The joint does not move: its rate must be zero. A moving one is stopped first, by
-    /// [`Spacecraft::stop`](crate::Spacecraft::stop). The torque is found as for a prescribed one.
+    /// [`Spacecraft::stop`](crate::Spacecraft::stop). The torque is computed as for a prescribed
+    /// one.
     Locked,
 }
 
-/// What is given of the hub.
+/// Mode of the hub.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum HubMode<T = f64> {
-    /// External force and torque are given, the accelerations are found.
+    /// External force and torque are inputs, the accelerations are computed.
     #[default]
     Free,
-    /// The hub is clamped, as on a dynamometer table: nothing of it moves, and force and torque of
-    /// the clamp are found by [`Spacecraft::loads`](crate::Spacecraft::loads). Its velocities must
+    /// The hub is clamped, as on a dynamometer table: it is at rest, and force and torque of the
+    /// clamp are computed by [`Spacecraft::loads`](crate::Spacecraft::loads). Its velocities must
     /// be zero.
     Fixed,
-    /// The hub's accelerations are given, expressed in B.
+    /// The hub's accelerations are inputs, expressed in B.
     Prescribed {
         /// Inertial acceleration of B, m/s².
         r_b_n_ddot: Vector3<T>,
@@ -36,17 +38,17 @@ pub enum HubMode<T = f64> {
     },
 }
 
-/// A joint's torque and mode as an emitted kernel takes them: weights instead of a branch.
+/// A joint's torque and mode as the emitted kernels use them: weights instead of a branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive<T> {
-    /// Torque, where it is given, N m (or N).
+    /// Torque of a driven joint, N m (or N).
     pub torque: T,
-    /// One where the torque is given, else zero.
+    /// One of a driven joint, else zero.
     pub driven: T,
-    /// Zero where the torque is given, else one, in the pivot's unit: any positive number keeps the
+    /// Zero of a driven joint, else one, in the pivot's unit: any positive number keeps the
     /// reciprocal of an unused pivot finite.
     pub held: T,
-    /// The acceleration where it is given, else zero, rad/s² (or m/s²).
+    /// The acceleration of a joint that is not driven, else zero, rad/s² (or m/s²).
     pub given: T,
 }
 
@@ -66,7 +68,7 @@ impl<T: Copy> Drive<T> {
 }
 
 impl<T: Scalar> Mode<T> {
-    /// The weights for a given torque.
+    /// The weights for a motor torque.
     pub(crate) fn drive(self, torque: T) -> Drive<T> {
         let given = match self {
             Self::Driven => {

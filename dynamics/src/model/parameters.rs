@@ -1,7 +1,7 @@
-//! The rigid hub, as a user states it. The devices stand with their kinds, under
+//! Parameters of the rigid hub. Those of the devices are with their kinds, under
 //! [`generated`](crate::generated).
 //!
-//! Plain data in SI units. [`Spacecraft::new`](crate::Spacecraft::new) checks it and turns it into
+//! Numbers in SI units. [`Spacecraft::new`](crate::Spacecraft::new) checks it and turns it into
 //! constants once; parameters never change during a run.
 
 use nalgebra::{Matrix3, Vector3};
@@ -13,7 +13,7 @@ pub struct Hub<T = f64> {
     pub m_b: T,
     /// `r_{Bc/B}`, centre of mass from the reference point B, B axes, m.
     ///
-    /// Choose B near it. The equations stand about B, and digits are lost with the square of the
+    /// Choose B near it. The equations are about B, and digits are lost with the square of the
     /// distance over the radius of gyration: an error of 1e-11 is exceeded from 200 such radii on:
     /// from 4 m for a hub of some centimetres, from 200 m for one of some metres.
     pub r_bc_b: Vector3<T>,

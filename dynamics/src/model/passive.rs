@@ -1,23 +1,23 @@
-//! [`Passive`]: what a joint does by itself, a spring, a damper and dry friction.
+//! [`Passive`]: spring, damper and dry friction of a joint.
 
 use crate::numbers::real::{Scalar, half, reciprocal_in_two, zero};
 
-/// Spring, damper and friction of one joint; all of them zero in a free one.
+/// Spring, damper and friction of one joint; all zero in a free one.
 ///
 /// ```text
-/// u = -k (q - q_0) - c q' - u_c q' / sqrt(q'^2 + w^2)
+/// u = -k (q - q_0) - c q' - u_c q' / sqrt(q'^2 + q_c'^2)
 /// ```
 ///
-/// acts beside the motor, on the body and reversed on its parent body. The last term is Coulomb's
-/// friction made smooth: its full size well above the rate `w`, and a stiff damper `u_c / w` below.
-/// It never sticks: a joint that shall not move is [locked](crate::Mode::Locked).
+/// acts in addition to the motor, on the child body and reversed on the parent body. The last term
+/// is smoothed Coulomb friction: `u_c` well above the rate `q_c'`, a stiff damper `u_c / q_c'`
+/// below. It never sticks: a joint that must not move is [locked](crate::Mode::Locked).
 ///
 /// A step of Runge-Kutta's method must resolve what is stiff. With `J` the inertia that the joint
-/// moves, `dt` is at most `2.785 J / c` for a damper, `2.828 sqrt(J / k)` for a spring, and `2.785
-/// J w / u_c` for dry friction where the joint comes to rest or reverses: at a rate of 1e-4 rad/s,
-/// a torque of 1e-3 N m and 1e-3 kg m², 0.28 ms. [`Spacecraft::step`](crate::Spacecraft::step)
-/// rejects a longer one with [`SolveError::Unstable`](crate::SolveError::Unstable), which tells the
-/// longest.
+/// moves, `dt` is at most `2.785 J / c` for a damper, `2.828 sqrt(J / k)` for a spring, and
+/// `2.785 J q_c' / u_c` for dry friction where the joint comes to rest or reverses: at a rate of
+/// 1e-4 rad/s, a torque of 1e-3 N m and 1e-3 kg m², 0.28 ms.
+/// [`Spacecraft::step`](crate::Spacecraft::step) rejects a longer one with
+/// [`SolveError::Unstable`](crate::SolveError::Unstable), which has the longest stable one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passive<T = f64> {
     /// `k`, N m/rad; of a sliding joint N/m. Not negative.
@@ -28,8 +28,8 @@ pub struct Passive<T = f64> {
     pub viscous: T,
     /// `u_c`, Coulomb friction, N m or N. Not negative.
     pub coulomb: T,
-    /// `w`, the rate below which Coulomb friction fades, rad/s or m/s; above zero where there is
-    /// any.
+    /// `q_c'`, the rate below which Coulomb friction fades, rad/s or m/s; above zero unless
+    /// `coulomb` is zero.
     pub coulomb_rate: T,
 }
 
@@ -87,19 +87,19 @@ impl<T: Scalar> Passive<T> {
         }
         // By the larger of the two rates, so that neither square vanishes or overflows.
         let (first, second) = reciprocal_in_two(rate.abs().max(self.coulomb_rate));
-        let (q, w) = (rate * first * second, self.coulomb_rate * first * second);
-        viscous - self.coulomb * q * (q * q + w * w).sqrt().recip()
+        let (q, q_c) = (rate * first * second, self.coulomb_rate * first * second);
+        viscous - self.coulomb * q * (q * q + q_c * q_c).sqrt().recip()
     }
 
-    /// By how much friction grows with the rate: `c + u_c w² / (q'² + w²)^(3/2)`, N m s/rad.
+    /// By how much friction grows with the rate: `c + u_c q_c'² / (q'² + q_c'²)^(3/2)`, N m s/rad.
     pub(crate) fn damping(&self, rate: T) -> T {
         if self.coulomb == zero() {
             return self.viscous;
         }
         let (first, second) = reciprocal_in_two(rate.abs().max(self.coulomb_rate));
-        let (q, w) = (rate * first * second, self.coulomb_rate * first * second);
-        let share = (q * q + w * w).recip();
-        self.viscous + self.coulomb * first * second * (w * w * share * share.sqrt())
+        let (q, q_c) = (rate * first * second, self.coulomb_rate * first * second);
+        let share = (q * q + q_c * q_c).recip();
+        self.viscous + self.coulomb * first * second * (q_c * q_c * share * share.sqrt())
     }
 
     /// Energy of the spring, J.

@@ -11,12 +11,12 @@ use crate::numbers::vec3::{
     zeros,
 };
 
-/// A force and the moment that goes with it about a point, along one frame's axes.
+/// A force and its moment about a point, expressed in one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wrench<T = f64> {
     /// Force, N.
     pub force: Vector3<T>,
-    /// Moment about the point that is told where the wrench stands, N m.
+    /// Moment about the point that each use names, N m.
     pub moment: Vector3<T>,
 }
 
@@ -27,8 +27,8 @@ impl<T: Scalar> Wrench<T> {
         Self { force: vector(zeros()), moment: vector(zeros()) }
     }
 
-    /// A force through a point, `moment = point x force`, both from the origin at hand along its
-    /// axes.
+    /// A force through a point, `moment = point x force`, both expressed in one frame,
+    /// the point from its origin.
     #[must_use]
     pub fn at(point: &Vector3<T>, force: &Vector3<T>) -> Self {
         let moment = cross(components(point), components(force));
@@ -41,20 +41,20 @@ impl<T: Scalar> Wrench<T> {
         Self { force: vector(zeros()), moment: *torque }
     }
 
-    /// The same wrench about another point, from which the present one is at `arm`, along the same
-    /// axes, m: `moment + arm x force`.
+    /// The same wrench about another point, from which the present one is at `arm`, expressed in
+    /// the same axes, m: `moment + arm x force`.
     #[must_use]
     pub fn moved(&self, arm: &Vector3<T>) -> Self {
         self.plus(&Self { force: vector(zeros()), ..Self::at(arm, &self.force) })
     }
 
-    /// The sum of two wrenches about one point along the same axes.
+    /// The sum of two wrenches about one point, expressed in the same axes.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         self.with(other, add)
     }
 
-    /// The difference of two wrenches about one point along the same axes.
+    /// The difference of two wrenches about one point, expressed in the same axes.
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
         self.with(other, sub)
@@ -72,20 +72,20 @@ impl<T: Scalar> Wrench<T> {
         Self { force: vector(force), moment: vector(moment) }
     }
 
-    /// Along the axes in which the columns stand, given along the columns.
+    /// Expressed in the axes in which the columns are expressed, from the columns.
     pub(crate) fn turned(&self, axes: &Columns<T>) -> Self {
         let turn = |v: &Vector3<T>| rotate(axes, components(v));
         Self::of(turn(&self.force), turn(&self.moment))
     }
 
-    /// Along the columns.
+    /// Expressed in the columns.
     pub(crate) fn turned_back(&self, axes: &Columns<T>) -> Self {
         let turn = |v: &Vector3<T>| rotate_transposed(axes, components(v));
         Self::of(turn(&self.force), turn(&self.moment))
     }
 
-    /// What a joint feels of a wrench about its origin along the axes of its child body: the
-    /// moment about its axis, or the force along it.
+    /// The component of a wrench along a joint, about its origin and expressed in its child body:
+    /// the moment about its axis, or the force along it.
     pub(crate) fn along(&self, joint: &JointInfo) -> T {
         let [x, y, z] = components(if joint.slides { &self.force } else { &self.moment });
         match joint.axis {
@@ -109,7 +109,7 @@ impl<T: Scalar> Wrench<T> {
 impl<T: Scalar> Neg for Wrench<T> {
     type Output = Self;
 
-    /// What the other side feels.
+    /// The reaction.
     fn neg(self) -> Self {
         Self::none().minus(&self)
     }

@@ -1,12 +1,12 @@
-//! What belongs to each joint of a set of devices, whatever the set's shape: one after another.
+//! Values of the joints of a set of devices of any shape, in order.
 //!
 //! A device has a structure with a name per joint; an array of devices has an array of them, a
 //! tuple a tuple, a list a list. [`Each`] and [`JointStates`] walk all of them in one order: device
-//! by device as given, in a device from the hub to the tip.
+//! by device in the order of the set, in a device from the hub to the tip.
 
 use core::fmt::Debug;
 
-/// What can stand at a joint: a torque, a mode, a wrench.
+/// A value of a joint: a torque, a mode, a wrench.
 pub trait Value: Copy + Debug + PartialEq + Send + Sync + 'static {}
 
 impl<V: Copy + Debug + PartialEq + Send + Sync + 'static> Value for V {}

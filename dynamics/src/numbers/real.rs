@@ -1,10 +1,10 @@
-//! The number traits: [`Real`] for the emitted kernels, [`Angle`] for what they are given of a
-//! joint, [`Scalar`] for the solver around them.
+//! The number traits: [`Real`] for the emitted kernels, [`Angle`] for sine and cosine of
+//! a joint, [`Scalar`] for the solver around them.
 //!
 //! A kernel needs nothing but ring arithmetic and a reciprocal, so it can also run on lanes or dual
-//! numbers, which have no total order. Everything that compares or takes a root asks for
-//! [`Scalar`]. All are implemented for `f64` and `f32`; nothing in this crate rounds through `f64`
-//! on the way to a result, so a wider type keeps its full accuracy.
+//! numbers, which have no total order. Everything that compares or takes a root requires
+//! [`Scalar`]. All are implemented for `f64` and `f32`; nothing in this crate rounds a
+//! result through `f64`, so a wider type keeps its full accuracy.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
@@ -159,7 +159,7 @@ impl Real for f32 {
     }
 
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked for")]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is intended")]
     fn like(self, value: f64) -> Self {
         value as Self
     }
@@ -176,7 +176,7 @@ impl Scalar for f32 {
     const EPSILON: Self = Self::EPSILON;
 
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked for")]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is intended")]
     fn from_f64(value: f64) -> Self {
         value as Self
     }

@@ -1,11 +1,11 @@
 //! Sine and cosine together, without a branch: one text for `f64`, a fused `f64` and lanes.
 //!
-//! The angle is taken less its nearest whole number `k` of quarter turns (after Cody and Waite, with
-//! pi / 2 in four parts), sine and cosine of what is left come from two polynomials, and `k` modulo 4
-//! swaps them and sets their signs. Worst error of 1.2e8 angles up to [`LARGEST_ANGLE`]: 0.83 of the
-//! last place, 0.50 next to multiples of pi / 2; the suite `sines` holds it against 31 digits. Sine is
-//! odd to the bit, `-0.0` included, and cosine even. Only `+ - *` and what [`QuarterTurns`] adds: a
-//! number that does not fuse has the same bits on every IEEE-754 target.
+//! The angle is taken less its nearest whole number `k` of quarter turns (after Cody and Waite,
+//! with pi / 2 in four parts), sine and cosine of what is left come from two polynomials, and `k`
+//! modulo 4 swaps them and sets their signs. Worst error of 1.2e8 angles up to [`LARGEST_ANGLE`]:
+//! 0.83 of the last place, 0.50 next to multiples of pi / 2; the suite `sines` compares it with 31
+//! digits. Sine is odd to the bit, `-0.0` included, and cosine even. Only `+ - *` and what
+//! [`QuarterTurns`] adds: a number that does not fuse has the same bits on every IEEE-754 target.
 
 use core::f64::consts::FRAC_2_PI;
 
@@ -38,7 +38,7 @@ impl QuarterTurns for f64 {
     }
 }
 
-/// Up to this angle, rad, either way, [`sin_cos`] is right: 7 hours of a wheel at 6000 rpm.
+/// Up to this magnitude of the angle, rad, [`sin_cos`] is accurate: 7 hours of a wheel at 6000 rpm.
 ///
 /// Beyond it digits are lost without notice; whoever calls has to look.
 pub(crate) const LARGEST_ANGLE: f64 = 16_777_216.0; // 2^24
@@ -47,7 +47,7 @@ pub(crate) const LARGEST_ANGLE: f64 = 16_777_216.0; // 2^24
 /// numbers are one apart.
 const SHIFT: f64 = 6_755_399_441_055_744.0; // 1.5 * 2^52
 
-/// Pi / 2, cut after 28, 53 and 82 bits behind the point, and 53 bits of what is left. None is
+/// Pi / 2, cut after 28, 53 and 82 bits after the point, and 53 bits of what is left. None is
 /// negative, so that no product with `k = 0` turns `-0.0` into `0.0`.
 pub(crate) const HALF_PI: [f64; 4] = [
     f64::from_bits(0x3ff9_21fb_5400_0000),
@@ -56,8 +56,8 @@ pub(crate) const HALF_PI: [f64; 4] = [
     f64::from_bits(0x3a94_5c06_e0e6_8948),
 ];
 
-/// `(x - sin x) / x^3` in powers of `x^2`, for `|x|` up to pi / 4: each coefficient by Remez' method
-/// after the one before it was rounded. Error below `2^-57.8` of the sine.
+/// `(x - sin x) / x^3` in powers of `x^2`, for `|x|` up to pi / 4: each coefficient by Remez'
+/// method after the one before it was rounded. Error below `2^-57.8` of the sine.
 const SINE: [f64; 6] = [
     0.166_666_666_666_666_3,
     -0.008_333_333_333_321_84,
@@ -77,8 +77,8 @@ const COSINE: [f64; 6] = [
     -1.135_874_924_665_069_6e-11,
 ];
 
-/// Sine and cosine of an angle in radians, at most [`LARGEST_ANGLE`] either way; NaN of an infinite
-/// angle and of NaN.
+/// Sine and cosine of an angle in radians, at most [`LARGEST_ANGLE`] in magnitude; NaN of an
+/// infinite angle and of NaN.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "lanes reach their instructions only where inlined")]
 pub(crate) fn sin_cos<T: QuarterTurns>(angle: T) -> (T, T) {
@@ -89,10 +89,10 @@ pub(crate) fn sin_cos<T: QuarterTurns>(angle: T) -> (T, T) {
     T::turned(count, sine, cosine)
 }
 
-/// `angle - k pi / 2` as the difference `rest - excess`, right to `2^-114` and `2^-106` of itself, for
-/// the nearest `k`, which [`LARGEST_ANGLE`] keeps below `2^23.4`.
+/// `angle - k pi / 2` as the difference `rest - excess`, right to `2^-114` and `2^-106` of itself,
+/// for the nearest `k`, which [`LARGEST_ANGLE`] keeps below `2^23.4`.
 ///
-/// Nothing is rounded on the way to `rest` but the last sum, and `excess` has what that sum gained.
+/// Only the last sum of `rest` is rounded, and `excess` has what that sum gained.
 /// For `k = 0` all is `angle`; else `|angle| > 1/2`, a multiple of `2^-53`, and:
 ///
 /// 1. The first part is a multiple of `2^-28` below 2: its product with `k` is one below `2^25`, so
@@ -101,10 +101,10 @@ pub(crate) fn sin_cos<T: QuarterTurns>(angle: T) -> (T, T) {
 ///    `2^-29` of `k`, below 1: 53 bits, exact.
 /// 2. The second part, below `2^-29`, is a multiple of `2^-53`: so are product and difference, both
 ///    below 1. Exact.
-/// 3. The third part, below `2^-53.8`, is a multiple of `2^-82`: its product with `k`, below `2^-30`,
-///    has 52 bits at most. If the difference so far is the larger of the two, `(rest - before) - step`
-///    is what their sum gained by rounding (Dekker). If not, both are multiples of `2^-82` below
-///    `2^-30`: the sum is exact, and has gained nothing.
+/// 3. The third part, below `2^-53.8`, is a multiple of `2^-82`: its product with `k`, below
+///    `2^-30`, has 52 bits at most. If the difference so far is the larger of the two,
+///    `(rest - before) - step` is what their sum gained by rounding (Dekker). If not, both are
+///    multiples of `2^-82` below `2^-30`: the sum is exact, and has gained nothing.
 /// 4. The fourth part, below `2^-85`, is rounded at `2^-139`, which `k` takes to `2^-115`; its
 ///    product with `k`, below `2^-61`, is rounded at `2^-115`.
 ///
@@ -122,10 +122,10 @@ fn reduced<T: Real>(angle: T, k: T) -> (T, T) {
 
 /// Sine and cosine of `x - excess`, for `|x|` up to pi / 4 and an excess that is lost in it.
 ///
-/// To first order in the excess `e`, `sin(x - e) = sin x - e cos x` and `cos(x - e) = cos x + e sin x`;
-/// at most `1 - x^2 / 2` of that cosine and `x` of that sine count. What `1 - x^2 / 2` loses by
-/// rounding is added to its small companions. Of the sine everything but `x` is subtracted, so that
-/// `x = -0.0` remains what it is.
+/// To first order in the excess `e`, `sin(x - e) = sin x - e cos x` and
+/// `cos(x - e) = cos x + e sin x`; at most `1 - x^2 / 2` of that cosine and `x` of that sine count.
+/// What `1 - x^2 / 2` loses by rounding is added to its small companions. Of the sine everything
+/// but `x` is subtracted, so that `x = -0.0` remains what it is.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "lanes reach their instructions only where inlined")]
 fn of_small<T: Real>(x: T, excess: T) -> (T, T) {

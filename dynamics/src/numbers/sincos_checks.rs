@@ -1,6 +1,6 @@
 //! What the reduction's proof says of pi / 2 in parts, and the core at a number that fuses.
 //!
-//! How many digits are right is asked by the suite `sines`, which has a wider number to ask.
+//! The suite `sines` measures the accuracy, against a wider number.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -80,7 +80,7 @@ fn angles() -> impl Iterator<Item = f64> {
     near.chain(far).chain([-0.0, 5e-324, -5e-324, 45.553_093_477_052, 14_461_176.670_278_38])
 }
 
-/// How many numbers on lies the other, of equal sign.
+/// How many numbers the other is further on, of equal sign.
 fn apart(a: f64, b: f64) -> u64 {
     a.to_bits().abs_diff(b.to_bits())
 }
@@ -101,7 +101,7 @@ fn parts_of_half_pi_are_its_digits_in_turn() {
 
     // The 58 digits from 2^-83 to 2^-140; the rounding keeps those down to 2^-138.
     let left = ((DIGITS % (1 << 42)) as u64) << 16 | NEXT;
-    #[expect(clippy::cast_precision_loss, reason = "rounding is what is asked for")]
+    #[expect(clippy::cast_precision_loss, reason = "rounding is intended")]
     let rounded = left as f64;
     assert_eq!(fourth, rounded * 2.0_f64.powi(-140));
 }

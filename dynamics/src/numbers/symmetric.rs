@@ -49,7 +49,7 @@ impl<T: Scalar> Symmetric<T> {
     /// A fixed number of sweeps, so time is bounded and nothing can fail to converge: the method is
     /// quadratic, and eight sweeps leave a 3x3 matrix diagonal in any precision up to 200 bits.
     /// The tensor is scaled to its largest element first, so nothing overflows or vanishes on the
-    /// way; a moment that is itself beyond the largest number comes out infinite.
+    /// way; a moment beyond the largest number is infinite.
     pub(crate) fn principal_moments(self) -> Vec3<T> {
         const SWEEPS: usize = 8;
         let largest = self.largest_element();
@@ -171,7 +171,7 @@ impl<T: Real> Symmetric<T> {
         rotate(&self.columns(), v)
     }
 
-    /// `m self m^T`: components along the old frame of a tensor given along the columns of `m`.
+    /// `m self m^T`: components in the old frame of a tensor expressed in the columns of `m`.
     #[inline(always)]
     pub(crate) fn rotated(&self, m: &Columns<T>) -> Self {
         let s = self.columns();
@@ -252,7 +252,7 @@ mod tests {
     use super::*;
     use nalgebra::Rotation3;
 
-    /// Eigenvalues come out of a few dozen rounded operations on numbers of size 1 to 10.
+    /// Eigenvalues result from a few dozen rounded operations on numbers of size 1 to 10.
     const ROUNDING: f64 = 1e-14;
 
     fn assert_close(actual: [f64; 3], expected: [f64; 3]) {

@@ -1,7 +1,7 @@
-//! Three-component vectors and rotations as plain arrays: the arithmetic between API and kernels.
+//! Three-component vectors and rotations as arrays: the arithmetic between API and kernels.
 //!
-//! nalgebra's types stand at the API's edge; inside, arrays over [`Real`] keep every sum in a fixed
-//! order and need no trait beyond the kernels' own.
+//! nalgebra's types are used at the API's edge; inside, arrays over [`Real`] keep every sum in a
+//! fixed order and need no trait beyond the kernels' own.
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
@@ -83,7 +83,7 @@ pub(crate) fn cross<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// `m v`: components along the old frame of a vector given along the columns.
+/// `m v`: components in the old frame of a vector expressed in the columns.
 #[inline(always)]
 pub(crate) fn rotate<T: Real>(m: &Columns<T>, v: Vec3<T>) -> Vec3<T> {
     let [x, y, z] = m;
@@ -94,7 +94,7 @@ pub(crate) fn rotate<T: Real>(m: &Columns<T>, v: Vec3<T>) -> Vec3<T> {
     ]
 }
 
-/// `m^T v`: components along the columns of a vector given along the old frame.
+/// `m^T v`: components in the columns of a vector expressed in the old frame.
 #[inline(always)]
 pub(crate) fn rotate_transposed<T: Real>(m: &Columns<T>, v: Vec3<T>) -> Vec3<T> {
     [dot(m[0], v), dot(m[1], v), dot(m[2], v)]

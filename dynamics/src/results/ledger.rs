@@ -77,15 +77,15 @@ impl<T: Scalar> Power<T> {
         }
     }
 
-    /// `self + time * power`, source by source.
-    pub(crate) fn plus_scaled(&self, time: T, power: &Self) -> Self {
+    /// `self + weight * power`, source by source.
+    pub(crate) fn plus_scaled(&self, weight: T, power: &Self) -> Self {
         Self {
-            external: self.external + time * power.external,
-            hub: self.hub + time * power.hub,
-            gravity: self.gravity + time * power.gravity,
-            motors: self.motors + time * power.motors,
-            springs: self.springs + time * power.springs,
-            friction: self.friction + time * power.friction,
+            external: self.external + weight * power.external,
+            hub: self.hub + weight * power.hub,
+            gravity: self.gravity + weight * power.gravity,
+            motors: self.motors + weight * power.motors,
+            springs: self.springs + weight * power.springs,
+            friction: self.friction + weight * power.friction,
         }
     }
 
@@ -140,7 +140,7 @@ impl<D: Devices> Spacecraft<D> {
         let (bn, sums) = self.sums(state);
         let field = inputs.gravity.field(&bn, &state.r_b_n);
         let (_, hub, totals) =
-            self.weigh(state, inputs, accelerations, field.as_ref(), &Along::Body);
+            self.loads_and_sums(state, inputs, accelerations, field.as_ref(), &Along::Body);
         let velocity = rotate(&bn, components(&state.r_b_n_dot));
         let omega = components(&state.omega);
         let of_hub = |wrench: &Wrench<D::Scalar>| wrench.power(velocity, omega);

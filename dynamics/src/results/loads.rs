@@ -1,9 +1,9 @@
 //! Loads: the force and torque across every joint and at every mount, the motor torques, and the
-//! wrench that the hub needs, for given accelerations. Inverse dynamics is the same question.
+//! wrench that the hub needs, for known accelerations: inverse dynamics.
 //!
-//! The paper names these structural torques in (77), (98), (116) and never solves for them. Each
-//! joint carries what all bodies outward of it need, by Newton and Euler, less what acts on them
-//! from outside. Gravity's uniform part is a change of frame: accelerations are counted in the
+//! The paper names these structural torques in (77), (98), (116) and never solves for them. The
+//! load of a joint is what all bodies outboard of it need, by Newton and Euler, less the external
+//! wrenches on them. Gravity's uniform part is a change of frame: accelerations are counted in the
 //! frame that falls with it.
 
 use core::convert::Infallible;
@@ -40,7 +40,7 @@ pub enum LoadAxes {
     #[default]
     Body,
     /// Those of its parent body; of a first joint, the device's at zero angle.
-    Carrier,
+    Parent,
     /// B.
     Hub,
     /// N.
@@ -52,8 +52,8 @@ pub enum LoadAxes {
 pub struct Loads<D: Devices> {
     /// Device by device; a [`DeviceLoads`] for each.
     pub devices: D::Per<data::Loads>,
-    /// What must act on the hub beside the inputs, about B, expressed in B: nothing but rounding on
-    /// a free hub with its own accelerations; on a [fixed](crate::HubMode::Fixed) one, what the
+    /// What must act on the hub in addition to the inputs, about B, expressed in B: only rounding
+    /// on a free hub with its own accelerations; on a [fixed](crate::HubMode::Fixed) one, what the
     /// table exerts on it. A dynamometer reads the opposite.
     pub hub: Wrench<D::Scalar>,
 }
@@ -87,10 +87,10 @@ impl<D: Devices> Spacecraft<D> {
     /// The loads that these accelerations need: inverse dynamics.
     ///
     /// With what [`Self::accelerations`] found for the same state and inputs, these are the loads
-    /// at that instant, and prescribed and locked joints find the torque they need in
-    /// [`DeviceLoads::motors`]. With accelerations that are wished for, they are the motor torques
-    /// and the wrench on the hub that fulfil the wish. Motor torques and modes in `inputs` are not
-    /// asked; forces, torques and gravity are.
+    /// at that instant, and the torques that prescribed and locked joints need are in
+    /// [`DeviceLoads::motors`]. With desired accelerations, they are the motor torques and the
+    /// wrench on the hub that produce them. Motor torques and modes in `inputs` are not read;
+    /// forces, torques and gravity are.
     ///
     /// # Errors
     ///
@@ -108,13 +108,13 @@ impl<D: Devices> Spacecraft<D> {
         let bn = columns(&state.attitude.dcm());
         let along = match axes {
             LoadAxes::Body => Along::Body,
-            LoadAxes::Carrier => Along::Carrier,
+            LoadAxes::Parent => Along::Parent,
             LoadAxes::Hub => Along::Hub(None),
             LoadAxes::Inertial => Along::Hub(Some(bn)),
         };
         let field = inputs.gravity.field(&bn, &state.r_b_n);
         let (devices, hub, totals) =
-            self.weigh(state, inputs, accelerations, field.as_ref(), &along);
+            self.loads_and_sums(state, inputs, accelerations, field.as_ref(), &along);
         let finite = self.check_joints(&totals).and_then(|()| {
             let what = Quantity::HubLoad;
             if hub.is_finite() { Ok(()) } else { Err(SolveError::Overflow { what }) }
@@ -136,8 +136,8 @@ impl<D: Devices> Spacecraft<D> {
         })
     }
 
-    /// Loads of the devices, what the hub needs beside the inputs, and the sums of both.
-    pub(crate) fn weigh<A>(
+    /// Loads of the devices, what the hub needs in addition to the inputs, and the sums of both.
+    pub(crate) fn loads_and_sums<A>(
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,

@@ -41,7 +41,7 @@ pub enum About<T = f64> {
 pub struct Momentum<T = f64> {
     /// Linear momentum, N axes, kg m/s.
     pub linear: Vector3<T>,
-    /// Angular momentum about the point given, N axes, kg m^2/s.
+    /// Angular momentum about the point of the call, N axes, kg m^2/s.
     pub angular: Vector3<T>,
 }
 
@@ -136,7 +136,7 @@ impl<D: Devices> Spacecraft<D> {
         let BodySums { linear, angular_b, .. } = *sums;
         let linear_n = rotate_transposed(bn, linear);
         let about_b = rotate_transposed(bn, angular_b);
-        // H about P is H_B + r_{B/P} x p, whatever B does.
+        // H about P is H_B + r_{B/P} x p, for any motion of B.
         let r_b_n = components(&state.r_b_n);
         let r_b_p = match about {
             About::InertialOrigin => r_b_n,
@@ -187,7 +187,7 @@ impl<D: Devices> Spacecraft<D> {
         moment.map(|moment| scale(per_mass, moment))
     }
 
-    /// Refuses a state that is not finite, or of another number of devices.
+    /// Rejects a state that is not finite, or has another number of devices.
     fn reject_state<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,

@@ -6,16 +6,18 @@
 //! the same bits. Kinds of other crates are enumerated by [`device_enum`].
 
 use crate::device_enum;
+use crate::every_kind;
 #[allow(clippy::wildcard_imports, reason = "every kind, also one to come")]
 use crate::generated::devices::*;
-use crate::generated::every_kind;
 use crate::model::kind::{JointInfo, Kind};
 use crate::numbers::real::Scalar;
-use crate::sets::built_in_parameters::{BuiltInParameters, Misfit, made, stated};
+use crate::sets::device_parameters::{
+    DeviceParameters, UnsupportedParameter, device_of, parameters_of,
+};
 
 /// The enumeration of all kinds, and what depends on which it is.
 macro_rules! built_in {
-    ($($kind:ident)*) => {
+    ($($kind:ident $module:ident $number:literal;)*) => {
         device_enum! {
             /// A device of one of this crate's kinds.
             #[derive(Copy)]
@@ -24,18 +26,34 @@ macro_rules! built_in {
             gains BuiltInGains;
         }
 
-        /// Which of this crate's kinds.
+        /// Which of this crate's kinds, by numbers that never change: those of the C interface.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(u8)]
         pub enum BuiltInKind {
             $(
-                #[doc = concat!("[`", stringify!($kind), "`].")]
-                $kind,
+                #[doc = concat!("[`", stringify!($kind), "`], number ", $number, ".")]
+                $kind = $number,
             )*
         }
 
         impl BuiltInKind {
-            /// Every kind.
+            /// Every kind, in the order of the numbers.
             pub const ALL: &'static [Self] = &[$(Self::$kind),*];
+
+            /// Its number: the discriminant, and `PRECESS_KIND_` of C.
+            #[must_use]
+            pub const fn number(self) -> u8 {
+                self as u8
+            }
+
+            /// The kind with a number, where there is one.
+            #[must_use]
+            pub const fn of_number(number: u8) -> Option<Self> {
+                match number {
+                    $($number => Some(Self::$kind),)*
+                    _ => None,
+                }
+            }
 
             /// The joints of the kind, from the hub to the tip.
             #[must_use]
@@ -47,14 +65,17 @@ macro_rules! built_in {
         }
 
         impl<T: Scalar> BuiltIn<T> {
-            /// A device of a kind, of its bodies.
+            /// A device of a kind with these parameters.
             ///
             /// # Errors
             ///
-            /// [`Misfit`] names what the kind has no parameter for.
-            pub fn new(kind: BuiltInKind, stated: &BuiltInParameters<T>) -> Result<Self, Misfit> {
+            /// [`UnsupportedParameter`] names what the kind has no parameter for.
+            pub fn new(
+                kind: BuiltInKind,
+                parameters: &DeviceParameters<T>,
+            ) -> Result<Self, UnsupportedParameter> {
                 match kind {
-                    $(BuiltInKind::$kind => made(stated).map(Self::$kind),)*
+                    $(BuiltInKind::$kind => device_of(parameters).map(Self::$kind),)*
                 }
             }
 
@@ -66,11 +87,11 @@ macro_rules! built_in {
                 }
             }
 
-            /// The device as bodies and joints; zero behind the last.
+            /// Its parameters by body and joint; zero outboard of the last body.
             #[must_use]
-            pub fn stated(&self) -> BuiltInParameters<T> {
+            pub fn parameters(&self) -> DeviceParameters<T> {
                 match self {
-                    $(Self::$kind(device) => stated(device),)*
+                    $(Self::$kind(device) => parameters_of(device),)*
                 }
             }
         }

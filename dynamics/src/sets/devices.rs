@@ -10,12 +10,12 @@ use core::fmt::Debug;
 
 use crate::equations::device::Device;
 use crate::equations::joint_inputs::JointInputs;
-use crate::generated::hub::Handed;
+use crate::generated::hub::ConstantShare;
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
 use crate::model::wrench::Wrench;
-use crate::numbers::each::{Each, JointStates};
+use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::Bundle;
 use crate::sets::per_device::{Accelerations, Joints, Loads, Motors, PerDevice, PerJoint};
@@ -125,6 +125,24 @@ pub trait FixedSet: Devices {
     fn new_fixed<F: PerDevice<Self::Scalar>>(family: &F) -> Self::Per<F>;
     /// The joints in order.
     fn joint_infos() -> impl Iterator<Item = &'static JointInfo>;
+    /// All coordinates and rates zero.
+    #[must_use]
+    fn at_rest() -> Self::Per<Joints> {
+        Self::new_fixed(&Joints)
+    }
+    /// All motors off.
+    #[must_use]
+    fn motors_off() -> Self::Per<Motors> {
+        Self::new_fixed(&Motors)
+    }
+    /// One value at every joint.
+    fn all<V: Value>(value: V) -> Self::Per<PerJoint<V>> {
+        Self::new_fixed(&PerJoint(value))
+    }
+    /// The modes that the kinds have by themselves.
+    fn modes() -> Self::Per<PerJoint<Mode<Self::Scalar>>> {
+        own_modes(Self::all(Mode::Driven), Self::joint_infos())
+    }
 }
 
 /// What is given of the joints of a set.
@@ -148,10 +166,10 @@ pub(crate) struct TriangleExcesses;
 pub(crate) struct Passives;
 
 impl<T: Scalar> List<T> for ConstantShares {
-    type Item = Handed<T>;
+    type Item = ConstantShare<T>;
 
-    fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = Handed<T>> {
-        core::iter::once(K::handed(&device.constants))
+    fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = ConstantShare<T>> {
+        core::iter::once(K::constant_share(&device.constants))
     }
 }
 

@@ -8,11 +8,14 @@ pub(crate) mod array;
 pub(crate) mod built_in;
 #[cfg(test)]
 mod built_in_checks;
-pub(crate) mod built_in_parameters;
+mod built_in_names;
 pub(crate) mod bundle;
 pub(crate) mod counts;
+pub(crate) mod device_parameters;
 pub(crate) mod devices;
 pub(crate) mod enumeration;
+#[cfg(test)]
+mod mounted_checks;
 pub(crate) mod one;
 pub(crate) mod optional;
 pub(crate) mod per_device;

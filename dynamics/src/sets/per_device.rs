@@ -5,7 +5,7 @@
 use core::fmt::Debug;
 
 use crate::equations::device_loads::{DeviceLoads, JointPower, LoadsOf};
-use crate::model::few::Few;
+use crate::model::joint_array::JointArray;
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates, Value};
@@ -56,21 +56,24 @@ pub struct Loads;
 pub struct Gains;
 
 /// Loads of a device whose kind is known only at run time.
-pub type EnumLoads<T = f64> = DeviceLoads<Few<Wrench<T>>, Few<T>, Few<JointPower<T>>, T>;
+pub type EnumLoads<T = f64> =
+    DeviceLoads<JointArray<Wrench<T>>, JointArray<T>, JointArray<JointPower<T>>, T>;
 
 impl<T: Scalar> PerDevice<T> for Joints {
     type Of<K: Kind<Scalar = T>> = K::Joints<T>;
-    type OfEnum<E: DeviceEnum<Scalar = T>> = Few<[T; 2]>;
+    type OfEnum<E: DeviceEnum<Scalar = T>> = JointArray<[T; 2]>;
 
     fn initial<K: Kind<Scalar = T>>(&self) -> K::Joints<T> {
         K::at_rest()
     }
 
-    fn initial_of_enum<K: Variant<E>, E: DeviceEnum<Scalar = T>>(&self) -> Few<[T; 2]> {
-        Few::all(K::JOINTS.len(), [zero(); 2])
+    fn initial_of_enum<K: Variant<E>, E: DeviceEnum<Scalar = T>>(&self) -> JointArray<[T; 2]> {
+        JointArray::all(K::JOINTS.len(), [zero(); 2])
     }
 
-    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &Few<[T; 2]>) -> Option<K::Joints<T>> {
+    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        of: &JointArray<[T; 2]>,
+    ) -> Option<K::Joints<T>> {
         let mut joints = K::at_rest();
         for ([coordinate, rate], [x, x_dot]) in joints.states_mut().zip(of.states()) {
             (*coordinate, *rate) = (x, x_dot);
@@ -78,11 +81,14 @@ impl<T: Scalar> PerDevice<T> for Joints {
         Some(joints)
     }
 
-    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &K::Joints<T>, to: &mut Few<[T; 2]>) {
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        of: &K::Joints<T>,
+        to: &mut JointArray<[T; 2]>,
+    ) {
         to.fill(of.states());
     }
 
-    fn count<E: DeviceEnum<Scalar = T>>(of: &Few<[T; 2]>) -> Option<usize> {
+    fn count<E: DeviceEnum<Scalar = T>>(of: &JointArray<[T; 2]>) -> Option<usize> {
         Some(of.as_slice().len())
     }
 }
@@ -92,25 +98,25 @@ macro_rules! numbers {
     ($($family:ty, $kind:ident: $of:ty = $zero:expr;)*) => {$(
         impl<T: Scalar> PerDevice<T> for $family {
             type Of<$kind: Kind<Scalar = T>> = $of;
-            type OfEnum<E: DeviceEnum<Scalar = T>> = Few<T>;
+            type OfEnum<E: DeviceEnum<Scalar = T>> = JointArray<T>;
 
             fn initial<$kind: Kind<Scalar = T>>(&self) -> $of {
                 $zero
             }
 
-            fn initial_of_enum<$kind: Variant<E>, E: DeviceEnum<Scalar = T>>(&self) -> Few<T> {
-                Few::all($kind::JOINTS.len(), zero())
+            fn initial_of_enum<$kind: Variant<E>, E: DeviceEnum<Scalar = T>>(&self) -> JointArray<T> {
+                JointArray::all($kind::JOINTS.len(), zero())
             }
 
-            fn get<$kind: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &Few<T>) -> Option<$of> {
+            fn get<$kind: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &JointArray<T>) -> Option<$of> {
                 Some(filled($zero, of))
             }
 
-            fn put<$kind: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &$of, to: &mut Few<T>) {
+            fn put<$kind: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &$of, to: &mut JointArray<T>) {
                 to.fill(of.values());
             }
 
-            fn count<E: DeviceEnum<Scalar = T>>(of: &Few<T>) -> Option<usize> {
+            fn count<E: DeviceEnum<Scalar = T>>(of: &JointArray<T>) -> Option<usize> {
                 Some(of.as_slice().len())
             }
         }
@@ -124,25 +130,25 @@ numbers! {
 
 impl<T: Scalar, V: Value> PerDevice<T> for PerJoint<V> {
     type Of<K: Kind<Scalar = T>> = K::PerJoint<V>;
-    type OfEnum<E: DeviceEnum<Scalar = T>> = Few<V>;
+    type OfEnum<E: DeviceEnum<Scalar = T>> = JointArray<V>;
 
     fn initial<K: Kind<Scalar = T>>(&self) -> K::PerJoint<V> {
         K::all(self.0)
     }
 
-    fn initial_of_enum<K: Variant<E>, E: DeviceEnum<Scalar = T>>(&self) -> Few<V> {
-        Few::all(K::JOINTS.len(), self.0)
+    fn initial_of_enum<K: Variant<E>, E: DeviceEnum<Scalar = T>>(&self) -> JointArray<V> {
+        JointArray::all(K::JOINTS.len(), self.0)
     }
 
-    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &Few<V>) -> Option<K::PerJoint<V>> {
+    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &JointArray<V>) -> Option<K::PerJoint<V>> {
         of.as_slice().first().map(|first| filled(K::all(*first), of))
     }
 
-    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &K::PerJoint<V>, to: &mut Few<V>) {
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &K::PerJoint<V>, to: &mut JointArray<V>) {
         to.fill(of.values());
     }
 
-    fn count<E: DeviceEnum<Scalar = T>>(of: &Few<V>) -> Option<usize> {
+    fn count<E: DeviceEnum<Scalar = T>>(of: &JointArray<V>) -> Option<usize> {
         Some(of.as_slice().len())
     }
 }
@@ -164,9 +170,9 @@ impl<T: Scalar> PerDevice<T> for Loads {
         let count = K::JOINTS.len();
         DeviceLoads {
             mount: Wrench::none(),
-            joints: Few::all(count, Wrench::none()),
-            motors: Few::all(count, zero()),
-            powers: Few::all(count, JointPower::none()),
+            joints: JointArray::all(count, Wrench::none()),
+            motors: JointArray::all(count, zero()),
+            powers: JointArray::all(count, JointPower::none()),
         }
     }
 
@@ -218,7 +224,7 @@ impl<T: Scalar> PerDevice<T> for Gains {
 }
 
 /// Data of a kind with the values of an enumeration's.
-fn filled<V: Value, P: Each<V>>(mut of: P, values: &Few<V>) -> P {
+fn filled<V: Value, P: Each<V>>(mut of: P, values: &JointArray<V>) -> P {
     for (to, from) in of.values_mut().zip(values.values()) {
         *to = from;
     }

@@ -38,8 +38,8 @@ impl<D: Devices> Spacecraft<D> {
     /// (101), (119).
     ///
     /// A joint that is [prescribed or locked](crate::Mode), and a hub that is
-    /// [fixed or prescribed](crate::HubMode), come out as they are given; what that takes is found
-    /// by [`Self::loads`].
+    /// [fixed or prescribed](crate::HubMode), has its prescribed acceleration; [`Self::loads`]
+    /// computes the torque or wrench that this needs.
     ///
     /// # Errors
     ///
@@ -48,7 +48,7 @@ impl<D: Devices> Spacecraft<D> {
     /// accelerations do not depend on, such as the position), [`SolveError::Overflow`] naming the
     /// acceleration that is not finite though every input is, [`SolveError::LockedJointMoves`] and
     /// [`SolveError::FixedHubMoves`] where what is locked moves, [`SolveError::NotDriven`] where a
-    /// mode asks of a joint what its kind has not.
+    /// joint's kind does not have its mode.
     pub fn accelerations<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -64,9 +64,8 @@ impl<D: Devices> Spacecraft<D> {
         }
     }
 
-    /// [`Self::accelerations`] without the search for a culprit, in their place: to move what was
-    /// just put together takes time. So is what springs and friction demand of a step, where that
-    /// is asked.
+    /// [`Self::accelerations`] without diagnosis, written to `found`: moving a structure just
+    /// written takes time. The stiffness of springs and friction is written too, if requested.
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -83,7 +82,7 @@ impl<D: Devices> Spacecraft<D> {
         }
     }
 
-    /// [`Self::solve`] in a way.
+    /// [`Self::solve`], fused or unfused.
     #[inline(always)]
     pub(crate) fn solve_by<A: Attitude<D::Scalar>, W: Rounding>(
         &self,
@@ -137,7 +136,7 @@ impl<D: Devices> Spacecraft<D> {
             let second = self.hub.second_moment();
             let (force, moment) = central.wrench(self.hub.first_moment, &second);
             let whole = central.third_order(&assembly.second_moment.plus(second));
-            assembly.push(add(force, whole), moment);
+            assembly.add_wrench(add(force, whole), moment);
         }
         let hub = match &inputs.hub {
             HubMode::Free => assembly.solve(environment.omega, &self.body)?,
@@ -150,9 +149,8 @@ impl<D: Devices> Spacecraft<D> {
         if hub.is_finite() { Ok(hub) } else { Err(overflow()) }
     }
 
-    /// What springs and friction demand of a step, estimated once every device is eliminated.
-    /// Factorises the hub's system once more, which spares those that do not ask from keeping its
-    /// pivots.
+    /// Stiffness of springs and friction, estimated once every device is eliminated. Factorises the
+    /// hub's system once more, so that other evaluations need not keep its pivots.
     #[inline(never)]
     pub(crate) fn stiffness(
         &self,
@@ -208,8 +206,8 @@ impl<D: Devices> Spacecraft<D> {
         if matches!(failure, SolveError::Count { .. }) {
             return failure;
         }
-        if let Err(culprit) = self.reject(state, inputs) {
-            return culprit;
+        if let Err(not_finite) = self.reject(state, inputs) {
+            return not_finite;
         }
         self.cause(state, inputs, failure)
     }
@@ -245,7 +243,7 @@ impl<D: Devices> Spacecraft<D> {
         }
     }
 
-    /// The acceleration whose terms overflow: the hub's where those of the hub alone do, else that
+    /// The acceleration whose terms overflow: the hub's where those of the hub itself do, else that
     /// of the first device with one that is not finite on a hub that does not accelerate, of the
     /// joint nearest the tip, which was eliminated first.
     fn overflowing<A: Attitude<D::Scalar>>(
@@ -257,8 +255,8 @@ impl<D: Devices> Spacecraft<D> {
             let environment = evaluation_start(state, inputs)?.environment;
             let (mut assembly, mut scratch) =
                 (self.assembly(inputs), D::new_data(&self.devices, &data::Gains));
-            let alone = assembly.system(environment.omega);
-            if !(finite(alone.h_v) && finite(alone.h_w)) {
+            let of_hub = assembly.system(environment.omega);
+            if !(finite(of_hub.h_v) && finite(of_hub.h_w)) {
                 return Ok(None);
             }
             let given = inputs.of_joints();
@@ -295,7 +293,7 @@ pub(crate) struct EvaluationStart<T> {
     pub(crate) at_b: Vec3<T>,
 }
 
-/// Where an evaluation sets out: what the devices feel.
+/// The start of an evaluation: motion of the hub and gravity for the devices.
 #[inline(always)]
 pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>>(
     state: &State<D, A>,
@@ -334,7 +332,7 @@ impl<D: Devices> Accelerations<D> {
     }
 }
 
-/// Refuses a fixed hub that moves.
+/// Rejects a fixed hub that moves.
 pub(crate) fn check_fixed<D: Devices, A>(
     state: &State<D, A>,
     inputs: &Inputs<D>,

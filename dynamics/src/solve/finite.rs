@@ -30,15 +30,15 @@ pub(crate) fn all_finite<T: Scalar, const N: usize>(vectors: [&Vector3<T>; N]) -
 }
 
 /// Rejects a value that is not finite.
-pub(crate) fn reject<T: Scalar>(culprit: Option<(Quantity, T)>) -> Result<(), SolveError<T>> {
-    match culprit {
+pub(crate) fn reject<T: Scalar>(not_finite: Option<(Quantity, T)>) -> Result<(), SolveError<T>> {
+    match not_finite {
         Some((what, value)) => Err(SolveError::NotFinite { what, value }),
         None => Ok(()),
     }
 }
 
 impl<D: Devices> Spacecraft<D> {
-    /// Refuses the first input that is not finite.
+    /// Rejects the first input that is not finite.
     pub(crate) fn reject<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -48,7 +48,7 @@ impl<D: Devices> Spacecraft<D> {
         reject(self.not_finite_in_state(state).or_else(|| self.not_finite_in_inputs(inputs)))
     }
 
-    /// Refuses accelerations that are not finite, or of another number of devices.
+    /// Rejects accelerations that are not finite, or of another number of devices.
     pub(crate) fn reject_accelerations<A>(
         &self,
         state: &State<D, A>,
@@ -85,11 +85,11 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let culprit = self.not_finite_in_state(state);
-        culprit.map_or(Ok(()), |(what, _)| Err(SolveError::Overflow { what }))
+        let not_finite = self.not_finite_in_state(state);
+        not_finite.map_or(Ok(()), |(what, _)| Err(SolveError::Overflow { what }))
     }
 
-    /// The first part of a state that is not finite, and the value that spoils it.
+    /// The first part of a state that is not finite, and its value.
     pub(crate) fn not_finite_in_state<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -184,7 +184,7 @@ mod tests {
         Spacecraft::new(&hub, &[Dgvscmg::bare_wheel(1.0, Matrix3::identity()); 2]).unwrap()
     }
 
-    fn culprit(change: impl Fn(&mut State<Two>)) -> Option<Quantity> {
+    fn not_finite(change: impl Fn(&mut State<Two>)) -> Option<Quantity> {
         let mut state = State::at_rest();
         change(&mut state);
         spacecraft().not_finite_in_state(&state).map(|(what, _)| what)
@@ -194,53 +194,56 @@ mod tests {
     fn every_field_of_a_state_is_searched() {
         const BAD: f64 = f64::NAN;
         let joint = |field| Some(Quantity::Joint { device: 1, field });
-        assert_eq!(culprit(|_| ()), None);
-        assert_eq!(culprit(|s| s.r_b_n.y = BAD), Some(Quantity::Position));
-        assert_eq!(culprit(|s| s.r_b_n_dot.z = f64::INFINITY), Some(Quantity::Velocity));
+        assert_eq!(not_finite(|_| ()), None);
+        assert_eq!(not_finite(|s| s.r_b_n.y = BAD), Some(Quantity::Position));
+        assert_eq!(not_finite(|s| s.r_b_n_dot.z = f64::INFINITY), Some(Quantity::Velocity));
         assert_eq!(
-            culprit(|s| s.attitude = Quaternion { q0: 0.0, q1: 0.0, q2: 0.0, q3: 0.0 }),
+            not_finite(|s| s.attitude = Quaternion { q0: 0.0, q1: 0.0, q2: 0.0, q3: 0.0 }),
             Some(Quantity::Attitude)
         );
-        assert_eq!(culprit(|s| s.omega.x = BAD), Some(Quantity::BodyRate));
-        assert_eq!(culprit(|s| s.devices[1].gamma_o = BAD), joint("gamma_o"));
-        assert_eq!(culprit(|s| s.devices[1].gamma_i = BAD), joint("gamma_i"));
-        assert_eq!(culprit(|s| s.devices[1].theta = BAD), joint("theta"));
-        assert_eq!(culprit(|s| s.devices[1].gamma_o_dot = BAD), joint("gamma_o_dot"));
-        assert_eq!(culprit(|s| s.devices[1].gamma_i_dot = BAD), joint("gamma_i_dot"));
-        assert_eq!(culprit(|s| s.devices[1].spin = BAD), joint("spin"));
+        assert_eq!(not_finite(|s| s.omega.x = BAD), Some(Quantity::BodyRate));
+        assert_eq!(not_finite(|s| s.devices[1].gamma_o = BAD), joint("gamma_o"));
+        assert_eq!(not_finite(|s| s.devices[1].gamma_i = BAD), joint("gamma_i"));
+        assert_eq!(not_finite(|s| s.devices[1].theta = BAD), joint("theta"));
+        assert_eq!(not_finite(|s| s.devices[1].gamma_o_dot = BAD), joint("gamma_o_dot"));
+        assert_eq!(not_finite(|s| s.devices[1].gamma_i_dot = BAD), joint("gamma_i_dot"));
+        assert_eq!(not_finite(|s| s.devices[1].spin = BAD), joint("spin"));
     }
 
     #[test]
     fn every_field_of_the_inputs_is_searched() {
         const BAD: f64 = f64::NAN;
-        let culprit = |change: fn(&mut Inputs<Two>)| {
+        let not_finite = |change: fn(&mut Inputs<Two>)| {
             let mut inputs = Inputs::none();
             change(&mut inputs);
             spacecraft().not_finite_in_inputs(&inputs).map(|(what, _)| what)
         };
         let motor = |joint| Some(Quantity::Motor { device: 0, joint });
-        assert_eq!(culprit(|_| ()), None);
-        assert_eq!(culprit(|t| t.force.x = BAD), Some(Quantity::Force));
-        assert_eq!(culprit(|t| t.torque_b.z = BAD), Some(Quantity::TorqueB));
-        assert_eq!(culprit(|t| t.motors[0].u_i = BAD), motor("inner gimbal"));
-        assert_eq!(culprit(|t| t.motors[0].u_o = BAD), motor("outer gimbal"));
-        assert_eq!(culprit(|t| t.motors[0].u_w = BAD), motor("wheel"));
+        assert_eq!(not_finite(|_| ()), None);
+        assert_eq!(not_finite(|t| t.force.x = BAD), Some(Quantity::Force));
+        assert_eq!(not_finite(|t| t.torque_b.z = BAD), Some(Quantity::TorqueB));
+        assert_eq!(not_finite(|t| t.motors[0].u_i = BAD), motor("inner gimbal"));
+        assert_eq!(not_finite(|t| t.motors[0].u_o = BAD), motor("outer gimbal"));
+        assert_eq!(not_finite(|t| t.motors[0].u_w = BAD), motor("wheel"));
         assert_eq!(
-            culprit(|t| t.modes[1].wheel = Mode::Prescribed(BAD)),
+            not_finite(|t| t.modes[1].wheel = Mode::Prescribed(BAD)),
             Some(Quantity::JointAcceleration { device: 1, joint: "wheel" })
         );
         let prescribed = |t: &mut Inputs<Two>| {
             let r_b_n_ddot = Vector3::new(0.0, BAD, 0.0);
             t.hub = HubMode::Prescribed { r_b_n_ddot, omega_dot: Vector3::zeros() };
         };
-        assert_eq!(culprit(prescribed), Some(Quantity::HubAcceleration));
-        assert_eq!(culprit(|t| t.gravity = Gravity::Central { mu: BAD }), Some(Quantity::Gravity));
+        assert_eq!(not_finite(prescribed), Some(Quantity::HubAcceleration));
+        assert_eq!(
+            not_finite(|t| t.gravity = Gravity::Central { mu: BAD }),
+            Some(Quantity::Gravity)
+        );
         let wrench = |t: &mut Inputs<Two>| {
             let mut bodies = Inputs::<Two>::no_wrenches();
             bodies[1].inner_gimbal.moment.y = BAD;
             t.bodies = Some(bodies);
         };
-        assert_eq!(culprit(wrench), Some(Quantity::Wrench { device: 1, body: "inner gimbal" }));
+        assert_eq!(not_finite(wrench), Some(Quantity::Wrench { device: 1, body: "inner gimbal" }));
     }
 
     /// Infinite values, since NaN equals nothing.

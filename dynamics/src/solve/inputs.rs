@@ -1,4 +1,4 @@
-//! [`Inputs`]: what acts on a spacecraft at one instant, and what is given of its joints and hub.
+//! [`Inputs`]: forces and torques on a spacecraft at one instant, modes of its joints and hub.
 
 use nalgebra::Vector3;
 
@@ -16,20 +16,20 @@ use crate::solve::spacecraft::Spacecraft;
 /// `Inputs { motors, ..Inputs::none() }` is a free hub with every joint driven.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<D: Devices> {
-    /// External force F through B, B axes, N; see [`Self::push`] for other points.
+    /// External force F through B, B axes, N; see [`Self::add_force`] for other points.
     pub force: Vector3<D::Scalar>,
     /// `L_B`, external torque about B, B axes, N m.
     pub torque_b: Vector3<D::Scalar>,
-    /// Motor torques, device by device; what stands at a joint that is not driven does nothing.
+    /// Motor torques, device by device; that of a joint that is not driven has no effect.
     pub motors: D::Per<data::Motors>,
-    /// What is given of each joint.
+    /// Mode of each joint.
     pub modes: D::Per<data::PerJoint<Mode<D::Scalar>>>,
-    /// What is given of the hub.
+    /// Mode of the hub.
     pub hub: HubMode<D::Scalar>,
     /// Gravity on every body.
     pub gravity: Gravity<D::Scalar>,
-    /// External wrench on the child body of each joint, about the joint's origin along the body's
-    /// own axes; none where no device has one.
+    /// External wrench on the child body of each joint, about the joint's origin, expressed in the
+    /// body's own axes; `None` if there is none.
     ///
     /// During a step such a wrench turns with its body: for one that keeps its direction in N or in
     /// B, steps must resolve the turning. A rotor that is the same from every angle (a balanced
@@ -46,24 +46,24 @@ impl<D: Devices> Inputs<D> {
 }
 
 impl<D: FixedSet> Inputs<D> {
-    /// Nothing acts, motors are off, every joint is as its kind has it, the hub is free.
+    /// No force, torque or gravity, motors off, every joint in the mode of its kind, a free hub.
     #[must_use]
     pub fn none() -> Self {
         Self {
             force: vector(zeros()),
             torque_b: vector(zeros()),
-            motors: D::new_fixed(&data::Motors),
-            modes: own_modes(D::new_fixed(&data::PerJoint(Mode::Driven)), D::joint_infos()),
+            motors: D::motors_off(),
+            modes: D::modes(),
             hub: HubMode::Free,
             gravity: Gravity::None,
             bodies: None,
         }
     }
 
-    /// No wrench on any body, to be changed and handed to [`Self::bodies`].
+    /// Zero wrenches on all bodies, to be changed and assigned to [`Self::bodies`].
     #[must_use]
     pub fn no_wrenches() -> D::Per<data::PerJoint<Wrench<D::Scalar>>> {
-        D::new_fixed(&data::PerJoint(Wrench::none()))
+        D::all(Wrench::none())
     }
 }
 
@@ -94,7 +94,7 @@ impl<D: Devices> Inputs<D> {
     }
 
     /// Adds a force on the hub at a point from B, both expressed in B, m and N.
-    pub fn push(&mut self, point: &Vector3<D::Scalar>, force: &Vector3<D::Scalar>) {
+    pub fn add_force(&mut self, point: &Vector3<D::Scalar>, force: &Vector3<D::Scalar>) {
         let (point, force) = (components(point), components(force));
         self.force = vector(add(components(&self.force), force));
         self.torque_b = vector(add(components(&self.torque_b), cross(point, force)));

@@ -1,4 +1,4 @@
-//! The guards on results: finite inputs whose result is not finite are refused, by every function.
+//! The guards on results: finite inputs whose result is not finite are rejected, by every function.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -14,42 +14,45 @@ fn hub() -> Hub {
     }
 }
 
-fn plain(hub: Hub) -> Spacecraft<[Dgvscmg; 0]> {
+fn without_devices(hub: Hub) -> Spacecraft<[Dgvscmg; 0]> {
     Spacecraft::new(&hub, &[]).unwrap()
 }
 
-/// A plain hub's state after a change of the one at rest.
+/// State of a hub without devices: at rest, then changed.
 fn state(change: fn(&mut State<[Dgvscmg; 0]>)) -> State<[Dgvscmg; 0]> {
     let mut state = State::at_rest();
     change(&mut state);
     state
 }
 
-fn refused<R>(result: Result<R, SolveError>, what: Quantity) {
+fn rejected<R>(result: Result<R, SolveError>, what: Quantity) {
     assert_eq!(result.map(|_| ()), Err(SolveError::Overflow { what }));
 }
 
 #[test]
-fn accelerations_that_overflow_are_refused() {
+fn accelerations_that_overflow_are_rejected() {
     let turning = state(|s| s.omega.x = 1e200);
-    refused(plain(hub()).accelerations(&turning, &Inputs::none()), Quantity::HubAcceleration);
-
-    // One of the two vectors alone.
-    let light = Hub { m_b: 1e-3, r_bc_b: Vector3::zeros(), ..hub() };
-    let force = Vector3::new(1e308, 0.0, 0.0);
-    let pushed = Inputs { force, ..Inputs::none() };
-    refused(
-        plain(light).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &pushed),
+    rejected(
+        without_devices(hub()).accelerations(&turning, &Inputs::none()),
         Quantity::HubAcceleration,
     );
 
-    // The hub does not feel it: what overflows is the wheel's own acceleration.
+    // Only one of the two vectors.
+    let light = Hub { m_b: 1e-3, r_bc_b: Vector3::zeros(), ..hub() };
+    let force = Vector3::new(1e308, 0.0, 0.0);
+    let pushed = Inputs { force, ..Inputs::none() };
+    rejected(
+        without_devices(light).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &pushed),
+        Quantity::HubAcceleration,
+    );
+
+    // It does not reach the hub: what overflows is the wheel's own acceleration.
     let light = Dgvscmg::bare_wheel(4.0, Matrix3::identity() * 1e-5);
     let spacecraft = Spacecraft::new(&hub(), &[light]).unwrap();
     let mut torques = Inputs::<[Dgvscmg; 1]>::none();
     torques.motors[0].u_w = 1e305;
     let wheel = Quantity::JointAcceleration { device: 0, joint: "wheel" };
-    refused(spacecraft.accelerations(&State::<[Dgvscmg; 1]>::at_rest(), &torques), wheel);
+    rejected(spacecraft.accelerations(&State::<[Dgvscmg; 1]>::at_rest(), &torques), wheel);
 }
 
 /// A pivot that is not finite is no singularity.
@@ -58,33 +61,37 @@ fn pivots_that_overflow_are_not_called_singular() {
     for hub in
         [Hub { m_b: 1e-310, ..hub() }, Hub { r_bc_b: Vector3::new(1e160, 0.0, 0.0), ..hub() }]
     {
-        let found = plain(hub).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &Inputs::none());
-        refused(found, Quantity::HubAcceleration);
+        let found =
+            without_devices(hub).accelerations(&State::<[Dgvscmg; 0]>::at_rest(), &Inputs::none());
+        rejected(found, Quantity::HubAcceleration);
     }
 }
 
 #[test]
-fn energy_that_overflows_is_refused() {
-    refused(plain(hub()).energy(&state(|s| s.r_b_n_dot.x = 1e200)), Quantity::Energy);
+fn energy_that_overflows_is_rejected() {
+    rejected(without_devices(hub()).energy(&state(|s| s.r_b_n_dot.x = 1e200)), Quantity::Energy);
 }
 
 #[test]
-fn momentum_that_overflows_is_refused() {
-    let momentum = |change| plain(hub()).momentum(&state(change), About::InertialOrigin);
-    refused(momentum(|s| s.r_b_n_dot.x = 1e308), Quantity::Momentum);
-    refused(momentum(|s| (s.r_b_n_dot.x, s.r_b_n.y) = (1e200, 1e200)), Quantity::Momentum);
+fn momentum_that_overflows_is_rejected() {
+    let momentum = |change| without_devices(hub()).momentum(&state(change), About::InertialOrigin);
+    rejected(momentum(|s| s.r_b_n_dot.x = 1e308), Quantity::Momentum);
+    rejected(momentum(|s| (s.r_b_n_dot.x, s.r_b_n.y) = (1e200, 1e200)), Quantity::Momentum);
 }
 
 #[test]
-fn centre_of_mass_that_overflows_is_refused() {
+fn centre_of_mass_that_overflows_is_rejected() {
     let far = Hub { r_bc_b: Vector3::new(1e308, 0.0, 0.0), ..hub() };
-    refused(plain(far).centre_of_mass(&State::<[Dgvscmg; 0]>::at_rest()), Quantity::CentreOfMass);
+    rejected(
+        without_devices(far).centre_of_mass(&State::<[Dgvscmg; 0]>::at_rest()),
+        Quantity::CentreOfMass,
+    );
 
     let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
     let wide = Dgvscmg { d: 10.0, ..Dgvscmg::bare_wheel(4.0, disc) };
     let mut state = State::<[Dgvscmg; 1]>::at_rest();
     state.devices[0].spin = 1e308;
-    refused(
+    rejected(
         Spacecraft::new(&hub(), &[wide]).unwrap().centre_of_mass(&state),
         Quantity::CentreOfMass,
     );

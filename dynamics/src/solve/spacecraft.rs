@@ -1,4 +1,4 @@
-//! [`Spacecraft`]: a hub and its devices, checked and prepared once, and what is odd about them.
+//! [`Spacecraft`]: a hub and its devices, checked and prepared once, and warnings.
 
 use crate::equations::arithmetic::Arithmetic;
 use crate::equations::hub::HubConstants;
@@ -9,7 +9,8 @@ use crate::sets::devices::{ConstantShares, Devices, JointInfos, Passives, Triang
 use crate::validation::check::check_hub;
 use crate::validation::parameter_error::{ParameterError, Part, Warning};
 
-/// A rigid hub with devices, prepared for evaluation. Never changes; `[Dgvscmg; 0]` is a plain hub.
+/// A rigid hub with devices, prepared for evaluation. Never changes; `[Dgvscmg; 0]` is a hub
+/// without devices.
 #[derive(Clone, Copy, Debug)]
 pub struct Spacecraft<D: Devices> {
     pub(crate) hub: HubConstants<D::Scalar>,
@@ -30,15 +31,15 @@ impl<D: Devices> Spacecraft<D> {
     /// [`ParameterError`] names the body, the value and the bound: a number that is not finite, a
     /// mass of hub or outermost body that is not above zero, a negative mass of a gimbal, an
     /// inertia that is not symmetric or has a negative principal moment, a mount that is not a
-    /// right-handed rotation, a negative stiffness or friction; or it tells that the total mass or
-    /// a principal moment is not finite. Deviations up to 4096 epsilons of the largest element
+    /// right-handed rotation, a negative stiffness or friction; or a total mass or principal
+    /// moment that is not finite. Deviations up to 4096 epsilons of the largest element
     /// count as rounding.
     pub fn new(hub: &Hub<D::Scalar>, devices: &D) -> Result<Self, ParameterError<D::Scalar>> {
         let hub_excess = check_hub(hub)?;
         devices.check(&mut 0)?;
         let devices = devices.prepare();
         let hub = HubConstants::new(hub);
-        let body = hub.taking_over(D::list::<ConstantShares>(&devices));
+        let body = hub.with_constant_shares(D::list::<ConstantShares>(&devices));
         if !body.m_b.is_finite() {
             return Err(ParameterError::TotalMass { value: body.m_b });
         }
@@ -49,15 +50,15 @@ impl<D: Devices> Spacecraft<D> {
     /// The same with products and sums of the devices' equations rounded once, where the CPU does
     /// that: accelerations and steps have other bits, and take less time.
     ///
-    /// The instructions are looked for now, at run time. Numbers other than `f64`
-    /// stay as they are; so do loads, energies and momenta.
+    /// The instructions are detected at run time, in this call. Numbers other than `f64` stay as
+    /// they are; so do loads, energies and momenta.
     #[cfg(feature = "lanes")]
     #[must_use]
     pub fn fused(self) -> Self {
         Self { arithmetic: Arithmetic::fused(), ..self }
     }
 
-    /// What is odd about the parameters without being wrong; see [`Warning`].
+    /// Unusual parameters that are accepted; see [`Warning`].
     #[must_use = "warnings do nothing unless they are read"]
     pub fn warnings(&self) -> impl Iterator<Item = Warning<D::Scalar>> + '_ {
         let numbered = self.joints().map(|(device, info)| Part::Body { device, body: info.body });

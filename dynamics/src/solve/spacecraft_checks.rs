@@ -76,9 +76,9 @@ fn total_mass_must_be_finite() {
 fn mount_turns_the_wheel_axis_into_the_hub() {
     // The wheel's axis along b_z: the columns are the outer gimbal's x, y, z along B.
     let mount = Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
-    let plain = Hub { r_bc_b: Vector3::zeros(), ..hub() };
+    let hub_at_b = Hub { r_bc_b: Vector3::zeros(), ..hub() };
     let device = Dgvscmg { mount, r_go_b: Vector3::zeros(), ..wheel() };
-    let spacecraft = Spacecraft::new(&plain, &[device]).unwrap();
+    let spacecraft = Spacecraft::new(&hub_at_b, &[device]).unwrap();
     let mut state = State::<[Dgvscmg; 1]>::at_rest();
     state.devices[0].spin = 10.0;
     let Momentum { angular, .. } = spacecraft.momentum(&state, About::CentreOfMass).unwrap();
@@ -88,13 +88,13 @@ fn mount_turns_the_wheel_axis_into_the_hub() {
 
 #[test]
 fn motor_accelerates_wheel_and_hub_against_each_other() {
-    let plain = Hub {
+    let hub_at_b = Hub {
         r_bc_b: Vector3::zeros(),
         i_b_bc: Matrix3::from_diagonal(&Vector3::new(4.0, 5.0, 7.0)),
         ..hub()
     };
     let device = Dgvscmg { r_go_b: Vector3::zeros(), ..wheel() };
-    let spacecraft = Spacecraft::new(&plain, &[device]).unwrap();
+    let spacecraft = Spacecraft::new(&hub_at_b, &[device]).unwrap();
     let mut torques = Inputs::<[Dgvscmg; 1]>::none();
     torques.motors[0].u_w = 0.6;
     let found = spacecraft.accelerations(&State::<[Dgvscmg; 1]>::at_rest(), &torques).unwrap();
@@ -141,7 +141,7 @@ fn wheel_that_breaks_the_triangle_inequality_is_accepted_with_a_warning() {
         panic!("no warning");
     };
     assert_eq!(part, Part::Body { device: 1, body: "wheel" });
-    // Largest minus the others, of the block 0.2, 0.0154, 0.1 and the 0.1 beside it.
+    // Largest minus the others, of the block 0.2, 0.0154, 0.1 and the 0.1 next to it.
     let root = (0.05_f64.powi(2) + 0.0154_f64.powi(2)).sqrt();
     assert!((excess - (2.0 * root - 0.1)).abs() <= ROUNDING);
     assert_eq!(warnings.next(), None);
@@ -157,12 +157,12 @@ fn input_that_is_not_finite_is_named() {
         change(&mut state, &mut torques);
         spacecraft.accelerations(&state, &torques)
     };
-    let refused = |what| Err(SolveError::NotFinite { what, value: BAD });
+    let rejected = |what| Err(SolveError::NotFinite { what, value: BAD });
     let joint = |field| Quantity::Joint { device: 1, field };
     assert!(found(|_, _| ()).is_ok());
-    assert_eq!(found(|s, _| s.r_b_n.x = BAD), refused(Quantity::Position));
-    assert_eq!(found(|s, _| s.attitude.q0 = BAD), refused(Quantity::Attitude));
-    assert_eq!(found(|s, _| s.omega.z = BAD), refused(Quantity::BodyRate));
+    assert_eq!(found(|s, _| s.r_b_n.x = BAD), rejected(Quantity::Position));
+    assert_eq!(found(|s, _| s.attitude.q0 = BAD), rejected(Quantity::Attitude));
+    assert_eq!(found(|s, _| s.omega.z = BAD), rejected(Quantity::BodyRate));
     for (field, result) in [
         ("gamma_o", found(|s, _| s.devices[1].gamma_o = BAD)),
         ("gamma_i", found(|s, _| s.devices[1].gamma_i = BAD)),
@@ -171,11 +171,11 @@ fn input_that_is_not_finite_is_named() {
         ("gamma_i_dot", found(|s, _| s.devices[1].gamma_i_dot = BAD)),
         ("spin", found(|s, _| s.devices[1].spin = BAD)),
     ] {
-        assert_eq!(result, refused(joint(field)));
+        assert_eq!(result, rejected(joint(field)));
     }
     let motor = Quantity::Motor { device: 0, joint: "inner gimbal" };
-    assert_eq!(found(|_, t| t.motors[0].u_i = BAD), refused(motor));
-    assert_eq!(found(|_, t| t.torque_b.y = BAD), refused(Quantity::TorqueB));
+    assert_eq!(found(|_, t| t.motors[0].u_i = BAD), rejected(motor));
+    assert_eq!(found(|_, t| t.torque_b.y = BAD), rejected(Quantity::TorqueB));
     // The square of this rate is beyond f64.
     assert_eq!(
         found(|s, _| s.omega.x = 1e200),
@@ -199,10 +199,10 @@ fn massless_gimbals_are_singular_at_a_quarter_turn_only() {
 }
 
 #[test]
-fn what_is_not_finite_is_refused_even_where_it_does_nothing() {
+fn what_is_not_finite_is_rejected_even_where_it_does_nothing() {
     let spacecraft = Spacecraft::new(&hub(), &[wheel()]).unwrap();
     let state = State::<[Dgvscmg; 1]>::at_rest();
-    let refused = |change: fn(&mut Inputs<[Dgvscmg; 1]>)| {
+    let rejected = |change: fn(&mut Inputs<[Dgvscmg; 1]>)| {
         let mut inputs = Inputs::none();
         change(&mut inputs);
         let found = spacecraft.accelerations(&state, &inputs).map(|_| ());
@@ -211,26 +211,26 @@ fn what_is_not_finite_is_refused_even_where_it_does_nothing() {
     };
     let up = f64::INFINITY;
     let what = Quantity::Force;
-    let fixed = refused(|i| (i.hub, i.force.y) = (HubMode::Fixed, f64::INFINITY));
+    let fixed = rejected(|i| (i.hub, i.force.y) = (HubMode::Fixed, f64::INFINITY));
     assert_eq!(fixed, Err(SolveError::NotFinite { what, value: up }));
     let what = Quantity::Motor { device: 0, joint: "wheel" };
-    let locked = refused(|i| {
+    let locked = rejected(|i| {
         (i.modes[0].wheel, i.motors[0].u_w) = (Mode::Locked, f64::INFINITY);
     });
     assert_eq!(locked, Err(SolveError::NotFinite { what, value: up }));
     let what = Quantity::Wrench { device: 0, body: "wheel" };
-    let held = refused(|i| {
+    let held = rejected(|i| {
         let mut bodies = Inputs::<[Dgvscmg; 1]>::no_wrenches();
         bodies[0].wheel.force.y = f64::INFINITY;
         (i.hub, i.bodies) = (HubMode::Fixed, Some(bodies));
     });
     assert_eq!(held, Err(SolveError::NotFinite { what, value: up }));
-    let centre = refused(|i| i.gravity = Gravity::Central { mu: 1.0 });
+    let centre = rejected(|i| i.gravity = Gravity::Central { mu: 1.0 });
     assert_eq!(centre, Err(SolveError::AtCentre));
 }
 
 #[test]
-fn loads_that_overflow_are_refused() {
+fn loads_that_overflow_are_rejected() {
     let mut stiff = wheel();
     stiff.passive.wheel = Passive::spring(1e300, 0.0);
     let spacecraft = Spacecraft::new(&hub(), &[stiff]).unwrap();

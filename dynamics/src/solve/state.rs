@@ -1,7 +1,7 @@
-//! State and accelerations of a hub with its devices: plain data, SI units and radians.
+//! State and accelerations of a hub with its devices: numbers, SI units and radians.
 //!
 //! A joint's rates are relative to its parent body, so `spin` is the wheel's rate seen from the
-//! gimbal that carries it. `theta` is a state because an imbalanced wheel's angle matters.
+//! gimbal. `theta` is a state because an imbalanced wheel's angle matters.
 
 use nalgebra::Vector3;
 
@@ -52,7 +52,7 @@ impl<D: FixedSet, A: Attitude<D::Scalar>> State<D, A> {
     /// Everything at zero: B at the inertial origin, B axes expressed in N, nothing moving.
     #[must_use]
     pub fn at_rest() -> Self {
-        Self::with(D::new_fixed(&data::Joints))
+        Self::with(D::at_rest())
     }
 }
 

@@ -1,4 +1,4 @@
-//! The checks behind [`ParameterError`] and [`Warning`](crate::Warning): finite numbers, masses,
+//! The checks of [`ParameterError`] and [`Warning`](crate::Warning): finite numbers, masses,
 //! inertia tensors and mounts.
 
 use nalgebra::Matrix3;

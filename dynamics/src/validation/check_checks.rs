@@ -1,4 +1,4 @@
-//! Parameters that are refused, with what is said of them.
+//! Parameters that are rejected, with what is said of them.
 
 use std::string::ToString;
 
@@ -20,14 +20,14 @@ fn device() -> Dgvscmg {
     Dgvscmg::bare_wheel(4.0, Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1)))
 }
 
-fn refused_hub(change: fn(&mut Hub)) -> (ParameterError, std::string::String) {
+fn rejected_hub(change: fn(&mut Hub)) -> (ParameterError, std::string::String) {
     let mut hub = hub();
     change(&mut hub);
     let error = check_hub(&hub).unwrap_err();
     (error, error.to_string())
 }
 
-fn refused_device(change: fn(&mut Dgvscmg)) -> (ParameterError, std::string::String) {
+fn rejected_device(change: fn(&mut Dgvscmg)) -> (ParameterError, std::string::String) {
     let mut device = device();
     change(&mut device);
     let error = check_device(2, &device).unwrap_err();
@@ -56,14 +56,14 @@ fn rounding_of_a_mount_and_an_inertia_passes() {
 
 #[test]
 fn mass_of_hub_and_wheel_must_be_above_zero() {
-    let (error, text) = refused_hub(|hub| hub.m_b = 0.0);
+    let (error, text) = rejected_hub(|hub| hub.m_b = 0.0);
     assert_eq!(error, ParameterError::Mass { part: Part::Hub, massless: false, value: 0.0 });
     assert_eq!(
         text,
-        "mass 0.0 kg of the hub is not above 0; only what carries another body of its device may \
+        "mass 0.0 kg of the hub is not above 0; only a body with a child body in its device may \
          be massless"
     );
-    let (error, text) = refused_device(|p| p.m_w = -4.0);
+    let (error, text) = rejected_device(|p| p.m_w = -4.0);
     assert_eq!(
         error,
         ParameterError::Mass {
@@ -74,28 +74,28 @@ fn mass_of_hub_and_wheel_must_be_above_zero() {
     );
     assert_eq!(
         text,
-        "mass -4.0 kg of the wheel of device 2 is not above 0; only what carries another body of \
+        "mass -4.0 kg of the wheel of device 2 is not above 0; only a body with a child body in \
          its device may be massless"
     );
 }
 
 #[test]
 fn mass_of_a_gimbal_must_not_be_negative() {
-    let (error, text) = refused_device(|p| p.m_go = -1.0);
+    let (error, text) = rejected_device(|p| p.m_go = -1.0);
     let part = Part::Body { device: 2, body: "outer gimbal" };
     assert_eq!(error, ParameterError::Mass { part, massless: true, value: -1.0 });
     assert_eq!(
         text,
         "mass -1.0 kg of the outer gimbal of device 2 is below 0; use 0 for a massless one"
     );
-    let (error, _) = refused_device(|p| p.m_gi = -1e-300);
+    let (error, _) = rejected_device(|p| p.m_gi = -1e-300);
     let part = Part::Body { device: 2, body: "inner gimbal" };
     assert_eq!(error, ParameterError::Mass { part, massless: true, value: -1e-300 });
 }
 
 #[test]
 fn every_number_must_be_finite() {
-    let (error, text) = refused_hub(|hub| hub.r_bc_b.y = f64::INFINITY);
+    let (error, text) = rejected_hub(|hub| hub.r_bc_b.y = f64::INFINITY);
     assert_eq!(
         error,
         ParameterError::NotFinite {
@@ -120,18 +120,18 @@ fn every_number_must_be_finite() {
         (|p| p.i_gi_gic.m33 = f64::NAN, "inertia of the inner gimbal"),
         (|p| p.i_w_wc.m31 = f64::NAN, "inertia of the wheel"),
     ] {
-        let (_, text) = refused_device(change);
+        let (_, text) = rejected_device(change);
         let expected = [beginning, " of device 2 contains NaN, which is not finite; give a number"];
         assert_eq!(text, expected.concat());
     }
     for change in [(|hub| hub.m_b = f64::NAN) as fn(&mut Hub), |hub| hub.i_b_bc.m22 = f64::NAN] {
-        assert!(matches!(refused_hub(change).0, ParameterError::NotFinite { .. }));
+        assert!(matches!(rejected_hub(change).0, ParameterError::NotFinite { .. }));
     }
 }
 
 #[test]
 fn inertia_must_be_symmetric() {
-    let (error, text) = refused_device(|p| p.i_w_wc.m13 = 0.0625);
+    let (error, text) = rejected_device(|p| p.i_w_wc.m13 = 0.0625);
     // Half of it is the largest off-diagonal of the mean; the largest element is 0.2.
     let bound = 4096.0 * f64::EPSILON * 0.2;
     let part = Part::Body { device: 2, body: "wheel" };
@@ -148,7 +148,7 @@ fn inertia_must_be_symmetric() {
 
 #[test]
 fn inertia_must_not_be_negative() {
-    let (error, text) = refused_hub(|hub| hub.i_b_bc.m22 = -5.0);
+    let (error, text) = rejected_hub(|hub| hub.i_b_bc.m22 = -5.0);
     let ParameterError::NegativeInertia { part: Part::Hub, value, .. } = error else {
         panic!("{error}");
     };
@@ -159,7 +159,7 @@ fn inertia_must_not_be_negative() {
          check the signs and units of its inertia"
     );
     // A negative direction that no diagonal element shows: eigenvalues 1 - 2 and 1 + 2.
-    let (error, _) = refused_device(|p| {
+    let (error, _) = rejected_device(|p| {
         p.i_go_goc = Matrix3::new(1.0, 2.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 1.0);
     });
     assert!(matches!(
@@ -198,7 +198,7 @@ fn huge_inertia_is_accepted_while_its_moments_are_finite() {
     hub.i_b_bc = Matrix3::from_diagonal(&Vector3::repeat(f64::MAX));
     assert_eq!(check_hub(&hub), Ok(0.0));
 
-    let (error, text) = refused_hub(|hub| hub.i_b_bc = Matrix3::repeat(1.7e308));
+    let (error, text) = rejected_hub(|hub| hub.i_b_bc = Matrix3::repeat(1.7e308));
     assert_eq!(error, ParameterError::LargeInertia { part: Part::Hub, value: f64::INFINITY });
     assert_eq!(
         text,
@@ -209,16 +209,16 @@ fn huge_inertia_is_accepted_while_its_moments_are_finite() {
 
 #[test]
 fn mount_must_be_orthonormal() {
-    let (error, text) = refused_device(|p| p.mount *= 1.5);
+    let (error, text) = rejected_device(|p| p.mount *= 1.5);
     let bound = 4096.0 * f64::EPSILON;
     assert_eq!(error, ParameterError::SkewedMount { device: 2, residual: 1.25, bound });
     assert_eq!(
         text,
         "mount of device 2 is off orthonormal by 1.25, more than 9.094947017729282e-13; its \
-         columns are unit vectors at right angles, given to full precision"
+         columns must be orthogonal unit vectors to full precision"
     );
-    // Unit columns that are not at right angles.
-    let (error, _) = refused_device(|p| {
+    // Unit columns that are not orthogonal.
+    let (error, _) = rejected_device(|p| {
         p.mount = Matrix3::new(1.0, 0.6, 0.0, 0.0, 0.8, 0.0, 0.0, 0.0, 1.0);
     });
     assert_eq!(error, ParameterError::SkewedMount { device: 2, residual: 0.6, bound });
@@ -226,7 +226,7 @@ fn mount_must_be_orthonormal() {
 
 #[test]
 fn mount_must_be_right_handed() {
-    let (error, text) = refused_device(|p| p.mount.m33 = -1.0);
+    let (error, text) = rejected_device(|p| p.mount.m33 = -1.0);
     assert_eq!(error, ParameterError::LeftHandedMount { device: 2, determinant: -1.0 });
     assert_eq!(
         text,
@@ -237,7 +237,7 @@ fn mount_must_be_right_handed() {
 
 #[test]
 fn friction_and_stiffness_must_not_be_negative() {
-    let (error, text) = refused_device(|d| d.passive.wheel.viscous = -0.5);
+    let (error, text) = rejected_device(|d| d.passive.wheel.viscous = -0.5);
     let part = Part::Body { device: 2, body: "wheel" };
     assert_eq!(error, ParameterError::Passive { part, name: "viscous", value: -0.5 });
     assert_eq!(
@@ -245,10 +245,10 @@ fn friction_and_stiffness_must_not_be_negative() {
         "viscous -0.5 of the joint of the wheel of device 2 is out of range; stiffness and friction \
          are not below 0, and coulomb friction needs a coulomb_rate above 0"
     );
-    let (error, _) = refused_device(|d| d.passive.inner_gimbal.coulomb = 0.1);
+    let (error, _) = rejected_device(|d| d.passive.inner_gimbal.coulomb = 0.1);
     let part = Part::Body { device: 2, body: "inner gimbal" };
     assert_eq!(error, ParameterError::Passive { part, name: "coulomb_rate", value: 0.0 });
-    let (error, text) = refused_device(|d| d.passive.outer_gimbal.rest = f64::INFINITY);
+    let (error, text) = rejected_device(|d| d.passive.outer_gimbal.rest = f64::INFINITY);
     let part = Part::Body { device: 2, body: "outer gimbal" };
     let parameter = Parameter::Passive("rest");
     assert_eq!(error, ParameterError::NotFinite { part, parameter, value: f64::INFINITY });

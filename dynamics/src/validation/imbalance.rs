@@ -3,14 +3,14 @@
 //!
 //! The wheel turns at the rate `Omega` about `w_x`, with its centre of mass at `d w_y` from W on
 //! the axis. `J_12` and `J_13` are elements of its inertia tensor about that centre of mass. On a
-//! mount that stands still, Newton and Euler ask of the bearings, at constant rate,
+//! mount at rest, the bearings exert, by Newton and Euler and at constant rate,
 //!
 //! ```text
 //! force    m_W (Omega w_x) x ((Omega w_x) x d w_y)                = -Omega² m_W d w_y
 //! torque   (Omega w_x) x Omega (J_11 w_x + J_12 w_y + J_13 w_z)   =  Omega² (J_12 w_z - J_13 w_y)
 //! ```
 //!
-//! and the mount feels the opposite, which is what a test bench measures:
+//! and the load on the mount is the opposite, which a test bench measures:
 //!
 //! ```text
 //! F = Omega² U_s w_y                                   U_s = m_W d
@@ -18,13 +18,13 @@
 //!                                                      J_12 = -U_d sin(phase)
 //! ```
 //!
-//! The phase is thus the angle by which the torque leads the force, both as the mount feels them,
-//! counted about `+w_x` whichever way the wheel spins. `F` acts along a line through W, so `L` is
+//! The phase is thus the angle by which the torque leads the force, both on the mount,
+//! counted about `+w_x` for either sense of the spin. `F` acts along a line through W, so `L` is
 //! the same about W and about the centre of mass; so are `J_12` and `J_13`, for an offset along
 //! `w_y` adds to `J_11` and `J_33` only. Where the couple is thought of as two equal masses on
 //! opposite sides, a quarter turn leads from the one at the `+w_x` end to the torque.
 //!
-//! Not touched: `J_23`, which does nothing at constant rate on a still mount, and the moments.
+//! Not touched: `J_23`, which does nothing at constant rate on a mount at rest, and the moments.
 
 use crate::numbers::real::{Scalar, one, reciprocal_in_two, zero};
 use crate::numbers::symmetric::Symmetric;
@@ -46,9 +46,10 @@ use crate::{Dgcmg, Dgvscmg, ReactionWheel, Sgcmg, Vscmg};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Imbalance<T = f64> {
-    /// `U_s`, static imbalance, kg m; not negative. A still mount feels the force `U_s Omega²`.
+    /// `U_s`, static imbalance, kg m; not negative. The force on a mount at rest is `U_s Omega²`.
     pub u_s: T,
-    /// `U_d`, dynamic imbalance, kg m²; not negative. A still mount feels the torque `U_d Omega²`.
+    /// `U_d`, dynamic imbalance, kg m²; not negative. The torque on a mount at rest is
+    /// `U_d Omega²`.
     pub u_d: T,
     /// Angle from that force to that torque about `+w_x`, rad; any finite number.
     pub phase: T,
@@ -91,9 +92,9 @@ impl<T: Scalar> Imbalance<T> {
 impl<T: Scalar> WheelImbalance<T> {
     /// The lumped imbalance of a wheel of the mass `m_w`, kg, with the phase within half a turn.
     ///
-    /// A negative `d` puts the force along `-w_y`, and the phase counts from there. Without static
-    /// imbalance (`d = 0`) the phase counts from `w_y`, so that [`Imbalance::in_wheel`] gives the
-    /// same products again. Without dynamic imbalance it is zero.
+    /// With a negative `d` the force is along `-w_y`, and the phase counts from there. Without
+    /// static imbalance (`d = 0`) the phase counts from `w_y`, so that [`Imbalance::in_wheel`]
+    /// gives the same products again. Without dynamic imbalance it is zero.
     ///
     /// # Errors
     ///
@@ -184,7 +185,7 @@ fn check_result<T: Scalar>(quantity: ImbalanceQuantity, value: T) -> Result<T, I
 /// The angle of a direction, its components of size one, from `along` towards `ahead`, rad.
 ///
 /// The `f64` angle is a first guess. The direction is turned back by it, and what then is left is
-/// so small that it equals its tangent, whatever the precision.
+/// so small that it equals its tangent in any precision.
 fn angle<T: Scalar>(along: T, ahead: T) -> T {
     let guess = T::from_f64(libm::atan2(ahead.to_f64(), along.to_f64()));
     let (sine, cosine) = guess.sin_cos();

@@ -1,4 +1,5 @@
-//! An imbalance does what its data sheet says, and comes back as it was given.
+//! A wheel exerts the force and torque of its data sheet, and the imbalance converted back is the
+//! same.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -16,7 +17,7 @@ const M_W: f64 = 4.0;
 /// Mass (kg) and inertia (kg m²) of what the wheel shakes, both gimbals' too.
 const MOUNT: f64 = 1e12;
 
-/// The mount gives way by the ratio of the wheel's mass and inertia to its own, at most 4e-12, of
+/// The mount moves by the ratio of the wheel's mass and inertia to its own, at most 4e-12, of
 /// every force and torque.
 const YIELDING: f64 = 1e-11;
 
@@ -28,7 +29,7 @@ fn wheel(imbalance: &Imbalance) -> Dgvscmg {
     Dgvscmg::bare_wheel(M_W, disc()).with_imbalance(imbalance).unwrap()
 }
 
-/// Force and torque that a mount feels which hardly moves: the mount's own acceleration, and those
+/// Force and torque on a mount that hardly moves: the mount's own acceleration, and those
 /// of two gimbals turning freely about `s_y` and `s_z`, each times what it moves.
 fn felt(device: &Dgvscmg, theta: f64, spin: f64) -> (Vector3<f64>, Vector3<f64>) {
     let i_heavy = Matrix3::identity() * MOUNT;
@@ -118,7 +119,7 @@ fn phase_without_a_counterpart_is_counted_from_w_y_or_zero() {
     assert_eq!(lumped(-0.5, -0.0, 0.0), Imbalance { u_s: 2.0, u_d: 0.0, phase: 0.0 });
     assert_eq!(lumped(0.0, 3.0, 0.0), Imbalance { u_s: 0.0, u_d: 3.0, phase: -FRAC_PI_2 });
     assert_eq!(lumped(0.0, -3.0, 0.0), Imbalance { u_s: 0.0, u_d: 3.0, phase: FRAC_PI_2 });
-    // Half a turn is positive, whatever the sign of a zero.
+    // Half a turn is positive for either sign of a zero.
     for (d, j_12, j_13) in [(0.0, 0.0, -3.0), (0.0, -0.0, -3.0), (-0.0, 0.0, -3.0)] {
         assert_eq!(lumped(d, j_12, j_13).phase, PI);
     }
@@ -138,7 +139,8 @@ fn assert_back<T: Scalar>(given: &Imbalance<T>, back: &Imbalance<T>) {
     assert!(back.phase.abs() <= T::from_f64(PI), "{given:?} came back as {back:?}");
 }
 
-/// Ten thousand wheels: 0.1 to 5000 kg, `U_s` and `U_d` over eight decades, three turns either way.
+/// Ten thousand wheels: 0.1 to 5000 kg, `U_s` and `U_d` over eight decades, three turns in either
+/// sense.
 fn random_wheels_come_back<T: Scalar>() {
     // Knuth's multiplier for 64 bits; the upper half of the state is the number.
     let mut seed = 0x1AC_17C1_u64;

@@ -1,4 +1,4 @@
-//! Why an imbalance is refused: [`ImbalanceError`], and the names it uses for what is at fault.
+//! Why an imbalance is rejected: [`ImbalanceError`], and the names it uses for what is at fault.
 
 use core::error::Error;
 use core::fmt::{self, Display, Formatter};
@@ -29,7 +29,7 @@ pub enum ImbalanceQuantity {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ImbalanceError<T = f64> {
-    /// A quantity given is infinite or NaN.
+    /// An input is infinite or NaN.
     NotFinite {
         /// Which one.
         quantity: ImbalanceQuantity,
@@ -48,7 +48,7 @@ pub enum ImbalanceError<T = f64> {
         /// The mass, kg.
         value: T,
     },
-    /// Every quantity given is finite, but one that follows from them is not.
+    /// Every input is finite, but a result is not.
     Overflow {
         /// Which one.
         quantity: ImbalanceQuantity,
@@ -123,18 +123,18 @@ mod tests {
     use super::*;
     use crate::validation::imbalance::{Imbalance, WheelImbalance};
 
-    /// What a data sheet would have to say to be refused.
-    fn refused(u_s: f64, u_d: f64, phase: f64, m_w: f64) -> std::string::String {
+    /// What a data sheet would have to say to be rejected.
+    fn rejected(u_s: f64, u_d: f64, phase: f64, m_w: f64) -> std::string::String {
         Imbalance { u_s, u_d, phase }.in_wheel(m_w).unwrap_err().to_string()
     }
 
     #[test]
     fn number_that_is_not_finite_is_named_with_its_value() {
         for (text, beginning) in [
-            (refused(f64::NAN, 1.0, 0.0, 1.0), "static imbalance u_s of NaN kg m"),
-            (refused(1.0, f64::INFINITY, 0.0, 1.0), "dynamic imbalance u_d of inf kg m^2"),
-            (refused(1.0, 1.0, f64::NEG_INFINITY, 1.0), "phase of -inf rad"),
-            (refused(1.0, 1.0, 0.0, f64::INFINITY), "mass m_w of inf kg"),
+            (rejected(f64::NAN, 1.0, 0.0, 1.0), "static imbalance u_s of NaN kg m"),
+            (rejected(1.0, f64::INFINITY, 0.0, 1.0), "dynamic imbalance u_d of inf kg m^2"),
+            (rejected(1.0, 1.0, f64::NEG_INFINITY, 1.0), "phase of -inf rad"),
+            (rejected(1.0, 1.0, 0.0, f64::INFINITY), "mass m_w of inf kg"),
         ] {
             let end = " is not finite; give a finite number in SI units";
             assert_eq!(text, [beginning, end].concat());
@@ -144,11 +144,11 @@ mod tests {
     #[test]
     fn negative_magnitude_is_told_what_to_do_instead() {
         assert_eq!(
-            refused(-3.2e-4, 1.0, 0.0, 4.0),
+            rejected(-3.2e-4, 1.0, 0.0, 4.0),
             "static imbalance u_s of -0.00032 kg m is below 0; give its magnitude and add pi to \
              the phase"
         );
-        assert!(refused(0.0, -1e-300, 0.0, 4.0).starts_with("dynamic imbalance u_d of -1e-300"));
+        assert!(rejected(0.0, -1e-300, 0.0, 4.0).starts_with("dynamic imbalance u_d of -1e-300"));
     }
 
     #[test]
@@ -156,14 +156,14 @@ mod tests {
         for (m_w, value) in [(0.0, "0.0"), (-4.0, "-4.0")] {
             let expected =
                 ["mass m_w of ", value, " kg is not above 0; give the mass of the wheel"];
-            assert_eq!(refused(1.0, 1.0, 0.0, m_w), expected.concat());
+            assert_eq!(rejected(1.0, 1.0, 0.0, m_w), expected.concat());
         }
     }
 
     #[test]
     fn result_beyond_the_largest_number_is_no_fault_of_one_input() {
         assert_eq!(
-            refused(1e300, 0.0, 0.0, 1e-300),
+            rejected(1e300, 0.0, 0.0, 1e-300),
             "offset d of inf m is not finite although it follows from finite numbers; check their \
              units"
         );

@@ -1,11 +1,11 @@
-//! Why parameters are refused ([`ParameterError`]) or doubted ([`Warning`]).
+//! Why parameters are rejected ([`ParameterError`]), and warnings about others ([`Warning`]).
 
 use core::error::Error;
 use core::fmt::{self, Display, Formatter};
 
 use crate::numbers::real::Scalar;
 
-/// A rigid body of the spacecraft. Devices count from 0, as in the array given.
+/// A rigid body of the spacecraft. Devices count from 0, as in the set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The hub.
@@ -32,11 +32,11 @@ pub enum Parameter {
     Origin,
     /// The matrix `mount` of a device's first body.
     Mount,
-    /// A spring, damper or friction of the joint before a body: `stiffness`, `coulomb`.
+    /// A spring, damper or friction of a body's joint: `stiffness`, `coulomb`.
     Passive(&'static str),
 }
 
-/// Why [`Spacecraft::new`](crate::Spacecraft::new) refuses parameters.
+/// Why [`Spacecraft::new`](crate::Spacecraft::new) rejects parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ParameterError<T = f64> {
@@ -49,7 +49,7 @@ pub enum ParameterError<T = f64> {
         /// The first such component.
         value: T,
     },
-    /// The mass of the hub or of a device's outermost body is not above zero, or that of another
+    /// The mass of the hub or of a device's last body is not above zero, or that of another
     /// body is below zero.
     Mass {
         /// The body.
@@ -121,7 +121,7 @@ pub enum ParameterError<T = f64> {
     },
 }
 
-/// What [`Spacecraft::warnings`](crate::Spacecraft::warnings) finds odd in accepted parameters.
+/// What [`Spacecraft::warnings`](crate::Spacecraft::warnings) reports about accepted parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Warning<T = f64> {
@@ -167,7 +167,7 @@ impl<T: Scalar> Display for ParameterError<T> {
             ),
             Self::Mass { part, massless: false, value } => write!(
                 f,
-                "mass {:?} kg of the {part} is not above 0; only what carries another body of its \
+                "mass {:?} kg of the {part} is not above 0; only a body with a child body in its \
                  device may be massless",
                 value.to_f64(),
             ),
@@ -210,7 +210,7 @@ impl<T: Scalar> Display for ParameterError<T> {
             Self::SkewedMount { device, residual, bound } => write!(
                 f,
                 "mount of device {device} is off orthonormal by {:?}, more than {:?}; its columns \
-                 are unit vectors at right angles, given to full precision",
+                 must be orthogonal unit vectors to full precision",
                 residual.to_f64(),
                 bound.to_f64(),
             ),
@@ -246,7 +246,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn warning_tells_value_bound_and_remedy() {
+    fn warning_shows_value_bound_and_remedy() {
         let warning =
             Warning::Triangle { part: Part::Body { device: 0, body: "wheel" }, excess: 0.25 };
         assert_eq!(

@@ -1,18 +1,18 @@
 /* Precess: fully coupled dynamics of a spacecraft with momentum devices, for flight software.
  *
- * Everything is in SI units and radians. A spacecraft stands in memory that the caller owns; states
- * and inputs are plain structures. No function allocates, keeps anything elsewhere, or unwinds. All
+ * Everything is in SI units and radians. A spacecraft is in memory that the caller owns; states
+ * and inputs are structures of numbers. No function allocates, keeps anything elsewhere, or unwinds. All
  * may be called by several tasks at once, each with its own state; a spacecraft may be shared, since
  * only precess_init and precess_init_from_table change it.
  *
- * Every function that can be refused returns an error code, 0 (PRECESS_OK) if all went well; then,
+ * Every function that can be rejected returns an error code, 0 (PRECESS_OK) if all went well; then,
  * and only then, has it written its results (a text or saved state that does not fit is cut).
- * `fault` may be null; otherwise it is told where the refusal comes from. Any other pointer that is
- * null or misaligned is refused.
+ * `fault` may be null; otherwise the cause of the rejection is written to it. Any other pointer that is
+ * null or misaligned is rejected.
  *
  * Axes: N is inertial, B fixed in the hub. A device's own axes are those of its first body where its
- * joint is at zero. Vectors are x, y, z; matrices stand row by row. What belongs to joints stands in
- * [device][joint], joints counted from the hub outwards; places without a joint are not read, and
+ * joint is at zero. Vectors are x, y, z; matrices are stored row by row. Values of joints are in
+ * [device][joint], joints counted from the hub outwards; entries without a joint are not read, and
  * are 0 in results.
  */
 #ifndef PRECESS_H
@@ -40,7 +40,7 @@ extern "C" {
 #define PRECESS_TABLE_VERSION 1
 #define PRECESS_TABLE_SIZE(devices) (124 + 584 * (devices))
 
-/* Error codes. precess_error_text tells the remedy. */
+/* Error codes. precess_error_text has the remedy. */
 enum {
     PRECESS_OK = 0,
     PRECESS_ERROR_NULL = 1,
@@ -50,7 +50,7 @@ enum {
     PRECESS_ERROR_TOO_MANY = 5,
     PRECESS_ERROR_UNKNOWN_KIND = 6,
     PRECESS_ERROR_UNKNOWN_CHOICE = 7,
-    PRECESS_ERROR_MISFIT = 8,
+    PRECESS_ERROR_UNSUPPORTED_PARAMETER = 8,
     PRECESS_ERROR_NOT_FINITE = 9,
     PRECESS_ERROR_MASS = 10,
     PRECESS_ERROR_INERTIA = 11,
@@ -89,21 +89,21 @@ enum {
     PRECESS_KIND_SLOSH_MASS = 12              /* point mass, which slides along x */
 };
 
-/* Model of a wheel's imbalance: the rotor itself, or the usual lumped disturbance (imbalanced kinds
- * alone). */
+/* Model of a wheel's imbalance: the rotor itself, or the usual lumped disturbance (only
+ * imbalanced kinds). */
 enum { PRECESS_COUPLED = 0, PRECESS_LUMPED = 1 };
 
-/* What is given of a joint: its torque; its acceleration; that it stands still. */
+/* Mode of a joint: its torque is an input; its acceleration is; it is at rest. */
 enum { PRECESS_DRIVEN = 0, PRECESS_PRESCRIBED = 1, PRECESS_LOCKED = 2 };
 
-/* What is given of the hub: what acts on it; that it stands still; its accelerations. */
+/* Mode of the hub: free; at rest; its accelerations are inputs. */
 enum { PRECESS_HUB_FREE = 0, PRECESS_HUB_FIXED = 1, PRECESS_HUB_PRESCRIBED = 2 };
 
 /* Gravity: none; the same everywhere; of a central body at the origin of N, with its gradient. */
 enum { PRECESS_GRAVITY_NONE = 0, PRECESS_GRAVITY_UNIFORM = 1, PRECESS_GRAVITY_CENTRAL = 2 };
 
-/* Axes of loads: of the body behind the joint; of what carries it; B; N. */
-enum { PRECESS_AXES_BODY = 0, PRECESS_AXES_CARRIER = 1, PRECESS_AXES_HUB = 2, PRECESS_AXES_INERTIAL = 3 };
+/* Axes of loads: of the child body of the joint; of its parent body; B; N. */
+enum { PRECESS_AXES_BODY = 0, PRECESS_AXES_PARENT = 1, PRECESS_AXES_HUB = 2, PRECESS_AXES_INERTIAL = 3 };
 
 /* The point about which angular momentum is taken: the origin of N; the centre of mass of the whole
  * spacecraft; a point fixed in N. */
@@ -114,7 +114,7 @@ typedef struct precess_spacecraft {
     uint64_t opaque[PRECESS_SPACECRAFT_SIZE / 8];
 } precess_spacecraft;
 
-/* Where a refusal comes from. */
+/* Where a rejection comes from. */
 typedef struct precess_fault {
     int32_t code;     /* the error code */
     int32_t device;   /* index of the device; -1 for the hub, or for none */
@@ -133,16 +133,16 @@ typedef struct precess_hub {
 
 /* A body of a device. */
 typedef struct precess_body {
-    double mass;       /* kg; above 0 for the outermost body, 0 is legal for its carriers */
+    double mass;       /* kg; above 0 for the last body, not below 0 for the others */
     double origin[3];  /* origin of its joint; of the first body from B along B axes, of the others
-                          from the origin of the body before along that body's axes, m */
+                          from the origin of the parent body in its axes, m */
     double centre[3];  /* centre of mass from its origin, own axes, m; of a wheel on its y axis, 0 of
                           a balanced one and of a slosh mass */
     double inertia[9]; /* about its centre of mass, own axes, kg m^2; 0 of a slosh mass; diagonal
                           with equal y and z moments of a balanced wheel */
 } precess_body;
 
-/* What a joint does by itself: u = -k (q - rest) - viscous q' - coulomb q' / sqrt(q'^2 + rate^2). */
+/* Spring, damper and friction of a joint: u = -k (q - rest) - viscous q' - coulomb q' / sqrt(q'^2 + rate^2). */
 typedef struct precess_passive {
     double stiffness;    /* N m/rad, sliding joint N/m; not below 0 */
     double rest;         /* coordinate at which the spring rests, rad or m */
@@ -157,7 +157,7 @@ typedef struct precess_device {
     int32_t model;                               /* PRECESS_COUPLED or PRECESS_LUMPED */
     double mount[9];                             /* its columns are the device's axes along B */
     precess_body bodies[PRECESS_MAX_JOINTS];     /* from the hub outwards */
-    precess_passive passive[PRECESS_MAX_JOINTS]; /* of the joint before each body */
+    precess_passive passive[PRECESS_MAX_JOINTS]; /* of the joint of each body */
 } precess_device;
 
 /* State of the hub and of the joints. */
@@ -167,16 +167,16 @@ typedef struct precess_state {
     double attitude[4]; /* of B in N: quaternion, scalar first */
     double omega[3];    /* angular velocity of B in N, B axes, rad/s */
     double coordinate[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* rad, sliding joint m */
-    double rate[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* relative to the carrier, rad/s or m/s */
+    double rate[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* relative to the parent body, rad/s or m/s */
 } precess_state;
 
-/* A force and its moment about a point told where it stands. */
+/* A force and its moment about the point that each use names. */
 typedef struct precess_wrench {
     double force[3];  /* N */
     double moment[3]; /* N m */
 } precess_wrench;
 
-/* What acts, and what is given; constant during a call, along the axes told. */
+/* Forces, torques and modes; constant during a call in the axes that each field names. */
 typedef struct precess_inputs {
     double force[3];  /* external force through B, B axes, N */
     double torque[3]; /* external torque about B, B axes, N m */
@@ -187,8 +187,8 @@ typedef struct precess_inputs {
     double hub_angular[3]; /* of a prescribed hub: angular acceleration, B axes, rad/s^2 */
     double gravity[3];     /* uniform field, N axes, m/s^2 */
     double mu;             /* gravitational parameter of the central body, m^3/s^2 */
-    precess_wrench wrench[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* on the body behind each joint,
-                              about its origin, the body's own axes */
+    precess_wrench wrench[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* on the child body of each
+                              joint, about its origin, the body's own axes */
     int32_t mode[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* PRECESS_DRIVEN, _PRESCRIBED, _LOCKED */
     int32_t hub_mode;      /* PRECESS_HUB_ */
     int32_t gravity_model; /* PRECESS_GRAVITY_ */
@@ -212,23 +212,23 @@ typedef struct precess_momentum {
 /* Work of each source during a step, J. */
 typedef struct precess_power {
     double external; /* force, torque, wrenches on bodies, lumped disturbances */
-    double hub;      /* what holds a prescribed hub to its motion */
+    double hub;      /* wrench that a prescribed hub needs */
     double gravity;
     double motors;   /* those of prescribed joints among them */
     double springs;
     double friction; /* not above 0 */
 } precess_power;
 
-/* What joints and mounts carry. */
+/* Loads of joints and mounts. */
 typedef struct precess_loads {
-    precess_wrench hub; /* what must act on the hub beside the inputs, about B, B axes: rounding on a
+    precess_wrench hub; /* what must act on the hub in addition to the inputs, about B, B axes: rounding on a
                            free hub, what a table exerts on a fixed one */
     precess_wrench mount[PRECESS_MAX_DEVICES]; /* what the hub exerts on each device, about the origin
                            of its first joint; N axes with PRECESS_AXES_INERTIAL, otherwise B axes */
-    precess_wrench joint[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* what the carrier exerts on the
-                           body behind each joint, about its origin, along the axes asked for */
-    double motor[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* torque of each motor, N m or N: given
-                           for a driven joint, found for a prescribed or locked one */
+    precess_wrench joint[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* what the parent body exerts on
+                           the child body of each joint, about its origin, along PRECESS_AXES_ */
+    double motor[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* torque of each motor, N m or N: the
+                           input of a driven joint, computed for a prescribed or locked one */
 } precess_loads;
 
 /* Version of the library: PRECESS_VERSION of the header it belongs to. */
@@ -250,8 +250,8 @@ int32_t precess_init(void *memory, size_t size, const precess_hub *hub,
 int32_t precess_init_from_table(void *memory, size_t size, const uint8_t *table, size_t length,
                                 precess_fault *fault);
 
-/* Writes the parameter table of a hub and `count` devices; `length` is told how many bytes. What
- * stands in it is not checked here but by precess_init_from_table. Little-endian on every target:
+/* Writes the parameter table of a hub and `count` devices; its bytes are counted in `length`.
+ * The parameters are checked by precess_init_from_table, not here. Little-endian on every target:
  * offset 0 "PREC"; 4 version; 8 length in bytes; 12 number of devices n (32 bits each); 16 the hub,
  * 13 doubles; 120 + 584 k device k, 2 integers of 32 bits and 72 doubles; both in the order of their
  * structures, nothing padded; 120 + 584 n CRC-32 of all before (ISO-HDLC, that of zip). */
@@ -261,14 +261,14 @@ int32_t precess_table_write(const precess_hub *hub, const precess_device *device
 /* Mass of hub and devices, kg. */
 int32_t precess_mass(const precess_spacecraft *craft, double *mass);
 
-/* How many joints a device has: 0 for one that is not there. */
+/* How many joints a device has: 0 for a device that does not exist. */
 int32_t precess_joints(const precess_spacecraft *craft, uint32_t device, uint32_t *joints);
 
 /* The state in which all is at zero: B at the origin of N, axes along N, nothing moving. */
 int32_t precess_state_at_rest(const precess_spacecraft *craft, precess_state *state);
 
 /* Brings joint angles into [-pi, pi] (rad), without a jump in anything else: the angle of a joint with
- * a spring stays, because its spring counts the turns. Angles run on otherwise; wrap a wheel's from
+ * a spring stays, because its spring counts the turns. Other calls do not wrap angles; wrap a wheel's from
  * time to time, since sines of large angles cost more. */
 int32_t precess_state_wrap(const precess_spacecraft *craft, precess_state *state);
 
@@ -276,12 +276,12 @@ int32_t precess_state_wrap(const precess_spacecraft *craft, precess_state *state
 int32_t precess_state_length(const precess_spacecraft *craft, uint32_t *count);
 
 /* Saves a state as doubles in a row, bit by bit: position (m), velocity (m/s), attitude, omega
- * (rad/s), then coordinate and rate of each joint. `count` is the room there is. */
+ * (rad/s), then coordinate and rate of each joint. `count` is the capacity of `numbers`. */
 int32_t precess_state_save(const precess_spacecraft *craft, const precess_state *state,
                            double *numbers, uint32_t count);
 
 /* Restores a saved state. `count` must be precess_state_length (PRECESS_ERROR_TOO_SMALL for any
- * other); refused if a number is not finite. */
+ * other); rejected if a number is not finite. */
 int32_t precess_state_restore(const precess_spacecraft *craft, const double *numbers,
                               uint32_t count, precess_state *state, precess_fault *fault);
 
@@ -295,15 +295,16 @@ int32_t precess_accelerations_of(const precess_spacecraft *craft, const precess_
                                  precess_fault *fault);
 
 /* Advances the state by `substeps` Runge-Kutta steps (fourth order) of `dt` seconds each, 1 to
- * PRECESS_MAX_SUBSTEPS. A sound dt turns the fastest wheel by a tenth of a radian. A dt that a spring,
- * damper or dry friction makes unstable is PRECESS_ERROR_UNSTABLE, with the longest one that holds in
- * fault.bound. `work` (J) may be null, which is cheaper. If refused, the state is as it was. */
+ * PRECESS_MAX_SUBSTEPS. With a good dt the fastest wheel turns by a tenth of a radian. A dt that a spring,
+ * damper or dry friction makes unstable is PRECESS_ERROR_UNSTABLE, with the longest stable one in
+ * fault.bound. `work` (J) may be null, which is cheaper. If rejected, the state is as it was. */
 int32_t precess_step(const precess_spacecraft *craft, precess_state *state,
                      const precess_inputs *inputs, double dt, uint32_t substeps,
                      precess_power *work, precess_fault *fault);
 
-/* Stops every locked joint, and a fixed hub, in no time: momentum stays (unless the hub is fixed or
- * prescribed), energy is lost, in J (`lost` may be null). Needed before what moves is locked. */
+/* Stops every locked joint, and a fixed hub, impulsively: momentum is conserved (unless the hub is
+ * fixed or prescribed), `lost` is the energy dissipated, J (may be null). Needed before a moving joint
+ * is locked. */
 int32_t precess_stop(const precess_spacecraft *craft, precess_state *state,
                      const precess_inputs *inputs, double *lost, precess_fault *fault);
 
@@ -312,7 +313,7 @@ int32_t precess_energy(const precess_spacecraft *craft, const precess_state *sta
                        precess_fault *fault);
 
 /* Linear momentum, kg m/s, and angular momentum, kg m^2/s, about PRECESS_ABOUT_; `point` (N axes, m,
- * three doubles) is read for PRECESS_ABOUT_POINT alone, otherwise null will do. */
+ * three doubles) is read only for PRECESS_ABOUT_POINT, otherwise it may be null. */
 int32_t precess_momentum_of(const precess_spacecraft *craft, const precess_state *state,
                             int32_t about, const double *point, precess_momentum *out,
                             precess_fault *fault);

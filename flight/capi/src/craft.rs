@@ -1,4 +1,4 @@
-//! A spacecraft in the caller's memory: made of plain structures, checked, asked what it has.
+//! A spacecraft in the caller's memory: made of the caller's structures, checked, queried.
 
 use core::ffi::c_void;
 
@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{self as dynamics, Spacecraft};
 
 use crate::device::device_of;
-use crate::error::{Code, Fault, Refusal};
+use crate::error::{Code, Fault, Rejection};
 use crate::memory::{self, Plain, check, slice};
 use crate::types::{Device, Hub};
 use crate::{List, MAX_DEVICES};
@@ -16,10 +16,10 @@ pub const SIZE: usize = 16_384;
 /// `PRECESS_SPACECRAFT_ALIGN`.
 pub const ALIGN: usize = 8;
 
-/// Stands where a spacecraft has been made; the version keeps apart what other builds have made.
+/// The first field of a valid spacecraft; with the version, so that other builds reject it.
 const MADE: u64 = 0x5052_4543_0000_0000 | crate::VERSION as u64;
 
-/// What stands in the caller's memory.
+/// The contents of the caller's memory.
 #[repr(C)]
 pub struct Craft {
     made: u64,
@@ -49,51 +49,51 @@ pub(crate) unsafe fn craft<'a>(pointer: *const Craft) -> Result<&'a Craft, Code>
     Ok(unsafe { &*pointer })
 }
 
-/// Answers a call: the code, and where it comes from.
+/// Writes the fault of a call and returns its code.
 ///
 /// # Safety
 ///
 /// `fault` is null or points to a writable [`Fault`].
-pub(crate) unsafe fn answer(
+pub(crate) unsafe fn report(
     spacecraft: Option<&Spacecraft<List>>,
-    result: Result<(), Refusal>,
+    result: Result<(), Rejection>,
     fault: *mut Fault,
 ) -> i32 {
-    let refusal = result.err().unwrap_or(Code::Ok.into());
+    let rejection = result.err().unwrap_or(Code::Ok.into());
     let small = |index: usize| i32::try_from(index).unwrap_or(i32::MAX);
-    let joint = refusal.joint.and_then(|name| {
+    let joint = rejection.joint.and_then(|name| {
         let mut joints = spacecraft?.joints();
         let named = |info: &dynamics::kind::JointInfo| {
             // Byte by byte: no call of the C library's `memcmp`.
             [info.body, info.coordinate, info.rate].iter().any(|own| own.bytes().eq(name.bytes()))
         };
         let (_, info) =
-            joints.find(|(device, info)| Some(*device) == refusal.device && named(info))?;
+            joints.find(|(device, info)| Some(*device) == rejection.device && named(info))?;
         Some(info.index)
     });
-    let told = Fault {
-        code: refusal.code as i32,
-        device: refusal.device.map_or(-1, small),
+    let cause = Fault {
+        code: rejection.code as i32,
+        device: rejection.device.map_or(-1, small),
         joint: joint.map_or(-1, small),
         reserved: 0,
-        value: refusal.value,
-        bound: refusal.bound,
+        value: rejection.value,
+        bound: rejection.bound,
     };
     // SAFETY: as promised to this function.
-    match unsafe { memory::offer(fault, told) } {
-        Err(code) if refusal.code == Code::Ok => code as i32,
-        _ => refusal.code as i32,
+    match unsafe { memory::offer(fault, cause) } {
+        Err(code) if rejection.code == Code::Ok => code as i32,
+        _ => rejection.code as i32,
     }
 }
 
 /// Makes a spacecraft of a hub and devices.
-pub(crate) fn made(hub: &Hub, devices: &[Device]) -> Result<Spacecraft<List>, Refusal> {
+pub(crate) fn made(hub: &Hub, devices: &[Device]) -> Result<Spacecraft<List>, Rejection> {
     if devices.len() > MAX_DEVICES {
         return Err(Code::TooMany.into());
     }
     let mut list: List = [None; MAX_DEVICES];
-    for (index, (place, device)) in list.iter_mut().zip(devices).enumerate() {
-        *place = Some(device_of(index, device)?);
+    for (index, (entry, device)) in list.iter_mut().zip(devices).enumerate() {
+        *entry = Some(device_of(index, device)?);
     }
     let hub = dynamics::Hub {
         m_b: hub.mass,
@@ -103,26 +103,26 @@ pub(crate) fn made(hub: &Hub, devices: &[Device]) -> Result<Spacecraft<List>, Re
     Ok(Spacecraft::new(&hub, &list)?)
 }
 
-/// Puts a spacecraft into the caller's memory.
+/// Makes a spacecraft in the caller's memory.
 ///
 /// # Errors
 ///
-/// [`Code::Null`], [`Code::Misaligned`], [`Code::TooSmall`], and what `make` answers.
+/// [`Code::Null`], [`Code::Misaligned`], [`Code::TooSmall`], and the errors of `make`.
 ///
 /// # Safety
 ///
 /// `memory` points to `size` writable bytes.
-pub(crate) unsafe fn place(
+pub(crate) unsafe fn make_in(
     memory: *mut c_void,
     size: usize,
-    make: impl FnOnce() -> Result<Spacecraft<List>, Refusal>,
-) -> Result<(), Refusal> {
+    make: impl FnOnce() -> Result<Spacecraft<List>, Rejection>,
+) -> Result<(), Rejection> {
     let craft = memory.cast::<Craft>();
     check(craft)?;
     if size < SIZE {
         return Err(Code::TooSmall.into());
     }
-    // SAFETY: not null, aligned, large enough; a spacecraft that stood here is no longer one.
+    // SAFETY: not null, aligned, large enough; a spacecraft that was here is no longer valid.
     unsafe { (&raw mut (*craft).made).write(0) };
     let spacecraft = make()?;
     // SAFETY: as before.
@@ -139,8 +139,8 @@ pub(crate) fn matrix(rows: &[f64; 9]) -> Matrix3<f64> {
 ///
 /// # Safety
 ///
-/// `memory` points to `size` writable bytes, `hub` to a hub, `devices` to `count` devices, `fault` is
-/// null or points to a fault.
+/// `memory` points to `size` writable bytes, `hub` to a hub, `devices` to `count` devices, `fault`
+/// is null or points to a fault.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn precess_init(
     memory: *mut c_void,
@@ -152,34 +152,34 @@ pub unsafe extern "C" fn precess_init(
 ) -> i32 {
     let make = || {
         if count as usize > MAX_DEVICES {
-            return Err(Refusal::from(Code::TooMany));
+            return Err(Rejection::from(Code::TooMany));
         }
         // SAFETY: by contract.
         let (hub, devices) = unsafe { (memory::read(hub)?, slice(devices, count as usize)?) };
         made(&hub, devices)
     };
     // SAFETY: by contract.
-    let result = unsafe { place(memory, size, make) };
+    let result = unsafe { make_in(memory, size, make) };
     // SAFETY: by contract.
-    unsafe { answer(None, result, fault) }
+    unsafe { report(None, result, fault) }
 }
 
-/// Writes one number the caller asked for.
+/// Writes one number of a spacecraft.
 ///
 /// # Safety
 ///
 /// As [`craft`]; `to` points to a writable `T`.
-unsafe fn ask<T: Plain>(
+unsafe fn query<T: Plain>(
     pointer: *const Craft,
     to: *mut T,
     of: impl FnOnce(&Spacecraft<List>) -> T,
 ) -> i32 {
     // SAFETY: by contract.
-    let told = unsafe { craft(pointer) }.and_then(|craft| {
+    let done = unsafe { craft(pointer) }.and_then(|craft| {
         // SAFETY: by contract.
         unsafe { memory::write(to, of(&craft.spacecraft)) }
     });
-    told.err().unwrap_or(Code::Ok) as i32
+    done.err().unwrap_or(Code::Ok) as i32
 }
 
 /// See `precess.h`.
@@ -190,7 +190,7 @@ unsafe fn ask<T: Plain>(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn precess_mass(craft: *const Craft, mass: *mut f64) -> i32 {
     // SAFETY: by contract.
-    unsafe { ask(craft, mass, Spacecraft::mass) }
+    unsafe { query(craft, mass, Spacecraft::mass) }
 }
 
 /// See `precess.h`.
@@ -205,5 +205,5 @@ pub unsafe extern "C" fn precess_joints(craft: *const Craft, device: u32, joints
         u32::try_from(of_device.count()).unwrap_or(u32::MAX)
     };
     // SAFETY: by contract.
-    unsafe { ask(craft, joints, count) }
+    unsafe { query(craft, joints, count) }
 }

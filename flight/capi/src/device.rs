@@ -1,44 +1,27 @@
-//! A device from its structure, and the numbers of kinds.
+//! A device from its structure.
 
 use precess_dynamics::kind::{BodyParameters, ImbalanceModel};
-use precess_dynamics::{BuiltIn, BuiltInKind, BuiltInParameters, Passive};
+use precess_dynamics::{BuiltIn, BuiltInKind, DeviceParameters, Passive};
 
 use crate::craft::matrix;
-use crate::error::{Code, Refusal};
+use crate::error::{Code, Rejection};
 use crate::types;
 
-/// `PRECESS_KIND_`: a number that stands for a kind for ever.
-pub(crate) const fn number_of(kind: BuiltInKind) -> i32 {
-    match kind {
-        BuiltInKind::Dgvscmg => 1,
-        BuiltInKind::BalancedDgvscmg => 2,
-        BuiltInKind::Dgcmg => 3,
-        BuiltInKind::BalancedDgcmg => 4,
-        BuiltInKind::Vscmg => 5,
-        BuiltInKind::BalancedVscmg => 6,
-        BuiltInKind::Sgcmg => 7,
-        BuiltInKind::BalancedSgcmg => 8,
-        BuiltInKind::ReactionWheel => 9,
-        BuiltInKind::BalancedReactionWheel => 10,
-        BuiltInKind::HingedPanel => 11,
-        BuiltInKind::SloshMass => 12,
-    }
-}
-
+/// The kind of a `PRECESS_KIND_`.
 fn kind_of(number: i32) -> Option<BuiltInKind> {
-    BuiltInKind::ALL.iter().copied().find(|kind| number_of(*kind) == number)
+    u8::try_from(number).ok().and_then(BuiltInKind::of_number)
 }
 
 /// The device that a structure states.
-pub(crate) fn device_of(index: usize, device: &types::Device) -> Result<BuiltIn, Refusal> {
-    let refuse = |code: Code| Refusal { device: Some(index), ..code.into() };
-    let kind = kind_of(device.kind).ok_or(refuse(Code::UnknownKind))?;
+pub(crate) fn device_of(index: usize, device: &types::Device) -> Result<BuiltIn, Rejection> {
+    let reject = |code: Code| Rejection { device: Some(index), ..code.into() };
+    let kind = kind_of(device.kind).ok_or(reject(Code::UnknownKind))?;
     let model = match device.model {
         0 => ImbalanceModel::Coupled,
         1 => ImbalanceModel::Lumped,
-        _ => return Err(refuse(Code::UnknownChoice)),
+        _ => return Err(reject(Code::UnknownChoice)),
     };
-    let parameters = BuiltInParameters {
+    let parameters = DeviceParameters {
         mount: matrix(&device.mount),
         bodies: device.bodies.map(|body| BodyParameters {
             origin: body.origin,
@@ -55,6 +38,8 @@ pub(crate) fn device_of(index: usize, device: &types::Device) -> Result<BuiltIn,
         }),
         model,
     };
-    BuiltIn::new(kind, &parameters)
-        .map_err(|misfit| Refusal { joint: Some(misfit.body), ..refuse(Code::Misfit) })
+    BuiltIn::new(kind, &parameters).map_err(|unsupported| Rejection {
+        joint: Some(unsupported.body),
+        ..reject(Code::UnsupportedParameter)
+    })
 }

@@ -1,4 +1,4 @@
-//! [`Code`]: why a call was refused, as a number with a name and a sentence; [`Fault`]: where.
+//! [`Code`]: why a call was rejected, as a number with a name and a sentence; [`Fault`]: where.
 
 use core::ffi::{CStr, c_char};
 
@@ -8,7 +8,7 @@ use crate::memory::{self, Plain};
 
 macro_rules! codes {
     ($($(#[$doc:meta])* $variant:ident = $number:literal, $name:literal, $text:literal;)*) => {
-        /// The answer of every function.
+        /// The code that every function returns.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(i32)]
         pub enum Code {
@@ -44,7 +44,7 @@ codes! {
         c"a pointer is not aligned for its type; the spacecraft needs PRECESS_SPACECRAFT_ALIGN";
     /// Memory is too small.
     TooSmall = 3, c"PRECESS_ERROR_TOO_SMALL",
-        c"the room given is too small; see PRECESS_SPACECRAFT_SIZE, _TABLE_SIZE, state_length";
+        c"the memory is too small; see PRECESS_SPACECRAFT_SIZE, _TABLE_SIZE, state_length";
     /// Memory holds no spacecraft.
     NotInitialised = 4, c"PRECESS_ERROR_NOT_INITIALISED",
         c"the memory holds no spacecraft; call precess_init or precess_init_from_table first";
@@ -58,19 +58,19 @@ codes! {
     UnknownChoice = 7, c"PRECESS_ERROR_UNKNOWN_CHOICE",
         c"no such mode, model, axes or point; use the constants of the header";
     /// The kind has no such parameter.
-    Misfit = 8, c"PRECESS_ERROR_MISFIT",
+    UnsupportedParameter = 8, c"PRECESS_ERROR_UNSUPPORTED_PARAMETER",
         c"a body has what its kind has no parameter for; set it to 0, or use an imbalanced kind";
     /// A parameter, state or input is no finite number.
     NotFinite = 9, c"PRECESS_ERROR_NOT_FINITE",
         c"a number is NaN or infinite, or an attitude has no length; give finite SI units";
     /// A mass is out of range.
     Mass = 10, c"PRECESS_ERROR_MASS",
-        c"a mass is not above 0 (of a carrier: below 0), or the sum of all is not finite";
+        c"a mass is not above 0 (0 is allowed inboard), or the sum of all is not finite";
     /// An inertia is none.
     Inertia = 11, c"PRECESS_ERROR_INERTIA",
         c"an inertia is not symmetric, or has a negative or infinite principal moment";
     /// A mount is no rotation.
-    Mount = 12, c"PRECESS_ERROR_MOUNT", c"a mount is no right-handed rotation to rounding";
+    Mount = 12, c"PRECESS_ERROR_MOUNT", c"a mount is not a right-handed rotation to rounding";
     /// A spring or friction is out of range.
     Passive = 13, c"PRECESS_ERROR_PASSIVE",
         c"a stiffness or friction is below 0, or Coulomb friction has no rate above 0";
@@ -83,12 +83,12 @@ codes! {
     /// A fixed hub moves.
     FixedHubMoves = 16, c"PRECESS_ERROR_FIXED_HUB_MOVES",
         c"a fixed hub moves; set its velocities to 0, or call precess_stop first";
-    /// A joint has one mode alone.
+    /// A joint has only one mode.
     NotDriven = 17, c"PRECESS_ERROR_NOT_DRIVEN",
         c"a joint is held at its rate by its kind and takes no other mode; use another kind";
     /// No field at the centre of gravity.
     AtCentre = 18, c"PRECESS_ERROR_AT_CENTRE",
-        c"B stands at the centre of gravity, where there is no field; set the position";
+        c"B is at the centre of gravity, where there is no field; set the position";
     /// The result is not finite.
     Overflow = 19, c"PRECESS_ERROR_OVERFLOW",
         c"the result is not finite although every input is; check units of large or tiny inputs";
@@ -111,7 +111,7 @@ codes! {
         c"dt is too long for a spring or friction; fault.bound is the longest, or raise coulomb_rate";
 }
 
-/// Where a refusal comes from: `precess_fault`.
+/// Where a rejection comes from: `precess_fault`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Fault {
@@ -132,9 +132,9 @@ pub struct Fault {
 // SAFETY: integers and floating-point numbers.
 unsafe impl Plain for Fault {}
 
-/// A refusal on its way out; names of joints become numbers when it leaves.
+/// A rejection with the name of its joint; [`Fault`] has the number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refusal {
+pub struct Rejection {
     pub(crate) code: Code,
     pub(crate) device: Option<usize>,
     pub(crate) joint: Option<&'static str>,
@@ -142,13 +142,13 @@ pub struct Refusal {
     pub(crate) bound: f64,
 }
 
-impl From<Code> for Refusal {
+impl From<Code> for Rejection {
     fn from(code: Code) -> Self {
         Self { code, device: None, joint: None, value: 0.0, bound: 0.0 }
     }
 }
 
-impl Refusal {
+impl Rejection {
     fn valued(code: Code, value: f64, bound: f64) -> Self {
         Self { value, bound, ..code.into() }
     }
@@ -176,7 +176,7 @@ impl Refusal {
     }
 }
 
-impl From<ParameterError> for Refusal {
+impl From<ParameterError> for Rejection {
     fn from(error: ParameterError) -> Self {
         match error {
             ParameterError::NotFinite { part, value, .. } => {
@@ -209,7 +209,7 @@ impl From<ParameterError> for Refusal {
     }
 }
 
-impl From<SolveError> for Refusal {
+impl From<SolveError> for Rejection {
     fn from(error: SolveError) -> Self {
         match error {
             SolveError::Singular { device, joint, pivot, bound } => {
@@ -223,7 +223,7 @@ impl From<SolveError> for Refusal {
             }
             SolveError::FixedHubMoves { value } => Self::valued(Code::FixedHubMoves, value, 0.0),
             SolveError::NotDriven { device, joint } => {
-                Refusal::from(Code::NotDriven).at(device, joint)
+                Rejection::from(Code::NotDriven).at(device, joint)
             }
             SolveError::AtCentre => Code::AtCentre.into(),
             SolveError::Unstable { device, joint, dt, longest } => {

@@ -4,17 +4,17 @@ use nalgebra::Vector3;
 use precess_dynamics::{About, Accelerations, Inputs, Spacecraft, State};
 
 use crate::List;
-use crate::craft::{Craft, answer, craft};
-use crate::error::{Code, Fault, Refusal};
+use crate::craft::{Craft, craft, report};
+use crate::error::{Code, Fault, Rejection};
 use crate::inputs::inputs_of;
 use crate::memory::{self, offer, read, write};
-use crate::state::{give, state_of, told};
+use crate::state::{give, state_of, structure_of};
 use crate::types;
 
 /// `PRECESS_MAX_SUBSTEPS`: what one call does is bounded.
 pub const MAX_SUBSTEPS: u32 = 1000;
 
-/// Does what is asked of a spacecraft and answers.
+/// Calls a function of a spacecraft and returns its code.
 ///
 /// # Safety
 ///
@@ -22,17 +22,17 @@ pub const MAX_SUBSTEPS: u32 = 1000;
 pub(crate) unsafe fn with(
     pointer: *const Craft,
     fault: *mut Fault,
-    ask: impl FnOnce(&Spacecraft<List>) -> Result<(), Refusal>,
+    call: impl FnOnce(&Spacecraft<List>) -> Result<(), Rejection>,
 ) -> i32 {
     // SAFETY: by contract.
     match unsafe { craft(pointer) } {
         Ok(craft) => {
-            let result = ask(&craft.spacecraft);
+            let result = call(&craft.spacecraft);
             // SAFETY: by contract.
-            unsafe { answer(Some(&craft.spacecraft), result, fault) }
+            unsafe { report(Some(&craft.spacecraft), result, fault) }
         }
         // SAFETY: by contract.
-        Err(code) => unsafe { answer(None, Err(code.into()), fault) },
+        Err(code) => unsafe { report(None, Err(code.into()), fault) },
     }
 }
 
@@ -41,11 +41,11 @@ pub(crate) unsafe fn with(
 /// # Safety
 ///
 /// Both pointers are null, misaligned, or point to readable structures.
-pub(crate) unsafe fn given(
+pub(crate) unsafe fn state_and_inputs(
     spacecraft: &Spacecraft<List>,
     state: *const types::State,
     inputs: *const types::Inputs,
-) -> Result<(State<List>, Inputs<List>), Refusal> {
+) -> Result<(State<List>, Inputs<List>), Rejection> {
     // SAFETY: by contract.
     let state = state_of(spacecraft, &unsafe { read(state) }?);
     // SAFETY: by contract.
@@ -76,15 +76,15 @@ pub unsafe extern "C" fn precess_accelerations_of(
     out: *mut types::Accelerations,
     fault: *mut Fault,
 ) -> i32 {
-    let ask = |craft: &Spacecraft<List>| {
+    let call = |craft: &Spacecraft<List>| {
         // SAFETY: by contract.
-        let (state, inputs) = unsafe { given(craft, state, inputs) }?;
+        let (state, inputs) = unsafe { state_and_inputs(craft, state, inputs) }?;
         let found = craft.accelerations(&state, &inputs)?;
         // SAFETY: by contract.
         Ok(unsafe { write(out, of_accelerations(&found)) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, ask) }
+    unsafe { with(craft, fault, call) }
 }
 
 /// See `precess.h`.
@@ -102,12 +102,12 @@ pub unsafe extern "C" fn precess_step(
     work: *mut types::Power,
     fault: *mut Fault,
 ) -> i32 {
-    let ask = |craft: &Spacecraft<List>| {
+    let call = |craft: &Spacecraft<List>| {
         if substeps == 0 || substeps > MAX_SUBSTEPS {
             return Err(Code::TooMany.into());
         }
         // SAFETY: by contract.
-        let (mut next, inputs) = unsafe { given(craft, state.cast_const(), inputs) }?;
+        let (mut next, inputs) = unsafe { state_and_inputs(craft, state.cast_const(), inputs) }?;
         let mut sum = types::Power {
             external: 0.0,
             hub: 0.0,
@@ -130,13 +130,13 @@ pub unsafe extern "C" fn precess_step(
                 sum.friction += stepped.work.friction;
             }
         }
-        // SAFETY: by contract; `work` first, so that a refusal leaves the state as it was.
+        // SAFETY: by contract; `work` first, so that a rejection leaves the state as it was.
         unsafe { offer(work, sum) }?;
         // SAFETY: by contract.
-        Ok(unsafe { write(state, told(&next)) }?)
+        Ok(unsafe { write(state, structure_of(&next)) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, ask) }
+    unsafe { with(craft, fault, call) }
 }
 
 /// See `precess.h`.
@@ -152,17 +152,17 @@ pub unsafe extern "C" fn precess_stop(
     lost: *mut f64,
     fault: *mut Fault,
 ) -> i32 {
-    let ask = |craft: &Spacecraft<List>| {
+    let call = |craft: &Spacecraft<List>| {
         // SAFETY: by contract.
-        let (before, inputs) = unsafe { given(craft, state.cast_const(), inputs) }?;
+        let (before, inputs) = unsafe { state_and_inputs(craft, state.cast_const(), inputs) }?;
         let stopped = craft.stop(&before, &inputs)?;
         // SAFETY: by contract.
         unsafe { offer(lost, stopped.energy_lost) }?;
         // SAFETY: by contract.
-        Ok(unsafe { write(state, told(&stopped.state)) }?)
+        Ok(unsafe { write(state, structure_of(&stopped.state)) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, ask) }
+    unsafe { with(craft, fault, call) }
 }
 
 /// See `precess.h`.
@@ -177,14 +177,14 @@ pub unsafe extern "C" fn precess_energy(
     energy: *mut f64,
     fault: *mut Fault,
 ) -> i32 {
-    let ask = |craft: &Spacecraft<List>| {
+    let call = |craft: &Spacecraft<List>| {
         // SAFETY: by contract.
         let state = state_of(craft, &unsafe { read(state) }?);
         // SAFETY: by contract.
         Ok(unsafe { write(energy, craft.energy(&state)?) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, ask) }
+    unsafe { with(craft, fault, call) }
 }
 
 /// See `precess.h`.
@@ -192,7 +192,7 @@ pub unsafe extern "C" fn precess_energy(
 /// # Safety
 ///
 /// `craft` points to a spacecraft, the others to their structures; `point` is read for
-/// `PRECESS_ABOUT_POINT` alone; `fault` may be null.
+/// only for `PRECESS_ABOUT_POINT`; `fault` may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn precess_momentum_of(
     craft: *const Craft,
@@ -202,7 +202,7 @@ pub unsafe extern "C" fn precess_momentum_of(
     out: *mut types::Momentum,
     fault: *mut Fault,
 ) -> i32 {
-    let ask = |craft: &Spacecraft<List>| {
+    let call = |craft: &Spacecraft<List>| {
         // SAFETY: by contract.
         let state = state_of(craft, &unsafe { read(state) }?);
         let about = match about {
@@ -223,7 +223,7 @@ pub unsafe extern "C" fn precess_momentum_of(
         Ok(unsafe { write(out, found) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, ask) }
+    unsafe { with(craft, fault, call) }
 }
 
 #[cfg(test)]
@@ -236,7 +236,6 @@ mod tests {
 
     use super::*;
     use crate::craft::precess_init;
-    use crate::device::number_of;
 
     /// What a C caller states and what a Rust caller states is one spacecraft, to the last bit.
     #[test]
@@ -263,19 +262,19 @@ mod tests {
 
         let diagonal = |[x, y, z]: [f64; 3]| [x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z];
         let devices = [gyro.into(), wheel.into()].map(|device: precess_dynamics::BuiltIn| {
-            let stated = device.stated();
+            let parameters = device.parameters();
             let rows = |m: &Matrix3<f64>| m.transpose().as_slice().try_into().unwrap();
             types::Device {
-                kind: number_of(device.kind()),
+                kind: device.kind().number().into(),
                 model: 0,
-                mount: rows(&stated.mount),
-                bodies: stated.bodies.map(|body| types::Body {
+                mount: rows(&parameters.mount),
+                bodies: parameters.bodies.map(|body| types::Body {
                     mass: body.mass,
                     origin: body.origin,
                     centre: body.centre,
                     inertia: rows(&body.inertia),
                 }),
-                passive: stated.passive.map(|_| types::Passive {
+                passive: parameters.passive.map(|_| types::Passive {
                     stiffness: 0.0,
                     rest: 0.0,
                     viscous: 0.0,
@@ -295,7 +294,7 @@ mod tests {
             (MaybeUninit::<types::State>::zeroed(), MaybeUninit::<types::Inputs>::zeroed());
         let none = null_mut();
         // SAFETY: every pointer is to a local of its type, or null where that is allowed.
-        let answers = unsafe {
+        let codes = unsafe {
             [
                 precess_init(
                     craft.cast(),
@@ -309,7 +308,7 @@ mod tests {
                 crate::inputs::precess_inputs_none(craft, c_inputs.as_mut_ptr()),
             ]
         };
-        assert_eq!(answers, [0; 3]);
+        assert_eq!(codes, [0; 3]);
         // SAFETY: both have been written.
         let (mut c_state, mut c_inputs) =
             unsafe { (c_state.assume_init(), c_inputs.assume_init()) };
@@ -321,10 +320,10 @@ mod tests {
             state = typed.step(&state, &inputs, 1e-3).unwrap();
         }
         // SAFETY: as before.
-        let answer = unsafe {
+        let code = unsafe {
             precess_step(craft, &raw mut c_state, &raw const c_inputs, 1e-3, 1000, null_mut(), none)
         };
-        assert_eq!(answer, 0);
+        assert_eq!(code, 0);
         let bits = |numbers: &[f64]| numbers.iter().map(|n| n.to_bits()).collect::<Vec<_>>();
         let (gyro, wheel) = (&state.devices.0, &state.devices.1);
         assert_eq!(bits(&c_state.omega), bits(state.omega.as_slice()));
@@ -335,7 +334,10 @@ mod tests {
         let attitude = [of_attitude.q0, of_attitude.q1, of_attitude.q2, of_attitude.q3];
         assert_eq!(bits(&c_state.attitude), bits(&attitude));
         let size = size_of::<Craft>();
-        assert!(size > crate::craft::SIZE / 2, "{size} bytes: the header asks for far too much");
+        assert!(
+            size > crate::craft::SIZE / 2,
+            "{size} bytes: PRECESS_SPACECRAFT_SIZE is far too large"
+        );
         println!("{size} bytes of {}", crate::craft::SIZE);
     }
 }

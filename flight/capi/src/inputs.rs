@@ -1,11 +1,11 @@
 //! Inputs: from a structure, and the structure in which nothing acts.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Few, Gravity, HubMode, Inputs, Mode, Spacecraft, Wrench};
+use precess_dynamics::{Gravity, HubMode, Inputs, JointArray, Mode, Spacecraft, Wrench};
 
 use crate::List;
 use crate::craft::{Craft, craft};
-use crate::error::{Code, Refusal};
+use crate::error::{Code, Rejection};
 use crate::memory;
 use crate::state::{give, take};
 use crate::types;
@@ -14,7 +14,7 @@ use crate::types;
 pub(crate) fn inputs_of(
     spacecraft: &Spacecraft<List>,
     from: &types::Inputs,
-) -> Result<Inputs<List>, Refusal> {
+) -> Result<Inputs<List>, Rejection> {
     let vector = Vector3::from;
     let mut inputs = Inputs::none_for(spacecraft);
     inputs.force = vector(from.force);
@@ -22,13 +22,13 @@ pub(crate) fn inputs_of(
     take(&mut inputs.motors, &from.motor);
     let given = from.mode.iter().zip(&from.prescribed).enumerate();
     for (to, (device, (modes, prescribed))) in inputs.modes.iter_mut().zip(given) {
-        let to = to.iter_mut().flat_map(Few::as_mut_slice);
+        let to = to.iter_mut().flat_map(JointArray::as_mut_slice);
         for (to, (mode, prescribed)) in to.zip(modes.iter().zip(prescribed)) {
             *to = match mode {
                 0 => Mode::Driven,
                 1 => Mode::Prescribed(*prescribed),
                 2 => Mode::Locked,
-                _ => return Err(Refusal { device: Some(device), ..Code::UnknownChoice.into() }),
+                _ => return Err(Rejection { device: Some(device), ..Code::UnknownChoice.into() }),
             };
         }
     }

@@ -1,4 +1,4 @@
-//! `tests/layout.c` tells a C compiler what Rust takes the structures and constants of the header
+//! `tests/layout.c` asserts in C what Rust takes the structures and constants of the header
 //! for. It is written by the test below, and compiled with the header by `cargo xtask capi`.
 
 use core::mem::{offset_of, size_of};
@@ -62,7 +62,7 @@ fn layout() -> String {
             }
             name.push(letter.to_ascii_uppercase());
         }
-        lines.push(format!("IS(PRECESS_KIND{name}, {});", crate::device::number_of(*kind)));
+        lines.push(format!("IS(PRECESS_KIND{name}, {});", kind.number()));
     }
     for code in Code::ALL {
         lines.push(format!("IS({}, {});", code.name().to_str().unwrap(), *code as i32));

@@ -1,9 +1,9 @@
-//! Precess behind a C interface: `include/precess.h` is what callers read, this is what they call.
+//! Precess behind a C interface: the functions of `include/precess.h`.
 //!
-//! A spacecraft lives in memory that the caller owns, states and inputs are plain structures, every
-//! function answers with an [error code](error::Code). No allocation, no global state, nothing kept
-//! between calls but what stands in the caller's memory: any number of tasks may call, each on its
-//! own data, and may share a spacecraft, which no call but `precess_init` changes.
+//! A spacecraft lives in memory that the caller owns, states and inputs are structures of numbers,
+//! every function returns an [error code](error::Code). No allocation, no global state, nothing
+//! kept between calls but the caller's memory: any number of tasks may call, each on its own data,
+//! and may share a spacecraft, which no call but `precess_init` changes.
 //!
 //! `unsafe` is where a pointer becomes a value, in [`memory`], and at the functions that C calls.
 //! Numbers are copied in and out, so pointers may overlap.
@@ -40,8 +40,8 @@ pub extern "C" fn precess_version() -> u32 {
     VERSION
 }
 
-/// Never reached: no function of this library panics, and a gate looks for paths that could. A panic
-/// handler must exist in a library without the standard one.
+/// Never reached: no function of this library panics, and a gate looks for paths that could. A
+/// panic handler must exist in a library without the standard one.
 #[cfg(not(test))]
 #[panic_handler]
 fn halt(_: &core::panic::PanicInfo<'_>) -> ! {

@@ -1,11 +1,11 @@
-//! What joints and mounts carry, and the torques that prescribed and locked joints need.
+//! Loads of joints and mounts, and the torques that prescribed and locked joints need.
 
 use precess_dynamics::{LoadAxes, Spacecraft, Wrench};
 
 use crate::List;
 use crate::craft::Craft;
 use crate::error::{Code, Fault};
-use crate::evaluate::{given, with};
+use crate::evaluate::{state_and_inputs, with};
 use crate::memory::write;
 use crate::types;
 
@@ -27,16 +27,16 @@ pub unsafe extern "C" fn precess_loads_of(
     out: *mut types::Loads,
     fault: *mut Fault,
 ) -> i32 {
-    let ask = |craft: &Spacecraft<List>| {
+    let call = |craft: &Spacecraft<List>| {
         let axes = match axes {
             0 => LoadAxes::Body,
-            1 => LoadAxes::Carrier,
+            1 => LoadAxes::Parent,
             2 => LoadAxes::Hub,
             3 => LoadAxes::Inertial,
             _ => return Err(Code::UnknownChoice.into()),
         };
         // SAFETY: by contract.
-        let (state, inputs) = unsafe { given(craft, state, inputs) }?;
+        let (state, inputs) = unsafe { state_and_inputs(craft, state, inputs) }?;
         let accelerations = craft.accelerations(&state, &inputs)?;
         let found = craft.loads(&state, &inputs, &accelerations, axes)?;
         let none = types::Wrench { force: [0.0; 3], moment: [0.0; 3] };
@@ -46,8 +46,8 @@ pub unsafe extern "C" fn precess_loads_of(
             joint: [[none; 3]; crate::MAX_DEVICES],
             motor: Default::default(),
         };
-        let places = to.mount.iter_mut().zip(&mut to.joint).zip(&mut to.motor);
-        for (((mount, joints), motors), device) in places.zip(found.devices.iter().flatten()) {
+        let entries = to.mount.iter_mut().zip(&mut to.joint).zip(&mut to.motor);
+        for (((mount, joints), motors), device) in entries.zip(found.devices.iter().flatten()) {
             *mount = of_wrench(&device.mount);
             for (to, from) in joints.iter_mut().zip(device.joints.as_slice()) {
                 *to = of_wrench(from);
@@ -60,5 +60,5 @@ pub unsafe extern "C" fn precess_loads_of(
         Ok(unsafe { write(out, to) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, ask) }
+    unsafe { with(craft, fault, call) }
 }

@@ -1,9 +1,9 @@
-//! Pointers of C made values: null and misaligned ones are refused, everything else is the caller's
-//! promise.
+//! Pointers of C made values: null and misaligned ones are rejected, everything else is the
+//! caller's promise.
 
 use crate::error::Code;
 
-/// A structure of numbers alone: every pattern of bits is a value of it.
+/// A structure of numbers only: every pattern of bits is a value of it.
 ///
 /// # Safety
 ///
@@ -19,7 +19,7 @@ unsafe impl Plain for usize {}
 // SAFETY: every pattern of bits is a number.
 unsafe impl Plain for u8 {}
 
-/// Whether a pointer may be followed, as far as it tells itself.
+/// Rejects a pointer that is null or misaligned.
 ///
 /// # Errors
 ///
@@ -49,7 +49,7 @@ pub unsafe fn read<T: Plain>(pointer: *const T) -> Result<T, Code> {
     Ok(unsafe { pointer.read() })
 }
 
-/// Puts a value where a pointer says.
+/// Writes a value through a pointer.
 ///
 /// # Errors
 ///
@@ -65,7 +65,7 @@ pub unsafe fn write<T: Plain>(pointer: *mut T, value: T) -> Result<(), Code> {
     Ok(())
 }
 
-/// As [`write`], for what the caller need not ask for: null takes nothing.
+/// As [`write`], for an optional result: nothing is written through null.
 ///
 /// # Errors
 ///
@@ -120,6 +120,6 @@ pub unsafe fn slice_mut<'a, T: Plain>(pointer: *mut T, count: usize) -> Result<&
     if count > isize::MAX as usize / size_of::<T>() {
         return Err(Code::TooMany);
     }
-    // SAFETY: not null, aligned, not too long; writable and alone by contract.
+    // SAFETY: not null, aligned, not too long; writable and exclusive by contract.
     Ok(unsafe { core::slice::from_raw_parts_mut(pointer, count) })
 }

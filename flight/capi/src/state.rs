@@ -1,21 +1,21 @@
 //! States: from structures and back, and as numbers in a row to be saved and restored.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Few, Quaternion, Spacecraft, State};
+use precess_dynamics::{JointArray, Quaternion, Spacecraft, State};
 
-use crate::craft::{Craft, answer, craft};
-use crate::error::{Code, Fault, Refusal};
+use crate::craft::{Craft, craft, report};
+use crate::error::{Code, Fault, Rejection};
 use crate::memory::{self, slice, slice_mut};
 use crate::types::{self, PerJoint};
 use crate::{List, MAX_DEVICES};
 
 /// Copies from `[device][joint]` to what has one for each joint there is.
 pub(crate) fn take<V: precess_dynamics::Value>(
-    to: &mut [Option<Few<V>>; MAX_DEVICES],
+    to: &mut [Option<JointArray<V>>; MAX_DEVICES],
     from: &[impl AsRef<[V]>; MAX_DEVICES],
 ) {
     for (to, from) in to.iter_mut().zip(from) {
-        let to = to.iter_mut().flat_map(Few::as_mut_slice);
+        let to = to.iter_mut().flat_map(JointArray::as_mut_slice);
         for (to, from) in to.zip(from.as_ref()) {
             *to = *from;
         }
@@ -25,11 +25,11 @@ pub(crate) fn take<V: precess_dynamics::Value>(
 /// Copies to `[device][joint]` by a function.
 pub(crate) fn give<V: precess_dynamics::Value, U>(
     to: &mut PerJoint<U>,
-    from: &[Option<Few<V>>; MAX_DEVICES],
+    from: &[Option<JointArray<V>>; MAX_DEVICES],
     of: impl Fn(&V) -> U,
 ) {
     for (to, from) in to.iter_mut().zip(from) {
-        let from = from.iter().flat_map(Few::as_slice);
+        let from = from.iter().flat_map(JointArray::as_slice);
         for (to, from) in to.iter_mut().zip(from) {
             *to = of(from);
         }
@@ -46,7 +46,7 @@ pub(crate) fn state_of(spacecraft: &Spacecraft<List>, from: &types::State) -> St
     state.omega = Vector3::from(from.omega);
     let joints = from.coordinate.iter().zip(&from.rate);
     for (to, (coordinates, rates)) in state.devices.iter_mut().zip(joints) {
-        let to = to.iter_mut().flat_map(Few::as_mut_slice);
+        let to = to.iter_mut().flat_map(JointArray::as_mut_slice);
         for (to, (coordinate, rate)) in to.zip(coordinates.iter().zip(rates)) {
             *to = [*coordinate, *rate];
         }
@@ -55,7 +55,7 @@ pub(crate) fn state_of(spacecraft: &Spacecraft<List>, from: &types::State) -> St
 }
 
 /// A state as a structure.
-pub(crate) fn told(state: &State<List>) -> types::State {
+pub(crate) fn structure_of(state: &State<List>) -> types::State {
     let Quaternion { q0, q1, q2, q3 } = state.attitude;
     let mut to = types::State {
         position: state.r_b_n.into(),
@@ -101,7 +101,7 @@ pub unsafe extern "C" fn precess_state_at_rest(
 ) -> i32 {
     // SAFETY: by contract.
     let done = unsafe { craft(pointer) }.and_then(|craft| {
-        let at_rest = told(&State::at_rest_for(&craft.spacecraft));
+        let at_rest = structure_of(&State::at_rest_for(&craft.spacecraft));
         // SAFETY: by contract.
         unsafe { memory::write(state, at_rest) }
     });
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn precess_state_wrap(
         // SAFETY: by contract.
         let from = state_of(&craft.spacecraft, &unsafe { memory::read(state.cast_const()) }?);
         // SAFETY: by contract.
-        unsafe { memory::write(state, told(&from.wrapped(&craft.spacecraft))) }
+        unsafe { memory::write(state, structure_of(&from.wrapped(&craft.spacecraft))) }
     });
     done.err().unwrap_or(Code::Ok) as i32
 }
@@ -178,8 +178,8 @@ pub unsafe extern "C" fn precess_state_save(
 ///
 /// # Safety
 ///
-/// `craft` points to a spacecraft, `from` to `count` numbers, `state` to a state, `fault` is null or
-/// points to a fault.
+/// `craft` points to a spacecraft, `from` to `count` numbers, `state` to a state, `fault` is null
+/// or points to a fault.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn precess_state_restore(
     pointer: *const Craft,
@@ -192,13 +192,13 @@ pub unsafe extern "C" fn precess_state_restore(
         // SAFETY: by contract.
         let craft = &unsafe { craft(pointer) }?.spacecraft;
         if count as usize != length(craft) {
-            return Err(Refusal::from(Code::TooSmall));
+            return Err(Rejection::from(Code::TooSmall));
         }
         // SAFETY: by contract.
         let from = unsafe { slice(from, count as usize) }?;
-        let mut restored = told(&State::at_rest_for(craft));
+        let mut restored = structure_of(&State::at_rest_for(craft));
         numbers(craft, &mut restored).zip(from).for_each(|(to, from)| *to = *from);
-        // What is not finite, or no attitude, is refused here, not at the next step.
+        // What is not finite, or no attitude, is rejected here, not at the next step.
         craft.energy(&state_of(craft, &restored))?;
         // SAFETY: by contract.
         unsafe { memory::write(state, restored) }?;
@@ -206,5 +206,5 @@ pub unsafe extern "C" fn precess_state_restore(
     };
     let result = restore();
     // SAFETY: by contract.
-    unsafe { answer(craft(pointer).ok().map(|craft| &craft.spacecraft), result, fault) }
+    unsafe { report(craft(pointer).ok().map(|craft| &craft.spacecraft), result, fault) }
 }

@@ -22,8 +22,8 @@ use core::ffi::c_void;
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
 use crate::MAX_DEVICES;
-use crate::craft::{answer, made, place};
-use crate::error::{Code, Fault, Refusal};
+use crate::craft::{made, make_in, report};
+use crate::error::{Code, Fault, Rejection};
 use crate::memory::{read, slice, slice_mut, write};
 use crate::types::{Body, Device, Hub, Passive};
 
@@ -52,7 +52,8 @@ fn checksum(bytes: &[u8]) -> u32 {
     Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC).checksum(bytes)
 }
 
-/// What is passed over each entry of a table in its order; reading and writing differ in it alone.
+/// What is passed over each entry of a table in its order; only it differs between reading and
+/// writing.
 trait Pass {
     fn integer(&mut self, value: &mut i32) -> Option<()>;
     fn number(&mut self, value: &mut f64) -> Option<()>;
@@ -186,16 +187,16 @@ pub unsafe extern "C" fn precess_init_from_table(
 ) -> i32 {
     let make = || {
         if table.is_null() {
-            return Err(Refusal::from(Code::Null));
+            return Err(Rejection::from(Code::Null));
         }
         // SAFETY: by contract.
         let (hub, devices, count) = read_table(unsafe { slice(table, length) }?)?;
         made(&hub, devices.get(..count).unwrap_or(&devices))
     };
     // SAFETY: by contract.
-    let result = unsafe { place(memory, size, make) };
+    let result = unsafe { make_in(memory, size, make) };
     // SAFETY: by contract.
-    unsafe { answer(None, result, fault) }
+    unsafe { report(None, result, fault) }
 }
 
 /// See `precess.h`.
@@ -253,10 +254,10 @@ mod tests {
         write_table(&hub, &[device, NO_DEVICE], &mut table).unwrap();
         let (found, devices, count) = read_table(&table).unwrap();
         assert_eq!((found, devices[0], devices[1], count), (hub, device, NO_DEVICE, 2));
-        for place in 0..table.len() {
+        for byte in 0..table.len() {
             let mut changed = table;
-            changed[place] ^= 0x10;
-            assert!(read_table(&changed).is_err(), "byte {place}");
+            changed[byte] ^= 0x10;
+            assert!(read_table(&changed).is_err(), "byte {byte}");
         }
         for short in 0..table.len() {
             assert!(read_table(&table[..short]).is_err(), "{short} bytes");

@@ -1,5 +1,5 @@
 //! The structures of the header, field by field. Vectors are x, y, z; matrices row by row; what
-//! belongs to joints stands in `[device][joint]`, from the hub outwards, and is 0 where there is none.
+//! belongs to joints is in `[device][joint]`, from the hub outwards, and is 0 where there is none.
 
 use precess_dynamics::MAX_JOINTS;
 

@@ -1,4 +1,4 @@
-/* The library as C sees it: what is right works, what is wrong is refused with a code of its own.
+/* The library called from C: valid calls succeed, invalid ones are rejected with a code of their own.
  * Also C++. Prints what it computes as bit patterns and needs nothing of a C library but its output. */
 
 #include "check.h"
@@ -93,7 +93,7 @@ static void every_kind(void)
 }
 
 /* Work of the motors is what energy gains; a state comes back bit by bit. */
-static void books(void)
+static void ledger(void)
 {
     precess_state state, restored;
     precess_inputs inputs;
@@ -131,7 +131,7 @@ static void books(void)
     NEAR(state.coordinate[0][0], 100.0 - 16 * 6.283185307179586, 1e-12);
 }
 
-/* A brake: what moves cannot be locked before it is stopped; loads tell what holds it. */
+/* A brake: what moves cannot be locked before it is stopped; its load is what holds it. */
 static void modes_and_loads(void)
 {
     precess_state state;
@@ -180,7 +180,7 @@ static void modes_and_loads(void)
     NEAR(loads.hub.force[0], 0.0, 1e-12);
     IS(precess_loads_of(&craft, &state, &inputs, 4, &loads, 0), PRECESS_ERROR_UNKNOWN_CHOICE);
 
-    /* The wheel of an SGCMG keeps its rate, whatever is asked. */
+    /* The wheel of an SGCMG keeps its rate in every mode. */
     devices[0] = device_of(PRECESS_KIND_SGCMG);
     IS(init(1, 0), PRECESS_OK);
     IS(precess_inputs_none(&craft, &inputs), PRECESS_OK);
@@ -201,7 +201,7 @@ static void modes_and_loads(void)
 }
 
 /* What is wrong with parameters, each named. */
-static void refused_parameters(void)
+static void rejected_parameters(void)
 {
     precess_fault fault;
     example();
@@ -232,7 +232,7 @@ static void refused_parameters(void)
     IS(init(3, &fault), PRECESS_ERROR_UNKNOWN_CHOICE);
     example();
     devices[1].bodies[0].centre[2] = 0.1;
-    IS(init(3, &fault), PRECESS_ERROR_MISFIT);
+    IS(init(3, &fault), PRECESS_ERROR_UNSUPPORTED_PARAMETER);
     example();
     hub.mass = 0.0;
     IS(init(3, &fault), PRECESS_ERROR_MASS);
@@ -243,7 +243,7 @@ static void refused_parameters(void)
 }
 
 /* Memory and pointers. */
-static void refused_pointers(void)
+static void rejected_pointers(void)
 {
     static precess_spacecraft blank;
     precess_state state;
@@ -251,8 +251,8 @@ static void refused_pointers(void)
     precess_accelerations found;
     precess_fault fault;
     double mass;
-    char *odd = (char *)&craft + 4;
-    void *misaligned = odd;
+    char *unaligned = (char *)&craft + 4;
+    void *misaligned = unaligned;
     example();
     IS(precess_init(0, sizeof craft, &hub, devices, 3, 0), PRECESS_ERROR_NULL);
     IS(precess_init(misaligned, sizeof craft - 8, &hub, devices, 3, 0), PRECESS_ERROR_MISALIGNED);
@@ -260,7 +260,7 @@ static void refused_pointers(void)
     IS(precess_init(&craft, sizeof craft, 0, devices, 3, 0), PRECESS_ERROR_NULL);
     IS(precess_init(&craft, sizeof craft, &hub, 0, 3, &fault), PRECESS_ERROR_NULL);
     IS(fault.code, PRECESS_ERROR_NULL);
-    /* What is refused leaves no spacecraft behind. */
+    /* What is rejected leaves no spacecraft behind. */
     IS(precess_mass(&craft, &mass), PRECESS_ERROR_NOT_INITIALISED);
     IS(init(3, 0), PRECESS_OK);
     IS(precess_mass(&craft, &mass), PRECESS_OK);
@@ -350,10 +350,10 @@ int main(void)
 {
     example();
     every_kind();
-    books();
+    ledger();
     modes_and_loads();
-    refused_parameters();
-    refused_pointers();
+    rejected_parameters();
+    rejected_pointers();
     tables();
     texts();
     promises();

@@ -14,19 +14,19 @@ static int checks;
 
 #ifdef HOSTED
 #include <stdio.h>
-static void put(const char *text, size_t length)
+static void print_bytes(const char *text, size_t length)
 {
     fwrite(text, 1, length, stdout);
 }
 #else
-static void put(const char *text, size_t length)
+static void print_bytes(const char *text, size_t length)
 {
-    long answer;
+    long result;
     __asm__ volatile("syscall"
-                     : "=a"(answer)
+                     : "=a"(result)
                      : "a"(1L), "D"(1L), "S"(text), "d"(length)
                      : "rcx", "r11", "memory");
-    (void)answer;
+    (void)result;
 }
 #endif
 
@@ -36,18 +36,18 @@ static void say(const char *text)
     while (text[length] != '\0') {
         length++;
     }
-    put(text, length);
+    print_bytes(text, length);
 }
 
 static void say_hex(uint64_t number)
 {
     char digits[17];
-    int place;
-    for (place = 0; place < 16; place++) {
-        digits[place] = "0123456789abcdef"[(number >> (60 - 4 * place)) & 15];
+    int index;
+    for (index = 0; index < 16; index++) {
+        digits[index] = "0123456789abcdef"[(number >> (60 - 4 * index)) & 15];
     }
     digits[16] = '\n';
-    put(digits, 17);
+    print_bytes(digits, 17);
 }
 
 static uint64_t bits_of(double value)
@@ -95,9 +95,9 @@ static void near(double found, double expected, double bound, const char *what, 
 static int same(const void *a, const void *b, size_t length)
 {
     const unsigned char *first = (const unsigned char *)a, *second = (const unsigned char *)b;
-    size_t place;
-    for (place = 0; place < length; place++) {
-        if (first[place] != second[place]) {
+    size_t index;
+    for (index = 0; index < length; index++) {
+        if (first[index] != second[index]) {
             return 0;
         }
     }

@@ -87,7 +87,7 @@ static void angles(void)
     IS(precess_step(&craft, &state, &inputs, 1e-3, 1, 0, &fault), PRECESS_ERROR_NOT_FINITE);
 }
 
-/* A step that friction makes unstable is refused, with the longest that holds. */
+/* A step that friction makes unstable is rejected, with the longest that holds. */
 static void stability(void)
 {
     precess_state state;
@@ -111,7 +111,7 @@ static void stability(void)
     IS(precess_step(&craft, &state, &inputs, 0.9 * fault.bound, 1000, 0, &fault), PRECESS_OK);
 }
 
-/* Powers and work that are no numbers do not come out, and are no input's fault. */
+/* Powers and work that are not finite are an overflow, not an error of an input. */
 static void overflow(void)
 {
     precess_state state;

@@ -59,12 +59,12 @@ int32_t dyn_app_command(dyn_app *app, const dyn_joint_command *command)
         if (command->mode == PRECESS_LOCKED) {
             code = precess_stop(&app->craft, &app->state, &inputs, &lost, &fault);
         } else {
-            /* What the library would refuse at the next step is refused now. */
+            /* What the library would reject at the next step is rejected now. */
             code = precess_accelerations_of(&app->craft, &app->state, &inputs, &found, &fault);
         }
     }
     if (code != PRECESS_OK) {
-        app->telemetry.commands_refused++;
+        app->telemetry.commands_rejected++;
         return report(app, code, &fault);
     }
     app->expected -= lost;

@@ -1,11 +1,11 @@
-/* A flight-software application in the shape of a cFS app: it carries the dynamics of its own
+/* A flight-software application in the shape of a cFS app: it computes the dynamics of its own
  * spacecraft along, woken up by the scheduler, commanded and watched from the ground. */
 #ifndef DYN_APP_H
 #define DYN_APP_H
 
 #include "precess.h"
 
-/* The scheduler wakes the app up at 10 Hz; the fastest wheel asks for steps of 1 ms. */
+/* The scheduler wakes the app up at 10 Hz; the fastest wheel needs steps of 1 ms. */
 #define DYN_SUBSTEPS 100
 #define DYN_STEP 1e-3 /* s */
 
@@ -13,9 +13,9 @@
 typedef struct {
     uint32_t wake_ups;
     uint32_t commands;         /* accepted */
-    uint32_t commands_refused;
+    uint32_t commands_rejected;
     uint32_t tables;           /* loaded */
-    int32_t last_error;        /* PRECESS_ERROR_ of the last refusal */
+    int32_t last_error;        /* PRECESS_ERROR_ of the last rejection */
     int32_t fault_device;      /* where it came from; -1 for none */
     int32_t fault_joint;
     double omega[3];           /* B axes, rad/s */
@@ -24,7 +24,7 @@ typedef struct {
     double momentum_residual;  /* largest change of a component since the start, kg m^2/s */
 } dyn_housekeeping;
 
-/* Command: what is given of a joint from now on. A joint that moves is stopped before it is locked. */
+/* Command: torque, acceleration or mode of a joint from now on. A joint that moves is stopped before it is locked. */
 typedef struct {
     uint32_t device;
     uint32_t joint;
@@ -42,7 +42,7 @@ typedef struct {
     dyn_housekeeping telemetry;
 } dyn_app;
 
-/* Starts from a parameter table, at rest. A later table is checked first: one that is refused leaves
+/* Starts from a parameter table, at rest. A later table is checked first: one that is rejected leaves
  * all as it was. All three return a PRECESS_ code. */
 int32_t dyn_app_load(dyn_app *app, const uint8_t *table, size_t length);
 

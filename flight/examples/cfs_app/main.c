@@ -74,11 +74,11 @@ static void send(int32_t expected, uint32_t device, uint32_t joint, int32_t mode
 
 int main(void)
 {
-    const dyn_housekeeping *told = &app.telemetry;
+    const dyn_housekeeping *telemetry = &app.telemetry;
     size_t length = write_table();
-    int cycle, sound;
+    int cycle, within_bounds;
     if (dyn_app_load(&app, table, length) != PRECESS_OK) {
-        printf("table refused: %s\n", precess_error_name(told->last_error));
+        printf("table rejected: %s\n", precess_error_name(telemetry->last_error));
         return 1;
     }
     for (cycle = 0; cycle < 100; cycle++) {
@@ -96,32 +96,32 @@ int main(void)
             send(PRECESS_ERROR_UNKNOWN_CHOICE, 5, 0, PRECESS_LOCKED, 0.0);
         }
         if (dyn_app_wake_up(&app) != PRECESS_OK) {
-            printf("step refused: %s\n", precess_error_name(told->last_error));
+            printf("step rejected: %s\n", precess_error_name(telemetry->last_error));
             return 1;
         }
         if (cycle % 20 == 19) {
             printf("%4.1f s  omega %+.6e %+.6e %+.6e rad/s  energy %.6f J\n", 0.1 * (cycle + 1),
-                   told->omega[0], told->omega[1], told->omega[2], told->energy);
-            sound = told->energy_residual < ENERGY_BOUND && told->energy_residual > -ENERGY_BOUND &&
-                    told->momentum_residual < MOMENTUM_BOUND && told->last_error >= 0;
-            if (!sound) {
-                printf("residuals %.1e J, %.1e kg m^2/s out of bounds\n", told->energy_residual,
-                       told->momentum_residual);
+                   telemetry->omega[0], telemetry->omega[1], telemetry->omega[2], telemetry->energy);
+            within_bounds = telemetry->energy_residual < ENERGY_BOUND && telemetry->energy_residual > -ENERGY_BOUND &&
+                    telemetry->momentum_residual < MOMENTUM_BOUND && telemetry->last_error >= 0;
+            if (!within_bounds) {
+                printf("residuals %.1e J, %.1e kg m^2/s out of bounds\n", telemetry->energy_residual,
+                       telemetry->momentum_residual);
                 return 1;
             }
         }
     }
-    fprintf(stderr, "residuals %.1e J, %.1e kg m^2/s\n", told->energy_residual,
-            told->momentum_residual);
+    fprintf(stderr, "residuals %.1e J, %.1e kg m^2/s\n", telemetry->energy_residual,
+            telemetry->momentum_residual);
 
-    /* A table that was damaged on its way up changes nothing. */
+    /* A table that was damaged in transmission changes nothing. */
     table[500] ^= 0x40;
-    if (dyn_app_load(&app, table, length) != PRECESS_ERROR_TABLE_CHECKSUM || told->tables != 1 ||
-        dyn_app_wake_up(&app) != PRECESS_OK || told->wake_ups != 101) {
-        printf("damaged table: not refused as it must be\n");
+    if (dyn_app_load(&app, table, length) != PRECESS_ERROR_TABLE_CHECKSUM || telemetry->tables != 1 ||
+        dyn_app_wake_up(&app) != PRECESS_OK || telemetry->wake_ups != 101) {
+        printf("damaged table: not rejected as it must be\n");
         return 1;
     }
-    printf("damaged table refused, %u commands accepted, %u refused\n", (unsigned)told->commands,
-           (unsigned)told->commands_refused);
+    printf("damaged table rejected, %u commands accepted, %u rejected\n", (unsigned)telemetry->commands,
+           (unsigned)telemetry->commands_rejected);
     return 0;
 }

@@ -40,9 +40,9 @@ const SIZES: [f64; 5] = [1.0, 1e3, 1e7, 1e15, 1e22];
 pub enum Stop<T> {
     /// The console took no more.
     Console,
-    /// A drawn spacecraft was refused.
+    /// A drawn spacecraft was rejected.
     Parameters(ParameterError<T>),
-    /// A drawn state was refused.
+    /// A drawn state was rejected.
     Solve(SolveError<T>),
 }
 
@@ -50,8 +50,8 @@ impl<T: Scalar + Display + LowerExp> Display for Stop<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Console => write!(f, "the console took no more"),
-            Self::Parameters(error) => write!(f, "a drawn spacecraft was refused: {error}"),
-            Self::Solve(error) => write!(f, "a drawn state was refused: {error}"),
+            Self::Parameters(error) => write!(f, "a drawn spacecraft was rejected: {error}"),
+            Self::Solve(error) => write!(f, "a drawn state was rejected: {error}"),
         }
     }
 }
@@ -75,10 +75,10 @@ impl<T> From<SolveError<T>> for Stop<T> {
 }
 
 /// Prints every line for numbers of one type; `nudge` changes one component of the first
-/// run's angular velocity by one unit in the last place, which has to show.
+/// run's angular velocity by one unit in the last place, which has to be found.
 ///
 /// # Errors
-/// [`Stop`] where a spacecraft is refused: none should be.
+/// [`Stop`] where a spacecraft is rejected: none should be.
 pub fn report<T: Bits>(out: &mut dyn Write, nudge: bool) -> Result<(), Stop<T>> {
     let mut lines = Lines { out, nudge, printed: 0 };
     lines.angles::<T>()?;

@@ -25,7 +25,7 @@ pub struct Craft<D: FixedSet> {
     pub inputs: Inputs<D>,
 }
 
-/// What may be asked of a drawn spacecraft's hub.
+/// The modes that a drawn spacecraft's hub may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HubIs {
     /// Free, to be run.
@@ -52,7 +52,7 @@ impl<D: FixedSet> Craft<D> {
         };
         let craft = Spacecraft::new(&hub, devices)?;
         let (mut state, mut inputs) = (State::at_rest(), Inputs::none());
-        place(&mut state, &mut inputs, random);
+        draw_hub_state(&mut state, &mut inputs, random);
         turn_joints(&mut state, &mut inputs, random);
         inputs.force = random.vector(10.0);
         inputs.torque_b = random.vector(1.0);
@@ -72,7 +72,7 @@ impl<D: FixedSet> Craft<D> {
 
 /// Position, velocity, attitude and turning, and the field of gravity that goes with them.
 #[inline(never)]
-fn place<D: FixedSet>(state: &mut State<D>, inputs: &mut Inputs<D>, random: &mut Random) {
+fn draw_hub_state<D: FixedSet>(state: &mut State<D>, inputs: &mut Inputs<D>, random: &mut Random) {
     state.r_b_n = random.vector(100.0);
     state.r_b_n_dot = random.vector(5.0);
     inputs.gravity = match random.one_of(3) {

@@ -1,4 +1,5 @@
-//! A device of each kind, drawn at random: physical bodies, off centre, out of balance, with springs.
+//! A device of each kind, drawn at random: physical bodies, off centre, out of balance, with
+//! springs.
 
 use precess_dynamics::kind::Kind;
 use precess_dynamics::{
@@ -10,14 +11,11 @@ use crate::random::Random;
 
 /// A kind of which a device can be drawn.
 pub trait Drawn: Kind {
-    /// What the kind is called.
-    const NAME: &'static str;
-
     /// The next device.
     fn drawn(random: &mut Random) -> Self;
 }
 
-/// How far a body's origin or centre of mass is from its carrier's origin, m.
+/// How far a body's origin or centre of mass is from its parent body's origin, m.
 const OFFSET: f64 = 0.1;
 
 /// How far a device is from the hub's point B, m.
@@ -46,13 +44,11 @@ macro_rules! balanced_wheel {
 }
 
 macro_rules! drawn {
-    ($($kind:ident $name:literal $wheel:ident $carriers:ident;)*) => {$(
+    ($($kind:ident $wheel:ident $inboard:ident;)*) => {$(
         impl<T: Scalar> Drawn for $kind<T> {
-            const NAME: &'static str = $name;
-
             fn drawn(random: &mut Random) -> Self {
                 let wheel = $wheel!($kind, random);
-                let mut device = $carriers!($kind, random, wheel);
+                let mut device = $inboard!($kind, random, wheel);
                 device.mount = random.rotation();
                 suspend(&mut device.passive, random);
                 device
@@ -103,21 +99,19 @@ macro_rules! no_gimbal {
 }
 
 drawn! {
-    Dgvscmg "dgvscmg" wheel two_gimbals;
-    BalancedDgvscmg "balanced_dgvscmg" balanced_wheel two_gimbals;
-    Dgcmg "dgcmg" wheel two_gimbals;
-    BalancedDgcmg "balanced_dgcmg" balanced_wheel two_gimbals;
-    Vscmg "vscmg" wheel one_gimbal;
-    BalancedVscmg "balanced_vscmg" balanced_wheel one_gimbal;
-    Sgcmg "sgcmg" wheel one_gimbal;
-    BalancedSgcmg "balanced_sgcmg" balanced_wheel one_gimbal;
-    ReactionWheel "reaction_wheel" wheel no_gimbal;
-    BalancedReactionWheel "balanced_reaction_wheel" balanced_wheel no_gimbal;
+    Dgvscmg wheel two_gimbals;
+    BalancedDgvscmg balanced_wheel two_gimbals;
+    Dgcmg wheel two_gimbals;
+    BalancedDgcmg balanced_wheel two_gimbals;
+    Vscmg wheel one_gimbal;
+    BalancedVscmg balanced_wheel one_gimbal;
+    Sgcmg wheel one_gimbal;
+    BalancedSgcmg balanced_wheel one_gimbal;
+    ReactionWheel wheel no_gimbal;
+    BalancedReactionWheel balanced_wheel no_gimbal;
 }
 
 impl<T: Scalar> Drawn for HingedPanel<T> {
-    const NAME: &'static str = "hinged_panel";
-
     fn drawn(random: &mut Random) -> Self {
         let mass = random.within(2.0, 20.0);
         let mut panel = Self {
@@ -132,8 +126,6 @@ impl<T: Scalar> Drawn for HingedPanel<T> {
 }
 
 impl<T: Scalar> Drawn for SloshMass<T> {
-    const NAME: &'static str = "slosh_mass";
-
     fn drawn(random: &mut Random) -> Self {
         let mut mass = Self {
             mount: random.rotation(),

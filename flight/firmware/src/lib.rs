@@ -1,8 +1,8 @@
-//! What the bare-metal programs share: seeded spacecraft of every kind, runs of them told in bits, and
-//! the boards they run on.
+//! What the bare-metal programs share: seeded spacecraft of every kind, runs of them printed as
+//! bits, and the boards they run on.
 //!
-//! One source for every target: on this machine the same text is an ordinary program, whose output is
-//! what a board has to print. Nothing here allocates; `unsafe` stands in [`board`] alone.
+//! One source for every target: on this machine the same text is an ordinary program, whose output
+//! is what a board has to print. Nothing here allocates; `unsafe` is only in [`board`].
 
 #![cfg_attr(target_os = "none", no_std)]
 // LEON3 is a SPARC, whose inline assembly is not stable yet.

@@ -5,7 +5,7 @@
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::Scalar;
 
-/// A generator of random numbers (SplitMix64): integers alone, so no target can differ.
+/// A generator of random numbers (SplitMix64): only integers, so no target can differ.
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
@@ -40,7 +40,7 @@ impl Random {
         T::from_f64(self.within(low, high))
     }
 
-    /// A vector with components up to `size` either way.
+    /// A vector with components between `-size` and `size`.
     #[inline(never)]
     pub fn vector<T: Scalar>(&mut self, size: f64) -> Vector3<T> {
         Vector3::from_fn(|_, _| self.number(-size, size))
@@ -83,7 +83,7 @@ impl Random {
         turned(Vector3::new(axial, across, across), tilt)
     }
 
-    /// Four numbers on which a rotation stands; their squares add up to something.
+    /// The quaternion of a rotation, not normalised and not zero.
     #[inline(never)]
     fn four(&mut self) -> [f64; 4] {
         let mut q = [(); 4].map(|()| self.within(-1.0, 1.0));

@@ -1,10 +1,10 @@
-//! The sets of devices that are run: each kind alone, several of a kind, several kinds together.
+//! The sets of devices that are run: each kind by itself, several of a kind, several kinds
+//! together.
 
 use core::array::from_fn;
 
 use precess_dynamics::{
-    BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
-    Dgvscmg, FixedSet, HingedPanel, ReactionWheel, Scalar, Sgcmg, SloshMass, Vscmg,
+    BalancedVscmg, Dgvscmg, FixedSet, HingedPanel, ReactionWheel, Scalar, Sgcmg, SloshMass,
 };
 
 use crate::devices::Drawn;
@@ -41,24 +41,18 @@ pub type Mixed<T> = (
 /// # Errors
 /// The first of the visitor.
 pub fn each_set<T: Scalar, V: EachSet<T>>(visitor: &mut V) -> Result<(), V::Error> {
-    alone::<Dgvscmg<T>, V>(visitor)?;
-    alone::<BalancedDgvscmg<T>, V>(visitor)?;
-    alone::<Dgcmg<T>, V>(visitor)?;
-    alone::<BalancedDgcmg<T>, V>(visitor)?;
-    alone::<Vscmg<T>, V>(visitor)?;
-    alone::<BalancedVscmg<T>, V>(visitor)?;
-    alone::<Sgcmg<T>, V>(visitor)?;
-    alone::<BalancedSgcmg<T>, V>(visitor)?;
-    alone::<ReactionWheel<T>, V>(visitor)?;
-    alone::<BalancedReactionWheel<T>, V>(visitor)?;
-    alone::<HingedPanel<T>, V>(visitor)?;
-    alone::<SloshMass<T>, V>(visitor)?;
+    macro_rules! each {
+        ($($kind:ident $module:ident $number:literal;)*) => {
+            $(single::<precess_dynamics::$kind<T>, V>(visitor)?;)*
+        };
+    }
+    precess_dynamics::every_kind!(each);
     visitor
         .visit("dgvscmg", 4, |random| -> [Dgvscmg<T>; 4] { from_fn(|_| Drawn::drawn(random)) })?;
     visitor.visit("mixed", 7, mixed::<T>)
 }
 
-fn alone<K: Drawn, V: EachSet<K::Scalar>>(visitor: &mut V) -> Result<(), V::Error> {
+fn single<K: Drawn, V: EachSet<K::Scalar>>(visitor: &mut V) -> Result<(), V::Error> {
     visitor.visit(K::NAME, 1, |random| [K::drawn(random)])
 }
 

@@ -27,7 +27,7 @@ pub fn csv<const N: usize>(history: &History<N>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let rows = std::iter::once(head::<N>()).chain(history.samples.iter().map(row));
     for record in rows {
-        // Writing to memory and rows of one length: neither way to fail is open.
+        // Writing to memory and rows of one length: no error is possible.
         if writer.write_record(&record).is_err() {
             break;
         }

@@ -1,4 +1,4 @@
-//! One figure: panels of curves over time, drawn as SVG by plotters behind this thin layer.
+//! One figure: panels of curves over time, drawn as SVG by plotters.
 //!
 //! Everything is drawn in tenths of a unit, because plotters rounds to whole ones. Colours are
 //! those of the light theme, so a viewer that knows no CSS shows a right picture; `theme.css`
@@ -25,19 +25,19 @@ const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
 const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);
 /// Level lines, such as a bound.
 const LEVEL: RGBColor = RGBColor(0x8a, 0x8a, 0x8e);
-/// Curves in order: blue, orange, green, told apart by colour-blind readers too.
+/// Curves in order: blue, orange, green, distinct for colour-blind readers too.
 const CURVES: [RGBColor; 3] =
     [RGBColor(0x00, 0x5f, 0xb3), RGBColor(0xd5, 0x5e, 0x00), RGBColor(0x00, 0x8a, 0x64)];
 
 const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
 /// Tenths of a unit, see above.
 const FINE: f64 = 10.0;
-/// plotters writes this share of the size it is told.
+/// plotters writes this share of the size it is passed.
 const FONT_SHARE: f64 = 1.24;
 const WIDTH: f64 = 450.0;
 const PANEL: f64 = 224.0;
 const LEGEND: f64 = 20.0;
-/// Around a figure that is a file of its own.
+/// Around a figure: names and titles in a reader's wider font.
 const MARGIN: f64 = 12.0;
 /// Type sizes: labels and legend, ticks.
 const TYPE: f64 = 13.0;
@@ -53,7 +53,7 @@ pub struct Curve {
 
 /// One set of axes.
 pub struct Panel {
-    /// What stands above it, after its letter.
+    /// The text above it, after its letter.
     pub title: String,
     /// Label of the vertical axis, with its unit.
     pub label: &'static str,
@@ -107,7 +107,7 @@ impl Figure {
     /// If plotters cannot draw.
     pub fn file(&self) -> Result<String, DrawError> {
         let style = format!("<style>\n{THEME}</style>\n");
-        let document = self.document(&style, MARGIN)?;
+        let document = self.document(&style)?;
         Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{document}"))
     }
 
@@ -116,7 +116,7 @@ impl Figure {
     /// # Errors
     /// If plotters cannot draw.
     pub fn inline(&self) -> Result<String, DrawError> {
-        self.document("", 0.0)
+        self.document("")
     }
 
     #[expect(clippy::cast_precision_loss, reason = "a figure has few panels")]
@@ -124,7 +124,7 @@ impl Figure {
         LEGEND + PANEL * self.panels.len() as f64
     }
 
-    fn document(&self, style: &str, margin: f64) -> Result<String, DrawError> {
+    fn document(&self, style: &str) -> Result<String, DrawError> {
         let mut drawing = String::new();
         {
             let area = SVGBackend::with_string(&mut drawing, (whole(WIDTH), whole(self.height())))
@@ -135,8 +135,8 @@ impl Figure {
         // plotters' own root element says nothing of the units: ours replaces it.
         let body = drawing.split_once('>').map_or("", |(_, rest)| rest);
         let body = body.rsplit_once("</svg>").map_or(body, |(body, _)| body);
-        let (width, height) = (WIDTH + 2.0 * margin, self.height() + 2.0 * margin);
-        let (x, w, h) = (-px(margin), px(width), px(height));
+        let (width, height) = (WIDTH + 2.0 * MARGIN, self.height() + 2.0 * MARGIN);
+        let (x, w, h) = (-px(MARGIN), px(width), px(height));
         let description = escaped(&self.description);
         Ok(format!(
             "<svg class=\"figure\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" \

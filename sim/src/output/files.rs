@@ -1,13 +1,13 @@
 //! Results on disk: whole files, and nobody else's touched.
 //!
-//! Every file is written whole under a free name of its own beside its place ("a part"), and only
+//! Every file is written whole under a free name in the same folder ("a part"), and only
 //! when all of them are on the disk is the first one renamed. So each file is whole at any time:
 //! the earlier run's or the new one's. A program killed between two renames leaves a mix of both,
 //! whole files all the same; one killed before leaves parts, which block nothing and which a later
 //! run removes.
 //!
 //! A list in the folder names the files that runs have written there; a file of a wanted name that
-//! is not on the list is somebody else's, and the run is refused before anything is written.
+//! is not on the list is somebody else's, and the run is rejected before anything is written.
 
 use std::collections::BTreeSet;
 use std::fs::{self, OpenOptions};
@@ -28,7 +28,7 @@ const HEAD: &str = "# Files written by precess; a later run may replace them, an
 const PREFIX: &str = ".precess-";
 const PART: &str = ".part";
 /// A part lives for as long as it takes to write all of them, seconds at most; one this old was
-/// left behind by a program that was killed.
+/// left by a program that was killed.
 const STALE: Duration = Duration::from_secs(3600);
 
 /// A file to be: its name and its content.
@@ -58,7 +58,7 @@ pub fn prepare<'a>(
 /// Writes the files into a folder, which is made if it is missing.
 ///
 /// # Errors
-/// As [`prepare`], and whatever else the operating system refuses. Until every file is on the disk
+/// As [`prepare`], and any other error of the operating system. Until every file is on the disk
 /// as a part, none gets its name; of a rename that fails, only the files before it are replaced.
 pub fn write(folder: &Path, files: &[File]) -> Result<(), WriteError> {
     prepare(folder, files.iter().map(|f| f.name.as_str()))?;
@@ -113,7 +113,7 @@ fn store(folder: &Path, content: &str) -> std::io::Result<TempPath> {
     Ok(part.into_temp_path())
 }
 
-/// Removes the parts that killed programs left behind; one that cannot be removed harms nothing.
+/// Removes the parts that killed programs left; one that cannot be removed harms nothing.
 fn sweep(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
@@ -185,12 +185,12 @@ mod tests {
     }
 
     #[test]
-    fn somebody_elses_file_is_refused_and_kept() {
+    fn somebody_elses_file_is_rejected_and_kept() {
         let folder = folder("foreign");
         fs::create_dir_all(&folder).expect("folder");
         fs::write(folder.join("b.csv"), "mine").expect("b.csv");
-        let refused = write(&folder, &[file("a.csv", "1"), file("b.csv", "2")]);
-        assert!(matches!(refused, Err(WriteError::Foreign { path }) if path.ends_with("b.csv")));
+        let rejected = write(&folder, &[file("a.csv", "1"), file("b.csv", "2")]);
+        assert!(matches!(rejected, Err(WriteError::Foreign { path }) if path.ends_with("b.csv")));
         assert_eq!(fs::read_to_string(folder.join("b.csv")).expect("b.csv"), "mine");
         assert_eq!(names(&folder), ["b.csv"]);
         fs::remove_dir_all(&folder).expect("cleanup");
@@ -200,9 +200,9 @@ mod tests {
     fn a_write_that_fails_leaves_what_was_there_and_no_parts() {
         let folder = folder("fails");
         write(&folder, &[file("a.csv", "1")]).expect("first");
-        // No name for a file: the folder it asks for is not there.
-        let refused = write(&folder, &[file("a.csv", "2"), file("nowhere/b.csv", "3")]);
-        assert!(matches!(refused, Err(WriteError::Io { path, .. }) if path.ends_with("b.csv")));
+        // No name for a file: its folder is missing.
+        let rejected = write(&folder, &[file("a.csv", "2"), file("nowhere/b.csv", "3")]);
+        assert!(matches!(rejected, Err(WriteError::Io { path, .. }) if path.ends_with("b.csv")));
         assert_eq!(fs::read_to_string(folder.join("a.csv")).expect("a.csv"), "1");
         assert_eq!(names(&folder), ["a.csv", LIST]);
         fs::remove_dir_all(&folder).expect("cleanup");
@@ -219,20 +219,20 @@ mod tests {
             let left = fs::File::create(folder.join(name)).expect("a part");
             left.set_modified(time).expect("its time");
         }
-        write(&folder, &[file("a.csv", "1")]).expect("nothing is in the way");
+        write(&folder, &[file("a.csv", "1")]).expect("a new folder");
         assert_eq!(fs::read_to_string(folder.join("a.csv")).expect("a.csv"), "1");
         assert_eq!(names(&folder), [theirs, fresh, "a.csv", LIST]);
         fs::remove_dir_all(&folder).expect("cleanup");
     }
 
     #[test]
-    fn a_folder_under_a_wanted_name_is_refused() {
+    fn a_folder_under_a_wanted_name_is_rejected() {
         let folder = folder("taken");
         write(&folder, &[file("a.csv", "1")]).expect("first");
         fs::remove_file(folder.join("a.csv")).expect("a.csv");
         fs::create_dir(folder.join("a.csv")).expect("a folder instead");
-        let refused = prepare(&folder, ["a.csv"]);
-        assert!(matches!(refused, Err(WriteError::Foreign { path }) if path.ends_with("a.csv")));
+        let rejected = prepare(&folder, ["a.csv"]);
+        assert!(matches!(rejected, Err(WriteError::Foreign { path }) if path.ends_with("a.csv")));
         fs::remove_dir_all(&folder).expect("cleanup");
     }
 
@@ -251,8 +251,8 @@ mod tests {
         let folder = folder("link");
         let _ = fs::remove_file(&folder);
         std::os::unix::fs::symlink("nowhere-at-all", &folder).expect("a link");
-        let refused = prepare(&folder, ["a.csv"]);
-        assert!(matches!(refused, Err(WriteError::Io { path, .. }) if path == folder));
+        let rejected = prepare(&folder, ["a.csv"]);
+        assert!(matches!(rejected, Err(WriteError::Io { path, .. }) if path == folder));
         fs::remove_file(&folder).expect("cleanup");
     }
 
@@ -274,8 +274,8 @@ mod tests {
     fn a_folder_that_is_a_file_is_an_error_with_its_path() {
         let folder = folder("file");
         fs::write(&folder, "a file").expect("file");
-        let refused = write(&folder, &[file("a.csv", "1")]);
-        assert!(matches!(refused, Err(WriteError::Io { .. })));
+        let rejected = write(&folder, &[file("a.csv", "1")]);
+        assert!(matches!(rejected, Err(WriteError::Io { .. })));
         fs::remove_file(&folder).expect("cleanup");
     }
 }

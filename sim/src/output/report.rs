@@ -22,7 +22,7 @@ const STYLE: &str = include_str!("report.css");
 pub enum ReportError {
     /// A figure could not be drawn.
     Draw(DrawError),
-    /// The template and what it is given do not fit.
+    /// The template and its data do not agree.
     Template(tera::Error),
 }
 
@@ -122,7 +122,7 @@ fn row<const N: usize>(outcome: &Outcome<N>) -> Vec<String> {
     let jitter = |of: fn((f64, f64)) -> f64| f.jitter.map_or("–".into(), |j| three(of(j)));
     vec![
         format!("{:.4}", f.omega_peak.to_degrees()),
-        jitter(|(w, _)| 1e3 * w.to_degrees()),
+        jitter(|(omega, _)| 1e3 * omega.to_degrees()),
         jitter(|(_, r)| 1e6 * r),
         format!("{:.2}", 1e3 * f.position_drift),
         power(f.drift.energy, 0),
@@ -131,7 +131,7 @@ fn row<const N: usize>(outcome: &Outcome<N>) -> Vec<String> {
     ]
 }
 
-/// Lines of the table beside the figures; the names are HTML.
+/// Lines of the table next to the figures; the names are HTML.
 fn facts<const N: usize>(outcome: &Outcome<N>) -> Vec<(&'static str, String)> {
     let mut facts = given(outcome);
     for device in &outcome.scenario.devices {
@@ -187,7 +187,7 @@ fn words(warning: &Warning) -> String {
     match warning {
         Warning::Triangle { part, excess } => format!(
             "The largest principal moment of the {part} exceeds the sum of the other two by {} \
-             kg m²; no mass distribution has this inertia. It is run as given.",
+             kg m²; no mass distribution has this inertia. It is run as printed.",
             power(*excess, 1)
         ),
         // Kinds of warning that this report does not know yet.
@@ -195,7 +195,7 @@ fn words(warning: &Warning) -> String {
     }
 }
 
-/// A number as it was given: nine decimals take off what a change of units adds, and no zeros at
+/// A number as it was stated: nine decimals take off what a change of units adds, and no zeros at
 /// the end.
 fn exact(value: f64) -> String {
     let text = format!("{value:.9}");

@@ -11,7 +11,7 @@ use crate::run::Settings;
 pub(super) const NO_JITTER: &str = "it takes a whole turn of the wheel (0.12 s at 500 rpm) and 8 \
                                     samples in it; run longer or raise the rate";
 
-/// The table of outcomes, as plain text.
+/// The table of outcomes, as text.
 #[must_use]
 pub fn summary<const N: usize>(
     outcomes: &[Outcome<N>],
@@ -45,7 +45,7 @@ pub fn summary<const N: usize>(
         let f = outcome.figures();
         let (omega, position) = f.jitter.map_or_else(
             || ("-".to_owned(), "-".to_owned()),
-            |(w, r)| (format!("{:.3e}", w.to_degrees()), format!("{:.4}", 1e6 * r)),
+            |(omega, r)| (format!("{:.3e}", omega.to_degrees()), format!("{:.4}", 1e6 * r)),
         );
         // Writing to a string cannot fail.
         let _ = writeln!(

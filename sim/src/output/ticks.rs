@@ -19,7 +19,7 @@ const PADDING: f64 = 0.06;
 const PARTS: f64 = 6.5;
 
 impl Scale {
-    /// The value in the units of the axis; not a number if it has no place there.
+    /// The value in the units of the axis; not a number if it is not on the axis.
     #[must_use]
     pub fn apply(self, value: f64) -> f64 {
         match self {
@@ -122,7 +122,7 @@ impl Ranged for Axis {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
 
-    #[expect(clippy::cast_possible_truncation, reason = "a place in a picture")]
+    #[expect(clippy::cast_possible_truncation, reason = "a coordinate in a picture")]
     fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
         let share = (value - self.range.start) / (self.range.end - self.range.start);
         (f64::from(limit.0) + share * f64::from(limit.1 - limit.0)).round() as i32
@@ -216,7 +216,7 @@ mod tests {
         let kept = decimated(&points);
         assert!(kept.len() <= 4 * COLUMNS);
         assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[19_999]));
-        assert!(kept.windows(2).all(|w| w[0].0 < w[1].0));
+        assert!(kept.windows(2).all(|pair| pair[0].0 < pair[1].0));
         let most = |p: &[(f64, f64)]| p.iter().map(|p| p.1).fold(f64::MIN, f64::max);
         assert_eq!(most(&kept), most(&points));
     }

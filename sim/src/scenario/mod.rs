@@ -11,7 +11,7 @@ pub type Set<const N: usize> = [Dgvscmg; N];
 /// Everything a run needs, SI and radians.
 #[derive(Clone, Debug)]
 pub struct Scenario<const N: usize> {
-    /// The name that files carry, lower case with hyphens.
+    /// The name in file names, lower case with hyphens.
     pub name: String,
     /// What a heading says.
     pub title: String,
@@ -28,7 +28,7 @@ pub struct Scenario<const N: usize> {
 impl<const N: usize> Scenario<N> {
     /// The same scenario with balanced wheels: no offset, no products of inertia.
     ///
-    /// The wheels keep their mass and their moments of inertia, so what differs is imbalance alone.
+    /// The wheels keep their mass and their moments of inertia, so that only the imbalance differs.
     #[must_use]
     pub fn balanced(&self) -> Self {
         let devices = self.devices.map(|device| {

@@ -44,7 +44,7 @@ pub enum Drive {
     Wheel250,
 }
 
-/// One way to read the table.
+/// One reading of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variant {
     /// The wheel.
@@ -53,13 +53,14 @@ pub struct Variant {
     pub drive: Drive,
 }
 
-/// All variants, or those with the wheel or the motors given.
+/// All variants, or those with this wheel or these motors.
 #[must_use]
 pub fn variants(imbalance: Option<Imbalance>, drive: Option<Drive>) -> Vec<Variant> {
     let mut variants = Vec::new();
     for &i in Imbalance::value_variants() {
         for &d in Drive::value_variants() {
-            if imbalance.is_none_or(|asked| asked == i) && drive.is_none_or(|asked| asked == d) {
+            if imbalance.is_none_or(|chosen| chosen == i) && drive.is_none_or(|chosen| chosen == d)
+            {
                 variants.push(Variant { imbalance: i, drive: d });
             }
         }
@@ -211,7 +212,7 @@ mod tests {
             else {
                 panic!("{warnings:?}");
             };
-            // The module gives two digits.
+            // The module has two digits.
             assert_eq!(format!("{excess:.1e}"), format!("{expected:.1e}"));
         }
     }

@@ -2,9 +2,9 @@
 
 use nalgebra::{Matrix3, Quaternion as Turn, UnitQuaternion, Vector3};
 use precess_dynamics::kind::BodyParameters;
-use precess_dynamics::{BuiltIn, BuiltInKind, BuiltInParameters, ImbalanceModel, Passive};
+use precess_dynamics::{BuiltIn, BuiltInKind, DeviceParameters, ImbalanceModel, Passive};
 
-/// A body: mass, where it stands, where its centre is, how long its edges are, how it is turned.
+/// A body: mass, origin, centre of mass, edges, orientation.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     pub(crate) mass: f64,
@@ -57,8 +57,8 @@ pub(crate) fn built_in(
     }
     let lumped = lumped && !balanced && infos.last().is_some_and(|info| info.body == "wheel");
     let model = if lumped { ImbalanceModel::Lumped } else { ImbalanceModel::Coupled };
-    let stated = BuiltInParameters { mount: rotation(mount), bodies, passive, model };
-    BuiltIn::new(kind, &stated).expect("what the kind has no parameter for is zero")
+    let parameters = DeviceParameters { mount: rotation(mount), bodies, passive, model };
+    BuiltIn::new(kind, &parameters).expect("what the kind has no parameter for is zero")
 }
 
 /// The quaternion of unit length, or the identity for one that is too short.

@@ -174,7 +174,7 @@ pub struct Row {
 }
 
 impl Campaign {
-    /// Tries chunk after chunk, each property in turn; `tried` is told of every chunk.
+    /// Tries chunk after chunk, each property in turn; `tried` is called after every chunk.
     #[must_use]
     pub fn run(
         &self,

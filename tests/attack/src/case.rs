@@ -1,9 +1,9 @@
-//! A case: one spacecraft in one state under given inputs, as plain data, in any shape and number.
+//! A case: one spacecraft in one state with inputs, as numbers, for any set of devices and scalar.
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::BodyParameters;
 use precess_dynamics::{
-    BuiltIn, BuiltInKind, BuiltInParameters, Devices, Each, Gravity, Hub, HubMode, ImbalanceModel,
+    BuiltIn, BuiltInKind, DeviceParameters, Devices, Each, Gravity, Hub, HubMode, ImbalanceModel,
     Inputs, JointStates, Mode, ParameterError, Passive, Quaternion, Scalar, Spacecraft, State,
     Wrench,
 };
@@ -26,7 +26,7 @@ pub struct Case {
     pub dt: f64,
     /// How many steps, where there are several.
     pub steps: usize,
-    /// More states with their inputs, where a batch is asked.
+    /// More states with their inputs, if a batch is evaluated.
     pub more: Vec<(State<List>, Inputs<List>)>,
 }
 
@@ -118,16 +118,16 @@ impl Case {
 pub(super) fn template(devices: &[BuiltIn]) -> Spacecraft<List> {
     let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: nalgebra::Matrix3::identity() };
     let unit = |device: &BuiltIn| {
-        let mut stated = device.stated();
-        stated.mount = nalgebra::Matrix3::identity();
-        stated.passive = [Passive::none(); 3];
-        for body in &mut stated.bodies {
+        let mut parameters = device.parameters();
+        parameters.mount = nalgebra::Matrix3::identity();
+        parameters.passive = [Passive::none(); 3];
+        for body in &mut parameters.bodies {
             let BodyParameters { origin, centre, mass, inertia } = body;
             (*origin, *centre, *mass) = ([0.0; 3], [0.0; 3], 1.0);
             *inertia = nalgebra::Matrix3::zeros();
         }
-        stated.model = ImbalanceModel::Coupled;
-        BuiltIn::new(device.kind(), &stated).expect("bodies of a point mass fit every kind")
+        parameters.model = ImbalanceModel::Coupled;
+        BuiltIn::new(device.kind(), &parameters).expect("bodies of a point mass fit every kind")
     };
     let devices: List = devices.iter().map(unit).collect();
     Spacecraft::new(&hub, &devices).expect("point masses on a hub")
@@ -149,7 +149,7 @@ pub fn hub<T: Scalar>(hub: &Hub) -> Hub<T> {
 
 /// A device in another number.
 fn device<T: Scalar>(device: &BuiltIn) -> BuiltIn<T> {
-    let BuiltInParameters { mount, bodies, passive, model } = device.stated();
+    let DeviceParameters { mount, bodies, passive, model } = device.parameters();
     let bodies = bodies.map(|body| BodyParameters {
         origin: body.origin.map(number),
         mass: number(body.mass),
@@ -157,8 +157,8 @@ fn device<T: Scalar>(device: &BuiltIn) -> BuiltIn<T> {
         inertia: body.inertia.map(number),
     });
     let passive = passive.map(|passive| passive.map(number));
-    let stated = BuiltInParameters { mount: mount.map(number), bodies, passive, model };
-    BuiltIn::new(device.kind(), &stated).expect("a device of its own kind")
+    let parameters = DeviceParameters { mount: mount.map(number), bodies, passive, model };
+    BuiltIn::new(device.kind(), &parameters).expect("a device of its own kind")
 }
 
 /// A state's numbers in the shape and number of another.

@@ -340,7 +340,7 @@ pub fn imports(code: &str) -> String {
     )
 }
 
-/// A test in which this function of `attack` is asked whether the case holds.
+/// A test that calls this function of `attack` on the case.
 #[must_use]
 pub fn test(name: &str, function: &str, case: &Case) -> String {
     let mut text = format!("#[test]\nfn {name}() {{\n");

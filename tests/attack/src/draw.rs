@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 use precess_dynamics::{
-    BuiltInKind, Each, Few, Gravity, Hub, HubMode, Inputs, JointStates, Mode, Passive, Quaternion,
-    State, Wrench,
+    BuiltInKind, Each, Gravity, Hub, HubMode, Inputs, JointArray, JointStates, Mode, Passive,
+    Quaternion, State, Wrench,
 };
 use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Strategy};
@@ -76,7 +76,7 @@ const KINDS: [BuiltInKind; 12] = [
     BuiltInKind::BalancedDgvscmg,
 ];
 
-/// What a joint does by itself and what is given of it.
+/// Motion, passive elements and inputs of a joint.
 #[derive(Clone, Debug)]
 struct Joint {
     motion: [f64; 2],
@@ -100,7 +100,7 @@ struct Device {
 /// How the hub moves and what acts on it.
 #[derive(Clone, Debug)]
 struct World {
-    place: [[f64; 3]; 3],
+    hub_motion: [[f64; 3]; 3],
     attitude: [f64; 4],
     acting: [[f64; 3]; 2],
     held: u8,
@@ -181,20 +181,20 @@ impl Profile {
     }
 
     fn world(&self) -> impl Strategy<Value = World> + use<> {
-        let place = [self.vector(100.0), self.vector(10.0), self.vector(0.6)];
+        let hub_motion = [self.vector(100.0), self.vector(10.0), self.vector(0.6)];
         let acting = [self.vector(60.0), self.vector(6.0)];
         let given = [self.vector(6.0), self.vector(0.6)];
         let [first, second, third, fourth] = [1.0, 0.0, 0.0, 0.0]
             .map(|simplest| self.number(Number::new(simplest, |random| random.within(-1.0, 1.0))));
         let attitude = [first, second, third, fourth];
         let dt = Number::log_within(1e-5, 1e-2).or_any(self.wild).or_not_finite(self.not_finite);
-        let motion = (place, attitude, acting, proptest::bool::weighted(0.7));
+        let motion = (hub_motion, attitude, acting, proptest::bool::weighted(0.7));
         let modes = (0_u8..8, given, 0_u8..6, self.vector(6.0), proptest::bool::weighted(0.4));
         (motion, modes, dt, 1_usize..6).prop_map(|(motion, modes, dt, steps)| {
-            let (place, attitude, acting, compatible) = motion;
+            let (hub_motion, attitude, acting, compatible) = motion;
             let (held, given, field, gravity, wrenches) = modes;
             World {
-                place,
+                hub_motion,
                 attitude,
                 acting,
                 held,
@@ -290,7 +290,7 @@ impl Profile {
         world: &World,
         joints: &[&Joint],
         list: &List,
-        nothing: &[Few<Wrench>],
+        nothing: &[JointArray<Wrench>],
     ) {
         if self.driven {
             let [force, torque_b] = world.acting;
@@ -319,8 +319,8 @@ impl Profile {
         inputs.gravity = match world.field {
             2 | 3 if self.gravity => Gravity::Uniform(g),
             4 | 5 if self.gravity => {
-                let [place, ..] = world.place.map(Vector3::from);
-                let mu = g.norm() * place.norm_squared();
+                let [position, ..] = world.hub_motion.map(Vector3::from);
+                let mu = g.norm() * position.norm_squared();
                 Gravity::Central { mu: if mu.is_finite() { mu } else { world.gravity[0] } }
             }
             _ => Gravity::None,
@@ -336,8 +336,8 @@ impl Profile {
     }
 
     fn state(&self, state: &mut State<List>, world: &World, joints: &[&Joint], list: &List) {
-        let [place, velocity, omega] = world.place.map(Vector3::from);
-        (state.r_b_n, state.r_b_n_dot, state.omega) = (place, velocity, omega);
+        let [position, velocity, omega] = world.hub_motion.map(Vector3::from);
+        (state.r_b_n, state.r_b_n_dot, state.omega) = (position, velocity, omega);
         let real = self.wild == 0.0 && self.not_finite == 0.0;
         let [q0, q1, q2, q3] = if real { unit(world.attitude) } else { world.attitude };
         state.attitude = Quaternion { q0, q1, q2, q3 };

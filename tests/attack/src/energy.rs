@@ -1,12 +1,12 @@
-//! Energy and momentum: the ledger balances, kinetic energy is not negative, stops lose energy and keep
-//! momentum, what is locked stays.
+//! Energy and momentum: the ledger balances, kinetic energy is not negative, stops lose energy and
+//! keep momentum, what is locked stays.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::{About, Dgvscmg, Each, Hub, HubMode, JointStates, Mode, SloshMass};
 use proptest::prelude::{BoxedStrategy, Strategy};
 
-use super::answers::no_accelerations;
 use super::bodies::rotation;
+use super::call_results::no_accelerations;
 use super::case::{Case, Placed};
 use super::draw::Profile;
 use super::number::Number;
@@ -20,7 +20,8 @@ const LEDGER: f64 = 50.0;
 /// Momentum and energy over a stop, in epsilons of the sums of magnitudes before and after.
 const STOP: f64 = 200.0;
 
-/// `ledger-balances`: what is left between the rate of the kinetic energy and all powers is rounding.
+/// `ledger-balances`: what is left between the rate of the kinetic energy and all powers is
+/// rounding.
 ///
 /// # Errors
 /// Where it does not hold.
@@ -28,7 +29,8 @@ pub fn ledger_balances(case: &Case) -> Verdict {
     let Ok(Placed { craft, state, inputs }) = case.list() else { return Ok(Checked::Rejected) };
     let Ok(found) = craft.accelerations(&state, &inputs) else { return Ok(Checked::Rejected) };
     let ledger = craft.ledger(&state, &inputs, &found).map_err(|error| error.to_string())?;
-    // The magnitude counts sums, not their terms: where terms cancel, rounding is that of the terms.
+    // The magnitude counts sums, not their terms: where terms cancel, rounding is that of the
+    // terms.
     let sizes = sizes(case, &state, &inputs, &numbers(&found));
     let rates = state.devices.states().map(|[_, rate]| rate.abs());
     let joints: f64 = rates.zip(&sizes.joints).map(|(rate, size)| rate * size).sum();
@@ -44,28 +46,28 @@ pub fn ledger_balances(case: &Case) -> Verdict {
     Ok(Checked::Holds)
 }
 
-/// Cases in which the parts of the kinetic energy cancel: a heavy body that stands still on a light hub
+/// Cases in which the parts of the kinetic energy cancel: a heavy body at rest on a light hub
 /// that moves, or a hub that turns about its centre of mass, far from B and without much inertia.
 pub fn cancelling() -> BoxedStrategy<Case> {
     let turn = [(); 4].map(|()| Number::within(-1.0, 1.0));
     let light = Number::log_within(1e-30, 1.0);
     let speed = Number::log_within(1e-3, 1e3);
-    let place = [(); 3].map(|()| Number::within(-1.0, 1.0));
+    let position = [(); 3].map(|()| Number::within(-1.0, 1.0));
     let motion = [(); 5].map(|()| Number::within(-1.0, 1.0));
-    (0..3, turn, light, speed, place, motion)
-        .prop_map(|(form, turn, light, speed, place, motion)| {
+    (0..3, turn, light, speed, position, motion)
+        .prop_map(|(form, turn, light, speed, position, motion)| {
             let mount = rotation(turn);
-            let place = Vector3::from(place);
+            let position = Vector3::from(position);
             let i_b_bc = Matrix3::identity() * light;
             let hub = Hub { m_b: light, r_bc_b: Vector3::zeros(), i_b_bc };
             let omega = speed * Vector3::new(motion[0], motion[1], motion[2]);
             if form == 0 {
-                let mut case = Case::still(Hub { m_b: 4.0, r_bc_b: place, ..hub }, Vec::new());
-                (case.state.omega, case.state.r_b_n_dot) = (omega, -omega.cross(&place));
+                let mut case = Case::still(Hub { m_b: 4.0, r_bc_b: position, ..hub }, Vec::new());
+                (case.state.omega, case.state.r_b_n_dot) = (omega, -omega.cross(&position));
                 return case;
             }
             if form == 1 {
-                let mass = SloshMass { mount, r_s_b: place, ..SloshMass::bare_slosh_mass(4.0) };
+                let mass = SloshMass { mount, r_s_b: position, ..SloshMass::bare_slosh_mass(4.0) };
                 let mut case = Case::still(hub, vec![mass.into()]);
                 case.state.r_b_n_dot = speed * mount.column(0);
                 set(&mut case, &[[motion[0], -speed]]);
@@ -73,7 +75,7 @@ pub fn cancelling() -> BoxedStrategy<Case> {
             }
             // The hub turns back what the joints turn the wheel, about the wheel's centre.
             let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
-            let wheel = Dgvscmg { mount, r_go_b: place, ..Dgvscmg::bare_wheel(4.0, disc) };
+            let wheel = Dgvscmg { mount, r_go_b: position, ..Dgvscmg::bare_wheel(4.0, disc) };
             let mut case = Case::still(hub, vec![wheel.into()]);
             let [gamma_o, gamma_i, o, i, w] = motion;
             let [o, i, w] = [o, i, w].map(|rate| speed * rate);
@@ -81,7 +83,7 @@ pub fn cancelling() -> BoxedStrategy<Case> {
             let inner = outer * Rotation3::from_axis_angle(&Vector3::y_axis(), gamma_i);
             let rates = o * Vector3::z() + outer * (i * Vector3::y()) + inner * (w * Vector3::x());
             case.state.omega = -(mount * rates);
-            case.state.r_b_n_dot = -case.state.omega.cross(&place);
+            case.state.r_b_n_dot = -case.state.omega.cross(&position);
             set(&mut case, &[[3.0 * gamma_o, o], [gamma_i, i], [0.0, w]]);
             case
         })
@@ -120,8 +122,8 @@ pub fn moving() -> BoxedStrategy<Case> {
     Profile { modes: true, ..Profile::REAL }
         .cases()
         .prop_map(|mut case| {
-            let asked = case.inputs.modes.values().zip(case.inputs.motors.values());
-            for ([_, rate], (mode, motor)) in case.state.devices.states_mut().zip(asked) {
+            let held = case.inputs.modes.values().zip(case.inputs.motors.values());
+            for ([_, rate], (mode, motor)) in case.state.devices.states_mut().zip(held) {
                 if mode == Mode::Locked {
                     *rate = motor;
                 }
@@ -179,7 +181,7 @@ pub fn stop_conserves(case: &Case) -> Verdict {
         let of = |state| craft.momentum(state, about).map_err(|error| error.to_string());
         Ok((of(next)?, of(&state)?))
     };
-    // About B, where it stands: nothing is lost to the distance from the origin.
+    // About B: no digits are lost to the distance from the origin.
     let (after, before) = momentum(About::Point(state.r_b_n))?;
     for (what, error, unit) in [
         ("linear", (after.linear - before.linear).norm(), unit.linear),
@@ -193,7 +195,8 @@ pub fn stop_conserves(case: &Case) -> Verdict {
     Ok(Checked::Holds)
 }
 
-/// `locked-stays-locked`: over steps, a locked joint's rate is zero and its coordinate keeps its bits.
+/// `locked-stays-locked`: over steps, a locked joint's rate is zero and its coordinate keeps its
+/// bits.
 ///
 /// # Errors
 /// Where it does not hold.

@@ -5,15 +5,15 @@ use precess_dynamics::{
     SolveError, State,
 };
 
-use super::answers::{Answer, answers};
+use super::call_results::{CallResult, call_results};
 use super::case::{Case, List, Placed};
 use super::shapes::{across, batched, in_every_shape};
 use super::{Checked, Verdict};
 
 /// Whether every number is finite.
-fn all_finite<T: Scalar>(answers: &[(&'static str, Answer<T>)], shape: &str) -> Verdict {
-    for (name, answer) in answers {
-        let bad = answer.iter().flatten().find(|number| !number.is_finite());
+fn all_finite<T: Scalar>(call_results: &[(&'static str, CallResult<T>)], shape: &str) -> Verdict {
+    for (name, result) in call_results {
+        let bad = result.iter().flatten().find(|number| !number.is_finite());
         if let Some(bad) = bad {
             return Err(format!("{name} of {shape} has {bad:?}"));
         }
@@ -32,10 +32,10 @@ pub fn result_or_error(case: &Case) -> Verdict {
             in_every_shape!(case, $number, |shape, placed| {
                 if let Ok(placed) = placed {
                     let dt = <$number as Scalar>::from_f64(case.dt);
-                    checked = all_finite(&answers(&placed, dt), shape)?;
+                    checked = all_finite(&call_results(&placed, dt), shape)?;
                     let Placed { craft, state, inputs } = placed;
                     let fused = Placed { craft: craft.fused(), state, inputs };
-                    all_finite(&answers(&fused, dt), &format!("{shape}, fused"))?;
+                    all_finite(&call_results(&fused, dt), &format!("{shape}, fused"))?;
                 }
             })
         };
@@ -80,13 +80,13 @@ fn with_parameters(list: &Placed<List>, dt: f64) -> Verdict {
             all
         });
         let found = craft.accelerations(&state, inputs);
-        let found = found.map(|found| super::answers::of_accelerations(&found));
+        let found = found.map(|found| super::call_results::of_accelerations(&found));
         all_finite(&[("step", numbers), ("accelerations", found)], "MRPs")?;
     }
     Ok(Checked::Holds)
 }
 
-/// Every number of a state in the order in which they are asked.
+/// Every number of a state in the order in which they are checked.
 fn of_state(list: &Placed<List>) -> Vec<(Quantity, f64)> {
     let Placed { craft, state, .. } = list;
     let mut all = Vec::new();
@@ -104,7 +104,7 @@ fn of_state(list: &Placed<List>) -> Vec<(Quantity, f64)> {
     all
 }
 
-/// Every number of inputs in the order in which they are asked.
+/// Every number of inputs in the order in which they are checked.
 fn of_inputs(list: &Placed<List>) -> Vec<(Quantity, f64)> {
     let Placed { craft, inputs, .. } = list;
     let mut all = Vec::new();
@@ -135,24 +135,24 @@ fn of_inputs(list: &Placed<List>) -> Vec<(Quantity, f64)> {
     all
 }
 
-/// What is refused first; the value of an attitude is what the attitude shows.
+/// What is rejected first; the value of an attitude is what the attitude shows.
 fn first_bad(list: &Placed<List>, all: &[(Quantity, f64)]) -> Option<(Quantity, f64)> {
     let (what, value) = *all.iter().find(|(_, value)| !value.is_finite())?;
     let shown = if what == Quantity::Attitude { list.state.attitude.extreme() } else { value };
     Some((what, shown))
 }
 
-/// Calls that ask nothing but the state.
+/// Calls that depend only on the state.
 const OF_STATE: [&str; 4] =
     ["energy", "momentum about the origin", "momentum about the centre of mass", "centre of mass"];
 
 /// Whether the error is the one that names this, or none that names an input.
 fn named<T: Scalar>(
-    answer: &Answer<T>,
+    result: &CallResult<T>,
     expected: Option<(Quantity, f64)>,
     call: &str,
 ) -> Result<(), String> {
-    match (answer, expected) {
+    match (result, expected) {
         (Err(SolveError::NotFinite { what, value }), Some((first, shown)))
             if *what == first && value.to_f64().to_bits() == shown.to_bits() =>
         {
@@ -162,15 +162,15 @@ fn named<T: Scalar>(
             Err(format!("{call} names {what} with {value:?}; bad first: {expected:?}"))
         }
         (other, Some((first, shown))) => {
-            let answer = other.as_ref().map(|_| "numbers");
-            Err(format!("{call} gives {answer:?}; bad first: {first} with {shown:?}"))
+            let result = other.as_ref().map(|_| "numbers");
+            Err(format!("{call} gives {result:?}; bad first: {first} with {shown:?}"))
         }
         _ => Ok(()),
     }
 }
 
 /// `first-bad-input-is-named`: the first input that is not finite is named with its value, and only
-/// what is given is named.
+/// inputs are named.
 ///
 /// # Errors
 /// Where it does not hold.
@@ -183,31 +183,31 @@ pub fn first_bad_is_named(case: &Case) -> Verdict {
     }
     let in_state = first_bad(&list, &of_state(&list));
     let first = in_state.or_else(|| first_bad(&list, &of_inputs(&list)));
-    let check = |all: &[(&'static str, Answer)], shape: &str| {
-        for (call, answer) in all {
+    let check = |all: &[(&'static str, CallResult)], shape: &str| {
+        for (call, result) in all {
             let expected = match *call {
                 "momentum about a point" if in_state.is_none() => continue,
                 call if OF_STATE.contains(&call) => in_state,
                 _ => first,
             };
-            named(answer, expected, &format!("{call} of {shape}"))?;
+            named(result, expected, &format!("{call} of {shape}"))?;
         }
         Ok::<(), String>(())
     };
     in_every_shape!(case, f64, |shape, placed| {
         if let Ok(placed) = placed {
-            check(&answers(&placed, case.dt), shape)?;
+            check(&call_results(&placed, case.dt), shape)?;
             let Placed { craft, state, inputs } = placed;
             let fused = Placed { craft: craft.fused(), state, inputs };
-            check(&answers(&fused, case.dt), &format!("{shape}, fused"))?;
+            check(&call_results(&fused, case.dt), &format!("{shape}, fused"))?;
         }
     });
     check(&across(case).unwrap_or_default(), "devices side by side")?;
-    let alone = Case { more: Vec::new(), ..case.clone() };
+    let first_state = Case { more: Vec::new(), ..case.clone() };
     for fused in [false, true] {
-        if let Some(found) = batched(&alone, fused, fused) {
-            for answer in &found.accelerations {
-                named(answer, first, "accelerations of a batch")?;
+        if let Some(found) = batched(&first_state, fused, fused) {
+            for result in &found.accelerations {
+                named(result, first, "accelerations of a batch")?;
             }
             for (_, end) in &found.runs {
                 named(&end.map(|()| Vec::<f64>::new()), first, "run of a batch")?;

@@ -1,12 +1,12 @@
 //! A randomised campaign against the promises of docs/promises.md, each a property with a name.
 //!
-//! Cases are drawn and minimised by proptest and printed as a test to paste. `cargo xtask attack` runs
-//! the campaign, the suite `sample` a fixed sample of it.
+//! Cases are drawn and minimised by proptest and printed as a test to paste. `cargo xtask attack`
+//! runs the campaign, the suite `sample` a fixed sample of it.
 //!
 //! A campaign for workstations: nothing of it goes on board.
 
-pub mod answers;
 pub mod bodies;
+pub mod call_results;
 pub mod campaign;
 pub mod case;
 pub mod code;
@@ -18,13 +18,13 @@ pub mod motion;
 pub mod number;
 pub mod progress;
 pub mod properties;
-pub mod refusals;
 pub mod residual;
 pub mod runs;
 pub mod same;
 pub mod shapes;
 pub mod singular;
 pub mod sizes;
+pub mod typed_errors;
 
 pub use case::{Case, List, Placed};
 

@@ -1,4 +1,5 @@
-//! At the ends of what numbers can hold: the field far from and near its centre, gimbals near lock.
+//! At the limits of the range of numbers: the field far from and near its centre, gimbals near
+//! lock.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -7,7 +8,7 @@ use precess_dynamics::{Dgvscmg, Gravity, Hub, JointStates, SolveError};
 use precess_tests::double_double::DoubleDouble;
 use proptest::prelude::{BoxedStrategy, Strategy};
 
-use super::answers::of_accelerations;
+use super::call_results::of_accelerations;
 use super::case::{Case, Placed};
 use super::number::Number;
 use super::residual::{numbers, wide};
@@ -20,7 +21,7 @@ const FIELD: f64 = 1e-14;
 /// Error of accelerations near a singular pose, in epsilons over the square of the distance.
 const NEAR: f64 = 100.0;
 
-/// A hub alone at any distance from a centre, so small that it feels no gradient.
+/// A hub without devices at any distance from a centre, so small that no gradient matters.
 pub fn far_and_near() -> BoxedStrategy<Case> {
     let direction = [(); 3].map(|()| Number::within(-1.0, 1.0));
     let (distance, field) = (Number::within(-140.0, 160.0), Number::within(-20.0, 20.0));
@@ -78,17 +79,18 @@ const WHEEL: f64 = 0.1;
 /// A bare wheel in massless gimbals, near lock.
 pub fn near_lock() -> BoxedStrategy<Case> {
     let distance = Number::log_within(1e-9, 0.1);
-    let place = [(); 3].map(|()| Number::within(-1.0, 1.0));
+    let position = [(); 3].map(|()| Number::within(-1.0, 1.0));
     let omega = [(); 3].map(|()| Number::within(-1.0, 1.0));
     let motion = [(); 5].map(|()| Number::within(-1.0, 1.0));
     let torques = [(); 3].map(|()| Number::within(-1.0, 1.0));
-    (distance, place, omega, motion, torques)
-        .prop_map(|(distance, place, omega, [a, b, c, d, e], torques)| {
+    (distance, position, omega, motion, torques)
+        .prop_map(|(distance, position, omega, [a, b, c, d, e], torques)| {
             let i_b_bc = Matrix3::from_diagonal(&Vector3::new(9.0, 8.0, 6.0));
             let hub = Hub { m_b: 20.0, r_bc_b: Vector3::new(0.1, 0.0, 0.0), i_b_bc };
             let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
             let bare = Dgvscmg::bare_wheel(4.0, disc);
-            let mut case = Case::still(hub, vec![Dgvscmg { r_go_b: place.into(), ..bare }.into()]);
+            let mut case =
+                Case::still(hub, vec![Dgvscmg { r_go_b: position.into(), ..bare }.into()]);
             case.state.omega = omega.into();
             let joints = [[3.0 * a, b], [FRAC_PI_2 - distance, c], [3.0 * d, 100.0 * e]];
             for ([q, rate], [to_q, to_rate]) in
@@ -104,7 +106,8 @@ pub fn near_lock() -> BoxedStrategy<Case> {
         .boxed()
 }
 
-/// `near-singular`: near gimbal lock the error is that of its conditioning, or the pose is refused.
+/// `near-singular`: near gimbal lock the error is that of its conditioning, or the pose is
+/// rejected.
 ///
 /// # Errors
 /// Where it does not hold.

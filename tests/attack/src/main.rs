@@ -1,4 +1,5 @@
-//! `cargo xtask attack`: the campaign against the promises of docs/promises.md, from the command line.
+//! `cargo xtask attack`: the campaign against the promises of docs/promises.md, from the command
+//! line.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -25,7 +26,7 @@ struct Options {
     /// For how long new cases are drawn
     #[arg(long, default_value_t = 1.0)]
     minutes: f64,
-    /// The campaign: the same seed goes on where it was left; a new one if none is given
+    /// The campaign: the same seed continues where it ended; a new one without this option
     #[arg(long)]
     seed: Option<u64>,
     /// One property

@@ -1,5 +1,5 @@
-//! What a state's numbers may be without changing the motion: wrapped angles, other parameters of the
-//! attitude, another order of devices.
+//! What a state's numbers may be without changing the motion: wrapped angles, other parameters of
+//! the attitude, another order of devices.
 
 use std::f64::consts::PI;
 
@@ -23,13 +23,13 @@ const ATTITUDE: f64 = 1e-12;
 fn passives(list: &List) -> Vec<Passive> {
     let of_device = |device: &BuiltIn| {
         let count = device.kind().joints().len();
-        device.stated().passive.into_iter().take(count)
+        device.parameters().passive.into_iter().take(count)
     };
     list.iter().flat_map(of_device).collect()
 }
 
-/// `wrapping-changes-nothing`: accelerations and energies are those before, and a joint with a spring
-/// keeps its coordinate.
+/// `wrapping-changes-nothing`: accelerations and energies are those before, and a joint with a
+/// spring keeps its coordinate.
 ///
 /// # Errors
 /// Where it does not hold.
@@ -110,14 +110,15 @@ pub fn order_changes_only_rounding(case: &Case) -> Verdict {
     }
 }
 
-/// `attitudes-agree`: quaternions of any length and both sets of MRPs that stand for one attitude move
-/// alike.
+/// `attitudes-agree`: quaternions of any length and both sets of MRPs that stand for one attitude
+/// move alike.
 ///
 /// # Errors
 /// Where it does not hold.
 pub fn attitudes_agree(case: &Case) -> Verdict {
     let Ok(list) = case.list() else { return Ok(Checked::Rejected) };
-    // So short that what RK4 leaves out of either parameters' motion is nothing: wheels turn by 6e-3.
+    // So short that what RK4 leaves out of either parameters' motion is nothing: wheels turn by
+    // 6e-3.
     let dt = case.dt.clamp(-1e-5, 1e-5);
     let mut checked = Checked::Rejected;
     // From near the identity, where the outer set is large, to any attitude.

@@ -1,4 +1,4 @@
-//! What a campaign has behind it: the next chunk of each seed and property, in a small text file.
+//! Progress of a campaign: the next chunk of each seed and property, in a small text file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ struct Chunks {
     next: u64,
     /// The first one that is not begun.
     begun: u64,
-    /// Finished ones behind an unfinished one.
+    /// Finished ones after an unfinished one.
     finished: BTreeSet<u64>,
 }
 
@@ -84,8 +84,8 @@ impl Progress {
         if let Some(folder) = self.path.parent() {
             fs::create_dir_all(folder)?;
         }
-        let beside = self.path.with_extension("new");
-        fs::write(&beside, text)?;
-        fs::rename(&beside, &self.path)
+        let written = self.path.with_extension("new");
+        fs::write(&written, text)?;
+        fs::rename(&written, &self.path)
     }
 }

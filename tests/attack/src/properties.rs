@@ -1,4 +1,5 @@
-//! The promises of docs/promises.md, each with a name, how its cases are drawn and how it is checked.
+//! The promises of docs/promises.md, each with a name, how its cases are drawn and how it is
+//! checked.
 
 use precess_dynamics::BuiltInKind;
 use proptest::prelude::{BoxedStrategy, Strategy};
@@ -6,7 +7,8 @@ use proptest::prop_oneof;
 
 use super::draw::Profile;
 use super::{
-    Case, Verdict, energy, finite, limits, motion, refusals, residual, runs, same, shapes, singular,
+    Case, Verdict, energy, finite, limits, motion, residual, runs, same, shapes, singular,
+    typed_errors,
 };
 
 /// A promise.
@@ -123,7 +125,7 @@ fn in_lanes() -> BoxedStrategy<Case> {
 pub const PROPERTIES: &[Property] = &[
     Property {
         name: "result-or-error",
-        statement: "every public call gives finite numbers or an error, whatever it is given",
+        statement: "every public call gives finite numbers or an error for any input",
         cases: 300,
         function: "finite::result_or_error",
         draw: any_numbers,
@@ -163,7 +165,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "singular-is-refused",
-        statement: "a spacecraft without inertia where something turns freely is refused",
+        statement: "a spacecraft without inertia where something turns freely is rejected",
         cases: 2000,
         function: "singular::singular_is_refused",
         draw: singular::cases,
@@ -203,7 +205,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "ledger-balances",
-        statement: "what the ledger leaves unexplained is rounding",
+        statement: "the residual of the ledger is rounding",
         cases: 1000,
         function: "energy::ledger_balances",
         draw: real,
@@ -235,7 +237,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "runs-conserve-or-refuse",
-        statement: "a step that a spring or damper makes unstable is refused; one that resolves them keeps energy less work",
+        statement: "a step that a spring or damper makes unstable is rejected; one that resolves them keeps energy less work",
         cases: 100,
         function: "runs::runs_conserve_or_refuse",
         draw: runs::cases,
@@ -245,9 +247,9 @@ pub const PROPERTIES: &[Property] = &[
         name: "errors-are-typed",
         statement: "what is locked and moves, not driven, at the centre or miscounted has its own error",
         cases: 500,
-        function: "refusals::errors_are_typed",
-        draw: refusals::cases,
-        check: refusals::errors_are_typed,
+        function: "typed_errors::errors_are_typed",
+        draw: typed_errors::cases,
+        check: typed_errors::errors_are_typed,
     },
     Property {
         name: "central-gravity",
@@ -259,7 +261,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "near-singular",
-        statement: "near gimbal lock the error is that of the conditioning, or the pose is refused",
+        statement: "near gimbal lock the error is that of the conditioning, or the pose is rejected",
         cases: 500,
         function: "limits::near_singular",
         draw: limits::near_lock,

@@ -1,20 +1,20 @@
-//! Whether accelerations solve the equations: inverse dynamics asked of what was found.
+//! Whether accelerations solve the equations: inverse dynamics of the computed accelerations.
 //!
 //! Errors are in epsilons of the [`sizes`](super::sizes) of what is added, so they do not depend on
 //! conditioning: a backward error.
 
 use nalgebra::Vector3;
 use precess_dynamics::{
-    Accelerations, Devices, Each, Few, HubMode, LoadAxes, Mode, Scalar, Spacecraft,
+    Accelerations, Devices, Each, HubMode, JointArray, LoadAxes, Mode, Scalar, Spacecraft,
 };
 
-use super::answers::{no_accelerations, of_accelerations};
+use super::call_results::{no_accelerations, of_accelerations};
 use super::case::{Case, List, Placed};
 use super::sizes::sizes;
 use super::{Checked, Verdict};
 
-/// Backward error of accelerations, in epsilons of the sizes: the worst of 40 000 cases is 1.3, in `f32`
-/// as in `f64`.
+/// Backward error of accelerations, in epsilons of the sizes: the worst of 40 000 cases is 1.3, in
+/// `f32` as in `f64`.
 pub const BACKWARD: f64 = 10.0;
 
 /// Accelerations of a list from their numbers.
@@ -27,7 +27,7 @@ pub fn from_numbers<T: Scalar>(
 ) -> Result<Accelerations<List<T>>, String> {
     let mut found = no_accelerations(craft).ok_or("a spacecraft at rest overflows")?;
     let hub = found.r_b_n_ddot.iter_mut().chain(found.omega_dot.iter_mut());
-    hub.chain(found.devices.iter_mut().flat_map(Few::as_mut_slice))
+    hub.chain(found.devices.iter_mut().flat_map(JointArray::as_mut_slice))
         .zip(numbers)
         .for_each(|(to, from)| *to = *from);
     Ok(found)
@@ -36,7 +36,7 @@ pub fn from_numbers<T: Scalar>(
 /// The largest backward error of accelerations, in epsilons of their number, and where.
 ///
 /// # Errors
-/// What inverse dynamics refuses, and a given acceleration that is not the one found.
+/// What inverse dynamics rejects, and a prescribed acceleration that differs from the computed one.
 pub fn residual<T: Scalar>(
     case: &Case,
     list: &Placed<List<T>>,
@@ -73,8 +73,8 @@ pub fn residual<T: Scalar>(
         _ => {}
     }
     let motors = loads.devices.iter().flat_map(|device| device.motors.values());
-    let asked = inputs.motors.values().zip(inputs.modes.values());
-    let joints = motors.zip(asked).zip(craft.joints()).zip(numbers.iter().skip(6));
+    let drives = inputs.motors.values().zip(inputs.modes.values());
+    let joints = motors.zip(drives).zip(craft.joints()).zip(numbers.iter().skip(6));
     for (index, (((motor, (given, mode)), (device, info)), found)) in joints.enumerate() {
         let what = format!("torque at the {} of device {device}", info.body);
         let held = match mode {
@@ -105,13 +105,13 @@ pub fn solves<T: Scalar>(
 ) -> Verdict {
     match residual(case, list, numbers) {
         Ok((error, _)) if error <= BACKWARD => Ok(Checked::Holds),
-        Ok((error, place)) => Err(format!("{what}: {error:.1} epsilons in the {place}")),
+        Ok((error, block)) => Err(format!("{what}: {error:.1} epsilons in the {block}")),
         Err(error) => Err(format!("{what}: {error}")),
     }
 }
 
-/// `inverse-dynamics-residual`: loads of the accelerations need no wrench on a free hub and give back
-/// the torque of each driven motor, in `f64` and `f32`.
+/// `inverse-dynamics-residual`: loads of the accelerations need no wrench on a free hub and give
+/// back the torque of each driven motor, in `f64` and `f32`.
 ///
 /// # Errors
 /// Where it does not hold.

@@ -1,4 +1,4 @@
-//! Runs with springs, dampers and friction of any stiffness: energy is kept, or a step is refused.
+//! Runs with springs, dampers and friction of any stiffness: energy is kept, or a step is rejected.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
@@ -13,12 +13,12 @@ use super::case::{Case, List, Placed};
 use super::number::Number;
 use super::{Checked, Verdict};
 
-/// How far energy less work may drift in a run that the step resolves, of what there is: truncation, a
-/// tenth of a radian at most in each of the steps.
+/// How far energy less work may drift in a run that the step resolves, of what there is:
+/// truncation, a tenth of a radian at most in each of the steps.
 const DRIFT: f64 = 1e-5;
 
-/// RK4 is unstable where a root of a joint's own equation is beyond 2.96 steps in any direction: surely
-/// where the product of both is, or half their sum.
+/// RK4 is unstable where a root of a joint's own equation is beyond 2.96 steps in any direction:
+/// surely where the product of both is, or half their sum.
 const SPRING: f64 = 3.0;
 
 /// What a step resolves: a tenth of the time in which a damper or spring acts.
@@ -32,7 +32,7 @@ const STEPS: usize = 50;
 struct Bound {
     kind: usize,
     mount: [f64; 4],
-    place: [f64; 3],
+    position: [f64; 3],
     stiff: [f64; 3],
     used: [bool; 3],
     dry_rate: f64,
@@ -51,10 +51,10 @@ pub fn cases() -> BoxedStrategy<Case> {
         Number::log_within(1e-4, 1.0),
         [(); 4].map(|()| Number::within(-1.0, 1.0)),
     )
-        .prop_map(|(kind, mount, place, stiff, used, dry_rate, motion)| Bound {
+        .prop_map(|(kind, mount, position, stiff, used, dry_rate, motion)| Bound {
             kind,
             mount,
-            place,
+            position,
             stiff,
             used,
             dry_rate,
@@ -86,7 +86,7 @@ fn spacecraft(bound: &[Bound], omega: [f64; 3], mass: f64, dt: f64) -> Case {
 
 fn device(bound: &Bound, dt: f64) -> BuiltIn {
     let mount = rotation(bound.mount);
-    let place = Vector3::from(bound.place);
+    let position = Vector3::from(bound.position);
     let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
     // Of a joint that moves this inertia, or mass.
     let passive = |inertia: f64| {
@@ -107,24 +107,24 @@ fn device(bound: &Bound, dt: f64) -> BuiltIn {
     match bound.kind {
         0 => {
             let mut wheel =
-                ReactionWheel { mount, r_w_b: place, ..ReactionWheel::bare_wheel(4.0, disc) };
+                ReactionWheel { mount, r_w_b: position, ..ReactionWheel::bare_wheel(4.0, disc) };
             wheel.passive.wheel = passive(0.2);
             wheel.into()
         }
         1 => {
             let bare = HingedPanel::bare_panel(4.0, disc);
             let r_pc_p = Vector3::new(0.0, 0.5, 0.0);
-            let mut panel = HingedPanel { mount, r_p_b: place, r_pc_p, ..bare };
+            let mut panel = HingedPanel { mount, r_p_b: position, r_pc_p, ..bare };
             panel.passive.panel = passive(1.1);
             panel.into()
         }
         2 => {
-            let mut mass = SloshMass { mount, r_s_b: place, ..SloshMass::bare_slosh_mass(4.0) };
+            let mut mass = SloshMass { mount, r_s_b: position, ..SloshMass::bare_slosh_mass(4.0) };
             mass.passive.slosh_mass = passive(4.0);
             mass.into()
         }
         _ => {
-            let mut gimbal = Vscmg { mount, r_g_b: place, ..Vscmg::bare_wheel(4.0, disc) };
+            let mut gimbal = Vscmg { mount, r_g_b: position, ..Vscmg::bare_wheel(4.0, disc) };
             gimbal.passive.gimbal = passive(0.1);
             gimbal.passive.wheel = passive(0.2);
             gimbal.into()
@@ -150,12 +150,11 @@ fn fast(case: &Case, craft: &Spacecraft<List>, state: &State<List>) -> Option<Fa
     let mut inputs = case.inputs.clone();
     let none = craft.accelerations(&rest, &inputs).ok()?;
     let mut worst = Fast { damper: 0.0, spring: 0.0, dry: 0.0 };
-    let passives = case
-        .devices
-        .iter()
-        .flat_map(|device| device.stated().passive.into_iter().take(device.kind().joints().len()));
+    let passives = case.devices.iter().flat_map(|device| {
+        device.parameters().passive.into_iter().take(device.kind().joints().len())
+    });
     for (index, own) in passives.enumerate() {
-        // So large that the difference has its digits beside what springs do.
+        // So large that the difference has digits next to the work of springs.
         let torque = 1.0 + own.stiffness;
         *inputs.motors.values_mut().nth(index)? = torque;
         let moved = craft.accelerations(&rest, &inputs).ok()?;
@@ -170,8 +169,9 @@ fn fast(case: &Case, craft: &Spacecraft<List>, state: &State<List>) -> Option<Fa
     Some(worst)
 }
 
-/// `runs-conserve-or-refuse`: a step that a spring or damper of any joint makes unstable is refused, and
-/// a run that resolves springs and friction keeps energy less work, without motors and fields.
+/// `runs-conserve-or-refuse`: a step that a spring or damper of any joint makes unstable is
+/// rejected, and a run that resolves springs and friction keeps energy less work, without motors
+/// and fields.
 ///
 /// # Errors
 /// Where it does not hold.

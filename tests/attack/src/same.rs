@@ -1,16 +1,17 @@
-//! The same bits in every shape, in a batch, and, to rounding, in whatever fuses.
+//! The same bits for every shape of the set and in a batch; the same to rounding where numbers are
+//! fused.
 
 use precess_dynamics::{Scalar, SolveError};
 
-use super::answers::{Answer, answers, of_state};
+use super::call_results::{CallResult, call_results, of_state};
 use super::case::{Case, List, Placed};
 use super::residual::{numbers, solves};
 use super::shapes::{Batched, across, batched, in_every_shape};
 use super::{Checked, Verdict};
 
 /// Numbers by their bits, errors as text: NaN equals itself.
-fn text<T: Scalar>(answer: &Answer<T>) -> String {
-    match answer {
+fn text<T: Scalar>(result: &CallResult<T>) -> String {
+    match result {
         Ok(all) => {
             let bits = all.iter().map(|x| format!("{:x}", x.to_f64().to_bits()));
             bits.collect::<Vec<_>>().join(" ")
@@ -19,8 +20,8 @@ fn text<T: Scalar>(answer: &Answer<T>) -> String {
     }
 }
 
-/// `shapes-are-bit-identical`: an array, a tuple, a nested tuple, a list and the set on board give the
-/// same bits or the same error.
+/// `shapes-are-bit-identical`: an array, a tuple, a nested tuple, a list and the set on board give
+/// the same bits or the same error.
 ///
 /// # Errors
 /// Where it does not hold.
@@ -32,9 +33,9 @@ pub fn shapes_are_identical(case: &Case) -> Verdict {
             in_every_shape!(case, $number, |shape, placed| {
                 let dt = <$number as Scalar>::from_f64(case.dt);
                 let texts: Result<Vec<_>, _> = match &placed {
-                    Ok(placed) => Ok(answers(placed, dt)
+                    Ok(placed) => Ok(call_results(placed, dt)
                         .into_iter()
-                        .map(|(call, answer)| (call, text(&answer)))
+                        .map(|(call, result)| (call, text(&result)))
                         .collect()),
                     Err(error) => Err(format!("{error:?}")),
                 };
@@ -75,7 +76,7 @@ fn single(case: &Case, each: bool) -> Option<Batched> {
     for (state, inputs) in case.all() {
         let inputs = if each { inputs } else { case.inputs.clone() };
         let found = craft.accelerations(&state, &inputs);
-        all.accelerations.push(found.map(|found| super::answers::of_accelerations(&found)));
+        all.accelerations.push(found.map(|found| super::call_results::of_accelerations(&found)));
         let mut now = state;
         let end = (0..case.steps).try_for_each(|_| {
             now = craft.step(&now, &inputs, case.dt)?;
@@ -86,31 +87,34 @@ fn single(case: &Case, each: bool) -> Option<Batched> {
     Some(all)
 }
 
-/// `batch-is-spacecraft`: each state of a batch has the result or error that it has by itself, to the
-/// bit, whatever its neighbours are.
+/// `batch-is-spacecraft`: each state of a batch has the result or error that it has by itself, to
+/// the bit, whatever its neighbours are.
 ///
 /// # Errors
 /// Where it does not hold.
 pub fn batch_is_spacecraft(case: &Case) -> Verdict {
     let mut checked = Checked::Rejected;
     for each in [false, true] {
-        let (Some(found), Some(alone)) = (batched(case, false, each), single(case, each)) else {
+        let (Some(found), Some(one_state)) = (batched(case, false, each), single(case, each))
+        else {
             continue;
         };
         checked = Checked::Holds;
-        let all = found.accelerations.iter().zip(&alone.accelerations);
-        for (index, (found, alone)) in all.enumerate() {
-            if text(found) != text(alone) {
-                return Err(format!("accelerations of state {index}: {found:?}, not {alone:?}"));
+        let all = found.accelerations.iter().zip(&one_state.accelerations);
+        for (index, (found, one_state)) in all.enumerate() {
+            if text(found) != text(one_state) {
+                return Err(format!(
+                    "accelerations of state {index}: {found:?}, not {one_state:?}"
+                ));
             }
         }
-        for (index, ((found, end), (alone, end_alone))) in
-            found.runs.iter().zip(&alone.runs).enumerate()
+        for (index, ((found, end), (one_state, end_of_one))) in
+            found.runs.iter().zip(&one_state.runs).enumerate()
         {
-            let [f, a] = [found, alone].map(|state| text::<f64>(&Ok(state.clone())));
-            if f != a || format!("{end:?}") != format!("{end_alone:?}") {
+            let [f, a] = [found, one_state].map(|state| text::<f64>(&Ok(state.clone())));
+            if f != a || format!("{end:?}") != format!("{end_of_one:?}") {
                 return Err(format!(
-                    "run of state {index}: {end:?} {found:?}, not {end_alone:?} {alone:?}"
+                    "run of state {index}: {end:?} {found:?}, not {end_of_one:?} {one_state:?}"
                 ));
             }
         }
@@ -119,8 +123,8 @@ pub fn batch_is_spacecraft(case: &Case) -> Verdict {
 }
 
 /// Whether two outcomes are of the same kind, or one is singular by a pivot near its bound.
-fn same_outcome(found: &Answer, single: &Answer) -> bool {
-    let near = |answer: &Answer| match answer {
+fn same_outcome(found: &CallResult, single: &CallResult) -> bool {
+    let near = |result: &CallResult| match result {
         Err(SolveError::Singular { pivot, bound, .. }) => {
             // Other rounding may lead just above the bound.
             pivot.abs() > bound / 4.0 || *pivot < 0.0
@@ -134,28 +138,28 @@ fn same_outcome(found: &Answer, single: &Answer) -> bool {
     }
 }
 
-/// `lanes-and-fused-agree`: devices side by side, fused numbers and fused batches give accelerations
-/// that solve the same equations, or the same kind of error.
+/// `lanes-and-fused-agree`: devices side by side, fused numbers and fused batches give
+/// accelerations that solve the same equations, or the same kind of error.
 ///
 /// # Errors
 /// Where it does not hold.
 pub fn lanes_and_fused_agree(case: &Case) -> Verdict {
     let Ok(list) = case.list() else { return Ok(Checked::Rejected) };
     let single = list.craft.accelerations(&list.state, &list.inputs).map(|f| numbers(&f));
-    let mut others: Vec<(String, Answer)> = Vec::new();
+    let mut others: Vec<(String, CallResult)> = Vec::new();
     in_every_shape!(case, f64, |shape, placed| {
         if let Ok(Placed { craft, state, inputs }) = placed {
             let found = craft.fused().accelerations(&state, &inputs);
             others.push((format!("{shape}, fused"), found.map(|found| numbers(&found))));
         }
     });
-    for (name, answer) in across(case).unwrap_or_default() {
+    for (name, result) in across(case).unwrap_or_default() {
         if name == "accelerations across" {
-            others.push((name.to_owned(), answer));
+            others.push((name.to_owned(), result));
         }
     }
-    let alone = Case { more: Vec::new(), ..case.clone() };
-    if let Some(found) = batched(&alone, true, false) {
+    let one_state = Case { more: Vec::new(), ..case.clone() };
+    if let Some(found) = batched(&one_state, true, false) {
         others.extend(found.accelerations.into_iter().map(|found| ("fused batch".into(), found)));
     }
     for (name, found) in others {

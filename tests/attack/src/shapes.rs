@@ -7,7 +7,7 @@ use precess_dynamics::{
     SolveError, Spacecraft, State, Vscmg,
 };
 
-use super::answers::{Answer, of_accelerations, of_state};
+use super::call_results::{CallResult, of_accelerations, of_state};
 use super::case::{Case, Placed, given, moved};
 
 /// Six kinds; with [`Others`] all of them.
@@ -113,7 +113,7 @@ tuples! {
     A B C D E F;
 }
 
-/// The devices as a spacecraft carries them on board; none where there are too many.
+/// The devices as an array of `Option<BuiltIn>`; none if there are too many.
 #[must_use]
 pub fn on_board<T: Scalar>(devices: &[BuiltIn<T>]) -> Option<[Option<BuiltIn<T>>; 8]> {
     (devices.len() <= 8).then(|| std::array::from_fn(|index| devices.get(index).copied()))
@@ -123,7 +123,7 @@ trait AcrossKind: precess_dynamics::kind::Kind<Scalar = f64> + Taken<f64> {}
 
 impl<K: precess_dynamics::kind::Kind<Scalar = f64> + Taken<f64>> AcrossKind for K {}
 
-fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, Answer)>> {
+fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     let devices: [K; ABREAST] = exactly(&case.devices)?;
     let across = AcrossDevices::new(&case.hub, &devices).ok()?;
     let Placed { state, inputs, .. } = case.placed(&devices).ok()?;
@@ -136,10 +136,10 @@ fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, Answer)>> 
     ])
 }
 
-/// What devices of one kind, side by side, answer; none for other lists. Compiled for some kinds: with
-/// and without imbalance, a motor on the wheel, a sliding joint.
+/// What devices of one kind, side by side, result; none for other lists. Compiled for some kinds:
+/// with and without imbalance, a motor on the wheel, a sliding joint.
 #[must_use]
-pub fn across(case: &Case) -> Option<Vec<(&'static str, Answer)>> {
+pub fn across(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     across_of::<ReactionWheel>(case)
         .or_else(|| across_of::<SloshMass>(case))
         .or_else(|| across_of::<BalancedSgcmg>(case))
@@ -147,8 +147,8 @@ pub fn across(case: &Case) -> Option<Vec<(&'static str, Answer)>> {
         .or_else(|| across_of::<Dgvscmg>(case))
 }
 
-/// What a batch makes of all states of a case, with the inputs of the first or each with its own; none
-/// for lists of which no batch is compiled.
+/// What a batch makes of all states of a case, with the inputs of the first or each with its own;
+/// none for lists of which no batch is compiled.
 #[must_use]
 pub fn batched(case: &Case, fused: bool, each: bool) -> Option<Batched> {
     batch_of::<[Dgvscmg; 1]>(case, fused, each)
@@ -160,7 +160,7 @@ pub fn batched(case: &Case, fused: bool, each: bool) -> Option<Batched> {
 #[derive(Clone, Debug)]
 pub struct Batched {
     /// Accelerations, state by state.
-    pub accelerations: Vec<Answer>,
+    pub accelerations: Vec<CallResult>,
     /// The states after the run, and how each run ended.
     pub runs: Vec<(Vec<f64>, Result<(), SolveError>)>,
 }
@@ -175,7 +175,7 @@ fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> O
         all.iter().map(|(state, _)| moved(state, State::at_rest_for(&craft))).collect();
     let inputs: Vec<Inputs<D>> = all.iter().map(|(_, inputs)| given(inputs, &craft)).collect();
     let (mut found, mut ends) = (Vec::new(), Vec::new());
-    let asked = if each {
+    let called = if each {
         batch
             .accelerations(&states, &inputs, &mut found)
             .and_then(|()| batch.run(&mut states, &inputs, case.dt, case.steps, &mut ends))
@@ -185,14 +185,14 @@ fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> O
             .and_then(|()| batch.run(&mut states, &inputs[0], case.dt, case.steps, &mut ends))
     };
     // One input for each state, and a step that is finite.
-    asked.ok()?;
+    called.ok()?;
     let accelerations =
         found.into_iter().map(|found| found.map(|found| of_accelerations(&found))).collect();
     let runs = states.iter().map(of_state).zip(ends).collect();
     Some(Batched { accelerations, runs })
 }
 
-/// Calls something with the case in every shape that its list fits, beside its name. Tuples of kinds
+/// Calls something with the case in every shape that its list fits, with its name. Tuples of kinds
 /// are compiled for `f64`, the other shapes for every number.
 macro_rules! in_every_shape {
     (@shape $case:ident |$name:ident, $placed:ident| $then:expr; $called:expr, $devices:expr) => {

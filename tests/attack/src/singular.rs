@@ -1,4 +1,4 @@
-//! What is singular is refused.
+//! A singular mass matrix is rejected in every service.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -9,8 +9,8 @@ use precess_dynamics::{
 };
 use proptest::prelude::{BoxedStrategy, Strategy};
 
-use super::answers::Answer;
 use super::bodies::rotation;
+use super::call_results::CallResult;
 use super::case::{Case, List, Placed};
 use super::number::Number;
 use super::residual::numbers;
@@ -123,19 +123,19 @@ fn spacecraft(
     case
 }
 
-/// `singular-is-refused`: a spacecraft without inertia where something turns freely is refused by
+/// `singular-is-refused`: a spacecraft without inertia where something turns freely is rejected by
 /// every service.
 ///
 /// # Errors
 /// Where it does not hold.
 pub fn singular_is_refused(case: &Case) -> Verdict {
-    let refused = |answer: &Answer, what: &str| match answer {
+    let refused = |result: &CallResult, what: &str| match result {
         Err(SolveError::Singular { .. }) => Ok(()),
         other => Err(format!("{what} gives {other:?}")),
     };
     in_every_shape!(case, f64, |shape, placed| {
         let Placed { craft, state, inputs } =
-            placed.map_err(|error| format!("parameters are refused: {error}"))?;
+            placed.map_err(|error| format!("parameters are rejected: {error}"))?;
         refused(&craft.accelerations(&state, &inputs).map(|f| numbers(&f)), shape)?;
         let step = craft.step(&state, &inputs, case.dt);
         refused(&step.map(|_| Vec::new()), &format!("step of {shape}"))?;
@@ -144,8 +144,8 @@ pub fn singular_is_refused(case: &Case) -> Verdict {
         let fused = craft.fused().accelerations(&state, &inputs).map(|f| numbers(&f));
         refused(&fused, &format!("{shape}, fused,"))?;
     });
-    for (call, answer) in across(case).unwrap_or_default() {
-        refused(&answer, call)?;
+    for (call, result) in across(case).unwrap_or_default() {
+        refused(&result, call)?;
     }
     for fused in [false, true] {
         if let Some(found) = batched(case, fused, false) {

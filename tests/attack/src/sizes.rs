@@ -1,7 +1,7 @@
 //! Magnitudes of what is added up in the equations: the unit of an error that is rounding.
 //!
-//! Bounds by lengths and norms, body by body: mass times every acceleration that its place can have,
-//! inertia times every angular acceleration. They do not depend on how well the equations are
+//! Bounds by lengths and norms, body by body: mass times every acceleration that its centre can
+//! have, inertia times every angular acceleration. They do not depend on how well the equations are
 //! conditioned.
 
 use nalgebra::Vector3;
@@ -69,16 +69,17 @@ fn bodies(
     };
     let (speed, omega) = (state.r_b_n_dot.norm(), state.omega.norm());
     let moved = |mass, inertia, arm: f64, rates: [f64; 2], joints: f64, slide: [f64; 2]| {
-        let [w, w_dot] = rates;
-        let turning = alpha.norm() + w_dot + w * joints;
+        let [rate, rate_dot] = rates;
+        let turning = alpha.norm() + rate_dot + rate * joints;
         let [g, gradient] = field(state, inputs, arm);
-        let linear = a.norm() + g + turning * arm + w * w * arm + slide[1] + 2.0 * w * slide[0];
+        let linear =
+            a.norm() + g + turning * arm + rate * rate * arm + slide[1] + 2.0 * rate * slide[0];
         Moved {
             mass,
             inertia,
             arm,
-            velocity: [speed + w * arm + slide[0], w],
-            acceleration: [linear, turning + w * w + gradient],
+            velocity: [speed + rate * arm + slide[0], rate],
+            acceleration: [linear, turning + rate * rate + gradient],
         }
     };
     let arm = case.hub.r_bc_b.norm();
@@ -87,10 +88,10 @@ fn bodies(
     let mut states = state.devices.states();
     let mut accelerations = found.iter().skip(6);
     for device in &case.devices {
-        let (stated, infos) = (device.stated(), device.kind().joints());
+        let (parameters, infos) = (device.parameters(), device.kind().joints());
         let (mut reach, mut rates, mut joints) = (0.0, [omega, 0.0], 0.0);
         let mut slide = [0.0; 2];
-        let of_device = stated.bodies.iter().zip(infos).map(|(body, info)| {
+        let of_device = parameters.bodies.iter().zip(infos).map(|(body, info)| {
             let [q, rate] = states.next().unwrap_or_default();
             let q_ddot = accelerations.next().copied().unwrap_or_default();
             reach += Vector3::from(body.origin).norm();
@@ -140,7 +141,7 @@ pub fn sizes(case: &Case, state: &State<List>, inputs: &Inputs<List>, found: &[f
         of_joints = [of_joints[0] + own[0], of_joints[1] + own[1]];
         (force, moment) = (force + own[0], moment + own[1]);
         let Some(device) = device else { continue };
-        for (info, passive) in device.kind().joints().iter().zip(device.stated().passive) {
+        for (info, passive) in device.kind().joints().iter().zip(device.parameters().passive) {
             let load = if info.slides { of_joints[0] } else { of_joints[1] };
             let [q, rate] = states.get(joints.len()).copied().unwrap_or_default();
             let motor = motors.get(joints.len()).copied().unwrap_or_default().abs();
@@ -158,10 +159,10 @@ pub fn motion(case: &Case, state: &State<List>) -> Motion {
     let still = Inputs { hub: HubMode::Free, ..case.inputs.clone() };
     let mut sum = Motion { linear: 0.0, angular: 0.0, energy: 0.0 };
     for moved in bodies(case, state, &still, &[]).iter().flatten() {
-        let [v, w] = moved.velocity;
+        let [v, rate] = moved.velocity;
         sum.linear += moved.mass * v;
-        sum.angular += moved.arm * moved.mass * v + moved.inertia * w;
-        sum.energy += moved.mass * v * v + moved.inertia * w * w;
+        sum.angular += moved.arm * moved.mass * v + moved.inertia * rate;
+        sum.energy += moved.mass * v * v + moved.inertia * rate * rate;
     }
     sum
 }

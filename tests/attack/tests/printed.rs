@@ -1,4 +1,4 @@
-//! What is printed compiles, passes where the property holds, and builds the case again to the bit.
+//! A printed test compiles, passes where the property holds, and builds the case again to the bit.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_attack::{Case, code};
@@ -45,7 +45,7 @@ fn mixed() -> Case {
     let modes = [Mode::Locked, Mode::Prescribed(0.5), Mode::Driven];
     case.inputs.modes.values_mut().zip(modes).for_each(|(to, mode)| *to = mode);
     case.inputs.motors.values_mut().for_each(|motor| *motor = 0.25);
-    let craft = case.list().expect("sound parameters").craft;
+    let craft = case.list().expect("valid parameters").craft;
     let mut bodies = Inputs::no_wrenches_for(&craft);
     if let Some(wrench) = bodies.values_mut().next() {
         *wrench = Wrench { force: Vector3::x(), moment: Vector3::zeros() };
@@ -80,9 +80,9 @@ fn printed_code_is_what_is_compiled() {
     ]
     .join("\n");
     let found = format!("{}\n{tests}", code::imports(&tests));
-    let place = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("printed.rs");
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("printed.rs");
     if found != PRINTED {
-        std::fs::write(&place, &found).expect("a file in the target folder");
+        std::fs::write(&path, &found).expect("a file in the target folder");
     }
-    assert!(found == PRINTED, "another text; see {}", place.display());
+    assert!(found == PRINTED, "another text; see {}", path.display());
 }

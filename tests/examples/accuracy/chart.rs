@@ -16,17 +16,17 @@ use crate::limit::Limit;
 const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
 const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);
 const LEVEL: RGBColor = RGBColor(0x8a, 0x8a, 0x8e);
-/// Curves in order, as in the figures of the desktop tool: told apart by colour-blind readers too.
+/// Curves in order, as in the figures of the desktop tool: distinct for colour-blind readers too.
 const CURVES: [RGBColor; 2] = [RGBColor(0x00, 0x5f, 0xb3), RGBColor(0xd5, 0x5e, 0x00)];
 const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
 
 /// Everything is drawn in tenths of a unit, because plotters rounds to whole ones.
 const FINE: i32 = 10;
-/// plotters writes this share of the size it is told.
+/// plotters writes this share of the size it is passed.
 const FONT_SHARE: f64 = 1.24;
 const WIDTH: i32 = 780;
 const PANEL: i32 = 380;
-/// Room for the names beside the axes.
+/// Width of the legend to the right of the axes.
 const NAMES: i32 = 240;
 /// Distance of two names.
 const LINE: i32 = 20;
@@ -135,7 +135,7 @@ fn draw(
         line(&mut chart, ends, INK, &mark)?;
         names.add(&format!("{name}, {}", ten_to(bound)), INK, &mark)?;
     }
-    refused(&mut chart, panel)
+    rejected(&mut chart, panel)
 }
 
 /// Worst with dots, median without, where there are any.
@@ -189,32 +189,32 @@ fn line(
     Ok(())
 }
 
-/// A line where the solver refuses the first spacecraft, with what it says.
-fn refused(chart: &mut Chart<'_, '_>, panel: &Panel<'_>) -> Result<(), Box<dyn Error>> {
-    let first = panel.curves.first().and_then(|(_, rows)| Limit::of(rows).refused);
+/// A line where the solver rejects the first spacecraft, with what it says.
+fn rejected(chart: &mut Chart<'_, '_>, panel: &Panel<'_>) -> Result<(), Box<dyn Error>> {
+    let first = panel.curves.first().and_then(|(_, rows)| Limit::of(rows).rejected);
     let Some(first) = first else { return Ok(()) };
     let x = libm::log10(first);
     let ends = [(x, ERRORS.start), (x, ERRORS.end)];
     chart.draw_series(DashedLineSeries::new(ends, 20, 40, INK.stroke_width(10)))?;
-    // Beside the line where there is room.
+    // On the side of the line that has room.
     let left = x > f64::midpoint(panel.powers.start, panel.powers.end);
     let (side, by) = if left { (HPos::Right, -6) } else { (HPos::Left, 6) };
     let (x, y) = chart.backend_coord(&(x, ERRORS.start + 0.7));
     let area = chart.plotting_area().strip_coord_spec();
     let (left, top) = area.get_base_pixel();
     let style = text(12.0).pos(Pos::new(side, VPos::Center));
-    area.draw_text("first refused as singular", &style, (x - left + by * FINE, y - top))?;
+    area.draw_text("first rejected as singular", &style, (x - left + by * FINE, y - top))?;
     Ok(())
 }
 
-/// How a curve looks beside its name.
+/// The sample of a curve in the legend.
 enum Mark {
     Dots,
     Line,
     Dashes,
 }
 
-/// Names beside the axes, from the top.
+/// The legend, from the top.
 struct Names<'a, 'b> {
     area: &'a DrawingArea<SVGBackend<'b>, Shift>,
     line: i32,

@@ -1,4 +1,4 @@
-//! What a sweep says in a few figures: where the bound holds and is lost, where the solver refuses.
+//! Summary of a sweep: where the bound holds and is exceeded, where the solver rejects.
 
 use precess_tests::accuracy::Row;
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
@@ -10,10 +10,10 @@ pub(crate) struct Limit {
     pub(crate) worst: Bound,
     /// Median error and its bound.
     pub(crate) median: Bound,
-    /// The first distance at which the solver refuses a spacecraft.
-    pub(crate) refused: Option<f64>,
-    /// The first distance at which it refuses all.
-    pub(crate) all_refused: Option<f64>,
+    /// The first distance at which the solver rejects a spacecraft.
+    pub(crate) rejected: Option<f64>,
+    /// The first distance at which it rejects all.
+    pub(crate) all_rejected: Option<f64>,
     /// By which power of the distance the median error grows where its bound is lost.
     pub(crate) power: Option<f64>,
 }
@@ -33,8 +33,8 @@ impl Limit {
         Self {
             worst: bound(rows, &|row| row.worst_block.worst() > ACCELERATIONS_WORST),
             median: bound(rows, &|row| row.worst_block.median() > ACCELERATIONS_MEDIAN),
-            refused: first(&|row| row.refused > 0).map(|row| row.distance),
-            all_refused: first(&|row| row.solved == 0).map(|row| row.distance),
+            rejected: first(&|row| row.rejected > 0).map(|row| row.distance),
+            all_rejected: first(&|row| row.solved == 0).map(|row| row.distance),
             power: power(rows),
         }
     }
@@ -42,7 +42,7 @@ impl Limit {
 
 fn bound(rows: &[Row], exceeds: &dyn Fn(&Row) -> bool) -> Bound {
     let lost = rows.iter().position(exceeds);
-    let solved = rows.iter().filter(|row| row.refused == 0).count();
+    let solved = rows.iter().filter(|row| row.rejected == 0).count();
     let holds = lost.unwrap_or(solved).checked_sub(1).and_then(|last| rows.get(last));
     Bound {
         holds: holds.map(|row| row.distance),
@@ -51,10 +51,10 @@ fn bound(rows: &[Row], exceeds: &dyn Fn(&Row) -> bool) -> Bound {
 }
 
 /// The slope of the straight line through the medians, by least squares of the logarithms, over the
-/// distances at which the bound of the median is lost and nothing is refused.
+/// distances at which the bound of the median is lost and nothing is rejected.
 #[expect(clippy::cast_precision_loss, reason = "a sweep has few distances")]
 fn power(rows: &[Row]) -> Option<f64> {
-    let lost = |row: &&Row| row.refused == 0 && row.worst_block.median() > ACCELERATIONS_MEDIAN;
+    let lost = |row: &&Row| row.rejected == 0 && row.worst_block.median() > ACCELERATIONS_MEDIAN;
     let points: Vec<_> = rows
         .iter()
         .filter(lost)

@@ -1,6 +1,6 @@
-//! Where the bound on the accelerations holds and where it is lost: `docs/accuracy.md`.
+//! Error of the accelerations where they are ill conditioned: `docs/accuracy.md`.
 //!
-//! Run by `cargo xtask accuracy`, which puts the page in its place or compares. The same bytes on
+//! Run by `cargo xtask accuracy`, which writes the page or compares it. The same bytes on
 //! every run: spacecraft are seeded, and solver and reference give the same bits on every machine.
 
 mod chart;

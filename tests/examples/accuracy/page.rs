@@ -19,8 +19,8 @@ struct Line {
     worst_lost: String,
     median_holds: String,
     median_lost: String,
-    refused: String,
-    all_refused: String,
+    rejected: String,
+    all_rejected: String,
     power: String,
     /// Whether the error grows as the square of the distance or of its reciprocal.
     square: bool,
@@ -32,7 +32,7 @@ struct Posed {
     distance: String,
     kinds: [Cells; 2],
     square: String,
-    plain: String,
+    linear: String,
 }
 
 /// A distance of the centre of mass from B.
@@ -51,7 +51,7 @@ struct Moved {
 struct Cells {
     worst: String,
     median: String,
-    refused: usize,
+    rejected: usize,
 }
 
 /// A kind without the pose.
@@ -94,8 +94,8 @@ fn line(name: &'static str, limit: &Limit, square: f64, unit: fn(f64) -> String)
         worst_lost: of(limit.worst.lost),
         median_holds: of(limit.median.holds),
         median_lost: of(limit.median.lost),
-        refused: of(limit.refused),
-        all_refused: of(limit.all_refused),
+        rejected: of(limit.rejected),
+        all_rejected: of(limit.all_rejected),
         power: format!("{power:.2}"),
         square: (power - square).abs() < 0.1,
     }
@@ -103,10 +103,10 @@ fn line(name: &'static str, limit: &Limit, square: f64, unit: fn(f64) -> String)
 
 fn posed(dgvscmg: &[Row], balanced: &[Row]) -> Vec<Posed> {
     let row = |(dgvscmg, balanced): (&Row, &Row)| Posed {
-        distance: plain(dgvscmg.distance),
+        distance: shortest(dgvscmg.distance),
         kinds: [cells(dgvscmg), cells(balanced)],
         square: error(f64::EPSILON / (dgvscmg.distance * dgvscmg.distance)),
-        plain: error(f64::EPSILON / dgvscmg.distance),
+        linear: error(f64::EPSILON / dgvscmg.distance),
     };
     dgvscmg.iter().zip(balanced).map(row).collect()
 }
@@ -129,7 +129,7 @@ fn moved(row: &Row) -> Moved {
 fn cells(row: &Row) -> Cells {
     let some = |value: f64| if row.solved == 0 { "-".to_owned() } else { error(value) };
     let (worst, median) = (row.worst_block.worst(), row.worst_block.median());
-    Cells { worst: some(worst), median: some(median), refused: row.refused }
+    Cells { worst: some(worst), median: some(median), rejected: row.rejected }
 }
 
 fn error(value: f64) -> String {
@@ -137,12 +137,12 @@ fn error(value: f64) -> String {
 }
 
 /// Plain where that is short.
-fn plain(value: f64) -> String {
+fn shortest(value: f64) -> String {
     if value < 1e-3 { format!("{value:e}") } else { format!("{value}") }
 }
 
 fn radians(value: f64) -> String {
-    format!("{} rad", plain(value))
+    format!("{} rad", shortest(value))
 }
 
 fn metres(value: f64) -> String {

@@ -1,8 +1,8 @@
 //! The issue floor: how many products and sums this CPU issues per nanosecond when none waits for
 //! another, with one number in a register and with several.
 //!
-//! Twelve chains of products and sums run beside each other, more than latency times width of any
-//! core known to us asks for, few enough for sixteen registers. Products stand to sums as in the
+//! Twelve independent chains of products and sums, more than latency times width of any core known
+//! to us, few enough for sixteen registers. The ratio of products to sums is that of the
 //! emitted kernels, 11 to 10.
 
 use std::hint::black_box;
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 
 use crate::timing::median;
 
-/// Chains beside each other.
+/// Number of independent chains.
 const CHAINS: u32 = 12;
 /// Products each followed by a sum; one more product follows them.
 const PAIRS: u32 = 10;
@@ -58,7 +58,7 @@ fn per_nanosecond(lanes: usize, time: Duration) -> f64 {
     f64::from(OPERATIONS) * f64::from(ROUNDS) * lanes as f64 / (1e9 * time.as_secs_f64())
 }
 
-/// The chains, products and sums fused or not; gives the number of lanes.
+/// The chains, products and sums fused or not; returns the number of lanes.
 #[derive(Clone, Copy)]
 struct Rounds<const FUSED: bool>;
 

@@ -1,4 +1,4 @@
-//! How long the result of an operation is waited for: chains in which each waits for the last.
+//! Latency of an operation: chains in which each operation depends on the one before.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -1,5 +1,5 @@
 //! One service of the solver on one spacecraft, checked or timed: what `cargo xtask bench` runs
-//! beside the peers, which answer the same questions in the same words (`tests/peers/README.md`).
+//! against the peers, which have the same commands and output (`tests/peers/README.md`).
 //!
 //! ```sh
 //! measure check target/peers/4.json --service one    # its accelerations
@@ -79,7 +79,7 @@ fn answer(command: &Command) -> Result<serde_json::Value, Box<dyn Error>> {
         Command::Time(Of { file, service }) => {
             timing::time(open(*service, &Stored::read(file)?)?.as_mut())?
         }
-        Command::Services => Name::value_variants().iter().map(|name| name.told()).collect(),
+        Command::Services => Name::value_variants().iter().map(|name| name.description()).collect(),
         Command::Floor => floor::floor(),
         Command::Parts { file } => parts::parts(&Stored::read(file)?)?,
     })

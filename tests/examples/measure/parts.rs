@@ -1,5 +1,5 @@
-//! What an evaluation is made of: operations as counted, sines and hub as timed by themselves, and the
-//! longest chain of operations that wait for each other.
+//! What an evaluation is made of: operations as counted, sines and hub as timed by themselves, and
+//! the longest chain of operations that wait for each other.
 
 use std::hint::black_box;
 
@@ -11,11 +11,11 @@ use precess_tests::stored::Stored;
 use serde_json::{Value, json};
 
 use crate::latency::latencies;
-use crate::service::{Refused, Service, open_hub};
+use crate::service::{Rejected, Service, open_hub};
 use crate::timing::time;
 
 /// The parts of an evaluation of this spacecraft.
-pub(crate) fn parts(stored: &Stored) -> Result<Value, Refused> {
+pub(crate) fn parts(stored: &Stored) -> Result<Value, Rejected> {
     let counted = Measured::new(&vec![dgvscmg::<Counted>(); stored.devices.len()]);
     let (found, operations) = count(|| counted.accelerations());
     found.map_err(|error| error.to_string())?;
@@ -35,15 +35,15 @@ pub(crate) fn parts(stored: &Stored) -> Result<Value, Refused> {
     }))
 }
 
-/// Sine and cosine of each angle: what an evaluation asks for, by itself.
+/// Sine and cosine of each angle: as many as an evaluation computes, by themselves.
 struct Sines(Vec<f64>);
 
 impl Service for Sines {
-    fn accelerations(&mut self) -> Result<Vec<f64>, Refused> {
+    fn accelerations(&mut self) -> Result<Vec<f64>, Rejected> {
         Ok(Vec::new())
     }
 
-    fn run(&mut self, calls: u32) -> Result<(), Refused> {
+    fn run(&mut self, calls: u32) -> Result<(), Rejected> {
         for _ in 0..calls {
             for angle in black_box(&self.0) {
                 black_box(Angle::sin_cos(*angle));

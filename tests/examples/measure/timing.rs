@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 
-use crate::service::{Refused, Service};
+use crate::service::{Rejected, Service};
 
 /// How often the median is taken.
 const REPEATS: usize = 3;
@@ -14,13 +14,13 @@ const BATCHES: usize = 301;
 const BATCH: f64 = 1e-3;
 
 /// Times a service: each repeat's median, and the extremes over all batches, in ns per evaluation.
-pub(crate) fn time(service: &mut dyn Service) -> Result<Value, Refused> {
+pub(crate) fn time(service: &mut dyn Service) -> Result<Value, Rejected> {
     let seconds = |service: &mut dyn Service, calls| {
         let start = Instant::now();
         service.run(calls)?;
-        Ok::<_, Refused>(start.elapsed().as_secs_f64())
+        Ok::<_, Rejected>(start.elapsed().as_secs_f64())
     };
-    // As many calls as fill a batch; warms up on the way.
+    // As many calls as fill a batch; which also warms up.
     let mut calls = 1_u32;
     while seconds(service, calls)? < BATCH {
         calls = calls.saturating_mul(2);

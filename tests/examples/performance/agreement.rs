@@ -7,7 +7,7 @@ use serde::Deserialize;
 use crate::contender::Contender;
 use crate::race::{Plan, file};
 
-/// How far results may lie apart, of a block: A2, other orders of summation and nothing else.
+/// Largest difference of results, of a block: only the order of summation differs.
 const AGREEMENT: f64 = 1e-11;
 
 /// What a contender finds.
@@ -31,12 +31,12 @@ pub(crate) fn check(
     eprintln!("compared with {}", reference.name);
     for count in plan.checked() {
         let file = file(folder, count);
-        let expected = reference.ask::<Found>("check", &file)?.accelerations;
+        let expected = reference.query::<Found>("check", &file)?.accelerations;
         for (contender, (_, worst)) in checked.iter().zip(&mut worst) {
             if !contender.takes(count) {
                 continue;
             }
-            let found = contender.ask::<Found>("check", &file)?.accelerations;
+            let found = contender.query::<Found>("check", &file)?.accelerations;
             let deviation = deviation(&found, &expected, count)
                 .ok_or_else(|| format!("{}: {} numbers", contender.name, found.len()))?;
             *worst = worst.max(deviation);
@@ -57,8 +57,8 @@ pub(crate) fn check(
     Ok(worst)
 }
 
-/// The largest difference in units of the largest magnitude of its block, over all blocks: the hub's
-/// two vectors, and the accelerations of all joints of one name.
+/// The largest difference in units of the largest magnitude of its block, over all blocks: the
+/// hub's two vectors, and the accelerations of all joints of one name.
 fn deviation(found: &[f64], expected: &[f64], count: usize) -> Option<f64> {
     if found.len() != expected.len() || expected.len() != 6 + 3 * count {
         return None;

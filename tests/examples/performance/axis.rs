@@ -1,10 +1,10 @@
-//! A logarithmic axis for plotters, with the ticks that it is told.
+//! A logarithmic axis for plotters, with ticks that the caller gives.
 
 use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
-/// Logarithms to a base, and numbers to be written beside some of them.
+/// Logarithms to a base, and the numbers written at some of them.
 pub(crate) struct Axis {
     base: f64,
     range: Range<f64>,
@@ -27,7 +27,7 @@ impl Ranged for Axis {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
 
-    #[expect(clippy::cast_possible_truncation, reason = "a place in a picture")]
+    #[expect(clippy::cast_possible_truncation, reason = "a coordinate in a picture")]
     fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
         let share = (value - self.range.start) / (self.range.end - self.range.start);
         (f64::from(limit.0) + share * f64::from(limit.1 - limit.0)).round() as i32

@@ -13,7 +13,7 @@ use crate::race::Time;
 const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
 const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);
 const PEER: RGBColor = RGBColor(0x8a, 0x8a, 0x8e);
-/// Services in order, after Okabe and Ito: told apart by colour-blind readers too, on white and on
+/// Services in order, after Okabe and Ito: distinct for colour-blind readers too, on white and on
 /// black.
 const SERVICES: [RGBColor; 6] = [
     RGBColor(0x00, 0x5f, 0xb3),
@@ -27,11 +27,13 @@ const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, s
 
 /// Everything is drawn in tenths of a unit, because plotters rounds to whole ones.
 const FINE: i32 = 10;
-/// plotters writes this share of the size it is told.
+/// plotters writes this share of the size it is passed.
 const FONT_SHARE: f64 = 1.24;
 const WIDTH: i32 = 760;
 const HEIGHT: i32 = 460;
-/// Room for the names beside the curves.
+/// Around the drawing, left, above, right, below: names and titles in a reader's wider font.
+const MARGINS: [i32; 4] = [12, 0, 60, 8];
+/// Width of the names to the right of the curves.
 const NAMES: i32 = 310;
 /// Least distance of two names.
 const LINE: i32 = 17;
@@ -56,13 +58,15 @@ pub(crate) fn chart(contenders: &[Contender], times: &[Time]) -> Result<String, 
     }
     // plotters' own root element says nothing of the units: ours replaces it.
     let body = drawing.split_once('>').map_or("", |(_, rest)| rest);
-    let (w, h) = (WIDTH * FINE, HEIGHT * FINE);
+    let [left, above, right, below] = MARGINS;
+    let (width, height) = (left + WIDTH + right, above + HEIGHT + below);
+    let [x, y, w, h] = [-left, -above, width, height].map(|units| units * FINE);
     Ok(format!(
-        "<svg class=\"figure\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{WIDTH}\" \
-         height=\"{HEIGHT}\" viewBox=\"0 0 {w} {h}\">\n\
+        "<svg class=\"figure\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{width}\" \
+         height=\"{height}\" viewBox=\"{x} {y} {w} {h}\">\n\
          <title>Nanoseconds per evaluation against the number of devices</title>\n\
          <style>\n{THEME}</style>\n\
-         <rect x=\"0\" y=\"0\" width=\"{w}\" height=\"{h}\" fill=\"#FFFFFF\"/>{body}"
+         <rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"#FFFFFF\"/>{body}"
     ))
 }
 

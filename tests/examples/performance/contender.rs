@@ -57,15 +57,15 @@ enum Entry {
 }
 
 impl Contender {
-    /// Asks it about a spacecraft.
-    pub(crate) fn ask<T: serde::de::DeserializeOwned>(
+    /// Runs it on a spacecraft.
+    pub(crate) fn query<T: serde::de::DeserializeOwned>(
         &self,
         what: &str,
         file: &Path,
     ) -> Result<T, String> {
         let file = file.display().to_string();
         let options = self.options.iter().map(String::as_str);
-        self.program.ask(&[what, &file].into_iter().chain(options).collect::<Vec<_>>())
+        self.program.query(&[what, &file].into_iter().chain(options).collect::<Vec<_>>())
     }
 
     /// Whether it can do so many devices.
@@ -81,7 +81,7 @@ impl Contender {
 
 /// The services of Precess.
 pub(crate) fn services(measure: &Program) -> Result<Vec<Contender>, String> {
-    let services: Vec<Service> = measure.ask(&["services"])?;
+    let services: Vec<Service> = measure.query(&["services"])?;
     Ok(services
         .into_iter()
         .map(|service| Contender {

@@ -35,7 +35,7 @@ struct Measured {
 impl Machine {
     /// Asks the machine.
     pub(crate) fn new(measure: &Program, pinned: &[String]) -> Result<Self, String> {
-        let Measured { floor, ghz } = measure.ask(&["floor"])?;
+        let Measured { floor, ghz } = measure.query(&["floor"])?;
         Ok(Self {
             cpu: cpu(),
             system: format!("{} on {}", std::env::consts::OS, std::env::consts::ARCH),
@@ -63,7 +63,7 @@ fn cpu() -> String {
                 let line = info.lines().find_map(|line: &str| line.strip_prefix(name));
                 line.and_then(|rest| Some(rest.split_once(": ")?.1.to_owned())).unwrap_or_default()
             };
-            // A guest may be told no more than a family's name.
+            // A virtual machine may show only a family's name.
             format!("{model} (family {}, model {})", field("cpu family"), field("model\t"))
         },
     )

@@ -1,7 +1,8 @@
-//! Services of Precess and peers, checked against each other and timed in one run: `docs/performance`.
+//! Services of Precess and peers, checked against each other and timed in one run:
+//! `docs/performance`.
 //!
-//! Run by `cargo xtask bench`, which sets the peers up and builds what is run here. Nothing is timed
-//! unless all results agree. Every number on the page comes from the run that writes it.
+//! Run by `cargo xtask bench`, which sets the peers up and builds what is run here. Nothing is
+//! timed unless all results agree. Every number on the page comes from the run that writes it.
 
 mod agreement;
 mod axis;
@@ -33,7 +34,7 @@ struct Arguments {
     /// The program `measure`
     #[arg(long, value_name = "FILE")]
     measure: PathBuf,
-    /// Where the spacecraft and the peers stand
+    /// The folder of spacecraft and peers
     #[arg(long, value_name = "DIR", default_value = "target/peers")]
     peers: PathBuf,
     /// Where the page goes
@@ -42,7 +43,7 @@ struct Arguments {
     /// One round over few spacecraft; the page goes to the folder of the peers
     #[arg(long)]
     quick: bool,
-    /// Precess alone
+    /// Only Precess
     #[arg(long)]
     skip_peers: bool,
 }
@@ -68,14 +69,14 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         contenders.extend(peers.present);
         missing = peers.missing;
     }
-    refuse_skips(&missing)?;
+    reject_skips(&missing)?;
     let worst = agreement::check(&contenders, &plan, &arguments.peers)?;
     let machine = Machine::new(&measure, &pinned)?;
     let times = race(&contenders, &plan, &arguments.peers)?;
     let parts = page::parts(&measure, &plan, &arguments.peers)?;
     let page = Page { machine, contenders, missing, worst, times, parts };
     page.show();
-    // A quick look is no page to be kept.
+    // The page of a quick run is not kept.
     let out = if arguments.quick { &arguments.peers } else { &arguments.out };
     for (name, text) in page.files()? {
         let path = out.join(name);
@@ -87,7 +88,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
 }
 
 /// Says what is missing; fails where nothing may be.
-fn refuse_skips(missing: &[contender::Missing]) -> Result<(), String> {
+fn reject_skips(missing: &[contender::Missing]) -> Result<(), String> {
     for contender::Missing { name, missing } in missing {
         eprintln!("skipped: {name}; {missing}");
     }

@@ -58,19 +58,19 @@ struct Share {
     rest: String,
 }
 
-/// What keeps the services from more, in ns.
+/// What limits the services, ns.
 #[derive(Serialize)]
 struct Limits {
     /// The chain of an evaluation with one device, and the evaluation.
-    chain: String,
-    one: String,
-    /// What one more costs.
-    device: String,
-    /// S2's budget at the issue floor, what S5 asks for, and its share of the floor.
-    budget: String,
+    chain: Option<String>,
+    one: Option<String>,
+    /// Each further device.
+    device: Option<String>,
+    /// The allowed operations at the issue floor, the goal of a batch, and its share of the floor.
+    budget: Option<String>,
     times: f64,
-    target: String,
-    share: String,
+    target: Option<String>,
+    share: Option<String>,
 }
 
 /// Which share of the issue floor a service reaches.
@@ -81,13 +81,13 @@ struct Reached {
     cells: Vec<String>,
 }
 
-/// Asks what the evaluations of the plan are made of.
+/// Measures the parts of the plan's evaluations.
 pub(crate) fn parts(measure: &Program, plan: &Plan, folder: &Path) -> Result<Vec<Parts>, String> {
-    let ask = |count: &usize| {
+    let query = |count: &usize| {
         let file = file(folder, *count).display().to_string();
-        Ok(Parts { count: *count, ..measure.ask(&["parts", &file])? })
+        Ok(Parts { count: *count, ..measure.query(&["parts", &file])? })
     };
-    plan.counts.iter().map(ask).collect()
+    plan.counts.iter().map(query).collect()
 }
 
 impl Page {
@@ -191,22 +191,21 @@ impl Page {
         self.parts.iter().filter_map(share).collect()
     }
 
-    /// A dash stands for what was not measured.
+    /// What was not measured is left out, and the sentence about it with it.
     fn limits(&self) -> Limits {
-        let told = |ns: Option<f64>| ns.map_or_else(|| "-".to_owned(), digits);
         let chain = self.parts.iter().find(|parts| parts.count == 1).map(|parts| parts.chain_ns);
         let device = self.one(16).zip(self.one(4)).map(|(more, few)| (more - few) / 12.0);
         let budget = batch_floor(&self.contenders, &self.machine);
         let target = best_batch(&self.contenders, &self.times);
         let share = budget.zip(target).map(|(floor, target)| 100.0 * floor / target);
         Limits {
-            chain: told(chain),
-            one: told(self.one(1)),
-            device: told(device),
-            budget: told(budget),
+            chain: chain.map(digits),
+            one: self.one(1).map(digits),
+            device: device.map(digits),
+            budget: budget.map(digits),
             times: BATCH.0,
-            target: told(target),
-            share: share.map_or_else(|| "-".to_owned(), |share| format!("{share:.0} %")),
+            target: target.map(digits),
+            share: share.map(|share| format!("{share:.0} %")),
         }
     }
 

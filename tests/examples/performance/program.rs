@@ -1,4 +1,4 @@
-//! Programs run on one core, which answer in JSON.
+//! Programs run on one core, which print JSON.
 
 use std::path::Path;
 use std::process::Command;
@@ -21,7 +21,7 @@ impl Program {
     }
 
     /// What it prints, in one line of JSON.
-    pub(crate) fn ask<T: DeserializeOwned>(&self, arguments: &[&str]) -> Result<T, String> {
+    pub(crate) fn query<T: DeserializeOwned>(&self, arguments: &[&str]) -> Result<T, String> {
         let line = format!("{} {}", self.0.join(" "), arguments.join(" "));
         let (first, rest) = self.0.split_first().ok_or("no program")?;
         let output = Command::new(first).args(rest).args(arguments).output();
@@ -30,10 +30,11 @@ impl Program {
             let errors = String::from_utf8_lossy(&output.stderr);
             return Err(format!("`{line}` failed ({}): {errors}", output.status));
         }
-        // An engine may have something to say before its answer.
+        // An engine may print something before its result.
         let text = String::from_utf8_lossy(&output.stdout);
         let answer = text.lines().next_back().unwrap_or_default();
-        serde_json::from_str(answer).map_err(|error| format!("`{line}` says `{answer}`: {error}"))
+        serde_json::from_str(answer)
+            .map_err(|error| format!("`{line}` printed `{answer}`: {error}"))
     }
 }
 

@@ -1,4 +1,5 @@
-//! Timing: contenders take turns, round after round, so that a change of the machine meets them all.
+//! Timing: contenders take turns, round after round, so that a change of the machine meets them
+//! all.
 
 use std::path::{Path, PathBuf};
 
@@ -79,7 +80,7 @@ pub(crate) fn race(
     }
     for round in 1..=plan.rounds {
         for (contender, count, repeats) in &mut entries {
-            let said: Said = contender.ask("time", &file(folder, *count))?;
+            let said: Said = contender.query("time", &file(folder, *count))?;
             let ns = said.ns.iter().copied().fold(f64::INFINITY, f64::min);
             eprintln!("round {round}: {} with {count} devices, {ns:.1} ns", contender.name);
             repeats.extend(said.ns);
@@ -89,7 +90,7 @@ pub(crate) fn race(
         repeats.sort_by(f64::total_cmp);
         let at = |index: usize| repeats.get(index).copied();
         let (ns, least, most) = (at(repeats.len() / 2), at(0), repeats.last().copied());
-        let missing = || format!("{} told no time", contender.name);
+        let missing = || format!("{} printed no time", contender.name);
         let (ns, least, most) =
             (ns.ok_or_else(missing)?, least.ok_or_else(missing)?, most.ok_or_else(missing)?);
         Ok(Time { name: contender.name.clone(), count, ns, range: [least, most] })

@@ -1,5 +1,5 @@
-//! What is made of a random device: the device itself, or its wheel on gimbals without mass, of every
-//! kind that has gimbals.
+//! What is made of a random device: the device itself, or its wheel on gimbals without mass, of
+//! every kind that has gimbals.
 
 use precess_dynamics::kind::Kind;
 use precess_dynamics::{BalancedDgvscmg, Dgcmg, Dgvscmg, Scalar, Vscmg};
@@ -30,7 +30,8 @@ impl Form for Whole {
     }
 }
 
-/// Declares the wheel of a device on the massless gimbals of a kind, with its place and its imbalance.
+/// Declares the wheel of a device on the massless gimbals of a kind, with its position and its
+/// imbalance.
 macro_rules! bare_wheels {
     ($($form:ident: $kind:ident, $name:literal, $origin:ident;)*) => {$(
         #[doc = concat!("The wheel on the massless gimbals of a `", $name, "`.")]

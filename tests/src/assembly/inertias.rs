@@ -3,7 +3,7 @@
 
 use precess_dynamics::Scalar;
 
-use super::given::Given;
+use super::known::Known;
 use super::positions::Positions;
 use crate::newton_euler::vector::{Tensor, Vector, tilde};
 
@@ -25,9 +25,9 @@ pub(super) struct Inertias<T> {
 }
 
 impl<T: Scalar> Inertias<T> {
-    pub(super) fn new(given: &Given<T>, positions: &Positions<T>) -> Self {
-        let Given { m_go, m_gi, m_w, i_go, i_gi, j, .. } = *given;
-        let Given { g_x_hat, s_x_hat, s_y_hat, s_z_hat, g_z_hat, w_y_hat, w_z_hat, .. } = *given;
+    pub(super) fn new(known: &Known<T>, positions: &Positions<T>) -> Self {
+        let Known { m_go, m_gi, m_w, i_go, i_gi, j, .. } = *known;
+        let Known { g_x_hat, s_x_hat, s_y_hat, s_z_hat, g_z_hat, w_y_hat, w_z_hat, .. } = *known;
         let Positions { r_goc_b, r_goc_b_prime, r_gic_b, r_gic_b_prime, .. } = *positions;
         let Positions { r_wc_b, r_wc_b_prime, .. } = *positions;
 
@@ -35,9 +35,9 @@ impl<T: Scalar> Inertias<T> {
         let i_gi_gic = tensor([s_x_hat, s_y_hat, g_z_hat], i_gi); // (48)
         let i_w_wc = tensor([s_x_hat, w_y_hat, w_z_hat], j); // (63)
 
-        let i_go_goc_prime = i_go_goc_prime(given);
-        let i_gi_gic_prime = i_gi_gic_prime(given);
-        let i_w_wc_prime = i_w_wc_prime(given);
+        let i_go_goc_prime = i_go_goc_prime(known);
+        let i_gi_gic_prime = i_gi_gic_prime(known);
+        let i_w_wc_prime = i_w_wc_prime(known);
 
         Self {
             i_go_goc,
@@ -73,9 +73,9 @@ pub(super) fn parallel_axis<T: Scalar>(a: Vector<T>, b: Vector<T>) -> Tensor<T> 
 }
 
 /// (36)
-fn i_go_goc_prime<T: Scalar>(given: &Given<T>) -> Tensor<T> {
-    let Given { gamma_o_dot, g_x_hat, s_y_hat, s_z_hat, .. } = *given;
-    let [[i_go_11, i_go_12, i_go_13], [_, i_go_22, i_go_23], _] = given.i_go;
+fn i_go_goc_prime<T: Scalar>(known: &Known<T>) -> Tensor<T> {
+    let Known { gamma_o_dot, g_x_hat, s_y_hat, s_z_hat, .. } = *known;
+    let [[i_go_11, i_go_12, i_go_13], [_, i_go_22, i_go_23], _] = known.i_go;
     let (zero, two) = (T::from_f64(0.0), T::from_f64(2.0));
     tensor(
         [g_x_hat, s_y_hat, s_z_hat],
@@ -88,9 +88,9 @@ fn i_go_goc_prime<T: Scalar>(given: &Given<T>) -> Tensor<T> {
 }
 
 /// (49)-(52)
-fn i_gi_gic_prime<T: Scalar>(given: &Given<T>) -> Tensor<T> {
-    let Given { si, ci, gamma_o_dot, gamma_i_dot, s_x_hat, s_y_hat, g_z_hat, .. } = *given;
-    let [[i_gi_11, i_gi_12, i_gi_13], [_, i_gi_22, i_gi_23], [_, _, i_gi_33]] = given.i_gi;
+fn i_gi_gic_prime<T: Scalar>(known: &Known<T>) -> Tensor<T> {
+    let Known { si, ci, gamma_o_dot, gamma_i_dot, s_x_hat, s_y_hat, g_z_hat, .. } = *known;
+    let [[i_gi_11, i_gi_12, i_gi_13], [_, i_gi_22, i_gi_23], [_, _, i_gi_33]] = known.i_gi;
     let two = T::from_f64(2.0);
     let t_11 = i_gi_13 * gamma_i_dot - i_gi_12 * gamma_o_dot * ci;
     let t_22 = i_gi_12 * gamma_o_dot * ci + i_gi_23 * gamma_o_dot * si;
@@ -108,10 +108,10 @@ fn i_gi_gic_prime<T: Scalar>(given: &Given<T>) -> Tensor<T> {
 }
 
 /// (64)
-fn i_w_wc_prime<T: Scalar>(given: &Given<T>) -> Tensor<T> {
-    let Given { si, ci, st, ct, gamma_o_dot, gamma_i_dot, spin, .. } = *given;
-    let Given { s_x_hat, w_y_hat, w_z_hat, .. } = *given;
-    let [[j_11, j_12, j_13], [_, j_22, j_23], [_, _, j_33]] = given.j;
+fn i_w_wc_prime<T: Scalar>(known: &Known<T>) -> Tensor<T> {
+    let Known { si, ci, st, ct, gamma_o_dot, gamma_i_dot, spin, .. } = *known;
+    let Known { s_x_hat, w_y_hat, w_z_hat, .. } = *known;
+    let [[j_11, j_12, j_13], [_, j_22, j_23], [_, _, j_33]] = known.j;
     let two = T::from_f64(2.0);
     let p = spin - gamma_o_dot * si;
     let q = gamma_o_dot * ci * st + gamma_i_dot * ct;

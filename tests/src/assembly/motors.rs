@@ -3,16 +3,16 @@
 use precess_dynamics::Scalar;
 
 use super::Device;
-use super::given::Given;
 use super::inertias::Inertias;
+use super::known::Known;
 use super::positions::{Positions, sq};
 use super::rotation::alpha_w;
 use crate::newton_euler::vector::{Vector, cross, dot, tilde};
 
 /// (80): the moment of D about Go along the outer joint's axis.
 pub(super) fn u_o<T: Scalar>(device: &Device<T>) -> T {
-    let Given { m_go, m_gi, m_w, s_z_hat, r_b_n_ddot, .. } = device.given;
-    let Given { r_go_b, r_goc_go, l_o, r_gic_gi, l_i, r_wc_w, .. } = device.given;
+    let Known { m_go, m_gi, m_w, s_z_hat, r_b_n_ddot, .. } = device.known;
+    let Known { r_go_b, r_goc_go, l_o, r_gic_gi, l_i, r_wc_w, .. } = device.known;
     let Positions { r_goc_b, r_goc_b_prime, r_goc_b_dprime, .. } = device.positions;
     let Positions { r_gic_b, r_gic_b_prime, r_gic_b_dprime, .. } = device.positions;
     let Positions { r_wc_b, r_wc_b_prime, r_wc_b_dprime, .. } = device.positions;
@@ -31,12 +31,12 @@ pub(super) fn u_o<T: Scalar>(device: &Device<T>) -> T {
     let r_dc_b = r_go_b + r_dc_go;
     let (r_dc_b_prime, r_dc_b_dprime) = (r_dc_go_prime, r_dc_go_dprime);
 
-    let r_dc_b_ddot = ddot(&device.given, r_dc_b, r_dc_b_prime, r_dc_b_dprime); // (97)
+    let r_dc_b_ddot = ddot(&device.known, r_dc_b, r_dc_b_prime, r_dc_b_dprime); // (97)
     let r_dc_n_ddot = r_dc_b_ddot + r_b_n_ddot; // (95)
 
     // (87), (88) and the wheel's, which is not printed
     let about_dc = |r, r_prime, r_dprime| {
-        ddot(&device.given, r - r_dc_b, r_prime - r_dc_b_prime, r_dprime - r_dc_b_dprime)
+        ddot(&device.known, r - r_dc_b, r_prime - r_dc_b_prime, r_dprime - r_dc_b_dprime)
     };
     let r_goc_dc_ddot = about_dc(r_goc_b, r_goc_b_prime, r_goc_b_dprime);
     let r_gic_dc_ddot = about_dc(r_gic_b, r_gic_b_prime, r_gic_b_dprime);
@@ -54,12 +54,12 @@ pub(super) fn u_o<T: Scalar>(device: &Device<T>) -> T {
 
 /// (101): the moment of V about Gi along the inner joint's axis.
 pub(super) fn u_i<T: Scalar>(device: &Device<T>) -> T {
-    let Given { m_gi, m_w, s_y_hat, s_z_hat, g_x_hat, r_b_n_ddot, .. } = device.given;
-    let Given { r_go_b, l_o, r_gic_gi, l_i, r_wc_w, omega_gi_b, omega_w_b, .. } = device.given;
-    let Given { gamma_o_dot, gamma_i_dot, gamma_o_ddot, gamma_i_ddot, .. } = device.given;
+    let Known { m_gi, m_w, s_y_hat, s_z_hat, g_x_hat, r_b_n_ddot, .. } = device.known;
+    let Known { r_go_b, l_o, r_gic_gi, l_i, r_wc_w, omega_gi_b, omega_w_b, .. } = device.known;
+    let Known { gamma_o_dot, gamma_i_dot, gamma_o_ddot, gamma_i_ddot, .. } = device.known;
     let Positions { r_gic_b, r_gic_b_prime, r_gic_b_dprime, .. } = device.positions;
     let Positions { r_wc_b, r_wc_b_prime, r_wc_b_dprime, .. } = device.positions;
-    let [l_o_x, l_o_y, _] = device.given.l_o_xyz;
+    let [l_o_x, l_o_y, _] = device.known.l_o_xyz;
 
     let m_v = m_gi + m_w;
     let rho_gi_v = m_gi * m_v.recip(); // (111)
@@ -77,7 +77,7 @@ pub(super) fn u_i<T: Scalar>(device: &Device<T>) -> T {
     let alpha_gi = s_z_hat * gamma_o_ddot
         + s_y_hat * gamma_i_ddot
         + cross(s_z_hat, s_y_hat) * (gamma_o_dot * gamma_i_dot);
-    let alpha_w = alpha_w(&device.given);
+    let alpha_w = alpha_w(&device.known);
     let r_gic_gi_dprime =
         cross(alpha_gi, r_gic_gi) + cross(omega_gi_b, cross(omega_gi_b, r_gic_gi));
     let r_wc_gi_dprime = cross(alpha_gi, l_i)
@@ -91,12 +91,12 @@ pub(super) fn u_i<T: Scalar>(device: &Device<T>) -> T {
     let r_vc_b_dprime = r_vc_gi_dprime + s_y_hat * (l_o_x * gamma_o_ddot - l_o_y * sq(gamma_o_dot))
         - g_x_hat * (l_o_x * sq(gamma_o_dot) + l_o_y * gamma_o_ddot);
 
-    let r_vc_b_ddot = ddot(&device.given, r_vc_b, r_vc_b_prime, r_vc_b_dprime); // (115)
+    let r_vc_b_ddot = ddot(&device.known, r_vc_b, r_vc_b_prime, r_vc_b_dprime); // (115)
     let r_vc_n_ddot = r_vc_b_ddot + r_b_n_ddot; // (113)
 
     // (106), (107)
     let about_vc = |r, r_prime, r_dprime| {
-        ddot(&device.given, r - r_vc_b, r_prime - r_vc_b_prime, r_dprime - r_vc_b_dprime)
+        ddot(&device.known, r - r_vc_b, r_prime - r_vc_b_prime, r_dprime - r_vc_b_dprime)
     };
     let r_gic_vc_ddot = about_vc(r_gic_b, r_gic_b_prime, r_gic_b_dprime);
     let r_wc_vc_ddot = about_vc(r_wc_b, r_wc_b_prime, r_wc_b_dprime);
@@ -112,7 +112,7 @@ pub(super) fn u_i<T: Scalar>(device: &Device<T>) -> T {
 
 /// (119): the moment of the wheel about W along its axis.
 pub(super) fn u_w<T: Scalar>(device: &Device<T>) -> T {
-    let Given { m_w, s_x_hat, omega, omega_dot, r_wc_w, r_b_n_ddot, .. } = device.given;
+    let Known { m_w, s_x_hat, omega, omega_dot, r_wc_w, r_b_n_ddot, .. } = device.known;
     let Positions { r_wc_b, r_wc_b_prime, r_wc_b_dprime, .. } = device.positions;
     let two = T::from_f64(2.0);
 
@@ -129,7 +129,7 @@ pub(super) fn u_w<T: Scalar>(device: &Device<T>) -> T {
 
 /// (84)
 fn h_go_goc_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
-    let Given { omega, omega_dot, omega_go_n, s_z_hat, gamma_o_ddot, .. } = device.given;
+    let Known { omega, omega_dot, omega_go_n, s_z_hat, gamma_o_ddot, .. } = device.known;
     let Inertias { i_go_goc, i_go_goc_prime, .. } = device.inertias;
     i_go_goc * (omega_dot + s_z_hat * gamma_o_ddot)
         + i_go_goc_prime * omega_go_n
@@ -138,8 +138,8 @@ fn h_go_goc_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
 
 /// (85), (104)
 fn h_gi_gic_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
-    let Given { omega, omega_dot, omega_gi_n, s_y_hat, s_z_hat, .. } = device.given;
-    let Given { gamma_o_dot, gamma_i_dot, gamma_o_ddot, gamma_i_ddot, .. } = device.given;
+    let Known { omega, omega_dot, omega_gi_n, s_y_hat, s_z_hat, .. } = device.known;
+    let Known { gamma_o_dot, gamma_i_dot, gamma_o_ddot, gamma_i_ddot, .. } = device.known;
     let Inertias { i_gi_gic, i_gi_gic_prime, .. } = device.inertias;
     i_gi_gic
         * (omega_dot
@@ -152,21 +152,21 @@ fn h_gi_gic_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
 
 /// (86), (105), (120)
 fn h_w_wc_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
-    let Given { omega, omega_dot, omega_w_n, .. } = device.given;
+    let Known { omega, omega_dot, omega_w_n, .. } = device.known;
     let Inertias { i_w_wc, i_w_wc_prime, .. } = device.inertias;
-    i_w_wc * (omega_dot + alpha_w(&device.given))
+    i_w_wc * (omega_dot + alpha_w(&device.known))
         + i_w_wc_prime * omega_w_n
         + tilde(omega) * (i_w_wc * omega_w_n)
 }
 
 /// (97), (115); (87), (88), (106), (107) for a difference of two positions.
 fn ddot<T: Scalar>(
-    given: &Given<T>,
+    known: &Known<T>,
     r: Vector<T>,
     r_prime: Vector<T>,
     r_dprime: Vector<T>,
 ) -> Vector<T> {
-    let Given { omega, omega_dot, .. } = *given;
+    let Known { omega, omega_dot, .. } = *known;
     let two = T::from_f64(2.0);
     r_dprime + cross(omega_dot, r) + cross(omega, r_prime) * two + cross(omega, cross(omega, r))
 }

@@ -2,7 +2,7 @@
 
 use precess_dynamics::Scalar;
 
-use super::given::Given;
+use super::known::Known;
 use crate::newton_euler::vector::{Vector, cross};
 
 /// Positions, m, with their derivatives seen from B, m/s and m/s^2.
@@ -20,9 +20,9 @@ pub(super) struct Positions<T> {
 }
 
 impl<T: Scalar> Positions<T> {
-    pub(super) fn new(given: &Given<T>) -> Self {
-        let Given { r_go_b, r_goc_go, l_o, r_gic_gi, l_i, r_wc_w, .. } = *given;
-        let Given { s_z_hat, gamma_o_dot, gamma_o_ddot, .. } = *given;
+    pub(super) fn new(known: &Known<T>) -> Self {
+        let Known { r_go_b, r_goc_go, l_o, r_gic_gi, l_i, r_wc_w, .. } = *known;
+        let Known { s_z_hat, gamma_o_dot, gamma_o_ddot, .. } = *known;
 
         // (step)
         let r_goc_b_prime = cross(s_z_hat * gamma_o_dot, r_goc_go);
@@ -37,29 +37,29 @@ impl<T: Scalar> Positions<T> {
             r_goc_b_dprime,
             // (step)
             r_gic_b: r_go_b + l_o + r_gic_gi,
-            r_gic_b_prime: r_gic_b_prime(given),
-            r_gic_b_dprime: r_gic_b_dprime(given),
+            r_gic_b_prime: r_gic_b_prime(known),
+            r_gic_b_dprime: r_gic_b_dprime(known),
             // (67)
             r_wc_b: r_go_b + l_o + l_i + r_wc_w,
-            r_wc_b_prime: r_wc_b_prime(given),
-            r_wc_b_dprime: r_wc_b_dprime(given),
+            r_wc_b_prime: r_wc_b_prime(known),
+            r_wc_b_dprime: r_wc_b_dprime(known),
         }
     }
 }
 
 /// (step)
-fn r_gic_b_prime<T: Scalar>(given: &Given<T>) -> Vector<T> {
-    let Given { gamma_o_dot, gamma_i_dot, g_x_hat, s_y_hat, s_z_hat, r_gic_gi, .. } = *given;
-    let [l_o_x, l_o_y, _] = given.l_o_xyz;
+fn r_gic_b_prime<T: Scalar>(known: &Known<T>) -> Vector<T> {
+    let Known { gamma_o_dot, gamma_i_dot, g_x_hat, s_y_hat, s_z_hat, r_gic_gi, .. } = *known;
+    let [l_o_x, l_o_y, _] = known.l_o_xyz;
     let r_gic_gi_prime = cross(s_z_hat * gamma_o_dot + s_y_hat * gamma_i_dot, r_gic_gi);
     (s_y_hat * l_o_x - g_x_hat * l_o_y) * gamma_o_dot + r_gic_gi_prime
 }
 
 /// (13)
-fn r_gic_b_dprime<T: Scalar>(given: &Given<T>) -> Vector<T> {
-    let Given { gamma_o_dot, gamma_i_dot, gamma_o_ddot, gamma_i_ddot, .. } = *given;
-    let Given { g_x_hat, s_y_hat, s_z_hat, r_gic_gi, .. } = *given;
-    let [l_o_x, l_o_y, _] = given.l_o_xyz;
+fn r_gic_b_dprime<T: Scalar>(known: &Known<T>) -> Vector<T> {
+    let Known { gamma_o_dot, gamma_i_dot, gamma_o_ddot, gamma_i_ddot, .. } = *known;
+    let Known { g_x_hat, s_y_hat, s_z_hat, r_gic_gi, .. } = *known;
+    let [l_o_x, l_o_y, _] = known.l_o_xyz;
     let r_gic_gi_prime = cross(s_z_hat * gamma_o_dot + s_y_hat * gamma_i_dot, r_gic_gi);
     cross(
         s_z_hat * gamma_o_ddot + s_y_hat * gamma_i_ddot - g_x_hat * (gamma_i_dot * gamma_o_dot),
@@ -70,10 +70,10 @@ fn r_gic_b_dprime<T: Scalar>(given: &Given<T>) -> Vector<T> {
 }
 
 /// (step)
-fn r_wc_b_prime<T: Scalar>(given: &Given<T>) -> Vector<T> {
-    let Given { d, si, ci, st, ct, gamma_o_dot, gamma_i_dot, spin, .. } = *given;
-    let Given { s_x_hat, s_y_hat, g_z_hat, .. } = *given;
-    let ([l_o_x, l_o_y, _], [l_i_x, l_i_y, l_i_z]) = (given.l_o_xyz, given.l_i_xyz);
+fn r_wc_b_prime<T: Scalar>(known: &Known<T>) -> Vector<T> {
+    let Known { d, si, ci, st, ct, gamma_o_dot, gamma_i_dot, spin, .. } = *known;
+    let Known { s_x_hat, s_y_hat, g_z_hat, .. } = *known;
+    let ([l_o_x, l_o_y, _], [l_i_x, l_i_y, l_i_z]) = (known.l_o_xyz, known.l_i_xyz);
     s_x_hat
         * (d * (gamma_i_dot * st - gamma_o_dot * ci * ct) - l_i_y * gamma_o_dot * ci
             + l_i_z * gamma_i_dot
@@ -91,10 +91,10 @@ fn r_wc_b_prime<T: Scalar>(given: &Given<T>) -> Vector<T> {
 }
 
 /// (14)
-fn r_wc_b_dprime<T: Scalar>(given: &Given<T>) -> Vector<T> {
-    let Given { d, si, ci, st, ct, gamma_o_dot, gamma_i_dot, spin, .. } = *given;
-    let Given { gamma_o_ddot, gamma_i_ddot, spin_dot, s_x_hat, s_y_hat, g_z_hat, .. } = *given;
-    let ([l_o_x, l_o_y, _], [l_i_x, l_i_y, l_i_z]) = (given.l_o_xyz, given.l_i_xyz);
+fn r_wc_b_dprime<T: Scalar>(known: &Known<T>) -> Vector<T> {
+    let Known { d, si, ci, st, ct, gamma_o_dot, gamma_i_dot, spin, .. } = *known;
+    let Known { gamma_o_ddot, gamma_i_ddot, spin_dot, s_x_hat, s_y_hat, g_z_hat, .. } = *known;
+    let ([l_o_x, l_o_y, _], [l_i_x, l_i_y, l_i_z]) = (known.l_o_xyz, known.l_i_xyz);
     let two = T::from_f64(2.0);
 
     let along_s_x = d

@@ -2,8 +2,8 @@
 
 use precess_dynamics::Scalar;
 
-use super::given::{Given, Motion};
 use super::inertias::{Inertias, parallel_axis};
+use super::known::{Known, Motion};
 use super::positions::Positions;
 use super::translation::{c, m_sc};
 use super::{Body, Device};
@@ -32,8 +32,8 @@ fn h_b_b_dot<T: Scalar>(body: &Body<T>, motion: &Motion<T>) -> Vector<T> {
 
 /// (43)
 fn h_go_b_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
-    let Given { m_go, omega, omega_dot, s_z_hat, gamma_o_dot, gamma_o_ddot, .. } = device.given;
-    let Given { r_goc_go, .. } = device.given;
+    let Known { m_go, omega, omega_dot, s_z_hat, gamma_o_dot, gamma_o_ddot, .. } = device.known;
+    let Known { r_goc_go, .. } = device.known;
     let Positions { r_goc_b, r_goc_b_prime, .. } = device.positions;
     let Inertias { i_go_goc, i_go_goc_prime, i_go_b, i_go_b_prime, .. } = device.inertias;
     i_go_b * omega_dot
@@ -51,9 +51,9 @@ fn h_go_b_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
 
 /// (58)
 fn h_gi_b_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
-    let Given { m_gi, si, ci, omega, omega_dot, omega_gi_b, .. } = device.given;
-    let Given { gamma_o_dot, gamma_i_dot, gamma_o_ddot, gamma_i_ddot, .. } = device.given;
-    let Given { s_x_hat, s_y_hat, s_z_hat, g_z_hat, .. } = device.given;
+    let Known { m_gi, si, ci, omega, omega_dot, omega_gi_b, .. } = device.known;
+    let Known { gamma_o_dot, gamma_i_dot, gamma_o_ddot, gamma_i_ddot, .. } = device.known;
+    let Known { s_x_hat, s_y_hat, s_z_hat, g_z_hat, .. } = device.known;
     let Positions { r_gic_b, r_gic_b_prime, r_gic_b_dprime, .. } = device.positions;
     let Inertias { i_gi_gic, i_gi_gic_prime, i_gi_b, i_gi_b_prime, .. } = device.inertias;
     i_gi_b * omega_dot
@@ -71,13 +71,13 @@ fn h_gi_b_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
 
 /// (74)
 fn h_w_b_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
-    let Given { m_w, omega, omega_dot, omega_w_b, .. } = device.given;
+    let Known { m_w, omega, omega_dot, omega_w_b, .. } = device.known;
     let Positions { r_wc_b, r_wc_b_prime, r_wc_b_dprime, .. } = device.positions;
     let Inertias { i_w_wc, i_w_wc_prime, i_w_b, i_w_b_prime, .. } = device.inertias;
     i_w_b * omega_dot
         + i_w_b_prime * omega
         + tilde(omega) * (i_w_b * omega)
-        + i_w_wc * alpha_w(&device.given)
+        + i_w_wc * alpha_w(&device.known)
         + i_w_wc_prime * omega_w_b
         + tilde(omega) * (i_w_wc * omega_w_b)
         + tilde(r_wc_b) * r_wc_b_dprime * m_w
@@ -86,9 +86,9 @@ fn h_w_b_dot<T: Scalar>(device: &Device<T>) -> Vector<T> {
 
 /// The bracket of (74), (86), (105) and (120), less `omega_dot`: (C) of page 1 with the cross
 /// products of the axes kept.
-pub(super) fn alpha_w<T: Scalar>(given: &Given<T>) -> Vector<T> {
-    let Given { gamma_o_dot, gamma_i_dot, spin, .. } = *given;
-    let Given { gamma_o_ddot, gamma_i_ddot, spin_dot, s_x_hat, s_y_hat, s_z_hat, .. } = *given;
+pub(super) fn alpha_w<T: Scalar>(known: &Known<T>) -> Vector<T> {
+    let Known { gamma_o_dot, gamma_i_dot, spin, .. } = *known;
+    let Known { gamma_o_ddot, gamma_i_ddot, spin_dot, s_x_hat, s_y_hat, s_z_hat, .. } = *known;
     s_z_hat * gamma_o_ddot
         + s_y_hat * gamma_i_ddot
         + s_x_hat * spin_dot

@@ -2,7 +2,7 @@
 
 use precess_dynamics::Scalar;
 
-use super::given::{Given, Motion};
+use super::known::{Known, Motion};
 use super::positions::sq;
 use super::{Body, Device};
 use crate::newton_euler::vector::{Vector, cross, tilde};
@@ -19,10 +19,10 @@ pub(super) fn force<T: Scalar>(
     let c = c(body, devices);
     let c_prime = c_prime(body, devices);
     let second_order = devices.iter().fold(Vector::zero(), |sum, device| {
-        let Given { gamma_o_ddot, gamma_i_ddot, spin_dot, .. } = device.given;
-        sum + f_o(&device.given) * gamma_o_ddot
-            + f_i(&device.given) * gamma_i_ddot
-            + f_w(&device.given) * spin_dot
+        let Known { gamma_o_ddot, gamma_i_ddot, spin_dot, .. } = device.known;
+        sum + f_o(&device.known) * gamma_o_ddot
+            + f_i(&device.known) * gamma_i_ddot
+            + f_w(&device.known) * spin_dot
     });
     let f_tilde = devices.iter().fold(Vector::zero(), |sum, device| sum + f_tilde(device));
 
@@ -38,7 +38,7 @@ pub(super) fn force<T: Scalar>(
 /// (7)
 pub(super) fn m_sc<T: Scalar>(body: &Body<T>, devices: &[Device<T>]) -> T {
     devices.iter().fold(body.m_b, |sum, device| {
-        let Given { m_go, m_gi, m_w, .. } = device.given;
+        let Known { m_go, m_gi, m_w, .. } = device.known;
         sum + m_go + m_gi + m_w
     })
 }
@@ -46,7 +46,7 @@ pub(super) fn m_sc<T: Scalar>(body: &Body<T>, devices: &[Device<T>]) -> T {
 /// (9)
 pub(super) fn c<T: Scalar>(body: &Body<T>, devices: &[Device<T>]) -> Vector<T> {
     let sum = devices.iter().fold(body.r_bc_b * body.m_b, |sum, device| {
-        let (Given { m_go, m_gi, m_w, .. }, at) = (device.given, &device.positions);
+        let (Known { m_go, m_gi, m_w, .. }, at) = (device.known, &device.positions);
         sum + at.r_goc_b * m_go + at.r_gic_b * m_gi + at.r_wc_b * m_w
     });
     sum * m_sc(body, devices).recip()
@@ -55,17 +55,17 @@ pub(super) fn c<T: Scalar>(body: &Body<T>, devices: &[Device<T>]) -> Vector<T> {
 /// (step)
 fn c_prime<T: Scalar>(body: &Body<T>, devices: &[Device<T>]) -> Vector<T> {
     let sum = devices.iter().fold(Vector::zero(), |sum, device| {
-        let (Given { m_go, m_gi, m_w, .. }, at) = (device.given, &device.positions);
+        let (Known { m_go, m_gi, m_w, .. }, at) = (device.known, &device.positions);
         sum + at.r_goc_b_prime * m_go + at.r_gic_b_prime * m_gi + at.r_wc_b_prime * m_w
     });
     sum * m_sc(body, devices).recip()
 }
 
 /// `f_o` of (17)
-fn f_o<T: Scalar>(given: &Given<T>) -> Vector<T> {
-    let Given { m_go, m_gi, m_w, d, si, ci, st, ct, r_goc_go, r_gic_gi, .. } = *given;
-    let Given { g_x_hat, s_x_hat, s_y_hat, s_z_hat, g_z_hat, .. } = *given;
-    let ([l_o_x, l_o_y, _], [l_i_x, l_i_y, l_i_z]) = (given.l_o_xyz, given.l_i_xyz);
+fn f_o<T: Scalar>(known: &Known<T>) -> Vector<T> {
+    let Known { m_go, m_gi, m_w, d, si, ci, st, ct, r_goc_go, r_gic_gi, .. } = *known;
+    let Known { g_x_hat, s_x_hat, s_y_hat, s_z_hat, g_z_hat, .. } = *known;
+    let ([l_o_x, l_o_y, _], [l_i_x, l_i_y, l_i_z]) = (known.l_o_xyz, known.l_i_xyz);
     cross(s_z_hat, r_goc_go) * m_go
         + (cross(s_z_hat, r_gic_gi) + s_y_hat * l_o_x - g_x_hat * l_o_y) * m_gi
         + (s_x_hat * (-d * ci * ct - l_i_y * ci - l_o_y * ci)
@@ -75,25 +75,25 @@ fn f_o<T: Scalar>(given: &Given<T>) -> Vector<T> {
 }
 
 /// `f_i` of (17)
-fn f_i<T: Scalar>(given: &Given<T>) -> Vector<T> {
-    let Given { m_gi, m_w, d, st, r_gic_gi, s_x_hat, s_y_hat, g_z_hat, .. } = *given;
-    let [l_i_x, _, l_i_z] = given.l_i_xyz;
+fn f_i<T: Scalar>(known: &Known<T>) -> Vector<T> {
+    let Known { m_gi, m_w, d, st, r_gic_gi, s_x_hat, s_y_hat, g_z_hat, .. } = *known;
+    let [l_i_x, _, l_i_z] = known.l_i_xyz;
     cross(s_y_hat, r_gic_gi) * m_gi + (s_x_hat * (d * st + l_i_z) - g_z_hat * l_i_x) * m_w
 }
 
 /// `f_w` of (17)
-fn f_w<T: Scalar>(given: &Given<T>) -> Vector<T> {
-    let Given { m_w, d, st, ct, s_y_hat, g_z_hat, .. } = *given;
+fn f_w<T: Scalar>(known: &Known<T>) -> Vector<T> {
+    let Known { m_w, d, st, ct, s_y_hat, g_z_hat, .. } = *known;
     (s_y_hat * (-d * st) + g_z_hat * (d * ct)) * m_w
 }
 
 /// `f_tilde` of (17)
 fn f_tilde<T: Scalar>(device: &Device<T>) -> Vector<T> {
-    let given = &device.given;
-    let Given { m_go, m_gi, m_w, d, si, ci, st, ct, .. } = *given;
-    let Given { gamma_o_dot, gamma_i_dot, spin, r_gic_gi, .. } = *given;
-    let Given { g_x_hat, s_x_hat, s_y_hat, s_z_hat, g_z_hat, .. } = *given;
-    let ([l_o_x, l_o_y, _], [l_i_x, l_i_y, l_i_z]) = (given.l_o_xyz, given.l_i_xyz);
+    let known = &device.known;
+    let Known { m_go, m_gi, m_w, d, si, ci, st, ct, .. } = *known;
+    let Known { gamma_o_dot, gamma_i_dot, spin, r_gic_gi, .. } = *known;
+    let Known { g_x_hat, s_x_hat, s_y_hat, s_z_hat, g_z_hat, .. } = *known;
+    let ([l_o_x, l_o_y, _], [l_i_x, l_i_y, l_i_z]) = (known.l_o_xyz, known.l_i_xyz);
     let two = T::from_f64(2.0);
     let r_gic_gi_prime = cross(s_z_hat * gamma_o_dot + s_y_hat * gamma_i_dot, r_gic_gi);
 

@@ -33,7 +33,7 @@ impl<T: Scalar> System<T> {
         system
     }
 
-    /// A1, the backward error of accelerations: the largest `abs(M q'' - h)` of any row, in units
+    /// Backward error of accelerations: the largest `abs(M q'' - h)` of any row, in units
     /// of the row's `abs(M) abs(q'') + abs(h)`.
     #[must_use]
     pub fn backward_error(&self, accelerations: &[T]) -> f64 {
@@ -118,10 +118,10 @@ fn r_b_n_ddot<T: Scalar>() -> Affine<T> {
     Affine::unknown_vector(R_B_N_DDOT)
 }
 
-/// (78), (99), (117): the moment about the joint's origin of everything the joint carries.
+/// (78), (99), (117): the moment about the joint's origin of all bodies outboard of the joint.
 ///
 /// About the common centre of mass of the carried bodies (D of all three, V of inner gimbal and
-/// wheel, Wc of the wheel alone) their angular momenta change by (79), (100), (118); to this comes
+/// wheel, Wc for the wheel only) their angular momenta change by (79), (100), (118); to this comes
 /// the moment of their common acceleration. Print writes `r_{D/N}''` in (99) for `r_{V/N}''`, and
 /// drops the dot over `H` on the left of (81) and (102).
 fn moment_about_origin<T: Scalar>(device: &Device<T>, joint: usize, omega: Vector<T>) -> Affine<T> {

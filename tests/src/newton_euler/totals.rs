@@ -8,7 +8,7 @@ use super::bodies::{Body, Point};
 use super::vector::{Vector, cross, dot};
 use super::{Snapshot, to_list, unknowns_of};
 
-/// Sums over bodies, along N axes, and the sums of the bodies' magnitudes (the unit of E3).
+/// Sums over bodies, along N axes, and the sums of the bodies' magnitudes (the units of drifts).
 #[derive(Clone, Copy, Debug)]
 pub struct Momenta<T> {
     /// Linear momentum, kg m/s.
@@ -21,10 +21,10 @@ pub struct Momenta<T> {
     pub angular_magnitudes: T,
 }
 
-/// How the kinetic energy changes and what is fed in (E1).
+/// Rate of the kinetic energy, and the power of forces and motors.
 #[derive(Clone, Copy, Debug)]
 pub struct PowerBalance<T> {
-    /// Time derivative of the kinetic energy from given accelerations, W.
+    /// Time derivative of the kinetic energy for these accelerations, W.
     pub energy_dot: T,
     /// `F.v_B + L_B.omega + sum(u * rate)`, W.
     pub power: T,
@@ -78,12 +78,12 @@ impl<T: Scalar> Snapshot<T> {
         Point::centre_of_mass(&bodies)
     }
 
-    /// The rate of the energy under given accelerations beside the power fed in.
+    /// The rate of the kinetic energy for these accelerations, and the power of forces and motors.
     ///
     /// Of each body: `m v.a + omega_{F/N} . H_dot about its centre` (the moment's gyroscopic part
     /// does no work, but is left in). One term is one product of two components, with `a` in the
     /// five parts of (8) and (10) and `H_dot` in the four of (84)-(86). The parts count one by one
-    /// because B's acceleration is what is given: on a hub that turns about a distant centre of
+    /// because B's acceleration is the unknown: on a hub that turns about a distant centre of
     /// mass, the sums `a` all but vanish, and even exact accelerations, rounded to f64, would
     /// exceed 50 epsilons of their products.
     #[must_use]
@@ -126,7 +126,7 @@ impl<T: Scalar> Snapshot<T> {
     }
 }
 
-/// A sum beside the sum of its terms' absolute values.
+/// A sum, and the sum of the absolute values of its terms.
 struct Terms<T> {
     sum: T,
     magnitudes: T,

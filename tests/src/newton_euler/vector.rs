@@ -61,7 +61,7 @@ impl<T: Scalar> Tensor<T> {
         Vector(self.0.map(|row| row[index]))
     }
 
-    /// The matrix with these columns: of unit vectors, the rotation to the axes they stand for.
+    /// The matrix with these columns: of unit vectors, the rotation to the axes that they are.
     #[must_use]
     pub fn of_columns(columns: [Vector<T>; 3]) -> Self {
         Self(columns.map(|column| column.0)).transpose()

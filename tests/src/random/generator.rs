@@ -51,7 +51,7 @@ impl Random {
         }
     }
 
-    /// Four numbers on which a uniform rotation stands; not normalised.
+    /// The quaternion of a uniform rotation; not normalised.
     pub(super) fn rotation(&mut self) -> [f64; 4] {
         loop {
             let q = core::array::from_fn(|_| self.within(-1.0, 1.0));
@@ -83,7 +83,7 @@ impl Random {
     }
 }
 
-/// The rotation of a quaternion of any length, computed in the scalar asked for: orthonormal to its
+/// The rotation of a quaternion of any length, computed in this scalar: orthonormal to its
 /// rounding.
 pub(super) fn rotation_matrix<T: Scalar>(q: [f64; 4]) -> Matrix3<T> {
     let [w, x, y, z] = q.map(T::from_f64);

@@ -1,7 +1,7 @@
 //! Spatial vectors and matrices of six components, angular part first: Featherstone, chapter 2.
 //!
 //! Motion vectors (velocity, acceleration, a joint's axis) and force vectors (force, momentum) are
-//! of one type here; which of the two an operation takes is said beside it. Nothing is packed: a
+//! of one type here; each operation states which of the two it takes. Nothing is packed: a
 //! coordinate transform and an inertia are full 6x6 matrices.
 
 use core::ops::{Add, Mul, Neg, Sub};
@@ -63,16 +63,18 @@ impl<T: Scalar> Matrix<T> {
     }
 }
 
-/// `[w; v] x [m; n] = [w x m; w x n + v x m]`: rate of a motion vector that is carried along.
+/// `[omega; v] x [m; n] = [omega x m; omega x n + v x m]`: rate of a motion vector fixed in a frame
+/// that moves with `[omega; v]`.
 pub(super) fn motion_cross<T: Scalar>(v: Spatial<T>, motion: Spatial<T>) -> Spatial<T> {
-    let ([w, v], [m, n]) = (v.halves(), motion.halves());
-    Spatial::new(cross(w, m), sum(cross(w, n), cross(v, m)))
+    let ([omega, v], [m, n]) = (v.halves(), motion.halves());
+    Spatial::new(cross(omega, m), sum(cross(omega, n), cross(v, m)))
 }
 
-/// `[w; v] x* [m; f] = [w x m + v x f; w x f]`: rate of a force vector that is carried along.
+/// `[omega; v] x* [m; f] = [omega x m + v x f; omega x f]`: rate of a force vector fixed in that
+/// frame.
 pub(super) fn force_cross<T: Scalar>(v: Spatial<T>, force: Spatial<T>) -> Spatial<T> {
-    let ([w, v], [m, f]) = (v.halves(), force.halves());
-    Spatial::new(sum(cross(w, m), cross(v, f)), cross(w, f))
+    let ([omega, v], [m, f]) = (v.halves(), force.halves());
+    Spatial::new(sum(cross(omega, m), cross(v, f)), cross(omega, f))
 }
 
 /// The vector product of ordinary vectors.

@@ -12,7 +12,7 @@ use super::links::Link;
 /// A link with all that hangs on it.
 #[derive(Clone, Debug)]
 pub(super) struct Articulated<T> {
-    /// What its parent feels of it, the link's own joint being free.
+    /// Its articulated inertia at the parent, with its joint free.
     pub(super) seen: Articulation<T>,
     link: Link<T>,
     /// The acceleration `c` due to rates.
@@ -45,14 +45,14 @@ impl<T: Scalar> Articulated<T> {
         let joint_velocity = axis * rate;
         let v = from_parent * parent_velocity + joint_velocity;
         let c = motion_cross(v, joint_velocity);
-        let alone = Articulation { inertia, bias: force_cross(v, inertia * v) };
+        let own = Articulation { inertia, bias: force_cross(v, inertia * v) };
 
         let beyond = beyond.split_first().map(|(next, rest)| Box::new(Self::new(*next, rest, v)));
 
         // Inwards.
-        let Articulation { inertia, bias } = beyond.as_ref().map_or(alone, |next| Articulation {
-            inertia: alone.inertia + next.seen.inertia,
-            bias: alone.bias + next.seen.bias,
+        let Articulation { inertia, bias } = beyond.as_ref().map_or(own, |next| Articulation {
+            inertia: own.inertia + next.seen.inertia,
+            bias: own.bias + next.seen.bias,
         });
         let u = inertia * axis;
         let d_inverse = axis.dot(u).recip();

@@ -1,4 +1,4 @@
-//! Bodies seen from B, from the emitted kernels of kinematics, along B.
+//! Motion of the bodies relative to B, from the emitted kernels of kinematics, expressed in B.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::generated::dgvscmg::{

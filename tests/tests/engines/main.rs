@@ -1,5 +1,5 @@
-//! The solver against engines that nobody of this project wrote: what Pinocchio and `MuJoCo` give
-//! for random spacecraft, stored in `fixtures/engines.json` by `engines/store.py`.
+//! The solver against independent engines: accelerations, momenta and bodies by Pinocchio and
+//! `MuJoCo` for random spacecraft, stored in `fixtures/engines.json` by `engines/store.py`.
 //!
 //! Run with `--nocapture` to see worst and median of each claim.
 
@@ -105,7 +105,7 @@ fn solver_gives_the_accelerations_of_both_engines() {
 
 #[test]
 fn plain_reference_gives_the_accelerations_of_an_engine() {
-    let mut claim = Claim::new("plain reference against pinocchio");
+    let mut claim = Claim::new("Newton-Euler reference against pinocchio");
     for craft in &stored::file().spacecraft {
         claim.take_blocks(craft, &Solved::new(craft).reference, &craft.pinocchio.motion.blocks());
     }
@@ -173,8 +173,8 @@ fn kernels_sum_the_bodies_of_an_engine_to_the_first_moment() {
     claim.finish();
 }
 
-/// At unit scales nothing hides behind something larger: whichever input changes by [`CHANGE`], an
-/// acceleration, or with the velocity of B the energy, leaves what the engines gave.
+/// At unit scales no contribution is hidden by a larger one: whichever input changes by [`CHANGE`],
+/// an acceleration, or with the velocity of B the energy, leaves what the engines gave.
 #[test]
 fn comparison_notices_every_input_of_a_spacecraft_at_unit_scales() {
     let file: Value = serde_json::from_str(&stored::text()).expect("read as a file already");

@@ -1,4 +1,5 @@
-//! What solver and plain reference give for a stored spacecraft, whatever its number of devices.
+//! Results of the solver and of the Newton-Euler reference for a stored spacecraft with any number
+//! of devices.
 
 use nalgebra::Vector3;
 use precess_dynamics::{About, Accelerations, Attitude, Momentum, SolveError};
@@ -33,12 +34,12 @@ impl Solved {
     fn with_devices<const N: usize>(craft: &Craft) -> Self {
         let case = craft.stored.case::<N>();
         let spacecraft = case.spacecraft(&craft.name);
-        let refused = |error: SolveError| -> ! { panic!("{}: {error}", craft.name) };
-        let energy = spacecraft.energy(&case.state).unwrap_or_else(|error| refused(error));
+        let rejected = |error: SolveError| -> ! { panic!("{}: {error}", craft.name) };
+        let energy = spacecraft.energy(&case.state).unwrap_or_else(|error| rejected(error));
         // The point of N in which B is at this moment.
         let b = About::Point(case.state.r_b_n);
         let Momentum { linear, angular } =
-            spacecraft.momentum(&case.state, b).unwrap_or_else(|error| refused(error));
+            spacecraft.momentum(&case.state, b).unwrap_or_else(|error| rejected(error));
         let along_b = ATTITUDE.dcm();
         Self {
             solver: blocks(&case.solved(&craft.name)),

@@ -1,4 +1,4 @@
-//! What is not finite does not come out, and is called what it is.
+//! No result is infinite or NaN, and an error names the input or result that is not finite.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
@@ -21,7 +21,7 @@ fn hub<T: Scalar>() -> Hub<T> {
 fn powerful<T: Scalar>(torque: T, spin: T) {
     let one = T::from_f64(1.0);
     let wheel = BalancedReactionWheel::bare_wheel(one, one, T::from_f64(0.5));
-    let craft = Spacecraft::new(&hub::<T>(), &[wheel]).expect("sound parameters");
+    let craft = Spacecraft::new(&hub::<T>(), &[wheel]).expect("valid parameters");
     let mut state = State::<One<T>>::at_rest();
     state.devices[0].spin = spin;
     let mut inputs = Inputs::<One<T>>::none();
@@ -36,30 +36,30 @@ fn powerful<T: Scalar>(torque: T, spin: T) {
 }
 
 #[test]
-fn powers_beyond_the_largest_number_are_refused() {
+fn powers_beyond_the_largest_number_are_rejected() {
     powerful(1e200, 1e150);
     powerful(1e25_f32, 1e18);
 }
 
 /// Friction takes 1e300 W from a wheel that is kept at its rate, for 1e10 s.
 #[test]
-fn work_beyond_the_largest_number_is_refused() {
+fn work_beyond_the_largest_number_is_rejected() {
     let mut wheel = BalancedReactionWheel::bare_wheel(1.0, 1.0, 0.5);
     wheel.passive.wheel = Passive::friction(1e100, 0.0, 0.0);
-    let craft = Spacecraft::new(&hub(), &[wheel]).expect("sound parameters");
+    let craft = Spacecraft::new(&hub(), &[wheel]).expect("valid parameters");
     let mut state = State::<One<f64>>::at_rest();
     state.devices[0].spin = 1e100;
     let mut inputs = Inputs::<One<f64>>::none();
     inputs.modes[0].wheel = Mode::Prescribed(0.0);
     assert!(craft.step(&state, &inputs, 1e10).is_ok());
-    let refused = craft.step_with_work(&state, &inputs, 1e10).unwrap_err();
-    assert_eq!(refused, SolveError::Overflow { what: Quantity::Work });
+    let rejected = craft.step_with_work(&state, &inputs, 1e10).unwrap_err();
+    assert_eq!(rejected, SolveError::Overflow { what: Quantity::Work });
 }
 
 /// A stage that leaves the range of numbers is no input that somebody gave.
 #[test]
 fn work_of_a_step_calls_an_overflow_what_the_step_calls_it() {
-    let craft = Spacecraft::new(&hub(), &[] as &[ReactionWheel; 0]).expect("sound parameters");
+    let craft = Spacecraft::new(&hub(), &[] as &[ReactionWheel; 0]).expect("valid parameters");
     let mut state = State::<[ReactionWheel; 0]>::at_rest();
     state.r_b_n_dot.x = 1e200;
     let inputs = Inputs::<[ReactionWheel; 0]>::none();
@@ -74,7 +74,7 @@ fn work_of_a_step_calls_an_overflow_what_the_step_calls_it() {
 fn locked_joint_does_not_notice_a_spring_beyond_the_largest_number() {
     let mut wheel = BalancedReactionWheel::bare_wheel(1.0, 1.0, 0.5);
     wheel.passive.wheel = Passive::spring(1e300, 0.0);
-    let craft = Spacecraft::new(&hub(), &[wheel]).expect("sound parameters");
+    let craft = Spacecraft::new(&hub(), &[wheel]).expect("valid parameters");
     let mut state = State::<One<f64>>::at_rest();
     state.devices[0].theta = 1e10;
     state.omega.x = 0.5;
@@ -95,7 +95,7 @@ fn kinetic_energy_is_not_negative() {
         ..ReactionWheel::bare_wheel(1e9, Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 0.0)))
     };
     let light = Hub { m_b: 1e-9, ..hub() };
-    let craft = Spacecraft::new(&light, &[device]).expect("sound parameters");
+    let craft = Spacecraft::new(&light, &[device]).expect("valid parameters");
     for number in 0..2000 {
         let mut state = State::<[ReactionWheel; 1]>::at_rest();
         let (theta, spin) = (f64::from(number) * 0.37, 1.0 + f64::from(number));
@@ -109,7 +109,7 @@ fn kinetic_energy_is_not_negative() {
 /// Long MRPs and tiny quaternions turn at the rate of their attitude from the first step on.
 #[test]
 fn first_step_turns_whatever_the_parameters_are_long() {
-    let craft = Spacecraft::new(&hub(), &[] as &[ReactionWheel; 0]).expect("sound parameters");
+    let craft = Spacecraft::new(&hub(), &[] as &[ReactionWheel; 0]).expect("valid parameters");
     let inputs = Inputs::<[ReactionWheel; 0]>::none();
     let turned = |attitude: Quaternion| {
         let mut state = State::<[ReactionWheel; 0]>::at_rest();

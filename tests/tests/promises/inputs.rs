@@ -15,7 +15,7 @@ fn hub() -> Hub {
 
 /// On a held hub nothing but its own acceleration could depend on a wheel's rate.
 #[test]
-fn rate_of_a_wheel_on_a_held_hub_is_refused_where_it_is_not_finite() {
+fn rate_of_a_wheel_on_a_held_hub_is_rejected_where_it_is_not_finite() {
     let disc = Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1));
     let device = ReactionWheel::bare_wheel(4.0, disc);
     let still = HubMode::Prescribed { r_b_n_ddot: Vector3::zeros(), omega_dot: Vector3::zeros() };
@@ -33,7 +33,7 @@ fn rate_of_a_wheel_on_a_held_hub_is_refused_where_it_is_not_finite() {
     }
 }
 
-fn refused<K: Kind<Scalar = f64> + Into<BuiltIn>>(device: K) {
+fn rejected<K: Kind<Scalar = f64> + Into<BuiltIn>>(device: K) {
     for angle in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut state = State::<[K; 1]>::at_rest();
         let joints = state.devices.states_mut().zip(K::JOINTS);
@@ -52,17 +52,17 @@ fn refused<K: Kind<Scalar = f64> + Into<BuiltIn>>(device: K) {
         for (service, outcome) in outcomes(&Alone { hub: hub(), device, state, inputs }) {
             assert!(outcome.as_ref().is_err_and(named), "{service}: {outcome:?}");
         }
-        let craft = Spacecraft::new(&hub(), &[device]).expect("sound parameters");
+        let craft = Spacecraft::new(&hub(), &[device]).expect("valid parameters");
         assert!(craft.step(&state, &inputs, 1e-3).as_ref().is_err_and(named));
         assert_eq!(<[K; 1]>::joint_infos().filter(|info| info.ignorable).count(), 1);
     }
 }
 
 #[test]
-fn angle_of_a_balanced_rotor_is_refused_where_it_is_not_finite() {
-    refused(BalancedReactionWheel::bare_wheel(4.0, 0.2, 0.1));
-    refused(BalancedSgcmg::bare_wheel(4.0, 0.2, 0.1));
-    refused(BalancedVscmg::bare_wheel(4.0, 0.2, 0.1));
-    refused(BalancedDgcmg::bare_wheel(4.0, 0.2, 0.1));
-    refused(BalancedDgvscmg::bare_wheel(4.0, 0.2, 0.1));
+fn angle_of_a_balanced_rotor_is_rejected_where_it_is_not_finite() {
+    rejected(BalancedReactionWheel::bare_wheel(4.0, 0.2, 0.1));
+    rejected(BalancedSgcmg::bare_wheel(4.0, 0.2, 0.1));
+    rejected(BalancedVscmg::bare_wheel(4.0, 0.2, 0.1));
+    rejected(BalancedDgcmg::bare_wheel(4.0, 0.2, 0.1));
+    rejected(BalancedDgvscmg::bare_wheel(4.0, 0.2, 0.1));
 }

@@ -1,4 +1,5 @@
-//! The promises of docs/promises.md at the points where each has been broken once, in every service.
+//! Regressions: for each promise of docs/promises.md, the cases that once broke it, in every
+//! service.
 
 mod finite;
 mod inputs;

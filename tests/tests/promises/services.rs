@@ -1,4 +1,4 @@
-//! One state of one device in every service that evaluates it.
+//! Evaluates one state of one device in every service.
 
 use precess_dynamics::kind::{Each, JointStates, Kind};
 use precess_dynamics::lanes::{AcrossDevices, Batch};
@@ -16,20 +16,20 @@ pub(crate) struct Alone<K: Kind<Scalar = f64>> {
 /// Angular acceleration of the hub, or why there is none.
 pub(crate) type Outcome = Result<[f64; 3], SolveError>;
 
-/// What each service answers, by its name.
+/// The result of each service, by its name.
 pub(crate) fn outcomes<K>(case: &Alone<K>) -> Vec<(&'static str, Outcome)>
 where
     K: Kind<Scalar = f64> + Into<BuiltIn>,
 {
     let Alone { hub, device, state, inputs } = case;
-    let craft = Spacecraft::new(hub, &[*device]).expect("sound parameters");
-    let across = AcrossDevices::new(hub, &[*device]).expect("sound parameters");
+    let craft = Spacecraft::new(hub, &[*device]).expect("valid parameters");
+    let across = AcrossDevices::new(hub, &[*device]).expect("valid parameters");
     let mut all = vec![
         ("one state", craft.accelerations(state, inputs).map(|found| found.omega_dot.into())),
         ("fused", craft.fused().accelerations(state, inputs).map(|found| found.omega_dot.into())),
         ("across", across.accelerations(state, inputs).map(|found| found.omega_dot.into())),
     ];
-    let batch = Batch::new(hub, &[*device]).expect("sound parameters");
+    let batch = Batch::new(hub, &[*device]).expect("valid parameters");
     for (name, batch) in [("batch", batch.clone()), ("fused batch", batch.fused())] {
         let mut out = Vec::new();
         batch.accelerations(&[*state; 9], inputs, &mut out).expect("as many inputs as states");
@@ -49,7 +49,7 @@ where
     K: Kind<Scalar = f64>,
     D: precess_dynamics::Devices<Scalar = f64>,
 {
-    let craft = Spacecraft::new(&case.hub, devices).expect("sound parameters");
+    let craft = Spacecraft::new(&case.hub, devices).expect("valid parameters");
     let mut state = State::at_rest_for(&craft);
     state.r_b_n = case.state.r_b_n;
     state.r_b_n_dot = case.state.r_b_n_dot;

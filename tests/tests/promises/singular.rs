@@ -1,4 +1,4 @@
-//! A pivot that is only rounding is refused, whatever hides it.
+//! A pivot that is only rounding is rejected, also where other masses or inertias are large.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::kind::Kind;
@@ -27,7 +27,7 @@ fn skew(random: &mut Random) -> Matrix3<f64> {
     *Rotation3::from_euler_angles(angle(), angle(), angle()).matrix()
 }
 
-fn refused<K: Kind<Scalar = f64> + Into<BuiltIn>>(case: &Alone<K>, device: Option<usize>) {
+fn rejected<K: Kind<Scalar = f64> + Into<BuiltIn>>(case: &Alone<K>, device: Option<usize>) {
     for (service, outcome) in outcomes(case) {
         match outcome {
             Err(SolveError::Singular { device: found, .. }) if found == device => {}
@@ -48,22 +48,23 @@ fn gimballed(inertia: f64, random: &mut Random) -> Alone<Dgvscmg> {
 }
 
 #[test]
-fn hub_without_inertia_is_refused_beside_what_the_devices_took_out() {
+fn hub_without_inertia_is_rejected_beside_what_the_devices_took_out() {
     for number in 0..POSES {
         let random = &mut Random::new(SEED + number);
         for inertia in [0.0, 1e-17, 1e-16] {
-            refused(&gimballed(inertia, random), None);
+            rejected(&gimballed(inertia, random), None);
         }
         let device =
             ReactionWheel { mount: skew(random), ..ReactionWheel::bare_wheel(4.0, disc()) };
-        // Nothing but the wheel's axis is left without inertia: its transverse moments are the hub's.
+        // Nothing but the wheel's axis is left without inertia: its transverse moments are the
+        // hub's.
         let mut state = State::<[ReactionWheel; 1]>::at_rest();
         state.devices[0].spin = 100.0;
-        refused(&Alone { hub: hub([0.0; 3]), device, state, inputs: Inputs::none() }, None);
+        rejected(&Alone { hub: hub([0.0; 3]), device, state, inputs: Inputs::none() }, None);
     }
 }
 
-/// More than rounding, so it is answered: to what the conditioning leaves.
+/// More than rounding, so it is solved, as accurately as the conditioning allows.
 #[test]
 fn hub_with_little_inertia_is_answered() {
     for number in 0..POSES {
@@ -79,24 +80,24 @@ fn hub_with_little_inertia_is_answered() {
 
 /// A rod about its own axis: base parameters hand the hub a moment that the moving part takes back.
 #[test]
-fn moment_that_the_moving_share_cancels_is_refused() {
+fn moment_that_the_moving_share_cancels_is_rejected() {
     let rod = Matrix3::from_diagonal(&Vector3::new(1.0, 0.0, 1.0));
     let device = ReactionWheel::bare_wheel(4.0, rod);
     let state = State::<[ReactionWheel; 1]>::at_rest();
-    refused(&Alone { hub: hub([1.0, 0.0, 1.0]), device, state, inputs: Inputs::none() }, None);
+    rejected(&Alone { hub: hub([1.0, 0.0, 1.0]), device, state, inputs: Inputs::none() }, None);
 }
 
 #[test]
-fn hub_whose_mass_is_nothing_beside_what_slides_is_refused() {
+fn hub_whose_mass_is_nothing_beside_what_slides_is_rejected() {
     let device = SloshMass::bare_slosh_mass(4.0);
     let light = Hub { m_b: 1e-16, ..hub([1.0; 3]) };
     let state = State::<[SloshMass; 1]>::at_rest();
-    refused(&Alone { hub: light, device, state, inputs: Inputs::none() }, None);
+    rejected(&Alone { hub: light, device, state, inputs: Inputs::none() }, None);
 }
 
 /// A point mass that the inner gimbal has brought onto the outer gimbal's axis.
 #[test]
-fn joint_whose_own_diagonal_is_rounding_is_refused() {
+fn joint_whose_own_diagonal_is_rounding_is_rejected() {
     for number in 0..POSES {
         let angle = Random::new(SEED + number).within(-1.5, 1.5);
         let device = Dgcmg {
@@ -106,7 +107,7 @@ fn joint_whose_own_diagonal_is_rounding_is_refused() {
         };
         let mut state = State::<[Dgcmg; 1]>::at_rest();
         state.devices[0].gamma_i = angle;
-        refused(&Alone { hub: hub([1.0; 3]), device, state, inputs: Inputs::none() }, Some(0));
+        rejected(&Alone { hub: hub([1.0; 3]), device, state, inputs: Inputs::none() }, Some(0));
         // A tenth of a radian on, it has a lever arm.
         state.devices[0].gamma_i = angle + 0.1;
         let case = Alone { hub: hub([1.0; 3]), device, state, inputs: Inputs::none() };

@@ -1,5 +1,5 @@
-//! A step that spring, damper or friction makes unstable is refused with the longest one that holds, in
-//! every service that steps; one at that length keeps the energy ledger.
+//! A step that spring, damper or friction makes unstable is rejected with the longest one that
+//! holds, in every service that steps; one at that length keeps the energy ledger.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::lanes::{AcrossDevices, Batch};
@@ -42,17 +42,17 @@ fn run(
 
 /// Dry friction brings a wheel to rest: too long a step would chatter there for ever.
 #[test]
-fn dry_friction_is_resolved_or_refused_where_the_wheel_comes_to_rest() {
+fn dry_friction_is_resolved_or_rejected_where_the_wheel_comes_to_rest() {
     let friction = Passive::friction(0.0, 1e-3, 1e-4);
-    let craft = Spacecraft::new(&hub(10.0), &[wheel(1e-3, friction)]).expect("sound parameters");
-    // Far from rest friction is a constant torque, whatever the step.
+    let craft = Spacecraft::new(&hub(10.0), &[wheel(1e-3, friction)]).expect("valid parameters");
+    // Far from rest friction is a constant torque for any step.
     assert!(run(&craft, spinning(1.0), 1e-3, 900).is_ok());
-    let refused = run(&craft, spinning(1.0), 1e-3, 1100).unwrap_err();
-    let SolveError::Unstable { device: 0, joint: "wheel", dt, longest } = refused else {
-        panic!("{refused:?}");
+    let rejected = run(&craft, spinning(1.0), 1e-3, 1100).unwrap_err();
+    let SolveError::Unstable { device: 0, joint: "wheel", dt, longest } = rejected else {
+        panic!("{rejected:?}");
     };
     assert_eq!(dt, 1e-3);
-    // 2.785 J w / u_c, with the little by which the hub gives way.
+    // 2.785 J q_c' / u_c, a little more since the hub is free.
     let wanted = 2.785_293_563_405_28e-4 * 10.0 / 10.001;
     assert!((longest / wanted - 1.0).abs() < 1e-9, "{longest}");
 
@@ -70,7 +70,7 @@ fn dry_friction_is_resolved_or_refused_where_the_wheel_comes_to_rest() {
     assert!((after - before - work).abs() < 0.02 * before, "{before} {after} {work}");
 }
 
-/// Just below the limit a disturbance dies out, just above it is refused.
+/// Just below the limit a disturbance dies out, just above it is rejected.
 #[test]
 fn limit_of_a_damper_and_of_a_spring_is_that_of_the_method() {
     // The wheel against the hub: 1/m = 1/0.5 + 1/2.
@@ -80,11 +80,11 @@ fn limit_of_a_damper_and_of_a_spring_is_that_of_the_method() {
             (Passive::spring(0.0, 4.0), 2.785_293_563_405_28 / (4.0 * response)),
             (Passive::spring(9.0, 0.0), 8.0_f64.sqrt() / (9.0 * response).sqrt()),
         ] {
-            let craft = Spacecraft::new(&hub(inertia), &[wheel(0.5, passive)]).expect("sound");
+            let craft = Spacecraft::new(&hub(inertia), &[wheel(0.5, passive)]).expect("valid");
             let held = run(&craft, spinning(1.0), 0.999 * limit, 500).expect("a stable step");
             assert!(held.devices[0].spin.abs() <= 1.0, "{}", held.devices[0].spin);
-            let refused = run(&craft, spinning(1.0), 1.001 * limit, 1).unwrap_err();
-            let SolveError::Unstable { longest, .. } = refused else { panic!("{refused:?}") };
+            let rejected = run(&craft, spinning(1.0), 1.001 * limit, 1).unwrap_err();
+            let SolveError::Unstable { longest, .. } = rejected else { panic!("{rejected:?}") };
             assert!((longest / limit - 1.0).abs() < 1e-6, "{longest} {limit}");
         }
     }
@@ -94,20 +94,20 @@ fn limit_of_a_damper_and_of_a_spring_is_that_of_the_method() {
 fn two_wheels_on_a_light_hub_count_together() {
     type Two = [ReactionWheel; 2];
     let passive = Passive::spring(0.0, 1.0);
-    let craft = Spacecraft::new(&hub(0.01), &[wheel(1.0, passive); 2]).expect("sound parameters");
+    let craft = Spacecraft::new(&hub(0.01), &[wheel(1.0, passive); 2]).expect("valid parameters");
     // Both turn against the hub: the fastest mode has c (1/J + 2/I), with their transverse inertia.
     let fastest = 1.0 + 2.0 / 0.01;
     let mut state = State::<Two>::at_rest();
     (state.devices[0].spin, state.devices[1].spin) = (1.0, 1.0);
     let limit = 2.785_293_563_405_28 / fastest;
     assert!(craft.step(&state, &Inputs::none(), 0.99 * limit).is_ok());
-    let refused = craft.step(&state, &Inputs::none(), 1.01 * limit).unwrap_err();
-    assert!(matches!(refused, SolveError::Unstable { .. }), "{refused:?}");
+    let rejected = craft.step(&state, &Inputs::none(), 1.01 * limit).unwrap_err();
+    assert!(matches!(rejected, SolveError::Unstable { .. }), "{rejected:?}");
 }
 
 /// Every service that steps: the same error, for a damper, a spring and dry friction.
 #[test]
-fn every_service_refuses_the_same_step() {
+fn every_service_rejects_the_same_step() {
     let reversing = spinning(1e-5);
     for (passive, dt) in [
         (Passive::spring(0.0, 4.0), 1.0),
@@ -115,16 +115,16 @@ fn every_service_refuses_the_same_step() {
         (Passive::friction(0.0, 1.0, 1e-6), 1e-2),
     ] {
         let device = wheel(0.5, passive);
-        let craft = Spacecraft::new(&hub(2.0), &[device]).expect("sound parameters");
+        let craft = Spacecraft::new(&hub(2.0), &[device]).expect("valid parameters");
         let (state, inputs) = (reversing, Inputs::<One>::none());
         let expected = craft.step(&state, &inputs, dt).unwrap_err();
         assert!(matches!(expected, SolveError::Unstable { .. }), "{expected:?}");
         assert_eq!(craft.step_with_work(&state, &inputs, dt).unwrap_err(), expected);
         assert_eq!(craft.fused().step(&state, &inputs, dt).unwrap_err(), expected);
 
-        let across = AcrossDevices::new(&hub(2.0), &[device]).expect("sound parameters");
+        let across = AcrossDevices::new(&hub(2.0), &[device]).expect("valid parameters");
         assert_eq!(across.step(&state, &inputs, dt).unwrap_err(), expected);
-        let batch = Batch::new(&hub(2.0), &[device]).expect("sound parameters");
+        let batch = Batch::new(&hub(2.0), &[device]).expect("valid parameters");
         for batch in [batch.clone(), batch.fused()] {
             let (mut states, mut out) = ([state; 9], Vec::new());
             batch.run(&mut states, &inputs, dt, 3, &mut out).expect("as many inputs as states");
@@ -132,9 +132,9 @@ fn every_service_refuses_the_same_step() {
             assert_eq!(states, [state; 9]);
         }
         let on_board = [Some(BuiltIn::from(device)), None];
-        assert_eq!(listed(&Spacecraft::new(&hub(2.0), &on_board).expect("sound"), dt), expected);
+        assert_eq!(listed(&Spacecraft::new(&hub(2.0), &on_board).expect("valid"), dt), expected);
         let list = vec![BuiltIn::from(device)];
-        assert_eq!(listed(&Spacecraft::new(&hub(2.0), &list).expect("sound"), dt), expected);
+        assert_eq!(listed(&Spacecraft::new(&hub(2.0), &list).expect("valid"), dt), expected);
     }
 }
 
@@ -148,12 +148,12 @@ fn listed<D: precess_dynamics::Devices<Scalar = f64>>(
     craft.step(&state, &Inputs::none_for(craft), dt).unwrap_err()
 }
 
-/// A joint that is not driven moves as it is told: no spring makes its step unstable.
+/// The motion of a joint that is not driven is prescribed: no spring makes its step unstable.
 #[test]
 fn spring_of_a_locked_joint_limits_nothing() {
     let mut panel = HingedPanel::bare_panel(3.0, Matrix3::identity());
     panel.passive.panel = Passive::spring(1e9, 0.0);
-    let craft = Spacecraft::new(&hub(2.0), &[panel]).expect("sound parameters");
+    let craft = Spacecraft::new(&hub(2.0), &[panel]).expect("valid parameters");
     let mut inputs = Inputs::<[HingedPanel; 1]>::none();
     let state = State::<[HingedPanel; 1]>::at_rest();
     assert!(craft.step(&state, &inputs, 1.0).is_err());

@@ -1,4 +1,4 @@
-//! Wrapping an angle changes nothing: not the energy of a spring, which counts the turns.
+//! Wrapping angles changes no result: the angle of a joint with a spring is not wrapped.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
@@ -24,7 +24,7 @@ fn devices() -> Set {
 
 #[test]
 fn spring_energy_and_accelerations_stay() {
-    let craft = Spacecraft::new(&hub(), &devices()).expect("sound parameters");
+    let craft = Spacecraft::new(&hub(), &devices()).expect("valid parameters");
     let mut state = State::<Set>::at_rest();
     (state.devices.0.theta, state.devices.1.theta) = (100.0, 100.0);
     (state.devices.0.spin, state.devices.1.spin, state.devices.2.phi) = (3.0, 5.0, 40.0);
@@ -48,9 +48,9 @@ fn lists_keep_the_turns_of_a_spring_too() {
     let (sprung, free, panel) = devices();
     let on_board: [Option<BuiltIn>; 4] =
         [Some(sprung.into()), None, Some(free.into()), Some(panel.into())];
-    kept(&Spacecraft::new(&hub(), &on_board).expect("sound parameters"));
+    kept(&Spacecraft::new(&hub(), &on_board).expect("valid parameters"));
     let list = vec![BuiltIn::from(sprung), free.into(), panel.into()];
-    kept(&Spacecraft::new(&hub(), &list).expect("sound parameters"));
+    kept(&Spacecraft::new(&hub(), &list).expect("valid parameters"));
 }
 
 fn kept<D: precess_dynamics::Devices<Scalar = f64>>(craft: &Spacecraft<D>) {

@@ -11,7 +11,7 @@ pub(super) struct Board {
     pub(super) name: &'static str,
     /// What the compiler calls it.
     pub(super) triple: &'static str,
-    /// How its arithmetic is done and in what order bytes stand.
+    /// Its arithmetic and byte order.
     pub(super) says: &'static str,
     /// The compiler's flags, but for the linker script.
     flags: &'static str,

@@ -1,4 +1,4 @@
-//! Building the firmware: for this machine by the cargo at hand, for a board with a core library built
+//! Building the firmware: for this machine by the same cargo, for a board with a core library built
 //! on the spot, and nothing but it.
 
 use std::fs;
@@ -21,12 +21,12 @@ const OUTER: [&str; 7] = [
     "LD_LIBRARY_PATH",
 ];
 
-/// Where the firmware's workspace stands.
+/// The manifest of the firmware's workspace.
 pub(super) fn firmware() -> PathBuf {
     root().join("flight/firmware")
 }
 
-/// Builds programs for this machine; the folder they stand in.
+/// Builds programs for this machine; returns their folder.
 pub(super) fn for_host(programs: &[&str]) -> Result<PathBuf, String> {
     let folder = target()?.join("flight/host");
     let images = folder.join("release");
@@ -38,7 +38,7 @@ pub(super) fn for_host(programs: &[&str]) -> Result<PathBuf, String> {
     Ok(images)
 }
 
-/// Builds programs for a board; the folder they stand in.
+/// Builds programs for a board; returns their folder.
 pub(super) fn programs(board: &Board, programs: &[&str]) -> Result<PathBuf, String> {
     let (mut command, folder, images) = on_board(board, "build")?;
     stale(programs.iter().map(|program| images.join(program)))?;
@@ -50,7 +50,7 @@ pub(super) fn programs(board: &Board, programs: &[&str]) -> Result<PathBuf, Stri
     Ok(images)
 }
 
-/// Builds a package as a static library for a board; where it stands.
+/// Builds a package as a static library for a board; returns its path.
 pub(super) fn library(board: &Board, package: &str, features: &[&str]) -> Result<PathBuf, String> {
     let (mut command, folder, images) = on_board(board, "rustc")?;
     let archive = images.join(format!("lib{}.a", package.replace('-', "_")));
@@ -65,7 +65,7 @@ fn on_board(board: &Board, task: &str) -> Result<(Command, PathBuf, PathBuf), St
     let folder = target()?.join("flight").join(board.name);
     let images = folder.join(board.triple).join("release");
     let mut command = clean(CARGO);
-    // `core` alone: whatever asks for an allocator or for the standard library does not build.
+    // Only `core`: code that needs an allocator or the standard library does not build.
     command.args([task, "--release", "--target", board.triple, "-Zbuild-std=core"]);
     command.env("RUSTC", RUSTC).env("RUSTC_BOOTSTRAP", "1").env("RUSTFLAGS", board.flags());
     Ok((command, folder, images))

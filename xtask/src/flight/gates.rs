@@ -1,7 +1,7 @@
 //! The gates that a library for flight passes, and the deliberately bad ones that each must catch.
 //!
-//! They know a library by its package and its exports alone. What holds by construction: the build has
-//! nothing but `core`, so an allocator has nowhere to come from; the link has nothing but the library.
+//! A library is its package and its exports. By construction, the build has only `core` and so no
+//! allocator, and the link has only the library.
 
 use std::path::Path;
 
@@ -14,14 +14,14 @@ use super::tally::Tally;
 /// memory.
 pub(super) const LARGEST_STACK: u64 = 32 * 1024;
 
-/// A library to be gated.
+/// A library to be checked.
 pub(super) struct Library<'a> {
     pub(super) package: &'a str,
     pub(super) features: &'a [&'a str],
     pub(super) exports: Vec<String>,
 }
 
-/// Builds, links and reads a library; its image if every gate lets it pass.
+/// Builds, links and reads a library; returns its image if it passes every gate.
 pub(super) fn passed(board: &Board, library: &Library<'_>) -> Result<Image, String> {
     let archive = build::library(board, library.package, library.features)?;
     no_panic_in(&archive)?;
@@ -41,11 +41,11 @@ pub(super) fn passed(board: &Board, library: &Library<'_>) -> Result<Image, Stri
     Ok(image)
 }
 
-/// Each bad library has to be refused, for its own reason.
+/// Each bad library has to be rejected, for its own reason.
 pub(super) fn twins(board: &Board, tally: &mut Tally) {
-    // A good one first: else a refusal would prove nothing.
+    // A good one first: else a rejection would prove nothing.
     let good = twin(board, &[]).map(|_| ());
-    tally.check("gates: a library that is in order passes", good);
+    tally.check("gates: a valid library passes", good);
     for (feature, reason) in [
         ("allocates", "E0463"),
         ("panics", "can panic"),
@@ -57,7 +57,7 @@ pub(super) fn twins(board: &Board, tally: &mut Tally) {
         let caught = match twin(board, &[feature]) {
             Ok(_) => Err("it passed: the gate is blind".to_owned()),
             Err(why) if why.contains(reason) => Ok(()),
-            Err(why) => Err(format!("refused, but not since `{reason}`: {why}")),
+            Err(why) => Err(format!("rejected, but not since `{reason}`: {why}")),
         };
         tally.check(&format!("gates: a library that is bad ({feature}) is caught"), caught);
     }

@@ -1,9 +1,9 @@
-//! A linked library for Cortex-M: its functions, how large they and their frames are, and which calls
-//! which.
+//! A linked library for Cortex-M: its functions, how large they and their frames are, and which
+//! calls which.
 //!
 //! Sizes come from the symbol table, frames from the section that the compiler writes for this
-//! (`-Z emit-stack-sizes`), calls from the instructions themselves: what was inlined, merged or turned
-//! into a jump is as the processor finds it.
+//! (`-Z emit-stack-sizes`), calls from the instructions themselves: what was inlined, merged or
+//! turned into a jump is as the processor finds it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -18,22 +18,23 @@ use super::thumb::{Flow, flows};
 pub(super) struct Function {
     pub(super) name: String,
     pub(super) size: u64,
-    /// Bytes of stack it takes, saved registers included; none where the compiler does not say.
+    /// Bytes of stack it takes, saved registers included; `None` where the compiler does not state
+    /// it.
     frame: Option<u64>,
-    /// Where it may go.
+    /// The functions that it may call or jump to.
     calls: BTreeSet<u32>,
-    /// Whether it may go where no image tells.
+    /// Whether it may go to an address that the image does not contain.
     indirect: bool,
 }
 
-/// Functions by where they stand.
+/// Functions by address.
 pub(super) struct Image {
     functions: BTreeMap<u32, Function>,
     /// Bytes of code and constants.
     pub(super) text: u64,
 }
 
-/// Links a library alone, keeping what the exports reach and nothing else. That it links shows that
+/// Links only a library, keeping only what the exports reach. That it links shows that
 /// nothing is missing: no C library, no allocator.
 pub(super) fn linked(library: &Path, exports: &[String]) -> Result<PathBuf, String> {
     let image = library.with_extension("elf");
@@ -104,7 +105,8 @@ impl Image {
                 calls: calls.collect(),
                 indirect: found.contains(&Flow::Anywhere),
             };
-            // Of two names for one place the one that sorts first: it does not matter, but is the same.
+            // Of two names for one address the one that sorts first: it does not matter, but is the
+            // same.
             match functions.get(&at) {
                 Some(Function { name, .. }) if *name <= function.name => {}
                 _ => drop(functions.insert(at, function)),
@@ -136,7 +138,8 @@ impl Image {
         self.deepest(self.find(name)?, &mut BTreeMap::new())
     }
 
-    /// The sum from a function on; what is known of others, none of one that is being worked out.
+    /// The largest sum of frames from a function on; `known` has the sums of others, `None` for one
+    /// that is being computed.
     fn deepest(&self, at: u32, known: &mut BTreeMap<u32, Option<u64>>) -> Result<u64, String> {
         let function = self.get(at)?;
         let name = &function.name;
@@ -170,16 +173,16 @@ impl Image {
     }
 }
 
-/// The pieces of a function that are code, each with where it stands.
+/// The pieces of a function that are code, each with its address.
 fn pieces<'a>(
     code: &'a [u8],
     at: u32,
     marks: &'a BTreeMap<u32, bool>,
 ) -> impl Iterator<Item = (&'a [u8], u32)> {
     let end = at.wrapping_add(u32::try_from(code.len()).unwrap_or(u32::MAX));
-    let inside = marks.range(at..end).map(|(place, is_code)| (*place, *is_code));
+    let inside = marks.range(at..end).map(|(address, is_code)| (*address, *is_code));
     let starts: Vec<(u32, bool)> = std::iter::once((at, true)).chain(inside).collect();
-    let ends: Vec<u32> = starts.iter().skip(1).map(|(place, _)| *place).chain([end]).collect();
+    let ends: Vec<u32> = starts.iter().skip(1).map(|(address, _)| *address).chain([end]).collect();
     starts.into_iter().zip(ends).filter(|((_, is_code), _)| *is_code).filter_map(
         move |((start, _), end)| {
             let range = start.wrapping_sub(at) as usize..end.wrapping_sub(at) as usize;
@@ -235,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn stack_that_no_sum_bounds_is_refused() {
+    fn stack_that_no_sum_bounds_is_rejected() {
         let recursive = image(&[(0, 8, &[2], false), (2, 8, &[0], false)]);
         assert!(recursive.stack("f0").unwrap_err().contains("calls itself"));
         let indirect = image(&[(0, 8, &[], true)]);

@@ -1,5 +1,5 @@
-//! `flight`: what goes on board, built for boards, run on them under emulation, compared with this
-//! machine bit for bit, and measured.
+//! `flight`: builds the firmware for boards, runs it under emulation, compares it with this machine
+//! bit for bit, and measures it.
 
 mod board;
 mod build;
@@ -22,10 +22,10 @@ use crate::skip::skip;
 use board::{BOARDS, Board};
 use gates::Library;
 use output::{lines, same, whole};
-use page::{Figures, SETS};
+use page::Figures;
 use tally::Tally;
 
-/// The library that is gated and measured, and the programs around it.
+/// The library that is checked and measured, and the programs with it.
 const LIBRARY: &str = "precess-flight-library";
 const EXAMPLE: &str = "wake-up";
 const COUNTS: &str = "instructions";
@@ -41,8 +41,8 @@ pub(crate) struct Options {
     board: Option<String>,
 }
 
-/// The library as C sees it; then builds, runs, compares and measures everything on boards, and writes
-/// the page or compares with it.
+/// Tests the library from C; then builds, runs, compares and measures everything on boards, and
+/// writes the page or compares with it.
 pub(crate) fn flight(options: &Options) -> Result<(), String> {
     if options.board.is_none() {
         capi::host()?;
@@ -112,7 +112,7 @@ fn compare(board: &Board, images: &Path, here: &Path, tally: &mut Tally) {
         let result = on_host(program, &[])
             .and_then(|here| there.clone().and_then(|there| same(&here, &there)));
         tally.check(&what, result);
-        // The same, one number off by one unit in its last place, has to be seen.
+        // The same, one number off by one unit in its last place, has to be found.
         let nudged = on_host(program, &["--nudge"])
             .and_then(|here| there.map(|there| same(&here, &there)))
             .and_then(|seen| match seen {
@@ -120,20 +120,23 @@ fn compare(board: &Board, images: &Path, here: &Path, tally: &mut Tally) {
                 Err(_) => Ok(()),
             });
         tally.check(
-            &format!("{}: {program} off by one unit in the last place is seen", board.name),
+            &format!("{}: {program} off by one unit in the last place is found", board.name),
             nudged,
         );
     }
     if board.name == BOARDS[0].name {
         let result = on_host(EXAMPLE, &[])
             .and_then(|here| run(EXAMPLE).and_then(|there| same(&here, &there)));
-        tally.check(&format!("{}: {EXAMPLE} runs, its books in order", board.name), result);
+        tally.check(
+            &format!("{}: {EXAMPLE} runs within its energy and momentum bounds", board.name),
+            result,
+        );
     }
 }
 
 /// What is measured of the library; none if it does not pass or was not counted.
 fn figures(board: &Board, tally: &mut Tally) -> Option<Figures> {
-    let exports = SETS.iter().flat_map(|set| {
+    let exports = page::sets().flat_map(|set| {
         ["accelerations", "step"].map(|call| format!("precess_{}_{}_{call}", set.kind, set.devices))
     });
     let library =

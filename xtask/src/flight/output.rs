@@ -11,9 +11,9 @@ const LIMIT: Duration = Duration::from_secs(300);
 /// The lines that a program prints, to either stream; a semihosting console writes to the second.
 pub(super) fn lines(command: &mut Command) -> Result<Vec<String>, String> {
     let program = command.get_program().to_string_lossy().into_owned();
-    let told = |error: std::io::Error| format!("{program}: {error}");
+    let failed = |error: std::io::Error| format!("{program}: {error}");
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.spawn().map_err(told)?;
+    let mut child = command.spawn().map_err(failed)?;
     let streams = [
         child.stdout.take().map(|stream| Box::new(stream) as Box<dyn Read + Send>),
         child.stderr.take().map(|stream| Box::new(stream) as Box<dyn Read + Send>),
@@ -28,11 +28,11 @@ pub(super) fn lines(command: &mut Command) -> Result<Vec<String>, String> {
     let readers: Vec<_> = readers.collect();
     let start = Instant::now();
     let status = loop {
-        if let Some(status) = child.try_wait().map_err(told)? {
+        if let Some(status) = child.try_wait().map_err(failed)? {
             break status;
         }
         if start.elapsed() > LIMIT {
-            // It may just have ended; either way it is over.
+            // It may just have ended; then it ends by itself.
             let _ = child.kill();
             let _ = child.wait();
             return Err(format!("{program}: no end within {} s", LIMIT.as_secs()));
@@ -42,7 +42,7 @@ pub(super) fn lines(command: &mut Command) -> Result<Vec<String>, String> {
     let mut text = String::new();
     for reader in readers {
         let bytes = reader.join().map_err(|_| format!("{program}: its output was not read"))?;
-        text.push_str(&String::from_utf8_lossy(&bytes.map_err(told)?));
+        text.push_str(&String::from_utf8_lossy(&bytes.map_err(failed)?));
     }
     let lines: Vec<String> = text.lines().map(|line| line.trim_end().to_owned()).collect();
     if status.success() {
@@ -56,7 +56,7 @@ pub(super) fn whole(mut lines: Vec<String>) -> Result<Vec<String>, String> {
     let end = lines.pop().unwrap_or_default();
     let expected = format!("end: {} lines", lines.len());
     if lines.is_empty() || end != expected {
-        return Err(format!("the output is not whole: `{end}` where `{expected}` should stand"));
+        return Err(format!("the output is not whole: `{end}` instead of `{expected}`"));
     }
     Ok(lines)
 }
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn output_that_is_empty_or_short_is_refused() {
+    fn output_that_is_empty_or_short_is_rejected() {
         for lines in [&[][..], &["end: 0 lines"], &["a: 1"], &["a: 1", "end: 2 lines"]] {
             assert!(whole(of(lines)).is_err(), "{lines:?}");
         }
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_that_fails_is_refused_whatever_it_printed() {
+    fn a_program_that_fails_is_rejected_whatever_it_printed() {
         let printed = lines(Command::new("sh").args(["-c", "echo end: 0 lines; exit 1"]));
         assert!(printed.unwrap_err().contains("end: 0 lines"));
     }

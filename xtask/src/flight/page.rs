@@ -1,9 +1,10 @@
-//! `docs/flight.md`: what a call takes on a Cortex-M7, beside what is asked of it.
+//! `docs/flight.md`: instructions, stack and code of a call on a Cortex-M7, and the bounds on them.
 
 use std::fmt::Write;
 use std::fs;
 
 use precess_codegen::emit::EmittedFile;
+use precess_codegen::kinds::KINDS;
 
 use super::gates::LARGEST_STACK;
 use super::image::Image;
@@ -17,7 +18,7 @@ const PAGE: &str = "docs/flight.md";
 /// A figure may exceed the committed one by one in so many.
 const GATE: u64 = 50;
 
-/// Instructions an evaluation of DGVSCMGs may take, by how many there are (S7).
+/// Largest number of instructions of an evaluation, by the number of DGVSCMGs.
 const BOUNDS: [(u32, u64); 2] = [(1, 3500), (4, 12_000)];
 
 /// A set of devices that is measured.
@@ -27,34 +28,11 @@ pub(super) struct Set {
 }
 
 /// Every kind, one device and four.
-pub(super) const SETS: [Set; 24] = [
-    Set { kind: "dgvscmg", devices: 1 },
-    Set { kind: "dgvscmg", devices: 4 },
-    Set { kind: "balanced_dgvscmg", devices: 1 },
-    Set { kind: "balanced_dgvscmg", devices: 4 },
-    Set { kind: "dgcmg", devices: 1 },
-    Set { kind: "dgcmg", devices: 4 },
-    Set { kind: "balanced_dgcmg", devices: 1 },
-    Set { kind: "balanced_dgcmg", devices: 4 },
-    Set { kind: "vscmg", devices: 1 },
-    Set { kind: "vscmg", devices: 4 },
-    Set { kind: "balanced_vscmg", devices: 1 },
-    Set { kind: "balanced_vscmg", devices: 4 },
-    Set { kind: "sgcmg", devices: 1 },
-    Set { kind: "sgcmg", devices: 4 },
-    Set { kind: "balanced_sgcmg", devices: 1 },
-    Set { kind: "balanced_sgcmg", devices: 4 },
-    Set { kind: "reaction_wheel", devices: 1 },
-    Set { kind: "reaction_wheel", devices: 4 },
-    Set { kind: "balanced_reaction_wheel", devices: 1 },
-    Set { kind: "balanced_reaction_wheel", devices: 4 },
-    Set { kind: "hinged_panel", devices: 1 },
-    Set { kind: "hinged_panel", devices: 4 },
-    Set { kind: "slosh_mass", devices: 1 },
-    Set { kind: "slosh_mass", devices: 4 },
-];
+pub(super) fn sets() -> impl Iterator<Item = Set> {
+    KINDS.iter().flat_map(|kind| [1, 4].map(|devices| Set { kind: kind.name, devices }))
+}
 
-/// Columns of the table, behind the name.
+/// Columns of the table after the name.
 const COLUMNS: [&str; 6] = [
     "instructions of an evaluation",
     "instructions of a step",
@@ -81,7 +59,7 @@ impl Figures {
             let of_line = |line: &String| line.strip_prefix(name)?.strip_prefix(": ")?.parse().ok();
             counts.iter().find_map(of_line).ok_or_else(|| format!("no count of `{name}`"))
         };
-        let row = |Set { kind, devices }: &Set| {
+        let row = |Set { kind, devices }: Set| {
             let module = format!("{kind}_{devices}");
             let [evaluation, step] =
                 ["accelerations", "step"].map(|call| format!("precess_{module}_{call}"));
@@ -96,7 +74,7 @@ impl Figures {
             Ok((format!("{kind} {devices}"), columns))
         };
         Ok(Self {
-            rows: SETS.iter().map(row).collect::<Result<_, String>>()?,
+            rows: sets().map(row).collect::<Result<_, String>>()?,
             text: image.text,
             parts: [counted("sin_cos")?, counted("sqrt")?],
         })
@@ -127,7 +105,7 @@ pub(super) fn settle(
         "figures: none exceeds the committed one by more than 2 %",
         held(figures, &committed),
     );
-    // The same figures, each committed a tenth smaller, have to be refused.
+    // The same figures, each committed a tenth smaller, have to be rejected.
     let smaller = Figures {
         rows: figures
             .rows
@@ -174,7 +152,7 @@ fn held(figures: &Figures, committed: &str) -> Result<(), String> {
     Err(format!("beyond {PAGE}:{wrong}\nif that is meant, run `cargo xtask flight`"))
 }
 
-/// The numbers behind a name.
+/// The numbers after a name.
 fn committed_row(page: &str, name: &str) -> Option<Vec<u64>> {
     let start = format!("| `{name}` |");
     let row = page.lines().find_map(|line| line.strip_prefix(&start))?;
@@ -203,7 +181,7 @@ fn page(compiler: &str, figures: &Figures) -> String {
     text
 }
 
-/// What is asked of an evaluation, and whether it holds.
+/// The bounds on an evaluation, and whether they hold.
 fn bounds(figures: &Figures) -> String {
     let rows = BOUNDS.map(|(devices, bound)| {
         let now = figures.instructions(devices);
@@ -222,8 +200,8 @@ mod tests {
     use super::*;
 
     fn figures(number: u64) -> Figures {
-        let row = |Set { kind, devices }: &Set| (format!("{kind} {devices}"), [number; 6]);
-        Figures { rows: SETS.iter().map(row).collect(), text: number, parts: [1, 2] }
+        let row = |Set { kind, devices }: Set| (format!("{kind} {devices}"), [number; 6]);
+        Figures { rows: sets().map(row).collect(), text: number, parts: [1, 2] }
     }
 
     #[test]
@@ -231,8 +209,8 @@ mod tests {
         let committed = page("a compiler", &figures(10_000));
         assert_eq!(held(&figures(10_200), &committed), Ok(()));
         assert_eq!(held(&figures(5000), &committed), Ok(()));
-        let refused = held(&figures(10_201), &committed).unwrap_err();
-        assert!(refused.ends_with("run `cargo xtask flight`"), "{refused}");
+        let rejected = held(&figures(10_201), &committed).unwrap_err();
+        assert!(rejected.ends_with("run `cargo xtask flight`"), "{rejected}");
         assert!(held(&figures(1), "").is_err(), "nothing is committed");
     }
 

@@ -10,7 +10,7 @@ pub(super) enum Flow {
     Anywhere,
 }
 
-/// Every such instruction of some code; `at` is where it stands.
+/// Every such instruction of some code; `at` is its address.
 pub(super) fn flows(code: &[u8], at: u32) -> Vec<Flow> {
     let mut found = Vec::new();
     let halves: Vec<u16> =
@@ -61,7 +61,7 @@ fn of_two(first: u16, second: u16, pc: u32) -> Option<Flow> {
         return match low & 0xD000 {
             // BL and B.
             0xD000 | 0x9000 => far(),
-            // B, conditional; 111x in its place are other instructions.
+            // B, conditional; 111x there are other instructions.
             0x8000 if high >> 7 & 0b111 != 0b111 => {
                 let offset =
                     s << 20 | j2 << 19 | j1 << 18 | (high & 0x3F) << 12 | (low & 0x7FF) << 1;
@@ -86,7 +86,7 @@ fn signed(number: u32, bits: u32) -> u32 {
 mod tests {
     use super::*;
 
-    /// Encodings as an assembler gives them, at 0x1000.
+    /// Encodings as an assembler emits them, at 0x1000.
     #[test]
     fn branches_are_read_as_assembled() {
         let cases: [(&[u8], Flow); 8] = [

@@ -41,6 +41,6 @@ pub(super) fn compiler() -> Result<String, String> {
     let words: Vec<&str> = text.split_whitespace().take(2).collect();
     match words.as_slice() {
         [name, release] => Ok(format!("{name} {release}")),
-        _ => Err(format!("`{RUSTC} --version` tells no release: {text}")),
+        _ => Err(format!("`{RUSTC} --version` names no release: {text}")),
     }
 }

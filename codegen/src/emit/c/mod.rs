@@ -56,13 +56,13 @@ pub fn files() -> Result<Vec<EmittedFile>, EmitError> {
 /// When a statement or a name is none of C's.
 pub fn of_kind(kind: &'static Kind) -> Result<Vec<EmittedFile>, EmitError> {
     let graph = Graph::new();
-    let super::parts::Parts { mut records, functions } = parts(&Chain::new(&graph, kind));
+    let super::parts::Parts { mut records, functions, stated, inputs } =
+        parts(&Chain::new(&graph, kind));
     let bodies = functions.iter().map(|part| sections(kind, part));
     let bodies = bodies.collect::<Result<Vec<_>, _>>()?;
     for (part, body) in functions.iter().zip(&bodies).filter(|(part, _)| part.name == "prepare") {
         if let Some(own) = records.iter_mut().find(|own| **own == part.output) {
-            let body = body.iter().map(|(title, lines)| (title.as_str(), lines.clone()));
-            describe(own, body);
+            describe(own, body.iter().flat_map(|(_, lines)| lines.clone()), &stated);
         }
     }
     let written = functions.iter().zip(&bodies).map(|(part, body)| FunctionText {
@@ -73,7 +73,9 @@ pub fn of_kind(kind: &'static Kind) -> Result<Vec<EmittedFile>, EmitError> {
     let header = format!("precess_{}.h", kind.name);
     let mut context = Context::new();
     context.insert("source", kind.source);
-    context.insert("hash", &fnv1a64(&format!("{kind:?}")));
+    let template =
+        concat!(include_str!("templates/kind.h.tera"), include_str!("templates/kind.c.tera"));
+    context.insert("hash", &fnv1a64(&(inputs + template)));
     context.insert("title", &capital(kind.title));
     context.insert("symmetric", &symmetric(kind));
     context.insert("guard", &format!("PRECESS_{}_H", kind.name.to_uppercase()));

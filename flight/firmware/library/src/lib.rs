@@ -1,14 +1,14 @@
-//! Evaluate and step every kind, one device and four: the library whose size, stack and instructions
-//! `cargo xtask flight` measures.
+//! Evaluate and step every kind, one device and four: the library whose size, stack and
+//! instructions `cargo xtask flight` measures.
 //!
 //! Each module has a set of devices and two functions over it, exported as
 //! `precess_dgvscmg_4_accelerations` and `precess_dgvscmg_4_step`. They take Rust's types by
-//! reference and answer whether it could be done; what was found stands where the caller wants it.
+//! reference and return whether it succeeded; the result is written to the caller's memory.
 
 #![no_std]
 #![expect(
     improper_ctypes_definitions,
-    reason = "called from Rust alone; the name is what is exported, so that the gates find it"
+    reason = "called only from Rust; the name is what is exported, so that the gates find it"
 )]
 
 use precess_dynamics::{

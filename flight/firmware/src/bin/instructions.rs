@@ -1,7 +1,8 @@
-//! Counts the instructions of evaluations and steps on a Cortex-M, per kind, of one device and four.
+//! Counts the instructions of evaluations and steps on a Cortex-M, per kind, of one device and
+//! four.
 //!
-//! QEMU's `-icount shift=0` makes an instruction a nanosecond; SysTick counts at 25 MHz, a tick every
-//! 40 instructions. Costs hang on the set and on what the inputs ask for, not on the numbers: a free
+//! QEMU's `-icount shift=0` makes an instruction a nanosecond; SysTick counts at 25 MHz, a tick
+//! every 40 instructions. Costs depend on the set, modes and gravity, not on the numbers: a free
 //! hub, every motor driven, no gravity, as in the committed counts of the desktop.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]
@@ -36,7 +37,7 @@ enum Stop {
     Console,
     Parameters(ParameterError<f64>),
     Solve(SolveError<f64>),
-    Refused,
+    Rejected,
 }
 
 impl Display for Stop {
@@ -45,7 +46,7 @@ impl Display for Stop {
             Self::Console => write!(f, "the console took no more"),
             Self::Parameters(error) => write!(f, "{error}"),
             Self::Solve(error) => write!(f, "{error}"),
-            Self::Refused => write!(f, "a call was refused"),
+            Self::Rejected => write!(f, "a call was rejected"),
         }
     }
 }
@@ -161,7 +162,7 @@ impl Counts<'_> {
         }
         let ticks = timer.ticks();
         if !done {
-            return Err(Stop::Refused);
+            return Err(Stop::Rejected);
         }
         self.lines += 1;
         // To the nearest.
@@ -169,7 +170,7 @@ impl Counts<'_> {
     }
 }
 
-/// General motion: nothing is zero, no gimbal stands where it loses its inertia.
+/// General motion: nothing is zero, no gimbal is in a pose in which it has no inertia.
 fn moving<D: FixedSet<Scalar = f64>>(state: &mut State<D>, inputs: &mut Inputs<D>) {
     let random = &mut Random::new(0x1AC_17C1);
     let mut number = |size: f64| random.within(0.5 * size, size);

@@ -1,10 +1,11 @@
-//! An application in the shape flight software has: initialised once, woken up in turn, telling its
+//! An application in the shape flight software has: initialised once, woken up in turn, sending its
 //! health.
 //!
-//! Three imbalanced reaction wheels hold a small spacecraft's attitude. Each wake-up is a tenth of a
-//! second: the controller reads the state and sets the motors, the model makes a hundred sub-steps,
-//! and once a second a line of housekeeping goes out with what the books leave unexplained. Nothing is
-//! allocated; what the application knows stands in one structure, which its caller owns.
+//! Three imbalanced reaction wheels hold a small spacecraft's attitude. Each wake-up is a tenth of
+//! a second: the controller reads the state and sets the motors, the model makes a hundred
+//! sub-steps, and once a second a line of housekeeping goes out with the residuals of energy and
+//! momentum. Nothing is allocated; the data of the application are in one structure, which its
+//! caller owns.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
@@ -27,7 +28,8 @@ type Wheels = [ReactionWheel; 3];
 const WAKE_UPS: u32 = 100;
 const PER_SECOND: u32 = 10;
 
-/// Steps of the model per wake-up, and their length in seconds: a wheel at 1500 rpm turns by 0.16 rad.
+/// Steps of the model per wake-up, and their length in seconds: a wheel at 1500 rpm turns by 0.16
+/// rad.
 const SUB_STEPS: u32 = 100;
 const STEP: f64 = 1e-3;
 
@@ -78,9 +80,9 @@ impl App {
         let sheet = Imbalance { u_s: from_g_cm(0.5), u_d: from_g_cm2(5.0), phase: 0.3 };
         let wheel = ReactionWheel::bare_wheel(2.0, disc).with_imbalance(&sheet)?;
         let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let along = |axes: [Vector3<f64>; 3], place: Vector3<f64>| ReactionWheel {
+        let along = |axes: [Vector3<f64>; 3], position: Vector3<f64>| ReactionWheel {
             mount: Matrix3::from_columns(&axes),
-            r_w_b: place * 0.2,
+            r_w_b: position * 0.2,
             ..wheel
         };
         let wheels = [along([x, y, z], x), along([y, z, x], y), along([z, x, y], z)];
@@ -98,8 +100,8 @@ impl App {
     fn wake_up(&mut self) -> Result<(), Fault> {
         let q = &self.state.attitude;
         let turned = Vector3::new(q.q1, q.q2, q.q3) * (2.0 * q.q0.signum());
-        let asked = turned * STIFFNESS + self.state.omega * DAMPING;
-        for (motor, torque) in self.inputs.motors.iter_mut().zip(asked.iter()) {
+        let torque = turned * STIFFNESS + self.state.omega * DAMPING;
+        for (motor, torque) in self.inputs.motors.iter_mut().zip(torque.iter()) {
             // A motor's torque on its wheel is the reverse on the hub.
             motor.u_w = torque.clamp(-LARGEST_TORQUE, LARGEST_TORQUE);
         }
@@ -140,7 +142,7 @@ struct Telemetry {
 }
 
 impl Telemetry {
-    /// The model is in order as long as the books are.
+    /// The model is valid while the residuals are within their bounds.
     fn check(&self) -> Result<(), Fault> {
         for (what, value) in [("energy", self.energy), ("momentum", self.momentum)] {
             // NaN is no drift within bounds either.

@@ -1,4 +1,5 @@
-//! Cortex-M with a floating point unit: vectors, the unit switched on, semihosting, the SysTick timer.
+//! Cortex-M with a floating point unit: vectors, the unit switched on, semihosting, the SysTick
+//! timer.
 
 use core::arch::{asm, global_asm};
 use core::fmt::{self, Write};
@@ -63,7 +64,8 @@ pub fn exit(success: bool) -> ! {
 /// # Safety
 /// The argument points to what the operation reads.
 unsafe fn semihosting(operation: usize, argument: *const u8) {
-    // SAFETY: the debugger reads behind the argument, as the caller grants, and answers in r0.
+    // SAFETY: the debugger reads what the argument points to, as the caller grants, and returns in
+    // r0.
     unsafe {
         asm!("bkpt 0xab", inout("r0") operation => _, in("r1") argument, options(nostack));
     }

@@ -53,7 +53,7 @@ global_asm!(
     "call rust_main",
     "nop",
     "fatal:",
-    // A trap within a trap stops the emulation; what is missing in the output tells.
+    // A trap within a trap stops the emulation; the missing output shows it.
     "rd %psr, %g1",
     "andn %g1, 0x20, %g1",
     "wr %g1, 0, %psr",
@@ -120,8 +120,8 @@ pub struct Console;
 impl Write for Console {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         for byte in text.bytes() {
-            // SAFETY: the registers stand there on this board; 2 enables the transmitter, and the
-            // emulated UART is always ready.
+            // SAFETY: the registers have these addresses on this board; 2 enables the transmitter,
+            // and the emulated UART is always ready.
             unsafe {
                 UART[1].write_volatile(2);
                 UART[0].write_volatile(u32::from(byte));
@@ -131,7 +131,7 @@ impl Write for Console {
     }
 }
 
-/// Ends the program. The emulation has no status: what was printed has to tell.
+/// Ends the program. The emulation has no status: the printed lines have to show it.
 pub fn exit(_success: bool) -> ! {
     loop {
         // SAFETY: with traps disabled a trap stops the processor, and with it the emulation.

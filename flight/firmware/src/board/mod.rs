@@ -1,6 +1,7 @@
 //! The boards: how a program starts, prints and ends on each, in one small file per architecture.
 //!
-//! All of them are what QEMU emulates; a real board needs its own console and its own linker script.
+//! All of them are what QEMU emulates; a real board needs its own console and its own linker
+//! script.
 
 #[cfg(all(target_os = "none", target_arch = "arm"))]
 #[path = "cortex_m.rs"]
@@ -17,7 +18,8 @@ mod machine;
 
 pub use machine::*;
 
-/// Makes a function the program: `fn(&mut dyn Write, Options) -> Result<(), E>`, `E` with a message.
+/// Makes a function the program: `fn(&mut dyn Write, Options) -> Result<(), E>`, `E` with a
+/// message.
 #[macro_export]
 macro_rules! program {
     ($main:path) => {
@@ -49,7 +51,7 @@ macro_rules! program {
     };
 }
 
-/// What a program is asked for beyond its usual run; a board asks for nothing.
+/// What a program does beyond its usual run; on a board nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// One number off by one unit in its last place, which a comparison has to find.
@@ -71,12 +73,12 @@ impl Options {
     }
 }
 
-/// A panic is told and ends the program without success: none passes in silence.
+/// A panic is printed and ends the program without success.
 #[cfg(target_os = "none")]
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
     use core::fmt::Write;
-    // The console is what tells; where it fails, the status is left.
+    // The console shows it; if that fails, the exit status does.
     let _ = writeln!(Console, "{info}");
     exit(false)
 }

@@ -37,7 +37,8 @@ pub struct Console;
 impl Write for Console {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         for byte in text.bytes() {
-            // SAFETY: the register stands there on this board; the emulated UART is always ready.
+            // SAFETY: the register has this address on this board; the emulated UART is always
+            // ready.
             unsafe { UART.write_volatile(byte) };
         }
         Ok(())
@@ -48,7 +49,7 @@ impl Write for Console {
 pub fn exit(success: bool) -> ! {
     let word = if success { 0x5555 } else { 0x1_3333 };
     loop {
-        // SAFETY: the register stands there on this board.
+        // SAFETY: the register has this address on this board.
         unsafe { TEST.write_volatile(word) };
     }
 }

@@ -1,6 +1,6 @@
 //! Deliberately bad libraries, one per feature: what the gates of `cargo xtask flight` must catch.
 //!
-//! Without a feature it is a good one: its export does what the bad ones do wrongly.
+//! Without a feature it is valid: its export does correctly what the bad ones do wrongly.
 
 #![no_std]
 

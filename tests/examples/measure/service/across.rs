@@ -7,7 +7,7 @@ use precess_dynamics::{Dgvscmg, Inputs, State};
 use precess_tests::stored::Stored;
 
 use super::one::{NUDGE, flat};
-use super::{Refused, Service};
+use super::{Rejected, Service};
 
 /// A spacecraft in a state.
 pub(crate) struct Across<const N: usize> {
@@ -17,7 +17,7 @@ pub(crate) struct Across<const N: usize> {
 }
 
 impl<const N: usize> Across<N> {
-    pub(super) fn open(stored: &Stored, devices: &[Dgvscmg; N]) -> Result<Self, Refused> {
+    pub(super) fn open(stored: &Stored, devices: &[Dgvscmg; N]) -> Result<Self, Rejected> {
         let craft = AcrossDevices::new(&stored.hub(), devices)?;
         let state = stored.motion(State::at_rest_for(craft.spacecraft()));
         let inputs = stored.forces(Inputs::none_for(craft.spacecraft()));
@@ -26,11 +26,11 @@ impl<const N: usize> Across<N> {
 }
 
 impl<const N: usize> Service for Across<N> {
-    fn accelerations(&mut self) -> Result<Vec<f64>, Refused> {
+    fn accelerations(&mut self) -> Result<Vec<f64>, Rejected> {
         Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
     }
 
-    fn run(&mut self, calls: u32) -> Result<(), Refused> {
+    fn run(&mut self, calls: u32) -> Result<(), Rejected> {
         for _ in 0..calls {
             let found = self.craft.accelerations(black_box(&self.state), &self.inputs)?;
             self.state.omega += black_box(&found).omega_dot * NUDGE;

@@ -1,5 +1,5 @@
-//! Many states of one spacecraft in lanes: evaluations, and whole runs. Putting the states into lanes
-//! and taking the results out counts.
+//! Many states of one spacecraft in lanes: evaluations, and whole runs. Putting the states into
+//! lanes and taking the results out counts.
 
 use std::hint::black_box;
 
@@ -8,7 +8,7 @@ use precess_dynamics::{Inputs, State};
 use precess_tests::stored::Stored;
 
 use super::one::{NUDGE, flat};
-use super::{Refused, Service};
+use super::{Rejected, Service};
 
 /// States in a call: enough that starting costs nothing, and their data stay in the first cache.
 const STATES: usize = 64;
@@ -31,7 +31,7 @@ pub(crate) struct Many<D: LanedSet> {
 }
 
 impl<D: LanedSet> Many<D> {
-    pub(super) fn open(stored: &Stored, devices: &D) -> Result<Self, Refused> {
+    pub(super) fn open(stored: &Stored, devices: &D) -> Result<Self, Rejected> {
         let craft = Batch::new(&stored.hub(), devices)?.fused();
         let mut state = stored.motion(State::at_rest_for(craft.spacecraft()));
         let inputs = stored.forces(Inputs::none_for(craft.spacecraft()));
@@ -48,14 +48,14 @@ impl<D: LanedSet> Many<D> {
 pub(crate) struct Evaluated<D: LanedSet>(pub(super) Many<D>);
 
 impl<D: LanedSet> Service for Evaluated<D> {
-    fn accelerations(&mut self) -> Result<Vec<f64>, Refused> {
+    fn accelerations(&mut self) -> Result<Vec<f64>, Rejected> {
         let Many { craft, states, inputs } = &self.0;
         let mut found = Vec::new();
         craft.accelerations(states, inputs, &mut found)?;
         Ok(flat(&found.into_iter().next().ok_or("no state")??))
     }
 
-    fn run(&mut self, calls: u32) -> Result<(), Refused> {
+    fn run(&mut self, calls: u32) -> Result<(), Rejected> {
         let Many { craft, states, inputs } = &mut self.0;
         let mut found = Vec::with_capacity(STATES);
         for _ in 0..calls {
@@ -78,14 +78,14 @@ pub(crate) struct Runs<D: LanedSet>(pub(super) Many<D>);
 
 impl<D: LanedSet> Service for Runs<D> {
     /// Those that the runs are made of.
-    fn accelerations(&mut self) -> Result<Vec<f64>, Refused> {
+    fn accelerations(&mut self) -> Result<Vec<f64>, Rejected> {
         let Many { craft, states, inputs } = &self.0;
         let mut found = Vec::new();
         craft.accelerations(states, inputs, &mut found)?;
         Ok(flat(&found.into_iter().next().ok_or("no state")??))
     }
 
-    fn run(&mut self, calls: u32) -> Result<(), Refused> {
+    fn run(&mut self, calls: u32) -> Result<(), Rejected> {
         let Many { craft, states, inputs } = &self.0;
         let (mut states, mut found) = (states.clone(), Vec::with_capacity(STATES));
         for _ in 0..calls {

@@ -1,4 +1,4 @@
-//! The services: ways of asking the solver for accelerations.
+//! The services: calls of the solver that compute accelerations.
 
 mod across;
 mod batch;
@@ -13,7 +13,7 @@ use precess_tests::stored::Stored;
 use serde_json::json;
 
 /// What a service could not do.
-pub(crate) type Refused = Box<dyn Error>;
+pub(crate) type Rejected = Box<dyn Error>;
 
 /// The row of the issue floor that bounds fused lanes.
 const WIDEST: &str = "8 lanes, fused";
@@ -21,10 +21,10 @@ const WIDEST: &str = "8 lanes, fused";
 /// A spacecraft opened for one of the services.
 pub(crate) trait Service {
     /// All accelerations in the state of the file: of the hub, then joint by joint.
-    fn accelerations(&mut self) -> Result<Vec<f64>, Refused>;
+    fn accelerations(&mut self) -> Result<Vec<f64>, Rejected>;
     /// Makes so many calls, none of which can be computed before the one before it is done, or
     /// without being made.
-    fn run(&mut self, calls: u32) -> Result<(), Refused>;
+    fn run(&mut self, calls: u32) -> Result<(), Rejected>;
     /// Evaluations in a call.
     fn evaluations(&self) -> u32;
 }
@@ -49,7 +49,7 @@ pub(crate) enum Name {
 impl Name {
     /// Name, title, whether its accelerations are its own, to be checked, and the row of the issue
     /// floor that bounds it.
-    pub(crate) fn told(self) -> serde_json::Value {
+    pub(crate) fn description(self) -> serde_json::Value {
         let (name, title, checked, floor) = match self {
             Self::One => ("one", "Precess, one state", true, "f64"),
             Self::Fused => ("fused", "Precess, one state, fused", true, "fused f64"),
@@ -64,7 +64,7 @@ impl Name {
 
 /// Opens the spacecraft: as an array where its length is a power of two up to 256, as a vector
 /// otherwise.
-pub(crate) fn open(name: Name, stored: &Stored) -> Result<Box<dyn Service>, Refused> {
+pub(crate) fn open(name: Name, stored: &Stored) -> Result<Box<dyn Service>, Rejected> {
     macro_rules! arrays {
         ($($n:literal)*) => {
             match stored.devices.len() {
@@ -76,14 +76,14 @@ pub(crate) fn open(name: Name, stored: &Stored) -> Result<Box<dyn Service>, Refu
     arrays!(1 2 4 8 16 32 64 128 256)
 }
 
-/// The hub alone, one evaluation after another.
-pub(crate) fn open_hub(stored: &Stored) -> Result<Box<dyn Service>, Refused> {
+/// Only the hub, one evaluation after another.
+pub(crate) fn open_hub(stored: &Stored) -> Result<Box<dyn Service>, Rejected> {
     let bare: [Dgvscmg; 0] = [];
     Ok(Box::new(one::One::open(stored, &bare)?))
 }
 
 /// The devices as an array.
-fn array<const N: usize>(stored: &Stored) -> Result<[Dgvscmg; N], Refused> {
+fn array<const N: usize>(stored: &Stored) -> Result<[Dgvscmg; N], Rejected> {
     let devices: Vec<_> = stored.dgvscmgs().collect();
     let found = devices.len();
     devices.try_into().map_err(|_| format!("{found} devices, not {N}").into())
@@ -93,7 +93,7 @@ fn of_array<const N: usize>(
     name: Name,
     stored: &Stored,
     devices: &[Dgvscmg; N],
-) -> Result<Box<dyn Service>, Refused> {
+) -> Result<Box<dyn Service>, Rejected> {
     let many = || batch::Many::open(stored, devices);
     Ok(match name {
         Name::Across => Box::new(across::Across::open(stored, devices)?),
@@ -107,7 +107,7 @@ fn of<D: Devices<Scalar = f64> + 'static>(
     name: Name,
     stored: &Stored,
     devices: &D,
-) -> Result<Box<dyn Service>, Refused> {
+) -> Result<Box<dyn Service>, Rejected> {
     Ok(match name {
         Name::One => Box::new(one::One::open(stored, devices)?),
         Name::Fused => Box::new(one::One::open_fused(stored, devices)?),

@@ -6,7 +6,7 @@ use precess_dynamics::kind::Each;
 use precess_dynamics::{Accelerations, Devices, Inputs, Spacecraft, State};
 use precess_tests::stored::Stored;
 
-use super::{Refused, Service};
+use super::{Rejected, Service};
 
 /// By what share of its derivative the angular velocity of a call exceeds that of the one before:
 /// enough to make each call wait for the last, not enough to move the state.
@@ -20,12 +20,12 @@ pub(crate) struct One<D: Devices> {
 }
 
 impl<D: Devices<Scalar = f64>> One<D> {
-    pub(super) fn open(stored: &Stored, devices: &D) -> Result<Self, Refused> {
+    pub(super) fn open(stored: &Stored, devices: &D) -> Result<Self, Rejected> {
         Ok(Self::of(stored, Spacecraft::new(&stored.hub(), devices)?))
     }
 
     /// The same, products and sums rounded once.
-    pub(super) fn open_fused(stored: &Stored, devices: &D) -> Result<Self, Refused> {
+    pub(super) fn open_fused(stored: &Stored, devices: &D) -> Result<Self, Rejected> {
         Ok(Self::of(stored, Spacecraft::new(&stored.hub(), devices)?.fused()))
     }
 
@@ -37,11 +37,11 @@ impl<D: Devices<Scalar = f64>> One<D> {
 }
 
 impl<D: Devices<Scalar = f64>> Service for One<D> {
-    fn accelerations(&mut self) -> Result<Vec<f64>, Refused> {
+    fn accelerations(&mut self) -> Result<Vec<f64>, Rejected> {
         Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
     }
 
-    fn run(&mut self, calls: u32) -> Result<(), Refused> {
+    fn run(&mut self, calls: u32) -> Result<(), Rejected> {
         for _ in 0..calls {
             let found = self.craft.accelerations(black_box(&self.state), &self.inputs)?;
             self.state.omega += black_box(&found).omega_dot * NUDGE;

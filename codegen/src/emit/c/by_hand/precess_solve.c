@@ -56,18 +56,19 @@ void precess_body_of_hub(
     out->inertia[5] = i_b_bc[5] + (m[0] * r[0] + m[1] * r[1]);
 }
 
-void precess_body_take_over(struct precess_body *body, const struct precess_handed *handed)
+void precess_body_add_constant_share(struct precess_body *body,
+                                     const struct precess_constant_share *share)
 {
-    body->mass += handed->hand_m;
-    body->first_moment[0] += handed->hand_mr_bx;
-    body->first_moment[1] += handed->hand_mr_by;
-    body->first_moment[2] += handed->hand_mr_bz;
-    body->inertia[0] += handed->hand_i_11;
-    body->inertia[1] += handed->hand_i_12;
-    body->inertia[2] += handed->hand_i_13;
-    body->inertia[3] += handed->hand_i_22;
-    body->inertia[4] += handed->hand_i_23;
-    body->inertia[5] += handed->hand_i_33;
+    body->mass += share->constant_m;
+    body->first_moment[0] += share->constant_mr_bx;
+    body->first_moment[1] += share->constant_mr_by;
+    body->first_moment[2] += share->constant_mr_bz;
+    body->inertia[0] += share->constant_i_11;
+    body->inertia[1] += share->constant_i_12;
+    body->inertia[2] += share->constant_i_13;
+    body->inertia[3] += share->constant_i_22;
+    body->inertia[4] += share->constant_i_23;
+    body->inertia[5] += share->constant_i_33;
 }
 
 void precess_assembly_start(

@@ -75,9 +75,10 @@ void precess_body_of_hub(
     double mass, const double r_bc_b[3], const double i_b_bc[6], struct precess_body *out);
 
 /**
- * Adds what the hub takes over of a device. Once, in the order of the devices.
+ * Adds the constant share of a device. Once, in the order of the devices.
  */
-void precess_body_take_over(struct precess_body *body, const struct precess_handed *handed);
+void precess_body_add_constant_share(struct precess_body *body,
+                                     const struct precess_constant_share *share);
 
 /**
  * Starts an evaluation: force through B, N, and torque about B, N m, from outside.

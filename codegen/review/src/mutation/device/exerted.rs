@@ -1,0 +1,205 @@
+//! The functions beside the equations of motion: `axes`, `loads`, `external`, `gravity`.
+
+use std::rc::Rc;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::seen::unit;
+use super::{Device, Fault};
+use crate::mutation::state::{Accelerations, Case, Motion, Wrench};
+use crate::mutation::tape::Returned;
+use precess_codegen::derivation::external::acting;
+use precess_codegen::derivation::gravity::gradient;
+use precess_codegen::kinds;
+
+/// Where a body stands, along B.
+pub(in crate::mutation) struct Stand {
+    /// Its axes, as columns.
+    pub(in crate::mutation) axes: Matrix3<f64>,
+    /// Origin of its joint.
+    pub(in crate::mutation) origin: Vector3<f64>,
+}
+
+/// Wrenches at the joints, along B, each about its joint's origin; and about B.
+pub(in crate::mutation) struct Carried {
+    pub(in crate::mutation) joints: Vec<Wrench>,
+    pub(in crate::mutation) whole: Wrench,
+    /// Along each joint.
+    pub(in crate::mutation) drives: Vec<f64>,
+}
+
+/// What a field does.
+pub(in crate::mutation) struct Pulled {
+    /// On each body, along B, about its joint's origin.
+    pub(in crate::mutation) bodies: Vec<Wrench>,
+    pub(in crate::mutation) second_moment: Matrix3<f64>,
+}
+
+impl Device<'_, '_> {
+    /// `axes`.
+    pub(in crate::mutation) fn stands(
+        &self,
+        case: &Case,
+        motion: &Motion,
+        fault: &Fault,
+    ) -> Rc<[Stand]> {
+        let function = self.functions.axes;
+        fault.answer(
+            |known| &known.stands,
+            &[function],
+            case,
+            motion,
+            || {
+                let returned = self.call(function, &self.arguments(case, motion), fault);
+                let stand = |link: &kinds::Link| {
+                    let frame = link.body.frame;
+                    let column = |axis: &str| returned.vector(&format!("{frame}_{axis}"), "b");
+                    Stand {
+                        axes: Matrix3::from_columns(&["x", "y", "z"].map(column)),
+                        origin: returned.vector(&format!("origin_{frame}"), "b"),
+                    }
+                };
+                self.chain.kind.links.iter().map(stand).collect()
+            },
+        )
+    }
+
+    /// Axes and origins: the geometry itself, which no fault changes.
+    pub(in crate::mutation) fn geometry(
+        &self,
+        case: &Case,
+        motion: &Motion,
+        fault: &Fault,
+    ) -> Rc<[Stand]> {
+        fault.answer(|known| &known.geometry, &[], case, motion, || self.stood(case, motion))
+    }
+
+    fn stood(&self, case: &Case, motion: &Motion) -> Rc<[Stand]> {
+        let mut origin = Vector3::zeros();
+        let stand = |(k, link): (usize, &kinds::Link)| {
+            let rest =
+                Vector3::from(link.joint.origin.names.map(|name| self.parameter(case, name)));
+            let slide = match link.joint.motion {
+                kinds::Motion::Turn(_) => Vector3::zeros(),
+                kinds::Motion::Slide(axis) => motion.coordinates[k] * unit(axis),
+            };
+            origin += self.axes(k, motion) * (rest + slide);
+            Stand { axes: self.axes(k + 1, motion), origin }
+        };
+        self.chain.kind.links.iter().enumerate().map(stand).collect()
+    }
+
+    /// Centre of mass of body `k` from its joint's origin, along own axes: given.
+    pub(in crate::mutation) fn centre(&self, k: usize, case: &Case) -> Vector3<f64> {
+        match self.chain.kind.links[k].body.centre {
+            kinds::Centre::Free(triple) => {
+                Vector3::from(triple.names.map(|name| self.parameter(case, name)))
+            }
+            kinds::Centre::On(axis, name) => self.parameter(case, name) * unit(axis),
+            kinds::Centre::At => Vector3::zeros(),
+        }
+    }
+
+    /// `loads`.
+    pub(in crate::mutation) fn loads(
+        &self,
+        case: &Case,
+        any: &Accelerations,
+        fault: &Fault,
+    ) -> Rc<Carried> {
+        let find = || Rc::new(self.loaded(case, any, fault));
+        fault.answer(|known| &known.loads, &[self.functions.loads], case, &case.motion, find)
+    }
+
+    fn loaded(&self, case: &Case, any: &Accelerations, fault: &Fault) -> Carried {
+        let mut values = self.arguments(case, &case.motion);
+        let hub = &self.chain.hub;
+        values.set_vector(hub.r_b_n_ddot.components(), any.point);
+        values.set_vector(hub.omega_dot.components(), any.omega);
+        for (link, acceleration) in self.chain.links.iter().zip(&any.joints) {
+            values.set(link.acceleration, *acceleration);
+        }
+        let returned = self.call(self.functions.loads, &values, fault);
+        let along = |link: &kinds::Link| {
+            let own = wrench(&returned, "load", link.body.frame);
+            let axis: Vector3<f64> = unit(link.joint.motion.axis());
+            match link.joint.motion {
+                kinds::Motion::Turn(_) => axis.dot(&own.moment),
+                kinds::Motion::Slide(_) => axis.dot(&own.force),
+            }
+        };
+        let drives = self.chain.kind.links.iter().map(along).collect();
+        self.carried(&returned, "load", &case.motion, drives)
+    }
+
+    /// `external`.
+    pub(in crate::mutation) fn external(
+        &self,
+        case: &Case,
+        on_bodies: &[Wrench],
+        fault: &Fault,
+    ) -> Rc<Carried> {
+        let find = || Rc::new(self.received(case, on_bodies, fault));
+        fault.answer(|known| &known.external, &[self.functions.external], case, &case.motion, find)
+    }
+
+    fn received(&self, case: &Case, on_bodies: &[Wrench], fault: &Fault) -> Carried {
+        let mut values = self.arguments(case, &case.motion);
+        for (symbols, own) in acting(self.chain).iter().zip(on_bodies) {
+            values.set_vector(symbols.force.components(), own.force);
+            values.set_vector(symbols.moment.components(), own.moment);
+        }
+        let returned = self.call(self.functions.external, &values, fault);
+        let tags = self.chain.kind.links.iter().map(|link| link.joint.tag);
+        let drives = tags.map(|tag| returned.scalar(&format!("drive_{tag}"))).collect();
+        self.carried(&returned, "sum", &case.motion, drives)
+    }
+
+    /// `gravity`.
+    pub(in crate::mutation) fn gravity(
+        &self,
+        case: &Case,
+        motion: &Motion,
+        field: &Matrix3<f64>,
+        fault: &Fault,
+    ) -> Rc<Pulled> {
+        let find = || Rc::new(self.pulled(case, motion, field, fault));
+        fault.answer(|known| &known.pulled, &[self.functions.gravity], case, motion, find)
+    }
+
+    fn pulled(&self, case: &Case, motion: &Motion, field: &Matrix3<f64>, fault: &Fault) -> Pulled {
+        let mut values = self.arguments(case, motion);
+        let g = gradient(self.chain.graph);
+        for row in 0..3 {
+            for column in 0..3 {
+                values.set(g.at(row, column), field[(row, column)]);
+            }
+        }
+        let returned = self.call(self.functions.gravity, &values, fault);
+        let links = self.chain.kind.links.iter().enumerate();
+        let on = |(k, link): (usize, &kinds::Link)| {
+            wrench(&returned, "on", link.body.frame).turned(&self.axes(k + 1, motion))
+        };
+        Pulled { bodies: links.map(on).collect(), second_moment: returned.tensor("second_moment") }
+    }
+
+    /// The wrenches of a returned record, along B.
+    fn carried(
+        &self,
+        returned: &Returned<'_>,
+        what: &str,
+        motion: &Motion,
+        drives: Vec<f64>,
+    ) -> Carried {
+        let links = self.chain.kind.links.iter().enumerate();
+        let at = |(k, link): (usize, &kinds::Link)| {
+            wrench(returned, what, link.body.frame).turned(&self.axes(k + 1, motion))
+        };
+        Carried { joints: links.map(at).collect(), whole: wrench(returned, what, "b"), drives }
+    }
+}
+
+fn wrench(returned: &Returned<'_>, what: &str, frame: &str) -> Wrench {
+    let vector = |letter: char| returned.vector(&format!("{letter}_{what}"), frame);
+    Wrench { force: vector('f'), moment: vector('n') }
+}

@@ -1,0 +1,192 @@
+//! What an emitted function computes, statement by statement, and nothing that is not returned.
+
+use std::collections::{HashMap, HashSet};
+
+use precess_codegen::derivation::script::{Section, Statement};
+use precess_codegen::graph::{Expr, Graph, Node, NodeId, Stage};
+use precess_codegen::kernel::{Claim, Field, Record, Source};
+
+/// One named value of one emitted function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Computed {
+    /// The function.
+    pub kernel: String,
+    /// The emitted name.
+    pub name: String,
+    /// The paper's number, or those that its heading cites: `(14)`, `(49)-(52)`, `(17), (78)`.
+    pub tag: Option<String>,
+}
+
+/// One emitted function.
+pub(super) struct Listing<'g> {
+    /// Its name.
+    pub(super) name: String,
+    /// Statements in order.
+    pub(super) lines: Vec<Line<'g>>,
+    /// Returned field and the name of its value.
+    pub(super) fields: Vec<(String, String)>,
+    /// The latest stage among the symbols of each node.
+    pub(super) stages: HashMap<NodeId, Stage>,
+}
+
+/// One statement, with the nodes that are computed there for the first time.
+pub(super) struct Line<'g> {
+    /// Heading it stands under.
+    pub(super) section: String,
+    /// Emitted name.
+    pub(super) name: String,
+    /// The paper's number, or those that the heading cites.
+    pub(super) tag: Option<String>,
+    /// Its value.
+    pub(super) value: Expr<'g>,
+    /// The symbol that stands for it afterwards.
+    pub(super) cut: Option<Expr<'g>>,
+    /// Operands before their users.
+    pub(super) nodes: Vec<NodeId>,
+}
+
+impl<'g> Listing<'g> {
+    /// The function that computes `output` by these sections.
+    pub(super) fn new(
+        graph: &'g Graph,
+        name: &str,
+        sections: &[Section<'g>],
+        output: &Record,
+        claims: &[Claim<'g>],
+    ) -> Self {
+        let mut fields = Vec::new();
+        flatten(output, &mut fields);
+        let needed = needed(graph, sections, &fields);
+        let (mut lines, mut placed) = (Vec::new(), HashSet::new());
+        let mut stages = HashMap::new();
+        for section in sections {
+            for statement in &section.statements {
+                if !needed.statement(graph, statement) {
+                    continue;
+                }
+                let reachable = graph.reachable([statement.value.id()]);
+                let new = |id: &NodeId| needed.nodes.contains(id) && placed.insert(*id);
+                let nodes: Vec<_> = reachable.into_iter().filter(new).collect();
+                for id in &nodes {
+                    let stage = stage(graph, *id, &stages);
+                    stages.insert(*id, stage);
+                }
+                lines.push(Line {
+                    section: section.title.clone(),
+                    name: statement.name.clone(),
+                    tag: tag(&statement.name, &section.title, claims),
+                    value: statement.value,
+                    cut: statement.cut,
+                    nodes,
+                });
+            }
+        }
+        Self { name: name.to_owned(), lines, fields, stages }
+    }
+
+    /// What is computed or returned here. `hoisted` is this function of what depends on parameters
+    /// alone; elsewhere such a value is read, not computed.
+    pub(super) fn computed(&self, hoisted: bool) -> impl Iterator<Item = Computed> {
+        let own = move |line: &&Line<'g>| {
+            let returned = || self.fields.iter().any(|(_, source)| *source == line.name);
+            (line.value.stage() == Stage::Parameter) == hoisted || returned()
+        };
+        self.lines.iter().filter(own).map(|line| Computed {
+            kernel: self.name.clone(),
+            name: line.name.clone(),
+            tag: line.tag.clone(),
+        })
+    }
+}
+
+/// Nodes that the returned values are made of, through the cuts, and the names returned.
+struct Needed {
+    returned: HashSet<String>,
+    nodes: HashSet<NodeId>,
+}
+
+impl Needed {
+    /// Whether a statement is written: something is made of it, or it names what is computed.
+    fn statement(&self, graph: &Graph, statement: &Statement<'_>) -> bool {
+        let opposite = |id| match graph.node(id) {
+            Node::Neg(inner) => self.nodes.contains(&inner),
+            _ => false,
+        };
+        let id = statement.value.id();
+        match statement.cut {
+            Some(symbol) => {
+                self.returned.contains(&statement.name) || self.nodes.contains(&symbol.id())
+            }
+            None => {
+                self.returned.contains(&statement.name) || self.nodes.contains(&id) || opposite(id)
+            }
+        }
+    }
+}
+
+fn needed(graph: &Graph, sections: &[Section<'_>], fields: &[(String, String)]) -> Needed {
+    let returned: HashSet<String> = fields.iter().map(|(_, source)| source.clone()).collect();
+    let mut nodes = HashSet::new();
+    // Backwards: a statement comes before whatever uses the symbol it was cut at.
+    for statement in sections.iter().flat_map(|section| &section.statements).rev() {
+        let used = statement.cut.is_some_and(|symbol| nodes.contains(&symbol.id()));
+        if used || returned.contains(&statement.name) {
+            nodes.extend(graph.reachable([statement.value.id()]));
+        }
+    }
+    Needed { returned, nodes }
+}
+
+fn flatten(record: &Record, into: &mut Vec<(String, String)>) {
+    for Field { name, source, .. } in &record.fields {
+        match source {
+            Source::Own => into.push((name.clone(), name.clone())),
+            Source::Named(value) => into.push((name.clone(), value.clone())),
+            Source::Nested(inner) => flatten(inner, into),
+        }
+    }
+}
+
+fn stage(graph: &Graph, id: NodeId, known: &HashMap<NodeId, Stage>) -> Stage {
+    match graph.node(id) {
+        Node::Symbol(symbol) => graph.symbol_info(symbol).stage,
+        node => {
+            let stages = node.operands().filter_map(|operand| known.get(&operand).copied());
+            stages.max().unwrap_or(Stage::Parameter)
+        }
+    }
+}
+
+/// The numbers that claims give the name, else what its heading cites.
+fn tag(name: &str, title: &str, claims: &[Claim<'_>]) -> Option<String> {
+    let own = claims.iter().filter(|claim| claim.components.iter().any(|(own, _)| own == name));
+    let mut tags: Vec<_> = own.map(|claim| claim.tag.as_str()).collect();
+    tags.dedup();
+    if tags.is_empty() { cited(title) } else { Some(tags.join(", ")) }
+}
+
+/// The equations that a heading cites: `(14)`, `(49)-(52)`, or several, `(17), (78)`.
+fn cited(title: &str) -> Option<String> {
+    let (_, cited) = title.split_once("eq. ").or_else(|| title.split_once("eqs. "))?;
+    let cited = cited.split(':').next()?;
+    let parts = cited.split(", ").take_while(|part| part.starts_with('('));
+    let numbers: Vec<_> = parts.filter_map(|part| part.split([' ', '.']).next()).collect();
+    (!numbers.is_empty()).then(|| numbers.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headings_cite_one_equation_or_several_or_none() {
+        assert_eq!(cited("Products and sums of parameters that occur more deeply."), None);
+        assert_eq!(cited("As in eq. five, m."), None);
+        let cited = |title| cited(title).unwrap();
+        assert_eq!(cited("Joint w taken out of the rows nearer the hub, eq. (D11)."), "(D11)");
+        assert_eq!(cited("[I]′, eq. (49)-(52), along the axes, kg m²/s."), "(49)-(52)");
+        assert_eq!(cited("About B: first moment, eq. (9), kg m, and inertia, eq. (76)."), "(9)");
+        assert_eq!(cited("Force and moment of each joint, eqs. (17), (99)."), "(17), (99)");
+        assert_eq!(cited("Right side, eqs. (80), (101): torque, N m, (1)."), "(80), (101)");
+    }
+}

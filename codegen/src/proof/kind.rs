@@ -1,0 +1,22 @@
+//! All proofs of one kind: of its derivation, and of its emitted file.
+
+use super::{EmittedError, Prover, Row, zero_traces};
+use crate::derivation::chain::Chain;
+use crate::emit::EmittedFile;
+use crate::normal::Ring;
+
+/// Compares the emitted file of one kind with its derivation, and that with the laws.
+///
+/// # Errors
+/// When there is no such file, or it cannot be read.
+pub fn prove_kind(chain: &Chain<'_>, files: &[EmittedFile]) -> Result<Vec<Row>, EmittedError> {
+    let name = format!("{}.rs", chain.kind.name);
+    let own = |file: &&EmittedFile| file.path.rsplit('/').next() == Some(name.as_str());
+    let file = files.iter().find(own);
+    let file = file.ok_or_else(|| EmittedError::NoFile(chain.kind.name.to_owned()))?;
+    let mut rows = zero_traces(&mut Ring::new(chain.graph), chain);
+    let mut prover = Prover::new(chain);
+    rows.extend(prover.derivation());
+    rows.extend(prover.rows(&file.text)?);
+    Ok(rows.into_iter().map(|row| row.of(chain.kind)).collect())
+}

@@ -1,0 +1,79 @@
+//! A kind defined by another crate with the code of docs/adding-a-kind.md is emitted, proven,
+//! compiled against the dynamics crate and run. Needs cargo and the linker that every build needs,
+//! and no network.
+
+#[expect(unreachable_pub, reason = "the page's lines, which a crate of its own exports")]
+mod robot_arm;
+
+use std::path::Path;
+use std::process::Command;
+use std::{env, fs};
+
+use precess_codegen::kinds::{Kind, KindError};
+use precess_codegen::{emit_kind, prove_kind};
+
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+
+#[test]
+fn the_page_shows_these_lines() {
+    let page = Path::new(ROOT).join("docs/adding-a-kind.md");
+    let page = fs::read_to_string(page).expect("the page on adding a kind");
+    let block = format!("```rust\n{}```\n", include_str!("robot_arm.rs"));
+    assert!(page.contains(&block), "the page and tests/tests/external_kind/robot_arm.rs differ");
+}
+
+#[test]
+fn every_claim_about_it_is_proven() {
+    let kind: Result<&Kind, KindError> = robot_arm::robot_arm();
+    let kind = kind.expect("a kind");
+    let mut files = emit_kind(kind, "precess_dynamics").expect("files");
+    let rows = prove_kind(kind, &files).expect("rows");
+    let failed: Vec<_> = rows.iter().filter(|row| !row.holds()).map(ToString::to_string).collect();
+    assert!(rows.len() > 60 && failed.is_empty(), "{} rows, failed: {failed:#?}", rows.len());
+    assert!(rows.iter().any(|row| row.tag == "(80)") && rows.iter().any(|row| row.tag == "(101)"));
+
+    // The same text with one sign changed is no proof.
+    let wrong = files[0].text.replace("u.u_a - u_rest_a", "u.u_a + u_rest_a");
+    assert_ne!(wrong, files[0].text);
+    files[0].text = wrong;
+    assert!(
+        !prove_kind(kind, &files)
+            .is_ok_and(|rows| rows.iter().all(precess_codegen::proof::Row::holds))
+    );
+}
+
+/// The program asserts that both hinges obey the textbook's equations of a planar arm.
+#[test]
+fn it_compiles_in_another_crate_and_moves_as_the_textbook_says() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("external_kind");
+    let source = folder.join("src");
+    fs::create_dir_all(&source).expect("a folder for the build");
+    robot_arm::write(&source).expect("the emitted kind");
+    let program = include_str!("../../fixtures/planar_arm.rs");
+    fs::write(source.join("main.rs"), program).expect("the program");
+    let dynamics = Path::new(ROOT).join("dynamics");
+    let manifest = format!(
+        "[package]\nname = \"planar-arm\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
+         [workspace]\n\
+         [dependencies]\nprecess-dynamics = {{ path = '{}' }}\n\
+         nalgebra = {{ version = '0.35', default-features = false, features = ['libm'] }}\n\
+         [profile.dev]\nopt-level = 0\ndebug = false\n",
+        dynamics.display()
+    );
+    fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
+    // The versions that the workspace has: cargo drops what the program does not need.
+    fs::copy(Path::new(ROOT).join("Cargo.lock"), folder.join("Cargo.lock")).expect("the versions");
+
+    let program = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut cargo = Command::new(program);
+    cargo.args(["run", "--offline", "--quiet", "--message-format", "short"]);
+    cargo.arg("--manifest-path").arg(folder.join("Cargo.toml"));
+    cargo.arg("--target-dir").arg(folder.join("target")).current_dir(ROOT);
+    // Flags of the outer build (coverage, sanitizers) are not the program's.
+    for flags in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET"] {
+        cargo.env_remove(flags);
+    }
+    let output = cargo.output().expect("cargo starts");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "the program fails: {errors}");
+}
