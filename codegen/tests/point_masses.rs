@@ -262,18 +262,18 @@ fn composites_and_joint_rows_are_those_of_point_masses() {
         // M_vw is -[S~].
         let first: V = [matrix[1][5], matrix[2][3], matrix[0][4]];
         let turning: M = [3, 4, 5].map(|i| [3, 4, 5].map(|j| matrix[i][j]));
-        check("hand_m", matrix[0][0]);
+        check("constant_m", matrix[0][0]);
         let force = cross(craft.omega, cross(craft.omega, first));
         let moment = cross(craft.omega, times(turning, craft.omega));
         for (i, axis) in ["x", "y", "z"].iter().enumerate() {
             let sum = |moving: String, share: String| known[&moving] + known[&share];
-            let s = sum(format!("mr_moving_b{axis}"), format!("hand_mr_b{axis}"));
+            let s = sum(format!("mr_moving_b{axis}"), format!("constant_mr_b{axis}"));
             assert!(near(first[i], s), "first moment along b{axis}: {s}, {}", first[i]);
             check(&format!("f_rates_b{axis}"), bias[i] - force[i]);
             check(&format!("n_rates_b{axis}"), bias[3 + i] - moment[i]);
             for (j, expected) in turning[i].iter().enumerate().skip(i) {
                 let entry = format!("{}{}", i + 1, j + 1);
-                let found = sum(format!("i_moving_{entry}"), format!("hand_i_{entry}"));
+                let found = sum(format!("i_moving_{entry}"), format!("constant_i_{entry}"));
                 assert!(near(*expected, found), "inertia {entry}: {found}, {expected}");
             }
         }

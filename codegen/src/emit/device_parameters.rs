@@ -89,7 +89,7 @@ fn origin(kind: &Kind, k: usize) -> Parameter {
     let from = inboard.map_or("B".to_owned(), |parent| format!("the origin of the {parent}"));
     let slides = match joint.motion {
         Motion::Turn(_) => "",
-        Motion::Slide(_) => ", where its coordinate is zero",
+        Motion::Slide(_) => ", the coordinate at zero",
     };
     Parameter {
         name: joint.origin.name.to_owned(),

@@ -42,7 +42,7 @@ pub enum EmitError {
     /// The result is not Rust.
     Syntax(String, syn::Error),
     /// A line is too wide.
-    Width(String, usize),
+    Width(String, String),
     /// A statement that C has not.
     NoC {
         /// The function that it stands in.
@@ -58,7 +58,7 @@ impl fmt::Display for EmitError {
             Self::Template(error) => write!(f, "template: {error}"),
             Self::Syntax(path, error) => write!(f, "{path} would not parse: {error}"),
             Self::Width(path, line) => {
-                write!(f, "{path}:{line} would be wider than {LINE} columns; shorten its name")
+                write!(f, "{path}: `{line}` would be wider than {LINE} columns; shorten its name")
             }
             Self::NoC { function, statement } => {
                 write!(f, "{function}: `{statement}` cannot be written as C")
@@ -163,8 +163,8 @@ pub(super) fn templates() -> Result<Tera, EmitError> {
 }
 
 pub(super) fn rust_file(path: String, text: String) -> Result<EmittedFile, EmitError> {
-    if let Some(line) = text.lines().position(|line| line.chars().count() > LINE) {
-        return Err(EmitError::Width(path, line + 1));
+    if let Some(line) = text.lines().find(|line| line.chars().count() > LINE) {
+        return Err(EmitError::Width(path, line.trim().to_owned()));
     }
     syn::parse_file(&text).map_err(|error| EmitError::Syntax(path.clone(), error))?;
     Ok(EmittedFile { path, text })

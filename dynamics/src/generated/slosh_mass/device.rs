@@ -25,8 +25,8 @@ pub struct SloshMass<T = f64> {
     /// Columns: the device's axes, those of its first body at zero, expressed in *B*. At
     /// zero, the slosh mass slides along x.
     pub mount: Matrix3<T>,
-    /// `r_{S/B}`, origin of the slosh mass from B, where its coordinate is zero, expressed in
-    /// *B*, m.
+    /// `r_{S/B}`, origin of the slosh mass from B, the coordinate at zero, expressed in *B*,
+    /// m.
     pub r_s_b: Vector3<T>,
     /// `m_S`, mass of the slosh mass, kg. Above zero.
     pub m_s: T,
@@ -299,7 +299,7 @@ impl<T: Scalar> Kind for SloshMass<T> {
             shape: Shape::Vector,
             frame: Some("B"),
             body: Some("slosh mass"),
-            meaning: "origin of the slosh mass from B, where its coordinate is zero",
+            meaning: "origin of the slosh mass from B, the coordinate at zero",
         },
         ParameterInfo {
             name: "m_s",
