@@ -106,7 +106,8 @@ impl<E: DeviceEnum, B: Bundle<E::Scalar>, V: Visit<E::Scalar, B>> WithKind<E>
 ///
 /// # use nalgebra::Matrix3;
 /// let wheel = ReactionWheel::bare_wheel(4.0, Matrix3::identity());
-/// let list: Vec<Catalogue> = vec![wheel.into(), Sgcmg::bare_wheel(4.0, Matrix3::identity()).into()];
+/// let gyro = Sgcmg::bare_wheel(4.0, Matrix3::identity());
+/// let list: [Catalogue; 2] = [wheel.into(), gyro.into()];
 /// # let hub = precess_dynamics::Hub {
 /// #     m_b: 50.0,
 /// #     r_bc_b: Default::default(),
