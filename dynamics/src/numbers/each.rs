@@ -29,6 +29,14 @@ pub trait JointStates<T: Value>: Clone + Debug + PartialEq + Send + Sync {
     fn states_mut(&mut self) -> impl Iterator<Item = [&mut T; 2]>;
 }
 
+/// The same with these values in order; what they leave keeps its own.
+pub(crate) fn filled<V: Value, P: Each<V>>(mut of: P, values: impl IntoIterator<Item = V>) -> P {
+    for (to, from) in of.values_mut().zip(values) {
+        *to = from;
+    }
+    of
+}
+
 impl<V: Value, P: Each<V>, const N: usize> Each<V> for [P; N] {
     fn values(&self) -> impl Iterator<Item = V> {
         self.iter().flat_map(P::values)

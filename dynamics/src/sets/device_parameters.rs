@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use crate::model::joint_array::MAX_JOINTS;
 use crate::model::kind::{BodyParameters, ImbalanceModel, Kind, no_inertia};
 use crate::model::passive::Passive;
-use crate::numbers::each::{Each, Value};
+use crate::numbers::each::{Each, filled};
 use crate::numbers::real::{Scalar, zero};
 use crate::validation::parameter_error::Parameter;
 
@@ -58,10 +58,8 @@ impl Error for UnsupportedParameter {}
 pub(crate) fn device_of<K: Kind>(
     parameters: &DeviceParameters<K::Scalar>,
 ) -> Result<K, UnsupportedParameter> {
-    let mut bodies = K::all(no_body());
-    copy(&mut bodies, parameters.bodies);
-    let mut passive = K::all(Passive::none());
-    copy(&mut passive, parameters.passive);
+    let bodies = filled(K::all(no_body()), parameters.bodies);
+    let passive = filled(K::all(Passive::none()), parameters.passive);
     let made = K::of_bodies(&parameters.mount, &bodies, &passive, parameters.model);
     let taken = made.bodies();
     for ((asked, taken), info) in bodies.values().zip(taken.values()).zip(K::JOINTS) {
@@ -92,12 +90,6 @@ pub(crate) fn parameters_of<K: Kind>(device: &K) -> DeviceParameters<K::Scalar> 
         *to = from;
     }
     DeviceParameters { mount: *device.mount(), bodies, passive, model: device.model() }
-}
-
-fn copy<V: Value>(to: &mut impl Each<V>, from: impl IntoIterator<Item = V>) {
-    for (to, from) in to.values_mut().zip(from) {
-        *to = from;
-    }
 }
 
 fn no_body<T: Scalar>() -> BodyParameters<T> {

@@ -1,8 +1,8 @@
 //! [`DeviceEnum`]: an enumeration of kinds, so that a device's kind may be known only at run time,
 //! without a heap. It is a set of one device.
 //!
-//! Data of the joints stand in [`JointArray`](crate::JointArray), whatever the kind. A visitor sees them in the
-//! kind's own structures, as of any other device; what it changes is put back.
+//! Data of the joints are in [`JointArray`](crate::JointArray), whatever the kind. A visitor sees
+//! them in the kind's own structures, as of any other device; what it changes is put back.
 
 use crate::equations::device::Device;
 use crate::model::joint_array::MAX_JOINTS;

@@ -8,7 +8,7 @@ use crate::equations::device_loads::{DeviceLoads, JointPower, LoadsOf};
 use crate::model::joint_array::JointArray;
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
-use crate::numbers::each::{Each, JointStates, Value};
+use crate::numbers::each::{Each, JointStates, Value, filled};
 use crate::numbers::real::{Scalar, zero};
 use crate::sets::enumeration::{DeviceEnum, Variant};
 
@@ -109,7 +109,7 @@ macro_rules! numbers {
             }
 
             fn get<$kind: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &JointArray<T>) -> Option<$of> {
-                Some(filled($zero, of))
+                Some(filled($zero, of.values()))
             }
 
             fn put<$kind: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &$of, to: &mut JointArray<T>) {
@@ -141,7 +141,7 @@ impl<T: Scalar, V: Value> PerDevice<T> for PerJoint<V> {
     }
 
     fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &JointArray<V>) -> Option<K::PerJoint<V>> {
-        of.as_slice().first().map(|first| filled(K::all(*first), of))
+        of.as_slice().first().map(|first| filled(K::all(*first), of.values()))
     }
 
     fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(of: &K::PerJoint<V>, to: &mut JointArray<V>) {
@@ -180,9 +180,9 @@ impl<T: Scalar> PerDevice<T> for Loads {
         let DeviceLoads { mount, joints, motors, powers } = of;
         Some(DeviceLoads {
             mount: *mount,
-            joints: filled(K::all(Wrench::none()), joints),
-            motors: filled(K::all(zero()), motors),
-            powers: filled(K::all(JointPower::none()), powers),
+            joints: filled(K::all(Wrench::none()), joints.values()),
+            motors: filled(K::all(zero()), motors.values()),
+            powers: filled(K::all(JointPower::none()), powers.values()),
         })
     }
 
@@ -221,12 +221,4 @@ impl<T: Scalar> PerDevice<T> for Gains {
     fn count<E: DeviceEnum<Scalar = T>>(_: &E::Gains) -> Option<usize> {
         None
     }
-}
-
-/// Data of a kind with the values of an enumeration's.
-fn filled<V: Value, P: Each<V>>(mut of: P, values: &JointArray<V>) -> P {
-    for (to, from) in of.values_mut().zip(values.values()) {
-        *to = from;
-    }
-    of
 }
