@@ -59,7 +59,6 @@ extern crate std;
 
 mod attitude;
 mod equations;
-#[rustfmt::skip]
 pub mod generated;
 mod integrate;
 #[cfg(feature = "lanes")]

@@ -11,18 +11,31 @@
 #![allow(clippy::doc_markdown, reason = "the paper's symbols are no code")]
 #![allow(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
+#[rustfmt::skip]
 pub mod balanced_dgcmg;
+#[rustfmt::skip]
 pub mod balanced_dgvscmg;
+#[rustfmt::skip]
 pub mod balanced_reaction_wheel;
+#[rustfmt::skip]
 pub mod balanced_sgcmg;
+#[rustfmt::skip]
 pub mod balanced_vscmg;
+#[rustfmt::skip]
 pub mod dgcmg;
+#[rustfmt::skip]
 pub mod dgvscmg;
+#[rustfmt::skip]
 pub mod hinged_panel;
+#[rustfmt::skip]
 pub mod hub;
+#[rustfmt::skip]
 pub mod reaction_wheel;
+#[rustfmt::skip]
 pub mod sgcmg;
+#[rustfmt::skip]
 pub mod slosh_mass;
+#[rustfmt::skip]
 pub mod vscmg;
 
 /// The kinds as users state them, each with the module of its joints, motors and modes.
