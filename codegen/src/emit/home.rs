@@ -1,4 +1,4 @@
-//! Where emitted code stands, and how it finds the dynamics crate from there.
+//! The crate of the emitted code, and the name by which it calls the dynamics crate.
 
 use super::layout::packed;
 
@@ -7,7 +7,7 @@ use super::layout::packed;
 pub enum Home<'a> {
     /// The dynamics crate itself.
     Dynamics,
-    /// Another one, which knows the dynamics crate by this name.
+    /// Another one, which calls the dynamics crate by this name.
     Outside(&'a str),
 }
 

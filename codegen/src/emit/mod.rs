@@ -1,7 +1,7 @@
 //! Kernels to text: what is shared is named, every line is short, and the layout is a template.
 //!
 //! Invariants: the same kernels give the same bytes; every operation of the graph is written once
-//! in a function, or once in `prepare` when it depends on parameters alone; no line passes 100
+//! in a function, or once in `prepare` when it depends on parameters only; no line passes 100
 //! columns and `rustfmt` has nothing to change.
 
 mod body;
