@@ -50,7 +50,7 @@ pub enum LoadAxes {
 /// The loads of a spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loads<D: Devices> {
-    /// Device by device; a [`DeviceLoads`] for each.
+    /// Device by device; a [`DeviceLoads`](crate::DeviceLoads) for each.
     pub devices: D::Per<data::Loads>,
     /// What must act on the hub in addition to the inputs, about B, expressed in B: only rounding
     /// on a free hub with its own accelerations; on a [fixed](crate::HubMode::Fixed) one, what the
@@ -88,9 +88,9 @@ impl<D: Devices> Spacecraft<D> {
     ///
     /// With what [`Self::accelerations`] found for the same state and inputs, these are the loads
     /// at that instant, and the torques that prescribed and locked joints need are in
-    /// [`DeviceLoads::motors`]. With desired accelerations, they are the motor torques and the
-    /// wrench on the hub that produce them. Motor torques and modes in `inputs` are not read;
-    /// forces, torques and gravity are.
+    /// [`DeviceLoads::motors`](crate::DeviceLoads::motors). With desired accelerations, they are
+    /// the motor torques and the wrench on the hub that produce them. Motor torques and modes in
+    /// `inputs` are not read; forces, torques and gravity are.
     ///
     /// # Errors
     ///
