@@ -26,5 +26,6 @@ pub mod ledger;
 pub mod outcome;
 pub mod output;
 mod packing;
+pub mod plan;
 pub mod run;
 pub mod scenario;
