@@ -163,6 +163,8 @@ pub struct Crossing {
     pub column: String,
     /// The value, in SI.
     pub value: f64,
+    /// The SI unit of the value.
+    pub unit: String,
     /// Whether the run ends there.
     pub ends: bool,
 }
@@ -227,6 +229,8 @@ pub struct Requirement {
     pub window: [f64; 2],
     /// Upper bound of the statistic, SI.
     pub limit: f64,
+    /// The limit as it was written: `0.1 deg/s`.
+    pub written: String,
     /// The unit in which limit and value are shown, and its size in SI.
     pub unit: (String, f64),
 }
