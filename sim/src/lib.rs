@@ -18,6 +18,7 @@
 pub mod bodies;
 pub mod bound;
 pub mod cli;
+pub mod engine;
 pub mod error;
 pub mod history;
 mod integrator;
@@ -27,5 +28,6 @@ pub mod outcome;
 pub mod output;
 mod packing;
 pub mod plan;
+pub mod record;
 pub mod run;
 pub mod scenario;
