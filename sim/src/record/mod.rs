@@ -6,15 +6,26 @@
 
 pub mod columns;
 pub mod csv;
+pub mod decimate;
 mod error;
 mod many;
 pub(crate) mod nearest;
+pub mod npz;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 pub mod partial;
+pub mod statistics;
+mod welch;
 
 pub use columns::{Column, Columns};
 pub use csv::Csv;
+pub use decimate::{Bucket, Decimate};
 pub use error::RecordError;
 pub use many::Many;
+pub use npz::Npz;
+#[cfg(feature = "parquet")]
+pub use parquet::Parquet;
+pub use statistics::{Statistics, Verdict};
 
 use sha2::{Digest, Sha256};
 
