@@ -18,6 +18,7 @@
 pub mod bodies;
 pub mod bound;
 pub mod cli;
+pub mod engine;
 pub mod error;
 pub mod file;
 pub mod history;
@@ -28,6 +29,7 @@ pub mod outcome;
 pub mod output;
 mod packing;
 pub mod plan;
+pub mod record;
 pub mod run;
 pub mod scenario;
 pub mod units;

@@ -15,7 +15,7 @@ use precess_dynamics::kind::JointInfo;
 use precess_dynamics::{BuiltIn, Gravity, Hub, HubMode, ParameterError, Spacecraft, State};
 
 pub use check::ScenarioError;
-pub use profile::{Profile, Table};
+pub use profile::{Interpolation, Profile, Table};
 
 /// The set of devices that is run: as many as there are, each of any kind.
 pub type Set = Vec<BuiltIn>;
