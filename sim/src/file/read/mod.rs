@@ -19,7 +19,7 @@ use super::diagnostic::{Diagnostics, Span};
 use super::document::Node;
 use super::keys::{Keys, Reports};
 use super::load::{Override, apply, load_file, load_text};
-pub(super) use device::{body_key, has_inertia};
+pub(crate) use device::{body_key, has_inertia};
 
 use crate::plan::{IntegratorChoice, Scenario, ScenarioError, Settings, Source};
 use crate::units::Measure;
