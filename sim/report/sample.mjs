@@ -257,7 +257,7 @@ export function sampleData() {
     events: [{ time: 1.5, text: 'gimbal of cmg2 locked' }, { time: 4, text: 'gimbal torques off' }],
     replay: {
       hub: { size: [1.4, 1.2, 1.3], centre: [0, 0, 0] }, joints: joints(),
-      windows: [windowOf('whole run', 0, END, 1001, 1), windowOf('slow motion about 5 s', 5, 5.06, 601, 200000)],
+      windows: [windowOf('whole run', 0, END, 1001, 1), windowOf('slow motion about 5 s', 5, 5.06, 601, 100000)],
     },
   };
 }

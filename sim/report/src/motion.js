@@ -35,35 +35,50 @@ function toVector(q) {
   return [sign * share * q[1], sign * share * q[2], sign * share * q[3]];
 }
 
+/** Degree of the smooth motion's polynomials: rate, acceleration and its change belong to it. */
+const DEGREE = 3;
+
 /**
- * The straight line that fits points best, by least squares. The weight of a point falls to zero at
- * both ends as the square of a sine, so that a vibration, cut off anywhere, hardly tilts the line.
+ * The polynomials in time that fit several sets of points best, by least squares. The weight of a point
+ * falls to zero at both ends as the square of a sine, so that a vibration, cut off anywhere, hardly
+ * bends them. Legendre's manner: powers made orthogonal, one after the other, on the points.
  */
-function straight(time, values) {
+function smooth(time, sets) {
   const n = time.length;
   const weights = time.map((t, k) => Math.sin((Math.PI * (k + 0.5)) / n) ** 2);
-  const total = weights.reduce((sum, w) => sum + w, 0);
-  const weighted = (numbers) => numbers.reduce((sum, x, k) => sum + weights[k] * x, 0);
-  const meanTime = weighted(time) / total;
-  const mean = weighted(values) / total;
-  const square = weighted(time.map((t) => (t - meanTime) ** 2));
-  const both = weighted(time.map((t, k) => (t - meanTime) * (values[k] - mean)));
-  const slope = square > 0 ? both / square : 0;
-  return (t) => mean + slope * (t - meanTime);
+  const dot = (a, b) => a.reduce((sum, x, k) => sum + weights[k] * x * b[k], 0);
+  const half = (time[n - 1] - time[0]) / 2;
+  const scaled = (t) => (t - time[0]) / half - 1;
+  // Each polynomial by its coefficients, lowest power first.
+  const value = (p, t) => p.reduceRight((sum, c) => sum * scaled(t) + c, 0);
+  const basis = [];
+  for (let degree = 0; degree <= Math.min(DEGREE, n - 1); degree += 1) {
+    const p = Array.from({ length: degree + 1 }, (_, i) => (i === degree ? 1 : 0));
+    for (const { p: lower, at, square } of basis) {
+      const share = dot(time.map((t) => value(p, t)), at) / square;
+      lower.forEach((c, i) => {
+        p[i] -= share * c;
+      });
+    }
+    const at = time.map((t) => value(p, t));
+    basis.push({ p, at, square: dot(at, at) });
+  }
+  const shares = sets.map((values) => basis.map(({ at, square }) => dot(values, at) / square));
+  return (t) => shares.map((share) => share.reduce((sum, s, i) => sum + s * value(basis[i].p, t), 0));
 }
 
 /**
- * Attitude as straight motion and deviation from it. The straight motion turns from the middle frame's
- * attitude by a rotation vector linear in time, fitted to the frames; the deviation of a frame is the
- * rotation vector from the straight motion to the frame.
+ * Attitude as smooth motion and deviation from it. The smooth motion turns from the middle frame's
+ * attitude by a rotation vector cubic in time, fitted to the frames; the deviation of a frame is the
+ * rotation vector from the smooth motion to the frame.
  */
 function split(time, attitude) {
   const frames = [...time.keys()];
   const frame = (k) => [...attitude.subarray(4 * k, 4 * k + 4)];
   const middle = frame(time.length >> 1);
   const turned = frames.map((k) => toVector(product(inverse(middle), frame(k))));
-  const lines = [0, 1, 2].map((axis) => straight([...time], turned.map((v) => v[axis])));
-  const course = (t) => fromVector(lines.map((line) => line(t)));
+  const fit = smooth([...time], [0, 1, 2].map((axis) => turned.map((v) => v[axis])));
+  const course = (t) => fromVector(fit(t));
   const deviations = frames.map((k) => toVector(product(inverse(course(time[k])), fromVector(turned[k]))));
   const largest = Math.max(...deviations.map((d) => Math.hypot(...d)));
   return { base: (t) => product(middle, course(t)), deviations, largest };
@@ -96,7 +111,7 @@ export function createMotion(window, joints) {
     start: time[0],
     end: time[end],
     magnify,
-    /** The largest angle between a frame and the straight motion, rad; 0 where nothing is magnified. */
+    /** The largest angle between a frame and the smooth motion, rad; 0 where nothing is magnified. */
     deviation: parts === null ? 0 : parts.largest,
     largestOmega: largestOf(omega),
     largestMomentum: largestOf(momentum),

@@ -140,7 +140,7 @@ export function createReplay(place, report, cursor, theme) {
     const texts = [`1 s shows ${duration(scale)}${scale === 1 ? ' (real time)' : ''}`];
     if (motion.magnify !== 1) {
       texts.unshift(`deviation × ${plain(motion.magnify)}`);
-      texts.push(`largest deviation ${number(motion.deviation, 3)} rad from steady turning`);
+      texts.push(`largest deviation ${number(motion.deviation, 3)} rad from the smooth motion`);
     }
     if (calm.matches) texts.push('reduced motion: two still pictures a second');
     statement.replaceChildren(...texts.map((text) => element('span', {}, text)));
