@@ -10,7 +10,7 @@ use crate::proof::{self, EmittedError, Row};
 /// Their paths are plain names: where they are put is the caller's choice.
 ///
 /// # Errors
-/// When a name of the kind is too long for a line of the emitted text.
+/// When a name of the kind is too long for a line of the emitted text, or `dynamics` is no path.
 pub fn emit_kind(kind: &'static Kind, dynamics: &str) -> Result<Vec<EmittedFile>, EmitError> {
     let graph = Graph::new();
     Ok(of_kind(&Chain::new(&graph, kind), Home::Outside(dynamics))?.files)

@@ -59,6 +59,7 @@ extern crate std;
 
 mod attitude;
 mod equations;
+#[rustfmt::skip]
 pub mod generated;
 mod integrate;
 #[cfg(feature = "lanes")]

@@ -21,7 +21,7 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
 }
 
-/// Where cargo puts what it builds: this program is in `release` there.
+/// Where cargo puts what it builds: this program is in the folder of its profile there.
 pub(crate) fn target() -> Result<PathBuf, String> {
     let here = std::env::current_exe().map_err(|error| format!("where am I: {error}"))?;
     let folder = here.parent().and_then(Path::parent).map(Path::to_path_buf);

@@ -64,7 +64,8 @@ pub(super) struct Shape {
     pub(super) uses: HashMap<NodeId, usize>,
 }
 
-fn mention(tokens: TokenStream, name: &str) -> bool {
+/// Whether the tokens name it.
+pub(super) fn mention(tokens: TokenStream, name: &str) -> bool {
     tokens.into_iter().any(|tree| match tree {
         TokenTree::Ident(ident) => ident == name,
         TokenTree::Group(group) => mention(group.stream(), name),

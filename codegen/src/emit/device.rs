@@ -2,18 +2,21 @@
 //! of the emitted kernels by the solver.
 //!
 //! Everything here follows from the kind's data and from the signatures of its kernels: no equation.
+//! All of the file but its header is tokens until it is printed, once.
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::Path;
 use tera::{Context, Tera};
 
-use super::device_items::Items;
+use super::body::mention;
+use super::device_items::{Items, set};
 use super::device_parameters::{Parameter, parameters};
 use super::file::{EmitError, EmittedFile, rust_file};
 use super::home::Home;
-use super::layout::packed;
-use super::text::{COMMENT, capital, fnv1a64, spaced, wrapped};
+use super::text::{COMMENT, capital, documented, fnv1a64, ident, pretty_items};
 use crate::kinds::{Body, Centre, Inertia, Kind, Link, Motion};
 
 /// The kernels of a kind by their names.
@@ -28,100 +31,49 @@ pub(super) struct Signature {
     pub(super) fields: Vec<String>,
 }
 
-/// A structure as the template takes it.
-#[derive(Serialize)]
-struct Record {
-    name: String,
-    doc: Vec<String>,
-    fields: Vec<Field>,
-}
-
-/// A field of a structure.
-#[derive(Serialize)]
-struct Field {
-    name: String,
-    doc: Vec<String>,
-    ty: String,
-}
-
-/// Lays out the file. `dynamics` is how it calls the dynamics crate.
+/// Lays out the file of a kind for its home.
 pub(super) fn device_file(
     tera: &Tera,
     kind: &Kind,
     home: Home<'_>,
     signatures: &Signatures,
 ) -> Result<EmittedFile, EmitError> {
-    let body = Items { kind, signatures }.lines();
+    let records = [structure(kind), joints(kind), motors(kind), per_joint(kind)];
+    let items = Items { kind, signatures }.all();
+    let items = quote!(#(#records)* #items);
+    let imports = imports(&home.dynamics()?, &items);
     let mut context = Context::new();
     context.insert("command", home.command());
     context.insert("source", kind.source);
     let made_from = format!("{kind:?}{signatures:?}");
     context.insert("hash", &fnv1a64(&(made_from + include_str!("templates/device.rs.tera"))));
     context.insert("title", &capital(kind.title));
-    context.insert("imports", &imports(home.dynamics(), &body));
-    context.insert("records", &[structure(kind), joints(kind), motors(kind), per_joint(kind)]);
-    context.insert("body", &body);
+    context.insert("items", &pretty_items(quote!(#imports #items)));
     rust_file(home.path(&format!("{}/device.rs", kind.name)), tera.render("device.rs", &context)?)
 }
 
-/// What the text needs of the dynamics crate, and only that.
-fn imports(dynamics: &str, body: &[String]) -> Vec<String> {
-    let read = |name: &&&str| {
-        let word = |line: &String| {
-            let parts = line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-            parts.into_iter().any(|part| part == **name)
-        };
-        body.iter().any(word)
+/// What the items name of other modules; of the dynamics crate only that.
+fn imports(dynamics: &Path, items: &TokenStream) -> TokenStream {
+    let read = |names: TokenStream| {
+        let names = names.into_iter().filter(|name| mention(items.clone(), &name.to_string()));
+        quote!({ #(#names),* })
     };
-    let list = |module: &str, names: &[&str], always: &[&str]| {
-        let names = names.iter().filter(|name| always.contains(name) || read(name));
-        let names: Vec<_> = names.map(|name| (*name).to_owned()).collect();
-        let from = format!("use {dynamics}::{module}");
-        match names.as_slice() {
-            [] => String::new(),
-            [one] => format!("{from}{one};"),
-            _ => packed(&format!("{from}{{"), &names, "};"),
-        }
-    };
-    let hub = [
-        "BodyAcceleration",
-        "BodyRate",
-        "BodyVelocity",
-        "ConstantShare",
-        "EnergyMomentum",
-        "Gradient",
-        "HubShare",
-    ];
-    let kind = [
-        "BodyParameters",
-        "Carried",
-        "Drive",
-        "Each",
-        "ImbalanceModel",
-        "JointInfo",
-        "JointStates",
-        "Kernels",
-        "Kind",
-        "Lumped",
-        "ParameterInfo",
-        "ParameterMut",
-        "Shape",
-        "Value",
-        "Wrenches",
-        "components",
-        "diagonal",
-        "entries",
-        "no_inertia",
-        "unit",
-        "vector",
-        "zero",
-    ];
-    let used = [
-        list("generated::hub::", &hub, &[]),
-        list("kind::", &kind, &[]),
-        list("", &["Angle", "Passive", "Real", "Scalar", "Wrench"], &[]),
-    ];
-    used.iter().flat_map(|text| text.lines()).map(str::to_owned).collect()
+    let hub = read(quote! {
+        BodyAcceleration BodyRate BodyVelocity ConstantShare EnergyMomentum Gradient HubShare
+    });
+    let kind = read(quote! {
+        BodyParameters Carried Drive Each ImbalanceModel JointInfo JointStates Kernels Kind Lumped
+        ParameterInfo ParameterMut Shape Value Wrenches
+        components diagonal entries no_inertia unit vector zero
+    });
+    let root = read(quote!(Angle Passive Real Scalar Wrench));
+    quote! {
+        use nalgebra::{Matrix3, Vector3};
+        pub use super::JointAccelerations;
+        use #dynamics::generated::hub::#hub;
+        use #dynamics::kind::#kind;
+        use #dynamics::#root;
+    }
 }
 
 /// The name of the body behind a joint: `outer_gimbal`.
@@ -163,31 +115,28 @@ pub(super) fn imbalanced(kind: &Kind) -> Option<(&Body, &'static str)> {
     (turns && full).then_some((body, offset))
 }
 
-fn field(name: &str, doc: &str, ty: &str) -> Field {
-    let doc = wrapped(doc, COMMENT - 4).iter().map(|line| spaced(line)).collect();
-    Field { name: name.to_owned(), doc, ty: ty.to_owned() }
+fn field(name: &str, doc: &str, ty: &TokenStream) -> TokenStream {
+    let (doc, field) = (documented(doc, COMMENT - 4), set(name, ty));
+    quote!(#doc pub #field)
 }
 
-fn record(name: &str, doc: &str, fields: Vec<Field>) -> Record {
-    let paragraphs = doc.split("\n\n").map(|text| wrapped(text, COMMENT));
-    let mut lines: Vec<String> = Vec::new();
-    for paragraph in paragraphs {
-        if !lines.is_empty() {
-            lines.push(String::new());
-        }
-        lines.extend(paragraph.iter().map(|line| spaced(line)));
+fn record(name: &TokenStream, doc: &str, fields: &[TokenStream]) -> TokenStream {
+    let doc = documented(doc, COMMENT);
+    quote! {
+        #doc
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct #name { #(#fields),* }
     }
-    Record { name: name.to_owned(), doc: lines, fields }
 }
 
 /// What the device is made of, as a user states it.
-fn structure(kind: &Kind) -> Record {
+fn structure(kind: &Kind) -> TokenStream {
     let passive = field(
         "passive",
         "Spring, damper and friction of each joint; `PerJoint::all(Passive::none())` for none.",
-        "PerJoint<Passive<T>>",
+        &quote!(PerJoint<Passive<T>>),
     );
-    let own = |row: &Parameter| field(&row.name, &row.doc(), row.field_type());
+    let own = |row: &Parameter| field(&row.name, &row.doc(), &row.field_type());
     let mut fields: Vec<_> = parameters(kind).iter().map(own).collect();
     let last = fields.len() - usize::from(imbalanced(kind).is_some());
     fields.insert(last, passive);
@@ -205,11 +154,12 @@ fn structure(kind: &Kind) -> Record {
             "\n\nProducts of inertia have the sign of the tensor's entries: `J_13` is entry 13.",
         );
     }
-    record(&format!("{}<T = f64>", kind.type_name()), &doc, fields)
+    let name = ident(kind.type_name());
+    record(&quote!(#name<T = f64>), &doc, &fields)
 }
 
 /// Coordinates and rates.
-fn joints(kind: &Kind) -> Record {
+fn joints(kind: &Kind) -> TokenStream {
     let (mut coordinates, mut rates) = (Vec::new(), Vec::new());
     for (k, link) in kind.links.iter().enumerate() {
         let (joint, title) = (&link.joint, link.body.title);
@@ -221,37 +171,35 @@ fn joints(kind: &Kind) -> Record {
         let axis = format!("{axis:?}").to_lowercase();
         let about = if unit == "rad" { "about" } else { "along" };
         let doc = format!("{what} of the {title}, {about} its {axis} axis, {unit}.");
-        coordinates.push(field(joint.coordinate, &doc, "T"));
+        coordinates.push(field(joint.coordinate, &doc, &quote!(T)));
         let unit = joint.motion.units().rate;
         let doc = format!("`{}`, its rate relative to the {parent}, {unit}.", joint.symbols[0]);
-        rates.push(field(joint.rate, &doc, "T"));
+        rates.push(field(joint.rate, &doc, &quote!(T)));
     }
     coordinates.extend(rates);
-    record("Joints<T = f64>", "Coordinates and relative rates of the joints.", coordinates)
+    let doc = "Coordinates and relative rates of the joints.";
+    record(&quote!(Joints<T = f64>), doc, &coordinates)
 }
 
 /// What the motors exert.
-fn motors(kind: &Kind) -> Record {
+fn motors(kind: &Kind) -> TokenStream {
     let fields = kind.links.iter().enumerate().map(|(k, link)| {
         let parent = if k == 0 { "hub" } else { kind.links[k - 1].body.title };
         let unit = link.joint.motion.units().drive;
-        field(
-            link.joint.torque,
-            &format!("{} on {}, {unit}.", capital(parent), link.body.title),
-            "T",
-        )
+        let doc = format!("{} on {}, {unit}.", capital(parent), link.body.title);
+        field(link.joint.torque, &doc, &quote!(T))
     });
     let doc = "Torques or forces of the motors, each on the child body and, reversed, on the parent \
                body. Not read at a joint whose acceleration is given.";
-    record("MotorTorques<T = f64>", doc, fields.collect())
+    record(&quote!(MotorTorques<T = f64>), doc, &fields.collect::<Vec<_>>())
 }
 
 /// A value per joint.
-fn per_joint(kind: &Kind) -> Record {
+fn per_joint(kind: &Kind) -> TokenStream {
     let fields = kind.links.iter().map(|link| {
         let doc = format!("Of the {}.", link.body.title);
-        field(&body_name(&link.body), &doc, "V")
+        field(&body_name(&link.body), &doc, &quote!(V))
     });
     let doc = "A value for each joint, by its child body.";
-    record("PerJoint<V>", doc, fields.collect())
+    record(&quote!(PerJoint<V>), doc, &fields.collect::<Vec<_>>())
 }

@@ -1,80 +1,96 @@
 //! A kind's parameters as a list of bodies, and back: what every kind can be stated in.
 
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
 use super::device::{body_name, imbalanced, inertia_name, moments};
-use super::device_items::{Items, function, number};
-use super::layout::fitted;
-use crate::kinds::{Body, Centre, Inertia};
+use super::device_items::{Items, components, number, own, set};
+use super::text::ident;
+use crate::kinds::{Centre, Inertia, Link};
 
 impl Items<'_> {
     /// The bodies of the device.
-    pub(super) fn body_parameters(&self) -> String {
-        let text = self.per_joint(8, "", "}", |link| {
+    pub(super) fn body_parameters(&self) -> TokenStream {
+        let bodies = self.per_joint(|link| {
             let body = &link.body;
             let centre = match body.centre {
-                Centre::Free(triple) => format!("components(&self.{})", triple.name),
+                Centre::Free(triple) => components(triple.name),
                 Centre::On(axis, name) => {
-                    let mut components = ["zero()".to_owned(), "zero()".into(), "zero()".into()];
-                    components[number(axis)] = format!("self.{name}");
-                    format!("[{}]", components.join(", "))
+                    let mut components = [quote!(zero()), quote!(zero()), quote!(zero())];
+                    components[axis.cycle()[0]] = own(name);
+                    quote!([#(#components),*])
                 }
-                Centre::At => "[zero(); 3]".to_owned(),
+                Centre::At => quote!([zero(); 3]),
             };
             let inertia = match body.inertia {
-                Inertia::Full(_) => format!("self.{}", inertia_name(body)),
-                Inertia::Point => "no_inertia()".to_owned(),
+                Inertia::Full(_) => own(inertia_name(body)),
+                Inertia::Point => quote!(no_inertia()),
                 _ => {
                     let [xx, _, _, yy, _, zz] = body.inertia.names().map(Option::unwrap_or_default);
-                    format!("diagonal([self.{xx}, self.{yy}, self.{zz}])")
+                    let moments = [xx, yy, zz].map(own);
+                    quote!(diagonal([#(#moments),*]))
                 }
             };
-            format!(
-                "BodyParameters {{\n    origin: components(&self.{}),\n    mass: self.{},\n    \
-                 centre: {centre},\n    inertia: {inertia},\n}}",
-                link.joint.origin.name, body.mass
-            )
+            let (origin, mass) = (components(link.joint.origin.name), own(body.mass));
+            quote! {
+                BodyParameters {
+                    origin: #origin,
+                    mass: #mass,
+                    centre: #centre,
+                    inertia: #inertia,
+                }
+            }
         });
-        function("bodies(&self) -> PerJoint<BodyParameters<T>>", &text)
+        quote! {
+            fn bodies(&self) -> PerJoint<BodyParameters<T>> {
+                #bodies
+            }
+        }
     }
 
     /// The device of its bodies: what it has a parameter for is taken over.
-    pub(super) fn of_bodies(&self) -> String {
-        let mut fields = vec!["mount: *mount".to_owned()];
-        for link in self.links() {
-            let (body, from) = (&link.body, format!("bodies.{}", body_name(&link.body)));
-            fields.push(format!("{}: vector({from}.origin)", link.joint.origin.name));
-            fields.push(format!("{}: {from}.mass", body.mass));
-            fields.extend(centre(body, &from));
-            match body.inertia {
-                Inertia::Full(_) => fields.push(format!("{}: {from}.inertia", inertia_name(body))),
-                _ => fields.extend(moments(body).iter().map(|name| {
-                    let entry = &name[name.len() - 2..];
-                    format!("{name}: {from}.inertia.m{entry}")
-                })),
+    pub(super) fn of_bodies(&self) -> TokenStream {
+        let fields = self.links().iter().flat_map(of_body);
+        let (model, given) = match imbalanced(self.kind) {
+            Some(_) => (quote!(model), quote!(model)),
+            None => (quote!(), quote!(_)),
+        };
+        quote! {
+            fn of_bodies(
+                mount: &Matrix3<T>,
+                bodies: &PerJoint<BodyParameters<T>>,
+                passive: &PerJoint<Passive<T>>,
+                #given: ImbalanceModel,
+            ) -> Self {
+                Self { mount: *mount, #(#fields,)* passive: *passive, #model }
             }
         }
-        fields.push("passive: *passive".to_owned());
-        let model = if imbalanced(self.kind).is_some() {
-            fields.push("model".to_owned());
-            "model"
-        } else {
-            "_"
-        };
-        let arguments = [
-            "mount: &Matrix3<T>".to_owned(),
-            "bodies: &PerJoint<BodyParameters<T>>".to_owned(),
-            "passive: &PerJoint<Passive<T>>".to_owned(),
-            format!("{model}: ImbalanceModel"),
-        ];
-        let signature = fitted(4, "fn of_bodies(", &arguments, ") -> Self {");
-        format!("{signature}\n{}\n    }}", fitted(8, "Self {", &fields, "}"))
     }
 }
 
-/// The field of a centre of mass, where there is one.
-fn centre(body: &Body, from: &str) -> Option<String> {
+/// The fields of a device that one of its bodies gives.
+fn of_body(link: &Link) -> Vec<TokenStream> {
+    let (body, of) = (&link.body, ident(body_name(&link.body)));
+    let mut fields = vec![
+        set(link.joint.origin.name, &quote!(vector(bodies.#of.origin))),
+        set(body.mass, &quote!(bodies.#of.mass)),
+    ];
     match body.centre {
-        Centre::Free(triple) => Some(format!("{}: vector({from}.centre)", triple.name)),
-        Centre::On(axis, name) => Some(format!("{name}: {from}.centre[{}]", number(axis))),
-        Centre::At => None,
+        Centre::Free(triple) => {
+            fields.push(set(triple.name, &quote!(vector(bodies.#of.centre))));
+        }
+        Centre::On(axis, name) => {
+            let component = number(axis);
+            fields.push(set(name, &quote!(bodies.#of.centre[#component])));
+        }
+        Centre::At => {}
     }
+    match body.inertia {
+        Inertia::Full(_) => fields.push(set(inertia_name(body), &quote!(bodies.#of.inertia))),
+        _ => fields.extend(moments(body).iter().map(|name| {
+            let entry = format_ident!("m{}", &name[name.len() - 2..]);
+            set(name, &quote!(bodies.#of.inertia.#entry))
+        })),
+    }
+    fields
 }

@@ -1,11 +1,16 @@
-//! The functions and implementations of a kind's second file, line by line, as `rustfmt` has them.
+//! The functions and implementations of a kind's second file, as tokens.
+//!
+//! Names are those of the kind's data; each list has one entry per link, from the hub to the tip.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{ToTokens, format_ident, quote};
+use syn::Index;
 
 use super::by_number::by_number;
 use super::device::{Signatures, body_name, imbalanced, inertia_name, moments};
 use super::device_calls::rates_function;
 use super::device_parameters::named;
-use super::layout::fitted;
-use super::text::{COMMENT, pretty_item, wrapped};
+use super::text::{COMMENT, documented, ident};
 use crate::derivation::chain::mount_entry;
 use crate::kinds::{Centre, Inertia, Kind, Link, Motion};
 use crate::space::Axis;
@@ -17,341 +22,334 @@ pub(super) struct Items<'a> {
 }
 
 /// The number of an axis.
-pub(super) fn number(axis: Axis) -> usize {
-    axis.cycle()[0]
+pub(super) fn number(axis: Axis) -> Index {
+    Index::from(axis.cycle()[0])
 }
 
 impl Items<'_> {
     /// All of them.
-    pub(super) fn lines(&self) -> Vec<String> {
-        let items = [
-            self.bare(),
-            self.collections(),
-            self.kernels(),
-            self.kind(),
-            rates_function(self.kind),
-        ];
-        let text = items.join("\n\n");
-        text.lines().map(str::to_owned).collect()
+    pub(super) fn all(&self) -> TokenStream {
+        let rates = rates_function(self.kind);
+        let items = [self.bare(), self.collections(), self.kernels(), self.kind(), rates];
+        quote!(#(#items)*)
     }
 
     pub(super) fn links(&self) -> &'static [Link] {
         self.kind.links
     }
 
-    /// The names of the bodies.
-    fn bodies(&self) -> Vec<String> {
-        self.links().iter().map(|link| body_name(&link.body)).collect()
+    /// The structure of the kind.
+    fn name(&self) -> Ident {
+        ident(self.kind.type_name())
     }
 
     /// One item per link.
-    fn each(&self, of: impl Fn(&Link) -> String) -> Vec<String> {
+    pub(super) fn each<I>(&self, of: impl Fn(&Link) -> I) -> Vec<I> {
         self.links().iter().map(of).collect()
     }
 
     /// `PerJoint { .. }` with one value per link.
-    pub(super) fn per_joint(
-        &self,
-        indent: usize,
-        prefix: &str,
-        close: &str,
-        of: impl Fn(&Link) -> String,
-    ) -> String {
-        let items = self.each(|link| format!("{}: {}", body_name(&link.body), of(link)));
-        fitted(indent, &format!("{prefix}PerJoint {{"), &items, close)
+    pub(super) fn per_joint(&self, of: impl Fn(&Link) -> TokenStream) -> TokenStream {
+        let (bodies, values) = (self.each(|link| ident(body_name(&link.body))), self.each(of));
+        quote!(PerJoint { #(#bodies: #values),* })
     }
 
     /// The device with nothing but its outermost body.
-    fn bare(&self) -> String {
-        let (name, tip) = (self.kind.type_name(), &self.links()[self.links().len() - 1].body);
-        let mut arguments = vec![format!("{}: T", tip.mass)];
+    fn bare(&self) -> TokenStream {
+        let (name, tip) = (self.name(), &self.links()[self.links().len() - 1].body);
+        let mut arguments = vec![set(tip.mass, &quote!(T))];
         match tip.inertia {
-            Inertia::Full(_) => arguments.push(format!("{}: Matrix3<T>", inertia_name(tip))),
-            _ => arguments.extend(moments(tip).iter().map(|name| format!("{name}: T"))),
+            Inertia::Full(_) => arguments.push(set(inertia_name(tip), &quote!(Matrix3<T>))),
+            _ => arguments.extend(moments(tip).iter().map(|name| set(name, &quote!(T)))),
         }
-        let mut fields = vec!["mount: unit()".to_owned()];
+        let mut fields = vec![quote!(mount: unit())];
         for (k, link) in self.links().iter().enumerate() {
             let body = &link.body;
-            let outermost = k + 1 == self.links().len();
-            fields.push(format!("{}: vector([zero(); 3])", link.joint.origin.name));
-            fields.push(if outermost {
-                body.mass.to_owned()
-            } else {
-                format!("{}: zero()", body.mass)
-            });
+            let given = |name: &str, none: TokenStream| {
+                let outermost = k + 1 == self.links().len();
+                if outermost { ident(name).to_token_stream() } else { set(name, &none) }
+            };
+            fields.push(set(link.joint.origin.name, &quote!(vector([zero(); 3]))));
+            fields.push(given(body.mass, quote!(zero())));
             match body.centre {
-                Centre::Free(triple) => {
-                    fields.push(format!("{}: vector([zero(); 3])", triple.name));
-                }
-                Centre::On(_, name) => fields.push(format!("{name}: zero()")),
+                Centre::Free(triple) => fields.push(set(triple.name, &quote!(vector([zero(); 3])))),
+                Centre::On(_, name) => fields.push(set(name, &quote!(zero()))),
                 Centre::At => {}
             }
-            let names = match body.inertia {
-                Inertia::Full(_) => vec![(inertia_name(body), "no_inertia()")],
-                _ => moments(body).into_iter().map(|name| (name, "zero()")).collect(),
-            };
-            fields.extend(
-                names.into_iter().map(
-                    |(name, none)| {
-                        if outermost { name } else { format!("{name}: {none}") }
-                    },
-                ),
-            );
+            match body.inertia {
+                Inertia::Full(_) => fields.push(given(&inertia_name(body), quote!(no_inertia()))),
+                _ => fields.extend(moments(body).iter().map(|name| given(name, quote!(zero())))),
+            }
         }
-        fields.push("passive: PerJoint::all(Passive::none())".to_owned());
+        fields.push(quote!(passive: PerJoint::all(Passive::none())));
         if imbalanced(self.kind).is_some() {
-            fields.push("model: ImbalanceModel::Coupled".to_owned());
+            fields.push(quote!(model: ImbalanceModel::Coupled));
         }
         let carried = self.links().len() > 1;
         let carriers = if carried { "other bodies without mass, " } else { "" };
-        let mut doc = vec![
-            format!(
-                "A bare {} at the hub's point B: {carriers}nothing offset, mount the identity.",
-                tip.title
-            ),
-            "Meant as a start for struct update syntax.".to_owned(),
-        ];
+        let mut doc = format!(
+            "A bare {} at the hub's point B: {carriers}nothing offset, mount the identity.\n\n\
+             Meant as a start for struct update syntax.",
+            tip.title
+        );
         if carried {
-            doc.push(
-                "Massless bodies are legal, and singular in the pose where one would turn about \
-                 the axis of the tip."
-                    .to_owned(),
+            doc.push_str(
+                "\n\nMassless bodies are legal, and singular in the pose where one would turn \
+                 about the axis of the tip.",
             );
         }
-        let lines = |text: &String| wrapped(text, COMMENT - 4).join("\n    /// ");
-        let doc: Vec<_> = doc.iter().map(lines).collect();
-        format!(
-            "impl<T: Scalar> {name}<T> {{\n    /// {}\n    #[must_use]\n{} {{\n{}\n    }}\n}}",
-            doc.join("\n    ///\n    /// "),
-            fitted(4, &format!("pub fn bare_{}(", body_name(tip)), &arguments, ") -> Self"),
-            fitted(8, "Self {", &fields, "}")
-        )
+        let (doc, bare) = (documented(&doc, COMMENT - 4), format_ident!("bare_{}", body_name(tip)));
+        quote! {
+            impl<T: Scalar> #name<T> {
+                #doc
+                #[must_use]
+                pub fn #bare(#(#arguments),*) -> Self {
+                    Self { #(#fields),* }
+                }
+            }
+        }
     }
 
     /// Walks over joints.
-    fn collections(&self) -> String {
-        let bodies = self.bodies();
-        let plain = |of: &str| self.each(|link| format!("{of}self.{}", body_name(&link.body)));
-        let pairs = |of: &str| {
-            self.each(|link| {
-                let joint = &link.joint;
-                format!("[{of}self.{}, {of}self.{}]", joint.coordinate, joint.rate)
-            })
+    fn collections(&self) -> TokenStream {
+        let bodies = self.each(|link| body_name(&link.body));
+        let fields: Vec<_> = bodies.iter().map(ident).collect();
+        let coordinates = self.each(|link| ident(link.joint.coordinate));
+        let rates = self.each(|link| ident(link.joint.rate));
+        let values = |number: TokenStream, record: TokenStream, fields: &[Ident]| {
+            quote! {
+                impl<#number: Value> Each<#number> for #record<#number> {
+                    fn values(&self) -> impl Iterator<Item = #number> {
+                        [#(self.#fields),*].into_iter()
+                    }
+                    fn values_mut(&mut self) -> impl Iterator<Item = &mut #number> {
+                        [#(&mut self.#fields),*].into_iter()
+                    }
+                }
+            }
         };
-        let all: Vec<_> = bodies.iter().map(|body| format!("{body}: value")).collect();
-        let bodies: Vec<_> = bodies.iter().map(String::as_str).collect();
-        let coordinates = self.links().iter().map(|link| link.joint.coordinate);
-        let rates = self.links().iter().map(|link| link.joint.rate);
-        let states: Vec<_> = coordinates.chain(rates).collect();
-        let values = |name: &str, fields: &dyn Fn(&Link) -> &'static str| {
-            let each = self.each(|link| format!("self.{}", fields(link)));
-            let each_mut = self.each(|link| format!("&mut self.{}", fields(link)));
-            format!(
-                "impl<T: Value> Each<T> for {name}<T> {{\n    \
-                 fn values(&self) -> impl Iterator<Item = T> {{\n{}\n    }}\n\n    \
-                 fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {{\n{}\n    }}\n}}",
-                fitted(8, "[", &each, "].into_iter()"),
-                fitted(8, "[", &each_mut, "].into_iter()"),
-            )
-        };
-        [
-            format!(
-                "impl<V: Value> PerJoint<V> {{\n    /// The same value at every joint.\n    \
-                 #[must_use]\n    pub fn all(value: V) -> Self {{\n{}\n    }}\n}}",
-                fitted(8, "Self {", &all, "}")
+        let states: Vec<_> = coordinates.iter().chain(&rates).map(ToString::to_string).collect();
+        let parts = [
+            quote! {
+                impl<V: Value> PerJoint<V> {
+                    /// The same value at every joint.
+                    #[must_use]
+                    pub fn all(value: V) -> Self {
+                        Self { #(#fields: value),* }
+                    }
+                }
+            },
+            values(quote!(V), quote!(PerJoint), &fields),
+            quote! {
+                impl<T: Value> JointStates<T> for Joints<T> {
+                    fn states(&self) -> impl Iterator<Item = [T; 2]> {
+                        [#([self.#coordinates, self.#rates]),*].into_iter()
+                    }
+                    fn states_mut(&mut self) -> impl Iterator<Item = [&mut T; 2]> {
+                        [#([&mut self.#coordinates, &mut self.#rates]),*].into_iter()
+                    }
+                }
+            },
+            by_number("Joints", ["T", "Value"], &states),
+            by_number("PerJoint", ["V", "Value"], &bodies),
+            values(quote!(T), quote!(MotorTorques), &self.each(|link| ident(link.joint.torque))),
+            values(
+                quote!(T),
+                quote!(JointAccelerations),
+                &self.each(|link| ident(link.joint.acceleration)),
             ),
-            format!(
-                "impl<V: Value> Each<V> for PerJoint<V> {{\n    \
-                 fn values(&self) -> impl Iterator<Item = V> {{\n{}\n    }}\n\n    \
-                 fn values_mut(&mut self) -> impl Iterator<Item = &mut V> {{\n{}\n    }}\n}}",
-                fitted(8, "[", &plain(""), "].into_iter()"),
-                fitted(8, "[", &plain("&mut "), "].into_iter()"),
-            ),
-            format!(
-                "impl<T: Value> JointStates<T> for Joints<T> {{\n    \
-                 fn states(&self) -> impl Iterator<Item = [T; 2]> {{\n{}\n    }}\n\n    \
-                 fn states_mut(&mut self) -> impl Iterator<Item = [&mut T; 2]> {{\n{}\n    }}\n}}",
-                fitted(8, "[", &pairs(""), "].into_iter()"),
-                fitted(8, "[", &pairs("&mut "), "].into_iter()"),
-            ),
-            by_number("Joints", "T: Value", &states).join("\n"),
-            by_number("PerJoint", "V: Value", &bodies).join("\n"),
-            values("MotorTorques", &|link| link.joint.torque),
-            values("JointAccelerations", &|link| link.joint.acceleration),
-        ]
-        .join("\n\n")
+        ];
+        quote!(#(#parts)*)
     }
 
     /// The kernels, over any number.
-    fn kernels(&self) -> String {
-        let name = self.kind.type_name();
-        let pose_type = match self.pose_letters().as_slice() {
-            [] => "()".to_owned(),
-            [one] => format!("super::{}<T>", record_of(one)),
-            both => {
-                let names: Vec<_> =
-                    both.iter().map(|l| format!("super::{}<T>", record_of(l))).collect();
-                format!("({})", names.join(", "))
-            }
+    fn kernels(&self) -> TokenStream {
+        let record = |letter: &&str| if *letter == "q" { quote!(Trig) } else { quote!(Positions) };
+        let records: Vec<_> = self.pose_letters().iter().map(record).collect();
+        let pose_type = match records.as_slice() {
+            [one] => quote!(super::#one<T>),
+            none_or_both => quote!((#(super::#none_or_both<T>),*)),
         };
-        let mut items = vec![
-            format!(
-                "    type Constants<T: Value> = super::Prepared<T>;\n    \
-                 type Joints<T: Value> = Joints<T>;\n    \
-                 type Accelerations<T: Value> = JointAccelerations<T>;\n    \
-                 type PerJoint<V: Value> = PerJoint<V>;\n    \
-                 type Pose<T: Value> = {pose_type};\n    \
-                 type Eliminated<T: Value> = super::Eliminated<T>;\n    \
-                 type Gains<T: Value> = super::Gains<T>;"
-            ),
-            self.pose(),
-            self.eliminate(),
-            self.pivots(),
-            self.back_substitute(),
-            self.slope(),
-        ];
+        let mut items = vec![self.pose()];
+        items.extend(self.eliminate());
+        items.extend([self.pivots(), self.back_substitute(), self.slope()]);
         items.extend(Self::zips());
-        format!("impl<S: Scalar> Kernels for {name}<S> {{\n{}\n}}", items.join("\n\n"))
+        let name = self.name();
+        quote! {
+            impl<S: Scalar> Kernels for #name<S> {
+                type Constants<T: Value> = super::Prepared<T>;
+                type Joints<T: Value> = Joints<T>;
+                type Accelerations<T: Value> = JointAccelerations<T>;
+                type PerJoint<V: Value> = PerJoint<V>;
+                type Pose<T: Value> = #pose_type;
+                type Eliminated<T: Value> = super::Eliminated<T>;
+                type Gains<T: Value> = super::Gains<T>;
+                #(#[inline(always)] #items)*
+            }
+        }
     }
 
     /// The implementation of the solver's interface.
-    fn kind(&self) -> String {
-        let name = self.kind.type_name();
-        let zeros = |of: &dyn Fn(&Link) -> Vec<&'static str>| {
-            let names: Vec<_> = self.links().iter().flat_map(of).collect();
-            names.iter().map(|name| format!("{name}: zero()")).collect::<Vec<_>>()
-        };
-        let mut at_rest = zeros(&|link| vec![link.joint.coordinate]);
-        at_rest.extend(zeros(&|link| vec![link.joint.rate]));
-        let [name_item, table, parameter_mut, passive_mut] =
-            named(self.kind).map(|item| pretty_item(&item).join("\n"));
-        let mut items = vec![
-            "    type Scalar = T;\n    type Motors = MotorTorques<T>;".to_owned(),
-            name_item,
-            self.infos(),
-            table,
-            parameter_mut,
-            passive_mut,
-            function("at_rest() -> Joints<T>", &fitted(8, "Joints {", &at_rest, "}")),
-            function(
-                "motors_off() -> MotorTorques<T>",
-                &fitted(8, "MotorTorques {", &zeros(&|link| vec![link.joint.torque]), "}"),
-            ),
-            function(
-                "no_accelerations() -> JointAccelerations<T>",
-                &fitted(
-                    8,
-                    "JointAccelerations {",
-                    &zeros(&|link| vec![link.joint.acceleration]),
-                    "}",
-                ),
-            ),
-            function("all<V: Value>(value: V) -> PerJoint<V>", "        PerJoint::all(value)"),
-            function("mount(&self) -> &Matrix3<T>", "        &self.mount"),
-            self.body_parameters(),
-            function("passive(&self) -> PerJoint<Passive<T>>", "        self.passive"),
-            self.of_bodies(),
+    fn kind(&self) -> TokenStream {
+        let name = self.name();
+        let [name_item, table, parameter_mut, passive_mut] = named(self.kind);
+        let infos = self.links().iter().enumerate().map(|(k, link)| self.info(k, link));
+        let coordinates = self.each(|link| ident(link.joint.coordinate));
+        let rates = self.each(|link| ident(link.joint.rate));
+        let torques = self.each(|link| ident(link.joint.torque));
+        let accelerations = self.each(|link| ident(link.joint.acceleration));
+        let (bodies, of_bodies) = (self.body_parameters(), self.of_bodies());
+        let (balanced, constants) = (self.balanced(), self.constants());
+        let called = [
+            self.energy_momentum(),
+            self.first_moment(),
+            self.axes(),
+            self.loads(),
+            self.external(),
+            self.gravity(),
         ];
-        items.extend(self.balanced());
-        items.push(self.constants());
-        let share = "constant_share(constants: &super::Prepared<T>) -> ConstantShare<T>";
-        items.push(function(share, "        super::constant_share(constants)"));
-        items.extend(self.motion());
-        items.extend(self.carried());
-        format!("impl<T: Scalar> Kind for {name}<T> {{\n{}\n}}", items.join("\n\n"))
+        quote! {
+            impl<T: Scalar> Kind for #name<T> {
+                type Scalar = T;
+                type Motors = MotorTorques<T>;
+                #name_item
+                const JOINTS: &'static [JointInfo] = &[#(#infos),*];
+                #table
+                #parameter_mut
+                #passive_mut
+                fn at_rest() -> Joints<T> {
+                    Joints { #(#coordinates: zero(),)* #(#rates: zero()),* }
+                }
+                fn motors_off() -> MotorTorques<T> {
+                    MotorTorques { #(#torques: zero()),* }
+                }
+                fn no_accelerations() -> JointAccelerations<T> {
+                    JointAccelerations { #(#accelerations: zero()),* }
+                }
+                fn all<V: Value>(value: V) -> PerJoint<V> {
+                    PerJoint::all(value)
+                }
+                fn mount(&self) -> &Matrix3<T> {
+                    &self.mount
+                }
+                #bodies
+                fn passive(&self) -> PerJoint<Passive<T>> {
+                    self.passive
+                }
+                #of_bodies
+                #balanced
+                #constants
+                fn constant_share(constants: &super::Prepared<T>) -> ConstantShare<T> {
+                    super::constant_share(constants)
+                }
+                #(#called)*
+            }
+        }
     }
 
-    fn infos(&self) -> String {
-        let info = |(k, link): (usize, &Link)| {
-            let (joint, body) = (&link.joint, &link.body);
-            let slides = matches!(joint.motion, Motion::Slide(_));
-            let ignorable = !slides && !self.kind.axes_turn(k);
-            format!(
-                "JointInfo {{\n    index: {k},\n    body: \"{}\",\n    coordinate: \"{}\",\n    \
-                 rate: \"{}\",\n    \
-                 acceleration: \"{}\",\n    motor: \"{}\",\n    axis: {},\n    slides: {slides},\n    \
-                 ignorable: {ignorable},\n    driven: {},\n    tip: {},\n}}",
-                body.title,
-                joint.coordinate,
-                joint.rate,
-                joint.acceleration,
-                joint.torque,
-                number(joint.motion.axis()),
-                link.is_driven(),
-                k + 1 == self.links().len(),
-            )
-        };
-        let infos: Vec<_> = self.links().iter().enumerate().map(info).collect();
-        fitted(4, "const JOINTS: &'static [JointInfo] = &[", &infos, "];")
+    /// A row of the table of joints.
+    fn info(&self, k: usize, link: &Link) -> TokenStream {
+        let (joint, title) = (&link.joint, link.body.title);
+        let (coordinate, rate) = (joint.coordinate, joint.rate);
+        let (acceleration, motor) = (joint.acceleration, joint.torque);
+        let slides = matches!(joint.motion, Motion::Slide(_));
+        let ignorable = !slides && !self.kind.axes_turn(k);
+        let (driven, tip) = (link.is_driven(), k + 1 == self.links().len());
+        let (index, axis) = (Index::from(k), number(joint.motion.axis()));
+        quote! {
+            JointInfo {
+                index: #index,
+                body: #title,
+                coordinate: #coordinate,
+                rate: #rate,
+                acceleration: #acceleration,
+                motor: #motor,
+                axis: #axis,
+                slides: #slides,
+                ignorable: #ignorable,
+                driven: #driven,
+                tip: #tip,
+            }
+        }
     }
 
-    fn balanced(&self) -> Vec<String> {
-        let Some((body, offset)) = imbalanced(self.kind) else { return Vec::new() };
-        let name = inertia_name(body);
-        let text = format!(
-            "        let [_, j_12, j_13, ..] = entries(&self.{name});\n        \
-             let mut {name} = self.{name};\n        \
-             ({name}.m12, {name}.m21) = (zero(), zero());\n        \
-             ({name}.m13, {name}.m31) = (zero(), zero());\n        \
-             let lumped = Lumped {{ u_s: self.{} * self.{offset}, j_12, j_13 }};\n        \
-             Some((Self {{ {offset}: zero(), {name}, ..*self }}, lumped))",
-            body.mass
-        );
-        vec![
-            function("model(&self) -> ImbalanceModel", "        self.model"),
-            function("balanced(&self) -> Option<(Self, Lumped<T>)>", &text),
-        ]
+    /// The imbalance, and the device without it.
+    fn balanced(&self) -> TokenStream {
+        let Some((body, offset)) = imbalanced(self.kind) else { return TokenStream::new() };
+        let [name, mass] = [inertia_name(body), body.mass.to_owned()].map(ident);
+        let offset = ident(offset);
+        quote! {
+            fn model(&self) -> ImbalanceModel {
+                self.model
+            }
+            fn balanced(&self) -> Option<(Self, Lumped<T>)> {
+                let [_, j_12, j_13, ..] = entries(&self.#name);
+                let mut #name = self.#name;
+                (#name.m12, #name.m21) = (zero(), zero());
+                (#name.m13, #name.m31) = (zero(), zero());
+                let lumped = Lumped { u_s: self.#mass * self.#offset, j_12, j_13 };
+                Some((Self { #offset: zero(), #name, ..*self }, lumped))
+            }
+        }
     }
 
     /// `prepare` of the kernel's parameters.
-    fn constants(&self) -> String {
-        let mut lines = Vec::new();
+    fn constants(&self) -> TokenStream {
+        let field = |name: &str| set(name, &own(name));
         let places = (0..3).flat_map(|row| (0..3).map(move |column| (row, column)));
         let entry = |(row, column)| {
-            format!("{}: self.mount.m{}{}", mount_entry(row, column), row + 1, column + 1)
+            let of = format_ident!("m{}{}", row + 1, column + 1);
+            set(mount_entry(row, column), &quote!(self.mount.#of))
         };
-        let mut fields: Vec<_> = places.map(entry).collect();
+        let (mut lets, mut fields) = (Vec::new(), places.map(entry).collect::<Vec<_>>());
         for (k, link) in self.links().iter().enumerate() {
             let (joint, body) = (&link.joint, &link.body);
-            let names = joint.origin.names;
-            let from = if k == 0 {
-                "origin".to_owned()
-            } else {
-                format!("components(&self.{})", joint.origin.name)
+            let mut taken = |names: &[Ident], from: TokenStream| {
+                lets.push(quote!(let [#(#names),*] = #from;));
+                names.iter().map(Ident::to_token_stream).collect::<Vec<_>>()
             };
-            lines.push(format!("        let [{}] = {from};", names.join(", ")));
-            fields.extend(names.map(str::to_owned));
+            let from = if k == 0 { quote!(origin) } else { components(joint.origin.name) };
+            fields.extend(taken(&joint.origin.names.map(ident), from));
             match body.centre {
                 Centre::Free(triple) => {
-                    let from = format!("components(&self.{})", triple.name);
-                    lines.push(format!("        let [{}] = {from};", triple.names.join(", ")));
-                    fields.extend(triple.names.map(str::to_owned));
+                    fields.extend(taken(&triple.names.map(ident), components(triple.name)));
                 }
-                Centre::On(_, name) => fields.push(format!("{name}: self.{name}")),
+                Centre::On(_, name) => fields.push(field(name)),
                 Centre::At => {}
             }
-            fields.push(format!("{0}: self.{0}", body.mass));
+            fields.push(field(body.mass));
             match body.inertia {
                 Inertia::Full(_) => {
-                    let names = moments(body);
-                    let from = format!("entries(&self.{})", inertia_name(body));
-                    lines.push(format!("        let [{}] = {from};", names.join(", ")));
-                    fields.extend(names);
+                    let names: Vec<_> = moments(body).iter().map(ident).collect();
+                    let inertia = own(inertia_name(body));
+                    fields.extend(taken(&names, quote!(entries(&#inertia))));
                 }
-                _ => fields.extend(moments(body).iter().map(|name| format!("{name}: self.{name}"))),
+                _ => fields.extend(moments(body).iter().map(|name| field(name))),
             }
         }
-        lines.push(fitted(8, "super::prepare(&super::Parameters {", &fields, "})"));
-        function("constants(&self, origin: [T; 3]) -> super::Prepared<T>", &lines.join("\n"))
+        quote! {
+            fn constants(&self, origin: [T; 3]) -> super::Prepared<T> {
+                #(#lets)*
+                super::prepare(&super::Parameters { #(#fields),* })
+            }
+        }
     }
 }
 
-/// A function of the implementation.
-pub(super) fn function(signature: &str, body: &str) -> String {
-    format!("    fn {signature} {{\n{body}\n    }}")
+/// A field, or an argument, and what follows its name.
+pub(super) fn set(name: impl AsRef<str>, what: &TokenStream) -> TokenStream {
+    let name = ident(name);
+    quote!(#name: #what)
 }
 
-/// The record behind an argument of the pose.
-fn record_of(letter: &str) -> &'static str {
-    if letter == "q" { "Trig" } else { "Positions" }
+/// A parameter of the device.
+pub(super) fn own(name: impl AsRef<str>) -> TokenStream {
+    let name = ident(name);
+    quote!(self.#name)
+}
+
+/// The components of a parameter that is a vector.
+pub(super) fn components(name: &str) -> TokenStream {
+    let vector = own(name);
+    quote!(components(&#vector))
 }

@@ -2,9 +2,10 @@
 //! and their documentation, the table of names and the access by name follow.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::quote;
 
 use super::device::{imbalanced, inertia_name, moments};
+use super::text::{capital, ident};
 use crate::kinds::{Centre, Inertia, Kind, Link, Motion};
 
 /// A parameter.
@@ -193,23 +194,23 @@ impl Parameter {
             unit => format!(", {unit}"),
         };
         let text = format!("{symbol}{}{frame}{unit}.{}", self.meaning, self.note);
-        if symbol.is_empty() { super::text::capital(&text) } else { text }
+        if symbol.is_empty() { capital(&text) } else { text }
     }
 
     /// The type of the field.
-    pub(super) fn field_type(&self) -> &'static str {
+    pub(super) fn field_type(&self) -> TokenStream {
         match self.shape {
-            Shape::Scalar => "T",
-            Shape::Vector => "Vector3<T>",
-            Shape::Rotation | Shape::Symmetric => "Matrix3<T>",
-            Shape::Model => "ImbalanceModel",
+            Shape::Scalar => quote!(T),
+            Shape::Vector => quote!(Vector3<T>),
+            Shape::Rotation | Shape::Symmetric => quote!(Matrix3<T>),
+            Shape::Model => quote!(ImbalanceModel),
         }
     }
 
     /// The row of the table.
     fn info(&self) -> TokenStream {
         let Self { name, symbol, unit, shape, frame, body, meaning, .. } = self;
-        let shape = format_ident!("{}", format!("{shape:?}"));
+        let shape = ident(format!("{shape:?}"));
         let option = |text: Option<&str>| text.map_or(quote!(None), |text| quote!(Some(#text)));
         let (frame, body) = (option(*frame), option(*body));
         quote! {
@@ -227,7 +228,7 @@ impl Parameter {
 
     /// The arm that finds the field.
     fn arm(&self) -> TokenStream {
-        let (name, field) = (&self.name, format_ident!("{}", self.name));
+        let (name, field) = (&self.name, ident(&self.name));
         let variant = match self.shape {
             Shape::Scalar => quote!(Scalar),
             Shape::Vector => quote!(Vector),

@@ -14,7 +14,9 @@ use super::device::{Signature, Signatures, device_file};
 use super::home::Home;
 use super::inputs::Stated;
 use super::parts::{FUSED, Part, Parts, parts};
-use super::text::{COMMENT, LINE, capital, fnv1a64, literal, pretty, spaced, wrapped};
+use super::text::{
+    COMMENT, LINE, capital, fnv1a64, literal, pretty, pretty_items, spaced, wrapped,
+};
 use crate::derivation::chain::Chain;
 use crate::kernel::{Record, Source, shared_records};
 use crate::kinds::{Kind, Motion};
@@ -202,7 +204,7 @@ fn kind_file(
     context.insert("hash", &fnv1a64(&(inputs + include_str!("templates/kind.rs.tera"))));
     context.insert("title", &capital(kind.title));
     context.insert("symmetric", &symmetric(kind));
-    context.insert("imports", &home.imports(&imports));
+    context.insert("imports", &pretty_items(home.imports(&imports)?));
     context.insert("records", &texts);
     context.insert("functions", &functions);
     rust_file(home.path(&format!("{}.rs", kind.name)), tera.render("kind.rs", &context)?)
@@ -264,7 +266,8 @@ pub(super) fn record_text(record: &Record) -> RecordText {
         fields: record.fields.iter().map(field).collect(),
         by_number: if LANED.contains(&record.name.as_str()) {
             let names: Vec<_> = record.fields.iter().map(|field| field.name.as_str()).collect();
-            by_number(&record.name, "T: Copy", &names)
+            let functions = by_number(&record.name, ["T", "Copy"], &names);
+            pretty_items(functions).lines().map(str::to_owned).collect()
         } else {
             Vec::new()
         },

@@ -1,6 +1,11 @@
 //! Where emitted code stands, and how it finds the dynamics crate from there.
 
-use super::layout::packed;
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::Path;
+
+use super::file::EmitError;
+use super::text::ident;
 
 /// The crate that emitted code is part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,25 +34,26 @@ impl Home<'_> {
     }
 
     /// What the dynamics crate is called there.
-    pub(super) fn dynamics(&self) -> &str {
-        match self {
+    pub(super) fn dynamics(self) -> Result<Path, EmitError> {
+        let name = match self {
             Self::Dynamics => "crate",
             Self::Outside(dynamics) => dynamics,
-        }
+        };
+        syn::parse_str(name).map_err(|error| EmitError::Syntax(name.to_owned(), error))
     }
 
-    /// The lines that bring in these records of the hub, and `Real`, as `rustfmt` leaves them.
-    pub(super) fn imports(self, records: &[String]) -> Vec<String> {
-        let (dynamics, from) = match self {
-            Self::Dynamics => ("crate", "use super::hub::{".to_owned()),
-            Self::Outside(dynamics) => (dynamics, format!("use {dynamics}::generated::hub::{{")),
-        };
-        let list = packed(&from, records, "};");
-        let list = list.lines().map(str::to_owned);
-        let real = std::iter::once(format!("use {dynamics}::Real;"));
-        match self {
-            Self::Dynamics => list.chain(real).collect(),
-            Self::Outside(_) => real.chain(list).collect(),
-        }
+    /// What brings in these records of the hub, and `Real`.
+    pub(super) fn imports(self, records: &[String]) -> Result<TokenStream, EmitError> {
+        let (dynamics, records) = (self.dynamics()?, records.iter().map(ident));
+        Ok(match self {
+            Self::Dynamics => quote! {
+                use super::hub::{#(#records),*};
+                use #dynamics::Real;
+            },
+            Self::Outside(_) => quote! {
+                use #dynamics::Real;
+                use #dynamics::generated::hub::{#(#records),*};
+            },
+        })
     }
 }

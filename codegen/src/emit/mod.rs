@@ -1,8 +1,9 @@
-//! Kernels to text: what is shared is named, every line is short, and the layout is a template.
+//! Kernels to text: what is shared is named, and every line is short. Templates lay out the
+//! kernels; a kind's second file is tokens, printed at once.
 //!
 //! Invariants: the same kernels give the same bytes; every operation of the graph is written once
 //! in a function, or once in `prepare` when it depends on parameters alone; no line passes 100
-//! columns and `rustfmt` has nothing to change.
+//! columns. `rustfmt` skips the modules of emitted files.
 
 mod body;
 mod by_number;
@@ -18,7 +19,6 @@ mod file;
 mod functions;
 mod home;
 mod inputs;
-mod layout;
 mod parts;
 mod prepare;
 mod render;

@@ -1,6 +1,6 @@
 //! Pieces of text: formatted statements, literals, wrapped comments.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 /// A line of emitted text is at most this wide.
@@ -17,12 +17,35 @@ pub(super) fn pretty(statements: &[TokenStream]) -> Vec<String> {
     lines[1..lines.len() - 1].iter().map(|line| line[4..].to_owned()).collect()
 }
 
-/// An item of an implementation, as formatted lines indented by four.
-pub(super) fn pretty_item(item: &TokenStream) -> Vec<String> {
-    let file = syn::parse2(quote!(impl Item { #item })).expect("the item is Rust");
+/// What the first line of an item that stands apart begins with: all but imports and types.
+const APART: [&str; 6] = ["///", "#[", "const ", "fn ", "impl", "pub "];
+
+/// Items as formatted text, with the empty lines between them that tokens do not have.
+pub(super) fn pretty_items(items: TokenStream) -> String {
+    let file = syn::parse2(items).expect("the items are Rust");
     let text = prettyplease::unparse(&file);
-    let lines: Vec<_> = text.lines().map(str::to_owned).collect();
-    lines[1..lines.len() - 1].to_vec()
+    let mut lines: Vec<&str> = Vec::new();
+    for line in text.lines() {
+        let ended = lines.last().is_some_and(|last| last.ends_with([';', '}']));
+        if ended && APART.iter().any(|start| line.trim_start().starts_with(start)) {
+            lines.push("");
+        }
+        lines.push(line);
+    }
+    lines.join("\n")
+}
+
+/// A name.
+pub(super) fn ident(name: impl AsRef<str>) -> Ident {
+    Ident::new(name.as_ref(), Span::call_site())
+}
+
+/// Documentation in lines of at most `width` characters; an empty line separates paragraphs.
+pub(super) fn documented(text: &str, width: usize) -> TokenStream {
+    let paragraphs: Vec<_> = text.split("\n\n").map(|text| wrapped(text, width)).collect();
+    let lines = paragraphs.join(&String::new());
+    let lines = lines.iter().map(|line| spaced(line));
+    quote!(#(#[doc = #lines])*)
 }
 
 /// A structure literal, on one line where it fits.
@@ -84,6 +107,23 @@ mod tests {
     fn a_short_literal_stands_on_one_line() {
         let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
         assert_eq!(literal("P", &[pair("x", "x"), pair("y", "p.y")]), ["P { x, y: p.y }"]);
+    }
+
+    #[test]
+    fn items_stand_apart_and_imports_do_not() {
+        let doc = documented("One two.\n\nThree.", 8);
+        let items = quote! {
+            use a::B;
+            use c::D;
+            #doc
+            struct E { #[doc = " Field."] x: F, #[doc = " Field."] y: G }
+            impl E { type T = F; type U = G; fn f() {} fn g() {} }
+        };
+        let expected = "use a::B;\nuse c::D;\n\n\
+            /// One two.\n///\n/// Three.\nstruct E {\n\
+            \x20   /// Field.\n    x: F,\n    /// Field.\n    y: G,\n}\n\n\
+            impl E {\n    type T = F;\n    type U = G;\n\n    fn f() {}\n\n    fn g() {}\n}";
+        assert_eq!(pretty_items(items), expected);
     }
 
     #[test]
