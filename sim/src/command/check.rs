@@ -90,9 +90,7 @@ fn properties(scenario: &Scenario) -> String {
     // A scenario that was read has a spacecraft.
     let Ok(spacecraft) = scenario.spacecraft() else { return text };
     let state = &scenario.initial;
-    let mut rows = vec![
-        row("total mass", &[spacecraft.mass()], "kg"),
-    ];
+    let mut rows = vec![row("total mass", &[spacecraft.mass()], "kg")];
     if let Ok(c) = spacecraft.centre_of_mass(state) {
         rows.push(row("centre of mass from B, B axes", c.c.as_slice(), "m"));
     }
@@ -151,7 +149,8 @@ fn imbalance(device: &BuiltIn) -> String {
     if joints.last().is_none_or(|joint| joint.slides) || wheel.centre[0] != 0.0 {
         return String::new();
     }
-    let of = WheelImbalance { d: wheel.centre[1], j_12: wheel.inertia.m12, j_13: wheel.inertia.m13 };
+    let of =
+        WheelImbalance { d: wheel.centre[1], j_12: wheel.inertia.m12, j_13: wheel.inertia.m13 };
     match of.lumped(wheel.mass) {
         Ok(found) if found.u_s == 0.0 && found.u_d == 0.0 => "balanced".to_owned(),
         Ok(found) => format!(

@@ -74,7 +74,8 @@ impl Compare {
             print(&(serde_json::to_string_pretty(&entries).unwrap_or_default() + "\n"));
             return Ok(ExitCode::SUCCESS);
         }
-        let head = ["column", "peak difference", "at (s)", "RMS difference", "largest value", "unit"];
+        let head =
+            ["column", "peak difference", "at (s)", "RMS difference", "largest value", "unit"];
         let mut rows = vec![head.map(str::to_owned).to_vec()];
         for d in &differences {
             rows.push(vec![
@@ -126,7 +127,8 @@ impl Rows {
 
     /// The next row, if there is one.
     fn next(&mut self, row: &mut Vec<f64>) -> Result<bool, CommandError> {
-        let wrong = |path: &Path, text: String| CommandError::Other(format!("{}: {text}", path.display()));
+        let wrong =
+            |path: &Path, text: String| CommandError::Other(format!("{}: {text}", path.display()));
         let more = self
             .reader
             .read_record(&mut self.record)

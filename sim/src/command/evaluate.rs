@@ -51,10 +51,12 @@ impl Recorder for First {
 
 impl Evaluate {
     pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
-        let (mut scenario, _) = from_file(&self.file, &self.overrides.overrides())
-            .map_err(|errors| match self.format {
-                Form::Text => CommandError::Scenario(errors),
-                Form::Json => CommandError::ScenarioJson(errors),
+        let (mut scenario, _) =
+            from_file(&self.file, &self.overrides.overrides()).map_err(|errors| {
+                match self.format {
+                    Form::Text => CommandError::Scenario(errors),
+                    Form::Json => CommandError::ScenarioJson(errors),
+                }
             })?;
         let all = Columns::all(&scenario);
         scenario.output.columns = all.as_slice().iter().map(|c| c.name.clone()).collect();
@@ -86,11 +88,12 @@ impl Evaluate {
                 group = &column.group;
                 rows.push(vec![format!("\n{group}")]);
             }
-            let frame = column.frame.as_ref().map_or_else(String::new, |frame| format!("in {frame}"));
+            let frame =
+                column.frame.as_ref().map_or_else(String::new, |frame| format!("in {frame}"));
             rows.push(vec![
                 format!("  {}", column.name),
                 six(*value),
-                column.unit.clone().to_string(),
+                column.unit.to_owned(),
                 frame,
             ]);
         }

@@ -52,15 +52,21 @@ impl Export {
         let (scenario, _) = from_file(&options.file, &options.overrides.overrides())
             .map_err(CommandError::Scenario)?;
         let bytes = table(&scenario)?;
-        let to = options.to.clone().unwrap_or_else(|| {
-            options.file.with_file_name(format!("{}.table", scenario.name))
-        });
+        let to = options
+            .to
+            .clone()
+            .unwrap_or_else(|| options.file.with_file_name(format!("{}.table", scenario.name)));
         let name = to.file_name().map(|name| name.to_string_lossy().into_owned());
         let folder = to.parent().map(PathBuf::from).unwrap_or_default();
         may_write(&folder, &name.into_iter().collect::<Vec<_>>(), options.force)?;
         std::fs::write(&to, &bytes)
             .map_err(|source| CommandError::Io { path: to.clone(), source })?;
-        print(&format!("{}: {} bytes, {} devices\n", to.display(), bytes.len(), scenario.devices.len()));
+        print(&format!(
+            "{}: {} bytes, {} devices\n",
+            to.display(),
+            bytes.len(),
+            scenario.devices.len()
+        ));
         Ok(ExitCode::SUCCESS)
     }
 }

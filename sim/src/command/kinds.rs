@@ -20,7 +20,8 @@ pub(super) struct Kinds {
 impl Kinds {
     pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
         let Some(name) = &self.kind else {
-            let mut rows = vec![vec!["kind".to_owned(), "bodies from the hub to the tip".to_owned()]];
+            let mut rows =
+                vec![vec!["kind".to_owned(), "bodies from the hub to the tip".to_owned()]];
             for kind in BuiltInKind::ALL {
                 let bodies: Vec<_> = kind.joints().iter().map(body_key).collect();
                 rows.push(vec![kind.name().to_owned(), bodies.join(", ")]);
@@ -37,9 +38,11 @@ impl Kinds {
         let _ = writeln!(text, "{}\n\njoints from the hub to the tip", kind.name());
         for joint in kind.joints() {
             let axis = ["x", "y", "z"].get(joint.axis).copied().unwrap_or("?");
-            let (how, unit) = if joint.slides { ("slides along", "m") } else { ("turns about", "rad") };
+            let (how, unit) =
+                if joint.slides { ("slides along", "m") } else { ("turns about", "rad") };
             let rate = joint.rate;
-            let motor = if joint.driven { "motor" } else { "keeps its rate, motor torque computed" };
+            let motor =
+                if joint.driven { "motor" } else { "keeps its rate, motor torque computed" };
             let _ = writeln!(
                 text,
                 "  {:<14} {how} {axis}; coordinate {} ({unit}), rate {rate}, {motor} {}",

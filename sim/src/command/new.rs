@@ -98,8 +98,10 @@ fn mount(kind: BuiltInKind) -> &'static str {
             "# Spin axis and gimbal axis at zero angles, in the hub's axes.\n\
              mount = { spin_axis = [1, 0, 0], gimbal_axis = [0, 0, 1] }\n"
         }
-        _ => "# The device's axes are the hub's, turned: here by nothing.\n\
-              mount = { axis = [0, 0, 1], angle = \"0 deg\" }\n",
+        _ => {
+            "# The device's axes are the hub's, turned: here by nothing.\n\
+              mount = { axis = [0, 0, 1], angle = \"0 deg\" }\n"
+        }
     }
 }
 

@@ -19,7 +19,7 @@ use crate::engine::{Outcome, run};
 use crate::file::{Diagnostics, from_file};
 use crate::plan::{Format, Scenario};
 use crate::record::partial::Partial;
-use crate::record::{Csv, Many, Npz, Recorder, Statistics};
+use crate::record::{Csv, Many, Npz, Recorder, Statistics, Verdict};
 use crate::report::Report;
 
 pub(super) const HELP: &str = "\
@@ -60,10 +60,8 @@ impl Run {
         for (scenario, _) in &scenarios {
             may_write(&self.out, &self.names(scenario), self.force)?;
         }
-        std::fs::create_dir_all(&self.out).map_err(|source| CommandError::Io {
-            path: self.out.clone(),
-            source,
-        })?;
+        std::fs::create_dir_all(&self.out)
+            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
         watch_interrupts();
         let mut met = true;
         for (scenario, reports) in &scenarios {
@@ -118,7 +116,7 @@ impl Run {
         for warning in &warnings {
             eprintln!("warning: {warning}");
         }
-        Ok(outcome.end.is_complete() && statistics.is_met())
+        Ok(outcome.end.is_complete() && statistics.verdicts().iter().all(Verdict::is_met))
     }
 }
 
@@ -142,7 +140,9 @@ pub(super) fn read_all(files: &Files) -> Result<Vec<(Scenario, Diagnostics)>, Co
                 scenarios.push((scenario, reports));
             }
             Err(errors) => {
-                if let Some(CommandError::Scenario(earlier)) = failed.replace(CommandError::Scenario(errors)) {
+                if let Some(CommandError::Scenario(earlier)) =
+                    failed.replace(CommandError::Scenario(errors))
+                {
                     eprintln!("{earlier}");
                 }
             }

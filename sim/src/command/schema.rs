@@ -6,7 +6,7 @@ use super::error::CommandError;
 use super::print;
 
 /// The schema, as published.
-pub const SCHEMA: &str = include_str!("../../schema/scenario-1.json");
+pub(crate) const SCHEMA: &str = include_str!("../../schema/scenario-1.json");
 
 pub(super) fn execute() -> Result<ExitCode, CommandError> {
     print(SCHEMA);

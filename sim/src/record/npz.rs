@@ -6,12 +6,12 @@
 //! array; so rows are kept in `NAME.samples.partial` and copied into the archive in bounded memory.
 //! A program that is killed leaves that file: rows of little-endian doubles, the columns in order.
 
-use std::io::{self, Read, Write};
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use npyz::npz::NpzWriter;
-use npyz::{DType, TypeStr, WriterBuilder};
-use zip::write::FileOptions;
+use npyz::{DType, TypeStr, WriteOptions, WriterBuilder};
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
 
 use super::partial::Partial;
 use super::{Header, RecordError, Recorder};
@@ -82,7 +82,7 @@ fn assemble(
     outcome: &Outcome,
 ) -> io::Result<()> {
     let mut file = Partial::create(path)?;
-    let mut archive = NpzWriter::new(&mut file);
+    let mut archive = ZipWriter::new(&mut file);
     let columns = &header.columns;
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
     let units: Vec<&str> = columns.iter().map(|column| column.unit).collect();
@@ -103,33 +103,34 @@ fn assemble(
         strings(&mut archive, name, &[], &[text])?;
     }
     let shape = [rows, columns.len() as u64];
-    let array = archive.array::<f64>("samples", options())?;
-    let to = array.dtype(plain("<f8")?).shape(&shape).write_header_only()?;
+    archive.start_file("samples.npy", options())?;
+    let array = WriteOptions::<f64>::new().dtype(plain("<f8")?).shape(&shape);
+    let to = array.writer(&mut archive).write_header_only()?;
     // No more than the rows counted, whatever else the file has.
     let bytes = rows * columns.len() as u64 * 8;
     io::copy(&mut spool.rewind()?.take(bytes), to)?;
-    archive.zip_writer().finish()?;
-    drop(archive);
+    archive.finish()?;
     file.finish()
 }
 
 /// Members beyond 4 GB; not compressed, as `numpy.savez` has it; no time of day, so that the same run
 /// makes the same file.
-fn options() -> FileOptions {
-    let options = FileOptions::default().compression_method(zip::CompressionMethod::Stored);
+fn options() -> SimpleFileOptions {
+    let options = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
     options.large_file(true)
 }
 
 /// Writes an array of text: UTF-32, each as wide as the widest.
-fn strings<W: Write + io::Seek>(
-    archive: &mut NpzWriter<W>,
+fn strings<W: Write + Seek>(
+    archive: &mut ZipWriter<W>,
     name: &str,
     shape: &[u64],
     values: &[&str],
 ) -> io::Result<()> {
     let width = values.iter().map(|value| value.chars().count()).max().unwrap_or(0).max(1);
-    let array = archive.array::<str>(name, options())?;
-    let to = array.dtype(plain(&format!("<U{width}"))?).shape(shape).write_header_only()?;
+    archive.start_file(format!("{name}.npy"), options())?;
+    let array = WriteOptions::<str>::new().dtype(plain(&format!("<U{width}"))?).shape(shape);
+    let to = array.writer(&mut *archive).write_header_only()?;
     for value in values {
         let padding = std::iter::repeat('\0');
         for letter in value.chars().chain(padding).take(width) {
