@@ -8,6 +8,8 @@
 //! running maxima, and events beyond the first ten thousand are only counted.
 
 mod actions;
+#[cfg(test)]
+pub(crate) mod checks;
 mod dense;
 mod dop853;
 mod drift;
@@ -27,7 +29,7 @@ mod system;
 
 use std::ops::ControlFlow;
 
-use precess_dynamics::State;
+use precess_dynamics::{JointArray, State};
 
 pub use drift::Drift;
 pub use error::{Fault, RunError};
@@ -199,7 +201,7 @@ impl<'a> Run<'a> {
     #[must_use]
     pub fn state(&self) -> State<Set> {
         let mut state = self.moment.state.clone();
-        let joints = state.devices.iter_mut().flat_map(|device| device.as_mut_slice());
+        let joints = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
         for ([coordinate, _], turns) in joints.zip(self.stepper.turns()) {
             *coordinate += turns * std::f64::consts::TAU;
         }
