@@ -34,8 +34,10 @@ impl Run<'_> {
     fn apply_actions(&mut self) -> Result<(), RunError> {
         if let Some((joint, bound)) = self.stopped.take() {
             let lost = self.brake(&[joint])?;
-            let name = &self.system.layout.joints[joint].name;
-            let text = format!("{name} reaches its end stop at {bound}; locked, {lost} J lost");
+            let place = &self.system.layout.joints[joint];
+            let (name, [unit, ..]) = (&place.name, place.info.units());
+            let text =
+                format!("{name} reaches its end stop at {bound} {unit}; locked, {lost} J lost");
             self.note(self.time, text);
         }
         let changes = self.segments.due(self.time).to_vec();
@@ -120,7 +122,8 @@ impl Run<'_> {
         if rate == 0.0 {
             return Ok(());
         }
-        let (time, joint) = (self.time, layout.joints[joint].name.clone());
-        Err(RunError::LockedJointMoves { time, joint, rate })
+        let place = &layout.joints[joint];
+        let (time, joint, [_, unit, ..]) = (self.time, place.name.clone(), place.info.units());
+        Err(RunError::LockedJointMoves { time, joint, rate, unit })
     }
 }

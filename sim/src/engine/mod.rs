@@ -159,11 +159,15 @@ impl<'a> Run<'a> {
                 }
                 Passed::Stop { joint, bound, action } => {
                     reached = time;
-                    let name = self.system.layout.joints[joint].name.clone();
+                    let place = &self.system.layout.joints[joint];
+                    let (name, [unit, ..]) = (place.name.clone(), place.info.units());
                     match action {
                         StopAction::End => {
-                            self.note(time, format!("{name} reaches its end stop at {bound}"));
-                            self.end = Some(End::EndStop { joint: name, bound });
+                            self.note(
+                                time,
+                                format!("{name} reaches its end stop at {bound} {unit}"),
+                            );
+                            self.end = Some(End::EndStop { joint: name, bound, unit });
                         }
                         StopAction::Lock => self.stopped = Some((joint, bound)),
                     }

@@ -59,12 +59,12 @@ mod tests {
 
     #[test]
     fn the_bracket_is_as_narrow_as_required_and_costs_less_than_bisection() {
-        let cases: [(fn(f64) -> f64, f64); 3] = [
-            (|x| x.powi(3) - 2.0, 2.0_f64.powf(1.0 / 3.0)),
-            (|x| (x - 0.25) * 1e-9, 0.25),
-            (|x| (x - 1.5).powi(9), 1.5),
+        let cases = [
+            (Box::new(|x: f64| x.powi(3) - 2.0) as Box<dyn Fn(f64) -> f64>, 2.0_f64.cbrt()),
+            (Box::new(|x| (x - 0.25) * 1e-9), 0.25),
+            (Box::new(|x: f64| (x - 1.5).powi(9)), 1.5),
         ];
-        for (function, root) in cases {
+        for (function, root) in &cases {
             let mut count = 0;
             let counted = |x| {
                 count += 1;

@@ -131,8 +131,8 @@ fn a_moving_joint_is_not_locked_without_a_brake() {
     assert_eq!(error.time(), Some(0.25));
     assert_eq!(
         error.to_string(),
-        "at t = 0.25 s: panel.phi is to be locked but moves at 0.5, not 0; stop it with a brake \
-         instead"
+        "at t = 0.25 s: panel.phi is to be locked but moves at 0.5 rad/s, not 0; stop it with a \
+         brake instead"
     );
     scenario.drives = vec![drive];
     assert!(matches!(Run::new(&scenario), Err(RunError::LockedJointMoves { time: 0.0, .. })));

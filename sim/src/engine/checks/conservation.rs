@@ -27,8 +27,8 @@ fn device(kind: BuiltInKind, passive: Passive) -> BuiltIn {
         model: ImbalanceModel::Coupled,
     };
     let mut device = BuiltIn::new(kind, &parameters).expect("nothing that it lacks");
-    for (number, info) in kind.parameters().iter().enumerate() {
-        let x = 0.1 + 0.01 * number as f64;
+    for (number, info) in (0_u8..).zip(kind.parameters()) {
+        let x = 0.1 + 0.01 * f64::from(number);
         let value = match info.shape {
             Shape::Scalar if info.name == "d" => ParameterValue::Scalar(0.01),
             Shape::Scalar => ParameterValue::Scalar(0.5 + x),
@@ -57,8 +57,8 @@ fn every_kind(passive: Passive) -> Scenario {
     scenario.initial.attitude = Quaternion { q0: 0.5, q1: -0.5, q2: 0.5, q3: 0.5 };
     scenario.initial.omega = Vector3::new(0.3, -0.1, 0.2);
     let joints = scenario.initial.devices.iter_mut().flat_map(JointArray::as_mut_slice);
-    for (number, [coordinate, rate]) in joints.enumerate() {
-        let x = number as f64;
+    for (number, [coordinate, rate]) in (0_u8..).zip(joints) {
+        let x = f64::from(number);
         (*coordinate, *rate) = (0.2 + 0.05 * x, 0.4 - 0.06 * x);
     }
     scenario

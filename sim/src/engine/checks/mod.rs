@@ -108,8 +108,8 @@ pub(crate) fn scenario(names: &[&str], devices: Set, duration: f64) -> Scenario 
 
 /// Coordinate and rate of a joint at the start.
 pub(crate) fn set_joint(scenario: &mut Scenario, joint: usize, state: [f64; 2]) {
-    let joints = scenario.initial.devices.iter_mut().flat_map(JointArray::as_mut_slice);
-    *joints.skip(joint).next().expect("a joint") = state;
+    let mut joints = scenario.initial.devices.iter_mut().flat_map(JointArray::as_mut_slice);
+    *joints.nth(joint).expect("a joint") = state;
 }
 
 /// A panel whose centre of mass is on its hinge: on a clamped hub it turns at a constant rate.

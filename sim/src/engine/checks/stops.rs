@@ -76,7 +76,7 @@ fn a_joint_that_starts_beyond_its_stops_is_rejected() {
     let Err(error) = Run::new(&scenario) else { panic!("accepted") };
     assert_eq!(
         error.to_string(),
-        "panel.phi starts at 1.5, beyond its end stops -1 and 1; start it in between"
+        "panel.phi starts at 1.5 rad, beyond its end stops -1 rad and 1 rad; start it in between"
     );
 }
 
