@@ -34,14 +34,21 @@ impl Run<'_> {
     fn apply_actions(&mut self) -> Result<(), RunError> {
         if let Some((joint, bound)) = self.stopped.take() {
             let lost = self.brake(&[joint])?;
-            let name = &self.system.layout.joints[joint].name;
-            let text = format!("{name} reaches its end stop at {bound}; locked, {lost} J lost");
+            let place = &self.system.layout.joints[joint];
+            let (name, [unit, ..]) = (&place.name, place.info.units());
+            let text =
+                format!("{name} reaches its end stop at {bound} {unit}; locked, {lost} J lost");
             self.note(self.time, text);
         }
         let changes = self.segments.due(self.time).to_vec();
         let mut brakes = Vec::new();
-        for change in changes {
+        for change in &changes {
             self.check_driven(change.joint, &change.action)?;
+            if change.action == Action::Drive(Drive::Locked) {
+                self.check_at_rest(change.joint)?;
+            }
+        }
+        for change in changes {
             match &change.action {
                 Action::Drive(drive) => {
                     self.system.acting.set_drive(change.joint, drive);
@@ -57,7 +64,6 @@ impl Run<'_> {
                 Action::Brake => brakes.push(change.joint),
             }
         }
-        self.check_locked()?;
         if !brakes.is_empty() {
             let lost = self.brake(&brakes)?;
             let names = brakes.iter().map(|joint| self.system.layout.joints[*joint].name.as_str());
@@ -77,7 +83,9 @@ impl Run<'_> {
         }
         let stopped = self.system.spacecraft.stop(&self.moment.state, &inputs);
         let stopped = stopped.map_err(|source| RunError::solve(&self.system, self.time, source))?;
-        joints.iter().for_each(|joint| self.system.acting.set_drive(*joint, LOCKED));
+        for joint in joints {
+            self.system.acting.set_drive(*joint, LOCKED);
+        }
         self.moment.state = stopped.state;
         self.lost += stopped.energy_lost;
         Ok(stopped.energy_lost)
@@ -87,8 +95,11 @@ impl Run<'_> {
     pub(super) fn check_drives(&self) -> Result<(), RunError> {
         for (joint, drive) in self.scenario.drives.iter().enumerate() {
             self.check_driven(joint, &Action::Drive(drive.clone()))?;
+            if *drive == Drive::Locked {
+                self.check_at_rest(joint)?;
+            }
         }
-        self.check_locked()
+        Ok(())
     }
 
     fn check_driven(&self, joint: usize, action: &Action) -> Result<(), RunError> {
@@ -105,15 +116,14 @@ impl Run<'_> {
         Err(RunError::NotDriven { time: self.time, joint: place.name.clone() })
     }
 
-    fn check_locked(&self) -> Result<(), RunError> {
-        let turns = self.stepper.turns();
-        for (joint, place) in self.system.layout.joints.iter().enumerate() {
-            let [_, rate] = self.system.layout.joint(joint, &self.moment.state, turns);
-            if matches!(self.system.acting.drive(joint), Drive::Locked) && rate != 0.0 {
-                let (time, joint) = (self.time, place.name.clone());
-                return Err(RunError::LockedJointMoves { time, joint, rate });
-            }
+    fn check_at_rest(&self, joint: usize) -> Result<(), RunError> {
+        let layout = &self.system.layout;
+        let [_, rate] = layout.joint(joint, &self.moment.state, self.stepper.turns());
+        if rate == 0.0 {
+            return Ok(());
         }
-        Ok(())
+        let place = &layout.joints[joint];
+        let (time, joint, [_, unit, ..]) = (self.time, place.name.clone(), place.info.units());
+        Err(RunError::LockedJointMoves { time, joint, rate, unit })
     }
 }

@@ -30,8 +30,10 @@ pub enum RunError {
         time: f64,
         /// Its coordinate: `wheel1.theta`.
         joint: String,
-        /// Its rate, rad/s or m/s.
+        /// Its rate.
         rate: f64,
+        /// The rate's unit: rad/s or m/s.
+        unit: &'static str,
     },
     /// A joint that its kind keeps at its rate is to be driven, locked or stopped.
     NotDriven {
@@ -44,10 +46,12 @@ pub enum RunError {
     BeyondStop {
         /// Its coordinate.
         joint: String,
-        /// The coordinate's value, rad or m.
+        /// The coordinate's value.
         value: f64,
-        /// Lowest and highest, rad or m.
+        /// Lowest and highest.
         stops: [f64; 2],
+        /// The unit of all three: rad or m.
+        unit: &'static str,
     },
     /// A crossing is of a column that is none of the state.
     Crossing {
@@ -173,20 +177,20 @@ impl fmt::Display for RunError {
                 write!(f, "at t = {time} s, `{device}`: {source}")
             }
             Self::Solve { time, device: None, source } => write!(f, "at t = {time} s: {source}"),
-            Self::LockedJointMoves { time, joint, rate } => write!(
+            Self::LockedJointMoves { time, joint, rate, unit } => write!(
                 f,
-                "at t = {time} s: {joint} is to be locked but moves at {rate}, not 0; stop it with \
-                 a brake instead"
+                "at t = {time} s: {joint} is to be locked but moves at {rate} {unit}, not 0; stop \
+                 it with a brake instead"
             ),
             Self::NotDriven { time, joint } => write!(
                 f,
                 "at t = {time} s: the kind of {joint} keeps its rate constant; remove its drive, \
                  or use a kind that drives it"
             ),
-            Self::BeyondStop { joint, value, stops: [lower, upper] } => write!(
+            Self::BeyondStop { joint, value, stops: [lower, upper], unit } => write!(
                 f,
-                "{joint} starts at {value}, beyond its end stops {lower} and {upper}; start it in \
-                 between"
+                "{joint} starts at {value} {unit}, beyond its end stops {lower} {unit} and {upper} \
+                 {unit}; start it in between"
             ),
             Self::Crossing { name, column, nearest } => {
                 write!(f, "crossing `{name}`: `{column}` is no column of the state")?;

@@ -99,8 +99,10 @@ impl<'a> Monitors<'a> {
         for stop in &scenario.stops {
             let [value, _] = system.layout.joint(stop.joint, start, &turns);
             if !(stop.lower..=stop.upper).contains(&value) {
-                let joint = system.layout.joints[stop.joint].name.clone();
-                return Err(RunError::BeyondStop { joint, value, stops: [stop.lower, stop.upper] });
+                let place = &system.layout.joints[stop.joint];
+                let (joint, [unit, ..]) = (place.name.clone(), place.info.units());
+                let stops = [stop.lower, stop.upper];
+                return Err(RunError::BeyondStop { joint, value, stops, unit });
             }
         }
         let moment = Moment { state: start.clone(), integrals: [0.0; 2] };

@@ -133,7 +133,9 @@ impl<'a> Acting<'a> {
         let bn = state.attitude.dcm();
         (inputs.force, inputs.torque_b) = (Vector3::zeros(), Vector3::zeros());
         if let Some(bodies) = &mut inputs.bodies {
-            bodies.values_mut().for_each(|wrench| *wrench = Wrench::none());
+            for wrench in bodies.values_mut() {
+                *wrench = Wrench::none();
+            }
         }
         for Placed { wrench, body } in &self.wrenches {
             let vector = |of: &[Profile; 3]| Vector3::from(of.each_ref().map(at));

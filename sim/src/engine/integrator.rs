@@ -147,9 +147,8 @@ impl Stepper {
     /// DOP853, whose inputs vary within a step.
     pub(crate) fn held_from(&self, time: f64) -> f64 {
         match &self.method {
-            Method::Dop853(_) => time,
             Method::Rk4(method) if time < method.time() => method.time_before(),
-            Method::Rk4(_) => time,
+            Method::Dop853(_) | Method::Rk4(_) => time,
         }
     }
 

@@ -8,6 +8,8 @@
 //! running maxima, and events beyond the first ten thousand are only counted.
 
 mod actions;
+#[cfg(test)]
+pub(crate) mod checks;
 mod dense;
 mod dop853;
 mod drift;
@@ -27,7 +29,7 @@ mod system;
 
 use std::ops::ControlFlow;
 
-use precess_dynamics::State;
+use precess_dynamics::{JointArray, State};
 
 pub use drift::Drift;
 pub use error::{Fault, RunError};
@@ -157,11 +159,15 @@ impl<'a> Run<'a> {
                 }
                 Passed::Stop { joint, bound, action } => {
                     reached = time;
-                    let name = self.system.layout.joints[joint].name.clone();
+                    let place = &self.system.layout.joints[joint];
+                    let (name, [unit, ..]) = (place.name.clone(), place.info.units());
                     match action {
                         StopAction::End => {
-                            self.note(time, format!("{name} reaches its end stop at {bound}"));
-                            self.end = Some(End::EndStop { joint: name, bound });
+                            self.note(
+                                time,
+                                format!("{name} reaches its end stop at {bound} {unit}"),
+                            );
+                            self.end = Some(End::EndStop { joint: name, bound, unit });
                         }
                         StopAction::Lock => self.stopped = Some((joint, bound)),
                     }
@@ -199,7 +205,7 @@ impl<'a> Run<'a> {
     #[must_use]
     pub fn state(&self) -> State<Set> {
         let mut state = self.moment.state.clone();
-        let joints = state.devices.iter_mut().flat_map(|device| device.as_mut_slice());
+        let joints = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
         for ([coordinate, _], turns) in joints.zip(self.stepper.turns()) {
             *coordinate += turns * std::f64::consts::TAU;
         }

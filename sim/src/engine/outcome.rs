@@ -36,8 +36,10 @@ pub enum End {
     EndStop {
         /// The joint's coordinate: `panel.phi`.
         joint: String,
-        /// The bound it reached, rad or m.
+        /// The bound it reached.
         bound: f64,
+        /// The bound's unit: rad or m.
+        unit: &'static str,
     },
     /// At a crossing that ends the run.
     Crossing {
@@ -83,8 +85,8 @@ impl std::fmt::Display for End {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Finished => f.write_str("finished"),
-            Self::EndStop { joint, bound } => {
-                write!(f, "ended by the end stop of {joint} at {bound}")
+            Self::EndStop { joint, bound, unit } => {
+                write!(f, "ended by the end stop of {joint} at {bound} {unit}")
             }
             Self::Crossing { name } => write!(f, "ended by the crossing `{name}`"),
             Self::Cancelled => f.write_str("cancelled"),

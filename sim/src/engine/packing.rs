@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::JointInfo;
-use precess_dynamics::{Attitude, Quaternion, State};
+use precess_dynamics::{Attitude, JointArray, Quaternion, State};
 
 use crate::plan::{Scenario, Set};
 
@@ -83,7 +83,7 @@ impl Layout {
         let Quaternion { q0, q1, q2, q3 } = state.attitude;
         y[6..10].copy_from_slice(&[q0, q1, q2, q3]);
         y[10..HUB].copy_from_slice(state.omega.as_slice());
-        let states = state.devices.iter().flat_map(|device| device.as_slice());
+        let states = state.devices.iter().flat_map(JointArray::as_slice);
         for (place, [coordinate, rate]) in self.joints.iter().zip(states) {
             (y[place.coordinate], y[place.rate]) = (*coordinate, *rate);
         }
@@ -98,7 +98,7 @@ impl Layout {
         state.r_b_n_dot = vector(3);
         state.attitude = Self::attitude(y).normalised();
         state.omega = vector(10);
-        let states = state.devices.iter_mut().flat_map(|device| device.as_mut_slice());
+        let states = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
         for (place, joint) in self.joints.iter().zip(states) {
             *joint = [y[place.coordinate], y[place.rate]];
         }

@@ -5,7 +5,7 @@
 //! segment's length is no multiple.
 
 use precess_dynamics::kind::Each;
-use precess_dynamics::{Mode, SolveError, State};
+use precess_dynamics::{JointArray, Mode, SolveError, State};
 
 use super::dop853::same;
 use super::error::RunError;
@@ -96,7 +96,7 @@ fn stepped(
     let inputs = system.inputs(time, state);
     let rates_times_torques = |next: &State<Set>| {
         let coordinates = |of: &State<Set>| -> Vec<f64> {
-            let states = of.devices.iter().flat_map(|device| device.as_slice());
+            let states = of.devices.iter().flat_map(JointArray::as_slice);
             states.map(|[coordinate, _]| *coordinate).collect()
         };
         let moved = coordinates(next).into_iter().zip(coordinates(state));

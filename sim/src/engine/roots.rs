@@ -5,7 +5,7 @@
 const SLACK: i32 = 1;
 
 /// Narrows `[a, b]`, at whose ends the function has the values `[fa, fb]` of opposite sign or zero,
-/// to a width of `tolerance`; returns the bracket.
+/// to a width of `tolerance`; returns the bracket, of no width where the function is zero.
 ///
 /// # Errors
 ///
@@ -17,11 +17,14 @@ pub(crate) fn bracket<E>(
     mut function: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<[f64; 2], E> {
     let half = 0.5 * tolerance;
+    if fa == 0.0 {
+        return Ok([a, a]);
+    }
     #[expect(clippy::cast_possible_truncation, reason = "a logarithm of a ratio of doubles")]
     let bisections = ((b - a) / tolerance).log2().ceil().max(0.0) as i32;
     let weight = 0.2 / (b - a);
     for evaluation in 0..=bisections + SLACK {
-        if b - a <= tolerance || fa == 0.0 {
+        if b - a <= tolerance {
             break;
         }
         let middle = 0.5 * (a + b);
@@ -36,7 +39,10 @@ pub(crate) fn bracket<E>(
         // A secant that is no number, or rounding, must not leave the bracket.
         let at = if projected > a && projected < b { projected } else { middle };
         let f = function(at)?;
-        if (f > 0.0) == (fb > 0.0) && f != 0.0 {
+        if f == 0.0 {
+            return Ok([at, at]);
+        }
+        if (f > 0.0) == (fb > 0.0) {
             (b, fb) = (at, f);
         } else {
             (a, fa) = (at, f);
@@ -53,12 +59,12 @@ mod tests {
 
     #[test]
     fn the_bracket_is_as_narrow_as_required_and_costs_less_than_bisection() {
-        let cases: [(fn(f64) -> f64, f64); 3] = [
-            (|x| x.powi(3) - 2.0, 2.0_f64.powf(1.0 / 3.0)),
-            (|x| (x - 0.25) * 1e-9, 0.25),
-            (|x| (x - 1.5).powi(9), 1.5),
+        let cases = [
+            (Box::new(|x: f64| x.powi(3) - 2.0) as Box<dyn Fn(f64) -> f64>, 2.0_f64.cbrt()),
+            (Box::new(|x| (x - 0.25) * 1e-9), 0.25),
+            (Box::new(|x: f64| (x - 1.5).powi(9)), 1.5),
         ];
-        for (function, root) in cases {
+        for (function, root) in &cases {
             let mut count = 0;
             let counted = |x| {
                 count += 1;

@@ -13,6 +13,7 @@ use crate::plan::Set;
 use crate::record::columns::{Columns, Quantity};
 
 /// The numbers of a sample, and what has to be computed for them.
+#[expect(clippy::struct_excessive_bools, reason = "each is computed or not, independently")]
 pub(crate) struct Row {
     quantities: Vec<Quantity>,
     numbers: Vec<f64>,

@@ -4,6 +4,7 @@
 //! jumps it is the value after the jump, at the end of the run the one before.
 
 use super::Run;
+use super::dop853::same;
 use super::error::RunError;
 use super::integrator::Moment;
 use super::row::Row;
@@ -54,7 +55,8 @@ impl Sampling {
         loop {
             #[expect(clippy::cast_precision_loss, reason = "fewer samples than 2^53")]
             let time = self.count as f64 / self.rate;
-            if time >= run.time {
+            // That of the end of a step belongs to the next one, whose inputs then act.
+            if time >= run.time || same(time, run.time) {
                 return Ok(());
             }
             run.stepper.at(&run.system, time, &mut self.moment)?;

@@ -9,8 +9,8 @@ use std::cell::{Cell, RefCell};
 
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
-    Accelerations, Attitude, Gravity, HubMode, ImbalanceModel, Inputs, Mode, Passive, Power,
-    SolveError, Spacecraft, State,
+    Accelerations, Attitude, Gravity, HubMode, ImbalanceModel, Inputs, JointArray, Mode, Passive,
+    Power, SolveError, Spacecraft, State,
 };
 
 use super::inputs::Acting;
@@ -123,7 +123,7 @@ impl<'a> System<'a> {
         inputs: &Inputs<Set>,
         found: &Accelerations<Set>,
     ) -> Result<[f64; 2], SolveError> {
-        let rates = state.devices.iter().flat_map(|device| device.as_slice());
+        let rates = state.devices.iter().flat_map(JointArray::as_slice);
         let motors = inputs.motors.values().zip(rates).zip(inputs.modes.values());
         let mut throughput = 0.0;
         if self.needs_ledger() {

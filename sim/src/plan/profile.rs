@@ -3,6 +3,7 @@
 //! A profile is piecewise smooth: [`Profile::breaks`] lists the times at which it, or its first
 //! derivative, jumps. A run places the end of a step on each, so no step spans one.
 
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 /// A number as a function of the time since the start of the run, s.
@@ -133,7 +134,7 @@ impl Profile {
         let interval = |[start, end]: &[f64; 2]| {
             let message =
                 || format!("an interval from {start} s to {end} s does not end after it starts");
-            (!(start < end)).then(message)
+            (start.partial_cmp(end) != Some(Ordering::Less)).then(message)
         };
         let finite = |numbers: &[f64]| {
             let bad = numbers.iter().find(|number| !number.is_finite());

@@ -89,16 +89,13 @@ impl Recorder for Decimate {
         if self.in_last == self.per_bucket && self.buckets.len() == self.capacity {
             self.merge();
         }
-        match self.buckets.last_mut().filter(|_| self.in_last < self.per_bucket) {
-            Some(bucket) => {
-                bucket.include(time, row, row);
-                self.in_last += 1;
-            }
-            None => {
-                let (min, max) = (row.to_vec(), row.to_vec());
-                self.buckets.push(Bucket { start: time, end: time, min, max });
-                self.in_last = 1;
-            }
+        if let Some(bucket) = self.buckets.last_mut().filter(|_| self.in_last < self.per_bucket) {
+            bucket.include(time, row, row);
+            self.in_last += 1;
+        } else {
+            let (min, max) = (row.to_vec(), row.to_vec());
+            self.buckets.push(Bucket { start: time, end: time, min, max });
+            self.in_last = 1;
         }
         Ok(())
     }

@@ -53,7 +53,7 @@ pub enum RecordError {
 
 impl RecordError {
     /// An error of the operating system at a file.
-    pub(crate) fn io(path: &std::path::Path) -> impl FnOnce(io::Error) -> Self {
+    pub(crate) fn io(path: &std::path::Path) -> impl FnOnce(io::Error) -> Self + use<> {
         let path = path.to_owned();
         |source| Self::Io { path, source }
     }

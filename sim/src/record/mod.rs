@@ -4,6 +4,8 @@
 //! they come and renamed when the run has ended ([`partial`]); [`Many`] passes samples to several
 //! recorders.
 
+#[cfg(test)]
+mod checks;
 pub mod columns;
 pub mod csv;
 pub mod decimate;
@@ -82,15 +84,13 @@ impl Header {
     #[must_use]
     pub fn new(scenario: &Scenario, columns: &Columns) -> Self {
         let source = &scenario.source;
-        let digest = || Sha256::digest(source.text.as_bytes());
-        let hexadecimal = |digest: &[u8]| digest.iter().map(|byte| format!("{byte:02x}")).collect();
         Self {
             name: scenario.name.clone(),
             title: scenario.title.clone(),
             version: env!("CARGO_PKG_VERSION"),
             columns: columns.as_slice().to_vec(),
             scenario: if source.filled.is_empty() { &source.text } else { &source.filled }.clone(),
-            sha256: (!source.text.is_empty()).then(|| hexadecimal(&digest())),
+            sha256: (!source.text.is_empty()).then(|| sha256(&source.text)),
             rate: scenario.output.rate,
             duration: scenario.settings.duration,
         }
@@ -110,4 +110,15 @@ impl Header {
     pub fn quantity(&self, name: &str) -> Result<Vec<usize>, RecordError> {
         columns::quantity(&self.columns, name)
     }
+}
+
+/// The digest of a text, hexadecimal.
+fn sha256(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().fold(String::new(), |mut digits, byte| {
+        digits.extend(
+            [byte >> 4, byte & 15]
+                .map(|digit| char::from_digit(u32::from(digit), 16).unwrap_or('0')),
+        );
+        digits
+    })
 }

@@ -40,7 +40,7 @@ impl Parquet {
         Self { path: path.to_owned(), writer: None, columns: Vec::new(), group: GROUP_ROWS }
     }
 
-    fn failure(&self) -> impl FnOnce(ParquetError) -> RecordError {
+    fn failure(&self) -> impl FnOnce(ParquetError) -> RecordError + use<> {
         let path = self.path.clone();
         |error| RecordError::Format { path, reason: error.to_string() }
     }

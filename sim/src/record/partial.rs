@@ -19,7 +19,8 @@ const FLUSH: Duration = Duration::from_secs(1);
 /// A file in progress.
 pub struct Partial {
     file: BufWriter<File>,
-    partial: PathBuf,
+    /// The name with `.partial`.
+    beside: PathBuf,
     path: PathBuf,
     flushed: Instant,
 }
@@ -39,11 +40,11 @@ impl Partial {
     ///
     /// Of the operating system.
     pub fn create(path: &Path) -> io::Result<Self> {
-        let partial = partial_name(path);
+        let beside = partial_name(path);
         let options = &mut File::options();
-        let file = options.read(true).write(true).create(true).truncate(true).open(&partial)?;
+        let file = options.read(true).write(true).create(true).truncate(true).open(&beside)?;
         let file = BufWriter::with_capacity(BUFFER, file);
-        Ok(Self { file, partial, path: path.to_owned(), flushed: Instant::now() })
+        Ok(Self { file, beside, path: path.to_owned(), flushed: Instant::now() })
     }
 
     /// The name that the file gets.
@@ -73,7 +74,7 @@ impl Partial {
     pub fn finish(mut self) -> io::Result<()> {
         self.file.flush()?;
         self.file.get_ref().sync_all()?;
-        fs::rename(&self.partial, &self.path)?;
+        fs::rename(&self.beside, &self.path)?;
         sync_folder(&self.path);
         Ok(())
     }
@@ -84,9 +85,9 @@ impl Partial {
     ///
     /// Of the operating system.
     pub fn discard(self) -> io::Result<()> {
-        let Self { file, partial, .. } = self;
+        let Self { file, beside, .. } = self;
         drop(file);
-        fs::remove_file(partial)
+        fs::remove_file(beside)
     }
 
     /// The file from its start, to be read, once everything is written.

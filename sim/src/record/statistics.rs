@@ -165,9 +165,8 @@ impl History {
         let [_, last] = self.last?;
         match self.statistic {
             Statistic::Peak | Statistic::Drift => Some(self.most),
-            Statistic::Final => Some(last),
             Statistic::Rms if self.length > 0.0 => Some((self.integral / self.length).sqrt()),
-            Statistic::Rms => Some(last),
+            Statistic::Final | Statistic::Rms => Some(last),
             Statistic::BandRms(_) => {
                 let squares = self.bands.iter().map(Welch::mean_square);
                 squares.sum::<Option<f64>>().map(f64::sqrt)

@@ -15,7 +15,7 @@ use realfft::{RealFftPlanner, RealToComplex};
 const BINS: f64 = 16.0;
 /// Samples of a segment at least and at most.
 const SHORTEST: usize = 16;
-const LONGEST: usize = 1 << 20;
+const LONGEST: u32 = 1 << 20;
 
 /// The mean square in a band, of samples that come one by one.
 pub(crate) struct Welch {
@@ -32,7 +32,7 @@ impl Welch {
     /// For a band, Hz, of samples at a rate, 1/s, of which about `count` are expected.
     pub(crate) fn new(band: [f64; 2], rate: f64, count: f64) -> Self {
         let [from, to] = band;
-        let wanted = (BINS * rate / (to - from)).min(LONGEST as f64).min(count);
+        let wanted = (BINS * rate / (to - from)).min(f64::from(LONGEST)).min(count);
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
