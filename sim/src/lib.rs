@@ -30,6 +30,7 @@ pub mod output;
 mod packing;
 pub mod plan;
 pub mod record;
+pub mod report;
 pub mod run;
 pub mod scenario;
 pub mod units;
