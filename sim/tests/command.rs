@@ -149,9 +149,10 @@ fn a_run_that_is_killed_leaves_the_old_result_or_a_partial_one() {
             match name.as_str() {
                 "wheel.csv" => {
                     let last = bytes.last() == Some(&b'\n');
-                    let complete = last && text(bytes).lines().last().is_some_and(|line| {
-                        line.split(',').next().and_then(|t| t.parse::<f64>().ok()) == Some(1.0)
-                    });
+                    let complete = last
+                        && text(bytes).lines().last().is_some_and(|line| {
+                            line.split(',').next().and_then(|t| t.parse::<f64>().ok()) == Some(1.0)
+                        });
                     assert!(Some(bytes) == old.as_ref() || complete, "round {round}");
                 }
                 other => assert!(other.ends_with(".partial"), "{other}"),

@@ -11,7 +11,7 @@ use super::table::{aligned, six};
 use super::{Files, Form, print};
 use crate::file::read::body_key;
 use crate::file::{Diagnostics, Severity, from_file};
-use crate::plan::Scenario;
+use crate::scenario::Scenario;
 
 /// The options of `check`.
 #[derive(Debug, Args)]

@@ -15,7 +15,7 @@ use super::error::CommandError;
 use super::run::may_write;
 use super::{Set, print};
 use crate::file::from_file;
-use crate::plan::Scenario;
+use crate::scenario::Scenario;
 
 const VERSION: u32 = 1;
 /// Devices that the flight library takes.

@@ -17,10 +17,10 @@ use super::error::CommandError;
 use super::{Files, print};
 use crate::engine::{Outcome, run};
 use crate::file::{Diagnostics, from_file};
-use crate::plan::{Format, Scenario};
 use crate::record::partial::Partial;
 use crate::record::{Csv, Many, Npz, Recorder, Statistics, Verdict};
 use crate::report::Report;
+use crate::scenario::{Format, Scenario};
 
 pub(super) const HELP: &str = "\
 Examples:

@@ -6,7 +6,7 @@ use precess_dynamics::kind::Each;
 use super::dop853::same;
 use super::inputs::LOCKED;
 use super::{End, Run, RunError};
-use crate::plan::{Action, Drive, Profile};
+use crate::scenario::{Action, Drive, Profile};
 
 impl Run<'_> {
     /// Applies what is due at the present time and begins the segment.

@@ -12,7 +12,7 @@ use precess_dynamics::{About, Gravity, HubMode, Inputs, SolveError, State};
 use super::integrator::Moment;
 use super::kinematics::momenta;
 use super::system::{System, lumped};
-use crate::plan::{Scenario, Set};
+use crate::scenario::{Scenario, Set};
 
 /// Departure from the start, each part in its own unit (see the module); none of what is not
 /// conserved.

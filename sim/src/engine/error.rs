@@ -5,8 +5,8 @@ use std::fmt;
 use precess_dynamics::{ParameterError, Quantity, SolveError};
 
 use super::system::System;
-use crate::plan::ScenarioError;
 use crate::record::RecordError;
+use crate::scenario::ScenarioError;
 
 /// A run that could not be started or finished.
 #[derive(Debug)]

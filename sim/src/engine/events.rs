@@ -12,9 +12,9 @@ use super::inputs::Acting;
 use super::integrator::{Moment, Stepper};
 use super::roots::bracket;
 use super::system::System;
-use crate::plan::{Drive, EndStop, Scenario, Set, StopAction};
 use crate::record::columns::{Quantity, state_quantities};
 use crate::record::nearest::nearest;
+use crate::scenario::{Drive, EndStop, Scenario, Set, StopAction};
 
 /// Width of the bracket of a passage, s.
 const WIDTH: f64 = 1e-12;
@@ -83,7 +83,7 @@ impl<'a> Monitors<'a> {
         start: &State<Set>,
     ) -> Result<Self, RunError> {
         let names = state_quantities(&system.layout);
-        let watched = |(index, crossing): (usize, &crate::plan::Crossing)| {
+        let watched = |(index, crossing): (usize, &crate::scenario::Crossing)| {
             let found = names.iter().find(|(name, _)| *name == crossing.column);
             let (_, quantity) = found.ok_or_else(|| RunError::Crossing {
                 name: crossing.name.clone(),

@@ -9,7 +9,7 @@ use precess_dynamics::{Attitude, Inputs, Mode, Spacecraft, State, Wrench};
 
 use super::kinematics::Chain;
 use super::packing::JointPlace;
-use crate::plan::{AppliedWrench, Drive, Profile, Scenario, Set, Target, WrenchAxes};
+use crate::scenario::{AppliedWrench, Drive, Profile, Scenario, Set, Target, WrenchAxes};
 
 /// A locked joint.
 pub(crate) const LOCKED: &Drive = &Drive::Locked;

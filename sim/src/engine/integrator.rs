@@ -9,7 +9,7 @@ use super::dop853::Dop853;
 use super::error::RunError;
 use super::rk4::Rk4;
 use super::system::System;
-use crate::plan::{IntegratorChoice, Set};
+use crate::scenario::{IntegratorChoice, Set};
 
 /// A state and both integrals.
 #[derive(Clone, Debug)]

@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{BodyParameters, JointInfo};
 use precess_dynamics::{Angle, Attitude, BuiltIn, Hub, JointArray, State};
 
-use crate::plan::Set;
+use crate::scenario::Set;
 
 /// Momentum of one body, expressed in N.
 #[derive(Clone, Copy, Debug, PartialEq)]

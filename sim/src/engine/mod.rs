@@ -44,8 +44,8 @@ use sampling::Sampling;
 use segments::Segments;
 use system::System;
 
-use crate::plan::{Scenario, Set, StopAction};
 use crate::record::Recorder;
+use crate::scenario::{Scenario, Set, StopAction};
 
 /// A run in progress.
 pub struct Run<'a> {

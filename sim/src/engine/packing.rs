@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::JointInfo;
 use precess_dynamics::{Attitude, JointArray, Quaternion, State};
 
-use crate::plan::{Scenario, Set};
+use crate::scenario::{Scenario, Set};
 
 /// Numbers of the hub.
 const HUB: usize = 13;

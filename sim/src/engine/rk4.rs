@@ -11,7 +11,7 @@ use super::dop853::same;
 use super::error::RunError;
 use super::integrator::Moment;
 use super::system::{System, work_of};
-use crate::plan::Set;
+use crate::scenario::Set;
 
 /// An integration in progress, from the start of a segment to its end.
 pub(crate) struct Rk4 {

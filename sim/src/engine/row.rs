@@ -9,8 +9,8 @@ use precess_dynamics::{
 use super::drift::energies;
 use super::integrator::Moment;
 use super::system::System;
-use crate::plan::Set;
 use crate::record::columns::{Columns, Quantity};
+use crate::scenario::Set;
 
 /// The numbers of a sample, and what has to be computed for them.
 #[expect(clippy::struct_excessive_bools, reason = "each is computed or not, independently")]

@@ -8,9 +8,9 @@ use super::dop853::same;
 use super::error::RunError;
 use super::integrator::Moment;
 use super::row::Row;
-use crate::plan::Scenario;
 use crate::record::columns::Columns;
 use crate::record::{Header, Recorder};
+use crate::scenario::Scenario;
 
 /// The samples of a run.
 pub(crate) struct Sampling {

@@ -4,7 +4,7 @@
 //! limit, the changes, and the end of the run. A profile that is a sine or a chirp reaches its
 //! limit at a kink that no step ends on; DOP853 shortens its steps there, RK4 does not.
 
-use crate::plan::{Action, Change, Drive, Interpolation, Profile, Scenario};
+use crate::scenario::{Action, Change, Drive, Interpolation, Profile, Scenario};
 
 /// The ends of segments in the order of time.
 #[derive(Clone, Debug)]

@@ -15,7 +15,7 @@ use precess_dynamics::{
 
 use super::inputs::Acting;
 use super::packing::Layout;
-use crate::plan::{Scenario, Set};
+use crate::scenario::{Scenario, Set};
 
 /// The equations of motion.
 pub(crate) struct System<'a> {

@@ -11,8 +11,8 @@ use precess_dynamics::kind::{ImbalanceModel, JointInfo};
 use precess_dynamics::{Gravity, HubMode, JointStates, Passive};
 
 use super::read::{FORMAT, body_key, has_inertia};
-use crate::plan::profile::Interpolation;
-use crate::plan::{
+use crate::scenario::profile::Interpolation;
+use crate::scenario::{
     Action, AppliedWrench, Drive, Format, IntegratorChoice, Profile, Scenario, Statistic,
     StopAction, Target, WrenchAxes,
 };

@@ -8,7 +8,7 @@ use super::partial::partial_name;
 use super::{Csv, Decimate, Header, Many, Npz, Recorder, Statistics};
 use crate::engine::checks::{Kept, turning_panel};
 use crate::engine::{End, Outcome, Steps, run};
-use crate::plan::{Requirement, Scenario, Source, Statistic};
+use crate::scenario::{Requirement, Scenario, Source, Statistic};
 
 /// A run into recorders; what a test recorder kept of it.
 fn recorded(scenario: &Scenario, recorder: &mut dyn Recorder) -> (Outcome, Kept) {
@@ -112,22 +112,24 @@ fn npz_reads_back_with_the_number_of_samples_that_came() {
     let folder = folder();
     let path = folder.path().join("check.npz");
     let mut scenario = panel();
-    scenario.stops = vec![crate::plan::EndStop {
+    scenario.stops = vec![crate::scenario::EndStop {
         joint: 0,
         lower: -1.0,
         upper: 0.73,
-        action: crate::plan::StopAction::End,
+        action: crate::scenario::StopAction::End,
     }];
     let (outcome, kept) = recorded(&scenario, &mut Npz::new(&path));
     assert!(outcome.end_time < 1.5);
-    let mut archive = npyz::npz::NpzArchive::open(&path).expect("an archive");
-    let samples = archive.by_name("samples").expect("readable").expect("samples");
+    let mut archive = zip::ZipArchive::new(fs::File::open(&path).expect("a file")).expect("a zip");
+    let samples = npyz::NpyFile::new(archive.by_name("samples.npy").expect("there"));
+    let samples = samples.expect("an array");
     let columns = kept.rows[0].len();
     assert_eq!(samples.shape(), [kept.rows.len() as u64, columns as u64]);
     let numbers: Vec<f64> = samples.into_vec().expect("doubles");
     assert_eq!(numbers, kept.rows.concat());
     let mut text = |name: &str| -> Vec<String> {
-        archive.by_name(name).expect("readable").expect("there").into_vec().expect("text")
+        let member = archive.by_name(&format!("{name}.npy")).expect("there");
+        npyz::NpyFile::new(member).expect("an array").into_vec().expect("text")
     };
     assert_eq!(text("columns")[..3], ["time", "panel.phi", "panel.phi_dot"]);
     assert_eq!(text("units")[2], "rad/s");

@@ -11,7 +11,7 @@ use precess_dynamics::kind::JointInfo;
 use super::error::RecordError;
 use super::nearest::nearest;
 use crate::engine::Layout;
-use crate::plan::Scenario;
+use crate::scenario::Scenario;
 
 /// A recorded quantity.
 #[derive(Clone, Debug, PartialEq)]

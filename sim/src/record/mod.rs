@@ -32,7 +32,7 @@ pub use statistics::{Statistics, Verdict};
 use sha2::{Digest, Sha256};
 
 use crate::engine::Outcome;
-use crate::plan::Scenario;
+use crate::scenario::Scenario;
 
 /// Receives the samples of one run.
 pub trait Recorder {

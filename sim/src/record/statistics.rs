@@ -7,7 +7,7 @@
 use super::welch::Welch;
 use super::{Header, RecordError, Recorder};
 use crate::engine::Outcome;
-use crate::plan::{Requirement, Statistic};
+use crate::scenario::{Requirement, Statistic};
 
 /// Computes what requirements limit.
 pub struct Statistics {

@@ -6,7 +6,7 @@ use super::chart::Drawn;
 use super::error::ReportError;
 use super::replay::ReplayData;
 use crate::engine::Event;
-use crate::plan::Scenario;
+use crate::scenario::Scenario;
 
 /// The format that the page's script draws.
 const FORMAT: u32 = 1;

@@ -9,9 +9,9 @@ use precess_dynamics::kind::JointInfo;
 
 use super::chart::{Chart, Curve, Part};
 use super::unit::{self, Family};
-use crate::plan::Scenario;
 use crate::record::columns::Quantity;
 use crate::record::{Column, Header};
+use crate::scenario::Scenario;
 
 /// Colours and dashes of curves repeat after as many.
 const CURVES_MAX: usize = 8;

@@ -8,7 +8,7 @@ use precess_dynamics::{
 
 use super::blocks::{Block, table};
 use super::number;
-use crate::plan::{Scenario, Set};
+use crate::scenario::{Scenario, Set};
 
 /// Of the whole spacecraft.
 struct Properties {

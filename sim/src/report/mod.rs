@@ -40,9 +40,9 @@ use extremes::{Extremes, Magnitude};
 use replay::Collector;
 
 use crate::engine::Outcome;
-use crate::plan::Scenario;
 use crate::record::columns::Quantity;
 use crate::record::{Decimate, Header, RecordError, Recorder, Statistics, Verdict};
+use crate::scenario::Scenario;
 
 /// Bytes of a page for the histories in its data block; with script, replay and figures a page of
 /// four double-gimbal devices is below 1.5 MB.

@@ -10,9 +10,9 @@ use serde::Serialize;
 use super::data::{doubles, singles};
 use super::slow_motion::Turns;
 use super::stage::{Hub, Joint, hub, joints};
-use crate::plan::Scenario;
 use crate::record::Header;
 use crate::record::columns::Quantity;
+use crate::scenario::Scenario;
 
 /// Most frames of the run.
 const FRAMES_MAX: usize = 600;

@@ -2,8 +2,8 @@
 
 use super::blocks::{Block, table};
 use super::{Report, number};
-use crate::plan::Statistic;
 use crate::record::Verdict;
+use crate::scenario::Statistic;
 
 /// The table; empty where the scenario states no requirements.
 pub(super) fn table_of(report: &Report) -> Vec<Block> {

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use precess_dynamics::kind::{BodyParameters, JointInfo};
 use serde::Serialize;
 
-use crate::plan::Scenario;
+use crate::scenario::Scenario;
 
 /// Sides and thicknesses are at least this, m.
 const THIN: f64 = 0.01;

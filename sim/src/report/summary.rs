@@ -3,7 +3,7 @@
 use super::blocks::{Fact, Summary, Verdict};
 use super::{Report, number, requirements};
 use crate::engine::{End, Outcome};
-use crate::plan::IntegratorChoice;
+use crate::scenario::IntegratorChoice;
 
 /// Requirements that the terminal shows.
 const SHOWN_MAX: usize = 3;

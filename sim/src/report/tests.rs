@@ -7,9 +7,9 @@ use serde_json::Value;
 use super::Report;
 use crate::engine::{Drift, End, Event, Outcome, Steps, run};
 use crate::file::from_toml;
-use crate::plan::{Requirement, Scenario, Source, Statistic};
 use crate::record::columns::Quantity;
 use crate::record::{Columns, Header, Recorder};
+use crate::scenario::{Requirement, Scenario, Source, Statistic};
 
 /// Largest page of ten minutes with four double-gimbal devices at the default columns.
 const PAGE_MAX: usize = 1_500_000;

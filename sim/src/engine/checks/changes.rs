@@ -5,8 +5,8 @@ use precess_dynamics::{About, HubMode};
 
 use super::{DOP853, kept, scenario, set_joint, turning_panel, wheel};
 use crate::engine::{Advance, End, Run, RunError};
-use crate::plan::{Action, Change, Drive, IntegratorChoice, Interpolation, Profile, Table};
 use crate::record::RecordError;
+use crate::scenario::{Action, Change, Drive, IntegratorChoice, Interpolation, Profile, Table};
 
 /// Some roundings of a rate of ten.
 const ROUNDING: f64 = 1e-13;

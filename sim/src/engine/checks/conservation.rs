@@ -11,7 +11,7 @@ use precess_dynamics::{
 use super::{DOP853, kept, scenario};
 use crate::engine::Run;
 use crate::engine::kinematics::{Chain, momenta};
-use crate::plan::{IntegratorChoice, Scenario};
+use crate::scenario::{IntegratorChoice, Scenario};
 
 /// Sums over some bodies in another order; a few hundred roundings of 2e-16.
 const ROUNDING: f64 = 1e-13;

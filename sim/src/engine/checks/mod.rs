@@ -2,7 +2,6 @@
 
 mod changes;
 mod conservation;
-mod former;
 mod stops;
 mod table1;
 mod wrenches;
@@ -15,8 +14,8 @@ use precess_dynamics::{
 };
 
 use super::{Outcome, run};
-use crate::plan::{Drive, IntegratorChoice, Output, Profile, Scenario, Set, Settings, Source};
 use crate::record::{Header, RecordError, Recorder};
+use crate::scenario::{Drive, IntegratorChoice, Output, Profile, Scenario, Set, Settings, Source};
 
 pub(crate) const DOP853: IntegratorChoice = IntegratorChoice::Dop853 { tolerance: 1e-13 };
 

@@ -7,7 +7,7 @@ use precess_dynamics::{Dgvscmg, HubMode, SolveError};
 
 use super::{DOP853, Kept, kept, scenario, set_joint, turning_panel, wheel};
 use crate::engine::{End, Run, RunError, run};
-use crate::plan::{
+use crate::scenario::{
     Action, Change, Crossing, Drive, EndStop, IntegratorChoice, Profile, StopAction,
 };
 

@@ -6,7 +6,7 @@ use precess_dynamics::{Dgvscmg, Hub, Inputs, Spacecraft, State, dgvscmg};
 
 use super::{DOP853, kept, scenario, set_joint};
 use crate::engine::{Advance, Run};
-use crate::plan::{Drive, IntegratorChoice, Profile, Scenario};
+use crate::scenario::{Drive, IntegratorChoice, Profile, Scenario};
 
 /// What ten seconds at tolerance 1e-13 may drift: a hundred times what a good integrator does.
 const DRIFT: f64 = 1e-12;

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::ReactionWheel;
 
 use super::{kept, scenario, set_joint, wheel};
-use crate::plan::{AppliedWrench, Profile, Scenario, Set, Target, WrenchAxes};
+use crate::scenario::{AppliedWrench, Profile, Scenario, Set, Target, WrenchAxes};
 
 /// Ten metres at tolerance 1e-13, and the roundings of some hundred steps.
 const DISTANCE: f64 = 1e-11;

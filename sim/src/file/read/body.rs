@@ -6,7 +6,7 @@ use precess_dynamics::kind::{BodyParameters, JointInfo};
 
 use super::super::keys::Keys;
 use super::drive::profile;
-use crate::plan::{Drive, Profile, StopAction};
+use crate::scenario::{Drive, Profile, StopAction};
 use crate::units::Measure;
 
 /// What the table of a body says.

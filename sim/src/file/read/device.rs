@@ -12,7 +12,7 @@ use super::super::load::merged;
 use super::body::{Body, Needs, body};
 use super::layout::{Place, layout, turned};
 use super::mount::{DeviceAxes, mount};
-use crate::plan::{Drive, EndStop, StopAction};
+use crate::scenario::{Drive, EndStop, StopAction};
 use crate::units::Measure;
 
 /// A device as a file gives it.

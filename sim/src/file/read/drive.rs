@@ -15,8 +15,8 @@ use std::path::Path;
 
 use super::super::document::{Node, Value};
 use super::super::keys::Keys;
-use crate::plan::profile::Interpolation;
-use crate::plan::{Profile, Table};
+use crate::scenario::profile::Interpolation;
+use crate::scenario::{Profile, Table};
 use crate::units::{Measure, parse_unit};
 
 /// The kinds of a profile, by the key that names each.

@@ -6,7 +6,7 @@ use precess_dynamics::{Attitude, JointStates, Mrp, Quaternion, State};
 use super::super::keys::Keys;
 use super::device::Device;
 use super::mount::{axis_and_angle, euler};
-use crate::plan::Set;
+use crate::scenario::Set;
 use crate::units::Measure;
 
 /// A quaternion whose norm is off by more is an error; by less, rounding of what was typed.

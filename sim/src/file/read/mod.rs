@@ -21,7 +21,7 @@ use super::keys::{Keys, Reports};
 use super::load::{Override, apply, load_file, load_text};
 pub(crate) use device::{body_key, has_inertia};
 
-use crate::plan::{IntegratorChoice, Scenario, ScenarioError, Settings, Source};
+use crate::scenario::{IntegratorChoice, Scenario, ScenarioError, Settings, Source};
 use crate::units::Measure;
 
 /// The number of the format that this program reads.
@@ -284,14 +284,20 @@ mod tests {
 
     #[test]
     fn table_1_is_read_to_the_bit() {
-        use crate::scenario::table1::{Drive, Imbalance, Variant};
         let (read, _) = read_text(TABLE_1).unwrap_or_else(|errors| panic!("{errors}"));
-        let old = Variant { imbalance: Imbalance::Printed, drive: Drive::Free }.scenario();
-        assert_eq!(read.hub, old.hub);
-        let device = precess_dynamics::BuiltIn::Dgvscmg(old.devices[0]);
-        assert_eq!(read.devices, [device]);
-        // 4.85 deg/s, by a product with pi / 180 and by nalgebra's.
-        assert!((read.initial.omega - old.state.omega).norm() < 1e-17);
+        let hub = Hub {
+            m_b: 810.0,
+            r_bc_b: Vector3::new(-0.02e-2, 0.01e-2, 10e-2),
+            i_b_bc: Matrix3::new(900.0, 4.15, 2.93, 4.15, 800.0, 2.75, 2.93, 2.75, 600.0),
+        };
+        assert_eq!(read.hub, hub);
+        let [precess_dynamics::BuiltIn::Dgvscmg(device)] = read.devices[..] else {
+            panic!("{:?}", read.devices);
+        };
+        assert_eq!((device.d, device.i_w_wc.m13, device.r_go_b.x), (8e-3, 0.0154, 0.3));
+        let omega = Vector3::new(4.85_f64.to_radians(), 0.57_f64.to_radians(), 0.0);
+        // By pi / 180 or by 180 / pi: a rounding.
+        assert!((read.initial.omega - omega).norm() < 1e-17);
     }
 
     #[test]

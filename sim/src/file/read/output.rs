@@ -2,7 +2,7 @@
 
 use super::super::document::Value;
 use super::super::keys::Keys;
-use crate::plan::{Crossing, Format, Output, Requirement, Settings, Statistic};
+use crate::scenario::{Crossing, Format, Output, Requirement, Settings, Statistic};
 use crate::units::{Measure, parse_unit};
 
 /// Samples in a run without a rate.

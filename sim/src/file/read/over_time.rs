@@ -9,7 +9,7 @@ use super::super::keys::Keys;
 use super::body::{JointMeasures, drive};
 use super::device::Joints;
 use super::drive::profile;
-use crate::plan::{Action, AppliedWrench, Change, Profile, Target, WrenchAxes};
+use crate::scenario::{Action, AppliedWrench, Change, Profile, Target, WrenchAxes};
 use crate::units::Measure;
 
 /// `[[at]]`: `time`, `joint`, and `brake = true`, `locked = true`, a `torque`, an `acceleration`;
