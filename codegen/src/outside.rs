@@ -6,7 +6,7 @@ use crate::graph::Graph;
 use crate::kinds::Kind;
 use crate::proof::{self, EmittedError, Row};
 
-/// The emitted files of a kind, for a crate that knows the dynamics crate by the name `dynamics`.
+/// The emitted files of a kind, for a crate that calls the dynamics crate by the name `dynamics`.
 /// Their paths are plain names: where they are put is the caller's choice.
 ///
 /// # Errors

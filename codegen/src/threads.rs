@@ -21,7 +21,7 @@ where
     })
 }
 
-/// What a thread came to; its panic is ours.
+/// Result of a thread; a panic in it is raised again.
 #[must_use]
 pub fn joined<R>(thread: ScopedJoinHandle<'_, R>) -> R {
     thread.join().unwrap_or_else(|panic| resume_unwind(panic))

@@ -4,7 +4,8 @@
 //! Computes all accelerations of a state and its inputs, or returns a typed error. `no_std`, no
 //! heap, no `unsafe`, no panic on input; bit-identical on every IEEE-754 target. SI units and
 //! radians everywhere. Conventions are documented with the kinds and [`State`], the equations in
-//! the emitted text under [`generated`].
+//! the emitted text under [`generated`]. What a step calls, in order: `docs/architecture.md`, *One
+//! step, call by call*.
 //!
 //! A spacecraft has any [set of devices](Devices): `[Dgvscmg; 4]`, or
 //! `([ReactionWheel; 3], Sgcmg, HingedPanel)`, or with the feature `alloc` a vector of
@@ -59,7 +60,6 @@ extern crate std;
 
 mod attitude;
 mod equations;
-#[rustfmt::skip]
 pub mod generated;
 mod integrate;
 #[cfg(feature = "lanes")]

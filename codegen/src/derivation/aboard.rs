@@ -1,29 +1,29 @@
-//! Inwards from the tip, and aboard the hub: the device's share of the mass matrix and of the bias,
-//! from its base parameters.
+//! From the tip to the hub: the device's share of the mass matrix and of the bias, from its base
+//! parameters.
 //!
-//! Moments are taken about the joint's own origin and carried to the next one, so a light wheel
-//! far from B does not drown in the inertia of its lever arm. Everything stays along local axes until
-//! the first body's axes, which the mount and the first joint turn, lead into the hub at once.
+//! Moments are taken about the joint's own origin and moved to the next one, so that a light wheel
+//! far from B does not lose digits beside the inertia of its lever arm. Everything is expressed in
+//! local axes until the last step, which changes from the first body's axes, turned by the mount
+//! and the first joint, to B.
 //!
-//! What the hub's own motion asks of the bodies is the same as of its own mass: it needs their first
-//! moment and inertia, and is left to it. Here are what the joints' rates ask for, and the joints' own
-//! equations.
+//! What the hub's own motion requires of the bodies is computed with the hub, from their first
+//! moment and inertia. Here are what the joints' rates require, and the joints' own equations.
 
 use super::Share;
 use super::base::{Based, based, origin_words};
 use super::carriers::{Carrying, carriers};
-use super::chain::{Chain, Coordinate};
+use super::chain::{Chain, Coordinate, XYZ};
 use super::joint::AtJoint;
 use super::lump::Lump;
 use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
 use crate::graph::Expr;
-use crate::kinds::units;
+use crate::kinds::{Body, Motion, units};
 use crate::space::{Carrier, Hub, Own, Symmetric, Vector};
 
-/// The share of a device, with its steps written to `script`: first moment and inertia of what moves,
-/// blocks of the joints, and the bias without what the hub's own motion asks for. Along B axes; the
-/// mass is the hub's.
+/// The share of a device, with its steps written to `script`: first moment and inertia of what
+/// moves, blocks of the joints, and the bias without what the hub's own motion requires. Expressed
+/// in B; the mass is the hub's.
 #[must_use]
 pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
     let based = based(chain, script);
@@ -44,7 +44,7 @@ pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
     seen.aboard(chain, &based, axes, script)
 }
 
-/// The first body's axes along B.
+/// The first body's axes, expressed in B.
 fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub>; 3] {
     use crate::space::Axis::{X, Y, Z};
     let link = &chain.links[0];
@@ -59,12 +59,12 @@ fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub
     axes
 }
 
-/// What has been passed on the way inwards, along the axes of the frame at hand, about its origin.
+/// The composite of the joints processed so far, expressed in the current frame, about its origin.
 struct Walk<'g> {
     lump: Lump<'g>,
-    /// What the rates of the joints passed ask for.
+    /// What the rates of the joints processed so far require.
     rates: Wrench<'g, Own>,
-    /// What a unit acceleration of each joint passed asks for; the innermost first.
+    /// What a unit acceleration of each joint processed so far requires; the innermost first.
     columns: Vec<Wrench<'g, Own>>,
     joint: Vec<Vec<Expr<'g>>>,
     bias_joint: Vec<Expr<'g>>,
@@ -81,7 +81,8 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// Across joint `k`: its row along its carrier's axes, then all about the carrier's origin.
+    /// Across joint `k`: its row, expressed in the parent body's axes, then all about that body's
+    /// origin.
     fn inwards(
         &mut self,
         chain: &Chain<'g>,
@@ -91,7 +92,7 @@ impl<'g> Walk<'g> {
         script: &mut Script<'g>,
     ) {
         let link = &chain.links[k];
-        let inner = chain.kind.links[k - 1].body.frame;
+        let inner = &chain.kind.links[k - 1].body;
         let lump = based.links[k].lump.plus(self.lump).turned_back(link).handed_back();
         let back = |v: Vector<'g, Own>| v.turned(link.turn.inverse()).handed_back();
         for wrench in self.columns.iter_mut().chain([&mut self.rates]) {
@@ -105,7 +106,7 @@ impl<'g> Walk<'g> {
         }
     }
 
-    /// The first joint's row, along its body's own axes.
+    /// The first joint's row, expressed in its body's own axes.
     fn at_first(
         mut self,
         chain: &Chain<'g>,
@@ -113,33 +114,34 @@ impl<'g> Walk<'g> {
         hub: &Carrying<'g, Own>,
         script: &mut Script<'g>,
     ) -> Self {
-        let frame = chain.kind.links[0].body.frame;
+        let own = &chain.kind.links[0].body;
         let lump = based.links[0].lump.plus(self.lump);
-        self.row(chain, 0, frame, lump, hub, script);
+        self.row(chain, 0, own, lump, hub, script);
         self.lump = lump;
         self
     }
 
-    /// The row of joint `k`, along axes of `frame`, and what its rate asks for.
+    /// The row of joint `k`, expressed in the axes of `body`, and what its rate requires.
     fn row(
         &mut self,
         chain: &Chain<'g>,
         k: usize,
-        frame: &str,
+        body: &Body,
         lump: Lump<'g>,
         carrying: &Carrying<'g, Own>,
         script: &mut Script<'g>,
     ) {
         let (link, behind) = (&chain.links[k], &chain.kind.links[k..]);
         let (data, axis) = (&behind[0], behind[0].joint.motion.axis());
-        let whole = data.assembly.to_uppercase();
+        let (whole, frame) = (data.assembly.to_uppercase(), body.frame);
+        let origin = origin_words(chain, k);
         script.section(
             "lump",
             format!(
                 "Outboard composite of the joint of the {}, {whole}, by base parameters, eq. (D6): \
-                 first moment, kg m, and inertia, kg m², about {}.",
-                data.body.title,
-                origin_words(chain, k),
+                 first moment, kg m, and inertia, kg m², about {origin}, expressed in the axes of \
+                 the {}.",
+                data.body.title, body.title,
             ),
         );
         let stem = format!("mr_behind_{}", data.assembly);
@@ -155,15 +157,30 @@ impl<'g> Walk<'g> {
             carrying: *carrying,
         };
         self.columns.insert(0, lump.moved(link.coordinate, Vector::unit(chain.graph, axis)));
+        let (about, what) = match data.joint.motion {
+            Motion::Turn(_) => ("about", "moment"),
+            Motion::Slide(_) => ("along", "force"),
+        };
+        let tip = behind.len() == 1;
+        let contained = if tip {
+            String::new()
+        } else {
+            format!(
+                ", which contains the {what} that the rates of the outboard joints require {about} \
+                 the same axis"
+            )
+        };
         script.section(
             "row",
             format!(
-                "Joint row of the {}, eqs. {}, (D7), (D9): M_ij, {}, and bias without the hub's part, {}.",
+                "Joint row of the {}, eqs. {}, (D7), (D9), {about} {frame}{}: M_ij, {}, and bias \
+                 without the hub's part, {}{contained}.",
                 data.body.title,
                 data.body.equations.torque,
+                XYZ[axis.cycle()[0]],
                 units(behind, |units| match data.joint.motion {
-                    crate::kinds::Motion::Turn(_) => units.moment,
-                    crate::kinds::Motion::Slide(_) => units.force,
+                    Motion::Turn(_) => units.moment,
+                    Motion::Slide(_) => units.force,
                 }),
                 data.joint.motion.units().drive
             ),
@@ -180,17 +197,20 @@ impl<'g> Walk<'g> {
         script.section(
             "coriolis",
             format!(
-                "Coriolis and centrifugal force, N, and moment, N m, of the bodies outboard of the \
-                 joint of the {}, about {}, eq. (D8).",
+                "Force, N, and moment about {origin}, N m, that the rate{} of the joint of the {} \
+                 {}: Coriolis and centrifugal terms of the left side, eq. (D8), expressed in the \
+                 axes of the {}.",
+                if tip { "" } else { "s" },
                 data.body.title,
-                origin_words(chain, k),
+                if tip { "requires" } else { "and of those outboard of it require" },
+                body.title,
             ),
         );
         self.rates = self.rates.plus(at.of_rate());
         script.names(self.rates.named(&format!("rates_{}", data.joint.tag), frame));
     }
 
-    /// Into the hub.
+    /// Transforms the composite to B axes, about B.
     fn aboard(
         &self,
         chain: &Chain<'g>,
@@ -217,8 +237,8 @@ impl<'g> Walk<'g> {
         script.section(
             "col",
             format!(
-                "M_vi, eqs. (17), (D7), {}, and M_wi, eqs. (75), (D7), {}: force and moment about B \
-                 per unit joint acceleration, expressed in B.",
+                "M_vi, eqs. (17), (D7), and M_wi, eqs. (75), (D7): force, {}, and moment about B, \
+                 {}, per unit joint acceleration, expressed in B.",
                 units(links, |units| units.force),
                 units(links, |units| units.moment),
             ),
@@ -254,8 +274,8 @@ impl<'g> Walk<'g> {
 
         script.section(
             "bias",
-            "Coriolis and centrifugal force, N, and moment about B, N m, of the joints' rates, of \
-             eqs. (16), (75), (D8), expressed in B.",
+            "Force, N, and moment about B, N m, that the joints' rates require: Coriolis and \
+             centrifugal terms of the left side of eqs. (16), (75), (D8), expressed in B.",
         );
         let (f, n, arm) = on_hub(&self.rates);
         let bias_force = cut(script, "f_rates", f);
@@ -263,11 +283,19 @@ impl<'g> Walk<'g> {
 
         script.section(
             "reach",
-            "Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), m/s².",
+            "Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), \
+             expressed in B, m/s².",
         );
         let carried = chain.hub.omega.cross(chain.hub.omega.cross(reach));
         let carried = named(script, "r_first_rest", carried);
-        script.section("bias", "Bias of each joint row with it, eq. (D9).");
+        script.section(
+            "bias",
+            format!(
+                "Bias of each joint row, with that acceleration of the first joint's origin, eq. \
+                 (D9), {}.",
+                units(links, |units| units.drive)
+            ),
+        );
         let bias = self.bias_joint.iter().zip(&force).zip(links);
         let bias_joint = bias.map(|((asked, force), link)| {
             script.cut(format!("u_rest_{}", link.joint.tag), *asked + force.dot(carried))
@@ -287,8 +315,8 @@ impl<'g> Walk<'g> {
     }
 
     /// `C I C^T` with the axes for columns. With k the first joint's axis and 1 the unit tensor,
-    /// `I_jj 1` and what the other axes add to it: two pairs of vectors, one of which is the joint's
-    /// own column.
+    /// `I_jj 1` and what the other axes add to it: two pairs of vectors, one of which is the
+    /// joint's own column.
     fn inertia_along_b(
         &self,
         chain: &Chain<'g>,

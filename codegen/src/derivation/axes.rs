@@ -1,4 +1,4 @@
-//! Outwards along the chain: where each joint's origin lies and how its axes stand, along B.
+//! Outwards along the chain: origin of each joint and axes of its body, expressed in B.
 
 use super::chain::{Chain, Link, XYZ};
 use super::script::{Script, pairs, triple};
@@ -39,10 +39,10 @@ struct Axes<'g> {
 }
 
 impl<'g> Axes<'g> {
-    /// Behind one more joint: two of the axes turn in their plane.
+    /// Across one more joint: two of the axes turn in their plane.
     fn across(self, link: &Link<'g>) -> Self {
         let origin = self.origin + self.along_b(link.origin);
-        // The components along B of all three axes at once: rows of the rotation turn as vectors do.
+        // All three axes at once, expressed in B: rows of the rotation turn as vectors do.
         let row = |place: usize| {
             let row = self.columns.map(|column| column.components()[place]);
             Vector::<Carrier>::new(row).turned::<Own>(link.turn).components()

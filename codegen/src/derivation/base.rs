@@ -1,18 +1,18 @@
 //! Base inertial parameters: what of a body a joint's motion changes; the rest is regrouped to the
 //! parent body.
 //!
-//! Two passes over the chain, arithmetic on parameters alone. Neither changes an equation, which the
+//! Two passes over the chain, arithmetic on parameters only. Neither changes an equation, which the
 //! proof shows of what is emitted (a third, over the functions, is [`crate::emit`]'s):
 //!
 //! - *slide* (D3): the origin of a turning joint may lie anywhere on its axis. Moved along it, each
 //!   offset between two joints loses a component.
 //! - *regroup* (D4): a mass on the axis of a turning joint, or spread along it, is not moved by the
 //!   joint. Three of a body's ten parameters are regrouped to its parent body: its mass, the first
-//!   moment along the axis, and one moment of inertia across it. Of a sliding body it is the inertia.
-//!   What reaches the hub is the device's constant share of it: a massless device is left.
+//!   moment along the axis, and one moment of inertia across it. Of a sliding body it is the
+//!   inertia. What reaches the hub is the device's constant share of it: a massless device is left.
 //!
-//! What the passes leave is a polynomial in the parameters, and is stated as its normal form: where a
-//! large moment was added and taken out again, `m l^2` of a long arm, no rounding of it stays behind.
+//! What the passes leave is a polynomial in the parameters, stated as its normal form: a large
+//! moment that was added and subtracted again, `m l^2` of a long arm, cancels without rounding.
 
 use super::chain::{Chain, Coordinate};
 use super::lump::Lump;
@@ -27,7 +27,7 @@ use crate::space::{Axis, Carrier, Own, Symmetric, Vector};
 pub struct Passes {
     /// Slide origins along their axes.
     pub slide: bool,
-    /// Move what may belong to the carrier.
+    /// Regroup to the parent body.
     pub regroup: bool,
     /// Take common factors out of the functions' sums.
     pub factor: bool,
@@ -54,7 +54,7 @@ impl Passes {
 /// A joint's origin and what turns or slides with it, after the passes.
 #[derive(Clone, Copy)]
 pub(super) struct Base<'g> {
-    /// From the carrier's origin.
+    /// From the parent body's origin.
     pub(super) origin: Vector<'g, Carrier>,
     /// About the joint's origin.
     pub(super) lump: Lump<'g>,
@@ -64,7 +64,7 @@ pub(super) struct Base<'g> {
 pub(super) struct Based<'g> {
     /// From the hub outwards.
     pub(super) links: Vec<Base<'g>>,
-    /// Constant share of the hub, about B along the device's axes.
+    /// Constant share of the hub, about B, expressed in the device's axes.
     pub(super) constant_share: Lump<'g, Carrier>,
 }
 
@@ -133,8 +133,8 @@ pub(super) fn origin_words(chain: &Chain<'_>, k: usize) -> String {
     format!("{}{}", link.body.letters[0], if moved { " moved by (D3)" } else { "" })
 }
 
-/// (D3). A joint's origin goes where the next offset has no component along its axis, the last one's
-/// where its own has none.
+/// (D3). A joint's origin goes where the next offset has no component along its axis, the last
+/// one's where its own has none.
 fn slide<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) {
     let zero = chain.graph.zero();
     for (k, data) in chain.kind.links.iter().enumerate().rev() {
@@ -164,7 +164,7 @@ fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
         let axis = chain.kind.links[k].joint.motion.axis();
         let moved = movable(own.lump, link.coordinate, axis);
         own.lump = own.lump.less(moved);
-        // The same from every angle: along the carrier's axes as along its own.
+        // The same from every angle: in the parent body's axes as in its own.
         let moved = Lump {
             mass: moved.mass,
             first_moment: Vector::new(moved.first_moment.components()),
@@ -172,14 +172,14 @@ fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
         };
         constant_share = match link.coordinate {
             Coordinate::Angle(_) => moved.shifted(own.origin),
-            // No mass goes with it, and an inertia alone is the same about every origin.
+            // Without mass and first moment, an inertia is the same about every origin.
             Coordinate::Length(_) => moved,
         };
     }
     constant_share
 }
 
-/// What does not notice that its joint moves.
+/// The part that its joint's motion does not change.
 fn movable<'g>(lump: Lump<'g>, coordinate: Coordinate<'g>, axis: Axis) -> Lump<'g> {
     let zero = lump.mass.graph().zero();
     match coordinate {

@@ -1,6 +1,6 @@
 //! The equations of motion from the kinetic energy only: Boltzmann and Hamel's.
 //!
-//! With v the inertial velocity of point B and omega the body rate, both along B axes and neither
+//! With v the inertial velocity of point B and omega the body rate, both expressed in B and neither
 //! the rate of a coordinate, and T(v, omega, q'; q):
 //!
 //! ```text
@@ -9,7 +9,7 @@
 //! u_i = d(T_qi')/dt - T_qi
 //! ```
 //!
-//! Nothing of the transport-theorem derivation enters but where each body stands: T is built from
+//! Of the transport-theorem derivation only the places of the bodies enter: T is built from
 //! the velocities of the centres of mass and of the body's axes, so that no angular velocity of a
 //! body, no parallel axes and no force is ever stated.
 
@@ -41,7 +41,7 @@ pub fn boltzmann_hamel<'g>(chain: &Chain<'g>) -> BoltzmannHamel<'g> {
         |speeds: Vector<'g, Hub>| Vector::new(speeds.components().map(|x| energy.partial(x)));
     let (linear, angular) = (slope(v), slope(omega));
 
-    // Components along B: `prime` with omega is the inertial derivative.
+    // Expressed in B: `prime` with omega is the inertial derivative.
     let force = linear.prime(omega);
     let torque_b = angular.prime(omega) + v.cross(linear);
     let joints = chain

@@ -1,11 +1,13 @@
-//! Mass matrix, bias and momenta as sums over the bodies, everything along B axes.
+//! Mass matrix, bias and momenta as sums over the bodies, everything expressed in B.
 //!
 //! B's axes do not turn for an observer on B, so primes are plain time derivatives of components
-//! here and no transport theorem is used: an independent way to what [`super::motion`] and
-//! [`super::composite`] build in local frames. It expands to many terms and is never emitted.
+//! here and no transport theorem is used: an independent derivation of what [`super::motion`],
+//! [`super::composite`] and [`super::aboard`] build in local frames. It expands to many terms and
+//! is never emitted.
 //!
 //! Newton and Euler per body, as in (25), (34), (47), (62) of the paper; the joint rows are the
-//! projections (80), (101), (119) of the same forces and moments on what each joint moves.
+//! projections (80), (101), (119) of the same forces and moments on the bodies outboard of each
+//! joint.
 
 pub mod acting;
 pub mod exerted;
@@ -17,7 +19,7 @@ use crate::graph::{Expr, Graph, Stage};
 use crate::kinds::Motion;
 use crate::space::{Frame, Hub, Symmetric, Vector};
 
-/// What one body is and does, along B axes.
+/// One body and its motion, expressed in B.
 pub struct BodyInHub<'g> {
     /// Mass.
     pub mass: Expr<'g>,
@@ -33,7 +35,7 @@ pub struct BodyInHub<'g> {
     pub joints: Vec<JointInHub<'g>>,
 }
 
-/// A joint, along B axes.
+/// A joint, expressed in B.
 #[derive(Clone, Copy)]
 pub struct JointInHub<'g> {
     /// Whether it turns or slides.
@@ -45,7 +47,7 @@ pub struct JointInHub<'g> {
 }
 
 impl<'g> JointInHub<'g> {
-    /// Angular velocity of what it carries, per rate: the axis, or nothing.
+    /// Angular velocity of its child body, per rate: the axis, or zero.
     #[must_use]
     pub fn spin(&self) -> Vector<'g, Hub> {
         match self.motion {
@@ -54,7 +56,7 @@ impl<'g> JointInHub<'g> {
         }
     }
 
-    /// Velocity of a point at `r` that it carries, per rate: `a x (r - p)`, or the axis.
+    /// Velocity of a point of its child body at `r`, per rate: `a x (r - p)`, or the axis.
     #[must_use]
     pub fn arm(&self, r: Vector<'g, Hub>) -> Vector<'g, Hub> {
         match self.motion {
@@ -64,7 +66,7 @@ impl<'g> JointInHub<'g> {
     }
 }
 
-/// The hub, as a body that no joint carries.
+/// The hub, as a body without a joint.
 #[must_use]
 pub fn hub_body<'g>(chain: &Chain<'g>) -> BodyInHub<'g> {
     BodyInHub {
@@ -81,7 +83,7 @@ pub fn hub_body<'g>(chain: &Chain<'g>) -> BodyInHub<'g> {
 #[must_use]
 pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
     let graph = chain.graph;
-    // Columns of the rotation: the axes of the frame at hand, along B axes.
+    // Columns of the rotation: the axes of the current frame, expressed in B.
     let mut axes = unit_axes(graph);
     let mut origin = Vector::zero(graph);
     let mut omega_b = Vector::zero(graph);
@@ -110,7 +112,7 @@ pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
 }
 
 impl<'g> BodyInHub<'g> {
-    /// Origin of the joint that carries it; B for the hub.
+    /// Origin of its joint; B for the hub.
     #[must_use]
     pub fn origin(&self) -> Vector<'g, Hub> {
         self.joints.last().map_or(Vector::zero(self.mass.graph()), |joint| joint.origin)

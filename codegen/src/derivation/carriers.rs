@@ -1,8 +1,8 @@
-//! Outwards: how each body carries what is joined to it, no joint accelerating.
+//! Motion of each joint's parent body, from the hub outwards, no joint accelerating.
 //!
-//! A body gives the points fixed in it a field of acceleration: that of its origin, and
-//! `[alpha~] + [omega~]^2` times the place from there. The hub's own part is the same for all and is
-//! left to the hub; what is here are its rates seen along each body's axes.
+//! Points fixed in a body have the acceleration of its origin, and `[alpha~] + [omega~]^2` times
+//! the place from there. The hub's own part is the same for all and is added by the solver with the
+//! hub's inertia; here are its rates, expressed in each body's axes.
 
 use super::base::{Based, origin_words};
 use super::chain::{Chain, Coordinate};
@@ -10,7 +10,7 @@ use super::script::{Script, pairs, triple};
 use crate::graph::Expr;
 use crate::space::{Frame, Own, Vector};
 
-/// How the body that carries a joint moves, along axes in which the joint's axis is a coordinate
+/// Motion of a joint's parent body, expressed in axes in which the joint's axis is a coordinate
 /// axis.
 #[derive(Clone, Copy)]
 pub(super) struct Carrying<'g, F> {
@@ -23,7 +23,7 @@ pub(super) struct Carrying<'g, F> {
 }
 
 impl<'g, F: Frame> Carrying<'g, F> {
-    /// The hub: its field is added elsewhere.
+    /// The hub, whose own acceleration is added by the solver.
     pub(super) fn hub(omega: Vector<'g, F>) -> Self {
         let zero = Vector::zero(omega.components()[0].graph());
         Self { omega, alpha: zero, origin: zero }
@@ -50,8 +50,8 @@ impl<'g, F: Frame> Carrying<'g, F> {
     }
 }
 
-/// What carries each joint but the first, whose carrier is the hub; `omega` is the hub's angular
-/// velocity along the first body's axes.
+/// Motion of the parent body of each joint but the first, whose parent body is the hub; `omega` is
+/// the hub's angular velocity, expressed in the first body's axes.
 pub(super) fn carriers<'g>(
     chain: &Chain<'g>,
     based: &Based<'g>,
@@ -82,7 +82,7 @@ pub(super) fn carriers<'g>(
             ),
         );
         script.names(pairs(triple(&format!("alpha_{frame}"), frame), alpha.components()));
-        // Coriolis: what slides is carried along a body that turns.
+        // Coriolis: the body slides along one that turns.
         let origin = match link.coordinate {
             Coordinate::Angle(_) => before.origin,
             Coordinate::Length(_) => {

@@ -1,4 +1,4 @@
-//! The symbols of a device and of the hub that carries it.
+//! The symbols of a device and of its hub.
 
 use super::base::Passes;
 use crate::graph::{Expr, Graph, Stage};
@@ -10,7 +10,7 @@ pub const XYZ: [&str; 3] = ["x", "y", "z"];
 
 /// A device kind with its symbols in a graph.
 pub struct Chain<'g> {
-    /// Where the symbols live.
+    /// The graph of the symbols.
     pub graph: &'g Graph,
     /// The data it was made from.
     pub kind: &'static Kind,
@@ -20,15 +20,15 @@ pub struct Chain<'g> {
     pub hub: HubSymbols<'g>,
     /// What the derivation of the equations of motion does to the chain first.
     pub passes: Passes,
-    /// The device's axes along B axes: `mount`, column by column.
+    /// The device's axes expressed in B: `mount`, column by column.
     pub mount: [Vector<'g, Hub>; 3],
 }
 
-/// The symbols of a joint and of the body behind it.
+/// The symbols of a joint and of its child body.
 #[derive(Clone, Copy)]
 pub struct Link<'g> {
-    /// From the carrier's axes to those along which the body's quantities stand: they turn with it
-    /// where the kind says so.
+    /// From the parent body's axes to those in which the body's quantities are expressed: they turn
+    /// with it where the kind says so.
     pub turn: Turn<'g, Carrier, Own>,
     /// What the joint's coordinate is.
     pub coordinate: Coordinate<'g>,
@@ -42,7 +42,7 @@ pub struct Link<'g> {
     pub torque: Expr<'g>,
     /// Whether that torque is given, or the acceleration; none where the kind prescribes it.
     pub mode: Option<Mode<'g>>,
-    /// Origin of the joint from the carrier's origin; it moves along a sliding one.
+    /// Origin of the joint from the parent body's origin; it moves along a sliding one.
     pub origin: Vector<'g, Carrier>,
     /// Mass.
     pub mass: Expr<'g>,
@@ -50,7 +50,7 @@ pub struct Link<'g> {
     pub centre: Vector<'g, Own>,
     /// Inertia about the centre of mass.
     pub inertia: Symmetric<'g, Own>,
-    /// Mass of this body and all behind it: `m_d`, `m_v`.
+    /// Mass of this body and all outboard of it: `m_d`, `m_v`.
     pub assembly_mass: Expr<'g>,
 }
 
@@ -69,13 +69,13 @@ pub struct Mode<'g> {
 /// A joint's coordinate.
 #[derive(Clone, Copy)]
 pub enum Coordinate<'g> {
-    /// An angle: from the carrier's axes to those that turn with the body.
+    /// An angle: from the parent body's axes to those that turn with the body.
     Angle(Turn<'g, Carrier, Own>),
     /// A length.
     Length(Expr<'g>),
 }
 
-/// Symbols of the hub and of the whole spacecraft, along B axes.
+/// Symbols of the hub and of the whole spacecraft, expressed in B.
 pub struct HubSymbols<'g> {
     /// Mass of the whole.
     pub m_sc: Expr<'g>,
@@ -148,7 +148,8 @@ impl<'g> Chain<'g> {
 }
 
 impl Chain<'_> {
-    /// The paper's names of the axes of a frame: zero for the hub, k for the body behind joint k.
+    /// The paper's names of the axes of a frame: zero for the hub, k for the body outboard of joint
+    /// k.
     #[must_use]
     pub fn triad(&self, frame: usize) -> [&'static str; 3] {
         let body = frame.checked_sub(1).and_then(|k| self.kind.links.get(k));
@@ -196,7 +197,7 @@ impl<'g> Link<'g> {
         }
     }
 
-    /// Angular velocity of the body relative to its carrier.
+    /// Angular velocity of the body relative to its parent body.
     #[must_use]
     pub fn spin(&self) -> Vector<'g, Own> {
         match self.coordinate {
@@ -214,7 +215,7 @@ impl<'g> Mode<'g> {
 }
 
 impl<'g> Coordinate<'g> {
-    /// From the carrier's axes to those fixed in the body.
+    /// From the parent body's axes to those fixed in the body.
     #[must_use]
     pub fn turn(self, graph: &'g Graph) -> Turn<'g, Carrier, Own> {
         match self {

@@ -1,7 +1,7 @@
-//! Inwards from the tip: what lies outside each joint, taken together, in local frames.
+//! The composite of the bodies outboard of each joint, from the tip to the hub, in local frames.
 //!
-//! Moments are taken about the joint's own origin and carried to the next one, so a light wheel
-//! far from B does not drown in the inertia of its lever arm.
+//! Moments are taken about the joint's own origin and moved to the next one, so that a light wheel
+//! far from B does not lose digits beside the inertia of its lever arm.
 
 use super::chain::{Chain, Link};
 use super::lump::Lump;
@@ -20,7 +20,7 @@ pub fn share<'g>(chain: &Chain<'g>, observer: &Observer<'g>, script: &mut Script
     let motions = outwards(chain, observer, script);
     let mut lump = Lump::zero(graph);
     let mut bias = Wrench::zero(graph);
-    // What a unit acceleration of each joint already passed asks for; tip last.
+    // What a unit acceleration of each joint processed so far requires; tip last.
     let mut columns: Vec<Wrench<'g, Own>> = Vec::new();
     let mut joint = Vec::new();
     let mut bias_joint = Vec::new();
@@ -57,7 +57,7 @@ pub fn share<'g>(chain: &Chain<'g>, observer: &Observer<'g>, script: &mut Script
     }
 }
 
-/// Motions, with angular velocities and what they carry named.
+/// Motions, with their angular velocities and accelerations named.
 fn outwards<'g>(
     chain: &Chain<'g>,
     observer: &Observer<'g>,
@@ -99,7 +99,7 @@ fn outwards<'g>(
     motions
 }
 
-/// Names what lies outside the first of these joints: lump, bias, columns.
+/// Names the outboard composite of the first of these joints, its bias and its columns.
 fn describe<'g>(
     behind: &[kinds::Link],
     lump: &Lump<'g>,
@@ -146,7 +146,7 @@ fn describe<'g>(
     );
 }
 
-/// What one body asks for while no joint accelerates.
+/// What one body requires while no joint accelerates.
 fn bias_of<'g>(link: &Link<'g>, motion: &Motion<'g>, body: &Lump<'g>) -> Wrench<'g, Own> {
     let Wrench { force, moment } = asked_of(link, motion, body);
     Wrench {
@@ -155,7 +155,7 @@ fn bias_of<'g>(link: &Link<'g>, motion: &Motion<'g>, body: &Lump<'g>) -> Wrench<
     }
 }
 
-/// What one body asks for: with S and I about the joint's origin p, force `m p'' + S''` and moment
+/// What one body requires: with S and I about the joint's origin p, force `m p'' + S''` and moment
 /// `S x p'' + d(I omega)/dt`, derivatives seen from N.
 pub(super) fn asked_of<'g>(
     link: &Link<'g>,
@@ -172,7 +172,7 @@ pub(super) fn asked_of<'g>(
     }
 }
 
-/// Acceleration of the joint's origin relative to B, no joint accelerating, along own axes.
+/// Acceleration of the joint's origin relative to B, no joint accelerating, expressed in own axes.
 fn origin_acceleration<'g>(link: &Link<'g>, motion: &Motion<'g>) -> Vector<'g, Own> {
     motion.origin.acceleration.without(Stage::Acceleration).turned(link.turn)
 }

@@ -1,14 +1,14 @@
 //! The joints eliminated into the hub's six equations: symmetric, from the tip, no square root.
 //!
-//! With `d` the pivot of joint j, `g_x = M_xj / d` its gains and `q = h_j / d` its acceleration with
-//! all else at rest, every entry of the rest becomes `M_xy - g_x M_jy` and every right side
+//! With `d` the pivot of joint j, `g_x = M_xj / d` its gains and `q = h_j / d` its acceleration
+//! with all else at rest, every entry of the rest becomes `M_xy - g_x M_jy` and every right side
 //! `h_x - M_xj q`. This is `M = L D L^T` with the gains for L; the proof multiplies the emitted
-//! factors out again and knows nothing of this file.
+//! factors out again and does not use this file.
 //!
-//! A joint's mode is data. Where its acceleration is given instead of its torque, its gains are zero
-//! and `q` is what is given: the same statements, with the weight `driven` zero. `held` is one then,
-//! so that the reciprocal of a pivot that nobody asks for is finite. A joint whose acceleration the
-//! kind prescribes has no row.
+//! A joint's mode is data. Where its acceleration is given instead of its torque, its gains are
+//! zero and `q` is what is given: the same statements, with the weight `driven` zero. `held` is one
+//! then, so that the reciprocal of an unused pivot is finite. A joint whose acceleration the kind
+//! prescribes has no row.
 
 use super::Share;
 use super::chain::{Chain, Mode};
@@ -31,7 +31,7 @@ pub struct Pivot<'g> {
     pub pivot: Entry<'g>,
     /// The same entry before anything was eliminated.
     pub diagonal: Entry<'g>,
-    /// One per hub unknown, then one per joint nearer the hub.
+    /// One per hub unknown, then one per inboard joint.
     pub gains: Vec<Entry<'g>>,
     /// The joint's acceleration with all else at rest, or the one it is given.
     pub free: Entry<'g>,
@@ -44,7 +44,7 @@ pub struct Eliminated<'g> {
     pub pivots: Vec<Pivot<'g>>,
 }
 
-/// One joint's row as it stands: couplings to hub and inner joints, diagonal, right side.
+/// One joint's current row: couplings to hub and inboard joints, diagonal, right side.
 struct Row<'g> {
     tag: &'static str,
     /// Of the diagonal.
@@ -168,7 +168,7 @@ fn gains<'g>(
     }
 }
 
-/// What the joints take of the hub's block and of its right side.
+/// What the joints subtract from the hub's block and from its right side.
 fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
     for (block, rows, columns) in [("vv", 0..3, 0..3), ("vw", 0..3, 3..6), ("ww", 3..6, 3..6)] {
         script.section(
@@ -194,7 +194,7 @@ fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
 }
 
 impl<'g> Eliminated<'g> {
-    /// `rest` and what each joint takes.
+    /// `rest` and what each joint subtracts.
     fn taken(&self, rest: Expr<'g>, taken: impl Fn(&Pivot<'g>) -> Expr<'g>) -> Expr<'g> {
         self.pivots.iter().fold(rest, |sum, pivot| sum + taken(pivot))
     }

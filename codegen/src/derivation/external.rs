@@ -1,4 +1,4 @@
-//! What acts on the bodies from outside, carried inwards to the joints and to the hub.
+//! Applied wrenches on the bodies, summed inwards at the joints and on the hub.
 
 use super::chain::Chain;
 use super::script::Script;
@@ -7,8 +7,9 @@ use crate::graph::Stage;
 use crate::kinds;
 use crate::space::{Own, Vector};
 
-/// Writes to `script` what acts on each body and all outside it, along own axes, about its joint's
-/// origin; what each joint feels of it along its axis; and what the hub feels, about B.
+/// Writes to `script` the sum of the wrenches on each body and the bodies outboard of it, expressed
+/// in own axes, about its joint's origin; its component along each joint; and the sum on the hub,
+/// about B.
 pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     let mut sum = Wrench::zero(chain.graph);
     let links = chain.links.iter().zip(chain.kind.links);
@@ -40,7 +41,7 @@ pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     script.names(sum.named("sum", "b"));
 }
 
-/// The symbols of what acts on each body alone: along own axes, about its joint's origin.
+/// The symbols of the wrench on each body only: expressed in own axes, about its joint's origin.
 #[must_use]
 pub fn acting<'g>(chain: &Chain<'g>) -> Vec<Wrench<'g, Own>> {
     let zero = Wrench::<Own>::zero(chain.graph);

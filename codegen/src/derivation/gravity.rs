@@ -1,8 +1,8 @@
 //! A field of acceleration that grows linearly from B, `G r`, and what it does to each body.
 //!
-//! With S and I about a joint's origin p, the field pulls a body with `m G p + G S` and turns it with
-//! `S x G p` and with the torque of the gradient on an extended body, which knows its second moment
-//! up to a multiple of one. G need not be free of a trace.
+//! With S and I about a joint's origin p, the field pulls a body with `m G p + G S` and turns it
+//! with `S x G p` and with the torque of the gradient on an extended body, which depends on the
+//! second moment only up to a multiple of the unit tensor. G need not be free of a trace.
 
 use super::chain::{Chain, Link};
 use super::lump::Lump;
@@ -11,8 +11,8 @@ use super::wrench::Wrench;
 use crate::graph::{Graph, Stage};
 use crate::space::{Carrier, ENTRIES, Hub, Own, Symmetric, Vector};
 
-/// Writes to `script` what the field does to each body, along own axes, about its joint's origin, and
-/// `S = integral of r r^T dm` of the device, about B.
+/// Writes to `script` what the field does to each body, expressed in own axes, about its joint's
+/// origin, and `S = integral of r r^T dm` of the device, about B.
 pub fn gravity<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     let mut here = Field::about_b(chain.graph);
     let mut bodies = Vec::new();
@@ -53,7 +53,7 @@ pub fn gravity<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     script.names(pairs(sextuple("second_moment"), second_moment.entries()));
 }
 
-/// The symbols of the gradient, along B axes.
+/// The symbols of the gradient, expressed in B.
 #[must_use]
 pub fn gradient(graph: &Graph) -> Symmetric<'_, Hub> {
     Symmetric::new(ENTRIES.map(|entry| graph.symbol(&format!("g_{entry}"), Stage::Rate)))
@@ -75,7 +75,7 @@ impl<'g> Field<'g, Carrier> {
         Self { gradient, origin: Vector::zero(graph) }
     }
 
-    /// About a joint's origin, along own axes.
+    /// About a joint's origin, expressed in own axes.
     fn across(self, link: &Link<'g>) -> Field<'g, Own> {
         let origin = self.origin + self.gradient.times(link.origin);
         Field { gradient: self.gradient.turned(link.turn), origin: origin.turned(link.turn) }
@@ -83,13 +83,14 @@ impl<'g> Field<'g, Carrier> {
 }
 
 impl<'g> Field<'g, Own> {
-    /// Walking outwards: the body's frame carries the next joint.
+    /// Away from the hub: the body's frame is the parent frame of the next joint.
     fn handed_on(self) -> Field<'g, Carrier> {
         let gradient = Symmetric::new(self.gradient.entries());
         Field { gradient, origin: self.origin.handed_on() }
     }
 
-    /// Force and moment on a body. S and I are `tr(I) / 2 - I` and I but for a multiple of one.
+    /// Force and moment on a body. S and I are `tr(I) / 2 - I` and I up to a multiple of the
+    /// unit tensor.
     fn on(self, body: &Lump<'g>) -> Wrench<'g, Own> {
         let s = body.first_moment;
         Wrench {

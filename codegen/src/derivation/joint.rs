@@ -7,15 +7,15 @@ use super::wrench::Wrench;
 use crate::graph::Expr;
 use crate::space::{Axis, Frame, Vector};
 
-/// A joint, and what lies outside it, along axes in which its own is a coordinate axis.
+/// A joint and the bodies outboard of it, expressed in axes in which its own is a coordinate axis.
 #[derive(Clone, Copy)]
 pub(super) struct AtJoint<'g, F> {
     pub(super) axis: Axis,
     pub(super) coordinate: Coordinate<'g>,
     pub(super) rate: Expr<'g>,
-    /// Bodies outside, about the joint's origin.
+    /// Outboard composite, about the joint's origin.
     pub(super) lump: Lump<'g, F>,
-    /// What carries the joint.
+    /// Motion of the parent body.
     pub(super) carrying: Carrying<'g, F>,
 }
 

@@ -1,8 +1,8 @@
-//! Inverse dynamics: what the carrier of each joint must exert so that given accelerations happen.
+//! Inverse dynamics: what the parent body of each joint must exert for given accelerations.
 //!
 //! Recursive Newton and Euler in local frames: accelerations outwards, those of B among them, then
-//! forces and moments inwards. Of each moment the part about the joint's axis is the motor's torque;
-//! the rest is carried by the structure, the torques of (77), (98) and (116).
+//! forces and moments inwards. Of each moment the part about the joint's axis is the motor's
+//! torque; the structure bears the rest, the torques of (77), (98) and (116).
 
 use super::chain::Chain;
 use super::composite::asked_of;
@@ -11,8 +11,8 @@ use super::motion::{Motion, Observer, motions};
 use super::script::{Script, pairs, triple};
 use super::wrench::Wrench;
 
-/// Writes the loads of a device to `script`: at each joint on all that lies outside it, along own
-/// axes, about the joint's origin; then on the whole device, about B.
+/// Writes the loads of a device to `script`: at each joint on all bodies outboard of it, expressed
+/// in own axes, about the joint's origin; then on the whole device, about B.
 pub fn loads<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     let motions = outwards(chain, script);
     let mut wrench = Wrench::zero(chain.graph);

@@ -7,7 +7,7 @@ use crate::graph::{Expr, Graph};
 use crate::kinds;
 use crate::space::{Carrier, Frame, Own, Symmetric, Vector};
 
-/// Mass, first moment and inertia of a set of bodies, about the origin at hand.
+/// Mass, first moment and inertia of a set of bodies, about the current origin.
 #[derive(Clone, Copy)]
 pub(super) struct Lump<'g, F = Own> {
     pub(super) mass: Expr<'g>,
@@ -58,7 +58,7 @@ impl<'g, F: Frame> Lump<'g, F> {
         Self { first_moment: self.first_moment + self.mass * arm, inertia, ..self }
     }
 
-    /// What a unit acceleration along or about `axis` asks for.
+    /// What a unit acceleration along or about `axis` requires.
     pub(super) fn moved(self, coordinate: Coordinate<'g>, axis: Vector<'g, F>) -> Wrench<'g, F> {
         match coordinate {
             Coordinate::Angle(_) => {
@@ -72,7 +72,7 @@ impl<'g, F: Frame> Lump<'g, F> {
 }
 
 impl<'g> Lump<'g> {
-    /// One body about its joint's origin: parameters alone.
+    /// One body about its joint's origin: parameters only.
     pub(super) fn of(link: &Link<'g>, data: &kinds::Link, script: &mut Script<'g>) -> Self {
         let (body, origin) = (&data.body, data.body.origin);
         let made = Self {
@@ -83,7 +83,8 @@ impl<'g> Lump<'g> {
         script.section(
             "own",
             format!(
-                "The {} about its origin: first moment, kg m, and inertia as in eq. {}, kg m².",
+                "The {} about its origin, inertia as in eq. {}: first moment, kg m, and inertia, \
+                 kg m².",
                 body.title, body.equations.i_b
             ),
         );
@@ -94,12 +95,12 @@ impl<'g> Lump<'g> {
         made
     }
 
-    /// What a unit acceleration of the joint that carries it asks for.
+    /// What a unit acceleration of its joint requires.
     pub(super) fn column(self, link: &Link<'g>) -> Wrench<'g, Own> {
         self.moved(link.coordinate, link.axis)
     }
 
-    /// Along the carrier's axes, about the same origin.
+    /// Expressed in the parent body's axes, about the same origin.
     pub(super) fn turned_back(self, link: &Link<'g>) -> Lump<'g, Carrier> {
         let back = link.turn.inverse();
         Lump {
@@ -109,12 +110,12 @@ impl<'g> Lump<'g> {
         }
     }
 
-    /// Along the carrier's axes, about the carrier's origin.
+    /// Expressed in the parent body's axes, about its origin.
     pub(super) fn carried(self, link: &Link<'g>) -> Self {
         self.turned_back(link).shifted(link.origin).handed_back()
     }
 
-    /// Names what lies outside a joint, taken together.
+    /// Names the outboard composite of a joint.
     pub(super) fn name(&self, data: &kinds::Link, script: &mut Script<'g>) {
         let (body, assembly) = (&data.body, data.assembly);
         let (origin, letter) = (body.origin, body.letters[0]);
@@ -137,7 +138,7 @@ impl<'g> Lump<'g> {
 }
 
 impl<'g> Lump<'g, Carrier> {
-    /// Walking inwards: the frame that carried the joint is the next body's own.
+    /// Towards the hub: the parent body's frame is the next body's own.
     pub(super) fn handed_back(self) -> Lump<'g> {
         Lump {
             mass: self.mass,

@@ -5,14 +5,20 @@
 //! - [`quantities`]: the paper's quantities of each body and of the system's centre of mass;
 //! - `angular` and `torques`: the paper's angular momenta (20) to (76) and motor torques (77) to
 //!   (121), by the same names;
-//! - [`by_body`]: mass matrix and bias as sums over bodies, by plain differentiation in B: what
-//!   the rest is held against;
+//! - [`by_body`]: mass matrix and bias as sums over bodies, by plain differentiation in B: the
+//!   reference of the proofs;
 //! - [`boltzmann_hamel`]: the same once more from the kinetic energy only;
-//! - [`composite`]: the same, inwards from the tip in local frames: what is emitted;
-//! - [`axes`], [`loads`], [`external`], [`gravity`]: on the same walks, where the bodies stand, what
-//!   their joints carry, what acts on them from outside, and what a field does to them;
-//! - [`script`]: the named steps of the recursions;
-//! - [`elimination`]: the joints eliminated into the hub's six equations, tip first.
+//! - [`composite`]: from the tip to the hub in local frames, emitted as `first_moment` and
+//!   `energy_momentum`;
+//! - [`aboard`]: the same from base parameters ([`base`], with `carriers` for the motion of the
+//!   parent bodies and `joint` for one joint), emitted as `eliminate` and `constant_share`;
+//! - [`elimination`]: the joints eliminated into the hub's six equations, tip first: the second
+//!   half of `eliminate`;
+//! - [`axes`], [`loads`], [`external`], [`gravity`], each emitted by its own name: axes and origins
+//!   of the bodies, loads across their joints, sums of applied wrenches, wrenches of a field;
+//! - `lump`, [`wrench`], [`placed`]: mass, first moment and inertia of bodies; force and moment; a
+//!   vector or tensor with the frame it is expressed in;
+//! - [`script`]: the named steps of the recursions.
 
 pub mod aboard;
 mod angular;
@@ -42,7 +48,7 @@ use crate::graph::Expr;
 use crate::kinds::{Kind, Link};
 use crate::space::{Hub, Symmetric, Vector};
 
-/// One device's share of `M [r_B''; omega'; q''] + bias = [F; L_B; u]`, along B axes.
+/// One device's share of `M [r_B''; omega'; q''] + bias = [F; L_B; u]`, expressed in B.
 pub struct Share<'g> {
     /// `M_vv = mass 1`.
     pub mass: Expr<'g>,
@@ -64,7 +70,7 @@ pub struct Share<'g> {
     pub bias_joint: Vec<Expr<'g>>,
 }
 
-/// One device's share of the kinetic energy and of both momenta, along B axes.
+/// One device's share of the kinetic energy and of both momenta, expressed in B.
 pub struct Momenta<'g> {
     /// Kinetic energy.
     pub energy: Expr<'g>,

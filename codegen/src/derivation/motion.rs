@@ -4,7 +4,7 @@ use super::chain::Chain;
 use crate::graph::Graph;
 use crate::space::{Carrier, Frame, Hub, Own, Vector};
 
-/// Who watches: what B itself does in the observer's frame.
+/// The observer: the motion of B in the observer's frame.
 #[derive(Clone, Copy)]
 pub struct Observer<'g> {
     /// Letter of the observer's frame.
@@ -53,18 +53,18 @@ pub struct Path<'g, F> {
 /// How one body moves, seen by an observer.
 #[derive(Clone, Copy)]
 pub struct Motion<'g> {
-    /// Angular velocity of the body, along its own axes.
+    /// Angular velocity of the body, expressed in its own axes.
     pub omega: Vector<'g, Own>,
     /// Angular velocity of these axes: the same, but for axes that do not turn with the body.
     pub axes: Vector<'g, Own>,
-    /// The joint's origin, along the carrier's axes.
+    /// The joint's origin, expressed in the parent body's axes.
     pub origin: Path<'g, Carrier>,
-    /// The body's centre of mass, along the carrier's axes.
+    /// The body's centre of mass, expressed in the parent body's axes.
     pub centre: Path<'g, Carrier>,
 }
 
 impl<'g, F: Frame> Path<'g, F> {
-    /// The end of an arm that starts here; the arm is resolved in axes that turn at `omega`.
+    /// The end of an arm that starts here; the arm is expressed in axes that turn at `omega`.
     fn with_arm(self, arm: Vector<'g, F>, omega: Vector<'g, F>) -> Self {
         let arm_rate = arm.prime(omega);
         Self {

@@ -1,7 +1,9 @@
-//! A derived vector or tensor with the link whose axes it stands in, to be read along any other.
+//! A derived vector or tensor with the link whose axes it is expressed in, to be expressed in any
+//! other's.
 //!
-//! Inside a walk the frame is in the type. Where results of all links are listed together, as the
-//! proof does, it becomes a number: zero for the hub, k for the body outboard of joint k.
+//! While the chain is processed, the frame is in the type. Where results of all links are listed
+//! together, as the proof does, it becomes a number: zero for the hub, k for the body outboard of
+//! joint k.
 
 use super::chain::Chain;
 use crate::graph::Expr;
@@ -19,7 +21,7 @@ pub enum Placed<'g> {
 }
 
 impl<'g> Placed<'g> {
-    /// The same along the axes of frame `target`.
+    /// The same expressed in frame `target`.
     #[must_use]
     pub fn along(self, chain: &Chain<'g>, target: usize) -> Self {
         let mut now = self;
@@ -43,7 +45,7 @@ impl<'g> Placed<'g> {
         }
     }
 
-    /// The frame along whose axes it stands.
+    /// The frame whose axes it is expressed in.
     #[must_use]
     pub fn frame(self) -> Option<usize> {
         match self {

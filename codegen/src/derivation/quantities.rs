@@ -84,7 +84,7 @@ impl<'g> List<'g> {
 }
 
 impl<'g> List<'g> {
-    /// A vector collected before, along B axes.
+    /// A vector collected before, expressed in B.
     pub(super) fn hub_vector(&self, name: &str) -> Vector<'g, Hub> {
         match find(&self.quantities, name).map(|quantity| quantity.value) {
             Some(Placed::Vector(v, 0)) => Vector::new(v),
@@ -155,7 +155,8 @@ fn body<'g>(
     list.vector(&format!("{stem}_prime"), of_b.centre.velocity, carrier);
     list.vector(&format!("{stem}_dprime"), of_b.centre.acceleration, carrier);
 
-    // (35), (48), (63); (36), (49)-(52), (64), (65) in the balanced case; (40), (55), (71); (42), (57), (73).
+    // (35), (48), (63); (36), (49)-(52), (64), (65) in the balanced case; (40), (55), (71); (42),
+    // (57), (73).
     let r = of_b.centre.position.turned(link.turn);
     let i_b = link.inertia + link.mass * Symmetric::tilde_squared(r);
     list.tensor(&format!("i_{frame}_{point}"), link.inertia, own);

@@ -44,6 +44,11 @@ impl<'g> Script<'g> {
     }
 
     /// Opens a section; its temporaries are called `prefix_0`, `prefix_1`.
+    ///
+    /// The title is emitted as a heading, and read again: `listing::cited` of the review crate
+    /// takes the equations between `eq. ` or `eqs. ` and the next `:`, `of_elimination` of
+    /// `proof/kernel_pages.rs` finds the sections of the elimination, and the documentation of a
+    /// constant repeats it up to the first `: `.
     pub fn section(&mut self, prefix: &str, title: impl Into<String>) {
         let (title, prefix) = (title.into(), prefix.to_owned());
         self.sections.push(Section { title, prefix, statements: Vec::new() });

@@ -1,4 +1,4 @@
-//! A force with its moment, along the axes and about the origin at hand.
+//! A force with its moment, expressed in the current axes, about the current origin.
 
 use super::chain::{Chain, Coordinate, Link};
 use super::placed::Placed;
@@ -6,7 +6,7 @@ use super::script::{pairs, triple};
 use crate::graph::{Expr, Graph};
 use crate::space::{Frame, Hub, Own, Vector};
 
-/// A force and its moment about the origin at hand.
+/// A force and its moment about the current origin.
 #[derive(Clone, Copy)]
 pub struct Wrench<'g, F> {
     /// The force.
@@ -28,7 +28,8 @@ impl<'g, F: Frame> Wrench<'g, F> {
         Self { force: self.force + other.force, moment: self.moment + other.moment }
     }
 
-    /// Force and moment by name: `f_rest_gox`, `n_rest_gox` for `rest` along the axes of `go`.
+    /// Force and moment by name: `f_rest_gox`, `n_rest_gox` for `rest` expressed in the axes of
+    /// `go`.
     #[must_use]
     pub fn named(self, what: &str, frame: &str) -> Vec<(String, Expr<'g>)> {
         let part = |letter: char, v: Vector<'g, F>| {
@@ -39,7 +40,7 @@ impl<'g, F: Frame> Wrench<'g, F> {
 }
 
 impl<'g> Wrench<'g, Own> {
-    /// Along the carrier's axes, about the carrier's origin.
+    /// Expressed in the parent body's axes, about its origin.
     #[must_use]
     pub fn carried(self, link: &Link<'g>) -> Self {
         let force = self.force.turned(link.turn.inverse());
@@ -47,7 +48,7 @@ impl<'g> Wrench<'g, Own> {
         Self { force: force.handed_back(), moment: moment.handed_back() }
     }
 
-    /// What the joint itself feels of it: the moment about its axis, or the force along it.
+    /// Its component along the joint: the moment about its axis, or the force along it.
     #[must_use]
     pub fn along(self, link: &Link<'g>) -> Expr<'g> {
         link.axis.dot(match link.coordinate {
@@ -74,7 +75,7 @@ impl<'g> Wrench<'g, Hub> {
     }
 }
 
-/// Components along the axes of one frame, of a vector given along those of another.
+/// A vector expressed in one frame, from its components in another.
 fn resolved<'g, F: Frame>(
     v: [Expr<'g>; 3],
     from: usize,

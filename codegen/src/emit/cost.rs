@@ -46,7 +46,8 @@ pub(super) fn factoring(kind: &'static Kind, after: &[CountText]) -> Vec<(String
     told.filter(|(_, before, after)| before != after).collect()
 }
 
-/// The functions of a kind after these passes, in the order of the emitted file, and their operations.
+/// The functions of a kind after these passes, in the order of the emitted file, and their
+/// operations.
 fn counted(kind: &'static Kind, passes: Passes) -> Vec<(String, usize)> {
     let graph = Graph::new();
     let chain = Chain::after(&graph, kind, passes);
@@ -69,7 +70,7 @@ mod tests {
             let [before, after] = [Passes::CHAIN, Passes::ALL].map(|passes| counted(kind, passes));
             assert!(before.len() > 10, "{} has {} functions", kind.name, before.len());
             assert_eq!(before.len(), after.len());
-            // `prepare` may: it takes over what the others do not compute any more.
+            // `prepare` may: it computes what the others do not compute any more.
             for ((function, before), (_, after)) in before.into_iter().zip(after).skip(1) {
                 assert!(after <= before, "{} {function}: {before} -> {after}", kind.name);
             }

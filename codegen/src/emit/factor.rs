@@ -1,9 +1,9 @@
 //! Common factors: `a b + a c` is written as `a (b + c)` wherever that makes a function shorter.
 //!
 //! A function is rewritten right before it is laid out. What has a name keeps name and value; sums
-//! and products without one are taken together as far as they reach, see [`rewriting`]. What a
-//! rewriting is worth is counted in the function as it would be emitted: nothing else tells whether
-//! a product that two sums share is better spared in both or kept.
+//! and products are collected through nodes that are neither named nor shared, see [`rewriting`].
+//! What a rewriting saves is counted in the function as it would be emitted: nothing else shows
+//! whether a product that two sums share is better expanded in both or kept.
 
 mod rewriting;
 mod sum;
@@ -17,7 +17,7 @@ use crate::derivation::script::{Section, Statement};
 use crate::graph::{Expr, Graph, Node, NodeId, Stage};
 
 /// The sections of a function with common factors taken out, as long as that lowers its operations.
-/// What depends on parameters alone costs nothing where it is `hoisted` into `prepare`.
+/// What depends on parameters only counts zero operations where it is `hoisted` into `prepare`.
 pub(super) fn factored<'g>(
     graph: &'g Graph,
     sections: Vec<Section<'g>>,
@@ -64,7 +64,7 @@ impl<'a, 'g> Function<'a, 'g> {
         function
     }
 
-    /// Everything that depends on parameters alone.
+    /// Everything that depends on parameters only.
     fn of_parameters(&self) -> HashSet<NodeId> {
         let (graph, mut found) = (self.graph, HashSet::new());
         let roots = statements(&self.sections).flat_map(|s| s.cut.into_iter().chain([s.value]));

@@ -227,7 +227,8 @@ pub(super) fn symmetric(kind: &Kind) -> Vec<String> {
 }
 
 /// Documents a constant by the formula that computes it, its unit and, where it has a name of its
-/// own, the section that states it. The formulas are those of the emitted `lines`.
+/// own, the section that states it, up to the first `: ` of its heading. The formulas are those of
+/// the emitted `lines`.
 pub(super) fn describe(
     record: &mut Record,
     lines: impl Iterator<Item = String>,
@@ -247,7 +248,8 @@ pub(super) fn describe(
         let unit = unit.map_or_else(String::new, |unit| format!(", {unit}"));
         let numbered = field.name.starts_with("k_");
         let title = stated.filter(|_| !numbered).map_or("", |stated| stated.title.as_str());
-        format!("`{formula}`{unit}. {title}").trim_end().clone_into(&mut field.doc);
+        let (title, end) = title.split_once(": ").map_or((title, ""), |(title, _)| (title, "."));
+        format!("`{formula}`{unit}. {title}{end}").trim_end().clone_into(&mut field.doc);
     }
 }
 
@@ -325,17 +327,16 @@ fn contract(part: &Part) -> Vec<String> {
             "e" => "gains",
             _ => record.name.as_str(),
         };
-        format!("{what} `{letter}`")
+        // Other arguments have no frame, or state their own.
+        let frame = match *letter {
+            "w" | "b" | "a" | "g" if OF_HUB.contains(&part.name.as_str()) => " (expressed in B)",
+            "w" | "b" | "a" | "g" => " (expressed in the device's axes)",
+            _ => "",
+        };
+        format!("{what} `{letter}`{frame}")
     };
     let arguments: Vec<_> = part.inputs.iter().map(argument).collect();
-    // Other arguments have no frame, or state their own.
-    let of_hub = |(letter, _): &(&str, Record)| ["w", "b", "a", "g"].contains(letter);
-    let frame = match part.inputs.iter().any(of_hub) {
-        true if OF_HUB.contains(&part.name.as_str()) => ", expressed in B",
-        true => ", expressed in the device's axes",
-        false => "",
-    };
-    let takes = format!("Takes {}{frame}.", arguments.join(", "));
+    let takes = format!("Takes {}.", arguments.join(", "));
     let returns = format!(
         "Returns `{}`, proved equal to the equations cited. No branch, no panic.",
         part.output.name

@@ -10,7 +10,7 @@ use crate::kernel::{Kernel, kernels, parameters};
 
 /// The functions of a kind.
 pub struct Functions<'g> {
-    /// What depends on parameters alone.
+    /// What depends on parameters only.
     pub prepared: Prepared<'g>,
     /// All others, in the order of the emitted file.
     pub kernels: Vec<Kernel<'g>>,

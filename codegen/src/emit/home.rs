@@ -1,4 +1,4 @@
-//! Where emitted code stands, and how it finds the dynamics crate from there.
+//! The crate of the emitted code, and the name by which it calls the dynamics crate.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -12,7 +12,7 @@ use super::text::ident;
 pub enum Home<'a> {
     /// The dynamics crate itself.
     Dynamics,
-    /// Another one, which knows the dynamics crate by this name.
+    /// Another one, which calls the dynamics crate by this name.
     Outside(&'a str),
 }
 

@@ -2,7 +2,7 @@
 //! kernels; a kind's second file is tokens, printed at once.
 //!
 //! Invariants: the same kernels give the same bytes; every operation of the graph is written once
-//! in a function, or once in `prepare` when it depends on parameters alone; no line passes 100
+//! in a function, or once in `prepare` when it depends on parameters only; no line passes 100
 //! columns. `rustfmt` skips the modules of emitted files.
 
 mod body;

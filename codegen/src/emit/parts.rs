@@ -1,4 +1,5 @@
-//! What is emitted of a kind before it has a syntax: its records, and its functions with their bodies.
+//! What is emitted of a kind before it has a syntax: its records, and its functions with their
+//! bodies.
 
 use std::collections::{HashMap, HashSet};
 
@@ -12,7 +13,7 @@ use crate::graph::{Node, NodeId};
 use crate::kernel::{Kernel, Record, Source, parameters};
 use crate::kernel::{joint_accelerations, modes, motors, pose, rates, wrenches};
 
-/// Where the time of an evaluation goes. What is asked once in a while keeps plain operators.
+/// Where the time of an evaluation goes. Functions called rarely keep plain operators.
 /// Inlined, since lanes reach the wide instructions of their caller only so.
 pub(super) const FUSED: [&str; 2] = ["eliminate", "back_substitute"];
 

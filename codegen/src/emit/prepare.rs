@@ -1,4 +1,4 @@
-//! What depends on parameters alone leaves every kernel and is computed once, in `prepare`.
+//! What depends on parameters only leaves every kernel and is computed once, in `prepare`.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -48,7 +48,7 @@ impl<'g> Prepared<'g> {
     }
 }
 
-/// Finds what the kernels can share of parameters alone.
+/// Finds what the kernels can share of parameters only.
 pub(crate) fn prepared<'g>(
     graph: &'g Graph,
     kernels: &[Kernel<'g>],
@@ -107,7 +107,7 @@ pub(crate) fn prepared<'g>(
     Prepared { fields, record, sections }
 }
 
-/// A name that the kernels give to two values of parameters alone.
+/// A name that the kernels give to two values of parameters only.
 fn ambiguous<'a>(graph: &Graph, kernels: &'a [Kernel<'_>]) -> Option<&'a str> {
     let mut known: HashMap<&str, NodeId> = HashMap::new();
     let live = kernels.iter().flat_map(|kernel| live(graph, kernel));
@@ -131,7 +131,7 @@ fn statements<'a, 'g>(kernels: &'a [Kernel<'g>]) -> impl Iterator<Item = &'a Sta
     kernels.iter().flat_map(|kernel| &kernel.sections).flat_map(|section| &section.statements)
 }
 
-/// The nodes of parameters alone that a kernel reads where it computes with the state.
+/// The nodes of parameters only that a kernel reads where it computes with the state.
 fn read_constants(graph: &Graph, kernel: &Kernel<'_>) -> Vec<NodeId> {
     let (_, mut found) = walked(graph, kernel, |id| graph.expr(id).stage() == Stage::Parameter);
     found.sort_unstable();
@@ -173,7 +173,7 @@ fn walked<'a, 'g>(
     (needed, found)
 }
 
-/// `prepare` repeats the sections of the kernels as far as they are parameters alone.
+/// `prepare` repeats the sections of the kernels as far as they are parameters only.
 fn sections<'g>(
     graph: &'g Graph,
     kernels: &[Kernel<'g>],

@@ -1,4 +1,4 @@
-//! One expression as Rust tokens: operators, parentheses, and how wide it will stand.
+//! One expression as Rust tokens: operators, parentheses, and its width in columns.
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -40,7 +40,7 @@ impl Rendered {
         }
     }
 
-    /// A constant of the same kind as `witness`: `q.sin_theta.like(0.5)`.
+    /// A constant of the number type of `witness`, any value at hand: `q.sin_theta.like(0.5)`.
     pub(super) fn constant(witness: &Self, value: Rational) -> Self {
         let literal = proc_macro2::Literal::f64_unsuffixed(crate::graph::float(value));
         let width = witness.width + ".like()".len() + literal.to_string().len();
@@ -94,7 +94,7 @@ impl Rendered {
         }
     }
 
-    /// In parentheses unless it binds at least as tightly as `outside` asks.
+    /// In parentheses unless it binds at least as tightly as `outside` requires.
     fn inside(&self, outside: Binding) -> Self {
         if self.binding >= outside {
             return self.clone();

@@ -66,7 +66,7 @@ pub(super) fn literal(name: &str, fields: &[(String, String)]) -> Vec<String> {
     lines
 }
 
-/// A documentation line behind its slashes.
+/// A documentation line, to follow its slashes.
 pub(super) fn spaced(line: &str) -> String {
     if line.is_empty() { String::new() } else { format!(" {line}") }
 }

@@ -94,7 +94,7 @@ impl Graph {
         self.constant(0)
     }
 
-    /// The node behind an id.
+    /// The node of an id.
     #[must_use]
     pub fn node(&self, id: NodeId) -> Node {
         self.arena.borrow().nodes[id as usize]

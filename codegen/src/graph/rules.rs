@@ -1,6 +1,6 @@
 //! The simplifications made while an expression is built.
 //!
-//! Each rule is one named, directional rewrite: what stands left never survives construction. A
+//! Each rule is one named, directional rewrite: the left form is never built. A
 //! rule may only make an expression smaller or move a sign outwards, so building always ends.
 //! All of them hold in exact arithmetic; the unit test evaluates both sides of each.
 

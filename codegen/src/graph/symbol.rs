@@ -14,7 +14,7 @@ impl SymbolId {
     }
 }
 
-/// How late in an evaluation a quantity becomes known.
+/// At which stage of an evaluation a quantity becomes known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Known once per spacecraft: mass, length, inertia.

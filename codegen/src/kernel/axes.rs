@@ -1,4 +1,4 @@
-//! The kernel `axes`: where the bodies stand.
+//! The kernel `axes`: axes and origins of the bodies.
 
 use super::{Claim, Kernel, Record, records};
 use crate::derivation::axes::axes;

@@ -8,7 +8,7 @@ use crate::derivation::script::Script;
 use crate::derivation::{Named, by_body};
 use crate::kinds::{Kind, Link, Motion};
 
-/// The kernel, the elimination behind it, and what back substitution needs of its result.
+/// The kernel, the elimination it is built from, and what back substitution needs of its result.
 #[must_use]
 pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>, Record) {
     let mut script = Script::new(chain.graph);

@@ -7,7 +7,7 @@ use crate::derivation::external::{acting as symbols, external};
 use crate::derivation::script::Script;
 use crate::kinds::Kind;
 
-/// A wrench on every body, carried inwards.
+/// A wrench on every body, summed inwards.
 #[must_use]
 pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let mut script = Script::new(chain.graph);

@@ -92,7 +92,7 @@ fn body<'g>(
     let [body_letter, point_letter] = data.letters;
     let record = Record::new(&type_name(data.title), &format!("The {} seen from B.", data.title));
     let mut b = Builder::new(chain, record);
-    // The same by plain differentiation along B axes, brought to the axes at hand.
+    // The same by plain differentiation in B, then expressed in the current axes.
     let vector = |v: Vector<'g, Hub>, frame: usize| match Placed::Vector(v.components(), 0)
         .along(chain, frame)
     {
@@ -180,8 +180,8 @@ fn body<'g>(
     }
 }
 
-/// Names the centre of mass from its joint's origin, as far as a component is a sum that is also a part
-/// of an acceleration, whose name it would bear otherwise.
+/// Names the centre of mass from its joint's origin, as far as a component is a sum that is also a
+/// part of an acceleration, after which it would otherwise be named.
 fn arm<'g>(script: &mut Script<'g>, chain: &Chain<'g>, k: usize, motion: &Motion<'g>) {
     let (link, body) = (&chain.links[k], &chain.kind.links[k].body);
     let carrier = k.checked_sub(1).map_or("b", |parent| chain.kind.links[parent].body.frame);
@@ -201,11 +201,11 @@ fn arm<'g>(script: &mut Script<'g>, chain: &Chain<'g>, k: usize, motion: &Motion
     }
     let [origin, point] = body.letters;
     let equation = body.equations.r_dprime;
-    script.section("arm", format!("r_{{{point}/{origin}}}, behind eq. {equation}, m."));
+    script.section("arm", format!("r_{{{point}/{origin}}}, as in eq. {equation}, m."));
     script.names(named);
 }
 
-/// The device's share of `m_sc c` (9), of its derivatives (11), and the f of (17), along B axes.
+/// The device's share of `m_sc c` (9), of its derivatives (11), and the f of (17), expressed in B.
 fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'g> {
     let graph = chain.graph;
     let observer = Observer::on_hub(graph);
@@ -236,7 +236,7 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
         mc_prime.components(),
     );
     for (k, data) in chain.kind.links.iter().enumerate() {
-        // Along the device's axes; along B axes the same is f of the system.
+        // Expressed in the device's axes; expressed in B, the same is f of the system.
         let stem = format!("mc_dprime_{}", data.joint.tag);
         let title = format!("f_{}, eq. (17): Σ m r″ per {}", data.joint.tag, data.joint.symbols[1]);
         let reference = mc_dprime.partial(chain.links[k].acceleration).components();

@@ -7,7 +7,7 @@ use crate::derivation::loads::loads;
 use crate::derivation::script::Script;
 use crate::kinds::{Kind, Motion};
 
-/// What each carrier exerts.
+/// What each parent body exerts.
 #[must_use]
 pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let kind = chain.kind;

@@ -29,7 +29,7 @@ pub struct Kernel<'g> {
     pub name: String,
     /// Its documentation, line by line.
     pub doc: Vec<String>,
-    /// Argument letters and the records behind them.
+    /// Argument letters and their records.
     pub inputs: Vec<(&'static str, Record)>,
     /// What it computes, section by section.
     pub sections: Vec<Section<'g>>,

@@ -165,7 +165,7 @@ pub(super) fn placed(kind: &Kind) -> Vec<(&'static str, Record)> {
     std::iter::once(("p", Record::new("Prepared", ""))).chain(pose(kind)).collect()
 }
 
-/// Where the joints stand: the arguments of a kernel that say so, as many as the kind knows of.
+/// Joint coordinates: the arguments of a kernel that contain them, as many as the kind has.
 #[must_use]
 pub fn pose(kind: &Kind) -> Vec<(&'static str, Record)> {
     let arguments = [("q", trig(kind)), ("s", positions(kind))];

@@ -1,4 +1,4 @@
-//! The body behind a joint: its names, and the patterns of its centre of mass and its inertia.
+//! The child body of a joint: its names, and the patterns of its centre of mass and its inertia.
 
 use super::{Equations, Triple};
 use crate::space::{Axis, ENTRIES};

@@ -1,8 +1,9 @@
 //! A kind in a few lines: what is not said has a default, and every name follows from a letter.
 //!
-//! A link with letter `p`, coordinate `phi` has rate `phi_dot`, acceleration `phi_ddot`, motor torque
-//! `u_p`, mass `m_p`, centre of mass `r_pc_p`, inertia `i_p`, and its joint's origin is `r_p_b`, or
-//! `r_p_f` where body `f` carries it. The names live as long as the program: a kind is made once.
+//! A link with letter `p`, coordinate `phi` has rate `phi_dot`, acceleration `phi_ddot`, motor
+//! torque `u_p`, mass `m_p`, centre of mass `r_pc_p`, inertia `i_p`, and its joint's origin is
+//! `r_p_b`, or `r_p_f` where `f` is the parent body. The names live as long as the program: a kind
+//! is made once.
 
 use super::naming::{self, KindError};
 use super::{
@@ -41,7 +42,8 @@ enum Place {
 }
 
 impl Kind {
-    /// A kind of this name (of module and file) and title (in words, lower case), without links yet.
+    /// A kind of this name (of module and file) and title (in words, lower case), without links
+    /// yet.
     #[must_use]
     pub fn builder(name: &str, title: &str) -> KindBuilder {
         let source = format!("kind `{name}`");
@@ -50,14 +52,14 @@ impl Kind {
 }
 
 impl Link {
-    /// A body that turns about an axis of its carrier. Its centre of mass is anywhere and its inertia
-    /// full, unless something else is said.
+    /// A body that turns about an axis of its parent body. Its centre of mass is anywhere and its
+    /// inertia full, unless something else is said.
     #[must_use]
     pub fn turning(letter: &str, title: &str, axis: Axis, coordinate: &str) -> LinkBuilder {
         LinkBuilder::new([letter, title, coordinate], Motion::Turn(axis))
     }
 
-    /// A body that slides along an axis of its carrier.
+    /// A body that slides along an axis of its parent body.
     #[must_use]
     pub fn sliding(letter: &str, title: &str, axis: Axis, coordinate: &str) -> LinkBuilder {
         LinkBuilder::new([letter, title, coordinate], Motion::Slide(axis))
@@ -71,14 +73,14 @@ impl KindBuilder {
         Self { source: path.to_owned(), ..self }
     }
 
-    /// One more link, carried by the one before; the hub carries the first.
+    /// One more link, outboard of the one before; the first is on the hub.
     #[must_use]
     pub fn link(mut self, link: LinkBuilder) -> Self {
         self.links.push(link);
         self
     }
 
-    /// The kind, with every name worked out and checked.
+    /// The kind, with every name formed and checked.
     ///
     /// # Errors
     /// When there is no link, or a name cannot stand in the emitted code or stands there already.
@@ -147,8 +149,8 @@ impl LinkBuilder {
         Self { centre: Place::At, inertia: |_| Inertia::Point, ..self }
     }
 
-    /// Where its quantities are stated. By default these are the paper's numbers for what moves like
-    /// it: the outer gimbal for the first link, the inner gimbal for every other.
+    /// Where its quantities are stated. By default these are the paper's numbers for what moves
+    /// like it: the outer gimbal for the first link, the inner gimbal for every other.
     #[must_use]
     pub fn equations(self, equations: Equations) -> Self {
         Self { equations: Some(equations), ..self }

@@ -13,7 +13,7 @@ pub const DGVSCMG: Kind = Kind {
     links: &[OUTER_GIMBAL, INNER_GIMBAL, imbalanced(ARM, ["s_x", "w_y", "w_z"], Whole::Wheel)],
 };
 
-/// The gimbal that the hub carries.
+/// The gimbal on the hub.
 pub(super) const OUTER_GIMBAL: Link = Link {
     joint: Joint {
         tag: "o",
@@ -50,7 +50,7 @@ pub(super) const OUTER_GIMBAL: Link = Link {
     assembly: "d",
 };
 
-/// The gimbal within it, which carries the wheel.
+/// The gimbal within it, parent body of the wheel.
 pub(super) const INNER_GIMBAL: Link = Link {
     joint: Joint {
         tag: "i",

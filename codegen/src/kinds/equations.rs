@@ -14,7 +14,7 @@ pub struct Equations {
     pub i_b: &'static str,
     /// Its derivative.
     pub i_b_prime: &'static str,
-    /// Motor torque across the joint that carries the body.
+    /// Motor torque across the body's joint.
     pub torque: &'static str,
     /// Inertial second derivative of the centre of mass from B.
     pub r_ddot: &'static str,
@@ -22,11 +22,11 @@ pub struct Equations {
     pub h: &'static str,
     /// Its inertial derivative.
     pub h_dot: &'static str,
-    /// Mass and first moment of this body and all behind it; for the tip, the body itself.
+    /// Mass and first moment of this body and all outboard of it; for the tip, the body itself.
     pub assembly: &'static str,
     /// Torque on them about the joint's origin.
     pub about_origin: &'static str,
-    /// The same by components: what the motor exerts and what the structure carries.
+    /// The same by components: what the motor exerts and what the structure bears.
     pub across: &'static str,
 }
 
@@ -48,7 +48,7 @@ impl Equations {
     };
 }
 
-/// The outer gimbal: a body with its centre of mass anywhere, on a joint that the hub carries.
+/// The outer gimbal: a body with its centre of mass anywhere, on a joint of the hub.
 pub(super) const OUTER_GIMBAL: Equations = Equations {
     omega: "(31)",
     r_dprime: "(12)",

@@ -6,7 +6,7 @@ use crate::space::Axis;
 /// `P = Rz(phi)`. A spring and a damper in the hinge come in through its torque:
 /// `u_p = -k (phi - phi_0) - c phi_dot`.
 ///
-/// It moves as the outer gimbal does with nothing behind it, whose equations it cites.
+/// It moves as the outer gimbal does with nothing outboard of it, whose equations it cites.
 pub const HINGED_PANEL: Kind = Kind {
     name: "hinged_panel",
     title: "hinged panel",

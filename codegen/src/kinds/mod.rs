@@ -55,14 +55,14 @@ pub struct Kind {
     pub links: &'static [Link],
 }
 
-/// A joint and the body behind it.
+/// A joint and its child body.
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
     /// The joint.
     pub joint: Joint,
     /// The body.
     pub body: Body,
-    /// This body and all behind it, as the paper calls them: D, V, W.
+    /// This body and all outboard of it, as the paper calls them: D, V, W.
     pub assembly: &'static str,
 }
 
@@ -83,11 +83,12 @@ pub struct Joint {
     pub acceleration: &'static str,
     /// Rate and acceleration as the paper writes them.
     pub symbols: [&'static str; 2],
-    /// The motor torque on the body, against the carrier; along a sliding joint, the force.
+    /// The motor torque on the body, with its reaction on the parent body; of a sliding joint, the
+    /// force.
     pub torque: &'static str,
     /// What is given of it.
     pub drive: Drive,
-    /// Where the joint's origin lies from the carrier's, in carrier axes, before any sliding.
+    /// Joint's origin from the parent body's, expressed in that body's axes, before any sliding.
     pub origin: Triple,
 }
 
@@ -101,7 +102,7 @@ pub enum Drive {
     Prescribed,
 }
 
-/// How a joint moves, by an axis of the frame that carries it.
+/// How a joint moves, by an axis of its parent body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// It turns about the axis: its coordinate is an angle.
@@ -192,9 +193,9 @@ impl Link {
 impl Kind {
     /// Whether the axes of body `k` turn with its joint.
     ///
-    /// Behind a sliding joint they do not. Nor need they at the tip, where a rotor is the same
+    /// Outboard of a sliding joint they do not. Nor need they at the tip, where a rotor is the same
     /// from every angle: symmetric about the joint's axis, with its centre of mass on it. Then no
-    /// equation knows the angle.
+    /// equation depends on the angle.
     #[must_use]
     pub fn axes_turn(&self, k: usize) -> bool {
         let Link { joint, body, .. } = &self.links[k];
@@ -205,7 +206,7 @@ impl Kind {
         }
     }
 
-    /// The links whose angle the equations know: those with axes that turn.
+    /// The links on whose angle the equations depend: those with axes that turn.
     pub fn turning(&self) -> impl Iterator<Item = &Link> {
         let links = self.links.iter().enumerate();
         links.filter(|(k, _)| self.axes_turn(*k)).map(|(_, link)| link)
@@ -216,7 +217,7 @@ impl Kind {
         self.links.iter().filter(|link| link.is_driven())
     }
 
-    /// The links behind a sliding joint.
+    /// The links with a sliding joint.
     pub fn sliding(&self) -> impl Iterator<Item = &Link> {
         self.links.iter().filter(|link| matches!(link.joint.motion, Motion::Slide(_)))
     }

@@ -1,11 +1,11 @@
 //! The wheel and its motor, as every device with a wheel has them: it spins about the x axis of
-//! what carries it.
+//! its parent body.
 
 use super::{Body, Centre, Drive, Inertia, Joint, Link, Motion, Triple, equations};
 use crate::space::Axis;
 
-/// As it is made: the centre of mass lies on `w_y`, a distance d from the spin axis, and the inertia
-/// has products.
+/// As it is made: the centre of mass lies on `w_y`, a distance d from the spin axis, and the
+/// inertia has products.
 pub(super) const fn imbalanced(origin: Triple, triad: [&'static str; 3], whole: Whole) -> Link {
     Link {
         joint: Joint {
@@ -40,17 +40,17 @@ pub(super) const fn imbalanced(origin: Triple, triad: [&'static str; 3], whole: 
 }
 
 /// As it should be: d = 0, no products, and the same inertia about every axis across that of the
-/// spin; (18) of the paper. W's axes stay those of the carrier.
+/// spin; (18) of the paper. W's axes stay those of the parent body.
 pub(super) const fn balanced(origin: Triple, triad: [&'static str; 3], whole: Whole) -> Link {
     let made = imbalanced(origin, triad, whole);
     let inertia = Inertia::Symmetric(Axis::X, "j");
     Link { body: Body { centre: Centre::At, inertia, ..made.body }, ..made }
 }
 
-/// What the wheel is, together with all that it carries.
+/// What the wheel is, with all bodies outboard of it.
 #[derive(Clone, Copy)]
 pub(super) enum Whole {
-    /// D: the device is a wheel alone.
+    /// D: the device is a wheel only.
     Device,
     /// W: the tip of a longer chain.
     Wheel,

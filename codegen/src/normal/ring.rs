@@ -129,7 +129,7 @@ impl<'g> Ring<'g> {
     }
 
     /// What a sum adds up, each with its sign: through sums of sums, which need no normal form of
-    /// their own, as far as none has been worked out.
+    /// their own, as far as none has been computed.
     fn summands(&self, sum: NodeId) -> Vec<(Rational, NodeId)> {
         let mut found = Vec::new();
         let mut pending = vec![(Rational::ONE, sum)];
@@ -160,7 +160,7 @@ impl<'g> Ring<'g> {
         Ok(total)
     }
 
-    /// The sum behind an abbreviation.
+    /// The sum that an abbreviation stands for.
     fn abbreviated(&self, id: NodeId) -> Option<NodeId> {
         match self.graph.node(id) {
             Node::Symbol(symbol) => self.graph.symbol_info(symbol).sum,

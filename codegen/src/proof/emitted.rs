@@ -190,8 +190,8 @@ impl<'a, 'g> Prover<'a, 'g> {
         })
     }
 
-    /// The symbol of a parameter; of the mount, what it is where the device's axes are B's. That any
-    /// other does the same along other axes is shown by itself, see [`super::mounted`].
+    /// The symbol of a parameter; of the mount, what it is where the device's axes are B's. That
+    /// any other does the same along other axes is shown by itself, see [`super::mounted`].
     fn parameter(&self, name: &str) -> Option<Expr<'g>> {
         let graph = self.chain.graph;
         let places = (0..3).flat_map(|row| (0..3).map(move |column| (row, column)));
@@ -240,7 +240,7 @@ impl<'a, 'g> Prover<'a, 'g> {
         let claimed: BTreeMap<_, _> = claims.flat_map(|claim| claim.components.clone()).collect();
         let mut checked = Vec::new();
         let mut reference = Vec::new();
-        // What moves is claimed together with what the hub has taken over.
+        // What moves is claimed together with the constant share of the hub.
         let parts: Vec<_> = moving().concat();
         for name in cuts.iter().filter(|name| !parts.contains(name)) {
             if let Some(value) = prepare.expanded.values.get(name) {

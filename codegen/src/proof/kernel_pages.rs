@@ -28,7 +28,7 @@ pub struct KernelPages<'a, 'g> {
     statements: HashMap<String, Statement<'g>>,
     /// Names of statements whose headings cite our own equations, in order.
     ours: Vec<String>,
-    /// Symbols that both sides are freed of before they are compared.
+    /// Symbols that are substituted in both sides before these are compared.
     expanded: Vec<(SymbolId, Expr<'g>)>,
     equations: Vec<Equation<'g>>,
     /// Knows every name of the pages.
@@ -236,7 +236,7 @@ fn mount<'g>(chain: &Chain<'g>) -> Vec<(SymbolId, Expr<'g>)> {
     places.filter_map(entry).collect()
 }
 
-/// Whether a section eliminates joints, or comes after.
+/// Whether a section eliminates joints, or comes after; by its heading.
 fn of_elimination(title: &str) -> bool {
     ["(D10)", "(D11)", "(D12)", "(D13)", "Right side of each joint row"]
         .iter()

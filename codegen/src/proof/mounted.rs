@@ -1,10 +1,11 @@
 //! The mount: what is proved with the device's axes along B's holds along any other.
 //!
-//! Turn the mount by any rotation C, and with it all that the hub's side of a statement reads; then
-//! what the statement says turns by C, too: vectors as `C v`, tensors as `C T C^T`, numbers not at
-//! all. C is three turns with sines and cosines of their own, so `C C^T = 1` is known to the normal
-//! forms. Each statement that stands between the first body's axes and B's is taken by itself: what
-//! it reads of the others are symbols, and so is all that stands along the device's own axes.
+//! Turn the mount by any rotation C, and with it every input of a statement that is expressed in B;
+//! then what the statement computes turns by C, too: vectors as `C v`, tensors as `C T C^T`,
+//! numbers not at all. C is three turns with sines and cosines of their own, so `C C^T = 1` is
+//! known to the normal forms. Each statement between the first body's axes and B's is taken by
+//! itself: what it reads of the others are symbols, and so is everything expressed in the device's
+//! own axes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,7 +17,7 @@ use crate::kernel::{Kernel, parameters};
 use crate::normal::Ring;
 use crate::space::{Axis, Carrier, ENTRIES, Hub, Own, Turn, Vector};
 
-/// Vectors along B that statements read or make.
+/// Vectors expressed in B that statements read or make.
 fn vectors(chain: &Chain<'_>) -> Vec<String> {
     let tags = || chain.kind.links.iter().map(|link| link.joint.tag);
     let columns = tags().flat_map(|tag| [format!("f_{tag}"), format!("n_{tag}")]);
@@ -25,7 +26,7 @@ fn vectors(chain: &Chain<'_>) -> Vec<String> {
     single.map(str::to_owned).into_iter().chain(columns).collect()
 }
 
-/// Components of a vector along B.
+/// Components of a vector expressed in B.
 fn components(stem: &str) -> [String; 3] {
     ["bx", "by", "bz"].map(|axis| format!("{stem}_{axis}"))
 }
@@ -103,7 +104,7 @@ fn values<'g>(
     let given = symbols(&parameters(chain.kind), "p");
     let prepare = read(graph, function(file, "prepare")?, &given, &cuts)?;
     let mut found = BTreeMap::new();
-    // Where a function only hands on what `prepare` has worked out, the value is the first one's.
+    // Where a function only returns what `prepare` has computed, the value is the first one's.
     let mut keep = |reading: &Reading<'g>| {
         for (name, value) in &reading.values {
             found.entry(name.clone()).or_insert(*value);
@@ -138,7 +139,7 @@ fn bound(file: &syn::File) -> Vec<String> {
     names.collect()
 }
 
-/// A rotation C, and what is read with everything along B turned by it.
+/// A rotation C, and what is read with everything expressed in B turned by it.
 struct Turned<'g> {
     /// Its columns.
     axes: [Vector<'g, Hub>; 3],
@@ -183,7 +184,7 @@ impl<'g> Turned<'g> {
         made
     }
 
-    /// With the mount C and every vector along B turned by it.
+    /// With the mount C and every vector expressed in B turned by it.
     fn by(&self, e: Expr<'g>) -> Expr<'g> {
         e.with(&self.along_b)
     }

@@ -1,4 +1,4 @@
-//! The field's wrenches have a potential: carried inwards, they are the slopes of `G : S / 2`.
+//! The field's wrenches have a potential: summed inwards, they are the slopes of `G : S / 2`.
 //!
 //! Stated from the emitted wrenches and the emitted second moment S only, by virtual work; the same
 //! sums are what the emitted `external` is held against.
@@ -14,8 +14,8 @@ use crate::kinds::Link;
 use crate::normal::Ring;
 use crate::space::{ENTRIES, Hub, Own, Symmetric, Vector};
 
-/// One row for each joint, and two for the hub: the force is G times the first moment, and the moment
-/// about B is what turns S.
+/// One row for each joint, and two for the hub: the force is G times the first moment, and the
+/// moment about B is what turns S.
 pub(super) fn rows<'g>(
     ring: &mut Ring<'g>,
     chain: &Chain<'g>,

@@ -1,7 +1,7 @@
 //! What the assembled system is solved for, by name, and the blocks between any two of them.
 //!
-//! Unknowns are the accelerations of B (v1 v2 v3), of the body rate (w1 w2 w3) and of the joints from
-//! the hub outwards.
+//! Unknowns are the accelerations of B (v1 v2 v3), of the body rate (w1 w2 w3) and of the joints
+//! from the hub outwards.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -90,8 +90,8 @@ impl<'g> Unknowns<'g> {
     }
 
     /// The blocks that `eliminate` and the hub make together, by the names of the whole: of what
-    /// moves and what the hub has taken over, and of what the joints' rates and the hub's own motion
-    /// ask for, `omega x (omega x S)` and `omega x I omega`.
+    /// moves and the constant share of the hub, and of what the joints' rates and the hub's own
+    /// motion require, `omega x (omega x S)` and `omega x I omega`.
     pub(super) fn with_hub(
         &self,
         chain: &Chain<'g>,

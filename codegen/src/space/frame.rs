@@ -1,7 +1,7 @@
 //! The frames of a chain and the elementary rotation between two of them.
 //!
-//! A device is a chain of any length, so its frames have no fixed names here. Walking it, one link
-//! at a time, three are in play: the hub's, the one that carries the joint, and the body's own.
+//! A device is a chain of any length, so its frames have no fixed names here. One link at a time,
+//! there are three: the hub's, the parent body's ([`Carrier`]), and the child body's ([`Own`]).
 //! [`super::Vector::handed_on`] is the one place where a frame changes its role.
 
 use std::marker::PhantomData;
@@ -11,16 +11,16 @@ use crate::graph::{Expr, Graph};
 /// A frame of reference, as a type.
 pub trait Frame: Copy {}
 
-/// B, with axes along those of the first joint, next to the hub, at zero angle; the mount is applied
-/// outside.
+/// B, with axes along those of the first joint, next to the hub, at zero angle; the mount is
+/// applied outside.
 #[derive(Clone, Copy, Debug)]
 pub struct Hub;
 
-/// The frame that carries a joint: the body before it, or the hub.
+/// The frame of a joint's parent body, which may be the hub.
 #[derive(Clone, Copy, Debug)]
 pub struct Carrier;
 
-/// The frame of the body behind the joint.
+/// The frame of the joint's child body.
 #[derive(Clone, Copy, Debug)]
 pub struct Own;
 

@@ -186,13 +186,13 @@ impl<'g, F: Frame> Symmetric<'g, F> {
 }
 
 impl<'g> Symmetric<'g, Carrier> {
-    /// Walking inwards: the frame that carried the joint is the next body's own.
+    /// Towards the hub: the parent body's frame is the next body's own.
     #[must_use]
     pub fn handed_back(self) -> Symmetric<'g, Own> {
         Symmetric::new(self.entries)
     }
 
-    /// The first joint is carried by the hub.
+    /// The hub is the parent body of the first joint.
     #[must_use]
     pub fn on_hub(self) -> Symmetric<'g, Hub> {
         Symmetric::new(self.entries)

@@ -104,7 +104,7 @@ impl<'g, F: Frame> Vector<'g, F> {
 }
 
 impl<'g> Vector<'g, Own> {
-    /// Walking outwards: this body's frame carries the next joint.
+    /// Away from the hub: this body's frame is the parent frame of the next joint.
     #[must_use]
     pub fn handed_on(self) -> Vector<'g, Carrier> {
         Vector::new(self.components)
@@ -112,13 +112,13 @@ impl<'g> Vector<'g, Own> {
 }
 
 impl<'g> Vector<'g, Carrier> {
-    /// Walking inwards: the frame that carried the joint is the next body's own.
+    /// Towards the hub: the parent body's frame is the next body's own.
     #[must_use]
     pub fn handed_back(self) -> Vector<'g, Own> {
         Vector::new(self.components)
     }
 
-    /// The first joint is carried by the hub.
+    /// The hub is the parent body of the first joint.
     #[must_use]
     pub fn on_hub(self) -> Vector<'g, Hub> {
         Vector::new(self.components)
@@ -126,7 +126,7 @@ impl<'g> Vector<'g, Carrier> {
 }
 
 impl<'g> Vector<'g, Hub> {
-    /// The hub carries the first joint.
+    /// The hub is the parent body of the first joint.
     #[must_use]
     pub fn as_carrier(self) -> Vector<'g, Carrier> {
         Vector::new(self.components)

@@ -12,7 +12,7 @@ pub trait Attitude<T: Scalar>: Copy + Debug + PartialEq {
     /// Time derivatives of the parameters, 1/s.
     type Rate: Copy + Debug + PartialEq;
 
-    /// B axes expressed in N.
+    /// The attitude in which B's axes are N's.
     #[must_use]
     fn identity() -> Self;
 

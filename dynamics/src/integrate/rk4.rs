@@ -19,7 +19,7 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
-/// The state after a step, and the work during it.
+/// Result of [`Spacecraft::step_with_work`]: the state after the step, and the work during it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stepped<D: Devices, A> {
     /// The state after the step.

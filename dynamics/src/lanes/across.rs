@@ -42,7 +42,7 @@ pub struct AcrossDevices<K: Kind<Scalar = f64>, const N: usize> {
     craft: Spacecraft<[K; N]>,
     lanes: Arch,
     groups: Vec<Group<K>>,
-    /// Whether every device has what lanes have.
+    /// Whether lanes support every device.
     laned: bool,
 }
 
@@ -116,7 +116,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         })
     }
 
-    /// The accelerations in lanes; none where lanes have not what is asked, or fail.
+    /// The accelerations in lanes; none where lanes do not support the inputs, or fail.
     fn solve<A: Attitude<f64>>(
         &self,
         state: &State<[K; N], A>,

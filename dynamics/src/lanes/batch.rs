@@ -84,9 +84,8 @@ pub type BatchAccelerations<D> = Vec<Result<Accelerations<D>, SolveError<f64>>>;
 /// A spacecraft that is evaluated at many states at a time.
 ///
 /// A state has the result, or the error, that [`Spacecraft`] gives it by itself, to the bit, unless
-/// the lanes fuse ([`Self::fused`]). One state after another falls back to the scalar path where
-/// lanes do not support it (a central field, wrenches on bodies, dry friction, lumped imbalance, a
-/// hub that is not free, angles beyond `2^24` rad), and where anything fails.
+/// the lanes fuse ([`Self::fused`]). A state falls back to the scalar path where it has what is
+/// [unsupported in lanes](crate::lanes), and where anything fails.
 #[derive(Clone, Debug)]
 pub struct Batch<D: LanedSet> {
     pub(super) craft: Spacecraft<D>,
@@ -103,8 +102,8 @@ impl<D: LanedSet> Batch<D> {
         Ok(Self { craft: Spacecraft::new(hub, devices)?, fused: false })
     }
 
-    /// The same with products and sums rounded once where the CPU does that: other bits, and faster
-    /// on some CPUs.
+    /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
+    /// some CPUs.
     #[must_use]
     pub fn fused(self) -> Self {
         Self { fused: true, ..self }
@@ -182,8 +181,8 @@ impl<D: LanedSet> Batch<D> {
     }
 }
 
-/// Whether lanes have this state: a quaternion as it is, and numbers where the result may not show
-/// that they are none.
+/// Whether lanes support this state: a quaternion near unit length, and finite numbers where the
+/// result may not show that one is not.
 #[inline(always)]
 fn laned_state<D: LanedSet>(state: &State<D>) -> bool {
     let Quaternion { q0, q1, q2, q3 } = state.attitude;
@@ -192,7 +191,7 @@ fn laned_state<D: LanedSet>(state: &State<D>) -> bool {
         && (a + b + c + d + e + f).is_finite()
 }
 
-/// Whether lanes have what is asked of the hub and of the world around, in numbers.
+/// Whether lanes support these inputs, and those are finite that the result may not show.
 #[inline(always)]
 fn lanes_support_inputs<D: LanedSet>(inputs: &Inputs<D>) -> bool {
     let [[a, b, c], [d, e, f]] = [components(&inputs.force), components(&inputs.torque_b)];

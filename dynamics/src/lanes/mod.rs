@@ -3,19 +3,22 @@
 //! | to evaluate | use | result |
 //! |---|---|---|
 //! | one state after another, few devices | [`Spacecraft`](crate::Spacecraft) | |
-//! | the same, other bits | [`Spacecraft::fused`](crate::Spacecraft::fused) | to rounding |
+//! | the same, product and sum rounded once | [`Spacecraft::fused`] | to rounding |
 //! | one state after another, four or more devices of one kind | [`AcrossDevices`] | to rounding |
 //! | many states of one spacecraft, or their runs | [`Batch`] | to the bit |
-//! | the same, other bits | [`Batch::fused`] | to rounding |
+//! | the same, product and sum rounded once | [`Batch::fused`] | to rounding |
+//!
+//! [`Spacecraft::fused`]: crate::Spacecraft::fused
 //!
 //! Registers are chosen at run time, AVX-512, AVX2 with FMA, NEON, or single numbers: a portable
 //! build reaches them. State, inputs, accelerations and errors are those of `Spacecraft`.
 //!
 //! Lanes support every kind, arrays and tuples; every mode of a joint; springs and dampers; a
-//! uniform field; of the hub's modes, [`Batch`] the free one and [`AcrossDevices`] all. What they do
-//! not support falls back to the scalar path: a central field, wrenches on bodies, Coulomb friction,
-//! the lumped imbalance, rates and angles beyond `2^24`, quaternions far from unit length. So does
-//! whatever fails in a lane, which is how its error is found; the other lanes keep their results.
+//! uniform field. Unsupported in lanes are a central field, wrenches on bodies, dry friction, the
+//! lumped model of an imbalance, and coordinates and rates of joints beyond `2^24`; in a [`Batch`]
+//! also a hub that is not free and quaternions far from unit length. They fall back to the scalar
+//! path. So does whatever fails in a lane, which is how its error is found; the other lanes keep
+//! their results.
 //!
 //! Everything down to the arithmetic is part of the one function that may use the instructions. A
 //! call that is not inlined costs more than what it calls, so there are plain loops and emitted

@@ -7,7 +7,8 @@ use crate::numbers::each::{Each, JointStates, Value};
 /// Largest number of joints of a device of this crate's kinds.
 pub const MAX_JOINTS: usize = 3;
 
-/// One value per joint of a device, from the hub to the tip: up to [`MAX_JOINTS`], without a heap.
+/// One value per joint of one device, from the hub to the tip: a list of up to [`MAX_JOINTS`]
+/// values, without a heap.
 #[derive(Clone, Copy, Debug)]
 pub struct JointArray<V> {
     values: [V; MAX_JOINTS],

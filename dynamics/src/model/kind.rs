@@ -172,13 +172,13 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
 
     /// Columns: the device's axes expressed in B.
     fn mount(&self) -> &Matrix3<Self::Scalar>;
-    /// The bodies; the first origin along *B* axes.
+    /// The bodies; the first origin is expressed in *B*.
     fn bodies(&self) -> Self::PerJoint<BodyParameters<Self::Scalar>>;
     /// Springs, dampers, friction.
     fn passive(&self) -> Self::PerJoint<Passive<Self::Scalar>>;
-    /// The device of these bodies, the first origin along *B* axes. What it has no parameter for,
+    /// The device of these bodies, the first origin expressed in *B*. What it has no parameter for,
     /// such as a product of inertia of a balanced rotor, is left out: [`Self::bodies`] shows what
-    /// it took.
+    /// it has.
     fn of_bodies(
         mount: &Matrix3<Self::Scalar>,
         bodies: &Self::PerJoint<BodyParameters<Self::Scalar>>,

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::numbers::real::{Scalar, one, zero};
 
-/// Mode of a joint at one instant. It may change from step to step.
+/// Mode of one joint: driven, prescribed or locked. It may change from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode<T = f64> {
     /// The motor torque is an input, the acceleration is computed.
@@ -19,7 +19,7 @@ pub enum Mode<T = f64> {
     Locked,
 }
 
-/// Mode of the hub.
+/// Mode of the hub: free, fixed or prescribed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum HubMode<T = f64> {
     /// External force and torque are inputs, the accelerations are computed.

@@ -2,7 +2,8 @@
 
 use crate::numbers::real::{Scalar, half, reciprocal_in_two, zero};
 
-/// Spring, damper and friction of one joint; all zero in a free one.
+/// Spring, damper and dry friction of one joint, which act beside its motor; all zero in a free
+/// one.
 ///
 /// ```text
 /// u = -k (q - q_0) - c q' - u_c q' / sqrt(q'^2 + q_c'^2)

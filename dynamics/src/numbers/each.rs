@@ -11,7 +11,8 @@ pub trait Value: Copy + Debug + PartialEq + Send + Sync + 'static {}
 
 impl<V: Copy + Debug + PartialEq + Send + Sync + 'static> Value for V {}
 
-/// One value per joint.
+/// Data of a set, or of one device, with one value per joint: reads and writes all of them in
+/// order.
 pub trait Each<V: Value>: Clone + Debug + PartialEq + Send + Sync {
     /// The values in order.
     fn values(&self) -> impl Iterator<Item = V>;
@@ -20,7 +21,7 @@ pub trait Each<V: Value>: Clone + Debug + PartialEq + Send + Sync {
     fn values_mut(&mut self) -> impl Iterator<Item = &mut V>;
 }
 
-/// A coordinate and its rate per joint.
+/// Data of a set, or of one device, with a coordinate and its rate per joint, in order.
 pub trait JointStates<T: Value>: Clone + Debug + PartialEq + Send + Sync {
     /// Coordinate and rate of each joint, in order.
     fn states(&self) -> impl Iterator<Item = [T; 2]>;

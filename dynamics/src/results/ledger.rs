@@ -45,8 +45,10 @@ pub struct Ledger<T = f64> {
     pub momentum: Momentum<T>,
 }
 
-/// Power of each source on the spacecraft's motion, W; or its work during a
-/// [step](Spacecraft::step_with_work), J.
+/// Power of each source on the spacecraft's motion, W; in [`Stepped::work`] the work of each source
+/// during a step, J.
+///
+/// [`Stepped::work`]: crate::Stepped::work
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power<T = f64> {
     /// Force and torque on the hub and wrenches on bodies, with the simplified model's disturbance

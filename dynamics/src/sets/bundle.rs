@@ -31,7 +31,8 @@ pub trait Part<W: DeviceSet>: Copy {
     ) -> Option<&mut <Self::Of as DeviceSet>::Per<F>>;
 }
 
-/// References to data of a set: some [`Shared`], some [`Unique`].
+/// Which data of a set a visitor gets, and by which reference: [`Shared`], [`Unique`], [`Maybe`],
+/// [`Given`], or a tuple of these. A bundle names the references and holds none itself.
 pub trait Bundle<T: Scalar> {
     /// The references, for a set.
     type Of<'a, D: DeviceSet<Scalar = T>>;
@@ -55,19 +56,20 @@ pub trait Bundle<T: Scalar> {
     fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(typed: &Self::Typed<K>, data: Self::Of<'_, E>);
 }
 
-/// Data of a family, to be read.
+/// A [`Bundle`]: a shared reference, `&`, to the set's data of the family `F`.
 #[derive(Debug)]
 pub struct Shared<F>(F);
 
-/// Data of a family, to be changed.
+/// A [`Bundle`]: a unique reference, `&mut`, to the set's data of the family `F`.
 #[derive(Debug)]
 pub struct Unique<F>(F);
 
-/// What there may be or not.
+/// A [`Bundle`]: the references of `B`, or none.
 #[derive(Debug)]
 pub struct Maybe<B>(B);
 
-/// Motor torques, modes and wrenches: [`SetInputs`].
+/// A [`Bundle`]: shared references to the inputs of the joints, which are motor torques, modes and
+/// wrenches on the bodies.
 #[derive(Debug)]
 pub struct Given;
 

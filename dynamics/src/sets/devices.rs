@@ -119,7 +119,8 @@ impl<D> Devices for D where
 {
 }
 
-/// A set whose devices are known when it is compiled.
+/// A set whose number and kinds of devices are known at compile time: one device, an array, a
+/// tuple.
 pub trait FixedSet: Devices {
     /// New data of a family.
     fn new_fixed<F: PerDevice<Self::Scalar>>(family: &F) -> Self::Per<F>;
@@ -153,7 +154,7 @@ pub(crate) type SetInputs<'a, D> = JointInputs<
     <D as DeviceSet>::Per<PerJoint<Wrench<<D as DeviceSet>::Scalar>>>,
 >;
 
-/// What the hub takes over of each device.
+/// The constant share of the hub, of each device.
 pub(crate) struct ConstantShares;
 
 /// The joints.

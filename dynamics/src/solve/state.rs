@@ -17,14 +17,15 @@ use crate::solve::spacecraft::Spacecraft;
 /// State of the hub and of its devices; `A` is the attitude's parameterisation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<D: Devices, A = Quaternion<<D as DeviceSet>::Scalar>> {
-    /// `r_{B/N}`, position of the hub's reference point B from the inertial origin, N axes, m.
+    /// `r_{B/N}`, position of the hub's reference point B from the inertial origin, expressed in N,
+    /// m.
     pub r_b_n: Vector3<D::Scalar>,
-    /// Inertial velocity of B, *N axes*, m/s. Its derivative in [`Accelerations`] is expressed in
-    /// B.
+    /// Inertial velocity of B, *expressed in N*, m/s. Its derivative in [`Accelerations`] is
+    /// expressed in B.
     pub r_b_n_dot: Vector3<D::Scalar>,
     /// Attitude of B with respect to N.
     pub attitude: A,
-    /// `omega_{B/N}`, angular velocity of the hub, B axes, rad/s.
+    /// `omega_{B/N}`, angular velocity of the hub, expressed in B, rad/s.
     pub omega: Vector3<D::Scalar>,
     /// Joint coordinates and rates, device by device.
     pub devices: D::Per<data::Joints>,
@@ -32,9 +33,10 @@ pub struct State<D: Devices, A = Quaternion<<D as DeviceSet>::Scalar>> {
 
 /// All second derivatives of the state.
 ///
-/// Mind the axes: `r_b_n_ddot` is along *B* axes, in which the equations are solved, while
-/// [`State::r_b_n_dot`] and [`State::r_b_n`] are along *N* axes. To integrate the velocity, rotate
-/// first: `[BN]^T r_b_n_ddot`, with [`Attitude::dcm`] for `[BN]`. [`Spacecraft::step`] does so.
+/// Mind the axes: `r_b_n_ddot` is expressed in *B*, in which the equations are solved, while
+/// [`State::r_b_n_dot`] and [`State::r_b_n`] are expressed in *N*. To integrate the velocity,
+/// rotate first: `[BN]^T r_b_n_ddot`, with [`Attitude::dcm`] for `[BN]`. [`Spacecraft::step`] does
+/// so.
 ///
 /// [`Spacecraft::step`]: crate::Spacecraft::step
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,14 +44,14 @@ pub struct Accelerations<D: Devices> {
     /// Inertial acceleration of B, *expressed in B*, m/s^2: the derivative of
     /// [`State::r_b_n_dot`], which is expressed in N, is `[BN]^T` times this.
     pub r_b_n_ddot: Vector3<D::Scalar>,
-    /// Angular acceleration of the hub, B axes, rad/s^2.
+    /// Angular acceleration of the hub, expressed in B, rad/s^2.
     pub omega_dot: Vector3<D::Scalar>,
     /// Joint accelerations, device by device.
     pub devices: D::Per<data::Accelerations>,
 }
 
 impl<D: FixedSet, A: Attitude<D::Scalar>> State<D, A> {
-    /// Everything at zero: B at the inertial origin, B axes expressed in N, nothing moving.
+    /// Everything at zero: B at the inertial origin, B's axes those of N, nothing moving.
     #[must_use]
     pub fn at_rest() -> Self {
         Self::with(D::at_rest())

@@ -31,7 +31,7 @@ use crate::numbers::symmetric::Symmetric;
 use crate::validation::imbalance_error::{ImbalanceError, ImbalanceQuantity};
 use crate::{Dgcmg, Dgvscmg, ReactionWheel, Sgcmg, Vscmg};
 
-/// A wheel's lumped imbalance: what a data sheet states, in SI units.
+/// A wheel's static and dynamic imbalance as a data sheet states them, in SI units.
 ///
 /// ```
 /// use precess_dynamics::Imbalance;
@@ -55,7 +55,7 @@ pub struct Imbalance<T = f64> {
     pub phase: T,
 }
 
-/// A wheel's imbalance as the model's parameters hold it.
+/// A wheel's imbalance as parameters of a device: `d`, `J_12` and `J_13`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelImbalance<T = f64> {
     /// `d`: the wheel's centre of mass is at `d w_y` from W, m.

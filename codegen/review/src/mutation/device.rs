@@ -143,7 +143,7 @@ impl<'a, 'g> Device<'a, 'g> {
         place.map_or(f64::NAN, |place| case.parameters[place])
     }
 
-    /// Every argument a function may ask for, accelerations apart.
+    /// Every argument a function may read, accelerations apart.
     fn arguments(&self, case: &Case, motion: &Motion) -> Values {
         let mut values = Values::covering(self.chain.graph);
         for (column, axis) in self.chain.mount.iter().zip(case.mount.column_iter()) {
@@ -269,7 +269,8 @@ impl<'a, 'g> Device<'a, 'g> {
         )
     }
 
-    /// The joints' own mass matrix as the energies of their motions: `T = sum of M_jk q_j' q_k' / 2`.
+    /// The joints' own mass matrix as the energies of their motions: `T = sum of M_jk q_j' q_k' /
+    /// 2`.
     pub(super) fn joint_masses(&self, case: &Case, fault: &Fault) -> DMatrix<f64> {
         let energy = |moving: &[usize]| {
             let rate = |k: usize| if moving.contains(&k) { 1.0 } else { 0.0 };

@@ -85,7 +85,7 @@ impl<'g> Listing<'g> {
     }
 
     /// What is computed or returned here. `hoisted` is this function of what depends on parameters
-    /// alone; elsewhere such a value is read, not computed.
+    /// only; elsewhere such a value is read, not computed.
     pub(super) fn computed(&self, hoisted: bool) -> impl Iterator<Item = Computed> {
         let own = move |line: &&Line<'g>| {
             let returned = || self.fields.iter().any(|(_, source)| *source == line.name);

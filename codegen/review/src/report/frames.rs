@@ -10,7 +10,7 @@ use precess_codegen::kinds::Centre;
 
 /// Joint angles of the drawing, rad: each turn is to be seen, none hides an axis.
 const ANGLES: [f64; 3] = [0.7, 0.9, 0.75];
-/// Arms to the next origin, in carrier axes: wide enough apart for labels.
+/// Arms to the next origin, in the parent body's axes: wide enough apart for labels.
 const ARMS: [[f64; 3]; 3] = [[-0.1, 1.35, 0.4], [-0.3, 1.3, 0.3], [0.3, 1.45, 0.75]];
 /// Centres of mass, in own axes.
 const CENTRE: [f64; 3] = [0.25, -0.45, -0.4];
@@ -201,7 +201,7 @@ impl Svg {
         self.label(&format!("{class} name"), at, &lowered(body, index), [9.0, 17.0]);
     }
 
-    /// The joint's angle, from the carrier's next axis to the body's.
+    /// The joint's angle, from the parent body's next axis to the child's.
     fn turn(
         &mut self,
         class: &str,

@@ -1,4 +1,4 @@
-//! What each carrier exerts, as sums of mass times acceleration and of changes of spin.
+//! What each parent body exerts: sums of mass times acceleration and of rates of angular momentum.
 
 use super::super::chain::Chain;
 use super::super::wrench::Wrench;
@@ -6,7 +6,7 @@ use super::{bodies, share};
 use crate::graph::Expr;
 use crate::space::{Hub, Vector};
 
-/// At each joint on the bodies outside it, about the joint's origin, along B.
+/// At each joint on the bodies outboard of it, about the joint's origin, expressed in B.
 #[must_use]
 pub fn joints<'g>(chain: &Chain<'g>) -> Vec<Wrench<'g, Hub>> {
     let behind = |k: usize| {

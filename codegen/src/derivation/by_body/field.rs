@@ -7,8 +7,8 @@ use super::{BodyInHub, bodies};
 use crate::graph::Expr;
 use crate::space::{Axis, Hub, Symmetric, Vector};
 
-/// On each body, about its joint's origin, along B: `m G r` at the centre of mass, and what the
-/// field does to the mass around it.
+/// On each body, about its joint's origin, expressed in B: `m G r` at the centre of mass, and what
+/// the field does to the mass around it.
 #[must_use]
 pub fn wrenches<'g>(chain: &Chain<'g>) -> Vec<Wrench<'g, Hub>> {
     let gradient = gradient(chain.graph);

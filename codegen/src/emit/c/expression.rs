@@ -1,4 +1,4 @@
-//! One emitted statement as C: the same operations in the same order, with operators alone.
+//! One emitted statement as C: the same operations in the same order, with operators only.
 
 use syn::{BinOp, Expr, Lit, Member, Pat, Stmt, UnOp};
 
@@ -109,7 +109,7 @@ fn product(a: Written, b: Written) -> Written {
     Written { text, binding: Binding::Product }
 }
 
-/// In parentheses unless it binds at least as tightly as `outside` asks.
+/// In parentheses unless it binds at least as tightly as `outside` requires.
 fn inside(e: Written, outside: Binding) -> String {
     if e.binding >= outside { e.text } else { format!("({})", e.text) }
 }

@@ -1,8 +1,8 @@
 //! The second back end: the kernels as C99, for those who cannot link Rust.
 //!
-//! From the very statements that are emitted as Rust, so that sharing, order, names and rounding are
-//! theirs; only the syntax differs. Names are prefixed by `precess_` and the kind's. What is proven
-//! is the Rust; that the C computes the same bits is shown by running both.
+//! From the very statements that are emitted as Rust, so that sharing, order, names and rounding
+//! are theirs; only the syntax differs. Names are prefixed by `precess_` and the kind's. What is
+//! proven is the Rust; that the C computes the same bits is shown by running both.
 
 mod declaration;
 mod expression;
@@ -21,7 +21,7 @@ use crate::kernel::{Record, Source, shared_records};
 use crate::kinds::{KINDS, Kind};
 use crate::threads::side_by_side;
 
-/// What an evaluation needs besides: the solver's own work, for which there is no derivation.
+/// Hand-written C of the solver: what an evaluation needs besides the kernels.
 const BY_HAND: [(&str, &str); 4] = [
     ("precess_solve.h", include_str!("by_hand/precess_solve.h")),
     ("precess_solve.c", include_str!("by_hand/precess_solve.c")),
@@ -161,7 +161,7 @@ fn section((title, statements): &(String, Vec<String>)) -> SectionText {
     SectionText { title: declaration::title(title), lines: lines.collect() }
 }
 
-/// The assignments that fill a record, whose fields stand behind `place`.
+/// The assignments that fill the record at `place`.
 fn results(part: &Part, record: &Record, place: &str) -> Vec<String> {
     let mut lines = Vec::new();
     for field in &record.fields {

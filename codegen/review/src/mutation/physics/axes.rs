@@ -34,7 +34,7 @@ fn axes(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
         let own = stands[k].axes;
         let square = gap((own.transpose() * own).as_slice(), Matrix3::identity().as_slice());
         let mut omega = device.body(k, case, motion, fault).omega;
-        // Axes that do not turn with the joint turn with the carrier.
+        // Axes that do not turn with the joint turn with the parent body.
         if let (Motion::Turn(axis), false) = (link.joint.motion, device.chain.kind.axes_turn(k)) {
             omega[axis.cycle()[0]] -= motion.rates[k];
         }

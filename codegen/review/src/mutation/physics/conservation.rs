@@ -68,8 +68,8 @@ fn balances(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> Residuals {
 }
 
 /// With the joints' mass matrix as energies: the diagonal as it stands, and what a unit of momentum
-/// meets when the driven joints behind are free to follow, each with its motor, which is where the
-/// energy is least.
+/// meets when the driven joints outboard are free to follow, each with its motor, which is where
+/// the energy is least.
 fn pivots(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
     let masses = device.joint_masses(case, fault);
     let modes = &case.drive.modes;

@@ -29,7 +29,7 @@ enum precess_solved {
     PRECESS_NOT_FINITE = 2
 };
 
-/** The hub with what it has taken over of its devices, as one rigid body. */
+/** The hub with the constant shares of its devices, as one rigid body. */
 struct precess_body {
     /** Mass, kg. */
     double mass;
