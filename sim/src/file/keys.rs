@@ -281,9 +281,15 @@ impl<'a> Keys<'a> {
         self.quantities::<3>(key, measure).map(Vector3::from)
     }
 
-    /// A quantity of any measure, with its unit.
+    /// A quantity of any measure, with its unit; a bare number is a pure number.
     pub(super) fn any_quantity(&self, key: &str) -> Option<Quantity> {
         let node = self.node(key)?;
+        if let Value::Number(value, _) = node.value {
+            if value.is_finite() {
+                let (values, dimension) = (vec![value], Measure::NUMBER.dimension);
+                return Some(Quantity { values, dimension, unit: String::new() });
+            }
+        }
         let Value::Text(text) = &node.value else {
             let message = format!("`{}` is {}", self.path_of(key), node.value.what());
             self.error(key, message, "write a number and its unit in quotation marks");

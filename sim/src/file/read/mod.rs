@@ -1,6 +1,7 @@
 //! The tree of a scenario file into a [`Scenario`].
 
 mod body;
+mod columns;
 mod device;
 mod drive;
 mod initial;
@@ -68,6 +69,9 @@ fn scenario(
     apply(&mut node, overrides, &mut reports);
     let cell = RefCell::new(reports);
     let scenario = read(&node, path, stem, folder, &cell);
+    if let Some(scenario) = scenario.as_ref().filter(|_| !cell.borrow().has_errors()) {
+        columns::check(&node, scenario, &cell);
+    }
     let mut reports = cell.into_inner();
     match scenario {
         Some(mut scenario) if !reports.has_errors() => {
@@ -272,7 +276,7 @@ mod tests {
     use super::super::to_toml;
     use super::*;
 
-    const TABLE_1: &str = include_str!("../../../../scenarios/table1.toml");
+    const TABLE_1: &str = include_str!("../../../../scenarios/table1-printed-free.toml");
 
     fn read_text(text: &str) -> Read {
         from_toml("test.toml", text, Path::new(""))
@@ -339,7 +343,7 @@ mod tests {
             "`device.cmg.wheel.mass` has no unit",
             "`device.cmg.wheel.rate` is a frequency, where an angular rate is wanted",
             "`run.duration`: no such unit",
-            "test.toml:10:1",
+            "test.toml:14:1",
         ] {
             assert!(shown.contains(part), "{part} in\n{shown}");
         }

@@ -113,7 +113,7 @@ fn requirement(keys: &Keys<'_>, duration: f64) -> Option<Requirement> {
         statistic,
         window: [from, to],
         limit: value,
-        written: keys.text("limit").unwrap_or_default().to_owned(),
+        written: keys.text_or_list("limit").map_or_else(|| format!("{value:?}"), str::to_owned),
         unit: (limit.unit, size),
     })
 }
