@@ -8,8 +8,10 @@ use std::time::Instant;
 
 use nalgebra::{Matrix3, Vector3};
 use precess::engine::{Outcome, run};
-use precess::plan::{Drive, IntegratorChoice, Output, Profile, Scenario, Set, Settings, Source};
 use precess::record::{Csv, Header, Npz, RecordError, Recorder};
+use precess::scenario::{
+    Drive, IntegratorChoice, Output, Profile, Scenario, Set, Settings, Source,
+};
 use precess_dynamics::{Dgvscmg, Gravity, Hub, HubMode, JointArray, Quaternion, Spacecraft, State};
 
 /// Records nothing.

@@ -14,8 +14,8 @@ use std::path::Path;
 
 use precess::engine::{End, Outcome, run};
 use precess::file::from_file;
-use precess::plan::Scenario;
 use precess::record::{Header, RecordError, Recorder};
+use precess::scenario::Scenario;
 
 /// All samples of a run.
 #[derive(Default)]

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use precess::engine::{End, Outcome, RunError, run};
 use precess::file::{from_file, from_toml, to_toml};
-use precess::plan::{IntegratorChoice, Scenario};
 use precess::record::{Many, Statistics};
+use precess::scenario::{IntegratorChoice, Scenario};
 use precess_dynamics::{BuiltInKind, SolveError};
 
 /// Longer runs are cut to this, s, unless a description says that they end in an error.
@@ -138,7 +138,7 @@ fn gimbal_lock_ends_in_the_error_of_a_singular_pose() {
 #[test]
 fn every_kind_is_in_every_kind() {
     let scenario = read(&folder().join("every-kind.toml"));
-    let kinds: Vec<_> = scenario.devices.iter().map(|device| device.kind()).collect();
+    let kinds: Vec<_> = scenario.devices.iter().map(precess_dynamics::BuiltIn::kind).collect();
     for kind in BuiltInKind::ALL {
         let count = kinds.iter().filter(|found| **found == *kind).count();
         assert_eq!(count, 1, "{}", kind.name());

@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_table_has_the_layout_of_the_flight_library() {
-        let text = include_str!("../../../scenarios/table1.toml");
+        let text = include_str!("../../../scenarios/table1-printed-free.toml");
         let read = crate::file::from_toml("table1", text, Path::new(""));
         let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
         let bytes = table(&scenario).expect("one device");

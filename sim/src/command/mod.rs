@@ -120,12 +120,12 @@ impl Cli {
     pub fn execute(self) -> ExitCode {
         let done = match self.command {
             Command::New(new) => new.execute(),
-            Command::Check(check) => check.execute(),
+            Command::Check(check) => Ok(check.execute()),
             Command::Run(run) => run.execute(),
             Command::Evaluate(evaluate) => evaluate.execute(),
             Command::Compare(compare) => compare.execute(),
             Command::Plot(plot) => plot.execute(),
-            Command::Schema => schema::execute(),
+            Command::Schema => Ok(schema::execute()),
             Command::Kinds(kinds) => kinds.execute(),
             Command::Export(export) => export.execute(),
         };

@@ -180,15 +180,15 @@ impl<'a> Keys<'a> {
     /// A whole number within bounds.
     pub(super) fn count(&self, key: &str, lowest: u32, highest: u32) -> Option<u32> {
         let node = self.node(key)?;
-        if let Value::Number(value, true) = node.value {
-            if (f64::from(lowest)..=f64::from(highest)).contains(&value) {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "an integer within bounds"
-                )]
-                return Some(value as u32);
-            }
+        if let Value::Number(value, true) = node.value
+            && (f64::from(lowest)..=f64::from(highest)).contains(&value)
+        {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "an integer within bounds"
+            )]
+            return Some(value as u32);
         }
         let help = format!("it is a whole number from {lowest} to {highest}");
         self.error(key, format!("`{}` is out of range", self.path_of(key)), &help);
@@ -231,13 +231,12 @@ impl<'a> Keys<'a> {
     pub(super) fn quantity(&self, key: &str, measure: Measure) -> Option<f64> {
         let node = self.node(key)?;
         let values = self.values_of(node, &self.path_of(key), measure)?;
-        match values.as_slice() {
-            [value] => Some(*value),
-            _ => {
-                let message = format!("`{}` has {} numbers", self.path_of(key), values.len());
-                self.error(key, message, "write one number and its unit");
-                None
-            }
+        if let [value] = values.as_slice() {
+            Some(*value)
+        } else {
+            let message = format!("`{}` has {} numbers", self.path_of(key), values.len());
+            self.error(key, message, "write one number and its unit");
+            None
         }
     }
 
@@ -284,11 +283,11 @@ impl<'a> Keys<'a> {
     /// A quantity of any measure, with its unit; a bare number is a pure number.
     pub(super) fn any_quantity(&self, key: &str) -> Option<Quantity> {
         let node = self.node(key)?;
-        if let Value::Number(value, _) = node.value {
-            if value.is_finite() {
-                let (values, dimension) = (vec![value], Measure::NUMBER.dimension);
-                return Some(Quantity { values, dimension, unit: String::new() });
-            }
+        if let Value::Number(value, _) = node.value
+            && value.is_finite()
+        {
+            let (values, dimension) = (vec![value], Measure::NUMBER.dimension);
+            return Some(Quantity { values, dimension, unit: String::new() });
         }
         let Value::Text(text) = &node.value else {
             let message = format!("`{}` is {}", self.path_of(key), node.value.what());

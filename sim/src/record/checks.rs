@@ -190,6 +190,7 @@ fn statistics_are_those_of_the_samples_in_the_window() {
         statistic,
         window,
         limit: 0.9,
+        written: "0.9 rad/s".to_owned(),
         unit: ("rad/s".to_owned(), 1.0),
     };
     let whole = [0.0, 10.0];
@@ -237,6 +238,7 @@ fn a_requirement_of_a_band_beyond_half_the_rate_is_rejected_with_the_remedy() {
         statistic: Statistic::BandRms([10.0, 80.0]),
         window: [0.0, 1.0],
         limit: 1.0,
+        written: "1 rad/s".to_owned(),
         unit: ("rad/s".to_owned(), 1.0),
     };
     let header = header(&["time", "omega_x"], 100.0, 1.0);

@@ -33,7 +33,7 @@ fn properties(scenario: &Scenario) -> Option<Properties> {
     state.r_b_n = Vector3::zeros();
     state.r_b_n_dot = Vector3::zeros();
     state.attitude = Quaternion::identity();
-    for joint in state.devices.iter_mut().flat_map(|device| device.as_mut_slice()) {
+    for joint in state.devices.iter_mut().flat_map(precess_dynamics::JointArray::as_mut_slice) {
         joint[1] = 0.0;
     }
     let mut column = |axis: usize| -> Result<Vector3<f64>, SolveError> {

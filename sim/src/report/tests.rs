@@ -1,5 +1,12 @@
 //! Tests of the page: what it contains, that it is complete, escaped, small and the same each time.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "counts of samples"
+)]
+
 use std::path::Path;
 
 use serde_json::Value;
@@ -15,7 +22,7 @@ use crate::scenario::{Requirement, Scenario, Source, Statistic};
 const PAGE_MAX: usize = 1_500_000;
 
 fn table1() -> Scenario {
-    let text = include_str!("../../../scenarios/table1.toml");
+    let text = include_str!("../../../scenarios/table1-printed-free.toml");
     let (mut scenario, _) = from_toml("table1", text, Path::new("")).expect("a scenario");
     scenario.settings.duration = 1.0;
     scenario

@@ -111,7 +111,7 @@ mod tests {
     fn a_curve_that_is_flat_or_nearly_so_has_a_range() {
         let range = range_of([3.0, 3.0].into_iter());
         assert!(range.start < 3.0 && 3.0 < range.end);
-        let range = range_of([4000.0, 4000.000_1].into_iter());
+        let range = range_of([4000.0, 4_000.000_1].into_iter());
         assert!(spacing(&range) > 0.01);
     }
 }

@@ -350,7 +350,7 @@ mod tests {
         assert_eq!(one("180 deg", Measure::ANGLE), PI);
         assert_eq!(one("1 rev/s", Measure::ANGULAR_RATE), 2.0 * PI);
         assert!((one("3600 arcsec", Measure::ANGLE) - PI / 180.0).abs() < 1e-17);
-        assert!((one("1 oz in^2", Measure::INERTIA) - 1.8289978339325e-05).abs() < 1e-18);
+        assert!((one("1 oz in^2", Measure::INERTIA) - 1.828_997_833_932_5e-5).abs() < 1e-18);
         assert!((one("1 lbf ft", Measure::TORQUE) - 1.355_817_948_331_400_4).abs() < 1e-15);
         assert_eq!(one("90 min", Measure::TIME), 5400.0);
         assert_eq!(one("2 N m s/rad", Measure::ANGULAR_DAMPING), 2.0);

@@ -49,7 +49,7 @@ const PLAIN: &[(&str, Symbol)] = &[
     ("lb", symbol(-8, 45_359_237.0, Measure::MASS)),
     ("oz", symbol(-12, 28_349_523_125.0, Measure::MASS)),
     ("lbf", symbol(-13, 44_482_216_152_605.0, Measure::FORCE)),
-    ("ozf", symbol(0, 0.278_013_850_953_781_25, Measure::FORCE)),
+    ("ozf", symbol(0, 0.278_013_850_953_781_2, Measure::FORCE)),
 ];
 
 /// Prefixes, as powers of ten.

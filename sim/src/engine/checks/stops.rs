@@ -86,6 +86,7 @@ fn crossings_are_noted_each_time_and_the_earliest_that_ends_the_run_ends_it() {
         name: name.to_owned(),
         column: column.to_owned(),
         value,
+        unit: String::new(),
         ends,
     };
     let mut scenario = scenario(&["wheel"], vec![wheel().into()], 10.0);

@@ -77,7 +77,7 @@ pub(super) fn body(keys: &Keys<'_>, needs: Needs, folder: &std::path::Path) -> O
     } else {
         keys.vector("origin", Measure::LENGTH).unwrap_or_else(Vector3::zeros)
     };
-    let passive = passive(keys, measures);
+    let passive = passive(keys, &measures);
     // A joint that slides has a displacement and a speed.
     let [coordinate, rate] =
         if joint.slides { ["displacement", "speed"] } else { ["angle", "rate"] };
@@ -85,8 +85,8 @@ pub(super) fn body(keys: &Keys<'_>, needs: Needs, folder: &std::path::Path) -> O
         keys.quantity(coordinate, measures.coordinate).unwrap_or(0.0),
         keys.quantity(rate, measures.rate).unwrap_or(0.0),
     ];
-    let drive = drive(keys, joint, measures, folder);
-    let stop = stop(keys, measures, state[0]);
+    let drive = drive(keys, joint, &measures, folder);
+    let stop = stop(keys, &measures, state[0]);
     keys.finish();
     let parameters = BodyParameters {
         origin: origin.into(),
@@ -112,7 +112,7 @@ pub(super) fn inertia(keys: &Keys<'_>, required: bool) -> Option<Matrix3<f64>> {
     Some(Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
 }
 
-fn passive(keys: &Keys<'_>, measures: JointMeasures) -> Passive {
+fn passive(keys: &Keys<'_>, measures: &JointMeasures) -> Passive {
     let quantity = |key, measure| keys.quantity(key, measure).unwrap_or(0.0);
     let passive = Passive {
         stiffness: quantity("stiffness", measures.stiffness),
@@ -132,7 +132,7 @@ fn passive(keys: &Keys<'_>, measures: JointMeasures) -> Passive {
 pub(super) fn drive(
     keys: &Keys<'_>,
     joint: &JointInfo,
-    measures: JointMeasures,
+    measures: &JointMeasures,
     folder: &std::path::Path,
 ) -> Option<Drive> {
     let torque = if joint.slides { "force" } else { "torque" };
@@ -168,7 +168,7 @@ pub(super) fn drive(
     }
 }
 
-fn stop(keys: &Keys<'_>, measures: JointMeasures, initial: f64) -> Option<([f64; 2], StopAction)> {
+fn stop(keys: &Keys<'_>, measures: &JointMeasures, initial: f64) -> Option<([f64; 2], StopAction)> {
     let lower = keys.quantity("lower_stop", measures.coordinate);
     let upper = keys.quantity("upper_stop", measures.coordinate);
     let action = keys.choice("at_stop", &[("end", StopAction::End), ("lock", StopAction::Lock)]);

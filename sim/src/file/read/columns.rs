@@ -4,9 +4,9 @@
 use super::super::document::Node;
 use super::super::keys::{Keys, Reports};
 use crate::engine::Layout;
-use crate::plan::Scenario;
 use crate::record::columns::{Columns, quantity, state_quantities};
 use crate::record::nearest::nearest;
+use crate::scenario::Scenario;
 use crate::units::{Dimension, measure_of, parse_unit};
 
 /// Reports columns that are unknown, and limits and values in a unit of something else; for a tree
@@ -35,16 +35,15 @@ pub(super) fn check(node: &Node, scenario: &Scenario, reports: &Reports) {
     for (keys, crossing) in keys.tables("crossing").iter().zip(&scenario.crossings) {
         let name = &crossing.column;
         let column = all.iter().find(|column| column.name == *name);
-        match column.filter(|_| state.iter().any(|(known, _)| known == name)) {
-            Some(column) => compare(keys, "value", name, [column.unit, &crossing.unit]),
-            None => {
-                let near = nearest(name, state.iter().map(|(name, _)| name.as_str()));
-                let help = match near.as_slice() {
-                    [] => "name a coordinate, a rate, or a component of `omega`".to_owned(),
-                    near => format!("did you mean `{}`?", near.join("`, `")),
-                };
-                keys.error("column", format!("`{name}` is no column of the state"), &help);
-            }
+        if let Some(column) = column.filter(|_| state.iter().any(|(known, _)| known == name)) {
+            compare(keys, "value", name, [column.unit, &crossing.unit]);
+        } else {
+            let near = nearest(name, state.iter().map(|(name, _)| name.as_str()));
+            let help = match near.as_slice() {
+                [] => "name a coordinate, a rate, or a component of `omega`".to_owned(),
+                near => format!("did you mean `{}`?", near.join("`, `")),
+            };
+            keys.error("column", format!("`{name}` is no column of the state"), &help);
         }
     }
 }

@@ -18,7 +18,7 @@ use crate::units::Measure;
 /// A device as a file gives it.
 pub(super) struct Device {
     pub(super) name: String,
-    pub(super) device: BuiltIn,
+    pub(super) of_kind: BuiltIn,
     /// Coordinate and rate of each joint at the start.
     pub(super) state: Vec<[f64; 2]>,
     drives: Vec<Drive>,
@@ -42,7 +42,7 @@ impl Joints {
     pub(super) fn of(devices: &[Device]) -> Self {
         let mut joints = Self { names: Vec::new(), drives: Vec::new(), stops: Vec::new() };
         for device in devices {
-            let infos = device.device.kind().joints();
+            let infos = device.of_kind.kind().joints();
             for ((info, drive), stop) in infos.iter().zip(&device.drives).zip(&device.stops) {
                 if let Some(([lower, upper], action)) = *stop {
                     let joint = joints.names.len();
@@ -302,7 +302,7 @@ fn device(
     };
     Some(Device {
         name,
-        device,
+        of_kind: device,
         state: bodies.iter().map(|body| body.state).collect(),
         drives: bodies.iter().map(|body| body.drive.clone()).collect(),
         stops: bodies.iter().map(|body| body.stop).collect(),

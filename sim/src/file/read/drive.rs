@@ -103,9 +103,10 @@ fn between(keys: &Keys<'_>) -> Option<[f64; 2]> {
 
 /// A table in the file itself: `times = "0, 1, 2 s"`, `values = "0, 0.1, 0 N m"`.
 fn inline(keys: &Keys<'_>, measure: Measure) -> Option<Table> {
-    let list = |key: &str, measure: Measure| match keys.node(key) {
-        Some(node) => keys.values_of(node, key, measure),
-        None => {
+    let list = |key: &str, measure: Measure| {
+        if let Some(node) = keys.node(key) {
+            keys.values_of(node, key, measure)
+        } else {
             keys.missing(key, &format!("{key} = \"0, 1 {}\"", measure.usual));
             None
         }

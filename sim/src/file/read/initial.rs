@@ -40,7 +40,7 @@ pub(super) fn initial(keys: &Keys<'_>, devices: &[Device]) -> State<Set> {
 /// Everything at rest, for these devices.
 fn at_rest(devices: &[Device]) -> State<Set> {
     use precess_dynamics::{Hub, Spacecraft};
-    let set: Set = devices.iter().map(|device| device.device).collect();
+    let set: Set = devices.iter().map(|device| device.of_kind).collect();
     let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
     // Devices that the solver rejects are reported with the whole; their state is not read.
     match Spacecraft::new(&hub, &set) {

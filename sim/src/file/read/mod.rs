@@ -94,9 +94,8 @@ fn scenario(
 fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -> Option<Scenario> {
     let keys = Keys::new(node, "", reports)?;
     match keys.count("format", FORMAT, FORMAT) {
-        Some(_) => {}
         None if !keys.has("format") => keys.missing("format", "format = 1"),
-        None => {}
+        _ => {}
     }
     let name = name(&keys, stem);
     let title = keys.text("title").unwrap_or(&name).to_owned();
@@ -110,8 +109,8 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let changes = over_time::changes(&keys, &joints, folder);
     let wrenches = over_time::wrenches(&keys, &joints, folder);
     let crossings = output::crossings(&keys);
-    let output = output::output(&keys, &settings);
-    let requirements = output::requirements(&keys, &settings);
+    let output = output::output(&keys, settings.as_ref());
+    let requirements = output::requirements(&keys, settings.as_ref());
     keys.finish();
     let (hub, hub_size, hub_mode) = hub?;
     let (drives, stops) = joints.drives_and_stops();
@@ -125,7 +124,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         hub,
         hub_size,
         names: devices.iter().map(|device| device.name.clone()).collect(),
-        devices: devices.iter().map(|device| device.device).collect(),
+        devices: devices.iter().map(|device| device.of_kind).collect(),
         initial,
         hub_mode,
         gravity,

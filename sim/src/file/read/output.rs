@@ -8,7 +8,7 @@ use crate::units::{Measure, parse_unit};
 /// Samples in a run without a rate.
 const SAMPLES: f64 = 5000.0;
 
-pub(super) fn output(keys: &Keys<'_>, settings: &Option<Settings>) -> Option<Output> {
+pub(super) fn output(keys: &Keys<'_>, settings: Option<&Settings>) -> Option<Output> {
     let duration = settings.map_or(1.0, |settings| settings.duration);
     let default =
         Output { rate: SAMPLES / duration, columns: Vec::new(), formats: vec![Format::Csv] };
@@ -22,12 +22,11 @@ pub(super) fn output(keys: &Keys<'_>, settings: &Option<Settings>) -> Option<Out
         let of = [("csv", Format::Csv), ("npz", Format::Npz), ("parquet", Format::Parquet)];
         let mut formats = Vec::new();
         for word in words {
-            match of.iter().find(|(name, _)| *name == word) {
-                Some((_, format)) => formats.push(*format),
-                None => {
-                    let message = format!("`{word}` is no format");
-                    output.error("formats", message, "there are csv, npz, parquet");
-                }
+            if let Some((_, format)) = of.iter().find(|(name, _)| *name == word) {
+                formats.push(*format);
+            } else {
+                let message = format!("`{word}` is no format");
+                output.error("formats", message, "there are csv, npz, parquet");
             }
         }
         formats.sort_unstable();
@@ -60,7 +59,7 @@ fn words(keys: &Keys<'_>, key: &str) -> Option<Vec<String>> {
     found
 }
 
-pub(super) fn requirements(keys: &Keys<'_>, settings: &Option<Settings>) -> Vec<Requirement> {
+pub(super) fn requirements(keys: &Keys<'_>, settings: Option<&Settings>) -> Vec<Requirement> {
     let duration = settings.map_or(f64::INFINITY, |settings| settings.duration);
     let tables = keys.tables("requirement");
     tables.iter().filter_map(|keys| requirement(keys, duration)).collect()

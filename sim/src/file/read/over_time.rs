@@ -29,7 +29,7 @@ fn change(keys: &Keys<'_>, joints: &Joints, folder: &Path) -> Option<Change> {
     let brake = keys.boolean("brake").unwrap_or(false);
     let info = joints.info(joint?)?;
     let given = ["torque", "force", "acceleration", "locked"].into_iter().find(|key| keys.has(key));
-    let drive = drive(keys, info, JointMeasures::of(info), folder);
+    let drive = drive(keys, info, &JointMeasures::of(info), folder);
     keys.finish();
     let action = match (brake, given) {
         (true, None) => Action::Brake,
