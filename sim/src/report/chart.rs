@@ -9,6 +9,8 @@ use crate::record::Bucket;
 pub(super) struct Chart {
     /// The section of the page that it belongs to.
     pub(super) part: Part,
+    /// For names of files and ids: lower case, digits, hyphens.
+    pub(super) slug: String,
     /// What it shows.
     pub(super) title: String,
     /// What the vertical axis shows.
@@ -50,7 +52,7 @@ pub(super) struct Curve {
 pub(super) struct Drawn {
     /// As in [`Chart`].
     pub(super) part: Part,
-    /// For names of files and ids: lower case, digits, hyphens.
+    /// As in [`Chart`].
     pub(super) slug: String,
     /// As in [`Chart`].
     pub(super) title: String,
@@ -103,7 +105,7 @@ pub(super) fn drawn(chart: &Chart, buckets: &[Bucket], first: &[f64], last: &[f6
     });
     Drawn {
         part: chart.part,
-        slug: slug(&chart.title),
+        slug: chart.slug.clone(),
         title: chart.title.clone(),
         axis: chart.axis,
         unit,
@@ -144,17 +146,4 @@ impl Drawn {
             lines: lines.collect(),
         }
     }
-}
-
-/// A title as a name for a file.
-fn slug(title: &str) -> String {
-    let mut slug = String::new();
-    for letter in title.chars() {
-        if letter.is_ascii_alphanumeric() {
-            slug.push(letter.to_ascii_lowercase());
-        } else if !slug.ends_with('-') {
-            slug.push('-');
-        }
-    }
-    slug.trim_matches('-').to_owned()
 }

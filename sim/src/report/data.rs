@@ -54,9 +54,10 @@ struct EventData<'a> {
     text: &'a str,
 }
 
-/// The data block of these charts, `<` written as `\u003c`.
+/// The data block of these charts, whose buckets start at `time`; `<` written as `\u003c`.
 pub(super) fn data(
     scenario: &Scenario,
+    time: &[f64],
     end: f64,
     drawn: &[Drawn],
     events: &[Event],
@@ -91,7 +92,7 @@ pub(super) fn data(
         format: FORMAT,
         name: &scenario.name,
         title: &scenario.title,
-        time: doubles(drawn.first().map_or(&[], |chart| chart.time.as_slice())),
+        time: doubles(time),
         end,
         columns,
         charts,

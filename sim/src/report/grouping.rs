@@ -44,13 +44,13 @@ pub(super) fn charts(header: &Header, scenario: &Scenario, ledger: bool) -> Vec<
             quantity if quantity.is_load() => Some(of_load(quantity, index, column)),
             quantity => of_hub(quantity),
         };
-        let Some(Found { key, part, title, axis, family, label, departure }) = found else {
+        let Some(Found { key, part, slug, title, axis, family, label, departure }) = found else {
             continue;
         };
         let name = column.name.clone();
         let frame = column.frame.clone().unwrap_or_default();
         let curve = Curve { column: index, name, label, frame, departure };
-        let new = || Chart { part, title, axis, family, curves: Vec::new() };
+        let new = || Chart { part, slug, title, axis, family, curves: Vec::new() };
         groups.entry(key).or_insert_with(new).curves.push(curve);
     }
     if ledger {
@@ -64,6 +64,7 @@ pub(super) fn charts(header: &Header, scenario: &Scenario, ledger: bool) -> Vec<
         let title = "Energy and losses less work, departure from the start".to_owned();
         let chart = Chart {
             part: Part::Energy,
+            slug: "energy-less-work".to_owned(),
             title,
             axis: "Departure",
             family: unit::ENERGY,
@@ -79,6 +80,7 @@ struct Found {
     /// Orders the charts.
     key: (usize, usize),
     part: Part,
+    slug: String,
     title: String,
     axis: &'static str,
     family: &'static Family,
@@ -154,9 +156,21 @@ fn of_hub(quantity: Quantity) -> Option<Found> {
     };
     let label = if index.is_empty() { symbol.to_owned() } else { format!("{symbol}_{index}") };
     let title = if title.is_empty() { "Work and losses since the start" } else { title };
+    let slug = match rank {
+        0 => "angular-velocity",
+        1 => "attitude",
+        5 => "position",
+        6 => "velocity",
+        7 => "angular-acceleration",
+        8 => "acceleration",
+        20 => "energy",
+        22 => "linear-momentum",
+        _ => "angular-momentum",
+    };
     Some(Found {
         key: (rank, 0),
         part: if rank < 20 { Part::Histories } else { Part::Energy },
+        slug: slug.to_owned(),
         title: title.to_owned(),
         axis: if axis.is_empty() { "Energy" } else { axis },
         family,
@@ -184,6 +198,7 @@ fn of_joint(quantity: Quantity, body: usize, device: &str, info: &JointInfo) -> 
     Found {
         key: (rank, body),
         part: Part::Histories,
+        slug: hyphenated(&format!("{} {what}", info.body)),
         title: format!("{} {what}", capitalised(info.body)),
         axis,
         family,
@@ -211,6 +226,7 @@ fn of_load(quantity: Quantity, index: usize, column: &Column) -> Found {
         // The components of a vector follow each other; the first one's index stands for all.
         key: (30, index - axis.min(index)),
         part: Part::Loads,
+        slug: hyphenated(column.vector.as_deref().unwrap_or(&column.name)),
         title,
         axis: name,
         family,
@@ -227,6 +243,7 @@ fn split(chart: Chart) -> Vec<Chart> {
     let parts = chart.curves.len().div_ceil(CURVES_MAX);
     let size = chart.curves.len().div_ceil(parts);
     let numbered = chart.curves.chunks(size).enumerate().map(|(index, curves)| Chart {
+        slug: format!("{}-{}", chart.slug, index + 1),
         title: format!("{}, {} of {parts}", chart.title, index + 1),
         curves: curves.to_vec(),
         ..chart
@@ -237,6 +254,11 @@ fn split(chart: Chart) -> Vec<Chart> {
 /// A device's name without what a label would take for an index.
 fn plain(name: &str) -> String {
     name.replace('_', " ")
+}
+
+/// A name for a file: lower case, digits, hyphens.
+fn hyphenated(name: &str) -> String {
+    name.replace([' ', '_', '.'], "-")
 }
 
 fn capitalised(text: &str) -> String {

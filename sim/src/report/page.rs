@@ -50,6 +50,8 @@ pub(super) fn page(report: &Report, outcome: &Outcome) -> Result<String, ReportE
     let replay =
         report.collected.as_ref().and_then(|c| c.replay.as_ref().and_then(Collector::data));
     let events = &outcome.events[..outcome.events.len().min(EVENTS_MAX)];
+    let buckets = report.collected.as_ref().map_or(&[][..], |c| c.history.buckets());
+    let time: Vec<_> = buckets.iter().map(|bucket| bucket.start).collect();
     let page = Page {
         title: &scenario.title,
         name: &scenario.name,
@@ -61,7 +63,7 @@ pub(super) fn page(report: &Report, outcome: &Outcome) -> Result<String, ReportE
         script: SCRIPT,
         style_hash: hashes.style,
         script_hash: hashes.script,
-        data: data(scenario, outcome.end_time, &drawn, events, replay.as_ref())?,
+        data: data(scenario, &time, outcome.end_time, &drawn, events, replay.as_ref())?,
         verdict: summary::verdict(report, outcome),
         summary: summary::summary(report, outcome),
         sections: sections(report, outcome, &drawn, replay.as_ref())?,

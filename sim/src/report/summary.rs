@@ -148,8 +148,11 @@ pub(super) fn terminal(report: &Report, outcome: &Outcome, files: &[String]) -> 
         lines.push(format!("largest |omega|: {peak}"));
     }
     let drift = &outcome.drift;
-    let parts =
-        [("energy", drift.energy), ("linear", drift.linear), ("angular momentum", drift.angular)];
+    let parts = [
+        ("energy less work", drift.energy),
+        ("linear momentum", drift.linear),
+        ("angular momentum", drift.angular),
+    ];
     let parts = parts.into_iter().filter_map(|(what, drift)| Some((what, drift?)));
     let parts: Vec<_> = parts.map(|(what, drift)| format!("{what} {drift:.1e}")).collect();
     if !parts.is_empty() {
