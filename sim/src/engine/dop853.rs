@@ -115,6 +115,7 @@ impl Dop853 {
         let equations = Equations { system, dense: &self.dense, failure: RefCell::new(None) };
         for rejections in 0.. {
             self.dense.borrow_mut().attempt();
+            equations.failure.replace(None);
             if let Err(stop) = self.method.step(&equations) {
                 return Err(stopped(&equations, time, &stop));
             }
@@ -129,7 +130,9 @@ impl Dop853 {
             }
         }
         self.accepted += 1;
-        Ok(())
+        // The method accepts a step and then evaluates its end, from where the next one starts.
+        let failed = equations.failure.take();
+        failed.map_or(Ok(()), |(time, source)| Err(RunError::solve(system, time, source)))
     }
 
     /// The present time; the end of the segment once it is reached to within rounding.

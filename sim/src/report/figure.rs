@@ -48,8 +48,10 @@ const RIGHT: f64 = 12.0;
 /// Type sizes: labels and legend, ticks.
 const TYPE: f64 = 13.0;
 const TYPE_SMALL: f64 = 12.0;
-/// A picture shows no more columns than this: one for two units.
-const COLUMNS: usize = 190;
+/// Most points of a line, and of the edge of a band.
+const POINTS_MAX: [usize; 2] = [600, 190];
+/// What is no thicker is drawn as a line, tenths of a unit: about a line's own width.
+const THIN: i32 = 12;
 
 /// Curves over time.
 #[derive(Clone, Debug)]
@@ -244,7 +246,9 @@ impl Figure {
 impl Line {
     /// As many bands as the picture can show, in runs without gaps.
     fn merged(&self) -> Vec<Vec<Band>> {
-        let size = self.bands.len().div_ceil(COLUMNS).max(1);
+        let [of_line, of_band] = POINTS_MAX;
+        let is_line = self.bands.len() <= of_line && self.bands.iter().all(|b| b.min == b.max);
+        let size = if is_line { 1 } else { self.bands.len().div_ceil(of_band).max(1) };
         let mut runs = vec![Vec::new()];
         for column in self.bands.chunks(size) {
             let finite = || column.iter().filter(|b| b.min.is_finite() && b.max.is_finite());
@@ -271,11 +275,13 @@ impl Band {
 
 /// A curve without gaps: a line where it is thin throughout, otherwise a closed band.
 fn path(out: &mut String, run: &[Placed], index: usize) {
-    let greatest: Vec<_> = run.iter().map(|[time, greatest, _]| [*time, *greatest]).collect();
-    if run.iter().all(|[_, greatest, least]| least - greatest <= 2) {
-        let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&greatest), stroke(index, 13));
+    if run.iter().all(|[_, greatest, least]| least - greatest <= THIN) {
+        let middle = |[time, greatest, least]: &Placed| [*time, i32::midpoint(*greatest, *least)];
+        let middles: Vec<_> = run.iter().map(middle).collect();
+        let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&middles), stroke(index, 13));
         return;
     }
+    let greatest: Vec<_> = run.iter().map(|[time, greatest, _]| [*time, *greatest]).collect();
     let least = run.iter().rev().map(|[time, _, least]| [*time, *least]);
     let points: Vec<_> = greatest.into_iter().chain(least).collect();
     let colour = COLOURS[index % COLOURS.len()];

@@ -191,7 +191,12 @@ fn scenario_text(report: &Report) -> Vec<Block> {
     let mut blocks = Vec::new();
     if !source.text.is_empty() {
         let digest = report.collected.as_ref().and_then(|c| c.header.sha256.as_deref());
-        let digest = digest.map_or_else(String::new, |digest| format!(" SHA-256: {digest}."));
+        // In groups, so that a narrow page can break it.
+        let groups = |digest: &str| {
+            let groups = digest.as_bytes().chunks(16);
+            groups.map(String::from_utf8_lossy).collect::<Vec<_>>().join(" ")
+        };
+        let digest = digest.map_or_else(String::new, |d| format!(" SHA-256: {}.", groups(d)));
         blocks.push(Block::Note { text: format!("As it was read.{digest}") });
         blocks.push(lines(&source.text));
     }

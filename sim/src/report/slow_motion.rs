@@ -1,7 +1,7 @@
 //! [`Turns`]: the frames of a few turns of the fastest wheel, and by how much the hub's deviation
 //! from steady turning is magnified when they are shown.
 //!
-//! Frames lie as far apart as samples allow with 20 or more for each turn, so at most 40; where the
+//! Frames lie as far apart as samples allow with 20 or more for each turn, so at most 44; where the
 //! sampling rate does not resolve a turn that finely there are none. The turns are the last ones of
 //! the run, or, where the wheel then is slower, those at which it was fastest.
 
@@ -12,6 +12,8 @@ use super::replay::{COORDINATES, Frame};
 
 /// Frames for each turn, at least.
 const PER_TURN: f64 = 20.0;
+/// Frames for each turn that are aimed at: the wheel may become faster until the next one.
+const AIM: f64 = 22.0;
 /// Turns that are kept.
 const TURNS: f64 = 5.0;
 /// Turns that make a window, at least.
@@ -59,17 +61,18 @@ impl Turns {
             return;
         }
         let turn = std::f64::consts::TAU / rate;
-        let apart = turn / PER_TURN * (1.0 + 1e-9);
-        if self.spacing > apart {
+        let [aim, most] = [AIM, PER_TURN].map(|frames| turn / frames * (1.0 + 1e-9));
+        if self.spacing > most {
             self.latest.clear();
             return;
         }
         if let Some(last) = self.latest.back() {
-            // A later sample would be too far from the last frame.
-            if frame[0] - last[0] + self.spacing <= apart {
+            let apart = frame[0] - last[0];
+            // The next sample is near enough to the last frame.
+            if apart + self.spacing <= aim {
                 return;
             }
-            if frame[0] - last[0] > apart {
+            if apart > most {
                 self.latest.clear();
             }
         }
@@ -204,7 +207,17 @@ mod tests {
         assert!(frames.windows(2).all(|pair| pair[1][0] - pair[0][0] <= turn / 20.0));
         assert!(frames.len() >= 98 && frames.len() <= FRAMES_MAX, "{}", frames.len());
         assert!(frames.last().is_some_and(|last| last[0] > 9.99));
-        assert_eq!((label.as_str(), magnify), ("slow motion, 9.372 s to 9.996 s", 5e4));
+        assert_eq!((label.as_str(), magnify), ("slow motion, 9.37 s to 9.995 s", 5e4));
+    }
+
+    #[test]
+    fn a_wheel_whose_rate_varies_keeps_its_last_turns() {
+        let mut turns = Turns::new(vec![true], 500.0);
+        (0..5000).for_each(|k| {
+            let time = f64::from(k) / 500.0;
+            turns.add(&frame(time, 52.36 + 0.01 * (9.0 * time).sin()));
+        });
+        assert!(turns.window().is_some_and(|(_, frames, _)| frames[0][0] > 9.0));
     }
 
     #[test]

