@@ -1,30 +1,49 @@
-//! The desktop tool: scenarios, runs and reports.
+//! The desktop tool: a spacecraft's scenario file in, results and a report out.
 //!
-//! A [`scenario::Scenario`] is run into a [`history::History`], whose [`ledger::Ledger`] shows how
-//! far energy less work and both momenta drift. The command line adds data files, figures and a
-//! report.
+//! ```text
+//! scenario file --file--> Scenario --engine--> samples --record--> CSV, NPZ, Parquet
+//!                                                    \--report--> page and figures
+//! ```
+//!
+//! A [`scenario::Scenario`] is read from TOML ([`file`]) or built by a program, run by [`engine::run`]
+//! into any [`record::Recorder`], and shown by [`report::Report`]. The commands are in [`command`].
 //!
 //! ```
-//! use precess::run::{Settings, run};
-//! use precess::scenario::table1::{Drive, Imbalance, Variant};
+//! use std::ops::ControlFlow;
+//! use std::path::Path;
 //!
-//! let scenario = Variant { imbalance: Imbalance::Printed, drive: Drive::Free }.scenario();
-//! let settings = Settings { duration: 0.1, ..Settings::default() };
-//! let history = run(&scenario, &settings, &mut |_| {})?;
-//! assert!(history.ledger.drift().energy < 1e-12);
-//! # Ok::<(), precess::error::RunError>(())
+//! use precess::record::Decimate;
+//!
+//! let text = r#"
+//! format = 1
+//! [hub]
+//! mass = "350 kg"
+//! inertia = "80, 70, 60 kg m^2"
+//! [[device]]
+//! name = "wheel1"
+//! kind = "reaction_wheel"
+//! mount = { spin_axis = [0, 0, 1] }
+//! imbalance = { static = "1 g cm", dynamic = "20 g cm^2" }
+//! [device.wheel]
+//! mass = "4 kg"
+//! inertia = "288, 150, 150 kg cm^2"
+//! rate = "3000 rpm"
+//! [run]
+//! duration = "0.1 s"
+//! [output]
+//! rate = "1 kHz"
+//! "#;
+//! let (scenario, _) = precess::file::from_toml("wheel", text, Path::new(""))?;
+//! let mut buckets = Decimate::new(100);
+//! let outcome = precess::engine::run(&scenario, &mut buckets, &mut |_| ControlFlow::Continue(()))?;
+//! assert!(outcome.drift.energy.is_some_and(|drift| drift < 1e-9));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod bodies;
-pub mod bound;
-pub mod cli;
-pub mod error;
-pub mod history;
-mod integrator;
-pub mod jitter;
-pub mod ledger;
-pub mod outcome;
-pub mod output;
-mod packing;
-pub mod run;
+pub mod command;
+pub mod engine;
+pub mod file;
+pub mod record;
+pub mod report;
 pub mod scenario;
+pub mod units;

@@ -3,14 +3,8 @@
 use std::process::ExitCode;
 
 use clap::Parser;
-use precess::cli::{Cli, print};
+use precess::command::Cli;
 
 fn main() -> ExitCode {
-    match Cli::parse().execute(&mut |text| print(text)) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("precess: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    Cli::parse().execute()
 }

@@ -4,16 +4,15 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-#[cfg(unix)]
-use std::time::{Duration, Instant};
 
-fn precess(arguments: &[&str], out: Option<&Path>) -> Output {
+fn precess(arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_precess"));
-    command.args(arguments);
-    if let Some(out) = out {
-        command.arg("--out").arg(out);
-    }
-    command.output().expect("the command starts")
+    command.current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+    command.args(arguments).output().expect("the command starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("text")
 }
 
 /// A folder that is not there yet.
@@ -33,138 +32,146 @@ fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         .collect()
 }
 
-const SHORT: [&str; 8] =
-    ["run", "table1", "--imbalance", "printed", "--drive", "200", "--duration", "0.6"];
+/// A scenario that runs in a moment: one wheel for 0.2 s.
+fn wheel(name: &str) -> (PathBuf, String) {
+    let folder = folder(name);
+    fs::create_dir_all(&folder).expect("a folder");
+    let example = precess(&["new", "reaction_wheel"]);
+    assert!(example.status.success());
+    let file = folder.join("wheel.toml");
+    fs::write(&file, example.stdout).expect("a file");
+    (folder, file.to_str().expect("text").to_owned())
+}
+
+fn run(file: &str, out: &Path, more: &[&str]) -> Output {
+    let out = out.to_str().expect("text");
+    let short = "run.duration=0.2 s";
+    precess(&[&["run", file, "--out", out, "--set", short], more].concat())
+}
 
 #[test]
-fn the_same_run_writes_the_same_bytes() {
-    let (first, second) = (folder("bytes-first"), folder("bytes-second"));
-    let ran = precess(&SHORT, Some(&first));
-    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
-    assert!(ran.stderr.is_empty(), "no progress bar in a pipe");
-    assert!(precess(&SHORT, Some(&second)).status.success());
+fn the_same_run_writes_the_same_bytes_and_no_more_files() {
+    let (folder, file) = wheel("bytes");
+    let (first, second) = (folder.join("a"), folder.join("b"));
+    let ran = run(&file, &first, &["--set", "output.formats=[\"csv\", \"npz\"]"]);
+    assert!(ran.status.success(), "{}", text(&ran.stderr));
+    assert!(ran.stderr.is_empty(), "no progress in a pipe: {}", text(&ran.stderr));
+    assert!(run(&file, &second, &["--set", "output.formats=[\"csv\", \"npz\"]"]).status.success());
     let files = contents(&first);
     let names: Vec<_> = files.keys().map(String::as_str).collect();
-    assert_eq!(
-        names,
-        [
-            "precess-files.txt",
-            "report.html",
-            "table1-printed-200-angular-velocity.svg",
-            "table1-printed-200-conservation.svg",
-            "table1-printed-200-position.svg",
-            "table1-printed-200.csv",
-        ]
-    );
-    assert_eq!(files, contents(&second));
+    assert_eq!(names, ["wheel.csv", "wheel.html", "wheel.npz"]);
+    assert!(files == contents(&second), "the bytes of two runs differ");
 }
 
 #[test]
-fn the_report_needs_nothing_but_itself() {
-    let out = folder("report");
-    assert!(precess(&SHORT, Some(&out)).status.success());
-    let report = fs::read_to_string(out.join("report.html")).expect("a report");
-    assert_eq!(report.matches("<svg").count(), 3);
-    for fetched in ["src=", "<link", "@import", "url("] {
-        assert!(!report.contains(fetched), "{fetched}");
-    }
-    assert!(report.contains("prefers-color-scheme: dark"));
-    assert!(report.contains("Angular velocity ω (deg/s)"));
+fn a_result_that_is_there_is_replaced_only_when_told() {
+    let (folder, file) = wheel("replace");
+    let out = folder.join("out");
+    fs::create_dir_all(&out).expect("a folder");
+    fs::write(out.join("wheel.csv"), "mine").expect("a file");
+    let refused = run(&file, &out, &[]);
+    assert_eq!(refused.status.code(), Some(1));
+    let message = text(&refused.stderr);
+    assert!(message.contains("wheel.csv exists") && message.contains("--force"), "{message}");
+    assert_eq!(contents(&out), BTreeMap::from([("wheel.csv".to_owned(), b"mine".to_vec())]));
+    assert!(run(&file, &out, &["--force"]).status.success());
+    assert_ne!(contents(&out)["wheel.csv"], b"mine");
 }
 
 #[test]
-fn all_variants_are_summed_up_in_ten_lines() {
-    let out = folder("ten-lines");
-    let ran = precess(&["run", "--duration", "0.3"], Some(&out));
-    assert!(ran.status.success());
-    let text = String::from_utf8(ran.stdout).expect("text");
-    assert_eq!(text.lines().count(), 10, "{text}");
-    assert!(text.contains("all drifts within 1e-12"), "{text}");
-}
-
-#[test]
-fn a_setting_out_of_bounds_is_rejected_and_nothing_written() {
-    let out = folder("rejected");
-    let ran = precess(&["run", "--tolerance", "1"], Some(&out));
+fn a_wrong_file_has_all_its_errors_and_leaves_nothing() {
+    let (folder, file) = wheel("wrong");
+    let given = fs::read_to_string(&file).expect("a file");
+    let wrong = given.replace("mass = \"4 kg\"", "mas = 4").replace("3000 rpm", "3000 m");
+    fs::write(&file, wrong).expect("a file");
+    let out = folder.join("out");
+    let ran = run(&file, &out, &[]);
     assert_eq!(ran.status.code(), Some(1));
-    let text = String::from_utf8(ran.stderr).expect("text");
-    let expected = "precess: tolerance 1e0 is outside 1e-15 to 1e-3; the default is 1e-13\n";
-    assert_eq!(text, expected);
+    let message = text(&ran.stderr);
+    for part in ["unknown key", "did you mean `mass`?", "angular rate is wanted", "wheel.toml:"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
     assert!(!out.exists());
+    let json = precess(&["check", &file, "--format", "json"]);
+    assert_eq!(json.status.code(), Some(1));
+    let entries: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    assert!(entries.as_array().is_some_and(|entries| entries.len() >= 3), "{entries}");
 }
 
 #[test]
-fn a_loosened_tolerance_makes_a_broken_bound_a_note() {
-    let out = folder("loose");
-    let ran = precess(&[&SHORT[..], &["--tolerance", "1e-6"]].concat(), Some(&out));
-    let text = String::from_utf8(ran.stdout).expect("text");
-    assert!(text.contains("NOT all drifts within 1e-12"), "{text}");
-    assert!(ran.status.success());
+fn a_requirement_that_is_not_met_has_its_exit_code() {
+    let (folder, file) = wheel("unmet");
+    let limit = ["--set", "requirement.rate.limit=1 arcsec/s"];
+    let ran = run(&file, &folder.join("out"), &limit);
+    assert_eq!(ran.status.code(), Some(2), "{}", text(&ran.stdout));
+    assert!(folder.join("out/wheel.csv").exists(), "the results are there");
 }
 
 #[test]
-fn the_shortest_run_needs_no_rate_and_says_why_it_shows_no_jitter() {
-    let out = folder("shortest");
-    let ran = precess(&["run", "--duration", "0.001"], Some(&out));
-    assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
-    let text = String::from_utf8(ran.stdout).expect("text");
-    assert!(text.contains("2000 samples/s"), "{text}");
-    assert!(text.contains("- for jitter: it takes a whole turn"), "{text}");
-    let report = fs::read_to_string(out.join("report.html")).expect("a report");
-    assert!(report.contains("A dash for jitter: it takes a whole turn"));
+fn evaluate_check_and_compare_tell_what_they_find() {
+    let (folder, file) = wheel("tell");
+    let table = text(&precess(&["evaluate", &file]).stdout);
+    assert!(table.contains("omega_dot_x") && table.contains("rad/s"), "{table}");
+    let json = precess(&["evaluate", &file, "--format", "json"]).stdout;
+    let values: serde_json::Value = serde_json::from_slice(&json).expect("JSON");
+    let u = &values["wheel1.u_w"];
+    assert_eq!((u["value"].as_f64(), u["unit"].as_str()), (Some(0.01), Some("N m")), "{values}");
+    let checked = text(&precess(&["check", &file]).stdout);
+    assert!(checked.contains("total mass") && checked.contains("354 kg"), "{checked}");
+    assert!(checked.contains("U_s 1 g cm"), "{checked}");
+    let out = folder.join("out");
+    assert!(run(&file, &out, &["--no-report"]).status.success());
+    let result = out.join("wheel.csv");
+    let result = result.to_str().expect("text");
+    let same = text(&precess(&["compare", result, result]).stdout);
+    assert!(same.lines().any(|line| line.starts_with("omega_x") && line.contains(" 0 ")), "{same}");
 }
 
-/// A link to nowhere: nothing is there, and yet no folder can be made.
 #[cfg(unix)]
 #[test]
-fn a_folder_that_cannot_be_made_is_rejected_before_the_work() {
-    let link = folder("link");
-    let _ = fs::remove_file(&link);
-    std::os::unix::fs::symlink("nowhere-at-all", &link).expect("a link");
-    let started = Instant::now();
-    let ran = precess(&["run", "--duration", "10000"], Some(&link));
-    assert_eq!(ran.status.code(), Some(1));
-    let text = String::from_utf8(ran.stderr).expect("text");
-    assert!(text.contains("choose a folder you may write to with --out"), "{text}");
-    // The work would take minutes; a rejection takes none of it.
-    assert!(started.elapsed() < Duration::from_secs(10), "{:?}", started.elapsed());
-}
-
-/// The hub, the start and the columns: what a reader needs to run it again elsewhere.
-#[test]
-fn the_report_and_the_help_tell_what_was_run() {
-    let out = folder("parameters");
-    assert!(precess(&SHORT, Some(&out)).status.success());
-    let report = fs::read_to_string(out.join("report.html")).expect("a report");
-    for value in ["810 kg", "900, 800, 600 kg m²", "4.15, 2.93, 2.75 kg m²", "4.85, 0.57, 0 deg/s"]
-    {
-        assert!(report.contains(&format!(">{value}<")), "{value}");
-    }
-    assert!(report.contains("Wheel at the start</td><td class=\"number\">500 rpm<"));
-    let help = String::from_utf8(precess(&["run", "--help"], None).stdout).expect("text");
-    assert!(help.contains("device_0_*"));
-    let table = fs::read_to_string(out.join("table1-printed-200.csv")).expect("samples");
-    assert!(table.contains("device_0_spin_rad_per_s"));
-}
-
-#[test]
-fn a_file_of_somebody_else_stays_and_the_run_is_rejected() {
-    let out = folder("foreign");
+fn a_run_that_is_killed_leaves_the_old_result_or_a_partial_one() {
+    use std::time::Duration;
+    let (folder, file) = wheel("killed");
+    let out = folder.join("out");
     fs::create_dir_all(&out).expect("a folder");
-    fs::write(out.join("report.html"), "mine").expect("a file");
-    let ran = precess(&SHORT, Some(&out));
-    assert_eq!(ran.status.code(), Some(1));
-    let text = String::from_utf8(ran.stderr).expect("text");
-    assert!(text.contains("report.html exists and no earlier run wrote it"), "{text}");
-    assert_eq!(contents(&out), BTreeMap::from([("report.html".to_owned(), b"mine".to_vec())]));
+    for round in 0..20_u64 {
+        let old = contents(&out).get("wheel.csv").cloned();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_precess"));
+        let out_text = out.to_str().expect("text");
+        command.args(["run", &file, "--out", out_text, "--force", "--no-report"]);
+        command.args(["--set", "run.duration=1 s"]);
+        let mut child = command.spawn().expect("the command starts");
+        std::thread::sleep(Duration::from_millis(7 * round));
+        let _ = child.kill();
+        let _ = child.wait();
+        let now = contents(&out);
+        for (name, bytes) in &now {
+            match name.as_str() {
+                "wheel.csv" => {
+                    let last = bytes.last() == Some(&b'\n');
+                    let complete = last
+                        && text(bytes).lines().last().is_some_and(|line| {
+                            line.split(',').next().and_then(|t| t.parse::<f64>().ok()) == Some(1.0)
+                        });
+                    assert!(Some(bytes) == old.as_ref() || complete, "round {round}");
+                }
+                other => assert!(other.ends_with(".partial"), "{other}"),
+            }
+        }
+    }
 }
 
 #[test]
 fn every_command_shows_an_example() {
-    for arguments in [&["--help"][..], &["run", "--help"], &["list", "--help"]] {
-        let text = String::from_utf8(precess(arguments, None).stdout).expect("text");
-        assert!(text.contains("Example"), "{arguments:?}");
+    let commands = ["new", "check", "run", "evaluate", "compare", "plot", "schema", "kinds"];
+    assert!(text(&precess(&["--help"]).stdout).contains("Example"));
+    for command in commands {
+        let help = text(&precess(&[command, "--help"]).stdout);
+        assert!(help.contains("Example"), "{command}: {help}");
     }
-    let list = String::from_utf8(precess(&["list"], None).stdout).expect("text");
-    assert!(list.contains("table1-catalogue-250"));
+    assert!(text(&precess(&["kinds"]).stdout).contains("dgvscmg"));
+    assert!(text(&precess(&["kinds", "sgcmg"]).stdout).contains("gimbal"));
+    let schema: serde_json::Value =
+        serde_json::from_slice(&precess(&["schema"]).stdout).expect("JSON");
+    assert_eq!(schema["properties"]["format"]["const"], 1);
 }

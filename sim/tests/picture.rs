@@ -7,27 +7,28 @@
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::Path;
 
-use precess::outcome::outcome;
-use precess::output::plates::plates;
-use precess::run::Settings;
-use precess::scenario::table1::{Drive, Imbalance, Variant};
+use precess::engine::run;
+use precess::file::from_file;
+use precess::report::Report;
 
 #[test]
 fn the_committed_picture_is_what_the_run_draws() {
-    let name = "table1-printed-200-angular-velocity.svg";
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(name);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let (name, figure) = ("table1-printed-200", "angular-velocity");
+    let path = root.join("docs").join(format!("{name}-{figure}.svg"));
     let committed = fs::read_to_string(path).expect("docs holds the README's picture");
-    let variant = Variant { imbalance: Imbalance::Printed, drive: Drive::Wheel200 };
-    let outcome =
-        outcome(variant.scenario(), Settings::default(), &mut |_| {}).expect("Table 1 runs");
-    let plates = plates(&outcome);
-    let plate =
-        plates.iter().find(|plate| format!("{}-{}.svg", variant.name(), plate.name) == name);
-    let drawn = plate.expect("a figure of angular velocity").figure.file().expect("it is drawn");
+    let read = from_file(&root.join("scenarios").join(format!("{name}.toml")), &[]);
+    let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
+    let mut report = Report::new(&scenario, &[]);
+    let outcome = run(&scenario, &mut report, &mut |_| ControlFlow::Continue(()));
+    assert!(outcome.expect("Table 1 runs").end.is_complete());
+    let figures = report.figures().expect("they are drawn");
+    let (_, drawn) = figures.iter().find(|(of, _)| of == figure).expect("a figure of omega");
     assert!(
-        drawn == committed,
-        "docs/{name} is stale; run `cargo xtask demo` and copy target/demo/{name} to docs/"
+        *drawn == committed,
+        "docs/{name}-{figure}.svg is stale; run `cargo xtask demo` and copy it from target/demo"
     );
 }

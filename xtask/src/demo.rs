@@ -3,8 +3,23 @@
 use crate::regen;
 use crate::run::cargo;
 
-/// `regen --check`, then every variant of Table 1, into `target/demo`.
+/// Table 1 as printed and with a catalogue wheel; without torque, and with two of the wheel.
+const VARIANTS: [&str; 6] = [
+    "scenarios/table1-printed-free.toml",
+    "scenarios/table1-printed-200.toml",
+    "scenarios/table1-printed-250.toml",
+    "scenarios/table1-catalogue-free.toml",
+    "scenarios/table1-catalogue-200.toml",
+    "scenarios/table1-catalogue-250.toml",
+];
+
+/// `regen --check`, then every variant of Table 1, with its figures, into `target/demo`.
 pub(crate) fn demo() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
-    cargo(&["run", "--release", "-p", "precess", "--", "run", "table1", "--out", "target/demo"])
+    for command in ["run", "plot"] {
+        let first = ["run", "--release", "-p", "precess", "--", command];
+        let last = ["--out", "target/demo", "--force"];
+        cargo(&[&first[..], &VARIANTS, &last].concat())?;
+    }
+    Ok(())
 }

@@ -1,45 +1,288 @@
-//! A scenario: a spacecraft, its initial state and what acts on it, constant over the run.
+//! [`Scenario`]: a spacecraft, its initial state, what happens over time, and what is recorded; in
+//! SI units and radians.
+//!
+//! It is what a scenario file says, after includes, defaults, layouts and units; and what a run
+//! takes. Joints are numbered in the order of the set, from 0, through all devices.
+//!
+//! Invariants of a checked scenario ([`Scenario::check`]): names of devices are unique; every
+//! joint number, time and bound is in range; [`Scenario::spacecraft`] succeeds.
 
-pub mod table1;
+mod check;
+pub mod profile;
 
-use nalgebra::Matrix3;
-use precess_dynamics::{Dgvscmg, Hub, Inputs, State};
+use nalgebra::Vector3;
+use precess_dynamics::kind::JointInfo;
+use precess_dynamics::{BuiltIn, Gravity, Hub, HubMode, ParameterError, Spacecraft, State};
 
-/// The set of devices that is run: `N` of the paper's.
-pub type Set<const N: usize> = [Dgvscmg; N];
+pub use check::ScenarioError;
+pub use profile::{Interpolation, Profile, Table};
 
-/// Everything a run needs, SI and radians.
+/// The set of devices that is run: as many as there are, each of any kind.
+pub type Set = Vec<BuiltIn>;
+
+/// Everything a run needs.
 #[derive(Clone, Debug)]
-pub struct Scenario<const N: usize> {
-    /// The name in file names, lower case with hyphens.
+pub struct Scenario {
+    /// The name in file names: lower case, digits, hyphens.
     pub name: String,
     /// What a heading says.
     pub title: String,
+    /// What it shows and where its numbers come from; may be empty.
+    pub description: String,
     /// The hub.
     pub hub: Hub,
+    /// Edges of the box that stands for the hub in drawings, along B axes, m.
+    pub hub_size: Vector3<f64>,
+    /// The name of each device: lower case, digits, underscores.
+    pub names: Vec<String>,
     /// The devices.
-    pub devices: Set<N>,
+    pub devices: Set,
     /// Initial state.
-    pub state: State<Set<N>>,
-    /// Force, torque and motor torques; every joint is driven, the hub free.
-    pub inputs: Inputs<Set<N>>,
+    pub initial: State<Set>,
+    /// Mode of the hub.
+    pub hub_mode: HubMode,
+    /// Gravity on every body.
+    pub gravity: Gravity,
+    /// What drives each joint from the start, joint by joint.
+    pub drives: Vec<Drive>,
+    /// End stops of joints.
+    pub stops: Vec<EndStop>,
+    /// Wrenches from outside.
+    pub wrenches: Vec<AppliedWrench>,
+    /// Changes of drives at times, in the order of time.
+    pub changes: Vec<Change>,
+    /// Crossings that end the run or are only noted.
+    pub crossings: Vec<Crossing>,
+    /// Duration and integrator.
+    pub settings: Settings,
+    /// What is recorded.
+    pub output: Output,
+    /// Limits on recorded quantities.
+    pub requirements: Vec<Requirement>,
+    /// The text it was read from; empty for one that a program built.
+    pub source: Source,
 }
 
-impl<const N: usize> Scenario<N> {
-    /// The same scenario with balanced wheels: no offset, no products of inertia.
+/// What determines the motion of a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Drive {
+    /// A motor torque (force) as a function of time, clipped to `-limit..=limit`, N m or N.
+    Torque {
+        /// Before clipping.
+        profile: Profile,
+        /// Largest magnitude; none where there is no limit.
+        limit: Option<f64>,
+    },
+    /// A prescribed acceleration as a function of time, rad/s² or m/s².
+    Acceleration(Profile),
+    /// Locked: the rate is zero.
+    Locked,
+}
+
+/// End stops of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndStop {
+    /// The joint.
+    pub joint: usize,
+    /// Lowest coordinate, rad or m; minus infinity where there is none.
+    pub lower: f64,
+    /// Highest coordinate, rad or m; infinity where there is none.
+    pub upper: f64,
+    /// What happens there.
+    pub action: StopAction,
+}
+
+/// What happens at an end stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StopAction {
+    /// The run ends.
+    End,
+    /// The joint is stopped impulsively and locked; the loss is entered in the ledger.
+    Lock,
+}
+
+/// A force and moment from outside, as functions of time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AppliedWrench {
+    /// The body it acts on.
+    pub body: Target,
+    /// Components of the force, N.
+    pub force: [Profile; 3],
+    /// Components of the moment about `point`, N m.
+    pub moment: [Profile; 3],
+    /// Where the force acts, from B or from the body's origin, expressed in the body's axes, m.
+    pub point: Vector3<f64>,
+    /// The axes of force and moment.
+    pub axes: WrenchAxes,
+}
+
+/// A body of the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// The hub.
+    Hub,
+    /// The child body of a joint.
+    Joint(usize),
+}
+
+/// The axes in which a wrench is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WrenchAxes {
+    /// Those of the body.
+    Body,
+    /// N.
+    Inertial,
+}
+
+/// A change at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// When, s. No integration step spans it.
+    pub time: f64,
+    /// The joint.
+    pub joint: usize,
+    /// What happens.
+    pub action: Action,
+}
+
+/// What happens to a joint at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// A drive replaces the present one. Its profile's time counts from the start of the run.
+    Drive(Drive),
+    /// Stopped impulsively, as by a rigid brake, and locked; the loss is entered in the ledger.
+    Brake,
+}
+
+/// A recorded quantity that passes a value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Crossing {
+    /// What a note says; the name of the event.
+    pub name: String,
+    /// The name of a column of state: a coordinate, a rate, a component of omega.
+    pub column: String,
+    /// The value, in SI.
+    pub value: f64,
+    /// The SI unit of the value.
+    pub unit: String,
+    /// Whether the run ends there.
+    pub ends: bool,
+}
+
+/// Duration and integrator.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Length of the run, s.
+    pub duration: f64,
+    /// The integrator.
+    pub integrator: IntegratorChoice,
+}
+
+/// Which integrator, with its one setting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum IntegratorChoice {
+    /// Dormand and Prince of order 8(5,3), steps chosen for a relative tolerance.
+    Dop853 {
+        /// Relative tolerance of one step.
+        tolerance: f64,
+    },
+    /// Runge and Kutta of order 4 with fixed steps: that of the flight library.
+    Rk4 {
+        /// Length of a step, s.
+        step: f64,
+    },
+}
+
+/// What is recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Samples per second, 1/s.
+    pub rate: f64,
+    /// Names of columns or of groups of columns (`omega`, `cmg1`, `loads`); empty for all but the
+    /// loads.
+    pub columns: Vec<String>,
+    /// The files, each once.
+    pub formats: Vec<Format>,
+}
+
+/// A format of a result file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Format {
+    /// Comma-separated text.
+    Csv,
+    /// `NumPy`'s archive.
+    Npz,
+    /// Apache Parquet.
+    Parquet,
+}
+
+/// A limit on a recorded quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Requirement {
+    /// What a report calls it.
+    pub name: String,
+    /// The name of a column, or of a group of three, whose magnitude counts.
+    pub quantity: String,
+    /// Which number of its history.
+    pub statistic: Statistic,
+    /// The part of the run that counts, s.
+    pub window: [f64; 2],
+    /// Upper bound of the statistic, SI.
+    pub limit: f64,
+    /// The limit as it was written: `0.1 deg/s`.
+    pub written: String,
+    /// The unit in which limit and value are shown, and its size in SI.
+    pub unit: (String, f64),
+}
+
+/// A number of a history.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Statistic {
+    /// Largest magnitude.
+    Peak,
+    /// Root of the mean square.
+    Rms,
+    /// The RMS of what lies in a band of frequencies, Hz.
+    BandRms([f64; 2]),
+    /// The magnitude at the end.
+    Final,
+    /// Largest departure from the first sample.
+    Drift,
+}
+
+/// The text that a scenario was read from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Source {
+    /// The file, as it was named.
+    pub path: String,
+    /// All files that were read and the overrides, one after the other, with a comment that names
+    /// each.
+    pub text: String,
+    /// The same with every default filled in, in one file.
+    pub filled: String,
+}
+
+impl Scenario {
+    /// The spacecraft, prepared for evaluation.
     ///
-    /// The wheels keep their mass and their moments of inertia, so that only the imbalance differs.
+    /// # Errors
+    ///
+    /// Parameters that the solver rejects.
+    pub fn spacecraft(&self) -> Result<Spacecraft<Set>, ParameterError> {
+        Spacecraft::new(&self.hub, &self.devices)
+    }
+
+    /// How many joints all devices have.
     #[must_use]
-    pub fn balanced(&self) -> Self {
-        let devices = self.devices.map(|device| {
-            let i_w_wc = Matrix3::from_diagonal(&device.i_w_wc.diagonal());
-            Dgvscmg { d: 0.0, i_w_wc, ..device }
-        });
-        Self {
-            name: format!("{}-balanced", self.name),
-            title: format!("{}, wheels balanced", self.title),
-            devices,
-            ..self.clone()
-        }
+    pub fn joint_count(&self) -> usize {
+        self.devices.iter().map(|device| device.kind().joints().len()).sum()
+    }
+
+    /// The joints in order: index and name of the device, and the joint.
+    pub fn joints(&self) -> impl Iterator<Item = (usize, &str, &'static JointInfo)> {
+        let devices = self.devices.iter().zip(&self.names).enumerate();
+        devices.flat_map(|(index, (device, name))| {
+            device.kind().joints().iter().map(move |info| (index, name.as_str(), info))
+        })
     }
 }

@@ -1,0 +1,103 @@
+//! `evaluate`: everything that a scenario's columns tell at the initial state.
+
+use std::ops::ControlFlow;
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::error::CommandError;
+use super::table::{aligned, six};
+use super::{Form, Set, print};
+use crate::engine::{Outcome, run};
+use crate::file::from_file;
+use crate::record::{Column, Columns, Header, RecordError, Recorder};
+
+/// The options of `evaluate`.
+#[derive(Debug, Args)]
+pub(super) struct Evaluate {
+    /// The scenario file.
+    file: std::path::PathBuf,
+    #[command(flatten)]
+    overrides: Set,
+    /// How the values are printed.
+    #[arg(long, value_enum, default_value_t)]
+    format: Form,
+}
+
+/// Keeps the first sample.
+#[derive(Default)]
+struct First {
+    columns: Vec<Column>,
+    row: Vec<f64>,
+}
+
+impl Recorder for First {
+    fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
+        self.columns.clone_from(&header.columns);
+        Ok(())
+    }
+
+    fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
+        if self.row.is_empty() {
+            self.row = row.to_vec();
+        }
+        Ok(())
+    }
+
+    fn finish(&mut self, _: &Outcome) -> Result<(), RecordError> {
+        Ok(())
+    }
+}
+
+impl Evaluate {
+    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+        let (mut scenario, _) =
+            from_file(&self.file, &self.overrides.overrides()).map_err(|errors| {
+                match self.format {
+                    Form::Text => CommandError::Scenario(errors),
+                    Form::Json => CommandError::ScenarioJson(errors),
+                }
+            })?;
+        let all = Columns::all(&scenario);
+        scenario.output.columns = all.as_slice().iter().map(|c| c.name.clone()).collect();
+        let mut first = First::default();
+        let name = scenario.name.clone();
+        run(&scenario, &mut first, &mut |_| ControlFlow::Break(()))
+            .map_err(|source| CommandError::Run { name, source })?;
+        let of_interest = first.columns.iter().zip(&first.row).filter(|(c, _)| c.name != "time");
+        if self.format == Form::Json {
+            let object: serde_json::Map<_, _> = of_interest
+                .map(|(column, value)| {
+                    let entry = serde_json::json!({
+                        "value": value,
+                        "unit": column.unit,
+                        "frame": column.frame,
+                        "meaning": column.meaning,
+                    });
+                    (column.name.clone(), entry)
+                })
+                .collect();
+            let text = serde_json::to_string_pretty(&object).unwrap_or_default();
+            print(&(text + "\n"));
+            return Ok(ExitCode::SUCCESS);
+        }
+        let mut rows = Vec::new();
+        let mut group = "";
+        for (column, value) in of_interest {
+            if column.group != group {
+                group = &column.group;
+                rows.push(vec![format!("\n{group}")]);
+            }
+            let frame =
+                column.frame.as_ref().map_or_else(String::new, |frame| format!("in {frame}"));
+            rows.push(vec![
+                format!("  {}", column.name),
+                six(*value),
+                column.unit.to_owned(),
+                frame,
+            ]);
+        }
+        print(aligned(&rows).trim_start_matches('\n'));
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,166 @@
+//! The command line: its commands and options. Each command is a file; all they do is in the
+//! library.
+
+mod check;
+mod compare;
+mod error;
+mod evaluate;
+mod export;
+mod kinds;
+mod new;
+mod plot;
+mod run;
+mod schema;
+mod table;
+
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+pub use error::CommandError;
+
+/// Runs spacecraft with imbalanced wheels, gyros, panels and slosh masses, from a scenario file to
+/// a report.
+#[derive(Debug, Parser)]
+#[command(
+    name = "precess",
+    version,
+    after_help = "Examples:\n  precess new reaction_wheel > bus.toml\n  precess check bus.toml\n  \
+                  precess run bus.toml --out results"
+)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Print a commented example of a scenario file, with typical values
+    #[command(after_help = "Example:\n  precess new pyramid > pyramid.toml")]
+    New(new::New),
+    /// Check scenario files: mass properties, momenta, imbalance, pivots, sampling, warnings
+    #[command(after_help = "Example:\n  precess check bus.toml --set hub.mass='\"900 kg\"'")]
+    Check(check::Check),
+    /// Run scenario files and write results and reports
+    #[command(after_help = run::HELP)]
+    Run(run::Run),
+    /// Print accelerations, motor torques, loads and the energy ledger at the initial state
+    #[command(after_help = "Example:\n  precess evaluate bus.toml --format json")]
+    Evaluate(evaluate::Evaluate),
+    /// Print the differences of two results (CSV), or of the runs of two scenario files
+    #[command(after_help = "Example:\n  precess compare a/bus.csv b/bus.csv")]
+    Compare(compare::Compare),
+    /// Run scenario files and write only the figures, as SVG
+    #[command(after_help = "Example:\n  precess plot bus.toml --out figures")]
+    Plot(plot::Plot),
+    /// Print the JSON Schema of scenario files, for editors
+    #[command(after_help = "Example:\n  precess schema > precess.schema.json")]
+    Schema,
+    /// Print the kinds of devices with their bodies and joints
+    #[command(after_help = "Example:\n  precess kinds dgvscmg")]
+    Kinds(kinds::Kinds),
+    /// Write a scenario for the flight library
+    #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
+    Export(export::Export),
+}
+
+/// Scenario files and what replaces keys in them.
+#[derive(Debug, Args)]
+struct Files {
+    /// Scenario files.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    overrides: Set,
+}
+
+/// What replaces keys of a scenario file.
+#[derive(Debug, Args)]
+struct Set {
+    /// Replace a key: hub.mass="900 kg", device.cmg1.wheel.rate="3000 rpm"; may be repeated. A
+    /// value that is no TOML is taken as text.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// How a command prints.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Form {
+    /// For people.
+    #[default]
+    Text,
+    /// For programs.
+    Json,
+}
+
+impl Set {
+    /// The overrides as TOML: a shell takes the quotation marks off `hub.mass="900 kg"`.
+    fn overrides(&self) -> Vec<String> {
+        self.set.iter().map(|text| as_toml(text)).collect()
+    }
+}
+
+fn as_toml(text: &str) -> String {
+    let Some((key, value)) = text.split_once('=') else { return text.to_owned() };
+    let bare = value.trim();
+    let is_toml = bare.parse::<f64>().is_ok()
+        || matches!(bare, "true" | "false")
+        || bare.starts_with(['"', '\'', '[', '{']);
+    if is_toml {
+        return text.to_owned();
+    }
+    format!("{} = {}", key.trim(), toml::Value::String(bare.to_owned()))
+}
+
+impl Cli {
+    /// Executes the command.
+    #[must_use]
+    pub fn execute(self) -> ExitCode {
+        let done = match self.command {
+            Command::New(new) => new.execute(),
+            Command::Check(check) => Ok(check.execute()),
+            Command::Run(run) => run.execute(),
+            Command::Evaluate(evaluate) => evaluate.execute(),
+            Command::Compare(compare) => compare.execute(),
+            Command::Plot(plot) => plot.execute(),
+            Command::Schema => Ok(schema::execute()),
+            Command::Kinds(kinds) => kinds.execute(),
+            Command::Export(export) => export.execute(),
+        };
+        match done {
+            Ok(code) => code,
+            Err(error) => {
+                eprintln!("{}", error.to_string().trim_end());
+                ExitCode::FAILURE
+            }
+        }
+    }
+}
+
+/// Prints to standard output; a reader that has gone away is no error.
+fn print(text: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_override_needs_no_quotation_marks_of_its_own() {
+        assert_eq!(as_toml("hub.mass=900 kg"), "hub.mass = \"900 kg\"");
+        assert_eq!(as_toml("hub.mass=\"900 kg\""), "hub.mass=\"900 kg\"");
+        assert_eq!(as_toml("run.tolerance=1e-9"), "run.tolerance=1e-9");
+        let table = "gravity={ central = \"1 m^3/s^2\" }";
+        assert_eq!(as_toml(table), table);
+    }
+
+    #[test]
+    fn every_command_is_declared_without_conflict() {
+        use clap::CommandFactory as _;
+        Cli::command().debug_assert();
+    }
+}

@@ -1,0 +1,238 @@
+//! `new`: a commented example of a scenario file, with typical values.
+
+use std::fmt::Write as _;
+use std::process::ExitCode;
+
+use clap::Args;
+use precess_dynamics::BuiltInKind;
+use precess_dynamics::kind::JointInfo;
+
+use super::error::CommandError;
+use super::print;
+use crate::file::read::{body_key, has_inertia};
+
+/// The options of `new`.
+#[derive(Debug, Args)]
+pub(super) struct New {
+    /// A kind of device (see `precess kinds`), or `pyramid` for four DGVSCMGs, or `wheels` for
+    /// three reaction wheels.
+    #[arg(default_value = "reaction_wheel")]
+    what: String,
+}
+
+impl New {
+    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+        let Some(text) = example(&self.what) else {
+            let known: Vec<_> = BuiltInKind::ALL.iter().map(|kind| kind.name()).collect();
+            let message = format!(
+                "there is no example of `{}`; there are pyramid, wheels, {}",
+                self.what,
+                known.join(", ")
+            );
+            return Err(CommandError::Other(message));
+        };
+        print(&text);
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// The text of an example.
+fn example(what: &str) -> Option<String> {
+    let mut text = String::from(HEAD);
+    match what {
+        "pyramid" => {
+            text.push_str(PYRAMID);
+            bodies(&mut text, BuiltInKind::Dgvscmg);
+        }
+        "wheels" => {
+            for (number, axis) in [(1, "1, 0, 0"), (2, "0, 1, 0"), (3, "0, 0, 1")] {
+                let _ = write!(
+                    text,
+                    "\n[[device]]\nname = \"wheel{number}\"\nkind = \"reaction_wheel\"\n\
+                     position = \"0, 0, 0 cm\"\nmount = {{ spin_axis = [{axis}] }}\n\
+                     imbalance = {{ static = \"1 g cm\", dynamic = \"20 g cm^2\", phase = \"0 deg\" }}\n"
+                );
+                bodies(&mut text, BuiltInKind::ReactionWheel);
+            }
+        }
+        name => {
+            let kind = BuiltInKind::of_name(name)?;
+            let _ = write!(
+                text,
+                "\n[[device]]\nname = \"{}\"\nkind = \"{name}\"\n\
+                 # Origin of the first joint from B, in the hub's axes.\n\
+                 position = \"30, 0, 0 cm\"\n",
+                short(kind)
+            );
+            text.push_str(mount(kind));
+            if rotor_off_balance(kind) {
+                text.push_str(IMBALANCE);
+            }
+            bodies(&mut text, kind);
+        }
+    }
+    text.push_str(TAIL);
+    Some(text)
+}
+
+/// A name for a device of a kind.
+fn short(kind: BuiltInKind) -> &'static str {
+    let last = kind.joints().last().map_or("", |joint| joint.body);
+    match (last, kind.joints().len()) {
+        ("wheel", 1) => "wheel1",
+        ("wheel", _) => "cmg1",
+        ("panel", _) => "panel1",
+        _ => "slosh1",
+    }
+}
+
+/// Whether the wheel of a kind can be off balance: it has an offset for a parameter.
+fn rotor_off_balance(kind: BuiltInKind) -> bool {
+    kind.parameters().iter().any(|parameter| parameter.name == "d")
+}
+
+fn mount(kind: BuiltInKind) -> &'static str {
+    match (short(kind), kind.joints().len()) {
+        ("wheel1", _) => "# The spin axis in the hub's axes.\nmount = { spin_axis = [1, 0, 0] }\n",
+        ("cmg1", _) => {
+            "# Spin axis and gimbal axis at zero angles, in the hub's axes.\n\
+             mount = { spin_axis = [1, 0, 0], gimbal_axis = [0, 0, 1] }\n"
+        }
+        _ => {
+            "# The device's axes are the hub's, turned: here by nothing.\n\
+              mount = { axis = [0, 0, 1], angle = \"0 deg\" }\n"
+        }
+    }
+}
+
+/// The tables of the bodies of a kind.
+fn bodies(text: &mut String, kind: BuiltInKind) {
+    for joint in kind.joints() {
+        let _ = writeln!(text, "\n[device.{}]", body_key(joint));
+        let (mass, inertia) = typical(joint);
+        let _ = writeln!(text, "mass = \"{mass}\"");
+        if has_inertia(kind, joint) {
+            let _ = writeln!(
+                text,
+                "# Moments of inertia about the body's centre of mass, in its own axes.\n\
+                 inertia = \"{inertia}\""
+            );
+        }
+        let axis = ["x", "y", "z"].get(joint.axis).copied().unwrap_or("?");
+        if joint.slides {
+            let _ = writeln!(
+                text,
+                "# It slides along {axis}: spring and damper, and where it starts.\n\
+                 stiffness = \"20 N/m\"\ndamping = \"0.5 N s/m\"\ndisplacement = \"1 cm\""
+            );
+        } else if joint.body == "wheel" {
+            let _ = writeln!(text, "# It turns about {axis}.\nrate = \"3000 rpm\"");
+            if joint.driven {
+                let _ = writeln!(text, "torque = \"10 mN m\"\ntorque_limit = \"0.2 N m\"");
+            }
+        } else if joint.body == "panel" {
+            let _ = writeln!(
+                text,
+                "centre_of_mass = \"0, 1, 0 m\"\n# It turns about {axis}.\n\
+                 stiffness = \"30 N m/rad\"\ndamping = \"0.2 N m s/rad\"\nangle = \"1 deg\""
+            );
+        } else {
+            let _ = writeln!(
+                text,
+                "# It turns about {axis}.\nangle = \"0 deg\"\n\
+                 torque = {{ sine = \"0.2 N m\", frequency = \"0.5 Hz\" }}"
+            );
+        }
+    }
+}
+
+/// Mass and moments of inertia of a body, of the size of a small satellite's.
+fn typical(joint: &JointInfo) -> (&'static str, &'static str) {
+    match joint.body {
+        // A disc of 24 cm: J = m r^2 / 2 = 0.0288 kg m^2, and a rim that is 4 cm wide.
+        "wheel" => ("4 kg", "288, 150, 150 kg cm^2"),
+        "panel" => ("8 kg", "2.7, 0.1, 2.8 kg m^2"),
+        body if body.contains("gimbal") => ("2 kg", "300, 250, 250 kg cm^2"),
+        _ => ("10 kg", "0, 0, 0 kg m^2"),
+    }
+}
+
+const HEAD: &str = r#"# A spacecraft for `precess run`. Every quantity has its unit; `precess check` tells what is wrong.
+format = 1
+title = "A first spacecraft"
+
+[hub]
+mass = "350 kg"
+# From the reference point B, in the hub's axes.
+centre_of_mass = "0, 0, 2 cm"
+# Moments of inertia about the hub's centre of mass, and the tensor's elements 12, 13, 23.
+inertia = "80, 70, 60 kg m^2"
+products_of_inertia = "0, 0, 0 kg m^2"
+# For drawings only.
+size = "1.2, 1, 1 m"
+
+[initial]
+angular_velocity = "0, 0.06, 0 deg/s"
+# Or: { mrp = [0, 0, 0] }, { axis = [0, 0, 1], angle = "10 deg" },
+# { euler = "0, 0, 10 deg", sequence = "ZYX", direction = "N to B" }.
+attitude = { quaternion = [1, 0, 0, 0], scalar = "first" }
+"#;
+
+const IMBALANCE: &str = r#"# As the wheel's data sheet states it. The phase is the angle from the force to the torque.
+imbalance = { static = "1 g cm", dynamic = "20 g cm^2", phase = "0 deg" }
+"#;
+
+const PYRAMID: &str = r#"
+# Four DGVSCMGs named cmg1 to cmg4. Their outer gimbal axes lean outwards from the hub's z axis by the
+# half-angle; their spin axes at zero angles are along the tangent.
+[[device]]
+name = "cmg"
+kind = "dgvscmg"
+layout.pyramid = { count = 4, half_angle = "54.74 deg", first_azimuth = "0 deg", radius = "30 cm", axis = "z" }
+imbalance = { static = "1 g cm", dynamic = "20 g cm^2", phase = "0 deg" }
+"#;
+
+const TAIL: &str = r#"
+# What happens over time, for example:
+# [[at]]
+# time = "5 s"
+# joint = "wheel1.wheel"
+# brake = true
+
+[run]
+duration = "10 s"
+# Steps are chosen for a relative tolerance; or: integrator = "rk4", step = "0.1 ms".
+integrator = "dop853"
+tolerance = 1e-11
+
+[output]
+# Ten samples in a turn of the wheel, or more.
+rate = "1 kHz"
+formats = ["csv"]
+# columns = ["omega", "attitude", "loads"]
+
+[[requirement]]
+name = "rate"
+quantity = "omega"
+statistic = "peak"
+limit = "1 deg/s"
+"#;
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::file::from_toml;
+
+    #[test]
+    fn every_example_is_a_scenario_without_warning() {
+        let kinds = BuiltInKind::ALL.iter().map(|kind| kind.name());
+        for what in kinds.chain(["pyramid", "wheels"]) {
+            let text = example(what).expect("an example");
+            let read = from_toml(what, &text, Path::new(""));
+            let (_, warnings) = read.unwrap_or_else(|errors| panic!("{what}:\n{errors}\n{text}"));
+            assert!(warnings.all.is_empty(), "{what}:\n{warnings}");
+        }
+    }
+}

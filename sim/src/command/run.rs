@@ -1,0 +1,253 @@
+//! `run`: scenario files into results and reports.
+//!
+//! Results are written while the run goes on, under the name with `.partial` at its end, and get
+//! their name when they are complete. The report is written last.
+
+use std::io::{BufRead as _, IsTerminal as _, Write as _};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::check::sampling;
+use super::error::CommandError;
+use super::{Files, print};
+use crate::engine::{Outcome, run};
+use crate::file::{Diagnostics, from_file};
+use crate::record::partial::Partial;
+use crate::record::{Csv, Many, Npz, Recorder, Statistics, Verdict};
+use crate::report::Report;
+use crate::scenario::{Format, Scenario};
+
+pub(super) const HELP: &str = "\
+Examples:
+  precess run bus.toml
+      results and a report into the folder precess-out
+  precess run scenarios/*.toml --out results --set run.duration='2 s'
+      two seconds of each
+
+The exit code is 0 where every run was complete and met its requirements, 2 where one did not, 1 on an
+error. Ctrl-C ends a run early: what was computed is complete, and says so; a second one ends at once.";
+
+/// The exit code of a run that is complete in its files, but not as its scenario wants it.
+const UNMET: u8 = 2;
+
+/// The options of `run`.
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    #[command(flatten)]
+    files: Files,
+    /// Folder for the results; made if it is missing.
+    #[arg(long, value_name = "FOLDER", default_value = "precess-out")]
+    out: PathBuf,
+    /// Replace results that are there.
+    #[arg(long)]
+    force: bool,
+    /// Write no report.
+    #[arg(long)]
+    no_report: bool,
+}
+
+/// How often Ctrl-C was pressed.
+static INTERRUPTS: AtomicUsize = AtomicUsize::new(0);
+
+impl Run {
+    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+        let scenarios = read_all(&self.files)?;
+        for (scenario, _) in &scenarios {
+            may_write(&self.out, &self.names(scenario), self.force)?;
+        }
+        std::fs::create_dir_all(&self.out)
+            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
+        watch_interrupts();
+        let mut met = true;
+        for (scenario, reports) in &scenarios {
+            met &= self.run(scenario, reports)?;
+            if INTERRUPTS.load(Ordering::Relaxed) > 0 {
+                break;
+            }
+        }
+        Ok(if met { ExitCode::SUCCESS } else { ExitCode::from(UNMET) })
+    }
+
+    /// The files of a scenario.
+    fn names(&self, scenario: &Scenario) -> Vec<String> {
+        let mut names: Vec<_> = scenario
+            .output
+            .formats
+            .iter()
+            .map(|format| format!("{}.{}", scenario.name, extension(*format)))
+            .collect();
+        if !self.no_report {
+            names.push(format!("{}.html", scenario.name));
+        }
+        names
+    }
+
+    /// Runs one; whether it was complete and met its requirements.
+    fn run(&self, scenario: &Scenario, reports: &Diagnostics) -> Result<bool, CommandError> {
+        let mut files = Vec::new();
+        for format in &scenario.output.formats {
+            let path = self.out.join(format!("{}.{}", scenario.name, extension(*format)));
+            files.push(recorder(*format, &path)?);
+        }
+        let warnings: Vec<_> = reports.all.iter().map(|warning| warning.message.clone()).collect();
+        let mut report = Report::new(scenario, &warnings);
+        let mut statistics = Statistics::new(&scenario.requirements);
+        let mut all: Vec<&mut dyn Recorder> = vec![&mut statistics, &mut report];
+        for file in &mut files {
+            all.push(file.as_mut());
+        }
+        let outcome = with_progress(scenario, &mut Many::new(all))?;
+        if !self.no_report {
+            let path = self.out.join(format!("{}.html", scenario.name));
+            let page = report.html(&outcome).map_err(|e| CommandError::Other(e.to_string()))?;
+            write_whole(&path, &page)?;
+        }
+        let files: Vec<_> = self
+            .names(scenario)
+            .iter()
+            .map(|name| self.out.join(name).display().to_string())
+            .collect();
+        print(&report.summary(&outcome, &files));
+        for warning in &warnings {
+            eprintln!("warning: {warning}");
+        }
+        Ok(outcome.end.is_complete() && statistics.verdicts().iter().all(Verdict::is_met))
+    }
+}
+
+/// Reads all files, or reports what is wrong with all of them.
+pub(super) fn read_all(files: &Files) -> Result<Vec<(Scenario, Diagnostics)>, CommandError> {
+    let overrides = files.overrides.overrides();
+    let mut scenarios: Vec<(Scenario, Diagnostics)> = Vec::new();
+    let mut failed = None;
+    for path in &files.files {
+        match from_file(path, &overrides) {
+            Ok((scenario, mut reports)) => {
+                if scenarios.iter().any(|(other, _)| other.name == scenario.name) {
+                    let message = format!(
+                        "two scenarios are named `{}`, and their results have one name; give one \
+                         of them another `name`",
+                        scenario.name
+                    );
+                    return Err(CommandError::Other(message));
+                }
+                sampling(&scenario, &mut reports);
+                scenarios.push((scenario, reports));
+            }
+            Err(errors) => {
+                if let Some(CommandError::Scenario(earlier)) =
+                    failed.replace(CommandError::Scenario(errors))
+                {
+                    eprintln!("{earlier}");
+                }
+            }
+        }
+    }
+    failed.map_or(Ok(scenarios), Err)
+}
+
+/// Runs a scenario with a progress bar, which a pipe does not get, until Ctrl-C.
+pub(super) fn with_progress(
+    scenario: &Scenario,
+    recorder: &mut dyn Recorder,
+) -> Result<Outcome, CommandError> {
+    const PARTS: u64 = 1000;
+    let bar = ProgressBar::new(PARTS);
+    if let Ok(style) =
+        ProgressStyle::with_template("{msg:24} {wide_bar} {percent:>3} %, {eta} left")
+    {
+        bar.set_style(style);
+    }
+    bar.set_message(scenario.name.clone());
+    let duration = scenario.settings.duration;
+    let outcome = run(scenario, recorder, &mut |time| {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            clippy::cast_precision_loss,
+            reason = "a share of a thousand"
+        )]
+        bar.set_position((time / duration * PARTS as f64) as u64);
+        if INTERRUPTS.load(Ordering::Relaxed) > 0 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    bar.finish_and_clear();
+    let name = scenario.name.clone();
+    outcome.map_err(|source| CommandError::Run { name, source })
+}
+
+/// The first Ctrl-C ends the run, the second the program.
+pub(super) fn watch_interrupts() {
+    const INTERRUPTED: i32 = 130;
+    // Where no handler can be set, Ctrl-C ends the program, and leaves `.partial` files.
+    let _ = ctrlc::set_handler(|| {
+        if INTERRUPTS.fetch_add(1, Ordering::Relaxed) > 0 {
+            std::process::exit(INTERRUPTED);
+        }
+    });
+}
+
+fn extension(format: Format) -> &'static str {
+    match format {
+        Format::Csv => "csv",
+        Format::Npz => "npz",
+        Format::Parquet => "parquet",
+    }
+}
+
+fn recorder(format: Format, path: &Path) -> Result<Box<dyn Recorder>, CommandError> {
+    match format {
+        Format::Csv => Ok(Box::new(Csv::new(path))),
+        Format::Npz => Ok(Box::new(Npz::new(path))),
+        #[cfg(feature = "parquet")]
+        Format::Parquet => Ok(Box::new(crate::record::Parquet::new(path))),
+        #[cfg(not(feature = "parquet"))]
+        Format::Parquet => Err(CommandError::Other(
+            "this program was built without Parquet; build it with `--features parquet`, or record \
+             csv or npz"
+                .to_owned(),
+        )),
+    }
+}
+
+/// Asks on a terminal whether results may be replaced; refuses elsewhere.
+pub(super) fn may_write(folder: &Path, names: &[String], force: bool) -> Result<(), CommandError> {
+    let Some(path) = names.iter().map(|name| folder.join(name)).find(|path| path.exists()) else {
+        return Ok(());
+    };
+    if path.is_dir() {
+        return Err(CommandError::Exists(path));
+    }
+    if force {
+        return Ok(());
+    }
+    let stdin = std::io::stdin();
+    if !stdin.is_terminal() || !std::io::stderr().is_terminal() {
+        return Err(CommandError::Exists(path));
+    }
+    eprint!("{} exists. Replace it and the results beside it? [y/N] ", path.display());
+    let _ = std::io::stderr().flush();
+    let mut answer = String::new();
+    let read = stdin.lock().read_line(&mut answer);
+    if read.is_ok() && matches!(answer.trim(), "y" | "Y" | "yes") {
+        Ok(())
+    } else {
+        Err(CommandError::Exists(path))
+    }
+}
+
+/// Writes a text under its name once it is on the disk.
+pub(super) fn write_whole(path: &Path, text: &str) -> Result<(), CommandError> {
+    let failure = |source| CommandError::Io { path: path.to_owned(), source };
+    let mut partial = Partial::create(path).map_err(failure)?;
+    partial.write_all(text.as_bytes()).map_err(failure)?;
+    partial.finish().map_err(failure)
+}

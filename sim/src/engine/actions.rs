@@ -1,0 +1,129 @@
+//! What happens at the start of a segment: locks at end stops, new drives, brakes.
+
+use precess_dynamics::Mode;
+use precess_dynamics::kind::Each;
+
+use super::dop853::same;
+use super::inputs::LOCKED;
+use super::{End, Run, RunError};
+use crate::scenario::{Action, Drive, Profile};
+
+impl Run<'_> {
+    /// Applies what is due at the present time and begins the segment.
+    pub(super) fn begin_segment(&mut self) -> Result<(), RunError> {
+        loop {
+            let end = self.segments.end_after(self.time);
+            self.system.acting.begin(self.time, end);
+            self.apply_actions()?;
+            // Two times that differ by rounding are one.
+            if same(self.time, end) {
+                self.time = end;
+                if end < self.duration() {
+                    continue;
+                }
+                self.end = Some(End::Finished);
+                return Ok(());
+            }
+            self.stepper.begin(&self.system, [self.time, end], &self.moment)?;
+            self.stepper.now(&self.system, &mut self.moment);
+            self.at_boundary = false;
+            return Ok(());
+        }
+    }
+
+    fn apply_actions(&mut self) -> Result<(), RunError> {
+        if let Some((joint, bound)) = self.stopped.take() {
+            let lost = self.brake(&[joint])?;
+            let place = &self.system.layout.joints[joint];
+            let (name, [unit, ..]) = (&place.name, place.info.units());
+            let text =
+                format!("{name} reaches its end stop at {bound} {unit}; locked, {lost} J lost");
+            self.note(self.time, text);
+        }
+        let changes = self.segments.due(self.time).to_vec();
+        let mut brakes = Vec::new();
+        for change in &changes {
+            self.check_driven(change.joint, &change.action)?;
+            if change.action == Action::Drive(Drive::Locked) {
+                self.check_at_rest(change.joint)?;
+            }
+        }
+        for change in changes {
+            match &change.action {
+                Action::Drive(drive) => {
+                    self.system.acting.set_drive(change.joint, drive);
+                    let words = match drive {
+                        Drive::Torque { .. } => "driven by a torque",
+                        Drive::Acceleration(_) => "accelerates as prescribed",
+                        Drive::Locked => "locked",
+                    };
+                    let name = &self.system.layout.joints[change.joint].name;
+                    let text = format!("{name}: {words}");
+                    self.note(self.time, text);
+                }
+                Action::Brake => brakes.push(change.joint),
+            }
+        }
+        if !brakes.is_empty() {
+            let lost = self.brake(&brakes)?;
+            let names = brakes.iter().map(|joint| self.system.layout.joints[*joint].name.as_str());
+            let names = names.collect::<Vec<_>>().join(", ");
+            self.note(self.time, format!("{names}: braked, {lost} J lost"));
+        }
+        Ok(())
+    }
+
+    /// Stops joints impulsively, locks them, and enters the loss; returns it, J.
+    fn brake(&mut self, joints: &[usize]) -> Result<f64, RunError> {
+        let mut inputs = self.system.inputs(self.time, &self.moment.state);
+        for (joint, mode) in inputs.modes.values_mut().enumerate() {
+            if joints.contains(&joint) {
+                *mode = Mode::Locked;
+            }
+        }
+        let stopped = self.system.spacecraft.stop(&self.moment.state, &inputs);
+        let stopped = stopped.map_err(|source| RunError::solve(&self.system, self.time, source))?;
+        for joint in joints {
+            self.system.acting.set_drive(*joint, LOCKED);
+        }
+        self.moment.state = stopped.state;
+        self.lost += stopped.energy_lost;
+        Ok(stopped.energy_lost)
+    }
+
+    /// Rejects a drive of a joint that its kind keeps at its rate, and a locked joint that moves.
+    pub(super) fn check_drives(&self) -> Result<(), RunError> {
+        for (joint, drive) in self.scenario.drives.iter().enumerate() {
+            self.check_driven(joint, &Action::Drive(drive.clone()))?;
+            if *drive == Drive::Locked {
+                self.check_at_rest(joint)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_driven(&self, joint: usize, action: &Action) -> Result<(), RunError> {
+        let place = &self.system.layout.joints[joint];
+        let none = match action {
+            Action::Drive(Drive::Torque { profile, .. } | Drive::Acceleration(profile)) => {
+                Profile::is_zero(profile)
+            }
+            Action::Drive(Drive::Locked) | Action::Brake => false,
+        };
+        if place.info.driven || none {
+            return Ok(());
+        }
+        Err(RunError::NotDriven { time: self.time, joint: place.name.clone() })
+    }
+
+    fn check_at_rest(&self, joint: usize) -> Result<(), RunError> {
+        let layout = &self.system.layout;
+        let [_, rate] = layout.joint(joint, &self.moment.state, self.stepper.turns());
+        if rate == 0.0 {
+            return Ok(());
+        }
+        let place = &layout.joints[joint];
+        let (time, joint, [_, unit, ..]) = (self.time, place.name.clone(), place.info.units());
+        Err(RunError::LockedJointMoves { time, joint, rate, unit })
+    }
+}

@@ -1,0 +1,130 @@
+//! Checks of the engine: what a run does, against closed forms and loops over the solver.
+
+mod changes;
+mod conservation;
+mod stops;
+mod table1;
+mod wrenches;
+
+use std::ops::ControlFlow;
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::{
+    BalancedReactionWheel, Gravity, HingedPanel, Hub, HubMode, JointArray, Quaternion, State,
+};
+
+use super::{Outcome, run};
+use crate::record::{Header, RecordError, Recorder};
+use crate::scenario::{Drive, IntegratorChoice, Output, Profile, Scenario, Set, Settings, Source};
+
+pub(crate) const DOP853: IntegratorChoice = IntegratorChoice::Dop853 { tolerance: 1e-13 };
+
+/// Keeps every sample.
+#[derive(Default)]
+pub(crate) struct Kept {
+    pub(crate) header: Option<Header>,
+    pub(crate) rows: Vec<Vec<f64>>,
+    pub(crate) finished: bool,
+}
+
+impl Recorder for Kept {
+    fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
+        self.header = Some(header.clone());
+        Ok(())
+    }
+
+    fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
+        self.rows.push(row.to_vec());
+        Ok(())
+    }
+
+    fn finish(&mut self, _: &Outcome) -> Result<(), RecordError> {
+        self.finished = true;
+        Ok(())
+    }
+}
+
+impl Kept {
+    /// The history of a column.
+    pub(crate) fn column(&self, name: &str) -> Vec<f64> {
+        let header = self.header.as_ref().expect("a run has begun");
+        let index = header.index(name).unwrap_or_else(|| panic!("no column {name}"));
+        self.rows.iter().map(|row| row[index]).collect()
+    }
+
+    pub(crate) fn last(&self, name: &str) -> f64 {
+        *self.column(name).last().expect("a sample")
+    }
+}
+
+/// Runs a scenario to its end.
+pub(crate) fn kept(scenario: &Scenario) -> (Outcome, Kept) {
+    let mut kept = Kept::default();
+    let outcome = run(scenario, &mut kept, &mut |_| ControlFlow::Continue(()));
+    (outcome.unwrap_or_else(|error| panic!("{error}")), kept)
+}
+
+/// A scenario with every joint driven by no torque, everything at rest.
+pub(crate) fn scenario(names: &[&str], devices: Set, duration: f64) -> Scenario {
+    let joints = devices.iter().map(|device| device.kind().joints().len()).sum();
+    let free = Drive::Torque { profile: Profile::ZERO, limit: None };
+    let hub = Hub {
+        m_b: 100.0,
+        r_bc_b: Vector3::zeros(),
+        i_b_bc: Matrix3::from_diagonal(&Vector3::new(30.0, 40.0, 50.0)),
+    };
+    let mut scenario = Scenario {
+        name: "check".to_owned(),
+        title: "Check".to_owned(),
+        description: String::new(),
+        hub,
+        hub_size: Vector3::repeat(1.0),
+        names: names.iter().map(|name| (*name).to_owned()).collect(),
+        initial: State {
+            r_b_n: Vector3::zeros(),
+            r_b_n_dot: Vector3::zeros(),
+            attitude: Quaternion { q0: 1.0, q1: 0.0, q2: 0.0, q3: 0.0 },
+            omega: Vector3::zeros(),
+            devices: Vec::new(),
+        },
+        devices,
+        hub_mode: HubMode::Free,
+        gravity: Gravity::None,
+        drives: vec![free; joints],
+        stops: Vec::new(),
+        wrenches: Vec::new(),
+        changes: Vec::new(),
+        crossings: Vec::new(),
+        settings: Settings { duration, integrator: DOP853 },
+        output: Output { rate: 20.0 / duration, columns: Vec::new(), formats: Vec::new() },
+        requirements: Vec::new(),
+        source: Source::default(),
+    };
+    let spacecraft = scenario.spacecraft().expect("it is accepted");
+    scenario.initial = State::at_rest_for(&spacecraft);
+    scenario
+}
+
+/// Coordinate and rate of a joint at the start.
+pub(crate) fn set_joint(scenario: &mut Scenario, joint: usize, state: [f64; 2]) {
+    let mut joints = scenario.initial.devices.iter_mut().flat_map(JointArray::as_mut_slice);
+    *joints.nth(joint).expect("a joint") = state;
+}
+
+/// A panel whose centre of mass is on its hinge: on a clamped hub it turns at a constant rate.
+pub(crate) fn panel() -> HingedPanel {
+    HingedPanel::bare_panel(4.0, Matrix3::from_diagonal(&Vector3::new(0.5, 0.5, 0.8)))
+}
+
+/// A rotor of 0.2 kg m² about its axis.
+pub(crate) fn wheel() -> BalancedReactionWheel {
+    BalancedReactionWheel::bare_wheel(4.0, 0.2, 0.1)
+}
+
+/// A run of the panel on a clamped hub at a rate.
+pub(crate) fn turning_panel(rate: f64, duration: f64) -> Scenario {
+    let mut scenario = scenario(&["panel"], vec![panel().into()], duration);
+    scenario.hub_mode = HubMode::Fixed;
+    set_joint(&mut scenario, 0, [0.0, rate]);
+    scenario
+}

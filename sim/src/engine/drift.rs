@@ -1,0 +1,147 @@
+//! [`Conserved`]: energy less work and both momenta, and how far they drift; by running maxima, so
+//! that memory does not grow with the run.
+//!
+//! Drift is counted in units that cannot vanish by cancellation: the largest kinetic energy plus the
+//! integral of sum |u * rate|, and for each momentum the sum over the bodies of the magnitudes of
+//! their momenta, its largest. The units are those at the end of the run: drift is the largest
+//! departure over the final unit, which is what the largest share of any entry would be.
+
+use nalgebra::Vector3;
+use precess_dynamics::{About, Gravity, HubMode, Inputs, SolveError, State};
+
+use super::integrator::Moment;
+use super::kinematics::momenta;
+use super::system::{System, lumped};
+use crate::scenario::{Scenario, Set};
+
+/// Departure from the start, each part in its own unit (see the module); none of what is not
+/// conserved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drift {
+    /// |energy + loss in brakes - work - initial energy|, unit: largest kinetic energy + integral
+    /// of sum |u * rate|.
+    pub energy: Option<f64>,
+    /// |linear momentum - initial|, unit: sum over the bodies of magnitudes, its largest. None where
+    /// gravity, a wrench or what holds the hub acts from outside.
+    pub linear: Option<f64>,
+    /// |angular momentum - initial| about the inertial origin, unit and condition as for the linear
+    /// one.
+    pub angular: Option<f64>,
+}
+
+/// Running maxima of departures and units.
+#[derive(Clone, Debug)]
+pub(crate) struct Conserved {
+    /// Whether momentum is conserved.
+    isolated: bool,
+    start: Option<Entry>,
+    departures: [f64; 3],
+    /// Largest kinetic energy and throughput; sums of magnitudes of linear and angular momentum.
+    kinetic: f64,
+    throughput: f64,
+    magnitudes: [f64; 2],
+}
+
+/// What is compared with the start.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    energy: f64,
+    linear: Vector3<f64>,
+    angular: Vector3<f64>,
+}
+
+impl Conserved {
+    pub(crate) fn new(scenario: &Scenario, system: &System<'_>) -> Self {
+        let isolated = scenario.gravity == Gravity::None
+            && scenario.hub_mode == HubMode::Free
+            && !system.acting.has_wrenches()
+            && !lumped(scenario);
+        Self {
+            isolated,
+            start: None,
+            departures: [0.0; 3],
+            kinetic: 0.0,
+            throughput: 0.0,
+            magnitudes: [0.0; 2],
+        }
+    }
+
+    /// Enters a moment; `lost` is the energy that brakes have taken so far, J.
+    pub(crate) fn enter(
+        &mut self,
+        scenario: &Scenario,
+        system: &System<'_>,
+        time: f64,
+        moment: &Moment,
+        lost: f64,
+    ) -> Result<(), SolveError> {
+        let Moment { state, integrals: [work, throughput] } = moment;
+        let [kinetic, potential] = energies(system, time, state)?;
+        let mut entry = Entry {
+            energy: kinetic + potential + lost - work,
+            linear: Vector3::zeros(),
+            angular: Vector3::zeros(),
+        };
+        self.kinetic = larger(self.kinetic, kinetic);
+        self.throughput = larger(self.throughput, *throughput);
+        if self.isolated {
+            let momentum = system.spacecraft.momentum(state, About::InertialOrigin)?;
+            (entry.linear, entry.angular) = (momentum.linear, momentum.angular);
+            let mut magnitudes = [0.0; 2];
+            momenta(&scenario.hub, system.acting.chains(), state, |body| {
+                magnitudes[0] += body.linear.norm();
+                magnitudes[1] += body.angular.norm();
+            });
+            for (largest, magnitude) in self.magnitudes.iter_mut().zip(magnitudes) {
+                *largest = larger(*largest, magnitude);
+            }
+        }
+        let start = *self.start.get_or_insert(entry);
+        let departures = [
+            (entry.energy - start.energy).abs(),
+            (entry.linear - start.linear).norm(),
+            (entry.angular - start.angular).norm(),
+        ];
+        for (largest, departure) in self.departures.iter_mut().zip(departures) {
+            *largest = larger(*largest, departure);
+        }
+        Ok(())
+    }
+
+    /// The largest drift of each quantity so far.
+    pub(crate) fn drift(&self) -> Drift {
+        let [energy, linear, angular] = self.departures;
+        let of_momentum = |departure, unit| self.isolated.then(|| share(departure, unit));
+        Drift {
+            energy: Some(share(energy, self.kinetic + self.throughput)),
+            linear: of_momentum(linear, self.magnitudes[0]),
+            angular: of_momentum(angular, self.magnitudes[1]),
+        }
+    }
+}
+
+/// Kinetic energy, and potential energy of gravity and springs, J.
+pub(crate) fn energies(
+    system: &System<'_>,
+    time: f64,
+    state: &State<Set>,
+) -> Result<[f64; 2], SolveError> {
+    if !system.has_potential() {
+        return Ok([system.spacecraft.energy(state)?, 0.0]);
+    }
+    let inputs: Inputs<Set> = system.inputs(time, state);
+    let found = system.spacecraft.accelerations(state, &inputs)?;
+    system.count(1);
+    let ledger = system.spacecraft.ledger(state, &inputs, &found)?;
+    Ok([ledger.kinetic, ledger.gravity + ledger.springs])
+}
+
+/// The larger of two, and NaN once one of them is: a drift that is no number is no small drift.
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
+/// Nothing moves and nothing drifts: no drift, not 0/0. A NaN stays one.
+fn share(departure: f64, unit: f64) -> f64 {
+    if departure == 0.0 { 0.0 } else { departure / unit }
+}

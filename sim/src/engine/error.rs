@@ -1,0 +1,253 @@
+//! [`RunError`]: why a run could not be started, or what ended it early.
+
+use std::fmt;
+
+use precess_dynamics::{ParameterError, Quantity, SolveError};
+
+use super::system::System;
+use crate::record::RecordError;
+use crate::scenario::ScenarioError;
+
+/// A run that could not be started or finished.
+#[derive(Debug)]
+pub enum RunError {
+    /// The scenario is rejected: everything that is wrong with it.
+    Scenario(Vec<ScenarioError>),
+    /// The solver rejects the spacecraft.
+    Parameters(ParameterError),
+    /// The solver cannot solve a state of the run.
+    Solve {
+        /// Simulated time, s.
+        time: f64,
+        /// The name of the device that it is about, where there is one.
+        device: Option<String>,
+        /// The solver's error.
+        source: SolveError,
+    },
+    /// A joint is to be locked while it moves.
+    LockedJointMoves {
+        /// Simulated time, s.
+        time: f64,
+        /// Its coordinate: `wheel1.theta`.
+        joint: String,
+        /// Its rate.
+        rate: f64,
+        /// The rate's unit: rad/s or m/s.
+        unit: &'static str,
+    },
+    /// A joint that its kind keeps at its rate is to be driven, locked or stopped.
+    NotDriven {
+        /// Simulated time, s.
+        time: f64,
+        /// Its coordinate.
+        joint: String,
+    },
+    /// A joint starts beyond an end stop.
+    BeyondStop {
+        /// Its coordinate.
+        joint: String,
+        /// The coordinate's value.
+        value: f64,
+        /// Lowest and highest.
+        stops: [f64; 2],
+        /// The unit of all three: rad or m.
+        unit: &'static str,
+    },
+    /// A crossing is of a column that is none of the state.
+    Crossing {
+        /// The name of the crossing.
+        name: String,
+        /// The column.
+        column: String,
+        /// The nearest names of columns of the state.
+        nearest: Vec<String>,
+    },
+    /// More steps than a run of this length should need.
+    TooManySteps {
+        /// Simulated time reached, s.
+        time: f64,
+    },
+    /// The step fell below what the clock resolves.
+    StepTooSmall {
+        /// Simulated time reached, s.
+        time: f64,
+    },
+    /// The motion is too stiff for an explicit method.
+    Stiff {
+        /// Simulated time reached, s.
+        time: f64,
+    },
+    /// The integrator reports what no run of this program should cause.
+    Integrator {
+        /// Simulated time, s.
+        time: f64,
+        /// What it reports.
+        fault: Fault,
+    },
+    /// The samples could not be recorded.
+    Record(RecordError),
+}
+
+/// A report of the integrator that is a fault of this program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// It rejects the span or the first step; the reason is known in its own words only.
+    Input {
+        /// Its words.
+        reason: String,
+    },
+    /// The interpolant was evaluated outside the last step.
+    Interpolation {
+        /// The time of the state, s.
+        time: f64,
+        /// Start of the last step, s.
+        from: f64,
+        /// End of the last step, s.
+        to: f64,
+    },
+    /// It takes the equations for ones with a delay.
+    Delay,
+    /// It solved linear equations and failed; the reason is known in its own words only.
+    LinearAlgebra {
+        /// Its words.
+        reason: String,
+    },
+}
+
+impl RunError {
+    /// An error of the solver at a time.
+    pub(crate) fn solve(system: &System<'_>, time: f64, source: SolveError) -> Self {
+        let device = device_of(&source).and_then(|device| {
+            let joint = system.layout.joints.iter().find(|joint| joint.device == device)?;
+            joint.name.split('.').next().map(str::to_owned)
+        });
+        Self::Solve { time, device, source }
+    }
+
+    /// The simulated time at which it happened, s; none of an error before the start.
+    #[must_use]
+    pub fn time(&self) -> Option<f64> {
+        match self {
+            Self::Solve { time, .. }
+            | Self::LockedJointMoves { time, .. }
+            | Self::NotDriven { time, .. }
+            | Self::TooManySteps { time }
+            | Self::StepTooSmall { time }
+            | Self::Stiff { time }
+            | Self::Integrator { time, .. } => Some(*time),
+            Self::Scenario(_)
+            | Self::Parameters(_)
+            | Self::BeyondStop { .. }
+            | Self::Crossing { .. }
+            | Self::Record(_) => None,
+        }
+    }
+}
+
+/// The device that an error of the solver is about.
+fn device_of(error: &SolveError) -> Option<usize> {
+    match error {
+        SolveError::Singular { device, .. } => *device,
+        SolveError::LockedJointMoves { device, .. }
+        | SolveError::NotDriven { device, .. }
+        | SolveError::Unstable { device, .. } => Some(*device),
+        SolveError::NotFinite { what, .. } | SolveError::Overflow { what } => match what {
+            Quantity::Joint { device, .. }
+            | Quantity::Motor { device, .. }
+            | Quantity::JointAcceleration { device, .. }
+            | Quantity::Wrench { device, .. }
+            | Quantity::Load { device, .. } => Some(*device),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scenario(errors) => {
+                f.write_str("scenario rejected")?;
+                errors.iter().enumerate().try_for_each(|(index, error)| {
+                    write!(f, "{} {error}", if index == 0 { ":" } else { ";" })
+                })
+            }
+            Self::Parameters(error) => write!(f, "spacecraft rejected: {error}"),
+            Self::Solve { time, device: Some(device), source } => {
+                write!(f, "at t = {time} s, `{device}`: {source}")
+            }
+            Self::Solve { time, device: None, source } => write!(f, "at t = {time} s: {source}"),
+            Self::LockedJointMoves { time, joint, rate, unit } => write!(
+                f,
+                "at t = {time} s: {joint} is to be locked but moves at {rate} {unit}, not 0; stop \
+                 it with a brake instead"
+            ),
+            Self::NotDriven { time, joint } => write!(
+                f,
+                "at t = {time} s: the kind of {joint} keeps its rate constant; remove its drive, \
+                 or use a kind that drives it"
+            ),
+            Self::BeyondStop { joint, value, stops: [lower, upper], unit } => write!(
+                f,
+                "{joint} starts at {value} {unit}, beyond its end stops {lower} {unit} and {upper} \
+                 {unit}; start it in between"
+            ),
+            Self::Crossing { name, column, nearest } => {
+                write!(f, "crossing `{name}`: `{column}` is no column of the state")?;
+                nearest.iter().enumerate().try_for_each(|(index, near)| {
+                    let lead = if index == 0 { "; nearest: " } else { ", " };
+                    write!(f, "{lead}`{near}`")
+                })
+            }
+            Self::TooManySteps { time } => write!(
+                f,
+                "the integrator used up its steps at t = {time} s; loosen the tolerance or \
+                 shorten the duration"
+            ),
+            Self::StepTooSmall { time } => write!(
+                f,
+                "the integrator's step fell below rounding at t = {time} s; loosen the tolerance"
+            ),
+            Self::Stiff { time } => write!(
+                f,
+                "the motion turns stiff at t = {time} s, too fast for an explicit method; check \
+                 torques and inertias"
+            ),
+            Self::Integrator { time, fault } => write!(
+                f,
+                "the integrator stopped at t = {time} s: {fault}; this is a fault of the program"
+            ),
+            Self::Record(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RunError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Parameters(source) => Some(source),
+            Self::Solve { source, .. } => Some(source),
+            Self::Record(source) => Some(source),
+            _ => None,
+        }
+    }
+}
+
+impl From<RecordError> for RunError {
+    fn from(error: RecordError) -> Self {
+        Self::Record(error)
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input { reason } => write!(f, "its input is rejected ({reason})"),
+            Self::Interpolation { time, from, to } => {
+                write!(f, "a state at {time} s, outside its last step, {from} s to {to} s")
+            }
+            Self::Delay => f.write_str("equations without a delay are taken for ones with one"),
+            Self::LinearAlgebra { reason } => write!(f, "linear equations failed ({reason})"),
+        }
+    }
+}

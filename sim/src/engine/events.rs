@@ -1,0 +1,270 @@
+//! [`Monitors`]: end stops and crossings, found within the step that passes them.
+//!
+//! A step is searched at its ends and, where a state within it costs next to nothing, at three times
+//! in between; and at the extremum of a joint that approaches its stop at the start of an interval
+//! and leaves it at the end. The passage is bracketed by steps of their own from the start of the
+//! step, so its time is that of the numerical solution, to 1e-12 s or four roundings of the time.
+
+use precess_dynamics::{Attitude, State};
+
+use super::error::RunError;
+use super::inputs::Acting;
+use super::integrator::{Moment, Stepper};
+use super::roots::bracket;
+use super::system::System;
+use crate::record::columns::{Quantity, state_quantities};
+use crate::record::nearest::nearest;
+use crate::scenario::{Drive, EndStop, Scenario, Set, StopAction};
+
+/// Width of the bracket of a passage, s.
+const WIDTH: f64 = 1e-12;
+/// The same in roundings of the time.
+const ROUNDINGS: f64 = 4.0;
+/// Intervals of a step that are searched.
+const INTERVALS: u32 = 4;
+
+/// The end stops and crossings of a scenario.
+pub(crate) struct Monitors<'a> {
+    stops: Vec<&'a EndStop>,
+    crossings: Vec<Watched>,
+    /// States at the ends of an interval and within it.
+    moment: Option<Moment>,
+}
+
+/// A crossing, and the quantity that it is of.
+struct Watched {
+    index: usize,
+    quantity: Quantity,
+    value: f64,
+    ends: bool,
+}
+
+/// What a step has passed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Passage {
+    /// When, s: the last time found before it.
+    pub(crate) time: f64,
+    pub(crate) what: Passed,
+}
+
+/// A stop of a joint or a crossing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Passed {
+    /// The joint and the bound reached, rad or m.
+    Stop { joint: usize, bound: f64, action: StopAction },
+    /// The index of the crossing.
+    Crossing { index: usize, ends: bool },
+}
+
+impl Passage {
+    /// Whether the step ends there.
+    fn cuts(&self) -> bool {
+        !matches!(self.what, Passed::Crossing { ends: false, .. })
+    }
+}
+
+/// A function whose sign changes at a passage: above zero within a stop.
+#[derive(Clone, Copy)]
+struct Function {
+    quantity: Quantity,
+    value: f64,
+    /// One, or minus one of an upper stop.
+    sign: f64,
+    what: Passed,
+}
+
+impl<'a> Monitors<'a> {
+    /// # Errors
+    ///
+    /// [`RunError::Crossing`] of a column that is none of the state, [`RunError::BeyondStop`].
+    pub(crate) fn new(
+        scenario: &'a Scenario,
+        system: &System<'_>,
+        start: &State<Set>,
+    ) -> Result<Self, RunError> {
+        let names = state_quantities(&system.layout);
+        let watched = |(index, crossing): (usize, &crate::scenario::Crossing)| {
+            let found = names.iter().find(|(name, _)| *name == crossing.column);
+            let (_, quantity) = found.ok_or_else(|| RunError::Crossing {
+                name: crossing.name.clone(),
+                column: crossing.column.clone(),
+                nearest: nearest(&crossing.column, names.iter().map(|(name, _)| name.as_str())),
+            })?;
+            let (value, ends) = (crossing.value, crossing.ends);
+            Ok(Watched { index, quantity: *quantity, value, ends })
+        };
+        let crossings = scenario.crossings.iter().enumerate().map(watched);
+        let crossings = crossings.collect::<Result<_, RunError>>()?;
+        let turns = vec![0.0; system.layout.joints.len()];
+        for stop in &scenario.stops {
+            let [value, _] = system.layout.joint(stop.joint, start, &turns);
+            if !(stop.lower..=stop.upper).contains(&value) {
+                let place = &system.layout.joints[stop.joint];
+                let (joint, [unit, ..]) = (place.name.clone(), place.info.units());
+                let stops = [stop.lower, stop.upper];
+                return Err(RunError::BeyondStop { joint, value, stops, unit });
+            }
+        }
+        let moment = Moment { state: start.clone(), integrals: [0.0; 2] };
+        let stops: Vec<_> = scenario.stops.iter().collect();
+        Ok(Self { stops, crossings, moment: Some(moment) })
+    }
+
+    /// What the last step passed, in the order of time, up to the first passage that cuts it.
+    pub(crate) fn passed(
+        &mut self,
+        system: &System<'_>,
+        stepper: &mut Stepper,
+    ) -> Result<Vec<Passage>, RunError> {
+        let functions = self.functions(&system.acting);
+        let mut found = Vec::new();
+        let Some(mut moment) = self.moment.take().filter(|_| !functions.is_empty()) else {
+            return Ok(found);
+        };
+        let searched = search(system, stepper, &functions, &mut moment, &mut found);
+        self.moment = Some(moment);
+        searched?;
+        found.sort_by(|a, b| a.time.total_cmp(&b.time));
+        if let Some(cut) = found.iter().position(Passage::cuts) {
+            found.truncate(cut + 1);
+        }
+        Ok(found)
+    }
+
+    /// The functions that are searched: not those of locked joints.
+    fn functions(&self, acting: &Acting<'_>) -> Vec<Function> {
+        let mut functions = Vec::new();
+        for stop in &self.stops {
+            if matches!(acting.drive(stop.joint), Drive::Locked) {
+                continue;
+            }
+            for (bound, sign) in [(stop.lower, 1.0), (stop.upper, -1.0)] {
+                if bound.is_finite() {
+                    let what = Passed::Stop { joint: stop.joint, bound, action: stop.action };
+                    let quantity = Quantity::Coordinate(stop.joint);
+                    functions.push(Function { quantity, value: bound, sign, what });
+                }
+            }
+        }
+        functions.extend(self.crossings.iter().map(|watched| Function {
+            quantity: watched.quantity,
+            value: watched.value,
+            sign: 1.0,
+            what: Passed::Crossing { index: watched.index, ends: watched.ends },
+        }));
+        functions
+    }
+}
+
+impl Function {
+    fn at(&self, system: &System<'_>, stepper: &Stepper, moment: &Moment) -> f64 {
+        let value = state_value(system, stepper, moment, self.quantity);
+        self.sign * (value - self.value)
+    }
+
+    /// Whether a passage lies between two values: out of a stop, or through a value either way.
+    fn passes(&self, [from, to]: [f64; 2]) -> bool {
+        match self.what {
+            Passed::Stop { .. } => to < 0.0 && to < from,
+            Passed::Crossing { .. } => (from < 0.0 && to >= 0.0) || (from > 0.0 && to <= 0.0),
+        }
+    }
+}
+
+/// Searches the last step.
+fn search(
+    system: &System<'_>,
+    stepper: &mut Stepper,
+    functions: &[Function],
+    moment: &mut Moment,
+    found: &mut Vec<Passage>,
+) -> Result<(), RunError> {
+    let (start, end) = (stepper.time_before(), stepper.time());
+    let intervals = if stepper.is_dense() { INTERVALS } else { 1 };
+    stepper.at(system, start, moment)?;
+    let mut from: Vec<f64> =
+        functions.iter().map(|function| function.at(system, stepper, moment)).collect();
+    let mut rates_from = rates(system, stepper, functions, moment);
+    let mut earlier = start;
+    for interval in 1..=intervals {
+        let later = if interval == intervals {
+            end
+        } else {
+            start + (end - start) * f64::from(interval) / f64::from(intervals)
+        };
+        stepper.at(system, later, moment)?;
+        let to: Vec<f64> =
+            functions.iter().map(|function| function.at(system, stepper, moment)).collect();
+        let rates_to = rates(system, stepper, functions, moment);
+        for (i, function) in functions.iter().enumerate() {
+            let mut span = [earlier, later];
+            let mut values = [from[i], to[i]];
+            if !function.passes(values) {
+                // Towards the stop at first, away from it at the end.
+                if !(rates_from[i] < 0.0 && rates_to[i] > 0.0) {
+                    continue;
+                }
+                let slope = [rates_from[i], rates_to[i]];
+                let [_, extremum] = bracket(span, slope, (later - earlier) * 1e-3, |time| {
+                    stepper.at(system, time, moment)?;
+                    let rate = rates(system, stepper, std::slice::from_ref(function), moment);
+                    Ok::<_, RunError>(rate[0])
+                })?;
+                stepper.at(system, extremum, moment)?;
+                span[1] = extremum;
+                values[1] = function.at(system, stepper, moment);
+                if !function.passes(values) {
+                    continue;
+                }
+            }
+            let width = WIDTH.max(ROUNDINGS * f64::EPSILON * later);
+            let [time, after] = bracket(span, values, width, |time| {
+                stepper.restep(system, time, moment)?;
+                Ok::<_, RunError>(function.at(system, stepper, moment))
+            })?;
+            // Before a stop, so that the joint is within it; after a crossing.
+            let time = if matches!(function.what, Passed::Stop { .. }) { time } else { after };
+            found.push(Passage { time, what: function.what });
+        }
+        (from, rates_from, earlier) = (to, rates_to, later);
+        // Whatever comes later lies beyond a cut.
+        if found.iter().any(Passage::cuts) {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// The rate of each function of a stop; zero of a crossing, which is not searched for extrema.
+fn rates(
+    system: &System<'_>,
+    stepper: &Stepper,
+    functions: &[Function],
+    moment: &Moment,
+) -> Vec<f64> {
+    let rate = |function: &Function| match function.what {
+        Passed::Stop { joint, .. } => {
+            function.sign * system.layout.joint(joint, &moment.state, stepper.turns())[1]
+        }
+        Passed::Crossing { .. } => 0.0,
+    };
+    functions.iter().map(rate).collect()
+}
+
+/// A quantity of the state.
+fn state_value(system: &System<'_>, stepper: &Stepper, moment: &Moment, quantity: Quantity) -> f64 {
+    let state = &moment.state;
+    let joint = |joint| system.layout.joint(joint, state, stepper.turns());
+    match quantity {
+        Quantity::Position(axis) => state.r_b_n[axis],
+        Quantity::Velocity(axis) => state.r_b_n_dot[axis],
+        Quantity::Omega(axis) => state.omega[axis],
+        Quantity::Quaternion(index) => {
+            let q = state.attitude.normalised();
+            [q.q0, q.q1, q.q2, q.q3][index]
+        }
+        Quantity::Coordinate(index) => joint(index)[0],
+        Quantity::Rate(index) => joint(index)[1],
+        _ => f64::NAN,
+    }
+}

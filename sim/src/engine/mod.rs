@@ -1,0 +1,329 @@
+//! Runs a scenario: [`run`] to its end into a recorder, [`Run`] step by step for a program.
+//!
+//! A run is a sequence of segments; within one, everything that acts is smooth. At the start of
+//! each the changes due are applied: brakes, locks at end stops, new drives. A step never spans the
+//! end of a segment, and is cut at an end stop.
+//!
+//! Memory does not grow with the length of a run: samples go to a recorder as they come, drifts are
+//! running maxima, and events beyond the first ten thousand are only counted.
+
+mod actions;
+#[cfg(test)]
+pub(crate) mod checks;
+mod dense;
+mod dop853;
+mod drift;
+mod error;
+mod events;
+mod inputs;
+mod integrator;
+mod kinematics;
+mod outcome;
+mod packing;
+mod rk4;
+mod roots;
+mod row;
+mod sampling;
+mod segments;
+mod system;
+
+use std::ops::ControlFlow;
+
+use precess_dynamics::{JointArray, State};
+
+pub use drift::Drift;
+pub use error::{Fault, RunError};
+pub use outcome::{End, Event, Outcome, Steps};
+
+use drift::Conserved;
+use events::{Monitors, Passage, Passed};
+use integrator::{Moment, Stepper};
+use outcome::EVENTS_MAX;
+pub(crate) use packing::Layout;
+use sampling::Sampling;
+use segments::Segments;
+use system::System;
+
+use crate::record::Recorder;
+use crate::scenario::{Scenario, Set, StopAction};
+
+/// A run in progress.
+pub struct Run<'a> {
+    scenario: &'a Scenario,
+    system: System<'a>,
+    stepper: Stepper,
+    segments: Segments<'a>,
+    monitors: Monitors<'a>,
+    conserved: Conserved,
+    events: Vec<Event>,
+    events_omitted: u64,
+    lost: f64,
+    /// The state at the start of a segment or the end of a step.
+    moment: Moment,
+    time: f64,
+    /// Whether the present time is the end of a segment.
+    at_boundary: bool,
+    /// A joint that has reached a stop which locks it, and the stop.
+    stopped: Option<(usize, f64)>,
+    end: Option<End>,
+    /// Whether an error has ended it.
+    failed: bool,
+}
+
+/// Whether a run goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Advance {
+    /// A step was made.
+    Stepped,
+    /// The run has ended; nothing was done.
+    Ended,
+}
+
+impl<'a> Run<'a> {
+    /// Checks a scenario and prepares its run; no step is made.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError::Scenario`] with everything that is wrong with the scenario, and what can only be
+    /// found with the spacecraft: a joint beyond its stops, a moving joint that is locked, a
+    /// crossing of an unknown column, a state that the solver cannot solve.
+    pub fn new(scenario: &'a Scenario) -> Result<Self, RunError> {
+        let errors = scenario.check();
+        if !errors.is_empty() {
+            return Err(RunError::Scenario(errors));
+        }
+        let spacecraft = scenario.spacecraft().map_err(RunError::Parameters)?;
+        let system = System::new(scenario, spacecraft);
+        let moment = Moment { state: scenario.initial.clone(), integrals: [0.0; 2] };
+        // The solver names what is not finite, and a list of another length.
+        let evaluated = system.spacecraft.energy(&moment.state);
+        evaluated.map_err(|source| RunError::solve(&system, 0.0, source))?;
+        let mut run = Self {
+            stepper: Stepper::new(&system, scenario.settings.integrator, &moment),
+            segments: Segments::new(scenario),
+            monitors: Monitors::new(scenario, &system, &moment.state)?,
+            conserved: Conserved::new(scenario, &system),
+            events: Vec::new(),
+            events_omitted: 0,
+            lost: 0.0,
+            moment,
+            time: 0.0,
+            at_boundary: true,
+            stopped: None,
+            end: None,
+            failed: false,
+            scenario,
+            system,
+        };
+        run.check_drives()?;
+        run.begin_segment()?;
+        run.enter()?;
+        Ok(run)
+    }
+
+    /// Makes one accepted step, and before it whatever is due at the present time.
+    ///
+    /// # Errors
+    ///
+    /// The one that ends the run; the state stays that of the last accepted step.
+    pub fn advance(&mut self) -> Result<Advance, RunError> {
+        if self.end.is_some() || self.failed {
+            return Ok(Advance::Ended);
+        }
+        let advanced = self.make_step();
+        self.failed = advanced.is_err();
+        advanced.map(|()| Advance::Stepped)
+    }
+
+    fn make_step(&mut self) -> Result<(), RunError> {
+        if self.at_boundary {
+            self.begin_segment()?;
+            if self.end.is_some() {
+                return Ok(());
+            }
+        } else {
+            self.stepper.reduce(&self.system)?;
+        }
+        self.stepper.step(&self.system)?;
+        let passed = self.monitors.passed(&self.system, &mut self.stepper)?;
+        let mut reached = self.stepper.time();
+        for Passage { time, what } in passed {
+            match what {
+                Passed::Crossing { index, ends } => {
+                    let name = self.scenario.crossings[index].name.clone();
+                    self.note(time, format!("crossing `{name}`"));
+                    if ends {
+                        reached = time;
+                        self.end = Some(End::Crossing { name });
+                    }
+                }
+                Passed::Stop { joint, bound, action } => {
+                    reached = time;
+                    let place = &self.system.layout.joints[joint];
+                    let (name, [unit, ..]) = (place.name.clone(), place.info.units());
+                    match action {
+                        StopAction::End => {
+                            self.note(
+                                time,
+                                format!("{name} reaches its end stop at {bound} {unit}"),
+                            );
+                            self.end = Some(End::EndStop { joint: name, bound, unit });
+                        }
+                        StopAction::Lock => self.stopped = Some((joint, bound)),
+                    }
+                }
+            }
+        }
+        if reached < self.stepper.time() || self.stopped.is_some() {
+            self.stepper.restep(&self.system, reached, &mut self.moment)?;
+            self.at_boundary = true;
+        } else {
+            self.stepper.now(&self.system, &mut self.moment);
+            self.at_boundary = reached >= self.segments.end_after(self.time);
+        }
+        self.time = reached;
+        self.enter()?;
+        if self.end.is_none() && self.stopped.is_none() && self.time >= self.duration() {
+            self.end = Some(End::Finished);
+        }
+        Ok(())
+    }
+
+    /// The present simulated time, s.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Length of the run, s.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.scenario.settings.duration
+    }
+
+    /// The present state, joint angles counted through every turn.
+    #[must_use]
+    pub fn state(&self) -> State<Set> {
+        let mut state = self.moment.state.clone();
+        let joints = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
+        for ([coordinate, _], turns) in joints.zip(self.stepper.turns()) {
+            *coordinate += turns * std::f64::consts::TAU;
+        }
+        state
+    }
+
+    /// Work of all sources but gravity and springs since the start, J.
+    #[must_use]
+    pub fn work(&self) -> f64 {
+        self.moment.integrals[0]
+    }
+
+    /// Energy lost in brakes and locking end stops so far, J.
+    #[must_use]
+    pub fn energy_lost(&self) -> f64 {
+        self.lost
+    }
+
+    /// How far conserved quantities have drifted so far.
+    #[must_use]
+    pub fn drift(&self) -> Drift {
+        self.conserved.drift()
+    }
+
+    /// Why it has ended; none while it has not, or after an error.
+    #[must_use]
+    pub fn end(&self) -> Option<&End> {
+        self.end.as_ref()
+    }
+
+    /// What has happened so far.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Counts so far.
+    #[must_use]
+    pub fn steps(&self) -> Steps {
+        let [accepted, rejected] = self.stepper.steps();
+        Steps { accepted, rejected, evaluations: self.system.evaluations() }
+    }
+
+    /// The result as it is now, for this reason.
+    #[must_use]
+    pub fn outcome(self, end: End, samples: u64) -> Outcome {
+        Outcome {
+            end_time: self.time,
+            end,
+            steps: self.steps(),
+            samples,
+            drift: self.conserved.drift(),
+            energy_lost: self.lost,
+            events: self.events,
+            events_omitted: self.events_omitted,
+        }
+    }
+
+    fn note(&mut self, time: f64, text: String) {
+        if self.events.len() < EVENTS_MAX {
+            self.events.push(Event { time, text });
+        } else {
+            self.events_omitted += 1;
+        }
+    }
+
+    /// Enters the present moment into the drifts.
+    fn enter(&mut self) -> Result<(), RunError> {
+        self.conserved
+            .enter(self.scenario, &self.system, self.time, &self.moment, self.lost)
+            .map_err(|source| RunError::solve(&self.system, self.time, source))
+    }
+}
+
+/// Runs a scenario into a recorder.
+///
+/// `progress` hears the simulated time after each step, s; if it breaks, the run is cancelled, and
+/// its result is complete up to there. An error during the run ends it likewise:
+/// [`End::Failed`].
+///
+/// # Errors
+///
+/// As [`Run::new`], and [`RunError::Record`] of the recorder, which then is not finished.
+pub fn run(
+    scenario: &Scenario,
+    recorder: &mut dyn Recorder,
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Outcome, RunError> {
+    let mut run = Run::new(scenario)?;
+    let mut sampling = Sampling::new(scenario, &run)?;
+    recorder.begin(sampling.header())?;
+    let end = loop {
+        match run.advance() {
+            Ok(Advance::Ended) => break run.end.take().unwrap_or(End::Finished),
+            Ok(Advance::Stepped) => {}
+            Err(error) => break End::Failed(error),
+        }
+        match sampling.step(&mut run, recorder) {
+            Ok(()) => {}
+            Err(RunError::Record(error)) => return Err(RunError::Record(error)),
+            Err(error) => break End::Failed(error),
+        }
+        if progress(run.time()).is_break() && run.end.is_none() {
+            break End::Cancelled;
+        }
+    };
+    let end = match sampling.last(&mut run, recorder) {
+        Ok(()) => end,
+        Err(RunError::Record(error)) => return Err(RunError::Record(error)),
+        Err(error) => {
+            if end.is_complete() {
+                End::Failed(error)
+            } else {
+                end
+            }
+        }
+    };
+    let outcome = run.outcome(end, sampling.count());
+    recorder.finish(&outcome)?;
+    Ok(outcome)
+}

@@ -1,0 +1,174 @@
+//! [`Layout`]: the state of a spacecraft as one flat vector, with two running integrals at its end.
+//!
+//! Order: r (3), v (3), quaternion (4), omega (3), for each device its coordinates, then its rates,
+//! then work and throughput. The quaternion is integrated as it is and normalised wherever it is
+//! read, so its norm is no degree of freedom of the motion.
+//!
+//! A wheel turns a hundred times in ten seconds. An angle of 600 rad is kept to 1e-13 rad only, and
+//! rounding it in every step changes the sum of the momenta of wheel and hub; so the angle of a
+//! joint is reduced by whole turns, which are counted, once it has completed one. Not that of a
+//! joint with a spring, which counts them itself, nor the coordinate of a sliding joint.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+use precess_dynamics::kind::JointInfo;
+use precess_dynamics::{Attitude, JointArray, Quaternion, State};
+
+use crate::scenario::{Scenario, Set};
+
+/// Numbers of the hub.
+const HUB: usize = 13;
+
+/// Lengths and speeds of a spacecraft's own motion are millimetres to decimetres, its rates degrees
+/// per second: "zero to within the tolerance" is counted in hundredths of SI units for them.
+const SMALL: f64 = 1e-2;
+
+/// Where the numbers of a joint are.
+#[derive(Clone, Debug)]
+pub(crate) struct JointPlace {
+    /// The device, from 0.
+    pub(crate) device: usize,
+    /// The name of its coordinate: `cmg1.gamma_o`.
+    pub(crate) name: String,
+    /// Names and axis, as the kind has them.
+    pub(crate) info: &'static JointInfo,
+    /// Index of the coordinate in the flat vector.
+    coordinate: usize,
+    /// Index of the rate.
+    rate: usize,
+    /// Whether whole turns are taken off the coordinate.
+    wraps: bool,
+}
+
+/// The places of all numbers of a spacecraft.
+#[derive(Clone, Debug)]
+pub(crate) struct Layout {
+    /// The joints in the order of the set.
+    pub(crate) joints: Vec<JointPlace>,
+    work: usize,
+}
+
+impl Layout {
+    pub(crate) fn new(scenario: &Scenario) -> Self {
+        let mut joints = Vec::new();
+        let mut next = HUB;
+        for (index, (device, name)) in scenario.devices.iter().zip(&scenario.names).enumerate() {
+            let (infos, parameters) = (device.kind().joints(), device.parameters());
+            for (info, passive) in infos.iter().zip(&parameters.passive) {
+                joints.push(JointPlace {
+                    device: index,
+                    name: format!("{name}.{}", info.coordinate),
+                    info,
+                    coordinate: next + info.index,
+                    rate: next + infos.len() + info.index,
+                    wraps: !info.slides && passive.stiffness == 0.0,
+                });
+            }
+            next += 2 * infos.len();
+        }
+        Self { joints, work: next }
+    }
+
+    /// How many numbers the flat vector has.
+    pub(crate) fn length(&self) -> usize {
+        self.work + 2
+    }
+
+    /// Writes a state and both integrals to a flat vector.
+    pub(crate) fn pack(&self, state: &State<Set>, integrals: [f64; 2]) -> Vec<f64> {
+        let mut y = vec![0.0; self.length()];
+        y[..3].copy_from_slice(state.r_b_n.as_slice());
+        y[3..6].copy_from_slice(state.r_b_n_dot.as_slice());
+        let Quaternion { q0, q1, q2, q3 } = state.attitude;
+        y[6..10].copy_from_slice(&[q0, q1, q2, q3]);
+        y[10..HUB].copy_from_slice(state.omega.as_slice());
+        let states = state.devices.iter().flat_map(JointArray::as_slice);
+        for (place, [coordinate, rate]) in self.joints.iter().zip(states) {
+            (y[place.coordinate], y[place.rate]) = (*coordinate, *rate);
+        }
+        y[self.work..].copy_from_slice(&integrals);
+        y
+    }
+
+    /// Reads the state, its quaternion normalised.
+    pub(crate) fn unpack(&self, y: &[f64], state: &mut State<Set>) {
+        let vector = |i: usize| Vector3::new(y[i], y[i + 1], y[i + 2]);
+        state.r_b_n = vector(0);
+        state.r_b_n_dot = vector(3);
+        state.attitude = Self::attitude(y).normalised();
+        state.omega = vector(10);
+        let states = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
+        for (place, joint) in self.joints.iter().zip(states) {
+            *joint = [y[place.coordinate], y[place.rate]];
+        }
+    }
+
+    /// The quaternion as it is integrated.
+    pub(crate) fn attitude(y: &[f64]) -> Quaternion {
+        Quaternion { q0: y[6], q1: y[7], q2: y[8], q3: y[9] }
+    }
+
+    /// Work and throughput, J.
+    pub(crate) fn integrals(&self, y: &[f64]) -> [f64; 2] {
+        [y[self.work], y[self.work + 1]]
+    }
+
+    /// Writes time derivatives: those of the hub, of each joint's rate, and of both integrals.
+    pub(crate) fn pack_rates(
+        &self,
+        y: &[f64],
+        hub: [&[f64]; 4],
+        joints: impl Iterator<Item = f64>,
+        powers: [f64; 2],
+        dydt: &mut [f64],
+    ) {
+        let [velocity, acceleration, quaternion_rate, omega_dot] = hub;
+        dydt[..3].copy_from_slice(velocity);
+        dydt[3..6].copy_from_slice(acceleration);
+        dydt[6..10].copy_from_slice(quaternion_rate);
+        dydt[10..HUB].copy_from_slice(omega_dot);
+        for (place, acceleration) in self.joints.iter().zip(joints) {
+            dydt[place.coordinate] = y[place.rate];
+            dydt[place.rate] = acceleration;
+        }
+        dydt[self.work..].copy_from_slice(&powers);
+    }
+
+    /// Whether a joint has completed a turn since its angle was last reduced.
+    pub(crate) fn once_round(&self, y: &[f64]) -> bool {
+        self.joints.iter().any(|place| place.wraps && y[place.coordinate].abs() > TAU)
+    }
+
+    /// Brings the angles into -pi to pi, and counts the whole turns taken off each joint.
+    pub(crate) fn wrap(&self, y: &mut [f64], turns: &mut [f64]) {
+        for (place, turns) in self.joints.iter().zip(turns).filter(|(place, _)| place.wraps) {
+            let whole = (y[place.coordinate] / TAU).round();
+            y[place.coordinate] -= whole * TAU;
+            *turns += whole;
+        }
+    }
+
+    /// Coordinate, turns counted, and rate of a joint.
+    pub(crate) fn joint(&self, joint: usize, state: &State<Set>, turns: &[f64]) -> [f64; 2] {
+        let place = &self.joints[joint];
+        let [coordinate, rate] = state.devices[place.device].as_slice()[place.info.index];
+        [coordinate + turns[joint] * TAU, rate]
+    }
+
+    /// The absolute tolerance of each number.
+    ///
+    /// The throughput has none: its rate has a kink wherever a joint's rate changes sign, at which a
+    /// controlled step would be halved until it hits the kink; it is a unit, of which two digits
+    /// suffice.
+    pub(crate) fn absolute_tolerance(&self, tolerance: f64) -> Vec<f64> {
+        let small = tolerance * SMALL;
+        let mut y = vec![small; self.length()];
+        y[6..10].fill(tolerance);
+        for place in self.joints.iter().filter(|place| !place.info.slides) {
+            y[place.coordinate] = tolerance;
+        }
+        y[self.work..].copy_from_slice(&[tolerance, f64::INFINITY]);
+        y
+    }
+}

@@ -1,0 +1,121 @@
+//! RK4 with fixed steps: that of the flight library, with inputs held from the start of each step.
+//!
+//! Bit-identical to a loop over `Spacecraft::step`: nothing is reduced, normalised or packed in
+//! between. Steps are counted from the start of a segment; the last one is shortened where the
+//! segment's length is no multiple.
+
+use precess_dynamics::kind::Each;
+use precess_dynamics::{JointArray, Mode, SolveError, State};
+
+use super::dop853::same;
+use super::error::RunError;
+use super::integrator::Moment;
+use super::system::{System, work_of};
+use crate::scenario::Set;
+
+/// An integration in progress, from the start of a segment to its end.
+pub(crate) struct Rk4 {
+    step: f64,
+    start: f64,
+    end: f64,
+    /// Steps since the start of the segment.
+    count: u64,
+    before: (f64, Moment),
+    now: (f64, Moment),
+    pub(crate) accepted: u64,
+}
+
+impl Rk4 {
+    pub(crate) fn new(step: f64, moment: Moment) -> Self {
+        let now = (0.0, moment);
+        Self { step, start: 0.0, end: 0.0, count: 0, before: now.clone(), now, accepted: 0 }
+    }
+
+    /// Begins a segment.
+    pub(crate) fn begin(&mut self, [start, end]: [f64; 2], moment: Moment) {
+        (self.start, self.end, self.count) = (start, end, 0);
+        self.now = (start, moment);
+        self.before = self.now.clone();
+    }
+
+    /// One step.
+    pub(crate) fn step(&mut self, system: &System<'_>) -> Result<(), RunError> {
+        #[expect(clippy::cast_precision_loss, reason = "fewer steps than 2^53")]
+        let next = self.start + (self.count + 1) as f64 * self.step;
+        let (time, moment) = &self.now;
+        let (next, length) = if same(next, self.end) {
+            (self.end, self.step)
+        } else if next > self.end {
+            (self.end, self.end - time)
+        } else {
+            (next, self.step)
+        };
+        let stepped = stepped(system, *time, moment, length);
+        let stepped = stepped.map_err(|source| RunError::solve(system, *time, source))?;
+        self.before = std::mem::replace(&mut self.now, (next, stepped));
+        self.count += 1;
+        self.accepted += 1;
+        Ok(())
+    }
+
+    pub(crate) fn time(&self) -> f64 {
+        self.now.0
+    }
+
+    pub(crate) fn time_before(&self) -> f64 {
+        self.before.0
+    }
+
+    pub(crate) fn now(&self) -> &Moment {
+        &self.now.1
+    }
+
+    /// The state within the last step, by a shorter step from the start of it.
+    pub(crate) fn at(&self, system: &System<'_>, time: f64) -> Result<Moment, RunError> {
+        let (from, moment) = &self.before;
+        if time >= self.now.0 || same(time, self.now.0) {
+            return Ok(self.now.1.clone());
+        }
+        if time <= *from || same(time, *from) {
+            return Ok(moment.clone());
+        }
+        stepped(system, *from, moment, time - from)
+            .map_err(|source| RunError::solve(system, *from, source))
+    }
+}
+
+/// The moment after a step.
+fn stepped(
+    system: &System<'_>,
+    time: f64,
+    moment: &Moment,
+    length: f64,
+) -> Result<Moment, SolveError> {
+    system.count(4);
+    let Moment { state, integrals: [work, throughput] } = moment;
+    let inputs = system.inputs(time, state);
+    let rates_times_torques = |next: &State<Set>| {
+        let coordinates = |of: &State<Set>| -> Vec<f64> {
+            let states = of.devices.iter().flat_map(JointArray::as_slice);
+            states.map(|[coordinate, _]| *coordinate).collect()
+        };
+        let moved = coordinates(next).into_iter().zip(coordinates(state));
+        let torques = inputs.motors.values().zip(inputs.modes.values()).zip(moved);
+        torques.fold([0.0, 0.0], |[sum, magnitudes], ((torque, mode), (to, from))| {
+            // Held over the step, so the step's own quadrature of the rate is the coordinate.
+            let work = if mode == Mode::Driven { torque * (to - from) } else { 0.0 };
+            [sum + work, magnitudes + work.abs()]
+        })
+    };
+    if !system.needs_ledger() && !system.acting.has_wrenches() {
+        let next = system.spacecraft.step(state, &inputs, length)?;
+        let [by, magnitudes] = rates_times_torques(&next);
+        return Ok(Moment { state: next, integrals: [work + by, throughput + magnitudes] });
+    }
+    let stepped = system.spacecraft.step_with_work(state, &inputs, length)?;
+    let power = stepped.work;
+    let [driven, magnitudes] = rates_times_torques(&stepped.state);
+    let others = (power.motors - driven).abs() + power.friction.abs() + power.hub.abs();
+    let integrals = [work + work_of(&power), throughput + magnitudes + others];
+    Ok(Moment { state: stepped.state, integrals })
+}

@@ -1,0 +1,229 @@
+//! A scenario file with the files it is based on, and overrides of the command line, as one tree.
+//!
+//! `base = "bus.toml"`, or a list of files: each is read first, in order, beside the file that
+//! names it. Then a key of a later file replaces that of an earlier one; tables are merged key by
+//! key; lists of tables with names are merged by name, other lists replaced whole. Overrides come
+//! last.
+
+use std::path::{Path, PathBuf};
+
+use super::diagnostic::{Diagnostics, Span};
+use super::document::{Entry, Node, Table, Value, parse};
+
+/// Files based on files based on files: no deeper than this.
+const DEPTH_MAX: usize = 16;
+
+/// An override of the command line: `hub.mass="900 kg"`.
+pub type Override = String;
+/// Overrides in their order.
+pub type Overrides = Vec<Override>;
+
+/// Reads a file and all that it is based on.
+pub(super) fn load_file(path: &Path, reports: &mut Diagnostics) -> Node {
+    let mut open = Vec::new();
+    load(path, None, &mut open, reports)
+}
+
+/// The tree of a text that names files relative to a folder.
+pub(super) fn load_text(name: &str, text: &str, folder: &Path, reports: &mut Diagnostics) -> Node {
+    let mut open = Vec::new();
+    let node = parse(name, text, reports);
+    with_bases(node, folder, &mut open, reports)
+}
+
+fn load(
+    path: &Path,
+    named_at: Option<&Span>,
+    open: &mut Vec<PathBuf>,
+    reports: &mut Diagnostics,
+) -> Node {
+    let nothing = Node { value: Value::Table(Table::default()), span: Span::default() };
+    let shown = path.display().to_string();
+    let mut refuse = |message: String, help: &str| match named_at {
+        Some(span) => reports.error(span, message, "", help),
+        None => reports.error_anywhere(message, help),
+    };
+    let real = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    if open.contains(&real) {
+        refuse(format!("{shown} is based on itself"), "remove this `base`");
+        return nothing;
+    }
+    if open.len() >= DEPTH_MAX {
+        refuse(format!("more than {DEPTH_MAX} files based on each other"), "");
+        return nothing;
+    }
+    let bytes = match std::fs::read(path) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            refuse(format!("cannot read {shown}: {error}"), "");
+            return nothing;
+        }
+    };
+    let Ok(text) = String::from_utf8(bytes) else {
+        refuse(format!("{shown} is not UTF-8 text"), "a scenario file is TOML text");
+        return nothing;
+    };
+    open.push(real);
+    let node = parse(&shown, &text, reports);
+    let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
+    let node = with_bases(node, &folder, open, reports);
+    open.pop();
+    node
+}
+
+/// The tree over those it is based on.
+fn with_bases(
+    mut node: Node,
+    folder: &Path,
+    open: &mut Vec<PathBuf>,
+    reports: &mut Diagnostics,
+) -> Node {
+    let Value::Table(table) = &mut node.value else { return node };
+    let Some(position) = table.entries.iter().position(|entry| entry.key == "base") else {
+        return node;
+    };
+    let base = table.entries.remove(position);
+    let names = match base.node.value {
+        Value::Text(name) => vec![(name, base.node.span)],
+        Value::List(names) => names
+            .into_iter()
+            .filter_map(|node| match node.value {
+                Value::Text(name) => Some((name, node.span)),
+                other => {
+                    let what = other.what();
+                    reports.error(&node.span, format!("`base` lists {what}"), "", "name a file");
+                    None
+                }
+            })
+            .collect(),
+        other => {
+            let message = format!("`base` is {}", other.what());
+            reports.error(&base.node.span, message, "", "name a file, or a list of files");
+            Vec::new()
+        }
+    };
+    let mut below = Table::default();
+    for (name, span) in names {
+        let loaded = load(&folder.join(&name), Some(&span), open, reports);
+        if let Value::Table(loaded) = loaded.value {
+            merge(&mut below, loaded);
+        }
+    }
+    if let Value::Table(table) = std::mem::replace(&mut node.value, Value::Boolean(false)) {
+        merge(&mut below, table);
+    }
+    node.value = Value::Table(below);
+    node
+}
+
+/// Puts the keys of a table over those of another.
+fn merge(below: &mut Table, above: Table) {
+    for entry in above.entries {
+        let Some(old) = below.get_mut(&entry.key) else {
+            below.entries.push(entry);
+            continue;
+        };
+        old.key_span = entry.key_span;
+        match (&mut old.node.value, entry.node.value) {
+            (Value::Table(old), Value::Table(new)) => merge(old, new),
+            (Value::List(old), Value::List(new)) if named(old) && named(&new) => {
+                merge_named(old, new);
+            }
+            (old_value, new) => {
+                *old_value = new;
+                old.node.span = entry.node.span;
+            }
+        }
+    }
+}
+
+/// A tree with the keys of another over its own.
+pub(super) fn merged(below: &Node, above: &Node) -> Node {
+    let mut below = below.clone();
+    if let (Value::Table(below), Value::Table(above)) = (&mut below.value, &above.value) {
+        merge(below, above.clone());
+    }
+    below.span = above.span.clone();
+    below
+}
+
+/// Whether every member is a table with a name.
+fn named(list: &[Node]) -> bool {
+    !list.is_empty() && list.iter().all(|node| name_of(node).is_some())
+}
+
+fn name_of(node: &Node) -> Option<&str> {
+    match &node.value {
+        Value::Table(table) => table.text("name"),
+        _ => None,
+    }
+}
+
+fn merge_named(below: &mut Vec<Node>, above: Vec<Node>) {
+    for node in above {
+        let same = below.iter_mut().find(|old| name_of(old) == name_of(&node));
+        match (same, node) {
+            (
+                Some(Node { value: Value::Table(old), .. }),
+                Node { value: Value::Table(new), .. },
+            ) => {
+                merge(old, new);
+            }
+            (_, node) => below.push(node),
+        }
+    }
+}
+
+/// Puts overrides over a tree: `hub.mass="900 kg"`, `device.cmg1.wheel.rate="100 rpm"`.
+pub(super) fn apply(node: &mut Node, overrides: &[Override], reports: &mut Diagnostics) {
+    for text in overrides {
+        let before = reports.all.len();
+        let parsed = parse(&format!("--set {text}"), text, reports);
+        if reports.all.len() > before {
+            continue;
+        }
+        if let (Value::Table(tree), Value::Table(new)) = (&mut node.value, parsed.value) {
+            over(tree, new, reports);
+        }
+    }
+}
+
+/// As [`merge`], but a table over a list of tables with names goes to the member of each name.
+fn over(below: &mut Table, above: Table, reports: &mut Diagnostics) {
+    for entry in above.entries {
+        let Entry { key, key_span, node } = entry;
+        let Some(old) = below.get_mut(&key) else {
+            below.entries.push(Entry { key, key_span, node });
+            continue;
+        };
+        match (&mut old.node.value, node.value) {
+            (Value::Table(old), Value::Table(new)) => over(old, new, reports),
+            (Value::List(old), Value::Table(new)) if named(old) => over_named(old, new, reports),
+            (old_value, new) => {
+                *old_value = new;
+                old.node.span = node.span;
+                old.key_span = key_span;
+            }
+        }
+    }
+}
+
+fn over_named(members: &mut [Node], above: Table, reports: &mut Diagnostics) {
+    for Entry { key, key_span, node } in above.entries {
+        let known: Vec<_> = members.iter().filter_map(name_of).map(str::to_owned).collect();
+        let member = members.iter_mut().find(|member| name_of(member) == Some(&key));
+        match (member, node.value) {
+            (Some(Node { value: Value::Table(old), .. }), Value::Table(new)) => {
+                over(old, new, reports);
+            }
+            (Some(_), other) => {
+                let message = format!("`{key}` is a table, and not {}", other.what());
+                reports.error(&node.span, message, "", "name one of its keys");
+            }
+            (None, _) => {
+                let help = format!("there are {}", known.join(", "));
+                reports.error(&key_span, format!("nothing is named `{key}`"), "", &help);
+            }
+        }
+    }
+}

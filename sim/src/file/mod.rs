@@ -1,0 +1,21 @@
+//! Scenario files: TOML text into a [`Scenario`], or into every error at once.
+//!
+//! ```text
+//! text -> document (keys and values with their places) -> includes and overrides merged
+//!      -> keys read, each by its measure -> Scenario -> checked
+//! ```
+//!
+//! A key that nobody reads is an error; so is a number without a unit. Each error has file, line,
+//! the text underlined, and the remedy.
+
+pub mod diagnostic;
+mod document;
+mod keys;
+mod load;
+pub mod read;
+mod write;
+
+pub use diagnostic::{Diagnostic, Diagnostics, Severity};
+pub use load::{Override, Overrides};
+pub use read::{from_file, from_toml};
+pub use write::to_toml;

@@ -1,0 +1,101 @@
+//! The initial state: `[initial]` of the hub, and the joints' own keys.
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use precess_dynamics::{Attitude, JointStates, Mrp, Quaternion, State};
+
+use super::super::keys::Keys;
+use super::device::Device;
+use super::mount::{axis_and_angle, euler};
+use crate::scenario::Set;
+use crate::units::Measure;
+
+/// A quaternion whose norm is off by more is an error; by less, rounding of what was typed.
+const NORM_MAX: f64 = 1e-4;
+
+/// How an attitude is written.
+const WAYS: [&str; 4] = ["quaternion", "mrp", "euler", "axis"];
+
+pub(super) fn initial(keys: &Keys<'_>, devices: &[Device]) -> State<Set> {
+    let mut state = at_rest(devices);
+    if let Some(initial) = keys.table("initial") {
+        let vector = |key, measure| initial.vector(key, measure).unwrap_or_else(Vector3::zeros);
+        state.r_b_n = vector("position", Measure::LENGTH);
+        state.r_b_n_dot = vector("velocity", Measure::VELOCITY);
+        state.omega = vector("angular_velocity", Measure::ANGULAR_RATE);
+        if let Some(attitude) = initial.table("attitude") {
+            if let Some(found) = attitude_of(&attitude) {
+                state.attitude = found;
+            }
+            attitude.finish();
+        }
+        initial.finish();
+    }
+    let given = devices.iter().flat_map(|device| device.state.iter().copied());
+    for ([coordinate, rate], [q, q_dot]) in state.devices.states_mut().zip(given) {
+        (*coordinate, *rate) = (q, q_dot);
+    }
+    state
+}
+
+/// Everything at rest, for these devices.
+fn at_rest(devices: &[Device]) -> State<Set> {
+    use precess_dynamics::{Hub, Spacecraft};
+    let set: Set = devices.iter().map(|device| device.of_kind).collect();
+    let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
+    // Devices that the solver rejects are reported with the whole; their state is not read.
+    match Spacecraft::new(&hub, &set) {
+        Ok(spacecraft) => State::at_rest_for(&spacecraft),
+        Err(_) => State {
+            r_b_n: Vector3::zeros(),
+            r_b_n_dot: Vector3::zeros(),
+            attitude: Quaternion::identity(),
+            omega: Vector3::zeros(),
+            devices: Vec::new(),
+        },
+    }
+}
+
+/// The attitude of B with respect to N; nothing where it is wrong, which has been reported.
+fn attitude_of(keys: &Keys<'_>) -> Option<Quaternion> {
+    let ways: Vec<_> = WAYS.into_iter().filter(|way| keys.has(way)).collect();
+    match ways.as_slice() {
+        ["quaternion"] => quaternion(keys),
+        ["mrp"] => {
+            let sigma = Vector3::from(keys.numbers::<3>("mrp")?);
+            Some(Quaternion::from(Mrp(sigma)))
+        }
+        ["euler"] => Some(of_axes(&euler(keys, ["N to B", "B to N"])?)),
+        ["axis"] => Some(of_axes(&axis_and_angle(keys)?)),
+        _ => {
+            let message = format!("the attitude is given in {} ways", ways.len());
+            let help = "give one of `quaternion` with `scalar`, `mrp`, `euler` with `sequence` and \
+                        `direction`, or `axis` with `angle`";
+            keys.reports().borrow_mut().error(keys.span(), message, "", help);
+            None
+        }
+    }
+}
+
+fn quaternion(keys: &Keys<'_>) -> Option<Quaternion> {
+    let numbers = keys.numbers::<4>("quaternion");
+    if !keys.has("scalar") {
+        keys.missing("scalar", "scalar = \"first\"");
+    }
+    let first = keys.choice("scalar", &[("first", true), ("last", false)]);
+    let numbers = numbers?;
+    let [q0, q1, q2, q3] =
+        if first? { numbers } else { [numbers[3], numbers[0], numbers[1], numbers[2]] };
+    let norm = Vector3::new(q1, q2, q3).norm().hypot(q0);
+    if (norm - 1.0).abs() > NORM_MAX {
+        keys.error("quaternion", format!("its norm is {norm:.6}"), "a unit quaternion has norm 1");
+        return None;
+    }
+    Some(Quaternion { q0, q1, q2, q3 }.normalised())
+}
+
+/// The attitude of axes whose columns are the new axes in the old ones.
+fn of_axes(axes: &Matrix3<f64>) -> Quaternion {
+    let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*axes));
+    let [q1, q2, q3, q0] = turn.coords.into();
+    Quaternion { q0, q1, q2, q3 }
+}

@@ -1,0 +1,360 @@
+//! The tree of a scenario file into a [`Scenario`].
+
+mod body;
+mod columns;
+mod device;
+mod drive;
+mod initial;
+mod layout;
+mod mount;
+mod output;
+mod over_time;
+
+use std::cell::RefCell;
+use std::path::Path;
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::{Gravity, Hub, HubMode};
+
+use super::diagnostic::{Diagnostics, Span};
+use super::document::Node;
+use super::keys::{Keys, Reports};
+use super::load::{Override, apply, load_file, load_text};
+pub(crate) use device::{body_key, has_inertia};
+
+use crate::scenario::{IntegratorChoice, Scenario, ScenarioError, Settings, Source};
+use crate::units::Measure;
+
+/// The number of the format that this program reads.
+pub const FORMAT: u32 = 1;
+
+/// A scenario and its warnings, or every error.
+pub type Read = Result<(Scenario, Diagnostics), Diagnostics>;
+
+/// Reads a scenario file with the files it is based on, and overrides after it.
+///
+/// # Errors
+/// Everything that is wrong, with its places.
+pub fn from_file(path: &Path, overrides: &[Override]) -> Read {
+    let mut reports = Diagnostics::default();
+    let node = load_file(path, &mut reports);
+    let stem =
+        path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
+    scenario(node, &path.display().to_string(), &stem, &folder, overrides, reports)
+}
+
+/// Reads the text of a scenario; files that it names are beside `folder`.
+///
+/// # Errors
+/// Everything that is wrong, with its places.
+pub fn from_toml(name: &str, text: &str, folder: &Path) -> Read {
+    let mut reports = Diagnostics::default();
+    let node = load_text(name, text, folder, &mut reports);
+    scenario(node, name, name, folder, &[], reports)
+}
+
+fn scenario(
+    mut node: Node,
+    path: &str,
+    stem: &str,
+    folder: &Path,
+    overrides: &[Override],
+    mut reports: Diagnostics,
+) -> Read {
+    // What is no TOML is reported alone: its keys would be guesses.
+    if reports.has_errors() {
+        return Err(reports);
+    }
+    apply(&mut node, overrides, &mut reports);
+    let cell = RefCell::new(reports);
+    let scenario = read(&node, path, stem, folder, &cell);
+    if let Some(scenario) = scenario.as_ref().filter(|_| !cell.borrow().has_errors()) {
+        columns::check(&node, scenario, &cell);
+    }
+    let mut reports = cell.into_inner();
+    match scenario {
+        Some(mut scenario) if !reports.has_errors() => {
+            check(&scenario, &mut reports);
+            if reports.has_errors() {
+                return Err(reports);
+            }
+            scenario.source.filled = super::write::to_toml(&scenario);
+            Ok((scenario, reports))
+        }
+        _ => {
+            if !reports.has_errors() {
+                reports.error_anywhere(format!("{path} is no scenario"), "");
+            }
+            Err(reports)
+        }
+    }
+}
+
+fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -> Option<Scenario> {
+    let keys = Keys::new(node, "", reports)?;
+    match keys.count("format", FORMAT, FORMAT) {
+        None if !keys.has("format") => keys.missing("format", "format = 1"),
+        _ => {}
+    }
+    let name = name(&keys, stem);
+    let title = keys.text("title").unwrap_or(&name).to_owned();
+    let description = keys.text("description").unwrap_or_default().to_owned();
+    let hub = hub(&keys);
+    let devices = device::devices(&keys, folder);
+    let joints = device::Joints::of(&devices);
+    let settings = settings(&keys);
+    let initial = initial::initial(&keys, &devices);
+    let gravity = gravity(&keys);
+    let changes = over_time::changes(&keys, &joints, folder);
+    let wrenches = over_time::wrenches(&keys, &joints, folder);
+    let crossings = output::crossings(&keys);
+    let output = output::output(&keys, settings.as_ref());
+    let requirements = output::requirements(&keys, settings.as_ref());
+    keys.finish();
+    let (hub, hub_size, hub_mode) = hub?;
+    let (drives, stops) = joints.drives_and_stops();
+    let text = reports.borrow().sources.iter().fold(String::new(), |text, source| {
+        text + &format!("# {}\n{}\n", source.name, source.text.trim_end())
+    });
+    Some(Scenario {
+        name,
+        title,
+        description,
+        hub,
+        hub_size,
+        names: devices.iter().map(|device| device.name.clone()).collect(),
+        devices: devices.iter().map(|device| device.of_kind).collect(),
+        initial,
+        hub_mode,
+        gravity,
+        drives,
+        stops,
+        wrenches,
+        changes,
+        crossings,
+        settings: settings?,
+        output: output?,
+        requirements,
+        source: Source { path: path.to_owned(), text, filled: String::new() },
+    })
+}
+
+/// The name of the scenario, which names its files.
+fn name(keys: &Keys<'_>, stem: &str) -> String {
+    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    match keys.text("name") {
+        Some(name) if !name.is_empty() && name.chars().all(fits) && name.len() <= 100 => {
+            name.to_owned()
+        }
+        Some(name) => {
+            let message = format!("`name` is \"{name}\"");
+            keys.error("name", message, "use lower-case letters, digits and hyphens, up to 100");
+            String::new()
+        }
+        None => {
+            let small = stem.to_lowercase();
+            let name: String = small.chars().map(|c| if fits(c) { c } else { '-' }).collect();
+            if name.is_empty() { "scenario".to_owned() } else { name }
+        }
+    }
+}
+
+/// The hub, the size of its box, its mode.
+fn hub(keys: &Keys<'_>) -> Option<(Hub, Vector3<f64>, HubMode)> {
+    let Some(hub) = keys.table("hub") else {
+        if !keys.has("hub") {
+            keys.missing("hub", "[hub]");
+        }
+        return None;
+    };
+    let m_b = hub.required("mass", Measure::MASS);
+    let r_bc_b = hub.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
+    let i_b_bc = body::inertia(&hub, true);
+    let size = hub.vector("size", Measure::LENGTH);
+    let mode = hub.choice("mode", &[("free", true), ("fixed", false)]).unwrap_or(true);
+    let mode = if mode { HubMode::Free } else { HubMode::Fixed };
+    hub.finish();
+    let (m_b, i_b_bc) = (m_b?, i_b_bc?);
+    Some((Hub { m_b, r_bc_b, i_b_bc }, size.unwrap_or_else(|| drawn(m_b, &i_b_bc)), mode))
+}
+
+/// The edges of a homogeneous box of a mass and moments of inertia, m.
+fn drawn(mass: f64, inertia: &Matrix3<f64>) -> Vector3<f64> {
+    let moments = inertia.diagonal();
+    let half = moments.sum() / 2.0;
+    let edge = |moment: f64| (12.0 * (half - moment).max(0.0) / mass).sqrt();
+    let edges = moments.map(edge);
+    if edges.iter().all(|edge| edge.is_finite() && *edge > 0.0) {
+        edges
+    } else {
+        Vector3::repeat(1.0)
+    }
+}
+
+fn gravity(keys: &Keys<'_>) -> Gravity {
+    let Some(gravity) = keys.table("gravity") else { return Gravity::None };
+    let uniform = gravity.vector("uniform", Measure::ACCELERATION);
+    let central = gravity.quantity("central", Measure::GRAVITATIONAL_PARAMETER);
+    gravity.finish();
+    match (uniform, central) {
+        (Some(_), Some(_)) => {
+            gravity.error("central", "gravity is uniform and central", "keep one of them");
+            Gravity::None
+        }
+        (Some(g), None) => Gravity::Uniform(g),
+        (None, Some(mu)) => Gravity::Central { mu },
+        (None, None) => Gravity::None,
+    }
+}
+
+fn settings(keys: &Keys<'_>) -> Option<Settings> {
+    let Some(run) = keys.table("run") else {
+        if !keys.has("run") {
+            keys.missing("run", "[run]");
+        }
+        return None;
+    };
+    let duration = run.required("duration", Measure::TIME);
+    let fixed = run.choice("integrator", &[("dop853", false), ("rk4", true)]).unwrap_or(false);
+    let integrator = if fixed {
+        if run.has("tolerance") {
+            run.error("tolerance", "steps of rk4 are fixed", "give `step`, or take dop853");
+        }
+        run.required("step", Measure::TIME).map(|step| IntegratorChoice::Rk4 { step })
+    } else {
+        if run.has("step") {
+            run.error("step", "dop853 chooses its steps", "give `tolerance`, or take rk4");
+        }
+        let tolerance = run.number("tolerance").unwrap_or(1e-10);
+        Some(IntegratorChoice::Dop853 { tolerance })
+    };
+    run.finish();
+    Some(Settings { duration: duration?, integrator: integrator? })
+}
+
+/// What only the whole tells: bounds and names, and what the solver rejects or warns of.
+fn check(scenario: &Scenario, reports: &mut Diagnostics) {
+    let whole = Span::default();
+    for error in scenario.check() {
+        let (message, help) = match &error {
+            ScenarioError::Range { key, message } => (format!("{key}: {message}"), String::new()),
+            ScenarioError::Parameters(error) => {
+                (named(&error.to_string(), &scenario.names), String::new())
+            }
+        };
+        reports.error_anywhere(message, &help);
+    }
+    if let Ok(spacecraft) = scenario.spacecraft() {
+        for warning in spacecraft.warnings() {
+            let text = named(&warning.to_string(), &scenario.names);
+            reports.all.push(super::Diagnostic {
+                severity: super::Severity::Warning,
+                span: None,
+                message: text,
+                label: String::new(),
+                help: "check moments and products of inertia and their units; it is run as given"
+                    .to_owned(),
+            });
+        }
+    }
+    let _ = whole;
+}
+
+/// `device 0` by its name.
+fn named(message: &str, names: &[String]) -> String {
+    let mut text = message.to_owned();
+    for (index, name) in names.iter().enumerate().rev() {
+        text = text.replace(&format!("device {index}"), name);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::to_toml;
+    use super::*;
+
+    const TABLE_1: &str = include_str!("../../../../scenarios/table1-printed-free.toml");
+
+    fn read_text(text: &str) -> Read {
+        from_toml("test.toml", text, Path::new(""))
+    }
+
+    fn errors(text: &str) -> String {
+        read_text(text).expect_err("an error").to_string()
+    }
+
+    #[test]
+    fn table_1_is_read_to_the_bit() {
+        let (read, _) = read_text(TABLE_1).unwrap_or_else(|errors| panic!("{errors}"));
+        let hub = Hub {
+            m_b: 810.0,
+            r_bc_b: Vector3::new(-0.02e-2, 0.01e-2, 10e-2),
+            i_b_bc: Matrix3::new(900.0, 4.15, 2.93, 4.15, 800.0, 2.75, 2.93, 2.75, 600.0),
+        };
+        assert_eq!(read.hub, hub);
+        let [precess_dynamics::BuiltIn::Dgvscmg(device)] = read.devices[..] else {
+            panic!("{:?}", read.devices);
+        };
+        assert_eq!((device.d, device.i_w_wc.m13, device.r_go_b.x), (8e-3, 0.0154, 0.3));
+        let omega = Vector3::new(4.85_f64.to_radians(), 0.57_f64.to_radians(), 0.0);
+        // By pi / 180 or by 180 / pi: a rounding.
+        assert!((read.initial.omega - omega).norm() < 1e-17);
+    }
+
+    #[test]
+    fn a_scenario_written_is_read_back_the_same() {
+        let text = TABLE_1.replace(
+            "[device.wheel]",
+            "[device.wheel]\ntorque = { sine = \"3 mN m\", \
+            frequency = \"2 Hz\", from = \"1 s\", to = \"2 s\" }\ntorque_limit = \"2 mN m\"\n\
+            stiffness = \"1 mN m/deg\"\nupper_stop = \"300 rev\"",
+        );
+        let text = text
+            + "[[at]]\ntime = \"3 s\"\njoint = \"cmg.outer_gimbal\"\nbrake = true\n\
+            [[wrench]]\non = \"hub\"\nforce = { z = { step = \"1 N\", at = \"1 s\" } }\n\
+            [[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"band_rms\"\n\
+            band = \"1, 2 Hz\"\nlimit = \"1 deg/s\"\n";
+        let (first, _) = read_text(&text).unwrap_or_else(|errors| panic!("{errors}"));
+        let written = to_toml(&first);
+        let (second, _) =
+            read_text(&written).unwrap_or_else(|errors| panic!("{errors}\n{written}"));
+        assert_eq!(to_toml(&second), written);
+        assert_eq!(second.devices, first.devices);
+        assert_eq!(second.drives, first.drives);
+        assert_eq!(second.initial, first.initial);
+        assert_eq!(second.changes, first.changes);
+        assert_eq!(second.wrenches, first.wrenches);
+    }
+
+    #[test]
+    fn all_errors_come_at_once_with_their_lines() {
+        let text = TABLE_1
+            .replace("mass = \"810 kg\"", "mas = \"810 kg\"")
+            .replace("\"4 kg\"", "4")
+            .replace("\"500 rpm\"", "\"500 Hz\"")
+            .replace("\"10 s\"", "\"10 sec\"");
+        let shown = errors(&text);
+        for part in [
+            "unknown key `hub.mas`",
+            "did you mean `mass`?",
+            "`device.cmg.wheel.mass` has no unit",
+            "`device.cmg.wheel.rate` is a frequency, where an angular rate is wanted",
+            "`run.duration`: no such unit",
+            "test.toml:14:1",
+        ] {
+            assert!(shown.contains(part), "{part} in\n{shown}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_toml_is_said_alone() {
+        let shown = errors("format = 1\n[hub\nmass = ");
+        assert!(shown.contains("no TOML"), "{shown}");
+        assert!(!shown.contains("missing"), "{shown}");
+        for text in ["", "\0", "format = 1e999", "hub = 3", "device = 7\nformat = 1"] {
+            assert!(!errors(text).is_empty());
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What happens over time: `[[at]]`, changes at times, and `[[wrench]]`, wrenches from outside.
+
+use std::path::Path;
+
+use nalgebra::Vector3;
+
+use super::super::document::Value;
+use super::super::keys::Keys;
+use super::body::{JointMeasures, drive};
+use super::device::Joints;
+use super::drive::profile;
+use crate::scenario::{Action, AppliedWrench, Change, Profile, Target, WrenchAxes};
+use crate::units::Measure;
+
+/// `[[at]]`: `time`, `joint`, and `brake = true`, `locked = true`, a `torque`, an `acceleration`;
+/// in the order of time.
+pub(super) fn changes(keys: &Keys<'_>, joints: &Joints, folder: &Path) -> Vec<Change> {
+    let mut changes: Vec<_> =
+        keys.tables("at").iter().filter_map(|keys| change(keys, joints, folder)).collect();
+    changes.sort_by(|a, b| a.time.total_cmp(&b.time));
+    changes
+}
+
+fn change(keys: &Keys<'_>, joints: &Joints, folder: &Path) -> Option<Change> {
+    // A name is only for messages and for overrides.
+    let _ = keys.text("name");
+    let time = keys.required("time", Measure::TIME);
+    let joint = joint(keys, "joint", joints);
+    let brake = keys.boolean("brake").unwrap_or(false);
+    let info = joints.info(joint?)?;
+    let given = ["torque", "force", "acceleration", "locked"].into_iter().find(|key| keys.has(key));
+    let drive = drive(keys, info, &JointMeasures::of(info), folder);
+    keys.finish();
+    let action = match (brake, given) {
+        (true, None) => Action::Brake,
+        (true, Some(key)) => {
+            keys.error(key, "a brake stops and locks the joint", "remove `brake`, or this");
+            return None;
+        }
+        (false, Some(_)) => Action::Drive(drive?),
+        (false, None) => {
+            let help = "give a `torque`, an `acceleration`, `locked = true` or `brake = true`";
+            let message = format!("`{}` changes nothing", keys.path());
+            keys.reports().borrow_mut().error(keys.span(), message, "", help);
+            return None;
+        }
+    };
+    Some(Change { time: time?, joint: joint?, action })
+}
+
+fn joint(keys: &Keys<'_>, key: &str, joints: &Joints) -> Option<usize> {
+    if !keys.has(key) {
+        keys.missing(key, &format!("{key} = \"wheel1.wheel\""));
+    }
+    let name = keys.text(key)?;
+    joints.find(keys, key, name)
+}
+
+/// `[[wrench]]`: `on`, `force`, `moment`, `point`, `axes`.
+pub(super) fn wrenches(keys: &Keys<'_>, joints: &Joints, folder: &Path) -> Vec<AppliedWrench> {
+    keys.tables("wrench").iter().filter_map(|keys| wrench(keys, joints, folder)).collect()
+}
+
+fn wrench(keys: &Keys<'_>, joints: &Joints, folder: &Path) -> Option<AppliedWrench> {
+    let _ = keys.text("name");
+    if !keys.has("on") {
+        keys.missing("on", "on = \"hub\"");
+    }
+    let body = match keys.text("on") {
+        None => None,
+        Some("hub") => Some(Target::Hub),
+        Some(name) => joints.find(keys, "on", name).map(Target::Joint),
+    };
+    let force = three(keys, "force", Measure::FORCE, folder);
+    let moment = three(keys, "moment", Measure::TORQUE, folder);
+    let point = keys.vector("point", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
+    let words = [("body", WrenchAxes::Body), ("inertial", WrenchAxes::Inertial)];
+    let axes = keys.choice("axes", &words).unwrap_or(WrenchAxes::Body);
+    if !keys.has("force") && !keys.has("moment") {
+        keys.missing("force", "force = \"0, 0, 1 mN\"");
+    }
+    keys.finish();
+    Some(AppliedWrench { body: body?, force: force?, moment: moment?, point, axes })
+}
+
+/// Three components: constants as a vector, or profiles by axis:
+/// `{ z = { sine = "1 mN", frequency = "3 Hz" } }`.
+fn three(keys: &Keys<'_>, key: &str, measure: Measure, folder: &Path) -> Option<[Profile; 3]> {
+    let Some(node) = keys.node(key) else { return Some([Profile::ZERO; 3]) };
+    let Value::Table(_) = &node.value else {
+        return keys.quantities::<3>(key, measure).map(|three| three.map(Profile::Constant));
+    };
+    let axes = ["x", "y", "z"];
+    let table = keys.table(key)?;
+    let known: Vec<_> = axes.into_iter().filter(|axis| table.has(axis)).collect();
+    if known.is_empty() {
+        table.missing("x", "x = { sine = \"1 mN\", frequency = \"3 Hz\" }");
+    }
+    let profiles = axes.map(|axis| match table.node(axis) {
+        Some(node) => profile(&table, axis, node, measure, folder),
+        None => Some(Profile::ZERO),
+    });
+    table.finish();
+    let [x, y, z] = profiles;
+    Some([x?, y?, z?])
+}

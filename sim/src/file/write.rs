@@ -1,0 +1,300 @@
+//! A [`Scenario`] as the text of a scenario file, in SI units and with every default written out.
+//!
+//! Reading it back gives the same scenario to the bit: numbers have the fewest digits that do.
+//! Layouts and copies are written as the devices they make, data sheets as centres of mass and
+//! products of inertia, files of tables as they were named are not needed any more.
+
+use std::fmt::Write as _;
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::kind::{ImbalanceModel, JointInfo};
+use precess_dynamics::{Gravity, HubMode, JointStates, Passive};
+
+use super::read::{FORMAT, body_key, has_inertia};
+use crate::scenario::profile::Interpolation;
+use crate::scenario::{
+    Action, AppliedWrench, Drive, Format, IntegratorChoice, Profile, Scenario, Statistic,
+    StopAction, Target, WrenchAxes,
+};
+
+/// The text.
+#[must_use]
+pub fn to_toml(scenario: &Scenario) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = write_all(&mut text, scenario);
+    text
+}
+
+type Written = std::fmt::Result;
+
+fn write_all(out: &mut String, s: &Scenario) -> Written {
+    writeln!(out, "format = {FORMAT}")?;
+    writeln!(out, "name = {}", quoted(&s.name))?;
+    writeln!(out, "title = {}", quoted(&s.title))?;
+    if !s.description.is_empty() {
+        writeln!(out, "description = {}", quoted(&s.description))?;
+    }
+    writeln!(out, "\n[hub]")?;
+    writeln!(out, "mass = \"{:?} kg\"", s.hub.m_b)?;
+    writeln!(out, "centre_of_mass = {}", vector(&s.hub.r_bc_b, "m"))?;
+    inertia(out, &s.hub.i_b_bc)?;
+    writeln!(out, "size = {}", vector(&s.hub_size, "m"))?;
+    if s.hub_mode != HubMode::Free {
+        writeln!(out, "mode = \"fixed\"")?;
+    }
+    match s.gravity {
+        Gravity::None => {}
+        Gravity::Uniform(g) => {
+            writeln!(out, "\n[gravity]\nuniform = {}", vector(&g, "m/s^2"))?;
+        }
+        Gravity::Central { mu } => writeln!(out, "\n[gravity]\ncentral = \"{mu:?} m^3/s^2\"")?,
+    }
+    initial(out, s)?;
+    devices(out, s)?;
+    for wrench in &s.wrenches {
+        applied(out, s, wrench)?;
+    }
+    for change in &s.changes {
+        writeln!(out, "\n[[at]]\ntime = \"{:?} s\"", change.time)?;
+        writeln!(out, "joint = {}", quoted(&joint_name(s, change.joint)))?;
+        match &change.action {
+            Action::Brake => writeln!(out, "brake = true")?,
+            Action::Drive(of) => drive(out, of, info(s, change.joint))?,
+        }
+    }
+    for crossing in &s.crossings {
+        writeln!(out, "\n[[crossing]]\nname = {}", quoted(&crossing.name))?;
+        writeln!(out, "column = {}", quoted(&crossing.column))?;
+        let unit = crossing.unit.as_str();
+        writeln!(out, "value = {}\nends = {}", with_unit(crossing.value, unit), crossing.ends)?;
+    }
+    settings(out, s)?;
+    requirements(out, s)
+}
+
+fn initial(out: &mut String, s: &Scenario) -> Written {
+    let state = &s.initial;
+    writeln!(out, "\n[initial]\nposition = {}", vector(&state.r_b_n, "m"))?;
+    writeln!(out, "velocity = {}", vector(&state.r_b_n_dot, "m/s"))?;
+    writeln!(out, "angular_velocity = {}", vector(&state.omega, "rad/s"))?;
+    let q = state.attitude;
+    let numbers = [q.q0, q.q1, q.q2, q.q3];
+    writeln!(out, "attitude = {{ quaternion = {numbers:?}, scalar = \"first\" }}")
+}
+
+fn devices(out: &mut String, s: &Scenario) -> Written {
+    let mut states = s.initial.devices.states();
+    let mut joint = 0;
+    for (name, device) in s.names.iter().zip(&s.devices) {
+        let parameters = device.parameters();
+        writeln!(out, "\n[[device]]\nname = {}", quoted(name))?;
+        writeln!(out, "kind = {}", quoted(device.kind().name()))?;
+        writeln!(out, "position = {}", vector(&Vector3::from(parameters.bodies[0].origin), "m"))?;
+        let m = parameters.mount;
+        let row = |k: usize| format!("[{:?}, {:?}, {:?}]", m[(k, 0)], m[(k, 1)], m[(k, 2)]);
+        writeln!(out, "mount = {{ dcm = [{}, {}, {}] }}", row(0), row(1), row(2))?;
+        if parameters.model == ImbalanceModel::Lumped {
+            writeln!(out, "imbalance_model = \"lumped\"")?;
+        }
+        let bodies = parameters.bodies.iter().zip(&parameters.passive);
+        for (info, (body, passive)) in device.kind().joints().iter().zip(bodies) {
+            writeln!(out, "\n[device.{}]", body_key(info))?;
+            writeln!(out, "mass = \"{:?} kg\"", body.mass)?;
+            writeln!(out, "centre_of_mass = {}", vector(&Vector3::from(body.centre), "m"))?;
+            if has_inertia(device.kind(), info) {
+                inertia(out, &body.inertia)?;
+            }
+            if info.index > 0 {
+                writeln!(out, "origin = {}", vector(&Vector3::from(body.origin), "m"))?;
+            }
+            let [q, q_dot] = states.next().unwrap_or_default();
+            let [unit, rate_unit, ..] = units(info);
+            let [coordinate, rate] =
+                if info.slides { ["displacement", "speed"] } else { ["angle", "rate"] };
+            writeln!(out, "{coordinate} = \"{q:?} {unit}\"\n{rate} = \"{q_dot:?} {rate_unit}\"")?;
+            passive_of(out, passive, info)?;
+            if let Some(of) = s.drives.get(joint) {
+                drive(out, of, Some(info))?;
+            }
+            for stop in s.stops.iter().filter(|stop| stop.joint == joint) {
+                for (key, bound) in [("lower_stop", stop.lower), ("upper_stop", stop.upper)] {
+                    if bound.is_finite() {
+                        writeln!(out, "{key} = \"{bound:?} {unit}\"")?;
+                    }
+                }
+                let action = if stop.action == StopAction::End { "end" } else { "lock" };
+                writeln!(out, "at_stop = \"{action}\"")?;
+            }
+            joint += 1;
+        }
+    }
+    Ok(())
+}
+
+fn passive_of(out: &mut String, passive: &Passive, info: &JointInfo) -> Written {
+    let [unit, rate_unit, _, torque] = units(info);
+    if *passive == Passive::none() {
+        return Ok(());
+    }
+    let Passive { stiffness, rest, viscous, coulomb, coulomb_rate } = passive;
+    writeln!(out, "stiffness = \"{stiffness:?} {torque}/{unit}\"\nrest = \"{rest:?} {unit}\"")?;
+    writeln!(out, "damping = \"{viscous:?} {torque} s/{unit}\"")?;
+    writeln!(
+        out,
+        "coulomb = \"{coulomb:?} {torque}\"\ncoulomb_rate = \"{coulomb_rate:?} {rate_unit}\""
+    )
+}
+
+/// Units of coordinate, rate, acceleration and torque, as a file writes them.
+fn units(info: &JointInfo) -> [&'static str; 4] {
+    if info.slides { ["m", "m/s", "m/s^2", "N"] } else { ["rad", "rad/s", "rad/s^2", "N m"] }
+}
+
+fn info(s: &Scenario, joint: usize) -> Option<&'static JointInfo> {
+    s.joints().nth(joint).map(|(_, _, info)| info)
+}
+
+fn joint_name(s: &Scenario, joint: usize) -> String {
+    let found = s.joints().nth(joint);
+    found.map_or_else(String::new, |(_, name, info)| format!("{name}.{}", body_key(info)))
+}
+
+fn drive(out: &mut String, drive: &Drive, info: Option<&JointInfo>) -> Written {
+    let slides = info.is_some_and(|info| info.slides);
+    let [.., acceleration, torque_unit] = info.map_or(["rad", "rad/s", "rad/s^2", "N m"], units);
+    let torque = if slides { "force" } else { "torque" };
+    match drive {
+        Drive::Torque { profile, limit } => {
+            writeln!(out, "{torque} = {}", of_profile(profile, torque_unit))?;
+            match limit {
+                Some(limit) => writeln!(out, "{torque}_limit = \"{limit:?} {torque_unit}\""),
+                None => Ok(()),
+            }
+        }
+        Drive::Acceleration(profile) => {
+            writeln!(out, "acceleration = {}", of_profile(profile, acceleration))
+        }
+        Drive::Locked => writeln!(out, "locked = true"),
+    }
+}
+
+/// A profile as a value.
+fn of_profile(profile: &Profile, unit: &str) -> String {
+    match profile {
+        Profile::Constant(value) => format!("\"{value:?} {unit}\""),
+        other => format!("{{ {} }}", keys_of(other, unit)),
+    }
+}
+
+fn keys_of(profile: &Profile, unit: &str) -> String {
+    let span = |[from, to]: &[f64; 2]| format!("from = \"{from:?} s\", to = \"{to:?} s\"");
+    match profile {
+        Profile::Constant(value) => format!("constant = \"{value:?} {unit}\""),
+        Profile::Step { at, before, after } => format!(
+            "step = \"{after:?} {unit}\", at = \"{at:?} s\", before = \"{before:?} {unit}\""
+        ),
+        Profile::Ramp { between, values: [a, b] } => {
+            format!("ramp = \"{a:?}, {b:?} {unit}\", {}", span(between))
+        }
+        Profile::Sine { mean, amplitude, frequency, phase } => format!(
+            "sine = \"{amplitude:?} {unit}\", frequency = \"{frequency:?} Hz\", \
+             phase = \"{phase:?} rad\", mean = \"{mean:?} {unit}\""
+        ),
+        Profile::Chirp { amplitude, between, frequencies: [a, b] } => format!(
+            "chirp = \"{amplitude:?} {unit}\", frequency = \"{a:?}, {b:?} Hz\", {}",
+            span(between)
+        ),
+        Profile::Table(table) => {
+            let word = match table.interpolation {
+                Interpolation::Hold => "hold",
+                Interpolation::Linear => "linear",
+            };
+            let list = |numbers: &[f64]| {
+                numbers.iter().map(|number| format!("{number:?}")).collect::<Vec<_>>().join(", ")
+            };
+            let (times, values) = (list(&table.times), list(&table.values));
+            format!(
+                "times = \"{times} s\", values = \"{values} {unit}\", interpolation = \"{word}\""
+            )
+        }
+        Profile::During { between, profile } => {
+            format!("{}, {}", keys_of(profile, unit), span(between))
+        }
+    }
+}
+
+fn applied(out: &mut String, s: &Scenario, wrench: &AppliedWrench) -> Written {
+    let on = match wrench.body {
+        Target::Hub => "hub".to_owned(),
+        Target::Joint(joint) => joint_name(s, joint),
+    };
+    writeln!(out, "\n[[wrench]]\non = {}", quoted(&on))?;
+    for (key, three, unit) in [("force", &wrench.force, "N"), ("moment", &wrench.moment, "N m")] {
+        let [x, y, z] = three.each_ref().map(|profile| of_profile(profile, unit));
+        writeln!(out, "{key} = {{ x = {x}, y = {y}, z = {z} }}")?;
+    }
+    writeln!(out, "point = {}", vector(&wrench.point, "m"))?;
+    let axes = if wrench.axes == WrenchAxes::Body { "body" } else { "inertial" };
+    writeln!(out, "axes = \"{axes}\"")
+}
+
+fn settings(out: &mut String, s: &Scenario) -> Written {
+    writeln!(out, "\n[run]\nduration = \"{:?} s\"", s.settings.duration)?;
+    match s.settings.integrator {
+        IntegratorChoice::Dop853 { tolerance } => {
+            writeln!(out, "integrator = \"dop853\"\ntolerance = {tolerance:?}")?;
+        }
+        IntegratorChoice::Rk4 { step } => {
+            writeln!(out, "integrator = \"rk4\"\nstep = \"{step:?} s\"")?;
+        }
+    }
+    let word = |format: &Format| match format {
+        Format::Csv => "\"csv\"",
+        Format::Npz => "\"npz\"",
+        Format::Parquet => "\"parquet\"",
+    };
+    let formats: Vec<_> = s.output.formats.iter().map(word).collect();
+    let columns: Vec<_> = s.output.columns.iter().map(|column| quoted(column)).collect();
+    writeln!(out, "\n[output]\nrate = \"{:?} Hz\"", s.output.rate)?;
+    writeln!(out, "columns = [{}]\nformats = [{}]", columns.join(", "), formats.join(", "))
+}
+
+fn requirements(out: &mut String, s: &Scenario) -> Written {
+    for requirement in &s.requirements {
+        writeln!(out, "\n[[requirement]]\nname = {}", quoted(&requirement.name))?;
+        writeln!(out, "quantity = {}", quoted(&requirement.quantity))?;
+        let statistic = match requirement.statistic {
+            Statistic::Peak => "\"peak\"".to_owned(),
+            Statistic::Rms => "\"rms\"".to_owned(),
+            Statistic::BandRms([from, to]) => {
+                format!("\"band_rms\"\nband = \"{from:?}, {to:?} Hz\"")
+            }
+            Statistic::Final => "\"final\"".to_owned(),
+            Statistic::Drift => "\"drift\"".to_owned(),
+        };
+        writeln!(out, "statistic = {statistic}")?;
+        let [from, to] = requirement.window;
+        writeln!(out, "from = \"{from:?} s\"\nto = \"{to:?} s\"")?;
+        writeln!(out, "limit = {}", quoted(&requirement.written))?;
+    }
+    Ok(())
+}
+
+fn inertia(out: &mut String, i: &Matrix3<f64>) -> Written {
+    writeln!(out, "inertia = \"{:?}, {:?}, {:?} kg m^2\"", i.m11, i.m22, i.m33)?;
+    writeln!(out, "products_of_inertia = \"{:?}, {:?}, {:?} kg m^2\"", i.m12, i.m13, i.m23)
+}
+
+fn vector(v: &Vector3<f64>, unit: &str) -> String {
+    format!("\"{:?}, {:?}, {:?} {unit}\"", v.x, v.y, v.z)
+}
+
+fn with_unit(value: f64, unit: &str) -> String {
+    quoted(format!("{value:?} {unit}").trim_end())
+}
+
+/// A text as TOML writes it.
+fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}

@@ -1,0 +1,251 @@
+//! Checks of the recorders: files read back, what a killed program leaves, buckets, statistics.
+
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use super::partial::partial_name;
+use super::{Csv, Decimate, Header, Many, Npz, Recorder, Statistics};
+use crate::engine::checks::{Kept, turning_panel};
+use crate::engine::{End, Outcome, Steps, run};
+use crate::scenario::{Requirement, Scenario, Source, Statistic};
+
+/// A run into recorders; what a test recorder kept of it.
+fn recorded(scenario: &Scenario, recorder: &mut dyn Recorder) -> (Outcome, Kept) {
+    let mut kept = Kept::default();
+    let mut both = Many::new(vec![&mut kept, recorder]);
+    let outcome = run(scenario, &mut both, &mut |_| ControlFlow::Continue(())).expect("it runs");
+    (outcome, kept)
+}
+
+/// A panel that turns at half a radian per second, with a text.
+fn panel() -> Scenario {
+    let mut scenario = turning_panel(0.5, 2.0);
+    let text = "name = \"check\"\n[run]\nduration = 2".to_owned();
+    scenario.source = Source { path: "check.toml".into(), text: text.clone(), filled: text };
+    scenario.output.columns = vec!["panel".to_owned(), "energy".to_owned()];
+    scenario
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn header(columns: &[&str], rate: f64, duration: f64) -> Header {
+    let scenario = panel();
+    let all = super::Columns::all(&scenario);
+    let find = |name: &&str| all.as_slice().iter().find(|column| column.name == **name).cloned();
+    let mut header = Header::new(&scenario, &all);
+    header.columns = columns.iter().map(|name| find(name).expect("a column")).collect();
+    (header.rate, header.duration) = (rate, duration);
+    header
+}
+
+fn outcome(end_time: f64) -> Outcome {
+    Outcome {
+        end_time,
+        end: End::Finished,
+        steps: Steps::default(),
+        samples: 0,
+        events: Vec::new(),
+        events_omitted: 0,
+        drift: crate::engine::Drift::default(),
+        energy_lost: 0.0,
+    }
+}
+
+/// Header and rows of a CSV file.
+fn read_csv(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).expect("a file");
+    let names = reader.headers().expect("names").iter().map(str::to_owned).collect();
+    let number = |text: &str| text.parse::<f64>().expect("a number");
+    let rows = reader.records().map(|row| row.expect("a row").iter().map(number).collect());
+    (names, rows.collect())
+}
+
+#[test]
+fn csv_reads_back_and_says_what_it_is() {
+    let folder = folder();
+    let path = folder.path().join("check.csv");
+    let (_, kept) = recorded(&panel(), &mut Csv::new(&path));
+    let (names, rows) = read_csv(&path);
+    let expected =
+        ["time", "panel.phi", "panel.phi_dot", "panel.phi_ddot", "panel.u_p", "energy", "work"];
+    assert_eq!(names[..7], expected);
+    assert_eq!(rows, kept.rows);
+    assert!(!partial_name(&path).exists());
+    let text = fs::read_to_string(&path).expect("text");
+    for line in [
+        "# name: check",
+        "# sha256 of the scenario: 8a",
+        "#   panel.phi_dot [rad/s] rate of the panel",
+        "#   duration = 2",
+    ] {
+        let line = line.trim_end_matches("8a");
+        assert!(text.lines().any(|found| found.starts_with(line)), "{line}\n{text}");
+    }
+}
+
+#[test]
+fn a_killed_program_leaves_every_row_that_was_flushed() {
+    let folder = folder();
+    let path = folder.path().join("check.csv");
+    fs::write(&path, "an earlier result").expect("a file");
+    let mut csv = Csv::new(&path);
+    let header = header(&["time", "panel.phi"], 10.0, 1e4);
+    csv.begin(&header).expect("a file");
+    for i in 0..20_000 {
+        csv.sample(&[f64::from(i) * 0.1, 1.0 / 3.0]).expect("a row");
+    }
+    // Killed: no destructor flushes what is in memory.
+    std::mem::forget(csv);
+    assert_eq!(fs::read_to_string(&path).expect("it stays"), "an earlier result");
+    let text = fs::read_to_string(partial_name(&path)).expect("a partial file");
+    let whole = text.rfind('\n').map_or(text.len(), |end| end + 1);
+    let rows = text[..whole].lines().filter(|line| !line.starts_with(['#', 't'])).count();
+    // All but the last 64 kB of 24 to 26 bytes a row.
+    assert!(rows > 20_000 - 64 * 1024 / 20, "{rows}");
+}
+
+#[test]
+fn npz_reads_back_with_the_number_of_samples_that_came() {
+    let folder = folder();
+    let path = folder.path().join("check.npz");
+    let mut scenario = panel();
+    scenario.stops = vec![crate::scenario::EndStop {
+        joint: 0,
+        lower: -1.0,
+        upper: 0.73,
+        action: crate::scenario::StopAction::End,
+    }];
+    let (outcome, kept) = recorded(&scenario, &mut Npz::new(&path));
+    assert!(outcome.end_time < 1.5);
+    let mut archive = zip::ZipArchive::new(fs::File::open(&path).expect("a file")).expect("a zip");
+    let samples = npyz::NpyFile::new(archive.by_name("samples.npy").expect("there"));
+    let samples = samples.expect("an array");
+    let columns = kept.rows[0].len();
+    assert_eq!(samples.shape(), [kept.rows.len() as u64, columns as u64]);
+    let numbers: Vec<f64> = samples.into_vec().expect("doubles");
+    assert_eq!(numbers, kept.rows.concat());
+    let mut text = |name: &str| -> Vec<String> {
+        let member = archive.by_name(&format!("{name}.npy")).expect("there");
+        npyz::NpyFile::new(member).expect("an array").into_vec().expect("text")
+    };
+    assert_eq!(text("columns")[..3], ["time", "panel.phi", "panel.phi_dot"]);
+    assert_eq!(text("units")[2], "rad/s");
+    assert_eq!(text("scenario"), [scenario.source.filled.as_str()]);
+    assert!(text("end")[0].starts_with("ended by the end stop of panel.phi"));
+    let names: Vec<_> = fs::read_dir(folder.path()).expect("a folder").collect();
+    assert_eq!(names.len(), 1, "{names:?}");
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_reads_back() {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
+    let folder = folder();
+    let path = folder.path().join("check.parquet");
+    let (_, kept) = recorded(&panel(), &mut super::Parquet::new(&path));
+    let reader = SerializedFileReader::new(fs::File::open(&path).expect("a file"));
+    let reader = reader.expect("a Parquet file");
+    let metadata = reader.metadata().file_metadata().key_value_metadata().expect("metadata");
+    let value = |key: &str| metadata.iter().find(|pair| pair.key == key)?.value.clone();
+    assert_eq!(value("precess.unit.panel.phi").as_deref(), Some("rad"));
+    assert_eq!(value("precess.end").as_deref(), Some("finished"));
+    let rows = reader.get_row_iter(None).expect("rows");
+    for (found, expected) in rows.zip(&kept.rows) {
+        let found = found.expect("a row");
+        let numbers: Vec<f64> =
+            (0..found.len()).map(|column| found.get_double(column).expect("a double")).collect();
+        assert_eq!(&numbers, expected);
+    }
+}
+
+#[test]
+fn buckets_keep_a_spike_and_stay_within_their_number() {
+    let mut decimate = Decimate::new(100);
+    let header = header(&["time", "panel.phi"], 1000.0, 1e3);
+    decimate.begin(&header).expect("nothing can fail");
+    for i in 0..123_457_u32 {
+        let value = if i == 70_001 { 9.0 } else { f64::from(i % 7) };
+        decimate.sample(&[f64::from(i) * 1e-3, value]).expect("nothing can fail");
+    }
+    let buckets = decimate.buckets();
+    assert!((50..=100).contains(&buckets.len()), "{}", buckets.len());
+    assert_eq!(decimate.samples_per_bucket(), 2048);
+    let spike: Vec<_> = buckets.iter().filter(|bucket| bucket.max[1] == 9.0).collect();
+    assert_eq!(spike.len(), 1);
+    assert!(spike[0].start <= 70.001 && 70.001 <= spike[0].end);
+    assert!(buckets.iter().all(|bucket| bucket.min[1] == 0.0));
+    assert!(buckets.windows(2).all(|pair| pair[0].end < pair[1].start));
+    assert_eq!(buckets[buckets.len() - 1].end, 123.456);
+}
+
+#[test]
+fn statistics_are_those_of_the_samples_in_the_window() {
+    let requirement = |name: &str, statistic, window| Requirement {
+        name: name.to_owned(),
+        quantity: "omega".to_owned(),
+        statistic,
+        window,
+        limit: 0.9,
+        written: "0.9 rad/s".to_owned(),
+        unit: ("rad/s".to_owned(), 1.0),
+    };
+    let whole = [0.0, 10.0];
+    let requirements = [
+        requirement("peak", Statistic::Peak, whole),
+        requirement("rms", Statistic::Rms, whole),
+        requirement("band", Statistic::BandRms([2.0, 4.0]), whole),
+        requirement("final", Statistic::Final, whole),
+        requirement("drift", Statistic::Drift, [0.0, 5.0]),
+        requirement("late", Statistic::Peak, [20.0, 30.0]),
+    ];
+    let mut statistics = Statistics::new(&requirements);
+    let header = header(&["time", "omega_x", "omega_y", "omega_z"], 100.0, 30.0);
+    statistics.begin(&header).expect("known quantities");
+    for i in 0..=1000 {
+        let time = f64::from(i) / 100.0;
+        // Three hertz in two components, and a mean in the third.
+        let (sin, cos) = (std::f64::consts::TAU * 3.0 * time).sin_cos();
+        statistics.sample(&[time, 0.6 * sin, 0.6 * cos, 0.8]).expect("nothing can fail");
+    }
+    statistics.finish(&outcome(10.0)).expect("nothing can fail");
+    let value = |name: &str| {
+        let verdict = statistics.verdicts().iter().find(|verdict| verdict.name == name);
+        verdict.expect("a verdict").value
+    };
+    let near = |name: &str, expected: f64, within: f64| {
+        let found = value(name).expect("a value");
+        assert!((found - expected).abs() < within, "{name}: {found}");
+    };
+    near("peak", 1.0, 1e-12);
+    near("rms", 1.0, 1e-12);
+    near("band", 0.6, 1e-3);
+    near("final", 1.0, 1e-12);
+    near("drift", 1.2, 1e-3);
+    assert_eq!(value("late"), None);
+    let met: Vec<bool> = statistics.verdicts().iter().map(super::Verdict::is_met).collect();
+    assert_eq!(met, [false, false, true, false, false, false]);
+}
+
+#[test]
+fn a_requirement_of_a_band_beyond_half_the_rate_is_rejected_with_the_remedy() {
+    let requirement = Requirement {
+        name: "jitter".to_owned(),
+        quantity: "omega_x".to_owned(),
+        statistic: Statistic::BandRms([10.0, 80.0]),
+        window: [0.0, 1.0],
+        limit: 1.0,
+        written: "1 rad/s".to_owned(),
+        unit: ("rad/s".to_owned(), 1.0),
+    };
+    let header = header(&["time", "omega_x"], 100.0, 1.0);
+    let error = Statistics::new(&[requirement]).begin(&header).expect_err("rejected");
+    assert_eq!(
+        error.to_string(),
+        "requirement `jitter`: the band 10 Hz to 80 Hz is not within 0 Hz to 50 Hz, half the \
+         sampling rate; raise output.rate"
+    );
+}

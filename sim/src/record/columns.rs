@@ -1,0 +1,375 @@
+//! [`Columns`]: the quantities of a run by name, with unit, frame and meaning, and the selection of
+//! those that are recorded.
+//!
+//! A name in a selection is that of a column (`omega_x`), of a vector (`omega`), of a device
+//! (`cmg1`: all but its loads) or of a group (`position`, `loads`, `cmg1.loads`). Loads are recorded
+//! only where they are selected. `time` always comes first; the others keep their order here,
+//! whatever the order of the selection.
+
+use precess_dynamics::kind::JointInfo;
+
+use super::error::RecordError;
+use super::nearest::nearest;
+use crate::engine::Layout;
+use crate::scenario::Scenario;
+
+/// A recorded quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name: `cmg1.gamma_o`.
+    pub name: String,
+    /// Its unit; `1` of a pure number.
+    pub unit: &'static str,
+    /// The axes that it is a component in: `N`, `B`, `cmg1.wheel`; none of a scalar.
+    pub frame: Option<String>,
+    /// What it is.
+    pub meaning: String,
+    /// The group that it belongs to: `omega`, `cmg1`, `cmg1.loads`.
+    pub group: String,
+    /// The vector that it is a component of: `omega`, `cmg1.mount.force`.
+    pub vector: Option<String>,
+    /// What is computed.
+    pub(crate) quantity: Quantity,
+}
+
+/// What a column shows: of an axis 0 to 2, of a joint or device by its number in the set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Quantity {
+    Time,
+    Position(usize),
+    Velocity(usize),
+    HubAcceleration(usize),
+    Quaternion(usize),
+    Sigma(usize),
+    Omega(usize),
+    OmegaDot(usize),
+    Coordinate(usize),
+    Rate(usize),
+    JointAcceleration(usize),
+    Torque(usize),
+    Energy,
+    Work,
+    Lost,
+    Linear(usize),
+    Angular(usize),
+    MountForce(usize, usize),
+    MountMoment(usize, usize),
+    LoadForce(usize, usize),
+    LoadMoment(usize, usize),
+}
+
+impl Quantity {
+    pub(crate) fn is_load(&self) -> bool {
+        matches!(
+            self,
+            Self::MountForce(..)
+                | Self::MountMoment(..)
+                | Self::LoadForce(..)
+                | Self::LoadMoment(..)
+        )
+    }
+
+    pub(crate) fn is_acceleration(&self) -> bool {
+        matches!(self, Self::HubAcceleration(_) | Self::OmegaDot(_) | Self::JointAcceleration(_))
+    }
+
+    /// Whether it is part of the state that is integrated.
+    fn is_state(&self) -> bool {
+        matches!(
+            self,
+            Self::Position(_)
+                | Self::Velocity(_)
+                | Self::Quaternion(_)
+                | Self::Omega(_)
+                | Self::Coordinate(_)
+                | Self::Rate(_)
+        )
+    }
+}
+
+/// Columns in order, `time` first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Columns(Vec<Column>);
+
+impl Columns {
+    /// Every column that a scenario has.
+    #[must_use]
+    pub fn all(scenario: &Scenario) -> Self {
+        let layout = Layout::new(scenario);
+        let mut columns = Vec::new();
+        hub(&mut columns);
+        for (index, name) in scenario.names.iter().enumerate() {
+            let joints = layout.joints.iter().enumerate();
+            for (joint, place) in joints.filter(|(_, place)| place.device == index) {
+                of_joint(&mut columns, name, joint, place.info);
+            }
+        }
+        totals(&mut columns);
+        for (index, name) in scenario.names.iter().enumerate() {
+            let group = format!("{name}.loads");
+            let mount = [
+                (Quantity::MountForce as fn(usize, usize) -> Quantity, "force", "N"),
+                (Quantity::MountMoment, "moment", "N m"),
+            ];
+            for (quantity, what, unit) in mount {
+                let meaning =
+                    format!("{what} that the hub exerts on {name} at its mount, component");
+                let base = format!("{name}.mount.{what}");
+                let of = |axis| quantity(index, axis);
+                vector(&mut columns, &base, &group, unit, "B", &meaning, of);
+            }
+            let joints = layout.joints.iter().enumerate();
+            for (joint, place) in joints.filter(|(_, place)| place.device == index) {
+                of_load(&mut columns, name, &group, joint, place.info);
+            }
+        }
+        Self(columns)
+    }
+
+    /// The columns that a scenario records: those it selects, or all but the loads, and the
+    /// quantities of its requirements.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordError::UnknownColumn`] with the nearest names.
+    pub fn of(scenario: &Scenario) -> Result<Self, RecordError> {
+        let Self(all) = Self::all(scenario);
+        let selected = &scenario.output.columns;
+        let mut taken: Vec<bool> =
+            all.iter().map(|column| selected.is_empty() && !column.quantity.is_load()).collect();
+        let required = scenario.requirements.iter().map(|requirement| &requirement.quantity);
+        for name in selected.iter().chain(required) {
+            let mut known = false;
+            for (column, taken) in all.iter().zip(&mut taken) {
+                if column.is_named(name) {
+                    (known, *taken) = (true, true);
+                }
+            }
+            if !known {
+                return Err(unknown(name, &all));
+            }
+        }
+        if let Some(time) = taken.first_mut() {
+            *time = true;
+        }
+        Ok(Self(all.into_iter().zip(taken).filter_map(|(c, taken)| taken.then_some(c)).collect()))
+    }
+
+    /// The columns in order.
+    #[must_use]
+    pub fn as_slice(&self) -> &[Column] {
+        &self.0
+    }
+}
+
+impl IntoIterator for Columns {
+    type Item = Column;
+    type IntoIter = std::vec::IntoIter<Column>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl Column {
+    /// Whether a name of a selection includes it.
+    fn is_named(&self, name: &str) -> bool {
+        self.name == name
+            || self.group == name
+            || self.vector.as_deref() == Some(name)
+            || (name == "loads" && self.quantity.is_load())
+    }
+}
+
+/// The names of the quantities that are integrated.
+pub(crate) fn state_quantities(layout: &Layout) -> Vec<(String, Quantity)> {
+    let mut columns = Vec::new();
+    hub(&mut columns);
+    for (joint, place) in layout.joints.iter().enumerate() {
+        let device = place.name.split('.').next().unwrap_or_default();
+        of_joint(&mut columns, device, joint, place.info);
+    }
+    let state = columns.into_iter().filter(|column| column.quantity.is_state());
+    state.map(|column| (column.name, column.quantity)).collect()
+}
+
+/// The indices of a quantity's columns: one by its name, or those of a vector.
+pub(crate) fn quantity(columns: &[Column], name: &str) -> Result<Vec<usize>, RecordError> {
+    let indices = |is: &dyn Fn(&Column) -> bool| -> Vec<usize> {
+        columns.iter().enumerate().filter(|(_, column)| is(column)).map(|(i, _)| i).collect()
+    };
+    let one = indices(&|column| column.name == name);
+    if !one.is_empty() {
+        return Ok(one);
+    }
+    let three = indices(&|column| column.vector.as_deref() == Some(name));
+    if !three.is_empty() {
+        return Ok(three);
+    }
+    if columns.iter().any(|column| column.group == name) {
+        return Err(RecordError::NoQuantity { name: name.to_owned() });
+    }
+    Err(unknown(name, columns))
+}
+
+fn unknown(name: &str, columns: &[Column]) -> RecordError {
+    let names = columns.iter().flat_map(|column| {
+        [Some(column.name.as_str()), Some(column.group.as_str()), column.vector.as_deref()]
+    });
+    let names = names.flatten().chain(["loads"]);
+    RecordError::UnknownColumn { name: name.to_owned(), nearest: nearest(name, names) }
+}
+
+fn hub(columns: &mut Vec<Column>) {
+    scalar(columns, "time", "time", "s", "time since the start of the run", Quantity::Time);
+    let n = [
+        (Quantity::Position as fn(usize) -> Quantity, "position", "m", "position of B"),
+        (Quantity::Velocity, "velocity", "m/s", "inertial velocity of B"),
+        (Quantity::HubAcceleration, "acceleration", "m/s²", "inertial acceleration of B"),
+    ];
+    for (quantity, name, unit, meaning) in n {
+        vector(columns, name, name, unit, "N", meaning, quantity);
+    }
+    for index in 0..4 {
+        let meaning = format!("attitude of B with respect to N: Euler parameter {index}");
+        scalar(
+            columns,
+            &format!("q{index}"),
+            "attitude",
+            "1",
+            &meaning,
+            Quantity::Quaternion(index),
+        );
+    }
+    for axis in 0..3 {
+        columns.push(Column {
+            name: format!("sigma_{}", axis + 1),
+            unit: "1",
+            frame: None,
+            meaning: format!("the same: modified Rodrigues parameter {}", axis + 1),
+            group: "attitude".to_owned(),
+            vector: Some("sigma".to_owned()),
+            quantity: Quantity::Sigma(axis),
+        });
+    }
+    let b = [
+        (Quantity::Omega as fn(usize) -> Quantity, "omega", "rad/s", "angular velocity of the hub"),
+        (Quantity::OmegaDot, "omega_dot", "rad/s²", "angular acceleration of the hub"),
+    ];
+    for (quantity, name, unit, meaning) in b {
+        vector(columns, name, name, unit, "B", meaning, quantity);
+    }
+}
+
+fn of_joint(columns: &mut Vec<Column>, device: &str, joint: usize, info: &JointInfo) {
+    let [coordinate, rate, acceleration, motor] = info.units();
+    let body = info.body;
+    let torque = if info.slides { "force" } else { "torque" };
+    let four = [
+        (
+            info.coordinate,
+            coordinate,
+            format!("coordinate of the {body}"),
+            Quantity::Coordinate(joint),
+        ),
+        (info.rate, rate, format!("rate of the {body}"), Quantity::Rate(joint)),
+        (
+            info.acceleration,
+            acceleration,
+            format!("acceleration of the {body}"),
+            Quantity::JointAcceleration(joint),
+        ),
+        (
+            info.motor,
+            motor,
+            format!(
+                "motor {torque} on the {body}; where its motion is prescribed, the one this needs"
+            ),
+            Quantity::Torque(joint),
+        ),
+    ];
+    for (name, unit, meaning, quantity) in four {
+        scalar(columns, &format!("{device}.{name}"), device, unit, &meaning, quantity);
+    }
+}
+
+fn totals(columns: &mut Vec<Column>) {
+    let three = [
+        ("energy", "kinetic energy, and potential energy of gravity and springs", Quantity::Energy),
+        ("work", "work of all other sources since the start", Quantity::Work),
+        ("energy_lost", "energy lost in brakes since the start", Quantity::Lost),
+    ];
+    for (name, meaning, quantity) in three {
+        scalar(columns, name, "energy", "J", meaning, quantity);
+    }
+    let two = [
+        (Quantity::Linear as fn(usize) -> Quantity, "linear_momentum", "kg m/s", "linear momentum"),
+        (
+            Quantity::Angular,
+            "angular_momentum",
+            "kg m²/s",
+            "angular momentum about the inertial origin",
+        ),
+    ];
+    for (quantity, name, unit, meaning) in two {
+        vector(columns, name, "momentum", unit, "N", meaning, quantity);
+    }
+}
+
+fn of_load(columns: &mut Vec<Column>, device: &str, group: &str, joint: usize, info: &JointInfo) {
+    let body = info.body.replace(' ', "_");
+    // A rotor that is the same from every angle has the axes of its parent body.
+    let frame = format!("{device}.{body}");
+    let frame = if info.ignorable { format!("parent body of {frame}") } else { frame };
+    let two = [
+        (Quantity::LoadForce as fn(usize, usize) -> Quantity, "force", "N"),
+        (Quantity::LoadMoment, "moment", "N m"),
+    ];
+    for (quantity, what, unit) in two {
+        let meaning =
+            format!("{what} that its parent body exerts on the {} at its origin", info.body);
+        let base = format!("{device}.{body}.load_{what}");
+        vector(columns, &base, group, unit, &frame, &meaning, |axis| quantity(joint, axis));
+    }
+}
+
+fn scalar(
+    columns: &mut Vec<Column>,
+    name: &str,
+    group: &str,
+    unit: &'static str,
+    meaning: &str,
+    quantity: Quantity,
+) {
+    columns.push(Column {
+        name: name.to_owned(),
+        unit,
+        frame: None,
+        meaning: meaning.to_owned(),
+        group: group.to_owned(),
+        vector: None,
+        quantity,
+    });
+}
+
+fn vector(
+    columns: &mut Vec<Column>,
+    base: &str,
+    group: &str,
+    unit: &'static str,
+    frame: &str,
+    meaning: &str,
+    quantity: impl Fn(usize) -> Quantity,
+) {
+    for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+        columns.push(Column {
+            name: format!("{base}_{letter}"),
+            unit,
+            frame: Some(frame.to_owned()),
+            meaning: format!("{meaning}, {letter}"),
+            group: group.to_owned(),
+            vector: Some(base.to_owned()),
+            quantity: quantity(axis),
+        });
+    }
+}

@@ -1,0 +1,181 @@
+//! [`Statistics`]: the numbers that requirements limit, from the samples as they come.
+//!
+//! The quantity is a column or the magnitude of a vector; the RMS in a band of a vector is that of
+//! its components together. Means over time are by the trapezoidal rule, so a last sample that is
+//! not evenly spaced has its own weight; the band uses only samples that are.
+
+use super::welch::Welch;
+use super::{Header, RecordError, Recorder};
+use crate::engine::Outcome;
+use crate::scenario::{Requirement, Statistic};
+
+/// Computes what requirements limit.
+pub struct Statistics {
+    requirements: Vec<Requirement>,
+    histories: Vec<History>,
+    verdicts: Vec<Verdict>,
+}
+
+/// A requirement and what became of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// The requirement's name.
+    pub name: String,
+    /// The column or vector.
+    pub quantity: String,
+    /// The statistic, SI; none where no sample fell into the window.
+    pub value: Option<f64>,
+    /// Its upper bound, SI.
+    pub limit: f64,
+    /// The unit in which both are shown, and its size in SI.
+    pub unit: (String, f64),
+    /// Whether the whole window was run.
+    pub complete: bool,
+}
+
+/// What is kept of a quantity.
+struct History {
+    columns: Vec<usize>,
+    window: [f64; 2],
+    statistic: Statistic,
+    /// The samples before the end of the run are this far apart, s.
+    spacing: f64,
+    first: Option<Vec<f64>>,
+    /// Time and magnitude of the last sample in the window.
+    last: Option<[f64; 2]>,
+    /// Largest magnitude, or departure from the first sample.
+    most: f64,
+    /// Integral of the square.
+    integral: f64,
+    length: f64,
+    bands: Vec<Welch>,
+}
+
+impl Statistics {
+    /// The statistics of these requirements.
+    #[must_use]
+    pub fn new(requirements: &[Requirement]) -> Self {
+        let requirements = requirements.to_vec();
+        Self { requirements, histories: Vec::new(), verdicts: Vec::new() }
+    }
+
+    /// One for each requirement in order, once the run has ended.
+    #[must_use]
+    pub fn verdicts(&self) -> &[Verdict] {
+        &self.verdicts
+    }
+}
+
+impl Verdict {
+    /// Whether the requirement is met over its whole window.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.complete && self.value.is_some_and(|value| value <= self.limit)
+    }
+}
+
+impl Recorder for Statistics {
+    fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
+        self.verdicts.clear();
+        self.histories.clear();
+        for requirement in &self.requirements {
+            let columns = header.quantity(&requirement.quantity)?;
+            let [from, to] = requirement.window;
+            let mut bands = Vec::new();
+            if let Statistic::BandRms(band) = requirement.statistic {
+                let highest = 0.5 * header.rate;
+                if !(0.0 <= band[0] && band[0] < band[1] && band[1] <= highest) {
+                    let requirement = requirement.name.clone();
+                    return Err(RecordError::Band { requirement, band, highest });
+                }
+                let count = (to - from) * header.rate;
+                bands.extend(columns.iter().map(|_| Welch::new(band, header.rate, count)));
+            }
+            self.histories.push(History {
+                columns,
+                window: requirement.window,
+                statistic: requirement.statistic,
+                spacing: 1.0 / header.rate,
+                first: None,
+                last: None,
+                most: 0.0,
+                integral: 0.0,
+                length: 0.0,
+                bands,
+            });
+        }
+        Ok(())
+    }
+
+    fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
+        let time = row.first().copied().unwrap_or_default();
+        self.histories.iter_mut().for_each(|history| history.add(time, row));
+        Ok(())
+    }
+
+    fn finish(&mut self, outcome: &Outcome) -> Result<(), RecordError> {
+        let pairs = self.requirements.iter().zip(&self.histories);
+        self.verdicts = pairs
+            .map(|(requirement, history)| Verdict {
+                name: requirement.name.clone(),
+                quantity: requirement.quantity.clone(),
+                value: history.value(),
+                limit: requirement.limit,
+                unit: requirement.unit.clone(),
+                complete: outcome.end_time >= requirement.window[1],
+            })
+            .collect();
+        Ok(())
+    }
+}
+
+impl History {
+    fn add(&mut self, time: f64, row: &[f64]) {
+        let [from, to] = self.window;
+        if !(from..=to).contains(&time) {
+            return;
+        }
+        let values = || self.columns.iter().map(|column| row.get(*column).copied());
+        let values: Vec<f64> = values().map(|value| value.unwrap_or(f64::NAN)).collect();
+        let magnitude = norm(values.iter().copied());
+        let of_most = if self.statistic == Statistic::Drift {
+            let first = self.first.get_or_insert_with(|| values.clone());
+            norm(values.iter().zip(first).map(|(value, first)| value - *first))
+        } else {
+            magnitude
+        };
+        // A NaN is no small value.
+        if of_most > self.most || of_most.is_nan() {
+            self.most = of_most;
+        }
+        let mut even = true;
+        if let Some([before, last]) = self.last {
+            let step = time - before;
+            self.integral += 0.5 * step * (last * last + magnitude * magnitude);
+            self.length += step;
+            even = (step / self.spacing - 1.0).abs() < 1e-6;
+        }
+        if even {
+            self.bands.iter_mut().zip(&values).for_each(|(band, value)| band.add(*value));
+        }
+        self.last = Some([time, magnitude]);
+    }
+
+    fn value(&self) -> Option<f64> {
+        let [_, last] = self.last?;
+        match self.statistic {
+            Statistic::Peak | Statistic::Drift => Some(self.most),
+            Statistic::Rms if self.length > 0.0 => Some((self.integral / self.length).sqrt()),
+            Statistic::Final | Statistic::Rms => Some(last),
+            Statistic::BandRms(_) => {
+                let squares = self.bands.iter().map(Welch::mean_square);
+                squares.sum::<Option<f64>>().map(f64::sqrt)
+            }
+        }
+    }
+}
+
+/// The magnitude of components.
+fn norm(components: impl Iterator<Item = f64>) -> f64 {
+    components.map(|component| component * component).sum::<f64>().sqrt()
+}

@@ -1,0 +1,146 @@
+//! The data block of the page: JSON with arrays of numbers in base64, as sim/report/DATA.md states.
+
+use serde::Serialize;
+
+use super::chart::Drawn;
+use super::error::ReportError;
+use super::replay::ReplayData;
+use crate::engine::Event;
+use crate::scenario::Scenario;
+
+/// The format that the page's script draws.
+const FORMAT: u32 = 1;
+
+#[derive(Serialize)]
+struct Data<'a> {
+    format: u32,
+    name: &'a str,
+    title: &'a str,
+    time: String,
+    end: f64,
+    columns: Vec<ColumnData<'a>>,
+    charts: Vec<ChartData<'a>>,
+    events: Vec<EventData<'a>>,
+    replay: Option<&'a ReplayData>,
+}
+
+#[derive(Serialize)]
+struct ColumnData<'a> {
+    name: &'a str,
+    label: &'a str,
+    unit: &'a str,
+    frame: &'a str,
+    min: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max: Option<String>,
+    #[serde(rename = "final", skip_serializing_if = "Option::is_none")]
+    last: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct ChartData<'a> {
+    id: String,
+    title: &'a str,
+    unit: &'a str,
+    columns: Vec<usize>,
+    log: bool,
+    #[serde(rename = "static")]
+    figure: String,
+}
+
+#[derive(Serialize)]
+struct EventData<'a> {
+    time: f64,
+    text: &'a str,
+}
+
+/// The data block of these charts, whose buckets start at `time`; `<` written as `\u003c`.
+pub(super) fn data(
+    scenario: &Scenario,
+    time: &[f64],
+    end: f64,
+    drawn: &[Drawn],
+    events: &[Event],
+    replay: Option<&ReplayData>,
+) -> Result<String, ReportError> {
+    let mut columns = Vec::new();
+    let mut charts = Vec::new();
+    for chart in drawn {
+        let first = columns.len();
+        columns.extend(chart.curves.iter().map(|curve| {
+            let (min, max) = (singles(&curve.min), singles(&curve.max));
+            ColumnData {
+                name: &curve.curve.name,
+                label: &curve.curve.label,
+                unit: chart.unit.name,
+                frame: &curve.curve.frame,
+                max: (max != min).then_some(max),
+                min,
+                last: curve.last.is_finite().then_some(curve.last),
+            }
+        }));
+        charts.push(ChartData {
+            id: format!("chart-{}", chart.slug),
+            title: &chart.title,
+            unit: chart.unit.name,
+            columns: (first..columns.len()).collect(),
+            log: false,
+            figure: figure_id(chart),
+        });
+    }
+    let data = Data {
+        format: FORMAT,
+        name: &scenario.name,
+        title: &scenario.title,
+        time: doubles(time),
+        end,
+        columns,
+        charts,
+        events: events.iter().map(|Event { time, text }| EventData { time: *time, text }).collect(),
+        replay,
+    };
+    Ok(serde_json::to_string(&data)?.replace('<', "\\u003c"))
+}
+
+/// The id of a chart's static figure.
+pub(super) fn figure_id(chart: &Drawn) -> String {
+    format!("figure-{}", chart.slug)
+}
+
+/// Doubles as base64 of little-endian numbers.
+pub(super) fn doubles(values: &[f64]) -> String {
+    base64(&values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<_>>())
+}
+
+/// The same as singles.
+#[expect(clippy::cast_possible_truncation, reason = "what is drawn has seven digits")]
+pub(super) fn singles(values: &[f64]) -> String {
+    base64(&values.iter().flat_map(|value| (*value as f32).to_le_bytes()).collect::<Vec<_>>())
+}
+
+/// RFC 4648, padded.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let byte = |index: usize| usize::from(three.get(index).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for index in 0..4 {
+            let letter = LETTERS[bits >> (18 - 6 * index) & 63];
+            out.push(if index <= three.len() { char::from(letter) } else { '=' });
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_is_that_of_rfc_4648() {
+        let texts = ["", "f", "fo", "foo", "foob", "fooba", "foobar"];
+        let expected = ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"];
+        assert_eq!(texts.map(|text| base64(text.as_bytes())), expected);
+    }
+}

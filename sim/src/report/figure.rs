@@ -1,0 +1,355 @@
+//! [`Figure`]: curves over time as SVG. plotters draws the axes; the curves are paths of ours, which
+//! are shorter than its polylines and can be bands.
+//!
+//! A curve of decimated samples is a band between least and greatest value, so no spike is lost.
+//! Everything is drawn in tenths of a unit, because plotters rounds to whole ones. Colours are those
+//! of paper, so a viewer that knows no CSS shows a right picture; `theme.css` turns them for dark
+//! screens by selecting on the attribute, which is why each colour below has one meaning.
+
+use std::fmt::Write as _;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::error::DrawError;
+use super::number::power_of_ten;
+use super::ticks::{Axis, range_of};
+
+/// The rules that turn the colours on dark screens, for an SVG file.
+const THEME: &str = include_str!("theme.css");
+
+/// Ink of text, frame and axes.
+const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
+/// Grid lines.
+const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);
+/// Colours of the curves in order; they repeat.
+const COLOURS: [&str; 7] =
+    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9"];
+/// Dashes of the curves in order, tenths of a unit; they repeat.
+const DASHES: [&str; 8] =
+    ["", "80 30", "20 25", "90 30 20 30", "140 40", "40 40", "90 30 20 30 20 30", "50 20"];
+
+const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
+/// Tenths of a unit, see above.
+const FINE: f64 = 10.0;
+/// plotters writes this share of the size it is passed.
+const FONT_SHARE: f64 = 1.24;
+const WIDTH: f64 = 450.0;
+const PANEL: f64 = 224.0;
+const LEGEND: f64 = 20.0;
+/// Around a figure: names and titles in a reader's wider font.
+const MARGIN: f64 = 12.0;
+/// Around the axes.
+const LEFT: f64 = 60.0;
+const BELOW: f64 = 42.0;
+const ABOVE: f64 = 34.0;
+const RIGHT: f64 = 12.0;
+/// Type sizes: labels and legend, ticks.
+const TYPE: f64 = 13.0;
+const TYPE_SMALL: f64 = 12.0;
+/// Most points of a line, and of the edge of a band.
+const POINTS_MAX: [usize; 2] = [600, 190];
+/// What is no thicker is drawn as a line, tenths of a unit: about a line's own width.
+const THIN: i32 = 12;
+
+/// Curves over time.
+#[derive(Clone, Debug)]
+pub(super) struct Figure {
+    /// What the picture shows, for readers who cannot see it.
+    pub(super) description: String,
+    /// The text above it.
+    pub(super) title: String,
+    /// What the vertical axis shows.
+    pub(super) axis: &'static str,
+    /// Of all values; may be empty.
+    pub(super) unit: &'static str,
+    /// Start and end, s.
+    pub(super) span: [f64; 2],
+    /// The curves.
+    pub(super) lines: Vec<Line>,
+}
+
+/// One curve.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    /// Its name in the legend; `_` before a subscript.
+    pub(super) name: String,
+    /// In the order of time.
+    pub(super) bands: Vec<Band>,
+}
+
+/// Least and greatest value at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Band {
+    /// s.
+    pub(super) time: f64,
+    /// Least value.
+    pub(super) min: f64,
+    /// Greatest value.
+    pub(super) max: f64,
+}
+
+/// Where a band is in the picture, tenths of a unit: time, greatest, least.
+type Placed = [i32; 3];
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+impl Figure {
+    /// The figure as an SVG file of its own.
+    pub(super) fn file(&self) -> Result<String, DrawError> {
+        let style = format!("<style>\n{THEME}</style>\n");
+        let document = self.document(&style)?;
+        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{document}"))
+    }
+
+    /// The figure as part of a page that turns its colours.
+    pub(super) fn inline(&self) -> Result<String, DrawError> {
+        self.document("")
+    }
+
+    fn document(&self, style: &str) -> Result<String, DrawError> {
+        let (legend, rows) = self.legend();
+        let height = LEGEND * f64::from(rows) + PANEL;
+        let mut axes = String::new();
+        let curves;
+        {
+            let area = SVGBackend::with_string(&mut axes, (whole(WIDTH), whole(height)));
+            let area = area.into_drawing_area();
+            let (_, panel) = area.split_vertically(px(LEGEND * f64::from(rows)));
+            curves = self.draw(&panel)?;
+            area.present()?;
+        }
+        // plotters' own root element says nothing of the units: ours replaces it.
+        let body = axes.split_once('>').map_or("", |(_, rest)| rest);
+        let body = body.rsplit_once("</svg>").map_or(body, |(body, _)| body);
+        let body: String = body.lines().filter(|line| !line.is_empty()).collect();
+        let (width, height) = (WIDTH + 2.0 * MARGIN, height + 2.0 * MARGIN);
+        let (x, w, h) = (-px(MARGIN), px(width), px(height));
+        let description = escaped(&self.description);
+        Ok(format!(
+            "<svg class=\"figure\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" \
+             width=\"{width}\" height=\"{height}\" viewBox=\"{x} {x} {w} {h}\">\n\
+             <title>{description}</title>\n{style}\
+             <rect x=\"{x}\" y=\"{x}\" width=\"{w}\" height=\"{h}\" fill=\"#FFFFFF\"/>\n\
+             {legend}<g stroke-linejoin=\"round\">{body}</g>\n{curves}</svg>\n"
+        ))
+    }
+
+    /// The legend, and its rows.
+    fn legend(&self) -> (String, u32) {
+        /// Width that a letter of a name takes, on average, and that of a line sample with its gaps.
+        const LETTER: f64 = 0.52 * TYPE;
+        const SAMPLE: f64 = 22.0;
+        const GAP: f64 = 6.0;
+        const BETWEEN: f64 = 20.0;
+        #[expect(clippy::cast_precision_loss, reason = "names are short")]
+        let width = |line: &Line| SAMPLE + GAP + LETTER * line.name.chars().count() as f64;
+        let mut rows: Vec<(f64, Vec<usize>)> = Vec::new();
+        for (index, line) in self.lines.iter().enumerate() {
+            match rows.last_mut().filter(|(used, _)| used + BETWEEN + width(line) <= WIDTH) {
+                Some((used, row)) => {
+                    *used += BETWEEN + width(line);
+                    row.push(index);
+                }
+                None => rows.push((width(line), vec![index])),
+            }
+        }
+        let mut out = format!("<g font-family=\"{FONT}\" font-size=\"{}\">", px(TYPE));
+        let mut y = 0.5 * LEGEND;
+        for (used, row) in &rows {
+            let mut x = 0.5 * (WIDTH - used);
+            for (index, line) in
+                row.iter().filter_map(|&index| self.lines.get(index).map(|l| (index, l)))
+            {
+                let stroke = stroke(index, 20);
+                let _ = write!(
+                    out,
+                    "<path d=\"M{} {}h{}\" {stroke}/><text x=\"{}\" y=\"{}\" dy=\"0.32em\" \
+                     fill=\"#1C1C1E\">{}</text>",
+                    px(x),
+                    px(y),
+                    px(SAMPLE),
+                    px(x + SAMPLE + GAP),
+                    px(y),
+                    symbol(&line.name)
+                );
+                x += width(line) + BETWEEN;
+            }
+            y += LEGEND;
+        }
+        out.push_str("</g>\n");
+        (out, u32::try_from(rows.len()).unwrap_or(1))
+    }
+
+    /// Draws the axes and returns the curves.
+    fn draw(&self, area: &Area) -> Result<String, DrawError> {
+        let style = text(TYPE, INK).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw_text(&self.title, &style, (px(LEFT), px(0.62 * ABOVE)))?;
+        let (power, label) = self.label();
+        let values = || self.lines.iter().flat_map(|line| &line.bands);
+        let y = range_of(values().flat_map(|band| [band.min * power, band.max * power]));
+        let [from, to] = self.span;
+        let x = if from < to { from..to } else { from - 0.5..from + 0.5 };
+        let mut chart = ChartBuilder::on(area)
+            .margin_top(px(ABOVE))
+            .margin_right(px(RIGHT))
+            .x_label_area_size(px(BELOW))
+            .y_label_area_size(px(LEFT))
+            .build_cartesian_2d(Axis(x.clone()), Axis(y.clone()))?;
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(GRID.stroke_width(whole(0.8)))
+            .axis_style(INK.stroke_width(whole(0.8)))
+            .set_all_tick_mark_size(px(4.0))
+            .label_style(text(TYPE_SMALL, INK))
+            .axis_desc_style(text(TYPE, INK))
+            .x_desc("Time t (s)")
+            .y_desc(&label)
+            .draw()?;
+        let frame = Rectangle::new([(x.start, y.start), (x.end, y.end)], INK.stroke_width(8));
+        chart.draw_series([frame])?;
+        let place = |band: &Band| {
+            let at = |value: f64| chart.backend_coord(&(band.time, value * power));
+            let ((time, greatest), (_, least)) = (at(band.max), at(band.min));
+            [time, greatest, least]
+        };
+        let mut out = String::new();
+        for (index, line) in self.lines.iter().enumerate() {
+            for run in line.merged() {
+                let placed: Vec<_> = run.iter().map(place).collect();
+                path(&mut out, &placed, index);
+            }
+        }
+        Ok(out)
+    }
+
+    /// What values are multiplied by for the axis, and the axis' label with that power of ten.
+    fn label(&self) -> (f64, String) {
+        let values = self.lines.iter().flat_map(|line| &line.bands);
+        let sizes = values.map(|band| band.min.abs().max(band.max.abs()));
+        let peak = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+        let plain = peak == 0.0 || (1e-2..1e5).contains(&peak);
+        #[expect(clippy::cast_possible_truncation, reason = "an exponent of a double")]
+        let exponent = if plain { 0 } else { 3 * (peak.log10() / 3.0).floor() as i32 };
+        let factor = if plain { String::new() } else { power_of_ten(exponent) };
+        let unit = [factor.as_str(), self.unit].join(" ");
+        let label = match unit.trim() {
+            "" => self.axis.to_owned(),
+            unit => format!("{} ({unit})", self.axis),
+        };
+        (10_f64.powi(-exponent), label)
+    }
+}
+
+impl Line {
+    /// As many bands as the picture can show, in runs without gaps.
+    fn merged(&self) -> Vec<Vec<Band>> {
+        let [of_line, of_band] = POINTS_MAX;
+        let is_line = self.bands.len() <= of_line && self.bands.iter().all(|b| b.min == b.max);
+        let size = if is_line { 1 } else { self.bands.len().div_ceil(of_band).max(1) };
+        let mut runs = vec![Vec::new()];
+        for column in self.bands.chunks(size) {
+            let finite = || column.iter().filter(|b| b.min.is_finite() && b.max.is_finite());
+            let Some(band) = finite().copied().reduce(Band::with) else {
+                runs.push(Vec::new());
+                continue;
+            };
+            let ends = [column.first(), column.last()];
+            let time = ends.into_iter().flatten().map(|b| 0.5 * b.time).sum();
+            if let Some(run) = runs.last_mut() {
+                run.push(Band { time, ..band });
+            }
+        }
+        runs.retain(|run| !run.is_empty());
+        runs
+    }
+}
+
+impl Band {
+    fn with(self, other: Self) -> Self {
+        Self { time: self.time, min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+}
+
+/// A curve without gaps: a line where it is thin throughout, otherwise a closed band.
+fn path(out: &mut String, run: &[Placed], index: usize) {
+    if run.iter().all(|[_, greatest, least]| least - greatest <= THIN) {
+        let middle = |[time, greatest, least]: &Placed| [*time, i32::midpoint(*greatest, *least)];
+        let middles: Vec<_> = run.iter().map(middle).collect();
+        let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&middles), stroke(index, 13));
+        return;
+    }
+    let greatest: Vec<_> = run.iter().map(|[time, greatest, _]| [*time, *greatest]).collect();
+    let least = run.iter().rev().map(|[time, _, least]| [*time, *least]);
+    let points: Vec<_> = greatest.into_iter().chain(least).collect();
+    let colour = COLOURS[index % COLOURS.len()];
+    let _ = writeln!(
+        out,
+        "<path d=\"{}z\" fill=\"{colour}\" fill-opacity=\"0.45\" stroke=\"{colour}\" \
+         stroke-width=\"6\"/>",
+        moves(&points)
+    );
+}
+
+/// A path through points by relative moves; points within a horizontal line are left out.
+fn moves(points: &[[i32; 2]]) -> String {
+    let Some(mut at) = points.first().copied() else { return String::new() };
+    let mut out = format!("M{} {}l", at[0], at[1]);
+    for (index, point) in points.iter().enumerate().skip(1) {
+        if points.get(index + 1).is_some_and(|next| next[1] == point[1]) && at[1] == point[1] {
+            continue;
+        }
+        for number in [point[0] - at[0], point[1] - at[1]] {
+            if number >= 0 && !out.ends_with('l') {
+                out.push(' ');
+            }
+            let _ = write!(out, "{number}");
+        }
+        at = *point;
+    }
+    if points.len() == 1 { out + "0 0" } else { out }
+}
+
+/// The attributes of the nth curve's line.
+fn stroke(index: usize, width: u32) -> String {
+    let colour = COLOURS[index % COLOURS.len()];
+    let dash = DASHES[index % DASHES.len()];
+    let dash =
+        if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dash}\"") };
+    format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"{dash}")
+}
+
+/// A label with what follows its `_` lowered.
+fn symbol(label: &str) -> String {
+    match label.split_once('_') {
+        None => escaped(label),
+        Some((base, index)) => {
+            let (base, index) = (escaped(base), escaped(index));
+            format!("{base}<tspan dy=\"0.25em\" font-size=\"{}\">{index}</tspan>", px(0.75 * TYPE))
+        }
+    }
+}
+
+fn text(size: f64, colour: RGBColor) -> TextStyle<'static> {
+    (FONT, size * FINE * FONT_SHARE).into_font().color(&colour)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "sizes of a picture")]
+fn px(value: f64) -> i32 {
+    (value * FINE).round() as i32
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "positive sizes of a picture"
+)]
+fn whole(value: f64) -> u32 {
+    (value * FINE).round() as u32
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

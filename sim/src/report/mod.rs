@@ -1,0 +1,226 @@
+//! [`Report`]: one HTML page about a run that holds everything it shows; its figures as SVG; a
+//! summary for the terminal.
+//!
+//! ```text
+//! samples -> Report (buckets, extremes, verdicts, replay frames)
+//!         -> charts -> SVG figures, data block
+//!         -> sections -> page (sim/report/shell.html)
+//! ```
+//!
+//! Invariants: memory does not grow with the length of the run; equal samples and an equal outcome
+//! give equal bytes; no date and no path of a file is written but those in the scenario's own text.
+//! The contract with the page's script is sim/report/DATA.md.
+
+mod blocks;
+mod chart;
+mod data;
+mod error;
+mod extremes;
+mod figure;
+mod grouping;
+mod load_tables;
+mod mass;
+mod number;
+mod page;
+mod replay;
+mod requirements;
+mod run_tables;
+mod slow_motion;
+mod stage;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod ticks;
+mod unit;
+
+pub use error::{DrawError, ReportError};
+
+use chart::{Chart, Drawn, drawn};
+use extremes::{Extremes, Magnitude};
+use replay::Collector;
+
+use crate::engine::Outcome;
+use crate::record::columns::Quantity;
+use crate::record::{Decimate, Header, RecordError, Recorder, Statistics, Verdict};
+use crate::scenario::Scenario;
+
+/// Bytes of a page for the histories in its data block; with script, replay and figures a page of
+/// four double-gimbal devices is below 1.5 MB.
+const HISTORY_BYTES: usize = 300_000;
+/// Bytes of a bucket of one curve: two single-precision numbers, four characters for three bytes.
+const BUCKET_BYTES: usize = 11;
+/// Fewest and most buckets.
+const BUCKETS: [usize; 2] = [120, 1600];
+
+/// Collects what the page of one run shows.
+pub struct Report {
+    scenario: Scenario,
+    warnings: Vec<String>,
+    statistics: Statistics,
+    collected: Option<Collected>,
+}
+
+/// What is known once the columns are.
+struct Collected {
+    header: Header,
+    charts: Vec<Chart>,
+    ledger: Option<Ledger>,
+    history: Decimate,
+    /// A sample and, last, energy less work.
+    row: Vec<f64>,
+    first: Vec<f64>,
+    /// Of each column.
+    extremes: Vec<Extremes>,
+    /// Of the hub's angular velocity.
+    omega: Option<Magnitude>,
+    replay: Option<Collector>,
+}
+
+/// The columns of the energy ledger.
+#[derive(Clone, Copy, Debug)]
+struct Ledger {
+    energy: usize,
+    work: usize,
+    lost: Option<usize>,
+}
+
+impl Report {
+    /// The report of a scenario's run; `warnings` are shown as they are.
+    #[must_use]
+    pub fn new(scenario: &Scenario, warnings: &[String]) -> Self {
+        Self {
+            scenario: scenario.clone(),
+            warnings: warnings.to_vec(),
+            statistics: Statistics::new(&scenario.requirements),
+            collected: None,
+        }
+    }
+
+    /// The page as one HTML file.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError`] if a figure or the template fails, which is a fault of the program.
+    pub fn html(&self, outcome: &Outcome) -> Result<String, ReportError> {
+        page::page(self, outcome)
+    }
+
+    /// The figures in the order of the page: a name for a file, and the text of the SVG file.
+    ///
+    /// # Errors
+    ///
+    /// [`ReportError`] if a figure cannot be drawn, which is a fault of the program.
+    pub fn figures(&self) -> Result<Vec<(String, String)>, ReportError> {
+        let file = |drawn: &Drawn| Ok((drawn.slug.clone(), drawn.figure().file()?));
+        self.drawn().iter().map(file).collect()
+    }
+
+    /// A summary of at most ten lines for the terminal; `files` are listed as they are.
+    #[must_use]
+    pub fn summary(&self, outcome: &Outcome, files: &[String]) -> String {
+        summary::terminal(self, outcome, files)
+    }
+
+    /// One verdict for each requirement of the scenario in order, once the run has ended.
+    #[must_use]
+    pub fn verdicts(&self) -> &[Verdict] {
+        self.statistics.verdicts()
+    }
+
+    /// The charts with their values; those that are zero throughout included.
+    fn drawn(&self) -> Vec<Drawn> {
+        let Some(collected) = &self.collected else { return Vec::new() };
+        let buckets = collected.history.buckets();
+        let [first, last] = [&collected.first, &collected.row];
+        let charts = collected.charts.iter();
+        charts.map(|chart| drawn(chart, buckets, first, last)).filter(|d| !d.is_zero()).collect()
+    }
+
+    /// Titles of the charts whose curves are zero throughout, which are not drawn.
+    fn zero_charts(&self) -> Vec<String> {
+        let Some(collected) = &self.collected else { return Vec::new() };
+        let buckets = collected.history.buckets();
+        let [first, last] = [&collected.first, &collected.row];
+        let charts = collected.charts.iter().map(|chart| drawn(chart, buckets, first, last));
+        charts.filter(Drawn::is_zero).map(|drawn| drawn.title).collect()
+    }
+}
+
+impl Recorder for Report {
+    fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
+        self.statistics.begin(header)?;
+        self.collected = Some(Collected::new(header, &self.scenario));
+        Ok(())
+    }
+
+    fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
+        self.statistics.sample(row)?;
+        match &mut self.collected {
+            Some(collected) => collected.sample(row),
+            None => Ok(()),
+        }
+    }
+
+    fn finish(&mut self, outcome: &Outcome) -> Result<(), RecordError> {
+        self.statistics.finish(outcome)?;
+        if let Some(collected) = &mut self.collected {
+            collected.history.finish(outcome)?;
+        }
+        Ok(())
+    }
+}
+
+impl Collected {
+    fn new(header: &Header, scenario: &Scenario) -> Self {
+        let index = |quantity: Quantity| {
+            header.columns.iter().position(|column| column.quantity == quantity)
+        };
+        let ledger = match (index(Quantity::Energy), index(Quantity::Work)) {
+            (Some(energy), Some(work)) => {
+                Some(Ledger { energy, work, lost: index(Quantity::Lost) })
+            }
+            _ => None,
+        };
+        let charts = grouping::charts(header, scenario, ledger.is_some());
+        let curves: usize = charts.iter().map(|chart| chart.curves.len()).sum();
+        let [fewest, most] = BUCKETS;
+        let buckets = HISTORY_BYTES / (BUCKET_BYTES * curves.max(1));
+        let omega: Option<Vec<usize>> = (0..3).map(|axis| index(Quantity::Omega(axis))).collect();
+        Self {
+            history: Decimate::new(buckets.clamp(fewest, most)),
+            charts,
+            ledger,
+            row: Vec::new(),
+            first: Vec::new(),
+            extremes: vec![Extremes::default(); header.columns.len()],
+            omega: omega.map(Magnitude::new),
+            replay: Collector::new(header, scenario),
+            header: header.clone(),
+        }
+    }
+
+    fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
+        let expected = self.header.columns.len();
+        if row.len() != expected {
+            return Err(RecordError::Row { expected, found: row.len() });
+        }
+        let time = row.first().copied().unwrap_or_default();
+        self.row.clear();
+        self.row.extend_from_slice(row);
+        if let Some(Ledger { energy, work, lost }) = self.ledger {
+            let lost = lost.map_or(0.0, |lost| row[lost]);
+            self.row.push(row[energy] + lost - row[work]);
+        }
+        if self.first.is_empty() {
+            self.first.clone_from(&self.row);
+        }
+        self.extremes.iter_mut().zip(row).for_each(|(extremes, value)| extremes.add(time, *value));
+        if let Some(omega) = &mut self.omega {
+            omega.add(time, row);
+        }
+        if let Some(replay) = &mut self.replay {
+            replay.add(row);
+        }
+        self.history.sample(&self.row)
+    }
+}

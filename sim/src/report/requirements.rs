@@ -1,0 +1,88 @@
+//! The requirements of a scenario: what was reached, and what the limit is.
+
+use super::blocks::{Block, table};
+use super::{Report, number};
+use crate::record::Verdict;
+use crate::scenario::Statistic;
+
+/// The table; empty where the scenario states no requirements.
+pub(super) fn table_of(report: &Report) -> Vec<Block> {
+    let requirements = &report.scenario.requirements;
+    if requirements.is_empty() {
+        return Vec::new();
+    }
+    let rows = requirements.iter().zip(report.verdicts()).map(|(requirement, verdict)| {
+        let state = if verdict.is_met() { "met" } else { "violated" };
+        let [from, to] = requirement.window.map(number::time);
+        let cells = vec![
+            requirement.name.clone(),
+            requirement.quantity.clone(),
+            statistic(requirement.statistic),
+            format!("{from} s to {to} s"),
+            limit(verdict),
+            reached(verdict),
+            word(verdict).to_owned(),
+        ];
+        (state, cells)
+    });
+    let columns = [
+        ("Requirement", ""),
+        ("Quantity", ""),
+        ("Statistic", ""),
+        ("Window", ""),
+        ("Limit", ""),
+        ("Reached", ""),
+        ("State", ""),
+    ];
+    vec![table("Requirements, and what the run reached", &columns, 4..6, rows)]
+}
+
+/// A requirement in words: `pointing: 0.0300 deg/s, limit 0.100 deg/s`.
+pub(super) fn words(verdict: &Verdict) -> String {
+    let comparison = if verdict.is_met() { "within" } else { "above" };
+    match (verdict.value, verdict.complete) {
+        (None, _) => format!("{}: no sample in its window", verdict.name),
+        (Some(_), false) => {
+            format!("{}: {} so far, its window was not run", verdict.name, reached(verdict))
+        }
+        (Some(_), true) => format!(
+            "{}: {} of {}, {comparison} the limit {}",
+            verdict.name,
+            reached(verdict),
+            verdict.quantity,
+            limit(verdict)
+        ),
+    }
+}
+
+fn word(verdict: &Verdict) -> &'static str {
+    match (verdict.value, verdict.complete) {
+        (None, _) => "violated: no sample",
+        (Some(_), false) => "violated: window not run",
+        (Some(value), true) if value <= verdict.limit => "met",
+        (Some(_), true) => "violated",
+    }
+}
+
+fn reached(verdict: &Verdict) -> String {
+    let (unit, size) = &verdict.unit;
+    verdict.value.map_or_else(|| "–".to_owned(), |value| number::with_unit(value / size, 4, unit))
+}
+
+fn limit(verdict: &Verdict) -> String {
+    let (unit, size) = &verdict.unit;
+    let limit = number::short(verdict.limit / size, 6);
+    if unit.is_empty() || unit == "1" { limit } else { format!("{limit} {unit}") }
+}
+
+fn statistic(statistic: Statistic) -> String {
+    match statistic {
+        Statistic::Peak => "largest magnitude".to_owned(),
+        Statistic::Rms => "RMS".to_owned(),
+        Statistic::BandRms([from, to]) => {
+            format!("RMS from {} Hz to {} Hz", number::short(from, 6), number::short(to, 6))
+        }
+        Statistic::Final => "magnitude at the end".to_owned(),
+        Statistic::Drift => "largest departure from the start".to_owned(),
+    }
+}

@@ -1,0 +1,212 @@
+//! Checks of a scenario, whether a file or a program gave it; and [`ScenarioError`].
+
+use std::fmt;
+
+use precess_dynamics::ParameterError;
+
+use super::{Action, Drive, IntegratorChoice, Profile, Scenario, Target};
+
+/// Shorter, and a turn of no wheel fits in.
+pub(crate) const DURATION_MIN: f64 = 1e-6;
+/// Ten years.
+pub(crate) const DURATION_MAX: f64 = 3.2e8;
+/// Tighter than a few roundings of one step, no step can be accepted.
+pub(crate) const TOLERANCE_MIN: f64 = 1e-15;
+/// Looser than this, the step no longer resolves a turn of a wheel.
+pub(crate) const TOLERANCE_MAX: f64 = 1e-3;
+/// A step of RK4 is no shorter, s.
+pub(crate) const STEP_MIN: f64 = 1e-9;
+/// Most samples of a run: 8 bytes a number and fifty columns are 400 GB.
+pub(crate) const SAMPLES_MAX: f64 = 1e9;
+/// Most steps of a run with fixed steps.
+pub(crate) const STEPS_MAX: f64 = 1e11;
+
+/// A scenario that cannot be run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScenarioError {
+    /// A number or a name is out of its range.
+    Range {
+        /// The key of a scenario file that holds it: `run.duration`.
+        key: String,
+        /// What is wrong, with the bound and the remedy.
+        message: String,
+    },
+    /// The solver rejects the parameters.
+    Parameters(ParameterError),
+}
+
+impl fmt::Display for ScenarioError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Range { key, message } => write!(f, "{key}: {message}"),
+            Self::Parameters(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ScenarioError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Range { .. } => None,
+            Self::Parameters(source) => Some(source),
+        }
+    }
+}
+
+fn range(key: &str, message: String) -> ScenarioError {
+    ScenarioError::Range { key: key.to_owned(), message }
+}
+
+impl Scenario {
+    /// Everything that is wrong with it, in the order of the file's keys.
+    #[must_use]
+    pub fn check(&self) -> Vec<ScenarioError> {
+        let mut errors = Vec::new();
+        errors.extend(self.check_settings());
+        errors.extend(self.check_names());
+        errors.extend(self.check_joints());
+        if let Err(error) = self.spacecraft() {
+            errors.push(ScenarioError::Parameters(error));
+        }
+        errors
+    }
+
+    fn check_settings(&self) -> Vec<ScenarioError> {
+        let mut errors = Vec::new();
+        let duration = self.settings.duration;
+        if !(DURATION_MIN..=DURATION_MAX).contains(&duration) {
+            errors.push(range(
+                "run.duration",
+                format!("{duration} s is outside {DURATION_MIN:e} s to {DURATION_MAX:e} s"),
+            ));
+            return errors;
+        }
+        match self.settings.integrator {
+            IntegratorChoice::Dop853 { tolerance } => {
+                if !(TOLERANCE_MIN..=TOLERANCE_MAX).contains(&tolerance) {
+                    errors.push(range(
+                        "run.tolerance",
+                        format!(
+                            "{tolerance:e} is outside {TOLERANCE_MIN:e} to {TOLERANCE_MAX:e}; \
+                             1e-10 suits most runs"
+                        ),
+                    ));
+                }
+            }
+            IntegratorChoice::Rk4 { step } => {
+                let shortest = STEP_MIN.max(duration / STEPS_MAX);
+                if !(shortest..=duration).contains(&step) {
+                    errors.push(range(
+                        "run.step",
+                        format!("{step} s is outside {shortest:e} s to the duration, {duration} s"),
+                    ));
+                }
+            }
+        }
+        let (lowest, highest) = (1.0 / duration, SAMPLES_MAX / duration);
+        let rate = self.output.rate;
+        if !(lowest..=highest).contains(&rate) {
+            errors.push(range(
+                "output.rate",
+                format!(
+                    "{rate} Hz is outside {lowest} Hz to {highest} Hz: one sample in the run, and \
+                     {SAMPLES_MAX:e}"
+                ),
+            ));
+        }
+        for requirement in &self.requirements {
+            let [from, to] = requirement.window;
+            if !(0.0 <= from && from < to && to <= duration) {
+                errors.push(range(
+                    &format!("requirement.{}", requirement.name),
+                    format!("the window {from} s to {to} s is not within the run's {duration} s"),
+                ));
+            }
+        }
+        errors
+    }
+
+    fn check_names(&self) -> Vec<ScenarioError> {
+        let mut errors = Vec::new();
+        if self.names.len() != self.devices.len() || self.drives.len() != self.joint_count() {
+            errors.push(range(
+                "device",
+                format!(
+                    "{} names and {} drives for {} devices with {} joints",
+                    self.names.len(),
+                    self.drives.len(),
+                    self.devices.len(),
+                    self.joint_count()
+                ),
+            ));
+        }
+        for (index, name) in self.names.iter().enumerate() {
+            let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+            if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(plain) {
+                errors.push(range(
+                    "device.name",
+                    format!("`{name}` is not lower-case letters, digits and underscores"),
+                ));
+            }
+            if self.names.iter().take(index).any(|other| other == name) {
+                errors.push(range(
+                    "device.name",
+                    format!("two devices are named `{name}`; rename one"),
+                ));
+            }
+        }
+        errors
+    }
+
+    fn check_joints(&self) -> Vec<ScenarioError> {
+        let count = self.joint_count();
+        let mut errors = Vec::new();
+        let mut number = |key: &str, joint: usize| {
+            if joint >= count {
+                errors.push(range(key, format!("joint {joint} of {count}")));
+            }
+        };
+        self.stops.iter().for_each(|stop| number("stops", stop.joint));
+        self.changes.iter().for_each(|change| number("at", change.joint));
+        for wrench in &self.wrenches {
+            if let Target::Joint(joint) = wrench.body {
+                number("wrench.on", joint);
+            }
+        }
+        for change in &self.changes {
+            if !(0.0..=self.settings.duration).contains(&change.time) {
+                let duration = self.settings.duration;
+                let message = format!("{} s is outside the run, 0 s to {duration} s", change.time);
+                errors.push(range("at.time", message));
+            }
+        }
+        for profile in self.profiles() {
+            if let Some(message) = profile.fault() {
+                errors.push(range("profile", message));
+            }
+        }
+        errors
+    }
+
+    /// All profiles.
+    fn profiles(&self) -> impl Iterator<Item = &Profile> {
+        let changed = self.changes.iter().filter_map(|change| match &change.action {
+            Action::Drive(drive) => Some(drive),
+            Action::Brake => None,
+        });
+        let of_drives = self.drives.iter().chain(changed).filter_map(Drive::profile);
+        let of_wrenches = self.wrenches.iter().flat_map(|w| w.force.iter().chain(&w.moment));
+        of_drives.chain(of_wrenches)
+    }
+}
+
+impl Drive {
+    /// Its profile; none of a locked joint.
+    #[must_use]
+    pub fn profile(&self) -> Option<&Profile> {
+        match self {
+            Self::Torque { profile, .. } | Self::Acceleration(profile) => Some(profile),
+            Self::Locked => None,
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The symbols of units: what each is in SI, and which take a prefix.
+//!
+//! Sources: the SI brochure, 9th edition, for SI and the units used with it; NIST SP 811, appendix
+//! B, for inch, foot, pound and ounce, which are exact.
+
+use std::f64::consts::{PI, TAU};
+
+use super::measure::{Dimension, Measure};
+
+/// A symbol in SI: `10^ten * factor` of the SI unit of its dimension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Symbol {
+    pub(super) ten: i32,
+    pub(super) factor: f64,
+    pub(super) dimension: Dimension,
+}
+
+const fn symbol(ten: i32, factor: f64, measure: Measure) -> Symbol {
+    Symbol { ten, factor, dimension: measure.dimension }
+}
+
+/// Symbols that take a prefix.
+const PREFIXED: &[(&str, Symbol)] = &[
+    ("g", symbol(-3, 1.0, Measure::MASS)),
+    ("m", symbol(0, 1.0, Measure::LENGTH)),
+    ("s", symbol(0, 1.0, Measure::TIME)),
+    ("rad", symbol(0, 1.0, Measure::ANGLE)),
+    ("Hz", symbol(0, 1.0, Measure::FREQUENCY)),
+    ("N", symbol(0, 1.0, Measure::FORCE)),
+    ("J", symbol(0, 1.0, Measure::ENERGY)),
+    ("W", symbol(0, 1.0, Measure::POWER)),
+    ("arcsec", symbol(0, PI / 648_000.0, Measure::ANGLE)),
+];
+
+/// Symbols that take none.
+const PLAIN: &[(&str, Symbol)] = &[
+    ("1", symbol(0, 1.0, Measure::NUMBER)),
+    ("t", symbol(3, 1.0, Measure::MASS)),
+    ("min", symbol(0, 60.0, Measure::TIME)),
+    ("h", symbol(2, 36.0, Measure::TIME)),
+    ("d", symbol(2, 864.0, Measure::TIME)),
+    ("deg", symbol(0, PI / 180.0, Measure::ANGLE)),
+    ("°", symbol(0, PI / 180.0, Measure::ANGLE)),
+    ("arcmin", symbol(0, PI / 10_800.0, Measure::ANGLE)),
+    ("rev", symbol(0, TAU, Measure::ANGLE)),
+    ("rpm", symbol(0, PI / 30.0, Measure::ANGULAR_RATE)),
+    ("in", symbol(-4, 254.0, Measure::LENGTH)),
+    ("ft", symbol(-4, 3048.0, Measure::LENGTH)),
+    ("lb", symbol(-8, 45_359_237.0, Measure::MASS)),
+    ("oz", symbol(-12, 28_349_523_125.0, Measure::MASS)),
+    ("lbf", symbol(-13, 44_482_216_152_605.0, Measure::FORCE)),
+    ("ozf", symbol(0, 0.278_013_850_953_781_2, Measure::FORCE)),
+];
+
+/// Prefixes, as powers of ten.
+const PREFIXES: &[(&str, i32)] = &[
+    ("n", -9),
+    ("u", -6),
+    ("µ", -6),
+    ("μ", -6),
+    ("m", -3),
+    ("c", -2),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+];
+
+/// A symbol by its text, prefix included. A symbol that stands by itself has precedence: `min` is
+/// the minute, and `m` the metre.
+pub(super) fn find(text: &str) -> Option<Symbol> {
+    let plain = PLAIN.iter().chain(PREFIXED).find(|(name, _)| *name == text);
+    if let Some((_, symbol)) = plain {
+        return Some(*symbol);
+    }
+    PREFIXES.iter().find_map(|(prefix, ten)| {
+        let rest = text.strip_prefix(prefix)?;
+        let (_, symbol) = PREFIXED.iter().find(|(name, _)| *name == rest)?;
+        Some(Symbol { ten: symbol.ten + ten, ..*symbol })
+    })
+}
+
+/// All symbols with every prefix, for suggestions.
+pub(super) fn all() -> impl Iterator<Item = String> {
+    let bare = PLAIN.iter().chain(PREFIXED).map(|(name, _)| (*name).to_owned());
+    let prefixed = PREFIXED
+        .iter()
+        .flat_map(|(name, _)| PREFIXES.iter().map(move |(prefix, _)| format!("{prefix}{name}")));
+    bare.chain(prefixed)
+}
