@@ -203,6 +203,10 @@ fn extension(format: Format) -> &'static str {
     }
 }
 
+#[cfg_attr(
+    feature = "parquet",
+    expect(clippy::unnecessary_wraps, reason = "an error only without the feature")
+)]
 fn recorder(format: Format, path: &Path) -> Result<Box<dyn Recorder>, CommandError> {
     match format {
         Format::Csv => Ok(Box::new(Csv::new(path))),
