@@ -1,16 +1,18 @@
 //! Table 1 is written three times, independently from the paper: here for the suites, in the
-//! desktop tool for its runs, and in codegen for the consequences of printed slips. They agree.
+//! scenario files of the desktop tool, and in codegen for the consequences of printed slips. They agree.
+
+use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
-use precess::scenario::table1::{self as tool, variants};
+use precess::scenario::{Drive, Profile};
 use precess_dynamics::dgvscmg::{Joints, MotorTorques, PerJoint};
 use precess_dynamics::{
-    Dgvscmg, FixedSet, Gravity, Hub, HubMode, ImbalanceModel, Inputs, Mode, Passive, Quaternion,
-    State,
+    BuiltIn, Dgvscmg, Each, FixedSet, Gravity, Hub, HubMode, ImbalanceModel, Inputs, JointStates,
+    Mode, Passive, Quaternion, State,
 };
 use precess_review::consequence::table1 as derived;
 use precess_tests::case::Set;
-use precess_tests::table1::{Drive, Imbalance, SCENARIOS, scenario};
+use precess_tests::table1::{Drive as Motors, Imbalance, SCENARIOS, scenario};
 
 /// Units are turned into SI by other factors here and there (`500 * tau / 60`, `500 * pi / 30`):
 /// two roundings of half an epsilon each.
@@ -74,25 +76,48 @@ fn numbers(hub: &Hub, device: &Dgvscmg, state: &State<Set<1>>, inputs: &Inputs<S
     ]
 }
 
+/// The scenario file of a variant, as the typed structures of the suites.
+fn tool(name: &str) -> (Hub, Dgvscmg, State<Set<1>>, Inputs<Set<1>>) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenarios/{name}.toml"));
+    let (file, _) =
+        precess::file::from_file(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    let [BuiltIn::Dgvscmg(device)] = file.devices[..] else { panic!("{:?}", file.devices) };
+    let mut state = State::<Set<1>>::at_rest();
+    (state.r_b_n, state.r_b_n_dot) = (file.initial.r_b_n, file.initial.r_b_n_dot);
+    (state.attitude, state.omega) = (file.initial.attitude, file.initial.omega);
+    for ([q, rate], [from, from_rate]) in
+        state.devices.states_mut().zip(file.initial.devices.states())
+    {
+        (*q, *rate) = (from, from_rate);
+    }
+    let mut inputs = Inputs::<Set<1>>::none();
+    for (torque, drive) in inputs.motors.values_mut().zip(&file.drives) {
+        let Drive::Torque { profile: Profile::Constant(value), limit: None } = drive else {
+            panic!("{drive:?}");
+        };
+        *torque = *value;
+    }
+    (inputs.hub, inputs.gravity) = (file.hub_mode, file.gravity);
+    assert!(file.wrenches.is_empty() && file.changes.is_empty() && file.stops.is_empty());
+    (file.hub, device, state, inputs)
+}
+
 #[test]
 fn desktop_tool_and_suites_run_the_same_table_1() {
-    assert_eq!(variants(None, None).len(), SCENARIOS.len());
     for (imbalance, drive) in SCENARIOS {
         let case = scenario(imbalance, drive);
-        let variant = tool::Variant {
-            imbalance: match imbalance {
-                Imbalance::Printed => tool::Imbalance::Printed,
-                Imbalance::Catalogue => tool::Imbalance::Catalogue,
-            },
-            drive: match drive {
-                Drive::Free => tool::Drive::Free,
-                Drive::Wheel200 => tool::Drive::Wheel200,
-                Drive::Wheel250 => tool::Drive::Wheel250,
-            },
+        let wheel = match imbalance {
+            Imbalance::Printed => "printed",
+            Imbalance::Catalogue => "catalogue",
         };
-        let run = variant.scenario();
+        let motors = match drive {
+            Motors::Free => "free",
+            Motors::Wheel200 => "200",
+            Motors::Wheel250 => "250",
+        };
+        let (hub, device, state, inputs) = tool(&format!("table1-{wheel}-{motors}"));
         let here = numbers(&case.hub, &case.devices[0], &case.state, &case.inputs);
-        let there = numbers(&run.hub, &run.devices[0], &run.state, &run.inputs);
+        let there = numbers(&hub, &device, &state, &inputs);
         for ((what, here), (_, there)) in here.iter().zip(&there) {
             let agree = here.iter().zip(there).all(|(a, b)| (a - b).abs() <= ROUNDING * b.abs());
             assert!(agree, "{imbalance:?} {drive:?}, {what}: {here:?}, but {there:?} in the tool");
@@ -116,7 +141,7 @@ fn components(stem: &str, axes: &str, vector: &Vector3<f64>) -> Vec<(String, f64
 
 #[test]
 fn printed_slips_are_run_on_the_same_table_1() {
-    let case = scenario(Imbalance::Printed, Drive::Wheel200);
+    let case = scenario(Imbalance::Printed, Motors::Wheel200);
     let Hub { m_b, r_bc_b, i_b_bc } = &case.hub;
     let [
         Dgvscmg {

@@ -6,12 +6,14 @@ use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use precess::output::figure::THEME;
 use precess_tests::accuracy::Row;
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
 
 use crate::Sweeps;
 use crate::limit::Limit;
+
+/// The rules that turn the colours on dark screens.
+const THEME: &str = include_str!("../theme.css");
 
 const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
 const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);

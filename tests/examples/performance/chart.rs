@@ -4,11 +4,13 @@ use std::error::Error;
 
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use precess::output::figure::THEME;
 
 use crate::axis::Axis;
 use crate::contender::Contender;
 use crate::race::Time;
+
+/// The rules that turn the colours on dark screens.
+const THEME: &str = include_str!("../theme.css");
 
 const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
 const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);
