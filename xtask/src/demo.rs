@@ -17,7 +17,8 @@ const VARIANTS: [&str; 6] = [
 pub(crate) fn demo() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
     for command in ["run", "plot"] {
-        let first = ["run", "--release", "-p", "precess", "--", command];
+        // As the tests build it: a release build takes minutes, and the runs take a second each.
+        let first = ["run", "-p", "precess", "--", command];
         let last = ["--out", "target/demo", "--force"];
         cargo(&[&first[..], &VARIANTS, &last].concat())?;
     }
