@@ -92,7 +92,7 @@ pub use numbers::each::{Each, JointStates, Value};
 pub use numbers::real::{Angle, Real, Scalar};
 pub use results::ledger::{Ledger, Power};
 pub use results::loads::{LoadAxes, Loads};
-pub use results::momentum::{About, CentreOfMass, Momentum};
+pub use results::momentum::{About, CentreOfMass, EnergyAndMomentum, Momentum};
 pub use sets::built_in::{BuiltIn, BuiltInKind};
 pub use sets::device_parameters::{DeviceParameters, UnsupportedParameter};
 pub use sets::devices::{DeviceSet, Devices, FixedSet};

@@ -45,6 +45,15 @@ pub struct Momentum<T = f64> {
     pub angular: Vector3<T>,
 }
 
+/// Kinetic energy and momenta of the spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyAndMomentum<T = f64> {
+    /// Kinetic energy, J.
+    pub energy: T,
+    /// Momenta, the angular one about the point of the call.
+    pub momentum: Momentum<T>,
+}
+
 /// Where the centre of mass is and how it moves seen from B.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CentreOfMass<T = f64> {
@@ -103,9 +112,7 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
     ) -> Result<D::Scalar, SolveError<D::Scalar>> {
         self.reject_state(state)?;
-        let (_, BodySums { energy, .. }) = self.sums(state);
-        // A sum of squares, but for the rounding of what cancels in it.
-        checked(Quantity::Energy, energy.max(zero()), energy.is_finite())
+        kinetic(&self.sums(state).1)
     }
 
     /// Linear momentum, and angular momentum about a point.
@@ -123,6 +130,23 @@ impl<D: Devices> Spacecraft<D> {
         reject(not_finite_in_point(&about))?;
         let (bn, sums) = self.sums(state);
         self.momentum_of(state, &bn, &sums, about)
+    }
+
+    /// [`Self::energy`] and [`Self::momentum`], the same bits, at the cost of one of them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::momentum`].
+    pub fn energy_and_momentum<A: Attitude<D::Scalar>>(
+        &self,
+        state: &State<D, A>,
+        about: About<D::Scalar>,
+    ) -> Result<EnergyAndMomentum<D::Scalar>, SolveError<D::Scalar>> {
+        self.reject_state(state)?;
+        reject(not_finite_in_point(&about))?;
+        let (bn, sums) = self.sums(state);
+        let momentum = self.momentum_of(state, &bn, &sums, about)?;
+        Ok(EnergyAndMomentum { energy: kinetic(&sums)?, momentum })
     }
 
     /// [`Self::momentum`] from the sums over the bodies.
@@ -195,6 +219,11 @@ impl<D: Devices> Spacecraft<D> {
         check_counts::<D>(&self.devices, &state.devices, None, None)?;
         reject(self.not_finite_in_state(state))
     }
+}
+
+/// Kinetic energy: a sum of squares, but for the rounding of what cancels in it.
+fn kinetic<T: Scalar>(sums: &BodySums<T>) -> Result<T, SolveError<T>> {
+    checked(Quantity::Energy, sums.energy.max(zero()), sums.energy.is_finite())
 }
 
 fn not_finite_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {

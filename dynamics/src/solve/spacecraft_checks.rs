@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::attitude::mrp::Mrp;
 use crate::equations::error::{Quantity, SolveError};
 use crate::model::kind::Kind;
-use crate::results::momentum::{About, Momentum};
+use crate::results::momentum::{About, EnergyAndMomentum, Momentum};
 use crate::{
     Accelerations, Attitude, Dgvscmg, Gravity, Hub, HubMode, Inputs, JointPower, LoadAxes, Mode,
     ParameterError, Part, Passive, Spacecraft, State, Warning, dgvscmg,
@@ -281,6 +281,25 @@ fn energy_lost_in_a_stop_does_not_drown_in_the_orbit() {
     };
     // Half of 0.02 kg m² times the square of 0.01 rad/s is 1e-6 J, of 1e9 J in orbit.
     assert!((lost(7600.0) - lost(0.0)).abs() <= 1e-18 && lost(0.0) > 9e-7);
+}
+
+#[test]
+fn energy_and_momentum_are_those_of_the_two_calls() {
+    let device = Dgvscmg { d: 0.01, ..wheel() };
+    let spacecraft = Spacecraft::new(&hub(), &[device, device]).unwrap();
+    let mut state = State::<[Dgvscmg; 2]>::at_rest();
+    state.r_b_n = Vector3::new(1.0, -2.0, 3.0);
+    state.omega = Vector3::new(0.1, 0.2, -0.3);
+    (state.devices[0].gamma_i, state.devices[1].spin) = (0.4, 300.0);
+    let point = About::Point(Vector3::new(0.3, 0.2, 0.1));
+    for about in [About::InertialOrigin, About::CentreOfMass, point] {
+        let energy = spacecraft.energy(&state).unwrap();
+        let momentum = spacecraft.momentum(&state, about).unwrap();
+        let both = EnergyAndMomentum { energy, momentum };
+        assert_eq!(spacecraft.energy_and_momentum(&state, about), Ok(both));
+    }
+    state.omega.x = f64::NAN;
+    assert!(spacecraft.energy_and_momentum(&state, point).is_err());
 }
 
 #[test]

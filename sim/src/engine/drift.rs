@@ -7,7 +7,9 @@
 //! departure over the final unit, which is what the largest share of any entry would be.
 
 use nalgebra::Vector3;
-use precess_dynamics::{About, Gravity, HubMode, Inputs, SolveError, State};
+use precess_dynamics::{
+    About, Accelerations, EnergyAndMomentum, Gravity, HubMode, Inputs, Momentum, SolveError, State,
+};
 
 use super::integrator::Moment;
 use super::kinematics::momenta;
@@ -76,17 +78,15 @@ impl Conserved {
         lost: f64,
     ) -> Result<(), SolveError> {
         let Moment { state, integrals: [work, throughput] } = moment;
-        let [kinetic, potential] = energies(system, time, state)?;
-        let mut entry = Entry {
+        let ([kinetic, potential], momentum) = energies(system, time, state, None)?;
+        let entry = Entry {
             energy: kinetic + potential + lost - work,
-            linear: Vector3::zeros(),
-            angular: Vector3::zeros(),
+            linear: momentum.linear,
+            angular: momentum.angular,
         };
         self.kinetic = larger(self.kinetic, kinetic);
         self.throughput = larger(self.throughput, *throughput);
         if self.isolated {
-            let momentum = system.spacecraft.momentum(state, About::InertialOrigin)?;
-            (entry.linear, entry.angular) = (momentum.linear, momentum.angular);
             let mut magnitudes = [0.0; 2];
             momenta(&scenario.hub, system.acting.chains(), state, |body| {
                 magnitudes[0] += body.linear.norm();
@@ -120,20 +120,32 @@ impl Conserved {
     }
 }
 
-/// Kinetic energy, and potential energy of gravity and springs, J.
+/// Inputs at a state and the accelerations that follow from them.
+pub(crate) type Evaluated<'a> = (&'a Inputs<Set>, &'a Accelerations<Set>);
+
+/// Kinetic energy, and potential energy of gravity and springs, J; momenta about the inertial
+/// origin. `evaluated` is what is known already of this time and state.
 pub(crate) fn energies(
     system: &System<'_>,
     time: f64,
     state: &State<Set>,
-) -> Result<[f64; 2], SolveError> {
+    evaluated: Option<Evaluated<'_>>,
+) -> Result<([f64; 2], Momentum), SolveError> {
+    let spacecraft = &system.spacecraft;
+    let EnergyAndMomentum { energy, momentum } =
+        spacecraft.energy_and_momentum(state, About::InertialOrigin)?;
     if !system.has_potential() {
-        return Ok([system.spacecraft.energy(state)?, 0.0]);
+        return Ok(([energy, 0.0], momentum));
     }
-    let inputs: Inputs<Set> = system.inputs(time, state);
-    let found = system.spacecraft.accelerations(state, &inputs)?;
-    system.count(1);
-    let ledger = system.spacecraft.ledger(state, &inputs, &found)?;
-    Ok([ledger.kinetic, ledger.gravity + ledger.springs])
+    let ledger = if let Some((inputs, found)) = evaluated {
+        spacecraft.ledger(state, inputs, found)?
+    } else {
+        let inputs = system.inputs(time, state);
+        let found = spacecraft.accelerations(state, &inputs)?;
+        system.count(1);
+        spacecraft.ledger(state, &inputs, &found)?
+    };
+    Ok(([ledger.kinetic, ledger.gravity + ledger.springs], momentum))
 }
 
 /// The larger of two, and NaN once one of them is: a drift that is no number is no small drift.

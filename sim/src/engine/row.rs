@@ -84,19 +84,22 @@ impl Row {
             }
             inputs = Some(&*filled);
         }
-        let momentum = if self.momentum {
-            Some(system.spacecraft.momentum(state, About::InertialOrigin)?)
+        let evaluated = inputs.zip(found.as_ref());
+        let (energy, momentum) = if self.energy {
+            let ([kinetic, potential], momentum) = energies(system, time, state, evaluated)?;
+            (kinetic + potential, Some(momentum))
+        } else if self.momentum {
+            let momentum = system.spacecraft.momentum(state, About::InertialOrigin)?;
+            (f64::NAN, Some(momentum))
         } else {
-            None
+            (f64::NAN, None)
         };
-        let [kinetic, potential] =
-            if self.energy { energies(system, time, state)? } else { [f64::NAN; 2] };
         let computed = Computed {
             moment,
             turns,
             time,
             lost,
-            energy: kinetic + potential,
+            energy,
             mrp: Mrp::from(state.attitude),
             momentum,
             accelerations: found.as_ref(),
