@@ -40,6 +40,9 @@ enum Command {
     /// The quick loop: `regen --check`, `mutate --check`, format, clippy, unit tests
     #[command(after_help = "Example: cargo xtask check")]
     Check,
+    /// Format and clippy, warnings denied
+    #[command(after_help = "Example: cargo xtask lint")]
+    Lint,
     /// Make each term that the emitted functions compute wrong, and each sine and cosine, one at a
     /// time, and check that a law of physics fails
     #[command(after_help = "Example: cargo xtask mutate --kernel wheel")]
@@ -82,6 +85,7 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Regen(options) => regen::regen(&options),
         Command::Check => check::check(),
+        Command::Lint => check::lint(),
         Command::Mutate(options) => mutate::mutate(&options),
         Command::Test => test::test(),
         Command::Attack(options) => attack::attack(&options),
