@@ -43,6 +43,7 @@
 pub mod command;
 pub mod engine;
 pub mod file;
+mod nearest;
 pub mod record;
 pub mod report;
 pub mod scenario;

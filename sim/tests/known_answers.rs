@@ -14,31 +14,8 @@ use std::path::Path;
 
 use precess::engine::{End, Outcome, run};
 use precess::file::from_file;
-use precess::record::{Header, RecordError, Recorder};
+use precess::record::Samples;
 use precess::scenario::Scenario;
-
-/// All samples of a run.
-#[derive(Default)]
-struct Samples {
-    header: Option<Header>,
-    rows: Vec<Vec<f64>>,
-}
-
-impl Recorder for Samples {
-    fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
-        self.header = Some(header.clone());
-        Ok(())
-    }
-
-    fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
-        self.rows.push(row.to_vec());
-        Ok(())
-    }
-
-    fn finish(&mut self, _: &Outcome) -> Result<(), RecordError> {
-        Ok(())
-    }
-}
 
 /// A scenario and its run.
 struct Ran {

@@ -8,9 +8,9 @@ use clap::Args;
 use super::error::CommandError;
 use super::table::{aligned, six};
 use super::{Form, Set, print};
-use crate::engine::{Outcome, run};
+use crate::engine::run;
 use crate::file::from_file;
-use crate::record::{Column, Columns, Header, RecordError, Recorder};
+use crate::record::{Columns, Samples};
 
 /// The options of `evaluate`.
 #[derive(Debug, Args)]
@@ -24,31 +24,6 @@ pub(super) struct Evaluate {
     format: Form,
 }
 
-/// Keeps the first sample.
-#[derive(Default)]
-struct First {
-    columns: Vec<Column>,
-    row: Vec<f64>,
-}
-
-impl Recorder for First {
-    fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
-        self.columns.clone_from(&header.columns);
-        Ok(())
-    }
-
-    fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
-        if self.row.is_empty() {
-            self.row = row.to_vec();
-        }
-        Ok(())
-    }
-
-    fn finish(&mut self, _: &Outcome) -> Result<(), RecordError> {
-        Ok(())
-    }
-}
-
 impl Evaluate {
     pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
         let (mut scenario, _) =
@@ -60,11 +35,15 @@ impl Evaluate {
             })?;
         let all = Columns::all(&scenario);
         scenario.output.columns = all.as_slice().iter().map(|c| c.name.clone()).collect();
-        let mut first = First::default();
+        // One sample at the start, and one where the run is cancelled: after the first step.
+        scenario.output.rate = 1.0 / scenario.settings.duration;
+        let mut samples = Samples::default();
         let name = scenario.name.clone();
-        run(&scenario, &mut first, &mut |_| ControlFlow::Break(()))
+        run(&scenario, &mut samples, &mut |_| ControlFlow::Break(()))
             .map_err(|source| CommandError::Run { name, source })?;
-        let of_interest = first.columns.iter().zip(&first.row).filter(|(c, _)| c.name != "time");
+        let columns = samples.header.iter().flat_map(|header| &header.columns);
+        let first = samples.rows.iter().take(1).flatten();
+        let of_interest = columns.zip(first).filter(|(column, _)| column.name != "time");
         if self.format == Form::Json {
             let object: serde_json::Map<_, _> = of_interest
                 .map(|(column, value)| {

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Args;
 use precess_dynamics::BuiltInKind;
 
-use super::table::aligned;
+use super::table::aligned_left;
 use super::{CommandError, print};
 use crate::file::read::body_key;
 
@@ -26,7 +26,7 @@ impl Kinds {
                 let bodies: Vec<_> = kind.joints().iter().map(body_key).collect();
                 rows.push(vec![kind.name().to_owned(), bodies.join(", ")]);
             }
-            print(&left(&rows));
+            print(&aligned_left(&rows));
             return Ok(ExitCode::SUCCESS);
         };
         let Some(kind) = BuiltInKind::of_name(name) else {
@@ -60,25 +60,9 @@ impl Kinds {
                 vec![format!("  {}", p.name), unit.to_owned(), p.meaning.to_owned()]
             })
             .collect();
-        text.push_str(&left(&rows));
+        text.push_str(&aligned_left(&rows));
         let _ = writeln!(text, "\n`precess new {}` prints a scenario with one.", kind.name());
         print(&text);
         Ok(ExitCode::SUCCESS)
     }
-}
-
-/// Every column to the left.
-fn left(rows: &[Vec<String>]) -> String {
-    let wide: Vec<Vec<String>> = {
-        let count = rows.iter().map(Vec::len).max().unwrap_or(0);
-        let width = |k: usize| {
-            rows.iter().filter_map(|row| row.get(k)).map(|c| c.chars().count()).max().unwrap_or(0)
-        };
-        let widths: Vec<_> = (0..count).map(width).collect();
-        let pad = |(cell, width): (&String, &usize)| {
-            format!("{cell}{}", " ".repeat(width.saturating_sub(cell.chars().count())))
-        };
-        rows.iter().map(|row| row.iter().zip(&widths).map(pad).collect()).collect()
-    };
-    aligned(&wide)
 }

@@ -1,8 +1,24 @@
 //! Text in columns, for the terminal.
 
+/// Where a cell stands in its column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Left,
+    Right,
+}
+
 /// Rows with their cells one under the other: the first column to the left, the others to the
 /// right. Rows of one cell are headings.
 pub(super) fn aligned(rows: &[Vec<String>]) -> String {
+    columns(rows, Side::Right)
+}
+
+/// Rows of text: every column to the left.
+pub(super) fn aligned_left(rows: &[Vec<String>]) -> String {
+    columns(rows, Side::Left)
+}
+
+fn columns(rows: &[Vec<String>], others: Side) -> String {
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
         let cells = rows.iter().filter(|row| row.len() > 1).filter_map(|row| row.get(column));
@@ -14,14 +30,13 @@ pub(super) fn aligned(rows: &[Vec<String>]) -> String {
         let mut line = String::new();
         for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
             let space = " ".repeat(width.saturating_sub(cell.chars().count()));
-            if column > 0 {
-                line.push_str("  ");
-                line.push_str(&space);
-            }
-            line.push_str(cell);
-            if column == 0 {
-                line.push_str(&space);
-            }
+            let side = if column == 0 { Side::Left } else { others };
+            line.push_str(if column == 0 { "" } else { "  " });
+            let [before, after] = match side {
+                Side::Left => ["", &space],
+                Side::Right => [&space, ""],
+            };
+            line.extend([before, cell, after]);
         }
         text.push_str(line.trim_end());
         text.push('\n');

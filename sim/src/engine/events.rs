@@ -12,8 +12,8 @@ use super::inputs::Acting;
 use super::integrator::{Moment, Stepper};
 use super::roots::bracket;
 use super::system::System;
+use crate::nearest::nearest;
 use crate::record::columns::{Quantity, state_quantities};
-use crate::record::nearest::nearest;
 use crate::scenario::{Drive, EndStop, Scenario, Set, StopAction};
 
 /// Width of the bracket of a passage, s.

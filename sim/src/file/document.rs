@@ -57,6 +57,16 @@ impl Value {
     }
 }
 
+impl Node {
+    /// The `name` of a table that has one.
+    pub(super) fn name(&self) -> Option<&str> {
+        match &self.value {
+            Value::Table(table) => table.text("name"),
+            _ => None,
+        }
+    }
+}
+
 impl Table {
     pub(super) fn get(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.key == key)

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 
 use super::diagnostic::{Diagnostics, Span};
 use super::document::{Entry, Node, Table, Value};
+use crate::nearest::nearest;
 use crate::units::{Measure, Quantity, parse_quantity};
 
 /// Where errors go.
@@ -80,6 +81,12 @@ impl<'a> Keys<'a> {
         self.reports.borrow_mut().error(&span, message, "", help);
     }
 
+    /// Reports a value of another type than the key takes.
+    fn other_type<T>(&self, key: &str, node: &Node, help: &str) -> Option<T> {
+        self.error(key, format!("`{}` is {}", self.path_of(key), node.value.what()), help);
+        None
+    }
+
     pub(super) fn missing(&self, key: &str, example: &str) {
         let message = format!("`{}` is missing", self.path_of(key));
         let help = format!("add `{example}`");
@@ -93,12 +100,10 @@ impl<'a> Keys<'a> {
             if asked.contains(&entry.key) {
                 continue;
             }
-            let scored = asked.iter().map(|name| (strsim::jaro_winkler(name, &entry.key), name));
-            let best = scored.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(score, _)| *score > 0.7);
             let mut known: Vec<_> = asked.iter().map(String::as_str).collect();
             known.sort_unstable();
-            let help = match best {
-                Some((_, name)) => format!("did you mean `{name}`?"),
+            let help = match nearest(&entry.key, known.iter().copied()).first() {
+                Some(name) => format!("did you mean `{name}`?"),
                 None => format!("known here: {}", known.join(", ")),
             };
             let message = format!("unknown key `{}`", self.path_of(&entry.key));
@@ -115,19 +120,13 @@ impl<'a> Keys<'a> {
     pub(super) fn tables(&self, key: &str) -> Vec<Keys<'a>> {
         let Some(node) = self.node(key) else { return Vec::new() };
         let Value::List(list) = &node.value else {
-            self.error(
-                key,
-                format!("`{}` is {}", self.path_of(key), node.value.what()),
-                &format!("write `[[{key}]]`, once for each"),
-            );
+            let help = format!("write `[[{key}]]`, once for each");
+            self.other_type::<()>(key, node, &help);
             return Vec::new();
         };
         let path = |index: usize, node: &Node| {
-            let name = match &node.value {
-                Value::Table(table) => table.text("name").map(str::to_owned),
-                _ => None,
-            };
-            format!("{}.{}", self.path_of(key), name.unwrap_or_else(|| index.to_string()))
+            let name = node.name().map_or_else(|| index.to_string(), str::to_owned);
+            format!("{}.{name}", self.path_of(key))
         };
         let members = list.iter().enumerate();
         members.filter_map(|(k, node)| Keys::new(node, &path(k, node), self.reports)).collect()
@@ -137,11 +136,7 @@ impl<'a> Keys<'a> {
         let node = self.node(key)?;
         match &node.value {
             Value::Text(text) => Some(text),
-            other => {
-                let message = format!("`{}` is {}", self.path_of(key), other.what());
-                self.error(key, message, "write it in quotation marks");
-                None
-            }
+            _ => self.other_type(key, node, "write it in quotation marks"),
         }
     }
 
@@ -157,11 +152,7 @@ impl<'a> Keys<'a> {
         let node = self.node(key)?;
         match &node.value {
             Value::Boolean(value) => Some(*value),
-            other => {
-                let message = format!("`{}` is {}", self.path_of(key), other.what());
-                self.error(key, message, "write true or false");
-                None
-            }
+            _ => self.other_type(key, node, "write true or false"),
         }
     }
 
@@ -197,20 +188,14 @@ impl<'a> Keys<'a> {
 
     /// A pure number.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
-        let node = self.node(key)?;
-        match &node.value {
-            Value::Number(value, _) => Some(*value),
-            _ => self.quantity(key, Measure::NUMBER),
-        }
+        self.quantity(key, Measure::NUMBER)
     }
 
     /// Pure numbers, a known count of them.
     pub(super) fn numbers<const N: usize>(&self, key: &str) -> Option<[f64; N]> {
         let node = self.node(key)?;
         let Value::List(list) = &node.value else {
-            let message = format!("`{}` is {}", self.path_of(key), node.value.what());
-            self.error(key, message, &format!("write a list of {N} numbers"));
-            return None;
+            return self.other_type(key, node, &format!("write a list of {N} numbers"));
         };
         let numbers: Vec<_> = list
             .iter()
@@ -290,9 +275,8 @@ impl<'a> Keys<'a> {
             return Some(Quantity { values, dimension, unit: String::new() });
         }
         let Value::Text(text) = &node.value else {
-            let message = format!("`{}` is {}", self.path_of(key), node.value.what());
-            self.error(key, message, "write a number and its unit in quotation marks");
-            return None;
+            let help = "write a number and its unit in quotation marks";
+            return self.other_type(key, node, help);
         };
         self.parsed(node, text, &self.path_of(key), "a number and its unit")
     }

@@ -149,19 +149,12 @@ pub(super) fn merged(below: &Node, above: &Node) -> Node {
 
 /// Whether every member is a table with a name.
 fn named(list: &[Node]) -> bool {
-    !list.is_empty() && list.iter().all(|node| name_of(node).is_some())
-}
-
-fn name_of(node: &Node) -> Option<&str> {
-    match &node.value {
-        Value::Table(table) => table.text("name"),
-        _ => None,
-    }
+    !list.is_empty() && list.iter().all(|node| node.name().is_some())
 }
 
 fn merge_named(below: &mut Vec<Node>, above: Vec<Node>) {
     for node in above {
-        let same = below.iter_mut().find(|old| name_of(old) == name_of(&node));
+        let same = below.iter_mut().find(|old| old.name() == node.name());
         match (same, node) {
             (
                 Some(Node { value: Value::Table(old), .. }),
@@ -210,8 +203,8 @@ fn over(below: &mut Table, above: Table, reports: &mut Diagnostics) {
 
 fn over_named(members: &mut [Node], above: Table, reports: &mut Diagnostics) {
     for Entry { key, key_span, node } in above.entries {
-        let known: Vec<_> = members.iter().filter_map(name_of).map(str::to_owned).collect();
-        let member = members.iter_mut().find(|member| name_of(member) == Some(&key));
+        let known: Vec<_> = members.iter().filter_map(Node::name).map(str::to_owned).collect();
+        let member = members.iter_mut().find(|member| member.name() == Some(&key));
         match (member, node.value) {
             (Some(Node { value: Value::Table(old), .. }), Value::Table(new)) => {
                 over(old, new, reports);

@@ -9,8 +9,8 @@
 use precess_dynamics::kind::JointInfo;
 
 use super::error::RecordError;
-use super::nearest::nearest;
 use crate::engine::Layout;
+use crate::nearest::nearest;
 use crate::scenario::Scenario;
 
 /// A recorded quantity.

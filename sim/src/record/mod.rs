@@ -1,9 +1,10 @@
 //! What a run records: its columns, and where the samples go.
 //!
-//! A [`Recorder`] is told the columns, then every sample, then the result. Files are written as
-//! they come and renamed when the run has ended ([`partial`]); [`Many`] passes samples to several
-//! recorders.
+//! A [`Recorder`] receives the columns, then every sample, then the result. Files are written as
+//! they come and renamed when the run has ended ([`partial`]); [`Samples`] keeps them in memory;
+//! [`Many`] passes them to several recorders, [`Between`] those of an interval.
 
+mod between;
 #[cfg(test)]
 mod checks;
 pub mod columns;
@@ -11,14 +12,15 @@ pub mod csv;
 pub mod decimate;
 mod error;
 mod many;
-pub(crate) mod nearest;
 pub mod npz;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 pub mod partial;
+mod samples;
 pub mod statistics;
 mod welch;
 
+pub use between::Between;
 pub use columns::{Column, Columns};
 pub use csv::Csv;
 pub use decimate::{Bucket, Decimate};
@@ -27,6 +29,7 @@ pub use many::Many;
 pub use npz::Npz;
 #[cfg(feature = "parquet")]
 pub use parquet::Parquet;
+pub use samples::Samples;
 pub use statistics::{Statistics, Verdict};
 
 use sha2::{Digest, Sha256};
@@ -58,7 +61,7 @@ pub trait Recorder {
     fn finish(&mut self, outcome: &Outcome) -> Result<(), RecordError>;
 }
 
-/// What a recorder is told before the first sample.
+/// What a recorder receives before the first sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Header {
     /// The scenario's name.

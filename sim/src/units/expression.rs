@@ -6,6 +6,8 @@
 //! power     = (symbol | "(" unit ")") (("^" | "**") integer | superscript digits)?
 //! ```
 
+use crate::nearest::nearest;
+
 use super::measure::{Dimension, Measure, measure_of};
 use super::symbols;
 
@@ -268,10 +270,11 @@ impl Parser<'_> {
             self.at = self.text.len();
             return Err(self.error(start, UnitErrorKind::Expected));
         }
-        match symbols::find(&name) {
-            Some(s) => Ok(Scale { ten: s.ten, factor: s.factor, dimension: s.dimension }),
-            None => Err(self.error(start, UnitErrorKind::Symbol(nearest(&name)))),
-        }
+        let Some(found) = symbols::find(&name) else {
+            let near = nearest(&name, symbols::all()).into_iter().next();
+            return Err(self.error(start, UnitErrorKind::Symbol(near)));
+        };
+        Ok(Scale { ten: found.ten, factor: found.factor, dimension: found.dimension })
     }
 
     fn exponent(&mut self) -> Result<i8, UnitError> {
@@ -308,14 +311,6 @@ impl Parser<'_> {
         let factor = a.factor * b.factor.powi(i32::from(power));
         Ok(Scale { ten: ten.ok_or_else(error)?, factor, dimension })
     }
-}
-
-/// The nearest symbol, where one is near.
-fn nearest(name: &str) -> Option<String> {
-    const NEAR: f64 = 0.6;
-    let scored = symbols::all().map(|symbol| (strsim::jaro_winkler(name, &symbol), symbol));
-    let best = scored.filter(|(score, _)| *score > NEAR).max_by(|a, b| a.0.total_cmp(&b.0));
-    best.map(|(_, symbol)| symbol)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Quantities with written units: `4 kg`, `6000 rpm`, `32 g cm`, `-0.02, 0.01, 10 cm`.
 //!
 //! A unit is a product of powers of the symbols of [`symbols`], and what a key wants is a
-//! [`Measure`]: a dimension and the unit in which an error asks for it. The plane angle is a
+//! [`Measure`]: a dimension and the unit that an error names. The plane angle is a
 //! dimension of its own, so an angular rate in hertz is an error and not a factor of 2 pi.
 //! Torque and energy have one dimension; which of them is meant is known by the key.
 //!

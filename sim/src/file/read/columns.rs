@@ -4,8 +4,8 @@
 use super::super::document::Node;
 use super::super::keys::{Keys, Reports};
 use crate::engine::Layout;
+use crate::nearest::nearest;
 use crate::record::columns::{Columns, quantity, state_quantities};
-use crate::record::nearest::nearest;
 use crate::scenario::Scenario;
 use crate::units::{Dimension, measure_of, parse_unit};
 

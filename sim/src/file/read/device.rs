@@ -89,7 +89,7 @@ pub(super) fn devices(keys: &Keys<'_>, folder: &Path) -> Vec<Device> {
     };
     for (index, node) in list.iter().enumerate() {
         let nodes = with_original(node, list, keys);
-        let name = name_of(&nodes).map_or_else(|| index.to_string(), str::to_owned);
+        let name = nodes.name().map_or_else(|| index.to_string(), str::to_owned);
         if let Some(device) = Keys::new(&nodes, &format!("device.{name}"), keys.reports()) {
             devices.extend(read(&device, &name, folder));
         }
@@ -97,18 +97,11 @@ pub(super) fn devices(keys: &Keys<'_>, folder: &Path) -> Vec<Device> {
     devices
 }
 
-fn name_of(node: &Node) -> Option<&str> {
-    match &node.value {
-        Value::Table(table) => table.text("name"),
-        _ => None,
-    }
-}
-
 /// A copy with the keys of its original under its own.
 fn with_original(node: &Node, list: &[Node], keys: &Keys<'_>) -> Node {
     let Value::Table(table) = &node.value else { return node.clone() };
     let Some(original) = table.text("copy_of") else { return node.clone() };
-    let found = list.iter().find(|other| name_of(other) == Some(original));
+    let found = list.iter().find(|other| other.name() == Some(original));
     let own =
         |node: &Node| matches!(&node.value, Value::Table(table) if table.get("copy_of").is_none());
     match found {

@@ -16,7 +16,7 @@ use std::path::Path;
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Gravity, Hub, HubMode};
 
-use super::diagnostic::{Diagnostics, Span};
+use super::diagnostic::Diagnostics;
 use super::document::Node;
 use super::keys::{Keys, Reports};
 use super::load::{Override, apply, load_file, load_text};
@@ -235,7 +235,6 @@ fn settings(keys: &Keys<'_>) -> Option<Settings> {
 
 /// What only the whole tells: bounds and names, and what the solver rejects or warns of.
 fn check(scenario: &Scenario, reports: &mut Diagnostics) {
-    let whole = Span::default();
     for error in scenario.check() {
         let (message, help) = match &error {
             ScenarioError::Range { key, message } => (format!("{key}: {message}"), String::new()),
@@ -258,7 +257,6 @@ fn check(scenario: &Scenario, reports: &mut Diagnostics) {
             });
         }
     }
-    let _ = whole;
 }
 
 /// `device 0` by its name.

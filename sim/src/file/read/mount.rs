@@ -8,7 +8,7 @@ use crate::units::Measure;
 /// Columns and rows of a matrix may miss a rotation by this; it is then made one. Six digits do.
 const SKEW_MAX: f64 = 2e-6;
 
-/// How a rotation is written, which keys ask for.
+/// The ways to write a rotation.
 const WAYS: [&str; 5] = ["matrix", "dcm", "axis", "euler", "spin_axis"];
 
 /// The axes by which a device is mounted.

@@ -1,0 +1,36 @@
+//! [`Between`]: only the samples of an interval.
+
+use super::{Header, RecordError, Recorder};
+use crate::engine::Outcome;
+
+/// Passes the samples from one time to another, both included, to a recorder.
+pub struct Between<'a> {
+    interval: [f64; 2],
+    recorder: &'a mut dyn Recorder,
+}
+
+impl<'a> Between<'a> {
+    /// The samples of an interval, s.
+    #[must_use]
+    pub fn new(interval: [f64; 2], recorder: &'a mut dyn Recorder) -> Self {
+        Self { interval, recorder }
+    }
+}
+
+impl Recorder for Between<'_> {
+    fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
+        self.recorder.begin(header)
+    }
+
+    fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
+        let [from, to] = self.interval;
+        match row.first() {
+            Some(time) if (from..=to).contains(time) => self.recorder.sample(row),
+            _ => Ok(()),
+        }
+    }
+
+    fn finish(&mut self, outcome: &Outcome) -> Result<(), RecordError> {
+        self.recorder.finish(outcome)
+    }
+}
