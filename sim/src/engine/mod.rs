@@ -10,6 +10,7 @@
 mod actions;
 #[cfg(test)]
 pub(crate) mod checks;
+mod clipping;
 mod dense;
 mod dop853;
 mod drift;
@@ -58,6 +59,7 @@ pub struct Run<'a> {
     events: Vec<Event>,
     events_omitted: u64,
     lost: f64,
+    peak_rates: Vec<f64>,
     /// The state at the start of a segment or the end of a step.
     moment: Moment,
     time: f64,
@@ -106,6 +108,7 @@ impl<'a> Run<'a> {
             events: Vec::new(),
             events_omitted: 0,
             lost: 0.0,
+            peak_rates: vec![0.0; scenario.joint_count()],
             moment,
             time: 0.0,
             at_boundary: true,
@@ -259,6 +262,7 @@ impl<'a> Run<'a> {
             samples,
             drift: self.conserved.drift(),
             energy_lost: self.lost,
+            peak_rates: self.peak_rates,
             events: self.events,
             events_omitted: self.events_omitted,
         }
@@ -272,8 +276,12 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Enters the present moment into the drifts.
+    /// Enters the present moment into the peaks and the drifts.
     fn enter(&mut self) -> Result<(), RunError> {
+        let joints = self.moment.state.devices.iter().flat_map(JointArray::as_slice);
+        for (peak, [_, rate]) in self.peak_rates.iter_mut().zip(joints) {
+            *peak = peak.max(rate.abs());
+        }
         self.conserved
             .enter(self.scenario, &self.system, self.time, &self.moment, self.lost)
             .map_err(|source| RunError::solve(&self.system, self.time, source))

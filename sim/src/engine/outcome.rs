@@ -21,6 +21,9 @@ pub struct Outcome {
     pub events: Vec<Event>,
     /// How many more there were.
     pub events_omitted: u64,
+    /// Largest magnitude of each joint's rate at the ends of steps, in the order of the set, rad/s
+    /// or m/s.
+    pub peak_rates: Vec<f64>,
     /// How far conserved quantities drifted.
     pub drift: Drift,
     /// Energy lost in brakes and locking end stops, J.

@@ -1,10 +1,10 @@
 //! [`Segments`]: the times at which a step must end, and the changes due there.
 //!
-//! They are the breaks of all profiles, the times at which a ramp or a table reaches the torque
-//! limit, the changes, and the end of the run. A profile that is a sine or a chirp reaches its
-//! limit at a kink that no step ends on; DOP853 shortens its steps there, RK4 does not.
+//! They are the breaks of all profiles, the times at which a profile reaches the limit of its motor
+//! ([`clipping`](super::clipping)), the changes, and the end of the run.
 
-use crate::scenario::{Action, Change, Drive, Interpolation, Profile, Scenario};
+use super::clipping;
+use crate::scenario::{Action, Change, Drive, Profile, Scenario};
 
 /// The ends of segments in the order of time.
 #[derive(Clone, Debug)]
@@ -12,6 +12,10 @@ pub(crate) struct Segments<'a> {
     /// Each above the one before; the last one is the end of the run.
     ends: Vec<f64>,
     next: usize,
+    /// Profiles with a limit, which may pass it between two of these.
+    limited: Vec<(&'a Profile, f64)>,
+    /// The end of the present segment.
+    end: f64,
     /// In the order of time.
     changes: Vec<&'a Change>,
     due: usize,
@@ -27,10 +31,12 @@ impl<'a> Segments<'a> {
             Action::Drive(drive) => Some(drive),
             Action::Brake => None,
         });
+        let mut limited = Vec::new();
         for drive in scenario.drives.iter().chain(changed) {
             ends.extend(drive.profile().map(Profile::breaks).unwrap_or_default());
             if let Drive::Torque { profile, limit: Some(limit) } = drive {
-                clips(profile, limit.abs(), &mut ends);
+                clipping::straight(profile, limit.abs(), &mut ends);
+                limited.push((profile, limit.abs()));
             }
         }
         for wrench in &scenario.wrenches {
@@ -40,15 +46,21 @@ impl<'a> Segments<'a> {
         ends.push(duration);
         ends.sort_by(f64::total_cmp);
         ends.dedup();
-        Self { ends, next: 0, changes, due: 0 }
+        Self { ends, next: 0, limited, end: 0.0, changes, due: 0 }
     }
 
     /// The end of the segment that starts at a time; times only grow from call to call.
     pub(crate) fn end_after(&mut self, time: f64) -> f64 {
+        if self.end > time {
+            return self.end;
+        }
         while self.next + 1 < self.ends.len() && self.ends[self.next] <= time {
             self.next += 1;
         }
-        self.ends[self.next]
+        let listed = self.ends[self.next];
+        let passes = self.limited.iter().filter_map(|(of, limit)| clipping::next(of, *limit, time));
+        self.end = passes.filter(|pass| *pass > time).fold(listed, f64::min);
+        self.end
     }
 
     /// The changes up to a time that have not been returned yet.
@@ -56,26 +68,5 @@ impl<'a> Segments<'a> {
         let from = self.due;
         self.due += self.changes[from..].iter().take_while(|change| change.time <= time).count();
         &self.changes[from..self.due]
-    }
-}
-
-/// Adds the times at which a piecewise linear profile passes the limit.
-fn clips(profile: &Profile, limit: f64, ends: &mut Vec<f64>) {
-    let mut piece = |[from, to]: [f64; 2], [first, last]: [f64; 2]| {
-        for bound in [-limit, limit] {
-            if (first - bound) * (last - bound) < 0.0 {
-                ends.push(from + (to - from) * ((bound - first) / (last - first)));
-            }
-        }
-    };
-    match profile {
-        Profile::Ramp { between, values } => piece(*between, *values),
-        Profile::Table(table) if table.interpolation == Interpolation::Linear => {
-            for (times, values) in table.times.windows(2).zip(table.values.windows(2)) {
-                piece([times[0], times[1]], [values[0], values[1]]);
-            }
-        }
-        Profile::During { profile, .. } => clips(profile, limit, ends),
-        _ => {}
     }
 }

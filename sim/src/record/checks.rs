@@ -5,17 +5,17 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use super::partial::partial_name;
-use super::{Csv, Decimate, Header, Many, Npz, Recorder, Statistics};
-use crate::engine::checks::{Kept, turning_panel};
+use super::{Csv, Decimate, Header, Many, Npz, Recorder, Samples, Statistics};
+use crate::engine::checks::turning_panel;
 use crate::engine::{End, Outcome, Steps, run};
 use crate::scenario::{Requirement, Scenario, Source, Statistic};
 
-/// A run into recorders; what a test recorder kept of it.
-fn recorded(scenario: &Scenario, recorder: &mut dyn Recorder) -> (Outcome, Kept) {
-    let mut kept = Kept::default();
-    let mut both = Many::new(vec![&mut kept, recorder]);
+/// A run into recorders; all its samples.
+fn recorded(scenario: &Scenario, recorder: &mut dyn Recorder) -> (Outcome, Samples) {
+    let mut samples = Samples::default();
+    let mut both = Many::new(vec![&mut samples, recorder]);
     let outcome = run(scenario, &mut both, &mut |_| ControlFlow::Continue(())).expect("it runs");
-    (outcome, kept)
+    (outcome, samples)
 }
 
 /// A panel that turns at half a radian per second, with a text.
@@ -51,6 +51,7 @@ fn outcome(end_time: f64) -> Outcome {
         events_omitted: 0,
         drift: crate::engine::Drift::default(),
         energy_lost: 0.0,
+        peak_rates: Vec::new(),
     }
 }
 
@@ -67,12 +68,12 @@ fn read_csv(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
 fn csv_reads_back_and_says_what_it_is() {
     let folder = folder();
     let path = folder.path().join("check.csv");
-    let (_, kept) = recorded(&panel(), &mut Csv::new(&path));
+    let (_, samples) = recorded(&panel(), &mut Csv::new(&path));
     let (names, rows) = read_csv(&path);
     let expected =
         ["time", "panel.phi", "panel.phi_dot", "panel.phi_ddot", "panel.u_p", "energy", "work"];
     assert_eq!(names[..7], expected);
-    assert_eq!(rows, kept.rows);
+    assert_eq!(rows, samples.rows);
     assert!(!partial_name(&path).exists());
     let text = fs::read_to_string(&path).expect("text");
     for line in [
@@ -118,15 +119,15 @@ fn npz_reads_back_with_the_number_of_samples_that_came() {
         upper: 0.73,
         action: crate::scenario::StopAction::End,
     }];
-    let (outcome, kept) = recorded(&scenario, &mut Npz::new(&path));
+    let (outcome, samples) = recorded(&scenario, &mut Npz::new(&path));
     assert!(outcome.end_time < 1.5);
     let mut archive = zip::ZipArchive::new(fs::File::open(&path).expect("a file")).expect("a zip");
-    let samples = npyz::NpyFile::new(archive.by_name("samples.npy").expect("there"));
-    let samples = samples.expect("an array");
-    let columns = kept.rows[0].len();
-    assert_eq!(samples.shape(), [kept.rows.len() as u64, columns as u64]);
-    let numbers: Vec<f64> = samples.into_vec().expect("doubles");
-    assert_eq!(numbers, kept.rows.concat());
+    let array = npyz::NpyFile::new(archive.by_name("samples.npy").expect("there"));
+    let array = array.expect("an array");
+    let columns = samples.rows[0].len();
+    assert_eq!(array.shape(), [samples.rows.len() as u64, columns as u64]);
+    let numbers: Vec<f64> = array.into_vec().expect("doubles");
+    assert_eq!(numbers, samples.rows.concat());
     let mut text = |name: &str| -> Vec<String> {
         let member = archive.by_name(&format!("{name}.npy")).expect("there");
         npyz::NpyFile::new(member).expect("an array").into_vec().expect("text")
@@ -146,7 +147,7 @@ fn parquet_reads_back() {
     use parquet::record::RowAccessor;
     let folder = folder();
     let path = folder.path().join("check.parquet");
-    let (_, kept) = recorded(&panel(), &mut super::Parquet::new(&path));
+    let (_, samples) = recorded(&panel(), &mut super::Parquet::new(&path));
     let reader = SerializedFileReader::new(fs::File::open(&path).expect("a file"));
     let reader = reader.expect("a Parquet file");
     let metadata = reader.metadata().file_metadata().key_value_metadata().expect("metadata");
@@ -154,7 +155,7 @@ fn parquet_reads_back() {
     assert_eq!(value("precess.unit.panel.phi").as_deref(), Some("rad"));
     assert_eq!(value("precess.end").as_deref(), Some("finished"));
     let rows = reader.get_row_iter(None).expect("rows");
-    for (found, expected) in rows.zip(&kept.rows) {
+    for (found, expected) in rows.zip(&samples.rows) {
         let found = found.expect("a row");
         let numbers: Vec<f64> =
             (0..found.len()).map(|column| found.get_double(column).expect("a double")).collect();

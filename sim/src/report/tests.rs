@@ -47,6 +47,7 @@ fn outcome(end_time: f64) -> Outcome {
         events_omitted: 0,
         drift: Drift { energy: Some(2e-15), linear: None, angular: Some(1e-15) },
         energy_lost: 0.0,
+        peak_rates: Vec::new(),
     }
 }
 

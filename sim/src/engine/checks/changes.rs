@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use precess_dynamics::{About, HubMode};
 
-use super::{DOP853, kept, scenario, set_joint, turning_panel, wheel};
+use super::{DOP853, column, last, recorded, scenario, set_joint, turning_panel, wheel};
 use crate::engine::{Advance, End, Run, RunError};
 use crate::record::RecordError;
 use crate::scenario::{Action, Change, Drive, IntegratorChoice, Interpolation, Profile, Table};
@@ -51,7 +51,7 @@ fn a_table_is_integrated_from_value_to_value_and_clipped_at_the_limit() {
             scenario.hub_mode = HubMode::Fixed;
             scenario.settings.integrator = integrator;
             scenario.drives = vec![torque(Profile::Table(table.clone()), Some(1.5))];
-            kept(&scenario).1.last("wheel.spin")
+            last(&recorded(&scenario).1, "wheel.spin")
         };
         assert!((spin(&held) - impulse / 0.2).abs() < ROUNDING);
         if integrator == DOP853 {
@@ -73,14 +73,42 @@ fn a_table_is_integrated_from_value_to_value_and_clipped_at_the_limit() {
     }
 }
 
+/// 2 sin(2 pi t) N m limited to 1 N m: between its kinks at 1/12 and 5/12 of a period it is constant.
+#[test]
+fn a_clipped_sine_is_integrated_from_kink_to_kink() {
+    let sine = Profile::Sine { mean: 0.0, amplitude: 2.0, frequency: 1.0, phase: 0.0 };
+    for integrator in [DOP853, RK4] {
+        let mut scenario = scenario(&["wheel"], vec![wheel().into()], 2.5);
+        scenario.hub_mode = HubMode::Fixed;
+        scenario.settings.integrator = integrator;
+        scenario.drives = vec![torque(sine.clone(), Some(1.0))];
+        let mut run = Run::new(&scenario).expect("it is accepted");
+        let mut times = Vec::new();
+        while let Advance::Stepped = run.advance().expect("a step") {
+            times.push(run.time());
+        }
+        for kink in [1.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 25.0, 29.0].map(|k| k / 12.0) {
+            assert!(times.iter().any(|time| (time - kink).abs() < 1e-14), "{kink}: {times:?}");
+        }
+        if integrator == DOP853 {
+            // Half a period is left after two whole ones.
+            let tau = std::f64::consts::TAU;
+            let rise = 2.0 / tau * (1.0 - (tau / 12.0).cos());
+            let impulse = 2.0 * rise + 4.0 / 12.0;
+            let spin = run.state().devices[0].as_slice()[0][1];
+            assert!((spin - impulse / 0.2).abs() < ROUNDING, "{:e}", spin - impulse / 0.2);
+        }
+    }
+}
+
 #[test]
 fn samples_at_a_jump_show_what_comes_after_it() {
     let mut scenario = scenario(&["wheel"], vec![wheel().into()], 1.0);
     scenario.output.rate = 4.0;
     scenario.drives = vec![torque(Profile::Step { at: 0.5, before: 1.0, after: 2.0 }, Some(1.75))];
-    let (_, kept) = kept(&scenario);
-    assert_eq!(kept.column("time"), [0.0, 0.25, 0.5, 0.75, 1.0]);
-    assert_eq!(kept.column("wheel.u_w"), [1.0, 1.0, 1.75, 1.75, 1.75]);
+    let (_, samples) = recorded(&scenario);
+    assert_eq!(column(&samples, "time"), [0.0, 0.25, 0.5, 0.75, 1.0]);
+    assert_eq!(column(&samples, "wheel.u_w"), [1.0, 1.0, 1.75, 1.75, 1.75]);
 }
 
 #[test]
@@ -91,13 +119,13 @@ fn a_brake_keeps_angular_momentum_and_enters_its_loss() {
     scenario.changes = vec![Change { time: 0.7, joint: 0, action: Action::Brake }];
     for integrator in [DOP853, RK4] {
         scenario.settings.integrator = integrator;
-        let (outcome, kept) = kept(&scenario);
-        assert_eq!(kept.last("wheel.spin"), 0.0);
+        let (outcome, samples) = recorded(&scenario);
+        assert_eq!(last(&samples, "wheel.spin"), 0.0);
         // Of 250 J; the rest is motion of the hub. Rotors of 0.2 and 30 kg m², but for what the
         // hub's motion has changed of the spin by then.
         let loss = 0.5 * 50.0 * 50.0 * (0.2 * 30.0 / 30.2);
         assert!((outcome.energy_lost - loss).abs() < 1e-4 * loss, "{}", outcome.energy_lost);
-        assert_eq!(kept.last("energy_lost"), outcome.energy_lost);
+        assert_eq!(last(&samples, "energy_lost"), outcome.energy_lost);
         let drift = outcome.drift;
         let bound = if integrator == DOP853 { 1e-13 } else { 1e-5 };
         for part in [drift.energy, drift.linear, drift.angular] {
@@ -125,8 +153,8 @@ fn a_moving_joint_is_not_locked_without_a_brake() {
     let mut scenario = turning_panel(0.5, 1.0);
     let drive = Drive::Locked;
     scenario.changes = vec![Change { time: 0.25, joint: 0, action: Action::Drive(drive.clone()) }];
-    let (outcome, kept) = kept(&scenario);
-    assert_eq!((outcome.end_time, kept.last("time"), kept.finished), (0.25, 0.25, true));
+    let (outcome, samples) = recorded(&scenario);
+    assert_eq!((outcome.end_time, last(&samples, "time"), samples.finished), (0.25, 0.25, true));
     let End::Failed(error) = outcome.end else { panic!("{}", outcome.end) };
     assert_eq!(error.time(), Some(0.25));
     assert_eq!(
@@ -143,11 +171,11 @@ fn a_prescribed_acceleration_is_followed_and_its_torque_is_recorded() {
     let mut scenario = scenario(&["wheel"], vec![wheel().into()], 1.0);
     scenario.hub_mode = HubMode::Fixed;
     scenario.drives = vec![Drive::Acceleration(Profile::Constant(3.0))];
-    let (outcome, kept) = kept(&scenario);
-    assert!((kept.last("wheel.spin") - 3.0).abs() < ROUNDING);
-    assert!(kept.column("wheel.u_w").iter().all(|torque| (torque - 0.6).abs() < ROUNDING));
+    let (outcome, samples) = recorded(&scenario);
+    assert!((last(&samples, "wheel.spin") - 3.0).abs() < ROUNDING);
+    assert!(column(&samples, "wheel.u_w").iter().all(|torque| (torque - 0.6).abs() < ROUNDING));
     // 0.9 J of the rotor.
-    assert!((kept.last("work") - 0.9).abs() < ROUNDING, "{}", kept.last("work"));
+    assert!((last(&samples, "work") - 0.9).abs() < ROUNDING, "{}", last(&samples, "work"));
     assert!(outcome.drift.energy.is_some_and(|drift| drift < 1e-13));
     assert_eq!((outcome.drift.linear, outcome.drift.angular), (None, None));
 }
@@ -156,7 +184,7 @@ fn a_prescribed_acceleration_is_followed_and_its_torque_is_recorded() {
 fn an_unknown_column_is_rejected_with_the_nearest() {
     let mut scenario = turning_panel(0.5, 1.0);
     scenario.output.columns = vec!["panel.phi_dott".to_owned()];
-    let rejected = super::run(&scenario, &mut super::Kept::default(), &mut |_| {
+    let rejected = super::run(&scenario, &mut super::Samples::default(), &mut |_| {
         std::ops::ControlFlow::Continue(())
     });
     let Err(RunError::Record(RecordError::UnknownColumn { name, nearest })) = rejected else {

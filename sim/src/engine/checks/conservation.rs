@@ -8,7 +8,7 @@ use precess_dynamics::{
     Quaternion,
 };
 
-use super::{DOP853, kept, scenario};
+use super::{DOP853, column, last, recorded, scenario};
 use crate::engine::Run;
 use crate::engine::kinematics::{Chain, momenta};
 use crate::scenario::{IntegratorChoice, Scenario};
@@ -88,7 +88,7 @@ fn every_kind_keeps_energy_and_momentum() {
         let mut scenario = every_kind(passive);
         for (integrator, bound) in [(DOP853, 1e-12), (IntegratorChoice::Rk4 { step: 2e-3 }, 1e-8)] {
             scenario.settings.integrator = integrator;
-            let (outcome, _) = kept(&scenario);
+            let (outcome, _) = recorded(&scenario);
             let drift = outcome.drift;
             for part in [drift.energy, drift.linear, drift.angular] {
                 assert!(part.is_some_and(|part| part < bound), "{integrator:?} {drift:?}");
@@ -104,11 +104,11 @@ fn an_orbit_keeps_its_energy_with_that_of_gravity() {
     scenario.initial.r_b_n = Vector3::new(7e6, 0.0, 0.0);
     scenario.initial.r_b_n_dot = Vector3::new(0.0, 7.5e3, 0.0);
     scenario.settings.duration = 20.0;
-    let (outcome, kept) = kept(&scenario);
+    let (outcome, samples) = recorded(&scenario);
     let drift = outcome.drift;
     assert!(drift.energy.is_some_and(|part| part < 1e-12) && drift.linear.is_none(), "{drift:?}");
     // Bound: below zero.
-    assert!(kept.column("energy").iter().all(|energy| *energy < 0.0));
+    assert!(column(&samples, "energy").iter().all(|energy| *energy < 0.0));
 }
 
 #[test]
@@ -116,11 +116,11 @@ fn loads_are_recorded_only_where_they_are_selected() {
     let mut scenario = every_kind(Passive::none());
     scenario.settings.duration = 0.01;
     scenario.output.rate = 1000.0;
-    let (_, without) = kept(&scenario);
+    let (_, without) = recorded(&scenario);
     let header = without.header.as_ref().expect("a header");
     assert!(header.index("dgcmg.mount.force_x").is_none());
     scenario.output.columns = vec!["loads".to_owned(), "omega".to_owned()];
-    let (_, with) = kept(&scenario);
+    let (_, with) = recorded(&scenario);
     let header = with.header.as_ref().expect("a header");
     assert_eq!(header.columns[0].name, "time");
     assert_eq!(header.quantity("omega").expect("three").len(), 3);
@@ -128,7 +128,7 @@ fn loads_are_recorded_only_where_they_are_selected() {
     let count = 6 * (scenario.devices.len() + scenario.joint_count());
     assert_eq!(header.columns.len(), 1 + 3 + count);
     assert!(with.rows.iter().flatten().all(|number| number.is_finite()));
-    assert!(with.last("dgvscmg.inner_gimbal.load_moment_y") != 0.0);
+    assert!(last(&with, "dgvscmg.inner_gimbal.load_moment_y") != 0.0);
 }
 
 #[test]

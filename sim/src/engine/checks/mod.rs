@@ -14,54 +14,26 @@ use precess_dynamics::{
 };
 
 use super::{Outcome, run};
-use crate::record::{Header, RecordError, Recorder};
+use crate::record::Samples;
 use crate::scenario::{Drive, IntegratorChoice, Output, Profile, Scenario, Set, Settings, Source};
 
 pub(crate) const DOP853: IntegratorChoice = IntegratorChoice::Dop853 { tolerance: 1e-13 };
 
-/// Keeps every sample.
-#[derive(Default)]
-pub(crate) struct Kept {
-    pub(crate) header: Option<Header>,
-    pub(crate) rows: Vec<Vec<f64>>,
-    pub(crate) finished: bool,
-}
-
-impl Recorder for Kept {
-    fn begin(&mut self, header: &Header) -> Result<(), RecordError> {
-        self.header = Some(header.clone());
-        Ok(())
-    }
-
-    fn sample(&mut self, row: &[f64]) -> Result<(), RecordError> {
-        self.rows.push(row.to_vec());
-        Ok(())
-    }
-
-    fn finish(&mut self, _: &Outcome) -> Result<(), RecordError> {
-        self.finished = true;
-        Ok(())
-    }
-}
-
-impl Kept {
-    /// The history of a column.
-    pub(crate) fn column(&self, name: &str) -> Vec<f64> {
-        let header = self.header.as_ref().expect("a run has begun");
-        let index = header.index(name).unwrap_or_else(|| panic!("no column {name}"));
-        self.rows.iter().map(|row| row[index]).collect()
-    }
-
-    pub(crate) fn last(&self, name: &str) -> f64 {
-        *self.column(name).last().expect("a sample")
-    }
-}
-
 /// Runs a scenario to its end.
-pub(crate) fn kept(scenario: &Scenario) -> (Outcome, Kept) {
-    let mut kept = Kept::default();
-    let outcome = run(scenario, &mut kept, &mut |_| ControlFlow::Continue(()));
-    (outcome.unwrap_or_else(|error| panic!("{error}")), kept)
+pub(crate) fn recorded(scenario: &Scenario) -> (Outcome, Samples) {
+    let mut samples = Samples::default();
+    let outcome = run(scenario, &mut samples, &mut |_| ControlFlow::Continue(()));
+    (outcome.unwrap_or_else(|error| panic!("{error}")), samples)
+}
+
+/// The history of a column.
+pub(crate) fn column(samples: &Samples, name: &str) -> Vec<f64> {
+    samples.column(name).unwrap_or_else(|| panic!("no column {name}"))
+}
+
+/// The last value of a column.
+pub(crate) fn last(samples: &Samples, name: &str) -> f64 {
+    *column(samples, name).last().expect("a sample")
 }
 
 /// A scenario with every joint driven by no torque, everything at rest.

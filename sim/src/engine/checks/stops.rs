@@ -1,11 +1,11 @@
-//! End stops, crossings, cancellation and failure: where a run ends, and what is kept.
+//! End stops, crossings, cancellation and failure: where a run ends, and its samples.
 
 use std::ops::ControlFlow;
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{Dgvscmg, HubMode, SolveError};
 
-use super::{DOP853, Kept, kept, scenario, set_joint, turning_panel, wheel};
+use super::{DOP853, Samples, last, recorded, scenario, set_joint, turning_panel, wheel};
 use crate::engine::{End, Run, RunError, run};
 use crate::scenario::{
     Action, Change, Crossing, Drive, EndStop, IntegratorChoice, Profile, StopAction,
@@ -28,11 +28,11 @@ fn an_end_stop_is_met_when_the_closed_form_says() {
         let mut scenario = turning_panel(rate, 5.0);
         scenario.settings.integrator = integrator;
         scenario.stops = vec![stop(0.4, StopAction::End)];
-        let (outcome, kept) = kept(&scenario);
+        let (outcome, samples) = recorded(&scenario);
         assert!((outcome.end_time - bound / rate).abs() < TIME, "{}", outcome.end_time);
         assert!(matches!(&outcome.end, End::EndStop { joint, .. } if joint == "panel.phi"));
-        assert_eq!(kept.last("time"), outcome.end_time);
-        let coordinate = kept.last("panel.phi");
+        assert_eq!(last(&samples, "time"), outcome.end_time);
+        let coordinate = last(&samples, "panel.phi");
         assert!((coordinate - bound).abs() < TIME && (-1.0..=0.4).contains(&coordinate));
     }
 }
@@ -43,10 +43,13 @@ fn a_stop_that_locks_takes_the_energy_of_the_joint() {
         let mut scenario = turning_panel(0.5, 4.0);
         scenario.settings.integrator = integrator;
         scenario.stops = vec![stop(1.0, StopAction::Lock)];
-        let (outcome, kept) = kept(&scenario);
+        let (outcome, samples) = recorded(&scenario);
         assert!(matches!(outcome.end, End::Finished) && outcome.end_time == 4.0);
         assert!((outcome.energy_lost - 0.5 * 0.8 * 0.25).abs() < 1e-15);
-        assert!((kept.last("panel.phi") - 1.0).abs() < TIME && kept.last("panel.phi_dot") == 0.0);
+        assert!(
+            (last(&samples, "panel.phi") - 1.0).abs() < TIME
+                && last(&samples, "panel.phi_dot") == 0.0
+        );
         assert_eq!(outcome.events.len(), 1);
         assert!((outcome.events[0].time - 2.0).abs() < TIME, "{:?}", outcome.events);
         assert!(outcome.drift.energy.is_some_and(|drift| drift < 1e-13));
@@ -61,7 +64,7 @@ fn a_stop_touched_between_the_ends_of_a_step_is_found() {
     scenario.stops = vec![stop(0.499_999, StopAction::End)];
     for integrator in [DOP853, IntegratorChoice::Rk4 { step: 2.0 }] {
         scenario.settings.integrator = integrator;
-        let (outcome, _) = kept(&scenario);
+        let (outcome, _) = recorded(&scenario);
         let expected = 1.0 - (2.0_f64 * 1e-6).sqrt();
         // The passage is nearly tangential: a rounding of the coordinate over the rate there.
         assert!((outcome.end_time - expected).abs() < 1e-11, "{}", outcome.end_time);
@@ -100,7 +103,7 @@ fn crossings_are_noted_each_time_and_the_earliest_that_ends_the_run_ends_it() {
     ];
     for integrator in [DOP853, RK4] {
         scenario.settings.integrator = integrator;
-        let (outcome, _) = kept(&scenario);
+        let (outcome, _) = recorded(&scenario);
         assert!(matches!(&outcome.end, End::Crossing { name } if name == "early"));
         assert!((outcome.end_time - 7.5).abs() < TIME, "{}", outcome.end_time);
         let times: Vec<f64> = outcome.events.iter().map(|event| event.time).collect();
@@ -116,13 +119,13 @@ fn a_cancelled_run_is_a_shorter_one_that_says_so() {
     let mut scenario = turning_panel(0.5, 100.0);
     scenario.settings.integrator = RK4;
     scenario.output.rate = 10.0;
-    let mut found = Kept::default();
+    let mut found = Samples::default();
     let outcome = run(&scenario, &mut found, &mut |time| {
         if time >= 1.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let outcome = outcome.expect("a result");
     assert!(matches!(outcome.end, End::Cancelled) && !outcome.end.is_complete());
-    assert_eq!((outcome.end_time, found.last("time"), found.finished), (1.0, 1.0, true));
+    assert_eq!((outcome.end_time, last(&found, "time"), found.finished), (1.0, 1.0, true));
     assert_eq!((found.rows.len() as u64, outcome.samples), (11, 11));
 }
 
@@ -139,7 +142,7 @@ fn a_massless_gimbal_at_its_lock_is_an_error_with_its_time() {
     scenario.changes = vec![Change { time: lock, joint: 2, action }];
     for integrator in [DOP853, IntegratorChoice::Rk4 { step: 0.01 }] {
         scenario.settings.integrator = integrator;
-        let (outcome, kept) = kept(&scenario);
+        let (outcome, samples) = recorded(&scenario);
         let End::Failed(error) = &outcome.end else { panic!("{}", outcome.end) };
         // Near the lock the pivot is rounding already; rk4 names the start of its step.
         let time = error.time().unwrap_or_default();
@@ -147,9 +150,9 @@ fn a_massless_gimbal_at_its_lock_is_an_error_with_its_time() {
         let RunError::Solve { device: Some(device), source, .. } = error else { panic!("{error}") };
         assert_eq!(device, "cmg1");
         assert!(matches!(source, SolveError::Singular { .. }), "{error}");
-        assert!(outcome.end_time <= lock && kept.finished);
+        assert!(outcome.end_time <= lock && samples.finished);
         // A state that has no accelerations is not recorded.
-        assert!((1.5..=lock).contains(&kept.last("time")));
-        assert!(kept.rows.iter().flatten().all(|number| number.is_finite()));
+        assert!((1.5..=lock).contains(&last(&samples, "time")));
+        assert!(samples.rows.iter().flatten().all(|number| number.is_finite()));
     }
 }

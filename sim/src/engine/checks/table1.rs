@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::dgvscmg::MotorTorques;
 use precess_dynamics::{Dgvscmg, Hub, Inputs, Spacecraft, State, dgvscmg};
 
-use super::{DOP853, kept, scenario, set_joint};
+use super::{DOP853, recorded, scenario, set_joint};
 use crate::engine::{Advance, Run};
 use crate::scenario::{Drive, IntegratorChoice, Profile, Scenario};
 
@@ -61,7 +61,7 @@ fn spin() -> f64 {
 #[test]
 fn conserved_quantities_drift_by_less_than_a_millionth_of_a_millionth() {
     for count in [1, 3] {
-        let (outcome, _) = kept(&table1(count, 10.0));
+        let (outcome, _) = recorded(&table1(count, 10.0));
         let drift = outcome.drift;
         for part in [drift.energy, drift.linear, drift.angular] {
             assert!(part.is_some_and(|part| part < DRIFT), "{drift:?}");

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::ReactionWheel;
 
-use super::{kept, scenario, set_joint, wheel};
+use super::{last, recorded, scenario, set_joint, wheel};
 use crate::scenario::{AppliedWrench, Profile, Scenario, Set, Target, WrenchAxes};
 
 /// Ten metres at tolerance 1e-13, and the roundings of some hundred steps.
@@ -36,12 +36,16 @@ fn a_force_that_keeps_its_direction_in_n_accelerates_along_it() {
         let mut scenario = spinning(devices);
         set_joint(&mut scenario, 0, [0.3, 2.0]);
         scenario.wrenches = vec![force(body, WrenchAxes::Inertial, 20.8)];
-        let (outcome, kept) = kept(&scenario);
-        let found = ["position_x", "position_y", "position_z"].map(|name| kept.last(name));
+        let (outcome, samples) = recorded(&scenario);
+        let found = ["position_x", "position_y", "position_z"].map(|name| last(&samples, name));
         assert!((found[0] - 10.0).abs() < DISTANCE, "{body:?}: {found:?}");
         assert!(found[1].abs() < DISTANCE && found[2].abs() < DISTANCE, "{body:?}: {found:?}");
         // 20.8 N over 10 m.
-        assert!((kept.last("work") - 208.0).abs() < 208.0 * 1e-12, "{}", kept.last("work"));
+        assert!(
+            (last(&samples, "work") - 208.0).abs() < 208.0 * 1e-12,
+            "{}",
+            last(&samples, "work")
+        );
         assert!(outcome.drift.energy.is_some_and(|drift| drift < 1e-12), "{:?}", outcome.drift);
         assert_eq!((outcome.drift.linear, outcome.drift.angular), (None, None));
     }
@@ -51,11 +55,11 @@ fn a_force_that_keeps_its_direction_in_n_accelerates_along_it() {
 fn a_force_fixed_in_the_body_turns_with_it() {
     let mut scenario = spinning(vec![wheel().into()]);
     scenario.wrenches = vec![force(Target::Hub, WrenchAxes::Body, 20.8)];
-    let (_, kept) = kept(&scenario);
+    let (_, samples) = recorded(&scenario);
     // x'' = 0.2 cos(1.5 t), y'' = 0.2 sin(1.5 t), from rest.
     let (a, w, t) = (0.2, 1.5, 10.0_f64);
     let expected = [a / (w * w) * (1.0 - (w * t).cos()), a / w * t - a / (w * w) * (w * t).sin()];
-    let found = ["position_x", "position_y"].map(|name| kept.last(name));
+    let found = ["position_x", "position_y"].map(|name| last(&samples, name));
     for (found, expected) in found.iter().zip(expected) {
         assert!((found - expected).abs() < DISTANCE, "{found} {expected}");
     }
@@ -70,8 +74,8 @@ fn a_moment_in_body_axes_of_the_wheel_is_the_force_at_its_arm() {
         let mut scenario = spinning(vec![device.into()]);
         set_joint(&mut scenario, 0, [0.3, 2.0]);
         scenario.wrenches = vec![wrench];
-        let (_, kept) = kept(&scenario);
-        ["omega_x", "omega_y", "omega_z", "wheel.spin"].map(|name| kept.last(name))
+        let (_, samples) = recorded(&scenario);
+        ["omega_x", "omega_y", "omega_z", "wheel.spin"].map(|name| last(&samples, name))
     };
     let arm = AppliedWrench {
         force: [Profile::ZERO, Profile::Constant(3.0), Profile::ZERO],
