@@ -125,6 +125,19 @@ fn evaluate_check_and_compare_tell_what_they_find() {
     let result = result.to_str().expect("text");
     let same = text(&precess(&["compare", result, result]).stdout);
     assert!(same.lines().any(|line| line.starts_with("omega_x") && line.contains(" 0 ")), "{same}");
+    let slower = folder.join("slower");
+    let changed = ["--no-report", "--set", "device.wheel1.wheel.rate=2900 rpm"];
+    assert!(run(&file, &slower, &changed).status.success());
+    let [a, b] = [&out, &slower].map(|folder| folder.to_str().expect("text"));
+    let json = precess(&["compare", a, b, "--format", "json"]).stdout;
+    let found: serde_json::Value = serde_json::from_slice(&json).expect("JSON");
+    let columns = found[0]["columns"].as_array().expect("columns");
+    let spin = columns.iter().find(|column| column["column"] == "wheel1.spin").expect("a rate");
+    let difference = 100.0 * std::f64::consts::PI / 30.0;
+    assert!((spin["peak"].as_f64().expect("a number") / difference - 1.0).abs() < 1e-3, "{spin}");
+    assert_eq!((&found[0]["result"], &spin["unit"]), (&"wheel.csv".into(), &"rad/s".into()));
+    let mixed = precess(&["compare", a, result]);
+    assert!(text(&mixed.stderr).contains("one is a folder"), "{}", text(&mixed.stderr));
 }
 
 #[cfg(unix)]

@@ -4,13 +4,14 @@ use std::fmt::Write as _;
 use std::process::ExitCode;
 
 use clap::Args;
-use precess_dynamics::{About, BuiltIn, Inputs, JointStates, WheelImbalance};
+use precess_dynamics::{About, BuiltIn, Imbalance, Inputs, JointStates, units};
 
 use super::table::{aligned, six};
-use super::{Files, Form, print};
+use super::{Files, Form, advice, print};
+use crate::file::from_file;
 use crate::file::read::body_key;
-use crate::file::{Diagnostics, Severity, from_file};
 use crate::scenario::Scenario;
+use crate::scenario::mass::{JointInertia, MassMatrix, MassProperties, imbalance};
 
 /// The options of `check`.
 #[derive(Debug, Args)]
@@ -29,7 +30,7 @@ impl Check {
         for path in &self.files.files {
             match from_file(path, &overrides) {
                 Ok((scenario, mut reports)) => {
-                    sampling(&scenario, &mut reports);
+                    reports.all.extend(advice::initial(&scenario).iter().map(Into::into));
                     if self.format == Form::Json {
                         print(&(reports.json() + "\n"));
                         continue;
@@ -52,46 +53,20 @@ impl Check {
     }
 }
 
-/// Turns of the fastest joint that one sample interval may hold before a figure shows another
-/// frequency: half of one, by the sampling theorem.
-const TURNS_MAX: f64 = 0.5;
-
-/// Warns where the samples do not resolve a turn of a wheel.
-pub(super) fn sampling(scenario: &Scenario, reports: &mut Diagnostics) {
-    let rates = scenario.initial.devices.states().map(|[_, rate]| rate.abs());
-    let joints = scenario.joints().zip(rates).filter(|((_, _, info), _)| !info.slides);
-    let Some(((_, name, info), rate)) = joints.max_by(|a, b| a.1.total_cmp(&b.1)) else { return };
-    let turns = rate / std::f64::consts::TAU / scenario.output.rate;
-    if turns >= TURNS_MAX {
-        let needed = rate / std::f64::consts::TAU / TURNS_MAX;
-        reports.all.push(crate::file::Diagnostic {
-            severity: Severity::Warning,
-            span: None,
-            message: format!(
-                "{name}.{} turns {turns:.2} times between two samples at {} Hz, so figures show \
-                 another frequency than its own (aliasing)",
-                body_key(info),
-                six(scenario.output.rate)
-            ),
-            label: String::new(),
-            help: format!(
-                "record above {0} Hz, for example `output.rate = \"{0} Hz\"`, or read the \
-                 samples as a slow record",
-                (needed * 10.0).ceil()
-            ),
-        });
-    }
-}
-
-/// Mass properties, momenta, imbalance and pivots, as text.
+/// Mass properties, momenta, imbalance and what each motor moves, as text.
 fn properties(scenario: &Scenario) -> String {
     let mut text = format!("{}: {}\n", scenario.name, scenario.title);
     // A scenario that was read has a spacecraft.
     let Ok(spacecraft) = scenario.spacecraft() else { return text };
     let state = &scenario.initial;
-    let mut rows = vec![row("total mass", &[spacecraft.mass()], "kg")];
-    if let Ok(c) = spacecraft.centre_of_mass(state) {
-        rows.push(row("centre of mass from B, B axes", c.c.as_slice(), "m"));
+    let mut rows = Vec::new();
+    if let Ok(MassProperties { mass, centre_of_mass, inertia_b: i }) =
+        MassProperties::of(scenario, &spacecraft)
+    {
+        rows.push(row("total mass", &[mass], "kg"));
+        rows.push(row("centre of mass from B, B axes", centre_of_mass.as_slice(), "m"));
+        rows.push(row("moments of inertia about B", i.diagonal().as_slice(), "kg m^2"));
+        rows.push(row("elements 12, 13, 23 of it", &[i.m12, i.m13, i.m23], "kg m^2"));
     }
     if let Ok(momentum) = spacecraft.momentum(state, About::CentreOfMass) {
         rows.push(row("linear momentum, N axes", momentum.linear.as_slice(), "kg m/s"));
@@ -105,30 +80,24 @@ fn properties(scenario: &Scenario) -> String {
         rows.push(row("kinetic energy", &[energy], "J"));
     }
     text.push_str(&aligned(&rows));
-    let mut rows = Vec::new();
-    let mut states = state.devices.states();
-    for (name, device) in scenario.names.iter().zip(&scenario.devices) {
-        let parameters = device.parameters();
-        for (info, body) in device.kind().joints().iter().zip(&parameters.bodies) {
-            let [_, rate] = states.next().unwrap_or_default();
-            let mut cells = vec![
-                format!("{name}.{}", body_key(info)),
-                format!("{} kg", six(body.mass)),
-                if info.slides {
-                    format!("{} m/s", six(rate))
-                } else {
-                    format!("{} rpm", six(rate * 30.0 / std::f64::consts::PI))
-                },
-            ];
-            cells.push(if info.tip { imbalance(device) } else { String::new() });
-            rows.push(cells);
+    let matrix = MassMatrix::of(scenario, &spacecraft);
+    text.push_str(&joints(scenario, matrix.as_ref().ok()));
+    match &matrix {
+        Ok(MassMatrix { condition: Some(condition), .. }) => {
+            let _ = writeln!(
+                text,
+                "\ncondition number of the mass matrix, scaled to a unit diagonal: {} \
+                 (accelerations lose {:.1} of 16 digits)",
+                six(*condition),
+                condition.log10()
+            );
+        }
+        Ok(MassMatrix { condition: None, .. }) => {}
+        Err(error) => {
+            let _ = writeln!(text, "\nthe initial pose cannot be solved: {error}");
         }
     }
-    if !rows.is_empty() {
-        text.push('\n');
-        text.push_str(&aligned(&rows));
-    }
-    // The initial state tells whether the solver can solve it at all.
+    // Modes and gravity of the file may make a pose singular, or solvable, that is not by itself.
     let mut inputs = Inputs::none_for(&spacecraft);
     inputs.hub = scenario.hub_mode;
     inputs.gravity = scenario.gravity;
@@ -138,26 +107,47 @@ fn properties(scenario: &Scenario) -> String {
     text
 }
 
-/// The imbalance of a device's wheel, as a data sheet states it.
-fn imbalance(device: &BuiltIn) -> String {
-    let parameters = device.parameters();
-    let joints = device.kind().joints();
-    let Some(wheel) = parameters.bodies.get(joints.len().saturating_sub(1)) else {
-        return String::new();
-    };
-    if joints.last().is_none_or(|joint| joint.slides) || wheel.centre[0] != 0.0 {
-        return String::new();
+/// A row for each joint.
+fn joints(scenario: &Scenario, matrix: Option<&MassMatrix>) -> String {
+    let mut states = scenario.initial.devices.states();
+    let mut inertias = matrix.into_iter().flat_map(|matrix| &matrix.joints);
+    let heads = ["joint", "mass", "rate", "inertia, all else held", "all else free", "imbalance"];
+    let mut rows = vec![heads.map(str::to_owned).to_vec()];
+    for (name, device) in scenario.names.iter().zip(&scenario.devices) {
+        for (info, body) in device.kind().joints().iter().zip(&device.parameters().bodies) {
+            let [_, rate] = states.next().unwrap_or_default();
+            let JointInertia { held, free } = inertias.next().copied().unwrap_or_default();
+            let [rate, unit] = if info.slides {
+                [format!("{} m/s", six(rate)), "kg".to_owned()]
+            } else {
+                [format!("{} rpm", six(units::to_rpm(rate))), "kg m^2".to_owned()]
+            };
+            let inertia = |inertia: Option<f64>| {
+                inertia.map_or_else(|| "-".to_owned(), |value| format!("{} {unit}", six(value)))
+            };
+            rows.push(vec![
+                format!("{name}.{}", body_key(info)),
+                format!("{} kg", six(body.mass)),
+                rate,
+                inertia(held),
+                inertia(free),
+                if info.tip { shown_imbalance(device) } else { String::new() },
+            ]);
+        }
     }
-    let of =
-        WheelImbalance { d: wheel.centre[1], j_12: wheel.inertia.m12, j_13: wheel.inertia.m13 };
-    match of.lumped(wheel.mass) {
-        Ok(found) if found.u_s == 0.0 && found.u_d == 0.0 => "balanced".to_owned(),
-        Ok(found) => format!(
+    if rows.len() > 1 { format!("\n{}", aligned(&rows)) } else { String::new() }
+}
+
+/// The imbalance of a device's wheel, as a data sheet states it.
+fn shown_imbalance(device: &BuiltIn) -> String {
+    match imbalance(device) {
+        None => String::new(),
+        Some(found) if found.u_s == 0.0 && found.u_d == 0.0 => "balanced".to_owned(),
+        Some(Imbalance { u_s, u_d, .. }) => format!(
             "U_s {} g cm, U_d {} g cm^2",
-            six(precess_dynamics::units::to_g_cm(found.u_s)),
-            six(precess_dynamics::units::to_g_cm2(found.u_d))
+            six(units::to_g_cm(u_s)),
+            six(units::to_g_cm2(u_d))
         ),
-        Err(_) => String::new(),
     }
 }
 

@@ -1,16 +1,14 @@
-//! `compare`: the differences of two results, sample by sample.
-//!
-//! Two CSV files are read side by side, so memory does not grow with them; two scenario files are
-//! run first, into a temporary folder.
+//! `compare`: the differences of two results, of the results in two folders, or of the runs of two
+//! scenario files, which are run first, into a temporary folder.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
 
+use super::difference::{Differences, differences};
 use super::error::CommandError;
-use super::run::{watch_interrupts, with_progress};
+use super::run::{files, watch_interrupts, with_progress};
 use super::table::{aligned, six};
 use super::{Form, Set, print};
 use crate::file::from_file;
@@ -19,7 +17,7 @@ use crate::record::Csv;
 /// The options of `compare`.
 #[derive(Debug, Args)]
 pub(super) struct Compare {
-    /// A result (CSV) or a scenario file.
+    /// A result (CSV), a folder of results, or a scenario file.
     a: PathBuf,
     /// What it is compared with.
     b: PathBuf,
@@ -30,66 +28,49 @@ pub(super) struct Compare {
     format: Form,
 }
 
-/// The difference of one column over all samples.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Difference {
-    name: String,
-    unit: String,
-    places: [usize; 2],
-    /// Largest magnitude of the difference, and the time of it.
-    peak: f64,
-    time: f64,
-    square: f64,
-    /// Largest magnitude of the column in both.
-    size: f64,
-}
-
-/// A result that is read row by row.
-struct Rows {
-    reader: csv::Reader<File>,
-    names: Vec<String>,
-    units: Vec<String>,
-    path: PathBuf,
-    record: csv::StringRecord,
-}
-
 impl Compare {
     pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
         watch_interrupts();
         let folder = tempfile::tempdir()
             .map_err(|source| CommandError::Io { path: std::env::temp_dir(), source })?;
-        let a = self.result(&self.a, &folder.path().join("a.csv"))?;
-        let b = self.result(&self.b, &folder.path().join("b.csv"))?;
-        let (differences, samples) = differences(&a, &b)?;
+        let mut entries = Vec::new();
+        for (name, [a, b]) in self.pairs()? {
+            let a = self.result(&a, &folder.path().join("a.csv"))?;
+            let b = self.result(&b, &folder.path().join("b.csv"))?;
+            let found = differences(&a, &b)?;
+            match self.format {
+                Form::Json => entries.push(json(&name, &found)),
+                Form::Text => print(&shown(&name, &found)),
+            }
+        }
         if self.format == Form::Json {
-            let entries: Vec<_> = differences
-                .iter()
-                .map(|d| {
-                    serde_json::json!({
-                        "column": d.name, "unit": d.unit, "peak": d.peak, "time": d.time,
-                        "rms": rms(d, samples), "largest": d.size,
-                    })
-                })
-                .collect();
             print(&(serde_json::to_string_pretty(&entries).unwrap_or_default() + "\n"));
-            return Ok(ExitCode::SUCCESS);
         }
-        let head =
-            ["column", "peak difference", "at (s)", "RMS difference", "largest value", "unit"];
-        let mut rows = vec![head.map(str::to_owned).to_vec()];
-        for d in &differences {
-            rows.push(vec![
-                d.name.clone(),
-                six(d.peak),
-                if d.peak == 0.0 { "-".to_owned() } else { six(d.time) },
-                six(rms(d, samples)),
-                six(d.size),
-                d.unit.clone(),
-            ]);
-        }
-        print(&aligned(&rows));
-        print(&format!("{samples} samples, {} columns in both\n", differences.len()));
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// What is compared with what, each with a heading; none for a single pair.
+    fn pairs(&self) -> Result<Vec<(String, [PathBuf; 2])>, CommandError> {
+        let folders = [&self.a, &self.b].map(|path| path.is_dir());
+        if folders == [false; 2] {
+            return Ok(vec![(String::new(), [self.a.clone(), self.b.clone()])]);
+        }
+        if folders != [true; 2] {
+            let message = "one is a folder and the other is not; compare two folders, or two files";
+            return Err(CommandError::Other(message.to_owned()));
+        }
+        let [a, b] = [files(&self.a, "csv")?, files(&self.b, "csv")?];
+        for (only, folder) in [(a.difference(&b), &self.a), (b.difference(&a), &self.b)] {
+            only.for_each(|name| eprintln!("only in {}: {name}", folder.display()));
+        }
+        let both: Vec<_> = a.intersection(&b).collect();
+        if both.is_empty() {
+            let [a, b] = [self.a.display(), self.b.display()];
+            let message = format!("no result (CSV) is both in {a} and in {b}");
+            return Err(CommandError::Other(message));
+        }
+        let pair = |name: &String| (name.clone(), [self.a.join(name), self.b.join(name)]);
+        Ok(both.into_iter().map(pair).collect())
     }
 
     /// The CSV file of a result, or of the run of a scenario.
@@ -99,113 +80,37 @@ impl Compare {
         }
         let (scenario, _) =
             from_file(path, &self.overrides.overrides()).map_err(CommandError::Scenario)?;
-        with_progress(&scenario, &mut Csv::new(to))?;
+        with_progress(&scenario, scenario.settings.duration, &mut Csv::new(to))?;
         Ok(to.to_owned())
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "fewer samples than 2^53")]
-fn rms(difference: &Difference, samples: u64) -> f64 {
-    (difference.square / samples.max(1) as f64).sqrt()
+fn json(name: &str, found: &Differences) -> serde_json::Value {
+    let columns = found.columns.iter().map(|d| {
+        serde_json::json!({
+            "column": d.name, "unit": d.unit, "peak": d.peak, "time": d.time,
+            "rms": d.rms(found.samples), "largest": d.size,
+        })
+    });
+    serde_json::json!({
+        "result": name, "samples": found.samples, "columns": columns.collect::<Vec<_>>(),
+    })
 }
 
-impl Rows {
-    fn open(path: &Path) -> Result<Self, CommandError> {
-        let wrong = |text: String| CommandError::Other(format!("{}: {text}", path.display()));
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_path(path)
-            .map_err(|error| wrong(error.to_string()))?;
-        let head = reader.headers().map_err(|error| wrong(error.to_string()))?;
-        let names: Vec<_> = head.iter().map(str::to_owned).collect();
-        if names.first().map(String::as_str) != Some("time") {
-            return Err(wrong("no result: its first column is not `time`".to_owned()));
-        }
-        let units = units(path, names.len());
-        Ok(Self { reader, names, units, path: path.to_owned(), record: csv::StringRecord::new() })
+fn shown(name: &str, found: &Differences) -> String {
+    let head = ["column", "peak difference", "at (s)", "RMS difference", "largest value", "unit"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for d in &found.columns {
+        rows.push(vec![
+            d.name.clone(),
+            six(d.peak),
+            if d.peak == 0.0 { "-".to_owned() } else { six(d.time) },
+            six(d.rms(found.samples)),
+            six(d.size),
+            d.unit.clone(),
+        ]);
     }
-
-    /// The next row, if there is one.
-    fn next(&mut self, row: &mut Vec<f64>) -> Result<bool, CommandError> {
-        let wrong =
-            |path: &Path, text: String| CommandError::Other(format!("{}: {text}", path.display()));
-        let more = self
-            .reader
-            .read_record(&mut self.record)
-            .map_err(|error| wrong(&self.path, error.to_string()))?;
-        row.clear();
-        for text in &self.record {
-            let number = text.parse::<f64>();
-            row.push(number.map_err(|_| wrong(&self.path, format!("`{text}` is no number")))?);
-        }
-        Ok(more)
-    }
-}
-
-/// The units of a result's columns, from its metadata; empty where there are none.
-fn units(path: &Path, count: usize) -> Vec<String> {
-    use std::io::{BufRead as _, BufReader};
-    let Ok(file) = File::open(path) else { return vec![String::new(); count] };
-    let lines = BufReader::new(file).lines().map_while(Result::ok);
-    let comments = lines.take_while(|line| line.starts_with('#'));
-    let columns = comments
-        .skip_while(|line| !line.starts_with("# columns:"))
-        .skip(1)
-        .take_while(|line| line.starts_with("#   "));
-    let unit = |line: String| {
-        let (_, rest) = line.split_once(" [")?;
-        rest.split_once(']').map(|(unit, _)| unit.to_owned())
-    };
-    let units: Vec<_> = columns.map(|line| unit(line).unwrap_or_default()).collect();
-    if units.len() == count { units } else { vec![String::new(); count] }
-}
-
-/// The differences of all columns that both have, and the number of samples.
-fn differences(a: &Path, b: &Path) -> Result<(Vec<Difference>, u64), CommandError> {
-    let (mut a, mut b) = (Rows::open(a)?, Rows::open(b)?);
-    let mut differences = Vec::new();
-    for (place, (name, unit)) in a.names.iter().zip(&a.units).enumerate().skip(1) {
-        if let Some(other) = b.names.iter().position(|known| known == name) {
-            differences.push(Difference {
-                name: name.clone(),
-                unit: unit.clone(),
-                places: [place, other],
-                ..Difference::default()
-            });
-        }
-    }
-    let (mut row_a, mut row_b) = (Vec::new(), Vec::new());
-    let mut samples = 0;
-    loop {
-        let more = [a.next(&mut row_a)?, b.next(&mut row_b)?];
-        match more {
-            [false, false] => break,
-            [true, true] => {}
-            _ => {
-                let message = "one result has more samples than the other; compare runs of one \
-                               duration and rate";
-                return Err(CommandError::Other(message.to_owned()));
-            }
-        }
-        let value = |row: &[f64], place: usize| row.get(place).copied().unwrap_or(f64::NAN);
-        let [time_a, time_b] = [value(&row_a, 0), value(&row_b, 0)];
-        if time_a != time_b {
-            let message = format!(
-                "sample {samples} is at {time_a} s in one and at {time_b} s in the other; compare \
-                 runs of one rate"
-            );
-            return Err(CommandError::Other(message));
-        }
-        for d in &mut differences {
-            let [of_a, of_b] = [value(&row_a, d.places[0]), value(&row_b, d.places[1])];
-            let off = (of_a - of_b).abs();
-            if off > d.peak || off.is_nan() {
-                (d.peak, d.time) = (off, time_a);
-            }
-            d.square += off * off;
-            d.size = d.size.max(of_a.abs()).max(of_b.abs());
-        }
-        samples += 1;
-    }
-    Ok((differences, samples))
+    let heading = if name.is_empty() { String::new() } else { format!("{name}\n") };
+    let columns = found.columns.len();
+    format!("{heading}{}{} samples, {columns} columns in both\n", aligned(&rows), found.samples)
 }

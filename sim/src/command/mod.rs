@@ -1,8 +1,10 @@
 //! The command line: its commands and options. Each command is a file; all they do is in the
 //! library.
 
+mod advice;
 mod check;
 mod compare;
+mod difference;
 mod error;
 mod evaluate;
 mod export;
@@ -49,7 +51,7 @@ enum Command {
     /// Print accelerations, motor torques, loads and the energy ledger at the initial state
     #[command(after_help = "Example:\n  precess evaluate bus.toml --format json")]
     Evaluate(evaluate::Evaluate),
-    /// Print the differences of two results (CSV), or of the runs of two scenario files
+    /// Print the differences of two results (CSV), of two folders of them, or of two scenario files
     #[command(after_help = "Example:\n  precess compare a/bus.csv b/bus.csv")]
     Compare(compare::Compare),
     /// Run scenario files and write only the figures, as SVG

@@ -6,9 +6,12 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::error::CommandError;
-use super::run::{may_write, read_all, watch_interrupts, with_progress, write_whole};
+use super::run::{files, may_write, read_all, watch_interrupts, with_progress, write_whole};
 use super::{Files, print};
+use crate::record::Between;
 use crate::report::Report;
+use crate::scenario::Scenario;
+use crate::units::{Measure, parse_quantity};
 
 /// The options of `plot`.
 #[derive(Debug, Args)]
@@ -21,26 +24,68 @@ pub(super) struct Plot {
     /// Replace figures that are there.
     #[arg(long)]
     force: bool,
+    /// Time at which the figures start, with its unit: "0.2 s".
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    from: Option<f64>,
+    /// Time at which the figures, and the run, end.
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    to: Option<f64>,
+}
+
+/// A time with its unit, s.
+fn time(text: &str) -> Result<f64, String> {
+    let example = "write a number and a unit of time: \"0.2 s\"";
+    let quantity = parse_quantity(text).map_err(|error| format!("{}; {example}", error.kind))?;
+    match quantity.values[..] {
+        [value] if quantity.is(Measure::TIME) => Ok(value),
+        _ => Err(format!("`{text}` is no time; {example}")),
+    }
 }
 
 impl Plot {
     pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+        let scenarios = read_all(&self.files)?;
+        for (scenario, _) in &scenarios {
+            may_write(&self.out, &self.earlier(scenario)?, self.force)?;
+        }
+        std::fs::create_dir_all(&self.out)
+            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
         watch_interrupts();
-        for (scenario, _) in &read_all(&self.files)? {
+        for (scenario, _) in &scenarios {
             let mut report = Report::new(scenario, &[]);
-            with_progress(scenario, &mut report)?;
+            let interval = self.interval(scenario)?;
+            let mut part = Between::new(interval, &mut report);
+            with_progress(scenario, interval[1], &mut part)?;
             let figures = report.figures().map_err(|e| CommandError::Other(e.to_string()))?;
-            let name = |of: &str| format!("{}-{of}.svg", scenario.name);
-            let names: Vec<_> = figures.iter().map(|(of, _)| name(of)).collect();
-            may_write(&self.out, &names, self.force)?;
-            std::fs::create_dir_all(&self.out)
-                .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
             for (of, svg) in &figures {
-                let path = self.out.join(name(of));
+                let path = self.out.join(format!("{}-{of}.svg", scenario.name));
                 write_whole(&path, svg)?;
                 print(&format!("{}\n", path.display()));
             }
         }
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// The interval of the figures, s.
+    fn interval(&self, scenario: &Scenario) -> Result<[f64; 2], CommandError> {
+        let duration = scenario.settings.duration;
+        let [from, to] = [self.from.unwrap_or(0.0), self.to.unwrap_or(duration)];
+        if 0.0 <= from && from < to && to <= duration {
+            return Ok([from, to]);
+        }
+        let name = &scenario.name;
+        let message = format!("{name}: {from} s to {to} s is not within the run's {duration} s");
+        Err(CommandError::Other(message))
+    }
+
+    /// The figures of a scenario that are there. Which ones a run has is known only at its end.
+    fn earlier(&self, scenario: &Scenario) -> Result<Vec<String>, CommandError> {
+        if !self.out.exists() {
+            return Ok(Vec::new());
+        }
+        let of_it = |name: &String| {
+            name.strip_prefix(&scenario.name).is_some_and(|rest| rest.starts_with('-'))
+        };
+        Ok(files(&self.out, "svg")?.into_iter().filter(of_it).collect())
     }
 }

@@ -3,6 +3,7 @@
 //! Results are written while the run goes on, under the name with `.partial` at its end, and get
 //! their name when they are complete. The report is written last.
 
+use std::collections::BTreeSet;
 use std::io::{BufRead as _, IsTerminal as _, Write as _};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -12,13 +13,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::check::sampling;
+use super::advice::{self, advice};
 use super::error::CommandError;
 use super::{Files, print};
 use crate::engine::{Outcome, run};
 use crate::file::{Diagnostics, from_file};
 use crate::record::partial::Partial;
-use crate::record::{Csv, Many, Npz, Recorder, Statistics, Verdict};
+use crate::record::{Csv, Many, Npz, Recorder, Verdict};
 use crate::report::Report;
 use crate::scenario::{Format, Scenario};
 
@@ -94,14 +95,22 @@ impl Run {
             let path = self.out.join(format!("{}.{}", scenario.name, extension(*format)));
             files.push(recorder(*format, &path)?);
         }
-        let warnings: Vec<_> = reports.all.iter().map(|warning| warning.message.clone()).collect();
+        let mut warnings: Vec<_> =
+            reports.all.iter().map(|warning| warning.message.clone()).collect();
         let mut report = Report::new(scenario, &warnings);
-        let mut statistics = Statistics::new(&scenario.requirements);
-        let mut all: Vec<&mut dyn Recorder> = vec![&mut statistics, &mut report];
+        let mut all: Vec<&mut dyn Recorder> = vec![&mut report];
         for file in &mut files {
             all.push(file.as_mut());
         }
-        let outcome = with_progress(scenario, &mut Many::new(all))?;
+        let duration = scenario.settings.duration;
+        let outcome = with_progress(scenario, duration, &mut Many::new(all))?;
+        // Rates that were reached only during the run.
+        let known = advice::initial(scenario);
+        let reached = advice(scenario, outcome.peak_rates.iter().copied());
+        for advice in reached.iter().filter(|advice| !known.iter().any(|k| k.is_like(advice))) {
+            report.warn(advice.to_string());
+            warnings.push(advice.to_string());
+        }
         if !self.no_report {
             let path = self.out.join(format!("{}.html", scenario.name));
             let page = report.html(&outcome).map_err(|e| CommandError::Other(e.to_string()))?;
@@ -116,7 +125,7 @@ impl Run {
         for warning in &warnings {
             eprintln!("warning: {warning}");
         }
-        Ok(outcome.end.is_complete() && statistics.verdicts().iter().all(Verdict::is_met))
+        Ok(outcome.end.is_complete() && report.verdicts().iter().all(Verdict::is_met))
     }
 }
 
@@ -136,7 +145,7 @@ pub(super) fn read_all(files: &Files) -> Result<Vec<(Scenario, Diagnostics)>, Co
                     );
                     return Err(CommandError::Other(message));
                 }
-                sampling(&scenario, &mut reports);
+                reports.all.extend(advice::initial(&scenario).iter().map(Into::into));
                 scenarios.push((scenario, reports));
             }
             Err(errors) => {
@@ -151,9 +160,10 @@ pub(super) fn read_all(files: &Files) -> Result<Vec<(Scenario, Diagnostics)>, Co
     failed.map_or(Ok(scenarios), Err)
 }
 
-/// Runs a scenario with a progress bar, which a pipe does not get, until Ctrl-C.
+/// Runs a scenario up to a time, s, or Ctrl-C, with a progress bar, which a pipe does not get.
 pub(super) fn with_progress(
     scenario: &Scenario,
+    until: f64,
     recorder: &mut dyn Recorder,
 ) -> Result<Outcome, CommandError> {
     const PARTS: u64 = 1000;
@@ -164,7 +174,6 @@ pub(super) fn with_progress(
         bar.set_style(style);
     }
     bar.set_message(scenario.name.clone());
-    let duration = scenario.settings.duration;
     let outcome = run(scenario, recorder, &mut |time| {
         #[expect(
             clippy::cast_possible_truncation,
@@ -172,8 +181,8 @@ pub(super) fn with_progress(
             clippy::cast_precision_loss,
             reason = "a share of a thousand"
         )]
-        bar.set_position((time / duration * PARTS as f64) as u64);
-        if INTERRUPTS.load(Ordering::Relaxed) > 0 {
+        bar.set_position((time / until * PARTS as f64) as u64);
+        if INTERRUPTS.load(Ordering::Relaxed) > 0 || time > until {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
@@ -220,6 +229,19 @@ fn recorder(format: Format, path: &Path) -> Result<Box<dyn Recorder>, CommandErr
                 .to_owned(),
         )),
     }
+}
+
+/// The names of the files in a folder that have an extension.
+pub(super) fn files(folder: &Path, extension: &str) -> Result<BTreeSet<String>, CommandError> {
+    let failure = |source| CommandError::Io { path: folder.to_owned(), source };
+    let mut names = BTreeSet::new();
+    for entry in std::fs::read_dir(folder).map_err(failure)? {
+        let name = entry.map_err(failure)?.file_name();
+        if Path::new(&name).extension().is_some_and(|found| found == extension) {
+            names.insert(name.to_string_lossy().into_owned());
+        }
+    }
+    Ok(names)
 }
 
 /// Asks on a terminal whether results may be replaced; refuses elsewhere.

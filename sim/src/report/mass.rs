@@ -1,56 +1,28 @@
 //! Mass properties of the spacecraft with its joints at their initial coordinates, and the mass and
-//! imbalance of each device.
+//! imbalance of each device, and the inertia that each motor moves.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{
-    About, Attitude, BuiltIn, Imbalance, ImbalanceModel, Quaternion, SolveError, State, units,
-};
+use precess_dynamics::{Imbalance, ImbalanceModel, units};
 
 use super::blocks::{Block, table};
 use super::number;
-use crate::scenario::{Scenario, Set};
-
-/// Of the whole spacecraft.
-struct Properties {
-    /// kg.
-    mass: f64,
-    /// Centre of mass from B, m.
-    centre: Vector3<f64>,
-    /// About B, kg m².
-    about_b: Matrix3<f64>,
-}
+use crate::file::read::body_key;
+use crate::scenario::Scenario;
+use crate::scenario::mass::{MassMatrix, MassProperties, imbalance};
 
 /// The tables; empty for a scenario that the solver rejects.
 pub(super) fn blocks(scenario: &Scenario) -> Vec<Block> {
-    let Some(properties) = properties(scenario) else { return Vec::new() };
-    vec![whole(scenario, &properties), devices(scenario)]
-}
-
-/// Inertia about B is the angular momentum about B per angular velocity, joints at rest.
-fn properties(scenario: &Scenario) -> Option<Properties> {
-    let spacecraft = scenario.spacecraft().ok()?;
-    let mut state: State<Set> = scenario.initial.clone();
-    state.r_b_n = Vector3::zeros();
-    state.r_b_n_dot = Vector3::zeros();
-    state.attitude = Quaternion::identity();
-    for joint in state.devices.iter_mut().flat_map(precess_dynamics::JointArray::as_mut_slice) {
-        joint[1] = 0.0;
+    let Ok(spacecraft) = scenario.spacecraft() else { return Vec::new() };
+    let Ok(properties) = MassProperties::of(scenario, &spacecraft) else { return Vec::new() };
+    let mut blocks = vec![whole(scenario, &properties), devices(scenario)];
+    if let Ok(matrix) = MassMatrix::of(scenario, &spacecraft) {
+        blocks.push(motors(scenario, &matrix));
     }
-    let mut column = |axis: usize| -> Result<Vector3<f64>, SolveError> {
-        state.omega = Vector3::zeros();
-        state.omega[axis] = 1.0;
-        Ok(spacecraft.momentum(&state, About::InertialOrigin)?.angular)
-    };
-    let columns = [column(0).ok()?, column(1).ok()?, column(2).ok()?];
-    Some(Properties {
-        mass: spacecraft.mass(),
-        centre: spacecraft.centre_of_mass(&state).ok()?.c,
-        about_b: Matrix3::from_columns(&columns),
-    })
+    blocks
 }
 
-fn whole(scenario: &Scenario, properties: &Properties) -> Block {
-    let Properties { mass, centre, about_b } = properties;
+fn whole(scenario: &Scenario, properties: &MassProperties) -> Block {
+    let MassProperties { mass, centre_of_mass: centre, inertia_b: about_b } = properties;
     let shift = Matrix3::identity() * centre.norm_squared() - centre * centre.transpose();
     let about_c = about_b - shift * *mass;
     let hub = &scenario.hub;
@@ -117,14 +89,32 @@ fn devices(scenario: &Scenario) -> Block {
     table("Devices, and the imbalance of their wheels", &columns, 2..6, rows)
 }
 
-/// The imbalance of a device's wheel; none of a kind that is balanced or has no wheel.
-fn imbalance(device: &BuiltIn) -> Option<Imbalance> {
-    match device {
-        BuiltIn::ReactionWheel(device) => device.imbalance().ok(),
-        BuiltIn::Sgcmg(device) => device.imbalance().ok(),
-        BuiltIn::Vscmg(device) => device.imbalance().ok(),
-        BuiltIn::Dgcmg(device) => device.imbalance().ok(),
-        BuiltIn::Dgvscmg(device) => device.imbalance().ok(),
-        _ => None,
-    }
+/// What each motor moves, and the condition of the mass matrix in the caption.
+fn motors(scenario: &Scenario, matrix: &MassMatrix) -> Block {
+    let cell =
+        |inertia: Option<f64>| inertia.map_or_else(|| "–".to_owned(), |i| number::short(i, 5));
+    let rows = scenario.joints().zip(&matrix.joints).map(|((_, name, info), inertia)| {
+        let unit = if info.slides { "kg" } else { "kg m²" };
+        let cells = [
+            format!("{name}.{}", body_key(info)),
+            cell(inertia.held),
+            cell(inertia.free),
+            unit.to_owned(),
+        ];
+        ("", cells.to_vec())
+    });
+    let columns = [
+        ("Joint", ""),
+        ("Inertia, all else held", ""),
+        ("Inertia, all else free", ""),
+        ("Unit", ""),
+    ];
+    let condition = matrix.condition.map_or_else(String::new, |condition| {
+        format!(
+            "; condition number of the mass matrix, scaled to a unit diagonal: {}",
+            number::short(condition, 3)
+        )
+    });
+    let caption = format!("Inertia that each motor moves, joints as at the start{condition}");
+    table(&caption, &columns, 1..3, rows)
 }

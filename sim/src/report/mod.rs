@@ -96,6 +96,11 @@ impl Report {
         }
     }
 
+    /// Adds a warning that only the run could give.
+    pub fn warn(&mut self, warning: String) {
+        self.warnings.push(warning);
+    }
+
     /// The page as one HTML file.
     ///
     /// # Errors

@@ -8,6 +8,7 @@
 //! joint number, time and bound is in range; [`Scenario::spacecraft`] succeeds.
 
 mod check;
+pub mod mass;
 pub mod profile;
 
 use nalgebra::Vector3;
@@ -15,6 +16,7 @@ use precess_dynamics::kind::JointInfo;
 use precess_dynamics::{BuiltIn, Gravity, Hub, HubMode, ParameterError, Spacecraft, State};
 
 pub use check::ScenarioError;
+pub use mass::{MassMatrix, MassProperties};
 pub use profile::{Interpolation, Profile, Table};
 
 /// The set of devices that is run: as many as there are, each of any kind.

@@ -1,0 +1,183 @@
+//! [`Advice`]: where samples or fixed steps are too few for the fastest wheel, with what would do.
+//!
+//! ```text
+//! samples per turn = 2 pi rate / |omega|        at least 2, the sampling theorem
+//! steps per turn   = 2 pi / (|omega| step)      of rk4, at least 20
+//! ```
+//!
+//! The phase of a rotor after one turn in n steps of RK4 is off by `2 pi (2 pi / n)^4 / 120`: the
+//! method is exact to the fourth power of `omega step`. At n = 20 that is 0.5 mrad.
+
+use std::f64::consts::TAU;
+use std::fmt;
+
+use super::table::six;
+use crate::file::read::body_key;
+use crate::file::{Diagnostic, Severity};
+use crate::scenario::{IntegratorChoice, Scenario};
+
+/// Fewer, and a figure shows another frequency than the wheel's.
+const SAMPLES_PER_TURN_MIN: f64 = 2.0;
+/// What shows the shape of a vibration.
+const SAMPLES_PER_TURN: f64 = 20.0;
+/// Fewer steps of RK4, and the phase of the wheel's force is off by more than 0.5 mrad a turn.
+const STEPS_PER_TURN_MIN: f64 = 20.0;
+
+/// What to change in a scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Advice {
+    /// Samples do not resolve a turn.
+    Aliasing(Turns),
+    /// Steps of RK4 do not.
+    CoarseSteps(Turns),
+}
+
+/// The fastest joint, and how many samples or steps one of its turns has.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Turns {
+    /// `cmg.wheel`.
+    joint: String,
+    /// Its angular rate, rad/s.
+    omega: f64,
+    per_turn: f64,
+    /// The present rate of samples, Hz, or length of a step, s.
+    present: f64,
+}
+
+/// Advice for a scenario whose joints turn at these rates, in the order of the set.
+pub(super) fn advice(scenario: &Scenario, rates: impl Iterator<Item = f64>) -> Vec<Advice> {
+    let joints = scenario.joints().zip(rates.map(f64::abs)).filter(|((.., info), _)| !info.slides);
+    let fastest = joints.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, omega)| *omega > 0.0);
+    let Some(((_, device, info), omega)) = fastest else { return Vec::new() };
+    let turns = |per_turn: f64, present: f64| Turns {
+        joint: format!("{device}.{}", body_key(info)),
+        omega,
+        per_turn,
+        present,
+    };
+    let mut advice = Vec::new();
+    let rate = scenario.output.rate;
+    let samples = TAU * rate / omega;
+    if samples <= SAMPLES_PER_TURN_MIN {
+        advice.push(Advice::Aliasing(turns(samples, rate)));
+    }
+    if let IntegratorChoice::Rk4 { step } = scenario.settings.integrator {
+        let steps = TAU / (omega * step);
+        if steps < STEPS_PER_TURN_MIN {
+            advice.push(Advice::CoarseSteps(turns(steps, step)));
+        }
+    }
+    advice
+}
+
+/// The advice at the initial rates.
+pub(super) fn initial(scenario: &Scenario) -> Vec<Advice> {
+    advice(
+        scenario,
+        scenario.initial.devices.iter().flat_map(|joints| {
+            precess_dynamics::JointArray::as_slice(joints).iter().map(|[_, rate]| *rate)
+        }),
+    )
+}
+
+impl Advice {
+    /// Whether another is about the same matter, at another rate.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+
+    fn help(&self) -> String {
+        match self {
+            Self::Aliasing(Turns { omega, .. }) => {
+                let hertz = |per_turn: f64| six((omega / TAU * per_turn).ceil());
+                format!(
+                    "record at more than {} Hz; {} samples per turn are `output.rate = \"{} Hz\"`",
+                    hertz(SAMPLES_PER_TURN_MIN),
+                    SAMPLES_PER_TURN,
+                    hertz(SAMPLES_PER_TURN)
+                )
+            }
+            Self::CoarseSteps(Turns { omega, .. }) => format!(
+                "{STEPS_PER_TURN_MIN} steps per turn are `run.step = \"{} s\"`, or take dop853",
+                six(TAU / omega / STEPS_PER_TURN_MIN)
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Advice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rpm = |omega: f64| six(precess_dynamics::units::to_rpm(omega));
+        match self {
+            Self::Aliasing(Turns { joint, omega, per_turn, present }) => write!(
+                f,
+                "{joint} turns at {} rpm: {} samples per turn at {} Hz, so figures show another \
+                 frequency than its own (aliasing)",
+                rpm(*omega),
+                six(*per_turn),
+                six(*present)
+            ),
+            Self::CoarseSteps(Turns { joint, omega, per_turn, present }) => write!(
+                f,
+                "{joint} turns at {} rpm: {} steps per turn at {} s, so the phase of its force is \
+                 off by about {} rad a turn",
+                rpm(*omega),
+                six(*per_turn),
+                six(*present),
+                six(TAU * (TAU / per_turn).powi(4) / 120.0)
+            ),
+        }
+    }
+}
+
+impl From<&Advice> for Diagnostic {
+    fn from(advice: &Advice) -> Self {
+        Self {
+            severity: Severity::Warning,
+            span: None,
+            message: advice.to_string(),
+            label: String::new(),
+            help: advice.help(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::checks::{scenario, set_joint, wheel};
+
+    /// 60 rad/s, recorded at 20 Hz; at 1 kHz; in steps of 10 ms.
+    #[test]
+    fn too_few_samples_and_too_long_steps_are_named() {
+        let mut turning = scenario(&["wheel"], vec![wheel().into()], 1.0);
+        set_joint(&mut turning, 0, [0.0, 60.0]);
+        turning.output.rate = 18.0;
+        let found = initial(&turning);
+        assert!(
+            matches!(&found[..], [Advice::Aliasing(turns)] if turns.per_turn < 1.9),
+            "{found:?}"
+        );
+        let shown = Diagnostic::from(&found[0]);
+        assert!(shown.message.starts_with("wheel.wheel turns at 572.958 rpm: 1.88496 samples"));
+        assert!(shown.help.contains("more than 20 Hz") && shown.help.contains("\"191 Hz\""));
+        turning.output.rate = 1000.0;
+        assert_eq!(initial(&turning), []);
+        turning.settings.integrator = IntegratorChoice::Rk4 { step: 0.01 };
+        let found = initial(&turning);
+        assert!(matches!(&found[..], [Advice::CoarseSteps(turns)] if turns.per_turn < 10.5));
+        assert!(Diagnostic::from(&found[0]).help.contains("\"0.00523599 s\""));
+    }
+
+    /// The phase of `y' = i omega y` after a turn in n steps, against the formula that is printed.
+    #[test]
+    fn the_phase_error_of_a_turn_is_the_methods() {
+        let n = 20.0;
+        let h = TAU / n;
+        // The stability function of RK4 at i h.
+        let (re, im) = (1.0 - h * h / 2.0 + h.powi(4) / 24.0, h - h.powi(3) / 6.0);
+        let phase = n * (im.atan2(re) - h);
+        let stated = TAU * h.powi(4) / 120.0;
+        assert!((phase.abs() / stated - 1.0).abs() < 0.05, "{phase:e} {stated:e}");
+    }
+}

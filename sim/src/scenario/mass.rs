@@ -1,0 +1,229 @@
+//! [`MassProperties`] and [`MassMatrix`] of a scenario's spacecraft, joints at their initial
+//! coordinates and at rest.
+//!
+//! ```text
+//! I_B e_k  = angular momentum about B at omega = e_k
+//! M^-1 e_k = accelerations at a unit force on coordinate k, less those at none
+//! ```
+//!
+//! Coordinates of M are the position of B and the attitude of the hub, both along B, where the hub
+//! is free, then every joint with a motor, whatever its drive: a later change may release it.
+
+use nalgebra::{DMatrix, Matrix3, Vector3};
+use precess_dynamics::kind::Each;
+use precess_dynamics::{
+    About, Accelerations, BuiltIn, HubMode, Imbalance, Inputs, JointArray, Mode, Quaternion,
+    SolveError, Spacecraft, State,
+};
+
+use super::{Scenario, Set};
+
+/// Mass, centre of mass and inertia of the whole spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassProperties {
+    /// kg.
+    pub mass: f64,
+    /// Centre of mass from B, B axes, m.
+    pub centre_of_mass: Vector3<f64>,
+    /// About B, B axes, joints locked, kg m².
+    pub inertia_b: Matrix3<f64>,
+}
+
+/// How well the equations of motion can be solved in the initial pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MassMatrix {
+    /// Of each joint, in the order of the set.
+    pub joints: Vec<JointInertia>,
+    /// Largest over smallest eigenvalue of the mass matrix scaled to a unit diagonal: its decimal
+    /// logarithm is how many digits accelerations lose. None without a coordinate.
+    pub condition: Option<f64>,
+}
+
+/// The mass or inertia that a joint's motor moves, kg m²; of a sliding joint kg. None of a joint
+/// without a motor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointInertia {
+    /// With the hub and all other joints held.
+    pub held: Option<f64>,
+    /// With the hub free, where it is, and all other motors at no torque. Towards none of the one
+    /// above, the pose is singular.
+    pub free: Option<f64>,
+}
+
+/// Coordinates of the hub.
+const HUB: usize = 6;
+
+impl MassProperties {
+    /// Those of a scenario's spacecraft.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Overflow`].
+    pub fn of(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> Result<Self, SolveError> {
+        let mut state = at_rest(scenario, spacecraft);
+        let mut inertia_b = Matrix3::zeros();
+        for axis in 0..3 {
+            state.omega = Vector3::ith(axis, 1.0);
+            let momentum = spacecraft.momentum(&state, About::InertialOrigin)?;
+            inertia_b.set_column(axis, &momentum.angular);
+        }
+        let centre_of_mass = spacecraft.centre_of_mass(&state)?.c;
+        Ok(Self { mass: spacecraft.mass(), centre_of_mass, inertia_b })
+    }
+}
+
+impl MassMatrix {
+    /// That of a scenario's spacecraft.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Singular`] with the joint, where the pose has no accelerations.
+    pub fn of(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> Result<Self, SolveError> {
+        let inverse = inverse(scenario, spacecraft)?;
+        // Not positive definite: singular but for rounding, which the solver's bound let through.
+        let matrix = inverse.clone().cholesky().map(|factors| factors.inverse());
+        let hub = if scenario.hub_mode == HubMode::Free { HUB } else { 0 };
+        let mut coordinates = hub..inverse.nrows();
+        let joints = scenario.joints().map(|(_, _, info)| {
+            let coordinate = if info.driven { coordinates.next() } else { None };
+            let diagonal = |of: &DMatrix<f64>| coordinate.map(|k| of[(k, k)]);
+            JointInertia {
+                held: matrix.as_ref().and_then(diagonal),
+                free: diagonal(&inverse).map(f64::recip),
+            }
+        });
+        let joints = joints.collect();
+        let condition = matrix.filter(|matrix| !matrix.is_empty()).map(|matrix| {
+            let size = matrix.diagonal().map(f64::sqrt);
+            let scaled = inverse.map_with_location(|i, j, value| size[i] * value * size[j]);
+            let eigenvalues = scaled.symmetric_eigenvalues();
+            eigenvalues.max() / eigenvalues.min()
+        });
+        Ok(Self { joints, condition })
+    }
+}
+
+/// The initial pose with B at the inertial origin, its axes along the inertial ones, at rest.
+fn at_rest(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> State<Set> {
+    let mut state: State<Set, Quaternion> = State::at_rest_for(spacecraft);
+    let all = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
+    let initial = scenario.initial.devices.iter().flat_map(JointArray::as_slice);
+    for (joint, [coordinate, _]) in all.zip(initial) {
+        joint[0] = *coordinate;
+    }
+    state
+}
+
+/// The inverse of the mass matrix, symmetric to the last bit.
+fn inverse(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> Result<DMatrix<f64>, SolveError> {
+    let state = at_rest(scenario, spacecraft);
+    let mut inputs = Inputs::none_for(spacecraft);
+    let hub = scenario.hub_mode == HubMode::Free;
+    if !hub {
+        inputs.hub = HubMode::Fixed;
+    }
+    // A kind's own prescribed joints keep their mode.
+    let motors: Vec<usize> = inputs
+        .modes
+        .values()
+        .enumerate()
+        .filter_map(|(joint, mode)| (mode == Mode::Driven).then_some(joint))
+        .collect();
+    let solve = |inputs: &Inputs<Set>| spacecraft.accelerations(&state, inputs);
+    let flat = |found: &Accelerations<Set>| -> Vec<f64> {
+        let of_hub = found.r_b_n_ddot.iter().chain(&found.omega_dot).copied();
+        let of_joints: Vec<f64> = found.devices.values().collect();
+        let driven = motors.iter().filter_map(|joint| of_joints.get(*joint).copied());
+        of_hub.filter(|_| hub).chain(driven).collect()
+    };
+    let none = flat(&solve(&inputs)?);
+    let mut inverse = DMatrix::zeros(none.len(), none.len());
+    for coordinate in 0..none.len() {
+        let mut unit = inputs.clone();
+        match coordinate.checked_sub(if hub { HUB } else { 0 }) {
+            Some(index) => {
+                let motor =
+                    motors.get(index).and_then(|joint| unit.motors.values_mut().nth(*joint));
+                if let Some(torque) = motor {
+                    *torque = 1.0;
+                }
+            }
+            None if coordinate < 3 => unit.force[coordinate] = 1.0,
+            None => unit.torque_b[coordinate - 3] = 1.0,
+        }
+        let found = flat(&solve(&unit)?);
+        for (row, (with, without)) in found.iter().zip(&none).enumerate() {
+            inverse[(row, coordinate)] = with - without;
+        }
+    }
+    Ok((&inverse + inverse.transpose()) * 0.5)
+}
+
+/// The imbalance of a device's wheel; none of a kind that is balanced or has no wheel.
+#[must_use]
+pub fn imbalance(device: &BuiltIn) -> Option<Imbalance> {
+    match device {
+        BuiltIn::ReactionWheel(device) => device.imbalance().ok(),
+        BuiltIn::Sgcmg(device) => device.imbalance().ok(),
+        BuiltIn::Vscmg(device) => device.imbalance().ok(),
+        BuiltIn::Dgcmg(device) => device.imbalance().ok(),
+        BuiltIn::Dgvscmg(device) => device.imbalance().ok(),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use precess_dynamics::BuiltIn;
+
+    use super::*;
+    use crate::engine::checks::{panel, scenario, wheel};
+    use crate::scenario::Set;
+
+    fn of(devices: Set) -> (MassProperties, MassMatrix) {
+        let names = ["a", "b"];
+        let scenario = scenario(&names[..devices.len()], devices, 1.0);
+        let spacecraft = scenario.spacecraft().expect("accepted");
+        let properties = MassProperties::of(&scenario, &spacecraft).expect("finite");
+        (properties, MassMatrix::of(&scenario, &spacecraft).expect("regular"))
+    }
+
+    /// A rotor of 0.2 kg m^2 about the hub's first axis through B, where the hub has 30 kg m^2.
+    #[test]
+    fn a_rotor_on_a_free_hub_has_its_reduced_inertia() {
+        let (properties, matrix) = of(vec![wheel().into()]);
+        assert_eq!(properties.mass, 104.0);
+        assert!(
+            (properties.inertia_b - Matrix3::from_diagonal(&Vector3::new(30.2, 40.1, 50.1))).amax()
+                < 1e-14
+        );
+        let [joint] = matrix.joints[..] else { panic!("{matrix:?}") };
+        assert!(joint.held.is_some_and(|held| (held - 0.2).abs() < 1e-15), "{joint:?}");
+        let reduced = 0.2 * 30.0 / 30.2;
+        assert!(joint.free.is_some_and(|free| (free - reduced).abs() < 1e-15), "{joint:?}");
+        // Only wheel and hub about b_x are coupled, by c = sqrt(0.2 / 30.2).
+        let c = (0.2_f64 / 30.2).sqrt();
+        let condition = (1.0 + c) / (1.0 - c);
+        assert!(matrix.condition.is_some_and(|found| (found / condition - 1.0).abs() < 1e-13));
+    }
+
+    #[test]
+    fn a_joint_without_a_motor_has_no_inertia_of_its_own() {
+        let kind = BuiltIn::from(precess_dynamics::Sgcmg::bare_wheel(
+            4.0,
+            Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1)),
+        ));
+        let (_, matrix) = of(vec![panel().into(), kind]);
+        let has: Vec<_> = matrix.joints.iter().map(|joint| joint.held.is_some()).collect();
+        assert_eq!(has, [true, true, false]);
+    }
+
+    #[test]
+    fn nothing_but_a_clamped_hub_has_no_condition() {
+        let mut clamped = scenario(&[], vec![], 1.0);
+        clamped.hub_mode = HubMode::Fixed;
+        let spacecraft = clamped.spacecraft().expect("accepted");
+        let matrix = MassMatrix::of(&clamped, &spacecraft).expect("no equations");
+        assert_eq!(matrix, MassMatrix { joints: vec![], condition: None });
+    }
+}
