@@ -34,8 +34,12 @@ struct Case {
 
 fn case(name: &'static str, format: Format, rate: f64, columns: &str) -> Result<Case, String> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/imaging-satellite.toml");
-    let mut overrides =
-        vec![format!("run.duration = \"{DURATION} s\""), format!("output.rate = \"{rate} Hz\"")];
+    // Few steps, so that the samples are most of the time.
+    let mut overrides = vec![
+        format!("run.duration = \"{DURATION} s\""),
+        format!("output.rate = \"{rate} Hz\""),
+        "run.tolerance = 1e-4".to_owned(),
+    ];
     if !columns.is_empty() {
         overrides.push(format!("output.columns = {columns}"));
     }
