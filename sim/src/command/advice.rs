@@ -111,8 +111,8 @@ impl fmt::Display for Advice {
         match self {
             Self::Aliasing(Turns { joint, omega, per_turn, present }) => write!(
                 f,
-                "{joint} turns at {} rpm: {} samples per turn at {} Hz, so figures show another \
-                 frequency than its own (aliasing)",
+                "{joint} turns at {} rpm: {} samples per turn at {} Hz, so figures and \
+                 statistics show another frequency than its own (aliasing)",
                 rpm(*omega),
                 six(*per_turn),
                 six(*present)

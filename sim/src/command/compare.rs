@@ -89,7 +89,7 @@ fn json(name: &str, found: &Differences) -> serde_json::Value {
     let columns = found.columns.iter().map(|d| {
         serde_json::json!({
             "column": d.name, "unit": d.unit, "peak": d.peak, "time": d.time,
-            "rms": d.rms(found.samples), "largest": d.size,
+            "rms": d.rms(found.samples), "largest": d.largest,
         })
     });
     serde_json::json!({
@@ -98,7 +98,15 @@ fn json(name: &str, found: &Differences) -> serde_json::Value {
 }
 
 fn shown(name: &str, found: &Differences) -> String {
-    let head = ["column", "peak difference", "at (s)", "RMS difference", "largest value", "unit"];
+    let head = [
+        "column",
+        "peak difference",
+        "at (s)",
+        "RMS difference",
+        "largest in the first",
+        "in the second",
+        "unit",
+    ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for d in &found.columns {
         rows.push(vec![
@@ -106,7 +114,8 @@ fn shown(name: &str, found: &Differences) -> String {
             six(d.peak),
             if d.peak == 0.0 { "-".to_owned() } else { six(d.time) },
             six(d.rms(found.samples)),
-            six(d.size),
+            six(d.largest[0]),
+            six(d.largest[1]),
             d.unit.clone(),
         ]);
     }

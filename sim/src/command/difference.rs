@@ -26,8 +26,8 @@ pub(super) struct Difference {
     pub(super) time: f64,
     /// Sum of squares of the difference.
     square: f64,
-    /// Largest magnitude of the column in both.
-    pub(super) size: f64,
+    /// Largest magnitude of the column in each.
+    pub(super) largest: [f64; 2],
 }
 
 /// A result that is read row by row.
@@ -141,7 +141,8 @@ pub(super) fn differences(a: &Path, b: &Path) -> Result<Differences, CommandErro
                 (d.peak, d.time) = (off, time_a);
             }
             d.square += off * off;
-            d.size = d.size.max(of_a.abs()).max(of_b.abs());
+            let [a, b] = d.largest;
+            d.largest = [a.max(of_a.abs()), b.max(of_b.abs())];
         }
         samples += 1;
     }

@@ -45,7 +45,7 @@ impl fmt::Display for CommandError {
             Self::Record(error) => write!(f, "error: {error}"),
             Self::Exists(path) => write!(
                 f,
-                "error: {} exists; choose another folder with --out, or replace it with --force",
+                "error: {} exists; choose another place, or replace it with --force",
                 path.display()
             ),
             Self::Io { path, source } => write!(f, "error: {}: {source}", path.display()),

@@ -246,6 +246,10 @@ pub(super) fn files(folder: &Path, extension: &str) -> Result<BTreeSet<String>, 
 
 /// Asks on a terminal whether results may be replaced; refuses elsewhere.
 pub(super) fn may_write(folder: &Path, names: &[String], force: bool) -> Result<(), CommandError> {
+    if folder.is_file() {
+        let message = format!("{} is a file; name a folder", folder.display());
+        return Err(CommandError::Other(message));
+    }
     let Some(path) = names.iter().map(|name| folder.join(name)).find(|path| path.exists()) else {
         return Ok(());
     };

@@ -85,6 +85,9 @@ impl Table {
     }
 }
 
+/// Most errors of syntax that are shown: a file of another format has one in every line.
+const SYNTAX_ERRORS_MAX: usize = 5;
+
 /// Parses a text; adds it to the sources, and what is wrong with it to the errors.
 pub(super) fn parse(name: &str, text: &str, reports: &mut Diagnostics) -> Node {
     let source = reports.sources.len();
@@ -98,9 +101,13 @@ pub(super) fn parse(name: &str, text: &str, reports: &mut Diagnostics) -> Node {
         return Node { value: Value::Table(Table::default()), span: whole };
     }
     let (table, errors) = DeTable::parse_recoverable(text);
-    for error in errors {
+    for error in errors.iter().take(SYNTAX_ERRORS_MAX) {
         let span = Span { source, range: error.span().unwrap_or(0..0) };
-        reports.error(&span, format!("no TOML: {}", error.message()), "", "");
+        reports.error(&span, format!("not TOML: {}", error.message()), "", "");
+    }
+    if let Some(more) = errors.len().checked_sub(SYNTAX_ERRORS_MAX).filter(|more| *more > 0) {
+        let help = "a scenario file is TOML: `precess new reaction_wheel` prints one";
+        reports.error_anywhere(format!("{name}: {more} more places are not TOML"), help);
     }
     Node { value: Value::Table(owned_table(table.into_inner(), source)), span: whole }
 }

@@ -278,16 +278,16 @@ impl<'a> Keys<'a> {
             let help = "write a number and its unit in quotation marks";
             return self.other_type(key, node, help);
         };
-        self.parsed(node, text, &self.path_of(key), "a number and its unit")
+        self.parsed(node, text, &self.path_of(key), "a number and its unit are wanted")
     }
 
     /// The quantities of a node, of a measure.
     pub(super) fn values_of(&self, node: &Node, path: &str, measure: Measure) -> Option<Vec<f64>> {
         let Measure { name, usual, .. } = measure;
         let wanted = if usual.is_empty() {
-            name.to_owned()
+            format!("{name} is wanted")
         } else {
-            format!("{name}, in {usual} for example")
+            format!("{name} is wanted, in {usual} for example")
         };
         let text = match &node.value {
             Value::Text(text) => text,
@@ -299,12 +299,12 @@ impl<'a> Keys<'a> {
                 } else {
                     format!("write `\"{value} {}\"` or `\"{value} {usual}\"`", measure.unit)
                 };
-                self.report(node, message, &format!("{wanted} is wanted"), &help);
+                self.report(node, message, &wanted, &help);
                 return None;
             }
             other => {
                 let message = format!("`{path}` is {}", other.what());
-                self.report(node, message, "", &format!("{wanted} is wanted, in quotation marks"));
+                self.report(node, message, "", &format!("{wanted}, in quotation marks"));
                 return None;
             }
         };
@@ -318,7 +318,12 @@ impl<'a> Keys<'a> {
         } else {
             format!("`{path}` is {found}, where {name} is wanted")
         };
-        let help = format!("write it in {usual}, {}, or another unit of it", measure.unit);
+        let units = if measure.unit == usual {
+            usual.to_owned()
+        } else {
+            format!("{usual}, {}", measure.unit)
+        };
+        let help = format!("write it in {units}, or another unit of it");
         self.report(node, message, "", &help);
         None
     }
@@ -334,7 +339,7 @@ impl<'a> Keys<'a> {
                     span.range = start + error.at.start..start + error.at.end.max(error.at.start);
                 }
                 let message = format!("`{path}`: {}", error.kind);
-                self.reports.borrow_mut().error(&span, message, "", &format!("{wanted} is wanted"));
+                self.reports.borrow_mut().error(&span, message, "", wanted);
                 None
             }
         }

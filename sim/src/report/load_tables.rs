@@ -40,7 +40,7 @@ pub(super) fn loads(report: &Report) -> Vec<Block> {
     ];
     let mut blocks = vec![table("Motor torques and loads across joints", &headings, 3..7, rows)];
     if !collected.header.columns.iter().any(|column| column.quantity.is_load()) {
-        let text = "Loads across joints and mounts are recorded where `output.columns` lists \
+        let text = "Loads across joints and mounts are recorded where output.columns lists \
                     `loads` or a device's `name.loads`.";
         blocks.push(Block::Note { text: text.to_owned() });
     }

@@ -168,7 +168,7 @@ fn replay_blocks(report: &Report, replay: Option<&ReplayData>) -> Vec<Block> {
         }
         None if report.collected.is_some() => vec![Block::Note {
             text: "No replay: it needs two samples or more, of the attitude, angular velocity, \
-                   angular momentum and all joints; `output.columns` leaves some of them out."
+                   angular momentum and all joints; output.columns leaves some of them out."
                 .to_owned(),
         }],
         None => Vec::new(),
@@ -201,7 +201,7 @@ fn scenario_text(report: &Report) -> Vec<Block> {
         blocks.push(lines(&source.text));
     }
     if !source.filled.is_empty() {
-        let text = "With every default filled in, in SI units; it gives the same run.".to_owned();
+        let text = "In SI units, with layouts, copies and data sheets written out; it gives the same run. A key that is not here has its default.".to_owned();
         blocks.push(Block::Note { text });
         blocks.push(lines(&source.filled));
     }

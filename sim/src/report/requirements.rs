@@ -16,25 +16,26 @@ pub(super) fn table_of(report: &Report) -> Vec<Block> {
         let [from, to] = requirement.window.map(number::time);
         let cells = vec![
             requirement.name.clone(),
+            word(verdict).to_owned(),
+            reached(verdict),
+            limit(verdict),
             requirement.quantity.clone(),
             statistic(requirement.statistic),
             format!("{from} s to {to} s"),
-            limit(verdict),
-            reached(verdict),
-            word(verdict).to_owned(),
         ];
         (state, cells)
     });
     let columns = [
         ("Requirement", ""),
+        ("State", ""),
+        ("Reached", ""),
+        ("Limit", ""),
         ("Quantity", ""),
         ("Statistic", ""),
         ("Window", ""),
-        ("Limit", ""),
-        ("Reached", ""),
-        ("State", ""),
     ];
-    vec![table("Requirements, and what the run reached", &columns, 4..6, rows)]
+    // The verdict first: a phone shows the first columns.
+    vec![table("Requirements, and what the run reached", &columns, 2..4, rows)]
 }
 
 /// A requirement in words: `pointing: 0.0300 deg/s, limit 0.100 deg/s`.

@@ -105,9 +105,9 @@ fn facts(report: &Report, outcome: &Outcome) -> Vec<Fact> {
             ),
         ),
         Fact::new("Events", number::count(events)),
-        Fact::new("Drift of energy less work", drift(outcome.drift.energy)),
-        Fact::new("Drift of linear momentum", drift(outcome.drift.linear)),
-        Fact::new("Drift of angular momentum", drift(outcome.drift.angular)),
+        Fact::new("Relative drift of energy less work", drift(outcome.drift.energy)),
+        Fact::new("Relative drift of linear momentum", drift(outcome.drift.linear)),
+        Fact::new("Relative drift of angular momentum", drift(outcome.drift.angular)),
     ];
     if let Some(peak) = omega_peak(report) {
         facts.push(Fact::new("Largest |ω|", peak));
@@ -137,11 +137,12 @@ pub(super) fn terminal(report: &Report, outcome: &Outcome, files: &[String]) -> 
     if !verdicts.is_empty() {
         let met = verdicts.len() - violated.len();
         lines.push(format!("requirements: {met} of {} met", verdicts.len()));
-        lines.extend(
-            violated.iter().take(SHOWN_MAX).map(|v| format!("  {}", requirements::words(v))),
-        );
-        if violated.len() > SHOWN_MAX {
-            lines.push(format!("  and {} more", violated.len() - SHOWN_MAX));
+        // Those that are violated first.
+        let others = verdicts.iter().filter(|verdict| verdict.is_met());
+        let shown = violated.iter().copied().chain(others).take(SHOWN_MAX);
+        lines.extend(shown.map(|verdict| format!("  {}", requirements::words(verdict))));
+        if verdicts.len() > SHOWN_MAX {
+            lines.push(format!("  and {} more", verdicts.len() - SHOWN_MAX));
         }
     }
     if let Some(peak) = omega_peak(report) {
@@ -156,7 +157,7 @@ pub(super) fn terminal(report: &Report, outcome: &Outcome, files: &[String]) -> 
     let parts = parts.into_iter().filter_map(|(what, drift)| Some((what, drift?)));
     let parts: Vec<_> = parts.map(|(what, drift)| format!("{what} {drift:.1e}")).collect();
     if !parts.is_empty() {
-        lines.push(format!("drift: {}", parts.join(", ")));
+        lines.push(format!("relative drift: {}", parts.join(", ")));
     }
     if !files.is_empty() {
         lines.push(format!("files: {}", files.join(", ")));

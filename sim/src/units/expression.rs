@@ -271,7 +271,8 @@ impl Parser<'_> {
             return Err(self.error(start, UnitErrorKind::Expected));
         }
         let Some(found) = symbols::find(&name) else {
-            let near = nearest(&name, symbols::all()).into_iter().next();
+            let near = symbols::parted(&name)
+                .or_else(|| nearest(&name, symbols::all()).into_iter().next());
             return Err(self.error(start, UnitErrorKind::Symbol(near)));
         };
         Ok(Scale { ten: found.ten, factor: found.factor, dimension: found.dimension })
@@ -365,6 +366,10 @@ mod tests {
         let unknown = error("4 kgg");
         assert_eq!(unknown.at, 2..5);
         assert!(matches!(unknown.kind, UnitErrorKind::Symbol(Some(_))), "{unknown:?}");
+        let joined = |text: &str| error(text).kind;
+        assert_eq!(joined("60 mNm"), UnitErrorKind::Symbol(Some("mN m".to_owned())));
+        assert_eq!(joined("4 kgs"), UnitErrorKind::Symbol(Some("kg".to_owned())));
+        assert_eq!(joined("3000 RPM"), UnitErrorKind::Symbol(Some("rpm".to_owned())));
         assert_eq!(error("kg").kind, UnitErrorKind::Number);
         assert_eq!(error("").kind, UnitErrorKind::Number);
         assert_eq!(error("4, kg").at, 3..5);

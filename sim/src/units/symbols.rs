@@ -79,6 +79,20 @@ pub(super) fn find(text: &str) -> Option<Symbol> {
     })
 }
 
+/// The unit that a text may mean, where only letter case, a plural or a space is wrong: `RPM`,
+/// `kgs`, `mNm`.
+pub(super) fn parted(text: &str) -> Option<String> {
+    let lower = text.to_lowercase();
+    let singular = text.strip_suffix('s').unwrap_or_default();
+    if let Some(known) = [lower.as_str(), singular].into_iter().find(|text| find(text).is_some()) {
+        return Some(known.to_owned());
+    }
+    let splits = text.char_indices().skip(1).map(|(at, _)| text.split_at(at));
+    let known = splits.filter(|(first, second)| find(first).is_some() && find(second).is_some());
+    // The longest first symbol: of `mNm` the millinewton.
+    known.last().map(|(first, second)| format!("{first} {second}"))
+}
+
 /// All symbols with every prefix, for suggestions.
 pub(super) fn all() -> impl Iterator<Item = String> {
     let bare = PLAIN.iter().chain(PREFIXED).map(|(name, _)| (*name).to_owned());

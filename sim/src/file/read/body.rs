@@ -69,7 +69,7 @@ impl JointMeasures {
 pub(super) fn body(keys: &Keys<'_>, needs: Needs, folder: &std::path::Path) -> Option<Body> {
     let joint = needs.joint;
     let measures = JointMeasures::of(joint);
-    let mass = keys.required("mass", Measure::MASS);
+    let mass = mass(keys);
     let centre = keys.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
     let inertia = if needs.inertia { inertia(keys, true) } else { Some(Matrix3::zeros()) };
     let origin = if needs.first {
@@ -97,6 +97,16 @@ pub(super) fn body(keys: &Keys<'_>, needs: Needs, folder: &std::path::Path) -> O
     Some(Body { parameters, passive, state, drive: drive?, stop })
 }
 
+/// A mass, at least zero.
+pub(super) fn mass(keys: &Keys<'_>) -> Option<f64> {
+    let mass = keys.required("mass", Measure::MASS)?;
+    if mass >= 0.0 {
+        return Some(mass);
+    }
+    keys.error("mass", format!("`{}.mass` is {mass} kg", keys.path()), "a mass is not negative");
+    None
+}
+
 /// Moments of inertia and products: `inertia = "900, 800, 600 kg m^2"`, and
 /// `products_of_inertia = "4.15, 2.93, 2.75 kg m^2"`, the elements 12, 13 and 23 of the tensor.
 pub(super) fn inertia(keys: &Keys<'_>, required: bool) -> Option<Matrix3<f64>> {
@@ -108,6 +118,11 @@ pub(super) fn inertia(keys: &Keys<'_>, required: bool) -> Option<Matrix3<f64>> {
         return None;
     }
     let [xx, yy, zz] = keys.quantities::<3>("inertia", Measure::INERTIA)?;
+    if [xx, yy, zz].iter().any(|moment| *moment < 0.0) {
+        let message = format!("`{}.inertia` is {xx}, {yy}, {zz} kg m^2", keys.path());
+        keys.error("inertia", message, "a moment of inertia is not negative");
+        return None;
+    }
     let [xy, xz, yz] = products.unwrap_or_default();
     Some(Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
 }

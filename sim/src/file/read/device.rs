@@ -131,12 +131,9 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path) -> Vec<Device> {
     let places = keys.has("layout").then(|| layout(keys, axes));
     let position = keys.vector("position", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
     let single = mount(keys, axes).map(|mount| (position, mount));
-    let single = if keys.has("copy_of") {
-        // Read where it was merged.
-        let _ = keys.text("copy_of");
-        if !keys.has("turned_180_about") {
-            keys.missing("turned_180_about", "turned_180_about = \"x\"");
-        }
+    // Read where it was merged.
+    let is_copy = keys.text("copy_of").is_some();
+    let single = if is_copy && keys.has("turned_180_about") {
         single.and_then(|place| turned(keys, "turned_180_about", &place))
     } else {
         single

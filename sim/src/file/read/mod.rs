@@ -62,7 +62,7 @@ fn scenario(
     overrides: &[Override],
     mut reports: Diagnostics,
 ) -> Read {
-    // What is no TOML is reported alone: its keys would be guesses.
+    // What is not TOML is reported alone: its keys would be guesses.
     if reports.has_errors() {
         return Err(reports);
     }
@@ -168,7 +168,7 @@ fn hub(keys: &Keys<'_>) -> Option<(Hub, Vector3<f64>, HubMode)> {
         }
         return None;
     };
-    let m_b = hub.required("mass", Measure::MASS);
+    let m_b = body::mass(&hub);
     let r_bc_b = hub.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
     let i_b_bc = body::inertia(&hub, true);
     let size = hub.vector("size", Measure::LENGTH);
@@ -332,7 +332,8 @@ mod tests {
             .replace("mass = \"810 kg\"", "mas = \"810 kg\"")
             .replace("\"4 kg\"", "4")
             .replace("\"500 rpm\"", "\"500 Hz\"")
-            .replace("\"10 s\"", "\"10 sec\"");
+            .replace("\"10 s\"", "\"10 sec\"")
+            .replace("mass = \"24 kg\"", "mass = \"-24 kg\"");
         let shown = errors(&text);
         for part in [
             "unknown key `hub.mas`",
@@ -340,6 +341,7 @@ mod tests {
             "`device.cmg.wheel.mass` has no unit",
             "`device.cmg.wheel.rate` is a frequency, where an angular rate is wanted",
             "`run.duration`: no such unit",
+            "`device.cmg.outer_gimbal.mass` is -24 kg",
             "test.toml:14:1",
         ] {
             assert!(shown.contains(part), "{part} in\n{shown}");
@@ -349,7 +351,7 @@ mod tests {
     #[test]
     fn what_is_no_toml_is_said_alone() {
         let shown = errors("format = 1\n[hub\nmass = ");
-        assert!(shown.contains("no TOML"), "{shown}");
+        assert!(shown.contains("not TOML"), "{shown}");
         assert!(!shown.contains("missing"), "{shown}");
         for text in ["", "\0", "format = 1e999", "hub = 3", "device = 7\nformat = 1"] {
             assert!(!errors(text).is_empty());
