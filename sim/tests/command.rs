@@ -140,40 +140,6 @@ fn evaluate_check_and_compare_tell_what_they_find() {
     assert!(text(&mixed.stderr).contains("one is a folder"), "{}", text(&mixed.stderr));
 }
 
-#[cfg(unix)]
-#[test]
-fn a_run_that_is_killed_leaves_the_old_result_or_a_partial_one() {
-    use std::time::Duration;
-    let (folder, file) = wheel("killed");
-    let out = folder.join("out");
-    fs::create_dir_all(&out).expect("a folder");
-    for round in 0..20_u64 {
-        let old = contents(&out).get("wheel.csv").cloned();
-        let mut command = Command::new(env!("CARGO_BIN_EXE_precess"));
-        let out_text = out.to_str().expect("text");
-        command.args(["run", &file, "--out", out_text, "--force", "--no-report"]);
-        command.args(["--set", "run.duration=1 s"]);
-        let mut child = command.spawn().expect("the command starts");
-        std::thread::sleep(Duration::from_millis(7 * round));
-        let _ = child.kill();
-        let _ = child.wait();
-        let now = contents(&out);
-        for (name, bytes) in &now {
-            match name.as_str() {
-                "wheel.csv" => {
-                    let last = bytes.last() == Some(&b'\n');
-                    let complete = last
-                        && text(bytes).lines().last().is_some_and(|line| {
-                            line.split(',').next().and_then(|t| t.parse::<f64>().ok()) == Some(1.0)
-                        });
-                    assert!(Some(bytes) == old.as_ref() || complete, "round {round}");
-                }
-                other => assert!(other.ends_with(".partial"), "{other}"),
-            }
-        }
-    }
-}
-
 #[test]
 fn every_command_shows_an_example() {
     let commands = ["new", "check", "run", "evaluate", "compare", "plot", "schema", "kinds"];

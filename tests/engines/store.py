@@ -20,6 +20,7 @@ FIXTURE = HERE.parent / "fixtures" / "engines.json"
 try:
     import with_mujoco
     import with_pinocchio
+    from fixture import lines
     from spacecraft import all_spacecraft, more_spacecraft
 except ModuleNotFoundError as error:
     if error.name not in ("mujoco", "numpy", "pinocchio"):
@@ -157,20 +158,6 @@ def blocks(result):
 
     walk("", result)
     return found
-
-
-def lines(value, indent=""):
-    """JSON in which whatever fits a line of 140 columns, an inertia say, stands on one."""
-    short = json.dumps(value, ensure_ascii=False, allow_nan=False)
-    if len(indent) + len(short) <= 139 or not isinstance(value, (dict, list)):
-        return short
-    deeper = indent + " "
-    if isinstance(value, dict):
-        inner = [f"{json.dumps(key)}: {lines(x, deeper)}" for key, x in value.items()]
-    else:
-        inner = [lines(x, deeper) for x in value]
-    opening, closing = "{}" if isinstance(value, dict) else "[]"
-    return f"{opening}\n{deeper}" + f",\n{deeper}".join(inner) + f"\n{indent}{closing}"
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 //! - [`measured`]: spacecraft of every kind, for what is measured; [`counted`]: a scalar that
 //!   counts
 //!   its operations.
+//! - [`wheels`]: a run of three reaction wheels beside Basilisk's.
 //! - [`accuracy`]: where the bound on the accelerations holds and where it is lost.
 //! - [`blocks`]: the unit in which accelerations are compared.
 //! - [`bounds`]: what the project promises, as the suites assert it.
@@ -27,6 +28,7 @@ pub mod random;
 pub mod spatial;
 pub mod stored;
 pub mod table1;
+pub mod wheels;
 
 /// The examples of the README and of the pages compile and run.
 #[cfg(doctest)]

@@ -95,8 +95,7 @@ pub(super) fn parse(name: &str, text: &str, reports: &mut Diagnostics) -> Node {
     reports.sources.push(SourceText { name: name.to_owned(), text: kept.to_owned() });
     let whole = Span { source, range: 0..kept.len() };
     if text.len() > TEXT_MAX {
-        let size = text.len();
-        let message = format!("{name} has {size} bytes, more than {TEXT_MAX}");
+        let message = format!("{name} has more than {TEXT_MAX} bytes");
         reports.error_anywhere(message, "put tables of numbers into a CSV file");
         return Node { value: Value::Table(Table::default()), span: whole };
     }

@@ -5,10 +5,12 @@
 //! key; lists of tables with names are merged by name, other lists replaced whole. Overrides come
 //! last.
 
+use std::fs::File;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use super::diagnostic::{Diagnostics, Span};
-use super::document::{Entry, Node, Table, Value, parse};
+use super::document::{Entry, Node, TEXT_MAX, Table, Value, parse};
 
 /// Files based on files based on files: no deeper than this.
 const DEPTH_MAX: usize = 16;
@@ -52,13 +54,18 @@ fn load(
         refuse(format!("more than {DEPTH_MAX} files based on each other"), "");
         return nothing;
     }
-    let bytes = match std::fs::read(path) {
+    let bytes = match bytes_of(path) {
         Ok(bytes) => bytes,
         Err(error) => {
             refuse(format!("cannot read {shown}: {error}"), "");
             return nothing;
         }
     };
+    if bytes.len() > TEXT_MAX {
+        let help = "put tables of numbers into a CSV file";
+        refuse(format!("{shown} has more than {TEXT_MAX} bytes"), help);
+        return nothing;
+    }
     let Ok(text) = String::from_utf8(bytes) else {
         refuse(format!("{shown} is not UTF-8 text"), "a scenario file is TOML text");
         return nothing;
@@ -69,6 +76,13 @@ fn load(
     let node = with_bases(node, &folder, open, reports);
     open.pop();
     node
+}
+
+/// The bytes of a file, no more than it takes to see that there are too many: a device has no end.
+fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(TEXT_MAX as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// The tree over those it is based on.

@@ -1,4 +1,5 @@
-//! Error of the accelerations where they are ill conditioned: `docs/accuracy.md`.
+//! Error of the accelerations where they are ill conditioned, and a run beside Basilisk's:
+//! `docs/accuracy.md`.
 //!
 //! Run by `cargo xtask accuracy`, which writes the page or compares it. The same bytes on
 //! every run: spacecraft are seeded, and solver and reference give the same bits on every machine.
@@ -15,8 +16,9 @@ use std::process::ExitCode;
 use clap::Parser;
 use precess_tests::accuracy::kinds::{BareBalancedDgvscmg, BareDgcmg, BareDgvscmg, BareVscmg};
 use precess_tests::accuracy::{Row, offset, pose};
+use precess_tests::wheels::{Difference, Stored};
 
-/// Measures both sweeps and writes the page with its figure.
+/// Measures both sweeps and the run, and writes the page with its figure.
 #[derive(Parser)]
 #[command(after_help = "Example: accuracy --out target/accuracy")]
 struct Arguments {
@@ -54,6 +56,20 @@ impl Sweeps {
     }
 }
 
+/// Three reaction wheels, run beside Basilisk.
+struct Beside {
+    stored: Stored,
+    differences: [Difference; 6],
+}
+
+impl Beside {
+    fn measured() -> Result<Self, Box<dyn Error>> {
+        let stored = Stored::read()?;
+        let differences = stored.differences()?;
+        Ok(Self { stored, differences })
+    }
+}
+
 fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
@@ -68,7 +84,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let sweeps = Sweeps::measured();
     let out = &arguments.out;
     fs::create_dir_all(out).map_err(|error| format!("cannot make {}: {error}", out.display()))?;
-    let text = page::page(&sweeps)?;
+    let text = page::page(&sweeps, &Beside::measured()?)?;
     for (name, text) in [("accuracy.md", text), ("accuracy.svg", chart::chart(&sweeps)?)] {
         let path = out.join(name);
         fs::write(&path, text)

@@ -3,13 +3,13 @@
 use std::error::Error;
 
 use precess_tests::accuracy::{Row, SPACECRAFT};
-use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
+use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, WHEELS_BESIDE_BASILISK};
 use precess_tests::random::MOST_DEVICES;
 use serde::Serialize;
 use tera::{Context, Tera};
 
-use crate::Sweeps;
 use crate::limit::Limit;
+use crate::{Beside, Sweeps};
 
 /// A sweep in a line.
 #[derive(Serialize)]
@@ -61,8 +61,16 @@ struct Other {
     cells: Cells,
 }
 
+/// A quantity of the run beside Basilisk.
+#[derive(Serialize)]
+struct Compared {
+    quantity: &'static str,
+    largest: String,
+    error: String,
+}
+
 /// The text of the page.
-pub(crate) fn page(sweeps: &Sweeps) -> Result<String, Box<dyn Error>> {
+pub(crate) fn page(sweeps: &Sweeps, beside: &Beside) -> Result<String, Box<dyn Error>> {
     let [dgvscmg, balanced] = [&sweeps.dgvscmg, &sweeps.balanced].map(|rows| Limit::of(rows));
     let offset = Limit::of(&sweeps.offset);
     let mut context = Context::new();
@@ -79,6 +87,17 @@ pub(crate) fn page(sweeps: &Sweeps) -> Result<String, Box<dyn Error>> {
     context.insert("others", &others.collect::<Vec<_>>());
     let least = sweeps.others.first().map_or(0.0, |(_, row)| row.distance);
     context.insert("least", &radians(least));
+    let Beside { stored, differences } = beside;
+    context.insert("basilisk", &stored.basilisk);
+    context.insert("steps", &stored.steps);
+    context.insert("step", &format!("{} ms", stored.step * 1e3));
+    context.insert("beside_bound", &format!("{WHEELS_BESIDE_BASILISK:e}"));
+    let compared = differences.iter().map(|found| Compared {
+        quantity: found.quantity,
+        largest: format!("{:.3} {}", found.largest, found.unit).trim_end_matches(" 1").to_owned(),
+        error: error(found.error),
+    });
+    context.insert("compared", &compared.collect::<Vec<_>>());
     let mut tera = Tera::default();
     tera.autoescape_on(Vec::<&str>::new());
     tera.add_raw_template("page", include_str!("accuracy.md.tera"))?;

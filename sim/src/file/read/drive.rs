@@ -11,6 +11,8 @@
 //!
 //! A step, a sine and a table may be limited to `from` and `to`: they are zero outside.
 
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 use super::super::document::{Node, Value};
@@ -23,6 +25,8 @@ use crate::units::{Measure, parse_unit};
 const KINDS: [&str; 7] = ["constant", "step", "ramp", "sine", "chirp", "table", "times"];
 /// Most rows of a table.
 const ROWS_MAX: usize = 1_000_000;
+/// Most bytes of its file: a device has no end.
+const BYTES_MAX: u64 = 100_000_000;
 
 /// A profile; nothing where one is wrong, which has been reported.
 pub(super) fn profile(
@@ -160,12 +164,16 @@ fn file(keys: &Keys<'_>, measure: Measure, folder: &Path) -> Option<Table> {
 type Rows = (Vec<f64>, Vec<f64>);
 
 fn rows(path: &Path, column: &str, size: f64) -> Result<Rows, String> {
+    let file = File::open(path).map_err(|error| error.to_string())?;
     let mut reader = csv::ReaderBuilder::new()
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
-        .from_path(path)
-        .map_err(|error| error.to_string())?;
+        .from_reader(file.take(BYTES_MAX));
     let head = reader.headers().map_err(|error| error.to_string())?.clone();
+    let too_long = || format!("more than {BYTES_MAX} bytes");
+    if reader.position().byte() >= BYTES_MAX {
+        return Err(too_long());
+    }
     let find = |name: &str| {
         let known: Vec<_> = head.iter().collect();
         let place = known.iter().position(|column| *column == name);
@@ -186,6 +194,9 @@ fn rows(path: &Path, column: &str, size: f64) -> Result<Rows, String> {
         if times.len() > ROWS_MAX {
             return Err(format!("more than {ROWS_MAX} rows"));
         }
+    }
+    if reader.position().byte() >= BYTES_MAX {
+        return Err(too_long());
     }
     Ok((times, values))
 }

@@ -11,6 +11,8 @@ use crate::units::Measure;
 
 /// A quaternion whose norm is off by more is an error; by less, rounding of what was typed.
 const NORM_MAX: f64 = 1e-4;
+/// One whose norm is off by less has all its digits: it is taken as it stands, to the bit.
+const NORM_EXACT: f64 = 1e-14;
 
 /// How an attitude is written.
 const WAYS: [&str; 4] = ["quaternion", "mrp", "euler", "axis"];
@@ -90,12 +92,13 @@ fn quaternion(keys: &Keys<'_>) -> Option<Quaternion> {
         keys.error("quaternion", format!("its norm is {norm:.6}"), "a unit quaternion has norm 1");
         return None;
     }
-    Some(Quaternion { q0, q1, q2, q3 }.normalised())
+    let given = Quaternion { q0, q1, q2, q3 };
+    Some(if (norm - 1.0).abs() < NORM_EXACT { given } else { given.normalised() })
 }
 
 /// The attitude of axes whose columns are the new axes in the old ones.
 fn of_axes(axes: &Matrix3<f64>) -> Quaternion {
     let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*axes));
     let [q1, q2, q3, q0] = turn.coords.into();
-    Quaternion { q0, q1, q2, q3 }
+    Quaternion { q0, q1, q2, q3 }.normalised()
 }

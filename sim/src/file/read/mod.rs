@@ -261,11 +261,21 @@ fn check(scenario: &Scenario, reports: &mut Diagnostics) {
 
 /// `device 0` by its name.
 fn named(message: &str, names: &[String]) -> String {
-    let mut text = message.to_owned();
-    for (index, name) in names.iter().enumerate().rev() {
-        text = text.replace(&format!("device {index}"), name);
+    const DEVICE: &str = "device ";
+    let mut text = String::new();
+    let mut rest = message;
+    while let Some(at) = rest.find(DEVICE) {
+        let number = rest.get(at + DEVICE.len()..).unwrap_or_default();
+        let end = number.find(|c: char| !c.is_ascii_digit()).unwrap_or(number.len());
+        let (digits, after) = number.split_at(end);
+        text.push_str(rest.get(..at).unwrap_or_default());
+        match digits.parse::<usize>().ok().and_then(|index| names.get(index)) {
+            Some(name) => text.push_str(name),
+            None => text.extend([DEVICE, digits]),
+        }
+        rest = after;
     }
-    text
+    text + rest
 }
 
 #[cfg(test)]
@@ -346,6 +356,27 @@ mod tests {
         ] {
             assert!(shown.contains(part), "{part} in\n{shown}");
         }
+    }
+
+    #[test]
+    fn an_attitude_is_read_back_to_the_bit() {
+        let head = "format = 1\n[hub]\nmass = \"9 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n[run]\n\
+                    duration = \"1 s\"\n[initial.attitude]\n";
+        for angles in ["1, 2, 3", "10, -20, 30", "170, 80, -100", "0.1, 0.2, 0.3", "7, 7, 7"] {
+            let text = format!(
+                "{head}euler = \"{angles} deg\"\nsequence = \"ZYX\"\ndirection = \"N to B\"\n"
+            );
+            let (first, _) = read_text(&text).unwrap_or_else(|errors| panic!("{errors}"));
+            let (second, _) = read_text(&to_toml(&first)).unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!(second.initial.attitude, first.initial.attitude, "{angles}");
+        }
+    }
+
+    #[test]
+    fn a_device_is_named_by_its_whole_number() {
+        let names = ["a", "b"].map(str::to_owned);
+        let text = "device 1, device 12; device 0: device x, device ";
+        assert_eq!(named(text, &names), "b, device 12; a: device x, device ");
     }
 
     #[test]

@@ -1,0 +1,242 @@
+//! The JSON Schema against the reader. Every scenario file, and every one that the tool writes,
+//! is valid; an unknown key is refused by both in every table; and in each table both know the same
+//! keys.
+//!
+//! The reader tells which keys it knows: an unknown one that is like none of them lists them all.
+
+mod validator;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use precess::file::{from_toml, to_toml};
+use serde_json::Value;
+use toml::Table;
+
+use validator::faults;
+
+/// Like no key, so that the help of its error lists the known ones.
+const UNKNOWN: &str = "QQQQ";
+/// Keys that are taken away before the reader sees a table, and where.
+const TAKEN: [(&str, &str); 1] = [("", "base")];
+/// What the scenario files have not: other ways to write the same, each after a minimal scenario.
+const OTHERS: [&str; 24] = [
+    "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
+    "[initial.attitude]\nmrp = [0.1, 0.2, 0.3]",
+    "[initial.attitude]\naxis = [0, 0, 1]\nangle = \"30 deg\"",
+    "[initial.attitude]\nquaternion = [1, 0, 0, 0]\nscalar = \"first\"",
+    "[initial.attitude]\neuler = \"1, 2, 3 deg\"\nsequence = \"ZYX\"\ndirection = \"N to B\"",
+    "[device.mount]\nmatrix = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+    "[device.mount]\ndcm = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+    "[device.mount]\naxis = [0, 0, 1]\nangle = \"30 deg\"",
+    "[device.mount]\neuler = \"1, 2, 3 deg\"\nsequence = \"ZYX\"\ndirection = \"hub to device\"",
+    "[device.layout.pyramid]\ncount = 3\nhalf_angle = \"30 deg\"",
+    "[device.layout.ring]\ncount = 3\nradius = \"30 cm\"",
+    "[device.wheel.torque]\nconstant = \"1 mN m\"\nfrom = \"0 s\"\nto = \"1 s\"",
+    "[device.wheel.torque]\nstep = \"1 mN m\"\nat = \"1 ms\"\nbefore = \"0 N m\"",
+    "[device.wheel.torque]\nramp = \"0, 1 mN m\"\nfrom = \"0 s\"\nto = \"1 s\"",
+    "[device.wheel.torque]\nsine = \"1 mN m\"\nfrequency = \"2 Hz\"\nmean = \"0 N m\"",
+    "[device.wheel.torque]\nchirp = \"1 mN m\"\nfrequency = \"1, 2 Hz\"\nfrom = \"0 s\"\nto = \"1 s\"",
+    "[device.wheel.torque]\ntimes = \"0, 1 s\"\nvalues = \"0, 1 mN m\"\ninterpolation = \"hold\"",
+    "[device.wheel.torque]\ntable = \"no.csv\"\ncolumn = \"u\"\nunit = \"N m\"\ninterpolation = \"hold\"",
+    "[[device]]\nname = \"other\"\ncopy_of = \"rw\"\nturned_180_about = \"x\"",
+    "[[at]]\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ntorque = \"1 mN m\"",
+    "[[at]]\ntime = \"1 ms\"\njoint = \"tank.slosh_mass\"\nforce = \"1 mN\"\n\
+     [[device]]\nname = \"tank\"\nkind = \"slosh_mass\"\nslosh_mass = { mass = \"1 kg\" }",
+    "[[wrench]]\non = \"hub\"\nforce = { x = \"1 N\" }\nmoment = { z = \"1 N m\" }",
+    "[[crossing]]\ncolumn = \"rw.spin\"\nvalue = \"3000 rpm\"",
+    "[[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"peak\"\nlimit = \"1 rad/s\"",
+];
+const MINIMAL: &str = "format = 1\n[run]\nduration = \"1 s\"\nintegrator = \"rk4\"\nstep = \"1 ms\"\n\
+    [output]\nrate = \"1 kHz\"\n[hub]\nmass = \"9 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n\
+    [[device]]\nname = \"rw\"\nkind = \"reaction_wheel\"\n\
+    [device.wheel]\nmass = \"1 kg\"\ninertia = \"2, 1, 1 g m^2\"\n";
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios")
+}
+
+fn schema() -> Value {
+    serde_json::from_str(include_str!("../../schema/scenario-1.json")).expect("JSON")
+}
+
+/// The scenario files with their names.
+fn files() -> Vec<(String, String)> {
+    let entries = std::fs::read_dir(folder()).expect("the folder").map(|e| e.expect("an entry"));
+    let paths = entries.map(|entry| entry.path());
+    let mut files: Vec<_> = paths
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .map(|path| (path.display().to_string(), std::fs::read_to_string(&path).expect("text")))
+        .collect();
+    files.sort();
+    assert!(files.len() >= 18, "{} files", files.len());
+    files
+}
+
+/// The files, and minimal scenarios with what no file has.
+fn documents() -> Vec<(String, Table)> {
+    let table = |(name, text): (String, String)| {
+        let table = text.parse::<Table>().unwrap_or_else(|error| panic!("{name}: {error}"));
+        (name, table)
+    };
+    let others = OTHERS.iter().map(|other| ((*other).to_owned(), format!("{MINIMAL}{other}\n")));
+    files().into_iter().chain(others).map(table).collect()
+}
+
+fn json(table: &Table) -> Value {
+    serde_json::to_value(table).expect("no dates")
+}
+
+#[test]
+fn every_scenario_file_is_valid_and_so_is_what_the_tool_writes() {
+    let schema = schema();
+    let check = |name: &str, text: &str| {
+        let table = text.parse::<Table>().expect("TOML");
+        let faults = faults(&schema, &json(&table));
+        assert!(faults.is_empty(), "{name}: {faults:#?}\n{text}");
+    };
+    for (name, text) in files() {
+        check(&name, &text);
+        let (scenario, _) = from_toml(&name, &text, &folder()).unwrap_or_else(|e| panic!("{e}"));
+        check(&name, &to_toml(&scenario));
+    }
+    for other in OTHERS {
+        check(other, &format!("{MINIMAL}{other}\n"));
+    }
+}
+
+/// A table of a document: the keys and indices that lead to it, and the part of the schema for it.
+struct Place<'a> {
+    steps: Vec<Step>,
+    /// Tables with one definition are one place: `#/$defs/body`.
+    name: String,
+    properties: &'a serde_json::Map<String, Value>,
+}
+
+#[derive(Clone)]
+enum Step {
+    Key(String),
+    Index(usize),
+}
+
+/// Every table of a document with its part of the schema.
+fn places<'a>(schema: &'a Value, table: &Table) -> Vec<Place<'a>> {
+    let mut found = Vec::new();
+    let value = toml::Value::Table(table.clone());
+    walk(schema, (schema, String::new()), &value, &mut Vec::new(), &mut found);
+    found
+}
+
+fn walk<'a>(
+    schema: &'a Value,
+    (mut part, mut name): (&'a Value, String),
+    value: &toml::Value,
+    steps: &mut Vec<Step>,
+    found: &mut Vec<Place<'a>>,
+) {
+    if let Some(reference) = part["$ref"].as_str() {
+        reference.clone_into(&mut name);
+        part = schema.pointer(reference.trim_start_matches('#')).expect("a definition");
+    }
+    if let Some(branches) = part["anyOf"].as_array() {
+        // Of the branches, the one for such a value; those for text and numbers have no keys.
+        let key = if value.is_table() { "properties" } else { "items" };
+        let Some(branch) = branches.iter().find(|branch| branch.get(key).is_some()) else { return };
+        part = branch;
+    }
+    match value {
+        toml::Value::Table(table) => {
+            let properties = part["properties"].as_object();
+            let properties = properties.unwrap_or_else(|| panic!("`{name}` has no table"));
+            found.push(Place { steps: steps.clone(), name: name.clone(), properties });
+            for (key, value) in table {
+                let part = properties.get(key).unwrap_or_else(|| panic!("`{name}` has no {key}"));
+                steps.push(Step::Key(key.clone()));
+                walk(schema, (part, format!("{name}/{key}")), value, steps, found);
+                steps.pop();
+            }
+        }
+        toml::Value::Array(list) => {
+            for (index, value) in list.iter().enumerate() {
+                steps.push(Step::Index(index));
+                walk(schema, (&part["items"], format!("{name}[]")), value, steps, found);
+                steps.pop();
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The document with an unknown key in one of its tables.
+fn with_unknown_key(table: &Table, steps: &[Step]) -> Table {
+    let mut value = toml::Value::Table(table.clone());
+    let mut at = &mut value;
+    for step in steps {
+        at = match step {
+            Step::Key(key) => &mut at[key.as_str()],
+            Step::Index(index) => &mut at[*index],
+        };
+    }
+    let changed = at.as_table_mut().expect("a table");
+    changed.insert(UNKNOWN.to_owned(), toml::Value::Integer(1));
+    match value {
+        toml::Value::Table(table) => table,
+        _ => unreachable!("a document is a table"),
+    }
+}
+
+/// The keys that the reader lists where it refuses the unknown one.
+fn known_keys(name: &str, changed: &Table) -> BTreeSet<String> {
+    let text = changed.to_string();
+    let errors = from_toml("changed.toml", &text, &folder()).expect_err("an unknown key");
+    let unknown = errors.all.iter().find(|error| {
+        error.message.starts_with("unknown key") && error.message.ends_with(&format!("{UNKNOWN}`"))
+    });
+    let unknown = unknown.unwrap_or_else(|| panic!("{name}: no unknown key:\n{errors}\n{text}"));
+    let keys = unknown.help.strip_prefix("known here: ").unwrap_or_else(|| panic!("{errors}"));
+    keys.split(", ").map(str::to_owned).collect()
+}
+
+#[test]
+fn an_unknown_key_is_refused_in_every_table_and_both_know_the_same_keys() {
+    let schema = schema();
+    // By table: the keys that the reader knows in any document, and those of the schema.
+    let mut known: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let mut listed: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for (name, table) in documents() {
+        for place in places(&schema, &table) {
+            let changed = with_unknown_key(&table, &place.steps);
+            let faults = faults(&schema, &json(&changed));
+            let unknown = |fault: &String| fault.contains(UNKNOWN) || fault.contains("none of");
+            assert!(faults.iter().any(unknown), "{name}: {}: {faults:?}", place.name);
+            let keys = known_keys(&name, &changed);
+            known.entry(place.name.clone()).or_default().extend(keys);
+            let properties = place.properties.keys().cloned();
+            listed.entry(place.name).or_default().extend(properties);
+        }
+    }
+    for (place, key) in TAKEN {
+        assert!(known.entry(place.to_owned()).or_default().insert(key.to_owned()), "{key} is read");
+    }
+    for (place, keys) in &listed {
+        assert_eq!(&known[place], keys, "`{place}`: the reader's keys, those of the schema");
+    }
+    // Every table of the schema is in some document.
+    let tables = tables(&schema);
+    println!("{} tables: {:?}", listed.len(), listed.keys());
+    assert_eq!(listed.len(), tables, "{:?}", listed.keys());
+}
+
+/// How many tables a schema has.
+fn tables(part: &Value) -> usize {
+    match part {
+        Value::Object(map) => {
+            let below: usize =
+                map.iter().filter(|(key, _)| *key != "properties").map(|(_, v)| tables(v)).sum();
+            let own = map.get("properties").and_then(Value::as_object);
+            below + own.map_or(0, |own| 1 + own.values().map(tables).sum::<usize>())
+        }
+        Value::Array(list) => list.iter().map(tables).sum(),
+        _ => 0,
+    }
+}
