@@ -5,6 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+#[path = "shared/contents.rs"]
+mod contents;
+
+use contents::contents;
+
 fn precess(arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_precess"));
     command.current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
@@ -20,16 +25,6 @@ fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&folder);
     folder
-}
-
-fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = fs::read_dir(folder).expect("a folder").map(|e| e.expect("an entry"));
-    entries
-        .map(|e| {
-            let name = e.file_name().into_string().expect("text");
-            (name, fs::read(e.path()).expect("a file"))
-        })
-        .collect()
 }
 
 /// A scenario that runs in a moment: one wheel for 0.2 s.

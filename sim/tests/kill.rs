@@ -4,11 +4,18 @@
 
 #![cfg(unix)]
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
+
+#[path = "shared/contents.rs"]
+mod contents;
+#[path = "shared/numbers.rs"]
+mod numbers;
+
+use contents::contents;
+use numbers::Numbers;
 
 /// How often a run is killed.
 const ROUNDS: u32 = 100;
@@ -22,18 +29,9 @@ const OLD: &[u8] = b"an earlier result\n";
 const FORMATS: &[&str] =
     if cfg!(feature = "parquet") { &["csv", "npz", "parquet"] } else { &["csv", "npz"] };
 
-/// Shares of one, the same each time.
-struct Shares(u64);
-
-impl Iterator for Shares {
-    type Item = f64;
-
-    fn next(&mut self) -> Option<f64> {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        Some(f64::from(u32::try_from(self.0 >> 32).unwrap_or(0)) / f64::from(u32::MAX))
-    }
+/// A share of one.
+fn share(number: u64) -> f64 {
+    f64::from(u32::try_from(number >> 32).unwrap_or(0)) / f64::from(u32::MAX)
 }
 
 /// A run of one wheel into a folder.
@@ -56,12 +54,6 @@ fn scenario() -> (PathBuf, PathBuf) {
     let file = folder.join("wheel.toml");
     fs::write(&file, example.stdout).expect("a file");
     (file, folder)
-}
-
-fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry"));
-    let named = entries.map(|entry| (entry.file_name().into_string().expect("text"), entry.path()));
-    named.map(|(name, path)| (name, fs::read(path).expect("a file"))).collect()
 }
 
 /// Whole rows of a CSV file: all begin as the complete file does, so all can be read. A row that was
@@ -92,7 +84,8 @@ fn a_run_that_is_killed_leaves_the_old_result_or_the_new_one_or_partial_ones() {
 
     let out = folder.join("out");
     let (mut killed, mut partial, mut replaced, mut rows_kept) = (0, 0, 0, 0);
-    for (round, share) in Shares(0x9e37_79b9_7f4a_7c15).take(ROUNDS as usize).enumerate() {
+    let shares = Numbers(0x9e37_79b9_7f4a_7c15).map(share);
+    for (round, share) in shares.take(ROUNDS as usize).enumerate() {
         let _ = fs::remove_dir_all(&out);
         fs::create_dir_all(&out).expect("a folder");
         for name in complete.keys() {

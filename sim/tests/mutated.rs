@@ -7,19 +7,15 @@ use std::path::Path;
 use precess::engine::{Advance, Run};
 use precess::file::{from_file, from_toml};
 
-/// Numbers in a row, the same each time.
-struct Numbers(u64);
+#[path = "shared/numbers.rs"]
+mod numbers;
+
+use numbers::Numbers;
 
 impl Numbers {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
     fn below(&mut self, bound: usize) -> usize {
-        usize::try_from(self.next() % u64::try_from(bound.max(1)).unwrap_or(1)).unwrap_or(0)
+        let number = self.next().unwrap_or_default();
+        usize::try_from(number % u64::try_from(bound.max(1)).unwrap_or(1)).unwrap_or(0)
     }
 }
 

@@ -38,10 +38,18 @@ pub struct Stored {
     clippy::struct_field_names,
     reason = "the names of `Hub`: frames and points are the paper's"
 )]
-struct StoredHub {
-    m_b: f64,
-    r_bc_b: [f64; 3],
-    i_b: [f64; 6],
+pub(crate) struct StoredHub {
+    pub(crate) m_b: f64,
+    pub(crate) r_bc_b: [f64; 3],
+    pub(crate) i_b: [f64; 6],
+}
+
+impl StoredHub {
+    /// The hub as the solver takes it.
+    pub(crate) fn hub(self) -> Hub {
+        let Self { m_b, r_bc_b, i_b } = self;
+        Hub { m_b, r_bc_b: r_bc_b.into(), i_b_bc: symmetric(i_b) }
+    }
 }
 
 /// One device: the kernel's own parameters, with `r_go_b` along the device's axes.
@@ -113,8 +121,7 @@ impl Stored {
     /// The hub.
     #[must_use]
     pub fn hub(&self) -> Hub {
-        let StoredHub { m_b, r_bc_b, i_b } = self.hub;
-        Hub { m_b, r_bc_b: r_bc_b.into(), i_b_bc: symmetric(i_b) }
+        self.hub.hub()
     }
 
     /// The devices as the solver takes them.
@@ -175,8 +182,7 @@ impl StoredDevice {
     /// Columns: the device's axes at zero angle, along B.
     #[must_use]
     pub fn mount(&self) -> Matrix3<f64> {
-        let [x, y, z] = self.mount.map(|row| Vector3::from(row).transpose());
-        Matrix3::from_rows(&[x, y, z])
+        by_rows(self.mount)
     }
 
     fn joints(&self) -> [[f64; 2]; 3] {
@@ -211,6 +217,11 @@ impl StoredDevice {
 #[must_use]
 pub fn symmetric([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+/// The matrix with these rows.
+pub(crate) fn by_rows(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+    Matrix3::from_rows(&rows.map(|row| Vector3::from(row).transpose()))
 }
 
 /// On the diagonal of a mount that is none.

@@ -6,15 +6,12 @@
 
 use std::error::Error;
 
-use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::reaction_wheel::{Joints, PerJoint};
-use precess_dynamics::{
-    Hub, ImbalanceModel, Inputs, Mrp, Passive, ReactionWheel, Spacecraft, State,
-};
+use precess_dynamics::{ImbalanceModel, Inputs, Mrp, Passive, ReactionWheel, Spacecraft, State};
 use serde::Deserialize;
 
 use crate::blocks::largest;
-use crate::stored::symmetric;
+use crate::stored::{StoredHub, by_rows, symmetric};
 
 /// Written by `tests/engines/wheels.py`.
 const TEXT: &str = include_str!("../fixtures/wheels.json");
@@ -36,17 +33,6 @@ pub struct Stored {
     hub: StoredHub,
     wheels: [StoredWheel; WHEELS],
     samples: Vec<Sample>,
-}
-
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[expect(
-    clippy::struct_field_names,
-    reason = "the names of `Hub`: frames and points are the paper's"
-)]
-struct StoredHub {
-    m_b: f64,
-    r_bc_b: [f64; 3],
-    i_b: [f64; 6],
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -157,9 +143,8 @@ impl Sample {
 
 impl StoredWheel {
     fn wheel(&self) -> ReactionWheel {
-        let [x, y, z] = self.mount.map(|row| Vector3::from(row).transpose());
         ReactionWheel {
-            mount: Matrix3::from_rows(&[x, y, z]),
+            mount: by_rows(self.mount),
             r_w_b: self.r_w_b.into(),
             m_w: self.m_w,
             d: self.u_s / self.m_w,
@@ -210,10 +195,8 @@ impl Stored {
 
     /// Our states after as many steps as those of the file.
     fn run(&self) -> Result<Vec<Sample>, Box<dyn Error>> {
-        let StoredHub { m_b, r_bc_b, i_b } = self.hub;
-        let hub = Hub { m_b, r_bc_b: r_bc_b.into(), i_b_bc: symmetric(i_b) };
         let wheels = self.wheels.map(|wheel| wheel.wheel());
-        let spacecraft = Spacecraft::new(&hub, &wheels)?;
+        let spacecraft = Spacecraft::new(&self.hub.hub(), &wheels)?;
         let mut inputs: Inputs<Set> = Inputs::none();
         for (motor, wheel) in inputs.motors.iter_mut().zip(&self.wheels) {
             motor.u_w = wheel.u_w;

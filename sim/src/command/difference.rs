@@ -49,7 +49,7 @@ impl Difference {
 
 impl Rows {
     fn open(path: &Path) -> Result<Self, CommandError> {
-        let wrong = |text: String| CommandError::Other(format!("{}: {text}", path.display()));
+        let wrong = |text: String| wrong(path, &text);
         let mut reader = csv::ReaderBuilder::new()
             .comment(Some(b'#'))
             .from_path(path)
@@ -65,19 +65,21 @@ impl Rows {
 
     /// The next row, if there is one.
     fn next(&mut self, row: &mut Vec<f64>) -> Result<bool, CommandError> {
-        let wrong =
-            |path: &Path, text: String| CommandError::Other(format!("{}: {text}", path.display()));
-        let more = self
-            .reader
-            .read_record(&mut self.record)
-            .map_err(|error| wrong(&self.path, error.to_string()))?;
+        let wrong = |text: String| wrong(&self.path, &text);
+        let more =
+            self.reader.read_record(&mut self.record).map_err(|error| wrong(error.to_string()))?;
         row.clear();
         for text in &self.record {
             let number = text.parse::<f64>();
-            row.push(number.map_err(|_| wrong(&self.path, format!("`{text}` is no number")))?);
+            row.push(number.map_err(|_| wrong(format!("`{text}` is no number")))?);
         }
         Ok(more)
     }
+}
+
+/// What is wrong with a result.
+fn wrong(path: &Path, text: &str) -> CommandError {
+    CommandError::Other(format!("{}: {text}", path.display()))
 }
 
 /// The units of a result's columns, from its metadata; empty where there are none.

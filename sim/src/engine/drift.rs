@@ -79,14 +79,19 @@ impl Conserved {
     ) -> Result<(), SolveError> {
         let Moment { state, integrals: [work, throughput] } = moment;
         let ([kinetic, potential], momentum) = energies(system, time, state, None)?;
-        let entry = Entry {
+        let mut entry = Entry {
             energy: kinetic + potential + lost - work,
-            linear: momentum.linear,
-            angular: momentum.angular,
+            linear: Vector3::zeros(),
+            angular: Vector3::zeros(),
         };
         self.kinetic = larger(self.kinetic, kinetic);
         self.throughput = larger(self.throughput, *throughput);
         if self.isolated {
+            let Momentum { linear, angular } = match momentum {
+                Some(momentum) => momentum,
+                None => system.spacecraft.momentum(state, About::InertialOrigin)?,
+            };
+            (entry.linear, entry.angular) = (linear, angular);
             let mut magnitudes = [0.0; 2];
             momenta(&scenario.hub, system.acting.chains(), state, |body| {
                 magnitudes[0] += body.linear.norm();
@@ -123,19 +128,20 @@ impl Conserved {
 /// Inputs at a state and the accelerations that follow from them.
 pub(crate) type Evaluated<'a> = (&'a Inputs<Set>, &'a Accelerations<Set>);
 
-/// Kinetic energy, and potential energy of gravity and springs, J; momenta about the inertial
-/// origin. `evaluated` is what is known already of this time and state.
+/// Kinetic energy, and potential energy of gravity and springs, J; and momenta about the inertial
+/// origin, if they come of the same pass over the bodies. `evaluated` is what is known already of
+/// this time and state.
 pub(crate) fn energies(
     system: &System<'_>,
     time: f64,
     state: &State<Set>,
     evaluated: Option<Evaluated<'_>>,
-) -> Result<([f64; 2], Momentum), SolveError> {
+) -> Result<([f64; 2], Option<Momentum>), SolveError> {
     let spacecraft = &system.spacecraft;
-    let EnergyAndMomentum { energy, momentum } =
-        spacecraft.energy_and_momentum(state, About::InertialOrigin)?;
     if !system.has_potential() {
-        return Ok(([energy, 0.0], momentum));
+        let EnergyAndMomentum { energy, momentum } =
+            spacecraft.energy_and_momentum(state, About::InertialOrigin)?;
+        return Ok(([energy, 0.0], Some(momentum)));
     }
     let ledger = if let Some((inputs, found)) = evaluated {
         spacecraft.ledger(state, inputs, found)?
@@ -145,7 +151,7 @@ pub(crate) fn energies(
         system.count(1);
         spacecraft.ledger(state, &inputs, &found)?
     };
-    Ok(([ledger.kinetic, ledger.gravity + ledger.springs], momentum))
+    Ok(([ledger.kinetic, ledger.gravity + ledger.springs], None))
 }
 
 /// The larger of two, and NaN once one of them is: a drift that is no number is no small drift.

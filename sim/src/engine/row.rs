@@ -85,14 +85,17 @@ impl Row {
             inputs = Some(&*filled);
         }
         let evaluated = inputs.zip(found.as_ref());
-        let (energy, momentum) = if self.energy {
+        let (energy, known) = if self.energy {
             let ([kinetic, potential], momentum) = energies(system, time, state, evaluated)?;
-            (kinetic + potential, Some(momentum))
-        } else if self.momentum {
-            let momentum = system.spacecraft.momentum(state, About::InertialOrigin)?;
-            (f64::NAN, Some(momentum))
+            (kinetic + potential, momentum)
         } else {
             (f64::NAN, None)
+        };
+        let momentum = match known {
+            None if self.momentum => {
+                Some(system.spacecraft.momentum(state, About::InertialOrigin)?)
+            }
+            known => known,
         };
         let computed = Computed {
             moment,
