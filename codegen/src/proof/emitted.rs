@@ -218,7 +218,8 @@ impl<'a, 'g> Prover<'a, 'g> {
         given
     }
 
-    /// Raw parameters pass through `prepare` unchanged, computed fields under their own names.
+    /// Raw parameters pass through `prepare` unchanged, computed fields under their own names. One
+    /// that no statement names is read by kernels, whose claims are about its value.
     fn prepared_row(&self, prepare: &Both<'g>) -> Row {
         let raw = parameters(self.chain.kind);
         let mut checked = Vec::new();
@@ -227,7 +228,8 @@ impl<'a, 'g> Prover<'a, 'g> {
             let given = raw.fields.iter().any(|field| field.name == *name);
             let symbol = if given { self.parameter(name) } else { None };
             checked.push((name.clone(), *value));
-            let expected = symbol.or_else(|| prepare.cut.stands_for(name));
+            let own = if given { None } else { Some(*value) };
+            let expected = symbol.or_else(|| prepare.cut.stands_for(name)).or(own);
             reference.extend(expected.map(|expected| (name.clone(), expected)));
         }
         let heading = ["(record)", "Prepared", "fn prepare returns its values"];
