@@ -119,7 +119,7 @@ fn a_wrong_sliding_kernel_is_caught() {
     let right = emitted(&chain);
     for (good, bad) in [
         ("let arm_s_dx = p.r_s_b_bx + s.x;", "let arm_s_dx = p.r_s_b_bx - s.x;"),
-        ("let mass_ss = p.m_s;", "let mass_ss = p.m_s + p.m_s;"),
+        ("pivot_s: p.m_s,", "pivot_s: p.m_s + p.m_s,"),
         ("let m_vv_11 = p.f_s_bx * gain_s_v1;", "let m_vv_11 = zero;"),
         ("+ p.r_s_b_bz * p.mount_13;", "+ p.r_s_b_bz * p.mount_31;"),
         ("let divisor_s = m.held_s + p.m_s;", "let divisor_s = p.m_s;"),

@@ -57,6 +57,13 @@ fn eliminated(
     }
     let mut outputs = Vec::new();
     sources(&kernel.output, &mut outputs);
+    // A pivot that no outboard joint changes is the diagonal, and returned once.
+    let pivots = outputs.iter().filter_map(|(field, source)| {
+        let diagonal = field.replace("pivot_", "diagonal_");
+        let other = outputs.iter().all(|(field, _)| *field != diagonal);
+        other.then(|| (diagonal, source.clone()))
+    });
+    outputs.extend(pivots.collect::<Vec<_>>());
     let divisors = named.keys().filter(|name| name.starts_with("divisor_"));
     outputs.extend(divisors.map(|name| (name.clone(), name.clone())));
     let mut ring = Ring::new(&graph);

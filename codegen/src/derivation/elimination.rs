@@ -143,9 +143,7 @@ fn gains<'g>(
         }
         _ => row.diagonal.clone(),
     };
-    let title =
-        format!("Joint {tag}, eq. (D10): its pivot `{}`, {}, and its gains.", pivot.0, row.unit);
-    script.section("gain", title);
+    script.section("gain", format!("Joint {tag}, eq. (D10): its pivot, {}, and gains.", row.unit));
     let Mode { driven, held, given } = row.mode;
     let divisor = script.cut(format!("divisor_{tag}"), pivot.1 + held);
     let recip = driven * divisor.recip();

@@ -8,8 +8,7 @@ use crate::kinds;
 use crate::space::{Own, Vector};
 
 /// Writes to `script` the sum of the wrenches on each body and the bodies outboard of it, expressed
-/// in own axes, about its joint's origin; its component along each joint; and the sum on the hub,
-/// about B.
+/// in own axes, about its joint's origin, and the sum on the hub, about B.
 pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     let mut sum = Wrench::zero(chain.graph);
     let links = chain.links.iter().zip(chain.kind.links);
@@ -20,21 +19,12 @@ pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         script.section(
             "sum",
             format!(
-                "On {whole}, the {} and the bodies outboard of it, eq. (D14): force, N, and moment \
-                 about {}, N m.",
+                "On {whole}, the {} and the bodies outboard of it, eqs. (D14), (D15): force, N, and \
+                 moment about {}, N m.",
                 body.title, body.letters[0],
             ),
         );
         script.names(sum.named("sum", body.frame));
-        script.section(
-            "drive",
-            format!(
-                "Along the {}'s joint, beside its motor, eq. (D15), {}.",
-                body.title,
-                data.joint.motion.units().drive
-            ),
-        );
-        script.name(format!("drive_{}", data.joint.tag), sum.along(link));
         sum = sum.carried(link);
     }
     script.section("sum", "On the hub, eq. (D14): force, N, and moment about B, N m.");

@@ -1,6 +1,10 @@
 //! Statements of one function: which nodes get a name, in which order, and what they cost.
+//!
+//! Invariant: no statement only repeats a name or a field of an argument, and none gives a constant
+//! a second name. A result of that kind is written where it is returned.
 
 mod fused;
+mod names;
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -9,7 +13,7 @@ use quote::{format_ident, quote};
 
 use super::render::{Binding, Rendered};
 use crate::derivation::script::{Section, Statement};
-use crate::graph::{Expr, Graph, Node, NodeId, Rational};
+use crate::graph::{Graph, Node, NodeId, Rational};
 
 /// A statement with its indentation stays within this width, at which neither formatter breaks it.
 const WIDTH: usize = 89;
@@ -40,17 +44,26 @@ impl Counts {
 /// A function's statements, section by section.
 #[derive(Clone, Debug, Default)]
 pub struct FunctionBody {
-    /// Comment and statements.
+    /// Comment and statements. Constants that only the returned record reads have no comment.
     pub sections: Vec<(String, Vec<TokenStream>)>,
+    /// The results that no statement names, each with the name or the field, `p.m_w`, that it is.
+    pub copies: BTreeMap<String, String>,
     /// What they cost.
     pub counts: Counts,
 }
 
 impl FunctionBody {
-    /// Whether a statement reads the argument called `letter`; one that is not read is not taken.
+    /// Whether the argument called `letter` is read; one that is not read is not taken.
     pub(super) fn mentions(&self, letter: &str) -> bool {
         let mut statements = self.sections.iter().flat_map(|(_, statements)| statements);
+        let argument = |value: &String| value.split_once('.').is_some_and(|(of, _)| of == letter);
         statements.any(|tokens| mention(tokens.clone(), letter))
+            || self.copies.values().any(argument)
+    }
+
+    /// How the result of this name is written.
+    pub(super) fn result<'a>(&'a self, name: &'a str) -> &'a str {
+        self.copies.get(name).map_or(name, String::as_str)
     }
 }
 
@@ -90,6 +103,7 @@ pub(super) struct Writer<'a, 'g> {
     /// Whether a product that meets a sum and nothing else is written as one operation with it.
     fusing: bool,
     statements: Vec<TokenStream>,
+    copies: BTreeMap<String, String>,
     counts: Counts,
 }
 
@@ -112,6 +126,7 @@ impl<'a, 'g> Writer<'a, 'g> {
             room: 0,
             fusing: false,
             statements: Vec::new(),
+            copies: BTreeMap::new(),
             counts: Counts::default(),
         }
     }
@@ -124,90 +139,37 @@ impl<'a, 'g> Writer<'a, 'g> {
     /// The body that computes `outputs`, and nothing that they do not need.
     pub(super) fn write(mut self, sections: &[Section<'g>], outputs: &[String]) -> FunctionBody {
         let live = self.live(sections, outputs);
-        let mut written = Vec::new();
+        let (mut written, mut constants) = (Vec::new(), Vec::new());
         for section in sections {
             self.prefix.clone_from(&section.prefix);
             for statement in section.statements.iter().filter(|s| live.contains(&s.name)) {
-                self.statement(statement, outputs.contains(&statement.name));
+                let (id, output) = (statement.value.id(), outputs.contains(&statement.name));
+                match self.graph.node(id) {
+                    Node::Constant(value) if output && statement.cut.is_none() => {
+                        self.copies.insert(statement.name.clone(), constant_name(value));
+                        constants.push(id);
+                    }
+                    _ => self.statement(statement, output),
+                }
             }
             let statements = std::mem::take(&mut self.statements);
             if !statements.is_empty() {
                 written.push((section.title.clone(), statements));
             }
         }
-        FunctionBody { sections: written, counts: self.counts }
+        for constant in constants {
+            self.operand(constant);
+        }
+        if !self.statements.is_empty() {
+            written.push((String::new(), self.statements));
+        }
+        FunctionBody { sections: written, copies: self.copies, counts: self.counts }
     }
 
     /// What there is to write, without writing it.
     pub(super) fn shape(mut self, sections: &[Section<'g>], outputs: &[String]) -> Shape {
         let live = self.live(sections, outputs);
         Shape { live, names: self.names, uses: self.uses }
-    }
-
-    /// Names of the statements that outputs need; names and use counts of their nodes.
-    fn live(&mut self, sections: &[Section<'g>], outputs: &[String]) -> HashSet<String> {
-        let all: Vec<&Statement<'g>> = sections.iter().flat_map(|s| &s.statements).collect();
-        let mut live: HashSet<String> = outputs.iter().cloned().collect();
-        let mut nodes = HashSet::new();
-        // Backwards: a statement comes before whatever uses the symbol it was cut at.
-        for statement in all.iter().rev() {
-            let symbol = statement.cut.map(Expr::id);
-            let needed = live.contains(&statement.name)
-                || symbol.is_some_and(|symbol| nodes.contains(&symbol));
-            if needed {
-                live.insert(statement.name.clone());
-                self.collect(statement.value.id(), &mut nodes);
-            }
-        }
-        // A name without a user of its own still names a node that is computed.
-        for statement in &all {
-            let (id, name) = (statement.value.id(), &statement.name);
-            if nodes.contains(&id) && !live.contains(name) && statement.cut.is_none() {
-                live.insert(name.clone());
-            }
-            if live.contains(name) && self.compound(id) {
-                self.names.entry(id).or_insert_with(|| name.clone());
-            }
-            // Signs move outwards, so what is used may be the opposite of what has the name.
-            let opposite = match self.graph.node(id) {
-                Node::Neg(inner) if !live.contains(name) => Some(inner),
-                _ => None,
-            };
-            if let Some(inner) = opposite.filter(|inner| nodes.contains(inner)) {
-                let new = self.compound(inner) && !self.names.contains_key(&inner);
-                if new && self.names.insert(inner, format!("neg_{name}")).is_none() {
-                    live.insert(name.clone());
-                }
-            }
-        }
-        self.count_uses(&nodes);
-        live
-    }
-
-    fn collect(&self, root: NodeId, nodes: &mut HashSet<NodeId>) {
-        let mut pending = vec![root];
-        while let Some(id) = pending.pop() {
-            if nodes.insert(id) && (self.given)(id).is_none() {
-                pending.extend(self.graph.node(id).operands());
-            }
-        }
-    }
-
-    /// A sign is no value of its own: the users of `-a` are users of `a`.
-    fn count_uses(&mut self, nodes: &HashSet<NodeId>) {
-        let mut descending: Vec<_> = nodes.iter().copied().collect();
-        descending.sort_unstable_by(|a, b| b.cmp(a));
-        for id in descending.into_iter().filter(|id| (self.given)(*id).is_none()) {
-            let weight = match self.graph.node(id) {
-                Node::Neg(_) if !self.names.contains_key(&id) => {
-                    self.uses.get(&id).copied().unwrap_or(1)
-                }
-                _ => 1,
-            };
-            for operand in self.graph.node(id).operands() {
-                *self.uses.entry(operand).or_default() += weight;
-            }
-        }
     }
 
     fn compound(&self, id: NodeId) -> bool {
@@ -222,6 +184,7 @@ impl<'a, 'g> Writer<'a, 'g> {
         if given && !output {
             return;
         }
+        let mut called = Rendered::name(&statement.name);
         let opposite = match self.graph.node(id) {
             Node::Neg(inner)
                 if self.names.get(&inner) == Some(&format!("neg_{}", statement.name)) =>
@@ -244,10 +207,18 @@ impl<'a, 'g> Writer<'a, 'g> {
             self.bind_shared(id);
             self.room = WIDTH - FRAME - statement.name.len();
             let value = self.operand(id);
-            self.push(&statement.name, &value);
+            if value.binding == Binding::Atom {
+                if output {
+                    let text = value.tokens.to_string().replace(' ', "");
+                    self.copies.insert(statement.name.clone(), text);
+                }
+                called = value;
+            } else {
+                self.push(&statement.name, &value);
+            }
         }
         if let Some(symbol) = statement.cut {
-            self.bound.insert(symbol.id(), Rendered::name(&statement.name));
+            self.bound.insert(symbol.id(), called);
         }
     }
 

@@ -64,6 +64,22 @@ mod tests {
     use super::*;
     use crate::kinds::KINDS;
 
+    /// The page on the architecture names them, and says what they are for.
+    #[test]
+    fn functions_without_an_operation_are_those_that_only_return_constants() {
+        let none = |kind: &'static Kind| {
+            let functions = counted(kind, Passes::ALL).into_iter();
+            functions.filter(|(_, operations)| *operations == 0).map(|(function, _)| function)
+        };
+        for kind in KINDS {
+            let expected: &[&str] = match kind.name {
+                "balanced_reaction_wheel" => &["wheel", "first_moment", "constant_share", "axes"],
+                _ => &["constant_share"],
+            };
+            assert_eq!(none(kind).collect::<Vec<_>>(), expected, "{}", kind.name);
+        }
+    }
+
     #[test]
     fn no_function_with_a_state_costs_more_after_factoring() {
         for kind in KINDS {

@@ -1,4 +1,5 @@
-//! How a kind's second file calls the kernels: arguments gathered, results put into structures.
+//! How a kind's second file calls the kernels that solve the equations: arguments gathered, results
+//! put into structures. Those that are read beside a solution are in `device_results`.
 //!
 //! A function of the interface names its parameter only if the kernel reads something of it.
 
@@ -9,28 +10,32 @@ use syn::Index;
 use super::device::body_name;
 use super::device_items::Items;
 use super::text::ident;
-use crate::derivation::chain::XYZ;
 use crate::kernel::{Record, pose};
 use crate::kinds::Kind;
 
 /// Parameters of several functions, each with the letters of the kernels' arguments that are made
 /// of it.
-const P: (&str, &str) = ("constants", "p");
-const Q: (&str, &str) = ("pose", "qs");
-const V: (&str, &str) = ("joints", "v");
-const W: (&str, &str) = ("omega", "w");
+pub(super) const P: (&str, &str) = ("constants", "p");
+pub(super) const Q: (&str, &str) = ("pose", "qs");
+pub(super) const V: (&str, &str) = ("joints", "v");
+pub(super) const W: (&str, &str) = ("omega", "w");
 const U: (&str, &str) = ("drives", "um");
-const A: (&str, &str) = ("hub", "a");
+pub(super) const A: (&str, &str) = ("hub", "a");
 
 impl Items<'_> {
     /// The letters of a kernel's arguments.
-    fn letters(&self, kernel: &str) -> &[&'static str] {
+    pub(super) fn letters(&self, kernel: &str) -> &[&'static str] {
         self.signatures.get(kernel).map_or(&[], |signature| signature.letters.as_slice())
     }
 
     /// Letters of what a pose consists of.
     pub(super) fn pose_letters(&self) -> Vec<&'static str> {
         pose(self.kind).into_iter().map(|(letter, _)| letter).collect()
+    }
+
+    /// The fields that a kernel returns.
+    pub(super) fn returned(&self, kernel: &str) -> &[String] {
+        self.signatures.get(kernel).map_or(&[], |signature| signature.fields.as_slice())
     }
 
     /// The argument of a kernel for a letter.
@@ -58,7 +63,7 @@ impl Items<'_> {
     }
 
     /// `super::kernel(arguments)`.
-    fn call(&self, kernel: &str) -> TokenStream {
+    pub(super) fn call(&self, kernel: &str) -> TokenStream {
         let arguments = self.letters(kernel).iter().map(|letter| self.argument(letter));
         let kernel = ident(kernel);
         quote!(super::#kernel(#(#arguments),*))
@@ -66,7 +71,11 @@ impl Items<'_> {
 
     /// The names of parameters in a function that calls a kernel, each with the letters of the
     /// kernel's arguments that are made of it.
-    fn names<const N: usize>(&self, kernel: &str, given: [(&str, &str); N]) -> [TokenStream; N] {
+    pub(super) fn names<const N: usize>(
+        &self,
+        kernel: &str,
+        given: [(&str, &str); N],
+    ) -> [TokenStream; N] {
         given.map(|(name, letters)| {
             let parameter = ident(name);
             if self.letters(kernel).iter().any(|letter| letters.contains(letter)) {
@@ -112,6 +121,7 @@ impl Items<'_> {
     /// The elimination, and its two parts.
     pub(super) fn eliminate(&self) -> [TokenStream; 3] {
         let driven: Vec<_> = self.kind.driven().collect();
+        let read = |letter: &str| self.letters("eliminate").contains(&letter);
         let motors = driven.iter().map(|link| {
             let (torque, body) = (ident(link.joint.torque), ident(body_name(&link.body)));
             quote!(#torque: drives.#body.torque)
@@ -123,6 +133,9 @@ impl Items<'_> {
                 quote!(#name: drives.#body.#what)
             })
         });
+        // A kind whose joints all keep their rates has neither.
+        let motors = read("u").then(|| quote!(let motors = super::Motors { #(#motors),* };));
+        let modes = read("m").then(|| quote!(let modes = super::Modes { #(#modes),* };));
         let call = self.call("eliminate");
         let [constants, pose, joints, omega, drives] = self.names("eliminate", [P, Q, V, W, U]);
         [
@@ -134,8 +147,8 @@ impl Items<'_> {
                     #omega: &BodyRate<T>,
                     #drives: &PerJoint<Drive<T>>,
                 ) -> Self::Eliminated<T> {
-                    let motors = super::Motors { #(#motors),* };
-                    let modes = super::Modes { #(#modes),* };
+                    #motors
+                    #modes
                     #call
                 }
             },
@@ -144,27 +157,37 @@ impl Items<'_> {
                     &eliminated.share
                 }
             },
-            quote! {
-                fn gains<T: Real>(eliminated: &Self::Eliminated<T>) -> &Self::Gains<T> {
-                    &eliminated.gains
+            if self.is_driven() {
+                quote! {
+                    fn gains<T: Real>(eliminated: &Self::Eliminated<T>) -> &Self::Gains<T> {
+                        &eliminated.gains
+                    }
+                }
+            } else {
+                quote! {
+                    fn gains<T: Real>(_: &Self::Eliminated<T>) -> &Self::Gains<T> {
+                        &()
+                    }
                 }
             },
         ]
     }
 
     pub(super) fn pivots(&self) -> TokenStream {
+        let returned = self.returned("eliminate");
         let pivots = self.per_joint(|link| {
             if link.is_driven() {
-                let tag = link.joint.tag;
-                let [pivot, diagonal] =
-                    ["pivot", "diagonal"].map(|what| format_ident!("{what}_{tag}"));
+                let names = ["pivot", "diagonal"].map(|what| format!("{what}_{}", link.joint.tag));
+                let [pivot, own] = names.each_ref().map(ident);
+                let diagonal = if returned.contains(&names[1]) { own } else { pivot.clone() };
                 quote!(Some([eliminated.#pivot, eliminated.#diagonal]))
             } else {
                 quote!(None)
             }
         });
+        let eliminated = if self.is_driven() { quote!(eliminated) } else { quote!(_) };
         quote! {
-            fn pivots<T: Real>(eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
+            fn pivots<T: Real>(#eliminated: &Self::Eliminated<T>) -> PerJoint<Option<[T; 2]>> {
                 #pivots
             }
         }
@@ -202,15 +225,8 @@ impl Items<'_> {
     }
 
     /// Number by number, for what is gathered into lanes or spread from them.
-    pub(super) fn zips() -> [TokenStream; 5] {
-        [
-            ("constants", quote!(super::Prepared)),
-            ("joints", quote!(Joints)),
-            ("gains", quote!(super::Gains)),
-            ("accelerations", quote!(JointAccelerations)),
-            ("per_joint", quote!(PerJoint)),
-        ]
-        .map(|(name, record)| {
+    pub(super) fn zips(&self) -> Vec<TokenStream> {
+        let zip = |name: &str, record: TokenStream| {
             let name = format_ident!("zip_{name}");
             quote! {
                 fn #name<T: Value, U: Value, W: Value>(
@@ -221,158 +237,35 @@ impl Items<'_> {
                     a.zip(b, join)
                 }
             }
-        })
-    }
-
-    pub(super) fn energy_momentum(&self) -> TokenStream {
-        let (pose, call) = (self.posed("energy_momentum"), self.call("energy_momentum"));
-        let [constants, joints, hub] =
-            self.names("energy_momentum", [P, ("joints", "qsv"), ("hub", "b")]);
-        quote! {
-            fn energy_momentum(
-                #constants: &Self::Constants<T>,
-                #joints: &Joints<T>,
-                #hub: &BodyVelocity<T>,
-            ) -> EnergyMomentum<T> {
-                #pose
-                #call
+        };
+        let no_gains = || {
+            quote! {
+                fn zip_gains<T: Value, U: Value, W: Value>(
+                    _: &(),
+                    _: &(),
+                    _: impl FnMut(T, U) -> W,
+                ) {
+                }
             }
-        }
+        };
+        vec![
+            zip("constants", quote!(super::Prepared)),
+            zip("joints", quote!(Joints)),
+            if self.is_driven() { zip("gains", quote!(super::Gains)) } else { no_gains() },
+            zip("accelerations", quote!(JointAccelerations)),
+            zip("per_joint", quote!(PerJoint)),
+        ]
     }
 
-    pub(super) fn first_moment(&self) -> TokenStream {
-        let (pose, call) = (self.posed("first_moment"), self.call("first_moment"));
-        let [constants, joints] = self.names("first_moment", [P, ("joints", "qsv")]);
-        // What is zero in every state of the kind is not returned.
-        let returned = self.signatures.get("first_moment").map_or(&[][..], |s| &s.fields);
-        let rows = ["mc", "mc_prime"].map(|stem| {
-            let components = XYZ.map(|axis| format!("{stem}_b{axis}")).map(|name| {
-                let component = ident(&name);
-                if returned.contains(&name) { quote!(found.#component) } else { quote!(zero()) }
-            });
-            quote!([#(#components),*])
-        });
-        quote! {
-            fn first_moment(#constants: &Self::Constants<T>, #joints: &Joints<T>) -> [[T; 3]; 2] {
-                #pose
-                let found = #call;
-                [#(#rows),*]
-            }
-        }
+    /// What back substitution needs: nothing where every joint of the kind keeps its rate.
+    pub(super) fn gains_type(&self) -> TokenStream {
+        if self.is_driven() { quote!(super::Gains<T>) } else { quote!(()) }
     }
 
-    /// The pose, where a kernel reads it.
-    fn posed(&self, kernel: &str) -> Option<TokenStream> {
-        let read = self.letters(kernel).iter().any(|letter| Q.1.contains(letter));
-        read.then(|| quote!(let pose = &Self::pose(joints);))
+    /// Whether any joint has a motor.
+    fn is_driven(&self) -> bool {
+        self.kind.driven().next().is_some()
     }
-
-    pub(super) fn axes(&self) -> TokenStream {
-        let (call, [constants, pose]) = (self.call("axes"), self.names("axes", [P, Q]));
-        let axes = self.per_joint(|link| {
-            let columns = XYZ.map(|axis| {
-                let rows = XYZ.map(|row| format_ident!("{}_{axis}_b{row}", link.body.frame));
-                quote!([#(axes.#rows),*])
-            });
-            quote!([#(#columns),*])
-        });
-        quote! {
-            fn axes(
-                #constants: &Self::Constants<T>,
-                #pose: &Self::Pose<T>,
-            ) -> PerJoint<[[T; 3]; 3]> {
-                let axes = #call;
-                #axes
-            }
-        }
-    }
-
-    pub(super) fn loads(&self) -> TokenStream {
-        let (call, carried) = (self.call("loads"), self.carried_by("load"));
-        let [constants, pose, joints, omega, hub, accelerations] =
-            self.names("loads", [P, Q, V, W, A, ("accelerations", "j")]);
-        quote! {
-            fn loads(
-                #constants: &Self::Constants<T>,
-                #pose: &Self::Pose<T>,
-                #joints: &Joints<T>,
-                #omega: &BodyRate<T>,
-                #hub: &BodyAcceleration<T>,
-                #accelerations: &JointAccelerations<T>,
-            ) -> Carried<Wrenches<Self>, Wrench<T>> {
-                let found = #call;
-                #carried
-            }
-        }
-    }
-
-    /// The loads of external wrenches.
-    pub(super) fn external(&self) -> TokenStream {
-        let (call, carried) = (self.call("external"), self.carried_by("sum"));
-        let [constants, pose, bodies] = self.names("external", [P, Q, ("bodies", "x")]);
-        let fields = self.links().iter().flat_map(|link| {
-            let (frame, body) = (link.body.frame, ident(body_name(&link.body)));
-            [("f", ident("force")), ("n", ident("moment"))].map(|(letter, of)| {
-                let names = XYZ.map(|axis| format_ident!("{letter}_on_{frame}{axis}"));
-                let axes = XYZ.map(ident);
-                quote!(#(#names: bodies.#body.#of.#axes),*)
-            })
-        });
-        quote! {
-            fn external(
-                #constants: &Self::Constants<T>,
-                #pose: &Self::Pose<T>,
-                #bodies: &Wrenches<Self>,
-            ) -> Carried<Wrenches<Self>, Wrench<T>> {
-                let wrenches = super::Wrenches { #(#fields),* };
-                let found = #call;
-                #carried
-            }
-        }
-    }
-
-    pub(super) fn gravity(&self) -> TokenStream {
-        let call = self.call("gravity");
-        let [constants, pose, gradient] = self.names("gravity", [P, Q, ("gradient", "g")]);
-        let wrenches =
-            self.per_joint(|link| wrench(&quote!(found.wrenches), "on", link.body.frame));
-        let second = ["11", "12", "13", "22", "23", "33"]
-            .map(|entry| format_ident!("second_moment_{entry}"));
-        quote! {
-            fn gravity(
-                #constants: &Self::Constants<T>,
-                #pose: &Self::Pose<T>,
-                #gradient: [T; 6],
-            ) -> (Wrenches<Self>, [T; 6]) {
-                let [g_11, g_12, g_13, g_22, g_23, g_33] = gradient;
-                let gradient = Gradient { g_11, g_12, g_13, g_22, g_23, g_33 };
-                let found = #call;
-                let wrenches = #wrenches;
-                let second_moment = [#(found.#second),*];
-                (wrenches, second_moment)
-            }
-        }
-    }
-
-    /// `Carried { .. }` from the fields of `found`.
-    fn carried_by(&self, what: &str) -> TokenStream {
-        let joints = self.per_joint(|link| wrench(&quote!(found), what, link.body.frame));
-        let hub = wrench(&quote!(found), what, "b");
-        quote! {
-            let joints = #joints;
-            let hub = #hub;
-            Carried { joints, hub }
-        }
-    }
-}
-
-/// `Wrench { .. }` from six fields.
-fn wrench(of: &TokenStream, what: &str, frame: &str) -> TokenStream {
-    let [force, moment] = ["f", "n"].map(|letter| {
-        let components = XYZ.map(|axis| format_ident!("{letter}_{what}_{frame}{axis}"));
-        quote!(vector([#(#of.#components),*]))
-    });
-    quote!(Wrench { force: #force, moment: #moment })
 }
 
 /// The joint rates as the kernels take them.

@@ -173,8 +173,8 @@ impl Items<'_> {
         let mut items = vec![self.pose()];
         items.extend(self.eliminate());
         items.extend([self.pivots(), self.back_substitute(), self.slope()]);
-        items.extend(Self::zips());
-        let name = self.name();
+        items.extend(self.zips());
+        let (name, gains) = (self.name(), self.gains_type());
         quote! {
             impl<S: Scalar> Kernels for #name<S> {
                 type Constants<T: Value> = super::Prepared<T>;
@@ -183,7 +183,7 @@ impl Items<'_> {
                 type PerJoint<V: Value> = PerJoint<V>;
                 type Pose<T: Value> = #pose_type;
                 type Eliminated<T: Value> = super::Eliminated<T>;
-                type Gains<T: Value> = super::Gains<T>;
+                type Gains<T: Value> = #gains;
                 #(#[inline(always)] #items)*
             }
         }

@@ -14,6 +14,7 @@ use super::device::{Signature, Signatures, device_file};
 use super::home::Home;
 use super::inputs::Stated;
 use super::parts::{FUSED, Part, Parts, parts};
+use super::prepare::numbered;
 use super::text::{
     COMMENT, LINE, capital, fnv1a64, literal, pretty, pretty_items, spaced, wrapped,
 };
@@ -246,8 +247,8 @@ pub(super) fn describe(
         let stated = stated.get(&field.name);
         let unit = stated.and_then(|stated| stated.unit);
         let unit = unit.map_or_else(String::new, |unit| format!(", {unit}"));
-        let numbered = field.name.starts_with("k_");
-        let title = stated.filter(|_| !numbered).map_or("", |stated| stated.title.as_str());
+        let title =
+            stated.filter(|_| !numbered(&field.name)).map_or("", |stated| stated.title.as_str());
         let (title, end) = title.split_once(": ").map_or((title, ""), |(title, _)| (title, "."));
         format!("`{formula}`{unit}. {title}{end}").trim_end().clone_into(&mut field.doc);
     }
@@ -295,7 +296,7 @@ fn function(part: &Part) -> FunctionText {
         format!("pub fn {name}<T: Real>(\n    {arguments},\n) -> {output}<T>")
     };
     let section = |(title, statements): &(String, Vec<TokenStream>)| SectionText {
-        title: wrapped(title, COMMENT),
+        title: if title.is_empty() { Vec::new() } else { wrapped(title, COMMENT) },
         lines: pretty(statements),
     };
     FunctionText {
@@ -303,7 +304,7 @@ fn function(part: &Part) -> FunctionText {
         inlined: FUSED.contains(&name.as_str()),
         signature,
         sections: body.sections.iter().map(section).collect(),
-        result: literal(output, &record_fields(part, &part.output)),
+        result: literal(output, &record_fields(part, &part.output), "    ".len()),
     }
 }
 
@@ -348,14 +349,11 @@ fn contract(part: &Part) -> Vec<String> {
 fn record_fields(part: &Part, record: &Record) -> Vec<(String, String)> {
     let field = |field: &crate::kernel::Field| {
         let value = match &field.source {
-            Source::Own if part.copied.contains(&field.name) => {
-                format!("{}.{}", part.inputs[0].0, field.name)
-            }
-            Source::Own => field.name.clone(),
-            Source::Named(name) => name.clone(),
+            Source::Own => part.body.result(&field.name).to_owned(),
+            Source::Named(name) => part.body.result(name).to_owned(),
             Source::Nested(record) => {
-                let inside = literal(&record.name, &record_fields(part, record));
-                inside.join("\n")
+                let taken = "        : ,".len() + field.name.len();
+                literal(&record.name, &record_fields(part, record), taken).join("\n")
             }
         };
         (field.name.clone(), value)

@@ -32,6 +32,7 @@ pub fn functions<'g>(chain: &Chain<'g>) -> Functions<'g> {
         let sections = std::mem::take(&mut prepared.sections);
         prepared.sections = factored(graph, sections, &prepared.computed(&raw), false);
     }
+    prepared.merge();
     Functions { prepared, kernels }
 }
 

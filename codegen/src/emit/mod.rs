@@ -14,6 +14,7 @@ mod device_bodies;
 mod device_calls;
 mod device_items;
 mod device_parameters;
+mod device_results;
 mod factor;
 mod file;
 mod functions;

@@ -41,8 +41,6 @@ pub(super) struct Part {
     pub(super) body: FunctionBody,
     /// What it returns.
     pub(super) output: Record,
-    /// The fields of `output` that are those of the first argument.
-    pub(super) copied: HashSet<String>,
 }
 
 /// The parts of the chain's kind.
@@ -53,15 +51,12 @@ pub(super) fn parts(chain: &Chain<'_>) -> Parts {
     let Functions { kernels, prepared } = functions;
     let stated = inputs::stated(&prepared.sections);
     let raw = parameters(kind);
-    let computed = prepared.computed(&raw);
-    let names = prepared.record.fields.iter().map(|field| field.name.clone());
     let prepare = Part {
         name: "prepare".to_owned(),
         doc: vec!["What depends only on parameters, once for each device.".to_owned()],
         inputs: vec![("p", raw.clone())],
         body: prepare_body(chain, &prepared),
         output: prepared.record.clone(),
-        copied: names.filter(|name| !computed.contains(name)).collect(),
     };
     let part = |kernel: &Kernel<'_>| {
         let body = kernel_body(chain, kernel, &prepared);
@@ -76,7 +71,6 @@ pub(super) fn parts(chain: &Chain<'_>) -> Parts {
             inputs: read.map(|(letter, record)| (*letter, whole(record))).collect(),
             body,
             output: kernel.output.clone(),
-            copied: HashSet::new(),
         }
     };
     let functions = std::iter::once(prepare).chain(kernels.iter().map(part)).collect();
@@ -108,7 +102,13 @@ pub(super) fn prepare_body<'g>(chain: &Chain<'g>, prepared: &Prepared<'g>) -> Fu
         _ => None,
     };
     let witness = Rendered::field("p", &raw.fields[0].name);
-    Writer::new(graph, &given, witness).write(&prepared.sections, &prepared.computed(&raw))
+    let computed = prepared.computed(&raw);
+    let mut body = Writer::new(graph, &given, witness).write(&prepared.sections, &computed);
+    let names = prepared.record.fields.iter().map(|field| &field.name);
+    for name in names.filter(|name| !computed.contains(name)) {
+        body.copies.insert(name.clone(), format!("p.{name}"));
+    }
+    body
 }
 
 pub(super) fn kernel_body<'g>(

@@ -1,4 +1,6 @@
 //! What depends on parameters only leaves every kernel and is computed once, in `prepare`.
+//!
+//! Invariant: no two fields of `Prepared` have the same value in every device of the kind.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -38,6 +40,48 @@ impl<'g> Prepared<'g> {
             made.insert(id, new);
         }
         made[&e.id()]
+    }
+
+    /// Makes one field of all that are the same expression: of a cut, whose name the proof knows,
+    /// rather than of a plain name, and of that rather than of a number.
+    pub(super) fn merge(&mut self) {
+        let statements = self.sections.iter().flat_map(|section| &section.statements);
+        let is_field = |name: &str| self.record.fields.iter().any(|field| field.name == name);
+        let fields: Vec<_> = statements.filter(|statement| is_field(&statement.name)).collect();
+        let rank = |statement: &Statement<'_>| (statement.cut.is_none(), numbered(&statement.name));
+        let mut kept: HashMap<NodeId, &Statement<'_>> = HashMap::new();
+        for statement in &fields {
+            let best = kept.entry(statement.value.id()).or_insert(statement);
+            if rank(statement) < rank(best) {
+                *best = statement;
+            }
+        }
+        let name = |statement: &&Statement<'_>| kept[&statement.value.id()].name.clone();
+        let names = fields.iter().map(|field| (field.name.clone(), name(field))).collect();
+        self.rename(&names);
+        let rest = self.record.fields.iter().filter(|field| numbered(&field.name)).enumerate();
+        let names = rest.map(|(k, field)| (field.name.clone(), format!("k_{k}"))).collect();
+        self.rename(&names);
+    }
+
+    /// Gives fields other names. Those of one name become one field, numbered statements of one
+    /// name one statement; statements with a name of their own keep it.
+    fn rename(&mut self, names: &HashMap<String, String>) {
+        let rename = |name: &mut String| {
+            if let Some(new) = names.get(name) {
+                name.clone_from(new);
+            }
+        };
+        self.fields.values_mut().for_each(rename);
+        self.record.fields.iter_mut().for_each(|field| rename(&mut field.name));
+        let mut seen = HashSet::new();
+        self.record.fields.retain(|field| seen.insert(field.name.clone()));
+        seen.clear();
+        for section in &mut self.sections {
+            let statements = section.statements.iter_mut();
+            statements.filter(|s| numbered(&s.name)).for_each(|s| rename(&mut s.name));
+            section.statements.retain(|statement| seen.insert(statement.name.clone()));
+        }
     }
 
     /// The names of the fields that are not among the `raw` parameters.
@@ -105,6 +149,11 @@ pub(crate) fn prepared<'g>(
     debug_assert_eq!(ambiguous(graph, kernels), None, "one name, two values of parameters");
     let sections = sections(graph, kernels, &fields);
     Prepared { fields, record, sections }
+}
+
+/// Whether a field has a number, no name.
+pub(super) fn numbered(name: &str) -> bool {
+    name.strip_prefix("k_").is_some_and(|number| number.parse::<usize>().is_ok())
 }
 
 /// A name that the kernels give to two values of parameters only.

@@ -48,14 +48,14 @@ pub(super) fn documented(text: &str, width: usize) -> TokenStream {
     quote!(#(#[doc = #lines])*)
 }
 
-/// A structure literal, on one line where it fits.
-pub(super) fn literal(name: &str, fields: &[(String, String)]) -> Vec<String> {
+/// A structure literal, on one line where it fits beside as many columns as are `taken`.
+pub(super) fn literal(name: &str, fields: &[(String, String)], taken: usize) -> Vec<String> {
     let shown = |(field, value): &(String, String)| {
         if field == value { field.clone() } else { format!("{field}: {value}") }
     };
     let shown: Vec<_> = fields.iter().map(shown).collect();
     let line = format!("{name} {{ {} }}", shown.join(", "));
-    if line.len() + 4 <= LINE && !line.contains('\n') {
+    if line.len() + taken <= LINE && !line.contains('\n') {
         return vec![line];
     }
     let mut lines = vec![format!("{name} {{")];
@@ -106,7 +106,9 @@ mod tests {
     #[test]
     fn a_short_literal_stands_on_one_line() {
         let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
-        assert_eq!(literal("P", &[pair("x", "x"), pair("y", "p.y")]), ["P { x, y: p.y }"]);
+        let fields = [pair("x", "x"), pair("y", "p.y")];
+        assert_eq!(literal("P", &fields, 4), ["P { x, y: p.y }"]);
+        assert_eq!(literal("P", &fields, 86), ["P {", "    x,", "    y: p.y,", "}"]);
     }
 
     #[test]

@@ -15,31 +15,41 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>, Reco
     let share = aboard(chain, &mut script);
     let eliminated = eliminate(chain, &share, &mut script);
     let kind = chain.kind;
-    let torques: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
     let gains = gains(kind, &eliminated);
     let drives = [("u", records::motors(kind)), ("m", records::modes(kind))];
     let kernel = Kernel {
         name: "eliminate".to_owned(),
-        doc: vec![
-            "Mass matrix and right side of one device, its joints eliminated from the tip.".into(),
-            String::new(),
-            format!(
-                "Translation (16), rotation (75), motor torques {}; with the joints",
-                torques.join(", ")
-            ),
-            "eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose".into(),
-            "acceleration is given has no equation: what it requires goes to the right side.".into(),
-            String::new(),
-            "Equations (D1) to (D13) are derived in `tests/derivation/kernels`. By (D3), the origin"
-                .into(),
-            "of a turning joint is elsewhere on its axis than where the paper places it.".into(),
-        ],
+        doc: doc(kind),
         inputs: inputs(kind, [("w", records::body_rate())].into_iter().chain(drives)),
         sections: script.sections,
         output: output(kind, &eliminated, &gains),
         claims: claims(kind, by_body::share(chain).named(kind, Link::is_driven)),
     };
     (kernel, eliminated, gains)
+}
+
+/// The documentation. A kind whose joints all keep their rates has nothing to eliminate.
+fn doc(kind: &Kind) -> Vec<String> {
+    let torques: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
+    let torques = torques.join(", ");
+    let motors = [
+        &format!("Translation (16), rotation (75), motor torques {torques}; with the joints"),
+        "eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose",
+        "acceleration is given has no equation: what it requires goes to the right side.",
+    ];
+    let none = [
+        "Translation (16), rotation (75). Every joint of the kind keeps its rate and has no",
+        "equation: what the rates require goes to the right side.",
+    ];
+    let what =
+        ["Mass matrix and right side of one device, its joints eliminated from the tip.", ""];
+    let pages = [
+        "",
+        "Equations (D1) to (D13) are derived in `tests/derivation/kernels`. By (D3), the origin",
+        "of a turning joint is elsewhere on its axis than where the paper places it.",
+    ];
+    let equations = if torques.is_empty() { none.as_slice() } else { motors.as_slice() };
+    [&what, equations, &pages].concat().into_iter().map(str::to_owned).collect()
 }
 
 fn output(kind: &Kind, eliminated: &Eliminated<'_>, gains: &Record) -> Record {
@@ -58,13 +68,18 @@ fn output(kind: &Kind, eliminated: &Eliminated<'_>, gains: &Record) -> Record {
                 units.pivot
             ),
         );
-        record.alias(
-            format!("diagonal_{tag}"),
-            &pivot.diagonal.0,
-            format!("Diagonal of the {title} before the elimination, {}.", units.pivot),
-        );
+        // Where no outboard joint changes it, the pivot is the diagonal.
+        if pivot.pivot.1 != pivot.diagonal.1 {
+            record.alias(
+                format!("diagonal_{tag}"),
+                &pivot.diagonal.0,
+                format!("Diagonal of the {title} before the elimination, {}.", units.pivot),
+            );
+        }
     }
-    record.nested("gains", gains.clone(), "What back substitution needs.");
+    if !gains.fields.is_empty() {
+        record.nested("gains", gains.clone(), "What back substitution needs.");
+    }
     record
 }
 

@@ -26,16 +26,13 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
 
 fn output(kind: &Kind) -> Record {
     let doc = "External wrenches: on each body with all bodies outboard of it, expressed in its own \
-               axes, moments about its joint's origin; along each joint, to be added to its \
-               motor's; on the hub.";
+               axes, moments about its joint's origin; on the hub. The component along a \
+               joint's axis adds to its motor's, eq. (D15).";
     let mut record = Record::new("External", doc);
     for link in kind.links {
-        let (body, joint) = (&link.body, &link.joint);
+        let body = &link.body;
         let on = format!("the {} and the bodies outboard of it, eq. (D14)", body.title);
         record.wrench("sum", body.frame, &on, body.letters[0]);
-        let doc =
-            format!("Along the {}'s joint, eq. (D15), {}.", body.title, joint.motion.units().drive);
-        record.field(format!("drive_{}", joint.tag), doc);
     }
     record.wrench("sum", "b", "the hub, eq. (D14)", "B");
     record
@@ -52,8 +49,7 @@ fn claims<'g>(chain: &Chain<'g>) -> Vec<Claim<'g>> {
     made.extend(Claim::wrench(["(D14)"; 2], "sum", "b", acting::on_hub(chain, &on_bodies)));
     for (drive, link) in acting::virtual_work(chain, &on_bodies).into_iter().zip(chain.kind.links) {
         let name = format!("drive_{}", link.joint.tag);
-        let (tag, components) = ("(D15)".to_owned(), vec![(name.clone(), drive)]);
-        made.push(Claim { tag, name, components });
+        made.push(Claim::along_joint(["(D15)", &name, "sum"], link, drive));
     }
     made
 }

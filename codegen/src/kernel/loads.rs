@@ -2,10 +2,10 @@
 
 use super::{Claim, Kernel, Record, inputs, records};
 use crate::derivation::by_body::exerted;
-use crate::derivation::chain::{Chain, XYZ};
+use crate::derivation::chain::Chain;
 use crate::derivation::loads::loads;
 use crate::derivation::script::Script;
-use crate::kinds::{Kind, Motion};
+use crate::kinds::Kind;
 
 /// What each parent body exerts.
 #[must_use]
@@ -63,17 +63,8 @@ fn claims<'g>(chain: &Chain<'g>) -> Vec<Claim<'g>> {
     }
     made.extend(Claim::wrench(["(16)", "(75)"], "load", "b", exerted::whole(chain)));
     for (torque, link) in exerted::motors(chain).into_iter().zip(links) {
-        let (motion, equations) = (link.joint.motion, &link.body.equations);
-        let letter = match motion {
-            Motion::Turn(_) => "n",
-            Motion::Slide(_) => "f",
-        };
-        let axis = XYZ[motion.axis().cycle()[0]];
-        made.push(Claim {
-            tag: equations.torque.to_owned(),
-            name: link.joint.torque.to_owned(),
-            components: vec![(format!("{letter}_load_{}{axis}", link.body.frame), torque)],
-        });
+        let heading = [link.body.equations.torque, link.joint.torque, "load"];
+        made.push(Claim::along_joint(heading, link, torque));
     }
     made
 }

@@ -16,11 +16,11 @@ pub use records::{
     shared_records, wrenches,
 };
 
-use crate::derivation::chain::Chain;
+use crate::derivation::chain::{Chain, XYZ};
 use crate::derivation::script::{Section, pairs, triple};
 use crate::derivation::wrench::Wrench;
 use crate::graph::{Expr, Node};
-use crate::kinds::Kind;
+use crate::kinds::{Kind, Link, Motion};
 use crate::space::{Frame, Vector};
 
 /// One function to be emitted.
@@ -78,6 +78,18 @@ impl<'g> Claim<'g> {
     ) -> [Self; 2] {
         [('f', force, wrench.force), ('n', moment, wrench.moment)]
             .map(|(letter, tag, v)| Self::vector(tag, &format!("{letter}_{what}"), frame, v))
+    }
+
+    /// The component of the wrench `what` along a link's joint: of its moment where the joint
+    /// turns, of its force where it slides.
+    fn along_joint([tag, name, what]: [&str; 3], link: &Link, value: Expr<'g>) -> Self {
+        let letter = match link.joint.motion {
+            Motion::Turn(_) => "n",
+            Motion::Slide(_) => "f",
+        };
+        let (frame, axis) = (link.body.frame, XYZ[link.joint.motion.axis().cycle()[0]]);
+        let components = vec![(format!("{letter}_{what}_{frame}{axis}"), value)];
+        Self { tag: tag.to_owned(), name: name.to_owned(), components }
     }
 }
 

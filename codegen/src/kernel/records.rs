@@ -46,15 +46,22 @@ impl Record {
         Self { name: name.to_owned(), doc: doc.to_owned(), fields: Vec::new(), shared: false }
     }
 
+    /// Every number of the record: its field, and the name of the value that a function returning
+    /// the record computes for it.
+    #[must_use]
+    pub fn leaves(&self) -> Vec<(String, String)> {
+        let leaf = |field: &Field| match &field.source {
+            Source::Own => vec![(field.name.clone(), field.name.clone())],
+            Source::Named(name) => vec![(field.name.clone(), name.clone())],
+            Source::Nested(record) => record.leaves(),
+        };
+        self.fields.iter().flat_map(leaf).collect()
+    }
+
     /// The names of the values that a function returning this record must compute.
     #[must_use]
     pub fn sources(&self) -> Vec<String> {
-        let source = |field: &Field| match &field.source {
-            Source::Own => vec![field.name.clone()],
-            Source::Named(name) => vec![name.clone()],
-            Source::Nested(record) => record.sources(),
-        };
-        self.fields.iter().flat_map(source).collect()
+        self.leaves().into_iter().map(|(_, source)| source).collect()
     }
 
     /// The records it is made of, each before the one that contains it.

@@ -18,7 +18,7 @@ use super::unknowns::{Unknowns, moving};
 use crate::derivation::by_body;
 use crate::derivation::chain::{Chain, mount_entry};
 use crate::graph::{Expr, Stage};
-use crate::kernel::{Field, Kernel, Record, Source, kernels, parameters};
+use crate::kernel::{Kernel, kernels, parameters};
 use crate::normal::Ring;
 
 /// Proves emitted files of one kind. Keeps what the first text of a function was expanded to, so
@@ -110,7 +110,7 @@ impl<'a, 'g> Prover<'a, 'g> {
             let given = self.arguments(kernel, prepare);
             let back = read(self.chain.graph, text, &given, cuts)?;
             let values = prepare.values.iter().map(|(name, value)| (name.clone(), *value));
-            Ok::<_, EmittedError>(back.or(values).or(kernel.plain()))
+            Ok::<_, EmittedError>(back.returning(&kernel.output).or(values).or(kernel.plain()))
         };
         let back = Both {
             expanded: reading(&constants.prepare.expanded, &BTreeSet::new())?,
@@ -209,7 +209,7 @@ impl<'a, 'g> Prover<'a, 'g> {
                 let constants = prepare.returned.iter();
                 given.extend(constants.map(|(name, value)| (format!("{letter}.{name}"), *value)));
             }
-            for (name, _) in leaves(record) {
+            for (name, _) in record.leaves() {
                 let symbol = graph.find(&name);
                 let symbol = symbol.unwrap_or_else(|| graph.symbol(&name, Stage::Rate));
                 given.insert(format!("{letter}.{name}"), symbol);
@@ -218,7 +218,8 @@ impl<'a, 'g> Prover<'a, 'g> {
         given
     }
 
-    /// Raw parameters pass through `prepare` unchanged, computed fields under their own names.
+    /// Raw parameters pass through `prepare` unchanged, computed fields under their own names. One
+    /// that no statement names is read by kernels, whose claims are about its value.
     fn prepared_row(&self, prepare: &Both<'g>) -> Row {
         let raw = parameters(self.chain.kind);
         let mut checked = Vec::new();
@@ -227,7 +228,8 @@ impl<'a, 'g> Prover<'a, 'g> {
             let given = raw.fields.iter().any(|field| field.name == *name);
             let symbol = if given { self.parameter(name) } else { None };
             checked.push((name.clone(), *value));
-            let expected = symbol.or_else(|| prepare.cut.stands_for(name));
+            let own = if given { None } else { Some(*value) };
+            let expected = symbol.or_else(|| prepare.cut.stands_for(name)).or(own);
             reference.extend(expected.map(|expected| (name.clone(), expected)));
         }
         let heading = ["(record)", "Prepared", "fn prepare returns its values"];
@@ -278,11 +280,19 @@ fn claims<'g>(
     rows
 }
 
-/// The returned record holds the values its fields are named after.
+/// The returned record holds the values its fields are named after. Where the text has no such
+/// name, the value is the field's own: it must be one that a claim or an identity is about.
 fn result<'g>(ring: &mut Ring<'g>, kernel: &Kernel<'g>, back: &Reading<'g>) -> Row {
+    let claimed: BTreeSet<_> =
+        kernel.claims.iter().flat_map(|claim| &claim.components).map(|(name, _)| name).collect();
+    // The claims on the whole system read the constant share, the identities the other two.
+    let together = ["constant_share", "eliminate", "back_substitute"];
+    let together = together.contains(&kernel.name.as_str());
     let mut reference = Vec::new();
-    for (field, source) in leaves(&kernel.output) {
-        reference.extend(back.stands_for(&source).map(|value| (field.clone(), value)));
+    for (field, source) in kernel.output.leaves() {
+        let own = back.returned.get(&field).filter(|_| together || claimed.contains(&source));
+        let value = back.stands_for(&source).or(own.copied());
+        reference.extend(value.map(|value| (field, value)));
     }
     reference.sort_by(|a, b| a.0.cmp(&b.0));
     let checked: Vec<_> =
@@ -290,14 +300,4 @@ fn result<'g>(ring: &mut Ring<'g>, kernel: &Kernel<'g>, back: &Reading<'g>) -> R
     let heading =
         ["(record)", &kernel.output.name, &format!("fn {} returns its values", kernel.name)];
     Row::compare(ring, heading, &checked, &reference)
-}
-
-/// Field and value name of every number of a record.
-fn leaves(record: &Record) -> Vec<(String, String)> {
-    let leaf = |field: &Field| match &field.source {
-        Source::Own => vec![(field.name.clone(), field.name.clone())],
-        Source::Named(name) => vec![(field.name.clone(), name.clone())],
-        Source::Nested(record) => leaves(record),
-    };
-    record.fields.iter().flat_map(leaf).collect()
 }

@@ -54,8 +54,10 @@ pub(super) fn of_elimination<'g>(
     for tag in unknowns.solved().into_iter().skip(HUB.len()).map(|j| unknowns.suffix(j)) {
         let name = format!("diagonal_{tag}");
         let entry = named(&format!("mass_{tag}{tag}")).unwrap_or(unknowns.zero);
-        diagonals.push(name.clone(), output(&name), entry);
-        let sum = output(&format!("pivot_{tag}")).zip(named(&format!("held_{tag}")));
+        let pivot = output(&format!("pivot_{tag}"));
+        // The pivot from which nothing is subtracted is the diagonal: it is returned once.
+        diagonals.push(name.clone(), output(&name).or(pivot), entry);
+        let sum = pivot.zip(named(&format!("held_{tag}")));
         let expected = sum.map_or(unknowns.zero, |(pivot, held)| pivot + held);
         let name = divisor(tag);
         divisors.push(name.clone(), back.values.get(&name).copied(), expected);

@@ -121,7 +121,7 @@ fn values<'g>(
         let constants = prepare.returned.iter();
         given.extend(constants.map(|(name, value)| (format!("p.{name}"), *value)));
         let back = read(graph, function(file, &kernel.name)?, &given, &cuts)?;
-        keep(&back.or(kernel.plain()));
+        keep(&back.returning(&kernel.output).or(kernel.plain()));
     }
     Ok(found)
 }

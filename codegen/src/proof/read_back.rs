@@ -7,6 +7,7 @@ use std::fmt;
 use quote::ToTokens;
 
 use crate::graph::{Expr, Graph};
+use crate::kernel::Record;
 use crate::page::{ReadError, Reader, Value};
 
 /// Why emitted text cannot be read back.
@@ -54,6 +55,17 @@ impl<'g> Reading<'g> {
     pub(super) fn or(mut self, values: impl IntoIterator<Item = (String, Expr<'g>)>) -> Self {
         for (name, value) in values {
             self.values.entry(name).or_insert(value);
+        }
+        self
+    }
+
+    /// Adds the values of results that are written where they are returned, by the names that
+    /// the record's fields have in the derivation: no `let` names them.
+    pub(super) fn returning(mut self, output: &Record) -> Self {
+        for (field, source) in output.leaves() {
+            if let Some(value) = self.returned.get(&field) {
+                self.values.entry(source).or_insert(*value);
+            }
         }
         self
     }

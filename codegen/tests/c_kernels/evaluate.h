@@ -51,7 +51,7 @@ static enum precess_solved evaluate(
             &d->constants, &trig, &d->rates, omega, &d->motors, &d->modes, &e);
         if (!is_sound(d->modes.driven_o, e.pivot_o, e.diagonal_o, d->scale[0])
             || !is_sound(d->modes.driven_i, e.pivot_i, e.diagonal_i, d->scale[1])
-            || !is_sound(d->modes.driven_w, e.pivot_w, e.diagonal_w, d->scale[2])) {
+            || !is_sound(d->modes.driven_w, e.pivot_w, e.pivot_w, d->scale[2])) {
             return PRECESS_SINGULAR;
         }
         precess_assembly_add(&assembly, &e.share);

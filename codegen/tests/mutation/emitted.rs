@@ -131,24 +131,74 @@ fn every_doubled_statement_is_caught() {
         for index in 0..function(&mut file, name).block.stmts.len() {
             let Some(original) = value(&mut file, name, index).cloned() else { continue };
             // Nothing doubled is nothing.
-            let text = quote::quote!(#original).to_string();
-            if text == "zero" || text.ends_with("like (0.0)") {
+            if quote::quote!(#original).to_string().ends_with("like (0.0)") {
                 continue;
             }
             let doubled = syn::parse_quote!(#original + (#original));
             *value(&mut file, name, index).unwrap() = doubled;
-            let judged = match *name {
-                "prepare" => &ALL[..],
-                "eliminate" | "constant_share" => &["eliminate", "constant_share"],
-                _ => std::slice::from_ref(name),
-            };
-            let caught = judged
-                .iter()
-                .any(|judge| prover.function(&file, judge).unwrap().iter().any(|row| !row.holds()));
-            assert!(caught, "statement {index} of {name} doubled survives");
+            assert!(
+                fails(&mut prover, &file, name),
+                "statement {index} of {name} doubled survives"
+            );
             *value(&mut file, name, index).unwrap() = original;
         }
     }
+}
+
+/// Whether a row that the function is judged by does not hold.
+fn fails(prover: &mut Prover<'_, '_>, file: &syn::File, name: &&str) -> bool {
+    let judged = match *name {
+        "prepare" => &ALL[..],
+        "eliminate" | "constant_share" => &["eliminate", "constant_share"],
+        _ => std::slice::from_ref(name),
+    };
+    judged.iter().any(|judge| prover.function(file, judge).unwrap().iter().any(|row| !row.holds()))
+}
+
+/// The results of a function: the value of each field of what it returns, nested records in line.
+fn results<'a>(file: &'a mut syn::File, name: &str) -> Vec<&'a mut syn::Expr> {
+    match function(file, name).block.stmts.last_mut() {
+        Some(syn::Stmt::Expr(literal, None)) => values(literal),
+        _ => panic!("`{name}` returns nothing"),
+    }
+}
+
+fn values(value: &mut syn::Expr) -> Vec<&mut syn::Expr> {
+    match value {
+        syn::Expr::Struct(record) => {
+            record.fields.iter_mut().flat_map(|field| values(&mut field.expr)).collect()
+        }
+        value => vec![value],
+    }
+}
+
+/// Every result doubled where it is returned, and what is zero replaced by another result.
+#[test]
+fn every_wrong_result_is_caught() {
+    let graph = Graph::new();
+    let chain = Chain::new(&graph, &DGVSCMG);
+    let mut prover = Prover::new(&chain);
+    let mut file = emitted();
+    let mut zeros = 0;
+    for name in &ALL {
+        let originals: Vec<_> =
+            results(&mut file, name).into_iter().map(|value| value.clone()).collect();
+        let is_zero = |value: &syn::Expr| quote::quote!(#value).to_string() == "zero";
+        let other =
+            originals.iter().find(|value| !is_zero(value)).expect("a result that is not zero");
+        for (index, original) in originals.iter().enumerate() {
+            zeros += usize::from(is_zero(original));
+            let wrong = if is_zero(original) {
+                other.clone()
+            } else {
+                syn::parse_quote!(#original + #original)
+            };
+            *results(&mut file, name)[index] = wrong;
+            assert!(fails(&mut prover, &file, name), "result {index} of {name} wrong survives");
+            *results(&mut file, name)[index] = original.clone();
+        }
+    }
+    assert!(zeros > 10, "{zeros} results are zero");
 }
 
 /// The proof of a text in which `right` is replaced by `wrong`.
@@ -165,8 +215,9 @@ fn with(right: &str, wrong: &str) -> Result<Vec<Row>, EmittedError> {
 #[test]
 fn a_wrong_constant_returned_value_or_pivot_is_caught() {
     for (right, wrong) in [
-        ("let mass_ww = i_w_w_11;", "let mass_ww = i_w_w_11 + i_w_w_11;"),
-        ("diagonal_w: mass_ww,", "diagonal_w: mass_iw,"),
+        ("let mass_ww = p.j_11 + base_30;", "let mass_ww = p.j_11 + base_29;"),
+        ("pivot_w: p.mass_ww,", "pivot_w: mass_iw,"),
+        ("diagonal_i: mass_ii,", "diagonal_i: mass_iw,"),
         ("pivot_i: mass_ii_w,", "pivot_i: mass_ii,"),
         (
             "            h_v_1,\n            h_v_2,",

@@ -1,6 +1,6 @@
-//! A kind defined by another crate with the code of docs/adding-a-kind.md is emitted, proven,
-//! compiled against the dynamics crate and run. Needs cargo and the linker that every build needs,
-//! and no network.
+//! Kinds defined by another crate are emitted, proven, compiled against the dynamics crate and run:
+//! the one of docs/adding-a-kind.md, and one whose joints all keep their rates. Needs cargo and the
+//! linker that every build needs, and no network.
 
 #[expect(unreachable_pub, reason = "the page's lines, which a crate of its own exports")]
 mod robot_arm;
@@ -9,8 +9,15 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-use precess_codegen::kinds::{Kind, KindError};
+use precess_codegen::kinds::{Kind, KindError, Link};
+use precess_codegen::space::Axis;
 use precess_codegen::{emit_kind, prove_kind};
+
+/// The programs that use the kinds, and their places in a crate.
+const PROGRAMS: [(&str, &str); 2] = [
+    (include_str!("../../fixtures/planar_arm.rs"), "main.rs"),
+    (include_str!("../../fixtures/kept_rotor.rs"), "bin/kept_rotor/main.rs"),
+];
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
@@ -42,18 +49,40 @@ fn every_claim_about_it_is_proven() {
     );
 }
 
-/// The program asserts that both hinges obey the textbook's equations of a planar arm.
+/// A rotor on a joint that keeps its rate, and no other joint.
+fn kept_rotor() -> &'static Kind {
+    let rotor = Link::turning("r", "rotor", Axis::X, "phi").centre_on(Axis::Y, "e").prescribed();
+    Kind::builder("kept_rotor", "kept rotor").link(rotor).build().expect("a kind")
+}
+
 #[test]
-fn it_compiles_in_another_crate_and_moves_as_the_textbook_says() {
+fn every_claim_about_a_kind_without_motors_is_proven() {
+    let kind = kept_rotor();
+    let files = emit_kind(kind, "precess_dynamics").expect("files");
+    let rows = prove_kind(kind, &files).expect("rows");
+    let failed: Vec<_> = rows.iter().filter(|row| !row.holds()).map(ToString::to_string).collect();
+    assert!(rows.len() > 40 && failed.is_empty(), "{} rows, failed: {failed:#?}", rows.len());
+}
+
+/// The programs assert that both hinges of the arm obey the textbook's equations of a planar arm,
+/// and the hub of the rotor those of a rigid body with a constant momentum in it.
+#[test]
+fn they_compile_in_another_crate_and_move_as_the_textbook_says() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("external_kind");
     let source = folder.join("src");
     fs::create_dir_all(&source).expect("a folder for the build");
     robot_arm::write(&source).expect("the emitted kind");
-    let program = include_str!("../../fixtures/planar_arm.rs");
-    fs::write(source.join("main.rs"), program).expect("the program");
+    for file in emit_kind(kept_rotor(), "precess_dynamics").expect("files") {
+        let path = source.join("bin/kept_rotor").join(file.path);
+        fs::create_dir_all(path.parent().unwrap_or(&source)).expect("a folder for the kind");
+        fs::write(path, file.text).expect("the emitted kind");
+    }
+    for (program, path) in PROGRAMS {
+        fs::write(source.join(path), program).expect("a program");
+    }
     let dynamics = Path::new(ROOT).join("dynamics");
     let manifest = format!(
-        "[package]\nname = \"planar-arm\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
+        "[package]\nname = \"planar_arm\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
          [workspace]\n\
          [dependencies]\nprecess-dynamics = {{ path = '{}' }}\n\
          nalgebra = {{ version = '0.35', default-features = false, features = ['libm'] }}\n\
@@ -64,9 +93,14 @@ fn it_compiles_in_another_crate_and_moves_as_the_textbook_says() {
     // The versions that the workspace has: cargo drops what the program does not need.
     fs::copy(Path::new(ROOT).join("Cargo.lock"), folder.join("Cargo.lock")).expect("the versions");
 
-    let program = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut cargo = Command::new(program);
-    cargo.args(["run", "--offline", "--quiet", "--message-format", "short"]);
+    for program in ["planar_arm", "kept_rotor"] {
+        run(&folder, program);
+    }
+}
+
+fn run(folder: &Path, program: &str) {
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.args(["run", "--offline", "--quiet", "--message-format", "short", "--bin", program]);
     cargo.arg("--manifest-path").arg(folder.join("Cargo.toml"));
     cargo.arg("--target-dir").arg(folder.join("target")).current_dir(ROOT);
     // Flags of the outer build (coverage, sanitizers) are not the program's.
@@ -75,5 +109,5 @@ fn it_compiles_in_another_crate_and_moves_as_the_textbook_says() {
     }
     let output = cargo.output().expect("cargo starts");
     let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "the program fails: {errors}");
+    assert!(output.status.success(), "{program} fails: {errors}");
 }

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use precess_codegen::derivation::script::{Section, Statement};
 use precess_codegen::graph::{Expr, Graph, Node, NodeId, Stage};
-use precess_codegen::kernel::{Claim, Field, Record, Source};
+use precess_codegen::kernel::{Claim, Record};
 
 /// One named value of one emitted function.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,8 +54,7 @@ impl<'g> Listing<'g> {
         output: &Record,
         claims: &[Claim<'g>],
     ) -> Self {
-        let mut fields = Vec::new();
-        flatten(output, &mut fields);
+        let fields = output.leaves();
         let needed = needed(graph, sections, &fields);
         let (mut lines, mut placed) = (Vec::new(), HashSet::new());
         let mut stages = HashMap::new();
@@ -135,16 +134,6 @@ fn needed(graph: &Graph, sections: &[Section<'_>], fields: &[(String, String)]) 
         }
     }
     Needed { returned, nodes }
-}
-
-fn flatten(record: &Record, into: &mut Vec<(String, String)>) {
-    for Field { name, source, .. } in &record.fields {
-        match source {
-            Source::Own => into.push((name.clone(), name.clone())),
-            Source::Named(value) => into.push((name.clone(), value.clone())),
-            Source::Nested(inner) => flatten(inner, into),
-        }
-    }
 }
 
 fn stage(graph: &Graph, id: NodeId, known: &HashMap<NodeId, Stage>) -> Stage {

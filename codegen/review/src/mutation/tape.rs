@@ -197,6 +197,11 @@ impl Returned<'_> {
         self.names.get(field).map_or(f64::NAN, |slot| self.slots[*slot])
     }
 
+    /// Whether a number is returned under a name.
+    pub(super) fn returns(&self, field: &str) -> bool {
+        self.names.contains_key(field)
+    }
+
     /// Three components: `r_wc_b` along `gi`. A vector that is zero in every state of the kind is
     /// not returned.
     pub(super) fn vector(&self, stem: &str, frame: &str) -> Vector3<f64> {

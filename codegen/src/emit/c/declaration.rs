@@ -75,8 +75,11 @@ fn comment(paragraphs: &[&str], indent: usize) -> Vec<String> {
     lines
 }
 
-/// A title above statements.
+/// A title above statements; none where they have none.
 pub(super) fn title(text: &str) -> Vec<String> {
+    if text.is_empty() {
+        return Vec::new();
+    }
     let lines = wrapped(text, COMMENT);
     let last = lines.len() - 1;
     let frame = |(k, line): (usize, &String)| {

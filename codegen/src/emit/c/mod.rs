@@ -166,12 +166,13 @@ fn results(part: &Part, record: &Record, place: &str) -> Vec<String> {
     let mut lines = Vec::new();
     for field in &record.fields {
         let name = &field.name;
+        let mut assign = |value: &str| {
+            let value = part.body.result(value).replace('.', "->");
+            lines.push(format!("{place}{name} = {value};"));
+        };
         match &field.source {
-            Source::Own if part.copied.contains(name) => {
-                lines.push(format!("{place}{name} = {}->{name};", part.inputs[0].0));
-            }
-            Source::Own => lines.push(format!("{place}{name} = {name};")),
-            Source::Named(value) => lines.push(format!("{place}{name} = {value};")),
+            Source::Own => assign(name),
+            Source::Named(value) => assign(value),
             Source::Nested(record) => {
                 lines.extend(results(part, record, &format!("{place}{name}.")));
             }

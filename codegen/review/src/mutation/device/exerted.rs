@@ -120,16 +120,7 @@ impl Device<'_, '_> {
             values.set(link.acceleration, *acceleration);
         }
         let returned = self.call(self.functions.loads, &values, fault);
-        let along = |link: &kinds::Link| {
-            let own = wrench(&returned, "load", link.body.frame);
-            let axis: Vector3<f64> = unit(link.joint.motion.axis());
-            match link.joint.motion {
-                kinds::Motion::Turn(_) => axis.dot(&own.moment),
-                kinds::Motion::Slide(_) => axis.dot(&own.force),
-            }
-        };
-        let drives = self.chain.kind.links.iter().map(along).collect();
-        self.carried(&returned, "load", &case.motion, drives)
+        self.carried(&returned, "load", &case.motion)
     }
 
     /// `external`.
@@ -150,9 +141,7 @@ impl Device<'_, '_> {
             values.set_vector(symbols.moment.components(), own.moment);
         }
         let returned = self.call(self.functions.external, &values, fault);
-        let tags = self.chain.kind.links.iter().map(|link| link.joint.tag);
-        let drives = tags.map(|tag| returned.scalar(&format!("drive_{tag}"))).collect();
-        self.carried(&returned, "sum", &case.motion, drives)
+        self.carried(&returned, "sum", &case.motion)
     }
 
     /// `gravity`.
@@ -184,18 +173,22 @@ impl Device<'_, '_> {
     }
 
     /// The wrenches of a returned record, along B.
-    fn carried(
-        &self,
-        returned: &Returned<'_>,
-        what: &str,
-        motion: &Motion,
-        drives: Vec<f64>,
-    ) -> Carried {
-        let links = self.chain.kind.links.iter().enumerate();
-        let at = |(k, link): (usize, &kinds::Link)| {
-            wrench(returned, what, link.body.frame).turned(&self.axes(k + 1, motion))
+    fn carried(&self, returned: &Returned<'_>, what: &str, motion: &Motion) -> Carried {
+        let links = self.chain.kind.links;
+        let own = |link: &kinds::Link| wrench(returned, what, link.body.frame);
+        let at = |(k, link)| own(link).turned(&self.axes(k + 1, motion));
+        let along = |link: &kinds::Link| {
+            let axis: Vector3<f64> = unit(link.joint.motion.axis());
+            match link.joint.motion {
+                kinds::Motion::Turn(_) => axis.dot(&own(link).moment),
+                kinds::Motion::Slide(_) => axis.dot(&own(link).force),
+            }
         };
-        Carried { joints: links.map(at).collect(), whole: wrench(returned, what, "b"), drives }
+        Carried {
+            joints: links.iter().enumerate().map(at).collect(),
+            whole: wrench(returned, what, "b"),
+            drives: links.iter().map(along).collect(),
+        }
     }
 }
 

@@ -74,6 +74,7 @@ fn pivots(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
     let masses = device.joint_masses(case, fault);
     let modes = &case.drive.modes;
     let eliminated = device.eliminated(case, fault);
+    let links = device.chain.kind.links.iter().enumerate().filter(|(_, link)| link.is_driven());
     let residual = |(j, link): (usize, &precess_codegen::kinds::Link)| {
         let behind = (j + 1..device.joints()).filter(|k| modes[*k].is_driven());
         let free: Vec<_> = std::iter::once(j).chain(behind).collect();
@@ -84,12 +85,15 @@ fn pivots(device: &Device<'_, '_>, case: &Case, fault: &Fault) -> f64 {
         let mut push = DVector::zeros(free.len());
         push[0] = 1.0;
         let least = block.lu().solve(&push).map_or(f64::NAN, |rates| 1.0 / rates[0]);
-        let named = |stem: &str| eliminated.scalar(&format!("{stem}_{}", link.joint.tag));
-        let (pivot, diagonal) = (named("pivot"), named("diagonal"));
+        let [pivot, diagonal] =
+            ["pivot", "diagonal"].map(|stem| format!("{stem}_{}", link.joint.tag));
+        let pivot = eliminated.scalar(&pivot);
+        // Where no outboard joint changes it, both are one number.
+        let own = eliminated.returns(&diagonal);
+        let diagonal = if own { eliminated.scalar(&diagonal) } else { pivot };
         let off = gap(&[pivot, diagonal], &[least, masses[(j, j)]]);
         if pivot > 0.0 && diagonal > 0.0 { off } else { f64::INFINITY }
     };
-    let links = device.chain.kind.links.iter().enumerate().filter(|(_, link)| link.is_driven());
     links.map(residual).fold(0.0, f64::max)
 }
 
