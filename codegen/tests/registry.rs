@@ -40,14 +40,14 @@ const BY_HAND: [(&str, Form); 23] = [
     ("tests/fixtures/every_entry_point.rs", Type),
     ("tests/src/measured.rs", Module),
     ("tests/src/measured.rs", Type),
-    ("tests/tests/ledger_and_loads/craft.rs", Type),
-    ("tests/tests/ledger_and_loads/draw.rs", Type),
-    ("tests/tests/kinds_and_modes/balance.rs", Type),
-    ("tests/tests/kinds_and_modes/devices.rs", Type),
-    ("tests/tests/kinds_and_modes/loads.rs", Type),
-    ("tests/tests/kinds_and_modes/modes.rs", Type),
-    ("tests/tests/kinds_and_modes/rigid.rs", Type),
-    ("tests/tests/operations.rs", Module),
+    ("tests/tests/dynamics/ledger_and_loads/craft.rs", Type),
+    ("tests/tests/dynamics/ledger_and_loads/draw.rs", Type),
+    ("tests/tests/dynamics/kinds_and_modes/balance.rs", Type),
+    ("tests/tests/dynamics/kinds_and_modes/devices.rs", Type),
+    ("tests/tests/dynamics/kinds_and_modes/loads.rs", Type),
+    ("tests/tests/dynamics/kinds_and_modes/modes.rs", Type),
+    ("tests/tests/dynamics/kinds_and_modes/rigid.rs", Type),
+    ("tests/tests/dynamics/operations.rs", Module),
 ];
 
 fn read(path: &str) -> String {

@@ -1,0 +1,209 @@
+//! Newton's law for point masses, and d'Alembert's principle: the accelerations of every kind, and
+//! of a mixed set, balance all that acts in every direction in which the spacecraft may move.
+
+use nalgebra::{SMatrix, SVector, Vector3};
+use precess_dynamics::kind::Each;
+use precess_dynamics::{
+    BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
+    Dgvscmg, Gravity, HingedPanel, Mode, ReactionWheel, Sgcmg, SloshMass, Vscmg, Wrench,
+};
+use precess_dynamics::{FixedSet, HubMode};
+
+use super::case::{Case, Found, SEEDS, World, joints, largest};
+use super::devices::{Chain, Drawn};
+use super::mixed::{Mixed, chains, drawn};
+use super::point_masses::{Body, PointMasses, Rates};
+use super::random::{Random, errors_of};
+
+/// Largest backward error of the accelerations, in units of the sum of the magnitudes of all terms,
+/// so that conditioning does not matter.
+const BACKWARD: f64 = 50.0 * f64::EPSILON;
+
+/// Largest median error of accelerations against a reference, of the block.
+const ACCELERATIONS_MEDIAN: f64 = 1e-13;
+
+/// Largest error of all. Against a reference in higher precision it is 1e-11; this one has doubles
+/// of its own, whose centripetal terms cancel, and as good a conditioning: ten times that.
+const ACCELERATIONS_WORST: f64 = 1e-10;
+
+/// Uniform gravity, and a wrench on every body, at random.
+pub(crate) fn disturb<D: FixedSet<Scalar = f64>>(case: &mut Case<D>, random: &mut Random) {
+    case.inputs.gravity = Gravity::Uniform(random.vector(9.8));
+    let mut wrenches = D::all(Wrench::none());
+    for wrench in wrenches.values_mut() {
+        *wrench = Wrench { force: random.vector(10.0), moment: random.vector(1.0) };
+    }
+    case.inputs.bodies = Some(wrenches);
+}
+
+/// One direction's equation, `m q'' = h`, summed over the masses.
+struct Row {
+    m: Vec<f64>,
+    h: f64,
+    /// The sum of the magnitudes of the terms of each entry of m, and of h.
+    magnitudes: (Vec<f64>, f64),
+}
+
+/// The equations in every direction in which the spacecraft may move.
+fn rows<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> Vec<Row> {
+    let inputs = &case.inputs;
+    let g = match inputs.gravity {
+        Gravity::Uniform(g) => masses.bn * g,
+        Gravity::None | Gravity::Central { .. } => Vector3::zeros(),
+    };
+    let hub = inputs.force.iter().chain(inputs.torque_b.iter()).copied();
+    let joints =
+        inputs.motors.values().zip(masses.passive()).map(|(motor, passive)| motor + passive);
+    // The bodies as they are when nothing accelerates: what is left are the rates' own terms.
+    let bodies = masses.bodies(&Rates::none(masses.coordinates.len()));
+    let displaced: Vec<_> = (0..masses.directions()).map(|i| masses.displaced(i)).collect();
+    let row = |(along, acting): (&Vec<Body>, f64)| {
+        let mut h = vec![acting];
+        for (body, along) in bodies.iter().zip(along) {
+            for (mass, along) in body.masses().zip(along.masses()) {
+                let (along, m) = (along.r[1], mass.mass);
+                h.extend(&(mass.r[2] * -m).component_mul(&along));
+                h.extend(&(g * m).component_mul(&along));
+            }
+        }
+        let wrenches = inputs.bodies.iter().flat_map(Each::values);
+        for ((wrench, body), along) in wrenches.zip(&bodies[1..]).zip(&along[1..]) {
+            let (origin, turning) = (along.frame.origin[1], along.frame.angular_velocity());
+            h.extend(&(body.own * wrench.force).component_mul(&origin));
+            h.extend(&(body.own * wrench.moment).component_mul(&turning));
+        }
+        let m = displaced.iter().map(|other| {
+            let masses = along.iter().zip(other).flat_map(|(a, b)| a.masses().zip(b.masses()));
+            let terms = masses.flat_map(|(a, b)| {
+                let products = a.r[1].component_mul(&b.r[1]) * a.mass;
+                [products.x, products.y, products.z]
+            });
+            terms.fold((0.0, 0.0), |(sum, size), term| (sum + term, size + term.abs()))
+        });
+        let (m, of_m): (Vec<_>, Vec<_>) = m.unzip();
+        let of_h = h.iter().map(|term| term.abs()).sum();
+        Row { m, h: h.iter().sum(), magnitudes: (of_m, of_h) }
+    };
+    displaced.iter().zip(hub.chain(joints)).map(row).collect()
+}
+
+/// The largest backward error, `abs(m q'' - h)` in units of the magnitudes of its terms, over all
+/// directions that are free.
+fn unbalance<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> f64 {
+    assert_eq!(case.inputs.hub, HubMode::Free);
+    let Rates { r_b_n_dot: r_b_n_ddot, omega: omega_dot, joints } =
+        Rates::of(&case.accelerations());
+    let found: Vec<_> = r_b_n_ddot.iter().chain(&omega_dot).chain(&joints).copied().collect();
+    let driven = case.inputs.modes.values().map(|mode| mode == Mode::Driven);
+    let free = [true; 6].into_iter().chain(driven);
+    let errors =
+        rows(case, masses).into_iter().zip(free).filter(|(_, free)| *free).map(|(row, _)| {
+            let Row { m, h, magnitudes: (of_m, of_h) } = row;
+            let residual = m.iter().zip(&found).map(|(m, q)| m * q).sum::<f64>() - h;
+            residual.abs() / (of_m.iter().zip(&found).map(|(m, q)| m * q.abs()).sum::<f64>() + of_h)
+        });
+    largest(errors)
+}
+
+/// Two devices of a kind, with springs, friction, gravity and wrenches on the bodies.
+pub(crate) fn pair<K: Drawn>(random: &mut Random) -> (World, Case<[K; 2]>, PointMasses) {
+    let world = World::drawn(random);
+    let devices = [(); 2].map(|()| K::sprung(random, world.hub.m_b));
+    let settings = devices.map(|_| joints::<K>(random)).concat();
+    let mut case = world.case(&devices, &settings);
+    disturb(&mut case, random);
+    let chains: Vec<Chain> = devices.iter().map(Drawn::chain).collect();
+    let masses = PointMasses::of(&world, &case, chains);
+    (world, case, masses)
+}
+
+fn balances<K: Drawn>() {
+    let error = |random: &mut Random| {
+        let (_, case, masses) = pair::<K>(random);
+        unbalance(&case, &masses)
+    };
+    errors_of(SEEDS, error).are_within(BACKWARD);
+}
+
+#[test]
+fn wheels_balance() {
+    balances::<ReactionWheel>();
+    balances::<BalancedReactionWheel>();
+}
+
+#[test]
+fn single_gimbals_balance() {
+    balances::<Vscmg>();
+    balances::<Sgcmg>();
+    balances::<BalancedVscmg>();
+    balances::<BalancedSgcmg>();
+}
+
+#[test]
+fn double_gimbals_balance() {
+    balances::<Dgvscmg>();
+    balances::<Dgcmg>();
+    balances::<BalancedDgvscmg>();
+    balances::<BalancedDgcmg>();
+}
+
+#[test]
+fn panels_and_slosh_masses_balance() {
+    balances::<HingedPanel>();
+    balances::<SloshMass>();
+}
+
+fn mixed(random: &mut Random) -> (Case<Mixed>, PointMasses) {
+    let world = World::drawn(random);
+    let (devices, settings) = drawn(random, world.hub.m_b);
+    let mut case = world.case(&devices, &settings.concat());
+    disturb(&mut case, random);
+    let masses = PointMasses::of(&world, &case, chains(&devices));
+    (case, masses)
+}
+
+#[test]
+fn mixed_set_balances() {
+    let error = |random: &mut Random| {
+        let (case, masses) = mixed(random);
+        unbalance(&case, &masses)
+    };
+    errors_of(SEEDS, error).are_within(BACKWARD);
+}
+
+/// Directions of the mixed set: the hub's six and nine joints.
+const DIRECTIONS: usize = 15;
+
+/// The equations solved; the wheel that its kind prescribes has its acceleration, zero, for one.
+fn reference(case: &Case<Mixed>, masses: &PointMasses) -> Found {
+    let rows = rows(case, masses);
+    let mut m = SMatrix::<f64, DIRECTIONS, DIRECTIONS>::from_fn(|i, j| rows[i].m[j]);
+    let mut h = SVector::<f64, DIRECTIONS>::from_fn(|i, _| rows[i].h);
+    for (joint, mode) in case.inputs.modes.values().enumerate() {
+        if mode != Mode::Driven {
+            m.row_mut(6 + joint).fill(0.0);
+            m.column_mut(6 + joint).fill(0.0);
+            m[(6 + joint, 6 + joint)] = 1.0;
+            h[6 + joint] = 0.0;
+        }
+    }
+    let solved = m.cholesky().expect("positive definite").solve(&h);
+    let names = case.craft.joints().map(|(_, info)| info.coordinate);
+    Found {
+        r_b_n_ddot: solved.fixed_rows::<3>(0).into_owned(),
+        omega_dot: solved.fixed_rows::<3>(3).into_owned(),
+        joints: names.zip(solved.iter().skip(6).copied()).collect(),
+    }
+}
+
+#[test]
+fn mixed_set_accelerates_as_its_point_masses_do() {
+    let error = |random: &mut Random| {
+        let (case, masses) = mixed(random);
+        assert_eq!(masses.directions(), DIRECTIONS);
+        case.solved().error(&reference(&case, &masses))
+    };
+    let errors = errors_of(SEEDS, error);
+    errors.are_within(ACCELERATIONS_WORST);
+    errors.have_median_within(ACCELERATIONS_MEDIAN);
+}

@@ -1,0 +1,254 @@
+//! Random devices of every kind, each with its chain of bodies written down by hand from the
+//! meaning of its fields: no emitted code is used.
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::kind::{Each, Kind};
+use precess_dynamics::{
+    BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
+    Dgvscmg, HingedPanel, Passive, ReactionWheel, Sgcmg, SloshMass, Vscmg,
+};
+
+use super::random::Random;
+
+/// How a joint moves: about or along an axis of the parent body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Motion {
+    Turns(Vector3<f64>),
+    Slides(Vector3<f64>),
+}
+
+/// A joint and its child body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link {
+    pub(crate) motion: Motion,
+    /// Of the joint, from the parent body's origin, in the parent body's axes.
+    pub(crate) origin: Vector3<f64>,
+    pub(crate) mass: f64,
+    /// From the joint's origin, own axes.
+    pub(crate) centre: Vector3<f64>,
+    pub(crate) inertia: Matrix3<f64>,
+    /// Whether it is symmetric about its joint: then its axes are the parent body's.
+    pub(crate) round: bool,
+}
+
+/// A device as bodies in a row.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    pub(crate) mount: Matrix3<f64>,
+    /// Of the first joint, from B, B axes; the first link's own origin is zero.
+    pub(crate) position: Vector3<f64>,
+    pub(crate) links: Vec<Link>,
+    pub(crate) passive: Vec<Passive>,
+}
+
+/// A kind that can be drawn.
+pub(crate) trait Drawn: Kind<Scalar = f64> {
+    /// At random, with no body heavier than `heaviest`.
+    fn drawn(random: &mut Random, heaviest: f64) -> Self;
+    /// As bodies in a row.
+    fn chain(&self) -> Chain;
+
+    /// At random, with springs, dampers and friction.
+    fn sprung(random: &mut Random, heaviest: f64) -> Self {
+        let mut device = Self::drawn(random, heaviest);
+        for passive in device.passive_mut().values_mut() {
+            *passive = Passive {
+                stiffness: random.within(0.0, 10.0),
+                rest: random.within(-1.0, 1.0),
+                viscous: random.within(0.0, 0.1),
+                coulomb: random.within(0.0, 1.0),
+                coulomb_rate: random.log_within(1e-3, 1.0),
+            };
+        }
+        device
+    }
+}
+
+fn link(
+    motion: Motion,
+    origin: Vector3<f64>,
+    mass: f64,
+    centre: Vector3<f64>,
+    i: Matrix3<f64>,
+) -> Link {
+    Link { motion, origin, mass, centre, inertia: i, round: false }
+}
+
+/// Turns about z, y, x.
+fn about(x: f64, y: f64, z: f64) -> Motion {
+    Motion::Turns(Vector3::new(x, y, z))
+}
+
+/// An imbalanced wheel, its centre of mass on its y axis.
+fn wheel(origin: Vector3<f64>, mass: f64, d: f64, inertia: Matrix3<f64>) -> Link {
+    link(about(1.0, 0.0, 0.0), origin, mass, Vector3::new(0.0, d, 0.0), inertia)
+}
+
+/// A wheel as it should be.
+fn round_wheel(origin: Vector3<f64>, mass: f64, j_11: f64, j_22: f64) -> Link {
+    let inertia = Matrix3::from_diagonal(&Vector3::new(j_11, j_22, j_22));
+    Link { round: true, ..wheel(origin, mass, 0.0, inertia) }
+}
+
+/// The other kinds share their fields with one that is drawn field by field.
+macro_rules! same_fields {
+    ($kind:ident of $larger:ident by $of:ident: $($field:ident)*) => {
+        /// The same parameters as another kind's.
+        pub(crate) fn $of(larger: &$larger) -> $kind {
+            let mut same = $kind { $($field: larger.$field,)* ..$kind::bare_wheel(1.0, larger.i_w_wc) };
+            copy(&mut same.passive, &larger.passive);
+            same
+        }
+
+        impl Drawn for $kind {
+            fn drawn(random: &mut Random, heaviest: f64) -> Self {
+                $of(&$larger::drawn(random, heaviest))
+            }
+
+            fn chain(&self) -> Chain {
+                let mut larger =
+                    $larger { $($field: self.$field,)* ..$larger::bare_wheel(1.0, self.i_w_wc) };
+                copy(&mut larger.passive, &self.passive);
+                larger.chain()
+            }
+        }
+    };
+}
+
+/// The balanced kinds take the axial and one transverse moment of the wheel.
+macro_rules! balanced {
+    ($kind:ident of $made:ident by $of:ident: $($field:ident)*) => {
+        /// What is left of a device whose wheel loses its imbalance.
+        pub(crate) fn $of(made: &$made) -> $kind {
+            let bare = $kind::bare_wheel(1.0, made.i_w_wc.m11, made.i_w_wc.m22);
+            let mut balanced = $kind { $($field: made.$field,)* ..bare };
+            copy(&mut balanced.passive, &made.passive);
+            balanced
+        }
+
+        impl Drawn for $kind {
+            fn drawn(random: &mut Random, heaviest: f64) -> Self {
+                $of(&$made::drawn(random, heaviest))
+            }
+
+            fn chain(&self) -> Chain {
+                let bare = $made::bare_wheel(1.0, Matrix3::identity());
+                let mut made = $made { $($field: self.$field,)* ..bare };
+                copy(&mut made.passive, &self.passive);
+                let mut chain = made.chain();
+                let last = chain.links.last_mut().expect("a wheel");
+                *last = round_wheel(last.origin, self.m_w, self.j_11, self.j_22);
+                chain
+            }
+        }
+    };
+}
+
+same_fields!(Sgcmg of Vscmg by sgcmg: mount r_g_b m_g r_gc_g i_g_gc l_g m_w d i_w_wc model);
+same_fields!(Dgcmg of Dgvscmg by dgcmg:
+    mount r_go_b m_go r_goc_go i_go_goc l_o m_gi r_gic_gi i_gi_gic l_i m_w d i_w_wc model);
+balanced!(BalancedReactionWheel of ReactionWheel by balanced_reaction_wheel: mount r_w_b m_w);
+balanced!(BalancedVscmg of Vscmg by balanced_vscmg: mount r_g_b m_g r_gc_g i_g_gc l_g m_w);
+balanced!(BalancedSgcmg of Sgcmg by balanced_sgcmg: mount r_g_b m_g r_gc_g i_g_gc l_g m_w);
+balanced!(BalancedDgvscmg of Dgvscmg by balanced_dgvscmg:
+    mount r_go_b m_go r_goc_go i_go_goc l_o m_gi r_gic_gi i_gi_gic l_i m_w);
+balanced!(BalancedDgcmg of Dgcmg by balanced_dgcmg:
+    mount r_go_b m_go r_goc_go i_go_goc l_o m_gi r_gic_gi i_gi_gic l_i m_w);
+
+/// Copies a value for each joint from one kind's structure to another's.
+pub(crate) fn copy(to: &mut impl Each<Passive>, from: &impl Each<Passive>) {
+    for (to, from) in to.values_mut().zip(from.values()) {
+        *to = from;
+    }
+}
+
+fn mount(random: &mut Random) -> Matrix3<f64> {
+    random.rotation().to_rotation_matrix().into_inner()
+}
+
+impl Drawn for ReactionWheel {
+    fn drawn(random: &mut Random, heaviest: f64) -> Self {
+        let m_w = random.log_within(0.1, heaviest);
+        let (i_w_wc, radius) = random.disc(m_w);
+        let d = random.log_within(1e-6, radius);
+        let (mount, r_w_b) = (mount(random), random.position());
+        Self { mount, r_w_b, d, ..Self::bare_wheel(m_w, i_w_wc) }
+    }
+
+    fn chain(&self) -> Chain {
+        let links = vec![wheel(Vector3::zeros(), self.m_w, self.d, self.i_w_wc)];
+        let passive = self.passive.values().collect();
+        Chain { mount: self.mount, position: self.r_w_b, links, passive }
+    }
+}
+
+impl Drawn for Vscmg {
+    fn drawn(random: &mut Random, heaviest: f64) -> Self {
+        let ReactionWheel { mount, r_w_b, m_w, d, i_w_wc, .. } =
+            ReactionWheel::drawn(random, heaviest);
+        let m_g = random.log_within(0.1, heaviest);
+        let (i_g_gc, r_gc_g, l_g) = (random.block(m_g), random.offset(), random.offset());
+        Self { mount, r_g_b: r_w_b, m_g, r_gc_g, i_g_gc, l_g, d, ..Self::bare_wheel(m_w, i_w_wc) }
+    }
+
+    fn chain(&self) -> Chain {
+        let z = about(0.0, 0.0, 1.0);
+        let gimbal = link(z, Vector3::zeros(), self.m_g, self.r_gc_g, self.i_g_gc);
+        let links = vec![gimbal, wheel(self.l_g, self.m_w, self.d, self.i_w_wc)];
+        let passive = self.passive.values().collect();
+        Chain { mount: self.mount, position: self.r_g_b, links, passive }
+    }
+}
+
+impl Drawn for Dgvscmg {
+    fn drawn(random: &mut Random, heaviest: f64) -> Self {
+        let Vscmg { mount, r_g_b, m_g, r_gc_g, i_g_gc, l_g, m_w, d, i_w_wc, .. } =
+            Vscmg::drawn(random, heaviest);
+        let m_gi = random.log_within(0.1, heaviest);
+        let (i_gi_gic, r_gic_gi, l_i) = (random.block(m_gi), random.offset(), random.offset());
+        let (m_go, r_goc_go, i_go_goc) = (m_g, r_gc_g, i_g_gc);
+        let bare = Self::bare_wheel(m_w, i_w_wc);
+        let outer = Self { mount, r_go_b: r_g_b, m_go, r_goc_go, i_go_goc, l_o: l_g, ..bare };
+        Self { m_gi, r_gic_gi, i_gi_gic, l_i, d, ..outer }
+    }
+
+    fn chain(&self) -> Chain {
+        let (y, z) = (about(0.0, 1.0, 0.0), about(0.0, 0.0, 1.0));
+        let links = vec![
+            link(z, Vector3::zeros(), self.m_go, self.r_goc_go, self.i_go_goc),
+            link(y, self.l_o, self.m_gi, self.r_gic_gi, self.i_gi_gic),
+            wheel(self.l_i, self.m_w, self.d, self.i_w_wc),
+        ];
+        let passive = self.passive.values().collect();
+        Chain { mount: self.mount, position: self.r_go_b, links, passive }
+    }
+}
+
+impl Drawn for HingedPanel {
+    fn drawn(random: &mut Random, heaviest: f64) -> Self {
+        let m_p = random.log_within(0.1, heaviest);
+        let bare = Self::bare_panel(m_p, random.block(m_p));
+        Self { mount: mount(random), r_p_b: random.position(), r_pc_p: random.offset(), ..bare }
+    }
+
+    fn chain(&self) -> Chain {
+        let z = about(0.0, 0.0, 1.0);
+        let links = vec![link(z, Vector3::zeros(), self.m_p, self.r_pc_p, self.i_p_pc)];
+        let passive = self.passive.values().collect();
+        Chain { mount: self.mount, position: self.r_p_b, links, passive }
+    }
+}
+
+impl Drawn for SloshMass {
+    fn drawn(random: &mut Random, heaviest: f64) -> Self {
+        let bare = Self::bare_slosh_mass(random.log_within(0.1, heaviest));
+        Self { mount: mount(random), r_s_b: random.position(), ..bare }
+    }
+
+    fn chain(&self) -> Chain {
+        let (x, o) = (Motion::Slides(Vector3::x()), Vector3::zeros());
+        let links = vec![link(x, o, self.m_s, o, Matrix3::zeros())];
+        let passive = self.passive.values().collect();
+        Chain { mount: self.mount, position: self.r_s_b, links, passive }
+    }
+}

@@ -1,0 +1,27 @@
+//! The solver in numbers. One program: its generic code, which is most of what the suites take to
+//! compile, is compiled once for all of them.
+
+mod accelerations;
+mod accuracy;
+mod conservation;
+mod engines;
+mod imbalance;
+mod input_parameters;
+mod input_states;
+mod invariants;
+mod kinds_and_modes;
+mod known_cases;
+mod lanes;
+mod ledger_and_loads;
+mod operations;
+mod parameterisations;
+mod power_balance;
+mod promises;
+mod reference;
+mod reference_runs;
+mod routes;
+mod sines;
+mod single_precision;
+mod table1;
+mod wheels;
+mod whole_turns;
