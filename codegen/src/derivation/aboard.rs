@@ -13,12 +13,13 @@ use super::Share;
 use super::base::{Based, based, origin_words};
 use super::carriers::{Carrying, carriers};
 use super::chain::{Chain, Coordinate, XYZ};
+use super::heading::Heading;
 use super::joint::AtJoint;
 use super::lump::Lump;
 use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
 use crate::graph::Expr;
-use crate::kinds::{Body, Motion, units};
+use crate::kinds::{Body, Link, Motion, units};
 use crate::space::{Carrier, Hub, Own, Symmetric, Vector};
 
 /// The share of a device, with its steps written to `script`: first moment and inertia of what
@@ -30,10 +31,8 @@ pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
     let axes = first_axes(chain, script);
     let omega = Vector::new(axes.map(|axis| axis.dot(chain.hub.omega)));
     let data = &chain.kind.links[0].body;
-    script.section(
-        "rate",
-        format!("ω_{{B/N}} expressed in the axes of the {}, eq. (D5), rad/s.", data.title),
-    );
+    let frame = format!("the axes of the {}", data.title);
+    script.section("rate", Heading::of("ω_{B/N}").equation("(D5)").axes(frame).unit("rad/s"));
     script.names(pairs(triple("omega_b_n", data.frame), omega.components()));
     let carriers = carriers(chain, &based, omega, script);
     let mut walk = Walk::new(chain);
@@ -52,11 +51,37 @@ fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub
     let along_b = |v: Vector<'g, Carrier>| chain.mounted(v);
     let axes = [X, Y, Z]
         .map(|axis| along_b(Vector::<Own>::unit(chain.graph, axis).turned(link.turn.inverse())));
-    script.section("axis", format!("Axes of the {}, eq. (D1), expressed in B, 1.", data.title));
+    let heading = Heading::of(format!("Axes of the {}", data.title));
+    script.section("axis", heading.equation("(D1)").axes("B").unit("1"));
     for (axis, letter) in axes.into_iter().zip(["x", "y", "z"]) {
         script.names(pairs(triple(&format!("e_{letter}"), "b"), axis.components()));
     }
     axes
+}
+
+/// What joints' rates require of the left side.
+const CORIOLIS: &str = "Coriolis and centrifugal terms of the left side, which";
+
+/// What the row of the first of these joints consists of, about or along an axis of `frame`.
+fn row_heading(behind: &[Link], frame: &str) -> Heading {
+    let (data, motion) = (&behind[0], behind[0].joint.motion);
+    let (about, what, unit) = match motion {
+        Motion::Turn(_) => ("about", "moment", units(behind, |units| units.moment)),
+        Motion::Slide(_) => ("along", "force", units(behind, |units| units.force)),
+    };
+    let axis = XYZ[motion.axis().cycle()[0]];
+    let heading =
+        Heading::of(format!("Joint row of the {} {about} {frame}{axis}", data.body.title));
+    let heading = heading.equation(data.body.equations.torque).equation("(D7), (D9)");
+    let heading =
+        heading.part("M_ij", unit).part("bias without the hub's part", motion.units().drive);
+    if behind.len() == 1 {
+        return heading;
+    }
+    heading.note(format!(
+        "which contains the {what} that the rates of the outboard joints require {about} the same \
+         axis"
+    ))
 }
 
 /// The composite of the joints processed so far, expressed in the current frame, about its origin.
@@ -134,16 +159,12 @@ impl<'g> Walk<'g> {
         let (link, behind) = (&chain.links[k], &chain.kind.links[k..]);
         let (data, axis) = (&behind[0], behind[0].joint.motion.axis());
         let (whole, frame) = (data.assembly.to_uppercase(), body.frame);
-        let origin = origin_words(chain, k);
-        script.section(
-            "lump",
-            format!(
-                "Outboard composite of the joint of the {}, {whole}, by base parameters, eq. (D6): \
-                 first moment, kg m, and inertia, kg m², about {origin}, expressed in the axes of \
-                 the {}.",
-                data.body.title, body.title,
-            ),
-        );
+        let (title, origin) = (data.body.title, origin_words(chain, k));
+        let axes = format!("the axes of the {}", body.title);
+        let what = format!("Outboard composite of the joint of the {title}, {whole}");
+        let heading = Heading::of(what + ", by base parameters").equation("(D6)").axes(&axes);
+        let heading = heading.part("first moment", "kg m").part("inertia", "kg m²");
+        script.section("lump", heading.about(&origin));
         let stem = format!("mr_behind_{}", data.assembly);
         script.names(pairs(triple(&stem, frame), lump.first_moment.components()));
         let stem = format!("i_behind_{}", data.assembly);
@@ -157,34 +178,8 @@ impl<'g> Walk<'g> {
             carrying: *carrying,
         };
         self.columns.insert(0, lump.moved(link.coordinate, Vector::unit(chain.graph, axis)));
-        let (about, what) = match data.joint.motion {
-            Motion::Turn(_) => ("about", "moment"),
-            Motion::Slide(_) => ("along", "force"),
-        };
         let tip = behind.len() == 1;
-        let contained = if tip {
-            String::new()
-        } else {
-            format!(
-                ", which contains the {what} that the rates of the outboard joints require {about} \
-                 the same axis"
-            )
-        };
-        script.section(
-            "row",
-            format!(
-                "Joint row of the {}, eqs. {}, (D7), (D9), {about} {frame}{}: M_ij, {}, and bias \
-                 without the hub's part, {}{contained}.",
-                data.body.title,
-                data.body.equations.torque,
-                XYZ[axis.cycle()[0]],
-                units(behind, |units| match data.joint.motion {
-                    Motion::Turn(_) => units.moment,
-                    Motion::Slide(_) => units.force,
-                }),
-                data.joint.motion.units().drive
-            ),
-        );
+        script.section("row", row_heading(behind, frame));
         let tags = behind.iter().map(|link| link.joint.tag);
         let row = tags.zip(&self.columns).map(|(tag, column)| {
             script.cut(format!("mass_{}{tag}", data.joint.tag), column.along(link))
@@ -194,17 +189,16 @@ impl<'g> Walk<'g> {
         script.name(format!("field_{}", data.joint.tag), asked);
         self.bias_joint.insert(0, asked);
 
+        let what = if tip {
+            format!("{CORIOLIS} the rate of the joint of the {title} requires")
+        } else {
+            format!(
+                "{CORIOLIS} the rates of the joint of the {title} and of those outboard of it require"
+            )
+        };
         script.section(
             "coriolis",
-            format!(
-                "Force, N, and moment about {origin}, N m, that the rate{} of the joint of the {} \
-                 {}: Coriolis and centrifugal terms of the left side, eq. (D8), expressed in the \
-                 axes of the {}.",
-                if tip { "" } else { "s" },
-                data.body.title,
-                if tip { "requires" } else { "and of those outboard of it require" },
-                body.title,
-            ),
+            Heading::of(what).equation("(D8)").axes(axes).wrench(["N", "N m"], &origin),
         );
         self.rates = self.rates.plus(at.of_rate());
         script.names(self.rates.named(&format!("rates_{}", data.joint.tag), frame));
@@ -219,10 +213,8 @@ impl<'g> Walk<'g> {
         script: &mut Script<'g>,
     ) -> Share<'g> {
         let reach = chain.mounted(based.links[0].origin);
-        script.section(
-            "place",
-            "Origin of the first joint from B, moved by (D3), eq. (D2), expressed in B, m.",
-        );
+        let what = "Origin of the first joint from B, moved by (D3)";
+        script.section("place", Heading::of(what).equation("(D2)").axes("B").unit("m"));
         let reach = named(script, "reach", reach);
         let along_b = |v: Vector<'g, Own>| {
             let [x, y, z] = v.components();
@@ -234,15 +226,10 @@ impl<'g> Walk<'g> {
         };
         let whole = chain.kind.links[0].assembly;
         let links = chain.kind.links;
-        script.section(
-            "col",
-            format!(
-                "M_vi, eqs. (17), (D7), and M_wi, eqs. (75), (D7): force, {}, and moment about B, \
-                 {}, per unit joint acceleration, expressed in B.",
-                units(links, |units| units.force),
-                units(links, |units| units.moment),
-            ),
-        );
+        let wrench = [units(links, |units| units.force), units(links, |units| units.moment)];
+        let heading = Heading::of("M_vi and M_wi").equation("(17), (75), (D7)").axes("B");
+        let heading = heading.wrench(wrench.each_ref().map(String::as_str), "B");
+        script.section("col", heading.note("per unit joint acceleration"));
         let mut force = Vec::new();
         let mut moment = Vec::new();
         let mut own_moment = Vector::zero(chain.graph);
@@ -255,14 +242,10 @@ impl<'g> Walk<'g> {
             force.push(f);
             moment.push(cut(script, &format!("n_{}", link.joint.tag), n + arm.cross(f)));
         }
-        script.section(
-            "moment",
-            format!(
-                "{} without its constant share of the hub, about B, expressed in B: first moment, \
-                 eqs. (9), (D6), kg m, and inertia, eqs. (76), (D6), kg m².",
-                whole.to_uppercase()
-            ),
-        );
+        let what = format!("{} without its constant share of the hub", whole.to_uppercase());
+        let heading = Heading::of(what).equation("(9), (76), (D6)").axes("B").about("B");
+        let heading = heading.part("first moment", "kg m").part("inertia", "kg m²");
+        script.section("moment", heading);
         let first = along_b(self.lump.first_moment);
         let inertia = self.inertia_along_b(chain, axes, own_moment);
         let lump = Lump { mass: self.lump.mass, first_moment: first, inertia }.shifted(reach);
@@ -272,30 +255,20 @@ impl<'g> Walk<'g> {
         let entries: Vec<_> = entries.map(|(name, entry)| script.cut(name, entry)).collect();
         let inertia = Symmetric::new(entries.try_into().expect("six entries"));
 
-        script.section(
-            "bias",
-            "Force, N, and moment about B, N m, that the joints' rates require: Coriolis and \
-             centrifugal terms of the left side of eqs. (16), (75), (D8), expressed in B.",
-        );
+        let heading = Heading::of(format!("{CORIOLIS} the joints' rates require"));
+        let heading = heading.equation("(16), (75), (D8)").axes("B").wrench(["N", "N m"], "B");
+        script.section("bias", heading);
         let (f, n, arm) = on_hub(&self.rates);
         let bias_force = cut(script, "f_rates", f);
         let bias_moment = cut(script, "n_rates", n + arm.cross(bias_force));
 
-        script.section(
-            "reach",
-            "Acceleration of the first joint's origin, moved by (D3), due to ω, eq. (D5), \
-             expressed in B, m/s².",
-        );
+        let what = "Acceleration of the first joint's origin, moved by (D3), due to ω";
+        script.section("reach", Heading::of(what).equation("(D5)").axes("B").unit("m/s²"));
         let carried = chain.hub.omega.cross(chain.hub.omega.cross(reach));
         let carried = named(script, "r_first_rest", carried);
-        script.section(
-            "bias",
-            format!(
-                "Bias of each joint row, with that acceleration of the first joint's origin, eq. \
-                 (D9), {}.",
-                units(links, |units| units.drive)
-            ),
-        );
+        let what = "Bias of each joint row, with that acceleration of the first joint's origin";
+        let unit = units(links, |units| units.drive);
+        script.section("bias", Heading::of(what).equation("(D9)").unit(&unit));
         let bias = self.bias_joint.iter().zip(&force).zip(links);
         let bias_joint = bias.map(|((asked, force), link)| {
             script.cut(format!("u_rest_{}", link.joint.tag), *asked + force.dot(carried))
@@ -345,11 +318,9 @@ impl<'g> Walk<'g> {
 pub fn constant_share<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     let Lump { first_moment, inertia, .. } = based(chain, script).constant_share;
     let mass = chain.links.iter().skip(1).fold(chain.links[0].mass, |sum, link| sum + link.mass);
-    script.section(
-        "share",
-        "Constant share of the hub, eq. (D4): mass, kg, first moment, kg m, and inertia about B, \
-         kg m², expressed in B.",
-    );
+    let heading = Heading::of("Constant share of the hub").equation("(D4)").axes("B").about("B");
+    let heading = heading.part("mass", "kg").part("first moment", "kg m").part("inertia", "kg m²");
+    script.section("share", heading);
     script.name("constant_m", mass);
     named(script, "constant_mr", chain.mounted(first_moment));
     script.names(pairs(sextuple("constant_i"), chain.mounted_tensor(inertia).entries()));

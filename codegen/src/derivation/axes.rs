@@ -1,6 +1,7 @@
 //! Outwards along the chain: origin of each joint and axes of its body, expressed in B.
 
 use super::chain::{Chain, Link, XYZ};
+use super::heading::Heading;
 use super::script::{Script, pairs, triple};
 use crate::space::{Axis, Carrier, Frame, Hub, Own, Vector};
 
@@ -13,18 +14,14 @@ pub fn axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         here = here.across(link);
         let (frame, title) = (data.body.frame, data.body.title);
         let letter = data.body.letters[0];
-        let whose = if link.turn.is_none() { "the parent body's axes" } else { "its own axes" };
-        script.section(
-            "axis",
-            format!("Of the {title}: {whose} expressed in the device's axes, eq. (D1)."),
-        );
+        let whose = if link.turn.is_none() { "parent body of the " } else { "" };
+        let heading = Heading::of(format!("Axes of the {whose}{title}")).equation("(D1)");
+        script.section("axis", heading.axes("the device's axes").unit("1"));
         for (column, axis) in here.columns.into_iter().zip(XYZ) {
             script.names(pairs(triple(&format!("{frame}_{axis}"), "b"), column.components()));
         }
-        script.section(
-            "pos",
-            format!("{letter} from B, eq. (D2), expressed in the device's axes, m."),
-        );
+        let heading = Heading::of(format!("{letter} from B")).equation("(D2)");
+        script.section("pos", heading.axes("the device's axes").unit("m"));
         script.names(pairs(triple(&format!("origin_{frame}"), "b"), here.origin.components()));
     }
 }

@@ -15,6 +15,7 @@
 //! moment that was added and subtracted again, `m l^2` of a long arm, cancels without rounding.
 
 use super::chain::{Chain, Coordinate};
+use super::heading::Heading;
 use super::lump::Lump;
 use super::script::{Script, pairs, sextuple, triple};
 use crate::graph::Expr;
@@ -109,14 +110,11 @@ impl<'g> Based<'g> {
 impl<'g> Base<'g> {
     fn name(&self, data: &Link, origin: &str, carrier: &str, script: &mut Script<'g>) {
         let (joint, body) = (&data.joint, &data.body);
-        script.section(
-            "base",
-            format!(
-                "Base inertial parameters of the {}, eqs. (D3), (D4): {origin} from the parent's \
-                 origin, m; first moment, kg m, and inertia, kg m², about it.",
-                body.title,
-            ),
-        );
+        let heading = Heading::of(format!("Base inertial parameters of the {}", body.title));
+        let heading =
+            heading.equation("(D3), (D4)").part(format!("{origin} from the parent's origin"), "m");
+        let heading = heading.part("first moment", "kg m").part("inertia", "kg m²").about("it");
+        script.section("base", heading);
         let tag = joint.tag;
         script.names(pairs(triple(&format!("arm_{tag}"), carrier), self.origin.components()));
         let names = triple(&format!("mr_{tag}_base"), body.frame);

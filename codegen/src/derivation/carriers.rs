@@ -6,6 +6,7 @@
 
 use super::base::{Based, origin_words};
 use super::chain::{Chain, Coordinate};
+use super::heading::Heading;
 use super::script::{Script, pairs, triple};
 use crate::graph::Expr;
 use crate::space::{Frame, Own, Vector};
@@ -65,22 +66,13 @@ pub(super) fn carriers<'g>(
         let [frame, letter] = [data.body.frame, data.body.letters[0]];
         let spin = link.spin();
         let omega = before.omega + spin;
-        script.section(
-            "rate",
-            format!(
-                "ω_{{{letter}/N}}, eq. {}, expressed in its own axes, rad/s.",
-                data.body.equations.omega
-            ),
-        );
+        let heading = Heading::of(format!("ω_{{{letter}/N}}")).equation(data.body.equations.omega);
+        script.section("rate", heading.axes("its own axes").unit("rad/s"));
         script.names(pairs(triple(&format!("omega_{frame}_n"), frame), omega.components()));
         let alpha = before.alpha + before.omega.cross(spin);
-        script.section(
-            "turn",
-            format!(
-                "Its derivative as in eq. {}, no joint accelerating, expressed in the same axes, rad/s².",
-                data.body.equations.h_dot
-            ),
-        );
+        let heading = Heading::of("Its derivative, no joint accelerating");
+        let heading = heading.cited("as in", data.body.equations.h_dot);
+        script.section("turn", heading.axes("the same axes").unit("rad/s²"));
         script.names(pairs(triple(&format!("alpha_{frame}"), frame), alpha.components()));
         // Coriolis: the body slides along one that turns.
         let origin = match link.coordinate {
@@ -94,14 +86,12 @@ pub(super) fn carriers<'g>(
         let place = next.origin.handed_back();
         let origin = origin + own.field(place);
         let (outer, body) = (&chain.kind.links[k].body, data.body.title);
-        script.section(
-            "path",
-            format!(
-                "Acceleration of {}, no joint accelerating, without that of B and the hub's part, \
-                 eq. (D5), expressed in the axes of the {body}, m/s².",
-                origin_words(chain, k),
-            ),
-        );
+        let heading = Heading::of(format!(
+            "Acceleration of {}, no joint accelerating, without that of B and the hub's part",
+            origin_words(chain, k),
+        ));
+        let axes = format!("the axes of the {body}");
+        script.section("path", heading.equation("(D5)").axes(axes).unit("m/s²"));
         script
             .names(pairs(triple(&format!("r_{}_rest", outer.origin), frame), origin.components()));
         let carrying = Carrying { origin, ..own };

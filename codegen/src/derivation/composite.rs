@@ -4,6 +4,7 @@
 //! far from B does not lose digits beside the inertia of its lever arm.
 
 use super::chain::{Chain, Link};
+use super::heading::Heading;
 use super::lump::Lump;
 use super::motion::{Motion, Observer, motions};
 use super::script::{Script, pairs, triple};
@@ -70,29 +71,18 @@ fn outwards<'g>(
         let (frame, letter, equation) = (body.frame, body.letters[0], body.equations.omega);
         let stem = format!("{frame}_{}", seen_from.to_lowercase());
         let axes = if link.turn.is_none() { "the parent body's axes" } else { "its own axes" };
-        script.section(
-            "rate",
-            format!("ω_{{{letter}/{seen_from}}}, eq. {equation}, expressed in {axes}, rad/s."),
-        );
+        let heading = Heading::of(format!("ω_{{{letter}/{seen_from}}}")).equation(equation);
+        script.section("rate", heading.axes(axes).unit("rad/s"));
         script.names(pairs(triple(&format!("omega_{stem}"), frame), motion.omega.components()));
-        script.section(
-            "turn",
-            format!(
-                "Its derivative {}as in eq. {}, no joint accelerating, expressed in the same axes, rad/s².",
-                if link.turn.is_none() { "by components " } else { "" },
-                body.equations.h_dot
-            ),
-        );
+        let by = if link.turn.is_none() { " by components" } else { "" };
+        let heading = Heading::of(format!("Its derivative{by}, no joint accelerating"));
+        let heading = heading.cited("as in", body.equations.h_dot);
+        script.section("turn", heading.axes("the same axes").unit("rad/s²"));
         let rest = motion.omega.component_rates().without(Stage::Acceleration);
         script.names(pairs(triple(&format!("omega_{stem}_rest"), frame), rest.components()));
-        script.section(
-            "path",
-            format!(
-                "Acceleration of {letter} relative to B as in eq. {}, no joint accelerating, same \
-                 axes, m/s².",
-                body.equations.r_ddot
-            ),
-        );
+        let what = format!("Acceleration of {letter} relative to B, no joint accelerating");
+        let heading = Heading::of(what).cited("as in", body.equations.r_ddot);
+        script.section("path", heading.axes("the same axes").unit("m/s²"));
         let origin = origin_acceleration(link, motion);
         script.names(pairs(triple(&format!("r_{}_rest", body.origin), frame), origin.components()));
     }
@@ -111,39 +101,24 @@ fn describe<'g>(
     let (frame, whole) = (data.body.frame, data.assembly.to_uppercase());
     let (title, letter, equations) = (data.body.title, data.body.letters[0], &data.body.equations);
     lump.name(data, script);
-    script.section(
-        "bias",
-        format!(
-            "{whole} with no joint accelerating, eq. {}: force, N, and moment about {letter}, N m.",
-            equations.about_origin
-        ),
-    );
+    let heading = Heading::of(format!("{whole} with no joint accelerating"));
+    script.section("bias", heading.equation(equations.about_origin).wrench(["N", "N m"], letter));
     script.names(bias.named("rest", frame));
-    script.section(
-        "col",
-        format!(
-            "Force, {}, and moment about {letter}, {}, per unit acceleration of each joint from \
-             here on, eqs. (17), {}.",
-            units(behind, |units| units.force),
-            units(behind, |units| units.moment),
-            equations.about_origin
-        ),
-    );
+    let wrench = [units(behind, |units| units.force), units(behind, |units| units.moment)];
+    let heading = Heading::of(format!("{whole} per unit acceleration of each joint from here on"));
+    let heading = heading.equation("(17)").equation(equations.about_origin);
+    script.section("col", heading.wrench(wrench.each_ref().map(String::as_str), letter));
     for (tag, column) in behind.iter().map(|link| link.joint.tag).zip(columns) {
         script.names(column.named(tag, frame));
     }
-    script.section(
-        "row",
-        format!(
-            "Row of the {title}'s joint, eq. {}, along its axis: M_ij, {}, and bias, {}.",
-            equations.torque,
-            units(behind, |units| match data.joint.motion {
-                kinds::Motion::Turn(_) => units.moment,
-                kinds::Motion::Slide(_) => units.force,
-            }),
-            data.joint.motion.units().drive
-        ),
-    );
+    let [force, moment] = wrench;
+    let unit = match data.joint.motion {
+        kinds::Motion::Turn(_) => moment,
+        kinds::Motion::Slide(_) => force,
+    };
+    let heading = Heading::of(format!("Row of the {title}'s joint, along its axis"));
+    let heading = heading.equation(equations.torque).part("M_ij", unit);
+    script.section("row", heading.part("bias", data.joint.motion.units().drive));
 }
 
 /// What one body requires while no joint accelerates.
@@ -197,13 +172,10 @@ pub fn momenta<'g>(
             force: body.mass * p_dot + omega.cross(body.first_moment),
             moment: body.first_moment.cross(p_dot) + body.inertia.times(omega),
         };
-        script.section(
-            "mom",
-            format!(
-                "The {}: momentum, kg m/s; its moment as in eq. {}, but about {letter}, kg m²/s.",
-                data.body.title, data.body.equations.h
-            ),
-        );
+        let heading = Heading::of(format!("Momentum of the {}", data.body.title));
+        let heading = heading.cited("its moment as in", data.body.equations.h);
+        let heading = heading.part("momentum", "kg m/s").part("moment", "kg m²/s").about(letter);
+        script.section("mom", heading);
         script.names(pairs(triple(&format!("p_{frame}"), frame), own.force.components()));
         script.names(pairs(triple(&format!("h_{frame}"), frame), own.moment.components()));
         twice_energy = twice_energy + (p_dot.dot(own.force) + omega.dot(own.moment));

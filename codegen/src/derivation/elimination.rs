@@ -12,6 +12,7 @@
 
 use super::Share;
 use super::chain::{Chain, Mode};
+use super::heading::Heading;
 use super::script::Script;
 use crate::graph::Expr;
 use crate::kinds::units;
@@ -19,6 +20,17 @@ use crate::space::Vector;
 
 /// Suffixes of the six hub unknowns: acceleration of B, angular acceleration.
 pub const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
+
+/// What the sections of the elimination begin with.
+const RIGHT_SIDE: &str = "Right side of each joint row";
+
+/// Whether a section is of the elimination, or of the back substitution that follows it.
+#[must_use]
+pub fn is_of_elimination(heading: &Heading) -> bool {
+    let ours = ["(D10)", "(D11)", "(D12)", "(D13)"];
+    let cited = heading.equations().iter().any(|equation| ours.contains(&equation.as_str()));
+    cited || heading.label().starts_with(RIGHT_SIDE)
+}
 
 /// A name and its value.
 pub type Entry<'g> = (String, Expr<'g>);
@@ -69,11 +81,8 @@ pub fn eliminate<'g>(
     while let Some(row) = rows.pop() {
         let pivot = gains(&row, &rows, diagonals[rows.len()].clone(), script);
         done.push_str(pivot.tag);
-        let title = format!(
-            "Joint {} eliminated from the rows of the inboard joints, eq. (D11).",
-            pivot.tag
-        );
-        script.section("rest", title);
+        let what = format!("Joint {} eliminated from the rows of the inboard joints", pivot.tag);
+        script.section("rest", Heading::of(what).equation("(D11)"));
         for (l, inner) in rows.iter_mut().enumerate() {
             let (gain, coupling) = (pivot.gains[HUB.len() + l].1, pivot.couplings[HUB.len() + l]);
             let own = (&mut inner.diagonal, gain * coupling);
@@ -95,13 +104,9 @@ pub fn eliminate<'g>(
 fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Vec<Row<'g>> {
     let kind = chain.kind;
     let equations: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
-    let title = format!(
-        "Right side of each joint row, {} {}: motor torque less bias, {}.",
-        if equations.len() == 1 { "eq." } else { "eqs." },
-        equations.join(", "),
-        units(kind.driven(), |units| units.drive)
-    );
-    script.section("tau", title);
+    let heading = Heading::of(RIGHT_SIDE).equation(&equations.join(", "));
+    let unit = units(kind.driven(), |units| units.drive);
+    script.section("tau", heading.part("motor torque less bias", unit));
     let tag = |k: usize| kind.links[k].joint.tag;
     let modes = chain.links.iter().enumerate().filter_map(|(k, link)| Some((k, link.mode?)));
     let modes: Vec<_> = modes.collect();
@@ -143,7 +148,8 @@ fn gains<'g>(
         }
         _ => row.diagonal.clone(),
     };
-    script.section("gain", format!("Joint {tag}, eq. (D10): its pivot, {}, and gains.", row.unit));
+    let heading = Heading::of(format!("Joint {tag}")).equation("(D10)").part("its pivot", row.unit);
+    script.section("gain", heading.part("gains", ""));
     let Mode { driven, held, given } = row.mode;
     let divisor = script.cut(format!("divisor_{tag}"), pivot.1 + held);
     let recip = driven * divisor.recip();
@@ -169,10 +175,8 @@ fn gains<'g>(
 /// What the joints subtract from the hub's block and from its right side.
 fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
     for (block, rows, columns) in [("vv", 0..3, 0..3), ("vw", 0..3, 3..6), ("ww", 3..6, 3..6)] {
-        script.section(
-            "hub",
-            format!("Subtracted from the hub's mass matrix, eq. (D12): M_{block}."),
-        );
+        let heading = Heading::of("Subtracted from the hub's mass matrix").equation("(D12)");
+        script.section("hub", heading.part(format!("M_{block}"), ""));
         for (row, column) in rows.flat_map(|row| columns.clone().map(move |column| (row, column))) {
             if column >= row {
                 let taken = |pivot: &Pivot<'g>| pivot.gains[row].1 * pivot.couplings[column];
@@ -181,9 +185,8 @@ fn hub<'g>(share: &Share<'g>, made: &Eliminated<'g>, script: &mut Script<'g>) {
             }
         }
     }
-    let title =
-        "Subtracted from the hub's right side, eq. (D12): force, N, and moment about B, N m.";
-    script.section("hub", title);
+    let heading = Heading::of("Subtracted from the hub's right side").equation("(D12)");
+    script.section("hub", heading.wrench(["N", "N m"], "B"));
     let rest = [share.bias_force, share.bias_moment].map(Vector::components).concat();
     for (row, rest) in rest.into_iter().enumerate() {
         let name = format!("h_{}_{}", ["v", "w"][row / 3], row % 3 + 1);

@@ -1,6 +1,7 @@
 //! Applied wrenches on the bodies, summed inwards at the joints and on the hub.
 
 use super::chain::Chain;
+use super::heading::Heading;
 use super::script::Script;
 use super::wrench::Wrench;
 use crate::graph::Stage;
@@ -14,20 +15,14 @@ pub fn external<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     let links = chain.links.iter().zip(chain.kind.links);
     for ((link, data), own) in links.zip(acting(chain)).rev() {
         sum = sum.plus(own);
-        let whole = data.assembly.to_uppercase();
-        let body = &data.body;
-        script.section(
-            "sum",
-            format!(
-                "On {whole}, the {} and the bodies outboard of it, eqs. (D14), (D15): force, N, and \
-                 moment about {}, N m.",
-                body.title, body.letters[0],
-            ),
-        );
+        let (whole, body) = (data.assembly.to_uppercase(), &data.body);
+        let what = format!("On {whole}, the {} and the bodies outboard of it", body.title);
+        let heading = Heading::of(what).equation("(D14), (D15)");
+        script.section("sum", heading.wrench(["N", "N m"], body.letters[0]));
         script.names(sum.named("sum", body.frame));
         sum = sum.carried(link);
     }
-    script.section("sum", "On the hub, eq. (D14): force, N, and moment about B, N m.");
+    script.section("sum", Heading::of("On the hub").equation("(D14)").wrench(["N", "N m"], "B"));
     script.names(sum.named("sum", "b"));
 }
 

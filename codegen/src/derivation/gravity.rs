@@ -5,6 +5,7 @@
 //! second moment only up to a multiple of the unit tensor. G need not be free of a trace.
 
 use super::chain::{Chain, Link};
+use super::heading::Heading;
 use super::lump::Lump;
 use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
@@ -20,21 +21,15 @@ pub fn gravity<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         let (frame, origin) = (data.body.frame, data.body.origin);
         let (title, letter) = (data.body.title, data.body.letters[0]);
         let own = here.across(link);
-        script.section(
-            "field",
-            format!("G, as in eq. (D16), expressed in the axes of the {title}, 1/s²."),
-        );
+        let heading = Heading::of("G").cited("as in", "(D16)");
+        script.section("field", heading.axes(format!("the axes of the {title}")).unit("1/s²"));
         script.names(pairs(sextuple(&format!("g_{frame}")), own.gradient.entries()));
-        script.section(
-            "field",
-            format!("G r at {letter}, eq. (D16), expressed in the same axes, m/s²."),
-        );
+        let heading = Heading::of(format!("G r at {letter}")).equation("(D16)");
+        script.section("field", heading.axes("the same axes").unit("m/s²"));
         script.names(pairs(triple(&format!("g_r_{origin}"), frame), own.origin.components()));
         let body = Lump::of(link, data, script);
-        script.section(
-            "pull",
-            format!("On the {title} only, eq. (D17): force, N, and moment about {letter}, N m."),
-        );
+        let heading = Heading::of(format!("On the {title} only")).equation("(D17)");
+        script.section("pull", heading.wrench(["N", "N m"], letter));
         script.names(own.on(&body).named("on", frame));
         bodies.push(body);
         here = own.handed_on();
@@ -46,10 +41,8 @@ pub fn gravity<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
         lump = lump.carried(link);
     }
     let second_moment = lump.inertia.second_moment();
-    script.section(
-        "axis",
-        "S = ∫ r rᵀ dm of the device about B, expressed in the device's axes, eq. (D18), kg m².",
-    );
+    let heading = Heading::of("S = ∫ r rᵀ dm of the device about B").equation("(D18)");
+    script.section("axis", heading.axes("the device's axes").unit("kg m²"));
     script.names(pairs(sextuple("second_moment"), second_moment.entries()));
 }
 

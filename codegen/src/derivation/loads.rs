@@ -6,6 +6,7 @@
 
 use super::chain::Chain;
 use super::composite::asked_of;
+use super::heading::Heading;
 use super::lump::Lump;
 use super::motion::{Motion, Observer, motions};
 use super::script::{Script, pairs, triple};
@@ -19,24 +20,15 @@ pub fn loads<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     for ((link, data), motion) in chain.links.iter().zip(chain.kind.links).zip(&motions).rev() {
         let body = Lump::of(link, data, script);
         wrench = wrench.plus(asked_of(link, motion, &body));
-        script.section(
-            "load",
-            format!(
-                "On {}, the {} and the bodies outboard of it, at its joint, eq. {}: force, N, and moment \
-                 about {}, N m.",
-                data.assembly.to_uppercase(),
-                data.body.title,
-                data.body.equations.across,
-                data.body.letters[0],
-            ),
-        );
+        let (whole, body) = (data.assembly.to_uppercase(), &data.body);
+        let what = format!("On {whole}, the {} and the bodies outboard of it", body.title);
+        let heading = Heading::of(what + ", at its joint").equation(body.equations.across);
+        script.section("load", heading.wrench(["N", "N m"], body.letters[0]));
         script.names(wrench.named("load", data.body.frame));
         wrench = wrench.carried(link);
     }
-    script.section(
-        "load",
-        "On the whole device, eqs. (16), (75): force, N, and moment about B, N m.",
-    );
+    let heading = Heading::of("On the whole device").equation("(16), (75)");
+    script.section("load", heading.wrench(["N", "N m"], "B"));
     script.names(wrench.named("load", "b"));
 }
 
@@ -47,28 +39,17 @@ fn outwards<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Vec<Motion<'g>> {
         let (body, equations) = (&data.body, &data.body.equations);
         let (frame, [letter, _]) = (body.frame, body.letters);
         let axes = if link.turn.is_none() { "the parent body's axes" } else { "its own axes" };
-        script.section(
-            "rate",
-            format!("ω_{{{letter}/N}}, eq. {}, expressed in {axes}, rad/s.", equations.omega),
-        );
+        let heading = Heading::of(format!("ω_{{{letter}/N}}")).equation(equations.omega);
+        script.section("rate", heading.axes(axes).unit("rad/s"));
         let stem = format!("omega_{frame}_n");
         script.names(pairs(triple(&stem, frame), motion.omega.components()));
-        script.section(
-            "turn",
-            format!(
-                "Its derivative by components, as in eq. {}, expressed in the same axes, rad/s².",
-                equations.h_dot
-            ),
-        );
+        let heading = Heading::of("Its derivative by components").cited("as in", equations.h_dot);
+        script.section("turn", heading.axes("the same axes").unit("rad/s²"));
         let rates = motion.omega.component_rates();
         script.names(pairs(triple(&format!("{stem}_dot"), frame), rates.components()));
-        script.section(
-            "path",
-            format!(
-                "Inertial acceleration of {letter} as in eq. {}, same axes, m/s².",
-                equations.r_ddot
-            ),
-        );
+        let heading = Heading::of(format!("Inertial acceleration of {letter}"));
+        let heading = heading.cited("as in", equations.r_ddot).axes("the same axes");
+        script.section("path", heading.unit("m/s²"));
         let origin = motion.origin.acceleration.turned(link.turn);
         let stem = format!("r_{}_n_ddot", body.origin);
         script.names(pairs(triple(&stem, frame), origin.components()));

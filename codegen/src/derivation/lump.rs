@@ -1,6 +1,7 @@
 //! Mass, first moment and inertia of one body or of several, moved from origin to origin.
 
 use super::chain::{Coordinate, Link};
+use super::heading::Heading;
 use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
 use crate::graph::{Expr, Graph};
@@ -80,14 +81,9 @@ impl<'g> Lump<'g> {
             first_moment: link.mass * link.centre,
             inertia: link.inertia + link.mass * Symmetric::tilde_squared(link.centre),
         };
-        script.section(
-            "own",
-            format!(
-                "The {} about its origin, inertia as in eq. {}: first moment, kg m, and inertia, \
-                 kg m².",
-                body.title, body.equations.i_b
-            ),
-        );
+        let heading = Heading::of(format!("The {} about its origin", body.title));
+        let heading = heading.cited("inertia as in", body.equations.i_b);
+        script.section("own", heading.part("first moment", "kg m").part("inertia", "kg m²"));
         let names = triple(&format!("mr_{}_{origin}", body.point), body.frame);
         script.names(pairs(names, made.first_moment.components()));
         script
@@ -119,16 +115,11 @@ impl<'g> Lump<'g> {
     pub(super) fn name(&self, data: &kinds::Link, script: &mut Script<'g>) {
         let (body, assembly) = (&data.body, data.assembly);
         let (origin, letter) = (body.origin, body.letters[0]);
-        script.section(
-            "lump",
-            format!(
-                "{}, the {} and the bodies outboard of it, eq. {}: mass, kg; first moment, kg m, and \
-                 inertia, kg m², about {letter}.",
-                assembly.to_uppercase(),
-                body.title,
-                body.equations.assembly
-            ),
-        );
+        let whole = assembly.to_uppercase();
+        let heading =
+            Heading::of(format!("{whole}, the {} and the bodies outboard of it", body.title));
+        let heading = heading.equation(body.equations.assembly).part("mass", "kg").about(letter);
+        script.section("lump", heading.part("first moment", "kg m").part("inertia", "kg m²"));
         script.name(format!("m_{assembly}"), self.mass);
         let names = triple(&format!("mr_{assembly}_{origin}"), body.frame);
         script.names(pairs(names, self.first_moment.components()));

@@ -18,7 +18,7 @@
 //!   of the bodies, loads across their joints, sums of applied wrenches, wrenches of a field;
 //! - `lump`, [`wrench`], [`placed`]: mass, first moment and inertia of bodies; force and moment; a
 //!   vector or tensor with the frame it is expressed in;
-//! - [`script`]: the named steps of the recursions.
+//! - [`script`]: the named steps of the recursions; [`heading`]: what they compute, as data.
 
 pub mod aboard;
 mod angular;
@@ -32,6 +32,7 @@ pub mod composite;
 pub mod elimination;
 pub mod external;
 pub mod gravity;
+pub mod heading;
 mod joint;
 pub mod loads;
 mod lump;

@@ -4,6 +4,7 @@
 //! A *cut* value becomes a symbol for all that follows: the proof shows once what it stands for.
 
 use super::chain::XYZ;
+use super::heading::Heading;
 use crate::graph::{Expr, Graph, Node};
 use crate::space::ENTRIES;
 
@@ -21,8 +22,8 @@ pub struct Statement<'g> {
 /// Statements under one heading.
 #[derive(Clone, Debug)]
 pub struct Section<'g> {
-    /// A comment of one or more lines: quantity, equation, frame, unit.
-    pub title: String,
+    /// What they compute.
+    pub heading: Heading,
     /// Prefix of the numbered temporaries.
     pub prefix: String,
     /// In order.
@@ -44,14 +45,9 @@ impl<'g> Script<'g> {
     }
 
     /// Opens a section; its temporaries are called `prefix_0`, `prefix_1`.
-    ///
-    /// The title is emitted as a heading, and read again: `listing::cited` of the review crate
-    /// takes the equations between `eq. ` or `eqs. ` and the next `:`, `of_elimination` of
-    /// `proof/kernel_pages.rs` finds the sections of the elimination, and the documentation of a
-    /// constant repeats it up to the first `: `.
-    pub fn section(&mut self, prefix: &str, title: impl Into<String>) {
-        let (title, prefix) = (title.into(), prefix.to_owned());
-        self.sections.push(Section { title, prefix, statements: Vec::new() });
+    pub fn section(&mut self, prefix: &str, heading: Heading) {
+        let prefix = prefix.to_owned();
+        self.sections.push(Section { heading, prefix, statements: Vec::new() });
     }
 
     /// Names a value.

@@ -154,7 +154,7 @@ impl<'a, 'g> Writer<'a, 'g> {
             }
             let statements = std::mem::take(&mut self.statements);
             if !statements.is_empty() {
-                written.push((section.title.clone(), statements));
+                written.push((section.heading.to_string(), statements));
             }
         }
         for constant in constants {

@@ -112,12 +112,13 @@ fn statements<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = &'s S
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::derivation::heading::Heading;
     use crate::derivation::script::Script;
 
     /// What is left of a function that returns these values, and what it cost and costs.
     fn costs<'g>(values: &[(&str, Expr<'g>)], graph: &'g Graph) -> (Vec<Expr<'g>>, [usize; 2]) {
         let mut script = Script::new(graph);
-        script.section("t", "Test, eq. (1).");
+        script.section("t", Heading::of("Test").equation("(1)"));
         script.names(values.iter().map(|(name, value)| ((*name).to_owned(), *value)));
         let outputs: Vec<_> = values.iter().map(|(name, _)| (*name).to_owned()).collect();
         let count = |sections| Function::new(graph, sections, &outputs, true).operations();

@@ -228,8 +228,7 @@ pub(super) fn symmetric(kind: &Kind) -> Vec<String> {
 }
 
 /// Documents a constant by the formula that computes it, its unit and, where it has a name of its
-/// own, the section that states it, up to the first `: ` of its heading. The formulas are those of
-/// the emitted `lines`.
+/// own, what the section computes that states it. The formulas are those of the emitted `lines`.
 pub(super) fn describe(
     record: &mut Record,
     lines: impl Iterator<Item = String>,
@@ -247,10 +246,9 @@ pub(super) fn describe(
         let stated = stated.get(&field.name);
         let unit = stated.and_then(|stated| stated.unit);
         let unit = unit.map_or_else(String::new, |unit| format!(", {unit}"));
-        let title =
-            stated.filter(|_| !numbered(&field.name)).map_or("", |stated| stated.title.as_str());
-        let (title, end) = title.split_once(": ").map_or((title, ""), |(title, _)| (title, "."));
-        format!("`{formula}`{unit}. {title}{end}").trim_end().clone_into(&mut field.doc);
+        let stated = stated.filter(|_| !numbered(&field.name));
+        let stated = stated.map_or_else(String::new, |stated| format!(" {}.", stated.label));
+        field.doc = format!("`{formula}`{unit}.{stated}");
     }
 }
 

@@ -1,4 +1,4 @@
-//! What an emitted file is made from: the hash in its header, and title and unit of each constant.
+//! What an emitted file is made from: the hash in its header, and label and unit of each constant.
 //!
 //! Invariant: the hash changes with the kind's data, with any statement of the derivation (section,
 //! name, expression), and with the template.
@@ -14,8 +14,8 @@ use crate::unit::{Balance, Unit, unit_of};
 
 /// Section and unit of a named constant.
 pub(super) struct Stated {
-    /// Title of the section that states it.
-    pub(super) title: String,
+    /// Quantity, equations and axes of the section that states it.
+    pub(super) label: String,
     /// Its unit; none where a symbol in it has no known unit.
     pub(super) unit: Option<Unit>,
 }
@@ -32,8 +32,8 @@ pub(super) fn stated(sections: &[Section<'_>]) -> HashMap<String, Stated> {
             if let Some(unit) = unit {
                 known.insert(statement.name.clone(), unit);
             }
-            let title = section.title.clone();
-            stated.entry(statement.name.clone()).or_insert(Stated { title, unit });
+            let label = section.heading.label();
+            stated.entry(statement.name.clone()).or_insert(Stated { label, unit });
         }
     }
     stated
@@ -44,7 +44,7 @@ pub(super) fn derived(graph: &Graph, kind: &Kind, functions: &Functions<'_>) -> 
     let (mut texts, mut digests) = (vec![format!("{kind:?}")], HashMap::new());
     let sections = functions.kernels.iter().flat_map(|kernel| &kernel.sections);
     for section in functions.prepared.sections.iter().chain(sections) {
-        texts.push(section.title.clone());
+        texts.push(section.heading.to_string());
         for statement in &section.statements {
             let value = digest(graph, statement.value, &mut digests);
             texts.push(format!("{} = {value};", statement.name));

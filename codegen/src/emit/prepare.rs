@@ -4,6 +4,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
+use crate::derivation::heading::Heading;
 use crate::derivation::script::{Section, Statement};
 use crate::graph::{Expr, Graph, Node, NodeId, Stage};
 use crate::kernel::{Field, Kernel, Record, Source};
@@ -257,7 +258,7 @@ fn sections<'g>(
         Statement { name, value, cut: None }
     };
     let statements = rest.into_iter().map(statement).collect();
-    let title = "Products and sums of parameters that occur more deeply.".to_owned();
-    made.push(Section { title, prefix: "prep".to_owned(), statements });
+    let heading = Heading::of("Products and sums of parameters that occur more deeply");
+    made.push(Section { heading, prefix: "prep".to_owned(), statements });
     made
 }

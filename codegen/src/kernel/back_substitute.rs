@@ -3,6 +3,7 @@
 use super::{Kernel, Record, records};
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::{Eliminated, HUB};
+use crate::derivation::heading::Heading;
 use crate::derivation::script::Script;
 use crate::graph::{Expr, Stage};
 
@@ -23,8 +24,8 @@ pub(super) fn kernel<'g>(
         hub.map(|name| graph.symbol(name, Stage::Acceleration)).collect();
     let given = |name: &str| graph.symbol(name, Stage::Rate);
     let mut script = Script::new(graph);
-    let title = "Row by row, outboard, eq. (D13): the free acceleration less the gains.";
-    script.section("row", title);
+    let heading = Heading::of("Row by row, outboard").equation("(D13)");
+    script.section("row", heading.part("the free acceleration less the gains", ""));
     for link in chain.kind.links {
         let (tag, name) = (link.joint.tag, link.joint.acceleration);
         let Some(pivot) = eliminated.pivots.iter().find(|pivot| pivot.tag == tag) else {

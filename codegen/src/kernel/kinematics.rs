@@ -8,6 +8,7 @@ use super::{Claim, Kernel, Record, inputs};
 use crate::derivation::by_body::{BodyInHub, bodies};
 use crate::derivation::chain::Chain;
 use crate::derivation::composite;
+use crate::derivation::heading::Heading;
 use crate::derivation::motion::{Motion, Observer, motions};
 use crate::derivation::placed::Placed;
 use crate::derivation::script::{Script, pairs, sextuple, triple};
@@ -46,30 +47,32 @@ impl<'g> Builder<'g> {
     /// A vector: section, statements, fields, and what its components must be equal to.
     fn vector<F: Frame>(
         &mut self,
-        [prefix, tag, stem, frame, title, unit]: [&str; 6],
+        [prefix, tag, stem, frame, unit]: [&str; 5],
+        heading: Heading,
         v: Vector<'g, F>,
         reference: [Expr<'g>; 3],
     ) {
         let names = triple(stem, frame);
         if !v.components().into_iter().all(Expr::is_zero) {
-            self.script.section(prefix, format!("{title}, {unit}."));
+            self.record.vector(stem, frame, &heading.label(), unit);
+            self.script.section(prefix, heading.unit(unit));
             self.script.names(pairs(names.clone(), v.components()));
-            self.record.vector(stem, frame, title, unit);
         }
         self.claim(tag, stem, pairs(names, reference).collect());
     }
 
     fn tensor<F: Frame>(
         &mut self,
-        [prefix, tag, stem, title, unit]: [&str; 5],
+        [prefix, tag, stem, unit]: [&str; 4],
+        heading: Heading,
         t: Symmetric<'g, F>,
         reference: [Expr<'g>; 6],
     ) {
         let names = sextuple(stem);
         if !t.entries().into_iter().all(Expr::is_zero) {
-            self.script.section(prefix, format!("{title}, {unit}."));
+            self.record.tensor(stem, &heading.label(), unit);
+            self.script.section(prefix, heading.unit(unit));
             self.script.names(pairs(names.clone(), t.entries()));
-            self.record.tensor(stem, title, unit);
         }
         self.claim(tag, stem, pairs(names, reference).collect());
     }
@@ -107,65 +110,64 @@ fn body<'g>(
 
     let equations = &data.equations;
     let stem = format!("omega_{own}_b");
-    let title = format!("ω_{{{body_letter}/B}}, eq. {}", equations.omega);
+    let heading = Heading::of(format!("ω_{{{body_letter}/B}}")).equation(equations.omega);
     let omega = vector(reference.omega_b, k + 1).components();
-    b.vector(["rate", equations.omega, &stem, own, &title, "rad/s"], motion.omega, omega);
+    b.vector(["rate", equations.omega, &stem, own, "rad/s"], heading, motion.omega, omega);
 
     arm(&mut b.script, chain, k, motion);
     let r = format!("r_{point}_b");
-    let title = format!("r_{{{point_letter}/B}}, see eq. {}", equations.r_dprime);
+    let tag = equations.r_dprime;
+    let heading = Heading::of(format!("r_{{{point_letter}/B}}")).cited("see", tag);
     let whole = vector(reference.r, k).components();
-    b.vector(["pos", "(step)", &r, carrier, &title, "m"], motion.centre.position, whole);
+    b.vector(["pos", "(step)", &r, carrier, "m"], heading, motion.centre.position, whole);
     let prime = format!("{r}_prime");
-    let title = format!("r′_{{{point_letter}/B}}, see eq. {}", equations.r_dprime);
+    let heading = Heading::of(format!("r′_{{{point_letter}/B}}")).cited("see", tag);
     let whole = vector(r_prime, k).components();
-    b.vector(["vel", "(step)", &prime, carrier, &title, "m/s"], motion.centre.velocity, whole);
+    b.vector(["vel", "(step)", &prime, carrier, "m/s"], heading, motion.centre.velocity, whole);
 
     let whole = vector(r_prime.component_rates(), k);
     let acceleration = motion.centre.acceleration;
-    let tag = equations.r_dprime;
     for (joint, data) in chain.links.iter().zip(chain.kind.links).take(k + 1) {
         let stem = format!("{r}_dprime_{}", data.joint.tag);
         let symbol = data.joint.symbols[1];
-        let title = format!("r″_{{{point_letter}/B}}, eq. {tag}, per {symbol}");
+        let heading = Heading::of(format!("r″_{{{point_letter}/B}} per {symbol}")).equation(tag);
         let unit = match data.joint.motion {
             kinds::Motion::Turn(_) => "m",
             kinds::Motion::Slide(_) => "1",
         };
         let q_ddot = joint.acceleration;
         let per_joint = whole.partial(q_ddot).components();
-        b.vector(
-            ["col", tag, &stem, carrier, &title, unit],
-            acceleration.partial(q_ddot),
-            per_joint,
-        );
+        let names = ["col", tag, &stem, carrier, unit];
+        b.vector(names, heading, acceleration.partial(q_ddot), per_joint);
     }
     let stem = format!("{r}_dprime_rest");
-    let title = format!("r″_{{{point_letter}/B}}, eq. {tag}, with no joint accelerating");
+    let heading = format!("r″_{{{point_letter}/B}} with no joint accelerating");
+    let heading = Heading::of(heading).equation(tag);
     let whole = whole.without(Stage::Acceleration).components();
     let rest = acceleration.without(Stage::Acceleration);
-    b.vector(["acc", tag, &stem, carrier, &title, "m/s²"], rest, whole);
+    b.vector(["acc", tag, &stem, carrier, "m/s²"], heading, rest, whole);
 
-    let along = format!("expressed in the axes of the {}", data.title);
+    let tensor_of = |what: String, numbers: &str| {
+        Heading::of(what).equation(numbers).axes(format!("the axes of the {}", data.title))
+    };
     let i_prime = link.inertia.prime(motion.axes);
     let stem = format!("i_{own}_{point}_prime");
-    let title =
-        format!("[I_{{{body_letter},{point_letter}}}]′, eq. {}, {along}", equations.i_prime);
+    let heading = tensor_of(format!("[I_{{{body_letter},{point_letter}}}]′"), equations.i_prime);
     let whole = tensor(reference.inertia.component_rates());
-    b.tensor(["turn", equations.i_prime, &stem, &title, "kg m²/s"], i_prime, whole);
+    b.tensor(["turn", equations.i_prime, &stem, "kg m²/s"], heading, i_prime, whole);
 
     let r_own = motion.centre.position.turned(link.turn);
     let r_prime_own = motion.centre.velocity.turned(link.turn);
     let stem = format!("i_{own}_b");
-    let title = format!("[I_{{{body_letter},B}}], eq. {}, {along}", equations.i_b);
+    let heading = tensor_of(format!("[I_{{{body_letter},B}}]"), equations.i_b);
     let about_b = reference.inertia + reference.mass * Symmetric::tilde_squared(reference.r);
     let i_b = link.inertia + link.mass * Symmetric::tilde_squared(r_own);
-    b.tensor(["axis", equations.i_b, &stem, &title, "kg m²"], i_b, tensor(about_b));
+    b.tensor(["axis", equations.i_b, &stem, "kg m²"], heading, i_b, tensor(about_b));
     let stem = format!("i_{own}_b_prime");
-    let title = format!("[I_{{{body_letter},B}}]′, eq. {}, {along}", equations.i_b_prime);
+    let heading = tensor_of(format!("[I_{{{body_letter},B}}]′"), equations.i_b_prime);
     let whole = tensor(about_b.component_rates());
     let i_b_prime = i_prime + link.mass * Symmetric::tilde_pair(r_prime_own, r_own);
-    b.tensor(["shift", equations.i_b_prime, &stem, &title, "kg m²/s"], i_b_prime, whole);
+    b.tensor(["shift", equations.i_b_prime, &stem, "kg m²/s"], heading, i_b_prime, whole);
 
     Kernel {
         name: data.title.replace(' ', "_"),
@@ -201,7 +203,8 @@ fn arm<'g>(script: &mut Script<'g>, chain: &Chain<'g>, k: usize, motion: &Motion
     }
     let [origin, point] = body.letters;
     let equation = body.equations.r_dprime;
-    script.section("arm", format!("r_{{{point}/{origin}}}, as in eq. {equation}, m."));
+    let heading = Heading::of(format!("r_{{{point}/{origin}}}")).cited("as in", equation);
+    script.section("arm", heading.unit("m"));
     script.names(named);
 }
 
@@ -227,25 +230,24 @@ fn first_moment<'g>(chain: &Chain<'g>, references: &[BodyInHub<'g>]) -> Kernel<'
     let mc = references.iter().fold(zero, |sum, body| sum + body.mass * body.r);
     let mc_prime = mc.component_rates();
     let mc_dprime = mc_prime.component_rates();
-    let title = "Σ m r, share of m_sc c, eq. (9)";
-    b.vector(["mom", "(9)", "mc", "b", title, "kg m"], share.first_moment, mc.components());
-    let title = "Σ m r′, share of m_sc c′, see eq. (11)";
-    b.vector(
-        ["rate", "(step)", "mc_prime", "b", title, "kg m/s"],
-        momenta.linear,
-        mc_prime.components(),
-    );
+    let heading = Heading::of("Σ m r, share of m_sc c").equation("(9)");
+    let reference = mc.components();
+    b.vector(["mom", "(9)", "mc", "b", "kg m"], heading, share.first_moment, reference);
+    let heading = Heading::of("Σ m r′, share of m_sc c′").cited("see", "(11)");
+    let reference = mc_prime.components();
+    b.vector(["rate", "(step)", "mc_prime", "b", "kg m/s"], heading, momenta.linear, reference);
     for (k, data) in chain.kind.links.iter().enumerate() {
         // Expressed in the device's axes; expressed in B, the same is f of the system.
         let stem = format!("mc_dprime_{}", data.joint.tag);
-        let title = format!("f_{}, eq. (17): Σ m r″ per {}", data.joint.tag, data.joint.symbols[1]);
+        let (tag, symbol) = (data.joint.tag, data.joint.symbols[1]);
+        let heading = Heading::of(format!("f_{tag} = Σ m r″ per {symbol}")).equation("(17)");
         let reference = mc_dprime.partial(chain.links[k].acceleration).components();
         let unit = data.joint.motion.units().force;
-        b.vector(["col", "(17)", &stem, "b", &title, unit], share.force[k], reference);
+        b.vector(["col", "(17)", &stem, "b", unit], heading, share.force[k], reference);
     }
-    let title = "f̃, eq. (17): Σ m r″ with no joint accelerating";
+    let heading = Heading::of("f̃ = Σ m r″ with no joint accelerating").equation("(17)");
     let reference = mc_dprime.without(Stage::Acceleration).components();
-    b.vector(["acc", "(17)", "f_tilde", "b", title, "N"], share.bias_force, reference);
+    b.vector(["acc", "(17)", "f_tilde", "b", "N"], heading, share.bias_force, reference);
     Kernel {
         name: "first_moment".to_owned(),
         doc: vec!["Centre of mass of the device and its derivatives, seen from B.".to_owned()],

@@ -131,8 +131,8 @@ mod tests {
             let graph = Graph::new();
             for kernel in kernels(&Chain::new(&graph, kind)) {
                 for section in kernel.sections.iter().filter(|s| !s.statements.is_empty()) {
-                    let named = ["eq. (", "eqs. ("].iter().any(|name| section.title.contains(name));
-                    assert!(named, "{}: {}", kernel.name, section.title);
+                    let named = !section.heading.equations().is_empty();
+                    assert!(named, "{}: {}", kernel.name, section.heading);
                 }
             }
         }

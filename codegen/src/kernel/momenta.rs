@@ -3,6 +3,7 @@
 use super::eliminate::claims;
 use super::{Kernel, inputs, records};
 use crate::derivation::chain::Chain;
+use crate::derivation::heading::Heading;
 use crate::derivation::motion::Observer;
 use crate::derivation::script::{Script, pairs, triple};
 use crate::derivation::{by_body, composite};
@@ -13,8 +14,10 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let kind = chain.kind;
     let mut script = Script::new(chain.graph);
     let momenta = composite::momenta(chain, &Observer::inertial(chain), &mut script);
-    script
-        .section("sum", "Kinetic energy, and momenta as in eq. (20), of the device, expressed in the device's axes.");
+    let heading = Heading::of("Kinetic energy and momenta of the device");
+    let heading = heading.cited("as in", "(20)").axes("the device's axes").part("energy", "J");
+    let heading = heading.part("linear momentum", "kg m/s");
+    script.section("sum", heading.part("moment of momentum", "kg m²/s").about("B"));
     script.name("energy", momenta.energy);
     script.names(pairs(triple("linear", "b"), momenta.linear.components()));
     script.names(pairs(triple("angular_b", "b"), momenta.angular.components()));

@@ -10,6 +10,8 @@ use std::collections::HashMap;
 use super::Row;
 use super::pages::frame_of;
 use crate::derivation::chain::{Chain, XYZ, mount_entry};
+use crate::derivation::elimination::is_of_elimination;
+use crate::derivation::heading::Heading;
 use crate::derivation::script::Statement;
 use crate::graph::{Expr, Node, SymbolId};
 use crate::kernel::kernels;
@@ -46,7 +48,7 @@ impl<'a, 'g> KernelPages<'a, 'g> {
         pages: &[Page],
     ) -> Result<Self, PageError> {
         let reader = read_on(chain.graph, paper)?.1;
-        let mut made = Self::new(chain, reader, |section| !of_elimination(section));
+        let mut made = Self::new(chain, reader, |heading| !is_of_elimination(heading));
         // A cut value may hold symbols that were cut before it.
         let cuts = made.statements.values().filter_map(|s| Some((symbol(s.cut?)?, s.value)));
         let cuts: Vec<_> = cuts.collect();
@@ -61,7 +63,7 @@ impl<'a, 'g> KernelPages<'a, 'g> {
     /// # Errors
     /// The first block that is malformed or uses an unknown name.
     pub fn elimination(chain: &'a Chain<'g>, pages: &[Page]) -> Result<Self, PageError> {
-        let mut made = Self::new(chain, Reader::new(chain.graph), of_elimination);
+        let mut made = Self::new(chain, Reader::new(chain.graph), is_of_elimination);
         for (axis, letter) in XYZ.into_iter().enumerate() {
             made.reader.define(&format!("b_{letter}_hat"), Value::unit(chain.graph, axis));
         }
@@ -85,15 +87,17 @@ impl<'a, 'g> KernelPages<'a, 'g> {
         Ok(made.with(equations))
     }
 
-    fn new(chain: &'a Chain<'g>, reader: Reader<'g>, chosen: impl Fn(&str) -> bool) -> Self {
+    fn new(chain: &'a Chain<'g>, reader: Reader<'g>, chosen: impl Fn(&Heading) -> bool) -> Self {
         let (mut statements, mut ours) = (HashMap::new(), Vec::new());
         let unit = mount(chain);
         for kernel in kernels(chain).iter().filter(|kernel| KERNELS.contains(&&*kernel.name)) {
-            for section in kernel.sections.iter().filter(|section| chosen(&section.title)) {
+            for section in kernel.sections.iter().filter(|section| chosen(&section.heading)) {
+                let equations = section.heading.equations();
+                let own = equations.iter().any(|equation| equation.starts_with("(D"));
                 for statement in &section.statements {
                     let value = statement.value.with(&unit);
                     let name = statement.name.clone();
-                    if section.title.contains("(D") && !ours.contains(&name) {
+                    if own && !ours.contains(&name) {
                         ours.push(name.clone());
                     }
                     statements.insert(name, Statement { value, ..statement.clone() });
@@ -234,11 +238,4 @@ fn mount<'g>(chain: &Chain<'g>) -> Vec<(SymbolId, Expr<'g>)> {
         Some((entry, chain.graph.constant(i64::from(row == column))))
     };
     places.filter_map(entry).collect()
-}
-
-/// Whether a section eliminates joints, or comes after; by its heading.
-fn of_elimination(title: &str) -> bool {
-    ["(D10)", "(D11)", "(D12)", "(D13)", "Right side of each joint row"]
-        .iter()
-        .any(|own| title.contains(own))
 }

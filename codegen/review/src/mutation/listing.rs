@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use precess_codegen::derivation::heading::Heading;
 use precess_codegen::derivation::script::{Section, Statement};
 use precess_codegen::graph::{Expr, Graph, Node, NodeId, Stage};
 use precess_codegen::kernel::{Claim, Record};
@@ -71,9 +72,9 @@ impl<'g> Listing<'g> {
                     stages.insert(*id, stage);
                 }
                 lines.push(Line {
-                    section: section.title.clone(),
+                    section: section.heading.to_string(),
                     name: statement.name.clone(),
-                    tag: tag(&statement.name, &section.title, claims),
+                    tag: tag(&statement.name, &section.heading, claims),
                     value: statement.value,
                     cut: statement.cut,
                     nodes,
@@ -146,21 +147,15 @@ fn stage(graph: &Graph, id: NodeId, known: &HashMap<NodeId, Stage>) -> Stage {
     }
 }
 
-/// The numbers that claims give the name, else what its heading cites.
-fn tag(name: &str, title: &str, claims: &[Claim<'_>]) -> Option<String> {
+/// The numbers that claims give the name, else those that its heading cites.
+fn tag(name: &str, heading: &Heading, claims: &[Claim<'_>]) -> Option<String> {
     let own = claims.iter().filter(|claim| claim.components.iter().any(|(own, _)| own == name));
     let mut tags: Vec<_> = own.map(|claim| claim.tag.as_str()).collect();
     tags.dedup();
-    if tags.is_empty() { cited(title) } else { Some(tags.join(", ")) }
-}
-
-/// The equations that a heading cites: `(14)`, `(49)-(52)`, or several, `(17), (78)`.
-fn cited(title: &str) -> Option<String> {
-    let (_, cited) = title.split_once("eq. ").or_else(|| title.split_once("eqs. "))?;
-    let cited = cited.split(':').next()?;
-    let parts = cited.split(", ").take_while(|part| part.starts_with('('));
-    let numbers: Vec<_> = parts.filter_map(|part| part.split([' ', '.']).next()).collect();
-    (!numbers.is_empty()).then(|| numbers.join(", "))
+    if tags.is_empty() {
+        tags = heading.equations().iter().map(String::as_str).collect();
+    }
+    (!tags.is_empty()).then(|| tags.join(", "))
 }
 
 #[cfg(test)]
@@ -168,14 +163,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn headings_cite_one_equation_or_several_or_none() {
-        assert_eq!(cited("Products and sums of parameters that occur more deeply."), None);
-        assert_eq!(cited("As in eq. five, m."), None);
-        let cited = |title| cited(title).unwrap();
-        assert_eq!(cited("Joint w taken out of the rows nearer the hub, eq. (D11)."), "(D11)");
-        assert_eq!(cited("[I]′, eq. (49)-(52), along the axes, kg m²/s."), "(49)-(52)");
-        assert_eq!(cited("About B: first moment, eq. (9), kg m, and inertia, eq. (76)."), "(9)");
-        assert_eq!(cited("Force and moment of each joint, eqs. (17), (99)."), "(17), (99)");
-        assert_eq!(cited("Right side, eqs. (80), (101): torque, N m, (1)."), "(80), (101)");
+    fn a_name_has_the_numbers_of_its_claims_or_else_of_its_heading() {
+        let graph = Graph::new();
+        let claim = |tag: &str| {
+            let components = vec![("claimed".to_owned(), graph.zero())];
+            Claim { tag: tag.to_owned(), name: String::new(), components }
+        };
+        let claims = ["(D14)", "(D15)"].map(claim);
+        let heading = Heading::of("Right side").equation("(80), (101)");
+        let tag = |name| tag(name, &heading, &claims).unwrap();
+        assert_eq!((tag("claimed"), tag("other")), ("(D14), (D15)".into(), "(80), (101)".into()));
+        assert_eq!(super::tag("other", &Heading::of("As it is"), &claims), None);
     }
 }

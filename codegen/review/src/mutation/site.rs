@@ -191,6 +191,7 @@ mod tests {
     use super::*;
     use crate::mutation::device::{Device, PREPARE};
     use precess_codegen::derivation::chain::Chain;
+    use precess_codegen::derivation::heading::Heading;
     use precess_codegen::derivation::script::Script;
     use precess_codegen::emit::every_kind;
     use precess_codegen::kernel::{Field, Record, Source};
@@ -228,7 +229,7 @@ mod tests {
         let g = Graph::new();
         let (s, c) = g.angle("q", g.symbol("q_dot", Stage::Rate));
         let mut script = Script::new(&g);
-        script.section("a", "Bare, eq. (3), along x.");
+        script.section("a", Heading::of("Bare").equation("(3)"));
         script.name("x", c);
         script.name("y", s + s);
         let field =

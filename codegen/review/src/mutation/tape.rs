@@ -228,6 +228,7 @@ impl Returned<'_> {
 mod tests {
     use super::*;
     use crate::mutation::site::sites;
+    use precess_codegen::derivation::heading::Heading;
     use precess_codegen::derivation::script::Script;
     use precess_codegen::graph::Stage;
     use precess_codegen::kernel::{Field, Record, Source};
@@ -238,7 +239,7 @@ mod tests {
         let rate = g.symbol("rate", Stage::Rate);
         let (s, c) = g.angle("q", rate);
         let mut script = Script::new(&g);
-        script.section("a", "A cut and what is made of it.");
+        script.section("a", Heading::of("A cut and what is made of it"));
         let cut = script.cut("cut", s * rate);
         script.name("z", cut - c);
         script.name("w", c);

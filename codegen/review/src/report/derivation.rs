@@ -135,7 +135,7 @@ pub(super) fn derivation(chain: &Chain<'_>, blocks: &[Block]) -> Result<Derivati
             .sections
             .iter()
             .filter(|section| !section.statements.is_empty())
-            .map(|section| section.title.clone())
+            .map(|section| section.heading.to_string())
             .collect(),
     });
     Ok(Derivation {
