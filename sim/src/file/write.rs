@@ -2,7 +2,8 @@
 //!
 //! Reading it back gives the same scenario to the bit: numbers have the fewest digits that do.
 //! Layouts and copies are written as the devices they make, data sheets as centres of mass and
-//! products of inertia, files of tables as they were named are not needed any more.
+//! products of inertia, files of tables as they were named are not needed any more. A key that is
+//! not written stands for what the spacecraft does not have: a torque limit, an end stop, gravity.
 
 use std::fmt::Write as _;
 
@@ -11,6 +12,7 @@ use precess_dynamics::kind::{ImbalanceModel, JointInfo};
 use precess_dynamics::{Gravity, HubMode, JointStates, Passive};
 
 use super::read::{FORMAT, body_key, has_inertia};
+use crate::record::columns::Columns;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{
     Action, AppliedWrench, Drive, Format, IntegratorChoice, Profile, Scenario, Statistic,
@@ -32,17 +34,13 @@ fn write_all(out: &mut String, s: &Scenario) -> Written {
     writeln!(out, "format = {FORMAT}")?;
     writeln!(out, "name = {}", quoted(&s.name))?;
     writeln!(out, "title = {}", quoted(&s.title))?;
-    if !s.description.is_empty() {
-        writeln!(out, "description = {}", quoted(&s.description))?;
-    }
+    writeln!(out, "description = {}", quoted(&s.description))?;
     writeln!(out, "\n[hub]")?;
     writeln!(out, "mass = \"{:?} kg\"", s.hub.m_b)?;
     writeln!(out, "centre_of_mass = {}", vector(&s.hub.r_bc_b, "m"))?;
     inertia(out, &s.hub.i_b_bc)?;
     writeln!(out, "size = {}", vector(&s.hub_size, "m"))?;
-    if s.hub_mode != HubMode::Free {
-        writeln!(out, "mode = \"fixed\"")?;
-    }
+    writeln!(out, "mode = \"{}\"", if s.hub_mode == HubMode::Free { "free" } else { "fixed" })?;
     match s.gravity {
         Gravity::None => {}
         Gravity::Uniform(g) => {
@@ -94,9 +92,11 @@ fn devices(out: &mut String, s: &Scenario) -> Written {
         let m = parameters.mount;
         let row = |k: usize| format!("[{:?}, {:?}, {:?}]", m[(k, 0)], m[(k, 1)], m[(k, 2)]);
         writeln!(out, "mount = {{ dcm = [{}, {}, {}] }}", row(0), row(1), row(2))?;
-        if parameters.model == ImbalanceModel::Lumped {
-            writeln!(out, "imbalance_model = \"lumped\"")?;
-        }
+        let model = match parameters.model {
+            ImbalanceModel::Coupled => "coupled",
+            ImbalanceModel::Lumped => "lumped",
+        };
+        writeln!(out, "imbalance_model = \"{model}\"")?;
         let bodies = parameters.bodies.iter().zip(&parameters.passive);
         for (info, (body, passive)) in device.kind().joints().iter().zip(bodies) {
             writeln!(out, "\n[device.{}]", body_key(info))?;
@@ -134,9 +134,6 @@ fn devices(out: &mut String, s: &Scenario) -> Written {
 
 fn passive_of(out: &mut String, passive: &Passive, info: &JointInfo) -> Written {
     let [unit, rate_unit, _, torque] = units(info);
-    if *passive == Passive::none() {
-        return Ok(());
-    }
     let Passive { stiffness, rest, viscous, coulomb, coulomb_rate } = passive;
     writeln!(out, "stiffness = \"{stiffness:?} {torque}/{unit}\"\nrest = \"{rest:?} {unit}\"")?;
     writeln!(out, "damping = \"{viscous:?} {torque} s/{unit}\"")?;
@@ -255,7 +252,12 @@ fn settings(out: &mut String, s: &Scenario) -> Written {
         Format::Parquet => "\"parquet\"",
     };
     let formats: Vec<_> = s.output.formats.iter().map(word).collect();
-    let columns: Vec<_> = s.output.columns.iter().map(|column| quoted(column)).collect();
+    let columns = if s.output.columns.is_empty() {
+        Columns::default_groups(s)
+    } else {
+        s.output.columns.clone()
+    };
+    let columns: Vec<_> = columns.iter().map(|column| quoted(column)).collect();
     writeln!(out, "\n[output]\nrate = \"{:?} Hz\"", s.output.rate)?;
     writeln!(out, "columns = [{}]\nformats = [{}]", columns.join(", "), formats.join(", "))
 }

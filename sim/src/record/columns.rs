@@ -126,6 +126,15 @@ impl Columns {
         Self(columns)
     }
 
+    /// The groups that a scenario records if it selects no columns: all but the loads.
+    pub(crate) fn default_groups(scenario: &Scenario) -> Vec<String> {
+        let Self(all) = Self::all(scenario);
+        let own = all.into_iter().filter(|c| c.quantity != Quantity::Time && !c.quantity.is_load());
+        let mut groups: Vec<_> = own.map(|column| column.group).collect();
+        groups.dedup();
+        groups
+    }
+
     /// The columns that a scenario records: those it selects, or all but the loads, and the
     /// quantities of its requirements.
     ///

@@ -201,7 +201,7 @@ fn scenario_text(report: &Report) -> Vec<Block> {
         blocks.push(lines(&source.text));
     }
     if !source.filled.is_empty() {
-        let text = "In SI units, with layouts, copies and data sheets written out; it gives the same run. A key that is not here has its default.".to_owned();
+        let text = "In SI units, with layouts, copies, data sheets and defaults written out; it gives the same run. What has no default is here only if it was given: a torque limit, an end stop, gravity.".to_owned();
         blocks.push(Block::Note { text });
         blocks.push(lines(&source.filled));
     }

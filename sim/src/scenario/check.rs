@@ -118,7 +118,7 @@ impl Scenario {
             let [from, to] = requirement.window;
             if !(0.0 <= from && from < to && to <= duration) {
                 errors.push(range(
-                    &format!("requirement.{}", requirement.name),
+                    &format!("requirement.{}.to", requirement.name),
                     format!("the window {from} s to {to} s is not within the run's {duration} s"),
                 ));
             }
@@ -144,13 +144,13 @@ impl Scenario {
             let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
             if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(plain) {
                 errors.push(range(
-                    "device.name",
+                    &format!("device.{name}.name"),
                     format!("`{name}` is not lower-case letters, digits and underscores"),
                 ));
             }
             if self.names.iter().take(index).any(|other| other == name) {
                 errors.push(range(
-                    "device.name",
+                    &format!("device.{name}.name"),
                     format!("two devices are named `{name}`; rename one"),
                 ));
             }

@@ -9,6 +9,7 @@ mod layout;
 mod mount;
 mod output;
 mod over_time;
+mod places;
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -75,7 +76,7 @@ fn scenario(
     let mut reports = cell.into_inner();
     match scenario {
         Some(mut scenario) if !reports.has_errors() => {
-            check(&scenario, &mut reports);
+            check(&node, &scenario, &mut reports);
             if reports.has_errors() {
                 return Err(reports);
             }
@@ -234,26 +235,28 @@ fn settings(keys: &Keys<'_>) -> Option<Settings> {
 }
 
 /// What only the whole tells: bounds and names, and what the solver rejects or warns of.
-fn check(scenario: &Scenario, reports: &mut Diagnostics) {
+fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics) {
+    let names = &scenario.names;
     for error in scenario.check() {
-        let (message, help) = match &error {
-            ScenarioError::Range { key, message } => (format!("{key}: {message}"), String::new()),
-            ScenarioError::Parameters(error) => {
-                (named(&error.to_string(), &scenario.names), String::new())
-            }
+        let message = match &error {
+            ScenarioError::Range { key, message } => format!("{key}: {message}"),
+            ScenarioError::Parameters(error) => named(&error.to_string(), names),
         };
-        reports.error_anywhere(message, &help);
+        match places::of_error(root, &error, names) {
+            Some(span) => reports.error(&span, message, "", ""),
+            None => reports.error_anywhere(message, ""),
+        }
     }
     if let Ok(spacecraft) = scenario.spacecraft() {
         for warning in spacecraft.warnings() {
-            let text = named(&warning.to_string(), &scenario.names);
+            let span = places::of_warning(root, &warning, names);
+            let help = "check moments and products of inertia and their units; it is run as given";
             reports.all.push(super::Diagnostic {
                 severity: super::Severity::Warning,
-                span: None,
-                message: text,
+                span,
+                message: named(&warning.to_string(), names),
                 label: String::new(),
-                help: "check moments and products of inertia and their units; it is run as given"
-                    .to_owned(),
+                help: help.to_owned(),
             });
         }
     }
