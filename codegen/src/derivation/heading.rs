@@ -25,7 +25,7 @@ impl Heading {
         Self { what: what.into(), ..Self::default() }
     }
 
-    /// The equations that state it: `(14)`, or several, `(16), (75)`.
+    /// The equations that state it, by their numbers, separated by commas.
     #[must_use]
     pub fn equation(self, numbers: &str) -> Self {
         self.cited("", numbers)
@@ -77,7 +77,7 @@ impl Heading {
         Self { note: note.into(), ..self }
     }
 
-    /// The numbers of its equations: `(14)`, `(49)-(52)`, `(D5)`.
+    /// The numbers of its equations, one by one or in ranges.
     #[must_use]
     pub fn equations(&self) -> &[String] {
         &self.equations

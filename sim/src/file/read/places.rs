@@ -103,8 +103,7 @@ mod tests {
 
     use super::super::from_toml;
 
-    const HUB: &str =
-        "format = 1\n[hub]\nmass = \"100 kg\"\ninertia = \"9, 8, 7 kg m^2\"\n[run]\nduration = \"1 s\"\n";
+    const HUB: &str = "format = 1\n[hub]\nmass = \"100 kg\"\ninertia = \"9, 8, 7 kg m^2\"\n[run]\nduration = \"1 s\"\n";
     const WHEEL: &str = "[[device]]\nname = \"rw\"\nkind = \"reaction_wheel\"\n\
                          wheel.mass = \"4 kg\"\nwheel.inertia = \"0.2, 0.1, 0.1 kg m^2\"\n";
 
@@ -123,10 +122,8 @@ mod tests {
         assert_eq!(underlined(&format!("{HUB}{WHEEL}")), [""; 0]);
         let massless = format!("{HUB}{WHEEL}").replace("4 kg", "0 kg");
         assert_eq!(underlined(&massless), ["\"0 kg\""]);
-        let one_of_four = massless.replace(
-            "kind",
-            "layout.ring = { count = 4, radius = \"0.3 m\" }\nkind",
-        );
+        let one_of_four =
+            massless.replace("kind", "layout.ring = { count = 4, radius = \"0.3 m\" }\nkind");
         assert!(underlined(&one_of_four).contains(&"\"0 kg\"".to_owned()), "{one_of_four}");
         let thin = HUB.replace("9, 8, 7", "9, 1, 1");
         assert_eq!(underlined(&thin), ["\"9, 1, 1 kg m^2\""]);
