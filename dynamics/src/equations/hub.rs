@@ -29,9 +29,9 @@ pub(crate) struct BodySums<T> {
     pub(crate) angular_b: Vec3<T>,
 }
 
-impl<T: Real> HubConstants<T> {
+#[cfg(feature = "lanes")]
+impl<T: Copy> HubConstants<T> {
     /// The constants with each of their numbers changed.
-    #[cfg(feature = "lanes")]
     #[inline(always)]
     pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> HubConstants<U> {
         let [x, y, z] = self.first_moment;
@@ -41,7 +41,9 @@ impl<T: Real> HubConstants<T> {
             i_b_b: self.i_b_b.map(change),
         }
     }
+}
 
+impl<T: Real> HubConstants<T> {
     /// The hub's own `M` and `h`: `m (r'' + omega' x c + omega x (omega x c)) = F` and
     /// `I omega' + m c x r'' + omega x (I omega) = L_B`.
     #[inline(always)]

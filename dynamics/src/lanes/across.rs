@@ -7,6 +7,7 @@ use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
+use super::constants::{DeviceBlocks, DeviceConstants};
 use super::evaluate::{add_stiffness, regular, with_passive, within_reach};
 use super::gather::{joints_in_lanes, values_in_lanes};
 use super::lane::Lane;
@@ -24,7 +25,6 @@ use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::{Drive, Mode};
 use crate::model::parameters::Hub;
-use crate::model::passive::Passive;
 use crate::numbers::each::Each;
 use crate::numbers::vec3::map;
 use crate::solve::accelerations::{EvaluationStart, evaluation_start, inputs_are_finite};
@@ -46,17 +46,12 @@ pub struct AcrossDevices<K: Kind<Scalar = f64>, const N: usize> {
     laned: bool,
 }
 
-/// The constants of as many devices as there are lanes.
+/// As many devices as there are lanes.
 #[derive(Clone, Debug)]
 struct Group<K: Kernels> {
-    constants: K::Constants<Block>,
-    passive: K::PerJoint<Passive<Block>>,
-    /// What the pivots are checked against.
-    bound: K::PerJoint<Block>,
+    constants: DeviceBlocks<K>,
     /// One in the lanes that have a device.
     weight: Block,
-    /// Whether no joint has a spring or friction.
-    free: bool,
 }
 
 impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
@@ -132,39 +127,11 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
 }
 
 impl<K: Kind<Scalar = f64>> Group<K> {
-    /// The constants of these devices side by side; lanes without one repeat the last.
+    /// These devices side by side; lanes without one repeat the last.
     fn new(devices: &[Device<K>]) -> Option<Self> {
-        let (first, last) = (devices.first()?, devices.last()?);
-        let mut group = Self {
-            constants: K::zip_constants(&first.constants, &first.constants, |_, _| Block::ZERO),
-            passive: K::zip_per_joint(&first.passive, &first.passive, |passive, _| {
-                passive.map(|_| Block::ZERO)
-            }),
-            bound: K::zip_per_joint(&first.bound, &first.bound, |_, _| Block::ZERO),
-            weight: Block::ZERO,
-            free: devices.iter().all(|device| device.free),
-        };
-        for lane in 0..WIDEST {
-            let device = devices.get(lane).unwrap_or(last);
-            let put = |mut block: Block, number| {
-                block.put(lane, number);
-                block
-            };
-            group.constants = K::zip_constants(&group.constants, &device.constants, put);
-            group.bound = K::zip_per_joint(&group.bound, &device.bound, put);
-            group.passive = K::zip_per_joint(&group.passive, &device.passive, |blocks, passive| {
-                let [a, b, c, d, e] = passive.named().map(|(_, number)| number);
-                Passive {
-                    stiffness: put(blocks.stiffness, a),
-                    rest: put(blocks.rest, b),
-                    viscous: put(blocks.viscous, c),
-                    coulomb: put(blocks.coulomb, d),
-                    coulomb_rate: put(blocks.coulomb_rate, e),
-                }
-            });
-            group.weight.put(lane, if lane < devices.len() { 1.0 } else { 0.0 });
-        }
-        Some(group)
+        let mut weight = Block::ZERO;
+        (0..devices.len()).for_each(|lane| weight.put(lane, 1.0));
+        Some(Self { constants: DeviceBlocks::of(devices)?, weight })
     }
 }
 
@@ -201,12 +168,7 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
         for group in groups {
             let (joints, drives) = gather::<K, T, N>(craft, start, &state.devices, inputs, zero)?;
             start += T::WIDTH;
-            let load = |block| zero.load(&block);
-            let constants =
-                K::zip_constants(&group.constants, &group.constants, |block, _| load(block));
-            let passive = (!group.free).then(|| {
-                K::zip_per_joint(&group.passive, &group.passive, |passive, _| passive.map(load))
-            });
+            let DeviceConstants { constants, passive, bound, .. } = group.constants.in_lanes(zero);
             let drives = match &passive {
                 Some(passive) => with_passive::<K, T>(&joints, &drives, passive),
                 None => drives,
@@ -214,11 +176,10 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             let pose = K::pose(&joints);
             let eliminated =
                 K::eliminate(&constants, &pose, &joints, &expressed_in_b(omega), &drives);
-            let bound = K::zip_per_joint(&group.bound, &group.bound, |block, _| load(block));
             let regular = regular::<K, T>(zero, &eliminated, &drives, &bound);
             let within = within_reach::<K, T>(zero, &joints);
             holds = zero.both(holds, zero.both(within, regular));
-            let real = load(group.weight).above(zero);
+            let real = zero.load(&group.weight).above(zero);
             if let Some(passive) = &passive {
                 let mut stiffness = Stiffness::none(zero);
                 add_stiffness::<K, T>(&mut stiffness, passive, &eliminated, &drives);

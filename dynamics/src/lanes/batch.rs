@@ -6,6 +6,8 @@ use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
+use super::constants::CraftBlocks;
+use super::crafts::{Crafts, entered};
 use super::evaluate::{Acting, evaluate};
 use super::lane::Lane;
 use super::motion::{Forces, Motion, at};
@@ -68,7 +70,7 @@ impl<'a, D: LanedSet> BatchInputs<'a, D> {
         }
     }
 
-    fn fit(&self, states: usize) -> Result<(), SolveError<f64>> {
+    pub(super) fn fit(&self, states: usize) -> Result<(), SolveError<f64>> {
         match self {
             Self::Each(inputs) if inputs.len() != states => {
                 Err(SolveError::Count { expected: states, found: inputs.len() })
@@ -88,8 +90,8 @@ pub type BatchAccelerations<D> = Vec<Result<Accelerations<D>, SolveError<f64>>>;
 /// [unsupported in lanes](crate::lanes), and where anything fails.
 #[derive(Clone, Debug)]
 pub struct Batch<D: LanedSet> {
-    pub(super) craft: Spacecraft<D>,
-    pub(super) fused: bool,
+    craft: Spacecraft<D>,
+    fused: bool,
 }
 
 impl<D: LanedSet> Batch<D> {
@@ -134,7 +136,7 @@ impl<D: LanedSet> Batch<D> {
         inputs.fit(states.len())?;
         out.clear();
         out.reserve(states.len());
-        Arch::new().dispatch(Evaluation { batch: self, states, inputs, out });
+        Arch::new().dispatch(Evaluation { crafts: self, fused: self.fused, states, inputs, out });
         Ok(())
     }
 
@@ -162,22 +164,23 @@ impl<D: LanedSet> Batch<D> {
         }
         out.clear();
         out.reserve(states.len());
-        Arch::new().dispatch(Runs { batch: self, states, inputs, dt, steps, out });
+        let fused = self.fused;
+        Arch::new().dispatch(Runs { crafts: self, fused, states, inputs, dt, steps, out });
         Ok(())
     }
+}
 
-    /// One state by itself, step after step.
-    pub(super) fn alone(
-        &self,
-        state: &mut State<D>,
-        inputs: &Inputs<D>,
-        dt: f64,
-        steps: usize,
-    ) -> Result<(), SolveError<f64>> {
-        for _ in 0..steps {
-            *state = self.craft.step(state, inputs, dt)?;
-        }
-        Ok(())
+impl<D: LanedSet> Crafts<D> for Batch<D> {
+    const EACH: bool = false;
+
+    #[inline(always)]
+    fn at(&self, _: usize) -> Option<&Spacecraft<D>> {
+        Some(&self.craft)
+    }
+
+    #[inline(always)]
+    fn blocks(&self, _: usize) -> Option<&CraftBlocks<D>> {
+        None
     }
 }
 
@@ -205,19 +208,20 @@ fn lanes_support_inputs<D: LanedSet>(inputs: &Inputs<D>) -> bool {
 pub(super) const NEAR_ONE: f64 = 1e-20;
 
 /// The accelerations of a batch.
-struct Evaluation<'a, 'o, D: LanedSet> {
-    batch: &'a Batch<D>,
-    states: &'a [State<D>],
-    inputs: BatchInputs<'a, D>,
-    out: &'o mut BatchAccelerations<D>,
+pub(super) struct Evaluation<'a, 'o, D: LanedSet, C> {
+    pub(super) crafts: &'a C,
+    pub(super) fused: bool,
+    pub(super) states: &'a [State<D>],
+    pub(super) inputs: BatchInputs<'a, D>,
+    pub(super) out: &'o mut BatchAccelerations<D>,
 }
 
-impl<D: LanedSet> WithSimd for Evaluation<'_, '_, D> {
+impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        if self.batch.fused {
+        if self.fused {
             self.evaluate(Lane::<S, true>::splat(simd, 0.0));
         } else {
             self.evaluate(Lane::<S, false>::splat(simd, 0.0));
@@ -225,18 +229,25 @@ impl<D: LanedSet> WithSimd for Evaluation<'_, '_, D> {
     }
 }
 
-impl<D: LanedSet> Evaluation<'_, '_, D> {
+impl<D: LanedSet, C: Crafts<D>> Evaluation<'_, '_, D, C> {
     #[inline(always)]
     fn evaluate<T: Number>(self, zero: T) {
-        let craft = &self.batch.craft;
-        let mut group = Group::<D, T>::new(craft, zero);
-        let still = craft.no_accelerations();
+        let crafts = self.crafts;
+        let Some(first) = crafts.at(0) else { return };
+        let mut group = Group::<D, T>::new(first, zero);
+        let still = first.no_accelerations();
         for (index, states) in self.states.chunks(T::WIDTH).enumerate() {
-            let inputs = self.inputs.starting(index * T::WIDTH);
-            group.gather(zero, craft, states, &inputs);
+            let start = index * T::WIDTH;
+            let inputs = self.inputs.starting(start);
+            group.gather(zero, (crafts, start), states, &inputs);
             let acting = group.acting(zero);
-            let found = evaluate(craft, &mut group.slots, &acting);
-            each_slot::<D, _>(&craft.devices, &mut group.slots, &mut Leave);
+            let Some(laned) = entered(crafts, index, &mut group.slots, zero) else { return };
+            let found = if C::EACH {
+                evaluate::<D, T, true>(&laned, &mut group.slots, &acting)
+            } else {
+                evaluate::<D, T, false>(&laned, &mut group.slots, &acting)
+            };
+            each_slot::<D, _>(laned.devices, &mut group.slots, &mut Leave);
             let holds = zero.like(1.0).or(found.holds, zero).store();
             let r_b_n_ddot = map(found.r_b_n_ddot, Number::store);
             let omega_dot = map(found.omega_dot, Number::store);
@@ -250,14 +261,14 @@ impl<D: LanedSet> Evaluation<'_, '_, D> {
                     (Ok(found), _) if sound => {
                         found.r_b_n_ddot = vector(at(&r_b_n_ddot, lane));
                         found.omega_dot = vector(at(&omega_dot, lane));
-                        take_found::<D, _>(
-                            &craft.devices,
-                            &mut group.slots,
-                            lane,
-                            &mut found.devices,
-                        );
+                        let of_devices = &mut found.devices;
+                        take_found::<D, _>(laned.devices, &mut group.slots, lane, of_devices);
                     }
-                    (place, Some(inputs)) => *place = craft.accelerations(state, inputs),
+                    (place, Some(inputs)) => {
+                        if let Some(craft) = crafts.at(start + lane) {
+                            *place = craft.accelerations(state, inputs);
+                        }
+                    }
                     (_, None) => {}
                 }
             }
@@ -292,26 +303,24 @@ impl<D: LanedSet, T: Number> Group<D, T> {
     /// Takes states in. Lanes beyond the last of them repeat it: they cost nothing and harm
     /// nothing.
     #[inline(always)]
-    pub(super) fn gather(
+    pub(super) fn gather<C: Crafts<D>>(
         &mut self,
         zero: T,
-        craft: &Spacecraft<D>,
+        (crafts, start): (&C, usize),
         states: &[State<D>],
         all: &BatchInputs<'_, D>,
     ) {
         let (Some(last), Some(end)) = (states.len().checked_sub(1), states.last()) else { return };
+        let Some(first) = crafts.at(start) else { return };
         let mut lanes = [end; WIDEST];
         lanes.iter_mut().zip(states).for_each(|(lane, state)| *lane = state);
         self.motion = Motion::in_lanes(zero, lanes);
-        load_joints::<D, _>(
-            &craft.devices,
-            &mut self.slots,
-            zero,
-            lanes.map(|state| &state.devices),
-        );
+        let joints = lanes.map(|state| &state.devices);
+        load_joints::<D, _>(&first.devices, &mut self.slots, zero, joints);
         for lane in 0..T::WIDTH {
             let index = lane.min(last);
             let (Some(state), Some(inputs)) = (states.get(index), all.at(index)) else { return };
+            let Some(craft) = crafts.at(start + index) else { return };
             let mut laned = laned_state(state);
             if !self.given {
                 let given = inputs.of_joints();
@@ -330,11 +339,12 @@ impl<D: LanedSet, T: Number> Group<D, T> {
         if self.given {
             return;
         }
-        each_slot::<D, _>(&craft.devices, &mut self.slots, &mut Enter(zero));
+        each_slot::<D, _>(&first.devices, &mut self.slots, &mut Enter(zero));
         // A locked joint is looked at in each state.
         self.given = match all {
             BatchInputs::Same(inputs) => {
-                self.laned == [true; WIDEST]
+                !C::EACH
+                    && self.laned == [true; WIDEST]
                     && inputs.modes.values().all(|mode| mode != Mode::Locked)
             }
             BatchInputs::Each(_) => false,

@@ -5,10 +5,12 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
+use super::constants::{DeviceConstants, same_in_lanes};
 use super::number::Number;
 use super::slot::{Aligned, EachSlot, LanedSet, Slot, SlotsOf, each_slot};
 use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::device::Device;
+use crate::equations::hub::HubConstants;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::{PIVOT_EPSILONS, Pivots, WELL_SCALED};
 use crate::generated::hub::BodyAcceleration;
@@ -19,7 +21,6 @@ use crate::model::passive::Passive;
 use crate::numbers::each::JointStates;
 use crate::numbers::sincos::LARGEST_ANGLE;
 use crate::numbers::vec3::{Vec3, add};
-use crate::solve::spacecraft::Spacecraft;
 
 /// What acts on the hub, expressed in B.
 #[derive(Clone, Copy, Debug)]
@@ -42,21 +43,32 @@ pub(crate) struct Found<T: Number> {
     pub(crate) holds: T::Holds,
 }
 
-/// Evaluates the devices in their slots, and the hub.
+/// The spacecraft in the lanes, apart from the constants of their devices.
+pub(crate) struct LanedCraft<'a, D: LanedSet, T> {
+    /// The devices of one of them: all have the same shape.
+    pub(crate) devices: &'a D::Prepared,
+    /// The hub with the constant shares of the devices.
+    pub(crate) body: HubConstants<T>,
+    /// Whether a joint has a spring, a damper or dry friction.
+    pub(crate) passive: bool,
+}
+
+/// Evaluates the devices in their slots, and the hub; `EACH` with the constants that stand in the
+/// slots, else with those of the devices.
 #[inline(always)]
-pub(crate) fn evaluate<D: LanedSet, T: Number>(
-    craft: &Spacecraft<D>,
+pub(crate) fn evaluate<D: LanedSet, T: Number, const EACH: bool>(
+    craft: &LanedCraft<'_, D, T>,
     slots: &mut SlotsOf<D, T>,
     acting: &Acting<T>,
 ) -> Found<T> {
     let [like, ..] = acting.omega;
-    let body = craft.body.map(|constant| like.like(constant));
-    let mut elimination = Elimination {
+    let body = craft.body;
+    let mut elimination = Elimination::<T, EACH> {
         omega: acting.omega,
         assembly: Assembly::new(&body, acting.force, acting.torque_b),
         holds: like.same(like),
     };
-    each_slot::<D, _>(&craft.devices, slots, &mut elimination);
+    each_slot::<D, _>(craft.devices, slots, &mut elimination);
     let Elimination { assembly, mut holds, .. } = elimination;
     let system = assembly.system(acting.omega);
     let scale = assembly.scale(&body);
@@ -77,7 +89,7 @@ pub(crate) fn evaluate<D: LanedSet, T: Number>(
     let [p, q, r] = solution.omega_dot;
     let vanishing = (x + y + z + p + q + r) * zero;
     let mut back = BackSubstitution { hub: solution.expressed_in_b(), zero, vanishing };
-    each_slot::<D, _>(&craft.devices, slots, &mut back);
+    each_slot::<D, _>(craft.devices, slots, &mut back);
     let r_b_n_ddot = add(solution.r_b_n_ddot, acting.at_b);
     let [x, y, z] = r_b_n_ddot;
     let vanishing = back.vanishing + (x + y + z) * zero;
@@ -95,33 +107,31 @@ fn all_above<T: Number>(pivots: Pivots<T>, scales: [T; 6], share: T) -> T::Holds
 }
 
 /// Eliminates each device into the hub's system.
-struct Elimination<T: Number> {
+struct Elimination<T: Number, const EACH: bool> {
     omega: Vec3<T>,
     assembly: Assembly<T>,
     holds: T::Holds,
 }
 
-impl<T: Number> EachSlot<T> for Elimination<T> {
+impl<T: Number, const EACH: bool> EachSlot<T> for Elimination<T, EACH> {
     #[inline(always)]
     fn each<K: Kind<Scalar = f64>>(&mut self, device: &Device<K>, slot: &mut Slot<K, T>) {
         let [like, ..] = self.omega;
-        let constants = K::zip_constants(&device.constants, &device.constants, |constant, _| {
-            like.like(constant)
-        });
+        let DeviceConstants { constants, passive, bound, sprung } = match &slot.constants {
+            Some(blocks) if EACH => blocks.in_lanes(like),
+            _ => same_in_lanes(device, like),
+        };
         let within = within_reach::<K, T>(like, &slot.joints);
         let pose = K::pose(&slot.joints);
-        let passive = (!device.free).then(|| {
-            K::zip_per_joint(&device.passive, &device.passive, |passive, _| {
-                passive.map(|number| like.like(number))
-            })
-        });
         let drives = match &passive {
-            Some(passive) => with_passive::<K, T>(&slot.joints, &slot.drives, passive),
+            Some(passive) => {
+                let drives = with_passive::<K, T>(&slot.joints, &slot.drives, passive);
+                if EACH { where_sprung::<K, T>(sprung, &drives, &slot.drives) } else { drives }
+            }
             None => slot.drives,
         };
         let omega = expressed_in_b(self.omega);
         let eliminated = K::eliminate(&constants, &pose, &slot.joints, &omega, &drives);
-        let bound = K::zip_per_joint(&device.bound, &device.bound, |bound, _| like.like(bound));
         let regular = regular::<K, T>(like, &eliminated, &drives, &bound);
         self.holds = like.both(self.holds, like.both(within, regular));
         if let Some(passive) = &passive {
@@ -190,6 +200,20 @@ pub(super) fn with_passive<K: Kernels, T: Number>(
     });
     K::zip_per_joint(drives, &own, |drive, own| Drive {
         torque: drive.torque + own * drive.driven,
+        ..drive
+    })
+}
+
+/// The torques with springs and dampers only where there are any: adding zero to a torque of minus
+/// zero changes its sign.
+#[inline(always)]
+fn where_sprung<K: Kernels, T: Number>(
+    sprung: T::Holds,
+    drives: &K::PerJoint<Drive<T>>,
+    without: &K::PerJoint<Drive<T>>,
+) -> K::PerJoint<Drive<T>> {
+    K::zip_per_joint(drives, without, |drive, without| Drive {
+        torque: drive.torque.or(sprung, without.torque),
         ..drive
     })
 }

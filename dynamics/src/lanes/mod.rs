@@ -7,6 +7,8 @@
 //! | one state after another, four or more devices of one kind | [`AcrossDevices`] | to rounding |
 //! | many states of one spacecraft, or their runs | [`Batch`] | to the bit |
 //! | the same, product and sum rounded once | [`Batch::fused`] | to rounding |
+//! | many spacecraft of one shape, each at its state | [`ParameterBatch`] | to the bit |
+//! | the same, product and sum rounded once | [`ParameterBatch::fused`] | to rounding |
 //!
 //! [`Spacecraft::fused`]: crate::Spacecraft::fused
 //!
@@ -15,8 +17,8 @@
 //!
 //! Lanes support every kind, arrays and tuples; every mode of a joint; springs and dampers; a
 //! uniform field. Unsupported in lanes are a central field, wrenches on bodies, dry friction, the
-//! lumped model of an imbalance, and coordinates and rates of joints beyond `2^24`; in a [`Batch`]
-//! also a hub that is not free and quaternions far from unit length. They fall back to the scalar
+//! lumped model of an imbalance, and coordinates and rates of joints beyond `2^24`; in a batch also
+//! a hub that is not free and quaternions far from unit length. They fall back to the scalar
 //! path. So does whatever fails in a lane, which is how its error is found; the other lanes keep
 //! their results.
 //!
@@ -26,11 +28,14 @@
 
 mod across;
 mod batch;
+mod constants;
+mod crafts;
 mod evaluate;
 mod gather;
 mod lane;
 mod motion;
 mod number;
+mod parameter_batch;
 mod run;
 mod slot;
 mod states;
@@ -38,4 +43,5 @@ mod width;
 
 pub use across::AcrossDevices;
 pub use batch::{Batch, BatchAccelerations, BatchInputs};
+pub use parameter_batch::ParameterBatch;
 pub use slot::LanedSet;

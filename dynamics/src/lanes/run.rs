@@ -7,8 +7,9 @@ use std::vec::Vec;
 
 use pulp::{Simd, WithSimd};
 
-use super::batch::{Batch, BatchInputs, Group, NEAR_ONE};
-use super::evaluate::evaluate;
+use super::batch::{BatchInputs, Group, NEAR_ONE};
+use super::crafts::{Crafts, entered};
+use super::evaluate::{LanedCraft, evaluate};
 use super::lane::Lane;
 use super::motion::Motion;
 use super::number::{Number, WIDEST};
@@ -19,12 +20,14 @@ use crate::equations::error::SolveError;
 use crate::equations::stiffness::ACCEPTED;
 use crate::model::kind::Kind;
 use crate::numbers::vec3::rotate_transposed;
+use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
 /// The runs of a batch.
-pub(super) struct Runs<'a, 's, 'o, D: LanedSet> {
-    pub(super) batch: &'a Batch<D>,
+pub(super) struct Runs<'a, 's, 'o, D: LanedSet, C> {
+    pub(super) crafts: &'a C,
+    pub(super) fused: bool,
     pub(super) states: &'s mut [State<D>],
     pub(super) inputs: BatchInputs<'a, D>,
     pub(super) dt: f64,
@@ -32,12 +35,12 @@ pub(super) struct Runs<'a, 's, 'o, D: LanedSet> {
     pub(super) out: &'o mut Vec<Result<(), SolveError<f64>>>,
 }
 
-impl<D: LanedSet> WithSimd for Runs<'_, '_, '_, D> {
+impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        if self.batch.fused {
+        if self.fused {
             self.run(Lane::<S, true>::splat(simd, 0.0));
         } else {
             self.run(Lane::<S, false>::splat(simd, 0.0));
@@ -45,42 +48,64 @@ impl<D: LanedSet> WithSimd for Runs<'_, '_, '_, D> {
     }
 }
 
-impl<D: LanedSet> Runs<'_, '_, '_, D> {
+impl<D: LanedSet, C: Crafts<D>> Runs<'_, '_, '_, D, C> {
     #[inline(always)]
     fn run<T: Number>(self, zero: T) {
-        let craft = &self.batch.craft;
-        let mut group = Group::<D, T>::new(craft, zero);
+        let crafts = self.crafts;
+        let Some(first) = crafts.at(0) else { return };
+        let mut group = Group::<D, T>::new(first, zero);
         for (index, states) in self.states.chunks_mut(T::WIDTH).enumerate() {
-            let inputs = self.inputs.starting(index * T::WIDTH);
-            group.gather(zero, craft, states, &inputs);
-            each_slot::<D, _>(&craft.devices, &mut group.slots, &mut Begin(zero));
+            let start = index * T::WIDTH;
+            let inputs = self.inputs.starting(start);
+            group.gather(zero, (crafts, start), states, &inputs);
+            let Some(laned) = entered(crafts, index, &mut group.slots, zero) else { return };
+            each_slot::<D, _>(laned.devices, &mut group.slots, &mut Begin(zero));
             let mut motion = group.motion;
             let mut holds = zero.same(zero);
             for _ in 0..self.steps {
-                let step_holds = step(craft, &mut group, zero, self.dt, &mut motion);
+                let step_holds = if C::EACH {
+                    step::<D, T, true>(&laned, &mut group, zero, self.dt, &mut motion)
+                } else {
+                    step::<D, T, false>(&laned, &mut group, zero, self.dt, &mut motion)
+                };
                 holds = zero.both(holds, step_holds);
             }
-            each_slot::<D, _>(&craft.devices, &mut group.slots, &mut LeaveJoints);
+            each_slot::<D, _>(laned.devices, &mut group.slots, &mut LeaveJoints);
             let motion = motion.map(Number::store);
             let holds = zero.like(1.0).or(holds, zero).store();
             for (lane, state) in states.iter_mut().enumerate() {
                 let Some(inputs) = inputs.at(lane) else { continue };
                 self.out.push(if group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0 {
                     motion.take(lane, state);
-                    take_joints::<D, _>(&craft.devices, &mut group.slots, lane, &mut state.devices);
+                    take_joints::<D, _>(laned.devices, &mut group.slots, lane, &mut state.devices);
                     Ok(())
                 } else {
-                    self.batch.alone(state, inputs, self.dt, self.steps)
+                    let craft = crafts.at(start + lane).unwrap_or(first);
+                    alone(craft, state, inputs, self.dt, self.steps)
                 });
             }
         }
     }
 }
 
+/// One state by itself, step after step.
+fn alone<D: LanedSet>(
+    craft: &Spacecraft<D>,
+    state: &mut State<D>,
+    inputs: &Inputs<D>,
+    dt: f64,
+    steps: usize,
+) -> Result<(), SolveError<f64>> {
+    for _ in 0..steps {
+        *state = craft.step(state, inputs, dt)?;
+    }
+    Ok(())
+}
+
 /// One step of the hub's motion and of the joints in their slots; the lanes where it holds.
 #[inline(always)]
-fn step<D: LanedSet, T: Number>(
-    craft: &Spacecraft<D>,
+fn step<D: LanedSet, T: Number, const EACH: bool>(
+    craft: &LanedCraft<'_, D, T>,
     group: &mut Group<D, T>,
     zero: T,
     dt: f64,
@@ -96,7 +121,7 @@ fn step<D: LanedSet, T: Number>(
         let long = square.above(near);
         holds = zero.both(holds, zero.both(long, zero.like(NEAR_ONE.recip()).above(square)));
         let acting = group.acting_at(zero, attitude, omega);
-        let found = evaluate(craft, &mut group.slots, &acting);
+        let found = evaluate::<D, T, EACH>(craft, &mut group.slots, &acting);
         holds = zero.both(holds, found.holds);
         if craft.passive {
             // What a single step would look at closer is left to it.
@@ -115,10 +140,10 @@ fn step<D: LanedSet, T: Number>(
         let (weight, time) = (zero.like(weight), zero.like(time));
         sum = sum.zip(&slope, |sum, slope| sum.add_mul(weight, slope));
         now = start.zip(&slope, |start, slope| start + zero.add_mul(time, slope));
-        each_slot::<D, _>(&craft.devices, &mut group.slots, &mut Stage { zero, weight, time });
+        each_slot::<D, _>(craft.devices, &mut group.slots, &mut Stage { zero, weight, time });
     }
     let mut end = End { zero, vanishing: zero };
-    each_slot::<D, _>(&craft.devices, &mut group.slots, &mut end);
+    each_slot::<D, _>(craft.devices, &mut group.slots, &mut end);
     let mut next = start.zip(&sum, |start, sum| start + sum);
     let length = norm_squared(next.q);
     let long = length.above(near);

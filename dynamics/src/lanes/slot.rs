@@ -3,9 +3,11 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use std::boxed::Box;
+use std::sync::Arc;
 
 use core::convert::Infallible;
 
+use super::constants::{DeviceBlocks, EachConstants};
 use super::gather::joints_in_lanes;
 use super::number::{Block, Number, WIDEST};
 use super::states::States;
@@ -34,6 +36,8 @@ pub(super) struct Slot<K: Kernels, T: Value> {
     pub(crate) joints: K::Joints<T>,
     /// What the step adds up to.
     pub(crate) sum: K::Joints<T>,
+    /// The constants, where the lanes are of different spacecraft.
+    pub(crate) constants: Option<Arc<DeviceBlocks<K>>>,
     /// Torques and modes, without what joints do by themselves.
     pub(crate) drives: K::PerJoint<Drive<T>>,
     /// What back substitution needs; none before the first evaluation.
@@ -72,6 +76,7 @@ impl<T: Value> PerDevice<f64> for Slots<T> {
             start: joints,
             joints,
             sum: joints,
+            constants: None,
             drives: K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| self.0)),
             gains: None,
             found: K::zip_accelerations(&still, &still, |_, _| self.0),
@@ -224,6 +229,36 @@ pub(crate) fn take_joints<D: LanedSet, T: Value>(
     let data = (slots, joints);
     let Ok(()) =
         D::visit::<(Unique<Slots<T>>, Unique<data::Joints>), _>(devices, data, &mut Take { lane });
+}
+
+/// Takes the constants of the spacecraft in the lanes in.
+pub(crate) fn enter_constants<D: LanedSet, T: Value>(
+    devices: &D::Prepared,
+    slots: &mut SlotsOf<D, T>,
+    constants: &D::Per<EachConstants>,
+) {
+    let data = (slots, constants);
+    let Ok(()) = D::visit::<(Unique<Slots<T>>, Shared<EachConstants>), _>(
+        devices,
+        data,
+        &mut EnterConstants,
+    );
+}
+
+/// Takes constants in.
+struct EnterConstants;
+
+impl<T: Value> Visit<f64, (Unique<Slots<T>>, Shared<EachConstants>)> for EnterConstants {
+    type Error = Infallible;
+
+    fn visit<K: Kind<Scalar = f64>>(
+        &mut self,
+        _: &Device<K>,
+        (slot, constants): (&mut Box<Slot<K, T>>, &Option<Arc<DeviceBlocks<K>>>),
+    ) -> Result<(), Infallible> {
+        slot.constants.clone_from(constants);
+        Ok(())
+    }
 }
 
 /// Takes the accelerations of one lane out.

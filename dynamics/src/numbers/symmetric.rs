@@ -91,9 +91,9 @@ impl<T: Scalar> Symmetric<T> {
     }
 }
 
-impl<T: Real> Symmetric<T> {
+#[cfg(feature = "lanes")]
+impl<T: Copy> Symmetric<T> {
     /// The tensor with each of its numbers changed.
-    #[cfg(feature = "lanes")]
     #[inline(always)]
     pub(crate) fn map<U>(self, mut change: impl FnMut(T) -> U) -> Symmetric<U> {
         Symmetric {
@@ -105,7 +105,9 @@ impl<T: Real> Symmetric<T> {
             zz: change(self.zz),
         }
     }
+}
 
+impl<T: Real> Symmetric<T> {
     /// The sum of two tensors.
     #[inline(always)]
     pub(crate) fn plus(self, other: Self) -> Self {

@@ -79,9 +79,9 @@ fn services_agree_with_higher_precision() {
     }
 }
 
-type Mixed = ([ReactionWheel; 2], Sgcmg, SloshMass);
+pub(super) type Mixed = ([ReactionWheel; 2], Sgcmg, SloshMass);
 
-fn hub() -> Hub {
+pub(super) fn hub() -> Hub {
     Hub {
         m_b: 120.0,
         r_bc_b: Vector3::new(0.01, -0.02, 0.05),
@@ -89,7 +89,7 @@ fn hub() -> Hub {
     }
 }
 
-fn mixed() -> Mixed {
+pub(super) fn mixed() -> Mixed {
     let disc = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, 0.01));
     let wheel = ReactionWheel { d: 1e-5, ..ReactionWheel::bare_wheel(3.0, disc) };
     let mut tank = SloshMass::bare_slosh_mass(4.0);
@@ -103,7 +103,7 @@ fn gyro() -> Sgcmg {
 }
 
 /// States that differ in everything.
-fn states(count: u32) -> Vec<State<Mixed>> {
+pub(super) fn states(count: u32) -> Vec<State<Mixed>> {
     let state = |k: u32| {
         let x = f64::from(k);
         let mut state: State<Mixed> = State::at_rest();
@@ -124,7 +124,7 @@ fn states(count: u32) -> Vec<State<Mixed>> {
 }
 
 /// Inputs with a prescribed gimbal, a locked wheel and a uniform field, each a little different.
-fn inputs(k: u32) -> Inputs<Mixed> {
+pub(super) fn inputs(k: u32) -> Inputs<Mixed> {
     let mut inputs: Inputs<Mixed> = Inputs::none();
     inputs.force = Vector3::new(1.0, f64::from(k), -2.0);
     inputs.motors.0[1].u_w = 0.05 * f64::from(k);

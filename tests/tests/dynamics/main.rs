@@ -14,6 +14,7 @@ mod known_cases;
 mod lanes;
 mod ledger_and_loads;
 mod operations;
+mod parameter_batch;
 mod parameterisations;
 mod power_balance;
 mod promises;

@@ -1,0 +1,39 @@
+//! [`Crafts`]: the spacecraft of a batch, one for all states or one for each.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use super::constants::CraftBlocks;
+use super::evaluate::LanedCraft;
+use super::number::Number;
+use super::slot::{LanedSet, SlotsOf, enter_constants};
+use crate::solve::spacecraft::Spacecraft;
+
+/// The spacecraft of a batch.
+pub(super) trait Crafts<D: LanedSet> {
+    /// Whether each state has its own.
+    const EACH: bool;
+
+    /// That of a state.
+    fn at(&self, state: usize) -> Option<&Spacecraft<D>>;
+    /// Those of a group of lanes, where each state has its own.
+    fn blocks(&self, group: usize) -> Option<&CraftBlocks<D>>;
+}
+
+/// The spacecraft of a group of lanes; the constants of their devices are taken into the slots.
+#[inline(always)]
+pub(super) fn entered<'a, D: LanedSet, T: Number, C: Crafts<D>>(
+    crafts: &'a C,
+    group: usize,
+    slots: &mut SlotsOf<D, T>,
+    like: T,
+) -> Option<LanedCraft<'a, D, T>> {
+    let craft = crafts.at(group * T::WIDTH)?;
+    let devices = &craft.devices;
+    if let Some(blocks) = crafts.blocks(group) {
+        enter_constants::<D, _>(devices, slots, &blocks.devices);
+        let body = blocks.body.map(|block| like.load(&block));
+        return Some(LanedCraft { devices, body, passive: blocks.passive });
+    }
+    let body = craft.body.map(|constant| like.like(constant));
+    Some(LanedCraft { devices, body, passive: craft.passive })
+}

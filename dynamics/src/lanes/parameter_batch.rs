@@ -1,0 +1,138 @@
+//! [`ParameterBatch`]: as many spacecraft of one shape as there are states, in lanes.
+
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
+use std::sync::Arc;
+use std::vec::Vec;
+
+use pulp::Arch;
+
+use super::batch::{BatchAccelerations, BatchInputs, Evaluation};
+use super::constants::CraftBlocks;
+use super::crafts::Crafts;
+use super::run::Runs;
+use super::slot::LanedSet;
+use super::width::width;
+use crate::equations::arithmetic::Arithmetic;
+use crate::equations::error::{Quantity, SolveError};
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::State;
+
+/// Spacecraft of one shape whose parameters differ, each at its own state: masses, offsets,
+/// imbalances, mounts, springs of a campaign.
+///
+/// A state has the result, or the error, that its [`Spacecraft`] gives it by itself, to the bit,
+/// unless the lanes fuse ([`Self::fused`]). A state falls back to the scalar path where it or its
+/// spacecraft has what is [unsupported in lanes](crate::lanes), and where anything fails.
+#[derive(Clone, Debug)]
+pub struct ParameterBatch<D: LanedSet> {
+    crafts: Vec<Spacecraft<D>>,
+    /// As many spacecraft as there are lanes, side by side.
+    groups: Arc<[CraftBlocks<D>]>,
+    lanes: Arch,
+    fused: bool,
+}
+
+impl<D: LanedSet> ParameterBatch<D> {
+    /// The batch of these spacecraft, in their order. Each was checked by [`Spacecraft::new`]. Whether
+    /// one is [`Spacecraft::fused`] does not matter here.
+    #[must_use]
+    pub fn new(spacecraft: Vec<Spacecraft<D>>) -> Self {
+        let mut crafts = spacecraft;
+        for craft in &mut crafts {
+            craft.arithmetic = Arithmetic::Unfused;
+        }
+        let lanes = Arch::new();
+        let groups = crafts.chunks(width(lanes)).filter_map(CraftBlocks::of).collect();
+        Self { crafts, groups, lanes, fused: false }
+    }
+
+    /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
+    /// some CPUs.
+    #[must_use]
+    pub fn fused(self) -> Self {
+        Self { fused: true, ..self }
+    }
+
+    /// The spacecraft, for everything that is asked of one of them.
+    #[must_use]
+    pub fn spacecraft(&self) -> &[Spacecraft<D>] {
+        &self.crafts
+    }
+
+    /// All accelerations of each spacecraft at its state, as [`Spacecraft::accelerations`]. `out` is
+    /// cleared first.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Count`] where there are states or inputs for another number of spacecraft; a
+    /// state that cannot be evaluated has its own error in `out`.
+    pub fn accelerations<'a>(
+        &self,
+        states: &[State<D>],
+        inputs: impl Into<BatchInputs<'a, D>>,
+        out: &mut BatchAccelerations<D>,
+    ) -> Result<(), SolveError<f64>>
+    where
+        D: 'a,
+    {
+        let inputs = inputs.into();
+        self.fit(states.len(), &inputs)?;
+        out.clear();
+        out.reserve(states.len());
+        let Self { lanes, fused, .. } = *self;
+        lanes.dispatch(Evaluation { crafts: self, fused, states, inputs, out });
+        Ok(())
+    }
+
+    /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is
+    /// left as it was before the step that failed. `out` is cleared first.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::accelerations`], and [`SolveError::NotFinite`] of a step that is not finite.
+    pub fn run<'a>(
+        &self,
+        states: &mut [State<D>],
+        inputs: impl Into<BatchInputs<'a, D>>,
+        dt: f64,
+        steps: usize,
+        out: &mut Vec<Result<(), SolveError<f64>>>,
+    ) -> Result<(), SolveError<f64>>
+    where
+        D: 'a,
+    {
+        let inputs = inputs.into();
+        self.fit(states.len(), &inputs)?;
+        if !dt.is_finite() {
+            return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
+        }
+        out.clear();
+        out.reserve(states.len());
+        let Self { lanes, fused, .. } = *self;
+        lanes.dispatch(Runs { crafts: self, fused, states, inputs, dt, steps, out });
+        Ok(())
+    }
+
+    fn fit(&self, states: usize, inputs: &BatchInputs<'_, D>) -> Result<(), SolveError<f64>> {
+        let expected = self.crafts.len();
+        if states != expected {
+            return Err(SolveError::Count { expected, found: states });
+        }
+        inputs.fit(expected)
+    }
+}
+
+impl<D: LanedSet> Crafts<D> for ParameterBatch<D> {
+    const EACH: bool = true;
+
+    #[inline(always)]
+    fn at(&self, state: usize) -> Option<&Spacecraft<D>> {
+        self.crafts.get(state)
+    }
+
+    #[inline(always)]
+    fn blocks(&self, group: usize) -> Option<&CraftBlocks<D>> {
+        self.groups.get(group)
+    }
+}

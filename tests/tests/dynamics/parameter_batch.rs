@@ -1,0 +1,153 @@
+//! Spacecraft whose parameters differ, side by side in lanes, against each by itself: to the bit
+//! where they are unfused, errors included.
+
+use nalgebra::{Rotation3, Vector3};
+use precess_dynamics::lanes::{BatchAccelerations, ParameterBatch};
+use precess_dynamics::{
+    Accelerations, Devices, Each as _, ImbalanceModel, Inputs, Mode, Passive, SolveError,
+    Spacecraft, State,
+};
+use precess_tests::bounds::ACCELERATIONS_WORST;
+
+use super::lanes::{Mixed, hub, inputs, mixed, states};
+
+/// A spacecraft that differs from the others in everything: mass, inertia, imbalance, places,
+/// mounts, springs.
+fn craft(k: u32) -> Spacecraft<Mixed> {
+    let x = f64::from(k);
+    let (mut hub, mut devices) = (hub(), mixed());
+    hub.m_b += x;
+    hub.r_bc_b.y += 0.01 * x;
+    hub.i_b_bc.m22 += 0.1 * x;
+    devices.0[0].d *= x;
+    devices.0[1].r_w_b.z -= 0.02 * x;
+    devices.0[1].m_w += 0.1 * x;
+    devices.1.mount *= Rotation3::from_axis_angle(&Vector3::x_axis(), 0.3 * x).matrix();
+    devices.1.i_w_wc.m13 += 1e-6 * x;
+    devices.1.i_w_wc.m31 = devices.1.i_w_wc.m13;
+    // Some have a spring where others have none, and one has dry friction.
+    if k % 3 == 0 {
+        devices.1.passive.gimbal = Passive::spring(2.0 + x, 0.1);
+    }
+    if k % 2 == 0 {
+        devices.2.passive.slosh_mass = Passive::none();
+    }
+    if k == 5 {
+        devices.0[0].passive.wheel =
+            Passive { coulomb: 1e-3, coulomb_rate: 0.1, ..Passive::none() };
+    }
+    if k == 6 {
+        devices.0[1].model = ImbalanceModel::Lumped;
+    }
+    Spacecraft::new(&hub, &devices).unwrap()
+}
+
+fn crafts(count: u32) -> Vec<Spacecraft<Mixed>> {
+    (0..count).map(craft).collect()
+}
+
+/// Everything printed, so that NaN and the sign of zero count.
+fn printed(found: &impl std::fmt::Debug) -> String {
+    format!("{found:?}")
+}
+
+#[test]
+fn each_spacecraft_has_the_bits_it_has_by_itself() {
+    let mut found = Vec::new();
+    for count in [0, 1, 3, 8, 9, 17] {
+        let (crafts, states) = (crafts(count), states(count));
+        let batch = ParameterBatch::new(crafts.clone());
+        let each: Vec<_> = (0..count).map(inputs).collect();
+        batch.accelerations(&states, &each, &mut found).unwrap();
+        let alone = crafts.iter().zip(&states).zip(&each);
+        let alone = alone.map(|((craft, state), inputs)| craft.accelerations(state, inputs));
+        assert_eq!(printed(&found), printed(&alone.collect::<Vec<_>>()), "{count} spacecraft");
+        batch.accelerations(&states, &inputs(3), &mut found).unwrap();
+        let alone = crafts.iter().zip(&states);
+        let alone = alone.map(|(craft, state)| craft.accelerations(state, &inputs(3)));
+        assert_eq!(printed(&found), printed(&alone.collect::<Vec<_>>()), "{count}, one input");
+    }
+}
+
+#[test]
+fn runs_have_the_bits_of_single_steps() {
+    let (count, inputs) = (17, inputs(2));
+    let (crafts, mut run, mut found) = (crafts(count), states(count), Vec::new());
+    let batch = ParameterBatch::new(crafts.clone());
+    batch.run(&mut run, &inputs, 1e-3, 20, &mut found).unwrap();
+    assert!(found.iter().all(Result::is_ok), "{found:?}");
+    for ((craft, start), end) in crafts.iter().zip(states(count)).zip(&run) {
+        let step = |state, _| craft.step(&state, &inputs, 1e-3).unwrap();
+        assert_eq!(printed(&(0..20).fold(start, step)), printed(end));
+    }
+}
+
+#[test]
+fn each_spacecraft_has_its_own_error() {
+    let (crafts, mut states) = (crafts(9), states(9));
+    let mut each: Vec<_> = (0..9).map(inputs).collect();
+    states[1].omega.x = f64::NAN;
+    states[3].attitude.q0 = 0.0;
+    states[3].attitude.q1 = 0.0;
+    each[4].modes.0[0].wheel = Mode::Locked;
+    states[8].omega.z = 1e160;
+    let batch = ParameterBatch::new(crafts.clone());
+    let mut found = Vec::new();
+    batch.accelerations(&states, &each, &mut found).unwrap();
+    let alone = crafts.iter().zip(&states).zip(&each);
+    let alone = alone.map(|((craft, state), inputs)| craft.accelerations(state, inputs));
+    assert_eq!(printed(&found), printed(&alone.collect::<Vec<_>>()));
+    let rejected: Vec<_> = found.iter().map(Result::is_err).collect();
+    assert_eq!(rejected, [false, true, false, true, true, false, false, false, true]);
+    let (mut run, mut ends) = (states.clone(), Vec::new());
+    batch.run(&mut run, &each, 1e-3, 3, &mut ends).unwrap();
+    for (k, start) in states.iter().enumerate() {
+        let mut state = *start;
+        let end = (0..3).try_for_each(|_| {
+            state = crafts[k].step(&state, &each[k], 1e-3)?;
+            Ok::<_, SolveError<f64>>(())
+        });
+        assert_eq!(printed(&(run[k], &ends[k])), printed(&(state, &end)), "run {k}");
+    }
+}
+
+/// The largest difference of any acceleration, over the largest acceleration.
+fn difference<D: Devices<Scalar = f64>>(a: &Accelerations<D>, b: &Accelerations<D>) -> f64 {
+    let numbers = |of: &Accelerations<D>| -> Vec<f64> {
+        let hub = of.r_b_n_ddot.iter().chain(&of.omega_dot).copied();
+        hub.chain(of.devices.values()).collect()
+    };
+    let (a, b) = (numbers(a), numbers(b));
+    let largest = b.iter().fold(0.0, |largest: f64, number| largest.max(number.abs()));
+    let pairs = a.iter().zip(&b);
+    pairs.fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs())) / largest
+}
+
+#[test]
+fn fused_lanes_agree_to_rounding() {
+    let (crafts, states, inputs) = (crafts(9), states(9), inputs(2));
+    let mut found = [Vec::new(), Vec::new()];
+    let unfused = ParameterBatch::new(crafts);
+    let fused = unfused.clone().fused();
+    for (batch, found) in [unfused, fused].iter().zip(&mut found) {
+        batch.accelerations(&states, &inputs, found).unwrap();
+    }
+    let [unfused, fused] = found;
+    assert_ne!(printed(&fused), printed(&unfused), "not a bit of a difference: not in lanes");
+    for (fused, unfused) in fused.iter().zip(&unfused) {
+        let worst = difference(fused.as_ref().unwrap(), unfused.as_ref().unwrap());
+        assert!(worst <= ACCELERATIONS_WORST, "{worst:e}");
+    }
+}
+
+#[test]
+fn other_numbers_of_states_or_inputs_are_rejected() {
+    let batch = ParameterBatch::new(crafts(3));
+    let each: Vec<Inputs<Mixed>> = (0..2).map(inputs).collect();
+    let count = |expected, found| Err(SolveError::Count { expected, found });
+    let mut out: BatchAccelerations<Mixed> = Vec::new();
+    assert_eq!(batch.accelerations(&states(2), &inputs(0), &mut out), count(3, 2));
+    assert_eq!(batch.accelerations(&states(3), &each, &mut out), count(3, 2));
+    let mut states: Vec<State<Mixed>> = states(4);
+    assert_eq!(batch.run(&mut states, &inputs(0), 1e-3, 1, &mut Vec::new()), count(3, 4));
+}
