@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::graph::{Expr, Graph, Node, SymbolId};
-use precess_codegen::kernel::{Record, Source, kernels};
+use precess_codegen::kernel::kernels;
 use precess_codegen::kinds::{
     BALANCED_DGCMG, BALANCED_DGVSCMG, BALANCED_SGCMG, BALANCED_VSCMG, DGCMG, DGVSCMG, Kind, SGCMG,
     VSCMG,
@@ -55,8 +55,7 @@ fn eliminated(
             values.push((id(symbol), value));
         }
     }
-    let mut outputs = Vec::new();
-    sources(&kernel.output, &mut outputs);
+    let mut outputs = kernel.output.leaves();
     // A pivot that no outboard joint changes is the diagonal, and returned once.
     let pivots = outputs.iter().filter_map(|(field, source)| {
         let diagonal = field.replace("pivot_", "diagonal_");
@@ -78,17 +77,6 @@ fn eliminated(
 fn id(symbol: Expr<'_>) -> SymbolId {
     let Node::Symbol(id) = symbol.node() else { panic!("a symbol is a symbol") };
     id
-}
-
-/// Field and named value of every number of a record.
-fn sources(record: &Record, into: &mut Vec<(String, String)>) {
-    for field in &record.fields {
-        match &field.source {
-            Source::Own => into.push((field.name.clone(), field.name.clone())),
-            Source::Named(value) => into.push((field.name.clone(), value.clone())),
-            Source::Nested(inner) => sources(inner, into),
-        }
-    }
 }
 
 /// What the narrow kind returns, the wide one does, with one joint given its acceleration and with

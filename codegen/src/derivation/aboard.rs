@@ -63,11 +63,11 @@ fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub
 const CORIOLIS: &str = "Coriolis and centrifugal terms of the left side, which";
 
 /// What the row of the first of these joints consists of, about or along an axis of `frame`.
-fn row_heading(behind: &[Link], frame: &str) -> Heading {
-    let (data, motion) = (&behind[0], behind[0].joint.motion);
+fn row_heading(outboard: &[Link], frame: &str) -> Heading {
+    let (data, motion) = (&outboard[0], outboard[0].joint.motion);
     let (about, what, unit) = match motion {
-        Motion::Turn(_) => ("about", "moment", units(behind, |units| units.moment)),
-        Motion::Slide(_) => ("along", "force", units(behind, |units| units.force)),
+        Motion::Turn(_) => ("about", "moment", units(outboard, |units| units.moment)),
+        Motion::Slide(_) => ("along", "force", units(outboard, |units| units.force)),
     };
     let axis = XYZ[motion.axis().cycle()[0]];
     let heading =
@@ -75,7 +75,7 @@ fn row_heading(behind: &[Link], frame: &str) -> Heading {
     let heading = heading.equation(data.body.equations.torque).equation("(D7), (D9)");
     let heading =
         heading.part("M_ij", unit).part("bias without the hub's part", motion.units().drive);
-    if behind.len() == 1 {
+    if outboard.len() == 1 {
         return heading;
     }
     heading.note(format!(

@@ -24,7 +24,7 @@ pub struct BoltzmannHamel<'g> {
     pub energy: Expr<'g>,
     /// `T_v`: linear momentum.
     pub linear: Vector<'g, Hub>,
-    /// `T_omega`: moment of momentum about B.
+    /// `T_omega`: angular momentum about B.
     pub angular: Vector<'g, Hub>,
     /// `d^2 T / dx dy`, upper triangle by rows, for the speeds x of v, omega, joints.
     pub mass: Vec<Vec<Expr<'g>>>,

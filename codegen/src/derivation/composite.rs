@@ -174,7 +174,10 @@ pub fn momenta<'g>(
         };
         let heading = Heading::of(format!("Momentum of the {}", data.body.title));
         let heading = heading.cited("its moment as in", data.body.equations.h);
-        let heading = heading.part("momentum", "kg m/s").part("moment", "kg m²/s").about(letter);
+        let heading = heading
+            .part("momentum", "kg m/s")
+            .part("moment", "kg m²/s")
+            .about(&format!("{letter} instead of B"));
         script.section("mom", heading);
         script.names(pairs(triple(&format!("p_{frame}"), frame), own.force.components()));
         script.names(pairs(triple(&format!("h_{frame}"), frame), own.moment.components()));

@@ -21,7 +21,7 @@ use crate::space::Vector;
 /// Suffixes of the six hub unknowns: acceleration of B, angular acceleration.
 pub const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
 
-/// What the sections of the elimination begin with.
+/// The quantity of the section with which the elimination begins.
 const RIGHT_SIDE: &str = "Right side of each joint row";
 
 /// Whether a section is of the elimination, or of the back substitution that follows it.
@@ -29,7 +29,7 @@ const RIGHT_SIDE: &str = "Right side of each joint row";
 pub fn is_of_elimination(heading: &Heading) -> bool {
     let ours = ["(D10)", "(D11)", "(D12)", "(D13)"];
     let cited = heading.equations().iter().any(|equation| ours.contains(&equation.as_str()));
-    cited || heading.label().starts_with(RIGHT_SIDE)
+    cited || heading.quantity() == RIGHT_SIDE
 }
 
 /// A name and its value.

@@ -1,7 +1,7 @@
 //! What a section of a derivation computes, as data: quantity, equations, axes, units, point.
 //!
-//! Comments of the emitted Rust and C, documentation of constants, tags of mutants and the pages on
-//! the derivation are written from it. No other file composes that text.
+//! Comments over the statements of emitted Rust and C, documentation of constants, tags of mutants
+//! and the pages on the derivation are written from it.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use std::fmt;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Heading {
     what: String,
-    /// How the equations state it: as it is where empty, else `as in`, `see`.
+    /// What stands before the equations: nothing where they state it as it is, else `as in`, `see`.
     relation: &'static str,
     equations: Vec<String>,
     axes: String,
@@ -27,17 +27,17 @@ impl Heading {
 
     /// The equations that state it, by their numbers, separated by commas.
     #[must_use]
-    pub fn equation(self, numbers: &str) -> Self {
-        self.cited("", numbers)
+    pub fn equation(mut self, numbers: &str) -> Self {
+        // A kind of another crate need not be in the paper.
+        let numbers = numbers.split(", ").filter(|number| !["", "(none)"].contains(number));
+        self.equations.extend(numbers.map(str::to_owned));
+        self
     }
 
     /// Equations that state something near to it, and how: `as in`, `see`.
     #[must_use]
-    pub fn cited(mut self, relation: &'static str, numbers: &str) -> Self {
-        // A kind of another crate need not be in the paper.
-        let numbers = numbers.split(", ").filter(|number| !["", "(none)"].contains(number));
-        self.equations.extend(numbers.map(str::to_owned));
-        Self { relation, ..self }
+    pub fn cited(self, relation: &'static str, numbers: &str) -> Self {
+        Self { relation, ..self.equation(numbers) }
     }
 
     /// The axes that it is expressed in.
@@ -77,6 +77,12 @@ impl Heading {
         Self { note: note.into(), ..self }
     }
 
+    /// The quantity, in words or by its symbol.
+    #[must_use]
+    pub fn quantity(&self) -> &str {
+        &self.what
+    }
+
     /// The numbers of its equations, one by one or in ranges.
     #[must_use]
     pub fn equations(&self) -> &[String] {
@@ -101,14 +107,15 @@ impl fmt::Display for Heading {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.label())?;
         for (place, [what, unit]) in self.parts.iter().enumerate() {
-            let last = place + 1 == self.parts.len();
-            let joint = match (place, last) {
+            let (last, few) = (place + 1 == self.parts.len(), self.parts.len() < 3);
+            let separator = match (place, last, few) {
                 _ if what.is_empty() => "",
-                (0, _) => ": ",
-                (_, true) => ", and ",
-                (_, false) => ", ",
+                (0, ..) => ": ",
+                (_, true, true) => ", and ",
+                (_, true, false) => "; and ",
+                (_, false, _) => "; ",
             };
-            write!(f, "{joint}{what}")?;
+            write!(f, "{separator}{what}")?;
             if !unit.is_empty() {
                 write!(f, ", {unit}")?;
             }
@@ -146,7 +153,7 @@ mod tests {
         let heading = heading.part("inertia", "kg m²").about("B").note("as given");
         assert_eq!(
             heading.to_string(),
-            "Share: mass, kg, first moment, kg m, and inertia, kg m², about B, as given."
+            "Share: mass, kg; first moment, kg m; and inertia, kg m², about B, as given."
         );
     }
 

@@ -77,7 +77,7 @@ pub struct Momenta<'g> {
     pub energy: Expr<'g>,
     /// Linear momentum.
     pub linear: Vector<'g, Hub>,
-    /// Moment of momentum about B.
+    /// Angular momentum about B.
     pub angular: Vector<'g, Hub>,
 }
 

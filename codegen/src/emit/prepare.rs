@@ -1,6 +1,6 @@
 //! What depends on parameters only leaves every kernel and is computed once, in `prepare`.
 //!
-//! Invariant: no two fields of `Prepared` have the same value in every device of the kind.
+//! Invariant: no two fields of `Prepared` are the same expression.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 

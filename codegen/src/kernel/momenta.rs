@@ -17,15 +17,13 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let heading = Heading::of("Kinetic energy and momenta of the device");
     let heading = heading.cited("as in", "(20)").axes("the device's axes").part("energy", "J");
     let heading = heading.part("linear momentum", "kg m/s");
-    script.section("sum", heading.part("moment of momentum", "kg m²/s").about("B"));
+    script.section("sum", heading.part("angular momentum", "kg m²/s").about("B"));
     script.name("energy", momenta.energy);
     script.names(pairs(triple("linear", "b"), momenta.linear.components()));
     script.names(pairs(triple("angular_b", "b"), momenta.angular.components()));
     Kernel {
         name: "energy_momentum".to_owned(),
-        doc: vec![
-            "Kinetic energy, linear momentum and moment of momentum about B (20).".to_owned(),
-        ],
+        doc: vec!["Kinetic energy, linear momentum and angular momentum about B (20).".to_owned()],
         inputs: inputs(kind, [("b", records::body_velocity())]),
         sections: script.sections,
         output: records::energy_momentum(),

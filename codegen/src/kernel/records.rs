@@ -384,7 +384,7 @@ pub(super) fn energy_momentum() -> Record {
     let mut record = Record::new("EnergyMomentum", doc).shared();
     record.field("energy", "Kinetic energy, J.");
     record.vector("linear", "b", "Linear momentum", "kg m/s");
-    record.vector("angular_b", "b", "Moment of momentum about B, Σ r × m ṙ + I ω", "kg m²/s");
+    record.vector("angular_b", "b", "Angular momentum about B, Σ r × m ṙ + I ω", "kg m²/s");
     record
 }
 

@@ -34,11 +34,21 @@ impl<T: Copy> HubConstants<T> {
     /// The constants with each of their numbers changed.
     #[inline(always)]
     pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> HubConstants<U> {
-        let [x, y, z] = self.first_moment;
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// The constants of two joined number by number.
+    #[inline(always)]
+    pub(crate) fn zip<U: Copy, W>(
+        &self,
+        other: &HubConstants<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> HubConstants<W> {
+        let ([x, y, z], [p, q, r]) = (self.first_moment, other.first_moment);
         HubConstants {
-            m_b: change(self.m_b),
-            first_moment: [change(x), change(y), change(z)],
-            i_b_b: self.i_b_b.map(change),
+            m_b: join(self.m_b, other.m_b),
+            first_moment: [join(x, p), join(y, q), join(z, r)],
+            i_b_b: self.i_b_b.zip(other.i_b_b, join),
         }
     }
 }

@@ -145,7 +145,7 @@ impl<D: LanedSet> Batch<D> {
     ///
     /// # Errors
     ///
-    /// As [`Self::accelerations`].
+    /// As [`Self::accelerations`], and [`SolveError::NotFinite`] of a step that is not finite.
     pub fn run<'a>(
         &self,
         states: &mut [State<D>],

@@ -3,7 +3,6 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use std::sync::Arc;
-use std::vec::Vec;
 
 use core::convert::Infallible;
 use core::fmt;
@@ -34,7 +33,7 @@ pub(super) struct DeviceBlocks<K: Kernels> {
     pub(super) free: bool,
 }
 
-/// Those of a device, as numbers in lanes.
+/// Constants of a device as numbers in lanes.
 pub(super) struct DeviceConstants<K: Kernels, T: Number> {
     pub(super) constants: K::Constants<T>,
     /// None where no joint has a spring or friction.
@@ -167,39 +166,28 @@ impl<D: LanedSet> CraftBlocks<D> {
         let last = crafts.last()?;
         let in_lane = |lane| crafts.get(lane).unwrap_or(last);
         let mut devices = D::new_data(&last.devices, &EachConstants);
+        let mut body = last.body.map(|_| Block::ZERO);
         for lane in 0..WIDEST {
+            body = body.zip(&in_lane(lane).body, |mut block, number| {
+                block.put(lane, number);
+                block
+            });
             let data = &mut devices;
-            let mut put = Put { lane };
+            let mut put = PutConstants { lane };
             let Ok(()) =
                 D::visit::<Unique<EachConstants>, _>(&in_lane(lane).devices, data, &mut put);
         }
-        let numbers = |lane| {
-            let mut numbers = Vec::new();
-            in_lane(lane).body.map(|number| numbers.push(number));
-            numbers
-        };
-        let lanes: Vec<Vec<f64>> = (0..WIDEST).map(numbers).collect();
-        let mut place = 0..;
-        let body = last.body.map(|number| {
-            let (mut block, place) = (Block([number; WIDEST]), place.next().unwrap_or(0));
-            for (lane, number) in lanes.iter().map(|numbers| numbers.get(place)).enumerate() {
-                if let Some(number) = number {
-                    block.put(lane, *number);
-                }
-            }
-            block
-        });
         let passive = crafts.iter().any(|craft| craft.passive);
         Some(Self { body, devices, passive })
     }
 }
 
 /// Puts the devices of a spacecraft into one lane.
-struct Put {
+struct PutConstants {
     lane: usize,
 }
 
-impl Visit<f64, Unique<EachConstants>> for Put {
+impl Visit<f64, Unique<EachConstants>> for PutConstants {
     type Error = Infallible;
 
     fn visit<K: Kind<Scalar = f64>>(

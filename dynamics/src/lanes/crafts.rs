@@ -29,7 +29,8 @@ pub(super) fn entered<'a, D: LanedSet, T: Number, C: Crafts<D>>(
 ) -> Option<LanedCraft<'a, D, T>> {
     let craft = crafts.at(group * T::WIDTH)?;
     let devices = &craft.devices;
-    if let Some(blocks) = crafts.blocks(group) {
+    if C::EACH {
+        let blocks = crafts.blocks(group)?;
         enter_constants::<D, _>(devices, slots, &blocks.devices);
         let body = blocks.body.map(|block| like.load(&block));
         return Some(LanedCraft { devices, body, passive: blocks.passive });

@@ -34,8 +34,8 @@ pub struct ParameterBatch<D: LanedSet> {
 }
 
 impl<D: LanedSet> ParameterBatch<D> {
-    /// The batch of these spacecraft, in their order. Each was checked by [`Spacecraft::new`]. Whether
-    /// one is [`Spacecraft::fused`] does not matter here.
+    /// The batch of these spacecraft, in their order. Each was checked by [`Spacecraft::new`]. One
+    /// that is [`Spacecraft::fused`] is taken as unfused.
     #[must_use]
     pub fn new(spacecraft: Vec<Spacecraft<D>>) -> Self {
         let mut crafts = spacecraft;
@@ -54,7 +54,7 @@ impl<D: LanedSet> ParameterBatch<D> {
         Self { fused: true, ..self }
     }
 
-    /// The spacecraft, for everything that is asked of one of them.
+    /// The spacecraft, unfused, for everything that is asked of one of them.
     #[must_use]
     pub fn spacecraft(&self) -> &[Spacecraft<D>] {
         &self.crafts

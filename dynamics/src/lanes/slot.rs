@@ -231,7 +231,7 @@ pub(crate) fn take_joints<D: LanedSet, T: Value>(
         D::visit::<(Unique<Slots<T>>, Unique<data::Joints>), _>(devices, data, &mut Take { lane });
 }
 
-/// Takes the constants of the spacecraft in the lanes in.
+/// Loads the constants of a group of spacecraft into the slots.
 pub(crate) fn enter_constants<D: LanedSet, T: Value>(
     devices: &D::Prepared,
     slots: &mut SlotsOf<D, T>,
@@ -245,7 +245,7 @@ pub(crate) fn enter_constants<D: LanedSet, T: Value>(
     );
 }
 
-/// Takes constants in.
+/// Loads constants.
 struct EnterConstants;
 
 impl<T: Value> Visit<f64, (Unique<Slots<T>>, Shared<EachConstants>)> for EnterConstants {

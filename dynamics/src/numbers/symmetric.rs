@@ -96,13 +96,23 @@ impl<T: Copy> Symmetric<T> {
     /// The tensor with each of its numbers changed.
     #[inline(always)]
     pub(crate) fn map<U>(self, mut change: impl FnMut(T) -> U) -> Symmetric<U> {
+        self.zip(self, |number, _| change(number))
+    }
+
+    /// Two tensors joined number by number.
+    #[inline(always)]
+    pub(crate) fn zip<U: Copy, W>(
+        self,
+        other: Symmetric<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Symmetric<W> {
         Symmetric {
-            xx: change(self.xx),
-            xy: change(self.xy),
-            xz: change(self.xz),
-            yy: change(self.yy),
-            yz: change(self.yz),
-            zz: change(self.zz),
+            xx: join(self.xx, other.xx),
+            xy: join(self.xy, other.xy),
+            xz: join(self.xz, other.xz),
+            yy: join(self.yy, other.yy),
+            yz: join(self.yz, other.yz),
+            zz: join(self.zz, other.zz),
         }
     }
 }

@@ -117,8 +117,9 @@ impl Scenario {
         for requirement in &self.requirements {
             let [from, to] = requirement.window;
             if !(0.0 <= from && from < to && to <= duration) {
+                let key = if 0.0 <= from { "to" } else { "from" };
                 errors.push(range(
-                    &format!("requirement.{}.to", requirement.name),
+                    &format!("requirement.{}.{key}", requirement.name),
                     format!("the window {from} s to {to} s is not within the run's {duration} s"),
                 ));
             }
@@ -147,6 +148,11 @@ impl Scenario {
                     &format!("device.{name}.name"),
                     format!("`{name}` is not lower-case letters, digits and underscores"),
                 ));
+            }
+            if name == "loads" {
+                let message =
+                    "`loads` is the name of a group of columns; name the device otherwise";
+                errors.push(range(&format!("device.{name}.name"), message.to_owned()));
             }
             if self.names.iter().take(index).any(|other| other == name) {
                 errors.push(range(

@@ -260,7 +260,8 @@ pub struct Source {
     /// All files that were read and the overrides, one after the other, with a comment that names
     /// each.
     pub text: String,
-    /// The same with every default filled in, in one file.
+    /// The same in one file, every default written out: what is not there the spacecraft does not
+    /// have, such as a torque limit, an end stop, gravity.
     pub filled: String,
 }
 

@@ -123,7 +123,7 @@ pub(super) fn states(count: u32) -> Vec<State<Mixed>> {
     (0..count).map(state).collect()
 }
 
-/// Inputs with a prescribed gimbal, a locked wheel and a uniform field, each a little different.
+/// Inputs with a prescribed gimbal and a uniform field, each a little different.
 pub(super) fn inputs(k: u32) -> Inputs<Mixed> {
     let mut inputs: Inputs<Mixed> = Inputs::none();
     inputs.force = Vector3::new(1.0, f64::from(k), -2.0);

@@ -1,15 +1,15 @@
 //! Spacecraft whose parameters differ, side by side in lanes, against each by itself: to the bit
 //! where they are unfused, errors included.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::lanes::{BatchAccelerations, ParameterBatch};
 use precess_dynamics::{
-    Accelerations, Devices, Each as _, ImbalanceModel, Inputs, Mode, Passive, SolveError,
-    Spacecraft, State,
+    Accelerations, Devices, Each as _, ImbalanceModel, Inputs, Mode, Passive, ReactionWheel,
+    SolveError, Spacecraft, State,
 };
 use precess_tests::bounds::ACCELERATIONS_WORST;
 
-use super::lanes::{Mixed, hub, inputs, mixed, states};
+use super::lanes::{self, Mixed, hub, mixed, states};
 
 /// A spacecraft that differs from the others in everything: mass, inertia, imbalance, places,
 /// mounts, springs.
@@ -42,6 +42,16 @@ fn craft(k: u32) -> Spacecraft<Mixed> {
     Spacecraft::new(&hub, &devices).unwrap()
 }
 
+/// Inputs with a gimbal that is driven in every second one, against a spring in some.
+fn inputs(k: u32) -> Inputs<Mixed> {
+    let mut inputs = lanes::inputs(k);
+    if k % 2 == 1 {
+        inputs.modes.1.gimbal = Mode::Driven;
+        inputs.motors.1.u_g = 0.01 * f64::from(k);
+    }
+    inputs
+}
+
 fn crafts(count: u32) -> Vec<Spacecraft<Mixed>> {
     (0..count).map(craft).collect()
 }
@@ -69,9 +79,28 @@ fn each_spacecraft_has_the_bits_it_has_by_itself() {
     }
 }
 
+/// Minus zero and zero add up to zero: a spring of none in a lane beside one that has a spring must
+/// not be added.
+#[test]
+fn a_spring_in_another_lane_leaves_the_sign_of_zero() {
+    let plain =
+        ReactionWheel::bare_wheel(3.0, Matrix3::from_diagonal(&Vector3::new(0.2, 0.1, 0.1)));
+    let mut sprung = plain;
+    sprung.passive.wheel = Passive::spring(2.0, 0.1);
+    let crafts = [plain, sprung].map(|wheel| Spacecraft::new(&hub(), &[wheel]).unwrap());
+    let states: [State<[ReactionWheel; 1]>; 2] = [State::at_rest(); 2];
+    let mut inputs: Inputs<[ReactionWheel; 1]> = Inputs::none();
+    inputs.motors[0].u_w = -0.0;
+    let mut found = Vec::new();
+    ParameterBatch::new(crafts.to_vec()).accelerations(&states, &inputs, &mut found).unwrap();
+    let alone = crafts.iter().zip(&states);
+    let alone = alone.map(|(craft, state)| craft.accelerations(state, &inputs));
+    assert_eq!(printed(&found), printed(&alone.collect::<Vec<_>>()));
+}
+
 #[test]
 fn runs_have_the_bits_of_single_steps() {
-    let (count, inputs) = (17, inputs(2));
+    let (count, inputs) = (17, inputs(3));
     let (crafts, mut run, mut found) = (crafts(count), states(count), Vec::new());
     let batch = ParameterBatch::new(crafts.clone());
     batch.run(&mut run, &inputs, 1e-3, 20, &mut found).unwrap();
@@ -133,8 +162,14 @@ fn fused_lanes_agree_to_rounding() {
         batch.accelerations(&states, &inputs, found).unwrap();
     }
     let [unfused, fused] = found;
-    assert_ne!(printed(&fused), printed(&unfused), "not a bit of a difference: not in lanes");
-    for (fused, unfused) in fused.iter().zip(&unfused) {
+    for (k, (fused, unfused)) in fused.iter().zip(&unfused).enumerate() {
+        // Dry friction and the lumped model are unsupported in lanes; at the first state nearly
+        // everything is zero, and nothing to be rounded.
+        match k {
+            0 => {}
+            5 | 6 => assert_eq!(fused, unfused, "{k} is not in lanes"),
+            _ => assert_ne!(fused, unfused, "{k}: not a bit of a difference, so not in lanes"),
+        }
         let worst = difference(fused.as_ref().unwrap(), unfused.as_ref().unwrap());
         assert!(worst <= ACCELERATIONS_WORST, "{worst:e}");
     }

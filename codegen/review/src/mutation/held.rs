@@ -4,10 +4,10 @@ use nalgebra::{SVector, Vector3};
 
 use super::state::{Hub, Motion};
 
-/// Energy, linear momentum, moment of momentum in one row: what can be added and differentiated.
+/// Energy, linear momentum, angular momentum in one row: what can be added and differentiated.
 pub(super) type Packed = SVector<f64, 7>;
 
-/// Kinetic energy, linear momentum, moment of momentum about B; along B.
+/// Kinetic energy, linear momentum, angular momentum about B; along B.
 #[derive(Clone, Copy)]
 pub(super) struct Held {
     pub(super) energy: f64,

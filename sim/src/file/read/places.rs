@@ -1,9 +1,9 @@
 //! Where in a file the check of a whole scenario finds fault: the place of a key by its path.
 //!
-//! A path names tables, entries of lists by their `name`, and a key: `device.wheel.wheel.mass`. What
-//! the file does not have is at the nearest thing around it; what it has by a default, nowhere.
+//! A path names tables, entries of lists by their `name`, and a key: `device.wheel.wheel.mass`. A key
+//! that is not there has the place of the innermost table that is, without one it has none.
 
-use precess_dynamics::{Parameter, ParameterError, Part, Warning};
+use precess_dynamics::{ParameterError, Part, Warning};
 
 use super::super::diagnostic::Span;
 use super::super::document::{Node, Value};
@@ -28,21 +28,12 @@ pub(super) fn of_warning(root: &Node, warning: &Warning, names: &[String]) -> Op
 /// The path of the parameter that the solver rejects.
 fn parameter(error: &ParameterError, names: &[String]) -> Option<String> {
     let (part, last) = match *error {
-        ParameterError::NotFinite { part, parameter, .. } => (
-            part,
-            match parameter {
-                Parameter::Mass => "mass",
-                Parameter::CentreOfMass => "centre_of_mass",
-                Parameter::Inertia => "inertia",
-                Parameter::Origin => "origin",
-                Parameter::Mount => "mount",
-                Parameter::Passive(name) => passive(name),
-            },
-        ),
+        // Numbers of a file are finite: one that is not was computed from several of a body's.
+        ParameterError::NotFinite { part, .. } => (part, ""),
         ParameterError::Mass { part, .. } => (part, "mass"),
-        ParameterError::Passive { part, name, .. } => (part, passive(name)),
-        ParameterError::Asymmetric { part, .. }
-        | ParameterError::NegativeInertia { part, .. }
+        ParameterError::Passive { part, name: "viscous", .. } => (part, "damping"),
+        ParameterError::Passive { part, name, .. } => (part, name),
+        ParameterError::NegativeInertia { part, .. }
         | ParameterError::LargeInertia { part, .. } => (part, "inertia"),
         ParameterError::SkewedMount { device, .. }
         | ParameterError::LeftHandedMount { device, .. } => {
@@ -51,11 +42,6 @@ fn parameter(error: &ParameterError, names: &[String]) -> Option<String> {
         _ => return None,
     };
     key(part, last, names)
-}
-
-/// The key of a joint's spring, damper or friction.
-fn passive(name: &'static str) -> &'static str {
-    if name == "viscous" { "damping" } else { name }
 }
 
 /// The path of a body's parameter.
@@ -70,19 +56,18 @@ fn key(part: Part, last: &str, names: &[String]) -> Option<String> {
 
 /// The place of the last thing along a path that is there.
 fn find(root: &Node, path: &str) -> Option<Span> {
-    let (mut here, mut place) = (root, None);
-    for segment in path.split('.') {
-        here = match &here.value {
-            Value::Table(table) => match table.get(segment) {
-                Some(entry) => &entry.node,
-                None => break,
-            },
-            Value::List(list) => match entry(list, segment) {
-                Some(node) => node,
-                None => break,
-            },
-            _ => break,
+    let (mut here, mut place, mut rest) = (root, None, path);
+    while !rest.is_empty() {
+        let (next, after) = match &here.value {
+            Value::Table(table) => {
+                let (key, after) = rest.split_once('.').unwrap_or((rest, ""));
+                (table.get(key).map(|entry| &entry.node), after)
+            }
+            Value::List(list) => entry(list, rest),
+            _ => (None, ""),
         };
+        let Some(next) = next else { break };
+        (here, rest) = (next, after);
         if !matches!(here.value, Value::List(_)) {
             place = Some(here.span.clone());
         }
@@ -90,11 +75,29 @@ fn find(root: &Node, path: &str) -> Option<Span> {
     place
 }
 
-/// The last entry of this name, which is the one that repeats it; of a device of a layout, `cmg3`,
+/// The entry whose name a path begins with, and the rest of the path. Names may contain dots. Of
+/// several of one name the last, which is the one that repeats it; of a device of a layout, `cmg3`,
 /// the entry `cmg`.
-fn entry<'a>(list: &'a [Node], name: &str) -> Option<&'a Node> {
-    let of = |name: &str| list.iter().rev().find(|node| node.name() == Some(name));
-    of(name).or_else(|| of(name.trim_end_matches(|c: char| c.is_ascii_digit())))
+fn entry<'a, 'p>(list: &'a [Node], path: &'p str) -> (Option<&'a Node>, &'p str) {
+    let after = |name: &str| {
+        let rest = path.strip_prefix(name)?;
+        if rest.is_empty() { Some(rest) } else { rest.strip_prefix('.') }
+    };
+    let of_layout = |name: &str| {
+        let rest = path.strip_prefix(name)?;
+        let number = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        let (number, rest) = rest.split_at(number);
+        if number.is_empty() { None } else { rest.strip_prefix('.') }
+    };
+    let has_layout = |node: &Node| match &node.value {
+        Value::Table(table) => table.get("layout").is_some(),
+        _ => false,
+    };
+    let own = list.iter().rev().find_map(|node| Some((node, after(node.name()?)?)));
+    let layouts = list.iter().filter(|node| has_layout(node));
+    let found =
+        own.or_else(|| layouts.rev().find_map(|node| Some((node, of_layout(node.name()?)?))));
+    found.map_or((None, ""), |(node, rest)| (Some(node), rest))
 }
 
 #[cfg(test)]
@@ -124,7 +127,7 @@ mod tests {
         assert_eq!(underlined(&massless), ["\"0 kg\""]);
         let one_of_four =
             massless.replace("kind", "layout.ring = { count = 4, radius = \"0.3 m\" }\nkind");
-        assert!(underlined(&one_of_four).contains(&"\"0 kg\"".to_owned()), "{one_of_four}");
+        assert_eq!(underlined(&one_of_four), ["\"0 kg\""]);
         let thin = HUB.replace("9, 8, 7", "9, 1, 1");
         assert_eq!(underlined(&thin), ["\"9, 1, 1 kg m^2\""]);
     }
@@ -134,6 +137,16 @@ mod tests {
         assert_eq!(underlined(&HUB.replace("1 s", "0 s")), ["\"0 s\""]);
         let rate = format!("{HUB}[output]\nrate = \"1e12 Hz\"\n");
         assert_eq!(underlined(&rate), ["\"1e12 Hz\""]);
-        assert_eq!(underlined(&format!("{HUB}{WHEEL}{WHEEL}")), ["\"rw\""]);
+        let window = "[[requirement]]\nname = \"0.1 deg\"\nquantity = \"omega\"\n\
+                      statistic = \"peak\"\nlimit = \"1 rad/s\"\nto = \"2 s\"\n";
+        assert_eq!(underlined(&format!("{HUB}{window}")), ["\"2 s\""]);
+        let of_a_group = format!("{HUB}{WHEEL}").replace("rw", "loads");
+        assert_eq!(underlined(&of_a_group), ["\"loads\""]);
+        // The second of one name is the one that repeats it.
+        let twice = format!("{HUB}{WHEEL}{WHEEL}");
+        let found = from_toml("test.toml", &twice, Path::new("")).expect_err("two of one name");
+        let places: Vec<_> = found.all.iter().filter_map(|found| found.span.clone()).collect();
+        assert_eq!(places.len(), 1);
+        assert_eq!(Some(places[0].range.start), twice.rfind("\"rw\""));
     }
 }

@@ -46,7 +46,7 @@ fn momentum(device: &Device<'_, '_>, trial: &Trial, fault: &Fault) -> f64 {
     worst.max(gap(&loads.whole.list(), &sum.list()))
 }
 
-/// Momentum and moment of momentum about B of each body, one column each.
+/// Momentum and angular momentum about B of each body, one column each.
 fn momenta(device: &Device<'_, '_>, trial: &Trial, motion: &Motion, fault: &Fault) -> DMatrix<f64> {
     let column = |k: usize| {
         let body = device.body(k, &trial.case, motion, fault);
