@@ -93,12 +93,6 @@ impl<T: Scalar> Symmetric<T> {
 
 #[cfg(feature = "lanes")]
 impl<T: Copy> Symmetric<T> {
-    /// The tensor with each of its numbers changed.
-    #[inline(always)]
-    pub(crate) fn map<U>(self, mut change: impl FnMut(T) -> U) -> Symmetric<U> {
-        self.zip(self, |number, _| change(number))
-    }
-
     /// Two tensors joined number by number.
     #[inline(always)]
     pub(crate) fn zip<U: Copy, W>(

@@ -26,10 +26,10 @@ fn craft(k: u32) -> Spacecraft<Mixed> {
     devices.1.i_w_wc.m13 += 1e-6 * x;
     devices.1.i_w_wc.m31 = devices.1.i_w_wc.m13;
     // Some have a spring where others have none, and one has dry friction.
-    if k % 3 == 0 {
+    if k.is_multiple_of(3) {
         devices.1.passive.gimbal = Passive::spring(2.0 + x, 0.1);
     }
-    if k % 2 == 0 {
+    if k.is_multiple_of(2) {
         devices.2.passive.slosh_mass = Passive::none();
     }
     if k == 5 {
@@ -45,7 +45,7 @@ fn craft(k: u32) -> Spacecraft<Mixed> {
 /// Inputs with a gimbal that is driven in every second one, against a spring in some.
 fn inputs(k: u32) -> Inputs<Mixed> {
     let mut inputs = lanes::inputs(k);
-    if k % 2 == 1 {
+    if !k.is_multiple_of(2) {
         inputs.modes.1.gimbal = Mode::Driven;
         inputs.motors.1.u_g = 0.01 * f64::from(k);
     }
