@@ -6,6 +6,7 @@ use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
+use super::batch_inputs::BatchInputs;
 use super::constants::CraftBlocks;
 use super::crafts::{Crafts, entered};
 use super::evaluate::{Acting, evaluate};
@@ -26,59 +27,6 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 use crate::validation::parameter_error::ParameterError;
-
-/// What acts on the states of a batch.
-#[derive(Clone, Copy, Debug)]
-pub enum BatchInputs<'a, D: LanedSet> {
-    /// The same on each.
-    Same(&'a Inputs<D>),
-    /// One for each state, in order.
-    Each(&'a [Inputs<D>]),
-}
-
-impl<'a, D: LanedSet> From<&'a Inputs<D>> for BatchInputs<'a, D> {
-    fn from(inputs: &'a Inputs<D>) -> Self {
-        Self::Same(inputs)
-    }
-}
-
-impl<'a, D: LanedSet> From<&'a [Inputs<D>]> for BatchInputs<'a, D> {
-    fn from(inputs: &'a [Inputs<D>]) -> Self {
-        Self::Each(inputs)
-    }
-}
-
-impl<'a, D: LanedSet> From<&'a Vec<Inputs<D>>> for BatchInputs<'a, D> {
-    fn from(inputs: &'a Vec<Inputs<D>>) -> Self {
-        Self::Each(inputs)
-    }
-}
-
-impl<'a, D: LanedSet> BatchInputs<'a, D> {
-    pub(super) fn at(&self, index: usize) -> Option<&'a Inputs<D>> {
-        match self {
-            Self::Same(inputs) => Some(inputs),
-            Self::Each(inputs) => inputs.get(index),
-        }
-    }
-
-    /// The inputs from a state on.
-    pub(super) fn starting(&self, start: usize) -> Self {
-        match self {
-            Self::Same(inputs) => Self::Same(inputs),
-            Self::Each(inputs) => Self::Each(inputs.get(start..).unwrap_or(&[])),
-        }
-    }
-
-    pub(super) fn fit(&self, states: usize) -> Result<(), SolveError<f64>> {
-        match self {
-            Self::Each(inputs) if inputs.len() != states => {
-                Err(SolveError::Count { expected: states, found: inputs.len() })
-            }
-            _ => Ok(()),
-        }
-    }
-}
 
 /// What became of each state of a batch, in order.
 pub type BatchAccelerations<D> = Vec<Result<Accelerations<D>, SolveError<f64>>>;
@@ -132,12 +80,7 @@ impl<D: LanedSet> Batch<D> {
     where
         D: 'a,
     {
-        let inputs = inputs.into();
-        inputs.fit(states.len())?;
-        out.clear();
-        out.reserve(states.len());
-        Arch::new().dispatch(Evaluation { crafts: self, fused: self.fused, states, inputs, out });
-        Ok(())
+        accelerations(self, states, inputs.into(), out)
     }
 
     /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is
@@ -157,21 +100,21 @@ impl<D: LanedSet> Batch<D> {
     where
         D: 'a,
     {
-        let inputs = inputs.into();
-        inputs.fit(states.len())?;
-        if !dt.is_finite() {
-            return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
-        }
-        out.clear();
-        out.reserve(states.len());
-        let fused = self.fused;
-        Arch::new().dispatch(Runs { crafts: self, fused, states, inputs, dt, steps, out });
-        Ok(())
+        run(self, states, inputs.into(), (dt, steps), out)
     }
 }
 
 impl<D: LanedSet> Crafts<D> for Batch<D> {
     const EACH: bool = false;
+
+    #[inline(always)]
+    fn is_fused(&self) -> bool {
+        self.fused
+    }
+
+    fn count(&self) -> Option<usize> {
+        None
+    }
 
     #[inline(always)]
     fn at(&self, _: usize) -> Option<&Spacecraft<D>> {
@@ -181,6 +124,51 @@ impl<D: LanedSet> Crafts<D> for Batch<D> {
     #[inline(always)]
     fn blocks(&self, _: usize) -> Option<&CraftBlocks<D>> {
         None
+    }
+}
+
+/// All accelerations of each state, once the numbers of spacecraft, states and inputs agree.
+pub(super) fn accelerations<D: LanedSet, C: Crafts<D>>(
+    crafts: &C,
+    states: &[State<D>],
+    inputs: BatchInputs<'_, D>,
+    out: &mut BatchAccelerations<D>,
+) -> Result<(), SolveError<f64>> {
+    fit(crafts, states, &inputs)?;
+    out.clear();
+    out.reserve(states.len());
+    Arch::new().dispatch(Evaluation { crafts, states, inputs, out });
+    Ok(())
+}
+
+/// Each state advanced by so many steps, once the numbers of spacecraft, states and inputs agree.
+pub(super) fn run<D: LanedSet, C: Crafts<D>>(
+    crafts: &C,
+    states: &mut [State<D>],
+    inputs: BatchInputs<'_, D>,
+    (dt, steps): (f64, usize),
+    out: &mut Vec<Result<(), SolveError<f64>>>,
+) -> Result<(), SolveError<f64>> {
+    fit(crafts, states, &inputs)?;
+    if !dt.is_finite() {
+        return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
+    }
+    out.clear();
+    out.reserve(states.len());
+    Arch::new().dispatch(Runs { crafts, states, inputs, dt, steps, out });
+    Ok(())
+}
+
+/// Whether there are as many states as spacecraft, and as many inputs as states.
+fn fit<D: LanedSet, C: Crafts<D>>(
+    crafts: &C,
+    states: &[State<D>],
+    inputs: &BatchInputs<'_, D>,
+) -> Result<(), SolveError<f64>> {
+    let found = states.len();
+    match crafts.count() {
+        Some(expected) if expected != found => Err(SolveError::Count { expected, found }),
+        _ => inputs.fit(found),
     }
 }
 
@@ -208,12 +196,11 @@ fn lanes_support_inputs<D: LanedSet>(inputs: &Inputs<D>) -> bool {
 pub(super) const NEAR_ONE: f64 = 1e-20;
 
 /// The accelerations of a batch.
-pub(super) struct Evaluation<'a, 'o, D: LanedSet, C> {
-    pub(super) crafts: &'a C,
-    pub(super) fused: bool,
-    pub(super) states: &'a [State<D>],
-    pub(super) inputs: BatchInputs<'a, D>,
-    pub(super) out: &'o mut BatchAccelerations<D>,
+struct Evaluation<'a, 'o, D: LanedSet, C> {
+    crafts: &'a C,
+    states: &'a [State<D>],
+    inputs: BatchInputs<'a, D>,
+    out: &'o mut BatchAccelerations<D>,
 }
 
 impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
@@ -221,7 +208,7 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        if self.fused {
+        if self.crafts.is_fused() {
             self.evaluate(Lane::<S, true>::splat(simd, 0.0));
         } else {
             self.evaluate(Lane::<S, false>::splat(simd, 0.0));

@@ -13,6 +13,10 @@ pub(super) trait Crafts<D: LanedSet> {
     /// Whether each state has its own.
     const EACH: bool;
 
+    /// Whether product and sum are rounded once.
+    fn is_fused(&self) -> bool;
+    /// The number of states that they are for; none where it is any.
+    fn count(&self) -> Option<usize>;
     /// That of a state.
     fn at(&self, state: usize) -> Option<&Spacecraft<D>>;
     /// Those of a group of lanes, where each state has its own.

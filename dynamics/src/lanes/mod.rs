@@ -28,6 +28,7 @@
 
 mod across;
 mod batch;
+mod batch_inputs;
 mod constants;
 mod crafts;
 mod evaluate;
@@ -42,6 +43,7 @@ mod states;
 mod width;
 
 pub use across::AcrossDevices;
-pub use batch::{Batch, BatchAccelerations, BatchInputs};
+pub use batch::{Batch, BatchAccelerations};
+pub use batch_inputs::BatchInputs;
 pub use parameter_batch::ParameterBatch;
 pub use slot::LanedSet;

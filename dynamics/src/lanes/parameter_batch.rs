@@ -7,14 +7,14 @@ use std::vec::Vec;
 
 use pulp::Arch;
 
-use super::batch::{BatchAccelerations, BatchInputs, Evaluation};
+use super::batch::{BatchAccelerations, accelerations, run};
+use super::batch_inputs::BatchInputs;
 use super::constants::CraftBlocks;
 use super::crafts::Crafts;
-use super::run::Runs;
 use super::slot::LanedSet;
 use super::width::width;
 use crate::equations::arithmetic::Arithmetic;
-use crate::equations::error::{Quantity, SolveError};
+use crate::equations::error::SolveError;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
@@ -29,7 +29,6 @@ pub struct ParameterBatch<D: LanedSet> {
     crafts: Vec<Spacecraft<D>>,
     /// As many spacecraft as there are lanes, side by side.
     groups: Arc<[CraftBlocks<D>]>,
-    lanes: Arch,
     fused: bool,
 }
 
@@ -42,9 +41,9 @@ impl<D: LanedSet> ParameterBatch<D> {
         for craft in &mut crafts {
             craft.arithmetic = Arithmetic::Unfused;
         }
-        let lanes = Arch::new();
-        let groups = crafts.chunks(width(lanes)).filter_map(CraftBlocks::of).collect();
-        Self { crafts, groups, lanes, fused: false }
+        // The registers that every evaluation chooses.
+        let groups = crafts.chunks(width(Arch::new())).filter_map(CraftBlocks::of).collect();
+        Self { crafts, groups, fused: false }
     }
 
     /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
@@ -76,13 +75,7 @@ impl<D: LanedSet> ParameterBatch<D> {
     where
         D: 'a,
     {
-        let inputs = inputs.into();
-        self.fit(states.len(), &inputs)?;
-        out.clear();
-        out.reserve(states.len());
-        let Self { lanes, fused, .. } = *self;
-        lanes.dispatch(Evaluation { crafts: self, fused, states, inputs, out });
-        Ok(())
+        accelerations(self, states, inputs.into(), out)
     }
 
     /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is
@@ -102,29 +95,21 @@ impl<D: LanedSet> ParameterBatch<D> {
     where
         D: 'a,
     {
-        let inputs = inputs.into();
-        self.fit(states.len(), &inputs)?;
-        if !dt.is_finite() {
-            return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
-        }
-        out.clear();
-        out.reserve(states.len());
-        let Self { lanes, fused, .. } = *self;
-        lanes.dispatch(Runs { crafts: self, fused, states, inputs, dt, steps, out });
-        Ok(())
-    }
-
-    fn fit(&self, states: usize, inputs: &BatchInputs<'_, D>) -> Result<(), SolveError<f64>> {
-        let expected = self.crafts.len();
-        if states != expected {
-            return Err(SolveError::Count { expected, found: states });
-        }
-        inputs.fit(expected)
+        run(self, states, inputs.into(), (dt, steps), out)
     }
 }
 
 impl<D: LanedSet> Crafts<D> for ParameterBatch<D> {
     const EACH: bool = true;
+
+    #[inline(always)]
+    fn is_fused(&self) -> bool {
+        self.fused
+    }
+
+    fn count(&self) -> Option<usize> {
+        Some(self.crafts.len())
+    }
 
     #[inline(always)]
     fn at(&self, state: usize) -> Option<&Spacecraft<D>> {

@@ -7,7 +7,8 @@ use std::vec::Vec;
 
 use pulp::{Simd, WithSimd};
 
-use super::batch::{BatchInputs, Group, NEAR_ONE};
+use super::batch::{Group, NEAR_ONE};
+use super::batch_inputs::BatchInputs;
 use super::crafts::{Crafts, entered};
 use super::evaluate::{LanedCraft, evaluate};
 use super::lane::Lane;
@@ -27,7 +28,6 @@ use crate::solve::state::State;
 /// The runs of a batch.
 pub(super) struct Runs<'a, 's, 'o, D: LanedSet, C> {
     pub(super) crafts: &'a C,
-    pub(super) fused: bool,
     pub(super) states: &'s mut [State<D>],
     pub(super) inputs: BatchInputs<'a, D>,
     pub(super) dt: f64,
@@ -40,7 +40,7 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        if self.fused {
+        if self.crafts.is_fused() {
             self.run(Lane::<S, true>::splat(simd, 0.0));
         } else {
             self.run(Lane::<S, false>::splat(simd, 0.0));
