@@ -141,7 +141,7 @@ fn of_symbol(name: &str) -> Option<Unit> {
         _ => 0,
     };
     Some(match name.split('_').next()? {
-        "sin" | "cos" | "gamma" | "theta" | "phi" | "mount" => Unit::new(0, 0, time),
+        "sin" | "cos" | "gamma" | "theta" | "phi" | "mount" | "parent" => Unit::new(0, 0, time),
         "spin" | "omega" => Unit::new(0, 0, -1 + time),
         "m" => Unit::new(1, 0, 0),
         "i" | "j" => Unit::new(1, 2, 0),

@@ -20,7 +20,7 @@ use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
 use crate::graph::Expr;
 use crate::kinds::{Body, Link, Motion, units};
-use crate::space::{Carrier, Hub, Own, Symmetric, Vector};
+use crate::space::{Hub, Own, Symmetric, Vector};
 
 /// The share of a device, with its steps written to `script`: first moment and inertia of what
 /// moves, blocks of the joints, and the bias without what the hub's own motion requires. Expressed
@@ -30,14 +30,15 @@ pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
     let based = based(chain, script);
     let axes = first_axes(chain, script);
     let omega = Vector::new(axes.map(|axis| axis.dot(chain.hub.omega)));
-    let data = &chain.kind.links[0].body;
+    let first = chain.first_moving();
+    let data = &chain.kind.links[first].body;
     let frame = format!("the axes of the {}", data.title);
     script.section("rate", Heading::of("ω_{B/N}").equation("(D5)").axes(frame).unit("rad/s"));
     script.names(pairs(triple("omega_b_n", data.frame), omega.components()));
     let carriers = carriers(chain, &based, omega, script);
     let mut walk = Walk::new(chain);
-    for k in (1..chain.links.len()).rev() {
-        walk.inwards(chain, &based, k, &carriers[k - 1], script);
+    for k in (first + 1..chain.links.len()).rev() {
+        walk.inwards(chain, &based, k, &carriers[k - first - 1], script);
     }
     let seen = walk.at_first(chain, &based, &Carrying::hub(omega), script);
     seen.aboard(chain, &based, axes, script)
@@ -46,17 +47,35 @@ pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
 /// The first body's axes, expressed in B.
 fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub>; 3] {
     use crate::space::Axis::{X, Y, Z};
-    let link = &chain.links[0];
-    let data = &chain.kind.links[0].body;
-    let along_b = |v: Vector<'g, Carrier>| chain.mounted(v);
-    let axes = [X, Y, Z]
-        .map(|axis| along_b(Vector::<Own>::unit(chain.graph, axis).turned(link.turn.inverse())));
+    let first = chain.first_moving();
+    let (link, data) = (&chain.links[first], &chain.kind.links[first].body);
+    let parent = parent_axes(chain, script);
+    let axes = [X, Y, Z].map(|axis| {
+        let [x, y, z] =
+            Vector::<Own>::unit(chain.graph, axis).turned(link.turn.inverse()).components();
+        x * parent[0] + y * parent[1] + z * parent[2]
+    });
     let heading = Heading::of(format!("Axes of the {}", data.title));
     script.section("axis", heading.equation("(D1)").axes("B").unit("1"));
     for (axis, letter) in axes.into_iter().zip(["x", "y", "z"]) {
         script.names(pairs(triple(&format!("e_{letter}"), "b"), axis.components()));
     }
     axes
+}
+
+/// The axes of the parent body of the first joint that moves, expressed in B: the mount. Where it is
+/// made of turns, or bodies stand on the hub, they are constants of their own.
+fn parent_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub>; 3] {
+    use crate::space::Axis::{X, Y, Z};
+    if chain.first_moving() == 0 && !chain.mount_is_turned() {
+        return chain.mount;
+    }
+    let heading = Heading::of("Axes of the parent body of the first joint that moves");
+    script.section("axis", heading.equation("(D1)").axes("B").unit("1"));
+    [(X, "x"), (Y, "y"), (Z, "z")].map(|(axis, letter)| {
+        let axis = chain.mounted(chain.on_first(Vector::unit(chain.graph, axis)));
+        cut(script, &format!("parent_{letter}"), axis)
+    })
 }
 
 /// What joints' rates require of the left side.
@@ -139,9 +158,10 @@ impl<'g> Walk<'g> {
         hub: &Carrying<'g, Own>,
         script: &mut Script<'g>,
     ) -> Self {
-        let own = &chain.kind.links[0].body;
-        let lump = based.links[0].lump.plus(self.lump);
-        self.row(chain, 0, own, lump, hub, script);
+        let first = chain.first_moving();
+        let own = &chain.kind.links[first].body;
+        let lump = based.links[first].lump.plus(self.lump);
+        self.row(chain, first, own, lump, hub, script);
         self.lump = lump;
         self
     }
@@ -212,7 +232,9 @@ impl<'g> Walk<'g> {
         axes: [Vector<'g, Hub>; 3],
         script: &mut Script<'g>,
     ) -> Share<'g> {
-        let reach = chain.mounted(based.links[0].origin);
+        let first = chain.first_moving();
+        let origins: Vec<_> = based.links.iter().map(|link| link.origin).collect();
+        let reach = chain.mounted(chain.reach(&origins));
         let what = "Origin of the first joint from B, moved by (D3)";
         script.section("place", Heading::of(what).equation("(D2)").axes("B").unit("m"));
         let reach = named(script, "reach", reach);
@@ -224,14 +246,16 @@ impl<'g> Walk<'g> {
             let force = along_b(w.force);
             (force, along_b(w.moment), reach)
         };
-        let whole = chain.kind.links[0].assembly;
-        let links = chain.kind.links;
+        let links = &chain.kind.links[first..];
+        let whole = links[0].assembly;
         let wrench = [units(links, |units| units.force), units(links, |units| units.moment)];
         let heading = Heading::of("M_vi and M_wi").equation("(17), (75), (D7)").axes("B");
         let heading = heading.wrench(wrench.each_ref().map(String::as_str), "B");
         script.section("col", heading.note("per unit joint acceleration"));
-        let mut force = Vec::new();
-        let mut moment = Vec::new();
+        // Bodies inboard of it have no equation.
+        let zero = chain.graph.zero();
+        let mut force = vec![Vector::zero(chain.graph); first];
+        let mut moment = force.clone();
         let mut own_moment = Vector::zero(chain.graph);
         for (k, (link, column)) in links.iter().zip(&self.columns).enumerate() {
             let (f, n, arm) = on_hub(column);
@@ -246,9 +270,9 @@ impl<'g> Walk<'g> {
         let heading = Heading::of(what).equation("(9), (76), (D6)").axes("B").about("B");
         let heading = heading.part("first moment", "kg m").part("inertia", "kg m²");
         script.section("moment", heading);
-        let first = along_b(self.lump.first_moment);
+        let first_moment = along_b(self.lump.first_moment);
         let inertia = self.inertia_along_b(chain, axes, own_moment);
-        let lump = Lump { mass: self.lump.mass, first_moment: first, inertia }.shifted(reach);
+        let lump = Lump { mass: self.lump.mass, first_moment, inertia }.shifted(reach);
         let first_moment = cut(script, "mr_moving", lump.first_moment);
         let names = sextuple("i_moving");
         let entries = pairs(names, lump.inertia.entries());
@@ -269,18 +293,19 @@ impl<'g> Walk<'g> {
         let what = "Bias of each joint row, with that acceleration of the first joint's origin";
         let unit = units(links, |units| units.drive);
         script.section("bias", Heading::of(what).equation("(D9)").unit(&unit));
-        let bias = self.bias_joint.iter().zip(&force).zip(links);
+        let bias = self.bias_joint.iter().zip(&force[first..]).zip(links);
         let bias_joint = bias.map(|((asked, force), link)| {
             script.cut(format!("u_rest_{}", link.joint.tag), *asked + force.dot(carried))
         });
-        let bias_joint = bias_joint.collect();
+        let bias_joint = vec![zero; first].into_iter().chain(bias_joint).collect();
+        let joint = vec![Vec::new(); first].into_iter().chain(self.joint.clone()).collect();
         Share {
             mass: chain.graph.zero(),
             first_moment,
             inertia,
             force,
             moment,
-            joint: self.joint.clone(),
+            joint,
             bias_force,
             bias_moment,
             bias_joint,
@@ -297,12 +322,13 @@ impl<'g> Walk<'g> {
         column: Vector<'g, Hub>,
     ) -> Symmetric<'g, Hub> {
         let inertia = self.lump.inertia;
-        let [k, i, j] = chain.kind.links[0].joint.motion.axis().cycle();
+        let first = chain.first_moving();
+        let [k, i, j] = chain.kind.links[first].joint.motion.axis().cycle();
         let half = chain.graph.constant(2).recip();
         let (ii, jj, kk) = (inertia.at(i, i), inertia.at(j, j), inertia.at(k, k));
         let across = (half * (ii - jj)) * axes[i] + inertia.at(i, j) * axes[j];
         // (I_kk - I_jj) / 2 e_k + I_ki e_i + I_kj e_j.
-        let along = match chain.links[0].coordinate {
+        let along = match chain.links[first].coordinate {
             Coordinate::Angle(_) => column - (half * (kk + jj)) * axes[k],
             Coordinate::Length(_) => {
                 (half * (kk - jj)) * axes[k]

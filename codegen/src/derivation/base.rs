@@ -159,6 +159,13 @@ fn regroup<'g>(chain: &Chain<'g>, links: &mut [Base<'g>]) -> Lump<'g, Carrier> {
     for (k, link) in chain.links.iter().enumerate().rev() {
         let own = &mut links[k];
         own.lump = own.lump.plus(constant_share.handed_back());
+        if chain.kind.links[k].is_locked() {
+            // It never moves in its parent body.
+            let origin = own.origin;
+            let lump = std::mem::replace(&mut own.lump, Lump::zero(chain.graph));
+            constant_share = lump.turned_back(link).shifted(origin);
+            continue;
+        }
         let axis = chain.kind.links[k].joint.motion.axis();
         let moved = movable(own.lump, link.coordinate, axis);
         own.lump = own.lump.less(moved);

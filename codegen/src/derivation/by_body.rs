@@ -13,7 +13,7 @@ pub mod acting;
 pub mod exerted;
 pub mod field;
 
-use super::chain::{Chain, XYZ};
+use super::chain::Chain;
 use super::{Momenta, Share};
 use crate::graph::{Expr, Graph, Stage};
 use crate::kinds::Motion;
@@ -84,7 +84,7 @@ pub fn hub_body<'g>(chain: &Chain<'g>) -> BodyInHub<'g> {
 pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
     let graph = chain.graph;
     // Columns of the rotation: the axes of the current frame, expressed in B.
-    let mut axes = unit_axes(graph);
+    let mut axes = if chain.mount_is_turned() { chain.mount } else { unit_axes(graph) };
     let mut origin = Vector::zero(graph);
     let mut omega_b = Vector::zero(graph);
     let mut joints = Vec::new();
@@ -104,7 +104,7 @@ pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
             r: origin + combine(axes, link.centre),
             axes,
             omega_b,
-            inertia: resolve(axes, link.inertia),
+            inertia: link.inertia.along(axes),
             joints: joints.clone(),
         });
     }
@@ -128,19 +128,6 @@ fn unit_axes<F: Frame>(graph: &Graph) -> [Vector<'_, F>; 3] {
 fn combine<'g, F: Frame>(axes: [Vector<'g, Hub>; 3], v: Vector<'g, F>) -> Vector<'g, Hub> {
     let [x, y, z] = v.components();
     x * axes[0] + y * axes[1] + z * axes[2]
-}
-
-/// `sum t_ij e_i e_j^T` for a symmetric tensor given along `axes`.
-fn resolve<'g, F: Frame>(axes: [Vector<'g, Hub>; 3], t: Symmetric<'g, F>) -> Symmetric<'g, Hub> {
-    let graph = t.trace().graph();
-    let half = graph.constant(2).recip();
-    let mut sum = Symmetric::zero(graph);
-    for i in 0..XYZ.len() {
-        for j in 0..XYZ.len() {
-            sum = sum + (half * t.at(i, j)) * Symmetric::outer_pair(axes[i], axes[j]);
-        }
-    }
-    sum
 }
 
 /// The device's share of the mass matrix and of the bias.

@@ -61,7 +61,7 @@ pub(super) fn carriers<'g>(
 ) -> Vec<Carrying<'g, Own>> {
     let mut before = Carrying::hub(omega);
     let mut list = Vec::new();
-    for (k, next) in based.links.iter().enumerate().skip(1) {
+    for (k, next) in based.links.iter().enumerate().skip(chain.first_moving() + 1) {
         let (link, data) = (&chain.links[k - 1], &chain.kind.links[k - 1]);
         let [frame, letter] = [data.body.frame, data.body.letters[0]];
         let spin = link.spin();

@@ -1,5 +1,6 @@
 //! The symbols of a device and of its hub.
 
+use super::assumed::{Assumed, Mount};
 use super::base::Passes;
 use crate::graph::{Expr, Graph, Stage};
 use crate::kinds::{Centre, Kind, Motion};
@@ -20,6 +21,8 @@ pub struct Chain<'g> {
     pub hub: HubSymbols<'g>,
     /// What the derivation of the equations of motion does to the chain first.
     pub passes: Passes,
+    /// What is known of the parameters beforehand; none for a kind as it is.
+    pub assumed: Option<Assumed>,
     /// The device's axes expressed in B: `mount`, column by column.
     pub mount: [Vector<'g, Hub>; 3],
 }
@@ -107,18 +110,66 @@ impl<'g> Chain<'g> {
     /// The same for other passes, to see what they bring.
     #[must_use]
     pub fn after(graph: &'g Graph, kind: &'static Kind, passes: Passes) -> Self {
+        Self::made(graph, kind, passes, None)
+    }
+
+    /// The symbols that are left of `kind` where this is assumed of its parameters.
+    #[must_use]
+    pub fn assuming(graph: &'g Graph, kind: &'static Kind, assumed: Assumed) -> Self {
+        Self::made(graph, kind, Passes::ALL, Some(assumed))
+    }
+
+    fn made(
+        graph: &'g Graph,
+        kind: &'static Kind,
+        passes: Passes,
+        assumed: Option<Assumed>,
+    ) -> Self {
         let hub = HubSymbols::new(graph);
-        let mut links: Vec<_> = (0..kind.links.len()).map(|k| Link::new(graph, kind, k)).collect();
+        let known = assumed.clone().unwrap_or_default();
+        let links = (0..kind.links.len()).map(|k| Link::new(graph, kind, k, &known));
+        let mut links: Vec<_> = links.collect();
         for k in (0..links.len().saturating_sub(1)).rev() {
             let sum = links[k..].iter().skip(1).fold(links[k].mass, |sum, link| sum + link.mass);
             let name = format!("m_{}", kind.links[k].assembly);
             links[k].assembly_mass = graph.abbreviation(&name, sum);
         }
-        let mount = [0, 1, 2].map(|column| {
-            let entry = |row| graph.symbol(&mount_entry(row, column), Stage::Parameter);
-            Vector::new([0, 1, 2].map(entry))
-        });
-        Self { graph, kind, links, hub, passes, mount }
+        let mount = known.mount(graph);
+        Self { graph, kind, links, hub, passes, assumed, mount }
+    }
+
+    /// The first joint that moves, or the last one: the bodies inboard of it stand on the hub.
+    #[must_use]
+    pub fn first_moving(&self) -> usize {
+        let links = self.kind.links;
+        links.iter().position(|link| !link.is_locked()).unwrap_or(links.len() - 1)
+    }
+
+    /// Along the device's axes, of a vector along those of the parent body of the first joint that
+    /// moves.
+    #[must_use]
+    pub fn on_first(&self, v: Vector<'g, Carrier>) -> Vector<'g, Carrier> {
+        let inboard = self.links[..self.first_moving()].iter().rev();
+        inboard.fold(v, |v, link| v.handed_back().turned(link.turn.inverse()))
+    }
+
+    /// From B to the origin of the first joint that moves, along the device's axes; of each joint up
+    /// to it the origin is one of these.
+    #[must_use]
+    pub fn reach(&self, origins: &[Vector<'g, Carrier>]) -> Vector<'g, Carrier> {
+        let first = self.first_moving();
+        let outermost = origins[first];
+        let inboard = self.links[..first].iter().zip(&origins[..first]).rev();
+        inboard.fold(outermost, |reach, (link, origin)| {
+            *origin + reach.handed_back().turned(link.turn.inverse())
+        })
+    }
+
+    /// Whether the mount is made of turns, and so part of every reference; else a reference has the
+    /// device's axes along those of B.
+    #[must_use]
+    pub fn mount_is_turned(&self) -> bool {
+        self.assumed.as_ref().is_some_and(|assumed| assumed.mount != Mount::Any)
     }
 }
 
@@ -139,11 +190,7 @@ impl<'g> Chain<'g> {
     /// Along B axes, of a tensor along the device's axes.
     #[must_use]
     pub fn mounted_tensor(&self, t: Symmetric<'g, Carrier>) -> Symmetric<'g, Hub> {
-        let half = self.graph.constant(2).recip();
-        let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
-        places.fold(Symmetric::zero(self.graph), |sum, (i, j)| {
-            sum + (half * t.at(i, j)) * Symmetric::outer_pair(self.mount[i], self.mount[j])
-        })
+        t.along(self.mount)
     }
 }
 
@@ -158,21 +205,31 @@ impl Chain<'_> {
 }
 
 impl<'g> Link<'g> {
-    fn new(graph: &'g Graph, kind: &Kind, k: usize) -> Self {
-        let parameter = |name: &str| graph.symbol(name, Stage::Parameter);
+    fn new(graph: &'g Graph, kind: &Kind, k: usize, assumed: &Assumed) -> Self {
+        let parameter = |name: &str| assumed.parameter(graph, name);
         let (joint, body) = (&kind.links[k].joint, &kind.links[k].body);
-        let rate = graph.symbol(joint.rate, Stage::Rate);
+        let locked = kind.links[k].is_locked();
         let acceleration = graph.symbol(joint.acceleration, Stage::Acceleration);
-        graph.set_rate(rate, acceleration);
+        let rate = if locked { graph.zero() } else { graph.symbol(joint.rate, Stage::Rate) };
+        if !locked {
+            graph.set_rate(rate, acceleration);
+        }
         let rest = Vector::new(joint.origin.names.map(parameter));
         let (coordinate, origin) = match joint.motion {
             Motion::Turn(axis) => {
-                let (sin, cos) = graph.angle(joint.coordinate, rate);
+                let (sin, cos) = if locked {
+                    graph.constant_angle(joint.coordinate)
+                } else {
+                    graph.angle(joint.coordinate, rate)
+                };
                 (Coordinate::Angle(Turn::about(axis, sin, cos)), rest)
             }
             Motion::Slide(axis) => {
-                let length = graph.symbol(joint.coordinate, Stage::Configuration);
-                graph.set_rate(length, rate);
+                let stage = if locked { Stage::Parameter } else { Stage::Configuration };
+                let length = graph.symbol(joint.coordinate, stage);
+                if !locked {
+                    graph.set_rate(length, rate);
+                }
                 (Coordinate::Length(length), rest + length * Vector::unit(graph, axis))
             }
         };

@@ -22,6 +22,7 @@
 
 pub mod aboard;
 mod angular;
+pub mod assumed;
 pub mod axes;
 pub mod base;
 pub mod boltzmann_hamel;

@@ -91,7 +91,7 @@ pub(super) struct RecordText {
     doc: Vec<String>,
     fields: Vec<FieldText>,
     /// The functions that change each number, for records that lanes take apart.
-    by_number: Vec<String>,
+    pub(super) by_number: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -173,7 +173,7 @@ pub(super) fn rust_file(path: String, text: String) -> Result<EmittedFile, EmitE
     Ok(EmittedFile { path, text })
 }
 
-fn kind_file(
+pub(super) fn kind_file(
     tera: &Tera,
     chain: &Chain<'_>,
     home: Home<'_>,
@@ -196,11 +196,24 @@ fn kind_file(
             describe(own, lines, &stated);
         }
     }
-    let texts: Vec<_> = records.iter().map(record_text).collect();
-    let mut imports: Vec<_> = shared_records().into_iter().map(|record| record.name).collect();
+    let mut texts: Vec<_> = records.iter().map(record_text).collect();
+    if matches!(home, Home::Alone(_)) {
+        for record in &mut texts {
+            record.by_number.clear();
+        }
+    }
+    let read = |name: &String| {
+        let alone = matches!(home, Home::Alone(_));
+        let taken = |part: &Part| part.inputs.iter().any(|(_, record)| record.name == *name);
+        let found = |part: &Part| part.output.with_nested().iter().any(|own| own.name == *name);
+        !alone || parts.iter().any(|part| taken(part) || found(part))
+    };
+    let shared = shared_records().into_iter().map(|record| record.name);
+    let mut imports: Vec<_> = shared.filter(read).collect();
     imports.sort_unstable();
     let mut context = Context::new();
     context.insert("command", home.command());
+    context.insert("has_device", &!matches!(home, Home::Alone(_)));
     context.insert("source", kind.source);
     context.insert("hash", &fnv1a64(&(inputs + include_str!("templates/kind.rs.tera"))));
     context.insert("title", &capital(kind.title));

@@ -6,7 +6,7 @@ use super::factor::factored;
 use super::prepare::{Prepared, prepared};
 use crate::derivation::chain::Chain;
 use crate::graph::{Graph, Stage};
-use crate::kernel::{Kernel, kernels, parameters};
+use crate::kernel::{Kernel, kernels, parameters_of};
 
 /// The functions of a kind.
 pub struct Functions<'g> {
@@ -19,7 +19,7 @@ pub struct Functions<'g> {
 /// The functions of the chain's kind.
 #[must_use]
 pub fn functions<'g>(chain: &Chain<'g>) -> Functions<'g> {
-    let (graph, raw) = (chain.graph, parameters(chain.kind));
+    let (graph, raw) = (chain.graph, parameters_of(chain));
     let mut kernels = kernels(chain);
     if chain.passes.factor {
         for kernel in &mut kernels {

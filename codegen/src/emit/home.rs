@@ -14,6 +14,8 @@ pub enum Home<'a> {
     Dynamics,
     /// Another one, which calls the dynamics crate by this name.
     Outside(&'a str),
+    /// A crate without dependencies, written by this command.
+    Alone(&'a str),
 }
 
 impl Home<'_> {
@@ -22,21 +24,23 @@ impl Home<'_> {
         match self {
             Self::Dynamics => format!("dynamics/src/generated/{name}"),
             Self::Outside(_) => name.to_owned(),
+            Self::Alone(_) => format!("src/kernels/{name}"),
         }
     }
 
     /// What makes the file again.
-    pub(super) fn command(self) -> &'static str {
+    pub(super) fn command(&self) -> &str {
         match self {
             Self::Dynamics => "cargo xtask regen",
             Self::Outside(_) => "precess_codegen::emit_kind",
+            Self::Alone(command) => command,
         }
     }
 
     /// What the dynamics crate is called there.
     pub(super) fn dynamics(self) -> Result<Path, EmitError> {
         let name = match self {
-            Self::Dynamics => "crate",
+            Self::Dynamics | Self::Alone(_) => "crate",
             Self::Outside(dynamics) => dynamics,
         };
         syn::parse_str(name).map_err(|error| EmitError::Syntax(name.to_owned(), error))
@@ -49,6 +53,10 @@ impl Home<'_> {
             Self::Dynamics => quote! {
                 use super::hub::{#(#records),*};
                 use #dynamics::Real;
+            },
+            Self::Alone(_) => quote! {
+                use super::hub::{#(#records),*};
+                use super::real::Real;
             },
             Self::Outside(_) => quote! {
                 use #dynamics::Real;

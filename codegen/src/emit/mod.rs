@@ -5,6 +5,7 @@
 //! in a function, or once in `prepare` when it depends on parameters only; no line passes 100
 //! columns. `rustfmt` skips the modules of emitted files.
 
+mod alone;
 mod body;
 mod by_number;
 pub mod c;
@@ -26,8 +27,10 @@ mod render;
 mod shared;
 mod text;
 
+pub use alone::{Alone, alone, alone_records};
 pub use body::{Counts, FunctionBody};
 pub use file::{EmitError, Emitted, EmittedFile, of_kind};
 pub use functions::{Functions, functions};
 pub use home::Home;
 pub use shared::{every_kind, files, shared};
+pub use text::pretty_items;

@@ -10,7 +10,7 @@ use super::prepare::Prepared;
 use super::render::Rendered;
 use crate::derivation::chain::Chain;
 use crate::graph::{Node, NodeId};
-use crate::kernel::{Kernel, Record, Source, parameters};
+use crate::kernel::{Kernel, Record, Source, parameters_of};
 use crate::kernel::{joint_accelerations, modes, motors, pose, rates, wrenches};
 
 /// Where the time of an evaluation goes. Functions called rarely keep plain operators.
@@ -50,7 +50,7 @@ pub(super) fn parts(chain: &Chain<'_>) -> Parts {
     let inputs = inputs::derived(chain.graph, kind, &functions);
     let Functions { kernels, prepared } = functions;
     let stated = inputs::stated(&prepared.sections);
-    let raw = parameters(kind);
+    let raw = parameters_of(chain);
     let prepare = Part {
         name: "prepare".to_owned(),
         doc: vec!["What depends only on parameters, once for each device.".to_owned()],
@@ -92,7 +92,7 @@ pub(super) fn parts(chain: &Chain<'_>) -> Parts {
 
 /// The body of `prepare`.
 pub(super) fn prepare_body<'g>(chain: &Chain<'g>, prepared: &Prepared<'g>) -> FunctionBody {
-    let (graph, raw) = (chain.graph, parameters(chain.kind));
+    let (graph, raw) = (chain.graph, parameters_of(chain));
     let argument: HashSet<&str> = raw.fields.iter().map(|field| field.name.as_str()).collect();
     let given = |id: NodeId| match graph.node(id) {
         Node::Symbol(symbol) => {

@@ -37,6 +37,7 @@ pub fn shared(registry: &[Entry], kinds: &[Emitted]) -> Result<Vec<EmittedFile>,
         "hash",
         &fnv1a64(&(format!("{:?}", shared_records()) + include_str!("templates/hub.rs.tera"))),
     );
+    context.insert("command", Home::Dynamics.command());
     context.insert("records", &records);
     let hub = rust_file("hub.rs", tera.render("hub.rs", &context)?)?;
 

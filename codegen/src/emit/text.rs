@@ -21,7 +21,11 @@ pub(super) fn pretty(statements: &[TokenStream]) -> Vec<String> {
 const APART: [&str; 6] = ["///", "#[", "const ", "fn ", "impl", "pub "];
 
 /// Items as formatted text, with the empty lines between them that tokens do not have.
-pub(super) fn pretty_items(items: TokenStream) -> String {
+///
+/// # Panics
+/// When the tokens are no items of Rust.
+#[must_use]
+pub fn pretty_items(items: TokenStream) -> String {
     let file = syn::parse2(items).expect("the items are Rust");
     let text = prettyplease::unparse(&file);
     let mut lines: Vec<&str> = Vec::new();

@@ -82,9 +82,23 @@ impl Graph {
         let cos = self.symbol(&format!("cos_{name}"), Stage::Configuration);
         self.set_rate(sin, cos * rate);
         self.set_rate(cos, -(sin * rate));
+        self.pair(sin, cos);
+        (sin, cos)
+    }
+
+    /// Sine and cosine of an angle that never changes: two parameters.
+    #[must_use]
+    pub fn constant_angle(&self, name: &str) -> (Expr<'_>, Expr<'_>) {
+        let [sin, cos] =
+            ["sin", "cos"].map(|of| self.symbol(&format!("{of}_{name}"), Stage::Parameter));
+        self.pair(sin, cos);
+        (sin, cos)
+    }
+
+    /// States that these symbols are sine and cosine of one angle.
+    fn pair(&self, sin: Expr<'_>, cos: Expr<'_>) {
         let (Node::Symbol(s), Node::Symbol(c)) = (sin.node(), cos.node()) else { unreachable!() };
         self.arena.borrow_mut().symbols[usize::from(s.0)].cosine = Some(c);
-        (sin, cos)
     }
 
     /// The symbol `name` for a sum of parameters, so that its reciprocal has a normal form: `m_d`.

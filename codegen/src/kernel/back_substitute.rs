@@ -26,7 +26,7 @@ pub(super) fn kernel<'g>(
     let mut script = Script::new(graph);
     let heading = Heading::of("Row by row, outboard").equation("(D13)");
     script.section("row", heading.part("the free acceleration less the gains", ""));
-    for link in chain.kind.links {
+    for link in chain.kind.links.iter().filter(|link| !link.is_locked()) {
         let (tag, name) = (link.joint.tag, link.joint.acceleration);
         let Some(pivot) = eliminated.pivots.iter().find(|pivot| pivot.tag == tag) else {
             // The kind says that it keeps its rate.

@@ -9,11 +9,13 @@ mod gravity;
 mod kinematics;
 mod loads;
 mod momenta;
+mod parameters;
 mod records;
 
+pub use parameters::{parameters, parameters_of};
 pub use records::{
-    Field, Record, Source, joint_accelerations, modes, motors, parameters, pose, rates,
-    shared_records, wrenches,
+    Field, Record, Source, joint_accelerations, modes, motors, pose, rates, shared_records,
+    wrenches,
 };
 
 use crate::derivation::chain::{Chain, XYZ};
@@ -93,13 +95,17 @@ impl<'g> Claim<'g> {
     }
 }
 
-/// Every kernel of a chain, in the order of the emitted file.
+/// Every kernel of a chain, in the order of the emitted file; where something is assumed of the
+/// parameters, those of an evaluation.
 #[must_use]
 pub fn kernels<'g>(chain: &Chain<'g>) -> Vec<Kernel<'g>> {
-    let mut list = kinematics::kernels(chain);
+    let mut list = if chain.assumed.is_none() { kinematics::kernels(chain) } else { Vec::new() };
     let (kernel, eliminated, gains) = eliminate::kernel(chain);
     let back = back_substitute::kernel(chain, &eliminated, gains);
     list.extend([constant_share::kernel(chain), kernel, back]);
+    if chain.assumed.is_some() {
+        return list;
+    }
     list.push(momenta::kernel(chain));
     list.push(axes::kernel(chain));
     list.push(loads::kernel(chain));

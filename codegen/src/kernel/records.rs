@@ -1,9 +1,7 @@
 //! The plain structures that kernels take and return, with a line for every field.
 
-use crate::derivation::chain::mount_entry;
 use crate::derivation::script::{sextuple, triple};
-use crate::kinds::{Centre, Kind, Link, Motion};
-use crate::space::ENTRIES;
+use crate::kinds::{Kind, Link, Motion};
 
 /// One field: its name and what it is, with frame and unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -116,57 +114,6 @@ impl Record {
     }
 }
 
-/// What a device is made of.
-#[must_use]
-pub fn parameters(kind: &Kind) -> Record {
-    let mut record =
-        Record::new("Parameters", "What the device is made of: mount, masses, places, inertias.");
-    for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
-        let (of, axis) = (["x", "y", "z"][column], ["bx", "by", "bz"][row]);
-        let doc = format!("The device's {of} axis expressed in B, {axis} component, 1.");
-        record.field(mount_entry(row, column), doc);
-    }
-    for link in kind.links {
-        link_parameters(link, &mut record);
-    }
-    record
-}
-
-fn link_parameters(link: &Link, record: &mut Record) {
-    let (joint, body) = (&link.joint, &link.body);
-    let [letter, point] = body.letters;
-    let mut place = |symbol: &str, names: [&str; 3], what: &str| {
-        for (name, axis) in names.into_iter().zip(["first", "second", "third"]) {
-            record.field(name, format!("{symbol}: {what}, {axis} component, m."));
-        }
-    };
-    let carrier = format!("origin of the {}, expressed in the parent body's axes", body.title);
-    place(joint.origin.symbol, joint.origin.names, &carrier);
-    match body.centre {
-        Centre::Free(triple) => {
-            place(triple.symbol, triple.names, &format!("centre of mass of the {}", body.title));
-        }
-        Centre::On(axis, name) => record.field(
-            name,
-            format!("{name}: centre of mass of the {} on its {axis:?} axis, m.", body.title),
-        ),
-        Centre::At => {}
-    }
-    record.field(body.mass, format!("m_{letter}: mass of the {}, kg.", body.title));
-    let doc = format!("[I_{{{letter},{point}}}]: inertia of the {}, its own axes", body.title);
-    let names = body.inertia.names();
-    for (k, name) in names.iter().enumerate() {
-        let Some(name) = name.as_ref().filter(|name| !names[..k].contains(&Some((*name).clone())))
-        else {
-            continue;
-        };
-        let same = names.iter().zip(ENTRIES).filter(|(other, _)| other.as_ref() == Some(name));
-        let entries: Vec<_> = same.map(|(_, entry)| entry).collect();
-        let entry = if entries.len() == 1 { "entry" } else { "entries" };
-        record.field(name.clone(), format!("{doc}, {entry} {}, kg m².", entries.join(" and ")));
-    }
-}
-
 /// Constants and pose, which every kernel takes.
 pub(super) fn placed(kind: &Kind) -> Vec<(&'static str, Record)> {
     std::iter::once(("p", Record::new("Prepared", ""))).chain(pose(kind)).collect()
@@ -182,7 +129,7 @@ pub fn pose(kind: &Kind) -> Vec<(&'static str, Record)> {
 /// Positions along the sliding joints.
 fn positions(kind: &Kind) -> Record {
     let mut record = Record::new("Positions", "Positions along the sliding joints.");
-    for link in kind.sliding() {
+    for link in kind.sliding().filter(|link| !link.is_locked()) {
         let doc = format!("Of the {} along its joint, m.", link.body.title);
         record.field(link.joint.coordinate, doc);
     }
@@ -192,7 +139,7 @@ fn positions(kind: &Kind) -> Record {
 /// Sines and cosines of the joint angles.
 fn trig(kind: &Kind) -> Record {
     let mut record = Record::new("Trig", "Sines and cosines of the joint angles.");
-    for link in kind.turning() {
+    for link in kind.turning().filter(|link| !link.is_locked()) {
         let angle = link.joint.coordinate;
         record.field(format!("sin_{angle}"), format!("Sine of `{angle}`."));
         record.field(format!("cos_{angle}"), format!("Cosine of `{angle}`."));
@@ -204,7 +151,7 @@ fn trig(kind: &Kind) -> Record {
 #[must_use]
 pub fn rates(kind: &Kind) -> Record {
     let mut record = Record::new("Rates", "Joint rates, each relative to the parent body.");
-    for link in kind.links {
+    for link in kind.links.iter().filter(|link| !link.is_locked()) {
         let (symbol, unit) = (link.joint.symbols[0], link.joint.motion.units().rate);
         let doc = format!("{symbol}: rate of the {}, {unit}.", link.body.title);
         record.field(link.joint.rate, doc);
@@ -270,7 +217,7 @@ pub fn modes(kind: &Kind) -> Record {
 #[must_use]
 pub fn joint_accelerations(kind: &Kind) -> Record {
     let mut record = Record::new("JointAccelerations", "The second-order states of the joints.");
-    for link in kind.links {
+    for link in kind.links.iter().filter(|link| !link.is_locked()) {
         let symbol = link.joint.symbols[1];
         let unit = link.joint.motion.units().acceleration;
         let doc = format!("{symbol}: acceleration of the {}, {unit}.", link.body.title);

@@ -100,6 +100,8 @@ pub enum Drive {
     /// It keeps its rate, whatever torque that takes: the acceleration is zero, no equation is
     /// solved for it, and nothing is given.
     Prescribed,
+    /// It stands: its coordinate is a parameter, its rate and its acceleration are zero.
+    Locked,
 }
 
 /// How a joint moves, by an axis of its parent body.
@@ -183,6 +185,18 @@ impl Link {
         Self { joint: Joint { drive: Drive::Prescribed, ..self.joint }, ..self }
     }
 
+    /// The same link with a joint that stands.
+    #[must_use]
+    pub const fn locked(self) -> Self {
+        Self { joint: Joint { drive: Drive::Locked, ..self.joint }, ..self }
+    }
+
+    /// Whether the joint stands.
+    #[must_use]
+    pub fn is_locked(&self) -> bool {
+        self.joint.drive == Drive::Locked
+    }
+
     /// Whether the joint has a motor.
     #[must_use]
     pub fn is_driven(&self) -> bool {
@@ -206,7 +220,8 @@ impl Kind {
         }
     }
 
-    /// The links on whose angle the equations depend: those with axes that turn.
+    /// The links on whose angle the equations depend: those with axes that turn, or are turned by a
+    /// joint that stands.
     pub fn turning(&self) -> impl Iterator<Item = &Link> {
         let links = self.links.iter().enumerate();
         links.filter(|(k, _)| self.axes_turn(*k)).map(|(_, link)| link)

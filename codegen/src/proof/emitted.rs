@@ -18,7 +18,7 @@ use super::unknowns::{Unknowns, moving};
 use crate::derivation::by_body;
 use crate::derivation::chain::{Chain, mount_entry};
 use crate::graph::{Expr, Stage};
-use crate::kernel::{Kernel, kernels, parameters};
+use crate::kernel::{Kernel, kernels, parameters_of};
 use crate::normal::Ring;
 
 /// Proves emitted files of one kind. Keeps what the first text of a function was expanded to, so
@@ -110,7 +110,11 @@ impl<'a, 'g> Prover<'a, 'g> {
             let given = self.arguments(kernel, prepare);
             let back = read(self.chain.graph, text, &given, cuts)?;
             let values = prepare.values.iter().map(|(name, value)| (name.clone(), *value));
-            Ok::<_, EmittedError>(back.returning(&kernel.output).or(values).or(kernel.plain()))
+            let back = back.returning(&kernel.output).or(values);
+            // What is a symbol by itself may be one that stands for a value of the text.
+            let plain: Vec<_> =
+                kernel.plain().map(|(name, e)| (name, back.standing(e, cuts))).collect();
+            Ok::<_, EmittedError>(back.or(plain))
         };
         let back = Both {
             expanded: reading(&constants.prepare.expanded, &BTreeSet::new())?,
@@ -134,7 +138,9 @@ impl<'a, 'g> Prover<'a, 'g> {
                 rows.extend(self.laws.rows(expanded, &self.unknowns, &solved, who, named));
                 rows.extend(factors::of_elimination(cut, self.chain, &self.unknowns, &back.cut));
             }
-            "constant_share" => rows.push(mounted::row(self.chain, &self.kernels, file)?),
+            "constant_share" if !self.chain.mount_is_turned() => {
+                rows.push(mounted::row(self.chain, &self.kernels, file)?);
+            }
             "back_substitute" => {
                 let row = factors::of_back_substitution;
                 rows.push(row(cut, self.chain, &self.unknowns, &back.cut));
@@ -179,7 +185,7 @@ impl<'a, 'g> Prover<'a, 'g> {
 
     fn prepare(&self, file: &syn::File, cuts: &BTreeSet<String>) -> Result<Both<'g>, EmittedError> {
         let text = function(file, "prepare")?;
-        let raw = parameters(self.chain.kind)
+        let raw = parameters_of(self.chain)
             .fields
             .into_iter()
             .filter_map(|field| Some((format!("p.{}", field.name), self.parameter(&field.name)?)));
@@ -221,7 +227,7 @@ impl<'a, 'g> Prover<'a, 'g> {
     /// Raw parameters pass through `prepare` unchanged, computed fields under their own names. One
     /// that no statement names is read by kernels, whose claims are about its value.
     fn prepared_row(&self, prepare: &Both<'g>) -> Row {
-        let raw = parameters(self.chain.kind);
+        let raw = parameters_of(self.chain);
         let mut checked = Vec::new();
         let mut reference = Vec::new();
         for (name, value) in &prepare.cut.returned {

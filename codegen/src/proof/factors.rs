@@ -154,11 +154,13 @@ pub(super) fn of_back_substitution<'g>(
         (HUB.len()..).zip(chain.kind.links.iter().map(|link| link.joint.acceleration)).collect();
     let mut checked = Vec::new();
     let mut reference = Vec::new();
-    for (&j, name) in &accelerations {
+    let locked = |j: usize| chain.kind.links[j - HUB.len()].is_locked();
+    for (&j, name) in accelerations.iter().filter(|(j, _)| !locked(**j)) {
         let tag = unknowns.suffix(j);
         let mut sum = back.returned.get(*name).copied();
         for x in 0..j {
             let value = match accelerations.get(&x) {
+                Some(_) if locked(x) => zero,
                 Some(inner) => back.returned.get(*inner).copied(),
                 None => Some(unknowns.accelerations[x]),
             };

@@ -13,7 +13,7 @@ use super::Row;
 use super::read_back::{EmittedError, Reading, function, read};
 use crate::derivation::chain::{Chain, mount_entry};
 use crate::graph::{Expr, Node, Stage, SymbolId};
-use crate::kernel::{Kernel, parameters};
+use crate::kernel::{Kernel, parameters_of};
 use crate::normal::Ring;
 use crate::space::{Axis, Carrier, ENTRIES, Hub, Own, Turn, Vector};
 
@@ -60,7 +60,7 @@ pub(super) fn row<'g>(
             claim(name.clone(), turned.by(value(name)), ought);
         }
     }
-    let frame = chain.kind.links[0].body.frame;
+    let frame = chain.kind.links[chain.first_moving()].body.frame;
     let numbers = ["x", "y", "z"].map(|axis| format!("omega_b_n_{frame}{axis}")).into_iter();
     let biases = chain.kind.links.iter().map(|link| format!("u_rest_{}", link.joint.tag));
     for name in numbers.chain(biases).chain(["constant_m".to_owned()]) {
@@ -101,7 +101,7 @@ fn values<'g>(
             record.sources().into_iter().map(|name| (format!("{letter}.{name}"), field(&name)));
         named.collect()
     };
-    let given = symbols(&parameters(chain.kind), "p");
+    let given = symbols(&parameters_of(chain), "p");
     let prepare = read(graph, function(file, "prepare")?, &given, &cuts)?;
     let mut found = BTreeMap::new();
     // Where a function only returns what `prepare` has computed, the value is the first one's.

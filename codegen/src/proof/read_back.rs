@@ -6,7 +6,7 @@ use std::fmt;
 
 use quote::ToTokens;
 
-use crate::graph::{Expr, Graph};
+use crate::graph::{Expr, Graph, Node};
 use crate::kernel::Record;
 use crate::page::{ReadError, Reader, Value};
 
@@ -57,6 +57,14 @@ impl<'g> Reading<'g> {
             self.values.entry(name).or_insert(value);
         }
         self
+    }
+
+    /// What a symbol stands for in the text; itself where it is cut, or no `let` names it.
+    pub(super) fn standing(&self, e: Expr<'g>, cuts: &BTreeSet<String>) -> Expr<'g> {
+        let Node::Symbol(symbol) = e.node() else { return e };
+        let name = e.graph().symbol_info(symbol).name;
+        let value = self.values.get(&name).filter(|_| !cuts.contains(&name));
+        value.copied().unwrap_or(e)
     }
 
     /// Adds the values of results that are written where they are returned, by the names that

@@ -74,6 +74,17 @@ impl<'g, F: Frame> Symmetric<'g, F> {
         Self::new(PLACES.map(|(i, j)| a[i] * b[j] + b[i] * a[j]))
     }
 
+    /// `sum t_ij e_i e_j^T`: the tensor whose entries along `axes` these are.
+    #[must_use]
+    pub fn along<To: Frame>(self, axes: [Vector<'g, To>; 3]) -> Symmetric<'g, To> {
+        let graph = self.trace().graph();
+        let half = graph.constant(2).recip();
+        let places = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+        places.fold(Symmetric::zero(graph), |sum, (i, j)| {
+            sum + (half * self.at(i, j)) * Symmetric::outer_pair(axes[i], axes[j])
+        })
+    }
+
     /// `a b^T + b a^T` of both pairs.
     #[must_use]
     pub fn pairs([(a, b), (c, d)]: [(Vector<'g, F>, Vector<'g, F>); 2]) -> Self {

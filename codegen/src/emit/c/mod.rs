@@ -38,6 +38,16 @@ pub fn files() -> Result<Vec<EmittedFile>, EmitError> {
     for kind in side_by_side(KINDS, of_kind) {
         files.extend(kind?);
     }
+    files.extend(shared()?);
+    Ok(files)
+}
+
+/// The records that kernels share, the hub's equations, and sines.
+///
+/// # Errors
+/// When the template fails.
+pub fn shared() -> Result<Vec<EmittedFile>, EmitError> {
+    let mut files = Vec::new();
     let mut context = Context::new();
     context.insert("hash", &fnv1a64(&format!("{:?}", shared_records())));
     let records = shared_records().map(|record| declaration::structure("", &record));
@@ -56,8 +66,16 @@ pub fn files() -> Result<Vec<EmittedFile>, EmitError> {
 /// When a statement or a name is none of C's.
 pub fn of_kind(kind: &'static Kind) -> Result<Vec<EmittedFile>, EmitError> {
     let graph = Graph::new();
-    let super::parts::Parts { mut records, functions, stated, inputs } =
-        parts(&Chain::new(&graph, kind));
+    of_chain(&Chain::new(&graph, kind), "cargo xtask regen --emit c")
+}
+
+/// Header and source of a chain, written by `command`.
+///
+/// # Errors
+/// When a statement or a name is none of C's.
+pub fn of_chain(chain: &Chain<'_>, command: &str) -> Result<Vec<EmittedFile>, EmitError> {
+    let kind = chain.kind;
+    let super::parts::Parts { mut records, functions, stated, inputs } = parts(chain);
     let bodies = functions.iter().map(|part| sections(kind, part));
     let bodies = bodies.collect::<Result<Vec<_>, _>>()?;
     for (part, body) in functions.iter().zip(&bodies).filter(|(part, _)| part.name == "prepare") {
@@ -72,6 +90,7 @@ pub fn of_kind(kind: &'static Kind) -> Result<Vec<EmittedFile>, EmitError> {
     });
     let header = format!("precess_{}.h", kind.name);
     let mut context = Context::new();
+    context.insert("command", command);
     context.insert("source", kind.source);
     let template =
         concat!(include_str!("templates/kind.h.tera"), include_str!("templates/kind.c.tera"));

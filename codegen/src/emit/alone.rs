@@ -1,0 +1,59 @@
+//! The kernels of a chain with assumptions: files of a crate without dependencies.
+//!
+//! Invariant: the files are in one folder, `src/kernels`, and read nothing outside it.
+
+use tera::Context;
+
+use super::cost::CountText;
+use super::device::Signatures;
+use super::file::{EmitError, EmittedFile, kind_file, record_text, rust_file, templates};
+use super::home::Home;
+use super::text::fnv1a64;
+use crate::derivation::chain::Chain;
+use crate::kernel::shared_records;
+
+/// The records of the hub that an evaluation exchanges with a device.
+const OF_HUB: [&str; 4] = ["BodyRate", "BodyAcceleration", "HubShare", "ConstantShare"];
+
+/// What is emitted of a chain with assumptions.
+#[derive(Clone, Debug)]
+pub struct Alone {
+    /// Its functions.
+    pub file: EmittedFile,
+    /// Each function, the letters of its arguments and what a call of it costs.
+    pub functions: Vec<(String, Vec<&'static str>, usize)>,
+}
+
+/// The kernels of a chain with assumptions, written by `command`.
+///
+/// # Errors
+/// When a template fails or the file would not parse.
+pub fn alone(chain: &Chain<'_>, command: &str) -> Result<Alone, EmitError> {
+    let (mut counts, mut signatures) = (Vec::new(), Signatures::new());
+    let (tera, home) = (templates()?, Home::Alone(command));
+    let file = kind_file(&tera, chain, home, &mut counts, &mut signatures)?;
+    let function = |count: &CountText| {
+        let letters = signatures.get(&count.function).map(|s| s.letters.clone());
+        (count.function.clone(), letters.unwrap_or_default(), count.total)
+    };
+    Ok(Alone { file, functions: counts.iter().map(function).collect() })
+}
+
+/// The records that kernels exchange with the hub.
+///
+/// # Errors
+/// When a template fails or the file would not parse.
+pub fn alone_records(command: &str) -> Result<EmittedFile, EmitError> {
+    let shared = shared_records();
+    let records = shared.iter().filter(|record| OF_HUB.contains(&record.name.as_str()));
+    let mut records: Vec<_> = records.map(record_text).collect();
+    for record in &mut records {
+        record.by_number.clear();
+    }
+    let mut context = Context::new();
+    let home = Home::Alone(command);
+    context.insert("command", home.command());
+    context.insert("hash", &fnv1a64(&format!("{shared:?}")));
+    context.insert("records", &records);
+    rust_file(home.path("hub.rs"), templates()?.render("hub.rs", &context)?)
+}
