@@ -1,0 +1,78 @@
+//! Why nothing is emitted.
+
+use std::fmt;
+
+use precess_codegen::emit::EmitError;
+use precess_codegen::proof::EmittedError;
+use precess_description::DescriptionError;
+
+/// Why a spacecraft has no kernels of its own.
+#[derive(Debug)]
+pub enum BakeError {
+    /// The description itself.
+    Description(DescriptionError),
+    /// Device, and its kind, which is none.
+    Kind(String, String),
+    /// Device, number of bodies that its kind has, and that are described.
+    Bodies(String, usize, usize),
+    /// Device, and a value that its kind has no parameter for: it must be zero, or equal to another.
+    Pattern(String, String),
+    /// Device, and a name to keep that is no parameter of its kind.
+    Keep(String, String),
+    /// A claim that does not hold, with the terms that differ.
+    NotProven(String),
+    /// A file that cannot be laid out.
+    Emit(EmitError),
+    /// A file that cannot be read back.
+    Read(EmittedError),
+    /// A spacecraft whose accelerations the reference cannot solve for.
+    Singular,
+}
+
+impl fmt::Display for BakeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Description(error) => write!(f, "{error}"),
+            Self::Kind(device, kind) => {
+                let kinds = precess_codegen::kinds::KINDS.iter().map(|kind| kind.name);
+                let kinds: Vec<_> = kinds.collect();
+                write!(f, "{device}: `{kind}` is no kind; kinds are {}", kinds.join(", "))
+            }
+            Self::Bodies(device, expected, found) => {
+                write!(f, "{device}: {found} bodies are described, its kind has {expected}")
+            }
+            Self::Pattern(device, what) => write!(f, "{device}: its kind has {what}"),
+            Self::Keep(device, name) => {
+                write!(f, "{device}: `{name}` in `keep` is no parameter of its kind")
+            }
+            Self::NotProven(row) => write!(f, "not proven, so not written: {row}"),
+            Self::Emit(error) => write!(f, "{error}"),
+            Self::Read(error) => write!(f, "{error}"),
+            Self::Singular => write!(
+                f,
+                "the spacecraft has no inertia in some direction at its reference state; check \
+                 masses and inertias"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for BakeError {}
+
+impl From<DescriptionError> for BakeError {
+    fn from(error: DescriptionError) -> Self {
+        Self::Description(error)
+    }
+}
+
+impl From<EmitError> for BakeError {
+    fn from(error: EmitError) -> Self {
+        Self::Emit(error)
+    }
+}
+
+impl From<EmittedError> for BakeError {
+    fn from(error: EmittedError) -> Self {
+        Self::Read(error)
+    }
+}

@@ -1,0 +1,83 @@
+//! Kernels of one spacecraft: derived, proven and emitted with what its parameters say beforehand.
+//!
+//! A spacecraft knows more than a kind: offsets that are zero, moments that are equal, mounts that
+//! are whole or a few turns, joints that are locked for good, devices that are alike. [`bake`] finds
+//! that in a [`Description`], derives each kernel with it by the same generator, proves what it
+//! emits against the general derivation under the same substitution, and lays out a crate without
+//! dependencies or C99. Values stay parameters: the emitted constructor takes them, and refuses those
+//! that break what was assumed.
+//!
+//! Pure: no file is read or written here.
+
+mod assumed;
+mod c;
+mod error;
+mod numbers;
+mod parameters;
+mod records_c;
+mod reference;
+mod rust;
+mod shape;
+mod test_values;
+mod values;
+
+use precess_codegen::emit::EmittedFile;
+use precess_codegen::proof::Row;
+pub use precess_description::Description;
+
+pub use error::BakeError;
+
+/// What is written in every emitted file.
+const COMMAND: &str = "precess bake";
+
+/// What is emitted of a spacecraft.
+pub struct Baked {
+    /// The files, by paths from the folder that they are for.
+    pub files: Vec<EmittedFile>,
+    /// One row for each claim.
+    pub proof: Vec<Row>,
+    /// What is assumed, a line for each.
+    pub assumptions: Vec<String>,
+    /// Operations of an evaluation.
+    pub operations: Operations,
+}
+
+/// Operations of one evaluation, sines apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Operations {
+    /// Of the emitted kernels, sums into the hub's equations and their solution included.
+    pub baked: usize,
+    /// Of the general kernels of the same devices, counted alike.
+    pub general: usize,
+}
+
+/// The language of the emitted files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// A crate without dependencies.
+    Rust,
+    /// C99.
+    C,
+}
+
+/// Derives, proves and lays out the kernels of a spacecraft.
+///
+/// # Errors
+/// When a device is of no kind, has another number of bodies than its kind, or breaks what the kind
+/// itself says; when a claim does not hold, which is a fault of the generator.
+pub fn bake(description: &Description, language: Language) -> Result<Baked, BakeError> {
+    let shapes = shape::shapes(description)?;
+    let derived: Vec<_> = shapes.iter().map(shape::Shape::derived).collect::<Result<_, _>>()?;
+    let proof: Vec<Row> =
+        derived.iter().flat_map(|derived| derived.proof.iter().cloned()).collect();
+    if let Some(row) = proof.iter().find(|row| !row.holds()) {
+        return Err(BakeError::NotProven(row.to_string()));
+    }
+    let operations = shape::operations(&shapes, &derived)?;
+    let assumptions = shapes.iter().flat_map(shape::Shape::assumptions).collect();
+    let files = match language {
+        Language::Rust => rust::files(description, &shapes, &derived, operations)?,
+        Language::C => c::files(description, &shapes, &derived, operations)?,
+    };
+    Ok(Baked { files, proof, assumptions, operations })
+}

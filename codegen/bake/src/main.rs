@@ -1,0 +1,143 @@
+//! `precess-bake`: the kernels of one spacecraft, from a description of it.
+//!
+//! `precess bake` writes the description of a scenario and calls this; it can also be called with a
+//! description of one's own.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, ValueEnum};
+use precess_bake::{Baked, Language, bake};
+use precess_description::Description;
+
+/// Derives, proves and writes the kernels of one spacecraft
+#[derive(Parser)]
+#[command(
+    name = "precess-bake",
+    version,
+    after_help = "Example:\n  precess bake scenarios/imaging-satellite.toml --out imaging_satellite\n  \
+                  precess-bake imaging_satellite.toml --out imaging_satellite --language c"
+)]
+struct Options {
+    /// The description; standard input without it
+    description: Option<PathBuf>,
+    /// The folder to write
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// What to write
+    #[arg(long, value_enum, default_value_t = Written::Rust)]
+    language: Written,
+    /// Replace a folder that is there
+    #[arg(long)]
+    force: bool,
+    /// Compare with what is in the folder instead of writing it
+    #[arg(long, conflicts_with = "force")]
+    check: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Written {
+    /// A crate without dependencies
+    Rust,
+    /// C99
+    C,
+}
+
+fn main() -> ExitCode {
+    match execute(&Options::parse()) {
+        Ok(text) => {
+            print!("{text}");
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn execute(options: &Options) -> Result<String, String> {
+    let text = read(options.description.as_deref())?;
+    let description = Description::read(&text).map_err(|error| error.to_string())?;
+    let language = match options.language {
+        Written::Rust => Language::Rust,
+        Written::C => Language::C,
+    };
+    let baked = bake(&description, language).map_err(|error| error.to_string())?;
+    if options.check {
+        check(&baked, &options.out)?;
+    } else {
+        write(&baked, &options.out, options.force)?;
+    }
+    Ok(report(&baked, &options.out))
+}
+
+fn read(path: Option<&Path>) -> Result<String, String> {
+    let Some(path) = path else {
+        let mut text = String::new();
+        let read = io::stdin().read_to_string(&mut text);
+        return read.map(|_| text).map_err(|error| format!("standard input: {error}"));
+    };
+    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Writes all files beside the folder and puts them in its place at once.
+fn write(baked: &Baked, out: &Path, force: bool) -> Result<(), String> {
+    let shown = |error: io::Error| format!("{}: {error}", out.display());
+    if out.exists() && !force {
+        let out = out.display();
+        return Err(format!("{out} is there already; `--force` replaces the files in it"));
+    }
+    let parent = out.parent().filter(|parent| !parent.as_os_str().is_empty());
+    let parent = parent.unwrap_or(Path::new("."));
+    fs::create_dir_all(parent).map_err(shown)?;
+    let made = tempfile::tempdir_in(parent).map_err(shown)?;
+    for file in &baked.files {
+        let path = made.path().join(&file.path);
+        fs::create_dir_all(path.parent().unwrap_or(parent)).map_err(shown)?;
+        fs::write(&path, &file.text).map_err(shown)?;
+    }
+    if !out.exists() {
+        return fs::rename(made.keep(), out).map_err(shown);
+    }
+    // Files of others in the folder stay.
+    for file in &baked.files {
+        let path = out.join(&file.path);
+        fs::create_dir_all(path.parent().unwrap_or(out)).map_err(shown)?;
+        fs::rename(made.path().join(&file.path), &path).map_err(shown)?;
+    }
+    Ok(())
+}
+
+/// Whether the folder has these files.
+fn check(baked: &Baked, out: &Path) -> Result<(), String> {
+    let differs = |path: &str, text: &str| {
+        fs::read_to_string(out.join(path)).map_or(true, |found| found != text)
+    };
+    let stale: Vec<_> = baked.files.iter().filter(|file| differs(&file.path, &file.text)).collect();
+    if stale.is_empty() {
+        return Ok(());
+    }
+    let names: Vec<_> = stale.iter().map(|file| file.path.as_str()).collect();
+    Err(format!("{}: not what would be written: {}", out.display(), names.join(", ")))
+}
+
+fn report(baked: &Baked, out: &Path) -> String {
+    let assumed = baked.assumptions.join("\n  ");
+    let (files, claims, operations) = (baked.files.len(), baked.proof.len(), baked.operations);
+    let percent = 100.0 * ratio(operations.baked, operations.general);
+    format!(
+        "{}: {files} files\n\nassumed:\n  {assumed}\n\n{claims} claims proven\n{} operations an \
+         evaluation, {percent:.0} % of the general kernels' {}\n",
+        out.display(),
+        operations.baked,
+        operations.general
+    )
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts of operations are small")]
+fn ratio(part: usize, whole: usize) -> f64 {
+    part as f64 / whole as f64
+}
