@@ -149,3 +149,38 @@ fn every_command_shows_an_example() {
         serde_json::from_slice(&precess(&["schema"]).stdout).expect("JSON");
     assert_eq!(schema["properties"]["format"]["const"], 1);
 }
+
+/// What the generator reads of a scenario is what the tests of the generator are made of.
+#[test]
+fn the_description_of_a_spacecraft_is_the_committed_one() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/baked");
+    let committed = |name: &str| {
+        fs::read_to_string(root.join(name).join("description.toml")).expect("a description")
+    };
+    let described = |scenario: &str| {
+        let printed = precess(&["bake", "--description", scenario]);
+        assert!(printed.status.success(), "{}", text(&printed.stderr));
+        text(&printed.stdout)
+    };
+    let satellite = described("scenarios/imaging-satellite.toml");
+    assert_eq!(satellite, committed("imaging_satellite"));
+    assert_eq!(satellite.matches("locked_at").count(), 8);
+    let table1 = described("scenarios/table1-catalogue-free.toml");
+    assert_eq!(table1.replace("table1_catalogue_free", "table1"), committed("table1"));
+    let unlocked =
+        precess(&["bake", "--description", "--unlock", "scenarios/imaging-satellite.toml"]);
+    assert!(!text(&unlocked.stdout).contains("locked_at"));
+}
+
+#[test]
+fn a_spacecraft_without_kernels_of_its_own_is_refused() {
+    let refused = |set: &str, named: &str| {
+        let scenario = "scenarios/imaging-satellite.toml";
+        let printed = precess(&["bake", "--description", scenario, "--set", set]);
+        assert!(!printed.status.success());
+        let error = text(&printed.stderr);
+        assert!(error.contains(named), "{error}");
+    };
+    refused("hub.mode=\"fixed\"", "free hub");
+    refused("device.cmg1.imbalance.model=\"lumped\"", "coupled");
+}

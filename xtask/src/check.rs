@@ -1,5 +1,6 @@
 //! `check`: what every commit passes; `lint`: its part that needs rustfmt and clippy.
 
+use crate::bake;
 use crate::capi::MANIFEST;
 use crate::mutate;
 use crate::regen;
@@ -9,6 +10,7 @@ use crate::run::{cargo, target};
 /// broken generated file is named as such before anything tries to compile it.
 pub(crate) fn check() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
+    bake::bake(&bake::Options::check_only())?;
     mutate::mutate(&mutate::Options::check_only())?;
     lint()?;
     // The campaign has no unit tests, and takes minutes to compile as if it had.

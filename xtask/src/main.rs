@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod attack;
+mod bake;
 mod bench;
 mod callgrind;
 mod capi;
@@ -37,6 +38,11 @@ enum Command {
         after_help = "Examples: cargo xtask regen --check\n          cargo xtask regen --emit c --out DIR"
     )]
     Regen(regen::Options),
+    /// Derive, prove and write kernels of one spacecraft; without a file, those of the tests
+    #[command(
+        after_help = "Examples: cargo xtask bake --check\n          cargo xtask bake --scenario scenarios/imaging-satellite.toml --language c"
+    )]
+    Bake(bake::Options),
     /// The quick loop: `regen --check`, `mutate --check`, format, clippy, unit tests
     #[command(after_help = "Example: cargo xtask check")]
     Check,
@@ -84,6 +90,7 @@ enum Command {
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Regen(options) => regen::regen(&options),
+        Command::Bake(options) => bake::bake(&options),
         Command::Check => check::check(),
         Command::Lint => check::lint(),
         Command::Mutate(options) => mutate::mutate(&options),

@@ -2,6 +2,7 @@
 //! library.
 
 mod advice;
+mod bake;
 mod check;
 mod compare;
 mod difference;
@@ -63,6 +64,9 @@ enum Command {
     /// Print the kinds of devices with their bodies and joints
     #[command(after_help = "Example:\n  precess kinds dgvscmg")]
     Kinds(kinds::Kinds),
+    /// Derive, prove and write kernels for this spacecraft alone, as Rust or C
+    #[command(after_help = "Example:\n  precess bake bus.toml --out bus_kernels --language c")]
+    Bake(bake::Bake),
     /// Write a scenario for the flight library
     #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
     Export(export::Export),
@@ -129,6 +133,7 @@ impl Cli {
             Command::Plot(plot) => plot.execute(),
             Command::Schema => Ok(schema::execute()),
             Command::Kinds(kinds) => kinds.execute(),
+            Command::Bake(bake) => bake.execute(),
             Command::Export(export) => export.execute(),
         };
         match done {

@@ -8,6 +8,7 @@
 //! joint number, time and bound is in range; [`Scenario::spacecraft`] succeeds.
 
 mod check;
+mod description;
 pub mod mass;
 pub mod profile;
 
@@ -16,6 +17,7 @@ use precess_dynamics::kind::JointInfo;
 use precess_dynamics::{BuiltIn, Gravity, Hub, HubMode, ParameterError, Spacecraft, State};
 
 pub use check::ScenarioError;
+pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
 pub use profile::{Interpolation, Profile, Table};
 

@@ -1,0 +1,95 @@
+//! `bake`: the kernels of the scenario's spacecraft, as Rust or C.
+//!
+//! This tool derives nothing: it writes what the spacecraft is, as plain numbers, and hands that to
+//! `precess-bake`, which derives, proves and writes.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, Stdio};
+
+use clap::{Args, ValueEnum};
+
+use super::error::CommandError;
+use super::{Set, print};
+use crate::file::from_file;
+
+/// The program that derives, beside this one or on the path.
+const PROGRAM: &str = "precess-bake";
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Language {
+    /// A crate without dependencies.
+    Rust,
+    /// C99.
+    C,
+}
+
+/// The options of `bake`.
+#[derive(Debug, Args)]
+pub(super) struct Bake {
+    /// The scenario file.
+    file: PathBuf,
+    #[command(flatten)]
+    overrides: Set,
+    /// The folder to write; beside the scenario, by its name, without this option.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// What to write.
+    #[arg(long, value_enum, default_value_t = Language::Rust)]
+    language: Language,
+    /// Joints that the scenario locks stay joints.
+    #[arg(long)]
+    unlock: bool,
+    /// Print the description that the kernels are derived from, and write nothing.
+    #[arg(long)]
+    description: bool,
+    /// Replace a folder that is there.
+    #[arg(long)]
+    force: bool,
+}
+
+impl Bake {
+    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+        let (scenario, _) =
+            from_file(&self.file, &self.overrides.overrides()).map_err(CommandError::Scenario)?;
+        let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
+        let description = scenario.description(self.unlock).map_err(|error| other(&error))?;
+        let text = description.write().map_err(|error| other(&error))?;
+        if self.description {
+            print(&text);
+            return Ok(ExitCode::SUCCESS);
+        }
+        let out = self.out.clone().unwrap_or_else(|| self.file.with_file_name(&description.name));
+        self.derive(&text, &out)
+    }
+
+    /// Hands a description to the program, whose output is this command's.
+    fn derive(&self, description: &str, out: &Path) -> Result<ExitCode, CommandError> {
+        let mut command = Command::new(program());
+        command.arg("--out").arg(out);
+        command.args(["--language", if self.language == Language::C { "c" } else { "rust" }]);
+        if self.force {
+            command.arg("--force");
+        }
+        let mut child = command.stdin(Stdio::piped()).spawn().map_err(|error| {
+            CommandError::Other(format!(
+                "`{PROGRAM}` cannot be started: {error}; install it with `cargo install --path \
+                 codegen/bake`"
+            ))
+        })?;
+        let io = |source| CommandError::Io { path: PROGRAM.into(), source };
+        if let Some(mut input) = child.stdin.take() {
+            input.write_all(description.as_bytes()).map_err(io)?;
+        }
+        let status = child.wait().map_err(io)?;
+        Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    }
+}
+
+/// Beside this program, as `cargo install` and `cargo build` put both; else by the path.
+fn program() -> PathBuf {
+    let name = format!("{PROGRAM}{}", std::env::consts::EXE_SUFFIX);
+    let beside = std::env::current_exe().ok().map(|own| own.with_file_name(&name));
+    beside.filter(|path| path.is_file()).unwrap_or_else(|| PathBuf::from(PROGRAM))
+}

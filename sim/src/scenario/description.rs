@@ -1,0 +1,100 @@
+//! A scenario's spacecraft as a [`Description`]: the plain numbers from which the generator derives
+//! kernels for it.
+//!
+//! A joint that the scenario locks at rest and never releases is locked for good. What acts on the
+//! spacecraft is no part of it.
+
+use nalgebra::Matrix3;
+use precess_description::{Body, Description, Device, FORMAT, Hub};
+use precess_dynamics::HubMode;
+use precess_dynamics::kind::ImbalanceModel;
+
+use super::{Drive, Scenario};
+
+/// Why a spacecraft has no kernels of its own.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum UndescribedError {
+    /// The hub's mode is not free.
+    Hub,
+    /// A device whose imbalance is lumped.
+    Lumped(String),
+}
+
+impl std::fmt::Display for UndescribedError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Hub => write!(
+                f,
+                "the kernels of one spacecraft are for a free hub; remove `hub.mode` from the scenario"
+            ),
+            Self::Lumped(device) => write!(
+                f,
+                "the imbalance of {device} is lumped, and these kernels couple it; state \
+                 `imbalance.model = \"coupled\"`"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for UndescribedError {}
+
+impl Scenario {
+    /// The spacecraft by its numbers. With `unlock`, joints that the scenario locks stay joints.
+    ///
+    /// # Errors
+    /// Where the scenario asks for what the kernels of one spacecraft have not.
+    pub fn description(&self, unlock: bool) -> Result<Description, UndescribedError> {
+        if self.hub_mode != HubMode::Free {
+            return Err(UndescribedError::Hub);
+        }
+        let mut joint = 0;
+        let mut states = self.initial.devices.iter().flat_map(|device| {
+            let states: Vec<_> = precess_dynamics::kind::JointStates::states(device).collect();
+            states
+        });
+        let mut device = Vec::new();
+        for (own, name) in self.devices.iter().zip(&self.names) {
+            let parameters = own.parameters();
+            if parameters.model == ImbalanceModel::Lumped {
+                return Err(UndescribedError::Lumped(name.clone()));
+            }
+            let mut body = Vec::new();
+            for (of, _) in parameters.bodies.iter().zip(own.kind().joints()) {
+                let [coordinate, rate] = states.next().unwrap_or_default();
+                let locked = self.is_locked_for_good(joint) && rate == 0.0 && !unlock;
+                body.push(Body {
+                    mass: of.mass,
+                    origin: of.origin,
+                    centre_of_mass: of.centre,
+                    inertia: rows(&of.inertia),
+                    locked_at: locked.then_some(coordinate),
+                });
+                joint += 1;
+            }
+            device.push(Device {
+                name: name.clone(),
+                kind: own.kind().name().to_owned(),
+                mount: rows(&parameters.mount),
+                body,
+                keep: Vec::new(),
+            });
+        }
+        let hub = Hub {
+            mass: self.hub.m_b,
+            centre_of_mass: self.hub.r_bc_b.into(),
+            inertia: rows(&self.hub.i_b_bc),
+        };
+        let name = self.name.replace('-', "_");
+        Ok(Description { format: FORMAT, name, title: self.title.clone(), hub, device })
+    }
+
+    /// Whether a joint is locked from the start, and nothing releases it.
+    fn is_locked_for_good(&self, joint: usize) -> bool {
+        self.drives.get(joint) == Some(&Drive::Locked)
+            && self.changes.iter().all(|change| change.joint != joint)
+    }
+}
+
+fn rows(m: &Matrix3<f64>) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|row| [0, 1, 2].map(|column| m[(row, column)]))
+}

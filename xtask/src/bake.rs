@@ -1,0 +1,141 @@
+//! `bake`: kernels of one spacecraft. Without a file, those that the tests hold against the general
+//! ones: one folder of `tests/baked` for each.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use clap::{Args, ValueEnum};
+use precess_bake::{Baked, Description, Language, bake as derive};
+
+use crate::run::{root, say};
+
+/// The folder of the spacecraft that the tests know.
+const FOLDER: &str = "tests/baked";
+/// The description in each of them.
+const DESCRIPTION: &str = "description.toml";
+
+/// The options of `bake`.
+#[derive(Args)]
+pub(crate) struct Options {
+    /// A description, or a scenario with `--scenario`; all spacecraft of the tests without it
+    file: Option<PathBuf>,
+    /// The file is a scenario: the desktop tool is built and says what its spacecraft is
+    #[arg(long, requires = "file")]
+    scenario: bool,
+    /// The folder to write
+    #[arg(long, value_name = "DIR", requires = "file")]
+    out: Option<PathBuf>,
+    /// What to write
+    #[arg(long, value_enum, default_value_t = Written::Rust, requires = "file")]
+    language: Written,
+    /// Write nothing; fail if a committed file is stale
+    #[arg(long, conflicts_with_all = ["file", "out"])]
+    check: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Written {
+    /// A crate without dependencies
+    Rust,
+    /// C99
+    C,
+}
+
+impl Options {
+    /// Nothing is written.
+    pub(crate) fn check_only() -> Self {
+        let language = Written::Rust;
+        Self { file: None, scenario: false, out: None, language, check: true }
+    }
+}
+
+/// Derives, proves and writes, or compares.
+pub(crate) fn bake(options: &Options) -> Result<(), String> {
+    let Some(file) = &options.file else { return all(options.check) };
+    let text = if options.scenario { described(file)? } else { read(file)? };
+    let description = parsed(file, &text)?;
+    let language = match options.language {
+        Written::Rust => Language::Rust,
+        Written::C => Language::C,
+    };
+    let baked = derive(&description, language).map_err(|error| error.to_string())?;
+    let out =
+        options.out.clone().unwrap_or_else(|| Path::new("target/baked").join(&description.name));
+    write(&baked, &out)?;
+    report(&baked, &out);
+    Ok(())
+}
+
+/// The spacecraft of the tests, as Rust.
+fn all(check: bool) -> Result<(), String> {
+    let folder = root().join(FOLDER);
+    let entries =
+        fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut folders: Vec<_> = entries.filter_map(|entry| entry.ok().map(|e| e.path())).collect();
+    folders.sort();
+    let mut stale = Vec::new();
+    for folder in folders.iter().filter(|folder| folder.join(DESCRIPTION).is_file()) {
+        let file = folder.join(DESCRIPTION);
+        let description = parsed(&file, &read(&file)?)?;
+        let baked = derive(&description, Language::Rust).map_err(|error| error.to_string())?;
+        if check {
+            let differs = |path: &str, text: &str| {
+                fs::read_to_string(folder.join(path)).map_or(true, |found| found != text)
+            };
+            let files = baked.files.iter().filter(|file| differs(&file.path, &file.text));
+            stale.extend(files.map(|file| format!("{}/{}", description.name, file.path)));
+        } else {
+            write(&baked, folder)?;
+        }
+        report(&baked, folder);
+    }
+    if stale.is_empty() {
+        return Ok(());
+    }
+    Err(format!("stale in {FOLDER}: {}; run `cargo xtask bake`", stale.join(", ")))
+}
+
+/// What the desktop tool says of a scenario's spacecraft.
+fn described(file: &Path) -> Result<String, String> {
+    let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
+    let mut command = Command::new(program);
+    command.args(["run", "--quiet", "--package", "precess", "--", "bake", "--description"]);
+    let output = command.arg(file).current_dir(root()).output();
+    let output = output.map_err(|error| format!("cargo did not start: {error}"))?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).trim().to_owned());
+    }
+    String::from_utf8(output.stdout).map_err(|error| error.to_string())
+}
+
+fn read(file: &Path) -> Result<String, String> {
+    fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))
+}
+
+fn parsed(file: &Path, text: &str) -> Result<Description, String> {
+    Description::read(text).map_err(|error| format!("{}: {error}", file.display()))
+}
+
+fn write(baked: &Baked, out: &Path) -> Result<(), String> {
+    for file in &baked.files {
+        let path = root().join(out).join(&file.path);
+        let shown = |error: std::io::Error| format!("{}: {error}", path.display());
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(shown)?;
+        }
+        fs::write(&path, &file.text).map_err(shown)?;
+    }
+    Ok(())
+}
+
+fn report(baked: &Baked, out: &Path) {
+    let out = out.strip_prefix(root()).unwrap_or(out).display();
+    let operations = baked.operations;
+    say!(
+        "{out}: {} claims proven, {} operations an evaluation, {} of the general kernels",
+        baked.proof.len(),
+        operations.baked,
+        operations.general
+    );
+}
