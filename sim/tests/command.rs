@@ -182,5 +182,5 @@ fn a_spacecraft_without_kernels_of_its_own_is_refused() {
         assert!(error.contains(named), "{error}");
     };
     refused("hub.mode=\"fixed\"", "free hub");
-    refused("device.cmg1.imbalance.model=\"lumped\"", "coupled");
+    refused("device.cmg.imbalance_model=\"lumped\"", "coupled");
 }

@@ -13,6 +13,11 @@ use precess_codegen::kinds::{DGVSCMG, Kind, Link};
 use precess_codegen::proof::prove_assumed;
 use precess_codegen::threads::side_by_side;
 
+/// Both gimbals locked.
+const LINKS: [Link; 3] = [DGVSCMG.links[0].locked(), DGVSCMG.links[1].locked(), DGVSCMG.links[2]];
+/// The kind that is left.
+const KIND: Kind = Kind { name: "cmg", links: &LINKS, ..DGVSCMG };
+
 /// The device of the imaging satellite: gimbals locked, axes that meet in a point, two turns.
 fn device() -> (&'static Kind, Assumed) {
     let zero = "l_o_x l_o_y l_o_z l_i_x l_i_y l_i_z r_goc_go_gox r_goc_go_goy r_goc_go_goz \
@@ -22,9 +27,6 @@ fn device() -> (&'static Kind, Assumed) {
     let equal = [("j_33".to_owned(), "j_22".to_owned())].into();
     let none = Exchange::NONE;
     let mount = Mount::Turned { outer: none, turns: Turns::Two, inner: none };
-    const LINKS: [Link; 3] =
-        [DGVSCMG.links[0].locked(), DGVSCMG.links[1].locked(), DGVSCMG.links[2]];
-    const KIND: Kind = Kind { name: "cmg", links: &LINKS, ..DGVSCMG };
     (&KIND, Assumed { zero, equal, mount })
 }
 

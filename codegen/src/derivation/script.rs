@@ -62,27 +62,16 @@ impl<'g> Script<'g> {
         }
     }
 
-    /// Names a value and puts a symbol in its place; a bare symbol or constant stands for itself, and
-    /// what has a symbol already keeps it.
+    /// Names a value and puts a symbol in its place; a bare symbol or constant stands for itself.
     pub fn cut(&mut self, name: impl Into<String>, value: Expr<'g>) -> Expr<'g> {
         let name = name.into();
         if matches!(value.node(), Node::Symbol(_) | Node::Constant(_)) {
             self.push(name, value, None);
             return value;
         }
-        if let Some(symbol) = self.symbol_of(value) {
-            self.push(name, symbol, None);
-            return symbol;
-        }
         let symbol = self.graph.symbol(&name, value.stage());
         self.push(name, value, Some(symbol));
         symbol
-    }
-
-    /// The symbol that stands for a value.
-    fn symbol_of(&self, value: Expr<'g>) -> Option<Expr<'g>> {
-        let all = self.sections.iter().flat_map(|section| &section.statements);
-        all.filter(|statement| statement.value == value).find_map(|statement| statement.cut)
     }
 
     /// Names a value that `symbol` stands for afterwards.

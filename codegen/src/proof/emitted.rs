@@ -110,11 +110,8 @@ impl<'a, 'g> Prover<'a, 'g> {
             let given = self.arguments(kernel, prepare);
             let back = read(self.chain.graph, text, &given, cuts)?;
             let values = prepare.values.iter().map(|(name, value)| (name.clone(), *value));
-            let back = back.returning(&kernel.output).or(values);
-            // What is a symbol by itself may be one that stands for a value of the text.
-            let plain: Vec<_> =
-                kernel.plain().map(|(name, e)| (name, back.standing(e, cuts))).collect();
-            Ok::<_, EmittedError>(back.or(plain))
+            let back = back.returning(&kernel.output).or(values).or(kernel.plain());
+            Ok::<_, EmittedError>(back.sharing(&kernel.sections, self.chain.graph, cuts))
         };
         let back = Both {
             expanded: reading(&constants.prepare.expanded, &BTreeSet::new())?,

@@ -28,6 +28,16 @@ impl<'g> Sides<'g> {
         self.expected.push((label, expected));
     }
 
+    /// Writes out the pivots that are left as symbols once products with their reciprocals are
+    /// reduced: where a coupling is the same expression as a pivot, both have one name.
+    fn write_pivots(&mut self, ring: &mut Ring<'g>, settled: &Settled<'_, 'g>, first: usize) {
+        for (_, value) in &mut self.emitted[first..] {
+            if let Ok(normal) = ring.normal(*value) {
+                *value = settled.with_pivots(ring.expression(&normal));
+            }
+        }
+    }
+
     fn row(&self, ring: &mut Ring<'g>, name: &str) -> Row {
         let heading = ["(L D Lᵀ)", name, "fn eliminate = identity"];
         Row::compare(ring, heading, &self.emitted, &self.expected)
@@ -42,11 +52,19 @@ pub(super) fn of_elimination<'g>(
     unknowns: &Unknowns<'g>,
     back: &Reading<'g>,
 ) -> Vec<Row> {
-    let named = |name: &str| chain.graph.find(name).or_else(|| back.values.get(name).copied());
+    let named = |name: &str| {
+        let name = back.shared.get(name).map_or(name, String::as_str);
+        chain.graph.find(name).or_else(|| back.values.get(name).copied())
+    };
     let [mut matrix, mut right, mut given] = [(); 3].map(|()| Sides::default());
     for settled in every(unknowns, back) {
+        let first = (matrix.emitted.len(), right.emitted.len());
         of_matrix(&settled, unknowns, named, &mut matrix);
         of_right_side(&settled, chain, unknowns, named, &mut right);
+        if !back.shared.is_empty() {
+            matrix.write_pivots(ring, &settled, first.0);
+            right.write_pivots(ring, &settled, first.1);
+        }
         of_given(&settled, unknowns, named, &mut given);
     }
     let [mut diagonals, mut divisors] = [(); 2].map(|()| Sides::default());

@@ -130,6 +130,21 @@ impl<'a, 'g> Settled<'a, 'g> {
         written_pivot(self.back, self.unknowns.suffix(j)).map(|value| self.made[&value.id()])
     }
 
+    /// `e` with the pivots written out, unless it divides by one.
+    pub(super) fn with_pivots(&self, e: Expr<'g>) -> Expr<'g> {
+        let written = self.driven.iter().filter_map(|&j| {
+            let Node::Symbol(symbol) = self.pivot(j)?.node() else { return None };
+            Some((symbol, self.written_pivot(j)?))
+        });
+        let written: Vec<_> = written.collect();
+        let graph = e.graph();
+        let divides = graph.reachable([e.id()]).into_iter().any(|id| match graph.node(id) {
+            Node::Recip(of) => written.iter().any(|(p, _)| graph.node(of) == Node::Symbol(*p)),
+            _ => false,
+        });
+        if divides { e } else { e.with(&written) }
+    }
+
     /// The unknowns of a component, and whose accelerations are given.
     pub(super) fn label(&self, of: &[usize]) -> String {
         let tags =

@@ -6,7 +6,8 @@ use std::fmt;
 
 use quote::ToTokens;
 
-use crate::graph::{Expr, Graph, Node};
+use crate::derivation::script::Section;
+use crate::graph::{Expr, Graph, NodeId};
 use crate::kernel::Record;
 use crate::page::{ReadError, Reader, Value};
 
@@ -47,6 +48,8 @@ pub(super) struct Reading<'g> {
     pub(super) values: HashMap<String, Expr<'g>>,
     /// The value of each returned number.
     pub(super) returned: BTreeMap<String, Expr<'g>>,
+    /// Names that the text has not, each with the one that stands for the same value there.
+    pub(super) shared: HashMap<String, String>,
     reader: Reader<'g>,
 }
 
@@ -59,12 +62,30 @@ impl<'g> Reading<'g> {
         self
     }
 
-    /// What a symbol stands for in the text; itself where it is cut, or no `let` names it.
-    pub(super) fn standing(&self, e: Expr<'g>, cuts: &BTreeSet<String>) -> Expr<'g> {
-        let Node::Symbol(symbol) = e.node() else { return e };
-        let name = e.graph().symbol_info(symbol).name;
-        let value = self.values.get(&name).filter(|_| !cuts.contains(&name));
-        value.copied().unwrap_or(e)
+    /// Adds names of the derivation that the text has not, since another name has their value: the
+    /// same expression is written once.
+    pub(super) fn sharing(
+        mut self,
+        sections: &[Section<'g>],
+        graph: &'g Graph,
+        cuts: &BTreeSet<String>,
+    ) -> Self {
+        let all: Vec<_> = sections.iter().flat_map(|section| &section.statements).collect();
+        let mut named: HashMap<NodeId, &str> = HashMap::new();
+        for statement in all.iter().filter(|s| self.values.contains_key(&s.name)) {
+            named.entry(statement.value.id()).or_insert(&statement.name);
+        }
+        for statement in all {
+            let other = named.get(&statement.value.id());
+            let Some(other) = other.filter(|_| !self.values.contains_key(&statement.name)) else {
+                continue;
+            };
+            let symbol = graph.find(other).filter(|_| cuts.contains(*other));
+            let value = symbol.unwrap_or(self.values[*other]);
+            self.values.insert(statement.name.clone(), value);
+            self.shared.insert(statement.name.clone(), (*other).to_owned());
+        }
+        self
     }
 
     /// Adds the values of results that are written where they are returned, by the names that
@@ -145,7 +166,7 @@ pub(super) fn read<'g>(
             other => return Err(wrong(ReadError::NotThat(other.kind()))),
         };
     }
-    Ok(Reading { values, returned, reader })
+    Ok(Reading { values, returned, shared: HashMap::new(), reader })
 }
 
 /// The names of the values of the fields of the returned literal, where they are plain names.

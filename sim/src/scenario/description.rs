@@ -30,7 +30,7 @@ impl std::fmt::Display for UndescribedError {
             Self::Lumped(device) => write!(
                 f,
                 "the imbalance of {device} is lumped, and these kernels couple it; state \
-                 `imbalance.model = \"coupled\"`"
+                 `imbalance_model = \"coupled\"`"
             ),
         }
     }

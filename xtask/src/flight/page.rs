@@ -19,7 +19,10 @@ const PAGE: &str = "docs/flight.md";
 const GATE: u64 = 50;
 
 /// Largest number of instructions of an evaluation, by the number of DGVSCMGs.
-const BOUNDS: [(u32, u64); 2] = [(1, 3500), (4, 12_000)];
+const BOUNDS: [(u32, u64); 2] = [(1, 3000), (4, 8500)];
+
+/// The same of four DGVSCMGs with locked gimbals, by kernels of their own.
+const BAKED: u64 = 5000;
 
 /// A set of devices that is measured.
 pub(super) struct Set {
@@ -50,6 +53,8 @@ pub(super) struct Figures {
     text: u64,
     /// Instructions of a sine with its cosine, and of a square root.
     parts: [u64; 2],
+    /// Of an evaluation of the imaging satellite by kernels of its own.
+    baked: u64,
 }
 
 impl Figures {
@@ -77,6 +82,7 @@ impl Figures {
             rows: sets().map(row).collect::<Result<_, String>>()?,
             text: image.text,
             parts: [counted("sin_cos")?, counted("sqrt")?],
+            baked: counted("imaging_satellite accelerations")?,
         })
     }
 
@@ -114,6 +120,7 @@ pub(super) fn settle(
             .collect(),
         text: figures.text - figures.text / 10,
         parts: figures.parts,
+        baked: figures.baked - figures.baked / 10,
     };
     let caught = match held(figures, &page(compiler, &smaller)) {
         Ok(()) => Err("they passed: the gate is blind".to_owned()),
@@ -146,6 +153,8 @@ fn held(figures: &Figures, committed: &str) -> Result<(), String> {
     }
     let text = committed_row(committed, "whole library").and_then(|row| row.first().copied());
     hold("whole library", figures.text, text);
+    let baked = committed_row(committed, "imaging satellite, baked");
+    hold("imaging satellite, baked", figures.baked, baked.and_then(|row| row.first().copied()));
     if wrong.is_empty() {
         return Ok(());
     }
@@ -178,21 +187,25 @@ fn page(compiler: &str, figures: &Figures) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "| `{name}` | {cells} |");
     }
+    let _ = writeln!(text, "| `imaging satellite, baked` | {} | | | | | |", figures.baked);
     text
 }
 
 /// The bounds on an evaluation, and whether they hold.
 fn bounds(figures: &Figures) -> String {
-    let rows = BOUNDS.map(|(devices, bound)| {
-        let now = figures.instructions(devices);
+    let rows =
+        BOUNDS.map(|(devices, bound)| (format!("{devices}"), bound, figures.instructions(devices)));
+    let baked = "4, gimbals locked, [kernels of one spacecraft](bake.md)".to_owned();
+    let rows = rows.into_iter().chain([(baked, BAKED, figures.baked)]);
+    let row = |(what, bound, now): (String, u64, u64)| {
         let verdict = if now <= bound {
             "holds".to_owned()
         } else {
             format!("does not hold, by {}", now - bound)
         };
-        format!("| {devices} | {bound} | {now} | {verdict} |")
-    });
-    rows.join("\n")
+        format!("| {what} | {bound} | {now} | {verdict} |")
+    };
+    rows.map(row).collect::<Vec<_>>().join("\n")
 }
 
 #[cfg(test)]
@@ -201,7 +214,7 @@ mod tests {
 
     fn figures(number: u64) -> Figures {
         let row = |Set { kind, devices }: Set| (format!("{kind} {devices}"), [number; 6]);
-        Figures { rows: sets().map(row).collect(), text: number, parts: [1, 2] }
+        Figures { rows: sets().map(row).collect(), text: number, parts: [1, 2], baked: number }
     }
 
     #[test]
@@ -216,7 +229,10 @@ mod tests {
 
     #[test]
     fn page_says_whether_the_bounds_hold() {
-        let rows = bounds(&figures(3501));
-        assert_eq!(rows, "| 1 | 3500 | 3501 | does not hold, by 1 |\n| 4 | 12000 | 3501 | holds |");
+        let rows = bounds(&figures(3001));
+        let (first, rest) = rows.split_once('\n').unwrap();
+        assert_eq!(first, "| 1 | 3000 | 3001 | does not hold, by 1 |");
+        assert!(rest.starts_with("| 4 | 8500 | 3001 | holds |"), "{rest}");
+        assert!(rest.ends_with("(bake.md) | 5000 | 3001 | holds |"), "{rest}");
     }
 }

@@ -118,6 +118,7 @@ fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
         slosh_mass_1 slosh_mass 1;
         slosh_mass_4 slosh_mass 4;
     }
+    counts.baked()?;
     Ok(writeln!(counts.out, "end: {} lines", counts.lines)?)
 }
 
@@ -152,6 +153,43 @@ impl Counts<'_> {
         self.line("", || evaluate(&craft, black_box(&state), &inputs, black_box(&mut found)))?;
         write!(self.out, "{name} step")?;
         self.line("", || step(&craft, black_box(&mut state), &inputs, STEP))
+    }
+
+    /// An evaluation of a spacecraft by kernels of its own: four DGVSCMGs, gimbals locked.
+    fn baked(&mut self) -> Result<(), Stop> {
+        use imaging_satellite::cmg::{Device, Drives, Joints};
+        use imaging_satellite::{Body, Drive, Parameters, Spacecraft, State};
+        let body = |mass: f64, centre: f64, [x, y, z]: [f64; 3]| Body {
+            mass,
+            origin: [0.0; 3],
+            centre_of_mass: [0.0, centre, 0.0],
+            inertia: [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]],
+        };
+        let outer = Body { origin: [0.0, 0.0, 0.45], ..body(4.0, 0.0, [0.09, 0.07, 0.08]) };
+        let bodies = [
+            outer,
+            body(3.0, 0.0, [0.03, 0.05, 0.03]),
+            body(6.0, 2.5e-6, [0.0191, 0.0114, 0.0114]),
+        ];
+        // Axes exchanged as those of the pyramid are, and no turn.
+        let mount = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let device = Device { mount, bodies, gamma_o: 0.3, gamma_i: 0.2 };
+        let inertia = [[900.0, 50.0, 30.0], [50.0, 800.0, 20.0], [30.0, 20.0, 600.0]];
+        let centre_of_mass = [0.1, -0.2, 0.3];
+        let hub = imaging_satellite::Hub { mass: 800.0, centre_of_mass, inertia };
+        let craft = Spacecraft::new(&Parameters { hub, cmg: [device; 4] });
+        let craft = craft.map_err(|_| Stop::Rejected)?;
+        let omega = [0.3, -0.2, 0.4];
+        let state = State { omega, cmg: [Joints { theta: 0.7, spin: 1.5 }; 4] };
+        let inputs = imaging_satellite::Inputs {
+            force: [5.0, 6.0, 7.0],
+            torque_b: [0.5, 0.6, 0.7],
+            cmg: [Drives { u_w: Drive::Torque(0.1) }; 4],
+        };
+        let evaluate = black_box(Spacecraft::accelerations as fn(&_, &_, &_) -> _);
+        self.line("imaging_satellite accelerations", || {
+            black_box(evaluate(black_box(&craft), black_box(&state), black_box(&inputs))).is_ok()
+        })
     }
 
     fn line(&mut self, name: &str, mut call: impl FnMut() -> bool) -> Result<(), Stop> {
