@@ -2,7 +2,7 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::constants::CraftBlocks;
+use super::constants::{CraftBlocks, OwnLoads};
 use super::evaluate::LanedCraft;
 use super::number::Number;
 use super::slot::{LanedSet, SlotsOf, enter_constants};
@@ -21,6 +21,8 @@ pub(super) trait Crafts<D: LanedSet> {
     fn at(&self, state: usize) -> Option<&Spacecraft<D>>;
     /// Those of a group of lanes, where each state has its own.
     fn blocks(&self, group: usize) -> Option<&CraftBlocks<D>>;
+    /// What those of a group of lanes have of their own.
+    fn own_loads(&self, group: usize) -> OwnLoads;
 }
 
 /// The spacecraft of a group of lanes; the constants of their devices are taken into the slots.

@@ -15,12 +15,17 @@
 //! Registers are chosen at run time, AVX-512, AVX2 with FMA, NEON, or single numbers: a portable
 //! build reaches them. State, inputs, accelerations and errors are those of `Spacecraft`.
 //!
-//! Lanes support every kind, arrays and tuples; every mode of a joint; springs and dampers; a
-//! uniform field. Unsupported in lanes are a central field, wrenches on bodies, dry friction, the
-//! lumped model of an imbalance, and coordinates and rates of joints beyond `2^24`; in a batch also
-//! a hub that is not free and quaternions far from unit length. They fall back to the scalar
-//! path. So does whatever fails in a lane, which is how its error is found; the other lanes keep
-//! their results.
+//! Lanes support every kind, arrays and tuples; every mode of a joint; springs, dampers and dry
+//! friction; wrenches on bodies; a uniform and a central field; the lumped model of an imbalance.
+//! Unsupported in lanes are coordinates and rates of joints beyond `2^24`; in a batch also a hub
+//! that is not free, quaternions far from unit length, a central body nearer than 5e-32 m or
+//! farther than 2e31 m, and a run in which a joint with dry friction comes to rest or reverses, or
+//! whose step a single step looks at closer for its springs and friction. They fall back to the
+//! scalar path. So does whatever fails in a lane, which is how its error is found; the other lanes
+//! keep their results.
+//!
+//! Wrenches, a central field, the lumped model and dry friction are computed before the elimination,
+//! for those groups of lanes of which one has them: where none has, they cost nothing.
 //!
 //! Everything down to the arithmetic is part of the one function that may use the instructions. A
 //! call that is not inlined costs more than what it calls, so there are plain loops and emitted
@@ -32,11 +37,17 @@ mod batch_inputs;
 mod constants;
 mod crafts;
 mod evaluate;
+mod fallback;
+#[cfg(test)]
+mod fallback_checks;
 mod gather;
+mod group;
 mod lane;
+mod loads;
 mod motion;
 mod number;
 mod parameter_batch;
+mod passive;
 mod run;
 mod slot;
 mod states;

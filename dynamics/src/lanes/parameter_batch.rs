@@ -9,7 +9,7 @@ use pulp::Arch;
 
 use super::batch::{BatchAccelerations, accelerations, run};
 use super::batch_inputs::BatchInputs;
-use super::constants::CraftBlocks;
+use super::constants::{CraftBlocks, OwnLoads};
 use super::crafts::Crafts;
 use super::slot::LanedSet;
 use super::width::width;
@@ -119,5 +119,10 @@ impl<D: LanedSet> Crafts<D> for ParameterBatch<D> {
     #[inline(always)]
     fn blocks(&self, group: usize) -> Option<&CraftBlocks<D>> {
         self.groups.get(group)
+    }
+
+    #[inline(always)]
+    fn own_loads(&self, group: usize) -> OwnLoads {
+        self.groups.get(group).map_or(OwnLoads { dry: false, lumped: false }, |group| group.own)
     }
 }

@@ -7,11 +7,13 @@ use std::vec::Vec;
 
 use pulp::{Simd, WithSimd};
 
-use super::batch::{Group, NEAR_ONE};
 use super::batch_inputs::BatchInputs;
 use super::crafts::{Crafts, entered};
 use super::evaluate::{LanedCraft, evaluate};
+use super::fallback;
+use super::group::{Group, NEAR_ONE};
 use super::lane::Lane;
+use super::loads::CheckFriction;
 use super::motion::Motion;
 use super::number::{Number, WIDEST};
 use super::slot::{EachSlot, LanedSet, Slot, each_slot, take_joints};
@@ -21,8 +23,6 @@ use crate::equations::error::SolveError;
 use crate::equations::stiffness::ACCEPTED;
 use crate::model::kind::Kind;
 use crate::numbers::vec3::rotate_transposed;
-use crate::solve::inputs::Inputs;
-use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
 /// The runs of a batch.
@@ -81,25 +81,11 @@ impl<D: LanedSet, C: Crafts<D>> Runs<'_, '_, '_, D, C> {
                     Ok(())
                 } else {
                     let craft = crafts.at(start + lane).unwrap_or(first);
-                    alone(craft, state, inputs, self.dt, self.steps)
+                    fallback::run(craft, state, inputs, self.dt, self.steps)
                 });
             }
         }
     }
-}
-
-/// One state by itself, step after step.
-fn alone<D: LanedSet>(
-    craft: &Spacecraft<D>,
-    state: &mut State<D>,
-    inputs: &Inputs<D>,
-    dt: f64,
-    steps: usize,
-) -> Result<(), SolveError<f64>> {
-    for _ in 0..steps {
-        *state = craft.step(state, inputs, dt)?;
-    }
-    Ok(())
 }
 
 /// One step of the hub's motion and of the joints in their slots; the lanes where it holds.
@@ -120,7 +106,7 @@ fn step<D: LanedSet, T: Number, const EACH: bool>(
         let square = norm_squared(attitude);
         let long = square.above(near);
         holds = zero.both(holds, zero.both(long, zero.like(NEAR_ONE.recip()).above(square)));
-        let acting = group.acting_at(zero, attitude, omega);
+        let acting = group.acting::<EACH>(craft, zero, &now, &mut holds, true);
         let found = evaluate::<D, T, EACH>(craft, &mut group.slots, &acting);
         holds = zero.both(holds, found.holds);
         if craft.passive {
@@ -141,6 +127,12 @@ fn step<D: LanedSet, T: Number, const EACH: bool>(
         sum = sum.zip(&slope, |sum, slope| sum.add_mul(weight, slope));
         now = start.zip(&slope, |start, slope| start + zero.add_mul(time, slope));
         each_slot::<D, _>(craft.devices, &mut group.slots, &mut Stage { zero, weight, time });
+    }
+    if group.is_dry() {
+        let (slots, devices, mut moving) = (&mut group.slots, craft.devices, holds);
+        let check = CheckFriction::<D, T, EACH> { devices, slots, like: zero, holds: &mut moving };
+        zero.apart(check);
+        holds = moving;
     }
     let mut end = End { zero, vanishing: zero };
     each_slot::<D, _>(craft.devices, &mut group.slots, &mut end);

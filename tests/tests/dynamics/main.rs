@@ -11,6 +11,7 @@ mod input_states;
 mod invariants;
 mod kinds_and_modes;
 mod known_cases;
+mod lane_loads;
 mod lanes;
 mod ledger_and_loads;
 mod operations;
