@@ -4,22 +4,14 @@
 
 use std::vec::Vec;
 
-use pulp::{Arch, Simd, WithSimd};
-
 use super::batch_inputs::BatchInputs;
+use super::calls::{accelerations, run};
 use super::constants::{CraftBlocks, OwnLoads};
-use super::crafts::{Crafts, entered};
-use super::evaluate::evaluate;
-use super::fallback;
-use super::group::Group;
-use super::lane::Lane;
-use super::motion::at;
-use super::number::{Number, WIDEST};
-use super::run::Runs;
-use super::slot::{LanedSet, Leave, each_slot, take_found};
-use crate::equations::error::{Quantity, SolveError};
+use super::crafts::Crafts;
+use super::observers::{Observers, none};
+use super::slot::LanedSet;
+use crate::equations::error::SolveError;
 use crate::model::parameters::Hub;
-use crate::numbers::vec3::{map, vector};
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 use crate::validation::parameter_error::ParameterError;
@@ -78,7 +70,7 @@ impl<D: LanedSet> Batch<D> {
     where
         D: 'a,
     {
-        accelerations(self, states, inputs.into(), out)
+        accelerations(self, states, &inputs.into(), out)
     }
 
     /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is
@@ -98,7 +90,28 @@ impl<D: LanedSet> Batch<D> {
     where
         D: 'a,
     {
-        run(self, states, inputs.into(), (dt, steps), out)
+        run(self, states, &inputs.into(), (dt, steps), none(), out)
+    }
+
+    /// [`Self::run`], each state observed on the way.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::run`], and [`SolveError::Count`] where there are records for another number of
+    /// states.
+    pub fn run_observed<'a, R: Send, F: Fn(&mut R, usize, &State<D>) + Sync>(
+        &self,
+        states: &mut [State<D>],
+        inputs: impl Into<BatchInputs<'a, D>>,
+        dt: f64,
+        steps: usize,
+        observers: Observers<'_, R, F>,
+        out: &mut Vec<Result<(), SolveError<f64>>>,
+    ) -> Result<(), SolveError<f64>>
+    where
+        D: 'a,
+    {
+        run(self, states, &inputs.into(), (dt, steps), Some(observers), out)
     }
 }
 
@@ -127,120 +140,5 @@ impl<D: LanedSet> Crafts<D> for Batch<D> {
     #[inline(always)]
     fn own_loads(&self, _: usize) -> OwnLoads {
         self.own
-    }
-}
-
-/// All accelerations of each state, once the numbers of spacecraft, states and inputs agree.
-pub(super) fn accelerations<D: LanedSet, C: Crafts<D>>(
-    crafts: &C,
-    states: &[State<D>],
-    inputs: BatchInputs<'_, D>,
-    out: &mut BatchAccelerations<D>,
-) -> Result<(), SolveError<f64>> {
-    fit(crafts, states, &inputs)?;
-    out.clear();
-    out.reserve(states.len());
-    Arch::new().dispatch(Evaluation { crafts, states, inputs, out });
-    Ok(())
-}
-
-/// Each state advanced by so many steps, once the numbers of spacecraft, states and inputs agree.
-pub(super) fn run<D: LanedSet, C: Crafts<D>>(
-    crafts: &C,
-    states: &mut [State<D>],
-    inputs: BatchInputs<'_, D>,
-    (dt, steps): (f64, usize),
-    out: &mut Vec<Result<(), SolveError<f64>>>,
-) -> Result<(), SolveError<f64>> {
-    fit(crafts, states, &inputs)?;
-    if !dt.is_finite() {
-        return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
-    }
-    out.clear();
-    out.reserve(states.len());
-    Arch::new().dispatch(Runs { crafts, states, inputs, dt, steps, out });
-    Ok(())
-}
-
-/// Whether there are as many states as spacecraft, and as many inputs as states.
-fn fit<D: LanedSet, C: Crafts<D>>(
-    crafts: &C,
-    states: &[State<D>],
-    inputs: &BatchInputs<'_, D>,
-) -> Result<(), SolveError<f64>> {
-    let found = states.len();
-    match crafts.count() {
-        Some(expected) if expected != found => Err(SolveError::Count { expected, found }),
-        _ => inputs.fit(found),
-    }
-}
-
-/// The accelerations of a batch.
-struct Evaluation<'a, 'o, D: LanedSet, C> {
-    crafts: &'a C,
-    states: &'a [State<D>],
-    inputs: BatchInputs<'a, D>,
-    out: &'o mut BatchAccelerations<D>,
-}
-
-impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        if self.crafts.is_fused() {
-            self.evaluate(Lane::<S, true>::splat(simd, 0.0));
-        } else {
-            self.evaluate(Lane::<S, false>::splat(simd, 0.0));
-        }
-    }
-}
-
-impl<D: LanedSet, C: Crafts<D>> Evaluation<'_, '_, D, C> {
-    #[inline(always)]
-    fn evaluate<T: Number>(self, zero: T) {
-        let crafts = self.crafts;
-        let Some(first) = crafts.at(0) else { return };
-        let mut group = Group::<D, T>::new(first, zero);
-        let still = first.no_accelerations();
-        for (index, states) in self.states.chunks(T::WIDTH).enumerate() {
-            let start = index * T::WIDTH;
-            let inputs = self.inputs.starting(start);
-            group.gather(zero, (crafts, start), states, &inputs);
-            let Some(laned) = entered(crafts, index, &mut group.slots, zero) else { return };
-            let (motion, mut holds) = (group.motion, zero.same(zero));
-            let found = if C::EACH {
-                let acting = group.acting::<true>(&laned, zero, &motion, &mut holds, false);
-                evaluate::<D, T, true>(&laned, &mut group.slots, &acting)
-            } else {
-                let acting = group.acting::<false>(&laned, zero, &motion, &mut holds, false);
-                evaluate::<D, T, false>(&laned, &mut group.slots, &acting)
-            };
-            each_slot::<D, _>(laned.devices, &mut group.slots, &mut Leave);
-            let holds = zero.like(1.0).or(zero.both(found.holds, holds), zero).store();
-            let r_b_n_ddot = map(found.r_b_n_ddot, Number::store);
-            let omega_dot = map(found.omega_dot, Number::store);
-            // Filled in place: what was just put together number by number is slow to move.
-            let first = self.out.len();
-            self.out.resize(first + states.len(), Ok(still.clone()));
-            let places = self.out.iter_mut().skip(first);
-            for (lane, (state, place)) in states.iter().zip(places).enumerate() {
-                let sound = group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0;
-                match (place, inputs.at(lane)) {
-                    (Ok(found), _) if sound => {
-                        found.r_b_n_ddot = vector(at(&r_b_n_ddot, lane));
-                        found.omega_dot = vector(at(&omega_dot, lane));
-                        let of_devices = &mut found.devices;
-                        take_found::<D, _>(laned.devices, &mut group.slots, lane, of_devices);
-                    }
-                    (place, Some(inputs)) => {
-                        if let Some(craft) = crafts.at(start + lane) {
-                            *place = fallback::accelerations(craft, state, inputs);
-                        }
-                    }
-                    (_, None) => {}
-                }
-            }
-        }
     }
 }

@@ -2,8 +2,6 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use nalgebra::Vector3;
-
 use super::batch_inputs::BatchInputs;
 use super::constants::OwnLoads;
 use super::crafts::Crafts;
@@ -16,7 +14,6 @@ use crate::attitude::quaternion::{Quaternion, bn, norm_squared};
 use crate::equations::gravity::Gravity;
 use crate::equations::hub::HubConstants;
 use crate::model::mode::{HubMode, Mode};
-use crate::model::wrench::Wrench;
 use crate::numbers::each::Each;
 use crate::numbers::vec3::{add, components, rotate};
 use crate::solve::inputs::Inputs;
@@ -219,17 +216,13 @@ fn laned_state<D: LanedSet>(state: &State<D>) -> bool {
         && (a + b + c + d + e + f).is_finite()
 }
 
-/// Whether lanes support these inputs, and those are finite that the result may not show.
+/// Whether lanes support these inputs, and those are finite that the result may not show; it shows
+/// wrenches, which reach the hub.
 #[inline(always)]
 fn lanes_support_inputs<D: LanedSet>(inputs: &Inputs<D>) -> bool {
     let [[a, b, c], [d, e, f]] = [components(&inputs.force), components(&inputs.torque_b)];
     inputs.hub == HubMode::Free
         && inputs.motors.values().fold(a + b + c + d + e + f, |sum, u| sum + u).is_finite()
-        && inputs.bodies.as_ref().is_none_or(|bodies| {
-            let sum = |sum: f64, v: &Vector3<f64>| sum + v.x + v.y + v.z;
-            let sums = |all, wrench: Wrench| sum(sum(all, &wrench.force), &wrench.moment);
-            bodies.values().fold(0.0, sums).is_finite()
-        })
 }
 
 /// A quaternion whose squared length is between this and its reciprocal is taken as it is.

@@ -7,10 +7,12 @@ use std::vec::Vec;
 
 use pulp::Arch;
 
-use super::batch::{BatchAccelerations, accelerations, run};
+use super::batch::BatchAccelerations;
 use super::batch_inputs::BatchInputs;
+use super::calls::{accelerations, run};
 use super::constants::{CraftBlocks, OwnLoads};
 use super::crafts::Crafts;
+use super::observers::{Observers, none};
 use super::slot::LanedSet;
 use super::width::width;
 use crate::equations::arithmetic::Arithmetic;
@@ -75,7 +77,7 @@ impl<D: LanedSet> ParameterBatch<D> {
     where
         D: 'a,
     {
-        accelerations(self, states, inputs.into(), out)
+        accelerations(self, states, &inputs.into(), out)
     }
 
     /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is
@@ -95,7 +97,28 @@ impl<D: LanedSet> ParameterBatch<D> {
     where
         D: 'a,
     {
-        run(self, states, inputs.into(), (dt, steps), out)
+        run(self, states, &inputs.into(), (dt, steps), none(), out)
+    }
+
+    /// [`Self::run`], each state observed on the way.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::run`], and [`SolveError::Count`] where there are records for another number of
+    /// states.
+    pub fn run_observed<'a, R: Send, F: Fn(&mut R, usize, &State<D>) + Sync>(
+        &self,
+        states: &mut [State<D>],
+        inputs: impl Into<BatchInputs<'a, D>>,
+        dt: f64,
+        steps: usize,
+        observers: Observers<'_, R, F>,
+        out: &mut Vec<Result<(), SolveError<f64>>>,
+    ) -> Result<(), SolveError<f64>>
+    where
+        D: 'a,
+    {
+        run(self, states, &inputs.into(), (dt, steps), Some(observers), out)
     }
 }
 

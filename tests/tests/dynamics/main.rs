@@ -12,6 +12,7 @@ mod invariants;
 mod kinds_and_modes;
 mod known_cases;
 mod lane_loads;
+mod lane_runs;
 mod lanes;
 mod ledger_and_loads;
 mod operations;

@@ -52,7 +52,7 @@ fn inputs(k: u32) -> Inputs<Mixed> {
     inputs
 }
 
-fn crafts(count: u32) -> Vec<Spacecraft<Mixed>> {
+pub(super) fn crafts(count: u32) -> Vec<Spacecraft<Mixed>> {
     (0..count).map(craft).collect()
 }
 
