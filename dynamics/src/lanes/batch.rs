@@ -29,6 +29,8 @@ pub struct Batch<D: LanedSet> {
     craft: Spacecraft<D>,
     own: OwnLoads,
     fused: bool,
+    #[cfg(feature = "threads")]
+    on_threads: bool,
 }
 
 impl<D: LanedSet> Batch<D> {
@@ -39,7 +41,13 @@ impl<D: LanedSet> Batch<D> {
     /// As [`Spacecraft::new`].
     pub fn new(hub: &Hub, devices: &D) -> Result<Self, ParameterError<f64>> {
         let craft = Spacecraft::new(hub, devices)?;
-        Ok(Self { own: OwnLoads::of(&craft), craft, fused: false })
+        Ok(Self {
+            own: OwnLoads::of(&craft),
+            craft,
+            fused: false,
+            #[cfg(feature = "threads")]
+            on_threads: false,
+        })
     }
 
     /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
@@ -47,6 +55,16 @@ impl<D: LanedSet> Batch<D> {
     #[must_use]
     pub fn fused(self) -> Self {
         Self { fused: true, ..self }
+    }
+
+    /// The same on the threads of rayon's pool: that in which a call is made, by
+    /// `ThreadPool::install`, else the global one. The same results, by however many threads. Worth it
+    /// for runs, and for the accelerations of several thousand states: those of a thousand or fewer
+    /// are evaluated on one thread.
+    #[cfg(feature = "threads")]
+    #[must_use]
+    pub fn on_threads(self) -> Self {
+        Self { on_threads: true, ..self }
     }
 
     /// The spacecraft, for everything that is asked of one state.
@@ -121,6 +139,11 @@ impl<D: LanedSet> Crafts<D> for Batch<D> {
     #[inline(always)]
     fn is_fused(&self) -> bool {
         self.fused
+    }
+
+    #[cfg(feature = "threads")]
+    fn are_on_threads(&self) -> bool {
+        self.on_threads
     }
 
     fn count(&self) -> Option<usize> {

@@ -1,4 +1,5 @@
-//! What a call of a batch checks, and its parts: whole groups of lanes, one part after another.
+//! What a call of a batch checks, and its parts: whole groups of lanes, one part after another or on
+//! several threads.
 //!
 //! A state has the same result in every part: which states share lanes changes no number.
 
@@ -39,6 +40,15 @@ pub(super) fn accelerations<D: LanedSet, C: Crafts<D>>(
         let inputs = inputs.starting(start);
         Arch::new().dispatch(Evaluation { crafts, start, states, inputs, out });
     };
+    // Shorter parts would take longer to hand over than to evaluate.
+    #[cfg(feature = "threads")]
+    if crafts.are_on_threads() && states.len() > PART {
+        use rayon::prelude::*;
+        out.par_extend(rayon::iter::repeat_n(still, states.len()));
+        let parts = states.par_chunks(PART).zip(out.par_chunks_mut(PART)).enumerate();
+        parts.for_each(|(k, (states, out))| evaluate(k * PART, states, out));
+        return Ok(());
+    }
     out.reserve(states.len());
     for states in states.chunks(PART) {
         let start = out.len();
@@ -72,6 +82,9 @@ pub(super) fn run<D: LanedSet, C: Crafts<D>, R: Send, F: Fn(&mut R, usize, &Stat
     }
     out.clear();
     out.resize(count, Ok(()));
+    #[cfg(feature = "threads")]
+    let size = if crafts.are_on_threads() { part(count) } else { PART };
+    #[cfg(not(feature = "threads"))]
     let size = PART;
     let (records, observe) = match observers {
         Some(Observers { every, records, observe }) => (Some(records), Some((every, observe))),
@@ -95,6 +108,12 @@ pub(super) fn run<D: LanedSet, C: Crafts<D>, R: Send, F: Fn(&mut R, usize, &Stat
         let see: &mut dyn FnMut(usize, usize, &State<D>) = &mut see;
         Arch::new().dispatch(Runs { crafts, start, states, inputs, dt, steps, every, see, out });
     };
+    #[cfg(feature = "threads")]
+    if crafts.are_on_threads() {
+        use rayon::prelude::*;
+        parts.into_par_iter().for_each(run);
+        return Ok(());
+    }
     parts.into_iter().for_each(run);
     Ok(())
 }
@@ -107,6 +126,14 @@ struct Part<'a, D: LanedSet, R> {
     /// A record of each, where they are observed.
     records: &'a mut [R],
     out: &'a mut [Result<(), SolveError<f64>>],
+}
+
+/// How many states a part of runs has: several parts for each thread, since one may take longer than
+/// another.
+#[cfg(feature = "threads")]
+fn part(states: usize) -> usize {
+    let parts = 4 * rayon::current_num_threads();
+    states.div_ceil(parts).next_multiple_of(WIDEST).clamp(WIDEST, PART)
 }
 
 /// Whether there are as many states as spacecraft, and as many inputs as states.

@@ -23,7 +23,7 @@ use crate::solve::spacecraft::Spacecraft;
 
 /// Constants of a device of one kind in each lane.
 #[derive(Clone, Debug)]
-pub(super) struct DeviceBlocks<K: Kernels> {
+pub struct DeviceBlocks<K: Kernels> {
     pub(super) constants: K::Constants<Block>,
     pub(super) passive: K::PerJoint<Passive<Block>>,
     /// What the pivots are checked against.
@@ -183,7 +183,7 @@ pub(super) fn same_in_lanes<K: Kind<Scalar = f64>, T: Number>(
 
 /// The constants of the devices of as many spacecraft of one shape as there are lanes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct EachConstants;
+pub struct EachConstants;
 
 impl PerDevice<f64> for EachConstants {
     type Of<K: Kind<Scalar = f64>> = Option<Arc<DeviceBlocks<K>>>;

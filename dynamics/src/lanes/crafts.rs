@@ -9,12 +9,15 @@ use super::slot::{LanedSet, SlotsOf, enter_constants};
 use crate::solve::spacecraft::Spacecraft;
 
 /// The spacecraft of a batch.
-pub(super) trait Crafts<D: LanedSet> {
+pub(super) trait Crafts<D: LanedSet>: Sync {
     /// Whether each state has its own.
     const EACH: bool;
 
     /// Whether product and sum are rounded once.
     fn is_fused(&self) -> bool;
+    /// Whether the states are split over threads.
+    #[cfg(feature = "threads")]
+    fn are_on_threads(&self) -> bool;
     /// The number of states that they are for; none where it is any.
     fn count(&self) -> Option<usize>;
     /// That of a state.

@@ -10,6 +10,7 @@
 //! | many spacecraft of one shape, each at its state | [`ParameterBatch`] | to the bit |
 //! | the same, product and sum rounded once | [`ParameterBatch::fused`] | to rounding |
 //! | their runs, recorded or reduced on the way | `run_observed`, with [`Observers`] | as the run |
+//! | a batch on several threads, with the feature `threads` | `on_threads` | as on one |
 //!
 //! [`Spacecraft::fused`]: crate::Spacecraft::fused
 //!
@@ -27,6 +28,9 @@
 //!
 //! Wrenches, a central field, the lumped model and dry friction are computed before the elimination,
 //! for those groups of lanes of which one has them: where none has, they cost nothing.
+//!
+//! On several threads a batch is split where groups of lanes begin. Which states share lanes, and
+//! which thread evaluates them, changes no number: results do not depend on the number of threads.
 //!
 //! Everything down to the arithmetic is part of the one function that may use the instructions. A
 //! call that is not inlined costs more than what it calls, so there are plain loops and emitted

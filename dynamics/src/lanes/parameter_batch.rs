@@ -32,6 +32,8 @@ pub struct ParameterBatch<D: LanedSet> {
     /// As many spacecraft as there are lanes, side by side.
     groups: Arc<[CraftBlocks<D>]>,
     fused: bool,
+    #[cfg(feature = "threads")]
+    on_threads: bool,
 }
 
 impl<D: LanedSet> ParameterBatch<D> {
@@ -45,7 +47,13 @@ impl<D: LanedSet> ParameterBatch<D> {
         }
         // The registers that every evaluation chooses.
         let groups = crafts.chunks(width(Arch::new())).filter_map(CraftBlocks::of).collect();
-        Self { crafts, groups, fused: false }
+        Self {
+            crafts,
+            groups,
+            fused: false,
+            #[cfg(feature = "threads")]
+            on_threads: false,
+        }
     }
 
     /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
@@ -53,6 +61,16 @@ impl<D: LanedSet> ParameterBatch<D> {
     #[must_use]
     pub fn fused(self) -> Self {
         Self { fused: true, ..self }
+    }
+
+    /// The same on the threads of rayon's pool: that in which a call is made, by
+    /// `ThreadPool::install`, else the global one. The same results, by however many threads. Worth it
+    /// for runs, and for the accelerations of several thousand states: those of a thousand or fewer
+    /// are evaluated on one thread.
+    #[cfg(feature = "threads")]
+    #[must_use]
+    pub fn on_threads(self) -> Self {
+        Self { on_threads: true, ..self }
     }
 
     /// The spacecraft, unfused, for everything that is asked of one of them.
@@ -128,6 +146,11 @@ impl<D: LanedSet> Crafts<D> for ParameterBatch<D> {
     #[inline(always)]
     fn is_fused(&self) -> bool {
         self.fused
+    }
+
+    #[cfg(feature = "threads")]
+    fn are_on_threads(&self) -> bool {
+        self.on_threads
     }
 
     fn count(&self) -> Option<usize> {

@@ -114,7 +114,10 @@ impl<T: Value> PerDevice<f64> for Slots<T> {
 }
 
 /// A set of devices that can be evaluated in lanes: every kind, arrays, tuples.
-pub trait LanedSet: Devices<Scalar = f64> {}
+pub trait LanedSet:
+    Devices<Scalar = f64> + DeviceSet<Prepared: Send + Sync, Per<EachConstants>: Send + Sync>
+{
+}
 
 impl<K: Kind<Scalar = f64>> LanedSet for K {}
 

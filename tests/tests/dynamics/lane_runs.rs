@@ -1,6 +1,7 @@
-//! Runs in lanes that are observed on the way, against steps one by one: to the bit, errors included.
+//! Runs in lanes that are observed on the way, and batches on several threads, against steps one by
+//! one: to the bit, errors included.
 
-use precess_dynamics::lanes::{Batch, Observers, ParameterBatch};
+use precess_dynamics::lanes::{Batch, BatchInputs, Observers, ParameterBatch};
 use precess_dynamics::{Gravity, HubMode, Inputs, Passive, SolveError, Spacecraft, State};
 
 use super::lanes::{Mixed, hub, inputs, mixed, states};
@@ -139,4 +140,79 @@ fn records_for_another_number_of_states_are_rejected() {
         batch.run_observed(&mut states, &inputs(0), DT, steps, observers, &mut ends).unwrap();
         assert_eq!(records, [seen; 4], "{steps} steps, every {every}");
     }
+}
+
+/// What a call finds in pools of so many threads.
+fn in_pools(call: impl Fn() -> String + Sync) -> Vec<String> {
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    [1, 2, 3, 5].map(|threads| pool(threads).install(&call)).to_vec()
+}
+
+#[test]
+fn any_number_of_threads_has_the_bits_of_one() {
+    for count in [0, 1, 19, 300, 2500] {
+        let (states, inputs) = (states(count), mixed_inputs(count));
+        for fused in [false, true] {
+            let batch = Batch::new(&hub(), &mixed()).unwrap();
+            let batch = if fused { batch.fused() } else { batch };
+            let each = ParameterBatch::new(crafts(count));
+            let each = if fused { each.fused() } else { each };
+            let evaluated = |batch: &Batch<Mixed>, each: &ParameterBatch<Mixed>| {
+                let mut found = [Vec::new(), Vec::new(), Vec::new()];
+                batch.accelerations(&states, &inputs, &mut found[0]).unwrap();
+                batch.accelerations(&states, &super::lanes::inputs(1), &mut found[1]).unwrap();
+                each.accelerations(&states, &inputs, &mut found[2]).unwrap();
+                printed(&found)
+            };
+            let one = evaluated(&batch, &each);
+            let (batch, each) = (batch.on_threads(), each.on_threads());
+            for found in in_pools(|| evaluated(&batch, &each)) {
+                assert!(found == one, "{count} states, fused {fused}");
+            }
+        }
+    }
+}
+
+#[test]
+fn runs_on_any_number_of_threads_have_the_bits_of_one() {
+    for count in [1, 19, 150] {
+        let (states, inputs) = (states(count), mixed_inputs(count));
+        let batch = Batch::new(&hub(), &mixed()).unwrap();
+        let each = ParameterBatch::new(crafts(count));
+        let of_batch = |batch: &Batch<Mixed>| {
+            of_batch(&states, 20, |states, observers, ends| {
+                batch.run_observed(states, &inputs, DT, STEPS, observers, ends).unwrap();
+            })
+        };
+        let of_each = |each: &ParameterBatch<Mixed>| {
+            let (mut run, mut ends) = (states.clone(), Vec::new());
+            each.run(&mut run, BatchInputs::from(&inputs), DT, STEPS, &mut ends).unwrap();
+            printed(&(run, ends))
+        };
+        let (one, on_threads) = (of_batch(&batch), batch.clone().on_threads());
+        let found = in_pools(|| of_batch(&on_threads));
+        assert!(found.iter().all(|found| *found == one), "{count} states");
+        let (one, on_threads) = (of_each(&each), each.clone().on_threads());
+        let found = in_pools(|| of_each(&on_threads));
+        assert!(found.iter().all(|found| *found == one), "{count} spacecraft");
+    }
+}
+
+/// Parts are handed to other threads: in a pool of two, not all states are observed by one.
+#[test]
+fn several_threads_take_part() {
+    let batch = Batch::new(&hub(), &mixed()).unwrap().on_threads();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+    let (mut run, mut ends) = (states(400), Vec::new());
+    let mut by = vec![None; 400];
+    let see = |by: &mut Option<usize>, _, _: &State<Mixed>| {
+        *by = rayon::current_thread_index();
+        // Long enough for the other thread to wake up.
+        std::thread::sleep(std::time::Duration::from_micros(50));
+    };
+    pool.install(|| {
+        let observers = Observers::new(2, &mut by, see);
+        batch.run_observed(&mut run, &inputs(0), DT, 2, observers, &mut ends).unwrap();
+    });
+    assert!(by.contains(&Some(0)) && by.contains(&Some(1)), "{by:?}");
 }
