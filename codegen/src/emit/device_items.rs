@@ -173,6 +173,7 @@ impl Items<'_> {
         let mut items = vec![self.pose()];
         items.extend(self.eliminate());
         items.extend([self.pivots(), self.back_substitute(), self.slope()]);
+        items.extend([self.external(), self.gravity()]);
         items.extend(self.zips());
         let (name, gains) = (self.name(), self.gains_type());
         quote! {
@@ -205,8 +206,6 @@ impl Items<'_> {
             self.first_moment(),
             self.axes(),
             self.loads(),
-            self.external(),
-            self.gravity(),
         ];
         quote! {
             impl<T: Scalar> Kind for #name<T> {

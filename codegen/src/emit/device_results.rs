@@ -106,11 +106,11 @@ impl Items<'_> {
             })
         });
         quote! {
-            fn external(
+            fn external<T: Real>(
                 #constants: &Self::Constants<T>,
                 #pose: &Self::Pose<T>,
-                #bodies: &Wrenches<Self>,
-            ) -> Carried<Wrenches<Self>, Wrench<T>> {
+                #bodies: &PerJoint<Wrench<T>>,
+            ) -> Carried<PerJoint<Wrench<T>>, Wrench<T>> {
                 let wrenches = super::Wrenches { #(#fields),* };
                 let found = #call;
                 #carried
@@ -126,11 +126,11 @@ impl Items<'_> {
         let second = ["11", "12", "13", "22", "23", "33"]
             .map(|entry| format_ident!("second_moment_{entry}"));
         quote! {
-            fn gravity(
+            fn gravity<T: Real>(
                 #constants: &Self::Constants<T>,
                 #pose: &Self::Pose<T>,
                 #gradient: [T; 6],
-            ) -> (Wrenches<Self>, [T; 6]) {
+            ) -> (PerJoint<Wrench<T>>, [T; 6]) {
                 let [g_11, g_12, g_13, g_22, g_23, g_33] = gradient;
                 let gradient = Gradient { g_11, g_12, g_13, g_22, g_23, g_33 };
                 let found = #call;

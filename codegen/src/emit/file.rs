@@ -13,7 +13,7 @@ use super::cost::{CountText, chain_passes, count, factoring};
 use super::device::{Signature, Signatures, device_file};
 use super::home::Home;
 use super::inputs::Stated;
-use super::parts::{FUSED, Part, Parts, parts};
+use super::parts::{INLINED, Part, Parts, parts};
 use super::prepare::numbered;
 use super::text::{
     COMMENT, LINE, capital, fnv1a64, literal, pretty, pretty_items, spaced, wrapped,
@@ -312,7 +312,7 @@ fn function(part: &Part) -> FunctionText {
     };
     FunctionText {
         doc: lines,
-        inlined: FUSED.contains(&name.as_str()),
+        inlined: INLINED.contains(&name.as_str()),
         signature,
         sections: body.sections.iter().map(section).collect(),
         result: literal(output, &record_fields(part, &part.output), "    ".len()),

@@ -14,8 +14,10 @@ use crate::kernel::{Kernel, Record, Source, parameters_of};
 use crate::kernel::{joint_accelerations, modes, motors, pose, rates, wrenches};
 
 /// Where the time of an evaluation goes. Functions called rarely keep plain operators.
-/// Inlined, since lanes reach the wide instructions of their caller only so.
 pub(super) const FUSED: [&str; 2] = ["eliminate", "back_substitute"];
+
+/// What lanes call. Inlined, since lanes reach the wide instructions of their caller only so.
+pub(super) const INLINED: [&str; 4] = ["eliminate", "back_substitute", "external", "gravity"];
 
 /// Records and functions of a kind, in the order of the emitted files.
 pub(super) struct Parts {

@@ -12,7 +12,7 @@
 use crate::equations::arithmetic::{EliminationInputs, EliminationOutputs, Pivots};
 use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::error::{Quantity, SolveError};
-use crate::equations::gravity::Central;
+use crate::equations::gravity::{Central, gradient};
 use crate::equations::hub::BodySums;
 use crate::equations::joint_inputs::{DeviceInputs, Environment};
 use crate::equations::pivot_bound::pivot_bounds;
@@ -144,7 +144,7 @@ impl<K: Kind> Device<K> {
         assembly: &mut Assembly<K::Scalar>,
     ) {
         let (wrenches, second_moment) = self.acting(pose, joints, bodies, central);
-        let carried = K::external(&self.constants, pose, &wrenches);
+        let carried = self.carried(pose, &wrenches);
         for ((drive, wrench), info) in
             drives.values_mut().zip(carried.joints.values()).zip(K::JOINTS)
         {
@@ -252,27 +252,21 @@ impl<K: Kind> Device<K> {
         Ok(drives)
     }
 
-    /// Whether lanes support the device.
-    #[cfg(feature = "lanes")]
-    #[inline]
-    pub(crate) fn lanes_support(&self) -> bool {
-        let dry = |passive: Passive<K::Scalar>| passive.coulomb != zero();
-        self.lumped.is_none() && (self.free || !self.passive.values().any(dry))
-    }
-
     /// Torques and modes of the joints for lanes, without springs and friction. `None` where the
-    /// device or its modes are unsupported in lanes, or are rejected.
+    /// modes are rejected.
     #[cfg(feature = "lanes")]
     #[inline]
     pub(crate) fn given_drives(
-        &self,
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
     ) -> Option<Drives<K>> {
-        if !self.lanes_support() {
-            return None;
-        }
         Self::by_mode(joints, given, false, 0).ok()
+    }
+
+    /// Whether a joint has dry friction.
+    #[cfg(feature = "lanes")]
+    pub(crate) fn is_dry(&self) -> bool {
+        !self.free && self.passive.values().any(|passive| passive.coulomb != zero())
     }
 
     /// Torques and modes of the joints, springs and friction with the motors.
@@ -338,17 +332,13 @@ impl<K: Kind> Device<K> {
 
     /// Wrenches of the gradient of gravity on the bodies, and the device's second moment about B,
     /// expressed in its own axes.
+    #[inline(never)]
     pub(crate) fn gradient(
         &self,
         pose: &K::Pose<K::Scalar>,
         central: &Central<K::Scalar>,
     ) -> (Wrenches<K>, Symmetric<K::Scalar>) {
-        let [x, y, z] = self.mount;
-        let transposed = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
-        let g = central.gradient.rotated(&transposed);
-        let entries = [g.xx, g.xy, g.xz, g.yy, g.yz, g.zz];
-        let (wrenches, [xx, xy, xz, yy, yz, zz]) = K::gravity(&self.constants, pose, entries);
-        (wrenches, Symmetric { xx, xy, xz, yy, yz, zz })
+        gradient::<K, _>(&self.constants, &self.mount, pose, central)
     }
 
     /// Adds kinetic energy and momenta for the inertial velocity of B, expressed in B.
@@ -382,7 +372,8 @@ impl<K: Kind> Device<K> {
         }
     }
 
-    /// `external`, in the device's axes.
+    /// `external`, in the device's axes. Never inlined: one copy of the kernel.
+    #[inline(never)]
     pub(crate) fn carried(
         &self,
         pose: &K::Pose<K::Scalar>,

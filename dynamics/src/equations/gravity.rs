@@ -13,9 +13,13 @@
 //! G with the position of B included: `½ ∂(G : S)/∂R = mu / R⁴ (3 S n - 15/2 (n . S n) n + 3/2 tr S
 //! n)`.
 
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
 use nalgebra::Vector3;
 
-use crate::numbers::real::{Scalar, half, one, reciprocal_in_two};
+use crate::model::kernels::Kernels;
+use crate::model::wrench::Wrench;
+use crate::numbers::real::{Real, Scalar, half, reciprocal_in_two};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{
     Columns, Vec3, add, components, dot, largest, map, rotate, scale, zeros,
@@ -58,17 +62,6 @@ pub(crate) struct Central<T> {
 }
 
 impl<T: Scalar> Gravity<T> {
-    /// The acceleration that is the same everywhere, expressed in N; `None` for a field that is
-    /// not uniform.
-    #[cfg(feature = "lanes")]
-    pub(crate) fn uniform(&self) -> Option<Vec3<T>> {
-        match self {
-            Self::None => Some(zeros()),
-            Self::Uniform(g) => Some(components(g)),
-            Self::Central { .. } => None,
-        }
-    }
-
     /// The field about B for `[BN]` and the position of B, N axes; no field is none.
     pub(crate) fn field(&self, bn: &Columns<T>, r_b_n: &Vector3<T>) -> Option<Field<T>> {
         match self {
@@ -76,12 +69,9 @@ impl<T: Scalar> Gravity<T> {
             Self::Uniform(g) => Some(Field { at_b: rotate(bn, components(g)), central: None }),
             Self::Central { mu } => {
                 let r = rotate(bn, components(r_b_n));
-                let (n, [potential, at_b, square, slope]) = central(*mu, r);
-                let gradient = Symmetric::dyad(n)
-                    .scaled(T::from_f64(3.0) * square)
-                    .plus(Symmetric::scalar(-square));
-                let at_b = scale(-at_b, n);
-                Some(Field { at_b, central: Some(Central { gradient, n, potential, slope }) })
+                let (n, powers) = central(*mu, r);
+                let (at_b, central) = Central::of(n, powers);
+                Some(Field { at_b, central: Some(central) })
             }
         }
     }
@@ -92,10 +82,7 @@ fn central<T: Scalar>(mu: T, r: Vec3<T>) -> (Vec3<T>, [T; 4]) {
     let (size, near) = (largest(r), T::EPSILON * T::EPSILON);
     if near < size && size < near.recip() {
         let per_r = dot(r, r).sqrt().recip();
-        let (potential, per_square) = (mu * per_r, per_r * per_r);
-        let powers =
-            [potential, potential * per_r, potential * per_square, potential * per_r * per_square];
-        return (scale(per_r, r), powers);
+        return (scale(per_r, r), powers(mu, per_r));
     }
     // Beyond, R² or 1/R² may be no number although the field is one.
     let (first, second) = reciprocal_in_two(size);
@@ -104,6 +91,13 @@ fn central<T: Scalar>(mu: T, r: Vec3<T>) -> (Vec3<T>, [T; 4]) {
     let over_r = |x: T| x * per_r * first * second;
     let (potential, at_b) = (over_r(mu), over_r(over_r(mu)));
     (scale(per_r, r), [potential, at_b, over_r(at_b), over_r(over_r(at_b))])
+}
+
+/// `mu / R` to `mu / R⁴` from `1 / R`.
+#[inline(always)]
+pub(crate) fn powers<T: Real>(mu: T, per_r: T) -> [T; 4] {
+    let (potential, per_square) = (mu * per_r, per_r * per_r);
+    [potential, potential * per_r, potential * per_square, potential * per_r * per_square]
 }
 
 impl<T: Scalar> Field<T> {
@@ -126,32 +120,76 @@ impl<T: Scalar> Field<T> {
     }
 }
 
-impl<T: Scalar> Central<T> {
+#[cfg(feature = "lanes")]
+impl<T: Copy> Central<T> {
+    /// Each number changed.
+    #[inline(always)]
+    pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> Central<U> {
+        Central {
+            gradient: self.gradient.zip(self.gradient, |number, _| change(number)),
+            n: map(self.n, &mut change),
+            potential: change(self.potential),
+            slope: change(self.slope),
+        }
+    }
+}
+
+impl<T: Real> Central<T> {
+    /// The field at B, and what is added to it, from n and `mu / R` to `mu / R⁴`.
+    #[inline(always)]
+    pub(crate) fn of(n: Vec3<T>, [potential, at_b, square, slope]: [T; 4]) -> (Vec3<T>, Self) {
+        let gradient =
+            Symmetric::dyad(n).scaled(square.like(3.0) * square).plus(Symmetric::scalar(-square));
+        (scale(-at_b, n), Self { gradient, n, potential, slope })
+    }
+
     /// Third-order force on the spacecraft, in addition to field and gradient, N.
+    #[inline(always)]
     pub(crate) fn third_order(&self, second_moment: &Symmetric<T>) -> Vec3<T> {
         let along = second_moment.times(self.n);
-        let three = T::from_f64(3.0);
-        let spread = half::<T>() * second_moment.trace() - T::from_f64(2.5) * dot(self.n, along);
+        let [half, two_and_half, three] = map([0.5, 2.5, 3.0], |number| self.slope.like(number));
+        let spread = half * second_moment.trace() - two_and_half * dot(self.n, along);
         scale(three * self.slope, add(along, scale(spread, self.n)))
     }
 
     /// Force and moment about B that the gradient exerts on a rigid body, by its first and second
     /// moment about B: `G s` and `integral of r x G r dm`.
+    #[inline(always)]
     pub(crate) fn wrench(
         &self,
         first_moment: Vec3<T>,
         second_moment: &Symmetric<T>,
     ) -> (Vec3<T>, Vec3<T>) {
-        let [x, y, z] = second_moment.columns().map(|column| self.gradient.times(column));
+        let [x, y, z] = second_moment.columns();
+        let [x, y, z] = [self.gradient.times(x), self.gradient.times(y), self.gradient.times(z)];
         // Component i: epsilon_ijk (S G)_jk.
         let moment = [y[2] - z[1], z[0] - x[2], x[1] - y[0]];
         (self.gradient.times(first_moment), moment)
     }
 }
 
+/// Wrenches of the gradient of gravity on the bodies of a device, and its second moment about B,
+/// expressed in its own axes.
+#[inline(always)]
+pub(crate) fn gradient<K: Kernels, T: Real>(
+    constants: &K::Constants<T>,
+    mount: &Columns<T>,
+    pose: &K::Pose<T>,
+    central: &Central<T>,
+) -> (K::PerJoint<Wrench<T>>, Symmetric<T>) {
+    let [x, y, z] = *mount;
+    let transposed = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
+    let g = central.gradient.rotated(&transposed);
+    let entries = [g.xx, g.xy, g.xz, g.yy, g.yz, g.zz];
+    let (wrenches, [xx, xy, xz, yy, yz, zz]) = K::gravity(constants, pose, entries);
+    (wrenches, Symmetric { xx, xy, xz, yy, yz, zz })
+}
+
 /// `½ tr(I) 1 - I`: the second moment of a mass distribution from its inertia about the same point.
-pub(crate) fn second_moment<T: Scalar>(inertia: &Symmetric<T>) -> Symmetric<T> {
-    Symmetric::scalar(half::<T>() * inertia.trace()).plus(inertia.scaled(-one::<T>()))
+#[inline(always)]
+pub(crate) fn second_moment<T: Real>(inertia: &Symmetric<T>) -> Symmetric<T> {
+    let (half, minus_one) = (inertia.xx.like(0.5), inertia.xx.like(-1.0));
+    Symmetric::scalar(half * inertia.trace()).plus(inertia.scaled(minus_one))
 }
 
 /// Nothing moves it: no field.

@@ -54,6 +54,12 @@ impl<T: Copy> HubConstants<T> {
 }
 
 impl<T: Real> HubConstants<T> {
+    /// Second moment of the hub about B, kg m^2.
+    #[inline(always)]
+    pub(crate) fn second_moment(&self) -> Symmetric<T> {
+        second_moment(&self.i_b_b)
+    }
+
     /// The hub's own `M` and `h`: `m (r'' + omega' x c + omega x (omega x c)) = F` and
     /// `I omega' + m c x r'' + omega x (I omega) = L_B`.
     #[inline(always)]
@@ -96,11 +102,6 @@ impl<T: Scalar> HubConstants<T> {
         let gyroscopic = cross(omega, self.i_b_b.times(omega));
         let moment = add(self.i_b_b.times(omega_dot), add(cross(s, r_b_n_ddot), gyroscopic));
         Wrench::of(force, moment)
-    }
-
-    /// Second moment of the hub about B, kg m^2.
-    pub(crate) fn second_moment(&self) -> Symmetric<T> {
-        second_moment(&self.i_b_b)
     }
 
     /// Kinetic energy and momenta for the inertial velocity of B and the angular velocity.

@@ -1030,6 +1030,7 @@ pub fn loads<T: Real>(
 /// Returns `External`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 6 mul, 6 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, x: &Wrenches<T>) -> External<T> {
     // On the hub, eq. (D14): force, N, and moment, N m, about B.
@@ -1059,6 +1060,7 @@ pub fn external<T: Real>(p: &Prepared<T>, x: &Wrenches<T>) -> External<T> {
 /// Returns `Gravity`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 14 mul, 6 add, 2 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, g: &Gradient<T>) -> Gravity<T> {
     // G r at W, eq. (D16), expressed in the same axes, m/s².

@@ -2053,6 +2053,7 @@ pub fn loads<T: Real>(
 /// Returns `External`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 20 mul, 22 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> External<T> {
     // On D, the gimbal and the bodies outboard of it, eqs. (D14), (D15): force, N, and moment, N
@@ -2102,6 +2103,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 /// Returns `Gravity`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 84 mul, 75 add, 5 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (D16), expressed in the axes of the gimbal, 1/s².

@@ -1572,6 +1572,7 @@ pub fn loads<T: Real>(
 /// Returns `External`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 14 mul, 10 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> External<T> {
     // On the hub, eq. (D14): force, N, and moment, N m, about B.
@@ -1606,6 +1607,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 /// Returns `Gravity`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 70 mul, 66 add, 3 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (D16), expressed in the axes of the panel, 1/s².

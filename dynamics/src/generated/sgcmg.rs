@@ -2312,6 +2312,7 @@ pub fn loads<T: Real>(
 /// Returns `External`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 28 mul, 26 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> External<T> {
     // On D, the gimbal and the bodies outboard of it, eqs. (D14), (D15): force, N, and moment, N
@@ -2365,6 +2366,7 @@ pub fn external<T: Real>(p: &Prepared<T>, q: &Trig<T>, x: &Wrenches<T>) -> Exter
 /// Returns `Gravity`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 128 mul, 127 add, 5 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, q: &Trig<T>, g: &Gradient<T>) -> Gravity<T> {
     // G, as in eq. (D16), expressed in the axes of the gimbal, 1/s².

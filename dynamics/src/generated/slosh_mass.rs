@@ -1009,6 +1009,7 @@ pub fn loads<T: Real>(
 /// Returns `External`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 6 mul, 7 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn external<T: Real>(p: &Prepared<T>, s: &Positions<T>, x: &Wrenches<T>) -> External<T> {
     // On the hub, eq. (D14): force, N, and moment, N m, about B.
@@ -1039,6 +1040,7 @@ pub fn external<T: Real>(p: &Prepared<T>, s: &Positions<T>, x: &Wrenches<T>) -> 
 /// Returns `Gravity`, proved equal to the equations cited. No branch, no panic.
 ///
 /// Operations: 18 mul, 14 add, 0 neg, 0 div, 0 trig.
+#[inline(always)]
 #[must_use]
 pub fn gravity<T: Real>(p: &Prepared<T>, s: &Positions<T>, g: &Gradient<T>) -> Gravity<T> {
     // G r at S, eq. (D16), expressed in the same axes, m/s².

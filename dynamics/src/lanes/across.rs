@@ -7,26 +7,32 @@ use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::constants::{DeviceBlocks, DeviceConstants};
-use super::evaluate::{add_stiffness, regular, with_passive, within_reach};
+use super::constants::{DeviceBlocks, DeviceConstants, OwnLoads};
+use super::evaluate::{regular, within_reach};
+use super::fallback;
 use super::gather::{joints_in_lanes, values_in_lanes};
 use super::lane::Lane;
-use super::number::{Block, Number, WIDEST};
-use super::slot::{Aligned, put_drives};
+use super::loads::{OnBodies, Summed, put_wrenches, wrenches_in_lanes};
+use super::number::{Block, Number, WIDEST, Work};
+use super::passive::{add_stiffness, viscous, with_own, with_passive};
+use super::slot::{Aligned, NO_WRENCH, put_drives};
 use super::width::{lanes_for, width};
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::error::SolveError;
+use crate::equations::gravity::Central;
 use crate::equations::joint_inputs::JointInputs;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::Solution;
 use crate::model::kernels::Kernels;
-use crate::model::kind::Kind;
+use crate::model::kind::{Kind, Wrenches};
 use crate::model::mode::{Drive, Mode};
 use crate::model::parameters::Hub;
+use crate::model::wrench::Wrench;
 use crate::numbers::each::Each;
-use crate::numbers::vec3::map;
+use crate::numbers::symmetric::Symmetric;
+use crate::numbers::vec3::{components, map};
 use crate::solve::accelerations::{EvaluationStart, evaluation_start, inputs_are_finite};
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -42,8 +48,8 @@ pub struct AcrossDevices<K: Kind<Scalar = f64>, const N: usize> {
     craft: Spacecraft<[K; N]>,
     lanes: Arch,
     groups: Vec<Group<K>>,
-    /// Whether lanes support every device.
-    laned: bool,
+    /// What the devices have of their own.
+    own: OwnLoads,
 }
 
 /// As many devices as there are lanes.
@@ -64,8 +70,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         let craft = Spacecraft::new(hub, devices)?;
         let lanes = lanes_for(N);
         let groups = craft.devices.chunks(width(lanes)).filter_map(Group::new).collect();
-        let laned = craft.devices.iter().all(Device::lanes_support);
-        Ok(Self { craft, lanes, groups, laned })
+        Ok(Self { own: OwnLoads::of(&craft), craft, lanes, groups })
     }
 
     /// The spacecraft, for everything else that is asked of it.
@@ -89,6 +94,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         {
             return Ok(found);
         }
+        fallback::count();
         self.craft.accelerations(state, inputs)
     }
 
@@ -104,10 +110,11 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         dt: f64,
     ) -> Result<State<[K; N], A>, SolveError<f64>> {
         self.craft.stepped(state, inputs, dt, |_, stage, found, mut stiffness| {
-            match self.solve(stage, inputs, found, stiffness.as_deref_mut()) {
-                Some(()) => Ok(()),
-                None => self.craft.solve(stage, inputs, found, stiffness),
+            if self.solve(stage, inputs, found, stiffness.as_deref_mut()).is_some() {
+                return Ok(());
             }
+            fallback::count();
+            self.craft.solve(stage, inputs, found, stiffness)
         })
     }
 
@@ -119,9 +126,6 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         found: &mut Accelerations<[K; N]>,
         stiffness: Option<&mut Stiffness<f64>>,
     ) -> Option<()> {
-        if !self.laned || inputs.gravity.uniform().is_none() || inputs.bodies.is_some() {
-            return None;
-        }
         self.lanes.dispatch(Evaluation { across: self, state, inputs, found, stiffness })
     }
 }
@@ -164,14 +168,33 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
         // The first without the heap: where there is one group alone, that takes time.
         let (mut gains, mut of_first) = (Vec::new(), None);
         let (mut holds, mut shares) = (zero.same(zero), None);
+        let OwnLoads { dry, lumped } = across.own;
+        let with_loads = dry || lumped || inputs.bodies.is_some() || environment.central.is_some();
         let mut start = 0;
         for group in groups {
-            let (joints, drives) = gather::<K, T, N>(craft, start, &state.devices, inputs, zero)?;
-            start += T::WIDTH;
+            let (joints, drives) = gather::<K, T, N>(start, &state.devices, inputs, zero)?;
             let DeviceConstants { constants, passive, bound, .. } = group.constants.in_lanes(zero);
-            let drives = match &passive {
-                Some(passive) => with_passive::<K, T>(&joints, &drives, passive),
-                None => drives,
+            let loads = if with_loads {
+                // Copies: numbers whose place another function knows do not stay in registers.
+                let (mut to, joints, given) = (None, joints, drives);
+                zero.apart(AddLoads::<K, T> {
+                    constants: &group.constants,
+                    bodies: inputs.bodies.as_ref().and_then(|bodies| bodies.get(start..)),
+                    joints: &joints,
+                    given: &given,
+                    central: environment.central.as_ref(),
+                    like: zero,
+                    to: &mut to,
+                });
+                to
+            } else {
+                None
+            };
+            start += T::WIDTH;
+            let drives = match (&passive, &loads) {
+                (_, Some(Loads { drives, .. })) => *drives,
+                (Some(passive), None) => with_passive::<K, T>(&joints, &drives, passive),
+                (None, None) => drives,
             };
             let pose = K::pose(&joints);
             let eliminated =
@@ -182,10 +205,19 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             let real = zero.load(&group.weight).above(zero);
             if let Some(passive) = &passive {
                 let mut stiffness = Stiffness::none(zero);
-                add_stiffness::<K, T>(&mut stiffness, passive, &eliminated, &drives);
+                let of_loads = loads.as_ref().and_then(|loads| loads.stiffness);
+                let joints = of_loads.unwrap_or_else(|| viscous::<K, T>(passive));
+                add_stiffness::<K, T>(&mut stiffness, &joints, &eliminated, &drives);
                 let Stiffness { damping, spring } = stiffness;
                 assembly.stiffness.damping += damping.or(real, zero).sum();
                 assembly.stiffness.spring += spring.or(real, zero).sum();
+            }
+            if let Some(Loads { on_bodies: Some((hub, second_moment)), .. }) = &loads {
+                let sum = |number: T| number.or(real, zero).sum();
+                let hub = hub.zip(hub, |number, _| sum(number));
+                assembly.add_wrench(components(&hub.force), components(&hub.moment));
+                let second_moment = second_moment.zip(*second_moment, |number, _| sum(number));
+                assembly.second_moment = assembly.second_moment.plus(second_moment);
             }
             let share = K::share(&eliminated).map(|number| number.or(real, zero));
             shares = Some(match &shares {
@@ -229,6 +261,55 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
     }
 }
 
+/// The drives of a group's devices, and what acts on their bodies.
+struct Loads<K: Kernels, T: Number> {
+    /// Torques and modes, with all that adds to them.
+    drives: K::PerJoint<Drive<T>>,
+    /// Damping and stiffness of the joints.
+    stiffness: Option<K::PerJoint<[T; 2]>>,
+    /// On the hub, about B, and the second moment, expressed in B.
+    on_bodies: Option<(Wrench<T>, Symmetric<T>)>,
+}
+
+/// Adds the loads of a group's devices.
+struct AddLoads<'a, K: Kind<Scalar = f64>, T: Number> {
+    constants: &'a DeviceBlocks<K>,
+    /// Of the first device of the group and those after it.
+    bodies: Option<&'a [Wrenches<K>]>,
+    joints: &'a K::Joints<T>,
+    given: &'a K::PerJoint<Drive<T>>,
+    central: Option<&'a Central<f64>>,
+    like: T,
+    to: &'a mut Option<Loads<K, T>>,
+}
+
+impl<K: Kind<Scalar = f64>, T: Number> Work for AddLoads<'_, K, T> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { constants, bodies, joints, given, central, like, to } = self;
+        let (device, everywhere) = (constants.loads_in_lanes(like), like.same(like));
+        let constants = constants.in_lanes(like);
+        let (drives, stiffness) = with_own::<K, T>((&constants, device.dry), joints, given);
+        let mut wrenches = <K as Kind>::all(NO_WRENCH);
+        for (lane, bodies) in bodies.unwrap_or(&[]).iter().take(WIDEST).enumerate() {
+            put_wrenches::<K>(&mut wrenches, lane, bodies);
+        }
+        let wrenches = wrenches_in_lanes::<K, T>(like, &wrenches);
+        let on_bodies = OnBodies {
+            wrenches: bodies.map(|_| everywhere),
+            central: central.map(|central| (central.map(|number| like.like(number)), everywhere)),
+        };
+        *to = Some(
+            match on_bodies.summed::<K>(&constants.constants, &device, joints, &drives, &wrenches) {
+                Some(Summed { drives, hub, second_moment, .. }) => {
+                    Loads { drives, stiffness, on_bodies: Some((hub, second_moment)) }
+                }
+                None => Loads { drives, stiffness, on_bodies: None },
+            },
+        );
+    }
+}
+
 /// The joints of a group's devices, and what is given of them.
 type Gathered<K, T> = (<K as Kernels>::Joints<T>, <K as Kernels>::PerJoint<Drive<T>>);
 
@@ -236,7 +317,6 @@ type Gathered<K, T> = (<K as Kernels>::Joints<T>, <K as Kernels>::PerJoint<Drive
 /// repeat the last.
 #[inline(always)]
 fn gather<K: Kind<Scalar = f64>, T: Number, const N: usize>(
-    craft: &Spacecraft<[K; N]>,
     start: usize,
     joints: &[K::Joints<f64>; N],
     inputs: &Inputs<[K; N]>,
@@ -271,7 +351,7 @@ fn gather<K: Kind<Scalar = f64>, T: Number, const N: usize>(
     for (lane, joints) in joints_of.into_iter().enumerate().take(T::WIDTH) {
         let (motors, modes) = (inputs.motors.get(at(lane))?, inputs.modes.get(at(lane))?);
         let given = JointInputs { motors, modes, bodies: None };
-        let drives = craft.devices.get(at(lane))?.given_drives(joints, given)?;
+        let drives = Device::<K>::given_drives(joints, given)?;
         put_drives::<K>(&mut drives_of, lane, &drives);
     }
     let load = |block: Block| zero.load(&block);

@@ -4,26 +4,14 @@
 
 use std::vec::Vec;
 
-use pulp::{Arch, Simd, WithSimd};
-
 use super::batch_inputs::BatchInputs;
-use super::constants::CraftBlocks;
-use super::crafts::{Crafts, entered};
-use super::evaluate::{Acting, evaluate};
-use super::lane::Lane;
-use super::motion::{Forces, Motion, at};
-use super::number::{Block, Number, WIDEST};
-use super::run::Runs;
-use super::slot::{
-    Enter, LanedSet, Leave, Slots, SlotsOf, each_slot, load_joints, put_given, take_found,
-};
-use crate::attitude::quaternion::{Quaternion, bn, norm_squared};
-use crate::equations::error::{Quantity, SolveError};
-use crate::model::mode::{HubMode, Mode};
+use super::calls::{accelerations, run};
+use super::constants::{CraftBlocks, OwnLoads};
+use super::crafts::Crafts;
+use super::observers::{Observers, none};
+use super::slot::LanedSet;
+use crate::equations::error::SolveError;
 use crate::model::parameters::Hub;
-use crate::numbers::each::Each;
-use crate::numbers::vec3::{add, components, map, rotate, vector};
-use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 use crate::validation::parameter_error::ParameterError;
@@ -39,7 +27,10 @@ pub type BatchAccelerations<D> = Vec<Result<Accelerations<D>, SolveError<f64>>>;
 #[derive(Clone, Debug)]
 pub struct Batch<D: LanedSet> {
     craft: Spacecraft<D>,
+    own: OwnLoads,
     fused: bool,
+    #[cfg(feature = "threads")]
+    on_threads: bool,
 }
 
 impl<D: LanedSet> Batch<D> {
@@ -49,7 +40,14 @@ impl<D: LanedSet> Batch<D> {
     ///
     /// As [`Spacecraft::new`].
     pub fn new(hub: &Hub, devices: &D) -> Result<Self, ParameterError<f64>> {
-        Ok(Self { craft: Spacecraft::new(hub, devices)?, fused: false })
+        let craft = Spacecraft::new(hub, devices)?;
+        Ok(Self {
+            own: OwnLoads::of(&craft),
+            craft,
+            fused: false,
+            #[cfg(feature = "threads")]
+            on_threads: false,
+        })
     }
 
     /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
@@ -57,6 +55,16 @@ impl<D: LanedSet> Batch<D> {
     #[must_use]
     pub fn fused(self) -> Self {
         Self { fused: true, ..self }
+    }
+
+    /// The same on the threads of rayon's pool: that in which a call is made, by
+    /// `ThreadPool::install`, else the global one. The same results, by however many threads. Worth it
+    /// for runs, and for the accelerations of several thousand states: those of a thousand or fewer
+    /// are evaluated on one thread.
+    #[cfg(feature = "threads")]
+    #[must_use]
+    pub fn on_threads(self) -> Self {
+        Self { on_threads: true, ..self }
     }
 
     /// The spacecraft, for everything that is asked of one state.
@@ -80,7 +88,7 @@ impl<D: LanedSet> Batch<D> {
     where
         D: 'a,
     {
-        accelerations(self, states, inputs.into(), out)
+        accelerations(self, states, &inputs.into(), out)
     }
 
     /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is
@@ -100,7 +108,28 @@ impl<D: LanedSet> Batch<D> {
     where
         D: 'a,
     {
-        run(self, states, inputs.into(), (dt, steps), out)
+        run(self, states, &inputs.into(), (dt, steps), none(), out)
+    }
+
+    /// [`Self::run`], each state observed on the way.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::run`], and [`SolveError::Count`] where there are records for another number of
+    /// states.
+    pub fn run_observed<'a, R: Send, F: Fn(&mut R, usize, &State<D>) + Sync>(
+        &self,
+        states: &mut [State<D>],
+        inputs: impl Into<BatchInputs<'a, D>>,
+        dt: f64,
+        steps: usize,
+        observers: Observers<'_, R, F>,
+        out: &mut Vec<Result<(), SolveError<f64>>>,
+    ) -> Result<(), SolveError<f64>>
+    where
+        D: 'a,
+    {
+        run(self, states, &inputs.into(), (dt, steps), Some(observers), out)
     }
 }
 
@@ -110,6 +139,11 @@ impl<D: LanedSet> Crafts<D> for Batch<D> {
     #[inline(always)]
     fn is_fused(&self) -> bool {
         self.fused
+    }
+
+    #[cfg(feature = "threads")]
+    fn are_on_threads(&self) -> bool {
+        self.on_threads
     }
 
     fn count(&self) -> Option<usize> {
@@ -125,231 +159,9 @@ impl<D: LanedSet> Crafts<D> for Batch<D> {
     fn blocks(&self, _: usize) -> Option<&CraftBlocks<D>> {
         None
     }
-}
-
-/// All accelerations of each state, once the numbers of spacecraft, states and inputs agree.
-pub(super) fn accelerations<D: LanedSet, C: Crafts<D>>(
-    crafts: &C,
-    states: &[State<D>],
-    inputs: BatchInputs<'_, D>,
-    out: &mut BatchAccelerations<D>,
-) -> Result<(), SolveError<f64>> {
-    fit(crafts, states, &inputs)?;
-    out.clear();
-    out.reserve(states.len());
-    Arch::new().dispatch(Evaluation { crafts, states, inputs, out });
-    Ok(())
-}
-
-/// Each state advanced by so many steps, once the numbers of spacecraft, states and inputs agree.
-pub(super) fn run<D: LanedSet, C: Crafts<D>>(
-    crafts: &C,
-    states: &mut [State<D>],
-    inputs: BatchInputs<'_, D>,
-    (dt, steps): (f64, usize),
-    out: &mut Vec<Result<(), SolveError<f64>>>,
-) -> Result<(), SolveError<f64>> {
-    fit(crafts, states, &inputs)?;
-    if !dt.is_finite() {
-        return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
-    }
-    out.clear();
-    out.reserve(states.len());
-    Arch::new().dispatch(Runs { crafts, states, inputs, dt, steps, out });
-    Ok(())
-}
-
-/// Whether there are as many states as spacecraft, and as many inputs as states.
-fn fit<D: LanedSet, C: Crafts<D>>(
-    crafts: &C,
-    states: &[State<D>],
-    inputs: &BatchInputs<'_, D>,
-) -> Result<(), SolveError<f64>> {
-    let found = states.len();
-    match crafts.count() {
-        Some(expected) if expected != found => Err(SolveError::Count { expected, found }),
-        _ => inputs.fit(found),
-    }
-}
-
-/// Whether lanes support this state: a quaternion near unit length, and finite numbers where the
-/// result may not show that one is not.
-#[inline(always)]
-fn laned_state<D: LanedSet>(state: &State<D>) -> bool {
-    let Quaternion { q0, q1, q2, q3 } = state.attitude;
-    let [[a, b, c], [d, e, f]] = [components(&state.r_b_n), components(&state.r_b_n_dot)];
-    (NEAR_ONE..=NEAR_ONE.recip()).contains(&norm_squared([q0, q1, q2, q3]))
-        && (a + b + c + d + e + f).is_finite()
-}
-
-/// Whether lanes support these inputs, and those are finite that the result may not show.
-#[inline(always)]
-fn lanes_support_inputs<D: LanedSet>(inputs: &Inputs<D>) -> bool {
-    let [[a, b, c], [d, e, f]] = [components(&inputs.force), components(&inputs.torque_b)];
-    inputs.hub == HubMode::Free
-        && inputs.bodies.is_none()
-        && inputs.gravity.uniform().is_some()
-        && inputs.motors.values().fold(a + b + c + d + e + f, |sum, u| sum + u).is_finite()
-}
-
-/// A quaternion whose squared length is between this and its reciprocal is taken as it is.
-pub(super) const NEAR_ONE: f64 = 1e-20;
-
-/// The accelerations of a batch.
-struct Evaluation<'a, 'o, D: LanedSet, C> {
-    crafts: &'a C,
-    states: &'a [State<D>],
-    inputs: BatchInputs<'a, D>,
-    out: &'o mut BatchAccelerations<D>,
-}
-
-impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
-    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        if self.crafts.is_fused() {
-            self.evaluate(Lane::<S, true>::splat(simd, 0.0));
-        } else {
-            self.evaluate(Lane::<S, false>::splat(simd, 0.0));
-        }
-    }
-}
-
-impl<D: LanedSet, C: Crafts<D>> Evaluation<'_, '_, D, C> {
-    #[inline(always)]
-    fn evaluate<T: Number>(self, zero: T) {
-        let crafts = self.crafts;
-        let Some(first) = crafts.at(0) else { return };
-        let mut group = Group::<D, T>::new(first, zero);
-        let still = first.no_accelerations();
-        for (index, states) in self.states.chunks(T::WIDTH).enumerate() {
-            let start = index * T::WIDTH;
-            let inputs = self.inputs.starting(start);
-            group.gather(zero, (crafts, start), states, &inputs);
-            let acting = group.acting(zero);
-            let Some(laned) = entered(crafts, index, &mut group.slots, zero) else { return };
-            let found = if C::EACH {
-                evaluate::<D, T, true>(&laned, &mut group.slots, &acting)
-            } else {
-                evaluate::<D, T, false>(&laned, &mut group.slots, &acting)
-            };
-            each_slot::<D, _>(laned.devices, &mut group.slots, &mut Leave);
-            let holds = zero.like(1.0).or(found.holds, zero).store();
-            let r_b_n_ddot = map(found.r_b_n_ddot, Number::store);
-            let omega_dot = map(found.omega_dot, Number::store);
-            // Filled in place: what was just put together number by number is slow to move.
-            let first = self.out.len();
-            self.out.resize(first + states.len(), Ok(still.clone()));
-            let places = self.out.iter_mut().skip(first);
-            for (lane, (state, place)) in states.iter().zip(places).enumerate() {
-                let sound = group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0;
-                match (place, inputs.at(lane)) {
-                    (Ok(found), _) if sound => {
-                        found.r_b_n_ddot = vector(at(&r_b_n_ddot, lane));
-                        found.omega_dot = vector(at(&omega_dot, lane));
-                        let of_devices = &mut found.devices;
-                        take_found::<D, _>(laned.devices, &mut group.slots, lane, of_devices);
-                    }
-                    (place, Some(inputs)) => {
-                        if let Some(craft) = crafts.at(start + lane) {
-                            *place = craft.accelerations(state, inputs);
-                        }
-                    }
-                    (_, None) => {}
-                }
-            }
-        }
-    }
-}
-
-/// As many states as there are lanes.
-pub(super) struct Group<D: LanedSet, T: Number> {
-    pub(super) slots: SlotsOf<D, T>,
-    /// The lanes that have what is asked.
-    pub(super) laned: [bool; WIDEST],
-    /// Whether what is given of the joints stands there already, the same for every state.
-    given: bool,
-    /// The hub's motion.
-    pub(super) motion: Motion<T>,
-    /// What acts on the hub, on its way in.
-    forces: Forces<Block>,
-}
-
-impl<D: LanedSet, T: Number> Group<D, T> {
-    pub(super) fn new(craft: &Spacecraft<D>, zero: T) -> Self {
-        Self {
-            slots: D::new_data(&craft.devices, &Slots(zero)),
-            laned: [true; WIDEST],
-            given: false,
-            motion: Motion::filled(zero),
-            forces: Forces::ZERO,
-        }
-    }
-
-    /// Takes states in. Lanes beyond the last of them repeat it: they cost nothing and harm
-    /// nothing.
-    #[inline(always)]
-    pub(super) fn gather<C: Crafts<D>>(
-        &mut self,
-        zero: T,
-        (crafts, start): (&C, usize),
-        states: &[State<D>],
-        all: &BatchInputs<'_, D>,
-    ) {
-        let (Some(last), Some(end)) = (states.len().checked_sub(1), states.last()) else { return };
-        let Some(first) = crafts.at(start) else { return };
-        let mut lanes = [end; WIDEST];
-        lanes.iter_mut().zip(states).for_each(|(lane, state)| *lane = state);
-        self.motion = Motion::in_lanes(zero, lanes);
-        let joints = lanes.map(|state| &state.devices);
-        load_joints::<D, _>(&first.devices, &mut self.slots, zero, joints);
-        for lane in 0..T::WIDTH {
-            let index = lane.min(last);
-            let (Some(state), Some(inputs)) = (states.get(index), all.at(index)) else { return };
-            let Some(craft) = crafts.at(start + index) else { return };
-            let mut laned = laned_state(state);
-            if !self.given {
-                let given = inputs.of_joints();
-                laned &= lanes_support_inputs(inputs)
-                    && put_given::<D, _>(
-                        &craft.devices,
-                        &mut self.slots,
-                        lane,
-                        &state.devices,
-                        given,
-                    );
-                self.forces.put(lane, inputs);
-            }
-            self.laned[lane & (WIDEST - 1)] = laned;
-        }
-        if self.given {
-            return;
-        }
-        each_slot::<D, _>(&first.devices, &mut self.slots, &mut Enter(zero));
-        // A locked joint is looked at in each state.
-        self.given = match all {
-            BatchInputs::Same(inputs) => {
-                !C::EACH
-                    && self.laned == [true; WIDEST]
-                    && inputs.modes.values().all(|mode| mode != Mode::Locked)
-            }
-            BatchInputs::Each(_) => false,
-        };
-    }
-
-    /// What acts at the state that was taken in.
-    #[inline(always)]
-    fn acting(&self, zero: T) -> Acting<T> {
-        self.acting_at(zero, self.motion.q, self.motion.omega)
-    }
-
-    /// What acts at another attitude and angular velocity.
-    #[inline(always)]
-    pub(super) fn acting_at(&self, zero: T, attitude: [T; 4], omega: [T; 3]) -> Acting<T> {
-        let Forces { force, torque_b, field } = self.forces.map(|block| zero.load(&block));
-        // No field is `0.0` in a single evaluation, never `-0.0`.
-        let at_b = add(rotate(&bn(attitude), field), [zero; 3]);
-        Acting { omega, force, torque_b, at_b }
+    fn own_loads(&self, _: usize) -> OwnLoads {
+        self.own
     }
 }

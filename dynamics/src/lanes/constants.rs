@@ -12,17 +12,18 @@ use super::slot::LanedSet;
 use crate::equations::device::Device;
 use crate::equations::hub::HubConstants;
 use crate::model::kernels::Kernels;
-use crate::model::kind::Kind;
+use crate::model::kind::{Kind, Lumped};
 use crate::model::passive::Passive;
+use crate::numbers::vec3::{Columns, map};
 use crate::sets::bundle::Unique;
-use crate::sets::devices::Visit;
+use crate::sets::devices::{AreLumped, Passives, Visit};
 use crate::sets::enumeration::{DeviceEnum, Variant};
 use crate::sets::per_device::PerDevice;
 use crate::solve::spacecraft::Spacecraft;
 
 /// Constants of a device of one kind in each lane.
 #[derive(Clone, Debug)]
-pub(super) struct DeviceBlocks<K: Kernels> {
+pub struct DeviceBlocks<K: Kernels> {
     pub(super) constants: K::Constants<Block>,
     pub(super) passive: K::PerJoint<Passive<Block>>,
     /// What the pivots are checked against.
@@ -31,6 +32,11 @@ pub(super) struct DeviceBlocks<K: Kernels> {
     pub(super) sprung: Block,
     /// Whether there is no such lane.
     pub(super) free: bool,
+    /// Whether a joint in any lane has dry friction.
+    pub(super) dry: bool,
+    mount: Columns<Block>,
+    /// The lumped model of an imbalance; one in the lanes whose device has it.
+    lumped: Option<(Lumped<Block>, Block)>,
 }
 
 /// Constants of a device as numbers in lanes.
@@ -43,6 +49,15 @@ pub(super) struct DeviceConstants<K: Kernels, T: Number> {
     pub(super) sprung: T::Holds,
 }
 
+/// What the loads of a device need of it besides.
+pub(super) struct LoadConstants<T: Number> {
+    /// Whether a joint has dry friction.
+    pub(super) dry: bool,
+    pub(super) mount: Columns<T>,
+    /// The lumped model of an imbalance, and where the device has it.
+    pub(super) lumped: Option<(Lumped<T>, T::Holds)>,
+}
+
 impl<K: Kind<Scalar = f64>> DeviceBlocks<K> {
     /// One device in every lane.
     fn filled(device: &Device<K>) -> Self {
@@ -53,6 +68,9 @@ impl<K: Kind<Scalar = f64>> DeviceBlocks<K> {
             bound: K::zip_per_joint(&device.bound, &device.bound, |number, _| block(number)),
             sprung: block(if device.free { 0.0 } else { 1.0 }),
             free: device.free,
+            dry: device.is_dry(),
+            mount: map(device.mount, |column| map(column, block)),
+            lumped: device.lumped.map(|lumped| (lumped.map(block), block(1.0))),
         }
     }
 
@@ -76,6 +94,20 @@ impl<K: Kind<Scalar = f64>> DeviceBlocks<K> {
         });
         self.sprung.put(lane, if device.free { 0.0 } else { 1.0 });
         self.free &= device.free;
+        self.dry |= device.is_dry();
+        for (blocks, column) in self.mount.iter_mut().zip(device.mount) {
+            blocks.iter_mut().zip(column).for_each(|(block, number)| block.put(lane, number));
+        }
+        let none = (Lumped { u_s: Block::ZERO, j_12: Block::ZERO, j_13: Block::ZERO }, Block::ZERO);
+        if device.lumped.is_some() || self.lumped.is_some() {
+            let (blocks, has) = self.lumped.get_or_insert(none);
+            has.put(lane, if device.lumped.is_some() { 1.0 } else { 0.0 });
+            if let Some(lumped) = device.lumped {
+                blocks.u_s.put(lane, lumped.u_s);
+                blocks.j_12.put(lane, lumped.j_12);
+                blocks.j_13.put(lane, lumped.j_13);
+            }
+        }
     }
 
     /// These devices side by side, at most as many as the widest lanes have; lanes without one
@@ -101,6 +133,36 @@ impl<K: Kind<Scalar = f64>> DeviceBlocks<K> {
             sprung: load(self.sprung).above(like.like(0.0)),
         }
     }
+
+    /// What loads need, as numbers in lanes.
+    #[inline(always)]
+    pub(super) fn loads_in_lanes<T: Number>(&self, like: T) -> LoadConstants<T> {
+        let [x, y, z] = &self.mount;
+        let column = |[a, b, c]: &[Block; 3]| [like.load(a), like.load(b), like.load(c)];
+        let lumped = |(Lumped { u_s, j_12, j_13 }, has): &(Lumped<Block>, Block)| {
+            let (u_s, j_12, j_13) = (like.load(u_s), like.load(j_12), like.load(j_13));
+            (Lumped { u_s, j_12, j_13 }, like.load(has).above(like.like(0.0)))
+        };
+        LoadConstants {
+            dry: self.dry,
+            mount: [column(x), column(y), column(z)],
+            lumped: self.lumped.as_ref().map(lumped),
+        }
+    }
+}
+
+/// What the loads of one device need, in every lane.
+#[inline(always)]
+pub(super) fn loads_in_lanes<K: Kind<Scalar = f64>, T: Number>(
+    device: &Device<K>,
+    like: T,
+) -> LoadConstants<T> {
+    let splat = |number| like.like(number);
+    LoadConstants {
+        dry: device.is_dry(),
+        mount: map(device.mount, |column| map(column, splat)),
+        lumped: device.lumped.map(|lumped| (lumped.map(splat), like.same(like))),
+    }
 }
 
 /// One device's constants in every lane.
@@ -121,7 +183,7 @@ pub(super) fn same_in_lanes<K: Kind<Scalar = f64>, T: Number>(
 
 /// The constants of the devices of as many spacecraft of one shape as there are lanes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct EachConstants;
+pub struct EachConstants;
 
 impl PerDevice<f64> for EachConstants {
     type Of<K: Kind<Scalar = f64>> = Option<Arc<DeviceBlocks<K>>>;
@@ -146,10 +208,40 @@ impl PerDevice<f64> for EachConstants {
 
 /// The constants of as many spacecraft of one shape as there are lanes.
 pub(super) struct CraftBlocks<D: LanedSet> {
+    /// The hub.
+    pub(super) hub: HubConstants<Block>,
+    /// The hub with the constant shares of the devices.
     pub(super) body: HubConstants<Block>,
     pub(super) devices: D::Per<EachConstants>,
     /// Whether a joint of one of them has a spring, a damper or dry friction.
     pub(super) passive: bool,
+    /// What one of them has of its own.
+    pub(super) own: OwnLoads,
+}
+
+/// What a spacecraft has of its own that is added before the elimination.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OwnLoads {
+    /// Whether a joint has dry friction.
+    pub(super) dry: bool,
+    /// Whether an imbalance is lumped.
+    pub(super) lumped: bool,
+}
+
+impl OwnLoads {
+    /// Those of a spacecraft.
+    pub(super) fn of<D: LanedSet>(craft: &Spacecraft<D>) -> Self {
+        let dry = |passive: Passive| passive.coulomb != 0.0;
+        Self {
+            dry: craft.passive && D::list::<Passives>(&craft.devices).any(dry),
+            lumped: D::list::<AreLumped>(&craft.devices).any(|lumped| lumped),
+        }
+    }
+
+    /// Those of both.
+    fn and(self, other: Self) -> Self {
+        Self { dry: self.dry || other.dry, lumped: self.lumped || other.lumped }
+    }
 }
 
 impl<D: LanedSet> fmt::Debug for CraftBlocks<D> {
@@ -166,19 +258,23 @@ impl<D: LanedSet> CraftBlocks<D> {
         let last = crafts.last()?;
         let in_lane = |lane| crafts.get(lane).unwrap_or(last);
         let mut devices = D::new_data(&last.devices, &EachConstants);
-        let mut body = last.body.map(|_| Block::ZERO);
+        let [mut hub, mut body] = [&last.hub, &last.body].map(|of| of.map(|_| Block::ZERO));
+        let mut own = OwnLoads::of(last);
         for lane in 0..WIDEST {
-            body = body.zip(&in_lane(lane).body, |mut block, number| {
+            let put = |mut block: Block, number| {
                 block.put(lane, number);
                 block
-            });
+            };
+            hub = hub.zip(&in_lane(lane).hub, put);
+            body = body.zip(&in_lane(lane).body, put);
+            own = own.and(OwnLoads::of(in_lane(lane)));
             let data = &mut devices;
             let mut put = PutConstants { lane };
             let Ok(()) =
                 D::visit::<Unique<EachConstants>, _>(&in_lane(lane).devices, data, &mut put);
         }
         let passive = crafts.iter().any(|craft| craft.passive);
-        Some(Self { body, devices, passive })
+        Some(Self { hub, body, devices, passive, own })
     }
 }
 

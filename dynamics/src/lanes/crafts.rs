@@ -2,25 +2,30 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::constants::CraftBlocks;
+use super::constants::{CraftBlocks, OwnLoads};
 use super::evaluate::LanedCraft;
 use super::number::Number;
 use super::slot::{LanedSet, SlotsOf, enter_constants};
 use crate::solve::spacecraft::Spacecraft;
 
 /// The spacecraft of a batch.
-pub(super) trait Crafts<D: LanedSet> {
+pub(super) trait Crafts<D: LanedSet>: Sync {
     /// Whether each state has its own.
     const EACH: bool;
 
     /// Whether product and sum are rounded once.
     fn is_fused(&self) -> bool;
+    /// Whether the states are split over threads.
+    #[cfg(feature = "threads")]
+    fn are_on_threads(&self) -> bool;
     /// The number of states that they are for; none where it is any.
     fn count(&self) -> Option<usize>;
     /// That of a state.
     fn at(&self, state: usize) -> Option<&Spacecraft<D>>;
     /// Those of a group of lanes, where each state has its own.
     fn blocks(&self, group: usize) -> Option<&CraftBlocks<D>>;
+    /// What those of a group of lanes have of their own.
+    fn own_loads(&self, group: usize) -> OwnLoads;
 }
 
 /// The spacecraft of a group of lanes; the constants of their devices are taken into the slots.

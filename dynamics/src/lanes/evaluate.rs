@@ -7,6 +7,7 @@
 
 use super::constants::{DeviceConstants, same_in_lanes};
 use super::number::Number;
+use super::passive::{add_stiffness, viscous, where_sprung, with_passive};
 use super::slot::{Aligned, EachSlot, LanedSet, Slot, SlotsOf, each_slot};
 use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::device::Device;
@@ -17,8 +18,6 @@ use crate::generated::hub::BodyAcceleration;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
-use crate::model::passive::Passive;
-use crate::numbers::each::JointStates;
 use crate::numbers::sincos::LARGEST_ANGLE;
 use crate::numbers::vec3::{Vec3, add};
 
@@ -28,8 +27,10 @@ pub(crate) struct Acting<T> {
     pub(crate) omega: Vec3<T>,
     pub(crate) force: Vec3<T>,
     pub(crate) torque_b: Vec3<T>,
-    /// A uniform field.
+    /// The field at B.
     pub(crate) at_b: Vec3<T>,
+    /// Whether loads were added: then the drives in the slots are complete.
+    pub(crate) with_loads: bool,
 }
 
 /// What an evaluation finds of the hub, and the lanes where it holds; what it finds of the devices
@@ -65,6 +66,7 @@ pub(crate) fn evaluate<D: LanedSet, T: Number, const EACH: bool>(
     let body = craft.body;
     let mut elimination = Elimination::<T, EACH> {
         omega: acting.omega,
+        with_loads: acting.with_loads,
         assembly: Assembly::new(&body, acting.force, acting.torque_b),
         holds: like.same(like),
     };
@@ -109,6 +111,7 @@ fn all_above<T: Number>(pivots: Pivots<T>, scales: [T; 6], share: T) -> T::Holds
 /// Eliminates each device into the hub's system.
 struct Elimination<T: Number, const EACH: bool> {
     omega: Vec3<T>,
+    with_loads: bool,
     assembly: Assembly<T>,
     holds: T::Holds,
 }
@@ -117,25 +120,26 @@ impl<T: Number, const EACH: bool> EachSlot<T> for Elimination<T, EACH> {
     #[inline(always)]
     fn each<K: Kind<Scalar = f64>>(&mut self, device: &Device<K>, slot: &mut Slot<K, T>) {
         let [like, ..] = self.omega;
-        let DeviceConstants { constants, passive, bound, sprung } = match &slot.constants {
+        let DeviceConstants { constants, passive, bound, sprung, .. } = match &slot.constants {
             Some(blocks) if EACH => blocks.in_lanes(like),
             _ => same_in_lanes(device, like),
         };
         let within = within_reach::<K, T>(like, &slot.joints);
         let pose = K::pose(&slot.joints);
         let drives = match &passive {
-            Some(passive) => {
+            Some(passive) if !self.with_loads => {
                 let drives = with_passive::<K, T>(&slot.joints, &slot.drives, passive);
                 if EACH { where_sprung::<K, T>(sprung, &drives, &slot.drives) } else { drives }
             }
-            None => slot.drives,
+            _ => slot.drives,
         };
         let omega = expressed_in_b(self.omega);
         let eliminated = K::eliminate(&constants, &pose, &slot.joints, &omega, &drives);
         let regular = regular::<K, T>(like, &eliminated, &drives, &bound);
         self.holds = like.both(self.holds, like.both(within, regular));
         if let Some(passive) = &passive {
-            add_stiffness::<K, T>(&mut self.assembly.stiffness, passive, &eliminated, &drives);
+            let joints = if self.with_loads { slot.stiffness } else { viscous::<K, T>(passive) };
+            add_stiffness::<K, T>(&mut self.assembly.stiffness, &joints, &eliminated, &drives);
         }
         self.assembly.add(K::share(&eliminated));
         slot.gains = Some(Aligned(*K::gains(&eliminated)));
@@ -182,53 +186,6 @@ fn margin<T: Number>(pivot: Option<[T; 2]>, bound: T) -> T {
 #[inline(always)]
 fn of_driven<T: Number>(margin: T, drive: Drive<T>) -> T {
     drive.driven.like(1.0).or(drive.driven.same(drive.driven.like(0.0)), margin)
-}
-
-/// What is given of the joints, springs and dampers with the motors.
-#[inline(always)]
-pub(super) fn with_passive<K: Kernels, T: Number>(
-    joints: &K::Joints<T>,
-    drives: &K::PerJoint<Drive<T>>,
-    passive: &K::PerJoint<Passive<T>>,
-) -> K::PerJoint<Drive<T>> {
-    let mut states = joints.states();
-    let states =
-        K::zip_per_joint(drives, drives, |drive, _| states.next().unwrap_or([drive.torque; 2]));
-    let own = K::zip_per_joint(&states, passive, |[coordinate, rate], passive| {
-        let spring = -(passive.stiffness * (coordinate - passive.rest));
-        spring + -(passive.viscous * rate)
-    });
-    K::zip_per_joint(drives, &own, |drive, own| Drive {
-        torque: drive.torque + own * drive.driven,
-        ..drive
-    })
-}
-
-/// The torques with springs and dampers only where there are any: adding zero to a torque of minus
-/// zero changes its sign.
-#[inline(always)]
-fn where_sprung<K: Kernels, T: Number>(
-    sprung: T::Holds,
-    drives: &K::PerJoint<Drive<T>>,
-    without: &K::PerJoint<Drive<T>>,
-) -> K::PerJoint<Drive<T>> {
-    K::zip_per_joint(drives, without, |drive, without| Drive {
-        torque: drive.torque.or(sprung, without.torque),
-        ..drive
-    })
-}
-
-/// Adds springs and dampers to what a step has to resolve.
-#[inline(always)]
-pub(super) fn add_stiffness<K: Kernels, T: Number>(
-    stiffness: &mut Stiffness<T>,
-    passive: &K::PerJoint<Passive<T>>,
-    eliminated: &K::Eliminated<T>,
-    drives: &K::PerJoint<Drive<T>>,
-) {
-    let coefficients =
-        K::zip_per_joint(passive, passive, |passive, _| [passive.viscous, passive.stiffness]);
-    stiffness.add::<K>(&coefficients, &K::pivots(eliminated), drives);
 }
 
 /// Finds each device's own accelerations.

@@ -7,9 +7,9 @@
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-use pulp::{Simd, bytemuck};
+use pulp::{Simd, WithSimd, bytemuck};
 
-use super::number::{Block, Number, WIDEST};
+use super::number::{Block, Number, WIDEST, Work};
 use crate::numbers::real::{Angle, Real};
 use crate::numbers::sincos::{QuarterTurns, sin_cos};
 
@@ -190,8 +190,31 @@ impl<S: Simd, const FUSED: bool> Number for Lane<S, FUSED> {
     }
 
     #[inline(always)]
+    fn either(self, a: S::m64s, b: S::m64s) -> S::m64s {
+        self.simd.or_m64s(a, b)
+    }
+
+    #[inline(always)]
     fn or(self, holds: S::m64s, other: Self) -> Self {
         self.of(self.simd.select_f64s(holds, self.numbers, other.numbers))
+    }
+
+    // Entered by a function without the instructions, which is not inlined: so neither is this.
+    #[inline(never)]
+    fn apart(self, work: impl Work) {
+        self.simd.vectorize(Apart(work));
+    }
+}
+
+/// Work in a function of its own.
+struct Apart<W>(W);
+
+impl<W: Work> WithSimd for Apart<W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.run();
     }
 }
 

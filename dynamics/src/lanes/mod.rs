@@ -9,34 +9,53 @@
 //! | the same, product and sum rounded once | [`Batch::fused`] | to rounding |
 //! | many spacecraft of one shape, each at its state | [`ParameterBatch`] | to the bit |
 //! | the same, product and sum rounded once | [`ParameterBatch::fused`] | to rounding |
+//! | their runs, recorded or reduced on the way | `run_observed`, with [`Observers`] | as the run |
+//! | a batch on several threads, with the feature `threads` | `on_threads` | as on one |
 //!
 //! [`Spacecraft::fused`]: crate::Spacecraft::fused
 //!
 //! Registers are chosen at run time, AVX-512, AVX2 with FMA, NEON, or single numbers: a portable
 //! build reaches them. State, inputs, accelerations and errors are those of `Spacecraft`.
 //!
-//! Lanes support every kind, arrays and tuples; every mode of a joint; springs and dampers; a
-//! uniform field. Unsupported in lanes are a central field, wrenches on bodies, dry friction, the
-//! lumped model of an imbalance, and coordinates and rates of joints beyond `2^24`; in a batch also
-//! a hub that is not free and quaternions far from unit length. They fall back to the scalar
-//! path. So does whatever fails in a lane, which is how its error is found; the other lanes keep
-//! their results.
+//! Lanes support every kind, arrays and tuples; every mode of a joint; springs, dampers and dry
+//! friction; wrenches on bodies; a uniform and a central field; the lumped model of an imbalance.
+//! Unsupported in lanes are coordinates and rates of joints beyond `2^24`; in a batch also a hub
+//! that is not free, quaternions far from unit length, a central body nearer than 5e-32 m or
+//! farther than 2e31 m, steps in which a joint with dry friction comes to rest or reverses, and
+//! steps that a single step looks at closer for its springs and friction. They fall back to the
+//! scalar path: of a run, at most 32 steps at a time. So does whatever fails in a lane, which is how
+//! its error is found; the other lanes keep their results.
+//!
+//! Wrenches, a central field, the lumped model and dry friction are computed before the elimination,
+//! for those groups of lanes of which one has them: where none has, they cost nothing.
+//!
+//! On several threads a batch is split where groups of lanes begin. Which states share lanes, and
+//! which thread evaluates them, changes no number: results do not depend on the number of threads.
 //!
 //! Everything down to the arithmetic is part of the one function that may use the instructions. A
 //! call that is not inlined costs more than what it calls, so there are plain loops and emitted
 //! field-by-field functions here where elsewhere stand iterators.
 
+mod accelerations;
 mod across;
 mod batch;
 mod batch_inputs;
+mod calls;
 mod constants;
 mod crafts;
 mod evaluate;
+mod fallback;
+#[cfg(test)]
+mod fallback_checks;
 mod gather;
+mod group;
 mod lane;
+mod loads;
 mod motion;
 mod number;
+mod observers;
 mod parameter_batch;
+mod passive;
 mod run;
 mod slot;
 mod states;
@@ -45,5 +64,6 @@ mod width;
 pub use across::AcrossDevices;
 pub use batch::{Batch, BatchAccelerations};
 pub use batch_inputs::BatchInputs;
+pub use observers::Observers;
 pub use parameter_batch::ParameterBatch;
 pub use slot::LanedSet;

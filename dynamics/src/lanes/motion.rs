@@ -6,6 +6,7 @@ use super::gather::{joined, wide};
 use super::number::{Block, Number, WIDEST};
 use super::slot::LanedSet;
 use crate::attitude::quaternion::Quaternion;
+use crate::equations::gravity::Gravity;
 use crate::numbers::vec3::{Vec3, components, vector};
 use crate::solve::inputs::Inputs;
 use crate::solve::state::State;
@@ -58,6 +59,9 @@ pub(super) struct Forces<T> {
     pub(super) torque_b: Vec3<T>,
     /// A uniform field, N axes.
     pub(super) field: Vec3<T>,
+    /// Zero where there is none, which is `0.0` at B, never `-0.0`; minus zero, which changes
+    /// nothing, where there is one.
+    pub(super) none: T,
 }
 
 impl<T: Copy> Forces<T> {
@@ -75,7 +79,8 @@ impl<T: Copy> Forces<T> {
         let ([a, b, c], [d, e, f]) = (self.torque_b, other.torque_b);
         let torque_b = [join(a, d), join(b, e), join(c, f)];
         let ([a, b, c], [d, e, f]) = (self.field, other.field);
-        Forces { force, torque_b, field: [join(a, d), join(b, e), join(c, f)] }
+        let field = [join(a, d), join(b, e), join(c, f)];
+        Forces { force, torque_b, field, none: join(self.none, other.none) }
     }
 }
 
@@ -135,13 +140,22 @@ impl Motion<Block> {
 
 impl Forces<Block> {
     /// Zero in every lane.
-    pub(super) const ZERO: Self =
-        Self { force: [Block::ZERO; 3], torque_b: [Block::ZERO; 3], field: [Block::ZERO; 3] };
+    pub(super) const ZERO: Self = Self {
+        force: [Block::ZERO; 3],
+        torque_b: [Block::ZERO; 3],
+        field: [Block::ZERO; 3],
+        none: Block::ZERO,
+    };
 
     /// Puts what acts on the hub into one lane.
     pub(super) fn put<D: LanedSet>(&mut self, lane: usize, inputs: &Inputs<D>) {
         put(&mut self.force, lane, components(&inputs.force));
         put(&mut self.torque_b, lane, components(&inputs.torque_b));
-        put(&mut self.field, lane, inputs.gravity.uniform().unwrap_or([0.0; 3]));
+        let (field, none) = match &inputs.gravity {
+            Gravity::Uniform(field) => (components(field), -0.0),
+            Gravity::None | Gravity::Central { .. } => ([0.0; 3], 0.0),
+        };
+        put(&mut self.field, lane, field);
+        self.none.put(lane, none);
     }
 }

@@ -5,6 +5,12 @@
 
 use crate::numbers::real::Angle;
 
+/// Work in lanes that is rarely done, for [`Number::apart`].
+pub(super) trait Work {
+    /// Does it.
+    fn run(self);
+}
+
 /// The widest lanes there are.
 pub(crate) const WIDEST: usize = 8;
 
@@ -55,13 +61,24 @@ pub(super) trait Number: Angle {
     /// Magnitude.
     #[must_use]
     fn abs(self) -> Self;
+    /// The larger of two numbers; `self` if either is NaN.
+    #[must_use]
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        other.or(other.above(self), self)
+    }
     /// Whether `self > other`, which a NaN never is.
     fn above(self, other: Self) -> Self::Holds;
     /// Whether `self == other`.
     fn same(self, other: Self) -> Self::Holds;
     /// Whether both hold.
     fn both(self, a: Self::Holds, b: Self::Holds) -> Self::Holds;
+    /// Whether one of them holds.
+    fn either(self, a: Self::Holds, b: Self::Holds) -> Self::Holds;
     /// `self` where it holds, else `other`.
     #[must_use]
     fn or(self, holds: Self::Holds, other: Self) -> Self;
+    /// Does some work in a function of its own that has the instructions of these lanes: in the
+    /// function that calls it, neither code nor registers are spent on it.
+    fn apart(self, work: impl Work);
 }

@@ -7,10 +7,12 @@ use std::vec::Vec;
 
 use pulp::Arch;
 
-use super::batch::{BatchAccelerations, accelerations, run};
+use super::batch::BatchAccelerations;
 use super::batch_inputs::BatchInputs;
-use super::constants::CraftBlocks;
+use super::calls::{accelerations, run};
+use super::constants::{CraftBlocks, OwnLoads};
 use super::crafts::Crafts;
+use super::observers::{Observers, none};
 use super::slot::LanedSet;
 use super::width::width;
 use crate::equations::arithmetic::Arithmetic;
@@ -30,6 +32,8 @@ pub struct ParameterBatch<D: LanedSet> {
     /// As many spacecraft as there are lanes, side by side.
     groups: Arc<[CraftBlocks<D>]>,
     fused: bool,
+    #[cfg(feature = "threads")]
+    on_threads: bool,
 }
 
 impl<D: LanedSet> ParameterBatch<D> {
@@ -43,7 +47,13 @@ impl<D: LanedSet> ParameterBatch<D> {
         }
         // The registers that every evaluation chooses.
         let groups = crafts.chunks(width(Arch::new())).filter_map(CraftBlocks::of).collect();
-        Self { crafts, groups, fused: false }
+        Self {
+            crafts,
+            groups,
+            fused: false,
+            #[cfg(feature = "threads")]
+            on_threads: false,
+        }
     }
 
     /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
@@ -51,6 +61,16 @@ impl<D: LanedSet> ParameterBatch<D> {
     #[must_use]
     pub fn fused(self) -> Self {
         Self { fused: true, ..self }
+    }
+
+    /// The same on the threads of rayon's pool: that in which a call is made, by
+    /// `ThreadPool::install`, else the global one. The same results, by however many threads. Worth it
+    /// for runs, and for the accelerations of several thousand states: those of a thousand or fewer
+    /// are evaluated on one thread.
+    #[cfg(feature = "threads")]
+    #[must_use]
+    pub fn on_threads(self) -> Self {
+        Self { on_threads: true, ..self }
     }
 
     /// The spacecraft, unfused, for everything that is asked of one of them.
@@ -75,7 +95,7 @@ impl<D: LanedSet> ParameterBatch<D> {
     where
         D: 'a,
     {
-        accelerations(self, states, inputs.into(), out)
+        accelerations(self, states, &inputs.into(), out)
     }
 
     /// Advances each state by so many steps, as [`Spacecraft::step`] does; a state that fails is
@@ -95,7 +115,28 @@ impl<D: LanedSet> ParameterBatch<D> {
     where
         D: 'a,
     {
-        run(self, states, inputs.into(), (dt, steps), out)
+        run(self, states, &inputs.into(), (dt, steps), none(), out)
+    }
+
+    /// [`Self::run`], each state observed on the way.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::run`], and [`SolveError::Count`] where there are records for another number of
+    /// states.
+    pub fn run_observed<'a, R: Send, F: Fn(&mut R, usize, &State<D>) + Sync>(
+        &self,
+        states: &mut [State<D>],
+        inputs: impl Into<BatchInputs<'a, D>>,
+        dt: f64,
+        steps: usize,
+        observers: Observers<'_, R, F>,
+        out: &mut Vec<Result<(), SolveError<f64>>>,
+    ) -> Result<(), SolveError<f64>>
+    where
+        D: 'a,
+    {
+        run(self, states, &inputs.into(), (dt, steps), Some(observers), out)
     }
 }
 
@@ -105,6 +146,11 @@ impl<D: LanedSet> Crafts<D> for ParameterBatch<D> {
     #[inline(always)]
     fn is_fused(&self) -> bool {
         self.fused
+    }
+
+    #[cfg(feature = "threads")]
+    fn are_on_threads(&self) -> bool {
+        self.on_threads
     }
 
     fn count(&self) -> Option<usize> {
@@ -119,5 +165,10 @@ impl<D: LanedSet> Crafts<D> for ParameterBatch<D> {
     #[inline(always)]
     fn blocks(&self, group: usize) -> Option<&CraftBlocks<D>> {
         self.groups.get(group)
+    }
+
+    #[inline(always)]
+    fn own_loads(&self, group: usize) -> OwnLoads {
+        self.groups.get(group).map_or(OwnLoads { dry: false, lumped: false }, |group| group.own)
     }
 }

@@ -3,15 +3,15 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use std::vec::Vec;
-
 use pulp::{Simd, WithSimd};
 
-use super::batch::{Group, NEAR_ONE};
 use super::batch_inputs::BatchInputs;
 use super::crafts::{Crafts, entered};
 use super::evaluate::{LanedCraft, evaluate};
+use super::fallback;
+use super::group::{Group, NEAR_ONE};
 use super::lane::Lane;
+use super::loads::CheckFriction;
 use super::motion::Motion;
 use super::number::{Number, WIDEST};
 use super::slot::{EachSlot, LanedSet, Slot, each_slot, take_joints};
@@ -21,19 +21,28 @@ use crate::equations::error::SolveError;
 use crate::equations::stiffness::ACCEPTED;
 use crate::model::kind::Kind;
 use crate::numbers::vec3::rotate_transposed;
-use crate::solve::inputs::Inputs;
-use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
 
-/// The runs of a batch.
+/// The runs of a part of a batch.
 pub(super) struct Runs<'a, 's, 'o, D: LanedSet, C> {
     pub(super) crafts: &'a C,
+    /// The first of the states in the batch; a group of lanes begins there.
+    pub(super) start: usize,
     pub(super) states: &'s mut [State<D>],
     pub(super) inputs: BatchInputs<'a, D>,
     pub(super) dt: f64,
     pub(super) steps: usize,
-    pub(super) out: &'o mut Vec<Result<(), SolveError<f64>>>,
+    /// After how many steps the states are seen; none where they are not.
+    pub(super) every: Option<usize>,
+    /// Sees a state of the part, by its number there, after so many steps.
+    pub(super) see: &'o mut dyn FnMut(usize, usize, &State<D>),
+    /// One for each state.
+    pub(super) out: &'o mut [Result<(), SolveError<f64>>],
 }
+
+/// The most steps after which states are taken out of the lanes: a state that fails in a lane falls
+/// back only for the steps since then.
+const STRETCH: usize = 32;
 
 impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
     type Output = ();
@@ -51,55 +60,65 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
 impl<D: LanedSet, C: Crafts<D>> Runs<'_, '_, '_, D, C> {
     #[inline(always)]
     fn run<T: Number>(self, zero: T) {
-        let crafts = self.crafts;
+        let Self { crafts, start, states, inputs, dt, steps, every, see, out } = self;
         let Some(first) = crafts.at(0) else { return };
         let mut group = Group::<D, T>::new(first, zero);
-        for (index, states) in self.states.chunks_mut(T::WIDTH).enumerate() {
-            let start = index * T::WIDTH;
-            let inputs = self.inputs.starting(start);
-            group.gather(zero, (crafts, start), states, &inputs);
-            let Some(laned) = entered(crafts, index, &mut group.slots, zero) else { return };
-            each_slot::<D, _>(laned.devices, &mut group.slots, &mut Begin(zero));
-            let mut motion = group.motion;
-            let mut holds = zero.same(zero);
-            for _ in 0..self.steps {
-                let step_holds = if C::EACH {
-                    step::<D, T, true>(&laned, &mut group, zero, self.dt, &mut motion)
+        let groups = states.chunks_mut(T::WIDTH).zip(out.chunks_mut(T::WIDTH));
+        for (index, (states, out)) in groups.enumerate() {
+            let in_part = index * T::WIDTH;
+            let (inputs, start) = (inputs.starting(in_part), start + in_part);
+            let of_lanes = entered(crafts, start / T::WIDTH, &mut group.slots, zero);
+            let Some(laned) = of_lanes else { return };
+            let (mut done, mut taken_in, mut motion) = (0, false, group.motion);
+            while done < steps {
+                if !taken_in {
+                    group.gather(zero, (crafts, start), states, &inputs);
+                    each_slot::<D, _>(laned.devices, &mut group.slots, &mut Begin(zero));
+                    motion = group.motion;
+                }
+                let to_see = every.map_or(steps, |every| every - done % every);
+                let stretch = (steps - done).min(to_see).min(STRETCH);
+                let mut holds = zero.same(zero);
+                // Where no lane has a state that lanes support, there is nothing to do in lanes.
+                let lanes = group.laned.iter().zip(&*out);
+                let in_lanes = if lanes.into_iter().any(|(laned, end)| *laned && end.is_ok()) {
+                    stretch
                 } else {
-                    step::<D, T, false>(&laned, &mut group, zero, self.dt, &mut motion)
+                    0
                 };
-                holds = zero.both(holds, step_holds);
-            }
-            each_slot::<D, _>(laned.devices, &mut group.slots, &mut LeaveJoints);
-            let motion = motion.map(Number::store);
-            let holds = zero.like(1.0).or(holds, zero).store();
-            for (lane, state) in states.iter_mut().enumerate() {
-                let Some(inputs) = inputs.at(lane) else { continue };
-                self.out.push(if group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0 {
-                    motion.take(lane, state);
-                    take_joints::<D, _>(laned.devices, &mut group.slots, lane, &mut state.devices);
-                    Ok(())
-                } else {
-                    let craft = crafts.at(start + lane).unwrap_or(first);
-                    alone(craft, state, inputs, self.dt, self.steps)
-                });
+                for _ in 0..in_lanes {
+                    let step_holds = if C::EACH {
+                        step::<D, T, true>(&laned, &mut group, zero, dt, &mut motion)
+                    } else {
+                        step::<D, T, false>(&laned, &mut group, zero, dt, &mut motion)
+                    };
+                    holds = zero.both(holds, step_holds);
+                }
+                each_slot::<D, _>(laned.devices, &mut group.slots, &mut LeaveJoints);
+                let blocks = motion.map(Number::store);
+                let holds = zero.like(1.0).or(holds, zero).store();
+                (done, taken_in) = (done + stretch, true);
+                for (lane, (state, end)) in states.iter_mut().zip(&mut *out).enumerate() {
+                    let (Ok(()), Some(inputs)) = (&end, inputs.at(lane)) else { continue };
+                    if group.laned[lane & (WIDEST - 1)] && holds.at(lane) == 1.0 {
+                        blocks.take(lane, state);
+                        let joints = &mut state.devices;
+                        take_joints::<D, _>(laned.devices, &mut group.slots, lane, joints);
+                    } else {
+                        let craft = crafts.at(start + lane).unwrap_or(first);
+                        *end = fallback::run(craft, state, inputs, dt, stretch);
+                        taken_in = false;
+                    }
+                    if end.is_ok() && every.is_some_and(|every| done % every == 0) {
+                        see(in_part + lane, done, state);
+                    }
+                }
+                if out.iter().all(Result::is_err) {
+                    break;
+                }
             }
         }
     }
-}
-
-/// One state by itself, step after step.
-fn alone<D: LanedSet>(
-    craft: &Spacecraft<D>,
-    state: &mut State<D>,
-    inputs: &Inputs<D>,
-    dt: f64,
-    steps: usize,
-) -> Result<(), SolveError<f64>> {
-    for _ in 0..steps {
-        *state = craft.step(state, inputs, dt)?;
-    }
-    Ok(())
 }
 
 /// One step of the hub's motion and of the joints in their slots; the lanes where it holds.
@@ -120,7 +139,7 @@ fn step<D: LanedSet, T: Number, const EACH: bool>(
         let square = norm_squared(attitude);
         let long = square.above(near);
         holds = zero.both(holds, zero.both(long, zero.like(NEAR_ONE.recip()).above(square)));
-        let acting = group.acting_at(zero, attitude, omega);
+        let acting = group.acting::<EACH>(craft, zero, &now, &mut holds, true);
         let found = evaluate::<D, T, EACH>(craft, &mut group.slots, &acting);
         holds = zero.both(holds, found.holds);
         if craft.passive {
@@ -141,6 +160,12 @@ fn step<D: LanedSet, T: Number, const EACH: bool>(
         sum = sum.zip(&slope, |sum, slope| sum.add_mul(weight, slope));
         now = start.zip(&slope, |start, slope| start + zero.add_mul(time, slope));
         each_slot::<D, _>(craft.devices, &mut group.slots, &mut Stage { zero, weight, time });
+    }
+    if group.is_dry() {
+        let (slots, devices, mut moving) = (&mut group.slots, craft.devices, holds);
+        let check = CheckFriction::<D, T, EACH> { devices, slots, like: zero, holds: &mut moving };
+        zero.apart(check);
+        holds = moving;
     }
     let mut end = End { zero, vanishing: zero };
     each_slot::<D, _>(craft.devices, &mut group.slots, &mut end);

@@ -7,14 +7,18 @@ use std::sync::Arc;
 
 use core::convert::Infallible;
 
+use nalgebra::Vector3;
+
 use super::constants::{DeviceBlocks, EachConstants};
 use super::gather::joints_in_lanes;
+use super::loads::put_wrenches;
 use super::number::{Block, Number, WIDEST};
 use super::states::States;
 use crate::equations::device::Device;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
+use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates, Value};
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
 use crate::sets::devices::{DeviceSet, Devices, SetInputs, Visit};
@@ -28,6 +32,8 @@ pub(super) struct Slot<K: Kernels, T: Value> {
     pub(crate) block: K::Joints<Block>,
     /// Torques and modes on their way in.
     pub(crate) given: K::PerJoint<Drive<Block>>,
+    /// Wrenches on the bodies on their way in, where any lane has them.
+    pub(crate) wrenches: K::PerJoint<Wrench<Block>>,
     /// Accelerations on their way out.
     pub(crate) out: K::Accelerations<Block>,
     /// Coordinates and rates where the step began.
@@ -38,8 +44,11 @@ pub(super) struct Slot<K: Kernels, T: Value> {
     pub(crate) sum: K::Joints<T>,
     /// The constants, where the lanes are of different spacecraft.
     pub(crate) constants: Option<Arc<DeviceBlocks<K>>>,
-    /// Torques and modes, without what joints do by themselves.
+    /// Torques and modes, without what joints do by themselves; with it, and with what acts on
+    /// bodies, where loads were added.
     pub(crate) drives: K::PerJoint<Drive<T>>,
+    /// Damping and stiffness of the joints, where loads were added.
+    pub(crate) stiffness: K::PerJoint<[T; 2]>,
     /// What back substitution needs; none before the first evaluation.
     pub(crate) gains: Option<Aligned<K::Gains<T>>>,
     /// The accelerations.
@@ -50,6 +59,12 @@ pub(super) struct Slot<K: Kernels, T: Value> {
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct Aligned<V>(pub(crate) V);
+
+/// No wrench in any lane.
+pub(super) const NO_WRENCH: Wrench<Block> = Wrench {
+    force: Vector3::new(Block::ZERO, Block::ZERO, Block::ZERO),
+    moment: Vector3::new(Block::ZERO, Block::ZERO, Block::ZERO),
+};
 
 /// What is done with each device of a set and its slot.
 pub(crate) trait EachSlot<T: Value> {
@@ -72,12 +87,14 @@ impl<T: Value> PerDevice<f64> for Slots<T> {
         Box::new(Slot {
             block: K::zip_joints(&rest, &rest, |_, _| Block::ZERO),
             given: K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| Block::ZERO)),
+            wrenches: <K as Kind>::all(NO_WRENCH),
             out: K::zip_accelerations(&still, &still, |_, _| Block::ZERO),
             start: joints,
             joints,
             sum: joints,
             constants: None,
             drives: K::zip_per_joint(&drive, &drive, |drive, _| drive.map(|_| self.0)),
+            stiffness: <K as Kind>::all([self.0; 2]),
             gains: None,
             found: K::zip_accelerations(&still, &still, |_, _| self.0),
         })
@@ -97,7 +114,10 @@ impl<T: Value> PerDevice<f64> for Slots<T> {
 }
 
 /// A set of devices that can be evaluated in lanes: every kind, arrays, tuples.
-pub trait LanedSet: Devices<Scalar = f64> {}
+pub trait LanedSet:
+    Devices<Scalar = f64> + DeviceSet<Prepared: Send + Sync, Per<EachConstants>: Send + Sync>
+{
+}
 
 impl<K: Kind<Scalar = f64>> LanedSet for K {}
 
@@ -179,8 +199,7 @@ impl<T: Number> Visit<f64, (Unique<Slots<T>>, States)> for Load<T> {
     }
 }
 
-/// Puts what is given of the joints into one lane. False where a device or its modes are
-/// unsupported in lanes, or are rejected.
+/// Puts what is given of the joints into one lane. False where modes are rejected.
 #[inline(always)]
 pub(crate) fn put_given<D: LanedSet, T: Value>(
     devices: &D::Prepared,
@@ -201,22 +220,25 @@ struct Put {
 }
 
 impl<T: Value> Visit<f64, PutData<T>> for Put {
-    type Error = Unsupported;
+    type Error = Rejected;
 
     #[inline(always)]
     fn visit<K: Kind<Scalar = f64>>(
         &mut self,
-        device: &Device<K>,
+        _: &Device<K>,
         (slot, joints, given): <PutData<T> as Bundle<f64>>::Of<'_, K>,
-    ) -> Result<(), Unsupported> {
-        let drives = device.given_drives(joints, given).ok_or(Unsupported)?;
+    ) -> Result<(), Rejected> {
+        let drives = Device::<K>::given_drives(joints, given).ok_or(Rejected)?;
         put_drives::<K>(&mut slot.given, self.lane, &drives);
+        if let Some(wrenches) = given.bodies {
+            put_wrenches::<K>(&mut slot.wrenches, self.lane, wrenches);
+        }
         Ok(())
     }
 }
 
-/// A device or its modes that lanes do not support.
-struct Unsupported;
+/// Modes of a device that are rejected.
+struct Rejected;
 
 /// Takes the joints of one lane out.
 #[inline(always)]

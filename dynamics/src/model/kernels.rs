@@ -7,6 +7,7 @@ use core::fmt::Debug;
 
 use crate::generated::hub::{BodyAcceleration, BodyRate, HubShare};
 use crate::model::mode::Drive;
+use crate::model::wrench::{Carried, Wrench};
 use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::{Angle, Real};
 
@@ -56,6 +57,20 @@ pub trait Kernels: 'static {
         joints: &Self::Joints<T>,
         accelerations: &Self::Accelerations<T>,
     ) -> Self::Joints<T>;
+
+    /// The emitted `external`: wrenches on the bodies, summed inwards.
+    fn external<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        bodies: &Self::PerJoint<Wrench<T>>,
+    ) -> Carried<Self::PerJoint<Wrench<T>>, Wrench<T>>;
+    /// The emitted `gravity`: the wrench on each body in the linear field, and the device's second
+    /// moment about B, entries 11, 12, 13, 22, 23, 33.
+    fn gravity<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        gradient: [T; 6],
+    ) -> (Self::PerJoint<Wrench<T>>, [T; 6]);
 
     /// Constants joined number by number.
     fn zip_constants<T: Value, U: Value, W: Value>(

@@ -15,9 +15,10 @@ pub use crate::model::parameter_info::{
     NameError, ParameterInfo, ParameterMut, ParameterValue, Shape,
 };
 use crate::model::passive::Passive;
+pub use crate::model::wrench::Carried;
 use crate::model::wrench::Wrench;
 pub use crate::numbers::each::{Each, JointStates, Value};
-use crate::numbers::real::Scalar;
+use crate::numbers::real::{Real, Scalar};
 use crate::numbers::symmetric::Symmetric;
 
 /// A joint and its child body: names, and how the joint moves.
@@ -87,14 +88,26 @@ pub struct Lumped<T> {
     pub j_13: T,
 }
 
-impl<T: Scalar> Lumped<T> {
+#[cfg(feature = "lanes")]
+impl<T: Copy> Lumped<T> {
+    /// Each number changed.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "lanes reach wide instructions only where inlined")]
+    pub(crate) fn map<U>(&self, mut change: impl FnMut(T) -> U) -> Lumped<U> {
+        Lumped { u_s: change(self.u_s), j_12: change(self.j_12), j_13: change(self.j_13) }
+    }
+}
+
+impl<T: Real> Lumped<T> {
     /// The disturbance at a wheel rate, W axes, about W: force `U_s Omega²` along `w_y`, torque
     /// `Omega² (J_13 w_y - J_12 w_z)`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "lanes reach wide instructions only where inlined")]
     pub(crate) fn at(&self, spin: T) -> Wrench<T> {
-        let square = spin * spin;
+        let (square, zero) = (spin * spin, spin.like(0.0));
         Wrench {
-            force: vector([zero(), self.u_s * square, zero()]),
-            moment: vector([zero(), self.j_13 * square, -(self.j_12 * square)]),
+            force: vector([zero, self.u_s * square, zero]),
+            moment: vector([zero, self.j_13 * square, -(self.j_12 * square)]),
         }
     }
 }
@@ -226,28 +239,6 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
         hub: &BodyAcceleration<Self::Scalar>,
         accelerations: &Self::Accelerations<Self::Scalar>,
     ) -> Carried<Wrenches<Self>, Wrench<Self::Scalar>>;
-    /// The emitted `external`: wrenches on the bodies, summed inwards.
-    fn external(
-        constants: &Self::Constants<Self::Scalar>,
-        pose: &Self::Pose<Self::Scalar>,
-        bodies: &Wrenches<Self>,
-    ) -> Carried<Wrenches<Self>, Wrench<Self::Scalar>>;
-    /// The emitted `gravity`: the wrench on each body in the linear field, and the device's second
-    /// moment about B, entries 11, 12, 13, 22, 23, 33.
-    fn gravity(
-        constants: &Self::Constants<Self::Scalar>,
-        pose: &Self::Pose<Self::Scalar>,
-        gradient: [Self::Scalar; 6],
-    ) -> (Wrenches<Self>, [Self::Scalar; 6]);
-}
-
-/// Wrenches across the joints of a device, and their sum on the hub, about B.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Carried<W, B> {
-    /// About each joint's origin along the axes of its child body.
-    pub joints: W,
-    /// About B, along the device's axes.
-    pub hub: B,
 }
 
 /// Entries 11, 12, 13, 22, 23, 33 of a tensor's symmetric part, exact where it is symmetric.
@@ -264,8 +255,10 @@ pub fn components<T: Scalar>(v: &Vector3<T>) -> [T; 3] {
 }
 
 /// A vector from its components.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "lanes reach wide instructions only where inlined")]
 #[must_use]
-pub fn vector<T: Scalar>(components: [T; 3]) -> Vector3<T> {
+pub fn vector<T: Real>(components: [T; 3]) -> Vector3<T> {
     crate::numbers::vec3::vector(components)
 }
 

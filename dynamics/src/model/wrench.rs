@@ -1,15 +1,25 @@
 //! A force with its moment: across a joint, at a mount, on a body from outside.
 
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
 use core::ops::Neg;
 
 use nalgebra::Vector3;
 
 use crate::model::kind::JointInfo;
-use crate::numbers::real::Scalar;
+use crate::numbers::real::{Real, Scalar};
 use crate::numbers::vec3::{
-    Columns, Vec3, add, components, cross, dot, finite, rotate, rotate_transposed, sub, vector,
-    zeros,
+    Columns, Vec3, components, cross, dot, finite, rotate, rotate_transposed, vector, zeros,
 };
+
+/// Wrenches across the joints of a device, and their sum on the hub, about B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carried<W, B> {
+    /// About each joint's origin along the axes of its child body.
+    pub joints: W,
+    /// About B, along the device's axes.
+    pub hub: B,
+}
 
 /// A force and its moment about a point, expressed in one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,48 +61,19 @@ impl<T: Scalar> Wrench<T> {
     /// The sum of two wrenches about one point, expressed in the same axes.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
-        self.with(other, add)
+        self.zip(other, |a, b| a + b)
     }
 
     /// The difference of two wrenches about one point, expressed in the same axes.
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
-        self.with(other, sub)
-    }
-
-    fn with(&self, other: &Self, of: fn(Vec3<T>, Vec3<T>) -> Vec3<T>) -> Self {
-        Self::of(
-            of(components(&self.force), components(&other.force)),
-            of(components(&self.moment), components(&other.moment)),
-        )
-    }
-
-    /// From its components.
-    pub(crate) fn of(force: Vec3<T>, moment: Vec3<T>) -> Self {
-        Self { force: vector(force), moment: vector(moment) }
-    }
-
-    /// Expressed in the axes in which the columns are expressed, from the columns.
-    pub(crate) fn turned(&self, axes: &Columns<T>) -> Self {
-        let turn = |v: &Vector3<T>| rotate(axes, components(v));
-        Self::of(turn(&self.force), turn(&self.moment))
+        self.zip(other, |a, b| a - b)
     }
 
     /// Expressed in the columns.
     pub(crate) fn turned_back(&self, axes: &Columns<T>) -> Self {
         let turn = |v: &Vector3<T>| rotate_transposed(axes, components(v));
         Self::of(turn(&self.force), turn(&self.moment))
-    }
-
-    /// The component of a wrench along a joint, about its origin and expressed in its child body:
-    /// the moment about its axis, or the force along it.
-    pub(crate) fn along(&self, joint: &JointInfo) -> T {
-        let [x, y, z] = components(if joint.slides { &self.force } else { &self.moment });
-        match joint.axis {
-            0 => x,
-            1 => y,
-            _ => z,
-        }
     }
 
     /// Whether all components are finite.
@@ -103,6 +84,49 @@ impl<T: Scalar> Wrench<T> {
     /// The power at the velocity of its point and the angular velocity.
     pub(crate) fn power(&self, velocity: Vec3<T>, omega: Vec3<T>) -> T {
         dot(components(&self.force), velocity) + dot(components(&self.moment), omega)
+    }
+}
+
+impl<T: Copy> Wrench<T> {
+    /// Two wrenches joined number by number.
+    #[inline(always)]
+    pub(crate) fn zip<U: Copy, W>(
+        &self,
+        other: &Wrench<U>,
+        mut join: impl FnMut(T, U) -> W,
+    ) -> Wrench<W> {
+        // One by one: an array's own `map` is a call, which lanes must not make.
+        let ([a, b, c], [d, e, f]) = (components(&self.force), components(&other.force));
+        let force = vector([join(a, d), join(b, e), join(c, f)]);
+        let ([a, b, c], [d, e, f]) = (components(&self.moment), components(&other.moment));
+        Wrench { force, moment: vector([join(a, d), join(b, e), join(c, f)]) }
+    }
+}
+
+impl<T: Real> Wrench<T> {
+    /// From its components.
+    #[inline(always)]
+    pub(crate) fn of(force: Vec3<T>, moment: Vec3<T>) -> Self {
+        Self { force: vector(force), moment: vector(moment) }
+    }
+
+    /// Expressed in the axes in which the columns are expressed, from the columns.
+    #[inline(always)]
+    pub(crate) fn turned(&self, axes: &Columns<T>) -> Self {
+        let (force, moment) = (components(&self.force), components(&self.moment));
+        Self::of(rotate(axes, force), rotate(axes, moment))
+    }
+
+    /// The component of a wrench along a joint, about its origin and expressed in its child body:
+    /// the moment about its axis, or the force along it.
+    #[inline(always)]
+    pub(crate) fn along(&self, joint: &JointInfo) -> T {
+        let [x, y, z] = components(if joint.slides { &self.force } else { &self.moment });
+        match joint.axis {
+            0 => x,
+            1 => y,
+            _ => z,
+        }
     }
 }
 

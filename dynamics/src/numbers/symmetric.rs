@@ -19,11 +19,6 @@ pub(crate) struct Symmetric<T> {
 }
 
 impl<T: Scalar> Symmetric<T> {
-    /// `s` times the identity.
-    pub(crate) fn scalar(s: T) -> Self {
-        Self { xx: s, xy: zero(), xz: zero(), yy: s, yz: zero(), zz: s }
-    }
-
     /// The tensor that is zero.
     pub(crate) fn zero() -> Self {
         Self::scalar(zero())
@@ -77,18 +72,6 @@ impl<T: Scalar> Symmetric<T> {
         let diagonal = self.xx.abs().max(self.yy.abs()).max(self.zz.abs());
         diagonal.max(self.xy.abs()).max(self.xz.abs()).max(self.yz.abs())
     }
-
-    /// `s` times the tensor.
-    pub(crate) fn scaled(self, s: T) -> Self {
-        Self {
-            xx: s * self.xx,
-            xy: s * self.xy,
-            xz: s * self.xz,
-            yy: s * self.yy,
-            yz: s * self.yz,
-            zz: s * self.zz,
-        }
-    }
 }
 
 #[cfg(feature = "lanes")]
@@ -112,6 +95,26 @@ impl<T: Copy> Symmetric<T> {
 }
 
 impl<T: Real> Symmetric<T> {
+    /// `s` times the identity.
+    #[inline(always)]
+    pub(crate) fn scalar(s: T) -> Self {
+        let zero = s.like(0.0);
+        Self { xx: s, xy: zero, xz: zero, yy: s, yz: zero, zz: s }
+    }
+
+    /// `s` times the tensor.
+    #[inline(always)]
+    pub(crate) fn scaled(self, s: T) -> Self {
+        Self {
+            xx: s * self.xx,
+            xy: s * self.xy,
+            xz: s * self.xz,
+            yy: s * self.yy,
+            yz: s * self.yz,
+            zz: s * self.zz,
+        }
+    }
+
     /// The sum of two tensors.
     #[inline(always)]
     pub(crate) fn plus(self, other: Self) -> Self {

@@ -166,6 +166,10 @@ pub(crate) struct TriangleExcesses;
 /// Spring, damper and friction of each joint.
 pub(crate) struct Passives;
 
+/// Whether the imbalance of each device is lumped.
+#[cfg(feature = "lanes")]
+pub(crate) struct AreLumped;
+
 impl<T: Scalar> List<T> for ConstantShares {
     type Item = ConstantShare<T>;
 
@@ -195,6 +199,15 @@ impl<T: Scalar> List<T> for Passives {
 
     fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = Passive<T>> {
         device.passive.values()
+    }
+}
+
+#[cfg(feature = "lanes")]
+impl<T: Scalar> List<T> for AreLumped {
+    type Item = bool;
+
+    fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = bool> {
+        core::iter::once(device.lumped.is_some())
     }
 }
 

@@ -11,6 +11,8 @@ mod input_states;
 mod invariants;
 mod kinds_and_modes;
 mod known_cases;
+mod lane_loads;
+mod lane_runs;
 mod lanes;
 mod ledger_and_loads;
 mod operations;

@@ -52,12 +52,12 @@ fn inputs(k: u32) -> Inputs<Mixed> {
     inputs
 }
 
-fn crafts(count: u32) -> Vec<Spacecraft<Mixed>> {
+pub(super) fn crafts(count: u32) -> Vec<Spacecraft<Mixed>> {
     (0..count).map(craft).collect()
 }
 
 /// Everything printed, so that NaN and the sign of zero count.
-fn printed(found: &impl std::fmt::Debug) -> String {
+pub(super) fn printed(found: &impl std::fmt::Debug) -> String {
     format!("{found:?}")
 }
 
@@ -141,7 +141,7 @@ fn each_spacecraft_has_its_own_error() {
 }
 
 /// The largest difference of any acceleration, over the largest acceleration.
-fn difference<D: Devices<Scalar = f64>>(a: &Accelerations<D>, b: &Accelerations<D>) -> f64 {
+pub(super) fn difference<D: Devices<Scalar = f64>>(a: &Accelerations<D>, b: &Accelerations<D>) -> f64 {
     let numbers = |of: &Accelerations<D>| -> Vec<f64> {
         let hub = of.r_b_n_ddot.iter().chain(&of.omega_dot).copied();
         hub.chain(of.devices.values()).collect()

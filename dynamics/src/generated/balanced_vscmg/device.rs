@@ -289,6 +289,97 @@ impl<S: Scalar> Kernels for BalancedVscmg<S> {
     }
 
     #[inline(always)]
+    fn external<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        bodies: &PerJoint<Wrench<T>>,
+    ) -> Carried<PerJoint<Wrench<T>>, Wrench<T>> {
+        let wrenches = super::Wrenches {
+            f_on_gx: bodies.gimbal.force.x,
+            f_on_gy: bodies.gimbal.force.y,
+            f_on_gz: bodies.gimbal.force.z,
+            n_on_gx: bodies.gimbal.moment.x,
+            n_on_gy: bodies.gimbal.moment.y,
+            n_on_gz: bodies.gimbal.moment.z,
+            f_on_wx: bodies.wheel.force.x,
+            f_on_wy: bodies.wheel.force.y,
+            f_on_wz: bodies.wheel.force.z,
+            n_on_wx: bodies.wheel.moment.x,
+            n_on_wy: bodies.wheel.moment.y,
+            n_on_wz: bodies.wheel.moment.z,
+        };
+        let found = super::external(constants, pose, &wrenches);
+        let joints = PerJoint {
+            gimbal: Wrench {
+                force: vector([found.f_sum_gx, found.f_sum_gy, found.f_sum_gz]),
+                moment: vector([found.n_sum_gx, found.n_sum_gy, found.n_sum_gz]),
+            },
+            wheel: Wrench {
+                force: vector([found.f_sum_wx, found.f_sum_wy, found.f_sum_wz]),
+                moment: vector([found.n_sum_wx, found.n_sum_wy, found.n_sum_wz]),
+            },
+        };
+        let hub = Wrench {
+            force: vector([found.f_sum_bx, found.f_sum_by, found.f_sum_bz]),
+            moment: vector([found.n_sum_bx, found.n_sum_by, found.n_sum_bz]),
+        };
+        Carried { joints, hub }
+    }
+
+    #[inline(always)]
+    fn gravity<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        gradient: [T; 6],
+    ) -> (PerJoint<Wrench<T>>, [T; 6]) {
+        let [g_11, g_12, g_13, g_22, g_23, g_33] = gradient;
+        let gradient = Gradient {
+            g_11,
+            g_12,
+            g_13,
+            g_22,
+            g_23,
+            g_33,
+        };
+        let found = super::gravity(constants, pose, &gradient);
+        let wrenches = PerJoint {
+            gimbal: Wrench {
+                force: vector([
+                    found.wrenches.f_on_gx,
+                    found.wrenches.f_on_gy,
+                    found.wrenches.f_on_gz,
+                ]),
+                moment: vector([
+                    found.wrenches.n_on_gx,
+                    found.wrenches.n_on_gy,
+                    found.wrenches.n_on_gz,
+                ]),
+            },
+            wheel: Wrench {
+                force: vector([
+                    found.wrenches.f_on_wx,
+                    found.wrenches.f_on_wy,
+                    found.wrenches.f_on_wz,
+                ]),
+                moment: vector([
+                    found.wrenches.n_on_wx,
+                    found.wrenches.n_on_wy,
+                    found.wrenches.n_on_wz,
+                ]),
+            },
+        };
+        let second_moment = [
+            found.second_moment_11,
+            found.second_moment_12,
+            found.second_moment_13,
+            found.second_moment_22,
+            found.second_moment_23,
+            found.second_moment_33,
+        ];
+        (wrenches, second_moment)
+    }
+
+    #[inline(always)]
     fn zip_constants<T: Value, U: Value, W: Value>(
         a: &super::Prepared<T>,
         b: &super::Prepared<U>,
@@ -656,95 +747,6 @@ impl<T: Scalar> Kind for BalancedVscmg<T> {
             moment: vector([found.n_load_bx, found.n_load_by, found.n_load_bz]),
         };
         Carried { joints, hub }
-    }
-
-    fn external(
-        constants: &Self::Constants<T>,
-        pose: &Self::Pose<T>,
-        bodies: &Wrenches<Self>,
-    ) -> Carried<Wrenches<Self>, Wrench<T>> {
-        let wrenches = super::Wrenches {
-            f_on_gx: bodies.gimbal.force.x,
-            f_on_gy: bodies.gimbal.force.y,
-            f_on_gz: bodies.gimbal.force.z,
-            n_on_gx: bodies.gimbal.moment.x,
-            n_on_gy: bodies.gimbal.moment.y,
-            n_on_gz: bodies.gimbal.moment.z,
-            f_on_wx: bodies.wheel.force.x,
-            f_on_wy: bodies.wheel.force.y,
-            f_on_wz: bodies.wheel.force.z,
-            n_on_wx: bodies.wheel.moment.x,
-            n_on_wy: bodies.wheel.moment.y,
-            n_on_wz: bodies.wheel.moment.z,
-        };
-        let found = super::external(constants, pose, &wrenches);
-        let joints = PerJoint {
-            gimbal: Wrench {
-                force: vector([found.f_sum_gx, found.f_sum_gy, found.f_sum_gz]),
-                moment: vector([found.n_sum_gx, found.n_sum_gy, found.n_sum_gz]),
-            },
-            wheel: Wrench {
-                force: vector([found.f_sum_wx, found.f_sum_wy, found.f_sum_wz]),
-                moment: vector([found.n_sum_wx, found.n_sum_wy, found.n_sum_wz]),
-            },
-        };
-        let hub = Wrench {
-            force: vector([found.f_sum_bx, found.f_sum_by, found.f_sum_bz]),
-            moment: vector([found.n_sum_bx, found.n_sum_by, found.n_sum_bz]),
-        };
-        Carried { joints, hub }
-    }
-
-    fn gravity(
-        constants: &Self::Constants<T>,
-        pose: &Self::Pose<T>,
-        gradient: [T; 6],
-    ) -> (Wrenches<Self>, [T; 6]) {
-        let [g_11, g_12, g_13, g_22, g_23, g_33] = gradient;
-        let gradient = Gradient {
-            g_11,
-            g_12,
-            g_13,
-            g_22,
-            g_23,
-            g_33,
-        };
-        let found = super::gravity(constants, pose, &gradient);
-        let wrenches = PerJoint {
-            gimbal: Wrench {
-                force: vector([
-                    found.wrenches.f_on_gx,
-                    found.wrenches.f_on_gy,
-                    found.wrenches.f_on_gz,
-                ]),
-                moment: vector([
-                    found.wrenches.n_on_gx,
-                    found.wrenches.n_on_gy,
-                    found.wrenches.n_on_gz,
-                ]),
-            },
-            wheel: Wrench {
-                force: vector([
-                    found.wrenches.f_on_wx,
-                    found.wrenches.f_on_wy,
-                    found.wrenches.f_on_wz,
-                ]),
-                moment: vector([
-                    found.wrenches.n_on_wx,
-                    found.wrenches.n_on_wy,
-                    found.wrenches.n_on_wz,
-                ]),
-            },
-        };
-        let second_moment = [
-            found.second_moment_11,
-            found.second_moment_12,
-            found.second_moment_13,
-            found.second_moment_22,
-            found.second_moment_23,
-            found.second_moment_33,
-        ];
-        (wrenches, second_moment)
     }
 }
 

@@ -247,6 +247,75 @@ impl<S: Scalar> Kernels for HingedPanel<S> {
     }
 
     #[inline(always)]
+    fn external<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        bodies: &PerJoint<Wrench<T>>,
+    ) -> Carried<PerJoint<Wrench<T>>, Wrench<T>> {
+        let wrenches = super::Wrenches {
+            f_on_px: bodies.panel.force.x,
+            f_on_py: bodies.panel.force.y,
+            f_on_pz: bodies.panel.force.z,
+            n_on_px: bodies.panel.moment.x,
+            n_on_py: bodies.panel.moment.y,
+            n_on_pz: bodies.panel.moment.z,
+        };
+        let found = super::external(constants, pose, &wrenches);
+        let joints = PerJoint {
+            panel: Wrench {
+                force: vector([found.f_sum_px, found.f_sum_py, found.f_sum_pz]),
+                moment: vector([found.n_sum_px, found.n_sum_py, found.n_sum_pz]),
+            },
+        };
+        let hub = Wrench {
+            force: vector([found.f_sum_bx, found.f_sum_by, found.f_sum_bz]),
+            moment: vector([found.n_sum_bx, found.n_sum_by, found.n_sum_bz]),
+        };
+        Carried { joints, hub }
+    }
+
+    #[inline(always)]
+    fn gravity<T: Real>(
+        constants: &Self::Constants<T>,
+        pose: &Self::Pose<T>,
+        gradient: [T; 6],
+    ) -> (PerJoint<Wrench<T>>, [T; 6]) {
+        let [g_11, g_12, g_13, g_22, g_23, g_33] = gradient;
+        let gradient = Gradient {
+            g_11,
+            g_12,
+            g_13,
+            g_22,
+            g_23,
+            g_33,
+        };
+        let found = super::gravity(constants, pose, &gradient);
+        let wrenches = PerJoint {
+            panel: Wrench {
+                force: vector([
+                    found.wrenches.f_on_px,
+                    found.wrenches.f_on_py,
+                    found.wrenches.f_on_pz,
+                ]),
+                moment: vector([
+                    found.wrenches.n_on_px,
+                    found.wrenches.n_on_py,
+                    found.wrenches.n_on_pz,
+                ]),
+            },
+        };
+        let second_moment = [
+            found.second_moment_11,
+            found.second_moment_12,
+            found.second_moment_13,
+            found.second_moment_22,
+            found.second_moment_23,
+            found.second_moment_33,
+        ];
+        (wrenches, second_moment)
+    }
+
+    #[inline(always)]
     fn zip_constants<T: Value, U: Value, W: Value>(
         a: &super::Prepared<T>,
         b: &super::Prepared<U>,
@@ -529,73 +598,6 @@ impl<T: Scalar> Kind for HingedPanel<T> {
             moment: vector([found.n_load_bx, found.n_load_by, found.n_load_bz]),
         };
         Carried { joints, hub }
-    }
-
-    fn external(
-        constants: &Self::Constants<T>,
-        pose: &Self::Pose<T>,
-        bodies: &Wrenches<Self>,
-    ) -> Carried<Wrenches<Self>, Wrench<T>> {
-        let wrenches = super::Wrenches {
-            f_on_px: bodies.panel.force.x,
-            f_on_py: bodies.panel.force.y,
-            f_on_pz: bodies.panel.force.z,
-            n_on_px: bodies.panel.moment.x,
-            n_on_py: bodies.panel.moment.y,
-            n_on_pz: bodies.panel.moment.z,
-        };
-        let found = super::external(constants, pose, &wrenches);
-        let joints = PerJoint {
-            panel: Wrench {
-                force: vector([found.f_sum_px, found.f_sum_py, found.f_sum_pz]),
-                moment: vector([found.n_sum_px, found.n_sum_py, found.n_sum_pz]),
-            },
-        };
-        let hub = Wrench {
-            force: vector([found.f_sum_bx, found.f_sum_by, found.f_sum_bz]),
-            moment: vector([found.n_sum_bx, found.n_sum_by, found.n_sum_bz]),
-        };
-        Carried { joints, hub }
-    }
-
-    fn gravity(
-        constants: &Self::Constants<T>,
-        pose: &Self::Pose<T>,
-        gradient: [T; 6],
-    ) -> (Wrenches<Self>, [T; 6]) {
-        let [g_11, g_12, g_13, g_22, g_23, g_33] = gradient;
-        let gradient = Gradient {
-            g_11,
-            g_12,
-            g_13,
-            g_22,
-            g_23,
-            g_33,
-        };
-        let found = super::gravity(constants, pose, &gradient);
-        let wrenches = PerJoint {
-            panel: Wrench {
-                force: vector([
-                    found.wrenches.f_on_px,
-                    found.wrenches.f_on_py,
-                    found.wrenches.f_on_pz,
-                ]),
-                moment: vector([
-                    found.wrenches.n_on_px,
-                    found.wrenches.n_on_py,
-                    found.wrenches.n_on_pz,
-                ]),
-            },
-        };
-        let second_moment = [
-            found.second_moment_11,
-            found.second_moment_12,
-            found.second_moment_13,
-            found.second_moment_22,
-            found.second_moment_23,
-            found.second_moment_33,
-        ];
-        (wrenches, second_moment)
     }
 }
 
