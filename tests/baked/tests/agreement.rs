@@ -20,7 +20,7 @@ type Set = Vec<BuiltIn>;
 const STATES: u32 = 300;
 
 fn description(name: &str) -> Description {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("baked").join(name);
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
     let text = std::fs::read_to_string(file.join("description.toml")).expect("a description");
     Description::read(&text).expect("a description")
 }
