@@ -75,9 +75,16 @@ pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeEr
     Ok(list)
 }
 
-/// Whether each joint is locked.
+/// Whether each joint is locked. Where all are, the last one stays a joint: a device without one has
+/// no equation to emit.
 fn locked(device: &Device) -> Vec<bool> {
-    device.body.iter().map(|body| body.locked_at.is_some()).collect()
+    let mut locked: Vec<_> = device.body.iter().map(|body| body.locked_at.is_some()).collect();
+    if let [.., last] = locked.as_mut_slice()
+        && device.body.iter().all(|body| body.locked_at.is_some())
+    {
+        *last = false;
+    }
+    locked
 }
 
 /// The device's name without its number; with it, or with more, where that is taken.

@@ -38,6 +38,7 @@ struct DevicesText {
 struct CaseShape {
     module: &'static str,
     moves: bool,
+    is_driven: bool,
     joints: Vec<String>,
     drives: Vec<String>,
     /// The same in C: in order, without names.
@@ -109,7 +110,8 @@ pub(crate) fn reference(
                 };
                 let locked = device.body.iter().zip(shape.kind.links).filter_map(|(body, link)| {
                     let name = link.joint.coordinate.to_owned();
-                    body.locked_at.map(|at| Assigned::new(name, float(at)))
+                    let locked_at = body.locked_at.filter(|_| link.is_locked());
+                    locked_at.map(|at| Assigned::new(name, float(at)))
                 });
                 DeviceText {
                     mount: matrix(&device.mount),
@@ -164,6 +166,7 @@ fn case_text(case: &Case, name: &'static str, shapes: &[Shape<'_>], upper: &str)
         CaseShape {
             module: shape.kind.name,
             moves: shape.kind.links.iter().any(|link| !link.is_locked()),
+            is_driven: shape.kind.driven().next().is_some(),
             joints: joints.collect(),
             drives: drives.collect(),
             joints_c: joints_c.collect(),

@@ -265,6 +265,10 @@ struct ShapeText {
     count: usize,
     /// Whether a joint of it moves.
     moves: bool,
+    /// Whether one has a motor.
+    is_driven: bool,
+    /// The arguments of back substitution in C.
+    back_c: String,
     /// `Some(a), Some(b)`, and `a, b`.
     somes: String,
     elements: String,
@@ -280,6 +284,17 @@ struct RowText {
     count: usize,
 }
 
+/// The arguments of back substitution in C, each followed by a comma.
+fn back_c(shape: &Shape<'_>, derived: &Derived) -> String {
+    let own = derived.emitted.functions.iter().find(|(name, ..)| name == "back_substitute");
+    let letters = own.map(|(_, letters, _)| letters.as_slice()).unwrap_or_default();
+    let argument = |letter: &&str| match *letter {
+        "a" => "&out->hub, ".to_owned(),
+        _ => format!("&{}_gains[k], ", shape.kind.name),
+    };
+    letters.iter().map(argument).collect()
+}
+
 /// What the files of the whole spacecraft say.
 pub(crate) fn whole(
     description: &Description,
@@ -287,7 +302,7 @@ pub(crate) fn whole(
     derived: &[Derived],
     operations: Operations,
 ) -> Context {
-    let shape = |shape: &Shape<'_>| {
+    let shape = |(shape, derived): (&Shape<'_>, &Derived)| {
         let elements: Vec<_> = (0..shape.devices.len()).map(|k| format!("d_{k}")).collect();
         let somes: Vec<_> = elements.iter().map(|name| format!("Some({name})")).collect();
         let moving = shape.kind.links.iter().filter(|link| !link.is_locked());
@@ -302,6 +317,8 @@ pub(crate) fn whole(
             names: names.join(", "),
             count: shape.devices.len(),
             moves: !finite.is_empty(),
+            is_driven: shape.kind.driven().next().is_some(),
+            back_c: back_c(shape, derived),
             somes: somes.join(", "),
             elements: elements.join(", "),
             finite: finite.join(" && "),
@@ -323,7 +340,7 @@ pub(crate) fn whole(
     context.insert("package", &description.name.replace('_', "-"));
     let lines: Vec<_> = shapes.iter().flat_map(Shape::assumptions).collect();
     context.insert("assumptions", &lines);
-    context.insert("shapes", &shapes.iter().map(shape).collect::<Vec<_>>());
+    context.insert("shapes", &shapes.iter().zip(derived).map(shape).collect::<Vec<_>>());
     context.insert("rows", &rows.collect::<Vec<_>>());
     context.insert("operations", &operations_text(operations));
     context.insert("claims", &derived.iter().map(|derived| derived.proof.len()).sum::<usize>());

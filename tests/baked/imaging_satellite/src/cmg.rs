@@ -11,7 +11,9 @@
 //! - cmg1, cmg2, cmg3, cmg4: the inner gimbal is locked for good
 
 use crate::body::{Body, Drive, Joint, outboard};
-use crate::check::{Assumption, along_device, length, trace, vanishes};
+use crate::check::{
+    Assumption, along_device, finite_device, finite, length, trace, vanishes,
+};
 use crate::kernels::hub::{BodyAcceleration, BodyRate, ConstantShare, HubShare};
 use crate::kernels::cmg as kernels;
 use crate::mount::{Exchange, turned};
@@ -77,6 +79,9 @@ impl Constants {
         device: &Device,
     ) -> Result<(Self, ConstantShare<f64>), Assumption> {
         let (m, b) = (&device.mount, &device.bodies);
+        finite_device(m, b)?;
+        finite("gamma_o", [device.gamma_o])?;
+        finite("gamma_i", [device.gamma_i])?;
         let origin = along_device(m, b[0].origin);
         let length = length(b);
         let turned = turned(m, &OUTER, &INNER, 2)?;

@@ -360,6 +360,12 @@ fn cmg_with_r_goc_go_gox_is_refused() {
 
 #[test]
 fn what_is_not_finite_is_an_error() {
+    let mut infinite = parameters();
+    infinite.hub.inertia[1][2] = f64::INFINITY;
+    assert_eq!(Spacecraft::new(& infinite).unwrap_err().parameter, "inertia");
+    infinite = parameters();
+    infinite.cmg[0].bodies[0].mass = f64::NAN;
+    assert_eq!(Spacecraft::new(& infinite).unwrap_err().parameter, "mass");
     let spacecraft = Spacecraft::new(&parameters()).unwrap();
     let state = State {
         omega: [f64::NAN, 0.0, 0.0],

@@ -52,6 +52,39 @@ pub(crate) fn vanishes(
     Err(Assumption { device: ("", 0), parameter, assumed, off, bound })
 }
 
+/// Passes finite numbers.
+pub(crate) fn finite(
+    parameter: &'static str,
+    numbers: impl IntoIterator<Item = f64>,
+) -> Result<(), Assumption> {
+    // What is infinite or NaN less itself is NaN, which passes no bound.
+    let mut numbers = numbers.into_iter();
+    numbers.try_for_each(|number| vanishes(parameter, "finite", number - number, 1.0))
+}
+
+/// Passes the numbers of a device that are finite.
+pub(crate) fn finite_device(
+    mount: &[[f64; 3]; 3],
+    bodies: &[crate::body::Body],
+) -> Result<(), Assumption> {
+    finite("mount", mount.iter().copied().flatten())?;
+    finite("mass", bodies.iter().map(|body| body.mass))?;
+    finite("origin", bodies.iter().flat_map(|body| body.origin))?;
+    finite("centre_of_mass", bodies.iter().flat_map(|body| body.centre_of_mass))?;
+    finite("inertia", bodies.iter().flat_map(|body| body.inertia).flatten())
+}
+
+/// Passes a hub whose numbers are finite.
+pub(crate) fn finite_hub(hub: &crate::body::Hub) -> Result<(), Assumption> {
+    let of_hub = |mut assumption: Assumption| {
+        assumption.device = ("hub", 0);
+        assumption
+    };
+    finite("mass", [hub.mass]).map_err(of_hub)?;
+    finite("centre_of_mass", hub.centre_of_mass).map_err(of_hub)?;
+    finite("inertia", hub.inertia.iter().copied().flatten()).map_err(of_hub)
+}
+
 /// The largest offset of a device.
 pub(crate) fn length(bodies: &[crate::body::Body]) -> f64 {
     let offsets = bodies.iter().flat_map(|body| [body.origin, body.centre_of_mass]);

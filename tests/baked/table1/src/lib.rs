@@ -141,8 +141,9 @@ impl Spacecraft {
     /// Checks the assumptions and computes what depends on parameters only.
     ///
     /// # Errors
-    /// With the first parameter that is not what was assumed.
+    /// With the first parameter that is not what was assumed, or not finite.
     pub fn new(parameters: &Parameters) -> Result<Self, Assumption> {
+        check::finite_hub(&parameters.hub)?;
         let mut body = RigidBody::new(&parameters.hub);
         let mut number = 0;
         let mut failed = None;
