@@ -8,6 +8,7 @@ use precess_dynamics::{
 use super::call_results::{CallResult, call_results};
 use super::case::{Case, List, Placed};
 use super::shapes::{across, batched, in_every_shape};
+use super::variants::batched_variants;
 use super::{Checked, Verdict};
 
 /// Whether every number is finite.
@@ -44,7 +45,8 @@ pub fn result_or_error(case: &Case) -> Verdict {
     every_shape!(f32);
     all_finite(&across(case).unwrap_or_default(), "devices side by side")?;
     for (fused, each) in [(false, true), (true, false)] {
-        if let Some(found) = &batched(case, fused, each) {
+        let found = [batched(case, fused, each), batched_variants(case, fused, each)];
+        for found in found.iter().flatten() {
             let all: Vec<_> =
                 found.accelerations.iter().map(|found| ("batch", found.clone())).collect();
             all_finite(&all, "batch")?;

@@ -25,6 +25,7 @@ pub mod shapes;
 pub mod singular;
 pub mod sizes;
 pub mod typed_errors;
+pub mod variants;
 
 pub use case::{Case, List, Placed};
 

@@ -149,7 +149,7 @@ pub const PROPERTIES: &[Property] = &[
     },
     Property {
         name: "batch-is-spacecraft",
-        statement: "each state of a batch has the bits, or the error, that it has by itself",
+        statement: "each state and spacecraft of a batch has the bits or error that it has by itself",
         cases: 50,
         function: "same::batch_is_spacecraft",
         draw: in_batches,

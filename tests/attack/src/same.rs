@@ -7,6 +7,7 @@ use super::call_results::{CallResult, call_results, of_state};
 use super::case::{Case, List, Placed};
 use super::residual::{numbers, solves};
 use super::shapes::{Batched, across, batched, in_every_shape};
+use super::variants::{batched_variants, variant};
 use super::{Checked, Verdict};
 
 /// Numbers by their bits, errors as text: NaN equals itself.
@@ -69,11 +70,12 @@ fn compare(first: &Texts, other: &Texts, shape: &str) -> Result<(), String> {
     }
 }
 
-/// What single evaluations and steps make of each state.
-fn single(case: &Case, each: bool) -> Option<Batched> {
-    let Placed { craft, .. } = case.list().ok()?;
+/// What single evaluations and steps make of each state; of a case of its own each, or of one.
+fn single(case: &Case, each: bool, varied: bool) -> Option<Batched> {
     let mut all = Batched { accelerations: Vec::new(), runs: Vec::new() };
-    for (state, inputs) in case.all() {
+    for (index, (state, inputs)) in case.all().into_iter().enumerate() {
+        let variant = if varied { variant(case, index)? } else { case.clone() };
+        let Placed { craft, .. } = variant.list().ok()?;
         let inputs = if each { inputs } else { case.inputs.clone() };
         let found = craft.accelerations(&state, &inputs);
         all.accelerations.push(found.map(|found| super::call_results::of_accelerations(&found)));
@@ -87,24 +89,26 @@ fn single(case: &Case, each: bool) -> Option<Batched> {
     Some(all)
 }
 
-/// `batch-is-spacecraft`: each state of a batch has the result or error that it has by itself, to
-/// the bit, whatever its neighbours are.
+/// `batch-is-spacecraft`: each state of a batch, and each spacecraft of a batch of spacecraft, has
+/// the result or error that it has by itself, to the bit, whatever its neighbours are.
 ///
 /// # Errors
 /// Where it does not hold.
 pub fn batch_is_spacecraft(case: &Case) -> Verdict {
     let mut checked = Checked::Rejected;
-    for each in [false, true] {
-        let (Some(found), Some(one_state)) = (batched(case, false, each), single(case, each))
-        else {
+    for (each, varied) in [(false, false), (true, false), (false, true), (true, true)] {
+        let of_lanes = if varied { batched_variants } else { batched };
+        let found = of_lanes(case, false, each);
+        let (Some(found), Some(one_state)) = (found, single(case, each, varied)) else {
             continue;
         };
         checked = Checked::Holds;
+        let what = if varied { "spacecraft" } else { "state" };
         let all = found.accelerations.iter().zip(&one_state.accelerations);
         for (index, (found, one_state)) in all.enumerate() {
             if text(found) != text(one_state) {
                 return Err(format!(
-                    "accelerations of state {index}: {found:?}, not {one_state:?}"
+                    "accelerations of {what} {index}: {found:?}, not {one_state:?}"
                 ));
             }
         }
@@ -114,7 +118,7 @@ pub fn batch_is_spacecraft(case: &Case) -> Verdict {
             let [f, a] = [found, one_state].map(|state| text::<f64>(&Ok(state.clone())));
             if f != a || format!("{end:?}") != format!("{end_of_one:?}") {
                 return Err(format!(
-                    "run of state {index}: {end:?} {found:?}, not {end_of_one:?} {one_state:?}"
+                    "run of {what} {index}: {end:?} {found:?}, not {end_of_one:?} {one_state:?}"
                 ));
             }
         }
