@@ -34,7 +34,9 @@ pub(crate) fn assumed(kind: &Kind, device: &Device) -> Result<Assumed, BakeError
         let alike = |other: &&crate::parameters::Parameter| {
             let same = other.place.is_moment() && other.place.body() == own.place.body();
             let known = zero.contains(&other.name) || equal.contains_key(&other.name);
-            same && !known && is_rounding(value - other.place.value(device), scale)
+            same && !known
+                && !kept(&other.name)
+                && is_rounding(value - other.place.value(device), scale)
         };
         if let Some(other) = list[..k].iter().filter(|_| own.place.is_moment()).find(alike) {
             equal.insert(own.name.clone(), other.name.clone());
@@ -50,7 +52,7 @@ fn mount(mount: &[[f64; 3]; 3]) -> Mount {
     for turns in [Turns::None, Turns::One, Turns::Two] {
         for &outer in &exchanges {
             for &inner in &exchanges {
-                if is(turned(mount, outer, inner), turns) {
+                if has_form(turned(mount, outer, inner), turns) {
                     return Mount::Turned { outer, turns, inner };
                 }
             }
@@ -75,7 +77,7 @@ fn turned(mount: &[[f64; 3]; 3], outer: Exchange, inner: Exchange) -> [[f64; 3];
 }
 
 /// Whether R has this form.
-fn is(r: [[f64; 3]; 3], turns: Turns) -> bool {
+fn has_form(r: [[f64; 3]; 3], turns: Turns) -> bool {
     let [[xx, xy, _], [yx, yy, _], [zx, _, zz]] = r;
     let (ca, sa, cb, sb) = match turns {
         Turns::None => (1.0, 0.0, 1.0, 0.0),

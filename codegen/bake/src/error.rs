@@ -19,6 +19,10 @@ pub enum BakeError {
     Pattern(String, String),
     /// Device, and a name to keep that is no parameter of its kind.
     Keep(String, String),
+    /// The spacecraft's name, which is one of the emitted files' or of a language.
+    Name(String),
+    /// Device, and the body of a joint with a motor that nothing moves with.
+    Massless(String, String),
     /// A claim that does not hold, with the terms that differ.
     NotProven(String),
     /// A file that cannot be laid out.
@@ -45,6 +49,16 @@ impl fmt::Display for BakeError {
             Self::Keep(device, name) => {
                 write!(f, "{device}: `{name}` in `keep` is no parameter of its kind")
             }
+            Self::Name(name) => {
+                write!(
+                    f,
+                    "a spacecraft cannot be called `{name}` in Rust and C; choose another name"
+                )
+            }
+            Self::Massless(device, body) => write!(
+                f,
+                "{device}: the joint of the {body} moves no mass and no inertia; state some, or lock it"
+            ),
             Self::NotProven(row) => write!(f, "not proven, so not written: {row}"),
             Self::Emit(error) => write!(f, "{error}"),
             Self::Read(error) => write!(f, "{error}"),

@@ -4,7 +4,7 @@
 //! description of one's own.
 
 use std::fs;
-use std::io::{self, Read};
+use std::io::{self, Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -48,7 +48,8 @@ enum Written {
 fn main() -> ExitCode {
     match execute(&Options::parse()) {
         Ok(text) => {
-            print!("{text}");
+            // The files are written, whoever reads this.
+            let _ = io::stdout().write_all(text.as_bytes());
             ExitCode::SUCCESS
         }
         Err(error) => {
@@ -83,7 +84,8 @@ fn read(path: Option<&Path>) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Writes all files beside the folder and puts them in its place at once.
+/// Writes all files beside the folder, then puts them in its place: a new folder at once, those of a
+/// folder that is there one by one.
 fn write(baked: &Baked, out: &Path, force: bool) -> Result<(), String> {
     let shown = |error: io::Error| format!("{}: {error}", out.display());
     if out.exists() && !force {
@@ -100,7 +102,9 @@ fn write(baked: &Baked, out: &Path, force: bool) -> Result<(), String> {
         fs::write(&path, &file.text).map_err(shown)?;
     }
     if !out.exists() {
-        return fs::rename(made.keep(), out).map_err(shown);
+        fs::rename(made.path(), out).map_err(shown)?;
+        let _ = made.keep();
+        return Ok(());
     }
     // Files of others in the folder stay.
     for file in &baked.files {

@@ -10,7 +10,7 @@ use precess_codegen::graph::Graph;
 use precess_codegen::kernel::{Record, parameters_of};
 use precess_codegen::kinds::{KINDS, Kind, Link};
 use precess_codegen::proof::{Row, prove_assumed};
-use precess_description::{Description, Device};
+use precess_description::{Body, Description, Device};
 
 use crate::assumed::assumed;
 use crate::error::BakeError;
@@ -19,7 +19,7 @@ use crate::{COMMAND, Operations};
 
 /// Devices that share a kernel.
 pub(crate) struct Shape<'a> {
-    /// The module and, for the compiler's sake, of the same name: the kind with what is locked.
+    /// The kind with joints that stand, under the name of the emitted module.
     pub(crate) kind: &'static Kind,
     /// As it is for everybody.
     pub(crate) general: &'static Kind,
@@ -38,6 +38,9 @@ pub(crate) struct Derived {
 /// Modules that every emitted crate has.
 const TAKEN: [&str; 8] = ["body", "check", "hub", "kernels", "mount", "real", "sin_cos", "solve"];
 
+/// Names that a spacecraft may not have: those of files and records that are emitted beside it.
+const NOT_OF_A_SPACECRAFT: [&str; 4] = ["alloc", "kernels", "proc_macro", "test_reference"];
+
 /// Operations of an evaluation of the hub by itself, as the suite `operations` counts them.
 const HUB: usize = 255;
 
@@ -47,6 +50,11 @@ const SUMS: usize = 36;
 /// The shapes of a spacecraft.
 pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeError> {
     let mut list: Vec<Shape<'_>> = Vec::new();
+    let own = description.name.as_str();
+    let reserved = NOT_OF_A_SPACECRAFT.contains(&own) || own.starts_with("precess");
+    if reserved || is_keyword(own) || own.contains("__") || own.ends_with('_') {
+        return Err(BakeError::Name(own.to_owned()));
+    }
     for device in &description.device {
         let known = KINDS.iter().find(|kind| kind.name == device.kind);
         let unknown = || BakeError::Kind(device.name.clone(), device.kind.clone());
@@ -54,6 +62,7 @@ pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeEr
         check(general, device)?;
         let assumed = assumed(general, device)?;
         let locked = locked(device);
+        has_inertia(general, device, &locked)?;
         let same = |shape: &&mut Shape<'_>| {
             let own = self::locked(shape.devices[0]);
             shape.general.name == general.name && shape.assumed == assumed && own == locked
@@ -65,7 +74,7 @@ pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeEr
         let links = general.links.iter().zip(&locked);
         let links: Vec<Link> =
             links.map(|(link, locked)| if *locked { link.locked() } else { *link }).collect();
-        let name = free_name(&device.name, &list);
+        let name = free_name(&device.name, own, &list);
         // A kind lives as long as the program: a few per call, and a call per program.
         let links = Box::leak(links.into_boxed_slice());
         let kind = Kind { name: Box::leak(name.into_boxed_str()), links, ..*general };
@@ -73,6 +82,21 @@ pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeEr
         list.push(Shape { kind, general, assumed, devices: vec![device] });
     }
     Ok(list)
+}
+
+/// Whether something moves with each joint that has a motor.
+fn has_inertia(kind: &Kind, device: &Device, locked: &[bool]) -> Result<(), BakeError> {
+    let something = |body: &Body| {
+        body.mass != 0.0 || body.inertia.as_flattened().iter().any(|entry| *entry != 0.0)
+    };
+    for (k, link) in kind.links.iter().enumerate() {
+        let moves = link.is_driven() && !locked[k];
+        if moves && !device.body[k..].iter().any(something) {
+            let (name, body) = (device.name.clone(), link.body.title);
+            return Err(BakeError::Massless(name, body.to_owned()));
+        }
+    }
+    Ok(())
 }
 
 /// Whether each joint is locked. Where all are, the last one stays a joint: a device without one has
@@ -88,10 +112,10 @@ fn locked(device: &Device) -> Vec<bool> {
 }
 
 /// The device's name without its number; with it, or with more, where that is taken.
-fn free_name(device: &str, list: &[Shape<'_>]) -> String {
+fn free_name(device: &str, spacecraft: &str, list: &[Shape<'_>]) -> String {
     let stem = device.trim_end_matches(|c: char| c.is_ascii_digit() || c == '_');
     let is_free = |name: &str| {
-        let keyword = syn_keyword(name) || TAKEN.contains(&name);
+        let keyword = is_keyword(name) || TAKEN.contains(&name) || name == spacecraft;
         !name.is_empty() && !keyword && list.iter().all(|shape| shape.kind.name != name)
     };
     let named = [stem, device].into_iter().find(|name| is_free(name)).map(str::to_owned);
@@ -100,16 +124,19 @@ fn free_name(device: &str, list: &[Shape<'_>]) -> String {
     named.or_else(numbered).unwrap_or_default()
 }
 
-/// Words that are no names in Rust or in C.
-fn syn_keyword(name: &str) -> bool {
-    const WORDS: [&str; 52] = [
-        "as", "async", "auto", "await", "box", "break", "case", "char", "const", "continue",
-        "crate", "default", "do", "double", "dyn", "else", "enum", "extern", "false", "float",
-        "fn", "for", "goto", "if", "impl", "in", "inline", "int", "let", "long", "loop", "match",
-        "mod", "move", "mut", "pub", "ref", "register", "restrict", "return", "self", "short",
-        "static", "struct", "super", "switch", "trait", "true", "type", "unsafe", "use", "while",
-    ];
-    WORDS.contains(&name)
+/// Words that are no names in Rust, C or C++.
+pub(crate) fn is_keyword(name: &str) -> bool {
+    const WORDS: &str = "\
+        abstract alignas alignof and and_eq as asm async auto await become bitand bitor bool box \
+        break case catch char class compl const constexpr continue core crate decltype default \
+        delete do double dyn else enum explicit export extern false final float fn for friend \
+        gen goto if impl in inline int let long loop macro main match mod move mut mutable \
+        namespace new noexcept not not_eq nullptr operator or or_eq override priv private \
+        protected pub public ref register restrict return self short signed sizeof static \
+        static_assert std struct super switch template test this thread_local throw trait true \
+        try type typedef typeid typename typeof union unsafe unsigned unsized use using virtual \
+        void volatile wchar_t where while xor xor_eq yield";
+    WORDS.split_whitespace().any(|word| word == name)
 }
 
 impl Shape<'_> {
@@ -145,6 +172,13 @@ impl Shape<'_> {
         }
         for link in self.kind.links.iter().filter(|link| link.is_locked()) {
             lines.push(format!("{of}: the {} is locked for good", link.body.title));
+        }
+        if self.devices[0].body.iter().all(|body| body.locked_at.is_some()) {
+            let last = self.kind.links.last().map_or("", |link| link.body.title);
+            lines.push(format!(
+                "{of}: the {last} stays a joint, since all are locked; give its coordinate, a rate of \
+                 zero and an acceleration of zero"
+            ));
         }
         lines
     }

@@ -204,15 +204,24 @@ fn broken(shape: &Shape<'_>) -> Option<Broken> {
     let parameter = list.iter().find(zero)?;
     let place = written(parameter.place);
     let scale = match parameter.place {
-        Place::Inertia(k, ..) => format!("1e-12 * b[{k}].inertia[0][0]"),
+        // Well above the bound, and far below what the body has.
+        Place::Inertia(..) => float(1e-12 * parameter.place.scale(shape.devices[0])),
         _ => "1e-12".to_owned(),
     };
     let module = shape.kind.name;
+    // An inertia stays symmetric.
+    let mut change = format!("{place} = {scale};");
+    if let Place::Inertia(k, row, column) = parameter.place
+        && row != column
+    {
+        let other = written(Place::Inertia(k, column, row));
+        change = format!("{change} {other} = {scale};");
+    }
     Some(Broken {
         name: format!("{module}_with_{}", parameter.name),
         module,
         parameter: parameter.name.clone(),
-        change_c: format!("{place} = {scale};"),
-        change: format!("let b = &mut parameters.{module}[0].bodies; {place} = {scale};"),
+        change_c: change.clone(),
+        change: format!("let b = &mut parameters.{module}[0].bodies; {change}"),
     })
 }

@@ -335,7 +335,8 @@ pub(crate) fn whole(
     });
     let mut context = Context::new();
     let title = if description.title.is_empty() { &description.name } else { &description.title };
-    context.insert("title", title);
+    // Brackets and ends of comments would be those of the templates, or of C.
+    context.insert("title", &title.replace(['⟦', '⟧'], "").replace("*/", "* /"));
     context.insert("name", &description.name);
     context.insert("package", &description.name.replace('_', "-"));
     let lines: Vec<_> = shapes.iter().flat_map(Shape::assumptions).collect();
@@ -348,6 +349,8 @@ pub(crate) fn whole(
     context.insert("upper", &description.name.to_uppercase());
     let turned = shapes.iter().any(|shape| shape.assumed.mount != Mount::Any);
     context.insert("any_turned", &turned);
+    let driven = shapes.iter().any(|shape| shape.kind.driven().next().is_some());
+    context.insert("any_driven", &driven);
     let scales: Vec<_> = shapes.iter().flat_map(checks).map(|check| check.scale).collect();
     context.insert("lengths", &scales.iter().any(|scale| scale == "length"));
     context.insert("traces", &scales.iter().any(|scale| scale.starts_with("trace")));

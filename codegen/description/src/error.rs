@@ -13,6 +13,8 @@ pub enum DescriptionError {
     Format(u32),
     /// No identifier.
     Name(String),
+    /// A title with a control character.
+    Title,
     /// No device.
     NoDevice,
     /// Two devices of one name.
@@ -40,18 +42,24 @@ impl fmt::Display for DescriptionError {
                 "`{name}` is no name in code: begin with a lower-case letter, go on with those, \
                  digits and `_`"
             ),
+            Self::Title => {
+                write!(f, "the title contains a control character; write it in one line")
+            }
             Self::NoDevice => write!(f, "there is no device: a rigid hub needs no kernel"),
             Self::Twice(name) => write!(f, "two devices are called `{name}`: rename one"),
             Self::NotFinite(of, key, value) => {
                 write!(f, "{of}: {key} contains {value}; state a finite number")
             }
             Self::NotPositive(of, key, value) => {
-                write!(f, "{of}: {key} is {value}; it must be above zero")
+                write!(
+                    f,
+                    "{of}: {key} is {value}; a mass must be above zero, and no moment of inertia below it"
+                )
             }
             Self::NotSymmetric(of) => write!(f, "{of}: inertia is not symmetric"),
             Self::Mount(of) => write!(
                 f,
-                "{of}: the columns of mount are not orthonormal within 1e-9; state more digits"
+                "{of}: the columns of mount are not those of a rotation within 4096 epsilons; state more digits"
             ),
         }
     }

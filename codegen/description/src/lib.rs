@@ -106,6 +106,10 @@ impl Description {
             return Err(DescriptionError::Format(self.format));
         }
         is_name(&self.name)?;
+        // A heading stands in comments of the emitted files.
+        if self.title.chars().any(char::is_control) {
+            return Err(DescriptionError::Title);
+        }
         if self.device.is_empty() {
             return Err(DescriptionError::NoDevice);
         }
@@ -132,22 +136,28 @@ impl Device {
         let dot = |a: usize, b: usize| self.mount.iter().map(|row| row[a] * row[b]).sum::<f64>();
         let off = (0..3).flat_map(|a| (a..3).map(move |b| (a, b)));
         let off = off.map(|(a, b)| (dot(a, b) - f64::from(u8::from(a == b))).abs());
-        if off.fold(0.0, f64::max) > ORTHONORMAL {
+        let [[a, b, c], [d, e, f], [g, h, i]] = self.mount;
+        let determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
+        if off.fold(0.0, f64::max) > ORTHONORMAL || determinant < 0.0 {
             return Err(DescriptionError::Mount(name.clone()));
         }
         for body in &self.body {
             numbers(name, "mass", &[body.mass])?;
+            not_negative(name, "mass", body.mass)?;
             numbers(name, "origin", &body.origin)?;
             numbers(name, "centre_of_mass", &body.centre_of_mass)?;
             symmetric(name, &body.inertia)?;
+            for axis in 0..3 {
+                not_negative(name, "inertia", body.inertia[axis][axis])?;
+            }
             numbers(name, "locked_at", &body.locked_at.map_or([0.0], |at| [at]))?;
         }
         Ok(())
     }
 }
 
-/// How far the columns of a mount may be from orthonormal: what ten digits leave.
-const ORTHONORMAL: f64 = 1e-9;
+/// How far the columns of a mount may be from orthonormal, as for the general kernels.
+const ORTHONORMAL: f64 = 4096.0 * f64::EPSILON;
 
 fn is_name(name: &str) -> Result<(), DescriptionError> {
     let starts = name.chars().next().is_some_and(|c| c.is_ascii_lowercase());
@@ -162,6 +172,13 @@ fn numbers(of: &str, key: &'static str, values: &[f64]) -> Result<(), Descriptio
 
 fn above_zero(of: &str, key: &'static str, value: f64) -> Result<(), DescriptionError> {
     if value > 0.0 { Ok(()) } else { Err(DescriptionError::NotPositive(of.to_owned(), key, value)) }
+}
+
+fn not_negative(of: &str, key: &'static str, value: f64) -> Result<(), DescriptionError> {
+    if value < 0.0 {
+        return Err(DescriptionError::NotPositive(of.to_owned(), key, value));
+    }
+    Ok(())
 }
 
 fn symmetric(of: &str, inertia: &[[f64; 3]; 3]) -> Result<(), DescriptionError> {
@@ -206,7 +223,7 @@ mod tests {
     #[test]
     fn each_bad_value_is_named() {
         type Spoil = fn(&mut Description);
-        let cases: [(Spoil, &str); 9] = [
+        let cases: [(Spoil, &str); 12] = [
             (|d| d.format = 2, "format 2"),
             (|d| d.name = "../x".to_owned(), "../x"),
             (|d| d.device.clear(), "no device"),
@@ -214,6 +231,9 @@ mod tests {
             (|d| d.hub.centre_of_mass[1] = f64::NAN, "hub: centre_of_mass"),
             (|d| d.device.push(d.device[0].clone()), "wheel"),
             (|d| d.device[0].mount[0][0] = 0.9, "mount"),
+            (|d| d.device[0].mount[2][2] = -1.0, "mount"),
+            (|d| d.device[0].body[0].mass = -1.0, "mass"),
+            (|d| d.title.push('\n'), "title"),
             (|d| d.device[0].body[0].inertia[0][1] = 1.0, "symmetric"),
             (|d| d.device[0].body[0].locked_at = Some(f64::INFINITY), "locked_at"),
         ];

@@ -8,8 +8,8 @@
 use std::collections::HashMap;
 
 use super::{EmittedError, Prover, Row};
-use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
+use crate::derivation::{Share, by_body};
 use crate::emit::EmittedFile;
 use crate::graph::{Expr, Graph, Node, NodeId, Stage};
 use crate::kinds::Kind;
@@ -40,6 +40,11 @@ fn substituted<'g>(chain: &Chain<'g>, general: &'static Kind) -> Vec<Row> {
     let whole = by_body::share(&Chain::new(&graph, general));
     let put = Substitution::new(chain, general);
     let made = by_body::share(chain);
+    let sizes = |share: &Share<'_>| {
+        let entries = share.joint.iter().map(Vec::len).sum::<usize>();
+        [share.force.len(), share.moment.len(), share.bias_joint.len(), entries]
+    };
+    assert_eq!(sizes(&made), sizes(&whole), "both have the joints of the kind");
     let mut ring = Ring::new(chain.graph);
     let mut rows = Vec::new();
     let mut row = |tag: &str, name: &str, pairs: Vec<(Expr<'g>, Expr<'g>)>| {

@@ -60,6 +60,9 @@ impl Bake {
             print(&text);
             return Ok(ExitCode::SUCCESS);
         }
+        for left in scenario.not_described() {
+            eprintln!("note: {left} is not part of the kernels; add it to torques and forces");
+        }
         let out = self.out.clone().unwrap_or_else(|| self.file.with_file_name(&description.name));
         self.derive(&text, &out)
     }
@@ -80,7 +83,13 @@ impl Bake {
         })?;
         let io = |source| CommandError::Io { path: PROGRAM.into(), source };
         if let Some(mut input) = child.stdin.take() {
-            input.write_all(description.as_bytes()).map_err(io)?;
+            // A program that ends before it has read all says why itself.
+            match input.write_all(description.as_bytes()) {
+                Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+                    return Err(io(error));
+                }
+                _ => {}
+            }
         }
         let status = child.wait().map_err(io)?;
         Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })

@@ -6,8 +6,8 @@
 
 use nalgebra::Matrix3;
 use precess_description::{Body, Description, Device, FORMAT, Hub};
-use precess_dynamics::HubMode;
 use precess_dynamics::kind::ImbalanceModel;
+use precess_dynamics::{Gravity, HubMode, Passive};
 
 use super::{Drive, Scenario};
 
@@ -86,6 +86,23 @@ impl Scenario {
         };
         let name = self.name.replace('-', "_");
         Ok(Description { format: FORMAT, name, title: self.title.clone(), hub, device })
+    }
+
+    /// What acts on the spacecraft of this scenario and is no part of a description.
+    pub fn not_described(&self) -> Vec<String> {
+        let acts = |device: &precess_dynamics::BuiltIn| {
+            device.parameters().passive.iter().any(|passive| *passive != Passive::none())
+        };
+        let passive = self.devices.iter().zip(&self.names).filter(|(device, _)| acts(device));
+        let mut list: Vec<_> =
+            passive.map(|(_, name)| format!("spring, damper or friction of {name}")).collect();
+        if self.gravity != Gravity::None {
+            list.push("gravity".to_owned());
+        }
+        if !self.wrenches.is_empty() {
+            list.push("a wrench from outside".to_owned());
+        }
+        list
     }
 
     /// Whether a joint is locked from the start, and nothing releases it.

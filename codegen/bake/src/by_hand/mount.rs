@@ -46,11 +46,5 @@ pub(crate) fn turned(
             vanishes("mount", "of the turns stated", own - made, 1.0)?;
         }
     }
-    // The columns are of length one, as those of any mount.
-    vanishes("mount", "a rotation", cos_a * cos_a + sin_a * sin_a - 1.0, ROTATION)?;
-    vanishes("mount", "a rotation", cos_b * cos_b + sin_b * sin_b - 1.0, ROTATION)?;
     Ok(Turned { sin_a, cos_a, sin_b, cos_b })
 }
-
-/// Ten digits, in units of epsilon.
-const ROTATION: f64 = 1e5;

@@ -86,7 +86,7 @@ pub fn of_chain(chain: &Chain<'_>, command: &str) -> Result<Vec<EmittedFile>, Em
     let written = functions.iter().zip(&bodies).map(|(part, body)| FunctionText {
         signature: declaration::head(kind.name, part),
         sections: body.iter().map(section).collect(),
-        result: results(part, &part.output, "out->"),
+        result: unread(part, body).chain(results(part, &part.output, "out->")).collect(),
     });
     let header = format!("precess_{}.h", kind.name);
     let mut context = Context::new();
@@ -178,6 +178,18 @@ fn sections(kind: &Kind, part: &Part) -> Result<Sections, EmitError> {
 fn section((title, statements): &(String, Vec<String>)) -> SectionText {
     let lines = statements.iter().flat_map(|statement| expression::lines(statement, 4));
     SectionText { title: declaration::title(title), lines: lines.collect() }
+}
+
+/// Arguments that Rust reads for the type of a constant only: in C, which has one type, not at all.
+fn unread<'a>(part: &'a Part, body: &'a Sections) -> impl Iterator<Item = String> + 'a {
+    let unread = |letter: &&str| {
+        let read = format!("{letter}->");
+        let copied = format!("{letter}.");
+        !body.iter().flat_map(|(_, lines)| lines).any(|line| line.contains(&read))
+            && !part.body.copies.values().any(|value| value.starts_with(&copied))
+    };
+    let letters = part.inputs.iter().map(|(letter, _)| *letter);
+    letters.filter(move |letter| unread(letter)).map(|letter| format!("(void){letter};"))
 }
 
 /// The assignments that fill the record at `place`.

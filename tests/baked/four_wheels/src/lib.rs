@@ -64,7 +64,7 @@ pub mod wheel_z;
 
 #[rustfmt::skip]
 pub mod wheel_skew;
-use core::fmt;
+use ::core::fmt;
 
 pub use body::{Body, Drive, Hub};
 
@@ -183,7 +183,7 @@ impl fmt::Display for Error {
     }
 }
 
-impl core::error::Error for Error {}
+impl ::core::error::Error for Error {}
 
 impl Spacecraft {
     /// Checks the assumptions and computes what depends on parameters only.
@@ -191,7 +191,7 @@ impl Spacecraft {
     /// # Errors
     /// With the first parameter that is not what was assumed, or not finite.
     pub fn new(parameters: &Parameters) -> Result<Self, Assumption> {
-        check::finite_hub(&parameters.hub)?;
+        check::possible_hub(&parameters.hub)?;
         let mut body = RigidBody::new(&parameters.hub);
         let mut number = 0;
         let mut failed = None;

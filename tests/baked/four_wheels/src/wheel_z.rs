@@ -8,7 +8,7 @@
 //! - wheel_z: the mount is whole quarter turns about the axes of B
 
 use crate::body::{Body, Drive, Joint, outboard};
-use crate::check::{Assumption, along_device, finite_device, length, trace, vanishes};
+use crate::check::{Assumption, along_device, possible_device, length, trace, vanishes};
 use crate::kernels::hub::{BodyAcceleration, BodyRate, ConstantShare, HubShare};
 use crate::kernels::wheel_z as kernels;
 use crate::mount::{Exchange, turned};
@@ -66,7 +66,7 @@ impl Constants {
         device: &Device,
     ) -> Result<(Self, ConstantShare<f64>), Assumption> {
         let (m, b) = (&device.mount, &device.bodies);
-        finite_device(m, b)?;
+        possible_device(m, b)?;
         let origin = along_device(m, b[0].origin);
         let length = length(b);
         turned(m, &OUTER, &INNER, 0)?;

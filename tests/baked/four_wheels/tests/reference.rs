@@ -8,7 +8,7 @@
     clippy::approx_constant,
     reason = "numbers of a spacecraft, whatever they are near"
 )]
-use four_wheels::*;
+use ::four_wheels::*;
 
 /// The spacecraft as it was described.
 fn parameters() -> Parameters {
@@ -316,7 +316,8 @@ fn all_joints_prescribed() {
 fn wheel_x_with_j_23_is_refused() {
     let mut parameters = parameters();
     let b = &mut parameters.wheel_x[0].bodies;
-    b[0].inertia[1][2] = 1e-12 * b[0].inertia[0][0];
+    b[0].inertia[1][2] = 1.51e-14;
+    b[0].inertia[2][1] = 1.51e-14;
     let refused = Spacecraft::new(&parameters).unwrap_err();
     assert_eq!(refused.device, ("wheel_x", 0));
     assert_eq!(refused.parameter, "j_23");
@@ -326,7 +327,8 @@ fn wheel_x_with_j_23_is_refused() {
 fn wheel_y_with_j_23_is_refused() {
     let mut parameters = parameters();
     let b = &mut parameters.wheel_y[0].bodies;
-    b[0].inertia[1][2] = 1e-12 * b[0].inertia[0][0];
+    b[0].inertia[1][2] = 1.51e-14;
+    b[0].inertia[2][1] = 1.51e-14;
     let refused = Spacecraft::new(&parameters).unwrap_err();
     assert_eq!(refused.device, ("wheel_y", 0));
     assert_eq!(refused.parameter, "j_23");
@@ -336,7 +338,8 @@ fn wheel_y_with_j_23_is_refused() {
 fn wheel_z_with_j_23_is_refused() {
     let mut parameters = parameters();
     let b = &mut parameters.wheel_z[0].bodies;
-    b[0].inertia[1][2] = 1e-12 * b[0].inertia[0][0];
+    b[0].inertia[1][2] = 1.51e-14;
+    b[0].inertia[2][1] = 1.51e-14;
     let refused = Spacecraft::new(&parameters).unwrap_err();
     assert_eq!(refused.device, ("wheel_z", 0));
     assert_eq!(refused.parameter, "j_23");
@@ -346,7 +349,8 @@ fn wheel_z_with_j_23_is_refused() {
 fn wheel_skew_with_j_23_is_refused() {
     let mut parameters = parameters();
     let b = &mut parameters.wheel_skew[0].bodies;
-    b[0].inertia[1][2] = 1e-12 * b[0].inertia[0][0];
+    b[0].inertia[1][2] = 1.51e-14;
+    b[0].inertia[2][1] = 1.51e-14;
     let refused = Spacecraft::new(&parameters).unwrap_err();
     assert_eq!(refused.device, ("wheel_skew", 0));
     assert_eq!(refused.parameter, "j_23");

@@ -12,7 +12,7 @@
 
 use crate::body::{Body, Drive, Joint, outboard};
 use crate::check::{
-    Assumption, along_device, finite_device, finite, length, trace, vanishes,
+    Assumption, along_device, possible_device, finite, length, trace, vanishes,
 };
 use crate::kernels::hub::{BodyAcceleration, BodyRate, ConstantShare, HubShare};
 use crate::kernels::cmg as kernels;
@@ -79,7 +79,7 @@ impl Constants {
         device: &Device,
     ) -> Result<(Self, ConstantShare<f64>), Assumption> {
         let (m, b) = (&device.mount, &device.bodies);
-        finite_device(m, b)?;
+        possible_device(m, b)?;
         finite("gamma_o", [device.gamma_o])?;
         finite("gamma_i", [device.gamma_i])?;
         let origin = along_device(m, b[0].origin);

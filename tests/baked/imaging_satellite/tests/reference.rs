@@ -8,7 +8,7 @@
     clippy::approx_constant,
     reason = "numbers of a spacecraft, whatever they are near"
 )]
-use imaging_satellite::*;
+use ::imaging_satellite::*;
 
 /// The spacecraft as it was described.
 fn parameters() -> Parameters {

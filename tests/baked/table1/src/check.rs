@@ -28,6 +28,12 @@ impl Assumption {
 impl fmt::Display for Assumption {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { device: (shape, number), parameter, assumed, off, bound } = self;
+        if ["finite", "not negative", "symmetric", "a rotation"].contains(assumed) {
+            return write!(
+                f,
+                "device {number} of {shape}: {parameter} is to be {assumed}; correct it"
+            );
+        }
         write!(
             f,
             "device {number} of {shape}: {parameter} was assumed {assumed} and is off by {off:e}, more \
@@ -62,8 +68,9 @@ pub(crate) fn finite(
     numbers.try_for_each(|number| vanishes(parameter, "finite", number - number, 1.0))
 }
 
-/// Passes the numbers of a device that are finite.
-pub(crate) fn finite_device(
+/// Passes a device with finite numbers, a rotation for its mount, and masses and inertias that a body
+/// can have.
+pub(crate) fn possible_device(
     mount: &[[f64; 3]; 3],
     bodies: &[crate::body::Body],
 ) -> Result<(), Assumption> {
@@ -71,18 +78,52 @@ pub(crate) fn finite_device(
     finite("mass", bodies.iter().map(|body| body.mass))?;
     finite("origin", bodies.iter().flat_map(|body| body.origin))?;
     finite("centre_of_mass", bodies.iter().flat_map(|body| body.centre_of_mass))?;
-    finite("inertia", bodies.iter().flat_map(|body| body.inertia).flatten())
+    finite("inertia", bodies.iter().flat_map(|body| body.inertia).flatten())?;
+    rotation(mount)?;
+    bodies.iter().try_for_each(|body| {
+        not_negative("mass", body.mass)?;
+        possible(&body.inertia)
+    })
 }
 
-/// Passes a hub whose numbers are finite.
-pub(crate) fn finite_hub(hub: &crate::body::Hub) -> Result<(), Assumption> {
+/// Passes columns that are orthonormal within 4096 epsilons and right-handed.
+fn rotation(m: &[[f64; 3]; 3]) -> Result<(), Assumption> {
+    for a in 0..3 {
+        for b in a..3 {
+            let [x, y, z] = m.map(|row| row[a] * row[b]);
+            let unit = if a == b { 1.0 } else { 0.0 };
+            vanishes("mount", "a rotation", x + y + z - unit, 1024.0)?;
+        }
+    }
+    let [[a, b, c], [d, e, f], [g, h, i]] = *m;
+    not_negative("mount", a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))
+}
+
+/// Passes a symmetric inertia without a negative moment.
+fn possible(i: &[[f64; 3]; 3]) -> Result<(), Assumption> {
+    for (row, column) in [(0, 1), (0, 2), (1, 2)] {
+        vanishes("inertia", "symmetric", i[row][column] - i[column][row], trace(i))?;
+    }
+    (0..3).try_for_each(|axis| not_negative("inertia", i[axis][axis]))
+}
+
+/// Passes what is not below zero.
+fn not_negative(parameter: &'static str, number: f64) -> Result<(), Assumption> {
+    let below = if number < 0.0 { number } else { 0.0 };
+    vanishes(parameter, "not negative", below, 0.0)
+}
+
+/// Passes a hub with finite numbers and with a mass and an inertia that a body can have.
+pub(crate) fn possible_hub(hub: &crate::body::Hub) -> Result<(), Assumption> {
     let of_hub = |mut assumption: Assumption| {
         assumption.device = ("hub", 0);
         assumption
     };
     finite("mass", [hub.mass]).map_err(of_hub)?;
     finite("centre_of_mass", hub.centre_of_mass).map_err(of_hub)?;
-    finite("inertia", hub.inertia.iter().copied().flatten()).map_err(of_hub)
+    finite("inertia", hub.inertia.iter().copied().flatten()).map_err(of_hub)?;
+    not_negative("mass", hub.mass).map_err(of_hub)?;
+    possible(&hub.inertia).map_err(of_hub)
 }
 
 /// The largest offset of a device.

@@ -43,7 +43,7 @@ pub mod kernels;
 
 #[rustfmt::skip]
 pub mod cmg;
-use core::fmt;
+use ::core::fmt;
 
 pub use body::{Body, Drive, Hub};
 
@@ -135,7 +135,7 @@ impl fmt::Display for Error {
     }
 }
 
-impl core::error::Error for Error {}
+impl ::core::error::Error for Error {}
 
 impl Spacecraft {
     /// Checks the assumptions and computes what depends on parameters only.
@@ -143,7 +143,7 @@ impl Spacecraft {
     /// # Errors
     /// With the first parameter that is not what was assumed, or not finite.
     pub fn new(parameters: &Parameters) -> Result<Self, Assumption> {
-        check::finite_hub(&parameters.hub)?;
+        check::possible_hub(&parameters.hub)?;
         let mut body = RigidBody::new(&parameters.hub);
         let mut number = 0;
         let mut failed = None;

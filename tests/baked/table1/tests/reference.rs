@@ -8,7 +8,7 @@
     clippy::approx_constant,
     reason = "numbers of a spacecraft, whatever they are near"
 )]
-use table1::*;
+use ::table1::*;
 
 /// The spacecraft as it was described.
 fn parameters() -> Parameters {
