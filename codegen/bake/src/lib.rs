@@ -1,7 +1,7 @@
 //! Kernels of one spacecraft: derived, proven and emitted with what its parameters say beforehand.
 //!
 //! A spacecraft knows more than a kind: offsets that are zero, moments that are equal, mounts that
-//! are whole or a few turns, joints that are locked for good, devices that are alike. [`bake`] finds
+//! are none or a few turns, joints that are locked for good, devices that are alike. [`bake`] finds
 //! that in a [`Description`], derives each kernel with it by the same generator, proves what it
 //! emits against the general derivation under the same substitution, and lays out a crate without
 //! dependencies or C99. Values stay parameters: the emitted constructor takes them, and refuses those

@@ -89,6 +89,7 @@ impl Scenario {
     }
 
     /// What acts on the spacecraft of this scenario and is no part of a description.
+    #[must_use]
     pub fn not_described(&self) -> Vec<String> {
         let acts = |device: &precess_dynamics::BuiltIn| {
             device.parameters().passive.iter().any(|passive| *passive != Passive::none())
