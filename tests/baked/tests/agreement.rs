@@ -83,6 +83,9 @@ struct Joint {
     given: f64,
 }
 
+/// Accelerations of B, angular acceleration, and those of each joint of each device.
+type Found = ([f64; 3], [f64; 3], Vec<Vec<f64>>);
+
 /// A random state of a spacecraft and what acts on it.
 struct Drawn {
     omega: [f64; 3],
@@ -96,13 +99,13 @@ fn drawn(description: &Description, seed: u32) -> Drawn {
     let mut draws = Draws(u64::from(seed) * 977 + 5);
     let joints = description.device.iter().map(|device| {
         let tip = device.body.len() - 1;
-        let joint = |(k, body): (usize, &precess_description::Body)| match body.locked_at {
-            Some(at) => Joint { at: [at, 0.0], torque: false, given: 0.0 },
-            None => {
-                let rate = if k == tip { 600.0 } else { 5.0 } * draws.next();
-                let torque = draws.next() > -0.5;
-                Joint { at: [20.0 * draws.next(), rate], torque, given: draws.next() }
+        let joint = |(k, body): (usize, &precess_description::Body)| {
+            if let Some(at) = body.locked_at {
+                return Joint { at: [at, 0.0], torque: false, given: 0.0 };
             }
+            let rate = if k == tip { 600.0 } else { 5.0 } * draws.next();
+            let torque = draws.next() > -0.5;
+            Joint { at: [20.0 * draws.next(), rate], torque, given: draws.next() }
         };
         device.body.iter().enumerate().map(joint).collect()
     });
@@ -116,7 +119,7 @@ fn expected(
     spacecraft: &Spacecraft<Set>,
     description: &Description,
     drawn: &Drawn,
-) -> Option<([f64; 3], [f64; 3], Vec<Vec<f64>>)> {
+) -> Option<Found> {
     let mut state: State<Set, Quaternion> = State::at_rest_for(spacecraft);
     let mut inputs = Inputs::none_for(spacecraft);
     state.omega = Vector3::from(drawn.omega);
@@ -190,11 +193,7 @@ macro_rules! drive {
 }
 
 /// Holds every random state of a spacecraft against the general solver.
-fn agree(
-    name: &str,
-    description: &Description,
-    found: impl Fn(&Drawn) -> Option<([f64; 3], [f64; 3], Vec<Vec<f64>>)>,
-) {
+fn agree(name: &str, description: &Description, found: impl Fn(&Drawn) -> Option<Found>) {
     let spacecraft = general(description);
     let (mut worst, mut solved) = (0.0_f64, 0);
     for seed in 0..STATES {

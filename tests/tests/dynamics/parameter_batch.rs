@@ -141,7 +141,10 @@ fn each_spacecraft_has_its_own_error() {
 }
 
 /// The largest difference of any acceleration, over the largest acceleration.
-pub(super) fn difference<D: Devices<Scalar = f64>>(a: &Accelerations<D>, b: &Accelerations<D>) -> f64 {
+pub(super) fn difference<D: Devices<Scalar = f64>>(
+    a: &Accelerations<D>,
+    b: &Accelerations<D>,
+) -> f64 {
     let numbers = |of: &Accelerations<D>| -> Vec<f64> {
         let hub = of.r_b_n_ddot.iter().chain(&of.omega_dot).copied();
         hub.chain(of.devices.values()).collect()
