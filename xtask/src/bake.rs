@@ -53,6 +53,11 @@ impl Options {
 /// Derives, proves and writes, or compares.
 pub(crate) fn bake(options: &Options) -> Result<(), String> {
     let Some(file) = &options.file else { return all(options.check) };
+    // As the caller sees them: cargo runs in the root.
+    let here = |path: &Path| {
+        std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    let file = &here(file)?;
     let text = if options.scenario { described(file)? } else { read(file)? };
     let description = parsed(file, &text)?;
     let language = match options.language {
@@ -60,8 +65,10 @@ pub(crate) fn bake(options: &Options) -> Result<(), String> {
         Written::C => Language::C,
     };
     let baked = derive(&description, language).map_err(|error| error.to_string())?;
-    let out =
-        options.out.clone().unwrap_or_else(|| Path::new("target/baked").join(&description.name));
+    let out = match &options.out {
+        Some(out) => here(out)?,
+        None => root().join("target/baked").join(&description.name),
+    };
     write(&baked, &out)?;
     report(&baked, &out);
     Ok(())
