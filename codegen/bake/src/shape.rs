@@ -35,8 +35,30 @@ pub(crate) struct Derived {
     pub(crate) proof: Vec<Row>,
 }
 
-/// Modules that every emitted crate has.
-const TAKEN: [&str; 8] = ["body", "check", "hub", "kernels", "mount", "real", "sin_cos", "solve"];
+/// Modules of every emitted crate, fields of its records and locals of its functions.
+const TAKEN: [&str; 21] = [
+    "assembly",
+    "body",
+    "check",
+    "failed",
+    "finite",
+    "fmt",
+    "force",
+    "found",
+    "hub",
+    "inputs",
+    "kernels",
+    "mount",
+    "number",
+    "omega",
+    "omega_dot",
+    "parameters",
+    "r_b_n_ddot",
+    "real",
+    "sin_cos",
+    "solve",
+    "torque_b",
+];
 
 /// Names that a spacecraft may not have: those of files and records that are emitted beside it.
 const NOT_OF_A_SPACECRAFT: [&str; 4] = ["alloc", "kernels", "proc_macro", "test_reference"];

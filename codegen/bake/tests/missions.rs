@@ -85,10 +85,15 @@ fn a_device_that_breaks_its_kind_is_refused() {
 #[test]
 fn names_of_devices_are_names_of_modules() {
     let mut description = description("four_wheels");
-    for (device, name) in description.device.iter_mut().zip(["solve", "fn1", "body", "x_1"]) {
+    for (device, name) in description.device.iter_mut().zip(["solve", "fn1", "omega", "x_1"]) {
         name.clone_into(&mut device.name);
     }
     let baked = baked(&description, Language::Rust);
+    // A second field of the state would be called as the first.
+    let modules = ["src/solve.rs", "src/fn1.rs", "src/omega_1.rs", "src/x.rs"];
+    for module in modules {
+        assert!(baked.files.iter().any(|file| file.path == module), "{module} is missing");
+    }
     for file in &baked.files {
         let path = Path::new(&file.path);
         if path.extension().is_some_and(|end| end == "rs") {
