@@ -5,9 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use precess_bake::{Baked, Description, Language, bake as derive};
 
+use crate::files::{differing, write};
 use crate::run::{root, say};
 
 /// The folder of the spacecraft that the tests know.
@@ -27,25 +28,17 @@ pub(crate) struct Options {
     #[arg(long, value_name = "DIR", requires = "file")]
     out: Option<PathBuf>,
     /// What to write
-    #[arg(long, value_enum, default_value_t = Written::Rust, requires = "file")]
-    language: Written,
+    #[arg(long, value_enum, default_value_t = Language::Rust, requires = "file")]
+    language: Language,
     /// Write nothing; fail if a committed file is stale
     #[arg(long, conflicts_with_all = ["file", "out"])]
     check: bool,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Written {
-    /// A crate without dependencies
-    Rust,
-    /// C99
-    C,
-}
-
 impl Options {
     /// Nothing is written.
     pub(crate) fn check_only() -> Self {
-        let language = Written::Rust;
+        let language = Language::Rust;
         Self { file: None, scenario: false, out: None, language, check: true }
     }
 }
@@ -60,16 +53,12 @@ pub(crate) fn bake(options: &Options) -> Result<(), String> {
     let file = &here(file)?;
     let text = if options.scenario { described(file)? } else { read(file)? };
     let description = parsed(file, &text)?;
-    let language = match options.language {
-        Written::Rust => Language::Rust,
-        Written::C => Language::C,
-    };
-    let baked = derive(&description, language).map_err(|error| error.to_string())?;
+    let baked = derive(&description, options.language).map_err(|error| error.to_string())?;
     let out = match &options.out {
         Some(out) => here(out)?,
         None => root().join("target/baked").join(&description.name),
     };
-    write(&baked, &out)?;
+    write(&baked.files, &out)?;
     report(&baked, &out);
     Ok(())
 }
@@ -81,26 +70,22 @@ fn all(check: bool) -> Result<(), String> {
         fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut folders: Vec<_> = entries.filter_map(|entry| entry.ok().map(|e| e.path())).collect();
     folders.sort();
-    let mut stale = Vec::new();
+    let mut stale = 0;
     for folder in folders.iter().filter(|folder| folder.join(DESCRIPTION).is_file()) {
         let file = folder.join(DESCRIPTION);
         let description = parsed(&file, &read(&file)?)?;
         let baked = derive(&description, Language::Rust).map_err(|error| error.to_string())?;
         if check {
-            let differs = |path: &str, text: &str| {
-                fs::read_to_string(folder.join(path)).map_or(true, |found| found != text)
-            };
-            let files = baked.files.iter().filter(|file| differs(&file.path, &file.text));
-            stale.extend(files.map(|file| format!("{}/{}", description.name, file.path)));
+            stale += differing(&baked.files, folder);
         } else {
-            write(&baked, folder)?;
+            write(&baked.files, folder)?;
         }
         report(&baked, folder);
     }
-    if stale.is_empty() {
+    if stale == 0 {
         return Ok(());
     }
-    Err(format!("stale in {FOLDER}: {}; run `cargo xtask bake`", stale.join(", ")))
+    Err(format!("{stale} files in {FOLDER} are stale; run `cargo xtask bake`"))
 }
 
 /// What the desktop tool says of a scenario's spacecraft.
@@ -122,18 +107,6 @@ fn read(file: &Path) -> Result<String, String> {
 
 fn parsed(file: &Path, text: &str) -> Result<Description, String> {
     Description::read(text).map_err(|error| format!("{}: {error}", file.display()))
-}
-
-fn write(baked: &Baked, out: &Path) -> Result<(), String> {
-    for file in &baked.files {
-        let path = root().join(out).join(&file.path);
-        let shown = |error: std::io::Error| format!("{}: {error}", path.display());
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder).map_err(shown)?;
-        }
-        fs::write(&path, &file.text).map_err(shown)?;
-    }
-    Ok(())
 }
 
 fn report(baked: &Baked, out: &Path) {

@@ -4,17 +4,27 @@ use precess_codegen::derivation::chain::Chain;
 use precess_codegen::emit::{EmittedFile, c as emit_c};
 use precess_codegen::graph::Graph;
 use precess_description::Description;
-use tera::{Context, Tera};
+use tera::Context;
 
 use crate::error::BakeError;
 use crate::numbers::c;
 use crate::shape::{Derived, Shape};
 use crate::test_values::reference;
 use crate::values::{device, whole};
-use crate::{COMMAND, Operations};
+use crate::{COMMAND, Operations, templates};
 
 /// A line of the list of assumptions is at most this wide.
 const WIDTH: usize = 96;
+
+/// The templates.
+const TEMPLATES: [(&str, &str); 6] = [
+    ("shape.h", include_str!("templates/shape.h.tera")),
+    ("shape.c", include_str!("templates/shape.c.tera")),
+    ("whole.h", include_str!("templates/whole.h.tera")),
+    ("whole.c", include_str!("templates/whole.c.tera")),
+    ("test.c", include_str!("templates/test.c.tera")),
+    ("README.md", include_str!("templates/README.md.tera")),
+];
 
 /// The files.
 pub(crate) fn files(
@@ -23,7 +33,7 @@ pub(crate) fn files(
     derived: &[Derived],
     operations: Operations,
 ) -> Result<Vec<EmittedFile>, BakeError> {
-    let tera = templates();
+    let tera = templates(&TEMPLATES);
     let mut files = emit_c::shared()?;
     for shape in shapes {
         let graph = Graph::new();
@@ -53,8 +63,7 @@ pub(crate) fn files(
     push(format!("{name}.h"), render("whole.h", &context)?);
     push(format!("{name}.c"), render("whole.c", &context)?);
     push("README.md".to_owned(), render("README.md", &context)?);
-    let mut context = reference(description, shapes)?;
-    context.insert("lengths", &true);
+    let context = reference(description, shapes)?;
     push("test_reference.c".to_owned(), render("test.c", &context)?);
     Ok(files)
 }
@@ -73,20 +82,4 @@ fn wrapped(text: &str) -> Vec<String> {
         }
     }
     lines
-}
-
-fn templates() -> Tera {
-    let mut tera = Tera::default();
-    tera.autoescape_on(Vec::<&str>::new());
-    for (name, text) in [
-        ("shape.h", include_str!("templates/shape.h.tera")),
-        ("shape.c", include_str!("templates/shape.c.tera")),
-        ("whole.h", include_str!("templates/whole.h.tera")),
-        ("whole.c", include_str!("templates/whole.c.tera")),
-        ("test.c", include_str!("templates/test.c.tera")),
-        ("README.md", include_str!("templates/README.md.tera")),
-    ] {
-        tera.add_raw_template(name, text).expect("the templates are those of this crate");
-    }
-    tera
 }

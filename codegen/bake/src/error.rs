@@ -4,13 +4,10 @@ use std::fmt;
 
 use precess_codegen::emit::EmitError;
 use precess_codegen::proof::EmittedError;
-use precess_description::DescriptionError;
 
 /// Why a spacecraft has no kernels of its own.
 #[derive(Debug)]
 pub enum BakeError {
-    /// The description itself.
-    Description(DescriptionError),
     /// Device, and its kind, which is none.
     Kind(String, String),
     /// Device, number of bodies that its kind has, and that are described.
@@ -36,7 +33,6 @@ pub enum BakeError {
 impl fmt::Display for BakeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Description(error) => write!(f, "{error}"),
             Self::Kind(device, kind) => {
                 let kinds = precess_codegen::kinds::KINDS.iter().map(|kind| kind.name);
                 let kinds: Vec<_> = kinds.collect();
@@ -72,12 +68,6 @@ impl fmt::Display for BakeError {
 }
 
 impl std::error::Error for BakeError {}
-
-impl From<DescriptionError> for BakeError {
-    fn from(error: DescriptionError) -> Self {
-        Self::Description(error)
-    }
-}
 
 impl From<EmitError> for BakeError {
     fn from(error: EmitError) -> Self {

@@ -21,9 +21,12 @@ mod shape;
 mod test_values;
 mod values;
 
+use clap::ValueEnum;
 use precess_codegen::emit::EmittedFile;
 use precess_codegen::proof::Row;
 pub use precess_description::Description;
+use serde::Serialize;
+use tera::Tera;
 
 pub use error::BakeError;
 
@@ -43,7 +46,7 @@ pub struct Baked {
 }
 
 /// Operations of one evaluation, sines apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Operations {
     /// Of the emitted kernels, sums into the hub's equations and their solution included.
     pub baked: usize,
@@ -51,12 +54,12 @@ pub struct Operations {
     pub general: usize,
 }
 
-/// The language of the emitted files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The language of the emitted files, also as an option of a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Language {
-    /// A crate without dependencies.
+    /// A crate without dependencies
     Rust,
-    /// C99.
+    /// C99
     C,
 }
 
@@ -80,4 +83,14 @@ pub fn bake(description: &Description, language: Language) -> Result<Baked, Bake
         Language::C => c::files(description, &shapes, &derived, operations)?,
     };
     Ok(Baked { files, proof, assumptions, operations })
+}
+
+/// Templates of this crate, by name.
+fn templates(list: &[(&str, &str)]) -> Tera {
+    let mut tera = Tera::default();
+    tera.autoescape_on(Vec::<&str>::new());
+    for (name, text) in list {
+        tera.add_raw_template(name, text).expect("the templates are those of this crate");
+    }
+    tera
 }

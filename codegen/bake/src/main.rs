@@ -8,7 +8,7 @@ use std::io::{self, Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
 use precess_bake::{Baked, Language, bake};
 use precess_description::Description;
 
@@ -27,22 +27,14 @@ struct Options {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// What to write
-    #[arg(long, value_enum, default_value_t = Written::Rust)]
-    language: Written,
+    #[arg(long, value_enum, default_value_t = Language::Rust)]
+    language: Language,
     /// Replace a folder that is there
     #[arg(long)]
     force: bool,
     /// Compare with what is in the folder instead of writing it
     #[arg(long, conflicts_with = "force")]
     check: bool,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Written {
-    /// A crate without dependencies
-    Rust,
-    /// C99
-    C,
 }
 
 fn main() -> ExitCode {
@@ -62,11 +54,7 @@ fn main() -> ExitCode {
 fn execute(options: &Options) -> Result<String, String> {
     let text = read(options.description.as_deref())?;
     let description = Description::read(&text).map_err(|error| error.to_string())?;
-    let language = match options.language {
-        Written::Rust => Language::Rust,
-        Written::C => Language::C,
-    };
-    let baked = bake(&description, language).map_err(|error| error.to_string())?;
+    let baked = bake(&description, options.language).map_err(|error| error.to_string())?;
     if options.check {
         check(&baked, &options.out)?;
     } else {

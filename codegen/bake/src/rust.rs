@@ -4,13 +4,13 @@ use std::path::Path;
 
 use precess_codegen::emit::{EmitError, EmittedFile, alone_records, pretty_items};
 use precess_description::Description;
-use tera::{Context, Tera};
+use tera::Context;
 
-use crate::Operations;
 use crate::error::BakeError;
 use crate::shape::{Derived, Shape};
 use crate::test_values::reference;
 use crate::values::{device, whole};
+use crate::{Operations, templates};
 
 /// Files that are the same in every crate.
 const BY_HAND: [(&str, &str); 6] = [
@@ -22,6 +22,16 @@ const BY_HAND: [(&str, &str); 6] = [
     ("src/solve.rs", include_str!("by_hand/solve.rs")),
 ];
 
+/// The templates.
+const TEMPLATES: [(&str, &str); 6] = [
+    ("device.rs", include_str!("templates/device.rs.tera")),
+    ("lib.rs", include_str!("templates/lib.rs.tera")),
+    ("kernels.rs", include_str!("templates/kernels.rs.tera")),
+    ("Cargo.toml", include_str!("templates/Cargo.toml.tera")),
+    ("README.md", include_str!("templates/README.md.tera")),
+    ("reference.rs", include_str!("templates/reference.rs.tera")),
+];
+
 /// The files of the crate.
 pub(crate) fn files(
     description: &Description,
@@ -29,7 +39,7 @@ pub(crate) fn files(
     derived: &[Derived],
     operations: Operations,
 ) -> Result<Vec<EmittedFile>, BakeError> {
-    let tera = templates();
+    let tera = templates(&TEMPLATES);
     let mut files = vec![alone_records(crate::COMMAND)?];
     files.extend(derived.iter().map(|derived| derived.emitted.file.clone()));
     for (path, text) in BY_HAND {
@@ -80,20 +90,4 @@ fn tidy(path: &str, text: &str) -> Result<String, BakeError> {
         lines.push(line);
     }
     Ok(lines.join("\n") + "\n")
-}
-
-fn templates() -> Tera {
-    let mut tera = Tera::default();
-    tera.autoescape_on(Vec::<&str>::new());
-    for (name, text) in [
-        ("device.rs", include_str!("templates/device.rs.tera")),
-        ("lib.rs", include_str!("templates/lib.rs.tera")),
-        ("kernels.rs", include_str!("templates/kernels.rs.tera")),
-        ("Cargo.toml", include_str!("templates/Cargo.toml.tera")),
-        ("README.md", include_str!("templates/README.md.tera")),
-        ("reference.rs", include_str!("templates/reference.rs.tera")),
-    ] {
-        tera.add_raw_template(name, text).expect("the templates are those of this crate");
-    }
-    tera
 }

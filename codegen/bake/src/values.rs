@@ -343,7 +343,7 @@ pub(crate) fn whole(
     context.insert("assumptions", &lines);
     context.insert("shapes", &shapes.iter().zip(derived).map(shape).collect::<Vec<_>>());
     context.insert("rows", &rows.collect::<Vec<_>>());
-    context.insert("operations", &operations_text(operations));
+    context.insert("operations", &operations);
     context.insert("claims", &derived.iter().map(|derived| derived.proof.len()).sum::<usize>());
     context.insert("c", &false);
     context.insert("upper", &description.name.to_uppercase());
@@ -353,18 +353,7 @@ pub(crate) fn whole(
     context.insert("any_driven", &driven);
     let scales: Vec<_> = shapes.iter().flat_map(checks).map(|check| check.scale).collect();
     context.insert("lengths", &scales.iter().any(|scale| scale == "length"));
-    context.insert("traces", &scales.iter().any(|scale| scale.starts_with("trace")));
     context
-}
-
-#[derive(Serialize)]
-struct OperationsText {
-    baked: usize,
-    general: usize,
-}
-
-fn operations_text(Operations { baked, general }: Operations) -> OperationsText {
-    OperationsText { baked, general }
 }
 
 fn capital(text: &str) -> String {

@@ -42,7 +42,7 @@ impl Scenario {
     /// The spacecraft by its numbers. With `unlock`, joints that the scenario locks stay joints.
     ///
     /// # Errors
-    /// Where the scenario asks for what the kernels of one spacecraft have not.
+    /// Where the hub is not free, or the imbalance of a device is lumped.
     pub fn description(&self, unlock: bool) -> Result<Description, UndescribedError> {
         if self.hub_mode != HubMode::Free {
             return Err(UndescribedError::Hub);
