@@ -50,11 +50,9 @@ fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub
     let first = chain.first_moving();
     let (link, data) = (&chain.links[first], &chain.kind.links[first].body);
     let parent = parent_axes(chain, script);
-    let axes = [X, Y, Z].map(|axis| {
-        let [x, y, z] =
-            Vector::<Own>::unit(chain.graph, axis).turned(link.turn.inverse()).components();
-        x * parent[0] + y * parent[1] + z * parent[2]
-    });
+    let back = link.turn.inverse();
+    let axes =
+        [X, Y, Z].map(|axis| Vector::<Own>::unit(chain.graph, axis).turned(back).along(parent));
     let heading = Heading::of(format!("Axes of the {}", data.title));
     script.section("axis", heading.equation("(D1)").axes("B").unit("1"));
     for (axis, letter) in axes.into_iter().zip(["x", "y", "z"]) {
@@ -238,10 +236,7 @@ impl<'g> Walk<'g> {
         let what = "Origin of the first joint from B, moved by (D3)";
         script.section("place", Heading::of(what).equation("(D2)").axes("B").unit("m"));
         let reach = named(script, "reach", reach);
-        let along_b = |v: Vector<'g, Own>| {
-            let [x, y, z] = v.components();
-            x * axes[0] + y * axes[1] + z * axes[2]
-        };
+        let along_b = |v: Vector<'g, Own>| v.along(axes);
         let on_hub = |w: &Wrench<'g, Own>| {
             let force = along_b(w.force);
             (force, along_b(w.moment), reach)

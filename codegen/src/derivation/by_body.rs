@@ -90,18 +90,17 @@ pub fn bodies<'g>(chain: &Chain<'g>) -> Vec<BodyInHub<'g>> {
     let mut joints = Vec::new();
     let mut made = Vec::new();
     for (link, data) in chain.links.iter().zip(chain.kind.links) {
-        origin = origin + combine(axes, link.origin);
+        origin = origin + link.origin.along(axes);
         // New axes: the old ones times the elementary rotation, column by column.
         let back = link.coordinate.turn(graph).inverse();
         let elementary = unit_axes(graph).map(|e| e.turned(back));
-        axes = elementary.map(|column| combine(axes, column));
-        let joint =
-            JointInHub { motion: data.joint.motion, axis: combine(axes, link.axis), origin };
+        axes = elementary.map(|column| column.along(axes));
+        let joint = JointInHub { motion: data.joint.motion, axis: link.axis.along(axes), origin };
         omega_b = omega_b + link.rate * joint.spin();
         joints.push(joint);
         made.push(BodyInHub {
             mass: link.mass,
-            r: origin + combine(axes, link.centre),
+            r: origin + link.centre.along(axes),
             axes,
             omega_b,
             inertia: link.inertia.along(axes),
@@ -122,12 +121,6 @@ impl<'g> BodyInHub<'g> {
 fn unit_axes<F: Frame>(graph: &Graph) -> [Vector<'_, F>; 3] {
     use crate::space::Axis::{X, Y, Z};
     [X, Y, Z].map(|axis| Vector::unit(graph, axis))
-}
-
-/// The vector with these components along `axes`.
-fn combine<'g, F: Frame>(axes: [Vector<'g, Hub>; 3], v: Vector<'g, F>) -> Vector<'g, Hub> {
-    let [x, y, z] = v.components();
-    x * axes[0] + y * axes[1] + z * axes[2]
 }
 
 /// The device's share of the mass matrix and of the bias.

@@ -183,8 +183,7 @@ impl<'g> Chain<'g> {
     /// Along B axes, of a vector along the device's axes.
     #[must_use]
     pub fn mounted(&self, v: Vector<'g, Carrier>) -> Vector<'g, Hub> {
-        let [x, y, z] = v.components();
-        x * self.mount[0] + y * self.mount[1] + z * self.mount[2]
+        v.along(self.mount)
     }
 
     /// Along B axes, of a tensor along the device's axes.

@@ -12,11 +12,22 @@ impl Graph {
         roots: impl IntoIterator<Item = NodeId>,
         mut value: impl FnMut(SymbolId) -> Option<Expr<'g>>,
     ) -> HashMap<NodeId, Expr<'g>> {
+        self.rebuilt_in(self, roots, |symbol| value(symbol).unwrap_or_else(|| self.named(symbol)))
+    }
+
+    /// What every node that `roots` are made of is in `graph`, where `value` says what each symbol
+    /// is.
+    pub(crate) fn rebuilt_in<'g>(
+        &self,
+        graph: &'g Graph,
+        roots: impl IntoIterator<Item = NodeId>,
+        mut value: impl FnMut(SymbolId) -> Expr<'g>,
+    ) -> HashMap<NodeId, Expr<'g>> {
         let mut made: HashMap<NodeId, Expr<'g>> = HashMap::new();
         for id in self.reachable(roots) {
             let new = match self.node(id) {
-                Node::Constant(_) => self.expr(id),
-                Node::Symbol(symbol) => value(symbol).unwrap_or_else(|| self.expr(id)),
+                Node::Constant(constant) => graph.constant(constant),
+                Node::Symbol(symbol) => value(symbol),
                 Node::Sum(a, b) => made[&a] + made[&b],
                 Node::Product(a, b) => made[&a] * made[&b],
                 Node::Neg(a) => -made[&a],

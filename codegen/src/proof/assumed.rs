@@ -5,13 +5,12 @@
 //! hub's rate by its components along the device's axes, and its vectors and tensors are expressed
 //! in B. The result must be the derivation that was made with the assumptions, by normal form.
 
-use std::collections::HashMap;
-
+use super::kind::own_file;
 use super::{EmittedError, Prover, Row};
 use crate::derivation::chain::Chain;
 use crate::derivation::{Share, by_body};
 use crate::emit::EmittedFile;
-use crate::graph::{Expr, Graph, Node, NodeId, Stage};
+use crate::graph::{Expr, Graph, Stage};
 use crate::kinds::Kind;
 use crate::normal::Ring;
 use crate::space::{Carrier, Hub, Symmetric, Vector};
@@ -26,9 +25,7 @@ pub fn prove_assumed(
     general: &'static Kind,
     files: &[EmittedFile],
 ) -> Result<Vec<Row>, EmittedError> {
-    let name = format!("{}.rs", chain.kind.name);
-    let own = |file: &&EmittedFile| file.path.rsplit('/').next() == Some(name.as_str());
-    let file = files.iter().find(own).ok_or_else(|| EmittedError::NoFile(name.clone()))?;
+    let file = own_file(chain.kind, files)?;
     let mut rows = substituted(chain, general);
     rows.extend(Prover::new(chain).rows(&file.text)?);
     Ok(rows.into_iter().map(|row| row.of(chain.kind)).collect())
@@ -109,20 +106,9 @@ impl<'a, 'g> Substitution<'a, 'g> {
     }
 
     fn number(&self, e: Expr<'_>) -> Expr<'g> {
-        let (of, graph) = (e.graph(), self.chain.graph);
-        let mut made: HashMap<NodeId, Expr<'g>> = HashMap::new();
-        for id in of.reachable([e.id()]) {
-            let new = match of.node(id) {
-                Node::Constant(value) => graph.constant(value),
-                Node::Symbol(symbol) => self.symbol(&of.symbol_info(symbol).name),
-                Node::Sum(a, b) => made[&a] + made[&b],
-                Node::Product(a, b) => made[&a] * made[&b],
-                Node::Neg(a) => -made[&a],
-                Node::Recip(a) => made[&a].recip(),
-            };
-            made.insert(id, new);
-        }
-        made[&e.id()]
+        let of = e.graph();
+        let symbol = |symbol| self.symbol(&of.symbol_info(symbol).name);
+        of.rebuilt_in(self.chain.graph, [e.id()], symbol)[&e.id()]
     }
 
     /// Components of vectors, and of the general ones expressed in B.
@@ -132,8 +118,8 @@ impl<'a, 'g> Substitution<'a, 'g> {
         whole: &[Vector<'_, Hub>],
     ) -> Vec<(Expr<'g>, Expr<'g>)> {
         let pairs = made.iter().zip(whole).flat_map(|(own, of)| {
-            let [x, y, z] = of.components().map(|e| self.number(e));
-            let of = x * self.axes[0] + y * self.axes[1] + z * self.axes[2];
+            let of = Vector::<Carrier>::new(of.components().map(|e| self.number(e)));
+            let of = of.along(self.axes);
             own.components().into_iter().zip(of.components())
         });
         pairs.collect()

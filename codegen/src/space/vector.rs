@@ -98,6 +98,13 @@ impl<'g, F: Frame> Vector<'g, F> {
         Vector::new(made)
     }
 
+    /// The vector whose components along `axes` these are.
+    #[must_use]
+    pub fn along<To: Frame>(self, axes: [Vector<'g, To>; 3]) -> Vector<'g, To> {
+        let [x, y, z] = self.components();
+        x * axes[0] + y * axes[1] + z * axes[2]
+    }
+
     fn map(self, f: impl FnMut(Expr<'g>) -> Expr<'g>) -> Self {
         Self::new(self.components.map(f))
     }
