@@ -141,13 +141,15 @@ fn of_symbol(name: &str) -> Option<Unit> {
         _ => 0,
     };
     Some(match name.split('_').next()? {
-        "sin" | "cos" | "gamma" | "theta" | "phi" | "mount" | "parent" => Unit::new(0, 0, time),
+        "sin" | "cos" | "gamma" | "theta" | "phi" | "tilt" | "mount" | "parent" => {
+            Unit::new(0, 0, time)
+        }
         "spin" | "omega" => Unit::new(0, 0, -1 + time),
         "m" => Unit::new(1, 0, 0),
         "i" | "j" => Unit::new(1, 2, 0),
-        "r" | "l" | "d" | "x" => Unit::new(0, 1, time),
-        // The slosh mass slides: its drive is a force.
-        "u" if name == "u_s" => Unit::new(1, 1, -2),
+        "r" | "l" | "d" | "x" | "y" | "z" => Unit::new(0, 1, time),
+        // What drives a slide is a force: that of the slosh mass, those of a bearing.
+        "u" if ["u_s", "u_sx", "u_sy", "u_sz"].contains(&name) => Unit::new(1, 1, -2),
         "u" => Unit::new(1, 2, -2),
         _ => return None,
     })
@@ -186,8 +188,9 @@ mod tests {
                     let stated = v.components().into_iter().filter(|e| !e.is_zero());
                     stated.map(shown).collect::<Vec<_>>()
                 });
-                assert!(force.iter().all(|unit| unit == units.force));
-                assert!(moment.iter().all(|unit| unit == units.moment));
+                let all = |stated: &[String], unit| stated.iter().all(|s| s == unit);
+                assert!(all(&force, units.force), "{} {k}: {force:?}", kind.name);
+                assert!(all(&moment, units.moment), "{} {k}: {moment:?}", kind.name);
                 for (e, stated) in [
                     (link.rate, units.rate),
                     (link.acceleration, units.acceleration),

@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use precess_codegen::derivation::chain::Chain;
+use precess_codegen::derivation::parallel::Parallel;
 use precess_codegen::graph::{Expr, Graph, Node, SymbolId};
 use precess_codegen::kernel::kernels;
 use precess_codegen::kinds::{
@@ -43,6 +44,20 @@ fn eliminated(
     let mut named = BTreeMap::new();
     for statement in kernel.sections.iter().flat_map(|section| &section.statements) {
         let name = statement.name.as_str();
+        if let Some(entry) = name.strip_prefix("across_") {
+            // What is across the tip's axis, and along it, is an entry of the mass matrix.
+            let Parallel { cosine, .. } = Parallel::of(&chain).unwrap();
+            let own = cosine * named["mass_ww"];
+            let whole = graph.find(&format!("mass_{entry}")).unwrap();
+            let across = statement.cut.unwrap_or(statement.value);
+            if entry.ends_with('w') {
+                values.push((id(whole), across + own));
+            } else {
+                values.push((id(across), whole - cosine * own));
+            }
+            named.insert(name.to_owned(), across);
+            continue;
+        }
         if blocks.contains(name) {
             // A block stands for itself, under its own name.
             let symbol = statement.cut.filter(|cut| *cut != statement.value);
@@ -51,7 +66,8 @@ fn eliminated(
         }
         let value = statement.value.with(&values);
         named.insert(name.to_owned(), value);
-        if let Some(symbol) = statement.cut.filter(|_| !name.starts_with("divisor_")) {
+        let number = matches!(value.node(), Node::Constant(_));
+        if let Some(symbol) = statement.cut.filter(|_| number || !name.starts_with("divisor_")) {
             values.push((id(symbol), value));
         }
     }

@@ -343,6 +343,11 @@ fn the_elimination_solves_the_system_of_point_masses() {
             known.insert(format!("u_{tag}"), load[j]);
             known.insert(format!("u_rest_{tag}"), bias[j]);
         }
+        // The outer gimbal's row across the wheel's axis.
+        let sin = craft.angles[1].sin();
+        known.insert("sin_gamma_i".to_owned(), sin);
+        known.insert("across_oo".to_owned(), matrix[6][6] - sin * sin * matrix[8][8]);
+        known.insert("across_ow".to_owned(), matrix[6][8] + sin * matrix[8][8]);
         for (i, axis) in ["x", "y", "z"].iter().enumerate() {
             known.insert(format!("f_rates_b{axis}"), bias[i]);
             known.insert(format!("n_rates_b{axis}"), bias[3 + i]);

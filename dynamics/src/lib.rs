@@ -11,7 +11,9 @@
 //! `([ReactionWheel; 3], Sgcmg, HingedPanel)`, or with the feature `alloc` a vector of
 //! [`BuiltIn`]. Joints may be driven, prescribed or locked ([`Mode`]), the hub free, fixed or
 //! prescribed ([`HubMode`]); [`Spacecraft::loads`] returns the motor torques that this needs and
-//! the load on every joint, [`Spacecraft::ledger`] the power of every source.
+//! the load on every joint, [`Spacecraft::ledger`] the power of every source;
+//! [`Spacecraft::derivatives`] and [`Spacecraft::parameter_derivatives`] differentiate what they
+//! compute.
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
@@ -59,9 +61,12 @@ extern crate alloc;
 extern crate std;
 
 mod attitude;
+mod derivatives;
 mod equations;
+mod flexible;
 pub mod generated;
 mod integrate;
+mod isolation;
 #[cfg(feature = "lanes")]
 pub mod lanes;
 mod model;
@@ -74,12 +79,34 @@ mod validation;
 pub use attitude::mrp::Mrp;
 pub use attitude::parameterisation::Attitude;
 pub use attitude::quaternion::Quaternion;
+pub use derivatives::column::{Column, Outputs};
+pub use derivatives::error::DerivativeError;
+#[cfg(feature = "alloc")]
+pub use derivatives::linearization::{Linearization, Output};
+pub use derivatives::parameters::{Component, ParameterVariable};
+pub use derivatives::variable::{Axis, Variable, VariableName};
 pub use equations::device_loads::{DeviceLoads, JointPower};
 pub use equations::error::{Quantity, SolveError};
 pub use equations::gravity::Gravity;
+pub use flexible::inputs::FlexibleInputs;
+pub use flexible::ledger::FlexibleLedger;
+pub use flexible::loads::FlexibleLoads;
+pub use flexible::modes::{ContainedBody, ModalMount, ModalPoint, Modes};
+pub use flexible::modes_error::{ModalQuantity, ModesError, ResidualFault};
+pub use flexible::point::{PointAcceleration, PointMotion};
+pub use flexible::spacecraft::FlexibleSpacecraft;
+pub use flexible::state::{FlexibleAccelerations, FlexibleState};
+pub use flexible::step::FlexibleStepped;
+pub use flexible::stop::FlexibleStopped;
+#[cfg(feature = "alloc")]
+pub use flexible::storage::ListedModes;
+pub use flexible::storage::{FixedModes, ModalStorage};
 pub use generated::devices::*;
 pub use integrate::rk4::Stepped;
 pub use integrate::stop::Stopped;
+pub use isolation::parameters::Platform;
+pub use isolation::set::Isolated;
+pub use isolation::suspension::{Coupled, Strut, Suspension};
 pub use model::joint_array::{JointArray, MAX_JOINTS};
 pub use model::kind::{self, ImbalanceModel};
 pub use model::mode::{HubMode, Mode};
@@ -88,6 +115,7 @@ pub use model::parameters::Hub;
 pub use model::passive::Passive;
 pub use model::units;
 pub use model::wrench::Wrench;
+pub use numbers::dual::Dual;
 pub use numbers::each::{Each, JointStates, Value};
 pub use numbers::real::{Angle, Real, Scalar};
 pub use results::ledger::{Ledger, Power};
@@ -103,10 +131,17 @@ pub use validation::imbalance::{Imbalance, WheelImbalance};
 pub use validation::imbalance_error::{ImbalanceError, ImbalanceQuantity};
 pub use validation::parameter_error::{Parameter, ParameterError, Part, Warning};
 
+/// Data of a platform's joints, by name, and of an [`Isolated`] set.
+pub mod platform {
+    pub use crate::isolation::records::{Data, JointAccelerations, Joints, MotorTorques, PerJoint};
+}
+
 /// Sets of devices from the inside: data in the shape of a set, and visitors of its members.
 pub mod set {
     pub use crate::equations::device::Device;
     pub use crate::equations::joint_inputs::JointInputs;
+    pub use crate::flexible::on_mount::OnMount;
+    pub use crate::isolation::set::{Carrier, PreparedIsolated};
     pub use crate::sets::bundle::{Bundle, Given, Maybe, Part, Shared, Unique};
     pub use crate::sets::devices::{List, Visit};
     pub use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
@@ -115,6 +150,7 @@ pub mod set {
     pub use crate::sets::per_device::{
         Accelerations, EnumLoads, Gains, Joints, Loads, Motors, PerDevice, PerJoint,
     };
+    pub use crate::sets::with_numbers::{Change, WithNumbers};
 }
 
 /// Any thread may own or borrow any value of this crate: checked when the tests are compiled.

@@ -10,14 +10,16 @@ use crate::error::BakeError;
 use crate::numbers::c;
 use crate::shape::{Derived, Shape};
 use crate::test_values::reference;
-use crate::values::{device, whole};
-use crate::{COMMAND, Operations, templates};
-
-/// A line of the list of assumptions is at most this wide.
-const WIDTH: usize = 96;
+use crate::values::device;
+use crate::{COMMAND, templates};
 
 /// The templates.
-const TEMPLATES: [(&str, &str); 6] = [
+const TEMPLATES: [(&str, &str); 11] = [
+    ("parameters.h", include_str!("templates/parameters.h.tera")),
+    ("device.h", include_str!("templates/device.h.tera")),
+    ("prepare.c", include_str!("templates/prepare.c.tera")),
+    ("construct.c", include_str!("templates/construct.c.tera")),
+    ("constants.c", include_str!("templates/constants.c.tera")),
     ("shape.h", include_str!("templates/shape.h.tera")),
     ("shape.c", include_str!("templates/shape.c.tera")),
     ("whole.h", include_str!("templates/whole.h.tera")),
@@ -31,7 +33,7 @@ pub(crate) fn files(
     description: &Description,
     shapes: &[Shape<'_>],
     derived: &[Derived],
-    operations: Operations,
+    whole: Context,
 ) -> Result<Vec<EmittedFile>, BakeError> {
     let tera = templates(&TEMPLATES);
     let mut files = emit_c::shared()?;
@@ -45,41 +47,36 @@ pub(crate) fn files(
         text.map(|text| c(&text)).map_err(|error| BakeError::Emit(error.into()))
     };
     let (name, upper) = (description.name.as_str(), description.name.to_uppercase());
-    let mut declared = Vec::new();
-    let mut defined = Vec::new();
-    for (shape, derived) in shapes.iter().zip(derived) {
-        let context = device(shape, derived, [name, &upper]);
-        declared.push(render("shape.h", &context)?);
-        defined.push(render("shape.c", &context)?);
-    }
-    let mut context = whole(description, shapes, derived, operations);
+    let mut context = whole;
     context.insert("c", &true);
-    context.insert("declared", &declared);
-    context.insert("defined", &defined);
-    let lines = shapes.iter().flat_map(Shape::assumptions);
-    let lines = lines.flat_map(|line| wrapped(&format!("- {line}")));
-    context.insert("assumptions_c", &lines.collect::<Vec<_>>());
+    let mut parts = ["device.h", "prepare.c", "shape.h", "shape.c"].map(|name| (name, Vec::new()));
+    for (shape, derived) in shapes.iter().zip(derived) {
+        let of = device(shape, derived, [name, &upper], "");
+        for (template, texts) in &mut parts {
+            texts.push(render(template, &of)?);
+        }
+    }
+    for (key, (_, texts)) in ["devices", "prepared", "declared", "defined"].iter().zip(&parts) {
+        context.insert(*key, texts);
+    }
+    // Of a spacecraft whose values are folded, they are in its tests only.
+    let [parameters, construct] =
+        ["parameters.h", "construct.c"].map(|name| render(name, &context));
+    let (parameters, construct) = (parameters?, construct?);
+    context.insert("parameters", &parameters);
+    context.insert("construct", &construct);
+    let constants = context.get("constants").and_then(tera::Value::as_bool).unwrap_or_default();
+    if constants {
+        context.insert("constants_c", &render("constants.c", &context)?);
+    }
     let mut push = |path: String, text: String| files.push(EmittedFile { path, text });
     push(format!("{name}.h"), render("whole.h", &context)?);
     push(format!("{name}.c"), render("whole.c", &context)?);
     push("README.md".to_owned(), render("README.md", &context)?);
-    let context = reference(description, shapes)?;
+    let mut context = reference(description, shapes)?;
+    context.insert("constants", &constants);
+    context.insert("parameters", &parameters);
+    context.insert("construct", &construct);
     push("test_reference.c".to_owned(), render("test.c", &context)?);
     Ok(files)
-}
-
-/// Words in lines of the width of a comment; the following ones are indented.
-fn wrapped(text: &str) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.len() + 1 + word.len() <= WIDTH => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            Some(_) => lines.push(format!("  {word}")),
-            None => lines.push(word.to_owned()),
-        }
-    }
-    lines
 }

@@ -12,7 +12,7 @@ pub enum BakeError {
     Kind(String, String),
     /// Device, number of bodies that its kind has, and that are described.
     Bodies(String, usize, usize),
-    /// Device, and a value that its kind has no parameter for: it must be zero, or equal to another.
+    /// Device, and a value that its kind has no parameter for: it must be zero, or equal another.
     Pattern(String, String),
     /// Device, and a name to keep that is no parameter of its kind.
     Keep(String, String),
@@ -28,6 +28,14 @@ pub enum BakeError {
     Read(EmittedError),
     /// A spacecraft whose accelerations the reference cannot solve for.
     Singular,
+    /// A spacecraft of which no joint moves.
+    Rigid,
+    /// Device, by how much its mount is off the turns that are stated of it, and the bound.
+    Mount(String, f64, f64),
+    /// Function, and what of it cannot be evaluated.
+    Statement(String, String),
+    /// Device or hub, constant, and its value, which is infinite or NaN.
+    NotFinite(String, String, f64),
 }
 
 impl fmt::Display for BakeError {
@@ -53,7 +61,8 @@ impl fmt::Display for BakeError {
             }
             Self::Massless(device, body) => write!(
                 f,
-                "{device}: the joint of the {body} moves no mass and no inertia; state some, or lock it"
+                "{device}: the joint of the {body} moves no mass and no inertia; state some, or \
+                 lock it"
             ),
             Self::NotProven(row) => write!(f, "not proven, so not written: {row}"),
             Self::Emit(error) => write!(f, "{error}"),
@@ -62,6 +71,24 @@ impl fmt::Display for BakeError {
                 f,
                 "the spacecraft has no inertia in some direction at its reference state; check \
                  masses and inertias"
+            ),
+            Self::Rigid => write!(
+                f,
+                "every joint of every device is locked for good, and a rigid spacecraft needs no \
+                 kernel; remove `locked_at` of a joint, or unlock all with `--unlock`"
+            ),
+            Self::Mount(device, off, bound) => write!(
+                f,
+                "{device}: mount is off by {off:e}, more than {bound:e}, from the turns that are \
+                 stated of it; correct `turns`, state more digits, or remove `turns`"
+            ),
+            Self::Statement(function, what) => {
+                write!(f, "{function} cannot be evaluated at `{what}`: a fault of the generator")
+            }
+            Self::NotFinite(of, name, value) => write!(
+                f,
+                "{of}: constant {name} is {value}; a product of values overflows, check masses, \
+                 places and inertias"
             ),
         }
     }

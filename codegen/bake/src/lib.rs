@@ -4,22 +4,30 @@
 //! are none or a few turns, joints that are locked for good, devices that are alike. [`bake`] finds
 //! that in a [`Description`], derives each kernel with it by the same generator, proves what it
 //! emits against the general derivation under the same substitution, and lays out a crate without
-//! dependencies or C99. Values stay parameters: the emitted constructor takes them, and refuses those
-//! that break what was assumed.
+//! dependencies or C99. Values stay parameters: the emitted constructor takes them, and refuses
+//! those that break what was assumed. With [`Options::constants`] they are folded, too.
 //!
 //! Pure: no file is read or written here.
 
 mod assumed;
+#[allow(unreachable_pub, reason = "public where they are emitted")]
+mod by_hand;
 mod c;
+mod constants;
 mod error;
+mod evaluate;
+mod fold;
+mod mount;
 mod numbers;
 mod parameters;
 mod records_c;
 mod reference;
 mod rust;
 mod shape;
+mod sources;
 mod test_values;
 mod values;
+mod whole;
 
 use clap::ValueEnum;
 use precess_codegen::emit::EmittedFile;
@@ -29,6 +37,7 @@ use serde::Serialize;
 use tera::Tera;
 
 pub use error::BakeError;
+pub use shape::{HUB_OPERATIONS, SUM_OPERATIONS};
 
 /// What is written in every emitted file.
 const COMMAND: &str = "precess bake";
@@ -54,6 +63,15 @@ pub struct Operations {
     pub general: usize,
 }
 
+/// What is written of a spacecraft.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// In which language.
+    pub language: Language,
+    /// Whether the values are folded, too: constants instead of a constructor.
+    pub constants: bool,
+}
+
 /// The language of the emitted files, also as an option of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Language {
@@ -68,9 +86,10 @@ pub enum Language {
 /// # Errors
 /// When a device is of no kind, has another number of bodies than its kind, or breaks what the kind
 /// itself says; when a claim does not hold, which is a fault of the generator.
-pub fn bake(description: &Description, language: Language) -> Result<Baked, BakeError> {
+pub fn bake(description: &Description, options: Options) -> Result<Baked, BakeError> {
     let shapes = shape::shapes(description)?;
-    let derived: Vec<_> = shapes.iter().map(shape::Shape::derived).collect::<Result<_, _>>()?;
+    let derived = shapes.iter().map(|shape| shape.derived(options));
+    let derived: Vec<_> = derived.collect::<Result<_, _>>()?;
     let proof: Vec<Row> =
         derived.iter().flat_map(|derived| derived.proof.iter().cloned()).collect();
     if let Some(row) = proof.iter().find(|row| !row.holds()) {
@@ -78,9 +97,13 @@ pub fn bake(description: &Description, language: Language) -> Result<Baked, Bake
     }
     let operations = shape::operations(&shapes, &derived)?;
     let assumptions = shapes.iter().flat_map(shape::Shape::assumptions).collect();
-    let files = match language {
-        Language::Rust => rust::files(description, &shapes, &derived, operations)?,
-        Language::C => c::files(description, &shapes, &derived, operations)?,
+    let mut whole = whole::whole(description, &shapes, &derived, operations, options.constants);
+    if options.constants {
+        constants::fold(description, &shapes, &derived, &mut whole)?;
+    }
+    let files = match options.language {
+        Language::Rust => rust::files(description, &shapes, &derived, &whole)?,
+        Language::C => c::files(description, &shapes, &derived, whole)?,
     };
     Ok(Baked { files, proof, assumptions, operations })
 }

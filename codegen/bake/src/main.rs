@@ -29,6 +29,9 @@ struct Options {
     /// What to write
     #[arg(long, value_enum, default_value_t = Language::Rust)]
     language: Language,
+    /// Fold the values, too: constants instead of a constructor that takes them
+    #[arg(long)]
+    constants: bool,
     /// Replace a folder that is there
     #[arg(long)]
     force: bool,
@@ -54,7 +57,9 @@ fn main() -> ExitCode {
 fn execute(options: &Options) -> Result<String, String> {
     let text = read(options.description.as_deref())?;
     let description = Description::read(&text).map_err(|error| error.to_string())?;
-    let baked = bake(&description, options.language).map_err(|error| error.to_string())?;
+    let Options { language, constants, .. } = *options;
+    let what = precess_bake::Options { language, constants };
+    let baked = bake(&description, what).map_err(|error| error.to_string())?;
     if options.check {
         check(&baked, &options.out)?;
     } else {
@@ -72,8 +77,8 @@ fn read(path: Option<&Path>) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Writes all files beside the folder, then puts them in its place: a new folder at once, those of a
-/// folder that is there one by one.
+/// Writes all files beside the folder, then puts them in its place: a new folder at once, those of
+/// a folder that is there one by one.
 fn write(baked: &Baked, out: &Path, force: bool) -> Result<(), String> {
     let shown = |error: io::Error| format!("{}: {error}", out.display());
     if out.exists() && !force {

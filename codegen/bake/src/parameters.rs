@@ -46,7 +46,7 @@ pub(crate) fn parameters(kind: &Kind) -> Vec<Parameter> {
     for (k, link) in kind.links.iter().enumerate() {
         let (joint, body) = (&link.joint, &link.body);
         let mut push = |name: &str, place| list.push(Parameter { name: name.to_owned(), place });
-        for (c, name) in joint.origin.names.into_iter().enumerate() {
+        for (c, name) in joint.place().into_iter().flat_map(|place| place.names).enumerate() {
             push(name, Place::Origin(k, c));
         }
         match body.centre {
@@ -58,7 +58,7 @@ pub(crate) fn parameters(kind: &Kind) -> Vec<Parameter> {
             Centre::On(axis, name) => push(name, Place::Centre(k, index(axis))),
             Centre::At => {}
         }
-        push(body.mass, Place::Mass(k));
+        body.mass.into_iter().for_each(|mass| push(mass, Place::Mass(k)));
         let names = body.inertia.names();
         for (entry, name) in names.iter().enumerate() {
             let first = names[..entry].iter().all(|other| other != name);
@@ -82,6 +82,9 @@ pub(crate) fn fixed(kind: &Kind) -> Vec<Fixed> {
         };
         let centre = (0..3).filter(|c| !kept.contains(c)).map(|c| Fixed::Zero(Place::Centre(k, c)));
         list.extend(centre);
+        let origin = (0..3).filter(|_| link.joint.place().is_none());
+        list.extend(origin.map(|c| Fixed::Zero(Place::Origin(k, c))));
+        list.extend(link.body.mass.is_none().then_some(Fixed::Zero(Place::Mass(k))));
         let names = link.body.inertia.names();
         for (entry, name) in names.iter().enumerate() {
             let place = |entry: usize| Place::Inertia(k, ENTRIES[entry].0, ENTRIES[entry].1);
@@ -119,7 +122,8 @@ impl Place {
         }
     }
 
-    /// What rounding there is measured by: the longest offset of the device, the trace of the inertia.
+    /// What rounding there is measured by: the longest offset of the device, the trace of the
+    /// inertia.
     pub(crate) fn scale(self, device: &Device) -> f64 {
         match self {
             Self::Mass(k) => device.body[k].mass,

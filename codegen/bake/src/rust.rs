@@ -8,23 +8,28 @@ use tera::Context;
 
 use crate::error::BakeError;
 use crate::shape::{Derived, Shape};
+use crate::templates;
 use crate::test_values::reference;
-use crate::values::{device, whole};
-use crate::{Operations, templates};
+use crate::values::device;
 
 /// Files that are the same in every crate.
-const BY_HAND: [(&str, &str); 6] = [
+const BY_HAND: [(&str, &str); 8] = [
     ("src/body.rs", include_str!("by_hand/body.rs")),
     ("src/check.rs", include_str!("by_hand/check.rs")),
+    ("src/drive.rs", include_str!("by_hand/drive.rs")),
     ("src/kernels/real.rs", include_str!("by_hand/real.rs")),
     ("src/mount.rs", include_str!("by_hand/mount.rs")),
+    ("src/rigid.rs", include_str!("by_hand/rigid.rs")),
     ("src/sin_cos.rs", include_str!("by_hand/sin_cos.rs")),
     ("src/solve.rs", include_str!("by_hand/solve.rs")),
 ];
 
 /// The templates.
-const TEMPLATES: [(&str, &str); 6] = [
+const TEMPLATES: [(&str, &str); 9] = [
     ("device.rs", include_str!("templates/device.rs.tera")),
+    ("constants.rs", include_str!("templates/constants.rs.tera")),
+    ("parameters.rs", include_str!("templates/parameters.rs.tera")),
+    ("tests.rs", include_str!("templates/tests.rs.tera")),
     ("lib.rs", include_str!("templates/lib.rs.tera")),
     ("kernels.rs", include_str!("templates/kernels.rs.tera")),
     ("Cargo.toml", include_str!("templates/Cargo.toml.tera")),
@@ -37,9 +42,11 @@ pub(crate) fn files(
     description: &Description,
     shapes: &[Shape<'_>],
     derived: &[Derived],
-    operations: Operations,
+    whole: &Context,
 ) -> Result<Vec<EmittedFile>, BakeError> {
     let tera = templates(&TEMPLATES);
+    let constants = whole.get("constants").and_then(tera::Value::as_bool).unwrap_or_default();
+    let test = if constants { "#[cfg(test)]" } else { "" };
     let mut files = vec![alone_records(crate::COMMAND)?];
     files.extend(derived.iter().map(|derived| derived.emitted.file.clone()));
     for (path, text) in BY_HAND {
@@ -56,14 +63,19 @@ pub(crate) fn files(
     };
     for (shape, derived) in shapes.iter().zip(derived) {
         let path = format!("src/{}.rs", shape.kind.name);
-        render(&path, "device.rs", &device(shape, derived, [&description.name, ""]))?;
+        let names = [description.name.as_str(), ""];
+        render(&path, "device.rs", &device(shape, derived, names, test))?;
     }
-    let whole = whole(description, shapes, derived, operations);
-    render("src/lib.rs", "lib.rs", &whole)?;
-    render("src/kernels/mod.rs", "kernels.rs", &whole)?;
-    render("Cargo.toml", "Cargo.toml", &whole)?;
-    render("README.md", "README.md", &whole)?;
-    let reference = reference(description, shapes)?;
+    render("src/lib.rs", "lib.rs", whole)?;
+    render("src/kernels/mod.rs", "kernels.rs", whole)?;
+    render("Cargo.toml", "Cargo.toml", whole)?;
+    render("README.md", "README.md", whole)?;
+    let mut reference = reference(description, shapes)?;
+    reference.insert("constants", &constants);
+    if constants {
+        render("src/constants.rs", "constants.rs", whole)?;
+        render("src/tests.rs", "tests.rs", &reference)?;
+    }
     render("tests/reference.rs", "reference.rs", &reference)?;
     Ok(files)
 }

@@ -13,9 +13,11 @@ use precess_codegen::proof::{Row, prove_assumed};
 use precess_description::{Body, Description, Device};
 
 use crate::assumed::assumed;
+use crate::constants::turns;
 use crate::error::BakeError;
+use crate::fold::only_tested;
 use crate::parameters::check;
-use crate::{COMMAND, Operations};
+use crate::{COMMAND, Language, Operations, Options};
 
 /// Devices that share a kernel.
 pub(crate) struct Shape<'a> {
@@ -36,10 +38,12 @@ pub(crate) struct Derived {
 }
 
 /// Modules of every emitted crate, fields of its records and locals of its functions.
-const TAKEN: [&str; 21] = [
+const TAKEN: [&str; 25] = [
     "assembly",
     "body",
     "check",
+    "constants",
+    "drive",
     "failed",
     "finite",
     "fmt",
@@ -55,19 +59,22 @@ const TAKEN: [&str; 21] = [
     "parameters",
     "r_b_n_ddot",
     "real",
+    "rigid",
     "sin_cos",
     "solve",
+    "tests",
     "torque_b",
 ];
 
 /// Names that a spacecraft may not have: those of files and records that are emitted beside it.
 const NOT_OF_A_SPACECRAFT: [&str; 4] = ["alloc", "kernels", "proc_macro", "test_reference"];
 
-/// Operations of an evaluation of the hub by itself, as the suite `operations` counts them.
-const HUB: usize = 255;
+/// Operations of an evaluation of the hub by itself, 183 of them in the checks of its pivots: the
+/// suite `operations` of the emitted crates counts them.
+pub const HUB_OPERATIONS: usize = 415;
 
-/// Sums of a device's share into the hub's equations.
-const SUMS: usize = 36;
+/// Sums of a device's share into the hub's equations, counted likewise.
+pub const SUM_OPERATIONS: usize = 36;
 
 /// The shapes of a spacecraft.
 pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeError> {
@@ -103,6 +110,14 @@ pub(crate) fn shapes(description: &Description) -> Result<Vec<Shape<'_>>, BakeEr
         let kind = Box::leak(Box::new(kind));
         list.push(Shape { kind, general, assumed, devices: vec![device] });
     }
+    if list.iter().all(Shape::is_rigid) {
+        return Err(BakeError::Rigid);
+    }
+    for shape in &list {
+        for device in &shape.devices {
+            turns(shape, device)?;
+        }
+    }
     Ok(list)
 }
 
@@ -121,16 +136,9 @@ fn has_inertia(kind: &Kind, device: &Device, locked: &[bool]) -> Result<(), Bake
     Ok(())
 }
 
-/// Whether each joint is locked. Where all are, the last one stays a joint: a device without one has
-/// no equation to emit.
+/// Whether each joint is locked.
 fn locked(device: &Device) -> Vec<bool> {
-    let mut locked: Vec<_> = device.body.iter().map(|body| body.locked_at.is_some()).collect();
-    if let [.., last] = locked.as_mut_slice()
-        && device.body.iter().all(|body| body.locked_at.is_some())
-    {
-        *last = false;
-    }
-    locked
+    device.body.iter().map(|body| body.locked_at.is_some()).collect()
 }
 
 /// The device's name without its number; with it, or with more, where that is taken.
@@ -162,11 +170,20 @@ pub(crate) fn is_keyword(name: &str) -> bool {
 }
 
 impl Shape<'_> {
+    /// Whether every joint is locked for good: its devices are bodies of the hub.
+    pub(crate) fn is_rigid(&self) -> bool {
+        self.kind.links.iter().all(Link::is_locked)
+    }
+
     /// Derives and proves.
-    pub(crate) fn derived(&self) -> Result<Derived, BakeError> {
+    pub(crate) fn derived(&self, options: Options) -> Result<Derived, BakeError> {
         let graph = Graph::new();
         let chain = Chain::assuming(&graph, self.kind, self.assumed.clone());
-        let emitted = alone(&chain, COMMAND)?;
+        let mut emitted = alone(&chain, COMMAND)?;
+        // A module of a rigid shape is for the tests as a whole.
+        if options.constants && options.language == Language::Rust && !self.is_rigid() {
+            emitted.file.text = only_tested(&emitted.file.text);
+        }
         let files = std::slice::from_ref(&emitted.file);
         let proof = prove_assumed(&chain, self.general, files)?;
         Ok(Derived { parameters: parameters_of(&chain), proof, emitted })
@@ -190,17 +207,19 @@ impl Shape<'_> {
                 Turns::One => "one turn about a coordinate axis, between quarter turns",
                 Turns::Two => "two turns about coordinate axes, between quarter turns",
             };
-            lines.push(format!("{of}: the mount is {turns}"));
+            let states = |device: &&&Device| device.turns.is_some();
+            let known = match self.devices.iter().filter(states).count() {
+                0 => "found in its numbers",
+                count if count == self.devices.len() => "as its turns are stated",
+                _ => "as stated of some of them, found in the numbers of the others",
+            };
+            lines.push(format!("{of}: the mount is {turns}, {known}"));
         }
         for link in self.kind.links.iter().filter(|link| link.is_locked()) {
             lines.push(format!("{of}: the {} is locked for good", link.body.title));
         }
-        if self.devices[0].body.iter().all(|body| body.locked_at.is_some()) {
-            let last = self.kind.links.last().map_or("", |link| link.body.title);
-            lines.push(format!(
-                "{of}: the {last} stays a joint, since all are locked; give its coordinate, a rate of \
-                 zero and an acceleration of zero"
-            ));
+        if self.is_rigid() {
+            lines.push(format!("{of}: no joint moves, so it is part of the hub"));
         }
         lines
     }
@@ -212,7 +231,7 @@ pub(crate) fn operations(
     derived: &[Derived],
 ) -> Result<Operations, BakeError> {
     let evaluated = |name: &str| ["eliminate", "back_substitute"].contains(&name);
-    let (mut baked, mut general) = (HUB, HUB);
+    let (mut baked, mut general) = (HUB_OPERATIONS, HUB_OPERATIONS);
     for (shape, derived) in shapes.iter().zip(derived) {
         let own = derived.emitted.functions.iter().filter(|(name, ..)| evaluated(name));
         let own: usize = own.map(|(.., count)| count).sum();
@@ -221,8 +240,10 @@ pub(crate) fn operations(
         let whole = alone(&whole, COMMAND)?.functions;
         let whole = whole.iter().filter(|(name, ..)| evaluated(name));
         let whole: usize = whole.map(|(.., count)| count).sum();
-        baked += shape.devices.len() * (own + SUMS);
-        general += shape.devices.len() * (whole + SUMS);
+        if !shape.is_rigid() {
+            baked += shape.devices.len() * (own + SUM_OPERATIONS);
+        }
+        general += shape.devices.len() * (whole + SUM_OPERATIONS);
     }
     Ok(Operations { baked, general })
 }

@@ -9,7 +9,8 @@ use crate::numbers::{float, list, matrix, vector};
 use crate::parameters::{Parameter, Place, parameters};
 use crate::reference::{Case, JointCase, cases};
 use crate::shape::Shape;
-use crate::values::{Assigned, written};
+use crate::sources::written;
+use crate::values::Assigned;
 
 #[derive(Serialize)]
 struct BodyText {
@@ -34,7 +35,7 @@ struct DevicesText {
     devices: Vec<DeviceText>,
 }
 
-#[derive(Serialize)]
+#[derive(Clone, Serialize)]
 struct CaseShape {
     module: &'static str,
     moves: bool,
@@ -61,6 +62,8 @@ struct CaseText {
     force: String,
     torque_b: String,
     shapes: Vec<CaseShape>,
+    /// Those of which a joint moves.
+    moving: Vec<CaseShape>,
     r_b_n_ddot: String,
     omega_dot: String,
     blocks: Vec<Block>,
@@ -182,12 +185,14 @@ fn case_text(case: &Case, name: &'static str, shapes: &[Shape<'_>], upper: &str)
             values: list(devices.iter().map(|joints| joints[k].acceleration)),
         })
     });
+    let all: Vec<_> = shapes.iter().zip(&case.devices).map(shape).collect();
     CaseText {
         name,
         omega: vector(&case.omega),
         force: vector(&case.force),
         torque_b: vector(&case.torque_b),
-        shapes: shapes.iter().zip(&case.devices).map(shape).collect(),
+        moving: all.iter().filter(|shape| shape.moves).cloned().collect(),
+        shapes: all,
         r_b_n_ddot: list(case.hub[..3].iter().copied()),
         omega_dot: list(case.hub[3..].iter().copied()),
         blocks: blocks.collect(),

@@ -1,16 +1,19 @@
-//! What the templates are filled from.
+//! What the templates of a shape are filled from.
 
 use precess_codegen::derivation::assumed::{Exchange, Mount};
+use precess_codegen::emit::{capital, wrapped};
 use precess_codegen::kinds::{Link, Motion};
-use precess_description::Description;
 use serde::Serialize;
 use tera::Context;
 
-use crate::Operations;
 use crate::numbers::array;
 use crate::parameters::{Fixed, Parameter, Place, fixed, parameters};
 use crate::records_c::parts_c;
 use crate::shape::{Derived, Shape};
+use crate::sources::{source, written};
+
+/// A line of the list of assumptions is at most this wide, without its dash.
+const WIDTH: usize = 94;
 
 /// A joint and its body.
 #[derive(Clone, Serialize)]
@@ -28,11 +31,11 @@ pub(crate) struct JointText {
 
 /// A number that must vanish: its name, what it is assumed to be, by how much it is off, its scale.
 #[derive(Serialize)]
-struct Check {
+pub(crate) struct Check {
     name: String,
     assumed: String,
     off: String,
-    scale: String,
+    pub(crate) scale: String,
     /// The same in C.
     scale_c: String,
 }
@@ -67,17 +70,6 @@ pub(crate) fn joint(link: &Link) -> JointText {
     }
 }
 
-/// How a place is written.
-pub(crate) fn written(place: Place) -> String {
-    match place {
-        Place::Mass(k) => format!("b[{k}].mass"),
-        Place::Origin(0, c) => format!("origin[{c}]"),
-        Place::Origin(k, c) => format!("b[{k}].origin[{c}]"),
-        Place::Centre(k, c) => format!("b[{k}].centre_of_mass[{c}]"),
-        Place::Inertia(k, row, column) => format!("b[{k}].inertia[{row}][{column}]"),
-    }
-}
-
 /// How its scale is written.
 fn scale(place: Place) -> String {
     match place {
@@ -88,7 +80,7 @@ fn scale(place: Place) -> String {
 }
 
 /// Everything that must vanish in a device of the shape.
-fn checks(shape: &Shape<'_>) -> Vec<Check> {
+pub(crate) fn checks(shape: &Shape<'_>) -> Vec<Check> {
     let check = |name: String, assumed: String, off: String, place| {
         let scale = scale(place);
         Check { name, assumed, off, scale_c: scale.replace('&', ""), scale }
@@ -122,28 +114,12 @@ fn checks(shape: &Shape<'_>) -> Vec<Check> {
 
 /// What `prepare` takes.
 fn values(shape: &Shape<'_>, derived: &Derived) -> Vec<Assigned> {
-    let list = parameters(shape.general);
-    let value = |name: &str| {
-        if let Some(parameter) = list.iter().find(|parameter| parameter.name == name) {
-            return written(parameter.place);
-        }
-        if let Some(entry) = name.strip_prefix("mount_") {
-            let index = |k: usize| entry.get(k..=k).and_then(|digit| digit.parse::<usize>().ok());
-            if let (Some(row), Some(column)) = (index(0), index(1)) {
-                return format!("m[{}][{}]", row - 1, column - 1);
-            }
-        }
-        if let Some(turn) = name.strip_suffix("mount_a").or_else(|| name.strip_suffix("mount_b")) {
-            return format!("turned.{turn}{}", &name[name.len() - 1..]);
-        }
-        // Sine or cosine of a locked angle, or a locked position.
-        if name.starts_with("sin_") || name.starts_with("cos_") {
-            return name.to_owned();
-        }
-        format!("device.{name}")
-    };
     let fields = derived.parameters.fields.iter();
-    fields.map(|field| Assigned::new(field.name.clone(), value(&field.name))).collect()
+    let assigned = fields.filter_map(|field| {
+        let source = source(shape.kind, &field.name)?;
+        Some(Assigned::new(field.name.clone(), source.written()))
+    });
+    assigned.collect()
 }
 
 fn exchange(of: Exchange) -> String {
@@ -194,7 +170,12 @@ fn arguments(shape: &Shape<'_>, letters: &[&'static str]) -> Vec<String> {
 }
 
 /// The file that checks and calls the kernels of a shape.
-pub(crate) fn device(shape: &Shape<'_>, derived: &Derived, [name, upper]: [&str; 2]) -> Context {
+pub(crate) fn device(
+    shape: &Shape<'_>,
+    derived: &Derived,
+    [name, upper]: [&str; 2],
+    test: &str,
+) -> Context {
     let links = shape.kind.links;
     let letters = |name: &str| {
         let own = derived.emitted.functions.iter().find(|(function, ..)| function == name);
@@ -220,6 +201,8 @@ pub(crate) fn device(shape: &Shape<'_>, derived: &Derived, [name, upper]: [&str;
     context.insert("eliminate_arguments_c", &arguments_c);
     context.insert("name", name);
     context.insert("upper", upper);
+    context.insert("test", test);
+    context.insert("prepared_c", if shape.is_rigid() { "prepared" } else { "out->prepared" });
     context.insert("all", &links.iter().map(joint).collect::<Vec<_>>());
     let moving = links.iter().filter(|link| !link.is_locked()).map(joint);
     context.insert("joints", &moving.collect::<Vec<_>>());
@@ -252,111 +235,17 @@ fn names(shape: &Shape<'_>) -> Context {
     context.insert("module", shape.kind.name);
     context.insert("title", &capital(shape.general.title));
     context.insert("names", &names.join(", "));
-    context.insert("assumptions", &shape.assumptions());
+    context.insert("assumed_lines", &listed(&shape.assumptions()));
     context.insert("bodies", &bodies.join(", "));
     context.insert("count", &shape.kind.links.len());
     context
 }
 
-#[derive(Serialize)]
-struct ShapeText {
-    module: &'static str,
-    names: String,
-    count: usize,
-    /// Whether a joint of it moves.
-    moves: bool,
-    /// Whether one has a motor.
-    is_driven: bool,
-    /// The arguments of back substitution in C.
-    back_c: String,
-    /// `Some(a), Some(b)`, and `a, b`.
-    somes: String,
-    elements: String,
-    finite: String,
-    /// Whether one is not, in C.
-    finite_c: String,
-}
-
-#[derive(Serialize)]
-struct RowText {
-    module: &'static str,
-    function: String,
-    count: usize,
-}
-
-/// The arguments of back substitution in C, each followed by a comma.
-fn back_c(shape: &Shape<'_>, derived: &Derived) -> String {
-    let own = derived.emitted.functions.iter().find(|(name, ..)| name == "back_substitute");
-    let letters = own.map(|(_, letters, _)| letters.as_slice()).unwrap_or_default();
-    let argument = |letter: &&str| match *letter {
-        "a" => "&out->hub, ".to_owned(),
-        _ => format!("&{}_gains[k], ", shape.kind.name),
-    };
-    letters.iter().map(argument).collect()
-}
-
-/// What the files of the whole spacecraft say.
-pub(crate) fn whole(
-    description: &Description,
-    shapes: &[Shape<'_>],
-    derived: &[Derived],
-    operations: Operations,
-) -> Context {
-    let shape = |(shape, derived): (&Shape<'_>, &Derived)| {
-        let elements: Vec<_> = (0..shape.devices.len()).map(|k| format!("d_{k}")).collect();
-        let somes: Vec<_> = elements.iter().map(|name| format!("Some({name})")).collect();
-        let moving = shape.kind.links.iter().filter(|link| !link.is_locked());
-        let finite = moving.map(|link| format!("own.{}.is_finite()", link.joint.acceleration));
-        let finite: Vec<_> = finite.collect();
-        let moving = shape.kind.links.iter().filter(|link| !link.is_locked());
-        let infinite =
-            moving.map(|link| format!("own->{0} - own->{0} != 0.0", link.joint.acceleration));
-        let names: Vec<_> = shape.devices.iter().map(|device| device.name.as_str()).collect();
-        ShapeText {
-            module: shape.kind.name,
-            names: names.join(", "),
-            count: shape.devices.len(),
-            moves: !finite.is_empty(),
-            is_driven: shape.kind.driven().next().is_some(),
-            back_c: back_c(shape, derived),
-            somes: somes.join(", "),
-            elements: elements.join(", "),
-            finite: finite.join(" && "),
-            finite_c: infinite.collect::<Vec<_>>().join(" || "),
-        }
-    };
-    let rows = shapes.iter().zip(derived).flat_map(|(shape, derived)| {
-        let row = |(function, _, count): &(String, Vec<&'static str>, usize)| RowText {
-            module: shape.kind.name,
-            function: function.clone(),
-            count: *count,
-        };
-        derived.emitted.functions.iter().map(row)
+/// A list of assumptions as lines of a comment; what does not fit on one goes on below it.
+pub(crate) fn listed(assumptions: &[String]) -> Vec<String> {
+    let lines = assumptions.iter().flat_map(|line| {
+        let wrapped = wrapped(line, WIDTH).into_iter().enumerate();
+        wrapped.map(|(k, line)| format!("{} {line}", if k == 0 { "-" } else { " " }))
     });
-    let mut context = Context::new();
-    let title = if description.title.is_empty() { &description.name } else { &description.title };
-    // Brackets and ends of comments would be those of the templates, or of C.
-    context.insert("title", &title.replace(['⟦', '⟧'], "").replace("*/", "* /"));
-    context.insert("name", &description.name);
-    context.insert("package", &description.name.replace('_', "-"));
-    let lines: Vec<_> = shapes.iter().flat_map(Shape::assumptions).collect();
-    context.insert("assumptions", &lines);
-    context.insert("shapes", &shapes.iter().zip(derived).map(shape).collect::<Vec<_>>());
-    context.insert("rows", &rows.collect::<Vec<_>>());
-    context.insert("operations", &operations);
-    context.insert("claims", &derived.iter().map(|derived| derived.proof.len()).sum::<usize>());
-    context.insert("c", &false);
-    context.insert("upper", &description.name.to_uppercase());
-    let turned = shapes.iter().any(|shape| shape.assumed.mount != Mount::Any);
-    context.insert("any_turned", &turned);
-    let driven = shapes.iter().any(|shape| shape.kind.driven().next().is_some());
-    context.insert("any_driven", &driven);
-    let scales: Vec<_> = shapes.iter().flat_map(checks).map(|check| check.scale).collect();
-    context.insert("lengths", &scales.iter().any(|scale| scale == "length"));
-    context
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+    lines.collect()
 }

@@ -53,13 +53,15 @@ impl fmt::Display for DescriptionError {
             Self::NotPositive(of, key, value) => {
                 write!(
                     f,
-                    "{of}: {key} is {value}; a mass must be above zero, and no moment of inertia below it"
+                    "{of}: {key} is {value}; a mass must be above zero, and no moment of inertia \
+                     below it"
                 )
             }
             Self::NotSymmetric(of) => write!(f, "{of}: inertia is not symmetric"),
             Self::Mount(of) => write!(
                 f,
-                "{of}: the columns of mount are not those of a rotation within 4096 epsilons; state more digits"
+                "{of}: the columns of mount are not those of a rotation within 4096 epsilons; \
+                 state more digits"
             ),
         }
     }

@@ -1,16 +1,18 @@
 //! A spacecraft as plain numbers in SI units: mass properties, mounts, and which joints are locked.
 //!
-//! The desktop tool derives nothing and the generator reads no scenario: this is what one writes and
-//! the other reads. It depends on neither.
+//! The desktop tool derives nothing and the generator reads no scenario: this is what one writes
+//! and the other reads. It depends on neither.
 //!
 //! Invariant of a [`Description`] that was [read](Description::read): every number is finite, names
 //! are unique identifiers, inertias are symmetric.
 
 mod error;
+mod turn;
 
 use serde::{Deserialize, Serialize};
 
 pub use error::DescriptionError;
+pub use turn::{Axis, Turn};
 
 /// The version of the format.
 pub const FORMAT: u32 = 1;
@@ -54,6 +56,10 @@ pub struct Device {
     pub kind: String,
     /// Row by row; columns are the device's axes expressed in B.
     pub mount: [[f64; 3]; 3],
+    /// The turns that the mount is made of, first from the hub, where they are known: the form of
+    /// the mount is then theirs, and not found in its numbers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turns: Option<Vec<Turn>>,
     /// Its bodies from the hub outwards.
     pub body: Vec<Body>,
     /// Parameters whose zero, or equality with another one, is a coincidence: they stay parameters.
@@ -202,7 +208,10 @@ mod tests {
             locked_at: None,
         };
         let (name, kind) = ("wheel".to_owned(), "reaction_wheel".to_owned());
-        let device = Device { name, kind, mount: unit, body: vec![body], keep: Vec::new() };
+        let turns =
+            Some([None, Some(3)].map(|quarters| Turn { about: Axis::Y, quarters }).to_vec());
+        let body = vec![body];
+        let device = Device { name, kind, mount: unit, turns, body, keep: Vec::new() };
         let hub = Hub { mass: 10.0, centre_of_mass: [0.0; 3], inertia: unit };
         let name = "bus".to_owned();
         Description {
@@ -245,6 +254,9 @@ mod tests {
         }
         let error = Description::read("format = 1\nname = 3").unwrap_err().to_string();
         assert!(error.contains("line 2"), "{error}");
+        let turned = wheel().write().unwrap().replace("y 270", "y 45");
+        let error = Description::read(&turned).unwrap_err().to_string();
+        assert!(error.contains("`y 45`") && error.contains("line"), "{error}");
         let unknown = wheel().write().unwrap().replace("keep", "kept") + "colour = 1\n";
         assert!(Description::read(&unknown).is_err());
     }

@@ -12,15 +12,18 @@
 use super::Share;
 use super::base::{Based, based, origin_words};
 use super::carriers::{Carrying, carriers};
-use super::chain::{Chain, Coordinate, XYZ};
+use super::chain::{Chain, XYZ};
 use super::heading::Heading;
 use super::joint::AtJoint;
 use super::lump::Lump;
+use super::on_hub::{cut, named};
+use super::parallel::{Across, Carried, Parallel};
+use super::reach::{Reach, along_own};
 use super::script::{Script, pairs, sextuple, triple};
 use super::wrench::Wrench;
 use crate::graph::Expr;
 use crate::kinds::{Body, Link, Motion, units};
-use crate::space::{Hub, Own, Symmetric, Vector};
+use crate::space::{Hub, Own, Turn, Vector};
 
 /// The share of a device, with its steps written to `script`: first moment and inertia of what
 /// moves, blocks of the joints, and the bias without what the hub's own motion requires. Expressed
@@ -35,12 +38,13 @@ pub fn aboard<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Share<'g> {
     let frame = format!("the axes of the {}", data.title);
     script.section("rate", Heading::of("ω_{B/N}").equation("(D5)").axes(frame).unit("rad/s"));
     script.names(pairs(triple("omega_b_n", data.frame), omega.components()));
-    let carriers = carriers(chain, &based, omega, script);
-    let mut walk = Walk::new(chain);
+    let hub = first_parent(chain, &based, omega, script);
+    let carriers = carriers(chain, &based, hub, script);
+    let mut walk = Walk::new(chain, Reach::of(chain, &based));
     for k in (first + 1..chain.links.len()).rev() {
         walk.inwards(chain, &based, k, &carriers[k - first - 1], script);
     }
-    let seen = walk.at_first(chain, &based, &Carrying::hub(omega), script);
+    let seen = walk.at_first(chain, &based, &hub, script);
     seen.aboard(chain, &based, axes, script)
 }
 
@@ -61,6 +65,29 @@ fn first_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub
     axes
 }
 
+/// The hub, whose angular velocity along the first body's axes is `omega`.
+fn first_parent<'g>(
+    chain: &Chain<'g>,
+    based: &Based<'g>,
+    omega: Vector<'g, Own>,
+    script: &mut Script<'g>,
+) -> Carrying<'g, Own> {
+    if Reach::of(chain, based) == Reach::Hub {
+        return Carrying::hub(omega, Vector::zero(chain.graph));
+    }
+    let first = chain.first_moving();
+    let body = &chain.kind.links[first].body;
+    let axes = format!("the axes of the {}", body.title);
+    let what = "Origin of the first joint from B, moved by (D3)";
+    script.section("place", Heading::of(what).equation("(D2)").axes(&axes).unit("m"));
+    let reach = along_own(chain, based.reach(chain));
+    script.names(pairs(triple("reach", body.frame), reach.components()));
+    script.section("path", Heading::of(FIRST_ORIGIN).equation("(D5)").axes(axes).unit("m/s²"));
+    let carried = omega.cross(omega.cross(reach));
+    script.names(pairs(triple("r_first_rest", body.frame), carried.components()));
+    Carrying::hub(omega, carried)
+}
+
 /// The axes of the parent body of the first joint that moves, expressed in B: the mount. Where it is
 /// made of turns, or bodies stand on the hub, they are constants of their own.
 fn parent_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hub>; 3] {
@@ -76,11 +103,15 @@ fn parent_axes<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> [Vector<'g, Hu
     })
 }
 
+/// What the hub's rotation makes of the first joint's origin.
+pub(super) const FIRST_ORIGIN: &str =
+    "Acceleration of the first joint's origin, moved by (D3), due to ω";
+
 /// What joints' rates require of the left side.
-const CORIOLIS: &str = "Coriolis and centrifugal terms of the left side, which";
+pub(super) const CORIOLIS: &str = "Coriolis and centrifugal terms of the left side, which";
 
 /// What the row of the first of these joints consists of, about or along an axis of `frame`.
-fn row_heading(outboard: &[Link], frame: &str) -> Heading {
+fn row_heading(outboard: &[Link], frame: &str, reach: Reach) -> Heading {
     let (data, motion) = (&outboard[0], outboard[0].joint.motion);
     let (about, what, unit) = match motion {
         Motion::Turn(_) => ("about", "moment", units(outboard, |units| units.moment)),
@@ -90,8 +121,11 @@ fn row_heading(outboard: &[Link], frame: &str) -> Heading {
     let heading =
         Heading::of(format!("Joint row of the {} {about} {frame}{axis}", data.body.title));
     let heading = heading.equation(data.body.equations.torque).equation("(D7), (D9)");
-    let heading =
-        heading.part("M_ij", unit).part("bias without the hub's part", motion.units().drive);
+    let bias = match reach {
+        Reach::Own => "bias",
+        Reach::Hub => "bias without the hub's part",
+    };
+    let heading = heading.part("M_ij", unit).part(bias, motion.units().drive);
     if outboard.len() == 1 {
         return heading;
     }
@@ -102,24 +136,31 @@ fn row_heading(outboard: &[Link], frame: &str) -> Heading {
 }
 
 /// The composite of the joints processed so far, expressed in the current frame, about its origin.
-struct Walk<'g> {
-    lump: Lump<'g>,
+pub(super) struct Walk<'g> {
+    pub(super) reach: Reach,
+    pub(super) lump: Lump<'g>,
     /// What the rates of the joints processed so far require.
-    rates: Wrench<'g, Own>,
+    pub(super) rates: Wrench<'g, Own>,
     /// What a unit acceleration of each joint processed so far requires; the innermost first.
-    columns: Vec<Wrench<'g, Own>>,
-    joint: Vec<Vec<Expr<'g>>>,
-    bias_joint: Vec<Expr<'g>>,
+    pub(super) columns: Vec<Wrench<'g, Own>>,
+    pub(super) joint: Vec<Vec<Expr<'g>>>,
+    pub(super) bias_joint: Vec<Expr<'g>>,
+    /// What is across the tip's axis, where another can be parallel to it.
+    carried: Option<Carried<'g>>,
+    pub(super) across: Option<Across<'g>>,
 }
 
 impl<'g> Walk<'g> {
-    fn new(chain: &Chain<'g>) -> Self {
+    fn new(chain: &Chain<'g>, reach: Reach) -> Self {
         Self {
+            reach,
             lump: Lump::zero(chain.graph),
             rates: Wrench::zero(chain.graph),
             columns: Vec::new(),
             joint: Vec::new(),
             bias_joint: Vec::new(),
+            carried: None,
+            across: None,
         }
     }
 
@@ -140,8 +181,15 @@ impl<'g> Walk<'g> {
         for wrench in self.columns.iter_mut().chain([&mut self.rates]) {
             *wrench = Wrench { force: back(wrench.force), moment: back(wrench.moment) };
         }
+        self.carried =
+            self.carried.map(|own| own.with_body(&based.links[k].lump, link.turn.inverse()));
         self.row(chain, k, inner, lump, carrying, script);
+        if Parallel::of(chain).is_some_and(|joints| joints.tip == k) {
+            let axis = chain.kind.links[k].joint.motion.axis();
+            self.carried = Some(Carried::of_tip(axis, &lump, self.columns[0]));
+        }
         let arm = based.links[k].origin.handed_back();
+        self.carried = self.carried.map(|carried| carried.shifted(arm, &lump));
         self.lump = lump.shifted(arm);
         for wrench in self.columns.iter_mut().chain([&mut self.rates]) {
             wrench.moment = wrench.moment + arm.cross(wrench.force);
@@ -159,6 +207,8 @@ impl<'g> Walk<'g> {
         let first = chain.first_moving();
         let own = &chain.kind.links[first].body;
         let lump = based.links[first].lump.plus(self.lump);
+        let body = &based.links[first].lump;
+        self.carried = self.carried.map(|carried| carried.with_body(body, Turn::none(chain.graph)));
         self.row(chain, first, own, lump, hub, script);
         self.lump = lump;
         self
@@ -197,7 +247,8 @@ impl<'g> Walk<'g> {
         };
         self.columns.insert(0, lump.moved(link.coordinate, Vector::unit(chain.graph, axis)));
         let tip = behind.len() == 1;
-        script.section("row", row_heading(behind, frame));
+        script.section("row", row_heading(behind, frame, self.reach));
+        self.row_across(chain, k, script);
         let tags = behind.iter().map(|link| link.joint.tag);
         let row = tags.zip(&self.columns).map(|(tag, column)| {
             script.cut(format!("mass_{}{tag}", data.joint.tag), column.along(link))
@@ -222,116 +273,21 @@ impl<'g> Walk<'g> {
         script.names(self.rates.named(&format!("rates_{}", data.joint.tag), frame));
     }
 
-    /// Transforms the composite to B axes, about B.
-    fn aboard(
-        &self,
-        chain: &Chain<'g>,
-        based: &Based<'g>,
-        axes: [Vector<'g, Hub>; 3],
-        script: &mut Script<'g>,
-    ) -> Share<'g> {
-        let first = chain.first_moving();
-        let origins: Vec<_> = based.links.iter().map(|link| link.origin).collect();
-        let reach = chain.mounted(chain.reach(&origins));
-        let what = "Origin of the first joint from B, moved by (D3)";
-        script.section("place", Heading::of(what).equation("(D2)").axes("B").unit("m"));
-        let reach = named(script, "reach", reach);
-        let along_b = |v: Vector<'g, Own>| v.along(axes);
-        let on_hub = |w: &Wrench<'g, Own>| {
-            let force = along_b(w.force);
-            (force, along_b(w.moment), reach)
-        };
-        let links = &chain.kind.links[first..];
-        let whole = links[0].assembly;
-        let wrench = [units(links, |units| units.force), units(links, |units| units.moment)];
-        let heading = Heading::of("M_vi and M_wi").equation("(17), (75), (D7)").axes("B");
-        let heading = heading.wrench(wrench.each_ref().map(String::as_str), "B");
-        script.section("col", heading.note("per unit joint acceleration"));
-        // Bodies inboard of it have no equation.
-        let zero = chain.graph.zero();
-        let mut force = vec![Vector::zero(chain.graph); first];
-        let mut moment = force.clone();
-        let mut own_moment = Vector::zero(chain.graph);
-        for (k, (link, column)) in links.iter().zip(&self.columns).enumerate() {
-            let (f, n, arm) = on_hub(column);
-            let f = cut(script, &format!("f_{}", link.joint.tag), f);
-            if k == 0 {
-                own_moment = n;
-            }
-            force.push(f);
-            moment.push(cut(script, &format!("n_{}", link.joint.tag), n + arm.cross(f)));
-        }
-        let what = format!("{} without its constant share of the hub", whole.to_uppercase());
-        let heading = Heading::of(what).equation("(9), (76), (D6)").axes("B").about("B");
-        let heading = heading.part("first moment", "kg m").part("inertia", "kg m²");
-        script.section("moment", heading);
-        let first_moment = along_b(self.lump.first_moment);
-        let inertia = self.inertia_along_b(chain, axes, own_moment);
-        let lump = Lump { mass: self.lump.mass, first_moment, inertia }.shifted(reach);
-        let first_moment = cut(script, "mr_moving", lump.first_moment);
-        let names = sextuple("i_moving");
-        let entries = pairs(names, lump.inertia.entries());
-        let entries: Vec<_> = entries.map(|(name, entry)| script.cut(name, entry)).collect();
-        let inertia = Symmetric::new(entries.try_into().expect("six entries"));
-
-        let heading = Heading::of(format!("{CORIOLIS} the joints' rates require"));
-        let heading = heading.equation("(16), (75), (D8)").axes("B").wrench(["N", "N m"], "B");
-        script.section("bias", heading);
-        let (f, n, arm) = on_hub(&self.rates);
-        let bias_force = cut(script, "f_rates", f);
-        let bias_moment = cut(script, "n_rates", n + arm.cross(bias_force));
-
-        let what = "Acceleration of the first joint's origin, moved by (D3), due to ω";
-        script.section("reach", Heading::of(what).equation("(D5)").axes("B").unit("m/s²"));
-        let carried = chain.hub.omega.cross(chain.hub.omega.cross(reach));
-        let carried = named(script, "r_first_rest", carried);
-        let what = "Bias of each joint row, with that acceleration of the first joint's origin";
-        let unit = units(links, |units| units.drive);
-        script.section("bias", Heading::of(what).equation("(D9)").unit(&unit));
-        let bias = self.bias_joint.iter().zip(&force[first..]).zip(links);
-        let bias_joint = bias.map(|((asked, force), link)| {
-            script.cut(format!("u_rest_{}", link.joint.tag), *asked + force.dot(carried))
-        });
-        let bias_joint = vec![zero; first].into_iter().chain(bias_joint).collect();
-        let joint = vec![Vec::new(); first].into_iter().chain(self.joint.clone()).collect();
-        Share {
-            mass: chain.graph.zero(),
-            first_moment,
-            inertia,
-            force,
-            moment,
-            joint,
-            bias_force,
-            bias_moment,
-            bias_joint,
-        }
-    }
-
-    /// `C I C^T` with the axes for columns. With k the first joint's axis and 1 the unit tensor,
-    /// `I_jj 1` and what the other axes add to it: two pairs of vectors, one of which is the
-    /// joint's own column.
-    fn inertia_along_b(
-        &self,
-        chain: &Chain<'g>,
-        axes: [Vector<'g, Hub>; 3],
-        column: Vector<'g, Hub>,
-    ) -> Symmetric<'g, Hub> {
-        let inertia = self.lump.inertia;
-        let first = chain.first_moving();
-        let [k, i, j] = chain.kind.links[first].joint.motion.axis().cycle();
-        let half = chain.graph.constant(2).recip();
-        let (ii, jj, kk) = (inertia.at(i, i), inertia.at(j, j), inertia.at(k, k));
-        let across = (half * (ii - jj)) * axes[i] + inertia.at(i, j) * axes[j];
-        // (I_kk - I_jj) / 2 e_k + I_ki e_i + I_kj e_j.
-        let along = match chain.links[first].coordinate {
-            Coordinate::Angle(_) => column - (half * (kk + jj)) * axes[k],
-            Coordinate::Length(_) => {
-                (half * (kk - jj)) * axes[k]
-                    + inertia.at(k, i) * axes[i]
-                    + inertia.at(k, j) * axes[j]
-            }
-        };
-        Symmetric::isotropic(jj) + Symmetric::pairs([(axes[i], across), (axes[k], along)])
+    /// Where the axis of joint `k` can be parallel to the tip's: its row across that, and the tip's
+    /// column by it.
+    fn row_across(&mut self, chain: &Chain<'g>, k: usize, script: &mut Script<'g>) {
+        let parallel = Parallel::of(chain).filter(|joints| joints.inner == k);
+        let Some((joints, carried)) = parallel.zip(self.carried) else { return };
+        let links = chain.kind.links;
+        let axis = links[k].joint.motion.axis();
+        let names = joints.names(links).into_iter();
+        let cut = names.zip(carried.along(axis)).map(|(name, value)| script.cut(name, value));
+        let [diagonal, coupling] = cut.collect::<Vec<_>>()[..] else { unreachable!("two names") };
+        let column = &mut self.columns[joints.tip - k];
+        let mut moment = column.moment.components();
+        moment[axis.cycle()[0]] = coupling + joints.cosine * self.joint[joints.tip - k - 1][0];
+        column.moment = Vector::new(moment);
+        self.across = Some(Across { joints, diagonal, coupling });
     }
 }
 
@@ -345,15 +301,4 @@ pub fn constant_share<'g>(chain: &Chain<'g>, script: &mut Script<'g>) {
     script.name("constant_m", mass);
     named(script, "constant_mr", chain.mounted(first_moment));
     script.names(pairs(sextuple("constant_i"), chain.mounted_tensor(inertia).entries()));
-}
-
-fn named<'g>(script: &mut Script<'g>, stem: &str, v: Vector<'g, Hub>) -> Vector<'g, Hub> {
-    script.names(pairs(triple(stem, "b"), v.components()));
-    v
-}
-
-fn cut<'g>(script: &mut Script<'g>, stem: &str, v: Vector<'g, Hub>) -> Vector<'g, Hub> {
-    let components = pairs(triple(stem, "b"), v.components());
-    let symbols: Vec<_> = components.map(|(name, value)| script.cut(name, value)).collect();
-    Vector::new(symbols.try_into().expect("three components"))
 }

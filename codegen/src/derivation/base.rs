@@ -89,6 +89,12 @@ pub(super) fn based<'g>(chain: &Chain<'g>, script: &mut Script<'g>) -> Based<'g>
 }
 
 impl<'g> Based<'g> {
+    /// From B to the origin of the first joint that moves, along the device's axes.
+    pub(super) fn reach(&self, chain: &Chain<'g>) -> Vector<'g, Carrier> {
+        let origins: Vec<_> = self.links.iter().map(|link| link.origin).collect();
+        chain.reach(&origins)
+    }
+
     /// Every number as its normal form, and under a name.
     fn settle(&mut self, chain: &Chain<'g>, script: &mut Script<'g>) {
         let mut ring = Ring::new(chain.graph);

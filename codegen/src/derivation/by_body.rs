@@ -137,6 +137,7 @@ pub fn share<'g>(chain: &Chain<'g>) -> Share<'g> {
         force: vec![zero; joints],
         moment: vec![zero; joints],
         joint: (0..joints).map(|i| vec![graph.zero(); joints - i]).collect(),
+        across: None,
         bias_force: zero,
         bias_moment: zero,
         bias_joint: vec![graph.zero(); joints],

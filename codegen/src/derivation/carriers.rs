@@ -7,6 +7,7 @@
 use super::base::{Based, origin_words};
 use super::chain::{Chain, Coordinate};
 use super::heading::Heading;
+use super::reach::Reach;
 use super::script::{Script, pairs, triple};
 use crate::graph::Expr;
 use crate::space::{Frame, Own, Vector};
@@ -24,10 +25,10 @@ pub(super) struct Carrying<'g, F> {
 }
 
 impl<'g, F: Frame> Carrying<'g, F> {
-    /// The hub, whose own acceleration is added by the solver.
-    pub(super) fn hub(omega: Vector<'g, F>) -> Self {
-        let zero = Vector::zero(omega.components()[0].graph());
-        Self { omega, alpha: zero, origin: zero }
+    /// The hub, whose own angular acceleration is added by the solver; `origin` is what its rotation
+    /// makes of the first joint's origin, or zero where that is added to each row.
+    pub(super) fn hub(omega: Vector<'g, F>, origin: Vector<'g, F>) -> Self {
+        Self { omega, alpha: Vector::zero(omega.components()[0].graph()), origin }
     }
 
     /// Entry of `[alpha~] + [omega~]^2`, off the diagonal.
@@ -51,15 +52,15 @@ impl<'g, F: Frame> Carrying<'g, F> {
     }
 }
 
-/// Motion of the parent body of each joint but the first, whose parent body is the hub; `omega` is
-/// the hub's angular velocity, expressed in the first body's axes.
+/// Motion of the parent body of each joint but the first, whose parent body is the `hub`, expressed in
+/// the first body's axes.
 pub(super) fn carriers<'g>(
     chain: &Chain<'g>,
     based: &Based<'g>,
-    omega: Vector<'g, Own>,
+    hub: Carrying<'g, Own>,
     script: &mut Script<'g>,
 ) -> Vec<Carrying<'g, Own>> {
-    let mut before = Carrying::hub(omega);
+    let mut before = hub;
     let mut list = Vec::new();
     for (k, next) in based.links.iter().enumerate().skip(chain.first_moving() + 1) {
         let (link, data) = (&chain.links[k - 1], &chain.kind.links[k - 1]);
@@ -87,8 +88,9 @@ pub(super) fn carriers<'g>(
         let origin = origin + own.field(place);
         let (outer, body) = (&chain.kind.links[k].body, data.body.title);
         let heading = Heading::of(format!(
-            "Acceleration of {}, no joint accelerating, without that of B and the hub's part",
+            "Acceleration of {}, no joint accelerating, without that of B{}",
             origin_words(chain, k),
+            if Reach::of(chain, based) == Reach::Own { "" } else { " and the hub's part" },
         ));
         let axes = format!("the axes of the {body}");
         script.section("path", heading.equation("(D5)").axes(axes).unit("m/s²"));

@@ -2,8 +2,8 @@
 
 use super::assumed::{Assumed, Mount};
 use super::base::Passes;
-use crate::graph::{Expr, Graph, Stage};
-use crate::kinds::{Centre, Kind, Motion};
+use crate::graph::{Expr, Graph, Node, Stage};
+use crate::kinds::{self, Centre, Kind, Motion};
 use crate::space::{Carrier, ENTRIES, Hub, Own, Symmetric, Turn, Vector};
 
 /// Suffixes of three components.
@@ -132,7 +132,9 @@ impl<'g> Chain<'g> {
         for k in (0..links.len().saturating_sub(1)).rev() {
             let sum = links[k..].iter().skip(1).fold(links[k].mass, |sum, link| sum + link.mass);
             let name = format!("m_{}", kind.links[k].assembly);
-            links[k].assembly_mass = graph.abbreviation(&name, sum);
+            // The mass of one body is no sum.
+            let one = matches!(sum.node(), Node::Symbol(_));
+            links[k].assembly_mass = if one { sum } else { graph.abbreviation(&name, sum) };
         }
         let mount = known.mount(graph);
         Self { graph, kind, links, hub, passes, assumed, mount }
@@ -143,6 +145,12 @@ impl<'g> Chain<'g> {
     pub fn first_moving(&self) -> usize {
         let links = self.kind.links;
         links.iter().position(|link| !link.is_locked()).unwrap_or(links.len() - 1)
+    }
+
+    /// Whether every joint stands: a body of the hub, without an equation of its own.
+    #[must_use]
+    pub fn is_rigid(&self) -> bool {
+        self.kind.links.iter().all(kinds::Link::is_locked)
     }
 
     /// Along the device's axes, of a vector along those of the parent body of the first joint that
@@ -213,7 +221,8 @@ impl<'g> Link<'g> {
         if !locked {
             graph.set_rate(rate, acceleration);
         }
-        let rest = Vector::new(joint.origin.names.map(parameter));
+        let place = joint.place().map(|place| Vector::new(place.names.map(parameter)));
+        let rest = place.unwrap_or_else(|| Vector::zero(graph));
         let (coordinate, origin) = match joint.motion {
             Motion::Turn(axis) => {
                 let (sin, cos) = if locked {
@@ -232,6 +241,7 @@ impl<'g> Link<'g> {
                 (Coordinate::Length(length), rest + length * Vector::unit(graph, axis))
             }
         };
+        let mass = || body.mass.map_or_else(|| graph.zero(), parameter);
         let entry = |name: Option<String>| name.map_or(graph.zero(), |name| parameter(&name));
         Self {
             turn: if kind.axes_turn(k) { coordinate.turn(graph) } else { Turn::none(graph) },
@@ -242,8 +252,8 @@ impl<'g> Link<'g> {
             torque: graph.symbol(joint.torque, Stage::Rate),
             mode: kind.links[k].is_driven().then(|| Mode::new(graph, joint.tag)),
             origin,
-            mass: parameter(body.mass),
-            assembly_mass: parameter(body.mass),
+            mass: mass(),
+            assembly_mass: mass(),
             centre: match body.centre {
                 Centre::Free(triple) => Vector::new(triple.names.map(parameter)),
                 Centre::On(axis, distance) => parameter(distance) * Vector::unit(graph, axis),

@@ -52,6 +52,7 @@ pub fn share<'g>(chain: &Chain<'g>, observer: &Observer<'g>, script: &mut Script
         force: columns.iter().map(|column| on_hub(column.force)).collect(),
         moment: columns.iter().map(|column| on_hub(column.moment)).collect(),
         joint,
+        across: None,
         bias_force: on_hub(bias.force),
         bias_moment: on_hub(bias.moment),
         bias_joint,

@@ -5,6 +5,9 @@
 //! `h_x - M_xj q`. This is `M = L D L^T` with the gains for L; the proof multiplies the emitted
 //! factors out again and does not use this file.
 //!
+//! Of a joint whose axis can be parallel to the tip's, the diagonal entry is another form of the same,
+//! without a difference of large numbers there: see [`super::parallel`].
+//!
 //! A joint's mode is data. Where its acceleration is given instead of its torque, its gains are
 //! zero and `q` is what is given: the same statements, with the weight `driven` zero. `held` is one
 //! then, so that the reciprocal of an unused pivot is finite. A joint whose acceleration the kind
@@ -15,7 +18,7 @@ use super::chain::{Chain, Mode};
 use super::heading::Heading;
 use super::script::Script;
 use crate::graph::Expr;
-use crate::kinds::units;
+use crate::kinds::{cited, units};
 use crate::space::Vector;
 
 /// Suffixes of the six hub unknowns: acceleration of B, angular acceleration.
@@ -47,6 +50,7 @@ pub struct Pivot<'g> {
     pub gains: Vec<Entry<'g>>,
     /// The joint's acceleration with all else at rest, or the one it is given.
     pub free: Entry<'g>,
+    divisor: Expr<'g>,
     couplings: Vec<Expr<'g>>,
 }
 
@@ -58,6 +62,7 @@ pub struct Eliminated<'g> {
 
 /// One joint's current row: couplings to hub and inboard joints, diagonal, right side.
 struct Row<'g> {
+    joint: usize,
     tag: &'static str,
     /// Of the diagonal.
     unit: &'static str,
@@ -79,18 +84,29 @@ pub fn eliminate<'g>(
     let mut made = Eliminated { pivots: Vec::new() };
     let mut done = String::new();
     while let Some(row) = rows.pop() {
-        let pivot = gains(&row, &rows, diagonals[rows.len()].clone(), script);
+        // With nothing eliminated before it, the tip.
+        let across = share.across.filter(|_| done.is_empty());
+        let diagonal = diagonals[rows.len()].clone();
+        let pivot = gains(&row, &rows, diagonal, across.is_some(), script);
         done.push_str(pivot.tag);
         let what = format!("Joint {} eliminated from the rows of the inboard joints", pivot.tag);
         script.section("rest", Heading::of(what).equation("(D11)"));
         for (l, inner) in rows.iter_mut().enumerate() {
             let (gain, coupling) = (pivot.gains[HUB.len() + l].1, pivot.couplings[HUB.len() + l]);
-            let own = (&mut inner.diagonal, gain * coupling);
-            let right = (&mut inner.right, coupling * pivot.free.1);
-            let others = inner.couplings.iter_mut().zip(&pivot.couplings);
-            let others = others.map(|(entry, other)| (entry, gain * *other));
-            for (entry, taken) in others.chain([own, right]) {
-                let new = entry.1 - taken;
+            let across = across.filter(|across| inner.joint == across.joints.inner);
+            let own = across.map_or(inner.diagonal.1 - gain * coupling, |across| {
+                // Of a joint whose acceleration is given, nothing is subtracted: its divisor is one.
+                let held = row.mode.held * (coupling * pivot.divisor.recip());
+                let tip = across.coupling - held;
+                across.diagonal - across.joints.cosine * tip - gain * across.coupling
+            });
+            let right = inner.right.1 - coupling * pivot.free.1;
+            let others: Vec<_> = inner.couplings.iter().zip(&pivot.couplings).collect();
+            let others = others.into_iter().map(|(entry, other)| entry.1 - gain * *other);
+            let new: Vec<_> = others.chain([own, right]).collect();
+            let entries = inner.couplings.iter_mut();
+            let entries = entries.chain([&mut inner.diagonal, &mut inner.right]);
+            for (entry, new) in entries.zip(new) {
                 entry.1 = script.cut(format!("{}_{done}", entry.0), new);
             }
         }
@@ -103,8 +119,8 @@ pub fn eliminate<'g>(
 /// The rows of the joints with a motor, with right sides `u - u_rest`.
 fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Vec<Row<'g>> {
     let kind = chain.kind;
-    let equations: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
-    let heading = Heading::of(RIGHT_SIDE).equation(&equations.join(", "));
+    let equations = cited(kind.driven(), |equations| equations.torque);
+    let heading = Heading::of(RIGHT_SIDE).equation(&equations);
     let unit = units(kind.driven(), |units| units.drive);
     script.section("tau", heading.part("motor torque less bias", unit));
     let tag = |k: usize| kind.links[k].joint.tag;
@@ -120,6 +136,7 @@ fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Ve
         let nearer = modes[..place].iter().map(|&(i, _)| i);
         let inner = nearer.map(|i| (format!("mass_{}{own}", tag(i)), share.joint[i][k - i]));
         Row {
+            joint: k,
             tag: own,
             unit: kind.links[k].joint.motion.units().pivot,
             couplings: names.zip(hub).chain(inner).collect(),
@@ -131,11 +148,13 @@ fn rows<'g>(chain: &Chain<'g>, share: &Share<'g>, script: &mut Script<'g>) -> Ve
     modes.iter().enumerate().map(row).collect()
 }
 
-/// Pivot, gains and free acceleration of one joint.
+/// Pivot, gains and free acceleration of one joint. Where another's axis can be parallel to it, the
+/// divisor is one if the acceleration is given: it divides what is then left out.
 fn gains<'g>(
     row: &Row<'g>,
     inner: &[Row<'g>],
     diagonal: Entry<'g>,
+    across: bool,
     script: &mut Script<'g>,
 ) -> Pivot<'g> {
     let tag = row.tag;
@@ -151,7 +170,8 @@ fn gains<'g>(
     let heading = Heading::of(format!("Joint {tag}")).equation("(D10)").part("its pivot", row.unit);
     script.section("gain", heading.part("gains", ""));
     let Mode { driven, held, given } = row.mode;
-    let divisor = script.cut(format!("divisor_{tag}"), pivot.1 + held);
+    let own = if across { driven * pivot.1 } else { pivot.1 };
+    let divisor = script.cut(format!("divisor_{tag}"), own + held);
     let recip = driven * divisor.recip();
     script.name(format!("recip_{tag}"), recip);
     let suffixes = HUB.into_iter().chain(inner.iter().map(|row| row.tag));
@@ -166,6 +186,7 @@ fn gains<'g>(
         tag,
         pivot,
         diagonal,
+        divisor,
         gains,
         free,
         couplings: row.couplings.iter().map(|coupling| coupling.1).collect(),

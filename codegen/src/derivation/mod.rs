@@ -11,9 +11,10 @@
 //! - [`composite`]: from the tip to the hub in local frames, emitted as `first_moment` and
 //!   `energy_momentum`;
 //! - [`aboard`]: the same from base parameters ([`base`], with `carriers` for the motion of the
-//!   parent bodies and `joint` for one joint), emitted as `eliminate` and `constant_share`;
+//!   parent bodies, `joint` for one joint, `reach` for the first one's origin and
+//!   `on_hub` for the last step), emitted as `eliminate` and `constant_share`;
 //! - [`elimination`]: the joints eliminated into the hub's six equations, tip first: the second
-//!   half of `eliminate`;
+//!   half of `eliminate`; [`parallel`]: where the axes of two joints can be parallel;
 //! - [`axes`], [`loads`], [`external`], [`gravity`], each emitted by its own name: axes and origins
 //!   of the bodies, loads across their joints, sums of applied wrenches, wrenches of a field;
 //! - `lump`, [`wrench`], [`placed`]: mass, first moment and inertia of bodies; force and moment; a
@@ -38,12 +39,16 @@ mod joint;
 pub mod loads;
 mod lump;
 pub mod motion;
+mod on_hub;
+pub mod parallel;
 pub mod placed;
 pub mod quantities;
+mod reach;
 pub mod script;
 mod torques;
 pub mod wrench;
 
+use parallel::Across;
 use script::{pairs, sextuple, triple};
 
 use crate::graph::Expr;
@@ -64,6 +69,8 @@ pub struct Share<'g> {
     pub moment: Vec<Vector<'g, Hub>>,
     /// `M_ij`, upper triangle by rows: `joint[i][j - i]`.
     pub joint: Vec<Vec<Expr<'g>>>,
+    /// What the elimination subtracts instead, where the axes of two joints can be parallel.
+    pub across: Option<Across<'g>>,
     /// Bias of the translational equation.
     pub bias_force: Vector<'g, Hub>,
     /// Bias of the rotational equation, about B.

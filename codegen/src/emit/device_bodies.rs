@@ -31,7 +31,9 @@ impl Items<'_> {
                     quote!(diagonal([#(#moments),*]))
                 }
             };
-            let (origin, mass) = (components(link.joint.origin.name), own(body.mass));
+            let origin = link.joint.place();
+            let origin = origin.map_or(quote!([zero(); 3]), |place| components(place.name));
+            let mass = body.mass.map_or(quote!(zero()), own);
             quote! {
                 BodyParameters {
                     origin: #origin,
@@ -71,10 +73,10 @@ impl Items<'_> {
 /// The fields of a device that one of its bodies gives.
 fn of_body(link: &Link) -> Vec<TokenStream> {
     let (body, of) = (&link.body, ident(body_name(&link.body)));
-    let mut fields = vec![
-        set(link.joint.origin.name, &quote!(vector(bodies.#of.origin))),
-        set(body.mass, &quote!(bodies.#of.mass)),
-    ];
+    let mut fields = Vec::new();
+    let place = link.joint.place();
+    fields.extend(place.map(|place| set(place.name, &quote!(vector(bodies.#of.origin)))));
+    fields.extend(body.mass.map(|mass| set(mass, &quote!(bodies.#of.mass))));
     match body.centre {
         Centre::Free(triple) => {
             fields.push(set(triple.name, &quote!(vector(bodies.#of.centre))));

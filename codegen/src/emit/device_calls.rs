@@ -90,11 +90,15 @@ impl Items<'_> {
 
     /// Sines, cosines and lengths.
     pub(super) fn pose(&self) -> TokenStream {
-        let sines = self.kind.turning().map(|link| {
-            let angle = ident(link.joint.coordinate);
-            let (sine, cosine) = (format_ident!("sin_{angle}"), format_ident!("cos_{angle}"));
-            quote!(let (#sine, #cosine) = joints.#angle.sin_cos();)
-        });
+        let links = self.kind.links.iter().enumerate();
+        let turning = links.filter(|(joint, _)| self.kind.axes_turn(*joint));
+        let sines: Vec<_> = turning
+            .map(|(joint, link)| {
+                let (joint, angle) = (Index::from(joint), ident(link.joint.coordinate));
+                let (sine, cosine) = (format_ident!("sin_{angle}"), format_ident!("cos_{angle}"));
+                quote!(let (#sine, #cosine) = sin_cos(#joint, joints.#angle);)
+            })
+            .collect();
         let literal = |(_, record): &(&str, Record)| {
             let name = ident(&record.name);
             let fields: Vec<_> = record.fields.iter().map(|field| ident(&field.name)).collect();
@@ -110,8 +114,12 @@ impl Items<'_> {
             [one] => (quote!(joints), quote!(#one)),
             both => (quote!(joints), quote!((#(#both),*))),
         };
+        let sin_cos = if sines.is_empty() { quote!(_) } else { quote!(mut sin_cos) };
         quote! {
-            fn pose<T: Angle>(#joints: &Joints<T>) -> Self::Pose<T> {
+            fn pose_by<T: Value>(
+                #joints: &Joints<T>,
+                #sin_cos: impl FnMut(usize, T) -> (T, T),
+            ) -> Self::Pose<T> {
                 #(#sines)*
                 #result
             }

@@ -57,7 +57,7 @@ impl Items<'_> {
     /// The device with nothing but its outermost body.
     fn bare(&self) -> TokenStream {
         let (name, tip) = (self.name(), &self.links()[self.links().len() - 1].body);
-        let mut arguments = vec![set(tip.mass, &quote!(T))];
+        let mut arguments: Vec<_> = tip.mass.iter().map(|mass| set(mass, &quote!(T))).collect();
         match tip.inertia {
             Inertia::Full(_) => arguments.push(set(inertia_name(tip), &quote!(Matrix3<T>))),
             _ => arguments.extend(moments(tip).iter().map(|name| set(name, &quote!(T)))),
@@ -69,8 +69,9 @@ impl Items<'_> {
                 let outermost = k + 1 == self.links().len();
                 if outermost { ident(name).to_token_stream() } else { set(name, &none) }
             };
-            fields.push(set(link.joint.origin.name, &quote!(vector([zero(); 3]))));
-            fields.push(given(body.mass, quote!(zero())));
+            let place = link.joint.place();
+            fields.extend(place.map(|place| set(place.name, &quote!(vector([zero(); 3])))));
+            fields.extend(body.mass.map(|mass| given(mass, quote!(zero()))));
             match body.centre {
                 Centre::Free(triple) => fields.push(set(triple.name, &quote!(vector([zero(); 3])))),
                 Centre::On(_, name) => fields.push(set(name, &quote!(zero()))),
@@ -206,6 +207,7 @@ impl Items<'_> {
             impl<T: Scalar> Kind for #name<T> {
                 type Scalar = T;
                 type Motors = MotorTorques<T>;
+                type With<U: Scalar> = #name<U>;
                 #name_item
                 const JOINTS: &'static [JointInfo] = &[#(#infos),*];
                 #table
@@ -270,7 +272,8 @@ impl Items<'_> {
     /// The imbalance, and the device without it.
     fn balanced(&self) -> TokenStream {
         let Some((body, offset)) = imbalanced(self.kind) else { return TokenStream::new() };
-        let [name, mass] = [inertia_name(body), body.mass.to_owned()].map(ident);
+        let Some(mass) = body.mass else { return TokenStream::new() };
+        let [name, mass] = [inertia_name(body), mass.to_owned()].map(ident);
         let offset = ident(offset);
         quote! {
             fn model(&self) -> ImbalanceModel {
@@ -302,8 +305,10 @@ impl Items<'_> {
                 lets.push(quote!(let [#(#names),*] = #from;));
                 names.iter().map(Ident::to_token_stream).collect::<Vec<_>>()
             };
-            let from = if k == 0 { quote!(origin) } else { components(joint.origin.name) };
-            fields.extend(taken(&joint.origin.names.map(ident), from));
+            if let Some(place) = joint.place() {
+                let from = if k == 0 { quote!(origin) } else { components(place.name) };
+                fields.extend(taken(&place.names.map(ident), from));
+            }
             match body.centre {
                 Centre::Free(triple) => {
                     fields.extend(taken(&triple.names.map(ident), components(triple.name)));
@@ -311,7 +316,7 @@ impl Items<'_> {
                 Centre::On(_, name) => fields.push(field(name)),
                 Centre::At => {}
             }
-            fields.push(field(body.mass));
+            fields.extend(body.mass.map(field));
             match body.inertia {
                 Inertia::Full(_) => {
                     let names: Vec<_> = moments(body).iter().map(ident).collect();

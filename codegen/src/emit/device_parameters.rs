@@ -43,8 +43,8 @@ enum Shape {
 pub(super) fn parameters(kind: &Kind) -> Vec<Parameter> {
     let mut list = vec![mount(kind)];
     for (k, link) in kind.links.iter().enumerate() {
-        list.push(origin(kind, k));
-        list.push(mass(link, k + 1 == kind.links.len()));
+        list.extend(origin(kind, k));
+        list.extend(mass(link, k + 1 == kind.links.len()));
         list.extend(centre(link));
         list.extend(inertia(link));
     }
@@ -84,30 +84,31 @@ fn mount(kind: &Kind) -> Parameter {
     }
 }
 
-fn origin(kind: &Kind, k: usize) -> Parameter {
+fn origin(kind: &Kind, k: usize) -> Option<Parameter> {
     let (joint, body) = (&kind.links[k].joint, &kind.links[k].body);
+    let origin = joint.place()?;
     let inboard = k.checked_sub(1).map(|k| kind.links[k].body.title);
     let from = inboard.map_or("B".to_owned(), |parent| format!("the origin of the {parent}"));
     let slides = match joint.motion {
         Motion::Turn(_) => "",
         Motion::Slide(_) => ", the coordinate at zero",
     };
-    Parameter {
-        name: joint.origin.name.to_owned(),
-        symbol: joint.origin.symbol.to_owned(),
+    Some(Parameter {
+        name: origin.name.to_owned(),
+        symbol: origin.symbol.to_owned(),
         unit: "m",
         shape: Shape::Vector,
         frame: Some(inboard.unwrap_or("B")),
         body: Some(body.title),
         meaning: format!("origin of the {} from {from}{slides}", body.title),
         note: String::new(),
-    }
+    })
 }
 
-fn mass(link: &Link, tip: bool) -> Parameter {
+fn mass(link: &Link, tip: bool) -> Option<Parameter> {
     let body = &link.body;
-    Parameter {
-        name: body.mass.to_owned(),
+    Some(Parameter {
+        name: body.mass?.to_owned(),
         symbol: format!("m_{}", body.letters[0]),
         unit: "kg",
         shape: Shape::Scalar,
@@ -115,7 +116,7 @@ fn mass(link: &Link, tip: bool) -> Parameter {
         body: Some(body.title),
         meaning: format!("mass of the {}", body.title),
         note: if tip { " Above zero." } else { " Zero is legal." }.to_owned(),
-    }
+    })
 }
 
 fn centre(link: &Link) -> Option<Parameter> {

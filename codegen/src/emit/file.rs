@@ -16,7 +16,7 @@ use super::inputs::Stated;
 use super::parts::{INLINED, Part, Parts, parts};
 use super::prepare::numbered;
 use super::text::{
-    COMMENT, LINE, capital, fnv1a64, literal, pretty, pretty_items, spaced, wrapped,
+    COMMENT, LINE, capital, fnv1a64, literal, pretty, pretty_items, spaced, within_lines, wrapped,
 };
 use crate::derivation::chain::Chain;
 use crate::kernel::{Record, Source, shared_records};
@@ -44,6 +44,8 @@ pub enum EmitError {
     Template(tera::Error),
     /// The result is not Rust.
     Syntax(String, syn::Error),
+    /// A name stands for two values of parameters.
+    Ambiguous(&'static str, String),
     /// A line is too wide.
     Width(String, String),
     /// A statement that C has not.
@@ -60,6 +62,9 @@ impl fmt::Display for EmitError {
         match self {
             Self::Template(error) => write!(f, "template: {error}"),
             Self::Syntax(path, error) => write!(f, "{path} would not parse: {error}"),
+            Self::Ambiguous(kind, name) => {
+                write!(f, "kind `{kind}`: `{name}` would stand for two values; rename a link")
+            }
             Self::Width(path, line) => {
                 write!(f, "{path}: `{line}` would be wider than {LINE} columns; shorten its name")
             }
@@ -165,7 +170,8 @@ pub(super) fn templates() -> Result<Tera, EmitError> {
     Ok(tera)
 }
 
-pub(super) fn rust_file(path: String, text: String) -> Result<EmittedFile, EmitError> {
+pub(super) fn rust_file(path: String, mut text: String) -> Result<EmittedFile, EmitError> {
+    text = within_lines(&text);
     if let Some(line) = text.lines().find(|line| line.chars().count() > LINE) {
         return Err(EmitError::Width(path, line.trim().to_owned()));
     }
@@ -181,7 +187,7 @@ pub(super) fn kind_file(
     signatures: &mut Signatures,
 ) -> Result<EmittedFile, EmitError> {
     let kind = chain.kind;
-    let Parts { mut records, functions: parts, stated, inputs } = parts(chain);
+    let Parts { mut records, functions: parts, stated, inputs } = parts(chain)?;
     let mut functions = Vec::new();
     for part in &parts {
         rows.push(count(kind.name, &part.name, part.body.counts));

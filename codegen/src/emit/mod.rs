@@ -33,4 +33,4 @@ pub use file::{EmitError, Emitted, EmittedFile, of_kind};
 pub use functions::{Functions, functions};
 pub use home::Home;
 pub use shared::{every_kind, files, shared};
-pub use text::pretty_items;
+pub use text::{capital, pretty_items, wrapped};

@@ -4,6 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::body::{FunctionBody, Writer};
+use super::file::EmitError;
 use super::functions::{Functions, functions};
 use super::inputs::{self, Stated};
 use super::prepare::Prepared;
@@ -46,11 +47,17 @@ pub(super) struct Part {
 }
 
 /// The parts of the chain's kind.
-pub(super) fn parts(chain: &Chain<'_>) -> Parts {
+///
+/// # Errors
+/// When a name would stand for two values.
+pub(super) fn parts(chain: &Chain<'_>) -> Result<Parts, EmitError> {
     let kind = chain.kind;
     let functions = functions(chain);
     let inputs = inputs::derived(chain.graph, kind, &functions);
     let Functions { kernels, prepared } = functions;
+    if let Some(name) = &prepared.ambiguous {
+        return Err(EmitError::Ambiguous(kind.name, name.clone()));
+    }
     let stated = inputs::stated(&prepared.sections);
     let raw = parameters_of(chain);
     let prepare = Part {
@@ -78,18 +85,21 @@ pub(super) fn parts(chain: &Chain<'_>) -> Parts {
     let functions = std::iter::once(prepare).chain(kernels.iter().map(part)).collect();
 
     let mut records = vec![raw, prepared.record.clone()];
-    records.extend(pose(kind).into_iter().map(|(_, record)| record));
-    // A kind whose joints all keep their rates has neither motors nor modes.
-    let given = [rates(kind), motors(kind), modes(kind), wrenches(kind)].into_iter();
-    records.extend(given.filter(|record| !record.fields.is_empty()));
+    // What stands on the hub has no state.
+    if !chain.is_rigid() {
+        records.extend(pose(kind).into_iter().map(|(_, record)| record));
+        // A kind whose joints all keep their rates has neither motors nor modes.
+        let given = [rates(kind), motors(kind), modes(kind), wrenches(kind)].into_iter();
+        records.extend(given.filter(|record| !record.fields.is_empty()));
+    }
     let outputs = kernels.iter().flat_map(|kernel| kernel.output.with_nested());
     for output in outputs.filter(|record| !record.shared) {
         if !records.contains(&output) {
             records.push(output);
         }
     }
-    debug_assert!(records.contains(&joint_accelerations(kind)));
-    Parts { records, functions, stated, inputs }
+    debug_assert!(chain.is_rigid() || records.contains(&joint_accelerations(kind)));
+    Ok(Parts { records, functions, stated, inputs })
 }
 
 /// The body of `prepare`.

@@ -8,6 +8,7 @@ use crate::derivation::heading::Heading;
 use crate::derivation::script::{Section, Statement};
 use crate::graph::{Expr, Graph, Node, NodeId, Stage};
 use crate::kernel::{Field, Kernel, Record, Source};
+use crate::normal::Ring;
 
 /// The constants of a kind: fields of `Prepared` and the statements that compute them.
 pub struct Prepared<'g> {
@@ -17,6 +18,8 @@ pub struct Prepared<'g> {
     pub record: Record,
     /// The statements of `prepare`.
     pub sections: Vec<Section<'g>>,
+    /// A name that stands for two values.
+    pub(super) ambiguous: Option<String>,
 }
 
 impl<'g> Prepared<'g> {
@@ -147,9 +150,9 @@ pub(crate) fn prepared<'g>(
         }
         fields.insert(id, name);
     }
-    debug_assert_eq!(ambiguous(graph, kernels), None, "one name, two values of parameters");
+    let ambiguous = ambiguous(graph, kernels).map(str::to_owned);
     let sections = sections(graph, kernels, &fields);
-    Prepared { fields, record, sections }
+    Prepared { fields, record, sections, ambiguous }
 }
 
 /// Whether a field has a number, no name.
@@ -157,12 +160,17 @@ pub(super) fn numbered(name: &str) -> bool {
     name.strip_prefix("k_").is_some_and(|number| number.parse::<usize>().is_ok())
 }
 
-/// A name that the kernels give to two values of parameters only.
-fn ambiguous<'a>(graph: &Graph, kernels: &'a [Kernel<'_>]) -> Option<&'a str> {
-    let mut known: HashMap<&str, NodeId> = HashMap::new();
+/// A name that the kernels give to two values of parameters only. One value may be two
+/// expressions: the mass that slides, summed from the tip and from its normal form.
+fn ambiguous<'a, 'g>(graph: &'g Graph, kernels: &'a [Kernel<'g>]) -> Option<&'a str> {
+    let mut known: HashMap<&str, Expr<'g>> = HashMap::new();
+    let mut ring = Ring::new(graph);
+    let mut same = |a: Expr<'g>, b: Expr<'g>| {
+        a == b || ring.normal(a).is_ok_and(|a| ring.normal(b).is_ok_and(|b| a == b))
+    };
     let live = kernels.iter().flat_map(|kernel| live(graph, kernel));
     live.filter(|s| s.value.stage() == Stage::Parameter)
-        .find(|s| *known.entry(&s.name).or_insert(s.value.id()) != s.value.id())
+        .find(|s| !same(*known.entry(&s.name).or_insert(s.value), s.value))
         .map(|s| s.name.as_str())
 }
 

@@ -17,6 +17,37 @@ pub(super) fn pretty(statements: &[TokenStream]) -> Vec<String> {
     lines[1..lines.len() - 1].iter().map(|line| line[4..].to_owned()).collect()
 }
 
+/// The text with its wide lines broken within their only string, which stays the same.
+pub(super) fn within_lines(text: &str) -> String {
+    let lines = text.lines().map(|line| {
+        let quotes = line.matches('"').count();
+        let comment = line.trim_start().starts_with("//");
+        let wide = line.chars().count() > LINE && quotes == 2 && !line.contains('\\') && !comment;
+        if wide { broken(line) } else { line.to_owned() }
+    });
+    let mut broken = lines.collect::<Vec<_>>().join("\n");
+    if text.ends_with('\n') {
+        broken.push('\n');
+    }
+    broken
+}
+
+/// A line in several: the string goes on after a backslash.
+fn broken(line: &str) -> String {
+    let opened = line.find('"').map_or(0, |at| line[..at].chars().count() + 1);
+    let mut lines = vec![String::new()];
+    for word in line.split_inclusive(' ') {
+        let last = lines.last_mut().expect("there is a first line");
+        if last.chars().count() + word.chars().count() < LINE || last.trim().is_empty() {
+            last.push_str(word);
+        } else {
+            last.push('\\');
+            lines.push(format!("{}{word}", " ".repeat(opened)));
+        }
+    }
+    lines.join("\n")
+}
+
 /// What the first line of an item that stands apart begins with: all but imports and types.
 const APART: [&str; 6] = ["///", "#[", "const ", "fn ", "impl", "pub "];
 
@@ -76,25 +107,27 @@ pub(super) fn spaced(line: &str) -> String {
 }
 
 /// Words in lines of at most `width` characters.
-pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
+#[must_use]
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = vec![String::new()];
     for word in text.split_whitespace() {
-        let line = lines.last_mut().expect("there is a line");
-        if line.is_empty() {
-            line.push_str(word);
-        } else if line.chars().count() + 1 + word.chars().count() <= width {
-            line.push(' ');
-            line.push_str(word);
-        } else {
-            lines.push(word.to_owned());
+        match lines.last_mut() {
+            Some(line) if line.is_empty() => line.push_str(word),
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
         }
     }
     lines
 }
 
 /// The text with a capital first letter.
-pub(super) fn capital(text: &str) -> String {
-    text[..1].to_uppercase() + &text[1..]
+#[must_use]
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Fowler-Noll-Vo hash of the inputs, as the header shows it.
@@ -130,6 +163,23 @@ mod tests {
             \x20   /// Field.\n    x: F,\n    /// Field.\n    y: G,\n}\n\n\
             impl E {\n    type T = F;\n    type U = G;\n\n    fn f() {}\n\n    fn g() {}\n}";
         assert_eq!(pretty_items(items), expected);
+    }
+
+    #[test]
+    fn a_wide_string_is_broken_and_stays_the_same() {
+        let words = ["some words"; 20].join(" ");
+        let text = format!("    const MEANING: &str = \"{words}\";\n");
+        let broken = within_lines(&text);
+        assert!(broken.lines().count() > 2 && broken.lines().all(|line| line.len() <= LINE));
+        let value = |text: &str| {
+            let item: syn::ItemConst = syn::parse_str(text).unwrap();
+            let syn::Expr::Lit(syn::ExprLit { lit: syn::Lit::Str(value), .. }) = *item.expr else {
+                panic!("a string")
+            };
+            value.value()
+        };
+        assert_eq!(value(&broken), words);
+        assert_eq!(within_lines("let a = 1;\n"), "let a = 1;\n");
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! The kernel `constant_share`: what a device adds to the hub whatever its joints do.
 
-use super::{Claim, Kernel, Record, records};
+use super::{Claim, Kernel, Record, eliminate, records};
 use crate::derivation::aboard::constant_share;
+use crate::derivation::by_body;
 use crate::derivation::chain::Chain;
 use crate::derivation::script::Script;
 
@@ -10,6 +11,12 @@ use crate::derivation::script::Script;
 pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let mut script = Script::new(chain.graph);
     constant_share(chain, &mut script);
+    // Where no joint moves, it is the whole device, and what follows of the hub's motion.
+    let whole = if chain.is_rigid() {
+        eliminate::claims(chain.kind, by_body::share(chain).named(chain.kind, |_| false))
+    } else {
+        Vec::new()
+    };
     let mass = chain.links.iter().skip(1).fold(chain.links[0].mass, |sum, link| sum + link.mass);
     Kernel {
         name: "constant_share".to_owned(),
@@ -21,10 +28,12 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
         inputs: vec![("p", Record::new("Prepared", ""))],
         sections: script.sections,
         output: records::constant_share(),
-        claims: vec![Claim {
+        claims: std::iter::once(Claim {
             tag: "(D4)".to_owned(),
             name: "constant_m".to_owned(),
             components: vec![("constant_m".to_owned(), mass)],
-        }],
+        })
+        .chain(whole)
+        .collect(),
     }
 }

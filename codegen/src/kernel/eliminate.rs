@@ -4,9 +4,10 @@ use super::{Claim, Kernel, Record, inputs, records};
 use crate::derivation::aboard::aboard;
 use crate::derivation::chain::Chain;
 use crate::derivation::elimination::{Eliminated, HUB, eliminate};
+use crate::derivation::parallel::Parallel;
 use crate::derivation::script::Script;
 use crate::derivation::{Named, by_body};
-use crate::kinds::{Kind, Link, Motion};
+use crate::kinds::{Kind, Link, Motion, cited};
 
 /// The kernel, the elimination it is built from, and what back substitution needs of its result.
 #[must_use]
@@ -23,15 +24,17 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> (Kernel<'g>, Eliminated<'g>, Reco
         inputs: inputs(kind, [("w", records::body_rate())].into_iter().chain(drives)),
         sections: script.sections,
         output: output(kind, &eliminated, &gains),
-        claims: claims(kind, by_body::share(chain).named(kind, Link::is_driven)),
+        claims: claims(
+            kind,
+            [by_body::share(chain).named(kind, Link::is_driven), across(chain)].concat(),
+        ),
     };
     (kernel, eliminated, gains)
 }
 
 /// The documentation. A kind whose joints all keep their rates has nothing to eliminate.
 fn doc(kind: &Kind) -> Vec<String> {
-    let torques: Vec<_> = kind.driven().map(|link| link.body.equations.torque).collect();
-    let torques = torques.join(", ");
+    let torques = cited(kind.driven(), |equations| equations.torque);
     let motors = [
         &format!("Translation (16), rotation (75), motor torques {torques}; with the joints"),
         "eliminated by `M = L D Lᵀ`, six equations for the hub are left. A joint whose",
@@ -114,6 +117,15 @@ fn gains(kind: &Kind, eliminated: &Eliminated<'_>) -> Record {
         record.field(pivot.free.0.clone(), doc);
     }
     record
+}
+
+/// What is across the tip's axis in the row of a joint that can be parallel to it, from the entries of
+/// the mass matrix.
+fn across<'g>(chain: &Chain<'g>) -> Vec<Named<'g>> {
+    let Some(joints) = Parallel::of(chain) else { return Vec::new() };
+    let values = joints.of_share(&by_body::share(chain));
+    let named = joints.names(chain.kind.links).into_iter().zip(values);
+    named.map(|(name, value)| (name.clone(), vec![(name, value)])).collect()
 }
 
 /// The link whose joint has this tag.

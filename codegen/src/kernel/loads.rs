@@ -5,7 +5,7 @@ use crate::derivation::by_body::exerted;
 use crate::derivation::chain::Chain;
 use crate::derivation::loads::loads;
 use crate::derivation::script::Script;
-use crate::kinds::Kind;
+use crate::kinds::{Kind, cited};
 
 /// What each parent body exerts.
 #[must_use]
@@ -13,13 +13,13 @@ pub(super) fn kernel<'g>(chain: &Chain<'g>) -> Kernel<'g> {
     let kind = chain.kind;
     let mut script = Script::new(chain.graph);
     loads(chain, &mut script);
-    let across: Vec<_> = kind.links.iter().map(|link| link.body.equations.across).collect();
+    let across = cited(kind.links, |equations| equations.across);
     Kernel {
         name: "loads".to_owned(),
         doc: vec![
             "Inverse dynamics: force and moment that each parent body exerts on its child body at"
                 .into(),
-            format!("given accelerations, with the torques of {}.", across.join(", ")),
+            format!("given accelerations, with the torques of {across}."),
         ],
         inputs: inputs(
             kind,

@@ -60,7 +60,9 @@ fn link_parameters(link: &Link, record: &mut Record) {
         }
     };
     let carrier = format!("origin of the {}, expressed in the parent body's axes", body.title);
-    place(joint.origin.symbol, joint.origin.names, &carrier);
+    if let Some(origin) = joint.place() {
+        place(origin.symbol, origin.names, &carrier);
+    }
     match body.centre {
         Centre::Free(triple) => {
             place(triple.symbol, triple.names, &format!("centre of mass of the {}", body.title));
@@ -71,7 +73,9 @@ fn link_parameters(link: &Link, record: &mut Record) {
         ),
         Centre::At => {}
     }
-    record.field(body.mass, format!("m_{letter}: mass of the {}, kg.", body.title));
+    if let Some(mass) = body.mass {
+        record.field(mass, format!("m_{letter}: mass of the {}, kg.", body.title));
+    }
     let doc = format!("[I_{{{letter},{point}}}]: inertia of the {}, its own axes", body.title);
     let names = body.inertia.names();
     for (k, name) in names.iter().enumerate() {

@@ -16,8 +16,8 @@ pub struct Body {
     pub triad: [&'static str; 3],
     /// Its centre of mass, as a point: `r_goc_b`.
     pub point: &'static str,
-    /// Its mass.
-    pub mass: &'static str,
+    /// Its mass; none of a link without a body.
+    pub mass: Option<&'static str>,
     /// Where its centre of mass lies from its origin, in its own axes.
     pub centre: Centre,
     /// Its inertia about its own centre of mass, in its own axes.
@@ -48,7 +48,7 @@ pub enum Inertia {
     Diagonal(&'static str),
     /// The same from every angle about an axis: an axial and a transverse moment.
     Symmetric(Axis, &'static str),
-    /// None: a point mass.
+    /// None: a point mass, or no body.
     Point,
 }
 

@@ -31,6 +31,8 @@ pub struct LinkBuilder {
     /// Axis and name of the distance, or the whole vector.
     centre: Place,
     inertia: fn(&'static str) -> Inertia,
+    bodiless: bool,
+    concentric: bool,
     equations: Option<Equations>,
 }
 
@@ -105,7 +107,19 @@ impl LinkBuilder {
         let [letter, title, coordinate] = [letter, title, coordinate].map(str::to_owned);
         let (centre, inertia) = (Place::Free, Inertia::Full as fn(_) -> _);
         let drive = Drive::Motor;
-        Self { letter, title, coordinate, motion, drive, centre, inertia, equations: None }
+        let (bodiless, concentric, equations) = (false, false, None);
+        Self {
+            letter,
+            title,
+            coordinate,
+            motion,
+            drive,
+            centre,
+            inertia,
+            bodiless,
+            concentric,
+            equations,
+        }
     }
 
     /// Its joint keeps its rate, whatever torque that takes, as the wheel of an SGCMG does.
@@ -149,6 +163,20 @@ impl LinkBuilder {
         Self { centre: Place::At, inertia: |_| Inertia::Point, ..self }
     }
 
+    /// It has no body: only the axes that move with its joint, for a joint of more than one freedom.
+    /// It has no mass, no inertia and no parameter of either.
+    #[must_use]
+    pub fn bodiless(self) -> Self {
+        Self { bodiless: true, ..self.point() }
+    }
+
+    /// The origin of its joint is that of its parent body: no parameter states it. The first link of a
+    /// chain has its origin in the hub all the same.
+    #[must_use]
+    pub fn concentric(self) -> Self {
+        Self { concentric: true, ..self }
+    }
+
     /// Where its quantities are stated. By default these are the paper's numbers for what moves
     /// like it: the outer gimbal for the first link, the inner gimbal for every other.
     #[must_use]
@@ -186,6 +214,7 @@ impl LinkBuilder {
                 symbols: ["\u{307}", "\u{308}"]
                     .map(|dots| kept(&naming::written(coordinate, dots))),
                 torque: kept(&format!("u_{letter}")),
+                concentric: self.concentric && k > 0,
                 origin: triple(&format!("r_{{{upper}/{carrier_upper}}}"), &origin, carrier),
             },
             body: Body {
@@ -194,7 +223,7 @@ impl LinkBuilder {
                 origin: kept(letter),
                 triad: ["x", "y", "z"].map(|axis| kept(&format!("{letter}_{axis}"))),
                 point: kept(&format!("{letter}c")),
-                mass: kept(&format!("m_{letter}")),
+                mass: (!self.bodiless).then(|| kept(&format!("m_{letter}"))),
                 centre: match &self.centre {
                     Place::Free => {
                         Centre::Free(triple(&format!("r_{{{upper}c/{upper}}}"), &centre, letter))
@@ -246,7 +275,16 @@ mod tests {
         assert_eq!(joint(made.joint), joint(known.joint));
         let body = |body: Body| {
             let Body { title, frame, origin, point, mass, letters, .. } = body;
-            [title, frame, origin, point, mass, letters[0], letters[1], body.equations.torque]
+            [
+                title,
+                frame,
+                origin,
+                point,
+                mass.unwrap(),
+                letters[0],
+                letters[1],
+                body.equations.torque,
+            ]
         };
         assert_eq!(body(made.body), body(known.body));
         assert_eq!(made.assembly, known.assembly);

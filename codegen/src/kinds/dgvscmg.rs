@@ -25,6 +25,7 @@ pub(super) const OUTER_GIMBAL: Link = Link {
         symbols: ["ᵒγ̇", "ᵒγ̈"],
         torque: "u_o",
         drive: Drive::Motor,
+        concentric: false,
         origin: Triple {
             symbol: "r_{Gᵒ/B}",
             name: "r_go_b",
@@ -37,7 +38,7 @@ pub(super) const OUTER_GIMBAL: Link = Link {
         origin: "go",
         triad: ["g_x", "s_y", "s_z"],
         point: "goc",
-        mass: "m_go",
+        mass: Some("m_go"),
         centre: Centre::Free(Triple {
             symbol: "r_{Gᵒc/Gᵒ}",
             name: "r_goc_go",
@@ -62,6 +63,7 @@ pub(super) const INNER_GIMBAL: Link = Link {
         symbols: ["ⁱγ̇", "ⁱγ̈"],
         torque: "u_i",
         drive: Drive::Motor,
+        concentric: false,
         origin: Triple { symbol: "Lᵒ", name: "l_o", names: ["l_o_x", "l_o_y", "l_o_z"] },
     },
     body: Body {
@@ -70,7 +72,7 @@ pub(super) const INNER_GIMBAL: Link = Link {
         origin: "gi",
         triad: ["s_x", "s_y", "g_z"],
         point: "gic",
-        mass: "m_gi",
+        mass: Some("m_gi"),
         centre: Centre::Free(Triple {
             symbol: "r_{Gⁱc/Gⁱ}",
             name: "r_gic_gi",

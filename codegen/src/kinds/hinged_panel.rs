@@ -22,6 +22,7 @@ pub const HINGED_PANEL: Kind = Kind {
             symbols: ["φ̇", "φ̈"],
             torque: "u_p",
             drive: Drive::Motor,
+            concentric: false,
             origin: Triple {
                 symbol: "r_{P/B}",
                 name: "r_p_b",
@@ -34,7 +35,7 @@ pub const HINGED_PANEL: Kind = Kind {
             origin: "p",
             triad: ["p_x", "p_y", "b_z"],
             point: "pc",
-            mass: "m_p",
+            mass: Some("m_p"),
             centre: Centre::Free(Triple {
                 symbol: "r_{Pc/P}",
                 name: "r_pc_p",

@@ -13,6 +13,7 @@ mod builder;
 mod dgcmg;
 mod dgvscmg;
 mod equations;
+mod flexible;
 mod hinged_panel;
 mod naming;
 mod reaction_wheel;
@@ -32,6 +33,7 @@ pub use builder::{KindBuilder, LinkBuilder};
 pub use dgcmg::DGCMG;
 pub use dgvscmg::DGVSCMG;
 pub use equations::Equations;
+pub use flexible::{FLEXIBLE_REACTION_WHEEL, FLEXIBLE_VSCMG};
 pub use hinged_panel::HINGED_PANEL;
 pub use naming::KindError;
 pub use reaction_wheel::REACTION_WHEEL;
@@ -88,6 +90,8 @@ pub struct Joint {
     pub torque: &'static str,
     /// What is given of it.
     pub drive: Drive,
+    /// Whether its origin is that of the parent body before any sliding: no parameter states it.
+    pub concentric: bool,
     /// Joint's origin from the parent body's, expressed in that body's axes, before any sliding.
     pub origin: Triple,
 }
@@ -169,13 +173,27 @@ pub fn units<'a>(
     links: impl IntoIterator<Item = &'a Link>,
     of: impl Fn(&Units) -> &'static str,
 ) -> String {
-    let mut found: Vec<&str> = Vec::new();
-    for unit in links.into_iter().map(|link| of(link.joint.motion.units())) {
-        if !found.contains(&unit) {
-            found.push(unit);
+    distinct(links.into_iter().map(|link| of(link.joint.motion.units()))).join(" or ")
+}
+
+/// The equation numbers that links cite, each once.
+#[must_use]
+pub fn cited<'a>(
+    links: impl IntoIterator<Item = &'a Link>,
+    of: impl Fn(&Equations) -> &'static str,
+) -> String {
+    distinct(links.into_iter().map(|link| of(&link.body.equations))).join(", ")
+}
+
+/// Each word once, in order.
+fn distinct(words: impl Iterator<Item = &'static str>) -> Vec<&'static str> {
+    let mut found = Vec::new();
+    for word in words {
+        if !found.contains(&word) {
+            found.push(word);
         }
     }
-    found.join(" or ")
+    found
 }
 
 impl Link {
@@ -201,6 +219,14 @@ impl Link {
     #[must_use]
     pub fn is_driven(&self) -> bool {
         self.joint.drive == Drive::Motor
+    }
+}
+
+impl Joint {
+    /// The parameter that states the joint's origin, if one does.
+    #[must_use]
+    pub fn place(&self) -> Option<Triple> {
+        (!self.concentric).then_some(self.origin)
     }
 }
 

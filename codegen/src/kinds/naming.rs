@@ -9,6 +9,20 @@ use super::{Centre, Kind};
 /// Why a kind cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum KindError {
+    /// Its last link has no body: nothing would have inertia about the last joint.
+    NoBody {
+        /// The kind.
+        kind: String,
+        /// The link.
+        link: String,
+    },
+    /// It has more joints than a chain may have.
+    Joints {
+        /// The kind.
+        kind: String,
+        /// How many it has.
+        count: usize,
+    },
     /// It has no link.
     NoLink {
         /// The kind.
@@ -36,6 +50,12 @@ impl fmt::Display for KindError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoLink { kind } => write!(f, "kind `{kind}` has no link; give it one"),
+            Self::Joints { kind, count } => {
+                write!(f, "kind `{kind}` has {count} joints, more than {JOINTS}; leave some out")
+            }
+            Self::NoBody { kind, link } => {
+                write!(f, "the last link of kind `{kind}`, {link}, has no body; give it one")
+            }
             Self::Letters { what, name, remedy } => {
                 write!(f, "`{name}` cannot be the {what}; {remedy}")
             }
@@ -47,6 +67,10 @@ impl fmt::Display for KindError {
 }
 
 impl std::error::Error for KindError {}
+
+/// The longest chain: each combination of driven and prescribed joints is proven, and one joint more
+/// doubles them.
+const JOINTS: usize = 8;
 
 /// Points, frames, assemblies and endings that the derivation itself uses.
 const LETTERS: [&str; 9] = ["b", "c", "d", "n", "sc", "rest", "tilde", "all", "bc"];
@@ -96,6 +120,13 @@ const TITLE: &str = "use words of letters from a to z, with one space between tw
 pub(super) fn check(kind: &Kind) -> Result<(), KindError> {
     if kind.links.is_empty() {
         return Err(KindError::NoLink { kind: kind.name.to_owned() });
+    }
+    if kind.links.len() > JOINTS {
+        return Err(KindError::Joints { kind: kind.name.to_owned(), count: kind.links.len() });
+    }
+    if let Some(link) = kind.links.last().filter(|link| link.body.mass.is_none()) {
+        let link = link.body.title.to_owned();
+        return Err(KindError::NoBody { kind: kind.name.to_owned(), link });
     }
     words(kind.name, '_', ["name of the kind", WORDS])?;
     words(kind.title.replace('-', " ").as_str(), ' ', ["title of the kind", TITLE])?;
@@ -242,6 +273,15 @@ mod tests {
     fn a_name_that_cannot_be_is_told_with_its_remedy() {
         let none = Kind::builder("arm", "arm").build().unwrap_err();
         assert_eq!(none.to_string(), "kind `arm` has no link; give it one");
+        let long = ["a", "e", "f", "g", "h", "i", "j", "k", "l"].into_iter();
+        let long = long.fold(Kind::builder("arm", "arm"), |kind, letter| {
+            kind.link(Link::turning(letter, "arm", Axis::Z, "phi"))
+        });
+        let message = "kind `arm` has 9 joints, more than 8; leave some out";
+        assert_eq!(long.build().unwrap_err().to_string(), message);
+        let axes = Link::turning("a", "arm", Axis::Z, "phi").bodiless();
+        let none = Kind::builder("arm", "arm").link(axes).build().unwrap_err();
+        assert_eq!(none.to_string(), "the last link of kind `arm`, arm, has no body; give it one");
         let message = "`fn` cannot be the letter of a link; use up to eight letters from a to z, and \
                        no keyword";
         assert_eq!(refused("fn", "arm", "phi"), message);

@@ -23,6 +23,7 @@ pub const SLOSH_MASS: Kind = Kind {
             symbols: ["ẋ", "ẍ"],
             torque: "u_s",
             drive: Drive::Motor,
+            concentric: false,
             origin: Triple {
                 symbol: "r_{S/B}",
                 name: "r_s_b",
@@ -35,7 +36,7 @@ pub const SLOSH_MASS: Kind = Kind {
             origin: "s",
             triad: ["b_x", "b_y", "b_z"],
             point: "sc",
-            mass: "m_s",
+            mass: Some("m_s"),
             centre: Centre::At,
             inertia: Inertia::Point,
             letters: ["S", "Sc"],

@@ -25,6 +25,7 @@ pub(super) const GIMBAL: Link = Link {
         symbols: ["γ̇", "γ̈"],
         torque: "u_g",
         drive: Drive::Motor,
+        concentric: false,
         origin: Triple {
             symbol: "r_{G/B}",
             name: "r_g_b",
@@ -37,7 +38,7 @@ pub(super) const GIMBAL: Link = Link {
         origin: "g",
         triad: ["g_x", "g_y", "g_z"],
         point: "gc",
-        mass: "m_g",
+        mass: Some("m_g"),
         centre: Centre::Free(Triple {
             symbol: "r_{Gc/G}",
             name: "r_gc_g",

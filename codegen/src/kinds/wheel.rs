@@ -18,6 +18,7 @@ pub(super) const fn imbalanced(origin: Triple, triad: [&'static str; 3], whole: 
             symbols: ["Ω", "Ω̇"],
             torque: "u_w",
             drive: Drive::Motor,
+            concentric: false,
             origin,
         },
         body: Body {
@@ -26,7 +27,7 @@ pub(super) const fn imbalanced(origin: Triple, triad: [&'static str; 3], whole: 
             origin: "w",
             triad,
             point: "wc",
-            mass: "m_w",
+            mass: Some("m_w"),
             centre: Centre::On(Axis::Y, "d"),
             inertia: Inertia::Full("j"),
             letters: ["W", "Wc"],

@@ -35,13 +35,19 @@ impl Monomial {
     /// The product of two monomials.
     ///
     /// # Errors
-    /// When an exponent above seven enters it: the sum of two might not fit four bits.
+    /// When an exponent of it would be above fifteen.
     pub(super) fn times(&self, other: &Self) -> Result<Self, NormalError> {
         const HIGH: u64 = 0x8888_8888_8888_8888;
-        if self.0.iter().chain(&other.0).any(|word| word & HIGH != 0) {
-            return Err(NormalError::Exponent);
-        }
-        Ok(Self(std::array::from_fn(|word| self.0[word] + other.0[word])))
+        let mut carried = 0;
+        let product = std::array::from_fn(|word| {
+            let (a, b) = (self.0[word], other.0[word]);
+            let sum = a.wrapping_add(b);
+            // The highest bit of an exponent is carried where both have it, or one has and the sum
+            // has lost it.
+            carried |= (a & b) | ((a | b) & !sum);
+            sum
+        });
+        if carried & HIGH == 0 { Ok(Self(product)) } else { Err(NormalError::Exponent) }
     }
 
     /// `self` with the exponent of variable `index` lowered by `by`.

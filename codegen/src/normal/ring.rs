@@ -26,7 +26,7 @@ impl fmt::Display for NormalError {
             Self::Reciprocal => {
                 write!(f, "the reciprocal of a compound expression has no normal form; name it")
             }
-            Self::Exponent => write!(f, "a power above 7 enters a product; lower it"),
+            Self::Exponent => write!(f, "a product has a power above 15; lower it"),
             Self::Coefficient => {
                 write!(f, "a coefficient with a part of 2^31 or more; use smaller constants")
             }
@@ -68,7 +68,7 @@ pub struct Factor {
 
 /// Expands expressions of one graph over a set of variables that grows as they are met.
 pub struct Ring<'g> {
-    pub(super) graph: &'g Graph,
+    pub(crate) graph: &'g Graph,
     variables: Vec<Variable>,
     index: HashMap<Variable, usize>,
     reductions: Vec<Reduction>,
@@ -359,7 +359,11 @@ mod tests {
         let x = g.symbol("x", Stage::Parameter);
         let mut ring = Ring::new(&g);
         let eighth = x.squared().squared().squared();
-        assert_eq!(ring.normal(eighth * x), Err(NormalError::Exponent));
+        let highest = eighth * x.squared().squared() * x.squared() * x;
+        assert!(ring.normal(highest).is_ok());
+        assert_eq!(ring.normal(highest * x), Err(NormalError::Exponent));
+        let y = g.symbol("y", Stage::Parameter);
+        assert_eq!(ring.normal((eighth * y) * (eighth * y)), Err(NormalError::Exponent));
         let large = g.constant(1 << 30);
         assert_eq!(ring.normal(large * (large * x)), Err(NormalError::Coefficient));
         assert_eq!(ring.normal(large * x + large * x), Err(NormalError::Coefficient));

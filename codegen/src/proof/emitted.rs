@@ -14,6 +14,7 @@ use super::modes::divisor;
 use super::mounted;
 use super::potential;
 use super::read_back::{EmittedError, Reading, function, read, returned_names};
+use super::stages;
 use super::unknowns::{Unknowns, moving};
 use crate::derivation::by_body;
 use crate::derivation::chain::{Chain, mount_entry};
@@ -117,7 +118,10 @@ impl<'a, 'g> Prover<'a, 'g> {
             expanded: reading(&constants.prepare.expanded, &BTreeSet::new())?,
             cut: reading(&constants.prepare.cut, &constants.cuts)?,
         };
-        let assembled = if kernel.name == "eliminate" {
+        let assembled = if self.chain.is_rigid() {
+            let Reading { values, returned, .. } = &back.expanded;
+            self.unknowns.with_hub(self.chain, values, returned)
+        } else if kernel.name == "eliminate" {
             let constant_share = function(file, "constant_share")?;
             let given = self.arguments(kernel, &constants.prepare.expanded);
             let constant_share = read(self.chain.graph, constant_share, &given, &BTreeSet::new())?;
@@ -165,11 +169,13 @@ impl<'a, 'g> Prover<'a, 'g> {
         vec![self.prepared_row(prepare), self.cut_constants(prepare, cuts)]
     }
 
-    /// The names at which the cut reading stops: blocks of the system, pivots, and what a joint
-    /// divides by.
+    /// The names at which the cut reading stops: blocks of the system, stages of their elimination,
+    /// pivots, and what a joint divides by; none where no joint moves.
     fn cuts(&self, file: &syn::File) -> Result<BTreeSet<String>, EmittedError> {
-        let kernel = self.kernels.iter().find(|kernel| kernel.name == "eliminate");
-        let claims = kernel.into_iter().flat_map(|kernel| &kernel.claims);
+        let Some(kernel) = self.kernels.iter().find(|kernel| kernel.name == "eliminate") else {
+            return Ok(BTreeSet::new());
+        };
+        let claims = kernel.claims.iter();
         let blocks = claims.flat_map(|claim| &claim.components).map(|(name, _)| name.clone());
         let blocks = blocks.chain(moving().into_iter().flatten());
         let returned = returned_names(function(file, "eliminate")?);
@@ -177,7 +183,7 @@ impl<'a, 'g> Prover<'a, 'g> {
             let tag = field.strip_prefix("pivot_")?;
             Some([name, divisor(tag)])
         });
-        Ok(blocks.chain(pivots.flatten()).collect())
+        Ok(blocks.chain(pivots.flatten()).chain(stages::all(&self.unknowns)).collect())
     }
 
     fn prepare(&self, file: &syn::File, cuts: &BTreeSet<String>) -> Result<Both<'g>, EmittedError> {

@@ -2,17 +2,20 @@
 //!
 //! Stated here from the names of the outputs only, without the code that eliminates. M is what the
 //! joints bring, the hub's own block left out; -S is what they take out of that, L the gains, D the
-//! pivots. All of it holds whichever joints have their torque
-//! given and whichever their acceleration: see [`super::modes`].
+//! pivots. All of it holds whichever joints have their torque given and whichever their acceleration:
+//! see [`super::modes`]. In the identity of one entry the elimination of all others is left as symbols:
+//! see [`super::stages`].
 
 use std::collections::BTreeMap;
 
 use super::Row;
 use super::modes::{Settled, divisor, every};
 use super::read_back::Reading;
+use super::stages;
 use super::unknowns::{HUB, Unknowns};
 use crate::derivation::chain::Chain;
-use crate::graph::Expr;
+use crate::derivation::parallel::Parallel;
+use crate::graph::{Expr, Node};
 use crate::normal::Ring;
 
 /// The two sides of an identity, by labelled components; what was emitted may lack some.
@@ -28,13 +31,26 @@ impl<'g> Sides<'g> {
         self.expected.push((label, expected));
     }
 
-    /// Writes out the pivots that are left as symbols once products with their reciprocals are
-    /// reduced: where a coupling is the same expression as a pivot, both have one name.
-    fn write_pivots(&mut self, ring: &mut Ring<'g>, settled: &Settled<'_, 'g>, first: usize) {
-        for (_, value) in &mut self.emitted[first..] {
-            if let Ok(normal) = ring.normal(*value) {
-                *value = settled.with_pivots(ring.expression(&normal));
+    /// Writes the entries of a joint whose axis can be parallel to the tip's by what they are across
+    /// that and along it, which is claimed of these by themselves.
+    fn write_across(&mut self, chain: &Chain<'g>, named: impl Fn(&str) -> Option<Expr<'g>>) {
+        let Some(joints) = Parallel::of(chain) else { return };
+        let tag = |k: usize| chain.kind.links[k].joint.tag;
+        let (inner, tip) = (tag(joints.inner), tag(joints.tip));
+        let zero = joints.cosine.graph().zero();
+        let value = |name: String| named(&name).unwrap_or(zero);
+        let own = joints.cosine * value(format!("mass_{tip}{tip}"));
+        let across = joints.names(chain.kind.links).map(value);
+        let entries = [(inner, joints.cosine * own), (tip, own)].into_iter().zip(across);
+        let entries = entries.filter_map(|((other, along), across)| {
+            match value(format!("mass_{inner}{other}")).node() {
+                Node::Symbol(symbol) => Some((symbol, across + along)),
+                _ => None,
             }
+        });
+        let entries: Vec<_> = entries.collect();
+        for (_, value) in self.emitted.iter_mut().chain(&mut self.expected) {
+            *value = value.with(&entries);
         }
     }
 
@@ -58,14 +74,12 @@ pub(super) fn of_elimination<'g>(
     };
     let [mut matrix, mut right, mut given] = [(); 3].map(|()| Sides::default());
     for settled in every(unknowns, back) {
-        let first = (matrix.emitted.len(), right.emitted.len());
         of_matrix(&settled, unknowns, named, &mut matrix);
         of_right_side(&settled, chain, unknowns, named, &mut right);
-        if !back.shared.is_empty() {
-            matrix.write_pivots(ring, &settled, first.0);
-            right.write_pivots(ring, &settled, first.1);
-        }
         of_given(&settled, unknowns, named, &mut given);
+    }
+    for sides in [&mut matrix, &mut right] {
+        sides.write_across(chain, named);
     }
     let [mut diagonals, mut divisors] = [(); 2].map(|()| Sides::default());
     let output = |name: &str| back.returned.get(name).copied();
@@ -75,8 +89,11 @@ pub(super) fn of_elimination<'g>(
         let pivot = output(&format!("pivot_{tag}"));
         // The pivot from which nothing is subtracted is the diagonal: it is returned once.
         diagonals.push(name.clone(), output(&name).or(pivot), entry);
-        let sum = pivot.zip(named(&format!("held_{tag}")));
-        let expected = sum.map_or(unknowns.zero, |(pivot, held)| pivot + held);
+        let tip = Parallel::of(chain).map(|joints| chain.kind.links[joints.tip].joint.tag);
+        let weight = named(&format!("driven_{tag}")).filter(|_| tip == Some(tag));
+        let own = pivot.map(|pivot| weight.map_or(pivot, |driven| driven * pivot));
+        let sum = own.zip(named(&format!("held_{tag}")));
+        let expected = sum.map_or(unknowns.zero, |(own, held)| own + held);
         let name = divisor(tag);
         divisors.push(name.clone(), back.values.get(&name).copied(), expected);
     }
@@ -109,6 +126,8 @@ fn of_matrix<'g>(
             let d = |j| if own(j) { settled.written_pivot(j) } else { settled.pivot(j) };
             let product = settled.sum(x, |j| Some(d(j)? * settled.gain(y, j)));
             let sum = left_over.zip(product).map(|(left_over, product)| left_over + product);
+            let own = if hub { Vec::new() } else { stages::of_entry(unknowns, x, y) };
+            let sum = sum.map(|sum| settled.written(sum, own));
             let expected = if hub { unknowns.zero } else { unknowns.assembled(x, y, &named) };
             sides.push(settled.label(&[x, y]), sum, expected);
         }
@@ -131,13 +150,18 @@ fn of_right_side<'g>(
         let product = settled.sum(x, |j| Some(settled.pivot(j)? * settled.free(j)?));
         let torque = if x < HUB.len() { unknowns.zero } else { chain.links[x - HUB.len()].torque };
         let further_out = settled.given.iter().filter(|&&p| p > x);
-        let asked = further_out.copied().try_fold(unknowns.zero, |sum, p| {
+        let asked = further_out.clone().copied().try_fold(unknowns.zero, |sum, p| {
             let taken = settled.sum(x, |j| Some(settled.pivot(j)? * settled.gain(p, j)))?;
             let told = named(&format!("given_{}", unknowns.suffix(p)))?;
             Some(sum + (unknowns.assembled(x, p, &named) - taken) * told)
         });
         let sum =
             left_over.zip(product).zip(asked).map(|((h, product), asked)| h + product + asked);
+        // What a given acceleration requires has been subtracted from the entry beside it.
+        let beside = further_out.flat_map(|&p| stages::of_entry(unknowns, x, p));
+        let own = (x >= HUB.len()).then(|| stages::of_right_side(unknowns, x));
+        let names = beside.chain(own.into_iter().flatten());
+        let sum = sum.map(|sum| settled.written(sum, names));
         sides.push(settled.label(&[x]), sum, torque - unknowns.of_rates(x, &named));
     }
 }

@@ -12,6 +12,7 @@ mod pages;
 mod potential;
 mod read_back;
 mod row;
+mod stages;
 mod unknowns;
 
 pub use assumed::prove_assumed;

@@ -8,8 +8,9 @@ use std::cmp::Ordering;
 use std::collections::HashMap;
 
 use super::read_back::Reading;
+use super::stages;
 use super::unknowns::{HUB, Unknowns};
-use crate::graph::{Expr, Node, NodeId};
+use crate::graph::{Expr, Node, NodeId, SymbolId};
 
 /// The name of what a joint divides by.
 pub(super) fn divisor(tag: &str) -> String {
@@ -73,10 +74,20 @@ impl<'a, 'g> Settled<'a, 'g> {
             let tag = unknowns.suffix(p);
             put(format!("driven_{tag}"), zero);
             put(format!("held_{tag}"), one);
+            // Where the divisor is a number then, it is that.
+            let modes = [("driven", zero), ("held", one)]
+                .map(|(stem, value)| Some((symbol(graph.find(&format!("{stem}_{tag}"))?)?, value)));
+            let modes: Vec<_> = modes.into_iter().flatten().collect();
+            let written = back.values.get(&divisor(tag)).map(|value| value.with(&modes));
+            if let Some(number) = written.filter(|e| matches!(e.node(), Node::Constant(_))) {
+                put(divisor(tag), number);
+            }
         }
         let returned = back.returned.values().copied();
         let pivots = driven.iter().filter_map(|&j| written_pivot(back, unknowns.suffix(j)));
-        let roots = returned.chain(pivots).map(Expr::id);
+        let stages = stages::all(unknowns);
+        let stages = stages.iter().filter_map(|name| back.values.get(name).copied());
+        let roots = returned.chain(pivots).chain(stages).map(Expr::id);
         let made = graph.rebuilt(roots, |symbol| values.get(&symbol).copied());
         Self { unknowns, back, driven, given, made }
     }
@@ -130,19 +141,27 @@ impl<'a, 'g> Settled<'a, 'g> {
         written_pivot(self.back, self.unknowns.suffix(j)).map(|value| self.made[&value.id()])
     }
 
-    /// `e` with the pivots written out, unless it divides by one.
-    pub(super) fn with_pivots(&self, e: Expr<'g>) -> Expr<'g> {
-        let written = self.driven.iter().filter_map(|&j| {
-            let Node::Symbol(symbol) = self.pivot(j)?.node() else { return None };
-            Some((symbol, self.written_pivot(j)?))
-        });
-        let written: Vec<_> = written.collect();
-        let graph = e.graph();
-        let divides = graph.reachable([e.id()]).into_iter().any(|id| match graph.node(id) {
-            Node::Recip(of) => written.iter().any(|(p, _)| graph.node(of) == Node::Symbol(*p)),
-            _ => false,
-        });
-        if divides { e } else { e.with(&written) }
+    /// A stage of the elimination by its symbol, with its value in terms of the stage before; none
+    /// where nothing is subtracted, so that the stage before has the name.
+    pub(super) fn stage(&self, name: &str) -> Option<(SymbolId, Expr<'g>)> {
+        let name = self.back.shared.get(name).map_or(name, String::as_str);
+        let written = self.made[&self.back.values.get(name)?.id()];
+        Some((symbol(self.unknowns.zero.graph().find(name)?)?, written))
+    }
+
+    /// `e` with these stages written out, and the pivots where an entry can have a
+    /// pivot's name: two names of one expression are one.
+    pub(super) fn written(&self, e: Expr<'g>, names: impl IntoIterator<Item = String>) -> Expr<'g> {
+        let mut values = stages::written(self, names);
+        if !self.back.shared.is_empty() {
+            let pivots = self.driven.iter();
+            let pivots =
+                pivots.filter_map(|&j| Some((symbol(self.pivot(j)?)?, self.written_pivot(j)?)));
+            let pivots: Vec<_> =
+                pivots.map(|(pivot, value)| (pivot, value.with(&values))).collect();
+            values.extend(pivots);
+        }
+        stages::write_out(e, &values)
     }
 
     /// The unknowns of a component, and whose accelerations are given.
@@ -154,6 +173,10 @@ impl<'a, 'g> Settled<'a, 'g> {
         }
         format!("{} with {} given", tags(of), tags(&self.given))
     }
+}
+
+fn symbol(e: Expr<'_>) -> Option<SymbolId> {
+    if let Node::Symbol(symbol) = e.node() { Some(symbol) } else { None }
 }
 
 fn written_pivot<'g>(back: &Reading<'g>, tag: &str) -> Option<Expr<'g>> {

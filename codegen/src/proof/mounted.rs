@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Row;
 use super::read_back::{EmittedError, Reading, function, read};
-use crate::derivation::chain::{Chain, mount_entry};
+use crate::derivation::chain::{Chain, XYZ, mount_entry};
 use crate::graph::{Expr, Node, Stage, SymbolId};
 use crate::kernel::{Kernel, parameters_of};
 use crate::normal::Ring;
@@ -61,7 +61,8 @@ pub(super) fn row<'g>(
         }
     }
     let frame = chain.kind.links[chain.first_moving()].body.frame;
-    let numbers = ["x", "y", "z"].map(|axis| format!("omega_b_n_{frame}{axis}")).into_iter();
+    let numbers = ["omega_b_n", "r_first_rest"].into_iter();
+    let numbers = numbers.flat_map(|stem| XYZ.map(|axis| format!("{stem}_{frame}{axis}")));
     let biases = chain.kind.links.iter().map(|link| format!("u_rest_{}", link.joint.tag));
     for name in numbers.chain(biases).chain(["constant_m".to_owned()]) {
         claim(name.clone(), turned.by(value(&name)), turned.at_unit(value(&name)));
@@ -80,8 +81,10 @@ fn values<'g>(
     let along_own =
         ["omega_", "alpha_", "mr_behind_", "i_behind_", "f_rates_", "n_rates_", "field_"];
     // Of what moves, inertia and first moment are made of the same sums: neither is a symbol in the
-    // other.
-    let made = vectors(chain).into_iter().filter(|stem| stem != "mr_moving");
+    // other. The inertia also reads the first joint's own column, of which its trace is a part.
+    let column = format!("n_{}", chain.kind.links[chain.first_moving()].joint.tag);
+    let made = vectors(chain).into_iter();
+    let made = made.filter(|stem| *stem != "mr_moving" && *stem != column);
     let along_b: Vec<_> = made.flat_map(|stem| components(&stem)).collect();
     let stands = |name: &String| {
         along_b.contains(name) || along_own.iter().any(|stem| name.starts_with(stem))

@@ -1,10 +1,20 @@
 //! One row of the proof: what was held against what, and how it went.
 
 use std::fmt;
+use std::rc::Rc;
 
 use crate::graph::Expr;
 use crate::kinds::Kind;
-use crate::normal::{Difference, NormalError, Ring, Term};
+use crate::normal::{Difference, NormalError, Polynomial, Ring, Term};
+
+/// The normal forms of two expressions.
+fn both<'g>(
+    ring: &mut Ring<'g>,
+    a: Expr<'g>,
+    b: Expr<'g>,
+) -> Result<[Rc<Polynomial>; 2], NormalError> {
+    Ok([ring.normal(a)?, ring.normal(b)?])
+}
 
 /// How a comparison went.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -79,9 +89,17 @@ impl Row {
         }
         let mut differing = Vec::new();
         for ((label, checked), (_, reference)) in checked.iter().zip(reference) {
-            let normal = ring.normal(*checked).and_then(|c| Ok((c, ring.normal(*reference)?)));
+            let mut normal = both(ring, *checked, *reference);
+            // What does not fit beside the other components has variables of its own.
+            let mut own = Ring::new(ring.graph);
+            let ring = if matches!(normal, Err(NormalError::Variables(_))) {
+                normal = both(&mut own, *checked, *reference);
+                &mut own
+            } else {
+                &mut *ring
+            };
             match normal {
-                Ok((checked, reference)) => {
+                Ok([checked, reference]) => {
                     row.terms += reference.len();
                     if checked == reference {
                         continue;

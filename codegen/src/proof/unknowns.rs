@@ -12,7 +12,8 @@ use crate::space::{ENTRIES, Hub, Symmetric, Vector};
 
 /// Suffixes of the hub's unknowns.
 pub(super) const HUB: [&str; 6] = ["v1", "v2", "v3", "w1", "w2", "w3"];
-const AXES: [&str; 3] = ["bx", "by", "bz"];
+/// Suffixes of the components expressed in B.
+pub(super) const AXES: [&str; 3] = ["bx", "by", "bz"];
 
 /// Names of what `eliminate` states of the part that moves: first moment, inertia, and force and
 /// moment that the joints' rates require.

@@ -189,6 +189,34 @@ impl<'g, F: Frame> Symmetric<'g, F> {
         Symmetric::new(made)
     }
 
+    /// The same with both moments written from the one about `axis`, which is across the turn: the
+    /// entry that has it at no turn as `I + s (...)`, the other, which has it after a quarter turn,
+    /// as `I + c (...)`. Where that moment is zero, neither is a difference of larger numbers there.
+    #[must_use]
+    pub fn turned_from<To: Frame>(self, turn: Turn<'g, F, To>, axis: Axis) -> Symmetric<'g, To> {
+        let mut made = self.turned(turn);
+        let ([k, i, j], [from, ..]) = (turn.axis.cycle(), axis.cycle());
+        if turn.is_none() || from == k {
+            return made;
+        }
+        let (s, c) = (turn.sin, turn.cos);
+        let (ii, ij, jj) = (self.at(i, i), self.at(i, j), self.at(j, j));
+        let across = c * (ii - jj) + s * twice(ij);
+        if from == i {
+            made.entries[INDEX[j][j]] = ii - c * across;
+        } else {
+            made.entries[INDEX[i][i]] = jj + c * across;
+        }
+        made
+    }
+
+    /// The same with another entry.
+    #[must_use]
+    pub fn with(mut self, row: usize, column: usize, entry: Expr<'g>) -> Self {
+        self.entries[INDEX[row][column]] = entry;
+        self
+    }
+
     /// The sum of the diagonal.
     #[must_use]
     pub fn trace(self) -> Expr<'g> {
@@ -282,6 +310,33 @@ mod tests {
                 assert!(ring.normal(component).unwrap().is_empty());
             }
         }
+    }
+
+    #[test]
+    fn written_from_either_moment_it_is_the_same_tensor() {
+        let g = Graph::new();
+        let (sin, cos) = g.angle("q", g.symbol("q_dot", Stage::Rate));
+        for about in [Axis::X, Axis::Y, Axis::Z] {
+            let turn = Turn::<Carrier, Own>::about(about, sin, cos);
+            for from in [Axis::X, Axis::Y, Axis::Z] {
+                let i = inertia::<Carrier>(&g);
+                assert_equal(&g, i.turned_from(turn, from), i.turned(turn));
+            }
+        }
+    }
+
+    #[test]
+    fn without_the_moment_that_it_is_written_from_the_other_has_the_cosine_as_factor() {
+        let g = Graph::new();
+        let (sin, cos) = g.angle("q", g.symbol("q_dot", Stage::Rate));
+        let turn = Turn::<Carrier, Own>::about(Axis::Y, sin, cos);
+        let made = inertia::<Carrier>(&g).with(0, 0, g.zero()).turned_from(turn, Axis::X);
+        assert!(made.at(2, 2).with(&[(symbol(cos), g.zero())]).is_zero());
+    }
+
+    fn symbol(e: Expr<'_>) -> crate::graph::SymbolId {
+        let crate::graph::Node::Symbol(symbol) = e.node() else { panic!("{e:?} is no symbol") };
+        symbol
     }
 
     #[test]

@@ -18,7 +18,7 @@ pub(crate) fn plans() -> Vec<Plan> {
 }
 
 fn plan(kind: &'static Kind) -> Plan {
-    let kernels = signatures(kind);
+    let kernels = signatures(kind).unwrap();
     let mut read: Vec<Record> = Vec::new();
     for (_, record) in kernels.iter().flat_map(|kernel| &kernel.inputs) {
         if !read.iter().any(|known| known.name == record.name) {

@@ -1,4 +1,5 @@
-//! [`Arithmetic`]: how an evaluation is rounded, and [`Rounding`], what that is for one device.
+//! [`Arithmetic`]: how an evaluation is rounded, and by which instructions; the kernel `eliminate`
+//! for one device by each.
 
 #![expect(
     clippy::inline_always,
@@ -6,7 +7,12 @@
 )]
 
 use crate::equations::assembly::Assembly;
+#[cfg(feature = "lanes")]
+use crate::equations::cpu::Cpu;
 use crate::equations::device::Device;
+#[cfg(feature = "lanes")]
+use crate::equations::dispatched::Dispatched;
+use crate::equations::eliminate::DeviceElimination;
 use crate::equations::error::SolveError;
 use crate::equations::joint_inputs::{DeviceInputs, Environment};
 use crate::generated::hub::BodyRate;
@@ -14,108 +20,101 @@ use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
 use crate::numbers::each::Value;
-#[cfg(feature = "lanes")]
-use crate::numbers::real::Scalar;
-use crate::numbers::real::{Angle, Real};
+use crate::numbers::real::Real;
 
-/// How products and sums of an evaluation are rounded.
+/// How products and sums of an evaluation are rounded, and by which instructions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Arithmetic {
-    /// One by one: the same bits on every target.
-    Unfused,
+    /// One by one, by instructions that every CPU of the target has: the same bits everywhere.
+    Portable,
+    /// One by one, by instructions of this CPU: the same bits, in less time.
+    #[cfg(feature = "lanes")]
+    Unfused(Cpu),
     /// A product and a sum once in the devices' equations, by instructions of this CPU.
     #[cfg(feature = "lanes")]
-    Fused(pulp::Arch),
+    Fused(Cpu),
 }
 
-#[cfg(feature = "lanes")]
 impl Arithmetic {
+    /// Unfused, by the instructions of this CPU where they are known.
+    pub(crate) fn unfused() -> Self {
+        #[cfg(feature = "lanes")]
+        if let Some(cpu) = Cpu::detected() {
+            return Self::Unfused(cpu);
+        }
+        Self::Portable
+    }
+
     /// Fused if this CPU has the instruction; without it, fused products would be slow.
+    #[cfg(feature = "lanes")]
     pub(crate) fn fused() -> Self {
-        let cpu = pulp::Arch::new();
-        if matches!(cpu, pulp::Arch::Scalar) { Self::Unfused } else { Self::Fused(cpu) }
+        Cpu::detected().map_or(Self::Portable, Self::Fused)
     }
-}
 
-/// Fused or unfused elimination of one device: that of one [`Arithmetic`].
-pub(crate) trait Rounding {
-    /// Eliminates the joints; see [`Device::eliminate_joints`].
-    ///
-    /// # Errors
-    ///
-    /// The first [`SolveError`].
-    fn eliminate_device<K: Kind>(
-        device: &Device<K>,
-        joints: &K::Joints<K::Scalar>,
-        given: DeviceInputs<'_, K>,
-        environment: &Environment<K::Scalar>,
-        outputs: EliminationOutputs<'_, K, K::Scalar>,
-        index: usize,
-    ) -> Result<(), SolveError<K::Scalar>>;
-}
-
-/// Product and sum one by one.
-#[derive(Debug)]
-pub(crate) struct Unfused;
-
-impl Rounding for Unfused {
-    // Never inlined: one copy of the kernel for all sets.
-    #[inline(never)]
-    fn eliminate_device<K: Kind>(
-        device: &Device<K>,
-        joints: &K::Joints<K::Scalar>,
-        given: DeviceInputs<'_, K>,
-        environment: &Environment<K::Scalar>,
-        outputs: EliminationOutputs<'_, K, K::Scalar>,
-        index: usize,
-    ) -> Result<(), SolveError<K::Scalar>> {
-        device.eliminate_joints(
-            joints,
-            given,
-            environment,
-            outputs,
-            index,
-            #[expect(
-                clippy::redundant_closure_for_method_calls,
-                reason = "one method has only one lifetime"
-            )]
-            |inputs, pose, outputs| inputs.evaluate_unfused(pose, outputs),
-        )
-    }
-}
-
-/// Product and sum at once. Part of what calls it, which may use the instruction.
-#[cfg(feature = "lanes")]
-#[derive(Debug)]
-pub(crate) struct FusedMultiplyAdd;
-
-#[cfg(feature = "lanes")]
-impl Rounding for FusedMultiplyAdd {
+    /// Eliminates the joints of a device.
     #[inline(always)]
-    fn eliminate_device<K: Kind>(
-        device: &Device<K>,
-        joints: &K::Joints<K::Scalar>,
-        given: DeviceInputs<'_, K>,
-        environment: &Environment<K::Scalar>,
-        outputs: EliminationOutputs<'_, K, K::Scalar>,
-        index: usize,
+    pub(crate) fn eliminate<K: Kind>(
+        self,
+        of: DeviceElimination<'_, K>,
     ) -> Result<(), SolveError<K::Scalar>> {
-        device.eliminate_joints(
-            joints,
-            given,
-            environment,
-            outputs,
-            index,
-            #[inline(always)]
-            |inputs, pose, outputs| {
-                if K::Scalar::IS_F64 {
-                    crate::equations::fused::evaluate(inputs, outputs)
-                } else {
-                    inputs.evaluate_unfused(pose, outputs)
-                }
-            },
-        )
+        match self {
+            #[cfg(feature = "lanes")]
+            Self::Unfused(cpu) if K::JOINTS.len() >= LONG => dispatched::<K, false>(cpu, of),
+            #[cfg(feature = "lanes")]
+            Self::Fused(cpu) => dispatched::<K, true>(cpu, of),
+            _ => {
+                let DeviceElimination { device, index, joints, given, .. } = of;
+                let DeviceElimination { environment, assembly, gains, .. } = of;
+                portable(device, joints, given, environment, assembly, gains, index)
+            }
+        }
     }
+}
+
+/// From so many joints on, dispatched instructions and sums that do not wait bring more than it
+/// takes to write a device's share to memory and to read it.
+#[cfg(feature = "lanes")]
+const LONG: usize = 2;
+
+/// By instructions of this CPU. The share is added here: within the function, each device would wait
+/// for the sums that the one before it has just written.
+#[cfg(feature = "lanes")]
+#[inline(always)]
+fn dispatched<K: Kind, const FUSED: bool>(
+    cpu: Cpu,
+    of: DeviceElimination<'_, K>,
+) -> Result<(), SolveError<K::Scalar>> {
+    let mut share = None;
+    let DeviceElimination { assembly, .. } = of;
+    let of = DeviceElimination { assembly: &mut *assembly, ..of };
+    cpu.dispatch(Dispatched::<K, FUSED> { of, share: &mut share })?;
+    if let Some(share) = &share {
+        assembly.add(share);
+    }
+    Ok(())
+}
+
+// Never inlined: one copy of the kernel for all sets.
+#[inline(never)]
+fn portable<K: Kind>(
+    device: &Device<K>,
+    joints: &K::Joints<K::Scalar>,
+    given: DeviceInputs<'_, K>,
+    environment: &Environment<K::Scalar>,
+    assembly: &mut Assembly<K::Scalar>,
+    gains: &mut Option<K::Gains<K::Scalar>>,
+    index: usize,
+) -> Result<(), SolveError<K::Scalar>> {
+    let of = DeviceElimination { device, index, joints, given, environment, assembly, gains };
+    of.run(|inputs, pose, assembly, gains| {
+        let pose = pose.unwrap_or_else(|| K::pose(inputs.joints));
+        let eliminated = inputs.eliminated(&pose);
+        *gains = Some(*K::gains(&eliminated));
+        let pivots = K::pivots(&eliminated);
+        // Added at once: where registers are few, a share that is kept goes through memory.
+        assembly.add(K::share(&eliminated));
+        pivots
+    })
 }
 
 /// What the kernel `eliminate` takes of one device.
@@ -127,43 +126,14 @@ pub(crate) struct EliminationInputs<'a, K: Kernels, T: Value> {
     pub(crate) drives: &'a K::PerJoint<Drive<T>>,
 }
 
-/// Where the results are written: moving so many numbers afterwards takes time.
-#[derive(Debug)]
-pub(crate) struct EliminationOutputs<'a, K: Kernels, T: Value> {
-    pub(crate) assembly: &'a mut Assembly<T>,
-    pub(crate) gains: &'a mut Option<K::Gains<T>>,
-}
-
 /// Pivot and diagonal of each driven joint.
 pub(crate) type Pivots<K, T> = <K as Kernels>::PerJoint<Option<[T; 2]>>;
 
-impl<K: Kernels, T: Angle> EliminationInputs<'_, K, T> {
-    /// Eliminates the joints, whose sines may be known, by the numbers as they are.
+impl<K: Kernels, T: Real + Value> EliminationInputs<'_, K, T> {
+    /// Eliminates the joints.
     #[inline(always)]
-    pub(crate) fn evaluate_unfused(
-        &self,
-        pose: Option<K::Pose<T>>,
-        outputs: EliminationOutputs<'_, K, T>,
-    ) -> Pivots<K, T> {
-        let pose = pose.unwrap_or_else(|| K::pose(self.joints));
-        self.evaluate(&pose, |number| number, outputs)
-    }
-
-    /// Eliminates the joints by numbers that are written to `outputs` as others.
-    #[inline(always)]
-    pub(crate) fn evaluate<U: Real>(
-        &self,
-        pose: &K::Pose<T>,
-        number: impl Fn(T) -> U,
-        outputs: EliminationOutputs<'_, K, U>,
-    ) -> Pivots<K, U> {
+    pub(crate) fn eliminated(&self, pose: &K::Pose<T>) -> K::Eliminated<T> {
         let Self { constants, joints, omega, drives } = self;
-        let eliminated = K::eliminate(constants, pose, joints, omega, drives);
-        let EliminationOutputs { assembly, gains: kept } = outputs;
-        assembly.add(&K::share(&eliminated).map(&number));
-        let gains = K::gains(&eliminated);
-        *kept = Some(K::zip_gains(gains, gains, |gain, _| number(gain)));
-        let pivots = K::pivots(&eliminated);
-        K::zip_per_joint(&pivots, &pivots, |pivot, _| pivot.map(|pivot| pivot.map(&number)))
+        K::eliminate(constants, pose, joints, omega, drives)
     }
 }

@@ -19,13 +19,14 @@ use crate::numbers::vec3::{Vec3, add};
 /// The hub's equations so far.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Assembly<T> {
-    /// Hub and devices as one rigid body.
-    body: HubConstants<T>,
+    /// Mass of hub and devices, kg.
+    mass: T,
     /// What acts from outside: force, and moment about B.
     force: Vec3<T>,
     moment: Vec3<T>,
-    /// What the joints take out of the equations.
-    taken: System<T>,
+    /// The shares of the devices: what the joints take out of the equations. First moment and
+    /// inertia that move are added to those of hub and devices as one rigid body.
+    sum: HubShare<T>,
     /// Of springs and friction.
     pub(crate) stiffness: Stiffness<T>,
     /// Second moment about B of what was added, kg m²; only with a central field.
@@ -35,11 +36,23 @@ pub(crate) struct Assembly<T> {
 impl<T: Real> Assembly<T> {
     /// The hub, with the constant shares, and what acts on it.
     #[inline(always)]
+    #[rustfmt::skip]
     pub(crate) fn new(body: &HubConstants<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
         let zero = body.m_b.like(0.0);
-        let second_moment = Symmetric::filled(zero);
-        let (taken, stiffness) = (System::filled(zero), Stiffness::none(zero));
-        Self { body: *body, force, moment, taken, stiffness, second_moment }
+        let ([x, y, z], i) = (body.first_moment, &body.i_b_b);
+        let sum = HubShare {
+            mr_moving_bx: x, mr_moving_by: y, mr_moving_bz: z,
+            i_moving_11: i.xx, i_moving_12: i.xy, i_moving_13: i.xz,
+            i_moving_22: i.yy, i_moving_23: i.yz, i_moving_33: i.zz,
+            m_vv_11: zero, m_vv_12: zero, m_vv_13: zero, m_vv_22: zero, m_vv_23: zero, m_vv_33: zero,
+            m_vw_11: zero, m_vw_12: zero, m_vw_13: zero,
+            m_vw_21: zero, m_vw_22: zero, m_vw_23: zero,
+            m_vw_31: zero, m_vw_32: zero, m_vw_33: zero,
+            m_ww_11: zero, m_ww_12: zero, m_ww_13: zero, m_ww_22: zero, m_ww_23: zero, m_ww_33: zero,
+            h_v_1: zero, h_v_2: zero, h_v_3: zero, h_w_1: zero, h_w_2: zero, h_w_3: zero,
+        };
+        let (second_moment, stiffness) = (Symmetric::filled(zero), Stiffness::none(zero));
+        Self { mass: body.m_b, force, moment, sum, stiffness, second_moment }
     }
 
     /// Adds a force and a moment about B from outside.
@@ -49,46 +62,72 @@ impl<T: Real> Assembly<T> {
         self.moment = add(self.moment, moment);
     }
 
-    /// Adds a device whose joints are eliminated, or several together.
+    /// Adds a device whose joints are eliminated.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, share: &HubShare<T>) {
+        self.add_by(
+            share,
+            #[inline(always)]
+            |sum, number| sum + number,
+        );
+    }
+
+    /// Adds, number by number, what a function makes of the sum so far and a share.
+    #[inline(always)]
+    pub(crate) fn add_by<U: Copy>(&mut self, share: &HubShare<U>, add: impl FnMut(T, U) -> T) {
+        self.sum = self.sum.zip(share, add);
+    }
+
+    /// Hub and devices as one rigid body.
     #[inline(always)]
     #[rustfmt::skip]
-    pub(crate) fn add(&mut self, e: &HubShare<T>) {
-        let (body, taken) = (&mut self.body, &mut self.taken);
-        body.first_moment =
-            add(body.first_moment, [e.mr_moving_bx, e.mr_moving_by, e.mr_moving_bz]);
-        body.i_b_b = body.i_b_b.plus(Symmetric {
-            xx: e.i_moving_11, xy: e.i_moving_12, xz: e.i_moving_13,
-            yy: e.i_moving_22, yz: e.i_moving_23, zz: e.i_moving_33,
-        });
-        taken.m_vv = taken.m_vv.plus(Symmetric {
-            xx: e.m_vv_11, xy: e.m_vv_12, xz: e.m_vv_13,
-            yy: e.m_vv_22, yz: e.m_vv_23, zz: e.m_vv_33,
-        });
-        let [x, y, z] = taken.m_vw;
-        taken.m_vw = [
-            add(x, [e.m_vw_11, e.m_vw_21, e.m_vw_31]),
-            add(y, [e.m_vw_12, e.m_vw_22, e.m_vw_32]),
-            add(z, [e.m_vw_13, e.m_vw_23, e.m_vw_33]),
-        ];
-        taken.m_ww = taken.m_ww.plus(Symmetric {
-            xx: e.m_ww_11, xy: e.m_ww_12, xz: e.m_ww_13,
-            yy: e.m_ww_22, yz: e.m_ww_23, zz: e.m_ww_33,
-        });
-        taken.h_v = add(taken.h_v, [e.h_v_1, e.h_v_2, e.h_v_3]);
-        taken.h_w = add(taken.h_w, [e.h_w_1, e.h_w_2, e.h_w_3]);
+    pub(crate) fn body(&self) -> HubConstants<T> {
+        let e = &self.sum;
+        HubConstants {
+            m_b: self.mass,
+            first_moment: [e.mr_moving_bx, e.mr_moving_by, e.mr_moving_bz],
+            i_b_b: Symmetric {
+                xx: e.i_moving_11, xy: e.i_moving_12, xz: e.i_moving_13,
+                yy: e.i_moving_22, yz: e.i_moving_23, zz: e.i_moving_33,
+            },
+        }
+    }
+
+    /// What the joints take out of the equations.
+    #[inline(always)]
+    #[rustfmt::skip]
+    pub(crate) fn taken(&self) -> System<T> {
+        let e = &self.sum;
+        System {
+            m_vv: Symmetric {
+                xx: e.m_vv_11, xy: e.m_vv_12, xz: e.m_vv_13,
+                yy: e.m_vv_22, yz: e.m_vv_23, zz: e.m_vv_33,
+            },
+            m_vw: [
+                [e.m_vw_11, e.m_vw_21, e.m_vw_31],
+                [e.m_vw_12, e.m_vw_22, e.m_vw_32],
+                [e.m_vw_13, e.m_vw_23, e.m_vw_33],
+            ],
+            m_ww: Symmetric {
+                xx: e.m_ww_11, xy: e.m_ww_12, xz: e.m_ww_13,
+                yy: e.m_ww_22, yz: e.m_ww_23, zz: e.m_ww_33,
+            },
+            h_v: [e.h_v_1, e.h_v_2, e.h_v_3],
+            h_w: [e.h_w_1, e.h_w_2, e.h_w_3],
+        }
     }
 
     /// The hub's system, joints eliminated, where the hub turns at `omega`.
     #[inline(always)]
     pub(crate) fn system(&self, omega: Vec3<T>) -> System<T> {
-        self.body.system(omega, self.force, self.moment).less(&self.taken)
+        self.body().system(omega, self.force, self.moment).less(&self.taken())
     }
 
     /// Mass and moments of inertia of the spacecraft with every joint locked. The moving share of
     /// inertia may cancel nearly all of the constant one, whose rounding stays: both count.
     #[inline(always)]
     pub(crate) fn scale(&self, body: &HubConstants<T>) -> Scale<T> {
-        (self.body.m_b, add(body.i_b_b.diagonal(), self.body.i_b_b.diagonal()))
+        (self.mass, add(body.i_b_b.diagonal(), self.body().i_b_b.diagonal()))
     }
 }
 

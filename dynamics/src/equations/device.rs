@@ -9,14 +9,11 @@
     reason = "fused numbers reach their instruction only where inlined"
 )]
 
-use crate::equations::arithmetic::{EliminationInputs, EliminationOutputs, Pivots};
-use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Central, gradient};
 use crate::equations::hub::BodySums;
-use crate::equations::joint_inputs::{DeviceInputs, Environment};
+use crate::equations::joint_inputs::DeviceInputs;
 use crate::equations::pivot_bound::pivot_bounds;
-use crate::equations::system::check_pivot;
 use crate::generated::hub::BodyVelocity;
 use crate::model::kind::{Carried, ImbalanceModel, Kernels, Kind, Lumped, Wrenches};
 use crate::model::mode::{Drive, Mode};
@@ -25,11 +22,11 @@ use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, one, zero};
 use crate::numbers::symmetric::Symmetric;
-use crate::numbers::vec3::{Columns, Vec3, add, columns, components, rotate, rotate_transposed};
+use crate::numbers::vec3::{Columns, Vec3, add, columns, rotate, rotate_transposed};
 use crate::validation::check::triangle_excess;
 
 /// Torques and weights of the joints of a kind.
-type Drives<K> = <K as Kernels>::PerJoint<Drive<<K as Kind>::Scalar>>;
+pub(crate) type Drives<K> = <K as Kernels>::PerJoint<Drive<<K as Kind>::Scalar>>;
 
 /// Constants of one device.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +59,7 @@ impl<K: Kind> Device<K> {
             *excess = triangle_excess(&body.inertia);
         }
         let (passive, bound) = (made.passive(), pivot_bounds::<K>(&bodies));
-        let free = passive.values().all(|joint| joint == Passive::none());
+        let free = passive.values().all(|joint| joint.is_none());
         Self {
             mount,
             constants: made.constants(rotate_transposed(&mount, origin)),
@@ -72,128 +69,6 @@ impl<K: Kind> Device<K> {
             lumped,
             excess,
         }
-    }
-
-    /// Eliminates the joints, adds the device's share to the hub's system, and writes the gains of
-    /// back substitution. `eliminate` is fused or unfused.
-    #[inline(always)]
-    pub(crate) fn eliminate_joints(
-        &self,
-        joints: &K::Joints<K::Scalar>,
-        given: DeviceInputs<'_, K>,
-        environment: &Environment<K::Scalar>,
-        outputs: EliminationOutputs<'_, K, K::Scalar>,
-        device: usize,
-        eliminate: impl Fn(
-            &EliminationInputs<'_, K, K::Scalar>,
-            Option<K::Pose<K::Scalar>>,
-            EliminationOutputs<'_, K, K::Scalar>,
-        ) -> Pivots<K, K::Scalar>,
-    ) -> Result<(), SolveError<K::Scalar>> {
-        let mut pose = None;
-        let mut drives = self.drives(joints, given, environment.impulse, device)?;
-        let EliminationOutputs { assembly, gains } = outputs;
-        if !environment.impulse {
-            let central = environment.central.as_ref();
-            if given.bodies.is_some() || central.is_some() || self.lumped.is_some() {
-                let pose = pose.get_or_insert_with(|| K::pose(joints));
-                self.add_wrenches(pose, joints, given.bodies, central, &mut drives, assembly);
-            }
-        }
-        let mut joints = *joints;
-        if environment.impulse {
-            joints.states_mut().for_each(|[_, rate]| *rate = zero());
-        }
-        let (constants, omega) = (&self.constants, expressed_in_b(environment.omega));
-        let inputs =
-            EliminationInputs::<K, _> { constants, joints: &joints, omega, drives: &drives };
-        let pivots =
-            eliminate(&inputs, pose, EliminationOutputs { assembly: &mut *assembly, gains });
-        if !(self.free || environment.impulse) {
-            self.add_stiffness(&joints, &pivots, &drives, assembly);
-        }
-        self.check_pivots(device, &pivots, &drives)
-    }
-
-    /// Adds springs and friction to the stiffness that a step has to resolve.
-    #[inline(never)]
-    fn add_stiffness(
-        &self,
-        joints: &K::Joints<K::Scalar>,
-        pivots: &Pivots<K, K::Scalar>,
-        drives: &Drives<K>,
-        assembly: &mut Assembly<K::Scalar>,
-    ) {
-        let mut coefficients = K::all([zero::<K::Scalar>(); 2]);
-        let states = joints.states().zip(self.passive.values());
-        for (entry, ([_, rate], passive)) in coefficients.values_mut().zip(states) {
-            *entry = [passive.damping(rate), passive.stiffness];
-        }
-        assembly.stiffness.add::<K>(&coefficients, pivots, drives);
-    }
-
-    /// Adds what acts on the bodies from outside to the joints' torques and to the hub's system.
-    #[inline(never)]
-    fn add_wrenches(
-        &self,
-        pose: &K::Pose<K::Scalar>,
-        joints: &K::Joints<K::Scalar>,
-        bodies: Option<&Wrenches<K>>,
-        central: Option<&Central<K::Scalar>>,
-        drives: &mut Drives<K>,
-        assembly: &mut Assembly<K::Scalar>,
-    ) {
-        let (wrenches, second_moment) = self.acting(pose, joints, bodies, central);
-        let carried = self.carried(pose, &wrenches);
-        for ((drive, wrench), info) in
-            drives.values_mut().zip(carried.joints.values()).zip(K::JOINTS)
-        {
-            drive.torque = drive.torque + wrench.along(info) * drive.driven;
-        }
-        let hub = carried.hub.turned(&self.mount);
-        assembly.add_wrench(components(&hub.force), components(&hub.moment));
-        let second_moment = second_moment.rotated(&self.mount);
-        assembly.second_moment = assembly.second_moment.plus(second_moment);
-    }
-
-    /// Rejects pivots that are rounding.
-    #[inline(always)]
-    fn check_pivots(
-        &self,
-        device: usize,
-        pivots: &Pivots<K, K::Scalar>,
-        drives: &Drives<K>,
-    ) -> Result<(), SolveError<K::Scalar>> {
-        let above = K::zip_per_joint(pivots, &self.bound, |pivot, bound| {
-            pivot.is_none_or(|[pivot, _]| pivot > bound)
-        });
-        let mut all_above = true;
-        K::zip_per_joint(&above, drives, |above, drive| {
-            all_above &= above || drive.driven != one();
-        });
-        if all_above { Ok(()) } else { self.small_pivot(device, pivots, drives) }
-    }
-
-    /// The pivot rejected, in the order of the elimination: the first one is the cause, those after
-    /// it may be its consequence.
-    #[cold]
-    fn small_pivot(
-        &self,
-        device: usize,
-        pivots: &Pivots<K, K::Scalar>,
-        drives: &Drives<K>,
-    ) -> Result<(), SolveError<K::Scalar>> {
-        let mut rejected = Ok(());
-        let joints = pivots.values().zip(self.bound.values());
-        for (((pivot, bound), drive), info) in joints.zip(drives.values()).zip(K::JOINTS) {
-            if let (Some([pivot, _]), true) = (pivot, drive.driven == one())
-                && let Err(small) = check_pivot(pivot, bound)
-            {
-                // From the hub to the tip: the one nearest the tip was eliminated first.
-                rejected = Err(small.of(Some(device), Some(info.body)));
-            }
-        }
-        rejected
     }
 
     /// Torques and modes of the joints.
@@ -271,7 +146,7 @@ impl<K: Kind> Device<K> {
 
     /// Torques and modes of the joints, springs and friction with the motors.
     #[inline(always)]
-    fn drives(
+    pub(crate) fn drives(
         &self,
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,

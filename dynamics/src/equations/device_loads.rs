@@ -3,8 +3,9 @@
 use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::joint_inputs::{DeviceInputs, Environment};
-use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
+use crate::equations::load_sums::{Added, Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
+use crate::isolation::suspension::Forces;
 use crate::model::kind::{Carried, Kernels, Kind, Wrenches};
 use crate::model::mode::Mode;
 use crate::model::wrench::Wrench;
@@ -90,11 +91,27 @@ impl<K: Kind> Device<K> {
         along: &Along<K::Scalar>,
         totals: &mut LoadSums<K::Scalar>,
     ) -> LoadsOf<K> {
+        self.loads_with(joints, given, environment, hub, accelerations, along, totals, None)
+    }
+
+    /// [`Self::loads`] with what else acts on the last body and between the joints: of a platform.
+    #[expect(clippy::too_many_arguments, reason = "state, inputs and accelerations, then results")]
+    pub(crate) fn loads_with(
+        &self,
+        joints: &K::Joints<K::Scalar>,
+        given: DeviceInputs<'_, K>,
+        environment: &Environment<K::Scalar>,
+        hub: &HubAccelerations<K::Scalar>,
+        accelerations: &K::Accelerations<K::Scalar>,
+        along: &Along<K::Scalar>,
+        totals: &mut LoadSums<K::Scalar>,
+        added: Option<&Added<K::Scalar>>,
+    ) -> LoadsOf<K> {
         let pose = K::pose(joints);
         // Expressed in the device's axes, as this kernel requires.
         let within = |v| rotate_transposed(&self.mount, v);
         let hub = Solution { r_b_n_ddot: within(hub.r_b_n_ddot), omega_dot: within(hub.omega_dot) };
-        let needed = K::loads(
+        let mut needed = K::loads(
             &self.constants,
             &pose,
             joints,
@@ -102,13 +119,23 @@ impl<K: Kind> Device<K> {
             &hub.expressed_in_b(),
             accelerations,
         );
-        let applied = self.carried(&pose, &self.applied(joints, given.bodies));
+        let mut applied = self.carried(&pose, &self.applied(joints, given.bodies));
         let mut gradient = Carried { joints: K::all(Wrench::none()), hub: Wrench::none() };
         if let Some(central) = &environment.central {
             let (wrenches, second_moment) = self.gradient(&pose, central);
             let second_moment = second_moment.rotated(&self.mount);
             totals.second_moment = totals.second_moment.plus(second_moment);
             gradient = self.carried(&pose, &wrenches);
+        }
+        if let Some(added) = added {
+            let parts = [
+                (&mut needed, &added.inertial),
+                (&mut applied, &added.applied),
+                (&mut gradient, &added.gradient),
+            ];
+            for (sum, wrench) in parts {
+                self.add_to_tip(&pose, wrench, sum);
+            }
         }
         totals.inertial = totals.inertial.plus(&needed.hub.turned(&self.mount));
         totals.applied = totals.applied.plus(&applied.hub.turned(&self.mount));
@@ -118,7 +145,8 @@ impl<K: Kind> Device<K> {
             applied: along_joints::<K>(&applied.joints),
             gradient: along_joints::<K>(&gradient.joints),
         };
-        let (motors, powers) = self.add_powers(joints, given, &along_joints, totals);
+        let forces = added.map(|added| &added.suspension);
+        let (motors, powers) = self.add_powers(joints, given, &along_joints, totals, forces);
 
         let mut loads = needed.joints;
         let outside = applied.joints.values().zip(gradient.joints.values());
@@ -145,8 +173,10 @@ impl<K: Kind> Device<K> {
         given: DeviceInputs<'_, K>,
         along_joints: &AlongJoints<K>,
         totals: &mut LoadSums<K::Scalar>,
+        forces: Option<&Forces<K::Scalar>>,
     ) -> MotorsAndPowers<K> {
         let power = &mut totals.power;
+        let mut forces = forces.into_iter().flat_map(|of| of.springs.iter().zip(&of.dampers));
         let mut motors = K::all(zero::<K::Scalar>());
         let mut powers = K::all(JointPower::none());
         let components = along_joints.needed.values().zip(along_joints.applied.values());
@@ -159,7 +189,11 @@ impl<K: Kind> Device<K> {
         {
             let (((needed, applied), gradient), (torque, mode)) = (components, given);
             let ([coordinate, rate], passive) = state;
-            let (spring, friction) = (passive.of_spring(coordinate), passive.of_friction(rate));
+            let (mut spring, mut friction) =
+                (passive.of_spring(coordinate), passive.of_friction(rate));
+            if let Some((of_spring, of_damper)) = forces.next() {
+                (spring, friction) = (spring + *of_spring, friction + *of_damper);
+            }
             *motor = needed - applied - gradient - spring - friction;
             let driven = if mode == Mode::Driven { torque } else { *motor };
             for (sum, drive) in [
@@ -181,6 +215,25 @@ impl<K: Kind> Device<K> {
             power.stored = power.stored + passive.potential(coordinate);
         }
         (motors, powers)
+    }
+
+    /// Adds a wrench on the last body, about its joint's origin in its axes, and what its parents take
+    /// of it.
+    fn add_to_tip(
+        &self,
+        pose: &K::Pose<K::Scalar>,
+        wrench: &Wrench<K::Scalar>,
+        to: &mut Carried<Wrenches<K>, Wrench<K::Scalar>>,
+    ) {
+        let mut bodies = K::all(Wrench::none());
+        if let Some(tip) = bodies.values_mut().last() {
+            *tip = *wrench;
+        }
+        let carried = self.carried(pose, &bodies);
+        for (sum, wrench) in to.joints.values_mut().zip(carried.joints.values()) {
+            *sum = sum.plus(&wrench);
+        }
+        to.hub = to.hub.plus(&carried.hub);
     }
 
     /// The load of the mount, and those of the joints expressed in `along`.

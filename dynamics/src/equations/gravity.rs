@@ -143,6 +143,15 @@ impl<T: Real> Central<T> {
         (scale(-at_b, n), Self { gradient, n, potential, slope })
     }
 
+    /// Expressed in the columns.
+    #[inline(always)]
+    pub(crate) fn turned(&self, axes: &Columns<T>) -> Self {
+        let [x, y, z] = *axes;
+        let transposed = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
+        let n = rotate(&transposed, self.n);
+        Self { gradient: self.gradient.rotated(&transposed), n, ..*self }
+    }
+
     /// Third-order force on the spacecraft, in addition to field and gradient, N.
     #[inline(always)]
     pub(crate) fn third_order(&self, second_moment: &Symmetric<T>) -> Vec3<T> {
@@ -160,12 +169,22 @@ impl<T: Real> Central<T> {
         first_moment: Vec3<T>,
         second_moment: &Symmetric<T>,
     ) -> (Vec3<T>, Vec3<T>) {
-        let [x, y, z] = second_moment.columns();
-        let [x, y, z] = [self.gradient.times(x), self.gradient.times(y), self.gradient.times(z)];
-        // Component i: epsilon_ijk (S G)_jk.
-        let moment = [y[2] - z[1], z[0] - x[2], x[1] - y[0]];
+        let moment = gradient_moment(&self.gradient, second_moment);
         (self.gradient.times(first_moment), moment)
     }
+}
+
+/// Moment about a point that the field `G r` from it exerts on a mass distribution, by its second
+/// moment about the point.
+#[inline(always)]
+pub(crate) fn gradient_moment<T: Real>(
+    gradient: &Symmetric<T>,
+    second_moment: &Symmetric<T>,
+) -> Vec3<T> {
+    let [x, y, z] = second_moment.columns();
+    let [x, y, z] = [gradient.times(x), gradient.times(y), gradient.times(z)];
+    // Component i: epsilon_ijk (S G)_jk.
+    [y[2] - z[1], z[0] - x[2], x[1] - y[0]]
 }
 
 /// Wrenches of the gradient of gravity on the bodies of a device, and its second moment about B,

@@ -29,7 +29,6 @@ pub(crate) struct BodySums<T> {
     pub(crate) angular_b: Vec3<T>,
 }
 
-#[cfg(feature = "lanes")]
 impl<T: Copy> HubConstants<T> {
     /// The constants with each of their numbers changed.
     #[inline(always)]

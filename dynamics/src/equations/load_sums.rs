@@ -1,6 +1,7 @@
 //! What the loads of the devices add up to for the hub and the ledger, and the axes they are
 //! expressed in.
 
+use crate::isolation::suspension::Forces;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::symmetric::Symmetric;
@@ -58,7 +59,36 @@ pub(crate) struct JointPowers<T> {
     pub(crate) magnitude: T,
 }
 
+/// What a platform gets from elsewhere than its own body and joints.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Added<T> {
+    /// What the carried devices need, about P, platform axes.
+    pub(crate) inertial: Wrench<T>,
+    /// What acts on their bodies from outside.
+    pub(crate) applied: Wrench<T>,
+    /// What the gradient of gravity exerts on them.
+    pub(crate) gradient: Wrench<T>,
+    /// Springs and dampers that couple its joints.
+    pub(crate) suspension: Forces<T>,
+}
+
 impl<T: Scalar> JointPowers<T> {
+    /// Adds those of other joints.
+    pub(crate) fn add(&mut self, other: &Self) {
+        for (sum, power) in [
+            (&mut self.inertial, other.inertial),
+            (&mut self.applied, other.applied),
+            (&mut self.gradient, other.gradient),
+            (&mut self.motors, other.motors),
+            (&mut self.springs, other.springs),
+            (&mut self.friction, other.friction),
+            (&mut self.stored, other.stored),
+            (&mut self.magnitude, other.magnitude),
+        ] {
+            *sum = *sum + power;
+        }
+    }
+
     fn none() -> Self {
         Self {
             inertial: zero(),

@@ -6,9 +6,16 @@
 
 pub(crate) mod arithmetic;
 pub(crate) mod assembly;
+#[cfg(feature = "lanes")]
+pub(crate) mod cpu;
 pub(crate) mod device;
 pub(crate) mod device_loads;
+#[cfg(feature = "lanes")]
+pub(crate) mod dispatched;
+pub(crate) mod eliminate;
 pub(crate) mod error;
+#[cfg(test)]
+mod error_checks;
 #[cfg(feature = "lanes")]
 pub(crate) mod fused;
 pub(crate) mod gravity;
@@ -16,5 +23,7 @@ pub(crate) mod hub;
 pub(crate) mod joint_inputs;
 pub(crate) mod load_sums;
 pub(crate) mod pivot_bound;
+#[cfg(feature = "lanes")]
+pub(crate) mod sines;
 pub(crate) mod stiffness;
 pub(crate) mod system;

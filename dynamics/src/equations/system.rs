@@ -103,13 +103,6 @@ impl<T: Scalar> System<T> {
 }
 
 impl<T: Real> System<T> {
-    /// Every number the same.
-    #[inline(always)]
-    pub(crate) fn filled(value: T) -> Self {
-        let (block, row) = (Symmetric::filled(value), [value; 3]);
-        Self { m_vv: block, m_vw: [row; 3], m_ww: block, h_v: row, h_w: row }
-    }
-
     /// What is left without `other`.
     #[inline(always)]
     pub(crate) fn less(&self, other: &Self) -> Self {

@@ -146,7 +146,7 @@ impl<D: Devices> Spacecraft<D> {
 impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
     /// Adds `weight` times the slope to `sum` and sets the next stage, `start` plus `offset` times
     /// the slope, s both; the attitude is left out.
-    fn follow(
+    pub(crate) fn follow(
         &mut self,
         start: &Self,
         found: &Accelerations<D>,
@@ -174,7 +174,7 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
     }
 
     /// Becomes `start + sum`, attitude left out.
-    fn add(&mut self, start: &Self, sum: &Self) {
+    pub(crate) fn add(&mut self, start: &Self, sum: &Self) {
         let plus = |a, b| vector(add(components(a), components(b)));
         self.r_b_n = plus(&start.r_b_n, &sum.r_b_n);
         self.r_b_n_dot = plus(&start.r_b_n_dot, &sum.r_b_n_dot);

@@ -6,7 +6,7 @@
 //! jumps for accelerations: the same kernels compute them.
 
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::arithmetic::Unfused;
+use crate::equations::arithmetic::Arithmetic;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::joint_inputs::{Environment, JointInputs};
@@ -134,7 +134,8 @@ impl<D: Devices> Spacecraft<D> {
         let environment = Environment { omega: zeros(), central: None, impulse: true };
         let given = JointInputs { motors, modes: &inputs.modes, bodies: None };
         let mut assembly = Assembly::new(&self.body, zeros(), zeros());
-        self.eliminate_devices::<_, Unfused>(state, given, &environment, &mut assembly, scratch)?;
+        let by = Arithmetic::unfused();
+        self.eliminate_devices(by, state, given, &environment, &mut assembly, scratch)?;
         Ok(assembly)
     }
 }

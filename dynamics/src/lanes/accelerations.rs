@@ -9,11 +9,11 @@ use super::crafts::{Crafts, entered};
 use super::evaluate::evaluate;
 use super::fallback;
 use super::group::Group;
-use super::lane::Lane;
 use super::motion::at;
-use super::number::{Number, WIDEST};
 use super::slot::{LanedSet, Leave, each_slot, take_found};
 use crate::equations::error::SolveError;
+use crate::numbers::lane::Lane;
+use crate::numbers::laned::{Number, WIDEST};
 use crate::numbers::vec3::{map, vector};
 use crate::solve::state::{Accelerations, State};
 

@@ -7,32 +7,29 @@ use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
+use super::across_loads::{AddLoads, Loads, add_in_order};
 use super::constants::{DeviceBlocks, DeviceConstants, OwnLoads};
 use super::evaluate::{regular, within_reach};
 use super::fallback;
 use super::gather::{joints_in_lanes, values_in_lanes};
-use super::lane::Lane;
-use super::loads::{OnBodies, Summed, put_wrenches, wrenches_in_lanes};
-use super::number::{Block, Number, WIDEST, Work};
-use super::passive::{add_stiffness, viscous, with_own, with_passive};
-use super::slot::{Aligned, NO_WRENCH, put_drives};
-use super::width::{lanes_for, width};
+use super::passive::{add_stiffness, viscous, with_passive};
+use super::slot::{Aligned, put_drives};
+use super::width::{dispatch, lanes_for, width};
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::assembly::expressed_in_b;
 use crate::equations::device::Device;
 use crate::equations::error::SolveError;
-use crate::equations::gravity::Central;
 use crate::equations::joint_inputs::JointInputs;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::Solution;
 use crate::model::kernels::Kernels;
-use crate::model::kind::{Kind, Wrenches};
+use crate::model::kind::Kind;
 use crate::model::mode::{Drive, Mode};
 use crate::model::parameters::Hub;
-use crate::model::wrench::Wrench;
 use crate::numbers::each::Each;
-use crate::numbers::symmetric::Symmetric;
-use crate::numbers::vec3::{components, map};
+use crate::numbers::lane::Lane;
+use crate::numbers::laned::{Block, Number, WIDEST};
+use crate::numbers::vec3::map;
 use crate::solve::accelerations::{EvaluationStart, evaluation_start, inputs_are_finite};
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -41,12 +38,13 @@ use crate::validation::parameter_error::ParameterError;
 
 /// A hub with `N` devices of one kind, evaluated as many at a time as there are lanes.
 ///
-/// Worth it from four devices on. Lanes add up what the devices exert on the hub in another order
-/// than [`Spacecraft`] does, so the last bits differ.
+/// Worth it from four devices on. Results have the bits that [`Spacecraft`] gives; those of
+/// [`AcrossDevices::fused`] have not.
 #[derive(Clone, Debug)]
 pub struct AcrossDevices<K: Kind<Scalar = f64>, const N: usize> {
     craft: Spacecraft<[K; N]>,
     lanes: Arch,
+    fused: bool,
     groups: Vec<Group<K>>,
     /// What the devices have of their own.
     own: OwnLoads,
@@ -56,7 +54,9 @@ pub struct AcrossDevices<K: Kind<Scalar = f64>, const N: usize> {
 #[derive(Clone, Debug)]
 struct Group<K: Kernels> {
     constants: DeviceBlocks<K>,
-    /// One in the lanes that have a device.
+    /// How many there are.
+    devices: usize,
+    /// One in their lanes, the first.
     weight: Block,
 }
 
@@ -70,7 +70,16 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         let craft = Spacecraft::new(hub, devices)?;
         let lanes = lanes_for(N);
         let groups = craft.devices.chunks(width(lanes)).filter_map(Group::new).collect();
-        Ok(Self { own: OwnLoads::of(&craft), craft, lanes, groups })
+        Ok(Self { own: OwnLoads::of(&craft), craft, lanes, fused: false, groups })
+    }
+
+    /// The same with products and sums of the devices' equations rounded once, and with what the
+    /// devices exert on the hub added lane by lane: accelerations and steps have other bits, and
+    /// take less time. Without a CPU that has the instruction, results stay as they are.
+    #[must_use]
+    pub fn fused(mut self) -> Self {
+        self.fused = !matches!(self.lanes, Arch::Scalar);
+        self
     }
 
     /// The spacecraft, for everything else that is asked of it.
@@ -79,7 +88,7 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         &self.craft
     }
 
-    /// All accelerations, as [`Spacecraft::accelerations`] gives them, to rounding.
+    /// All accelerations, as [`Spacecraft::accelerations`] gives them.
     ///
     /// # Errors
     ///
@@ -126,7 +135,12 @@ impl<K: Kind<Scalar = f64>, const N: usize> AcrossDevices<K, N> {
         found: &mut Accelerations<[K; N]>,
         stiffness: Option<&mut Stiffness<f64>>,
     ) -> Option<()> {
-        self.lanes.dispatch(Evaluation { across: self, state, inputs, found, stiffness })
+        let evaluation = Evaluation { across: self, state, inputs, found, stiffness };
+        if self.fused {
+            dispatch::<_, N>(self.lanes, InLanes::<_, true>(evaluation))
+        } else {
+            dispatch::<_, N>(self.lanes, InLanes::<_, false>(evaluation))
+        }
     }
 }
 
@@ -135,7 +149,7 @@ impl<K: Kind<Scalar = f64>> Group<K> {
     fn new(devices: &[Device<K>]) -> Option<Self> {
         let mut weight = Block::ZERO;
         (0..devices.len()).for_each(|lane| weight.put(lane, 1.0));
-        Some(Self { constants: DeviceBlocks::of(devices)?, weight })
+        Some(Self { weight, constants: DeviceBlocks::of(devices)?, devices: devices.len() })
     }
 }
 
@@ -148,18 +162,26 @@ struct Evaluation<'a, K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> {
     stiffness: Option<&'a mut Stiffness<f64>>,
 }
 
-impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> WithSimd for Evaluation<'_, K, A, N> {
+/// An evaluation in lanes that are fused or not.
+struct InLanes<E, const FUSED: bool>(E);
+
+impl<K, A, const N: usize, const FUSED: bool> WithSimd for InLanes<Evaluation<'_, K, A, N>, FUSED>
+where
+    K: Kind<Scalar = f64>,
+    A: Attitude<f64>,
+{
     type Output = Option<()>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        self.evaluate(Lane::<S, true>::splat(simd, 0.0))
+        self.0.evaluate::<_, FUSED>(Lane::<S, FUSED>::splat(simd, 0.0))
     }
 }
 
 impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, A, N> {
+    /// What the devices exert on the hub is added device by device, or `BY_LANE`.
     #[inline(always)]
-    fn evaluate<T: Number>(self, zero: T) -> Option<()> {
+    fn evaluate<T: Number, const BY_LANE: bool>(self, zero: T) -> Option<()> {
         let Self { across, state, inputs, found: all, stiffness: demanded } = self;
         let AcrossDevices { craft, groups, .. } = across;
         let EvaluationStart { environment, at_b } = evaluation_start(state, inputs).ok()?;
@@ -202,54 +224,50 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             let regular = regular::<K, T>(zero, &eliminated, &drives, &bound);
             let within = within_reach::<K, T>(zero, &joints);
             holds = zero.both(holds, zero.both(within, regular));
-            let real = zero.load(&group.weight).above(zero);
             if let Some(passive) = &passive {
                 let mut stiffness = Stiffness::none(zero);
                 let of_loads = loads.as_ref().and_then(|loads| loads.stiffness);
                 let joints = of_loads.unwrap_or_else(|| viscous::<K, T>(passive));
                 add_stiffness::<K, T>(&mut stiffness, &joints, &eliminated, &drives);
-                let Stiffness { damping, spring } = stiffness;
-                assembly.stiffness.damping += damping.or(real, zero).sum();
-                assembly.stiffness.spring += spring.or(real, zero).sum();
+                add_in_order(&mut assembly.stiffness, &stiffness, group.devices);
             }
-            if let Some(Loads { on_bodies: Some((hub, second_moment)), .. }) = &loads {
-                let sum = |number: T| number.or(real, zero).sum();
-                let hub = hub.zip(hub, |number, _| sum(number));
-                assembly.add_wrench(components(&hub.force), components(&hub.moment));
-                let second_moment = second_moment.zip(*second_moment, |number, _| sum(number));
-                assembly.second_moment = assembly.second_moment.plus(second_moment);
+            if let Some(Loads { on_hub: Some(on_hub), .. }) = &loads {
+                on_hub.add_to(&mut assembly, group.devices);
             }
-            let share = K::share(&eliminated).map(|number| number.or(real, zero));
-            shares = Some(match &shares {
-                Some(sum) => share.zip(sum, |number, sum| sum + number),
-                None => share,
-            });
+            let real = zero.load(&group.weight).above(zero);
+            // Minus zero changes no sum.
+            let none = zero.like(-0.0);
+            let share = K::share(&eliminated).map(
+                #[inline(always)]
+                |number| number.or(real, none),
+            );
+            if BY_LANE {
+                shares = Some(match &shares {
+                    Some(sum) => share.zip(sum, |number, sum| sum + number),
+                    None => share,
+                });
+            } else {
+                assembly.add_by(
+                    &share,
+                    #[inline(always)]
+                    |sum, number| number.added_to(sum),
+                );
+            }
             match &of_first {
                 None => of_first = Some(Aligned(*K::gains(&eliminated))),
                 Some(_) => gains.push(Aligned(*K::gains(&eliminated))),
             }
         }
-        assembly.add(&shares?.map(Number::sum));
-        let hub = craft.hub_accelerations(inputs, &environment, &mut assembly, at_b).ok()?;
-        let splat = |v| map(v, |component| zero.like(component));
-        let of_hub =
-            Solution { r_b_n_ddot: splat(hub.r_b_n_ddot), omega_dot: splat(hub.omega_dot) };
-        let of_hub = of_hub.expressed_in_b();
-        let mut vanishing = zero;
-        let mut rest = all.devices.iter_mut();
-        for Aligned(gains) in of_first.iter().chain(&gains) {
-            let found = K::back_substitute(gains, &of_hub);
-            let mut found = K::zip_accelerations(&found, &found, |number, _| {
-                vanishing = vanishing + number * zero;
-                number.store()
-            });
-            for lane in 0..T::WIDTH {
-                let Some(device) = rest.next() else { break };
-                for (number, block) in device.values_mut().zip(found.values_mut()) {
-                    *number = block.at(lane);
-                }
-            }
+        if let Some(shares) = &shares {
+            assembly.add_by(
+                shares,
+                #[inline(always)]
+                |sum, number| sum + number.sum(),
+            );
         }
+        let hub = craft.hub_accelerations(inputs, &environment, &mut assembly, at_b).ok()?;
+        let all_gains = of_first.iter().chain(&gains);
+        let vanishing = back_substitute::<K, T>(all_gains, &hub, zero, &mut all.devices);
         let holds = zero.like(1.0).or(zero.both(holds, vanishing.same(zero)), zero).store();
         if (0..T::WIDTH).any(|lane| holds.at(lane) != 1.0) {
             return None;
@@ -261,53 +279,32 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
     }
 }
 
-/// The drives of a group's devices, and what acts on their bodies.
-struct Loads<K: Kernels, T: Number> {
-    /// Torques and modes, with all that adds to them.
-    drives: K::PerJoint<Drive<T>>,
-    /// Damping and stiffness of the joints.
-    stiffness: Option<K::PerJoint<[T; 2]>>,
-    /// On the hub, about B, and the second moment, expressed in B.
-    on_bodies: Option<(Wrench<T>, Symmetric<T>)>,
-}
-
-/// Adds the loads of a group's devices.
-struct AddLoads<'a, K: Kind<Scalar = f64>, T: Number> {
-    constants: &'a DeviceBlocks<K>,
-    /// Of the first device of the group and those after it.
-    bodies: Option<&'a [Wrenches<K>]>,
-    joints: &'a K::Joints<T>,
-    given: &'a K::PerJoint<Drive<T>>,
-    central: Option<&'a Central<f64>>,
-    like: T,
-    to: &'a mut Option<Loads<K, T>>,
-}
-
-impl<K: Kind<Scalar = f64>, T: Number> Work for AddLoads<'_, K, T> {
-    #[inline(always)]
-    fn run(self) {
-        let Self { constants, bodies, joints, given, central, like, to } = self;
-        let (device, everywhere) = (constants.loads_in_lanes(like), like.same(like));
-        let constants = constants.in_lanes(like);
-        let (drives, stiffness) = with_own::<K, T>((&constants, device.dry), joints, given);
-        let mut wrenches = <K as Kind>::all(NO_WRENCH);
-        for (lane, bodies) in bodies.unwrap_or(&[]).iter().take(WIDEST).enumerate() {
-            put_wrenches::<K>(&mut wrenches, lane, bodies);
+/// Writes the accelerations of the devices' joints; zero where all are finite, else NaN.
+#[inline(always)]
+fn back_substitute<'a, K: Kind<Scalar = f64>, T: Number>(
+    groups: impl Iterator<Item = &'a Aligned<K::Gains<T>>>,
+    hub: &Solution<f64>,
+    zero: T,
+    devices: &mut [K::Accelerations<f64>],
+) -> T {
+    let splat = |v| map(v, |component| zero.like(component));
+    let hub = Solution { r_b_n_ddot: splat(hub.r_b_n_ddot), omega_dot: splat(hub.omega_dot) };
+    let hub = hub.expressed_in_b();
+    let (mut vanishing, mut rest) = (zero, devices.iter_mut());
+    for Aligned(gains) in groups {
+        let found = K::back_substitute(gains, &hub);
+        let mut found = K::zip_accelerations(&found, &found, |number, _| {
+            vanishing = vanishing + number * zero;
+            number.store()
+        });
+        for lane in 0..T::WIDTH {
+            let Some(device) = rest.next() else { break };
+            for (number, block) in device.values_mut().zip(found.values_mut()) {
+                *number = block.at(lane);
+            }
         }
-        let wrenches = wrenches_in_lanes::<K, T>(like, &wrenches);
-        let on_bodies = OnBodies {
-            wrenches: bodies.map(|_| everywhere),
-            central: central.map(|central| (central.map(|number| like.like(number)), everywhere)),
-        };
-        *to = Some(
-            match on_bodies.summed::<K>(&constants.constants, &device, joints, &drives, &wrenches) {
-                Some(Summed { drives, hub, second_moment, .. }) => {
-                    Loads { drives, stiffness, on_bodies: Some((hub, second_moment)) }
-                }
-                None => Loads { drives, stiffness, on_bodies: None },
-            },
-        );
     }
+    vanishing
 }
 
 /// The joints of a group's devices, and what is given of them.

@@ -11,11 +11,11 @@ use super::accelerations::Evaluation;
 use super::batch::BatchAccelerations;
 use super::batch_inputs::BatchInputs;
 use super::crafts::Crafts;
-use super::number::WIDEST;
 use super::observers::Observers;
 use super::run::Runs;
 use super::slot::LanedSet;
 use crate::equations::error::{Quantity, SolveError};
+use crate::numbers::laned::WIDEST;
 use crate::solve::state::State;
 
 /// The most states of a part: their accelerations fit into the cache.

@@ -7,13 +7,13 @@ use std::sync::Arc;
 use core::convert::Infallible;
 use core::fmt;
 
-use super::number::{Block, Number, WIDEST};
 use super::slot::LanedSet;
 use crate::equations::device::Device;
 use crate::equations::hub::HubConstants;
 use crate::model::kernels::Kernels;
 use crate::model::kind::{Kind, Lumped};
 use crate::model::passive::Passive;
+use crate::numbers::laned::{Block, Number, WIDEST};
 use crate::numbers::vec3::{Columns, map};
 use crate::sets::bundle::Unique;
 use crate::sets::devices::{AreLumped, Passives, Visit};

@@ -4,8 +4,8 @@
 
 use super::constants::{CraftBlocks, OwnLoads};
 use super::evaluate::LanedCraft;
-use super::number::Number;
 use super::slot::{LanedSet, SlotsOf, enter_constants};
+use crate::numbers::laned::Number;
 use crate::solve::spacecraft::Spacecraft;
 
 /// The spacecraft of a batch.

@@ -6,7 +6,6 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::constants::{DeviceConstants, same_in_lanes};
-use super::number::Number;
 use super::passive::{add_stiffness, viscous, where_sprung, with_passive};
 use super::slot::{Aligned, EachSlot, LanedSet, Slot, SlotsOf, each_slot};
 use crate::equations::assembly::{Assembly, expressed_in_b};
@@ -18,6 +17,7 @@ use crate::generated::hub::BodyAcceleration;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
 use crate::model::mode::Drive;
+use crate::numbers::laned::Number;
 use crate::numbers::sincos::LARGEST_ANGLE;
 use crate::numbers::vec3::{Vec3, add};
 

@@ -5,8 +5,8 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::number::{Block, Number, WIDEST};
 use crate::model::kernels::Kernels;
+use crate::numbers::laned::{Block, Number, WIDEST};
 
 /// Numbers for the lower or the upper half of the widest lanes.
 type Half = [f64; WIDEST / 2];

@@ -12,7 +12,6 @@ use super::constants::{DeviceConstants, LoadConstants, loads_in_lanes, same_in_l
 use super::evaluate::Acting;
 use super::group::GroupLoads;
 use super::motion::Motion;
-use super::number::{Block, Number, Work};
 use super::passive::{keeps_turning, with_own};
 use super::slot::{EachSlot, LanedSet, Slot, SlotsOf, each_slot};
 use crate::attitude::quaternion::bn;
@@ -24,6 +23,7 @@ use crate::model::kind::Kind;
 use crate::model::mode::Drive;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates};
+use crate::numbers::laned::{Block, Number, Work};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, components, dot, rotate, scale};
 

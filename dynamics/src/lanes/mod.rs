@@ -4,7 +4,8 @@
 //! |---|---|---|
 //! | one state after another, few devices | [`Spacecraft`](crate::Spacecraft) | |
 //! | the same, product and sum rounded once | [`Spacecraft::fused`] | to rounding |
-//! | one state after another, four or more devices of one kind | [`AcrossDevices`] | to rounding |
+//! | one state after another, four or more devices of one kind | [`AcrossDevices`] | to the bit |
+//! | the same, product and sum rounded once | [`AcrossDevices::fused`] | to rounding |
 //! | many states of one spacecraft, or their runs | [`Batch`] | to the bit |
 //! | the same, product and sum rounded once | [`Batch::fused`] | to rounding |
 //! | many spacecraft of one shape, each at its state | [`ParameterBatch`] | to the bit |
@@ -38,6 +39,7 @@
 
 mod accelerations;
 mod across;
+mod across_loads;
 mod batch;
 mod batch_inputs;
 mod calls;
@@ -49,10 +51,8 @@ mod fallback;
 mod fallback_checks;
 mod gather;
 mod group;
-mod lane;
 mod loads;
 mod motion;
-mod number;
 mod observers;
 mod parameter_batch;
 mod passive;

@@ -43,7 +43,7 @@ impl<D: LanedSet> ParameterBatch<D> {
     pub fn new(spacecraft: Vec<Spacecraft<D>>) -> Self {
         let mut crafts = spacecraft;
         for craft in &mut crafts {
-            craft.arithmetic = Arithmetic::Unfused;
+            craft.arithmetic = Arithmetic::unfused();
         }
         // The registers that every evaluation chooses.
         let groups = crafts.chunks(width(Arch::new())).filter_map(CraftBlocks::of).collect();

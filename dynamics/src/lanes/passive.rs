@@ -5,12 +5,12 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::constants::DeviceConstants;
-use super::number::Number;
 use crate::equations::stiffness::Stiffness;
 use crate::model::kernels::Kernels;
 use crate::model::mode::Drive;
 use crate::model::passive::Passive;
 use crate::numbers::each::JointStates;
+use crate::numbers::laned::Number;
 
 /// What is given of the joints, springs and dampers with the motors.
 #[inline(always)]

@@ -10,16 +10,16 @@ use super::crafts::{Crafts, entered};
 use super::evaluate::{LanedCraft, evaluate};
 use super::fallback;
 use super::group::{Group, NEAR_ONE};
-use super::lane::Lane;
 use super::loads::CheckFriction;
 use super::motion::Motion;
-use super::number::{Number, WIDEST};
 use super::slot::{EachSlot, LanedSet, Slot, each_slot, take_joints};
 use crate::attitude::quaternion::{bn, norm_squared, rate};
 use crate::equations::device::Device;
 use crate::equations::error::SolveError;
 use crate::equations::stiffness::ACCEPTED;
 use crate::model::kind::Kind;
+use crate::numbers::lane::Lane;
+use crate::numbers::laned::{Number, WIDEST};
 use crate::numbers::vec3::rotate_transposed;
 use crate::solve::state::State;
 

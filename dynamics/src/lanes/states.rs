@@ -2,8 +2,8 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use super::number::WIDEST;
 use crate::model::kind::Kind;
+use crate::numbers::laned::WIDEST;
 use crate::sets::bundle::{Bundle, Part};
 use crate::sets::devices::DeviceSet;
 use crate::sets::enumeration::{DeviceEnum, Variant};

@@ -14,6 +14,20 @@ pub(super) fn lanes_for(devices: usize) -> Arch {
     Arch::new()
 }
 
+/// Does something in the registers that so many devices were given, in code for no others.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "as pulp asks")]
+pub(super) fn dispatch<W: WithSimd, const DEVICES: usize>(lanes: Arch, work: W) -> W::Output {
+    #[cfg(target_arch = "x86_64")]
+    if const { DEVICES <= FEW } {
+        return match lanes {
+            Arch::V3(simd) => Simd::vectorize(simd, work),
+            _ => Simd::vectorize(pulp::Scalar, work),
+        };
+    }
+    lanes.dispatch(work)
+}
+
 /// How many numbers they hold.
 pub(super) fn width(lanes: Arch) -> usize {
     lanes.dispatch(Width)

@@ -3,6 +3,8 @@
 //! Pure arithmetic over [`Real`]: what compares, takes a root or finds an error is in
 //! [`Kind`](crate::model::kind::Kind), for single numbers. Lanes of numbers run only what is here.
 
+#![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
+
 use core::fmt::Debug;
 
 use crate::generated::hub::{BodyAcceleration, BodyRate, HubShare};
@@ -32,7 +34,19 @@ pub trait Kernels: 'static {
     type Gains<T: Value>: Copy + Debug;
 
     /// Sines, cosines and lengths of the joints.
-    fn pose<T: Angle>(joints: &Self::Joints<T>) -> Self::Pose<T>;
+    #[inline(always)]
+    fn pose<T: Angle>(joints: &Self::Joints<T>) -> Self::Pose<T> {
+        Self::pose_by(
+            joints,
+            #[inline(always)]
+            |_, angle| angle.sin_cos(),
+        )
+    }
+    /// The same, sine and cosine found by a function of the joint's number and of its angle.
+    fn pose_by<T: Value>(
+        joints: &Self::Joints<T>,
+        sin_cos: impl FnMut(usize, T) -> (T, T),
+    ) -> Self::Pose<T>;
     /// The emitted `eliminate`.
     fn eliminate<T: Real>(
         constants: &Self::Constants<T>,

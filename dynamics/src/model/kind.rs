@@ -88,7 +88,6 @@ pub struct Lumped<T> {
     pub j_13: T,
 }
 
-#[cfg(feature = "lanes")]
 impl<T: Copy> Lumped<T> {
     /// Each number changed.
     #[inline(always)]
@@ -139,6 +138,8 @@ pub trait Kind: Kernels + Copy + Debug + PartialEq + Send + Sync {
     type Scalar: Scalar;
     /// Motor torques.
     type Motors: Each<Self::Scalar> + Copy;
+    /// The same kind with parameters of other numbers.
+    type With<U: Scalar>: Kind<Scalar = U> + Kernels<Constants<U> = Self::Constants<U>>;
 
     /// The name of the kind, that of its module: `reaction_wheel`.
     const NAME: &'static str;
@@ -279,6 +280,11 @@ pub fn diagonal<T: Scalar>([xx, yy, zz]: [T; 3]) -> Matrix3<T> {
 #[must_use]
 pub fn no_inertia<T: Scalar>() -> Matrix3<T> {
     diagonal([zero(); 3])
+}
+
+/// A body without mass at the origin of its parent body.
+pub(crate) fn no_body<T: Scalar>() -> BodyParameters<T> {
+    BodyParameters { origin: [zero(); 3], mass: zero(), centre: [zero(); 3], inertia: no_inertia() }
 }
 
 /// The tensor that changes nothing.

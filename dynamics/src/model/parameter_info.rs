@@ -174,7 +174,10 @@ pub(crate) fn write<K: Kind>(
 }
 
 /// A parameter of the structure, or of the passive elements of one of its joints.
-fn find<'a, K: Kind>(device: &'a mut K, name: &str) -> Option<ParameterMut<'a, K::Scalar>> {
+pub(crate) fn find<'a, K: Kind>(
+    device: &'a mut K,
+    name: &str,
+) -> Option<ParameterMut<'a, K::Scalar>> {
     let Some(of_joint) = name.strip_prefix("passive.") else { return device.parameter_mut(name) };
     let (body, name) = of_joint.split_once('.')?;
     let mut joints = device.passive_mut().values_mut().zip(K::JOINTS);

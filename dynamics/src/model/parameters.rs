@@ -20,3 +20,18 @@ pub struct Hub<T = f64> {
     /// `[I_{hub,Bc}]`, inertia about the hub's centre of mass, B axes, kg m^2.
     pub i_b_bc: Matrix3<T>,
 }
+
+impl<T: Copy> Hub<T> {
+    /// The hub with each of its numbers converted.
+    #[must_use]
+    pub fn map<U: nalgebra::Scalar>(&self, number: impl Fn(T) -> U + Copy) -> Hub<U>
+    where
+        T: nalgebra::Scalar,
+    {
+        Hub {
+            m_b: number(self.m_b),
+            r_bc_b: self.r_bc_b.map(number),
+            i_b_bc: self.i_b_bc.map(number),
+        }
+    }
+}

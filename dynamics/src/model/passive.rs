@@ -63,6 +63,11 @@ impl<T: Scalar> Passive<T> {
         }
     }
 
+    /// Whether the joint is free, also of what a parameter's derivative adds.
+    pub(crate) fn is_none(&self) -> bool {
+        self.named().into_iter().all(|(_, value)| value.vanishes())
+    }
+
     /// Only a spring and a damper, at rest at zero.
     #[must_use]
     pub fn spring(stiffness: T, viscous: T) -> Self {
@@ -83,7 +88,7 @@ impl<T: Scalar> Passive<T> {
     /// Torque or force of friction.
     pub(crate) fn of_friction(&self, rate: T) -> T {
         let viscous = -(self.viscous * rate);
-        if self.coulomb == zero() {
+        if self.coulomb.vanishes() {
             return viscous;
         }
         // By the larger of the two rates, so that neither square vanishes or overflows.
@@ -94,7 +99,7 @@ impl<T: Scalar> Passive<T> {
 
     /// By how much friction grows with the rate: `c + u_c q_c'² / (q'² + q_c'²)^(3/2)`, N m s/rad.
     pub(crate) fn damping(&self, rate: T) -> T {
-        if self.coulomb == zero() {
+        if self.coulomb.vanishes() {
             return self.viscous;
         }
         let (first, second) = reciprocal_in_two(rate.abs().max(self.coulomb_rate));

@@ -1,8 +1,13 @@
-//! Number traits, sines and cosines, vectors and symmetric tensors.
+//! Number traits, dual numbers, sines and cosines, vectors and symmetric tensors, lanes of numbers.
 //!
 //! Nothing here knows of a spacecraft. Everything above computes with these.
 
+pub(crate) mod dual;
 pub(crate) mod each;
+#[cfg(feature = "lanes")]
+pub(crate) mod lane;
+#[cfg(feature = "lanes")]
+pub(crate) mod laned;
 pub(crate) mod real;
 pub(crate) mod sincos;
 #[cfg(test)]

@@ -61,6 +61,9 @@ pub trait Angle: Real {
 
 /// What the solver does with a number, on top of [`Angle`].
 pub trait Scalar: Angle + PartialOrd {
+    /// 0.
+    const ZERO: Self;
+
     /// Distance from 1 to the next larger number: `2^-52` for `f64`, `2^-23` for `f32`.
     const EPSILON: Self;
 
@@ -84,6 +87,13 @@ pub trait Scalar: Angle + PartialOrd {
     /// Whether it converts to `f64` and back exactly, so that its equations may be evaluated by
     /// fused `f64`s.
     const IS_F64: bool = false;
+
+    /// Whether the number is zero and remains zero: of a [`Dual`](crate::Dual) number, whether its
+    /// derivatives are zero too.
+    #[must_use]
+    fn vanishes(self) -> bool {
+        self == zero()
+    }
 
     /// Magnitude. NaN stays NaN.
     #[must_use]
@@ -123,6 +133,7 @@ impl Angle for f64 {
 }
 
 impl Scalar for f64 {
+    const ZERO: Self = 0.0;
     const EPSILON: Self = Self::EPSILON;
     const IS_F64: bool = true;
 
@@ -173,6 +184,7 @@ impl Angle for f32 {
 }
 
 impl Scalar for f32 {
+    const ZERO: Self = 0.0;
     const EPSILON: Self = Self::EPSILON;
 
     #[inline]

@@ -28,7 +28,9 @@ impl<T: Scalar> Symmetric<T> {
     pub(crate) fn part_of(m: &Matrix3<T>) -> Self {
         let [x, y, z] = columns(m);
         // Half the smallest number would be zero, and the sum of the largest ones infinite.
-        let mean = |a: T, b: T| if a == b { a } else { half::<T>() * a + half::<T>() * b };
+        let mean = |a: T, b: T| {
+            if (a - b).vanishes() { a } else { half::<T>() * a + half::<T>() * b }
+        };
         Self {
             xx: x[0],
             xy: mean(y[0], x[1]),
@@ -74,7 +76,6 @@ impl<T: Scalar> Symmetric<T> {
     }
 }
 
-#[cfg(feature = "lanes")]
 impl<T: Copy> Symmetric<T> {
     /// Two tensors joined number by number.
     #[inline(always)]

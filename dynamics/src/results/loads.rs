@@ -14,6 +14,8 @@ use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Field, at_b};
 use crate::equations::joint_inputs::Environment;
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
+use crate::isolation::loads::CarriedLoads;
+use crate::isolation::set::{Isolated, PreparedIsolated, parts};
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, zero};
@@ -79,6 +81,40 @@ impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
     ) -> Result<(), Infallible> {
         let Self { environment, hub, along, totals } = self;
         *out = device.loads(joints, given, environment, hub, accelerations, along, totals);
+        Ok(())
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        (joints, given, accelerations, out): <Weighed as Bundle<T>>::Of<'_, Isolated<D>>,
+    ) -> Result<(), Infallible> {
+        let Self { environment, hub, along, totals } = self;
+        let carried = CarriedLoads::start(isolated, &joints.platform, environment, hub);
+        let base = carried.base(&accelerations.platform);
+        let (of_platform, given) = parts::<D>(given);
+        let mut sums = LoadSums { joints: totals.joints.wrapping_add(6), ..LoadSums::none() };
+        let mut weighing = Weighing {
+            environment: &carried.environment,
+            hub: &base,
+            along: &carried.along(along),
+            totals: &mut sums,
+        };
+        let data = (&joints.carried, given, &accelerations.carried, &mut out.carried);
+        let Ok(()) = D::visit::<Weighed, _>(&isolated.carried, data, &mut weighing);
+        let added = carried.add::<D>(isolated, &joints.carried, &mut sums, totals);
+        out.platform = isolated.carrier.device.loads_with(
+            &joints.platform,
+            of_platform,
+            environment,
+            hub,
+            &accelerations.platform,
+            along,
+            totals,
+            Some(&added),
+        );
+        totals.joints = sums.joints;
+        totals.overflow = totals.overflow.or(sums.overflow);
         Ok(())
     }
 }

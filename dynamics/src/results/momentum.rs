@@ -11,6 +11,7 @@ use crate::attitude::parameterisation::Attitude;
 use crate::equations::device::Device;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::hub::BodySums;
+use crate::isolation::set::{Isolated, PreparedIsolated};
 use crate::model::kind::Kind;
 use crate::numbers::real::{Real, Scalar, zero};
 use crate::numbers::vec3::{
@@ -19,7 +20,7 @@ use crate::numbers::vec3::{
 };
 use crate::sets::bundle::Shared;
 use crate::sets::counts::check_counts;
-use crate::sets::devices::{Devices, Visit};
+use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::per_device::Joints;
 use crate::solve::finite::{not_finite_in_vector, reject};
 use crate::solve::spacecraft::Spacecraft;
@@ -81,6 +82,26 @@ impl<T: Scalar> Visit<T, Shared<Joints>> for Addition<'_, T> {
         device.add_sums(joints, self.r_b_n_dot, self.omega, self.sums);
         Ok(())
     }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        joints: &<Isolated<D> as DeviceSet>::Per<Joints>,
+    ) -> Result<(), Infallible> {
+        let device = &isolated.carrier.device;
+        device.add_sums(&joints.platform, self.r_b_n_dot, self.omega, self.sums);
+        let motion = device.motion(&joints.platform, self.omega);
+        let mut sums = BodySums { energy: zero(), linear: zeros(), angular_b: zeros() };
+        let r_b_n_dot = motion.velocity(self.r_b_n_dot);
+        let mut addition = Addition { r_b_n_dot, omega: motion.omega, sums: &mut sums };
+        let Ok(()) =
+            D::visit::<Shared<Joints>, _>(&isolated.carried, &joints.carried, &mut addition);
+        let BodySums { energy, linear, angular_b } = motion.on_base(&sums);
+        self.sums.energy = self.sums.energy + energy;
+        self.sums.linear = add(self.sums.linear, linear);
+        self.sums.angular_b = add(self.sums.angular_b, angular_b);
+        Ok(())
+    }
 }
 
 /// Adds the first moment about B and its derivative seen from B, B axes.
@@ -97,6 +118,33 @@ impl<T: Scalar> Visit<T, Shared<Joints>> for FirstMoments<'_, T> {
         device.add_first_moment(joints, self.0);
         Ok(())
     }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        joints: &<Isolated<D> as DeviceSet>::Per<Joints>,
+    ) -> Result<(), Infallible> {
+        let carrier = &isolated.carrier;
+        carrier.device.add_first_moment(&joints.platform, self.0);
+        let carried = first_moments::<D>(&isolated.carried, &joints.carried);
+        let motion = carrier.device.motion(&joints.platform, zeros());
+        let shares = motion.first_moments(carrier.carried_mass, carried);
+        for (sum, share) in self.0.iter_mut().zip(shares) {
+            *sum = add(*sum, share);
+        }
+        Ok(())
+    }
+}
+
+/// First moment of the devices of a set about the origin of their base, and its derivative seen from
+/// the base, base axes.
+pub(crate) fn first_moments<D: DeviceSet>(
+    devices: &D::Prepared,
+    joints: &D::Per<Joints>,
+) -> [Vec3<D::Scalar>; 2] {
+    let mut moments = [zeros(); 2];
+    let Ok(()) = D::visit::<Shared<Joints>, _>(devices, joints, &mut FirstMoments(&mut moments));
+    moments
 }
 
 impl<D: Devices> Spacecraft<D> {
@@ -222,11 +270,11 @@ impl<D: Devices> Spacecraft<D> {
 }
 
 /// Kinetic energy: a sum of squares, but for the rounding of what cancels in it.
-fn kinetic<T: Scalar>(sums: &BodySums<T>) -> Result<T, SolveError<T>> {
+pub(crate) fn kinetic<T: Scalar>(sums: &BodySums<T>) -> Result<T, SolveError<T>> {
     checked(Quantity::Energy, sums.energy.max(zero()), sums.energy.is_finite())
 }
 
-fn not_finite_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {
+pub(crate) fn not_finite_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {
     match about {
         About::Point(point) => not_finite_in_vector(Quantity::ReferencePoint, point),
         About::InertialOrigin | About::CentreOfMass => None,
@@ -234,6 +282,10 @@ fn not_finite_in_point<T: Scalar>(about: &About<T>) -> Option<(Quantity, T)> {
 }
 
 /// With every input finite, a result that is not has overflowed.
-fn checked<R, T: Scalar>(what: Quantity, result: R, is_finite: bool) -> Result<R, SolveError<T>> {
+pub(crate) fn checked<R, T: Scalar>(
+    what: Quantity,
+    result: R,
+    is_finite: bool,
+) -> Result<R, SolveError<T>> {
     if is_finite { Ok(result) } else { Err(SolveError::Overflow { what }) }
 }

@@ -14,8 +14,8 @@ use crate::sets::built_in::{BuiltIn, BuiltInKind};
 use crate::sets::device_parameters::{DeviceParameters, UnsupportedParameter};
 use crate::validation::parameter_error::{Parameter, ParameterError};
 use crate::{
-    About, Accelerations, Devices, Gravity, Hub, HubMode, Inputs, LoadAxes, Mode, Passive,
-    Spacecraft, State, Wrench,
+    About, Accelerations, Devices, Gravity, Hub, HubMode, Inputs, LoadAxes, MAX_JOINTS, Mode,
+    Passive, Spacecraft, State, Wrench,
 };
 
 /// Up to three devices.
@@ -48,13 +48,13 @@ impl Numbers {
         let angles = self.vector();
         DeviceParameters {
             mount: Rotation3::from_euler_angles(angles.x, angles.y, angles.z).into_inner(),
-            bodies: [(); 3].map(|()| BodyParameters {
+            bodies: [(); MAX_JOINTS].map(|()| BodyParameters {
                 origin: self.vector().into(),
                 mass: 3.0 + self.next(),
                 centre: (self.vector() * 0.1).into(),
                 inertia: self.inertia(),
             }),
-            passive: [(); 3].map(|()| Passive {
+            passive: [(); MAX_JOINTS].map(|()| Passive {
                 stiffness: 2.0 + self.next(),
                 rest: self.next(),
                 viscous: 1.0 + self.next(),
@@ -223,6 +223,25 @@ fn what_a_kind_has_no_parameter_for_is_rejected() {
     assert_eq!(rejected(balanced, |p| p.bodies[0].inertia.m33 = 2.0), of(Some(Parameter::Inertia)));
     assert_eq!(rejected(balanced, |p| p.model = ImbalanceModel::Lumped), of(None));
     assert!(BuiltIn::new(balanced, &wheel.parameters()).is_ok());
+}
+
+/// Links without a body have no mass, and what is at the bearing centre has no offset from it.
+#[test]
+fn bearings_have_no_bodies() {
+    let flexible = FlexibleReactionWheel::bare_wheel(4.0, Matrix3::identity());
+    let parameters = BuiltIn::from(flexible).parameters();
+    let kind = BuiltInKind::FlexibleReactionWheel;
+    assert_eq!(BuiltIn::new(kind, &parameters), Ok(BuiltIn::from(flexible)));
+    let rejected = |change: fn(&mut DeviceParameters)| {
+        let mut parameters = parameters;
+        change(&mut parameters);
+        BuiltIn::new(kind, &parameters).unwrap_err()
+    };
+    let of = |body, parameter| UnsupportedParameter { body, parameter: Some(parameter) };
+    assert_eq!(rejected(|p| p.bodies[1].mass = 0.1), of("radial slide y", Parameter::Mass));
+    assert_eq!(rejected(|p| p.bodies[3].origin[0] = 0.1), of("tilt y", Parameter::Origin));
+    assert_eq!(rejected(|p| p.bodies[5].origin[2] = 0.1), of("wheel", Parameter::Origin));
+    assert_eq!(rejected(|p| p.bodies[4].inertia.m11 = 0.1), of("tilt z", Parameter::Inertia));
 }
 
 /// A number that is none is left to the validation, which names it.

@@ -210,10 +210,17 @@ impl<T: Scalar> Bundle<T> for Given {
 
     #[inline(always)]
     fn counts<W: DeviceSet<Scalar = T>>(data: &Self::Of<'_, W>, each: &mut impl FnMut(usize)) {
-        let bodies = data.bodies.and_then(W::count::<PerJoint<Wrench<T>>>);
-        let counts =
-            [W::count::<Motors>(data.motors), W::count::<PerJoint<Mode<T>>>(data.modes), bodies];
-        counts.into_iter().flatten().for_each(each);
+        if let Some(count) = W::count::<Motors>(data.motors) {
+            each(count);
+        }
+        if let Some(count) = W::count::<PerJoint<Mode<T>>>(data.modes) {
+            each(count);
+        }
+        if let Some(bodies) = data.bodies
+            && let Some(count) = W::count::<PerJoint<Wrench<T>>>(bodies)
+        {
+            each(count);
+        }
     }
 
     fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(

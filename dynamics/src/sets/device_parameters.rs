@@ -7,10 +7,10 @@ use core::fmt::{self, Display, Formatter};
 use nalgebra::Matrix3;
 
 use crate::model::joint_array::MAX_JOINTS;
-use crate::model::kind::{BodyParameters, ImbalanceModel, Kind, no_inertia};
+use crate::model::kind::{BodyParameters, ImbalanceModel, Kind, no_body};
 use crate::model::passive::Passive;
 use crate::numbers::each::{Each, filled};
-use crate::numbers::real::{Scalar, zero};
+use crate::numbers::real::Scalar;
 use crate::validation::parameter_error::Parameter;
 
 /// Parameters of a device of any kind, by body and joint.
@@ -65,6 +65,13 @@ pub(crate) fn device_of<K: Kind>(
     for ((asked, taken), info) in bodies.values().zip(taken.values()).zip(K::JOINTS) {
         let unsupported =
             |parameter| Err(UnsupportedParameter { body: info.body, parameter: Some(parameter) });
+        // A link without a body has no mass, a joint at the origin of its parent body no offset.
+        if !same(&[asked.mass], &[taken.mass]) {
+            return unsupported(Parameter::Mass);
+        }
+        if !same(&asked.origin, &taken.origin) {
+            return unsupported(Parameter::Origin);
+        }
         if !same(&asked.centre, &taken.centre) {
             return unsupported(Parameter::CentreOfMass);
         }
@@ -90,10 +97,6 @@ pub(crate) fn parameters_of<K: Kind>(device: &K) -> DeviceParameters<K::Scalar> 
         *to = from;
     }
     DeviceParameters { mount: *device.mount(), bodies, passive, model: device.model() }
-}
-
-fn no_body<T: Scalar>() -> BodyParameters<T> {
-    BodyParameters { origin: [zero(); 3], mass: zero(), centre: [zero(); 3], inertia: no_inertia() }
 }
 
 /// Whether all numbers are equal; what is no number equals itself, for validation to name.

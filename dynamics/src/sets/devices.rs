@@ -11,6 +11,7 @@ use core::fmt::Debug;
 use crate::equations::device::Device;
 use crate::equations::joint_inputs::JointInputs;
 use crate::generated::hub::ConstantShare;
+use crate::isolation::set::{Carrier, Isolated, PreparedIsolated, only_mass};
 use crate::model::kind::{JointInfo, Kind};
 use crate::model::mode::Mode;
 use crate::model::passive::Passive;
@@ -71,6 +72,21 @@ pub trait Visit<T: Scalar, B: Bundle<T>> {
         device: &Device<K>,
         data: B::Of<'_, K>,
     ) -> Result<(), Self::Error>;
+    /// Does it with a platform and the devices that it carries. Here one after another, as with
+    /// devices on the hub: right of what does not depend on the motion of a device's base.
+    ///
+    /// # Errors
+    /// Ends the visit.
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        data: B::Of<'_, Isolated<D>>,
+    ) -> Result<(), Self::Error>
+    where
+        Self: Sized,
+    {
+        isolated.visit_members::<B, Self>(data, self)
+    }
     /// Told of each part of the data whether it is of as many members as the set has.
     ///
     /// # Errors
@@ -86,6 +102,15 @@ pub trait List<T: Scalar> {
     type Item;
     /// The entries of one device.
     fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = Self::Item>;
+    /// The entries of a platform, without what it carries.
+    fn of_platform(platform: &Carrier<T>) -> impl Iterator<Item = Self::Item> {
+        Self::of(&platform.device)
+    }
+    /// What the entry of a device is for the base of the platform that carries it.
+    #[must_use]
+    fn on_platform(item: Self::Item) -> Self::Item {
+        item
+    }
 }
 
 /// [`DeviceSet`], with what its data of the families used everywhere can do.
@@ -176,6 +201,10 @@ impl<T: Scalar> List<T> for ConstantShares {
     fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = ConstantShare<T>> {
         core::iter::once(K::constant_share(&device.constants))
     }
+
+    fn on_platform(share: ConstantShare<T>) -> ConstantShare<T> {
+        only_mass(share)
+    }
 }
 
 impl<T: Scalar> List<T> for JointInfos {
@@ -199,6 +228,17 @@ impl<T: Scalar> List<T> for Passives {
 
     fn of<K: Kind<Scalar = T>>(device: &Device<K>) -> impl Iterator<Item = Passive<T>> {
         device.passive.values()
+    }
+
+    /// With the diagonals that bound its suspension.
+    fn of_platform(platform: &Carrier<T>) -> impl Iterator<Item = Passive<T>> {
+        let [damping, stiffness] = platform.suspension.diagonals();
+        let joints = platform.device.passive.values().zip(damping.into_iter().zip(stiffness));
+        joints.map(|(passive, (c, k))| Passive {
+            viscous: passive.viscous + c,
+            stiffness: passive.stiffness + k,
+            ..passive
+        })
     }
 }
 

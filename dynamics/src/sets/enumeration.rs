@@ -200,6 +200,38 @@ macro_rules! device_enum {
             }
         }
 
+        impl<T: $crate::Scalar> $crate::set::WithNumbers for $name<T> {
+            type With<U: $crate::Scalar> = $name<U>;
+
+            fn with_numbers<U: $crate::Scalar>(
+                &self,
+                number: impl Fn(T) -> U + Copy,
+            ) -> $name<U> {
+                match self {
+                    $(Self::$kind(member) => {
+                        $name::$kind($crate::set::WithNumbers::with_numbers(member, number))
+                    })*
+                }
+            }
+
+            fn convert<U: $crate::Scalar>(
+                device: &$prepared<T>,
+                number: impl Fn(T) -> U + Copy,
+            ) -> $prepared<U> {
+                match device {
+                    $($prepared::$kind(device) => $prepared::$kind(
+                        <$kind<T> as $crate::set::WithNumbers>::convert(device, number),
+                    ),)*
+                }
+            }
+
+            fn change<C: $crate::set::Change<T>>(&mut self, change: &mut C) {
+                match self {
+                    $(Self::$kind(member) => $crate::set::Change::change(change, member),)*
+                }
+            }
+        }
+
         impl<T: $crate::Scalar> $crate::set::DeviceEnum for $name<T> {
             type Gains = $gains<T>;
 
@@ -226,7 +258,8 @@ macro_rules! device_enum {
         $(
             const _: () = assert!(
                 <$kind as $crate::kind::Kind>::JOINTS.len() <= $crate::MAX_JOINTS,
-                "a device of an enumeration has at most MAX_JOINTS joints"
+                "a device of an enumeration has at most MAX_JOINTS joints; one of a tuple or an \
+                 array may have more"
             );
 
             impl<T: $crate::Scalar> From<$kind<T>> for $name<T> {

@@ -14,9 +14,8 @@ pub(crate) mod counts;
 pub(crate) mod device_parameters;
 pub(crate) mod devices;
 pub(crate) mod enumeration;
-#[cfg(test)]
-mod mounted_checks;
 pub(crate) mod one;
 pub(crate) mod optional;
 pub(crate) mod per_device;
 pub(crate) mod tuples;
+pub(crate) mod with_numbers;

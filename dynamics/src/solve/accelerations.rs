@@ -8,10 +8,8 @@
     reason = "fused numbers reach their instruction only where inlined"
 )]
 
-use core::marker::PhantomData;
-
 use crate::attitude::parameterisation::Attitude;
-use crate::equations::arithmetic::{Arithmetic, Rounding, Unfused};
+use crate::equations::arithmetic::Arithmetic;
 use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::gravity::{Gravity, at_b};
@@ -27,8 +25,6 @@ use crate::sets::devices::{Devices, SetInputs};
 use crate::sets::per_device as data;
 use crate::solve::elimination::{Eliminated, Elimination, back_substitute};
 use crate::solve::finite::all_finite;
-#[cfg(feature = "lanes")]
-use crate::solve::fused::FusedEvaluation;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
@@ -73,34 +69,12 @@ impl<D: Devices> Spacecraft<D> {
         found: &mut Accelerations<D>,
         stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        match self.arithmetic {
-            Arithmetic::Unfused => self.solve_by::<_, Unfused>(state, inputs, found, stiffness),
-            #[cfg(feature = "lanes")]
-            Arithmetic::Fused(cpu) => {
-                cpu.dispatch(FusedEvaluation { craft: self, state, inputs, found, stiffness })
-            }
-        }
-    }
-
-    /// [`Self::solve`], fused or unfused.
-    #[inline(always)]
-    pub(crate) fn solve_by<A: Attitude<D::Scalar>, W: Rounding>(
-        &self,
-        state: &State<D, A>,
-        inputs: &Inputs<D>,
-        found: &mut Accelerations<D>,
-        stiffness: Option<&mut Stiffness<D::Scalar>>,
-    ) -> Result<(), SolveError<D::Scalar>> {
         let EvaluationStart { environment, at_b } = evaluation_start(state, inputs)?;
         let mut assembly = self.assembly(inputs);
         let mut scratch = D::new_data(&self.devices, &data::Gains);
-        self.eliminate_devices::<_, W>(
-            state,
-            inputs.of_joints(),
-            &environment,
-            &mut assembly,
-            &mut scratch,
-        )?;
+        let by = self.arithmetic;
+        let given = inputs.of_joints();
+        self.eliminate_devices(by, state, given, &environment, &mut assembly, &mut scratch)?;
         let hub = self.hub_accelerations(inputs, &environment, &mut assembly, at_b)?;
         back_substitute::<D>(&self.devices, &scratch, &hub, &mut found.devices);
         if let Some(stiffness) = stiffness {
@@ -168,8 +142,9 @@ impl<D: Devices> Spacecraft<D> {
 
     /// Eliminates every device, keeps what back substitution needs, adds to the hub.
     #[inline(always)]
-    pub(crate) fn eliminate_devices<A, W: Rounding>(
+    pub(crate) fn eliminate_devices<A>(
         &self,
+        arithmetic: Arithmetic,
         state: &State<D, A>,
         given: SetInputs<'_, D>,
         environment: &Environment<D::Scalar>,
@@ -177,8 +152,7 @@ impl<D: Devices> Spacecraft<D> {
         scratch: &mut D::Per<data::Gains>,
     ) -> Result<(), SolveError<D::Scalar>> {
         check_counts::<D>(&self.devices, &state.devices, Some(given), None)?;
-        let mut elimination =
-            Elimination { environment, assembly, device: 0, rounding: PhantomData::<W> };
+        let mut elimination = Elimination { environment, assembly, device: 0, arithmetic };
         let data = (&state.devices, given, scratch);
         D::visit::<Eliminated, _>(&self.devices, data, &mut elimination)
     }
@@ -260,7 +234,8 @@ impl<D: Devices> Spacecraft<D> {
                 return Ok(None);
             }
             let given = inputs.of_joints();
-            self.eliminate_devices::<_, Unfused>(
+            self.eliminate_devices(
+                Arithmetic::unfused(),
                 state,
                 given,
                 &environment,

@@ -7,15 +7,17 @@
 )]
 
 use core::convert::Infallible;
-use core::marker::PhantomData;
 
-use crate::equations::arithmetic::{EliminationOutputs, Rounding};
+use crate::equations::arithmetic::Arithmetic;
 use crate::equations::assembly::Assembly;
 use crate::equations::device::Device;
+use crate::equations::eliminate::DeviceElimination;
 use crate::equations::error::SolveError;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::system::Solution;
 use crate::generated::hub::BodyAcceleration;
+use crate::isolation::carrier::Carrying;
+use crate::isolation::set::{Isolated, PreparedIsolated, parts};
 use crate::model::kind::Kind;
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
@@ -26,15 +28,15 @@ use crate::sets::per_device as data;
 pub(crate) type Eliminated = (Shared<data::Joints>, Given, Unique<data::Gains>);
 
 /// Eliminates every joint, adds what is left to the hub's system.
-pub(crate) struct Elimination<'a, T, W> {
+pub(crate) struct Elimination<'a, T> {
     pub(crate) environment: &'a Environment<T>,
     pub(crate) assembly: &'a mut Assembly<T>,
     /// The number of the device.
     pub(crate) device: usize,
-    pub(crate) rounding: PhantomData<W>,
+    pub(crate) arithmetic: Arithmetic,
 }
 
-impl<T: Scalar, W: Rounding> Visit<T, Eliminated> for Elimination<'_, T, W> {
+impl<T: Scalar> Visit<T, Eliminated> for Elimination<'_, T> {
     type Error = SolveError<T>;
 
     #[inline(always)]
@@ -43,10 +45,38 @@ impl<T: Scalar, W: Rounding> Visit<T, Eliminated> for Elimination<'_, T, W> {
         device: &Device<K>,
         (joints, given, gains): <Eliminated as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), SolveError<T>> {
-        let Self { environment, assembly, device: index, .. } = self;
-        let outputs = EliminationOutputs { assembly, gains };
-        W::eliminate_device(device, joints, given, environment, outputs, *index)?;
-        *index = index.wrapping_add(1);
+        let Self { environment, assembly, device: index, arithmetic } = self;
+        let index = core::mem::replace(index, index.wrapping_add(1));
+        arithmetic.eliminate(DeviceElimination {
+            device,
+            index,
+            joints,
+            given,
+            environment,
+            assembly,
+            gains,
+        })
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        (joints, given, gains): <Eliminated as Bundle<T>>::Of<'_, Isolated<D>>,
+    ) -> Result<(), SolveError<T>> {
+        let index = self.device;
+        let mut carrying =
+            Carrying::start(&isolated.carrier, index, &joints.platform, self.environment);
+        let mut outboard = Elimination {
+            environment: &carrying.environment,
+            assembly: &mut carrying.assembly,
+            device: index.wrapping_add(1),
+            arithmetic: self.arithmetic,
+        };
+        let (of_platform, of_carried) = parts::<D>(given);
+        let data = (&joints.carried, of_carried, &mut gains.carried);
+        D::visit::<Eliminated, _>(&isolated.carried, data, &mut outboard)?;
+        self.device = outboard.device;
+        gains.platform = Some(carrying.finish(of_platform, self.assembly)?);
         Ok(())
     }
 }
@@ -69,6 +99,19 @@ impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<T> {
         if let Some(gains) = gains {
             *out = K::back_substitute(gains, &self.0);
         }
+        Ok(())
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        (gains, out): <Substituted as Bundle<T>>::Of<'_, Isolated<D>>,
+    ) -> Result<(), Infallible> {
+        let Some(of_platform) = &gains.platform else { return Ok(()) };
+        let (joints, [r_b_n_ddot, omega_dot]) = of_platform.outward(&self.0);
+        out.platform = joints;
+        let platform = Solution { r_b_n_ddot, omega_dot };
+        back_substitute::<D>(&isolated.carried, &gains.carried, &platform, &mut out.carried);
         Ok(())
     }
 }

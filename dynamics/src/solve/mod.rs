@@ -5,8 +5,6 @@
 pub(crate) mod accelerations;
 pub(crate) mod elimination;
 pub(crate) mod finite;
-#[cfg(feature = "lanes")]
-pub(crate) mod fused;
 pub(crate) mod inputs;
 #[cfg(test)]
 mod overflow_checks;

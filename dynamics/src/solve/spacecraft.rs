@@ -3,9 +3,9 @@
 use crate::equations::arithmetic::Arithmetic;
 use crate::equations::hub::HubConstants;
 use crate::model::parameters::Hub;
-use crate::model::passive::Passive;
 use crate::numbers::real::{Scalar, zero};
 use crate::sets::devices::{ConstantShares, Devices, JointInfos, Passives, TriangleExcesses};
+use crate::sets::with_numbers::WithNumbers;
 use crate::validation::check::check_hub;
 use crate::validation::parameter_error::{ParameterError, Part, Warning};
 
@@ -37,14 +37,44 @@ impl<D: Devices> Spacecraft<D> {
     pub fn new(hub: &Hub<D::Scalar>, devices: &D) -> Result<Self, ParameterError<D::Scalar>> {
         let hub_excess = check_hub(hub)?;
         devices.check(&mut 0)?;
+        let prepared = Self::prepared(hub, devices, hub_excess);
+        if !prepared.mass().is_finite() {
+            return Err(ParameterError::TotalMass { value: prepared.mass() });
+        }
+        Ok(prepared)
+    }
+
+    /// What depends only on parameters, computed; they have been checked.
+    pub(crate) fn prepared(hub: &Hub<D::Scalar>, devices: &D, hub_excess: D::Scalar) -> Self {
         let devices = devices.prepare();
         let hub = HubConstants::new(hub);
         let body = hub.with_constant_shares(D::list::<ConstantShares>(&devices));
-        if !body.m_b.is_finite() {
-            return Err(ParameterError::TotalMass { value: body.m_b });
+        let passive = D::list::<Passives>(&devices).any(|joint| !joint.is_none());
+        Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::unfused() }
+    }
+
+    /// The same spacecraft with each of its numbers converted, such as
+    /// [`Dual::constant`](crate::Dual::constant): every service then runs over the other numbers.
+    ///
+    /// Converted are the constants that [`Self::new`] has computed, so parameters are no variables
+    /// of the result. Those of which parameters are variables come from
+    /// [`WithNumbers::with_numbers`](crate::set::WithNumbers::with_numbers) and [`Self::new`].
+    #[must_use]
+    pub fn with_numbers<U: Scalar>(
+        &self,
+        number: impl Fn(D::Scalar) -> U + Copy,
+    ) -> Spacecraft<D::With<U>>
+    where
+        D: WithNumbers,
+    {
+        Spacecraft {
+            hub: self.hub.map(number),
+            body: self.body.map(number),
+            devices: D::convert(&self.devices, number),
+            passive: self.passive,
+            hub_excess: number(self.hub_excess),
+            arithmetic: self.arithmetic,
         }
-        let passive = D::list::<Passives>(&devices).any(|joint| joint != Passive::none());
-        Ok(Self { hub, body, devices, passive, hub_excess, arithmetic: Arithmetic::Unfused })
     }
 
     /// The same with products and sums of the devices' equations rounded once, where the CPU does

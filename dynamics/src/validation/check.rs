@@ -69,11 +69,11 @@ fn check_passive<T: Scalar>(part: Part, passive: &Passive<T>) -> Result<(), Para
     Ok(())
 }
 
-fn rounding<T: Scalar>() -> T {
+pub(crate) fn rounding<T: Scalar>() -> T {
     T::from_f64(ROUNDING_EPSILONS) * T::EPSILON
 }
 
-fn finite<T: Scalar>(
+pub(crate) fn finite<T: Scalar>(
     part: Part,
     parameter: Parameter,
     values: &[T],

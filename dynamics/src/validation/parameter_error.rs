@@ -103,6 +103,43 @@ pub enum ParameterError<T = f64> {
         /// The largest principal moment, kg m^2.
         value: T,
     },
+    /// A matrix of a platform's suspension is not symmetric.
+    AsymmetricSuspension {
+        /// Index of the platform, which counts as a device.
+        device: usize,
+        /// Which one: `stiffness`, `damping`.
+        name: &'static str,
+        /// Row of the element, from 1.
+        row: usize,
+        /// Column of the element, from 1, above the row.
+        column: usize,
+        /// The difference of the element and its mirror.
+        difference: T,
+    },
+    /// A matrix of a platform's suspension is not positive semidefinite: its springs would release
+    /// energy without end, its dampers produce it.
+    Suspension {
+        /// Index of the platform, which counts as a device.
+        device: usize,
+        /// Which one: `stiffness`, `damping`.
+        name: &'static str,
+        /// A diagonal element, or a pivot of the matrix scaled to a diagonal of ones.
+        value: T,
+        /// What rounding explains; not above zero.
+        bound: T,
+    },
+    /// A strut of a platform has no length, no unit vector as its direction, or a negative stiffness
+    /// or damping.
+    Strut {
+        /// Index of the platform, which counts as a device.
+        device: usize,
+        /// Index of the strut, from 0.
+        strut: usize,
+        /// What is out of range.
+        name: &'static str,
+        /// Its value.
+        value: T,
+    },
     /// The columns of a mount are not orthonormal.
     SkewedMount {
         /// Index of the device.
@@ -205,6 +242,25 @@ impl<T: Scalar> Display for ParameterError<T> {
                 f,
                 "largest principal moment {:?} kg m^2 of the {part} is not finite; check the \
                  units of its inertia",
+                value.to_f64(),
+            ),
+            Self::AsymmetricSuspension { device, name, row, column, difference } => write!(
+                f,
+                "{name} of the suspension of device {device}: elements {row}{column} and \
+                 {column}{row} differ by {:?}; make the matrix symmetric",
+                difference.to_f64(),
+            ),
+            Self::Suspension { device, name, value, bound } => write!(
+                f,
+                "{name} of the suspension of device {device} is not positive semidefinite: {:?} is \
+                 below {:?}; check the signs of its elements off the diagonal",
+                value.to_f64(),
+                bound.to_f64(),
+            ),
+            Self::Strut { device, strut, name, value } => write!(
+                f,
+                "{name} {:?} of strut {strut} of device {device} is out of range; a strut has a \
+                 length above 0, a unit vector as direction, stiffness and damping not below 0",
                 value.to_f64(),
             ),
             Self::SkewedMount { device, residual, bound } => write!(

@@ -1,4 +1,4 @@
-//! What the spacecraft is made of, and what is given of a joint. SI units and radians.
+//! What the spacecraft is made of, and what the pivots of its joints are checked against. SI units.
 
 /// The hub.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,25 +23,6 @@ pub struct Body {
     pub centre_of_mass: [f64; 3],
     /// Inertia about the centre of mass, own axes, kg m².
     pub inertia: [[f64; 3]; 3],
-}
-
-/// What is given of a joint that has a motor.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Drive {
-    /// The torque, N m, or force, N, on the child body and reversed on the parent body.
-    Torque(f64),
-    /// The acceleration, rad/s² or m/s²; zero where the joint is locked at a rate of zero.
-    Acceleration(f64),
-}
-
-impl Drive {
-    /// Torque; one where it is given, else zero; the other way round; acceleration.
-    pub(crate) fn numbers(self) -> (f64, f64, f64, f64) {
-        match self {
-            Self::Torque(torque) => (torque, 1.0, 0.0, 0.0),
-            Self::Acceleration(given) => (0.0, 0.0, 1.0, given),
-        }
-    }
 }
 
 /// How a joint moves, by the axis (0, 1, 2) of its parent body.

@@ -1,6 +1,6 @@
 //! A mount that was assumed to be a few turns: `P R Q` with P and Q made of quarter turns.
 
-use crate::check::{Assumption, vanishes};
+use super::check::{Assumption, vanishes};
 
 /// A rotation by whole quarter turns, row by row: -1, 0 or 1.
 pub(crate) type Exchange = [[i8; 3]; 3];

@@ -1,12 +1,13 @@
 //! Sine and cosine with the same bits on every target, after Cody and Waite: the angle less the
-//! nearest whole number of quarter turns, with pi / 2 in four parts, then two polynomials. No branch
-//! but the check of the range, no library.
+//! nearest whole number of quarter turns, with pi / 2 in four parts, then two polynomials. No
+//! branch but the check of the range, no library.
 
 /// Up to this magnitude of an angle, rad, the result is accurate to 0.83 of the last place: 7 hours
 /// of a wheel at 6000 rpm.
 pub const LARGEST_ANGLE: f64 = 16_777_216.0;
 
-/// `x + SHIFT - SHIFT` is the integer nearest to `x`: between `2^52` and `2^53` numbers are one apart.
+/// `x + SHIFT - SHIFT` is the integer nearest to `x`: between `2^52` and `2^53` numbers are one
+/// apart.
 const SHIFT: f64 = 6_755_399_441_055_744.0;
 
 /// Pi / 2, cut after 28, 53 and 82 bits after the point, and 53 bits of what is left.

@@ -134,7 +134,7 @@ impl<'a, 'g> Device<'a, 'g> {
 
     /// The mass of body `k`.
     pub(super) fn body_mass(&self, k: usize, case: &Case) -> f64 {
-        self.parameter(case, self.chain.kind.links[k].body.mass)
+        self.chain.kind.links[k].body.mass.map_or(0.0, |mass| self.parameter(case, mass))
     }
 
     fn parameter(&self, case: &Case, name: &str) -> f64 {

@@ -266,7 +266,7 @@ impl Random {
             let own = |link: &&Link| inertia(link).as_ref() == Some(name);
             if let Some(link) = kind.links.iter().find(own) {
                 parameters.extend(patterned(&self.inertia(), &link.body.inertia.names()));
-            } else if kind.links.iter().any(|link| name == link.body.mass) {
+            } else if kind.links.iter().any(|link| Some(name.as_str()) == link.body.mass) {
                 parameters.push(self.within(0.5, 1.5));
             } else {
                 parameters.push(self.signed());

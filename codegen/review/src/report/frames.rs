@@ -74,7 +74,8 @@ fn value_of(chain: &Chain<'_>, name: &str) -> f64 {
         let component = |names: [&str; 3], values: Point| {
             names.iter().position(|known| *known == name).map(|axis| values[axis])
         };
-        let arm = component(link.joint.origin.names, ARMS[k % ARMS.len()]);
+        let arm = link.joint.place();
+        let arm = arm.and_then(|place| component(place.names, ARMS[k % ARMS.len()]));
         let centre = match link.body.centre {
             Centre::Free(triple) => component(triple.names, CENTRE),
             Centre::On(_, distance) => (name == distance).then_some(OFFSET),

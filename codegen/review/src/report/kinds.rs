@@ -121,8 +121,8 @@ fn link_text(chain: &Chain<'_>, k: usize) -> LinkText {
         coordinate: math(joint.coordinate),
         rate: math(joint.rate),
         drive: math(joint.torque),
-        origin: math(joint.origin.name),
-        mass: math(body.mass),
+        origin: joint.place().map_or("the parent's".to_owned(), |place| math(place.name)),
+        mass: body.mass.map_or("none".to_owned(), math),
         centre: match body.centre {
             Centre::Free(place) => math(place.name),
             Centre::On(axis, distance) => {

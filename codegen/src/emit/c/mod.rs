@@ -75,7 +75,7 @@ pub fn of_kind(kind: &'static Kind) -> Result<Vec<EmittedFile>, EmitError> {
 /// When a statement or a name is none of C's.
 pub fn of_chain(chain: &Chain<'_>, command: &str) -> Result<Vec<EmittedFile>, EmitError> {
     let kind = chain.kind;
-    let super::parts::Parts { mut records, functions, stated, inputs } = parts(chain);
+    let super::parts::Parts { mut records, functions, stated, inputs } = parts(chain)?;
     let bodies = functions.iter().map(|part| sections(kind, part));
     let bodies = bodies.collect::<Result<Vec<_>, _>>()?;
     for (part, body) in functions.iter().zip(&bodies).filter(|(part, _)| part.name == "prepare") {
@@ -124,12 +124,14 @@ pub struct Signature {
 }
 
 /// The functions of a kind, in the order of the emitted files.
-#[must_use]
-pub fn signatures(kind: &'static Kind) -> Vec<Signature> {
+///
+/// # Errors
+/// When a name would stand for two values.
+pub fn signatures(kind: &'static Kind) -> Result<Vec<Signature>, EmitError> {
     let graph = Graph::new();
-    let functions = parts(&Chain::new(&graph, kind)).functions.into_iter();
+    let functions = parts(&Chain::new(&graph, kind))?.functions.into_iter();
     let signature = |Part { name, inputs, output, .. }| Signature { name, inputs, output };
-    functions.map(signature).collect()
+    Ok(functions.map(signature).collect())
 }
 
 #[derive(Serialize)]
@@ -235,7 +237,7 @@ mod tests {
     fn every_function_is_declared_and_defined_once() {
         for kind in KINDS {
             let files = of_kind(kind).unwrap();
-            for signature in signatures(kind) {
+            for signature in signatures(kind).unwrap() {
                 let head = format!("void {}(", function(kind.name, &signature.name));
                 assert!(files.iter().all(|file| file.text.matches(&head).count() == 1), "{head}");
             }

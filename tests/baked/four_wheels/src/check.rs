@@ -4,6 +4,8 @@
 
 use core::fmt;
 
+use super::body::{Body, Hub};
+
 /// A parameter that is not what these kernels were derived for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assumption {
@@ -36,8 +38,8 @@ impl fmt::Display for Assumption {
         }
         write!(
             f,
-            "device {number} of {shape}: {parameter} was assumed {assumed} and is off by {off:e}, more \
-             than {bound:e}; emit the kernels again for these parameters, or use the general ones"
+            "device {number} of {shape}: {parameter} was assumed {assumed} and is off by {off:e}, \
+             more than {bound:e}; emit the kernels again for these parameters, or use the general ones"
         )
     }
 }
@@ -69,12 +71,9 @@ pub(crate) fn finite(
     numbers.try_for_each(|number| vanishes(parameter, "finite", off(number), 1.0))
 }
 
-/// Passes a device with finite numbers, a rotation for its mount, and masses and inertias that a body
-/// can have.
-pub(crate) fn possible_device(
-    mount: &[[f64; 3]; 3],
-    bodies: &[crate::body::Body],
-) -> Result<(), Assumption> {
+/// Passes a device with finite numbers, a rotation for its mount, and masses and inertias that a
+/// body can have.
+pub(crate) fn possible_device(mount: &[[f64; 3]; 3], bodies: &[Body]) -> Result<(), Assumption> {
     finite("mount", mount.iter().copied().flatten())?;
     finite("mass", bodies.iter().map(|body| body.mass))?;
     finite("origin", bodies.iter().flat_map(|body| body.origin))?;
@@ -115,7 +114,7 @@ fn not_negative(parameter: &'static str, number: f64) -> Result<(), Assumption> 
 }
 
 /// Passes a hub with finite numbers and with a mass and an inertia that a body can have.
-pub(crate) fn possible_hub(hub: &crate::body::Hub) -> Result<(), Assumption> {
+pub(crate) fn possible_hub(hub: &Hub) -> Result<(), Assumption> {
     let of_hub = |mut assumption: Assumption| {
         assumption.device = ("hub", 0);
         assumption
@@ -128,7 +127,7 @@ pub(crate) fn possible_hub(hub: &crate::body::Hub) -> Result<(), Assumption> {
 }
 
 /// The largest offset of a device.
-pub(crate) fn length(bodies: &[crate::body::Body]) -> f64 {
+pub(crate) fn length(bodies: &[Body]) -> f64 {
     let offsets = bodies.iter().flat_map(|body| [body.origin, body.centre_of_mass]);
     offsets.flatten().fold(0.0, |largest, x| if x.abs() > largest { x.abs() } else { largest })
 }

@@ -5,13 +5,15 @@
 //! - wheel_x: reaction wheel
 //! - wheel_x: zero are j_23, r_w_b_by, r_w_b_bz
 //! - wheel_x: j_33 equals j_22
-//! - wheel_x: the mount is whole quarter turns about the axes of B
+//! - wheel_x: the mount is whole quarter turns about the axes of B, found in its numbers
 
-use crate::body::{Body, Drive, Joint, outboard};
+use crate::body::{Body, Joint, outboard};
+use crate::drive::Drive;
 use crate::check::{Assumption, along_device, possible_device, length, trace, vanishes};
-use crate::kernels::hub::{BodyAcceleration, BodyRate, ConstantShare, HubShare};
+use crate::kernels::hub::{BodyAcceleration, BodyRate, HubShare};
 use crate::kernels::wheel_x as kernels;
 use crate::mount::{Exchange, turned};
+use crate::rigid::RigidBody;
 use crate::sin_cos::sin_cos;
 use crate::solve::is_sound;
 
@@ -45,9 +47,9 @@ pub struct Drives {
 /// A device ready for evaluations.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
-    prepared: kernels::Prepared<f64>,
+    pub(crate) prepared: kernels::Prepared<f64>,
     /// What each pivot is checked against.
-    scales: [f64; 1],
+    pub(crate) scales: [f64; 1],
 }
 
 /// What is kept of a device until the hub is solved.
@@ -62,9 +64,7 @@ const INNER: Exchange = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
 impl Constants {
     /// Checks what was assumed, and prepares.
-    pub(crate) fn new(
-        device: &Device,
-    ) -> Result<(Self, ConstantShare<f64>), Assumption> {
+    pub(crate) fn new(device: &Device) -> Result<(Self, RigidBody), Assumption> {
         let (m, b) = (&device.mount, &device.bodies);
         possible_device(m, b)?;
         let origin = along_device(m, b[0].origin);
@@ -103,12 +103,28 @@ impl Constants {
             },
         );
         let share = kernels::constant_share(&prepared);
+        let share = RigidBody {
+            mass: share.constant_m,
+            first_moment: [
+                share.constant_mr_bx,
+                share.constant_mr_by,
+                share.constant_mr_bz,
+            ],
+            inertia: [
+                share.constant_i_11,
+                share.constant_i_12,
+                share.constant_i_13,
+                share.constant_i_22,
+                share.constant_i_23,
+                share.constant_i_33,
+            ],
+        };
         let scales = [0].map(|joint| outboard(b, &JOINTS, joint));
         Ok((Self { prepared, scales }, share))
     }
 
-    /// The device's share of the hub's equations, and what back substitution needs; where a pivot is
-    /// only rounding, the name of its joint.
+    /// The device's share of the hub's equations, and what back substitution needs; where a pivot
+    /// is only rounding, the name of its joint.
     #[inline]
     pub(crate) fn eliminate(
         &self,

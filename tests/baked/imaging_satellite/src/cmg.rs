@@ -3,20 +3,25 @@
 //! Double-gimbal variable-speed control moment gyro: cmg1, cmg2, cmg3, cmg4.
 //!
 //! - cmg1, cmg2, cmg3, cmg4: double-gimbal variable-speed control moment gyro
-//! - cmg1, cmg2, cmg3, cmg4: zero are i_gi_12, i_gi_13, i_gi_23, i_go_12, i_go_13, i_go_23, j_23, l_i_x, l_i_y, l_i_z, l_o_x, l_o_y, l_o_z, r_gic_gi_gix, r_gic_gi_giy, r_gic_gi_giz, r_go_b_bx, r_goc_go_gox, r_goc_go_goy, r_goc_go_goz
+//! - cmg1, cmg2, cmg3, cmg4: zero are i_gi_12, i_gi_13, i_gi_23, i_go_12, i_go_13, i_go_23, j_23,
+//!   l_i_x, l_i_y, l_i_z, l_o_x, l_o_y, l_o_z, r_gic_gi_gix, r_gic_gi_giy, r_gic_gi_giz, r_go_b_bx,
+//!   r_goc_go_gox, r_goc_go_goy, r_goc_go_goz
 //! - cmg1, cmg2, cmg3, cmg4: i_gi_33 equals i_gi_11
 //! - cmg1, cmg2, cmg3, cmg4: j_33 equals j_22
-//! - cmg1, cmg2, cmg3, cmg4: the mount is two turns about coordinate axes, between quarter turns
+//! - cmg1, cmg2, cmg3, cmg4: the mount is two turns about coordinate axes, between quarter turns,
+//!   as its turns are stated
 //! - cmg1, cmg2, cmg3, cmg4: the outer gimbal is locked for good
 //! - cmg1, cmg2, cmg3, cmg4: the inner gimbal is locked for good
 
-use crate::body::{Body, Drive, Joint, outboard};
+use crate::body::{Body, Joint, outboard};
+use crate::drive::Drive;
 use crate::check::{
     Assumption, along_device, possible_device, finite, length, trace, vanishes,
 };
-use crate::kernels::hub::{BodyAcceleration, BodyRate, ConstantShare, HubShare};
+use crate::kernels::hub::{BodyAcceleration, BodyRate, HubShare};
 use crate::kernels::cmg as kernels;
 use crate::mount::{Exchange, turned};
+use crate::rigid::RigidBody;
 use crate::sin_cos::sin_cos;
 use crate::solve::is_sound;
 
@@ -54,9 +59,9 @@ pub struct Drives {
 /// A device ready for evaluations.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
-    prepared: kernels::Prepared<f64>,
+    pub(crate) prepared: kernels::Prepared<f64>,
     /// What each pivot is checked against.
-    scales: [f64; 1],
+    pub(crate) scales: [f64; 1],
 }
 
 /// What is kept of a device until the hub is solved.
@@ -75,9 +80,7 @@ const INNER: Exchange = [[0, 0, 1], [1, 0, 0], [0, 1, 0]];
 
 impl Constants {
     /// Checks what was assumed, and prepares.
-    pub(crate) fn new(
-        device: &Device,
-    ) -> Result<(Self, ConstantShare<f64>), Assumption> {
+    pub(crate) fn new(device: &Device) -> Result<(Self, RigidBody), Assumption> {
         let (m, b) = (&device.mount, &device.bodies);
         possible_device(m, b)?;
         finite("gamma_o", [device.gamma_o])?;
@@ -159,12 +162,28 @@ impl Constants {
             },
         );
         let share = kernels::constant_share(&prepared);
+        let share = RigidBody {
+            mass: share.constant_m,
+            first_moment: [
+                share.constant_mr_bx,
+                share.constant_mr_by,
+                share.constant_mr_bz,
+            ],
+            inertia: [
+                share.constant_i_11,
+                share.constant_i_12,
+                share.constant_i_13,
+                share.constant_i_22,
+                share.constant_i_23,
+                share.constant_i_33,
+            ],
+        };
         let scales = [2].map(|joint| outboard(b, &JOINTS, joint));
         Ok((Self { prepared, scales }, share))
     }
 
-    /// The device's share of the hub's equations, and what back substitution needs; where a pivot is
-    /// only rounding, the name of its joint.
+    /// The device's share of the hub's equations, and what back substitution needs; where a pivot
+    /// is only rounding, the name of its joint.
     #[inline]
     pub(crate) fn eliminate(
         &self,

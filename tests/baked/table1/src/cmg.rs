@@ -3,15 +3,18 @@
 //! Double-gimbal variable-speed control moment gyro: cmg.
 //!
 //! - cmg: double-gimbal variable-speed control moment gyro
-//! - cmg: zero are j_12, j_23, l_i_x, l_i_y, l_i_z, l_o_x, l_o_y, l_o_z, r_gic_gi_gix, r_gic_gi_giy, r_gic_gi_giz, r_go_b_by, r_go_b_bz, r_goc_go_gox, r_goc_go_goy, r_goc_go_goz
+//! - cmg: zero are j_12, j_23, l_i_x, l_i_y, l_i_z, l_o_x, l_o_y, l_o_z, r_gic_gi_gix,
+//!   r_gic_gi_giy, r_gic_gi_giz, r_go_b_by, r_go_b_bz, r_goc_go_gox, r_goc_go_goy, r_goc_go_goz
 //! - cmg: j_33 equals j_22
-//! - cmg: the mount is whole quarter turns about the axes of B
+//! - cmg: the mount is whole quarter turns about the axes of B, as its turns are stated
 
-use crate::body::{Body, Drive, Joint, outboard};
+use crate::body::{Body, Joint, outboard};
+use crate::drive::Drive;
 use crate::check::{Assumption, along_device, possible_device, length, trace, vanishes};
-use crate::kernels::hub::{BodyAcceleration, BodyRate, ConstantShare, HubShare};
+use crate::kernels::hub::{BodyAcceleration, BodyRate, HubShare};
 use crate::kernels::cmg as kernels;
 use crate::mount::{Exchange, turned};
+use crate::rigid::RigidBody;
 use crate::sin_cos::sin_cos;
 use crate::solve::is_sound;
 
@@ -57,9 +60,9 @@ pub struct Drives {
 /// A device ready for evaluations.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constants {
-    prepared: kernels::Prepared<f64>,
+    pub(crate) prepared: kernels::Prepared<f64>,
     /// What each pivot is checked against.
-    scales: [f64; 3],
+    pub(crate) scales: [f64; 3],
 }
 
 /// What is kept of a device until the hub is solved.
@@ -78,9 +81,7 @@ const INNER: Exchange = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
 impl Constants {
     /// Checks what was assumed, and prepares.
-    pub(crate) fn new(
-        device: &Device,
-    ) -> Result<(Self, ConstantShare<f64>), Assumption> {
+    pub(crate) fn new(device: &Device) -> Result<(Self, RigidBody), Assumption> {
         let (m, b) = (&device.mount, &device.bodies);
         possible_device(m, b)?;
         let origin = along_device(m, b[0].origin);
@@ -145,12 +146,28 @@ impl Constants {
             },
         );
         let share = kernels::constant_share(&prepared);
+        let share = RigidBody {
+            mass: share.constant_m,
+            first_moment: [
+                share.constant_mr_bx,
+                share.constant_mr_by,
+                share.constant_mr_bz,
+            ],
+            inertia: [
+                share.constant_i_11,
+                share.constant_i_12,
+                share.constant_i_13,
+                share.constant_i_22,
+                share.constant_i_23,
+                share.constant_i_33,
+            ],
+        };
         let scales = [0, 1, 2].map(|joint| outboard(b, &JOINTS, joint));
         Ok((Self { prepared, scales }, share))
     }
 
-    /// The device's share of the hub's equations, and what back substitution needs; where a pivot is
-    /// only rounding, the name of its joint.
+    /// The device's share of the hub's equations, and what back substitution needs; where a pivot
+    /// is only rounding, the name of its joint.
     #[inline]
     pub(crate) fn eliminate(
         &self,

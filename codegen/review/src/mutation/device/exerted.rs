@@ -77,8 +77,10 @@ impl Device<'_, '_> {
     fn stood(&self, case: &Case, motion: &Motion) -> Rc<[Stand]> {
         let mut origin = Vector3::zeros();
         let stand = |(k, link): (usize, &kinds::Link)| {
-            let rest =
-                Vector3::from(link.joint.origin.names.map(|name| self.parameter(case, name)));
+            let place = link.joint.place();
+            let rest = place.map_or_else(Vector3::zeros, |place| {
+                Vector3::from(place.names.map(|name| self.parameter(case, name)))
+            });
             let slide = match link.joint.motion {
                 kinds::Motion::Turn(_) => Vector3::zeros(),
                 kinds::Motion::Slide(axis) => motion.coordinates[k] * unit(axis),

@@ -9,7 +9,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 use pulp::{Simd, WithSimd, bytemuck};
 
-use super::number::{Block, Number, WIDEST, Work};
+use super::laned::{Block, Number, WIDEST, Work};
 use crate::numbers::real::{Angle, Real};
 use crate::numbers::sincos::{QuarterTurns, sin_cos};
 

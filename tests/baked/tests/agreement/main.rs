@@ -1,20 +1,15 @@
 //! Kernels of one spacecraft against the general solver, on random states: every mode, errors
 //! included.
 
+mod general;
+
 use std::path::Path;
 
-use nalgebra::{Matrix3, Vector3};
 use precess_description::Description;
-use precess_dynamics::kind::{BodyParameters, ImbalanceModel};
-use precess_dynamics::{
-    BuiltIn, BuiltInKind, DeviceParameters, Each as _, Hub, Inputs, JointArray, Mode, Passive,
-    Quaternion, Spacecraft, State,
-};
 use precess_tests::blocks::largest;
 use precess_tests::bounds::ACCELERATIONS_WORST;
 
-/// A list of devices of any kind.
-type Set = Vec<BuiltIn>;
+use general::{Drawn, Found, Joint, drawn, expected, general};
 
 /// Random states of each spacecraft.
 const STATES: u32 = 300;
@@ -23,127 +18,6 @@ fn description(name: &str) -> Description {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
     let text = std::fs::read_to_string(file.join("description.toml")).expect("a description");
     Description::read(&text).expect("a description")
-}
-
-fn matrix(rows: &[[f64; 3]; 3]) -> Matrix3<f64> {
-    Matrix3::from_fn(|row, column| rows[row][column])
-}
-
-/// The spacecraft for the general solver.
-fn general(description: &Description) -> Spacecraft<Set> {
-    let hub = Hub {
-        m_b: description.hub.mass,
-        r_bc_b: Vector3::from(description.hub.centre_of_mass),
-        i_b_bc: matrix(&description.hub.inertia),
-    };
-    let devices = description.device.iter().map(|device| {
-        let none = BodyParameters {
-            origin: [0.0; 3],
-            mass: 0.0,
-            centre: [0.0; 3],
-            inertia: Matrix3::zeros(),
-        };
-        let mut bodies = [none; 3];
-        for (to, body) in bodies.iter_mut().zip(&device.body) {
-            *to = BodyParameters {
-                origin: body.origin,
-                mass: body.mass,
-                centre: body.centre_of_mass,
-                inertia: matrix(&body.inertia),
-            };
-        }
-        let passive = [Passive::none(); 3];
-        let (mount, model) = (matrix(&device.mount), ImbalanceModel::Coupled);
-        let kind = BuiltInKind::of_name(&device.kind).expect("a kind");
-        BuiltIn::new(kind, &DeviceParameters { mount, bodies, passive, model }).expect("a device")
-    });
-    Spacecraft::new(&hub, &devices.collect::<Set>()).expect("a spacecraft")
-}
-
-/// Numbers between -1 and 1.
-struct Draws(u64);
-
-impl Draws {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        let upper = u32::try_from(self.0 >> 32).expect("32 bits");
-        f64::from(upper) / f64::from(u32::MAX) * 2.0 - 1.0
-    }
-
-    fn vector(&mut self, scale: f64) -> [f64; 3] {
-        [(); 3].map(|()| scale * self.next())
-    }
-}
-
-/// A joint's coordinate and rate, whether its torque is given, and what is given.
-#[derive(Clone, Copy)]
-struct Joint {
-    at: [f64; 2],
-    torque: bool,
-    given: f64,
-}
-
-/// Accelerations of B, angular acceleration, and those of each joint of each device.
-type Found = ([f64; 3], [f64; 3], Vec<Vec<f64>>);
-
-/// A random state of a spacecraft and what acts on it.
-struct Drawn {
-    omega: [f64; 3],
-    force: [f64; 3],
-    torque_b: [f64; 3],
-    /// Device by device, body by body; locked ones stand.
-    joints: Vec<Vec<Joint>>,
-}
-
-fn drawn(description: &Description, seed: u32) -> Drawn {
-    let mut draws = Draws(u64::from(seed) * 977 + 5);
-    let joints = description.device.iter().map(|device| {
-        let tip = device.body.len() - 1;
-        let joint = |(k, body): (usize, &precess_description::Body)| {
-            if let Some(at) = body.locked_at {
-                return Joint { at: [at, 0.0], torque: false, given: 0.0 };
-            }
-            let rate = if k == tip { 600.0 } else { 5.0 } * draws.next();
-            let torque = draws.next() > -0.5;
-            Joint { at: [20.0 * draws.next(), rate], torque, given: draws.next() }
-        };
-        device.body.iter().enumerate().map(joint).collect()
-    });
-    let joints = joints.collect();
-    let [omega, force, torque_b] = [1.0, 10.0, 5.0].map(|scale| draws.vector(scale));
-    Drawn { omega, force, torque_b, joints }
-}
-
-/// Accelerations by the general solver: of the hub, and of each joint of each device.
-fn expected(
-    spacecraft: &Spacecraft<Set>,
-    description: &Description,
-    drawn: &Drawn,
-) -> Option<Found> {
-    let mut state: State<Set, Quaternion> = State::at_rest_for(spacecraft);
-    let mut inputs = Inputs::none_for(spacecraft);
-    state.omega = Vector3::from(drawn.omega);
-    inputs.force = Vector3::from(drawn.force);
-    inputs.torque_b = Vector3::from(drawn.torque_b);
-    for (to, from) in state.devices.iter_mut().zip(&drawn.joints) {
-        for (to, from) in to.as_mut_slice().iter_mut().zip(from) {
-            *to = from.at;
-        }
-    }
-    let flat = drawn.joints.iter().flatten();
-    let locked = description.device.iter().flat_map(|d| &d.body).map(|b| b.locked_at.is_some());
-    for ((motor, mode), (joint, locked)) in
-        inputs.motors.values_mut().zip(inputs.modes.values_mut()).zip(flat.zip(locked))
-    {
-        match (locked, joint.torque) {
-            (true, _) => *mode = Mode::Locked,
-            (false, true) => (*motor, *mode) = (joint.given, Mode::Driven),
-            (false, false) => *mode = Mode::Prescribed(joint.given),
-        }
-    }
-    let found = spacecraft.accelerations(&state, &inputs).ok()?;
-    let joints = found.devices.iter().map(|device: &JointArray<f64>| device.as_slice().to_vec());
-    Some((found.r_b_n_ddot.into(), found.omega_dot.into(), joints.collect()))
 }
 
 /// The largest error of a block, in units of its largest magnitude.
@@ -192,6 +66,28 @@ macro_rules! drive {
     };
 }
 
+/// A state of a mission's wheels and what acts on them.
+macro_rules! given {
+    ($mission:ident, $shape:ident, $drawn:expr, $wheel:expr) => {{
+        let (drawn, wheel): (&Drawn, _) = ($drawn, $wheel);
+        let state = $mission::State {
+            omega: drawn.omega,
+            $shape: std::array::from_fn(|k| {
+                let Joint { at: [theta, spin], .. } = wheel(k);
+                $mission::$shape::Joints { theta, spin }
+            }),
+        };
+        let inputs = $mission::Inputs {
+            force: drawn.force,
+            torque_b: drawn.torque_b,
+            $shape: std::array::from_fn(|k| $mission::$shape::Drives {
+                u_w: drive!($mission, wheel(k)),
+            }),
+        };
+        (state, inputs)
+    }};
+}
+
 /// Holds every random state of a spacecraft against the general solver.
 fn agree(name: &str, description: &Description, found: impl Fn(&Drawn) -> Option<Found>) {
     let spacecraft = general(description);
@@ -228,23 +124,55 @@ fn imaging_satellite_with_locked_gimbals() {
     .expect("as assumed");
     agree("imaging_satellite", &description, |drawn| {
         let wheel = |k: usize| drawn.joints[k][2];
-        let state = imaging_satellite::State {
-            omega: drawn.omega,
-            cmg: std::array::from_fn(|k| {
-                let [theta, spin] = wheel(k).at;
-                imaging_satellite::cmg::Joints { theta, spin }
-            }),
-        };
-        let inputs = imaging_satellite::Inputs {
-            force: drawn.force,
-            torque_b: drawn.torque_b,
-            cmg: std::array::from_fn(|k| imaging_satellite::cmg::Drives {
-                u_w: drive!(imaging_satellite, wheel(k)),
-            }),
-        };
+        let (state, inputs) = given!(imaging_satellite, cmg, drawn, wheel);
         let found = baked.accelerations(&state, &inputs).ok()?;
         let joints = found.cmg.iter().map(|own| vec![0.0, 0.0, own.spin_dot]);
         Some((found.r_b_n_ddot, found.omega_dot, joints.collect()))
+    });
+}
+
+#[test]
+fn folded_values_give_the_bits_of_the_constructor() {
+    let description = description("imaging_satellite");
+    let devices = &description.device;
+    let values = imaging_satellite::Spacecraft::new(&imaging_satellite::Parameters {
+        hub: hub!(imaging_satellite, description),
+        cmg: std::array::from_fn(
+            |k| device!(imaging_satellite::cmg, &devices[k], gamma_o: 0, gamma_i: 1),
+        ),
+    })
+    .expect("as assumed");
+    let folded = &imaging_satellite_constants::SPACECRAFT;
+    // The digits of a number tell its bits, the sign of a zero included.
+    assert_eq!(format!("{values:?}"), format!("{folded:?}"));
+    for seed in 0..STATES {
+        let drawn = drawn(&description, seed);
+        let wheel = |k: usize| drawn.joints[k][2];
+        let (state, inputs) = given!(imaging_satellite, cmg, &drawn, wheel);
+        let expected = values.accelerations(&state, &inputs);
+        let (state, inputs) = given!(imaging_satellite_constants, cmg, &drawn, wheel);
+        let found = folded.accelerations(&state, &inputs);
+        assert_eq!(format!("{found:?}"), format!("{expected:?}"), "state {seed}");
+    }
+}
+
+#[test]
+fn parked_spare_with_a_device_and_a_panel_in_the_hub() {
+    let description = description("parked_spare");
+    let devices = &description.device;
+    let baked = parked_spare::Spacecraft::new(&parked_spare::Parameters {
+        hub: hub!(parked_spare, description),
+        wheel: [0, 3].map(|k: usize| device!(parked_spare::wheel, &devices[k])),
+        spare: [device!(parked_spare::spare, &devices[1], gamma: 0, theta: 1)],
+        panel: [device!(parked_spare::panel, &devices[2], phi: 0)],
+    })
+    .expect("as assumed");
+    agree("parked_spare", &description, |drawn| {
+        let wheel = |k: usize| drawn.joints[[0, 3][k]][0];
+        let (state, inputs) = given!(parked_spare, wheel, drawn, wheel);
+        let found = baked.accelerations(&state, &inputs).ok()?;
+        let [first, second] = found.wheel.map(|own| vec![own.spin_dot]);
+        Some((found.r_b_n_ddot, found.omega_dot, vec![first, vec![0.0; 2], vec![0.0], second]))
     });
 }
 

@@ -6,7 +6,7 @@
 use crate::numbers::real::Angle;
 
 /// Work in lanes that is rarely done, for [`Number::apart`].
-pub(super) trait Work {
+pub(crate) trait Work {
     /// Does it.
     fn run(self);
 }
@@ -17,7 +17,7 @@ pub(crate) const WIDEST: usize = 8;
 /// One number for each lane, in memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub(super) struct Block(pub(crate) [f64; WIDEST]);
+pub(crate) struct Block(pub(crate) [f64; WIDEST]);
 
 impl Block {
     /// Zero in every lane.
@@ -41,7 +41,7 @@ impl Block {
 /// Several numbers side by side, one per lane.
 ///
 /// Everything is part of what calls it, down to the function that may use the instructions.
-pub(super) trait Number: Angle {
+pub(crate) trait Number: Angle {
     /// Whether something holds, lane by lane.
     type Holds: Copy;
 
@@ -53,8 +53,18 @@ pub(super) trait Number: Angle {
     fn load(self, block: &Block) -> Self;
     /// The lanes as a block; what is beyond the width is zero.
     fn store(self) -> Block;
-    /// The sum over the lanes.
+    /// The sum over the lanes, in any order.
     fn sum(self) -> f64;
+    /// A number to which those in the lanes are added, one after another.
+    #[inline(always)]
+    fn added_to(self, number: f64) -> f64 {
+        let Block(lanes) = self.store();
+        let mut sum = number;
+        for lane in lanes.into_iter().take(Self::WIDTH) {
+            sum += lane;
+        }
+        sum
+    }
     /// Square root.
     #[must_use]
     fn sqrt(self) -> Self;

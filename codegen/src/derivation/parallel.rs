@@ -1,0 +1,159 @@
+//! Two joints with one between them whose axes can be parallel: the tip's, and the one that it can be
+//! parallel to.
+//!
+//! Where a pose makes them parallel, what the elimination of the tip leaves to the inboard joint is a
+//! small difference of large numbers: the inertia about the tip's axis is in both. It is therefore
+//! taken out of both before they are subtracted. With `c` the cosine between the axes,
+//! `M_kk = A_kk + c^2 M_jj` and `M_kj = A_kj + c M_jj`, where `A` is of the composite without
+//! inertia about the tip's axis, and
+//!
+//! `M_kk - M_kj^2 / M_jj = A_kk - c A_kj - A_kj g` with the gain `g = M_kj / M_jj`:
+//!
+//! `M_jj` has gone. Between perpendicular axes, `c = 0`, there is nothing to take out.
+
+use super::Share;
+use super::assumed::Assumed;
+use super::chain::{Chain, Coordinate};
+use super::lump::Lump;
+use super::wrench::Wrench;
+use crate::graph::{Expr, Stage};
+use crate::kinds::Link as Data;
+use crate::space::{Axis, Carrier, Own, Symmetric, Turn, Vector};
+
+/// The two joints, by their numbers, and the cosine between their axes.
+#[derive(Clone, Copy)]
+pub struct Parallel<'g> {
+    /// The inboard one.
+    pub inner: usize,
+    /// The tip's.
+    pub tip: usize,
+    /// Between their axes.
+    pub cosine: Expr<'g>,
+}
+
+/// What the inboard joint's row has across the tip's axis.
+#[derive(Clone, Copy)]
+pub struct Across<'g> {
+    /// The joints.
+    pub joints: Parallel<'g>,
+    /// `A_kk`.
+    pub diagonal: Expr<'g>,
+    /// `A_kj`.
+    pub coupling: Expr<'g>,
+}
+
+impl<'g> Parallel<'g> {
+    /// The pair of this chain, where the joint between them turns one axis towards the other and both
+    /// have a row. A body that is known to have inertia about the inboard joint's axis keeps it in any
+    /// pose: nothing small is left there.
+    #[must_use]
+    pub fn of(chain: &Chain<'g>) -> Option<Self> {
+        let tip = chain.links.len() - 1;
+        let inner = tip.checked_sub(2).filter(|inner| *inner >= chain.first_moving())?;
+        let [k, ..] = chain.kind.links[inner].joint.motion.axis().cycle();
+        let known = chain.assumed.as_ref().is_some_and(|assumed| *assumed != Assumed::default());
+        if known && !chain.links[inner].inertia.at(k, k).is_zero() {
+            return None;
+        }
+        let row = |k: usize| {
+            let link = &chain.links[k];
+            let turns = matches!(link.coordinate, Coordinate::Angle(_));
+            (turns && link.mode.is_some()).then_some(link.axis)
+        };
+        let (axis, other) = (row(tip)?, row(inner)?);
+        let axis = axis.turned::<Carrier>(chain.links[tip - 1].turn.inverse());
+        let cosine = axis.handed_back().dot(other);
+        (cosine.stage() > Stage::Parameter).then_some(Self { inner, tip, cosine })
+    }
+
+    /// The names of `A_kk` and `A_kj`.
+    #[must_use]
+    pub fn names(self, links: &[Data]) -> [String; 2] {
+        let [inner, tip] = [self.inner, self.tip].map(|k| links[k].joint.tag);
+        [format!("across_{inner}{inner}"), format!("across_{inner}{tip}")]
+    }
+
+    /// `A_kk` and `A_kj` of a mass matrix.
+    #[must_use]
+    pub fn of_share(self, share: &Share<'g>) -> [Expr<'g>; 2] {
+        let Self { inner, tip, cosine } = self;
+        let own = cosine * share.joint[tip][0];
+        [share.joint[inner][0] - cosine * own, share.joint[inner][tip - inner] - own]
+    }
+}
+
+/// The composite without inertia about the tip's axis, and what the tip's joint requires of it, on
+/// their way to the inboard joint.
+#[derive(Clone, Copy)]
+pub(super) struct Carried<'g> {
+    axis: Axis,
+    inertia: Symmetric<'g, Own>,
+    column: Wrench<'g, Own>,
+}
+
+impl<'g> Carried<'g> {
+    /// Of the tip's composite and column.
+    pub(super) fn of_tip(axis: Axis, lump: &Lump<'g>, column: Wrench<'g, Own>) -> Self {
+        let [k, ..] = axis.cycle();
+        let zero = lump.mass.graph().zero();
+        let mut moment = column.moment.components();
+        moment[k] = zero;
+        Self {
+            axis,
+            inertia: lump.inertia.with(k, k, zero),
+            column: Wrench { moment: Vector::new(moment), ..column },
+        }
+    }
+
+    /// With the next body inboard, expressed in the axes that `back` leads to.
+    pub(super) fn with_body(self, body: &Lump<'g>, back: Turn<'g, Own, Carrier>) -> Self {
+        let turned = |v: Vector<'g, Own>| v.turned(back).handed_back();
+        Self {
+            inertia: (body.inertia + self.inertia).turned_from(back, self.axis).handed_back(),
+            column: Wrench { force: turned(self.column.force), moment: turned(self.column.moment) },
+            ..self
+        }
+    }
+
+    /// About a point from which the present origin lies at `arm`; the composite has this first moment.
+    pub(super) fn shifted(self, arm: Vector<'g, Own>, composite: &Lump<'g>) -> Self {
+        let Wrench { force, moment } = self.column;
+        Self {
+            inertia: Lump { inertia: self.inertia, ..*composite }.shifted(arm).inertia,
+            column: Wrench { force, moment: moment + arm.cross(force) },
+            ..self
+        }
+    }
+
+    /// `A_kk` and `A_kj` along the axis of the inboard joint.
+    pub(super) fn along(&self, axis: Axis) -> [Expr<'g>; 2] {
+        let [k, ..] = axis.cycle();
+        [self.inertia.at(k, k), self.column.moment.components()[k]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Graph;
+    use crate::kinds::KINDS;
+
+    #[test]
+    fn only_a_wheel_that_is_free_in_two_gimbals_or_tilts_has_an_axis_that_can_be_parallel_to_another()
+     {
+        let can = |kind: &&'static crate::kinds::Kind| {
+            Parallel::of(&Chain::new(&Graph::new(), kind)).is_some()
+        };
+        let names: Vec<_> = KINDS.iter().copied().filter(can).map(|kind| kind.name).collect();
+        assert_eq!(names, ["dgvscmg", "balanced_dgvscmg", "flexible_reaction_wheel"]);
+    }
+
+    #[test]
+    fn the_cosine_is_that_of_the_axes() {
+        let graph = Graph::new();
+        let kind = KINDS.iter().find(|kind| kind.name == "dgvscmg").expect("it is built in");
+        let joints = Parallel::of(&Chain::new(&graph, kind)).expect("its axes can be parallel");
+        assert_eq!((joints.inner, joints.tip), (0, 2));
+        assert_eq!(joints.cosine, -graph.find("sin_gamma_i").expect("a sine"));
+    }
+}

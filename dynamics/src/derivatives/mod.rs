@@ -1,0 +1,15 @@
+//! Derivatives of accelerations, momenta and loads by state, inputs and parameters, exact to
+//! rounding: the solver runs over [`Dual`](crate::Dual) numbers, through the same kernels.
+//!
+//! [`evaluation`] computes columns without a heap, [`parameters`] those by parameters;
+//! `linearization`, with the feature `alloc`, fills matrices with them.
+
+pub(crate) mod column;
+pub(crate) mod error;
+pub(crate) mod evaluation;
+#[cfg(feature = "alloc")]
+pub(crate) mod linearization;
+pub(crate) mod parameters;
+mod point;
+mod turned;
+pub(crate) mod variable;

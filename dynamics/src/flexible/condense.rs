@@ -1,0 +1,161 @@
+//! [`Condensed`]: the equations of hub and modal directions, to which each mount adds its own, (F10)
+//! to (F12).
+//!
+//! ```text
+//! [ M_uu  M_pu^T ] [ u ]   [ h_u ]     u = (r_b_n'', omega'),  p = Q eta''
+//! [ M_pu  M_pp   ] [ p ] = [ h_p ]
+//! ```
+
+use crate::equations::system::{Scale, SmallPivot, Solution, System};
+use crate::flexible::basis::Basis;
+use crate::flexible::block::{
+    Block, Six, add_scaled, add_transposed_product, add_transposed_times, dot6, joined, parted,
+    product, sub6, times, zeros6,
+};
+use crate::flexible::factor::{Right, back_substitute, factorise};
+use crate::flexible::mount::MountMotion;
+use crate::flexible::storage::ModalStorage;
+use crate::numbers::real::{Scalar, one, zero};
+use crate::numbers::symmetric::Symmetric;
+
+/// The equations of hub and modal directions.
+#[derive(Clone, Debug)]
+pub(crate) struct Condensed<S: ModalStorage, T: Scalar> {
+    /// `M_uu` and `h_u`.
+    hub: Block<T>,
+    force: Six<T>,
+    /// The triangle of `M_pp` up to the diagonal, by rows.
+    rows: S::Modes<S::Modes<T>>,
+    /// `M_pu` and `h_p`, row by row.
+    right: S::Modes<Right<T>>,
+    /// The number of directions.
+    count: usize,
+}
+
+/// Accelerations of the hub, and in the directions.
+pub(crate) type Solved<S, T> = (Solution<T>, <S as ModalStorage>::Modes<T>);
+
+/// Why the modal part has no solution.
+pub(crate) enum SmallMass<T> {
+    /// A pivot of the modal mass.
+    Modal(SmallPivot<T>),
+    /// A pivot of the hub.
+    Hub(SmallPivot<T>),
+}
+
+impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
+    /// The structure without what stands on its mounts, for modal forces in the directions.
+    pub(crate) fn new(structure: &System<T>, basis: &Basis<S, T>, forces: &S::Modes<T>) -> Self {
+        let count = basis.count;
+        let mut rows = S::modes(count, &S::modes(count, &zero()));
+        let massive = count.saturating_sub(basis.residual);
+        for (index, row) in rows.as_mut().iter_mut().enumerate().take(massive) {
+            if let Some(diagonal) = row.as_mut().get_mut(index) {
+                *diagonal = one();
+            }
+        }
+        let mut right = S::modes(count, &[zero(); 7]);
+        let given = basis.momenta.as_ref().iter().zip(forces.as_ref());
+        for (right, ([a, b, c, d, e, f], force)) in right.as_mut().iter_mut().zip(given) {
+            *right = [*a, *b, *c, *d, *e, *f, *force];
+        }
+        let (hub, force) = (block(structure), joined(structure.h_v, structure.h_w));
+        Self { hub, force, rows, right, count }
+    }
+
+    /// Adds the six equations of a mount, `system`, for its coupling with the directions.
+    pub(crate) fn add(&mut self, motion: &MountMotion<T>, system: &System<T>, coupling: &[Six<T>]) {
+        let MountMotion { of_hub, of_shape, bias, .. } = motion;
+        let mass = block(system);
+        let force = sub6(&joined(system.h_v, system.h_w), &times(&mass, bias));
+        let by_hub = product(&mass, of_hub);
+        let by_shape = product(&mass, of_shape);
+        add_transposed_product(&mut self.hub, of_hub, &by_hub);
+        add_transposed_times(&mut self.force, of_hub, &force);
+
+        let (mut mixed, mut own) = (zeros6(zero()), zeros6(zero()));
+        add_transposed_product(&mut mixed, of_shape, &by_hub);
+        add_transposed_product(&mut own, of_shape, &by_shape);
+        let mut modal = [zero(); 6];
+        add_transposed_times(&mut modal, of_shape, &force);
+
+        let lines = self.rows.as_mut().iter_mut().zip(self.right.as_mut());
+        for (index, (column, (row, right))) in coupling.iter().zip(lines).enumerate() {
+            let needed = times(&own, column);
+            let up_to = coupling.iter().take(index.saturating_add(1));
+            for (entry, other) in row.as_mut().iter_mut().zip(up_to) {
+                *entry = *entry + dot6(&needed, other);
+            }
+            let mut of_hub = [zero(); 6];
+            add_transposed_times(&mut of_hub, &mixed, column);
+            let [a, b, c, d, e, f, h] = right;
+            for (to, from) in [a, b, c, d, e, f].into_iter().zip(of_hub) {
+                *to = *to + from;
+            }
+            *h = *h + dot6(column, &modal);
+        }
+    }
+
+    /// The acceleration of the hub, unless it is given, and those in the directions.
+    pub(crate) fn solve(
+        mut self,
+        given: Option<Solution<T>>,
+        scale: &Scale<T>,
+    ) -> Result<Solved<S, T>, SmallMass<T>> {
+        let mut scaled = S::modes(self.count, &[zero(); 7]);
+        let mut solved = S::modes(self.count, &zero());
+        let rows = self.rows.as_mut().get_mut(..self.count).unwrap_or_default();
+        let right = self.right.as_mut();
+        factorise(rows, right, scaled.as_mut(), solved.as_mut()).map_err(SmallMass::Modal)?;
+
+        let hub = if let Some(hub) = given {
+            hub
+        } else {
+            let (mut mass, mut force) = (self.hub, self.force);
+            let pairs = scaled.as_ref().iter().zip(right.iter()).take(self.count);
+            for ([a, b, c, d, e, f, _], [p, q, r, s, t, u, h]) in pairs {
+                let (left, own) = ([*a, *b, *c, *d, *e, *f], [*p, *q, *r, *s, *t, *u]);
+                for (row, factor) in mass.iter_mut().zip(left) {
+                    add_scaled(row, -factor, &own);
+                }
+                add_scaled(&mut force, -*h, &left);
+            }
+            system(&mass, &force).solve(scale).map_err(SmallMass::Hub)?
+        };
+        let u = joined(hub.r_b_n_ddot, hub.omega_dot);
+        for (to, [a, b, c, d, e, f, h]) in solved.as_mut().iter_mut().zip(right.iter()) {
+            *to = *h - dot6(&[*a, *b, *c, *d, *e, *f], &u);
+        }
+        let known = solved.as_mut().get_mut(..self.count).unwrap_or_default();
+        back_substitute(rows, known);
+        Ok((hub, solved))
+    }
+}
+
+/// The matrix of a system.
+pub(crate) fn block<T: Scalar>(system: &System<T>) -> Block<T> {
+    let [a, b, c] = system.m_vv.columns();
+    let [d, e, f] = system.m_ww.columns();
+    let [[xa, ya, za], [xb, yb, zb], [xc, yc, zc]] = system.m_vw;
+    [
+        joined(a, [xa, xb, xc]),
+        joined(b, [ya, yb, yc]),
+        joined(c, [za, zb, zc]),
+        joined([xa, ya, za], d),
+        joined([xb, yb, zb], e),
+        joined([xc, yc, zc], f),
+    ]
+}
+
+/// The system of a symmetric matrix, by its triangle from the diagonal on.
+fn system<T: Scalar>(mass: &Block<T>, force: &Six<T>) -> System<T> {
+    let [a, b, c, d, e, f] = mass;
+    let (h_v, h_w) = parted(force);
+    System {
+        m_vv: Symmetric { xx: a[0], xy: a[1], xz: a[2], yy: b[1], yz: b[2], zz: c[2] },
+        m_vw: [[a[3], b[3], c[3]], [a[4], b[4], c[4]], [a[5], b[5], c[5]]],
+        m_ww: Symmetric { xx: d[3], xy: d[4], xz: d[5], yy: e[4], yz: e[5], zz: f[5] },
+        h_v,
+        h_w,
+    }
+}

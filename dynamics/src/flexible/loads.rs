@@ -1,0 +1,344 @@
+//! [`FlexibleLoads`]: the loads of the devices on a structure that bends, and what frame B and modes
+//! need beside the inputs, for known accelerations: inverse dynamics.
+//!
+//! The load of a joint is what all bodies outboard of it need, by Newton and Euler, less the
+//! external wrenches on them. A mount moves with the structure, (F5) to (F8), so its own elastic
+//! acceleration is part of what its devices need.
+
+use core::convert::Infallible;
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::device::Device;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::gravity::{Field, at_b};
+use crate::equations::joint_inputs::Environment;
+use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
+use crate::equations::system::Solution;
+use crate::flexible::accelerations::{accelerated, finite};
+use crate::flexible::block::{Six, add_transposed_times, combined, dot6, joined, parted};
+use crate::flexible::gravity::on_body;
+use crate::flexible::inputs::FlexibleInputs;
+use crate::flexible::mount::MountMotion;
+use crate::flexible::on_mount::OnMount;
+use crate::flexible::spacecraft::FlexibleSpacecraft;
+use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
+use crate::flexible::storage::ModalStorage;
+use crate::model::kind::Kind;
+use crate::model::wrench::Wrench;
+use crate::numbers::real::{Scalar, two, zero};
+use crate::numbers::symmetric::Symmetric;
+use crate::numbers::vec3::{
+    Columns, Vec3, add, columns, components, cross, neg, rotate_transposed, scale, sub, vector,
+    zeros,
+};
+use crate::results::loads::{LoadAxes, Loads};
+use crate::sets::bundle::{Bundle, Given, Shared, Unique};
+use crate::sets::devices::{Devices, Visit};
+use crate::sets::per_device as data;
+
+/// The loads of a [`FlexibleSpacecraft`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlexibleLoads<D: Devices, S: ModalStorage> {
+    /// Loads of the devices, and what must act on the frame B beside the inputs.
+    ///
+    /// The wrench at the mount of a [`DeviceLoads`](crate::DeviceLoads) is about the present origin
+    /// of its first joint. It is expressed in the axes of the mount with
+    /// [`LoadAxes::Body`] and [`LoadAxes::Parent`] (they turn with the structure, and are those of
+    /// B undeformed), in B and N with the other two.
+    pub rigid: Loads<D>,
+    /// What the structure exerts on the devices of each mount together, about the mount, expressed
+    /// in the axes of `rigid.devices`' mounts. A body that the model contains is not subtracted.
+    pub mounts: S::Mounts<Wrench<D::Scalar>>,
+    /// The force that each mode needs beside the inputs, N/sqrt(kg): only rounding with the
+    /// spacecraft's own accelerations.
+    pub modal: S::Modes<D::Scalar>,
+}
+
+/// State, inputs and accelerations of the joints, and what comes of them.
+type Weighed = (Shared<data::Joints>, Given, Shared<data::Accelerations>, LoadsOnMount);
+
+/// The loads that come of them, and the mount.
+type LoadsOnMount = (Unique<data::Loads>, Shared<OnMount>);
+
+/// A mount with its acceleration and the sums over its devices, expressed in K.
+#[derive(Clone, Debug)]
+pub(crate) struct MountLoads<T> {
+    pub(crate) motion: MountMotion<T>,
+    environment: Environment<T>,
+    /// The field at K less that at B, expressed in K, which its acceleration is counted without.
+    pub(crate) field_beside_b: Vec3<T>,
+    /// In the frame that falls with the field at K.
+    acceleration: HubAccelerations<T>,
+    along: Along<T>,
+    pub(crate) totals: LoadSums<T>,
+    /// What the contained body needs, and what the gradient of gravity exerts on it.
+    pub(crate) contained: [Wrench<T>; 2],
+    /// First moment about the origin of K, contained bodies subtracted.
+    first_moment: Vec3<T>,
+    /// Second moment likewise; only with a central field.
+    contained_second_moment: Symmetric<T>,
+}
+
+impl<T: Scalar> MountLoads<T> {
+    /// What the structure exerts on the devices, about the origin of K.
+    fn on_devices(&self) -> Wrench<T> {
+        let LoadSums { inertial, applied, gradient, .. } = &self.totals;
+        inertial.minus(applied).minus(gradient)
+    }
+
+    /// What the mount needs of hub and modes beside a wrench on it.
+    pub(crate) fn needed(&self, wrench: &Wrench<T>) -> Wrench<T> {
+        let [inertial, gradient] = &self.contained;
+        self.on_devices().minus(inertial).plus(gradient).minus(wrench)
+    }
+
+    /// Second moment about B, contained bodies subtracted; only with a central field.
+    pub(crate) fn second_moment(&self, mass: T) -> Symmetric<T> {
+        let own = self.totals.second_moment.less(self.contained_second_moment);
+        self.motion.second_moment(mass, self.first_moment, &own)
+    }
+}
+
+/// Computes the loads of the devices, and adds them to the sums of their mounts.
+struct Weighing<'a, T> {
+    mounts: &'a mut [MountLoads<T>],
+    joints: usize,
+}
+
+impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
+    type Error = Infallible;
+
+    fn visit<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        (joints, given, accelerations, (out, mount)): <Weighed as Bundle<T>>::Of<'_, K>,
+    ) -> Result<(), Infallible> {
+        if let Some(of_mount) = self.mounts.get_mut(*mount) {
+            let MountLoads { environment, acceleration, along, totals, first_moment, .. } =
+                of_mount;
+            totals.joints = self.joints;
+            *out = device.loads(
+                joints,
+                given,
+                environment,
+                acceleration,
+                accelerations,
+                along,
+                totals,
+            );
+            self.joints = totals.joints;
+            let mut moments = [*first_moment, zeros()];
+            device.add_first_moment(joints, &mut moments);
+            [*first_moment, _] = moments;
+        }
+        Ok(())
+    }
+}
+
+/// Loads of the devices, of the mounts, and of B and modes.
+pub(crate) struct AllLoads<D: Devices, S: ModalStorage> {
+    pub(crate) devices: D::Per<data::Loads>,
+    pub(crate) mounts: S::Mounts<MountLoads<D::Scalar>>,
+    /// Acceleration of B in the frame that falls with the field at B.
+    pub(crate) hub: Solution<D::Scalar>,
+    pub(crate) structure: StructureLoads<D::Scalar>,
+}
+
+/// What the structure needs by itself, about B, and what acts on it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StructureLoads<T> {
+    /// Of its motion as a rigid body, with the deformed first moment.
+    pub(crate) rigid: Wrench<T>,
+    /// Of the modes' rates and accelerations.
+    pub(crate) bending: Wrench<T>,
+    /// Of the gradient of gravity, with the third-order force on the whole.
+    pub(crate) gradient: Wrench<T>,
+    /// Second moment of the whole about B; only with a central field.
+    pub(crate) second_moment: Symmetric<T>,
+}
+
+impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+    /// The loads that these accelerations need: inverse dynamics.
+    ///
+    /// With what [`Self::accelerations`] found for the same state and inputs, these are the loads
+    /// at that instant, the elastic motion of the mounts included. Motor torques and modes in
+    /// `inputs` are not read; forces, torques, modal forces and gravity are.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming an input or acceleration, [`SolveError::Overflow`],
+    /// [`SolveError::Count`] and [`SolveError::ModalCount`] for a list of another length.
+    pub fn loads<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        accelerations: &FlexibleAccelerations<D, S>,
+        axes: LoadAxes,
+    ) -> Result<FlexibleLoads<D, S>, SolveError<D::Scalar>> {
+        self.reject(state, inputs)?;
+        self.reject_accelerations(state, accelerations)?;
+        let bn = columns(&state.rigid.attitude.dcm());
+        let field = inputs.rigid.gravity.field(&bn, &state.rigid.r_b_n);
+        let along = |motion: &MountMotion<D::Scalar>| mount_axes(axes, motion, &bn);
+        let all = self.all_loads(state, inputs, accelerations, field.as_ref(), along);
+        for mount in all.mounts.as_ref() {
+            let finite = self.rigid.check_joints(&mount.totals);
+            finite.map_err(|failure| self.diagnosis(state, inputs, failure))?;
+        }
+
+        let given = Wrench { force: inputs.rigid.force, moment: inputs.rigid.torque_b };
+        let StructureLoads { rigid, bending, gradient, .. } = &all.structure;
+        let mut hub = rigid.plus(bending).minus(gradient).minus(&given);
+        let mut modal = self.modal_needs(state, inputs, accelerations, &all.hub);
+        let constants = self.mounts.as_ref().iter().zip(inputs.mounts.as_ref());
+        for (mount, (constants, wrench)) in all.mounts.as_ref().iter().zip(constants) {
+            let needed = mount.needed(&constants.about_origin(wrench));
+            let on_hub = needed.turned(&mount.motion.axes).moved(&vector(mount.motion.origin));
+            hub = hub.plus(&on_hub);
+            let mut of_shape = [zero(); 6];
+            let needed = joined(components(&needed.force), components(&needed.moment));
+            add_transposed_times(&mut of_shape, &mount.motion.of_shape, &needed);
+            for (sum, shape) in modal.as_mut().iter_mut().zip(constants.shapes.as_ref()) {
+                *sum = *sum + dot6(shape, &of_shape);
+            }
+        }
+        let mut places = self.mounts.as_ref().iter().map(|mount| mount.position);
+        let mounts = S::per_mount(&all.mounts, |mount| {
+            let place = places.next().unwrap_or_else(zeros);
+            let about_mount = mount.on_devices().moved(&vector(neg(place)));
+            match &mount.along {
+                Along::Hub(Some(columns)) => about_mount.turned_back(columns),
+                Along::Body | Along::Parent | Along::Hub(None) => about_mount,
+            }
+        });
+        let overflow = |what| Err(self.diagnosis(state, inputs, SolveError::Overflow { what }));
+        if !(hub.is_finite() && mounts.as_ref().iter().all(Wrench::is_finite)) {
+            return overflow(Quantity::HubLoad);
+        }
+        if !finite(modal.as_ref()) {
+            return overflow(Quantity::ModalAcceleration);
+        }
+        Ok(FlexibleLoads { rigid: Loads { devices: all.devices, hub }, mounts, modal })
+    }
+
+    /// Rejects accelerations that are not finite, or of another number of modes.
+    pub(crate) fn reject_accelerations<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        accelerations: &FlexibleAccelerations<D, S>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        self.rigid.reject_accelerations(&state.rigid, &accelerations.rigid)?;
+        self.reject_numbers(accelerations.eta_ddot.as_ref(), |_| Quantity::ModalAcceleration)
+    }
+
+    /// Loads of the devices and of the structure, for a field at B.
+    pub(crate) fn all_loads<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        accelerations: &FlexibleAccelerations<D, S>,
+        field: Option<&Field<D::Scalar>>,
+        along: impl Fn(&MountMotion<D::Scalar>) -> Along<D::Scalar>,
+    ) -> AllLoads<D, S> {
+        let omega = components(&state.rigid.omega);
+        let central = field.and_then(|field| field.central);
+        let hub = Solution {
+            r_b_n_ddot: sub(components(&accelerations.rigid.r_b_n_ddot), at_b(field)),
+            omega_dot: components(&accelerations.rigid.omega_dot),
+        };
+        let of_b = Environment { omega, central, impulse: false };
+        let eta_ddot = accelerations.eta_ddot.as_ref();
+        let mut mounts = S::per_mount(&self.mounts, |constants| {
+            let (motion, environment) = constants.surroundings(state, &of_b);
+            let Solution { r_b_n_ddot, omega_dot } =
+                accelerated(&motion, &hub, constants, eta_ddot);
+            let mut contained = [Wrench::none(); 2];
+            let (mut first_moment, mut second_moment) = (zeros(), Symmetric::zero());
+            if let Some(body) = &constants.contained {
+                contained[0] = body.needs(motion.omega, r_b_n_ddot, omega_dot);
+                first_moment = neg(body.first_moment);
+                if let Some(central) = &environment.central {
+                    contained[1] = on_body(central, body);
+                    second_moment = body.second_moment();
+                }
+            }
+            MountLoads {
+                along: along(&motion),
+                field_beside_b: central
+                    .as_ref()
+                    .map_or_else(zeros, |central| motion.field_beside_b(central)),
+                motion,
+                environment,
+                acceleration: HubAccelerations { r_b_n_ddot, omega_dot },
+                totals: LoadSums::none(),
+                contained,
+                first_moment,
+                contained_second_moment: second_moment,
+            }
+        });
+        let mut devices = D::new_data(&self.rigid.devices, &data::Loads);
+        let mut weighing = Weighing { mounts: mounts.as_mut(), joints: 0 };
+        let (joints, given) = (&state.rigid.devices, inputs.rigid.of_joints());
+        let of_joints = &accelerations.rigid.devices;
+        let data = (joints, given, of_joints, (&mut devices, &self.on_mount));
+        let Ok(()) = D::visit::<Weighed, _>(&self.rigid.devices, data, &mut weighing);
+
+        let (linear, angular) = parted(&combined(self.momenta.as_ref(), state.eta_dot.as_ref()));
+        let (linear_rate, angular_rate) = parted(&combined(self.momenta.as_ref(), eta_ddot));
+        let bending = Wrench::of(
+            add(linear_rate, scale(two(), cross(omega, linear))),
+            add(angular_rate, cross(omega, angular)),
+        );
+        let rigid = self.deformed(state).needs(omega, hub.r_b_n_ddot, hub.omega_dot);
+        let mut structure = StructureLoads {
+            rigid,
+            bending,
+            gradient: Wrench::none(),
+            second_moment: Symmetric::zero(),
+        };
+        if let Some(central) = &central {
+            let pairs = mounts.as_ref().iter().zip(self.mounts.as_ref());
+            let of_devices = pairs.fold(Symmetric::zero(), |sum, (mount, constants)| {
+                sum.plus(mount.second_moment(constants.body.m_b))
+            });
+            structure.gradient = self.gradient(state, central, &of_devices);
+            structure.second_moment = of_devices.plus(self.rigid.hub.second_moment());
+        }
+        AllLoads { devices, mounts, hub, structure }
+    }
+
+    /// The force that each mode needs for the structure's own motion, beside its inputs, (F4).
+    fn modal_needs<A>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        accelerations: &FlexibleAccelerations<D, S>,
+        hub: &Solution<D::Scalar>,
+    ) -> S::Modes<D::Scalar> {
+        let u: Six<D::Scalar> = joined(hub.r_b_n_ddot, hub.omega_dot);
+        let mut needed = self.modal_forces(state, inputs);
+        let own = self.momenta.as_ref().iter().zip(accelerations.eta_ddot.as_ref());
+        let massive = self.massive();
+        for (mode, (force, (column, acceleration))) in
+            needed.as_mut().iter_mut().zip(own).enumerate()
+        {
+            let own = if mode < massive { *acceleration } else { zero() };
+            *force = (dot6(column, &u) + own) - *force;
+        }
+        needed
+    }
+}
+
+/// The axes for the loads of a mount's devices. K takes the place of B on a rigid hub.
+fn mount_axes<T: Scalar>(axes: LoadAxes, motion: &MountMotion<T>, bn: &Columns<T>) -> Along<T> {
+    let [x, y, z] = motion.axes;
+    let kb = [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]];
+    match axes {
+        LoadAxes::Body => Along::Body,
+        LoadAxes::Parent => Along::Parent,
+        LoadAxes::Hub => Along::Hub(Some(kb)),
+        LoadAxes::Inertial => {
+            Along::Hub(Some(bn.map(|column| rotate_transposed(&motion.axes, column))))
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! Energy, momentum and centre of mass of a structure that bends, with its devices.
+//!
+//! Linear momentum is the mass times the velocity of the centre of mass, exactly; both momenta are
+//! conserved, and kinetic energy changes by the powers of the [ledger](crate::FlexibleLedger).
+
+use core::convert::Infallible;
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::device::Device;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::hub::{BodySums, HubConstants};
+use crate::flexible::block::{combined, parted};
+use crate::flexible::mount::MountMotion;
+use crate::flexible::on_mount::OnMount;
+use crate::flexible::spacecraft::FlexibleSpacecraft;
+use crate::flexible::state::FlexibleState;
+use crate::flexible::storage::ModalStorage;
+use crate::model::kind::Kind;
+use crate::numbers::real::{Real, Scalar, half, zero};
+use crate::numbers::vec3::{
+    Columns, Vec3, add, columns, components, cross, dot, finite, neg, rotate, rotate_transposed,
+    scale, sub, vector, zeros,
+};
+use crate::results::momentum::{
+    About, CentreOfMass, EnergyAndMomentum, Momentum, checked, kinetic, not_finite_in_point,
+};
+use crate::sets::bundle::{Bundle, Shared};
+use crate::sets::counts::check_counts;
+use crate::sets::devices::{Devices, Visit};
+use crate::sets::per_device::Joints;
+use crate::solve::finite::reject;
+
+/// A mount and the sums over its devices, expressed in K.
+#[derive(Clone, Debug)]
+pub(crate) struct MountSums<T> {
+    motion: MountMotion<T>,
+    velocity: Vec3<T>,
+    pub(crate) sums: BodySums<T>,
+    first_moment: [Vec3<T>; 2],
+}
+
+/// The joints, and the mount.
+type Placed = (Shared<Joints>, Shared<OnMount>);
+
+/// Adds energy, momenta and first moments of each device to the sums of its mount.
+struct Addition<'a, T>(&'a mut [MountSums<T>]);
+
+impl<T: Scalar> Visit<T, Placed> for Addition<'_, T> {
+    type Error = Infallible;
+
+    fn visit<K: Kind<Scalar = T>>(
+        &mut self,
+        device: &Device<K>,
+        (joints, mount): <Placed as Bundle<T>>::Of<'_, K>,
+    ) -> Result<(), Infallible> {
+        if let Some(MountSums { motion, velocity, sums, first_moment }) = self.0.get_mut(*mount) {
+            device.add_sums(joints, *velocity, motion.omega, sums);
+            device.add_first_moment(joints, first_moment);
+        }
+        Ok(())
+    }
+}
+
+/// Sums over the whole spacecraft, expressed in B.
+pub(crate) struct WholeSums<S: ModalStorage, T: Scalar> {
+    /// `[BN]`, by its columns.
+    pub(crate) bn: Columns<T>,
+    pub(crate) sums: BodySums<T>,
+    /// First moment about B, and its derivative seen from B.
+    pub(crate) first_moment: [Vec3<T>; 2],
+    /// Mount by mount, expressed in K.
+    pub(crate) mounts: S::Mounts<MountSums<T>>,
+}
+
+impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+    /// Kinetic energy of structure and devices, (F3), J.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`] naming the part of the state that is infinite or NaN,
+    /// [`SolveError::Overflow`], [`SolveError::ModalCount`].
+    pub fn energy<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+    ) -> Result<D::Scalar, SolveError<D::Scalar>> {
+        self.reject_state(state)?;
+        kinetic(&self.sums(state).sums)
+    }
+
+    /// Linear momentum, and angular momentum about a point.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::energy`], and of the point.
+    pub fn momentum<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        about: About<D::Scalar>,
+    ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
+        Ok(self.energy_and_momentum(state, about)?.momentum)
+    }
+
+    /// [`Self::energy`] and [`Self::momentum`], at the cost of one of them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::momentum`].
+    pub fn energy_and_momentum<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        about: About<D::Scalar>,
+    ) -> Result<EnergyAndMomentum<D::Scalar>, SolveError<D::Scalar>> {
+        self.reject_state(state)?;
+        reject(not_finite_in_point(&about))?;
+        let whole = self.sums(state);
+        let momentum = self.momentum_of(state, &whole, about)?;
+        Ok(EnergyAndMomentum { energy: kinetic(&whole.sums)?, momentum })
+    }
+
+    /// Centre of mass of structure and devices.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::energy`].
+    pub fn centre_of_mass<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+    ) -> Result<CentreOfMass<D::Scalar>, SolveError<D::Scalar>> {
+        self.reject_state(state)?;
+        let per_mass = self.mass().recip();
+        let [c, c_prime] = self.sums(state).first_moment.map(|moment| scale(per_mass, moment));
+        let found = CentreOfMass { c: vector(c), c_prime: vector(c_prime) };
+        checked(Quantity::CentreOfMass, found, finite(c) && finite(c_prime))
+    }
+
+    /// Momenta from the sums.
+    pub(crate) fn momentum_of<A>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        WholeSums { bn, sums, first_moment: [first_moment, _], .. }: &WholeSums<S, D::Scalar>,
+        about: About<D::Scalar>,
+    ) -> Result<Momentum<D::Scalar>, SolveError<D::Scalar>> {
+        let linear_n = rotate_transposed(bn, sums.linear);
+        let about_b = rotate_transposed(bn, sums.angular_b);
+        let r_b_n = components(&state.rigid.r_b_n);
+        // H about P is H_B + r_{B/P} x p, for any motion of B.
+        let r_b_p = match about {
+            About::InertialOrigin => r_b_n,
+            About::Point(point) => sub(r_b_n, components(&point)),
+            About::CentreOfMass => {
+                neg(rotate_transposed(bn, scale(self.mass().recip(), *first_moment)))
+            }
+        };
+        let angular_n = add(about_b, cross(r_b_p, linear_n));
+        let found = Momentum { linear: vector(linear_n), angular: vector(angular_n) };
+        checked(Quantity::Momentum, found, finite(linear_n) && finite(angular_n))
+    }
+
+    /// Energy, momenta and first moments, expressed in B.
+    pub(crate) fn sums<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+    ) -> WholeSums<S, D::Scalar> {
+        let bn = columns(&state.rigid.attitude.dcm());
+        let r_b_n_dot = rotate(&bn, components(&state.rigid.r_b_n_dot));
+        let omega = components(&state.rigid.omega);
+        let mut mounts = S::per_mount(&self.mounts, |mount| {
+            let motion = mount.motion(state, omega);
+            let velocity = motion.velocity(r_b_n_dot, omega);
+            let none = BodySums { energy: zero(), linear: zeros(), angular_b: zeros() };
+            let contained = mount.contained.as_ref();
+            let sums = contained.map_or(none, |body| without(body, velocity, motion.omega));
+            let moment = contained.map_or_else(zeros, |body| neg(body.first_moment));
+            MountSums { motion, velocity, sums, first_moment: [moment, zeros()] }
+        });
+        let data = (&state.rigid.devices, &self.on_mount);
+        let mut addition = Addition(mounts.as_mut());
+        let Ok(()) = D::visit::<Placed, _>(&self.rigid.devices, data, &mut addition);
+
+        let (mut sums, mut first_moment) = self.structure_sums(state, r_b_n_dot, omega);
+        for (mount, constants) in mounts.as_ref().iter().zip(self.mounts.as_ref()) {
+            let MountSums { motion, sums: of_mount, first_moment: [s, s_prime], .. } = mount;
+            let linear = rotate(&motion.axes, of_mount.linear);
+            let angular = rotate(&motion.axes, of_mount.angular_b);
+            sums.energy = sums.energy + of_mount.energy;
+            sums.linear = add(sums.linear, linear);
+            sums.angular_b = add(sums.angular_b, add(angular, cross(motion.origin, linear)));
+            let mass = constants.body.m_b;
+            let turning = add(*s_prime, cross(motion.relative, *s));
+            let own = [add(scale(mass, motion.origin), rotate(&motion.axes, *s)), {
+                add(scale(mass, motion.origin_prime), rotate(&motion.axes, turning))
+            }];
+            for (sum, own) in first_moment.iter_mut().zip(own) {
+                *sum = add(*sum, own);
+            }
+        }
+        WholeSums { bn, sums, first_moment, mounts }
+    }
+
+    /// Energy, momenta and first moments of the structure, (F3).
+    fn structure_sums<A>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        r_b_n_dot: Vec3<D::Scalar>,
+        omega: Vec3<D::Scalar>,
+    ) -> (BodySums<D::Scalar>, [Vec3<D::Scalar>; 2]) {
+        let rates = state.eta_dot.as_ref();
+        let (linear, angular) = parted(&combined(self.momenta.as_ref(), rates));
+        let body = self.deformed(state);
+        let rigid = body.sums(r_b_n_dot, omega);
+        let own = rates
+            .iter()
+            .take(self.massive())
+            .fold(zero(), |sum, rate| sum + half::<D::Scalar>() * (*rate * *rate));
+        let sums = BodySums {
+            energy: rigid.energy + dot(r_b_n_dot, linear) + dot(omega, angular) + own,
+            linear: add(rigid.linear, linear),
+            angular_b: add(rigid.angular_b, angular),
+        };
+        (sums, [body.first_moment, linear])
+    }
+
+    /// Rejects a state that is not finite, or has another number of devices or modes.
+    pub(crate) fn reject_state<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        check_counts::<D>(&self.rigid.devices, &state.rigid.devices, None, None)?;
+        reject(self.rigid.not_finite_in_state(&state.rigid))?;
+        self.reject_modal(state)
+    }
+}
+
+/// The sums of a body that is subtracted.
+fn without<T: Scalar>(body: &HubConstants<T>, velocity: Vec3<T>, omega: Vec3<T>) -> BodySums<T> {
+    let BodySums { energy, linear, angular_b } = body.sums(velocity, omega);
+    BodySums { energy: -energy, linear: neg(linear), angular_b: neg(angular_b) }
+}

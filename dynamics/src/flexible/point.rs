@@ -1,0 +1,138 @@
+//! [`PointMotion`]: how a point of the structure moves, an optic or a star tracker.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::error::{Quantity, SolveError};
+use crate::flexible::block::{Six, add_scaled, joined, parted, times};
+use crate::flexible::modes::ModalPoint;
+use crate::flexible::mount::MountMotion;
+use crate::flexible::spacecraft::FlexibleSpacecraft;
+use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
+use crate::flexible::storage::ModalStorage;
+use crate::numbers::real::{Scalar, zero};
+use crate::numbers::vec3::{add, columns, components, cross, finite, rotate, scale, vector, zeros};
+use crate::sets::devices::Devices;
+
+/// Place and velocity of a point of the structure, all expressed in B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointMotion<T = f64> {
+    /// `Phi eta`, displacement in B, m.
+    pub displacement: Vector3<T>,
+    /// `Psi eta`, rotation vector in B, rad.
+    pub rotation: Vector3<T>,
+    /// Columns: the axes of the point, `exp(tilde(Psi eta))`.
+    pub axes: Matrix3<T>,
+    /// Inertial velocity, m/s.
+    pub velocity: Vector3<T>,
+    /// Inertial angular velocity, rad/s.
+    pub omega: Vector3<T>,
+}
+
+/// Acceleration of a point of the structure, all expressed in B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointAcceleration<T = f64> {
+    /// Inertial acceleration, m/s²; an accelerometer reads it less gravity.
+    pub acceleration: Vector3<T>,
+    /// Derivative of the inertial angular velocity, rad/s².
+    pub omega_dot: Vector3<T>,
+}
+
+/// The motion of a point as if it were a mount; displacement above rotation, and their rates.
+type MovingPoint<T> = (MountMotion<T>, [Six<T>; 2]);
+
+impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+    /// Place and velocity of a point, (F5) and (F6).
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::NotFinite`], [`SolveError::ModalCount`] also for the shapes of the point,
+    /// [`SolveError::Overflow`].
+    pub fn point_motion<A: Attitude<D::Scalar>>(
+        &self,
+        point: &ModalPoint<S, D::Scalar>,
+        state: &FlexibleState<D, S, A>,
+    ) -> Result<PointMotion<D::Scalar>, SolveError<D::Scalar>> {
+        let (motion, [q, q_dot]) = self.moving_point(point, state)?;
+        let ((displacement, rotation), (rate, _)) = (parted(&q), parted(&q_dot));
+        let arm = add(components(&point.position), displacement);
+        let bn = columns(&state.rigid.attitude.dcm());
+        let of_b = rotate(&bn, components(&state.rigid.r_b_n_dot));
+        let velocity = add(of_b, add(cross(components(&state.rigid.omega), arm), rate));
+        let omega = rotate(&motion.axes, motion.omega);
+        if !(finite(displacement) && finite(rotation) && finite(velocity) && finite(omega)) {
+            return Err(SolveError::Overflow { what: Quantity::Velocity });
+        }
+        let [x, y, z] = motion.axes.map(vector);
+        Ok(PointMotion {
+            displacement: vector(displacement),
+            rotation: vector(rotation),
+            axes: Matrix3::from_columns(&[x, y, z]),
+            velocity: vector(velocity),
+            omega: vector(omega),
+        })
+    }
+
+    /// Acceleration of a point, (F8).
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::point_motion`], and of the accelerations.
+    pub fn point_acceleration<A: Attitude<D::Scalar>>(
+        &self,
+        point: &ModalPoint<S, D::Scalar>,
+        state: &FlexibleState<D, S, A>,
+        accelerations: &FlexibleAccelerations<D, S>,
+    ) -> Result<PointAcceleration<D::Scalar>, SolveError<D::Scalar>> {
+        let (motion, [q, q_dot]) = self.moving_point(point, state)?;
+        let eta_ddot = accelerations.eta_ddot.as_ref();
+        self.rigid.reject_accelerations(&state.rigid, &accelerations.rigid)?;
+        self.reject_numbers(eta_ddot, |_| Quantity::ModalAcceleration)?;
+        let ((shift, _), (rate, _)) = (parted(&q), parted(&q_dot));
+        let q_ddot = shape_sum(point, eta_ddot);
+        let (arm, omega) = (add(components(&point.position), shift), &state.rigid.omega);
+        let (omega, turning) = (components(omega), components(&accelerations.rigid.omega_dot));
+        let relative = add(parted(&q_ddot).0, scale(D::Scalar::from_f64(2.0), cross(omega, rate)));
+        let carried = add(cross(turning, arm), cross(omega, cross(omega, arm)));
+        let of_b = components(&accelerations.rigid.r_b_n_ddot);
+        let acceleration = add(of_b, add(carried, relative));
+        let of_hub = times(&motion.of_hub, &joined(zeros(), turning));
+        let of_shape = times(&motion.of_shape, &q_ddot);
+        let ((_, hub), (_, shape), (_, bias)) =
+            (parted(&of_hub), parted(&of_shape), parted(&motion.bias));
+        let omega_dot = rotate(&motion.axes, add(add(hub, shape), bias));
+        if !(finite(acceleration) && finite(omega_dot)) {
+            return Err(SolveError::Overflow { what: Quantity::HubAcceleration });
+        }
+        Ok(PointAcceleration { acceleration: vector(acceleration), omega_dot: vector(omega_dot) })
+    }
+
+    /// The motion of a point as if it were a mount, displacement and rotation with their rates.
+    fn moving_point<A: Attitude<D::Scalar>>(
+        &self,
+        point: &ModalPoint<S, D::Scalar>,
+        state: &FlexibleState<D, S, A>,
+    ) -> Result<MovingPoint<D::Scalar>, SolveError<D::Scalar>> {
+        self.reject_state(state)?;
+        let expected = self.modes();
+        for found in [point.translation.as_ref().len(), point.rotation.as_ref().len()] {
+            if found != expected {
+                return Err(SolveError::ModalCount { expected, found });
+            }
+        }
+        let q = [&state.eta, &state.eta_dot].map(|numbers| shape_sum(point, numbers.as_ref()));
+        let [now, rate] = &q;
+        let (position, omega) = (components(&point.position), components(&state.rigid.omega));
+        Ok((MountMotion::new(position, now, rate, omega), q))
+    }
+}
+
+/// Displacement and rotation of a point for modal coordinates.
+fn shape_sum<S: ModalStorage, T: Scalar>(point: &ModalPoint<S, T>, eta: &[T]) -> Six<T> {
+    let mut sum = [zero(); 6];
+    let shapes = point.translation.as_ref().iter().zip(point.rotation.as_ref());
+    for ((translation, rotation), eta) in shapes.zip(eta) {
+        add_scaled(&mut sum, *eta, &joined(components(translation), components(rotation)));
+    }
+    sum
+}

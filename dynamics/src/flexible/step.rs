@@ -1,0 +1,180 @@
+//! The classical fourth-order Runge-Kutta step of a structure that bends.
+//!
+//! The step must resolve the fastest wheel and the fastest mode.
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::error::{Quantity, SolveError};
+use crate::equations::stiffness::Stiffness;
+use crate::flexible::inputs::FlexibleInputs;
+use crate::flexible::spacecraft::FlexibleSpacecraft;
+use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
+use crate::flexible::storage::ModalStorage;
+use crate::integrate::stability::PassiveStep;
+use crate::numbers::real::{Real, Scalar, half, zero};
+use crate::results::ledger::Power;
+use crate::sets::devices::Devices;
+use crate::solve::accelerations::overflow;
+
+/// Result of [`FlexibleSpacecraft::step_with_work`]: the state after the step, and the work during it.
+#[derive(Clone, Debug)]
+pub struct FlexibleStepped<D: Devices, S: ModalStorage, A> {
+    /// The state after the step.
+    pub state: FlexibleState<D, S, A>,
+    /// Work of each source during the step, J.
+    pub work: Power<D::Scalar>,
+}
+
+impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+    /// The state after `dt` seconds, with inputs constant in the axes in which they are expressed.
+    ///
+    /// The attitude is normalised at the end of the step; joint angles are not wrapped.
+    ///
+    /// Stability is checked for the fastest vibration of structure and
+    /// devices ([`SolveError::UnstableModes`]), and for springs, dampers and friction of the joints
+    /// on the rigid structure ([`SolveError::Unstable`]).
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::accelerations`], [`Quantity::TimeStep`] for a `dt` that is not finite, and the
+    /// two above.
+    pub fn step<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        dt: D::Scalar,
+    ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
+        self.stepped(state, inputs, dt, |_, stage, found, stiffness| {
+            self.solve(stage, inputs, found, stiffness)
+        })
+    }
+
+    /// [`Self::step`], with the work of each source during the step: what the ledger calls power,
+    /// in J, integrated to the order of the step.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::step`].
+    pub fn step_with_work<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        dt: D::Scalar,
+    ) -> Result<FlexibleStepped<D, S, A>, SolveError<D::Scalar>> {
+        let mut work = Power::none();
+        let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
+            self.solve(stage, inputs, found, stiffness)?;
+            work = work.plus_scaled(weight, &self.ledger(stage, inputs, found)?.whole.power);
+            Ok(())
+        })?;
+        if work.is_finite() {
+            Ok(FlexibleStepped { state: next, work })
+        } else {
+            Err(SolveError::Overflow { what: Quantity::Work })
+        }
+    }
+
+    /// One step; `evaluate` gets the weight of a stage in the sum of slopes, s, and its state, and
+    /// writes accelerations and, if there are springs or friction, stiffness.
+    fn stepped<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        dt: D::Scalar,
+        evaluate: impl FnMut(
+            D::Scalar,
+            &FlexibleState<D, S, A>,
+            &mut FlexibleAccelerations<D, S>,
+            Option<&mut Stiffness<D::Scalar>>,
+        ) -> Result<(), SolveError<D::Scalar>>,
+    ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
+        if !dt.is_finite() {
+            return Err(SolveError::NotFinite { what: Quantity::TimeStep, value: dt });
+        }
+        if !self.are_finite(state, inputs) {
+            return Err(self.diagnosis(state, inputs, overflow()));
+        }
+        self.check_modes_of_step(inputs, dt)?;
+        self.advance(state, inputs, dt, evaluate)
+            .map_err(|failure| self.diagnosis(state, inputs, failure))
+    }
+
+    fn advance<A: Attitude<D::Scalar>>(
+        &self,
+        start: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+        dt: D::Scalar,
+        mut evaluate: impl FnMut(
+            D::Scalar,
+            &FlexibleState<D, S, A>,
+            &mut FlexibleAccelerations<D, S>,
+            Option<&mut Stiffness<D::Scalar>>,
+        ) -> Result<(), SolveError<D::Scalar>>,
+    ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
+        let middle = half::<D::Scalar>() * dt;
+        let sixth = dt * D::Scalar::from_f64(6.0).recip();
+        let third = dt * D::Scalar::from_f64(3.0).recip();
+
+        let mut found = self.no_accelerations();
+        let mut stage = start.clone();
+        stage.rigid.attitude = start.rigid.attitude.regular();
+        let attitude = stage.rigid.attitude;
+        let mut sum = FlexibleState::<D, S, A>::at_rest_for(self);
+        let mut rates = [(zero(), attitude.rate(&start.rigid.omega)); 4];
+        let mut passive = self.rigid.passive.then(|| PassiveStep::new(&self.rigid, &start.rigid));
+        let stages = [(sixth, middle), (third, middle), (third, dt), (sixth, zero())];
+        for ((weight, offset), rate) in stages.into_iter().zip(&mut rates) {
+            let stiffness = passive.as_mut().map(|passive| passive.stage(&stage.rigid));
+            evaluate(weight, &stage, &mut found, stiffness)
+                .map_err(|failure| self.cause(&stage, inputs, failure))?;
+            *rate = (weight, stage.rigid.attitude.rate(&stage.rigid.omega));
+            stage.rigid.follow(&start.rigid, &found.rigid, [weight, offset], &mut sum.rigid);
+            stage.rigid.attitude = attitude.advanced(&[(offset, rate.1)]);
+            follow(&mut stage, start, found.eta_ddot.as_ref(), [weight, offset], &mut sum);
+        }
+        let mut next = stage;
+        next.rigid.add(&start.rigid, &sum.rigid);
+        next.rigid.attitude = attitude.advanced(&rates).normalised();
+        add(next.eta.as_mut(), start.eta.as_ref(), sum.eta.as_ref());
+        add(next.eta_dot.as_mut(), start.eta_dot.as_ref(), sum.eta_dot.as_ref());
+        self.rigid.check_reached(&next.rigid)?;
+        if self.reject_modal(&next).is_err() {
+            return Err(SolveError::Overflow { what: Quantity::ModalAcceleration });
+        }
+        match passive {
+            Some(passive) => {
+                passive.check(&self.rigid, &start.rigid, &next.rigid, &inputs.rigid, dt)?;
+                Ok(next)
+            }
+            None => Ok(next),
+        }
+    }
+}
+
+/// Adds `weight` times the slope of the modal coordinates to `sum`, and sets those of the next
+/// stage.
+fn follow<D: Devices, S: ModalStorage, A>(
+    stage: &mut FlexibleState<D, S, A>,
+    start: &FlexibleState<D, S, A>,
+    eta_ddot: &[D::Scalar],
+    [weight, offset]: [D::Scalar; 2],
+    sum: &mut FlexibleState<D, S, A>,
+) {
+    let now = stage.eta.as_mut().iter_mut().zip(stage.eta_dot.as_mut());
+    let from = start.eta.as_ref().iter().zip(start.eta_dot.as_ref());
+    let sums = sum.eta.as_mut().iter_mut().zip(sum.eta_dot.as_mut());
+    for ((((eta, rate), (from, rate_from)), (sum, sum_of_rate)), acceleration) in
+        now.zip(from).zip(sums).zip(eta_ddot)
+    {
+        *sum = *sum + weight * *rate;
+        *sum_of_rate = *sum_of_rate + weight * *acceleration;
+        *eta = *from + offset * *rate;
+        *rate = *rate_from + offset * *acceleration;
+    }
+}
+
+/// `to = start + sum`.
+fn add<T: Scalar>(to: &mut [T], start: &[T], sum: &[T]) {
+    for (to, (start, sum)) in to.iter_mut().zip(start.iter().zip(sum)) {
+        *to = *start + *sum;
+    }
+}

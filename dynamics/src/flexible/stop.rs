@@ -1,0 +1,121 @@
+//! The impulsive stop on a structure that bends: joints stopped impulsively, as by a rigid brake.
+//!
+//! As on a rigid hub, velocities jump, positions and the deformation do not, and `M Δ = impulses`
+//! is the equations of motion at rest, with jumps for accelerations, (F9). The rates of the modes
+//! jump too: an impulse at a mount starts them.
+
+use crate::attitude::parameterisation::Attitude;
+use crate::equations::error::SolveError;
+use crate::equations::gravity::Gravity;
+use crate::equations::joint_inputs::Environment;
+use crate::equations::system::Solution;
+use crate::flexible::inputs::FlexibleInputs;
+use crate::flexible::spacecraft::FlexibleSpacecraft;
+use crate::flexible::state::FlexibleState;
+use crate::flexible::storage::ModalStorage;
+use crate::model::mode::{HubMode, Mode};
+use crate::model::wrench::Wrench;
+use crate::numbers::each::{Each, JointStates};
+use crate::numbers::real::zero;
+use crate::numbers::vec3::{
+    add, columns, components, neg, rotate, rotate_transposed, sub, vector, zeros,
+};
+use crate::sets::devices::Devices;
+use crate::sets::per_device as data;
+use crate::solve::accelerations::overflow;
+
+/// The state of a [`FlexibleSpacecraft`] after an impulsive stop, and the energy lost.
+#[derive(Clone, Debug)]
+pub struct FlexibleStopped<D: Devices, S: ModalStorage, A> {
+    /// The state with its new velocities; every locked joint is at rest.
+    pub state: FlexibleState<D, S, A>,
+    /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero but
+    /// for rounding, unless a joint or the hub is prescribed. Of a free hub it is counted in the
+    /// frame that moved with B, where no digit is lost to the orbit's speed.
+    pub energy_lost: D::Scalar,
+}
+
+impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
+    /// Stops every joint that `inputs` has locked, and the frame B if it is fixed, impulsively.
+    ///
+    /// Driven joints and modes take what impulse reaches them through the structure, prescribed
+    /// joints keep their rates. Linear and angular momentum stay, unless the hub is fixed or
+    /// prescribed; energy is lost.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::accelerations`], but a moving joint may be locked.
+    pub fn stop<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+    ) -> Result<FlexibleStopped<D, S, A>, SolveError<D::Scalar>> {
+        self.reject(state, inputs)?;
+        let next =
+            self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
+        let (mut before, mut after) = (state.clone(), next.clone());
+        if inputs.rigid.hub == HubMode::Free {
+            // Momentum stays, so every frame counts the same loss.
+            let [old, new] = [state, &next].map(|state| components(&state.rigid.r_b_n_dot));
+            before.rigid.r_b_n_dot = vector(zeros());
+            after.rigid.r_b_n_dot = vector(sub(new, old));
+        }
+        let energy_lost = self.energy(&before)? - self.energy(&after)?;
+        self.rigid.check_reached(&next.rigid)?;
+        Ok(FlexibleStopped { state: next, energy_lost })
+    }
+
+    fn jump<A: Attitude<D::Scalar>>(
+        &self,
+        state: &FlexibleState<D, S, A>,
+        inputs: &FlexibleInputs<D, S>,
+    ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
+        let still = zeros();
+        let mut impulses = inputs.clone();
+        impulses.rigid.gravity = Gravity::None;
+        (impulses.rigid.force, impulses.rigid.torque_b) = (vector(still), vector(still));
+        impulses.rigid.motors = D::new_data(&self.rigid.devices, &data::Motors);
+        impulses.rigid.bodies = None;
+        impulses.modal.as_mut().fill(zero());
+        impulses.mounts.as_mut().fill(Wrench::none());
+        let mut posed = state.clone();
+        posed.eta_dot.as_mut().fill(zero());
+
+        let environment = Environment { omega: still, central: None, impulse: true };
+        let mut stages = self.stages(&posed, &impulses, &environment);
+        let mut gains = D::new_data(&self.rigid.devices, &data::Gains);
+        self.eliminate(&posed, &impulses, stages.as_mut(), &mut gains)?;
+        let structure = self.structure(&posed, &impulses, still);
+        let bn = columns(&state.rigid.attitude.dcm());
+        let velocity = rotate(&bn, components(&state.rigid.r_b_n_dot));
+        let omega = components(&state.rigid.omega);
+        let given = match inputs.rigid.hub {
+            HubMode::Free => None,
+            HubMode::Fixed => Some(Solution { r_b_n_ddot: neg(velocity), omega_dot: neg(omega) }),
+            HubMode::Prescribed { .. } => Some(Solution { r_b_n_ddot: still, omega_dot: still }),
+        };
+        let (mut jumps, forces) = (self.no_accelerations(), &impulses.modal);
+        let stages = stages.as_ref();
+        let hub = self.substitute(stages, &structure, forces, given, &gains, &mut jumps)?;
+        if !jumps.rigid.devices.values().all(crate::numbers::real::Scalar::is_finite) {
+            return Err(overflow());
+        }
+
+        let mut next = state.clone();
+        let of_joints = jumps.rigid.devices.values().zip(inputs.rigid.modes.values());
+        for ([_, rate], (jump, mode)) in next.rigid.devices.states_mut().zip(of_joints) {
+            // At rest exactly, without rounding.
+            *rate = if mode == Mode::Locked { zero() } else { *rate + jump };
+        }
+        for (rate, jump) in next.eta_dot.as_mut().iter_mut().zip(jumps.eta_ddot.as_ref()) {
+            *rate = *rate + *jump;
+        }
+        next.rigid.omega = vector(add(omega, hub.omega_dot));
+        let jump = rotate_transposed(&bn, hub.r_b_n_ddot);
+        next.rigid.r_b_n_dot = vector(add(components(&state.rigid.r_b_n_dot), jump));
+        if inputs.rigid.hub == HubMode::Fixed {
+            (next.rigid.omega, next.rigid.r_b_n_dot) = (vector(still), vector(still));
+        }
+        Ok(next)
+    }
+}
