@@ -18,8 +18,12 @@ const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-ffp-
 /// The workspace of what is linked on board.
 pub(crate) const MANIFEST: &str = "flight/Cargo.toml";
 const HEADER: &str = "flight/capi/include/precess.h";
-const LAYOUT: &str = "flight/capi/tests/layout.c";
+const LAYOUTS: [(&str, &str); 2] =
+    [("layout", "flight/capi/tests/layout.c"), ("layout-v2", "flight/capi/tests/layout_v2.c")];
+/// A program of version 1 of the interface.
 const PROGRAM: &[&str] = &["flight/capi/tests/abi.c"];
+/// A program of version 2, with a part of version 1.
+const PROGRAM_2: &[&str] = &["flight/capi/tests/version2.c", "flight/capi/tests/version1.c"];
 const GUIDE: &str = "flight/README.md";
 const APP: &[&str] = &["flight/examples/cfs_app/main.c", "flight/examples/cfs_app/dyn_app.c"];
 /// What the application prints.
@@ -61,15 +65,21 @@ struct Host {
 pub(crate) fn host() -> Result<(), String> {
     let host = built()?;
     host.exports()?;
-    let mut outputs = Vec::new();
+    let (mut outputs, mut second) = (Vec::new(), Vec::new());
     for compiler in &COMPILERS {
         if !is_there(compiler.name) {
             skip(&format!("C interface by {}", compiler.name), compiler.install)?;
             continue;
         }
-        host.compile(compiler, "layout", &[LAYOUT], &["-c"], false)?;
+        for (name, layout) in LAYOUTS {
+            host.compile(compiler, name, &[layout], &["-c"], false)?;
+        }
         let program = host.compile(compiler, "abi", PROGRAM, &["-O2", "-DHOSTED"], true)?;
         outputs.push((program.clone(), printed(&mut Command::new(&program))?));
+        for (name, option) in [("version2", "-O2"), ("version2-1", "-O1")] {
+            let program = host.compile(compiler, name, PROGRAM_2, &[option, "-DHOSTED"], true)?;
+            second.push((program.clone(), printed(&mut Command::new(&program))?));
+        }
         let first = host.guide()?;
         let first = host.compile(compiler, "first", &[&first], &["-O2"], true)?;
         printed(&mut Command::new(first))?;
@@ -79,15 +89,27 @@ pub(crate) fn host() -> Result<(), String> {
     let gcc = &COMPILERS[0];
     if is_there(gcc.name) {
         outputs.extend(host.checked(gcc)?);
+        let options = ["-g", "-O1", "-DHOSTED", "-fsanitize=address,undefined"];
+        let program = host.compile(gcc, "version2", PROGRAM_2, &options, true)?;
+        second.push((program.clone(), printed(&mut Command::new(&program))?));
     }
-    for (program, output) in &outputs {
+    for (version, outputs) in [(1, &outputs), (2, &second)] {
+        same(outputs)?;
+        let count = outputs.len();
+        say!("version {version}: {count} programs in C and C++ print the same bits");
+    }
+    host.desktop()
+}
+
+/// All programs pass, and print the same.
+fn same(outputs: &[(PathBuf, String)]) -> Result<(), String> {
+    for (program, output) in outputs {
         let passed = output.ends_with("passed\n") && output.lines().count() > 100;
         if !passed || Some(output) != outputs.first().map(|(_, first)| first) {
             return Err(format!("{} prints other bits, or fails:\n{output}", program.display()));
         }
     }
-    say!("{} programs in C and C++ print the same bits", outputs.len());
-    host.desktop()
+    Ok(())
 }
 
 /// Builds both libraries, and runs their unit tests.
@@ -234,12 +256,18 @@ impl Host {
     }
 }
 
-/// The functions that a header declares.
+/// The functions that a header declares, and the names that it gives them in version 2.
 fn functions(header: &str) -> impl Iterator<Item = &str> {
-    header.lines().filter(|line| !line.starts_with([' ', '#', '/', '*'])).filter_map(|line| {
-        let (before, _) = line.split_once('(')?;
-        before.rsplit([' ', '*']).next().filter(|name| name.starts_with("precess_"))
-    })
+    let renamed = header.lines().filter_map(|line| {
+        let (name, second) = line.strip_prefix("#define ")?.split_once(' ')?;
+        second.strip_prefix(name).filter(|end| *end == "_v2").map(|_| second)
+    });
+    let declared =
+        header.lines().filter(|line| !line.starts_with([' ', '#', '/', '*'])).filter_map(|line| {
+            let (before, _) = line.split_once('(')?;
+            before.rsplit([' ', '*']).next().filter(|name| name.starts_with("precess_"))
+        });
+    declared.chain(renamed)
 }
 
 fn is_there(program: &str) -> bool {
@@ -271,7 +299,9 @@ mod tests {
     #[test]
     fn functions_are_found_by_their_declarations() {
         let header = "/* precess_no(1) */\nint32_t precess_yes(void);\nconst char *precess_too(int \
-                      a,\n                precess_not(b));\n#define precess_never(x) x\n";
-        assert_eq!(functions(header).collect::<Vec<_>>(), ["precess_yes", "precess_too"]);
+                      a,\n                precess_not(b));\n#define precess_never(x) x\n#define \
+                      precess_yes precess_yes_v2\n";
+        let expected = ["precess_yes", "precess_too", "precess_yes_v2"];
+        assert_eq!(functions(header).collect::<Vec<_>>(), expected);
     }
 }

@@ -28,17 +28,45 @@ extern "C" {
 /* Version of this header, 0x00MMmmpp; precess_version() is that of the library. */
 #define PRECESS_VERSION 0x00000100
 
+/* Version of the interface: that of the layout of a parameter table, and of the structures below. 1 unless
+ * it is defined before this header is included; 2 is for devices of up to six joints. The library has the
+ * functions of both: a program compiled with version 1 needs no change. Structures and spacecraft of one
+ * version are not for functions of the other; tables of version 1 are read by both. */
+#ifndef PRECESS_TABLE_VERSION
+#define PRECESS_TABLE_VERSION 1
+#endif
+
 #define PRECESS_MAX_DEVICES 8
-#define PRECESS_MAX_JOINTS 3
 #define PRECESS_MAX_SUBSTEPS 1000
+
+/* Joints of a device, and length of a parameter table in bytes for so many devices. */
+#if PRECESS_TABLE_VERSION == 1
+#define PRECESS_MAX_JOINTS 3
+#define PRECESS_TABLE_SIZE(devices) (124 + 584 * (devices))
+#elif PRECESS_TABLE_VERSION == 2
+#define PRECESS_MAX_JOINTS 6
+#define PRECESS_TABLE_SIZE(devices) (124 + 1088 * (devices))
+#define precess_init precess_init_v2
+#define precess_init_from_table precess_init_from_table_v2
+#define precess_table_write precess_table_write_v2
+#define precess_state_at_rest precess_state_at_rest_v2
+#define precess_state_wrap precess_state_wrap_v2
+#define precess_state_save precess_state_save_v2
+#define precess_state_restore precess_state_restore_v2
+#define precess_inputs_none precess_inputs_none_v2
+#define precess_accelerations_of precess_accelerations_of_v2
+#define precess_step precess_step_v2
+#define precess_stop precess_stop_v2
+#define precess_energy precess_energy_v2
+#define precess_momentum_of precess_momentum_of_v2
+#define precess_loads_of precess_loads_of_v2
+#else
+#error "PRECESS_TABLE_VERSION is 1 or 2"
+#endif
 
 /* Memory of a spacecraft, in bytes. */
 #define PRECESS_SPACECRAFT_SIZE 16384
 #define PRECESS_SPACECRAFT_ALIGN 8
-
-/* Version of the layout of a parameter table, and its length in bytes for so many devices. */
-#define PRECESS_TABLE_VERSION 1
-#define PRECESS_TABLE_SIZE(devices) (124 + 584 * (devices))
 
 /* Error codes. precess_error_text has the remedy. */
 enum {
@@ -67,7 +95,8 @@ enum {
     PRECESS_ERROR_TABLE_LENGTH = 22,
     PRECESS_ERROR_TABLE_CHECKSUM = 23,
     PRECESS_ERROR_OTHER = 24,
-    PRECESS_ERROR_UNSTABLE = 25
+    PRECESS_ERROR_UNSTABLE = 25,
+    PRECESS_ERROR_MANY_JOINTS = 26
 };
 
 /* Kinds of devices, with their joints from the hub outwards. At zero, outer and only gimbals turn
@@ -86,7 +115,10 @@ enum {
     PRECESS_KIND_REACTION_WHEEL = 9,          /* wheel */
     PRECESS_KIND_BALANCED_REACTION_WHEEL = 10, /* wheel */
     PRECESS_KIND_HINGED_PANEL = 11,           /* panel, which turns about z */
-    PRECESS_KIND_SLOSH_MASS = 12              /* point mass, which slides along x */
+    PRECESS_KIND_SLOSH_MASS = 12,             /* point mass, which slides along x */
+    PRECESS_KIND_FLEXIBLE_REACTION_WHEEL = 13 /* bearings: axial slide (x), radial slides y and z, tilts y
+                                                 and z; wheel. Version 2. Only the wheel has a body, only
+                                                 the first joint an origin */
 };
 
 /* Model of a wheel's imbalance: the rotor itself, or the usual lumped disturbance (only
@@ -253,8 +285,9 @@ int32_t precess_init_from_table(void *memory, size_t size, const uint8_t *table,
 /* Writes the parameter table of a hub and `count` devices; its bytes are counted in `length`.
  * The parameters are checked by precess_init_from_table, not here. Little-endian on every target:
  * offset 0 "PREC"; 4 version; 8 length in bytes; 12 number of devices n (32 bits each); 16 the hub,
- * 13 doubles; 120 + 584 k device k, 2 integers of 32 bits and 72 doubles; both in the order of their
- * structures, nothing padded; 120 + 584 n CRC-32 of all before (ISO-HDLC, that of zip). */
+ * 13 doubles; 120 + s k device k, 2 integers of 32 bits and 72 doubles, in version 2 135; both in the order
+ * of their structures, nothing padded; 120 + s n CRC-32 of all before (ISO-HDLC, that of zip). s is 584, in
+ * version 2 1088. */
 int32_t precess_table_write(const precess_hub *hub, const precess_device *devices, uint32_t count,
                             uint8_t *table, size_t capacity, size_t *length);
 

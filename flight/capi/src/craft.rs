@@ -16,8 +16,11 @@ pub const SIZE: usize = 16_384;
 /// `PRECESS_SPACECRAFT_ALIGN`.
 pub const ALIGN: usize = 8;
 
-/// The first field of a valid spacecraft; with the version, so that other builds reject it.
-const MADE: u64 = 0x5052_4543_0000_0000 | crate::VERSION as u64;
+/// The first field of a valid spacecraft; with the version, so that other builds reject it, and with the
+/// joints that a device has at most, so that structures of another version of the interface are rejected.
+const fn made_by(joints: usize) -> u64 {
+    0x5052_4543_0000_0000 | (joints as u64) << 24 | crate::VERSION as u64
+}
 
 /// The contents of the caller's memory.
 #[repr(C)]
@@ -38,11 +41,17 @@ const _: () = assert!(size_of::<Craft>() <= SIZE && align_of::<Craft>() <= ALIGN
 ///
 /// The pointer points to `PRECESS_SPACECRAFT_SIZE` readable bytes, which nobody but `precess_init`
 /// has written to if they begin as a spacecraft.
-pub(crate) unsafe fn craft<'a>(pointer: *const Craft) -> Result<&'a Craft, Code> {
+pub(crate) unsafe fn craft<'a, const J: usize>(pointer: *const Craft) -> Result<&'a Craft, Code> {
+    // SAFETY: by contract.
+    unsafe { craft_of(pointer, &[J]) }
+}
+
+/// The spacecraft at a pointer, made by one of these versions of the interface.
+unsafe fn craft_of<'a>(pointer: *const Craft, versions: &[usize]) -> Result<&'a Craft, Code> {
     check(pointer)?;
     // SAFETY: not null, aligned, readable; the first field is a number.
     let made = unsafe { (&raw const (*pointer).made).read() };
-    if made != MADE {
+    if !versions.iter().any(|joints| made == made_by(*joints)) {
         return Err(Code::NotInitialised);
     }
     // SAFETY: `precess_init` has made it.
@@ -87,7 +96,10 @@ pub(crate) unsafe fn report(
 }
 
 /// Makes a spacecraft of a hub and devices.
-pub(crate) fn made(hub: &Hub, devices: &[Device]) -> Result<Spacecraft<List>, Rejection> {
+pub(crate) fn made<const J: usize>(
+    hub: &Hub,
+    devices: &[Device<J>],
+) -> Result<Spacecraft<List>, Rejection> {
     if devices.len() > MAX_DEVICES {
         return Err(Code::TooMany.into());
     }
@@ -112,7 +124,7 @@ pub(crate) fn made(hub: &Hub, devices: &[Device]) -> Result<Spacecraft<List>, Re
 /// # Safety
 ///
 /// `memory` points to `size` writable bytes.
-pub(crate) unsafe fn make_in(
+pub(crate) unsafe fn make_in<const J: usize>(
     memory: *mut c_void,
     size: usize,
     make: impl FnOnce() -> Result<Spacecraft<List>, Rejection>,
@@ -126,7 +138,7 @@ pub(crate) unsafe fn make_in(
     unsafe { (&raw mut (*craft).made).write(0) };
     let spacecraft = make()?;
     // SAFETY: as before.
-    unsafe { craft.write(Craft { made: MADE, spacecraft }) };
+    unsafe { craft.write(Craft { made: made_by(J), spacecraft }) };
     Ok(())
 }
 
@@ -141,12 +153,11 @@ pub(crate) fn matrix(rows: &[f64; 9]) -> Matrix3<f64> {
 ///
 /// `memory` points to `size` writable bytes, `hub` to a hub, `devices` to `count` devices, `fault`
 /// is null or points to a fault.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_init(
+pub(crate) unsafe fn init<const J: usize>(
     memory: *mut c_void,
     size: usize,
     hub: *const Hub,
-    devices: *const Device,
+    devices: *const Device<J>,
     count: u32,
     fault: *mut Fault,
 ) -> i32 {
@@ -159,7 +170,7 @@ pub unsafe extern "C" fn precess_init(
         made(&hub, devices)
     };
     // SAFETY: by contract.
-    let result = unsafe { make_in(memory, size, make) };
+    let result = unsafe { make_in::<J>(memory, size, make) };
     // SAFETY: by contract.
     unsafe { report(None, result, fault) }
 }
@@ -168,14 +179,14 @@ pub unsafe extern "C" fn precess_init(
 ///
 /// # Safety
 ///
-/// As [`craft`]; `to` points to a writable `T`.
-unsafe fn query<T: Plain>(
+/// As [`craft()`]; `to` points to a writable `T`.
+pub(crate) unsafe fn query<T: Plain>(
     pointer: *const Craft,
     to: *mut T,
     of: impl FnOnce(&Spacecraft<List>) -> T,
 ) -> i32 {
     // SAFETY: by contract.
-    let done = unsafe { craft(pointer) }.and_then(|craft| {
+    let done = unsafe { craft_of(pointer, &crate::VERSIONS) }.and_then(|craft| {
         // SAFETY: by contract.
         unsafe { memory::write(to, of(&craft.spacecraft)) }
     });

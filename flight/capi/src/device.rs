@@ -1,7 +1,7 @@
 //! A device from its structure.
 
 use precess_dynamics::kind::{BodyParameters, ImbalanceModel};
-use precess_dynamics::{BuiltIn, BuiltInKind, DeviceParameters, Passive};
+use precess_dynamics::{BuiltIn, BuiltInKind, DeviceParameters, MAX_JOINTS, Passive};
 
 use crate::craft::matrix;
 use crate::error::{Code, Rejection};
@@ -13,31 +13,45 @@ fn kind_of(number: i32) -> Option<BuiltInKind> {
 }
 
 /// The device that a structure states.
-pub(crate) fn device_of(index: usize, device: &types::Device) -> Result<BuiltIn, Rejection> {
+pub(crate) fn device_of<const J: usize>(
+    index: usize,
+    device: &types::Device<J>,
+) -> Result<BuiltIn, Rejection> {
     let reject = |code: Code| Rejection { device: Some(index), ..code.into() };
     let kind = kind_of(device.kind).ok_or(reject(Code::UnknownKind))?;
+    if kind.joints().len() > J {
+        return Err(reject(Code::ManyJoints));
+    }
     let model = match device.model {
         0 => ImbalanceModel::Coupled,
         1 => ImbalanceModel::Lumped,
         _ => return Err(reject(Code::UnknownChoice)),
     };
-    let parameters = DeviceParameters {
+    let inertia = matrix(&[0.0; 9]);
+    let none = BodyParameters { origin: [0.0; 3], mass: 0.0, centre: [0.0; 3], inertia };
+    let mut parameters = DeviceParameters {
         mount: matrix(&device.mount),
-        bodies: device.bodies.map(|body| BodyParameters {
+        bodies: [none; MAX_JOINTS],
+        passive: [Passive::none(); MAX_JOINTS],
+        model,
+    };
+    for (to, body) in parameters.bodies.iter_mut().zip(&device.bodies) {
+        *to = BodyParameters {
             origin: body.origin,
             mass: body.mass,
             centre: body.centre,
             inertia: matrix(&body.inertia),
-        }),
-        passive: device.passive.map(|joint| Passive {
+        };
+    }
+    for (to, joint) in parameters.passive.iter_mut().zip(&device.passive) {
+        *to = Passive {
             stiffness: joint.stiffness,
             rest: joint.rest,
             viscous: joint.viscous,
             coulomb: joint.coulomb,
             coulomb_rate: joint.coulomb_rate,
-        }),
-        model,
-    };
+        };
+    }
     BuiltIn::new(kind, &parameters).map_err(|unsupported| Rejection {
         joint: Some(unsupported.body),
         ..reject(Code::UnsupportedParameter)

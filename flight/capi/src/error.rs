@@ -109,6 +109,9 @@ codes! {
     /// A step is too long for a spring, damper or friction.
     Unstable = 25, c"PRECESS_ERROR_UNSTABLE",
         c"dt is too long for a spring or friction; fault.bound is the longest, or raise coulomb_rate";
+    /// A kind of more joints than the structures of the caller hold.
+    ManyJoints = 26, c"PRECESS_ERROR_MANY_JOINTS",
+        c"the kind has more joints than PRECESS_MAX_JOINTS; define PRECESS_TABLE_VERSION as 2";
 }
 
 /// Where a rejection comes from: `precess_fault`.

@@ -19,13 +19,13 @@ pub const MAX_SUBSTEPS: u32 = 1000;
 /// # Safety
 ///
 /// As `craft::craft`; `fault` is null or points to a writable fault.
-pub(crate) unsafe fn with(
+pub(crate) unsafe fn with<const J: usize>(
     pointer: *const Craft,
     fault: *mut Fault,
     call: impl FnOnce(&Spacecraft<List>) -> Result<(), Rejection>,
 ) -> i32 {
     // SAFETY: by contract.
-    match unsafe { craft(pointer) } {
+    match unsafe { craft::<J>(pointer) } {
         Ok(craft) => {
             let result = call(&craft.spacecraft);
             // SAFETY: by contract.
@@ -41,10 +41,10 @@ pub(crate) unsafe fn with(
 /// # Safety
 ///
 /// Both pointers are null, misaligned, or point to readable structures.
-pub(crate) unsafe fn state_and_inputs(
+pub(crate) unsafe fn state_and_inputs<const J: usize>(
     spacecraft: &Spacecraft<List>,
-    state: *const types::State,
-    inputs: *const types::Inputs,
+    state: *const types::State<J>,
+    inputs: *const types::Inputs<J>,
 ) -> Result<(State<List>, Inputs<List>), Rejection> {
     // SAFETY: by contract.
     let state = state_of(spacecraft, &unsafe { read(state) }?);
@@ -53,11 +53,11 @@ pub(crate) unsafe fn state_and_inputs(
     Ok((state, inputs))
 }
 
-fn of_accelerations(found: &Accelerations<List>) -> types::Accelerations {
+fn of_accelerations<const J: usize>(found: &Accelerations<List>) -> types::Accelerations<J> {
     let mut to = types::Accelerations {
         linear: found.r_b_n_ddot.into(),
         angular: found.omega_dot.into(),
-        joint: Default::default(),
+        joint: [[0.0; J]; crate::MAX_DEVICES],
     };
     give(&mut to.joint, &found.devices, |acceleration| *acceleration);
     to
@@ -68,12 +68,11 @@ fn of_accelerations(found: &Accelerations<List>) -> types::Accelerations {
 /// # Safety
 ///
 /// `craft` points to a spacecraft, the others to their structures; `fault` may be null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_accelerations_of(
+pub(crate) unsafe fn accelerations_of<const J: usize>(
     craft: *const Craft,
-    state: *const types::State,
-    inputs: *const types::Inputs,
-    out: *mut types::Accelerations,
+    state: *const types::State<J>,
+    inputs: *const types::Inputs<J>,
+    out: *mut types::Accelerations<J>,
     fault: *mut Fault,
 ) -> i32 {
     let call = |craft: &Spacecraft<List>| {
@@ -84,7 +83,7 @@ pub unsafe extern "C" fn precess_accelerations_of(
         Ok(unsafe { write(out, of_accelerations(&found)) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, call) }
+    unsafe { with::<J>(craft, fault, call) }
 }
 
 /// See `precess.h`.
@@ -92,11 +91,10 @@ pub unsafe extern "C" fn precess_accelerations_of(
 /// # Safety
 ///
 /// `craft` points to a spacecraft, the others to their structures; `work` and `fault` may be null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_step(
+pub(crate) unsafe fn step<const J: usize>(
     craft: *const Craft,
-    state: *mut types::State,
-    inputs: *const types::Inputs,
+    state: *mut types::State<J>,
+    inputs: *const types::Inputs<J>,
     dt: f64,
     substeps: u32,
     work: *mut types::Power,
@@ -136,7 +134,7 @@ pub unsafe extern "C" fn precess_step(
         Ok(unsafe { write(state, structure_of(&next)) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, call) }
+    unsafe { with::<J>(craft, fault, call) }
 }
 
 /// See `precess.h`.
@@ -144,11 +142,10 @@ pub unsafe extern "C" fn precess_step(
 /// # Safety
 ///
 /// `craft` points to a spacecraft, the others to their structures; `lost` and `fault` may be null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_stop(
+pub(crate) unsafe fn stop<const J: usize>(
     craft: *const Craft,
-    state: *mut types::State,
-    inputs: *const types::Inputs,
+    state: *mut types::State<J>,
+    inputs: *const types::Inputs<J>,
     lost: *mut f64,
     fault: *mut Fault,
 ) -> i32 {
@@ -162,7 +159,7 @@ pub unsafe extern "C" fn precess_stop(
         Ok(unsafe { write(state, structure_of(&stopped.state)) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, call) }
+    unsafe { with::<J>(craft, fault, call) }
 }
 
 /// See `precess.h`.
@@ -170,10 +167,9 @@ pub unsafe extern "C" fn precess_stop(
 /// # Safety
 ///
 /// `craft` points to a spacecraft, the others to their structures; `fault` may be null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_energy(
+pub(crate) unsafe fn energy<const J: usize>(
     craft: *const Craft,
-    state: *const types::State,
+    state: *const types::State<J>,
     energy: *mut f64,
     fault: *mut Fault,
 ) -> i32 {
@@ -184,7 +180,7 @@ pub unsafe extern "C" fn precess_energy(
         Ok(unsafe { write(energy, craft.energy(&state)?) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, call) }
+    unsafe { with::<J>(craft, fault, call) }
 }
 
 /// See `precess.h`.
@@ -193,10 +189,9 @@ pub unsafe extern "C" fn precess_energy(
 ///
 /// `craft` points to a spacecraft, the others to their structures; `point` is read for
 /// only for `PRECESS_ABOUT_POINT`; `fault` may be null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_momentum_of(
+pub(crate) unsafe fn momentum_of<const J: usize>(
     craft: *const Craft,
-    state: *const types::State,
+    state: *const types::State<J>,
     about: i32,
     point: *const f64,
     out: *mut types::Momentum,
@@ -223,7 +218,7 @@ pub unsafe extern "C" fn precess_momentum_of(
         Ok(unsafe { write(out, found) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, call) }
+    unsafe { with::<J>(craft, fault, call) }
 }
 
 #[cfg(test)]
@@ -235,7 +230,7 @@ mod tests {
     use precess_dynamics::{Dgvscmg, Hub, ReactionWheel};
 
     use super::*;
-    use crate::craft::precess_init;
+    use crate::craft::init;
 
     /// What a C caller states and what a Rust caller states is one spacecraft, to the last bit.
     #[test]
@@ -264,7 +259,7 @@ mod tests {
         let devices = [gyro.into(), wheel.into()].map(|device: precess_dynamics::BuiltIn| {
             let parameters = device.parameters();
             let rows = |m: &Matrix3<f64>| m.transpose().as_slice().try_into().unwrap();
-            types::Device {
+            types::Device::<6> {
                 kind: device.kind().number().into(),
                 model: 0,
                 mount: rows(&parameters.mount),
@@ -291,12 +286,12 @@ mod tests {
         let mut memory = MaybeUninit::<[u64; crate::craft::SIZE / 8]>::zeroed();
         let craft = memory.as_mut_ptr().cast::<Craft>();
         let (mut c_state, mut c_inputs) =
-            (MaybeUninit::<types::State>::zeroed(), MaybeUninit::<types::Inputs>::zeroed());
+            (MaybeUninit::<types::State<6>>::zeroed(), MaybeUninit::<types::Inputs<6>>::zeroed());
         let none = null_mut();
         // SAFETY: every pointer is to a local of its type, or null where that is allowed.
         let codes = unsafe {
             [
-                precess_init(
+                init::<6>(
                     craft.cast(),
                     crate::craft::SIZE,
                     &raw const hub,
@@ -304,8 +299,8 @@ mod tests {
                     2,
                     none,
                 ),
-                crate::state::precess_state_at_rest(craft, c_state.as_mut_ptr()),
-                crate::inputs::precess_inputs_none(craft, c_inputs.as_mut_ptr()),
+                crate::state::state_at_rest::<6>(craft, c_state.as_mut_ptr()),
+                crate::inputs::inputs_none::<6>(craft, c_inputs.as_mut_ptr()),
             ]
         };
         assert_eq!(codes, [0; 3]);
@@ -321,15 +316,18 @@ mod tests {
         }
         // SAFETY: as before.
         let code = unsafe {
-            precess_step(craft, &raw mut c_state, &raw const c_inputs, 1e-3, 1000, null_mut(), none)
+            step(craft, &raw mut c_state, &raw const c_inputs, 1e-3, 1000, null_mut(), none)
         };
         assert_eq!(code, 0);
         let bits = |numbers: &[f64]| numbers.iter().map(|n| n.to_bits()).collect::<Vec<_>>();
         let (gyro, wheel) = (&state.devices.0, &state.devices.1);
         assert_eq!(bits(&c_state.omega), bits(state.omega.as_slice()));
         assert_eq!(bits(&c_state.position), bits(state.r_b_n.as_slice()));
-        assert_eq!(bits(&c_state.coordinate[0]), bits(&[gyro.gamma_o, gyro.gamma_i, gyro.theta]));
-        assert_eq!(bits(&c_state.rate[1]), bits(&[wheel.spin, 0.0, 0.0]));
+        assert_eq!(
+            bits(&c_state.coordinate[0][..3]),
+            bits(&[gyro.gamma_o, gyro.gamma_i, gyro.theta])
+        );
+        assert_eq!(bits(&c_state.rate[1]), bits(&[wheel.spin, 0.0, 0.0, 0.0, 0.0, 0.0]));
         let of_attitude = state.attitude;
         let attitude = [of_attitude.q0, of_attitude.q1, of_attitude.q2, of_attitude.q3];
         assert_eq!(bits(&c_state.attitude), bits(&attitude));

@@ -11,9 +11,9 @@ use crate::state::{give, take};
 use crate::types;
 
 /// The inputs that a structure states.
-pub(crate) fn inputs_of(
+pub(crate) fn inputs_of<const J: usize>(
     spacecraft: &Spacecraft<List>,
-    from: &types::Inputs,
+    from: &types::Inputs<J>,
 ) -> Result<Inputs<List>, Rejection> {
     let vector = Vector3::from;
     let mut inputs = Inputs::none_for(spacecraft);
@@ -68,25 +68,24 @@ pub(crate) fn inputs_of(
 /// # Safety
 ///
 /// `craft` points to a spacecraft, `inputs` to inputs.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_inputs_none(
+pub(crate) unsafe fn inputs_none<const J: usize>(
     pointer: *const Craft,
-    inputs: *mut types::Inputs,
+    inputs: *mut types::Inputs<J>,
 ) -> i32 {
     // SAFETY: by contract.
-    let done = unsafe { craft(pointer) }.and_then(|craft| {
+    let done = unsafe { craft::<J>(pointer) }.and_then(|craft| {
         let none = types::Wrench { force: [0.0; 3], moment: [0.0; 3] };
         let mut to = types::Inputs {
             force: [0.0; 3],
             torque: [0.0; 3],
-            motor: Default::default(),
-            prescribed: Default::default(),
+            motor: [[0.0; J]; crate::MAX_DEVICES],
+            prescribed: [[0.0; J]; crate::MAX_DEVICES],
             hub_linear: [0.0; 3],
             hub_angular: [0.0; 3],
             gravity: [0.0; 3],
             mu: 0.0,
-            wrench: [[none; 3]; crate::MAX_DEVICES],
-            mode: Default::default(),
+            wrench: [[none; J]; crate::MAX_DEVICES],
+            mode: [[0; J]; crate::MAX_DEVICES],
             hub_mode: 0,
             gravity_model: 0,
             wrenches: 0,

@@ -1,5 +1,6 @@
-//! `tests/layout.c` asserts in C what Rust takes the structures and constants of the header
-//! for. It is written by the test below, and compiled with the header by `cargo xtask capi`.
+//! `tests/layout.c` and, of version 2, `tests/layout_v2.c` assert in C what Rust takes the structures
+//! and constants of the header for. They are written by the test below, and compiled with the header by
+//! `cargo xtask capi`.
 
 use core::mem::{offset_of, size_of};
 
@@ -14,9 +15,10 @@ const HEAD: &str =
  * What the library takes the structures and constants of the header for. */
 
 #include <stddef.h>
+";
 
-#include \"precess.h\"
-
+/// The assertion, in both languages.
+const IS: &str = "
 #ifdef __cplusplus
 #define IS(what, number) static_assert((what) == (number), #what)
 #else
@@ -26,30 +28,30 @@ const HEAD: &str =
 ";
 
 macro_rules! structures {
-    ($lines:ident, $($c:literal $name:ident { $($field:ident)* })*) => {$(
+    ($lines:ident, $($c:literal $name:ident: $whole:ty { $($field:ident)* })*) => {$(
         // A structure with a field more would not be taken apart so.
-        let _ = |whole: $name| { let $name { $($field: _),* } = whole; };
-        $lines.push(format!("IS(sizeof({}), {});", $c, size_of::<$name>()));
+        let _ = |whole: $whole| { let $name { $($field: _),* } = whole; };
+        $lines.push(format!("IS(sizeof({}), {});", $c, size_of::<$whole>()));
         $(
-            let (field, at) = (stringify!($field), offset_of!($name, $field));
+            let (field, at) = (stringify!($field), offset_of!($whole, $field));
             $lines.push(format!("IS(offsetof({}, {field}), {at});", $c));
         )*
     )*};
 }
 
-fn layout() -> String {
+fn layout<const J: usize>() -> String {
     let mut lines = Vec::new();
     let constants = [
         ("PRECESS_VERSION", crate::VERSION as usize),
         ("PRECESS_MAX_DEVICES", crate::MAX_DEVICES),
-        ("PRECESS_MAX_JOINTS", precess_dynamics::MAX_JOINTS),
+        ("PRECESS_MAX_JOINTS", J),
         ("PRECESS_MAX_SUBSTEPS", crate::evaluate::MAX_SUBSTEPS as usize),
         ("PRECESS_SPACECRAFT_SIZE", crate::craft::SIZE),
         ("sizeof(precess_spacecraft)", crate::craft::SIZE),
         ("PRECESS_SPACECRAFT_ALIGN", crate::craft::ALIGN),
-        ("PRECESS_TABLE_VERSION", crate::table::VERSION as usize),
-        ("PRECESS_TABLE_SIZE(0)", crate::table::size(0)),
-        ("PRECESS_TABLE_SIZE(8)", crate::table::size(8)),
+        ("PRECESS_TABLE_VERSION", crate::table::version(J) as usize),
+        ("PRECESS_TABLE_SIZE(0)", crate::table::size(0, J)),
+        ("PRECESS_TABLE_SIZE(8)", crate::table::size(8, J)),
     ];
     for (name, value) in constants {
         lines.push(format!("IS({name}, {value});"));
@@ -68,34 +70,44 @@ fn layout() -> String {
         lines.push(format!("IS({}, {});", code.name().to_str().unwrap(), *code as i32));
     }
     structures! { lines,
-        "precess_fault" Fault { code device joint reserved value bound }
-        "precess_hub" Hub { mass centre inertia }
-        "precess_body" Body { mass origin centre inertia }
-        "precess_passive" Passive { stiffness rest viscous coulomb coulomb_rate }
-        "precess_device" Device { kind model mount bodies passive }
-        "precess_state" State { position velocity attitude omega coordinate rate }
-        "precess_wrench" Wrench { force moment }
-        "precess_inputs" Inputs {
+        "precess_fault" Fault: Fault { code device joint reserved value bound }
+        "precess_hub" Hub: Hub { mass centre inertia }
+        "precess_body" Body: Body { mass origin centre inertia }
+        "precess_passive" Passive: Passive { stiffness rest viscous coulomb coulomb_rate }
+        "precess_device" Device: Device<J> { kind model mount bodies passive }
+        "precess_state" State: State<J> { position velocity attitude omega coordinate rate }
+        "precess_wrench" Wrench: Wrench { force moment }
+        "precess_inputs" Inputs: Inputs<J> {
             force torque motor prescribed hub_linear hub_angular gravity mu wrench mode hub_mode
             gravity_model wrenches reserved
         }
-        "precess_accelerations" Accelerations { linear angular joint }
-        "precess_momentum" Momentum { linear angular }
-        "precess_power" Power { external hub gravity motors springs friction }
-        "precess_loads" Loads { hub mount joint motor }
+        "precess_accelerations" Accelerations: Accelerations<J> { linear angular joint }
+        "precess_momentum" Momentum: Momentum { linear angular }
+        "precess_power" Power: Power { external hub gravity motors springs friction }
+        "precess_loads" Loads: Loads<J> { hub mount joint motor }
     }
-    format!("{HEAD}{}\n", lines.join("\n"))
+    let version = crate::table::version(J);
+    let chosen = if version == 1 {
+        String::new()
+    } else {
+        format!("#define PRECESS_TABLE_VERSION {version}\n")
+    };
+    format!("{HEAD}\n{chosen}#include \"precess.h\"\n{IS}{}\n", lines.join("\n"))
 }
 
-#[test]
-fn layout_that_c_checks_is_the_one_of_the_library() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/layout.c");
-    let text = layout();
+fn settle<const J: usize>(path: &str) {
+    let text = layout::<J>();
     if std::env::var_os("PRECESS_WRITE").is_some() {
         std::fs::write(path, &text).unwrap();
     }
     assert!(
         std::fs::read_to_string(path).unwrap_or_default() == text,
-        "tests/layout.c is stale; write it by `PRECESS_WRITE=1 cargo test -p precess-capi layout`"
+        "{path} is stale; write it by `PRECESS_WRITE=1 cargo test -p precess-capi layout`"
     );
+}
+
+#[test]
+fn layouts_that_c_checks_are_those_of_the_library() {
+    settle::<3>(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/layout.c"));
+    settle::<6>(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/layout_v2.c"));
 }

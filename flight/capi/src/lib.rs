@@ -14,6 +14,7 @@ pub mod craft;
 mod device;
 pub mod error;
 pub mod evaluate;
+mod exports;
 pub mod inputs;
 #[cfg(test)]
 mod layout;
@@ -27,6 +28,9 @@ use precess_dynamics::BuiltIn;
 
 /// The devices that a spacecraft has at most: `PRECESS_MAX_DEVICES`.
 pub const MAX_DEVICES: usize = 8;
+
+/// The joints that a device has at most, by version of the interface: `PRECESS_MAX_JOINTS`.
+pub const VERSIONS: [usize; 2] = [3, precess_dynamics::MAX_JOINTS];
 
 /// The devices of a spacecraft.
 pub type List = [Option<BuiltIn>; MAX_DEVICES];

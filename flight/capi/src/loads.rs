@@ -18,13 +18,12 @@ fn of_wrench(wrench: &Wrench) -> types::Wrench {
 /// # Safety
 ///
 /// `craft` points to a spacecraft, the others to their structures; `fault` may be null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_loads_of(
+pub(crate) unsafe fn loads_of<const J: usize>(
     craft: *const Craft,
-    state: *const types::State,
-    inputs: *const types::Inputs,
+    state: *const types::State<J>,
+    inputs: *const types::Inputs<J>,
     axes: i32,
-    out: *mut types::Loads,
+    out: *mut types::Loads<J>,
     fault: *mut Fault,
 ) -> i32 {
     let call = |craft: &Spacecraft<List>| {
@@ -43,8 +42,8 @@ pub unsafe extern "C" fn precess_loads_of(
         let mut to = types::Loads {
             hub: of_wrench(&found.hub),
             mount: [none; crate::MAX_DEVICES],
-            joint: [[none; 3]; crate::MAX_DEVICES],
-            motor: Default::default(),
+            joint: [[none; J]; crate::MAX_DEVICES],
+            motor: [[0.0; J]; crate::MAX_DEVICES],
         };
         let entries = to.mount.iter_mut().zip(&mut to.joint).zip(&mut to.motor);
         for (((mount, joints), motors), device) in entries.zip(found.devices.iter().flatten()) {
@@ -60,5 +59,5 @@ pub unsafe extern "C" fn precess_loads_of(
         Ok(unsafe { write(out, to) }?)
     };
     // SAFETY: by contract.
-    unsafe { with(craft, fault, call) }
+    unsafe { with::<J>(craft, fault, call) }
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use precess_dynamics::{JointArray, Quaternion, Spacecraft, State};
 
-use crate::craft::{Craft, craft, report};
+use crate::craft::{Craft, craft, query, report};
 use crate::error::{Code, Fault, Rejection};
 use crate::memory::{self, slice, slice_mut};
 use crate::types::{self, PerJoint};
@@ -23,8 +23,8 @@ pub(crate) fn take<V: precess_dynamics::Value>(
 }
 
 /// Copies to `[device][joint]` by a function.
-pub(crate) fn give<V: precess_dynamics::Value, U>(
-    to: &mut PerJoint<U>,
+pub(crate) fn give<V: precess_dynamics::Value, U, const J: usize>(
+    to: &mut PerJoint<U, J>,
     from: &[Option<JointArray<V>>; MAX_DEVICES],
     of: impl Fn(&V) -> U,
 ) {
@@ -37,7 +37,10 @@ pub(crate) fn give<V: precess_dynamics::Value, U>(
 }
 
 /// The state that a structure states.
-pub(crate) fn state_of(spacecraft: &Spacecraft<List>, from: &types::State) -> State<List> {
+pub(crate) fn state_of<const J: usize>(
+    spacecraft: &Spacecraft<List>,
+    from: &types::State<J>,
+) -> State<List> {
     let mut state = State::at_rest_for(spacecraft);
     let [q0, q1, q2, q3] = from.attitude;
     state.r_b_n = Vector3::from(from.position);
@@ -55,15 +58,15 @@ pub(crate) fn state_of(spacecraft: &Spacecraft<List>, from: &types::State) -> St
 }
 
 /// A state as a structure.
-pub(crate) fn structure_of(state: &State<List>) -> types::State {
+pub(crate) fn structure_of<const J: usize>(state: &State<List>) -> types::State<J> {
     let Quaternion { q0, q1, q2, q3 } = state.attitude;
     let mut to = types::State {
         position: state.r_b_n.into(),
         velocity: state.r_b_n_dot.into(),
         attitude: [q0, q1, q2, q3],
         omega: state.omega.into(),
-        coordinate: Default::default(),
-        rate: Default::default(),
+        coordinate: [[0.0; J]; MAX_DEVICES],
+        rate: [[0.0; J]; MAX_DEVICES],
     };
     give(&mut to.coordinate, &state.devices, |[coordinate, _]| *coordinate);
     give(&mut to.rate, &state.devices, |[_, rate]| *rate);
@@ -71,9 +74,9 @@ pub(crate) fn structure_of(state: &State<List>) -> types::State {
 }
 
 /// The numbers of a state, in the order in which they are saved.
-fn numbers<'a>(
+fn numbers<'a, const J: usize>(
     craft: &'a Spacecraft<List>,
-    state: &'a mut types::State,
+    state: &'a mut types::State<J>,
 ) -> impl Iterator<Item = &'a mut f64> {
     let types::State { position, velocity, attitude, omega, coordinate, rate } = state;
     let devices = coordinate.iter_mut().zip(rate).enumerate();
@@ -94,13 +97,12 @@ fn length(craft: &Spacecraft<List>) -> usize {
 /// # Safety
 ///
 /// `craft` points to a spacecraft, `state` to a state, `fault` is null or points to a fault.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_state_at_rest(
+pub(crate) unsafe fn state_at_rest<const J: usize>(
     pointer: *const Craft,
-    state: *mut types::State,
+    state: *mut types::State<J>,
 ) -> i32 {
     // SAFETY: by contract.
-    let done = unsafe { craft(pointer) }.and_then(|craft| {
+    let done = unsafe { craft::<J>(pointer) }.and_then(|craft| {
         let at_rest = structure_of(&State::at_rest_for(&craft.spacecraft));
         // SAFETY: by contract.
         unsafe { memory::write(state, at_rest) }
@@ -113,13 +115,12 @@ pub unsafe extern "C" fn precess_state_at_rest(
 /// # Safety
 ///
 /// `craft` points to a spacecraft, `state` to a state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_state_wrap(
+pub(crate) unsafe fn state_wrap<const J: usize>(
     pointer: *const Craft,
-    state: *mut types::State,
+    state: *mut types::State<J>,
 ) -> i32 {
     // SAFETY: by contract.
-    let done = unsafe { craft(pointer) }.and_then(|craft| {
+    let done = unsafe { craft::<J>(pointer) }.and_then(|craft| {
         // SAFETY: by contract.
         let from = state_of(&craft.spacecraft, &unsafe { memory::read(state.cast_const()) }?);
         // SAFETY: by contract.
@@ -136,12 +137,7 @@ pub unsafe extern "C" fn precess_state_wrap(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn precess_state_length(pointer: *const Craft, count: *mut u32) -> i32 {
     // SAFETY: by contract.
-    let done = unsafe { craft(pointer) }.and_then(|craft| {
-        let length = u32::try_from(length(&craft.spacecraft)).unwrap_or(u32::MAX);
-        // SAFETY: by contract.
-        unsafe { memory::write(count, length) }
-    });
-    done.err().unwrap_or(Code::Ok) as i32
+    unsafe { query(pointer, count, |craft| u32::try_from(length(craft)).unwrap_or(u32::MAX)) }
 }
 
 /// See `precess.h`.
@@ -149,16 +145,15 @@ pub unsafe extern "C" fn precess_state_length(pointer: *const Craft, count: *mut
 /// # Safety
 ///
 /// `craft` points to a spacecraft, `state` to a state, `to` to `count` numbers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_state_save(
+pub(crate) unsafe fn state_save<const J: usize>(
     pointer: *const Craft,
-    state: *const types::State,
+    state: *const types::State<J>,
     to: *mut f64,
     count: u32,
 ) -> i32 {
     let save = || {
         // SAFETY: by contract.
-        let craft = unsafe { craft(pointer) }?;
+        let craft = unsafe { craft::<J>(pointer) }?;
         // SAFETY: by contract.
         let mut state = unsafe { memory::read(state) }?;
         if (count as usize) < length(&craft.spacecraft) {
@@ -180,17 +175,16 @@ pub unsafe extern "C" fn precess_state_save(
 ///
 /// `craft` points to a spacecraft, `from` to `count` numbers, `state` to a state, `fault` is null
 /// or points to a fault.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_state_restore(
+pub(crate) unsafe fn state_restore<const J: usize>(
     pointer: *const Craft,
     from: *const f64,
     count: u32,
-    state: *mut types::State,
+    state: *mut types::State<J>,
     fault: *mut Fault,
 ) -> i32 {
     let restore = || {
         // SAFETY: by contract.
-        let craft = &unsafe { craft(pointer) }?.spacecraft;
+        let craft = &unsafe { craft::<J>(pointer) }?.spacecraft;
         if count as usize != length(craft) {
             return Err(Rejection::from(Code::TooSmall));
         }
@@ -206,5 +200,5 @@ pub unsafe extern "C" fn precess_state_restore(
     };
     let result = restore();
     // SAFETY: by contract.
-    unsafe { report(craft(pointer).ok().map(|craft| &craft.spacecraft), result, fault) }
+    unsafe { report(craft::<J>(pointer).ok().map(|craft| &craft.spacecraft), result, fault) }
 }

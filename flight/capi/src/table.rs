@@ -5,46 +5,57 @@
 //! ```text
 //! offset          bytes  what
 //! 0               4      "PREC"
-//! 4               4      version of the layout, 1
+//! 4               4      version of the layout, 1 or 2
 //! 8               4      length of the table, checksum included
 //! 12              4      number of devices n, up to 8
 //! 16              104    hub: mass, centre of mass (3), inertia (9)
-//! 120 + 584 k     584    device k: kind, model (4 each); mount (9);
-//!                        3 bodies: mass, origin (3), centre of mass (3), inertia (9);
-//!                        3 joints: stiffness, rest, viscous, coulomb, coulomb_rate
-//! 120 + 584 n     4      CRC-32 of all before (ISO-HDLC: that of zip and Ethernet)
+//! 120 + s k       s      device k: kind, model (4 each); mount (9);
+//!                        J bodies: mass, origin (3), centre of mass (3), inertia (9);
+//!                        J joints: stiffness, rest, viscous, coulomb, coulomb_rate
+//! 120 + s n       4      CRC-32 of all before (ISO-HDLC: that of zip and Ethernet)
 //! ```
 //!
+//! J is 3 and s is 584 in version 1, J is 6 and s is 1088 in version 2. Each version of the interface writes
+//! its own; version 2 reads both.
 //! Units, axes and order of entries are those of the structures.
 
 use core::ffi::c_void;
 
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
-use crate::MAX_DEVICES;
 use crate::craft::{made, make_in, report};
 use crate::error::{Code, Fault, Rejection};
 use crate::memory::{read, slice, slice_mut, write};
 use crate::types::{Body, Device, Hub, Passive};
+use crate::{MAX_DEVICES, VERSIONS};
 
-/// `PRECESS_TABLE_VERSION`.
-pub const VERSION: u32 = 1;
+/// `PRECESS_TABLE_VERSION` where a device has up to so many joints.
+#[must_use]
+pub const fn version(joints: usize) -> u32 {
+    if joints == VERSIONS[0] { 1 } else { 2 }
+}
+
 /// `PRECESS_TABLE_SIZE(0)`: without devices.
 pub const BARE: usize = 124;
-/// What each device adds.
-pub const PER_DEVICE: usize = 584;
+/// What each device adds: kind, model, mount, and 21 numbers per joint.
+const fn per_device(joints: usize) -> usize {
+    80 + 168 * joints
+}
 
 const MAGIC: u32 = u32::from_le_bytes(*b"PREC");
 const NO_BODY: Body = Body { mass: 0.0, origin: [0.0; 3], centre: [0.0; 3], inertia: [0.0; 9] };
 const NO_PASSIVE: Passive =
     Passive { stiffness: 0.0, rest: 0.0, viscous: 0.0, coulomb: 0.0, coulomb_rate: 0.0 };
-const NO_DEVICE: Device =
-    Device { kind: 0, model: 0, mount: [0.0; 9], bodies: [NO_BODY; 3], passive: [NO_PASSIVE; 3] };
 
-/// Length of a table of so many devices.
+/// A device without anything.
+const fn no_device<const J: usize>() -> Device<J> {
+    Device { kind: 0, model: 0, mount: [0.0; 9], bodies: [NO_BODY; J], passive: [NO_PASSIVE; J] }
+}
+
+/// Length of a table of so many devices with up to so many joints.
 #[must_use]
-pub const fn size(devices: usize) -> usize {
-    BARE + PER_DEVICE * devices
+pub const fn size(devices: usize, joints: usize) -> usize {
+    BARE + per_device(joints) * devices
 }
 
 /// The checksum, bit by bit: no table of its own in memory.
@@ -67,15 +78,16 @@ trait Pass {
         self.numbers(hub.centre.iter_mut().chain(&mut hub.inertia))
     }
 
-    fn device(&mut self, device: &mut Device) -> Option<()> {
+    /// A device of which the table holds so many joints.
+    fn device<const J: usize>(&mut self, device: &mut Device<J>, joints: usize) -> Option<()> {
         self.integer(&mut device.kind)?;
         self.integer(&mut device.model)?;
         self.numbers(&mut device.mount)?;
-        for body in &mut device.bodies {
+        for body in device.bodies.iter_mut().take(joints) {
             self.number(&mut body.mass)?;
             self.numbers(body.origin.iter_mut().chain(&mut body.centre).chain(&mut body.inertia))?;
         }
-        for joint in &mut device.passive {
+        for joint in device.passive.iter_mut().take(joints) {
             let Passive { stiffness, rest, viscous, coulomb, coulomb_rate } = joint;
             self.numbers([stiffness, rest, viscous, coulomb, coulomb_rate])?;
         }
@@ -129,44 +141,46 @@ impl Pass for Writing<'_> {
 }
 
 /// Hub and devices of a table, and how many devices there are.
-fn read_table(table: &[u8]) -> Result<(Hub, [Device; MAX_DEVICES], usize), Code> {
+fn read_table<const J: usize>(
+    table: &[u8],
+) -> Result<(Hub, [Device<J>; MAX_DEVICES], usize), Code> {
     let mut reading = Reading(table);
     let mut word = || reading.bytes().map(u32::from_le_bytes).ok_or(Code::TableLength);
     if word()? != MAGIC {
         return Err(Code::TableMagic);
     }
-    if word()? != VERSION {
-        return Err(Code::TableVersion);
-    }
+    let layout = word()?;
+    let known = VERSIONS.into_iter().find(|joints| *joints <= J && version(*joints) == layout);
+    let joints = known.ok_or(Code::TableVersion)?;
     let (length, count) = (word()? as usize, word()? as usize);
     if count > MAX_DEVICES {
         return Err(Code::TooMany);
     }
     let (body, sum) = table.split_last_chunk().ok_or(Code::TableLength)?;
-    if length != table.len() || length != size(count) {
+    if length != table.len() || length != size(count, joints) {
         return Err(Code::TableLength);
     }
     if checksum(body) != u32::from_le_bytes(*sum) {
         return Err(Code::TableChecksum);
     }
     let mut hub = Hub { mass: 0.0, centre: [0.0; 3], inertia: [0.0; 9] };
-    let mut devices = [NO_DEVICE; MAX_DEVICES];
+    let mut devices = [no_device(); MAX_DEVICES];
     let passed = reading.hub(&mut hub).and_then(|()| {
-        devices.iter_mut().take(count).try_for_each(|device| reading.device(device))
+        devices.iter_mut().take(count).try_for_each(|device| reading.device(device, joints))
     });
     passed.map(|()| (hub, devices, count)).ok_or(Code::TableLength)
 }
 
-fn write_table(hub: &Hub, devices: &[Device], table: &mut [u8]) -> Option<()> {
+fn write_table<const J: usize>(hub: &Hub, devices: &[Device<J>], table: &mut [u8]) -> Option<()> {
     let length = u32::try_from(table.len()).ok()?;
     let count = u32::try_from(devices.len()).ok()?;
     let (body, sum) = table.split_last_chunk_mut()?;
     let mut writing = Writing(body);
-    for word in [MAGIC, VERSION, length, count] {
+    for word in [MAGIC, version(J), length, count] {
         writing.bytes(word.to_le_bytes())?;
     }
     writing.hub(&mut { *hub })?;
-    devices.iter().try_for_each(|device| writing.device(&mut { *device }))?;
+    devices.iter().try_for_each(|device| writing.device(&mut { *device }, J))?;
     *sum = checksum(body).to_le_bytes();
     Some(())
 }
@@ -177,8 +191,7 @@ fn write_table(hub: &Hub, devices: &[Device], table: &mut [u8]) -> Option<()> {
 ///
 /// `memory` points to `size` writable bytes, `table` to `length` readable ones, `fault` is null or
 /// points to a fault.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_init_from_table(
+pub(crate) unsafe fn init_from_table<const J: usize>(
     memory: *mut c_void,
     size: usize,
     table: *const u8,
@@ -190,11 +203,11 @@ pub unsafe extern "C" fn precess_init_from_table(
             return Err(Rejection::from(Code::Null));
         }
         // SAFETY: by contract.
-        let (hub, devices, count) = read_table(unsafe { slice(table, length) }?)?;
+        let (hub, devices, count) = read_table::<J>(unsafe { slice(table, length) }?)?;
         made(&hub, devices.get(..count).unwrap_or(&devices))
     };
     // SAFETY: by contract.
-    let result = unsafe { make_in(memory, size, make) };
+    let result = unsafe { make_in::<J>(memory, size, make) };
     // SAFETY: by contract.
     unsafe { report(None, result, fault) }
 }
@@ -205,10 +218,9 @@ pub unsafe extern "C" fn precess_init_from_table(
 ///
 /// `hub` points to a hub, `devices` to `count` devices, `table` to `capacity` writable bytes,
 /// `length` to a number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn precess_table_write(
+pub(crate) unsafe fn table_write<const J: usize>(
     hub: *const Hub,
-    devices: *const Device,
+    devices: *const Device<J>,
     count: u32,
     table: *mut u8,
     capacity: usize,
@@ -226,10 +238,10 @@ pub unsafe extern "C" fn precess_table_write(
         }
         // SAFETY: by contract.
         let table = unsafe { slice_mut(table, capacity) }?;
-        let table = table.get_mut(..size(count)).ok_or(Code::TooSmall)?;
+        let table = table.get_mut(..size(count, J)).ok_or(Code::TooSmall)?;
         write_table(&hub, devices, table).ok_or(Code::TooSmall)?;
         // SAFETY: by contract.
-        unsafe { write(length, size(count)) }
+        unsafe { write(length, size(count, J)) }
     };
     done().err().unwrap_or(Code::Ok) as i32
 }
@@ -244,23 +256,43 @@ mod tests {
         assert_eq!(checksum(b"123456789"), 0xcbf4_3926);
     }
 
-    #[test]
-    fn what_is_written_is_read_and_every_changed_byte_is_seen() {
+    fn read_back<const J: usize>(joint: usize) {
         let hub = Hub { mass: 10.0, centre: [1.0, 2.0, 3.0], inertia: [4.0; 9] };
-        let mut device = NO_DEVICE;
+        let mut device = no_device::<J>();
         (device.kind, device.model, device.mount) = (9, 1, [7.0; 9]);
-        device.passive[2].coulomb_rate = 5.0;
-        let mut table = [0; size(2)];
-        write_table(&hub, &[device, NO_DEVICE], &mut table).unwrap();
-        let (found, devices, count) = read_table(&table).unwrap();
-        assert_eq!((found, devices[0], devices[1], count), (hub, device, NO_DEVICE, 2));
+        device.passive[joint].coulomb_rate = 5.0;
+        let mut table = vec![0; size(2, J)];
+        write_table(&hub, &[device, no_device()], &mut table).unwrap();
+        let (found, devices, count) = read_table::<J>(&table).unwrap();
+        assert_eq!((found, devices[0], devices[1], count), (hub, device, no_device(), 2));
         for byte in 0..table.len() {
-            let mut changed = table;
+            let mut changed = table.clone();
             changed[byte] ^= 0x10;
-            assert!(read_table(&changed).is_err(), "byte {byte}");
+            assert!(read_table::<J>(&changed).is_err(), "byte {byte}");
         }
         for short in 0..table.len() {
-            assert!(read_table(&table[..short]).is_err(), "{short} bytes");
+            assert!(read_table::<J>(&table[..short]).is_err(), "{short} bytes");
         }
+    }
+
+    #[test]
+    fn what_is_written_is_read_and_every_changed_byte_is_seen() {
+        read_back::<3>(2);
+        read_back::<6>(5);
+    }
+
+    #[test]
+    fn version_2_reads_both_and_version_1_its_own() {
+        let hub = Hub { mass: 10.0, centre: [1.0, 2.0, 3.0], inertia: [4.0; 9] };
+        let mut device = no_device::<3>();
+        device.bodies[2].mass = 8.0;
+        let mut first = [0; size(1, 3)];
+        write_table(&hub, &[device], &mut first).unwrap();
+        let (found, devices, count) = read_table::<6>(&first).unwrap();
+        assert_eq!((found, devices[0].bodies[2].mass, count), (hub, 8.0, 1));
+        assert_eq!(devices[0].bodies[3..], [NO_BODY; 3]);
+        let mut second = [0; size(1, 6)];
+        write_table(&hub, &[no_device::<6>()], &mut second).unwrap();
+        assert_eq!(read_table::<3>(&second).unwrap_err(), Code::TableVersion);
     }
 }

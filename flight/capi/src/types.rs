@@ -1,25 +1,25 @@
 //! The structures of the header, field by field. Vectors are x, y, z; matrices row by row; what
 //! belongs to joints is in `[device][joint]`, from the hub outwards, and is 0 where there is none.
-
-use precess_dynamics::MAX_JOINTS;
+//! `J` is the number of joints that a device has at most: `PRECESS_MAX_JOINTS` of the version of the
+//! interface.
 
 use crate::MAX_DEVICES;
 use crate::memory::Plain;
 
 /// A value for each joint.
-pub type PerJoint<T> = [[T; MAX_JOINTS]; MAX_DEVICES];
+pub type PerJoint<T, const J: usize> = [[T; J]; MAX_DEVICES];
 
 macro_rules! structures {
-    ($($(#[$doc:meta])* $name:ident { $($(#[$of:meta])* $field:ident: $ty:ty,)* })*) => {$(
+    ($($(#[$doc:meta])* $name:ident $(<$j:ident>)? { $($(#[$of:meta])* $field:ident: $ty:ty,)* })*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(C)]
-        pub struct $name {
+        pub struct $name $(<const $j: usize>)? {
             $($(#[$of])* pub $field: $ty,)*
         }
 
         // SAFETY: integers and floating-point numbers.
-        unsafe impl Plain for $name {}
+        unsafe impl $(<const $j: usize>)? Plain for $name $(<$j>)? {}
     )*};
 }
 
@@ -61,7 +61,7 @@ structures! {
     }
 
     /// `precess_device`.
-    Device {
+    Device<J> {
         /// `PRECESS_KIND_`.
         kind: i32,
         /// `PRECESS_COUPLED` or `PRECESS_LUMPED`.
@@ -69,13 +69,13 @@ structures! {
         /// Columns are the device's axes along B.
         mount: [f64; 9],
         /// From the hub outwards.
-        bodies: [Body; MAX_JOINTS],
+        bodies: [Body; J],
         /// Of the joint before each body.
-        passive: [Passive; MAX_JOINTS],
+        passive: [Passive; J],
     }
 
     /// `precess_state`.
-    State {
+    State<J> {
         /// N axes, m.
         position: [f64; 3],
         /// N axes, m/s.
@@ -85,9 +85,9 @@ structures! {
         /// B axes, rad/s.
         omega: [f64; 3],
         /// rad or m.
-        coordinate: PerJoint<f64>,
+        coordinate: PerJoint<f64, J>,
         /// rad/s or m/s.
-        rate: PerJoint<f64>,
+        rate: PerJoint<f64, J>,
     }
 
     /// `precess_wrench`.
@@ -99,15 +99,15 @@ structures! {
     }
 
     /// `precess_inputs`.
-    Inputs {
+    Inputs<J> {
         /// Through B, B axes, N.
         force: [f64; 3],
         /// About B, B axes, N m.
         torque: [f64; 3],
         /// N m or N.
-        motor: PerJoint<f64>,
+        motor: PerJoint<f64, J>,
         /// rad/s² or m/s².
-        prescribed: PerJoint<f64>,
+        prescribed: PerJoint<f64, J>,
         /// Prescribed acceleration of B, B axes, m/s².
         hub_linear: [f64; 3],
         /// Prescribed angular acceleration of B, B axes, rad/s².
@@ -117,9 +117,9 @@ structures! {
         /// Central field, m³/s².
         mu: f64,
         /// On the bodies.
-        wrench: PerJoint<Wrench>,
+        wrench: PerJoint<Wrench, J>,
         /// `PRECESS_DRIVEN`, `PRECESS_PRESCRIBED`, `PRECESS_LOCKED`.
-        mode: PerJoint<i32>,
+        mode: PerJoint<i32, J>,
         /// `PRECESS_HUB_`.
         hub_mode: i32,
         /// `PRECESS_GRAVITY_`.
@@ -131,13 +131,13 @@ structures! {
     }
 
     /// `precess_accelerations`.
-    Accelerations {
+    Accelerations<J> {
         /// B axes, m/s².
         linear: [f64; 3],
         /// B axes, rad/s².
         angular: [f64; 3],
         /// rad/s² or m/s².
-        joint: PerJoint<f64>,
+        joint: PerJoint<f64, J>,
     }
 
     /// `precess_momentum`.
@@ -165,14 +165,14 @@ structures! {
     }
 
     /// `precess_loads`.
-    Loads {
+    Loads<J> {
         /// About B, B axes.
         hub: Wrench,
         /// At each device's mount.
         mount: [Wrench; MAX_DEVICES],
         /// Across each joint.
-        joint: PerJoint<Wrench>,
+        joint: PerJoint<Wrench, J>,
         /// N m or N.
-        motor: PerJoint<f64>,
+        motor: PerJoint<f64, J>,
     }
 }

@@ -224,8 +224,11 @@ static void rejected_parameters(void)
     devices[2].passive[0].stiffness = -9.0;
     IS(init(3, &fault), PRECESS_ERROR_PASSIVE);
     example();
-    devices[1].kind = 13;
+    devices[1].kind = 14;
     IS(init(3, &fault), PRECESS_ERROR_UNKNOWN_KIND);
+    IS(fault.device, 1);
+    devices[1].kind = PRECESS_KIND_FLEXIBLE_REACTION_WHEEL;
+    IS(init(3, &fault), PRECESS_ERROR_MANY_JOINTS);
     IS(fault.device, 1);
     example();
     devices[1].model = 2;
@@ -331,7 +334,7 @@ static void texts(void)
 {
     char text[128], little[5];
     int32_t code;
-    for (code = PRECESS_OK; code <= PRECESS_ERROR_UNSTABLE; code++) {
+    for (code = PRECESS_OK; code <= PRECESS_ERROR_MANY_JOINTS; code++) {
         IS(precess_error_text(code, text, sizeof text), PRECESS_OK);
         IS(text[0] != '\0', 1);
     }
@@ -357,5 +360,5 @@ int main(void)
     tables();
     texts();
     promises();
-    return finish();
+    return finish(200);
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! dgvscmg 1 accelerations: hash of all evaluations, then the last one's numbers
 //! dgvscmg 1 steps: hash of the states after each step, then the last one's numbers
-//! end: 29 lines
+//! end: 35 lines
 //! ```
 //!
 //! A program that stops early prints no last line, so a short output cannot pass for a whole one.
@@ -11,14 +11,15 @@
 use core::fmt::{self, Display, LowerExp, Write};
 
 use precess_dynamics::{
-    Accelerations, Each, FixedSet, Inputs, JointStates, ParameterError, Scalar, SolveError,
-    Spacecraft, State,
+    Accelerations, Each, FixedSet, FlexibleState, Inputs, JointStates, ModesError, ParameterError,
+    Scalar, SolveError, Spacecraft, State,
 };
 
 use crate::bits::{Bits, Hash, write};
 use crate::craft::{Craft, HubIs};
 use crate::random::Random;
 use crate::sets::{EachSet, each_set};
+use crate::structure::{Storage, Structure, Wheels};
 
 /// Spacecraft evaluated per set.
 pub const EVALUATIONS: u64 = 32;
@@ -42,6 +43,8 @@ pub enum Stop<T> {
     Console,
     /// A drawn spacecraft was rejected.
     Parameters(ParameterError<T>),
+    /// A drawn structure was rejected.
+    Modes(ModesError<T>),
     /// A drawn state was rejected.
     Solve(SolveError<T>),
 }
@@ -51,6 +54,7 @@ impl<T: Scalar + Display + LowerExp> Display for Stop<T> {
         match self {
             Self::Console => write!(f, "the console took no more"),
             Self::Parameters(error) => write!(f, "a drawn spacecraft was rejected: {error}"),
+            Self::Modes(error) => write!(f, "a drawn structure was rejected: {error}"),
             Self::Solve(error) => write!(f, "a drawn state was rejected: {error}"),
         }
     }
@@ -65,6 +69,12 @@ impl<T> From<fmt::Error> for Stop<T> {
 impl<T> From<ParameterError<T>> for Stop<T> {
     fn from(error: ParameterError<T>) -> Self {
         Self::Parameters(error)
+    }
+}
+
+impl<T> From<ModesError<T>> for Stop<T> {
+    fn from(error: ModesError<T>) -> Self {
+        Self::Modes(error)
     }
 }
 
@@ -83,6 +93,7 @@ pub fn report<T: Bits>(out: &mut dyn Write, nudge: bool) -> Result<(), Stop<T>> 
     let mut lines = Lines { out, nudge, printed: 0 };
     lines.angles::<T>()?;
     each_set::<T, _>(&mut lines)?;
+    lines.bending::<T>()?;
     Ok(writeln!(lines.out, "end: {} lines", lines.printed)?)
 }
 
@@ -106,6 +117,29 @@ impl Lines<'_> {
             }
         }
         self.line("sin_cos", SIZES.len() * ANGLES, "sweep", hash, [last.0, last.1].into_iter())
+    }
+
+    /// A hub that bends.
+    fn bending<T: Bits>(&mut self) -> Result<(), Stop<T>> {
+        let mut hash = Hash::EMPTY;
+        let mut last = None;
+        for seed in 0..EVALUATIONS {
+            let Structure { craft, state, inputs } = Structure::<T>::drawn(&mut Random::new(seed))?;
+            let found = craft.accelerations(&state, &inputs)?;
+            numbers(&found.rigid).chain(found.eta_ddot).for_each(|number| hash.take(number));
+            last = Some(found);
+        }
+        let last = last.iter().flat_map(|found| numbers(&found.rigid).chain(found.eta_ddot));
+        self.line("bending", 2, "accelerations", hash, last)?;
+
+        let Structure { craft, mut state, inputs } =
+            Structure::drawn(&mut Random::new(EVALUATIONS))?;
+        let mut hash = Hash::EMPTY;
+        for _ in 0..STEPS {
+            state = craft.step(&state, &inputs, T::from_f64(STEP))?;
+            bent(&state).for_each(|number| hash.take(number));
+        }
+        self.line("bending", 2, "steps", hash, bent(&state))
     }
 
     fn line<T: Bits>(
@@ -177,6 +211,11 @@ fn stepped<D: FixedSet>(
 fn numbers<D: FixedSet>(found: &Accelerations<D>) -> impl Iterator<Item = D::Scalar> {
     let hub = [&found.r_b_n_ddot, &found.omega_dot].into_iter();
     hub.flat_map(|vector| vector.iter().copied()).chain(found.devices.values())
+}
+
+/// The numbers of the state of a hub that bends in order.
+fn bent<T: Bits>(state: &FlexibleState<Wheels<T>, Storage>) -> impl Iterator<Item = T> {
+    of_state(&state.rigid).chain(state.eta).chain(state.eta_dot)
 }
 
 /// The numbers of a state in order.

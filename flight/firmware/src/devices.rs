@@ -1,10 +1,12 @@
 //! A device of each kind, drawn at random: physical bodies, off centre, out of balance, with
 //! springs.
 
+use nalgebra::{Matrix6, Vector6};
 use precess_dynamics::kind::Kind;
 use precess_dynamics::{
-    BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
-    Dgvscmg, HingedPanel, ImbalanceModel, Passive, ReactionWheel, Scalar, Sgcmg, SloshMass, Vscmg,
+    BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Coupled,
+    Dgcmg, Dgvscmg, FixedSet, FlexibleReactionWheel, HingedPanel, ImbalanceModel, Isolated,
+    Passive, Platform, ReactionWheel, Scalar, Sgcmg, SloshMass, Strut, Suspension, Vscmg,
 };
 
 use crate::random::Random;
@@ -98,6 +100,13 @@ macro_rules! no_gimbal {
     };
 }
 
+/// A wheel on bearings of the hub.
+macro_rules! bearings {
+    ($kind:ident, $random:ident, $wheel:ident) => {
+        $kind { r_sx_b: $random.vector(PLACE), ..$wheel }
+    };
+}
+
 drawn! {
     Dgvscmg wheel two_gimbals;
     BalancedDgvscmg balanced_wheel two_gimbals;
@@ -109,6 +118,7 @@ drawn! {
     BalancedSgcmg balanced_wheel one_gimbal;
     ReactionWheel wheel no_gimbal;
     BalancedReactionWheel balanced_wheel no_gimbal;
+    FlexibleReactionWheel wheel bearings;
 }
 
 impl<T: Scalar> Drawn for HingedPanel<T> {
@@ -134,6 +144,51 @@ impl<T: Scalar> Drawn for SloshMass<T> {
         };
         suspend(&mut mass.passive, random);
         mass
+    }
+}
+
+/// Devices on a platform with springs of its joints, coupled ones and two struts.
+pub fn isolated<D: FixedSet>(carried: D, random: &mut Random) -> Isolated<D> {
+    let mass = random.within(5.0, 20.0);
+    let mut platform = Platform {
+        mount: random.rotation(),
+        r_p_b: random.vector(PLACE),
+        r_pc_p: random.vector(OFFSET),
+        ..Platform::bare(D::Scalar::from_f64(mass), random.block(mass))
+    };
+    suspend(&mut platform.passive, random);
+    let suspension = Suspension {
+        coupled: Some(coupled(random)),
+        struts: [Some(strut(random)), Some(strut(random)), None, None, None, None],
+    };
+    Isolated { platform, suspension, carried }
+}
+
+/// A multiple of the unit matrix and a product of a vector with itself: positive definite.
+fn coupled<T: Scalar>(random: &mut Random) -> Coupled<T> {
+    let across: [T; 6] = [(); 6].map(|()| random.number(-2.0, 2.0));
+    let along = random.number::<T>(0.5, 5.0);
+    let matrix = |scale: T| {
+        Matrix6::from_fn(|j, k| {
+            let product = across[j] * across[k];
+            scale * if j == k { product + along } else { product }
+        })
+    };
+    Coupled {
+        stiffness: matrix(T::from_f64(1.0)),
+        rest: Vector6::from_fn(|_, _| random.number(-0.05, 0.05)),
+        damping: matrix(T::from_f64(0.01)),
+    }
+}
+
+fn strut<T: Scalar>(random: &mut Random) -> Strut<T> {
+    let turned = random.rotation();
+    Strut {
+        position: random.vector(0.3),
+        direction: turned.column(0).into_owned(),
+        length: random.number(0.2, 0.5),
+        stiffness: random.number(0.1, 10.0),
+        damping: random.number(1e-3, 1e-1),
     }
 }
 

@@ -15,3 +15,4 @@ pub mod craft;
 pub mod devices;
 pub mod random;
 pub mod sets;
+pub mod structure;

@@ -4,10 +4,11 @@
 use core::array::from_fn;
 
 use precess_dynamics::{
-    BalancedVscmg, Dgvscmg, FixedSet, HingedPanel, ReactionWheel, Scalar, Sgcmg, SloshMass,
+    BalancedVscmg, Dgvscmg, FixedSet, HingedPanel, Isolated, ReactionWheel, Scalar, Sgcmg,
+    SloshMass,
 };
 
-use crate::devices::Drawn;
+use crate::devices::{Drawn, isolated};
 use crate::random::Random;
 
 /// Something to do with sets of devices.
@@ -36,6 +37,9 @@ pub type Mixed<T> = (
     SloshMass<T>,
 );
 
+/// A platform with wheels and a gyro, beside a device on the hub.
+pub type WithPlatform<T> = (Isolated<([ReactionWheel<T>; 2], Sgcmg<T>)>, Dgvscmg<T>);
+
 /// Shows every set to a visitor.
 ///
 /// # Errors
@@ -49,7 +53,8 @@ pub fn each_set<T: Scalar, V: EachSet<T>>(visitor: &mut V) -> Result<(), V::Erro
     precess_dynamics::every_kind!(each);
     visitor
         .visit("dgvscmg", 4, |random| -> [Dgvscmg<T>; 4] { from_fn(|_| Drawn::drawn(random)) })?;
-    visitor.visit("mixed", 7, mixed::<T>)
+    visitor.visit("mixed", 7, mixed::<T>)?;
+    visitor.visit("isolated", 5, with_platform::<T>)
 }
 
 fn single<K: Drawn, V: EachSet<K::Scalar>>(visitor: &mut V) -> Result<(), V::Error> {
@@ -64,4 +69,9 @@ fn mixed<T: Scalar>(random: &mut Random) -> Mixed<T> {
         from_fn(|_| Drawn::drawn(random)),
         Drawn::drawn(random),
     )
+}
+
+fn with_platform<T: Scalar>(random: &mut Random) -> WithPlatform<T> {
+    let carried = (from_fn(|_| Drawn::drawn(random)), Drawn::drawn(random));
+    (isolated(carried, random), Drawn::drawn(random))
 }

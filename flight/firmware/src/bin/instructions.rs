@@ -13,8 +13,9 @@ use core::hint::black_box;
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
     Accelerations, Angle, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
-    BalancedVscmg, Dgcmg, Dgvscmg, Each, FixedSet, HingedPanel, Hub, Inputs, JointStates,
-    ParameterError, ReactionWheel, Scalar, Sgcmg, SloshMass, SolveError, Spacecraft, State, Vscmg,
+    BalancedVscmg, Dgcmg, Dgvscmg, Each, FixedSet, FlexibleReactionWheel, HingedPanel, Hub, Inputs,
+    JointStates, ParameterError, ReactionWheel, Scalar, Sgcmg, SloshMass, SolveError, Spacecraft,
+    State, Vscmg,
 };
 use precess_firmware::board::{Options, Timer};
 use precess_firmware::random::Random;
@@ -92,6 +93,7 @@ fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
     let balanced_reaction_wheel = BalancedReactionWheel::bare_wheel(4.0, 0.2, 0.1);
     let hinged_panel = HingedPanel::bare_panel(4.0, disc);
     let slosh_mass = SloshMass::bare_slosh_mass(4.0);
+    let flexible_reaction_wheel = FlexibleReactionWheel::bare_wheel(4.0, disc);
     count! { counts,
         dgvscmg_1 dgvscmg 1;
         dgvscmg_4 dgvscmg 4;
@@ -117,6 +119,8 @@ fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
         hinged_panel_4 hinged_panel 4;
         slosh_mass_1 slosh_mass 1;
         slosh_mass_4 slosh_mass 4;
+        flexible_reaction_wheel_1 flexible_reaction_wheel 1;
+        flexible_reaction_wheel_4 flexible_reaction_wheel 4;
     }
     counts.baked()?;
     Ok(writeln!(counts.out, "end: {} lines", counts.lines)?)

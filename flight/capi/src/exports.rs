@@ -1,0 +1,140 @@
+//! The functions that take structures, once for each version of the interface: those of version 1 under
+//! the names of the header, those of version 2 with `_v2` behind them, which the header chooses by
+//! `PRECESS_TABLE_VERSION`. A program keeps the version that it was compiled with.
+
+use core::ffi::c_void;
+
+use crate::craft::{Craft, init};
+use crate::error::Fault;
+use crate::evaluate::{accelerations_of, energy, momentum_of, step, stop};
+use crate::inputs::inputs_none;
+use crate::loads::loads_of;
+use crate::state::{state_at_rest, state_restore, state_save, state_wrap};
+use crate::table::{init_from_table, table_write};
+use crate::types::{Accelerations, Device, Hub, Inputs, Loads, Momentum, Power, State};
+
+macro_rules! versions {
+    ($($of:ident $first:literal $second:literal ($($name:ident: $ty:ty),* $(,)?);)*) => {
+        versions! { first 0 [$($of $first ($($name: $ty),*);)*] }
+        versions! { second 1 [$($of $second ($($name: $ty),*);)*] }
+    };
+    ($module:ident $version:literal [$($of:ident $export:literal ($($name:ident: $ty:ty),*);)*]) => {
+        mod $module {
+            #[allow(clippy::wildcard_imports, reason = "the types of the list below")]
+            use super::*;
+
+            /// The joints that a device has at most.
+            const J: usize = crate::VERSIONS[$version];
+
+            $(
+                /// See `precess.h`.
+                ///
+                /// # Safety
+                ///
+                /// That of the function of which this is one version.
+                // SAFETY: no other symbol has the name.
+                #[unsafe(export_name = $export)]
+                unsafe extern "C" fn $of($($name: $ty),*) -> i32 {
+                    // SAFETY: by contract.
+                    unsafe { super::$of::<J>($($name),*) }
+                }
+            )*
+        }
+    };
+}
+
+versions! {
+    init "precess_init" "precess_init_v2" (
+        memory: *mut c_void,
+        size: usize,
+        hub: *const Hub,
+        devices: *const Device<J>,
+        count: u32,
+        fault: *mut Fault,
+    );
+    init_from_table "precess_init_from_table" "precess_init_from_table_v2" (
+        memory: *mut c_void,
+        size: usize,
+        table: *const u8,
+        length: usize,
+        fault: *mut Fault,
+    );
+    table_write "precess_table_write" "precess_table_write_v2" (
+        hub: *const Hub,
+        devices: *const Device<J>,
+        count: u32,
+        table: *mut u8,
+        capacity: usize,
+        length: *mut usize,
+    );
+    state_at_rest "precess_state_at_rest" "precess_state_at_rest_v2" (
+        craft: *const Craft,
+        state: *mut State<J>,
+    );
+    state_wrap "precess_state_wrap" "precess_state_wrap_v2" (
+        craft: *const Craft,
+        state: *mut State<J>,
+    );
+    state_save "precess_state_save" "precess_state_save_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        numbers: *mut f64,
+        count: u32,
+    );
+    state_restore "precess_state_restore" "precess_state_restore_v2" (
+        craft: *const Craft,
+        numbers: *const f64,
+        count: u32,
+        state: *mut State<J>,
+        fault: *mut Fault,
+    );
+    inputs_none "precess_inputs_none" "precess_inputs_none_v2" (
+        craft: *const Craft,
+        inputs: *mut Inputs<J>,
+    );
+    accelerations_of "precess_accelerations_of" "precess_accelerations_of_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        inputs: *const Inputs<J>,
+        out: *mut Accelerations<J>,
+        fault: *mut Fault,
+    );
+    step "precess_step" "precess_step_v2" (
+        craft: *const Craft,
+        state: *mut State<J>,
+        inputs: *const Inputs<J>,
+        dt: f64,
+        substeps: u32,
+        work: *mut Power,
+        fault: *mut Fault,
+    );
+    stop "precess_stop" "precess_stop_v2" (
+        craft: *const Craft,
+        state: *mut State<J>,
+        inputs: *const Inputs<J>,
+        lost: *mut f64,
+        fault: *mut Fault,
+    );
+    energy "precess_energy" "precess_energy_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        energy: *mut f64,
+        fault: *mut Fault,
+    );
+    momentum_of "precess_momentum_of" "precess_momentum_of_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        about: i32,
+        point: *const f64,
+        out: *mut Momentum,
+        fault: *mut Fault,
+    );
+    loads_of "precess_loads_of" "precess_loads_of_v2" (
+        craft: *const Craft,
+        state: *const State<J>,
+        inputs: *const Inputs<J>,
+        axes: i32,
+        out: *mut Loads<J>,
+        fault: *mut Fault,
+    );
+}
