@@ -47,4 +47,5 @@ mod nearest;
 pub mod record;
 pub mod report;
 pub mod scenario;
+pub mod structure;
 pub mod units;

@@ -172,6 +172,43 @@ fn the_description_of_a_spacecraft_is_the_committed_one() {
     assert!(!text(&unlocked.stdout).contains("locked_at"));
 }
 
+/// How a mount is written says which turns it is made of, whatever rounding leaves of them.
+#[test]
+fn a_mount_is_described_by_its_turns() {
+    let hub = "format = 1\n[hub]\nmass = \"90 kg\"\ninertia = \"9, 9, 9 kg m^2\"\n[run]\n\
+               duration = \"1 s\"\n[[device]]\nname = \"cmg\"\nkind = \"vscmg\"\n";
+    let bodies = "[device.gimbal]\nmass = \"3 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n\
+                  [device.wheel]\nmass = \"3 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n";
+    let place = folder("turned_mounts");
+    fs::create_dir_all(&place).expect("a folder");
+    let file = place.join("scenario.toml");
+    for (mount, turns) in [
+        ("mount = { axis = [0, 0, 2], angle = \"-90 deg\" }", "turns = [\"z 270\"]"),
+        ("mount = { axis = [0, 1, 0], angle = \"20 deg\" }", "turns = [\"y\"]"),
+        (
+            "mount = { euler = \"30, 0, 90 deg\", sequence = \"ZYX\", direction = \"hub to device\" }",
+            "turns = [\"z\", \"x 90\"]",
+        ),
+        (
+            "mount = { euler = \"30, 20, 90 deg\", sequence = \"ZYX\", direction = \"device to hub\" }",
+            "turns = [\"x 270\", \"y\", \"z\"]",
+        ),
+        ("mount = { gimbal_axis = [0, 0, 1], spin_axis = [1, 0, 0] }", "turns = []"),
+        ("mount = { gimbal_axis = [0, 0, 1], spin_axis = [3, 4, 0] }", "turns = [\"z\"]"),
+        ("layout.ring = { count = 1 }", "turns = [\"y 90\", \"z 90\"]"),
+    ] {
+        fs::write(&file, format!("{hub}{mount}\n{bodies}")).expect("written");
+        let printed = precess(&["bake", "--description", file.to_str().expect("a path")]);
+        let text = text(&printed.stdout);
+        assert!(text.contains(turns), "{mount}: {text}{}", self::text(&printed.stderr));
+    }
+    // Of numbers nothing is known but within rounding.
+    let mount = "mount = { matrix = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }";
+    fs::write(&file, format!("{hub}{mount}\n{bodies}")).expect("written");
+    let printed = precess(&["bake", "--description", file.to_str().expect("a path")]);
+    assert!(printed.status.success() && !text(&printed.stdout).contains("turns"));
+}
+
 #[test]
 fn a_spacecraft_without_kernels_of_its_own_is_refused() {
     let refused = |set: &str, named: &str| {

@@ -128,9 +128,9 @@ fn jacobis_functions_have_their_period() {
 #[test]
 fn a_gyrostat_nutates_at_its_rate() {
     let ran = Ran::of("known-nutation.toml");
-    let (hub, wheel) = (&ran.scenario.hub, ran.scenario.devices[0].parameters().bodies[0]);
+    let (hub, wheel) = (&ran.scenario.hub, ran.scenario.devices.0[0].parameters().bodies[0]);
     let start = &ran.scenario.initial;
-    let spin = start.devices[0][0][1];
+    let spin = start.devices.0[0][0][1];
     let transverse = hub.i_b_bc.m22 + wheel.inertia.m22;
     let (axial, across) = (start.omega.x, start.omega.y);
     let h_x = hub.i_b_bc.m11 * axial + wheel.inertia.m11 * (axial + spin);
@@ -167,8 +167,8 @@ const NUTATION: f64 = 2e-13;
 #[test]
 fn a_hub_circles_with_an_imbalanced_wheel() {
     let ran = Ran::of("known-imbalanced-wheel.toml");
-    let wheel = ran.scenario.devices[0].parameters().bodies[0];
-    let spin = ran.scenario.initial.devices[0][0][1];
+    let wheel = ran.scenario.devices.0[0].parameters().bodies[0];
+    let spin = ran.scenario.initial.devices.0[0][0][1];
     let radius = wheel.mass * wheel.centre[1] / (ran.scenario.hub.m_b + wheel.mass);
     let duration = ran.scenario.settings.duration;
     assert!((radius - 3.2e-6).abs() < 1e-20 && spin * duration > 190.0 * TAU);
@@ -224,9 +224,9 @@ const LIBRATION: f64 = 5e-12;
 #[test]
 fn a_panel_swings_as_a_pendulum() {
     let ran = Ran::of("known-panel-pendulum.toml");
-    let panel = ran.scenario.devices[0].parameters().bodies[0];
+    let panel = ran.scenario.devices.0[0].parameters().bodies[0];
     let precess_dynamics::Gravity::Uniform(g) = ran.scenario.gravity else { panic!("no gravity") };
-    let [start, _] = ran.scenario.initial.devices[0][0];
+    let [start, _] = ran.scenario.initial.devices.0[0][0];
     let arm = panel.centre[0];
     let w = (panel.mass * g.x * arm / (panel.inertia.m33 + panel.mass * arm * arm)).sqrt();
     let period = TAU / (w * agm(1.0, (start / 2.0).cos()));
@@ -257,7 +257,7 @@ const SWING: f64 = 1e-11;
 #[test]
 fn opposite_wheels_spin_up_and_the_hub_stays_at_rest() {
     let ran = Ran::of("known-opposite-wheels.toml");
-    let inertia = ran.scenario.devices[0].parameters().bodies[0].inertia.m11;
+    let inertia = ran.scenario.devices.0[0].parameters().bodies[0].inertia.m11;
     let torque = ran.scenario.drives[0].profile().expect("a torque").at(0.0, false);
     let duration = ran.scenario.settings.duration;
     let rate = torque / inertia;

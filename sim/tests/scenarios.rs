@@ -142,7 +142,7 @@ fn gimbal_lock_ends_in_the_error_of_a_singular_pose() {
 #[test]
 fn every_kind_is_in_every_kind() {
     let scenario = read(&folder().join("every-kind.toml"));
-    let kinds: Vec<_> = scenario.devices.iter().map(precess_dynamics::BuiltIn::kind).collect();
+    let kinds: Vec<_> = scenario.devices.0.iter().map(precess_dynamics::BuiltIn::kind).collect();
     for kind in BuiltInKind::ALL {
         let count = kinds.iter().filter(|found| **found == *kind).count();
         assert_eq!(count, 1, "{}", kind.name());

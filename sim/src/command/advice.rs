@@ -14,7 +14,7 @@ use std::fmt;
 use precess_dynamics::JointStates as _;
 
 use super::table::six;
-use crate::file::read::body_key;
+use crate::file::read::joint_key;
 use crate::file::{Diagnostic, Severity};
 use crate::scenario::{IntegratorChoice, Scenario};
 
@@ -52,7 +52,7 @@ pub(super) fn advice(scenario: &Scenario, rates: impl Iterator<Item = f64>) -> V
     let fastest = joints.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, omega)| *omega > 0.0);
     let Some(((_, device, info), omega)) = fastest else { return Vec::new() };
     let turns = |per_turn: f64, present: f64| Turns {
-        joint: format!("{device}.{}", body_key(info)),
+        joint: format!("{device}.{}", joint_key(info)),
         omega,
         per_turn,
         present,

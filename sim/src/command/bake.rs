@@ -26,6 +26,7 @@ enum Language {
 }
 
 /// The options of `bake`.
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command")]
 #[derive(Debug, Args)]
 pub(super) struct Bake {
     /// The scenario file.
@@ -38,6 +39,9 @@ pub(super) struct Bake {
     /// What to write.
     #[arg(long, value_enum, default_value_t = Language::Rust)]
     language: Language,
+    /// Fold the values, too: constants instead of a constructor that takes them.
+    #[arg(long)]
+    constants: bool,
     /// Joints that the scenario locks stay joints.
     #[arg(long)]
     unlock: bool,
@@ -72,8 +76,10 @@ impl Bake {
         let mut command = Command::new(program());
         command.arg("--out").arg(out);
         command.args(["--language", if self.language == Language::C { "c" } else { "rust" }]);
-        if self.force {
-            command.arg("--force");
+        for (given, flag) in [(self.constants, "--constants"), (self.force, "--force")] {
+            if given {
+                command.arg(flag);
+            }
         }
         let mut child = command.stdin(Stdio::piped()).spawn().map_err(|error| {
             CommandError::Other(format!(

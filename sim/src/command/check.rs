@@ -1,5 +1,6 @@
 //! `check`: what a scenario is, before it is run.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::process::ExitCode;
 
@@ -9,7 +10,7 @@ use precess_dynamics::{About, BuiltIn, Imbalance, Inputs, JointStates, units};
 use super::table::{aligned, six};
 use super::{Files, Form, advice, print};
 use crate::file::from_file;
-use crate::file::read::body_key;
+use crate::file::read::joint_key;
 use crate::scenario::Scenario;
 use crate::scenario::mass::{JointInertia, MassMatrix, MassProperties, imbalance};
 
@@ -79,6 +80,11 @@ fn properties(scenario: &Scenario) -> String {
     if let Ok(energy) = spacecraft.energy(state) {
         rows.push(row("kinetic energy", &[energy], "J"));
     }
+    if let Some(structure) = &scenario.structure {
+        let mut hertz: Vec<_> = structure.modes.iter().map(|mode| mode.frequency / TAU).collect();
+        hertz.sort_by(f64::total_cmp);
+        rows.push(row("modes of the structure", &hertz, "Hz"));
+    }
     text.push_str(&aligned(&rows));
     let matrix = MassMatrix::of(scenario, &spacecraft);
     text.push_str(&joints(scenario, matrix.as_ref().ok()));
@@ -113,8 +119,8 @@ fn joints(scenario: &Scenario, matrix: Option<&MassMatrix>) -> String {
     let mut inertias = matrix.into_iter().flat_map(|matrix| &matrix.joints);
     let heads = ["joint", "mass", "rate", "inertia, all else held", "all else free", "imbalance"];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
-    for (name, device) in scenario.names.iter().zip(&scenario.devices) {
-        for (info, body) in device.kind().joints().iter().zip(&device.parameters().bodies) {
+    for (name, member) in scenario.members() {
+        for (info, body) in member.joints().iter().zip(&member.bodies()) {
             let [_, rate] = states.next().unwrap_or_default();
             let JointInertia { held, free } = inertias.next().copied().unwrap_or_default();
             let [rate, unit] = if info.slides {
@@ -126,12 +132,15 @@ fn joints(scenario: &Scenario, matrix: Option<&MassMatrix>) -> String {
                 inertia.map_or_else(|| "-".to_owned(), |value| format!("{} {unit}", six(value)))
             };
             rows.push(vec![
-                format!("{name}.{}", body_key(info)),
+                format!("{name}.{}", joint_key(info)),
                 format!("{} kg", six(body.mass)),
                 rate,
                 inertia(held),
                 inertia(free),
-                if info.tip { shown_imbalance(device) } else { String::new() },
+                match member.device() {
+                    Some(device) if info.tip => shown_imbalance(device),
+                    _ => String::new(),
+                },
             ]);
         }
     }

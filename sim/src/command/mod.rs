@@ -1,6 +1,7 @@
 //! The command line: its commands and options. Each command is a file; all they do is in the
 //! library.
 
+mod accelerance;
 mod advice;
 mod bake;
 mod check;
@@ -10,10 +11,12 @@ mod error;
 mod evaluate;
 mod export;
 mod kinds;
+mod mounted;
 mod new;
 mod plot;
 mod run;
 mod schema;
+mod structure;
 mod table;
 
 use std::io::Write as _;
@@ -67,6 +70,12 @@ enum Command {
     /// Derive, prove and write kernels for this spacecraft alone, as Rust or C
     #[command(after_help = "Example:\n  precess bake bus.toml --out bus_kernels --language c")]
     Bake(bake::Bake),
+    /// Show the modes of a structure, or write them as NPZ
+    #[command(subcommand, after_help = "Example:\n  precess structure show bus.npz")]
+    Structure(structure::StructureCommand),
+    /// Write accelerances of a structure over frequency, and the mounted force of a wheel by its blocked one
+    #[command(after_help = accelerance::HELP)]
+    Accelerance(Box<accelerance::AcceleranceCommand>),
     /// Write a scenario for the flight library
     #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
     Export(export::Export),
@@ -134,6 +143,8 @@ impl Cli {
             Command::Schema => Ok(schema::execute()),
             Command::Kinds(kinds) => kinds.execute(),
             Command::Bake(bake) => bake.execute(),
+            Command::Structure(structure) => structure.execute(),
+            Command::Accelerance(accelerance) => accelerance.execute(),
             Command::Export(export) => export.execute(),
         };
         match done {

@@ -5,6 +5,7 @@ use precess_dynamics::kind::Each;
 
 use super::dop853::same;
 use super::inputs::LOCKED;
+use super::packing::Layout;
 use super::{End, Run, RunError};
 use crate::scenario::{Action, Drive, Profile};
 
@@ -76,19 +77,20 @@ impl Run<'_> {
     /// Stops joints impulsively, locks them, and enters the loss; returns it, J.
     fn brake(&mut self, joints: &[usize]) -> Result<f64, RunError> {
         let mut inputs = self.system.inputs(self.time, &self.moment.state);
-        for (joint, mode) in inputs.modes.values_mut().enumerate() {
+        for (joint, mode) in inputs.rigid.modes.values_mut().enumerate() {
             if joints.contains(&joint) {
                 *mode = Mode::Locked;
             }
         }
-        let stopped = self.system.spacecraft.stop(&self.moment.state, &inputs);
-        let stopped = stopped.map_err(|source| RunError::solve(&self.system, self.time, source))?;
+        let stopped = self.system.craft.stop(&self.moment.state, &inputs);
+        let failed = |source| RunError::solve(&self.system, self.time, source);
+        let (state, energy_lost) = stopped.map_err(failed)?;
         for joint in joints {
             self.system.acting.set_drive(*joint, LOCKED);
         }
-        self.moment.state = stopped.state;
-        self.lost += stopped.energy_lost;
-        Ok(stopped.energy_lost)
+        self.moment.state = state;
+        self.lost += energy_lost;
+        Ok(energy_lost)
     }
 
     /// Rejects a drive of a joint that its kind keeps at its rate, and a locked joint that moves.
@@ -117,12 +119,11 @@ impl Run<'_> {
     }
 
     fn check_at_rest(&self, joint: usize) -> Result<(), RunError> {
-        let layout = &self.system.layout;
-        let [_, rate] = layout.joint(joint, &self.moment.state, self.stepper.turns());
+        let [_, rate] = Layout::joint(joint, &self.moment.state, self.stepper.turns());
         if rate == 0.0 {
             return Ok(());
         }
-        let place = &layout.joints[joint];
+        let place = &self.system.layout.joints[joint];
         let (time, joint, [_, unit, ..]) = (self.time, place.name.clone(), place.info.units());
         Err(RunError::LockedJointMoves { time, joint, rate, unit })
     }

@@ -3,18 +3,17 @@
 //!
 //! Drift is counted in units that cannot vanish by cancellation: the largest kinetic energy plus the
 //! integral of sum |u * rate|, and for each momentum the sum over the bodies of the magnitudes of
-//! their momenta, its largest. The units are those at the end of the run: drift is the largest
+//! their momenta, its largest; those of a structure that bends as if it were undeformed. The units are those at the end of the run: drift is the largest
 //! departure over the final unit, which is what the largest share of any entry would be.
 
 use nalgebra::Vector3;
-use precess_dynamics::{
-    About, Accelerations, EnergyAndMomentum, Gravity, HubMode, Inputs, Momentum, SolveError, State,
-};
+use precess_dynamics::{About, EnergyAndMomentum, Gravity, HubMode, Momentum, SolveError};
 
+use super::craft::{CraftAccelerations, CraftInputs, CraftState};
 use super::integrator::Moment;
 use super::kinematics::momenta;
 use super::system::{System, lumped};
-use crate::scenario::{Scenario, Set};
+use crate::scenario::Scenario;
 
 /// Departure from the start, each part in its own unit (see the module); none of what is not
 /// conserved.
@@ -89,11 +88,11 @@ impl Conserved {
         if self.isolated {
             let Momentum { linear, angular } = match momentum {
                 Some(momentum) => momentum,
-                None => system.spacecraft.momentum(state, About::InertialOrigin)?,
+                None => system.craft.momentum(state, About::InertialOrigin)?,
             };
             (entry.linear, entry.angular) = (linear, angular);
             let mut magnitudes = [0.0; 2];
-            momenta(&scenario.hub, system.acting.chains(), state, |body| {
+            momenta(&scenario.hub, system.acting.chains(), &state.rigid, |body| {
                 magnitudes[0] += body.linear.norm();
                 magnitudes[1] += body.angular.norm();
             });
@@ -126,7 +125,7 @@ impl Conserved {
 }
 
 /// Inputs at a state and the accelerations that follow from them.
-pub(crate) type Evaluated<'a> = (&'a Inputs<Set>, &'a Accelerations<Set>);
+pub(crate) type Evaluated<'a> = (&'a CraftInputs, &'a CraftAccelerations);
 
 /// Kinetic energy, and potential energy of gravity and springs, J; and momenta about the inertial
 /// origin, if they come of the same pass over the bodies. `evaluated` is what is known already of
@@ -134,22 +133,22 @@ pub(crate) type Evaluated<'a> = (&'a Inputs<Set>, &'a Accelerations<Set>);
 pub(crate) fn energies(
     system: &System<'_>,
     time: f64,
-    state: &State<Set>,
+    state: &CraftState,
     evaluated: Option<Evaluated<'_>>,
 ) -> Result<([f64; 2], Option<Momentum>), SolveError> {
-    let spacecraft = &system.spacecraft;
+    let craft = &system.craft;
     if !system.has_potential() {
         let EnergyAndMomentum { energy, momentum } =
-            spacecraft.energy_and_momentum(state, About::InertialOrigin)?;
+            craft.energy_and_momentum(state, About::InertialOrigin)?;
         return Ok(([energy, 0.0], Some(momentum)));
     }
     let ledger = if let Some((inputs, found)) = evaluated {
-        spacecraft.ledger(state, inputs, found)?
+        craft.ledger(state, inputs, found)?
     } else {
         let inputs = system.inputs(time, state);
-        let found = spacecraft.accelerations(state, &inputs)?;
+        let found = craft.accelerations(state, &inputs)?;
         system.count(1);
-        spacecraft.ledger(state, &inputs, &found)?
+        craft.ledger(state, &inputs, &found)?
     };
     Ok(([ledger.kinetic, ledger.gravity + ledger.springs], None))
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use precess_dynamics::{ParameterError, Quantity, SolveError};
+use precess_dynamics::{ModesError, ParameterError, Quantity, SolveError};
 
 use super::system::System;
 use crate::record::RecordError;
@@ -15,6 +15,8 @@ pub enum RunError {
     Scenario(Vec<ScenarioError>),
     /// The solver rejects the spacecraft.
     Parameters(ParameterError),
+    /// The modes of the structure are not valid.
+    Modes(ModesError),
     /// The solver cannot solve a state of the run.
     Solve {
         /// Simulated time, s.
@@ -137,6 +139,7 @@ impl RunError {
             | Self::Integrator { time, .. } => Some(*time),
             Self::Scenario(_)
             | Self::Parameters(_)
+            | Self::Modes(_)
             | Self::BeyondStop { .. }
             | Self::Crossing { .. }
             | Self::Record(_) => None,
@@ -173,6 +176,7 @@ impl fmt::Display for RunError {
                 })
             }
             Self::Parameters(error) => write!(f, "spacecraft rejected: {error}"),
+            Self::Modes(error) => write!(f, "structure rejected: {error}"),
             Self::Solve { time, device: Some(device), source } => {
                 write!(f, "at t = {time} s, `{device}`: {source}")
             }
@@ -226,6 +230,7 @@ impl std::error::Error for RunError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Parameters(source) => Some(source),
+            Self::Modes(source) => Some(source),
             Self::Solve { source, .. } => Some(source),
             Self::Record(source) => Some(source),
             _ => None,

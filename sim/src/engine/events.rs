@@ -5,16 +5,17 @@
 //! and leaves it at the end. The passage is bracketed by steps of their own from the start of the
 //! step, so its time is that of the numerical solution, to 1e-12 s or four roundings of the time.
 
-use precess_dynamics::{Attitude, State};
+use precess_dynamics::Attitude;
 
 use super::error::RunError;
 use super::inputs::Acting;
 use super::integrator::{Moment, Stepper};
+use super::packing::Layout;
 use super::roots::bracket;
 use super::system::System;
 use crate::nearest::nearest;
 use crate::record::columns::{Quantity, state_quantities};
-use crate::scenario::{Drive, EndStop, Scenario, Set, StopAction};
+use crate::scenario::{Drive, EndStop, Scenario, StopAction};
 
 /// Width of the bracket of a passage, s.
 const WIDTH: f64 = 1e-12;
@@ -80,7 +81,7 @@ impl<'a> Monitors<'a> {
     pub(crate) fn new(
         scenario: &'a Scenario,
         system: &System<'_>,
-        start: &State<Set>,
+        start: &Moment,
     ) -> Result<Self, RunError> {
         let names = state_quantities(&system.layout);
         let watched = |(index, crossing): (usize, &crate::scenario::Crossing)| {
@@ -97,7 +98,7 @@ impl<'a> Monitors<'a> {
         let crossings = crossings.collect::<Result<_, RunError>>()?;
         let turns = vec![0.0; system.layout.joints.len()];
         for stop in &scenario.stops {
-            let [value, _] = system.layout.joint(stop.joint, start, &turns);
+            let [value, _] = Layout::joint(stop.joint, &start.state, &turns);
             if !(stop.lower..=stop.upper).contains(&value) {
                 let place = &system.layout.joints[stop.joint];
                 let (joint, [unit, ..]) = (place.name.clone(), place.info.units());
@@ -105,9 +106,8 @@ impl<'a> Monitors<'a> {
                 return Err(RunError::BeyondStop { joint, value, stops, unit });
             }
         }
-        let moment = Moment { state: start.clone(), integrals: [0.0; 2] };
         let stops: Vec<_> = scenario.stops.iter().collect();
-        Ok(Self { stops, crossings, moment: Some(moment) })
+        Ok(Self { stops, crossings, moment: Some(start.clone()) })
     }
 
     /// What the last step passed, in the order of time, up to the first passage that cuts it.
@@ -157,8 +157,8 @@ impl<'a> Monitors<'a> {
 }
 
 impl Function {
-    fn at(&self, system: &System<'_>, stepper: &Stepper, moment: &Moment) -> f64 {
-        let value = state_value(system, stepper, moment, self.quantity);
+    fn at(&self, stepper: &Stepper, moment: &Moment) -> f64 {
+        let value = state_value(stepper, moment, self.quantity);
         self.sign * (value - self.value)
     }
 
@@ -183,8 +183,8 @@ fn search(
     let intervals = if stepper.is_dense() { INTERVALS } else { 1 };
     stepper.at(system, start, moment)?;
     let mut from: Vec<f64> =
-        functions.iter().map(|function| function.at(system, stepper, moment)).collect();
-    let mut rates_from = rates(system, stepper, functions, moment);
+        functions.iter().map(|function| function.at(stepper, moment)).collect();
+    let mut rates_from = rates(stepper, functions, moment);
     let mut earlier = start;
     for interval in 1..=intervals {
         let later = if interval == intervals {
@@ -193,9 +193,8 @@ fn search(
             start + (end - start) * f64::from(interval) / f64::from(intervals)
         };
         stepper.at(system, later, moment)?;
-        let to: Vec<f64> =
-            functions.iter().map(|function| function.at(system, stepper, moment)).collect();
-        let rates_to = rates(system, stepper, functions, moment);
+        let to: Vec<f64> = functions.iter().map(|function| function.at(stepper, moment)).collect();
+        let rates_to = rates(stepper, functions, moment);
         for (i, function) in functions.iter().enumerate() {
             let mut span = [earlier, later];
             let mut values = [from[i], to[i]];
@@ -207,12 +206,12 @@ fn search(
                 let slope = [rates_from[i], rates_to[i]];
                 let [_, extremum] = bracket(span, slope, (later - earlier) * 1e-3, |time| {
                     stepper.at(system, time, moment)?;
-                    let rate = rates(system, stepper, std::slice::from_ref(function), moment);
+                    let rate = rates(stepper, std::slice::from_ref(function), moment);
                     Ok::<_, RunError>(rate[0])
                 })?;
                 stepper.at(system, extremum, moment)?;
                 span[1] = extremum;
-                values[1] = function.at(system, stepper, moment);
+                values[1] = function.at(stepper, moment);
                 if !function.passes(values) {
                     continue;
                 }
@@ -220,7 +219,7 @@ fn search(
             let width = WIDTH.max(ROUNDINGS * f64::EPSILON * later);
             let [time, after] = bracket(span, values, width, |time| {
                 stepper.restep(system, time, moment)?;
-                Ok::<_, RunError>(function.at(system, stepper, moment))
+                Ok::<_, RunError>(function.at(stepper, moment))
             })?;
             // Before a stop, so that the joint is within it; after a crossing.
             let time = if matches!(function.what, Passed::Stop { .. }) { time } else { after };
@@ -236,15 +235,10 @@ fn search(
 }
 
 /// The rate of each function of a stop; zero of a crossing, which is not searched for extrema.
-fn rates(
-    system: &System<'_>,
-    stepper: &Stepper,
-    functions: &[Function],
-    moment: &Moment,
-) -> Vec<f64> {
+fn rates(stepper: &Stepper, functions: &[Function], moment: &Moment) -> Vec<f64> {
     let rate = |function: &Function| match function.what {
         Passed::Stop { joint, .. } => {
-            function.sign * system.layout.joint(joint, &moment.state, stepper.turns())[1]
+            function.sign * Layout::joint(joint, &moment.state, stepper.turns())[1]
         }
         Passed::Crossing { .. } => 0.0,
     };
@@ -252,9 +246,9 @@ fn rates(
 }
 
 /// A quantity of the state.
-fn state_value(system: &System<'_>, stepper: &Stepper, moment: &Moment, quantity: Quantity) -> f64 {
-    let state = &moment.state;
-    let joint = |joint| system.layout.joint(joint, state, stepper.turns());
+fn state_value(stepper: &Stepper, moment: &Moment, quantity: Quantity) -> f64 {
+    let joint = |joint| Layout::joint(joint, &moment.state, stepper.turns());
+    let state = &moment.state.rigid;
     match quantity {
         Quantity::Position(axis) => state.r_b_n[axis],
         Quantity::Velocity(axis) => state.r_b_n_dot[axis],
@@ -265,6 +259,8 @@ fn state_value(system: &System<'_>, stepper: &Stepper, moment: &Moment, quantity
         }
         Quantity::Coordinate(index) => joint(index)[0],
         Quantity::Rate(index) => joint(index)[1],
+        Quantity::ModalCoordinate(mode) => moment.state.eta[mode],
+        Quantity::ModalRate(mode) => moment.state.eta_dot[mode],
         _ => f64::NAN,
     }
 }

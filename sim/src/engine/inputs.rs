@@ -5,11 +5,12 @@
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
-use precess_dynamics::{Attitude, Inputs, Mode, Spacecraft, State, Wrench};
+use precess_dynamics::{Attitude, Inputs, JointStates, ListedModes, ModalPoint, Mode, Wrench};
 
-use super::kinematics::Chain;
+use super::craft::{Craft, CraftInputs, CraftState};
+use super::kinematics::{Chain, axes};
 use super::packing::JointPlace;
-use crate::scenario::{AppliedWrench, Drive, Profile, Scenario, Set, Target, WrenchAxes};
+use crate::scenario::{AppliedWrench, Drive, Profile, Scenario, Target, WrenchAxes};
 
 /// A locked joint.
 pub(crate) const LOCKED: &Drive = &Drive::Locked;
@@ -27,25 +28,41 @@ pub(crate) struct Acting<'a> {
     end: f64,
 }
 
+/// What a wrench acts on.
+#[derive(Clone, Debug)]
+enum On {
+    /// The hub.
+    Hub,
+    /// Device, joint in the device, joint in the set.
+    Body(usize, usize, usize),
+    /// A point of the structure.
+    Node(Box<ModalPoint<ListedModes>>),
+}
+
 /// A wrench, and of which body.
 #[derive(Clone, Debug)]
 struct Placed<'a> {
     wrench: &'a AppliedWrench,
-    /// Device, joint in the device, joint in the set; none for the hub.
-    body: Option<(usize, usize, usize)>,
+    on: On,
 }
 
 impl<'a> Acting<'a> {
     pub(crate) fn new(scenario: &'a Scenario, joints: &[JointPlace]) -> Self {
         let placed = |wrench: &'a AppliedWrench| {
-            let body = match wrench.body {
-                Target::Hub => None,
+            let on = match wrench.body {
+                Target::Hub => Some(On::Hub),
                 Target::Joint(joint) => {
                     let place = joints.get(joint);
-                    place.map(|place| (place.device, place.info.index, joint))
+                    place.map(|place| On::Body(place.device, place.info.index, joint))
+                }
+                Target::Node(node) => {
+                    let nodes = scenario.structure.as_ref().map(|structure| &structure.nodes);
+                    let node = nodes.and_then(|nodes| nodes.get(node));
+                    node.map(|node| On::Node(Box::new(node.point())))
                 }
             };
-            Placed { wrench, body }
+            // A checked scenario has every joint and node that it names.
+            on.map(|on| Placed { wrench, on })
         };
         let acts = |wrench: &&AppliedWrench| {
             !wrench.force.iter().chain(&wrench.moment).all(Profile::is_zero)
@@ -53,20 +70,20 @@ impl<'a> Acting<'a> {
         Self {
             drives: scenario.drives.iter().collect(),
             driven: joints.iter().map(|place| place.info.driven).collect(),
-            wrenches: scenario.wrenches.iter().filter(acts).map(placed).collect(),
-            chains: scenario.devices.iter().map(Chain::new).collect(),
+            wrenches: scenario.wrenches.iter().filter(acts).filter_map(placed).collect(),
+            chains: Chain::all(&scenario.devices),
             start: 0.0,
             end: 0.0,
         }
     }
 
     /// Inputs with everything that does not depend on time.
-    pub(crate) fn inputs(&self, scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> Inputs<Set> {
-        let mut inputs = Inputs::none_for(spacecraft);
-        inputs.hub = scenario.hub_mode;
-        inputs.gravity = scenario.gravity;
+    pub(crate) fn inputs(&self, scenario: &Scenario, craft: &Craft) -> CraftInputs {
+        let mut inputs = craft.no_inputs();
+        inputs.rigid.hub = scenario.hub_mode;
+        inputs.rigid.gravity = scenario.gravity;
         if self.on_joints() {
-            inputs.bodies = Some(Inputs::no_wrenches_for(spacecraft));
+            inputs.rigid.bodies = Some(Inputs::no_wrenches_for(craft.rigid()));
         }
         inputs
     }
@@ -88,7 +105,7 @@ impl<'a> Acting<'a> {
         }
     }
 
-    /// The bodies of each device.
+    /// The bodies of each device and platform.
     pub(crate) fn chains(&self) -> &[Chain] {
         &self.chains
     }
@@ -100,7 +117,7 @@ impl<'a> Acting<'a> {
 
     /// Whether one acts on the child body of a joint.
     pub(crate) fn on_joints(&self) -> bool {
-        self.wrenches.iter().any(|placed| placed.body.is_some())
+        self.wrenches.iter().any(|placed| matches!(placed.on, On::Body(..)))
     }
 
     /// Whether the motor torque of every moving joint is an input.
@@ -112,7 +129,8 @@ impl<'a> Acting<'a> {
     }
 
     /// Writes what depends on time, and on the attitude of the bodies.
-    pub(crate) fn fill(&self, time: f64, state: &State<Set>, inputs: &mut Inputs<Set>) {
+    pub(crate) fn fill(&self, time: f64, state: &CraftState, all: &mut CraftInputs) {
+        let inputs = &mut all.rigid;
         let time = time.clamp(self.start, self.end);
         let from_below = time > self.start;
         let at = |profile: &Profile| profile.at(time, from_below);
@@ -130,32 +148,38 @@ impl<'a> Acting<'a> {
         if self.wrenches.is_empty() {
             return;
         }
-        let bn = state.attitude.dcm();
+        let bn = state.rigid.attitude.dcm();
         (inputs.force, inputs.torque_b) = (Vector3::zeros(), Vector3::zeros());
         if let Some(bodies) = &mut inputs.bodies {
             for wrench in bodies.values_mut() {
                 *wrench = Wrench::none();
             }
         }
-        for Placed { wrench, body } in &self.wrenches {
+        all.modal.fill(0.0);
+        for Placed { wrench, on } in &self.wrenches {
             let vector = |of: &[Profile; 3]| Vector3::from(of.each_ref().map(at));
             let (mut force, mut moment) = (vector(&wrench.force), vector(&wrench.moment));
             if wrench.axes == WrenchAxes::Inertial {
                 (force, moment) = (bn * force, bn * moment);
             }
-            let Some((device, index, joint)) = *body else {
-                inputs.torque_b += moment;
-                inputs.add_force(&wrench.point, &force);
-                continue;
+            let (device, index, joint) = match on {
+                On::Hub => {
+                    all.rigid.torque_b += moment;
+                    all.rigid.add_force(&wrench.point, &force);
+                    continue;
+                }
+                On::Node(point) => {
+                    all.add_wrench(point, &force, &moment);
+                    continue;
+                }
+                On::Body(device, index, joint) => (*device, *index, *joint),
             };
-            if wrench.axes == WrenchAxes::Inertial
-                && let (Some(chain), Some(joints)) =
-                    (self.chains.get(device), state.devices.get(device))
-            {
-                let axes = chain.axes(index, joints);
+            if wrench.axes == WrenchAxes::Inertial {
+                let joints: Vec<_> = state.rigid.devices.states().collect();
+                let axes = axes(&self.chains, device, index, &joints);
                 (force, moment) = (axes.tr_mul(&force), axes.tr_mul(&moment));
             }
-            let bodies = inputs.bodies.as_mut();
+            let bodies = all.rigid.bodies.as_mut();
             if let Some(sum) = bodies.and_then(|bodies| bodies.values_mut().nth(joint)) {
                 let wrench = Wrench::at(&wrench.point, &force).plus(&Wrench::torque(&moment));
                 *sum = sum.plus(&wrench);

@@ -3,18 +3,17 @@
 //! Joint angles are those of the integrator: DOP853's are reduced by whole turns, which [`Stepper`]
 //! counts, RK4's are not.
 
-use precess_dynamics::State;
-
+use super::craft::CraftState;
 use super::dop853::Dop853;
 use super::error::RunError;
 use super::rk4::Rk4;
 use super::system::System;
-use crate::scenario::{IntegratorChoice, Set};
+use crate::scenario::IntegratorChoice;
 
 /// A state and both integrals.
 #[derive(Clone, Debug)]
 pub(crate) struct Moment {
-    pub(crate) state: State<Set>,
+    pub(crate) state: CraftState,
     /// Work and throughput since the start, J.
     pub(crate) integrals: [f64; 2],
 }

@@ -1,5 +1,5 @@
-//! Poses and velocities of the bodies of any device: body after body along the chain, without the
-//! emitted kernels.
+//! Poses and velocities of the bodies of any device and platform: body after body along the chain,
+//! without the emitted kernels. A device on a platform continues the platform's chain.
 //!
 //! They turn wrenches that are given in N, and make the unit of momentum drift: the sum over the
 //! bodies of the magnitudes of their momenta. Only the sum of the momenta themselves has to equal
@@ -7,9 +7,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{BodyParameters, JointInfo};
-use precess_dynamics::{Angle, Attitude, BuiltIn, Hub, JointArray, State};
+use precess_dynamics::{Angle, Attitude, Hub, JointStates, State};
 
-use crate::scenario::Set;
+use crate::scenario::{Set, members};
 
 /// Momentum of one body, expressed in N.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,51 +20,89 @@ pub(crate) struct BodyMomentum {
     pub(crate) angular: Vector3<f64>,
 }
 
-/// The bodies of a device, from the hub to the tip.
+/// The bodies of a device or platform, from its base to the tip.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
     mount: Matrix3<f64>,
     bodies: Vec<(BodyParameters<f64>, &'static JointInfo)>,
+    /// The number of the first joint in the set.
+    first: usize,
+    /// The number of the platform's chain whose tip is the base; none on the hub.
+    on: Option<usize>,
 }
 
 impl Chain {
-    pub(crate) fn new(device: &BuiltIn) -> Self {
-        let parameters = device.parameters();
-        let bodies = parameters.bodies.into_iter().zip(device.kind().joints()).collect();
-        Self { mount: parameters.mount, bodies }
+    /// Those of a set, in order.
+    pub(crate) fn all(set: &Set) -> Vec<Self> {
+        let mut first = 0;
+        let chain = |member: crate::scenario::Member<'_>| {
+            let bodies: Vec<_> = member.bodies().into_iter().zip(member.joints()).collect();
+            let of = Self { mount: member.mount(), first, on: member.on(), bodies };
+            first += of.bodies.len();
+            of
+        };
+        members(set).into_iter().map(chain).collect()
     }
 
-    /// The axes of a body, columns expressed in B: those in which a wrench on it is given.
-    ///
-    /// A rotor that is the same from every angle has those of its parent body, as
-    /// `Inputs::bodies` has it.
-    pub(crate) fn axes(&self, index: usize, joints: &JointArray<[f64; 2]>) -> Matrix3<f64> {
-        let turning = self.bodies.iter().zip(joints.as_slice()).take(index + 1);
-        turning.fold(self.mount, |axes, ((_, info), [coordinate, _])| {
-            if info.slides || info.ignorable { axes } else { axes * turn(info, *coordinate) }
-        })
+    /// The number of the platform's chain whose tip is the base; none on the hub.
+    pub(crate) fn on(&self) -> Option<usize> {
+        self.on
     }
 
+    /// The point that the load at the mount is about, from the origin of the base, in its axes: the
+    /// origin of the first joint, which moves with a sliding one. `joints` are those of the set.
+    pub(crate) fn mount_point(&self, joints: &[[f64; 2]]) -> Vector3<f64> {
+        let Some((body, info)) = self.bodies.first() else { return Vector3::zeros() };
+        let origin = Vector3::from(body.origin);
+        match joints.get(self.first) {
+            Some([coordinate, _]) if info.slides => origin + self.mount * unit(info) * *coordinate,
+            _ => origin,
+        }
+    }
+
+    /// Calls `each` with the momentum of each body; returns the frame of the tip.
     fn momenta(
         &self,
-        b: &Frame,
-        joints: &JointArray<[f64; 2]>,
+        base: &Frame,
+        joints: &[[f64; 2]],
         mut each: impl FnMut(BodyMomentum),
-    ) {
-        let mut parent = *b;
-        for ((body, info), state) in self.bodies.iter().zip(joints.as_slice()) {
+    ) -> Frame {
+        let mut parent = *base;
+        for ((body, info), state) in self.bodies.iter().zip(joints.iter().skip(self.first)) {
             let mut frame = parent.moved(Vector3::from(body.origin));
             if info.index == 0 {
-                frame.axes = self.mount;
+                frame.axes *= self.mount;
             }
             frame = frame.jointed(info, *state);
             each(frame.body(body.mass, Vector3::from(body.centre), body.inertia));
             parent = frame;
         }
+        parent
     }
 }
 
-/// Calls `each` with the momentum of the hub, then of each device's bodies.
+/// The axes of a body of a chain, columns expressed in B: those in which a wrench on it is given.
+/// `joints` are those of the set.
+///
+/// A rotor that is the same from every angle has those of its parent body, as `Inputs::bodies` has
+/// it.
+pub(crate) fn axes(
+    chains: &[Chain],
+    chain: usize,
+    index: usize,
+    joints: &[[f64; 2]],
+) -> Matrix3<f64> {
+    let Some(own) = chains.get(chain) else { return Matrix3::identity() };
+    // A platform is before the devices on it.
+    let base = own.on.filter(|on| *on < chain);
+    let base = base.map_or_else(Matrix3::identity, |on| axes(chains, on, usize::MAX - 1, joints));
+    let turning = own.bodies.iter().zip(joints.iter().skip(own.first)).take(index + 1);
+    turning.fold(base * own.mount, |axes, ((_, info), [coordinate, _])| {
+        if info.slides || info.ignorable { axes } else { axes * turn(info, *coordinate) }
+    })
+}
+
+/// Calls `each` with the momentum of the hub, then of the bodies of each device and platform.
 pub(crate) fn momenta(
     hub: &Hub,
     chains: &[Chain],
@@ -83,8 +121,11 @@ pub(crate) fn momenta(
         each(BodyMomentum { linear: nb * body.linear, angular: nb * body.angular });
     };
     in_n(b.body(hub.m_b, hub.r_bc_b, hub.i_b_bc));
-    for (chain, joints) in chains.iter().zip(&state.devices) {
-        chain.momenta(&b, joints, &mut in_n);
+    let joints: Vec<_> = state.devices.states().collect();
+    let mut tips = Vec::with_capacity(chains.len());
+    for chain in chains {
+        let base = chain.on.and_then(|on| tips.get(on)).copied().unwrap_or(b);
+        tips.push(chain.momenta(&base, &joints, &mut in_n));
     }
 }
 

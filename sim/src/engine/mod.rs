@@ -11,6 +11,7 @@ mod actions;
 #[cfg(test)]
 pub(crate) mod checks;
 mod clipping;
+mod craft;
 mod dense;
 mod dop853;
 mod drift;
@@ -19,6 +20,7 @@ mod events;
 mod inputs;
 mod integrator;
 mod kinematics;
+mod member_loads;
 mod outcome;
 mod packing;
 mod rk4;
@@ -30,12 +32,13 @@ mod system;
 
 use std::ops::ControlFlow;
 
-use precess_dynamics::{JointArray, State};
+use precess_dynamics::{About, JointStates, State};
 
 pub use drift::Drift;
 pub use error::{Fault, RunError};
 pub use outcome::{End, Event, Outcome, Steps};
 
+use craft::{Craft, CraftState};
 use drift::Conserved;
 use events::{Monitors, Passage, Passed};
 use integrator::{Moment, Stepper};
@@ -94,16 +97,24 @@ impl<'a> Run<'a> {
         if !errors.is_empty() {
             return Err(RunError::Scenario(errors));
         }
-        let spacecraft = scenario.spacecraft().map_err(RunError::Parameters)?;
-        let system = System::new(scenario, spacecraft);
-        let moment = Moment { state: scenario.initial.clone(), integrals: [0.0; 2] };
+        let craft = match scenario.flexible() {
+            Some(craft) => Craft::Flexible(Box::new(craft.map_err(RunError::Modes)?)),
+            None => Craft::Rigid(Box::new(scenario.spacecraft().map_err(RunError::Parameters)?)),
+        };
+        let system = System::new(scenario, craft);
+        let (eta, eta_dot) = scenario
+            .structure
+            .as_ref()
+            .map_or_else(Default::default, |of| (of.coordinates.clone(), of.rates.clone()));
+        let state = CraftState { rigid: scenario.initial.clone(), eta, eta_dot };
+        let moment = Moment { state, integrals: [0.0; 2] };
         // The solver names what is not finite, and a list of another length.
-        let evaluated = system.spacecraft.energy(&moment.state);
+        let evaluated = system.craft.momentum(&moment.state, About::InertialOrigin);
         evaluated.map_err(|source| RunError::solve(&system, 0.0, source))?;
         let mut run = Self {
             stepper: Stepper::new(&system, scenario.settings.integrator, &moment),
             segments: Segments::new(scenario),
-            monitors: Monitors::new(scenario, &system, &moment.state)?,
+            monitors: Monitors::new(scenario, &system, &moment)?,
             conserved: Conserved::new(scenario, &system),
             events: Vec::new(),
             events_omitted: 0,
@@ -207,12 +218,18 @@ impl<'a> Run<'a> {
     /// The present state, joint angles counted through every turn.
     #[must_use]
     pub fn state(&self) -> State<Set> {
-        let mut state = self.moment.state.clone();
-        let joints = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
+        let mut state = self.moment.state.rigid.clone();
+        let joints = state.devices.states_mut();
         for ([coordinate, _], turns) in joints.zip(self.stepper.turns()) {
             *coordinate += turns * std::f64::consts::TAU;
         }
         state
+    }
+
+    /// Modal coordinates of the structure, m kg^1/2, and their rates; empty on a rigid hub.
+    #[must_use]
+    pub fn modal(&self) -> (&[f64], &[f64]) {
+        (&self.moment.state.eta, &self.moment.state.eta_dot)
     }
 
     /// Work of all sources but gravity and springs since the start, J.
@@ -278,7 +295,7 @@ impl<'a> Run<'a> {
 
     /// Enters the present moment into the peaks and the drifts.
     fn enter(&mut self) -> Result<(), RunError> {
-        let joints = self.moment.state.devices.iter().flat_map(JointArray::as_slice);
+        let joints = self.moment.state.rigid.devices.states();
         for (peak, [_, rate]) in self.peak_rates.iter_mut().zip(joints) {
             *peak = peak.max(rate.abs());
         }

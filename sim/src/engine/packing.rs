@@ -1,33 +1,36 @@
 //! [`Layout`]: the state of a spacecraft as one flat vector, with two running integrals at its end.
 //!
 //! Order: r (3), v (3), quaternion (4), omega (3), for each device its coordinates, then its rates,
-//! then work and throughput. The quaternion is integrated as it is and normalised wherever it is
+//! the modal coordinates of a structure, then their rates, then work and throughput. The quaternion is integrated as it is and normalised wherever it is
 //! read, so its norm is no degree of freedom of the motion.
 //!
 //! A wheel turns a hundred times in ten seconds. An angle of 600 rad is kept to 1e-13 rad only, and
 //! rounding it in every step changes the sum of the momenta of wheel and hub; so the angle of a
 //! joint is reduced by whole turns, which are counted, once it has completed one. Not that of a
-//! joint with a spring, which counts them itself, nor the coordinate of a sliding joint.
+//! joint with a spring, which counts them itself, nor that of a platform, whose springs may couple
+//! its joints, nor the coordinate of a sliding joint.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::JointInfo;
-use precess_dynamics::{Attitude, JointArray, Quaternion, State};
+use precess_dynamics::{Attitude, JointStates, Quaternion};
 
-use crate::scenario::{Scenario, Set};
+use super::craft::CraftState;
+use crate::scenario::Scenario;
 
 /// Numbers of the hub.
 const HUB: usize = 13;
 
 /// Lengths and speeds of a spacecraft's own motion are millimetres to decimetres, its rates degrees
-/// per second: "zero to within the tolerance" is counted in hundredths of SI units for them.
+/// per second, modal coordinates are displacements times the root of some hundred kilograms: "zero to within the tolerance" is counted in hundredths of SI units for them.
 const SMALL: f64 = 1e-2;
 
 /// Where the numbers of a joint are.
 #[derive(Clone, Debug)]
 pub(crate) struct JointPlace {
-    /// The device, from 0.
+    /// The device or platform, from 0 through the set.
     pub(crate) device: usize,
     /// The name of its coordinate: `cmg1.gamma_o`.
     pub(crate) name: String,
@@ -46,6 +49,10 @@ pub(crate) struct JointPlace {
 pub(crate) struct Layout {
     /// The joints in the order of the set.
     pub(crate) joints: Vec<JointPlace>,
+    /// How many modes the structure has.
+    pub(crate) modes: usize,
+    /// Index of the first modal coordinate.
+    modal: usize,
     work: usize,
 }
 
@@ -53,21 +60,24 @@ impl Layout {
     pub(crate) fn new(scenario: &Scenario) -> Self {
         let mut joints = Vec::new();
         let mut next = HUB;
-        for (index, (device, name)) in scenario.devices.iter().zip(&scenario.names).enumerate() {
-            let (infos, parameters) = (device.kind().joints(), device.parameters());
-            for (info, passive) in infos.iter().zip(&parameters.passive) {
+        for (index, (name, member)) in scenario.members().enumerate() {
+            let (infos, passive) = (member.joints(), member.passive());
+            // The springs of a platform may couple its turns.
+            let is_device = member.device().is_some();
+            for (info, passive) in infos.iter().zip(&passive) {
                 joints.push(JointPlace {
                     device: index,
                     name: format!("{name}.{}", info.coordinate),
                     info,
                     coordinate: next + info.index,
                     rate: next + infos.len() + info.index,
-                    wraps: !info.slides && passive.stiffness == 0.0,
+                    wraps: is_device && !info.slides && passive.stiffness == 0.0,
                 });
             }
             next += 2 * infos.len();
         }
-        Self { joints, work: next }
+        let modes = scenario.structure.as_ref().map_or(0, |structure| structure.modes.len());
+        Self { joints, modes, modal: next, work: next + 2 * modes }
     }
 
     /// How many numbers the flat vector has.
@@ -76,31 +86,44 @@ impl Layout {
     }
 
     /// Writes a state and both integrals to a flat vector.
-    pub(crate) fn pack(&self, state: &State<Set>, integrals: [f64; 2]) -> Vec<f64> {
+    pub(crate) fn pack(&self, state: &CraftState, integrals: [f64; 2]) -> Vec<f64> {
+        let CraftState { rigid: state, eta, eta_dot } = state;
         let mut y = vec![0.0; self.length()];
         y[..3].copy_from_slice(state.r_b_n.as_slice());
         y[3..6].copy_from_slice(state.r_b_n_dot.as_slice());
         let Quaternion { q0, q1, q2, q3 } = state.attitude;
         y[6..10].copy_from_slice(&[q0, q1, q2, q3]);
         y[10..HUB].copy_from_slice(state.omega.as_slice());
-        let states = state.devices.iter().flat_map(JointArray::as_slice);
-        for (place, [coordinate, rate]) in self.joints.iter().zip(states) {
-            (y[place.coordinate], y[place.rate]) = (*coordinate, *rate);
+        for (place, [coordinate, rate]) in self.joints.iter().zip(state.devices.states()) {
+            (y[place.coordinate], y[place.rate]) = (coordinate, rate);
         }
+        let (coordinates, rates) = self.modal();
+        y[coordinates].copy_from_slice(eta);
+        y[rates].copy_from_slice(eta_dot);
         y[self.work..].copy_from_slice(&integrals);
         y
     }
 
+    /// The places of the modal coordinates and of their rates.
+    fn modal(&self) -> (Range<usize>, Range<usize>) {
+        let middle = self.modal + self.modes;
+        (self.modal..middle, middle..self.work)
+    }
+
     /// Reads the state, its quaternion normalised.
-    pub(crate) fn unpack(&self, y: &[f64], state: &mut State<Set>) {
+    pub(crate) fn unpack(&self, y: &[f64], state: &mut CraftState) {
+        let (coordinates, rates) = self.modal();
+        state.eta.copy_from_slice(&y[coordinates]);
+        state.eta_dot.copy_from_slice(&y[rates]);
+        let state = &mut state.rigid;
         let vector = |i: usize| Vector3::new(y[i], y[i + 1], y[i + 2]);
         state.r_b_n = vector(0);
         state.r_b_n_dot = vector(3);
         state.attitude = Self::attitude(y).normalised();
         state.omega = vector(10);
-        let states = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
-        for (place, joint) in self.joints.iter().zip(states) {
-            *joint = [y[place.coordinate], y[place.rate]];
+        let states = state.devices.states_mut();
+        for (place, [coordinate, rate]) in self.joints.iter().zip(states) {
+            (*coordinate, *rate) = (y[place.coordinate], y[place.rate]);
         }
     }
 
@@ -114,12 +137,14 @@ impl Layout {
         [y[self.work], y[self.work + 1]]
     }
 
-    /// Writes time derivatives: those of the hub, of each joint's rate, and of both integrals.
+    /// Writes time derivatives: those of the hub, of each joint's rate, of the modal coordinates'
+    /// rates, and of both integrals.
     pub(crate) fn pack_rates(
         &self,
         y: &[f64],
         hub: [&[f64]; 4],
         joints: impl Iterator<Item = f64>,
+        modal_accelerations: &[f64],
         powers: [f64; 2],
         dydt: &mut [f64],
     ) {
@@ -132,6 +157,9 @@ impl Layout {
             dydt[place.coordinate] = y[place.rate];
             dydt[place.rate] = acceleration;
         }
+        let (coordinates, rates) = self.modal();
+        dydt[coordinates].copy_from_slice(&y[rates.clone()]);
+        dydt[rates].copy_from_slice(modal_accelerations);
         dydt[self.work..].copy_from_slice(&powers);
     }
 
@@ -150,9 +178,8 @@ impl Layout {
     }
 
     /// Coordinate, turns counted, and rate of a joint.
-    pub(crate) fn joint(&self, joint: usize, state: &State<Set>, turns: &[f64]) -> [f64; 2] {
-        let place = &self.joints[joint];
-        let [coordinate, rate] = state.devices[place.device].as_slice()[place.info.index];
+    pub(crate) fn joint(joint: usize, state: &CraftState, turns: &[f64]) -> [f64; 2] {
+        let [coordinate, rate] = state.rigid.devices.states().nth(joint).unwrap_or([f64::NAN; 2]);
         [coordinate + turns[joint] * TAU, rate]
     }
 

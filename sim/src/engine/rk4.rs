@@ -5,13 +5,13 @@
 //! segment's length is no multiple.
 
 use precess_dynamics::kind::Each;
-use precess_dynamics::{JointArray, Mode, SolveError, State};
+use precess_dynamics::{JointStates, Mode, SolveError};
 
+use super::craft::CraftState;
 use super::dop853::same;
 use super::error::RunError;
 use super::integrator::Moment;
 use super::system::{System, work_of};
-use crate::scenario::Set;
 
 /// An integration in progress, from the start of a segment to its end.
 pub(crate) struct Rk4 {
@@ -94,13 +94,12 @@ fn stepped(
     system.count(4);
     let Moment { state, integrals: [work, throughput] } = moment;
     let inputs = system.inputs(time, state);
-    let rates_times_torques = |next: &State<Set>| {
-        let coordinates = |of: &State<Set>| -> Vec<f64> {
-            let states = of.devices.iter().flat_map(JointArray::as_slice);
-            states.map(|[coordinate, _]| *coordinate).collect()
+    let rates_times_torques = |next: &CraftState| {
+        let coordinates = |of: &CraftState| -> Vec<f64> {
+            of.rigid.devices.states().map(|[coordinate, _]| coordinate).collect()
         };
         let moved = coordinates(next).into_iter().zip(coordinates(state));
-        let torques = inputs.motors.values().zip(inputs.modes.values()).zip(moved);
+        let torques = inputs.rigid.motors.values().zip(inputs.rigid.modes.values()).zip(moved);
         torques.fold([0.0, 0.0], |[sum, magnitudes], ((torque, mode), (to, from))| {
             // Held over the step, so the step's own quadrature of the rate is the coordinate.
             let work = if mode == Mode::Driven { torque * (to - from) } else { 0.0 };
@@ -108,14 +107,13 @@ fn stepped(
         })
     };
     if !system.needs_ledger() && !system.acting.has_wrenches() {
-        let next = system.spacecraft.step(state, &inputs, length)?;
+        let next = system.craft.step(state, &inputs, length)?;
         let [by, magnitudes] = rates_times_torques(&next);
         return Ok(Moment { state: next, integrals: [work + by, throughput + magnitudes] });
     }
-    let stepped = system.spacecraft.step_with_work(state, &inputs, length)?;
-    let power = stepped.work;
-    let [driven, magnitudes] = rates_times_torques(&stepped.state);
+    let (next, power) = system.craft.step_with_work(state, &inputs, length)?;
+    let [driven, magnitudes] = rates_times_torques(&next);
     let others = (power.motors - driven).abs() + power.friction.abs() + power.hub.abs();
     let integrals = [work + work_of(&power), throughput + magnitudes + others];
-    Ok(Moment { state: stepped.state, integrals })
+    Ok(Moment { state: next, integrals })
 }

@@ -1,16 +1,22 @@
 //! [`Row`]: the numbers of a sample. Only what the columns need is computed: no accelerations, no
 //! loads, no momenta where no column shows them.
 
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
-    About, Accelerations, Attitude, Inputs, LoadAxes, Loads, Mode, Momentum, Mrp, SolveError,
+    About, Attitude, JointStates, ListedModes, ModalPoint, Mode, Momentum, Mrp, PointAcceleration,
+    PointMotion, Quaternion, SolveError,
 };
 
+use super::craft::CraftInputs;
 use super::drift::energies;
 use super::integrator::Moment;
+use super::member_loads::MemberLoads;
 use super::system::System;
 use crate::record::columns::{Columns, Quantity};
-use crate::scenario::Set;
+use crate::scenario::Scenario;
 
 /// The numbers of a sample, and what has to be computed for them.
 #[expect(clippy::struct_excessive_bools, reason = "each is computed or not, independently")]
@@ -22,7 +28,18 @@ pub(crate) struct Row {
     loads: bool,
     energy: bool,
     momentum: bool,
-    inputs: Option<Inputs<Set>>,
+    inputs: Option<CraftInputs>,
+    /// The recorded points of the structure.
+    points: Vec<Point>,
+}
+
+/// A recorded point of the structure, and what is computed of it.
+struct Point {
+    place: ModalPoint<ListedModes>,
+    moves: bool,
+    accelerates: bool,
+    motion: Option<PointMotion>,
+    acceleration: Option<PointAcceleration>,
 }
 
 /// What is computed of a sample.
@@ -34,14 +51,37 @@ struct Computed<'a> {
     energy: f64,
     mrp: Mrp,
     momentum: Option<Momentum>,
-    accelerations: Option<&'a Accelerations<Set>>,
-    inputs: Option<&'a Inputs<Set>>,
-    loads: Option<Loads<Set>>,
+    /// Coordinate and rate of each joint, whole turns taken off.
+    joints: Vec<[f64; 2]>,
+    accelerations: Option<Found>,
+    /// Motor and mode of each joint.
+    motors: Option<Vec<(f64, Mode)>>,
+    loads: Option<MemberLoads>,
+    points: &'a [Point],
+}
+
+/// Accelerations: inertial of B and angular of the hub, both expressed in B, and of each joint.
+struct Found {
+    b: Vector3<f64>,
+    omega_dot: Vector3<f64>,
+    joints: Vec<f64>,
 }
 
 impl Row {
-    pub(crate) fn new(columns: Columns) -> Self {
+    pub(crate) fn new(scenario: &Scenario, columns: Columns) -> Self {
         let quantities: Vec<_> = columns.into_iter().map(|column| column.quantity).collect();
+        let of_points = scenario.structure.iter().flat_map(|structure| {
+            let node = |point: &crate::scenario::RecordedPoint| structure.nodes.get(point.node);
+            structure.points.iter().filter_map(node)
+        });
+        let points = of_points.enumerate().map(|(index, node)| Point {
+            place: node.point(),
+            moves: quantities.iter().any(|quantity| quantity.is_motion_of(index)),
+            accelerates: quantities.iter().any(|quantity| quantity.is_acceleration_of(index)),
+            motion: None,
+            acceleration: None,
+        });
+        let points = points.collect();
         let any = |of: fn(&Quantity) -> bool| quantities.iter().any(of);
         let loads = any(Quantity::is_load);
         let torques = any(|q| matches!(q, Quantity::Torque(_)));
@@ -53,6 +93,7 @@ impl Row {
             energy: any(|q| matches!(q, Quantity::Energy)),
             momentum: any(|q| matches!(q, Quantity::Linear(_) | Quantity::Angular(_))),
             inputs: None,
+            points,
             quantities,
         }
     }
@@ -74,13 +115,16 @@ impl Row {
             let filled = self.inputs.get_or_insert_with(|| system.inputs(held_from, state));
             system.acting.fill(held_from, state, filled);
             let computed = |mode| mode != Mode::Driven;
-            let needs_loads = self.loads || (self.torques && filled.modes.values().any(computed));
+            let needs_loads =
+                self.loads || (self.torques && filled.rigid.modes.values().any(computed));
             if self.accelerations || needs_loads {
-                found = Some(system.spacecraft.accelerations(state, filled)?);
+                found = Some(system.craft.accelerations(state, filled)?);
                 system.count(1);
             }
             if let (true, Some(found)) = (needs_loads, &found) {
-                loads = Some(system.spacecraft.loads(state, filled, found, LoadAxes::Body)?);
+                let of = system.craft.loads(state, filled, found)?;
+                let chains = system.acting.chains();
+                loads = Some(MemberLoads::new(&of, chains, &state.rigid));
             }
             inputs = Some(&*filled);
         }
@@ -92,25 +136,42 @@ impl Row {
             (f64::NAN, None)
         };
         let momentum = match known {
-            None if self.momentum => {
-                Some(system.spacecraft.momentum(state, About::InertialOrigin)?)
-            }
+            None if self.momentum => Some(system.craft.momentum(state, About::InertialOrigin)?),
             known => known,
         };
+        if let Some(craft) = system.craft.flexible() {
+            for point in &mut self.points {
+                if point.moves {
+                    point.motion = Some(craft.point_motion(&point.place, state)?);
+                }
+                if let (true, Some(found)) = (point.accelerates, &found) {
+                    let acceleration = craft.point_acceleration(&point.place, state, found)?;
+                    point.acceleration = Some(acceleration);
+                }
+            }
+        }
         let computed = Computed {
             moment,
             turns,
             time,
             lost,
             energy,
-            mrp: Mrp::from(state.attitude),
+            mrp: Mrp::from(state.rigid.attitude),
             momentum,
-            accelerations: found.as_ref(),
-            inputs,
+            joints: state.rigid.devices.states().collect(),
+            accelerations: found.map(|found| Found {
+                b: found.rigid.r_b_n_ddot,
+                omega_dot: found.rigid.omega_dot,
+                joints: found.rigid.devices.values().collect(),
+            }),
+            motors: inputs.map(|CraftInputs { rigid, .. }| {
+                rigid.motors.values().zip(rigid.modes.values()).collect()
+            }),
             loads,
+            points: &self.points,
         };
         for (number, quantity) in self.numbers.iter_mut().zip(&self.quantities) {
-            *number = computed.number(system, *quantity);
+            *number = computed.number(*quantity);
         }
         Ok(&self.numbers)
     }
@@ -118,13 +179,17 @@ impl Row {
 
 impl Computed<'_> {
     /// One number; NaN of what was not computed, which no column shows.
-    fn number(&self, system: &System<'_>, quantity: Quantity) -> f64 {
+    fn number(&self, quantity: Quantity) -> f64 {
         let Moment { state, integrals: [work, _] } = self.moment;
-        let joint = |joint: usize| system.layout.joint(joint, state, self.turns);
-        let place = |joint: usize| {
-            let place = &system.layout.joints[joint];
-            (place.device, place.info.index)
+        let motion = |point: usize| self.points.get(point).and_then(|point| point.motion.as_ref());
+        let modal = state;
+        let state = &state.rigid;
+        let joint = |joint: usize| {
+            let turns = self.turns.get(joint).copied().unwrap_or_default();
+            let [coordinate, rate] = self.joints.get(joint).copied().unwrap_or([f64::NAN; 2]);
+            [coordinate + turns * TAU, rate]
         };
+        let loads = self.loads.as_ref();
         let q = state.attitude;
         let known = match quantity {
             Quantity::Time => Some(self.time),
@@ -142,35 +207,62 @@ impl Computed<'_> {
             Quantity::Angular(axis) => self.momentum.map(|momentum| momentum.angular[axis]),
             Quantity::HubAcceleration(axis) => self
                 .accelerations
-                .map(|found| state.attitude.dcm().column(axis).dot(&found.r_b_n_ddot)),
-            Quantity::OmegaDot(axis) => self.accelerations.map(|found| found.omega_dot[axis]),
-            Quantity::JointAcceleration(joint) => self.accelerations.map(|found| {
-                let (device, index) = place(joint);
-                found.devices[device].as_slice()[index]
-            }),
-            Quantity::Torque(joint) => self.inputs.map(|inputs| {
-                let (device, index) = place(joint);
-                let driven = inputs.modes[device].as_slice()[index] == Mode::Driven;
-                match &self.loads {
-                    Some(loads) if !driven => loads.devices[device].motors.as_slice()[index],
-                    _ => inputs.motors[device].as_slice()[index],
-                }
-            }),
-            Quantity::MountForce(device, axis) => {
-                self.loads.as_ref().map(|loads| loads.devices[device].mount.force[axis])
+                .as_ref()
+                .map(|found| state.attitude.dcm().column(axis).dot(&found.b)),
+            Quantity::OmegaDot(axis) => {
+                self.accelerations.as_ref().map(|found| found.omega_dot[axis])
             }
-            Quantity::MountMoment(device, axis) => {
-                self.loads.as_ref().map(|loads| loads.devices[device].mount.moment[axis])
+            Quantity::JointAcceleration(joint) => {
+                self.accelerations.as_ref().and_then(|found| found.joints.get(joint).copied())
             }
-            Quantity::LoadForce(joint, axis) => self.loads.as_ref().map(|loads| {
-                let (device, index) = place(joint);
-                loads.devices[device].joints.as_slice()[index].force[axis]
-            }),
-            Quantity::LoadMoment(joint, axis) => self.loads.as_ref().map(|loads| {
-                let (device, index) = place(joint);
-                loads.devices[device].joints.as_slice()[index].moment[axis]
-            }),
+            Quantity::Torque(joint) => {
+                let of = self.motors.as_ref().and_then(|motors| motors.get(joint));
+                of.and_then(|(motor, mode)| match loads {
+                    Some(loads) if *mode != Mode::Driven => loads.motors.get(joint).copied(),
+                    _ => Some(*motor),
+                })
+            }
+            Quantity::MountForce(member, axis) => {
+                loads.and_then(|loads| loads.mounts.get(member)).map(|load| load.force[axis])
+            }
+            Quantity::MountMoment(member, axis) => {
+                loads.and_then(|loads| loads.mounts.get(member)).map(|load| load.moment[axis])
+            }
+            Quantity::CarriedForce(member, axis) => {
+                loads.and_then(|loads| loads.carried.get(member)).map(|load| load.force[axis])
+            }
+            Quantity::CarriedMoment(member, axis) => {
+                loads.and_then(|loads| loads.carried.get(member)).map(|load| load.moment[axis])
+            }
+            Quantity::LoadForce(joint, axis) => {
+                loads.and_then(|loads| loads.joints.get(joint)).map(|load| load.force[axis])
+            }
+            Quantity::LoadMoment(joint, axis) => {
+                loads.and_then(|loads| loads.joints.get(joint)).map(|load| load.moment[axis])
+            }
+            Quantity::ModalCoordinate(mode) => modal.eta.get(mode).copied(),
+            Quantity::ModalRate(mode) => modal.eta_dot.get(mode).copied(),
+            Quantity::Displacement(point, axis) => motion(point).map(|m| m.displacement[axis]),
+            Quantity::Rotation(point, axis) => motion(point).map(|m| m.rotation[axis]),
+            Quantity::PointOmega(point, axis) => motion(point).map(|m| m.omega[axis]),
+            Quantity::PointSigma(point, axis) => motion(point).map(|m| pointing(&q, m).0[axis]),
+            Quantity::PointAcceleration(point, axis) => {
+                let acceleration = self.points.get(point).and_then(|point| point.acceleration);
+                acceleration.map(|found| found.acceleration[axis])
+            }
         };
         known.unwrap_or(f64::NAN)
     }
+}
+
+/// The attitude of a point's axes with respect to N: that of B, then the rotation vector in B.
+fn pointing(b: &Quaternion, motion: &PointMotion) -> Mrp {
+    let angle = motion.rotation.norm();
+    let (sin, cos) = precess_dynamics::Angle::sin_cos(0.5 * angle);
+    let axis = if angle > 0.0 { motion.rotation / angle } else { motion.rotation };
+    let (v, w) = (sin * axis, Vector3::new(b.q1, b.q2, b.q3));
+    // q_PN of the turn q_PB after q_BN, scalar first.
+    let q0 = b.q0 * cos - w.dot(&v);
+    let [q1, q2, q3] = (b.q0 * v + cos * w + w.cross(&v)).into();
+    Mrp::from(Quaternion { q0, q1, q2, q3 }.normalised())
 }

@@ -30,7 +30,7 @@ impl Sampling {
         let header = Header::new(scenario, &columns);
         Ok(Self {
             header,
-            row: Row::new(columns),
+            row: Row::new(scenario, columns),
             rate: scenario.output.rate,
             count: 0,
             last: None,

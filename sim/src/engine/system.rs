@@ -8,18 +8,16 @@
 use std::cell::{Cell, RefCell};
 
 use precess_dynamics::kind::Each;
-use precess_dynamics::{
-    Accelerations, Attitude, Gravity, HubMode, ImbalanceModel, Inputs, JointArray, Mode, Passive,
-    Power, SolveError, Spacecraft, State,
-};
+use precess_dynamics::{Attitude, Gravity, HubMode, JointStates, Mode, Passive, Power, SolveError};
 
+use super::craft::{Craft, CraftAccelerations, CraftInputs, CraftState};
 use super::inputs::Acting;
 use super::packing::Layout;
-use crate::scenario::{Scenario, Set};
+use crate::scenario::Scenario;
 
 /// The equations of motion.
 pub(crate) struct System<'a> {
-    pub(crate) spacecraft: Spacecraft<Set>,
+    pub(crate) craft: Craft,
     pub(crate) layout: Layout,
     pub(crate) acting: Acting<'a>,
     /// Whether something other than motors and a force on the hub does work, drives aside.
@@ -32,31 +30,30 @@ pub(crate) struct System<'a> {
 
 /// What an evaluation writes before it calls the solver.
 struct Scratch {
-    state: State<Set>,
-    inputs: Inputs<Set>,
+    state: CraftState,
+    inputs: CraftInputs,
 }
 
 impl<'a> System<'a> {
-    pub(crate) fn new(scenario: &'a Scenario, spacecraft: Spacecraft<Set>) -> Self {
+    pub(crate) fn new(scenario: &'a Scenario, craft: Craft) -> Self {
         let layout = Layout::new(scenario);
         let acting = Acting::new(scenario, &layout.joints);
         let passive = |is: fn(&Passive) -> bool| {
-            scenario.devices.iter().any(|device| {
-                let joints = device.kind().joints().len();
-                device.parameters().passive.iter().take(joints).any(is)
-            })
+            scenario.members().any(|(_, member)| member.passive().iter().any(is))
         };
-        let potential =
-            scenario.gravity != Gravity::None || passive(|joint| joint.stiffness != 0.0);
+        let potential = scenario.gravity != Gravity::None
+            || scenario.structure.is_some()
+            || passive(|joint| joint.stiffness != 0.0)
+            || scenario.members().any(|(_, member)| member.has_suspension());
         let sources = potential
             || passive(|joint| *joint != Passive::none())
             || acting.on_joints()
             || lumped(scenario)
             || matches!(scenario.hub_mode, HubMode::Prescribed { .. });
-        let inputs = acting.inputs(scenario, &spacecraft);
-        let state = State::at_rest_for(&spacecraft);
+        let inputs = acting.inputs(scenario, &craft);
+        let state = craft.at_rest();
         Self {
-            spacecraft,
+            craft,
             layout,
             acting,
             sources,
@@ -87,7 +84,7 @@ impl<'a> System<'a> {
     }
 
     /// Inputs at a time and state.
-    pub(crate) fn inputs(&self, time: f64, state: &State<Set>) -> Inputs<Set> {
+    pub(crate) fn inputs(&self, time: f64, state: &CraftState) -> CraftInputs {
         let mut inputs = self.scratch.borrow().inputs.clone();
         self.acting.fill(time, state, &mut inputs);
         inputs
@@ -99,19 +96,20 @@ impl<'a> System<'a> {
         let Scratch { state, inputs } = &mut *self.scratch.borrow_mut();
         self.layout.unpack(y, state);
         self.acting.fill(time, state, inputs);
-        let found = self.spacecraft.accelerations(state, inputs)?;
-        let bn = state.attitude.dcm();
+        let found = self.craft.accelerations(state, inputs)?;
+        let hub_state = &state.rigid;
+        let bn = hub_state.attitude.dcm();
         // The solver's inertial acceleration is expressed in B; positions are expressed in N.
-        let acceleration = bn.tr_mul(&found.r_b_n_ddot);
-        let quaternion_rate = Layout::attitude(y).rate(&state.omega);
+        let acceleration = bn.tr_mul(&found.rigid.r_b_n_ddot);
+        let quaternion_rate = Layout::attitude(y).rate(&hub_state.omega);
         let hub = [
-            state.r_b_n_dot.as_slice(),
+            hub_state.r_b_n_dot.as_slice(),
             acceleration.as_slice(),
             quaternion_rate.as_slice(),
-            found.omega_dot.as_slice(),
+            found.rigid.omega_dot.as_slice(),
         ];
         let powers = self.powers(state, inputs, &found)?;
-        self.layout.pack_rates(y, hub, found.devices.values(), powers, dydt);
+        self.layout.pack_rates(y, hub, found.rigid.devices.values(), &found.eta_ddot, powers, dydt);
         Ok(())
     }
 
@@ -119,15 +117,16 @@ impl<'a> System<'a> {
     /// of energy drift, W.
     fn powers(
         &self,
-        state: &State<Set>,
-        inputs: &Inputs<Set>,
-        found: &Accelerations<Set>,
+        state: &CraftState,
+        inputs: &CraftInputs,
+        found: &CraftAccelerations,
     ) -> Result<[f64; 2], SolveError> {
-        let rates = state.devices.iter().flat_map(JointArray::as_slice);
-        let motors = inputs.motors.values().zip(rates).zip(inputs.modes.values());
+        let rates = state.rigid.devices.states();
+        let CraftInputs { rigid, .. } = inputs;
+        let motors = rigid.motors.values().zip(rates).zip(rigid.modes.values());
         let mut throughput = 0.0;
         if self.needs_ledger() {
-            let power = self.spacecraft.ledger(state, inputs, found)?.power;
+            let power = self.craft.ledger(state, inputs, found)?.power;
             let mut computed = power.motors;
             for ((torque, [_, rate]), mode) in motors {
                 if mode == Mode::Driven {
@@ -139,8 +138,8 @@ impl<'a> System<'a> {
             return Ok([work_of(&power), throughput]);
         }
         // dW/dt = F . v_B + L_B . omega + sum(u * rate)
-        let mut power = inputs.force.dot(&(state.attitude.dcm() * state.r_b_n_dot));
-        power += inputs.torque_b.dot(&state.omega);
+        let mut power = rigid.force.dot(&(state.rigid.attitude.dcm() * state.rigid.r_b_n_dot));
+        power += rigid.torque_b.dot(&state.rigid.omega);
         for ((torque, [_, rate]), _) in motors {
             power += torque * rate;
             throughput += (torque * rate).abs();
@@ -157,5 +156,5 @@ pub(crate) fn work_of(power: &Power) -> f64 {
 
 /// Whether a wheel's imbalance is modelled as a disturbance from outside.
 pub(crate) fn lumped(scenario: &Scenario) -> bool {
-    scenario.devices.iter().any(|device| device.parameters().model == ImbalanceModel::Lumped)
+    scenario.members().any(|(_, member)| member.is_lumped())
 }

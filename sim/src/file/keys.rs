@@ -148,6 +148,21 @@ impl<'a> Keys<'a> {
         }
     }
 
+    /// A text, or a list of texts.
+    pub(super) fn texts(&self, key: &str) -> Option<Vec<&'a str>> {
+        let node = self.node(key)?;
+        let help = "write it in quotation marks, or a list of such";
+        let text = |node: &'a Node| match &node.value {
+            Value::Text(text) => Some(text.as_str()),
+            _ => None,
+        };
+        let texts = match &node.value {
+            Value::List(list) => list.iter().map(text).collect(),
+            _ => text(node).map(|text| vec![text]),
+        };
+        texts.or_else(|| self.other_type(key, node, help))
+    }
+
     pub(super) fn boolean(&self, key: &str) -> Option<bool> {
         let node = self.node(key)?;
         match &node.value {

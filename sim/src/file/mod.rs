@@ -13,9 +13,12 @@ mod document;
 mod keys;
 mod load;
 pub mod read;
+mod structure;
 mod write;
+mod write_platform;
 
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use load::{Override, Overrides};
 pub use read::{from_file, from_toml};
+pub use structure::structure_from_toml;
 pub use write::to_toml;

@@ -5,17 +5,19 @@
 //! products of inertia, files of tables as they were named are not needed any more. A key that is
 //! not written stands for what the spacecraft does not have: a torque limit, an end stop, gravity.
 
+mod structure;
+
 use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{ImbalanceModel, JointInfo};
 use precess_dynamics::{Gravity, HubMode, JointStates, Passive};
 
-use super::read::{FORMAT, body_key, has_inertia};
+use super::read::{FORMAT, body_key, has_inertia, has_mass, joint_key};
 use crate::record::columns::Columns;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{
-    Action, AppliedWrench, Drive, Format, IntegratorChoice, Profile, Scenario, Statistic,
+    Action, AppliedWrench, Drive, Format, IntegratorChoice, Member, Profile, Scenario, Statistic,
     StopAction, Target, WrenchAxes,
 };
 
@@ -28,7 +30,7 @@ pub fn to_toml(scenario: &Scenario) -> String {
     text
 }
 
-type Written = std::fmt::Result;
+pub(super) type Written = std::fmt::Result;
 
 fn write_all(out: &mut String, s: &Scenario) -> Written {
     writeln!(out, "format = {FORMAT}")?;
@@ -47,6 +49,9 @@ fn write_all(out: &mut String, s: &Scenario) -> Written {
             writeln!(out, "\n[gravity]\nuniform = {}", vector(&g, "m/s^2"))?;
         }
         Gravity::Central { mu } => writeln!(out, "\n[gravity]\ncentral = \"{mu:?} m^3/s^2\"")?,
+    }
+    if let Some(of) = &s.structure {
+        structure::write(out, of)?;
     }
     initial(out, s)?;
     devices(out, s)?;
@@ -82,16 +87,26 @@ fn initial(out: &mut String, s: &Scenario) -> Written {
 }
 
 fn devices(out: &mut String, s: &Scenario) -> Written {
-    let mut states = s.initial.devices.states();
     let mut joint = 0;
-    for (name, device) in s.names.iter().zip(&s.devices) {
+    for (index, (name, member)) in s.members().enumerate() {
+        let first = joint;
+        joint += member.joints().len();
+        let Member::Device { device, on } = member else {
+            if let Some(of) = member.platform() {
+                super::write_platform::platform(out, s, name, of, first)?;
+            }
+            continue;
+        };
         let parameters = device.parameters();
         writeln!(out, "\n[[device]]\nname = {}", quoted(name))?;
+        let base = on.and_then(|on| s.names.get(on)).map_or("hub", String::as_str);
+        writeln!(out, "on = {}", quoted(base))?;
         writeln!(out, "kind = {}", quoted(device.kind().name()))?;
         writeln!(out, "position = {}", vector(&Vector3::from(parameters.bodies[0].origin), "m"))?;
-        let m = parameters.mount;
-        let row = |k: usize| format!("[{:?}, {:?}, {:?}]", m[(k, 0)], m[(k, 1)], m[(k, 2)]);
-        writeln!(out, "mount = {{ dcm = [{}, {}, {}] }}", row(0), row(1), row(2))?;
+        if let Some(node) = s.structure.as_ref().and_then(|of| of.on_node.get(index)) {
+            writeln!(out, "node = {}", quoted(structure::node_name(s, *node)))?;
+        }
+        mount(out, &parameters.mount)?;
         let model = match parameters.model {
             ImbalanceModel::Coupled => "coupled",
             ImbalanceModel::Lumped => "lumped",
@@ -100,34 +115,52 @@ fn devices(out: &mut String, s: &Scenario) -> Written {
         let bodies = parameters.bodies.iter().zip(&parameters.passive);
         for (info, (body, passive)) in device.kind().joints().iter().zip(bodies) {
             writeln!(out, "\n[device.{}]", body_key(info))?;
-            writeln!(out, "mass = \"{:?} kg\"", body.mass)?;
-            writeln!(out, "centre_of_mass = {}", vector(&Vector3::from(body.centre), "m"))?;
+            let has_body = has_mass(device.kind(), info);
+            if has_body {
+                writeln!(out, "mass = \"{:?} kg\"", body.mass)?;
+                writeln!(out, "centre_of_mass = {}", vector(&Vector3::from(body.centre), "m"))?;
+            }
             if has_inertia(device.kind(), info) {
                 inertia(out, &body.inertia)?;
             }
-            if info.index > 0 {
+            if info.index > 0 && has_body {
                 writeln!(out, "origin = {}", vector(&Vector3::from(body.origin), "m"))?;
             }
-            let [q, q_dot] = states.next().unwrap_or_default();
-            let [unit, rate_unit, ..] = units(info);
-            let [coordinate, rate] =
-                if info.slides { ["displacement", "speed"] } else { ["angle", "rate"] };
-            writeln!(out, "{coordinate} = \"{q:?} {unit}\"\n{rate} = \"{q_dot:?} {rate_unit}\"")?;
-            passive_of(out, passive, info)?;
-            if let Some(of) = s.drives.get(joint) {
-                drive(out, of, Some(info))?;
-            }
-            for stop in s.stops.iter().filter(|stop| stop.joint == joint) {
-                for (key, bound) in [("lower_stop", stop.lower), ("upper_stop", stop.upper)] {
-                    if bound.is_finite() {
-                        writeln!(out, "{key} = \"{bound:?} {unit}\"")?;
-                    }
-                }
-                let action = if stop.action == StopAction::End { "end" } else { "lock" };
-                writeln!(out, "at_stop = \"{action}\"")?;
-            }
-            joint += 1;
+            of_joint(out, s, first + info.index, (info, passive))?;
         }
+    }
+    Ok(())
+}
+
+pub(super) fn mount(out: &mut String, m: &Matrix3<f64>) -> Written {
+    let row = |k: usize| format!("[{:?}, {:?}, {:?}]", m[(k, 0)], m[(k, 1)], m[(k, 2)]);
+    writeln!(out, "mount = {{ dcm = [{}, {}, {}] }}", row(0), row(1), row(2))
+}
+
+/// The keys of a joint.
+pub(super) fn of_joint(
+    out: &mut String,
+    s: &Scenario,
+    joint: usize,
+    (info, passive): (&JointInfo, &Passive),
+) -> Written {
+    let [q, q_dot] = s.initial.devices.states().nth(joint).unwrap_or_default();
+    let [unit, rate_unit, ..] = units(info);
+    let [coordinate, rate] =
+        if info.slides { ["displacement", "speed"] } else { ["angle", "rate"] };
+    writeln!(out, "{coordinate} = \"{q:?} {unit}\"\n{rate} = \"{q_dot:?} {rate_unit}\"")?;
+    passive_of(out, passive, info)?;
+    if let Some(of) = s.drives.get(joint) {
+        drive(out, of, Some(info))?;
+    }
+    for stop in s.stops.iter().filter(|stop| stop.joint == joint) {
+        for (key, bound) in [("lower_stop", stop.lower), ("upper_stop", stop.upper)] {
+            if bound.is_finite() {
+                writeln!(out, "{key} = \"{bound:?} {unit}\"")?;
+            }
+        }
+        let action = if stop.action == StopAction::End { "end" } else { "lock" };
+        writeln!(out, "at_stop = \"{action}\"")?;
     }
     Ok(())
 }
@@ -154,7 +187,7 @@ fn info(s: &Scenario, joint: usize) -> Option<&'static JointInfo> {
 
 fn joint_name(s: &Scenario, joint: usize) -> String {
     let found = s.joints().nth(joint);
-    found.map_or_else(String::new, |(_, name, info)| format!("{name}.{}", body_key(info)))
+    found.map_or_else(String::new, |(_, name, info)| format!("{name}.{}", joint_key(info)))
 }
 
 fn drive(out: &mut String, drive: &Drive, info: Option<&JointInfo>) -> Written {
@@ -225,6 +258,7 @@ fn applied(out: &mut String, s: &Scenario, wrench: &AppliedWrench) -> Written {
     let on = match wrench.body {
         Target::Hub => "hub".to_owned(),
         Target::Joint(joint) => joint_name(s, joint),
+        Target::Node(node) => structure::node_name(s, node).to_owned(),
     };
     writeln!(out, "\n[[wrench]]\non = {}", quoted(&on))?;
     for (key, three, unit) in [("force", &wrench.force, "N"), ("moment", &wrench.moment, "N m")] {
@@ -283,12 +317,12 @@ fn requirements(out: &mut String, s: &Scenario) -> Written {
     Ok(())
 }
 
-fn inertia(out: &mut String, i: &Matrix3<f64>) -> Written {
+pub(super) fn inertia(out: &mut String, i: &Matrix3<f64>) -> Written {
     writeln!(out, "inertia = \"{:?}, {:?}, {:?} kg m^2\"", i.m11, i.m22, i.m33)?;
     writeln!(out, "products_of_inertia = \"{:?}, {:?}, {:?} kg m^2\"", i.m12, i.m13, i.m23)
 }
 
-fn vector(v: &Vector3<f64>, unit: &str) -> String {
+pub(super) fn vector(v: &Vector3<f64>, unit: &str) -> String {
     format!("\"{:?}, {:?}, {:?} {unit}\"", v.x, v.y, v.z)
 }
 
@@ -297,6 +331,6 @@ fn with_unit(value: f64, unit: &str) -> String {
 }
 
 /// A text as TOML writes it.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }

@@ -6,9 +6,15 @@
 //! only where they are selected. `time` always comes first; the others keep their order here,
 //! whatever the order of the selection.
 
+mod quantity;
+mod structure;
+
 use precess_dynamics::kind::JointInfo;
 
+pub(crate) use quantity::Quantity;
+
 use super::error::RecordError;
+use super::load_columns::{of_carried, of_load, of_mount};
 use crate::engine::Layout;
 use crate::nearest::nearest;
 use crate::scenario::Scenario;
@@ -32,61 +38,6 @@ pub struct Column {
     pub(crate) quantity: Quantity,
 }
 
-/// What a column shows: of an axis 0 to 2, of a joint or device by its number in the set.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Quantity {
-    Time,
-    Position(usize),
-    Velocity(usize),
-    HubAcceleration(usize),
-    Quaternion(usize),
-    Sigma(usize),
-    Omega(usize),
-    OmegaDot(usize),
-    Coordinate(usize),
-    Rate(usize),
-    JointAcceleration(usize),
-    Torque(usize),
-    Energy,
-    Work,
-    Lost,
-    Linear(usize),
-    Angular(usize),
-    MountForce(usize, usize),
-    MountMoment(usize, usize),
-    LoadForce(usize, usize),
-    LoadMoment(usize, usize),
-}
-
-impl Quantity {
-    pub(crate) fn is_load(&self) -> bool {
-        matches!(
-            self,
-            Self::MountForce(..)
-                | Self::MountMoment(..)
-                | Self::LoadForce(..)
-                | Self::LoadMoment(..)
-        )
-    }
-
-    pub(crate) fn is_acceleration(&self) -> bool {
-        matches!(self, Self::HubAcceleration(_) | Self::OmegaDot(_) | Self::JointAcceleration(_))
-    }
-
-    /// Whether it is part of the state that is integrated.
-    fn is_state(&self) -> bool {
-        matches!(
-            self,
-            Self::Position(_)
-                | Self::Velocity(_)
-                | Self::Quaternion(_)
-                | Self::Omega(_)
-                | Self::Coordinate(_)
-                | Self::Rate(_)
-        )
-    }
-}
-
 /// Columns in order, `time` first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Columns(Vec<Column>);
@@ -104,23 +55,20 @@ impl Columns {
                 of_joint(&mut columns, name, joint, place.info);
             }
         }
+        structure::columns(&mut columns, scenario);
         totals(&mut columns);
-        for (index, name) in scenario.names.iter().enumerate() {
-            let group = format!("{name}.loads");
-            let mount = [
-                (Quantity::MountForce as fn(usize, usize) -> Quantity, "force", "N"),
-                (Quantity::MountMoment, "moment", "N m"),
-            ];
-            for (quantity, what, unit) in mount {
-                let meaning =
-                    format!("{what} that the hub exerts on {name} at its mount, component");
-                let base = format!("{name}.mount.{what}");
-                let of = |axis| quantity(index, axis);
-                vector(&mut columns, &base, &group, unit, "B", &meaning, of);
-            }
+        for (index, (name, member)) in scenario.members().enumerate() {
+            let base = member.on().and_then(|on| scenario.names.get(on));
+            of_mount(&mut columns, (index, name), base.map(String::as_str));
             let joints = layout.joints.iter().enumerate();
             for (joint, place) in joints.filter(|(_, place)| place.device == index) {
-                of_load(&mut columns, name, &group, joint, place.info);
+                // Of a platform, not the five bodies without mass.
+                if member.device().is_some() || place.info.tip {
+                    of_load(&mut columns, name, &format!("{name}.loads"), joint, place.info);
+                }
+            }
+            if member.platform().is_some() {
+                of_carried(&mut columns, (index, name));
             }
         }
         Self(columns)
@@ -198,6 +146,7 @@ pub(crate) fn state_quantities(layout: &Layout) -> Vec<(String, Quantity)> {
         let device = place.name.split('.').next().unwrap_or_default();
         of_joint(&mut columns, device, joint, place.info);
     }
+    structure::modal(&mut columns, layout.modes);
     let state = columns.into_iter().filter(|column| column.quantity.is_state());
     state.map(|column| (column.name, column.quantity)).collect()
 }
@@ -325,23 +274,6 @@ fn totals(columns: &mut Vec<Column>) {
     }
 }
 
-fn of_load(columns: &mut Vec<Column>, device: &str, group: &str, joint: usize, info: &JointInfo) {
-    let body = info.body.replace(' ', "_");
-    // A rotor that is the same from every angle has the axes of its parent body.
-    let frame = format!("{device}.{body}");
-    let frame = if info.ignorable { format!("parent body of {frame}") } else { frame };
-    let two = [
-        (Quantity::LoadForce as fn(usize, usize) -> Quantity, "force", "N"),
-        (Quantity::LoadMoment, "moment", "N m"),
-    ];
-    for (quantity, what, unit) in two {
-        let meaning =
-            format!("{what} that its parent body exerts on the {} at its origin", info.body);
-        let base = format!("{device}.{body}.load_{what}");
-        vector(columns, &base, group, unit, &frame, &meaning, |axis| quantity(joint, axis));
-    }
-}
-
 fn scalar(
     columns: &mut Vec<Column>,
     name: &str,
@@ -361,7 +293,7 @@ fn scalar(
     });
 }
 
-fn vector(
+pub(super) fn vector(
     columns: &mut Vec<Column>,
     base: &str,
     group: &str,

@@ -11,6 +11,7 @@ pub mod columns;
 pub mod csv;
 pub mod decimate;
 mod error;
+mod load_columns;
 mod many;
 pub mod npz;
 #[cfg(feature = "parquet")]

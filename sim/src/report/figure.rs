@@ -17,12 +17,12 @@ use super::number::power_of_ten;
 use super::ticks::{Axis, range_of};
 
 /// The rules that turn the colours on dark screens, for an SVG file.
-const THEME: &str = include_str!("theme.css");
+pub(super) const THEME: &str = include_str!("theme.css");
 
 /// Ink of text, frame and axes.
-const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
+pub(super) const INK: RGBColor = RGBColor(0x1c, 0x1c, 0x1e);
 /// Grid lines.
-const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);
+pub(super) const GRID: RGBColor = RGBColor(0xe3, 0xe3, 0xe6);
 /// Colours of the curves in order; they repeat.
 const COLOURS: [&str; 7] =
     ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#E69F00", "#56B4E9"];
@@ -30,24 +30,24 @@ const COLOURS: [&str; 7] =
 const DASHES: [&str; 8] =
     ["", "80 30", "20 25", "90 30 20 30", "140 40", "40 40", "90 30 20 30 20 30", "50 20"];
 
-const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
+pub(super) const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
 /// Tenths of a unit, see above.
 const FINE: f64 = 10.0;
 /// plotters writes this share of the size it is passed.
 const FONT_SHARE: f64 = 1.24;
-const WIDTH: f64 = 450.0;
-const PANEL: f64 = 224.0;
-const LEGEND: f64 = 20.0;
+pub(super) const WIDTH: f64 = 450.0;
+pub(super) const PANEL: f64 = 224.0;
+pub(super) const LEGEND: f64 = 20.0;
 /// Around a figure: names and titles in a reader's wider font.
 const MARGIN: f64 = 12.0;
 /// Around the axes.
-const LEFT: f64 = 60.0;
-const BELOW: f64 = 42.0;
-const ABOVE: f64 = 34.0;
-const RIGHT: f64 = 12.0;
+pub(super) const LEFT: f64 = 60.0;
+pub(super) const BELOW: f64 = 42.0;
+pub(super) const ABOVE: f64 = 34.0;
+pub(super) const RIGHT: f64 = 12.0;
 /// Type sizes: labels and legend, ticks.
-const TYPE: f64 = 13.0;
-const TYPE_SMALL: f64 = 12.0;
+pub(super) const TYPE: f64 = 13.0;
+pub(super) const TYPE_SMALL: f64 = 12.0;
 /// Most points of a line, and of the edge of a band.
 const POINTS_MAX: [usize; 2] = [600, 190];
 /// What is no thicker is drawn as a line, tenths of a unit: about a line's own width.
@@ -93,7 +93,7 @@ pub(super) struct Band {
 /// Where a band is in the picture, tenths of a unit: time, greatest, least.
 type Placed = [i32; 3];
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 impl Figure {
     /// The figure as an SVG file of its own.
@@ -109,77 +109,8 @@ impl Figure {
     }
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
-        let (legend, rows) = self.legend();
-        let height = LEGEND * f64::from(rows) + PANEL;
-        let mut axes = String::new();
-        let curves;
-        {
-            let area = SVGBackend::with_string(&mut axes, (whole(WIDTH), whole(height)));
-            let area = area.into_drawing_area();
-            let (_, panel) = area.split_vertically(px(LEGEND * f64::from(rows)));
-            curves = self.draw(&panel)?;
-            area.present()?;
-        }
-        // plotters' own root element says nothing of the units: ours replaces it.
-        let body = axes.split_once('>').map_or("", |(_, rest)| rest);
-        let body = body.rsplit_once("</svg>").map_or(body, |(body, _)| body);
-        let body: String = body.lines().filter(|line| !line.is_empty()).collect();
-        let (width, height) = (WIDTH + 2.0 * MARGIN, height + 2.0 * MARGIN);
-        let (x, w, h) = (-px(MARGIN), px(width), px(height));
-        let description = escaped(&self.description);
-        Ok(format!(
-            "<svg class=\"figure\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" \
-             width=\"{width}\" height=\"{height}\" viewBox=\"{x} {x} {w} {h}\">\n\
-             <title>{description}</title>\n{style}\
-             <rect x=\"{x}\" y=\"{x}\" width=\"{w}\" height=\"{h}\" fill=\"#FFFFFF\"/>\n\
-             {legend}<g stroke-linejoin=\"round\">{body}</g>\n{curves}</svg>\n"
-        ))
-    }
-
-    /// The legend, and its rows.
-    fn legend(&self) -> (String, u32) {
-        /// Width that a letter of a name takes, on average, and that of a line sample with its gaps.
-        const LETTER: f64 = 0.52 * TYPE;
-        const SAMPLE: f64 = 22.0;
-        const GAP: f64 = 6.0;
-        const BETWEEN: f64 = 20.0;
-        #[expect(clippy::cast_precision_loss, reason = "names are short")]
-        let width = |line: &Line| SAMPLE + GAP + LETTER * line.name.chars().count() as f64;
-        let mut rows: Vec<(f64, Vec<usize>)> = Vec::new();
-        for (index, line) in self.lines.iter().enumerate() {
-            match rows.last_mut().filter(|(used, _)| used + BETWEEN + width(line) <= WIDTH) {
-                Some((used, row)) => {
-                    *used += BETWEEN + width(line);
-                    row.push(index);
-                }
-                None => rows.push((width(line), vec![index])),
-            }
-        }
-        let mut out = format!("<g font-family=\"{FONT}\" font-size=\"{}\">", px(TYPE));
-        let mut y = 0.5 * LEGEND;
-        for (used, row) in &rows {
-            let mut x = 0.5 * (WIDTH - used);
-            for (index, line) in
-                row.iter().filter_map(|&index| self.lines.get(index).map(|l| (index, l)))
-            {
-                let stroke = stroke(index, 20);
-                let _ = write!(
-                    out,
-                    "<path d=\"M{} {}h{}\" {stroke}/><text x=\"{}\" y=\"{}\" dy=\"0.32em\" \
-                     fill=\"#1C1C1E\">{}</text>",
-                    px(x),
-                    px(y),
-                    px(SAMPLE),
-                    px(x + SAMPLE + GAP),
-                    px(y),
-                    symbol(&line.name)
-                );
-                x += width(line) + BETWEEN;
-            }
-            y += LEGEND;
-        }
-        out.push_str("</g>\n");
-        (out, u32::try_from(rows.len()).unwrap_or(1))
+        let names: Vec<_> = self.lines.iter().map(|line| line.name.as_str()).collect();
+        document(&self.description, style, &names, PANEL, |panel| self.draw(panel))
     }
 
     /// Draws the axes and returns the curves.
@@ -243,6 +174,85 @@ impl Figure {
     }
 }
 
+/// A drawing with a legend of some names, and below it a panel of a height whose curves `draw` returns.
+pub(super) fn document(
+    description: &str,
+    style: &str,
+    names: &[&str],
+    panel_height: f64,
+    draw: impl FnOnce(&Area<'_>) -> Result<String, DrawError>,
+) -> Result<String, DrawError> {
+    let (legend, rows) = legend(names);
+    let height = LEGEND * f64::from(rows) + panel_height;
+    let mut axes = String::new();
+    let curves;
+    {
+        let area = SVGBackend::with_string(&mut axes, (whole(WIDTH), whole(height)));
+        let area = area.into_drawing_area();
+        let (_, panel) = area.split_vertically(px(LEGEND * f64::from(rows)));
+        curves = draw(&panel)?;
+        area.present()?;
+    }
+    // plotters' own root element says nothing of the units: ours replaces it.
+    let body = axes.split_once('>').map_or("", |(_, rest)| rest);
+    let body = body.rsplit_once("</svg>").map_or(body, |(body, _)| body);
+    let body: String = body.lines().filter(|line| !line.is_empty()).collect();
+    let (width, height) = (WIDTH + 2.0 * MARGIN, height + 2.0 * MARGIN);
+    let (x, w, h) = (-px(MARGIN), px(width), px(height));
+    let description = escaped(description);
+    Ok(format!(
+        "<svg class=\"figure\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" \
+         width=\"{width}\" height=\"{height}\" viewBox=\"{x} {x} {w} {h}\">\n\
+         <title>{description}</title>\n{style}\
+         <rect x=\"{x}\" y=\"{x}\" width=\"{w}\" height=\"{h}\" fill=\"#FFFFFF\"/>\n\
+         {legend}<g stroke-linejoin=\"round\">{body}</g>\n{curves}</svg>\n"
+    ))
+}
+
+/// The legend, and its rows.
+fn legend(names: &[&str]) -> (String, u32) {
+    /// Width that a letter of a name takes, on average, and that of a line sample with its gaps.
+    const LETTER: f64 = 0.52 * TYPE;
+    const SAMPLE: f64 = 22.0;
+    const GAP: f64 = 6.0;
+    const BETWEEN: f64 = 20.0;
+    #[expect(clippy::cast_precision_loss, reason = "names are short")]
+    let width = |name: &str| SAMPLE + GAP + LETTER * name.chars().count() as f64;
+    let mut rows: Vec<(f64, Vec<usize>)> = Vec::new();
+    for (index, name) in names.iter().enumerate() {
+        match rows.last_mut().filter(|(used, _)| used + BETWEEN + width(name) <= WIDTH) {
+            Some((used, row)) => {
+                *used += BETWEEN + width(name);
+                row.push(index);
+            }
+            None => rows.push((width(name), vec![index])),
+        }
+    }
+    let mut out = format!("<g font-family=\"{FONT}\" font-size=\"{}\">", px(TYPE));
+    let mut y = 0.5 * LEGEND;
+    for (used, row) in &rows {
+        let mut x = 0.5 * (WIDTH - used);
+        for (index, name) in row.iter().filter_map(|&index| names.get(index).map(|n| (index, n))) {
+            let stroke = stroke(index, 20);
+            let _ = write!(
+                out,
+                "<path d=\"M{} {}h{}\" {stroke}/><text x=\"{}\" y=\"{}\" dy=\"0.32em\" \
+                 fill=\"#1C1C1E\">{}</text>",
+                px(x),
+                px(y),
+                px(SAMPLE),
+                px(x + SAMPLE + GAP),
+                px(y),
+                symbol(name)
+            );
+            x += width(name) + BETWEEN;
+        }
+        y += LEGEND;
+    }
+    out.push_str("</g>\n");
+    (out, u32::try_from(rows.len()).unwrap_or(1))
+}
+
 impl Line {
     /// As many bands as the picture can show, in runs without gaps.
     fn merged(&self) -> Vec<Vec<Band>> {
@@ -294,7 +304,7 @@ fn path(out: &mut String, run: &[Placed], index: usize) {
 }
 
 /// A path through points by relative moves; points within a horizontal line are left out.
-fn moves(points: &[[i32; 2]]) -> String {
+pub(super) fn moves(points: &[[i32; 2]]) -> String {
     let Some(mut at) = points.first().copied() else { return String::new() };
     let mut out = format!("M{} {}l", at[0], at[1]);
     for (index, point) in points.iter().enumerate().skip(1) {
@@ -313,7 +323,7 @@ fn moves(points: &[[i32; 2]]) -> String {
 }
 
 /// The attributes of the nth curve's line.
-fn stroke(index: usize, width: u32) -> String {
+pub(super) fn stroke(index: usize, width: u32) -> String {
     let colour = COLOURS[index % COLOURS.len()];
     let dash = DASHES[index % DASHES.len()];
     let dash =
@@ -332,12 +342,12 @@ fn symbol(label: &str) -> String {
     }
 }
 
-fn text(size: f64, colour: RGBColor) -> TextStyle<'static> {
+pub(super) fn text(size: f64, colour: RGBColor) -> TextStyle<'static> {
     (FONT, size * FINE * FONT_SHARE).into_font().color(&colour)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "sizes of a picture")]
-fn px(value: f64) -> i32 {
+pub(super) fn px(value: f64) -> i32 {
     (value * FINE).round() as i32
 }
 
@@ -346,10 +356,10 @@ fn px(value: f64) -> i32 {
     clippy::cast_sign_loss,
     reason = "positive sizes of a picture"
 )]
-fn whole(value: f64) -> u32 {
+pub(super) fn whole(value: f64) -> u32 {
     (value * FINE).round() as u32
 }
 
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

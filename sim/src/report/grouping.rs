@@ -41,6 +41,13 @@ pub(super) fn charts(header: &Header, scenario: &Scenario, ledger: bool) -> Vec<
                 let body = bodies.iter().position(|body| *body == info.body).unwrap_or_default();
                 of_joint(column.quantity, body, device, info)
             }),
+            Quantity::ModalCoordinate(_)
+            | Quantity::ModalRate(_)
+            | Quantity::Displacement(..)
+            | Quantity::Rotation(..)
+            | Quantity::PointSigma(..)
+            | Quantity::PointOmega(..)
+            | Quantity::PointAcceleration(..) => of_structure(column),
             quantity if quantity.is_load() => Some(of_load(quantity, index, column)),
             quantity => of_hub(quantity),
         };
@@ -207,14 +214,74 @@ fn of_joint(quantity: Quantity, body: usize, device: &str, info: &JointInfo) -> 
     }
 }
 
+/// Modal coordinates of all modes in one chart, and a chart for each vector of each point.
+fn of_structure(column: &Column) -> Option<Found> {
+    let point = plain(&column.group);
+    let (rank, index, what, axis, family, label) = match column.quantity {
+        Quantity::Displacement(point, axis) => {
+            let label = format!("u_{}", AXES[axis]);
+            (10, point, "displacement in B", "Displacement", unit::DISPLACEMENT, label)
+        }
+        Quantity::Rotation(point, axis) => {
+            let label = format!("θ_{}", AXES[axis]);
+            (11, point, "rotation in B", "Rotation", unit::SMALL_ANGLE, label)
+        }
+        Quantity::PointSigma(point, axis) => (
+            12,
+            point,
+            "attitude relative to N, modified Rodrigues parameters",
+            "Attitude σ",
+            unit::NUMBER,
+            format!("σ_{}", ["1", "2", "3"][axis]),
+        ),
+        Quantity::PointOmega(point, axis) => (
+            13,
+            point,
+            "inertial angular velocity",
+            "Angular velocity",
+            unit::ANGULAR_RATE,
+            format!("ω_{}", AXES[axis]),
+        ),
+        Quantity::PointAcceleration(point, axis) => (
+            14,
+            point,
+            "inertial acceleration",
+            "Acceleration",
+            unit::ACCELERATION,
+            format!("a_{}", AXES[axis]),
+        ),
+        Quantity::ModalCoordinate(mode) => {
+            (15, 0, "modal coordinates", "η", unit::MODAL, format!("η_{}", mode + 1))
+        }
+        Quantity::ModalRate(mode) => {
+            (16, 0, "modal rates", "η′", unit::MODAL_RATE, format!("η′_{}", mode + 1))
+        }
+        _ => return None,
+    };
+    let title = if rank < 15 { format!("{point}: {what}") } else { what.to_owned() };
+    Some(Found {
+        key: (rank, index),
+        part: Part::Histories,
+        slug: hyphenated(&match rank {
+            10..15 => column.vector.clone().unwrap_or_default(),
+            _ => what.to_owned(),
+        }),
+        title: capitalised(&title),
+        axis,
+        family,
+        label,
+        departure: false,
+    })
+}
+
 fn of_load(quantity: Quantity, index: usize, column: &Column) -> Found {
     let (axis, family, name, symbol) = match quantity {
-        Quantity::MountForce(_, axis) | Quantity::LoadForce(_, axis) => {
-            (axis, unit::FORCE, "Force", "F")
-        }
-        Quantity::MountMoment(_, axis) | Quantity::LoadMoment(_, axis) => {
-            (axis, unit::MOMENT, "Moment", "M")
-        }
+        Quantity::MountForce(_, axis)
+        | Quantity::CarriedForce(_, axis)
+        | Quantity::LoadForce(_, axis) => (axis, unit::FORCE, "Force", "F"),
+        Quantity::MountMoment(_, axis)
+        | Quantity::CarriedMoment(_, axis)
+        | Quantity::LoadMoment(_, axis) => (axis, unit::MOMENT, "Moment", "M"),
         _ => (0, unit::NUMBER, "", ""),
     };
     // The meaning ends in the component: "…, x".

@@ -2,11 +2,11 @@
 //! imbalance of each device, and the inertia that each motor moves.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Imbalance, ImbalanceModel, units};
+use precess_dynamics::{Imbalance, units};
 
 use super::blocks::{Block, table};
 use super::number;
-use crate::file::read::body_key;
+use crate::file::read::joint_key;
 use crate::scenario::Scenario;
 use crate::scenario::mass::{MassMatrix, MassProperties, imbalance};
 
@@ -25,7 +25,8 @@ fn whole(scenario: &Scenario, properties: &MassProperties) -> Block {
     let MassProperties { mass, centre_of_mass: centre, inertia_b: about_b } = properties;
     let shift = Matrix3::identity() * centre.norm_squared() - centre * centre.transpose();
     let about_c = about_b - shift * *mass;
-    let hub = &scenario.hub;
+    // Without what the model of a structure contains of the devices; the solver has accepted it.
+    let hub = &scenario.bare_hub().unwrap_or(scenario.hub);
     let row = |what: &str, mass: f64, centre: &Vector3<f64>, inertia: &Matrix3<f64>| {
         let mut cells = vec![what.to_owned(), number::short(mass, 7)];
         cells.extend(centre.iter().map(|part| number::short(1e3 * part, 5)));
@@ -60,18 +61,16 @@ fn whole(scenario: &Scenario, properties: &MassProperties) -> Block {
 }
 
 fn devices(scenario: &Scenario) -> Block {
-    let rows = scenario.names.iter().zip(&scenario.devices).map(|(name, device)| {
-        let joints = device.kind().joints();
-        let parameters = device.parameters();
-        let mass: f64 = parameters.bodies.iter().take(joints.len()).map(|body| body.mass).sum();
-        let mut cells = vec![name.clone(), device.kind().name().to_owned(), number::short(mass, 7)];
-        match imbalance(device) {
+    let rows = scenario.members().map(|(name, member)| {
+        let mass: f64 = member.bodies().iter().map(|body| body.mass).sum();
+        let mut cells =
+            vec![name.to_owned(), member.kind_name().to_owned(), number::short(mass, 7)];
+        match member.device().and_then(imbalance) {
             Some(Imbalance { u_s, u_d, phase }) => {
                 cells.push(number::short(units::to_g_cm(u_s), 5));
                 cells.push(number::short(units::to_g_cm2(u_d), 5));
                 cells.push(number::short(units::to_deg(phase), 5));
-                let lumped = parameters.model == ImbalanceModel::Lumped;
-                cells.push(if lumped { "lumped" } else { "coupled" }.to_owned());
+                cells.push(if member.is_lumped() { "lumped" } else { "coupled" }.to_owned());
             }
             None => cells.extend(["–"; 4].map(str::to_owned)),
         }
@@ -96,7 +95,7 @@ fn motors(scenario: &Scenario, matrix: &MassMatrix) -> Block {
     let rows = scenario.joints().zip(&matrix.joints).map(|((_, name, info), inertia)| {
         let unit = if info.slides { "kg" } else { "kg m²" };
         let cells = [
-            format!("{name}.{}", body_key(info)),
+            format!("{name}.{}", joint_key(info)),
             cell(inertia.held),
             cell(inertia.free),
             unit.to_owned(),

@@ -5,6 +5,7 @@ use nalgebra::Matrix3;
 use precess_dynamics::kind::{BodyParameters, JointInfo};
 use serde::Serialize;
 
+use crate::file::read::has_mass;
 use crate::scenario::Scenario;
 
 /// Sides and thicknesses are at least this, m.
@@ -54,38 +55,46 @@ pub(super) fn hub(scenario: &Scenario) -> Hub {
     Hub { size: scenario.hub_size.into(), centre: scenario.hub.r_bc_b.into() }
 }
 
-/// The joints of a scenario, the inboard one of each device first.
+/// The joints of a scenario, the inboard one of each device and platform first.
 pub(super) fn joints(scenario: &Scenario) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
-    for (name, device) in scenario.names.iter().zip(&scenario.devices) {
-        let parameters = device.parameters();
-        let infos = device.kind().joints();
+    // The last joint of each member, to whose body the devices on a platform are fixed.
+    let mut tips: Vec<i64> = Vec::new();
+    for (name, member) in scenario.members() {
+        let (parameters, infos) = (member.bodies(), member.joints());
+        let base = member.on().and_then(|on| tips.get(on)).copied().unwrap_or(-1);
         // From the tip to the hub, because a ring encloses what it holds.
         let mut reach = 0.0;
-        let mut bodies: Vec<Body> = Vec::new();
-        for (info, of) in infos.iter().zip(&parameters.bodies).rev() {
-            let drawn = body(info, of, reach);
-            reach = drawn.radius;
+        let mut bodies: Vec<Option<Body>> = Vec::new();
+        for (info, of) in infos.iter().zip(&parameters).rev() {
+            // A platform's first five bodies have no mass, nor have links without a body.
+            let has_body = match member.device() {
+                Some(device) => has_mass(device.kind(), info),
+                None => info.tip,
+            };
+            let drawn = has_body.then(|| body(info, of, reach));
+            reach = drawn.as_ref().map_or(reach, |drawn| drawn.radius);
             bodies.push(drawn);
         }
-        let of_joints = infos.iter().zip(&parameters.bodies).zip(bodies.into_iter().rev());
+        let of_joints = infos.iter().zip(&parameters).zip(bodies.into_iter().rev());
         for ((info, of), body) in of_joints {
             let inboard = i64::try_from(joints.len()).unwrap_or(0) - 1;
-            let axes = if info.index == 0 { parameters.mount } else { Matrix3::identity() };
+            let axes = if info.index == 0 { member.mount() } else { Matrix3::identity() };
             // nalgebra stores columns.
             let rows = axes.transpose();
             let mut mount = [0.0; 9];
             mount.iter_mut().zip(rows.iter()).for_each(|(to, from)| *to = *from);
             joints.push(Joint {
                 name: format!("{name}.{}", info.body.replace(' ', "_")),
-                parent: if info.index == 0 { -1 } else { inboard },
+                parent: if info.index == 0 { base } else { inboard },
                 mount,
                 origin: of.origin,
                 axis: info.axis,
                 slides: info.slides,
-                body: Some(body),
+                body,
             });
         }
+        tips.push(i64::try_from(joints.len()).unwrap_or(0) - 1);
     }
     joints
 }
@@ -119,7 +128,7 @@ fn body(info: &JointInfo, of: &BodyParameters<f64>, reach: f64) -> Body {
             Body { centre, heavy, ..plain("wheel", radius, width) }
         }
         // J_x = m (b² + c²) / 12.
-        "panel" => {
+        "panel" | "platform" => {
             let sum = moment(0) + moment(1) + moment(2);
             let size =
                 [0, 1, 2].map(|axis| (6.0 * per_mass(sum - 2.0 * moment(axis))).sqrt().max(THIN));

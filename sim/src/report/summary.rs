@@ -1,9 +1,11 @@
 //! The head of the page, and a summary for the terminal: verdict, end of the run, cost, drifts.
 
+use std::f64::consts::TAU;
+
 use super::blocks::{Fact, Summary, Verdict};
 use super::{Report, number, requirements};
 use crate::engine::{End, Outcome};
-use crate::scenario::IntegratorChoice;
+use crate::scenario::{IntegratorChoice, Member};
 
 /// Requirements that the terminal shows.
 const SHOWN_MAX: usize = 3;
@@ -56,16 +58,35 @@ pub(super) fn summary(report: &Report, outcome: &Outcome) -> Summary {
     if !scenario.description.trim().is_empty() {
         paragraphs.push(scenario.description.trim().to_owned());
     }
+    let base = |member: &Member<'_>| member.on().and_then(|on| scenario.names.get(on));
     let devices: Vec<_> = scenario
-        .names
-        .iter()
-        .zip(&scenario.devices)
-        .map(|(name, device)| format!("{name} ({})", device.kind().name()))
+        .members()
+        .map(|(name, member)| match base(&member) {
+            Some(base) => format!("{name} ({} on {base})", member.kind_name()),
+            None => format!("{name} ({})", member.kind_name()),
+        })
         .collect();
-    let hub = format!("A rigid hub of {} kg", number::short(scenario.hub.m_b, 7));
+    let platforms = scenario.members().any(|(_, member)| member.platform().is_some());
+    let mass = number::short(scenario.hub.m_b, 7);
+    let hub = scenario.structure.as_ref().map_or_else(
+        || format!("A rigid hub of {mass} kg"),
+        |structure| {
+            let modes = structure.modes.iter().map(|mode| mode.frequency / TAU);
+            let lowest = number::short(modes.clone().fold(f64::INFINITY, f64::min), 4);
+            let highest = number::short(modes.fold(0.0, f64::max), 4);
+            let count = match structure.modes.len() {
+                1 => "one mode".to_owned(),
+                count => format!("{count} modes"),
+            };
+            format!("A structure of {mass} kg with {count}, {lowest} Hz to {highest} Hz,")
+        },
+    );
     paragraphs.push(match devices.len() {
         0 => format!("{hub} without devices."),
         1 => format!("{hub} with one device: {}.", devices.join(", ")),
+        count if platforms => {
+            format!("{hub} with {count} devices and platforms: {}.", devices.join(", "))
+        }
         count => format!("{hub} with {count} devices: {}.", devices.join(", ")),
     });
     Summary { paragraphs, facts: facts(report, outcome) }

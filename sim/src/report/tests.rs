@@ -31,8 +31,8 @@ fn table1() -> Scenario {
 fn four(scenario: &Scenario) -> Scenario {
     let mut four = scenario.clone();
     four.names = (1..=4).map(|k| format!("cmg{k}")).collect();
-    four.devices = [scenario.devices[0]; 4].into();
-    four.initial.devices = [scenario.initial.devices[0]; 4].into();
+    four.devices.0 = [scenario.devices.0[0]; 4].into();
+    four.initial.devices.0 = [scenario.initial.devices.0[0]; 4].into();
     four.drives = [scenario.drives.as_slice(); 4].concat();
     four
 }

@@ -26,6 +26,22 @@ const TURNS: f64 = 0.5 / std::f64::consts::PI;
 
 pub(super) const NUMBER: &Family = &[unit("", 1.0, 0.0)];
 pub(super) const ANGLE: &Family = &[unit("deg", DEGREES, 0.0)];
+pub(super) const DISPLACEMENT: &Family =
+    &[unit("m", 1.0, 1.0), unit("mm", 1e3, 1e-3), unit("µm", 1e6, 1e-6), unit("nm", 1e9, 0.0)];
+pub(super) const SMALL_ANGLE: &Family = &[
+    unit("deg", DEGREES, 1e-2),
+    unit("mrad", 1e3, 1e-3),
+    unit("µrad", 1e6, 1e-6),
+    unit("nrad", 1e9, 0.0),
+];
+pub(super) const MODAL: &Family = &[
+    unit("m kg^½", 1.0, 1.0),
+    unit("mm kg^½", 1e3, 1e-3),
+    unit("µm kg^½", 1e6, 1e-6),
+    unit("nm kg^½", 1e9, 0.0),
+];
+pub(super) const MODAL_RATE: &Family =
+    &[unit("m kg^½/s", 1.0, 1.0), unit("mm kg^½/s", 1e3, 1e-3), unit("µm kg^½/s", 1e6, 0.0)];
 pub(super) const REVOLUTIONS: &Family = &[unit("rev", TURNS, 0.0)];
 pub(super) const ANGULAR_RATE: &Family = &[unit("deg/s", DEGREES, 0.0)];
 pub(super) const WHEEL_RATE: &Family = &[unit("rpm", 60.0 * TURNS, 0.0)];

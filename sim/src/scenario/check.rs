@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use precess_dynamics::ParameterError;
+use precess_dynamics::{ModesError, ParameterError};
 
-use super::{Action, Drive, IntegratorChoice, Profile, Scenario, Target};
+use super::{Action, Drive, IntegratorChoice, Member, Profile, Scenario, Target, members};
 
 /// Shorter, and a turn of no wheel fits in.
 pub(crate) const DURATION_MIN: f64 = 1e-6;
@@ -33,6 +33,8 @@ pub enum ScenarioError {
     },
     /// The solver rejects the parameters.
     Parameters(ParameterError),
+    /// It rejects the modes of the structure.
+    Modes(ModesError),
 }
 
 impl fmt::Display for ScenarioError {
@@ -40,6 +42,7 @@ impl fmt::Display for ScenarioError {
         match self {
             Self::Range { key, message } => write!(f, "{key}: {message}"),
             Self::Parameters(error) => error.fmt(f),
+            Self::Modes(error) => error.fmt(f),
         }
     }
 }
@@ -49,11 +52,12 @@ impl std::error::Error for ScenarioError {
         match self {
             Self::Range { .. } => None,
             Self::Parameters(source) => Some(source),
+            Self::Modes(source) => Some(source),
         }
     }
 }
 
-fn range(key: &str, message: String) -> ScenarioError {
+pub(super) fn range(key: &str, message: String) -> ScenarioError {
     ScenarioError::Range { key: key.to_owned(), message }
 }
 
@@ -67,6 +71,8 @@ impl Scenario {
         errors.extend(self.check_joints());
         if let Err(error) = self.spacecraft() {
             errors.push(ScenarioError::Parameters(error));
+        } else {
+            errors.extend(self.check_structure());
         }
         errors
     }
@@ -129,36 +135,46 @@ impl Scenario {
 
     fn check_names(&self) -> Vec<ScenarioError> {
         let mut errors = Vec::new();
-        if self.names.len() != self.devices.len() || self.drives.len() != self.joint_count() {
+        let all = members(&self.devices);
+        if self.names.len() != all.len() || self.drives.len() != self.joint_count() {
             errors.push(range(
                 "device",
                 format!(
                     "{} names and {} drives for {} devices with {} joints",
                     self.names.len(),
                     self.drives.len(),
-                    self.devices.len(),
+                    all.len(),
                     self.joint_count()
                 ),
             ));
         }
         for (index, name) in self.names.iter().enumerate() {
+            let is_platform = matches!(all.get(index), Some(Member::Platform(_)));
+            let key = format!("{}.{name}.name", if is_platform { "platform" } else { "device" });
             let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
             if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(plain) {
                 errors.push(range(
-                    &format!("device.{name}.name"),
+                    &key,
                     format!("`{name}` is not lower-case letters, digits and underscores"),
                 ));
             }
-            if name == "loads" {
-                let message =
-                    "`loads` is the name of a group of columns; name the device otherwise";
-                errors.push(range(&format!("device.{name}.name"), message.to_owned()));
+            if name == "loads" || (name == "modes" && self.structure.is_some()) {
+                let message = format!(
+                    "`{name}` is the name of a group of columns; name the device otherwise"
+                );
+                errors.push(range(&key, message));
+            }
+            if is_platform && name == "hub" {
+                let message = "`on = \"hub\"` means the hub; name the platform otherwise";
+                errors.push(range(&key, message.to_owned()));
             }
             if self.names.iter().take(index).any(|other| other == name) {
-                errors.push(range(
-                    &format!("device.{name}.name"),
-                    format!("two devices are named `{name}`; rename one"),
-                ));
+                let what = if all.iter().any(|member| member.platform().is_some()) {
+                    "two devices or platforms"
+                } else {
+                    "two devices"
+                };
+                errors.push(range(&key, format!("{what} are named `{name}`; rename one")));
             }
         }
         errors

@@ -7,17 +7,21 @@
 use nalgebra::Matrix3;
 use precess_description::{Body, Description, Device, FORMAT, Hub};
 use precess_dynamics::kind::ImbalanceModel;
-use precess_dynamics::{Gravity, HubMode, Passive};
+use precess_dynamics::{Gravity, HubMode, JointStates, Passive};
 
-use super::{Drive, Scenario};
+use super::{Drive, Member, Scenario};
 
 /// Why a spacecraft has no kernels of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum UndescribedError {
     /// The hub's mode is not free.
     Hub,
+    /// The structure bends.
+    Structure,
     /// A device whose imbalance is lumped.
     Lumped(String),
+    /// A platform.
+    Platform(String),
 }
 
 impl std::fmt::Display for UndescribedError {
@@ -27,10 +31,20 @@ impl std::fmt::Display for UndescribedError {
                 f,
                 "the kernels of one spacecraft are for a free hub; remove `hub.mode` from the scenario"
             ),
+            Self::Structure => write!(
+                f,
+                "the kernels of one spacecraft are for a rigid hub; remove `[structure]` from the \
+                 scenario"
+            ),
             Self::Lumped(device) => write!(
                 f,
                 "the imbalance of {device} is lumped, and these kernels couple it; state \
                  `imbalance_model = \"coupled\"`"
+            ),
+            Self::Platform(name) => write!(
+                f,
+                "{name} is an isolated platform, and these kernels are for devices on the hub; \
+                 remove `[[platform]]`, and `on` of the devices on it"
             ),
         }
     }
@@ -42,21 +56,24 @@ impl Scenario {
     /// The spacecraft by its numbers. With `unlock`, joints that the scenario locks stay joints.
     ///
     /// # Errors
-    /// Where the hub is not free, or the imbalance of a device is lumped.
+    /// Where the hub is not free, the imbalance of a device is lumped, or there is a platform.
     pub fn description(&self, unlock: bool) -> Result<Description, UndescribedError> {
         if self.hub_mode != HubMode::Free {
             return Err(UndescribedError::Hub);
         }
+        if self.structure.is_some() {
+            return Err(UndescribedError::Structure);
+        }
         let mut joint = 0;
-        let mut states = self.initial.devices.iter().flat_map(|device| {
-            let states: Vec<_> = precess_dynamics::kind::JointStates::states(device).collect();
-            states
-        });
+        let mut states = self.initial.devices.states();
         let mut device = Vec::new();
-        for (own, name) in self.devices.iter().zip(&self.names) {
+        for (name, member) in self.members() {
+            let Some(own) = member.device() else {
+                return Err(UndescribedError::Platform(name.to_owned()));
+            };
             let parameters = own.parameters();
             if parameters.model == ImbalanceModel::Lumped {
-                return Err(UndescribedError::Lumped(name.clone()));
+                return Err(UndescribedError::Lumped(name.to_owned()));
             }
             let mut body = Vec::new();
             for (of, _) in parameters.bodies.iter().zip(own.kind().joints()) {
@@ -72,9 +89,10 @@ impl Scenario {
                 joint += 1;
             }
             device.push(Device {
-                name: name.clone(),
+                name: name.to_owned(),
                 kind: own.kind().name().to_owned(),
                 mount: rows(&parameters.mount),
+                turns: self.mounts.get(device.len()).cloned().flatten(),
                 body,
                 keep: Vec::new(),
             });
@@ -91,12 +109,12 @@ impl Scenario {
     /// What acts on the spacecraft of this scenario and is no part of a description.
     #[must_use]
     pub fn not_described(&self) -> Vec<String> {
-        let acts = |device: &precess_dynamics::BuiltIn| {
-            device.parameters().passive.iter().any(|passive| *passive != Passive::none())
+        let acts = |member: &Member<'_>| {
+            member.passive().iter().any(|passive| *passive != Passive::none())
         };
-        let passive = self.devices.iter().zip(&self.names).filter(|(device, _)| acts(device));
+        let passive = self.members().filter(|(_, member)| acts(member));
         let mut list: Vec<_> =
-            passive.map(|(_, name)| format!("spring, damper or friction of {name}")).collect();
+            passive.map(|(name, _)| format!("spring, damper or friction of {name}")).collect();
         if self.gravity != Gravity::None {
             list.push("gravity".to_owned());
         }

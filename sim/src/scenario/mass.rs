@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
-    About, Accelerations, BuiltIn, HubMode, Imbalance, Inputs, JointArray, Mode, Quaternion,
+    About, Accelerations, BuiltIn, HubMode, Imbalance, Inputs, JointStates, Mode, Quaternion,
     SolveError, Spacecraft, State,
 };
 
@@ -106,10 +106,9 @@ impl MassMatrix {
 /// The initial pose with B at the inertial origin, its axes along the inertial ones, at rest.
 fn at_rest(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> State<Set> {
     let mut state: State<Set, Quaternion> = State::at_rest_for(spacecraft);
-    let all = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
-    let initial = scenario.initial.devices.iter().flat_map(JointArray::as_slice);
-    for (joint, [coordinate, _]) in all.zip(initial) {
-        joint[0] = *coordinate;
+    let initial = scenario.initial.devices.states();
+    for ([own, _], [coordinate, _]) in state.devices.states_mut().zip(initial) {
+        *own = coordinate;
     }
     state
 }
@@ -178,9 +177,8 @@ mod tests {
 
     use super::*;
     use crate::engine::checks::{panel, scenario, wheel};
-    use crate::scenario::Set;
 
-    fn of(devices: Set) -> (MassProperties, MassMatrix) {
+    fn of(devices: Vec<BuiltIn>) -> (MassProperties, MassMatrix) {
         let names = ["a", "b"];
         let scenario = scenario(&names[..devices.len()], devices, 1.0);
         let spacecraft = scenario.spacecraft().expect("accepted");

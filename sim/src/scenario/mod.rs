@@ -10,19 +10,21 @@
 mod check;
 mod description;
 pub mod mass;
+mod member;
 pub mod profile;
+mod structure;
 
 use nalgebra::Vector3;
+use precess_description::Turn;
 use precess_dynamics::kind::JointInfo;
-use precess_dynamics::{BuiltIn, Gravity, Hub, HubMode, ParameterError, Spacecraft, State};
+use precess_dynamics::{Gravity, Hub, HubMode, ParameterError, Spacecraft, State};
 
 pub use check::ScenarioError;
 pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
+pub use member::{Member, Set, members};
 pub use profile::{Interpolation, Profile, Table};
-
-/// The set of devices that is run: as many as there are, each of any kind.
-pub type Set = Vec<BuiltIn>;
+pub use structure::{ModalStructure, RecordedPoint, StructureNode};
 
 /// Everything a run needs.
 #[derive(Clone, Debug)]
@@ -37,10 +39,17 @@ pub struct Scenario {
     pub hub: Hub,
     /// Edges of the box that stands for the hub in drawings, along B axes, m.
     pub hub_size: Vector3<f64>,
-    /// The name of each device: lower case, digits, underscores.
+    /// The name of each device and platform, in the order of the set: lower case, digits,
+    /// underscores.
     pub names: Vec<String>,
-    /// The devices.
+    /// The devices on the hub, and the platforms with the devices on them.
     pub devices: Set,
+    /// The turns about coordinate axes that the mount of each member is written as, first from its
+    /// base; none where it is written as numbers. Missing ones are none.
+    pub mounts: Vec<Option<Vec<Turn>>>,
+    /// The modes of the structure; none of a rigid hub. With them the hub is the whole structure,
+    /// undeformed.
+    pub structure: Option<ModalStructure>,
     /// Initial state.
     pub initial: State<Set>,
     /// Mode of the hub.
@@ -127,6 +136,8 @@ pub enum Target {
     Hub,
     /// The child body of a joint.
     Joint(usize),
+    /// A node of the structure.
+    Node(usize),
 }
 
 /// The axes in which a wrench is given.
@@ -268,26 +279,31 @@ pub struct Source {
 }
 
 impl Scenario {
-    /// The spacecraft, prepared for evaluation.
+    /// The spacecraft, prepared for evaluation; with a structure that bends, undeformed. See
+    /// [`Self::flexible`].
     ///
     /// # Errors
     ///
     /// Parameters that the solver rejects.
     pub fn spacecraft(&self) -> Result<Spacecraft<Set>, ParameterError> {
-        Spacecraft::new(&self.hub, &self.devices)
+        Spacecraft::new(&self.bare_hub()?, &self.devices)
     }
 
     /// How many joints all devices have.
     #[must_use]
     pub fn joint_count(&self) -> usize {
-        self.devices.iter().map(|device| device.kind().joints().len()).sum()
+        members(&self.devices).iter().map(|member| member.joints().len()).sum()
     }
 
-    /// The joints in order: index and name of the device, and the joint.
+    /// The devices and platforms with their names, in the order of the set.
+    pub fn members(&self) -> impl Iterator<Item = (&str, Member<'_>)> {
+        self.names.iter().map(String::as_str).zip(members(&self.devices))
+    }
+
+    /// The joints in order: number and name of the device or platform, and the joint.
     pub fn joints(&self) -> impl Iterator<Item = (usize, &str, &'static JointInfo)> {
-        let devices = self.devices.iter().zip(&self.names).enumerate();
-        devices.flat_map(|(index, (device, name))| {
-            device.kind().joints().iter().map(move |info| (index, name.as_str(), info))
+        self.members().enumerate().flat_map(|(index, (name, member))| {
+            member.joints().iter().map(move |info| (index, name, info))
         })
     }
 }

@@ -99,6 +99,10 @@ measures! {
     ANGULAR_DAMPING = "a viscous friction of a turning joint", "N m s/rad", "mN m s/rad", [2 1 -1 -1];
     /// Viscous friction of a sliding joint.
     DAMPING = "a viscous friction of a sliding joint", "N s/m", "N s/m", [0 1 -1 0];
+    /// Stiffness between slides and turns of a platform.
+    COUPLING_STIFFNESS = "a stiffness between slides and turns", "N/rad", "N/mrad", [1 1 -2 -1];
+    /// Viscous friction between slides and turns of a platform.
+    COUPLING_DAMPING = "a viscous friction between slides and turns", "N s/rad", "N s/rad", [1 1 -1 -1];
     /// Gravitational parameter of a central body.
     GRAVITATIONAL_PARAMETER = "a gravitational parameter", "m^3/s^2", "km^3/s^2", [3 0 -2 0];
 }

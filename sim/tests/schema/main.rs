@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 24] = [
+const OTHERS: [&str; 27] = [
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
     "[initial.attitude]\nmrp = [0.1, 0.2, 0.3]",
     "[initial.attitude]\naxis = [0, 0, 1]\nangle = \"30 deg\"",
@@ -43,7 +43,24 @@ const OTHERS: [&str; 24] = [
     "[[at]]\ntime = \"1 ms\"\njoint = \"rw.wheel\"\ntorque = \"1 mN m\"",
     "[[at]]\ntime = \"1 ms\"\njoint = \"tank.slosh_mass\"\nforce = \"1 mN\"\n\
      [[device]]\nname = \"tank\"\nkind = \"slosh_mass\"\nslosh_mass = { mass = \"1 kg\" }",
+    "[[platform]]\nname = \"iso\"\nmass = \"1 kg\"\ninertia = \"1, 1, 1 g m^2\"\n\
+     mount = { axis = [0, 0, 1], angle = \"30 deg\" }\n[platform.coupled]\n\
+     rest_turns = \"0, 0, 1 mrad\"\n\
+     stiffness.slides = [\"1, 0, 0 N/m\", \"0, 1, 0 N/m\", \"0, 0, 1 N/m\"]\n\
+     damping.turns = [\"1, 0, 0 N m s/rad\", \"0, 1, 0 N m s/rad\", \"0, 0, 1 N m s/rad\"]\n\
+     [[platform.strut]]\nposition = \"0, 0, 1 cm\"\ndirection = [0, 0, 1]\n\
+     length = \"1 cm\"\nstiffness = \"1 N/m\"",
+    "[[platform]]\nname = \"iso\"\non = \"hub\"\nmass = \"1 kg\"\n\
+     inertia = \"1, 1, 1 g m^2\"\nx_slide = { corner_frequency = \"9 Hz\" }\n\
+     z_turn = { torque = \"1 mN m\" }\n\
+     mount = { euler = \"1, 2, 3 deg\", sequence = \"ZYX\", direction = \"hub to device\" }",
     "[[wrench]]\non = \"hub\"\nforce = { x = \"1 N\" }\nmoment = { z = \"1 N m\" }",
+    "[structure]\ndamping = 0.01\nmodes = 1\nfrequency_limit = \"9 Hz\"\ncontains_devices = false\n\
+     coordinates = 0.1\nrates = [0.1]\n[[structure.point]]\nname = \"camera\"\nnode = \"tip\"\n\
+     [[structure.node]]\nname = \"tip\"\nposition = \"0, 0, 1 m\"\n\
+     [[structure.mode]]\nfrequency = \"3 Hz\"\ndamping = 0.1\nlinear_momentum = [0, 0, 0]\n\
+     angular_momentum = [0, 0, 0]\n[[structure.mode.shape]]\nnode = \"tip\"\n\
+     translation = [0, 0, 1]\nrotation = [0, 1, 0]",
     "[[crossing]]\ncolumn = \"rw.spin\"\nvalue = \"3000 rpm\"",
     "[[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"peak\"\nlimit = \"1 rad/s\"",
 ];

@@ -4,8 +4,8 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use precess_dynamics::kind::{BodyParameters, ParameterValue, Shape};
 use precess_dynamics::{
-    About, BuiltIn, BuiltInKind, DeviceParameters, Gravity, ImbalanceModel, JointArray, Passive,
-    Quaternion,
+    About, BuiltIn, BuiltInKind, DeviceParameters, Gravity, ImbalanceModel, JointStates,
+    MAX_JOINTS, Passive, Quaternion,
 };
 
 use super::{DOP853, column, last, recorded, scenario};
@@ -18,12 +18,13 @@ const ROUNDING: f64 = 1e-13;
 
 /// A device of a kind with every parameter set, and a joint of each property.
 fn device(kind: BuiltInKind, passive: Passive) -> BuiltIn {
-    let body =
-        BodyParameters { origin: [0.0; 3], mass: 1.0, centre: [0.0; 3], inertia: Matrix3::zeros() };
+    let none =
+        BodyParameters { origin: [0.0; 3], mass: 0.0, centre: [0.0; 3], inertia: Matrix3::zeros() };
+    let bodies = [none; MAX_JOINTS];
     let parameters = DeviceParameters {
         mount: Matrix3::identity(),
-        bodies: [body; 3],
-        passive: [passive; 3],
+        bodies,
+        passive: [passive; MAX_JOINTS],
         model: ImbalanceModel::Coupled,
     };
     let mut device = BuiltIn::new(kind, &parameters).expect("nothing that it lacks");
@@ -56,10 +57,9 @@ fn every_kind(passive: Passive) -> Scenario {
     scenario.initial.r_b_n_dot = Vector3::new(-0.1, 0.4, 0.2);
     scenario.initial.attitude = Quaternion { q0: 0.5, q1: -0.5, q2: 0.5, q3: 0.5 };
     scenario.initial.omega = Vector3::new(0.3, -0.1, 0.2);
-    let joints = scenario.initial.devices.iter_mut().flat_map(JointArray::as_mut_slice);
-    for (number, [coordinate, rate]) in (0_u8..).zip(joints) {
+    for (number, [coordinate, rate]) in (0_u8..).zip(scenario.initial.devices.states_mut()) {
         let x = f64::from(number);
-        (*coordinate, *rate) = (0.2 + 0.05 * x, 0.4 - 0.06 * x);
+        (*coordinate, *rate) = (0.2 + 0.03 * x, 0.4 - 0.06 * x);
     }
     scenario
 }
@@ -67,7 +67,7 @@ fn every_kind(passive: Passive) -> Scenario {
 #[test]
 fn momenta_of_the_bodies_add_up_to_the_solvers() {
     let scenario = every_kind(Passive::none());
-    let chains: Vec<Chain> = scenario.devices.iter().map(Chain::new).collect();
+    let chains = Chain::all(&scenario.devices);
     let (mut linear, mut angular, mut bodies) = (Vector3::zeros(), Vector3::zeros(), 0);
     momenta(&scenario.hub, &chains, &scenario.initial, |body| {
         linear += body.linear;
@@ -125,7 +125,7 @@ fn loads_are_recorded_only_where_they_are_selected() {
     assert_eq!(header.columns[0].name, "time");
     assert_eq!(header.quantity("omega").expect("three").len(), 3);
     assert!(header.index("energy").is_none());
-    let count = 6 * (scenario.devices.len() + scenario.joint_count());
+    let count = 6 * (scenario.names.len() + scenario.joint_count());
     assert_eq!(header.columns.len(), 1 + 3 + count);
     assert!(with.rows.iter().flatten().all(|number| number.is_finite()));
     assert!(last(&with, "dgvscmg.inner_gimbal.load_moment_y") != 0.0);

@@ -10,12 +10,15 @@ use std::ops::ControlFlow;
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
-    BalancedReactionWheel, Gravity, HingedPanel, Hub, HubMode, JointArray, Quaternion, State,
+    BalancedReactionWheel, BuiltIn, Gravity, HingedPanel, Hub, HubMode, JointStates, Quaternion,
+    State,
 };
 
 use super::{Outcome, run};
 use crate::record::Samples;
-use crate::scenario::{Drive, IntegratorChoice, Output, Profile, Scenario, Set, Settings, Source};
+use crate::scenario::{
+    Drive, IntegratorChoice, Output, Profile, Scenario, Set, Settings, Source, members,
+};
 
 pub(crate) const DOP853: IntegratorChoice = IntegratorChoice::Dop853 { tolerance: 1e-13 };
 
@@ -37,8 +40,13 @@ pub(crate) fn last(samples: &Samples, name: &str) -> f64 {
 }
 
 /// A scenario with every joint driven by no torque, everything at rest.
-pub(crate) fn scenario(names: &[&str], devices: Set, duration: f64) -> Scenario {
-    let joints = devices.iter().map(|device| device.kind().joints().len()).sum();
+pub(crate) fn scenario(names: &[&str], devices: Vec<BuiltIn>, duration: f64) -> Scenario {
+    scenario_of(names, (devices, Vec::new()), duration)
+}
+
+/// The same of a set with platforms.
+pub(crate) fn scenario_of(names: &[&str], devices: Set, duration: f64) -> Scenario {
+    let joints = members(&devices).iter().map(|member| member.joints().len()).sum();
     let free = Drive::Torque { profile: Profile::ZERO, limit: None };
     let hub = Hub {
         m_b: 100.0,
@@ -52,12 +60,14 @@ pub(crate) fn scenario(names: &[&str], devices: Set, duration: f64) -> Scenario 
         hub,
         hub_size: Vector3::repeat(1.0),
         names: names.iter().map(|name| (*name).to_owned()).collect(),
+        mounts: Vec::new(),
+        structure: None,
         initial: State {
             r_b_n: Vector3::zeros(),
             r_b_n_dot: Vector3::zeros(),
             attitude: Quaternion { q0: 1.0, q1: 0.0, q2: 0.0, q3: 0.0 },
             omega: Vector3::zeros(),
-            devices: Vec::new(),
+            devices: Default::default(),
         },
         devices,
         hub_mode: HubMode::Free,
@@ -79,8 +89,8 @@ pub(crate) fn scenario(names: &[&str], devices: Set, duration: f64) -> Scenario 
 
 /// Coordinate and rate of a joint at the start.
 pub(crate) fn set_joint(scenario: &mut Scenario, joint: usize, state: [f64; 2]) {
-    let mut joints = scenario.initial.devices.iter_mut().flat_map(JointArray::as_mut_slice);
-    *joints.nth(joint).expect("a joint") = state;
+    let [coordinate, rate] = scenario.initial.devices.states_mut().nth(joint).expect("a joint");
+    [*coordinate, *rate] = state;
 }
 
 /// A panel whose centre of mass is on its hinge: on a clamped hub it turns at a constant rate.

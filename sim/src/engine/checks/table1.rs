@@ -96,7 +96,7 @@ fn rk4_has_the_bits_of_a_loop_over_the_solvers_step() {
         let dgvscmg::Joints { gamma_o, gamma_i, theta, gamma_o_dot, gamma_i_dot, spin } =
             state.devices[0];
         let expected = [[gamma_o, gamma_o_dot], [gamma_i, gamma_i_dot], [theta, spin]];
-        assert_eq!(found.devices[0].as_slice(), expected);
+        assert_eq!(found.devices.0[0].as_slice(), expected);
     }
     assert_eq!(steps, 2000);
     // The error of the method: 52 rad/s times 1 ms, to the fourth power.

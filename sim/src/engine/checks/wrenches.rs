@@ -1,10 +1,10 @@
 //! Wrenches from outside: in body and in inertial axes, on the hub and on a body of a device.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::ReactionWheel;
+use precess_dynamics::{BuiltIn, ReactionWheel};
 
 use super::{last, recorded, scenario, set_joint, wheel};
-use crate::scenario::{AppliedWrench, Profile, Scenario, Set, Target, WrenchAxes};
+use crate::scenario::{AppliedWrench, Profile, Scenario, Target, WrenchAxes};
 
 /// Ten metres at tolerance 1e-13, and the roundings of some hundred steps.
 const DISTANCE: f64 = 1e-11;
@@ -16,7 +16,7 @@ fn force(body: Target, axes: WrenchAxes, newtons: f64) -> AppliedWrench {
 }
 
 /// A wheel about B's x axis, everything spinning about z.
-fn spinning(devices: Set) -> Scenario {
+fn spinning(devices: Vec<BuiltIn>) -> Scenario {
     let mut scenario = scenario(&["wheel"], devices, 10.0);
     scenario.hub.i_b_bc = Matrix3::from_diagonal(&Vector3::repeat(50.0));
     scenario.initial.omega = Vector3::new(0.0, 0.0, 1.5);

@@ -12,6 +12,12 @@ use crate::units::Measure;
 /// What the table of a body says.
 pub(super) struct Body {
     pub(super) parameters: BodyParameters<f64>,
+    pub(super) joint: Joint,
+}
+
+/// What the keys of a joint say.
+#[derive(Clone)]
+pub(super) struct Joint {
     pub(super) passive: Passive,
     /// Initial coordinate and rate.
     pub(super) state: [f64; 2],
@@ -20,10 +26,20 @@ pub(super) struct Body {
     pub(super) stop: Option<([f64; 2], StopAction)>,
 }
 
+impl Joint {
+    /// At rest at zero, without anything that acts on it.
+    pub(super) fn free() -> Self {
+        let drive = Drive::Torque { profile: Profile::ZERO, limit: None };
+        Self { passive: Passive::none(), state: [0.0; 2], drive, stop: None }
+    }
+}
+
 /// What a kind requires of a body.
 #[derive(Clone, Copy)]
 pub(super) struct Needs {
     pub(super) joint: &'static JointInfo,
+    /// Whether the link has a body; those of flexible bearings have only a joint.
+    pub(super) mass: bool,
     /// Whether the body has an inertia; a point mass has none.
     pub(super) inertia: bool,
     /// Whether it is the first of its device, whose origin is the device's position.
@@ -67,26 +83,19 @@ impl JointMeasures {
 
 /// The table of a body; what is missing or wrong has been reported.
 pub(super) fn body(keys: &Keys<'_>, needs: Needs, folder: &std::path::Path) -> Option<Body> {
-    let joint = needs.joint;
-    let measures = JointMeasures::of(joint);
-    let mass = mass(keys);
-    let centre = keys.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
+    let measures = JointMeasures::of(needs.joint);
+    let (mass, centre) = if needs.mass {
+        (mass(keys), keys.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros))
+    } else {
+        (Some(0.0), Vector3::zeros())
+    };
     let inertia = if needs.inertia { inertia(keys, true) } else { Some(Matrix3::zeros()) };
-    let origin = if needs.first {
+    let origin = if needs.first || !needs.mass {
         Vector3::zeros()
     } else {
         keys.vector("origin", Measure::LENGTH).unwrap_or_else(Vector3::zeros)
     };
-    let passive = passive(keys, &measures);
-    // A joint that slides has a displacement and a speed.
-    let [coordinate, rate] =
-        if joint.slides { ["displacement", "speed"] } else { ["angle", "rate"] };
-    let state = [
-        keys.quantity(coordinate, measures.coordinate).unwrap_or(0.0),
-        keys.quantity(rate, measures.rate).unwrap_or(0.0),
-    ];
-    let drive = drive(keys, joint, &measures, folder);
-    let stop = stop(keys, &measures, state[0]);
+    let joint = joint(keys, needs.joint, &measures, folder);
     keys.finish();
     let parameters = BodyParameters {
         origin: origin.into(),
@@ -94,11 +103,31 @@ pub(super) fn body(keys: &Keys<'_>, needs: Needs, folder: &std::path::Path) -> O
         centre: centre.into(),
         inertia: inertia?,
     };
-    Some(Body { parameters, passive, state, drive: drive?, stop })
+    Some(Body { parameters, joint: joint? })
+}
+
+/// The keys of a joint; what is wrong has been reported.
+pub(super) fn joint(
+    keys: &Keys<'_>,
+    joint: &JointInfo,
+    measures: &JointMeasures,
+    folder: &std::path::Path,
+) -> Option<Joint> {
+    let passive = passive(keys, measures);
+    // A joint that slides has a displacement and a speed.
+    let [coordinate, rate] =
+        if joint.slides { ["displacement", "speed"] } else { ["angle", "rate"] };
+    let state = [
+        keys.quantity(coordinate, measures.coordinate).unwrap_or(0.0),
+        keys.quantity(rate, measures.rate).unwrap_or(0.0),
+    ];
+    let drive = drive(keys, joint, measures, folder);
+    let stop = stop(keys, measures, state[0]);
+    Some(Joint { passive, state, drive: drive?, stop })
 }
 
 /// A mass, at least zero.
-pub(super) fn mass(keys: &Keys<'_>) -> Option<f64> {
+pub(in crate::file) fn mass(keys: &Keys<'_>) -> Option<f64> {
     let mass = keys.required("mass", Measure::MASS)?;
     if mass >= 0.0 {
         return Some(mass);
@@ -109,7 +138,7 @@ pub(super) fn mass(keys: &Keys<'_>) -> Option<f64> {
 
 /// Moments of inertia and products: `inertia = "900, 800, 600 kg m^2"`, and
 /// `products_of_inertia = "4.15, 2.93, 2.75 kg m^2"`, the elements 12, 13 and 23 of the tensor.
-pub(super) fn inertia(keys: &Keys<'_>, required: bool) -> Option<Matrix3<f64>> {
+pub(in crate::file) fn inertia(keys: &Keys<'_>, required: bool) -> Option<Matrix3<f64>> {
     let products = keys.quantities::<3>("products_of_inertia", Measure::INERTIA);
     if !keys.has("inertia") {
         if required {

@@ -3,34 +3,84 @@
 use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::kind::{BodyParameters, ImbalanceModel, JointInfo, no_inertia};
-use precess_dynamics::{BuiltIn, BuiltInKind, DeviceParameters, Imbalance, Parameter, Passive};
+use precess_description::Turn;
+use precess_dynamics::kind::{BodyParameters, ImbalanceModel, JointInfo, Kind, no_inertia};
+use precess_dynamics::{
+    BuiltIn, BuiltInKind, DeviceParameters, Imbalance, Isolated, MAX_JOINTS, Parameter, Passive,
+    Platform,
+};
 
+use super::super::diagnostic::Span;
 use super::super::document::{Node, Value};
 use super::super::keys::Keys;
 use super::super::load::merged;
-use super::body::{Body, Needs, body};
+use super::body::{Body, Joint, Needs, body};
 use super::layout::{Place, layout, turned};
 use super::mount::{DeviceAxes, mount};
-use crate::scenario::{Drive, EndStop, StopAction};
+use super::structure::Structure;
+use crate::scenario::{Drive, StopAction};
 use crate::units::Measure;
 
-/// A device as a file gives it.
-pub(super) struct Device {
-    pub(super) name: String,
-    pub(super) of_kind: BuiltIn,
-    /// Coordinate and rate of each joint at the start.
-    pub(super) state: Vec<[f64; 2]>,
-    drives: Vec<Drive>,
-    stops: Vec<Option<([f64; 2], StopAction)>>,
+/// A device of a kind, or a platform without the devices on it.
+pub(super) enum Of {
+    BuiltIn(Box<BuiltIn>),
+    Platform(Box<Isolated<Vec<BuiltIn>>>),
 }
 
-/// All joints in order, by name.
-pub(super) struct Joints {
-    /// `cmg1.inner_gimbal`, and the joint.
-    names: Vec<(String, &'static JointInfo)>,
-    drives: Vec<Drive>,
-    stops: Vec<EndStop>,
+/// A device or a platform as a file gives it.
+pub(super) struct Device {
+    pub(super) name: String,
+    pub(super) of: Of,
+    /// The name of the platform that it stands on, or `hub`.
+    pub(super) on: String,
+    /// Where that is written.
+    pub(super) place: Option<Span>,
+    /// Those of its mount, where it is written as turns.
+    pub(super) turns: Option<Vec<Turn>>,
+    /// The node of the structure that carries it.
+    pub(super) node: Option<usize>,
+    /// Coordinate and rate of each joint at the start.
+    pub(super) state: Vec<[f64; 2]>,
+    pub(super) drives: Vec<Drive>,
+    pub(super) stops: Vec<Option<([f64; 2], StopAction)>>,
+}
+
+impl Device {
+    /// From what its joints say.
+    pub(super) fn new(
+        name: String,
+        of: Of,
+        turns: Option<Vec<Turn>>,
+        on: &str,
+        joints: &[Joint],
+    ) -> Self {
+        Self {
+            name,
+            of,
+            on: on.to_owned(),
+            place: None,
+            turns,
+            node: None,
+            state: joints.iter().map(|joint| joint.state).collect(),
+            drives: joints.iter().map(|joint| joint.drive.clone()).collect(),
+            stops: joints.iter().map(|joint| joint.stop).collect(),
+        }
+    }
+
+    /// The device; none of a platform.
+    pub(super) fn built_in(&self) -> Option<BuiltIn> {
+        match &self.of {
+            Of::BuiltIn(device) => Some(**device),
+            Of::Platform(_) => None,
+        }
+    }
+
+    pub(super) fn joints(&self) -> &'static [JointInfo] {
+        match &self.of {
+            Of::BuiltIn(device) => device.kind().joints(),
+            Of::Platform(_) => <Platform as Kind>::JOINTS,
+        }
+    }
 }
 
 /// The key of a body: `inner_gimbal`.
@@ -38,48 +88,17 @@ pub(crate) fn body_key(joint: &JointInfo) -> String {
     joint.body.replace(' ', "_")
 }
 
-impl Joints {
-    pub(super) fn of(devices: &[Device]) -> Self {
-        let mut joints = Self { names: Vec::new(), drives: Vec::new(), stops: Vec::new() };
-        for device in devices {
-            let infos = device.of_kind.kind().joints();
-            for ((info, drive), stop) in infos.iter().zip(&device.drives).zip(&device.stops) {
-                if let Some(([lower, upper], action)) = *stop {
-                    let joint = joints.names.len();
-                    joints.stops.push(EndStop { joint, lower, upper, action });
-                }
-                joints.names.push((format!("{}.{}", device.name, body_key(info)), info));
-                joints.drives.push(drive.clone());
-            }
-        }
-        joints
-    }
-
-    /// The number of a joint by the name of its body; reports where there is none.
-    pub(super) fn find(&self, keys: &Keys<'_>, key: &str, name: &str) -> Option<usize> {
-        let found = self.names.iter().position(|(known, _)| known == name);
-        if found.is_none() {
-            let known: Vec<_> = self.names.iter().map(|(name, _)| name.as_str()).collect();
-            let help = match known.as_slice() {
-                [] => "there is no device".to_owned(),
-                known => format!("there are {}", known.join(", ")),
-            };
-            keys.error(key, format!("no joint is named `{name}`"), &help);
-        }
-        found
-    }
-
-    pub(super) fn info(&self, joint: usize) -> Option<&'static JointInfo> {
-        self.names.get(joint).map(|(_, info)| *info)
-    }
-
-    pub(super) fn drives_and_stops(self) -> (Vec<Drive>, Vec<EndStop>) {
-        (self.drives, self.stops)
-    }
+/// The key of a joint: that of its body, but of a platform's last joint `z_turn`.
+pub(crate) fn joint_key(joint: &JointInfo) -> String {
+    if joint.body == <Platform as Kind>::NAME { "z_turn".to_owned() } else { body_key(joint) }
 }
 
 /// `[[device]]`, in order.
-pub(super) fn devices(keys: &Keys<'_>, folder: &Path) -> Vec<Device> {
+pub(super) fn devices(
+    keys: &Keys<'_>,
+    folder: &Path,
+    structure: Option<&Structure>,
+) -> Vec<Device> {
     let mut devices = Vec::new();
     let Some(node) = keys.node("device") else { return devices };
     let Value::List(list) = &node.value else {
@@ -91,7 +110,7 @@ pub(super) fn devices(keys: &Keys<'_>, folder: &Path) -> Vec<Device> {
         let nodes = with_original(node, list, keys);
         let name = nodes.name().map_or_else(|| index.to_string(), str::to_owned);
         if let Some(device) = Keys::new(&nodes, &format!("device.{name}"), keys.reports()) {
-            devices.extend(read(&device, &name, folder));
+            devices.extend(read(&device, &name, folder, structure));
         }
     }
     devices
@@ -120,16 +139,20 @@ fn with_original(node: &Node, list: &[Node], keys: &Keys<'_>) -> Node {
 }
 
 /// The devices of one table: one, or those of its layout.
-fn read(keys: &Keys<'_>, name: &str, folder: &Path) -> Vec<Device> {
+fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure>) -> Vec<Device> {
     if keys.text("name").is_none() && !keys.has("name") {
         keys.missing("name", "name = \"wheel1\"");
     }
     let Some(kind) = kind(keys) else { return Vec::new() };
     let infos = kind.joints();
     let (Some(first), Some(last)) = (infos.first(), infos.last()) else { return Vec::new() };
-    let axes = DeviceAxes { first: first.axis, last: last.axis, single: infos.len() == 1 };
+    let single = first.axis == last.axis;
+    let axes = DeviceAxes { first: first.axis, last: last.axis, single };
     let places = keys.has("layout").then(|| layout(keys, axes));
-    let position = keys.vector("position", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
+    let nodes = nodes(keys, structure);
+    let at_node = nodes.as_ref().and_then(|on| structure?.position(*on.first()?));
+    let position = keys.vector("position", Measure::LENGTH).or(at_node);
+    let position = position.unwrap_or_else(Vector3::zeros);
     let single = mount(keys, axes).map(|mount| (position, mount));
     // Read where it was merged.
     let is_copy = keys.text("copy_of").is_some();
@@ -138,6 +161,7 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path) -> Vec<Device> {
     } else {
         single
     };
+    let on = keys.text("on").unwrap_or("hub");
     let model = model(keys);
     let imbalance = imbalance(keys);
     let bodies: Vec<_> = infos
@@ -150,7 +174,8 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path) -> Vec<Device> {
                 }
                 return None;
             };
-            let needs = Needs { joint, inertia: has_inertia(kind, joint), first: joint.index == 0 };
+            let (mass, inertia) = (has_mass(kind, joint), has_inertia(kind, joint));
+            let needs = Needs { joint, mass, inertia, first: joint.index == 0 };
             body(&table, needs, folder)
         })
         .collect();
@@ -163,13 +188,41 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path) -> Vec<Device> {
         None => single.into_iter().collect::<Vec<Place>>(),
     };
     let many = keys.has("layout");
-    let numbered = places.iter().zip(1..);
+    if let Some(nodes) = nodes.as_ref().filter(|on| on.len() > 1 && on.len() != places.len()) {
+        let message = format!("{} nodes for {} devices", nodes.len(), places.len());
+        keys.error("node", message, "name one node, or one for each device of the layout");
+        return Vec::new();
+    }
+    let numbered = places.iter().zip(1..).enumerate();
     numbered
-        .filter_map(|(place, number)| {
+        .filter_map(|(index, (place, number))| {
             let name = if many { format!("{name}{number}") } else { name.to_owned() };
-            device(keys, name, kind, &parameters, &bodies, place)
+            let mut device = device(keys, name, kind, &parameters, &bodies, place)?;
+            device.node = nodes.as_ref().and_then(|on| on.get(index).or(on.first())).copied();
+            device.place = Some(keys.place("on"));
+            on.clone_into(&mut device.on);
+            Some(device)
         })
         .collect()
+}
+
+/// `node`: the node of the structure that carries the device, or one for each of a layout.
+fn nodes(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<Vec<usize>> {
+    let Some(structure) = structure else {
+        if keys.has("node") {
+            let help = "add `[structure]`, or remove `node`";
+            keys.error("node", "a rigid hub has no nodes", help);
+        }
+        return None;
+    };
+    if !keys.has("node") {
+        keys.missing("node", &format!("node = \"{}\"", structure.an_example()));
+        return None;
+    }
+    let names = keys.texts("node")?;
+    let found: Option<Vec<_>> =
+        names.into_iter().map(|name| structure.node(keys, "node", name)).collect();
+    found.filter(|found| !found.is_empty())
 }
 
 fn kind(keys: &Keys<'_>) -> Option<BuiltInKind> {
@@ -180,10 +233,20 @@ fn kind(keys: &Keys<'_>) -> Option<BuiltInKind> {
     keys.choice("kind", &words)
 }
 
-/// Whether a body of a kind has an inertia: a parameter of it in its unit.
+/// Whether a body of a kind has an inertia.
 pub(crate) fn has_inertia(kind: BuiltInKind, joint: &JointInfo) -> bool {
+    has(kind, joint, "kg m²")
+}
+
+/// Whether a link of a kind has a body: those of flexible bearings have none.
+pub(crate) fn has_mass(kind: BuiltInKind, joint: &JointInfo) -> bool {
+    has(kind, joint, "kg")
+}
+
+/// Whether a body has a parameter in a unit.
+fn has(kind: BuiltInKind, joint: &JointInfo, unit: &str) -> bool {
     let of_body = |body: Option<&str>| body == Some(joint.body);
-    kind.parameters().iter().any(|parameter| of_body(parameter.body) && parameter.unit == "kg m²")
+    kind.parameters().iter().any(|parameter| of_body(parameter.body) && parameter.unit == unit)
 }
 
 /// How the imbalance of a wheel acts.
@@ -220,8 +283,8 @@ fn parameters(
         BodyParameters { origin: [0.0; 3], mass: 0.0, centre: [0.0; 3], inertia: no_inertia() };
     let mut parameters = DeviceParameters {
         mount: Matrix3::identity(),
-        bodies: [nothing; 3],
-        passive: [Passive::none(); 3],
+        bodies: [nothing; MAX_JOINTS],
+        passive: [Passive::none(); MAX_JOINTS],
         model: if model == Model::Lumped {
             ImbalanceModel::Lumped
         } else {
@@ -232,7 +295,7 @@ fn parameters(
         *to = from.parameters;
     }
     for (to, from) in parameters.passive.iter_mut().zip(bodies) {
-        *to = from.passive;
+        *to = from.joint.passive;
     }
     let wheel = parameters.bodies.get_mut(bodies.len().saturating_sub(1))?;
     if let Some(sheet) = imbalance {
@@ -271,7 +334,7 @@ fn device(
     (position, mount): &Place,
 ) -> Option<Device> {
     let mut parameters = *parameters;
-    parameters.mount = *mount;
+    parameters.mount = mount.matrix;
     parameters.bodies[0].origin = (*position).into();
     let device = match BuiltIn::new(kind, &parameters) {
         Ok(device) => device,
@@ -284,17 +347,13 @@ fn device(
                 Some(Parameter::Inertia) => {
                     "a balanced rotor has equal transverse moments and no products"
                 }
+                Some(Parameter::Origin) => "the wheel is at the centre of its bearings",
                 _ => "take an imbalanced kind, or `imbalance_model = \"coupled\"`",
             };
             keys.error(&key, format!("{kind_name}: {error}", kind_name = kind.name()), help);
             return None;
         }
     };
-    Some(Device {
-        name,
-        of_kind: device,
-        state: bodies.iter().map(|body| body.state).collect(),
-        drives: bodies.iter().map(|body| body.drive.clone()).collect(),
-        stops: bodies.iter().map(|body| body.stop).collect(),
-    })
+    let joints: Vec<_> = bodies.iter().map(|body| body.joint.clone()).collect();
+    Some(Device::new(name, Of::BuiltIn(Box::new(device)), mount.turns.clone(), "hub", &joints))
 }

@@ -42,7 +42,7 @@ pub(super) fn initial(keys: &Keys<'_>, devices: &[Device]) -> State<Set> {
 /// Everything at rest, for these devices.
 fn at_rest(devices: &[Device]) -> State<Set> {
     use precess_dynamics::{Hub, Spacecraft};
-    let set: Set = devices.iter().map(|device| device.of_kind).collect();
+    let set = super::platform::set(devices);
     let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
     // Devices that the solver rejects are reported with the whole; their state is not read.
     match Spacecraft::new(&hub, &set) {
@@ -52,7 +52,7 @@ fn at_rest(devices: &[Device]) -> State<Set> {
             r_b_n_dot: Vector3::zeros(),
             attitude: Quaternion::identity(),
             omega: Vector3::zeros(),
-            devices: Vec::new(),
+            devices: Default::default(),
         },
     }
 }
@@ -66,8 +66,8 @@ fn attitude_of(keys: &Keys<'_>) -> Option<Quaternion> {
             let sigma = Vector3::from(keys.numbers::<3>("mrp")?);
             Some(Quaternion::from(Mrp(sigma)))
         }
-        ["euler"] => Some(of_axes(&euler(keys, ["N to B", "B to N"])?)),
-        ["axis"] => Some(of_axes(&axis_and_angle(keys)?)),
+        ["euler"] => Some(of_axes(&euler(keys, ["N to B", "B to N"])?.matrix)),
+        ["axis"] => Some(of_axes(&axis_and_angle(keys)?.matrix)),
         _ => {
             let message = format!("the attitude is given in {} ways", ways.len());
             let help = "give one of `quaternion` with `scalar`, `mrp`, `euler` with `sequence` and \

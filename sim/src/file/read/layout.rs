@@ -16,16 +16,21 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use precess_description::{Axis, Turn};
 
 use super::super::keys::Keys;
 use super::mount::{DeviceAxes, direction, with_axes, with_axis_and_next};
+use super::turns::{Mount, by_quarters, coordinate, exchange, turn};
 use crate::units::Measure;
+
+/// The coordinate axes.
+const ALL: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
 /// Most devices of a layout.
 const COUNT_MAX: u32 = 256;
 
 /// Where a device of a layout is: its position in B, and its mount.
-pub(super) type Place = (Vector3<f64>, Matrix3<f64>);
+pub(super) type Place = (Vector3<f64>, Mount);
 
 /// The places of a layout; none without one.
 pub(super) fn layout(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Vec<Place>> {
@@ -79,7 +84,19 @@ fn places(keys: &Keys<'_>, half_angle: f64, axes: DeviceAxes) -> Option<Vec<Plac
         } else {
             with_axes(axes, &joint, &tangent)
         };
-        (centre + radial * radius, mount)
+        // About the axis, by a part of a turn that may be quarters; about the tangent; between them
+        // and the device's axes, an exchange.
+        let part = if (4 * k).is_multiple_of(count) {
+            by_quarters(axis, u8::try_from(4 * k / count).unwrap_or_default())
+        } else {
+            Some(Turn { about: ALL[axis % 3], quarters: None })
+        };
+        let second =
+            if axes.single || axes.first == axes.last { axes.first + 1 } else { axes.last };
+        let to_device = exchange([axes.first, second], [(axis, false), (axis + 2, false)]);
+        let about = [turn(axis, first), part, turn(axis + 2, half_angle)];
+        let turns = Some(about.into_iter().flatten().chain(to_device).collect());
+        (centre + radial * radius, Mount { matrix: mount, turns })
     };
     Some((0..count).map(place).collect())
 }
@@ -103,5 +120,8 @@ pub(super) fn turned(keys: &Keys<'_>, key: &str, place: &Place) -> Option<Place>
         (Rotation3::from_axis_angle(&axis, TAU / 2.0).into_inner() - half_turn).amax() < 1e-14
     );
     let (position, mount) = place;
-    Some((half_turn * position, half_turn * mount))
+    let half = coordinate(&axis).and_then(|(axis, _)| by_quarters(axis, 2));
+    let turns = half.zip(mount.turns.as_ref());
+    let turns = turns.map(|(half, rest)| [&[half], rest.as_slice()].concat());
+    Some((half_turn * position, Mount { matrix: half_turn * mount.matrix, turns }))
 }

@@ -1,27 +1,32 @@
 //! The tree of a scenario file into a [`Scenario`].
 
-mod body;
+pub(super) mod body;
 mod columns;
 mod device;
 mod drive;
+mod hub;
 mod initial;
+mod joints;
 mod layout;
 mod mount;
 mod output;
 mod over_time;
 mod places;
+mod platform;
+mod structure;
+mod suspension;
+mod turns;
 
 use std::cell::RefCell;
 use std::path::Path;
 
-use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{Gravity, Hub, HubMode};
+use precess_dynamics::Gravity;
 
 use super::diagnostic::Diagnostics;
 use super::document::Node;
 use super::keys::{Keys, Reports};
 use super::load::{Override, apply, load_file, load_text};
-pub(crate) use device::{body_key, has_inertia};
+pub(crate) use device::{body_key, has_inertia, has_mass, joint_key};
 
 use crate::scenario::{IntegratorChoice, Scenario, ScenarioError, Settings, Source};
 use crate::units::Measure;
@@ -101,20 +106,24 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let name = name(&keys, stem);
     let title = keys.text("title").unwrap_or(&name).to_owned();
     let description = keys.text("description").unwrap_or_default().to_owned();
-    let hub = hub(&keys);
-    let devices = device::devices(&keys, folder);
-    let joints = device::Joints::of(&devices);
+    let structure = structure::structure(&keys, folder);
+    let hub = hub::hub(&keys, structure.as_ref());
+    let devices = device::devices(&keys, folder, structure.as_ref());
+    let devices = platform::with_platforms(&keys, devices, folder);
+    let joints = joints::Joints::of(&devices);
     let settings = settings(&keys);
     let initial = initial::initial(&keys, &devices);
     let gravity = gravity(&keys);
     let changes = over_time::changes(&keys, &joints, folder);
-    let wrenches = over_time::wrenches(&keys, &joints, folder);
+    let wrenches = over_time::wrenches(&keys, &joints, structure.as_ref(), folder);
     let crossings = output::crossings(&keys);
     let output = output::output(&keys, settings.as_ref());
     let requirements = output::requirements(&keys, settings.as_ref());
     keys.finish();
     let (hub, hub_size, hub_mode) = hub?;
     let (drives, stops) = joints.drives_and_stops();
+    let on_node: Vec<_> = devices.iter().filter_map(|device| device.node).collect();
+    let structure = structure.map(|structure| structure.modal(on_node));
     let text = reports.borrow().sources.iter().fold(String::new(), |text, source| {
         text + &format!("# {}\n{}\n", source.name, source.text.trim_end())
     });
@@ -125,7 +134,9 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         hub,
         hub_size,
         names: devices.iter().map(|device| device.name.clone()).collect(),
-        devices: devices.iter().map(|device| device.of_kind).collect(),
+        devices: platform::set(&devices),
+        structure,
+        mounts: devices.into_iter().map(|device| device.turns).collect(),
         initial,
         hub_mode,
         gravity,
@@ -158,38 +169,6 @@ fn name(keys: &Keys<'_>, stem: &str) -> String {
             let name: String = small.chars().map(|c| if fits(c) { c } else { '-' }).collect();
             if name.is_empty() { "scenario".to_owned() } else { name }
         }
-    }
-}
-
-/// The hub, the size of its box, its mode.
-fn hub(keys: &Keys<'_>) -> Option<(Hub, Vector3<f64>, HubMode)> {
-    let Some(hub) = keys.table("hub") else {
-        if !keys.has("hub") {
-            keys.missing("hub", "[hub]");
-        }
-        return None;
-    };
-    let m_b = body::mass(&hub);
-    let r_bc_b = hub.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
-    let i_b_bc = body::inertia(&hub, true);
-    let size = hub.vector("size", Measure::LENGTH);
-    let mode = hub.choice("mode", &[("free", true), ("fixed", false)]).unwrap_or(true);
-    let mode = if mode { HubMode::Free } else { HubMode::Fixed };
-    hub.finish();
-    let (m_b, i_b_bc) = (m_b?, i_b_bc?);
-    Some((Hub { m_b, r_bc_b, i_b_bc }, size.unwrap_or_else(|| drawn(m_b, &i_b_bc)), mode))
-}
-
-/// The edges of a homogeneous box of a mass and moments of inertia, m.
-fn drawn(mass: f64, inertia: &Matrix3<f64>) -> Vector3<f64> {
-    let moments = inertia.diagonal();
-    let half = moments.sum() / 2.0;
-    let edge = |moment: f64| (12.0 * (half - moment).max(0.0) / mass).sqrt();
-    let edges = moments.map(edge);
-    if edges.iter().all(|edge| edge.is_finite() && *edge > 0.0) {
-        edges
-    } else {
-        Vector3::repeat(1.0)
     }
 }
 
@@ -237,19 +216,23 @@ fn settings(keys: &Keys<'_>) -> Option<Settings> {
 /// What only the whole tells: bounds and names, and what the solver rejects or warns of.
 fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics) {
     let names = &scenario.names;
+    let tables = places::Tables::of(scenario);
     for error in scenario.check() {
         let message = match &error {
             ScenarioError::Range { key, message } => format!("{key}: {message}"),
             ScenarioError::Parameters(error) => named(&error.to_string(), names),
+            ScenarioError::Modes(error) => {
+                format!("structure: {}", named(&error.to_string(), names))
+            }
         };
-        match places::of_error(root, &error, names) {
+        match places::of_error(root, &error, &tables) {
             Some(span) => reports.error(&span, message, "", ""),
             None => reports.error_anywhere(message, ""),
         }
     }
     if let Ok(spacecraft) = scenario.spacecraft() {
         for warning in spacecraft.warnings() {
-            let span = places::of_warning(root, &warning, names);
+            let span = places::of_warning(root, &warning, &tables);
             let help = "check moments and products of inertia and their units; it is run as given";
             reports.all.push(super::Diagnostic {
                 severity: super::Severity::Warning,
@@ -283,6 +266,9 @@ fn named(message: &str, names: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::{Matrix3, Vector3};
+    use precess_dynamics::Hub;
+
     use super::super::to_toml;
     use super::*;
 
@@ -305,7 +291,7 @@ mod tests {
             i_b_bc: Matrix3::new(900.0, 4.15, 2.93, 4.15, 800.0, 2.75, 2.93, 2.75, 600.0),
         };
         assert_eq!(read.hub, hub);
-        let [precess_dynamics::BuiltIn::Dgvscmg(device)] = read.devices[..] else {
+        let [precess_dynamics::BuiltIn::Dgvscmg(device)] = read.devices.0[..] else {
             panic!("{:?}", read.devices);
         };
         assert_eq!((device.d, device.i_w_wc.m13, device.r_go_b.x), (8e-3, 0.0154, 0.3));

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 use super::super::keys::Keys;
+use super::turns::{self, Mount, are_at_right_angles, of_columns, turn};
 use crate::units::Measure;
 
 /// Columns and rows of a matrix may miss a rotation by this; it is then made one. Six digits do.
@@ -18,36 +19,62 @@ pub(super) struct DeviceAxes {
     pub(super) first: usize,
     /// That of its last joint.
     pub(super) last: usize,
-    /// Whether it has one joint.
+    /// Whether they are the same: it is mounted by one axis.
     pub(super) single: bool,
 }
 
 /// `mount`, whose columns are the device's axes at zero angles, expressed in B.
-pub(super) fn mount(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Matrix3<f64>> {
+pub(super) fn mount(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Mount> {
     if !keys.has("mount") {
-        return Some(Matrix3::identity());
+        return Some(Mount { matrix: Matrix3::identity(), turns: Some(Vec::new()) });
     }
     let mount = keys.table("mount")?;
-    let ways: Vec<_> = WAYS.into_iter().filter(|way| mount.has(way)).collect();
-    let of_axes = mount.has("gimbal_axis") || mount.has("hinge_axis");
-    let found = match ways.as_slice() {
-        ["matrix"] => matrix(&mount, "matrix").map(|m| rotation(&m)),
+    way(&mount, Some(axes))
+}
+
+/// The mount of a platform, which has no axis of its own.
+pub(super) fn rotation_of(mount: &Keys<'_>) -> Option<Mount> {
+    way(mount, None)
+}
+
+/// A rotation in one of the ways to write it; by axes only of what has them.
+fn way(mount: &Keys<'_>, axes: Option<DeviceAxes>) -> Option<Mount> {
+    let ways: Vec<_> = WAYS
+        .into_iter()
+        .filter(|way| (axes.is_some() || *way != "spin_axis") && mount.has(way))
+        .collect();
+    let of_axes = axes.filter(|_| mount.has("gimbal_axis") || mount.has("hinge_axis"));
+    let found = match (ways.as_slice(), of_axes) {
+        (["matrix"], _) => matrix(mount, "matrix").map(|m| numbers(rotation(&m))),
         // All digits of one: it is taken as it stands.
-        ["dcm"] => matrix(&mount, "dcm"),
-        ["axis"] => axis_and_angle(&mount),
-        ["euler"] => euler(&mount, ["hub to device", "device to hub"]),
-        ["spin_axis"] => by_axes(&mount, axes),
-        [] if of_axes => by_axes(&mount, axes),
+        (["dcm"], _) => matrix(mount, "dcm").map(numbers),
+        (["axis"], _) => axis_and_angle(mount),
+        (["euler"], _) => euler(mount, ["hub to device", "device to hub"]),
+        (["spin_axis"], _) => by_axes(mount, axes?),
+        ([], Some(axes)) => by_axes(mount, axes),
         _ => {
             let message = format!("`{}` is given in {} ways", mount.path(), ways.len());
-            let help = "give one of `matrix`, `axis` with `angle`, `euler` with `sequence` and \
-                        `direction`, or `spin_axis` with `gimbal_axis`";
+            let help = match axes {
+                Some(_) => {
+                    "give one of `matrix`, `axis` with `angle`, `euler` with `sequence` and \
+                     `direction`, or `spin_axis` with `gimbal_axis`"
+                }
+                None => {
+                    "give one of `matrix`, `axis` with `angle`, or `euler` with `sequence` and \
+                     `direction`"
+                }
+            };
             mount.reports().borrow_mut().error(mount.span(), message, "", help);
             None
         }
     };
     mount.finish();
     found
+}
+
+/// A mount of which only the numbers are known.
+fn numbers(matrix: Matrix3<f64>) -> Mount {
+    Mount { matrix, turns: None }
 }
 
 /// A direction; nothing where it has no length, which has been reported.
@@ -113,15 +140,17 @@ fn rows(keys: &Keys<'_>, key: &str) -> Option<[[f64; 3]; 3]> {
 }
 
 /// The old axes turned about an axis.
-pub(super) fn axis_and_angle(keys: &Keys<'_>) -> Option<Matrix3<f64>> {
+pub(super) fn axis_and_angle(keys: &Keys<'_>) -> Option<Mount> {
     let axis = direction(keys, "axis");
     let angle = keys.required("angle", Measure::ANGLE);
-    Some(Rotation3::from_axis_angle(&axis?, angle?).into_inner())
+    let (axis, angle) = (axis?, angle?);
+    let matrix = Rotation3::from_axis_angle(&axis, angle).into_inner();
+    Some(Mount { matrix, turns: turns::about(&axis, angle) })
 }
 
 /// Three turns about axes that turn along: `sequence = "ZYX"`, and which axes are turned into
 /// which. The first direction is that of the turns as written; the second is its inverse.
-pub(super) fn euler(keys: &Keys<'_>, directions: [&str; 2]) -> Option<Matrix3<f64>> {
+pub(super) fn euler(keys: &Keys<'_>, directions: [&str; 2]) -> Option<Mount> {
     let angles = keys.quantities::<3>("euler", Measure::ANGLE);
     if !keys.has("sequence") {
         keys.missing("sequence", "sequence = \"ZYX\"");
@@ -162,11 +191,19 @@ pub(super) fn euler(keys: &Keys<'_>, directions: [&str; 2]) -> Option<Matrix3<f6
         * Rotation3::from_axis_angle(&second, b)
         * Rotation3::from_axis_angle(&third, c);
     let matrix = turns.into_inner();
-    Some(if forward? { matrix } else { matrix.transpose() })
+    let steps = [(&first, a), (&second, b), (&third, c)];
+    let step = |(axis, angle): (&Unit<Vector3<f64>>, f64)| turn(axis.iamax(), angle);
+    Some(if forward? {
+        Mount { matrix, turns: Some(steps.into_iter().filter_map(step).collect()) }
+    } else {
+        let back = steps.into_iter().rev().map(|(axis, angle)| (axis, -angle));
+        let turns = Some(back.filter_map(step).collect());
+        Mount { matrix: matrix.transpose(), turns }
+    })
 }
 
 /// By the axes of its joints at zero angles, expressed in B.
-fn by_axes(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Matrix3<f64>> {
+fn by_axes(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Mount> {
     if axes.single {
         let key = if keys.has("hinge_axis") { "hinge_axis" } else { "spin_axis" };
         if keys.has("gimbal_axis") {
@@ -190,12 +227,15 @@ fn by_axes(keys: &Keys<'_>, axes: DeviceAxes) -> Option<Matrix3<f64>> {
         keys.error("gimbal_axis", message, "at zero angles they are at right angles");
         return None;
     }
-    let spin = (spin.into_inner() - gimbal.into_inner() * off).normalize();
-    Some(with_axes(axes, &gimbal, &spin))
+    let corrected = (spin.into_inner() - gimbal.into_inner() * off).normalize();
+    // What is taken off for a right angle may be where a zero is written.
+    let zeros = if are_at_right_angles(off) { spin.into_inner() } else { corrected };
+    let turns = of_columns([axes.first, axes.last], [&gimbal, &zeros]);
+    Some(Mount { matrix: with_axes(axes, &gimbal, &corrected), turns })
 }
 
 /// Axes with one of them given; the next is the nearest to an axis of B that is at a right angle.
-fn with_axis(number: usize, axis: &Vector3<f64>) -> Matrix3<f64> {
+fn with_axis(number: usize, axis: &Vector3<f64>) -> Mount {
     let smallest = axis.iamin();
     let mut other = Vector3::zeros();
     other[smallest] = 1.0;
@@ -205,7 +245,9 @@ fn with_axis(number: usize, axis: &Vector3<f64>) -> Matrix3<f64> {
     for (k, column) in [*axis, next, last].into_iter().enumerate() {
         columns[(number + k) % 3] = column;
     }
-    Matrix3::from_columns(&columns)
+    // The last is across the axis of B by its definition: of its zeros rounding leaves nothing.
+    let turns = of_columns([number, (number + 2) % 3], [axis, &axis.cross(&other)]);
+    Mount { matrix: Matrix3::from_columns(&columns), turns }
 }
 
 /// Axes of which those of the first and of the last joint are given, at right angles.

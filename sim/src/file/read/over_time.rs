@@ -7,8 +7,9 @@ use nalgebra::Vector3;
 use super::super::document::Value;
 use super::super::keys::Keys;
 use super::body::{JointMeasures, drive};
-use super::device::Joints;
 use super::drive::profile;
+use super::joints::Joints;
+use super::structure::Structure;
 use crate::scenario::{Action, AppliedWrench, Change, Profile, Target, WrenchAxes};
 use crate::units::Measure;
 
@@ -57,17 +58,31 @@ fn joint(keys: &Keys<'_>, key: &str, joints: &Joints) -> Option<usize> {
 }
 
 /// `[[wrench]]`: `on`, `force`, `moment`, `point`, `axes`.
-pub(super) fn wrenches(keys: &Keys<'_>, joints: &Joints, folder: &Path) -> Vec<AppliedWrench> {
-    keys.tables("wrench").iter().filter_map(|keys| wrench(keys, joints, folder)).collect()
+pub(super) fn wrenches(
+    keys: &Keys<'_>,
+    joints: &Joints,
+    structure: Option<&Structure>,
+    folder: &Path,
+) -> Vec<AppliedWrench> {
+    let tables = keys.tables("wrench");
+    tables.iter().filter_map(|keys| wrench(keys, joints, structure, folder)).collect()
 }
 
-fn wrench(keys: &Keys<'_>, joints: &Joints, folder: &Path) -> Option<AppliedWrench> {
+fn wrench(
+    keys: &Keys<'_>,
+    joints: &Joints,
+    structure: Option<&Structure>,
+    folder: &Path,
+) -> Option<AppliedWrench> {
     let _ = keys.text("name");
     if !keys.has("on") {
         keys.missing("on", "on = \"hub\"");
     }
     let body = match keys.text("on") {
         None => None,
+        Some(name) if structure.is_some_and(|structure| structure.has_node(name)) => {
+            structure.and_then(|structure| structure.used(name)).map(Target::Node)
+        }
         Some("hub") => Some(Target::Hub),
         Some(name) => joints.find(keys, "on", name).map(Target::Joint),
     };

@@ -3,30 +3,51 @@
 //! A path names tables, entries of lists by their `name`, and a key: `device.wheel.wheel.mass`. A key
 //! that is not there has the place of the innermost table that is, without one it has none.
 
-use precess_dynamics::{ParameterError, Part, Warning};
+use precess_dynamics::{ModesError, ParameterError, Part, Warning};
 
 use super::super::diagnostic::Span;
 use super::super::document::{Node, Value};
-use crate::scenario::ScenarioError;
+use crate::scenario::{Member, Scenario, ScenarioError};
+
+/// The path of each device and platform in the order of the set, and whether it is a platform.
+pub(super) struct Tables(Vec<(String, bool)>);
+
+impl Tables {
+    pub(super) fn of(scenario: &Scenario) -> Self {
+        let path = |(name, member): (&str, Member<'_>)| {
+            let is_platform = member.platform().is_some();
+            let table = if is_platform { "platform" } else { "device" };
+            (format!("{table}.{name}"), is_platform)
+        };
+        Self(scenario.members().map(path).collect())
+    }
+
+    fn get(&self, member: usize) -> Option<(&str, bool)> {
+        self.0.get(member).map(|(path, is_platform)| (path.as_str(), *is_platform))
+    }
+}
 
 /// The place of an error.
-pub(super) fn of_error(root: &Node, error: &ScenarioError, names: &[String]) -> Option<Span> {
+pub(super) fn of_error(root: &Node, error: &ScenarioError, tables: &Tables) -> Option<Span> {
     match error {
         ScenarioError::Range { key, .. } => find(root, key),
-        ScenarioError::Parameters(error) => find(root, &parameter(error, names)?),
+        ScenarioError::Parameters(error) | ScenarioError::Modes(ModesError::Rigid(error)) => {
+            find(root, &parameter(error, tables)?)
+        }
+        ScenarioError::Modes(_) => find(root, "structure"),
     }
 }
 
 /// The place of a warning.
-pub(super) fn of_warning(root: &Node, warning: &Warning, names: &[String]) -> Option<Span> {
+pub(super) fn of_warning(root: &Node, warning: &Warning, tables: &Tables) -> Option<Span> {
     match warning {
-        Warning::Triangle { part, .. } => find(root, &key(*part, "inertia", names)?),
+        Warning::Triangle { part, .. } => find(root, &key(*part, "inertia", tables)?),
         _ => None,
     }
 }
 
 /// The path of the parameter that the solver rejects.
-fn parameter(error: &ParameterError, names: &[String]) -> Option<String> {
+fn parameter(error: &ParameterError, tables: &Tables) -> Option<String> {
     let (part, last) = match *error {
         // Numbers of a file are finite: one that is not was computed from several of a body's.
         ParameterError::NotFinite { part, .. } => (part, ""),
@@ -37,19 +58,32 @@ fn parameter(error: &ParameterError, names: &[String]) -> Option<String> {
         | ParameterError::LargeInertia { part, .. } => (part, "inertia"),
         ParameterError::SkewedMount { device, .. }
         | ParameterError::LeftHandedMount { device, .. } => {
-            return Some(format!("device.{}.mount", names.get(device)?));
+            return Some(format!("{}.mount", tables.get(device)?.0));
+        }
+        ParameterError::Strut { device, .. } => {
+            return Some(format!("{}.strut", tables.get(device)?.0));
+        }
+        ParameterError::Suspension { device, name, .. }
+        | ParameterError::AsymmetricSuspension { device, name, .. } => {
+            return Some(format!("{}.coupled.{name}", tables.get(device)?.0));
         }
         _ => return None,
     };
-    key(part, last, names)
+    key(part, last, tables)
 }
 
 /// The path of a body's parameter.
-fn key(part: Part, last: &str, names: &[String]) -> Option<String> {
+fn key(part: Part, last: &str, tables: &Tables) -> Option<String> {
     Some(match part {
         Part::Hub => format!("hub.{last}"),
         Part::Body { device, body } => {
-            format!("device.{}.{}.{last}", names.get(device)?, body.replace(' ', "_"))
+            let (table, is_platform) = tables.get(device)?;
+            // A platform's own body has its keys beside those of the joints.
+            match (is_platform, last) {
+                (true, "mass" | "inertia" | "") => format!("{table}.{last}"),
+                (true, _) if body == "platform" => format!("{table}.z_turn.{last}"),
+                _ => format!("{table}.{}.{last}", body.replace(' ', "_")),
+            }
         }
     })
 }

@@ -1,0 +1,219 @@
+//! `structure`: what the file of a structure has, and the same as NPZ or op4.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+
+use super::error::CommandError;
+use super::print;
+use super::run::{may_write, write_whole};
+use super::table::{aligned, six};
+use crate::record::partial::Partial;
+use crate::report::mode_shapes::mode_shapes;
+use crate::structure::{ReadError, Structure, bytes_of, from_file, npz, op4};
+
+/// What is done with a structure.
+#[derive(Debug, Subcommand)]
+pub(super) enum StructureCommand {
+    /// Print nodes, frequencies, damping ratios, effective masses and checks; of an op4 file its matrices
+    #[command(after_help = "Examples:\n  precess structure show bus.npz\n  \
+        precess structure show bus.npz --shapes bus-modes.svg")]
+    Show(Show),
+    /// Write a structure as NPZ, or as Nastran's op4 with the table that maps its rows to nodes
+    #[command(after_help = "Examples:\n  precess structure convert Flex_Bus.txt --to bus.npz\n  \
+        precess structure convert bus.npz --to bus.op4      bus.op4 and bus.toml")]
+    Convert(Convert),
+}
+
+/// The options of `structure show`.
+#[derive(Debug, Args)]
+pub(super) struct Show {
+    /// NPZ, Flex text of 42, or a table in TOML (docs/structure.md).
+    file: PathBuf,
+    /// Write a picture of the mode shapes (SVG): the nodes at rest and displaced, up to 24 modes.
+    #[arg(long, value_name = "FILE")]
+    shapes: Option<PathBuf>,
+    /// Replace a picture that is there.
+    #[arg(long, requires = "shapes")]
+    force: bool,
+}
+
+/// The options of `structure convert`.
+#[derive(Debug, Args)]
+pub(super) struct Convert {
+    /// NPZ, Flex text of 42, or a table in TOML (docs/structure.md).
+    file: PathBuf,
+    /// The file to write, NPZ or `.op4` (binary; a table `.toml` beside it); `.npz` in place of the
+    /// file's ending without this option.
+    #[arg(long, value_name = "FILE")]
+    to: Option<PathBuf>,
+    /// Replace a file that is there.
+    #[arg(long)]
+    force: bool,
+}
+
+/// The structure of a file.
+pub(super) fn read(path: &Path) -> Result<Structure, CommandError> {
+    from_file(path).map_err(|error| match error {
+        ReadError::Table(errors) => CommandError::Scenario(errors),
+        ReadError::File(error) => CommandError::Other(error.to_string()),
+    })
+}
+
+impl StructureCommand {
+    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+        match self {
+            Self::Show(show) => show.execute(),
+            Self::Convert(convert) => convert.execute(),
+        }
+    }
+}
+
+impl Show {
+    fn execute(&self) -> Result<ExitCode, CommandError> {
+        if self.shapes.is_none()
+            && let Some(text) = self.matrices()?
+        {
+            print(&text);
+            return Ok(ExitCode::SUCCESS);
+        }
+        let structure = read(&self.file)?;
+        print(&shown(&structure));
+        if let Some(path) = &self.shapes {
+            let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+            let folder = path.parent().map(PathBuf::from).unwrap_or_default();
+            may_write(&folder, &name.into_iter().collect::<Vec<_>>(), self.force)?;
+            write_whole(path, &mode_shapes(&structure))?;
+            print(&format!("\n{}\n", path.display()));
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The matrices of an op4 file; none of another one.
+    fn matrices(&self) -> Result<Option<String>, CommandError> {
+        if self.file.extension().is_some_and(|extension| extension == "toml") {
+            return Ok(None);
+        }
+        let failure = |error: crate::structure::StructureError| {
+            CommandError::Other(error.in_file(&self.file).to_string())
+        };
+        let bytes = bytes_of(&self.file).map_err(failure)?;
+        if !op4::is_op4(&bytes) {
+            return Ok(None);
+        }
+        let matrices = op4::read(&bytes).map_err(failure)?;
+        let lines: String = matrices.iter().map(|matrix| matrix.summary() + "\n").collect();
+        Ok(Some(lines))
+    }
+}
+
+impl Convert {
+    fn execute(&self) -> Result<ExitCode, CommandError> {
+        let structure = read(&self.file)?;
+        let to = self.to.clone().unwrap_or_else(|| self.file.with_extension("npz"));
+        let failed = |error: crate::structure::StructureError| {
+            CommandError::Other(error.in_file(&to).to_string())
+        };
+        let mut files = Vec::new();
+        if to.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("op4")) {
+            let name = to.file_name().unwrap_or_default().to_string_lossy();
+            let (bytes, table) = op4::of_structure(&structure, &name).map_err(failed)?;
+            files.extend([(to.clone(), bytes), (to.with_extension("toml"), table.into_bytes())]);
+        } else {
+            files.push((to.clone(), npz::write(&structure).map_err(failed)?));
+        }
+        let folder = to.parent().map(PathBuf::from).unwrap_or_default();
+        let names = files.iter().filter_map(|(path, _)| path.file_name());
+        let names: Vec<_> = names.map(|name| name.to_string_lossy().into_owned()).collect();
+        may_write(&folder, &names, self.force)?;
+        for (path, bytes) in &files {
+            let failure = |source| CommandError::Io { path: path.clone(), source };
+            let mut file = Partial::create(path).map_err(failure)?;
+            std::io::Write::write_all(&mut file, bytes).map_err(failure)?;
+            file.finish().map_err(failure)?;
+        }
+        let (nodes, modes) = (structure.nodes.len(), structure.modes.len());
+        print(&format!("{}: {nodes} nodes, {modes} modes\n", to.display()));
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Everything about a structure, for people.
+fn shown(structure: &Structure) -> String {
+    let cells = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>();
+    let mut text = String::new();
+    if !structure.name.is_empty() {
+        let _ = writeln!(text, "{}\n", structure.name);
+    }
+    let mut rows = vec![cells(&["node", "x (m)", "y (m)", "z (m)"])];
+    for node in &structure.nodes {
+        let position = node.position.iter().map(|value| six(*value));
+        rows.push(std::iter::once(node.name.clone()).chain(position).collect());
+    }
+    text.push_str(&aligned(&rows));
+    text.push('\n');
+    text.push_str(&mass(structure));
+    text.push_str("\neffective masses about B\n");
+    let heads = ["mode", "f (Hz)", "zeta", "x (kg)", "y (kg)", "z (kg)"];
+    let turns = ["rx (kg m^2)", "ry (kg m^2)", "rz (kg m^2)"];
+    let mut rows = vec![cells(&[&heads[..], &turns[..]].concat())];
+    let masses = structure.effective_masses();
+    for (index, (mode, masses)) in structure.modes.iter().zip(&masses).enumerate() {
+        let hertz = mode.frequency / std::f64::consts::TAU;
+        let mut row = vec![(index + 1).to_string(), six(hertz), six(mode.damping)];
+        row.extend(masses.iter().map(|value| six(*value)));
+        rows.push(row);
+    }
+    let sum = masses.iter().fold(nalgebra::Vector6::zeros(), |sum, masses| sum + masses);
+    let mut row = cells(&["sum", "", ""]);
+    row.extend(sum.iter().map(|value| six(*value)));
+    rows.push(row);
+    text.push_str(&aligned(&rows));
+    text.push_str("\nchecks\n");
+    let mut rows = Vec::new();
+    for check in structure.checks() {
+        let (answer, found) = match (check.holds(), check.found) {
+            (Some(holds), Some(found)) => {
+                let sign = if holds { "<=" } else { ">" };
+                let found = format!("{:.1e} {sign} {:.0e}", found.max(0.0), check.bound);
+                (if holds { "yes" } else { "no" }, format!("{found} {}", check.note))
+            }
+            _ => ("unknown", check.note.to_owned()),
+        };
+        rows.push(vec![check.claim.to_owned(), answer.to_owned(), found]);
+    }
+    text.push_str(&super::table::aligned_left(&rows));
+    text
+}
+
+fn mass(structure: &Structure) -> String {
+    let mut text = String::new();
+    let devices = match structure.has_devices {
+        Some(true) => "the model has the mass of the devices",
+        Some(false) => "the model is without the devices",
+        None => "nobody said whether the model has the mass of the devices",
+    };
+    match &structure.mass {
+        None => text.push_str("mass unknown\n"),
+        Some(mass) => {
+            let list = |values: &[f64]| {
+                values.iter().map(|value| six(*value)).collect::<Vec<_>>().join(", ")
+            };
+            let inertia = &mass.inertia;
+            let products = [inertia.m12, inertia.m13, inertia.m23];
+            let _ = writeln!(
+                text,
+                "mass {} kg, centre of mass {} m\ninertia about B {} kg m^2, elements 12, 13, 23 of it \
+                 {} kg m^2",
+                six(mass.mass),
+                list(mass.centre().as_slice()),
+                list(inertia.diagonal().as_slice()),
+                list(&products)
+            );
+        }
+    }
+    let _ = writeln!(text, "{devices}");
+    text
+}

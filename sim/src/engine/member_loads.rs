@@ -1,0 +1,59 @@
+//! [`MemberLoads`]: the loads of a set, member by member and joint by joint in the order of the set,
+//! and what each platform exerts on the devices on it.
+//!
+//! ```text
+//! F = sum of F_k,   M = sum of (M_k + r_k x F_k)
+//! ```
+//!
+//! over the devices k on a platform, with `F_k` and `M_k` the load at the mount of a device about its
+//! point `r_k` from P; expressed in the platform's axes, about P.
+
+use nalgebra::Vector3;
+use precess_dynamics::kind::Each;
+use precess_dynamics::{DeviceLoads, JointStates, Loads, State, Wrench};
+
+use super::kinematics::Chain;
+use crate::scenario::Set;
+
+/// The loads of a set.
+pub(crate) struct MemberLoads {
+    /// At the mount of each device and platform.
+    pub(crate) mounts: Vec<Wrench>,
+    /// At each joint.
+    pub(crate) joints: Vec<Wrench>,
+    /// Motor torque or force of each joint.
+    pub(crate) motors: Vec<f64>,
+    /// On all devices of the platform of each number; zero of a device.
+    pub(crate) carried: Vec<Wrench>,
+}
+
+impl MemberLoads {
+    pub(crate) fn new(loads: &Loads<Set>, chains: &[Chain], state: &State<Set>) -> Self {
+        let (mounts, joints, motors) = (Vec::new(), Vec::new(), Vec::new());
+        let mut of = Self { mounts, joints, motors, carried: vec![Wrench::none(); chains.len()] };
+        let (on_hub, isolated) = &loads.devices;
+        for device in on_hub {
+            of.push(device);
+        }
+        for member in isolated {
+            of.push(&member.platform);
+            for device in &member.carried {
+                of.push(device);
+            }
+        }
+        let joints: Vec<_> = state.devices.states().collect();
+        for (chain, mount) in chains.iter().zip(&of.mounts) {
+            let Some(carried) = chain.on().and_then(|on| of.carried.get_mut(on)) else { continue };
+            let r: Vector3<f64> = chain.mount_point(&joints);
+            carried.force += mount.force;
+            carried.moment += mount.moment + r.cross(&mount.force);
+        }
+        of
+    }
+
+    fn push<W: Each<Wrench>, U: Each<f64>, P>(&mut self, device: &DeviceLoads<W, U, P, f64>) {
+        self.mounts.push(device.mount);
+        self.joints.extend(device.joints.values());
+        self.motors.extend(device.motors.values());
+    }
+}

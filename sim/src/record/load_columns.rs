@@ -1,0 +1,65 @@
+//! Columns of the loads: at mounts, on the devices of a platform, across joints.
+
+use precess_dynamics::kind::JointInfo;
+
+use super::columns::{Column, Quantity, vector};
+
+/// The load at the mount of a device or platform on the hub, or on the platform of a name.
+pub(super) fn of_mount(
+    columns: &mut Vec<Column>,
+    (index, name): (usize, &str),
+    platform: Option<&str>,
+) {
+    let two = [
+        (Quantity::MountForce as fn(usize, usize) -> Quantity, "force", "N"),
+        (Quantity::MountMoment, "moment", "N m"),
+    ];
+    let axes = platform.map_or_else(|| "B".to_owned(), |platform| format!("{platform}.platform"));
+    let base =
+        platform.map_or_else(|| "the hub".to_owned(), |platform| format!("platform {platform}"));
+    for (quantity, what, unit) in two {
+        let meaning = format!("{what} that {base} exerts on {name} at its mount, component");
+        let own = format!("{name}.mount.{what}");
+        let of = |axis| quantity(index, axis);
+        vector(columns, &own, &format!("{name}.loads"), unit, &axes, &meaning, of);
+    }
+}
+
+/// The load above an isolator: on all devices of a platform.
+pub(super) fn of_carried(columns: &mut Vec<Column>, (index, name): (usize, &str)) {
+    let two = [
+        (Quantity::CarriedForce as fn(usize, usize) -> Quantity, "force", "N"),
+        (Quantity::CarriedMoment, "moment", "N m"),
+    ];
+    for (quantity, what, unit) in two {
+        let meaning =
+            format!("{what} that platform {name} exerts on all devices on it, about P, component");
+        let own = format!("{name}.carried.{what}");
+        let of = |axis| quantity(index, axis);
+        let axes = format!("{name}.platform");
+        vector(columns, &own, &format!("{name}.loads"), unit, &axes, &meaning, of);
+    }
+}
+
+pub(super) fn of_load(
+    columns: &mut Vec<Column>,
+    device: &str,
+    group: &str,
+    joint: usize,
+    info: &JointInfo,
+) {
+    let body = info.body.replace(' ', "_");
+    // A rotor that is the same from every angle has the axes of its parent body.
+    let frame = format!("{device}.{body}");
+    let frame = if info.ignorable { format!("parent body of {frame}") } else { frame };
+    let two = [
+        (Quantity::LoadForce as fn(usize, usize) -> Quantity, "force", "N"),
+        (Quantity::LoadMoment, "moment", "N m"),
+    ];
+    for (quantity, what, unit) in two {
+        let meaning =
+            format!("{what} that its parent body exerts on the {} at its origin", info.body);
+        let base = format!("{device}.{body}.load_{what}");
+        vector(columns, &base, group, unit, &frame, &meaning, |axis| quantity(joint, axis));
+    }
+}

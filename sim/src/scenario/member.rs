@@ -1,0 +1,129 @@
+//! [`Member`]: a device or a platform of a scenario's set.
+//!
+//! The order of the set: the devices on the hub, then platform by platform the platform and the
+//! devices on it. Names, mounts, joints and drives of a scenario are in this order.
+
+use nalgebra::Matrix3;
+use precess_dynamics::kind::{BodyParameters, Each, ImbalanceModel, JointInfo, Kind};
+use precess_dynamics::{BuiltIn, Isolated, Passive, Platform, Suspension};
+
+/// The set that is run: devices on the hub, each of any kind, and platforms with devices on them.
+pub type Set = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);
+
+/// A device, or a platform without the devices on it.
+#[derive(Clone, Copy, Debug)]
+pub enum Member<'a> {
+    /// A device of some kind.
+    Device {
+        /// Its parameters.
+        device: &'a BuiltIn,
+        /// The number of the platform that it stands on, as a member; none on the hub.
+        on: Option<usize>,
+    },
+    /// A platform on the hub.
+    Platform(&'a Isolated<Vec<BuiltIn>>),
+}
+
+/// The members of a set, in order.
+#[must_use]
+pub fn members((on_hub, isolated): &Set) -> Vec<Member<'_>> {
+    let mut all: Vec<_> = on_hub.iter().map(|device| Member::Device { device, on: None }).collect();
+    for of in isolated {
+        let on = Some(all.len());
+        all.push(Member::Platform(of));
+        all.extend(of.carried.iter().map(|device| Member::Device { device, on }));
+    }
+    all
+}
+
+impl<'a> Member<'a> {
+    /// The name of its kind; of a platform `platform`.
+    #[must_use]
+    pub fn kind_name(&self) -> &'static str {
+        match self {
+            Self::Device { device, .. } => device.kind().name(),
+            Self::Platform(_) => <Platform as Kind>::NAME,
+        }
+    }
+
+    /// Its joints from the base to the tip.
+    #[must_use]
+    pub fn joints(&self) -> &'static [JointInfo] {
+        match self {
+            Self::Device { device, .. } => device.kind().joints(),
+            Self::Platform(_) => <Platform as Kind>::JOINTS,
+        }
+    }
+
+    /// Columns: its axes at zero, in those of its base.
+    #[must_use]
+    pub fn mount(&self) -> Matrix3<f64> {
+        match self {
+            Self::Device { device, .. } => device.parameters().mount,
+            Self::Platform(of) => of.platform.mount,
+        }
+    }
+
+    /// The child body of each joint.
+    #[must_use]
+    pub fn bodies(&self) -> Vec<BodyParameters<f64>> {
+        match self {
+            Self::Device { device, .. } => {
+                let bodies = device.parameters().bodies.into_iter();
+                bodies.take(self.joints().len()).collect()
+            }
+            Self::Platform(of) => of.platform.bodies().values().collect(),
+        }
+    }
+
+    /// Spring, damper and friction of each joint.
+    #[must_use]
+    pub fn passive(&self) -> Vec<Passive> {
+        match self {
+            Self::Device { device, .. } => {
+                let passive = device.parameters().passive.into_iter();
+                passive.take(self.joints().len()).collect()
+            }
+            Self::Platform(of) => of.platform.passive.values().collect(),
+        }
+    }
+
+    /// Whether the imbalance of its wheel is lumped.
+    #[must_use]
+    pub fn is_lumped(&self) -> bool {
+        self.device().is_some_and(|of| of.parameters().model == ImbalanceModel::Lumped)
+    }
+
+    /// Whether springs or dampers couple its joints.
+    #[must_use]
+    pub fn has_suspension(&self) -> bool {
+        matches!(self, Self::Platform(of) if of.suspension != Suspension::none())
+    }
+
+    /// The device; none of a platform.
+    #[must_use]
+    pub fn device(&self) -> Option<&'a BuiltIn> {
+        match self {
+            Self::Device { device, .. } => Some(device),
+            Self::Platform(_) => None,
+        }
+    }
+
+    /// The platform; none of a device.
+    #[must_use]
+    pub fn platform(&self) -> Option<&'a Isolated<Vec<BuiltIn>>> {
+        match self {
+            Self::Device { .. } => None,
+            Self::Platform(of) => Some(of),
+        }
+    }
+
+    /// The number of the platform that it stands on, as a member; none on the hub.
+    #[must_use]
+    pub fn on(&self) -> Option<usize> {
+        match self {
+            Self::Device { on, .. } => *on,
+            Self::Platform(_) => None,
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! [`ModalStructure`]: the modes of a scenario's structure, the nodes that it uses, and the
+//! [`FlexibleSpacecraft`] of both with the devices.
+//!
+//! Numbers are in SI units, vectors are expressed in B. Nodes are those that carry a device, are
+//! recorded, or take a wrench; every node has one row of shapes for each mode. What the equations of
+//! a structure that bends do not have is listed in one place: [`Scenario::not_on_a_structure`].
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::{
+    About, BuiltIn, ContainedBody, FlexibleSpacecraft, Hub, JointArray, ListedModes, ModalMount,
+    ModalPoint, Modes, ModesError, ParameterError, Spacecraft, State,
+};
+
+use super::check::range;
+use super::{Scenario, ScenarioError, Set, Target, WrenchAxes};
+use crate::structure::{COORDINATES, Mode, RigidMass};
+
+/// A structure that bends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModalStructure {
+    /// The modes: mass-normalised, in a floating frame B.
+    pub modes: Vec<Mode>,
+    /// The nodes that the scenario uses.
+    pub nodes: Vec<StructureNode>,
+    /// The node that carries each device, in the order of the devices.
+    pub on_node: Vec<usize>,
+    /// Whether hub and modes contain the mass of the devices, as a rigid body at their initial
+    /// coordinates: it is subtracted.
+    pub contains_devices: bool,
+    /// What is recorded of the motion of nodes.
+    pub points: Vec<RecordedPoint>,
+    /// Modal coordinates at the start, one for each mode, m kg^1/2.
+    pub coordinates: Vec<f64>,
+    /// Their rates, m kg^1/2/s.
+    pub rates: Vec<f64>,
+}
+
+/// A node of a structure, with its shapes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StructureNode {
+    /// Its name.
+    pub name: String,
+    /// Its position from B, m.
+    pub position: Vector3<f64>,
+    /// Of each mode: translation, kg^-1/2, then rotation, rad m^-1 kg^-1/2.
+    pub shapes: Vec<[f64; COORDINATES]>,
+}
+
+/// A node whose motion is recorded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RecordedPoint {
+    /// The name of its columns: lower case, digits, underscores.
+    pub name: String,
+    /// The node.
+    pub node: usize,
+}
+
+impl StructureNode {
+    /// The node as a point of the library.
+    #[must_use]
+    pub fn point(&self) -> ModalPoint<ListedModes> {
+        let three = |from: usize| {
+            let of = |shape: &[f64; COORDINATES]| Vector3::from_fn(|axis, _| shape[from + axis]);
+            self.shapes.iter().map(of).collect()
+        };
+        ModalPoint { position: self.position, translation: three(0), rotation: three(3) }
+    }
+}
+
+impl ModalStructure {
+    /// The nodes that carry devices, each once: the mounts of the library, in their order.
+    fn mounts(&self) -> Vec<usize> {
+        let mut mounts = Vec::new();
+        for node in &self.on_node {
+            if !mounts.contains(node) {
+                mounts.push(*node);
+            }
+        }
+        mounts
+    }
+}
+
+impl Scenario {
+    /// The structure that bends, with the devices on it; none of a rigid hub.
+    ///
+    /// # Errors
+    ///
+    /// Parameters that the solver rejects.
+    #[must_use]
+    pub fn flexible(&self) -> Option<Result<FlexibleSpacecraft<Set, ListedModes>, ModesError>> {
+        let structure = self.structure.as_ref()?;
+        Some(self.flexible_with(structure))
+    }
+
+    fn flexible_with(
+        &self,
+        structure: &ModalStructure,
+    ) -> Result<FlexibleSpacecraft<Set, ListedModes>, ModesError> {
+        let of = |of: fn(&Mode) -> f64| structure.modes.iter().map(of).collect();
+        let mounts = structure.mounts();
+        let mut modal = Vec::new();
+        for node in &mounts {
+            let point = structure.nodes.get(*node).map(StructureNode::point);
+            let carried = structure.on_node.iter().zip(0..).filter(|(on, _)| *on == node);
+            let carried: Vec<usize> = carried.map(|(_, device)| device).collect();
+            let contained = self.contained(&carried)?;
+            modal.extend(point.map(|point| ModalMount { point, contained }));
+        }
+        let modes = Modes {
+            frequencies: of(|mode| mode.frequency),
+            damping: of(|mode| mode.damping),
+            linear: structure.modes.iter().map(|mode| mode.linear).collect(),
+            angular: structure.modes.iter().map(|mode| mode.angular).collect(),
+            mounts: modal,
+        };
+        let mount = |node: &usize| mounts.iter().position(|known| known == node).unwrap_or(0);
+        let on_mount: Vec<usize> = structure.on_node.iter().map(mount).collect();
+        FlexibleSpacecraft::new(&self.hub, &modes, &self.devices, &(on_mount, Vec::new()))
+    }
+
+    /// What hub and modes contain of devices: nothing, or their bodies at the initial coordinates.
+    fn contained(&self, devices: &[usize]) -> Result<Option<ContainedBody>, ParameterError> {
+        if !self.structure.as_ref().is_some_and(|structure| structure.contains_devices) {
+            return Ok(None);
+        }
+        let whole = self.devices_as_one(devices.iter().copied())?;
+        let centre = whole.centre();
+        let cross = centre.cross_matrix();
+        let inertia = whole.inertia + whole.mass * cross * cross;
+        let inertia = 0.5 * (inertia + inertia.transpose());
+        Ok(Some(ContainedBody { mass: whole.mass, centre, inertia }))
+    }
+
+    /// Devices as one rigid body about B, joints at their initial coordinates.
+    fn devices_as_one(
+        &self,
+        devices: impl Iterator<Item = usize>,
+    ) -> Result<RigidMass, ParameterError> {
+        let nothing =
+            RigidMass { mass: 0.0, first_moment: Vector3::zeros(), inertia: Matrix3::zeros() };
+        devices.zip(std::iter::repeat(())).try_fold(nothing, |sum, (device, ())| {
+            let (Some(own), Some(joints)) =
+                (self.devices.0.get(device), self.initial.devices.0.get(device))
+            else {
+                return Ok(sum);
+            };
+            let body = device_as_one(own, joints)?;
+            Ok(RigidMass {
+                mass: sum.mass + body.mass,
+                first_moment: sum.first_moment + body.first_moment,
+                inertia: sum.inertia + body.inertia,
+            })
+        })
+    }
+
+    /// The hub without what it contains of the devices: that of the rigid spacecraft.
+    pub(crate) fn bare_hub(&self) -> Result<Hub, ParameterError> {
+        if !self.structure.as_ref().is_some_and(|structure| structure.contains_devices) {
+            return Ok(self.hub);
+        }
+        let Hub { m_b, r_bc_b, i_b_bc } = self.hub;
+        let whole = RigidMass::about_centre(m_b, r_bc_b, i_b_bc);
+        let devices = self.devices_as_one(0..self.devices.0.len())?;
+        let m_b = whole.mass - devices.mass;
+        let r_bc_b = (whole.first_moment - devices.first_moment) / m_b;
+        let cross = r_bc_b.cross_matrix();
+        let inertia = whole.inertia - devices.inertia + m_b * cross * cross;
+        Ok(Hub { m_b, r_bc_b, i_b_bc: 0.5 * (inertia + inertia.transpose()) })
+    }
+
+    /// What is wrong with the structure and what is on it; nothing of a rigid hub.
+    pub(super) fn check_structure(&self) -> Vec<ScenarioError> {
+        let Some(structure) = &self.structure else { return Vec::new() };
+        let mut errors = self.check_counts(structure);
+        if errors.is_empty() {
+            errors.extend(self.not_on_a_structure());
+            if let Err(error) = self.flexible_with(structure) {
+                errors.push(ScenarioError::Modes(error));
+            }
+        }
+        errors
+    }
+
+    fn check_counts(&self, structure: &ModalStructure) -> Vec<ScenarioError> {
+        let mut errors = Vec::new();
+        let (modes, nodes) = (structure.modes.len(), structure.nodes.len());
+        for (key, found) in
+            [("coordinates", structure.coordinates.len()), ("rates", structure.rates.len())]
+        {
+            if found != modes {
+                let message = format!("{found} numbers for {modes} modes; write one for each");
+                errors.push(range(&format!("structure.{key}"), message));
+            }
+        }
+        if structure.on_node.len() != self.devices.0.len() {
+            let (found, devices) = (structure.on_node.len(), self.devices.0.len());
+            let message = format!("{found} nodes for {devices} devices; give each its `node`");
+            errors.push(range("structure", message));
+        }
+        let of_wrenches = self.wrenches.iter().filter_map(|wrench| match wrench.body {
+            Target::Node(node) => Some(node),
+            Target::Hub | Target::Joint(_) => None,
+        });
+        let of_points = structure.points.iter().map(|point| point.node);
+        for node in structure.on_node.iter().copied().chain(of_points).chain(of_wrenches) {
+            if node >= nodes {
+                errors.push(range("structure.node", format!("node {node} of {nodes}")));
+            }
+        }
+        for node in structure.nodes.iter().filter(|node| node.shapes.len() != modes) {
+            let message =
+                format!("`{}` has {} shapes for {modes} modes", node.name, node.shapes.len());
+            errors.push(range("structure.node", message));
+        }
+        for (index, point) in structure.points.iter().enumerate() {
+            let name = point.name.as_str();
+            let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+            if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(plain) {
+                let message = format!(
+                    "`{name}` is not lower-case letters, digits and underscores; write \
+                     `name = \"camera\"` and `node = \"{name}\"`"
+                );
+                errors.push(range(&format!("structure.point.{name}.name"), message));
+            }
+            let earlier = structure.points.iter().take(index).any(|other| other.name == name);
+            let group = ["loads", "modes"].contains(&name);
+            if earlier || group || self.names.iter().any(|device| device == name) {
+                let message = format!(
+                    "`{name}` names other columns, of a device, a point or a group; choose \
+                     another name, and give the node by `node`"
+                );
+                errors.push(range(&format!("structure.point.{name}.name"), message));
+            }
+        }
+        errors
+    }
+
+    /// What a scenario has and the equations of a structure that bends do not; each with its key
+    /// and the remedy.
+    fn not_on_a_structure(&self) -> Vec<ScenarioError> {
+        let mut errors = Vec::new();
+        let mut reject = |key: String, message: &str| errors.push(range(&key, message.to_owned()));
+        for (name, _) in self.members().filter(|(_, member)| member.platform().is_some()) {
+            let message = "a platform stands on a rigid hub; remove it, or `[structure]`";
+            reject(format!("platform.{name}"), message);
+        }
+        for wrench in &self.wrenches {
+            match wrench.body {
+                Target::Hub => {
+                    let message = "a force on a structure that bends acts on one of its nodes; \
+                                   write `on = \"NODE\"`";
+                    reject("wrench.on".to_owned(), message);
+                }
+                Target::Node(_) if wrench.point != Vector3::zeros() => {
+                    let message = "a force on a node acts at the node; remove `point`, or add a \
+                                   node there";
+                    reject("wrench.point".to_owned(), message);
+                }
+                Target::Joint(_) if wrench.axes == WrenchAxes::Inertial => {
+                    let message = "on a device of a structure that bends, wrenches are in the \
+                                   axes of the body; write `axes = \"body\"`, or put it on a node";
+                    reject("wrench.axes".to_owned(), message);
+                }
+                Target::Node(_) | Target::Joint(_) => {}
+            }
+        }
+        errors
+    }
+}
+
+/// A device as one rigid body about B, joints at these coordinates.
+fn device_as_one(
+    device: &BuiltIn,
+    joints: &JointArray<[f64; 2]>,
+) -> Result<RigidMass, ParameterError> {
+    // Beside a massive body at B, which is subtracted again.
+    let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
+    let craft = Spacecraft::new(&hub, &vec![*device])?;
+    let mut state: State<Vec<BuiltIn>> = State::at_rest_for(&craft);
+    let all = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
+    for (to, [coordinate, _]) in all.zip(joints.as_slice()) {
+        to[0] = *coordinate;
+    }
+    // H = I_B omega and p = omega x (m c), at omega = e_k.
+    let mut inertia = Matrix3::zeros();
+    let mut first_moment = Vector3::zeros();
+    for axis in 0..3 {
+        state.omega = Vector3::ith(axis, 1.0);
+        let Ok(momentum) = craft.momentum(&state, About::InertialOrigin) else {
+            let value = f64::NAN;
+            return Err(ParameterError::TotalMass { value });
+        };
+        inertia.set_column(axis, &momentum.angular);
+        first_moment += momentum.linear.cross(&state.omega) / 2.0;
+    }
+    Ok(RigidMass { mass: craft.mass() - hub.m_b, first_moment, inertia: inertia - hub.i_b_bc })
+}
