@@ -15,19 +15,21 @@ from Basilisk.utilities import SimulationBaseClass
 
 VERSION = version("bsk")
 # Names of Basilisk's states, by what they are here.
-STATES = {
+HUB_STATES = {
     "position": "hubPosition",
     "velocity": "hubVelocity",
     "mrp": "hubSigma",
     "omega": "hubOmega",
-    "theta": "reactionWheelThetas",
-    "spin": "reactionWheelOmegas",
 }
+STATES = {**HUB_STATES, "theta": "reactionWheelThetas", "spin": "reactionWheelOmegas"}
 
 
 def samples(craft):
     """The state at the start and after every so many steps."""
-    run = Run(craft)
+    return samples_of(Run(craft), craft)
+
+
+def samples_of(run, craft):
     found = [run.state(0)]
     for steps in range(craft["every"], craft["steps"] + 1, craft["every"]):
         run.step_to(steps)
@@ -38,6 +40,8 @@ def samples(craft):
 class Run:
     """The simulation, started, and all its objects kept alive."""
 
+    states = STATES
+
     def __init__(self, craft):
         self.nanoseconds = round(craft["step"] * 1e9)
         self.sim = SimulationBaseClass.SimBaseClass()
@@ -45,19 +49,24 @@ class Run:
             self.sim.CreateNewTask("task", self.nanoseconds)
         )
         self.spacecraft = hub(craft)
-        self.configs = [wheel(given) for given in craft["wheels"]]
-        self.effector = reactionWheelStateEffector.ReactionWheelStateEffector()
-        for config in self.configs:
-            self.effector.addReactionWheel(config)
+        self.effector = self.attached(craft)
         self.spacecraft.addStateEffector(self.effector)
-        torques = messaging.ArrayMotorTorqueMsgPayload()
-        torques.motorTorque = [given["u_w"] for given in craft["wheels"]]
-        self.torques = messaging.ArrayMotorTorqueMsg().write(torques)
-        self.effector.rwMotorCmdInMsg.subscribeTo(self.torques)
         # The effector reads the torques before the spacecraft takes its step.
         self.sim.AddModelToTask("task", self.effector)
         self.sim.AddModelToTask("task", self.spacecraft)
         self.sim.InitializeSimulation()
+
+    def attached(self, craft):
+        """The effector with its devices and motors."""
+        self.configs = [wheel(given) for given in craft["wheels"]]
+        effector = reactionWheelStateEffector.ReactionWheelStateEffector()
+        for config in self.configs:
+            effector.addReactionWheel(config)
+        torques = messaging.ArrayMotorTorqueMsgPayload()
+        torques.motorTorque = [given["u_w"] for given in craft["wheels"]]
+        self.torques = messaging.ArrayMotorTorqueMsg().write(torques)
+        effector.rwMotorCmdInMsg.subscribeTo(self.torques)
+        return effector
 
     def step_to(self, steps):
         self.sim.ConfigureStopTime(steps * self.nanoseconds)
@@ -66,7 +75,7 @@ class Run:
     def state(self, steps):
         states = self.spacecraft.dynManager
         found = {"steps": steps}
-        for name, of_basilisk in STATES.items():
+        for name, of_basilisk in self.states.items():
             found[name] = np.ravel(states.getStateObject(of_basilisk).getState()).tolist()
         return found
 

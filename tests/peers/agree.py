@@ -27,14 +27,14 @@ def main():
         sys.exit(__doc__)
     folder = Path(sys.argv[1])
     listed = json.loads((folder / "peers.json").read_text(encoding="utf-8"))
-    peers = {peer["name"]: peer for peer in listed if "command" in peer}
+    peers = {peer["name"]: peer for peer in listed if peer.get("subject") == "evaluation"}
     if REFERENCE not in peers or len(peers) == 1:
         sys.exit(f"nothing to compare: {folder / 'peers.json'} has {', '.join(peers) or 'no peer'}")
-    reference = {n: accelerations(peers[REFERENCE], folder, n) for n in peers[REFERENCE]["n"]}
+    reference = {n: accelerations(peers[REFERENCE], folder, n) for n in cases(peers[REFERENCE])}
     print(f"{'':24}    N  " + " ".join(f"{name:>12}" for name in BLOCKS))
     worst = 0.0
     for name, peer in peers.items():
-        for n in (n for n in peer["n"] if name != REFERENCE and n in reference):
+        for n in (n for n in cases(peer) if name != REFERENCE and n in reference):
             found = deviations(accelerations(peer, folder, n), reference[n])
             print(f"{name:24} {n:4}  " + " ".join(f"{x:12.1e}" for x in found))
             worst = max(worst, *found)
@@ -42,8 +42,13 @@ def main():
     sys.exit(0 if worst <= BOUND else 1)
 
 
+def cases(peer):
+    """The numbers of devices that it takes."""
+    return [int(case) for case in peer["cases"]]
+
+
 def accelerations(peer, folder, n):
-    words = [*peer["command"], "check", str(folder / f"{n}.json")]
+    words = [*peer["command"], "check", str(folder / f"{n}.json"), *peer["options"]]
     printed = subprocess.run(words, check=True, capture_output=True, text=True).stdout
     return json.loads(printed)["accelerations"]
 

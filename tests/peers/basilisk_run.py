@@ -2,15 +2,13 @@
 
     python basilisk_run.py check FILE   accelerations of the file's state
     python basilisk_run.py time FILE    nanoseconds per derivative evaluation within RK4 steps
+    python basilisk_run.py turns FILE   the same, a turn for each line of input
 
 A step evaluates the derivatives four times. What a step does besides (the sums of the integrator,
 the energies, the messages) is counted with them: Basilisk has no step without it.
 """
 
 import json
-import statistics
-import sys
-import time
 
 import numpy as np
 from Basilisk.architecture import messaging
@@ -18,32 +16,32 @@ from Basilisk.simulation import extForceTorque, spacecraft
 from Basilisk.simulation import spinningBodyNDOFStateEffector as spinning
 from Basilisk.utilities import SimulationBaseClass
 
+import turns
+
 AXES = "xyz"
 ENTRIES = ["11", "12", "13", "22", "23", "33"]
 # Short, so that no angle or rate moves far in all the steps that are timed.
 STEP_NANOSECONDS = 100
 STAGES = 4
-REPEATS = 3
-BATCHES = 150
-# Long enough that starting and stopping a run, some ten microseconds, does not count.
-NANOSECONDS_A_BATCH = 5e6
 
 
-def main():
-    if len(sys.argv) != 3 or sys.argv[1] not in ("check", "time"):
-        sys.exit(f"usage: {sys.argv[0]} check|time FILE")
-    with open(sys.argv[2], encoding="utf-8") as file:
-        run = Run(json.load(file))
-    print(json.dumps(run.check() if sys.argv[1] == "check" else run.times()))
+def opened(file):
+    with open(file, encoding="utf-8") as text:
+        return Run(json.load(text))
 
 
 class Run:
     """The simulation of one spacecraft, started, and all its objects kept alive."""
 
-    def __init__(self, craft):
+    units = STAGES
+    # Long enough that waiting for the thread that steps, up to 0.3 ms of the main thread, does not count.
+    least_batch = 2e-2
+
+    def __init__(self, craft, nanoseconds=STEP_NANOSECONDS):
+        self.nanoseconds = nanoseconds
         self.sim = SimulationBaseClass.SimBaseClass()
         self.sim.CreateNewProcess("process").addTask(
-            self.sim.CreateNewTask("task", STEP_NANOSECONDS)
+            self.sim.CreateNewTask("task", nanoseconds)
         )
         self.spacecraft = hub(craft)
         self.loads = extForceTorque.ExtForceTorque()
@@ -65,30 +63,18 @@ class Run:
         """Derivatives at the file's state: B's axes are still the inertial ones."""
         for module in (*self.effectors, self.loads):
             module.UpdateState(0)
-        self.spacecraft.equationsOfMotion(0.0, STEP_NANOSECONDS * 1e-9)
+        self.spacecraft.equationsOfMotion(0.0, self.nanoseconds * 1e-9)
         names = ["hubVelocity", "hubOmega"]
         names += [chain.getNameOfThetaDotState() for chain in self.effectors]
         states = self.spacecraft.dynManager
         values = [np.ravel(states.getStateObject(name).getStateDeriv()) for name in names]
         return {"accelerations": np.concatenate(values).tolist()}
 
-    def times(self):
-        guess = self.batch(20)
-        steps = max(1, round(NANOSECONDS_A_BATCH / guess / STAGES))
-        repeats = [[self.batch(steps) for _ in range(BATCHES)] for _ in range(REPEATS)]
-        means = [mean for repeat in repeats for mean in repeat]
-        return {
-            "ns": [statistics.median(repeat) for repeat in repeats],
-            "spread": [min(means), max(means)],
-        }
-
-    def batch(self, steps):
-        """Mean nanoseconds of one derivative evaluation over as many steps, all within C++."""
-        self.steps += steps
-        self.sim.ConfigureStopTime(self.steps * STEP_NANOSECONDS)
-        start = time.perf_counter_ns()
+    def run(self, calls):
+        """So many steps, all within C++."""
+        self.steps += calls
+        self.sim.ConfigureStopTime(self.steps * self.nanoseconds)
         self.sim.ExecuteSimulation()
-        return (time.perf_counter_ns() - start) / (steps * STAGES)
 
 
 def hub(craft):
@@ -156,4 +142,4 @@ def column(values):
 
 
 if __name__ == "__main__":
-    main()
+    turns.answer(opened)

@@ -5,9 +5,10 @@ import json
 import sysconfig
 from pathlib import Path
 
-from build import compiler, make, version_of
+from build import Missing, compiler, make, version_of
 
 HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
 SOURCES = HERE / "native"
 PACKAGES = Path(sysconfig.get_path("purelib"))
 PREFIX = PACKAGES / "cmeel.prefix"
@@ -66,22 +67,34 @@ def casadi(into):
     )
 
 
-def mujoco(into):
+def mujoco(into, source="mujoco_smooth"):
     gxx = compiler("g++", "g++")
     package = PACKAGES / "mujoco"
     [library] = package.glob("libmujoco.so.*")
     command = runner(
-        into / "mujoco", "mujoco_smooth.cpp",
+        into / source.replace("_", "-"), f"{source}.cpp",
         [gxx, *PLAIN, *COMMON, f"-isystem{package}/include"],
         [library, f"-Wl,-rpath,{package}"],
     )  # fmt: skip
     return command, f"mujoco {version('mujoco')} of PyPI, built as it comes; called from C++"
 
 
+def library(into, archive):
+    """The C library of Precess, which is Rust behind `precess.h`: linked, not compiled here."""
+    gxx = compiler("g++", "g++")
+    if not archive.exists():
+        raise Missing(f"no {archive.name}; build it with `cargo xtask capi`")
+    command = runner(
+        into / "precess-library", "precess_library.cpp",
+        [gxx, *PLAIN, *COMMON, f"-I{ROOT / 'flight' / 'capi' / 'include'}"], [archive],
+    )  # fmt: skip
+    return command, "`libprecess.a`, called from C++"
+
+
 def runner(program, source, compile_words, link_words=()):
     """The command of a runner, compiled of its source and of objects made before."""
     sources = [HERE / "requirements.txt", SOURCES / source, *sorted(SOURCES.glob("*.hpp"))]
-    sources += [word for word in link_words if str(word).endswith(".o")]
+    sources += [word for word in link_words if str(word).endswith((".o", ".a"))]
     make(program, sources, [*compile_words, SOURCES / source, "-o", program, *link_words])
     return [program]
 

@@ -22,6 +22,21 @@ pub const ACCELERATIONS_WORST: f64 = 1e-11;
 /// Median of that error: a good engine reaches 5e-15.
 pub const ACCELERATIONS_MEDIAN: f64 = 1e-13;
 
+/// Largest error of a derivative of the solver against differences in double-double, of the block:
+/// accelerations themselves reach 1e-11.
+pub const DERIVATIVES_WORST: f64 = 1e-10;
+
+/// Largest median of the spacecraft's worst blocks of derivatives.
+pub const DERIVATIVES_MEDIAN: f64 = 1e-12;
+
+/// Largest error of `MuJoCo`'s accelerations against the same reference, of the block: it refers
+/// every body to the spacecraft's centre of mass, where a fast wheel metres away costs digits.
+/// Measured beside ours, so that a difference larger than its rounding shows.
+pub const MUJOCO_WORST: f64 = 1e-8;
+
+/// Median of that error.
+pub const MUJOCO_MEDIAN: f64 = 1e-12;
+
 /// Largest difference of two formulations in double-double, of the block: the errors in `f64` are
 /// rounding.
 pub const ROUTES_IN_DOUBLE_DOUBLE: f64 = 1e-25;
@@ -34,6 +49,10 @@ pub const LIMITS: f64 = 1e-12;
 /// Basilisk's, in units of each quantity's largest magnitude: the rounding of both adds up over the
 /// steps. Measured: 4.2e-14. A change of any input by 1e-8 shows as at least 2.8e-12.
 pub const WHEELS_BESIDE_BASILISK: f64 = 2e-13;
+
+/// The same of two imbalanced VSCMGs, whose gimbals turn back and forth. Measured: 1.3e-13. A change
+/// of any parameter of a gyro by 1e-8 shows as at least 7e-10.
+pub const GYROS_BESIDE_BASILISK: f64 = 1e-12;
 
 /// Largest difference of `f32` from `f64` over Table 1's ranges, in units of the size of what is
 /// compared: `2^-23` times conditioning.

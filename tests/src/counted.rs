@@ -11,6 +11,10 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 use precess_dynamics::{Angle, Real, Scalar};
 
+/// Operations of an evaluation, sines and cosines apart: what a hub takes, and each DGVSCMG on it. The
+/// suite `operations` asserts them.
+pub const EVALUATION: [u64; 2] = [276, 907];
+
 /// Operations by what they are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
@@ -179,6 +183,7 @@ impl Angle for Counted {
 }
 
 impl Scalar for Counted {
+    const ZERO: Self = Self::given(0.0);
     const EPSILON: Self = Self::given(f64::EPSILON);
 
     fn from_f64(value: f64) -> Self {

@@ -150,6 +150,7 @@ impl Angle for DoubleDouble {
 }
 
 impl Scalar for DoubleDouble {
+    const ZERO: Self = Self { high: 0.0, low: 0.0 };
     /// `2^-104`: what `2^-52` is to `f64`, with a factor of two for the bounds above.
     const EPSILON: Self = Self { high: f64::EPSILON * f64::EPSILON, low: 0.0 };
 

@@ -4,6 +4,7 @@
 //! - [`newton_euler`]: Newton and Euler, body by body: the reference.
 //! - [`assembly`]: the paper's own equations in the forms of the hand-checked pages; [`spatial`]:
 //!   a recursion over articulated bodies that takes nothing from the paper. Two more routes.
+//! - [`chains`]: Newton and Euler for devices of every kind, with springs, wrenches and modes.
 //! - [`random`]: seeded spacecraft over the declared ranges; [`case`]: one spacecraft in one state.
 //! - [`table1`]: the paper's own numbers.
 //! - [`stored`]: spacecraft as files hold them, for engines and peers.
@@ -20,6 +21,7 @@ pub mod assembly;
 pub mod blocks;
 pub mod bounds;
 pub mod case;
+pub mod chains;
 pub mod counted;
 pub mod double_double;
 pub mod measured;

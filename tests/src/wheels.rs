@@ -1,7 +1,7 @@
 //! Three imbalanced reaction wheels with motors: a run of Basilisk, our run of the same, and how far
 //! they differ.
 //!
-//! `tests/engines/wheels.py` writes the file. Both runs are RK4 with the same step, the attitude in
+//! `tests/engines/wheels.py` writes the file, `tests/engines/lumped.py` another one. Both runs are RK4 with the same step, the attitude in
 //! MRPs, from the same state, so that they differ by rounding only.
 
 use std::error::Error;
@@ -15,6 +15,9 @@ use crate::stored::{StoredHub, by_rows, symmetric};
 
 /// Written by `tests/engines/wheels.py`.
 const TEXT: &str = include_str!("../fixtures/wheels.json");
+
+/// Written by `tests/engines/lumped.py`: their imbalance lumped, and viscous friction.
+const LUMPED: &str = include_str!("../fixtures/lumped.json");
 
 /// How many wheels the file has.
 pub const WHEELS: usize = 3;
@@ -30,6 +33,9 @@ pub struct Stored {
     pub step: f64,
     /// How many steps.
     pub steps: u32,
+    /// Whether the imbalances are forces and torques.
+    #[serde(default)]
+    lumped: bool,
     hub: StoredHub,
     wheels: [StoredWheel; WHEELS],
     samples: Vec<Sample>,
@@ -45,6 +51,8 @@ struct StoredWheel {
     u_s: f64,
     u_d: f64,
     u_w: f64,
+    #[serde(default)]
+    viscous: f64,
 }
 
 /// The state after some steps: of B in N, and of the wheels.
@@ -86,7 +94,7 @@ const QUANTITIES: [(&str, &str); 6] = [
 type Change = fn(&mut Stored, f64);
 
 /// The inputs of the run.
-const INPUTS: [(&str, Change); 10] = [
+const INPUTS: [(&str, Change); 11] = [
     ("hub's mass", |run, factor| run.hub.m_b *= factor),
     ("hub's centre of mass", |run, factor| run.hub.r_bc_b = run.hub.r_bc_b.map(|x| x * factor)),
     ("hub's inertia", |run, factor| run.hub.i_b = run.hub.i_b.map(|x| x * factor)),
@@ -107,6 +115,9 @@ const INPUTS: [(&str, Change); 10] = [
     }),
     ("dynamic imbalances", |run, factor| {
         run.wheels.iter_mut().for_each(|wheel| wheel.u_d *= factor);
+    }),
+    ("friction", |run, factor| {
+        run.wheels.iter_mut().for_each(|wheel| wheel.viscous *= factor);
     }),
     ("motor torques", |run, factor| {
         run.wheels.iter_mut().for_each(|wheel| wheel.u_w *= factor);
@@ -142,15 +153,15 @@ impl Sample {
 }
 
 impl StoredWheel {
-    fn wheel(&self) -> ReactionWheel {
+    fn wheel(&self, model: ImbalanceModel) -> ReactionWheel {
         ReactionWheel {
             mount: by_rows(self.mount),
             r_w_b: self.r_w_b.into(),
             m_w: self.m_w,
             d: self.u_s / self.m_w,
             i_w_wc: symmetric([self.axial, 0.0, self.u_d, self.transverse, 0.0, self.transverse]),
-            passive: PerJoint { wheel: Passive::none() },
-            model: ImbalanceModel::Coupled,
+            passive: PerJoint { wheel: Passive::friction(self.viscous, 0.0, 0.0) },
+            model,
         }
     }
 }
@@ -163,6 +174,15 @@ impl Stored {
     /// Where it is no such file; write it with `python tests/engines/wheels.py`.
     pub fn read() -> Result<Self, serde_json::Error> {
         serde_json::from_str(TEXT)
+    }
+
+    /// The file of the run with lumped imbalances and viscous friction.
+    ///
+    /// # Errors
+    ///
+    /// Where it is no such file; write it with `python tests/engines/lumped.py`.
+    pub fn read_lumped() -> Result<Self, serde_json::Error> {
+        serde_json::from_str(LUMPED)
     }
 
     /// The same run with each of its inputs changed by a factor, in turn, and which it is.
@@ -195,7 +215,8 @@ impl Stored {
 
     /// Our states after as many steps as those of the file.
     fn run(&self) -> Result<Vec<Sample>, Box<dyn Error>> {
-        let wheels = self.wheels.map(|wheel| wheel.wheel());
+        let model = if self.lumped { ImbalanceModel::Lumped } else { ImbalanceModel::Coupled };
+        let wheels = self.wheels.map(|wheel| wheel.wheel(model));
         let spacecraft = Spacecraft::new(&self.hub.hub(), &wheels)?;
         let mut inputs: Inputs<Set> = Inputs::none();
         for (motor, wheel) in inputs.motors.iter_mut().zip(&self.wheels) {

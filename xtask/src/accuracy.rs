@@ -1,12 +1,13 @@
 //! `accuracy`: where the bound on the accelerations holds and where it is lost, measured and drawn.
 
 use std::fs;
+use std::process::Command;
 
 use clap::Args;
 use precess_codegen::emit::EmittedFile;
 
 use crate::files::{differing, write};
-use crate::run::{cargo, root, say, target};
+use crate::run::{cargo, root, run, say, target};
 
 /// The page and its figure, in `docs`.
 const FILES: [&str; 2] = ["accuracy.md", "accuracy.svg"];
@@ -26,12 +27,18 @@ impl Options {
     }
 }
 
-/// Measures by the example `accuracy`; writes the page with its figure, or compares.
+/// Measures by the suite `linearize` and the example `accuracy`; writes the page with its figure, or compares.
 pub(crate) fn accuracy(options: &Options) -> Result<(), String> {
     let out = target()?.join("accuracy");
-    // As `cargo test` builds it: a release build takes minutes, to the same bytes.
+    let derivatives = target()?.join("derivatives.txt");
+    // As `cargo test` builds them: a release build takes minutes, to the same bytes.
+    let suite = ["test", "--quiet", "--workspace", "--test", "linearize"];
+    let only = ["--", "--ignored", "figures_for_the_accuracy_page"];
+    let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
+    run(Command::new(program).args(suite).args(only).env("PRECESS_FIGURES", &derivatives))?;
     let example = ["run", "--profile", "test", "--quiet", "-p", "precess-tests"];
-    let arguments = ["--example", "accuracy", "--", "--out", &out.to_string_lossy()];
+    let (to, from) = (out.to_string_lossy(), derivatives.to_string_lossy());
+    let arguments = ["--example", "accuracy", "--", "--out", &to, "--derivatives", &from];
     cargo(&[&example[..], &arguments].concat())?;
     let files = FILES.map(|name| {
         let text = fs::read_to_string(out.join(name));

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::Args;
-use precess_bake::{Baked, Description, Language, bake as derive};
+use precess_bake::{Baked, Description, Language, Options as Baking, bake as derive};
 
 use crate::files::{differing, write};
 use crate::run::{root, say};
@@ -15,6 +15,9 @@ use crate::run::{root, say};
 const FOLDER: &str = "tests/baked";
 /// The description in each of them.
 const DESCRIPTION: &str = "description.toml";
+
+/// The folders whose values are folded end so.
+const CONSTANTS: &str = "_constants";
 
 /// The options of `bake`.
 #[derive(Args)]
@@ -30,6 +33,9 @@ pub(crate) struct Options {
     /// What to write
     #[arg(long, value_enum, default_value_t = Language::Rust, requires = "file")]
     language: Language,
+    /// Fold the values, too: constants instead of a constructor that takes them
+    #[arg(long, requires = "file")]
+    constants: bool,
     /// Write nothing; fail if a committed file is stale
     #[arg(long, conflicts_with_all = ["file", "out"])]
     check: bool,
@@ -39,7 +45,7 @@ impl Options {
     /// Nothing is written.
     pub(crate) fn check_only() -> Self {
         let language = Language::Rust;
-        Self { file: None, scenario: false, out: None, language, check: true }
+        Self { file: None, scenario: false, out: None, language, constants: false, check: true }
     }
 }
 
@@ -53,7 +59,9 @@ pub(crate) fn bake(options: &Options) -> Result<(), String> {
     let file = &here(file)?;
     let text = if options.scenario { described(file)? } else { read(file)? };
     let description = parsed(file, &text)?;
-    let baked = derive(&description, options.language).map_err(|error| error.to_string())?;
+    let Options { language, constants, .. } = *options;
+    let baked =
+        derive(&description, Baking { language, constants }).map_err(|error| error.to_string())?;
     let out = match &options.out {
         Some(out) => here(out)?,
         None => root().join("target/baked").join(&description.name),
@@ -74,7 +82,9 @@ fn all(check: bool) -> Result<(), String> {
     for folder in folders.iter().filter(|folder| folder.join(DESCRIPTION).is_file()) {
         let file = folder.join(DESCRIPTION);
         let description = parsed(&file, &read(&file)?)?;
-        let baked = derive(&description, Language::Rust).map_err(|error| error.to_string())?;
+        let constants = description.name.ends_with(CONSTANTS);
+        let what = Baking { language: Language::Rust, constants };
+        let baked = derive(&description, what).map_err(|error| error.to_string())?;
         if check {
             stale += differing(&baked.files, folder);
         } else {

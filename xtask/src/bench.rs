@@ -1,9 +1,11 @@
 //! `bench`: times every service and the peers in one run.
 
+use std::path::PathBuf;
 use std::process::Command;
 
 use clap::Args;
 
+use crate::capi::MANIFEST;
 use crate::run::{cargo, root, run, target};
 use crate::skip::skip;
 
@@ -22,6 +24,9 @@ pub(crate) struct Options {
     /// Time only Precess, on the spacecraft that exist
     #[arg(long)]
     skip_peers: bool,
+    /// Time only wheels on bearings, on a platform and on a structure that bends, and write their page
+    #[arg(long)]
+    flexible: bool,
 }
 
 /// Sets up, builds, and leaves checking, timing and the page to the example `performance`.
@@ -31,22 +36,48 @@ pub(crate) fn bench(options: &Options) -> Result<(), String> {
         skip("the peers", "apt-get install python3 python3-venv")?;
         peers = false;
     }
-    if peers && run(Command::new("python3").args(["-B", SETUP, "--into", PEERS])).is_err() {
-        skip("the peers", &format!("python3 {SETUP} --into {PEERS}"))?;
-        peers = false;
+    if peers {
+        let mut setup = Command::new("python3");
+        setup.args(["-B", SETUP, "--into", PEERS]);
+        if options.flexible {
+            setup.args(["--subject", "flexible"]);
+        } else {
+            setup.arg("--library").arg(library()?);
+        }
+        if run(&mut setup).is_err() {
+            skip("the peers", &format!("python3 {SETUP} --into {PEERS}"))?;
+            peers = false;
+        }
     }
-    if !root().join(PEERS).join("4.json").exists() {
+    if !root().join(PEERS).join("steps").join("4.json").exists() {
         return Err(format!("no spacecraft in {PEERS}; run `python3 {SETUP} --into {PEERS}`"));
     }
-    let examples = ["--example", "measure", "--example", "performance"];
-    let build = ["build", "--release", "-p", "precess-tests", "--features", "bench"];
-    cargo(&[&build[..], &examples].concat())?;
-    let examples = target()?.join("release/examples");
-    let mut performance = Command::new(examples.join("performance"));
-    performance.arg("--measure").arg(examples.join("measure")).args(["--peers", PEERS]);
-    performance.args(options.quick.then_some("--quick"));
+    // The same program with lanes and, portable, without: features of one build would be joined.
+    let service = ["build", "--release", "-p", "precess-measure"];
+    if !options.flexible {
+        cargo(&[&service[..], &["--bin", "portable"]].concat())?;
+    }
+    cargo(&[&service[..], &["--features", "lanes", "--bin", "measure"]].concat())?;
+    cargo(&["build", "--release", "-p", "precess-tests", "--example", "performance"])?;
+    let release = target()?.join("release");
+    let mut performance = Command::new(release.join("examples/performance"));
+    performance.arg("--measure").arg(release.join("measure"));
+    performance.args(["--peers", PEERS]).args(options.quick.then_some("--quick"));
+    if options.flexible {
+        performance.arg("--flexible");
+    } else {
+        performance.arg("--portable").arg(release.join("portable"));
+    }
     performance.args((!peers).then_some("--skip-peers"));
     run(&mut performance)
+}
+
+/// Builds the library for flight software; returns the static one.
+fn library() -> Result<PathBuf, String> {
+    let folder = target()?.join("flight");
+    let text = folder.to_string_lossy().into_owned();
+    cargo(&["build", "--release", "--manifest-path", MANIFEST, "--target-dir", &text])?;
+    Ok(folder.join("release/libprecess.a"))
 }
 
 /// Whether a program can be started.

@@ -13,6 +13,7 @@ mod files;
 mod flight;
 mod instructions;
 mod mutate;
+mod object_code;
 mod printed;
 mod regen;
 mod run;
@@ -63,10 +64,14 @@ enum Command {
     )]
     Attack(attack::Options),
     /// Compute the stored values again with the engines, if their Python packages are installed
-    #[command(after_help = "Example: cargo xtask engines")]
-    Engines,
+    #[command(
+        after_help = "Examples: cargo xtask engines\n          cargo xtask engines --more 1000"
+    )]
+    Engines(engines::Options),
     /// Time every service and the peers in one run on one core, and write the page
-    #[command(after_help = "Example: cargo xtask bench --quick --skip-peers")]
+    #[command(
+        after_help = "Examples: cargo xtask bench --quick --skip-peers\n          cargo xtask bench --flexible"
+    )]
     Bench(bench::Options),
     /// Measure the error of the accelerations where they are ill conditioned; write the page and
     /// draw it
@@ -96,7 +101,7 @@ fn main() -> ExitCode {
         Command::Mutate(options) => mutate::mutate(&options),
         Command::Test => test::test(),
         Command::Attack(options) => attack::attack(&options),
-        Command::Engines => engines::engines(),
+        Command::Engines(options) => engines::engines(&options),
         Command::Bench(options) => bench::bench(&options),
         Command::Accuracy(options) => accuracy::accuracy(&options),
         Command::Instructions(options) => instructions::instructions(&options),

@@ -16,5 +16,5 @@ pub(crate) fn test() -> Result<(), String> {
     cargo(&["test", "--workspace"])?;
     accuracy::accuracy(&accuracy::Options::check_only())?;
     instructions::instructions(&instructions::Options::check_only())?;
-    engines::engines()
+    engines::stored()
 }

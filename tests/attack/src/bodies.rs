@@ -2,7 +2,9 @@
 
 use nalgebra::{Matrix3, Quaternion as Turn, UnitQuaternion, Vector3};
 use precess_dynamics::kind::BodyParameters;
-use precess_dynamics::{BuiltIn, BuiltInKind, DeviceParameters, ImbalanceModel, Passive};
+use precess_dynamics::{
+    BuiltIn, BuiltInKind, DeviceParameters, ImbalanceModel, MAX_JOINTS, Passive,
+};
 
 /// A body: mass, origin, centre of mass, edges, orientation.
 #[derive(Clone, Debug)]
@@ -20,8 +22,8 @@ pub(crate) struct Body {
 pub(crate) fn built_in(
     kind: BuiltInKind,
     mount: [f64; 4],
-    drawn: &[Body; 3],
-    passive: [Passive; 3],
+    drawn: &[Body; MAX_JOINTS],
+    passive: [Passive; MAX_JOINTS],
     lumped: bool,
 ) -> BuiltIn {
     let infos = kind.joints();
@@ -55,10 +57,25 @@ pub(crate) fn built_in(
             _ => {}
         }
     }
+    if kind == BuiltInKind::FlexibleReactionWheel {
+        concentric(&mut bodies, infos.len());
+    }
     let lumped = lumped && !balanced && infos.last().is_some_and(|info| info.body == "wheel");
     let model = if lumped { ImbalanceModel::Lumped } else { ImbalanceModel::Coupled };
     let parameters = DeviceParameters { mount: rotation(mount), bodies, passive, model };
     BuiltIn::new(kind, &parameters).expect("what the kind has no parameter for is zero")
+}
+
+/// Links without a body inboard of a wheel at the origin of the last.
+fn concentric(bodies: &mut [BodyParameters<f64>], joints: usize) {
+    for (index, body) in bodies.iter_mut().enumerate() {
+        if index + 1 < joints {
+            (body.mass, body.centre, body.inertia) = (0.0, [0.0; 3], Matrix3::zeros());
+        }
+        if index > 0 {
+            body.origin = [0.0; 3];
+        }
+    }
 }
 
 /// The quaternion of unit length, or the identity for one that is too short.

@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::BodyParameters;
 use precess_dynamics::{
     BuiltIn, BuiltInKind, DeviceParameters, Devices, Each, Gravity, Hub, HubMode, ImbalanceModel,
-    Inputs, JointStates, Mode, ParameterError, Passive, Quaternion, Scalar, Spacecraft, State,
-    Wrench,
+    Inputs, JointStates, MAX_JOINTS, Mode, ParameterError, Passive, Quaternion, Scalar, Spacecraft,
+    State, Wrench,
 };
 
 /// Devices as a case holds them.
@@ -120,10 +120,13 @@ pub(super) fn template(devices: &[BuiltIn]) -> Spacecraft<List> {
     let unit = |device: &BuiltIn| {
         let mut parameters = device.parameters();
         parameters.mount = nalgebra::Matrix3::identity();
-        parameters.passive = [Passive::none(); 3];
-        for body in &mut parameters.bodies {
+        parameters.passive = [Passive::none(); MAX_JOINTS];
+        let tip = device.kind().joints().len().saturating_sub(1);
+        for (index, body) in parameters.bodies.iter_mut().enumerate() {
             let BodyParameters { origin, centre, mass, inertia } = body;
-            (*origin, *centre, *mass) = ([0.0; 3], [0.0; 3], 1.0);
+            (*origin, *centre) = ([0.0; 3], [0.0; 3]);
+            // Links of flexible bearings have no body.
+            *mass = if index == tip { 1.0 } else { 0.0 };
             *inertia = nalgebra::Matrix3::zeros();
         }
         parameters.model = ImbalanceModel::Coupled;

@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
     Attitude, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg,
-    BuiltIn, Dgcmg, Dgvscmg, Each, Gravity, HingedPanel, HubMode, ImbalanceModel, Inputs,
-    JointStates, Mode, Passive, Quaternion, ReactionWheel, Sgcmg, SloshMass, State, Vscmg, Wrench,
+    BuiltIn, Dgcmg, Dgvscmg, Each, FlexibleReactionWheel, Gravity, HingedPanel, HubMode,
+    ImbalanceModel, Inputs, JointStates, Mode, Passive, Quaternion, ReactionWheel, Sgcmg,
+    SloshMass, State, Vscmg, Wrench,
 };
 
 use super::case::{Case, List};
@@ -129,6 +130,8 @@ macro_rules! kinds {
 kinds! {
     ReactionWheel reaction_wheel bare_wheel(m_w, i_w_wc) [mount r_w_b d] [wheel] model;
     BalancedReactionWheel balanced_reaction_wheel bare_wheel(m_w, j_11, j_22) [mount r_w_b] [wheel];
+    FlexibleReactionWheel flexible_reaction_wheel bare_wheel(m_w, i_w_wc) [mount r_sx_b d]
+        [axial_slide radial_slide_y radial_slide_z tilt_y tilt_z wheel] model;
     HingedPanel hinged_panel bare_panel(m_p, i_p_pc) [mount r_p_b r_pc_p] [panel];
     SloshMass slosh_mass bare_slosh_mass(m_s) [mount r_s_b] [slosh_mass];
     Sgcmg sgcmg bare_wheel(m_w, i_w_wc) [mount r_g_b m_g r_gc_g i_g_gc l_g d] [gimbal wheel] model;
@@ -292,7 +295,7 @@ fn field(body: &str) -> String {
 }
 
 /// Names that printed code may use.
-const NAMES: [&str; 25] = [
+const NAMES: [&str; 26] = [
     "BalancedDgcmg",
     "BalancedDgvscmg",
     "BalancedReactionWheel",
@@ -301,6 +304,7 @@ const NAMES: [&str; 25] = [
     "BuiltIn",
     "Dgcmg",
     "Dgvscmg",
+    "FlexibleReactionWheel",
     "Gravity",
     "HingedPanel",
     "Hub",
@@ -375,19 +379,14 @@ pub fn test(name: &str, function: &str, case: &Case) -> String {
     if case.steps != 1 {
         add(&mut text, &format!("case.steps = {};", case.steps));
     }
+    let mutable = |changed: &str| if changed.is_empty() { "" } else { "mut " };
     for (index, (of_state, of_inputs)) in case.more.iter().enumerate() {
         let [s, i] = ["state", "inputs"].map(|name| format!("{name}_{}", index + 1));
         let changed = state(&s, case, &case.state, of_state);
-        add(
-            &mut text,
-            &format!("let {}{s} = state;", if changed.is_empty() { "" } else { "mut " }),
-        );
+        add(&mut text, &format!("let {}{s} = state;", mutable(&changed)));
         text += &changed;
         let changed = inputs(&i, case, &case.inputs, of_inputs);
-        add(
-            &mut text,
-            &format!("let {}{i} = inputs;", if changed.is_empty() { "" } else { "mut " }),
-        );
+        add(&mut text, &format!("let {}{i} = inputs;", mutable(&changed)));
         text += &changed;
         add(&mut text, &format!("let other = Case::of(&hub, list.clone(), &{s}, &{i}, {dt});"));
         add(&mut text, "case.more.push((other.state, other.inputs));");

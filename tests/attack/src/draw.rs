@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 use precess_dynamics::{
-    BuiltInKind, Each, Gravity, Hub, HubMode, Inputs, JointArray, JointStates, Mode, Passive,
-    Quaternion, State, Wrench,
+    BuiltInKind, Each, Gravity, Hub, HubMode, Inputs, JointArray, JointStates, MAX_JOINTS, Mode,
+    Passive, Quaternion, State, Wrench,
 };
 use proptest::collection::vec;
 use proptest::prelude::{BoxedStrategy, Strategy};
@@ -61,7 +61,7 @@ impl Profile {
 }
 
 /// Kinds, the simplest first.
-const KINDS: [BuiltInKind; 12] = [
+const KINDS: [BuiltInKind; 13] = [
     BuiltInKind::ReactionWheel,
     BuiltInKind::BalancedReactionWheel,
     BuiltInKind::HingedPanel,
@@ -74,6 +74,7 @@ const KINDS: [BuiltInKind; 12] = [
     BuiltInKind::BalancedDgcmg,
     BuiltInKind::Dgvscmg,
     BuiltInKind::BalancedDgvscmg,
+    BuiltInKind::FlexibleReactionWheel,
 ];
 
 /// Motion, passive elements and inputs of a joint.
@@ -92,8 +93,8 @@ struct Joint {
 struct Device {
     kind: usize,
     mount: [f64; 4],
-    bodies: [Body; 3],
-    joints: [Joint; 3],
+    bodies: [Body; MAX_JOINTS],
+    joints: [Joint; MAX_JOINTS],
     lumped: bool,
 }
 
@@ -173,8 +174,8 @@ impl Profile {
     }
 
     fn device(&self) -> impl Strategy<Value = Device> + use<> {
-        let bodies = [(); 3].map(|()| self.body(0.1, 100.0));
-        let joints = [(); 3].map(|()| self.joint());
+        let bodies = [(); MAX_JOINTS].map(|()| self.body(0.1, 100.0));
+        let joints = [(); MAX_JOINTS].map(|()| self.joint());
         (0..KINDS.len(), Self::turn(), bodies, joints, proptest::bool::weighted(0.2)).prop_map(
             |(kind, mount, bodies, joints, lumped)| Device { kind, mount, bodies, joints, lumped },
         )
@@ -269,8 +270,8 @@ impl Profile {
         case
     }
 
-    fn passives(&self, device: &Device) -> [Passive; 3] {
-        let mut passive = [Passive::none(); 3];
+    fn passives(&self, device: &Device) -> [Passive; MAX_JOINTS] {
+        let mut passive = [Passive::none(); MAX_JOINTS];
         for (passive, joint) in passive.iter_mut().zip(&device.joints) {
             let [stiffness, rest, viscous, coulomb, coulomb_rate] = joint.passive;
             let [sprung, dry] = joint.bound.map(|bound| bound && self.passive);

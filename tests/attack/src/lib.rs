@@ -10,6 +10,7 @@ pub mod call_results;
 pub mod campaign;
 pub mod case;
 pub mod code;
+pub mod derivatives;
 pub mod draw;
 pub mod energy;
 pub mod finite;

@@ -7,8 +7,8 @@ use proptest::prop_oneof;
 
 use super::draw::Profile;
 use super::{
-    Case, Verdict, energy, finite, limits, motion, residual, runs, same, shapes, singular,
-    typed_errors,
+    Case, Verdict, derivatives, energy, finite, limits, motion, residual, runs, same, shapes,
+    singular, typed_errors,
 };
 
 /// A promise.
@@ -30,7 +30,7 @@ pub struct Property {
 
 use BuiltInKind as K;
 
-/// Twelve kinds, and lists of which every shape is compiled.
+/// Thirteen kinds, and lists of which every shape is compiled.
 const SHAPES: &[&[BuiltInKind]] = &[
     &[K::ReactionWheel],
     &[K::Dgvscmg],
@@ -51,6 +51,7 @@ const SHAPES: &[&[BuiltInKind]] = &[
         K::BalancedDgcmg,
         K::BalancedReactionWheel,
     ],
+    &[K::FlexibleReactionWheel],
 ];
 
 /// Lists of which batches are compiled.
@@ -266,6 +267,22 @@ pub const PROPERTIES: &[Property] = &[
         function: "limits::near_singular",
         draw: limits::near_lock,
         check: limits::near_singular,
+    },
+    Property {
+        name: "derivatives-or-error",
+        statement: "the linearised system is finite with the solver's accelerations, or the solver's error",
+        cases: 100,
+        function: "derivatives::derivatives_or_error",
+        draw: any_numbers,
+        check: derivatives::derivatives_or_error,
+    },
+    Property {
+        name: "derivatives-are-differences",
+        statement: "derivatives of the accelerations are those of central differences",
+        cases: 100,
+        function: "derivatives::derivatives_are_differences",
+        draw: real,
+        check: derivatives::derivatives_are_differences,
     },
 ];
 

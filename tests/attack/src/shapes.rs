@@ -3,14 +3,14 @@
 use precess_dynamics::lanes::{AcrossDevices, Batch, LanedSet};
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, BuiltIn,
-    BuiltInKind, Dgcmg, Dgvscmg, HingedPanel, Inputs, ReactionWheel, Scalar, Sgcmg, SloshMass,
-    SolveError, Spacecraft, State, Vscmg,
+    BuiltInKind, Dgcmg, Dgvscmg, FlexibleReactionWheel, HingedPanel, Inputs, ReactionWheel, Scalar,
+    Sgcmg, SloshMass, SolveError, Spacecraft, State, Vscmg,
 };
 
 use super::call_results::{CallResult, of_accelerations, of_state};
 use super::case::{Case, Placed, given, moved};
 
-/// Six kinds; with [`Others`] all of them.
+/// Six kinds; with [`Others`] all but the flexible reaction wheel.
 pub type Six<T = f64> =
     (Dgvscmg<T>, Vscmg<T>, Sgcmg<T>, ReactionWheel<T>, HingedPanel<T>, SloshMass<T>);
 /// The other six, in sets of sets.
@@ -80,7 +80,7 @@ macro_rules! kinds {
 
 kinds! {
     ReactionWheel BalancedReactionWheel SloshMass HingedPanel Sgcmg BalancedSgcmg Vscmg
-    BalancedVscmg Dgcmg BalancedDgcmg Dgvscmg BalancedDgvscmg
+    BalancedVscmg Dgcmg BalancedDgcmg Dgvscmg BalancedDgvscmg FlexibleReactionWheel
 }
 
 impl<T: Scalar> Taken<T> for BuiltIn<T> {
@@ -126,13 +126,19 @@ impl<K: precess_dynamics::kind::Kind<Scalar = f64> + Taken<f64>> AcrossKind for 
 fn across_of<K: AcrossKind>(case: &Case) -> Option<Vec<(&'static str, CallResult)>> {
     let devices: [K; ABREAST] = exactly(&case.devices)?;
     let across = AcrossDevices::new(&case.hub, &devices).ok()?;
+    let fused = across.clone().fused();
     let Placed { state, inputs, .. } = case.placed(&devices).ok()?;
+    let accelerations = |across: &AcrossDevices<K, ABREAST>| {
+        across.accelerations(&state, &inputs).map(|found| of_accelerations(&found))
+    };
+    let step = |across: &AcrossDevices<K, ABREAST>| {
+        across.step(&state, &inputs, case.dt).map(|next| of_state(&next))
+    };
     Some(vec![
-        (
-            "accelerations across",
-            across.accelerations(&state, &inputs).map(|f| of_accelerations(&f)),
-        ),
-        ("step across", across.step(&state, &inputs, case.dt).map(|next| of_state(&next))),
+        ("accelerations across", accelerations(&across)),
+        ("accelerations across, fused", accelerations(&fused)),
+        ("step across", step(&across)),
+        ("step across, fused", step(&fused)),
     ])
 }
 

@@ -51,4 +51,6 @@ sample! {
     errors_are_typed: "errors-are-typed", 500;
     central_gravity: "central-gravity", 2000;
     near_singular: "near-singular", 500;
+    derivatives_or_error: "derivatives-or-error", 200;
+    derivatives_are_differences: "derivatives-are-differences", 100;
 }

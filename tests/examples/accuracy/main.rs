@@ -10,7 +10,7 @@ mod page;
 
 use std::error::Error;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -20,11 +20,39 @@ use precess_tests::wheels::{Difference, Stored};
 
 /// Measures both sweeps and the run, and writes the page with its figure.
 #[derive(Parser)]
-#[command(after_help = "Example: accuracy --out target/accuracy")]
+#[command(
+    after_help = "Example: accuracy --out target/accuracy --derivatives target/derivatives.txt"
+)]
 struct Arguments {
     /// Where the page goes
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Errors of the derivatives, as the suite `linearize` writes them
+    #[arg(long, value_name = "FILE")]
+    derivatives: PathBuf,
+}
+
+/// Errors of derivatives: worst and median of the spacecraft's worst blocks.
+struct Derivatives {
+    worst: f64,
+    median: f64,
+    spacecraft: u64,
+}
+
+impl Derivatives {
+    /// Those by states and inputs, and those by parameters.
+    fn read(path: &Path) -> Result<[Self; 2], Box<dyn Error>> {
+        let text = fs::read_to_string(path)
+            .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        let row = |line: &str| {
+            let mut words = line.split(' ');
+            let mut next = || words.next().ok_or("a line has fewer than three numbers");
+            let (worst, median) = (next()?.parse()?, next()?.parse()?);
+            Ok::<_, Box<dyn Error>>(Self { worst, median, spacecraft: next()?.parse()? })
+        };
+        let rows = text.lines().map(row).collect::<Result<Vec<_>, _>>()?;
+        <[Self; 2]>::try_from(rows).map_err(|_| "there are not two lines of derivatives".into())
+    }
 }
 
 /// Both sweeps, each from where the bound holds to where it is lost.
@@ -84,7 +112,8 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let sweeps = Sweeps::measured();
     let out = &arguments.out;
     fs::create_dir_all(out).map_err(|error| format!("cannot make {}: {error}", out.display()))?;
-    let text = page::page(&sweeps, &Beside::measured()?)?;
+    let derivatives = Derivatives::read(&arguments.derivatives)?;
+    let text = page::page(&sweeps, &Beside::measured()?, &derivatives)?;
     for (name, text) in [("accuracy.md", text), ("accuracy.svg", chart::chart(&sweeps)?)] {
         let path = out.join(name);
         fs::write(&path, text)

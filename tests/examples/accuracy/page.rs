@@ -3,13 +3,16 @@
 use std::error::Error;
 
 use precess_tests::accuracy::{Row, SPACECRAFT};
-use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, WHEELS_BESIDE_BASILISK};
+use precess_tests::bounds::{
+    ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, DERIVATIVES_MEDIAN, DERIVATIVES_WORST,
+    WHEELS_BESIDE_BASILISK,
+};
 use precess_tests::random::MOST_DEVICES;
 use serde::Serialize;
 use tera::{Context, Tera};
 
 use crate::limit::Limit;
-use crate::{Beside, Sweeps};
+use crate::{Beside, Derivatives, Sweeps};
 
 /// A sweep in a line.
 #[derive(Serialize)]
@@ -61,6 +64,15 @@ struct Other {
     cells: Cells,
 }
 
+/// Derivatives by one kind of variable.
+#[derive(Serialize)]
+struct Differentiated {
+    by: &'static str,
+    worst: String,
+    median: String,
+    spacecraft: u64,
+}
+
 /// A quantity of the run beside Basilisk.
 #[derive(Serialize)]
 struct Compared {
@@ -70,7 +82,11 @@ struct Compared {
 }
 
 /// The text of the page.
-pub(crate) fn page(sweeps: &Sweeps, beside: &Beside) -> Result<String, Box<dyn Error>> {
+pub(crate) fn page(
+    sweeps: &Sweeps,
+    beside: &Beside,
+    derivatives: &[Derivatives; 2],
+) -> Result<String, Box<dyn Error>> {
     let [dgvscmg, balanced] = [&sweeps.dgvscmg, &sweeps.balanced].map(|rows| Limit::of(rows));
     let offset = Limit::of(&sweeps.offset);
     let mut context = Context::new();
@@ -87,6 +103,16 @@ pub(crate) fn page(sweeps: &Sweeps, beside: &Beside) -> Result<String, Box<dyn E
     context.insert("others", &others.collect::<Vec<_>>());
     let least = sweeps.others.first().map_or(0.0, |(_, row)| row.distance);
     context.insert("least", &radians(least));
+    let names = ["states and inputs", "parameters"];
+    let differentiated = names.into_iter().zip(derivatives).map(|(by, of)| Differentiated {
+        by,
+        worst: error(of.worst),
+        median: error(of.median),
+        spacecraft: of.spacecraft,
+    });
+    context.insert("derivatives", &differentiated.collect::<Vec<_>>());
+    context.insert("derivatives_worst", &format!("{DERIVATIVES_WORST:e}"));
+    context.insert("derivatives_median", &format!("{DERIVATIVES_MEDIAN:e}"));
     let Beside { stored, differences } = beside;
     context.insert("basilisk", &stored.basilisk);
     context.insert("steps", &stored.steps);

@@ -1,53 +1,62 @@
 //! Nothing is timed unless all results agree, block by block.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Deserialize;
 
 use crate::contender::Contender;
-use crate::race::{Plan, file};
+use crate::plan::Plan;
+use crate::subject::Subject;
 
 /// Largest difference of results, of a block: only the order of summation differs.
 const AGREEMENT: f64 = 1e-11;
 
-/// What a contender finds.
+/// What a contender finds: accelerations of hub and joints in a row, or what moved, by name.
 #[derive(Deserialize)]
-struct Found {
-    accelerations: Vec<f64>,
+#[serde(rename_all = "snake_case")]
+enum Found {
+    Accelerations(Vec<f64>),
+    Motion(BTreeMap<String, Vec<f64>>),
 }
 
+/// Subjects whose results are compared with each other.
+pub(crate) const GROUPS: [Subject; 4] =
+    [Subject::Evaluation, Subject::Step, Subject::BatchStep, Subject::Baked];
+
 /// The worst deviation of each contender from the first one that is a peer, or, without peers, from
-/// the first service: by name, in the order of the contenders.
+/// the first service: by name.
 pub(crate) fn check(
     contenders: &[Contender],
+    groups: &[Subject],
     plan: &Plan,
     folder: &Path,
 ) -> Result<Vec<(String, f64)>, String> {
-    let checked: Vec<_> = contenders.iter().filter(|contender| contender.checked).collect();
-    let peer = checked.iter().find(|contender| contender.service.is_none());
-    let Some(reference) = peer.or(checked.first()) else { return Ok(Vec::new()) };
-    let mut worst: Vec<_> =
-        checked.iter().map(|contender| (contender.name.clone(), 0.0_f64)).collect();
-    eprintln!("compared with {}", reference.name);
-    for count in plan.checked() {
-        let file = file(folder, count);
-        let expected = reference.query::<Found>("check", &file)?.accelerations;
-        for (contender, (_, worst)) in checked.iter().zip(&mut worst) {
-            if !contender.takes(count) {
-                continue;
-            }
-            let found = contender.query::<Found>("check", &file)?.accelerations;
-            let deviation = deviation(&found, &expected, count)
-                .ok_or_else(|| format!("{}: {} numbers", contender.name, found.len()))?;
-            *worst = worst.max(deviation);
-            if deviation > AGREEMENT {
-                return Err(format!(
-                    "{} and {} disagree on {}: by {deviation:.1e} of a block, bound {AGREEMENT:.0e}; \
-                     nothing is timed",
-                    contender.name,
-                    reference.name,
-                    file.display()
-                ));
+    let mut worst: Vec<(String, f64)> = Vec::new();
+    for &group in groups {
+        for case in plan.cases(group) {
+            let takes = |who: &&Contender| who.subject.compares_with(group) && who.takes(&case);
+            let all: Vec<_> = contenders.iter().filter(takes).collect();
+            let peer = all.iter().find(|who| !who.is_ours()).or(all.first());
+            let Some(reference) = peer else { continue };
+            let expected: Found = reference.query("check", folder, &case)?;
+            for contender in &all {
+                let found = contender.query("check", folder, &case)?;
+                let found = deviation(&found, &expected);
+                let found = found.ok_or_else(|| {
+                    format!("{} and {} differ in form, {case}", contender.name, reference.name)
+                })?;
+                if found > AGREEMENT {
+                    return Err(format!(
+                        "{} and {} disagree on {case}: by {found:.1e} of a block, bound \
+                         {AGREEMENT:.0e}; nothing is timed",
+                        contender.name, reference.name
+                    ));
+                }
+                match worst.iter_mut().find(|(name, _)| *name == contender.name) {
+                    Some((_, largest)) => *largest = largest.max(found),
+                    None => worst.push((contender.name.clone(), found)),
+                }
             }
         }
     }
@@ -57,37 +66,58 @@ pub(crate) fn check(
     Ok(worst)
 }
 
-/// The largest difference in units of the largest magnitude of its block, over all blocks: the
-/// hub's two vectors, and the accelerations of all joints of one name.
-fn deviation(found: &[f64], expected: &[f64], count: usize) -> Option<f64> {
-    if found.len() != expected.len() || expected.len() != 6 + 3 * count {
+/// The largest difference in units of the largest magnitude of its block, over all blocks.
+fn deviation(found: &Found, expected: &Found) -> Option<f64> {
+    let (found, expected) = (blocks(found), blocks(expected));
+    if found.len() != expected.len() {
         return None;
     }
-    let block = |number: usize| if number < 6 { number / 3 } else { 2 + number % 3 };
-    let mut blocks = [[0.0_f64; 2]; 5];
-    for (number, (found, expected)) in found.iter().zip(expected).enumerate() {
-        if !found.is_finite() {
+    let mut worst = 0.0_f64;
+    for (found, expected) in found.iter().zip(&expected) {
+        // A service may compare fewer states of a batch.
+        let length = found.len().min(expected.len());
+        let whole = length > 0 && found.len() % length == 0 && expected.len() % length == 0;
+        if !whole || !found.iter().all(|number| number.is_finite()) {
             return None;
         }
-        let [difference, unit] = blocks.get_mut(block(number))?;
-        *difference = difference.max((found - expected).abs());
-        *unit = unit.max(expected.abs());
+        let unit = expected.iter().fold(0.0_f64, |unit, number| unit.max(number.abs()));
+        for (found, expected) in found.iter().zip(expected) {
+            let difference = (found - expected).abs();
+            if difference > 0.0 {
+                worst = worst.max(difference / unit);
+            }
+        }
     }
-    let shares = blocks.iter().filter(|[_, unit]| *unit > 0.0).map(|[d, unit]| d / unit);
-    Some(shares.fold(0.0, f64::max))
+    Some(worst)
+}
+
+/// The numbers by block: of accelerations the hub's two vectors, and those of all joints of one name.
+fn blocks(found: &Found) -> Vec<Vec<f64>> {
+    match found {
+        Found::Motion(blocks) => blocks.values().cloned().collect(),
+        Found::Accelerations(all) => {
+            let mut blocks = vec![Vec::new(); 5];
+            for (number, value) in all.iter().enumerate() {
+                let block = if number < 6 { number / 3 } else { 2 + number % 3 };
+                blocks[block].push(*value);
+            }
+            blocks
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::deviation;
+    use super::{Found, deviation};
 
     #[test]
     fn deviation_is_in_units_of_the_block() {
-        let expected = [1.0, 2.0, 4.0, 10.0, 0.0, 0.0, 8.0, 1.0, 100.0];
-        let mut found = expected;
+        let expected = vec![1.0, 2.0, 4.0, 10.0, 0.0, 0.0, 8.0, 1.0, 100.0];
+        let mut found = expected.clone();
         found[0] = 1.5;
         found[8] = 101.0;
-        assert_eq!(deviation(&found, &expected, 1), Some(0.125));
-        assert_eq!(deviation(&found, &expected, 2), None);
+        let of = |numbers: &[f64]| Found::Accelerations(numbers.to_vec());
+        assert_eq!(deviation(&of(&found), &of(&expected)), Some(0.125));
+        assert_eq!(deviation(&of(&found), &of(&expected[..8])), None);
     }
 }

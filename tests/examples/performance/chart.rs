@@ -7,7 +7,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::axis::Axis;
 use crate::contender::Contender;
-use crate::race::Time;
+use crate::race::{Time, Times};
+use crate::subject::Subject;
 
 /// The rules that turn the colours on dark screens.
 const THEME: &str = include_str!("../theme.css");
@@ -25,6 +26,8 @@ const SERVICES: [RGBColor; 6] = [
     RGBColor(0x00, 0x8a, 0x64),
     RGBColor(0xe6, 0x9f, 0x00),
 ];
+/// The services that are drawn: more would not be told apart.
+const DRAWN: [&str; 6] = ["portable", "dispatched", "fused", "across", "batch", "parameters"];
 const FONT: &str = "STIX Two Text, Libertinus Serif, Georgia, Times New Roman, serif";
 
 /// Everything is drawn in tenths of a unit, because plotters rounds to whole ones.
@@ -49,7 +52,7 @@ struct Curve<'a> {
 }
 
 /// The drawing as an SVG file.
-pub(crate) fn chart(contenders: &[Contender], times: &[Time]) -> Result<String, Box<dyn Error>> {
+pub(crate) fn chart(contenders: &[Contender], times: &Times) -> Result<String, Box<dyn Error>> {
     let curves = curves(contenders, times);
     let mut drawing = String::new();
     {
@@ -72,21 +75,32 @@ pub(crate) fn chart(contenders: &[Contender], times: &[Time]) -> Result<String, 
     ))
 }
 
-#[expect(clippy::cast_precision_loss, reason = "devices are few")]
-fn curves<'a>(contenders: &'a [Contender], times: &[Time]) -> Vec<Curve<'a>> {
+fn curves<'a>(contenders: &'a [Contender], times: &Times) -> Vec<Curve<'a>> {
     let mut colours = SERVICES.into_iter().cycle();
     let curve = |contender: &'a Contender| {
-        let own = times.iter().filter(|time| time.name == contender.name);
-        let mut points: Vec<_> =
-            own.map(|time| ((time.count as f64).log2(), time.ns.log10())).collect();
+        let point = |time: &Time| {
+            let count: u32 = time.case.parse().ok()?;
+            Some((f64::from(count).log2(), time.ns().log10()))
+        };
+        let mut points: Vec<_> = times.all_of(contender).filter_map(point).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.dedup_by(|a, b| a.0 == b.0);
         let (colour, width) = match contender.service {
             Some(_) => (colours.next().unwrap_or(INK), 22),
             None => (PEER, 13),
         };
         Curve { name: &contender.name, colour, width, points }
     };
-    contenders.iter().map(curve).filter(|curve| !curve.points.is_empty()).collect()
+    let drawn = contenders.iter().filter(|who| is_drawn(who));
+    drawn.map(curve).filter(|curve| !curve.points.is_empty()).collect()
+}
+
+/// Peers of evaluations, and the services of [`DRAWN`].
+fn is_drawn(contender: &Contender) -> bool {
+    match &contender.service {
+        Some(service) => DRAWN.contains(&service.name.as_str()),
+        None => contender.subject == Subject::Evaluation && !contender.is_ours(),
+    }
 }
 
 fn draw<DB: DrawingBackend>(

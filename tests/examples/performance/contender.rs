@@ -4,7 +4,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::program::Program;
+use crate::program::{Program, Turns};
+use crate::subject::Subject;
 
 /// A service or a peer.
 #[derive(Clone, Debug)]
@@ -13,14 +14,13 @@ pub(crate) struct Contender {
     pub(crate) name: String,
     /// Version, compiler, flags.
     pub(crate) note: String,
+    pub(crate) subject: Subject,
     program: Program,
     /// What follows the file on its command line.
     options: Vec<String>,
-    /// The numbers of devices that it can do; all, where nothing is said.
-    pub(crate) counts: Option<Vec<usize>>,
-    /// Whether its accelerations are compared.
-    pub(crate) checked: bool,
-    /// The service of Precess that it is, and the row of the issue floor that bounds it.
+    /// The cases that it can do; all, where nothing is said.
+    cases: Option<Vec<String>>,
+    /// The service of `measure` that it is.
     pub(crate) service: Option<Service>,
 }
 
@@ -30,9 +30,11 @@ pub(crate) struct Service {
     /// As `measure` knows it.
     pub(crate) name: String,
     title: String,
-    checked: bool,
+    subject: Subject,
     /// The row of the issue floor that bounds it.
-    pub(crate) floor: String,
+    pub(crate) floor: Option<String>,
+    /// How many it runs on.
+    pub(crate) threads: usize,
 }
 
 /// Peers that are there, and others.
@@ -52,48 +54,90 @@ pub(crate) struct Missing {
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Entry {
-    Present { name: String, command: Vec<String>, n: Vec<usize>, note: String },
+    Present {
+        name: String,
+        subject: Subject,
+        cases: Vec<String>,
+        command: Vec<String>,
+        #[serde(default)]
+        options: Vec<String>,
+        note: String,
+    },
     Missing(Missing),
 }
 
 impl Contender {
-    /// Runs it on a spacecraft.
+    /// Runs it on a case.
     pub(crate) fn query<T: serde::de::DeserializeOwned>(
         &self,
         what: &str,
-        file: &Path,
+        folder: &Path,
+        case: &str,
     ) -> Result<T, String> {
-        let file = file.display().to_string();
-        let options = self.options.iter().map(String::as_str);
-        self.program.query(&[what, &file].into_iter().chain(options).collect::<Vec<_>>())
+        self.program.query(&self.words(what, folder, case))
     }
 
-    /// Whether it can do so many devices.
-    pub(crate) fn takes(&self, count: usize) -> bool {
-        self.counts.as_ref().is_none_or(|counts| counts.contains(&count))
+    /// Starts it on a case, for turns.
+    pub(crate) fn start(&self, folder: &Path, case: &str) -> Result<Turns, String> {
+        match self.subject {
+            Subject::Floor => self.program.start(&self.options),
+            _ => self.program.start(&self.words("turns", folder, case)),
+        }
+    }
+
+    fn words(&self, what: &str, folder: &Path, case: &str) -> Vec<String> {
+        let file = self.subject.file(folder, case).display().to_string();
+        [&[what.to_owned(), file], &self.options[..]].concat()
+    }
+
+    /// Whether it can do a case.
+    pub(crate) fn takes(&self, case: &str) -> bool {
+        self.cases.as_ref().is_none_or(|cases| cases.iter().any(|own| own == case))
     }
 
     /// Whether it is a service of this name.
     pub(crate) fn serves(&self, name: &str) -> bool {
         self.service.as_ref().is_some_and(|service| service.name == name)
     }
+
+    /// Whether it is Precess: a service, or its C library.
+    pub(crate) fn is_ours(&self) -> bool {
+        self.service.is_some() || self.name.starts_with("Precess")
+    }
 }
 
-/// The services of Precess.
-pub(crate) fn services(measure: &Program) -> Result<Vec<Contender>, String> {
-    let services: Vec<Service> = measure.query(&["services"])?;
-    Ok(services
-        .into_iter()
-        .map(|service| Contender {
-            name: service.title.clone(),
-            note: String::new(),
-            program: measure.clone(),
-            options: vec!["--service".to_owned(), service.name.clone()],
-            counts: None,
-            checked: service.checked,
-            service: Some(service),
-        })
-        .collect())
+/// The services of a program; those on several threads are not pinned.
+pub(crate) fn services(path: &Path, pinned: &[String]) -> Result<Vec<Contender>, String> {
+    let (one_core, any) = (Program::new(path, pinned), Program::new(path, &[]));
+    let services: Vec<Service> = any.query(&["services".to_owned()])?;
+    let contender = |service: Service| Contender {
+        name: service.title.clone(),
+        note: String::new(),
+        subject: service.subject,
+        program: if service.threads > 1 { any.clone() } else { one_core.clone() },
+        options: vec!["--service".to_owned(), service.name.clone()],
+        cases: None,
+        service: Some(service),
+    };
+    Ok(services.into_iter().map(contender).collect())
+}
+
+/// The rows of the issue floor that bound services: timed in turns with them.
+pub(crate) fn floors(measure: &Program, services: &[Contender]) -> Vec<Contender> {
+    let mut rows: Vec<_> =
+        services.iter().filter_map(|own| own.service.as_ref()?.floor.clone()).collect();
+    rows.sort();
+    rows.dedup();
+    let contender = |row: String| Contender {
+        name: row.clone(),
+        note: String::new(),
+        subject: Subject::Floor,
+        program: measure.clone(),
+        options: vec!["floor-turns".to_owned(), row],
+        cases: None,
+        service: None,
+    };
+    rows.into_iter().map(contender).collect()
 }
 
 /// The peers that `tests/peers/setup.py` found.
@@ -106,15 +150,17 @@ pub(crate) fn peers(folder: &Path, pinned: &[String]) -> Result<Peers, String> {
     for entry in entries {
         match entry {
             Entry::Missing(missing) => peers.missing.push(missing),
-            Entry::Present { name, command, n, note } => peers.present.push(Contender {
-                name,
-                note,
-                program: Program::with_arguments(&command, pinned),
-                options: Vec::new(),
-                counts: Some(n),
-                checked: true,
-                service: None,
-            }),
+            Entry::Present { name, subject, cases, command, options, note } => {
+                peers.present.push(Contender {
+                    name,
+                    note,
+                    subject,
+                    program: Program::with_arguments(&command, pinned),
+                    options,
+                    cases: Some(cases),
+                    service: None,
+                });
+            }
         }
     }
     Ok(peers)

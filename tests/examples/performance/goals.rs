@@ -1,134 +1,206 @@
-//! The project's goals for speed: goal, measured, met or by how much missed.
+//! The project's goals for speed, and what was measured of each.
 
-use serde::Serialize;
+use precess_tests::counted::EVALUATION;
 
 use crate::contender::Contender;
-use crate::machine::Machine;
-use crate::named;
-use crate::race::Time;
-
-/// The largest number of operations allowed for a hub and for each device, as the suite
-/// `operations` asserts: the work of which a batch's share of the issue floor is stated.
-const BUDGET: [f64; 2] = [281.0, 1007.0];
+use crate::plan::LINEAR;
+use crate::race::{Ratio, Time, Times};
+use crate::subject::{Subject, WHEELS};
+use crate::verdict::{Bound, Goal};
 
 /// Words in the names of the peers that goals are stated for.
 const DEFAULT: &str = "default build";
 const BEST: &str = "best build";
 const CASADI: &str = "casadi";
 
-/// One state with four devices, how many times faster than each of these.
-const ONE_STATE: [(&str, f64); 3] = [(DEFAULT, 8.0), (BEST, 5.5), (CASADI, 3.4)];
+/// One state with four devices, by services that give the same bits: how many times faster than
+/// default build, best build and generated C.
+const ONE_STATE: [(&str, &str, [f64; 3]); 3] = [
+    ("dispatched", "dispatched", [12.0, 8.0, 4.0]),
+    ("abreast", "devices in lanes", [12.0, 8.0, 4.0]),
+    ("portable", "portable", [9.0, 6.0, 3.0]),
+];
 
-/// Lanes across so many devices, how many times faster than Pinocchio's best build.
-const ACROSS: [(usize, f64); 3] = [(4, 14.0), (16, 25.0), (64, 30.0)];
+/// Fused against dispatched.
+const FUSED: f64 = 1.0;
 
-/// A batch, per state with four devices: times faster than Pinocchio's best build, and of the
-/// issue floor.
-pub(crate) const BATCH: (f64, f64) = (35.0, 0.65);
+/// Lanes across so many devices: share of the issue floor, and times faster than Pinocchio's best
+/// build.
+const ACROSS: [(usize, f64, f64); 3] = [(4, 0.42, 16.0), (16, 0.60, 22.0), (64, 0.70, 28.0)];
 
-/// Over these numbers of devices, the largest cost per device is at most so many times the least.
-/// Linear is 1; the hub and noise take some per cent, and one count that falls out shows.
-const LINEAR: ([usize; 5], f64) = ([16, 32, 64, 128, 256], 1.15);
+/// A batch, per state with four devices: share of the issue floor, times faster than Pinocchio's best
+/// build, and how many times longer it may take with parameters per lane.
+const BATCH: (f64, f64, f64) = (0.75, 29.0, 1.15);
 
-/// One row.
-#[derive(Debug, Serialize)]
-pub(crate) struct Goal {
-    what: String,
-    target: String,
-    measured: String,
-    verdict: String,
+/// Largest cost per device against the least.
+const LINEAR_WITHIN: f64 = 1.15;
+
+/// A step of three reaction wheels, times faster than Basilisk's: service or C library.
+const STEP: [(&str, &str, f64); 3] = [
+    ("step", "typed", 30.0),
+    ("step-list", "list of any kinds", 25.0),
+    ("c library", "C library", 25.0),
+];
+
+/// What goals are computed from.
+pub(crate) struct Measured<'a> {
+    pub(crate) contenders: &'a [Contender],
+    pub(crate) times: &'a Times,
 }
 
-impl Goal {
-    /// A goal to be reached from below.
-    fn at_least(what: String, goal: f64, measured: Option<f64>, unit: &str) -> Self {
-        let judged = |measured: f64| {
-            let short = 100.0 * (1.0 - measured / goal);
-            if short > 0.0 { format!("missed by {short:.0} %") } else { "met".to_owned() }
+impl<'a> Measured<'a> {
+    /// All goals.
+    pub(crate) fn goals(&self) -> Vec<Goal> {
+        let groups =
+            [self.one_state(), self.across(), self.batch(), vec![self.linear()], self.steps()];
+        groups.into_iter().flatten().collect()
+    }
+
+    fn one_state(&self) -> Vec<Goal> {
+        let mut rows = Vec::new();
+        for (name, title, goals) in ONE_STATE {
+            for (peer, goal) in [DEFAULT, BEST, CASADI].into_iter().zip(goals) {
+                let what = format!("one state, {title}, N = 4, against {}", titled(peer));
+                rows.push(Goal::new(what, Bound::Times, goal, self.faster(name, peer, 4)));
+            }
+        }
+        let what = "one state, fused, N = 4, against dispatched".to_owned();
+        let [fused, dispatched] = ["fused", "dispatched"].map(|name| self.service(name));
+        let found = fused.zip(dispatched);
+        let found = found.and_then(|(fused, other)| self.times.ratio((other, "4"), (fused, "4")));
+        rows.push(Goal::new(what, Bound::Times, FUSED, found));
+        rows
+    }
+
+    fn across(&self) -> Vec<Goal> {
+        let rows = ACROSS.into_iter().flat_map(|(count, share, times)| {
+            let what = |against| format!("devices in fused lanes, N = {count}, {against}");
+            let best = self.faster("across", BEST, count);
+            [
+                Goal::new(
+                    what("of the issue floor"),
+                    Bound::Share,
+                    share,
+                    self.share("across", count),
+                ),
+                Goal::new(what("against Pinocchio, best build"), Bound::Times, times, best),
+            ]
+        });
+        rows.collect()
+    }
+
+    fn batch(&self) -> Vec<Goal> {
+        let (share, times, slower) = BATCH;
+        let of = |against: &str| format!("batch, per state, N = 4, {against}");
+        let parameters = self.service("parameters").zip(self.service("batch"));
+        let parameters =
+            parameters.and_then(|(own, same)| self.times.ratio((own, "4"), (same, "4")));
+        vec![
+            Goal::new(of("of the issue floor"), Bound::Share, share, self.share("batch", 4)),
+            Goal::new(
+                of("against Pinocchio, best build"),
+                Bound::Times,
+                times,
+                self.faster("batch", BEST, 4),
+            ),
+            Goal::new(
+                of("time with parameters per lane to that without"),
+                Bound::AtMost,
+                slower,
+                parameters,
+            ),
+        ]
+    }
+
+    fn steps(&self) -> Vec<Goal> {
+        let (case, wheels) = WHEELS;
+        let peer =
+            self.contenders.iter().find(|who| who.subject == Subject::Step && !who.is_ours());
+        let row = |(name, title, goal)| {
+            let step = |who: &&Contender| who.subject == Subject::Step;
+            let mut own = self.contenders.iter().filter(step);
+            let own = own.find(|who| who.serves(name) || who.name.to_lowercase().ends_with(name));
+            let found = peer.zip(own);
+            let found = found.and_then(|(peer, own)| self.times.ratio((peer, case), (own, case)));
+            let what = format!("RK4 step, {wheels}, {title}, against Basilisk");
+            Goal::new(what, Bound::Times, goal, found)
         };
-        let verdict = measured.map(judged);
-        let written = |value: f64| format!("{value:.1}{unit}");
-        Self {
-            what,
-            target: written(goal),
-            measured: measured.map_or_else(|| "-".to_owned(), written),
-            verdict: verdict.unwrap_or_else(|| "not measured".to_owned()),
-        }
+        STEP.into_iter().map(row).collect()
+    }
+
+    /// The largest cost per device against the least.
+    #[expect(clippy::cast_precision_loss, reason = "devices are few")]
+    fn linear(&self) -> Goal {
+        let one = self.service("dispatched");
+        let time = |count: &usize| {
+            // They took turns with each other last.
+            let case = count.to_string();
+            let own = self.times.all_of(one?).filter(|time| time.case == case).last()?;
+            Some([own.ns() / *count as f64, own.spread(), own.waited])
+        };
+        let costs: Option<Vec<_>> = LINEAR.iter().map(time).collect();
+        let found = costs.map(|costs| {
+            let of = |part: usize| costs.iter().map(move |cost| cost[part]);
+            let [most, spread, waited] = [0, 1, 2].map(|part| of(part).fold(f64::MIN, f64::max));
+            Ratio { value: most / of(0).fold(f64::MAX, f64::min), spread, waited }
+        });
+        let what = "one state, dispatched, cost per device, N = 16 to 256, largest to least";
+        Goal::new(what.to_owned(), Bound::AtMost, LINEAR_WITHIN, found)
+    }
+
+    /// How many times faster a service is than a peer.
+    fn faster(&self, service: &str, peer: &str, count: usize) -> Option<Ratio> {
+        let case = count.to_string();
+        self.times.ratio((named(self.contenders, peer)?, &case), (self.service(service)?, &case))
+    }
+
+    /// What a service reaches of its issue floor, at the operations of an evaluation.
+    pub(crate) fn share(&self, service: &str, count: usize) -> Option<Ratio> {
+        let (service, case) = (self.service(service)?, count.to_string());
+        let floor = self.floor(service)?;
+        let found = self.times.ratio((floor, &case), (service, &case))?;
+        Some(Ratio { value: found.value * operations(count), ..found })
+    }
+
+    /// The row of the issue floor that bounds a service, as it was timed in turns with it.
+    fn floor(&self, service: &Contender) -> Option<&'a Contender> {
+        let row = service.service.as_ref()?.floor.as_ref()?;
+        self.contenders.iter().find(|who| who.subject == Subject::Floor && who.name == *row)
+    }
+
+    /// A service by its name.
+    pub(crate) fn service(&self, name: &str) -> Option<&'a Contender> {
+        self.contenders.iter().find(|contender| contender.serves(name))
+    }
+
+    /// Time of a state of four devices at the issue floor of a batch, ns; the goal of a batch from the
+    /// time of Pinocchio's best build, ns; and how many times faster than that it is.
+    pub(crate) fn batch_limits(&self) -> (Option<f64>, Option<f64>, f64) {
+        let ns = |who: &Contender| self.times.of(who, "4").map(Time::ns);
+        let floor = self.service("batch").and_then(|batch| self.floor(batch)).and_then(ns);
+        let best = named(self.contenders, BEST).and_then(ns);
+        let times = BATCH.1;
+        (floor.map(|ns| ns * operations(4)), best.map(|ns| ns / times), times)
     }
 }
 
-/// Time of a state of four devices with the allowed operations at the issue floor of a batch, ns.
-pub(crate) fn batch_floor(contenders: &[Contender], machine: &Machine) -> Option<f64> {
-    let batch = contenders.iter().find(|contender| contender.serves("batch"))?;
-    let budget = BUDGET[0] + 4.0 * BUDGET[1];
-    Some(budget / machine.per_ns(&batch.service.as_ref()?.floor)?)
+/// Operations of an evaluation with so many DGVSCMGs, as the suite `operations` asserts them.
+#[expect(clippy::cast_precision_loss, reason = "thousands")]
+pub(crate) fn operations(count: usize) -> f64 {
+    let [hub, device] = EVALUATION.map(|number| number as f64);
+    hub + device * count as f64
 }
 
-/// The goal of a batch for such a state, from the time of Pinocchio's best build, ns.
-pub(crate) fn best_batch(contenders: &[Contender], times: &[Time]) -> Option<f64> {
-    Some(time(times, named(contenders, BEST), 4)? / BATCH.0)
+/// A peer of evaluations by what its name has in it.
+fn named<'a>(contenders: &'a [Contender], part: &str) -> Option<&'a Contender> {
+    let peer = |who: &&Contender| who.subject == Subject::Evaluation && !who.is_ours();
+    contenders.iter().filter(peer).find(|who| who.name.to_lowercase().contains(part))
 }
 
-/// The time of a contender.
-fn time(times: &[Time], contender: Option<&Contender>, count: usize) -> Option<f64> {
-    let name = &contender?.name;
-    Some(times.iter().find(|time| time.name == *name && time.count == count)?.ns)
-}
-
-/// All goals.
-pub(crate) fn goals(contenders: &[Contender], times: &[Time], machine: &Machine) -> Vec<Goal> {
-    let time = |contender, count| time(times, contender, count);
-    let service = |name: &str| contenders.iter().find(|contender| contender.serves(name));
-    let ratio = |peer: &str, name: &str, count: usize| {
-        Some(time(named(contenders, peer), count)? / time(service(name), count)?)
-    };
-    let mut rows = Vec::new();
-    for (name, rounded) in [("one", ""), ("fused", ", fused")] {
-        for (peer, goal) in ONE_STATE {
-            let what = format!("one state{rounded}, N = 4, against {peer}");
-            rows.push(Goal::at_least(what, goal, ratio(peer, name, 4), " times"));
-        }
-    }
-    for (count, goal) in ACROSS {
-        let what = format!("lanes across devices, N = {count}, against Pinocchio's {BEST}");
-        let found = ratio(BEST, "across", count);
-        rows.push(Goal::at_least(what, goal, found, " times"));
-    }
-    let (goal, share) = BATCH;
-    let what = format!("batch, per state, N = 4, against Pinocchio's {BEST}");
-    rows.push(Goal::at_least(what, goal, ratio(BEST, "batch", 4), " times"));
-    let reached = batch_floor(contenders, machine)
-        .and_then(|floor| Some(100.0 * floor / time(service("batch"), 4)?));
-    let what = "batch, N = 4, of the issue floor at the allowed operations".to_owned();
-    rows.push(Goal::at_least(what, 100.0 * share, reached, " %"));
-    rows.push(linear(|count| time(service("one"), count)));
-    rows
-}
-
-/// The largest cost per device against the least.
-#[expect(clippy::cast_precision_loss, reason = "devices are few")]
-fn linear(time: impl Fn(usize) -> Option<f64>) -> Goal {
-    let (counts, most) = LINEAR;
-    let costs: Option<Vec<_>> = counts.iter().map(|n| Some(time(*n)? / *n as f64)).collect();
-    let ratio = costs.map(|costs| {
-        let largest = costs.iter().copied().fold(0.0, f64::max);
-        largest / costs.into_iter().fold(f64::INFINITY, f64::min)
-    });
-    let judged = |ratio: f64| {
-        let over = 100.0 * (ratio / most - 1.0);
-        if over > 0.0 { format!("missed by {over:.0} %") } else { "met".to_owned() }
-    };
-    Goal {
-        what: "one state, cost per device for N = 16 to 256, largest to least".to_owned(),
-        target: format!("at most {most}"),
-        measured: ratio.map_or_else(|| "-".to_owned(), |ratio| format!("{ratio:.2}")),
-        verdict: ratio.map_or_else(|| "not measured".to_owned(), judged),
-    }
-}
-
-impl std::fmt::Display for Goal {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { what, target, measured, verdict } = self;
-        write!(f, "{what:62} goal {target:>14}  measured {measured:>12}  {verdict}")
+/// A peer as the goals call it.
+fn titled(part: &str) -> String {
+    match part {
+        CASADI => "C generated by CasADi".to_owned(),
+        build => format!("Pinocchio, {build}"),
     }
 }

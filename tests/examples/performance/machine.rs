@@ -35,7 +35,7 @@ struct Measured {
 impl Machine {
     /// Asks the machine.
     pub(crate) fn new(measure: &Program, pinned: &[String]) -> Result<Self, String> {
-        let Measured { floor, ghz } = measure.query(&["floor"])?;
+        let Measured { floor, ghz } = measure.query(&["floor".to_owned()])?;
         Ok(Self {
             cpu: cpu(),
             system: format!("{} on {}", std::env::consts::OS, std::env::consts::ARCH),

@@ -1,39 +1,52 @@
 //! Services of Precess and peers, checked against each other and timed in one run:
-//! `docs/performance`.
+//! `docs/performance.md`, and of what gives `docs/performance-flexible.md`.
 //!
 //! Run by `cargo xtask bench`, which sets the peers up and builds what is run here. Nothing is
 //! timed unless all results agree. Every number on the page comes from the run that writes it.
 
 mod agreement;
 mod axis;
+mod breakdown;
 mod chart;
 mod contender;
+mod flexible;
 mod goals;
 mod machine;
 mod page;
+mod plan;
 mod program;
 mod race;
+mod subject;
+mod tables;
+mod tried;
+mod verdict;
 
 use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::{env, fs};
 
 use clap::Parser;
 
-use contender::Contender;
 use machine::Machine;
 use page::Page;
+use plan::Plan;
 use program::Program;
-use race::{Plan, race};
+use race::race;
+use subject::Subject;
 
 /// Checks services and peers against each other, times them, writes the page.
 #[derive(Parser)]
-#[command(after_help = "Example: performance --measure target/release/examples/measure")]
+#[command(
+    after_help = "Example: performance --measure target/release/measure --portable target/release/portable"
+)]
 struct Arguments {
     /// The program `measure`
     #[arg(long, value_name = "FILE")]
     measure: PathBuf,
+    /// The program `portable`
+    #[arg(long, value_name = "FILE", required_unless_present = "flexible")]
+    portable: Option<PathBuf>,
     /// The folder of spacecraft and peers
     #[arg(long, value_name = "DIR", default_value = "target/peers")]
     peers: PathBuf,
@@ -46,6 +59,9 @@ struct Arguments {
     /// Only Precess
     #[arg(long)]
     skip_peers: bool,
+    /// Only wheels on bearings, on a platform, on a structure that bends, and their page
+    #[arg(long)]
+    flexible: bool,
 }
 
 fn main() -> ExitCode {
@@ -62,7 +78,12 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let pinned = program::pinned();
     let measure = Program::new(&arguments.measure, &pinned);
     let plan = if arguments.quick { Plan::QUICK } else { Plan::FULL };
-    let mut contenders = contender::services(&measure)?;
+    let mut contenders = Vec::new();
+    if let Some(portable) = &arguments.portable {
+        contenders.extend(contender::services(portable, &pinned)?);
+    }
+    contenders.extend(contender::services(&arguments.measure, &pinned)?);
+    contenders.extend(contender::floors(&measure, &contenders));
     let mut missing = Vec::new();
     if !arguments.skip_peers {
         let peers = contender::peers(&arguments.peers, &pinned)?;
@@ -70,15 +91,28 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         missing = peers.missing;
     }
     reject_skips(&missing)?;
-    let worst = agreement::check(&contenders, &plan, &arguments.peers)?;
+    contenders.retain(|who| (who.subject == Subject::Flexible) == arguments.flexible);
     let machine = Machine::new(&measure, &pinned)?;
-    let times = race(&contenders, &plan, &arguments.peers)?;
-    let parts = page::parts(&measure, &plan, &arguments.peers)?;
-    let page = Page { machine, contenders, missing, worst, times, parts };
-    page.show();
+    let folder = &arguments.peers;
     // The page of a quick run is not kept.
-    let out = if arguments.quick { &arguments.peers } else { &arguments.out };
-    for (name, text) in page.files()? {
+    let out = if arguments.quick { folder } else { &arguments.out };
+    if arguments.flexible {
+        let worst = agreement::check(&contenders, &[Subject::Flexible], &plan, folder)?;
+        let times = race(&[Plan::flexible(&contenders)], plan.rounds, folder)?;
+        let page = flexible::Page { plan, machine, contenders, worst, times };
+        return written(out, page.files()?);
+    }
+    let worst = agreement::check(&contenders, &agreement::GROUPS, &plan, folder)?;
+    let times = race(&plan.heats(&contenders), plan.rounds, folder)?;
+    let parts = breakdown::parts(&measure, &plan, folder)?;
+    let page = Page { plan, machine, contenders, missing, worst, times, parts };
+    page.show();
+    written(out, page.files()?)
+}
+
+/// Writes the files of a page.
+fn written(out: &Path, files: Vec<(&'static str, String)>) -> Result<(), Box<dyn Error>> {
+    for (name, text) in files {
         let path = out.join(name);
         fs::write(&path, text)
             .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
@@ -100,9 +134,4 @@ fn reject_skips(missing: &[contender::Missing]) -> Result<(), String> {
         ));
     }
     Ok(())
-}
-
-/// A contender by what its name has in it.
-fn named<'a>(contenders: &'a [Contender], part: &str) -> Option<&'a Contender> {
-    contenders.iter().find(|contender| contender.name.to_lowercase().contains(part))
 }

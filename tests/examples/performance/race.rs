@@ -1,104 +1,146 @@
-//! Timing: contenders take turns, round after round, so that a change of the machine meets them
-//! all.
+//! Timing: contenders take short turns, round after round, so that a change of the machine meets
+//! them all.
 
-use std::path::{Path, PathBuf};
-
-use serde::Deserialize;
+use std::path::Path;
 
 use crate::contender::Contender;
+use crate::plan::Heat;
+use crate::program::Turn;
 
-/// What is timed how often.
-pub(crate) struct Plan {
-    /// Numbers of devices for everyone.
-    pub(crate) counts: &'static [usize],
-    /// More of them for Precess, whose curve they draw.
-    pub(crate) curve: &'static [usize],
-    rounds: usize,
-}
-
-impl Plan {
-    /// What the page is made of.
-    pub(crate) const FULL: Self =
-        Self { counts: &[1, 4, 16, 64], curve: &[2, 8, 32, 128, 256], rounds: 3 };
-    /// A quick look.
-    pub(crate) const QUICK: Self = Self { counts: &[1, 4], curve: &[], rounds: 1 };
-
-    /// Every number of devices, rising.
-    pub(crate) fn all(&self) -> Vec<usize> {
-        let mut all = [self.counts, self.curve].concat();
-        all.sort_unstable();
-        all
-    }
-
-    /// The numbers of devices on which all must agree.
-    pub(crate) fn checked(&self) -> impl Iterator<Item = usize> {
-        self.counts.iter().copied()
-    }
-}
-
-/// What a contender says of its time, ns per evaluation.
-#[derive(Deserialize)]
-struct Said {
-    /// Medians of its repeats.
-    ns: Vec<f64>,
-}
-
-/// Time of one contender on one spacecraft, ns per evaluation.
+/// Time of one contender on one case, ns per evaluation or step.
 #[derive(Clone, Debug)]
 pub(crate) struct Time {
-    /// Of the contender.
+    /// Of those that took turns with it.
+    heat: usize,
     pub(crate) name: String,
-    /// Devices.
-    pub(crate) count: usize,
-    /// Median of all repeats.
-    pub(crate) ns: f64,
-    /// Least and largest of them.
-    pub(crate) range: [f64; 2],
+    pub(crate) case: String,
+    /// Turn by turn.
+    turns: Vec<f64>,
+    /// The part of a turn in which it had no core, the median of the turns; 0 where that is unknown.
+    pub(crate) waited: f64,
 }
+
+/// How many times longer one takes than another.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ratio {
+    /// The median of the ratios of their turns, round by round.
+    pub(crate) value: f64,
+    /// The larger one of their spreads.
+    pub(crate) spread: f64,
+    /// The larger one of the parts of a turn in which they had no core.
+    pub(crate) waited: f64,
+}
+
+/// All times.
+pub(crate) struct Times(Vec<Time>);
 
 impl Time {
-    /// Largest less least repeat, of the median.
-    pub(crate) fn spread(&self) -> f64 {
-        let [least, most] = self.range;
-        (most - least) / self.ns
+    /// The median of the turns.
+    pub(crate) fn ns(&self) -> f64 {
+        median(&self.turns)
     }
-}
 
-/// Times everyone on every spacecraft.
-pub(crate) fn race(
-    contenders: &[Contender],
-    plan: &Plan,
-    folder: &Path,
-) -> Result<Vec<Time>, String> {
-    let mut entries = Vec::new();
-    for count in plan.all() {
-        let everyone = plan.counts.contains(&count);
-        let takes = |contender: &&Contender| {
-            contender.takes(count) && (everyone || contender.service.is_some())
-        };
-        entries.extend(contenders.iter().filter(takes).map(|who| (who, count, Vec::new())));
-    }
-    for round in 1..=plan.rounds {
-        for (contender, count, repeats) in &mut entries {
-            let said: Said = contender.query("time", &file(folder, *count))?;
-            let ns = said.ns.iter().copied().fold(f64::INFINITY, f64::min);
-            eprintln!("round {round}: {} with {count} devices, {ns:.1} ns", contender.name);
-            repeats.extend(said.ns);
+    /// Of the turns without the slowest tenth and the quickest tenth, the largest less the least, of
+    /// the median.
+    pub(crate) fn spread(&self) -> f64 {
+        let mut turns = self.turns.clone();
+        turns.sort_by(f64::total_cmp);
+        let tenth = turns.len() / 10;
+        let kept = &turns[tenth..turns.len() - tenth];
+        match (kept.first(), kept.last()) {
+            (Some(least), Some(largest)) => (largest - least) / self.ns(),
+            _ => f64::NAN,
         }
     }
-    let timed = entries.into_iter().map(|(contender, count, mut repeats)| {
-        repeats.sort_by(f64::total_cmp);
-        let at = |index: usize| repeats.get(index).copied();
-        let (ns, least, most) = (at(repeats.len() / 2), at(0), repeats.last().copied());
-        let missing = || format!("{} printed no time", contender.name);
-        let (ns, least, most) =
-            (ns.ok_or_else(missing)?, least.ok_or_else(missing)?, most.ok_or_else(missing)?);
-        Ok(Time { name: contender.name.clone(), count, ns, range: [least, most] })
-    });
-    timed.collect()
 }
 
-/// The file of a spacecraft with so many devices.
-pub(crate) fn file(folder: &Path, count: usize) -> PathBuf {
-    folder.join(format!("{count}.json"))
+impl Times {
+    /// The time of a contender on a case.
+    pub(crate) fn of(&self, contender: &Contender, case: &str) -> Option<&Time> {
+        self.0.iter().find(|time| time.name == contender.name && time.case == case)
+    }
+
+    /// All of a contender.
+    pub(crate) fn all_of(&self, contender: &Contender) -> impl Iterator<Item = &Time> {
+        self.0.iter().filter(|time| time.name == contender.name)
+    }
+
+    /// How many times longer one takes than another, where they took turns.
+    pub(crate) fn ratio(
+        &self,
+        (longer, its_case): (&Contender, &str),
+        (shorter, case): (&Contender, &str),
+    ) -> Option<Ratio> {
+        let of = |contender: &Contender, case: &str, heat: usize| {
+            self.all_of(contender).find(|time| time.case == case && time.heat == heat).cloned()
+        };
+        let heats = self.all_of(longer).map(|time| time.heat);
+        let mut pairs =
+            heats.filter_map(|heat| of(longer, its_case, heat).zip(of(shorter, case, heat)));
+        let (longer, shorter) = pairs.next()?;
+        let ratios: Vec<_> = longer.turns.iter().zip(&shorter.turns).map(|(a, b)| a / b).collect();
+        Some(Ratio {
+            value: median(&ratios),
+            spread: longer.spread().max(shorter.spread()),
+            waited: longer.waited.max(shorter.waited),
+        })
+    }
+}
+
+/// Times everyone: in every round each takes one turn, from first to last and in the next round from
+/// last to first, so that a steady drift favours nobody.
+pub(crate) fn race(heats: &[Heat<'_>], rounds: usize, folder: &Path) -> Result<Times, String> {
+    let mut times = Vec::new();
+    for (number, heat) in heats.iter().enumerate() {
+        times.extend(turns(number, heat, rounds, folder)?);
+    }
+    Ok(Times(times))
+}
+
+fn turns(number: usize, heat: &Heat, rounds: usize, folder: &Path) -> Result<Vec<Time>, String> {
+    let started = heat.entries.iter().map(|(who, case)| who.start(folder, case));
+    let mut programs = started.collect::<Result<Vec<_>, _>>()?;
+    let mut turns = vec![Vec::with_capacity(rounds); programs.len()];
+    for round in 0..rounds {
+        let mut order: Vec<_> = programs.iter_mut().zip(&mut turns).collect();
+        if round % 2 == 1 {
+            order.reverse();
+        }
+        for (program, turns) in order {
+            turns.push(program.next()?);
+        }
+    }
+    let timed = heat.entries.iter().zip(turns).map(|((who, case), turns)| {
+        let all = |part: fn(&Turn) -> f64| turns.iter().map(part).collect::<Vec<_>>();
+        let waited = median(&all(|turn| turn.waited.unwrap_or(0.0)));
+        let (name, case, turns) = (who.name.clone(), case.clone(), all(|turn| turn.ns));
+        let time = Time { heat: number, name, case, turns, waited };
+        let (ns, spread, waited) = (time.ns(), 100.0 * time.spread(), 100.0 * time.waited);
+        eprintln!(
+            "{}: {} ({}), {ns:.4} ns, spread {spread:.0} %, waited {waited:.0} %",
+            heat.title, time.name, time.case
+        );
+        time
+    });
+    Ok(timed.collect())
+}
+
+/// The middle one.
+pub(crate) fn median(values: &[f64]) -> f64 {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Time;
+
+    #[test]
+    fn spread_leaves_out_a_tenth_at_each_end() {
+        let turns = [9.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.5, 10.5, 90.0].to_vec();
+        let [name, case] = [String::new(), String::new()];
+        let time = Time { heat: 0, name, case, turns, waited: 0.0 };
+        assert_eq!((time.ns(), time.spread()), (10.0, 0.05));
+    }
 }

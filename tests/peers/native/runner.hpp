@@ -1,4 +1,4 @@
-// The two commands of every native runner: `check FILE` and `time FILE`.
+// The commands of every native runner: `check FILE`, `time FILE` and `turns FILE`.
 //
 // An engine has the angles and rates of its joints in place, so that a call starts from inputs
 // already in the engine's own layout: nothing is copied on its account.
@@ -8,13 +8,15 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
 #include <string>
 #include <vector>
 
 #include "craft.hpp"
 
-constexpr int REPEATS = 3;
-constexpr int BATCHES = 5000;
+// As of the runners in Python and of Precess.
+constexpr int REPEATS = 21;
+constexpr double NANOSECONDS_A_TURN = 5e7;
 // Far shorter than a scheduler's time slice: what else the machine does spoils few batches, and
 // the median none. Far longer than it takes to read the clock.
 constexpr double NANOSECONDS_A_BATCH = 1e5;
@@ -38,47 +40,63 @@ double batch(Engine& engine, std::size_t joints, long calls) {
   return std::chrono::duration<double, std::nano>(clock::now() - start).count() / calls;
 }
 
+// The median of as many batches as a turn has time for.
 template <class Engine>
-void print_times(Engine& engine, std::size_t joints) {
-  const double guess = batch(engine, joints, 1 + 3000 / static_cast<long>(joints));
-  const long calls = std::max(1L, std::lround(NANOSECONDS_A_BATCH / guess));
-  std::vector<double> medians;
-  double least = INFINITY, most = 0.0;
-  for (int repeat = 0; repeat < REPEATS; ++repeat) {
-    std::vector<double> means;
-    for (int k = 0; k < BATCHES; ++k) means.push_back(batch(engine, joints, calls));
-    std::sort(means.begin(), means.end());
-    medians.push_back(means[BATCHES / 2]);
-    least = std::min(least, means.front());
-    most = std::max(most, means.back());
-  }
-  std::printf("{\"ns\": [%.1f, %.1f, %.1f], \"spread\": [%.1f, %.1f]}\n", medians[0], medians[1],
-              medians[2], least, most);
+double turn(Engine& engine, std::size_t joints, long calls) {
+  std::vector<double> means;
+  for (double spent = 0.0; spent < NANOSECONDS_A_TURN; spent += means.back() * calls)
+    means.push_back(batch(engine, joints, calls));
+  std::sort(means.begin(), means.end());
+  return means[means.size() / 2];
 }
 
-inline void print_accelerations(const std::vector<double>& accelerations) {
-  const char* before = "{\"accelerations\": [";
-  for (const double x : accelerations) {
-    std::printf("%s%.17g", before, x);
-    before = ", ";
+// So many turns; or one after each line of the input, first that all is ready.
+template <class Engine>
+void print_turns(Engine& engine, std::size_t joints, bool by_line) {
+  const double guess = batch(engine, joints, 1 + 3000 / static_cast<long>(joints));
+  const long calls = std::max(1L, std::lround(NANOSECONDS_A_BATCH / guess));
+  if (by_line) {
+    std::puts("{\"ready\": true}");
+    std::fflush(stdout);
+    for (std::string line; std::getline(std::cin, line);) {
+      std::printf("{\"ns\": %.2f}\n", turn(engine, joints, calls));
+      std::fflush(stdout);
+    }
+    return;
   }
+  for (int repeat = 0; repeat < REPEATS; ++repeat)
+    std::printf("%s%.2f", repeat == 0 ? "{\"ns\": [" : ", ", turn(engine, joints, calls));
   std::puts("]}");
 }
 
-template <class Engine>
+// Numbers in a row, after a text.
+inline void print_numbers(const char* before, const std::vector<double>& numbers) {
+  for (const double x : numbers) {
+    std::printf("%s%.17g", before, x);
+    before = ", ";
+  }
+  std::fputs("]", stdout);
+}
+
+inline void print_accelerations(const std::vector<double>& accelerations) {
+  print_numbers("{\"accelerations\": [", accelerations);
+  std::puts("}");
+}
+
+template <class Engine, class Given = Craft>
 int run(int count, char** words) {
   const std::string what = count == 3 ? words[1] : "";
-  if (what != "check" && what != "time") {
-    std::fprintf(stderr, "usage: %s check|time FILE\n", words[0]);
+  if (what != "check" && what != "time" && what != "turns") {
+    std::fprintf(stderr, "usage: %s check|time|turns FILE\n", words[0]);
     return 2;
   }
-  const Craft craft(words[2]);
+  const Given craft(words[2]);
   Engine engine(craft, words[2]);
   engine.evaluate();
   if (what == "check") {
     print_accelerations(engine.accelerations());
   } else {
-    print_times(engine, craft.angles.size());
+    print_turns(engine, craft.angles.size(), what == "turns");
   }
   return 0;
 }

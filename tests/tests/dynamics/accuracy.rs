@@ -1,8 +1,8 @@
 //! The error of the accelerations near the singular pose of massless gimbals and with the centre of
 //! mass far from B: within its bounds where `docs/accuracy.md` states so, elsewhere within the
-//! square stated there.
+//! power stated there.
 //!
-//! Run with `--nocapture` to see the largest factor of each square.
+//! Run with `--nocapture` to see the largest factor of each power.
 
 use precess_tests::accuracy::kinds::{BareBalancedDgvscmg, BareDgvscmg, Form};
 use precess_tests::accuracy::{Row, offset, pose, reference};
@@ -12,8 +12,8 @@ use precess_tests::double_double::DoubleDouble as Wide;
 use precess_tests::random::{Sample, Visitor, visit};
 
 /// Least distance from the pose, rad, at which the bounds hold for bare wheels: the next one of the
-/// sweep, 0.05, is above both.
-const HOLDS_FROM: f64 = 0.1;
+/// sweep, 0.002, is above both.
+const HOLDS_FROM: f64 = 0.005;
 
 /// The same for balanced bare wheels: their gyroscopic torques do not reach the hub, but cancel to
 /// rounding, and what does move the hub can be far smaller.
@@ -31,20 +31,20 @@ const SOLVED_FROM: f64 = 5e-7;
 /// gyration are from 200 km on.
 const SOLVED_TO: f64 = 1e5;
 
-/// The squares are asserted from this distance on, rad: farther away other roundings show.
+/// The powers are asserted from this distance on, rad: farther away other roundings show.
 const NEAR: f64 = 0.01;
 
-/// The squares are asserted from this distance on, m.
+/// The powers are asserted from this distance on, m.
 const FAR: f64 = 10.0;
 
-/// Worst error near the pose in units of eps/δ²: the rounding of gyroscopic torques that do not
+/// Worst error near the pose in units of eps/δ: the rounding of gyroscopic torques that do not
 /// reach the hub, as large as a wheel at 6000 rpm in gimbals at 5 rad/s makes them, against loads
-/// of some N m. Measured: 684, and 2353 for balanced wheels.
-const POSE_WORST: f64 = 5000.0;
+/// of some N m. Measured: 9057, and 7798 for balanced wheels.
+const POSE_WORST: f64 = 25000.0;
 
-/// The median likewise: a few roundings of the size of the wheel's inertia, in the outer gimbal's
-/// pivot, which is that inertia times δ². Measured: 1.60.
-const POSE_MEDIAN: f64 = 3.0;
+/// The median likewise: a few roundings of the size of the wheel's inertia times δ, in the outer
+/// gimbal's pivot, which is that inertia times δ². Measured: 4.83.
+const POSE_MEDIAN: f64 = 8.0;
 
 /// Worst error far from B in units of eps D²/m²: one over the square of the smallest radius of
 /// gyration, which is 0.02 m for a block with edges of 0.05 m. Measured: 1197.
@@ -54,8 +54,9 @@ const OFFSET_WORST: f64 = 2500.0;
 const OFFSET_MEDIAN: f64 = 5.0;
 
 /// Error of the reference, as a share of the error allowed to the solver: some roundings of
-/// double-double, whose epsilon is 2.2e-16 of that of `f64`. Measured: 5e-18.
-const REFERENCE: f64 = 1e-15;
+/// double-double, whose epsilon is 2.2e-16 of that of `f64`, by the plain reference at 1e-6 rad over the
+/// square of that. Measured: 6e-14.
+const REFERENCE: f64 = 1e-12;
 
 /// Spacecraft on which the reference is measured: every number of devices five times.
 const REFERENCE_SPACECRAFT: u64 = 45;
@@ -70,20 +71,20 @@ fn within(what: &str, row: &Row, [most, middle]: [f64; 2]) {
     assert!(median <= middle, "{what}, {distance:e}: median {median:e} is above {middle:e}");
 }
 
-/// The errors of all rows with a solution are within factors of eps times a square; prints the
+/// The errors of all rows with a solution are within factors of eps times a power; prints the
 /// largest.
 #[track_caller]
 fn grow_as<'a>(
     what: &str,
     rows: impl Iterator<Item = &'a Row> + Clone,
-    square: fn(f64) -> f64,
+    power: fn(f64) -> f64,
     [most, middle]: [f64; 2],
 ) {
-    let unit = |row: &Row| f64::EPSILON * square(row.distance);
+    let unit = |row: &Row| f64::EPSILON * power(row.distance);
     let solved = rows.filter(|row| row.solved > 0);
     let largest_worst = largest(solved.clone().map(|row| row.worst_block.worst() / unit(row)));
     let largest_median = largest(solved.clone().map(|row| row.worst_block.median() / unit(row)));
-    println!("{what}: worst {largest_worst:.0}, median {largest_median:.2} of the square");
+    println!("{what}: worst {largest_worst:.0}, median {largest_median:.2} of the power");
     for row in solved {
         within(what, row, [most * unit(row), middle * unit(row)]);
     }
@@ -98,7 +99,7 @@ fn posed<F: Form>(holds_from: f64) {
         within(what, row, [ACCELERATIONS_WORST, ACCELERATIONS_MEDIAN]);
     }
     let near = rows.iter().filter(|row| row.distance <= NEAR);
-    grow_as(what, near, |distance| distance.powi(-2), [POSE_WORST, POSE_MEDIAN]);
+    grow_as(what, near, f64::recip, [POSE_WORST, POSE_MEDIAN]);
     for row in rows.iter().filter(|row| row.distance >= SOLVED_FROM) {
         assert_eq!(row.rejected, 0, "{what}, {:e} rad: rejected", row.distance);
     }
@@ -132,7 +133,7 @@ fn reference_agrees_with_the_plain_reference() {
         fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
             let whose = sample.to_string();
             let (near, far) = (1e-6_f64, 1e6_f64);
-            let posed = (pose::case::<Wide, N>(sample, near), POSE_WORST / (near * near));
+            let posed = (pose::case::<Wide, N>(sample, near), POSE_WORST / near);
             let moved = (offset::case::<Wide, N>(sample, far), OFFSET_WORST * far * far);
             for (case, factor) in [posed, moved] {
                 let (error, block) = worst(errors(&reference(&case, &whose), &case.reference()));

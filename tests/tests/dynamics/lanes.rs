@@ -23,8 +23,9 @@ fn batched<const N: usize>(case: &Case<N>, fused: bool) -> Accelerations<Set<N>>
 }
 
 /// The accelerations of a case with its devices side by side.
-fn across<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
+fn across<const N: usize>(case: &Case<N>, fused: bool) -> Accelerations<Set<N>> {
     let across = AcrossDevices::new(&case.hub, &case.devices).unwrap();
+    let across = if fused { across.fused() } else { across };
     across.accelerations(&case.state, &case.inputs).unwrap()
 }
 
@@ -35,12 +36,14 @@ fn fused<const N: usize>(case: &Case<N>) -> Accelerations<Set<N>> {
 }
 
 #[test]
-fn batch_has_the_bits_of_single_evaluations() {
+fn lanes_have_the_bits_of_single_evaluations() {
     struct Bits;
     impl Visitor for Bits {
         fn visit<const N: usize>(&mut self, sample: &Sample<N>) {
             let case = sample.case::<f64>();
-            assert_eq!(batched(&case, false), case.solved(sample), "{sample}");
+            let solved = case.solved(sample);
+            assert_eq!(batched(&case, false), solved, "batch: {sample}");
+            assert_eq!(across(&case, false), solved, "devices side by side: {sample}");
         }
     }
     visit(SPACECRAFT, &mut Bits);
@@ -60,7 +63,7 @@ fn services_agree_with_higher_precision() {
             let found = [
                 ("one state, fused", fused(&case), &mut self.one),
                 ("fused batch", batched(&case, true), &mut self.batch),
-                ("across devices", across(&case), &mut self.across),
+                ("across devices, fused", across(&case, true), &mut self.across),
             ];
             for (service, found, figures) in found {
                 let (error, what) = worst(errors(&found, &reference));
@@ -218,9 +221,10 @@ fn singular_device_is_named_across_lanes() {
     let craft = Spacecraft::new(&hub(), &devices).unwrap();
     let mut state: State<[Dgvscmg; 11]> = State::at_rest();
     state.devices[9].gamma_i = core::f64::consts::FRAC_PI_2;
-    let rejected = across.accelerations(&state, &Inputs::none());
-    assert!(rejected.is_err());
-    assert_eq!(rejected, craft.accelerations(&state, &Inputs::none()));
+    let expected = craft.accelerations(&state, &Inputs::none());
+    assert!(expected.is_err());
+    assert_eq!(across.accelerations(&state, &Inputs::none()), expected);
+    assert_eq!(across.fused().accelerations(&state, &Inputs::none()), expected);
 }
 
 #[test]
@@ -259,6 +263,8 @@ fn steps_across_devices_follow_single_steps() {
     let inputs = Inputs::none();
     let there = across.step(&state, &inputs, 1e-3).unwrap();
     let single = craft.step(&state, &inputs, 1e-3).unwrap();
+    assert_eq!(there, single);
+    let there = across.fused().step(&state, &inputs, 1e-3).unwrap();
     // Sums in another order: some bits of velocities of order 0.1 rad/s.
     assert!((there.omega - single.omega).norm() <= 1e-15);
 }

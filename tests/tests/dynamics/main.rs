@@ -4,7 +4,7 @@
 mod accelerations;
 mod accuracy;
 mod conservation;
-mod engines;
+mod flexible_wheel;
 mod imbalance;
 mod input_parameters;
 mod input_states;
@@ -26,5 +26,4 @@ mod routes;
 mod sines;
 mod single_precision;
 mod table1;
-mod wheels;
 mod whole_turns;

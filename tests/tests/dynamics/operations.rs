@@ -4,11 +4,8 @@
 
 use precess_dynamics::Devices;
 use precess_dynamics::kind::Kind;
-use precess_tests::counted::{Counted, Operations, count};
+use precess_tests::counted::{Counted, EVALUATION, Operations, count};
 use precess_tests::measured::{EachKind, Measured, dgvscmg, each_kind};
-
-/// What a hub takes, and each DGVSCMG on it, sines and cosines apart.
-const EVALUATION: [u64; 2] = [276, 908];
 
 /// The largest numbers that the project allows.
 const BUDGET: [u64; 2] = [281, 1007];
@@ -18,19 +15,20 @@ const BUDGET: [u64; 2] = [281, 1007];
 const CASADI_AT_FOUR: u64 = 7248;
 
 /// What one more device of each kind takes: operations, and pairs of sine and cosine.
-const KINDS: [(&str, u64, u64); 12] = [
+const KINDS: [(&str, u64, u64); 13] = [
+    ("flexible_reaction_wheel", 1589, 3),
     ("dgvscmg", EVALUATION[1], 3),
     ("balanced_dgvscmg", 669, 2),
-    ("dgcmg", 683, 3),
-    ("balanced_dgcmg", 608, 2),
-    ("vscmg", 577, 2),
-    ("balanced_vscmg", 376, 1),
-    ("sgcmg", 414, 2),
-    ("balanced_sgcmg", 339, 1),
-    ("reaction_wheel", 306, 1),
+    ("dgcmg", 674, 3),
+    ("balanced_dgcmg", 599, 2),
+    ("vscmg", 568, 2),
+    ("balanced_vscmg", 375, 1),
+    ("sgcmg", 410, 2),
+    ("balanced_sgcmg", 337, 1),
+    ("reaction_wheel", 304, 1),
     ("balanced_reaction_wheel", 85, 0),
-    ("hinged_panel", 327, 1),
-    ("slosh_mass", 184, 0),
+    ("hinged_panel", 325, 1),
+    ("slosh_mass", 176, 0),
 ];
 
 /// What the accelerations of these devices take.

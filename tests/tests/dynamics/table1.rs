@@ -81,7 +81,11 @@ fn tool(name: &str) -> (Hub, Dgvscmg, State<Set<1>>, Inputs<Set<1>>) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenarios/{name}.toml"));
     let (file, _) =
         precess::file::from_file(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
-    let [BuiltIn::Dgvscmg(device)] = file.devices[..] else { panic!("{:?}", file.devices) };
+    let (on_hub, isolated) = &file.devices;
+    let ([BuiltIn::Dgvscmg(device)], []) = (&on_hub[..], &isolated[..]) else {
+        panic!("{:?}", file.devices)
+    };
+    let device = *device;
     let mut state = State::<Set<1>>::at_rest();
     (state.r_b_n, state.r_b_n_dot) = (file.initial.r_b_n, file.initial.r_b_n_dot);
     (state.attitude, state.omega) = (file.initial.attitude, file.initial.omega);

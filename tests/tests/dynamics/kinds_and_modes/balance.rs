@@ -5,7 +5,8 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
-    Dgvscmg, Gravity, HingedPanel, Mode, ReactionWheel, Sgcmg, SloshMass, Vscmg, Wrench,
+    Dgvscmg, FlexibleReactionWheel, Gravity, HingedPanel, Mode, ReactionWheel, Sgcmg, SloshMass,
+    Vscmg, Wrench,
 };
 use precess_dynamics::{FixedSet, HubMode};
 
@@ -129,6 +130,11 @@ fn balances<K: Drawn>() {
 fn wheels_balance() {
     balances::<ReactionWheel>();
     balances::<BalancedReactionWheel>();
+}
+
+#[test]
+fn wheels_on_flexible_bearings_balance() {
+    balances::<FlexibleReactionWheel>();
 }
 
 #[test]

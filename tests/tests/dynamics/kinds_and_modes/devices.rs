@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, Kind};
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
-    Dgvscmg, HingedPanel, Passive, ReactionWheel, Sgcmg, SloshMass, Vscmg,
+    Dgvscmg, FlexibleReactionWheel, HingedPanel, Passive, ReactionWheel, Sgcmg, SloshMass, Vscmg,
 };
 
 use super::random::Random;
@@ -221,6 +221,26 @@ impl Drawn for Dgvscmg {
         ];
         let passive = self.passive.values().collect();
         Chain { mount: self.mount, position: self.r_go_b, links, passive }
+    }
+}
+
+impl Drawn for FlexibleReactionWheel {
+    fn drawn(random: &mut Random, heaviest: f64) -> Self {
+        let ReactionWheel { mount, r_w_b, m_w, d, i_w_wc, .. } =
+            ReactionWheel::drawn(random, heaviest);
+        Self { mount, r_sx_b: r_w_b, d, ..Self::bare_wheel(m_w, i_w_wc) }
+    }
+
+    fn chain(&self) -> Chain {
+        let o = Vector3::zeros();
+        let bodiless = |motion| link(motion, o, 0.0, o, Matrix3::zeros());
+        let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let slides = [x, y, z].map(|axis| bodiless(Motion::Slides(axis)));
+        let tilts = [y, z].map(|axis| bodiless(Motion::Turns(axis)));
+        let rotor = wheel(o, self.m_w, self.d, self.i_w_wc);
+        let links = [&slides[..], &tilts[..], &[rotor]].concat();
+        let passive = self.passive.values().collect();
+        Chain { mount: self.mount, position: self.r_sx_b, links, passive }
     }
 }
 

@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
     About, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg,
-    DeviceLoads, Dgcmg, Dgvscmg, Gravity, HingedPanel, HubMode, LoadAxes, Mode, ReactionWheel,
-    Sgcmg, SloshMass, Vscmg, Wrench,
+    DeviceLoads, Dgcmg, Dgvscmg, FlexibleReactionWheel, Gravity, HingedPanel, HubMode, LoadAxes,
+    Mode, ReactionWheel, Sgcmg, SloshMass, Vscmg, Wrench,
 };
 
 use super::balance::{disturb, pair};
@@ -283,6 +283,7 @@ macro_rules! every_kind {
             $check::<BalancedDgcmg>();
             $check::<HingedPanel>();
             $check::<SloshMass>();
+            $check::<FlexibleReactionWheel>();
         }
     )*};
 }

@@ -125,7 +125,9 @@ impl Random {
             return [self.within(-0.5, 0.5), self.within(-1.0, 1.0)];
         }
         let fastest = if info.rate == "spin" { FASTEST_WHEEL } else { 5.0 };
-        [self.within(-PI, PI), self.within(-fastest, fastest)]
+        // At a tilt of a right angle the axis of the spin is that of the other tilt.
+        let largest = if info.body.starts_with("tilt") { 1.0 } else { PI };
+        [self.within(-largest, largest), self.within(-fastest, fastest)]
     }
 }
 

@@ -6,7 +6,7 @@ use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
     Dgvscmg, Hub, ReactionWheel, Sgcmg, Vscmg,
 };
-use precess_dynamics::{HingedPanel, SloshMass};
+use precess_dynamics::{FlexibleReactionWheel, HingedPanel, SloshMass};
 
 use super::case::{Joint, LIMITS, SEEDS, World};
 use super::devices::{Chain, Drawn, Motion};
@@ -122,6 +122,11 @@ fn locked_double_gimbal_is_part_of_the_hub_at_any_angles() {
     locked_is_rigid::<BalancedDgvscmg>();
     locked_is_rigid::<Dgcmg>();
     locked_is_rigid::<BalancedDgcmg>();
+}
+
+#[test]
+fn wheel_on_locked_bearings_is_part_of_the_hub_wherever_they_stand() {
+    locked_is_rigid::<FlexibleReactionWheel>();
 }
 
 #[test]

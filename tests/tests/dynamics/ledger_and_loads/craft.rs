@@ -8,9 +8,9 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::BodyParameters;
 use precess_dynamics::{
     Accelerations, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
-    BalancedVscmg, DeviceLoads, Dgcmg, Dgvscmg, Each, FixedSet, Gravity, HingedPanel, Hub, HubMode,
-    ImbalanceModel, Inputs, JointStates, Mode, Passive, Quaternion, ReactionWheel, Sgcmg,
-    SloshMass, Spacecraft, State, Vscmg, Wrench, kind::JointInfo, set,
+    BalancedVscmg, DeviceLoads, Dgcmg, Dgvscmg, Each, FixedSet, FlexibleReactionWheel, Gravity,
+    HingedPanel, Hub, HubMode, ImbalanceModel, Inputs, JointStates, Mode, Passive, Quaternion,
+    ReactionWheel, Sgcmg, SloshMass, Spacecraft, State, Vscmg, Wrench, kind::JointInfo, set,
 };
 
 use super::draw::{Drawn, TORQUE};
@@ -18,9 +18,16 @@ use super::random::Random;
 
 /// Six kinds; with [`Others`] all of them.
 pub(crate) type Mixed = (Dgvscmg, Vscmg, Sgcmg, ReactionWheel, HingedPanel, SloshMass);
-/// The other six.
-pub(crate) type Others =
-    (BalancedDgvscmg, Dgcmg, BalancedVscmg, BalancedSgcmg, BalancedDgcmg, BalancedReactionWheel);
+/// The others.
+pub(crate) type Others = (
+    BalancedDgvscmg,
+    Dgcmg,
+    BalancedVscmg,
+    BalancedSgcmg,
+    BalancedDgcmg,
+    BalancedReactionWheel,
+    FlexibleReactionWheel,
+);
 
 /// 6000 rpm.
 const FASTEST_WHEEL: f64 = 6000.0 * TAU / 60.0;
@@ -101,6 +108,7 @@ macro_rules! sets {
 sets! {
     A 0, B 1, C 2;
     A 0, B 1, C 2, D 3, E 4, F 5;
+    A 0, B 1, C 2, D 3, E 4, F 5, G 6;
 }
 
 /// A spacecraft, how it moves and what acts on it.
@@ -173,8 +181,12 @@ impl<D: Craft> Case<D> {
         let joints = state.devices.states_mut().zip(self.inputs.modes.values());
         for (([coordinate, rate], mode), info) in joints.zip(D::joint_infos()) {
             let fastest = if info.body == "wheel" { FASTEST_WHEEL } else { 5.0 };
-            *coordinate =
-                if info.slides { random.within(-1.0, 1.0) } else { random.within(-PI, PI) };
+            // At a tilt of a right angle the axis of the spin is that of the other tilt.
+            *coordinate = if info.slides || info.body.starts_with("tilt") {
+                random.within(-1.0, 1.0)
+            } else {
+                random.within(-PI, PI)
+            };
             *rate = random.within(-fastest, fastest);
             if mode == Mode::Locked {
                 *rate = 0.0;

@@ -9,7 +9,8 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::Kind;
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
-    Dgvscmg, Each, HingedPanel, ImbalanceModel, Passive, ReactionWheel, Sgcmg, SloshMass, Vscmg,
+    Dgvscmg, Each, FlexibleReactionWheel, HingedPanel, ImbalanceModel, Passive, ReactionWheel,
+    Sgcmg, SloshMass, Vscmg,
 };
 
 use super::random::Random;
@@ -147,6 +148,9 @@ balanced_single_gimbals!(BalancedVscmg, BalancedSgcmg);
 drawn!(ReactionWheel, false, |random, heaviest| {
     let (m_w, i_w_wc, d) = wheel(random, heaviest);
 } { r_w_b: position(random), m_w, d, i_w_wc, model: model(random) });
+drawn!(FlexibleReactionWheel, false, |random, heaviest| {
+    let (m_w, i_w_wc, d) = wheel(random, heaviest);
+} { r_sx_b: position(random), m_w, d, i_w_wc, model: model(random) });
 drawn!(BalancedReactionWheel, true, |random, heaviest| {
     let m_w = mass(random, heaviest);
     let ([j_11, j_22], _) = random.disc(m_w);

@@ -27,8 +27,11 @@ where
     let mut all = vec![
         ("one state", craft.accelerations(state, inputs).map(|found| found.omega_dot.into())),
         ("fused", craft.fused().accelerations(state, inputs).map(|found| found.omega_dot.into())),
-        ("across", across.accelerations(state, inputs).map(|found| found.omega_dot.into())),
     ];
+    for (name, across) in [("across", across.clone()), ("fused across", across.fused())] {
+        let found = across.accelerations(state, inputs);
+        all.push((name, found.map(|found| found.omega_dot.into())));
+    }
     let batch = Batch::new(hub, &[*device]).expect("valid parameters");
     for (name, batch) in [("batch", batch.clone()), ("fused batch", batch.fused())] {
         let mut out = Vec::new();

@@ -124,6 +124,7 @@ fn every_service_rejects_the_same_step() {
 
         let across = AcrossDevices::new(&hub(2.0), &[device]).expect("valid parameters");
         assert_eq!(across.step(&state, &inputs, dt).unwrap_err(), expected);
+        assert_eq!(across.fused().step(&state, &inputs, dt).unwrap_err(), expected);
         let batch = Batch::new(&hub(2.0), &[device]).expect("valid parameters");
         for batch in [batch.clone(), batch.fused()] {
             let (mut states, mut out) = ([state; 9], Vec::new());

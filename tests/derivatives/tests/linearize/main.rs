@@ -1,0 +1,12 @@
+//! Derivatives: against differences in double-double, against what is known, and what is rejected.
+
+mod accuracy;
+mod columns;
+mod draw;
+mod figures;
+mod known;
+mod outputs;
+mod parameters;
+mod perturb;
+mod rejected;
+mod route;

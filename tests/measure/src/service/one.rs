@@ -1,0 +1,63 @@
+//! One state, one evaluation after another: the latency of a call.
+
+use std::hint::black_box;
+
+use precess_dynamics::kind::Each;
+use precess_dynamics::{Accelerations, Devices, Inputs, Spacecraft, State};
+use precess_tests::stored::Stored;
+use serde_json::{Value, json};
+
+use super::{Rejected, Service};
+
+/// By what share of its derivative the angular velocity of a call exceeds that of the one before:
+/// enough to make each call wait for the last, not enough to move the state.
+pub(super) const NUDGE: f64 = 1e-15;
+
+/// A spacecraft in a state.
+pub(crate) struct One<D: Devices> {
+    pub(super) craft: Spacecraft<D>,
+    pub(super) state: State<D>,
+    pub(super) inputs: Inputs<D>,
+}
+
+impl<D: Devices<Scalar = f64>> One<D> {
+    pub(super) fn open(stored: &Stored, devices: &D) -> Result<Self, Rejected> {
+        Ok(Self::of(stored, Spacecraft::new(&stored.hub(), devices)?))
+    }
+
+    /// The same, products and sums rounded once.
+    #[cfg(feature = "lanes")]
+    pub(super) fn open_fused(stored: &Stored, devices: &D) -> Result<Self, Rejected> {
+        Ok(Self::of(stored, Spacecraft::new(&stored.hub(), devices)?.fused()))
+    }
+
+    fn of(stored: &Stored, craft: Spacecraft<D>) -> Self {
+        let state = stored.motion(State::at_rest_for(&craft));
+        let inputs = stored.forces(Inputs::none_for(&craft));
+        Self { craft, state, inputs }
+    }
+}
+
+impl<D: Devices<Scalar = f64>> Service for One<D> {
+    fn check(&mut self) -> Result<Value, Rejected> {
+        Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
+    }
+
+    fn run(&mut self, calls: u32) -> Result<(), Rejected> {
+        for _ in 0..calls {
+            let found = self.craft.accelerations(black_box(&self.state), &self.inputs)?;
+            self.state.omega += black_box(&found).omega_dot * NUDGE;
+        }
+        Ok(())
+    }
+
+    fn units(&self) -> u32 {
+        1
+    }
+}
+
+/// The accelerations in a row.
+pub(super) fn flat<D: Devices<Scalar = f64>>(found: &Accelerations<D>) -> Value {
+    let hub = found.r_b_n_ddot.iter().chain(&found.omega_dot).copied();
+    json!({ "accelerations": hub.chain(found.devices.values()).collect::<Vec<_>>() })
+}

@@ -1,0 +1,15 @@
+//! A structure that bends, `FlexibleSpacecraft`: against its kinetic energy differentiated in
+//! double-double, against the rigid hub, conservation laws, closed forms.
+
+mod accelerations;
+mod conservation;
+mod craft;
+mod errors;
+mod field;
+mod known;
+mod limits;
+mod loads;
+mod points;
+mod reference;
+mod residual;
+mod stop;

@@ -1,0 +1,161 @@
+//! Stored values of Pinocchio: wheels and a gyro on a platform of six joints.
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::kind::{BodyParameters, Kind};
+use precess_dynamics::{
+    About, Each, Hub, ImbalanceModel, Inputs, Isolated, JointStates, Passive, Platform,
+    ReactionWheel, Spacecraft, State, Suspension, Vscmg,
+};
+use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST};
+use serde::Deserialize;
+
+type Cluster = Isolated<([ReactionWheel; 2], Vscmg)>;
+
+/// Energy and momenta are sums of some tens of products: of their magnitude.
+const SUMS: f64 = 1e-13;
+
+#[derive(Deserialize)]
+struct Fixture {
+    clusters: Vec<Craft>,
+}
+
+#[derive(Deserialize)]
+struct Craft {
+    seed: u32,
+    hub: StoredHub,
+    omega: [f64; 3],
+    r_b_n_dot: [f64; 3],
+    force: [f64; 3],
+    torque_b: [f64; 3],
+    devices: [Device; 4],
+    pinocchio: Found,
+}
+
+#[derive(Deserialize)]
+#[expect(clippy::struct_field_names, reason = "as in the file")]
+struct StoredHub {
+    m_b: f64,
+    r_bc_b: [f64; 3],
+    i_b: [f64; 6],
+}
+
+#[derive(Deserialize)]
+struct Device {
+    kind: String,
+    mount: [[f64; 3]; 3],
+    links: Vec<Link>,
+}
+
+#[derive(Deserialize)]
+struct Link {
+    motion: String,
+    axis: usize,
+    origin: [f64; 3],
+    mass: f64,
+    centre: [f64; 3],
+    inertia: [f64; 6],
+    q: f64,
+    rate: f64,
+    torque: f64,
+}
+
+#[derive(Deserialize)]
+struct Found {
+    r_b_n_ddot: Vec<f64>,
+    omega_dot: Vec<f64>,
+    joints: Vec<f64>,
+    energy: f64,
+    linear: [f64; 3],
+    angular_b: [f64; 3],
+}
+
+fn tensor([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Matrix3<f64> {
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+impl Device {
+    /// As a device of a kind, whose joints it must have.
+    fn of<K: Kind<Scalar = f64>>(&self) -> K {
+        assert_eq!((self.kind.as_str(), self.links.len()), (K::NAME, K::JOINTS.len()));
+        let none = BodyParameters {
+            origin: [0.0; 3],
+            mass: 0.0,
+            centre: [0.0; 3],
+            inertia: Matrix3::zeros(),
+        };
+        let mut bodies = <K as Kind>::all(none);
+        for ((body, link), info) in bodies.values_mut().zip(&self.links).zip(K::JOINTS) {
+            assert_eq!((link.motion == "slide", link.axis), (info.slides, info.axis));
+            let Link { origin, mass, centre, .. } = *link;
+            *body = BodyParameters { origin, mass, centre, inertia: tensor(link.inertia) };
+        }
+        let [x, y, z] = self.mount;
+        let mount = Matrix3::from_rows(&[x.into(), y.into(), z.into()]);
+        let passive = <K as Kind>::all(Passive::none());
+        K::of_bodies(&mount, &bodies, &passive, ImbalanceModel::Coupled)
+    }
+}
+
+fn worst(found: &[f64], expected: &[f64]) -> f64 {
+    let unit = expected.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let off = found.iter().zip(expected).map(|(found, expected)| (found - expected).abs() / unit);
+    off.fold(0.0, |most, off| if off > most || off.is_nan() { off } else { most })
+}
+
+#[test]
+fn isolated_clusters_are_those_of_pinocchio() {
+    let text = include_str!("../../fixtures/isolated.json");
+    let fixture: Fixture = serde_json::from_str(text).expect("a fixture");
+    assert!(fixture.clusters.len() >= 20);
+    let mut errors = Vec::new();
+    for of in &fixture.clusters {
+        let hub = Hub { m_b: of.hub.m_b, r_bc_b: of.hub.r_bc_b.into(), i_b_bc: tensor(of.hub.i_b) };
+        let [platform, first, second, gyro] = &of.devices;
+        let devices = Isolated {
+            platform: platform.of::<Platform>(),
+            suspension: Suspension::none(),
+            carried: ([first.of(), second.of()], gyro.of()),
+        };
+        let craft: Spacecraft<Cluster> = Spacecraft::new(&hub, &devices).expect("sound");
+        let mut state: State<Cluster> = State::at_rest();
+        (state.omega, state.r_b_n_dot) = (of.omega.into(), of.r_b_n_dot.into());
+        let mut inputs: Inputs<Cluster> = Inputs::none();
+        (inputs.force, inputs.torque_b) = (of.force.into(), of.torque_b.into());
+        let links = || of.devices.iter().flat_map(|device| &device.links);
+        for ([q, rate], link) in state.devices.states_mut().zip(links()) {
+            (*q, *rate) = (link.q, link.rate);
+        }
+        for (motor, link) in inputs.motors.values_mut().zip(links()) {
+            *motor = link.torque;
+        }
+        let found = craft.accelerations(&state, &inputs).expect("regular");
+        let joints: Vec<f64> = found.devices.values().collect();
+        let engine = &of.pinocchio;
+        // Blocks: slides, turns of the platform, gimbal, wheels.
+        let blocks = [
+            (found.r_b_n_ddot.as_slice(), &engine.r_b_n_ddot[..]),
+            (found.omega_dot.as_slice(), &engine.omega_dot[..]),
+            (&joints[..3], &engine.joints[..3]),
+            (&joints[3..6], &engine.joints[3..6]),
+            (&joints[8..9], &engine.joints[8..9]),
+        ];
+        errors.extend(blocks.map(|(found, expected)| worst(found, expected)));
+        let wheels = |of: &[f64]| [of[6], of[7], of[9]];
+        errors.push(worst(&wheels(&joints), &wheels(&engine.joints)));
+        let energy = craft.energy(&state).expect("finite");
+        assert!((energy / engine.energy - 1.0).abs() < SUMS, "seed {}: energy", of.seed);
+        // B is at the inertial origin.
+        let momentum = craft.momentum(&state, About::InertialOrigin).expect("finite");
+        let near = |found: Vector3<f64>, expected: [f64; 3]| {
+            let expected = Vector3::from(expected);
+            (found - expected).norm() / expected.norm()
+        };
+        assert!(near(momentum.linear, engine.linear) < SUMS, "seed {}", of.seed);
+        assert!(near(momentum.angular, engine.angular_b) < SUMS, "seed {}", of.seed);
+    }
+    errors.sort_by(f64::total_cmp);
+    let (median, worst) = (errors[errors.len() / 2], errors[errors.len() - 1]);
+    println!("isolated clusters against Pinocchio: median {median:.1e}, worst {worst:.1e}");
+    assert!(median <= ACCELERATIONS_MEDIAN, "median {median:e}");
+    assert!(worst <= ACCELERATIONS_WORST, "worst {worst:e}");
+}

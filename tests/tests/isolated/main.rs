@@ -1,0 +1,13 @@
+//! Isolated platforms against a tree of bodies by Newton and Euler, known answers, conservation.
+
+mod craft;
+mod energies;
+mod engine;
+mod equations;
+mod judge;
+mod kind;
+mod known;
+mod linear;
+mod runs;
+mod suspension;
+mod tree;
