@@ -1,14 +1,15 @@
-//! `kinds`: what devices there are.
+//! `kinds`: what devices there are, and the platform that carries devices.
 
 use std::fmt::Write as _;
 use std::process::ExitCode;
 
 use clap::Args;
-use precess_dynamics::BuiltInKind;
+use precess_dynamics::kind::{JointInfo, Kind, ParameterInfo};
+use precess_dynamics::{BuiltInKind, Platform};
 
 use super::table::aligned_left;
 use super::{CommandError, print};
-use crate::file::read::body_key;
+use crate::file::read::{body_key, joint_key};
 
 /// The options of `kinds`.
 #[derive(Debug, Args)]
@@ -17,26 +18,70 @@ pub(super) struct Kinds {
     kind: Option<String>,
 }
 
+/// What is known of a kind of device, or of the platform that carries devices.
+struct Described {
+    name: &'static str,
+    joints: &'static [JointInfo],
+    parameters: &'static [ParameterInfo],
+    /// Where there is an example of it.
+    example: String,
+}
+
+/// Every kind, and the platform.
+fn described() -> impl Iterator<Item = Described> {
+    let kinds = BuiltInKind::ALL.iter().map(|kind| Described {
+        name: kind.name(),
+        joints: kind.joints(),
+        parameters: kind.parameters(),
+        example: format!("`precess new {}` prints a scenario with one.", kind.name()),
+    });
+    let platform = Described {
+        name: <Platform as Kind>::NAME,
+        joints: <Platform as Kind>::JOINTS,
+        parameters: <Platform as Kind>::PARAMETERS,
+        example:
+            "A table `[[platform]]` of a scenario is one; devices stand on it by `on`. Example: \
+                  scenarios/wheels-on-isolator.toml."
+                .to_owned(),
+    };
+    kinds.chain([platform])
+}
+
 impl Kinds {
     pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
         let Some(name) = &self.kind else {
-            let mut rows =
-                vec![vec!["kind".to_owned(), "bodies from the hub to the tip".to_owned()]];
-            for kind in BuiltInKind::ALL {
-                let bodies: Vec<_> = kind.joints().iter().map(body_key).collect();
-                rows.push(vec![kind.name().to_owned(), bodies.join(", ")]);
-            }
-            print(&aligned_left(&rows));
+            print(&table());
             return Ok(ExitCode::SUCCESS);
         };
-        let Some(kind) = BuiltInKind::of_name(name) else {
-            let known: Vec<_> = BuiltInKind::ALL.iter().map(|kind| kind.name()).collect();
+        let Some(kind) = described().find(|kind| kind.name == name) else {
+            let known: Vec<_> = described().map(|kind| kind.name).collect();
             let message = format!("no kind is named `{name}`; there are {}", known.join(", "));
             return Err(CommandError::Other(message));
         };
+        print(&kind.detail());
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// The kinds with their bodies; what a platform carries is said of it.
+fn table() -> String {
+    let mut rows = vec![vec!["kind".to_owned(), "bodies from the hub to the tip".to_owned()]];
+    for kind in described() {
+        let mut bodies: Vec<_> = kind.joints.iter().map(body_key).collect();
+        if kind.name == <Platform as Kind>::NAME {
+            bodies = vec!["six joints under devices that stand `on` it".to_owned()];
+        }
+        rows.push(vec![kind.name.to_owned(), bodies.join(", ")]);
+    }
+    aligned_left(&rows)
+}
+
+impl Described {
+    /// Joints and parameters.
+    fn detail(&self) -> String {
         let mut text = String::new();
-        let _ = writeln!(text, "{}\n\njoints from the hub to the tip", kind.name());
-        for joint in kind.joints() {
+        let _ = writeln!(text, "{}\n\njoints from the hub to the tip", self.name);
+        for joint in self.joints {
             let axis = ["x", "y", "z"].get(joint.axis).copied().unwrap_or("?");
             let (how, unit) =
                 if joint.slides { ("slides along", "m") } else { ("turns about", "rad") };
@@ -46,14 +91,14 @@ impl Kinds {
             let _ = writeln!(
                 text,
                 "  {:<14} {how} {axis}; coordinate {} ({unit}), rate {rate}, {motor} {}",
-                body_key(joint),
+                joint_key(joint),
                 joint.coordinate,
                 joint.motor
             );
         }
         let _ = writeln!(text, "\nparameters of the Rust structure");
-        let rows: Vec<_> = kind
-            .parameters()
+        let rows: Vec<_> = self
+            .parameters
             .iter()
             .map(|p| {
                 let unit = if p.unit.is_empty() { "" } else { p.unit };
@@ -61,8 +106,7 @@ impl Kinds {
             })
             .collect();
         text.push_str(&aligned_left(&rows));
-        let _ = writeln!(text, "\n`precess new {}` prints a scenario with one.", kind.name());
-        print(&text);
-        Ok(ExitCode::SUCCESS)
+        let _ = writeln!(text, "\n{}", self.example);
+        text
     }
 }
