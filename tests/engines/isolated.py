@@ -1,9 +1,10 @@
-"""Writes tests/fixtures/isolated.json: wheels and a gyro on a platform, as Pinocchio has them.
+"""Writes tests/fixtures/isolated.json: wheels and a gyro on a platform, as Pinocchio and MuJoCo have them.
 
     python isolated.py           evaluates all clusters; writes
     python isolated.py --check   the same, compared with the stored file; writes nothing
 
-A platform is six joints: three prismatic, three revolute, without mass but for the last. Exit status:
+A platform is six joints: three prismatic, three revolute. In Pinocchio bodies between them have no mass; in
+MuJoCo all six joints are of one body. Exit status:
 0 if all is well, 1 if something disagrees, 77 if a package is missing: see requirements.txt.
 """
 
@@ -18,13 +19,15 @@ HERE = Path(__file__).resolve().parent
 FIXTURE = HERE.parent / "fixtures" / "isolated.json"
 
 try:
+    import mujoco
     import numpy as np
     import pinocchio as pin
     from fixture import lines
     from spacecraft import Draw, rotation, solid
+    from with_mujoco import full
     from with_pinocchio import add_body
 except ModuleNotFoundError as error:
-    if error.name not in ("numpy", "pinocchio"):
+    if error.name not in ("mujoco", "numpy", "pinocchio"):
         raise
     print(error, file=sys.stderr)
     sys.exit(MISSING)
@@ -92,7 +95,7 @@ def cluster(seed):
     }  # fmt: skip
 
 
-def evaluate(craft):
+def with_pinocchio(craft):
     """Accelerations, kinetic energy, momenta about B."""
     model = pin.Model()
     hub = craft["hub"]
@@ -129,31 +132,96 @@ def evaluate(craft):
     }
 
 
+def with_mujoco(craft):
+    """The same."""
+    model = build(craft)
+    data = mujoco.MjData(model)
+    links = [link for device in craft["devices"] for link in device["links"]]
+    data.qpos[:] = [0, 0, 0, 1, 0, 0, 0] + [link["q"] for link in links]
+    data.qvel[:] = craft["r_b_n_dot"] + craft["omega"] + [link["rate"] for link in links]
+    torques = [link["torque"] for link in links]
+    data.qfrc_applied[:] = craft["force"] + craft["torque_b"] + torques
+    mujoco.mj_forward(model, data)
+    mujoco.mj_energyVel(model, data)
+    mujoco.mj_subtreeVel(model, data)
+    a = data.qacc.copy()
+    linear = model.body_subtreemass[1] * data.subtree_linvel[1]
+    angular_b = data.subtree_angmom[1] + np.cross(data.subtree_com[1], linear)
+    return {
+        "r_b_n_ddot": a[:3].tolist(),
+        "omega_dot": a[3:6].tolist(),
+        "joints": a[6:].tolist(),
+        "energy": float(data.energy[1]),
+        "linear": linear.tolist(),
+        "angular_b": angular_b.tolist(),
+    }
+
+
+def build(craft):
+    """Bodies with mass, each on the joints of the links without mass before it and on its own."""
+    spec = mujoco.MjSpec()
+    spec.compiler.degree = False
+    spec.option.gravity = [0.0] * 3
+    hub = craft["hub"]
+    base = spec.worldbody.add_body(
+        mass=hub["m_b"], ipos=hub["r_bc_b"], fullinertia=full(hub["i_b"])
+    )
+    base.explicitinertial = True
+    base.add_freejoint()
+    kinds = {"slide": mujoco.mjtJoint.mjJNT_SLIDE, "turn": mujoco.mjtJoint.mjJNT_HINGE}
+    for device in craft["devices"]:
+        parent, quaternion, joints, origin = base, np.zeros(4), [], None
+        mujoco.mju_mat2Quat(quaternion, np.array(device["mount"]).flatten())
+        for link in device["links"]:
+            joints.append((kinds[link["motion"]], np.eye(3)[link["axis"]]))
+            origin = origin or link["origin"]
+            if link["mass"] == 0.0:
+                continue
+            parent = parent.add_body(
+                pos=origin, quat=quaternion, mass=link["mass"], ipos=link["centre"],
+                fullinertia=full(link["inertia"]),
+            )  # fmt: skip
+            parent.explicitinertial = True
+            for motion, axis in joints:
+                parent.add_joint(type=motion, axis=axis)
+            quaternion, joints, origin = np.array([1.0, 0.0, 0.0, 0.0]), [], None
+        if device["kind"] == "platform":
+            base = parent
+    return spec.compile()
+
+
+ENGINES = {"pinocchio": with_pinocchio, "mujoco": with_mujoco}
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("--check", action="store_true", help="compare and write nothing")
     check = arguments.parse_args().check
     crafts = [cluster(seed) for seed in range(CLUSTERS)]
-    found = [{**craft, "pinocchio": evaluate(craft)} for craft in crafts]
+    evaluated = [{name: by(craft) for name, by in ENGINES.items()} for craft in crafts]
     if not check:
-        text = lines({"pinocchio": pin.__version__, "clusters": found}) + "\n"
+        versions = {"pinocchio": pin.__version__, "mujoco": mujoco.__version__}
+        found = [{**craft, **engines} for craft, engines in zip(crafts, evaluated)]
+        text = lines({"engines": versions, "clusters": found}) + "\n"
         FIXTURE.write_text(text, encoding="utf-8")
         return 0
     stored = json.loads(FIXTURE.read_text(encoding="utf-8"))["clusters"]
-    if len(stored) != len(found):
-        print(f"{len(stored)} clusters are stored, not {len(found)}", file=sys.stderr)
+    if len(stored) != len(crafts):
+        print(f"{len(stored)} clusters are stored, not {len(crafts)}", file=sys.stderr)
         return 1
-    for new, old in zip(found, stored):
-        given = {key: value for key, value in old.items() if key != "pinocchio"}
-        if given != {key: value for key, value in new.items() if key != "pinocchio"}:
-            print(f"cluster {new['seed']}: other numbers are stored", file=sys.stderr)
+    for craft, engines, old in zip(crafts, evaluated, stored):
+        given = {key: value for key, value in old.items() if key not in ENGINES}
+        if given != craft:
+            print(f"cluster {craft['seed']}: other numbers are stored", file=sys.stderr)
             return 1
-        for block, value in new["pinocchio"].items():
-            value, before = np.atleast_1d(value), np.atleast_1d(old["pinocchio"][block])
-            off = np.max(np.abs(value - before)) / np.max(np.abs(before))
-            if off > REPRODUCTION:
-                print(f"cluster {new['seed']}: {block} off by {off:.1e}", file=sys.stderr)
-                return 1
+        for engine, found in engines.items():
+            for block, value in found.items():
+                value, before = np.atleast_1d(value), np.atleast_1d(old[engine][block])
+                off = np.max(np.abs(value - before)) / np.max(np.abs(before))
+                if off > REPRODUCTION:
+                    message = f"{engine}, {block} off by {off:.1e}"
+                    print(f"cluster {craft['seed']}: {message}", file=sys.stderr)
+                    return 1
     return 0
 
 
