@@ -40,7 +40,8 @@ const FASTEST_WHEEL: f64 = 628.0;
 type Draw = fn(&mut Random, f64) -> BuiltIn;
 
 /// Every kind but the flexible reaction wheel, whose linearised modes the suite `flexible_wheel` compares with
-/// their closed form.
+/// their closed form: with all six joints driven, no moment but the motor's reaches its wheel, and the block of
+/// derivatives of that by parameters has no unit.
 const KINDS: [Draw; 12] = [
     device::<Dgvscmg>,
     device::<BalancedDgvscmg>,
