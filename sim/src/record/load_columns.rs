@@ -32,8 +32,7 @@ pub(super) fn of_carried(columns: &mut Vec<Column>, (index, name): (usize, &str)
         (Quantity::CarriedMoment, "moment", "N m"),
     ];
     for (quantity, what, unit) in two {
-        let meaning =
-            format!("{what} that platform {name} exerts on all devices on it, about P, component");
+        let meaning = format!("{what} that {name} exerts on its devices, about P, component");
         let own = format!("{name}.carried.{what}");
         let of = |axis| quantity(index, axis);
         let axes = format!("{name}.platform");

@@ -11,6 +11,9 @@ use serde::Deserialize;
 
 type Cluster = Isolated<([ReactionWheel; 2], Vscmg)>;
 
+/// What an engine found for a spacecraft.
+type OfEngine = fn(&Craft) -> &Found;
+
 /// Energy and momenta are sums of some tens of products: of their magnitude.
 const SUMS: f64 = 1e-13;
 
@@ -154,7 +157,7 @@ fn isolated_clusters_are_those_of_the_engines() {
     let text = include_str!("../../fixtures/isolated.json");
     let fixture: Fixture = serde_json::from_str(text).expect("a fixture");
     assert!(fixture.clusters.len() >= 20);
-    let engines: [(_, fn(&Craft) -> &Found); 2] =
+    let engines: [(_, OfEngine); 2] =
         [("Pinocchio", |of| &of.pinocchio), ("MuJoCo", |of| &of.mujoco)];
     for (name, engine) in engines {
         let clusters = fixture.clusters.iter();
