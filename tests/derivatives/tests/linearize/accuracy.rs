@@ -1,5 +1,5 @@
 //! Every derivative by state and inputs against differences in double-double, over random
-//! spacecraft of every kind and mode; and the values, bit by bit.
+//! spacecraft of twelve kinds and every mode; and the values, bit by bit.
 
 use precess_dynamics::{Gravity, Variable};
 use precess_tests::blocks::Figures;

@@ -1,4 +1,4 @@
-//! Random spacecraft of every kind, joint mode, mode of the hub and gravity, in any scalar.
+//! Random spacecraft of twelve kinds, every joint mode, mode of the hub and gravity, in any scalar.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{BodyParameters, Each, JointStates, Kind, Value};
