@@ -9,11 +9,9 @@ import mujoco
 import numpy as np
 
 import chains
-from spacecraft import ENTRIES
+from with_mujoco import full
 
 VERSION = mujoco.__version__
-# MuJoCo's order of the entries of a full inertia: the diagonal first.
-FULL_INERTIA = [ENTRIES.index(e) for e in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]]
 SIX = 6
 # MuJoCo's compiler accepts no moving body without mass or inertia, so point masses and massless
 # gimbals have some until then.
@@ -151,7 +149,3 @@ def given_accelerations(craft, moving, hub_moves):
         hub = of_hub["r_b_n_ddot"] + of_hub["omega_dot"]
     own = [chains.prescribed(made) for made in moving]
     return np.array([*hub, *(np.nan if x is None else x for x in own)])
-
-
-def full(entries):
-    return [entries[k] for k in FULL_INERTIA]

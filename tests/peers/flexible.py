@@ -11,6 +11,7 @@ import math
 import mujoco
 import numpy as np
 import runs
+from with_mujoco import full
 
 SLIDE, HINGE = mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE
 WHEEL = [(HINGE, 0)]
@@ -136,8 +137,3 @@ def model(given):
         if device["kind"] == "platform":
             base = body
     return spec.compile()
-
-
-def full(entries):
-    """MuJoCo's order: the diagonal first."""
-    return [entries[k] for k in (0, 3, 5, 1, 2, 4)]
