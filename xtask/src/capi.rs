@@ -24,6 +24,8 @@ const LAYOUTS: [(&str, &str); 2] =
 const PROGRAM: &[&str] = &["flight/capi/tests/abi.c"];
 /// A program of version 2, with a part of version 1.
 const PROGRAM_2: &[&str] = &["flight/capi/tests/version2.c", "flight/capi/tests/version1.c"];
+/// A program of platforms, which version 2 has.
+const PLATFORMS: &[&str] = &["flight/capi/tests/platforms.c"];
 const GUIDE: &str = "flight/README.md";
 const APP: &[&str] = &["flight/examples/cfs_app/main.c", "flight/examples/cfs_app/dyn_app.c"];
 /// What the application prints.
@@ -65,7 +67,7 @@ struct Host {
 pub(crate) fn host() -> Result<(), String> {
     let host = built()?;
     host.exports()?;
-    let (mut outputs, mut second) = (Vec::new(), Vec::new());
+    let (mut outputs, mut second, mut platforms) = (Vec::new(), Vec::new(), Vec::new());
     for compiler in &COMPILERS {
         if !is_there(compiler.name) {
             skip(&format!("C interface by {}", compiler.name), compiler.install)?;
@@ -80,6 +82,8 @@ pub(crate) fn host() -> Result<(), String> {
             let program = host.compile(compiler, name, PROGRAM_2, &[option, "-DHOSTED"], true)?;
             second.push((program.clone(), printed(&mut Command::new(&program))?));
         }
+        let program = host.compile(compiler, "platforms", PLATFORMS, &["-O2", "-DHOSTED"], true)?;
+        platforms.push((program.clone(), printed(&mut Command::new(&program))?));
         let first = host.guide()?;
         let first = host.compile(compiler, "first", &[&first], &["-O2"], true)?;
         printed(&mut Command::new(first))?;
@@ -92,19 +96,26 @@ pub(crate) fn host() -> Result<(), String> {
         let options = ["-g", "-O1", "-DHOSTED", "-fsanitize=address,undefined"];
         let program = host.compile(gcc, "version2", PROGRAM_2, &options, true)?;
         second.push((program.clone(), printed(&mut Command::new(&program))?));
+        let program = host.compile(gcc, "platforms", PLATFORMS, &options, true)?;
+        platforms.push((program.clone(), printed(&mut Command::new(&program))?));
     }
-    for (version, outputs) in [(1, &outputs), (2, &second)] {
+    for (what, outputs) in
+        [("version 1", &outputs), ("version 2", &second), ("platforms", &platforms)]
+    {
         same(outputs)?;
         let count = outputs.len();
-        say!("version {version}: {count} programs in C and C++ print the same bits");
+        say!("{what}: {count} programs in C and C++ print the same bits");
     }
     host.desktop()
 }
 
+/// Lines of a program below which nothing has been shown.
+const LEAST: usize = 25;
+
 /// All programs pass, and print the same.
 fn same(outputs: &[(PathBuf, String)]) -> Result<(), String> {
     for (program, output) in outputs {
-        let passed = output.ends_with("passed\n") && output.lines().count() > 100;
+        let passed = output.ends_with("passed\n") && output.lines().count() > LEAST;
         if !passed || Some(output) != outputs.first().map(|(_, first)| first) {
             return Err(format!("{} prints other bits, or fails:\n{output}", program.display()));
         }

@@ -28,7 +28,7 @@ use crate::validation::parameter_error::ParameterError;
 ///
 /// In lists it is a member of its own: `(Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>)` is a set of
 /// devices on the hub and of platforms, as many as there are at run time. A
-/// [`BuiltIn`](crate::BuiltIn) is never one. Unsupported in lanes and in C.
+/// [`BuiltIn`](crate::BuiltIn) is never one. Unsupported in lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Isolated<D: DeviceSet> {
     /// The platform, with springs and dampers of single joints.

@@ -29,7 +29,7 @@ extern "C" {
 #define PRECESS_VERSION 0x00000100
 
 /* Version of the interface: that of the layout of a parameter table, and of the structures below. 1 unless
- * it is defined before this header is included; 2 is for devices of up to six joints. The library has the
+ * it is defined before this header is included; 2 is for devices of up to six joints, and for platforms. The library has the
  * functions of both: a program compiled with version 1 needs no change. Structures and spacecraft of one
  * version are not for functions of the other; tables of version 1 are read by both. */
 #ifndef PRECESS_TABLE_VERSION
@@ -43,9 +43,13 @@ extern "C" {
 #if PRECESS_TABLE_VERSION == 1
 #define PRECESS_MAX_JOINTS 3
 #define PRECESS_TABLE_SIZE(devices) (124 + 584 * (devices))
+#define PRECESS_SPACECRAFT_SIZE 16384
 #elif PRECESS_TABLE_VERSION == 2
 #define PRECESS_MAX_JOINTS 6
-#define PRECESS_TABLE_SIZE(devices) (124 + 1088 * (devices))
+#define PRECESS_TABLE_SIZE(devices) (124 + 2152 * (devices))
+#define PRECESS_SPACECRAFT_SIZE 49152
+#define PRECESS_MAX_PLATFORMS 4   /* platforms, */
+#define PRECESS_MAX_ON_PLATFORM 4 /* devices on each: both count as devices */
 #define precess_init precess_init_v2
 #define precess_init_from_table precess_init_from_table_v2
 #define precess_table_write precess_table_write_v2
@@ -64,8 +68,7 @@ extern "C" {
 #error "PRECESS_TABLE_VERSION is 1 or 2"
 #endif
 
-/* Memory of a spacecraft, in bytes. */
-#define PRECESS_SPACECRAFT_SIZE 16384
+/* Alignment of the memory of a spacecraft, in bytes; its size is above. */
 #define PRECESS_SPACECRAFT_ALIGN 8
 
 /* Error codes. precess_error_text has the remedy. */
@@ -96,7 +99,9 @@ enum {
     PRECESS_ERROR_TABLE_CHECKSUM = 23,
     PRECESS_ERROR_OTHER = 24,
     PRECESS_ERROR_UNSTABLE = 25,
-    PRECESS_ERROR_MANY_JOINTS = 26
+    PRECESS_ERROR_MANY_JOINTS = 26,
+    PRECESS_ERROR_NO_PLATFORM = 27,
+    PRECESS_ERROR_SUSPENSION = 28
 };
 
 /* Kinds of devices, with their joints from the hub outwards. At zero, outer and only gimbals turn
@@ -120,6 +125,13 @@ enum {
                                                  and z; wheel. Version 2. Only the wheel has a body, only
                                                  the first joint an origin */
 };
+
+#if PRECESS_TABLE_VERSION == 2
+/* An isolated platform: slides along x, y, z of its mount, then turns about x, the turned y, its own z. Only
+ * the last of its bodies has mass, only the first joint an origin, with every coordinate zero. It stands on the
+ * hub; entries that name it in `on` stand on it, their origins and mounts in its axes. */
+enum { PRECESS_KIND_PLATFORM = 100 };
+#endif
 
 /* Model of a wheel's imbalance: the rotor itself, or the usual lumped disturbance (only
  * imbalanced kinds). */
@@ -183,6 +195,26 @@ typedef struct precess_passive {
     double coulomb_rate; /* rad/s or m/s; above 0 where coulomb is */
 } precess_passive;
 
+#if PRECESS_TABLE_VERSION == 2
+/* A strut between base and platform that turns freely at both ends; all zero where there is none. */
+typedef struct precess_strut {
+    double position[3];  /* its end on the platform, from its origin, its axes, m */
+    double direction[3]; /* unit vector from base to platform with every coordinate zero, mount axes */
+    double length;       /* with every coordinate zero, where it exerts no force, m; above 0 */
+    double stiffness;    /* N/m; not below 0 */
+    double damping;      /* N s/m; not below 0 */
+} precess_strut;
+
+/* Springs and dampers that couple the six joints of a platform, beside those of single joints; all zero where
+ * there are none. Potential 1/2 (q - rest)' stiffness (q - rest), q the coordinates of the joints in order. */
+typedef struct precess_suspension {
+    double stiffness[36]; /* N/m, N/rad, N m/rad; symmetric, positive semidefinite */
+    double rest[6];       /* m, rad */
+    double damping[36];   /* N s/m, N s/rad, N m s/rad; symmetric, positive semidefinite */
+    precess_strut strut[6];
+} precess_suspension;
+#endif
+
 /* A device: as many bodies and joints are read as its kind has. */
 typedef struct precess_device {
     int32_t kind;                                /* PRECESS_KIND_ */
@@ -190,6 +222,11 @@ typedef struct precess_device {
     double mount[9];                             /* its columns are the device's axes along B */
     precess_body bodies[PRECESS_MAX_JOINTS];     /* from the hub outwards */
     precess_passive passive[PRECESS_MAX_JOINTS]; /* of the joint of each body */
+#if PRECESS_TABLE_VERSION == 2
+    int32_t on;       /* 0: on the hub; otherwise 1 + index of the platform that it stands on */
+    int32_t reserved; /* 0 */
+    precess_suspension suspension; /* of a platform; not read of other kinds */
+#endif
 } precess_device;
 
 /* State of the hub and of the joints. */
@@ -255,8 +292,8 @@ typedef struct precess_power {
 typedef struct precess_loads {
     precess_wrench hub; /* what must act on the hub in addition to the inputs, about B, B axes: rounding on a
                            free hub, what a table exerts on a fixed one */
-    precess_wrench mount[PRECESS_MAX_DEVICES]; /* what the hub exerts on each device, about the origin
-                           of its first joint; N axes with PRECESS_AXES_INERTIAL, otherwise B axes */
+    precess_wrench mount[PRECESS_MAX_DEVICES]; /* what the hub, or its platform, exerts on each device, about
+                           the origin of its first joint; N axes with PRECESS_AXES_INERTIAL, otherwise B axes */
     precess_wrench joint[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* what the parent body exerts on
                            the child body of each joint, about its origin, along PRECESS_AXES_ */
     double motor[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* torque of each motor, N m or N: the
@@ -285,9 +322,9 @@ int32_t precess_init_from_table(void *memory, size_t size, const uint8_t *table,
 /* Writes the parameter table of a hub and `count` devices; its bytes are counted in `length`.
  * The parameters are checked by precess_init_from_table, not here. Little-endian on every target:
  * offset 0 "PREC"; 4 version; 8 length in bytes; 12 number of devices n (32 bits each); 16 the hub,
- * 13 doubles; 120 + s k device k, 2 integers of 32 bits and 72 doubles, in version 2 135; both in the order
- * of their structures, nothing padded; 120 + s n CRC-32 of all before (ISO-HDLC, that of zip). s is 584, in
- * version 2 1088. */
+ * 13 doubles; 120 + s k device k, 2 integers of 32 bits and 72 doubles (in version 2: 135 doubles, 2 integers,
+ * 132 doubles); both in the order of their structures, nothing padded; 120 + s n CRC-32 of all before (ISO-HDLC,
+ * that of zip). s is 584, in version 2 2152. */
 int32_t precess_table_write(const precess_hub *hub, const precess_device *devices, uint32_t count,
                             uint8_t *table, size_t capacity, size_t *length);
 

@@ -3,16 +3,15 @@
 use core::ffi::c_void;
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::{self as dynamics, Spacecraft};
+use precess_dynamics::{self as dynamics, Devices, Spacecraft};
 
-use crate::device::device_of;
 use crate::error::{Code, Fault, Rejection};
 use crate::memory::{self, Plain, check, slice};
-use crate::types::{Device, Hub};
-use crate::{List, MAX_DEVICES};
+use crate::places::Places;
+use crate::types::Hub;
+use crate::version::{EntryOf, Interface, SetOf, Versions};
+use crate::{MAX_DEVICES, VERSIONS};
 
-/// `PRECESS_SPACECRAFT_SIZE`: a little more than any target needs.
-pub const SIZE: usize = 16_384;
 /// `PRECESS_SPACECRAFT_ALIGN`.
 pub const ALIGN: usize = 8;
 
@@ -22,14 +21,28 @@ const fn made_by(joints: usize) -> u64 {
     0x5052_4543_0000_0000 | (joints as u64) << 24 | crate::VERSION as u64
 }
 
-/// The contents of the caller's memory.
+/// The beginning of the caller's memory.
 #[repr(C)]
 pub struct Craft {
     made: u64,
-    pub(crate) spacecraft: Spacecraft<List>,
 }
 
-const _: () = assert!(size_of::<Craft>() <= SIZE && align_of::<Craft>() <= ALIGN);
+/// The contents of the caller's memory.
+#[repr(C)]
+pub struct Made<D: Devices<Scalar = f64>> {
+    craft: Craft,
+    pub(crate) places: Places,
+    pub(crate) spacecraft: Spacecraft<D>,
+}
+
+const fn fits<const J: usize>() -> bool
+where
+    Versions: Interface<J>,
+{
+    size_of::<Made<SetOf<J>>>() <= Versions::SIZE && align_of::<Made<SetOf<J>>>() <= ALIGN
+}
+
+const _: () = assert!(fits::<3>() && fits::<6>());
 
 /// The spacecraft at a pointer.
 ///
@@ -41,21 +54,27 @@ const _: () = assert!(size_of::<Craft>() <= SIZE && align_of::<Craft>() <= ALIGN
 ///
 /// The pointer points to `PRECESS_SPACECRAFT_SIZE` readable bytes, which nobody but `precess_init`
 /// has written to if they begin as a spacecraft.
-pub(crate) unsafe fn craft<'a, const J: usize>(pointer: *const Craft) -> Result<&'a Craft, Code> {
+pub(crate) unsafe fn craft<'a, const J: usize>(
+    pointer: *const Craft,
+) -> Result<&'a Made<SetOf<J>>, Code>
+where
+    Versions: Interface<J>,
+{
     // SAFETY: by contract.
-    unsafe { craft_of(pointer, &[J]) }
+    if unsafe { joints_of(pointer) }? != J {
+        return Err(Code::NotInitialised);
+    }
+    // SAFETY: `precess_init` of this version has made it.
+    Ok(unsafe { &*pointer.cast() })
 }
 
-/// The spacecraft at a pointer, made by one of these versions of the interface.
-unsafe fn craft_of<'a>(pointer: *const Craft, versions: &[usize]) -> Result<&'a Craft, Code> {
+/// The version that has made the spacecraft at a pointer, by its joints.
+unsafe fn joints_of(pointer: *const Craft) -> Result<usize, Code> {
     check(pointer)?;
     // SAFETY: not null, aligned, readable; the first field is a number.
     let made = unsafe { (&raw const (*pointer).made).read() };
-    if !versions.iter().any(|joints| made == made_by(*joints)) {
-        return Err(Code::NotInitialised);
-    }
-    // SAFETY: `precess_init` has made it.
-    Ok(unsafe { &*pointer })
+    let version = VERSIONS.into_iter().find(|joints| made == made_by(*joints));
+    version.ok_or(Code::NotInitialised)
 }
 
 /// Writes the fault of a call and returns its code.
@@ -63,15 +82,15 @@ unsafe fn craft_of<'a>(pointer: *const Craft, versions: &[usize]) -> Result<&'a 
 /// # Safety
 ///
 /// `fault` is null or points to a writable [`Fault`].
-pub(crate) unsafe fn report(
-    spacecraft: Option<&Spacecraft<List>>,
+pub(crate) unsafe fn report<D: Devices<Scalar = f64>>(
+    craft: Option<&Made<D>>,
     result: Result<(), Rejection>,
     fault: *mut Fault,
 ) -> i32 {
     let rejection = result.err().unwrap_or(Code::Ok.into());
     let small = |index: usize| i32::try_from(index).unwrap_or(i32::MAX);
     let joint = rejection.joint.and_then(|name| {
-        let mut joints = spacecraft?.joints();
+        let mut joints = craft?.spacecraft.joints();
         let named = |info: &dynamics::kind::JointInfo| {
             // Byte by byte: no call of the C library's `memcmp`.
             [info.body, info.coordinate, info.rate].iter().any(|own| own.bytes().eq(name.bytes()))
@@ -80,9 +99,11 @@ pub(crate) unsafe fn report(
             joints.find(|(device, info)| Some(*device) == rejection.device && named(info))?;
         Some(info.index)
     });
+    let of_device = |device| craft.map_or(device, |craft| craft.places.entry(device));
+    let entry = rejection.entry.or(rejection.device.map(of_device));
     let cause = Fault {
         code: rejection.code as i32,
-        device: rejection.device.map_or(-1, small),
+        device: entry.map_or(-1, small),
         joint: joint.map_or(-1, small),
         reserved: 0,
         value: rejection.value,
@@ -98,21 +119,25 @@ pub(crate) unsafe fn report(
 /// Makes a spacecraft of a hub and devices.
 pub(crate) fn made<const J: usize>(
     hub: &Hub,
-    devices: &[Device<J>],
-) -> Result<Spacecraft<List>, Rejection> {
-    if devices.len() > MAX_DEVICES {
+    entries: &[EntryOf<J>],
+) -> Result<Made<SetOf<J>>, Rejection>
+where
+    Versions: Interface<J>,
+{
+    if entries.len() > MAX_DEVICES {
         return Err(Code::TooMany.into());
     }
-    let mut list: List = [None; MAX_DEVICES];
-    for (index, (entry, device)) in list.iter_mut().zip(devices).enumerate() {
-        *entry = Some(device_of(index, device)?);
-    }
+    let (set, places) = Versions::set(entries)?;
     let hub = dynamics::Hub {
         m_b: hub.mass,
         r_bc_b: Vector3::from(hub.centre),
         i_b_bc: matrix(&hub.inertia),
     };
-    Ok(Spacecraft::new(&hub, &list)?)
+    let spacecraft = Spacecraft::new(&hub, &set).map_err(|error| {
+        let rejection = Rejection::from(error);
+        Rejection { entry: rejection.device.map(|device| places.entry(device)), ..rejection }
+    })?;
+    Ok(Made { craft: Craft { made: made_by(J) }, places, spacecraft })
 }
 
 /// Makes a spacecraft in the caller's memory.
@@ -127,18 +152,21 @@ pub(crate) fn made<const J: usize>(
 pub(crate) unsafe fn make_in<const J: usize>(
     memory: *mut c_void,
     size: usize,
-    make: impl FnOnce() -> Result<Spacecraft<List>, Rejection>,
-) -> Result<(), Rejection> {
+    make: impl FnOnce() -> Result<Made<SetOf<J>>, Rejection>,
+) -> Result<(), Rejection>
+where
+    Versions: Interface<J>,
+{
     let craft = memory.cast::<Craft>();
     check(craft)?;
-    if size < SIZE {
+    if size < Versions::SIZE {
         return Err(Code::TooSmall.into());
     }
     // SAFETY: not null, aligned, large enough; a spacecraft that was here is no longer valid.
     unsafe { (&raw mut (*craft).made).write(0) };
-    let spacecraft = make()?;
+    let contents = make()?;
     // SAFETY: as before.
-    unsafe { craft.write(Craft { made: made_by(J), spacecraft }) };
+    unsafe { craft.cast::<Made<SetOf<J>>>().write(contents) };
     Ok(())
 }
 
@@ -157,22 +185,30 @@ pub(crate) unsafe fn init<const J: usize>(
     memory: *mut c_void,
     size: usize,
     hub: *const Hub,
-    devices: *const Device<J>,
+    devices: *const EntryOf<J>,
     count: u32,
     fault: *mut Fault,
-) -> i32 {
+) -> i32
+where
+    Versions: Interface<J>,
+{
     let make = || {
         if count as usize > MAX_DEVICES {
             return Err(Rejection::from(Code::TooMany));
         }
         // SAFETY: by contract.
         let (hub, devices) = unsafe { (memory::read(hub)?, slice(devices, count as usize)?) };
-        made(&hub, devices)
+        made::<J>(&hub, devices)
     };
     // SAFETY: by contract.
     let result = unsafe { make_in::<J>(memory, size, make) };
     // SAFETY: by contract.
-    unsafe { report(None, result, fault) }
+    unsafe { report(None::<&Made<SetOf<J>>>, result, fault) }
+}
+
+/// A number of a spacecraft of any version.
+pub(crate) trait Query<T> {
+    fn of<D: Devices<Scalar = f64>>(&self, craft: &Made<D>) -> T;
 }
 
 /// Writes one number of a spacecraft.
@@ -183,14 +219,38 @@ pub(crate) unsafe fn init<const J: usize>(
 pub(crate) unsafe fn query<T: Plain>(
     pointer: *const Craft,
     to: *mut T,
-    of: impl FnOnce(&Spacecraft<List>) -> T,
+    query: &impl Query<T>,
 ) -> i32 {
-    // SAFETY: by contract.
-    let done = unsafe { craft_of(pointer, &crate::VERSIONS) }.and_then(|craft| {
+    let found = || {
         // SAFETY: by contract.
-        unsafe { memory::write(to, of(&craft.spacecraft)) }
-    });
-    done.err().unwrap_or(Code::Ok) as i32
+        let number = if unsafe { joints_of(pointer) }? == VERSIONS[0] {
+            // SAFETY: by contract.
+            query.of(unsafe { craft::<{ VERSIONS[0] }>(pointer) }?)
+        } else {
+            // SAFETY: by contract.
+            query.of(unsafe { craft::<{ VERSIONS[1] }>(pointer) }?)
+        };
+        // SAFETY: by contract.
+        unsafe { memory::write(to, number) }
+    };
+    found().err().unwrap_or(Code::Ok) as i32
+}
+
+struct Mass;
+
+impl Query<f64> for Mass {
+    fn of<D: Devices<Scalar = f64>>(&self, craft: &Made<D>) -> f64 {
+        craft.spacecraft.mass()
+    }
+}
+
+/// Of an entry.
+struct Joints(usize);
+
+impl Query<u32> for Joints {
+    fn of<D: Devices<Scalar = f64>>(&self, craft: &Made<D>) -> u32 {
+        u32::try_from(craft.places.joints_of(self.0)).unwrap_or(u32::MAX)
+    }
 }
 
 /// See `precess.h`.
@@ -201,7 +261,7 @@ pub(crate) unsafe fn query<T: Plain>(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn precess_mass(craft: *const Craft, mass: *mut f64) -> i32 {
     // SAFETY: by contract.
-    unsafe { query(craft, mass, Spacecraft::mass) }
+    unsafe { query(craft, mass, &Mass) }
 }
 
 /// See `precess.h`.
@@ -211,10 +271,6 @@ pub unsafe extern "C" fn precess_mass(craft: *const Craft, mass: *mut f64) -> i3
 /// `craft` points to a spacecraft, `joints` to a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn precess_joints(craft: *const Craft, device: u32, joints: *mut u32) -> i32 {
-    let count = |craft: &Spacecraft<List>| {
-        let of_device = craft.joints().filter(|(index, _)| *index == device as usize);
-        u32::try_from(of_device.count()).unwrap_or(u32::MAX)
-    };
     // SAFETY: by contract.
-    unsafe { query(craft, joints, count) }
+    unsafe { query(craft, joints, &Joints(device as usize)) }
 }

@@ -17,7 +17,7 @@ pub(crate) fn device_of<const J: usize>(
     index: usize,
     device: &types::Device<J>,
 ) -> Result<BuiltIn, Rejection> {
-    let reject = |code: Code| Rejection { device: Some(index), ..code.into() };
+    let reject = |code: Code| Rejection { entry: Some(index), ..code.into() };
     let kind = kind_of(device.kind).ok_or(reject(Code::UnknownKind))?;
     if kind.joints().len() > J {
         return Err(reject(Code::ManyJoints));

@@ -112,6 +112,12 @@ codes! {
     /// A kind of more joints than the structures of the caller hold.
     ManyJoints = 26, c"PRECESS_ERROR_MANY_JOINTS",
         c"the kind has more joints than PRECESS_MAX_JOINTS; define PRECESS_TABLE_VERSION as 2";
+    /// An entry stands on something that is no platform.
+    NoPlatform = 27, c"PRECESS_ERROR_NO_PLATFORM",
+        c"`on` is neither 0, the hub, nor 1 + the index of a platform; platforms stand on the hub";
+    /// A matrix or strut of a suspension is out of range.
+    Suspension = 28, c"PRECESS_ERROR_SUSPENSION",
+        c"a matrix is not symmetric or not positive semidefinite, or a strut has no length, direction";
 }
 
 /// Where a rejection comes from: `precess_fault`.
@@ -139,7 +145,10 @@ unsafe impl Plain for Fault {}
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rejection {
     pub(crate) code: Code,
+    /// Number of the device in the set.
     pub(crate) device: Option<usize>,
+    /// Index of the entry, where it is known.
+    pub(crate) entry: Option<usize>,
     pub(crate) joint: Option<&'static str>,
     pub(crate) value: f64,
     pub(crate) bound: f64,
@@ -147,7 +156,7 @@ pub struct Rejection {
 
 impl From<Code> for Rejection {
     fn from(code: Code) -> Self {
-        Self { code, device: None, joint: None, value: 0.0, bound: 0.0 }
+        Self { code, device: None, entry: None, joint: None, value: 0.0, bound: 0.0 }
     }
 }
 
@@ -206,6 +215,15 @@ impl From<ParameterError> for Rejection {
             }
             ParameterError::LeftHandedMount { device, determinant } => {
                 Self::valued(Code::Mount, determinant, 1.0).at(device, None)
+            }
+            ParameterError::Suspension { device, value, bound, .. } => {
+                Self::valued(Code::Suspension, value, bound).at(device, None)
+            }
+            ParameterError::AsymmetricSuspension { device, difference, .. } => {
+                Self::valued(Code::Suspension, difference, 0.0).at(device, None)
+            }
+            ParameterError::Strut { device, value, .. } => {
+                Self::valued(Code::Suspension, value, 0.0).at(device, None)
             }
             _ => Code::Other.into(),
         }

@@ -1,15 +1,16 @@
 //! Accelerations, steps, the impulsive stop, energy and momentum.
 
 use nalgebra::Vector3;
-use precess_dynamics::{About, Accelerations, Inputs, Spacecraft, State};
+use precess_dynamics::{About, Accelerations, Each, Inputs, State};
 
-use crate::List;
-use crate::craft::{Craft, craft, report};
+use crate::craft::{Craft, Made, craft, report};
 use crate::error::{Code, Fault, Rejection};
 use crate::inputs::inputs_of;
 use crate::memory::{self, offer, read, write};
-use crate::state::{give, state_of, structure_of};
+use crate::places::Places;
+use crate::state::{state_of, structure_of};
 use crate::types;
+use crate::version::{Interface, SetOf, Versions, give};
 
 /// `PRECESS_MAX_SUBSTEPS`: what one call does is bounded.
 pub const MAX_SUBSTEPS: u32 = 1000;
@@ -22,17 +23,20 @@ pub const MAX_SUBSTEPS: u32 = 1000;
 pub(crate) unsafe fn with<const J: usize>(
     pointer: *const Craft,
     fault: *mut Fault,
-    call: impl FnOnce(&Spacecraft<List>) -> Result<(), Rejection>,
-) -> i32 {
+    call: impl FnOnce(&Made<SetOf<J>>) -> Result<(), Rejection>,
+) -> i32
+where
+    Versions: Interface<J>,
+{
     // SAFETY: by contract.
     match unsafe { craft::<J>(pointer) } {
         Ok(craft) => {
-            let result = call(&craft.spacecraft);
+            let result = call(craft);
             // SAFETY: by contract.
-            unsafe { report(Some(&craft.spacecraft), result, fault) }
+            unsafe { report(Some(craft), result, fault) }
         }
         // SAFETY: by contract.
-        Err(code) => unsafe { report(None, Err(code.into()), fault) },
+        Err(code) => unsafe { report(None::<&Made<SetOf<J>>>, Err(code.into()), fault) },
     }
 }
 
@@ -42,24 +46,33 @@ pub(crate) unsafe fn with<const J: usize>(
 ///
 /// Both pointers are null, misaligned, or point to readable structures.
 pub(crate) unsafe fn state_and_inputs<const J: usize>(
-    spacecraft: &Spacecraft<List>,
+    craft: &Made<SetOf<J>>,
     state: *const types::State<J>,
     inputs: *const types::Inputs<J>,
-) -> Result<(State<List>, Inputs<List>), Rejection> {
+) -> Result<(State<SetOf<J>>, Inputs<SetOf<J>>), Rejection>
+where
+    Versions: Interface<J>,
+{
     // SAFETY: by contract.
-    let state = state_of(spacecraft, &unsafe { read(state) }?);
+    let state = state_of(craft, &unsafe { read(state) }?);
     // SAFETY: by contract.
-    let inputs = inputs_of(spacecraft, &unsafe { read(inputs) }?)?;
+    let inputs = inputs_of(craft, &unsafe { read(inputs) }?)?;
     Ok((state, inputs))
 }
 
-fn of_accelerations<const J: usize>(found: &Accelerations<List>) -> types::Accelerations<J> {
+fn of_accelerations<const J: usize>(
+    found: &Accelerations<SetOf<J>>,
+    places: &Places,
+) -> types::Accelerations<J>
+where
+    Versions: Interface<J>,
+{
     let mut to = types::Accelerations {
         linear: found.r_b_n_ddot.into(),
         angular: found.omega_dot.into(),
         joint: [[0.0; J]; crate::MAX_DEVICES],
     };
-    give(&mut to.joint, &found.devices, |acceleration| *acceleration);
+    give(&mut to.joint, found.devices.values(), places, |acceleration| acceleration);
     to
 }
 
@@ -74,13 +87,16 @@ pub(crate) unsafe fn accelerations_of<const J: usize>(
     inputs: *const types::Inputs<J>,
     out: *mut types::Accelerations<J>,
     fault: *mut Fault,
-) -> i32 {
-    let call = |craft: &Spacecraft<List>| {
+) -> i32
+where
+    Versions: Interface<J>,
+{
+    let call = |craft: &Made<SetOf<J>>| {
         // SAFETY: by contract.
         let (state, inputs) = unsafe { state_and_inputs(craft, state, inputs) }?;
-        let found = craft.accelerations(&state, &inputs)?;
+        let found = craft.spacecraft.accelerations(&state, &inputs)?;
         // SAFETY: by contract.
-        Ok(unsafe { write(out, of_accelerations(&found)) }?)
+        Ok(unsafe { write(out, of_accelerations(&found, &craft.places)) }?)
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }
@@ -99,8 +115,11 @@ pub(crate) unsafe fn step<const J: usize>(
     substeps: u32,
     work: *mut types::Power,
     fault: *mut Fault,
-) -> i32 {
-    let call = |craft: &Spacecraft<List>| {
+) -> i32
+where
+    Versions: Interface<J>,
+{
+    let call = |craft: &Made<SetOf<J>>| {
         if substeps == 0 || substeps > MAX_SUBSTEPS {
             return Err(Code::TooMany.into());
         }
@@ -116,9 +135,9 @@ pub(crate) unsafe fn step<const J: usize>(
         };
         for _ in 0..substeps {
             if work.is_null() {
-                next = craft.step(&next, &inputs, dt)?;
+                next = craft.spacecraft.step(&next, &inputs, dt)?;
             } else {
-                let stepped = craft.step_with_work(&next, &inputs, dt)?;
+                let stepped = craft.spacecraft.step_with_work(&next, &inputs, dt)?;
                 next = stepped.state;
                 sum.external += stepped.work.external;
                 sum.hub += stepped.work.hub;
@@ -131,7 +150,7 @@ pub(crate) unsafe fn step<const J: usize>(
         // SAFETY: by contract; `work` first, so that a rejection leaves the state as it was.
         unsafe { offer(work, sum) }?;
         // SAFETY: by contract.
-        Ok(unsafe { write(state, structure_of(&next)) }?)
+        Ok(unsafe { write(state, structure_of(&next, &craft.places)) }?)
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }
@@ -148,15 +167,18 @@ pub(crate) unsafe fn stop<const J: usize>(
     inputs: *const types::Inputs<J>,
     lost: *mut f64,
     fault: *mut Fault,
-) -> i32 {
-    let call = |craft: &Spacecraft<List>| {
+) -> i32
+where
+    Versions: Interface<J>,
+{
+    let call = |craft: &Made<SetOf<J>>| {
         // SAFETY: by contract.
         let (before, inputs) = unsafe { state_and_inputs(craft, state.cast_const(), inputs) }?;
-        let stopped = craft.stop(&before, &inputs)?;
+        let stopped = craft.spacecraft.stop(&before, &inputs)?;
         // SAFETY: by contract.
         unsafe { offer(lost, stopped.energy_lost) }?;
         // SAFETY: by contract.
-        Ok(unsafe { write(state, structure_of(&stopped.state)) }?)
+        Ok(unsafe { write(state, structure_of(&stopped.state, &craft.places)) }?)
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }
@@ -172,12 +194,15 @@ pub(crate) unsafe fn energy<const J: usize>(
     state: *const types::State<J>,
     energy: *mut f64,
     fault: *mut Fault,
-) -> i32 {
-    let call = |craft: &Spacecraft<List>| {
+) -> i32
+where
+    Versions: Interface<J>,
+{
+    let call = |craft: &Made<SetOf<J>>| {
         // SAFETY: by contract.
         let state = state_of(craft, &unsafe { read(state) }?);
         // SAFETY: by contract.
-        Ok(unsafe { write(energy, craft.energy(&state)?) }?)
+        Ok(unsafe { write(energy, craft.spacecraft.energy(&state)?) }?)
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }
@@ -196,8 +221,11 @@ pub(crate) unsafe fn momentum_of<const J: usize>(
     point: *const f64,
     out: *mut types::Momentum,
     fault: *mut Fault,
-) -> i32 {
-    let call = |craft: &Spacecraft<List>| {
+) -> i32
+where
+    Versions: Interface<J>,
+{
+    let call = |craft: &Made<SetOf<J>>| {
         // SAFETY: by contract.
         let state = state_of(craft, &unsafe { read(state) }?);
         let about = match about {
@@ -212,7 +240,7 @@ pub(crate) unsafe fn momentum_of<const J: usize>(
             }
             _ => return Err(Code::UnknownChoice.into()),
         };
-        let found = craft.momentum(&state, about)?;
+        let found = craft.spacecraft.momentum(&state, about)?;
         let found = types::Momentum { linear: found.linear.into(), angular: found.angular.into() };
         // SAFETY: by contract.
         Ok(unsafe { write(out, found) }?)
@@ -227,10 +255,12 @@ mod tests {
     use core::ptr::null_mut;
 
     use nalgebra::Matrix3;
-    use precess_dynamics::{Dgvscmg, Hub, ReactionWheel};
+    use precess_dynamics::{Dgvscmg, Hub, ReactionWheel, Spacecraft};
 
     use super::*;
     use crate::craft::init;
+
+    const SIZE: usize = <Versions as Interface<6>>::SIZE;
 
     /// What a C caller states and what a Rust caller states is one spacecraft, to the last bit.
     #[test]
@@ -259,7 +289,7 @@ mod tests {
         let devices = [gyro.into(), wheel.into()].map(|device: precess_dynamics::BuiltIn| {
             let parameters = device.parameters();
             let rows = |m: &Matrix3<f64>| m.transpose().as_slice().try_into().unwrap();
-            types::Device::<6> {
+            let device = types::Device::<6> {
                 kind: device.kind().number().into(),
                 model: 0,
                 mount: rows(&parameters.mount),
@@ -276,14 +306,15 @@ mod tests {
                     coulomb: 0.0,
                     coulomb_rate: 0.0,
                 }),
-            }
+            };
+            types::Entry { device, ..types::Entry::EMPTY }
         });
         let hub = types::Hub {
             mass: hub.m_b,
             centre: hub.r_bc_b.into(),
             inertia: diagonal(moments.into()),
         };
-        let mut memory = MaybeUninit::<[u64; crate::craft::SIZE / 8]>::zeroed();
+        let mut memory = MaybeUninit::<[u64; SIZE / 8]>::zeroed();
         let craft = memory.as_mut_ptr().cast::<Craft>();
         let (mut c_state, mut c_inputs) =
             (MaybeUninit::<types::State<6>>::zeroed(), MaybeUninit::<types::Inputs<6>>::zeroed());
@@ -291,14 +322,7 @@ mod tests {
         // SAFETY: every pointer is to a local of its type, or null where that is allowed.
         let codes = unsafe {
             [
-                init::<6>(
-                    craft.cast(),
-                    crate::craft::SIZE,
-                    &raw const hub,
-                    devices.as_ptr(),
-                    2,
-                    none,
-                ),
+                init::<6>(craft.cast(), SIZE, &raw const hub, devices.as_ptr(), 2, none),
                 crate::state::state_at_rest::<6>(craft, c_state.as_mut_ptr()),
                 crate::inputs::inputs_none::<6>(craft, c_inputs.as_mut_ptr()),
             ]
@@ -331,11 +355,12 @@ mod tests {
         let of_attitude = state.attitude;
         let attitude = [of_attitude.q0, of_attitude.q1, of_attitude.q2, of_attitude.q3];
         assert_eq!(bits(&c_state.attitude), bits(&attitude));
-        let size = size_of::<Craft>();
-        assert!(
-            size > crate::craft::SIZE / 2,
-            "{size} bytes: PRECESS_SPACECRAFT_SIZE is far too large"
-        );
-        println!("{size} bytes of {}", crate::craft::SIZE);
+        for (size, most) in [
+            (size_of::<Made<SetOf<3>>>(), <Versions as Interface<3>>::SIZE),
+            (size_of::<Made<SetOf<6>>>(), SIZE),
+        ] {
+            assert!(size > most / 2, "{size} bytes: PRECESS_SPACECRAFT_SIZE is far too large");
+            println!("{size} bytes of {most}");
+        }
     }
 }

@@ -11,7 +11,8 @@ use crate::inputs::inputs_none;
 use crate::loads::loads_of;
 use crate::state::{state_at_rest, state_restore, state_save, state_wrap};
 use crate::table::{init_from_table, table_write};
-use crate::types::{Accelerations, Device, Hub, Inputs, Loads, Momentum, Power, State};
+use crate::types::{Accelerations, Hub, Inputs, Loads, Momentum, Power, State};
+use crate::version::EntryOf;
 
 macro_rules! versions {
     ($($of:ident $first:literal $second:literal ($($name:ident: $ty:ty),* $(,)?);)*) => {
@@ -48,7 +49,7 @@ versions! {
         memory: *mut c_void,
         size: usize,
         hub: *const Hub,
-        devices: *const Device<J>,
+        devices: *const EntryOf<J>,
         count: u32,
         fault: *mut Fault,
     );
@@ -61,7 +62,7 @@ versions! {
     );
     table_write "precess_table_write" "precess_table_write_v2" (
         hub: *const Hub,
-        devices: *const Device<J>,
+        devices: *const EntryOf<J>,
         count: u32,
         table: *mut u8,
         capacity: usize,

@@ -1,36 +1,37 @@
 //! Inputs: from a structure, and the structure in which nothing acts.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Gravity, HubMode, Inputs, JointArray, Mode, Spacecraft, Wrench};
+use precess_dynamics::{Each, Gravity, HubMode, Inputs, Mode, Wrench};
 
-use crate::List;
-use crate::craft::{Craft, craft};
+use crate::craft::{Craft, Made, craft};
 use crate::error::{Code, Rejection};
 use crate::memory;
-use crate::state::{give, take};
 use crate::types;
+use crate::version::{Interface, SetOf, Versions, give, take};
 
 /// The inputs that a structure states.
 pub(crate) fn inputs_of<const J: usize>(
-    spacecraft: &Spacecraft<List>,
+    craft: &Made<SetOf<J>>,
     from: &types::Inputs<J>,
-) -> Result<Inputs<List>, Rejection> {
+) -> Result<Inputs<SetOf<J>>, Rejection>
+where
+    Versions: Interface<J>,
+{
+    let Made { spacecraft, places, .. } = craft;
     let vector = Vector3::from;
     let mut inputs = Inputs::none_for(spacecraft);
     inputs.force = vector(from.force);
     inputs.torque_b = vector(from.torque);
-    take(&mut inputs.motors, &from.motor);
-    let given = from.mode.iter().zip(&from.prescribed).enumerate();
-    for (to, (device, (modes, prescribed))) in inputs.modes.iter_mut().zip(given) {
-        let to = to.iter_mut().flat_map(JointArray::as_mut_slice);
-        for (to, (mode, prescribed)) in to.zip(modes.iter().zip(prescribed)) {
-            *to = match mode {
-                0 => Mode::Driven,
-                1 => Mode::Prescribed(*prescribed),
-                2 => Mode::Locked,
-                _ => return Err(Rejection { device: Some(device), ..Code::UnknownChoice.into() }),
-            };
-        }
+    take(inputs.motors.values_mut(), &from.motor, places, |motor| *motor);
+    for (to, [entry, joint]) in inputs.modes.values_mut().zip(places.joints()) {
+        let mode = from.mode.get(entry).and_then(|modes| modes.get(joint));
+        let prescribed = from.prescribed.get(entry).and_then(|joints| joints.get(joint));
+        *to = match (mode, prescribed) {
+            (Some(0), _) => Mode::Driven,
+            (Some(1), Some(acceleration)) => Mode::Prescribed(*acceleration),
+            (Some(2), _) => Mode::Locked,
+            _ => return Err(Rejection { entry: Some(entry), ..Code::UnknownChoice.into() }),
+        };
     }
     inputs.hub = match from.hub_mode {
         0 => HubMode::Free,
@@ -51,11 +52,11 @@ pub(crate) fn inputs_of<const J: usize>(
         0 => {}
         1 => {
             let mut bodies = Inputs::no_wrenches_for(spacecraft);
-            let wrench = |wrench: types::Wrench| Wrench {
+            let wrench = |wrench: &types::Wrench| Wrench {
                 force: vector(wrench.force),
                 moment: vector(wrench.moment),
             };
-            take(&mut bodies, &from.wrench.map(|device| device.map(wrench)));
+            take(bodies.values_mut(), &from.wrench, places, wrench);
             inputs.bodies = Some(bodies);
         }
         _ => return Err(Code::UnknownChoice.into()),
@@ -71,10 +72,12 @@ pub(crate) fn inputs_of<const J: usize>(
 pub(crate) unsafe fn inputs_none<const J: usize>(
     pointer: *const Craft,
     inputs: *mut types::Inputs<J>,
-) -> i32 {
+) -> i32
+where
+    Versions: Interface<J>,
+{
     // SAFETY: by contract.
     let done = unsafe { craft::<J>(pointer) }.and_then(|craft| {
-        let none = types::Wrench { force: [0.0; 3], moment: [0.0; 3] };
         let mut to = types::Inputs {
             force: [0.0; 3],
             torque: [0.0; 3],
@@ -84,7 +87,7 @@ pub(crate) unsafe fn inputs_none<const J: usize>(
             hub_angular: [0.0; 3],
             gravity: [0.0; 3],
             mu: 0.0,
-            wrench: [[none; J]; crate::MAX_DEVICES],
+            wrench: [[types::Wrench::NONE; J]; crate::MAX_DEVICES],
             mode: [[0; J]; crate::MAX_DEVICES],
             hub_mode: 0,
             gravity_model: 0,
@@ -92,7 +95,7 @@ pub(crate) unsafe fn inputs_none<const J: usize>(
             reserved: 0,
         };
         let own = Inputs::none_for(&craft.spacecraft);
-        give(&mut to.mode, &own.modes, |mode| match mode {
+        give(&mut to.mode, own.modes.values(), &craft.places, |mode| match mode {
             Mode::Driven => 0,
             Mode::Prescribed(_) => 1,
             Mode::Locked => 2,

@@ -20,20 +20,24 @@ pub mod inputs;
 mod layout;
 pub mod loads;
 pub mod memory;
+mod places;
+mod platform;
 pub mod state;
 pub mod table;
 pub mod types;
+mod version;
 
-use precess_dynamics::BuiltIn;
-
-/// The devices that a spacecraft has at most: `PRECESS_MAX_DEVICES`.
+/// The entries that a spacecraft has at most: `PRECESS_MAX_DEVICES`.
 pub const MAX_DEVICES: usize = 8;
 
 /// The joints that a device has at most, by version of the interface: `PRECESS_MAX_JOINTS`.
 pub const VERSIONS: [usize; 2] = [3, precess_dynamics::MAX_JOINTS];
 
-/// The devices of a spacecraft.
-pub type List = [Option<BuiltIn>; MAX_DEVICES];
+/// Platforms of a spacecraft at most: `PRECESS_MAX_PLATFORMS`.
+pub const MAX_PLATFORMS: usize = 4;
+
+/// Devices on a platform at most: `PRECESS_MAX_ON_PLATFORM`.
+pub const MAX_ON_PLATFORM: usize = 4;
 
 /// Version of the library, `0x00MMmmpp`: `PRECESS_VERSION` of the header it was built with.
 pub const VERSION: u32 = 0x0000_0100;

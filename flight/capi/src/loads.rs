@@ -1,17 +1,13 @@
 //! Loads of joints and mounts, and the torques that prescribed and locked joints need.
 
-use precess_dynamics::{LoadAxes, Spacecraft, Wrench};
+use precess_dynamics::LoadAxes;
 
-use crate::List;
-use crate::craft::Craft;
+use crate::craft::{Craft, Made};
 use crate::error::{Code, Fault};
 use crate::evaluate::{state_and_inputs, with};
 use crate::memory::write;
-use crate::types;
-
-fn of_wrench(wrench: &Wrench) -> types::Wrench {
-    types::Wrench { force: wrench.force.into(), moment: wrench.moment.into() }
-}
+use crate::types::{self, Wrench};
+use crate::version::{Interface, Placed, SetOf, Versions};
 
 /// See `precess.h`.
 ///
@@ -25,8 +21,11 @@ pub(crate) unsafe fn loads_of<const J: usize>(
     axes: i32,
     out: *mut types::Loads<J>,
     fault: *mut Fault,
-) -> i32 {
-    let call = |craft: &Spacecraft<List>| {
+) -> i32
+where
+    Versions: Interface<J>,
+{
+    let call = |craft: &Made<SetOf<J>>| {
         let axes = match axes {
             0 => LoadAxes::Body,
             1 => LoadAxes::Parent,
@@ -36,25 +35,18 @@ pub(crate) unsafe fn loads_of<const J: usize>(
         };
         // SAFETY: by contract.
         let (state, inputs) = unsafe { state_and_inputs(craft, state, inputs) }?;
-        let accelerations = craft.accelerations(&state, &inputs)?;
-        let found = craft.loads(&state, &inputs, &accelerations, axes)?;
-        let none = types::Wrench { force: [0.0; 3], moment: [0.0; 3] };
+        let accelerations = craft.spacecraft.accelerations(&state, &inputs)?;
+        let found = craft.spacecraft.loads(&state, &inputs, &accelerations, axes)?;
         let mut to = types::Loads {
-            hub: of_wrench(&found.hub),
-            mount: [none; crate::MAX_DEVICES],
-            joint: [[none; J]; crate::MAX_DEVICES],
+            hub: Wrench::of(&found.hub),
+            mount: [Wrench::NONE; crate::MAX_DEVICES],
+            joint: [[Wrench::NONE; J]; crate::MAX_DEVICES],
             motor: [[0.0; J]; crate::MAX_DEVICES],
         };
-        let entries = to.mount.iter_mut().zip(&mut to.joint).zip(&mut to.motor);
-        for (((mount, joints), motors), device) in entries.zip(found.devices.iter().flatten()) {
-            *mount = of_wrench(&device.mount);
-            for (to, from) in joints.iter_mut().zip(device.joints.as_slice()) {
-                *to = of_wrench(from);
-            }
-            for (to, from) in motors.iter_mut().zip(device.motors.as_slice()) {
-                *to = *from;
-            }
-        }
+        Versions::loads(
+            &found.devices,
+            &mut Placed { places: &craft.places, next: 0, to: &mut to },
+        );
         // SAFETY: by contract.
         Ok(unsafe { write(out, to) }?)
     };

@@ -11,11 +11,13 @@
 //! 16              104    hub: mass, centre of mass (3), inertia (9)
 //! 120 + s k       s      device k: kind, model (4 each); mount (9);
 //!                        J bodies: mass, origin (3), centre of mass (3), inertia (9);
-//!                        J joints: stiffness, rest, viscous, coulomb, coulomb_rate
+//!                        J joints: stiffness, rest, viscous, coulomb, coulomb_rate;
+//!                        in version 2: on, 0 (4 each); suspension: stiffness (36), rest (6), damping (36),
+//!                        6 struts: position (3), direction (3), length, stiffness, damping
 //! 120 + s n       4      CRC-32 of all before (ISO-HDLC: that of zip and Ethernet)
 //! ```
 //!
-//! J is 3 and s is 584 in version 1, J is 6 and s is 1088 in version 2. Each version of the interface writes
+//! J is 3 and s is 584 in version 1, J is 6 and s is 2152 in version 2. Each version of the interface writes
 //! its own; version 2 reads both.
 //! Units, axes and order of entries are those of the structures.
 
@@ -23,10 +25,11 @@ use core::ffi::c_void;
 
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
-use crate::craft::{made, make_in, report};
+use crate::craft::{Made, made, make_in, report};
 use crate::error::{Code, Fault, Rejection};
 use crate::memory::{read, slice, slice_mut, write};
-use crate::types::{Body, Device, Hub, Passive};
+use crate::types::{Device, Entry, Hub, Passive, Strut};
+use crate::version::{EntryOf, Interface, SetOf, Versions};
 use crate::{MAX_DEVICES, VERSIONS};
 
 /// `PRECESS_TABLE_VERSION` where a device has up to so many joints.
@@ -37,20 +40,14 @@ pub const fn version(joints: usize) -> u32 {
 
 /// `PRECESS_TABLE_SIZE(0)`: without devices.
 pub const BARE: usize = 124;
-/// What each device adds: kind, model, mount, and 21 numbers per joint.
+/// What each device adds: kind, model, mount, 21 numbers per joint; in version 2 also `on`, a word that is
+/// not read, and a suspension.
 const fn per_device(joints: usize) -> usize {
-    80 + 168 * joints
+    let standing = if joints == VERSIONS[0] { 0 } else { 8 + 8 * (36 + 6 + 36 + 6 * 9) };
+    80 + 168 * joints + standing
 }
 
 const MAGIC: u32 = u32::from_le_bytes(*b"PREC");
-const NO_BODY: Body = Body { mass: 0.0, origin: [0.0; 3], centre: [0.0; 3], inertia: [0.0; 9] };
-const NO_PASSIVE: Passive =
-    Passive { stiffness: 0.0, rest: 0.0, viscous: 0.0, coulomb: 0.0, coulomb_rate: 0.0 };
-
-/// A device without anything.
-const fn no_device<const J: usize>() -> Device<J> {
-    Device { kind: 0, model: 0, mount: [0.0; 9], bodies: [NO_BODY; J], passive: [NO_PASSIVE; J] }
-}
 
 /// Length of a table of so many devices with up to so many joints.
 #[must_use]
@@ -65,7 +62,7 @@ fn checksum(bytes: &[u8]) -> u32 {
 
 /// What is passed over each entry of a table in its order; only it differs between reading and
 /// writing.
-trait Pass {
+pub(crate) trait Pass {
     fn integer(&mut self, value: &mut i32) -> Option<()>;
     fn number(&mut self, value: &mut f64) -> Option<()>;
 
@@ -92,6 +89,19 @@ trait Pass {
             self.numbers([stiffness, rest, viscous, coulomb, coulomb_rate])?;
         }
         Some(())
+    }
+
+    /// What an entry stands on, and its suspension.
+    fn standing(&mut self, entry: &mut Entry) -> Option<()> {
+        self.integer(&mut entry.on)?;
+        self.integer(&mut entry.reserved)?;
+        let of = &mut entry.suspension;
+        self.numbers(of.stiffness.iter_mut().chain(&mut of.rest).chain(&mut of.damping))?;
+        of.strut.iter_mut().try_for_each(|strut| {
+            let Strut { position, direction, length, stiffness, damping } = strut;
+            let numbers = [length, stiffness, damping];
+            self.numbers(position.iter_mut().chain(direction).chain(numbers))
+        })
     }
 }
 
@@ -141,9 +151,10 @@ impl Pass for Writing<'_> {
 }
 
 /// Hub and devices of a table, and how many devices there are.
-fn read_table<const J: usize>(
-    table: &[u8],
-) -> Result<(Hub, [Device<J>; MAX_DEVICES], usize), Code> {
+fn read_table<const J: usize>(table: &[u8]) -> Result<(Hub, [EntryOf<J>; MAX_DEVICES], usize), Code>
+where
+    Versions: Interface<J>,
+{
     let mut reading = Reading(table);
     let mut word = || reading.bytes().map(u32::from_le_bytes).ok_or(Code::TableLength);
     if word()? != MAGIC {
@@ -164,14 +175,20 @@ fn read_table<const J: usize>(
         return Err(Code::TableChecksum);
     }
     let mut hub = Hub { mass: 0.0, centre: [0.0; 3], inertia: [0.0; 9] };
-    let mut devices = [no_device(); MAX_DEVICES];
+    let mut devices = [Versions::EMPTY; MAX_DEVICES];
     let passed = reading.hub(&mut hub).and_then(|()| {
-        devices.iter_mut().take(count).try_for_each(|device| reading.device(device, joints))
+        devices
+            .iter_mut()
+            .take(count)
+            .try_for_each(|device| Versions::pass(&mut reading, device, joints))
     });
     passed.map(|()| (hub, devices, count)).ok_or(Code::TableLength)
 }
 
-fn write_table<const J: usize>(hub: &Hub, devices: &[Device<J>], table: &mut [u8]) -> Option<()> {
+fn write_table<const J: usize>(hub: &Hub, devices: &[EntryOf<J>], table: &mut [u8]) -> Option<()>
+where
+    Versions: Interface<J>,
+{
     let length = u32::try_from(table.len()).ok()?;
     let count = u32::try_from(devices.len()).ok()?;
     let (body, sum) = table.split_last_chunk_mut()?;
@@ -180,7 +197,7 @@ fn write_table<const J: usize>(hub: &Hub, devices: &[Device<J>], table: &mut [u8
         writing.bytes(word.to_le_bytes())?;
     }
     writing.hub(&mut { *hub })?;
-    devices.iter().try_for_each(|device| writing.device(&mut { *device }, J))?;
+    devices.iter().try_for_each(|device| Versions::pass(&mut writing, &mut { *device }, J))?;
     *sum = checksum(body).to_le_bytes();
     Some(())
 }
@@ -197,19 +214,22 @@ pub(crate) unsafe fn init_from_table<const J: usize>(
     table: *const u8,
     length: usize,
     fault: *mut Fault,
-) -> i32 {
+) -> i32
+where
+    Versions: Interface<J>,
+{
     let make = || {
         if table.is_null() {
             return Err(Rejection::from(Code::Null));
         }
         // SAFETY: by contract.
         let (hub, devices, count) = read_table::<J>(unsafe { slice(table, length) }?)?;
-        made(&hub, devices.get(..count).unwrap_or(&devices))
+        made::<J>(&hub, devices.get(..count).unwrap_or(&devices))
     };
     // SAFETY: by contract.
     let result = unsafe { make_in::<J>(memory, size, make) };
     // SAFETY: by contract.
-    unsafe { report(None, result, fault) }
+    unsafe { report(None::<&Made<SetOf<J>>>, result, fault) }
 }
 
 /// See `precess.h`.
@@ -220,12 +240,15 @@ pub(crate) unsafe fn init_from_table<const J: usize>(
 /// `length` to a number.
 pub(crate) unsafe fn table_write<const J: usize>(
     hub: *const Hub,
-    devices: *const Device<J>,
+    devices: *const EntryOf<J>,
     count: u32,
     table: *mut u8,
     capacity: usize,
     length: *mut usize,
-) -> i32 {
+) -> i32
+where
+    Versions: Interface<J>,
+{
     let done = || {
         let count = count as usize;
         if count > MAX_DEVICES {
@@ -239,7 +262,7 @@ pub(crate) unsafe fn table_write<const J: usize>(
         // SAFETY: by contract.
         let table = unsafe { slice_mut(table, capacity) }?;
         let table = table.get_mut(..size(count, J)).ok_or(Code::TooSmall)?;
-        write_table(&hub, devices, table).ok_or(Code::TooSmall)?;
+        write_table::<J>(&hub, devices, table).ok_or(Code::TooSmall)?;
         // SAFETY: by contract.
         unsafe { write(length, size(count, J)) }
     };
@@ -249,6 +272,9 @@ pub(crate) unsafe fn table_write<const J: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::types::Body;
+
+    const NO_BODY: Body = Device::<3>::EMPTY.bodies[0];
 
     /// The check value of the catalogue, so that others can write tables.
     #[test]
@@ -256,15 +282,18 @@ mod tests {
         assert_eq!(checksum(b"123456789"), 0xcbf4_3926);
     }
 
-    fn read_back<const J: usize>(joint: usize) {
+    fn read_back<const J: usize>(change: impl Fn(&mut EntryOf<J>))
+    where
+        Versions: Interface<J>,
+        EntryOf<J>: PartialEq + core::fmt::Debug,
+    {
         let hub = Hub { mass: 10.0, centre: [1.0, 2.0, 3.0], inertia: [4.0; 9] };
-        let mut device = no_device::<J>();
-        (device.kind, device.model, device.mount) = (9, 1, [7.0; 9]);
-        device.passive[joint].coulomb_rate = 5.0;
+        let mut device = Versions::EMPTY;
+        change(&mut device);
         let mut table = vec![0; size(2, J)];
-        write_table(&hub, &[device, no_device()], &mut table).unwrap();
+        write_table::<J>(&hub, &[device, Versions::EMPTY], &mut table).unwrap();
         let (found, devices, count) = read_table::<J>(&table).unwrap();
-        assert_eq!((found, devices[0], devices[1], count), (hub, device, no_device(), 2));
+        assert_eq!((found, devices[0], devices[1], count), (hub, device, Versions::EMPTY, 2));
         for byte in 0..table.len() {
             let mut changed = table.clone();
             changed[byte] ^= 0x10;
@@ -277,22 +306,29 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_and_every_changed_byte_is_seen() {
-        read_back::<3>(2);
-        read_back::<6>(5);
+        read_back::<3>(|device| {
+            (device.kind, device.model, device.mount) = (9, 1, [7.0; 9]);
+            device.passive[2].coulomb_rate = 5.0;
+        });
+        read_back::<6>(|entry| {
+            (entry.device.kind, entry.on) = (9, 2);
+            entry.device.passive[5].coulomb_rate = 5.0;
+            (entry.suspension.damping[35], entry.suspension.strut[5].damping) = (6.0, 7.0);
+        });
     }
 
     #[test]
     fn version_2_reads_both_and_version_1_its_own() {
         let hub = Hub { mass: 10.0, centre: [1.0, 2.0, 3.0], inertia: [4.0; 9] };
-        let mut device = no_device::<3>();
+        let mut device = Device::<3>::EMPTY;
         device.bodies[2].mass = 8.0;
         let mut first = [0; size(1, 3)];
-        write_table(&hub, &[device], &mut first).unwrap();
+        write_table::<3>(&hub, &[device], &mut first).unwrap();
         let (found, devices, count) = read_table::<6>(&first).unwrap();
-        assert_eq!((found, devices[0].bodies[2].mass, count), (hub, 8.0, 1));
-        assert_eq!(devices[0].bodies[3..], [NO_BODY; 3]);
+        assert_eq!((found, devices[0].device.bodies[2].mass, count), (hub, 8.0, 1));
+        assert_eq!(devices[0].device.bodies[3..], [NO_BODY; 3]);
         let mut second = [0; size(1, 6)];
-        write_table(&hub, &[no_device::<6>()], &mut second).unwrap();
+        write_table::<6>(&hub, &[Entry::EMPTY], &mut second).unwrap();
         assert_eq!(read_table::<3>(&second).unwrap_err(), Code::TableVersion);
     }
 }

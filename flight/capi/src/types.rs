@@ -6,6 +6,9 @@
 use crate::MAX_DEVICES;
 use crate::memory::Plain;
 
+/// The joints of a platform.
+pub const PLATFORM_JOINTS: usize = 6;
+
 /// A value for each joint.
 pub type PerJoint<T, const J: usize> = [[T; J]; MAX_DEVICES];
 
@@ -72,6 +75,44 @@ structures! {
         bodies: [Body; J],
         /// Of the joint before each body.
         passive: [Passive; J],
+    }
+
+    /// `precess_strut`.
+    Strut {
+        /// On the platform, its axes, m.
+        position: [f64; 3],
+        /// Unit vector from base to platform, mount axes.
+        direction: [f64; 3],
+        /// m.
+        length: f64,
+        /// N/m.
+        stiffness: f64,
+        /// N s/m.
+        damping: f64,
+    }
+
+    /// `precess_suspension`.
+    Suspension {
+        /// N/m, N/rad, N m/rad.
+        stiffness: [f64; 36],
+        /// m, rad.
+        rest: [f64; 6],
+        /// N s/m, N s/rad, N m s/rad.
+        damping: [f64; 36],
+        /// Those of zeros are none.
+        strut: [Strut; 6],
+    }
+
+    /// `precess_device` of version 2.
+    Entry {
+        /// What it shares with version 1.
+        device: Device<PLATFORM_JOINTS>,
+        /// 0 on the hub, otherwise 1 + index of the platform's entry.
+        on: i32,
+        /// Not read; 0.
+        reserved: i32,
+        /// Of a platform.
+        suspension: Suspension,
     }
 
     /// `precess_state`.
@@ -175,4 +216,38 @@ structures! {
         /// N m or N.
         motor: PerJoint<f64, J>,
     }
+}
+
+impl Wrench {
+    /// Without force and moment.
+    pub(crate) const NONE: Self = Self { force: [0.0; 3], moment: [0.0; 3] };
+
+    pub(crate) fn of(wrench: &precess_dynamics::Wrench) -> Self {
+        Self { force: wrench.force.into(), moment: wrench.moment.into() }
+    }
+}
+
+impl Strut {
+    /// All zero: no strut.
+    pub(crate) const NONE: Self =
+        Self { position: [0.0; 3], direction: [0.0; 3], length: 0.0, stiffness: 0.0, damping: 0.0 };
+}
+
+impl<const J: usize> Device<J> {
+    /// All zero.
+    pub(crate) const EMPTY: Self = {
+        let body = Body { mass: 0.0, origin: [0.0; 3], centre: [0.0; 3], inertia: [0.0; 9] };
+        let passive =
+            Passive { stiffness: 0.0, rest: 0.0, viscous: 0.0, coulomb: 0.0, coulomb_rate: 0.0 };
+        Self { kind: 0, model: 0, mount: [0.0; 9], bodies: [body; J], passive: [passive; J] }
+    };
+}
+
+impl Entry {
+    /// All zero.
+    pub(crate) const EMPTY: Self = {
+        let (stiffness, damping) = ([0.0; 36], [0.0; 36]);
+        let suspension = Suspension { stiffness, rest: [0.0; 6], damping, strut: [Strut::NONE; 6] };
+        Self { device: Device::EMPTY, on: 0, reserved: 0, suspension }
+    };
 }

@@ -62,6 +62,8 @@ IS(PRECESS_ERROR_TABLE_CHECKSUM, 23);
 IS(PRECESS_ERROR_OTHER, 24);
 IS(PRECESS_ERROR_UNSTABLE, 25);
 IS(PRECESS_ERROR_MANY_JOINTS, 26);
+IS(PRECESS_ERROR_NO_PLATFORM, 27);
+IS(PRECESS_ERROR_SUSPENSION, 28);
 IS(sizeof(precess_fault), 32);
 IS(offsetof(precess_fault, code), 0);
 IS(offsetof(precess_fault, device), 4);

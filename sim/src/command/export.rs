@@ -1,33 +1,39 @@
 //! `export table`: a spacecraft as the parameter table of the flight library's C interface.
 //!
 //! The layout is that of `flight/capi/src/table.rs`, little-endian: "PREC", version, length, count of
-//! devices; the hub; each device; CRC-32. It is version 1 unless a device has more than three joints,
-//! then version 2. Fixed steps of rk4 with inputs held over
+//! devices and platforms; the hub; each of them; CRC-32. It is version 1 unless one has more than three joints,
+//! as a platform has, then version 2. Fixed steps of rk4 with inputs held over
 //! a step give the same bits there as here, for up to eight devices.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
-use nalgebra::Matrix3;
-use precess_dynamics::MAX_JOINTS;
-use precess_dynamics::kind::ImbalanceModel;
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use precess_dynamics::{Coupled, MAX_JOINTS, Passive, Strut, Suspension};
 
 use super::error::CommandError;
 use super::run::may_write;
 use super::{Set, print};
 use crate::file::from_file;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, members};
 
 /// Bodies and joints of a device in a table of version 1, and of version 2.
 const JOINTS: [usize; 2] = [3, MAX_JOINTS];
-/// Devices that the flight library takes.
+/// Devices and platforms that the flight library takes.
 const DEVICES_MAX: usize = 8;
 const BARE: usize = 124;
 /// Kind, model and mount.
 const DEVICE: usize = 80;
 /// A body and its joint.
 const PER_JOINT: usize = 168;
+/// In version 2: what an entry stands on, a word of zero, a suspension.
+const STANDING: usize = 8 + 8 * (36 + 6 + 36 + 6 * 9);
+/// The kind of a platform.
+const PLATFORM: i32 = 100;
+/// Platforms that the flight library takes, and devices on each.
+const PLATFORMS_MAX: usize = 4;
+const CARRIED_MAX: usize = 4;
 
 /// What is exported.
 #[derive(Debug, Subcommand)]
@@ -83,22 +89,30 @@ fn table(scenario: &Scenario) -> Result<Vec<u8>, CommandError> {
         let message = "the flight library's table is of a rigid hub; remove `[structure]`";
         return Err(CommandError::Other(message.to_owned()));
     }
-    let (on_hub, isolated) = &scenario.devices;
-    if !isolated.is_empty() {
-        let message = "a table of the flight library has no platforms; remove `[[platform]]`, and \
-                       `on` of the devices on it";
-        return Err(CommandError::Other(message.to_owned()));
-    }
-    let count = on_hub.len();
+    let members = members(&scenario.devices);
+    let count = members.len();
     if count > DEVICES_MAX {
-        let message =
-            format!("{count} devices; the flight library takes {DEVICES_MAX}: remove some");
+        let message = format!(
+            "{count} devices and platforms; the flight library takes {DEVICES_MAX}: remove some"
+        );
         return Err(CommandError::Other(message));
     }
-    let most = on_hub.iter().map(|device| device.kind().joints().len()).max();
+    let (_, isolated) = &scenario.devices;
+    let carried = isolated.iter().map(|of| of.carried.len()).max().unwrap_or(0);
+    for (what, found, most) in [
+        ("platforms", isolated.len(), PLATFORMS_MAX),
+        ("devices on a platform", carried, CARRIED_MAX),
+    ] {
+        if found > most {
+            let message = format!("{found} {what}; the flight library takes {most}: remove some");
+            return Err(CommandError::Other(message));
+        }
+    }
+    let most = members.iter().map(|member| member.joints().len()).max();
     let first = most.unwrap_or(0) <= JOINTS[0];
     let (version, joints) = if first { (1, JOINTS[0]) } else { (2, JOINTS[1]) };
-    let length = BARE + (DEVICE + PER_JOINT * joints) * count;
+    let standing = if first { 0 } else { STANDING };
+    let length = BARE + (DEVICE + PER_JOINT * joints + standing) * count;
     let mut bytes = Vec::with_capacity(length);
     bytes.extend(b"PREC");
     let word = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
@@ -110,33 +124,60 @@ fn table(scenario: &Scenario) -> Result<Vec<u8>, CommandError> {
     numbers(&[hub.m_b]);
     numbers(hub.r_bc_b.as_slice());
     numbers(&rows(&hub.i_b_bc));
-    for device in on_hub {
-        let parameters = device.parameters();
-        let lumped = parameters.model == ImbalanceModel::Lumped;
-        bytes.extend(i32::from(device.kind().number()).to_le_bytes());
-        bytes.extend(i32::from(lumped).to_le_bytes());
+    for member in &members {
+        bytes
+            .extend(member.device().map_or(PLATFORM, |of| of.kind().number().into()).to_le_bytes());
+        bytes.extend(i32::from(member.is_lumped()).to_le_bytes());
         let mut numbers =
             |values: &[f64]| values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
-        numbers(&rows(&parameters.mount));
-        for body in parameters.bodies.iter().take(joints) {
+        numbers(&rows(&member.mount()));
+        let (bodies, passive) = (member.bodies(), member.passive());
+        let missing = joints.saturating_sub(bodies.len());
+        for body in &bodies {
             numbers(&[body.mass]);
             numbers(&body.origin);
             numbers(&body.centre);
             numbers(&rows(&body.inertia));
         }
-        for joint in parameters.passive.iter().take(joints) {
-            numbers(&[
-                joint.stiffness,
-                joint.rest,
-                joint.viscous,
-                joint.coulomb,
-                joint.coulomb_rate,
-            ]);
+        (0..missing).for_each(|_| numbers(&[0.0; 16]));
+        for joint in &passive {
+            let Passive { stiffness, rest, viscous, coulomb, coulomb_rate } = *joint;
+            numbers(&[stiffness, rest, viscous, coulomb, coulomb_rate]);
+        }
+        (0..missing).for_each(|_| numbers(&[0.0; 5]));
+        if !first {
+            for value in [member.on().map_or(0, |on| word(on.saturating_add(1))), 0] {
+                bytes.extend(value.to_le_bytes());
+            }
+            let none = Suspension::none();
+            bytes.extend(suspension(member.platform().map_or(&none, |of| &of.suspension)));
         }
     }
     let sum = crc32fast::hash(&bytes);
     bytes.extend(sum.to_le_bytes());
     Ok(bytes)
+}
+
+/// A suspension: stiffness, rest, damping, six struts; zeros where there is none.
+fn suspension(of: &Suspension) -> Vec<u8> {
+    let none =
+        Coupled { stiffness: Matrix6::zeros(), rest: Vector6::zeros(), damping: Matrix6::zeros() };
+    let Coupled { stiffness, rest, damping } = of.coupled.unwrap_or(none);
+    // Both are symmetric to rounding; the table has rows.
+    let matrices = [stiffness.transpose(), damping.transpose()];
+    let mut numbers = Vec::with_capacity(STANDING / 8);
+    numbers.extend(&matrices[0]);
+    numbers.extend(&rest);
+    numbers.extend(&matrices[1]);
+    for strut in &of.struts {
+        let zero = Vector3::zeros();
+        let none =
+            Strut { position: zero, direction: zero, length: 0.0, stiffness: 0.0, damping: 0.0 };
+        let strut = strut.unwrap_or(none);
+        numbers.extend(strut.position.iter().chain(&strut.direction));
+        numbers.extend([strut.length, strut.stiffness, strut.damping]);
+    }
+    numbers.into_iter().flat_map(f64::to_le_bytes).collect()
 }
 
 /// The elements row by row.
@@ -172,12 +213,25 @@ mod tests {
         let read = crate::file::from_toml("whirl", text, Path::new(""));
         let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
         let bytes = table(&scenario).expect("one device");
-        assert_eq!(bytes.len(), 124 + 1088);
+        assert_eq!(bytes.len(), 124 + 2152);
         assert_eq!(bytes[4], 2);
         let number = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().expect("eight"));
         // No mass of a link of the bearings; that of the rotor; the stiffness of a tilt.
         let (body, passive) = (120 + 80, 120 + 80 + 6 * 128);
         assert_eq!([number(body), number(body + 5 * 128)], [0.0, 4.0]);
         assert_eq!(number(passive + 3 * 40), 1580.0);
+    }
+
+    #[test]
+    fn a_table_of_an_isolator_says_what_stands_on_it() {
+        let text = include_str!("../../../scenarios/wheels-on-isolator.toml");
+        let read = crate::file::from_toml("isolator", text, Path::new(""));
+        let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
+        let bytes = table(&scenario).expect("a platform and four wheels");
+        assert_eq!(bytes.len(), 124 + 5 * 2152);
+        let word = |at: usize| i32::from_le_bytes(bytes[at..at + 4].try_into().expect("four"));
+        let entry = |index: usize| 120 + 2152 * index;
+        let kinds = [0, 1, 2, 3, 4].map(|index| [word(entry(index)), word(entry(index) + 1088)]);
+        assert_eq!(kinds, [[100, 0], [9, 1], [9, 1], [9, 1], [9, 1]]);
     }
 }

@@ -6,32 +6,42 @@ use super::{COMPILERS, Host, is_there, printed};
 use crate::run::{cargo, say};
 use crate::skip::skip;
 
-const SCENARIO: &str = "flight/capi/tests/desktop.toml";
+/// Scenarios, each with the version of its table.
+const SCENARIOS: [(&str, &str); 2] = [("desktop", "1"), ("desktop-platform", "2")];
 const SOURCE: &[&str] = &["flight/capi/tests/desktop.c"];
-/// The step of the scenario, s.
+/// The step of the scenarios, s.
 const STEP: &str = "0.001";
 
 impl Host {
-    /// Exports and runs the scenario by the tool; steps it again in C, from the table.
+    /// Exports and runs the scenarios by the tool; steps them again in C, from the tables.
     pub(super) fn desktop(&self) -> Result<(), String> {
-        let table = self.programs.join("desktop.table");
+        for (name, version) in SCENARIOS {
+            self.repeat(name, version)?;
+        }
+        Ok(())
+    }
+
+    fn repeat(&self, name: &str, version: &str) -> Result<(), String> {
+        let table = self.programs.join(format!("{name}.table"));
         let (table_text, out) = (table.to_string_lossy(), self.programs.to_string_lossy());
+        let scenario = format!("flight/capi/tests/{name}.toml");
         // As the tests build it.
         let tool = ["run", "--quiet", "-p", "precess", "--"];
-        let export = ["export", "table", SCENARIO, "--force", "--to", &table_text];
+        let export = ["export", "table", &scenario, "--force", "--to", &table_text];
         cargo(&[&tool[..], &export].concat())?;
-        let run = ["run", SCENARIO, "--no-report", "--force", "--out", &out];
+        let run = ["run", &scenario, "--no-report", "--force", "--out", &out];
         cargo(&[&tool[..], &run].concat())?;
+        let options = ["-O2", &format!("-DPRECESS_TABLE_VERSION={version}")];
         for compiler in &COMPILERS {
             if !is_there(compiler.name) {
-                skip(&format!("the desktop's run by {}", compiler.name), compiler.install)?;
+                skip(&format!("{name} by {}", compiler.name), compiler.install)?;
                 continue;
             }
-            let program = self.compile(compiler, "desktop", SOURCE, &["-O2"], true)?;
+            let program = self.compile(compiler, name, SOURCE, &options, true)?;
             let mut program = Command::new(program);
-            program.arg(&table).arg(self.programs.join("desktop.csv")).arg(STEP);
+            program.arg(&table).arg(self.programs.join(format!("{name}.csv"))).arg(STEP);
             let output = printed(&mut program)?;
-            say!("desktop and library, {}: {}", compiler.name, output.trim_end());
+            say!("{name} and library, {}: {}", compiler.name, output.trim_end());
         }
         Ok(())
     }

@@ -1,0 +1,196 @@
+//! The versions of the interface: the set of devices that a spacecraft of each has, and how the caller's
+//! entries become that set.
+//!
+//! Version 1: up to eight devices of up to three joints on the hub. Version 2: entries of up to six joints,
+//! and platforms, of which an entry may name one as what it stands on.
+
+use precess_dynamics::{BuiltIn, DeviceLoads, DeviceSet, Devices, Each, Isolated, Value, Wrench};
+
+use crate::device::device_of;
+use crate::error::{Code, Rejection};
+use crate::memory::Plain;
+use crate::places::Places;
+use crate::platform::{is_platform, platform_of};
+use crate::table::Pass;
+use crate::types::{self, Device, Entry};
+use crate::{MAX_DEVICES, MAX_ON_PLATFORM, MAX_PLATFORMS};
+
+/// The devices on a hub.
+pub(crate) type List = [Option<BuiltIn>; MAX_DEVICES];
+/// The devices on a platform.
+type Carried = [Option<BuiltIn>; MAX_ON_PLATFORM];
+/// The platforms with what they carry.
+type Platforms = [Option<Isolated<Carried>>; MAX_PLATFORMS];
+
+/// Carries the versions, each by the joints that a device has at most.
+pub(crate) struct Versions;
+
+/// The set of a version.
+pub(crate) type SetOf<const J: usize> = <Versions as Interface<J>>::Set;
+/// The structure of an entry of a version.
+pub(crate) type EntryOf<const J: usize> = <Versions as Interface<J>>::Entry;
+/// Loads of the devices of a set.
+type LoadsOf<D> = <D as DeviceSet>::Per<precess_dynamics::set::Loads>;
+
+/// What differs between the versions.
+pub(crate) trait Interface<const J: usize> {
+    /// The set of a spacecraft.
+    type Set: Devices<Scalar = f64>;
+    /// `precess_device`.
+    type Entry: Plain;
+    /// `PRECESS_SPACECRAFT_SIZE`.
+    const SIZE: usize;
+    /// An entry of zeros.
+    const EMPTY: Self::Entry;
+
+    /// The set of some entries, at most `MAX_DEVICES`, and where its joints are in the caller's arrays.
+    fn set(entries: &[Self::Entry]) -> Result<(Self::Set, Places), Rejection>;
+    /// Passes over an entry of a table of a layout.
+    fn pass(pass: &mut impl Pass, entry: &mut Self::Entry, layout: usize) -> Option<()>;
+    /// Writes the loads of the devices.
+    fn loads(from: &LoadsOf<Self::Set>, to: &mut Placed<'_, J>);
+}
+
+impl Interface<3> for Versions {
+    type Set = List;
+    type Entry = Device<3>;
+
+    const SIZE: usize = 16_384;
+    const EMPTY: Device<3> = Device::EMPTY;
+
+    fn set(entries: &[Device<3>]) -> Result<(List, Places), Rejection> {
+        let mut list: List = [None; MAX_DEVICES];
+        let mut places = Places::none();
+        for (index, (to, entry)) in list.iter_mut().zip(entries).enumerate() {
+            let device = device_of(index, entry)?;
+            places.add(index, device.kind().joints().len());
+            *to = Some(device);
+        }
+        Ok((list, places))
+    }
+
+    fn pass(pass: &mut impl Pass, entry: &mut Device<3>, _: usize) -> Option<()> {
+        pass.device(entry, 3)
+    }
+
+    fn loads(from: &LoadsOf<List>, to: &mut Placed<'_, 3>) {
+        from.iter().flatten().for_each(|of| to.put(of));
+    }
+}
+
+impl Interface<6> for Versions {
+    type Set = (List, Platforms);
+    type Entry = Entry;
+
+    const SIZE: usize = 49_152;
+    const EMPTY: Entry = Entry::EMPTY;
+
+    fn set(entries: &[Entry]) -> Result<((List, Platforms), Places), Rejection> {
+        let mut list: List = [None; MAX_DEVICES];
+        let mut platforms: Platforms = [const { None }; MAX_PLATFORMS];
+        let mut places = Places::none();
+        let at = |index: usize, code: Code| Rejection { entry: Some(index), ..code.into() };
+        let hub =
+            entries.iter().enumerate().filter(|(_, entry)| !is_platform(entry) && entry.on == 0);
+        for (to, (index, entry)) in list.iter_mut().zip(hub) {
+            *to = Some(placed(index, entry, &mut places)?);
+        }
+        for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.on != 0) {
+            let named =
+                usize::try_from(entry.on).ok().and_then(|on| entries.get(on.wrapping_sub(1)));
+            if is_platform(entry) || !named.is_some_and(is_platform) {
+                return Err(at(index, Code::NoPlatform));
+            }
+        }
+        let mut free = platforms.iter_mut();
+        for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| is_platform(entry)) {
+            let to = free.next().ok_or(at(index, Code::TooMany))?;
+            let (platform, suspension) = platform_of(index, entry)?;
+            places.add(index, types::PLATFORM_JOINTS);
+            let mut carried: Carried = [None; MAX_ON_PLATFORM];
+            let mut room = carried.iter_mut();
+            let stands = |entry: &Entry| {
+                usize::try_from(entry.on).is_ok_and(|on| on == index.wrapping_add(1))
+            };
+            for (index, entry) in entries.iter().enumerate().filter(|(_, entry)| stands(entry)) {
+                let to = room.next().ok_or(at(index, Code::TooMany))?;
+                *to = Some(placed(index, entry, &mut places)?);
+            }
+            *to = Some(Isolated { platform, suspension, carried });
+        }
+        Ok(((list, platforms), places))
+    }
+
+    fn pass(pass: &mut impl Pass, entry: &mut Entry, layout: usize) -> Option<()> {
+        pass.device(&mut entry.device, layout)?;
+        if layout == 6 { pass.standing(entry) } else { Some(()) }
+    }
+
+    fn loads((list, platforms): &LoadsOf<(List, Platforms)>, to: &mut Placed<'_, 6>) {
+        list.iter().flatten().for_each(|of| to.put(of));
+        for of in platforms.iter().flatten() {
+            to.put(&of.platform);
+            of.carried.iter().flatten().for_each(|of| to.put(of));
+        }
+    }
+}
+
+/// The device of an entry, whose joints are added to the places.
+fn placed(index: usize, entry: &Entry, places: &mut Places) -> Result<BuiltIn, Rejection> {
+    let device = device_of(index, &entry.device)?;
+    places.add(index, device.kind().joints().len());
+    Ok(device)
+}
+
+/// Loads by entry: devices come in the order of the set.
+pub(crate) struct Placed<'a, const J: usize> {
+    pub(crate) places: &'a Places,
+    /// The number of the next device.
+    pub(crate) next: usize,
+    pub(crate) to: &'a mut types::Loads<J>,
+}
+
+impl<const J: usize> Placed<'_, J> {
+    fn put<W: Each<Wrench>, U: Each<f64>, P>(&mut self, of: &DeviceLoads<W, U, P, f64>) {
+        let entry = self.places.entry(self.next);
+        self.next = self.next.wrapping_add(1);
+        if let Some(mount) = self.to.mount.get_mut(entry) {
+            *mount = types::Wrench::of(&of.mount);
+        }
+        let joints = self.to.joint.get_mut(entry).into_iter().flatten();
+        copy(joints, of.joints.values().map(|wrench| types::Wrench::of(&wrench)));
+        copy(self.to.motor.get_mut(entry).into_iter().flatten(), of.motors.values());
+    }
+}
+
+fn copy<'a, V: Copy + 'a>(to: impl Iterator<Item = &'a mut V>, from: impl Iterator<Item = V>) {
+    to.zip(from).for_each(|(to, from)| *to = from);
+}
+
+/// Copies to the numbers of a set from `[entry][joint]`.
+pub(crate) fn take<'a, V: Value + 'a, U: 'a, const J: usize>(
+    to: impl Iterator<Item = &'a mut V>,
+    from: &types::PerJoint<U, J>,
+    places: &Places,
+    of: impl Fn(&U) -> V,
+) {
+    for (to, [entry, joint]) in to.zip(places.joints()) {
+        if let Some(from) = from.get(entry).and_then(|joints| joints.get(joint)) {
+            *to = of(from);
+        }
+    }
+}
+
+/// Copies the numbers of a set to `[entry][joint]`.
+pub(crate) fn give<V, U, const J: usize>(
+    to: &mut types::PerJoint<U, J>,
+    from: impl Iterator<Item = V>,
+    places: &Places,
+    of: impl Fn(V) -> U,
+) {
+    for (from, [entry, joint]) in from.zip(places.joints()) {
+        if let Some(to) = to.get_mut(entry).and_then(|joints| joints.get_mut(joint)) {
+            *to = of(from);
+        }
+    }
+}

@@ -1,0 +1,366 @@
+/* Platforms, in version 2 of the interface: entries that stand on one, springs and struts, and what is rejected.
+ * Also C++. */
+
+#define PRECESS_TABLE_VERSION 2
+
+#include "check.h"
+#include "precess.h"
+
+enum { X, Y, Z, ALPHA, BETA, GAMMA, AXES };
+enum { ISOLATOR, WHEEL, GYRO, ENTRIES };
+
+#define PLATFORM_MASS 8.0
+#define WHEEL_MASS 6.0
+#define STIFFNESS 4.0e3
+
+static precess_spacecraft craft;
+static precess_hub hub;
+static precess_device entries[PRECESS_MAX_DEVICES + 1];
+
+static void diagonal(double *m, double x, double y, double z)
+{
+    m[0] = x;
+    m[4] = y;
+    m[8] = z;
+}
+
+static void mounted(precess_device *device, int32_t kind, int32_t on)
+{
+    static precess_device none;
+    *device = none;
+    device->kind = kind;
+    device->on = on;
+    diagonal(device->mount, 1.0, 1.0, 1.0);
+}
+
+static void wheel(precess_device *device, int32_t on)
+{
+    mounted(device, PRECESS_KIND_REACTION_WHEEL, on);
+    device->bodies[0].mass = WHEEL_MASS;
+    diagonal(device->bodies[0].inertia, 0.02, 0.01, 0.01);
+}
+
+static void platform(precess_device *device)
+{
+    mounted(device, PRECESS_KIND_PLATFORM, 0);
+    device->bodies[GAMMA].mass = PLATFORM_MASS;
+    diagonal(device->bodies[GAMMA].inertia, 0.15, 0.16, 0.28);
+}
+
+/* A platform with a wheel and a gyro on it. */
+static void example(void)
+{
+    hub.mass = 400.0;
+    diagonal(hub.inertia, 120.0, 110.0, 90.0);
+    platform(&entries[ISOLATOR]);
+    wheel(&entries[WHEEL], 1 + ISOLATOR);
+    mounted(&entries[GYRO], PRECESS_KIND_VSCMG, 1 + ISOLATOR);
+    entries[GYRO].bodies[0].mass = 2.0;
+    entries[GYRO].bodies[1].mass = 5.0;
+    diagonal(entries[GYRO].bodies[0].inertia, 0.02, 0.02, 0.03);
+    diagonal(entries[GYRO].bodies[1].inertia, 0.03, 0.02, 0.02);
+}
+
+static int32_t init(uint32_t count, precess_fault *fault)
+{
+    return precess_init(&craft, sizeof craft, &hub, entries, count, fault);
+}
+
+/* A slide gives as its spring and all mass on the platform say: by the spring of the joint, by the matrix, and
+ * by a strut along it, whose force is linear in a slide along it. */
+static void springs(void)
+{
+    const double expected = -1e-3 * STIFFNESS / (PLATFORM_MASS + WHEEL_MASS);
+    precess_state state;
+    precess_inputs inputs;
+    precess_accelerations found;
+    uint32_t joints = 0, length = 0;
+    int way, axis;
+    for (way = 0; way < 3; way++) {
+        example();
+        if (way == 0) {
+            entries[ISOLATOR].passive[Y].stiffness = STIFFNESS;
+        } else if (way == 1) {
+            entries[ISOLATOR].suspension.stiffness[7 * Y] = STIFFNESS;
+        } else {
+            entries[ISOLATOR].suspension.strut[5].direction[1] = 1.0;
+            entries[ISOLATOR].suspension.strut[5].length = 0.1;
+            entries[ISOLATOR].suspension.strut[5].stiffness = STIFFNESS;
+        }
+        IS(init(2, 0), PRECESS_OK);
+        IS(precess_state_at_rest(&craft, &state), PRECESS_OK);
+        IS(precess_inputs_none(&craft, &inputs), PRECESS_OK);
+        inputs.hub_mode = PRECESS_HUB_FIXED;
+        state.coordinate[ISOLATOR][Y] = 1e-3;
+        IS(precess_accelerations_of(&craft, &state, &inputs, &found, 0), PRECESS_OK);
+        for (axis = 0; axis < AXES; axis++) {
+            NEAR(found.joint[ISOLATOR][axis], axis == Y ? expected : 0.0, 1e-12);
+            bits(found.joint[ISOLATOR][axis]);
+        }
+        NEAR(found.joint[WHEEL][0], 0.0, 1e-12);
+    }
+    IS(precess_joints(&craft, ISOLATOR, &joints), PRECESS_OK);
+    IS(joints, AXES);
+    IS(precess_joints(&craft, WHEEL, &joints), PRECESS_OK);
+    IS(joints, 1);
+    IS(precess_joints(&craft, 2, &joints), PRECESS_OK);
+    IS(joints, 0);
+    IS(precess_state_length(&craft, &length), PRECESS_OK);
+    IS(length, 13 + 2 * (AXES + 1));
+}
+
+/* Locked, a platform is a part of the hub. */
+static void locked(void)
+{
+    precess_state state;
+    precess_inputs inputs;
+    precess_accelerations found, rigid;
+    int axis;
+    example();
+    entries[WHEEL].bodies[0].centre[1] = 1e-4;
+    IS(init(2, 0), PRECESS_OK);
+    IS(precess_state_at_rest(&craft, &state), PRECESS_OK);
+    IS(precess_inputs_none(&craft, &inputs), PRECESS_OK);
+    state.omega[2] = 0.2;
+    state.rate[WHEEL][0] = 100.0;
+    inputs.motor[WHEEL][0] = 0.1;
+    for (axis = 0; axis < AXES; axis++) {
+        inputs.mode[ISOLATOR][axis] = PRECESS_LOCKED;
+    }
+    IS(precess_accelerations_of(&craft, &state, &inputs, &found, 0), PRECESS_OK);
+    hub.mass += PLATFORM_MASS;
+    diagonal(hub.inertia, 120.0 + 0.15, 110.0 + 0.16, 90.0 + 0.28);
+    entries[0] = entries[WHEEL];
+    entries[0].on = 0;
+    IS(init(1, 0), PRECESS_OK);
+    IS(precess_state_at_rest(&craft, &state), PRECESS_OK);
+    IS(precess_inputs_none(&craft, &inputs), PRECESS_OK);
+    state.omega[2] = 0.2;
+    state.rate[0][0] = 100.0;
+    inputs.motor[0][0] = 0.1;
+    IS(precess_accelerations_of(&craft, &state, &inputs, &rigid, 0), PRECESS_OK);
+    for (axis = 0; axis < 3; axis++) {
+        NEAR(found.linear[axis], rigid.linear[axis], 1e-14);
+        NEAR(found.angular[axis], rigid.angular[axis], 1e-14);
+    }
+    /* Of a wheel of 0.02 kg m^2 with 0.1 N m: 5 rad/s^2. */
+    NEAR(found.joint[WHEEL][0], rigid.joint[0][0], 1e-12);
+    NEAR(rigid.joint[0][0], 5.0, 0.1);
+}
+
+/* On a free hub, all in motion: energy gains the work, momentum stays, loads are those of the springs; and
+ * entries in another order have the same bits. */
+static void conserved(void)
+{
+    static const int orders[2][ENTRIES] = {{0, 1, 2}, {2, 0, 1}};
+    double saved[2][13 + 2 * (AXES + 3)];
+    int turn, axis, place;
+    for (turn = 0; turn < 2; turn++) {
+        const int *const at = orders[turn];
+        const int isolator = at[ISOLATOR], rw = at[WHEEL], gyro = at[GYRO];
+        precess_device all[ENTRIES];
+        precess_state state, restored;
+        precess_inputs inputs;
+        precess_momentum first, last;
+        precess_power work;
+        precess_loads loads;
+        double before, after, lost;
+        uint32_t length = 0;
+        hub.mass = 400.0;
+        diagonal(hub.inertia, 120.0, 110.0, 90.0);
+        example();
+        for (axis = 0; axis < AXES; axis++) {
+            entries[ISOLATOR].passive[axis].stiffness = axis < ALPHA ? STIFFNESS : 150.0;
+            entries[ISOLATOR].passive[axis].viscous = axis < ALPHA ? 20.0 : 0.4;
+        }
+        entries[ISOLATOR].suspension.stiffness[X * AXES + X] = 100.0;
+        entries[ISOLATOR].suspension.stiffness[X * AXES + BETA] = 3.0;
+        entries[ISOLATOR].suspension.stiffness[BETA * AXES + X] = 3.0;
+        entries[ISOLATOR].suspension.stiffness[BETA * AXES + BETA] = 2.0;
+        entries[ISOLATOR].bodies[X].origin[2] = 0.6;
+        entries[WHEEL].bodies[0].origin[0] = 0.18;
+        entries[WHEEL].bodies[0].centre[1] = 1e-4;
+        entries[GYRO].bodies[0].origin[1] = -0.15;
+        for (place = 0; place < ENTRIES; place++) {
+            all[at[place]] = entries[place];
+            all[at[place]].on = place == ISOLATOR ? 0 : 1 + isolator;
+        }
+        for (place = 0; place < ENTRIES; place++) {
+            entries[place] = all[place];
+        }
+        IS(init(ENTRIES, 0), PRECESS_OK);
+        IS(precess_state_at_rest(&craft, &state), PRECESS_OK);
+        IS(precess_inputs_none(&craft, &inputs), PRECESS_OK);
+        state.omega[1] = 0.1;
+        state.coordinate[isolator][X] = 1e-3;
+        state.coordinate[isolator][GAMMA] = 0.01;
+        state.rate[rw][0] = 100.0;
+        state.rate[gyro][1] = -80.0;
+        inputs.motor[rw][0] = 0.1;
+        inputs.motor[gyro][0] = 0.05;
+        IS(precess_energy(&craft, &state, &before, 0), PRECESS_OK);
+        IS(precess_momentum_of(&craft, &state, PRECESS_ABOUT_ORIGIN, 0, &first, 0), PRECESS_OK);
+        IS(precess_step(&craft, &state, &inputs, 1e-4, 1000, &work, 0), PRECESS_OK);
+        IS(precess_momentum_of(&craft, &state, PRECESS_ABOUT_ORIGIN, 0, &last, 0), PRECESS_OK);
+        IS(precess_energy(&craft, &state, &after, 0), PRECESS_OK);
+        for (axis = 0; axis < 3; axis++) {
+            NEAR(last.linear[axis], first.linear[axis], 1e-11);
+            NEAR(last.angular[axis], first.angular[axis], 1e-11);
+        }
+        /* The error of the steps, of order dt^4. */
+        NEAR(after - before, work.motors + work.springs + work.friction, 1e-9);
+        IS(work.friction < 0.0, 1);
+        IS(precess_loads_of(&craft, &state, &inputs, PRECESS_AXES_BODY, &loads, 0), PRECESS_OK);
+        NEAR(loads.motor[rw][0], 0.1, 1e-10);
+        NEAR(loads.motor[isolator][Y], 0.0, 1e-8);
+        for (axis = 0; axis < 3; axis++) {
+            bits(loads.mount[isolator].force[axis]);
+            bits(loads.mount[rw].force[axis]);
+        }
+        IS(precess_state_length(&craft, &length), PRECESS_OK);
+        IS(length, 13 + 2 * (AXES + 3));
+        IS(precess_state_save(&craft, &state, saved[turn], length), PRECESS_OK);
+        IS(precess_state_restore(&craft, saved[turn], length, &restored, 0), PRECESS_OK);
+        IS(same(&state, &restored, sizeof state), 1);
+        /* In the order of the example, to be compared. */
+        saved[turn][13] = state.rate[rw][0];
+        saved[turn][14] = state.rate[gyro][1];
+        for (axis = 0; axis < AXES; axis++) {
+            saved[turn][15 + 2 * axis] = state.coordinate[isolator][axis];
+            saved[turn][16 + 2 * axis] = state.rate[isolator][axis];
+        }
+        IS(precess_state_wrap(&craft, &state), PRECESS_OK);
+        for (axis = 0; axis < AXES; axis++) {
+            inputs.mode[isolator][axis] = PRECESS_LOCKED;
+        }
+        IS(precess_energy(&craft, &state, 0, 0), PRECESS_ERROR_NULL);
+        IS(precess_stop(&craft, &state, &inputs, &lost, 0), PRECESS_OK);
+        IS(lost > 0.0, 1);
+        NEAR(state.rate[isolator][BETA], 0.0, 0.0);
+    }
+    IS(same(saved[0], saved[1], (15 + 2 * AXES) * sizeof saved[0][0]), 1);
+}
+
+/* Tables say what entries stand on. */
+static void tables(void)
+{
+    static uint8_t table[PRECESS_TABLE_SIZE(ENTRIES)];
+    static precess_spacecraft other;
+    precess_state state, twin;
+    precess_inputs inputs;
+    size_t length = 0;
+    example();
+    entries[ISOLATOR].suspension.damping[7 * Z] = 9.0;
+    entries[ISOLATOR].suspension.stiffness[7 * Z] = STIFFNESS;
+    entries[ISOLATOR].suspension.rest[Z] = 1e-3;
+    IS(precess_table_write(&hub, entries, ENTRIES, table, sizeof table, &length), PRECESS_OK);
+    IS(length, PRECESS_TABLE_SIZE(ENTRIES));
+    IS(precess_init_from_table(&other, sizeof other, table, length, 0), PRECESS_OK);
+    IS(init(ENTRIES, 0), PRECESS_OK);
+    IS(precess_state_at_rest(&craft, &state), PRECESS_OK);
+    state.rate[WHEEL][0] = 100.0;
+    twin = state;
+    IS(precess_inputs_none(&craft, &inputs), PRECESS_OK);
+    IS(precess_step(&craft, &state, &inputs, 1e-4, 100, 0, 0), PRECESS_OK);
+    IS(precess_step(&other, &twin, &inputs, 1e-4, 100, 0, 0), PRECESS_OK);
+    IS(same(&state, &twin, sizeof state), 1);
+    /* On its way to rest, for 0.01 s of a period of half a second. */
+    IS(state.coordinate[ISOLATOR][Z] > 8e-6, 1);
+}
+
+static void rejects(int entry, int32_t code, uint32_t count)
+{
+    precess_fault fault;
+    IS(init(count, &fault), code);
+    IS(fault.device, entry);
+    IS(fault.code, code);
+}
+
+static void rejected(void)
+{
+    precess_state state;
+    precess_inputs inputs;
+    precess_accelerations found;
+    precess_fault fault;
+    int index;
+    /* On itself, on a wheel, on nothing, on less than nothing; a platform on a platform. */
+    for (index = 0; index < 4; index++) {
+        static const int32_t on[4] = {1 + WHEEL, 1 + GYRO, 9, -1};
+        example();
+        entries[WHEEL].on = on[index];
+        rejects(WHEEL, PRECESS_ERROR_NO_PLATFORM, ENTRIES);
+    }
+    example();
+    platform(&entries[GYRO]);
+    entries[GYRO].on = 1 + ISOLATOR;
+    rejects(GYRO, PRECESS_ERROR_NO_PLATFORM, ENTRIES);
+    /* One device more than a platform takes, and one platform more than a hub. */
+    example();
+    for (index = 1; index < 2 + PRECESS_MAX_ON_PLATFORM; index++) {
+        wheel(&entries[index], 1 + ISOLATOR);
+    }
+    IS(init(1 + PRECESS_MAX_ON_PLATFORM, 0), PRECESS_OK);
+    rejects(1 + PRECESS_MAX_ON_PLATFORM, PRECESS_ERROR_TOO_MANY, 2 + PRECESS_MAX_ON_PLATFORM);
+    for (index = 0; index < 1 + PRECESS_MAX_PLATFORMS; index++) {
+        platform(&entries[index]);
+    }
+    IS(init(PRECESS_MAX_PLATFORMS, 0), PRECESS_OK);
+    rejects(PRECESS_MAX_PLATFORMS, PRECESS_ERROR_TOO_MANY, 1 + PRECESS_MAX_PLATFORMS);
+    for (index = 0; index <= PRECESS_MAX_DEVICES; index++) {
+        wheel(&entries[index], 0);
+    }
+    rejects(-1, PRECESS_ERROR_TOO_MANY, PRECESS_MAX_DEVICES + 1);
+    /* Links of a platform have no mass; suspensions. */
+    example();
+    entries[ISOLATOR].bodies[Z].mass = 1.0;
+    rejects(ISOLATOR, PRECESS_ERROR_UNSUPPORTED_PARAMETER, ENTRIES);
+    example();
+    entries[ISOLATOR].model = PRECESS_LUMPED;
+    rejects(ISOLATOR, PRECESS_ERROR_UNSUPPORTED_PARAMETER, ENTRIES);
+    example();
+    entries[ISOLATOR].suspension.stiffness[1] = 1.0;
+    rejects(ISOLATOR, PRECESS_ERROR_SUSPENSION, ENTRIES);
+    example();
+    entries[ISOLATOR].suspension.damping[0] = -1.0;
+    rejects(ISOLATOR, PRECESS_ERROR_SUSPENSION, ENTRIES);
+    example();
+    entries[ISOLATOR].suspension.strut[2].stiffness = 1.0;
+    rejects(ISOLATOR, PRECESS_ERROR_SUSPENSION, ENTRIES);
+    example();
+    entries[ISOLATOR].suspension.rest[2] = not_a_number();
+    entries[ISOLATOR].suspension.damping[0] = 1.0;
+    rejects(ISOLATOR, PRECESS_ERROR_NOT_FINITE, ENTRIES);
+    example();
+    entries[GYRO].bodies[1].mass = 0.0;
+    rejects(GYRO, PRECESS_ERROR_MASS, ENTRIES);
+    /* A fault names the entry, not the place in the set: here the wheel on the hub is the first of that. */
+    example();
+    entries[GYRO] = entries[WHEEL];
+    entries[GYRO].on = 0;
+    IS(init(ENTRIES, 0), PRECESS_OK);
+    IS(precess_state_at_rest(&craft, &state), PRECESS_OK);
+    IS(precess_inputs_none(&craft, &inputs), PRECESS_OK);
+    inputs.motor[GYRO][0] = not_a_number();
+    IS(precess_accelerations_of(&craft, &state, &inputs, &found, &fault), PRECESS_ERROR_NOT_FINITE);
+    IS(fault.device, GYRO);
+    IS(fault.joint, 0);
+    inputs.motor[GYRO][0] = 0.0;
+    state.rate[ISOLATOR][BETA] = not_a_number();
+    IS(precess_accelerations_of(&craft, &state, &inputs, &found, &fault), PRECESS_ERROR_NOT_FINITE);
+    IS(fault.device, ISOLATOR);
+    state.rate[ISOLATOR][BETA] = 0.0;
+    inputs.mode[WHEEL][0] = 7;
+    IS(precess_accelerations_of(&craft, &state, &inputs, &found, &fault), PRECESS_ERROR_UNKNOWN_CHOICE);
+    IS(fault.device, WHEEL);
+}
+
+int main(void)
+{
+    hub.mass = 400.0;
+    springs();
+    locked();
+    conserved();
+    tables();
+    rejected();
+    return finish(183);
+}
