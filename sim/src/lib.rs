@@ -43,6 +43,7 @@
 pub mod command;
 pub mod engine;
 pub mod file;
+pub mod jitter;
 mod nearest;
 pub mod record;
 pub mod report;

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use nalgebra::Vector3;
-use precess_dynamics::kind::JointStates;
 
 use super::error::CommandError;
 use crate::file::from_file;
-use crate::scenario::{Drive, Member, Scenario, Set, members};
+use crate::scenario::{Scenario, members};
 use crate::structure::averaged::AveragedDevices;
 use crate::structure::dynamic_mass::Motor;
+use crate::structure::steady::{SteadyJoints, set_of};
 
 /// A device that is farther from its node than this, m, may be at the wrong node.
 const ARM_MAX: f64 = 0.01;
@@ -59,14 +59,6 @@ pub(super) struct MountedDevices {
     pub(super) rigid: AveragedDevices,
 }
 
-/// Joints of the chosen devices.
-#[derive(Default)]
-struct Joints {
-    states: Vec<[f64; 2]>,
-    at_rest: Vec<[f64; 2]>,
-    motors: Vec<Motor>,
-}
-
 impl DeviceOptions {
     /// The devices at a node; none without a scenario.
     pub(super) fn mounted(
@@ -77,14 +69,17 @@ impl DeviceOptions {
         let Some(path) = &self.scenario else { return Ok(None) };
         let (scenario, _) = from_file(path, &[]).map_err(CommandError::Scenario)?;
         let chosen = self.chosen(&scenario)?;
-        let joints = self.joints(&scenario, &chosen);
+        let motor = match self.motor {
+            Keeps::Torque => Motor::ConstantTorque,
+            Keeps::Rate => Motor::ConstantRate,
+        };
+        let joints = SteadyJoints::new(&scenario, &chosen, motor, self.gimbals == Gimbals::Sprung);
+        for (name, rate) in &joints.stopped {
+            eprintln!("warning: {name} is {rate} at first; taken as at rest");
+        }
         let members = members(&scenario.devices);
         let on_mount: Vec<_> = chosen.iter().filter_map(|index| members.get(*index)).collect();
-        let on_hub = on_mount.iter().filter(|member| member.on().is_none());
-        let devices: Set = (
-            on_hub.filter_map(|member| member.device().copied()).collect(),
-            on_mount.iter().filter_map(|member| member.platform().cloned()).collect(),
-        );
+        let devices = set_of(&scenario, &chosen);
         let names = chosen.iter().filter_map(|index| scenario.names.get(*index));
         let names = names.map(String::as_str).collect::<Vec<_>>().join(", ");
         for (name, member) in names.split(", ").zip(&on_mount) {
@@ -102,7 +97,8 @@ impl DeviceOptions {
         let failed = |fault| CommandError::Other(format!("{}: {names}: {fault}", path.display()));
         let held = vec![Motor::ConstantRate; joints.motors.len()];
         let averaged = AveragedDevices::new(&devices, mount, &joints.states, &joints.motors);
-        let rigid = AveragedDevices::new(&devices, mount, &joints.at_rest, &held);
+        let at_rest: Vec<_> = joints.states.iter().map(|[x, _]| [*x, 0.0]).collect();
+        let rigid = AveragedDevices::new(&devices, mount, &at_rest, &held);
         let (averaged, rigid) = (averaged.map_err(failed)?, rigid.map_err(failed)?);
         Ok(Some(MountedDevices { names, averaged, rigid }))
     }
@@ -136,36 +132,5 @@ impl DeviceOptions {
             }
         }
         Ok(chosen)
-    }
-
-    /// Coordinates, rates and motors of the joints of some devices.
-    fn joints(&self, scenario: &Scenario, chosen: &[usize]) -> Joints {
-        let (mut joints, members) = (Joints::default(), members(&scenario.devices));
-        let states = scenario.initial.devices.states().zip(&scenario.drives);
-        for ((device, name, info), ([coordinate, rate], drive)) in scenario.joints().zip(states) {
-            if !chosen.contains(&device) {
-                continue;
-            }
-            let member = members.get(device);
-            let spins = info.tip && !info.slides && member.is_some_and(|of| of.device().is_some());
-            if rate != 0.0 && !spins {
-                eprintln!("warning: {name}: {} is {rate} at first; taken as at rest", info.rate);
-            }
-            let passive = member.map(Member::passive).unwrap_or_default();
-            let passive = passive.get(info.index);
-            let sprung = passive.is_some_and(|passive| passive.stiffness > 0.0)
-                || member.is_some_and(Member::has_suspension);
-            let is_driven = matches!(drive, Drive::Torque { .. });
-            let motor = match (self.motor, self.gimbals) {
-                _ if !is_driven => Motor::ConstantRate,
-                (Keeps::Torque, _) if spins && !sprung => Motor::ConstantTorque,
-                (_, Gimbals::Sprung) if sprung => Motor::ConstantTorque,
-                _ => Motor::ConstantRate,
-            };
-            joints.states.push([coordinate, if spins && !sprung { rate } else { 0.0 }]);
-            joints.at_rest.push([coordinate, 0.0]);
-            joints.motors.push(motor);
-        }
-        joints
     }
 }

@@ -12,7 +12,7 @@
 //! and the modal sum. With the base held, the first term is left out. Units: m/s²/N, rad/s²/N,
 //! m/s²/(N m), rad/s²/(N m).
 
-use nalgebra::{Complex, DMatrix, DVector, Matrix6};
+use nalgebra::{Complex, DMatrix, Matrix6};
 
 use super::{COORDINATES, Fault, Structure};
 
@@ -36,21 +36,16 @@ pub struct Accelerance {
     mass: Option<Matrix6<f64>>,
     /// Angular frequency and damping ratio of each mode.
     modes: Vec<[f64; 2]>,
-    /// Momentum integrals.
-    momenta: ComplexMatrix,
-    /// Rigid-body motion and shapes at the nodes that move.
-    to: Rows,
-    /// The same at the nodes with forces.
-    from: Rows,
+    /// Shapes at the nodes that move, and below them momentum integrals.
+    to: DMatrix<f64>,
+    /// The same of the nodes with forces.
+    from: DMatrix<f64>,
+    /// Rigid-body motion of the nodes that move, and of those with forces.
+    rigid: [ComplexMatrix; 2],
+    /// The rigid body, where no mode has momentum: it does not depend on the frequency.
+    decoupled: Option<DMatrix<f64>>,
     /// Residual flexibility between them.
-    residual: Option<ComplexMatrix>,
-}
-
-/// Rows of some nodes.
-#[derive(Clone, Debug)]
-struct Rows {
-    rigid: ComplexMatrix,
-    shapes: ComplexMatrix,
+    residual: Option<DMatrix<f64>>,
 }
 
 impl Accelerance {
@@ -77,20 +72,33 @@ impl Accelerance {
         let numbers = |nodes: &[usize]| -> Vec<usize> {
             nodes.iter().flat_map(|n| COORDINATES * n..COORDINATES * (n + 1)).collect()
         };
-        let rows = |numbers: &[usize]| Rows {
-            rigid: complex(&rigid.select_rows(numbers)),
-            shapes: complex(&structure.shapes.select_rows(numbers)),
-        };
         let [to, from] = [numbers(to), numbers(from)];
-        let residual = structure.residual.as_ref();
-        let residual = residual.map(|all| complex(&all.select_rows(&to).select_columns(&from)));
         let momenta = structure.momenta();
+        let rows = |numbers: &[usize]| {
+            let shapes = structure.shapes.select_rows(numbers);
+            let mut rows = DMatrix::zeros(numbers.len() + COORDINATES, shapes.ncols());
+            rows.rows_mut(0, numbers.len()).copy_from(&shapes);
+            rows.rows_mut(numbers.len(), COORDINATES).copy_from(&momenta);
+            rows
+        };
+        let residual = structure.residual.as_ref();
+        let residual = residual.map(|all| all.select_rows(&to).select_columns(&from));
+        let [of_to, of_from] = [&to, &from].map(|numbers| rigid.select_rows(numbers));
+        let decoupled = match &mass {
+            Some(mass) if momenta.iter().all(|value| *value == 0.0) => {
+                let inverse = mass.try_inverse().ok_or(Fault::NoMass)?;
+                let inverse = DMatrix::from_column_slice(6, 6, inverse.as_slice());
+                Some(&of_to * inverse * of_from.transpose())
+            }
+            _ => None,
+        };
         Ok(Self {
             mass,
             modes: structure.modes.iter().map(|mode| [mode.frequency, mode.damping]).collect(),
-            momenta: complex(&DMatrix::from_column_slice(6, momenta.ncols(), momenta.as_slice())),
             to: rows(&to),
             from: rows(&from),
+            rigid: [complex(&of_to), complex(&of_from)],
+            decoupled,
             residual,
         })
     }
@@ -103,33 +111,34 @@ impl Accelerance {
     pub fn at(&self, frequency: f64) -> Result<ComplexMatrix, Fault> {
         super::within("angular frequency, rad/s,".into(), frequency, [0.0, 1e12])?;
         let square = frequency * frequency;
-        let gains = DVector::from_iterator(
-            self.modes.len(),
-            self.modes.iter().map(|[natural, ratio]| {
-                let stiff = natural * natural - square;
-                Complex::new(-square, 0.0) / Complex::new(stiff, 2.0 * ratio * natural * frequency)
-            }),
-        );
-        let weighted = |shapes: &ComplexMatrix| {
-            let mut weighted = shapes.clone();
-            for (mut column, gain) in weighted.column_iter_mut().zip(gains.iter()) {
-                column *= *gain;
-            }
-            weighted
-        };
-        let moved = weighted(&self.to.shapes);
-        let mut sum = &moved * self.from.shapes.transpose();
-        if let Some(mass) = &self.mass {
+        let gains = self.modes.iter().map(|[natural, ratio]| {
+            let stiff = natural * natural - square;
+            Complex::new(-square, 0.0) / Complex::new(stiff, 2.0 * ratio * natural * frequency)
+        });
+        // Products of real matrices: the shapes times the real and the imaginary parts of the gains.
+        let (mut real, mut imaginary) = (self.to.clone(), self.to.clone());
+        for (mode, gain) in gains.enumerate() {
+            real.column_mut(mode).scale_mut(gain.re);
+            imaginary.column_mut(mode).scale_mut(gain.im);
+        }
+        let shapes = self.from.transpose();
+        let modal = (real * &shapes).zip_map(&(imaginary * shapes), Complex::new);
+        let [to, from] = [&self.to, &self.from].map(|rows| rows.nrows() - COORDINATES);
+        let mut sum = modal.view((0, 0), (to, from)).into_owned();
+        if let Some(rigid) = &self.decoupled {
+            sum.zip_apply(rigid, |value, rigid| *value += rigid);
+        } else if let Some(mass) = &self.mass {
             let unbounded = || Fault::Unbounded { frequency };
+            let [of_to, of_from] = &self.rigid;
+            let size = (COORDINATES, COORDINATES);
             let mass = complex(&DMatrix::from_column_slice(6, 6, mass.as_slice()));
-            let left = mass - weighted(&self.momenta) * self.momenta.transpose();
-            let momenta = self.momenta.transpose();
-            let to = &self.to.rigid - moved * &momenta;
-            let from = &self.from.rigid - weighted(&self.from.shapes) * momenta;
-            sum += to * left.lu().solve(&from.transpose()).ok_or_else(unbounded)?;
+            let left = mass - modal.view((to, from), size);
+            let moved = of_to - modal.view((0, from), (to, COORDINATES));
+            let forced = of_from.transpose() - modal.view((to, 0), (COORDINATES, from));
+            sum += moved * left.lu().solve(&forced).ok_or_else(unbounded)?;
         }
         if let Some(residual) = &self.residual {
-            sum -= residual * Complex::new(square, 0.0);
+            sum.zip_apply(residual, |value, residual| *value -= residual * square);
         }
         if sum.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
             Ok(sum)

@@ -30,6 +30,7 @@ use precess_dynamics::{
 
 use super::accelerance::ComplexMatrix;
 use super::dynamic_mass::Motor;
+use super::harmonics::{fourier, share};
 use super::{COORDINATES, Fault, rigid_rows, within};
 
 /// Mass, kg, and inertia, kg m², of the hub that stands for the mount: less than rounding of any device.
@@ -42,7 +43,7 @@ const ROTORS_MAX: usize = 4;
 const STIFFNESS_MAX: f64 = 1e-9;
 
 /// Derivatives by accelerations, rates and coordinates, of mount and free joints.
-type Derivatives = [DMatrix<f64>; 3];
+pub type Derivatives = [DMatrix<f64>; 3];
 
 /// Devices on a mount, linearised about steady rates and averaged over a turn of each rotor.
 #[derive(Clone, Debug)]
@@ -128,29 +129,20 @@ impl AveragedDevices {
         self.scale.len().saturating_sub(COORDINATES)
     }
 
+    /// Means of the derivatives by accelerations, rates and coordinates: six rows and columns of the mount, and
+    /// one of each free joint.
+    #[must_use]
+    pub fn mean(&self) -> &[DMatrix<f64>; 3] {
+        &self.mean
+    }
+
     /// The 6 × 6 dynamic mass about the mount at an angular frequency, rad/s: kg, kg m, kg m².
     ///
     /// # Errors
     /// [`Fault::Range`] for a frequency that is not above zero; [`Fault::Unbounded`] at a resonance of free
     /// joints without damping.
     pub fn dynamic_mass(&self, frequency: f64) -> Result<ComplexMatrix, Fault> {
-        let unbounded = || Fault::Unbounded { frequency };
-        let parts = self.mean.each_ref().map(|m| m.map(|value| Complex::new(value, 0.0)));
-        let whole = at(&parts, frequency)?;
-        let joints = self.free_joints();
-        let [h, q] = [(0, COORDINATES), (COORDINATES, joints)];
-        let block =
-            |rows: (usize, usize), of: (usize, usize)| whole.view((rows.0, of.0), (rows.1, of.1));
-        let mut mass = block(h, h).into_owned();
-        if joints > 0 {
-            let inner = block(q, q).into_owned().lu();
-            mass -= block(h, q) * inner.solve(&block(q, h).into_owned()).ok_or_else(unbounded)?;
-        }
-        if mass.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
-            Ok(mass)
-        } else {
-            Err(unbounded())
-        }
+        condensed(&self.mean, frequency).map(|condensed| condensed.mass)
     }
 
     /// What averaging leaves out, at an angular frequency, rad/s, as a share of the inertia: the sum over rotors
@@ -173,6 +165,42 @@ impl AveragedDevices {
             sum += weighted.norm();
         }
         Ok(sum)
+    }
+}
+
+/// Devices at a frequency, with their free joints eliminated.
+#[derive(Clone, Debug)]
+pub struct Condensed {
+    /// Dynamic mass `M_w = Z_hh - Z_hq Z_qq^-1 Z_qh`.
+    pub mass: ComplexMatrix,
+    /// `Z_hq Z_qq^-1`: the load on the mount by what the free joints need.
+    pub gain: ComplexMatrix,
+}
+
+/// Eliminates the free joints of derivatives by accelerations, rates and coordinates.
+///
+/// # Errors
+/// As [`AveragedDevices::dynamic_mass`].
+pub fn condensed(parts: &Derivatives, frequency: f64) -> Result<Condensed, Fault> {
+    let unbounded = || Fault::Unbounded { frequency };
+    let parts = parts.each_ref().map(|m| m.map(|value| Complex::new(value, 0.0)));
+    let whole = at(&parts, frequency)?;
+    let joints = whole.nrows().saturating_sub(COORDINATES);
+    let [h, q] = [(0, COORDINATES), (COORDINATES, joints)];
+    let block =
+        |rows: (usize, usize), of: (usize, usize)| whole.view((rows.0, of.0), (rows.1, of.1));
+    let mut mass = block(h, h).into_owned();
+    let mut gain = ComplexMatrix::zeros(COORDINATES, joints);
+    if joints > 0 {
+        let inner = block(q, q).transpose().lu();
+        let found = inner.solve(&block(h, q).transpose()).ok_or_else(unbounded)?;
+        gain = found.transpose();
+        mass -= &gain * block(q, h);
+    }
+    if mass.iter().chain(gain.iter()).all(|value| value.re.is_finite() && value.im.is_finite()) {
+        Ok(Condensed { mass, gain })
+    } else {
+        Err(unbounded())
     }
 }
 
@@ -369,29 +397,4 @@ fn motion(mount: &Vector3<f64>, joints: usize) -> DMatrix<f64> {
     let mut motion = DMatrix::identity(COORDINATES + joints, COORDINATES + joints);
     motion.view_mut((0, 0), (COORDINATES, COORDINATES)).copy_from(&rigid_rows(&-mount));
     motion
-}
-
-#[expect(clippy::cast_precision_loss, reason = "small integers")]
-fn share(part: usize, of: usize) -> f64 {
-    part as f64 / of as f64
-}
-
-/// The discrete Fourier transform of equally spaced samples: the mean, then the harmonics.
-fn fourier(samples: &[Derivatives]) -> Vec<[ComplexMatrix; 3]> {
-    let count = samples.len();
-    let part = |harmonic: usize, of: usize| {
-        let mut sum: Option<ComplexMatrix> = None;
-        for (index, sample) in samples.iter().enumerate() {
-            let angle = -TAU * share(harmonic * index % count, count);
-            let weight = Complex::from_polar(share(1, count), angle);
-            let Some(matrix) = sample.get(of) else { continue };
-            let term = matrix.map(|value| weight * value);
-            sum = Some(match sum {
-                Some(sum) => sum + term,
-                None => term,
-            });
-        }
-        sum.unwrap_or_else(|| ComplexMatrix::zeros(0, 0))
-    };
-    (0..count).map(|harmonic| [part(harmonic, 0), part(harmonic, 1), part(harmonic, 2)]).collect()
 }

@@ -34,11 +34,13 @@ pub mod checks;
 pub mod dynamic_mass;
 mod error;
 pub mod flex42;
+pub(crate) mod harmonics;
 pub mod modes;
 pub mod mounted;
 pub mod npz;
 pub mod op4;
 mod read;
+pub mod steady;
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, Matrix6xX, Vector3};
 
@@ -254,7 +256,7 @@ fn finite<'a>(
     }
 }
 
-fn within(what: String, value: f64, range: [f64; 2]) -> Result<(), Fault> {
+pub(crate) fn within(what: String, value: f64, range: [f64; 2]) -> Result<(), Fault> {
     if (range[0]..=range[1]).contains(&value) {
         return Ok(());
     }

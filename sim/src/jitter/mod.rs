@@ -1,0 +1,31 @@
+//! Jitter in the frequency domain: what the imbalances and harmonics of rotors in steady spin do to lines of
+//! sight, over the rotors' speed.
+//!
+//! About steady spin the equations are linear, and the rotors are averaged over a turn
+//! ([`averaged`](crate::structure::averaged)). A rotor at the rate `Omega` has tones at `w = h Omega`; each is a blocked
+//! force `F_b Omega^2 exp(i w t)` on a mount. With the accelerance `A` of the structure without devices and the dynamic
+//! mass `M_w` of all devices, a block for each mount, at `w` and at the rates of the rotors,
+//!
+//! ```text
+//! F = (1 + M_w A_mm)^-1 F_b      x = -A_om F / w^2      los = sum of S_k [x_k; theta_k]
+//! ```
+//!
+//! `m` are the mounts, `o` the nodes of the optics. This is the modal sum of the structure with an update of the rank of
+//! the mounts, six each: no system of the size of the modes is solved. `F_b` is that of the device's own equations:
+//! a force that its mount and its free joints need to stay where they are while the rotor turns, sampled over a turn
+//! ([`device`]). Sources: Masterson, Miller and Grogan, J. Sound Vib. 249(3), 2002 (harmonic model); Elias, Dekens, Basdogan, Sievers
+//! and Neville, JPL 2003, and ASME J. Vib. Acoust. 129(2):148, 2007 (blocked and mounted force).
+//!
+//! | what | module |
+//! |---|---|
+//! | a device over the speed, and its tones | [`device`] |
+//! | structure, devices and lines of sight at one speed | [`model`] |
+//! | many speeds, on threads | [`sweep`] |
+//! | natural frequencies over the speed, and where orders cross them | [`campbell`] |
+//! | speeds to keep out of | [`keep_out`] |
+
+pub mod campbell;
+pub mod device;
+pub mod keep_out;
+pub mod model;
+pub mod sweep;

@@ -1,0 +1,282 @@
+//! [`Model`]: a structure with devices in steady spin, and lines of sight, at one speed.
+
+use nalgebra::{Complex, DMatrix, DVector, Vector3};
+
+use super::device::{Steady, SweptDevice};
+use crate::scenario::{ModalStructure, Scenario};
+use crate::structure::accelerance::{Accelerance, Base, ComplexMatrix};
+use crate::structure::averaged::AveragedDevices;
+use crate::structure::dynamic_mass::Motor;
+use crate::structure::steady::{SteadyJoints, set_of};
+use crate::structure::{COORDINATES, Fault, Node, RigidMass, Structure};
+
+/// The node of a rigid hub: B.
+pub const HUB: &str = "hub";
+
+/// A quantity that is a sum over small displacements and rotations of nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Its name: `camera x`.
+    pub name: String,
+    /// Node and sensitivities to its displacement, 1/m, and rotation, each expressed in B.
+    pub terms: Vec<(String, [f64; COORDINATES])>,
+}
+
+/// Structure, devices and outputs.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The devices, each with the number of its mount.
+    pub devices: Vec<(usize, SweptDevice)>,
+    /// Names of the outputs.
+    pub outputs: Vec<String>,
+    /// The structure; a rigid hub has no modes.
+    pub structure: Structure,
+    /// Nodes of the mounts.
+    pub mounts: Vec<usize>,
+    /// What the structure's model has of the devices at each mount, to be taken off.
+    pub(super) contained: Vec<Option<DMatrix<f64>>>,
+    accelerance: Accelerance,
+    /// A row for each output, six columns for each of its nodes.
+    rows: DMatrix<f64>,
+}
+
+/// A tone of a device in a list of all.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contributor {
+    /// The rotor: `rw1.wheel`.
+    pub rotor: String,
+    /// What causes it.
+    pub cause: String,
+    /// Harmonic number.
+    pub order: f64,
+    /// Number of the device, and of the tone in it.
+    pub place: [usize; 2],
+}
+
+/// What a tone does at one speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Number of the contributor.
+    pub contributor: usize,
+    /// Angular frequency, rad/s.
+    pub frequency: f64,
+    /// Complex amplitude of each output, for `exp(i w t)`.
+    pub values: Vec<Complex<f64>>,
+}
+
+impl Model {
+    /// Of a scenario: its hub or structure, all its devices, and outputs at nodes that it records (of a rigid hub, the
+    /// node `hub`).
+    ///
+    /// # Errors
+    /// [`Fault::UnknownNode`] for an output at no node; those of [`SweptDevice::new`] and [`Accelerance::new`].
+    pub fn new(
+        scenario: &Scenario,
+        outputs: &[Output],
+        steady: &Steady<'_>,
+    ) -> Result<Self, Fault> {
+        let structure = structure_of(scenario);
+        let of_scenario = scenario.structure.as_ref();
+        let mut mounts: Vec<usize> = Vec::new();
+        let (mut devices, mut contained) = (Vec::new(), Vec::new());
+        for group in groups(scenario) {
+            let first = group.first().copied().unwrap_or(0);
+            let node = of_scenario.map_or(Some(0), |s| s.on_node.get(first).copied()).unwrap_or(0);
+            let place = structure.nodes.get(node).map_or_else(Vector3::zeros, |n| n.position);
+            let known = mounts.iter().position(|mount| *mount == node);
+            let mount = known.unwrap_or_else(|| {
+                mounts.push(node);
+                contained.push(None);
+                mounts.len() - 1
+            });
+            if of_scenario.is_some_and(|structure| structure.contains_devices) {
+                let mass = rigid_mass(scenario, &group, &place)?;
+                if let Some(contained) = contained.get_mut(mount) {
+                    *contained = Some(contained.take().map_or(mass.clone(), |sum| sum + mass));
+                }
+            }
+            devices.push((mount, SweptDevice::new(scenario, &group, &place, steady)?));
+        }
+        let mut nodes = Vec::new();
+        for (node, _) in outputs.iter().flat_map(|output| &output.terms) {
+            let node = structure.node(node)?;
+            if !nodes.contains(&node) {
+                nodes.push(node);
+            }
+        }
+        let mut rows = DMatrix::zeros(outputs.len(), COORDINATES * nodes.len());
+        for (row, output) in outputs.iter().enumerate() {
+            for (node, sensitivities) in &output.terms {
+                let node = structure.node(node)?;
+                let column = nodes.iter().position(|known| *known == node).unwrap_or(0);
+                for (axis, value) in sensitivities.iter().enumerate() {
+                    let what = format!("a sensitivity of `{}`", output.name);
+                    crate::structure::within(what, *value, [-1e12, 1e12])?;
+                    rows[(row, COORDINATES * column + axis)] += value;
+                }
+            }
+        }
+        let to: Vec<usize> = mounts.iter().chain(&nodes).copied().collect();
+        let accelerance = Accelerance::new(&structure, Base::Free, &to, &mounts)?;
+        let outputs = outputs.iter().map(|output| output.name.clone()).collect();
+        Ok(Self { devices, outputs, structure, mounts, contained, accelerance, rows })
+    }
+
+    /// The tones of all devices, in order.
+    #[must_use]
+    pub fn contributors(&self) -> Vec<Contributor> {
+        let mut all = Vec::new();
+        for (device, (_, of)) in self.devices.iter().enumerate() {
+            for (index, tone) in of.tones.iter().enumerate() {
+                let rotor = of.rotors.get(tone.rotor).map(|rotor| rotor.name.clone());
+                all.push(Contributor {
+                    rotor: rotor.unwrap_or_default(),
+                    cause: tone.cause.clone(),
+                    order: tone.order,
+                    place: [device, index],
+                });
+            }
+        }
+        all
+    }
+
+    /// What every tone does to every output at a speed, rad/s, in the order of the contributors.
+    ///
+    /// # Errors
+    /// [`Fault::Unbounded`] at a resonance without damping; [`Fault::Range`] for a speed of zero.
+    pub fn lines(&self, speed: f64) -> Result<Vec<Line>, Fault> {
+        let contributors = self.contributors();
+        let mut tones: Vec<(f64, usize)> = Vec::new();
+        for (number, contributor) in contributors.iter().enumerate() {
+            let [device, tone] = contributor.place;
+            let of = self.devices.get(device).map(|(_, of)| of);
+            let tone = of.and_then(|of| of.tones.get(tone).map(|tone| of.frequency(tone, speed)));
+            tones.push((tone.unwrap_or(0.0), number));
+        }
+        tones.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut lines = Vec::with_capacity(tones.len());
+        for shared in tones.chunk_by(|a, b| a.0.to_bits() == b.0.to_bits()) {
+            let frequency = shared.first().map_or(0.0, |(frequency, _)| *frequency);
+            let numbers: Vec<usize> = shared.iter().map(|(_, number)| *number).collect();
+            let places = numbers.iter().filter_map(|n| contributors.get(*n)).map(|of| of.place);
+            let found = self.at(speed, frequency, &places.collect::<Vec<_>>())?;
+            for (contributor, column) in numbers.into_iter().zip(found.column_iter()) {
+                let values = column.iter().copied().collect();
+                lines.push(Line { contributor, frequency, values });
+            }
+        }
+        lines.sort_by_key(|line| line.contributor);
+        Ok(lines)
+    }
+
+    /// Amplitudes of the outputs, a column for each tone, all of one frequency.
+    fn at(&self, speed: f64, frequency: f64, tones: &[[usize; 2]]) -> Result<ComplexMatrix, Fault> {
+        let (size, of_mounts) = (COORDINATES, COORDINATES * self.mounts.len());
+        let whole = self.accelerance.at(frequency)?;
+        let own = whole.rows(0, of_mounts);
+        let mut masses: Vec<_> = vec![ComplexMatrix::zeros(size, size); self.mounts.len()];
+        for (sum, contained) in masses.iter_mut().zip(&self.contained) {
+            if let Some(mass) = contained {
+                sum.zip_apply(mass, |sum, mass| *sum -= mass);
+            }
+        }
+        let mut blocked = ComplexMatrix::zeros(of_mounts, tones.len());
+        for (number, (mount, device)) in self.devices.iter().enumerate() {
+            let condensed = device.condensed(speed, frequency)?;
+            for (column, [of, tone]) in tones.iter().enumerate() {
+                if let (true, Some(tone)) = (*of == number, device.tones.get(*tone)) {
+                    let force = device.blocked(tone, speed, &condensed);
+                    let mut to = blocked.view_mut((size * mount, column), (size, 1));
+                    to += force;
+                }
+            }
+            if let Some(sum) = masses.get_mut(*mount) {
+                *sum += condensed.mass;
+            }
+        }
+        // 1 + M A, a row of blocks for each mount.
+        let mut system = ComplexMatrix::identity(of_mounts, of_mounts);
+        for (mount, mass) in masses.iter().enumerate() {
+            let mut rows = system.rows_mut(size * mount, size);
+            rows += mass * own.rows(size * mount, size);
+        }
+        let unbounded = || Fault::Unbounded { frequency };
+        let force = system.lu().solve(&blocked).ok_or_else(unbounded)?;
+        let moved = whole.rows(of_mounts, whole.nrows() - of_mounts) * force;
+        let rows = self.rows.map(|value| Complex::new(-value / (frequency * frequency), 0.0));
+        let found = rows * moved;
+        if found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
+            Ok(found)
+        } else {
+            Err(unbounded())
+        }
+    }
+}
+
+/// Members that stand on the hub, each with the devices on it.
+fn groups(scenario: &Scenario) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (index, (_, member)) in scenario.members().enumerate() {
+        match member.on().and_then(|on| groups.iter_mut().find(|group| group.contains(&on))) {
+            Some(group) => group.push(index),
+            None => groups.push(vec![index]),
+        }
+    }
+    groups
+}
+
+/// Devices as a rigid body at rest: 6 × 6 about their mount.
+fn rigid_mass(
+    scenario: &Scenario,
+    group: &[usize],
+    mount: &Vector3<f64>,
+) -> Result<DMatrix<f64>, Fault> {
+    let joints = SteadyJoints::new(scenario, group, Motor::ConstantRate, false);
+    let still: Vec<_> = joints.states.iter().map(|[x, _]| [*x, 0.0]).collect();
+    let held = vec![Motor::ConstantRate; still.len()];
+    let averaged = AveragedDevices::new(&set_of(scenario, group), mount, &still, &held)?;
+    let [mass, ..] = averaged.mean();
+    Ok(mass.clone())
+}
+
+/// The structure of a scenario; a rigid hub is one without modes.
+fn structure_of(scenario: &Scenario) -> Structure {
+    let hub = &scenario.hub;
+    let mass = RigidMass::about_centre(hub.m_b, hub.r_bc_b, hub.i_b_bc);
+    let mut structure = Structure {
+        name: scenario.name.clone(),
+        nodes: vec![Node { name: HUB.to_owned(), position: Vector3::zeros() }],
+        modes: Vec::new(),
+        shapes: DMatrix::zeros(COORDINATES, 0),
+        mass: Some(mass),
+        mass_matrix: None,
+        residual: None,
+        has_devices: None,
+    };
+    if let Some(ModalStructure { modes, nodes, contains_devices, .. }) = &scenario.structure {
+        let node = |of: &crate::scenario::StructureNode| Node {
+            name: of.name.clone(),
+            position: of.position,
+        };
+        structure.nodes = nodes.iter().map(node).collect();
+        structure.modes.clone_from(modes);
+        structure.has_devices = Some(*contains_devices);
+        structure.shapes = DMatrix::from_fn(COORDINATES * nodes.len(), modes.len(), |row, mode| {
+            let shape = nodes.get(row / COORDINATES).and_then(|node| node.shapes.get(mode));
+            shape.map_or(0.0, |shape| shape[row % COORDINATES])
+        });
+    }
+    structure
+}
+
+/// Sum of squares of the magnitudes, a half of each: the mean square of lines.
+#[must_use]
+pub fn mean_square<'a>(values: impl Iterator<Item = &'a Complex<f64>>) -> f64 {
+    values.map(|value| 0.5 * value.norm_sqr()).sum()
+}
+
+/// A complex vector of real numbers.
+#[must_use]
+pub fn real(values: &[f64]) -> DVector<Complex<f64>> {
+    DVector::from_iterator(values.len(), values.iter().map(|value| Complex::new(*value, 0.0)))
+}

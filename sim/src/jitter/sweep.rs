@@ -1,0 +1,133 @@
+//! [`Sweep`]: the lines of a model at many speeds, on any number of threads; the result does not depend on it.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use super::model::{Contributor, Line, Model};
+use crate::structure::Fault;
+
+/// Speeds that a sweep may have.
+pub const SPEEDS_MAX: usize = 1_000_000;
+
+/// Lines over speeds.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// Speeds, rad/s, rising.
+    pub speeds: Vec<f64>,
+    /// Names of the outputs.
+    pub outputs: Vec<String>,
+    /// What the lines are of.
+    pub contributors: Vec<Contributor>,
+    /// At each speed, a line for each contributor.
+    pub lines: Vec<Vec<Line>>,
+}
+
+/// How lines of one frequency are added.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Phases {
+    /// Phases between rotors are unknown and independent: mean squares are added.
+    #[default]
+    Unknown,
+    /// Phases are those of the scenario's initial angles: amplitudes are added before they are squared.
+    Given,
+    /// The worst phases: magnitudes are added.
+    Worst,
+}
+
+/// Equal steps from one speed to another, both included.
+#[must_use]
+pub fn speeds([from, to]: [f64; 2], count: usize) -> Vec<f64> {
+    let last = count.saturating_sub(1).max(1);
+    #[expect(clippy::cast_precision_loss, reason = "at most SPEEDS_MAX")]
+    let at = |index: usize| from + (to - from) * (index as f64 / last as f64);
+    (0..count).map(at).collect()
+}
+
+/// The lines of a model at some speeds. `progress` is called with the number of speeds that are done.
+///
+/// # Errors
+/// The fault of the lowest speed that has one; [`Fault::Number`] for no speed, or too many.
+pub fn sweep(
+    model: &Model,
+    speeds: &[f64],
+    threads: usize,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Sweep, Fault> {
+    if speeds.is_empty() || speeds.len() > SPEEDS_MAX {
+        let (what, range) = (String::from("speeds"), [1, SPEEDS_MAX]);
+        return Err(Fault::Number { what, found: speeds.len(), range });
+    }
+    let next = AtomicUsize::new(0);
+    let done = AtomicUsize::new(0);
+    let work = || {
+        let mut found = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(speed) = speeds.get(index) else { return found };
+            found.push((index, model.lines(*speed)));
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1);
+        }
+    };
+    let mut found = thread::scope(|scope| {
+        let threads: Vec<_> = (1..threads.max(1)).map(|_| scope.spawn(work)).collect();
+        let mut found = work();
+        for thread in threads {
+            match thread.join() {
+                Ok(of_thread) => found.extend(of_thread),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        found
+    });
+    found.sort_by_key(|(index, _)| *index);
+    let lines: Result<Vec<_>, _> = found.into_iter().map(|(_, lines)| lines).collect();
+    Ok(Sweep {
+        speeds: speeds.to_vec(),
+        outputs: model.outputs.clone(),
+        contributors: model.contributors(),
+        lines: lines?,
+    })
+}
+
+impl Sweep {
+    /// Mean square of some outputs at a speed, over lines of a band of frequencies, Hz, each weighted by its frequency.
+    #[must_use]
+    pub fn mean_square(
+        &self,
+        speed: usize,
+        outputs: &[usize],
+        phases: Phases,
+        weight: &dyn Fn(f64) -> f64,
+    ) -> f64 {
+        let lines = self.lines.get(speed).map_or(&[][..], Vec::as_slice);
+        outputs.iter().map(|output| mean_square(lines, *output, phases, weight)).sum()
+    }
+
+    /// Mean squares of each contributor by itself at a speed.
+    #[must_use]
+    pub fn shares(&self, speed: usize, outputs: &[usize], weight: &dyn Fn(f64) -> f64) -> Vec<f64> {
+        let lines = self.lines.get(speed).map_or(&[][..], Vec::as_slice);
+        let of = |line: &Line| -> f64 {
+            let values = outputs.iter().filter_map(|output| line.values.get(*output));
+            values.map(|value| 0.5 * value.norm_sqr() * weight(line.frequency)).sum()
+        };
+        lines.iter().map(of).collect()
+    }
+}
+
+fn mean_square(lines: &[Line], output: usize, phases: Phases, weight: &dyn Fn(f64) -> f64) -> f64 {
+    let mut sorted: Vec<&Line> = lines.iter().collect();
+    sorted.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    let mut sum = 0.0;
+    for shared in sorted.chunk_by(|a, b| a.frequency.to_bits() == b.frequency.to_bits()) {
+        let frequency = shared.first().map_or(0.0, |line| line.frequency);
+        let values = || shared.iter().filter_map(|line| line.values.get(output));
+        let square = match phases {
+            Phases::Unknown => values().map(|value| value.norm_sqr()).sum::<f64>(),
+            Phases::Given => values().sum::<nalgebra::Complex<f64>>().norm_sqr(),
+            Phases::Worst => values().map(|value| value.norm()).sum::<f64>().powi(2),
+        };
+        sum += 0.5 * square * weight(frequency);
+    }
+    sum
+}

@@ -1,0 +1,70 @@
+//! Devices of a scenario in steady spin: which joints turn, which are free, which are held, for small motions
+//! about it.
+
+use precess_dynamics::JointStates;
+
+use super::dynamic_mass::Motor;
+use crate::scenario::{Drive, Member, Scenario, Set, members};
+
+/// Joints of some devices, in the order of the set.
+#[derive(Clone, Debug, Default)]
+pub struct SteadyJoints {
+    /// Coordinate and rate; the rate is zero where a joint does not spin.
+    pub states: Vec<[f64; 2]>,
+    /// What the motor of each does to small motions.
+    pub motors: Vec<Motor>,
+    /// The name of each: device, body.
+    pub names: Vec<String>,
+    /// Joints that move at first but are taken as at rest, with their rates.
+    pub stopped: Vec<(String, f64)>,
+}
+
+impl SteadyJoints {
+    /// Of the devices and platforms of a scenario with these numbers, at their initial coordinates.
+    ///
+    /// The last joint of a device spins, with its initial rate and the motor that is stated. Of the others, those with
+    /// a spring are free if `sprung`; all others, and all that the scenario locks or prescribes, are held.
+    #[must_use]
+    pub fn new(scenario: &Scenario, chosen: &[usize], motor: Motor, sprung: bool) -> Self {
+        let (mut joints, members) = (Self::default(), members(&scenario.devices));
+        let states = scenario.initial.devices.states().zip(&scenario.drives);
+        for ((device, name, info), ([coordinate, rate], drive)) in scenario.joints().zip(states) {
+            if !chosen.contains(&device) {
+                continue;
+            }
+            let member = members.get(device);
+            let name = format!("{name}.{}", info.body);
+            let spins = info.tip && !info.slides && member.is_some_and(|of| of.device().is_some());
+            let passive = member.map(Member::passive).unwrap_or_default();
+            let passive = passive.get(info.index);
+            let on_spring = passive.is_some_and(|passive| passive.stiffness > 0.0)
+                || member.is_some_and(Member::has_suspension);
+            let spins = spins && !on_spring;
+            if rate != 0.0 && !spins {
+                joints.stopped.push((format!("{name}, {}", info.rate), rate));
+            }
+            let is_driven = matches!(drive, Drive::Torque { .. });
+            joints.motors.push(match motor {
+                _ if !is_driven => Motor::ConstantRate,
+                Motor::ConstantTorque if spins => Motor::ConstantTorque,
+                _ if sprung && on_spring => Motor::ConstantTorque,
+                _ => Motor::ConstantRate,
+            });
+            joints.states.push([coordinate, if spins { rate } else { 0.0 }]);
+            joints.names.push(name);
+        }
+        joints
+    }
+}
+
+/// Some devices and platforms of a scenario by themselves; a device on a platform comes with it.
+#[must_use]
+pub fn set_of(scenario: &Scenario, chosen: &[usize]) -> Set {
+    let members = members(&scenario.devices);
+    let chosen: Vec<_> = chosen.iter().filter_map(|index| members.get(*index)).collect();
+    let on_hub = chosen.iter().filter(|member| member.on().is_none());
+    (
+        on_hub.filter_map(|member| member.device().copied()).collect(),
+        chosen.iter().filter_map(|member| member.platform().cloned()).collect(),
+    )
+}

@@ -1,0 +1,3 @@
+//! Jitter in the frequency domain against closed forms and against runs of the coupled equations.
+
+mod known;
