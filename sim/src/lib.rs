@@ -47,5 +47,6 @@ mod nearest;
 pub mod record;
 pub mod report;
 pub mod scenario;
+pub mod spectra;
 pub mod structure;
 pub mod units;
