@@ -44,6 +44,7 @@ pub mod command;
 pub mod engine;
 pub mod file;
 mod nearest;
+pub mod pointing;
 pub mod record;
 pub mod report;
 pub mod scenario;
