@@ -98,7 +98,7 @@ impl Psd {
     ///
     /// # Errors
     ///
-    /// A level that is not between zero and one, or fewer averages than one.
+    /// A level that is not above zero and at most 0.9999.
     pub fn interval(&self, bin: usize, level: f64) -> Result<[f64; 2], SpectrumError> {
         let twice = if self.metadata.is_end(bin) { 1.0 } else { 2.0 };
         chi_square_factors(twice * self.metadata.averages, level)

@@ -62,7 +62,7 @@ pub enum SpectrumError {
     },
     /// Coherence or an interval of fewer averages than two.
     Averages(f64),
-    /// A level of confidence is not between zero and one.
+    /// A level of confidence is not above zero and at most 0.9999.
     Level(f64),
     /// An order is not a positive finite number.
     Order(f64),
@@ -132,7 +132,10 @@ impl fmt::Display for SpectrumError {
                 "{averages:.3} averages are below 2; choose shorter segments, or record a longer run"
             ),
             Self::Level(level) => {
-                write!(f, "a level of confidence of {level} is not between 0 and 1; write 0.95")
+                write!(
+                    f,
+                    "a level of confidence of {level} is not above 0 and at most 0.9999; write 0.95"
+                )
             }
             Self::Order(order) => write!(f, "an order of {order}; it is a positive finite number"),
             Self::Dependent { start, ratio, bound } => write!(

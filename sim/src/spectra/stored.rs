@@ -1,5 +1,5 @@
 //! Spectra of a small record of integers by `welch`, `csd` and `coherence` of `SciPy` 1.17.1, and ours beside them. The
-//! arrays are printed by sim/tests/spectra/scipy_values.py.
+//! arrays are printed by `sim/tests/spectra/scipy_values.py`.
 
 use super::{Detrend, WelchSettings, Window, cross_spectra, psd};
 
