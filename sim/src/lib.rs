@@ -7,6 +7,7 @@
 //!
 //! A [`scenario::Scenario`] is read from TOML ([`file`]) or built by a program, run by [`engine::run`]
 //! into any [`record::Recorder`], and shown by [`report::Report`]. The commands are in [`command`].
+//! [`spectra`] and [`pointing`] are of any sampled signal, recorded or measured.
 //!
 //! ```
 //! use std::ops::ControlFlow;
@@ -45,8 +46,10 @@ pub mod engine;
 pub mod file;
 pub mod jitter;
 mod nearest;
+pub mod pointing;
 pub mod record;
 pub mod report;
 pub mod scenario;
+pub mod spectra;
 pub mod structure;
 pub mod units;

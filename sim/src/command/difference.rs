@@ -2,10 +2,10 @@
 //!
 //! Both files are read side by side, so memory does not grow with them.
 
-use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::error::CommandError;
+use super::result::Rows;
 
 /// The differences of all columns that both results have.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,74 +30,12 @@ pub(super) struct Difference {
     pub(super) largest: [f64; 2],
 }
 
-/// A result that is read row by row.
-struct Rows {
-    reader: csv::Reader<File>,
-    names: Vec<String>,
-    units: Vec<String>,
-    path: PathBuf,
-    record: csv::StringRecord,
-}
-
 impl Difference {
     /// Root mean square over so many samples.
     #[expect(clippy::cast_precision_loss, reason = "fewer samples than 2^53")]
     pub(super) fn rms(&self, samples: u64) -> f64 {
         (self.square / samples.max(1) as f64).sqrt()
     }
-}
-
-impl Rows {
-    fn open(path: &Path) -> Result<Self, CommandError> {
-        let wrong = |text: String| wrong(path, &text);
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_path(path)
-            .map_err(|error| wrong(error.to_string()))?;
-        let head = reader.headers().map_err(|error| wrong(error.to_string()))?;
-        let names: Vec<_> = head.iter().map(str::to_owned).collect();
-        if names.first().map(String::as_str) != Some("time") {
-            return Err(wrong("no result: its first column is not `time`".to_owned()));
-        }
-        let units = units(path, names.len());
-        Ok(Self { reader, names, units, path: path.to_owned(), record: csv::StringRecord::new() })
-    }
-
-    /// The next row, if there is one.
-    fn next(&mut self, row: &mut Vec<f64>) -> Result<bool, CommandError> {
-        let wrong = |text: String| wrong(&self.path, &text);
-        let more =
-            self.reader.read_record(&mut self.record).map_err(|error| wrong(error.to_string()))?;
-        row.clear();
-        for text in &self.record {
-            let number = text.parse::<f64>();
-            row.push(number.map_err(|_| wrong(format!("`{text}` is no number")))?);
-        }
-        Ok(more)
-    }
-}
-
-/// What is wrong with a result.
-fn wrong(path: &Path, text: &str) -> CommandError {
-    CommandError::Other(format!("{}: {text}", path.display()))
-}
-
-/// The units of a result's columns, from its metadata; empty where there are none.
-fn units(path: &Path, count: usize) -> Vec<String> {
-    use std::io::{BufRead as _, BufReader};
-    let Ok(file) = File::open(path) else { return vec![String::new(); count] };
-    let lines = BufReader::new(file).lines().map_while(Result::ok);
-    let comments = lines.take_while(|line| line.starts_with('#'));
-    let columns = comments
-        .skip_while(|line| !line.starts_with("# columns:"))
-        .skip(1)
-        .take_while(|line| line.starts_with("#   "));
-    let unit = |line: String| {
-        let (_, rest) = line.split_once(" [")?;
-        rest.split_once(']').map(|(unit, _)| unit.to_owned())
-    };
-    let units: Vec<_> = columns.map(|line| unit(line).unwrap_or_default()).collect();
-    if units.len() == count { units } else { vec![String::new(); count] }
 }
 
 /// Reads two results.

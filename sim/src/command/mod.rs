@@ -14,8 +14,11 @@ mod kinds;
 mod mounted;
 mod new;
 mod plot;
+mod result;
 mod run;
 mod schema;
+mod spectrum;
+mod spectrum_tables;
 mod structure;
 mod table;
 
@@ -61,6 +64,9 @@ enum Command {
     /// Run scenario files and write only the figures, as SVG
     #[command(after_help = "Example:\n  precess plot bus.toml --out figures")]
     Plot(plot::Plot),
+    /// Print RMS, lines and exposures of columns of a result, and write their spectra (CSV, SVG)
+    #[command(after_help = spectrum::HELP)]
+    Spectrum(Box<spectrum::Spectrum>),
     /// Print the JSON Schema of scenario files, for editors
     #[command(after_help = "Example:\n  precess schema > precess.schema.json")]
     Schema,
@@ -140,6 +146,7 @@ impl Cli {
             Command::Evaluate(evaluate) => evaluate.execute(),
             Command::Compare(compare) => compare.execute(),
             Command::Plot(plot) => plot.execute(),
+            Command::Spectrum(spectrum) => spectrum.execute(),
             Command::Schema => Ok(schema::execute()),
             Command::Kinds(kinds) => kinds.execute(),
             Command::Bake(bake) => bake.execute(),

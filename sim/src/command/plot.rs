@@ -33,7 +33,7 @@ pub(super) struct Plot {
 }
 
 /// A time with its unit, s.
-fn time(text: &str) -> Result<f64, String> {
+pub(super) fn time(text: &str) -> Result<f64, String> {
     let example = "write a number and a unit of time: \"0.2 s\"";
     let quantity = parse_quantity(text).map_err(|error| format!("{}; {example}", error.kind))?;
     match quantity.values[..] {

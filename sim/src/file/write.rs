@@ -14,6 +14,7 @@ use precess_dynamics::kind::{ImbalanceModel, JointInfo};
 use precess_dynamics::{Gravity, HubMode, JointStates, Passive};
 
 use super::read::{FORMAT, body_key, has_inertia, has_mass, joint_key};
+use crate::pointing::Index;
 use crate::record::columns::Columns;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{
@@ -308,6 +309,20 @@ fn requirements(out: &mut String, s: &Scenario) -> Written {
             }
             Statistic::Final => "\"final\"".to_owned(),
             Statistic::Drift => "\"drift\"".to_owned(),
+            Statistic::Displacement(time) => format!("\"displacement\"\nexposure = \"{time:?} s\""),
+            Statistic::Smear(time) => format!("\"smear\"\nexposure = \"{time:?} s\""),
+            Statistic::Jitter(time) => format!("\"jitter\"\nexposure = \"{time:?} s\""),
+            Statistic::Index { index, level } => {
+                let mut text =
+                    format!("{}\nlevel = {level:?}", quoted(&index.name().to_lowercase()));
+                if let Some(window) = index.window() {
+                    let _ = write!(text, "\nwindow = \"{window:?} s\"");
+                }
+                if let Index::Pde { stability, .. } = index {
+                    let _ = write!(text, "\nstability = \"{stability:?} s\"");
+                }
+                text
+            }
         };
         writeln!(out, "statistic = {statistic}")?;
         let [from, to] = requirement.window;

@@ -8,6 +8,7 @@ use super::partial::partial_name;
 use super::{Csv, Decimate, Header, Many, Npz, Recorder, Samples, Statistics};
 use crate::engine::checks::turning_panel;
 use crate::engine::{End, Outcome, Steps, run};
+use crate::pointing::{ExposureWeights, Index};
 use crate::scenario::{Requirement, Scenario, Source, Statistic};
 
 /// A run into recorders; all its samples.
@@ -249,4 +250,54 @@ fn a_requirement_of_a_band_beyond_half_the_rate_is_rejected_with_the_remedy() {
         "requirement `jitter`: the band 10 Hz to 80 Hz is not within 0 Hz to 50 Hz, half the \
          sampling rate; raise output.rate"
     );
+}
+
+#[test]
+fn exposures_and_indices_of_a_requirement_are_those_of_known_histories() {
+    // A line of 2 at 7.3 Hz about 5, whose phases at the starts of 100 exposures of 0.1 s are evenly spread; a ramp.
+    let header = header(&["time", "omega_x", "omega_y"], 1000.0, 10.0);
+    let requirement = |quantity: &str, statistic| Requirement {
+        name: quantity.to_owned(),
+        quantity: quantity.to_owned(),
+        statistic,
+        window: [0.0, 10.0],
+        limit: 1.0,
+        written: "1 rad/s".to_owned(),
+        unit: ("rad/s".to_owned(), 1.0),
+    };
+    let index = |index, level| Statistic::Index { index, level };
+    let (window, time) = (0.1, 0.1);
+    let weights = ExposureWeights::new(7.3, time);
+    let line = |share: f64| 2.0 * share;
+    let expected = [
+        ("omega_x", Statistic::Displacement(time), (25.0 + line(weights.displacement)).sqrt()),
+        ("omega_x", Statistic::Smear(time), line(weights.smear).sqrt()),
+        ("omega_x", Statistic::Jitter(time), line(weights.jitter).sqrt()),
+        ("omega_x", index(Index::Ape, 0.5), 5.0),
+        ("omega_x", index(Index::Ape, 0.75), 5.0 + 2.0_f64.sqrt()),
+        ("omega_y", index(Index::Mpe { window }, 0.5), 0.2 * 4.95),
+        ("omega_y", index(Index::Rpe { window }, 0.5), 0.2 * 0.025),
+        ("omega_y", index(Index::Pde { window, stability: 1.0 }, 0.9973), 0.2),
+    ];
+    let requirements: Vec<_> =
+        expected.iter().map(|(name, statistic, _)| requirement(name, *statistic)).collect();
+    let mut statistics = Statistics::new(&requirements);
+    statistics.begin(&header).expect("metrics");
+    for i in 0..10_000 {
+        let time = f64::from(i) * 1e-3;
+        let line = 5.0 + 2.0 * (std::f64::consts::TAU * 7.3 * time).sin();
+        statistics.sample(&[time, line, 0.2 * time]).expect("kept");
+    }
+    statistics.finish(&outcome(10.0)).expect("finished");
+    for (verdict, (name, statistic, value)) in statistics.verdicts().iter().zip(&expected) {
+        let found = verdict.value.expect("a value");
+        // Sums of 100 samples for integrals, 3e-4; quantiles of 10000 samples from buckets, 1e-3; a sample of the
+        // ramp's windows, 1 by 50.
+        let within = if *name == "omega_y" { 0.02 } else { 1e-3 };
+        assert!((found / value - 1.0).abs() < within, "{statistic:?}: {found} for {value}");
+        assert_eq!(verdict.is_met(), found <= 1.0);
+    }
+    let long = requirement("omega_x", Statistic::Jitter(0.0015));
+    let error = Statistics::new(&[long]).begin(&header).expect_err("rejected");
+    assert!(error.to_string().starts_with("requirement `omega_x`: a window of 0.0015 s is 1.5"));
 }

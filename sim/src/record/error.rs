@@ -4,6 +4,8 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
+use crate::pointing::PointingError;
+
 /// Samples that cannot be recorded.
 #[derive(Debug)]
 pub enum RecordError {
@@ -27,6 +29,13 @@ pub enum RecordError {
         band: [f64; 2],
         /// Half the sampling rate, Hz.
         highest: f64,
+    },
+    /// A requirement's exposure, window or level has no value at the sampling rate.
+    Metric {
+        /// The requirement.
+        requirement: String,
+        /// Why.
+        source: PointingError,
     },
     /// A sample has another number of columns than the header.
     Row {
@@ -79,6 +88,9 @@ impl fmt::Display for RecordError {
                 "requirement `{requirement}`: the band {from} Hz to {to} Hz is not within 0 Hz to \
                  {highest} Hz, half the sampling rate; raise output.rate"
             ),
+            Self::Metric { requirement, source } => {
+                write!(f, "requirement `{requirement}`: {source}")
+            }
             Self::Row { expected, found } => write!(
                 f,
                 "a sample has {found} numbers for {expected} columns; this is a fault of the \
@@ -99,6 +111,7 @@ impl std::error::Error for RecordError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Io { source, .. } => Some(source),
+            Self::Metric { source, .. } => Some(source),
             _ => None,
         }
     }

@@ -2,11 +2,16 @@
 //!
 //! The quantity is a column or the magnitude of a vector; the RMS in a band of a vector is that of
 //! its components together. Means over time are by the trapezoidal rule, so a last sample that is
-//! not evenly spaced has its own weight; the band uses only samples that are.
+//! not evenly spaced has its own weight; the band, exposures and indices of ECSS use only samples
+//! that are. Memory does not grow with the run: levels are those of [`Quantile`], at most 0.1 % above.
 
 use super::welch::Welch;
 use super::{Header, RecordError, Recorder};
 use crate::engine::Outcome;
+use crate::pointing::{
+    EXPOSURE_SAMPLES_MIN, ExposureHistory, IndexStream, Margin, PointingError, Quantile,
+    WindowSums, samples_of,
+};
 use crate::scenario::{Requirement, Statistic};
 
 /// Computes what requirements limit.
@@ -49,6 +54,13 @@ struct History {
     integral: f64,
     length: f64,
     bands: Vec<Welch>,
+    pointing: Option<Pointing>,
+}
+
+/// What is kept for exposures and indices.
+enum Pointing {
+    Exposures(WindowSums),
+    Index(IndexStream, Quantile),
 }
 
 impl Statistics {
@@ -67,10 +79,16 @@ impl Statistics {
 }
 
 impl Verdict {
+    /// How far the value is below the limit, SI; none where there is no value.
+    #[must_use]
+    pub fn margin(&self) -> Option<Margin> {
+        self.value.map(|value| Margin { value, limit: self.limit })
+    }
+
     /// Whether the requirement is met over its whole window.
     #[must_use]
     pub fn is_met(&self) -> bool {
-        self.complete && self.value.is_some_and(|value| value <= self.limit)
+        self.complete && self.margin().is_some_and(|margin| margin.is_met())
     }
 }
 
@@ -91,6 +109,11 @@ impl Recorder for Statistics {
                 let count = (to - from) * header.rate;
                 bands.extend(columns.iter().map(|_| Welch::new(band, header.rate, count)));
             }
+            let pointing = Pointing::new(requirement.statistic, columns.len(), header.rate);
+            let pointing = pointing.map_err(|source| RecordError::Metric {
+                requirement: requirement.name.clone(),
+                source,
+            })?;
             self.histories.push(History {
                 columns,
                 window: requirement.window,
@@ -102,6 +125,7 @@ impl Recorder for Statistics {
                 integral: 0.0,
                 length: 0.0,
                 bands,
+                pointing,
             });
         }
         Ok(())
@@ -157,6 +181,9 @@ impl History {
         }
         if even {
             self.bands.iter_mut().zip(&values).for_each(|(band, value)| band.add(*value));
+            if let Some(pointing) = &mut self.pointing {
+                pointing.add(&values);
+            }
         }
         self.last = Some([time, magnitude]);
     }
@@ -171,6 +198,48 @@ impl History {
                 let squares = self.bands.iter().map(Welch::mean_square);
                 squares.sum::<Option<f64>>().map(f64::sqrt)
             }
+            Statistic::Displacement(_) => self.exposures().map(|of| of.rms.displacement),
+            Statistic::Smear(_) => self.exposures().map(|of| of.rms.smear),
+            Statistic::Jitter(_) => self.exposures().map(|of| of.rms.jitter),
+            Statistic::Index { level, .. } => match &self.pointing {
+                Some(Pointing::Index(_, values)) => values.at(level),
+                _ => None,
+            },
+        }
+    }
+
+    fn exposures(&self) -> Option<ExposureHistory> {
+        match &self.pointing {
+            Some(Pointing::Exposures(sums)) => sums.history(),
+            _ => None,
+        }
+    }
+}
+
+impl Pointing {
+    /// For a statistic of a quantity with some components at a rate, 1/s; none where it needs nothing.
+    fn new(
+        statistic: Statistic,
+        components: usize,
+        rate: f64,
+    ) -> Result<Option<Self>, PointingError> {
+        statistic.check(rate)?;
+        Ok(match statistic {
+            Statistic::Displacement(time) | Statistic::Smear(time) | Statistic::Jitter(time) => {
+                let samples = samples_of(time, rate, EXPOSURE_SAMPLES_MIN)?;
+                Some(Self::Exposures(WindowSums::new(samples, components)))
+            }
+            Statistic::Index { index, .. } => {
+                Some(Self::Index(IndexStream::new(index, rate)?, Quantile::default()))
+            }
+            _ => None,
+        })
+    }
+
+    fn add(&mut self, values: &[f64]) {
+        match self {
+            Self::Exposures(sums) => sums.add(values.iter().copied()),
+            Self::Index(stream, quantile) => stream.add(values, &mut |value| quantile.add(value)),
         }
     }
 }

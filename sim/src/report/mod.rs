@@ -19,6 +19,7 @@ mod extremes;
 mod figure;
 mod grouping;
 mod load_tables;
+mod log_panel;
 mod mass;
 pub(crate) mod mode_shapes;
 mod number;
@@ -28,6 +29,7 @@ mod requirements;
 pub(crate) mod response;
 mod run_tables;
 mod slow_motion;
+pub(crate) mod spectrum;
 mod stage;
 mod summary;
 #[cfg(test)]

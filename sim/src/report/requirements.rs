@@ -2,6 +2,7 @@
 
 use super::blocks::{Block, table};
 use super::{Report, number};
+use crate::pointing::Index;
 use crate::record::Verdict;
 use crate::scenario::Statistic;
 
@@ -19,6 +20,7 @@ pub(super) fn table_of(report: &Report) -> Vec<Block> {
             word(verdict).to_owned(),
             reached(verdict),
             limit(verdict),
+            margin(verdict),
             requirement.quantity.clone(),
             statistic(requirement.statistic),
             format!("{from} s to {to} s"),
@@ -30,12 +32,13 @@ pub(super) fn table_of(report: &Report) -> Vec<Block> {
         ("State", ""),
         ("Reached", ""),
         ("Limit", ""),
+        ("Margin", ""),
         ("Quantity", ""),
         ("Statistic", ""),
         ("Window", ""),
     ];
     // The verdict first: a phone shows the first columns.
-    vec![table("Requirements, and what the run reached", &columns, 2..4, rows)]
+    vec![table("Requirements, and what the run reached", &columns, 2..5, rows)]
 }
 
 /// A requirement in words: `pointing: 0.0300 deg/s, limit 0.100 deg/s`.
@@ -76,6 +79,17 @@ fn limit(verdict: &Verdict) -> String {
     if unit.is_empty() || unit == "1" { limit } else { format!("{limit} {unit}") }
 }
 
+/// What is left of the limit, and limit by value in decibels.
+fn margin(verdict: &Verdict) -> String {
+    let Some(margin) = verdict.margin() else { return "–".to_owned() };
+    let percent = number::short(margin.percent(), 3);
+    let decibels = margin.decibels();
+    if !decibels.is_finite() {
+        return format!("{percent} %");
+    }
+    format!("{percent} %, {} dB", number::short(decibels, 3))
+}
+
 fn statistic(statistic: Statistic) -> String {
     match statistic {
         Statistic::Peak => "largest magnitude".to_owned(),
@@ -85,5 +99,26 @@ fn statistic(statistic: Statistic) -> String {
         }
         Statistic::Final => "magnitude at the end".to_owned(),
         Statistic::Drift => "largest departure from the start".to_owned(),
+        Statistic::Displacement(time) => format!("displacement, RMS over {}", exposures(time)),
+        Statistic::Smear(time) => format!("smear, RMS in {}", exposures(time)),
+        Statistic::Jitter(time) => format!("jitter, RMS in {}", exposures(time)),
+        Statistic::Index { index, level } => {
+            let time = |time: f64| number::short(time, 6);
+            let windows = match index {
+                Index::Ape => String::new(),
+                Index::Mpe { window } | Index::Rpe { window } | Index::Pre { window } => {
+                    format!(", window {} s", time(window))
+                }
+                Index::Pde { window, stability } => {
+                    format!(", window {} s, stability time {} s", time(window), time(stability))
+                }
+            };
+            let share = number::short(100.0 * level, 6);
+            format!("{} not exceeded in {share} % of the time{windows}", index.name())
+        }
     }
+}
+
+fn exposures(time: f64) -> String {
+    format!("exposures of {} s", number::short(time, 6))
 }

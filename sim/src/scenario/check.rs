@@ -4,7 +4,10 @@ use std::fmt;
 
 use precess_dynamics::{ModesError, ParameterError};
 
-use super::{Action, Drive, IntegratorChoice, Member, Profile, Scenario, Target, members};
+use super::{
+    Action, Drive, IntegratorChoice, Member, Profile, Scenario, Statistic, Target, members,
+};
+use crate::pointing::{EXPOSURE_SAMPLES_MIN, Index, IndexStream, PointingError, samples_of};
 
 /// Shorter, and a turn of no wheel fits in.
 pub(crate) const DURATION_MIN: f64 = 1e-6;
@@ -20,6 +23,38 @@ pub(crate) const STEP_MIN: f64 = 1e-9;
 pub(crate) const SAMPLES_MAX: f64 = 1e9;
 /// Most steps of a run with fixed steps.
 pub(crate) const STEPS_MAX: f64 = 1e11;
+
+impl Statistic {
+    /// Whether its windows are whole numbers of samples at a rate, 1/s, and its level a probability.
+    pub(crate) fn check(&self, rate: f64) -> Result<(), PointingError> {
+        match *self {
+            Self::Displacement(time) | Self::Smear(time) | Self::Jitter(time) => {
+                samples_of(time, rate, EXPOSURE_SAMPLES_MIN).map(|_| ())
+            }
+            Self::Index { index, level } => {
+                if !(level > 0.0 && level < 1.0) {
+                    return Err(PointingError::Level(level));
+                }
+                if matches!(index, Index::Pre { .. }) {
+                    let of = "the reproducibility error of one run";
+                    return Err(PointingError::Interpretation { of });
+                }
+                IndexStream::new(index, rate).map(|_| ())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The key of a file with what [`Self::check`] rejects.
+    fn key(&self) -> &'static str {
+        match self {
+            Self::Displacement(_) | Self::Smear(_) | Self::Jitter(_) => "exposure",
+            Self::Index { index: Index::Ape, .. } => "level",
+            Self::Index { .. } => "window",
+            _ => "statistic",
+        }
+    }
+}
 
 /// A scenario that cannot be run.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,6 +162,13 @@ impl Scenario {
                 errors.push(range(
                     &format!("requirement.{}.{key}", requirement.name),
                     format!("the window {from} s to {to} s is not within the run's {duration} s"),
+                ));
+            }
+            if let Err(error) = requirement.statistic.check(rate) {
+                let key = requirement.statistic.key();
+                errors.push(range(
+                    &format!("requirement.{}.{key}", requirement.name),
+                    error.to_string(),
                 ));
             }
         }

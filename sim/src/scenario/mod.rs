@@ -26,6 +26,8 @@ pub use member::{Member, Set, members};
 pub use profile::{Interpolation, Profile, Table};
 pub use structure::{ModalStructure, RecordedPoint, StructureNode};
 
+use crate::pointing::Index;
+
 /// Everything a run needs.
 #[derive(Clone, Debug)]
 pub struct Scenario {
@@ -263,6 +265,19 @@ pub enum Statistic {
     Final,
     /// Largest departure from the first sample.
     Drift,
+    /// RMS of the mean over exposures of a length, s, one after the other.
+    Displacement(f64),
+    /// RMS of the straight line within exposures of a length, s, their means left out.
+    Smear(f64),
+    /// RMS of the rest within exposures of a length, s.
+    Jitter(f64),
+    /// An index of ECSS over the time of the run (temporal interpretation).
+    Index {
+        /// Which, with its windows: not the PRE, which needs several runs.
+        index: Index,
+        /// The share of the time in which it is not exceeded, between zero and one.
+        level: f64,
+    },
 }
 
 /// The text that a scenario was read from.

@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 27] = [
+const OTHERS: [&str; 28] = [
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
     "[initial.attitude]\nmrp = [0.1, 0.2, 0.3]",
     "[initial.attitude]\naxis = [0, 0, 1]\nangle = \"30 deg\"",
@@ -63,6 +63,8 @@ const OTHERS: [&str; 27] = [
      translation = [0, 0, 1]\nrotation = [0, 1, 0]",
     "[[crossing]]\ncolumn = \"rw.spin\"\nvalue = \"3000 rpm\"",
     "[[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"peak\"\nlimit = \"1 rad/s\"",
+    "[[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"pde\"\nwindow = \"10 ms\"\n\
+     stability = \"20 ms\"\nlevel = 0.95\nlimit = \"1 rad/s\"",
 ];
 const MINIMAL: &str = "format = 1\n[run]\nduration = \"1 s\"\nintegrator = \"rk4\"\nstep = \"1 ms\"\n\
     [output]\nrate = \"1 kHz\"\n[hub]\nmass = \"9 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n\

@@ -13,6 +13,7 @@ mod output;
 mod over_time;
 mod places;
 mod platform;
+mod requirement;
 mod structure;
 mod suspension;
 mod turns;
@@ -118,7 +119,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let wrenches = over_time::wrenches(&keys, &joints, structure.as_ref(), folder);
     let crossings = output::crossings(&keys);
     let output = output::output(&keys, settings.as_ref());
-    let requirements = output::requirements(&keys, settings.as_ref());
+    let requirements = requirement::requirements(&keys, settings.as_ref());
     keys.finish();
     let (hub, hub_size, hub_mode) = hub?;
     let (drives, stops) = joints.drives_and_stops();
@@ -312,7 +313,11 @@ mod tests {
             + "[[at]]\ntime = \"3 s\"\njoint = \"cmg.outer_gimbal\"\nbrake = true\n\
             [[wrench]]\non = \"hub\"\nforce = { z = { step = \"1 N\", at = \"1 s\" } }\n\
             [[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"band_rms\"\n\
-            band = \"1, 2 Hz\"\nlimit = \"1 deg/s\"\n";
+            band = \"1, 2 Hz\"\nlimit = \"1 deg/s\"\n\
+            [[requirement]]\nname = \"b\"\nquantity = \"omega\"\nstatistic = \"pde\"\n\
+            window = \"1 s\"\nstability = \"2 s\"\nlevel = 0.95\nlimit = \"1 deg/s\"\n\
+            [[requirement]]\nname = \"c\"\nquantity = \"omega\"\nstatistic = \"jitter\"\n\
+            exposure = \"100 ms\"\nlimit = \"1 deg/s\"\n";
         let (first, _) = read_text(&text).unwrap_or_else(|errors| panic!("{errors}"));
         let written = to_toml(&first);
         let (second, _) =
@@ -323,6 +328,7 @@ mod tests {
         assert_eq!(second.initial, first.initial);
         assert_eq!(second.changes, first.changes);
         assert_eq!(second.wrenches, first.wrenches);
+        assert_eq!(second.requirements, first.requirements);
     }
 
     #[test]

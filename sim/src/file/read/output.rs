@@ -1,9 +1,9 @@
-//! What is recorded, and the limits on it: `[output]`, `[[requirement]]`, `[[crossing]]`.
+//! What is recorded, and what is noted: `[output]`, `[[crossing]]`.
 
 use super::super::document::Value;
 use super::super::keys::Keys;
-use crate::scenario::{Crossing, Format, Output, Requirement, Settings, Statistic};
-use crate::units::{Measure, parse_unit};
+use crate::scenario::{Crossing, Format, Output, Settings};
+use crate::units::Measure;
 
 /// Samples in a run without a rate.
 const SAMPLES: f64 = 5000.0;
@@ -57,68 +57,6 @@ fn words(keys: &Keys<'_>, key: &str) -> Option<Vec<String>> {
         keys.error(key, format!("`{key}` is no list of words"), "write each in quotation marks");
     }
     found
-}
-
-pub(super) fn requirements(keys: &Keys<'_>, settings: Option<&Settings>) -> Vec<Requirement> {
-    let duration = settings.map_or(f64::INFINITY, |settings| settings.duration);
-    let tables = keys.tables("requirement");
-    tables.iter().filter_map(|keys| requirement(keys, duration)).collect()
-}
-
-fn requirement(keys: &Keys<'_>, duration: f64) -> Option<Requirement> {
-    let name = keys.text("name");
-    let quantity = keys.text("quantity");
-    for (key, example) in [("name", "name = \"pointing\""), ("quantity", "quantity = \"omega\"")] {
-        if !keys.has(key) {
-            keys.missing(key, example);
-        }
-    }
-    let words = [("peak", 0), ("rms", 1), ("band_rms", 2), ("final", 3), ("drift", 4)];
-    if !keys.has("statistic") {
-        keys.missing("statistic", "statistic = \"peak\"");
-    }
-    let statistic = keys.choice("statistic", &words);
-    let band = keys.quantities::<2>("band", Measure::FREQUENCY);
-    let statistic = match statistic? {
-        0 => Statistic::Peak,
-        1 => Statistic::Rms,
-        2 => {
-            if !keys.has("band") {
-                keys.missing("band", "band = \"1, 100 Hz\"");
-            }
-            Statistic::BandRms(band?)
-        }
-        3 => Statistic::Final,
-        _ => Statistic::Drift,
-    };
-    if keys.has("band") && !matches!(statistic, Statistic::BandRms(_)) {
-        keys.error("band", "only a `band_rms` has a band", "remove it");
-    }
-    let from = keys.quantity("from", Measure::TIME).unwrap_or(0.0);
-    let to = keys.quantity("to", Measure::TIME).unwrap_or(duration);
-    if !keys.has("limit") {
-        keys.missing("limit", "limit = \"0.1 deg/s\"");
-    }
-    let limit = keys.any_quantity("limit");
-    keys.finish();
-    let limit = limit?;
-    let (&[value], Ok((size, _))) = (limit.values.as_slice(), unit_of(&limit.unit)) else {
-        keys.error("limit", "a limit is one number with its unit", "");
-        return None;
-    };
-    Some(Requirement {
-        name: name?.to_owned(),
-        quantity: quantity?.to_owned(),
-        statistic,
-        window: [from, to],
-        limit: value,
-        written: keys.text_or_list("limit").map_or_else(|| format!("{value:?}"), str::to_owned),
-        unit: (limit.unit, size),
-    })
-}
-
-fn unit_of(unit: &str) -> Result<(f64, crate::units::Dimension), crate::units::UnitError> {
-    if unit.is_empty() { Ok((1.0, crate::units::Dimension::default())) } else { parse_unit(unit) }
 }
 
 /// `[[crossing]]`: `name`, `column`, `value` in the column's unit, and `ends = true`.

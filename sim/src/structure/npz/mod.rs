@@ -36,7 +36,7 @@ use npy::{Array, array, numbers, texts};
 pub const FORMAT: &str = "precess-structure-1";
 
 /// The members of an archive.
-struct Members {
+pub(crate) struct Members {
     names: Vec<String>,
     arrays: Vec<Array>,
 }
@@ -166,7 +166,8 @@ fn member(name: &str) -> Place {
 }
 
 impl Members {
-    fn of(bytes: &[u8]) -> Result<Self, StructureError> {
+    /// All arrays of an archive.
+    pub(crate) fn of(bytes: &[u8]) -> Result<Self, StructureError> {
         let failure = |error: zip::result::ZipError| {
             StructureError::from(Fault::Io(std::io::Error::other(error.to_string())))
         };
@@ -199,7 +200,8 @@ impl Members {
         self.arrays.get(index)
     }
 
-    fn needed(&self, name: &str) -> Result<&Array, StructureError> {
+    /// The array of a name.
+    pub(crate) fn needed(&self, name: &str) -> Result<&Array, StructureError> {
         self.get(name).ok_or_else(|| {
             let present = self.names.clone();
             Fault::Missing { what: name.to_owned(), present }.into()

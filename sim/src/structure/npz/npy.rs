@@ -14,7 +14,7 @@ const TEXT_MAX: usize = 100_000;
 
 /// An array.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Array {
+pub(crate) struct Array {
     /// The letter of the type: f, i, u, b, U, S.
     kind: char,
     /// Bytes of an element; letters of a text.
@@ -56,8 +56,13 @@ impl Array {
         Ok(Self { kind, size, big, columns_first, shape, data })
     }
 
+    /// Numbers of rows, of columns and so on.
+    pub(crate) fn shape(&self) -> &[usize] {
+        &self.shape
+    }
+
     /// Its numbers, rows first; of this shape, where one is wanted, or of one dimension.
-    pub(super) fn numbers(&self, wanted: Option<&[usize]>) -> Result<Vec<f64>, Fault> {
+    pub(crate) fn numbers(&self, wanted: Option<&[usize]>) -> Result<Vec<f64>, Fault> {
         let fits = wanted.map_or(self.shape.len() == 1, |wanted| wanted == self.shape);
         if !fits {
             let wanted =
@@ -117,7 +122,7 @@ impl Array {
     }
 
     /// Its texts, of one dimension.
-    pub(super) fn texts(&self) -> Result<Vec<String>, Fault> {
+    pub(crate) fn texts(&self) -> Result<Vec<String>, Fault> {
         if self.shape.len() == 1 {
             return self.all_texts();
         }
