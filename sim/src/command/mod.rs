@@ -10,6 +10,7 @@ mod difference;
 mod error;
 mod evaluate;
 mod export;
+mod jitter;
 mod kinds;
 mod mounted;
 mod new;
@@ -82,6 +83,9 @@ enum Command {
     /// Write accelerances of a structure over frequency, and the mounted force of a wheel by its blocked one
     #[command(after_help = accelerance::HELP)]
     Accelerance(Box<accelerance::AcceleranceCommand>),
+    /// Sweep the speed of rotors, and compare the jitter of lines of sight with its limits
+    #[command(after_help = jitter::HELP)]
+    Jitter(jitter::Jitter),
     /// Write a scenario for the flight library
     #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
     Export(export::Export),
@@ -152,6 +156,7 @@ impl Cli {
             Command::Bake(bake) => bake.execute(),
             Command::Structure(structure) => structure.execute(),
             Command::Accelerance(accelerance) => accelerance.execute(),
+            Command::Jitter(jitter) => jitter.execute(),
             Command::Export(export) => export.execute(),
         };
         match done {

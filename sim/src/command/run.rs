@@ -166,22 +166,15 @@ pub(super) fn with_progress(
     until: f64,
     recorder: &mut dyn Recorder,
 ) -> Result<Outcome, CommandError> {
-    const PARTS: u64 = 1000;
-    let bar = ProgressBar::new(PARTS);
-    if let Ok(style) =
-        ProgressStyle::with_template("{msg:24} {wide_bar} {percent:>3} %, {eta} left")
-    {
-        bar.set_style(style);
-    }
-    bar.set_message(scenario.name.clone());
+    const PARTS: u16 = 1000;
+    let bar = progress_bar(usize::from(PARTS), &scenario.name);
     let outcome = run(scenario, recorder, &mut |time| {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            clippy::cast_precision_loss,
             reason = "a share of a thousand"
         )]
-        bar.set_position((time / until * PARTS as f64) as u64);
+        bar.set_position((time / until * f64::from(PARTS)) as u64);
         if INTERRUPTS.load(Ordering::Relaxed) > 0 || time > until {
             ControlFlow::Break(())
         } else {
@@ -191,6 +184,18 @@ pub(super) fn with_progress(
     bar.finish_and_clear();
     let name = scenario.name.clone();
     outcome.map_err(|source| CommandError::Run { name, source })
+}
+
+/// A bar of so many parts, silent where the output is no terminal.
+pub(super) fn progress_bar(parts: usize, what: &str) -> ProgressBar {
+    let bar = ProgressBar::new(u64::try_from(parts).unwrap_or(u64::MAX));
+    if let Ok(style) =
+        ProgressStyle::with_template("{msg:24} {wide_bar} {percent:>3} %, {eta} left")
+    {
+        bar.set_style(style);
+    }
+    bar.set_message(what.to_owned());
+    bar
 }
 
 /// The first Ctrl-C ends the run, the second the program.

@@ -8,6 +8,7 @@
 //! A key that nobody reads is an error; so is a number without a unit. Each error has file, line,
 //! the text underlined, and the remedy.
 
+mod budget;
 pub mod diagnostic;
 mod document;
 mod keys;
@@ -17,6 +18,7 @@ mod structure;
 mod write;
 mod write_platform;
 
+pub use budget::budget_from_toml;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use load::{Override, Overrides};
 pub use read::{from_file, from_toml};

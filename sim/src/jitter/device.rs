@@ -12,7 +12,8 @@ use precess_dynamics::{
 };
 
 use crate::scenario::{Scenario, Set};
-use crate::structure::averaged::{AveragedDevices, Condensed, Derivatives, condensed};
+use crate::structure::averaged::AveragedDevices;
+use crate::structure::condensed::{Condensed, Derivatives, condensed};
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::harmonics::{fourier, share};
 use crate::structure::steady::{SteadyJoints, set_of};
@@ -31,7 +32,7 @@ pub struct Rotor {
     /// Device and body: `rw1.wheel`.
     pub name: String,
     /// Number of its joint among those of the device.
-    joint: usize,
+    pub(super) joint: usize,
     /// Its rate by the speed, 1 or -1, and what is added, rad/s: one of them is zero.
     rate: [f64; 2],
 }
@@ -73,6 +74,10 @@ pub struct SweptDevice {
     pub rotors: Vec<Rotor>,
     /// The tones.
     pub tones: Vec<Tone>,
+    /// Numbers among the joints of the device of those that are free.
+    pub(super) free: Vec<usize>,
+    /// The first of its joints among those of the scenario.
+    pub(super) first_joint: usize,
     /// Coefficients of the speed's powers 0, 1, 2.
     powers: [Derivatives; 3],
 }
@@ -146,7 +151,12 @@ impl SweptDevice {
             }
         }
         let name = chosen.first().and_then(|index| scenario.names.get(*index));
-        Ok(Self { name: name.cloned().unwrap_or_default(), rotors, tones, powers })
+        let name = name.cloned().unwrap_or_default();
+        let free = joints.motors.iter().enumerate();
+        let free = free.filter(|(_, motor)| **motor == Motor::ConstantTorque).map(|(k, _)| k);
+        let first = chosen.first().copied().unwrap_or(0);
+        let first_joint = scenario.joints().take_while(|(device, ..)| *device < first).count();
+        Ok(Self { name, rotors, tones, free: free.collect(), first_joint, powers })
     }
 
     /// Adds a tone of a blocked force and moment at the mount, by the rate squared, for `exp(i h |Omega| t)`, kg m and
@@ -180,6 +190,33 @@ impl SweptDevice {
         Ok(())
     }
 
+    /// Torques of the motors of the free joints that keep the steady spin, averaged over a turn, N m: against friction, and
+    /// against springs that are not at rest.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(super) fn motors(
+        &self,
+        scenario: &Scenario,
+        steady: &Steady<'_>,
+        speed: f64,
+    ) -> Result<Vec<f64>, Fault> {
+        let first = scenario.joints().nth(self.first_joint).map_or(0, |(device, ..)| device);
+        let members = scenario.members().enumerate();
+        let carried = members.filter(|(_, (_, member))| member.on() == Some(first));
+        let chosen: Vec<usize> =
+            std::iter::once(first).chain(carried.map(|(index, _)| index)).collect();
+        let set = set_of(scenario, &chosen);
+        let joints = SteadyJoints::new(scenario, &chosen, steady.motor, steady.sprung);
+        let states = states_at(&joints.states, &self.rotors, speed);
+        let blocked = Blocked { set: &set, mount: &Vector3::zeros(), motors: &joints.motors };
+        let Some(rotor) = self.rotors.first() else { return Ok(vec![0.0; self.free.len()]) };
+        let harmonics = blocked.harmonics(&states, rotor.joint)?;
+        let mean =
+            harmonics.first().map(|mean| mean.rows(COORDINATES, self.free.len()).into_owned());
+        Ok(mean.map_or_else(Vec::new, |mean| mean.iter().map(|value| value.re).collect()))
+    }
+
     /// Means of the derivatives at a speed, rad/s.
     #[must_use]
     pub fn mean(&self, speed: f64) -> Derivatives {
@@ -200,6 +237,13 @@ impl SweptDevice {
     pub fn frequency(&self, tone: &Tone, speed: f64) -> f64 {
         let rate = self.rotors.get(tone.rotor).map_or(0.0, |rotor| rotor.rate(speed));
         tone.order * rate.abs()
+    }
+
+    /// Number among the joints of the device of each free joint, and the load that a tone puts on it by itself.
+    pub(super) fn joint_loads(&self, tone: &Tone, speed: f64) -> DVector<Complex<f64>> {
+        let rate = self.rotors.get(tone.rotor).map_or(0.0, |rotor| rotor.rate(speed));
+        let joints = tone.load.len().saturating_sub(COORDINATES);
+        tone.load.rows(COORDINATES, joints) * Complex::new(rate * rate, 0.0)
     }
 
     /// Blocked force and moment of a tone on the mount, N and N m, with the free joints free.

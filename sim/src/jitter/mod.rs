@@ -23,8 +23,12 @@
 //! | many speeds, on threads | [`sweep`] |
 //! | natural frequencies over the speed, and where orders cross them | [`campbell`] |
 //! | speeds to keep out of | [`keep_out`] |
+//! | lines of sight, limits, and what a sweep says of them | [`budget`] |
+//! | the same by a run of the coupled equations | [`coupled`] |
 
+pub mod budget;
 pub mod campbell;
+pub mod coupled;
 pub mod device;
 pub mod keep_out;
 pub mod model;

@@ -1,11 +1,12 @@
 //! [`Model`]: a structure with devices in steady spin, and lines of sight, at one speed.
 
-use nalgebra::{Complex, DMatrix, DVector, Vector3};
+use nalgebra::{Complex, DMatrix, Vector3};
 
 use super::device::{Steady, SweptDevice};
 use crate::scenario::{ModalStructure, Scenario};
 use crate::structure::accelerance::{Accelerance, Base, ComplexMatrix};
 use crate::structure::averaged::AveragedDevices;
+use crate::structure::condensed::Condensed;
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::steady::{SteadyJoints, set_of};
 use crate::structure::{COORDINATES, Fault, Node, RigidMass, Structure};
@@ -171,9 +172,28 @@ impl Model {
 
     /// Amplitudes of the outputs, a column for each tone, all of one frequency.
     fn at(&self, speed: f64, frequency: f64, tones: &[[usize; 2]]) -> Result<ComplexMatrix, Fault> {
+        let mounted = self.mounted(speed, frequency, tones)?;
+        let of_mounts = COORDINATES * self.mounts.len();
+        let moved = mounted.accelerance.rows(of_mounts, mounted.accelerance.nrows() - of_mounts);
+        let rows = self.rows.map(|value| Complex::new(-value / (frequency * frequency), 0.0));
+        let found = rows * (moved * mounted.force);
+        if found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
+            Ok(found)
+        } else {
+            Err(Fault::Unbounded { frequency })
+        }
+    }
+
+    /// Mounted forces of tones of one frequency.
+    pub(super) fn mounted(
+        &self,
+        speed: f64,
+        frequency: f64,
+        tones: &[[usize; 2]],
+    ) -> Result<MountedTones, Fault> {
         let (size, of_mounts) = (COORDINATES, COORDINATES * self.mounts.len());
-        let whole = self.accelerance.at(frequency)?;
-        let own = whole.rows(0, of_mounts);
+        let accelerance = self.accelerance.at(frequency)?;
+        let own = accelerance.rows(0, of_mounts);
         let mut masses: Vec<_> = vec![ComplexMatrix::zeros(size, size); self.mounts.len()];
         for (sum, contained) in masses.iter_mut().zip(&self.contained) {
             if let Some(mass) = contained {
@@ -181,6 +201,7 @@ impl Model {
             }
         }
         let mut blocked = ComplexMatrix::zeros(of_mounts, tones.len());
+        let mut devices = Vec::with_capacity(self.devices.len());
         for (number, (mount, device)) in self.devices.iter().enumerate() {
             let condensed = device.condensed(speed, frequency)?;
             for (column, [of, tone]) in tones.iter().enumerate() {
@@ -191,8 +212,9 @@ impl Model {
                 }
             }
             if let Some(sum) = masses.get_mut(*mount) {
-                *sum += condensed.mass;
+                *sum += &condensed.mass;
             }
+            devices.push(condensed);
         }
         // 1 + M A, a row of blocks for each mount.
         let mut system = ComplexMatrix::identity(of_mounts, of_mounts);
@@ -200,17 +222,24 @@ impl Model {
             let mut rows = system.rows_mut(size * mount, size);
             rows += mass * own.rows(size * mount, size);
         }
-        let unbounded = || Fault::Unbounded { frequency };
-        let force = system.lu().solve(&blocked).ok_or_else(unbounded)?;
-        let moved = whole.rows(of_mounts, whole.nrows() - of_mounts) * force;
-        let rows = self.rows.map(|value| Complex::new(-value / (frequency * frequency), 0.0));
-        let found = rows * moved;
-        if found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
-            Ok(found)
-        } else {
-            Err(unbounded())
-        }
+        let force = system.lu().solve(&blocked).ok_or(Fault::Unbounded { frequency })?;
+        Ok(MountedTones { accelerance, force, devices })
     }
+
+    /// The accelerance of mounts and nodes by forces on the mounts.
+    pub(super) fn accelerance(&self) -> &Accelerance {
+        &self.accelerance
+    }
+}
+
+/// Tones of one frequency on their mounts.
+pub(super) struct MountedTones {
+    /// Of mounts, then nodes, by forces on the mounts.
+    pub(super) accelerance: ComplexMatrix,
+    /// Mounted forces: six rows for each mount, a column for each tone.
+    pub(super) force: ComplexMatrix,
+    /// The devices at this frequency.
+    pub(super) devices: Vec<Condensed>,
 }
 
 /// Members that stand on the hub, each with the devices on it.
@@ -267,16 +296,4 @@ fn structure_of(scenario: &Scenario) -> Structure {
         });
     }
     structure
-}
-
-/// Sum of squares of the magnitudes, a half of each: the mean square of lines.
-#[must_use]
-pub fn mean_square<'a>(values: impl Iterator<Item = &'a Complex<f64>>) -> f64 {
-    values.map(|value| 0.5 * value.norm_sqr()).sum()
-}
-
-/// A complex vector of real numbers.
-#[must_use]
-pub fn real(values: &[f64]) -> DVector<Complex<f64>> {
-    DVector::from_iterator(values.len(), values.iter().map(|value| Complex::new(*value, 0.0)))
 }

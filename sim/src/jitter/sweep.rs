@@ -3,6 +3,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
+use nalgebra::Complex;
+
 use super::model::{Contributor, Line, Model};
 use crate::structure::Fault;
 
@@ -123,8 +125,8 @@ fn mean_square(lines: &[Line], output: usize, phases: Phases, weight: &dyn Fn(f6
         let frequency = shared.first().map_or(0.0, |line| line.frequency);
         let values = || shared.iter().filter_map(|line| line.values.get(output));
         let square = match phases {
-            Phases::Unknown => values().map(|value| value.norm_sqr()).sum::<f64>(),
-            Phases::Given => values().sum::<nalgebra::Complex<f64>>().norm_sqr(),
+            Phases::Unknown => values().map(Complex::norm_sqr).sum::<f64>(),
+            Phases::Given => values().sum::<Complex<f64>>().norm_sqr(),
             Phases::Worst => values().map(|value| value.norm()).sum::<f64>().powi(2),
         };
         sum += 0.5 * square * weight(frequency);

@@ -102,6 +102,22 @@ pub(super) fn data(
     Ok(serde_json::to_string(&data)?.replace('<', "\\u003c"))
 }
 
+/// The data block of a page whose figures are only static.
+pub(super) fn without_charts(name: &str, title: &str) -> Result<String, ReportError> {
+    let data = Data {
+        format: FORMAT,
+        name,
+        title,
+        time: doubles(&[]),
+        end: 0.0,
+        columns: Vec::new(),
+        charts: Vec::new(),
+        events: Vec::new(),
+        replay: None,
+    };
+    Ok(serde_json::to_string(&data)?.replace('<', "\\u003c"))
+}
+
 /// The id of a chart's static figure.
 pub(super) fn figure_id(chart: &Drawn) -> String {
     format!("figure-{}", chart.slug)

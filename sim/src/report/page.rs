@@ -27,25 +27,58 @@ struct Hashes {
     style: String,
 }
 
+/// A page to be rendered.
 #[derive(Serialize)]
-struct Page<'a> {
-    title: &'a str,
-    name: &'a str,
+pub(super) struct Page<'a> {
+    /// What it is: `report of a run`.
+    pub(super) subject: &'static str,
+    /// Its heading.
+    pub(super) title: &'a str,
+    /// The name of the scenario.
+    pub(super) name: &'a str,
+    /// The data block.
+    pub(super) data: String,
+    pub(super) verdict: Verdict,
+    pub(super) summary: Summary,
+    pub(super) sections: Vec<Section>,
+}
+
+/// A page with what every page has.
+#[derive(Serialize)]
+struct Whole<'a> {
+    #[serde(flatten)]
+    page: &'a Page<'a>,
     made: String,
     style: &'static str,
     script: &'static str,
     style_hash: String,
     script_hash: String,
-    data: String,
-    verdict: Verdict,
-    summary: Summary,
-    sections: Vec<Section>,
+}
+
+impl Page<'_> {
+    /// The page as one HTML file.
+    pub(super) fn html(&self) -> Result<String, ReportError> {
+        let hashes: Hashes = serde_json::from_str(HASHES)?;
+        let whole = Whole {
+            page: self,
+            made: format!(
+                "Written by precess {}. This page holds everything it shows and fetches nothing.",
+                env!("CARGO_PKG_VERSION")
+            ),
+            style: STYLE,
+            script: SCRIPT,
+            style_hash: hashes.style,
+            script_hash: hashes.script,
+        };
+        let mut tera = Tera::new();
+        tera.add_raw_template("shell.html", SHELL)?;
+        Ok(tera.render("shell.html", &Context::from_serialize(&whole)?)?)
+    }
 }
 
 /// The page of a run.
 pub(super) fn page(report: &Report, outcome: &Outcome) -> Result<String, ReportError> {
     let scenario = &report.scenario;
-    let hashes: Hashes = serde_json::from_str(HASHES)?;
     let drawn = report.drawn();
     let replay =
         report.collected.as_ref().and_then(|c| c.replay.as_ref().and_then(Collector::data));
@@ -53,24 +86,15 @@ pub(super) fn page(report: &Report, outcome: &Outcome) -> Result<String, ReportE
     let buckets = report.collected.as_ref().map_or(&[][..], |c| c.history.buckets());
     let time: Vec<_> = buckets.iter().map(|bucket| bucket.start).collect();
     let page = Page {
+        subject: "report of a run",
         title: &scenario.title,
         name: &scenario.name,
-        made: format!(
-            "Written by precess {}. This page holds everything it shows and fetches nothing.",
-            env!("CARGO_PKG_VERSION")
-        ),
-        style: STYLE,
-        script: SCRIPT,
-        style_hash: hashes.style,
-        script_hash: hashes.script,
         data: data(scenario, &time, outcome.end_time, &drawn, events, replay.as_ref())?,
         verdict: summary::verdict(report, outcome),
         summary: summary::summary(report, outcome),
         sections: sections(report, outcome, &drawn, replay.as_ref())?,
     };
-    let mut tera = Tera::new();
-    tera.add_raw_template("shell.html", SHELL)?;
-    Ok(tera.render("shell.html", &Context::from_serialize(&page)?)?)
+    page.html()
 }
 
 fn sections(
@@ -184,10 +208,6 @@ fn warnings(report: &Report) -> Vec<Block> {
 
 fn scenario_text(report: &Report) -> Vec<Block> {
     let source = &report.scenario.source;
-    let lines = |text: &str| {
-        let line = |line: &str| ScenarioLine { text: line.to_owned(), filled: false };
-        Block::Scenario { lines: text.lines().map(line).collect() }
-    };
     let mut blocks = Vec::new();
     if !source.text.is_empty() {
         let digest = report.collected.as_ref().and_then(|c| c.header.sha256.as_deref());
@@ -210,4 +230,10 @@ fn scenario_text(report: &Report) -> Vec<Block> {
         blocks.push(Block::Note { text });
     }
     blocks
+}
+
+/// The text of a file.
+pub(super) fn lines(text: &str) -> Block {
+    let line = |line: &str| ScenarioLine { text: line.to_owned(), filled: false };
+    Block::Scenario { lines: text.lines().map(line).collect() }
 }

@@ -103,6 +103,44 @@ impl Accelerance {
         })
     }
 
+    /// Accelerations of the floating frame, six, and modal coordinates of a free structure for forces on the nodes with
+    /// forces, at an angular frequency, rad/s: a column for each column of forces.
+    ///
+    /// # Errors
+    /// As [`Self::at`]; [`Fault::NoMass`] where the base is held.
+    pub fn motion(
+        &self,
+        frequency: f64,
+        forces: &ComplexMatrix,
+    ) -> Result<[ComplexMatrix; 2], Fault> {
+        let unbounded = || Fault::Unbounded { frequency };
+        let mass = self.mass.as_ref().ok_or(Fault::NoMass)?;
+        let rows = self.from.nrows() - COORDINATES;
+        let shapes = complex(&self.from.rows(0, rows).into_owned());
+        let momenta = complex(&self.from.rows(rows, COORDINATES).into_owned());
+        let stiff = self.modes.iter().map(|[natural, ratio]| {
+            let square = natural * natural - frequency * frequency;
+            Complex::new(square, 2.0 * ratio * natural * frequency)
+        });
+        let stiff: Vec<_> = stiff.collect();
+        let [_, of_from] = &self.rigid;
+        let of_modes = shapes.transpose() * forces;
+        // eta = (Phi^T f - L^T a) / k, and M_rr a + L eta'' = T^T f with eta'' = -w^2 eta.
+        let divided = |mut by_mode: ComplexMatrix| {
+            for (mut row, stiff) in by_mode.row_iter_mut().zip(&stiff) {
+                row.iter_mut().for_each(|value| *value /= *stiff);
+            }
+            by_mode
+        };
+        let square = Complex::new(frequency * frequency, 0.0);
+        let mass = complex(&DMatrix::from_column_slice(6, 6, mass.as_slice()));
+        let left = mass + &momenta * divided(momenta.transpose()) * square;
+        let right = of_from.transpose() * forces + &momenta * divided(of_modes.clone()) * square;
+        let frame = left.lu().solve(&right).ok_or_else(unbounded)?;
+        let modal = divided(of_modes - momenta.transpose() * &frame);
+        Ok([frame, modal])
+    }
+
     /// At an angular frequency, rad/s: six rows for each node that moves, six columns for each with a force.
     ///
     /// # Errors

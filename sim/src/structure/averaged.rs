@@ -29,6 +29,7 @@ use precess_dynamics::{
 };
 
 use super::accelerance::ComplexMatrix;
+use super::condensed::{Derivatives, at, condensed};
 use super::dynamic_mass::Motor;
 use super::harmonics::{fourier, share};
 use super::{COORDINATES, Fault, rigid_rows, within};
@@ -41,9 +42,6 @@ const ANGLES: usize = 5;
 const ROTORS_MAX: usize = 4;
 /// A mean stiffness about the axis of a rotor that is rounding, of the squared rate times the inertia.
 const STIFFNESS_MAX: f64 = 1e-9;
-
-/// Derivatives by accelerations, rates and coordinates, of mount and free joints.
-pub type Derivatives = [DMatrix<f64>; 3];
 
 /// Devices on a mount, linearised about steady rates and averaged over a turn of each rotor.
 #[derive(Clone, Debug)]
@@ -166,49 +164,6 @@ impl AveragedDevices {
         }
         Ok(sum)
     }
-}
-
-/// Devices at a frequency, with their free joints eliminated.
-#[derive(Clone, Debug)]
-pub struct Condensed {
-    /// Dynamic mass `M_w = Z_hh - Z_hq Z_qq^-1 Z_qh`.
-    pub mass: ComplexMatrix,
-    /// `Z_hq Z_qq^-1`: the load on the mount by what the free joints need.
-    pub gain: ComplexMatrix,
-}
-
-/// Eliminates the free joints of derivatives by accelerations, rates and coordinates.
-///
-/// # Errors
-/// As [`AveragedDevices::dynamic_mass`].
-pub fn condensed(parts: &Derivatives, frequency: f64) -> Result<Condensed, Fault> {
-    let unbounded = || Fault::Unbounded { frequency };
-    let parts = parts.each_ref().map(|m| m.map(|value| Complex::new(value, 0.0)));
-    let whole = at(&parts, frequency)?;
-    let joints = whole.nrows().saturating_sub(COORDINATES);
-    let [h, q] = [(0, COORDINATES), (COORDINATES, joints)];
-    let block =
-        |rows: (usize, usize), of: (usize, usize)| whole.view((rows.0, of.0), (rows.1, of.1));
-    let mut mass = block(h, h).into_owned();
-    let mut gain = ComplexMatrix::zeros(COORDINATES, joints);
-    if joints > 0 {
-        let inner = block(q, q).transpose().lu();
-        let found = inner.solve(&block(h, q).transpose()).ok_or_else(unbounded)?;
-        gain = found.transpose();
-        mass -= &gain * block(q, h);
-    }
-    if mass.iter().chain(gain.iter()).all(|value| value.re.is_finite() && value.im.is_finite()) {
-        Ok(Condensed { mass, gain })
-    } else {
-        Err(unbounded())
-    }
-}
-
-/// `M + C / (i w) - K / w^2`.
-fn at([mass, rates, stiffness]: &[ComplexMatrix; 3], w: f64) -> Result<ComplexMatrix, Fault> {
-    within("angular frequency, rad/s,".into(), w, [f64::MIN_POSITIVE, 1e12])?;
-    let (by_rate, by_angle) = (Complex::new(0.0, -1.0 / w), Complex::new(-1.0 / (w * w), 0.0));
-    Ok(mass + rates * by_rate + stiffness * by_angle)
 }
 
 /// The joints with a rate, by the device that they belong to.

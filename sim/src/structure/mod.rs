@@ -31,6 +31,7 @@
 pub mod accelerance;
 pub mod averaged;
 pub mod checks;
+pub mod condensed;
 pub mod dynamic_mass;
 mod error;
 pub mod flex42;

@@ -1,3 +1,4 @@
 //! Jitter in the frequency domain against closed forms and against runs of the coupled equations.
 
 mod known;
+mod run;

@@ -8,7 +8,7 @@ mod hub;
 mod initial;
 mod joints;
 mod layout;
-mod mount;
+pub(super) mod mount;
 mod output;
 mod over_time;
 mod places;

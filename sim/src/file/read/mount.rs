@@ -78,7 +78,7 @@ fn numbers(matrix: Matrix3<f64>) -> Mount {
 }
 
 /// A direction; nothing where it has no length, which has been reported.
-pub(super) fn direction(keys: &Keys<'_>, key: &str) -> Option<Unit<Vector3<f64>>> {
+pub(in crate::file) fn direction(keys: &Keys<'_>, key: &str) -> Option<Unit<Vector3<f64>>> {
     let vector = Vector3::from(keys.numbers::<3>(key)?);
     let unit = Unit::try_new(vector, 1e-150);
     if unit.is_none() {

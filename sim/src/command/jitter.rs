@@ -1,0 +1,307 @@
+//! `jitter`: a budget into a verdict: lines of rotors over the speed through the structure to the lines of sight, against
+//! their limits, with a report.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+
+use clap::Args;
+
+use super::error::CommandError;
+use super::run::{may_write, progress_bar, write_whole};
+use super::table::{aligned, six};
+use super::{Set, print};
+use crate::file::{budget_from_toml, from_file};
+use crate::jitter::budget::{Assessed, Budget};
+use crate::jitter::campbell::{Branch, Crossing, branches, crossings, oscillations};
+use crate::jitter::coupled::{Compared, compare};
+use crate::jitter::device::Steady;
+use crate::jitter::model::Model;
+use crate::jitter::sweep::{Sweep, speeds, sweep};
+use crate::report::jitter::{AGREEMENT, JitterReport, intervals, metric, rpm};
+use crate::scenario::Scenario;
+
+pub(super) const HELP: &str = "\
+Examples:
+  precess jitter scenarios/budgets/imaging-satellite-jitter.toml
+      verdict, margins and a report into the folder precess-out
+  precess jitter budget.toml --compare '3000 rpm' --compare '4200 rpm'
+      beside it, runs of the coupled equations at two speeds
+
+The exit code is 0 where every requirement is met, 2 where one is not, 1 on an error.";
+
+/// The exit code of a budget that is complete, but not met.
+const UNMET: u8 = 2;
+/// Speeds of the Campbell diagram.
+const CAMPBELL_SPEEDS: usize = 61;
+/// A line this near to a natural frequency, of its damping ratio, is at resonance.
+const RESONANCE: f64 = 20.0;
+
+/// The options of `jitter`.
+#[derive(Debug, Args)]
+pub(super) struct Jitter {
+    /// The budget file.
+    #[arg(value_name = "BUDGET")]
+    file: PathBuf,
+    #[command(flatten)]
+    overrides: Set,
+    /// Folder for the results; made if it is missing.
+    #[arg(long, value_name = "FOLDER", default_value = "precess-out")]
+    out: PathBuf,
+    /// Replace results that are there.
+    #[arg(long)]
+    force: bool,
+    /// Threads; the result does not depend on them. All cores without this option.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// A speed with its unit at which the coupled equations are run beside; may be repeated. The worst speed of each
+    /// requirement without this option.
+    #[arg(long, value_name = "SPEED", value_parser = speed)]
+    compare: Vec<f64>,
+    /// Run the coupled equations at no speed.
+    #[arg(long, conflicts_with = "compare")]
+    no_compare: bool,
+}
+
+/// A speed with its unit, rad/s.
+fn speed(text: &str) -> Result<f64, String> {
+    use crate::units::{Measure, parse_quantity};
+    let example = "write a number and a unit: \"3000 rpm\"";
+    let quantity = parse_quantity(text).map_err(|error| format!("{}; {example}", error.kind))?;
+    match quantity.values[..] {
+        [value] if quantity.is(Measure::ANGULAR_RATE) && value > 0.0 => Ok(value),
+        _ => Err(format!("`{text}` is no speed above zero; {example}")),
+    }
+}
+
+/// Everything that is computed.
+struct Found {
+    sweep: Sweep,
+    assessed: Vec<Assessed>,
+    campbell_speeds: Vec<f64>,
+    branches: Vec<Branch>,
+    crossings: Vec<Crossing>,
+    compared: Vec<(Compared, bool)>,
+}
+
+impl Jitter {
+    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+        let (budget, path) = budget_from_toml(&self.file).map_err(CommandError::Scenario)?;
+        let (scenario, reports) =
+            from_file(&path, &self.overrides.overrides()).map_err(CommandError::Scenario)?;
+        let warnings: Vec<String> =
+            reports.all.iter().map(|warning| warning.message.clone()).collect();
+        let stem = self.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
+        let found = self.find(&scenario, &budget)?;
+        let text = std::fs::read_to_string(&self.file)
+            .map_err(|source| CommandError::Io { path: self.file.clone(), source })?;
+        let report = JitterReport {
+            scenario: &scenario,
+            budget: &budget,
+            text: &text,
+            sweep: &found.sweep,
+            assessed: &found.assessed,
+            campbell_speeds: &found.campbell_speeds,
+            branches: &found.branches,
+            crossings: &found.crossings,
+            compared: &found.compared,
+            warnings: &warnings,
+        };
+        let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
+        let mut files = vec![
+            (format!("{stem}.html"), report.html().map_err(|error| other(&error))?),
+            (format!("{stem}-lines.csv"), lines_csv(&found.sweep)),
+            (format!("{stem}-requirements.csv"), requirements_csv(&found)),
+        ];
+        for (name, svg) in report.figures().map_err(|error| other(&error))? {
+            files.push((format!("{stem}-{name}.svg"), svg));
+        }
+        let names: Vec<String> = files.iter().map(|(name, _)| name.clone()).collect();
+        may_write(&self.out, &names, self.force)?;
+        std::fs::create_dir_all(&self.out)
+            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
+        for (name, text) in &files {
+            write_whole(&self.out.join(name), text)?;
+        }
+        print(&summary(&budget, &found));
+        let folder = self.out.display();
+        print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1));
+        let met = found.assessed.iter().all(|of| of.margin.is_met());
+        Ok(if met { ExitCode::SUCCESS } else { ExitCode::from(UNMET) })
+    }
+
+    fn find(&self, scenario: &Scenario, budget: &Budget) -> Result<Found, CommandError> {
+        let other = |error: &dyn std::fmt::Display| {
+            CommandError::Other(format!("{}: {error}", scenario.name))
+        };
+        let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &budget.swept };
+        check_rotors(scenario, budget)?;
+        let model = Model::new(scenario, &budget.outputs(), &steady).map_err(|e| other(&e))?;
+        if model.contributors().is_empty() {
+            return Err(other(&crate::jitter::coupled::CoupledError::NoTones));
+        }
+        let all = speeds(budget.speeds, budget.count);
+        let threads = self.threads.unwrap_or_else(|| {
+            std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+        });
+        let bar = Mutex::new(progress_bar(all.len(), "speeds"));
+        let show = |done: usize| {
+            if let Ok(bar) = bar.lock() {
+                bar.set_position(u64::try_from(done).unwrap_or(u64::MAX));
+            }
+        };
+        let found = sweep(&model, &all, threads, &show).map_err(|error| other(&error))?;
+        if let Ok(bar) = bar.lock() {
+            bar.finish_and_clear();
+        }
+        let assessed = budget.assess(&found).map_err(|error| other(&error))?;
+        let campbell_speeds = speeds(budget.speeds, CAMPBELL_SPEEDS);
+        let natural: Result<Vec<_>, _> =
+            campbell_speeds.iter().map(|speed| oscillations(&model, *speed)).collect();
+        let branches = branches(&campbell_speeds, &natural.map_err(|error| other(&error))?);
+        let mut orders: Vec<f64> = found.contributors.iter().map(|of| of.order).collect();
+        orders.sort_by(f64::total_cmp);
+        orders.dedup();
+        let crossings = crossings(&campbell_speeds, &branches, &orders);
+        let mut at: Vec<f64> = self.compare.clone();
+        if at.is_empty() && !self.no_compare {
+            at = assessed.iter().filter_map(|of| found.speeds.get(of.worst).copied()).collect();
+            at.sort_by(f64::total_cmp);
+            at.dedup();
+        }
+        let mut compared = Vec::new();
+        let bar = progress_bar(at.len(), "coupled runs");
+        for speed in at {
+            let of = compare(scenario, budget, speed).map_err(|error| other(&error))?;
+            let natural = oscillations(&model, speed).map_err(|error| other(&error))?;
+            let resonant = of.lines.iter().any(|(frequency, _)| {
+                natural.iter().any(|natural| {
+                    let apart = (frequency / natural.frequency - 1.0).abs();
+                    apart < RESONANCE * natural.damping
+                })
+            });
+            compared.push((of, resonant));
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        Ok(Found { sweep: found, assessed, campbell_speeds, branches, crossings, compared })
+    }
+}
+
+/// Rotors of a budget are rotors of its scenario.
+fn check_rotors(scenario: &Scenario, budget: &Budget) -> Result<(), CommandError> {
+    let names: Vec<String> =
+        scenario.joints().map(|(_, name, info)| format!("{name}.{}", info.body)).collect();
+    match budget.swept.iter().find(|rotor| !names.contains(rotor)) {
+        None => Ok(()),
+        Some(rotor) => Err(CommandError::Other(format!(
+            "speed.rotors: `{rotor}` is no body of the scenario {}; write one of {}",
+            scenario.name,
+            names.join(", ")
+        ))),
+    }
+}
+
+/// For the terminal: verdicts, worst speeds, agreement.
+fn summary(budget: &Budget, found: &Found) -> String {
+    let mut rows = vec![
+        ["requirement", "state", "worst", "limit", "margin dB", "at", "keep out of"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for of in &found.assessed {
+        let (unit, size) = &of.limit.unit;
+        rows.push(vec![
+            format!("{} ({})", of.limit.name, metric(&of.limit.metric)),
+            if of.margin.is_met() { "met" } else { "violated" }.to_owned(),
+            format!("{} {unit}", six(of.margin.value / size)),
+            format!("{} {unit}", six(of.limit.limit / size)),
+            format!("{:.1}", 20.0 * of.margin.ratio().log10()),
+            found.sweep.speeds.get(of.worst).map_or_else(String::new, |speed| rpm(*speed)),
+            intervals(&of.keep_out),
+        ]);
+    }
+    let mut text = format!("{}\n", budget.title);
+    if found.assessed.is_empty() {
+        text.push_str("no requirements\n");
+    } else {
+        text.push_str(&aligned(&rows));
+    }
+    for of in &found.assessed {
+        if let Some((index, share)) = of.shares.first()
+            && let Some(contributor) = found.sweep.contributors.get(*index)
+        {
+            let _ = writeln!(
+                text,
+                "{}: largest contributor {} ({}, order {}), {:.0} % of the mean square",
+                of.limit.name,
+                contributor.rotor,
+                contributor.cause,
+                contributor.order,
+                100.0 * share
+            );
+        }
+    }
+    for (of, resonant) in &found.compared {
+        let bound = if *resonant { AGREEMENT[1] } else { AGREEMENT[0] };
+        let difference = of.difference();
+        let _ = writeln!(
+            text,
+            "coupled run at {}: amplitudes differ by {:.2} % at most, {} {} % {}",
+            rpm(of.speed),
+            100.0 * difference,
+            if difference <= bound { "within" } else { "above" },
+            100.0 * bound,
+            if *resonant { "at resonance" } else { "off resonance" }
+        );
+    }
+    text
+}
+
+/// A row for each speed and tone: amplitude and phase of each output.
+fn lines_csv(sweep: &Sweep) -> String {
+    let mut text = String::from("speed_rad_per_s,rotor,cause,order,frequency_hz");
+    for output in &sweep.outputs {
+        let name = output.replace([' ', ','], "_");
+        let _ = write!(text, ",{name}_re,{name}_im");
+    }
+    text.push('\n');
+    let mut digits = zmij::Buffer::new();
+    for (speed, lines) in sweep.speeds.iter().zip(&sweep.lines) {
+        for line in lines {
+            let Some(of) = sweep.contributors.get(line.contributor) else { continue };
+            text.push_str(digits.format(*speed));
+            let _ = write!(text, ",{},{}", of.rotor, of.cause.replace(',', " "));
+            for value in [of.order, line.frequency / std::f64::consts::TAU] {
+                text.push(',');
+                text.push_str(digits.format(value));
+            }
+            for part in line.values.iter().flat_map(|value| [value.re, value.im]) {
+                text.push(',');
+                text.push_str(digits.format(part));
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// A row for each speed: the metric of each requirement, SI.
+fn requirements_csv(found: &Found) -> String {
+    let mut text = String::from("speed_rad_per_s");
+    for of in &found.assessed {
+        let _ = write!(text, ",{}", of.limit.name.replace([' ', ','], "_"));
+    }
+    text.push('\n');
+    let mut digits = zmij::Buffer::new();
+    for (index, speed) in found.sweep.speeds.iter().enumerate() {
+        text.push_str(digits.format(*speed));
+        for of in &found.assessed {
+            text.push(',');
+            text.push_str(digits.format(of.values.get(index).copied().unwrap_or(f64::NAN)));
+        }
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,217 @@
+//! Jitter budgets: TOML that names a scenario, the speeds to sweep, lines of sight and limits. Keys and units as in
+//! scenario files; every error at once.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use nalgebra::{Matrix2x3, Unit, Vector3};
+
+use super::diagnostic::Diagnostics;
+use super::keys::Keys;
+use super::load::load_file;
+use super::read::mount::direction;
+use crate::jitter::budget::{Budget, Sight};
+use crate::jitter::sweep::{Phases, SPEEDS_MAX};
+use crate::pointing::{Limit, LineOfSight, Metric, Sensitivity};
+use crate::structure::dynamic_mass::Motor;
+use crate::units::Measure;
+
+/// The number of the format that this program reads.
+const FORMAT: u32 = 1;
+/// Speeds without the key.
+const COUNT: usize = 541;
+
+/// Reads a budget; the path of its scenario is as from the same place.
+///
+/// # Errors
+/// Everything that is wrong, with its places.
+pub fn budget_from_toml(path: &Path) -> Result<(Budget, PathBuf), Diagnostics> {
+    let mut reports = Diagnostics::default();
+    let node = load_file(path, &mut reports);
+    if reports.has_errors() {
+        return Err(reports);
+    }
+    let folder = path.parent().unwrap_or_else(|| Path::new(""));
+    let cell = RefCell::new(reports);
+    let read = Keys::new(&node, "", &cell).and_then(|keys| budget(&keys));
+    let mut reports = cell.into_inner();
+    match read {
+        Some((budget, scenario)) if !reports.has_errors() => Ok((budget, folder.join(scenario))),
+        _ => {
+            if !reports.has_errors() {
+                reports.error_anywhere(format!("{} is no budget", path.display()), "");
+            }
+            Err(reports)
+        }
+    }
+}
+
+fn budget(keys: &Keys<'_>) -> Option<(Budget, String)> {
+    if !keys.has("format") {
+        keys.missing("format", "format = 1");
+    }
+    keys.count("format", FORMAT, FORMAT);
+    let title = keys.text("title").unwrap_or("Jitter budget").to_owned();
+    let scenario = keys.text("scenario");
+    if !keys.has("scenario") {
+        keys.missing("scenario", "scenario = \"bus.toml\"");
+    }
+    let phases = [("unknown", Phases::Unknown), ("given", Phases::Given), ("worst", Phases::Worst)];
+    let phases = keys.choice("phases", &phases).unwrap_or_default();
+    let motors = [("torque", Motor::ConstantTorque), ("rate", Motor::ConstantRate)];
+    let motor = keys.choice("motor", &motors).unwrap_or_default();
+    let sprung = keys.choice("gimbals", &[("sprung", true), ("locked", false)]).unwrap_or(true);
+    let speed = keys.table("speed");
+    if speed.is_none() {
+        keys.missing("speed", "[speed]` with `from = \"600 rpm\"` and `to = \"6000 rpm\"");
+    }
+    let speed = speed.and_then(|speed| speeds(&speed));
+    let sights: Vec<Sight> = keys.tables("line_of_sight").iter().filter_map(sight).collect();
+    if !keys.has("line_of_sight") {
+        keys.missing("line_of_sight", "[[line_of_sight]]` with `node = \"camera\"");
+    }
+    let limits: Vec<_> =
+        keys.tables("requirement").iter().filter_map(|r| limit(r, &sights)).collect();
+    keys.finish();
+    let (speeds, count, swept) = speed?;
+    for (index, sight) in sights.iter().enumerate() {
+        if sights.iter().take(index).any(|other| other.name == sight.name) {
+            let message = format!("two lines of sight are named `{}`", sight.name);
+            keys.error("line_of_sight", message, "rename one");
+        }
+    }
+    let budget = Budget { title, speeds, count, swept, phases, motor, sprung, sights, limits };
+    Some((budget, scenario?.to_owned()))
+}
+
+/// Range, count and rotors.
+fn speeds(keys: &Keys<'_>) -> Option<([f64; 2], usize, Vec<String>)> {
+    let [from, to] = ["from", "to"].map(|key| keys.required(key, Measure::ANGULAR_RATE));
+    let most = u32::try_from(SPEEDS_MAX).unwrap_or(u32::MAX);
+    let count = keys.count("count", 2, most).and_then(|count| usize::try_from(count).ok());
+    let rotors = keys.texts("rotors").unwrap_or_default();
+    keys.finish();
+    let range = [from?, to?];
+    if !(range[0] > 0.0 && range[0] < range[1]) {
+        let message = "speeds rise from above zero: a wheel at rest has no tones";
+        keys.error("from", message, "write for example `from = \"600 rpm\"`");
+        return None;
+    }
+    Some((range, count.unwrap_or(COUNT), rotors.into_iter().map(str::to_owned).collect()))
+}
+
+/// A rigid instrument by its boresight, or sensitivities node by node.
+fn sight(keys: &Keys<'_>) -> Option<Sight> {
+    let node = keys.text("node");
+    let name = keys.text("name").or(node);
+    let parts: Vec<_> = keys.tables("sensitivity").iter().filter_map(sensitivity).collect();
+    let axes = ["boresight", "across"].map(|key| direction(keys, key));
+    let listed = keys.has("sensitivity");
+    keys.finish();
+    if listed == node.is_some() {
+        let help = "write `node` with its `boresight`, or `[[line_of_sight.sensitivity]]`";
+        keys.error("node", "a line of sight is of one rigid instrument, or of sensitivities", help);
+        return None;
+    }
+    let line = match node {
+        None => LineOfSight::new(parts),
+        Some(node) => {
+            let boresight = axes[0].map_or_else(Vector3::z, Unit::into_inner);
+            let usual = if boresight.x.abs() > 0.9 * boresight.norm() {
+                Vector3::y()
+            } else {
+                Vector3::x()
+            };
+            LineOfSight::rigid(node, &boresight, &axes[1].map_or(usual, Unit::into_inner))
+        }
+    };
+    match line {
+        Ok(line) => Some(Sight { name: name.unwrap_or("line of sight").to_owned(), line }),
+        Err(error) => {
+            keys.error("boresight", error.to_string(), "");
+            None
+        }
+    }
+}
+
+/// `node`, and of each axis x and y three numbers by displacement, rad/m, and by rotation, rad/rad.
+fn sensitivity(keys: &Keys<'_>) -> Option<Sensitivity> {
+    let node = keys.text("node");
+    if !keys.has("node") {
+        keys.missing("node", "node = \"mirror\"");
+    }
+    let row = |key: &str| Vector3::from(keys.numbers::<3>(key).unwrap_or_default()).transpose();
+    let matrix = |x: &str, y: &str| Matrix2x3::from_rows(&[row(x), row(y)]);
+    let displacement = matrix("x_by_displacement", "y_by_displacement");
+    let rotation = matrix("x_by_rotation", "y_by_rotation");
+    keys.finish();
+    Some(Sensitivity { node: node?.to_owned(), displacement, rotation })
+}
+
+fn limit(keys: &Keys<'_>, sights: &[Sight]) -> Option<(usize, Limit)> {
+    let named = keys.text("line_of_sight");
+    let metrics = [("rms", 0), ("band_rms", 1), ("displacement", 2), ("smear", 3), ("jitter", 4)];
+    let metric = keys.choice("metric", &metrics).unwrap_or(0);
+    let exposed = metric >= 2;
+    let exposure = if exposed { keys.required("exposure", Measure::TIME) } else { Some(0.0) };
+    let band =
+        if metric == 1 { keys.quantities::<2>("band", Measure::FREQUENCY) } else { Some([0.0; 2]) };
+    if metric == 1 && !keys.has("band") {
+        keys.missing("band", "band = \"1, 200 Hz\"");
+    }
+    let written = keys.any_quantity("limit");
+    if !keys.has("limit") {
+        keys.missing("limit", "limit = \"1 urad\"");
+    }
+    let name = keys.text("name");
+    keys.finish();
+    let written = written?;
+    let [limit] = written.values[..] else {
+        keys.error("limit", "`limit` is one number with its unit", "write `limit = \"1 urad\"`");
+        return None;
+    };
+    if !written.is(Measure::ANGLE) || limit <= 0.0 {
+        keys.error(
+            "limit",
+            "the limit of a line of sight is an angle above zero",
+            "write `limit = \"1 urad\"`",
+        );
+        return None;
+    }
+    let (exposure, band) = (exposure?, band?);
+    if exposed && exposure <= 0.0 {
+        keys.error("exposure", "`exposure` is not above zero", "");
+        return None;
+    }
+    if metric == 1 && !(0.0 <= band[0] && band[0] < band[1]) {
+        keys.error("band", "a band rises from zero or above", "write `band = \"1, 200 Hz\"`");
+        return None;
+    }
+    let sight = match named {
+        None if sights.len() == 1 => Some(0),
+        None => None,
+        Some(named) => sights.iter().position(|sight| sight.name == named),
+    };
+    let Some(sight) = sight else {
+        let names: Vec<_> = sights.iter().map(|sight| format!("`{}`", sight.name)).collect();
+        let message = "`line_of_sight` names no line of sight";
+        keys.error("line_of_sight", message, &format!("write one of {}", names.join(", ")));
+        return None;
+    };
+    let unit = (written.unit.clone(), size(&written.unit));
+    let (metric, word) = match metric {
+        0 => (Metric::Rms, "RMS"),
+        1 => (Metric::BandRms(band), "RMS in a band"),
+        2 => (Metric::Displacement(exposure), "displacement"),
+        3 => (Metric::Smear(exposure), "smear"),
+        _ => (Metric::Jitter(exposure), "jitter"),
+    };
+    let name = name.unwrap_or(word).to_owned();
+    Some((sight, Limit { name, metric, limit, unit }))
+}
+
+/// The size of a unit in SI.
+fn size(unit: &str) -> f64 {
+    let one = crate::units::parse_quantity(&format!("1 {unit}"));
+    one.ok().and_then(|one| one.values.first().copied()).unwrap_or(1.0)
+}

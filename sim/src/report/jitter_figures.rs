@@ -1,0 +1,178 @@
+//! The figures of a [`JitterReport`]: a metric over the speed, cumulative RMS, waterfall, Campbell diagram.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Complex;
+
+use super::jitter::{JitterReport, RPM, metric, rpm};
+use super::number::{short, with_unit};
+use super::plane::Plane;
+use super::unit::{SMALL_ANGLE, for_peak};
+use crate::jitter::budget::{Assessed, outputs_of};
+use crate::jitter::campbell::{Branch, Oscillation};
+
+/// A line is drawn in a waterfall from this share of the largest on.
+const DOT_MIN: f64 = 5e-3;
+/// Speeds of which a waterfall shows the lines.
+const WATERFALL_SPEEDS: usize = 160;
+/// Branches of a Campbell diagram are drawn up to this many times the highest line.
+const CAMPBELL_TOP: f64 = 1.25;
+
+impl JitterReport<'_> {
+    /// A metric over the speed.
+    pub(super) fn over_speed(&self, of: &Assessed) -> Plane {
+        let peak = of.values.iter().copied().fold(of.limit.limit, f64::max);
+        let unit = for_peak(SMALL_ANGLE, peak);
+        let points = self.sweep.speeds.iter().zip(&of.values);
+        let points = points.map(|(speed, value)| [speed * RPM, value * unit.per_si]).collect();
+        let ends = [self.budget.speeds[0], self.budget.speeds[1]];
+        let limit = ends.map(|speed| [speed * RPM, of.limit.limit * unit.per_si]).to_vec();
+        Plane {
+            description: format!("{} over the speed in rpm, in {}.", of.limit.name, unit.name),
+            title: format!("{}: {}", of.limit.name, metric(&of.limit.metric)),
+            axes: ["Speed (rpm)".to_owned(), format!("Line of sight ({})", unit.name)],
+            curves: vec![("found".to_owned(), points), ("limit".to_owned(), limit)],
+            lines: Vec::new(),
+            dots: Vec::new(),
+            marks: Vec::new(),
+            ranges: [Some(ends.map(|speed| speed * RPM)), Some([0.0, 1.06 * peak * unit.per_si])],
+        }
+    }
+
+    /// Cumulative RMS over frequency at the worst speed.
+    pub(super) fn cumulative(&self, of: &Assessed) -> Plane {
+        let outputs = outputs_of(of.sight);
+        let lines = self.sweep.lines.get(of.worst).map_or(&[][..], Vec::as_slice);
+        let mut sorted: Vec<_> = lines
+            .iter()
+            .map(|line| {
+                let values = outputs.iter().filter_map(|output| line.values.get(*output));
+                (line.frequency / TAU, values.map(|value| 0.5 * value.norm_sqr()).sum::<f64>())
+            })
+            .collect();
+        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let whole: f64 = sorted.iter().map(|(_, square)| square).sum();
+        let unit = for_peak(SMALL_ANGLE, whole.sqrt());
+        let top = sorted.last().map_or(1.0, |(frequency, _)| 1.1 * frequency);
+        let (mut forward, mut backward) =
+            (vec![[0.0, 0.0]], vec![[0.0, whole.sqrt() * unit.per_si]]);
+        let mut sum = 0.0;
+        for (frequency, square) in sorted {
+            for (points, value) in [(&mut forward, sum), (&mut backward, whole - sum)] {
+                points.push([frequency, value.max(0.0).sqrt() * unit.per_si]);
+            }
+            sum += square;
+            for (points, value) in [(&mut forward, sum), (&mut backward, whole - sum)] {
+                points.push([frequency, value.max(0.0).sqrt() * unit.per_si]);
+            }
+        }
+        forward.push([top, whole.sqrt() * unit.per_si]);
+        backward.push([top, 0.0]);
+        let speed = self.sweep.speeds.get(of.worst).map_or_else(String::new, |speed| rpm(*speed));
+        Plane {
+            description: format!(
+                "Cumulative RMS over frequency in Hz at {speed}, in {}.",
+                unit.name
+            ),
+            title: format!("{}: cumulative RMS at {speed}", of.limit.name),
+            axes: ["Frequency f (Hz)".to_owned(), format!("Cumulative RMS ({})", unit.name)],
+            curves: vec![("from below".to_owned(), forward), ("from above".to_owned(), backward)],
+            lines: Vec::new(),
+            dots: Vec::new(),
+            marks: Vec::new(),
+            ranges: [Some([0.0, top]), Some([0.0, 1.06 * whole.sqrt() * unit.per_si])],
+        }
+    }
+
+    /// Orders that tones have, each once, rising.
+    fn orders(&self) -> Vec<f64> {
+        let mut orders: Vec<f64> = self.sweep.contributors.iter().map(|of| of.order).collect();
+        orders.sort_by(f64::total_cmp);
+        orders.dedup();
+        orders
+    }
+
+    /// Straight lines of the orders.
+    fn order_lines(&self) -> Vec<(String, [[f64; 2]; 2])> {
+        let [from, to] = self.budget.speeds;
+        let line = |order: &f64| {
+            let at = |speed: f64| [speed * RPM, order * speed / TAU];
+            (format!("{}×", short(*order, 4)), [at(from), at(to)])
+        };
+        self.orders().iter().map(line).collect()
+    }
+
+    fn top(&self) -> f64 {
+        let highest = self.orders().last().copied().unwrap_or(1.0);
+        highest * self.budget.speeds[1] / TAU
+    }
+
+    pub(super) fn waterfall(&self, sight: usize) -> Plane {
+        let outputs = outputs_of(sight);
+        let mut dots = Vec::new();
+        let step = self.sweep.speeds.len().div_ceil(WATERFALL_SPEEDS).max(1);
+        for (speed, lines) in self.sweep.speeds.iter().zip(&self.sweep.lines).step_by(step) {
+            for line in lines {
+                let values = outputs.iter().filter_map(|output| line.values.get(*output));
+                let size = values.map(Complex::norm_sqr).sum::<f64>().sqrt();
+                dots.push([speed * RPM, line.frequency / TAU, size]);
+            }
+        }
+        let largest = dots.iter().map(|dot| dot[2]).fold(f64::MIN_POSITIVE, f64::max);
+        for dot in &mut dots {
+            dot[2] /= largest;
+        }
+        dots.retain(|dot| dot[2] > DOT_MIN);
+        let unit = for_peak(SMALL_ANGLE, largest);
+        let name = self.budget.sights.get(sight).map_or("", |sight| sight.name.as_str());
+        let amplitude = with_unit(largest * unit.per_si, 3, unit.name);
+        Plane {
+            description: format!(
+                "Waterfall of {name}: tones over speed in rpm and frequency in Hz; the largest amplitude is {amplitude}."
+            ),
+            title: format!("{name}: lines, largest {amplitude}"),
+            axes: ["Speed (rpm)".to_owned(), "Frequency f (Hz)".to_owned()],
+            curves: Vec::new(),
+            lines: self.order_lines(),
+            dots,
+            marks: Vec::new(),
+            ranges: [
+                Some(self.budget.speeds.map(|speed| speed * RPM)),
+                Some([0.0, 1.06 * self.top()]),
+            ],
+        }
+    }
+
+    pub(super) fn campbell_diagram(&self) -> Plane {
+        let top = CAMPBELL_TOP * self.top();
+        let curve = |branch: &Branch| {
+            let points = self.campbell_speeds.iter().zip(&branch.points);
+            let point = |(speed, of): (&f64, &Option<Oscillation>)| {
+                [speed * RPM, of.map_or(f64::NAN, |of| of.frequency / TAU)]
+            };
+            points.map(point).collect::<Vec<_>>()
+        };
+        let curves = self
+            .branches
+            .iter()
+            .map(curve)
+            .filter(|points| points.iter().any(|point| point[1] <= top));
+        Plane {
+            description:
+                "Campbell diagram: natural frequencies in Hz over the speed in rpm, with orders."
+                    .to_owned(),
+            title: "Natural frequencies over the speed".to_owned(),
+            axes: ["Speed (rpm)".to_owned(), "Frequency f (Hz)".to_owned()],
+            // Without a legend: a branch has no name of its own.
+            curves: curves.map(|points| (String::new(), points)).collect(),
+            lines: self.order_lines(),
+            dots: Vec::new(),
+            marks: self
+                .crossings
+                .iter()
+                .map(|of| [of.speed * RPM, of.oscillation.frequency / TAU])
+                .collect(),
+            ranges: [Some(self.budget.speeds.map(|speed| speed * RPM)), Some([0.0, top])],
+        }
+    }
+}
