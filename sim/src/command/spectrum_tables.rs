@@ -97,8 +97,14 @@ pub(super) fn text(analysis: &Analysis) -> String {
         rows.push(row);
     }
     out.push_str(&aligned(&rows));
-    let head =
-        ["line of", "frequency (Hz)", "amplitude", "share of RMS (%)", "above floor (dB)", "unit"];
+    let head = [
+        "line of",
+        "frequency (Hz)",
+        "amplitude",
+        "share of mean square (%)",
+        "above floor (dB)",
+        "unit",
+    ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for column in &analysis.columns {
         for line in &column.lines {
@@ -121,10 +127,10 @@ pub(super) fn text(analysis: &Analysis) -> String {
     out
 }
 
-/// A line's RMS by that of its column.
+/// A line's mean square by that of its column.
 fn share(line: &Line, column: &Analysed) -> f64 {
-    let rms = column.rms();
-    if rms > 0.0 { line.amplitude / 2.0_f64.sqrt() / rms } else { 0.0 }
+    let square = column.density.mean_square();
+    if square > 0.0 { 0.5 * line.amplitude * line.amplitude / square } else { 0.0 }
 }
 
 /// How far a line is above the floor, dB; none above a floor of zero.

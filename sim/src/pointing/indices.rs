@@ -1,10 +1,10 @@
 //! [`Index`]: the pointing error indices of ECSS, as they are formed along a history.
 //!
-//! ECSS-E-ST-60-10C, 3.2 and annex A, and ESSB-HB-E-003 name them: absolute (APE, instantaneous), mean (MPE, over a
-//! window), relative (RPE, instantaneous less the mean of its window), drift (PDE, difference of the means of two
-//! windows in one observation period), reproducibility (PRE, of two windows in different observation periods). Errors
-//! are magnitudes, of one axis or of several together. Windows follow one another from the start of a run, so
-//! each sample is in one window; a run is an observation period.
+//! ECSS-E-ST-60-10C, 3.2.2 to 3.2.12 and annex A.1.4, defines them: absolute (APE, instantaneous), mean (MPE, over a
+//! window), relative (RPE, instantaneous less the mean of a window that contains the instant), drift (PDE, difference of
+//! the means of two windows in one observation period), reproducibility (PRE, of two windows in different ones).
+//! Errors are magnitudes, of one axis or of several together. Windows have one length and follow one another from the
+//! start of a run, so each sample is in one window; a run is an observation period.
 
 use std::collections::VecDeque;
 

@@ -13,6 +13,16 @@
 //! A signal is in any unit, usually rad. Sources: R. L. Lucke, S. W. Sirlin, A. M. San Martin, "New definitions of
 //! pointing stability: AC and DC effects", J. Astronautical Sciences 40(4), 1992; M. E. Pittelkau, W. G. `McKinley`,
 //! Optical Engineering 55(6) 063108, 2016; ECSS-E-ST-60-10C, 2008; ESSB-HB-E-003, 2011.
+//!
+//! ```
+//! use precess::pointing::exposure_of_lines;
+//!
+//! // A wheel at 100 Hz moves the line of sight by 0.4 urad; images of 10 ms and 0.1 ms.
+//! let lines = [[100.0, 0.4e-6]];
+//! let [slow, fast] = [10e-3, 0.1e-3].map(|time| exposure_of_lines(&lines, time));
+//! assert!(slow?.jitter > 0.2e-6 && fast?.jitter < 1e-9);
+//! # Ok::<(), precess::pointing::PointingError>(())
+//! ```
 
 mod error;
 mod exposure;

@@ -1,7 +1,8 @@
 //! Pointing error indices with a statistical interpretation, a level and a confidence.
 //!
-//! A requirement reads: the index is below a limit with probability P (ECSS-E-ST-60-10C, 4.2 and annex A). Of what
-//! the probability is, is the interpretation. Levels of densities are those of Gaussian errors of zero mean.
+//! A requirement reads `prob(|index| < limit) >= P`, with a stated interpretation of the probability
+//! (ECSS-E-ST-60-10C, 4.1.1 to 4.1.4, annex A.1.2; P is called confidence level there, and level here, since the
+//! confidence is that of a sample). Levels of densities are those of Gaussian errors of zero mean (annex A.2.4).
 
 use std::f64::consts::PI;
 
@@ -18,11 +19,11 @@ use crate::spectra::Psd;
 /// What the probability of a requirement is taken over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpretation {
-    /// Over time, in the worst run: the limit holds for a share P of the time in every run.
+    /// Over all times of the worst run: the limit holds for a share P of the time in every run.
     Temporal,
-    /// Over runs, at the worst time: the limit holds at all times in a share P of the runs.
+    /// Over the worst times of all runs: the limit holds at all times in a share P of the runs.
     Ensemble,
-    /// Over time and runs together.
+    /// Over all times of all runs.
     Mixed,
 }
 

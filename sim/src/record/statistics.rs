@@ -3,7 +3,7 @@
 //! The quantity is a column or the magnitude of a vector; the RMS in a band of a vector is that of
 //! its components together. Means over time are by the trapezoidal rule, so a last sample that is
 //! not evenly spaced has its own weight; the band, exposures and indices of ECSS use only samples
-//! that are. Memory does not grow with the run: levels are those of [`Quantile`], at most 0.1 % above.
+//! that are. Memory does not grow with the run: levels are found in buckets, at most 0.1 % above.
 
 use super::welch::Welch;
 use super::{Header, RecordError, Recorder};

@@ -68,17 +68,18 @@ pub fn amplitude_spectrum(
 
 impl AmplitudeSpectrum {
     /// The strongest lines, at most `count`, the strongest first: peaks that are 12 dB above the median of the bins
-    /// about them and that are no sidelobes of stronger lines. Frequency and amplitude are those of a single line
+    /// about them, that are no sidelobes of stronger lines, and that have as many periods in a segment as half the
+    /// window's main lobe has bins: what is slower is not told from a drift. Frequency and amplitude are those of a single line
     /// between bins: by the ratio of the two highest bins (rectangular, Hann), by the centroid of the squares
     /// (flat-top, whose peak is the amplitude).
     #[must_use]
     pub fn strongest(&self, count: usize) -> Vec<Line> {
         let value = |bin: usize| self.amplitude.get(bin).copied().unwrap_or(0.0);
-        let mut peaks: Vec<usize> = (1..self.amplitude.len().saturating_sub(1))
+        let window = self.metadata.settings.window;
+        let mut peaks: Vec<usize> = (window.half_width()..self.amplitude.len().saturating_sub(1))
             .filter(|&bin| value(bin) > value(bin - 1) && value(bin) >= value(bin + 1))
             .collect();
         peaks.sort_by(|a, b| value(*b).total_cmp(&value(*a)).then(a.cmp(b)));
-        let window = self.metadata.settings.window;
         let mut lines: Vec<Line> = Vec::new();
         for bin in peaks {
             if lines.len() >= count {

@@ -15,6 +15,17 @@
 //! Electroacoust. 15(2), 1967; G. Heinzel, A. Rüdiger, R. Schilling, "Spectrum and spectral density
 //! estimation by the DFT", 2002; J. S. Bendat, A. G. Piersol, Random Data, 4th edition.
 //!
+//! ```
+//! use precess::spectra::{WelchSettings, psd};
+//!
+//! let samples: Vec<f64> = (0..4096).map(|i| 2.0 * (0.3 * f64::from(i)).sin()).collect();
+//! let found = psd(&samples, 1000.0, &WelchSettings::hann(1024))?;
+//! // 0.3 rad a sample are 47.7 Hz.
+//! assert!((found.band_rms([40.0, 60.0])? - 2.0_f64.sqrt()).abs() < 1e-3);
+//! assert_eq!(found.metadata.segments, 7);
+//! # Ok::<(), precess::spectra::SpectrumError>(())
+//! ```
+//!
 //! Sines and cosines of the windows do not depend on the host; those inside the transform are of the
 //! transform's crate.
 

@@ -176,6 +176,19 @@ fn a_line_is_removed_by_the_linear_trend_and_a_constant_by_the_mean() {
 }
 
 #[test]
+fn a_drift_is_no_line() {
+    let samples: Vec<f64> =
+        (0..8000).map(|i| f64::from(i) / 8000.0 + 1e-3 * (0.3 * f64::from(i)).sin()).collect();
+    for window in [Window::Hann, Window::FlatTop] {
+        let settings = WelchSettings { window, length: 1000, overlap: 500, detrend: Detrend::Mean };
+        let found = amplitude_spectrum(&samples, 1000.0, &settings).expect("amplitudes");
+        let lines = found.strongest(5);
+        assert_eq!(lines.len(), 1, "{window:?}: {lines:?}");
+        assert!((lines[0].frequency - 1000.0 * 0.3 / TAU).abs() < 0.1, "{lines:?}");
+    }
+}
+
+#[test]
 fn orders_of_a_sweep_have_their_amplitudes_and_phases() {
     // From 20 to 80 Hz in 20 s; orders 1, 1.02 (a cage beside it, one beat in 50 turns) and 5.6.
     let (rate, count) = (2000.0, 40_000);
