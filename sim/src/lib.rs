@@ -41,6 +41,7 @@
 //! ```
 
 pub mod command;
+pub mod disturbance;
 pub mod engine;
 pub mod file;
 mod nearest;
