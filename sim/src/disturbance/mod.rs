@@ -3,8 +3,9 @@
 //!
 //! A disturbance is a wrench from outside. A wheel on a rigid table is measured by what it exerts on
 //! the table, and this is applied to what the wheel stands on, at the mount or on a body. There is no
-//! reaction on the rotor: across a rigid bearing it would return to the mount and cancel. So momentum is
-//! not conserved with a disturbance, and its work is work from outside in the energy ledger.
+//! reaction on the rotor: across a rigid bearing it would return to the mount and cancel, and about the spin
+//! axis it would be a motor torque. So momentum is not conserved with a disturbance, and its work is work
+//! from outside in the energy ledger.
 //!
 //! Such a measurement contains what a coupled wheel already has: the fundamental of its imbalance, and
 //! of a wheel on flexible bearings its internal modes. [`Scenario::check`](crate::scenario::Scenario::check)

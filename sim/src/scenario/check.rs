@@ -73,6 +73,7 @@ impl Scenario {
             errors.push(ScenarioError::Parameters(error));
         } else {
             errors.extend(self.check_structure());
+            errors.extend(self.check_disturbances());
         }
         errors
     }

@@ -9,6 +9,7 @@
 
 mod check;
 mod description;
+mod disturbances;
 pub mod mass;
 mod member;
 pub mod profile;
@@ -25,6 +26,8 @@ pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members};
 pub use profile::{Interpolation, Profile, Table};
 pub use structure::{ModalStructure, RecordedPoint, StructureNode};
+
+use crate::disturbance::Disturbance;
 
 /// Everything a run needs.
 #[derive(Clone, Debug)]
@@ -62,6 +65,8 @@ pub struct Scenario {
     pub stops: Vec<EndStop>,
     /// Wrenches from outside.
     pub wrenches: Vec<AppliedWrench>,
+    /// Empirical sources of force and torque.
+    pub disturbances: Vec<Disturbance>,
     /// Changes of drives at times, in the order of time.
     pub changes: Vec<Change>,
     /// Crossings that end the run or are only noted.

@@ -2,6 +2,7 @@
 
 pub(super) mod body;
 mod columns;
+mod components;
 mod device;
 mod drive;
 mod hub;
@@ -13,8 +14,11 @@ mod output;
 mod over_time;
 mod places;
 mod platform;
+mod source;
+mod source_models;
 mod structure;
 mod suspension;
+mod table_file;
 mod turns;
 
 use std::cell::RefCell;
@@ -116,6 +120,14 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let gravity = gravity(&keys);
     let changes = over_time::changes(&keys, &joints, folder);
     let wrenches = over_time::wrenches(&keys, &joints, structure.as_ref(), folder);
+    let known = source::Known {
+        devices: &devices,
+        joints: &joints,
+        structure: structure.as_ref(),
+        settings: settings.as_ref(),
+        folder,
+    };
+    let disturbances = source::sources(&keys, &known);
     let crossings = output::crossings(&keys);
     let output = output::output(&keys, settings.as_ref());
     let requirements = output::requirements(&keys, settings.as_ref());
@@ -143,6 +155,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         drives,
         stops,
         wrenches,
+        disturbances,
         changes,
         crossings,
         settings: settings?,
