@@ -16,6 +16,7 @@ mod new;
 mod plot;
 mod run;
 mod schema;
+mod sources;
 mod structure;
 mod table;
 
