@@ -92,12 +92,13 @@ pub(super) fn initial(scenario: &Scenario) -> Vec<Advice> {
 /// The source that reaches furthest beyond half the rate of samples.
 fn of_sources(scenario: &Scenario) -> Option<Advice> {
     let rate = scenario.output.rate;
-    let highest = scenario.disturbances.iter().filter_map(|of| {
+    let highest = scenario.disturbances.iter().map(|of| {
         let wheel = of.wheel.and_then(|wheel| scenario.initial.devices.states().nth(wheel));
-        Some((of.model.highest_frequency(wheel.unwrap_or_default()[1])?, &of.name))
+        let [_, rate] = wheel.unwrap_or_default();
+        (of.model.highest_frequency(rate), &of.name)
     });
     let (highest, name) = highest.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let beyond = 2.0 * highest >= rate;
+    let beyond = 2.0 * highest > rate;
     beyond.then(|| Advice::Source { name: name.clone(), highest, rate })
 }
 

@@ -47,7 +47,7 @@ fn exerts(scenario: &Scenario, of: &Disturbance) -> String {
     match &of.model {
         Model::Harmonic(tones) => {
             let [_, rate] = rate.unwrap_or_default();
-            let highest = of.model.highest_frequency(rate).unwrap_or(0.0);
+            let highest = of.model.highest_frequency(rate);
             let wheel = of.wheel.map_or_else(String::new, |wheel| joint_name(scenario, wheel));
             format!("{} harmonics of {wheel}, up to {} Hz at the start", tones.len(), six(highest))
         }

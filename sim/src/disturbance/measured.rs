@@ -91,6 +91,14 @@ impl Measured {
         if found <= BREAKS_MAX { Ok(()) } else { Err(MeasuredError::Breaks { found }) }
     }
 
+    /// Rows per second, 1/s; of a checked record.
+    #[must_use]
+    pub fn mean_rate(&self) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "at most ROWS_MAX")]
+        let rows = self.times.len().saturating_sub(1) as f64;
+        rows / self.period()
+    }
+
     fn first(&self) -> f64 {
         self.times.first().copied().unwrap_or(0.0)
     }

@@ -31,9 +31,13 @@ pub(crate) struct Disturbances<'a> {
     turns: RefCell<Vec<f64>>,
 }
 
+/// Cycles of the highest frequency of a source in a step: eleven evaluations at different times.
+const CYCLES_PER_STEP: f64 = 0.5;
+
 /// One source.
 #[derive(Clone, Debug)]
 struct Source<'a> {
+    model: &'a Model,
     exerts: Exerts<'a>,
     wheel: Option<usize>,
     on: On,
@@ -82,6 +86,17 @@ impl<'a> Disturbances<'a> {
 
     pub(crate) fn set_turns(&self, turns: &[f64]) {
         self.turns.borrow_mut().copy_from_slice(turns);
+    }
+
+    /// The longest step that resolves all of them at these rates of the joints, s: half a cycle of the
+    /// highest frequency. A source that moves the spacecraft by less than the tolerance would otherwise
+    /// be sampled less often than it varies.
+    pub(crate) fn longest_step(&self, rate: impl Fn(usize) -> f64) -> f64 {
+        let highest = self.sources.iter().map(|source| {
+            let rate = source.wheel.map_or(0.0, &rate);
+            source.model.highest_frequency(rate)
+        });
+        CYCLES_PER_STEP / highest.fold(0.0, f64::max)
     }
 
     /// Force and moment of each, along the axes of its data sheet, N and N m.
@@ -165,7 +180,7 @@ impl<'a> Source<'a> {
             }
             Model::Measured(record) => Exerts::Record(Box::new(Playback::new(record))),
         };
-        Some(Self { exerts, wheel: of.wheel, on, axes, point })
+        Some(Self { model: &of.model, exerts, wheel: of.wheel, on, axes, point })
     }
 
     /// Along the axes of the data sheet.

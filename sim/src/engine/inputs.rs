@@ -136,6 +136,11 @@ impl<'a> Acting<'a> {
         self.disturbances.wrenches(time, time > self.start, state)
     }
 
+    /// The longest step that resolves the disturbances at these rates of the joints, s.
+    pub(crate) fn longest_step(&self, rate: impl Fn(usize) -> f64) -> f64 {
+        self.disturbances.longest_step(rate)
+    }
+
     /// Whether the motor torque of every moving joint is an input.
     pub(crate) fn all_driven(&self) -> bool {
         let joints = self.drives.iter().zip(&self.driven);

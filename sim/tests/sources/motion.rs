@@ -11,6 +11,9 @@ const DISTANCE: f64 = 5e-15;
 /// Measured: 3e-12.
 const PHASE: f64 = 1e-11;
 
+/// Of a velocity: half a cycle of the highest line in a step of order 8. Measured: 4e-6.
+const QUIET: f64 = 2e-5;
+
 fn tones(harmonics: &str) -> String {
     format!("{WHEEL}[[source]]\nname = \"tones\"\non = \"rw\"\n{harmonics}")
 }
@@ -107,6 +110,33 @@ fn noise_accelerates_the_hub_by_its_force_over_the_mass() {
     for (time, force) in column(&samples, "time").iter().zip(&force).take(1000) {
         assert_eq!(realised.at(*time, 0.0)[0].to_bits(), force.to_bits());
     }
+}
+
+/// Noise that moves the hub by less than the tolerance is sampled as it varies all the same: at `1e-10` a step may be off
+/// by 1e-12 m/s, and the whole velocity is smaller. `v = sum a_k / (m w_k) (sin(w_k t + phi_k) - sin phi_k)`.
+#[test]
+fn quiet_noise_is_resolved_at_the_default_tolerance() {
+    let text = noise("band = \"10, 200 Hz\"\naxial_force = \"1e-19 N^2/Hz\"\n")
+        .replace("tolerance = 1e-13\n", "");
+    let scenario = read(&text);
+    let [disturbance] = scenario.disturbances.as_slice() else { panic!("one source") };
+    let Model::Broadband(of) = &disturbance.model else { panic!("noise") };
+    let lines = of.lines(0, 7, "noise");
+    let exact = |t: f64| -> f64 {
+        let of = |line: &precess::disturbance::Line| {
+            let w =
+                std::f64::consts::TAU * f64::from(u32::try_from(line.cycles).expect("few")) / 2.0;
+            line.amplitude / (100.0 * w) * ((w * t + line.phase).sin() - line.phase.sin())
+        };
+        lines.iter().map(of).sum()
+    };
+    let (_, samples) = ran(&scenario);
+    let times = column(&samples, "time");
+    let velocity = column(&samples, "velocity_x");
+    let size = largest(velocity.iter().copied());
+    let worst = largest(velocity.iter().zip(&times).map(|(v, t)| v - exact(*t)));
+    println!("{worst:e} of {size:e} m/s");
+    assert!(size < 1e-12 && worst < QUIET * size, "{worst:e} of {size:e}");
 }
 
 #[test]
