@@ -17,11 +17,8 @@ use precess_dynamics::{JointStates, ListedModes, ModalPoint, Wrench};
 use super::craft::{CraftInputs, CraftState};
 use super::kinematics::turn;
 use super::packing::JointPlace;
-use crate::disturbance::{
-    Disturbance, Harmonic, JointAxes, Model, Noise, Playback, Six, SourceTarget, WheelAngle,
-    sheet_axes,
-};
-use crate::scenario::{Member, Scenario, members};
+use crate::disturbance::{Disturbance, Harmonic, Model, Noise, Playback, Six, WheelAngle};
+use crate::scenario::{Scenario, SourceBody, SourcePlace};
 
 /// All sources of a scenario.
 #[derive(Clone, Debug)]
@@ -69,9 +66,8 @@ enum On {
 impl<'a> Disturbances<'a> {
     /// Of a checked scenario.
     pub(crate) fn new(scenario: &'a Scenario, joints: &[JointPlace]) -> Self {
-        let all = members(&scenario.devices);
         let sources = scenario.disturbances.iter();
-        let sources = sources.filter_map(|of| Source::new(of, scenario, &all, joints)).collect();
+        let sources = sources.filter_map(|of| Source::new(of, scenario, joints)).collect();
         Self { sources, turns: RefCell::new(vec![0.0; joints.len()]) }
     }
 
@@ -134,52 +130,27 @@ impl<'a> Disturbances<'a> {
 }
 
 impl<'a> Source<'a> {
-    fn new(
-        of: &'a Disturbance,
-        scenario: &'a Scenario,
-        all: &[Member<'_>],
-        joints: &[JointPlace],
-    ) -> Option<Self> {
-        let node_of = |node: usize| scenario.structure.as_ref()?.nodes.get(node);
-        let (on, axes, point) = match of.on {
-            SourceTarget::Hub { axes } => (On::Hub, axes, of.point),
-            SourceTarget::Node { node, axes } => {
-                (On::Node(Box::new(node_of(node)?.point())), axes, of.point)
+    fn new(of: &'a Disturbance, scenario: &Scenario, joints: &[JointPlace]) -> Option<Self> {
+        let place = scenario.source_place(of)?;
+        let on = match place.body {
+            SourceBody::Hub => On::Hub,
+            SourceBody::Mount(mount) => On::Mount(mount),
+            SourceBody::Node(node) => {
+                On::Node(Box::new(scenario.structure.as_ref()?.nodes.get(node)?.point()))
             }
-            SourceTarget::Joint { joint, axes } => {
+            SourceBody::Joint(joint) => {
                 let info = joints.get(joint)?.info;
-                // A rotor that is the same from every angle has the axes of its parent body.
-                let turns = axes == JointAxes::Parent && !info.slides && !info.ignorable;
-                (On::Body(joint, turns.then_some(info)), sheet_axes(of.spin_axis), of.point)
-            }
-            SourceTarget::Mount(member) => {
-                let own = all.get(member)?;
-                let axes = own.mount() * sheet_axes(of.spin_axis);
-                let origin = Vector3::from(own.bodies().first()?.origin);
-                let point = origin + own.mount() * of.point;
-                match (own.on(), &scenario.structure) {
-                    (Some(platform), _) => {
-                        let is_tip =
-                            |place: &&JointPlace| place.device == platform && place.info.tip;
-                        let tip = joints.iter().position(|place| is_tip(&place))?;
-                        (On::Body(tip, None), axes, point)
-                    }
-                    (None, Some(structure)) => {
-                        let node = *structure.on_node.get(member)?;
-                        let mount = structure.mounts().iter().position(|known| *known == node)?;
-                        (On::Mount(mount), axes, point - node_of(node)?.position)
-                    }
-                    (None, None) => (On::Hub, axes, point),
-                }
+                On::Body(joint, place.of_parent.then_some(info))
             }
         };
         let exerts = match &of.model {
-            Model::Harmonic(harmonics) => Exerts::Tones(harmonics),
+            Model::Harmonic(tones) => Exerts::Tones(tones),
             Model::Broadband(noise) => {
                 Exerts::Noise(Box::new(noise.realise(of.seed.unwrap_or_default(), &of.name)))
             }
             Model::Measured(record) => Exerts::Record(Box::new(Playback::new(record))),
         };
+        let SourcePlace { axes, point, .. } = place;
         Some(Self { model: &of.model, exerts, wheel: of.wheel, on, axes, point })
     }
 

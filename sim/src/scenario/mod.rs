@@ -13,6 +13,7 @@ mod disturbances;
 pub mod mass;
 mod member;
 pub mod profile;
+mod source_place;
 mod structure;
 
 use nalgebra::Vector3;
@@ -25,6 +26,7 @@ pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members};
 pub use profile::{Interpolation, Profile, Table};
+pub use source_place::{SourceBody, SourcePlace};
 pub use structure::{ModalStructure, RecordedPoint, StructureNode};
 
 use crate::disturbance::Disturbance;

@@ -10,9 +10,10 @@ pub(super) fn columns(columns: &mut Vec<Column>, scenario: &Scenario) {
         let group = format!("source_{name}");
         for (what, unit, first) in [("force", "N", 0), ("moment", "N m", 3)] {
             let base = format!("{group}.{what}");
-            let meaning = format!("{what} of the source {name}, axes of its data sheet");
+            let meaning = format!("{what} that the source {name} exerts, component");
             let of = |axis| Quantity::Disturbance(index, first + axis);
-            vector(columns, &base, &group, unit, &group, &meaning, of);
+            let frame = format!("data sheet of {name}");
+            vector(columns, &base, &group, unit, &frame, &meaning, of);
         }
     }
 }
