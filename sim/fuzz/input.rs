@@ -73,7 +73,7 @@ fn is_json(text: &str) -> bool {
 /// Whether a key at any depth is one whose value names a file.
 fn names_a_file(table: &DeTable<'_>) -> bool {
     table.iter().any(|(key, value)| {
-        matches!(key.get_ref().as_ref(), "base" | "table") || in_value(value.get_ref())
+        matches!(key.get_ref().as_ref(), "base" | "table" | "file") || in_value(value.get_ref())
     })
 }
 

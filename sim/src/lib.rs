@@ -42,6 +42,7 @@
 //! ```
 
 pub mod command;
+pub mod disturbance;
 pub mod engine;
 pub mod file;
 pub mod jitter;

@@ -1,4 +1,5 @@
-//! [`Advice`]: where samples or fixed steps are too few for the fastest wheel, with what would do.
+//! [`Advice`]: where samples or fixed steps are too few for the fastest wheel, or samples for a source, with
+//! what would do.
 //!
 //! ```text
 //! samples per turn = 2 pi rate / |omega|        at least 2, the sampling theorem
@@ -32,6 +33,15 @@ pub(super) enum Advice {
     Aliasing(Turns),
     /// Steps of RK4 do not.
     CoarseSteps(Turns),
+    /// Samples do not resolve a source.
+    Source {
+        /// Its name.
+        name: String,
+        /// Its highest frequency at the start, Hz.
+        highest: f64,
+        /// The rate of samples, Hz.
+        rate: f64,
+    },
 }
 
 /// The fastest joint, and how many samples or steps one of its turns has.
@@ -74,7 +84,22 @@ pub(super) fn advice(scenario: &Scenario, rates: impl Iterator<Item = f64>) -> V
 
 /// The advice at the initial rates.
 pub(super) fn initial(scenario: &Scenario) -> Vec<Advice> {
-    advice(scenario, scenario.initial.devices.states().map(|[_, rate]| rate))
+    let mut advice = advice(scenario, scenario.initial.devices.states().map(|[_, rate]| rate));
+    advice.extend(of_sources(scenario));
+    advice
+}
+
+/// The source that reaches furthest beyond half the rate of samples.
+fn of_sources(scenario: &Scenario) -> Option<Advice> {
+    let rate = scenario.output.rate;
+    let highest = scenario.disturbances.iter().map(|of| {
+        let wheel = of.wheel.and_then(|wheel| scenario.initial.devices.states().nth(wheel));
+        let [_, rate] = wheel.unwrap_or_default();
+        (of.model.highest_frequency(rate), &of.name)
+    });
+    let (highest, name) = highest.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let beyond = 2.0 * highest > rate;
+    beyond.then(|| Advice::Source { name: name.clone(), highest, rate })
 }
 
 impl Advice {
@@ -93,6 +118,9 @@ impl Advice {
                     SAMPLES_PER_TURN,
                     hertz(SAMPLES_PER_TURN)
                 )
+            }
+            Self::Source { highest, .. } => {
+                format!("record at more than {} Hz", six(2.0 * highest))
             }
             Self::CoarseSteps(Turns { omega, .. }) => format!(
                 "{STEPS_PER_TURN_MIN} steps per turn are `run.step = \"{} s\"`, or take dop853",
@@ -113,6 +141,13 @@ impl fmt::Display for Advice {
                 rpm(*omega),
                 six(*per_turn),
                 six(*present)
+            ),
+            Self::Source { name, highest, rate } => write!(
+                f,
+                "the source {name} reaches {} Hz, samples at {} Hz show up to half of that, so figures \
+                 and statistics show other frequencies than its own (aliasing)",
+                six(*highest),
+                six(*rate)
             ),
             Self::CoarseSteps(Turns { joint, omega, per_turn, present }) => write!(
                 f,
@@ -141,7 +176,10 @@ impl From<&Advice> for Diagnostic {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
+
     use super::*;
+    use crate::disturbance::{Disturbance, Harmonic, Model, SourceTarget};
     use crate::engine::checks::{scenario, set_joint, wheel};
 
     /// 60 rad/s, recorded at 18 Hz; at 1 kHz; in steps of 10 ms.
@@ -164,6 +202,35 @@ mod tests {
         let found = initial(&turning);
         assert!(matches!(&found[..], [Advice::CoarseSteps(turns)] if turns.per_turn < 10.5));
         assert!(Diagnostic::from(&found[0]).help.contains("\"0.00523599 s\""));
+    }
+
+    /// Harmonic 8 of 60 rad/s is 76.4 Hz, above half of 150 Hz.
+    #[test]
+    fn a_source_beyond_the_samples_is_named() {
+        let mut turning = scenario(&["wheel"], vec![wheel().into()], 1.0);
+        set_joint(&mut turning, 0, [0.0, 60.0]);
+        turning.disturbances = vec![Disturbance {
+            name: "bearing".to_owned(),
+            on: SourceTarget::Mount(0),
+            point: Vector3::zeros(),
+            spin_axis: 0,
+            wheel: Some(0),
+            fundamental_removed: false,
+            modes_removed: false,
+            seed: None,
+            model: Model::Harmonic(vec![Harmonic {
+                number: 8.0,
+                amplitudes: [1e-6; 6],
+                phases: [0.0; 6],
+            }]),
+        }];
+        turning.output.rate = 150.0;
+        let found = initial(&turning);
+        let shown = Diagnostic::from(&found[0]);
+        assert!(shown.message.starts_with("the source bearing reaches 76.3944 Hz"), "{shown:?}");
+        assert_eq!(shown.help, "record at more than 152.789 Hz");
+        turning.output.rate = 153.0;
+        assert_eq!(initial(&turning), []);
     }
 
     /// The phase of `y' = i omega y` after a turn in n steps, against the formula that is printed.

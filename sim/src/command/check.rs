@@ -8,7 +8,7 @@ use clap::Args;
 use precess_dynamics::{About, BuiltIn, Imbalance, Inputs, JointStates, units};
 
 use super::table::{aligned, six};
-use super::{Files, Form, advice, print};
+use super::{Files, Form, advice, print, sources};
 use crate::file::from_file;
 use crate::file::read::joint_key;
 use crate::scenario::Scenario;
@@ -88,6 +88,7 @@ fn properties(scenario: &Scenario) -> String {
     text.push_str(&aligned(&rows));
     let matrix = MassMatrix::of(scenario, &spacecraft);
     text.push_str(&joints(scenario, matrix.as_ref().ok()));
+    text.push_str(&sources::sources(scenario));
     match &matrix {
         Ok(MassMatrix { condition: Some(condition), .. }) => {
             let _ = writeln!(

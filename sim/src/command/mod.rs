@@ -18,6 +18,7 @@ mod plot;
 mod result;
 mod run;
 mod schema;
+mod sources;
 mod spectrum;
 mod spectrum_tables;
 mod structure;

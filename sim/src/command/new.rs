@@ -69,6 +69,9 @@ fn example(what: &str) -> Option<String> {
                 text.push_str(IMBALANCE);
             }
             bodies(&mut text, kind);
+            if name == "reaction_wheel" {
+                text.push_str(SOURCE);
+            }
         }
     }
     text.push_str(TAIL);
@@ -237,12 +240,35 @@ statistic = "peak"
 limit = "1 deg/s"
 "#;
 
+/// A source for a reaction wheel.
+const SOURCE: &str = r#"
+# What the imbalance does not do: bearing tones and noise of the data sheet, for example:
+# [[source]]
+# name = "bearing"
+# on = "wheel1"
+# spin_axis = "z"              # of the data sheet
+# seed = 1                     # of unknown phases
+# [[source.harmonic]]
+# number = 2.0                 # 1 is the imbalance, which the wheel has
+# radial_force = "1 g mm"      # amplitude over the square of the rate
+"#;
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;
 
     use super::*;
     use crate::file::from_toml;
+
+    #[test]
+    fn the_commented_source_is_one() {
+        let text = example("reaction_wheel").expect("an example");
+        let source = SOURCE.lines().skip(2).map(|line| line.trim_start_matches("# "));
+        let text = source.fold(text, |text, line| text + line + "\n");
+        let read = from_toml("source", &text, Path::new(""));
+        let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}\n{text}"));
+        assert_eq!(scenario.disturbances.len(), 1);
+    }
 
     #[test]
     fn every_example_is_a_scenario_without_warning() {

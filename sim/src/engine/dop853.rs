@@ -104,6 +104,10 @@ impl Dop853 {
             self.intended = self.method.h();
             self.method.set_h(rest);
         }
+        let longest = system.longest_step(self.method.y());
+        if self.method.h() > longest {
+            self.method.set_h(longest);
+        }
         let time = self.time();
         {
             let mut dense = self.dense.borrow_mut();

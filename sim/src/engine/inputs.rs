@@ -1,4 +1,4 @@
-//! [`Acting`]: forces, torques and modes at a time, from drives, profiles and wrenches.
+//! [`Acting`]: forces, torques and modes at a time, from drives, profiles, wrenches and disturbances.
 //!
 //! Between two changes no profile jumps, because a segment ends at each of its breaks. At the end
 //! of a segment a profile has its value before the jump, at the start the one after it.
@@ -8,8 +8,10 @@ use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, Inputs, JointStates, ListedModes, ModalPoint, Mode, Wrench};
 
 use super::craft::{Craft, CraftInputs, CraftState};
+use super::disturbances::Disturbances;
 use super::kinematics::{Chain, axes};
 use super::packing::JointPlace;
+use crate::disturbance::Six;
 use crate::scenario::{AppliedWrench, Drive, Profile, Scenario, Target, WrenchAxes};
 
 /// A locked joint.
@@ -23,6 +25,7 @@ pub(crate) struct Acting<'a> {
     /// Whether each joint has a motor as an input; otherwise its kind keeps its rate.
     driven: Vec<bool>,
     wrenches: Vec<Placed<'a>>,
+    disturbances: Disturbances<'a>,
     chains: Vec<Chain>,
     start: f64,
     end: f64,
@@ -71,6 +74,7 @@ impl<'a> Acting<'a> {
             drives: scenario.drives.iter().collect(),
             driven: joints.iter().map(|place| place.info.driven).collect(),
             wrenches: scenario.wrenches.iter().filter(acts).filter_map(placed).collect(),
+            disturbances: Disturbances::new(scenario, joints),
             chains: Chain::all(&scenario.devices),
             start: 0.0,
             end: 0.0,
@@ -110,14 +114,31 @@ impl<'a> Acting<'a> {
         &self.chains
     }
 
-    /// Whether a wrench from outside acts.
+    /// Whether a wrench or a disturbance acts from outside.
     pub(crate) fn has_wrenches(&self) -> bool {
-        !self.wrenches.is_empty()
+        !(self.wrenches.is_empty() && self.disturbances.is_empty())
     }
 
     /// Whether one acts on the child body of a joint.
     pub(crate) fn on_joints(&self) -> bool {
         self.wrenches.iter().any(|placed| matches!(placed.on, On::Body(..)))
+            || self.disturbances.on_joints()
+    }
+
+    /// Takes over the whole turns that were taken off each joint's angle.
+    pub(crate) fn set_turns(&self, turns: &[f64]) {
+        self.disturbances.set_turns(turns);
+    }
+
+    /// Force, N, and moment, N m, of each disturbance, along the axes of its data sheet.
+    pub(crate) fn disturbances(&self, time: f64, state: &CraftState) -> Vec<Six<f64>> {
+        let time = time.clamp(self.start, self.end);
+        self.disturbances.wrenches(time, time > self.start, state)
+    }
+
+    /// The longest step that resolves the disturbances at these rates of the joints, s.
+    pub(crate) fn longest_step(&self, rate: impl Fn(usize) -> f64) -> f64 {
+        self.disturbances.longest_step(rate)
     }
 
     /// Whether the motor torque of every moving joint is an input.
@@ -145,7 +166,7 @@ impl<'a> Acting<'a> {
                 Drive::Locked => (0.0, Mode::Locked),
             };
         }
-        if self.wrenches.is_empty() {
+        if !self.has_wrenches() {
             return;
         }
         let bn = state.rigid.attitude.dcm();
@@ -156,6 +177,8 @@ impl<'a> Acting<'a> {
             }
         }
         all.modal.fill(0.0);
+        all.mounts.fill(Wrench::none());
+        self.disturbances.add(time, from_below, state, all);
         for Placed { wrench, on } in &self.wrenches {
             let vector = |of: &[Profile; 3]| Vector3::from(of.each_ref().map(at));
             let (mut force, mut moment) = (vector(&wrench.force), vector(&wrench.moment));

@@ -56,6 +56,7 @@ impl Stepper {
             Method::Dop853(method) => {
                 let mut y = system.layout.pack(&moment.state, moment.integrals);
                 system.layout.wrap(&mut y, &mut self.turns);
+                system.acting.set_turns(&self.turns);
                 method.begin(system, span, &y)
             }
             Method::Rk4(method) => {
@@ -73,6 +74,7 @@ impl Stepper {
         }
         let mut y = method.now().to_vec();
         system.layout.wrap(&mut y, &mut self.turns);
+        system.acting.set_turns(&self.turns);
         method.restart(system, &y)
     }
 

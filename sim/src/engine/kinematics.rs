@@ -177,7 +177,7 @@ fn unit(info: &JointInfo) -> Vector3<f64> {
 }
 
 /// The rotation of a joint about its axis.
-fn turn(info: &JointInfo, angle: f64) -> Matrix3<f64> {
+pub(crate) fn turn(info: &JointInfo, angle: f64) -> Matrix3<f64> {
     // The solver's own sine: bit-identical on every host.
     let (sin, cos) = Angle::sin_cos(angle);
     match info.axis {

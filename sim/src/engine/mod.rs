@@ -13,6 +13,7 @@ pub(crate) mod checks;
 mod clipping;
 mod craft;
 mod dense;
+mod disturbances;
 mod dop853;
 mod drift;
 mod error;

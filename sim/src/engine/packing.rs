@@ -183,6 +183,11 @@ impl Layout {
         [coordinate + turns[joint] * TAU, rate]
     }
 
+    /// The rate of a joint in a flat vector.
+    pub(crate) fn rate(&self, joint: usize, y: &[f64]) -> f64 {
+        self.joints.get(joint).map_or(f64::NAN, |place| y[place.rate])
+    }
+
     /// The absolute tolerance of each number.
     ///
     /// The throughput has none: its rate has a kink wherever a joint's rate changes sign, at which a

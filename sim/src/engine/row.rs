@@ -15,6 +15,7 @@ use super::drift::energies;
 use super::integrator::Moment;
 use super::member_loads::MemberLoads;
 use super::system::System;
+use crate::disturbance::Six;
 use crate::record::columns::{Columns, Quantity};
 use crate::scenario::Scenario;
 
@@ -28,6 +29,7 @@ pub(crate) struct Row {
     loads: bool,
     energy: bool,
     momentum: bool,
+    disturbances: bool,
     inputs: Option<CraftInputs>,
     /// The recorded points of the structure.
     points: Vec<Point>,
@@ -58,6 +60,8 @@ struct Computed<'a> {
     motors: Option<Vec<(f64, Mode)>>,
     loads: Option<MemberLoads>,
     points: &'a [Point],
+    /// Force and moment of each disturbance.
+    disturbances: Vec<Six<f64>>,
 }
 
 /// Accelerations: inertial of B and angular of the hub, both expressed in B, and of each joint.
@@ -92,6 +96,7 @@ impl Row {
             loads,
             energy: any(|q| matches!(q, Quantity::Energy)),
             momentum: any(|q| matches!(q, Quantity::Linear(_) | Quantity::Angular(_))),
+            disturbances: any(|q| matches!(q, Quantity::Disturbance(..))),
             inputs: None,
             points,
             quantities,
@@ -169,6 +174,11 @@ impl Row {
             }),
             loads,
             points: &self.points,
+            disturbances: if self.disturbances {
+                system.acting.disturbances(held_from, state)
+            } else {
+                Vec::new()
+            },
         };
         for (number, quantity) in self.numbers.iter_mut().zip(&self.quantities) {
             *number = computed.number(*quantity);
@@ -239,6 +249,9 @@ impl Computed<'_> {
             }
             Quantity::LoadMoment(joint, axis) => {
                 loads.and_then(|loads| loads.joints.get(joint)).map(|load| load.moment[axis])
+            }
+            Quantity::Disturbance(source, component) => {
+                self.disturbances.get(source).and_then(|of| of.get(component).copied())
             }
             Quantity::ModalCoordinate(mode) => modal.eta.get(mode).copied(),
             Quantity::ModalRate(mode) => modal.eta_dot.get(mode).copied(),

@@ -1,9 +1,10 @@
 //! [`Segments`]: the times at which a step must end, and the changes due there.
 //!
-//! They are the breaks of all profiles, the times at which a profile reaches the limit of its motor
+//! They are the breaks of all profiles and measured records, the times at which a profile reaches the limit of its motor
 //! ([`clipping`](super::clipping)), the changes, and the end of the run.
 
 use super::clipping;
+use crate::disturbance::Model;
 use crate::scenario::{Action, Change, Drive, Profile, Scenario};
 
 /// The ends of segments in the order of time.
@@ -41,6 +42,11 @@ impl<'a> Segments<'a> {
         }
         for wrench in &scenario.wrenches {
             ends.extend(wrench.force.iter().chain(&wrench.moment).flat_map(Profile::breaks));
+        }
+        for of in &scenario.disturbances {
+            if let Model::Measured(record) = &of.model {
+                ends.extend(record.breaks(duration));
+            }
         }
         ends.retain(|end| 0.0 < *end && *end < duration);
         ends.push(duration);

@@ -83,6 +83,11 @@ impl<'a> System<'a> {
         self.potential
     }
 
+    /// The longest step that resolves what varies faster than the motion shows, s.
+    pub(crate) fn longest_step(&self, y: &[f64]) -> f64 {
+        self.acting.longest_step(|joint| self.layout.rate(joint, y))
+    }
+
     /// Inputs at a time and state.
     pub(crate) fn inputs(&self, time: f64, state: &CraftState) -> CraftInputs {
         let mut inputs = self.scratch.borrow().inputs.clone();

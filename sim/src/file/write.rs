@@ -5,6 +5,7 @@
 //! products of inertia, files of tables as they were named are not needed any more. A key that is
 //! not written stands for what the spacecraft does not have: a torque limit, an end stop, gravity.
 
+mod source;
 mod structure;
 
 use std::fmt::Write as _;
@@ -58,6 +59,9 @@ fn write_all(out: &mut String, s: &Scenario) -> Written {
     devices(out, s)?;
     for wrench in &s.wrenches {
         applied(out, s, wrench)?;
+    }
+    for of in &s.disturbances {
+        source::write(out, s, of)?;
     }
     for change in &s.changes {
         writeln!(out, "\n[[at]]\ntime = \"{:?} s\"", change.time)?;

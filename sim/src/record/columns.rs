@@ -6,6 +6,7 @@
 //! only where they are selected. `time` always comes first; the others keep their order here,
 //! whatever the order of the selection.
 
+mod disturbances;
 mod quantity;
 mod structure;
 
@@ -56,6 +57,7 @@ impl Columns {
             }
         }
         structure::columns(&mut columns, scenario);
+        disturbances::columns(&mut columns, scenario);
         totals(&mut columns);
         for (index, (name, member)) in scenario.members().enumerate() {
             let base = member.on().and_then(|on| scenario.names.get(on));

@@ -48,6 +48,9 @@ pub(super) fn charts(header: &Header, scenario: &Scenario, ledger: bool) -> Vec<
             | Quantity::PointSigma(..)
             | Quantity::PointOmega(..)
             | Quantity::PointAcceleration(..) => of_structure(column),
+            Quantity::Disturbance(source, component) => {
+                Some(of_disturbance(source, component, column))
+            }
             quantity if quantity.is_load() => Some(of_load(quantity, index, column)),
             quantity => of_hub(quantity),
         };
@@ -272,6 +275,25 @@ fn of_structure(column: &Column) -> Option<Found> {
         label,
         departure: false,
     })
+}
+
+/// A chart for the force and one for the moment of each source.
+fn of_disturbance(source: usize, component: usize, column: &Column) -> Found {
+    let (what, axis, family, symbol) = if component < 3 {
+        ("force", "Force", unit::FORCE, "F")
+    } else {
+        ("moment", "Moment", unit::MOMENT, "M")
+    };
+    Found {
+        key: (17, 2 * source + component / 3),
+        part: Part::Histories,
+        slug: hyphenated(column.vector.as_deref().unwrap_or(&column.name)),
+        title: format!("{}: {what}", capitalised(&plain(&column.group))),
+        axis,
+        family,
+        label: format!("{symbol}_{}", AXES[component % 3]),
+        departure: false,
+    }
 }
 
 fn of_load(quantity: Quantity, index: usize, column: &Column) -> Found {

@@ -12,8 +12,8 @@ const MOMENTUM_UNIT: &str = "largest sum over the bodies of the magnitudes of th
 const MEANING: &str = "A drift is the largest departure from the start over a unit that cannot \
     vanish by cancellation. It measures the integration, not the model: rounding alone gives 10⁻¹⁶ \
     to 10⁻¹³, and what exceeds that by far is the tolerance or the step.";
-const NOT_CONSERVED: &str = "Momentum is not conserved here: gravity, a wrench, a lumped imbalance \
-    or what holds the hub acts from outside.";
+const NOT_CONSERVED: &str = "Momentum is not conserved here: gravity, a wrench, a source, a lumped \
+    imbalance or what holds the hub acts from outside.";
 
 /// The blocks of the energy section before its figures.
 pub(super) fn energy(report: &Report, outcome: &Outcome) -> Vec<Block> {

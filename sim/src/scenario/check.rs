@@ -108,6 +108,7 @@ impl Scenario {
             errors.push(ScenarioError::Parameters(error));
         } else {
             errors.extend(self.check_structure());
+            errors.extend(self.check_disturbances());
         }
         errors
     }

@@ -9,9 +9,11 @@
 
 mod check;
 mod description;
+mod disturbances;
 pub mod mass;
 mod member;
 pub mod profile;
+mod source_place;
 mod structure;
 
 use nalgebra::Vector3;
@@ -24,8 +26,10 @@ pub use description::UndescribedError;
 pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members};
 pub use profile::{Interpolation, Profile, Table};
+pub use source_place::{SourceBody, SourcePlace};
 pub use structure::{ModalStructure, RecordedPoint, StructureNode};
 
+use crate::disturbance::Disturbance;
 use crate::pointing::Index;
 
 /// Everything a run needs.
@@ -64,6 +68,8 @@ pub struct Scenario {
     pub stops: Vec<EndStop>,
     /// Wrenches from outside.
     pub wrenches: Vec<AppliedWrench>,
+    /// Empirical sources of force and torque.
+    pub disturbances: Vec<Disturbance>,
     /// Changes of drives at times, in the order of time.
     pub changes: Vec<Change>,
     /// Crossings that end the run or are only noted.

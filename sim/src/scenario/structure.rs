@@ -69,7 +69,7 @@ impl StructureNode {
 
 impl ModalStructure {
     /// The nodes that carry devices, each once: the mounts of the library, in their order.
-    fn mounts(&self) -> Vec<usize> {
+    pub(crate) fn mounts(&self) -> Vec<usize> {
         let mut mounts = Vec::new();
         for node in &self.on_node {
             if !mounts.contains(node) {

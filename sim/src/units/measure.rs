@@ -103,6 +103,10 @@ measures! {
     COUPLING_STIFFNESS = "a stiffness between slides and turns", "N/rad", "N/mrad", [1 1 -2 -1];
     /// Viscous friction between slides and turns of a platform.
     COUPLING_DAMPING = "a viscous friction between slides and turns", "N s/rad", "N s/rad", [1 1 -1 -1];
+    /// One-sided power spectral density of a force.
+    FORCE_DENSITY = "a spectral density of a force", "N^2/Hz", "mN^2/Hz", [2 2 -3 0];
+    /// One-sided power spectral density of a moment.
+    MOMENT_DENSITY = "a spectral density of a moment", "N^2 m^2/Hz", "mN^2 m^2/Hz", [4 2 -3 0];
     /// Gravitational parameter of a central body.
     GRAVITATIONAL_PARAMETER = "a gravitational parameter", "m^3/s^2", "km^3/s^2", [3 0 -2 0];
 }

@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 28] = [
+const OTHERS: [&str; 32] = [
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
     "[initial.attitude]\nmrp = [0.1, 0.2, 0.3]",
     "[initial.attitude]\naxis = [0, 0, 1]\nangle = \"30 deg\"",
@@ -55,6 +55,18 @@ const OTHERS: [&str; 28] = [
      z_turn = { torque = \"1 mN m\" }\n\
      mount = { euler = \"1, 2, 3 deg\", sequence = \"ZYX\", direction = \"hub to device\" }",
     "[[wrench]]\non = \"hub\"\nforce = { x = \"1 N\" }\nmoment = { z = \"1 N m\" }",
+    "[[source]]\nname = \"tones\"\non = \"hub\"\nwheel = \"rw.wheel\"\npoint = \"0, 0, 1 cm\"\n\
+     seed = 1\nmount = { axis = [0, 0, 1], angle = \"30 deg\" }\n[[source.harmonic]]\nnumber = 2.5\n\
+     radial_force = \"1 g mm\"\naxial_moment = \"1 g mm^2\"\nphase = { radial_force = \"30 deg\" }",
+    "[[source]]\nname = \"turned\"\non = \"hub\"\n\
+     mount = { euler = \"1, 2, 3 deg\", sequence = \"ZYX\", direction = \"hub to device\" }\n\
+     record = { times = \"0, 1 s\", moment_x = \"0, 1 N m\", interpolation = \"linear\" }",
+    "[[source]]\nname = \"noise\"\non = \"rw.wheel\"\naxes = \"parent\"\nspin_axis = \"z\"\nseed = 1\n\
+     [source.broadband]\nfrequencies = \"1, 40 Hz\"\nband = \"2, 30 Hz\"\nperiod = \"2 s\"\n\
+     force_x = \"1e-9 N^2/Hz\"\nreference_rate = \"3000 rpm\"",
+    "[[source]]\nname = \"table\"\non = \"rw\"\nfundamental_removed = true\nmodes_removed = false\n\
+     [source.record]\nfile = \"no.csv\"\ntime = \"t\"\ncolumns = { force_x = \"fx\" }\n\
+     force_unit = \"mN\"\nmoment_unit = \"mN m\"\ninterpolation = \"cubic\"\nrepeats = true",
     "[structure]\ndamping = 0.01\nmodes = 1\nfrequency_limit = \"9 Hz\"\ncontains_devices = false\n\
      coordinates = 0.1\nrates = [0.1]\n[[structure.point]]\nname = \"camera\"\nnode = \"tip\"\n\
      [[structure.node]]\nname = \"tip\"\nposition = \"0, 0, 1 m\"\n\

@@ -75,6 +75,7 @@ pub(crate) fn scenario_of(names: &[&str], devices: Set, duration: f64) -> Scenar
         drives: vec![free; joints],
         stops: Vec::new(),
         wrenches: Vec::new(),
+        disturbances: Vec::new(),
         changes: Vec::new(),
         crossings: Vec::new(),
         settings: Settings { duration, integrator: DOP853 },

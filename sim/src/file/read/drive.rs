@@ -11,22 +11,17 @@
 //!
 //! A step, a sine and a table may be limited to `from` and `to`: they are zero outside.
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 
 use super::super::document::{Node, Value};
 use super::super::keys::Keys;
+use super::table_file::columns;
 use crate::scenario::profile::Interpolation;
 use crate::scenario::{Profile, Table};
 use crate::units::{Measure, parse_unit};
 
 /// The kinds of a profile, by the key that names each.
 const KINDS: [&str; 7] = ["constant", "step", "ramp", "sine", "chirp", "table", "times"];
-/// Most rows of a table.
-const ROWS_MAX: usize = 1_000_000;
-/// Most bytes of its file: a device has no end.
-const BYTES_MAX: u64 = 100_000_000;
 
 /// A profile; nothing where one is wrong, which has been reported.
 pub(super) fn profile(
@@ -152,51 +147,15 @@ fn file(keys: &Keys<'_>, measure: Measure, folder: &Path) -> Option<Table> {
         keys.error("unit", format!("`{unit}` is no unit of {name}"), &format!("{usual} is one"));
         return None;
     }
-    match rows(&folder.join(name), column, size) {
-        Ok((times, values)) => Some(Table { times, values, interpolation }),
+    match columns(&folder.join(name), &[("time_s", true), (column, true)]) {
+        Ok(columns) => {
+            let [times, values] = <[Vec<f64>; 2]>::try_from(columns).ok()?;
+            let values = values.into_iter().map(|value| value * size).collect();
+            Some(Table { times, values, interpolation })
+        }
         Err(message) => {
             keys.error("table", format!("{name}: {message}"), "");
             None
         }
     }
-}
-
-type Rows = (Vec<f64>, Vec<f64>);
-
-fn rows(path: &Path, column: &str, size: f64) -> Result<Rows, String> {
-    let file = File::open(path).map_err(|error| error.to_string())?;
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(file.take(BYTES_MAX));
-    let head = reader.headers().map_err(|error| error.to_string())?.clone();
-    let too_long = || format!("more than {BYTES_MAX} bytes");
-    if reader.position().byte() >= BYTES_MAX {
-        return Err(too_long());
-    }
-    let find = |name: &str| {
-        let known: Vec<_> = head.iter().collect();
-        let place = known.iter().position(|column| *column == name);
-        place.ok_or_else(|| format!("no column `{name}`; there are {}", known.join(", ")))
-    };
-    let (time, value) = (find("time_s")?, find(column)?);
-    let (mut times, mut values) = (Vec::new(), Vec::new());
-    for record in reader.records() {
-        let record = record.map_err(|error| error.to_string())?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let number = |at: usize| {
-            let text = record.get(at).unwrap_or_default();
-            let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-            number.ok_or_else(|| format!("line {line}: `{text}` is no finite number"))
-        };
-        times.push(number(time)?);
-        values.push(number(value)? * size);
-        if times.len() > ROWS_MAX {
-            return Err(format!("more than {ROWS_MAX} rows"));
-        }
-    }
-    if reader.position().byte() >= BYTES_MAX {
-        return Err(too_long());
-    }
-    Ok((times, values))
 }

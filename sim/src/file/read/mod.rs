@@ -2,6 +2,7 @@
 
 pub(super) mod body;
 mod columns;
+mod components;
 mod device;
 mod drive;
 mod hub;
@@ -14,8 +15,11 @@ mod over_time;
 mod places;
 mod platform;
 mod requirement;
+mod source;
+mod source_models;
 mod structure;
 mod suspension;
+mod table_file;
 mod turns;
 
 use std::cell::RefCell;
@@ -117,6 +121,14 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let gravity = gravity(&keys);
     let changes = over_time::changes(&keys, &joints, folder);
     let wrenches = over_time::wrenches(&keys, &joints, structure.as_ref(), folder);
+    let known = source::Known {
+        devices: &devices,
+        joints: &joints,
+        structure: structure.as_ref(),
+        settings: settings.as_ref(),
+        folder,
+    };
+    let disturbances = source::sources(&keys, &known);
     let crossings = output::crossings(&keys);
     let output = output::output(&keys, settings.as_ref());
     let requirements = requirement::requirements(&keys, settings.as_ref());
@@ -144,6 +156,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         drives,
         stops,
         wrenches,
+        disturbances,
         changes,
         crossings,
         settings: settings?,

@@ -33,6 +33,8 @@ pub(crate) enum Quantity {
     PointSigma(usize, usize),
     PointOmega(usize, usize),
     PointAcceleration(usize, usize),
+    /// Of a disturbance: a component of force, 0 to 2, or moment, 3 to 5.
+    Disturbance(usize, usize),
 }
 
 impl Quantity {

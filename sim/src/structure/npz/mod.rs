@@ -108,6 +108,19 @@ pub fn read(bytes: &[u8]) -> Result<Structure, StructureError> {
     Ok(structure.checked()?)
 }
 
+/// A member of an archive: its name, and its numbers where it is one row of them.
+pub(crate) type NamedNumbers = (String, Result<Vec<f64>, StructureError>);
+
+/// The members of any archive.
+pub(crate) fn columns(bytes: &[u8]) -> Result<Vec<NamedNumbers>, StructureError> {
+    let Members { names, arrays } = Members::of(bytes)?;
+    let column = |(name, array): (String, Array)| {
+        let numbers = array.numbers(None).map_err(|fault| fault.at(member(&name)));
+        (name, numbers)
+    };
+    Ok(names.into_iter().zip(arrays).map(column).collect())
+}
+
 /// The bytes of an archive: the same for the same structure.
 ///
 /// # Errors

@@ -1,0 +1,161 @@
+//! `[[source]]`: empirical sources of force and torque, by harmonics, spectral densities or records.
+
+use std::path::Path;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::super::keys::Keys;
+use super::device::{Device, Of};
+use super::joints::Joints;
+use super::mount::rotation_of;
+use super::source_models::{broadband, harmonics, record};
+use super::structure::Structure;
+use crate::disturbance::{Disturbance, JointAxes, Model, SourceTarget};
+use crate::scenario::Settings;
+use crate::units::Measure;
+
+/// What a source may refer to.
+pub(super) struct Known<'a> {
+    pub(super) devices: &'a [Device],
+    pub(super) joints: &'a Joints,
+    pub(super) structure: Option<&'a Structure>,
+    pub(super) settings: Option<&'a Settings>,
+    pub(super) folder: &'a Path,
+}
+
+/// The sources of a file.
+pub(super) fn sources(keys: &Keys<'_>, known: &Known<'_>) -> Vec<Disturbance> {
+    keys.tables("source").iter().filter_map(|keys| source(keys, known)).collect()
+}
+
+fn source(keys: &Keys<'_>, known: &Known<'_>) -> Option<Disturbance> {
+    if !keys.has("name") {
+        keys.missing("name", "name = \"bearing\"");
+    }
+    let name = keys.text("name");
+    let on = target(keys, known);
+    let point = keys.vector("point", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
+    let axes = [("x", 0), ("y", 1), ("z", 2)];
+    let spin_axis = keys.choice("spin_axis", &axes).unwrap_or(0);
+    let named = keys.text("wheel").map(|name| known.joints.find(keys, "wheel", name));
+    let fundamental_removed = keys.boolean("fundamental_removed").unwrap_or(false);
+    let modes_removed = keys.boolean("modes_removed").unwrap_or(false);
+    let seed = if keys.has("seed") { Some(keys.count("seed", 0, u32::MAX)?) } else { None };
+    let model = model(keys, (name.unwrap_or_default(), spin_axis, seed), known);
+    keys.finish();
+    let (on, own) = on?;
+    let wheel = match named {
+        Some(found) => Some(found?),
+        None => own,
+    };
+    Some(Disturbance {
+        name: name?.to_owned(),
+        on,
+        point,
+        spin_axis,
+        wheel,
+        fundamental_removed,
+        modes_removed,
+        seed,
+        model: model?,
+    })
+}
+
+/// What it exerts: of a name, a spin axis and a seed.
+fn model(keys: &Keys<'_>, of: (&str, usize, Option<u32>), known: &Known<'_>) -> Option<Model> {
+    let kinds = ["harmonic", "broadband", "record"];
+    let given: Vec<_> = kinds.into_iter().filter(|kind| keys.has(kind)).collect();
+    let &[kind] = given.as_slice() else {
+        let message = format!("`{}` is given in {} ways", keys.path(), given.len());
+        let help =
+            "give one of `harmonic`, `broadband`, `record`, and others as sources of their own";
+        keys.reports().borrow_mut().error(keys.span(), message, "", help);
+        return None;
+    };
+    match kind {
+        "harmonic" => harmonics(keys, of).map(Model::Harmonic),
+        "broadband" => broadband(&keys.table(kind)?, of.1, known.settings).map(Model::Broadband),
+        _ => record(&keys.table(kind)?, of.1, known.folder).map(Model::Measured),
+    }
+}
+
+/// What it acts on, and the wheel that this has.
+fn target(keys: &Keys<'_>, known: &Known<'_>) -> Option<(SourceTarget, Option<usize>)> {
+    if !keys.has("on") {
+        keys.missing("on", "on = \"rw\"");
+    }
+    let words = [("body", JointAxes::Body), ("parent", JointAxes::Parent)];
+    let axes = keys.choice("axes", &words);
+    let mount = if keys.has("mount") { Some(matrix(keys)) } else { None };
+    let name = keys.text("on")?;
+    let of_device = known.devices.iter().position(|device| device.name == name);
+    let of_node = || known.structure.filter(|structure| structure.has_node(name));
+    let own_axes = |keys: &Keys<'_>| {
+        if keys.has("axes") {
+            let help = "remove `axes`; `mount` turns them";
+            keys.error("axes", "only a body on a joint has `axes`", help);
+        }
+    };
+    if let Some(member) = of_device {
+        own_axes(keys);
+        no_mount(keys);
+        if matches!(known.devices.get(member)?.of, Of::Platform(_)) {
+            let help = format!("write `on = \"{name}.platform\"`");
+            keys.error("on", format!("`{name}` is a platform"), &help);
+            return None;
+        }
+        return Some((SourceTarget::Mount(member), wheel_of(known.devices, member)));
+    }
+    if let Some(structure) = of_node() {
+        own_axes(keys);
+        let node = structure.used(name)?;
+        return Some((
+            SourceTarget::Node { node, axes: mount.unwrap_or(Some(Matrix3::identity()))? },
+            None,
+        ));
+    }
+    if name == "hub" {
+        own_axes(keys);
+        return Some((
+            SourceTarget::Hub { axes: mount.unwrap_or(Some(Matrix3::identity()))? },
+            None,
+        ));
+    }
+    no_mount(keys);
+    let joint = known.joints.find(keys, "on", name)?;
+    let is_wheel = known.joints.info(joint)?.body == "wheel";
+    let default = if is_wheel { JointAxes::Parent } else { JointAxes::Body };
+    let member = member_of(known.devices, joint);
+    let wheel = if is_wheel { Some(joint) } else { wheel_of(known.devices, member?) };
+    Some((SourceTarget::Joint { joint, axes: axes.unwrap_or(default) }, wheel))
+}
+
+fn matrix(keys: &Keys<'_>) -> Option<Matrix3<f64>> {
+    let table = keys.table("mount")?;
+    let found = rotation_of(&table).map(|mount| mount.matrix);
+    table.finish();
+    found
+}
+
+fn no_mount(keys: &Keys<'_>) {
+    if keys.has("mount") {
+        let help = "remove `mount`; `spin_axis` says which axis of the data sheet is the wheel's";
+        keys.error("mount", "a source on a device has the axes of the device", help);
+    }
+}
+
+/// The number of the wheel's joint of a device.
+fn wheel_of(devices: &[Device], member: usize) -> Option<usize> {
+    let first: usize = devices.iter().take(member).map(|device| device.joints().len()).sum();
+    let wheel = devices.get(member)?.joints().iter().position(|info| info.body == "wheel")?;
+    Some(first + wheel)
+}
+
+/// The device or platform of a joint.
+fn member_of(devices: &[Device], joint: usize) -> Option<usize> {
+    let mut first = 0;
+    devices.iter().position(|device| {
+        first += device.joints().len();
+        joint < first
+    })
+}
