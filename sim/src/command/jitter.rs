@@ -83,6 +83,8 @@ struct Found {
     branches: Vec<Branch>,
     crossings: Vec<Crossing>,
     compared: Vec<(Compared, bool)>,
+    /// Sources that the frequency domain has not.
+    left_out: Vec<String>,
 }
 
 impl Jitter {
@@ -90,10 +92,11 @@ impl Jitter {
         let (budget, path) = budget_from_toml(&self.file).map_err(CommandError::Scenario)?;
         let (scenario, reports) =
             from_file(&path, &self.overrides.overrides()).map_err(CommandError::Scenario)?;
-        let warnings: Vec<String> =
+        let mut warnings: Vec<String> =
             reports.all.iter().map(|warning| warning.message.clone()).collect();
         let stem = self.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
         let found = self.find(&scenario, &budget)?;
+        warnings.extend(found.left_out.iter().cloned());
         let text = std::fs::read_to_string(&self.file)
             .map_err(|source| CommandError::Io { path: self.file.clone(), source })?;
         let report = JitterReport {
@@ -137,7 +140,11 @@ impl Jitter {
         };
         let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &budget.swept };
         check_rotors(scenario, budget)?;
-        let model = Model::new(scenario, &budget.outputs(), &steady).map_err(|e| other(&e))?;
+        let mut model = Model::new(scenario, &budget.outputs(), &steady).map_err(|e| other(&e))?;
+        let left_out = model.add_sources(scenario).map_err(|error| other(&error))?;
+        for reason in &left_out {
+            eprintln!("warning: {reason}");
+        }
         if model.contributors().is_empty() {
             return Err(other(&crate::jitter::coupled::CoupledError::NoTones));
         }
@@ -185,7 +192,15 @@ impl Jitter {
             bar.inc(1);
         }
         bar.finish_and_clear();
-        Ok(Found { sweep: found, assessed, campbell_speeds, branches, crossings, compared })
+        Ok(Found {
+            sweep: found,
+            assessed,
+            campbell_speeds,
+            branches,
+            crossings,
+            compared,
+            left_out,
+        })
     }
 }
 
@@ -242,6 +257,14 @@ fn summary(budget: &Budget, found: &Found) -> String {
                 100.0 * share
             );
         }
+    }
+    for of in found.assessed.iter().filter(|of| of.noise > 0.0) {
+        let _ = writeln!(
+            text,
+            "{}: broadband noise, {:.0} % of the mean square",
+            of.limit.name,
+            100.0 * of.noise
+        );
     }
     for (of, resonant) in &found.compared {
         let bound = if *resonant { AGREEMENT[1] } else { AGREEMENT[0] };

@@ -56,6 +56,8 @@ pub struct Assessed {
     pub margin: Margin,
     /// Contributors and their shares of the mean square there, largest first.
     pub shares: Vec<(usize, f64)>,
+    /// The share of broadband noise there.
+    pub noise: f64,
     /// Speeds to keep out of, rad/s.
     pub keep_out: Vec<[f64; 2]>,
 }
@@ -103,7 +105,8 @@ impl Budget {
                 let worst = worst.unwrap_or(0);
                 let value = values.get(worst).copied().unwrap_or(f64::NAN);
                 let shares = sweep.shares(worst, &outputs, &weight);
-                let whole: f64 = shares.iter().sum();
+                let noise = sweep.noise_square(worst, &outputs, &weight);
+                let whole: f64 = shares.iter().sum::<f64>() + noise;
                 let mut shares: Vec<(usize, f64)> =
                     shares.into_iter().map(|share| share / whole).enumerate().collect();
                 shares.retain(|(_, share)| *share > 0.0);
@@ -116,6 +119,7 @@ impl Budget {
                     values,
                     worst,
                     shares,
+                    noise: if whole > 0.0 { noise / whole } else { 0.0 },
                 })
             })
             .collect()

@@ -112,6 +112,7 @@ impl Compared {
 /// [`CoupledError`].
 pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compared, CoupledError> {
     let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &budget.swept };
+    // Imbalance alone: the run has no sources, whose noise would be among the lines.
     let model = Model::new(scenario, &budget.outputs(), &steady)?;
     let lines = model.lines(speed)?;
     let mut frequencies: Vec<f64> = lines.iter().map(|line| line.frequency).collect();
@@ -129,7 +130,7 @@ pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compa
     let rate = SAMPLES * fastest / turn;
     let window = wanted.min(LONGEST).min(SAMPLES_MAX / rate);
     let mut run = scenario.clone();
-    steady_spin(&mut run, &model, &steady, speed)?;
+    steady_spin(&mut run, scenario, &model, &steady, speed)?;
     predicted_start(&mut run, &model, speed)?;
     run.settings.duration = window;
     run.settings.integrator = IntegratorChoice::Dop853 { tolerance: TOLERANCE };
@@ -160,12 +161,14 @@ pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compa
 /// wrenches, changes or end stops.
 fn steady_spin(
     run: &mut Scenario,
+    scenario: &Scenario,
     model: &Model,
     steady: &Steady<'_>,
     speed: f64,
 ) -> Result<(), CoupledError> {
     (run.gravity, run.hub_mode) = (Gravity::None, HubMode::Free);
     run.wrenches.clear();
+    run.disturbances.clear();
     run.changes.clear();
     run.stops.clear();
     run.crossings.clear();
@@ -176,7 +179,7 @@ fn steady_spin(
         }
     }
     for (_, device) in &model.devices {
-        let torques = device.motors(run, steady, speed)?;
+        let torques = device.motors(scenario, steady, speed)?;
         for (joint, torque) in device.free.iter().zip(torques) {
             if let Some(drive) = run.drives.get_mut(device.first_joint + joint) {
                 *drive = Drive::Torque { profile: Profile::Constant(torque), limit: None };

@@ -217,6 +217,14 @@ impl SweptDevice {
         Ok(mean.map_or_else(Vec::new, |mean| mean.iter().map(|value| value.re).collect()))
     }
 
+    /// Other means; blocked forces stay those on the mount.
+    pub(super) fn set_powers(&mut self, powers: [Derivatives; 3]) {
+        for tone in &mut self.tones {
+            tone.load = tone.load.rows(0, COORDINATES).into_owned();
+        }
+        self.powers = powers;
+    }
+
     /// Means of the derivatives at a speed, rad/s.
     #[must_use]
     pub fn mean(&self, speed: f64) -> Derivatives {

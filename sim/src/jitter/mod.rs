@@ -20,11 +20,13 @@
 //! |---|---|
 //! | a device over the speed, and its tones | [`device`] |
 //! | structure, devices and lines of sight at one speed | [`model`] |
+//! | sources of the scenario: harmonics and noise | [`sources`], [`noise`] |
 //! | many speeds, on threads | [`sweep`] |
 //! | natural frequencies over the speed, and where orders cross them | [`campbell`] |
 //! | speeds to keep out of | [`keep_out`] |
 //! | lines of sight, limits, and what a sweep says of them | [`budget`] |
 //! | the same by a run of the coupled equations | [`coupled`] |
+//! | the usual `U_s Omega^2` on rigid devices, and its error | [`simplified`] |
 
 pub mod budget;
 pub mod campbell;
@@ -32,4 +34,7 @@ pub mod coupled;
 pub mod device;
 pub mod keep_out;
 pub mod model;
+pub mod noise;
+pub mod simplified;
+pub mod sources;
 pub mod sweep;

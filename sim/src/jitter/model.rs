@@ -3,6 +3,7 @@
 use nalgebra::{Complex, DMatrix, Vector3};
 
 use super::device::{Steady, SweptDevice};
+use super::sources::MountNoise;
 use crate::scenario::{ModalStructure, Scenario};
 use crate::structure::accelerance::{Accelerance, Base, ComplexMatrix};
 use crate::structure::averaged::AveragedDevices;
@@ -36,6 +37,8 @@ pub struct Model {
     pub mounts: Vec<usize>,
     /// What the structure's model has of the devices at each mount, to be taken off.
     pub(super) contained: Vec<Option<DMatrix<f64>>>,
+    /// Broadband noise on mounts.
+    pub noises: Vec<MountNoise>,
     accelerance: Accelerance,
     /// A row for each output, six columns for each of its nodes.
     rows: DMatrix<f64>,
@@ -120,7 +123,8 @@ impl Model {
         let to: Vec<usize> = mounts.iter().chain(&nodes).copied().collect();
         let accelerance = Accelerance::new(&structure, Base::Free, &to, &mounts)?;
         let outputs = outputs.iter().map(|output| output.name.clone()).collect();
-        Ok(Self { devices, outputs, structure, mounts, contained, accelerance, rows })
+        let noises = Vec::new();
+        Ok(Self { devices, outputs, structure, mounts, contained, noises, accelerance, rows })
     }
 
     /// The tones of all devices, in order.
@@ -173,15 +177,65 @@ impl Model {
     /// Amplitudes of the outputs, a column for each tone, all of one frequency.
     fn at(&self, speed: f64, frequency: f64, tones: &[[usize; 2]]) -> Result<ComplexMatrix, Fault> {
         let mounted = self.mounted(speed, frequency, tones)?;
+        self.outputs_of(&mounted, frequency)
+    }
+
+    /// Outputs of mounted forces.
+    fn outputs_of(&self, mounted: &MountedTones, frequency: f64) -> Result<ComplexMatrix, Fault> {
         let of_mounts = COORDINATES * self.mounts.len();
         let moved = mounted.accelerance.rows(of_mounts, mounted.accelerance.nrows() - of_mounts);
         let rows = self.rows.map(|value| Complex::new(-value / (frequency * frequency), 0.0));
-        let found = rows * (moved * mounted.force);
+        let found = rows * (moved * &mounted.force);
         if found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
             Ok(found)
         } else {
             Err(Fault::Unbounded { frequency })
         }
+    }
+
+    /// Densities of the outputs by all noises at a speed and angular frequency, rad/s: m²/Hz, rad²/Hz of what the
+    /// sensitivities are of.
+    ///
+    /// # Errors
+    /// As [`Self::lines`].
+    pub fn density(&self, speed: f64, frequency: f64) -> Result<Vec<f64>, Fault> {
+        let hertz = frequency / std::f64::consts::TAU;
+        let mut forces: Vec<(f64, usize, &[f64; COORDINATES])> = Vec::new();
+        for noise in &self.noises {
+            let rate = noise.rotor.and_then(|[device, rotor]| {
+                let (_, device) = self.devices.get(device)?;
+                device.rotors.get(rotor).map(|rotor| rotor.rate(speed).abs())
+            });
+            let by_rate = match (noise.density.reference_rate, rate) {
+                (Some(reference), Some(rate)) => (rate / reference).powi(2),
+                (Some(_), None) => 0.0,
+                (None, _) => 1.0,
+            };
+            for (component, wrench) in noise.wrench.iter().enumerate() {
+                let density = noise.density.density(component, hertz) * by_rate * by_rate;
+                if density > 0.0 {
+                    forces.push((density, noise.mount, wrench));
+                }
+            }
+        }
+        let mut sums = vec![0.0; self.outputs.len()];
+        if forces.is_empty() {
+            return Ok(sums);
+        }
+        let mut blocked = ComplexMatrix::zeros(COORDINATES * self.mounts.len(), forces.len());
+        for (column, (_, mount, wrench)) in forces.iter().enumerate() {
+            for (row, value) in wrench.iter().enumerate() {
+                blocked[(COORDINATES * mount + row, column)] = Complex::new(*value, 0.0);
+            }
+        }
+        let mounted = self.forced(speed, frequency, blocked)?;
+        let found = self.outputs_of(&mounted, frequency)?;
+        for (column, (density, ..)) in found.column_iter().zip(&forces) {
+            for (sum, value) in sums.iter_mut().zip(column.iter()) {
+                *sum += density * value.norm_sqr();
+            }
+        }
+        Ok(sums)
     }
 
     /// Mounted forces of tones of one frequency.
@@ -190,6 +244,31 @@ impl Model {
         speed: f64,
         frequency: f64,
         tones: &[[usize; 2]],
+    ) -> Result<MountedTones, Fault> {
+        let of_mounts = COORDINATES * self.mounts.len();
+        let mut blocked = ComplexMatrix::zeros(of_mounts, tones.len());
+        for (number, (mount, device)) in self.devices.iter().enumerate() {
+            if !tones.iter().any(|[of, _]| *of == number) {
+                continue;
+            }
+            let condensed = device.condensed(speed, frequency)?;
+            for (column, [of, tone]) in tones.iter().enumerate() {
+                if let (true, Some(tone)) = (*of == number, device.tones.get(*tone)) {
+                    let force = device.blocked(tone, speed, &condensed);
+                    let mut to = blocked.view_mut((COORDINATES * mount, column), (COORDINATES, 1));
+                    to += force;
+                }
+            }
+        }
+        self.forced(speed, frequency, blocked)
+    }
+
+    /// Mounted forces of blocked ones.
+    fn forced(
+        &self,
+        speed: f64,
+        frequency: f64,
+        blocked: ComplexMatrix,
     ) -> Result<MountedTones, Fault> {
         let (size, of_mounts) = (COORDINATES, COORDINATES * self.mounts.len());
         let accelerance = self.accelerance.at(frequency)?;
@@ -200,17 +279,9 @@ impl Model {
                 sum.zip_apply(mass, |sum, mass| *sum -= mass);
             }
         }
-        let mut blocked = ComplexMatrix::zeros(of_mounts, tones.len());
         let mut devices = Vec::with_capacity(self.devices.len());
-        for (number, (mount, device)) in self.devices.iter().enumerate() {
+        for (mount, device) in &self.devices {
             let condensed = device.condensed(speed, frequency)?;
-            for (column, [of, tone]) in tones.iter().enumerate() {
-                if let (true, Some(tone)) = (*of == number, device.tones.get(*tone)) {
-                    let force = device.blocked(tone, speed, &condensed);
-                    let mut to = blocked.view_mut((size * mount, column), (size, 1));
-                    to += force;
-                }
-            }
             if let Some(sum) = masses.get_mut(*mount) {
                 *sum += &condensed.mass;
             }
@@ -222,8 +293,22 @@ impl Model {
             let mut rows = system.rows_mut(size * mount, size);
             rows += mass * own.rows(size * mount, size);
         }
-        let force = system.lu().solve(&blocked).ok_or(Fault::Unbounded { frequency })?;
+        let mut force = blocked;
+        if !system.lu().solve_mut(&mut force) {
+            return Err(Fault::Unbounded { frequency });
+        }
         Ok(MountedTones { accelerance, force, devices })
+    }
+
+    /// Each device as a rigid body at rest: 6 × 6 about its mount.
+    pub(super) fn rigid_masses(&self, scenario: &Scenario) -> Result<Vec<DMatrix<f64>>, Fault> {
+        let groups = groups(scenario).into_iter().zip(&self.devices);
+        let of = |(group, (mount, _)): (Vec<usize>, &(usize, SweptDevice))| {
+            let node = self.mounts.get(*mount).and_then(|node| self.structure.nodes.get(*node));
+            let place = node.map_or_else(Vector3::zeros, |node| node.position);
+            rigid_mass(scenario, &group, &place)
+        };
+        groups.map(of).collect()
     }
 
     /// The accelerance of mounts and nodes by forces on the mounts.

@@ -6,8 +6,11 @@ use std::thread;
 use nalgebra::Complex;
 
 use super::model::{Contributor, Line, Model};
+use super::noise::NoiseSweep;
 use crate::structure::Fault;
 
+/// Speeds at which the density of noise is computed, about.
+const NOISE_SPEEDS: usize = 24;
 /// Speeds that a sweep may have.
 pub const SPEEDS_MAX: usize = 1_000_000;
 
@@ -22,6 +25,8 @@ pub struct Sweep {
     pub contributors: Vec<Contributor>,
     /// At each speed, a line for each contributor.
     pub lines: Vec<Vec<Line>>,
+    /// Densities by broadband noise, at some speeds.
+    pub noise: NoiseSweep,
 }
 
 /// How lines of one frequency are added.
@@ -83,7 +88,11 @@ pub fn sweep(
     });
     found.sort_by_key(|(index, _)| *index);
     let lines: Result<Vec<_>, _> = found.into_iter().map(|(_, lines)| lines).collect();
+    let step = speeds.len().div_ceil(NOISE_SPEEDS).max(1);
+    let mut some: Vec<f64> = speeds.iter().copied().step_by(step).collect();
+    some.extend(speeds.last().filter(|last| Some(*last) != some.last()));
     Ok(Sweep {
+        noise: NoiseSweep::new(model, &some)?,
         speeds: speeds.to_vec(),
         outputs: model.outputs.clone(),
         contributors: model.contributors(),
@@ -92,7 +101,7 @@ pub fn sweep(
 }
 
 impl Sweep {
-    /// Mean square of some outputs at a speed, over lines of a band of frequencies, Hz, each weighted by its frequency.
+    /// Mean square of some outputs at a speed: of lines and noise, each weighted by its angular frequency, rad/s.
     #[must_use]
     pub fn mean_square(
         &self,
@@ -102,7 +111,21 @@ impl Sweep {
         weight: &dyn Fn(f64) -> f64,
     ) -> f64 {
         let lines = self.lines.get(speed).map_or(&[][..], Vec::as_slice);
-        outputs.iter().map(|output| mean_square(lines, *output, phases, weight)).sum()
+        let of_lines: f64 =
+            outputs.iter().map(|output| mean_square(lines, *output, phases, weight)).sum();
+        of_lines + self.noise_square(speed, outputs, weight)
+    }
+
+    /// The part of [`Self::mean_square`] that is of broadband noise.
+    #[must_use]
+    pub fn noise_square(
+        &self,
+        speed: usize,
+        outputs: &[usize],
+        weight: &dyn Fn(f64) -> f64,
+    ) -> f64 {
+        let speed = self.speeds.get(speed).copied().unwrap_or(0.0);
+        self.noise.mean_square(speed, outputs, weight)
     }
 
     /// Mean squares of each contributor by itself at a speed.

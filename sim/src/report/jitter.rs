@@ -221,6 +221,19 @@ impl JitterReport<'_> {
                 ];
                 Some(("", cells))
             });
+            let noise = (of.noise > 0.0).then(|| {
+                let share = format!("{} %", short(100.0 * of.noise, 3));
+                (
+                    "",
+                    vec![
+                        "all sources".to_owned(),
+                        "broadband noise".to_owned(),
+                        String::new(),
+                        share,
+                    ],
+                )
+            });
+            let rows = rows.chain(noise);
             let speed = self.sweep.speeds.get(of.worst).map_or_else(String::new, |s| rpm(*s));
             let columns =
                 [("Rotor", ""), ("Cause", ""), ("Frequency", ""), ("Share of the mean square", "")];
@@ -345,6 +358,15 @@ impl JitterReport<'_> {
         ]
     }
 
+    fn sources(&self) -> String {
+        let seeded = |of: &crate::disturbance::Disturbance| match of.seed {
+            Some(seed) => format!("{} (seed {seed})", of.name),
+            None => of.name.clone(),
+        };
+        let all: Vec<_> = self.scenario.disturbances.iter().map(seeded).collect();
+        if all.is_empty() { "none".to_owned() } else { all.join(", ") }
+    }
+
     fn assumptions(&self) -> Block {
         let budget = self.budget;
         let phases = match budget.phases {
@@ -366,7 +388,8 @@ impl JitterReport<'_> {
         let rows = vec![
             row("Structure", format!("{}; {mass}", self.modes())),
             row("Devices", "coupled, linearised about steady spin, averaged over a turn; gyroscopic terms exact".to_owned()),
-            row("Imbalance", "of the devices' own equations; no windows, no seeds".to_owned()),
+            row("Imbalance", "of the devices' own equations; no windows".to_owned()),
+            row("Sources", self.sources()),
             row("Phases between rotors", phases.to_owned()),
             row("Motors", motor.to_owned()),
             row("Other joints", gimbals.to_owned()),

@@ -16,7 +16,8 @@ use precess::structure::steady::{SteadyJoints, set_of};
 /// Rounding of products of a few matrices of six rows.
 const ROUNDING: f64 = 1e-12;
 
-const STEADY: Steady<'static> = Steady { motor: Motor::ConstantTorque, sprung: true, swept: &[] };
+pub(crate) const STEADY: Steady<'static> =
+    Steady { motor: Motor::ConstantTorque, sprung: true, swept: &[] };
 
 fn scenario(text: &str) -> Scenario {
     let text = format!("format = 1\n{text}\n[run]\nduration = \"1 s\"\n");

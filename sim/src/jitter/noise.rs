@@ -1,0 +1,138 @@
+//! [`NoiseSweep`]: densities of lines of sight by broadband noise, at some speeds.
+//!
+//! Frequencies are close where a natural frequency is: the density of a mode of damping ratio zeta is as wide as
+//! `2 zeta` of its frequency. Between frequencies the density is a straight line, and between speeds the mean square.
+
+use std::f64::consts::TAU;
+
+use super::campbell::{Oscillation, oscillations};
+use super::model::Model;
+use crate::structure::Fault;
+
+/// Frequencies of a decade, and around a natural frequency in half-widths.
+const PER_DECADE: f64 = 60.0;
+const HALF_WIDTHS: [f64; 15] =
+    [-20.0, -8.0, -4.0, -2.0, -1.2, -0.8, -0.4, 0.0, 0.4, 0.8, 1.2, 2.0, 4.0, 8.0, 20.0];
+
+/// Densities at one speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Densities {
+    /// Speed, rad/s.
+    pub speed: f64,
+    /// Frequencies, Hz, rising.
+    pub frequencies: Vec<f64>,
+    /// One-sided density of each output at each frequency.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// Densities at some speeds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NoiseSweep {
+    /// By rising speed; empty without noise.
+    pub speeds: Vec<Densities>,
+}
+
+impl NoiseSweep {
+    /// Of a model at rising speeds, rad/s.
+    ///
+    /// # Errors
+    /// As [`Model::density`] and [`oscillations`].
+    pub fn new(model: &Model, speeds: &[f64]) -> Result<Self, Fault> {
+        if model.noises.is_empty() {
+            return Ok(Self::default());
+        }
+        let speeds: Result<Vec<_>, _> = speeds.iter().map(|speed| at(model, *speed)).collect();
+        Ok(Self { speeds: speeds? })
+    }
+
+    /// Mean square of some outputs at a speed, each frequency weighted (angular frequency, rad/s).
+    #[must_use]
+    pub fn mean_square(&self, speed: f64, outputs: &[usize], weight: &dyn Fn(f64) -> f64) -> f64 {
+        let of = |densities: &Densities| -> f64 {
+            outputs.iter().map(|output| densities.mean_square(*output, weight)).sum()
+        };
+        let after = self.speeds.partition_point(|densities| densities.speed < speed);
+        let [before, next] = [after.checked_sub(1), Some(after)]
+            .map(|index| index.and_then(|index| self.speeds.get(index)));
+        match (before, next) {
+            (Some(a), Some(b)) => {
+                let share = (speed - a.speed) / (b.speed - a.speed);
+                of(a) + share * (of(b) - of(a))
+            }
+            (Some(only), None) | (None, Some(only)) => of(only),
+            (None, None) => 0.0,
+        }
+    }
+}
+
+impl Densities {
+    /// Mean square of an output, each frequency weighted.
+    #[must_use]
+    pub fn mean_square(&self, output: usize, weight: &dyn Fn(f64) -> f64) -> f64 {
+        let points = self.frequencies.iter().zip(&self.values);
+        let points: Vec<[f64; 2]> = points
+            .map(|(f, values)| [*f, values.get(output).copied().unwrap_or(0.0) * weight(TAU * f)])
+            .collect();
+        points
+            .windows(2)
+            .map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]))
+            .sum()
+    }
+}
+
+fn at(model: &Model, speed: f64) -> Result<Densities, Fault> {
+    let natural = oscillations(model, speed)?;
+    let bands: Vec<[f64; 2]> = model.noises.iter().map(|noise| noise.density.band).collect();
+    let mut frequencies = grid(&bands, &natural);
+    // The ends of tables are corners of the density.
+    frequencies.extend(model.noises.iter().flat_map(|noise| noise.density.frequencies.clone()));
+    frequencies.sort_by(f64::total_cmp);
+    frequencies.dedup();
+    frequencies.retain(|frequency| *frequency > 0.0);
+    let values: Result<Vec<_>, _> =
+        frequencies.iter().map(|frequency| model.density(speed, TAU * frequency)).collect();
+    Ok(Densities { speed, frequencies, values: values? })
+}
+
+/// Frequencies, Hz, of some bands, close around natural frequencies.
+fn grid(bands: &[[f64; 2]], natural: &[Oscillation]) -> Vec<f64> {
+    let from = bands.iter().map(|band| band[0]).fold(f64::INFINITY, f64::min);
+    let to = bands.iter().map(|band| band[1]).fold(0.0, f64::max);
+    let lowest = from.max(1e-6 * to);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 60 * 6")]
+    let count = (PER_DECADE * (to / lowest).log10()).ceil().clamp(2.0, 1000.0) as u32;
+    let at = |k: u32| lowest * (to / lowest).powf(f64::from(k) / f64::from(count));
+    let mut grid: Vec<f64> = (0..=count).map(at).collect();
+    for of in natural {
+        let centre = of.frequency / TAU;
+        grid.extend(HALF_WIDTHS.iter().map(|width| centre * (1.0 + width * of.damping)));
+    }
+    for band in bands {
+        grid.extend(band);
+    }
+    grid.retain(|frequency| (lowest..=to).contains(frequency));
+    grid
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_resolves_a_lightly_damped_mode() {
+        let mode = Oscillation { frequency: TAU * 40.0, damping: 0.005 };
+        let mut grid = grid(&[[1.0, 400.0]], &[mode]);
+        grid.sort_by(f64::total_cmp);
+        let density = |f: f64| {
+            let r = f / 40.0;
+            1.0 / ((1.0 - r * r).powi(2) + (2.0 * 0.005 * r).powi(2))
+        };
+        let found: f64 = grid
+            .windows(2)
+            .map(|pair| 0.5 * (pair[1] - pair[0]) * (density(pair[0]) + density(pair[1])))
+            .sum();
+        // The integral over all frequencies: pi f / (4 zeta); what is outside the band is below 0.1 %.
+        let expected = std::f64::consts::PI * 40.0 / (4.0 * 0.005);
+        assert!((found / expected - 1.0).abs() < 0.03, "{found} for {expected}");
+    }
+}
