@@ -16,7 +16,7 @@ use super::run::{may_write, write_whole};
 use super::table::{aligned, six};
 use crate::file::measurement_from_toml;
 use crate::fit::device::{device, sources};
-use crate::fit::{Estimate, Fitted, Sense, example, fit_with_progress};
+use crate::fit::{Estimate, Fitted, Sense, example, fit_waterfall, fit_with_progress};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -59,7 +59,12 @@ impl FitCommand {
         let mut progress = |what: &str| bar.set_message(what.to_owned());
         let read = measurement_from_toml(path, &mut progress).map_err(CommandError::Scenario);
         let fitted = read.and_then(|file| {
-            let fitted = fit_with_progress(&file.measurement, &file.options, &mut progress);
+            let fitted = if file.waterfall.is_empty() {
+                fit_with_progress(&file.measurement, &file.options, &mut progress)
+            } else {
+                progress("lines and modes");
+                fit_waterfall(&file.waterfall, &file.options)
+            };
             let fitted = fitted
                 .map_err(|error| CommandError::Other(format!("{}: {error}", path.display())))?;
             Ok((file, fitted))

@@ -10,9 +10,12 @@ use nalgebra::Vector3;
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
 use super::load::load_file;
+use super::waterfall::waterfall;
 use crate::fit::device::Rotor;
 use crate::fit::samples::{Layout, Samples, mean_and_slope, read as read_samples, steps};
-use crate::fit::{CHANNELS, Group, Measurement, Mode, ModeGuess, Options, Placement, Record};
+use crate::fit::{
+    CHANNELS, Group, Measurement, Mode, ModeGuess, Options, Placement, Record, WaterfallRow,
+};
 use crate::units::{Measure, parse_unit};
 
 /// The number of the format that this program reads.
@@ -32,8 +35,10 @@ pub struct MeasurementFile {
     pub name: String,
     /// The heading.
     pub title: String,
-    /// The records, in the wheel's axes.
+    /// The records, in the wheel's axes; none of a waterfall.
     pub measurement: Measurement,
+    /// Spectra instead of records.
+    pub waterfall: Vec<WaterfallRow>,
     /// What is looked for.
     pub options: Options,
     /// The rotor, where it is known.
@@ -82,18 +87,22 @@ fn read(keys: &Keys<'_>, folder: &Path, progress: &mut dyn FnMut(&str)) -> Optio
         keys.error("name", format!("`{name}` is no name of a device"), "use a-z, 0-9, _");
     }
     let title = keys.text("title").unwrap_or(name).to_owned();
+    let options = options(keys);
+    let rotor = keys.table("rotor").and_then(|rotor| read_rotor(&rotor));
+    if let Some(file) = keys.text("waterfall") {
+        let rows = waterfall(keys, file, folder);
+        keys.finish();
+        return Some(MeasurementFile {
+            name: name.to_owned(),
+            title,
+            measurement: Measurement { records: Vec::new() },
+            waterfall: rows?,
+            options: options?,
+            rotor,
+        });
+    }
     let placement = placement(keys);
     let layout = layout(keys);
-    let options = options(keys);
-    let rotor = keys.table("rotor").and_then(|rotor| {
-        let mass = rotor.required("mass", Measure::MASS);
-        let inertia = rotor.quantities::<2>("inertia", Measure::INERTIA);
-        if inertia.is_none() && !rotor.has("inertia") {
-            rotor.missing("inertia", "inertia = \"0.012, 0.0075 kg m^2\"");
-        }
-        rotor.finish();
-        Some(Rotor { mass: mass?, inertia: inertia? })
-    });
     let sweep = keys.table("sweep").map(|sweep| {
         let tolerance = sweep.number("tolerance").unwrap_or(TOLERANCE);
         let shortest = sweep.quantity("shortest", Measure::TIME).unwrap_or(SHORTEST);
@@ -129,9 +138,20 @@ fn read(keys: &Keys<'_>, folder: &Path, progress: &mut dyn FnMut(&str)) -> Optio
         name: name.to_owned(),
         title,
         measurement: Measurement { records },
+        waterfall: Vec::new(),
         options: options?,
         rotor,
     })
+}
+
+fn read_rotor(rotor: &Keys<'_>) -> Option<Rotor> {
+    let mass = rotor.required("mass", Measure::MASS);
+    let inertia = rotor.quantities::<2>("inertia", Measure::INERTIA);
+    if inertia.is_none() && !rotor.has("inertia") {
+        rotor.missing("inertia", "inertia = \"0.012, 0.0075 kg m^2\"");
+    }
+    rotor.finish();
+    Some(Rotor { mass: mass?, inertia: inertia? })
 }
 
 /// `[table]`: where the wheel is on it.

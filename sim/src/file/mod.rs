@@ -16,6 +16,7 @@ mod load;
 mod measurement;
 pub mod read;
 mod structure;
+mod waterfall;
 mod write;
 mod write_platform;
 

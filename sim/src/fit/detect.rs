@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use super::error::FitError;
 use super::lines::{Lines, float};
-use super::measurement::{Group, Measurement};
+use super::measurement::{Group, Measurement, Record};
 use super::orders::{Tracked, track};
 use super::rotation::Rotation;
 
@@ -64,9 +64,10 @@ pub(super) fn detect(
     let mut orders = vec![1.0];
     let mut tracked = run(&orders).ok_or(failed)?;
     let mut best = 0.0;
+    let durations: Vec<f64> = search.measurement.records.iter().map(Record::duration).collect();
     for pass in 0..PASSES {
         progress(&format!("lines, pass {}: {}", pass + 1, orders.len()));
-        let (found, highest) = strongest(search, &tracked);
+        let (found, highest) = strongest(search.highest, &durations, &tracked);
         best = if pass == 0 { highest } else { best };
         if found.is_empty() || orders.len() >= LINES_MAX {
             break;
@@ -88,7 +89,7 @@ pub(super) fn detect(
 
 /// Whether the first line is above its noise in some record.
 fn shows(tracked: &Tracked) -> bool {
-    let first = tracked.lines.iter().filter_map(|found| found.lines.first()?.as_ref());
+    let first = tracked.lines.iter().filter_map(|found| found.sets.first()?.as_ref());
     first
         .flat_map(|line| line.channels)
         .any(|line| line.amplitude.norm_sqr() > SHOWN * SHOWN * line.noise)
@@ -119,17 +120,21 @@ fn whitened(found: &Lines) -> Vec<Vec<f64>> {
     found.spectra.iter().map(of).collect()
 }
 
-/// Harmonic numbers above the threshold, strongest first, and the highest statistic.
-fn strongest(search: &Search<'_>, tracked: &Tracked) -> (Vec<f64>, f64) {
-    let records = &search.measurement.records;
-    let turns = |k: usize| tracked.rotations[k].speed.abs() * records[k].duration() / TAU;
-    let fastest = (0..records.len()).map(turns).fold(0.0, f64::max);
-    let slowest = (0..records.len()).map(turns).fold(f64::INFINITY, f64::min);
+/// Harmonic numbers above the threshold, strongest first, and the highest statistic, of records that last as
+/// long, s.
+pub(super) fn strongest(
+    highest_number: f64,
+    durations: &[f64],
+    tracked: &Tracked,
+) -> (Vec<f64>, f64) {
+    let turns = |k: usize| tracked.rotations[k].speed.abs() * durations[k] / TAU;
+    let fastest = (0..durations.len()).map(turns).fold(0.0, f64::max);
+    let slowest = (0..durations.len()).map(turns).fold(f64::INFINITY, f64::min);
     let spectra: Vec<_> = tracked.lines.iter().map(whitened).collect();
-    let step = (0.25 / fastest).max(search.highest / float(TRIALS_MAX));
+    let step = (0.25 / fastest).max(highest_number / float(TRIALS_MAX));
     let mut statistics = Vec::new();
     let mut h = LOWEST;
-    while h <= search.highest {
+    while h <= highest_number {
         statistics.push((h, statistic(h, tracked, &spectra)));
         h += step;
     }

@@ -84,7 +84,7 @@ pub(super) struct LineSet {
 #[derive(Clone, Debug)]
 pub(super) struct Lines {
     /// Of each harmonic; none where it is out of the band, or not resolved from another line.
-    pub(super) lines: Vec<Option<LineSet>>,
+    pub(super) sets: Vec<Option<LineSet>>,
     /// One-sided PSD of the residual in each channel, units²/Hz, and which bins are away from all lines.
     pub(super) spectra: [Vec<f64>; CHANNELS],
     pub(super) clear: Vec<bool>,
@@ -231,7 +231,7 @@ pub(super) fn lines(
             LineSet { channels, noise }
         }));
     }
-    Some(Lines { lines: found, spectra, clear, bin: resolution, noise_bins })
+    Some(Lines { sets: found, spectra, clear, bin: resolution, noise_bins })
 }
 
 /// Bins beside a line that show its noise, as many on either side.

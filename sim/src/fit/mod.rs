@@ -6,7 +6,7 @@
 //!   -> angle of the wheel over each record                            rotation
 //!   -> lines of each record, noise beside them                        lines
 //!   -> harmonic numbers, speeds, drifts of all records at once        orders, detect
-//!   -> coefficients and modes by the lines' powers over speed         powers, modes, search
+//!   -> coefficients and modes by the lines' powers over speed         powers, problem, modes, search
 //!   -> phases                                                         phase
 //!   -> broadband noise without the lines                              floor
 //! ```
@@ -30,9 +30,11 @@ mod noise;
 mod orders;
 mod phase;
 pub mod powers;
+mod problem;
 pub mod rotation;
 pub mod samples;
 mod search;
+mod waterfall;
 
 pub use error::FitError;
 pub use estimate::{Estimate, student};
@@ -41,6 +43,7 @@ pub use measurement::{CHANNEL_NAMES, CHANNELS, Group, Measurement, Placement, Re
 pub use modes::{Mode, ModeGuess, amplification};
 pub use powers::{FittedMode, GroupFit, Power, Sense};
 pub use rotation::Rotation;
+pub use waterfall::{WaterfallRow, fit_waterfall};
 
 use detect::{LINES_MAX, Search, detect};
 use orders::{Tracked, track};

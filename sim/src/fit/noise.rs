@@ -21,7 +21,7 @@ pub(super) fn averaged(mut all: Vec<Lines>, rotations: &[Rotation], orders: &[f6
     let mut rising: Vec<usize> = (0..all.len()).collect();
     rising.sort_by(|a, b| rotations[*a].speed.abs().total_cmp(&rotations[*b].speed.abs()));
     for (line, order) in orders.iter().enumerate() {
-        let own: Vec<Option<LineSet>> = rising.iter().map(|k| all[*k].lines[line]).collect();
+        let own: Vec<Option<LineSet>> = rising.iter().map(|k| all[*k].sets[line]).collect();
         let bins: Vec<f64> = rising.iter().map(|k| all[*k].noise_bins[line]).collect();
         for (place, record) in rising.iter().enumerate() {
             let Some(set) = own[place] else { continue };
@@ -48,14 +48,13 @@ pub(super) fn averaged(mut all: Vec<Lines>, rotations: &[Rotation], orders: &[f6
             }
             let noise = noise.map(|row| row.map(|value| value / count));
             let mut next = LineSet { noise, ..set };
-            for channel in 0..CHANNELS {
+            for (channel, line) in next.channels.iter_mut().enumerate() {
                 let ratio = noise[channel][channel].re / set.noise[channel][channel].re;
-                let line = &mut next.channels[channel];
                 line.noise *= ratio;
                 line.step_variance *= ratio;
                 line.bend_variance *= ratio;
             }
-            all[*record].lines[line] = Some(next);
+            all[*record].sets[line] = Some(next);
             all[*record].noise_bins[line] = count;
         }
     }

@@ -125,7 +125,8 @@ fn of_line(line: &LineSet) -> Step {
     for (channel, share) in line.channels.iter().zip(&mut share) {
         let signal = 1.0 - channel.noise / channel.amplitude.norm_sqr();
         // Also not a number: a channel without any signal.
-        if !(signal >= SIGNAL_MIN) || !(channel.step_variance > 0.0) {
+        let counts = signal >= SIGNAL_MIN && channel.step_variance > 0.0;
+        if !counts {
             continue;
         }
         sums.information += signal * signal / channel.step_variance;
@@ -183,7 +184,7 @@ fn sums(
     let mut rising: Vec<usize> = (0..count).collect();
     rising.sort_by(|a, b| orders[*a].total_cmp(&orders[*b]));
     for l in rising {
-        let Some(line) = found.lines.get(l).and_then(Option::as_ref) else { continue };
+        let Some(line) = found.sets.get(l).and_then(Option::as_ref) else { continue };
         let h = orders[l];
         let known = h / sums.speed[0].sqrt() * duration / TAU;
         if known > KNOWN {

@@ -25,6 +25,9 @@ const RECORDS_MIN: usize = 4;
 /// A phase counts where its standard deviation is below 0.35 rad.
 const WEIGHT_MIN: f64 = 8.0;
 
+/// Degrees of freedom of what is known well.
+const MANY: f64 = 1e6;
+
 /// An angle with its weight.
 type Weighted = (f64, f64);
 
@@ -57,12 +60,19 @@ fn mean(angles: &[Weighted]) -> Option<(f64, f64, f64)> {
     let offsets = clear().map(|(angle, weight)| weight * wrapped(angle - about));
     let centre = about + offsets.sum::<f64>() / weights;
     let squares = clear().map(|(angle, weight)| weight * wrapped(angle - centre).powi(2));
-    let scale = (squares.sum::<f64>() / f64::from(freedom)).max(1.0);
-    Some((wrapped(centre), scale / weights, f64::from(freedom)))
+    let scale = squares.sum::<f64>() / f64::from(freedom);
+    // The noise beside the lines is the mean of many bins; the scatter is that of the records.
+    let freedom = if scale > 1.0 { f64::from(freedom) } else { MANY };
+    Some((wrapped(centre), scale.max(1.0) / weights, freedom))
 }
 
-fn point<'a>(fit: &'a GroupFit, record: usize, line: usize, sense: Sense) -> Option<&'a Power> {
+fn point(fit: &GroupFit, record: usize, line: usize, sense: Sense) -> Option<&Power> {
     fit.points.iter().find(|p| p.record == record && p.line == line && p.sense == sense)
+}
+
+/// Whether a power has a phase; that of a waterfall has none.
+fn has_phase(point: &Power) -> bool {
+    point.amplitude.norm_sqr() > 0.0
 }
 
 /// The variance of the phase of a line in one record, by its model: 1 / (2 signal to noise).
@@ -83,7 +93,7 @@ pub(super) fn torque_from_force(
     let pairs: Vec<(&Power, &Power)> = force
         .points
         .iter()
-        .filter(|p| p.line == line && p.sense == Sense::Forward)
+        .filter(|p| p.line == line && p.sense == Sense::Forward && has_phase(p))
         .filter_map(|p| Some((p, point(torque, p.record, line, Sense::Forward)?)))
         .collect();
     let angles = |force_modes: &[Mode], torque_modes: &[Mode]| -> Vec<Weighted> {

@@ -15,6 +15,7 @@ use nalgebra::{Complex, Matrix3, Vector3};
 
 use super::error::FitError;
 use super::measurement::Record;
+use super::phase::wrapped;
 
 /// Pulses at least, for three coefficients.
 const PULSES_MIN: usize = 4;
@@ -41,19 +42,25 @@ pub struct Rotation {
 }
 
 impl Rotation {
+    /// By a speed, rad/s, and its rate of change, rad/s², without an index.
+    #[must_use]
+    pub const fn stated(speed: f64, drift: f64) -> Self {
+        Self {
+            angle: 0.0,
+            speed,
+            drift,
+            indexed: false,
+            speed_deviation: 0.0,
+            drift_deviation: 0.0,
+        }
+    }
+
     /// Of a record: through its pulses, or by its speed.
     ///
     /// # Errors
     /// [`FitError::Pulses`] where there are too few, or one is far from a whole turn.
     pub fn of(record: &Record) -> Result<Self, FitError> {
-        let stated = Self {
-            angle: 0.0,
-            speed: record.speed,
-            drift: record.drift,
-            indexed: false,
-            speed_deviation: 0.0,
-            drift_deviation: 0.0,
-        };
+        let stated = Self::stated(record.speed, record.drift);
         if record.pulses.is_empty() {
             return Ok(stated);
         }
@@ -87,8 +94,8 @@ impl Rotation {
         let of = |t: f64| coefficients.x + t * (coefficients.y + t * coefficients.z);
         let missed =
             points.iter().map(|(t, angle)| (of(*t) - angle).abs() / TAU).fold(0.0, f64::max);
-        // Also not a number.
-        if !(missed <= TURN_MAX) {
+        let follows = missed <= TURN_MAX;
+        if !follows {
             return Err(error(missed));
         }
         let squares: f64 = points.iter().map(|(t, angle)| (of(*t) - angle).powi(2)).sum();
@@ -96,7 +103,8 @@ impl Rotation {
         let freedom = (points.len() - 3) as f64;
         let spread = (squares / freedom).sqrt();
         Ok(Self {
-            angle: coefficients.x,
+            // Within half a turn, so that an error of a harmonic number turns no phase.
+            angle: wrapped(coefficients.x),
             speed: coefficients.y / middle,
             drift: 2.0 * coefficients.z / (middle * middle),
             indexed: true,

@@ -11,6 +11,8 @@ use crate::structure::{Fault, MOST_BYTES, bytes_of, npz};
 
 /// Steps between samples differ by less than this share.
 const EVEN: f64 = 0.02;
+/// Samples of a stretch at most, as [`SAMPLES_MAX`].
+const LONGEST: f64 = 4_194_304.0;
 /// Speeds are averaged over this share of the shortest step before they are compared.
 const BLOCK: f64 = 0.04;
 
@@ -48,6 +50,13 @@ pub enum SampleFault {
     Rows {
         /// The bound.
         bound: usize,
+    },
+    /// Columns of different lengths.
+    Lengths {
+        /// The shortest.
+        least: usize,
+        /// The longest.
+        most: usize,
     },
     /// Times that are not evenly spaced.
     Uneven {
@@ -102,6 +111,9 @@ impl fmt::Display for SampleError {
             SampleFault::Rows { bound } => {
                 write!(f, "more than {bound} samples; write one file for each speed")
             }
+            SampleFault::Lengths { least, most } => {
+                write!(f, "columns of {least} to {most} numbers; make them equal")
+            }
             SampleFault::Uneven { row, step: [step, mean] } => write!(
                 f,
                 "the step before row {row} is {step:e} s, the mean {mean:e} s; samples are evenly \
@@ -126,14 +138,14 @@ pub fn read(path: &Path, layout: &Layout) -> Result<Samples, SampleError> {
         layout.index.as_deref(),
     ];
     names.extend(optional.iter().flatten());
-    let is_npz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz"));
-    let read = if is_npz { of_npz(path, &names) } else { of_csv(path, &names) };
-    let mut columns = read.map_err(failed)?.into_iter();
+    let mut columns = columns(path, &names)?.into_iter();
     let mut next = |there: bool| if there { columns.next() } else { None };
     let mut channels: [Vec<f64>; CHANNELS] = Default::default();
     for (k, channel) in channels.iter_mut().enumerate() {
         *channel = next(true).unwrap_or_default();
-        channel.iter_mut().for_each(|value| *value *= layout.sizes[k / 3]);
+        for value in channel.iter_mut() {
+            *value *= layout.sizes[k / 3];
+        }
     }
     let [time, speed, index] = optional.map(|name| next(name.is_some()));
     let rate = match (&time, layout.rate) {
@@ -147,6 +159,23 @@ pub fn read(path: &Path, layout: &Layout) -> Result<Samples, SampleError> {
     let speed = speed.unwrap_or_default().into_iter().map(|value| value * size).collect();
     let pulses = index.map_or_else(Vec::new, |index| rises(&index, rate));
     Ok(Samples { rate, channels, speed, pulses })
+}
+
+/// Columns of a file, CSV or NPZ, by their names.
+///
+/// # Errors
+/// File, line and column, and the remedy.
+pub fn columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleError> {
+    let is_npz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz"));
+    let read = if is_npz { of_npz(path, names) } else { of_csv(path, names) };
+    let columns = read.and_then(|columns| {
+        let lengths = || columns.iter().map(Vec::len);
+        match (lengths().min(), lengths().max()) {
+            (Some(least), Some(most)) if least < most => Err(SampleFault::Lengths { least, most }),
+            _ => Ok(columns),
+        }
+    });
+    columns.map_err(|fault| SampleError { file: path.to_owned(), fault })
 }
 
 fn of_npz(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
@@ -206,7 +235,8 @@ fn rate_of(time: &[f64], size: f64) -> Result<f64, SampleFault> {
     let mean = (last - first) / steps;
     let uneven = time.windows(2).position(|pair| {
         // Also not a number.
-        !((pair[1] - pair[0] - mean).abs() <= EVEN * mean)
+        let even = (pair[1] - pair[0] - mean).abs() <= EVEN * mean;
+        !even
     });
     match uneven {
         Some(at) => {
@@ -259,7 +289,7 @@ pub fn steps(samples: &Samples, tolerance: f64, shortest: f64) -> Result<Vec<Rec
     let length = samples.channels[0].len().min(samples.speed.len());
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within a record")]
     let [least, block] = [shortest, BLOCK * shortest]
-        .map(|seconds| (seconds * samples.rate).clamp(1.0, SAMPLES_MAX as f64) as usize);
+        .map(|seconds| (seconds * samples.rate).clamp(1.0, LONGEST) as usize);
     let least = least.max(SAMPLES_MIN);
     let means: Vec<f64> = samples.speed[..length]
         .chunks_exact(block)
@@ -273,7 +303,8 @@ pub fn steps(samples: &Samples, tolerance: f64, shortest: f64) -> Result<Vec<Rec
         while end < means.len() {
             #[expect(clippy::cast_precision_loss, reason = "at most SAMPLES_MAX")]
             let mean = sum / (end - start) as f64;
-            if !((means[end] - mean).abs() <= tolerance * mean.abs()) {
+            let steady = (means[end] - mean).abs() <= tolerance * mean.abs();
+            if !steady {
                 break;
             }
             sum += means[end];

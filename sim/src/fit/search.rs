@@ -51,7 +51,8 @@ fn grid(group: Group, points: &[Power], lines: usize, others: &[ModeGuess]) -> V
     let (low, high) = strong.fold((f64::INFINITY, 0.0_f64), |(low, high), point| {
         (low.min(point.frequency.abs()), high.max(point.frequency.abs()))
     });
-    if !(low < high) {
+    let spans = low < high;
+    if !spans {
         return Vec::new();
     }
     let tilts = group == Group::RadialTorque;
@@ -110,7 +111,9 @@ pub(super) fn search(group: Group, lines: usize, points: &[Power]) -> Result<Gro
             let shares: &[bool] = if guesses.is_empty() { &[false, true] } else { &[true] };
             for share in shares {
                 let mut trial: Vec<ModeGuess> = guesses.iter().copied().chain([start]).collect();
-                trial.iter_mut().for_each(|guess| guess.fit_share = *share);
+                for guess in &mut trial {
+                    guess.fit_share = *share;
+                }
                 let Ok(found) = fit(group, lines, points.to_vec(), &trial) else { continue };
                 let next = fitted_sum(&found);
                 let bound = match &better {

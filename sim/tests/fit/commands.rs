@@ -113,3 +113,30 @@ fn errors_have_their_place_and_remedy() {
     assert!(precess(&["fit", &at("m.toml")]).2.contains("a.csv"));
     assert!(precess(&["fit", "--help"]).1.contains("Examples"));
 }
+
+#[test]
+fn a_waterfall_is_read_row_by_row() {
+    let folder = folder("fit-waterfall");
+    let at = |name: &str| folder.join(name).to_str().expect("text").to_owned();
+    let toml = "format = 1\nname = \"a\"\nwaterfall = \"w.csv\"\nsegments = 4\n[columns]\n\
+        speed = \"n\"\nspeed_unit = \"rpm\"\nfrequency = \"f\"\nforce_unit = \"mN\"\n";
+    fs::write(at("m.toml"), toml).expect("a file");
+    let mut csv = String::from("n,f,fx,fy,fz,tx,ty,tz\n");
+    for speed in [600, 1200, 1800] {
+        for bin in 0..70 {
+            csv += &format!("{speed},{},{bin},2,3,4,5,6\n", 2 * bin);
+        }
+    }
+    fs::write(at("w.csv"), &csv).expect("a file");
+    let read = || measurement_from_toml(Path::new(&at("m.toml")), &mut |_| {});
+    let rows = read().expect("spectra").waterfall;
+    assert_eq!((rows.len(), rows[2].bin, rows[0].densities[0].len()), (3, 2.0, 70));
+    // mN² are 1e-6 N².
+    assert!((rows[1].densities[0][7] - 7e-6).abs() < 1e-18 && rows[1].densities[5][7] == 6.0);
+    fs::write(at("w.csv"), csv.replace("600,4,", "600,5,")).expect("a file");
+    let error = read().expect_err("an uneven step").to_string();
+    assert!(error.contains("row 3 has 5 Hz, not 4 Hz"), "{error}");
+    fs::write(at("m.toml"), toml.replace("[columns]", "[table]\n[columns]")).expect("a file");
+    let error = read().expect_err("a table").to_string();
+    assert!(error.contains("cannot be referred"), "{error}");
+}

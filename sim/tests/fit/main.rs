@@ -6,6 +6,8 @@
 
 mod accuracy;
 mod commands;
+mod coupled;
 mod scene;
+mod spectra;
 mod synthetic;
 mod trials;
