@@ -1,6 +1,6 @@
 //! An example measurement: a sweep of a wheel with two modes, and the TOML that describes it, for a first run.
 //!
-//! A staircase of speeds from 600 to 4800 rpm, 30 steps of 1.2 s at 1 kHz with index pulses. Numbers are
+//! A staircase of speeds from 600 to 4800 rpm, 30 steps of 1.2 s at 1 kHz with a tachometer. Numbers are
 //! chosen; the noise is white and seeded.
 
 use std::f64::consts::TAU;
@@ -36,7 +36,7 @@ force = ["fx_n", "fy_n", "fz_n"]
 torque = ["tx_nm", "ty_nm", "tz_nm"]
 speed = "speed_rpm"
 speed_unit = "rpm"
-index = "index"                    # rises once a turn; leave it out if there is none
+index = "tacho"                    # rises through its middle once a turn; leave it out if there is none
 
 [sweep]
 tolerance = 0.002                  # a steady step keeps its speed within this share
@@ -76,7 +76,7 @@ pub fn samples() -> String {
     let radial = Mode { frequency: TAU * 195.0, damping: 0.015, inertia_ratio: 0.0, share: 1.0 };
     let rocking = Mode { frequency: TAU * 85.0, damping: 0.02, inertia_ratio: 1.6, share: 1.0 };
     let mut random = Random(SEED);
-    let mut text = String::from("time_s,fx_n,fy_n,fz_n,tx_nm,ty_nm,tz_nm,speed_rpm,index\n");
+    let mut text = String::from("time_s,fx_n,fy_n,fz_n,tx_nm,ty_nm,tz_nm,speed_rpm,tacho\n");
     let mut digits = zmij::Buffer::new();
     let mut angle = 0.0;
     for step in 0..STEPS {
@@ -112,8 +112,8 @@ pub fn samples() -> String {
             for (k, value) in force.iter().chain(torque.iter()).enumerate() {
                 let _ = write!(text, ",{:.4e}", value + NOISE[k / 3] * random.normal());
             }
-            let turned = (angle / TAU).fract();
-            let _ = writeln!(text, ",{rpm:.3},{}", i32::from(turned < 0.5));
+            let (tacho, _) = precess_dynamics::Angle::sin_cos(angle);
+            let _ = writeln!(text, ",{rpm:.3},{tacho:.4}");
             angle += spin / RATE;
         }
     }

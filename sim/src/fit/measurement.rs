@@ -25,8 +25,8 @@ pub const CHANNEL_NAMES: [&str; CHANNELS] = ["fx", "fy", "fz", "tx", "ty", "tz"]
 
 /// Samples of a record at least: lines need some turns, and noise some bins.
 pub const SAMPLES_MIN: usize = 256;
-/// And at most.
-pub const SAMPLES_MAX: usize = 1 << 22;
+/// And at most: forty lines are eighty columns of as many numbers.
+pub const SAMPLES_MAX: usize = 1 << 19;
 /// Records at least: a mode has three parameters, and a residual needs more speeds than parameters.
 pub const RECORDS_MIN: usize = 3;
 /// Sampling rates, 1/s.

@@ -6,12 +6,13 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::error::FitError;
-use super::measurement::{CHANNELS, Record, SAMPLES_MAX, SAMPLES_MIN};
+use super::measurement::{CHANNELS, Record, SAMPLES_MIN};
 use crate::structure::{Fault, MOST_BYTES, bytes_of, npz};
 
 /// Steps between samples differ by less than this share.
 const EVEN: f64 = 0.02;
-/// Samples of a stretch at most, as [`SAMPLES_MAX`].
+/// Rows of a file at most, and the same as a number.
+const ROWS_MAX: usize = 1 << 22;
 const LONGEST: f64 = 4_194_304.0;
 /// Speeds are averaged over this share of the shortest step before they are compared.
 const BLOCK: f64 = 0.04;
@@ -184,8 +185,8 @@ fn of_npz(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
         Fault::Missing { what, present } => SampleFault::Column { name: what, present },
         fault => SampleFault::Read(format!("{}{fault}", error.place)),
     })?;
-    if columns.iter().any(|column| column.len() > SAMPLES_MAX) {
-        return Err(SampleFault::Rows { bound: SAMPLES_MAX });
+    if columns.iter().any(|column| column.len() > ROWS_MAX) {
+        return Err(SampleFault::Rows { bound: ROWS_MAX });
     }
     Ok(columns)
 }
@@ -220,8 +221,8 @@ fn of_csv(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
                 found: text.to_owned(),
             })?);
         }
-        if columns.first().is_some_and(|column| column.len() > SAMPLES_MAX) {
-            return Err(SampleFault::Rows { bound: SAMPLES_MAX });
+        if columns.first().is_some_and(|column| column.len() > ROWS_MAX) {
+            return Err(SampleFault::Rows { bound: ROWS_MAX });
         }
     }
     Ok(columns)
@@ -230,7 +231,7 @@ fn of_csv(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
 /// The rate of evenly spaced times.
 fn rate_of(time: &[f64], size: f64) -> Result<f64, SampleFault> {
     let (Some(first), Some(last)) = (time.first(), time.last()) else { return Ok(f64::NAN) };
-    #[expect(clippy::cast_precision_loss, reason = "at most SAMPLES_MAX")]
+    #[expect(clippy::cast_precision_loss, reason = "at most ROWS_MAX")]
     let steps = (time.len() - 1) as f64;
     let mean = (last - first) / steps;
     let uneven = time.windows(2).position(|pair| {
@@ -256,7 +257,7 @@ fn rises(column: &[f64], rate: f64) -> Vec<f64> {
     pairs
         .filter(|(_, pair)| pair[0] < middle && pair[1] >= middle)
         .map(|(at, pair)| {
-            #[expect(clippy::cast_precision_loss, reason = "at most SAMPLES_MAX")]
+            #[expect(clippy::cast_precision_loss, reason = "at most ROWS_MAX")]
             let at = at as f64;
             (at + (middle - pair[0]) / (pair[1] - pair[0])) / rate
         })
@@ -266,7 +267,7 @@ fn rises(column: &[f64], rate: f64) -> Vec<f64> {
 /// Mean and slope of a speed about its middle, rad/s and rad/s².
 #[must_use]
 pub fn mean_and_slope(speed: &[f64], rate: f64) -> [f64; 2] {
-    #[expect(clippy::cast_precision_loss, reason = "at most SAMPLES_MAX")]
+    #[expect(clippy::cast_precision_loss, reason = "at most ROWS_MAX")]
     let count = speed.len() as f64;
     let mean = speed.iter().sum::<f64>() / count;
     let (mut over, mut under) = (0.0, 0.0);
@@ -301,7 +302,7 @@ pub fn steps(samples: &Samples, tolerance: f64, shortest: f64) -> Result<Vec<Rec
         let mut end = start + 1;
         let mut sum = means[start];
         while end < means.len() {
-            #[expect(clippy::cast_precision_loss, reason = "at most SAMPLES_MAX")]
+            #[expect(clippy::cast_precision_loss, reason = "at most ROWS_MAX")]
             let mean = sum / (end - start) as f64;
             let steady = (means[end] - mean).abs() <= tolerance * mean.abs();
             if !steady {
@@ -323,7 +324,7 @@ pub fn steps(samples: &Samples, tolerance: f64, shortest: f64) -> Result<Vec<Rec
 /// A stretch of a sweep as a record; its channels are still the table's.
 fn cut(samples: &Samples, range: std::ops::Range<usize>, number: usize) -> Record {
     let [speed, drift] = mean_and_slope(&samples.speed[range.clone()], samples.rate);
-    #[expect(clippy::cast_precision_loss, reason = "at most SAMPLES_MAX")]
+    #[expect(clippy::cast_precision_loss, reason = "at most ROWS_MAX")]
     let (from, to) = (range.start as f64 / samples.rate, (range.end - 1) as f64 / samples.rate);
     let within = samples.pulses.iter().filter(|t| (from..=to).contains(*t));
     Record {

@@ -81,7 +81,7 @@ fn lines_and_modes_that_nobody_stated_are_found() {
 #[test]
 fn intervals_have_what_was_put_in() {
     let found = trials(TRIALS, Variant::default());
-    found.iter().for_each(|all| assert_eq!(all.len(), found[0].len()));
+    assert!(found.iter().all(|all| all.len() == found[0].len()));
     let shares = coverage(&found);
     for (name, share) in &shares {
         assert!(*share >= INSIDE_MIN, "{name}: {share}");

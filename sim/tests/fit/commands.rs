@@ -1,5 +1,6 @@
 //! `precess fit` as a user runs it: the example, its device in a scenario, errors.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -124,7 +125,7 @@ fn a_waterfall_is_read_row_by_row() {
     let mut csv = String::from("n,f,fx,fy,fz,tx,ty,tz\n");
     for speed in [600, 1200, 1800] {
         for bin in 0..70 {
-            csv += &format!("{speed},{},{bin},2,3,4,5,6\n", 2 * bin);
+            let _ = writeln!(csv, "{speed},{},{bin},2,3,4,5,6", 2 * bin);
         }
     }
     fs::write(at("w.csv"), &csv).expect("a file");

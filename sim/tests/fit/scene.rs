@@ -29,6 +29,7 @@ pub(crate) const U_S: f64 = 1.5e-6;
 pub(crate) const U_D: f64 = 2.2e-7;
 pub(crate) const PHASE: f64 = 0.9;
 pub(crate) const ANGLE: f64 = -0.4;
+#[expect(clippy::approx_constant, reason = "a harmonic number, not pi")]
 pub(crate) const H: [f64; 5] = [1.0, 2.0, 2.86, 3.14, 5.2];
 const WEAKEST: [f64; 2] = [1e-6, 1.5e-7];
 
