@@ -369,3 +369,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 pub(super) fn float(count: usize) -> f64 {
     count as f64
 }
+
+#[cfg(test)]
+mod tests;

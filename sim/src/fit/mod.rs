@@ -4,11 +4,13 @@
 //! ```text
 //! records at steady speeds, in the wheel's axes about its centre     measurement
 //!   -> angle of the wheel over each record                            rotation
-//!   -> lines of each record, noise beside them                        lines
+//!   -> lines of each record, noise beside them                        lines, noise
 //!   -> harmonic numbers, speeds, drifts of all records at once        orders, detect
 //!   -> coefficients and modes by the lines' powers over speed         powers, problem, modes, search
 //!   -> phases                                                         phase
 //!   -> broadband noise without the lines                              floor
+//!   -> parts of a scenario                                            device
+//! spectra without time series                                         waterfall
 //! ```
 //!
 //! The model is that of Masterson, Miller and Grogan (J. Sound Vib. 249(3):575, 2002): each force and moment

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use precess::file::{from_toml, measurement_from_toml};
@@ -115,6 +116,18 @@ fn errors_have_their_place_and_remedy() {
     assert!(precess(&["fit", "--help"]).1.contains("Examples"));
 }
 
+/// An array of doubles in `NumPy`'s format.
+fn npy(values: &[f64]) -> Vec<u8> {
+    let header =
+        format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({},), }}", values.len());
+    let header = format!("{header:<117}\n");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend(u16::try_from(header.len()).expect("short").to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    bytes
+}
+
 #[test]
 fn a_waterfall_is_read_row_by_row() {
     let folder = folder("fit-waterfall");
@@ -134,6 +147,24 @@ fn a_waterfall_is_read_row_by_row() {
     assert_eq!((rows.len(), rows[2].bin, rows[0].densities[0].len()), (3, 2.0, 70));
     // mN² are 1e-6 N².
     assert!((rows[1].densities[0][7] - 7e-6).abs() < 1e-18 && rows[1].densities[5][7] == 6.0);
+    // The same as `numpy.savez` writes it.
+    let heads: Vec<&str> = csv.lines().next().expect("a heading").split(',').collect();
+    let column = |k: usize| -> Vec<f64> {
+        let cell = |line: &str| line.split(',').nth(k).expect("a cell").parse().expect("a number");
+        csv.lines().skip(1).map(cell).collect()
+    };
+    let file = fs::File::create(at("w.npz")).expect("a file");
+    let mut archive = zip::ZipWriter::new(file);
+    let stored =
+        zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+    for (k, head) in heads.iter().enumerate() {
+        archive.start_file(format!("{head}.npy"), stored).expect("a member");
+        archive.write_all(&npy(&column(k))).expect("a member");
+    }
+    archive.finish().expect("an archive");
+    fs::write(at("m.toml"), toml.replace("w.csv", "w.npz")).expect("a file");
+    assert_eq!(read().expect("spectra").waterfall, rows);
+    fs::write(at("m.toml"), toml).expect("a file");
     fs::write(at("w.csv"), csv.replace("600,4,", "600,5,")).expect("a file");
     let error = read().expect_err("an uneven step").to_string();
     assert!(error.contains("row 3 has 5 Hz, not 4 Hz"), "{error}");

@@ -3,7 +3,7 @@
 //! Forty steps from 1200 to 6000 rpm, each 1024 samples at 1 kHz: 1.024 s, bins of 0.98 Hz. The noise of each
 //! channel is such that the weakest line of its force or moment has, at the middle speed of 3600 rpm and
 //! without amplification, 100 times (20 dB) the power that noise has in one bin of Hann's window (1.5 / 1.024
-//! s). Lines 2.86 and 3.14 are 5.6 bins apart at the lowest speed, and cross the rocking mode, as 2 does; the
+//! s). Lines 2.86 and 3.14 are 5.7 bins apart at the lowest speed, and cross the rocking mode, as 2 does; the
 //! radial mode is crossed by 2, 2.86, 3.14 and 5.2.
 
 use std::f64::consts::TAU;
