@@ -180,7 +180,7 @@ pub fn columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleError
 }
 
 fn of_npz(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
-    let read = bytes_of(path).and_then(|bytes| npz::columns(&bytes, names));
+    let read = bytes_of(path).and_then(|bytes| npz::named_columns(&bytes, names));
     let columns = read.map_err(|error| match error.fault {
         Fault::Missing { what, present } => SampleFault::Column { name: what, present },
         fault => SampleFault::Read(format!("{}{fault}", error.place)),

@@ -50,12 +50,14 @@ fn the_example_is_fitted_and_its_device_is_read() {
             assert!(svg.contains("</svg>") && !svg.contains("NaN"), "{name}");
         }
     }
-    let scenario = "format = 1\nbase = \"rw-device.toml\"\n[hub]\nmass = \"400 kg\"\n\
+    let scenario = "format = 1\nbase = [\"rw-device.toml\", \"rw-sources.toml\"]\n[hub]\nmass = \"400 kg\"\n\
         inertia = \"120, 110, 90 kg m^2\"\n[[device]]\nname = \"rw\"\nwheel.rate = \"3000 rpm\"\n\
         [run]\nduration = \"1 s\"\n";
     let read = from_toml("a.toml", scenario, &folder.join("out"));
     let (scenario, _) = read.expect("a scenario");
     assert_eq!(scenario.members().count(), 1);
+    // Harmonics on the rotor, and the noise of each group at the mount.
+    assert_eq!(scenario.disturbances.len(), 5);
     assert!(first.contains("kind = \"flexible_reaction_wheel\""), "{first}");
 }
 

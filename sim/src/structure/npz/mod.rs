@@ -164,7 +164,7 @@ pub fn write(structure: &Structure) -> Result<Vec<u8>, StructureError> {
 }
 
 /// Arrays of one dimension of any archive, by their names.
-pub(crate) fn columns(bytes: &[u8], names: &[&str]) -> Result<Vec<Vec<f64>>, StructureError> {
+pub(crate) fn named_columns(bytes: &[u8], names: &[&str]) -> Result<Vec<Vec<f64>>, StructureError> {
     let members = Members::of(bytes)?;
     let column = |name: &&str| {
         let numbers = members.needed(name)?.numbers(None);
