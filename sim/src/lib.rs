@@ -45,6 +45,7 @@ pub mod command;
 pub mod disturbance;
 pub mod engine;
 pub mod file;
+pub mod fit;
 pub mod jitter;
 mod nearest;
 pub mod pointing;

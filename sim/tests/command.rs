@@ -137,8 +137,9 @@ fn evaluate_check_and_compare_tell_what_they_find() {
 
 #[test]
 fn every_command_shows_an_example() {
-    let commands =
-        ["new", "check", "run", "evaluate", "compare", "plot", "spectrum", "schema", "kinds"];
+    let commands = [
+        "new", "check", "run", "evaluate", "compare", "plot", "spectrum", "schema", "kinds", "fit",
+    ];
     assert!(text(&precess(&["--help"]).stdout).contains("Example"));
     for command in commands {
         let help = text(&precess(&[command, "--help"]).stdout);

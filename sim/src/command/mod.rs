@@ -10,6 +10,8 @@ mod difference;
 mod error;
 mod evaluate;
 mod export;
+mod fit;
+mod fit_figures;
 mod jitter;
 mod kinds;
 mod mounted;
@@ -87,6 +89,9 @@ enum Command {
     /// Sweep the speed of rotors, and compare the jitter of lines of sight with its limits
     #[command(after_help = jitter::HELP)]
     Jitter(jitter::Jitter),
+    /// Fit imbalance, harmonics, modes and noise of a wheel to forces and moments on a rigid table
+    #[command(after_help = fit::HELP)]
+    Fit(fit::FitCommand),
     /// Write a scenario for the flight library
     #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
     Export(export::Export),
@@ -158,6 +163,7 @@ impl Cli {
             Command::Structure(structure) => structure.execute(),
             Command::Accelerance(accelerance) => accelerance.execute(),
             Command::Jitter(jitter) => jitter.execute(),
+            Command::Fit(fit) => fit.execute(),
             Command::Export(export) => export.execute(),
         };
         match done {

@@ -13,14 +13,17 @@ pub mod diagnostic;
 mod document;
 mod keys;
 mod load;
+mod measurement;
 pub mod read;
 mod structure;
+mod waterfall;
 mod write;
 mod write_platform;
 
 pub use budget::budget_from_toml;
 pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use load::{Override, Overrides};
+pub use measurement::{MeasurementFile, measurement_from_toml};
 pub use read::{from_file, from_toml};
 pub use structure::structure_from_toml;
 pub use write::to_toml;

@@ -17,6 +17,7 @@ mod data;
 mod error;
 mod extremes;
 mod figure;
+pub(crate) mod fitted_lines;
 mod grouping;
 pub(crate) mod jitter;
 mod jitter_figures;
@@ -39,6 +40,7 @@ mod summary;
 mod tests;
 mod ticks;
 mod unit;
+pub(crate) mod waterfall;
 
 pub use error::{DrawError, ReportError};
 

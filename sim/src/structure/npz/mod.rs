@@ -163,6 +163,16 @@ pub fn write(structure: &Structure) -> Result<Vec<u8>, StructureError> {
     archived(&members).map_err(|source| Fault::Io(source).into())
 }
 
+/// Arrays of one dimension of any archive, by their names.
+pub(crate) fn named_columns(bytes: &[u8], names: &[&str]) -> Result<Vec<Vec<f64>>, StructureError> {
+    let members = Members::of(bytes)?;
+    let column = |name: &&str| {
+        let numbers = members.needed(name)?.numbers(None);
+        numbers.map_err(|fault| fault.at(member(name)))
+    };
+    names.iter().map(column).collect()
+}
+
 fn archived(members: &[(&str, Vec<u8>)]) -> std::io::Result<Vec<u8>> {
     use std::io::Write as _;
     let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));

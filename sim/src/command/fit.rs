@@ -1,0 +1,184 @@
+//! `fit`: the disturbance model of a wheel from forces and moments on a rigid table: a table, a device file,
+//! sources, and pictures.
+
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::Args;
+use indicatif::ProgressBar;
+
+use super::error::CommandError;
+use super::fit_figures::figures;
+use super::print;
+use super::run::{may_write, write_whole};
+use super::table::{aligned, six};
+use crate::file::measurement_from_toml;
+use crate::fit::device::{device, sources};
+use crate::fit::{Estimate, Fitted, Sense, example, fit_waterfall, fit_with_progress};
+
+pub(super) const HELP: &str = "\
+Examples:
+  precess fit --example .
+      write an example: wheel-measurement.toml and wheel-sweep.csv
+  precess fit wheel-measurement.toml --out results
+      fit it: a table, rw-device.toml and rw-sources.toml for scenarios, figures
+The file is described in docs/fit.md.";
+
+/// The options of `fit`.
+#[derive(Debug, Args)]
+pub(super) struct FitCommand {
+    /// What was measured, TOML (docs/fit.md).
+    #[arg(required_unless_present = "example", value_name = "MEASUREMENT")]
+    file: Option<PathBuf>,
+    /// Write an example of a measurement into this folder.
+    #[arg(long, value_name = "FOLDER", conflicts_with = "file")]
+    example: Option<PathBuf>,
+    /// Folder for the device file and the figures; made if it is missing.
+    #[arg(long, value_name = "FOLDER", default_value = "precess-out")]
+    out: PathBuf,
+    /// Replace files that are there.
+    #[arg(long)]
+    force: bool,
+}
+
+impl FitCommand {
+    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+        if let Some(folder) = &self.example {
+            let files = [
+                (example::DESCRIPTION.to_owned(), example::TOML.to_owned()),
+                (example::SAMPLES.to_owned(), example::samples()),
+            ];
+            return write(folder, &files, self.force);
+        }
+        let Some(path) = &self.file else { return Ok(ExitCode::FAILURE) };
+        // Silent where the output is no terminal.
+        let bar = ProgressBar::new_spinner();
+        bar.enable_steady_tick(Duration::from_millis(100));
+        let mut progress = |what: &str| bar.set_message(what.to_owned());
+        let read = measurement_from_toml(path, &mut progress).map_err(CommandError::Scenario);
+        let fitted = read.and_then(|file| {
+            let fitted = if file.waterfall.is_empty() {
+                fit_with_progress(&file.measurement, &file.options, &mut progress)
+            } else {
+                progress("lines and modes");
+                fit_waterfall(&file.waterfall, &file.options)
+            };
+            let fitted = fitted
+                .map_err(|error| CommandError::Other(format!("{}: {error}", path.display())))?;
+            Ok((file, fitted))
+        });
+        bar.finish_and_clear();
+        let (file, fitted) = fitted?;
+        let name = &file.name;
+        let written = device(&fitted, name, file.rotor.as_ref());
+        let soft = written.contains("kind = \"flexible_reaction_wheel\"");
+        let mut files = vec![
+            (format!("{name}-device.toml"), written),
+            (format!("{name}-sources.toml"), sources(&fitted, name, soft)),
+        ];
+        files.extend(figures(name, &file.title, &fitted));
+        print(&format!("{}\n\n{}\n", file.title, table(&fitted)));
+        write(&self.out, &files, self.force)
+    }
+}
+
+fn write(
+    folder: &std::path::Path,
+    files: &[(String, String)],
+    force: bool,
+) -> Result<ExitCode, CommandError> {
+    let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
+    may_write(folder, &names, force)?;
+    std::fs::create_dir_all(folder)
+        .map_err(|source| CommandError::Io { path: folder.to_owned(), source })?;
+    for (name, text) in files {
+        let path = folder.join(name);
+        write_whole(&path, text)?;
+        print(&format!("{}\n", path.display()));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A row: name, value, interval, unit.
+fn row(name: &str, estimate: &Estimate, unit: &str) -> Vec<String> {
+    let [low, high] = estimate.interval.map(six);
+    vec![name.to_owned(), six(estimate.value), low, high, unit.to_owned()]
+}
+
+fn unknown(name: &str, why: &str) -> Vec<String> {
+    vec![name.to_owned(), "unknown".to_owned(), String::new(), String::new(), why.to_owned()]
+}
+
+/// Everything that was fitted, for people.
+fn table(fitted: &Fitted) -> String {
+    let degrees = |angle: &Estimate| angle.times(360.0 / TAU);
+    let head = ["", "value", "95 % from", "to", "unit"].map(str::to_owned).to_vec();
+    let heading = |text: &str| vec![text.to_owned()];
+    let mut rows = vec![head, heading("imbalance")];
+    let imbalance = &fitted.imbalance;
+    // 1 kg m is 1e5 g cm, 1 kg m² is 1e7 g cm².
+    rows.push(row("U_s", &imbalance.u_s.times(1e5), "g cm"));
+    rows.push(row("U_d", &imbalance.u_d.times(1e7), "g cm^2"));
+    rows.push(match &imbalance.phase {
+        Some(phase) => row("phase of U_d", &degrees(phase), "deg"),
+        None => unknown("phase of U_d", "hidden by noise"),
+    });
+    rows.push(match &imbalance.angle {
+        Some(angle) => row("angle of U_s", &degrees(angle), "deg"),
+        None => unknown("angle of U_s", "no index"),
+    });
+    for harmonic in fitted.harmonics.iter().filter(|harmonic| harmonic.number.value != 1.0) {
+        rows.push(heading(&format!("\nharmonic {:.4}", harmonic.number.value)));
+        rows.push(row("h", &harmonic.number, ""));
+        for c in harmonic.coefficients.iter().filter(|c| c.seen) {
+            let sense = match (c.group.is_radial(), c.sense) {
+                (false, _) => "",
+                (true, Sense::Forward) => ", forward",
+                (true, Sense::Backward) => ", backward",
+            };
+            rows.push(row(&format!("C, {}{sense}", c.group), &c.c, c.group.coefficient_unit()));
+            if let Some(phase) = &c.phase {
+                rows.push(row("  phase", &degrees(phase), "deg"));
+            }
+        }
+        if harmonic.coefficients.iter().all(|c| !c.seen) {
+            rows.push(unknown("C", "hidden by noise"));
+        }
+    }
+    for mode in &fitted.modes {
+        rows.push(heading(&format!("\nmode of the {}", mode.group)));
+        rows.push(row("frequency", &mode.frequency.times(1.0 / TAU), "Hz"));
+        rows.push(row("damping ratio", &mode.damping, ""));
+        if mode.inertia_ratio.value != 0.0 {
+            rows.push(row("I_s / I_r", &mode.inertia_ratio, ""));
+        }
+        if mode.share.deviation > 0.0 {
+            rows.push(row("share", &mode.share, ""));
+        }
+    }
+    let mut text = aligned(&rows);
+    text.push_str("\nmean square of residuals by variance, degrees of freedom\n");
+    let rows: Vec<_> = fitted
+        .groups
+        .iter()
+        .map(|fit| vec![fit.group.to_string(), six(fit.squares / fit.freedom), six(fit.freedom)])
+        .collect();
+    text.push_str(&aligned(&rows));
+    let mut rows = vec![heading("\nbroadband noise of each axis, mean over all speeds")];
+    rows.push(["", "from (Hz)", "to (Hz)", "density"].map(str::to_owned).to_vec());
+    for (group, bands) in &fitted.floors {
+        let unit = if group.is_torque() { "N^2 m^2/Hz" } else { "N^2/Hz" };
+        let ends = bands.first().zip(bands.last()).map(|(a, b)| [a.range[0], b.range[1]]);
+        let densities = || bands.iter().map(|band| band.density.value);
+        let (low, high) =
+            (densities().fold(f64::INFINITY, f64::min), densities().fold(0.0, f64::max));
+        if let Some([from, to]) = ends {
+            let density = format!("{low:.2e} to {high:.2e} {unit}");
+            rows.push(vec![group.to_string(), six(from), six(to), density]);
+        }
+    }
+    text.push_str(&aligned(&rows));
+    text
+}

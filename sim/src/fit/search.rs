@@ -1,0 +1,148 @@
+//! Modes that nobody stated: one or two for each group, where they explain the powers of the lines.
+//!
+//! A fit without modes is compared with fits that have one, started from the best of a grid of frequencies,
+//! damping ratios and, of a radial torque, inertia ratios. A mode is kept where it lowers
+//! `sum (y - m)² / var + ln var` by 25: its three parameters lower it by 3 where there is none, and a grid of
+//! a hundred starts by some more. The first mode carries all that acts; it gets a share where that lowers the
+//! sum as much again.
+
+use super::error::FitError;
+use super::measurement::Group;
+use super::modes::{Mode, ModeGuess, amplification};
+use super::powers::{GroupFit, Power, Sense, fit};
+
+/// What a mode or a share lowers the sum by, to be kept.
+const GAIN_MIN: f64 = 25.0;
+/// Frequencies, damping ratios and inertia ratios of the grid.
+const FREQUENCIES: u32 = 48;
+const DAMPINGS: [f64; 3] = [0.005, 0.02, 0.08];
+const RATIOS: [f64; 4] = [0.6, 1.0, 1.4, 1.8];
+/// Fits that are started from the best of the grid.
+const STARTS: usize = 3;
+/// A line shows modes where its power is this many times its noise.
+const SIGNAL: f64 = 10.0;
+/// Modes of a group.
+const MODES_MAX: usize = 2;
+
+/// `sum (y - m)² / var + ln var`.
+fn sum_of(points: &[Power], modes: &[Mode], power: &dyn Fn(&Power) -> f64) -> f64 {
+    let each = points.iter().map(|point| {
+        let square = point.spin * point.spin;
+        let gain = amplification(modes, point.frequency, point.spin).norm_sqr();
+        let m = power(point) * square * square * gain;
+        let n = point.noise;
+        let variance = (2.0 * n * m.max(0.0) + n * n) / point.segments + n * n / point.bins;
+        (point.power - m).powi(2) / variance + variance.ln()
+    });
+    each.sum()
+}
+
+fn fitted_sum(fit: &GroupFit) -> f64 {
+    let power = |point: &Power| {
+        let both = fit.powers.get(point.line).copied().unwrap_or_default();
+        both[usize::from(point.sense == Sense::Backward)].map_or(0.0, |p| p.value)
+    };
+    sum_of(&fit.points, &fit.shapes(), &power)
+}
+
+/// Guesses from a grid, best first: the powers of each line by weighted least squares.
+fn grid(group: Group, points: &[Power], lines: usize, others: &[ModeGuess]) -> Vec<ModeGuess> {
+    let strong = points.iter().filter(|point| point.power > SIGNAL * point.noise);
+    let (low, high) = strong.fold((f64::INFINITY, 0.0_f64), |(low, high), point| {
+        (low.min(point.frequency.abs()), high.max(point.frequency.abs()))
+    });
+    let spans = low < high;
+    if !spans {
+        return Vec::new();
+    }
+    let tilts = group == Group::RadialTorque;
+    let ratios: &[f64] = if tilts { &RATIOS } else { &[0.0] };
+    let mut found = Vec::new();
+    for k in 0..FREQUENCIES {
+        let share = f64::from(k) / f64::from(FREQUENCIES - 1);
+        let frequency = low * (high / low).powf(share);
+        for damping in DAMPINGS {
+            for ratio in ratios {
+                let mode = Mode { frequency, damping, inertia_ratio: *ratio, share: 1.0 };
+                let modes: Vec<Mode> =
+                    others.iter().map(|guess| guess.mode).chain([mode]).collect();
+                let powers = linear(points, lines, &modes);
+                let power = |point: &Power| powers[place(point)];
+                found.push((sum_of(points, &modes, &power), mode));
+            }
+        }
+    }
+    found.retain(|(sum, _)| sum.is_finite());
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let guess = |mode| ModeGuess { group, mode, fit_ratio: tilts, fit_share: false };
+    found.into_iter().take(STARTS).map(|(_, mode)| guess(mode)).collect()
+}
+
+fn place(point: &Power) -> usize {
+    2 * point.line + usize::from(point.sense == Sense::Backward)
+}
+
+fn linear(points: &[Power], lines: usize, modes: &[Mode]) -> Vec<f64> {
+    let mut sums = vec![[0.0; 2]; 2 * lines];
+    for point in points {
+        let square = point.spin * point.spin;
+        let gain = square * square * amplification(modes, point.frequency, point.spin).norm_sqr();
+        let n = point.noise;
+        let weight = 1.0 / (2.0 * n * point.power.max(0.0) + n * n);
+        let sum = &mut sums[place(point)];
+        sum[0] += weight * gain * gain;
+        sum[1] += weight * gain * point.power;
+    }
+    sums.into_iter().map(|[a, b]| if a > 0.0 { b / a } else { 0.0 }).collect()
+}
+
+/// Fits a group with as many modes as its lines show.
+///
+/// # Errors
+/// Those of the fit without modes.
+pub(super) fn search(group: Group, lines: usize, points: &[Power]) -> Result<GroupFit, FitError> {
+    let mut best = fit(group, lines, points.to_vec(), &[])?;
+    let mut sum = fitted_sum(&best);
+    let mut guesses: Vec<ModeGuess> = Vec::new();
+    while guesses.len() < MODES_MAX {
+        let mut better: Option<(f64, GroupFit, Vec<ModeGuess>)> = None;
+        for start in grid(group, points, lines, &guesses) {
+            // Of two modes neither carries all.
+            let shares: &[bool] = if guesses.is_empty() { &[false, true] } else { &[true] };
+            for share in shares {
+                let mut trial: Vec<ModeGuess> = guesses.iter().copied().chain([start]).collect();
+                for guess in &mut trial {
+                    guess.fit_share = *share;
+                }
+                let Ok(found) = fit(group, lines, points.to_vec(), &trial) else { continue };
+                let next = fitted_sum(&found);
+                let bound = match &better {
+                    None => sum - GAIN_MIN,
+                    Some((least, _, of)) if *share && !of.iter().any(|g| g.fit_share) => {
+                        least - GAIN_MIN
+                    }
+                    Some((least, ..)) => *least,
+                };
+                if next < bound && sensible(&found) {
+                    for (guess, mode) in trial.iter_mut().zip(found.shapes()) {
+                        guess.mode = mode;
+                    }
+                    better = Some((next, found, trial));
+                }
+            }
+        }
+        let Some((least, found, trial)) = better else { break };
+        (sum, best, guesses) = (least, found, trial);
+    }
+    Ok(best)
+}
+
+/// Whether the modes are at frequencies that the lines cross, with intervals that are not all of them.
+fn sensible(fit: &GroupFit) -> bool {
+    let highest = fit.points.iter().map(|p| p.frequency.abs()).fold(0.0, f64::max);
+    fit.modes.iter().all(|mode| {
+        mode.mode.frequency < 2.0 * highest
+            && mode.frequency.deviation < 0.2 * mode.frequency.value
+            && mode.mode.share > 3.0 * mode.share.deviation
+    })
+}

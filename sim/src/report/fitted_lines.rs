@@ -1,0 +1,120 @@
+//! [`FittedLines`]: amplitudes of lines over speed, as measured and as fitted, with 95 % bands, as SVG; the
+//! amplitude is logarithmic.
+
+use std::fmt::Write as _;
+
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::error::DrawError;
+use super::figure::{
+    ABOVE, Area, BELOW, GRID, INK, LEFT, PANEL, RIGHT, THEME, TYPE, TYPE_SMALL, document, moves,
+    px, stroke, text, whole,
+};
+use super::log_panel::{Kind, Scale};
+use super::ticks::{Axis, range_of};
+
+/// Height of the panel by that of a figure of a run.
+const HEIGHT: f64 = 1.4;
+/// Decades below the largest amplitude that are shown.
+const DECADES_MAX: f64 = 5.0;
+/// Half the width of a mark, tenths of a unit.
+const MARK: i32 = 16;
+
+/// Lines of one group.
+#[derive(Clone, Debug)]
+pub(crate) struct FittedLines {
+    /// What the picture shows, for readers who cannot see it.
+    pub(crate) description: String,
+    /// The text above it.
+    pub(crate) title: String,
+    /// What the amplitude is, with its unit.
+    pub(crate) axis: String,
+    /// The lines.
+    pub(crate) lines: Vec<FittedLine>,
+}
+
+/// One line.
+#[derive(Clone, Debug)]
+pub(crate) struct FittedLine {
+    /// In the legend.
+    pub(crate) name: String,
+    /// Speed, rpm, and amplitude as measured.
+    pub(crate) measured: Vec<[f64; 2]>,
+    /// Speed, rpm, amplitude as fitted, and the ends of its interval.
+    pub(crate) fitted: Vec<[f64; 4]>,
+}
+
+impl FittedLines {
+    /// The picture as an SVG file of its own.
+    pub(crate) fn file(&self) -> Result<String, DrawError> {
+        let style = format!("<style>\n{THEME}</style>\n");
+        let names: Vec<_> = self.lines.iter().map(|line| line.name.as_str()).collect();
+        let height = HEIGHT * PANEL;
+        let drawn = document(&self.description, &style, &names, height, |panel| self.draw(panel))?;
+        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+    }
+
+    fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {
+        let style = text(TYPE, INK).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw_text(&self.title, &style, (px(LEFT), px(0.62 * ABOVE)))?;
+        let positive = |value: &f64| value.is_finite() && *value > 0.0;
+        let values = self.lines.iter().flat_map(|line| {
+            line.measured.iter().map(|p| p[1]).chain(line.fitted.iter().map(|p| p[1]))
+        });
+        let values: Vec<f64> = values.filter(positive).collect();
+        let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let least =
+            values.iter().copied().fold(most, f64::min).max(most * 10_f64.powf(-DECADES_MAX));
+        let y =
+            10_f64.powf((least.log10() - 0.1).floor())..10_f64.powf((most.log10() + 0.1).ceil());
+        let x = range_of(self.lines.iter().flat_map(|line| line.fitted.iter().map(|p| p[0])));
+        let axis = Scale { range: y.clone(), kind: Kind::Powers };
+        let mut chart = ChartBuilder::on(area)
+            .margin_top(px(ABOVE))
+            .margin_right(px(RIGHT))
+            .x_label_area_size(px(BELOW))
+            .y_label_area_size(px(LEFT))
+            .build_cartesian_2d(Axis(x.clone()), axis)?;
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(GRID.stroke_width(whole(0.8)))
+            .axis_style(INK.stroke_width(whole(0.8)))
+            .set_all_tick_mark_size(px(4.0))
+            .label_style(text(TYPE_SMALL, INK))
+            .axis_desc_style(text(TYPE, INK))
+            .x_desc("Speed (rpm)")
+            .y_desc(&self.axis)
+            .draw()?;
+        let corners = [(x.start, y.start), (x.end, y.end)];
+        chart.draw_series([Rectangle::new(corners, INK.stroke_width(8))])?;
+        let place = |speed: f64, value: f64| {
+            let (x, y) = chart.backend_coord(&(speed, value.clamp(y.start, y.end)));
+            [x, y]
+        };
+        let mut out = String::new();
+        for (index, line) in self.lines.iter().enumerate() {
+            let shown: Vec<_> =
+                line.fitted.iter().filter(|p| p.iter().all(|v| v.is_finite())).collect();
+            let above = shown.iter().map(|p| place(p[0], p[3]));
+            let below = shown.iter().rev().map(|p| place(p[0], p[2]));
+            let band: Vec<_> = above.chain(below).collect();
+            let colour = stroke(index, 4).replace("fill=\"none\" stroke=", "fill=");
+            let fill = colour.split(' ').next().unwrap_or_default();
+            let _ = writeln!(out, "<path d=\"{}z\" {fill} fill-opacity=\"0.3\"/>", moves(&band));
+            let curve: Vec<_> = shown.iter().map(|p| place(p[0], p[1])).collect();
+            let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&curve), stroke(index, 11));
+            let mut marks = String::new();
+            for [speed, value] in line.measured.iter().filter(|p| positive(&p[1])) {
+                let [x, y] = place(*speed, *value);
+                let size = 2 * MARK;
+                let _ = write!(marks, "M{} {y}h{size}M{x} {}v{size}", x - MARK, y - MARK);
+            }
+            let plain = stroke(index, 8);
+            let plain = plain.split(" stroke-dasharray").next().unwrap_or_default();
+            let _ = writeln!(out, "<path d=\"{marks}\" {plain}/>");
+        }
+        Ok(out)
+    }
+}
