@@ -1,5 +1,7 @@
 //! Jitter in the frequency domain against closed forms and against runs of the coupled equations.
 
 mod known;
+mod map;
+mod map_page;
 mod run;
 mod sources;
