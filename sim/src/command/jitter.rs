@@ -17,7 +17,8 @@ use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, branches, crossings, oscillations};
 use crate::jitter::coupled::{Compared, compare};
 use crate::jitter::device::Steady;
-use crate::jitter::model::Model;
+use crate::jitter::model::{Contributor, Model};
+use crate::jitter::sensitivity::{Sensitivity, sensitivities};
 use crate::jitter::sweep::{Sweep, speeds, sweep};
 use crate::report::jitter::{AGREEMENT, JitterReport, intervals, metric, rpm};
 use crate::scenario::Scenario;
@@ -83,6 +84,8 @@ struct Found {
     branches: Vec<Branch>,
     crossings: Vec<Crossing>,
     compared: Vec<(Compared, bool)>,
+    /// Of each requirement.
+    sensitivities: Vec<Vec<Sensitivity>>,
     /// Sources that the frequency domain has not.
     left_out: Vec<String>,
 }
@@ -109,6 +112,7 @@ impl Jitter {
             branches: &found.branches,
             crossings: &found.crossings,
             compared: &found.compared,
+            sensitivities: &found.sensitivities,
             warnings: &warnings,
         };
         let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
@@ -192,7 +196,17 @@ impl Jitter {
             bar.inc(1);
         }
         bar.finish_and_clear();
+        let name = |of: &Contributor| format!("{} ({}, order {})", of.rotor, of.cause, of.order);
+        let names: Vec<String> = found.contributors.iter().map(name).collect();
+        let ranked: Result<Vec<_>, _> = assessed
+            .iter()
+            .map(|of| {
+                let speed = found.speeds.get(of.worst).copied().unwrap_or(0.0);
+                sensitivities(&model, budget, of, speed, &names)
+            })
+            .collect();
         Ok(Found {
+            sensitivities: ranked.map_err(|error| other(&error))?,
             sweep: found,
             assessed,
             campbell_speeds,
@@ -271,9 +285,9 @@ fn summary(budget: &Budget, found: &Found) -> String {
         let difference = of.difference();
         let _ = writeln!(
             text,
-            "coupled run at {}: amplitudes differ by {:.2} % at most, {} {} % {}",
+            "coupled run at {}: amplitudes differ by {} % at most, {} {} % {}",
             rpm(of.speed),
-            100.0 * difference,
+            six(100.0 * difference),
             if difference <= bound { "within" } else { "above" },
             100.0 * bound,
             if *resonant { "at resonance" } else { "off resonance" }

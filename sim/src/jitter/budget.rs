@@ -9,6 +9,9 @@ use super::sweep::{Phases, Sweep};
 use crate::pointing::{ExposureWeights, Limit, LineOfSight, Margin, Metric, PointingError};
 use crate::structure::dynamic_mass::Motor;
 
+/// A smaller share of a mean square is left out.
+const SHARE_MIN: f64 = 1e-9;
+
 /// A line of sight with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sight {
@@ -98,7 +101,7 @@ impl Budget {
             .iter()
             .map(|(sight, limit)| {
                 let outputs = outputs_of(*sight);
-                let weight = weight(&limit.metric)?;
+                let weight = weight_of(&limit.metric)?;
                 let square = |speed| sweep.mean_square(speed, &outputs, self.phases, &weight);
                 let values: Vec<f64> = (0..sweep.speeds.len()).map(|k| square(k).sqrt()).collect();
                 let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]));
@@ -109,7 +112,7 @@ impl Budget {
                 let whole: f64 = shares.iter().sum::<f64>() + noise;
                 let mut shares: Vec<(usize, f64)> =
                     shares.into_iter().map(|share| share / whole).enumerate().collect();
-                shares.retain(|(_, share)| *share > 0.0);
+                shares.retain(|(_, share)| *share > SHARE_MIN);
                 shares.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
                 Ok(Assessed {
                     sight: *sight,
@@ -141,7 +144,10 @@ pub fn along_z(node: &str) -> Result<LineOfSight, PointingError> {
 }
 
 /// The share of a line's mean square in a metric, by its angular frequency, rad/s.
-fn weight(metric: &Metric) -> Result<Box<dyn Fn(f64) -> f64>, PointingError> {
+///
+/// # Errors
+/// [`PointingError`] for an index, which is of a history or a density.
+pub fn weight_of(metric: &Metric) -> Result<Box<dyn Fn(f64) -> f64>, PointingError> {
     let hertz = |frequency: f64| frequency / std::f64::consts::TAU;
     let exposed =
         move |exposure: f64, of: fn(&ExposureWeights) -> f64| -> Box<dyn Fn(f64) -> f64> {

@@ -25,6 +25,7 @@
 //! | natural frequencies over the speed, and where orders cross them | [`campbell`] |
 //! | speeds to keep out of | [`keep_out`] |
 //! | lines of sight, limits, and what a sweep says of them | [`budget`] |
+//! | what a limit is sensitive to | [`sensitivity`] |
 //! | the same by a run of the coupled equations | [`coupled`] |
 //! | the usual `U_s Omega^2` on rigid devices, and its error | [`simplified`] |
 
@@ -35,6 +36,7 @@ pub mod device;
 pub mod keep_out;
 pub mod model;
 pub mod noise;
+pub mod sensitivity;
 pub mod simplified;
 pub mod sources;
 pub mod sweep;

@@ -300,6 +300,18 @@ impl Model {
         Ok(MountedTones { accelerance, force, devices })
     }
 
+    /// Scales the frequency (0) or the damping ratio (1) of a mode.
+    pub(super) fn scale_mode(&mut self, mode: usize, which: usize, factor: f64) {
+        if let Some(of) = self.structure.modes.get_mut(mode) {
+            if which == 0 {
+                of.frequency *= factor;
+            } else {
+                of.damping *= factor;
+            }
+            self.accelerance.set_mode(mode, [of.frequency, of.damping]);
+        }
+    }
+
     /// Each device as a rigid body at rest: 6 × 6 about its mount.
     pub(super) fn rigid_masses(&self, scenario: &Scenario) -> Result<Vec<DMatrix<f64>>, Fault> {
         let groups = groups(scenario).into_iter().zip(&self.devices);

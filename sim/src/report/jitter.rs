@@ -10,10 +10,10 @@ use super::page::{Page, lines};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, Whirl};
 use crate::jitter::coupled::Compared;
-use crate::jitter::sweep::{Phases, Sweep};
+use crate::jitter::sensitivity::Sensitivity;
+use crate::jitter::sweep::Sweep;
 use crate::pointing::Metric;
 use crate::scenario::Scenario;
-use crate::structure::dynamic_mass::Motor;
 
 /// Revolutions per minute of one radian per second.
 pub(super) const RPM: f64 = 60.0 / TAU;
@@ -37,6 +37,8 @@ pub(crate) struct JitterReport<'a> {
     pub(crate) crossings: &'a [Crossing],
     /// Runs of the coupled equations; at resonance or not.
     pub(crate) compared: &'a [(Compared, bool)],
+    /// Of each requirement.
+    pub(crate) sensitivities: &'a [Vec<Sensitivity>],
     pub(crate) warnings: &'a [String],
 }
 
@@ -77,6 +79,7 @@ impl JitterReport<'_> {
         sections.push(("speeds", "Lines over the speed", self.waterfalls()?));
         sections.push(("crossings", "Natural frequencies and orders", self.campbell()?));
         sections.push(("paths", "Frequency domain beside the coupled run", self.paths()));
+        sections.push(("sensitivities", "Sensitivities", self.ranked()));
         sections.push(("assumptions", "Assumptions", vec![self.assumptions()]));
         if !self.warnings.is_empty() {
             let items = self.warnings.to_vec();
@@ -110,6 +113,11 @@ impl JitterReport<'_> {
         }
         for (index, of) in self.assessed.iter().enumerate() {
             files.push((format!("cumulative-{}", index + 1), self.cumulative(of).file()?));
+        }
+        for (index, of) in self.assessed.iter().enumerate() {
+            if let Some(figure) = self.density(of) {
+                files.push((format!("density-{}", index + 1), figure.file()?));
+            }
         }
         files.push(("campbell".to_owned(), self.campbell_diagram().file()?));
         Ok(files)
@@ -160,7 +168,7 @@ impl JitterReport<'_> {
         Summary { paragraphs, facts }
     }
 
-    fn modes(&self) -> String {
+    pub(super) fn modes(&self) -> String {
         let modes = self.scenario.structure.as_ref().map_or(0, |structure| structure.modes.len());
         if modes == 0 { "none, a rigid hub".to_owned() } else { modes.to_string() }
     }
@@ -256,6 +264,17 @@ impl JitterReport<'_> {
                     svg,
                 });
             }
+            if let Some(Ok(svg)) = self.density(of).map(|figure| figure.inline()) {
+                blocks.push(Block::Figure {
+                    id: format!("figure-density-{}", index + 1),
+                    number: format!("D{}", index + 1),
+                    caption: format!(
+                        "{}: density by broadband noise near the worst speed; below, its RMS from below, and the limit.",
+                        of.limit.name
+                    ),
+                    svg,
+                });
+            }
         }
         blocks
     }
@@ -267,7 +286,7 @@ impl JitterReport<'_> {
                 id: format!("figure-waterfall-{sight}"),
                 number: format!("W{}", sight + 1),
                 caption: format!(
-                    "{}: every tone over the speed; the area of a dot is its amplitude. Orders are labelled.",
+                    "{}: every tone over the speed; the area of a dot is as the root of its amplitude. Orders are labelled.",
                     of.name
                 ),
                 svg: self.waterfall(sight).inline()?,
@@ -288,6 +307,11 @@ impl JitterReport<'_> {
                 .to_owned(),
             svg: self.campbell_diagram().inline()?,
         }];
+        if self.crossings.is_empty() {
+            let text = "No order crosses a natural frequency within the speeds.".to_owned();
+            blocks.push(Block::Text { text });
+            return Ok(blocks);
+        }
         let rows = self.crossings.iter().take(ROWS_MAX).map(|of| {
             let whirl = match of.whirl {
                 Whirl::Forward => "forward whirl",
@@ -319,83 +343,6 @@ impl JitterReport<'_> {
             blocks.push(Block::Note { text });
         }
         Ok(blocks)
-    }
-
-    fn paths(&self) -> Vec<Block> {
-        if self.compared.is_empty() {
-            let text = "No run of the coupled equations was made.";
-            return vec![Block::Note { text: text.to_owned() }];
-        }
-        let [off, at] = AGREEMENT;
-        let rows = self.compared.iter().map(|(of, resonant)| {
-            let (bound, word) =
-                if *resonant { (at, "at resonance") } else { (off, "off resonance") };
-            let difference = of.difference();
-            let state = if difference <= bound { "met" } else { "violated" };
-            let cells = vec![
-                rpm(of.speed),
-                word.to_owned(),
-                format!("{} s", short(of.window, 4)),
-                format!("{} %", short(100.0 * bound, 2)),
-                format!("{} %", short(100.0 * difference, 3)),
-            ];
-            (state, cells)
-        });
-        let columns = [
-            ("Speed", ""),
-            ("Where", ""),
-            ("Window", ""),
-            ("Bound", ""),
-            ("Largest difference", ""),
-        ];
-        vec![
-            table("Amplitudes of the lines of sight by both paths", &columns, 2..5, rows),
-            Block::Note {
-                text: "The run is of the nonlinear equations, started in the motion that the lines predict. \
-                       Where the difference is above its bound the linear model does not hold at that speed."
-                    .to_owned(),
-            },
-        ]
-    }
-
-    fn sources(&self) -> String {
-        let seeded = |of: &crate::disturbance::Disturbance| match of.seed {
-            Some(seed) => format!("{} (seed {seed})", of.name),
-            None => of.name.clone(),
-        };
-        let all: Vec<_> = self.scenario.disturbances.iter().map(seeded).collect();
-        if all.is_empty() { "none".to_owned() } else { all.join(", ") }
-    }
-
-    fn assumptions(&self) -> Block {
-        let budget = self.budget;
-        let phases = match budget.phases {
-            Phases::Unknown => "unknown and independent: mean squares are added",
-            Phases::Given => "those of the scenario's angles: amplitudes are added",
-            Phases::Worst => "the worst: magnitudes are added",
-        };
-        let motor = match budget.motor {
-            Motor::ConstantTorque => "keep their torques: rotors spin freely",
-            Motor::ConstantRate => "keep the rates",
-        };
-        let gimbals = if budget.sprung { "free on their springs, held without" } else { "held" };
-        let row = |what: &str, is: String| ("", vec![what.to_owned(), is]);
-        let mass = match self.scenario.structure.as_ref().map(|s| s.contains_devices) {
-            None => "a rigid hub without the devices",
-            Some(false) => "its model is without the devices",
-            Some(true) => "its model has the devices as rigid bodies, which are taken off",
-        };
-        let rows = vec![
-            row("Structure", format!("{}; {mass}", self.modes())),
-            row("Devices", "coupled, linearised about steady spin, averaged over a turn; gyroscopic terms exact".to_owned()),
-            row("Imbalance", "of the devices' own equations; no windows".to_owned()),
-            row("Sources", self.sources()),
-            row("Phases between rotors", phases.to_owned()),
-            row("Motors", motor.to_owned()),
-            row("Other joints", gimbals.to_owned()),
-            row("Gravity and disturbances from outside", "none".to_owned()),
-        ];
-        table("What the numbers rest on", &[("Subject", ""), ("Assumption", "")], 0..0, rows)
     }
 }
 

@@ -7,14 +7,17 @@ use nalgebra::Complex;
 use super::jitter::{JitterReport, RPM, metric, rpm};
 use super::number::{short, with_unit};
 use super::plane::Plane;
+use super::spectrum::{SpectrumCurve, SpectrumFigure};
 use super::unit::{SMALL_ANGLE, for_peak};
 use crate::jitter::budget::{Assessed, outputs_of};
 use crate::jitter::campbell::{Branch, Oscillation};
 
-/// A line is drawn in a waterfall from this share of the largest on.
-const DOT_MIN: f64 = 5e-3;
+/// A line is drawn in a waterfall from this root of its share of the largest on.
+const DOT_MIN: f64 = 1e-2;
 /// Speeds of which a waterfall shows the lines.
 const WATERFALL_SPEEDS: usize = 160;
+/// A limit is drawn up to this many times the RMS.
+const LIMIT_SHOWN: f64 = 3.0;
 /// Branches of a Campbell diagram are drawn up to this many times the highest line.
 const CAMPBELL_TOP: f64 = 1.25;
 
@@ -42,6 +45,7 @@ impl JitterReport<'_> {
     /// Cumulative RMS over frequency at the worst speed.
     pub(super) fn cumulative(&self, of: &Assessed) -> Plane {
         let outputs = outputs_of(of.sight);
+        let speed = self.sweep.speeds.get(of.worst).copied().unwrap_or(0.0);
         let lines = self.sweep.lines.get(of.worst).map_or(&[][..], Vec::as_slice);
         let mut sorted: Vec<_> = lines
             .iter()
@@ -50,6 +54,9 @@ impl JitterReport<'_> {
                 (line.frequency / TAU, values.map(|value| 0.5 * value.norm_sqr()).sum::<f64>())
             })
             .collect();
+        if let Some(densities) = self.sweep.noise.nearest(speed) {
+            sorted.extend(densities.squares(&outputs));
+        }
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let whole: f64 = sorted.iter().map(|(_, square)| square).sum();
         let unit = for_peak(SMALL_ANGLE, whole.sqrt());
@@ -68,7 +75,14 @@ impl JitterReport<'_> {
         }
         forward.push([top, whole.sqrt() * unit.per_si]);
         backward.push([top, 0.0]);
-        let speed = self.sweep.speeds.get(of.worst).map_or_else(String::new, |speed| rpm(*speed));
+        let (speed, limit) = (rpm(speed), of.limit.limit * unit.per_si);
+        let found = whole.sqrt() * unit.per_si;
+        let highest = if limit < LIMIT_SHOWN * found { limit.max(found) } else { found };
+        let mut curves =
+            vec![("from below".to_owned(), forward), ("from above".to_owned(), backward)];
+        if limit <= highest {
+            curves.push(("limit".to_owned(), vec![[0.0, limit], [top, limit]]));
+        }
         Plane {
             description: format!(
                 "Cumulative RMS over frequency in Hz at {speed}, in {}.",
@@ -76,12 +90,53 @@ impl JitterReport<'_> {
             ),
             title: format!("{}: cumulative RMS at {speed}", of.limit.name),
             axes: ["Frequency f (Hz)".to_owned(), format!("Cumulative RMS ({})", unit.name)],
-            curves: vec![("from below".to_owned(), forward), ("from above".to_owned(), backward)],
+            curves,
             lines: Vec::new(),
             dots: Vec::new(),
             marks: Vec::new(),
-            ranges: [Some([0.0, top]), Some([0.0, 1.06 * whole.sqrt() * unit.per_si])],
+            ranges: [Some([0.0, top]), Some([0.0, 1.06 * highest])],
         }
+    }
+
+    /// Density of a line of sight by broadband noise at the worst speed of a requirement, both axes together, and its RMS of
+    /// all lower frequencies; none without noise.
+    pub(super) fn density(&self, of: &Assessed) -> Option<SpectrumFigure> {
+        let speed = self.sweep.speeds.get(of.worst).copied()?;
+        let densities = self.sweep.noise.nearest(speed)?;
+        let outputs = outputs_of(of.sight);
+        let unit = for_peak(SMALL_ANGLE, of.limit.limit);
+        let sum = |values: &Vec<f64>| -> f64 {
+            outputs.iter().filter_map(|output| values.get(*output)).sum()
+        };
+        let square = unit.per_si * unit.per_si;
+        let density: Vec<f64> =
+            densities.values.iter().map(|values| sum(values) * square).collect();
+        let mut total = 0.0;
+        let mut rms = vec![0.0];
+        for (_, part) in densities.squares(&outputs) {
+            total += part * square;
+            rms.push(total.sqrt());
+        }
+        let limit = vec![of.limit.limit * unit.per_si; rms.len()];
+        let curve = |name: &str, density: Vec<f64>, rms: Vec<f64>| SpectrumCurve {
+            name: name.to_owned(),
+            density,
+            rms,
+        };
+        let title = format!("{}: broadband noise at {}", of.limit.name, rpm(densities.speed));
+        Some(SpectrumFigure {
+            description: format!(
+                "{title}, density and cumulative RMS over frequency, in {}.",
+                unit.name
+            ),
+            title,
+            unit: unit.name.to_owned(),
+            frequencies: densities.frequencies.clone(),
+            curves: vec![
+                curve("noise", density.clone(), rms),
+                curve("limit", vec![f64::NAN; density.len()], limit),
+            ],
+        })
     }
 
     /// Orders that tones have, each once, rising.
@@ -120,7 +175,7 @@ impl JitterReport<'_> {
         }
         let largest = dots.iter().map(|dot| dot[2]).fold(f64::MIN_POSITIVE, f64::max);
         for dot in &mut dots {
-            dot[2] /= largest;
+            dot[2] = (dot[2] / largest).sqrt();
         }
         dots.retain(|dot| dot[2] > DOT_MIN);
         let unit = for_peak(SMALL_ANGLE, largest);

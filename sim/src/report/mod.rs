@@ -21,6 +21,7 @@ pub(crate) mod fitted_lines;
 mod grouping;
 pub(crate) mod jitter;
 mod jitter_figures;
+mod jitter_tables;
 mod load_tables;
 mod log_panel;
 mod mass;

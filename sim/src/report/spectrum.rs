@@ -43,7 +43,16 @@ pub(crate) struct SpectrumCurve {
 impl SpectrumFigure {
     /// The picture as an SVG file of its own.
     pub(crate) fn file(&self) -> Result<String, DrawError> {
-        let style = format!("<style>\n{THEME}</style>\n");
+        let drawn = self.document(&format!("<style>\n{THEME}</style>\n"))?;
+        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+    }
+
+    /// The picture as part of a page that turns its colours.
+    pub(crate) fn inline(&self) -> Result<String, DrawError> {
+        self.document("")
+    }
+
+    fn document(&self, style: &str) -> Result<String, DrawError> {
         let names: Vec<_> = self.curves.iter().map(|curve| curve.name.as_str()).collect();
         let points = self.points();
         let at = |values: &[f64]| greatest(&points, values);
@@ -56,7 +65,7 @@ impl SpectrumFigure {
             "" => ["Density (1/Hz)".to_owned(), "Cumulative RMS".to_owned()],
             unit => [format!("Density (({unit})²/Hz)"), format!("Cumulative RMS ({unit})")],
         };
-        let drawn = document(&self.description, &style, &names, PANEL + RMS, |panel| {
+        document(&self.description, style, &names, PANEL + RMS, |panel| {
             let (above, below) = panel.split_vertically(px(PANEL));
             title(&above, &self.title)?;
             let density = Panel {
@@ -75,8 +84,7 @@ impl SpectrumFigure {
             };
             let above = density.draw(&above, densities.iter().map(|c| c.iter().copied()))?;
             Ok(above + &rms.draw(&below, sums.iter().map(|c| c.iter().copied()))?)
-        })?;
-        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+        })
     }
 
     /// The bins of each point of the picture.

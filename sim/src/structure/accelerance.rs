@@ -103,6 +103,13 @@ impl Accelerance {
         })
     }
 
+    /// Another angular frequency, rad/s, and damping ratio of a mode.
+    pub(crate) fn set_mode(&mut self, mode: usize, values: [f64; 2]) {
+        if let Some(of) = self.modes.get_mut(mode) {
+            *of = values;
+        }
+    }
+
     /// Accelerations of the floating frame, six, and modal coordinates of a free structure for forces on the nodes with
     /// forces, at an angular frequency, rad/s: a column for each column of forces.
     ///

@@ -8,7 +8,8 @@ use precess::jitter::campbell::oscillations;
 use precess::jitter::coupled::compare;
 use precess::jitter::device::Steady;
 use precess::jitter::model::Model;
-use precess::jitter::sweep::Phases;
+use precess::jitter::sensitivity::sensitivities;
+use precess::jitter::sweep::{Phases, speeds, sweep};
 use precess::pointing::LineOfSight;
 use precess::scenario::Scenario;
 use precess::structure::dynamic_mass::Motor;
@@ -144,4 +145,29 @@ fn the_budget_of_the_scenarios_is_read_and_a_wrong_one_says_everything() {
     ] {
         assert!(found.contains(part), "{part} in:\n{found}");
     }
+}
+
+/// One percent more of every amplitude is one percent more of the metric; at a resonance the damping ratio of its mode counts
+/// nearly as much, and no other.
+#[test]
+fn sensitivities_are_shares_and_the_damping_of_the_mode_at_resonance() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../scenarios/budgets/imaging-satellite-jitter.toml");
+    let (budget, scenario) = budget_from_toml(&path).unwrap_or_else(|errors| panic!("{errors}"));
+    let (scenario, _) = from_file(&scenario, &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &[] };
+    let model = Model::new(&scenario, &budget.outputs(), &steady).expect("valid");
+    let speeds = speeds(budget.speeds, budget.count);
+    let found = sweep(&model, &speeds, 2, &|_| {}).expect("damped");
+    let assessed = budget.assess(&found).expect("lines");
+    let names: Vec<String> = model.contributors().into_iter().map(|of| of.rotor).collect();
+    let worst = &assessed[1];
+    let all = sensitivities(&model, &budget, worst, speeds[worst.worst], &names).expect("damped");
+    let amplitudes = all.iter().filter(|of| of.parameter.starts_with("amplitude"));
+    let sum: f64 = amplitudes.map(|of| of.ratio).sum();
+    assert!((sum - 1.0).abs() < 1e-12, "{sum}");
+    let damping = all.iter().filter(|of| of.parameter.starts_with("damping"));
+    let sum: f64 = damping.map(|of| of.ratio).sum();
+    assert!((-1.0..-0.5).contains(&sum), "{sum}: {all:?}");
+    assert!(all[0].parameter.starts_with("frequency"), "{:?}", all[0]);
 }

@@ -1,0 +1,102 @@
+//! The command: files, verdict, exit codes, errors.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn folder(name: &str) -> PathBuf {
+    let path = std::env::temp_dir().join(format!("precess-jitter-{}-{name}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).expect("a folder");
+    path
+}
+
+fn jitter(budget: &Path, out: &Path, more: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_precess"));
+    command.arg("jitter").arg(budget).arg("--out").arg(out).args(more);
+    command.output().expect("it starts")
+}
+
+fn scenarios() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios")
+}
+
+#[test]
+fn a_budget_is_written_once_and_does_not_depend_on_threads() {
+    let out = folder("files");
+    let budget = scenarios().join("budgets/imaging-satellite-jitter.toml");
+    let first = jitter(&budget, &out, &["--threads", "1"]);
+    let text = String::from_utf8_lossy(&first.stdout).into_owned();
+    assert_eq!(first.status.code(), Some(2), "{text}{}", String::from_utf8_lossy(&first.stderr));
+    for part in ["violated", "met", "keep out of", "largest contributor", "within 5 % at resonance"]
+    {
+        assert!(text.contains(part), "{part} in:\n{text}");
+    }
+    let read = |out: &Path, name: &str| std::fs::read(out.join(name)).expect(name);
+    let page = read(&out, "imaging-satellite-jitter.html");
+    assert!(page.len() < 3_000_000, "{} bytes", page.len());
+    let page = String::from_utf8(page).expect("text");
+    let at = |part: &str| page.find(part).unwrap_or_else(|| panic!("{part} in the page"));
+    assert!(at("requirements violated") < at("Contributors at the worst speeds"));
+    assert!(at("Contributors at") < at("Sensitivities</h2>") && at("Assumptions</h2>") > 0);
+    // A second time only by force, with the same bytes on another number of threads.
+    let again = jitter(&budget, &out, &[]);
+    assert_eq!(again.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&again.stderr).contains("--force"));
+    let other = folder("threads");
+    assert_eq!(jitter(&budget, &other, &["--threads", "3"]).status.code(), Some(2));
+    for name in ["imaging-satellite-jitter.html", "imaging-satellite-jitter-lines.csv"] {
+        assert!(read(&out, name) == read(&other, name), "{name}");
+    }
+    for folder in [out, other] {
+        std::fs::remove_dir_all(folder).expect("it was made");
+    }
+}
+
+#[test]
+fn noise_of_a_data_sheet_is_in_the_budget_of_a_rigid_hub() {
+    let out = folder("noise");
+    let budget = scenarios().join("budgets/wheel-data-sheet-jitter.toml");
+    let found = jitter(&budget, &out, &["--no-compare"]);
+    let text = String::from_utf8_lossy(&found.stdout).into_owned();
+    assert!(found.status.code().is_some_and(|code| code != 1), "{text}");
+    assert!(text.contains("broadband noise,"), "{text}");
+    assert!(out.join("wheel-data-sheet-jitter-density-1.svg").exists());
+    std::fs::remove_dir_all(out).expect("it was made");
+}
+
+#[test]
+fn what_is_wrong_is_said_with_its_remedy() {
+    let out = folder("wrong");
+    let write = |name: &str, text: &str| {
+        let path = out.join(name);
+        std::fs::write(&path, text).expect("it is written");
+        path
+    };
+    let scenario = "format = 1\n[hub]\nmass = \"9 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n[[device]]\n\
+                    name = \"rw\"\nkind = \"reaction_wheel\"\nmount = { spin_axis = [1, 0, 0] }\nIMBALANCE\n\
+                    [device.wheel]\nmass = \"1 kg\"\ninertia = \"2, 1, 1 g m^2\"\nrate = \"900 rpm\"\n[run]\n\
+                    duration = \"1 s\"\n";
+    write("balanced.toml", &scenario.replace("IMBALANCE", ""));
+    write("wheel.toml", &scenario.replace("IMBALANCE", "imbalance.static = \"1 g cm\""));
+    let budget = |scenario: &str, more: &str, node: &str| {
+        format!(
+            "format = 1\nscenario = \"{scenario}\"\n[speed]\nfrom = \"600 rpm\"\nto = \"900 rpm\"\n{more}\n\
+             [[line_of_sight]]\nnode = \"{node}\"\n"
+        )
+    };
+    for (text, parts) in [
+        (budget("balanced.toml", "", "hub"), ["no rotor has a tone", "imbalance"]),
+        (budget("wheel.toml", "rotors = [\"rw2.wheel\"]", "hub"), ["rw2.wheel", "rw.wheel"]),
+        (budget("wheel.toml", "", "camera"), ["camera", "hub"]),
+        (budget("none.toml", "", "hub"), ["none.toml", ""]),
+    ] {
+        let found = jitter(&write("budget.toml", &text), &out.join("out"), &[]);
+        let error = String::from_utf8_lossy(&found.stderr).into_owned();
+        assert_eq!(found.status.code(), Some(1), "{error}");
+        for part in parts {
+            assert!(error.contains(part), "{part} in:\n{error}");
+        }
+        assert!(!out.join("out").exists(), "nothing is left behind");
+    }
+    std::fs::remove_dir_all(out).expect("it was made");
+}
