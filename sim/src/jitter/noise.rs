@@ -11,10 +11,9 @@ use crate::structure::Fault;
 
 /// Frequencies of a decade.
 const PER_DECADE: f64 = 80.0;
-/// Frequencies on each side of a natural frequency, in half-widths.
-const HALF_WIDTHS: [f64; 18] = [
-    0.15, 0.3, 0.45, 0.6, 0.8, 1.0, 1.2, 1.5, 1.9, 2.4, 3.0, 4.0, 5.5, 7.5, 10.0, 14.0, 20.0, 30.0,
-];
+/// Frequencies on each side of a natural frequency: the first distance in half-widths, the ratio of neighbours, their
+/// number.
+const BESIDE: (f64, f64, i32) = (0.2, 1.2, 32);
 
 /// Densities at one speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,7 +135,8 @@ fn grid(bands: &[[f64; 2]], natural: &[Oscillation]) -> Vec<f64> {
     for of in natural {
         let centre = of.frequency / TAU;
         grid.push(centre);
-        for width in HALF_WIDTHS {
+        let (first, ratio, count) = BESIDE;
+        for width in (0..count).map(|k| first * ratio.powi(k)) {
             grid.extend([-1.0, 1.0].map(|side| centre * (1.0 + side * width * of.damping)));
         }
     }
