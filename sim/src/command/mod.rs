@@ -4,6 +4,7 @@
 mod accelerance;
 mod advice;
 mod bake;
+mod campaign;
 mod check;
 mod compare;
 mod difference;
@@ -22,6 +23,7 @@ mod sources;
 mod spectrum;
 mod spectrum_tables;
 mod structure;
+mod sweep;
 mod table;
 
 use std::io::Write as _;
@@ -87,6 +89,9 @@ enum Command {
     /// Sweep the speed of rotors, and compare the jitter of lines of sight with its limits
     #[command(after_help = jitter::HELP)]
     Jitter(jitter::Jitter),
+    /// Run a scenario over values of one key or two, and compare every run with its requirements
+    #[command(after_help = sweep::HELP)]
+    Sweep(Box<sweep::Sweep>),
     /// Write a scenario for the flight library
     #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
     Export(export::Export),
@@ -158,6 +163,7 @@ impl Cli {
             Command::Structure(structure) => structure.execute(),
             Command::Accelerance(accelerance) => accelerance.execute(),
             Command::Jitter(jitter) => jitter.execute(),
+            Command::Sweep(sweep) => sweep.execute(),
             Command::Export(export) => export.execute(),
         };
         match done {

@@ -15,6 +15,7 @@ mod keys;
 mod load;
 pub mod read;
 mod structure;
+mod template;
 mod write;
 mod write_platform;
 
@@ -23,4 +24,5 @@ pub use diagnostic::{Diagnostic, Diagnostics, Severity};
 pub use load::{Override, Overrides};
 pub use read::{from_file, from_toml};
 pub use structure::structure_from_toml;
+pub use template::Template;
 pub use write::to_toml;

@@ -35,6 +35,7 @@ mod slow_motion;
 pub(crate) mod spectrum;
 mod stage;
 mod summary;
+pub(crate) mod sweep;
 #[cfg(test)]
 mod tests;
 mod ticks;

@@ -1,0 +1,6 @@
+//! Campaigns: sweeps against closed forms, over threads, killed and continued, with samples that fail.
+
+#[cfg(unix)]
+mod killed;
+mod shared;
+mod sweep;
