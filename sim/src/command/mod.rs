@@ -13,6 +13,7 @@ mod evaluate;
 mod export;
 mod jitter;
 mod kinds;
+mod montecarlo;
 mod mounted;
 mod new;
 mod plot;
@@ -92,6 +93,9 @@ enum Command {
     /// Run a scenario over values of one key or two, and compare every run with its requirements
     #[command(after_help = sweep::HELP)]
     Sweep(Box<sweep::Sweep>),
+    /// Run a scenario whose keys are drawn from distributions: percentiles, probabilities, sensitivities
+    #[command(name = "montecarlo", after_help = montecarlo::HELP)]
+    MonteCarlo(Box<montecarlo::MonteCarlo>),
     /// Write a scenario for the flight library
     #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
     Export(export::Export),
@@ -164,6 +168,7 @@ impl Cli {
             Command::Accelerance(accelerance) => accelerance.execute(),
             Command::Jitter(jitter) => jitter.execute(),
             Command::Sweep(sweep) => sweep.execute(),
+            Command::MonteCarlo(campaign) => campaign.execute(),
             Command::Export(export) => export.execute(),
         };
         match done {

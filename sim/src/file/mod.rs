@@ -16,6 +16,7 @@ mod load;
 pub mod read;
 mod structure;
 mod template;
+mod variations;
 mod write;
 mod write_platform;
 
@@ -25,4 +26,5 @@ pub use load::{Override, Overrides};
 pub use read::{from_file, from_toml};
 pub use structure::structure_from_toml;
 pub use template::Template;
+pub use variations::variations_from_toml;
 pub use write::to_toml;

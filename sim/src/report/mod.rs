@@ -24,6 +24,7 @@ mod load_tables;
 mod log_panel;
 mod mass;
 pub(crate) mod mode_shapes;
+pub(crate) mod montecarlo;
 mod number;
 mod page;
 pub(crate) mod plane;

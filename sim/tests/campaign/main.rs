@@ -2,5 +2,6 @@
 
 #[cfg(unix)]
 mod killed;
+mod montecarlo;
 mod shared;
 mod sweep;
