@@ -4,6 +4,7 @@
 mod accelerance;
 mod advice;
 mod bake;
+mod campaign;
 mod check;
 mod compare;
 mod difference;
@@ -14,6 +15,7 @@ mod fit;
 mod fit_figures;
 mod jitter;
 mod kinds;
+mod montecarlo;
 mod mounted;
 mod new;
 mod plot;
@@ -24,6 +26,7 @@ mod sources;
 mod spectrum;
 mod spectrum_tables;
 mod structure;
+mod sweep;
 mod table;
 
 use std::io::Write as _;
@@ -92,6 +95,12 @@ enum Command {
     /// Fit imbalance, harmonics, modes and noise of a wheel to forces and moments on a rigid table
     #[command(after_help = fit::HELP)]
     Fit(fit::FitCommand),
+    /// Run a scenario over values of one key or two, and compare every run with its requirements
+    #[command(after_help = sweep::HELP)]
+    Sweep(Box<sweep::Sweep>),
+    /// Run a scenario whose keys are drawn from distributions: percentiles, probabilities, sensitivities
+    #[command(name = "montecarlo", after_help = montecarlo::HELP)]
+    MonteCarlo(Box<montecarlo::MonteCarlo>),
     /// Write a scenario for the flight library
     #[command(subcommand, after_help = "Example:\n  precess export table bus.toml")]
     Export(export::Export),
@@ -164,6 +173,8 @@ impl Cli {
             Command::Accelerance(accelerance) => accelerance.execute(),
             Command::Jitter(jitter) => jitter.execute(),
             Command::Fit(fit) => fit.execute(),
+            Command::Sweep(sweep) => sweep.execute(),
+            Command::MonteCarlo(campaign) => campaign.execute(),
             Command::Export(export) => export.execute(),
         };
         match done {

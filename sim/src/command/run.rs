@@ -198,6 +198,11 @@ pub(super) fn progress_bar(parts: usize, what: &str) -> ProgressBar {
     bar
 }
 
+/// Whether Ctrl-C was pressed.
+pub(super) fn interrupted() -> bool {
+    INTERRUPTS.load(Ordering::Relaxed) > 0
+}
+
 /// The first Ctrl-C ends the run, the second the program.
 pub(super) fn watch_interrupts() {
     const INTERRUPTED: i32 = 130;
@@ -281,8 +286,13 @@ pub(super) fn may_write(folder: &Path, names: &[String], force: bool) -> Result<
 
 /// Writes a text under its name once it is on the disk.
 pub(super) fn write_whole(path: &Path, text: &str) -> Result<(), CommandError> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// Writes a file under its name once it is on the disk.
+pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
     let failure = |source| CommandError::Io { path: path.to_owned(), source };
     let mut partial = Partial::create(path).map_err(failure)?;
-    partial.write_all(text.as_bytes()).map_err(failure)?;
+    partial.write_all(bytes).map_err(failure)?;
     partial.finish().map_err(failure)
 }

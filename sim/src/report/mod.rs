@@ -26,6 +26,7 @@ mod load_tables;
 mod log_panel;
 mod mass;
 pub(crate) mod mode_shapes;
+pub(crate) mod montecarlo;
 mod number;
 mod page;
 pub(crate) mod plane;
@@ -37,6 +38,7 @@ mod slow_motion;
 pub(crate) mod spectrum;
 mod stage;
 mod summary;
+pub(crate) mod sweep;
 #[cfg(test)]
 mod tests;
 mod ticks;

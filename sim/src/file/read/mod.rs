@@ -65,7 +65,7 @@ pub fn from_toml(name: &str, text: &str, folder: &Path) -> Read {
     scenario(node, name, name, folder, &[], reports)
 }
 
-fn scenario(
+pub(super) fn scenario(
     mut node: Node,
     path: &str,
     stem: &str,

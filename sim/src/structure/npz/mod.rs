@@ -30,7 +30,8 @@ use zip::write::SimpleFileOptions;
 
 use super::modes::of_columns;
 use super::{COORDINATES, Fault, Node, Place, RigidMass, Structure, StructureError};
-use npy::{Array, array, numbers, texts};
+use npy::{Array, array};
+pub(crate) use npy::{numbers, texts};
 
 /// What the member `format` has.
 pub const FORMAT: &str = "precess-structure-1";
@@ -173,7 +174,8 @@ pub(crate) fn named_columns(bytes: &[u8], names: &[&str]) -> Result<Vec<Vec<f64>
     names.iter().map(column).collect()
 }
 
-fn archived(members: &[(&str, Vec<u8>)]) -> std::io::Result<Vec<u8>> {
+/// The bytes of an archive of arrays by their names.
+pub(crate) fn archived(members: &[(&str, Vec<u8>)]) -> std::io::Result<Vec<u8>> {
     use std::io::Write as _;
     let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);

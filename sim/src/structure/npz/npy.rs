@@ -227,13 +227,13 @@ pub(super) fn array(kind: &str, shape: &[usize], data: &[u8]) -> Vec<u8> {
 }
 
 /// The bytes of an array of doubles, rows first.
-pub(super) fn numbers(values: &[f64], shape: &[usize]) -> Vec<u8> {
+pub(crate) fn numbers(values: &[f64], shape: &[usize]) -> Vec<u8> {
     let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
     array("<f8", shape, &data)
 }
 
 /// The bytes of an array of texts.
-pub(super) fn texts(values: &[&str], shape: &[usize]) -> Vec<u8> {
+pub(crate) fn texts(values: &[&str], shape: &[usize]) -> Vec<u8> {
     let width = values.iter().map(|text| text.chars().count()).max().unwrap_or(0).max(1);
     let padded = |text: &str| {
         let letters = text.chars().map(u32::from).chain(std::iter::repeat(0));

@@ -1,0 +1,45 @@
+//! Campaigns: many runs of one scenario with other values of its keys, each reduced to a row of numbers.
+//!
+//! | file | what |
+//! |---|---|
+//! | `axis` | [`Axis`]: a key and the values that it takes |
+//! | `plan` | [`Plan`]: the samples of a campaign, and the digest that names it |
+//! | `reduce` | [`Reducer`]: samples of one run into a row of numbers, in bounded memory |
+//! | `journal` | [`Journal`]: a checksummed record of each finished sample, for a campaign that is killed |
+//! | `engine` | [`execute`]: the samples that are missing, on any number of threads |
+//! | `table` | the rows as CSV and NPZ |
+//! | `distribution` | [`Variation`]: a key and its distribution; [`draw`]: seeded samples |
+//! | `inference` | [`percentile`], [`probability`], [`spearman`] |
+//! | `sensitivity` | derivatives by central differences |
+//! | `keep_out` | intervals of a key in which a requirement is violated |
+//!
+//! A sample that cannot be run is a row with its error. Rows are in the order of the samples; they do not depend on
+//! the number of threads, nor on how often a campaign was ended and continued.
+
+mod axis;
+mod distribution;
+mod engine;
+mod error;
+mod inference;
+mod journal;
+mod keep_out;
+mod plan;
+mod reduce;
+mod sensitivity;
+pub mod table;
+
+pub use axis::{Axis, Spacing};
+pub use distribution::{Distribution, Variation, draw};
+pub use engine::{Execution, Finished, Row, execute};
+pub use error::CampaignError;
+pub use inference::{Estimate, percentile, probability, spearman};
+pub use journal::Journal;
+pub use keep_out::keep_out;
+pub use plan::{Plan, Sample, digits};
+pub use reduce::{Field, LINE_SAMPLES_MAX, Reducer, Selection};
+pub use sensitivity::{Derivative, central_differences, derivatives};
+
+/// Samples that a campaign may have.
+pub const SAMPLES_MAX: usize = 1_000_000;
+/// Numbers that the table of a campaign may have: 400 MB.
+pub const NUMBERS_MAX: usize = 50_000_000;

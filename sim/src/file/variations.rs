@@ -1,0 +1,165 @@
+//! Plans of Monte Carlo campaigns: TOML with a table `[[vary]]` for each key and its distribution. Units as in scenario files;
+//! every error at once.
+
+use std::cell::RefCell;
+use std::path::Path;
+
+use super::diagnostic::Diagnostics;
+use super::keys::Keys;
+use super::load::load_file;
+use crate::campaign::{Distribution, Variation};
+use crate::units::{Dimension, Quantity, parse_quantity};
+
+/// The number of the format that this program reads.
+const FORMAT: u32 = 1;
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Word {
+    Uniform,
+    Normal,
+    Lognormal,
+    List,
+    Phase,
+}
+
+const WORDS: [(&str, Word); 5] = [
+    ("uniform", Word::Uniform),
+    ("normal", Word::Normal),
+    ("lognormal", Word::Lognormal),
+    ("list", Word::List),
+    ("phase", Word::Phase),
+];
+
+/// Reads a plan.
+///
+/// # Errors
+/// Everything that is wrong, with its places.
+pub fn variations_from_toml(path: &Path) -> Result<Vec<Variation>, Diagnostics> {
+    let mut reports = Diagnostics::default();
+    let node = load_file(path, &mut reports);
+    if reports.has_errors() {
+        return Err(reports);
+    }
+    let cell = RefCell::new(reports);
+    let read = Keys::new(&node, "", &cell).map(|keys| {
+        if !keys.has("format") {
+            keys.missing("format", "format = 1");
+        }
+        keys.count("format", FORMAT, FORMAT);
+        if !keys.has("vary") {
+            keys.missing("vary", "[[vary]]` with `key = \"hub.mass\"");
+        }
+        let all: Vec<_> = keys.tables("vary").iter().filter_map(variation).collect();
+        keys.finish();
+        all
+    });
+    let mut reports = cell.into_inner();
+    match read {
+        Some(all) if !reports.has_errors() => Ok(all),
+        _ => {
+            if !reports.has_errors() {
+                reports.error_anywhere(format!("{} is no plan", path.display()), "");
+            }
+            Err(reports)
+        }
+    }
+}
+
+fn variation(keys: &Keys<'_>) -> Option<Variation> {
+    let key = keys.text("key");
+    for (name, example) in
+        [("key", "key = \"hub.mass\""), ("distribution", "distribution = \"normal\"")]
+    {
+        if !keys.has(name) {
+            keys.missing(name, example);
+        }
+    }
+    let word = keys.choice("distribution", &WORDS);
+    let names: &[(&str, &str)] = match word? {
+        Word::Uniform => &[("from", "from = \"1 kg\""), ("to", "to = \"2 kg\"")],
+        Word::Normal => &[("mean", "mean = \"1 kg\""), ("deviation", "deviation = \"0.1 kg\"")],
+        Word::Lognormal => &[("median", "median = \"1 kg\""), ("sigma", "sigma = 0.2")],
+        Word::List => &[("values", "values = \"1, 2, 5 kg\"")],
+        Word::Phase => &[],
+    };
+    let mut found: Vec<Quantity> = Vec::new();
+    for (name, example) in names {
+        if !keys.has(name) {
+            keys.missing(name, example);
+        }
+        found.extend(keys.any_quantity(name));
+    }
+    keys.finish();
+    if found.len() != names.len() {
+        return None;
+    }
+    let key = key?;
+    if !key.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.')) || key.is_empty() {
+        let message = format!("`{key}` is no key of a scenario");
+        keys.error("key", message, "write for example `key = \"hub.mass\"`");
+        return None;
+    }
+    let unit = found.first().map_or_else(|| "deg".to_owned(), |of| of.unit.clone());
+    let distribution = match distribution(word?, &found, &unit) {
+        Ok(distribution) => distribution,
+        Err((at, message)) => {
+            let place = names.get(at).map_or("key", |(name, _)| *name);
+            keys.error(place, message, "see docs/campaigns.md");
+            return None;
+        }
+    };
+    Some(Variation { key: key.to_owned(), unit, distribution })
+}
+
+/// The distribution of quantities, in a unit; or which of them is wrong.
+fn distribution(
+    word: Word,
+    found: &[Quantity],
+    unit: &str,
+) -> Result<Distribution, (usize, &'static str)> {
+    let one = format!("1 {unit}");
+    let size = parse_quantity(&one).ok().and_then(|one| one.values.first().copied());
+    let size = size.unwrap_or(1.0);
+    let dimension = found.first().map_or_else(Dimension::default, |of| of.dimension);
+    let single = |at: usize, of: Dimension| {
+        let quantity = found.get(at).ok_or((at, "a number is missing"))?;
+        match quantity.values[..] {
+            [value] if quantity.dimension == of => Ok(value),
+            [_] => Err((at, "this is of another dimension")),
+            _ => Err((at, "this is one number with its unit")),
+        }
+    };
+    match word {
+        Word::Uniform => {
+            let (from, to) = (single(0, dimension)? / size, single(1, dimension)? / size);
+            let rises = from < to;
+            if rises {
+                Ok(Distribution::Uniform([from, to]))
+            } else {
+                Err((1, "`to` is not above `from`"))
+            }
+        }
+        Word::Normal => {
+            let (mean, deviation) = (single(0, dimension)? / size, single(1, dimension)? / size);
+            let is = deviation > 0.0;
+            if is {
+                Ok(Distribution::Normal { mean, deviation })
+            } else {
+                Err((1, "a deviation is above zero"))
+            }
+        }
+        Word::Lognormal => {
+            let (median, sigma) = (single(0, dimension)? / size, single(1, Dimension::default())?);
+            match (median > 0.0, sigma > 0.0 && sigma <= 5.0) {
+                (false, _) => Err((0, "a median is above zero")),
+                (_, false) => Err((1, "sigma is above zero and at most five")),
+                _ => Ok(Distribution::Lognormal { median, sigma }),
+            }
+        }
+        Word::List => {
+            let values = found.first().map_or(&[][..], |of| &of.values);
+            Ok(Distribution::List(values.iter().map(|value| value / size).collect()))
+        }
+        Word::Phase => Ok(Distribution::Phase),
+    }
+}

@@ -1,0 +1,35 @@
+//! Picture of a Monte Carlo campaign: the empirical distribution of a number.
+
+use super::error::DrawError;
+use super::plane::Plane;
+use crate::spectra::float;
+
+/// The share of samples that do not exceed a value, over the value, with the limit as a vertical line.
+pub(crate) fn distribution(
+    name: &str,
+    (unit, size): (&str, f64),
+    sorted: &[f64],
+    limit: Option<f64>,
+) -> Result<String, DrawError> {
+    let count = float(sorted.len().max(1));
+    let mut steps = Vec::new();
+    for (index, value) in sorted.iter().enumerate() {
+        steps.push([value / size, float(index) / count]);
+        steps.push([value / size, float(index + 1) / count]);
+    }
+    let mut curves = vec![("samples".to_owned(), steps)];
+    if let Some(limit) = limit {
+        curves.push(("limit".to_owned(), vec![[limit / size, 0.0], [limit / size, 1.0]]));
+    }
+    Plane {
+        description: format!("Share of samples over {name}, in {unit}."),
+        title: format!("{name}: distribution of {} samples", sorted.len()),
+        axes: [format!("{name} ({unit})"), "Share of samples".to_owned()],
+        curves,
+        lines: Vec::new(),
+        dots: Vec::new(),
+        marks: Vec::new(),
+        ranges: [None, Some([0.0, 1.02])],
+    }
+    .file()
+}

@@ -1,0 +1,153 @@
+//! Pictures of a sweep: a number over a key, a map over two keys, lines over a key and frequency.
+
+use super::error::DrawError;
+use super::number::{short, with_unit};
+use super::plane::Plane;
+use crate::campaign::{Axis, Spacing};
+
+/// A line is drawn in a waterfall from this share of the largest on.
+const DOT_MIN: f64 = 5e-3;
+/// Above the highest point of a picture.
+const ABOVE: f64 = 1.06;
+
+/// A number of each sample.
+pub(crate) struct Numbers<'a> {
+    /// What it is.
+    pub(crate) name: &'a str,
+    /// The unit in which it is shown, and its size in SI.
+    pub(crate) unit: (&'a str, f64),
+    /// SI; none of a sample that failed.
+    pub(crate) values: &'a [Option<f64>],
+    /// A limit, SI.
+    pub(crate) limit: Option<f64>,
+}
+
+/// A value of an axis as it is drawn: its decadic logarithm where values have equal ratios.
+fn place(axis: &Axis, value: f64) -> f64 {
+    if axis.spacing == Spacing::Logarithmic { libm::log10(value) } else { value }
+}
+
+fn label(axis: &Axis) -> String {
+    let unit = if axis.unit.is_empty() { String::new() } else { format!(" ({})", axis.unit) };
+    let word = if axis.spacing == Spacing::Logarithmic { "log10 of " } else { "" };
+    format!("{word}{}{unit}", axis.key)
+}
+
+fn ends(axis: &Axis) -> Option<[f64; 2]> {
+    let places = || axis.values.iter().map(|value| place(axis, *value));
+    let (least, most) =
+        (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
+    (least < most).then_some([least, most])
+}
+
+/// A number over the values of a key, with its limit.
+pub(crate) fn curve(axis: &Axis, of: &Numbers<'_>) -> Result<String, DrawError> {
+    let (unit, size) = of.unit;
+    let points = axis.values.iter().zip(of.values);
+    let mut points: Vec<[f64; 2]> = points
+        .map(|(value, number)| [place(axis, *value), number.unwrap_or(f64::NAN) / size])
+        .collect();
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut curves = vec![("found".to_owned(), points)];
+    if let (Some(limit), Some(ends)) = (of.limit, ends(axis)) {
+        curves.push(("limit".to_owned(), ends.map(|end| [end, limit / size]).to_vec()));
+    }
+    let finite = curves.iter().flat_map(|(_, points)| points).map(|point| point[1]);
+    let most = finite.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    let y = (most > 0.0).then_some([0.0, ABOVE * most]);
+    plane(
+        format!("{} over {}, in {unit}.", of.name, axis.label()),
+        of.name.to_owned(),
+        [label(axis), format!("{} ({unit})", of.name)],
+        [ends(axis), y],
+        |plane| plane.curves = curves,
+    )
+    .file()
+}
+
+/// A number over the values of two keys, the second one fastest: dots whose area is the number, circles where a limit is
+/// exceeded or the sample failed.
+pub(crate) fn map(axes: [&Axis; 2], of: &Numbers<'_>) -> Result<String, DrawError> {
+    let (unit, size) = of.unit;
+    let [first, second] = axes;
+    let all = first.values.iter().flat_map(|a| second.values.iter().map(move |b| [*a, *b]));
+    let most = of.values.iter().flatten().copied().fold(0.0, f64::max);
+    let (mut dots, mut marks) = (Vec::new(), Vec::new());
+    for ([a, b], number) in all.zip(of.values) {
+        let at = [place(first, a), place(second, b)];
+        let exceeded = of.limit.zip(*number).is_some_and(|(limit, number)| number > limit);
+        if exceeded || number.is_none() {
+            marks.push(at);
+        }
+        if let Some(number) = number.filter(|_| most > 0.0) {
+            dots.push([at[0], at[1], number / most]);
+        }
+    }
+    let largest = with_unit(most / size, 3, unit);
+    let wide = |axis: &Axis| {
+        ends(axis).map(|[from, to]| [from - 0.05 * (to - from), to + 0.05 * (to - from)])
+    };
+    plane(
+        format!(
+            "{} over {} and {}; the largest is {largest}.",
+            of.name,
+            first.label(),
+            second.label()
+        ),
+        format!("{}: area of a dot, largest {largest}; circles: violated or failed", of.name),
+        [label(first), label(second)],
+        [wide(first), wide(second)],
+        |plane| (plane.dots, plane.marks) = (dots, marks),
+    )
+    .file()
+}
+
+/// Lines, `[value of the key, frequency in Hz, amplitude in SI]`, and straight lines of the orders of a rate.
+pub(crate) fn waterfall(
+    axis: &Axis,
+    column: &str,
+    unit: &str,
+    lines: &[[f64; 3]],
+    orders: &[f64],
+) -> Result<String, DrawError> {
+    let largest = lines.iter().map(|line| line[2]).fold(0.0, f64::max);
+    let mut dots: Vec<[f64; 3]> = Vec::new();
+    for [value, frequency, amplitude] in lines {
+        if *amplitude > DOT_MIN * largest {
+            dots.push([place(axis, *value), *frequency, amplitude / largest]);
+        }
+    }
+    let top = dots.iter().map(|dot| dot[1]).fold(0.0, f64::max);
+    let order = |order: &f64| {
+        // A straight line only over the rate itself.
+        let ends = ends(axis).filter(|_| axis.spacing != Spacing::Logarithmic)?;
+        let at = |value: f64| [value, order * value.abs() * axis.size / std::f64::consts::TAU];
+        Some((format!("{}\u{d7}", short(*order, 4)), ends.map(at)))
+    };
+    let straight = orders.iter().filter_map(order).collect();
+    let amplitude = with_unit(largest, 3, unit);
+    plane(
+        format!(
+            "Lines of {column} over {} and frequency in Hz; the largest is {amplitude}.",
+            axis.label()
+        ),
+        format!("{column}: lines, largest {amplitude}"),
+        [label(axis), "Frequency f (Hz)".to_owned()],
+        [ends(axis), (top > 0.0).then_some([0.0, ABOVE * top])],
+        |plane| (plane.dots, plane.lines) = (dots, straight),
+    )
+    .file()
+}
+
+fn plane(
+    description: String,
+    title: String,
+    axes: [String; 2],
+    ranges: [Option<[f64; 2]>; 2],
+    fill: impl FnOnce(&mut Plane),
+) -> Plane {
+    let (curves, lines, dots, marks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut plane = Plane { description, title, axes, curves, lines, dots, marks, ranges };
+    fill(&mut plane);
+    plane
+}

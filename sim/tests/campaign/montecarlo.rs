@@ -1,0 +1,196 @@
+//! `montecarlo`: a number whose distribution is known, derivatives against the sample, threads, what is refused.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use super::shared::{folder, number, path, precess, results, rows, text};
+
+/// Of the acceleration of the hub's origin, as in the sweep.
+const CLOSED_FORM: f64 = 1e-4;
+/// Of a derivative by central differences, steps of a twentieth of a deviation of a hundredth.
+const DERIVATIVE: f64 = 1e-3;
+/// Of a regression over deviations of a hundredth: what is not linear, and 200 samples of the other keys.
+const REGRESSION: f64 = 0.05;
+
+const PLAN: &str = r#"format = 1
+[[vary]]
+key = "device.rw.imbalance.static"
+distribution = "normal"
+mean = "10 g cm"
+deviation = "0.1 g cm"
+[[vary]]
+key = "device.rw.wheel.rate"
+distribution = "uniform"
+from = "2950 rpm"
+to = "3050 rpm"
+[[vary]]
+key = "hub.mass"
+distribution = "normal"
+mean = "96 kg"
+deviation = "0.2 kg"
+"#;
+
+fn plan(folder: &Path, text: &str) -> PathBuf {
+    let file = folder.join("plan.toml");
+    fs::write(&file, text).expect("a file");
+    file
+}
+
+fn run(file: &Path, plan: &Path, out: &Path, more: &[&str]) -> Output {
+    let mut arguments = vec!["montecarlo", path(file), "--plan", path(plan), "--out", path(out)];
+    arguments.extend(["--column", "acceleration", "--set", "run.duration=0.05 s", "--lines", "0"]);
+    arguments.extend(more);
+    precess(&arguments)
+}
+
+/// `m s w^2 / M` of a row.
+fn expected(row: &BTreeMap<String, String>) -> f64 {
+    let rate = number(row, "device.rw.wheel.rate [rpm]") * TAU / 60.0;
+    let imbalance = number(row, "device.rw.imbalance.static [g cm]") * 1e-5;
+    imbalance * rate * rate / (4.0 + number(row, "hub.mass [kg]"))
+}
+
+#[test]
+fn a_near_linear_number_has_the_derivatives_of_its_closed_form_and_of_the_sample() {
+    const NUMBER: &str = "acceleration rms [m/s²]";
+    let (folder, file) = folder("derivatives");
+    let plan = plan(&folder, PLAN);
+    let out = folder.join("out");
+    let more = ["--samples", "200", "--seed", "5", "--latin-hypercube", "--sensitivities"];
+    let output = run(&file, &plan, &out, &more);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let files = results(&out);
+    let table = rows(&files["wheel-montecarlo.csv"]);
+    assert_eq!(table.len(), 200);
+    for row in &table {
+        let share = number(row, NUMBER) / expected(row);
+        assert!((share - 1.0).abs() < CLOSED_FORM, "{row:?}");
+    }
+    // d/dx of s w^2 / M at the middle.
+    let center = 1e-4 * (50.0 * TAU).powi(2) / 100.0;
+    let known = [
+        ("device.rw.wheel.rate [rpm]", 2.0 * center / 3000.0, 100.0 / 12.0_f64.sqrt()),
+        ("device.rw.imbalance.static [g cm]", center / 10.0, 0.1),
+        ("hub.mass [kg]", -center / 100.0, 0.2),
+    ];
+    let derivatives = rows(&files["wheel-montecarlo-sensitivities.csv"]);
+    let derivatives = derivatives.iter().filter(|row| row["number"] == "acceleration rms");
+    for (row, (key, slope, deviation)) in derivatives.zip(known) {
+        // Largest over a deviation first.
+        assert_eq!(row["key"], key);
+        let found = number(row, "derivative_si_by_key_unit");
+        assert!((found / slope - 1.0).abs() < DERIVATIVE, "{key}: {found} for {slope}");
+        let size = number(row, "times_deviation_si");
+        assert!((size / (slope * deviation).abs() - 1.0).abs() < DERIVATIVE, "{key}: {size}");
+        // The regression coefficient of the sample: keys are drawn independently.
+        let count = f64::from(u32::try_from(table.len()).expect("few"));
+        let mean = |of: &dyn Fn(&BTreeMap<String, String>) -> f64| {
+            table.iter().map(of).sum::<f64>() / count
+        };
+        let (x, y) = (mean(&|row| number(row, key)), mean(&|row| number(row, NUMBER)));
+        let product = mean(&|row| (number(row, key) - x) * (number(row, NUMBER) - y));
+        let square = mean(&|row| (number(row, key) - x).powi(2));
+        let off = (product / square - slope).abs() * deviation;
+        let largest = known[0].1 * known[0].2;
+        assert!(off < REGRESSION * largest, "{key}: {} for {slope}", product / square);
+    }
+    let ranks = rows(&files["wheel-montecarlo-correlations.csv"]);
+    let rank = |key: &str| {
+        let of = |row: &&BTreeMap<String, String>| {
+            row["number"] == "acceleration rms" && row["key"] == key
+        };
+        number(ranks.iter().find(of).expect("a row"), "rank_correlation")
+    };
+    assert!(rank(known[0].0) > 0.7 && rank(known[1].0) > 0.2 && rank(known[2].0) < 0.0);
+    assert!(text(&output.stdout).contains("largest derivative times deviation"));
+}
+
+#[test]
+fn percentiles_and_probabilities_are_those_of_the_closed_form() {
+    let (folder, file) = folder("percentiles");
+    // The acceleration is proportional to the imbalance: uniform from 0.09 to 0.11 of its middle, 0.0987 m/s^2.
+    let uniform = "format = 1\n[[vary]]\nkey = \"device.rw.imbalance.static\"\n\
+        distribution = \"uniform\"\nfrom = \"9 g cm\"\nto = \"11 g cm\"\n";
+    let plan = plan(&folder, uniform);
+    let out = folder.join("out");
+    let middle = 1e-4 * (50.0 * TAU).powi(2) / 100.0;
+    let limit = format!("requirement.micro-g.limit={} m/s^2", 1.05 * middle);
+    let more = ["--samples", "400", "--seed", "3", "--set", limit.as_str()];
+    let output = run(&file, &plan, &out, &more);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
+    let files = results(&out);
+    let found = rows(&files["wheel-montecarlo-percentiles.csv"]);
+    let of = |number: &str, percentile: &str| {
+        let is = |row: &&BTreeMap<String, String>| {
+            row["number"] == number && row["percentile"] == percentile
+        };
+        found.iter().find(is).expect("a row").clone()
+    };
+    for (share, name) in [(0.05, "5"), (0.5, "50"), (0.95, "95")] {
+        let row = of("acceleration rms", name);
+        let known = middle * (0.9 + 0.2 * share);
+        // The seed is fixed: intervals of 0.95 contain the known percentiles.
+        assert!(number(&row, "lower_si") <= known && known <= number(&row, "upper_si"), "{row:?}");
+        assert!((number(&row, "value_si") / known - 1.0).abs() < 0.02, "{row:?}");
+    }
+    // The limit is at three quarters of the uniform distribution.
+    let row = of("requirement micro-g", "probability of meeting");
+    assert!(number(&row, "lower_si") < 0.75 && 0.75 < number(&row, "upper_si"), "{row:?}");
+}
+
+#[test]
+fn more_samples_keep_the_earlier_rows_on_any_number_of_threads() {
+    let (folder, file) = folder("more");
+    let plan = plan(&folder, PLAN);
+    let out = folder.join("out");
+    let of = |out: &Path, more: &[&str]| {
+        let output = run(&file, &plan, out, more);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        (results(out), text(&output.stdout))
+    };
+    let (few, _) = of(&out, &["--samples", "6", "--threads", "1"]);
+    let (many, shown) = of(&out, &["--samples", "12", "--force", "--threads", "4"]);
+    assert!(shown.contains("6 samples were in the journal"), "{shown}");
+    let table = |files: &BTreeMap<String, Vec<u8>>| rows(&files["wheel-montecarlo.csv"]);
+    assert_eq!(table(&few)[..], table(&many)[..6]);
+    let (again, _) = of(&folder.join("b"), &["--samples", "12", "--threads", "3"]);
+    assert!(again == many, "threads");
+    let (other, _) = of(&folder.join("c"), &["--samples", "6", "--seed", "2"]);
+    assert_ne!(table(&few)[0], table(&other)[0]);
+}
+
+#[test]
+fn what_is_no_plan_is_refused_with_the_remedy() {
+    let (folder, file) = folder("no-plan");
+    let out = folder.join("out");
+    let vary = |keys: &str| format!("format = 1\n[[vary]]\nkey = \"hub.mass\"\n{keys}\n");
+    for (plan_text, part) in [
+        ("format = 1".to_owned(), "[[vary]]"),
+        (vary(""), "distribution = \"normal\""),
+        (vary("distribution = \"nrmal\""), "nrmal"),
+        (vary("distribution = \"normal\"\nmean = \"1 kg\""), "deviation = \"0.1 kg\""),
+        (
+            vary("distribution = \"normal\"\nmean = \"1 kg\"\ndeviation = \"1 m\""),
+            "another dimension",
+        ),
+        (vary("distribution = \"normal\"\nmean = \"1 kg\"\ndeviation = \"0 kg\""), "above zero"),
+        (vary("distribution = \"uniform\"\nfrom = \"2 kg\"\nto = \"1 kg\""), "not above `from`"),
+        (vary("distribution = \"lognormal\"\nmedian = \"2 kg\"\nsigma = 9"), "at most five"),
+        (vary("distribution = \"phase\"\nmena = 1"), "mena"),
+        (PLAN.replace("hub.mass", "device.rw.wheel.rate"), "two axes are of the key"),
+        (PLAN.replace("hub.mass", "hub.maas"), "maas"),
+    ] {
+        let plan = plan(&folder, &plan_text);
+        let output = run(&file, &plan, &out, &["--samples", "3"]);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{plan_text}: {message}");
+        assert!(message.contains(part), "{plan_text}: {message}");
+    }
+    let plan = plan(&folder, PLAN);
+    let output = run(&file, &plan, &out, &["--samples", "0"]);
+    assert!(text(&output.stderr).contains("not within 1 to 1000000"));
+    assert!(!out.exists());
+}
