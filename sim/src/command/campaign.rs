@@ -89,8 +89,13 @@ impl CampaignOptions {
         Ok(Prepared { template, overrides, scenario, selection, fields })
     }
 
-    /// Rejects results that are there.
-    pub(super) fn may_write(&self, names: &[String]) -> Result<(), CommandError> {
+    /// Rejects results that are there. Beside a journal it is the table that counts: it is written last, so without it the other
+    /// files are of a campaign that was ended while it wrote them.
+    pub(super) fn may_write(&self, stem: &str, names: &[String]) -> Result<(), CommandError> {
+        let table = format!("{stem}.csv");
+        if self.out.join(format!("{stem}.journal")).is_file() {
+            return may_write(&self.out, &[table], self.force);
+        }
         may_write(&self.out, names, self.force)
     }
 
@@ -148,7 +153,7 @@ impl CampaignOptions {
         Ok(Some(finished))
     }
 
-    /// Writes the tables `STEM.csv` and `STEM.npz`, and some texts by their names.
+    /// Writes some texts by their names, then the tables `STEM.npz` and `STEM.csv`.
     pub(super) fn write(
         &self,
         prepared: &Prepared,

@@ -78,7 +78,7 @@ impl MonteCarlo {
         if self.sensitivities {
             names.push(format!("{beside}.csv"));
         }
-        self.options.may_write(&names)?;
+        self.options.may_write(&stem, &names)?;
         let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
             return Ok(ExitCode::from(UNMET));
         };

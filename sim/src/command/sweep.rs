@@ -51,7 +51,7 @@ impl Sweep {
         let plan = Plan::of_axes(&self.over).map_err(|error| other(&error))?;
         let prepared = self.options.prepare()?;
         let stem = format!("{}-sweep", prepared.scenario.name);
-        self.options.may_write(&self.names(&prepared, &stem))?;
+        self.options.may_write(&stem, &self.names(&prepared, &stem))?;
         let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
             return Ok(ExitCode::from(UNMET));
         };

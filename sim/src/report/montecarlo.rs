@@ -2,15 +2,17 @@
 
 use super::error::DrawError;
 use super::plane::Plane;
+use super::sweep::scaled;
 use crate::spectra::float;
 
 /// The share of samples that do not exceed a value, over the value, with the limit as a vertical line.
 pub(crate) fn distribution(
     name: &str,
-    (unit, size): (&str, f64),
+    unit: (&str, f64),
     sorted: &[f64],
     limit: Option<f64>,
 ) -> Result<String, DrawError> {
+    let (unit, size) = scaled(unit, sorted.iter().copied());
     let count = float(sorted.len().max(1));
     let mut steps = Vec::new();
     for (index, value) in sorted.iter().enumerate() {

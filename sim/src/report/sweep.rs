@@ -1,12 +1,14 @@
 //! Pictures of a sweep: a number over a key, a map over two keys, lines over a key and frequency.
 
 use super::error::DrawError;
-use super::number::{short, with_unit};
+use super::number::{power_of_ten, short, with_unit};
 use super::plane::Plane;
 use crate::campaign::{Axis, Spacing};
 
 /// A line is drawn in a waterfall from this share of the largest on.
 const DOT_MIN: f64 = 5e-3;
+/// Lines of orders end at this share of the highest line.
+const BELOW_TITLE: f64 = 0.93;
 /// Above the highest point of a picture.
 const ABOVE: f64 = 1.06;
 
@@ -40,9 +42,27 @@ fn ends(axis: &Axis) -> Option<[f64; 2]> {
     (least < most).then_some([least, most])
 }
 
+/// A unit, times a power of a thousand where that makes numbers short, and its size in SI.
+pub(super) fn scaled(
+    (unit, size): (&str, f64),
+    values: impl Iterator<Item = f64>,
+) -> (String, f64) {
+    let most = values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max) / size;
+    if most == 0.0 || (1e-2..1e5).contains(&most) {
+        return (unit.to_owned(), size);
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "an exponent of a finite number, -324 to 308"
+    )]
+    let power = 3 * (libm::log10(most) / 3.0).floor() as i32;
+    let unit = format!("{} {unit}", power_of_ten(power));
+    (unit.trim_end().to_owned(), size * libm::pow(10.0, f64::from(power)))
+}
+
 /// A number over the values of a key, with its limit.
 pub(crate) fn curve(axis: &Axis, of: &Numbers<'_>) -> Result<String, DrawError> {
-    let (unit, size) = of.unit;
+    let (unit, size) = scaled(of.unit, of.values.iter().flatten().copied());
     let points = axis.values.iter().zip(of.values);
     let mut points: Vec<[f64; 2]> = points
         .map(|(value, number)| [place(axis, *value), number.unwrap_or(f64::NAN) / size])
@@ -89,12 +109,12 @@ pub(crate) fn map(axes: [&Axis; 2], of: &Numbers<'_>) -> Result<String, DrawErro
     };
     plane(
         format!(
-            "{} over {} and {}; the largest is {largest}.",
+            "{} over {} and {} by area; the largest is {largest}; circles are violated or failed.",
             of.name,
             first.label(),
             second.label()
         ),
-        format!("{}: area of a dot, largest {largest}; circles: violated or failed", of.name),
+        format!("{}, largest {largest}", of.name),
         [label(first), label(second)],
         [wide(first), wide(second)],
         |plane| (plane.dots, plane.marks) = (dots, marks),
@@ -121,7 +141,13 @@ pub(crate) fn waterfall(
     let order = |order: &f64| {
         // A straight line only over the rate itself.
         let ends = ends(axis).filter(|_| axis.spacing != Spacing::Logarithmic)?;
-        let at = |value: f64| [value, order * value.abs() * axis.size / std::f64::consts::TAU];
+        let frequency = |value: f64| order * value.abs() * axis.size / std::f64::consts::TAU;
+        let [from, to] = ends;
+        // The label stands at the end: below the title.
+        let share = (BELOW_TITLE * top / frequency(to)).min(1.0);
+        let end = if from >= 0.0 { to * share } else { to };
+        let ends = [from, end.max(from)];
+        let at = |value: f64| [value, frequency(value)];
         Some((format!("{}\u{d7}", short(*order, 4)), ends.map(at)))
     };
     let straight = orders.iter().filter_map(order).collect();

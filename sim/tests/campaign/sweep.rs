@@ -144,3 +144,19 @@ fn a_journal_of_another_plan_or_scenario_is_refused() {
     assert!(results(&out).is_empty());
     assert!(run("hub.mass=50,97 kg", &["--force"]).status.success());
 }
+
+#[test]
+fn a_sweep_that_was_ended_while_it_wrote_its_files_is_continued() {
+    let (folder, file) = folder("writing");
+    let out = folder.join("out");
+    let run =
+        || precess(&["sweep", path(&file), "--over", "hub.mass=50,96 kg", "--out", path(&out)]);
+    assert!(run().status.success());
+    let whole = results(&out);
+    // The table is written last.
+    fs::remove_file(out.join("wheel-sweep.csv")).expect("removed");
+    fs::rename(out.join("wheel-sweep.npz"), out.join("wheel-sweep.npz.partial")).expect("renamed");
+    let output = run();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(results(&out) == whole, "another result");
+}
