@@ -19,7 +19,7 @@ use crate::jitter::coupled::{Compared, compare};
 use crate::jitter::device::Steady;
 use crate::jitter::model::{Contributor, Model};
 use crate::jitter::sensitivity::{Sensitivity, sensitivities};
-use crate::jitter::sweep::{Sweep, speeds, sweep};
+use crate::jitter::sweep::{Sweep, refined, speeds, sweep};
 use crate::report::jitter::{AGREEMENT, JitterReport, intervals, metric, rpm};
 use crate::scenario::Scenario;
 
@@ -45,6 +45,7 @@ pub(super) struct Jitter {
     /// The budget file.
     #[arg(value_name = "BUDGET")]
     file: PathBuf,
+    /// Of the scenario; the budget's keys are in its file.
     #[command(flatten)]
     overrides: Set,
     /// Folder for the results; made if it is missing.
@@ -152,7 +153,15 @@ impl Jitter {
         if model.contributors().is_empty() {
             return Err(other(&crate::jitter::coupled::CoupledError::NoTones));
         }
-        let all = speeds(budget.speeds, budget.count);
+        let campbell_speeds = speeds(budget.speeds, CAMPBELL_SPEEDS);
+        let natural: Result<Vec<_>, _> =
+            campbell_speeds.iter().map(|speed| oscillations(&model, *speed)).collect();
+        let branches = branches(&campbell_speeds, &natural.map_err(|error| other(&error))?);
+        let mut orders: Vec<f64> = model.contributors().iter().map(|of| of.order).collect();
+        orders.sort_by(f64::total_cmp);
+        orders.dedup();
+        let crossings = crossings(&campbell_speeds, &branches, &orders);
+        let all = refined(speeds(budget.speeds, budget.count), budget.speeds, &crossings);
         let threads = self.threads.unwrap_or_else(|| {
             std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
         });
@@ -167,14 +176,6 @@ impl Jitter {
             bar.finish_and_clear();
         }
         let assessed = budget.assess(&found).map_err(|error| other(&error))?;
-        let campbell_speeds = speeds(budget.speeds, CAMPBELL_SPEEDS);
-        let natural: Result<Vec<_>, _> =
-            campbell_speeds.iter().map(|speed| oscillations(&model, *speed)).collect();
-        let branches = branches(&campbell_speeds, &natural.map_err(|error| other(&error))?);
-        let mut orders: Vec<f64> = found.contributors.iter().map(|of| of.order).collect();
-        orders.sort_by(f64::total_cmp);
-        orders.dedup();
-        let crossings = crossings(&campbell_speeds, &branches, &orders);
         let mut at: Vec<f64> = self.compare.clone();
         if at.is_empty() && !self.no_compare {
             at = assessed.iter().filter_map(|of| found.speeds.get(of.worst).copied()).collect();

@@ -93,10 +93,8 @@ impl Budget {
     /// # Errors
     /// [`PointingError`] for an index, which is of a history or a density.
     pub fn assess(&self, sweep: &Sweep) -> Result<Vec<Assessed>, PointingError> {
-        let step = match sweep.speeds.as_slice() {
-            [first, .., last] => (last - first) / crate::spectra::float(sweep.speeds.len() - 1),
-            _ => 0.0,
-        };
+        let [from, to] = self.speeds;
+        let step = (to - from) / crate::spectra::float(self.count.max(2) - 1);
         self.limits
             .iter()
             .map(|(sight, limit)| {

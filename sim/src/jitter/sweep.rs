@@ -5,12 +5,17 @@ use std::thread;
 
 use nalgebra::Complex;
 
+use super::campbell::Crossing;
 use super::model::{Contributor, Line, Model};
 use super::noise::NoiseSweep;
 use crate::structure::Fault;
 
 /// Speeds at which the density of noise is computed, about.
 const NOISE_SPEEDS: usize = 24;
+/// Speeds on each side of a crossing, how far they go in half-widths, and the least half-width, of the speed.
+const BESIDE: i32 = 16;
+const WIDTHS: f64 = 6.0;
+const WIDTH_MIN: f64 = 1e-5;
 /// Speeds that a sweep may have.
 pub const SPEEDS_MAX: usize = 1_000_000;
 
@@ -48,6 +53,24 @@ pub fn speeds([from, to]: [f64; 2], count: usize) -> Vec<f64> {
     #[expect(clippy::cast_precision_loss, reason = "at most SPEEDS_MAX")]
     let at = |index: usize| from + (to - from) * (index as f64 / last as f64);
     (0..count).map(at).collect()
+}
+
+/// Speeds with more around each crossing of an order and a natural frequency, so that a peak between two of them is not
+/// missed: to a twentieth of its half-power width.
+#[must_use]
+pub fn refined(mut speeds: Vec<f64>, [from, to]: [f64; 2], crossings: &[Crossing]) -> Vec<f64> {
+    for crossing in crossings {
+        let width = crossing.oscillation.damping.max(WIDTH_MIN) * crossing.speed;
+        for k in -BESIDE..=BESIDE {
+            let share = f64::from(k) / f64::from(BESIDE);
+            // Close at the peak, wider beside it.
+            speeds.push(crossing.speed + WIDTHS * width * share * share.abs());
+        }
+    }
+    speeds.retain(|speed| (from..=to).contains(speed));
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    speeds
 }
 
 /// The lines of a model at some speeds. `progress` is called with the number of speeds that are done.

@@ -17,6 +17,8 @@ use crate::scenario::Scenario;
 
 /// Revolutions per minute of one radian per second.
 pub(super) const RPM: f64 = 60.0 / TAU;
+/// A crossing this near to a worst speed is listed first.
+const NEAR_WORST: f64 = 0.02;
 /// Contributors and crossings that a table shows.
 const ROWS_MAX: usize = 24;
 
@@ -147,10 +149,8 @@ impl JitterReport<'_> {
 
     fn summary(&self) -> Summary {
         let [from, to] = self.budget.speeds;
-        let mut paragraphs = Vec::new();
-        if !self.scenario.description.trim().is_empty() {
-            paragraphs.push(self.scenario.description.trim().to_owned());
-        }
+        let title = self.scenario.title.trim_end_matches('.');
+        let paragraphs = vec![format!("Spacecraft: {title}.")];
         let rotors = if self.budget.swept.is_empty() {
             "all rotors".to_owned()
         } else {
@@ -166,6 +166,17 @@ impl JitterReport<'_> {
             Fact::new("Modes of the structure", self.modes()),
         ];
         Summary { paragraphs, facts }
+    }
+
+    /// The mode of the structure nearest to a natural frequency, rad/s.
+    fn nearest_mode(&self, frequency: f64) -> String {
+        let modes = self.scenario.structure.as_ref().map_or(&[][..], |s| s.modes.as_slice());
+        let apart = |mode: &crate::structure::Mode| (mode.frequency / frequency - 1.0).abs();
+        let nearest = modes.iter().enumerate().min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
+        nearest.map_or_else(
+            || "no mode of the structure".to_owned(),
+            |(k, mode)| format!("mode {} ({} Hz alone)", k + 1, short(mode.frequency / TAU, 4)),
+        )
     }
 
     pub(super) fn modes(&self) -> String {
@@ -312,7 +323,22 @@ impl JitterReport<'_> {
             blocks.push(Block::Text { text });
             return Ok(blocks);
         }
-        let rows = self.crossings.iter().take(ROWS_MAX).map(|of| {
+        // Those of the worst speeds first, then by order.
+        let worst: Vec<f64> = self
+            .assessed
+            .iter()
+            .filter_map(|of| self.sweep.speeds.get(of.worst).copied())
+            .collect();
+        let near =
+            |of: &Crossing| !worst.iter().any(|speed| (of.speed / speed - 1.0).abs() < NEAR_WORST);
+        let mut ranked: Vec<&Crossing> = self.crossings.iter().collect();
+        ranked.sort_by(|a, b| {
+            near(a)
+                .cmp(&near(b))
+                .then(a.order.total_cmp(&b.order))
+                .then(a.speed.total_cmp(&b.speed))
+        });
+        let rows = ranked.into_iter().take(ROWS_MAX).map(|of| {
             let whirl = match of.whirl {
                 Whirl::Forward => "forward whirl",
                 Whirl::Backward => "backward whirl",
@@ -323,7 +349,7 @@ impl JitterReport<'_> {
                 short(of.order, 6),
                 format!("{} Hz", short(of.oscillation.frequency / TAU, 5)),
                 format!("{} %", short(100.0 * of.oscillation.damping, 3)),
-                whirl.to_owned(),
+                format!("{whirl}, near {}", self.nearest_mode(of.oscillation.frequency)),
             ];
             ("", cells)
         });
@@ -334,12 +360,15 @@ impl JitterReport<'_> {
             ("Damping ratio", ""),
             ("Branch", ""),
         ];
-        blocks.push(table("Orders that cross natural frequencies", &columns, 1..4, rows));
+        blocks.push(table(
+            "Orders that cross natural frequencies, those at the worst speeds first",
+            &columns,
+            1..4,
+            rows,
+        ));
         if self.crossings.len() > ROWS_MAX {
-            let text = format!(
-                "{} crossings at higher speeds are not listed.",
-                self.crossings.len() - ROWS_MAX
-            );
+            let text =
+                format!("{} more crossings are not listed.", self.crossings.len() - ROWS_MAX);
             blocks.push(Block::Note { text });
         }
         Ok(blocks)

@@ -99,7 +99,16 @@ impl JitterReport<'_> {
         let rows = vec![
             row("Structure", format!("{}; {mass}", self.modes())),
             row("Devices", "coupled, linearised about steady spin, averaged over a turn; gyroscopic terms exact".to_owned()),
-            row("Imbalance", "of the devices' own equations; no windows".to_owned()),
+            row("Imbalance", "of the devices' own equations".to_owned()),
+            row(
+                "Speeds",
+                "those of the budget, and more around each crossing of an order and a natural frequency".to_owned(),
+            ),
+            row(
+                "Displacement, smear, jitter",
+                "RMS within an exposure; a smear from end to end is sqrt 12 times its RMS".to_owned(),
+            ),
+            row("Coupled runs", "without sources".to_owned()),
             row("Sources", self.sources()),
             row("Phases between rotors", phases.to_owned()),
             row("Motors", motor.to_owned()),

@@ -7,7 +7,7 @@ use precess::file::from_toml;
 use precess::jitter::campbell::{Whirl, branches, crossings, oscillations};
 use precess::jitter::device::{Steady, SweptDevice};
 use precess::jitter::model::{HUB, Model, Output};
-use precess::jitter::sweep::{Phases, speeds, sweep};
+use precess::jitter::sweep::{Phases, refined, speeds, sweep};
 use precess::scenario::Scenario;
 use precess::structure::averaged::AveragedDevices;
 use precess::structure::dynamic_mass::Motor;
@@ -221,4 +221,30 @@ fn whirls_are_those_of_the_closed_form_and_orders_cross_them() {
     let axial = all.iter().find(|crossing| crossing.whirl == Whirl::None).expect("it is flat");
     assert!((axial.speed / 5e5_f64.sqrt() - 1.0).abs() < 1e-6, "{axial:?}");
     assert!(all.iter().all(|crossing| crossing.whirl != Whirl::Forward), "{all:?}");
+}
+
+/// A grid of few speeds has the peaks of a fine one: speeds are added around every crossing.
+#[test]
+fn a_coarse_grid_does_not_miss_a_resonance() {
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/imaging-satellite-flexible.toml");
+    let (scenario, _) =
+        precess::file::from_file(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    let outputs = rows("camera");
+    let model = Model::new(&scenario, &outputs, &STEADY).expect("valid");
+    let range = [60.0, 690.0];
+    let some = speeds(range, 61);
+    let natural: Result<Vec<_>, _> = some.iter().map(|s| oscillations(&model, *s)).collect();
+    let branches = branches(&some, &natural.expect("regular"));
+    let crossings = crossings(&some, &branches, &[1.0]);
+    let largest = |speeds: &[f64]| {
+        let found = sweep(&model, speeds, 2, &|_| {}).expect("damped");
+        let all =
+            (0..speeds.len()).map(|k| found.mean_square(k, &[3, 4], Phases::Unknown, &|_| 1.0));
+        all.fold(0.0, f64::max).sqrt()
+    };
+    let fine = largest(&speeds(range, 20_000));
+    let coarse = largest(&refined(speeds(range, 11), range, &crossings));
+    assert!((coarse / fine - 1.0).abs() < 0.01, "{coarse:e} for {fine:e}");
+    assert!(largest(&speeds(range, 11)) < 0.7 * fine, "the grid alone misses it");
 }
