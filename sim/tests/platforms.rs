@@ -395,7 +395,7 @@ fn bake_refuses_a_platform_and_the_flight_table_has_it() {
     let wheel = TWO_WHEELS.split("[[device]]").find(|part| part.contains("on = \"iso\""));
     let wheel = wheel.and_then(|part| part.split("[run]").next()).expect("a wheel on it");
     let names = ["w1", "w2", "w3", "w4"];
-    let more = names.map(|name| format!("[[device]]\n{}", renamed(wheel, name))).concat();
+    let more = names.map(|name| format!("[[device]]\n{}\n", renamed(wheel, name))).concat();
     let crowded = folder.join("crowded.toml");
     std::fs::write(&crowded, format!("{TWO_WHEELS}\n{more}")).expect("a file");
     let (done, shown) = run(&["export", "table", "--force"], &crowded);
