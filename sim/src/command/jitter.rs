@@ -99,6 +99,8 @@ impl Jitter {
         let mut warnings: Vec<String> =
             reports.all.iter().map(|warning| warning.message.clone()).collect();
         let stem = self.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
+        // Before the work, too.
+        may_write(&self.out, &[format!("{stem}.html")], self.force)?;
         let found = self.find(&scenario, &budget)?;
         warnings.extend(found.left_out.iter().cloned());
         let text = std::fs::read_to_string(&self.file)
@@ -150,7 +152,8 @@ impl Jitter {
         for reason in &left_out {
             eprintln!("warning: {reason}");
         }
-        if model.contributors().is_empty() {
+        let has_tones = !model.contributors().is_empty();
+        if !has_tones && model.noises.is_empty() {
             return Err(other(&crate::jitter::coupled::CoupledError::NoTones));
         }
         let campbell_speeds = speeds(budget.speeds, CAMPBELL_SPEEDS);
@@ -177,7 +180,7 @@ impl Jitter {
         }
         let assessed = budget.assess(&found).map_err(|error| other(&error))?;
         let mut at: Vec<f64> = self.compare.clone();
-        if at.is_empty() && !self.no_compare {
+        if at.is_empty() && !self.no_compare && has_tones {
             at = assessed.iter().filter_map(|of| found.speeds.get(of.worst).copied()).collect();
             at.sort_by(f64::total_cmp);
             at.dedup();

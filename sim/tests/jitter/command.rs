@@ -61,6 +61,23 @@ fn noise_of_a_data_sheet_is_in_the_budget_of_a_rigid_hub() {
     assert!(found.status.code().is_some_and(|code| code != 1), "{text}");
     assert!(text.contains("broadband noise,"), "{text}");
     assert!(out.join("wheel-data-sheet-jitter-density-1.svg").exists());
+    // A balanced wheel has noise alone.
+    let text = std::fs::read_to_string(scenarios().join("wheel-data-sheet.toml")).expect("a file");
+    let start = text.find("[[source]]").expect("sources");
+    let noise = text.find("# Noise:").expect("noise");
+    let balanced = format!("{}{}", &text[..start], &text[noise..]);
+    let balanced =
+        balanced.replace("imbalance = { static = \"0.15 g cm\", dynamic = \"2.2 g cm^2\" }\n", "");
+    let balanced = balanced.replace("\"source_bearing\", ", "");
+    std::fs::write(out.join("balanced.toml"), balanced).expect("it is written");
+    let text = std::fs::read_to_string(&budget).expect("a file");
+    let text = text.replace("../wheel-data-sheet.toml", "balanced.toml");
+    std::fs::write(out.join("alone.toml"), text).expect("it is written");
+    let found = jitter(&out.join("alone.toml"), &out, &[]);
+    let shown = String::from_utf8_lossy(&found.stdout).into_owned();
+    let errors = String::from_utf8_lossy(&found.stderr).into_owned();
+    assert_eq!(found.status.code(), Some(0), "{shown}{errors}");
+    assert!(shown.contains("broadband noise, 100 %"), "{shown}");
     std::fs::remove_dir_all(out).expect("it was made");
 }
 
