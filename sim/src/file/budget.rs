@@ -1,15 +1,14 @@
 //! Jitter budgets: TOML that names a scenario, the speeds to sweep, lines of sight and limits. Keys and units as in
 //! scenario files; every error at once.
 
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use nalgebra::{Matrix2x3, Unit, Vector3};
 
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
-use super::load::load_file;
 use super::read::mount::direction;
+use super::read_file::{folder_of, read_file};
 use crate::jitter::budget::{Budget, Sight};
 use crate::jitter::sweep::{Phases, SPEEDS_MAX};
 use crate::pointing::{Limit, LineOfSight, Metric, Sensitivity};
@@ -26,24 +25,8 @@ const COUNT: usize = 541;
 /// # Errors
 /// Everything that is wrong, with its places.
 pub fn budget_from_toml(path: &Path) -> Result<(Budget, PathBuf), Diagnostics> {
-    let mut reports = Diagnostics::default();
-    let node = load_file(path, &mut reports);
-    if reports.has_errors() {
-        return Err(reports);
-    }
-    let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    let cell = RefCell::new(reports);
-    let read = Keys::new(&node, "", &cell).and_then(|keys| budget(&keys));
-    let mut reports = cell.into_inner();
-    match read {
-        Some((budget, scenario)) if !reports.has_errors() => Ok((budget, folder.join(scenario))),
-        _ => {
-            if !reports.has_errors() {
-                reports.error_anywhere(format!("{} is no budget", path.display()), "");
-            }
-            Err(reports)
-        }
-    }
+    let (budget, scenario) = read_file(path, "budget", budget)?;
+    Ok((budget, folder_of(path).join(scenario)))
 }
 
 fn budget(keys: &Keys<'_>) -> Option<(Budget, String)> {

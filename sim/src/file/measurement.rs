@@ -2,14 +2,13 @@
 //! samples are, and what is looked for (docs/fit.md). Keys and units as in scenario files; every error at
 //! once.
 
-use std::cell::RefCell;
 use std::path::Path;
 
 use nalgebra::Vector3;
 
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
-use super::load::load_file;
+use super::read_file::{folder_of, read_file};
 use super::waterfall::waterfall;
 use crate::fit::device::Rotor;
 use crate::fit::samples::{Layout, Samples, mean_and_slope, read as read_samples, steps};
@@ -45,7 +44,7 @@ pub struct MeasurementFile {
     pub rotor: Option<Rotor>,
 }
 
-/// Reads a measurement and the files of samples that it names; `progress` is told each.
+/// Reads a measurement and the files of samples that it names; `progress` is called with each.
 ///
 /// # Errors
 /// Everything that is wrong, with its places.
@@ -53,24 +52,7 @@ pub fn measurement_from_toml(
     path: &Path,
     progress: &mut dyn FnMut(&str),
 ) -> Result<MeasurementFile, Diagnostics> {
-    let mut reports = Diagnostics::default();
-    let node = load_file(path, &mut reports);
-    if reports.has_errors() {
-        return Err(reports);
-    }
-    let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    let cell = RefCell::new(reports);
-    let read = Keys::new(&node, "", &cell).and_then(|keys| read(&keys, folder, progress));
-    let mut reports = cell.into_inner();
-    match read {
-        Some(file) if !reports.has_errors() => Ok(file),
-        _ => {
-            if !reports.has_errors() {
-                reports.error_anywhere(format!("{} is no measurement", path.display()), "");
-            }
-            Err(reports)
-        }
-    }
+    read_file(path, "measurement", |keys| read(keys, folder_of(path), progress))
 }
 
 fn read(keys: &Keys<'_>, folder: &Path, progress: &mut dyn FnMut(&str)) -> Option<MeasurementFile> {

@@ -15,6 +15,7 @@ mod keys;
 mod load;
 mod measurement;
 pub mod read;
+mod read_file;
 mod structure;
 mod template;
 mod variations;

@@ -1,12 +1,11 @@
 //! Plans of Monte Carlo campaigns: TOML with a table `[[vary]]` for each key and its distribution. Units as in scenario files;
 //! every error at once.
 
-use std::cell::RefCell;
 use std::path::Path;
 
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
-use super::load::load_file;
+use super::read_file::read_file;
 use crate::campaign::{Distribution, Variation};
 use crate::units::{Dimension, Quantity, parse_quantity};
 
@@ -35,13 +34,7 @@ const WORDS: [(&str, Word); 5] = [
 /// # Errors
 /// Everything that is wrong, with its places.
 pub fn variations_from_toml(path: &Path) -> Result<Vec<Variation>, Diagnostics> {
-    let mut reports = Diagnostics::default();
-    let node = load_file(path, &mut reports);
-    if reports.has_errors() {
-        return Err(reports);
-    }
-    let cell = RefCell::new(reports);
-    let read = Keys::new(&node, "", &cell).map(|keys| {
+    read_file(path, "plan", |keys| {
         if !keys.has("format") {
             keys.missing("format", "format = 1");
         }
@@ -51,18 +44,8 @@ pub fn variations_from_toml(path: &Path) -> Result<Vec<Variation>, Diagnostics> 
         }
         let all: Vec<_> = keys.tables("vary").iter().filter_map(variation).collect();
         keys.finish();
-        all
-    });
-    let mut reports = cell.into_inner();
-    match read {
-        Some(all) if !reports.has_errors() => Ok(all),
-        _ => {
-            if !reports.has_errors() {
-                reports.error_anywhere(format!("{} is no plan", path.display()), "");
-            }
-            Err(reports)
-        }
-    }
+        Some(all)
+    })
 }
 
 fn variation(keys: &Keys<'_>) -> Option<Variation> {

@@ -3,7 +3,6 @@
 
 mod matrices;
 
-use std::cell::RefCell;
 use std::path::Path;
 
 use nalgebra::Vector3;
@@ -11,8 +10,8 @@ use nalgebra::Vector3;
 use super::diagnostic::Diagnostics;
 use super::document::Value;
 use super::keys::Keys;
-use super::load::load_file;
 use super::read::body;
+use super::read_file::{folder_of, read_file};
 use crate::structure::op4;
 use crate::structure::{
     COORDINATES, Fault, MOST, Node, RigidMass, Structure, StructureError, bytes_of, flex42,
@@ -38,24 +37,7 @@ struct MappedNode {
 /// # Errors
 /// Everything that is wrong, with its places.
 pub fn structure_from_toml(path: &Path) -> Result<Structure, Diagnostics> {
-    let mut reports = Diagnostics::default();
-    let node = load_file(path, &mut reports);
-    if reports.has_errors() {
-        return Err(reports);
-    }
-    let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    let cell = RefCell::new(reports);
-    let read = Keys::new(&node, "", &cell).and_then(|keys| read(&keys, folder));
-    let mut reports = cell.into_inner();
-    match read {
-        Some(structure) if !reports.has_errors() => Ok(structure),
-        _ => {
-            if !reports.has_errors() {
-                reports.error_anywhere(format!("{} is no structure", path.display()), "");
-            }
-            Err(reports)
-        }
-    }
+    read_file(path, "structure", |keys| read(keys, folder_of(path)))
 }
 
 fn read(keys: &Keys<'_>, folder: &Path) -> Option<Structure> {
