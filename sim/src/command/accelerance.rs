@@ -14,6 +14,7 @@ use super::mounted::{DeviceOptions, MountedDevices};
 use super::run::{may_write, write_whole};
 use super::{print, structure};
 use crate::report::response::Response;
+use crate::report::slug;
 use crate::structure::accelerance::{Accelerance, Base, ComplexMatrix};
 use crate::structure::mounted::{transmission, without_mass};
 use crate::structure::{COORDINATE_NAMES, COORDINATES, Fault, Structure};
@@ -260,12 +261,6 @@ fn dynamic_mass(
         values: values?,
         bound: Some(("left_out", left_out)),
     })
-}
-
-/// A name in names of files.
-fn slug(name: &str) -> String {
-    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
-    name.chars().map(letter).collect()
 }
 
 impl Table {

@@ -8,7 +8,7 @@ use clap::Args;
 use super::Set;
 use super::error::CommandError;
 use super::plot::time;
-use super::run::{interrupted, may_write, progress_bar, watch_interrupts, write_bytes};
+use super::run::{all_cores, interrupted, may_write, progress_bar, watch_interrupts, write_bytes};
 use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
 };
@@ -119,10 +119,7 @@ impl CampaignOptions {
         let opened =
             Journal::open(&path, &digest, prepared.fields.len(), self.force).map_err(other)?;
         watch_interrupts();
-        let threads = self.threads.map_or_else(
-            || std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-            usize::from,
-        );
+        let threads = self.threads.map_or_else(all_cores, usize::from);
         let bar = Mutex::new(progress_bar(plan.samples.len(), "samples"));
         let show = |done: usize| {
             if let Ok(bar) = bar.lock() {

@@ -9,7 +9,7 @@ use std::sync::Mutex;
 use clap::Args;
 
 use super::error::CommandError;
-use super::run::{may_write, progress_bar, write_whole};
+use super::run::{all_cores, may_write, progress_bar, write_whole};
 use super::table::{aligned, six};
 use super::{Set, print};
 use crate::file::{budget_from_toml, from_file};
@@ -165,9 +165,7 @@ impl Jitter {
         orders.dedup();
         let crossings = crossings(&campbell_speeds, &branches, &orders);
         let all = refined(speeds(budget.speeds, budget.count), budget.speeds, &crossings);
-        let threads = self.threads.unwrap_or_else(|| {
-            std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
-        });
+        let threads = self.threads.unwrap_or_else(all_cores);
         let bar = Mutex::new(progress_bar(all.len(), "speeds"));
         let show = |done: usize| {
             if let Ok(bar) = bar.lock() {

@@ -15,8 +15,8 @@ use crate::campaign::{
     draw, percentile, probability, spearman,
 };
 use crate::file::variations_from_toml;
-use crate::report::jitter::slug;
 use crate::report::montecarlo::distribution;
+use crate::report::slug;
 use crate::spectra::float;
 
 pub(super) const HELP: &str = "\

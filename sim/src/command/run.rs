@@ -186,6 +186,11 @@ pub(super) fn with_progress(
     outcome.map_err(|source| CommandError::Run { name, source })
 }
 
+/// As many threads as there are cores.
+pub(super) fn all_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+}
+
 /// A bar of so many parts, silent where the output is no terminal.
 pub(super) fn progress_bar(parts: usize, what: &str) -> ProgressBar {
     let bar = ProgressBar::new(u64::try_from(parts).unwrap_or(u64::MAX));

@@ -13,7 +13,7 @@ use crate::campaign::{Axis, Finished, Plan, digits, keep_out};
 use crate::disturbance::Model;
 use crate::pointing::Margin;
 use crate::report::DrawError;
-use crate::report::jitter::slug;
+use crate::report::slug;
 use crate::report::sweep::{Numbers, curve, map, waterfall};
 use crate::units::Measure;
 

@@ -10,8 +10,8 @@ use std::fmt::Write as _;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::axes::{Space, axes, svg_file, title};
 use super::error::DrawError;
 use super::number::power_of_ten;
 use super::ticks::{Axis, range_of};
@@ -98,9 +98,7 @@ pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 impl Figure {
     /// The figure as an SVG file of its own.
     pub(super) fn file(&self) -> Result<String, DrawError> {
-        let style = format!("<style>\n{THEME}</style>\n");
-        let document = self.document(&style)?;
-        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{document}"))
+        svg_file(|style| self.document(style))
     }
 
     /// The figure as part of a page that turns its colours.
@@ -115,32 +113,14 @@ impl Figure {
 
     /// Draws the axes and returns the curves.
     fn draw(&self, area: &Area) -> Result<String, DrawError> {
-        let style = text(TYPE, INK).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(&self.title, &style, (px(LEFT), px(0.62 * ABOVE)))?;
+        title(area, &self.title)?;
         let (power, label) = self.label();
         let values = || self.lines.iter().flat_map(|line| &line.bands);
         let y = range_of(values().flat_map(|band| [band.min * power, band.max * power]));
         let [from, to] = self.span;
         let x = if from < to { from..to } else { from - 0.5..from + 0.5 };
-        let mut chart = ChartBuilder::on(area)
-            .margin_top(px(ABOVE))
-            .margin_right(px(RIGHT))
-            .x_label_area_size(px(BELOW))
-            .y_label_area_size(px(LEFT))
-            .build_cartesian_2d(Axis(x.clone()), Axis(y.clone()))?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(GRID.stroke_width(whole(0.8)))
-            .axis_style(INK.stroke_width(whole(0.8)))
-            .set_all_tick_mark_size(px(4.0))
-            .label_style(text(TYPE_SMALL, INK))
-            .axis_desc_style(text(TYPE, INK))
-            .x_desc("Time t (s)")
-            .y_desc(&label)
-            .draw()?;
-        let frame = Rectangle::new([(x.start, y.start), (x.end, y.end)], INK.stroke_width(8));
-        chart.draw_series([frame])?;
+        let labels = ["Time t (s)", label.as_str()];
+        let chart = axes(area, &Space { above: ABOVE, below: BELOW }, Axis(x), Axis(y), labels)?;
         let place = |band: &Band| {
             let at = |value: f64| chart.backend_coord(&(band.time, value * power));
             let ((time, greatest), (_, least)) = (at(band.max), at(band.min));

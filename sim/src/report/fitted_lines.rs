@@ -3,15 +3,10 @@
 
 use std::fmt::Write as _;
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
+use super::axes::{Space, axes, svg_file, title};
 use super::error::DrawError;
-use super::figure::{
-    ABOVE, Area, BELOW, GRID, INK, LEFT, PANEL, RIGHT, THEME, TYPE, TYPE_SMALL, document, moves,
-    px, stroke, text, whole,
-};
-use super::log_panel::{Kind, Scale};
+use super::figure::{ABOVE, Area, BELOW, PANEL, document, moves, stroke};
+use super::log_panel::decades;
 use super::ticks::{Axis, range_of};
 
 /// Height of the panel by that of a figure of a run.
@@ -48,47 +43,24 @@ pub(crate) struct FittedLine {
 impl FittedLines {
     /// The picture as an SVG file of its own.
     pub(crate) fn file(&self) -> Result<String, DrawError> {
-        let style = format!("<style>\n{THEME}</style>\n");
         let names: Vec<_> = self.lines.iter().map(|line| line.name.as_str()).collect();
         let height = HEIGHT * PANEL;
-        let drawn = document(&self.description, &style, &names, height, |panel| self.draw(panel))?;
-        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+        svg_file(|style| {
+            document(&self.description, style, &names, height, |panel| self.draw(panel))
+        })
     }
 
     fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {
-        let style = text(TYPE, INK).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(&self.title, &style, (px(LEFT), px(0.62 * ABOVE)))?;
+        title(area, &self.title)?;
         let positive = |value: &f64| value.is_finite() && *value > 0.0;
         let values = self.lines.iter().flat_map(|line| {
             line.measured.iter().map(|p| p[1]).chain(line.fitted.iter().map(|p| p[1]))
         });
-        let values: Vec<f64> = values.filter(positive).collect();
-        let most = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        let least =
-            values.iter().copied().fold(most, f64::min).max(most * 10_f64.powf(-DECADES_MAX));
-        let y =
-            10_f64.powf((least.log10() - 0.1).floor())..10_f64.powf((most.log10() + 0.1).ceil());
+        let axis = decades(values, DECADES_MAX);
+        let y = axis.range.clone();
         let x = range_of(self.lines.iter().flat_map(|line| line.fitted.iter().map(|p| p[0])));
-        let axis = Scale { range: y.clone(), kind: Kind::Powers };
-        let mut chart = ChartBuilder::on(area)
-            .margin_top(px(ABOVE))
-            .margin_right(px(RIGHT))
-            .x_label_area_size(px(BELOW))
-            .y_label_area_size(px(LEFT))
-            .build_cartesian_2d(Axis(x.clone()), axis)?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(GRID.stroke_width(whole(0.8)))
-            .axis_style(INK.stroke_width(whole(0.8)))
-            .set_all_tick_mark_size(px(4.0))
-            .label_style(text(TYPE_SMALL, INK))
-            .axis_desc_style(text(TYPE, INK))
-            .x_desc("Speed (rpm)")
-            .y_desc(&self.axis)
-            .draw()?;
-        let corners = [(x.start, y.start), (x.end, y.end)];
-        chart.draw_series([Rectangle::new(corners, INK.stroke_width(8))])?;
+        let labels = ["Speed (rpm)", self.axis.as_str()];
+        let chart = axes(area, &Space { above: ABOVE, below: BELOW }, Axis(x), axis, labels)?;
         let place = |speed: f64, value: f64| {
             let (x, y) = chart.backend_coord(&(speed, value.clamp(y.start, y.end)));
             [x, y]

@@ -7,6 +7,7 @@ use super::blocks::{Block, Fact, Section, Summary, Verdict, table};
 use super::error::{DrawError, ReportError};
 use super::number::{short, with_unit};
 use super::page::{Page, lines};
+use super::slug;
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, Whirl};
 use crate::jitter::coupled::Compared;
@@ -373,10 +374,4 @@ impl JitterReport<'_> {
         }
         Ok(blocks)
     }
-}
-
-/// A name in names of files.
-pub(crate) fn slug(name: &str) -> String {
-    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
-    name.chars().map(letter).collect()
 }

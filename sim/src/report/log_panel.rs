@@ -4,13 +4,10 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::axes::{Space, axes};
 use super::error::DrawError;
-use super::figure::{
-    ABOVE, Area, BELOW, GRID, INK, LEFT, RIGHT, TYPE, TYPE_SMALL, moves, px, stroke, text, whole,
-};
+use super::figure::{Area, BELOW, moves, stroke};
 use super::number::{power_of_ten, short};
 
 /// Most decades with a tick at each.
@@ -47,13 +44,6 @@ pub(super) enum Kind {
     Phase,
 }
 
-/// The title of a drawing, above its first panel.
-pub(super) fn title(area: &Area<'_>, words: &str) -> Result<(), DrawError> {
-    let style = text(TYPE, INK).pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw_text(words, &style, (px(LEFT), px(0.62 * ABOVE)))?;
-    Ok(())
-}
-
 /// Logarithmic, powers of ten: whole decades about the positive values, at most so many decades below the largest.
 pub(super) fn decades(values: impl Iterator<Item = f64>, most_decades: f64) -> Scale {
     let sizes = values.filter(|size| size.is_finite() && *size > 0.0);
@@ -86,26 +76,10 @@ impl Panel<'_> {
         let x = self.span();
         let y = self.y.range.clone();
         let phase = self.y.kind == Kind::Phase;
-        let corners = [(x.start, y.start), (x.end, y.end)];
         let below = if self.x_label.is_empty() { 0.45 * BELOW } else { BELOW };
-        let mut chart = ChartBuilder::on(area)
-            .margin_top(px(self.above))
-            .margin_right(px(RIGHT))
-            .x_label_area_size(px(below))
-            .y_label_area_size(px(LEFT))
-            .build_cartesian_2d(Scale { range: x.clone(), kind: Kind::Plain }, self.y)?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(GRID.stroke_width(whole(0.8)))
-            .axis_style(INK.stroke_width(whole(0.8)))
-            .set_all_tick_mark_size(px(4.0))
-            .label_style(text(TYPE_SMALL, INK))
-            .axis_desc_style(text(TYPE, INK))
-            .x_desc(self.x_label)
-            .y_desc(self.y_label)
-            .draw()?;
-        chart.draw_series([Rectangle::new(corners, INK.stroke_width(8))])?;
+        let space = Space { above: self.above, below };
+        let x_axis = Scale { range: x, kind: Kind::Plain };
+        let chart = axes(area, &space, x_axis, self.y, [self.x_label, self.y_label])?;
         let mut out = String::new();
         for (index, values) in curves.enumerate() {
             let mut run: Vec<[i32; 2]> = Vec::new();

@@ -11,6 +11,7 @@
 //! give equal bytes; no date and no path of a file is written but those in the scenario's own text.
 //! The contract with the page's script is sim/report/DATA.md.
 
+mod axes;
 mod blocks;
 mod chart;
 mod data;
@@ -63,6 +64,12 @@ const HISTORY_BYTES: usize = 300_000;
 const BUCKET_BYTES: usize = 11;
 /// Fewest and most buckets.
 const BUCKETS: [usize; 2] = [120, 1600];
+
+/// A name in names of files: lower case, digits, hyphens.
+pub(crate) fn slug(name: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    name.chars().map(letter).collect()
+}
 
 /// Collects what the page of one run shows.
 pub struct Report {

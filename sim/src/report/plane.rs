@@ -7,10 +7,10 @@ use std::ops::Range;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::axes::{Space, axes, svg_file, title};
 use super::error::DrawError;
 use super::figure::{
-    ABOVE, Area, BELOW, GRID, INK, LEFT, PANEL, RIGHT, THEME, TYPE, TYPE_SMALL, document, moves,
-    px, stroke, text, whole,
+    ABOVE, Area, BELOW, INK, PANEL, TYPE_SMALL, document, moves, px, stroke, text,
 };
 use super::ticks::{Axis, range_of};
 
@@ -43,9 +43,7 @@ pub(crate) struct Plane {
 impl Plane {
     /// The picture as an SVG file of its own.
     pub(crate) fn file(&self) -> Result<String, DrawError> {
-        let style = format!("<style>\n{THEME}</style>\n");
-        let drawn = self.document(&style)?;
-        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+        svg_file(|style| self.document(style))
     }
 
     /// The picture as part of a page that turns its colours.
@@ -70,30 +68,16 @@ impl Plane {
     }
 
     fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {
-        let style = text(TYPE, INK).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(&self.title, &style, (px(LEFT), px(0.62 * ABOVE)))?;
+        title(area, &self.title)?;
         let [x, y] = [self.range(0), self.range(1)];
-        let mut chart = ChartBuilder::on(area)
-            .margin_top(px(ABOVE))
-            .margin_right(px(RIGHT))
-            .x_label_area_size(px(BELOW))
-            .y_label_area_size(px(LEFT))
-            .build_cartesian_2d(Axis(x.clone()), Axis(y.clone()))?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(GRID.stroke_width(whole(0.8)))
-            .axis_style(INK.stroke_width(whole(0.8)))
-            .set_all_tick_mark_size(px(4.0))
-            .label_style(text(TYPE_SMALL, INK))
-            .axis_desc_style(text(TYPE, INK))
-            .x_desc(&self.axes[0])
-            .y_desc(&self.axes[1])
-            .draw()?;
-        chart.draw_series([Rectangle::new(
-            [(x.start, y.start), (x.end, y.end)],
-            INK.stroke_width(8),
-        )])?;
+        let labels = self.axes.each_ref().map(String::as_str);
+        let chart = axes(
+            area,
+            &Space { above: ABOVE, below: BELOW },
+            Axis(x.clone()),
+            Axis(y.clone()),
+            labels,
+        )?;
         let at = |[px, py]: [f64; 2]| chart.backend_coord(&(px, py));
         let inside =
             |[px, py]: [f64; 2]| (x.start..=x.end).contains(&px) && (y.start..=y.end).contains(&py);

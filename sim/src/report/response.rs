@@ -3,9 +3,10 @@
 
 use nalgebra::Complex;
 
+use super::axes::{svg_file, title};
 use super::error::DrawError;
-use super::figure::{ABOVE, PANEL, THEME, document, px};
-use super::log_panel::{Kind, Panel, Scale, decades, title};
+use super::figure::{ABOVE, PANEL, document, px};
+use super::log_panel::{Kind, Panel, Scale, decades};
 
 /// Height of the panel of the phase.
 const PHASE: f64 = 150.0;
@@ -32,33 +33,34 @@ pub(crate) struct Response {
 impl Response {
     /// The picture as an SVG file of its own.
     pub(crate) fn file(&self) -> Result<String, DrawError> {
-        let style = format!("<style>\n{THEME}</style>\n");
         let names: Vec<_> = self.curves.iter().map(|(name, _)| name.as_str()).collect();
-        let drawn = document(&self.description, &style, &names, PANEL + PHASE, |panel| {
-            let (above, below) = panel.split_vertically(px(PANEL));
-            title(&above, &self.title)?;
-            let sizes = self.curves.iter().flat_map(|(_, values)| values).map(|v| v.norm());
-            let magnitudes = Panel {
-                above: ABOVE,
-                frequencies: &self.frequencies,
-                y: decades(sizes, DECADES_MAX),
-                x_label: "",
-                y_label: &self.axis,
-            };
-            let phases = Panel {
-                above: ABOVE_PHASE,
-                frequencies: &self.frequencies,
-                y: Scale { range: -180.0..180.0, kind: Kind::Phase },
-                x_label: "Frequency f (Hz)",
-                y_label: "Phase (deg)",
-            };
-            // Adding zero makes the phase of a negative number with -0 as imaginary part 180.
-            let phase = |v: &Complex<f64>| (v.im + 0.0).atan2(v.re).to_degrees();
-            let curves = || self.curves.iter().map(|(_, values)| values);
-            let above = magnitudes.draw(&above, curves().map(|c| c.iter().map(|v| v.norm())))?;
-            Ok(above + &phases.draw(&below, curves().map(|c| c.iter().map(phase)))?)
-        })?;
-        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+        svg_file(|style| {
+            document(&self.description, style, &names, PANEL + PHASE, |panel| {
+                let (above, below) = panel.split_vertically(px(PANEL));
+                title(&above, &self.title)?;
+                let sizes = self.curves.iter().flat_map(|(_, values)| values).map(|v| v.norm());
+                let magnitudes = Panel {
+                    above: ABOVE,
+                    frequencies: &self.frequencies,
+                    y: decades(sizes, DECADES_MAX),
+                    x_label: "",
+                    y_label: &self.axis,
+                };
+                let phases = Panel {
+                    above: ABOVE_PHASE,
+                    frequencies: &self.frequencies,
+                    y: Scale { range: -180.0..180.0, kind: Kind::Phase },
+                    x_label: "Frequency f (Hz)",
+                    y_label: "Phase (deg)",
+                };
+                // Adding zero makes the phase of a negative number with -0 as imaginary part 180.
+                let phase = |v: &Complex<f64>| (v.im + 0.0).atan2(v.re).to_degrees();
+                let curves = || self.curves.iter().map(|(_, values)| values);
+                let above =
+                    magnitudes.draw(&above, curves().map(|c| c.iter().map(|v| v.norm())))?;
+                Ok(above + &phases.draw(&below, curves().map(|c| c.iter().map(phase)))?)
+            })
+        })
     }
 }
 

@@ -4,9 +4,10 @@
 //! A picture has fewer points than a spectrum has bins: neighbours at nearly one ratio are one point, the greatest of
 //! them, so no line is lost.
 
+use super::axes::{svg_file, title};
 use super::error::DrawError;
-use super::figure::{ABOVE, PANEL, THEME, document, px};
-use super::log_panel::{Panel, decades, title};
+use super::figure::{ABOVE, PANEL, document, px};
+use super::log_panel::{Panel, decades};
 
 /// Height of the panel of the RMS.
 const RMS: f64 = 190.0;
@@ -43,8 +44,7 @@ pub(crate) struct SpectrumCurve {
 impl SpectrumFigure {
     /// The picture as an SVG file of its own.
     pub(crate) fn file(&self) -> Result<String, DrawError> {
-        let drawn = self.document(&format!("<style>\n{THEME}</style>\n"))?;
-        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+        svg_file(|style| self.document(style))
     }
 
     /// The picture as part of a page that turns its colours.

@@ -3,14 +3,9 @@
 
 use std::fmt::Write as _;
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
+use super::axes::{Space, axes, svg_file, title};
 use super::error::DrawError;
-use super::figure::{
-    ABOVE, Area, BELOW, GRID, INK, LEFT, PANEL, RIGHT, THEME, TYPE, TYPE_SMALL, document, moves,
-    px, stroke, text, whole,
-};
+use super::figure::{ABOVE, Area, BELOW, PANEL, document, moves, stroke};
 use super::ticks::Axis;
 
 /// Height of the panel by that of a figure of a run.
@@ -39,11 +34,11 @@ pub(crate) struct Waterfall {
 impl Waterfall {
     /// The picture as an SVG file of its own.
     pub(crate) fn file(&self) -> Result<String, DrawError> {
-        let style = format!("<style>\n{THEME}</style>\n");
         let names: Vec<_> = self.curves.iter().map(|(name, _)| name.as_str()).collect();
         let height = HEIGHT * PANEL;
-        let drawn = document(&self.description, &style, &names, height, |panel| self.draw(panel))?;
-        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+        svg_file(|style| {
+            document(&self.description, style, &names, height, |panel| self.draw(panel))
+        })
     }
 
     /// Greatest density of each row of cells.
@@ -75,33 +70,21 @@ impl Waterfall {
     }
 
     fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {
-        let style = text(TYPE, INK).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(&self.title, &style, (px(LEFT), px(0.62 * ABOVE)))?;
+        title(area, &self.title)?;
         let edges = self.edges();
         let x = match (edges.first(), edges.last()) {
             (Some(from), Some(to)) if from < to => *from..*to,
             _ => 0.0..1.0,
         };
         let y = 0.0..self.highest;
-        let mut chart = ChartBuilder::on(area)
-            .margin_top(px(ABOVE))
-            .margin_right(px(RIGHT))
-            .x_label_area_size(px(BELOW))
-            .y_label_area_size(px(LEFT))
-            .build_cartesian_2d(Axis(x.clone()), Axis(y.clone()))?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(GRID.stroke_width(whole(0.8)))
-            .axis_style(INK.stroke_width(whole(0.8)))
-            .set_all_tick_mark_size(px(4.0))
-            .label_style(text(TYPE_SMALL, INK))
-            .axis_desc_style(text(TYPE, INK))
-            .x_desc("Speed (rpm)")
-            .y_desc("Frequency f (Hz)")
-            .draw()?;
-        chart
-            .draw_series([Rectangle::new([(x.start, 0.0), (x.end, y.end)], INK.stroke_width(8))])?;
+        let labels = ["Speed (rpm)", "Frequency f (Hz)"];
+        let chart = axes(
+            area,
+            &Space { above: ABOVE, below: BELOW },
+            Axis(x.clone()),
+            Axis(y.clone()),
+            labels,
+        )?;
         let rows: Vec<Vec<f64>> =
             self.spectra.iter().map(|(_, bin, values)| self.rows(*bin, values)).collect();
         let most = rows.iter().flatten().copied().filter(|v| v.is_finite()).fold(0.0, f64::max);
