@@ -13,7 +13,7 @@ use precess_dynamics::{Attitude, Gravity, HubMode, JointStates, Quaternion};
 
 use super::budget::Budget;
 use super::device::Steady;
-use super::model::{HUB, Model};
+use super::model::{HUB, Line, Model};
 use crate::engine::{self, End, Outcome, RunError};
 use crate::record::{Header, RecordError, Recorder};
 use crate::scenario::{Drive, IntegratorChoice, Profile, Scenario};
@@ -131,7 +131,7 @@ pub fn compare(scenario: &Scenario, budget: &Budget, speed: f64) -> Result<Compa
     let window = wanted.min(LONGEST).min(SAMPLES_MAX / rate);
     let mut run = scenario.clone();
     steady_spin(&mut run, scenario, &model, &steady, speed)?;
-    predicted_start(&mut run, &model, speed)?;
+    predicted_start(&mut run, &model, speed, &lines)?;
     run.settings.duration = window;
     run.settings.integrator = IntegratorChoice::Dop853 { tolerance: TOLERANCE };
     run.output.rate = rate;
@@ -211,10 +211,13 @@ fn steady_spin(
 }
 
 /// Adds the motion of all lines at the start.
-fn predicted_start(run: &mut Scenario, model: &Model, speed: f64) -> Result<(), CoupledError> {
-    let contributors = model.contributors();
-    let lines = model.lines(speed)?;
-    for (contributor, line) in contributors.iter().zip(&lines) {
+fn predicted_start(
+    run: &mut Scenario,
+    model: &Model,
+    speed: f64,
+    lines: &[Line],
+) -> Result<(), CoupledError> {
+    for (contributor, line) in model.contributors().iter().zip(lines) {
         let w = line.frequency;
         let mounted = model.mounted(speed, w, &[contributor.place])?;
         let [frame, modal] = model.accelerance().motion(w, &mounted.force)?;

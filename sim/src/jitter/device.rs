@@ -5,22 +5,20 @@
 //! three speeds give them at every speed, exactly. The force of a rotor that is out of balance is `Omega^2` times
 //! one at a unit rate.
 
-use nalgebra::{Complex, DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{Complex, DMatrix, DVector, Vector3};
 use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::{
-    DerivativeError, Hub, HubMode, Inputs, LoadAxes, Loads, Mode, Spacecraft, State,
+    DerivativeError, HubMode, Inputs, LoadAxes, Loads, Mode, Spacecraft, State,
 };
 
 use crate::scenario::{Scenario, Set};
-use crate::structure::averaged::AveragedDevices;
+use crate::structure::averaged::{AveragedDevices, mount_hub};
 use crate::structure::condensed::{Condensed, Derivatives, condensed};
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::harmonics::{fourier, share};
 use crate::structure::steady::{SteadyJoints, set_of};
 use crate::structure::{COORDINATES, Fault};
 
-/// Mass, kg, and inertia, kg m², of the hub that stands for the mount: less than rounding of any device.
-const OF_MOUNT: f64 = 1e-60;
 /// Angles of a turn at which the blocked force is sampled: harmonics up to the third are exact.
 const ANGLES: usize = 8;
 /// A harmonic of the blocked force that is rounding, of the rate squared times the inertia.
@@ -312,13 +310,8 @@ impl Blocked<'_> {
         states: &[[f64; 2]],
         joint: usize,
     ) -> Result<Vec<DVector<Complex<f64>>>, Fault> {
-        let hub = Hub {
-            m_b: OF_MOUNT,
-            r_bc_b: Vector3::zeros(),
-            i_b_bc: Matrix3::from_diagonal_element(OF_MOUNT),
-        };
         let rejected = |error| Fault::Device(DerivativeError::Parameter(error));
-        let craft = Spacecraft::new(&hub, self.set).map_err(rejected)?;
+        let craft = Spacecraft::new(&mount_hub(), self.set).map_err(rejected)?;
         let mut samples = Vec::new();
         for angle in 0..ANGLES {
             let mut turned = states.to_vec();

@@ -150,24 +150,22 @@ impl Model {
     /// # Errors
     /// [`Fault::Unbounded`] at a resonance without damping; [`Fault::Range`] for a speed of zero.
     pub fn lines(&self, speed: f64) -> Result<Vec<Line>, Fault> {
-        let contributors = self.contributors();
-        let mut tones: Vec<(f64, usize)> = Vec::new();
-        for (number, contributor) in contributors.iter().enumerate() {
-            let [device, tone] = contributor.place;
-            let of = self.devices.get(device).map(|(_, of)| of);
-            let tone = of.and_then(|of| of.tones.get(tone).map(|tone| of.frequency(tone, speed)));
-            tones.push((tone.unwrap_or(0.0), number));
+        // Frequency, number of the contributor, and its place.
+        let mut tones: Vec<(f64, usize, [usize; 2])> = Vec::new();
+        for (device, (_, of)) in self.devices.iter().enumerate() {
+            for (tone, place) in of.tones.iter().zip((0..).map(|index| [device, index])) {
+                tones.push((of.frequency(tone, speed), tones.len(), place));
+            }
         }
         tones.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut lines = Vec::with_capacity(tones.len());
         for shared in tones.chunk_by(|a, b| a.0.to_bits() == b.0.to_bits()) {
-            let frequency = shared.first().map_or(0.0, |(frequency, _)| *frequency);
-            let numbers: Vec<usize> = shared.iter().map(|(_, number)| *number).collect();
-            let places = numbers.iter().filter_map(|n| contributors.get(*n)).map(|of| of.place);
-            let found = self.at(speed, frequency, &places.collect::<Vec<_>>())?;
-            for (contributor, column) in numbers.into_iter().zip(found.column_iter()) {
+            let frequency = shared.first().map_or(0.0, |(frequency, ..)| *frequency);
+            let places: Vec<[usize; 2]> = shared.iter().map(|(.., place)| *place).collect();
+            let found = self.at(speed, frequency, &places)?;
+            for ((_, contributor, _), column) in shared.iter().zip(found.column_iter()) {
                 let values = column.iter().copied().collect();
-                lines.push(Line { contributor, frequency, values });
+                lines.push(Line { contributor: *contributor, frequency, values });
             }
         }
         lines.sort_by_key(|line| line.contributor);
@@ -228,7 +226,7 @@ impl Model {
                 blocked[(COORDINATES * mount + row, column)] = Complex::new(*value, 0.0);
             }
         }
-        let mounted = self.forced(speed, frequency, blocked)?;
+        let mounted = self.forced(frequency, self.condensed(speed, frequency)?, blocked)?;
         let found = self.outputs_of(&mounted, frequency)?;
         for (column, (density, ..)) in found.column_iter().zip(&forces) {
             for (sum, value) in sums.iter_mut().zip(column.iter()) {
@@ -246,28 +244,29 @@ impl Model {
         tones: &[[usize; 2]],
     ) -> Result<MountedTones, Fault> {
         let of_mounts = COORDINATES * self.mounts.len();
+        let devices = self.condensed(speed, frequency)?;
         let mut blocked = ComplexMatrix::zeros(of_mounts, tones.len());
-        for (number, (mount, device)) in self.devices.iter().enumerate() {
-            if !tones.iter().any(|[of, _]| *of == number) {
-                continue;
-            }
-            let condensed = device.condensed(speed, frequency)?;
-            for (column, [of, tone]) in tones.iter().enumerate() {
-                if let (true, Some(tone)) = (*of == number, device.tones.get(*tone)) {
-                    let force = device.blocked(tone, speed, &condensed);
-                    let mut to = blocked.view_mut((COORDINATES * mount, column), (COORDINATES, 1));
-                    to += force;
-                }
+        for (column, [of, tone]) in tones.iter().enumerate() {
+            let of = self.devices.get(*of).zip(devices.get(*of));
+            let tone = of.and_then(|((_, device), _)| device.tones.get(*tone));
+            if let (Some(((mount, device), condensed)), Some(tone)) = (of, tone) {
+                let force = device.blocked(tone, speed, condensed);
+                blocked.view_mut((COORDINATES * mount, column), (COORDINATES, 1)).copy_from(&force);
             }
         }
-        self.forced(speed, frequency, blocked)
+        self.forced(frequency, devices, blocked)
+    }
+
+    /// The devices at a frequency, in order.
+    fn condensed(&self, speed: f64, frequency: f64) -> Result<Vec<Condensed>, Fault> {
+        self.devices.iter().map(|(_, device)| device.condensed(speed, frequency)).collect()
     }
 
     /// Mounted forces of blocked ones.
     fn forced(
         &self,
-        speed: f64,
         frequency: f64,
+        devices: Vec<Condensed>,
         blocked: ComplexMatrix,
     ) -> Result<MountedTones, Fault> {
         let (size, of_mounts) = (COORDINATES, COORDINATES * self.mounts.len());
@@ -279,13 +278,10 @@ impl Model {
                 sum.zip_apply(mass, |sum, mass| *sum -= mass);
             }
         }
-        let mut devices = Vec::with_capacity(self.devices.len());
-        for (mount, device) in &self.devices {
-            let condensed = device.condensed(speed, frequency)?;
+        for ((mount, _), condensed) in self.devices.iter().zip(&devices) {
             if let Some(sum) = masses.get_mut(*mount) {
                 *sum += &condensed.mass;
             }
-            devices.push(condensed);
         }
         // 1 + M A, a row of blocks for each mount.
         let mut system = ComplexMatrix::identity(of_mounts, of_mounts);

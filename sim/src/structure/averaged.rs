@@ -53,6 +53,12 @@ pub struct AveragedDevices {
     scale: DVector<f64>,
 }
 
+/// The hub that stands for the mount.
+pub(crate) fn mount_hub() -> Hub {
+    let i_b_bc = Matrix3::from_diagonal_element(OF_MOUNT);
+    Hub { m_b: OF_MOUNT, r_bc_b: Vector3::zeros(), i_b_bc }
+}
+
 /// What is linearised.
 struct Mounted<D: WithNumbers<Scalar = f64>> {
     craft: Spacecraft<D>,
@@ -80,12 +86,7 @@ impl AveragedDevices {
         motors: &[Motor],
     ) -> Result<Self, Fault> {
         let rejected = |error| Fault::Device(DerivativeError::Parameter(error));
-        let hub = Hub {
-            m_b: OF_MOUNT,
-            r_bc_b: Vector3::zeros(),
-            i_b_bc: Matrix3::from_diagonal_element(OF_MOUNT),
-        };
-        let craft = Spacecraft::new(&hub, devices).map_err(rejected)?;
+        let craft = Spacecraft::new(&mount_hub(), devices).map_err(rejected)?;
         let infos: Vec<_> = craft.joints().collect();
         for (what, found) in [("the joints", joints.len()), ("the motors", motors.len())] {
             if found != infos.len() {
