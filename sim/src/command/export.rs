@@ -234,4 +234,14 @@ mod tests {
         let kinds = [0, 1, 2, 3, 4].map(|index| [word(entry(index)), word(entry(index) + 1088)]);
         assert_eq!(kinds, [[100, 0], [9, 1], [9, 1], [9, 1], [9, 1]]);
     }
+
+    #[test]
+    fn more_devices_on_a_platform_than_the_library_takes_are_refused() {
+        let text = include_str!("../../../scenarios/wheels-on-isolator.toml");
+        let text = format!("{text}\n[[device]]\nname = \"rw5\"\ncopy_of = \"rw1\"\n");
+        let read = crate::file::from_toml("isolator", &text, Path::new(""));
+        let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
+        let error = table(&scenario).expect_err("five wheels on a platform").to_string();
+        assert!(error.contains("5 devices on a platform") && error.contains("remove"), "{error}");
+    }
 }
