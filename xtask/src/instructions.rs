@@ -12,7 +12,7 @@ use precess_codegen::emit::EmittedFile;
 use crate::callgrind::{Counts, count};
 use crate::files::write;
 use crate::object_code;
-use crate::run::{cargo, root, say};
+use crate::run::{root, say};
 use crate::skip::skip;
 
 /// The committed table.
@@ -74,7 +74,7 @@ fn compiler() -> Result<String, String> {
 
 type Case = (String, Counts);
 
-/// Every case of the example `instructions`, counted.
+/// Every case of the program `instructions`, counted.
 fn all() -> Result<Vec<Case>, String> {
     let program = built()?;
     let output = Command::new(&program).arg("list").output();
@@ -93,14 +93,13 @@ fn one(program: &Path, name: &str, folder: &Path) -> Result<Counts, String> {
     per_call.ok_or_else(|| format!("{name}: more calls took fewer instructions"))
 }
 
-/// Builds the example for any CPU of the target; where it is.
+/// Builds the program for any CPU of the target; where it is.
 fn built() -> Result<PathBuf, String> {
     let flags = ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_RUSTFLAGS"];
     if let Some(set) = flags.into_iter().find(|flag| std::env::var_os(flag).is_some()) {
         return Err(format!("{set} is set; the counts are of a portable build: unset it"));
     }
-    cargo(&["build", "--release", "--quiet", "-p", "precess-tests", "--example", "instructions"])?;
-    Ok(crate::run::target()?.join("release/examples/instructions"))
+    object_code::program("instructions")
 }
 
 fn table(compiler: &str, counted: &[Case]) -> String {

@@ -2,6 +2,7 @@
 //! `object_code`, held to the committed table by [`compare`].
 
 use std::fmt::Write;
+use std::path::PathBuf;
 use std::process::Command;
 
 use crate::run::{cargo, say, target};
@@ -39,10 +40,15 @@ impl Kernel {
     }
 }
 
-/// Builds and runs the example.
+/// Builds a program of the crate of counts for any CPU of the target; where it is.
+pub(crate) fn program(name: &str) -> Result<PathBuf, String> {
+    cargo(&["build", "--release", "--quiet", "-p", "precess-counts", "--bin", name])?;
+    Ok(target()?.join("release").join(name))
+}
+
+/// Builds and runs the program that reads the kernels.
 pub(crate) fn kernels() -> Result<Vec<Kernel>, String> {
-    cargo(&["build", "--release", "--quiet", "-p", "precess-tests", "--example", "object_code"])?;
-    let program = target()?.join("release/examples/object_code");
+    let program = program("object_code")?;
     let output = Command::new(&program).output();
     let output = output.map_err(|error| format!("{}: {error}", program.display()))?;
     if !output.status.success() {
