@@ -4,6 +4,8 @@
 //! in Python (`precess/`); this module is theirs alone.
 
 mod errors;
+mod evaluator;
+mod inputs;
 mod outcome;
 mod run;
 mod scenario;
@@ -13,6 +15,10 @@ use pyo3::prelude::*;
 /// The native module.
 #[pymodule(gil_used = false)]
 mod _native {
+    #[pymodule_export]
+    use super::evaluator::NativeEvaluator;
+    #[pymodule_export]
+    use super::inputs::NativeInputs;
     #[pymodule_export]
     use super::outcome::NativeResult;
     #[pymodule_export]

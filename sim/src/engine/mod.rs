@@ -44,6 +44,7 @@ use drift::Conserved;
 use events::{Monitors, Passage, Passed};
 pub(crate) use inputs::Acting;
 use integrator::{Moment, Stepper};
+pub(crate) use kinematics::Chain;
 pub(crate) use member_loads::MemberLoads;
 use outcome::EVENTS_MAX;
 pub(crate) use packing::Layout;

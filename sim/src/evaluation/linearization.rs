@@ -37,7 +37,7 @@ pub struct Linearized {
     pub q: DMatrix<f64>,
 }
 
-impl Evaluator<'_> {
+impl Evaluator {
     /// The spacecraft linearised about a state and inputs, exact to rounding; with columns by the
     /// parameters of these names ([`Parameter::all`]).
     ///
@@ -56,7 +56,7 @@ impl Evaluator<'_> {
         if self.is_flexible() {
             return Err(EvaluationError::Flexible { what: "the linearised system" });
         }
-        let parameters = Parameter::named(self.scenario, parameters)?;
+        let parameters = Parameter::named(&self.scenario, parameters)?;
         let (state, inputs) = (&state.rigid, &inputs.rigid);
         let found = self.rigid().linearize(state, inputs, outputs)?;
         let (rows, count) = (found.states.len(), parameters.len());

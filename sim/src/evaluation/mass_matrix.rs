@@ -25,7 +25,7 @@ pub struct MassMatrix {
     pub bias: DVector<f64>,
 }
 
-impl Evaluator<'_> {
+impl Evaluator {
     /// Mass matrix and bias of a free hub with every motor driven, whatever their modes are.
     ///
     /// # Errors

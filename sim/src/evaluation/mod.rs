@@ -44,7 +44,7 @@ pub use mass_matrix::MassMatrix;
 pub use names::JointNames;
 pub use parameters::Parameter;
 
-use crate::engine::{Acting, Craft, Layout, MemberLoads, RunError, rigid_state};
+use crate::engine::{Acting, Chain, Craft, Layout, MemberLoads, RunError, rigid_state};
 use crate::record::{Column, Columns};
 use crate::scenario::{Scenario, Set};
 
@@ -57,39 +57,38 @@ pub type CraftAccelerations = FlexibleAccelerations<Set, ListedModes>;
 
 /// A scenario's spacecraft, prepared for evaluation.
 #[derive(Clone, Debug)]
-pub struct Evaluator<'a> {
-    scenario: &'a Scenario,
+pub struct Evaluator {
+    scenario: Scenario,
     craft: Craft,
     layout: Layout,
-    acting: Acting<'a>,
+    chains: Vec<Chain>,
     /// Every column of a load.
     loads: Vec<Column>,
 }
 
-impl<'a> Evaluator<'a> {
+impl Evaluator {
     /// Checks a scenario and prepares its spacecraft.
     ///
     /// # Errors
     ///
     /// [`RunError::Scenario`], [`RunError::Parameters`] and [`RunError::Modes`], as a run has them.
-    pub fn new(scenario: &'a Scenario) -> Result<Self, RunError> {
+    pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
         let errors = scenario.check();
         if !errors.is_empty() {
             return Err(RunError::Scenario(errors));
         }
         let craft = Craft::of(scenario)?;
         let layout = Layout::new(scenario);
-        let mut acting = Acting::new(scenario, &layout.joints);
-        acting.begin(0.0, f64::INFINITY);
         let columns = Columns::all(scenario).into_iter();
         let loads = columns.filter(|column| column.quantity.is_load()).collect();
-        Ok(Self { scenario, craft, layout, acting, loads })
+        let chains = Chain::all(&scenario.devices);
+        Ok(Self { scenario: scenario.clone(), craft, layout, chains, loads })
     }
 
     /// The scenario.
     #[must_use]
-    pub fn scenario(&self) -> &'a Scenario {
-        self.scenario
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
     }
 
     /// The spacecraft of the library; of a structure that bends, undeformed.
@@ -136,8 +135,10 @@ impl<'a> Evaluator<'a> {
     /// wrenches and disturbances.
     #[must_use]
     pub fn inputs(&self, time: f64, state: &CraftState) -> CraftInputs {
-        let mut inputs = self.acting.inputs(self.scenario, &self.craft);
-        self.acting.fill(time, state, &mut inputs);
+        let mut acting = Acting::new(&self.scenario, &self.layout.joints);
+        acting.begin(0.0, f64::INFINITY);
+        let mut inputs = acting.inputs(&self.scenario, &self.craft);
+        acting.fill(time, state, &mut inputs);
         inputs
     }
 
@@ -267,7 +268,7 @@ impl<'a> Evaluator<'a> {
         found: &CraftAccelerations,
     ) -> Result<MemberLoads, SolveError> {
         let of = self.craft.loads(state, inputs, found)?;
-        Ok(MemberLoads::new(&of, self.acting.chains(), &state.rigid))
+        Ok(MemberLoads::new(&of, &self.chains, &state.rigid))
     }
 
     /// A step of RK4, inputs held, s.

@@ -28,7 +28,7 @@ pub struct JointNames {
     pub driven: bool,
 }
 
-impl Evaluator<'_> {
+impl Evaluator {
     /// The joints in the order of the set.
     #[must_use]
     pub fn joints(&self) -> Vec<JointNames> {
@@ -52,7 +52,7 @@ impl Evaluator<'_> {
     pub fn state_columns(&self) -> Vec<Column> {
         let place = |column: Column| Some((self.layout.place(column.quantity)?, column));
         let mut columns: Vec<_> =
-            Columns::all(self.scenario).into_iter().filter_map(place).collect();
+            Columns::all(&self.scenario).into_iter().filter_map(place).collect();
         columns.sort_by_key(|(place, _)| *place);
         columns.into_iter().map(|(_, column)| column).collect()
     }
