@@ -12,6 +12,7 @@ import logging
 
 from . import errors
 from ._native import version as _version
+from .batch import Batch, BatchRun
 from .columns import Column
 from .errors import (
     DerivativeError,
@@ -24,16 +25,36 @@ from .errors import (
     SolveError,
     UnsupportedError,
 )
+from .inputs import Inputs
 from .result import Drift, Event, Requirement, Result
 from .scenario import Scenario, ScenarioWarning
+from .spacecraft import (
+    Accelerations,
+    Joint,
+    Linearization,
+    MassMatrix,
+    Momentum,
+    Parameter,
+    Spacecraft,
+)
+from .state import State
 
 __version__ = _version()
 __all__ = [
+    "Accelerations",
+    "Batch",
+    "BatchRun",
     "Column",
     "DerivativeError",
     "Drift",
     "Error",
     "Event",
+    "Inputs",
+    "Joint",
+    "Linearization",
+    "MassMatrix",
+    "Momentum",
+    "Parameter",
     "ParameterError",
     "RecordError",
     "Requirement",
@@ -44,6 +65,8 @@ __all__ = [
     "ScenarioWarning",
     "SignalError",
     "SolveError",
+    "Spacecraft",
+    "State",
     "UnsupportedError",
     "errors",
 ]

@@ -5,14 +5,18 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._tables import Overrides, overrides_of, toml_of
 from .columns import Column
 from .errors import RunError
 from .result import Result
+
+if TYPE_CHECKING:
+    from .spacecraft import Joint, Spacecraft
 
 __all__ = ["Scenario", "ScenarioWarning"]
 
@@ -146,6 +150,18 @@ class Scenario:
     def all_columns(self) -> tuple[Column, ...]:
         """Every quantity that can be recorded: names for ``output.columns``."""
         return tuple(Column(*facts) for facts in self._native.all_columns)
+
+    @cached_property
+    def spacecraft(self) -> Spacecraft:
+        """The spacecraft, to be evaluated at any state."""
+        from .spacecraft import Spacecraft
+
+        return Spacecraft(self)
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The joints in order, with the names of their coordinates, rates and motors."""
+        return self.spacecraft.joints
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 //! It contains no physics: it converts arrays and names, and calls the crate `precess`. Public classes are
 //! in Python (`precess/`); this module is theirs alone.
 
+mod batch;
 mod errors;
 mod evaluator;
 mod inputs;
@@ -15,6 +16,8 @@ use pyo3::prelude::*;
 /// The native module.
 #[pymodule(gil_used = false)]
 mod _native {
+    #[pymodule_export]
+    use super::batch::NativeBatch;
     #[pymodule_export]
     use super::evaluator::NativeEvaluator;
     #[pymodule_export]
