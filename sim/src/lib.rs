@@ -6,7 +6,8 @@
 //! ```
 //!
 //! A [`scenario::Scenario`] is read from TOML ([`file`]) or built by a program, run by [`engine::run`]
-//! into any [`record::Recorder`], and shown by [`report::Report`]. The commands are in [`command`].
+//! into any [`record::Recorder`], and shown by [`report::Report`]; [`evaluation`] evaluates its spacecraft
+//! at any state. The commands are in [`command`].
 //! [`spectra`] and [`pointing`] are of any sampled signal, recorded or measured.
 //!
 //! ```
@@ -45,6 +46,7 @@ pub mod campaign;
 pub mod command;
 pub mod disturbance;
 pub mod engine;
+pub mod evaluation;
 pub mod file;
 pub mod fit;
 pub mod jitter;

@@ -103,7 +103,7 @@ impl<D: WithNumbers> Spacecraft<D> {
                     let element = column.element(*of, variable, &state.omega);
                     *to = element.unwrap_or_else(zero);
                 }
-                results.iter_mut().zip(outputs_of(column)).for_each(|(to, from)| *to = from);
+                results.iter_mut().zip(column.outputs()).for_each(|(to, from)| *to = from);
             })?;
         drop(columns);
         let (states_count, inputs_count) = (states.len(), by_inputs.len());
@@ -119,7 +119,7 @@ impl<D: WithNumbers> Spacecraft<D> {
         })
     }
 
-    /// The outputs in the order of [`outputs_of`].
+    /// The outputs in the order of [`Column::outputs`].
     fn outputs(&self, outputs: &Outputs<D::Scalar>) -> Vec<Output> {
         let joints = self.joints().count();
         let mut rows = Vec::new();
@@ -143,18 +143,19 @@ impl<D: WithNumbers> Spacecraft<D> {
     }
 }
 
-/// What a column has of the outputs, in order.
-fn outputs_of<T: Scalar, D: Devices<Scalar = T>>(column: &Column<D>) -> impl Iterator<Item = T> {
-    let Column { accelerations, momentum, loads, hub_load, .. } = column;
-    let hub = [&accelerations.r_b_n_ddot, &accelerations.omega_dot];
-    let hub = hub.into_iter().flat_map(components);
-    let momentum = momentum.iter().flat_map(|of| {
-        let momenta = [&of.momentum.linear, &of.momentum.angular];
-        core::iter::once(of.energy).chain(momenta.into_iter().flat_map(components))
-    });
-    let loads =
-        loads.iter().flat_map(Each::values).chain(*hub_load).flat_map(|wrench| {
+impl<T: Scalar, D: Devices<Scalar = T>> Column<D> {
+    /// The column's elements in the rows of [`Linearization::outputs`], in order.
+    pub fn outputs(&self) -> impl Iterator<Item = T> {
+        let Self { accelerations, momentum, loads, hub_load, .. } = self;
+        let hub = [&accelerations.r_b_n_ddot, &accelerations.omega_dot];
+        let hub = hub.into_iter().flat_map(components);
+        let momentum = momentum.iter().flat_map(|of| {
+            let momenta = [&of.momentum.linear, &of.momentum.angular];
+            core::iter::once(of.energy).chain(momenta.into_iter().flat_map(components))
+        });
+        let loads = loads.iter().flat_map(Each::values).chain(*hub_load).flat_map(|wrench| {
             components(&wrench.force).into_iter().chain(components(&wrench.moment))
         });
-    hub.chain(accelerations.devices.values()).chain(momentum).chain(loads)
+        hub.chain(accelerations.devices.values()).chain(momentum).chain(loads)
+    }
 }

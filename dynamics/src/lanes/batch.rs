@@ -51,7 +51,7 @@ impl<D: LanedSet> Batch<D> {
     }
 
     /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
-    /// some CPUs.
+    /// some CPUs. A set with a vector stays unfused.
     #[must_use]
     pub fn fused(self) -> Self {
         Self { fused: true, ..self }

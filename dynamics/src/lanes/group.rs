@@ -8,7 +8,7 @@ use super::crafts::Crafts;
 use super::evaluate::{Acting, LanedCraft};
 use super::loads::AddLoads;
 use super::motion::{Forces, Motion};
-use super::slot::{Enter, LanedSet, Slots, SlotsOf, each_slot, load_joints, put_given};
+use super::slot::{Enter, LanedSet, Slots, SlotsOf, each_slot, fit_inputs, load_joints, put_given};
 use crate::attitude::quaternion::{Quaternion, bn, norm_squared};
 use crate::equations::gravity::Gravity;
 use crate::equations::hub::HubConstants;
@@ -16,6 +16,7 @@ use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::Each;
 use crate::numbers::laned::{Block, Number, WIDEST};
 use crate::numbers::vec3::{add, components, rotate};
+use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::State;
@@ -115,6 +116,13 @@ impl<D: LanedSet, T: Number> Group<D, T> {
     ) {
         let (Some(last), Some(end)) = (states.len().checked_sub(1), states.last()) else { return };
         let Some(first) = crafts.at(start) else { return };
+        // Joints of another number would be put beside those of other lanes.
+        let fit = |state: &State<D>| D::fits::<data::Joints>(&first.devices, &state.devices);
+        if !states.iter().all(fit) {
+            self.laned = [false; WIDEST];
+            self.given = false;
+            return;
+        }
         let mut lanes = [end; WIDEST];
         lanes.iter_mut().zip(states).for_each(|(lane, state)| *lane = state);
         self.motion = Motion::in_lanes(zero, lanes);
@@ -149,7 +157,9 @@ impl<D: LanedSet, T: Number> Group<D, T> {
         states: &[State<D>],
         all: &BatchInputs<'_, D>,
     ) {
-        let Some(last) = states.len().checked_sub(1) else { return };
+        let (Some(last), Some(first)) = (states.len().checked_sub(1), crafts.at(start)) else {
+            return;
+        };
         let group = start / T::WIDTH;
         self.loads.clear(crafts.own_loads(group));
         for lane in 0..T::WIDTH {
@@ -158,6 +168,8 @@ impl<D: LanedSet, T: Number> Group<D, T> {
             let Some(craft) = crafts.at(start + index) else { return };
             let (slots, joints) = (&mut self.slots, &state.devices);
             self.laned[lane & (WIDEST - 1)] &= lanes_support_inputs(inputs)
+                && D::is_alike(&first.devices, &craft.devices)
+                && fit_inputs::<D>(&craft.devices, inputs.of_joints())
                 && put_given::<D, _>(&craft.devices, slots, lane, joints, inputs.of_joints());
             self.forces.put(lane, inputs);
             self.loads.put(lane, inputs);

@@ -18,7 +18,7 @@
 //! Registers are chosen at run time, AVX-512, AVX2 with FMA, NEON, or single numbers: a portable
 //! build reaches them. State, inputs, accelerations and errors are those of `Spacecraft`.
 //!
-//! Lanes support every kind, arrays and tuples; every mode of a joint; springs, dampers and dry
+//! Lanes support every kind, arrays, tuples and vectors; every mode of a joint; springs, dampers and dry
 //! friction; wrenches on bodies; a uniform and a central field; the lumped model of an imbalance.
 //! Unsupported in lanes are coordinates and rates of joints beyond `2^24`; in a batch also a hub
 //! that is not free, quaternions far from unit length, a central body nearer than 5e-32 m or

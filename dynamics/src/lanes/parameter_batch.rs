@@ -57,7 +57,7 @@ impl<D: LanedSet> ParameterBatch<D> {
     }
 
     /// The same, product and sum rounded once where the CPU does that: other bits, and faster on
-    /// some CPUs.
+    /// some CPUs. A set with a vector stays unfused.
     #[must_use]
     pub fn fused(self) -> Self {
         Self { fused: true, ..self }

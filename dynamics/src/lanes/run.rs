@@ -49,7 +49,7 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        if self.crafts.is_fused() {
+        if const { D::FUSES } && self.crafts.is_fused() {
             self.run(Lane::<S, true>::splat(simd, 0.0));
         } else {
             self.run(Lane::<S, false>::splat(simd, 0.0));

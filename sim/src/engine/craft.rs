@@ -11,7 +11,8 @@ use precess_dynamics::{
     SolveError, Spacecraft, State,
 };
 
-use crate::scenario::Set;
+use super::error::RunError;
+use crate::scenario::{Scenario, Set};
 
 /// The state that is integrated.
 pub(crate) type CraftState = FlexibleState<Set, ListedModes>;
@@ -30,6 +31,14 @@ pub(crate) enum Craft {
 }
 
 impl Craft {
+    /// That of a scenario.
+    pub(crate) fn of(scenario: &Scenario) -> Result<Self, RunError> {
+        Ok(match scenario.flexible() {
+            Some(craft) => Self::Flexible(Box::new(craft.map_err(RunError::Modes)?)),
+            None => Self::Rigid(Box::new(scenario.spacecraft().map_err(RunError::Parameters)?)),
+        })
+    }
+
     /// The structure undeformed, with the devices.
     pub(crate) fn rigid(&self) -> &Spacecraft<Set> {
         match self {

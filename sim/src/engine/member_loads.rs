@@ -13,6 +13,7 @@ use precess_dynamics::kind::Each;
 use precess_dynamics::{DeviceLoads, JointStates, Loads, State, Wrench};
 
 use super::kinematics::Chain;
+use crate::record::columns::Quantity;
 use crate::scenario::Set;
 
 /// The loads of a set.
@@ -49,6 +50,21 @@ impl MemberLoads {
             carried.moment += mount.moment + r.cross(&mount.force);
         }
         of
+    }
+
+    /// A load by its quantity; none of any other quantity.
+    pub(crate) fn number(&self, quantity: Quantity) -> Option<f64> {
+        let force = |of: &[Wrench], index: usize, axis: usize| Some(of.get(index)?.force[axis]);
+        let moment = |of: &[Wrench], index: usize, axis: usize| Some(of.get(index)?.moment[axis]);
+        match quantity {
+            Quantity::MountForce(member, axis) => force(&self.mounts, member, axis),
+            Quantity::MountMoment(member, axis) => moment(&self.mounts, member, axis),
+            Quantity::CarriedForce(member, axis) => force(&self.carried, member, axis),
+            Quantity::CarriedMoment(member, axis) => moment(&self.carried, member, axis),
+            Quantity::LoadForce(joint, axis) => force(&self.joints, joint, axis),
+            Quantity::LoadMoment(joint, axis) => moment(&self.joints, joint, axis),
+            _ => None,
+        }
     }
 
     fn push<W: Each<Wrench>, U: Each<f64>, P>(&mut self, device: &DeviceLoads<W, U, P, f64>) {

@@ -39,10 +39,13 @@ pub use drift::Drift;
 pub use error::{Fault, RunError};
 pub use outcome::{End, Event, Outcome, Steps};
 
-use craft::{Craft, CraftState};
+pub(crate) use craft::{Craft, CraftState, rigid_state};
 use drift::Conserved;
 use events::{Monitors, Passage, Passed};
+pub(crate) use inputs::Acting;
 use integrator::{Moment, Stepper};
+pub(crate) use kinematics::Chain;
+pub(crate) use member_loads::MemberLoads;
 use outcome::EVENTS_MAX;
 pub(crate) use packing::Layout;
 use sampling::Sampling;
@@ -98,10 +101,7 @@ impl<'a> Run<'a> {
         if !errors.is_empty() {
             return Err(RunError::Scenario(errors));
         }
-        let craft = match scenario.flexible() {
-            Some(craft) => Craft::Flexible(Box::new(craft.map_err(RunError::Modes)?)),
-            None => Craft::Rigid(Box::new(scenario.spacecraft().map_err(RunError::Parameters)?)),
-        };
+        let craft = Craft::of(scenario)?;
         let system = System::new(scenario, craft);
         let (eta, eta_dot) = scenario
             .structure

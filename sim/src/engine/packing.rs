@@ -14,10 +14,11 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use nalgebra::Vector3;
-use precess_dynamics::kind::JointInfo;
+use precess_dynamics::kind::{Each, JointInfo};
 use precess_dynamics::{Attitude, JointStates, Quaternion};
 
-use super::craft::CraftState;
+use super::craft::{CraftAccelerations, CraftState};
+use crate::record::columns::Quantity;
 use crate::scenario::Scenario;
 
 /// Numbers of the hub.
@@ -80,6 +81,26 @@ impl Layout {
         Self { joints, modes, modal: next, work: next + 2 * modes }
     }
 
+    /// How many numbers the state has, without the integrals.
+    pub(crate) fn state_length(&self) -> usize {
+        self.work
+    }
+
+    /// The place of a quantity of the state in the flat vector; none of any other.
+    pub(crate) fn place(&self, quantity: Quantity) -> Option<usize> {
+        match quantity {
+            Quantity::Position(axis) => Some(axis),
+            Quantity::Velocity(axis) => Some(3 + axis),
+            Quantity::Quaternion(index) => Some(6 + index),
+            Quantity::Omega(axis) => Some(10 + axis),
+            Quantity::Coordinate(joint) => self.joints.get(joint).map(|place| place.coordinate),
+            Quantity::Rate(joint) => self.joints.get(joint).map(|place| place.rate),
+            Quantity::ModalCoordinate(mode) => Some(self.modal + mode),
+            Quantity::ModalRate(mode) => Some(self.modal + self.modes + mode),
+            _ => None,
+        }
+    }
+
     /// How many numbers the flat vector has.
     pub(crate) fn length(&self) -> usize {
         self.work + 2
@@ -137,29 +158,35 @@ impl Layout {
         [y[self.work], y[self.work + 1]]
     }
 
-    /// Writes time derivatives: those of the hub, of each joint's rate, of the modal coordinates'
-    /// rates, and of both integrals.
+    /// Writes time derivatives: those of the hub, of each joint's rate and of the modal coordinates'
+    /// rates. `state` is that of the flat vector `y`.
     pub(crate) fn pack_rates(
         &self,
         y: &[f64],
-        hub: [&[f64]; 4],
-        joints: impl Iterator<Item = f64>,
-        modal_accelerations: &[f64],
-        powers: [f64; 2],
+        state: &CraftState,
+        found: &CraftAccelerations,
         dydt: &mut [f64],
     ) {
-        let [velocity, acceleration, quaternion_rate, omega_dot] = hub;
-        dydt[..3].copy_from_slice(velocity);
-        dydt[3..6].copy_from_slice(acceleration);
-        dydt[6..10].copy_from_slice(quaternion_rate);
-        dydt[10..HUB].copy_from_slice(omega_dot);
-        for (place, acceleration) in self.joints.iter().zip(joints) {
+        let hub = &state.rigid;
+        let bn = hub.attitude.dcm();
+        // The solver's inertial acceleration is expressed in B; positions are expressed in N.
+        let acceleration = bn.tr_mul(&found.rigid.r_b_n_ddot);
+        let quaternion_rate = Self::attitude(y).rate(&hub.omega);
+        dydt[..3].copy_from_slice(hub.r_b_n_dot.as_slice());
+        dydt[3..6].copy_from_slice(acceleration.as_slice());
+        dydt[6..10].copy_from_slice(quaternion_rate.as_slice());
+        dydt[10..HUB].copy_from_slice(found.rigid.omega_dot.as_slice());
+        for (place, acceleration) in self.joints.iter().zip(found.rigid.devices.values()) {
             dydt[place.coordinate] = y[place.rate];
             dydt[place.rate] = acceleration;
         }
         let (coordinates, rates) = self.modal();
         dydt[coordinates].copy_from_slice(&y[rates.clone()]);
-        dydt[rates].copy_from_slice(modal_accelerations);
+        dydt[rates].copy_from_slice(&found.eta_ddot);
+    }
+
+    /// Writes the time derivatives of both integrals.
+    pub(crate) fn pack_powers(&self, powers: [f64; 2], dydt: &mut [f64]) {
         dydt[self.work..].copy_from_slice(&powers);
     }
 

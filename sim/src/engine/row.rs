@@ -232,24 +232,12 @@ impl Computed<'_> {
                     _ => Some(*motor),
                 })
             }
-            Quantity::MountForce(member, axis) => {
-                loads.and_then(|loads| loads.mounts.get(member)).map(|load| load.force[axis])
-            }
-            Quantity::MountMoment(member, axis) => {
-                loads.and_then(|loads| loads.mounts.get(member)).map(|load| load.moment[axis])
-            }
-            Quantity::CarriedForce(member, axis) => {
-                loads.and_then(|loads| loads.carried.get(member)).map(|load| load.force[axis])
-            }
-            Quantity::CarriedMoment(member, axis) => {
-                loads.and_then(|loads| loads.carried.get(member)).map(|load| load.moment[axis])
-            }
-            Quantity::LoadForce(joint, axis) => {
-                loads.and_then(|loads| loads.joints.get(joint)).map(|load| load.force[axis])
-            }
-            Quantity::LoadMoment(joint, axis) => {
-                loads.and_then(|loads| loads.joints.get(joint)).map(|load| load.moment[axis])
-            }
+            Quantity::MountForce(..)
+            | Quantity::MountMoment(..)
+            | Quantity::CarriedForce(..)
+            | Quantity::CarriedMoment(..)
+            | Quantity::LoadForce(..)
+            | Quantity::LoadMoment(..) => loads.and_then(|loads| loads.number(quantity)),
             Quantity::Disturbance(source, component) => {
                 self.disturbances.get(source).and_then(|of| of.get(component).copied())
             }

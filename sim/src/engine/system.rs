@@ -102,19 +102,8 @@ impl<'a> System<'a> {
         self.layout.unpack(y, state);
         self.acting.fill(time, state, inputs);
         let found = self.craft.accelerations(state, inputs)?;
-        let hub_state = &state.rigid;
-        let bn = hub_state.attitude.dcm();
-        // The solver's inertial acceleration is expressed in B; positions are expressed in N.
-        let acceleration = bn.tr_mul(&found.rigid.r_b_n_ddot);
-        let quaternion_rate = Layout::attitude(y).rate(&hub_state.omega);
-        let hub = [
-            hub_state.r_b_n_dot.as_slice(),
-            acceleration.as_slice(),
-            quaternion_rate.as_slice(),
-            found.rigid.omega_dot.as_slice(),
-        ];
-        let powers = self.powers(state, inputs, &found)?;
-        self.layout.pack_rates(y, hub, found.rigid.devices.values(), &found.eta_ddot, powers, dydt);
+        self.layout.pack_rates(y, state, &found, dydt);
+        self.layout.pack_powers(self.powers(state, inputs, &found)?, dydt);
         Ok(())
     }
 

@@ -13,6 +13,18 @@ pub struct SourceText {
     pub name: String,
     /// The text.
     pub text: String,
+    /// What a number without a unit is in it.
+    pub numbers: Numbers,
+}
+
+/// What a number without a unit is, where a quantity is wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Numbers {
+    /// An error: in a file that people read, each number states its unit.
+    #[default]
+    WithUnits,
+    /// In SI units and radians: in what a program passes.
+    Si,
 }
 
 /// A part of a text, bytes from its start.
@@ -77,6 +89,11 @@ impl Diagnostics {
     #[must_use]
     pub fn has_errors(&self) -> bool {
         self.all.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+
+    /// What a number without a unit is at a place.
+    pub(super) fn numbers_at(&self, span: &Span) -> Numbers {
+        self.sources.get(span.source).map_or(Numbers::WithUnits, |source| source.numbers)
     }
 
     /// Adds an error.
@@ -211,7 +228,8 @@ mod tests {
     #[test]
     fn an_error_shows_file_line_mark_and_remedy() {
         let text = "[hub]\nmas = \"4 kg\"\n".to_owned();
-        let sources = vec![SourceText { name: "bus.toml".to_owned(), text }];
+        let sources =
+            vec![SourceText { name: "bus.toml".to_owned(), text, numbers: Numbers::WithUnits }];
         let mut diagnostics = Diagnostics { sources, all: Vec::new() };
         let span = Span { source: 0, range: 6..9 };
         diagnostics.error(&span, "unknown key `mas`", "", "did you mean `mass`?");
@@ -227,7 +245,11 @@ mod tests {
 
     #[test]
     fn a_span_beyond_its_text_is_clipped() {
-        let sources = vec![SourceText { name: "a".to_owned(), text: "é".to_owned() }];
+        let sources = vec![SourceText {
+            name: "a".to_owned(),
+            text: "é".to_owned(),
+            numbers: Numbers::WithUnits,
+        }];
         let mut diagnostics = Diagnostics { sources, all: Vec::new() };
         diagnostics.error(&Span { source: 0, range: 1..900 }, "wrong", "here", "");
         assert!(diagnostics.to_string().contains("wrong"));

@@ -4,7 +4,7 @@
 
 use toml::de::{DeTable, DeValue};
 
-use super::diagnostic::{Diagnostics, SourceText, Span};
+use super::diagnostic::{Diagnostics, Numbers, SourceText, Span};
 
 /// Longer files are refused before they are parsed, bytes.
 pub(super) const TEXT_MAX: usize = 4_000_000;
@@ -89,10 +89,10 @@ impl Table {
 const SYNTAX_ERRORS_MAX: usize = 5;
 
 /// Parses a text; adds it to the sources, and what is wrong with it to the errors.
-pub(super) fn parse(name: &str, text: &str, reports: &mut Diagnostics) -> Node {
+pub(super) fn parse(name: &str, text: &str, numbers: Numbers, reports: &mut Diagnostics) -> Node {
     let source = reports.sources.len();
     let kept = if text.len() > TEXT_MAX { "" } else { text };
-    reports.sources.push(SourceText { name: name.to_owned(), text: kept.to_owned() });
+    reports.sources.push(SourceText { name: name.to_owned(), text: kept.to_owned(), numbers });
     let whole = Span { source, range: 0..kept.len() };
     if text.len() > TEXT_MAX {
         let message = format!("{name} has more than {TEXT_MAX} bytes");

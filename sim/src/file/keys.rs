@@ -7,7 +7,7 @@ use std::cell::RefCell;
 
 use nalgebra::Vector3;
 
-use super::diagnostic::{Diagnostics, Span};
+use super::diagnostic::{Diagnostics, Numbers, Span};
 use super::document::{Entry, Node, Table, Value};
 use crate::nearest::nearest;
 use crate::units::{Measure, Quantity, parse_quantity};
@@ -307,6 +307,11 @@ impl<'a> Keys<'a> {
         let text = match &node.value {
             Value::Text(text) => text,
             Value::Number(value, _) if measure == Measure::NUMBER => return Some(vec![*value]),
+            Value::Number(value, _)
+                if self.reports.borrow().numbers_at(&node.span) == Numbers::Si =>
+            {
+                return Some(vec![*value]);
+            }
             Value::Number(value, _) => {
                 let message = format!("`{path}` has no unit");
                 let help = if measure.unit == usual {

@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use super::diagnostic::{Diagnostics, Span};
+use super::diagnostic::{Diagnostics, Numbers, Span};
 use super::document::{Entry, Node, TEXT_MAX, Table, Value, parse};
 
 /// Files based on files based on files: no deeper than this.
@@ -27,9 +27,14 @@ pub(super) fn load_file(path: &Path, reports: &mut Diagnostics) -> Node {
 }
 
 /// The tree of a text that names files relative to a folder.
-pub(super) fn load_text(name: &str, text: &str, folder: &Path, reports: &mut Diagnostics) -> Node {
+pub(super) fn load_text(
+    name: &str,
+    (text, numbers): (&str, Numbers),
+    folder: &Path,
+    reports: &mut Diagnostics,
+) -> Node {
     let mut open = Vec::new();
-    let node = parse(name, text, reports);
+    let node = parse(name, text, numbers, reports);
     with_bases(node, folder, &mut open, reports)
 }
 
@@ -71,7 +76,7 @@ fn load(
         return nothing;
     };
     open.push(real);
-    let node = parse(&shown, &text, reports);
+    let node = parse(&shown, &text, Numbers::WithUnits, reports);
     let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
     let node = with_bases(node, &folder, open, reports);
     open.pop();
@@ -182,10 +187,16 @@ fn merge_named(below: &mut Vec<Node>, above: Vec<Node>) {
 }
 
 /// Puts overrides over a tree: `hub.mass="900 kg"`, `device.cmg1.wheel.rate="100 rpm"`.
-pub(super) fn apply(node: &mut Node, overrides: &[Override], reports: &mut Diagnostics) {
+///
+/// `numbers` is what a number without a unit is in them.
+pub(super) fn apply(
+    node: &mut Node,
+    (overrides, numbers): (&[Override], Numbers),
+    reports: &mut Diagnostics,
+) {
     for text in overrides {
         let before = reports.all.len();
-        let parsed = parse(&format!("--set {text}"), text, reports);
+        let parsed = parse(&format!("--set {text}"), text, numbers, reports);
         if reports.all.len() > before {
             continue;
         }

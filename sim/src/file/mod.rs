@@ -24,10 +24,10 @@ mod write;
 mod write_platform;
 
 pub use budget::budget_from_toml;
-pub use diagnostic::{Diagnostic, Diagnostics, Severity};
+pub use diagnostic::{Diagnostic, Diagnostics, Numbers, Severity};
 pub use load::{Override, Overrides};
 pub use measurement::{MeasurementFile, measurement_from_toml};
-pub use read::{from_file, from_toml};
+pub use read::{Tables, from_file, from_program, from_toml};
 pub use structure::structure_from_toml;
 pub use template::Template;
 pub use variations::variations_from_toml;

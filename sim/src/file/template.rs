@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::diagnostic::Diagnostics;
+use super::diagnostic::{Diagnostics, Numbers};
 use super::document::Node;
 use super::load::{Override, load_file};
 use super::read::{Read, scenario};
@@ -38,6 +38,7 @@ impl Template {
         let stem = self.path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
         let folder = self.path.parent().unwrap_or_else(|| Path::new(""));
         let path = self.path.display().to_string();
+        let overrides = (overrides, Numbers::WithUnits);
         scenario(self.node.clone(), &path, &stem, folder, overrides, self.reports.clone())
     }
 }

@@ -1,8 +1,8 @@
 //! What a run records: its columns, and where the samples go.
 //!
 //! A [`Recorder`] receives the columns, then every sample, then the result. Files are written as
-//! they come and renamed when the run has ended ([`partial`]); [`Samples`] keeps them in memory;
-//! [`Many`] passes them to several recorders, [`Between`] those of an interval.
+//! they come and renamed when the run has ended ([`partial`]); [`Samples`] and [`Histories`] keep them in
+//! memory; [`Many`] passes them to several recorders, [`Between`] those of an interval.
 
 mod between;
 #[cfg(test)]
@@ -11,6 +11,7 @@ pub mod columns;
 pub mod csv;
 pub mod decimate;
 mod error;
+mod histories;
 mod load_columns;
 mod many;
 pub mod npz;
@@ -26,6 +27,7 @@ pub use columns::{Column, Columns};
 pub use csv::Csv;
 pub use decimate::{Bucket, Decimate};
 pub use error::RecordError;
+pub use histories::{Histories, replay};
 pub use many::Many;
 pub use npz::Npz;
 #[cfg(feature = "parquet")]

@@ -27,7 +27,7 @@ use std::path::Path;
 
 use precess_dynamics::Gravity;
 
-use super::diagnostic::Diagnostics;
+use super::diagnostic::{Diagnostics, Numbers};
 use super::document::Node;
 use super::keys::{Keys, Reports};
 use super::load::{Override, apply, load_file, load_text};
@@ -47,6 +47,10 @@ pub type Read = Result<(Scenario, Diagnostics), Diagnostics>;
 /// # Errors
 /// Everything that is wrong, with its places.
 pub fn from_file(path: &Path, overrides: &[Override]) -> Read {
+    file(path, (overrides, Numbers::WithUnits))
+}
+
+fn file(path: &Path, overrides: (&[Override], Numbers)) -> Read {
     let mut reports = Diagnostics::default();
     let node = load_file(path, &mut reports);
     let stem =
@@ -60,9 +64,45 @@ pub fn from_file(path: &Path, overrides: &[Override]) -> Read {
 /// # Errors
 /// Everything that is wrong, with its places.
 pub fn from_toml(name: &str, text: &str, folder: &Path) -> Read {
+    self::text(name, (text, Numbers::WithUnits), folder, &[])
+}
+
+fn text(name: &str, text: (&str, Numbers), folder: &Path, overrides: &[Override]) -> Read {
     let mut reports = Diagnostics::default();
     let node = load_text(name, text, folder, &mut reports);
-    scenario(node, name, name, folder, &[], reports)
+    scenario(node, name, name, folder, (overrides, Numbers::Si), reports)
+}
+
+/// The tables of a scenario, for [`from_program`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tables<'a> {
+    /// Those of a file.
+    File(&'a Path),
+    /// Those of a text.
+    Text {
+        /// How it is named in messages; the scenario's name where the text states none.
+        name: &'a str,
+        /// TOML.
+        text: &'a str,
+        /// What a number without a unit is in the text.
+        numbers: Numbers,
+        /// Where files are sought that it names.
+        folder: &'a Path,
+    },
+}
+
+/// Reads a scenario that a program describes. A number without a unit is in SI units and radians in
+/// its overrides, and in its text where it says so.
+///
+/// # Errors
+/// Everything that is wrong, with its places.
+pub fn from_program(tables: Tables<'_>, overrides: &[Override]) -> Read {
+    match tables {
+        Tables::File(path) => file(path, (overrides, Numbers::Si)),
+        Tables::Text { name, text, numbers, folder } => {
+            self::text(name, (text, numbers), folder, overrides)
+        }
+    }
 }
 
 pub(super) fn scenario(
@@ -70,7 +110,7 @@ pub(super) fn scenario(
     path: &str,
     stem: &str,
     folder: &Path,
-    overrides: &[Override],
+    overrides: (&[Override], Numbers),
     mut reports: Diagnostics,
 ) -> Read {
     // What is not TOML is reported alone: its keys would be guesses.

@@ -1,0 +1,118 @@
+//! Batches of spacecraft whose devices are of one kind, in lanes, behind one object-safe trait: states
+//! are flat rows, as `precess::evaluation` lays them out.
+//!
+//! A crate of its own: it holds the kernels of every kind in lanes of every width, which take minutes
+//! to compile and rarely change.
+//!
+//! Lanes do not fuse, so every number has the bits of `Spacecraft` with a `Vec<BuiltIn>`: the order of
+//! sums over devices is the same.
+
+mod laned;
+
+use nalgebra::Vector3;
+use precess_dynamics::{
+    BuiltIn, Gravity, Hub, HubMode, Mode, ParameterError, SolveError, Wrench, every_kind,
+};
+
+/// States of a part: whole groups of the widest lanes, and several parts for each thread.
+pub const PART: usize = 64;
+
+/// What acts on every state, joints in order.
+#[derive(Clone, Debug)]
+pub struct Acting {
+    /// External force through B, in B, N.
+    pub force: Vector3<f64>,
+    /// External torque about B, in B, N m.
+    pub torque_b: Vector3<f64>,
+    /// Motor torques or forces.
+    pub motors: Vec<f64>,
+    /// Modes.
+    pub modes: Vec<Mode<f64>>,
+    /// Mode of the hub.
+    pub hub: HubMode<f64>,
+    /// Gravity.
+    pub gravity: Gravity<f64>,
+    /// Wrenches on the bodies, where there are any.
+    pub bodies: Option<Vec<Wrench<f64>>>,
+}
+
+/// Sees states on the way: number within the part, steps so far, state.
+pub type See<'a> = dyn FnMut(usize, usize, &[f64]) + 'a;
+
+/// Steps between two looks at whether to go on, and of which samples are kept before they are seen.
+pub const SEGMENT: usize = 256;
+
+/// Who watches a run.
+pub struct Watch<'a> {
+    /// Sees states.
+    pub see: &'a mut See<'a>,
+    /// Whether to go on.
+    pub go: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// What became of each state of a part.
+pub type Ends = Vec<Result<(), SolveError<f64>>>;
+
+/// Some steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Steps {
+    /// Length, s.
+    pub length: f64,
+    /// How many.
+    pub count: usize,
+    /// After how many a state is seen.
+    pub every: usize,
+}
+
+/// A batch of spacecraft.
+pub trait Lanes: Send + Sync {
+    /// Accelerations of the states of a part, one row each; `inputs` has one of each, or the same.
+    fn accelerations(&self, part: usize, y: &[f64], inputs: &[Acting], out: &mut [f64]) -> Ends;
+    /// Steps of RK4, inputs held, while `go` says so. A state that fails is left as it was before the
+    /// step that failed.
+    fn run(
+        &self,
+        part: usize,
+        y: &mut [f64],
+        inputs: &[Acting],
+        steps: Steps,
+        watch: Watch<'_>,
+    ) -> Ends;
+}
+
+/// What a batch was made of.
+pub enum Made {
+    /// A batch, and what is wrong with each spacecraft.
+    Lanes(Box<dyn Lanes>, Vec<Option<ParameterError<f64>>>),
+    /// The devices are of several kinds, or there are none.
+    Unsupported,
+}
+
+/// The batch of one spacecraft for every state, or of one for each.
+#[must_use]
+pub fn lanes(crafts: &[(Hub, Vec<BuiltIn>)], each: bool) -> Made {
+    let Some((_, devices)) = crafts.first() else { return Made::Unsupported };
+    let Some(first) = devices.first() else { return Made::Unsupported };
+    let kind = first.kind();
+    let alike = |(_, of): &(Hub, Vec<BuiltIn>)| {
+        of.len() == devices.len() && of.iter().all(|device| device.kind() == kind)
+    };
+    if !crafts.iter().all(alike) {
+        return Made::Unsupported;
+    }
+    macro_rules! by_kind {
+        ($($kind:ident $module:ident $number:literal;)*) => {
+            match first {
+                $(BuiltIn::$kind(_) => {
+                    let one = |device: &BuiltIn| match device {
+                        BuiltIn::$kind(device) => Some(*device),
+                        _ => None,
+                    };
+                    let of = |(hub, of): &(Hub, Vec<BuiltIn>)| (*hub, of.iter().filter_map(one).collect());
+                    laned::of_kind(crafts.iter().map(of).collect(), each)
+                })*
+            }
+        };
+    }
+    every_kind!(by_kind)
+}

@@ -1,0 +1,278 @@
+//! [`NativeBatch`]: many states of a scenario's spacecraft, or of as many spacecraft whose parameters
+//! differ; in lanes where all devices are of one kind on a rigid hub, one by one elsewhere.
+//!
+//! States are evaluated in parts of a fixed size, so no number depends on how many threads share them.
+
+mod engine;
+mod reduce;
+mod work;
+
+use std::sync::Arc;
+
+use numpy::{
+    IntoPyArray as _, PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray2,
+    PyUntypedArrayMethods as _,
+};
+use precess::evaluation::{CraftInputs, Evaluator, Parameter};
+use precess::scenario::Scenario;
+use precess_dynamics::{Each as _, Mode};
+use precess_lanes::{PART, Steps};
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::errors;
+use crate::evaluator::NativeEvaluator;
+use crate::inputs::NativeInputs;
+use crate::scenario::NativeScenario;
+
+use engine::Engine;
+use reduce::{Kept, Reduction};
+use work::{Progress, share};
+
+type Rows<'py> = Bound<'py, PyArray2<f64>>;
+/// Index and exception of each element that failed.
+type Failures = Vec<(usize, Py<PyAny>)>;
+/// Final states, samples, reductions in the order they were asked for, failures.
+type RunFacts<'py> = (Rows<'py>, Option<Bound<'py, PyArray3<f64>>>, Vec<Rows<'py>>, Failures);
+
+/// Many states, of one spacecraft or of one each.
+#[pyclass(frozen, module = "precess._native")]
+pub(crate) struct NativeBatch {
+    evaluator: Arc<Evaluator>,
+    engine: Engine,
+    /// Elements; none of one spacecraft for any number.
+    count: Option<usize>,
+}
+
+#[pymethods]
+impl NativeBatch {
+    /// `parameters`: names, and a row for each element. `scenarios`: one for each element.
+    #[new]
+    #[pyo3(signature = (evaluator, parameters=None, scenarios=None, lanes=true))]
+    #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+    fn new(
+        py: Python<'_>,
+        evaluator: &NativeEvaluator,
+        parameters: Option<(Vec<String>, PyReadonlyArray2<'_, f64>)>,
+        scenarios: Option<Vec<Py<NativeScenario>>>,
+        lanes: bool,
+    ) -> PyResult<Self> {
+        let evaluator = evaluator.evaluator.clone();
+        let each = scenarios.is_some() || parameters.is_some();
+        let mut elements: Vec<Arc<Scenario>> = match &scenarios {
+            Some(scenarios) => scenarios.iter().map(|of| of.get().scenario.clone()).collect(),
+            None => Vec::new(),
+        };
+        if let Some((names, values)) = &parameters {
+            let of = Parameter::named(evaluator.scenario(), names);
+            let of = of.map_err(|error| errors::evaluation(&error))?;
+            if let Some(other) = of.iter().find(|parameter| !parameter.is_number()) {
+                return Err(PyValueError::new_err(format!(
+                    "`{}` is no number of the spacecraft but a derivative; set a key of the scenario \
+                     instead, such as `device.NAME.imbalance`",
+                    other.name
+                )));
+            }
+            let values = values.as_array();
+            if elements.is_empty() {
+                let one = Arc::new(evaluator.scenario().clone());
+                elements = vec![one; values.nrows()];
+            }
+            if elements.len() != values.nrows() {
+                let message = format!("{} rows for {} elements", values.nrows(), elements.len());
+                return Err(PyValueError::new_err(message));
+            }
+            for (element, row) in elements.iter_mut().zip(values.rows()) {
+                let Scenario { hub, devices, .. } = Arc::make_mut(element);
+                for (parameter, value) in of.iter().zip(row) {
+                    parameter.set(hub, devices, *value);
+                }
+            }
+        }
+        let count = each.then_some(elements.len());
+        let engine = py.detach(|| {
+            if each { Engine::each(&elements, lanes) } else { Engine::same(&evaluator, lanes) }
+        });
+        Ok(Self { evaluator, engine, count })
+    }
+
+    /// Whether it is evaluated in lanes.
+    #[getter]
+    fn is_laned(&self) -> bool {
+        self.engine.is_laned()
+    }
+
+    /// Accelerations, one row each; failures.
+    #[pyo3(signature = (y, inputs, u=None, threads=0, progress=None))]
+    #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+    fn accelerations<'py>(
+        &self,
+        py: Python<'py>,
+        y: PyReadonlyArray2<'py, f64>,
+        inputs: &NativeInputs,
+        u: Option<PyReadonlyArray2<'py, f64>>,
+        threads: usize,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Rows<'py>, Failures)> {
+        let (y, count) = self.rows(&y)?;
+        let u = self.inputs(u.as_ref(), count)?;
+        let base = inputs.get()?.clone();
+        let width = self.evaluator.acceleration_names().len();
+        let size = self.evaluator.state_size();
+        let mut out = vec![f64::NAN; count * width];
+        let jobs = out.chunks_mut(PART * width.max(1)).zip(y.chunks(PART * size)).enumerate();
+        let jobs = jobs.map(|(part, (out, y))| (part, out, y)).collect();
+        let work = |(part, out, y): (usize, &mut [f64], &[f64]), _: &(dyn Fn() -> bool + Sync)| {
+            let inputs = u.of_part(&base, part, y.len() / size);
+            let ends = self.engine.accelerations(part, (y, y.len() / size), &inputs, out);
+            failed_rows(part, &ends, out, width)
+        };
+        let failures = share(py, threads, jobs, work, Progress::new(progress))?;
+        let failures = exceptions(py, failures)?;
+        Ok((out.into_pyarray(py).reshape([count, width])?, failures))
+    }
+
+    /// Steps of RK4, inputs held.
+    #[pyo3(signature = (y, inputs, u, dt, steps, every, history, reductions, threads=0, progress=None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+    fn run<'py>(
+        &self,
+        py: Python<'py>,
+        y: PyReadonlyArray2<'py, f64>,
+        inputs: &NativeInputs,
+        u: Option<PyReadonlyArray2<'py, f64>>,
+        dt: f64,
+        steps: usize,
+        every: usize,
+        history: bool,
+        reductions: Vec<String>,
+        threads: usize,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<RunFacts<'py>> {
+        let (mut y, count) = self.rows(&y)?;
+        let u = self.inputs(u.as_ref(), count)?;
+        let base = inputs.get()?.clone();
+        let size = self.evaluator.state_size();
+        let every = every.max(1);
+        let samples = if history { steps / every + 1 } else { 0 };
+        let reductions: PyResult<Vec<Reduction>> =
+            reductions.iter().map(|name| Reduction::of_name(name)).collect();
+        let reductions = reductions?;
+        let mut kept = Kept::new(count, samples, size, reductions);
+        let jobs = y.chunks_mut(PART * size).zip(kept.parts()).enumerate();
+        let jobs = jobs.map(|(part, (y, kept))| (part, y, kept)).collect();
+        let of = Steps { length: dt, count: steps, every };
+        let work = |(part, y, mut kept): (usize, &mut [f64], reduce::Part<'_>),
+                    go: &(dyn Fn() -> bool + Sync)| {
+            let inputs = u.of_part(&base, part, y.len() / size);
+            kept.start(y);
+            let ends = self.engine.run(part, y, &inputs, of, &mut kept, go);
+            kept.finish(&ends);
+            failed_rows(part, &ends, y, size)
+        };
+        let failures = share(py, threads, jobs, work, Progress::new(progress))?;
+        let failures = exceptions(py, failures)?;
+        let (histories, reduced) = kept.into_parts();
+        let histories = match histories {
+            Some(of) => Some(of.into_pyarray(py).reshape([count, samples, size])?),
+            None => None,
+        };
+        let reduced: PyResult<Vec<_>> =
+            reduced.into_iter().map(|of| of.into_pyarray(py).reshape([count, size])).collect();
+        Ok((y.into_pyarray(py).reshape([count, size])?, histories, reduced?, failures))
+    }
+}
+
+impl NativeBatch {
+    /// The rows of states.
+    fn rows(&self, y: &PyReadonlyArray2<'_, f64>) -> PyResult<(Vec<f64>, usize)> {
+        let [count, width] = [y.shape()[0], y.shape()[1]];
+        let size = self.evaluator.state_size();
+        if width != size {
+            let message = format!("states have {width} numbers; they need {size}");
+            return Err(PyValueError::new_err(message));
+        }
+        if let Some(expected) = self.count.filter(|expected| *expected != count) {
+            let message = format!("{count} states for {expected} spacecraft");
+            return Err(PyIndexError::new_err(message));
+        }
+        Ok((y.as_array().iter().copied().collect(), count))
+    }
+
+    /// The rows of inputs: force and torque on the hub, then a number for each joint.
+    fn inputs(&self, u: Option<&PyReadonlyArray2<'_, f64>>, count: usize) -> PyResult<InputRows> {
+        let Some(u) = u else { return Ok(InputRows { rows: Vec::new(), width: 0 }) };
+        let width = 6 + self.evaluator.joints().len();
+        if u.shape() != [count, width] {
+            let message = format!(
+                "inputs have the shape {:?}; they need ({count}, {width}): force, torque, motors",
+                u.shape()
+            );
+            return Err(PyValueError::new_err(message));
+        }
+        Ok(InputRows { rows: u.as_array().iter().copied().collect(), width })
+    }
+}
+
+/// Inputs, row by row; none where they are the same for all.
+struct InputRows {
+    rows: Vec<f64>,
+    width: usize,
+}
+
+impl InputRows {
+    /// Those of a part of so many states: one for all, or one for each.
+    fn of_part(&self, base: &CraftInputs, part: usize, count: usize) -> Vec<CraftInputs> {
+        if self.width == 0 {
+            return vec![base.clone()];
+        }
+        let rows = self.rows.chunks_exact(self.width).skip(part * PART).take(count);
+        rows.map(|row| with_row(base, row)).collect()
+    }
+}
+
+/// Inputs with the numbers of a row: of a joint that is prescribed, its acceleration.
+fn with_row(base: &CraftInputs, row: &[f64]) -> CraftInputs {
+    let mut inputs = base.clone();
+    let mut numbers = row.iter().copied();
+    let rigid = &mut inputs.rigid;
+    for (to, from) in rigid.force.iter_mut().chain(rigid.torque_b.iter_mut()).zip(&mut numbers) {
+        *to = from;
+    }
+    let joints = rigid.motors.values_mut().zip(rigid.modes.values_mut());
+    for ((motor, mode), number) in joints.zip(numbers) {
+        match mode {
+            Mode::Prescribed(acceleration) => *acceleration = number,
+            _ => *motor = number,
+        }
+    }
+    inputs
+}
+
+/// The failures of a part, whose rows become NaN.
+fn failed_rows(
+    part: usize,
+    ends: &[Result<(), engine::Failure>],
+    rows: &mut [f64],
+    width: usize,
+) -> Vec<(usize, engine::Failure)> {
+    let mut failures = Vec::new();
+    for (index, (end, row)) in ends.iter().zip(rows.chunks_mut(width.max(1))).enumerate() {
+        if let Err(failure) = end {
+            row.fill(f64::NAN);
+            failures.push((part * PART + index, failure.clone()));
+        }
+    }
+    failures
+}
+
+/// Failures in the order of the elements, as exceptions.
+fn exceptions(py: Python<'_>, mut of: Vec<(usize, engine::Failure)>) -> PyResult<Failures> {
+    of.sort_by_key(|(index, _)| *index);
+    let one = |(index, failure): (usize, engine::Failure)| {
+        let exception = failure.exception().into_value(py);
+        Ok((index, exception.into_any()))
+    };
+    of.into_iter().map(one).collect()
+}

@@ -1,0 +1,77 @@
+//! [`EvaluationError`]: why an evaluation returns nothing.
+
+use std::error::Error;
+use std::fmt;
+
+use precess_dynamics::{DerivativeError, ParameterError, SolveError};
+
+/// Why an evaluation returns nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EvaluationError {
+    /// The state and inputs have no accelerations.
+    Solve(SolveError),
+    /// There is no derivative.
+    Derivative(DerivativeError),
+    /// The library does not have it for a structure that bends.
+    Flexible {
+        /// What: `the mass matrix`.
+        what: &'static str,
+    },
+    /// A name is that of no parameter.
+    UnknownParameter {
+        /// The name.
+        name: String,
+        /// The nearest names there are.
+        nearest: Vec<String>,
+    },
+}
+
+impl fmt::Display for EvaluationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Solve(error) => error.fmt(f),
+            Self::Derivative(error) => error.fmt(f),
+            Self::Flexible { what } => {
+                write!(f, "{what} is not available for a structure that bends; use a rigid hub")
+            }
+            Self::UnknownParameter { name, nearest } => {
+                write!(f, "`{name}` is no parameter of the spacecraft")?;
+                nearest.iter().enumerate().try_for_each(|(index, near)| {
+                    let lead = if index == 0 { "; nearest: " } else { ", " };
+                    write!(f, "{lead}`{near}`")
+                })
+            }
+        }
+    }
+}
+
+impl Error for EvaluationError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Solve(source) => Some(source),
+            Self::Derivative(source) => Some(source),
+            Self::Flexible { .. } | Self::UnknownParameter { .. } => None,
+        }
+    }
+}
+
+impl From<SolveError> for EvaluationError {
+    fn from(error: SolveError) -> Self {
+        Self::Solve(error)
+    }
+}
+
+impl From<ParameterError> for EvaluationError {
+    fn from(error: ParameterError) -> Self {
+        Self::Derivative(DerivativeError::Parameter(error))
+    }
+}
+
+impl From<DerivativeError> for EvaluationError {
+    fn from(error: DerivativeError) -> Self {
+        match error {
+            DerivativeError::Solve(error) => Self::Solve(error),
+            error => Self::Derivative(error),
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! [`Evaluator`]: a scenario's spacecraft evaluated at any state and inputs: accelerations, energy,
+//! momentum, loads, the energy ledger, the mass matrix, the linearised system, a step; and states as
+//! flat vectors with names.
+//!
+//! What the scenario prescribes over time acts only where [`Evaluator::inputs`] asks for it: drives,
+//! wrenches and disturbances from the start, without the changes at later times, which a run makes.
+//!
+//! | file | what |
+//! |---|---|
+//! | `names` | names of states, inputs and outputs, as columns and kinds have them |
+//! | `mass_matrix` | [`MassMatrix`]: mass matrix and bias |
+//! | `linearization` | [`Linearized`]: matrices of the linearised system, columns by parameters |
+//! | `parameters` | [`Parameter`]: the numbers of hub and devices by name |
+//! | `error` | [`EvaluationError`] |
+//!
+//! ```
+//! use precess::evaluation::Evaluator;
+//! # let text = "format = 1\n[hub]\nmass = \"350 kg\"\ninertia = \"80, 70, 60 kg m^2\"\n[run]\nduration = \"1 s\"";
+//! # let (scenario, _) = precess::file::from_toml("bus", text, std::path::Path::new(""))?;
+//! let evaluator = Evaluator::new(&scenario)?;
+//! let mut inputs = evaluator.no_inputs();
+//! inputs.rigid.torque_b.x = 8.0;
+//! let found = evaluator.accelerations(&evaluator.initial(), &inputs)?;
+//! assert!((found.rigid.omega_dot.x - 0.1).abs() < 1e-15);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+mod linearization;
+mod mass_matrix;
+mod names;
+mod parameters;
+#[cfg(test)]
+mod tests;
+
+use precess_dynamics::{
+    About, DeviceSet, EnergyAndMomentum, FlexibleAccelerations, FlexibleInputs, FlexibleState,
+    Inputs, Ledger, ListedModes, Power, SolveError, Spacecraft, Wrench, set,
+};
+
+pub use error::EvaluationError;
+pub use linearization::Linearized;
+pub use mass_matrix::MassMatrix;
+pub use names::JointNames;
+pub use parameters::Parameter;
+
+use crate::engine::{Acting, Chain, Craft, Layout, MemberLoads, RunError, rigid_state};
+use crate::record::{Column, Columns};
+use crate::scenario::{Scenario, Set};
+
+/// State of hub and devices, and modal coordinates, of which a rigid hub has none.
+pub type CraftState = FlexibleState<Set, ListedModes>;
+/// Forces, torques and modes.
+pub type CraftInputs = FlexibleInputs<Set, ListedModes>;
+/// Second derivatives of the state.
+pub type CraftAccelerations = FlexibleAccelerations<Set, ListedModes>;
+
+/// A scenario's spacecraft, prepared for evaluation.
+#[derive(Clone, Debug)]
+pub struct Evaluator {
+    scenario: Scenario,
+    craft: Craft,
+    layout: Layout,
+    chains: Vec<Chain>,
+    /// Every column of a load.
+    loads: Vec<Column>,
+}
+
+impl Evaluator {
+    /// Checks a scenario and prepares its spacecraft.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError::Scenario`], [`RunError::Parameters`] and [`RunError::Modes`], as a run has them.
+    pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
+        let errors = scenario.check();
+        if !errors.is_empty() {
+            return Err(RunError::Scenario(errors));
+        }
+        let craft = Craft::of(scenario)?;
+        let layout = Layout::new(scenario);
+        let columns = Columns::all(scenario).into_iter();
+        let loads = columns.filter(|column| column.quantity.is_load()).collect();
+        let chains = Chain::all(&scenario.devices);
+        Ok(Self { scenario: scenario.clone(), craft, layout, chains, loads })
+    }
+
+    /// The scenario.
+    #[must_use]
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// The spacecraft of the library; of a structure that bends, undeformed.
+    #[must_use]
+    pub fn rigid(&self) -> &Spacecraft<Set> {
+        self.craft.rigid()
+    }
+
+    /// Whether the spacecraft is a structure that bends.
+    #[must_use]
+    pub fn is_flexible(&self) -> bool {
+        self.craft.flexible().is_some()
+    }
+
+    /// The initial state of the scenario.
+    #[must_use]
+    pub fn initial(&self) -> CraftState {
+        let mut state = rigid_state(self.scenario.initial.clone());
+        if let Some(of) = &self.scenario.structure {
+            (state.eta, state.eta_dot) = (of.coordinates.clone(), of.rates.clone());
+        }
+        state
+    }
+
+    /// Everything at zero.
+    #[must_use]
+    pub fn at_rest(&self) -> CraftState {
+        self.craft.at_rest()
+    }
+
+    /// No force, torque or gravity, motors off, every joint in the mode of its kind, a free hub.
+    #[must_use]
+    pub fn no_inputs(&self) -> CraftInputs {
+        self.craft.no_inputs()
+    }
+
+    /// Zero wrenches on all bodies, for [`Inputs::bodies`].
+    #[must_use]
+    pub fn no_wrenches(&self) -> BodyWrenches {
+        Inputs::no_wrenches_for(self.craft.rigid())
+    }
+
+    /// What acts at a time, s, and state: the scenario's gravity, mode of the hub, initial drives,
+    /// wrenches and disturbances.
+    #[must_use]
+    pub fn inputs(&self, time: f64, state: &CraftState) -> CraftInputs {
+        let mut acting = Acting::new(&self.scenario, &self.layout.joints);
+        acting.begin(0.0, f64::INFINITY);
+        let mut inputs = acting.inputs(&self.scenario, &self.craft);
+        acting.fill(time, state, &mut inputs);
+        inputs
+    }
+
+    /// How many numbers a flat state has.
+    #[must_use]
+    pub fn state_size(&self) -> usize {
+        self.layout.state_length()
+    }
+
+    /// A state as a flat vector: position and velocity (N), quaternion (scalar first), angular
+    /// velocity (B), for each device its coordinates and then its rates, modal coordinates and then
+    /// their rates. See [`Self::state_columns`].
+    #[must_use]
+    pub fn pack(&self, state: &CraftState) -> Vec<f64> {
+        let mut y = self.layout.pack(state, [0.0; 2]);
+        y.truncate(self.state_size());
+        y
+    }
+
+    /// Reads a flat vector, its quaternion normalised.
+    ///
+    /// # Errors
+    ///
+    /// [`SolveError::Count`] for another length.
+    pub fn unpack(&self, y: &[f64]) -> Result<CraftState, SolveError> {
+        if y.len() != self.state_size() {
+            return Err(SolveError::Count { expected: self.state_size(), found: y.len() });
+        }
+        let mut state = self.at_rest();
+        self.layout.unpack(y, &mut state);
+        Ok(state)
+    }
+
+    /// All accelerations: of B and of the hub, both in B, of the joints, of the modal coordinates.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::accelerations`].
+    pub fn accelerations(
+        &self,
+        state: &CraftState,
+        inputs: &CraftInputs,
+    ) -> Result<CraftAccelerations, SolveError> {
+        self.craft.accelerations(state, inputs)
+    }
+
+    /// Time derivative of a flat state, whose accelerations those of `state` are.
+    pub fn derivative(
+        &self,
+        y: &[f64],
+        state: &CraftState,
+        found: &CraftAccelerations,
+    ) -> Vec<f64> {
+        let mut dydt = vec![0.0; self.layout.length()];
+        self.layout.pack_rates(y, state, found, &mut dydt);
+        dydt.truncate(self.state_size());
+        dydt
+    }
+
+    /// Kinetic energy, J, and momenta, expressed in N.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::energy_and_momentum`].
+    pub fn energy_and_momentum(
+        &self,
+        state: &CraftState,
+        about: About,
+    ) -> Result<EnergyAndMomentum, SolveError> {
+        self.craft.energy_and_momentum(state, about)
+    }
+
+    /// The energy ledger.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::ledger`].
+    pub fn ledger(
+        &self,
+        state: &CraftState,
+        inputs: &CraftInputs,
+        found: &CraftAccelerations,
+    ) -> Result<Ledger, SolveError> {
+        self.craft.ledger(state, inputs, found)
+    }
+
+    /// The columns that [`Self::loads`] returns the numbers of.
+    #[must_use]
+    pub fn load_columns(&self) -> &[Column] {
+        &self.loads
+    }
+
+    /// Loads at mounts and joints, N and N m, as [`Self::load_columns`] names them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::loads`].
+    pub fn loads(
+        &self,
+        state: &CraftState,
+        inputs: &CraftInputs,
+        found: &CraftAccelerations,
+    ) -> Result<Vec<f64>, SolveError> {
+        let of = self.member_loads(state, inputs, found)?;
+        let number = |column: &Column| of.number(column.quantity).unwrap_or(f64::NAN);
+        Ok(self.loads.iter().map(number).collect())
+    }
+
+    /// Motor torque or force of each joint: what its motion requires where that is prescribed.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::loads`].
+    pub fn motors(
+        &self,
+        state: &CraftState,
+        inputs: &CraftInputs,
+        found: &CraftAccelerations,
+    ) -> Result<Vec<f64>, SolveError> {
+        Ok(self.member_loads(state, inputs, found)?.motors)
+    }
+
+    fn member_loads(
+        &self,
+        state: &CraftState,
+        inputs: &CraftInputs,
+        found: &CraftAccelerations,
+    ) -> Result<MemberLoads, SolveError> {
+        let of = self.craft.loads(state, inputs, found)?;
+        Ok(MemberLoads::new(&of, &self.chains, &state.rigid))
+    }
+
+    /// A step of RK4, inputs held, s.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::step`].
+    pub fn step(
+        &self,
+        state: &CraftState,
+        inputs: &CraftInputs,
+        length: f64,
+    ) -> Result<CraftState, SolveError> {
+        self.craft.step(state, inputs, length)
+    }
+
+    /// A step of RK4, and the work of each source during it, J.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::step_with_work`].
+    pub fn step_with_work(
+        &self,
+        state: &CraftState,
+        inputs: &CraftInputs,
+        length: f64,
+    ) -> Result<(CraftState, Power), SolveError> {
+        self.craft.step_with_work(state, inputs, length)
+    }
+
+    /// The state after an impulsive stop of the joints that the inputs lock, and the energy lost, J.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::stop`].
+    pub fn stop(
+        &self,
+        state: &CraftState,
+        inputs: &CraftInputs,
+    ) -> Result<(CraftState, f64), SolveError> {
+        self.craft.stop(state, inputs)
+    }
+}
+
+/// A wrench on the child body of each joint.
+pub type BodyWrenches = <Set as DeviceSet>::Per<set::PerJoint<Wrench>>;
