@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use serde::Serialize;
@@ -13,6 +14,8 @@ pub struct SourceText {
     pub name: String,
     /// The text.
     pub text: String,
+    /// The folder of the file, from which it names others; none of what is no file.
+    pub folder: Option<PathBuf>,
 }
 
 /// A part of a text, bytes from its start.
@@ -211,7 +214,7 @@ mod tests {
     #[test]
     fn an_error_shows_file_line_mark_and_remedy() {
         let text = "[hub]\nmas = \"4 kg\"\n".to_owned();
-        let sources = vec![SourceText { name: "bus.toml".to_owned(), text }];
+        let sources = vec![SourceText { name: "bus.toml".to_owned(), text, folder: None }];
         let mut diagnostics = Diagnostics { sources, all: Vec::new() };
         let span = Span { source: 0, range: 6..9 };
         diagnostics.error(&span, "unknown key `mas`", "", "did you mean `mass`?");
@@ -227,7 +230,8 @@ mod tests {
 
     #[test]
     fn a_span_beyond_its_text_is_clipped() {
-        let sources = vec![SourceText { name: "a".to_owned(), text: "é".to_owned() }];
+        let sources =
+            vec![SourceText { name: "a".to_owned(), text: "é".to_owned(), folder: None }];
         let mut diagnostics = Diagnostics { sources, all: Vec::new() };
         diagnostics.error(&Span { source: 0, range: 1..900 }, "wrong", "here", "");
         assert!(diagnostics.to_string().contains("wrong"));
