@@ -32,6 +32,13 @@ pub enum Spacing {
     Listed,
 }
 
+/// Whether a text can be the key of an override, with the signs that stand for several keys or a component.
+#[must_use]
+pub fn is_key(text: &str) -> bool {
+    let letter = |c: char| c.is_alphanumeric() || "_-.+*[]".contains(c);
+    !text.is_empty() && text.chars().all(letter)
+}
+
 impl Axis {
     /// The axis of a text: `KEY=FROM..TO UNIT:COUNT` with equal differences, `KEY=FROM..TO UNIT:log COUNT` with equal
     /// ratios, or `KEY=A,B,C UNIT`. Both ends are values.
@@ -42,8 +49,7 @@ impl Axis {
         let wrong = |reason| CampaignError::Axis { text: text.to_owned(), reason };
         let (key, values) = text.split_once('=').ok_or_else(|| wrong("an `=` is missing"))?;
         let key = key.trim();
-        let letter = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.');
-        if key.is_empty() || !key.chars().all(letter) {
+        if !is_key(key) {
             return Err(wrong("the key is not that of a scenario file"));
         }
         let Some((from, rest)) = values.split_once("..") else {

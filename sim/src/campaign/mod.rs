@@ -10,7 +10,8 @@
 //! | `table` | the rows as CSV and NPZ |
 //! | `distribution` | [`Variation`]: a key and its distribution; [`draw`]: seeded samples |
 //! | `inference` | [`percentile`], [`probability`], [`spearman`] |
-//! | `sensitivity` | derivatives by central differences |
+//! | `sensitivity` | derivatives by central differences; a plane through a sample |
+//! | `tangent` | exact derivatives: the run over dual numbers |
 //! | `keep_out` | intervals of a key in which a requirement is violated |
 //!
 //! A sample that cannot be run is a row with its error. Rows are in the order of the samples; they do not depend on
@@ -27,8 +28,9 @@ mod plan;
 mod reduce;
 mod sensitivity;
 pub mod table;
+mod tangent;
 
-pub use axis::{Axis, Spacing};
+pub use axis::{Axis, Spacing, is_key};
 pub use distribution::{Distribution, Variation, draw};
 pub use engine::{Execution, Finished, Row, execute};
 pub use error::CampaignError;
@@ -37,7 +39,10 @@ pub use journal::Journal;
 pub use keep_out::keep_out;
 pub use plan::{Plan, Sample, digits};
 pub use reduce::{Field, LINE_SAMPLES_MAX, Reducer, Selection};
-pub use sensitivity::{Derivative, central_differences, derivatives};
+pub use sensitivity::{
+    Derivative, central_differences, derivatives, exact_derivatives, regression,
+};
+pub use tangent::{Tangents, tangents};
 
 /// Samples that a campaign may have.
 pub const SAMPLES_MAX: usize = 1_000_000;

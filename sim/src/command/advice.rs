@@ -217,6 +217,7 @@ mod tests {
             wheel: Some(0),
             fundamental_removed: false,
             modes_removed: false,
+            window: crate::disturbance::ALWAYS,
             seed: None,
             model: Model::Harmonic(vec![Harmonic {
                 number: 8.0,

@@ -1,5 +1,5 @@
 //! `fit`: the disturbance model of a wheel from forces and moments on a rigid table: a table, a device file,
-//! sources, and pictures.
+//! sources, a report and pictures.
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -10,20 +10,20 @@ use clap::Args;
 use indicatif::ProgressBar;
 
 use super::error::CommandError;
-use super::fit_figures::figures;
 use super::print;
 use super::run::{may_write, write_whole};
 use super::table::{aligned, six};
 use crate::file::measurement_from_toml;
 use crate::fit::device::{device, sources};
 use crate::fit::{Estimate, Fitted, Sense, example, fit_waterfall, fit_with_progress};
+use crate::report::fit::FitReport;
 
 pub(super) const HELP: &str = "\
 Examples:
   precess fit --example .
       write an example: wheel-measurement.toml and wheel-sweep.csv
   precess fit wheel-measurement.toml --out results
-      fit it: a table, rw-device.toml and rw-sources.toml for scenarios, figures
+      fit it: a table, rw-device.toml and rw-sources.toml for scenarios, rw-fit.html, figures
 The file is described in docs/fit.md.";
 
 /// The options of `fit`.
@@ -78,7 +78,16 @@ impl FitCommand {
             (format!("{name}-device.toml"), written),
             (format!("{name}-sources.toml"), sources(&fitted, name, soft)),
         ];
-        files.extend(figures(name, &file.title, &fitted));
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| CommandError::Io { path: path.clone(), source })?;
+        let report = FitReport {
+            name,
+            title: &file.title,
+            text: &text,
+            fitted: &fitted,
+            of_spectra: !file.waterfall.is_empty(),
+        };
+        files.extend(report.files().map_err(|error| CommandError::Other(error.to_string()))?);
         print(&format!("{}\n\n{}\n", file.title, table(&fitted)));
         write(&self.out, &files, self.force)
     }

@@ -11,15 +11,15 @@ use clap::Args;
 use super::error::CommandError;
 use super::run::{all_cores, may_write, progress_bar, write_whole};
 use super::table::{aligned, six};
-use super::{Set, print};
-use crate::file::{budget_from_toml, from_file};
+use super::{as_toml, print};
+use crate::file::{BUDGET_KEYS, Override, budget_from_toml, from_file};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, branches, crossings, oscillations};
 use crate::jitter::coupled::{Compared, compare};
 use crate::jitter::device::Steady;
 use crate::jitter::model::{Contributor, Model};
 use crate::jitter::sensitivity::{Sensitivity, sensitivities};
-use crate::jitter::sweep::{Sweep, refined, speeds, sweep};
+use crate::jitter::sweep::{Sweep, parts, refined, speeds, sweep};
 use crate::report::jitter::{AGREEMENT, JitterReport, intervals, metric, rpm};
 use crate::scenario::Scenario;
 
@@ -27,6 +27,8 @@ pub(super) const HELP: &str = "\
 Examples:
   precess jitter scenarios/budgets/imaging-satellite-jitter.toml
       verdict, margins and a report into the folder precess-out
+  precess jitter budget.toml --set budget.phases=worst --set hub.mass='900 kg'
+      keys of the budget have the prefix budget., others are of the scenario
   precess jitter budget.toml --compare '3000 rpm' --compare '4200 rpm'
       beside it, runs of the coupled equations at two speeds
 
@@ -45,9 +47,10 @@ pub(super) struct Jitter {
     /// The budget file.
     #[arg(value_name = "BUDGET")]
     file: PathBuf,
-    /// Of the scenario; the budget's keys are in its file.
-    #[command(flatten)]
-    overrides: Set,
+    /// Replace a key of the scenario, hub.mass="900 kg", or of the budget, budget.speed.count=100; may be repeated. A
+    /// value that is no TOML is taken as text.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
     /// Folder for the results; made if it is missing.
     #[arg(long, value_name = "FOLDER", default_value = "precess-out")]
     out: PathBuf,
@@ -64,6 +67,27 @@ pub(super) struct Jitter {
     /// Run the coupled equations at no speed.
     #[arg(long, conflicts_with = "compare")]
     no_compare: bool,
+}
+
+/// Overrides of the budget, and those of the scenario, by the prefix `budget.` of the first ones.
+fn by_file(set: &[String]) -> Result<[Vec<Override>; 2], CommandError> {
+    let [mut of_budget, mut of_scenario] = [Vec::new(), Vec::new()];
+    for text in set {
+        if let Some(text) = text.trim_start().strip_prefix("budget.") {
+            of_budget.push(as_toml(text));
+            continue;
+        }
+        let key = text.split(['.', '=']).next().unwrap_or_default().trim();
+        // A scenario has requirements, too; a budget has no use for them.
+        if key == "requirement" || BUDGET_KEYS.contains(&key) {
+            return Err(CommandError::Other(format!(
+                "--set {text}: `{key}` is of the budget; write --set budget.{}",
+                text.trim_start()
+            )));
+        }
+        of_scenario.push(as_toml(text));
+    }
+    Ok([of_budget, of_scenario])
 }
 
 /// A speed with its unit, rad/s.
@@ -93,9 +117,10 @@ struct Found {
 
 impl Jitter {
     pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
-        let (budget, path) = budget_from_toml(&self.file).map_err(CommandError::Scenario)?;
-        let (scenario, reports) =
-            from_file(&path, &self.overrides.overrides()).map_err(CommandError::Scenario)?;
+        let [of_budget, of_scenario] = by_file(&self.set)?;
+        let (budget, path) =
+            budget_from_toml(&self.file, &of_budget).map_err(CommandError::Scenario)?;
+        let (scenario, reports) = from_file(&path, &of_scenario).map_err(CommandError::Scenario)?;
         let mut warnings: Vec<String> =
             reports.all.iter().map(|warning| warning.message.clone()).collect();
         let stem = self.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
@@ -103,8 +128,11 @@ impl Jitter {
         may_write(&self.out, &[format!("{stem}.html")], self.force)?;
         let found = self.find(&scenario, &budget)?;
         warnings.extend(found.left_out.iter().cloned());
-        let text = std::fs::read_to_string(&self.file)
+        let mut text = std::fs::read_to_string(&self.file)
             .map_err(|source| CommandError::Io { path: self.file.clone(), source })?;
+        for set in &self.set {
+            let _ = write!(text, "\n# --set {set}");
+        }
         let report = JitterReport {
             scenario: &scenario,
             budget: &budget,
@@ -166,7 +194,7 @@ impl Jitter {
         let crossings = crossings(&campbell_speeds, &branches, &orders);
         let all = refined(speeds(budget.speeds, budget.count), budget.speeds, &crossings);
         let threads = self.threads.unwrap_or_else(all_cores);
-        let bar = Mutex::new(progress_bar(all.len(), "speeds"));
+        let bar = Mutex::new(progress_bar(parts(&model, &all), "speeds"));
         let show = |done: usize| {
             if let Ok(bar) = bar.lock() {
                 bar.set_position(u64::try_from(done).unwrap_or(u64::MAX));
@@ -258,6 +286,20 @@ fn summary(budget: &Budget, found: &Found) -> String {
         text.push_str("no requirements\n");
     } else {
         text.push_str(&aligned(&rows));
+    }
+    for of in &found.assessed {
+        let (unit, size) = &of.limit.unit;
+        for other in of.by_phases.iter().skip(1) {
+            let _ = writeln!(
+                text,
+                "{}: {} with {}, {} {unit}, margin {:.1} dB",
+                of.limit.name,
+                if other.margin.is_met() { "met" } else { "violated" },
+                other.phases.words(),
+                six(other.margin.value / size),
+                20.0 * other.margin.ratio().log10()
+            );
+        }
     }
     for of in &found.assessed {
         if let Some((index, share)) = of.shares.first()

@@ -12,7 +12,6 @@ mod error;
 mod evaluate;
 mod export;
 mod fit;
-mod fit_figures;
 mod jitter;
 mod kinds;
 mod montecarlo;

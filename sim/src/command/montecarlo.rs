@@ -9,10 +9,11 @@ use clap::Args;
 use super::campaign::{CampaignOptions, Prepared, Shown, UNMET, failures, shown, values_of};
 use super::error::CommandError;
 use super::print;
+use super::run::progress_bar;
 use super::table::{aligned, six};
 use crate::campaign::{
-    Derivative, Estimate, Finished, Plan, SAMPLES_MAX, central_differences, derivatives, digits,
-    draw, percentile, probability, spearman,
+    Derivative, Estimate, Finished, Plan, SAMPLES_MAX, Variation, central_differences, derivatives,
+    digits, draw, exact_derivatives, percentile, probability, regression, spearman, tangents,
 };
 use crate::file::variations_from_toml;
 use crate::report::montecarlo::distribution;
@@ -51,7 +52,8 @@ pub(super) struct MonteCarlo {
     /// One sample in each of N equally probable parts of every key.
     #[arg(long)]
     latin_hypercube: bool,
-    /// Derivatives of every number by every key, by central differences about the middle of each distribution.
+    /// Derivatives of every number by every key about the middle of each distribution: exact ones by a run over dual numbers,
+    /// where the scenario can be run so, else central differences.
     #[arg(long)]
     sensitivities: bool,
 }
@@ -96,18 +98,12 @@ impl MonteCarlo {
         texts.push((format!("{stem}-correlations.csv"), correlations_csv(&correlations)));
         let mut found = Vec::new();
         if self.sensitivities {
-            let steps = central_differences(&variations);
-            if steps.samples.is_empty() {
-                return Err(other(&"no key of the plan has a derivative; vary one continuously"));
-            }
-            let Some(beside_finished) = self.options.run(&prepared, &steps, &beside)? else {
+            let Some(all) = self.derivatives(&prepared, &variations, &beside)? else {
                 return Ok(ExitCode::from(UNMET));
             };
-            for (name, field, ..) in shown(&prepared) {
-                let values = values_of(&beside_finished, field);
-                found.push((name, derivatives(&variations, &steps, &values)));
-            }
-            texts.push((format!("{beside}.csv"), derivatives_csv(&found)));
+            found = all;
+            let planes = planes(&prepared, &plan, &finished);
+            texts.push((format!("{beside}.csv"), derivatives_csv(&found, &planes)));
         }
         self.options.write(&prepared, &plan, &finished, &stem, &texts)?;
         let (text, met) = summary(&prepared, &plan, &finished, &correlations, &found);
@@ -116,6 +112,77 @@ impl MonteCarlo {
         print(&format!("files: {folder}/{stem}.csv and {} more\n", texts.len() + 1));
         Ok(if met { ExitCode::SUCCESS } else { ExitCode::from(UNMET) })
     }
+}
+
+/// Derivatives of each number, ranked.
+type Ranked = Vec<(String, Vec<Derivative>)>;
+
+impl MonteCarlo {
+    /// Exact derivatives, and central differences of numbers that have none; none where Ctrl-C ended the runs of these.
+    fn derivatives(
+        &self,
+        prepared: &Prepared,
+        variations: &[Variation],
+        beside: &str,
+    ) -> Result<Option<Ranked>, CommandError> {
+        let steps = central_differences(variations);
+        if steps.samples.is_empty() {
+            let message = "no key of the plan has a derivative; vary one continuously";
+            return Err(CommandError::Other(message.to_owned()));
+        }
+        let bar = progress_bar(1, "exact derivatives");
+        let exact =
+            tangents(&prepared.template, &prepared.overrides, variations, &prepared.selection);
+        bar.finish_and_clear();
+        let slopes = match exact {
+            Ok(found) => found.slopes,
+            Err(reason) => {
+                print(&format!("derivatives are central differences: {reason}\n"));
+                Vec::new()
+            }
+        };
+        let slope = |number: usize| slopes.get(number).and_then(Option::as_ref);
+        let names: Vec<Shown> = shown(prepared).collect();
+        let mut differences = None;
+        if (0..names.len()).any(|number| slope(number).is_none()) {
+            let Some(finished) = self.options.run(prepared, &steps, beside)? else {
+                return Ok(None);
+            };
+            differences = Some(finished);
+        }
+        let ranked = names.into_iter().enumerate().map(|(number, (name, field, ..))| {
+            let of = match (slope(number), &differences) {
+                (Some(slopes), _) => exact_derivatives(variations, slopes),
+                (None, Some(finished)) => {
+                    derivatives(variations, &steps, &values_of(finished, field))
+                }
+                (None, None) => Vec::new(),
+            };
+            (name, of)
+        });
+        Ok(Some(ranked.collect()))
+    }
+}
+
+/// Of each number the slopes of a plane through the sample by key, with their standard errors.
+type Planes = Vec<Option<Vec<(String, [f64; 2])>>>;
+
+fn planes(prepared: &Prepared, plan: &Plan, finished: &Finished) -> Planes {
+    let of = |(_, field, ..): Shown| {
+        let numbers = values_of(finished, field);
+        let rows: Vec<(&[f64], f64)> = plan
+            .samples
+            .iter()
+            .zip(&numbers)
+            .filter_map(|(sample, number)| Some((sample.values.as_slice(), (*number)?)))
+            .collect();
+        let keys: Vec<Vec<f64>> = (0..plan.labels.len())
+            .map(|key| rows.iter().filter_map(|(values, _)| values.get(key).copied()).collect())
+            .collect();
+        let numbers: Vec<f64> = rows.iter().map(|(_, number)| *number).collect();
+        Some(plan.labels.iter().cloned().zip(regression(&keys, &numbers)?).collect())
+    };
+    shown(prepared).map(of).collect()
 }
 
 /// The numbers of a field, rising.
@@ -194,12 +261,22 @@ fn correlations_csv(of: &Correlations) -> String {
     text
 }
 
-fn derivatives_csv(of: &[(String, Vec<Derivative>)]) -> String {
-    let mut text = String::from("number,key,derivative_si_by_key_unit,times_deviation_si\n");
-    for (name, by) in of {
+fn derivatives_csv(of: &[(String, Vec<Derivative>)], planes: &Planes) -> String {
+    let mut text = String::from(
+        "number,key,derivative_si_by_key_unit,times_deviation_si,method,sample_slope,sample_slope_error\n",
+    );
+    for ((name, by), plane) in of.iter().zip(planes) {
         for one in by {
             let (slope, size) = (cell(one.slope), cell(one.size()));
-            let _ = writeln!(text, "{},{},{slope},{size}", quoted(name), quoted(&one.label));
+            let method = if one.exact { "exact" } else { "difference" };
+            let known = plane.iter().flatten().find(|(label, _)| *label == one.label);
+            let [sample, error] = known.map_or([f64::NAN; 2], |(_, found)| *found).map(cell);
+            let _ = writeln!(
+                text,
+                "{},{},{slope},{size},{method},{sample},{error}",
+                quoted(name),
+                quoted(&one.label)
+            );
         }
     }
     text
@@ -265,9 +342,10 @@ fn summary(
         if let Some(one) = by.first() {
             let _ = writeln!(
                 text,
-                "{name}: largest derivative times deviation {}, by {}",
+                "{name}: largest derivative times deviation {}, by {}, {}",
                 six(one.size()),
-                one.label
+                one.label,
+                if one.exact { "exact" } else { "a central difference" }
             );
         }
     }

@@ -10,17 +10,23 @@ use super::error::CommandError;
 use super::print;
 use super::table::{aligned, six};
 use crate::campaign::{Axis, Finished, Plan, digits, keep_out};
-use crate::disturbance::Model;
+use crate::disturbance::Model as SourceModel;
+use crate::jitter::campbell::{Oscillation, branches, crossings, oscillations};
+use crate::jitter::device::Steady;
+use crate::jitter::model::Model;
 use crate::pointing::Margin;
 use crate::report::DrawError;
 use crate::report::slug;
 use crate::report::sweep::{Numbers, curve, map, waterfall};
+use crate::structure::dynamic_mass::Motor;
 use crate::units::Measure;
 
 pub(super) const HELP: &str = "\
 Examples:
   precess sweep bus.toml --over 'device.rw.wheel.rate=600..6000 rpm:181' --column omega
       RMS, peak and lines of omega, and the requirements, over the rate of a wheel
+  precess sweep bus.toml --over 'device.rw*.wheel.rate=600..6000 rpm:181'
+      one rate for all wheels whose names begin with rw; KEY+KEY names keys one by one
   precess sweep bus.toml --over 'hub.mass=100..1000 kg:log 5' --over 'device.rw.imbalance.static=1,2,5 g cm'
       a map over two keys
 
@@ -71,6 +77,7 @@ impl Sweep {
         if self.over.len() == 1 && prepared.selection.lines > 0 {
             let columns = prepared.selection.columns.iter();
             names.extend(columns.map(|name| format!("{stem}-lines-{}.svg", slug(name))));
+            names.push(format!("{stem}-campbell.svg"));
         }
         names
     }
@@ -97,6 +104,9 @@ impl Sweep {
             return Ok(files);
         };
         let requirements = prepared.scenario.requirements.len();
+        if let Some(picture) = campbell(prepared, axis)? {
+            files.push((format!("{stem}-campbell.svg"), picture));
+        }
         for (column, name) in prepared.selection.columns.iter().enumerate() {
             let mut lines = Vec::new();
             for [frequency, amplitude] in prepared.selection.lines_of(column, requirements) {
@@ -115,6 +125,12 @@ impl Sweep {
     /// For the terminal: of each requirement and column the worst sample; whether all requirements are met.
     fn summary(&self, prepared: &Prepared, plan: &Plan, finished: &Finished) -> (String, bool) {
         let mut text = format!("{}: {} samples\n", prepared.scenario.name, plan.samples.len());
+        for axis in &self.over {
+            let keys = prepared.template.keys_of(&axis.key).unwrap_or_default();
+            if keys.len() > 1 {
+                let _ = writeln!(text, "{} is {}", axis.key, keys.join(", "));
+            }
+        }
         let mut met = true;
         let heads = ["", "state", "worst", "limit", "margin dB", "at", "keep out of"];
         let mut rows = vec![heads.map(str::to_owned).to_vec()];
@@ -179,6 +195,33 @@ fn digits_of(count: usize) -> String {
     digits(crate::spectra::float(count))
 }
 
+/// Natural frequencies of structure and devices over the key, rotors at their initial rates, with the orders of a rate; none
+/// where there are none, or where the spacecraft has no linear model.
+fn campbell(prepared: &Prepared, axis: &Axis) -> Result<Option<String>, DrawError> {
+    // No rotor is swept: each keeps the rate of its scenario.
+    let none = [String::new()];
+    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: &none };
+    let mut values: Vec<f64> = axis.values.clone();
+    values.sort_by(f64::total_cmp);
+    let natural = |value: &f64| -> Option<Vec<Oscillation>> {
+        let overrides = [&prepared.overrides[..], &[axis.set(*value)]].concat();
+        let (scenario, _) = prepared.template.scenario(&overrides).ok()?;
+        let model = Model::new(&scenario, &[], &steady).ok()?;
+        oscillations(&model, 1.0).ok()
+    };
+    let Some(found) = values.iter().map(natural).collect::<Option<Vec<_>>>() else {
+        return Ok(None);
+    };
+    let speeds: Vec<f64> = values.iter().map(|value| value * axis.size).collect();
+    let branches = branches(&speeds, &found);
+    if branches.is_empty() {
+        return Ok(None);
+    }
+    let orders = orders(prepared, axis);
+    let crossings = crossings(&speeds, &branches, &orders);
+    crate::report::sweep::campbell(axis, &values, &branches, &orders, &crossings).map(Some)
+}
+
 /// Orders of a wheel whose rate is swept: one, two, and those of its sources; none of another key.
 fn orders(prepared: &Prepared, axis: &Axis) -> Vec<f64> {
     let is_rate = axis.key.rsplit('.').next() == Some("rate")
@@ -189,7 +232,7 @@ fn orders(prepared: &Prepared, axis: &Axis) -> Vec<f64> {
     }
     let mut orders = vec![1.0, 2.0];
     for source in &prepared.scenario.disturbances {
-        if let Model::Harmonic(tones) = &source.model {
+        if let SourceModel::Harmonic(tones) = &source.model {
             orders.extend(tones.iter().map(|tone| tone.number));
         }
     }

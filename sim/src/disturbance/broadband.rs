@@ -8,13 +8,20 @@
 //! ```
 //!
 //! The phases are uniform, from the seed, and independent of each other, so components are not
-//! correlated. Over a period T the mean square is the sum of `S / T` over the lines, and the periodogram
-//! at the lines is S itself, whatever the seed: amplitudes are not random. It approaches a normal process
-//! as lines grow in number. After T it repeats.
+//! correlated unless [`correlation`](super::correlation) says so. Over a period T the mean square is the sum of `S / T`
+//! over the lines, and the periodogram at the lines is S itself, whatever the seed: amplitudes are not random. It
+//! approaches a normal process as lines grow in number. After T it repeats.
+//!
+//! A component that shares noise with others is a sum over independent noises (of vector processes: Deodatis,
+//! J. Eng. Mech. 122(8), 778-787, 1996): the amplitudes of its lines differ from seed to
+//! seed, and S is their mean.
 //!
 //! The paper has two-sided densities over the angular frequency; with `S_2 d omega = S df / 2` its
 //! amplitude `sqrt(2) sqrt(2 S_2 d omega)` is the one above.
 
+use nalgebra::Complex;
+
+use super::correlation::CoherentPair;
 use super::draws::phases;
 use super::error::BroadbandError;
 use super::waveform::{Line, knot_count};
@@ -39,6 +46,8 @@ pub struct Broadband {
     pub densities: Six<Vec<f64>>,
     /// `Omega_ref`, rad/s, at which the densities hold; none where they hold at any speed.
     pub reference_rate: Option<f64>,
+    /// Pairs of components that share noise; empty where all are independent.
+    pub pairs: Vec<CoherentPair>,
 }
 
 impl Broadband {
@@ -82,7 +91,7 @@ impl Broadband {
         }
         match self.reference_rate {
             Some(rate) if rate == 0.0 || !rate.is_finite() => Err(BroadbandError::Reference(rate)),
-            _ => Ok(()),
+            _ => self.check_pairs(),
         }
     }
 
@@ -134,6 +143,9 @@ impl Broadband {
     /// The phase of a line does not depend on the band.
     #[must_use]
     pub fn lines(&self, component: usize, seed: u32, source: &str) -> Vec<Line> {
+        if self.is_correlated(component) {
+            return self.correlated_lines(component, seed, source);
+        }
         let what = COMPONENTS.get(component).copied().unwrap_or_default();
         let cycles = self.cycles();
         let drawn = phases(seed, source, what).skip(cycles.start.saturating_sub(1));
@@ -143,6 +155,27 @@ impl Broadband {
             Line { cycles, amplitude: (2.0 * density / self.period).sqrt(), phase }
         };
         cycles.zip(drawn).map(line).collect()
+    }
+
+    /// Of a component that shares noise: its parts of each independent noise, whose phases are those of the components
+    /// up to this one.
+    fn correlated_lines(&self, component: usize, seed: u32, source: &str) -> Vec<Line> {
+        let cycles = self.cycles();
+        let skipped = cycles.start.saturating_sub(1);
+        let own = COMPONENTS.iter().take(component + 1);
+        let mut drawn: Vec<_> = own.map(|what| phases(seed, source, what).skip(skipped)).collect();
+        let line = |cycles: usize| {
+            #[expect(clippy::cast_precision_loss, reason = "at most CYCLES_MAX")]
+            let columns = self.independent(cycles as f64 / self.period);
+            let mut sum = Complex::new(0.0, 0.0);
+            for (phases, column) in drawn.iter_mut().zip(&columns) {
+                let (sin, cos) = libm::sincos(phases.next().unwrap_or(0.0));
+                sum += column.get(component).copied().unwrap_or_default() * Complex::new(cos, sin);
+            }
+            let amplitude = (2.0 / self.period).sqrt() * libm::hypot(sum.re, sum.im);
+            Line { cycles, amplitude, phase: libm::atan2(sum.im, sum.re) }
+        };
+        cycles.map(line).collect()
     }
 
     /// How many times of 32 bytes its functions of time keep, all components together.
@@ -208,6 +241,7 @@ mod tests {
                 vec![],
             ],
             reference_rate: None,
+            pairs: Vec::new(),
         }
     }
 

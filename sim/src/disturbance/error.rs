@@ -50,6 +50,22 @@ pub enum BroadbandError {
     },
     /// A reference rate that is zero or not finite, rad/s.
     Reference(f64),
+    /// A pair of components that cannot share noise.
+    Pair {
+        /// Their names.
+        components: [&'static str; 2],
+        /// What is wrong, and the remedy.
+        reason: &'static str,
+    },
+    /// Pairs that no noise has.
+    Indefinite {
+        /// The frequency, Hz.
+        frequency: f64,
+        /// The component at which the factor ends.
+        component: &'static str,
+        /// The pivot there, of one.
+        pivot: f64,
+    },
 }
 
 impl fmt::Display for BroadbandError {
@@ -89,6 +105,14 @@ impl fmt::Display for BroadbandError {
             Self::Density { component, value } => {
                 write!(f, "a density of {component} is {value}; it is finite and not negative")
             }
+            Self::Pair { components: [a, b], reason } => {
+                write!(f, "coherence between {a} and {b}: {reason}")
+            }
+            Self::Indefinite { frequency, component, pivot } => write!(
+                f,
+                "at {frequency} Hz the cross-spectral matrix is not positive semidefinite: the pivot of \
+                 {component} is {pivot:.3} below 0; lower the coherences of {component}, or correct their phases"
+            ),
             Self::Reference(rate) => {
                 write!(f, "a reference rate of {rate} rad/s; it is finite and not zero")
             }

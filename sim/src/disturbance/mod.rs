@@ -15,6 +15,7 @@
 //! the axes of the data sheet.
 
 mod broadband;
+mod correlation;
 mod draws;
 mod error;
 mod fourier;
@@ -27,6 +28,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Matrix3, Vector3};
 
 pub use broadband::{Broadband, Noise};
+pub use correlation::CoherentPair;
 pub use draws::phases;
 pub use error::{BroadbandError, MeasuredError};
 pub use harmonic::{Harmonic, WheelAngle};
@@ -60,6 +62,8 @@ pub struct Disturbance {
     pub fundamental_removed: bool,
     /// Whether the internal modes of the wheel were removed from what was measured.
     pub modes_removed: bool,
+    /// From when, and until before when, it acts, s; infinite where it always does.
+    pub window: [f64; 2],
     /// The seed of phases; those of harmonics are drawn where the source is made.
     pub seed: Option<u32>,
     /// What it exerts.
@@ -129,6 +133,18 @@ pub fn sheet_axes(spin_axis: usize) -> Matrix3<f64> {
 #[must_use]
 pub fn by_spin_axis(spin_axis: usize, from: usize) -> [usize; 3] {
     [from + (spin_axis + 1) % 3, from + (spin_axis + 2) % 3, from + spin_axis % 3]
+}
+
+/// A source that acts all the time.
+pub const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+impl Disturbance {
+    /// Whether it acts at a time, s, which is approached from below or not.
+    #[must_use]
+    pub fn acts(&self, time: f64, from_below: bool) -> bool {
+        let [from, to] = self.window;
+        if from_below { from < time && time <= to } else { from <= time && time < to }
+    }
 }
 
 impl Model {

@@ -17,7 +17,9 @@ use precess_dynamics::{JointStates, ListedModes, ModalPoint, Wrench};
 use super::craft::{CraftInputs, CraftState};
 use super::kinematics::turn;
 use super::packing::JointPlace;
-use crate::disturbance::{Disturbance, Harmonic, Model, Noise, Playback, Six, WheelAngle};
+use crate::disturbance::{
+    COMPONENT_COUNT, Disturbance, Harmonic, Model, Noise, Playback, Six, WheelAngle,
+};
 use crate::scenario::{Scenario, SourceBody, SourcePlace};
 
 /// All sources of a scenario.
@@ -34,7 +36,7 @@ const CYCLES_PER_STEP: f64 = 0.5;
 /// One source.
 #[derive(Clone, Debug)]
 struct Source<'a> {
-    model: &'a Model,
+    of: &'a Disturbance,
     exerts: Exerts<'a>,
     wheel: Option<usize>,
     on: On,
@@ -90,7 +92,7 @@ impl<'a> Disturbances<'a> {
     pub(crate) fn longest_step(&self, rate: impl Fn(usize) -> f64) -> f64 {
         let highest = self.sources.iter().map(|source| {
             let rate = source.wheel.map_or(0.0, &rate);
-            source.model.highest_frequency(rate)
+            source.of.model.highest_frequency(rate)
         });
         CYCLES_PER_STEP / highest.fold(0.0, f64::max)
     }
@@ -151,11 +153,14 @@ impl<'a> Source<'a> {
             Model::Measured(record) => Exerts::Record(Box::new(Playback::new(record))),
         };
         let SourcePlace { axes, point, .. } = place;
-        Some(Self { model: &of.model, exerts, wheel: of.wheel, on, axes, point })
+        Some(Self { of, exerts, wheel: of.wheel, on, axes, point })
     }
 
     /// Along the axes of the data sheet.
     fn at(&self, time: f64, from_below: bool, wheel: WheelAngle) -> Six<f64> {
+        if !self.of.acts(time, from_below) {
+            return [0.0; COMPONENT_COUNT];
+        }
         match &self.exerts {
             Exerts::Tones(tones) => Harmonic::sum(tones, &wheel),
             Exerts::Noise(noise) => noise.at(time, wheel.rate),

@@ -1,6 +1,6 @@
 //! [`Segments`]: the times at which a step must end, and the changes due there.
 //!
-//! They are the breaks of all profiles and measured records, the times at which a profile reaches the limit of its motor
+//! They are the breaks of all profiles and measured records, the times at which a source begins and ends, the times at which a profile reaches the limit of its motor
 //! ([`clipping`](super::clipping)), the changes, and the end of the run.
 
 use super::clipping;
@@ -44,6 +44,7 @@ impl<'a> Segments<'a> {
             ends.extend(wrench.force.iter().chain(&wrench.moment).flat_map(Profile::breaks));
         }
         for of in &scenario.disturbances {
+            ends.extend(of.window);
             if let Model::Measured(record) = &of.model {
                 ends.extend(record.breaks(duration));
             }

@@ -7,6 +7,7 @@ use nalgebra::{Matrix2x3, Unit, Vector3};
 
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
+use super::load::Override;
 use super::read::mount::direction;
 use super::read_file::{folder_of, read_file};
 use crate::jitter::budget::{Budget, Sight};
@@ -20,22 +21,27 @@ const FORMAT: u32 = 1;
 /// Speeds without the key.
 const COUNT: usize = 541;
 
-/// Reads a budget; the path of its scenario is as from the same place.
+/// Keys of a budget that no scenario has.
+pub const BUDGET_KEYS: [&str; 5] = ["phases", "motor", "gimbals", "speed", "line_of_sight"];
+
+/// Reads a budget, and overrides after it; the path of its scenario is as from the same place.
 ///
 /// # Errors
 /// Everything that is wrong, with its places.
-pub fn budget_from_toml(path: &Path) -> Result<(Budget, PathBuf), Diagnostics> {
-    let (budget, scenario) = read_file(path, "budget", budget)?;
-    Ok((budget, folder_of(path).join(scenario)))
+pub fn budget_from_toml(
+    path: &Path,
+    overrides: &[Override],
+) -> Result<(Budget, PathBuf), Diagnostics> {
+    read_file(path, "budget", overrides, |keys| budget(keys, folder_of(path)))
 }
 
-fn budget(keys: &Keys<'_>) -> Option<(Budget, String)> {
+fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {
     if !keys.has("format") {
         keys.missing("format", "format = 1");
     }
     keys.count("format", FORMAT, FORMAT);
     let title = keys.text("title").unwrap_or("Jitter budget").to_owned();
-    let scenario = keys.text("scenario");
+    let scenario = keys.file("scenario", folder);
     if !keys.has("scenario") {
         keys.missing("scenario", "scenario = \"bus.toml\"");
     }
@@ -64,7 +70,7 @@ fn budget(keys: &Keys<'_>) -> Option<(Budget, String)> {
         }
     }
     let budget = Budget { title, speeds, count, swept, phases, motor, sprung, sights, limits };
-    Some((budget, scenario?.to_owned()))
+    Some((budget, scenario?.0))
 }
 
 /// Range, count and rotors.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use serde::Serialize;
@@ -13,6 +14,8 @@ pub struct SourceText {
     pub name: String,
     /// The text.
     pub text: String,
+    /// The folder of the file, from which it names others; none of what is no file.
+    pub folder: Option<PathBuf>,
     /// What a number without a unit is in it.
     pub numbers: Numbers,
 }
@@ -229,7 +232,7 @@ mod tests {
     fn an_error_shows_file_line_mark_and_remedy() {
         let text = "[hub]\nmas = \"4 kg\"\n".to_owned();
         let sources =
-            vec![SourceText { name: "bus.toml".to_owned(), text, numbers: Numbers::WithUnits }];
+            vec![SourceText { name: "bus.toml".to_owned(), text, folder: None, numbers: Numbers::WithUnits }];
         let mut diagnostics = Diagnostics { sources, all: Vec::new() };
         let span = Span { source: 0, range: 6..9 };
         diagnostics.error(&span, "unknown key `mas`", "", "did you mean `mass`?");
@@ -248,6 +251,7 @@ mod tests {
         let sources = vec![SourceText {
             name: "a".to_owned(),
             text: "é".to_owned(),
+            folder: None,
             numbers: Numbers::WithUnits,
         }];
         let mut diagnostics = Diagnostics { sources, all: Vec::new() };

@@ -92,7 +92,8 @@ const SYNTAX_ERRORS_MAX: usize = 5;
 pub(super) fn parse(name: &str, text: &str, numbers: Numbers, reports: &mut Diagnostics) -> Node {
     let source = reports.sources.len();
     let kept = if text.len() > TEXT_MAX { "" } else { text };
-    reports.sources.push(SourceText { name: name.to_owned(), text: kept.to_owned(), numbers });
+    let (name_of, text_of) = (name.to_owned(), kept.to_owned());
+    reports.sources.push(SourceText { name: name_of, text: text_of, folder: None, numbers });
     let whole = Span { source, range: 0..kept.len() };
     if text.len() > TEXT_MAX {
         let message = format!("{name} has more than {TEXT_MAX} bytes");

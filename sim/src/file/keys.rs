@@ -4,6 +4,7 @@
 //! or wrong is reported, and reading goes on with a stand-in, so that all errors come at once.
 
 use std::cell::RefCell;
+use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
 
@@ -130,6 +131,18 @@ impl<'a> Keys<'a> {
         };
         let members = list.iter().enumerate();
         members.filter_map(|(k, node)| Keys::new(node, &path(k, node), self.reports)).collect()
+    }
+
+    /// The path of the file that a key names, and its name from `folder`. It is beside the file in which the key is
+    /// written; `folder` is that of a key of the command line.
+    pub(super) fn file(&self, key: &str, folder: &Path) -> Option<(PathBuf, String)> {
+        let name = self.text(key)?;
+        let source = self.place(key).source;
+        let reports = self.reports.borrow();
+        let own = reports.sources.get(source).and_then(|source| source.folder.as_deref());
+        let path = own.unwrap_or(folder).join(name);
+        let shown = path.strip_prefix(folder).unwrap_or(&path).display().to_string();
+        Some((path, shown))
     }
 
     pub(super) fn text(&self, key: &str) -> Option<&'a str> {

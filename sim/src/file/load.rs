@@ -1,9 +1,9 @@
-//! A scenario file with the files it is based on, and overrides of the command line, as one tree.
+//! A scenario file with the files it is based on, as one tree.
 //!
 //! `base = "bus.toml"`, or a list of files: each is read first, in order, beside the file that
 //! names it. Then a key of a later file replaces that of an earlier one; tables are merged key by
-//! key; lists of tables with names are merged by name, other lists replaced whole. Overrides come
-//! last.
+//! key; lists of tables with names are merged by name, other lists replaced whole.
+//! [Overrides](super::overrides) come last.
 
 use std::fs::File;
 use std::io::{self, Read as _};
@@ -78,6 +78,9 @@ fn load(
     open.push(real);
     let node = parse(&shown, &text, Numbers::WithUnits, reports);
     let folder = path.parent().unwrap_or_else(|| Path::new("")).to_owned();
+    if let Some(source) = reports.sources.last_mut() {
+        source.folder = Some(folder.clone());
+    }
     let node = with_bases(node, &folder, open, reports);
     open.pop();
     node
@@ -167,7 +170,7 @@ pub(super) fn merged(below: &Node, above: &Node) -> Node {
 }
 
 /// Whether every member is a table with a name.
-fn named(list: &[Node]) -> bool {
+pub(super) fn named(list: &[Node]) -> bool {
     !list.is_empty() && list.iter().all(|node| node.name().is_some())
 }
 
@@ -182,66 +185,6 @@ fn merge_named(below: &mut Vec<Node>, above: Vec<Node>) {
                 merge(old, new);
             }
             (_, node) => below.push(node),
-        }
-    }
-}
-
-/// Puts overrides over a tree: `hub.mass="900 kg"`, `device.cmg1.wheel.rate="100 rpm"`.
-///
-/// `numbers` is what a number without a unit is in them.
-pub(super) fn apply(
-    node: &mut Node,
-    (overrides, numbers): (&[Override], Numbers),
-    reports: &mut Diagnostics,
-) {
-    for text in overrides {
-        let before = reports.all.len();
-        let parsed = parse(&format!("--set {text}"), text, numbers, reports);
-        if reports.all.len() > before {
-            continue;
-        }
-        if let (Value::Table(tree), Value::Table(new)) = (&mut node.value, parsed.value) {
-            over(tree, new, reports);
-        }
-    }
-}
-
-/// As [`merge`], but a table over a list of tables with names goes to the member of each name.
-fn over(below: &mut Table, above: Table, reports: &mut Diagnostics) {
-    for entry in above.entries {
-        let Entry { key, key_span, node } = entry;
-        let Some(old) = below.get_mut(&key) else {
-            below.entries.push(Entry { key, key_span, node });
-            continue;
-        };
-        match (&mut old.node.value, node.value) {
-            (Value::Table(old), Value::Table(new)) => over(old, new, reports),
-            (Value::List(old), Value::Table(new)) if named(old) => over_named(old, new, reports),
-            (old_value, new) => {
-                *old_value = new;
-                old.node.span = node.span;
-                old.key_span = key_span;
-            }
-        }
-    }
-}
-
-fn over_named(members: &mut [Node], above: Table, reports: &mut Diagnostics) {
-    for Entry { key, key_span, node } in above.entries {
-        let known: Vec<_> = members.iter().filter_map(Node::name).map(str::to_owned).collect();
-        let member = members.iter_mut().find(|member| member.name() == Some(&key));
-        match (member, node.value) {
-            (Some(Node { value: Value::Table(old), .. }), Value::Table(new)) => {
-                over(old, new, reports);
-            }
-            (Some(_), other) => {
-                let message = format!("`{key}` is a table, and not {}", other.what());
-                reports.error(&node.span, message, "", "name one of its keys");
-            }
-            (None, _) => {
-                let help = format!("there are {}", known.join(", "));
-                reports.error(&key_span, format!("nothing is named `{key}`"), "", &help);
-            }
         }
     }
 }

@@ -14,6 +14,7 @@ mod document;
 mod keys;
 mod load;
 mod measurement;
+mod overrides;
 pub mod read;
 mod read_file;
 mod structure;
@@ -23,7 +24,7 @@ mod waterfall;
 mod write;
 mod write_platform;
 
-pub use budget::budget_from_toml;
+pub use budget::{BUDGET_KEYS, budget_from_toml};
 pub use diagnostic::{Diagnostic, Diagnostics, Numbers, Severity};
 pub use load::{Override, Overrides};
 pub use measurement::{MeasurementFile, measurement_from_toml};

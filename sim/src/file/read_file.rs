@@ -3,21 +3,24 @@
 use std::cell::RefCell;
 use std::path::Path;
 
-use super::diagnostic::Diagnostics;
+use super::diagnostic::{Diagnostics, Numbers};
 use super::keys::Keys;
-use super::load::load_file;
+use super::load::{Override, load_file};
+use super::overrides::apply;
 
-/// Reads a TOML file whose keys `read` takes.
+/// Reads a TOML file whose keys `read` takes, after overrides.
 ///
 /// # Errors
 /// Everything that is wrong, with its places; `what` the file is not, where nothing else is.
 pub(super) fn read_file<T>(
     path: &Path,
     what: &str,
+    overrides: &[Override],
     read: impl FnOnce(&Keys<'_>) -> Option<T>,
 ) -> Result<T, Diagnostics> {
     let mut reports = Diagnostics::default();
-    let node = load_file(path, &mut reports);
+    let mut node = load_file(path, &mut reports);
+    apply(&mut node, (overrides, Numbers::WithUnits), &mut reports);
     if reports.has_errors() {
         return Err(reports);
     }

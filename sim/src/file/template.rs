@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::diagnostic::{Diagnostics, Numbers};
 use super::document::Node;
 use super::load::{Override, load_file};
+use super::overrides::keys_of;
 use super::read::{Read, scenario};
 
 /// The tree of a scenario file with the files it is based on. Tables and structures that it names are read for each
@@ -28,6 +29,14 @@ impl Template {
             return Err(reports);
         }
         Ok(Self { node, path: path.to_owned(), reports })
+    }
+
+    /// The keys that an override's key stands for: itself, or those of `+` and `*`.
+    ///
+    /// # Errors
+    /// Nothing matches; with the names that there are.
+    pub fn keys_of(&self, key: &str) -> Result<Vec<String>, String> {
+        keys_of(&self.node, key).map_err(|(message, help)| format!("{message}; {help}"))
     }
 
     /// The scenario with these overrides, as [`from_file`](super::from_file) reads it.

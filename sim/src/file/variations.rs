@@ -6,7 +6,7 @@ use std::path::Path;
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
 use super::read_file::read_file;
-use crate::campaign::{Distribution, Variation};
+use crate::campaign::{Distribution, Variation, is_key};
 use crate::units::{Dimension, Quantity, parse_quantity};
 
 /// The number of the format that this program reads.
@@ -34,7 +34,7 @@ const WORDS: [(&str, Word); 5] = [
 /// # Errors
 /// Everything that is wrong, with its places.
 pub fn variations_from_toml(path: &Path) -> Result<Vec<Variation>, Diagnostics> {
-    read_file(path, "plan", |keys| {
+    read_file(path, "plan", &[], |keys| {
         if !keys.has("format") {
             keys.missing("format", "format = 1");
         }
@@ -77,7 +77,7 @@ fn variation(keys: &Keys<'_>) -> Option<Variation> {
         return None;
     }
     let key = key?;
-    if !key.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.')) || key.is_empty() {
+    if !is_key(key) {
         let message = format!("`{key}` is no key of a scenario");
         keys.error("key", message, "write for example `key = \"hub.mass\"`");
         return None;

@@ -24,10 +24,17 @@ use super::{Fitted, Options, assembled, check};
 const LOBE: usize = 3;
 /// Bins from a line that show its noise.
 const CLEAR: usize = 5;
-/// `E|dA|²` of a line by the noise's density and the width of a bin: twice Hann's 1.5 bins.
-const LINE_NOISE: f64 = 3.0;
-/// Variance of the noise in the lobe by the square of that: `4 . 7 (70 / 36) / 9` and the floor's share.
-const LOBE_NOISE: f64 = 8.0;
+/// What stands for `E|dA|²` of a line whose power is a sum over bins, by the noise's density and the width of a bin: the product
+/// of line and noise has the variance `4 A² σ² Σw⁴ / (Σw²)²`, and Hann's window `35 / 18` bins of it (an amplitude by
+/// least squares has 1.5).
+const LINE_NOISE: f64 = 35.0 / 9.0;
+/// Variance of the noise in the lobe by the square of that: `4 (7 + 12 · 4/9 + 10 / 36) / 15.1` with the correlation of
+/// neighbouring bins, less the one that every power has, and 1.1 of the floor's, which is a median of some forty bins.
+const LOBE_NOISE: f64 = 3.5;
+/// Variance of the centroid of a lobe in bins, times the segments, by the share of the noise in it: of the product of line and noise,
+/// and of noise by itself, `sum of k l |rho_kl|²` over the lobe.
+const BY_LINE: f64 = 0.56;
+const BY_NOISE: f64 = 42.5;
 /// Passes of the detection.
 const PASSES: usize = 10;
 /// Bins that a spectrum has at least.
@@ -109,10 +116,13 @@ pub fn fit_waterfall(rows: &[WaterfallRow], options: &Options) -> Result<Fitted,
     }
     numbers.sort_by(f64::total_cmp);
     numbers.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
-    let known = numbers.iter().map(|number| refined(rows, *number)).collect::<Vec<_>>();
-    tracked.orders = known;
-    numbers = tracked.orders.iter().map(|order| order.value).collect();
     mask(&mut tracked, rows, &numbers);
+    let lines = &tracked.lines;
+    let known = numbers.iter().map(|number| refined(rows, *number, lines)).collect::<Vec<_>>();
+    numbers = known.iter().map(|order| order.value).collect();
+    mask(&mut tracked, rows, &numbers);
+    // With their intervals, which the mask does not know.
+    tracked.orders = known;
     let mut groups = Vec::new();
     for group in Group::ALL {
         let points = points(rows, &numbers, group, &tracked.lines);
@@ -160,12 +170,13 @@ fn lobe(densities: &[f64], bin: usize, noise: f64) -> [f64; 2] {
     [sum, moment / sum]
 }
 
-/// The median of the bins on either side of a lobe, as a mean of noise.
-fn beside(densities: &[f64], bin: usize, segments: f64) -> f64 {
+/// The median of the bins on either side of a lobe, as a mean of noise; bins of other lines would raise it.
+fn beside(densities: &[f64], bin: usize, segments: f64, clear: &[bool]) -> f64 {
     let mut near: Vec<f64> = Vec::with_capacity(2 * NOISE_BINS);
     let low = bin.saturating_sub(NOISE_BINS)..bin.saturating_sub(CLEAR);
     let high = bin + CLEAR + 1..(bin + NOISE_BINS).min(densities.len());
-    near.extend(low.chain(high).filter_map(|k| densities.get(k)));
+    let own = low.chain(high).filter(|k| clear.get(*k).copied().unwrap_or(true));
+    near.extend(own.filter_map(|k| densities.get(k)));
     near.sort_by(f64::total_cmp);
     let median = near.get(near.len() / 2).copied().unwrap_or(0.0);
     // The median of a mean of n exponential numbers, by Wilson and Hilferty.
@@ -177,36 +188,42 @@ fn usable(row: &WaterfallRow, bin: usize) -> bool {
 }
 
 /// A number by the centroids of its line in every row and channel that shows it.
-fn refined(rows: &[WaterfallRow], number: f64) -> Estimate {
+fn refined(rows: &[WaterfallRow], number: f64, all: &[Lines]) -> Estimate {
     if number == 1.0 {
         return Estimate::exact(1.0);
     }
-    let mut found: Vec<(f64, f64)> = Vec::new();
-    for row in rows {
+    // Of each row the centroids and their weights.
+    let mut found: Vec<Vec<[f64; 2]>> = Vec::new();
+    for (row, lines) in rows.iter().zip(all) {
         let bin = bin_of(row, number);
         if !usable(row, bin) {
             continue;
         }
+        let mut of_row = Vec::new();
         for densities in &row.densities {
-            let noise = beside(densities, bin, row.segments);
+            let noise = beside(densities, bin, row.segments, &lines.clear);
             let [sum, offset] = lobe(densities, bin, noise);
             if sum > 10.0 * noise && offset.abs() < 1.5 {
                 let turns = row.speed.abs() / TAU / row.bin;
-                let weight = turns * turns * sum / (noise + 1e-9 * sum);
-                found.push(((float(bin) + offset) / turns, weight));
+                let share = noise / sum + 1e-9;
+                let weight = turns * turns / (share * (BY_LINE + BY_NOISE * share));
+                of_row.push([(float(bin) + offset) / turns, weight]);
             }
         }
+        if !of_row.is_empty() {
+            found.push(of_row);
+        }
     }
-    let weights: f64 = found.iter().map(|(_, weight)| weight).sum();
+    let weights: f64 = found.iter().flatten().map(|[_, weight]| weight).sum();
     let shown = found.len() >= 4 && weights > 0.0;
     if !shown {
         return Estimate::new(number, 0.0, 4.0);
     }
-    let mean = found.iter().map(|(value, weight)| value * weight).sum::<f64>() / weights;
-    let squares: f64 = found.iter().map(|(v, w)| (w * (v - mean)).powi(2)).sum();
-    let count = float(found.len());
-    let variance = squares / (weights * weights) * count / (count - 1.0);
-    Estimate::new(mean, variance.sqrt(), count - 1.0)
+    let mean = found.iter().flatten().map(|[v, w]| v * w).sum::<f64>() / weights;
+    // Weights are inverse variances but for one factor, which the scatter of all rows gives.
+    let squares: f64 = found.iter().flatten().map(|[v, w]| w * (v - mean).powi(2)).sum();
+    let freedom = float(found.iter().map(Vec::len).sum::<usize>()) - 1.0;
+    Estimate::new(mean, (squares / freedom / weights).sqrt(), freedom)
 }
 
 /// Powers of the lines of a group; of a radial one the mean of both axes.
@@ -218,12 +235,12 @@ fn points(rows: &[WaterfallRow], numbers: &[f64], group: Group, all: &[Lines]) -
             let bin = bin_of(row, *number);
             let apart = |other: &f64| bin_of(row, *other).abs_diff(bin);
             let alone = numbers.iter().enumerate().all(|(k, n)| k == line || apart(n) > 2 * LOBE);
-            if !usable(row, bin) || !alone || all.get(record).is_none() {
+            let Some(lines) = all.get(record).filter(|_| usable(row, bin) && alone) else {
                 continue;
-            }
+            };
             let of = |channel: usize| {
                 let densities = &row.densities[channel];
-                let noise = beside(densities, bin, row.segments);
+                let noise = beside(densities, bin, row.segments, &lines.clear);
                 [2.0 * row.bin * lobe(densities, bin, noise)[0], LINE_NOISE * row.bin * noise]
             };
             let ([p, n], [q, m]) = (of(a), of(b));

@@ -57,6 +57,8 @@ pub struct Assessed {
     pub worst: usize,
     /// The margin there.
     pub margin: Margin,
+    /// The same by each assumption about phases: that of the budget, and the other ones.
+    pub by_phases: Vec<ByPhases>,
     /// Contributors and their shares of the mean square there, largest first.
     pub shares: Vec<(usize, f64)>,
     /// The share of broadband noise there.
@@ -65,7 +67,26 @@ pub struct Assessed {
     pub keep_out: Vec<[f64; 2]>,
 }
 
+/// What a sweep says of a limit by one assumption about phases.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ByPhases {
+    /// The assumption.
+    pub phases: Phases,
+    /// The number of the speed at which the metric is largest.
+    pub worst: usize,
+    /// The margin there.
+    pub margin: Margin,
+}
+
 impl Budget {
+    /// The assumptions about phases that are reported: that of the budget, and beside it the expected value and the worst.
+    #[must_use]
+    pub fn assumptions(&self) -> Vec<Phases> {
+        let mut all = vec![self.phases];
+        all.extend([Phases::Unknown, Phases::Worst].into_iter().filter(|of| *of != self.phases));
+        all
+    }
+
     /// The outputs of a model: two for each line of sight.
     #[must_use]
     pub fn outputs(&self) -> Vec<Output> {
@@ -100,11 +121,23 @@ impl Budget {
             .map(|(sight, limit)| {
                 let outputs = outputs_of(*sight);
                 let weight = weight_of(&limit.metric)?;
-                let square = |speed| sweep.mean_square(speed, &outputs, self.phases, &weight);
-                let values: Vec<f64> = (0..sweep.speeds.len()).map(|k| square(k).sqrt()).collect();
-                let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]));
-                let worst = worst.unwrap_or(0);
-                let value = values.get(worst).copied().unwrap_or(f64::NAN);
+                let over_speed = |phases| -> Vec<f64> {
+                    let square = |speed| sweep.mean_square(speed, &outputs, phases, &weight);
+                    (0..sweep.speeds.len()).map(|k| square(k).sqrt()).collect()
+                };
+                let largest = |phases, values: &[f64]| {
+                    let worst = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]));
+                    let worst = worst.unwrap_or(0);
+                    let value = values.get(worst).copied().unwrap_or(f64::NAN);
+                    ByPhases { phases, worst, margin: Margin { value, limit: limit.limit } }
+                };
+                let values = over_speed(self.phases);
+                let stated = largest(self.phases, &values);
+                let mut by_phases = vec![stated];
+                for phases in self.assumptions().into_iter().skip(1) {
+                    by_phases.push(largest(phases, &over_speed(phases)));
+                }
+                let worst = stated.worst;
                 let shares = sweep.shares(worst, &outputs, &weight);
                 let noise = sweep.noise_square(worst, &outputs, &weight);
                 let whole: f64 = shares.iter().sum::<f64>() + noise;
@@ -116,7 +149,8 @@ impl Budget {
                     sight: *sight,
                     limit: limit.clone(),
                     keep_out: keep_out(&sweep.speeds, &values, limit.limit, 2.0 * step),
-                    margin: Margin { value, limit: limit.limit },
+                    margin: stated.margin,
+                    by_phases,
                     values,
                     worst,
                     shares,

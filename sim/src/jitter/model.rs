@@ -191,49 +191,27 @@ impl Model {
         }
     }
 
-    /// Densities of the outputs by all noises at a speed and angular frequency, rad/s: m²/Hz, rad²/Hz of what the
-    /// sensitivities are of.
-    ///
-    /// # Errors
-    /// As [`Self::lines`].
-    pub fn density(&self, speed: f64, frequency: f64) -> Result<Vec<f64>, Fault> {
-        let hertz = frequency / std::f64::consts::TAU;
-        let mut forces: Vec<(f64, usize, &[f64; COORDINATES])> = Vec::new();
-        for noise in &self.noises {
-            let rate = noise.rotor.and_then(|[device, rotor]| {
-                let (_, device) = self.devices.get(device)?;
-                device.rotors.get(rotor).map(|rotor| rotor.rate(speed).abs())
-            });
-            let by_rate = match (noise.density.reference_rate, rate) {
-                (Some(reference), Some(rate)) => (rate / reference).powi(2),
-                (Some(_), None) => 0.0,
-                (None, _) => 1.0,
-            };
-            for (component, wrench) in noise.wrench.iter().enumerate() {
-                let density = noise.density.density(component, hertz) * by_rate * by_rate;
-                if density > 0.0 {
-                    forces.push((density, noise.mount, wrench));
-                }
-            }
+    /// The outputs by blocked forces on the mounts, six columns for each mount: `-R A_om (1 + M A_mm)^-1 / w^2`. There are
+    /// fewer outputs than forces, so the transposed system is solved.
+    pub(super) fn by_blocked(
+        &self,
+        frequency: f64,
+        devices: &[Condensed],
+    ) -> Result<ComplexMatrix, Fault> {
+        let of_mounts = COORDINATES * self.mounts.len();
+        let accelerance = self.accelerance.at(frequency)?;
+        let moved = accelerance.rows(of_mounts, accelerance.nrows() - of_mounts);
+        let rows = self.rows.map(|value| Complex::new(-value / (frequency * frequency), 0.0));
+        let mut found = (rows * moved).transpose();
+        let system = self.system(&accelerance, devices).transpose();
+        if !system.lu().solve_mut(&mut found) {
+            return Err(Fault::Unbounded { frequency });
         }
-        let mut sums = vec![0.0; self.outputs.len()];
-        if forces.is_empty() {
-            return Ok(sums);
+        if found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
+            Ok(found.transpose())
+        } else {
+            Err(Fault::Unbounded { frequency })
         }
-        let mut blocked = ComplexMatrix::zeros(COORDINATES * self.mounts.len(), forces.len());
-        for (column, (_, mount, wrench)) in forces.iter().enumerate() {
-            for (row, value) in wrench.iter().enumerate() {
-                blocked[(COORDINATES * mount + row, column)] = Complex::new(*value, 0.0);
-            }
-        }
-        let mounted = self.forced(frequency, self.condensed(speed, frequency)?, blocked)?;
-        let found = self.outputs_of(&mounted, frequency)?;
-        for (column, (density, ..)) in found.column_iter().zip(&forces) {
-            for (sum, value) in sums.iter_mut().zip(column.iter()) {
-                *sum += density * value.norm_sqr();
-            }
-        }
-        Ok(sums)
     }
 
     /// Mounted forces of tones of one frequency.
@@ -258,7 +236,7 @@ impl Model {
     }
 
     /// The devices at a frequency, in order.
-    fn condensed(&self, speed: f64, frequency: f64) -> Result<Vec<Condensed>, Fault> {
+    pub(super) fn condensed(&self, speed: f64, frequency: f64) -> Result<Vec<Condensed>, Fault> {
         self.devices.iter().map(|(_, device)| device.condensed(speed, frequency)).collect()
     }
 
@@ -269,8 +247,18 @@ impl Model {
         devices: Vec<Condensed>,
         blocked: ComplexMatrix,
     ) -> Result<MountedTones, Fault> {
-        let (size, of_mounts) = (COORDINATES, COORDINATES * self.mounts.len());
         let accelerance = self.accelerance.at(frequency)?;
+        let system = self.system(&accelerance, &devices);
+        let mut force = blocked;
+        if !system.lu().solve_mut(&mut force) {
+            return Err(Fault::Unbounded { frequency });
+        }
+        Ok(MountedTones { accelerance, force, devices })
+    }
+
+    /// `1 + M A_mm`, a row of blocks for each mount.
+    fn system(&self, accelerance: &ComplexMatrix, devices: &[Condensed]) -> ComplexMatrix {
+        let (size, of_mounts) = (COORDINATES, COORDINATES * self.mounts.len());
         let own = accelerance.rows(0, of_mounts);
         let mut masses: Vec<_> = vec![ComplexMatrix::zeros(size, size); self.mounts.len()];
         for (sum, contained) in masses.iter_mut().zip(&self.contained) {
@@ -278,22 +266,17 @@ impl Model {
                 sum.zip_apply(mass, |sum, mass| *sum -= mass);
             }
         }
-        for ((mount, _), condensed) in self.devices.iter().zip(&devices) {
+        for ((mount, _), condensed) in self.devices.iter().zip(devices) {
             if let Some(sum) = masses.get_mut(*mount) {
                 *sum += &condensed.mass;
             }
         }
-        // 1 + M A, a row of blocks for each mount.
         let mut system = ComplexMatrix::identity(of_mounts, of_mounts);
         for (mount, mass) in masses.iter().enumerate() {
             let mut rows = system.rows_mut(size * mount, size);
             rows += mass * own.rows(size * mount, size);
         }
-        let mut force = blocked;
-        if !system.lu().solve_mut(&mut force) {
-            return Err(Fault::Unbounded { frequency });
-        }
-        Ok(MountedTones { accelerance, force, devices })
+        system
     }
 
     /// Scales the frequency (0) or the damping ratio (1) of a mode.

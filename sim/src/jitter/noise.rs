@@ -5,9 +5,11 @@
 
 use std::f64::consts::TAU;
 
+use nalgebra::Complex;
+
 use super::campbell::{Oscillation, oscillations};
 use super::model::Model;
-use crate::structure::Fault;
+use crate::structure::{COORDINATES, Fault};
 
 /// Frequencies of a decade.
 const PER_DECADE: f64 = 80.0;
@@ -33,19 +35,47 @@ pub struct NoiseSweep {
     pub speeds: Vec<Densities>,
 }
 
-impl NoiseSweep {
-    /// Of a model at rising speeds, rad/s.
+impl Model {
+    /// Densities of the outputs by all noises at a speed and angular frequency, rad/s: m²/Hz, rad²/Hz of what the
+    /// sensitivities are of.
     ///
     /// # Errors
-    /// As [`Model::density`] and [`oscillations`].
-    pub fn new(model: &Model, speeds: &[f64]) -> Result<Self, Fault> {
-        if model.noises.is_empty() {
-            return Ok(Self::default());
+    /// As [`Self::lines`].
+    pub fn density(&self, speed: f64, frequency: f64) -> Result<Vec<f64>, Fault> {
+        let mut sums = vec![0.0; self.outputs.len()];
+        if self.noises.is_empty() {
+            return Ok(sums);
         }
-        let speeds: Result<Vec<_>, _> = speeds.iter().map(|speed| at(model, *speed)).collect();
-        Ok(Self { speeds: speeds? })
+        let hertz = frequency / TAU;
+        let by_mounts = self.by_blocked(frequency, &self.condensed(speed, frequency)?)?;
+        for noise in &self.noises {
+            let rate = noise.rotor.and_then(|[device, rotor]| {
+                let (_, device) = self.devices.get(device)?;
+                device.rotors.get(rotor).map(|rotor| rotor.rate(speed).abs())
+            });
+            let by_rate = match (noise.density.reference_rate, rate) {
+                (Some(reference), Some(rate)) => (rate / reference).powi(2),
+                (Some(_), None) => 0.0,
+                (None, _) => 1.0,
+            };
+            let own = by_mounts.columns(COORDINATES * noise.mount, COORDINATES);
+            for (sum, row) in sums.iter_mut().zip(own.row_iter()) {
+                // The output by each component, and then by each independent noise.
+                let by = |wrench: &[f64; COORDINATES]| -> Complex<f64> {
+                    row.iter().zip(wrench).map(|(by, of)| by * *of).sum()
+                };
+                let by: Vec<Complex<f64>> = noise.wrench.iter().map(by).collect();
+                for part in noise.density.independent(hertz) {
+                    let value: Complex<f64> = by.iter().zip(part).map(|(by, of)| by * of).sum();
+                    *sum += value.norm_sqr() * by_rate * by_rate;
+                }
+            }
+        }
+        Ok(sums)
     }
+}
 
+impl NoiseSweep {
     /// The densities at the speed nearest to one; none without noise.
     #[must_use]
     pub fn nearest(&self, speed: f64) -> Option<&Densities> {
@@ -74,6 +104,24 @@ impl NoiseSweep {
 }
 
 impl Densities {
+    /// Of a model at a speed, rad/s.
+    ///
+    /// # Errors
+    /// As [`Model::density`] and [`oscillations`].
+    pub fn new(model: &Model, speed: f64) -> Result<Self, Fault> {
+        let natural = oscillations(model, speed)?;
+        let bands: Vec<[f64; 2]> = model.noises.iter().map(|noise| noise.density.band).collect();
+        let mut frequencies = grid(&bands, &natural);
+        // The ends of tables are corners of the density.
+        frequencies.extend(model.noises.iter().flat_map(|noise| noise.density.frequencies.clone()));
+        frequencies.sort_by(f64::total_cmp);
+        frequencies.dedup();
+        frequencies.retain(|frequency| *frequency > 0.0);
+        let values: Result<Vec<_>, _> =
+            frequencies.iter().map(|frequency| model.density(speed, TAU * frequency)).collect();
+        Ok(Self { speed, frequencies, values: values? })
+    }
+
     /// Frequency, Hz, and mean square of some outputs of each interval between frequencies.
     #[must_use]
     pub fn squares(&self, outputs: &[usize]) -> Vec<(f64, f64)> {
@@ -107,20 +155,6 @@ impl Densities {
             .map(|pair| 0.5 * (pair[1][0] - pair[0][0]) * (pair[0][1] + pair[1][1]))
             .sum()
     }
-}
-
-fn at(model: &Model, speed: f64) -> Result<Densities, Fault> {
-    let natural = oscillations(model, speed)?;
-    let bands: Vec<[f64; 2]> = model.noises.iter().map(|noise| noise.density.band).collect();
-    let mut frequencies = grid(&bands, &natural);
-    // The ends of tables are corners of the density.
-    frequencies.extend(model.noises.iter().flat_map(|noise| noise.density.frequencies.clone()));
-    frequencies.sort_by(f64::total_cmp);
-    frequencies.dedup();
-    frequencies.retain(|frequency| *frequency > 0.0);
-    let values: Result<Vec<_>, _> =
-        frequencies.iter().map(|frequency| model.density(speed, TAU * frequency)).collect();
-    Ok(Densities { speed, frequencies, values: values? })
 }
 
 /// Frequencies, Hz, of some bands, close around natural frequencies.

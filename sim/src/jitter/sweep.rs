@@ -7,7 +7,7 @@ use nalgebra::Complex;
 
 use super::campbell::Crossing;
 use super::model::{Contributor, Line, Model};
-use super::noise::NoiseSweep;
+use super::noise::{Densities, NoiseSweep};
 use crate::structure::Fault;
 
 /// Speeds at which the density of noise is computed, about.
@@ -46,6 +46,18 @@ pub enum Phases {
     Worst,
 }
 
+impl Phases {
+    /// The assumption in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Unknown => "phases unknown (expected)",
+            Self::Given => "phases as given",
+            Self::Worst => "worst phases",
+        }
+    }
+}
+
 /// Equal steps from one speed to another, both included.
 #[must_use]
 pub fn speeds([from, to]: [f64; 2], count: usize) -> Vec<f64> {
@@ -73,7 +85,30 @@ pub fn refined(mut speeds: Vec<f64>, [from, to]: [f64; 2], crossings: &[Crossing
     speeds
 }
 
-/// The lines of a model at some speeds. `progress` is called with the number of speeds that are done.
+/// The speeds at which the density of noise is computed, about [`NOISE_SPEEDS`] of them; none without noise.
+fn noise_speeds(model: &Model, speeds: &[f64]) -> Vec<f64> {
+    if model.noises.is_empty() {
+        return Vec::new();
+    }
+    let step = speeds.len().div_ceil(NOISE_SPEEDS).max(1);
+    let mut some: Vec<f64> = speeds.iter().copied().step_by(step).collect();
+    some.extend(speeds.last().filter(|last| Some(*last) != some.last()));
+    some
+}
+
+/// The parts of the work of [`sweep`], which its `progress` counts.
+#[must_use]
+pub fn parts(model: &Model, speeds: &[f64]) -> usize {
+    speeds.len() + noise_speeds(model, speeds).len()
+}
+
+/// What a thread computes.
+enum Part {
+    Lines(Vec<Line>),
+    Noise(Densities),
+}
+
+/// The lines of a model at some speeds, and the noise. `progress` is called with the number of [`parts`] that are done.
 ///
 /// # Errors
 /// The fault of the lowest speed that has one; [`Fault::Number`] for no speed, or too many.
@@ -87,14 +122,23 @@ pub fn sweep(
         let (what, range) = (String::from("speeds"), [1, SPEEDS_MAX]);
         return Err(Fault::Number { what, found: speeds.len(), range });
     }
+    let of_noise = noise_speeds(model, speeds);
     let next = AtomicUsize::new(0);
     let done = AtomicUsize::new(0);
+    // The noise first: a speed of it takes longest.
+    let part = |index: usize| -> Option<Result<Part, Fault>> {
+        if let Some(speed) = of_noise.get(index) {
+            return Some(Densities::new(model, *speed).map(Part::Noise));
+        }
+        let speed = speeds.get(index - of_noise.len())?;
+        Some(model.lines(*speed).map(Part::Lines))
+    };
     let work = || {
         let mut found = Vec::new();
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(speed) = speeds.get(index) else { return found };
-            found.push((index, model.lines(*speed)));
+            let Some(part) = part(index) else { return found };
+            found.push((index, part));
             progress(done.fetch_add(1, Ordering::Relaxed) + 1);
         }
     };
@@ -110,17 +154,20 @@ pub fn sweep(
         found
     });
     found.sort_by_key(|(index, _)| *index);
-    let lines: Result<Vec<_>, _> = found.into_iter().map(|(_, lines)| lines).collect();
-    let step = speeds.len().div_ceil(NOISE_SPEEDS).max(1);
-    let mut some: Vec<f64> = speeds.iter().copied().step_by(step).collect();
-    some.extend(speeds.last().filter(|last| Some(*last) != some.last()));
-    Ok(Sweep {
-        noise: NoiseSweep::new(model, &some)?,
+    let mut sweep = Sweep {
+        noise: NoiseSweep::default(),
         speeds: speeds.to_vec(),
         outputs: model.outputs.clone(),
         contributors: model.contributors(),
-        lines: lines?,
-    })
+        lines: Vec::with_capacity(speeds.len()),
+    };
+    for (_, part) in found {
+        match part? {
+            Part::Lines(lines) => sweep.lines.push(lines),
+            Part::Noise(densities) => sweep.noise.speeds.push(densities),
+        }
+    }
+    Ok(sweep)
 }
 
 impl Sweep {

@@ -23,7 +23,8 @@ fn recorded(scenario: &Scenario, recorder: &mut dyn Recorder) -> (Outcome, Sampl
 fn panel() -> Scenario {
     let mut scenario = turning_panel(0.5, 2.0);
     let text = "name = \"check\"\n[run]\nduration = 2".to_owned();
-    scenario.source = Source { path: "check.toml".into(), text: text.clone(), filled: text };
+    scenario.source =
+        Source { path: "check.toml".into(), text: text.clone(), filled: text, structure: None };
     scenario.output.columns = vec!["panel".to_owned(), "energy".to_owned()];
     scenario
 }

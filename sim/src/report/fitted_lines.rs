@@ -43,11 +43,17 @@ pub(crate) struct FittedLine {
 impl FittedLines {
     /// The picture as an SVG file of its own.
     pub(crate) fn file(&self) -> Result<String, DrawError> {
+        svg_file(|style| self.document(style))
+    }
+
+    /// The picture as part of a page that turns its colours.
+    pub(crate) fn inline(&self) -> Result<String, DrawError> {
+        self.document("")
+    }
+
+    fn document(&self, style: &str) -> Result<String, DrawError> {
         let names: Vec<_> = self.lines.iter().map(|line| line.name.as_str()).collect();
-        let height = HEIGHT * PANEL;
-        svg_file(|style| {
-            document(&self.description, style, &names, height, |panel| self.draw(panel))
-        })
+        document(&self.description, style, &names, HEIGHT * PANEL, |panel| self.draw(panel))
     }
 
     fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {

@@ -1,9 +1,12 @@
 //! [`JitterReport`]: the page of a jitter budget: verdict and margins first, then contributors, the metrics over the
-//! speed, waterfall and Campbell diagram, the two paths, assumptions.
+//! speed, waterfall and Campbell diagram, the two paths, inputs, assumptions.
+
+mod inputs;
+mod verdict;
 
 use std::f64::consts::TAU;
 
-use super::blocks::{Block, Fact, Section, Summary, Verdict, table};
+use super::blocks::{Block, Fact, Section, Summary, table};
 use super::error::{DrawError, ReportError};
 use super::number::{short, with_unit};
 use super::page::{Page, lines};
@@ -83,6 +86,7 @@ impl JitterReport<'_> {
         sections.push(("crossings", "Natural frequencies and orders", self.campbell()?));
         sections.push(("paths", "Frequency domain beside the coupled run", self.paths()));
         sections.push(("sensitivities", "Sensitivities", self.ranked()));
+        sections.push(("inputs", "Inputs", self.inputs()));
         sections.push(("assumptions", "Assumptions", vec![self.assumptions()]));
         if !self.warnings.is_empty() {
             let items = self.warnings.to_vec();
@@ -124,28 +128,6 @@ impl JitterReport<'_> {
         }
         files.push(("campbell".to_owned(), self.campbell_diagram().file()?));
         Ok(files)
-    }
-
-    fn verdict(&self) -> Verdict {
-        let unmet: Vec<_> = self.assessed.iter().filter(|of| !of.margin.is_met()).collect();
-        let all = self.assessed.len();
-        let speeds = self.sweep.speeds.len();
-        if all == 0 {
-            let text = format!("{speeds} speeds. The budget states no requirements.");
-            return Verdict { state: "", word: "Complete.".to_owned(), text };
-        }
-        if unmet.is_empty() {
-            let word = format!("All {all} requirements are met");
-            let text = format!("at all {speeds} speeds.");
-            return Verdict { state: "met", word, text };
-        }
-        let one = |of: &&Assessed| format!("{} out of {}", of.limit.name, intervals(&of.keep_out));
-        let word = format!("{} of {all} requirements violated:", unmet.len());
-        let text = format!(
-            "{}. Keep the rotors out of these speeds, or change the design.",
-            unmet.iter().map(one).collect::<Vec<_>>().join("; ").replace(" out of ", " at ")
-        );
-        Verdict { state: "violated", word, text }
     }
 
     fn summary(&self) -> Summary {
@@ -217,6 +199,7 @@ impl JitterReport<'_> {
         ];
         let mut blocks =
             vec![table("Requirements, and the worst speed of each", &columns, 2..5, rows)];
+        blocks.push(self.by_phases());
         for (index, of) in self.assessed.iter().enumerate() {
             blocks.push(Block::Figure {
                 id: format!("figure-requirement-{}", index + 1),

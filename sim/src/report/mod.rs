@@ -13,11 +13,13 @@
 
 mod axes;
 mod blocks;
+pub mod cells;
 mod chart;
 mod data;
 mod error;
 mod extremes;
 mod figure;
+pub(crate) mod fit;
 pub(crate) mod fitted_lines;
 mod grouping;
 pub(crate) mod jitter;

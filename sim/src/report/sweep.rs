@@ -1,14 +1,18 @@
 //! Pictures of a sweep: a number over a key, a map over two keys, lines over a key and frequency.
 
+use super::cells::{CellMap, MapAxis};
 use super::error::DrawError;
 use super::number::{power_of_ten, short, with_unit};
 use super::plane::Plane;
 use crate::campaign::{Axis, Spacing};
+use crate::jitter::campbell::{Branch, Crossing, Oscillation};
 
 /// A line is drawn in a waterfall from this share of the largest on.
 const DOT_MIN: f64 = 5e-3;
 /// Lines of orders end at this share of the highest line.
 const BELOW_TITLE: f64 = 0.93;
+/// A Campbell diagram goes up to this many times the highest order.
+const CAMPBELL_TOP: f64 = 1.25;
 /// Above the highest point of a picture.
 const ABOVE: f64 = 1.06;
 
@@ -85,40 +89,31 @@ pub(crate) fn curve(axis: &Axis, of: &Numbers<'_>) -> Result<String, DrawError> 
     .file()
 }
 
-/// A number over the values of two keys, the second one fastest: dots whose area is the number, circles where a limit is
-/// exceeded or the sample failed.
+/// A number over the values of two keys, the second one fastest: filled cells, the limit as a contour; crosses are samples
+/// that failed.
 pub(crate) fn map(axes: [&Axis; 2], of: &Numbers<'_>) -> Result<String, DrawError> {
-    let (unit, size) = of.unit;
+    let (unit, size) = scaled(of.unit, of.values.iter().flatten().copied());
     let [first, second] = axes;
-    let all = first.values.iter().flat_map(|a| second.values.iter().map(move |b| [*a, *b]));
-    let most = of.values.iter().flatten().copied().fold(0.0, f64::max);
-    let (mut dots, mut marks) = (Vec::new(), Vec::new());
-    for ([a, b], number) in all.zip(of.values) {
-        let at = [place(first, a), place(second, b)];
-        let exceeded = of.limit.zip(*number).is_some_and(|(limit, number)| number > limit);
-        if exceeded || number.is_none() {
-            marks.push(at);
-        }
-        if let Some(number) = number.filter(|_| most > 0.0) {
-            dots.push([at[0], at[1], number / most]);
-        }
-    }
-    let largest = with_unit(most / size, 3, unit);
-    let wide = |axis: &Axis| {
-        ends(axis).map(|[from, to]| [from - 0.05 * (to - from), to + 0.05 * (to - from)])
+    let map_axis = |axis: &Axis| MapAxis {
+        label: axis.label(),
+        values: axis.values.clone(),
+        logarithmic: axis.spacing == Spacing::Logarithmic,
     };
-    plane(
-        format!(
-            "{} over {} and {} by area; the largest is {largest}; circles are violated or failed.",
+    let shown = if unit.is_empty() { "number".to_owned() } else { unit.clone() };
+    CellMap {
+        description: format!(
+            "{} in {shown} over {} and {}; crosses are samples that failed.",
             of.name,
             first.label(),
             second.label()
         ),
-        format!("{}, largest {largest}", of.name),
-        [label(first), label(second)],
-        [wide(first), wide(second)],
-        |plane| (plane.dots, plane.marks) = (dots, marks),
-    )
+        title: of.name.to_owned(),
+        axes: [map_axis(first), map_axis(second)],
+        numbers: of.values.iter().map(|number| number.map_or(f64::NAN, |n| n / size)).collect(),
+        scale: unit,
+        logarithmic: false,
+        contours: of.limit.iter().map(|limit| ("limit".to_owned(), limit / size)).collect(),
+    }
     .file()
 }
 
@@ -161,6 +156,52 @@ pub(crate) fn waterfall(
         [label(axis), "Frequency f (Hz)".to_owned()],
         [ends(axis), (top > 0.0).then_some([0.0, ABOVE * top])],
         |plane| (plane.dots, plane.lines) = (dots, straight),
+    )
+    .file()
+}
+
+/// Natural frequencies over the values of a key, rising, with the orders of a rate and where they cross.
+pub(crate) fn campbell(
+    axis: &Axis,
+    values: &[f64],
+    branches: &[Branch],
+    orders: &[f64],
+    crossings: &[Crossing],
+) -> Result<String, DrawError> {
+    let hertz = |frequency: f64| frequency / std::f64::consts::TAU;
+    let curve = |branch: &Branch| {
+        let point = |(value, of): (&f64, &Option<Oscillation>)| {
+            [place(axis, *value), of.map_or(f64::NAN, |of| hertz(of.frequency))]
+        };
+        values.iter().zip(&branch.points).map(point).collect::<Vec<_>>()
+    };
+    let curves: Vec<(String, Vec<[f64; 2]>)> =
+        branches.iter().map(|branch| (String::new(), curve(branch))).collect();
+    let all = curves.iter().flat_map(|(_, points)| points).map(|point| point[1]);
+    let highest = all.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    // Where orders are drawn, a little above the highest of them.
+    let last = values.last().map_or(0.0, |value| hertz(value.abs() * axis.size));
+    let reached = CAMPBELL_TOP * orders.iter().copied().fold(0.0, f64::max) * last;
+    let top = if orders.is_empty() { ABOVE * highest } else { reached.min(ABOVE * highest) };
+    let straight = |order: &f64| {
+        let ends = ends(axis).filter(|_| axis.spacing != Spacing::Logarithmic)?;
+        let frequency = |value: f64| hertz(order * value.abs() * axis.size);
+        let share = (BELOW_TITLE * top / frequency(ends[1])).min(1.0);
+        let end = if ends[0] >= 0.0 { (ends[1] * share).max(ends[0]) } else { ends[1] };
+        let at = |value: f64| [value, frequency(value)];
+        Some((format!("{}\u{d7}", short(*order, 4)), [at(ends[0]), at(end)]))
+    };
+    let lines = orders.iter().filter_map(straight).collect();
+    let marks = crossings
+        .iter()
+        .map(|of| [place(axis, of.speed / axis.size), hertz(of.oscillation.frequency)])
+        .collect();
+    plane(
+        format!("Natural frequencies in Hz over {}, with orders and crossings.", axis.label()),
+        format!("Natural frequencies over {}", axis.key),
+        [label(axis), "Frequency f (Hz)".to_owned()],
+        [ends(axis), (top > 0.0).then_some([0.0, top])],
+        |plane| (plane.curves, plane.lines, plane.marks) = (curves, lines, marks),
     )
     .file()
 }

@@ -163,7 +163,8 @@ fn text_of_the_user_is_escaped() {
     let mut scenario = table1();
     scenario.title = "a </script><b> & c".to_owned();
     let text = "# </script><i>\nx = '<'".to_owned();
-    scenario.source = Source { path: "x".to_owned(), text, filled: "y = '<u>'".to_owned() };
+    scenario.source =
+        Source { path: "x".to_owned(), text, filled: "y = '<u>'".to_owned(), structure: None };
     let (report, outcome) = sampled(&scenario, 20.0, None);
     let page = report.html(&outcome).expect("a page");
     for raw in ["<b>&", "<i>", "<u>", "a < b", "</script><b>"] {

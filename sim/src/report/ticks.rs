@@ -38,7 +38,7 @@ fn spacing(range: &Range<f64>) -> f64 {
 }
 
 /// The ticks in a range.
-fn ticks(range: &Range<f64>) -> Vec<f64> {
+pub(super) fn ticks(range: &Range<f64>) -> Vec<f64> {
     let spacing = spacing(range);
     let mut ticks = Vec::new();
     let mut n = (range.start / spacing - 1e-9).ceil();

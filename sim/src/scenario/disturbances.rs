@@ -119,6 +119,14 @@ impl Scenario {
         if of.point.iter().any(|number| !number.is_finite()) {
             return Some(("point", format!("{:?} is not finite", of.point.as_slice())));
         }
+        let [from, to] = of.window;
+        let rises = from < to;
+        if !rises {
+            return Some((
+                "to",
+                format!("it acts from {from} s to {to} s; the end is after the start"),
+            ));
+        }
         if of.spin_axis > 2 {
             return Some(("spin_axis", format!("axis {} of 0 to 2", of.spin_axis)));
         }

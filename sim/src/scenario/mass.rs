@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
     About, Accelerations, BuiltIn, HubMode, Imbalance, Inputs, JointStates, Mode, Quaternion,
-    SolveError, Spacecraft, State,
+    SolveError, Spacecraft, State, WheelImbalance,
 };
 
 use super::{Scenario, Set};
@@ -167,6 +167,13 @@ pub fn imbalance(device: &BuiltIn) -> Option<Imbalance> {
         BuiltIn::Vscmg(device) => device.imbalance().ok(),
         BuiltIn::Dgcmg(device) => device.imbalance().ok(),
         BuiltIn::Dgvscmg(device) => device.imbalance().ok(),
+        BuiltIn::FlexibleReactionWheel(_) => {
+            let bodies = device.parameters().bodies;
+            let mut rotors = device.kind().joints().iter().zip(&bodies);
+            let (_, rotor) = rotors.find(|(info, _)| info.body == "wheel")?;
+            let (j_12, j_13) = (rotor.inertia[(0, 1)], rotor.inertia[(0, 2)]);
+            WheelImbalance { d: rotor.centre[1], j_12, j_13 }.lumped(rotor.mass).ok()
+        }
         _ => None,
     }
 }

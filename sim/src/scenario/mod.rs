@@ -297,6 +297,8 @@ pub struct Source {
     /// The same in one file, every default written out: what is not there the spacecraft does not
     /// have, such as a torque limit, an end stop, gravity.
     pub filled: String,
+    /// The file of the structure, as it is named from the scenario's folder.
+    pub structure: Option<String>,
 }
 
 impl Scenario {

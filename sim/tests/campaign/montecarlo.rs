@@ -194,3 +194,184 @@ fn what_is_no_plan_is_refused_with_the_remedy() {
     assert!(text(&output.stderr).contains("not within 1 to 1000000"));
     assert!(!out.exists());
 }
+
+const WHEELS: &str = r#"format = 1
+name = "wheels"
+[hub]
+mass = "60 kg"
+inertia = "4, 3.5, 3 kg m^2"
+centre_of_mass = "1, 2, -1 mm"
+[initial]
+angular_velocity = "0.3, -0.2, 0.1 deg/s"
+[[device]]
+name = "rw1"
+kind = "reaction_wheel"
+position = "30, 10, -5 cm"
+mount = { spin_axis = [0.2, 0.3, 1] }
+imbalance = { static = "10 g cm", dynamic = "200 g cm^2", phase = "40 deg" }
+[device.wheel]
+mass = "4 kg"
+inertia = "288, 150, 150 kg cm^2"
+rate = "3000 rpm"
+[[device]]
+name = "cmg"
+kind = "vscmg"
+position = "-20, 10, 5 cm"
+imbalance = { static = "4 g cm", dynamic = "50 g cm^2" }
+[device.gimbal]
+mass = "2 kg"
+inertia = "90, 70, 80 kg cm^2"
+stiffness = "400 N m/rad"
+damping = "0.5 N m s/rad"
+angle = "20 deg"
+rest = "20 deg"
+[device.wheel]
+mass = "3 kg"
+inertia = "200, 110, 110 kg cm^2"
+rate = "2400 rpm"
+torque = "5 mN m"
+[[requirement]]
+name = "band"
+quantity = "omega"
+statistic = "band_rms"
+band = "20, 80 Hz"
+limit = "1 rad/s"
+[[requirement]]
+name = "smear"
+quantity = "omega"
+statistic = "smear"
+exposure = "10 ms"
+limit = "1 rad/s"
+[[requirement]]
+name = "drift"
+quantity = "omega"
+statistic = "drift"
+limit = "1 rad/s"
+[run]
+duration = "0.25 s"
+integrator = "rk4"
+step = "0.2 ms"
+[output]
+rate = "2 kHz"
+"#;
+
+const WHEELS_PLAN: &str = r#"format = 1
+[[vary]]
+key = "device.rw1.imbalance.static"
+distribution = "normal"
+mean = "10 g cm"
+deviation = "1 g cm"
+[[vary]]
+key = "device.rw1.imbalance.phase"
+distribution = "normal"
+mean = "40 deg"
+deviation = "10 deg"
+[[vary]]
+key = "device.rw1.wheel.rate+device.cmg.wheel.rate"
+distribution = "uniform"
+from = "2900 rpm"
+to = "3100 rpm"
+[[vary]]
+key = "device.cmg.gimbal.stiffness"
+distribution = "lognormal"
+median = "400 N m/rad"
+sigma = 0.1
+[[vary]]
+key = "hub.inertia[2]"
+distribution = "normal"
+mean = "3.5 kg m^2"
+deviation = "0.1 kg m^2"
+[[vary]]
+key = "device.cmg.wheel.torque"
+distribution = "normal"
+mean = "5 mN m"
+deviation = "1 mN m"
+[[vary]]
+key = "device.rw*.position[x]"
+distribution = "normal"
+mean = "30 cm"
+deviation = "1 cm"
+"#;
+
+/// Exact derivatives of runs, against central differences of the same runs: RK4 of the scenario, so both are derivatives of the
+/// same numbers. Steps of a hundredth of a deviation to either side leave a share of 1e-4 of the third derivative, and the
+/// rounding of a run.
+#[test]
+fn exact_derivatives_are_those_of_central_differences_of_runs() {
+    const NEAR: f64 = 1e-4;
+    let (folder, file) = folder("exact");
+    fs::write(&file, WHEELS).expect("a file");
+    let plan_file = plan(&folder, WHEELS_PLAN);
+    let variations = precess::file::variations_from_toml(&plan_file).expect("a plan");
+    let template = precess::file::Template::from_file(&file).expect("a scenario");
+    let columns = vec!["omega".to_owned(), "acceleration".to_owned(), "cmg.gamma".to_owned()];
+    let selection = precess::campaign::Selection { columns, lines: 0, from: 0.05 };
+    let found = precess::campaign::tangents(&template, &[], &variations, &selection)
+        .expect("it is differentiated");
+    println!("runs differ by {:e}", found.difference);
+    assert!(found.difference < 1e-9, "the same steps: {:e}", found.difference);
+    let middles: Vec<[f64; 2]> =
+        variations.iter().map(|of| of.distribution.scale().expect("continuous")).collect();
+    let numbers = |changed: usize, value: f64| -> Vec<f64> {
+        let overrides: Vec<String> = variations
+            .iter()
+            .zip(&middles)
+            .enumerate()
+            .map(|(index, (of, [middle, _]))| {
+                let value = if index == changed { value } else { *middle };
+                format!("{} = \"{value:?} {}\"", of.key, of.unit)
+            })
+            .collect();
+        let (mut scenario, _) = template.scenario(&overrides).expect("a scenario");
+        scenario.output.columns.clone_from(&selection.columns);
+        let mut reducer = precess::campaign::Reducer::new(&scenario, &selection);
+        let progress = &mut |_| std::ops::ControlFlow::Continue(());
+        precess::engine::run(&scenario, &mut reducer, progress).expect("a run");
+        let row = reducer.row().expect("numbers");
+        // Three requirements, then RMS and peak of each column.
+        row[..9].to_vec()
+    };
+    for (key, [middle, deviation]) in middles.iter().enumerate() {
+        let step = 0.01 * deviation;
+        let (low, high) = (numbers(key, middle - step), numbers(key, middle + step));
+        for (number, slopes) in found.slopes.iter().enumerate() {
+            let exact =
+                slopes.as_ref().expect("every number is of the state or its accelerations")[key];
+            let difference = (high[number] - low[number]) / (2.0 * step);
+            // By what the number is, over a deviation: a derivative may be next to zero.
+            let size = 1e-6 * high[number].abs() / deviation;
+            let apart = (exact - difference).abs();
+            assert!(
+                apart < NEAR * difference.abs() + size,
+                "number {number} by key {}: {exact:e}, by differences {difference:e}",
+                variations[key].key
+            );
+        }
+    }
+}
+
+#[test]
+fn exact_and_other_derivatives_are_told_apart() {
+    let (folder, file) = folder("methods");
+    let plan_file = plan(&folder, PLAN);
+    let methods = |out: &str, more: &[&str]| {
+        let out = folder.join(out);
+        let all = [&["--samples", "12", "--sensitivities"], more].concat();
+        let output = run(&file, &plan_file, &out, &all);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let found = rows(&results(&out)["wheel-montecarlo-sensitivities.csv"]);
+        let method = |row: &BTreeMap<String, String>| row["method"].clone();
+        (found.iter().map(method).collect::<Vec<_>>(), text(&output.stdout))
+    };
+    let (found, shown) = methods("exact", &[]);
+    assert!(found.iter().all(|method| method == "exact"), "{found:?}");
+    assert!(shown.contains(", exact"), "{shown}");
+    // Of the energy there are only differences.
+    let (found, _) = methods("energy", &["--column", "energy"]);
+    assert!(found.iter().any(|method| method == "exact"), "{found:?}");
+    assert!(found.iter().any(|method| method == "difference"), "{found:?}");
+    let wrench = "wrench=[{ on = \"hub\", force.x = \"1 N\" }]";
+    let (found, shown) = methods("wrench", &["--set", wrench]);
+    assert!(found.iter().all(|method| method == "difference"), "{found:?}");
+    assert!(shown.contains("central differences: the scenario has wrenches"), "{shown}");
+}

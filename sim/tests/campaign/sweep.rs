@@ -160,3 +160,80 @@ fn a_sweep_that_was_ended_while_it_wrote_its_files_is_continued() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(results(&out) == whole, "another result");
 }
+
+#[test]
+fn keys_are_linked_and_two_of_them_are_a_map_of_cells() {
+    let (folder, file) = folder("linked");
+    let second = "[[device]]\nname = \"rw2\"\ncopy_of = \"rw\"\n";
+    let scenario =
+        fs::read_to_string(&file).expect("a file").replace("[run]", &format!("{second}[run]"));
+    fs::write(&file, scenario).expect("a file");
+    let out = folder.join("out");
+    let output = precess(&[
+        "sweep",
+        path(&file),
+        "--over",
+        "device.rw*.wheel.rate=1200..4800 rpm:3",
+        "--over",
+        "hub.inertia[x]+hub.inertia[y]=10,20 kg m^2",
+        "--column",
+        "acceleration",
+        "--set",
+        "run.duration=0.05 s",
+        "--out",
+        path(&out),
+    ]);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(2), "{shown}{}", text(&output.stderr));
+    assert!(shown.contains("is device.rw.wheel.rate, device.rw2.wheel.rate"), "{shown}");
+    let files = results(&out);
+    let found = rows(&files["wheel-sweep.csv"]);
+    assert_eq!(found.len(), 6);
+    for row in &found {
+        // Two wheels at one rate and angle: twice the force on 104 kg, wheels and hub.
+        let rate = number(row, "device.rw*.wheel.rate [rpm]") * TAU / 60.0;
+        let expected = 2e-4 * rate * rate / 104.0;
+        let value = number(row, "acceleration rms [m/s²]");
+        assert!((value / expected - 1.0).abs() < CLOSED_FORM, "{value} for {expected}");
+    }
+    let map = text(&files["wheel-sweep-requirement-micro-g.svg"]);
+    assert!(map.contains(">limit</text>") && map.contains("#FEE838"), "cells, contour and scale");
+    let refused = precess(&["sweep", path(&file), "--over", "device.cmg*.mass=1,2 kg"]);
+    let error = text(&refused.stderr);
+    assert!(
+        error.contains("nothing matches `device.cmg*`") && error.contains("rw, rw2"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_sweep_of_a_sprung_wheel_has_a_campbell_diagram() {
+    let (folder, file) = folder("campbell");
+    let scenario = r#"format = 1
+name = "wheel"
+[hub]
+mass = "400 kg"
+inertia = "120, 110, 90 kg m^2"
+[[device]]
+name = "panel"
+kind = "hinged_panel"
+panel = { mass = "3 kg", inertia = "0.05, 0.2, 0.24 kg m^2", stiffness = "40 N m/rad", damping = "0.01 N m s/rad" }
+[[device]]
+name = "rw"
+kind = "reaction_wheel"
+imbalance = { static = "1 g cm" }
+wheel = { mass = "4 kg", inertia = "288, 150, 150 kg cm^2", rate = "3000 rpm" }
+[run]
+duration = "0.05 s"
+"#;
+    fs::write(&file, scenario).expect("a file");
+    let out = folder.join("out");
+    let over = "device.rw.wheel.rate=60..600 rpm:4";
+    let output = precess(&["sweep", path(&file), "--over", over, "--out", path(&out)]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let diagram = text(&results(&out)["wheel-sweep-campbell.svg"]);
+    assert!(
+        diagram.contains("Natural frequencies over") && diagram.contains("1\u{d7}"),
+        "{diagram}"
+    );
+}

@@ -44,11 +44,22 @@ fn the_example_is_fitted_and_its_device_is_read() {
     assert!(precess(&[&run[..], &["--force"]].concat()).0);
     assert_eq!(fs::read_to_string(at("out/rw-device.toml")).expect("a device"), first);
     for group in ["axial-force", "radial-force", "axial-torque", "radial-torque"] {
-        for picture in ["waterfall", "lines"] {
+        for picture in ["waterfall", "lines", "spectrum", "residuals"] {
             let name = at(&format!("out/rw-{picture}-{group}.svg"));
             let svg = fs::read_to_string(&name).expect("a picture");
             assert!(svg.contains("</svg>") && !svg.contains("NaN"), "{name}");
         }
+    }
+    let page = fs::read_to_string(at("out/rw-fit.html")).expect("a page");
+    assert!(page.len() < 3_000_000, "{} bytes", page.len());
+    for part in [
+        "Parameters with 95 % intervals",
+        "Residuals</h2>",
+        "phase of U_d",
+        "I_s / I_r",
+        "The model holds",
+    ] {
+        assert!(page.contains(part), "{part}");
     }
     let scenario = "format = 1\nbase = [\"rw-device.toml\", \"rw-sources.toml\"]\n[hub]\nmass = \"400 kg\"\n\
         inertia = \"120, 110, 90 kg m^2\"\n[[device]]\nname = \"rw\"\nwheel.rate = \"3000 rpm\"\n\

@@ -11,3 +11,4 @@ mod scene;
 mod spectra;
 mod synthetic;
 mod trials;
+mod waterfalls;

@@ -1,10 +1,11 @@
 //! Trials: the same wheel measured many times with noise and phases of its own, and how often each 95 %
 //! interval has the number that was put in.
 
-use precess::fit::{Estimate, Fitted, Group, Sense, fit};
+use precess::fit::{Estimate, Fitted, Group, Sense, fit, fit_waterfall};
 
-use super::scene::{ANGLE, H, PHASE, SEED, U_D, U_S, Variant, measured, stated, wheel};
+use super::scene::{ANGLE, PHASE, SEED, U_D, U_S, Variant, measured, stated, wheel};
 use super::synthetic::{Random, Wheel};
+use super::waterfalls::{options, rows, wheel_of_spectra};
 
 /// A parameter: its name, what was put in, what was found.
 pub(crate) type Compared = (String, f64, Estimate);
@@ -16,12 +17,9 @@ pub(crate) fn compared(wheel: &Wheel, fitted: &Fitted) -> Vec<Compared> {
         vec![("U_s".to_owned(), U_S, imbalance.u_s), ("U_d".to_owned(), U_D, imbalance.u_d)];
     all.extend(imbalance.phase.map(|phase| ("phase of U_d".to_owned(), PHASE, phase)));
     all.extend(imbalance.angle.map(|angle| ("angle of U_s".to_owned(), ANGLE, angle)));
-    for (line, h) in H.iter().enumerate().skip(1) {
-        let (Some(harmonic), Some(source)) = (fitted.harmonics.get(line), wheel.sources.get(line))
-        else {
-            continue;
-        };
-        all.push((format!("h = {h}"), *h, harmonic.number));
+    for (harmonic, source) in fitted.harmonics.iter().zip(&wheel.sources).skip(1) {
+        let h = source.h;
+        all.push((format!("h = {h}"), h, harmonic.number));
         for c in &harmonic.coefficients {
             let (put_in, word) = match (c.group, c.sense) {
                 (Group::AxialForce, _) => (source.fx, ""),
@@ -59,14 +57,29 @@ pub(crate) fn compared(wheel: &Wheel, fitted: &Fitted) -> Vec<Compared> {
 /// Trials of [`SEED`], each with a seed drawn from it, on two threads.
 pub(crate) fn trials(count: usize, variant: Variant) -> Vec<Vec<Compared>> {
     let wheel = wheel();
+    each_seed(count, &|random| {
+        let measurement = measured(&wheel, variant, random);
+        compared(&wheel, &fit(&measurement, &stated(variant)).expect("it fits"))
+    })
+}
+
+/// Trials of waterfalls.
+pub(crate) fn spectra_trials(count: usize) -> Vec<Vec<Compared>> {
+    let wheel = wheel_of_spectra();
+    let options = options(&wheel, true);
+    each_seed(count, &|random| {
+        compared(&wheel, &fit_waterfall(&rows(&wheel, random), &options).expect("it fits"))
+    })
+}
+
+fn each_seed(
+    count: usize,
+    trial: &(dyn Fn(&mut Random) -> Vec<Compared> + Sync),
+) -> Vec<Vec<Compared>> {
     let mut random = Random::new(SEED);
     let seeds: Vec<u64> = (0..count).map(|_| random.bits()).collect();
     let run = |seeds: &[u64]| -> Vec<Vec<Compared>> {
-        let each = seeds.iter().map(|seed| {
-            let measurement = measured(&wheel, variant, &mut Random::new(*seed));
-            compared(&wheel, &fit(&measurement, &stated(variant)).expect("it fits"))
-        });
-        each.collect()
+        seeds.iter().map(|seed| trial(&mut Random::new(*seed))).collect()
     };
     let (first, second) = seeds.split_at(count / 2);
     std::thread::scope(|scope| {

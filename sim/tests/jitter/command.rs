@@ -38,6 +38,17 @@ fn a_budget_is_written_once_and_does_not_depend_on_threads() {
     let at = |part: &str| page.find(part).unwrap_or_else(|| panic!("{part} in the page"));
     assert!(at("requirements violated") < at("Contributors at the worst speeds"));
     assert!(at("Contributors at") < at("Sensitivities</h2>") && at("Assumptions</h2>") > 0);
+    // Both assumptions about phases, and the inputs.
+    for part in [
+        "phases unknown (expected)",
+        "worst phases",
+        "Inputs</h2>",
+        "cmg1.wheel",
+        "imaging-satellite-modes.npz",
+    ] {
+        assert!(page.contains(part), "{part} in the page");
+    }
+    assert!(text.contains("with worst phases"), "{text}");
     // A second time only by force, with the same bytes on another number of threads.
     let again = jitter(&budget, &out, &[]);
     assert_eq!(again.status.code(), Some(1));
@@ -115,5 +126,41 @@ fn what_is_wrong_is_said_with_its_remedy() {
         }
         assert!(!out.join("out").exists(), "nothing is left behind");
     }
+    std::fs::remove_dir_all(out).expect("it was made");
+}
+
+#[test]
+fn keys_of_the_budget_are_replaced_by_their_prefix() {
+    let out = folder("set");
+    let budget = scenarios().join("budgets/wheel-data-sheet-jitter.toml");
+    let run = |set: &[&str]| {
+        let sets: Vec<&str> = set.iter().flat_map(|set| ["--set", set]).collect();
+        let found = jitter(&budget, &out, &[&["--no-compare", "--force"][..], &sets].concat());
+        let shown = String::from_utf8_lossy(&found.stdout).into_owned();
+        (found.status.code(), shown, String::from_utf8_lossy(&found.stderr).into_owned())
+    };
+    let few = ["budget.speed.count=11", "budget.requirement.vibration.limit=1 mrad"];
+    let (_, shown, error) = run(&few);
+    assert!(shown.contains("1 mrad"), "{shown}{error}");
+    let page = std::fs::read_to_string(out.join("wheel-data-sheet-jitter.html")).expect("a page");
+    assert!(page.contains("# --set budget.speed.count=11"));
+    let (code, _, error) = run(&["speed.count=11"]);
+    assert!(code == Some(1) && error.contains("--set budget.speed.count=11"), "{error}");
+    let (code, _, error) = run(&["budget.speed.cuont=11"]);
+    assert!(code == Some(1) && error.contains("cuont") && error.contains("count"), "{error}");
+    let (code, _, error) = run(&["budget.speed.count=11", "hub.maas=3 kg"]);
+    assert!(code == Some(1) && error.contains("maas"), "{error}");
+    std::fs::remove_dir_all(out).expect("it was made");
+}
+
+#[test]
+fn files_of_a_base_in_another_folder_are_beside_the_base() {
+    let out = folder("base");
+    let scenario = out.join("derived.toml");
+    let base = scenarios().join("imaging-satellite-flexible.toml");
+    let text = format!("format = 1\nbase = \"{}\"\ntitle = \"derived\"\n", base.display());
+    std::fs::write(&scenario, text).expect("it is written");
+    let (found, _) = precess::file::from_file(&scenario, &[]).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(found.structure.expect("of the base").modes.len(), 20);
     std::fs::remove_dir_all(out).expect("it was made");
 }

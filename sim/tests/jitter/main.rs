@@ -3,6 +3,10 @@
 mod command;
 mod known;
 mod map;
-mod map_page;
 mod run;
 mod sources;
+
+#[path = "../../examples/imbalance_map/page.rs"]
+mod page;
+#[path = "../../examples/imbalance_map/picture.rs"]
+mod picture;

@@ -1,24 +1,27 @@
-//! docs/imbalance-map.md is fresh, and three of its cells are those of formulas by hand.
+//! docs/imbalance-map.md and its picture are fresh, and three of its cells are those of formulas by hand.
+
+use std::path::Path;
 
 use nalgebra::Complex;
 
-use super::map_page as map;
+use super::page as map;
+use super::picture;
 
 /// What a rigid hub of 1e6 kg and the imbalance in the mass matrix leave of the formulas.
 const NEAR: f64 = 1e-5;
 
 #[test]
-fn the_page_is_fresh() {
+fn the_page_and_its_picture_are_fresh() {
     let page = map::page().expect("every cell");
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/imbalance-map.md");
-    if std::env::var_os("PRECESS_WRITE").is_some() {
-        std::fs::write(path, &page).expect("it is written");
+    let picture = picture::picture().expect("every cell");
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    for (name, made) in [("imbalance-map.md", page), ("imbalance-map.svg", picture)] {
+        let text = std::fs::read_to_string(docs.join(name)).unwrap_or_default();
+        assert!(
+            text == made,
+            "{name} is stale; write it by `cargo run --release -p precess --example imbalance_map`"
+        );
     }
-    let text = std::fs::read_to_string(path).unwrap_or_default();
-    assert!(
-        text == page,
-        "stale; write it by `PRECESS_WRITE=1 cargo test -p precess --test jitter map`"
-    );
 }
 
 #[test]

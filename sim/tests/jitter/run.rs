@@ -124,7 +124,7 @@ duration = "1 s"
 fn the_budget_of_the_scenarios_is_read_and_a_wrong_one_says_everything() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
     let (budget, scenario) =
-        budget_from_toml(&folder.join("budgets/imaging-satellite-jitter.toml"))
+        budget_from_toml(&folder.join("budgets/imaging-satellite-jitter.toml"), &[])
             .unwrap_or_else(|errors| panic!("{errors}"));
     assert_eq!((budget.count, budget.sights.len(), budget.limits.len()), (601, 1, 3));
     assert!(scenario.ends_with("imaging-satellite-flexible.toml"));
@@ -133,7 +133,7 @@ fn the_budget_of_the_scenarios_is_read_and_a_wrong_one_says_everything() {
                 [[line_of_sight]]\nname = \"a\"\n[[line_of_sight]]\nnode = \"b\"\n\
                 [[requirement]]\nmetric = \"smear\"\nlimit = \"3 kg\"\nwindow = 1\n";
     std::fs::write(&wrong, text).expect("it is written");
-    let found = budget_from_toml(&wrong).expect_err("much is wrong").to_string();
+    let found = budget_from_toml(&wrong, &[]).expect_err("much is wrong").to_string();
     std::fs::remove_file(&wrong).expect("it was written");
     for part in [
         "`scenario` is missing",
@@ -153,7 +153,8 @@ fn the_budget_of_the_scenarios_is_read_and_a_wrong_one_says_everything() {
 fn sensitivities_are_shares_and_the_damping_of_the_mode_at_resonance() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../scenarios/budgets/imaging-satellite-jitter.toml");
-    let (budget, scenario) = budget_from_toml(&path).unwrap_or_else(|errors| panic!("{errors}"));
+    let (budget, scenario) =
+        budget_from_toml(&path, &[]).unwrap_or_else(|errors| panic!("{errors}"));
     let (scenario, _) = from_file(&scenario, &[]).unwrap_or_else(|errors| panic!("{errors}"));
     let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &[] };
     let model = Model::new(&scenario, &budget.outputs(), &steady).expect("valid");

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use precess::file::{from_file, from_toml};
 use precess::jitter::model::{HUB, Model, Output};
-use precess::jitter::noise::NoiseSweep;
+use precess::jitter::noise::{Densities, NoiseSweep};
 use precess::jitter::sweep::{Phases, sweep};
 
 use super::known::STEADY;
@@ -49,7 +49,8 @@ fn axial_tones_and_noise_of_a_data_sheet_move_the_hub_by_force_over_mass() {
         }
         assert_eq!(model.density(rate, TAU * 500.0).expect("above zero")[0], 0.0);
     }
-    let noise = NoiseSweep::new(&model, &rates).expect("regular");
+    let densities = rates.map(|rate| Densities::new(&model, rate).expect("regular"));
+    let noise = NoiseSweep { speeds: densities.to_vec() };
     // The mean square acceleration in a band: straight lines between frequencies are exact where it is constant.
     let flat = |w: f64| if (TAU * 5.0..=TAU * 400.0).contains(&w) { w.powi(4) } else { 0.0 };
     let expected =

@@ -1,6 +1,7 @@
 //! Sources of disturbance: what they do to a spacecraft against closed forms, what is refused, and how they
 //! are written.
 
+mod correlated;
 mod errors;
 mod motion;
 mod places;

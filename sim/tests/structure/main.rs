@@ -17,6 +17,7 @@ mod commands;
 mod damaged;
 mod files;
 mod flexible;
+mod left_out;
 mod momentum;
 mod op4;
 mod pyyeti;

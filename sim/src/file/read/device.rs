@@ -30,6 +30,8 @@ pub(super) enum Of {
 /// A device or a platform as a file gives it.
 pub(super) struct Device {
     pub(super) name: String,
+    /// The name of the layout that it is a member of.
+    pub(super) layout: Option<String>,
     pub(super) of: Of,
     /// The name of the platform that it stands on, or `hub`.
     pub(super) on: String,
@@ -56,6 +58,7 @@ impl Device {
     ) -> Self {
         Self {
             name,
+            layout: None,
             of,
             on: on.to_owned(),
             place: None,
@@ -196,8 +199,9 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
     let numbered = places.iter().zip(1..).enumerate();
     numbered
         .filter_map(|(index, (place, number))| {
-            let name = if many { format!("{name}{number}") } else { name.to_owned() };
-            let mut device = device(keys, name, kind, &parameters, &bodies, place)?;
+            let own = if many { format!("{name}{number}") } else { name.to_owned() };
+            let mut device = device(keys, own, kind, &parameters, &bodies, place)?;
+            device.layout = many.then(|| name.to_owned());
             device.node = nodes.as_ref().and_then(|on| on.get(index).or(on.first())).copied();
             device.place = Some(keys.place("on"));
             on.clone_into(&mut device.on);

@@ -125,7 +125,7 @@ fn interpolation(keys: &Keys<'_>) -> Option<Interpolation> {
 
 /// A table in a CSV file: the column `time_s`, and one of values in a unit.
 fn file(keys: &Keys<'_>, measure: Measure, folder: &Path) -> Option<Table> {
-    let name = keys.text("table");
+    let named = keys.file("table", folder);
     let column = keys.text("column");
     let unit = keys.text("unit");
     let interpolation = interpolation(keys);
@@ -134,7 +134,7 @@ fn file(keys: &Keys<'_>, measure: Measure, folder: &Path) -> Option<Table> {
             keys.missing(key, example);
         }
     }
-    let (name, column, unit, interpolation) = (name?, column?, unit?, interpolation?);
+    let ((path, name), column, unit, interpolation) = (named?, column?, unit?, interpolation?);
     let (size, dimension) = match parse_unit(unit) {
         Ok(unit) => unit,
         Err(error) => {
@@ -147,7 +147,7 @@ fn file(keys: &Keys<'_>, measure: Measure, folder: &Path) -> Option<Table> {
         keys.error("unit", format!("`{unit}` is no unit of {name}"), &format!("{usual} is one"));
         return None;
     }
-    match columns(&folder.join(name), &[("time_s", true), (column, true)]) {
+    match columns(&path, &[("time_s", true), (column, true)]) {
         Ok(columns) => {
             let [times, values] = <[Vec<f64>; 2]>::try_from(columns).ok()?;
             let values = values.into_iter().map(|value| value * size).collect();

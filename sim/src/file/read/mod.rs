@@ -30,7 +30,8 @@ use precess_dynamics::Gravity;
 use super::diagnostic::{Diagnostics, Numbers};
 use super::document::Node;
 use super::keys::{Keys, Reports};
-use super::load::{Override, apply, load_file, load_text};
+use super::load::{Override, load_file, load_text};
+use super::overrides::apply;
 pub(crate) use device::{body_key, has_inertia, has_mass, joint_key};
 
 use crate::scenario::{IntegratorChoice, Scenario, ScenarioError, Settings, Source};
@@ -152,6 +153,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let title = keys.text("title").unwrap_or(&name).to_owned();
     let description = keys.text("description").unwrap_or_default().to_owned();
     let structure = structure::structure(&keys, folder);
+    let structure_file = structure::file(&keys, folder);
     let hub = hub::hub(&keys, structure.as_ref());
     let devices = device::devices(&keys, folder, structure.as_ref());
     let devices = platform::with_platforms(&keys, devices, folder);
@@ -202,7 +204,12 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
         settings: settings?,
         output: output?,
         requirements,
-        source: Source { path: path.to_owned(), text, filled: String::new() },
+        source: Source {
+            path: path.to_owned(),
+            text,
+            filled: String::new(),
+            structure: structure_file,
+        },
     })
 }
 

@@ -1,5 +1,6 @@
 //! `[[source]]`: empirical sources of force and torque, by harmonics, spectral densities or records.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use nalgebra::{Matrix3, Vector3};
@@ -10,7 +11,7 @@ use super::joints::Joints;
 use super::mount::rotation_of;
 use super::source_models::{broadband, harmonics, record};
 use super::structure::Structure;
-use crate::disturbance::{Disturbance, JointAxes, Model, SourceTarget};
+use crate::disturbance::{ALWAYS, Disturbance, JointAxes, Model, SourceTarget};
 use crate::scenario::Settings;
 use crate::units::Measure;
 
@@ -23,25 +24,58 @@ pub(super) struct Known<'a> {
     pub(super) folder: &'a Path,
 }
 
-/// The sources of a file.
-pub(super) fn sources(keys: &Keys<'_>, known: &Known<'_>) -> Vec<Disturbance> {
-    keys.tables("source").iter().filter_map(|keys| source(keys, known)).collect()
+/// What a table names, or one of the members of the layout that it names.
+struct Named<'a> {
+    name: Cow<'a, str>,
+    on: Option<Cow<'a, str>>,
+    wheel: Option<Cow<'a, str>>,
 }
 
-fn source(keys: &Keys<'_>, known: &Known<'_>) -> Option<Disturbance> {
+/// The sources of a file.
+pub(super) fn sources(keys: &Keys<'_>, known: &Known<'_>) -> Vec<Disturbance> {
+    keys.tables("source").iter().flat_map(|keys| of_table(keys, known)).collect()
+}
+
+/// The sources of one table: one, or one for each member of a layout that its `on` names.
+fn of_table(keys: &Keys<'_>, known: &Known<'_>) -> Vec<Disturbance> {
     if !keys.has("name") {
         keys.missing("name", "name = \"bearing\"");
     }
-    let name = keys.text("name");
-    let on = target(keys, known);
+    let name = keys.text("name").unwrap_or_default();
+    let [on, wheel] = ["on", "wheel"].map(|key| keys.text(key));
+    let layout = on.map(|on| on.split('.').next().unwrap_or(on));
+    let members =
+        known.devices.iter().filter(|of| of.layout.is_some() && of.layout.as_deref() == layout);
+    let members: Vec<&str> = members.map(|of| of.name.as_str()).collect();
+    if members.is_empty() {
+        let [on, wheel] = [on, wheel].map(|text| text.map(Cow::Borrowed));
+        return source(keys, known, &Named { name: Cow::Borrowed(name), on, wheel })
+            .into_iter()
+            .collect();
+    }
+    let of_member = |(member, number): (&str, usize)| {
+        let own = |text: &str| match text.strip_prefix(layout.unwrap_or_default()) {
+            Some(rest) if rest.is_empty() || rest.starts_with('.') => format!("{member}{rest}"),
+            _ => text.to_owned(),
+        };
+        let [on, wheel] = [on, wheel].map(|text| text.map(|text| Cow::Owned(own(text))));
+        source(keys, known, &Named { name: Cow::Owned(format!("{name}{number}")), on, wheel })
+    };
+    members.into_iter().zip(1..).filter_map(of_member).collect()
+}
+
+fn source(keys: &Keys<'_>, known: &Known<'_>, named: &Named<'_>) -> Option<Disturbance> {
+    let name = named.name.as_ref();
+    let on = target(keys, known, named.on.as_deref());
     let point = keys.vector("point", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
     let axes = [("x", 0), ("y", 1), ("z", 2)];
     let spin_axis = keys.choice("spin_axis", &axes).unwrap_or(0);
-    let named = keys.text("wheel").map(|name| known.joints.find(keys, "wheel", name));
+    let named = named.wheel.as_deref().map(|name| known.joints.find(keys, "wheel", name));
     let fundamental_removed = keys.boolean("fundamental_removed").unwrap_or(false);
     let modes_removed = keys.boolean("modes_removed").unwrap_or(false);
     let seed = if keys.has("seed") { Some(keys.count("seed", 0, u32::MAX)?) } else { None };
-    let model = model(keys, (name.unwrap_or_default(), spin_axis, seed), known);
+    let model = model(keys, (name, spin_axis, seed), known);
+    let window = window(keys);
     keys.finish();
     let (on, own) = on?;
     let wheel = match named {
@@ -49,16 +83,28 @@ fn source(keys: &Keys<'_>, known: &Known<'_>) -> Option<Disturbance> {
         None => own,
     };
     Some(Disturbance {
-        name: name?.to_owned(),
+        name: keys.text("name").map(|_| name.to_owned())?,
         on,
         point,
         spin_axis,
         wheel,
         fundamental_removed,
         modes_removed,
+        window: window?,
         seed,
         model: model?,
     })
+}
+
+/// `from`, `to`: when it acts.
+fn window(keys: &Keys<'_>) -> Option<[f64; 2]> {
+    let mut window = ALWAYS;
+    for (end, key) in window.iter_mut().zip(["from", "to"]) {
+        if keys.has(key) {
+            *end = keys.quantity(key, Measure::TIME)?;
+        }
+    }
+    Some(window)
 }
 
 /// What it exerts: of a name, a spin axis and a seed.
@@ -80,14 +126,18 @@ fn model(keys: &Keys<'_>, of: (&str, usize, Option<u32>), known: &Known<'_>) -> 
 }
 
 /// What it acts on, and the wheel that this has.
-fn target(keys: &Keys<'_>, known: &Known<'_>) -> Option<(SourceTarget, Option<usize>)> {
+fn target(
+    keys: &Keys<'_>,
+    known: &Known<'_>,
+    on: Option<&str>,
+) -> Option<(SourceTarget, Option<usize>)> {
     if !keys.has("on") {
         keys.missing("on", "on = \"rw\"");
     }
     let words = [("body", JointAxes::Body), ("parent", JointAxes::Parent)];
     let axes = keys.choice("axes", &words);
     let mount = if keys.has("mount") { Some(matrix(keys)) } else { None };
-    let name = keys.text("on")?;
+    let name = on?;
     let of_device = known.devices.iter().position(|device| device.name == name);
     let of_node = || known.structure.filter(|structure| structure.has_node(name));
     let own_axes = |keys: &Keys<'_>| {

@@ -1,12 +1,13 @@
 //! What a source exerts: `[[source.harmonic]]`, `[source.broadband]`, `[source.record]`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::super::keys::Keys;
 use super::components::{Given, beside, given};
 use super::table_file::columns;
 use crate::disturbance::{
-    Broadband, COMPONENTS, Harmonic, Measured, MeasuredInterpolation, RecordFile, Six, phases,
+    Broadband, COMPONENTS, CoherentPair, Harmonic, Measured, MeasuredInterpolation, RecordFile,
+    Six, phases,
 };
 use crate::scenario::Settings;
 use crate::units::{Measure, parse_unit};
@@ -97,6 +98,7 @@ pub(super) fn broadband(
     };
     let densities = given(keys, spin_axis, [Measure::FORCE_DENSITY, Measure::MOMENT_DENSITY]);
     let reference_rate = keys.quantity("reference_rate", Measure::ANGULAR_RATE);
+    let pairs: Option<Vec<_>> = keys.tables("coherent").iter().map(coherent).collect();
     keys.finish();
     let densities = densities?;
     if densities.is_empty() {
@@ -110,7 +112,34 @@ pub(super) fn broadband(
         frequencies: frequencies?,
         densities: by_component(densities),
         reference_rate,
+        pairs: pairs?,
     })
+}
+
+/// `[[source.broadband.coherent]]`: `between`, `coherence`, `phase`.
+fn coherent(keys: &Keys<'_>) -> Option<CoherentPair> {
+    for (key, example) in
+        [("between", "between = [\"force_y\", \"moment_z\"]"), ("coherence", "coherence = 0.5")]
+    {
+        if !keys.has(key) {
+            keys.missing(key, example);
+        }
+    }
+    let names = keys.texts("between");
+    let list = |key: &str, measure| match keys.node(key) {
+        Some(node) => keys.values_of(node, key, measure),
+        None => Some(vec![0.0]),
+    };
+    let (coherence, phase) = (list("coherence", Measure::NUMBER), list("phase", Measure::ANGLE));
+    keys.finish();
+    let known = |name: &&str| COMPONENTS.iter().position(|component| component == name);
+    let components: Option<Vec<usize>> = names?.iter().map(known).collect();
+    let Some(&[first, second]) = components.as_deref() else {
+        let help = format!("name two of {}", COMPONENTS.join(", "));
+        keys.error("between", "coherence is between two components", &help);
+        return None;
+    };
+    Some(CoherentPair { components: [first, second], coherence: coherence?, phase: phase? })
 }
 
 fn by_component(given: Vec<Given>) -> Six<Vec<f64>> {
@@ -186,14 +215,16 @@ fn file(keys: &Keys<'_>, folder: &Path) -> Option<Rows> {
         }
         return None;
     }
-    let read = |name: &str| {
+    let read = |(path, name): (PathBuf, String)| {
         let names: Vec<_> = [(time, true)].into_iter().chain(names).collect();
-        let found = columns(&folder.join(name), &names);
-        found.map_err(|message| keys.error("file", format!("{name}: {message}"), "")).ok()
+        let found = columns(&path, &names);
+        let found = found.map_err(|message| keys.error("file", format!("{name}: {message}"), ""));
+        Some((found.ok()?, name))
     };
-    let found = keys.text("file").and_then(read);
+    let found = keys.file("file", folder).and_then(read);
     let ((force, force_unit), (moment, moment_unit)) = (force?, moment?);
-    let mut columns = found?.into_iter();
+    let (columns, name) = found?;
+    let mut columns = columns.into_iter();
     let times = columns.next()?;
     let mut values: Six<Vec<f64>> = Default::default();
     for ((index, to), column) in values.iter_mut().enumerate().zip(columns) {
@@ -205,7 +236,7 @@ fn file(keys: &Keys<'_>, folder: &Path) -> Option<Rows> {
         .zip(&values)
         .map(|((name, _), values)| (!values.is_empty()).then(|| (*name).to_owned()));
     let file = RecordFile {
-        name: keys.text("file")?.to_owned(),
+        name,
         time: time.to_owned(),
         columns: std::array::from_fn(|_| of_file.next().flatten()),
         units: [force_unit, moment_unit].map(str::to_owned),

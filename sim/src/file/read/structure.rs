@@ -85,10 +85,16 @@ fn nothing() -> Modes {
     }
 }
 
+/// The name of the file, from the scenario's folder.
+pub(super) fn file(root: &Keys<'_>, folder: &Path) -> Option<String> {
+    let keys = root.table("structure")?;
+    if keys.has("file") { Some(keys.file("file", folder)?.1) } else { None }
+}
+
 /// The file, with every error of a table that it is.
 fn of_file(keys: &Keys<'_>, folder: &Path) -> Option<Modes> {
-    let file = keys.text("file")?;
-    match from_file(&folder.join(file)) {
+    let (path, _) = keys.file("file", folder)?;
+    match from_file(&path) {
         Ok(structure) => Some(structure),
         Err(ReadError::File(error)) => {
             keys.error("file", error.to_string(), "");

@@ -37,6 +37,11 @@ pub(super) fn write(out: &mut String, s: &Scenario, of: &Disturbance) -> Written
     if let Some(seed) = of.seed {
         writeln!(out, "seed = {seed}")?;
     }
+    for (key, end) in ["from", "to"].into_iter().zip(of.window) {
+        if end.is_finite() {
+            writeln!(out, "{key} = \"{end:?} s\"")?;
+        }
+    }
     match &of.model {
         Model::Harmonic(harmonics) => harmonics.iter().try_for_each(|of| harmonic(out, of)),
         Model::Broadband(of) => broadband(out, of),
@@ -68,10 +73,15 @@ fn broadband(out: &mut String, of: &Broadband) -> Written {
         writeln!(out, "frequencies = {}", list(&of.frequencies, "Hz"))?;
     }
     components(out, &of.densities, ["N^2/Hz", "N^2 m^2/Hz"])?;
-    match of.reference_rate {
-        Some(rate) => writeln!(out, "reference_rate = \"{rate:?} rad/s\""),
-        None => Ok(()),
+    if let Some(rate) = of.reference_rate {
+        writeln!(out, "reference_rate = \"{rate:?} rad/s\"")?;
     }
+    of.pairs.iter().try_for_each(|pair| {
+        let [a, b] = pair.components.map(|of| COMPONENTS.get(of).copied().unwrap_or_default());
+        writeln!(out, "\n[[source.broadband.coherent]]\nbetween = [\"{a}\", \"{b}\"]")?;
+        writeln!(out, "coherence = {}", list(&pair.coherence, ""))?;
+        writeln!(out, "phase = {}", list(&pair.phase, "rad"))
+    })
 }
 
 fn record(out: &mut String, of: &Measured) -> Written {
@@ -106,5 +116,5 @@ fn components(out: &mut String, of: &Six<Vec<f64>>, units: [&str; 2]) -> Written
 
 fn list(numbers: &[f64], unit: &str) -> String {
     let numbers: Vec<_> = numbers.iter().map(|number| format!("{number:?}")).collect();
-    format!("\"{} {unit}\"", numbers.join(", "))
+    format!("\"{}\"", format!("{} {unit}", numbers.join(", ")).trim_end())
 }

@@ -1,0 +1,295 @@
+//! Overrides of the command line over a tree: `hub.mass="900 kg"`, `device.cmg1.wheel.rate="100 rpm"`.
+//!
+//! | key | what it replaces |
+//! |---|---|
+//! | `hub.mass` | a key; a member of a list of tables goes by its name |
+//! | `device.rw*.wheel.rate` | that of all names that match; `*` stands for any letters |
+//! | `hub.mass+device.rw.wheel.mass` | each of them |
+//! | `hub.inertia[2]` | the second number of a vector that the file has; also `[x]`, `[y]`, `[z]` |
+//!
+//! Keys with quotation marks are keys as they are.
+
+use super::diagnostic::{Diagnostics, Numbers};
+use super::document::{Entry, Node, Table, Value, parse};
+use super::load::{Override, named};
+use crate::units::parse_quantity;
+
+/// Puts overrides over a tree; `numbers` is what a number without a unit is in them.
+pub(super) fn apply(
+    node: &mut Node,
+    (overrides, numbers): (&[Override], Numbers),
+    reports: &mut Diagnostics,
+) {
+    for text in overrides {
+        match plain(node, text) {
+            Ok(texts) => texts.iter().for_each(|text| one(node, (text, numbers), reports)),
+            Err((message, help)) => {
+                reports.error_anywhere(format!("--set {text}: {message}"), &help);
+            }
+        }
+    }
+}
+
+/// What is wrong, and the remedy.
+type Wrong = (String, String);
+
+/// Puts an override of one key over a tree.
+fn one(node: &mut Node, (text, numbers): (&str, Numbers), reports: &mut Diagnostics) {
+    let before = reports.all.len();
+    let parsed = parse(&format!("--set {text}"), text, numbers, reports);
+    if reports.all.len() > before {
+        return;
+    }
+    if let (Value::Table(tree), Value::Table(new)) = (&mut node.value, parsed.value) {
+        over(tree, new, reports);
+    }
+}
+
+/// Overrides of one key each, without signs that stand for several.
+fn plain(tree: &Node, text: &str) -> Result<Vec<String>, Wrong> {
+    let Some((key, value)) = text.split_once('=') else { return Ok(vec![text.to_owned()]) };
+    if key.contains(['"', '\'']) || !key.contains(['*', '+', '[']) {
+        return Ok(vec![text.to_owned()]);
+    }
+    let each = keys_of(tree, key)?.into_iter().map(|key| match key.split_once('[') {
+        None => Ok(format!("{key} ={value}")),
+        Some((vector, index)) => component(tree, vector, index, value.trim()),
+    });
+    each.collect()
+}
+
+/// The keys that a key with `+` and `*` stands for.
+pub(super) fn keys_of(tree: &Node, key: &str) -> Result<Vec<String>, Wrong> {
+    let mut found = Vec::new();
+    for key in key.split('+').map(str::trim) {
+        let (path, index) = key.split_at(key.find('[').unwrap_or(key.len()));
+        let parts: Vec<&str> = path.split('.').collect();
+        let mut matching = Vec::new();
+        descend(Some(tree), &parts, "", &mut matching)?;
+        for path in matching {
+            let key = format!("{path}{index}");
+            if !found.contains(&key) {
+                found.push(key);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// Names under a node: keys of a table, names of a list of tables.
+fn names(node: &Node) -> Vec<&str> {
+    match &node.value {
+        Value::Table(table) => table.entries.iter().map(|entry| entry.key.as_str()).collect(),
+        Value::List(list) => list.iter().filter_map(Node::name).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn child<'a>(node: &'a Node, name: &str) -> Option<&'a Node> {
+    match &node.value {
+        Value::Table(table) => table.get(name).map(|entry| &entry.node),
+        Value::List(list) => list.iter().find(|member| member.name() == Some(name)),
+        _ => None,
+    }
+}
+
+fn descend(
+    node: Option<&Node>,
+    parts: &[&str],
+    path: &str,
+    found: &mut Vec<String>,
+) -> Result<(), Wrong> {
+    let Some((part, rest)) = parts.split_first() else {
+        found.push(path.to_owned());
+        return Ok(());
+    };
+    let join = |name: &str| {
+        if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
+    };
+    if !part.contains('*') {
+        return descend(node.and_then(|node| child(node, part)), rest, &join(part), found);
+    }
+    let known = node.map(names).unwrap_or_default();
+    let matching: Vec<&str> = known.iter().copied().filter(|name| matches(part, name)).collect();
+    if matching.is_empty() {
+        let help = if known.is_empty() {
+            "write the names out".to_owned()
+        } else {
+            format!("there are {}", known.join(", "))
+        };
+        return Err((format!("nothing matches `{}`", join(part)), help));
+    }
+    for name in matching {
+        descend(node.and_then(|node| child(node, name)), rest, &join(name), found)?;
+    }
+    Ok(())
+}
+
+/// Whether a name is that of a pattern, in which `*` stands for any letters.
+fn matches(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((before, rest)) => name.strip_prefix(before).is_some_and(|name| {
+            name.char_indices()
+                .map(|(at, _)| at)
+                .chain([name.len()])
+                .any(|at| name.get(at..).is_some_and(|end| matches(rest, end)))
+        }),
+    }
+}
+
+/// The override of a whole vector, with another value of one component.
+fn component(tree: &Node, vector: &str, index: &str, value: &str) -> Result<String, Wrong> {
+    let wrong = |message: String, help: &str| (message, help.to_owned());
+    let index = index.trim_end().strip_suffix(']').unwrap_or_default().trim();
+    let number = match index {
+        "x" => Some(1),
+        "y" => Some(2),
+        "z" => Some(3),
+        _ => index.parse::<usize>().ok().filter(|number| *number > 0),
+    };
+    let Some(number) = number else {
+        return Err(wrong(
+            format!("`[{index}]` is no component"),
+            "write [1], [2].. or [x], [y], [z]",
+        ));
+    };
+    let node = vector.split('.').try_fold(tree, child);
+    let Some(node) = node else {
+        let help = "write the whole vector into the file";
+        return Err(wrong(format!("`{vector}` is not written in the file"), help));
+    };
+    let few = |found: usize| {
+        wrong(format!("`{vector}` has {found} numbers"), "name one of them, counted from 1")
+    };
+    match &node.value {
+        Value::List(list) => {
+            let number_of = |node: &Node| match node.value {
+                Value::Number(number, _) => Some(format!("{number:?}")),
+                _ => None,
+            };
+            let texts: Option<Vec<String>> = list.iter().map(number_of).collect();
+            let mut texts = texts.ok_or_else(|| {
+                wrong(format!("`{vector}` is no list of numbers"), "name another key")
+            })?;
+            let found = texts.len();
+            value.clone_into(texts.get_mut(number - 1).ok_or_else(|| few(found))?);
+            Ok(format!("{vector} = [{}]", texts.join(", ")))
+        }
+        Value::Text(text) => {
+            let value = value.trim_matches(['"', '\'']);
+            let parsed = |text: &str| {
+                parse_quantity(text).map_err(|error| wrong(format!("`{text}`: {}", error.kind), ""))
+            };
+            let (old, new) = (parsed(text)?, parsed(value)?);
+            let [new_si] = new.values[..] else {
+                return Err(wrong(format!("`{value}` is not one number"), "write one number"));
+            };
+            if old.dimension != new.dimension {
+                let message = format!("`{value}` is of another dimension than `{text}`");
+                return Err(wrong(message, "write it in a unit of the vector"));
+            }
+            let size = parsed(&format!("1 {}", old.unit))?.values.first().copied().unwrap_or(1.0);
+            let numbers = text.trim().strip_suffix(old.unit.as_str()).unwrap_or(text);
+            let mut parts: Vec<String> =
+                numbers.split(',').map(|part| part.trim().to_owned()).collect();
+            let found = parts.len();
+            let place = parts.get_mut(number - 1).ok_or_else(|| few(found))?;
+            *place = if old.unit == new.unit {
+                value.strip_suffix(new.unit.as_str()).unwrap_or(value).trim().to_owned()
+            } else {
+                format!("{:?}", new_si / size)
+            };
+            Ok(format!("{vector} = \"{} {}\"", parts.join(", "), old.unit))
+        }
+        other => Err(wrong(format!("`{vector}` is {}", other.what()), "name a vector")),
+    }
+}
+
+/// As a merge of two files, but a table over a list of tables with names goes to the member of each name.
+fn over(below: &mut Table, above: Table, reports: &mut Diagnostics) {
+    for entry in above.entries {
+        let Entry { key, key_span, node } = entry;
+        let Some(old) = below.get_mut(&key) else {
+            below.entries.push(Entry { key, key_span, node });
+            continue;
+        };
+        match (&mut old.node.value, node.value) {
+            (Value::Table(old), Value::Table(new)) => over(old, new, reports),
+            (Value::List(old), Value::Table(new)) if named(old) => over_named(old, new, reports),
+            (old_value, new) => {
+                *old_value = new;
+                old.node.span = node.span;
+                old.key_span = key_span;
+            }
+        }
+    }
+}
+
+fn over_named(members: &mut [Node], above: Table, reports: &mut Diagnostics) {
+    for Entry { key, key_span, node } in above.entries {
+        let known: Vec<_> = members.iter().filter_map(Node::name).map(str::to_owned).collect();
+        let member = members.iter_mut().find(|member| member.name() == Some(&key));
+        match (member, node.value) {
+            (Some(Node { value: Value::Table(old), .. }), Value::Table(new)) => {
+                over(old, new, reports);
+            }
+            (Some(_), other) => {
+                let message = format!("`{key}` is a table, and not {}", other.what());
+                reports.error(&node.span, message, "", "name one of its keys");
+            }
+            (None, _) => {
+                let help = format!("there are {}", known.join(", "));
+                reports.error(&key_span, format!("nothing is named `{key}`"), "", &help);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "[hub]\ninertia = \"1, 2.5, 3 kg m^2\"\naxis = [0, 0, 1]\n[[device]]\n\
+                        name = \"rw1\"\n[[device]]\nname = \"rw2\"\n[[device]]\nname = \"cmg\"\n";
+
+    fn tree() -> Node {
+        parse("bus.toml", TEXT, &mut Diagnostics::default())
+    }
+
+    #[test]
+    fn one_key_stands_for_several() {
+        let both =
+            |value: &str| ["rw1", "rw2"].map(|name| format!("device.{name}.wheel.rate ={value}"));
+        let found = plain(&tree(), "device.rw*.wheel.rate= \"5 rpm\"").expect("two");
+        assert_eq!(found, both(" \"5 rpm\""));
+        let found = plain(&tree(), "device.rw1.wheel.rate + device.rw2.wheel.rate=1");
+        assert_eq!(found.expect("two"), both("1"));
+        let error = plain(&tree(), "device.panel*.mass=1").expect_err("none");
+        assert!(
+            error.0.contains("device.panel*") && error.1.contains("rw1, rw2, cmg"),
+            "{error:?}"
+        );
+        assert!(matches("a*c*", "abcd") && matches("*", "") && !matches("a*c", "abd"));
+    }
+
+    #[test]
+    fn a_component_of_a_vector_is_replaced_and_the_others_keep_their_digits() {
+        for (text, expected) in [
+            ("hub.inertia[2]=\"7 kg m^2\"", "hub.inertia = \"1, 7, 3 kg m^2\""),
+            ("hub.inertia[z]=\"7000 g m^2\"", "hub.inertia = \"1, 2.5, 7.0 kg m^2\""),
+            ("hub.axis[1]=0.5", "hub.axis = [0.5, 0.0, 1.0]"),
+        ] {
+            assert_eq!(plain(&tree(), text).expect(text), [expected]);
+        }
+        for (text, part) in [
+            ("hub.inertia[4]=\"7 kg m^2\"", "has 3 numbers"),
+            ("hub.inertia[0]=\"7 kg m^2\"", "no component"),
+            ("hub.inertia[1]=\"7 kg\"", "another dimension"),
+            ("hub.position[1]=\"7 m\"", "not written in the file"),
+            ("hub[1]=\"7 m\"", "is a table"),
+        ] {
+            assert!(plain(&tree(), text).expect_err(text).0.contains(part), "{text}");
+        }
+    }
+}
