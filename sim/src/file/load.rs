@@ -10,7 +10,7 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use super::diagnostic::{Diagnostics, Numbers, Span};
-use super::document::{Entry, Node, TEXT_MAX, Table, Value, parse};
+use super::document::{Node, TEXT_MAX, Table, Value, parse};
 
 /// Files based on files based on files: no deeper than this.
 const DEPTH_MAX: usize = 16;

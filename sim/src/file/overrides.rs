@@ -254,7 +254,7 @@ mod tests {
                         name = \"rw1\"\n[[device]]\nname = \"rw2\"\n[[device]]\nname = \"cmg\"\n";
 
     fn tree() -> Node {
-        parse("bus.toml", TEXT, &mut Diagnostics::default())
+        parse("bus.toml", TEXT, Numbers::WithUnits, &mut Diagnostics::default())
     }
 
     #[test]
