@@ -3,7 +3,9 @@
 //! It contains no physics: it converts arrays and names, and calls the crate `precess`. Public classes are
 //! in Python (`precess/`); this module is theirs alone.
 
+mod campaign;
 mod errors;
+mod jitter;
 mod outcome;
 mod run;
 mod scenario;
@@ -13,6 +15,13 @@ use pyo3::prelude::*;
 /// The native module.
 #[pymodule(gil_used = false)]
 mod _native {
+    #[pymodule_export]
+    use super::campaign::{
+        estimate_percentile, estimate_probability, limits, plan_keys, plan_of_axes, plan_of_draws,
+        plan_of_probabilities, rank_correlation, row, row_fields,
+    };
+    #[pymodule_export]
+    use super::jitter::{NativeBudget, jitter_budget};
     #[pymodule_export]
     use super::outcome::NativeResult;
     #[pymodule_export]
