@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import cloudpickle
 import distributed
 from distributed.comm import CommClosedError
 
@@ -61,13 +62,15 @@ def evaluate(
     security = None if given is None else given.security
     pending = {part.name: part for part in missing}
     alone: set[str] = set()
-    own: distributed.Client | None = None
+    own: Any = None
     try:
         while pending:
             if given is None and own is None:
                 own = _connected(address, security, patience)
             try:
-                _round(given or own, job, bundle, plan, pending, alone, finished)
+                # For this thread only: `as_completed` asks for the client.
+                with (given or own).as_current():
+                    _round(given or own, job, bundle, plan, pending, alone, finished)
             except _Lost:
                 # The client of the caller is of a scheduler that is gone.
                 given = None
@@ -90,13 +93,16 @@ def _round(
 ) -> None:
     """Gives every pending partition to the scheduler, and takes rows as they come."""
 
+    # By value where the function of a job is in a notebook; the scheduler does not import it.
+    packed = cloudpickle.dumps(job)
+
     def submit(part: Partition) -> Any:
         isolated = part.name in alone
         key = f"precess-{part.name}-{'isolated' if isolated else 'shared'}"
         samples = part.samples(plan)
         # Earlier partitions first.
         return client.submit(
-            _rows, job, files, samples, isolated, key=key, priority=-part.start, pure=True
+            _rows, packed, files, samples, isolated, key=key, priority=-part.start, pure=True
         )
 
     try:
@@ -163,10 +169,11 @@ def _same(bundle: Bundle) -> Bundle:
     return bundle
 
 
-def _rows(job: Job, bundle: Bundle, samples: list[tuple[str, ...]], isolated: bool) -> list[Row]:
+def _rows(packed: bytes, bundle: Bundle, samples: list[tuple[str, ...]], isolated: bool) -> list[Row]:
     """On a worker."""
     from .. import __version__
 
+    job: Job = cloudpickle.loads(packed)
     if job.version != __version__:
         raise VersionError(
             f"a worker has precess {__version__}, the client {job.version}; install one version on both"
