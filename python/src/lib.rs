@@ -4,9 +4,11 @@
 //! in Python (`precess/`); this module is theirs alone.
 
 mod batch;
+mod campaign;
 mod errors;
 mod evaluator;
 mod inputs;
+mod jitter;
 mod outcome;
 mod run;
 mod scenario;
@@ -22,6 +24,13 @@ mod _native {
     use super::evaluator::NativeEvaluator;
     #[pymodule_export]
     use super::inputs::NativeInputs;
+    #[pymodule_export]
+    use super::campaign::{
+        estimate_percentile, estimate_probability, limits, plan_keys, plan_of_axes, plan_of_draws,
+        plan_of_probabilities, rank_correlation, row, row_fields,
+    };
+    #[pymodule_export]
+    use super::jitter::{NativeBudget, jitter_budget};
     #[pymodule_export]
     use super::outcome::NativeResult;
     #[pymodule_export]

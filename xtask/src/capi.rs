@@ -10,14 +10,15 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{cargo, root, say, target};
+use crate::run::{cargo, is_there, output, root, say, target};
 use crate::skip::skip;
 
 /// Warnings, each an error.
 const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-ffp-contract=off"];
 /// The workspace of what is linked on board.
 pub(crate) const MANIFEST: &str = "flight/Cargo.toml";
-const HEADER: &str = "flight/capi/include/precess.h";
+/// Its header.
+pub(crate) const HEADER: &str = "flight/capi/include/precess.h";
 const LAYOUTS: [(&str, &str); 2] =
     [("layout", "flight/capi/tests/layout.c"), ("layout-v2", "flight/capi/tests/layout_v2.c")];
 /// A program of version 1 of the interface.
@@ -26,7 +27,8 @@ const PROGRAM: &[&str] = &["flight/capi/tests/abi.c"];
 const PROGRAM_2: &[&str] = &["flight/capi/tests/version2.c", "flight/capi/tests/version1.c"];
 /// A program of platforms, which version 2 has.
 const PLATFORMS: &[&str] = &["flight/capi/tests/platforms.c"];
-const GUIDE: &str = "flight/README.md";
+/// How the library is linked.
+pub(crate) const GUIDE: &str = "flight/README.md";
 const APP: &[&str] = &["flight/examples/cfs_app/main.c", "flight/examples/cfs_app/dyn_app.c"];
 /// What the application prints.
 const APP_OUTPUT: &str = "flight/examples/cfs_app/expected.txt";
@@ -281,26 +283,14 @@ fn functions(header: &str) -> impl Iterator<Item = &str> {
     declared.chain(renamed)
 }
 
-fn is_there(program: &str) -> bool {
-    Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
-}
-
 fn read(path: &Path) -> Result<String, String> {
     std::fs::read_to_string(path)
         .map_err(|error| format!("cannot read {}: {error}", path.display()))
 }
 
-/// What a program prints, if it succeeds.
+/// What a program prints in the root, if it succeeds.
 fn printed(command: &mut Command) -> Result<String, String> {
-    let line = format!("{command:?}").replace('"', "");
-    let output = command.current_dir(root()).output();
-    let output = output.map_err(|error| format!("`{line}` did not start: {error}"))?;
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    if output.status.success() {
-        return Ok(text);
-    }
-    let errors = String::from_utf8_lossy(&output.stderr);
-    Err(format!("`{line}` failed ({}):\n{text}{errors}", output.status))
+    output(command.current_dir(root()))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod callgrind;
 mod capi;
 mod check;
 mod demo;
+mod dist;
 mod engines;
 mod files;
 mod flight;
@@ -87,12 +88,22 @@ enum Command {
     /// Build the library for flight software, and test it from C and C++
     #[command(after_help = "Example: cargo xtask capi")]
     Capi,
+    /// Build what is distributed: sources, crates, C library, Python package; install each in an empty
+    /// place and run its first example
+    #[command(
+        after_help = "Examples: cargo xtask dist --check\n          cargo xtask dist --only precess-c-"
+    )]
+    Dist(dist::Options),
     /// Derive, prove, solve the paper's scenario and draw the report
     #[command(after_help = "Example: cargo xtask demo")]
     Demo,
 }
 
 fn main() -> ExitCode {
+    // Cargo starts this program in place of rustc when `dist` builds.
+    if let Some(code) = dist::called() {
+        return code;
+    }
     let done = match Arguments::parse().command {
         Command::Regen(options) => regen::regen(&options),
         Command::Bake(options) => bake::bake(&options),
@@ -107,6 +118,7 @@ fn main() -> ExitCode {
         Command::Instructions(options) => instructions::instructions(&options),
         Command::Flight(options) => flight::flight(&options),
         Command::Capi => capi::host(),
+        Command::Dist(options) => dist::dist(&options),
         Command::Demo => demo::demo(),
     };
     match done {

@@ -36,13 +36,35 @@ pub(crate) fn cargo(arguments: &[&str]) -> Result<(), String> {
 
 /// Runs a program in the root and waits for it.
 pub(crate) fn run(command: &mut Command) -> Result<(), String> {
+    run_there(command.current_dir(root()))
+}
+
+/// Runs a program in the folder that the command states, and waits for it.
+pub(crate) fn run_there(command: &mut Command) -> Result<(), String> {
     let line = shown(command);
     eprintln!("$ {line}");
-    match command.current_dir(root()).status() {
+    match command.status() {
         Ok(status) if status.success() => Ok(()),
         Ok(status) => Err(format!("`{line}` failed ({status})")),
         Err(error) => Err(format!("`{line}` did not start: {error}")),
     }
+}
+
+/// What a program prints in the folder that the command states, if it succeeds.
+pub(crate) fn output(command: &mut Command) -> Result<String, String> {
+    let line = shown(command);
+    let output = command.output().map_err(|error| format!("`{line}` did not start: {error}"))?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    if output.status.success() {
+        return Ok(text);
+    }
+    let errors = String::from_utf8_lossy(&output.stderr);
+    Err(format!("`{line}` failed ({}):\n{text}{errors}", output.status))
+}
+
+/// Whether a program is on this machine: it states its version.
+pub(crate) fn is_there(program: &str) -> bool {
+    Command::new(program).arg("--version").output().is_ok_and(|output| output.status.success())
 }
 
 /// A command as one would type it: its program without its folder.

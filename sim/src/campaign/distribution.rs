@@ -132,6 +132,66 @@ pub fn draw(
     seed: u64,
     latin: bool,
 ) -> Result<Plan, CampaignError> {
+    check(variations, samples)?;
+    let orders: Vec<Vec<usize>> = variations
+        .iter()
+        .map(|of| if latin { parts(seed, samples, &of.key) } else { Vec::new() })
+        .collect();
+    let sample = |index: usize| {
+        let probability = |(of, order): (&Variation, &Vec<usize>)| {
+            let number = uniform(seed, index, &of.key);
+            match order.get(index) {
+                Some(part) => (float(*part) + number) / float(samples),
+                None => number,
+            }
+        };
+        let probabilities: Vec<f64> = variations.iter().zip(&orders).map(probability).collect();
+        at(variations, &probabilities)
+    };
+    let count = if latin { format!(" of {samples}") } else { String::new() };
+    Ok(Plan {
+        labels: variations.iter().map(Variation::label).collect(),
+        samples: (0..samples).map(sample).collect(),
+        identity: format!("montecarlo {seed}{count} {variations:?}"),
+    })
+}
+
+/// The sample at a probability of each distribution.
+fn at(variations: &[Variation], probabilities: &[f64]) -> Sample {
+    let pairs = variations.iter().zip(probabilities);
+    let values: Vec<f64> = pairs.map(|(of, share)| of.distribution.quantile(*share)).collect();
+    let pairs = variations.iter().zip(&values);
+    let overrides = pairs.map(|(of, value)| set(&of.key, *value, &of.unit)).collect();
+    Sample { values, overrides }
+}
+
+impl Plan {
+    /// Samples at given probabilities, one for each distribution: of a low-discrepancy sequence, for example.
+    ///
+    /// # Errors
+    /// No samples or too many, two distributions of one key, or a probability that is not between zero and one.
+    pub fn of_probabilities(
+        variations: &[Variation],
+        probabilities: &[Vec<f64>],
+    ) -> Result<Self, CampaignError> {
+        check(variations, probabilities.len())?;
+        let keys = variations.len();
+        let within = |row: &Vec<f64>| {
+            row.len() == keys && row.iter().all(|share| *share > 0.0 && *share < 1.0)
+        };
+        if let Some(sample) = probabilities.iter().position(|row| !within(row)) {
+            return Err(CampaignError::Probabilities { sample, keys });
+        }
+        Ok(Self {
+            labels: variations.iter().map(Variation::label).collect(),
+            samples: probabilities.iter().map(|row| at(variations, row)).collect(),
+            identity: format!("probabilities {probabilities:?} {variations:?}"),
+        })
+    }
+}
+
+/// Rejects no samples or too many, and two distributions of one key.
+fn check(variations: &[Variation], samples: usize) -> Result<(), CampaignError> {
     if samples == 0 || samples > SAMPLES_MAX || variations.is_empty() {
         let found = if variations.is_empty() { 0 } else { samples };
         return Err(CampaignError::Samples { found, most: SAMPLES_MAX });
@@ -141,30 +201,7 @@ pub fn draw(
             return Err(CampaignError::Twice(of.key.clone()));
         }
     }
-    let orders: Vec<Vec<usize>> = variations
-        .iter()
-        .map(|of| if latin { parts(seed, samples, &of.key) } else { Vec::new() })
-        .collect();
-    let sample = |index: usize| {
-        let value = |(of, order): (&Variation, &Vec<usize>)| {
-            let number = uniform(seed, index, &of.key);
-            let probability = match order.get(index) {
-                Some(part) => (float(*part) + number) / float(samples),
-                None => number,
-            };
-            of.distribution.quantile(probability)
-        };
-        let values: Vec<f64> = variations.iter().zip(&orders).map(value).collect();
-        let pairs = variations.iter().zip(&values);
-        let overrides = pairs.map(|(of, value)| set(&of.key, *value, &of.unit)).collect();
-        Sample { values, overrides }
-    };
-    let count = if latin { format!(" of {samples}") } else { String::new() };
-    Ok(Plan {
-        labels: variations.iter().map(Variation::label).collect(),
-        samples: (0..samples).map(sample).collect(),
-        identity: format!("montecarlo {seed}{count} {variations:?}"),
-    })
+    Ok(())
 }
 
 impl Variation {
@@ -223,6 +260,17 @@ mod tests {
         assert!((share - 1.0 / 3.0).abs() < ERRORS * (2.0 / 9.0 / float(COUNT)).sqrt());
         let phases = plan(Distribution::Phase, COUNT, false);
         assert!(phases.iter().all(|phase| (0.0..360.0).contains(phase)));
+    }
+
+    #[test]
+    fn samples_at_probabilities_are_quantiles() {
+        let distribution = Distribution::Uniform([2.0, 4.0]);
+        let of = [Variation { key: "hub.mass".into(), unit: "kg".into(), distribution }];
+        let plan = Plan::of_probabilities(&of, &[vec![0.5], vec![0.25]]).expect("a plan");
+        assert_eq!(plan.samples[0].overrides, ["hub.mass = \"3 kg\""]);
+        assert_eq!(plan.samples[1].values, [2.5]);
+        assert!(Plan::of_probabilities(&of, &[vec![1.0]]).is_err());
+        assert!(Plan::of_probabilities(&of, &[vec![0.5, 0.5]]).is_err());
     }
 
     #[test]

@@ -10,6 +10,7 @@ use super::journal::kept;
 use super::{CampaignError, Journal, Plan, Reducer, Selection};
 use crate::engine::{End, run};
 use crate::file::{Override, Template};
+use crate::scenario::Scenario;
 
 /// A finished sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,13 +137,35 @@ fn reduced(
 ) -> Option<Result<Vec<f64>, String>> {
     let own = execution.plan.samples.get(sample).map_or(&[][..], |sample| &sample.overrides);
     let overrides: Vec<Override> = execution.overrides.iter().chain(own).cloned().collect();
-    let mut scenario = match execution.template.scenario(&overrides) {
+    let scenario = match execution.template.scenario(&overrides) {
         Ok((scenario, _)) => scenario,
         // The rest of a diagnostic shows where in the text.
         Err(errors) => return Some(Err(first_message(&errors))),
     };
-    scenario.output.columns.clone_from(&execution.selection.columns);
-    let mut reducer = Reducer::new(&scenario, execution.selection);
+    let row = match run_reduced(scenario, execution.selection, cancelled)? {
+        Ok(row) => row,
+        Err(message) => return Some(Err(message)),
+    };
+    if row.len() != execution.fields {
+        return Some(Err(format!(
+            "{} numbers, where other samples have {}; vary no key that adds columns",
+            row.len(),
+            execution.fields
+        )));
+    }
+    Some(Ok(row))
+}
+
+/// The numbers of one run, those of [`Selection::fields`], or why there are none; none of both where it was cancelled. Only what
+/// is selected is recorded.
+#[must_use]
+pub fn run_reduced(
+    mut scenario: Scenario,
+    selection: &Selection,
+    cancelled: &dyn Fn() -> bool,
+) -> Option<Result<Vec<f64>, String>> {
+    scenario.output.columns.clone_from(&selection.columns);
+    let mut reducer = Reducer::new(&scenario, selection);
     let outcome = run(&scenario, &mut reducer, &mut |_| {
         if cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
@@ -157,15 +180,7 @@ fn reduced(
         }
         End::Finished | End::EndStop { .. } | End::Crossing { .. } => {}
     }
-    let row = reducer.row().unwrap_or_default();
-    if row.len() != execution.fields {
-        return Some(Err(format!(
-            "{} numbers, where other samples have {}; vary no key that adds columns",
-            row.len(),
-            execution.fields
-        )));
-    }
-    Some(Ok(row))
+    Some(Ok(reducer.row().unwrap_or_default()))
 }
 
 fn first_message(errors: &crate::file::Diagnostics) -> String {

@@ -32,6 +32,13 @@ pub enum CampaignError {
     },
     /// Two axes are of one key.
     Twice(String),
+    /// A sample is no list of probabilities, one for each distribution.
+    Probabilities {
+        /// The sample, from 0.
+        sample: usize,
+        /// Distributions.
+        keys: usize,
+    },
     /// The table of results would have too many numbers.
     Size {
         /// Samples.
@@ -77,6 +84,10 @@ impl fmt::Display for CampaignError {
                     "two axes are of the key `{key}`; name two keys, or list values in one axis"
                 )
             }
+            Self::Probabilities { sample, keys } => write!(
+                f,
+                "sample {sample} is not of {keys} probabilities between zero and one; state one for each key"
+            ),
             Self::Size { samples, fields } => write!(
                 f,
                 "{samples} samples of {fields} numbers are more than {}; take fewer samples, lines or \

@@ -6,7 +6,7 @@
 //! | `plan` | [`Plan`]: the samples of a campaign, and the digest that names it |
 //! | `reduce` | [`Reducer`]: samples of one run into a row of numbers, in bounded memory |
 //! | `journal` | [`Journal`]: a checksummed record of each finished sample, for a campaign that is killed |
-//! | `engine` | [`execute`]: the samples that are missing, on any number of threads |
+//! | `engine` | [`execute`]: the samples that are missing, on any number of threads; [`run_reduced`]: one run |
 //! | `table` | the rows as CSV and NPZ |
 //! | `distribution` | [`Variation`]: a key and its distribution; [`draw`]: seeded samples |
 //! | `inference` | [`percentile`], [`probability`], [`spearman`] |
@@ -32,7 +32,7 @@ mod tangent;
 
 pub use axis::{Axis, Spacing, is_key};
 pub use distribution::{Distribution, Variation, draw};
-pub use engine::{Execution, Finished, Row, execute};
+pub use engine::{Execution, Finished, Row, execute, run_reduced};
 pub use error::CampaignError;
 pub use inference::{Estimate, percentile, probability, spearman};
 pub use journal::Journal;

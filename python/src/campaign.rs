@@ -1,0 +1,136 @@
+//! Campaigns: plans, the row of one run, and what a sample of rows says, as [`precess::campaign`] has them.
+
+use std::path::PathBuf;
+
+use precess::campaign::{
+    Axis, Plan, Selection, draw, percentile, probability, run_reduced, spearman,
+};
+use precess::file::variations_from_toml;
+use precess::record::{Columns, Header};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors;
+use crate::scenario::NativeScenario;
+
+/// Labels; and of each sample its values and what sets its keys.
+type PlanFacts = (Vec<String>, Vec<(Vec<f64>, Vec<String>)>);
+
+fn facts(plan: Plan) -> PlanFacts {
+    let samples = plan.samples.into_iter().map(|sample| (sample.values, sample.overrides));
+    (plan.labels, samples.collect())
+}
+
+fn wrong(error: &dyn std::fmt::Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// Every combination of values of keys: `hub.mass=100..900 kg:9`.
+#[pyfunction]
+pub(crate) fn plan_of_axes(axes: Vec<String>) -> PyResult<PlanFacts> {
+    let axes: Result<Vec<_>, _> = axes.iter().map(|text| Axis::parse(text)).collect();
+    let plan = axes.and_then(|axes| Plan::of_axes(&axes)).map_err(|error| wrong(&error))?;
+    Ok(facts(plan))
+}
+
+/// Samples drawn from the distributions of a plan file.
+#[pyfunction]
+pub(crate) fn plan_of_draws(
+    path: PathBuf,
+    samples: usize,
+    seed: u64,
+    latin: bool,
+) -> PyResult<PlanFacts> {
+    let variations = variations_from_toml(&path).map_err(|found| errors::scenario(&found))?;
+    Ok(facts(draw(&variations, samples, seed, latin).map_err(|error| wrong(&error))?))
+}
+
+/// Samples at given probabilities of the distributions of a plan file: a row for each sample, a number for each key.
+#[pyfunction]
+pub(crate) fn plan_of_probabilities(
+    path: PathBuf,
+    probabilities: Vec<Vec<f64>>,
+) -> PyResult<PlanFacts> {
+    let variations = variations_from_toml(&path).map_err(|found| errors::scenario(&found))?;
+    let plan = Plan::of_probabilities(&variations, &probabilities);
+    Ok(facts(plan.map_err(|error| wrong(&error))?))
+}
+
+/// How many keys a plan file varies.
+#[pyfunction]
+pub(crate) fn plan_keys(path: PathBuf) -> PyResult<Vec<String>> {
+    let variations = variations_from_toml(&path).map_err(|found| errors::scenario(&found))?;
+    Ok(variations.into_iter().map(|of| of.key).collect())
+}
+
+/// Names and units of the numbers of a row.
+#[pyfunction]
+pub(crate) fn row_fields(
+    scenario: &NativeScenario,
+    columns: Vec<String>,
+    lines: usize,
+) -> PyResult<Vec<(String, String)>> {
+    let mut scenario = (*scenario.scenario).clone();
+    scenario.output.columns.clone_from(&columns);
+    let found = Columns::of(&scenario).map_err(|error| errors::record(&error))?;
+    let header = Header::new(&scenario, &found);
+    for name in &columns {
+        header.quantity(name).map_err(|error| errors::record(&error))?;
+    }
+    let selection = Selection { columns, lines, from: 0.0 };
+    let fields = selection.fields(&header, &scenario.requirements);
+    Ok(fields.into_iter().map(|field| (field.name, field.unit)).collect())
+}
+
+/// The numbers of a run, or why there are none. Nothing is recorded beyond them.
+#[pyfunction]
+pub(crate) fn row(
+    py: Python<'_>,
+    scenario: &NativeScenario,
+    columns: Vec<String>,
+    lines: usize,
+    from: f64,
+) -> (Option<Vec<f64>>, Option<String>) {
+    let scenario = (*scenario.scenario).clone();
+    let selection = Selection { columns, lines, from };
+    let found = py.detach(|| run_reduced(scenario, &selection, &|| false));
+    match found {
+        Some(Ok(row)) => (Some(row), None),
+        Some(Err(message)) => (None, Some(message)),
+        None => (None, Some("the run was cancelled".to_owned())),
+    }
+}
+
+/// Name and limit, SI, of each requirement of a scenario.
+#[pyfunction]
+pub(crate) fn limits(scenario: &NativeScenario) -> Vec<(String, f64)> {
+    scenario.scenario.requirements.iter().map(|of| (of.name.clone(), of.limit)).collect()
+}
+
+/// A percentile of rising numbers and an interval that contains it with a probability of at least `level`.
+#[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+pub(crate) fn estimate_percentile(
+    sorted: Vec<f64>,
+    share: f64,
+    level: f64,
+) -> Option<(f64, f64, f64)> {
+    percentile(&sorted, share, level).map(|of| (of.value, of.interval[0], of.interval[1]))
+}
+
+/// A probability by `met` of `count` trials, and its interval.
+#[pyfunction]
+pub(crate) fn estimate_probability(
+    met: usize,
+    count: usize,
+    level: f64,
+) -> Option<(f64, f64, f64)> {
+    probability(met, count, level).map(|of| (of.value, of.interval[0], of.interval[1]))
+}
+
+/// Rank correlation by Spearman.
+#[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+pub(crate) fn rank_correlation(x: Vec<f64>, y: Vec<f64>) -> Option<f64> {
+    spearman(&x, &y)
+}

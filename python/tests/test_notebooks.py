@@ -1,0 +1,61 @@
+"""Notebooks are committed without outputs, and run to their end."""
+
+from __future__ import annotations
+
+import base64
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+nbformat = pytest.importorskip("nbformat")
+nbclient = pytest.importorskip("nbclient")
+pytest.importorskip("ipykernel")
+
+FOLDER = Path(__file__).parents[1] / "notebooks"
+#: What each needs beside the package and matplotlib.
+NEEDS = {"campaign": ["pyarrow", "pandas"], "own-device": ["cargo"]}
+#: Seconds of a notebook: one compiles the code generator.
+LONGEST = 1500
+
+NOTEBOOKS = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
+
+
+def test_there_are_notebooks() -> None:
+    assert {"campaign", "jitter-budget", "own-device", "table-1"} <= set(NOTEBOOKS)
+
+
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_a_notebook_has_no_outputs(name: str) -> None:
+    notebook = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
+    nbformat.validate(notebook)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert all(not cell.outputs and cell.execution_count is None for cell in code)
+
+
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_a_notebook_runs(name: str) -> None:
+    pytest.importorskip("matplotlib")
+    for needed in NEEDS.get(name, []):
+        if needed == "cargo":
+            if shutil.which("cargo") is None:
+                pytest.skip("cargo is not there")
+        else:
+            pytest.importorskip(needed)
+    notebook = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
+    client = nbclient.NotebookClient(
+        notebook, timeout=LONGEST, resources={"metadata": {"path": str(FOLDER)}}
+    )
+    client.execute()
+    figures = [
+        base64.b64decode(output["data"]["image/png"])
+        for cell in notebook.cells
+        for output in cell.get("outputs", [])
+        if "image/png" in output.get("data", {})
+    ]
+    assert figures or name == "own-device"
+    # A folder to look at the figures in.
+    if folder := os.environ.get("PRECESS_NOTEBOOK_FIGURES"):
+        for index, figure in enumerate(figures):
+            Path(folder, f"{name}-{index}.png").write_bytes(figure)
