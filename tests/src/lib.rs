@@ -11,6 +11,7 @@
 //! - [`measured`]: spacecraft of every kind, for what is measured; [`counted`]: a scalar that
 //!   counts
 //!   its operations.
+//! - [`bending`]: structures that bend, for what is measured.
 //! - [`wheels`]: a run of three reaction wheels beside Basilisk's.
 //! - [`accuracy`]: where the bound on the accelerations holds and where it is lost.
 //! - [`blocks`]: the unit in which accelerations are compared.
@@ -18,6 +19,7 @@
 
 pub mod accuracy;
 pub mod assembly;
+pub mod bending;
 pub mod blocks;
 pub mod bounds;
 pub mod case;

@@ -7,7 +7,7 @@ use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::{Scale, Solution, System};
-use crate::flexible::block::{Six, combined, joined, parted, times};
+use crate::flexible::block::{Six, combined, joined, parted};
 use crate::flexible::condense::{Condensed, SmallMass};
 use crate::flexible::devices::{
     Eliminated, MountBackSubstitution, MountElimination, MountStage, Substituted,
@@ -352,8 +352,8 @@ pub(crate) fn accelerated<S: ModalStorage, T: Scalar>(
     eta_ddot: &[T],
 ) -> Solution<T> {
     let shape: Six<T> = combined(constants.shapes.as_ref(), eta_ddot);
-    let of_hub = times(&motion.of_hub, &joined(hub.r_b_n_ddot, hub.omega_dot));
-    let of_shape = times(&motion.of_shape, &shape);
+    let of_hub = motion.of_hub.times(&joined(hub.r_b_n_ddot, hub.omega_dot));
+    let of_shape = motion.of_shape.times(&shape);
     let mut sum = motion.bias;
     for (to, (a, b)) in sum.iter_mut().zip(of_hub.into_iter().zip(of_shape)) {
         *to = a + (b + *to);

@@ -6,6 +6,7 @@
 //! the identity. Residual coordinates, (F16), are directions of their own, the last ones.
 
 use crate::flexible::block::Six;
+use crate::flexible::factor::inner;
 use crate::flexible::storage::ModalStorage;
 use crate::numbers::real::{Scalar, one, zero};
 
@@ -166,10 +167,6 @@ fn set_row<T: Scalar, C: AsMut<[Six<T>]>, V: AsRef<[T]>>(columns: &mut C, row: u
             *to = *value;
         }
     }
-}
-
-fn inner<T: Scalar>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(zero(), |sum, (a, b)| sum + *a * *b)
 }
 
 fn norm<T: Scalar>(v: &[T]) -> T {

@@ -3,7 +3,7 @@
 #![expect(clippy::inline_always, reason = "six numbers at a time, in registers of the caller")]
 
 use crate::numbers::real::Scalar;
-use crate::numbers::vec3::Vec3;
+use crate::numbers::vec3::{Vec3, add, dot};
 
 /// Three components of translation, then three of rotation.
 pub(crate) type Six<T> = [T; 6];
@@ -42,38 +42,67 @@ pub(crate) fn times<T: Scalar>(m: &Block<T>, v: &Six<T>) -> Six<T> {
     [dot6(a, v), dot6(b, v), dot6(c, v), dot6(d, v), dot6(e, v), dot6(f, v)]
 }
 
-/// `to += mᵀ v`.
-#[inline(always)]
-pub(crate) fn add_transposed_times<T: Scalar>(to: &mut Six<T>, m: &Block<T>, v: &Six<T>) {
-    for (row, component) in m.iter().zip(v) {
-        add_scaled(to, *component, row);
-    }
+/// A matrix of six rows whose lower left quarter is zero, as what moves the translation and the rotation of
+/// one frame with those of another: the quarters that are not.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Upper<T> {
+    /// The first three rows.
+    pub(crate) upper: [Six<T>; 3],
+    /// The right half of the others.
+    pub(crate) lower: [Vec3<T>; 3],
 }
 
-/// `a b`.
-#[inline(always)]
-pub(crate) fn product<T: Scalar>(a: &Block<T>, b: &Block<T>) -> Block<T> {
-    let mut product = zeros6(T::from_f64(0.0));
-    for (to, row) in product.iter_mut().zip(a) {
-        add_transposed_times(to, b, row);
+impl<T: Scalar> Upper<T> {
+    /// `m v`.
+    #[inline(always)]
+    pub(crate) fn times(&self, v: &Six<T>) -> Six<T> {
+        let ([a, b, c], [d, e, f]) = (&self.upper, &self.lower);
+        let (_, turning) = parted(v);
+        joined(
+            [dot6(a, v), dot6(b, v), dot6(c, v)],
+            [dot(*d, turning), dot(*e, turning), dot(*f, turning)],
+        )
     }
-    product
-}
 
-/// `to += aᵀ b`.
-#[inline(always)]
-pub(crate) fn add_transposed_product<T: Scalar>(to: &mut Block<T>, a: &Block<T>, b: &Block<T>) {
-    for (row, from) in a.iter().zip(b) {
-        for (to, component) in to.iter_mut().zip(row) {
-            add_scaled(to, *component, from);
+    /// `mᵀ v`.
+    #[inline(always)]
+    pub(crate) fn transposed_times(&self, v: &Six<T>) -> Six<T> {
+        let (moving, turning) = parted(v);
+        let (linear, angular) = parted(&combined_rows(&self.upper, moving));
+        joined(linear, add(angular, combined_rows(&self.lower, turning)))
+    }
+
+    /// `to += mᵀ a m` for a symmetric `a`; only the triangle from the diagonal on is written.
+    #[inline(always)]
+    pub(crate) fn add_congruent(&self, to: &mut Block<T>, a: &Block<T>) {
+        let [p, q, r, s, t, u] = a.map(|row| self.transposed_times(&row));
+        let [a, b, c] = self.upper;
+        let columns = a.into_iter().zip(b).zip(c).enumerate();
+        for (to, (first, ((a, b), c))) in to.iter_mut().zip(columns) {
+            let rows = p.iter().zip(&q).zip(&r);
+            for (to, ((p, q), r)) in to.iter_mut().zip(rows).skip(first) {
+                *to = *to + (a * *p + b * *q + c * *r);
+            }
+        }
+        let [d, e, f] = self.lower;
+        let columns = d.into_iter().zip(e).zip(f).enumerate();
+        for (to, (first, ((d, e), f))) in to.iter_mut().skip(3).zip(columns) {
+            let rows = s.iter().zip(&t).zip(&u);
+            for (to, ((s, t), u)) in to.iter_mut().zip(rows).skip(first).skip(3) {
+                *to = *to + (d * *s + e * *t + f * *u);
+            }
         }
     }
 }
 
-/// Every entry the same.
+/// The sum of what three numbers take of three rows.
 #[inline(always)]
-pub(crate) fn zeros6<T: Copy>(zero: T) -> Block<T> {
-    [[zero; 6]; 6]
+fn combined_rows<T: Scalar, const N: usize>([a, b, c]: &[[T; N]; 3], [x, y, z]: Vec3<T>) -> [T; N] {
+    let mut sum = *a;
+    for ((to, b), c) in sum.iter_mut().zip(b).zip(c) {
+        *to = *to * x + *b * y + *c * z;
+    }
+    sum
 }
 
 /// Translation above rotation.

@@ -8,11 +8,8 @@
 
 use crate::equations::system::{Scale, SmallPivot, Solution, System};
 use crate::flexible::basis::Basis;
-use crate::flexible::block::{
-    Block, Six, add_scaled, add_transposed_product, add_transposed_times, dot6, joined, parted,
-    product, sub6, times, zeros6,
-};
-use crate::flexible::factor::{Right, back_substitute, factorise};
+use crate::flexible::block::{Block, Six, add_scaled, dot6, joined, parted, sub6, times};
+use crate::flexible::factor::{Right, Rows, back_substitute, factorise};
 use crate::flexible::mount::MountMotion;
 use crate::flexible::storage::ModalStorage;
 use crate::numbers::real::{Scalar, one, zero};
@@ -25,9 +22,11 @@ pub(crate) struct Condensed<S: ModalStorage, T: Scalar> {
     hub: Block<T>,
     force: Six<T>,
     /// The triangle of `M_pp` up to the diagonal, by rows.
-    rows: S::Modes<S::Modes<T>>,
+    square: S::Square<T>,
     /// `M_pu` and `h_p`, row by row.
     right: S::Modes<Right<T>>,
+    /// The acceleration of a mount for each direction, while it is added.
+    moved: S::Modes<Six<T>>,
     /// The number of directions.
     count: usize,
 }
@@ -47,10 +46,10 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
     /// The structure without what stands on its mounts, for modal forces in the directions.
     pub(crate) fn new(structure: &System<T>, basis: &Basis<S, T>, forces: &S::Modes<T>) -> Self {
         let count = basis.count;
-        let mut rows = S::modes(count, &S::modes(count, &zero()));
+        let mut square = S::square(count, &zero());
         let massive = count.saturating_sub(basis.residual);
-        for (index, row) in rows.as_mut().iter_mut().enumerate().take(massive) {
-            if let Some(diagonal) = row.as_mut().get_mut(index) {
+        for (index, row) in S::rows(&mut square, count).enumerate().take(massive) {
+            if let Some(diagonal) = row.get_mut(index) {
                 *diagonal = one();
             }
         }
@@ -60,7 +59,7 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
             *right = [*a, *b, *c, *d, *e, *f, *force];
         }
         let (hub, force) = (block(structure), joined(structure.h_v, structure.h_w));
-        Self { hub, force, rows, right, count }
+        Self { hub, force, square, right, moved: S::modes(count, &[zero(); 6]), count }
     }
 
     /// Adds the six equations of a mount, `system`, for its coupling with the directions.
@@ -68,31 +67,27 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
         let MountMotion { of_hub, of_shape, bias, .. } = motion;
         let mass = block(system);
         let force = sub6(&joined(system.h_v, system.h_w), &times(&mass, bias));
-        let by_hub = product(&mass, of_hub);
-        let by_shape = product(&mass, of_shape);
-        add_transposed_product(&mut self.hub, of_hub, &by_hub);
-        add_transposed_times(&mut self.force, of_hub, &force);
+        of_hub.add_congruent(&mut self.hub, &mass);
+        add_scaled(&mut self.force, one(), &of_hub.transposed_times(&force));
 
-        let (mut mixed, mut own) = (zeros6(zero()), zeros6(zero()));
-        add_transposed_product(&mut mixed, of_shape, &by_hub);
-        add_transposed_product(&mut own, of_shape, &by_shape);
-        let mut modal = [zero(); 6];
-        add_transposed_times(&mut modal, of_shape, &force);
-
-        let lines = self.rows.as_mut().iter_mut().zip(self.right.as_mut());
-        for (index, (column, (row, right))) in coupling.iter().zip(lines).enumerate() {
-            let needed = times(&own, column);
-            let up_to = coupling.iter().take(index.saturating_add(1));
-            for (entry, other) in row.as_mut().iter_mut().zip(up_to) {
+        // The acceleration of the mount for each direction, and what it requires.
+        let moved = self.moved.as_mut();
+        for (moved, column) in moved.iter_mut().zip(coupling) {
+            *moved = of_shape.times(column);
+        }
+        let lines = S::rows(&mut self.square, self.count).zip(self.right.as_mut());
+        for (index, (column, (row, right))) in moved.iter().zip(lines).enumerate() {
+            let needed = times(&mass, column);
+            let up_to = moved.iter().take(index.saturating_add(1));
+            for (entry, other) in row.iter_mut().zip(up_to) {
                 *entry = *entry + dot6(&needed, other);
             }
-            let mut of_hub = [zero(); 6];
-            add_transposed_times(&mut of_hub, &mixed, column);
             let [a, b, c, d, e, f, h] = right;
-            for (to, from) in [a, b, c, d, e, f].into_iter().zip(of_hub) {
+            let by_hub = of_hub.transposed_times(&needed);
+            for (to, from) in [a, b, c, d, e, f].into_iter().zip(by_hub) {
                 *to = *to + from;
             }
-            *h = *h + dot6(column, &modal);
+            *h = *h + dot6(column, &force);
         }
     }
 
@@ -104,9 +99,11 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
     ) -> Result<Solved<S, T>, SmallMass<T>> {
         let mut scaled = S::modes(self.count, &[zero(); 7]);
         let mut solved = S::modes(self.count, &zero());
-        let rows = self.rows.as_mut().get_mut(..self.count).unwrap_or_default();
+        let (flat, length) = S::flat(&mut self.square, self.count);
+        let mut rows = Rows { flat, length, count: self.count };
         let right = self.right.as_mut();
-        factorise(rows, right, scaled.as_mut(), solved.as_mut()).map_err(SmallMass::Modal)?;
+        let factorised = factorise(&mut rows, right, scaled.as_mut(), solved.as_mut());
+        factorised.map_err(SmallMass::Modal)?;
 
         let hub = if let Some(hub) = given {
             hub
@@ -127,7 +124,7 @@ impl<S: ModalStorage, T: Scalar> Condensed<S, T> {
             *to = *h - dot6(&[*a, *b, *c, *d, *e, *f], &u);
         }
         let known = solved.as_mut().get_mut(..self.count).unwrap_or_default();
-        back_substitute(rows, known);
+        back_substitute(&rows, known);
         Ok((hub, solved))
     }
 }

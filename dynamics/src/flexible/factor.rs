@@ -6,23 +6,35 @@ use crate::numbers::real::{Scalar, zero};
 /// Right sides: one column per direction of the hub, and the one of the forces.
 pub(crate) type Right<T> = [T; 7];
 
+/// A square matrix, row by row.
+#[derive(Debug)]
+pub(crate) struct Rows<'a, T> {
+    pub(crate) flat: &'a mut [T],
+    /// How many numbers there are in a row.
+    pub(crate) length: usize,
+    /// How many rows and columns are used.
+    pub(crate) count: usize,
+}
+
 /// Factorises in place: of `rows` only the triangle up to the diagonal is read. Afterwards it has L
 /// below its unit diagonal, `right` has `D⁻¹ L⁻¹` and `scaled` `L⁻¹` times the right sides.
 ///
 /// A pivot that is not above 64 epsilons of its diagonal is rejected.
-pub(crate) fn factorise<T: Scalar, R: AsRef<[T]> + AsMut<[T]>>(
-    rows: &mut [R],
+pub(crate) fn factorise<T: Scalar>(
+    rows: &mut Rows<'_, T>,
     right: &mut [Right<T>],
     scaled: &mut [Right<T>],
     reciprocals: &mut [T],
 ) -> Result<(), SmallPivot<T>> {
-    for index in 0..rows.len() {
-        let Some((done, [row, ..])) = rows.split_at_mut_checked(index) else { break };
-        let row = row.as_mut();
+    let Rows { flat, length, count } = rows;
+    for index in 0..*count {
+        let start = index.saturating_mul(*length);
+        let Some((done, rest)) = flat.split_at_mut_checked(start) else { break };
+        let Some(row) = rest.get_mut(..*length) else { break };
         // Entries of L D in place of those of the matrix.
-        for (column, of) in done.iter().enumerate() {
+        for (column, of) in done.chunks_exact((*length).max(1)).enumerate() {
             let Some((before, [entry, ..])) = row.split_at_mut_checked(column) else { break };
-            *entry = *entry - inner(before, of.as_ref());
+            *entry = *entry - inner(before, of);
         }
         let Some((before, [diagonal, ..])) = row.split_at_mut_checked(index) else { break };
         let mut pivot = *diagonal;
@@ -51,15 +63,28 @@ pub(crate) fn factorise<T: Scalar, R: AsRef<[T]> + AsMut<[T]>>(
 }
 
 /// `L⁻ᵀ v` in place.
-pub(crate) fn back_substitute<T: Scalar, R: AsRef<[T]>>(rows: &[R], v: &mut [T]) {
-    for (index, row) in rows.iter().enumerate().rev() {
+pub(crate) fn back_substitute<T: Scalar>(rows: &Rows<'_, T>, v: &mut [T]) {
+    let Rows { flat, length, count } = rows;
+    for (index, row) in flat.chunks_exact((*length).max(1)).take(*count).enumerate().rev() {
         let Some((before, [solved, ..])) = v.split_at_mut_checked(index) else { continue };
-        for (to, factor) in before.iter_mut().zip(row.as_ref()) {
+        for (to, factor) in before.iter_mut().zip(row) {
             *to = *to - *factor * *solved;
         }
     }
 }
 
-fn inner<T: Scalar>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(zero(), |sum, (a, b)| sum + *a * *b)
+/// `a . b` as far as both go, in four sums that do not wait for each other.
+pub(crate) fn inner<T: Scalar>(a: &[T], b: &[T]) -> T {
+    let count = a.len().min(b.len());
+    let [a, b] = [a, b].map(|of| of.get(..count).unwrap_or_default());
+    let ((a, last), (b, of_last)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    let mut sums = [zero::<T>(); 4];
+    for (a, b) in a.iter().zip(b) {
+        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum = *sum + *a * *b;
+        }
+    }
+    let [w, x, y, z] = sums;
+    let rest = last.iter().zip(of_last).fold(zero(), |sum, (a, b)| sum + *a * *b);
+    ((w + x) + (y + z)) + rest
 }

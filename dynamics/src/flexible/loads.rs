@@ -15,7 +15,7 @@ use crate::equations::joint_inputs::Environment;
 use crate::equations::load_sums::{Along, HubAccelerations, LoadSums};
 use crate::equations::system::Solution;
 use crate::flexible::accelerations::{accelerated, finite};
-use crate::flexible::block::{Six, add_transposed_times, combined, dot6, joined, parted};
+use crate::flexible::block::{Six, combined, dot6, joined, parted};
 use crate::flexible::gravity::on_body;
 use crate::flexible::inputs::FlexibleInputs;
 use crate::flexible::mount::MountMotion;
@@ -195,9 +195,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             let needed = mount.needed(&constants.about_origin(wrench));
             let on_hub = needed.turned(&mount.motion.axes).moved(&vector(mount.motion.origin));
             hub = hub.plus(&on_hub);
-            let mut of_shape = [zero(); 6];
             let needed = joined(components(&needed.force), components(&needed.moment));
-            add_transposed_times(&mut of_shape, &mount.motion.of_shape, &needed);
+            let of_shape = mount.motion.of_shape.transposed_times(&needed);
             for (sum, shape) in modal.as_mut().iter_mut().zip(constants.shapes.as_ref()) {
                 *sum = *sum + dot6(shape, &of_shape);
             }

@@ -4,10 +4,10 @@
 //! undeformed it is B. Devices on the mount have in K the constants that they have in B on a rigid
 //! hub.
 
-use crate::flexible::block::{Block, Six, joined, parted};
-use crate::flexible::turn::{Turn, unit_vectors};
-use crate::numbers::real::{Scalar, zero};
-use crate::numbers::vec3::{Columns, Vec3, add, cross, neg, rotate, rotate_transposed, scale, sub};
+use crate::flexible::block::{Six, Upper, joined, parted};
+use crate::flexible::turn::Turn;
+use crate::numbers::real::Scalar;
+use crate::numbers::vec3::{Columns, Vec3, add, cross, map, rotate, rotate_transposed, scale, sub};
 
 /// Place and motion of the frame K of a mount.
 #[derive(Clone, Copy, Debug)]
@@ -23,9 +23,9 @@ pub(crate) struct MountMotion<T> {
     /// Inertial angular velocity, expressed in K, rad/s.
     pub(crate) omega: Vec3<T>,
     /// `X`: acceleration of K, expressed in K, for that of B.
-    pub(crate) of_hub: Block<T>,
+    pub(crate) of_hub: Upper<T>,
     /// `E`: acceleration of K, expressed in K, for displacement and rotation of the mount.
-    pub(crate) of_shape: Block<T>,
+    pub(crate) of_shape: Upper<T>,
     /// Acceleration of K, expressed in K, that velocities require.
     pub(crate) bias: Six<T>,
 }
@@ -73,30 +73,16 @@ impl<T: Scalar> MountMotion<T> {
 }
 
 /// `[Rᵀ, -Rᵀ tilde(origin); 0, Rᵀ]`.
-fn of_hub<T: Scalar>(axes: &Columns<T>, origin: Vec3<T>) -> Block<T> {
+fn of_hub<T: Scalar>(axes: &Columns<T>, origin: Vec3<T>) -> Upper<T> {
     // Row i: the axis e_i, and e_i . (omega' x origin) = omega' . (origin x e_i).
-    let [x, y, z] = *axes;
-    let none = [zero(); 3];
-    let translation = |e| joined(e, cross(origin, e));
-    [
-        translation(x),
-        translation(y),
-        translation(z),
-        joined(none, x),
-        joined(none, y),
-        joined(none, z),
-    ]
+    Upper { upper: axes.map(|e| joined(e, cross(origin, e))), lower: *axes }
 }
 
 /// `[Rᵀ, tilde(r_0) J; 0, J]`.
-fn of_shape<T: Scalar>(axes: &Columns<T>, jacobian: &Columns<T>, r_0: Vec3<T>) -> Block<T> {
+fn of_shape<T: Scalar>(axes: &Columns<T>, jacobian: &Columns<T>, r_0: Vec3<T>) -> Upper<T> {
     let [x, y, z] = *axes;
-    let none = [zero(); 3];
-    let rows = transposed(jacobian);
-    // Row i of tilde(r_0) J: e_i x r_0 through J, with e_i a unit vector of K.
-    let [i, j, k] = unit_vectors().map(|e: Vec3<T>| rotate(&rows, neg(cross(r_0, e))));
-    let [p, q, r] = rows;
-    [joined(x, i), joined(y, j), joined(z, k), joined(none, p), joined(none, q), joined(none, r)]
+    let [i, j, k] = transposed(&map(*jacobian, |column| cross(r_0, column)));
+    Upper { upper: [joined(x, i), joined(y, j), joined(z, k)], lower: transposed(jacobian) }
 }
 
 fn transposed<T: Copy>([a, b, c]: &Columns<T>) -> Columns<T> {

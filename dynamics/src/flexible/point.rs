@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
-use crate::flexible::block::{Six, add_scaled, joined, parted, times};
+use crate::flexible::block::{Six, add_scaled, joined, parted};
 use crate::flexible::modes::ModalPoint;
 use crate::flexible::mount::MountMotion;
 use crate::flexible::spacecraft::FlexibleSpacecraft;
@@ -96,8 +96,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         let carried = add(cross(turning, arm), cross(omega, cross(omega, arm)));
         let of_b = components(&accelerations.rigid.r_b_n_ddot);
         let acceleration = add(of_b, add(carried, relative));
-        let of_hub = times(&motion.of_hub, &joined(zeros(), turning));
-        let of_shape = times(&motion.of_shape, &q_ddot);
+        let of_hub = motion.of_hub.times(&joined(zeros(), turning));
+        let of_shape = motion.of_shape.times(&q_ddot);
         let ((_, hub), (_, shape), (_, bias)) =
             (parted(&of_hub), parted(&of_shape), parted(&motion.bias));
         let omega_dot = rotate(&motion.axes, add(add(hub, shape), bias));

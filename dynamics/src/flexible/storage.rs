@@ -9,10 +9,25 @@ pub trait ModalStorage: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// One value per mount.
     type Mounts<V: Clone + Debug>: AsRef<[V]> + AsMut<[V]> + Clone + Debug;
 
+    /// A square of values, a row for each mode.
+    type Square<V: Clone + Debug>: Clone + Debug;
+
     /// One value at `count` modes; storage of fixed size has its own number of them.
     fn modes<V: Clone + Debug>(count: usize, value: &V) -> Self::Modes<V>;
     /// One value at `count` mounts; storage of fixed size has its own number of them.
     fn mounts<V: Clone + Debug>(count: usize, value: &V) -> Self::Mounts<V>;
+    /// One value in every place of `count` rows; storage of fixed size has its own number of them.
+    fn square<V: Clone + Debug>(count: usize, value: &V) -> Self::Square<V>;
+    /// The values of a square of `count` rows, row by row, and how many there are in a row.
+    fn flat<V: Clone + Debug>(square: &mut Self::Square<V>, count: usize) -> (&mut [V], usize);
+    /// The rows of a square of `count` rows.
+    fn rows<'a, V: Clone + Debug + 'a>(
+        square: &'a mut Self::Square<V>,
+        count: usize,
+    ) -> impl Iterator<Item = &'a mut [V]> {
+        let (flat, length) = Self::flat(square, count);
+        flat.chunks_exact_mut(length.max(1))
+    }
     /// What a function makes of the value of each mount.
     fn per_mount<V: Clone + Debug, W: Clone + Debug>(
         of: &Self::Mounts<V>,
@@ -32,6 +47,7 @@ pub struct FixedModes<const MODES: usize, const MOUNTS: usize>;
 impl<const MODES: usize, const MOUNTS: usize> ModalStorage for FixedModes<MODES, MOUNTS> {
     type Modes<V: Clone + Debug> = [V; MODES];
     type Mounts<V: Clone + Debug> = [V; MOUNTS];
+    type Square<V: Clone + Debug> = [[V; MODES]; MODES];
 
     fn modes<V: Clone + Debug>(_: usize, value: &V) -> [V; MODES] {
         core::array::from_fn(|_| value.clone())
@@ -39,6 +55,14 @@ impl<const MODES: usize, const MOUNTS: usize> ModalStorage for FixedModes<MODES,
 
     fn mounts<V: Clone + Debug>(_: usize, value: &V) -> [V; MOUNTS] {
         core::array::from_fn(|_| value.clone())
+    }
+
+    fn square<V: Clone + Debug>(_: usize, value: &V) -> [[V; MODES]; MODES] {
+        core::array::from_fn(|_| core::array::from_fn(|_| value.clone()))
+    }
+
+    fn flat<V: Clone + Debug>(square: &mut [[V; MODES]; MODES], _: usize) -> (&mut [V], usize) {
+        (square.as_flattened_mut(), MODES)
     }
 
     fn per_mount<V: Clone + Debug, W: Clone + Debug>(
@@ -65,6 +89,7 @@ pub struct ListedModes;
 impl ModalStorage for ListedModes {
     type Modes<V: Clone + Debug> = alloc::vec::Vec<V>;
     type Mounts<V: Clone + Debug> = alloc::vec::Vec<V>;
+    type Square<V: Clone + Debug> = alloc::vec::Vec<V>;
 
     fn modes<V: Clone + Debug>(count: usize, value: &V) -> alloc::vec::Vec<V> {
         alloc::vec![value.clone(); count]
@@ -72,6 +97,14 @@ impl ModalStorage for ListedModes {
 
     fn mounts<V: Clone + Debug>(count: usize, value: &V) -> alloc::vec::Vec<V> {
         alloc::vec![value.clone(); count]
+    }
+
+    fn square<V: Clone + Debug>(count: usize, value: &V) -> alloc::vec::Vec<V> {
+        alloc::vec![value.clone(); count.saturating_mul(count)]
+    }
+
+    fn flat<V: Clone + Debug>(square: &mut alloc::vec::Vec<V>, count: usize) -> (&mut [V], usize) {
+        (square, count)
     }
 
     fn per_mount<V: Clone + Debug, W: Clone + Debug>(

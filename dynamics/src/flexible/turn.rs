@@ -51,7 +51,21 @@ impl<T: Scalar> Turn<T> {
 
     /// The axes of the mount, expressed in B: the columns of R.
     pub(crate) fn axes(&self) -> Columns<T> {
-        unit_vectors().map(|e| add(e, self.displaced(e)))
+        self.columns(self.s, self.a)
+    }
+
+    /// The columns of `1 + p T + q T²`.
+    fn columns(&self, p: T, q: T) -> Columns<T> {
+        let ([x, y, z], one) = (self.t, T::from_f64(1.0));
+        let (px, py, pz) = (p * x, p * y, p * z);
+        let (qx, qy, qz) = (q * x, q * y, q * z);
+        let (xx, yy, zz) = (qx * x, qy * y, qz * z);
+        let (xy, xz, yz) = (qx * y, qx * z, qy * z);
+        [
+            [one - (yy + zz), xy + pz, xz - py],
+            [xy - pz, one - (xx + zz), yz + px],
+            [xz + py, yz - px, one - (xx + yy)],
+        ]
     }
 
     /// `J v`, expressed in the mount's axes.
@@ -62,7 +76,7 @@ impl<T: Scalar> Turn<T> {
 
     /// The columns of J.
     pub(crate) fn jacobian(&self) -> Columns<T> {
-        unit_vectors().map(|e| self.rate(e))
+        self.columns(-self.a, self.b)
     }
 
     /// `J' t'`, expressed in the mount's axes.
@@ -73,12 +87,6 @@ impl<T: Scalar> Turn<T> {
             add(scale(-(self.a1 * along), once), scale(self.b1 * along, cross(self.t, once)));
         add(turning, scale(self.b, cross(t_dot, once)))
     }
-}
-
-/// The unit vectors of a triad.
-pub(crate) fn unit_vectors<T: Scalar>() -> Columns<T> {
-    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
-    [[one, zero, zero], [zero, one, zero], [zero, zero, one]]
 }
 
 /// `s, a, b, a1, b1` by their series in the square of the angle: coefficient k of x²ᵏ is
