@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::derivatives::elimination;
 use crate::derivatives::point::{DualSet, Number, Point};
 use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::device::Device;
@@ -111,7 +112,7 @@ impl<T: Scalar, D: Devices<Scalar = Number<T>>> Results<D> {
         outputs: &Outputs<T>,
     ) -> Result<Self, SolveError<Number<T>>> {
         let Point { state, inputs } = at;
-        let accelerations = spacecraft.accelerations(state, inputs)?;
+        let accelerations = elimination::accelerations(spacecraft, state, inputs)?;
         let bn = columns(&state.attitude.dcm());
         let in_n = rotate_transposed(&bn, components(&accelerations.r_b_n_ddot));
         let momentum = match &outputs.momentum {

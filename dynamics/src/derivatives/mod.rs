@@ -5,6 +5,7 @@
 //! `linearization`, with the feature `alloc`, fills matrices with them.
 
 pub(crate) mod column;
+mod elimination;
 pub(crate) mod error;
 pub(crate) mod evaluation;
 #[cfg(feature = "alloc")]

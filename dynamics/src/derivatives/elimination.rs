@@ -1,0 +1,208 @@
+//! [`accelerations`] in dual numbers: a device of which nothing is a variable is eliminated in plain numbers.
+//!
+//! An evaluation has the derivatives by a few variables, most of which concern one device or only the hub. The
+//! kernel of a device costs some ten times as much in dual numbers as in plain ones. Where every number that
+//! it reads is constant, so is every result, with the bits that the dual kernel gives.
+
+use crate::attitude::parameterisation::Attitude;
+use crate::derivatives::point::Number;
+use crate::equations::arithmetic::{Arithmetic, EliminationInputs, Pivots};
+use crate::equations::assembly::Assembly;
+use crate::equations::device::Device;
+use crate::equations::eliminate::DeviceElimination;
+use crate::equations::error::SolveError;
+use crate::equations::joint_inputs::{DeviceInputs, Environment};
+use crate::generated::hub::BodyRate;
+use crate::isolation::carrier::Carrying;
+use crate::isolation::set::{Isolated, PreparedIsolated, parts};
+use crate::model::kind::Kind;
+use crate::model::mode::{Drive, Mode};
+use crate::numbers::each::{Each, JointStates};
+use crate::numbers::real::Scalar;
+use crate::sets::bundle::Bundle;
+use crate::sets::counts::check_counts;
+use crate::sets::devices::{DeviceSet, Devices, Visit};
+use crate::sets::per_device as data;
+use crate::solve::accelerations::{EvaluationStart, evaluation_start, inputs_are_finite, overflow};
+use crate::solve::elimination::{Eliminated, back_substitute};
+use crate::solve::inputs::Inputs;
+use crate::solve::spacecraft::Spacecraft;
+use crate::solve::state::{Accelerations, State};
+
+/// [`Spacecraft::accelerations`], with the same numbers, in less time.
+pub(super) fn accelerations<T: Scalar, D: Devices<Scalar = Number<T>>>(
+    spacecraft: &Spacecraft<D>,
+    state: &State<D, impl Attitude<Number<T>>>,
+    inputs: &Inputs<D>,
+) -> Result<Accelerations<D>, SolveError<Number<T>>> {
+    let mut found = spacecraft.no_accelerations();
+    let solved = if inputs_are_finite(state, inputs) {
+        solve(spacecraft, state, inputs, &mut found)
+    } else {
+        Err(overflow())
+    };
+    match solved {
+        Ok(()) => Ok(found),
+        Err(failure) => Err(spacecraft.diagnosis(state, inputs, failure)),
+    }
+}
+
+fn solve<T: Scalar, D: Devices<Scalar = Number<T>>>(
+    spacecraft: &Spacecraft<D>,
+    state: &State<D, impl Attitude<Number<T>>>,
+    inputs: &Inputs<D>,
+    found: &mut Accelerations<D>,
+) -> Result<(), SolveError<Number<T>>> {
+    let devices = &spacecraft.devices;
+    let EvaluationStart { environment, at_b } = evaluation_start(state, inputs)?;
+    let mut assembly = spacecraft.assembly(inputs);
+    let mut scratch = D::new_data(devices, &data::Gains);
+    let given = inputs.of_joints();
+    check_counts::<D>(devices, &state.devices, Some(given), None)?;
+    let mut elimination = Elimination {
+        environment: &environment,
+        assembly: &mut assembly,
+        device: 0,
+        arithmetic: spacecraft.arithmetic,
+    };
+    let of_joints = (&state.devices, given, &mut scratch);
+    D::visit::<Eliminated, _>(devices, of_joints, &mut elimination)?;
+    let hub = spacecraft.hub_accelerations(inputs, &environment, &mut assembly, at_b)?;
+    back_substitute::<D>(devices, &scratch, &hub, &mut found.devices);
+    found.finish(inputs, &hub, at_b)
+}
+
+/// Eliminates every joint, adds what is left to the hub's system.
+struct Elimination<'a, T: Scalar> {
+    environment: &'a Environment<Number<T>>,
+    assembly: &'a mut Assembly<Number<T>>,
+    /// The number of the device.
+    device: usize,
+    arithmetic: Arithmetic,
+}
+
+impl<T: Scalar> Visit<Number<T>, Eliminated> for Elimination<'_, T> {
+    type Error = SolveError<Number<T>>;
+
+    fn visit<K: Kind<Scalar = Number<T>>>(
+        &mut self,
+        device: &Device<K>,
+        (joints, given, gains): <Eliminated as Bundle<Number<T>>>::Of<'_, K>,
+    ) -> Result<(), SolveError<Number<T>>> {
+        let Self { environment, assembly, device: index, arithmetic } = self;
+        let index = core::mem::replace(index, index.wrapping_add(1));
+        let of = DeviceElimination { device, index, joints, given, environment, assembly, gains };
+        if is_constant(device, joints, given, environment) {
+            eliminate_constant::<K, T>(of)
+        } else {
+            arithmetic.eliminate(of)
+        }
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = Number<T>>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        (joints, given, gains): <Eliminated as Bundle<Number<T>>>::Of<'_, Isolated<D>>,
+    ) -> Result<(), SolveError<Number<T>>> {
+        let index = self.device;
+        let mut carrying =
+            Carrying::start(&isolated.carrier, index, &joints.platform, self.environment);
+        let mut outboard = Elimination {
+            environment: &carrying.environment,
+            assembly: &mut carrying.assembly,
+            device: index.wrapping_add(1),
+            arithmetic: self.arithmetic,
+        };
+        let (of_platform, of_carried) = parts::<D>(given);
+        let data = (&joints.carried, of_carried, &mut gains.carried);
+        D::visit::<Eliminated, _>(&isolated.carried, data, &mut outboard)?;
+        self.device = outboard.device;
+        gains.platform = Some(carrying.finish(of_platform, self.assembly)?);
+        Ok(())
+    }
+}
+
+/// Whether nothing that a device's kernel reads has a derivative.
+fn is_constant<K: Kind<Scalar = Number<T>>, T: Scalar>(
+    device: &Device<K>,
+    joints: &K::Joints<Number<T>>,
+    given: DeviceInputs<'_, K>,
+    environment: &Environment<Number<T>>,
+) -> bool {
+    // A gradient and wrenches are summed in dual numbers anyhow, so they are not worth a case.
+    environment.central.is_none()
+        && given.bodies.is_none()
+        && environment.omega.iter().all(constant)
+        && joints.states().flatten().all(|number| constant(&number))
+        && given.motors.values().all(|motor| constant(&motor))
+        && given.modes.values().all(|mode| match mode {
+            Mode::Prescribed(acceleration) => constant(&acceleration),
+            Mode::Driven | Mode::Locked => true,
+        })
+        && constants_are_constant::<K, T>(&device.constants)
+}
+
+fn constants_are_constant<K: Kind<Scalar = Number<T>>, T: Scalar>(
+    constants: &K::Constants<Number<T>>,
+) -> bool {
+    let mut all = true;
+    K::zip_constants(constants, constants, |number, _| all &= constant(&number));
+    all
+}
+
+/// Whether a number has no derivative.
+fn constant<T: Scalar>(number: &Number<T>) -> bool {
+    number.derivatives.iter().all(|derivative| derivative.vanishes())
+}
+
+/// Eliminates the joints of a device of which nothing is a variable. Its torques are computed in dual numbers:
+/// should one of a spring have a derivative, so has the whole device.
+fn eliminate_constant<K: Kind<Scalar = Number<T>>, T: Scalar>(
+    of: DeviceElimination<'_, K>,
+) -> Result<(), SolveError<Number<T>>> {
+    of.run(|inputs, pose, assembly, gains| {
+        let mut fixed = true;
+        K::zip_per_joint(inputs.drives, inputs.drives, |drive: Drive<Number<T>>, _| {
+            let Drive { torque, driven, held, given } = drive;
+            fixed &= [torque, driven, held, given].iter().all(constant);
+        });
+        if fixed {
+            return eliminated_plainly(inputs, assembly, gains);
+        }
+        let pose = pose.unwrap_or_else(|| K::pose(inputs.joints));
+        let eliminated = inputs.eliminated(&pose);
+        *gains = Some(*K::gains(&eliminated));
+        assembly.add(K::share(&eliminated));
+        K::pivots(&eliminated)
+    })
+}
+
+/// The kernel in plain numbers, its results as dual ones.
+#[inline(never)]
+fn eliminated_plainly<K: Kind<Scalar = Number<T>>, T: Scalar>(
+    inputs: &EliminationInputs<'_, K, Number<T>>,
+    assembly: &mut Assembly<Number<T>>,
+    gains: &mut Option<K::Gains<Number<T>>>,
+) -> Pivots<K, Number<T>> {
+    let EliminationInputs { constants, joints, omega, drives } = inputs;
+    let constants = K::zip_constants(constants, constants, |number, _| number.value);
+    let joints = K::zip_joints(joints, joints, |number, _| number.value);
+    let drives = K::zip_per_joint(drives, drives, |drive: Drive<Number<T>>, _| {
+        let Drive { torque, driven, held, given } = drive;
+        let [torque, driven, held, given] = [torque, driven, held, given].map(|of| of.value);
+        Drive { torque, driven, held, given }
+    });
+    let omega = BodyRate {
+        omega_bx: omega.omega_bx.value,
+        omega_by: omega.omega_by.value,
+        omega_bz: omega.omega_bz.value,
+    };
+    let eliminated = K::eliminate(&constants, &K::pose(&joints), &joints, &omega, &drives);
+    let own = K::gains(&eliminated);
+    *gains = Some(K::zip_gains(own, own, |number, _| Number::constant(number)));
+    assembly.add(&K::share(&eliminated).map(Number::constant));
+    let pivots = K::pivots(&eliminated);
+    K::zip_per_joint(&pivots, &pivots, |pivot: Option<[T; 2]>, _| {
+        pivot.map(|of| of.map(Number::constant))
+    })
+}
