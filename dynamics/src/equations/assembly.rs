@@ -12,7 +12,7 @@ use crate::equations::hub::HubConstants;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::{Scale, Solution, System};
 use crate::generated::hub::{BodyAcceleration, BodyRate, ConstantShare, HubShare};
-use crate::numbers::real::{Real, Scalar};
+use crate::numbers::real::{Real, Scalar, filling};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add};
 
@@ -38,7 +38,7 @@ impl<T: Real> Assembly<T> {
     #[inline(always)]
     #[rustfmt::skip]
     pub(crate) fn new(body: &HubConstants<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
-        let zero = body.m_b.like(0.0);
+        let zero = filling(body.m_b.like(0.0));
         let ([x, y, z], i) = (body.first_moment, &body.i_b_b);
         let sum = HubShare {
             mr_moving_bx: x, mr_moving_by: y, mr_moving_bz: z,
