@@ -12,7 +12,7 @@ use crate::equations::hub::HubConstants;
 use crate::equations::stiffness::Stiffness;
 use crate::equations::system::{Scale, Solution, System};
 use crate::generated::hub::{BodyAcceleration, BodyRate, ConstantShare, HubShare};
-use crate::numbers::real::{Real, Scalar};
+use crate::numbers::real::{Real, Scalar, filling};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add};
 
@@ -38,7 +38,7 @@ impl<T: Real> Assembly<T> {
     #[inline(always)]
     #[rustfmt::skip]
     pub(crate) fn new(body: &HubConstants<T>, force: Vec3<T>, moment: Vec3<T>) -> Self {
-        let zero = body.m_b.like(0.0);
+        let zero = filling(body.m_b.like(0.0));
         let ([x, y, z], i) = (body.first_moment, &body.i_b_b);
         let sum = HubShare {
             mr_moving_bx: x, mr_moving_by: y, mr_moving_bz: z,
@@ -72,10 +72,48 @@ impl<T: Real> Assembly<T> {
         );
     }
 
-    /// Adds, number by number, what a function makes of the sum so far and a share.
+    /// Writes, number by number, what a function makes of the sum so far and a share. Each sum where
+    /// it stands: a new record of sums is held whole, and where registers are few that takes a store
+    /// and a load a number.
     #[inline(always)]
-    pub(crate) fn add_by<U: Copy>(&mut self, share: &HubShare<U>, add: impl FnMut(T, U) -> T) {
-        self.sum = self.sum.zip(share, add);
+    pub(crate) fn add_by<U: Copy>(&mut self, e: &HubShare<U>, mut add: impl FnMut(T, U) -> T) {
+        let s = &mut self.sum;
+        s.m_vv_11 = add(s.m_vv_11, e.m_vv_11);
+        s.m_vv_12 = add(s.m_vv_12, e.m_vv_12);
+        s.m_vv_13 = add(s.m_vv_13, e.m_vv_13);
+        s.m_vv_22 = add(s.m_vv_22, e.m_vv_22);
+        s.m_vv_23 = add(s.m_vv_23, e.m_vv_23);
+        s.m_vv_33 = add(s.m_vv_33, e.m_vv_33);
+        s.m_vw_11 = add(s.m_vw_11, e.m_vw_11);
+        s.m_vw_12 = add(s.m_vw_12, e.m_vw_12);
+        s.m_vw_13 = add(s.m_vw_13, e.m_vw_13);
+        s.m_vw_21 = add(s.m_vw_21, e.m_vw_21);
+        s.m_vw_22 = add(s.m_vw_22, e.m_vw_22);
+        s.m_vw_23 = add(s.m_vw_23, e.m_vw_23);
+        s.m_vw_31 = add(s.m_vw_31, e.m_vw_31);
+        s.m_vw_32 = add(s.m_vw_32, e.m_vw_32);
+        s.m_vw_33 = add(s.m_vw_33, e.m_vw_33);
+        s.m_ww_11 = add(s.m_ww_11, e.m_ww_11);
+        s.m_ww_12 = add(s.m_ww_12, e.m_ww_12);
+        s.m_ww_13 = add(s.m_ww_13, e.m_ww_13);
+        s.m_ww_22 = add(s.m_ww_22, e.m_ww_22);
+        s.m_ww_23 = add(s.m_ww_23, e.m_ww_23);
+        s.m_ww_33 = add(s.m_ww_33, e.m_ww_33);
+        s.h_v_1 = add(s.h_v_1, e.h_v_1);
+        s.h_v_2 = add(s.h_v_2, e.h_v_2);
+        s.h_v_3 = add(s.h_v_3, e.h_v_3);
+        s.h_w_1 = add(s.h_w_1, e.h_w_1);
+        s.h_w_2 = add(s.h_w_2, e.h_w_2);
+        s.h_w_3 = add(s.h_w_3, e.h_w_3);
+        s.mr_moving_bx = add(s.mr_moving_bx, e.mr_moving_bx);
+        s.mr_moving_by = add(s.mr_moving_by, e.mr_moving_by);
+        s.mr_moving_bz = add(s.mr_moving_bz, e.mr_moving_bz);
+        s.i_moving_11 = add(s.i_moving_11, e.i_moving_11);
+        s.i_moving_12 = add(s.i_moving_12, e.i_moving_12);
+        s.i_moving_13 = add(s.i_moving_13, e.i_moving_13);
+        s.i_moving_22 = add(s.i_moving_22, e.i_moving_22);
+        s.i_moving_23 = add(s.i_moving_23, e.i_moving_23);
+        s.i_moving_33 = add(s.i_moving_33, e.i_moving_33);
     }
 
     /// Hub and devices as one rigid body.

@@ -10,15 +10,16 @@ use crate::numbers::real::{Real, Scalar, half};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, components, cross, dot, scale, sub};
 
-/// Constants of the hub, all expressed in B.
+/// Constants of the hub, all expressed in B. In this order two copies bring them into the sums of an
+/// evaluation, which have the first moment before the inertia: one of both would be a call.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HubConstants<T> {
+    /// `[I_{B,B}]`, inertia about B, kg m^2.
+    pub(crate) i_b_b: Symmetric<T>,
     /// `m_B`, kg.
     pub(crate) m_b: T,
     /// `m_B r_{Bc/B}`, kg m.
     pub(crate) first_moment: Vec3<T>,
-    /// `[I_{B,B}]`, inertia about B, kg m^2.
-    pub(crate) i_b_b: Symmetric<T>,
 }
 
 /// Energy, linear momentum and angular momentum about B, expressed in B.

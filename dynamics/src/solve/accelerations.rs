@@ -18,7 +18,7 @@ use crate::equations::stiffness::Stiffness;
 use crate::equations::system::Solution;
 use crate::model::mode::HubMode;
 use crate::numbers::each::{Each, JointStates};
-use crate::numbers::real::{Scalar, zero};
+use crate::numbers::real::{Scalar, filling, zero};
 use crate::numbers::vec3::{Vec3, add, columns, components, extreme, finite, sub, vector, zeros};
 use crate::sets::counts::check_counts;
 use crate::sets::devices::{Devices, SetInputs};
@@ -85,7 +85,7 @@ impl<D: Devices> Spacecraft<D> {
 
     /// Accelerations to be filled in.
     pub(crate) fn no_accelerations(&self) -> Accelerations<D> {
-        let still = vector(zeros());
+        let still = vector([filling(zero()); 3]);
         let devices = D::new_data(&self.devices, &data::Accelerations);
         Accelerations { r_b_n_ddot: still, omega_dot: still, devices }
     }
