@@ -21,14 +21,14 @@ mod _native {
     #[pymodule_export]
     use super::batch::NativeBatch;
     #[pymodule_export]
-    use super::evaluator::NativeEvaluator;
-    #[pymodule_export]
-    use super::inputs::NativeInputs;
-    #[pymodule_export]
     use super::campaign::{
         estimate_percentile, estimate_probability, limits, plan_keys, plan_of_axes, plan_of_draws,
         plan_of_probabilities, rank_correlation, row, row_fields,
     };
+    #[pymodule_export]
+    use super::evaluator::NativeEvaluator;
+    #[pymodule_export]
+    use super::inputs::NativeInputs;
     #[pymodule_export]
     use super::jitter::{NativeBudget, jitter_budget};
     #[pymodule_export]

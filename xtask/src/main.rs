@@ -16,6 +16,7 @@ mod instructions;
 mod mutate;
 mod object_code;
 mod printed;
+mod python;
 mod regen;
 mod run;
 mod skip;
@@ -94,6 +95,9 @@ enum Command {
         after_help = "Examples: cargo xtask dist --check\n          cargo xtask dist --only precess-c-"
     )]
     Dist(dist::Options),
+    /// Build the wheel of the Python package, install it in an environment of its own, run its tests
+    #[command(after_help = "Example: cargo xtask python")]
+    Python,
     /// Derive, prove, solve the paper's scenario and draw the report
     #[command(after_help = "Example: cargo xtask demo")]
     Demo,
@@ -119,6 +123,7 @@ fn main() -> ExitCode {
         Command::Flight(options) => flight::flight(&options),
         Command::Capi => capi::host(),
         Command::Dist(options) => dist::dist(&options),
+        Command::Python => python::python(),
         Command::Demo => demo::demo(),
     };
     match done {

@@ -231,8 +231,12 @@ mod tests {
     #[test]
     fn an_error_shows_file_line_mark_and_remedy() {
         let text = "[hub]\nmas = \"4 kg\"\n".to_owned();
-        let sources =
-            vec![SourceText { name: "bus.toml".to_owned(), text, folder: None, numbers: Numbers::WithUnits }];
+        let sources = vec![SourceText {
+            name: "bus.toml".to_owned(),
+            text,
+            folder: None,
+            numbers: Numbers::WithUnits,
+        }];
         let mut diagnostics = Diagnostics { sources, all: Vec::new() };
         let span = Span { source: 0, range: 6..9 };
         diagnostics.error(&span, "unknown key `mas`", "", "did you mean `mass`?");

@@ -1,0 +1,91 @@
+//! `python`: builds the wheel of the Python package, installs it in an environment of its own, and runs the
+//! tests against what is installed.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+use crate::run::{output, root, run, say, target};
+use crate::skip::skip;
+
+/// What builds the wheel, and what the tests need.
+const REQUIREMENTS: &str = "python/tests/requirements.txt";
+const INSTALL: &str = "apt-get install python3-venv python3-pip";
+/// Longest time to import the package beyond `NumPy`, and largest wheel: printed beside what is measured.
+const IMPORT_MS: f64 = 50.0;
+const WHEEL_MB: f64 = 6.0;
+
+/// Builds, installs, tests.
+pub(crate) fn python() -> Result<(), String> {
+    let start = Instant::now();
+    let folder = target()?.join("python");
+    let Some(python) = environment(&folder.join("environment"))? else { return Ok(()) };
+    let wheels = folder.join("wheels");
+    if wheels.exists() {
+        std::fs::remove_dir_all(&wheels)
+            .map_err(|error| format!("cannot remove {}: {error}", wheels.display()))?;
+    }
+    let mut build = Command::new(python.with_file_name("maturin"));
+    build.args(["build", "--release", "--locked", "--manifest-path", "python/Cargo.toml", "--out"]);
+    // Beside the targets of other workspaces.
+    run(build.arg(&wheels).env("CARGO_TARGET_DIR", folder.join("build")))?;
+    let wheel = the_wheel(&wheels)?;
+    let built = start.elapsed().as_secs_f64();
+    let size =
+        std::fs::metadata(&wheel).map_err(|error| format!("{}: {error}", wheel.display()))?;
+    run(pip(&python).args(["--force-reinstall", "--no-deps"]).arg(&wheel))?;
+    say!(
+        "wheel: {:.2} MB, goal {WHEEL_MB} MB",
+        f64::from(u32::try_from(size.len()).unwrap_or(u32::MAX)) / 1e6
+    );
+    say!("import: {} ms beyond NumPy's, goal {IMPORT_MS} ms", imported(&python)?);
+    run(Command::new(&python).args(["-B", "-m", "pytest", "-q", "python/tests"]))?;
+    say!(
+        "Python: {:.1} minutes to the wheel, {:.1} in all",
+        built / 60.0,
+        start.elapsed().as_secs_f64() / 60.0
+    );
+    Ok(())
+}
+
+/// The interpreter of an environment with what the tests need; none where there is no Python to make one.
+fn environment(folder: &Path) -> Result<Option<PathBuf>, String> {
+    let python = folder.join("bin/python");
+    if !python.exists() {
+        let made = output(Command::new("python3").args(["-m", "venv"]).arg(folder));
+        if let Err(error) = made {
+            eprintln!("{error}");
+            return skip("the Python package", INSTALL).map(|()| None);
+        }
+    }
+    run(pip(&python).args(["--requirement", REQUIREMENTS]))?;
+    Ok(Some(python))
+}
+
+fn pip(python: &Path) -> Command {
+    let mut pip = Command::new(python);
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    pip.current_dir(root());
+    pip
+}
+
+/// The one wheel of a folder.
+fn the_wheel(folder: &Path) -> Result<PathBuf, String> {
+    let wrong = |error| format!("cannot read {}: {error}", folder.display());
+    let found = std::fs::read_dir(folder).map_err(wrong)?.flatten().map(|entry| entry.path());
+    let mut wheels = found.filter(|path| path.extension().is_some_and(|ending| ending == "whl"));
+    wheels.next().ok_or_else(|| format!("{} has no wheel", folder.display()))
+}
+
+/// Time to import the package after `NumPy`, ms: the median of five interpreters.
+fn imported(python: &Path) -> Result<String, String> {
+    let program = "import numpy, time; t = time.perf_counter(); import precess; \
+                   print(f'{1e3 * (time.perf_counter() - t):.1f}')";
+    let mut times = Vec::new();
+    for _ in 0..5 {
+        let printed = output(Command::new(python).args(["-I", "-c", program]))?;
+        times.push(printed.trim().parse::<f64>().map_err(|error| format!("{printed}: {error}"))?);
+    }
+    times.sort_by(f64::total_cmp);
+    Ok(format!("{}", times[times.len() / 2]))
+}
