@@ -59,13 +59,16 @@ fn outputs(node: &str) -> Vec<Output> {
     (0..6).map(output).collect()
 }
 
-/// Error of displacement and of rotation at a node.
-fn errors(scenario: &Scenario, node: &str, speed: f64) -> Result<[f64; 2], String> {
+/// Error of displacement and of rotation at a node, at some speeds.
+fn errors(scenario: &Scenario, node: &str, speeds: &[f64]) -> Result<Vec<[f64; 2]>, String> {
     let model = Model::new(scenario, &outputs(node), &STEADY).map_err(|e| e.to_string())?;
     let simple = model.simplified(scenario).map_err(|e| e.to_string())?;
-    let coupled = model.lines(speed).map_err(|e| e.to_string())?;
-    let usual = simple.lines(speed).map_err(|e| e.to_string())?;
-    Ok([error(&coupled, &usual, &[0, 1, 2]), error(&coupled, &usual, &[3, 4, 5])])
+    let at = |speed: &f64| {
+        let coupled = model.lines(*speed).map_err(|e| e.to_string())?;
+        let usual = simple.lines(*speed).map_err(|e| e.to_string())?;
+        Ok([error(&coupled, &usual, &[0, 1, 2]), error(&coupled, &usual, &[3, 4, 5])])
+    };
+    speeds.iter().map(at).collect()
 }
 
 /// Rotation of a rigid hub by the dynamic imbalance, over the inertia ratio.
@@ -75,19 +78,24 @@ pub(crate) fn by_inertia(ratio: f64) -> Result<f64, String> {
         "mass = \"{} kg\"\ninertia = \"{across}, {across}, {across} kg m^2\"",
         100.0 * MASS
     );
-    Ok(errors(&scenario(&hub, "dynamic = \"2.2 g cm^2\"")?, HUB, SPEED)?[1])
+    Ok(errors(&scenario(&hub, "dynamic = \"2.2 g cm^2\"")?, HUB, &[SPEED])?[0][1])
 }
 
 /// Displacement of a rigid hub by the static imbalance of a wheel at its centre.
 pub(crate) fn by_mass(ratio: f64) -> Result<f64, String> {
     let mass = MASS / ratio;
     let hub = format!("mass = \"{mass} kg\"\ninertia = \"{mass}, {mass}, {mass} kg m^2\"");
-    Ok(errors(&scenario(&hub, "static = \"0.15 g cm\"")?, HUB, SPEED)?[0])
+    Ok(errors(&scenario(&hub, "static = \"0.15 g cm\"")?, HUB, &[SPEED])?[0][0])
 }
 
 /// Rotation of the camera by the dynamic imbalance of a wheel on a bracket that turns about two axes across the spin axis:
 /// two equal modes of a hub of 1e6 kg.
 pub(crate) fn by_speed(speed_ratio: f64, share: f64) -> Result<f64, String> {
+    Ok(by_speeds(&[speed_ratio], share)?[0])
+}
+
+/// The same at some speeds.
+pub(crate) fn by_speeds(speed_ratios: &[f64], share: f64) -> Result<Vec<f64>, String> {
     let hub = "mass = \"1e6 kg\"\ninertia = \"1e6, 1e6, 1e6 kg m^2\"";
     let mut scenario = scenario(hub, "dynamic = \"2.2 g cm^2\"")?;
     // The mode turns the wheel by r for a modal coordinate of 1: with the wheel, a modal mass of 1 + J_t r^2.
@@ -118,7 +126,9 @@ pub(crate) fn by_speed(speed_ratio: f64, share: f64) -> Result<f64, String> {
         coordinates: vec![0.0; 2],
         rates: vec![0.0; 2],
     });
-    Ok(errors(&scenario, "camera", SPEED * speed_ratio)?[1])
+    let speeds: Vec<f64> = speed_ratios.iter().map(|ratio| SPEED * ratio).collect();
+    let found = errors(&scenario, "camera", &speeds)?;
+    Ok(found.into_iter().map(|[_, rotation]| rotation).collect())
 }
 
 /// Force of a gyro with static imbalance on a table while its gimbal turns: error of `U_s Omega^2` that turns with the

@@ -3,7 +3,7 @@
 
 use precess::report::cells::{CellMap, MapAxis};
 
-use super::page::by_speed;
+use super::page::by_speeds;
 
 /// Speeds over the natural frequency, from 0.2 in these steps.
 const SPEEDS: u32 = 53;
@@ -19,12 +19,12 @@ pub(crate) fn picture() -> Result<String, String> {
     let last = f64::from(SHARES - 1);
     let shares: Vec<f64> =
         (0..SHARES).map(|k| SHARE[0] * ratio.powf(f64::from(k) / last)).collect();
-    let mut numbers = Vec::new();
-    for speed in &speeds {
-        for share in &shares {
-            numbers.push(100.0 * by_speed(*speed, *share)?);
-        }
-    }
+    let by_share: Result<Vec<Vec<f64>>, String> =
+        shares.iter().map(|share| by_speeds(&speeds, *share)).collect();
+    let by_share = by_share?;
+    // The share fastest.
+    let at = |speed: usize| by_share.iter().map(move |of| 100.0 * of[speed]);
+    let numbers: Vec<f64> = (0..speeds.len()).flat_map(at).collect();
     let axis = |label: &str, values: Vec<f64>, logarithmic| MapAxis {
         label: label.to_owned(),
         values,
