@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn what_is_no_cross_spectral_matrix_is_refused() {
         // x and y, y and z move together, x and z against each other.
-        let three = vec![pair([0, 1], 0.9, 0.0), pair([1, 2], 0.9, 0.0), pair([0, 2], 0.9, 3.14)];
+        let three = vec![pair([0, 1], 0.9, 0.0), pair([1, 2], 0.9, 0.0), pair([0, 2], 0.9, 3.1)];
         for (pairs, part) in [
             (three, "not positive"),
             (vec![pair([0, 0], 0.5, 0.0)], "two components"),

@@ -186,6 +186,7 @@ impl Evaluator {
     }
 
     /// Time derivative of a flat state, whose accelerations those of `state` are.
+    #[must_use]
     pub fn derivative(
         &self,
         y: &[f64],

@@ -52,7 +52,7 @@ fn noise_has_the_cross_spectra_that_were_put_in() {
     let found = cross_spectra(&views, RATE, &settings).expect("signals");
     // Bins of 2 Hz, from 14 to 76 Hz: two bins of Hann's window from the ends of the band.
     let bins: Vec<usize> = (7..=38).collect();
-    let count = bins.len() as f64;
+    let count = f64::from(u32::try_from(bins.len()).expect("few bins"));
     let mean = |i: usize, j: usize| -> Complex<f64> {
         let density = found.between(i, j).expect("six signals");
         bins.iter().map(|bin| density[*bin]).sum::<Complex<f64>>() / count

@@ -29,7 +29,8 @@ pub(super) fn packages(stage: &Stage) -> Result<Vec<Package>, String> {
             fs::read_dir(&folder).map_err(wrong)?.flatten().map(|one| one.path()).collect();
         listed.retain(|path| {
             let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            file.starts_with(&format!("{name}-")) && file.ends_with(".crate")
+            file.starts_with(&format!("{name}-"))
+                && path.extension().is_some_and(|ending| ending == "crate")
         });
         let [path] = listed.as_slice() else {
             return Err(format!("{} has {} packages of {name}", folder.display(), listed.len()));

@@ -91,7 +91,7 @@ fn cargo_run(place: &Path, dependencies: &str, main: &str, target: &Path) -> Res
     run_there(cargo.args(["run", "--quiet"]).env("CARGO_TARGET_DIR", target).current_dir(place))
 }
 
-/// The program of the guide, by `pkg-config` and by CMake, with the lines of the guide.
+/// The program of the guide, by `pkg-config` and by `CMake`, with the lines of the guide.
 fn library(package: &Package, place: &Path) -> Result<bool, String> {
     // A folder whose name has a space in it would need quotes in the lines of the guide.
     let prefix = place.join("precess-c");

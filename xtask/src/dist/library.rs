@@ -1,4 +1,4 @@
-//! The C library as it is installed: libraries, header, pkg-config, CMake, licences, the guide.
+//! The C library as it is installed: libraries, header, pkg-config, `CMake`, licences, the guide.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use super::sources::entry;
 use crate::capi::{GUIDE, HEADER, MANIFEST};
 use crate::run::{output, run_there};
 
-/// Files of `pkg-config` and CMake, with `@VERSION@` and `@SONAME@` to be filled in.
+/// Files of `pkg-config` and `CMake`, with `@VERSION@` and `@SONAME@` to be filled in.
 const FILES: [(&str, &str); 4] = [
     ("lib/pkgconfig/precess.pc", include_str!("library/precess.pc")),
     ("lib/pkgconfig/precess-shared.pc", include_str!("library/precess-shared.pc")),

@@ -129,7 +129,8 @@ fn write(packages: &[Package], into: &Path) -> Result<(), String> {
 /// Checksum and name, as `sha256sum --check` reads them.
 fn line(package: &Package) -> String {
     let sum = Sha256::digest(&package.bytes);
-    let sum: String = sum.iter().map(|byte| format!("{byte:02x}")).collect();
+    let sum: Vec<String> = sum.iter().map(|byte| format!("{byte:02x}")).collect();
+    let sum = sum.concat();
     format!("{sum}  {}", package.name)
 }
 

@@ -59,7 +59,7 @@ pub(super) fn packages(stage: &Stage, folder: &Path) -> Result<Vec<Package>, Str
 /// Installs a wheel in an empty environment, and runs the first program of its page in an empty folder that has the
 /// scenarios. The package of sources was built when the wheel was made.
 pub(super) fn first_example(package: &Package, place: &Path) -> Result<bool, String> {
-    if !package.name.ends_with(".whl") {
+    if Path::new(&package.name).extension().is_none_or(|ending| ending != "whl") {
         return Ok(false);
     }
     let wheel = place.join(&package.name);
