@@ -63,7 +63,9 @@ const OTHERS: [&str; 32] = [
      record = { times = \"0, 1 s\", moment_x = \"0, 1 N m\", interpolation = \"linear\" }",
     "[[source]]\nname = \"noise\"\non = \"rw.wheel\"\naxes = \"parent\"\nspin_axis = \"z\"\nseed = 1\n\
      [source.broadband]\nfrequencies = \"1, 40 Hz\"\nband = \"2, 30 Hz\"\nperiod = \"2 s\"\n\
-     force_x = \"1e-9 N^2/Hz\"\nreference_rate = \"3000 rpm\"",
+     force_x = \"1e-9 N^2/Hz\"\nforce_y = \"1e-9 N^2/Hz\"\nreference_rate = \"3000 rpm\"\n\
+     [[source.broadband.coherent]]\nbetween = [\"force_x\", \"force_y\"]\ncoherence = 0.5\n\
+     phase = \"90 deg\"",
     "[[source]]\nname = \"table\"\non = \"rw\"\nfundamental_removed = true\nmodes_removed = false\n\
      [source.record]\nfile = \"no.csv\"\ntime = \"t\"\ncolumns = { force_x = \"fx\" }\n\
      force_unit = \"mN\"\nmoment_unit = \"mN m\"\ninterpolation = \"cubic\"\nrepeats = true",
