@@ -68,7 +68,7 @@ def evaluate(
             if given is None and own is None:
                 own = _connected(address, security, patience)
             try:
-                # For this thread only: `as_completed` asks for the client.
+                # For this thread only: `as_completed` needs the client.
                 with (given or own).as_current():
                     _round(given or own, job, bundle, plan, pending, alone, finished)
             except _Lost:

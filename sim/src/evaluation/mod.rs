@@ -2,7 +2,7 @@
 //! momentum, loads, the energy ledger, the mass matrix, the linearised system, a step; and states as
 //! flat vectors with names.
 //!
-//! What the scenario prescribes over time acts only where [`Evaluator::inputs`] asks for it: drives,
+//! What the scenario prescribes over time acts only where [`Evaluator::inputs`] requests it: drives,
 //! wrenches and disturbances from the start, without the changes at later times, which a run makes.
 //!
 //! | file | what |
