@@ -65,7 +65,9 @@ pub(crate) fn factorise<T: Scalar>(
 /// `L⁻ᵀ v` in place.
 pub(crate) fn back_substitute<T: Scalar>(rows: &Rows<'_, T>, v: &mut [T]) {
     let Rows { flat, length, count } = rows;
-    for (index, row) in flat.chunks_exact((*length).max(1)).take(*count).enumerate().rev() {
+    // The used part first: `take` from the end of an iterator has an index that can panic.
+    let used = flat.get(..length.saturating_mul(*count)).unwrap_or_default();
+    for (index, row) in used.chunks_exact((*length).max(1)).enumerate().rev() {
         let Some((before, [solved, ..])) = v.split_at_mut_checked(index) else { continue };
         for (to, factor) in before.iter_mut().zip(row) {
             *to = *to - *factor * *solved;
