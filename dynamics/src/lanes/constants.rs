@@ -238,6 +238,12 @@ impl OwnLoads {
         }
     }
 
+    /// Whether there is any.
+    #[inline(always)]
+    pub(super) fn any(self) -> bool {
+        self.dry || self.lumped
+    }
+
     /// Those of both.
     fn and(self, other: Self) -> Self {
         Self { dry: self.dry || other.dry, lumped: self.lumped || other.lumped }

@@ -58,7 +58,7 @@ impl GroupLoads {
     /// Whether there are any.
     #[inline(always)]
     fn any(&self) -> bool {
-        self.any_central || self.any_wrenches || self.own.dry || self.own.lumped
+        self.any_central || self.any_wrenches || self.own.any()
     }
 
     /// None yet but what the spacecraft have of their own.
@@ -132,6 +132,8 @@ impl<D: LanedSet, T: Number> Group<D, T> {
             let Some(state) = states.get(lane.min(last)) else { return };
             self.laned[lane & (WIDEST - 1)] = laned_state(state);
         }
+        // Drives that loads complete are those of one spacecraft.
+        self.given &= !(C::EACH && crafts.own_loads(start / T::WIDTH).any());
         if self.given {
             return;
         }
@@ -140,7 +142,7 @@ impl<D: LanedSet, T: Number> Group<D, T> {
         // A locked joint is looked at in each state.
         self.given = match all {
             BatchInputs::Same(inputs) => {
-                !C::EACH
+                !(C::EACH && self.loads.any())
                     && self.laned == [true; WIDEST]
                     && inputs.modes.values().all(|mode| mode != Mode::Locked)
             }

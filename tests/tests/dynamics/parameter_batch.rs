@@ -79,6 +79,25 @@ fn each_spacecraft_has_the_bits_it_has_by_itself() {
     }
 }
 
+/// What is given of the joints is taken in once for all groups of lanes, but where a group has dry
+/// friction or a lumped imbalance, which is added to it.
+#[test]
+fn groups_with_loads_of_their_own_between_others_have_the_bits_of_each_by_itself() {
+    let plain = [1, 2, 4, 7, 8, 9, 10, 11];
+    let of_groups: [[u32; 8]; 4] = [plain, [5; 8], plain, [1, 6, 2, 6, 5, 4, 6, 7]];
+    let crafts: Vec<_> = of_groups.as_flattened().iter().map(|k| craft(*k)).collect();
+    let states = states(32);
+    let mut given = lanes::inputs(0);
+    given.modes.1.gimbal = Mode::Driven;
+    given.motors.1.u_g = 0.02;
+    assert!(given.modes.values().all(|mode| mode != Mode::Locked), "else nothing is kept");
+    let mut found = Vec::new();
+    ParameterBatch::new(crafts.clone()).accelerations(&states, &given, &mut found).unwrap();
+    let alone = crafts.iter().zip(&states);
+    let alone = alone.map(|(craft, state)| craft.accelerations(state, &given));
+    assert_eq!(printed(&found), printed(&alone.collect::<Vec<_>>()));
+}
+
 /// Minus zero and zero add up to zero: a spring of none in a lane beside one that has a spring must
 /// not be added.
 #[test]
