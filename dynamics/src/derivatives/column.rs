@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::derivatives::elimination;
+use crate::derivatives::elimination::ConstantsPlain;
 use crate::derivatives::point::{DualSet, Number, Point};
 use crate::derivatives::variable::{Axis, Variable};
 use crate::equations::device::Device;
@@ -112,7 +112,8 @@ impl<T: Scalar, D: Devices<Scalar = Number<T>>> Results<D> {
         outputs: &Outputs<T>,
     ) -> Result<Self, SolveError<Number<T>>> {
         let Point { state, inputs } = at;
-        let accelerations = elimination::accelerations(spacecraft, state, inputs)?;
+        let accelerations =
+            spacecraft.accelerations_by(ConstantsPlain(spacecraft.arithmetic), state, inputs)?;
         let bn = columns(&state.attitude.dcm());
         let in_n = rotate_transposed(&bn, components(&accelerations.r_b_n_ddot));
         let momentum = match &outputs.momentum {

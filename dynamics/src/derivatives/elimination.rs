@@ -1,10 +1,9 @@
-//! [`accelerations`] in dual numbers: a device of which nothing is a variable is eliminated in plain numbers.
+//! [`ConstantsPlain`]: a device of which nothing is a variable is eliminated in plain numbers.
 //!
 //! An evaluation has the derivatives by a few variables, most of which concern one device or only the hub. The
 //! kernel of a device costs some ten times as much in dual numbers as in plain ones. Where every number that
 //! it reads is constant, so is every result, with the bits that the dual kernel gives.
 
-use crate::attitude::parameterisation::Attitude;
 use crate::derivatives::point::Number;
 use crate::equations::arithmetic::{Arithmetic, EliminationInputs, Pivots};
 use crate::equations::assembly::Assembly;
@@ -13,112 +12,26 @@ use crate::equations::eliminate::DeviceElimination;
 use crate::equations::error::SolveError;
 use crate::equations::joint_inputs::{DeviceInputs, Environment};
 use crate::generated::hub::BodyRate;
-use crate::isolation::carrier::Carrying;
-use crate::isolation::set::{Isolated, PreparedIsolated, parts};
 use crate::model::kind::Kind;
 use crate::model::mode::{Drive, Mode};
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::Scalar;
-use crate::sets::bundle::Bundle;
-use crate::sets::counts::check_counts;
-use crate::sets::devices::{DeviceSet, Devices, Visit};
-use crate::sets::per_device as data;
-use crate::solve::accelerations::{EvaluationStart, evaluation_start, inputs_are_finite, overflow};
-use crate::solve::elimination::{Eliminated, back_substitute};
-use crate::solve::inputs::Inputs;
-use crate::solve::spacecraft::Spacecraft;
-use crate::solve::state::{Accelerations, State};
+use crate::solve::elimination::Eliminate;
 
-/// [`Spacecraft::accelerations`], with the same numbers, in less time.
-pub(super) fn accelerations<T: Scalar, D: Devices<Scalar = Number<T>>>(
-    spacecraft: &Spacecraft<D>,
-    state: &State<D, impl Attitude<Number<T>>>,
-    inputs: &Inputs<D>,
-) -> Result<Accelerations<D>, SolveError<Number<T>>> {
-    let mut found = spacecraft.no_accelerations();
-    let solved = if inputs_are_finite(state, inputs) {
-        solve(spacecraft, state, inputs, &mut found)
-    } else {
-        Err(overflow())
-    };
-    match solved {
-        Ok(()) => Ok(found),
-        Err(failure) => Err(spacecraft.diagnosis(state, inputs, failure)),
-    }
-}
+/// Each device in dual numbers, unless all that its kernel reads is constant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ConstantsPlain(pub(super) Arithmetic);
 
-fn solve<T: Scalar, D: Devices<Scalar = Number<T>>>(
-    spacecraft: &Spacecraft<D>,
-    state: &State<D, impl Attitude<Number<T>>>,
-    inputs: &Inputs<D>,
-    found: &mut Accelerations<D>,
-) -> Result<(), SolveError<Number<T>>> {
-    let devices = &spacecraft.devices;
-    let EvaluationStart { environment, at_b } = evaluation_start(state, inputs)?;
-    let mut assembly = spacecraft.assembly(inputs);
-    let mut scratch = D::new_data(devices, &data::Gains);
-    let given = inputs.of_joints();
-    check_counts::<D>(devices, &state.devices, Some(given), None)?;
-    let mut elimination = Elimination {
-        environment: &environment,
-        assembly: &mut assembly,
-        device: 0,
-        arithmetic: spacecraft.arithmetic,
-    };
-    let of_joints = (&state.devices, given, &mut scratch);
-    D::visit::<Eliminated, _>(devices, of_joints, &mut elimination)?;
-    let hub = spacecraft.hub_accelerations(inputs, &environment, &mut assembly, at_b)?;
-    back_substitute::<D>(devices, &scratch, &hub, &mut found.devices);
-    found.finish(inputs, &hub, at_b)
-}
-
-/// Eliminates every joint, adds what is left to the hub's system.
-struct Elimination<'a, T: Scalar> {
-    environment: &'a Environment<Number<T>>,
-    assembly: &'a mut Assembly<Number<T>>,
-    /// The number of the device.
-    device: usize,
-    arithmetic: Arithmetic,
-}
-
-impl<T: Scalar> Visit<Number<T>, Eliminated> for Elimination<'_, T> {
-    type Error = SolveError<Number<T>>;
-
-    fn visit<K: Kind<Scalar = Number<T>>>(
-        &mut self,
-        device: &Device<K>,
-        (joints, given, gains): <Eliminated as Bundle<Number<T>>>::Of<'_, K>,
+impl<T: Scalar> Eliminate<Number<T>> for ConstantsPlain {
+    fn eliminate<K: Kind<Scalar = Number<T>>>(
+        self,
+        of: DeviceElimination<'_, K>,
     ) -> Result<(), SolveError<Number<T>>> {
-        let Self { environment, assembly, device: index, arithmetic } = self;
-        let index = core::mem::replace(index, index.wrapping_add(1));
-        let of = DeviceElimination { device, index, joints, given, environment, assembly, gains };
-        if is_constant(device, joints, given, environment) {
+        if is_constant(of.device, of.joints, of.given, of.environment) {
             eliminate_constant::<K, T>(of)
         } else {
-            arithmetic.eliminate(of)
+            self.0.eliminate(of)
         }
-    }
-
-    fn visit_isolated<D: DeviceSet<Scalar = Number<T>>>(
-        &mut self,
-        isolated: &PreparedIsolated<D>,
-        (joints, given, gains): <Eliminated as Bundle<Number<T>>>::Of<'_, Isolated<D>>,
-    ) -> Result<(), SolveError<Number<T>>> {
-        let index = self.device;
-        let mut carrying =
-            Carrying::start(&isolated.carrier, index, &joints.platform, self.environment);
-        let mut outboard = Elimination {
-            environment: &carrying.environment,
-            assembly: &mut carrying.assembly,
-            device: index.wrapping_add(1),
-            arithmetic: self.arithmetic,
-        };
-        let (of_platform, of_carried) = parts::<D>(given);
-        let data = (&joints.carried, of_carried, &mut gains.carried);
-        D::visit::<Eliminated, _>(&isolated.carried, data, &mut outboard)?;
-        self.device = outboard.device;
-        gains.platform = Some(carrying.finish(of_platform, self.assembly)?);
-        Ok(())
     }
 }
 

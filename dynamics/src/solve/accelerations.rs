@@ -23,7 +23,7 @@ use crate::numbers::vec3::{Vec3, add, columns, components, extreme, finite, sub,
 use crate::sets::counts::check_counts;
 use crate::sets::devices::{Devices, SetInputs};
 use crate::sets::per_device as data;
-use crate::solve::elimination::{Eliminated, Elimination, back_substitute};
+use crate::solve::elimination::{Eliminate, Eliminated, Elimination, back_substitute};
 use crate::solve::finite::all_finite;
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
@@ -50,11 +50,21 @@ impl<D: Devices> Spacecraft<D> {
         state: &State<D, A>,
         inputs: &Inputs<D>,
     ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
+        self.accelerations_by(self.arithmetic, state, inputs)
+    }
+
+    /// [`Self::accelerations`], each device eliminated `by` this.
+    pub(crate) fn accelerations_by<A: Attitude<D::Scalar>>(
+        &self,
+        by: impl Eliminate<D::Scalar>,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+    ) -> Result<Accelerations<D>, SolveError<D::Scalar>> {
         if !inputs_are_finite(state, inputs) {
             return Err(self.diagnosis(state, inputs, overflow()));
         }
         let mut found = self.no_accelerations();
-        match self.solve(state, inputs, &mut found, None) {
+        match self.solve_by(by, state, inputs, &mut found, None) {
             Ok(()) => Ok(found),
             Err(failure) => Err(self.diagnosis(state, inputs, failure)),
         }
@@ -62,8 +72,20 @@ impl<D: Devices> Spacecraft<D> {
 
     /// [`Self::accelerations`] without diagnosis, written to `found`: moving a structure just
     /// written takes time. The stiffness of springs and friction is written too, if requested.
+    #[inline(always)]
     pub(crate) fn solve<A: Attitude<D::Scalar>>(
         &self,
+        state: &State<D, A>,
+        inputs: &Inputs<D>,
+        found: &mut Accelerations<D>,
+        stiffness: Option<&mut Stiffness<D::Scalar>>,
+    ) -> Result<(), SolveError<D::Scalar>> {
+        self.solve_by(self.arithmetic, state, inputs, found, stiffness)
+    }
+
+    fn solve_by<A: Attitude<D::Scalar>>(
+        &self,
+        by: impl Eliminate<D::Scalar>,
         state: &State<D, A>,
         inputs: &Inputs<D>,
         found: &mut Accelerations<D>,
@@ -72,7 +94,6 @@ impl<D: Devices> Spacecraft<D> {
         let EvaluationStart { environment, at_b } = evaluation_start(state, inputs)?;
         let mut assembly = self.assembly(inputs);
         let mut scratch = D::new_data(&self.devices, &data::Gains);
-        let by = self.arithmetic;
         let given = inputs.of_joints();
         self.eliminate_devices(by, state, given, &environment, &mut assembly, &mut scratch)?;
         let hub = self.hub_accelerations(inputs, &environment, &mut assembly, at_b)?;
@@ -144,7 +165,7 @@ impl<D: Devices> Spacecraft<D> {
     #[inline(always)]
     pub(crate) fn eliminate_devices<A>(
         &self,
-        arithmetic: Arithmetic,
+        by: impl Eliminate<D::Scalar>,
         state: &State<D, A>,
         given: SetInputs<'_, D>,
         environment: &Environment<D::Scalar>,
@@ -152,7 +173,7 @@ impl<D: Devices> Spacecraft<D> {
         scratch: &mut D::Per<data::Gains>,
     ) -> Result<(), SolveError<D::Scalar>> {
         check_counts::<D>(&self.devices, &state.devices, Some(given), None)?;
-        let mut elimination = Elimination { environment, assembly, device: 0, arithmetic };
+        let mut elimination = Elimination { environment, assembly, device: 0, by };
         let data = (&state.devices, given, scratch);
         D::visit::<Eliminated, _>(&self.devices, data, &mut elimination)
     }

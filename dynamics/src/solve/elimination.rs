@@ -27,16 +27,35 @@ use crate::sets::per_device as data;
 /// State and inputs of the joints, and the gains that come of them.
 pub(crate) type Eliminated = (Shared<data::Joints>, Given, Unique<data::Gains>);
 
+/// How the joints of one device are eliminated.
+pub(crate) trait Eliminate<T: Scalar>: Copy {
+    /// Eliminates them, adds what is left to the hub's system.
+    fn eliminate<K: Kind<Scalar = T>>(
+        self,
+        of: DeviceElimination<'_, K>,
+    ) -> Result<(), SolveError<T>>;
+}
+
+impl<T: Scalar> Eliminate<T> for Arithmetic {
+    #[inline(always)]
+    fn eliminate<K: Kind<Scalar = T>>(
+        self,
+        of: DeviceElimination<'_, K>,
+    ) -> Result<(), SolveError<T>> {
+        Self::eliminate(self, of)
+    }
+}
+
 /// Eliminates every joint, adds what is left to the hub's system.
-pub(crate) struct Elimination<'a, T> {
+pub(crate) struct Elimination<'a, T, E> {
     pub(crate) environment: &'a Environment<T>,
     pub(crate) assembly: &'a mut Assembly<T>,
     /// The number of the device.
     pub(crate) device: usize,
-    pub(crate) arithmetic: Arithmetic,
+    pub(crate) by: E,
 }
 
-impl<T: Scalar> Visit<T, Eliminated> for Elimination<'_, T> {
+impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> {
     type Error = SolveError<T>;
 
     #[inline(always)]
@@ -45,17 +64,10 @@ impl<T: Scalar> Visit<T, Eliminated> for Elimination<'_, T> {
         device: &Device<K>,
         (joints, given, gains): <Eliminated as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), SolveError<T>> {
-        let Self { environment, assembly, device: index, arithmetic } = self;
+        let Self { environment, assembly, device: index, by } = self;
         let index = core::mem::replace(index, index.wrapping_add(1));
-        arithmetic.eliminate(DeviceElimination {
-            device,
-            index,
-            joints,
-            given,
-            environment,
-            assembly,
-            gains,
-        })
+        let of = DeviceElimination { device, index, joints, given, environment, assembly, gains };
+        by.eliminate(of)
     }
 
     fn visit_isolated<D: DeviceSet<Scalar = T>>(
@@ -70,7 +82,7 @@ impl<T: Scalar> Visit<T, Eliminated> for Elimination<'_, T> {
             environment: &carrying.environment,
             assembly: &mut carrying.assembly,
             device: index.wrapping_add(1),
-            arithmetic: self.arithmetic,
+            by: self.by,
         };
         let (of_platform, of_carried) = parts::<D>(given);
         let data = (&joints.carried, of_carried, &mut gains.carried);
