@@ -1,12 +1,11 @@
-//! What an evaluation does with each device on a structure that bends: as on a rigid hub, with the
-//! frame K of its mount for B.
+//! What an evaluation does with each device or platform on a structure that bends: as on a rigid
+//! hub, with the frame K of its mount for B.
 
 use core::convert::Infallible;
 
 use crate::equations::arithmetic::Arithmetic;
 use crate::equations::assembly::Assembly;
 use crate::equations::device::Device;
-use crate::equations::eliminate::DeviceElimination;
 use crate::equations::error::SolveError;
 use crate::equations::hub::HubConstants;
 use crate::equations::joint_inputs::Environment;
@@ -18,8 +17,9 @@ use crate::isolation::set::{Isolated, PreparedIsolated};
 use crate::model::kind::Kind;
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
-use crate::sets::devices::{DeviceSet, Visit};
+use crate::sets::devices::{ConstantShares, DeviceSet, Visit};
 use crate::sets::per_device as data;
+use crate::solve::elimination::{BackSubstitution, Elimination};
 
 /// A mount during an evaluation.
 #[derive(Clone, Debug)]
@@ -44,28 +44,36 @@ impl<T: Scalar> Visit<T, Shared<OnMount>> for Standing<'_, T> {
         device: &Device<K>,
         mount: &usize,
     ) -> Result<(), ModesError<T>> {
-        let number = self.device;
-        self.device = self.device.wrapping_add(1);
-        let mounts = self.bodies.len();
-        let Some(body) = self.bodies.get_mut(*mount) else {
-            return Err(ModesError::NoMount { device: number, mount: *mount, mounts });
-        };
-        let share = K::constant_share(&device.constants);
-        *body = body.with_constant_shares(core::iter::once(share));
-        Ok(())
+        self.add::<K>(device, *mount)
     }
 
-    // Other visitors never meet a platform: there is no spacecraft that has one.
     fn visit_isolated<D: DeviceSet<Scalar = T>>(
         &mut self,
-        _: &PreparedIsolated<D>,
-        _: &<Isolated<D> as DeviceSet>::Per<OnMount>,
+        isolated: &PreparedIsolated<D>,
+        mount: &<Isolated<D> as DeviceSet>::Per<OnMount>,
     ) -> Result<(), ModesError<T>> {
-        Err(ModesError::Isolated { device: self.device })
+        self.add::<Isolated<D>>(isolated, mount.platform)
     }
 
     fn compare(&mut self, expected: usize, found: usize) -> Result<(), ModesError<T>> {
         if expected == found { Ok(()) } else { Err(ModesError::DeviceCount { expected, found }) }
+    }
+}
+
+impl<T: Scalar> Standing<'_, T> {
+    /// Adds what devices that stand together on a mount share of its body.
+    fn add<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        devices: &D::Prepared,
+        mount: usize,
+    ) -> Result<(), ModesError<T>> {
+        let (device, mounts) = (self.device, self.bodies.len());
+        let Some(body) = self.bodies.get_mut(mount) else {
+            return Err(ModesError::NoMount { device, mount, mounts });
+        };
+        *body = body.with_constant_shares(D::list::<ConstantShares>(devices));
+        self.device = device.wrapping_add(D::list::<ConstantShares>(devices).count());
+        Ok(())
     }
 }
 
@@ -87,20 +95,33 @@ impl<T: Scalar> Visit<T, Eliminated> for MountElimination<'_, T> {
         device: &Device<K>,
         (joints, given, gains, mount): <Eliminated as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), SolveError<T>> {
-        let index = self.device;
-        self.device = self.device.wrapping_add(1);
-        let Some(MountStage { environment, assembly, .. }) = self.mounts.get_mut(*mount) else {
+        self.on(*mount, |mount| mount.visit(device, (joints, given, gains)))
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        (joints, given, gains, mount): <Eliminated as Bundle<T>>::Of<'_, Isolated<D>>,
+    ) -> Result<(), SolveError<T>> {
+        self.on(mount.platform, |mount| mount.visit_isolated(isolated, (joints, given, gains)))
+    }
+}
+
+impl<T: Scalar> MountElimination<'_, T> {
+    /// Eliminates the next devices into the equations of their mount.
+    fn on(
+        &mut self,
+        mount: usize,
+        eliminate: impl FnOnce(&mut Elimination<'_, T, Arithmetic>) -> Result<(), SolveError<T>>,
+    ) -> Result<(), SolveError<T>> {
+        let Some(MountStage { environment, assembly, .. }) = self.mounts.get_mut(mount) else {
             return Ok(());
         };
-        self.arithmetic.eliminate(DeviceElimination {
-            device,
-            index,
-            joints,
-            given,
-            environment,
-            assembly,
-            gains,
-        })
+        let (device, by) = (self.device, self.arithmetic);
+        let mut elimination = Elimination { environment, assembly, device, by };
+        eliminate(&mut elimination)?;
+        self.device = elimination.device;
+        Ok(())
     }
 }
 
@@ -115,12 +136,19 @@ impl<T: Scalar> Visit<T, Substituted> for MountBackSubstitution<'_, T> {
 
     fn visit<K: Kind<Scalar = T>>(
         &mut self,
-        _: &Device<K>,
+        device: &Device<K>,
         (gains, out, mount): <Substituted as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), Infallible> {
-        if let (Some(gains), Some(mount)) = (gains, self.0.get(*mount)) {
-            *out = K::back_substitute(gains, &mount.expressed_in_b());
-        }
-        Ok(())
+        let Some(mount) = self.0.get(*mount) else { return Ok(()) };
+        BackSubstitution(mount.expressed_in_b()).visit(device, (gains, out))
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        (gains, out, mount): <Substituted as Bundle<T>>::Of<'_, Isolated<D>>,
+    ) -> Result<(), Infallible> {
+        let Some(mount) = self.0.get(mount.platform) else { return Ok(()) };
+        BackSubstitution(mount.expressed_in_b()).visit_isolated(isolated, (gains, out))
     }
 }

@@ -23,6 +23,7 @@ use crate::flexible::on_mount::OnMount;
 use crate::flexible::spacecraft::FlexibleSpacecraft;
 use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
 use crate::flexible::storage::ModalStorage;
+use crate::isolation::set::{Isolated, PreparedIsolated};
 use crate::model::kind::Kind;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::{Scalar, two, zero};
@@ -31,9 +32,10 @@ use crate::numbers::vec3::{
     Columns, Vec3, add, columns, components, cross, neg, rotate_transposed, scale, sub, vector,
     zeros,
 };
-use crate::results::loads::{LoadAxes, Loads};
+use crate::results::loads::{LoadAxes, Loads, Weighing as OnBase};
+use crate::results::momentum::FirstMoments;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
-use crate::sets::devices::{Devices, Visit};
+use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::per_device as data;
 
 /// The loads of a [`FlexibleSpacecraft`].
@@ -113,24 +115,41 @@ impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
         device: &Device<K>,
         (joints, given, accelerations, (out, mount)): <Weighed as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), Infallible> {
-        if let Some(of_mount) = self.mounts.get_mut(*mount) {
-            let MountLoads { environment, acceleration, along, totals, first_moment, .. } =
-                of_mount;
-            totals.joints = self.joints;
-            *out = device.loads(
-                joints,
-                given,
-                environment,
-                acceleration,
-                accelerations,
-                along,
-                totals,
-            );
-            self.joints = totals.joints;
-            let mut moments = [*first_moment, zeros()];
-            device.add_first_moment(joints, &mut moments);
-            [*first_moment, _] = moments;
-        }
+        let given = (joints, given, accelerations, out);
+        self.on(*mount, |mount, moments| {
+            let Ok(()) = mount.visit(device, given);
+            moments.visit(device, joints)
+        })
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        (joints, given, accelerations, (out, mount)): <Weighed as Bundle<T>>::Of<'_, Isolated<D>>,
+    ) -> Result<(), Infallible> {
+        let given = (joints, given, accelerations, out);
+        self.on(mount.platform, |mount, moments| {
+            let Ok(()) = mount.visit_isolated(isolated, given);
+            moments.visit_isolated(isolated, joints)
+        })
+    }
+}
+
+impl<T: Scalar> Weighing<'_, T> {
+    /// The loads of the next devices, as on a rigid hub, with their mount for it.
+    fn on(
+        &mut self,
+        mount: usize,
+        weigh: impl FnOnce(&mut OnBase<'_, T>, &mut FirstMoments<'_, T>) -> Result<(), Infallible>,
+    ) -> Result<(), Infallible> {
+        let Some(mount) = self.mounts.get_mut(mount) else { return Ok(()) };
+        let MountLoads { environment, acceleration: hub, along, totals, first_moment, .. } = mount;
+        totals.joints = self.joints;
+        let mut moments = [*first_moment, zeros()];
+        let mut on_base = OnBase { environment, hub, along, totals };
+        weigh(&mut on_base, &mut FirstMoments(&mut moments))?;
+        self.joints = totals.joints;
+        [*first_moment, _] = moments;
         Ok(())
     }
 }

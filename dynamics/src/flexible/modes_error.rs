@@ -145,11 +145,6 @@ pub enum ModesError<T = f64> {
         /// What is wrong with it.
         fault: ResidualFault<T>,
     },
-    /// An isolated platform, of which this model has no equations on a mount that moves.
-    Isolated {
-        /// The platform, which counts as a device.
-        device: usize,
-    },
     /// The modes carry more momentum than the structure has mass or inertia: what its rigid motion
     /// keeps for itself, `[m, -tilde(m c); tilde(m c), I] - Y_0 Y_0ᵀ`, has a negative pivot.
     MoreThanStructure {
@@ -270,11 +265,6 @@ impl<T: Scalar> Display for ModesError<T> {
                 "device {device} stands on mount {mount} of {mounts}; mounts count from 0"
             ),
             Self::Residual { mode, fault } => fault.write(f, mode),
-            Self::Isolated { device } => write!(
-                f,
-                "device {device} is an isolated platform, which is unsupported on modes; use a \
-                 rigid hub, or put the platform's devices on the mounts"
-            ),
             Self::MoreThanStructure { row, pivot, bound } => write!(
                 f,
                 "pivot {:?} of row {row} of the hub's mass less that of the modes is below {:?}; \

@@ -15,6 +15,7 @@ use crate::flexible::on_mount::OnMount;
 use crate::flexible::spacecraft::FlexibleSpacecraft;
 use crate::flexible::state::FlexibleState;
 use crate::flexible::storage::ModalStorage;
+use crate::isolation::set::{Isolated, PreparedIsolated};
 use crate::model::kind::Kind;
 use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::vec3::{
@@ -22,11 +23,12 @@ use crate::numbers::vec3::{
     scale, sub, vector, zeros,
 };
 use crate::results::momentum::{
-    About, CentreOfMass, EnergyAndMomentum, Momentum, checked, kinetic, not_finite_in_point,
+    About, Addition as OnBase, CentreOfMass, EnergyAndMomentum, FirstMoments, Momentum, checked,
+    kinetic, not_finite_in_point,
 };
 use crate::sets::bundle::{Bundle, Shared};
 use crate::sets::counts::check_counts;
-use crate::sets::devices::{Devices, Visit};
+use crate::sets::devices::{DeviceSet, Devices, Visit};
 use crate::sets::per_device::Joints;
 use crate::solve::finite::reject;
 
@@ -53,11 +55,35 @@ impl<T: Scalar> Visit<T, Placed> for Addition<'_, T> {
         device: &Device<K>,
         (joints, mount): <Placed as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), Infallible> {
-        if let Some(MountSums { motion, velocity, sums, first_moment }) = self.0.get_mut(*mount) {
-            device.add_sums(joints, *velocity, motion.omega, sums);
-            device.add_first_moment(joints, first_moment);
-        }
-        Ok(())
+        self.on(*mount, |sums, moments| {
+            let Ok(()) = sums.visit(device, joints);
+            moments.visit(device, joints)
+        })
+    }
+
+    fn visit_isolated<D: DeviceSet<Scalar = T>>(
+        &mut self,
+        isolated: &PreparedIsolated<D>,
+        (joints, mount): <Placed as Bundle<T>>::Of<'_, Isolated<D>>,
+    ) -> Result<(), Infallible> {
+        self.on(mount.platform, |sums, moments| {
+            let Ok(()) = sums.visit_isolated(isolated, joints);
+            moments.visit_isolated(isolated, joints)
+        })
+    }
+}
+
+impl<T: Scalar> Addition<'_, T> {
+    /// The sums of devices, as on a rigid hub, with their mount for it.
+    fn on(
+        &mut self,
+        mount: usize,
+        add: impl FnOnce(&mut OnBase<'_, T>, &mut FirstMoments<'_, T>) -> Result<(), Infallible>,
+    ) -> Result<(), Infallible> {
+        let Some(mount) = self.0.get_mut(mount) else { return Ok(()) };
+        let MountSums { motion, velocity, sums, first_moment } = mount;
+        let (r_b_n_dot, omega) = (*velocity, motion.omega);
+        add(&mut OnBase { r_b_n_dot, omega, sums }, &mut FirstMoments(first_moment))
     }
 }
 

@@ -5,7 +5,8 @@ use crate::numbers::real::Scalar;
 use crate::sets::enumeration::{DeviceEnum, Variant};
 use crate::sets::per_device::PerDevice;
 
-/// The number of the mount of each device, from 0; at first 0.
+/// The number of the mount of each device, from 0; at first 0. A platform's is that of all it
+/// carries, whose own are not read.
 #[derive(Clone, Copy, Debug)]
 pub struct OnMount;
 

@@ -61,14 +61,15 @@ pub struct Loads<D: Devices> {
 }
 
 /// State, inputs and accelerations of the joints, and the loads that come of them.
-type Weighed = (Shared<data::Joints>, Given, Shared<data::Accelerations>, Unique<data::Loads>);
+pub(crate) type Weighed =
+    (Shared<data::Joints>, Given, Shared<data::Accelerations>, Unique<data::Loads>);
 
 /// The loads that the accelerations need; adds what the devices require of the hub.
-struct Weighing<'a, T> {
-    environment: &'a Environment<T>,
-    hub: &'a HubAccelerations<T>,
-    along: &'a Along<T>,
-    totals: &'a mut LoadSums<T>,
+pub(crate) struct Weighing<'a, T> {
+    pub(crate) environment: &'a Environment<T>,
+    pub(crate) hub: &'a HubAccelerations<T>,
+    pub(crate) along: &'a Along<T>,
+    pub(crate) totals: &'a mut LoadSums<T>,
 }
 
 impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {

@@ -65,10 +65,10 @@ pub struct CentreOfMass<T = f64> {
 }
 
 /// Adds kinetic energy and momenta for the velocity of B and the angular velocity, B axes.
-struct Addition<'a, T> {
-    r_b_n_dot: Vec3<T>,
-    omega: Vec3<T>,
-    sums: &'a mut BodySums<T>,
+pub(crate) struct Addition<'a, T> {
+    pub(crate) r_b_n_dot: Vec3<T>,
+    pub(crate) omega: Vec3<T>,
+    pub(crate) sums: &'a mut BodySums<T>,
 }
 
 impl<T: Scalar> Visit<T, Shared<Joints>> for Addition<'_, T> {
@@ -105,7 +105,7 @@ impl<T: Scalar> Visit<T, Shared<Joints>> for Addition<'_, T> {
 }
 
 /// Adds the first moment about B and its derivative seen from B, B axes.
-struct FirstMoments<'a, T>(&'a mut [Vec3<T>; 2]);
+pub(crate) struct FirstMoments<'a, T>(pub(crate) &'a mut [Vec3<T>; 2]);
 
 impl<T: Scalar> Visit<T, Shared<Joints>> for FirstMoments<'_, T> {
     type Error = Infallible;

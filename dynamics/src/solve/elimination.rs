@@ -94,10 +94,10 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
 }
 
 /// The gains, and the accelerations that come of them.
-type Substituted = (Shared<data::Gains>, Unique<data::Accelerations>);
+pub(crate) type Substituted = (Shared<data::Gains>, Unique<data::Accelerations>);
 
 /// The joints' accelerations once the hub's are known.
-struct BackSubstitution<T>(BodyAcceleration<T>);
+pub(crate) struct BackSubstitution<T>(pub(crate) BodyAcceleration<T>);
 
 impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<T> {
     type Error = Infallible;

@@ -2,8 +2,7 @@
 //! devices of the scenario.
 //!
 //! State, inputs and accelerations are those of a structure; on a rigid hub the lists of modes and
-//! mounts are empty and `rigid` is all there is. What the library does not have for a structure, a
-//! platform on it, a scenario does not contain: `scenario::structure` rejects it with the key.
+//! mounts are empty and `rigid` is all there is.
 
 use precess_dynamics::{
     About, Accelerations, EnergyAndMomentum, FlexibleAccelerations, FlexibleInputs,

@@ -6,7 +6,7 @@
 //! not written stands for what the spacecraft does not have: a torque limit, an end stop, gravity.
 
 mod source;
-mod structure;
+pub(super) mod structure;
 
 use std::fmt::Write as _;
 
@@ -98,7 +98,7 @@ fn devices(out: &mut String, s: &Scenario) -> Written {
         joint += member.joints().len();
         let Member::Device { device, on } = member else {
             if let Some(of) = member.platform() {
-                super::write_platform::platform(out, s, name, of, first)?;
+                super::write_platform::platform(out, s, name, of, [index, first])?;
             }
             continue;
         };
@@ -108,8 +108,8 @@ fn devices(out: &mut String, s: &Scenario) -> Written {
         writeln!(out, "on = {}", quoted(base))?;
         writeln!(out, "kind = {}", quoted(device.kind().name()))?;
         writeln!(out, "position = {}", vector(&Vector3::from(parameters.bodies[0].origin), "m"))?;
-        if let Some(node) = s.structure.as_ref().and_then(|of| of.on_node.get(index)) {
-            writeln!(out, "node = {}", quoted(structure::node_name(s, *node)))?;
+        if on.is_none() {
+            structure::node(out, s, index)?;
         }
         mount(out, &parameters.mount)?;
         let model = match parameters.model {

@@ -7,20 +7,21 @@ use precess_dynamics::kind::{Each, Kind};
 use precess_dynamics::{BuiltIn, Coupled, Isolated, Platform, Strut};
 
 use super::read::joint_key;
-use super::write::{Written, inertia, mount, of_joint, quoted, vector};
+use super::write::{Written, inertia, mount, of_joint, quoted, structure, vector};
 use crate::scenario::Scenario;
 
-/// The table of a platform; `first` is the number of its first joint.
+/// The table of a platform, by its numbers as a member and of its first joint.
 pub(super) fn platform(
     out: &mut String,
     s: &Scenario,
     name: &str,
     of: &Isolated<Vec<BuiltIn>>,
-    first: usize,
+    [member, first]: [usize; 2],
 ) -> Written {
     let Isolated { platform, suspension, .. } = of;
     writeln!(out, "\n[[platform]]\nname = {}", quoted(name))?;
     writeln!(out, "position = {}", vector(&platform.r_p_b, "m"))?;
+    structure::node(out, s, member)?;
     mount(out, &platform.mount)?;
     writeln!(out, "mass = \"{:?} kg\"", platform.m_p)?;
     writeln!(out, "centre_of_mass = {}", vector(&platform.r_pc_p, "m"))?;

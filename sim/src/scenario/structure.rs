@@ -7,12 +7,14 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
-    About, BuiltIn, ContainedBody, FlexibleSpacecraft, Hub, JointArray, ListedModes, ModalMount,
-    ModalPoint, Modes, ModesError, ParameterError, Spacecraft, State,
+    About, BuiltIn, ContainedBody, FlexibleSpacecraft, Hub, Isolated, JointStates, ListedModes,
+    ModalMount, ModalPoint, Modes, ModesError, ParameterError, Spacecraft, State, platform,
 };
 
 use super::check::range;
+use super::member::{Member, members};
 use super::{Scenario, ScenarioError, Set, Target, WrenchAxes};
+use crate::structure::steady::set_of;
 use crate::structure::{COORDINATES, Mode, RigidMass};
 
 /// A structure that bends.
@@ -22,7 +24,8 @@ pub struct ModalStructure {
     pub modes: Vec<Mode>,
     /// The nodes that the scenario uses.
     pub nodes: Vec<StructureNode>,
-    /// The node that carries each device, in the order of the devices.
+    /// The node that carries each member, device or platform; that of a device on a platform is the
+    /// platform's.
     pub on_node: Vec<usize>,
     /// Whether hub and modes contain the mass of the devices, as a rigid body at their initial
     /// coordinates: it is subtracted.
@@ -68,7 +71,7 @@ impl StructureNode {
 }
 
 impl ModalStructure {
-    /// The nodes that carry devices, each once: the mounts of the library, in their order.
+    /// The nodes that carry devices and platforms, each once: the mounts of the library, in their order.
     pub(crate) fn mounts(&self) -> Vec<usize> {
         let mut mounts = Vec::new();
         for node in &self.on_node {
@@ -102,7 +105,7 @@ impl Scenario {
         for node in &mounts {
             let point = structure.nodes.get(*node).map(StructureNode::point);
             let carried = structure.on_node.iter().zip(0..).filter(|(on, _)| *on == node);
-            let carried: Vec<usize> = carried.map(|(_, device)| device).collect();
+            let carried: Vec<usize> = carried.map(|(_, member)| member).collect();
             let contained = self.contained(&carried)?;
             modal.extend(point.map(|point| ModalMount { point, contained }));
         }
@@ -114,16 +117,23 @@ impl Scenario {
             mounts: modal,
         };
         let mount = |node: &usize| mounts.iter().position(|known| known == node).unwrap_or(0);
-        let on_mount: Vec<usize> = structure.on_node.iter().map(mount).collect();
-        FlexibleSpacecraft::new(&self.hub, &modes, &self.devices, &(on_mount, Vec::new()))
+        let mut of_members = structure.on_node.iter().map(mount);
+        let on_mount: Vec<usize> = of_members.by_ref().take(self.devices.0.len()).collect();
+        let mut of_platform = |isolated: &Isolated<Vec<BuiltIn>>| {
+            let platform = of_members.next().unwrap_or(0);
+            let carried = of_members.by_ref().take(isolated.carried.len()).collect();
+            platform::Data { platform, carried }
+        };
+        let on_platforms: Vec<_> = self.devices.1.iter().map(&mut of_platform).collect();
+        FlexibleSpacecraft::new(&self.hub, &modes, &self.devices, &(on_mount, on_platforms))
     }
 
-    /// What hub and modes contain of devices: nothing, or their bodies at the initial coordinates.
-    fn contained(&self, devices: &[usize]) -> Result<Option<ContainedBody>, ParameterError> {
+    /// What hub and modes contain of members: nothing, or their bodies at the initial coordinates.
+    fn contained(&self, members: &[usize]) -> Result<Option<ContainedBody>, ParameterError> {
         if !self.structure.as_ref().is_some_and(|structure| structure.contains_devices) {
             return Ok(None);
         }
-        let whole = self.devices_as_one(devices.iter().copied())?;
+        let whole = self.as_one(members)?;
         let centre = whole.centre();
         let cross = centre.cross_matrix();
         let inertia = whole.inertia + whole.mass * cross * cross;
@@ -131,20 +141,23 @@ impl Scenario {
         Ok(Some(ContainedBody { mass: whole.mass, centre, inertia }))
     }
 
-    /// Devices as one rigid body about B, joints at their initial coordinates.
-    fn devices_as_one(
-        &self,
-        devices: impl Iterator<Item = usize>,
-    ) -> Result<RigidMass, ParameterError> {
+    /// Members as one rigid body about B, joints at their initial coordinates; a platform is listed
+    /// with the devices on it.
+    fn as_one(&self, chosen: &[usize]) -> Result<RigidMass, ParameterError> {
         let nothing =
             RigidMass { mass: 0.0, first_moment: Vector3::zeros(), inertia: Matrix3::zeros() };
-        devices.zip(std::iter::repeat(())).try_fold(nothing, |sum, (device, ())| {
-            let (Some(own), Some(joints)) =
-                (self.devices.0.get(device), self.initial.devices.0.get(device))
-            else {
-                return Ok(sum);
-            };
-            let body = device_as_one(own, joints)?;
+        let all = members(&self.devices);
+        let on_the_hub = chosen
+            .iter()
+            .filter(|index| all.get(**index).is_some_and(|member| member.on().is_none()));
+        on_the_hub.copied().try_fold(nothing, |sum, index| {
+            let on_it = |member: &usize| all.get(*member).and_then(Member::on) == Some(index);
+            let group: Vec<usize> =
+                std::iter::once(index).chain((0..all.len()).filter(on_it)).collect();
+            let joints = self.joints().zip(self.initial.devices.states());
+            let of_group = joints.filter(|((member, ..), _)| group.contains(member));
+            let coordinates = of_group.map(|(_, [coordinate, _])| coordinate);
+            let body = set_as_one(&set_of(self, &group), coordinates)?;
             Ok(RigidMass {
                 mass: sum.mass + body.mass,
                 first_moment: sum.first_moment + body.first_moment,
@@ -160,7 +173,8 @@ impl Scenario {
         }
         let Hub { m_b, r_bc_b, i_b_bc } = self.hub;
         let whole = RigidMass::about_centre(m_b, r_bc_b, i_b_bc);
-        let devices = self.devices_as_one(0..self.devices.0.len())?;
+        let all: Vec<usize> = (0..self.members().count()).collect();
+        let devices = self.as_one(&all)?;
         let m_b = whole.mass - devices.mass;
         let r_bc_b = (whole.first_moment - devices.first_moment) / m_b;
         let cross = r_bc_b.cross_matrix();
@@ -192,9 +206,10 @@ impl Scenario {
                 errors.push(range(&format!("structure.{key}"), message));
             }
         }
-        if structure.on_node.len() != self.devices.0.len() {
-            let (found, devices) = (structure.on_node.len(), self.devices.0.len());
-            let message = format!("{found} nodes for {devices} devices; give each its `node`");
+        let (found, members) = (structure.on_node.len(), self.members().count());
+        if found != members {
+            let message =
+                format!("{found} nodes for {members} devices and platforms; give each its `node`");
             errors.push(range("structure", message));
         }
         let of_wrenches = self.wrenches.iter().filter_map(|wrench| match wrench.body {
@@ -240,10 +255,6 @@ impl Scenario {
     fn not_on_a_structure(&self) -> Vec<ScenarioError> {
         let mut errors = Vec::new();
         let mut reject = |key: String, message: &str| errors.push(range(&key, message.to_owned()));
-        for (name, _) in self.members().filter(|(_, member)| member.platform().is_some()) {
-            let message = "a platform stands on a rigid hub; remove it, or `[structure]`";
-            reject(format!("platform.{name}"), message);
-        }
         for wrench in &self.wrenches {
             match wrench.body {
                 Target::Hub => {
@@ -268,18 +279,17 @@ impl Scenario {
     }
 }
 
-/// A device as one rigid body about B, joints at these coordinates.
-fn device_as_one(
-    device: &BuiltIn,
-    joints: &JointArray<[f64; 2]>,
+/// A set as one rigid body about B, joints at these coordinates.
+fn set_as_one(
+    set: &Set,
+    coordinates: impl Iterator<Item = f64>,
 ) -> Result<RigidMass, ParameterError> {
     // Beside a massive body at B, which is subtracted again.
     let hub = Hub { m_b: 1.0, r_bc_b: Vector3::zeros(), i_b_bc: Matrix3::identity() };
-    let craft = Spacecraft::new(&hub, &vec![*device])?;
-    let mut state: State<Vec<BuiltIn>> = State::at_rest_for(&craft);
-    let all = state.devices.iter_mut().flat_map(JointArray::as_mut_slice);
-    for (to, [coordinate, _]) in all.zip(joints.as_slice()) {
-        to[0] = *coordinate;
+    let craft = Spacecraft::new(&hub, set)?;
+    let mut state: State<Set> = State::at_rest_for(&craft);
+    for ([to, _], coordinate) in state.devices.states_mut().zip(coordinates) {
+        *to = coordinate;
     }
     // H = I_B omega and p = omega x (m c), at omega = e_k.
     let mut inertia = Matrix3::zeros();

@@ -82,7 +82,23 @@ fn every_key_has_its_error() {
         ),
         (
             end("[[platform]]\nname = \"iso\"\nmass = \"1 kg\"\ninertia = \"1, 1, 1 g m^2\""),
-            "a platform stands on a rigid hub; remove it",
+            "`platform.iso.node` is missing",
+        ),
+        (
+            end(
+                "[[platform]]\nname = \"iso\"\nmass = \"1 kg\"\ninertia = \"1, 1, 1 g m^2\"\nnode = \"rot\"",
+            ),
+            "no node of the structure is named `rot`",
+        ),
+        (
+            end(
+                "[[platform]]\nname = \"iso\"\nmass = \"1 kg\"\ninertia = \"1, 1, 1 g m^2\"\nnode = [\"tip\", \"root\"]",
+            ),
+            "2 nodes for a platform",
+        ),
+        (
+            with("node = \"tip\"\nmount", "on = \"iso\"\nnode = \"tip\"\nmount"),
+            "has the node of the platform",
         ),
     ];
     for (text, part) in cases {

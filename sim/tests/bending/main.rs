@@ -4,6 +4,7 @@
 mod direct;
 mod errors;
 mod known;
+mod platform;
 mod satellite;
 #[path = "../../examples/satellite_modes.rs"]
 mod satellite_modes;

@@ -1,5 +1,6 @@
 //! Accelerations against the kinetic energy differentiated in double-double.
 
+use precess_dynamics::Devices;
 use precess_dynamics::kind::Each;
 use precess_tests::blocks::largest;
 use precess_tests::bounds::{ACCELERATIONS_WORST, BACKWARD_EPSILONS};
@@ -8,7 +9,7 @@ use crate::craft::{Case, SEED, Size};
 use crate::reference::reference;
 
 /// `a_B`, omega', eta'', q'' as one list.
-pub(crate) fn listed(case: &Case) -> Vec<f64> {
+pub(crate) fn listed<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vec<f64> {
     let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
     let rigid = &found.rigid;
     let hub = rigid.r_b_n_ddot.iter().chain(&rigid.omega_dot).copied();

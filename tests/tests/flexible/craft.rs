@@ -42,16 +42,30 @@ pub(crate) struct Chain {
 }
 
 /// A spacecraft in a state.
-#[derive(Clone, Debug)]
-pub(crate) struct Case {
+pub(crate) struct Case<D: Devices<Scalar = f64> = Mixed> {
     pub(crate) seed: u64,
     pub(crate) hub: Hub,
     pub(crate) modes: Modes<ListedModes>,
-    pub(crate) devices: Mixed,
-    pub(crate) craft: FlexibleSpacecraft<Mixed, ListedModes>,
+    pub(crate) devices: D,
+    pub(crate) craft: FlexibleSpacecraft<D, ListedModes>,
     pub(crate) chains: Vec<Chain>,
-    pub(crate) state: FlexibleState<Mixed, ListedModes>,
-    pub(crate) inputs: FlexibleInputs<Mixed, ListedModes>,
+    pub(crate) state: FlexibleState<D, ListedModes>,
+    pub(crate) inputs: FlexibleInputs<D, ListedModes>,
+}
+
+impl Clone for Case {
+    fn clone(&self) -> Self {
+        Self {
+            seed: self.seed,
+            hub: self.hub,
+            modes: self.modes.clone(),
+            devices: self.devices,
+            craft: self.craft.clone(),
+            chains: self.chains.clone(),
+            state: self.state.clone(),
+            inputs: self.inputs.clone(),
+        }
+    }
 }
 
 /// What a case is drawn with.
@@ -143,6 +157,15 @@ fn inertia(random: &mut Random, mass: f64) -> Matrix3<f64> {
 /// A device of a kind, its first body within 1.5 m of B.
 pub(crate) fn device<K: Kind<Scalar = f64>>(random: &mut Random, mass: f64) -> K {
     let mount = rotation(random).to_rotation_matrix().into_inner();
+    mounted(random, mass, &mount)
+}
+
+/// A device of a kind with this mount.
+pub(crate) fn mounted<K: Kind<Scalar = f64>>(
+    random: &mut Random,
+    mass: f64,
+    mount: &Matrix3<f64>,
+) -> K {
     let body = precess_dynamics::kind::BodyParameters {
         origin: [0.0; 3],
         mass,
@@ -162,7 +185,7 @@ pub(crate) fn device<K: Kind<Scalar = f64>>(random: &mut Random, mass: f64) -> K
         reach = 0.2;
     }
     let passive = K::all(Passive { stiffness: 3.0, viscous: 0.2, rest: 0.1, ..Passive::none() });
-    K::of_bodies(&mount, &bodies, &passive, ImbalanceModel::Coupled)
+    K::of_bodies(mount, &bodies, &passive, ImbalanceModel::Coupled)
 }
 
 pub(crate) fn chain<K: Kind<Scalar = f64>>(device: &K, mount: usize) -> Chain {

@@ -127,15 +127,19 @@ fn springs_of_joints_bound_the_step() {
     );
 }
 
-/// Its equations are those of a platform on a rigid hub: never a wrong number.
+/// It counts as the device before those that it carries, whose own mounts are not read.
 #[test]
-fn a_platform_on_modes_is_rejected() {
+fn a_platform_on_a_mount_that_is_not_there_is_rejected() {
     let case = case();
     let wheel = ReactionWheel::bare_wheel(3.0, nalgebra::Matrix3::identity());
     let platform = Platform::bare(5.0, nalgebra::Matrix3::identity());
     let suspension = Suspension::none();
-    let devices = (wheel, Isolated { platform, suspension, carried: [wheel] });
-    let on_mount = (0, platform::Data { platform: 0, carried: [1] });
-    let error = FlexibleSpacecraft::new(&case.hub, &case.modes, &devices, &on_mount);
-    assert_eq!(error.expect_err("rejected"), ModesError::Isolated { device: 1 });
+    let isolated = Isolated { platform, suspension, carried: [wheel] };
+    let (devices, carried) = ((isolated, wheel), [9]);
+    let on_mount = |platform, wheel| (platform::Data { platform, carried }, wheel);
+    let built = |on_mount| FlexibleSpacecraft::new(&case.hub, &case.modes, &devices, &on_mount);
+    assert!(built(on_mount(0, 1)).is_ok());
+    let rejected = |device| ModesError::NoMount { device, mount: 3, mounts: 3 };
+    assert_eq!(built(on_mount(3, 1)).expect_err("rejected"), rejected(0));
+    assert_eq!(built(on_mount(0, 3)).expect_err("rejected"), rejected(2));
 }

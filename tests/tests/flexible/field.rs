@@ -5,7 +5,7 @@
 //! everything; the structure's second moment is that of the undeformed one.
 
 use nalgebra::Vector3;
-use precess_dynamics::{Attitude, Gravity, HubMode, Real, Scalar};
+use precess_dynamics::{Attitude, Devices, Gravity, HubMode, Real, Scalar};
 use precess_tests::blocks::largest;
 use precess_tests::bounds::{ACCELERATIONS_WORST, BACKWARD_EPSILONS, LIMITS, POWER_EPSILONS};
 use precess_tests::double_double::DoubleDouble as DD;
@@ -31,7 +31,7 @@ pub(crate) struct Forces {
 
 /// The forces: B turned by a small angle sees the centre turned back, so that the torque about B is
 /// `-rho x F` with the place rho of B expressed in B.
-pub(crate) fn forces(case: &Case, mu: DD, x: &[DD]) -> Forces {
+pub(crate) fn forces<D: Devices<Scalar = f64>>(case: &Case<D>, mu: DD, x: &[DD]) -> Forces {
     let rho = place(case);
     let slope = |at: &dyn Fn(DD) -> DD| {
         difference(STEP, at, |a: &DD, b: &DD, h, c: &DD, d: &DD| {
@@ -47,11 +47,11 @@ pub(crate) fn forces(case: &Case, mu: DD, x: &[DD]) -> Forces {
 }
 
 /// The place of B from the centre, expressed in B.
-fn place(case: &Case) -> Vector<DD> {
+fn place<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vector<DD> {
     tensor(&case.state.rigid.attitude.dcm()) * vector(&case.state.rigid.r_b_n)
 }
 
-fn potential(case: &Case, mu: DD, rho: Vector<DD>, x: &[DD]) -> DD {
+fn potential<D: Devices<Scalar = f64>>(case: &Case<D>, mu: DD, rho: Vector<DD>, x: &[DD]) -> DD {
     let (c, m) = (vector(&case.hub.r_bc_b), dd(case.hub.m_b));
     let dyad = |v: Vector<DD>| Tensor([0, 1, 2].map(|i| (v * v.0[i]).0));
     let about_centre = |inertia: Tensor<DD>| {

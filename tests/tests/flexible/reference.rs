@@ -14,7 +14,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointStates};
-use precess_dynamics::{Angle, ContainedBody, Gravity, Real, Scalar};
+use precess_dynamics::{Angle, ContainedBody, Devices, Gravity, Real, Scalar};
 use precess_tests::double_double::DoubleDouble as DD;
 use precess_tests::newton_euler::vector::{Tensor, Vector, cross, dot, tilde};
 
@@ -85,7 +85,7 @@ impl Reference {
 }
 
 /// Poses of all bodies for coordinates `x`: those of the devices, those contained, the mounts.
-pub(crate) fn poses(case: &Case, x: &[DD]) -> Vec<Pose> {
+pub(crate) fn poses<D: Devices<Scalar = f64>>(case: &Case<D>, x: &[DD]) -> Vec<Pose> {
     let (eta, mut q) = x.split_at(case.modes.frequencies.len());
     let mounts: Vec<_> = case
         .modes
@@ -134,7 +134,7 @@ pub(crate) fn poses(case: &Case, x: &[DD]) -> Vec<Pose> {
 }
 
 /// What the poses are of.
-pub(crate) fn bodies(case: &Case) -> Vec<Body> {
+pub(crate) fn bodies<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vec<Body> {
     let mut bodies = Vec::new();
     for link in case.chains.iter().flat_map(|chain| &chain.links) {
         let (mass, inertia) = (dd(link.mass), tensor(&link.inertia));
@@ -180,7 +180,10 @@ pub(crate) fn shifted(x: &[DD], index: usize, by: DD) -> Vec<DD> {
 }
 
 /// Linear and angular Jacobian of each body by columns: `v, omega, x'`.
-fn jacobians(case: &Case, x: &[DD]) -> Vec<(Pose, Vec<[Vector<DD>; 2]>)> {
+fn jacobians<D: Devices<Scalar = f64>>(
+    case: &Case<D>,
+    x: &[DD],
+) -> Vec<(Pose, Vec<[Vector<DD>; 2]>)> {
     let now = poses(case, x);
     let slope = |a: DD, b: DD, h: DD, c: DD, d: DD| (a - d + (c - b) * dd(8.0)) * h;
     let columns: Vec<Vec<Pose>> = (0..x.len())
@@ -234,7 +237,7 @@ fn jacobians(case: &Case, x: &[DD]) -> Vec<(Pose, Vec<[Vector<DD>; 2]>)> {
 }
 
 /// The mass matrix: bodies, and the truncated kinetic energy of the structure.
-fn mass_matrix(case: &Case, x: &[DD]) -> Matrix {
+fn mass_matrix<D: Devices<Scalar = f64>>(case: &Case<D>, x: &[DD]) -> Matrix {
     let size = 6 + x.len();
     let mut mass = vec![vec![dd(0.0); size]; size];
     for (body, (pose, jacobian)) in bodies(case).iter().zip(jacobians(case, x)) {
@@ -274,7 +277,7 @@ fn mass_matrix(case: &Case, x: &[DD]) -> Matrix {
 }
 
 /// Accelerations of a case.
-pub(crate) fn reference(case: &Case) -> Reference {
+pub(crate) fn reference<D: Devices<Scalar = f64>>(case: &Case<D>) -> Reference {
     let rigid = &case.state.rigid;
     let joints: Vec<_> = rigid.devices.states().collect();
     let x: Vec<DD> =
@@ -350,7 +353,7 @@ pub(crate) fn reference(case: &Case) -> Reference {
 }
 
 /// Modal forces; motors, springs and dampers of the joints. In `f64`: as exact as they enter.
-fn generalised_forces(case: &Case) -> Vec<f64> {
+fn generalised_forces<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vec<f64> {
     let modes = &case.modes;
     let mut forces: Vec<f64> = (0..modes.frequencies.len())
         .map(|k| {

@@ -152,7 +152,8 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
     let single = first.axis == last.axis;
     let axes = DeviceAxes { first: first.axis, last: last.axis, single };
     let places = keys.has("layout").then(|| layout(keys, axes));
-    let nodes = nodes(keys, structure);
+    let on = keys.text("on").unwrap_or("hub");
+    let nodes = if on == "hub" { nodes(keys, structure) } else { none_of_its_own(keys, on) };
     let at_node = nodes.as_ref().and_then(|on| structure?.position(*on.first()?));
     let position = keys.vector("position", Measure::LENGTH).or(at_node);
     let position = position.unwrap_or_else(Vector3::zeros);
@@ -164,7 +165,6 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
     } else {
         single
     };
-    let on = keys.text("on").unwrap_or("hub");
     let model = model(keys);
     let imbalance = imbalance(keys);
     let bodies: Vec<_> = infos
@@ -210,8 +210,17 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
         .collect()
 }
 
+/// A device on a platform, which has the node of both.
+fn none_of_its_own(keys: &Keys<'_>, platform: &str) -> Option<Vec<usize>> {
+    if keys.has("node") {
+        let message = format!("a device on `{platform}` has the node of the platform");
+        keys.error("node", message, "remove `node` here; give it to the platform");
+    }
+    None
+}
+
 /// `node`: the node of the structure that carries the device, or one for each of a layout.
-fn nodes(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<Vec<usize>> {
+pub(super) fn nodes(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<Vec<usize>> {
     let Some(structure) = structure else {
         if keys.has("node") {
             let help = "add `[structure]`, or remove `node`";

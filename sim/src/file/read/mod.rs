@@ -156,7 +156,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let structure_file = structure::file(&keys, folder);
     let hub = hub::hub(&keys, structure.as_ref());
     let devices = device::devices(&keys, folder, structure.as_ref());
-    let devices = platform::with_platforms(&keys, devices, folder);
+    let devices = platform::with_platforms(&keys, devices, folder, structure.as_ref());
     let joints = joints::Joints::of(&devices);
     let settings = settings(&keys);
     let initial = initial::initial(&keys, &devices);

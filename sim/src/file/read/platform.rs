@@ -22,8 +22,9 @@ use precess_dynamics::{
 
 use super::super::keys::Keys;
 use super::body::{Joint, JointMeasures, inertia, joint, mass};
-use super::device::{Device, Of, joint_key};
+use super::device::{Device, Of, joint_key, nodes};
 use super::mount::rotation_of;
+use super::structure::Structure;
 use super::suspension::suspension;
 use super::turns::Mount;
 use crate::scenario::Set;
@@ -37,27 +38,41 @@ struct Corner {
 }
 
 /// The devices, and the platforms of `[[platform]]`, in the order of the set.
-pub(super) fn with_platforms(keys: &Keys<'_>, devices: Vec<Device>, folder: &Path) -> Vec<Device> {
+pub(super) fn with_platforms(
+    keys: &Keys<'_>,
+    devices: Vec<Device>,
+    folder: &Path,
+    structure: Option<&Structure>,
+) -> Vec<Device> {
     let tables = keys.tables("platform");
-    let platforms = tables.iter().filter_map(|keys| read(keys, &devices, folder)).collect();
+    let platforms =
+        tables.iter().filter_map(|keys| read(keys, &devices, folder, structure)).collect();
     // Also those in which something is wrong: their devices are not.
     let names: Vec<_> = tables.iter().filter_map(|keys| keys.text("name")).collect();
     arranged(keys, devices, platforms, &names)
 }
 
-fn read(keys: &Keys<'_>, devices: &[Device], folder: &Path) -> Option<Device> {
+fn read(
+    keys: &Keys<'_>,
+    devices: &[Device],
+    folder: &Path,
+    structure: Option<&Structure>,
+) -> Option<Device> {
     if !keys.has("name") {
         keys.missing("name", "name = \"isolator\"");
     }
     if let Some(on) = keys.text("on").filter(|on| *on != "hub") {
         let message = format!("a platform on `{on}`: platforms stand on the hub");
-        keys.error("on", message, "remove `on`, or take one platform");
+        keys.error("on", message, "remove `on`; on a structure, name its `node`");
     }
     let name = keys.text("name");
     let m_p = mass(keys);
     let r_pc_p = keys.vector("centre_of_mass", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
     let i_p_pc = inertia(keys, true);
-    let r_p_b = keys.vector("position", Measure::LENGTH).unwrap_or_else(Vector3::zeros);
+    let node = node(keys, structure);
+    let at_node = node.and_then(|node| structure?.position(node));
+    let r_p_b = keys.vector("position", Measure::LENGTH).or(at_node);
+    let r_p_b = r_p_b.unwrap_or_else(Vector3::zeros);
     let mount = if keys.has("mount") {
         keys.table("mount").and_then(|mount| rotation_of(&mount))
     } else {
@@ -102,7 +117,20 @@ fn read(keys: &Keys<'_>, devices: &[Device], folder: &Path) -> Option<Device> {
     let passive: Vec<_> = joints.iter().map(|(joint, _)| joint.passive).collect();
     of.platform.passive = platform::PerJoint::of(<[Passive; 6]>::try_from(passive).ok()?);
     let joints: Vec<Joint> = joints.into_iter().map(|(joint, _)| joint).collect();
-    Some(Device::new(name, Of::Platform(Box::new(of)), mount.turns, "", &joints))
+    let device = Device::new(name, Of::Platform(Box::new(of)), mount.turns, "", &joints);
+    Some(Device { node, ..device })
+}
+
+/// The node of the structure that carries a platform.
+fn node(keys: &Keys<'_>, structure: Option<&Structure>) -> Option<usize> {
+    match nodes(keys, structure)?[..] {
+        [node] => Some(node),
+        ref several => {
+            let message = format!("{} nodes for a platform", several.len());
+            keys.error("node", message, "name one node");
+            None
+        }
+    }
 }
 
 /// A joint: `[platform.z_slide]`; nothing acts on one without a table.
@@ -219,9 +247,11 @@ fn arranged(
         devices.into_iter().partition(|device| device.on == "hub");
     for platform in platforms {
         let name = platform.name.clone();
+        let node = platform.node;
         arranged.push(platform);
-        let (own, others) = rest.into_iter().partition(|device: &Device| device.on == name);
-        arranged.extend::<Vec<_>>(own);
+        let (own, others): (Vec<_>, _) =
+            rest.into_iter().partition(|device: &Device| device.on == name);
+        arranged.extend(own.into_iter().map(|device| Device { node, ..device }));
         rest = others;
     }
     // Of a platform in which something is wrong: their joints are known by name.

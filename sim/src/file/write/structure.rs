@@ -35,6 +35,14 @@ pub(super) fn write(out: &mut String, structure: &ModalStructure) -> Written {
     Ok(())
 }
 
+/// The node of a device or platform; nothing on a rigid hub.
+pub(in crate::file) fn node(out: &mut String, s: &Scenario, member: usize) -> Written {
+    match s.structure.as_ref().and_then(|of| of.on_node.get(member)) {
+        Some(node) => writeln!(out, "node = {}", quoted(node_name(s, *node))),
+        None => Ok(()),
+    }
+}
+
 /// The name of a node.
 pub(super) fn node_name(s: &Scenario, node: usize) -> &str {
     let nodes = s.structure.as_ref().map(|structure| &structure.nodes);

@@ -1,0 +1,363 @@
+//! Isolated platforms on the mounts of a structure that bends.
+
+use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::kind::{Each, JointStates};
+use precess_dynamics::set::OnMount;
+use precess_dynamics::{
+    About, Coupled, DeviceSet, FlexibleInputs, FlexibleSpacecraft, FlexibleState, Gravity, HubMode,
+    Inputs, Isolated, ListedModes, LoadAxes, Mode, Platform, ReactionWheel, Spacecraft, Strut,
+    Suspension, Vscmg, Wrench, platform,
+};
+use precess_tests::blocks::largest;
+use precess_tests::bounds::{
+    ACCELERATIONS_WORST, BACKWARD_EPSILONS, LIMITS, ORDER, POWER_EPSILONS,
+};
+use precess_tests::random::Random;
+
+use crate::accelerations::{block_error, listed};
+use crate::craft::{Case, SEED, Size, chain, draw_inputs, draw_motion, mounted, structure};
+use crate::reference::reference;
+
+/// A wheel on one mount, a gyro on a platform on another.
+type Carried = (ReactionWheel, Isolated<Vscmg>);
+
+/// That of the gyro is not read.
+const ON_MOUNT: <Carried as DeviceSet>::Per<OnMount> =
+    (1, platform::Data { platform: 2, carried: 0 });
+
+/// As on a rigid hub, with the platform's axes those of the gyro's mount: one chain of eight joints.
+fn case(seed: u64, size: Size, suspension: Suspension) -> Case<Carried> {
+    let random = &mut Random::new(seed);
+    let (wheel, platform) =
+        (crate::craft::device(random, 4.0), crate::craft::device::<Platform>(random, 10.0));
+    let carried = mounted(random, 6.0, &Matrix3::identity());
+    let devices = (wheel, Isolated { platform, suspension, carried });
+    let (hub, modes) = structure(random, size, &[6.0, 14.0, 20.0]);
+    let craft = FlexibleSpacecraft::new(&hub, &modes, &devices, &ON_MOUNT).expect("valid");
+    let (mut on_platform, gyro) = (chain(&devices.1.platform, 2), chain(&devices.1.carried, 2));
+    on_platform.links.extend(gyro.links);
+    let chains = vec![chain(&devices.0, 1), on_platform];
+    let mut state = FlexibleState::at_rest(&craft);
+    let mut inputs = FlexibleInputs::none_for(&craft);
+    draw_motion(random, size, &mut state);
+    draw_inputs(random, &mut inputs);
+    // Its second turn is far from a right angle.
+    for [coordinate, _] in state.rigid.devices.1.platform.states_mut() {
+        *coordinate *= 0.4;
+    }
+    Case { seed, hub, modes, devices, craft, chains, state, inputs }
+}
+
+/// Springs that couple joints, and a strut, without damping if so wished.
+fn suspension(damping: f64) -> Suspension {
+    let stiffness = nalgebra::Matrix6::from_fn(|i, j| if i == j { 40.0 } else { 3.0 });
+    let rest = nalgebra::Vector6::from_element(0.01);
+    let strut = Strut {
+        position: Vector3::new(0.1, -0.2, 0.05),
+        direction: Vector3::new(0.36, 0.48, 0.8),
+        length: 0.2,
+        stiffness: 30.0,
+        damping,
+    };
+    let mut struts = [None; 6];
+    struts[2] = Some(strut);
+    Suspension {
+        coupled: Some(Coupled { stiffness, rest, damping: stiffness * 0.01 * damping }),
+        struts,
+    }
+}
+
+#[test]
+fn accelerations_are_those_of_the_kinetic_energy() {
+    let (mut worst, mut backward) = (0.0_f64, 0.0_f64);
+    let sizes = [(1, 0.02), (3, 0.3), (4, 1.5), (5, 0.02)];
+    for (number, (modes, rotation)) in (0..).zip(sizes.into_iter().cycle().take(8)) {
+        let size = Size { modes, contained: number % 2 == 1, rotation, free: false };
+        let mut case = case(SEED + 1100 + number, size, Suspension::none());
+        if number % 4 == 3 {
+            case.inputs.rigid.gravity = Gravity::Central { mu: 900.0 };
+        }
+        let (found, expected) = (listed(&case), reference(&case));
+        let error = block_error(&found, &expected.accelerations, modes);
+        let residual = expected.backward_error(&found);
+        println!("seed {:#x}, {size:?}: {error:.1e}, {residual:.1e}", case.seed);
+        (worst, backward) = (worst.max(error), backward.max(residual));
+    }
+    assert!(worst <= ACCELERATIONS_WORST, "{worst:e}");
+    assert!(backward <= BACKWARD_EPSILONS * f64::EPSILON, "{backward:e}");
+}
+
+/// What a brake within and below a platform stops, by the mass matrix of the kinetic energy.
+#[test]
+fn impulses_act_at_the_locked_joints_only() {
+    for seed in SEED + 1120..SEED + 1124 {
+        let size = Size { modes: 3, contained: seed % 2 == 1, rotation: 0.3, free: false };
+        let mut case = case(seed, size, suspension(0.0));
+        case.inputs.rigid.modes.1.platform.y_slide = Mode::Locked;
+        case.inputs.rigid.modes.1.carried.gimbal = Mode::Locked;
+        let momentum = |case: &Case<Carried>| {
+            case.craft.momentum(&case.state, About::InertialOrigin).expect("a momentum")
+        };
+        let before = (velocities(&case), momentum(&case));
+        let mass = reference(&case).mass;
+        case.state = case.craft.stop(&case.state, &case.inputs).expect("a solution").state;
+        let after = (velocities(&case), momentum(&case));
+        let drift = (after.1.angular - before.1.angular).norm() / before.1.angular.norm();
+        assert!(drift <= LIMITS, "seed {seed:#x}: {drift:e}");
+        // The wheel's joint, the platform's six, the gyro's two.
+        let first = 6 + case.state.eta.len();
+        for (index, row) in mass.iter().enumerate() {
+            let terms = row.iter().zip(after.0.iter().zip(&before.0));
+            let terms = terms.map(|(m, (a, b))| {
+                let m = precess_dynamics::Scalar::to_f64(*m);
+                [m * (a - b), (m * a).abs() + (m * b).abs()]
+            });
+            let [sum, size] = terms.fold([0.0; 2], |[s, t], [a, b]| [s + a, t + b]);
+            let share = sum.abs() / size;
+            if index == first + 2 || index == first + 7 {
+                assert!(share > 1e-6, "seed {seed:#x}, row {index}: no impulse");
+            } else {
+                // Differences of stored velocities, and a matrix by differences, in double.
+                assert!(share <= 1e-13, "seed {seed:#x}, row {index}: {share:e}");
+            }
+        }
+    }
+}
+
+/// Velocities `v, omega, eta', q'`, those of B expressed in B.
+fn velocities(case: &Case<Carried>) -> Vec<f64> {
+    let rigid = &case.state.rigid;
+    let v = precess_dynamics::Attitude::dcm(&rigid.attitude) * rigid.r_b_n_dot;
+    let hub = v.iter().chain(&rigid.omega).copied().collect::<Vec<_>>();
+    let joints = rigid.devices.states().map(|[_, rate]| rate);
+    hub.into_iter().chain(case.state.eta_dot.iter().copied()).chain(joints).collect()
+}
+
+#[test]
+fn power_balances_and_nothing_is_needed_beside_the_inputs() {
+    let (mut worst, mut needed) = (0.0_f64, 0.0_f64);
+    for seed in SEED + 1130..SEED + 1150 {
+        let modes = usize::try_from(1 + seed % 30).expect("small");
+        let size = Size { modes, contained: seed % 2 == 1, rotation: 0.2, free: false };
+        let mut case = case(seed, size, suspension(2.0));
+        case.inputs.rigid.gravity = match seed % 3 {
+            0 => Gravity::Central { mu: 900.0 },
+            _ => Gravity::Uniform(Vector3::new(0.4, -0.3, 9.0)),
+        };
+        let mut bodies = Inputs::no_wrenches_for(case.craft.rigid());
+        let pull =
+            Wrench { force: Vector3::new(0.3, 0.1, -0.2), moment: Vector3::new(0.1, 0.2, 0.3) };
+        bodies.values_mut().for_each(|wrench| *wrench = pull);
+        case.inputs.rigid.bodies = Some(bodies);
+        if seed % 5 == 0 {
+            case.inputs.rigid.hub = HubMode::Prescribed {
+                r_b_n_ddot: Vector3::new(0.2, -0.1, 0.3),
+                omega_dot: Vector3::new(0.1, 0.3, -0.2),
+            };
+        }
+        case.inputs.rigid.modes.1.platform.z_slide = Mode::Prescribed(0.4);
+        let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
+        let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger").whole;
+        let balance = ledger.residual.abs() / ledger.magnitude;
+        worst = worst.max(balance / f64::EPSILON);
+        assert!(balance <= POWER_EPSILONS * f64::EPSILON, "seed {seed:#x}: {balance:e}");
+
+        let loads = case.craft.loads(&case.state, &case.inputs, &found, LoadAxes::Hub);
+        let loads = loads.expect("loads");
+        let unit = largest(loads.mounts.iter().map(|wrench| wrench.force.norm()));
+        let mut rest = largest(loads.modal.iter().map(|force| force.abs())) / unit;
+        if case.inputs.rigid.hub == HubMode::Free {
+            let hub = loads.rigid.hub;
+            rest = rest.max(hub.force.norm().max(hub.moment.norm()) / unit);
+        }
+        needed = needed.max(rest);
+        assert!(rest <= LIMITS, "seed {seed:#x}: {rest:e}");
+    }
+    println!("balance {worst:.1} eps, loads {needed:.1e}");
+}
+
+/// Drifts of both momenta and of energy over half a second.
+fn drifts(seed: u64, steps: u32) -> [f64; 3] {
+    let size = Size { modes: 4, contained: seed % 2 == 1, rotation: 0.1, free: false };
+    let mut case = case(seed, size, suspension(0.0));
+    case.modes.damping.fill(0.0);
+    case.modes.frequencies.iter_mut().for_each(|w| *w = w.min(12.0));
+    let (wheel, isolated) = &mut case.devices;
+    let joints = wheel.passive.values_mut().chain(isolated.platform.passive.values_mut());
+    joints.chain(isolated.carried.passive.values_mut()).for_each(|joint| joint.viscous = 0.0);
+    case.craft =
+        FlexibleSpacecraft::new(&case.hub, &case.modes, &case.devices, &ON_MOUNT).expect("valid");
+    case.inputs = FlexibleInputs::none_for(&case.craft);
+    let conserved = |case: &Case<Carried>| {
+        let found = case.craft.accelerations(&case.state, &case.inputs).expect("a solution");
+        let ledger = case.craft.ledger(&case.state, &case.inputs, &found).expect("a ledger").whole;
+        (ledger.momentum.linear, ledger.momentum.angular, ledger.energy())
+    };
+    let (p, h, energy) = conserved(&case);
+    for _ in 0..steps {
+        let next = case.craft.step(&case.state, &case.inputs, 0.5 / f64::from(steps));
+        case.state = next.expect("a solution");
+    }
+    let (p_after, h_after, energy_after) = conserved(&case);
+    [
+        (p_after - p).norm() / p.norm(),
+        (h_after - h).norm() / h.norm(),
+        (energy_after - energy).abs() / energy,
+    ]
+}
+
+#[test]
+fn momentum_and_energy_drift_by_the_order_of_the_step_only() {
+    for seed in [SEED + 1160, SEED + 1161] {
+        let [whole, halved] = [200, 400].map(|steps| drifts(seed, steps));
+        println!("seed {seed:#x}: {whole:?} {halved:?}");
+        let ratios: [f64; 3] = std::array::from_fn(|k| whole[k] / halved[k]);
+        assert!(ratios[..2].iter().all(|ratio| ORDER.contains(ratio)), "{ratios:?}");
+        // Energy of an oscillation falls with the fifth power, the rest with the fourth.
+        assert!(ratios[2] > *ORDER.start(), "{ratios:?}");
+    }
+}
+
+/// A structure without modes is a rigid hub, whatever stands on it: also a platform on a platform.
+#[test]
+fn no_modes_are_the_rigid_hub() {
+    type Stacked = Isolated<(Isolated<Vscmg>, ReactionWheel)>;
+    let random = &mut Random::new(SEED + 1170);
+    let mut worst = 0.0_f64;
+    for _ in 0..4 {
+        let inner = Isolated {
+            platform: crate::craft::device(random, 3.0),
+            suspension: suspension(1.0),
+            carried: crate::craft::device::<Vscmg>(random, 5.0),
+        };
+        let devices: Stacked = Isolated {
+            platform: crate::craft::device(random, 9.0),
+            suspension: suspension(0.5),
+            carried: (inner, crate::craft::device(random, 4.0)),
+        };
+        let size = Size { modes: 0, contained: false, rotation: 0.0, free: false };
+        let (hub, modes) = structure(random, size, &[1.0]);
+        let on_mount = platform::Data {
+            platform: 0,
+            carried: (platform::Data { platform: 7, carried: 7 }, 7),
+        };
+        let rigid = Spacecraft::new(&hub, &devices).expect("valid");
+        let bending: FlexibleSpacecraft<Stacked, ListedModes> =
+            FlexibleSpacecraft::new(&hub, &modes, &devices, &on_mount).expect("valid");
+        let mut state = FlexibleState::at_rest(&bending);
+        let mut inputs = FlexibleInputs::none_for(&bending);
+        draw_motion(random, size, &mut state);
+        draw_inputs(random, &mut inputs);
+        inputs.mounts[0] = Wrench::none();
+        for [coordinate, _] in state.rigid.devices.states_mut() {
+            *coordinate *= 0.4;
+        }
+        inputs.rigid.gravity = Gravity::Central { mu: 900.0 };
+        let expected = rigid.accelerations(&state.rigid, &inputs.rigid).expect("a solution");
+        let found = bending.accelerations(&state, &inputs).expect("a solution");
+        let list = |of: &precess_dynamics::Accelerations<Stacked>| -> Vec<f64> {
+            let hub = of.r_b_n_ddot.iter().chain(&of.omega_dot).copied();
+            hub.chain(of.devices.values()).collect()
+        };
+        worst = worst.max(block_error(&list(&found.rigid), &list(&expected), 0));
+
+        let other = rigid.ledger(&state.rigid, &inputs.rigid, &expected).expect("a ledger");
+        let own = bending.ledger(&state, &inputs, &found).expect("a ledger").whole;
+        for (own, other, unit) in [
+            (own.kinetic, other.kinetic, other.kinetic),
+            (own.gravity, other.gravity, other.gravity.abs()),
+            (own.springs, other.springs, other.springs),
+            (own.power.friction, other.power.friction, other.magnitude),
+            (own.kinetic_rate, other.kinetic_rate, other.magnitude),
+        ] {
+            worst = worst.max((own - other).abs() / unit);
+        }
+    }
+    println!("worst {worst:.1e}");
+    assert!(worst <= LIMITS, "{worst:e}");
+}
+
+/// On a base that is held, a platform that gives along one slide is a mode of one mount: the same
+/// spring, with a point mass whose shape is its mass's inverse root.
+#[test]
+fn a_platform_on_a_mode_is_a_platform_on_a_sliding_platform() {
+    type Nested = Isolated<Isolated<Vscmg>>;
+    let random = &mut Random::new(SEED + 1180);
+    let mut worst = 0.0_f64;
+    for _ in 0..6 {
+        let (mass, stiffness, place) = (random.within(5.0, 20.0), 700.0, random.vector(0.8));
+        let mut isolated = Isolated {
+            platform: crate::craft::device::<Platform>(random, 4.0),
+            suspension: suspension(1.0),
+            carried: crate::craft::device::<Vscmg>(random, 5.0),
+        };
+        let hub = precess_dynamics::Hub {
+            m_b: 80.0 + mass,
+            r_bc_b: Vector3::zeros(),
+            i_b_bc: Matrix3::identity() * (90.0 + mass),
+        };
+        let shape = Vector3::x() / mass.sqrt();
+        let point = precess_dynamics::ModalPoint {
+            position: place,
+            translation: vec![shape],
+            rotation: vec![Vector3::zeros()],
+        };
+        let modes = precess_dynamics::Modes {
+            frequencies: vec![(stiffness / mass).sqrt()],
+            damping: vec![0.0],
+            linear: vec![shape * mass],
+            angular: vec![place.cross(&shape) * mass],
+            mounts: vec![precess_dynamics::ModalMount { point, contained: None }],
+        };
+        let on_mount = platform::Data { platform: 0, carried: 0 };
+        isolated.platform.r_p_b = place + random.vector(0.2);
+        let bending: FlexibleSpacecraft<_, ListedModes> =
+            FlexibleSpacecraft::new(&hub, &modes, &isolated, &on_mount).expect("valid");
+        // The same from the outer platform's origin, at the mount.
+        let mut carried = isolated;
+        carried.platform.r_p_b -= place;
+        let mut outer = Platform::bare(mass, Matrix3::identity() * mass);
+        outer.r_p_b = place;
+        outer.passive.x_slide.stiffness = stiffness;
+        let nested: Nested = Isolated { platform: outer, suspension: Suspension::none(), carried };
+        let rigid = Spacecraft::new(&hub, &nested).expect("valid");
+
+        let size = Size { modes: 1, contained: false, rotation: 0.05, free: false };
+        let mut state = FlexibleState::at_rest(&bending);
+        let mut inputs = FlexibleInputs::none_for(&bending);
+        draw_motion(random, size, &mut state);
+        draw_inputs(random, &mut inputs);
+        (state.rigid.omega, state.rigid.r_b_n_dot) = (Vector3::zeros(), Vector3::zeros());
+        (inputs.modal[0], inputs.mounts[0]) = (0.0, Wrench::none());
+        inputs.rigid.hub = HubMode::Fixed;
+        inputs.rigid.gravity = Gravity::None;
+        for [coordinate, _] in state.rigid.devices.states_mut() {
+            *coordinate *= 0.4;
+        }
+        let found = bending.accelerations(&state, &inputs).expect("a solution");
+
+        let mut same = precess_dynamics::State::at_rest_for(&rigid);
+        same.attitude = state.rigid.attitude;
+        let root = mass.sqrt();
+        same.devices.platform.x = state.eta[0] / root;
+        same.devices.platform.x_dot = state.eta_dot[0] / root;
+        same.devices.carried = state.rigid.devices;
+        let mut given = Inputs::none_for(&rigid);
+        given.hub = HubMode::Fixed;
+        given.motors.carried = inputs.rigid.motors;
+        let held = &mut given.modes.platform;
+        held.values_mut().skip(1).for_each(|mode| *mode = Mode::Locked);
+        let expected = rigid.accelerations(&same, &given).expect("a solution");
+        let list = |slide: f64, joints: Vec<f64>| -> Vec<f64> {
+            std::iter::once(slide).chain(joints).collect()
+        };
+        let found = list(found.eta_ddot[0] / root, found.rigid.devices.values().collect());
+        let expected =
+            list(expected.devices.platform.x_ddot, expected.devices.carried.values().collect());
+        let unit = largest(expected.iter().map(|a| a.abs()));
+        let pairs = found.iter().zip(&expected);
+        worst = worst.max(largest(pairs.map(|(a, b)| (a - b).abs())) / unit);
+    }
+    println!("worst {worst:.1e}");
+    assert!(worst <= LIMITS, "{worst:e}");
+}
