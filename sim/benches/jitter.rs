@@ -63,6 +63,7 @@ fn scenario() -> Scenario {
     nodes.push(node("camera", Vector3::new(0.0, 0.0, 0.8)));
     scenario.structure = Some(ModalStructure {
         modes: (0..MODES).map(mode).collect(),
+        residual: 0,
         nodes,
         on_node: vec![0, 1, 2, 3],
         contains_devices: false,

@@ -119,6 +119,7 @@ pub(crate) fn by_speeds(speed_ratios: &[f64], share: f64) -> Result<Vec<f64>, St
     };
     scenario.structure = Some(ModalStructure {
         modes: vec![mode, mode],
+        residual: 0,
         nodes: vec![node("rw", turn), node("camera", 0.1 * turn)],
         on_node: vec![0],
         contains_devices: false,

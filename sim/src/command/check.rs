@@ -81,9 +81,13 @@ fn properties(scenario: &Scenario) -> String {
         rows.push(row("kinetic energy", &[energy], "J"));
     }
     if let Some(structure) = &scenario.structure {
-        let mut hertz: Vec<_> = structure.modes.iter().map(|mode| mode.frequency / TAU).collect();
+        let mut hertz: Vec<_> =
+            structure.massive().iter().map(|mode| mode.frequency / TAU).collect();
         hertz.sort_by(f64::total_cmp);
         rows.push(row("modes of the structure", &hertz, "Hz"));
+        if structure.residual > 0 {
+            rows.push(vec!["residual coordinates".to_owned(), structure.residual.to_string()]);
+        }
     }
     text.push_str(&aligned(&rows));
     let matrix = MassMatrix::of(scenario, &spacecraft);

@@ -344,6 +344,23 @@ fn rigid_mass(
     Ok(mass.clone())
 }
 
+/// The static response of the residual coordinates at all nodes, six rows and columns for each.
+fn residual_flexibility(structure: &ModalStructure) -> Option<DMatrix<f64>> {
+    let first = structure.massive().len();
+    let rows = COORDINATES * structure.nodes.len();
+    let coordinates = structure.modes.iter().enumerate().skip(first);
+    let shares = coordinates.map(|(mode, of)| {
+        let shape = DMatrix::from_fn(rows, 1, |row, _| {
+            let node = structure.nodes.get(row / COORDINATES);
+            let shape = node.and_then(|node| node.shapes.get(mode));
+            shape.map_or(0.0, |shape| shape[row % COORDINATES])
+        });
+        let scaled = &shape / (of.frequency * of.frequency);
+        scaled * shape.transpose()
+    });
+    shares.reduce(|sum, share| sum + share)
+}
+
 /// The structure of a scenario; a rigid hub is one without modes.
 fn structure_of(scenario: &Scenario) -> Structure {
     let hub = &scenario.hub;
@@ -358,18 +375,21 @@ fn structure_of(scenario: &Scenario) -> Structure {
         residual: None,
         has_devices: None,
     };
-    if let Some(ModalStructure { modes, nodes, contains_devices, .. }) = &scenario.structure {
+    if let Some(of) = &scenario.structure {
+        let ModalStructure { nodes, contains_devices, .. } = of;
+        let modes = of.massive();
         let node = |of: &crate::scenario::StructureNode| Node {
             name: of.name.clone(),
             position: of.position,
         };
         structure.nodes = nodes.iter().map(node).collect();
-        structure.modes.clone_from(modes);
+        structure.modes = modes.to_vec();
         structure.has_devices = Some(*contains_devices);
         structure.shapes = DMatrix::from_fn(COORDINATES * nodes.len(), modes.len(), |row, mode| {
             let shape = nodes.get(row / COORDINATES).and_then(|node| node.shapes.get(mode));
             shape.map_or(0.0, |shape| shape[row % COORDINATES])
         });
+        structure.residual = residual_flexibility(of);
     }
     structure
 }

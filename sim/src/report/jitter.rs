@@ -17,7 +17,7 @@ use crate::jitter::coupled::Compared;
 use crate::jitter::sensitivity::Sensitivity;
 use crate::jitter::sweep::Sweep;
 use crate::pointing::Metric;
-use crate::scenario::Scenario;
+use crate::scenario::{ModalStructure, Scenario};
 
 /// Revolutions per minute of one radian per second.
 pub(super) const RPM: f64 = 60.0 / TAU;
@@ -153,7 +153,7 @@ impl JitterReport<'_> {
 
     /// The mode of the structure nearest to a natural frequency, rad/s.
     fn nearest_mode(&self, frequency: f64) -> String {
-        let modes = self.scenario.structure.as_ref().map_or(&[][..], |s| s.modes.as_slice());
+        let modes = self.scenario.structure.as_ref().map_or(&[][..], ModalStructure::massive);
         let apart = |mode: &crate::structure::Mode| (mode.frequency / frequency - 1.0).abs();
         let nearest = modes.iter().enumerate().min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
         nearest.map_or_else(
@@ -163,7 +163,7 @@ impl JitterReport<'_> {
     }
 
     pub(super) fn modes(&self) -> String {
-        let modes = self.scenario.structure.as_ref().map_or(0, |structure| structure.modes.len());
+        let modes = self.scenario.structure.as_ref().map_or(0, |s| s.massive().len());
         if modes == 0 { "none, a rigid hub".to_owned() } else { modes.to_string() }
     }
 

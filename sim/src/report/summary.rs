@@ -71,10 +71,10 @@ pub(super) fn summary(report: &Report, outcome: &Outcome) -> Summary {
     let hub = scenario.structure.as_ref().map_or_else(
         || format!("A rigid hub of {mass} kg"),
         |structure| {
-            let modes = structure.modes.iter().map(|mode| mode.frequency / TAU);
+            let modes = structure.massive().iter().map(|mode| mode.frequency / TAU);
             let lowest = number::short(modes.clone().fold(f64::INFINITY, f64::min), 4);
             let highest = number::short(modes.fold(0.0, f64::max), 4);
-            let count = match structure.modes.len() {
+            let count = match structure.massive().len() {
                 1 => "one mode".to_owned(),
                 count => format!("{count} modes"),
             };

@@ -20,8 +20,11 @@ use crate::structure::{COORDINATES, Mode, RigidMass};
 /// A structure that bends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModalStructure {
-    /// The modes: mass-normalised, in a floating frame B.
+    /// The modes: mass-normalised, in a floating frame B; after them the residual coordinates.
     pub modes: Vec<Mode>,
+    /// How many of the last are residual coordinates, without a modal mass: the static response of
+    /// the modes left out.
+    pub residual: usize,
     /// The nodes that the scenario uses.
     pub nodes: Vec<StructureNode>,
     /// The node that carries each member, device or platform; that of a device on a platform is the
@@ -32,7 +35,7 @@ pub struct ModalStructure {
     pub contains_devices: bool,
     /// What is recorded of the motion of nodes.
     pub points: Vec<RecordedPoint>,
-    /// Modal coordinates at the start, one for each mode, m kg^1/2.
+    /// Modal coordinates at the start, one for each mode and residual coordinate, m kg^1/2.
     pub coordinates: Vec<f64>,
     /// Their rates, m kg^1/2/s.
     pub rates: Vec<f64>,
@@ -71,6 +74,13 @@ impl StructureNode {
 }
 
 impl ModalStructure {
+    /// The modes, without the residual coordinates.
+    #[must_use]
+    pub fn massive(&self) -> &[Mode] {
+        let count = self.modes.len().saturating_sub(self.residual);
+        self.modes.get(..count).unwrap_or_default()
+    }
+
     /// The nodes that carry devices and platforms, each once: the mounts of the library, in their order.
     pub(crate) fn mounts(&self) -> Vec<usize> {
         let mut mounts = Vec::new();
@@ -125,7 +135,9 @@ impl Scenario {
             platform::Data { platform, carried }
         };
         let on_platforms: Vec<_> = self.devices.1.iter().map(&mut of_platform).collect();
-        FlexibleSpacecraft::new(&self.hub, &modes, &self.devices, &(on_mount, on_platforms))
+        let on = (on_mount, on_platforms);
+        let residual = structure.residual;
+        FlexibleSpacecraft::with_residual(&self.hub, &modes, residual, &self.devices, &on)
     }
 
     /// What hub and modes contain of members: nothing, or their bodies at the initial coordinates.

@@ -5,6 +5,7 @@ mod direct;
 mod errors;
 mod known;
 mod platform;
+mod residual;
 mod satellite;
 #[path = "../../examples/satellite_modes.rs"]
 mod satellite_modes;

@@ -20,7 +20,7 @@ const UNKNOWN: &str = "QQQQ";
 /// Keys that are taken away before the reader sees a table, and where.
 const TAKEN: [(&str, &str); 1] = [("", "base")];
 /// What the scenario files have not: other ways to write the same, each after a minimal scenario.
-const OTHERS: [&str; 32] = [
+const OTHERS: [&str; 33] = [
     "[gravity]\nuniform = \"0, 0, -9.81 m/s^2\"",
     "[initial.attitude]\nmrp = [0.1, 0.2, 0.3]",
     "[initial.attitude]\naxis = [0, 0, 1]\nangle = \"30 deg\"",
@@ -74,7 +74,10 @@ const OTHERS: [&str; 32] = [
      [[structure.node]]\nname = \"tip\"\nposition = \"0, 0, 1 m\"\n\
      [[structure.mode]]\nfrequency = \"3 Hz\"\ndamping = 0.1\nlinear_momentum = [0, 0, 0]\n\
      angular_momentum = [0, 0, 0]\n[[structure.mode.shape]]\nnode = \"tip\"\n\
-     translation = [0, 0, 1]\nrotation = [0, 1, 0]",
+     translation = [0, 0, 1]\nrotation = [0, 1, 0]\n[[structure.mode]]\nfrequency = \"1 rad/s\"\n\
+     residual = true",
+    "[structure]\nfile = \"modes.npz\"\nmodes = 4\nresidual_flexibility = true\nresidual_damping = 0.1\n\
+     [[platform]]\nname = \"iso\"\nnode = \"tip\"\nmass = \"1 kg\"\ninertia = \"1, 1, 1 kg m^2\"",
     "[[crossing]]\ncolumn = \"rw.spin\"\nvalue = \"3000 rpm\"",
     "[[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"peak\"\nlimit = \"1 rad/s\"",
     "[[requirement]]\nname = \"a\"\nquantity = \"omega\"\nstatistic = \"pde\"\nwindow = \"10 ms\"\n\

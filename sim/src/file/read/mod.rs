@@ -15,6 +15,7 @@ mod over_time;
 mod places;
 mod platform;
 mod requirement;
+mod residual;
 mod source;
 mod source_models;
 mod structure;
@@ -178,7 +179,7 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let (hub, hub_size, hub_mode) = hub?;
     let (drives, stops) = joints.drives_and_stops();
     let on_node: Vec<_> = devices.iter().filter_map(|device| device.node).collect();
-    let structure = structure.map(|structure| structure.modal(on_node));
+    let structure = structure.map(|structure| structure.modal(&keys, on_node));
     let text = reports.borrow().sources.iter().fold(String::new(), |text, source| {
         text + &format!("# {}\n{}\n", source.name, source.text.trim_end())
     });

@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, Vector3};
 use super::super::diagnostic::Diagnostic;
 use super::super::document::Value;
 use super::super::keys::Keys;
+use super::residual::{self, LeftOut};
 use crate::nearest::nearest;
 use crate::scenario::{ModalStructure, RecordedPoint, StructureNode};
 use crate::structure::{
@@ -22,6 +23,10 @@ use crate::units::Measure;
 /// A structure as a file gives it, and which of its nodes are used.
 pub(super) struct Structure {
     modes: Modes,
+    /// How many of the modes, at the end, are residual coordinates.
+    written_residual: usize,
+    /// What is wanted as residual coordinates.
+    left_out: Option<LeftOut>,
     used: RefCell<Vec<usize>>,
     contains_devices: bool,
     points: Vec<RecordedPoint>,
@@ -46,10 +51,14 @@ pub(super) fn structure(root: &Keys<'_>, folder: &Path) -> Option<Structure> {
             None
         }
     };
-    let selected = read.and_then(|modes| selected(&keys, modes));
+    let written_residual = if inline { residual::written(&keys) } else { 0 };
+    let selected = read.and_then(|modes| selected(&keys, modes, written_residual));
+    let (selected, left_out) = selected.unzip();
     let contains = keys.boolean("contains_devices");
     let mut structure = Structure {
         modes: selected.unwrap_or_else(nothing),
+        written_residual,
+        left_out: left_out.flatten(),
         used: RefCell::default(),
         contains_devices: false,
         points: Vec::new(),
@@ -196,6 +205,7 @@ fn mode(keys: &Keys<'_>) -> Option<Mode> {
     }
     let damping = keys.number("damping").unwrap_or(0.0);
     let [linear, angular] = ["linear_momentum", "angular_momentum"].map(|key| three(keys, key));
+    let _ = keys.boolean("residual");
     let frequency = angular_frequency(keys, "frequency");
     Some(Mode { frequency: frequency?, damping, linear: linear.into(), angular: angular.into() })
 }
@@ -215,9 +225,15 @@ fn angular_frequency(keys: &Keys<'_>, key: &str) -> Option<f64> {
     None
 }
 
-/// The modes that are kept, with the damping of the scenario.
-fn selected(keys: &Keys<'_>, mut structure: Modes) -> Option<Modes> {
-    let most = u32::try_from(structure.modes.len()).unwrap_or(u32::MAX);
+/// The modes that are kept, with the damping of the scenario and the residual coordinates that are
+/// written after them; and what the others leave.
+fn selected(
+    keys: &Keys<'_>,
+    mut structure: Modes,
+    residual: usize,
+) -> Option<(Modes, Option<LeftOut>)> {
+    let massive = structure.modes.len().saturating_sub(residual);
+    let most = u32::try_from(massive).unwrap_or(u32::MAX);
     let count = if keys.has("modes") { Some(keys.count("modes", 1, most)?) } else { None };
     let limit = if keys.has("frequency_limit") {
         Some(angular_frequency(keys, "frequency_limit")?)
@@ -225,7 +241,7 @@ fn selected(keys: &Keys<'_>, mut structure: Modes) -> Option<Modes> {
         None
     };
     // By rising frequency, of equal ones the first.
-    let mut order: Vec<usize> = (0..structure.modes.len()).collect();
+    let mut order: Vec<usize> = (0..massive).collect();
     let frequency = |mode: &usize| structure.modes.get(*mode).map_or(0.0, |mode| mode.frequency);
     order.sort_by(|a, b| frequency(a).total_cmp(&frequency(b)));
     if let Some(limit) = limit {
@@ -239,20 +255,22 @@ fn selected(keys: &Keys<'_>, mut structure: Modes) -> Option<Modes> {
         }
     }
     order.truncate(count.map_or(MOST, |count| usize::try_from(count).unwrap_or(MOST)));
+    order.extend(massive..structure.modes.len());
     order.sort_unstable();
+    let left_out = residual::wanted(keys, &structure, &order);
     structure.shapes = structure.shapes.select_columns(&order);
     structure.modes = order.iter().filter_map(|mode| structure.modes.get(*mode).copied()).collect();
-    damped(keys, &mut structure)?;
-    Some(structure)
+    damped(keys, &mut structure, residual)?;
+    Some((structure, left_out))
 }
 
 /// `damping`: one ratio for all modes, or one for each.
-fn damped(keys: &Keys<'_>, structure: &mut Modes) -> Option<()> {
+fn damped(keys: &Keys<'_>, structure: &mut Modes, residual: usize) -> Option<()> {
     if !keys.has("damping") {
         return Some(());
     }
     let ratios = list(keys, "damping")?;
-    let modes = structure.modes.len();
+    let modes = structure.modes.len().saturating_sub(residual);
     if ratios.len() != 1 && ratios.len() != modes {
         let message = format!("{} damping ratios for {modes} modes", ratios.len());
         keys.error("damping", message, "write one for all modes, or one for each");
@@ -263,7 +281,7 @@ fn damped(keys: &Keys<'_>, structure: &mut Modes) -> Option<()> {
         keys.error("damping", message, "write the share of critical damping: 0.005");
         return None;
     }
-    for (mode, ratio) in structure.modes.iter_mut().zip(ratios.iter().cycle()) {
+    for (mode, ratio) in structure.modes.iter_mut().take(modes).zip(ratios.iter().cycle()) {
         mode.damping = *ratio;
     }
     Some(())
@@ -346,8 +364,8 @@ impl Structure {
         self.modes.mass.as_ref()
     }
 
-    /// The structure of the scenario, with the node of each device.
-    pub(super) fn modal(self, on_node: Vec<usize>) -> ModalStructure {
+    /// The structure of the scenario, with the node of each device and platform.
+    pub(super) fn modal(self, keys: &Keys<'_>, on_node: Vec<usize>) -> ModalStructure {
         let mut used = self.used.into_inner();
         if used.is_empty() {
             // A structure has a node: the first one, which nothing is on.
@@ -360,14 +378,22 @@ impl Structure {
             let shapes = (0..rows.ncols()).map(column).collect();
             Some(StructureNode { name, position, shapes })
         });
-        ModalStructure {
+        let mut structure = ModalStructure {
             nodes: nodes.collect(),
             modes: self.modes.modes,
+            residual: self.written_residual,
             on_node,
             contains_devices: self.contains_devices,
             points: self.points,
             coordinates: self.coordinates,
             rates: self.rates,
+        };
+        if let Some(left_out) = &self.left_out
+            && let Err(error) = left_out.add(&mut structure, &used)
+        {
+            let help = "remove `residual_flexibility`, or the devices from the model";
+            keys.error("structure", format!("residual flexibility: {error}"), help);
         }
+        structure
     }
 }

@@ -22,6 +22,9 @@ pub(super) fn write(out: &mut String, structure: &ModalStructure) -> Written {
     for (index, mode) in modes.iter().enumerate() {
         writeln!(out, "\n[[structure.mode]]\nfrequency = \"{:?} rad/s\"", mode.frequency)?;
         writeln!(out, "damping = {:?}", mode.damping)?;
+        if index >= structure.massive().len() {
+            writeln!(out, "residual = true")?;
+        }
         writeln!(out, "linear_momentum = {:?}", mode.linear.as_slice())?;
         writeln!(out, "angular_momentum = {:?}", mode.angular.as_slice())?;
         for node in nodes {

@@ -336,7 +336,7 @@ impl JitterReport<'_> {
     }
 
     fn mode_table(&self) -> Option<Block> {
-        let modes = self.scenario.structure.iter().flat_map(|structure| &structure.modes);
+        let modes = self.scenario.structure.iter().flat_map(|of| of.massive());
         let row = |(index, mode): (usize, &crate::structure::Mode)| {
             let cells = vec![
                 (index + 1).to_string(),
