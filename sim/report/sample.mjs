@@ -190,8 +190,9 @@ function picture(chart, all) {
     + `${lines.join('')}<text x="${left}" y="2800" font-size="150" fill="#1C1C1E">Time t (s), 0 to ${END}; ${chart.unit || '1'}</text></svg>`;
 }
 
-const number = (text) => ({ text, number: true });
-const word = (text) => ({ text, number: false });
+const number = (text) => ({ text, number: true, state: false });
+const word = (text) => ({ text, number: false, state: false });
+const state = (text) => ({ text, number: false, state: true });
 
 function sections(all) {
   const figure = (i, caption) => ({ kind: 'figure', id: `figure-${i}`, number: String(i + 1), caption, svg: picture(CHARTS[i], all) });
@@ -204,9 +205,9 @@ function sections(all) {
         { title: 'At', unit: 's', number: true }, { title: 'State', unit: '', number: false },
       ],
       rows: [
-        { state: 'met', cells: [word('Pointing jitter'), word('|δω| over one turn of a wheel'), number('0.050 deg/s'), number('0.0286 deg/s'), number('0.00'), word('met')] },
-        { state: 'met', cells: [word('Bearing load'), word('|F| on the mount of cmg1'), number('20 N'), number('15.0 N'), number('0.00'), word('met')] },
-        { state: 'violated', cells: [word('Body rate'), word('|ω|'), number('5.00 deg/s'), number('5.64 deg/s'), number('0.00'), word('violated')] },
+        { state: 'met', cells: [word('Pointing jitter'), word('|δω| over one turn of a wheel'), number('0.050 deg/s'), number('0.0286 deg/s'), number('0.00'), state('met')] },
+        { state: 'met', cells: [word('Bearing load'), word('|F| on the mount of cmg1'), number('20 N'), number('15.0 N'), number('0.00'), state('met')] },
+        { state: 'violated', cells: [word('Body rate'), word('|ω|'), number('5.00 deg/s'), number('5.64 deg/s'), number('0.00'), state('violated')] },
       ],
     }] },
     { id: 'histories', title: 'Time histories', blocks: [

@@ -89,7 +89,8 @@ export function createChart(place, report, chart, cursor, theme) {
   const options = {
     width: Math.max(plot.clientWidth, 200),
     height: 230,
-    padding: [report.events.length > 0 ? 16 : 8, 10, 0, 0],
+    // Right: half of the last tick's number.
+    padding: [report.events.length > 0 ? 16 : 8, 20, 0, 0],
     legend: { show: false },
     cursor: {
       x: false,

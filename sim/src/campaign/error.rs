@@ -32,6 +32,22 @@ pub enum CampaignError {
     },
     /// Two axes are of one key.
     Twice(String),
+    /// A correlation that is none.
+    Correlation {
+        /// The keys of the pair.
+        keys: [String; 2],
+        /// What is wrong.
+        reason: &'static str,
+    },
+    /// Correlations that no values have together: their matrix is not positive definite.
+    Indefinite {
+        /// The keys of a pair that the others do not allow.
+        keys: [String; 2],
+        /// What its coefficient is between where the others stay; none where no value will do.
+        within: Option<[f64; 2]>,
+        /// The pivot of Cholesky's factor that is not above zero.
+        pivot: f64,
+    },
     /// A sample is no list of probabilities, one for each distribution.
     Probabilities {
         /// The sample, from 0.
@@ -83,6 +99,25 @@ impl fmt::Display for CampaignError {
                     f,
                     "two axes are of the key `{key}`; name two keys, or list values in one axis"
                 )
+            }
+            Self::Correlation { keys: [a, b], reason } => {
+                write!(f, "the correlation of `{a}` and `{b}`: {reason}")
+            }
+            Self::Indefinite { keys: [a, b], within, pivot } => {
+                write!(
+                    f,
+                    "the correlations are not positive definite (pivot {pivot:.3e}) at the pair `{a}` and \
+                     `{b}`; "
+                )?;
+                match within {
+                    Some([low, high]) => {
+                        write!(
+                            f,
+                            "with the others, its coefficient is above {low:.4} and below {high:.4}"
+                        )
+                    }
+                    None => write!(f, "reduce it and the others of `{b}`"),
+                }
             }
             Self::Probabilities { sample, keys } => write!(
                 f,

@@ -8,7 +8,9 @@
 //! | `journal` | [`Journal`]: a checksummed record of each finished sample, for a campaign that is killed |
 //! | `engine` | [`execute`]: the samples that are missing, on any number of threads; [`run_reduced`]: one run |
 //! | `table` | the rows as CSV and NPZ |
-//! | `distribution` | [`Variation`]: a key and its distribution; [`draw`]: seeded samples |
+//! | `distribution` | [`Variation`]: a key and its distribution |
+//! | `draw` | [`draw`]: seeded samples |
+//! | `correlation` | [`Correlation`] of two variations: a Gaussian copula |
 //! | `inference` | [`percentile`], [`probability`], [`spearman`] |
 //! | `sensitivity` | derivatives by central differences; a plane through a sample |
 //! | `tangent` | exact derivatives: the run over dual numbers |
@@ -18,7 +20,9 @@
 //! the number of threads, nor on how often a campaign was ended and continued.
 
 mod axis;
+mod correlation;
 mod distribution;
+mod draw;
 mod engine;
 mod error;
 mod inference;
@@ -31,7 +35,9 @@ pub mod table;
 mod tangent;
 
 pub use axis::{Axis, Spacing, is_key};
-pub use distribution::{Distribution, Variation, draw};
+pub use correlation::Correlation;
+pub use distribution::{Distribution, Variation};
+pub use draw::draw;
 pub use engine::{Execution, Finished, Row, execute, run_reduced};
 pub use error::CampaignError;
 pub use inference::{Estimate, percentile, probability, spearman};

@@ -1,12 +1,12 @@
-//! Plans of Monte Carlo campaigns: TOML with a table `[[vary]]` for each key and its distribution. Units as in scenario files;
-//! every error at once.
+//! Plans of Monte Carlo campaigns: TOML with a table `[[vary]]` for each key and its distribution, and `[[correlation]]` for pairs
+//! that are correlated. Units as in scenario files; every error at once.
 
 use std::path::Path;
 
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
 use super::read_file::read_file;
-use crate::campaign::{Distribution, Variation, is_key};
+use crate::campaign::{Correlation, Distribution, Variation, is_key};
 use crate::units::{Dimension, Quantity, parse_quantity};
 
 /// The number of the format that this program reads.
@@ -42,7 +42,10 @@ pub fn variations_from_toml(path: &Path) -> Result<Vec<Variation>, Diagnostics> 
         if !keys.has("vary") {
             keys.missing("vary", "[[vary]]` with `key = \"hub.mass\"");
         }
-        let all: Vec<_> = keys.tables("vary").iter().filter_map(variation).collect();
+        let mut all: Vec<_> = keys.tables("vary").iter().filter_map(variation).collect();
+        for table in keys.tables("correlation") {
+            correlation(&table, &mut all);
+        }
         keys.finish();
         Some(all)
     })
@@ -91,7 +94,36 @@ fn variation(keys: &Keys<'_>) -> Option<Variation> {
             return None;
         }
     };
-    Some(Variation { key: key.to_owned(), unit, distribution })
+    Some(Variation { key: key.to_owned(), unit, distribution, correlations: Vec::new() })
+}
+
+/// `[[correlation]]`: `between` two keys, `coefficient`. It is stated at the second one.
+fn correlation(keys: &Keys<'_>, all: &mut [Variation]) {
+    let between = r#"between = ["hub.mass", "device.rw.wheel.rate"]"#;
+    for (key, example) in [("between", between), ("coefficient", "coefficient = 0.5")] {
+        if !keys.has(key) {
+            keys.missing(key, example);
+        }
+    }
+    let (names, coefficient) = (keys.texts("between"), keys.number("coefficient"));
+    keys.finish();
+    let (Some(names), Some(coefficient)) = (names, coefficient) else { return };
+    let help = format!("write for example `{between}`");
+    let [first, second] = names[..] else {
+        keys.error("between", "a correlation is between two keys", &help);
+        return;
+    };
+    let known: Vec<String> = all.iter().map(|of| of.key.clone()).collect();
+    for name in [first, second] {
+        if !known.iter().any(|key| key == name) {
+            let message = format!("no `[[vary]]` has the key `{name}`");
+            keys.error("between", message, &format!("the keys are {}", known.join(", ")));
+            return;
+        }
+    }
+    if let Some(of) = all.iter_mut().find(|of| of.key == second) {
+        of.correlations.push(Correlation { key: first.to_owned(), coefficient });
+    }
 }
 
 /// The distribution of quantities, in a unit; or which of them is wrong.

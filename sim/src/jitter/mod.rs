@@ -40,3 +40,4 @@ pub mod sensitivity;
 pub mod simplified;
 pub mod sources;
 pub mod sweep;
+mod transfer;

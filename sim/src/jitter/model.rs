@@ -42,6 +42,8 @@ pub struct Model {
     accelerance: Accelerance,
     /// A row for each output, six columns for each of its nodes.
     rows: DMatrix<f64>,
+    /// The accelerance of mounts, and below it of the outputs.
+    to_outputs: Accelerance,
 }
 
 /// A tone of a device in a list of all.
@@ -122,9 +124,18 @@ impl Model {
         }
         let to: Vec<usize> = mounts.iter().chain(&nodes).copied().collect();
         let accelerance = Accelerance::new(&structure, Base::Free, &to, &mounts)?;
-        let outputs = outputs.iter().map(|output| output.name.clone()).collect();
-        let noises = Vec::new();
-        Ok(Self { devices, outputs, structure, mounts, contained, noises, accelerance, rows })
+        let to_outputs = accelerance.combined(&below_mounts(&rows, COORDINATES * mounts.len()));
+        Ok(Self {
+            devices,
+            outputs: outputs.iter().map(|output| output.name.clone()).collect(),
+            structure,
+            mounts,
+            contained,
+            noises: Vec::new(),
+            accelerance,
+            rows,
+            to_outputs,
+        })
     }
 
     /// The tones of all devices, in order.
@@ -191,29 +202,6 @@ impl Model {
         }
     }
 
-    /// The outputs by blocked forces on the mounts, six columns for each mount: `-R A_om (1 + M A_mm)^-1 / w^2`. There are
-    /// fewer outputs than forces, so the transposed system is solved.
-    pub(super) fn by_blocked(
-        &self,
-        frequency: f64,
-        devices: &[Condensed],
-    ) -> Result<ComplexMatrix, Fault> {
-        let of_mounts = COORDINATES * self.mounts.len();
-        let accelerance = self.accelerance.at(frequency)?;
-        let moved = accelerance.rows(of_mounts, accelerance.nrows() - of_mounts);
-        let rows = self.rows.map(|value| Complex::new(-value / (frequency * frequency), 0.0));
-        let mut found = (rows * moved).transpose();
-        let system = self.system(&accelerance, devices).transpose();
-        if !system.lu().solve_mut(&mut found) {
-            return Err(Fault::Unbounded { frequency });
-        }
-        if found.iter().all(|value| value.re.is_finite() && value.im.is_finite()) {
-            Ok(found.transpose())
-        } else {
-            Err(Fault::Unbounded { frequency })
-        }
-    }
-
     /// Mounted forces of tones of one frequency.
     pub(super) fn mounted(
         &self,
@@ -257,7 +245,11 @@ impl Model {
     }
 
     /// `1 + M A_mm`, a row of blocks for each mount.
-    fn system(&self, accelerance: &ComplexMatrix, devices: &[Condensed]) -> ComplexMatrix {
+    pub(super) fn system(
+        &self,
+        accelerance: &ComplexMatrix,
+        devices: &[Condensed],
+    ) -> ComplexMatrix {
         let (size, of_mounts) = (COORDINATES, COORDINATES * self.mounts.len());
         let own = accelerance.rows(0, of_mounts);
         let mut masses: Vec<_> = vec![ComplexMatrix::zeros(size, size); self.mounts.len()];
@@ -287,7 +279,9 @@ impl Model {
             } else {
                 of.damping *= factor;
             }
-            self.accelerance.set_mode(mode, [of.frequency, of.damping]);
+            let values = [of.frequency, of.damping];
+            self.accelerance.set_mode(mode, values);
+            self.to_outputs.set_mode(mode, values);
         }
     }
 
@@ -306,6 +300,19 @@ impl Model {
     pub(super) fn accelerance(&self) -> &Accelerance {
         &self.accelerance
     }
+
+    /// The accelerance of mounts and outputs by forces on the mounts.
+    pub(super) fn to_outputs(&self) -> &Accelerance {
+        &self.to_outputs
+    }
+}
+
+/// Rows of the mounts as they are, and below them rows that combine those of the nodes.
+fn below_mounts(rows: &DMatrix<f64>, of_mounts: usize) -> DMatrix<f64> {
+    let mut all = DMatrix::zeros(of_mounts + rows.nrows(), of_mounts + rows.ncols());
+    all.view_mut((0, 0), (of_mounts, of_mounts)).fill_with_identity();
+    all.view_mut((of_mounts, of_mounts), rows.shape()).copy_from(rows);
+    all
 }
 
 /// Tones of one frequency on their mounts.

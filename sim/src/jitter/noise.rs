@@ -9,6 +9,8 @@ use nalgebra::Complex;
 
 use super::campbell::{Oscillation, oscillations};
 use super::model::Model;
+use super::sources::MountNoise;
+use super::transfer::Transfer;
 use crate::structure::{COORDINATES, Fault};
 
 /// Frequencies of a decade.
@@ -42,32 +44,67 @@ impl Model {
     /// # Errors
     /// As [`Self::lines`].
     pub fn density(&self, speed: f64, frequency: f64) -> Result<Vec<f64>, Fault> {
-        let mut sums = vec![0.0; self.outputs.len()];
         if self.noises.is_empty() {
-            return Ok(sums);
+            return Ok(vec![0.0; self.outputs.len()]);
         }
-        let hertz = frequency / TAU;
-        let by_mounts = self.by_blocked(frequency, &self.condensed(speed, frequency)?)?;
-        for noise in &self.noises {
+        Noises::new(self, speed).density(frequency)
+    }
+}
+
+/// The noises of a model at one speed.
+struct Noises<'a> {
+    model: &'a Model,
+    transfer: Transfer<'a>,
+    /// Of each noise by how much its amplitudes differ from those stated.
+    factors: Vec<f64>,
+    /// Of each noise the first one with the same densities: those of the devices of a layout.
+    first_alike: Vec<usize>,
+}
+
+impl<'a> Noises<'a> {
+    fn new(model: &'a Model, speed: f64) -> Self {
+        let factor = |noise: &MountNoise| {
             let rate = noise.rotor.and_then(|[device, rotor]| {
-                let (_, device) = self.devices.get(device)?;
+                let (_, device) = model.devices.get(device)?;
                 device.rotors.get(rotor).map(|rotor| rotor.rate(speed).abs())
             });
-            let by_rate = match (noise.density.reference_rate, rate) {
+            match (noise.density.reference_rate, rate) {
                 (Some(reference), Some(rate)) => (rate / reference).powi(2),
                 (Some(_), None) => 0.0,
                 (None, _) => 1.0,
-            };
+            }
+        };
+        let alike = |noise: &MountNoise| {
+            model.noises.iter().position(|other| other.density == noise.density).unwrap_or(0)
+        };
+        Self {
+            model,
+            transfer: Transfer::new(model, speed),
+            factors: model.noises.iter().map(factor).collect(),
+            first_alike: model.noises.iter().map(alike).collect(),
+        }
+    }
+
+    fn density(&self, frequency: f64) -> Result<Vec<f64>, Fault> {
+        let mut sums = vec![0.0; self.model.outputs.len()];
+        let hertz = frequency / TAU;
+        let by_mounts = self.transfer.at(frequency)?;
+        let mut independent = Vec::with_capacity(self.model.noises.len());
+        for (number, noise) in self.model.noises.iter().enumerate() {
+            let known = self.first_alike.get(number).and_then(|first| independent.get(*first));
+            let parts = known.copied().unwrap_or_else(|| noise.density.independent(hertz));
+            independent.push(parts);
+            let factor = self.factors.get(number).copied().unwrap_or(0.0);
             let own = by_mounts.columns(COORDINATES * noise.mount, COORDINATES);
             for (sum, row) in sums.iter_mut().zip(own.row_iter()) {
                 // The output by each component, and then by each independent noise.
                 let by = |wrench: &[f64; COORDINATES]| -> Complex<f64> {
                     row.iter().zip(wrench).map(|(by, of)| by * *of).sum()
                 };
-                let by: Vec<Complex<f64>> = noise.wrench.iter().map(by).collect();
-                for part in noise.density.independent(hertz) {
+                let by = noise.wrench.each_ref().map(by);
+                for part in parts {
                     let value: Complex<f64> = by.iter().zip(part).map(|(by, of)| by * of).sum();
-                    *sum += value.norm_sqr() * by_rate * by_rate;
+                    *sum += value.norm_sqr() * factor * factor;
                 }
             }
         }
@@ -117,8 +154,9 @@ impl Densities {
         frequencies.sort_by(f64::total_cmp);
         frequencies.dedup();
         frequencies.retain(|frequency| *frequency > 0.0);
+        let noises = Noises::new(model, speed);
         let values: Result<Vec<_>, _> =
-            frequencies.iter().map(|frequency| model.density(speed, TAU * frequency)).collect();
+            frequencies.iter().map(|frequency| noises.density(TAU * frequency)).collect();
         Ok(Self { speed, frequencies, values: values? })
     }
 
@@ -171,7 +209,8 @@ fn grid(bands: &[[f64; 2]], natural: &[Oscillation]) -> Vec<f64> {
         grid.push(centre);
         let (first, ratio, count) = BESIDE;
         for width in (0..count).map(|k| first * ratio.powi(k)) {
-            grid.extend([-1.0, 1.0].map(|side| centre * (1.0 + side * width * of.damping)));
+            let beside = [-1.0, 1.0].map(|side| centre * (1.0 + side * width * of.damping));
+            grid.extend(beside.iter().filter(|f| !is_nearer_to_another(**f, centre, natural)));
         }
     }
     for band in bands {
@@ -179,6 +218,20 @@ fn grid(bands: &[[f64; 2]], natural: &[Oscillation]) -> Vec<f64> {
     }
     grid.retain(|frequency| (lowest..=to).contains(frequency));
     grid
+}
+
+/// Whether a frequency, Hz, is so near to another natural frequency than the one at `centre` that the frequencies beside that
+/// are closer.
+fn is_nearer_to_another(frequency: f64, centre: f64, natural: &[Oscillation]) -> bool {
+    let apart = (frequency - centre).abs();
+    let (first, ratio, count) = BESIDE;
+    let widest = first * ratio.powi(count - 1);
+    natural.iter().any(|other| {
+        let other_centre = other.frequency / TAU;
+        let width = other_centre * other.damping;
+        let other_apart = (frequency - other_centre).abs();
+        other_apart.max(width) < apart && other_apart < widest * width
+    })
 }
 
 #[cfg(test)]
@@ -201,5 +254,29 @@ mod tests {
         // The integral over all frequencies: pi f / (4 zeta); what is outside the band is 0.1 %; of the straight lines 0.5 %.
         let expected = std::f64::consts::PI * 40.0 / (4.0 * 0.005);
         assert!((found / expected - 1.0).abs() < 0.01, "{found} for {expected}");
+    }
+
+    /// Twenty modes, each a tenth above the one before: every one is resolved, with fewer frequencies than each by itself.
+    #[test]
+    fn a_grid_resolves_modes_that_are_close() {
+        let natural: Vec<Oscillation> = (0..20)
+            .map(|k| Oscillation { frequency: TAU * 40.0 * 1.1_f64.powi(k), damping: 0.005 })
+            .collect();
+        let mut grid = grid(&[[1.0, 400.0]], &natural);
+        grid.sort_by(f64::total_cmp);
+        assert!(grid.len() < 20 * 50 + 220, "{} frequencies", grid.len());
+        for of in &natural {
+            let centre = of.frequency / TAU;
+            let density = |f: f64| {
+                let r = f / centre;
+                1.0 / ((1.0 - r * r).powi(2) + (2.0 * of.damping * r).powi(2))
+            };
+            let found: f64 = grid
+                .windows(2)
+                .map(|pair| 0.5 * (pair[1] - pair[0]) * (density(pair[0]) + density(pair[1])))
+                .sum();
+            let expected = std::f64::consts::PI * centre / (4.0 * of.damping);
+            assert!((found / expected - 1.0).abs() < 0.01, "{found} for {expected}");
+        }
     }
 }

@@ -55,6 +55,8 @@ pub(super) struct Row {
 pub(super) struct Cell {
     pub(super) text: String,
     pub(super) number: bool,
+    /// Whether it has the colour of its row's state.
+    pub(super) state: bool,
 }
 
 /// An event: the time with its unit.
@@ -102,7 +104,8 @@ impl Fact {
     }
 }
 
-/// A table: titles of columns with units, texts in rows. The columns from `numbers` on hold numbers.
+/// A table: titles of columns with units, texts in rows. The columns from `numbers` on hold numbers. A row's state is shown by the
+/// colour of the cell that says it in words, else of the last one.
 pub(super) fn table(
     caption: &str,
     columns: &[(&str, &str)],
@@ -114,13 +117,15 @@ pub(super) fn table(
         unit: (*unit).to_owned(),
         number: numbers.contains(&index),
     };
-    let row = |(state, texts): (&'static str, Vec<String>)| Row {
-        state,
-        cells: texts
-            .into_iter()
-            .enumerate()
-            .map(|(index, text)| Cell { text, number: numbers.contains(&index) })
-            .collect(),
+    let row = |(state, texts): (&'static str, Vec<String>)| {
+        let last = texts.len().saturating_sub(1);
+        let said = texts.iter().position(|text| text == state).unwrap_or(last);
+        let cell = |(index, text)| Cell {
+            text,
+            number: numbers.contains(&index),
+            state: !state.is_empty() && index == said,
+        };
+        Row { state, cells: texts.into_iter().enumerate().map(cell).collect() }
     };
     Block::Table {
         caption: caption.to_owned(),

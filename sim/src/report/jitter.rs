@@ -253,7 +253,7 @@ impl JitterReport<'_> {
                     id: format!("figure-cumulative-{}", index + 1),
                     number: format!("C{}", index + 1),
                     caption: format!(
-                        "{}: RMS of all lines up to a frequency, at the worst speed.",
+                        "{}: the metric of all lines up to a frequency, and from it, at the worst speed; squares are added.",
                         of.limit.name
                     ),
                     svg,
@@ -264,7 +264,7 @@ impl JitterReport<'_> {
                     id: format!("figure-density-{}", index + 1),
                     number: format!("D{}", index + 1),
                     caption: format!(
-                        "{}: density by broadband noise near the worst speed; below, its RMS from below, and the limit.",
+                        "{}: density by broadband noise near the worst speed; below, what of it counts in the metric, from below, and the limit.",
                         of.limit.name
                     ),
                     svg,

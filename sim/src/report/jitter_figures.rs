@@ -1,4 +1,4 @@
-//! The figures of a [`JitterReport`]: a metric over the speed, cumulative RMS, waterfall, Campbell diagram.
+//! The figures of a [`JitterReport`]: a metric over speed and cumulative over frequency, waterfall, Campbell diagram.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use super::number::{short, with_unit};
 use super::plane::Plane;
 use super::spectrum::{SpectrumCurve, SpectrumFigure};
 use super::unit::{SMALL_ANGLE, for_peak};
-use crate::jitter::budget::{Assessed, outputs_of};
+use crate::jitter::budget::{Assessed, outputs_of, weight_of};
 use crate::jitter::campbell::{Branch, Oscillation};
 
 /// A line is drawn in a waterfall from this root of its share of the largest on.
@@ -20,6 +20,11 @@ const WATERFALL_SPEEDS: usize = 160;
 const LIMIT_SHOWN: f64 = 3.0;
 /// Branches of a Campbell diagram are drawn up to this many times the highest line.
 const CAMPBELL_TOP: f64 = 1.25;
+
+/// The share of a mean square in the metric of a requirement, by angular frequency, rad/s. A budget has no index.
+fn weight(of: &Assessed) -> Box<dyn Fn(f64) -> f64> {
+    weight_of(&of.limit.metric).unwrap_or_else(|_| Box::new(|_| 1.0))
+}
 
 impl JitterReport<'_> {
     /// A metric over the speed.
@@ -42,20 +47,23 @@ impl JitterReport<'_> {
         }
     }
 
-    /// Cumulative RMS over frequency at the worst speed.
+    /// A metric of all lines up to a frequency, and from it, at the worst speed; squares are added.
     pub(super) fn cumulative(&self, of: &Assessed) -> Plane {
         let outputs = outputs_of(of.sight);
+        let weight = weight(of);
         let speed = self.sweep.speeds.get(of.worst).copied().unwrap_or(0.0);
         let lines = self.sweep.lines.get(of.worst).map_or(&[][..], Vec::as_slice);
         let mut sorted: Vec<_> = lines
             .iter()
             .map(|line| {
                 let values = outputs.iter().filter_map(|output| line.values.get(*output));
-                (line.frequency / TAU, values.map(|value| 0.5 * value.norm_sqr()).sum::<f64>())
+                let square = values.map(|value| 0.5 * value.norm_sqr()).sum::<f64>();
+                (line.frequency / TAU, square * weight(line.frequency))
             })
             .collect();
         if let Some(densities) = self.sweep.noise.nearest(speed) {
-            sorted.extend(densities.squares(&outputs));
+            let weighted = |(f, square): (f64, f64)| (f, square * weight(TAU * f));
+            sorted.extend(densities.squares(&outputs).into_iter().map(weighted));
         }
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let whole: f64 = sorted.iter().map(|(_, square)| square).sum();
@@ -85,11 +93,13 @@ impl JitterReport<'_> {
         }
         Plane {
             description: format!(
-                "Cumulative RMS over frequency in Hz at {speed}, in {}.",
+                "{}: cumulative {} over frequency in Hz at {speed}, in {}.",
+                of.limit.name,
+                metric(&of.limit.metric),
                 unit.name
             ),
-            title: format!("{}: cumulative RMS at {speed}", of.limit.name),
-            axes: ["Frequency f (Hz)".to_owned(), format!("Cumulative RMS ({})", unit.name)],
+            title: format!("{}: {} at {speed}", of.limit.name, metric(&of.limit.metric)),
+            axes: ["Frequency f (Hz)".to_owned(), format!("Cumulative ({})", unit.name)],
             curves,
             lines: Vec::new(),
             dots: Vec::new(),
@@ -98,8 +108,8 @@ impl JitterReport<'_> {
         }
     }
 
-    /// Density of a line of sight by broadband noise at the worst speed of a requirement, both axes together, and its RMS of
-    /// all lower frequencies; none without noise.
+    /// Density of a line of sight by broadband noise at the worst speed of a requirement, both axes together, and what of it
+    /// counts in the metric, of all lower frequencies; none without noise.
     pub(super) fn density(&self, of: &Assessed) -> Option<SpectrumFigure> {
         let speed = self.sweep.speeds.get(of.worst).copied()?;
         let densities = self.sweep.noise.nearest(speed)?;
@@ -113,8 +123,9 @@ impl JitterReport<'_> {
             densities.values.iter().map(|values| sum(values) * square).collect();
         let mut total = 0.0;
         let mut rms = vec![0.0];
-        for (_, part) in densities.squares(&outputs) {
-            total += part * square;
+        let weight = weight(of);
+        for (frequency, part) in densities.squares(&outputs) {
+            total += part * square * weight(TAU * frequency);
             rms.push(total.sqrt());
         }
         let limit = vec![of.limit.limit * unit.per_si; rms.len()];

@@ -96,8 +96,10 @@ impl JitterReport<'_> {
             Some(false) => "its model is without the devices",
             Some(true) => "its model has the devices as rigid bodies, which are taken off",
         };
+        let modes = self.scenario.structure.as_ref().map_or(0, |structure| structure.modes.len());
+        let structure = if modes == 0 { mass.to_owned() } else { format!("{modes} modes; {mass}") };
         let rows = vec![
-            row("Structure", format!("{}; {mass}", self.modes())),
+            row("Structure", structure),
             row("Devices", "coupled, linearised about steady spin, averaged over a turn; gyroscopic terms exact".to_owned()),
             row("Imbalance", "of the devices' own equations".to_owned()),
             row(

@@ -63,7 +63,14 @@ impl SpectrumFigure {
         let [of_density, of_rms] = DECADES_MAX;
         let [density_label, rms_label] = match self.unit.as_str() {
             "" => ["Density (1/Hz)".to_owned(), "Cumulative RMS".to_owned()],
-            unit => [format!("Density (({unit})²/Hz)"), format!("Cumulative RMS ({unit})")],
+            unit => {
+                let square = if unit.contains([' ', '/']) {
+                    format!("({unit})²")
+                } else {
+                    format!("{unit}²")
+                };
+                [format!("Density ({square}/Hz)"), format!("Cumulative RMS ({unit})")]
+            }
         };
         document(&self.description, style, &names, PANEL + RMS, |panel| {
             let (above, below) = panel.split_vertically(px(PANEL));

@@ -33,10 +33,16 @@ fn place(axis: &Axis, value: f64) -> f64 {
     if axis.spacing == Spacing::Logarithmic { libm::log10(value) } else { value }
 }
 
-fn label(axis: &Axis) -> String {
+/// The key with its unit.
+fn key(axis: &Axis) -> String {
     let unit = if axis.unit.is_empty() { String::new() } else { format!(" ({})", axis.unit) };
+    format!("{}{unit}", axis.key)
+}
+
+/// What [`place`] shows.
+fn label(axis: &Axis) -> String {
     let word = if axis.spacing == Spacing::Logarithmic { "log10 of " } else { "" };
-    format!("{word}{}{unit}", axis.key)
+    format!("{word}{}", key(axis))
 }
 
 fn ends(axis: &Axis) -> Option<[f64; 2]> {
@@ -95,7 +101,7 @@ pub(crate) fn map(axes: [&Axis; 2], of: &Numbers<'_>) -> Result<String, DrawErro
     let (unit, size) = scaled(of.unit, of.values.iter().flatten().copied());
     let [first, second] = axes;
     let map_axis = |axis: &Axis| MapAxis {
-        label: axis.label(),
+        label: key(axis),
         values: axis.values.clone(),
         logarithmic: axis.spacing == Spacing::Logarithmic,
     };

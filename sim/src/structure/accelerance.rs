@@ -103,6 +103,24 @@ impl Accelerance {
         })
     }
 
+    /// Of combinations of the coordinates that move: a row for each.
+    pub(crate) fn combined(&self, rows: &DMatrix<f64>) -> Self {
+        let old = self.to.nrows() - COORDINATES;
+        let mut to = DMatrix::zeros(rows.nrows() + COORDINATES, self.to.ncols());
+        to.rows_mut(0, rows.nrows()).copy_from(&(rows * self.to.rows(0, old)));
+        to.rows_mut(rows.nrows(), COORDINATES).copy_from(&self.to.rows(old, COORDINATES));
+        let [moved, forced] = &self.rigid;
+        Self {
+            mass: self.mass,
+            modes: self.modes.clone(),
+            to,
+            from: self.from.clone(),
+            rigid: [complex(rows) * moved, forced.clone()],
+            decoupled: self.decoupled.as_ref().map(|of| rows * of),
+            residual: self.residual.as_ref().map(|of| rows * of),
+        }
+    }
+
     /// Another angular frequency, rad/s, and damping ratio of a mode.
     pub(crate) fn set_mode(&mut self, mode: usize, values: [f64; 2]) {
         if let Some(of) = self.modes.get_mut(mode) {
@@ -160,15 +178,18 @@ impl Accelerance {
             let stiff = natural * natural - square;
             Complex::new(-square, 0.0) / Complex::new(stiff, 2.0 * ratio * natural * frequency)
         });
+        let [to, from] = [&self.to, &self.from].map(|rows| rows.nrows() - COORDINATES);
+        // Modes without momentum need no momentum integrals.
+        let more = if self.decoupled.is_some() { 0 } else { COORDINATES };
         // Products of real matrices: the shapes times the real and the imaginary parts of the gains.
-        let (mut real, mut imaginary) = (self.to.clone(), self.to.clone());
+        let mut real = self.to.rows(0, to + more).into_owned();
+        let mut imaginary = real.clone();
         for (mode, gain) in gains.enumerate() {
             real.column_mut(mode).scale_mut(gain.re);
             imaginary.column_mut(mode).scale_mut(gain.im);
         }
-        let shapes = self.from.transpose();
+        let shapes = self.from.rows(0, from + more).transpose();
         let modal = (real * &shapes).zip_map(&(imaginary * shapes), Complex::new);
-        let [to, from] = [&self.to, &self.from].map(|rows| rows.nrows() - COORDINATES);
         let mut sum = modal.view((0, 0), (to, from)).into_owned();
         if let Some(rigid) = &self.decoupled {
             sum.zip_apply(rigid, |value, rigid| *value += rigid);

@@ -24,9 +24,17 @@ pub struct Condensed {
 /// # Errors
 /// As [`AveragedDevices::dynamic_mass`](super::averaged::AveragedDevices::dynamic_mass).
 pub fn condensed(parts: &Derivatives, frequency: f64) -> Result<Condensed, Fault> {
-    let unbounded = || Fault::Unbounded { frequency };
     let parts = parts.each_ref().map(|m| m.map(|value| Complex::new(value, 0.0)));
-    let whole = at(&parts, frequency)?;
+    condensed_complex(&parts, frequency)
+}
+
+/// [`condensed`] of derivatives as complex matrices.
+pub(crate) fn condensed_complex(
+    parts: &[ComplexMatrix; 3],
+    frequency: f64,
+) -> Result<Condensed, Fault> {
+    let unbounded = || Fault::Unbounded { frequency };
+    let whole = at(parts, frequency)?;
     let joints = whole.nrows().saturating_sub(COORDINATES);
     let [h, q] = [(0, COORDINATES), (COORDINATES, joints)];
     let block =

@@ -1,5 +1,6 @@
-//! Campaigns: sweeps against closed forms, over threads, killed and continued, with samples that fail.
+//! Campaigns: sweeps against closed forms, over threads, killed and continued, with samples that fail; correlated keys.
 
+mod correlated;
 #[cfg(unix)]
 mod killed;
 mod montecarlo;

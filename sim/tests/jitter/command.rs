@@ -164,3 +164,31 @@ fn files_of_a_base_in_another_folder_are_beside_the_base() {
     assert_eq!(found.structure.expect("of the base").modes.len(), 20);
     std::fs::remove_dir_all(out).expect("it was made");
 }
+
+/// The worked example of the page: its two files, and the verdict that it shows.
+#[test]
+fn the_example_of_the_page_has_the_verdict_of_the_page() {
+    let out = folder("page");
+    let page = std::fs::read_to_string(scenarios().join("../docs/jitter.md")).expect("the page");
+    let blocks = |language: &str| -> Vec<String> {
+        let fence = format!("```{language}\n");
+        let parts = page.split(fence.as_str()).skip(1);
+        parts.filter_map(|rest| rest.split("```").next()).map(str::to_owned).collect()
+    };
+    let [scenario, budget, ..] = &blocks("toml")[..] else { panic!("two files on the page") };
+    let base = "imaging-satellite-flexible.toml";
+    let path = scenarios().join(base);
+    let scenario = scenario.replace(base, path.to_str().expect("text"));
+    std::fs::write(out.join("new-wheel.toml"), scenario).expect("it is written");
+    std::fs::write(out.join("camera.toml"), budget).expect("it is written");
+    let found = jitter(&out.join("camera.toml"), &out, &["--no-compare"]);
+    let shown = String::from_utf8_lossy(&found.stdout).into_owned();
+    assert_eq!(found.status.code(), Some(0), "{shown}{}", String::from_utf8_lossy(&found.stderr));
+    let verdict = blocks("text").into_iter().find(|text| text.starts_with("Camera\n"));
+    let verdict = verdict.expect("the verdict on the page");
+    // The last line is of the coupled run, which is left out here.
+    for line in verdict.lines().filter(|line| !line.starts_with("coupled run")) {
+        assert!(shown.lines().any(|found| found.trim_end() == line), "{line}\n{shown}");
+    }
+    std::fs::remove_dir_all(out).expect("it was made");
+}

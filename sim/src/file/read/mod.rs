@@ -1,6 +1,7 @@
 //! The tree of a scenario file into a [`Scenario`].
 
 pub(super) mod body;
+mod check;
 mod columns;
 mod components;
 mod device;
@@ -16,6 +17,7 @@ mod places;
 mod platform;
 mod requirement;
 mod residual;
+mod settings;
 mod source;
 mod source_models;
 mod structure;
@@ -26,8 +28,6 @@ mod turns;
 use std::cell::RefCell;
 use std::path::Path;
 
-use precess_dynamics::Gravity;
-
 use super::diagnostic::{Diagnostics, Numbers};
 use super::document::Node;
 use super::keys::{Keys, Reports};
@@ -35,8 +35,7 @@ use super::load::{Override, load_file, load_text};
 use super::overrides::apply;
 pub(crate) use device::{body_key, has_inertia, has_mass, joint_key};
 
-use crate::scenario::{IntegratorChoice, Scenario, ScenarioError, Settings, Source};
-use crate::units::Measure;
+use crate::scenario::{Scenario, Source};
 
 /// The number of the format that this program reads.
 pub const FORMAT: u32 = 1;
@@ -128,7 +127,7 @@ pub(super) fn scenario(
     let mut reports = cell.into_inner();
     match scenario {
         Some(mut scenario) if !reports.has_errors() => {
-            check(&node, &scenario, &mut reports);
+            check::check(&node, &scenario, &mut reports);
             if reports.has_errors() {
                 return Err(reports);
             }
@@ -159,9 +158,9 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let devices = device::devices(&keys, folder, structure.as_ref());
     let devices = platform::with_platforms(&keys, devices, folder, structure.as_ref());
     let joints = joints::Joints::of(&devices);
-    let settings = settings(&keys);
+    let settings = settings::settings(&keys);
     let initial = initial::initial(&keys, &devices);
-    let gravity = gravity(&keys);
+    let gravity = settings::gravity(&keys);
     let changes = over_time::changes(&keys, &joints, folder);
     let wrenches = over_time::wrenches(&keys, &joints, structure.as_ref(), folder);
     let known = source::Known {
@@ -232,98 +231,6 @@ fn name(keys: &Keys<'_>, stem: &str) -> String {
             if name.is_empty() { "scenario".to_owned() } else { name }
         }
     }
-}
-
-fn gravity(keys: &Keys<'_>) -> Gravity {
-    let Some(gravity) = keys.table("gravity") else { return Gravity::None };
-    let uniform = gravity.vector("uniform", Measure::ACCELERATION);
-    let central = gravity.quantity("central", Measure::GRAVITATIONAL_PARAMETER);
-    gravity.finish();
-    match (uniform, central) {
-        (Some(_), Some(_)) => {
-            gravity.error("central", "gravity is uniform and central", "keep one of them");
-            Gravity::None
-        }
-        (Some(g), None) => Gravity::Uniform(g),
-        (None, Some(mu)) => Gravity::Central { mu },
-        (None, None) => Gravity::None,
-    }
-}
-
-fn settings(keys: &Keys<'_>) -> Option<Settings> {
-    let Some(run) = keys.table("run") else {
-        if !keys.has("run") {
-            keys.missing("run", "[run]");
-        }
-        return None;
-    };
-    let duration = run.required("duration", Measure::TIME);
-    let fixed = run.choice("integrator", &[("dop853", false), ("rk4", true)]).unwrap_or(false);
-    let integrator = if fixed {
-        if run.has("tolerance") {
-            run.error("tolerance", "steps of rk4 are fixed", "give `step`, or take dop853");
-        }
-        run.required("step", Measure::TIME).map(|step| IntegratorChoice::Rk4 { step })
-    } else {
-        if run.has("step") {
-            run.error("step", "dop853 chooses its steps", "give `tolerance`, or take rk4");
-        }
-        let tolerance = run.number("tolerance").unwrap_or(1e-10);
-        Some(IntegratorChoice::Dop853 { tolerance })
-    };
-    run.finish();
-    Some(Settings { duration: duration?, integrator: integrator? })
-}
-
-/// What only the whole tells: bounds and names, and what the solver rejects or warns of.
-fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics) {
-    let names = &scenario.names;
-    let tables = places::Tables::of(scenario);
-    for error in scenario.check() {
-        let message = match &error {
-            ScenarioError::Range { key, message } => format!("{key}: {message}"),
-            ScenarioError::Parameters(error) => named(&error.to_string(), names),
-            ScenarioError::Modes(error) => {
-                format!("structure: {}", named(&error.to_string(), names))
-            }
-        };
-        match places::of_error(root, &error, &tables) {
-            Some(span) => reports.error(&span, message, "", ""),
-            None => reports.error_anywhere(message, ""),
-        }
-    }
-    if let Ok(spacecraft) = scenario.spacecraft() {
-        for warning in spacecraft.warnings() {
-            let span = places::of_warning(root, &warning, &tables);
-            let help = "check moments and products of inertia and their units; it is run as given";
-            reports.all.push(super::Diagnostic {
-                severity: super::Severity::Warning,
-                span,
-                message: named(&warning.to_string(), names),
-                label: String::new(),
-                help: help.to_owned(),
-            });
-        }
-    }
-}
-
-/// `device 0` by its name.
-fn named(message: &str, names: &[String]) -> String {
-    const DEVICE: &str = "device ";
-    let mut text = String::new();
-    let mut rest = message;
-    while let Some(at) = rest.find(DEVICE) {
-        let number = rest.get(at + DEVICE.len()..).unwrap_or_default();
-        let end = number.find(|c: char| !c.is_ascii_digit()).unwrap_or(number.len());
-        let (digits, after) = number.split_at(end);
-        text.push_str(rest.get(..at).unwrap_or_default());
-        match digits.parse::<usize>().ok().and_then(|index| names.get(index)) {
-            Some(name) => text.push_str(name),
-            None => text.extend([DEVICE, digits]),
-        }
-        rest = after;
-    }
-    text + rest
 }
 
 #[cfg(test)]
@@ -426,13 +333,6 @@ mod tests {
             let (second, _) = read_text(&to_toml(&first)).unwrap_or_else(|e| panic!("{e}"));
             assert_eq!(second.initial.attitude, first.initial.attitude, "{angles}");
         }
-    }
-
-    #[test]
-    fn a_device_is_named_by_its_whole_number() {
-        let names = ["a", "b"].map(str::to_owned);
-        let text = "device 1, device 12; device 0: device x, device ";
-        assert_eq!(named(text, &names), "b, device 12; a: device x, device ");
     }
 
     #[test]

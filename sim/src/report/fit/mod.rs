@@ -105,7 +105,15 @@ impl FitReport<'_> {
         // 1 kg m is 1e5 g cm, 1 kg m² is 1e7 g cm².
         let of = |estimate: Estimate, unit: &str| {
             let half = 0.5 * (estimate.interval[1] - estimate.interval[0]);
-            format!("{} \u{b1} {} {unit}", short(estimate.value, 4), short(half, 2))
+            // As many digits as the half-width tells.
+            let digits = (estimate.value / half).abs().log10().ceil().clamp(1.0, 9.0);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "one to nine"
+            )]
+            let digits = digits as usize + 1;
+            format!("{} \u{b1} {} {unit}", short(estimate.value, digits), short(half, 2))
         };
         let facts = vec![
             Fact::new("Static imbalance U_s", of(fitted.imbalance.u_s.times(1e5), "g cm")),
@@ -155,7 +163,12 @@ impl FitReport<'_> {
                     (true, Sense::Backward) => ", backward",
                 };
                 let what = format!("C, {}{sense}", c.group);
-                rows.push(row(name.clone(), &what, &c.c, c.group.coefficient_unit()));
+                rows.push(row(
+                    name.clone(),
+                    &what,
+                    &c.c,
+                    &c.group.coefficient_unit().replace("^2", "²"),
+                ));
                 if let Some(phase) = &c.phase {
                     rows.push(row(name.clone(), "its phase", &degrees(phase), "deg"));
                 }
@@ -210,9 +223,9 @@ impl FitReport<'_> {
         let rows = self.fitted.groups.iter().map(|fit| {
             let mean = fit.squares / fit.freedom;
             let state = if mean > SQUARES_MAX { "violated" } else { "met" };
-            (state, vec![fit.group.to_string(), short(mean, 4), short(fit.freedom, 6)])
+            (state, vec![fit.group.to_string(), short(fit.freedom, 6), short(mean, 4)])
         });
-        let columns = [("Group", ""), ("Mean square by variance", ""), ("Degrees of freedom", "")];
+        let columns = [("Group", ""), ("Degrees of freedom", ""), ("Mean square by variance", "")];
         let mut blocks = vec![table("Weighted residuals of the powers", &columns, 1..3, rows)];
         blocks.extend(figures);
         blocks

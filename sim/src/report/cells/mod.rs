@@ -1,14 +1,17 @@
 //! [`CellMap`]: a number over two parameters as SVG: a filled cell for each pair of values, a scale of colours, contours.
 //!
-//! The colours are nine of `cividis` (Nuñez, Anderton and Renslow, PLOS ONE 13(7), 2018), which readers with and without a
-//! deficiency of colour vision order alike. A contour is a straight line within each square of neighbouring middles, by
-//! linear interpolation of the number, or of its logarithm where the scale is logarithmic.
+//! Contours are of the number, or of its logarithm where the scale is logarithmic.
+
+mod colours;
+mod contour;
 
 use std::fmt::Write as _;
 use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
+use self::colours::colour;
+use self::contour::segments;
 use super::axes::{Space, axes, svg_file, title};
 use super::error::DrawError;
 use super::figure::{ABOVE, Area, BELOW, FONT, PANEL, TYPE_SMALL, WIDTH, document, escaped, px};
@@ -16,18 +19,6 @@ use super::log_panel::{Kind, Scale};
 use super::number::short;
 use super::ticks::{Axis, ticks};
 
-/// From the least number to the largest.
-const COLOURS: [[f64; 3]; 9] = [
-    [0.0, 34.0, 78.0],
-    [26.0, 56.0, 111.0],
-    [64.0, 77.0, 107.0],
-    [92.0, 97.0, 110.0],
-    [119.0, 119.0, 121.0],
-    [151.0, 145.0, 119.0],
-    [185.0, 172.0, 112.0],
-    [219.0, 200.0, 92.0],
-    [254.0, 232.0, 56.0],
-];
 /// Height of the panel by that of a figure of a run.
 const HEIGHT: f64 = 1.5;
 /// Width of the scale of colours with its numbers, and of the scale itself.
@@ -260,18 +251,11 @@ impl CellMap {
             let (x, y) = at(rising[0][i], rising[1][j]);
             [f64::from(x), f64::from(y)]
         };
-        let mut segments: Vec<[[f64; 2]; 2]> = Vec::new();
-        for i in 1..grid.len() {
-            for j in 1..grid[i].len() {
-                let corners = [(i - 1, j - 1), (i, j - 1), (i, j), (i - 1, j)];
-                let values = corners.map(|(i, j)| to(grid[i][j]) - to(level));
-                if values.iter().any(|value| !value.is_finite()) {
-                    continue;
-                }
-                let places = corners.map(|(i, j)| place(i, j));
-                segments.extend(square(&values, &places));
-            }
-        }
+        let above: Vec<Vec<f64>> = grid
+            .iter()
+            .map(|column| column.iter().map(|number| to(*number) - to(level)).collect())
+            .collect();
+        let segments = segments(&above, &place);
         if segments.is_empty() {
             return;
         }
@@ -346,83 +330,9 @@ impl CellMap {
     }
 }
 
-/// The colour at a share of the scale.
-fn colour(share: f64) -> String {
-    let last = COLOURS.len() - 1;
-    #[expect(clippy::cast_precision_loss, reason = "nine colours")]
-    let place = share.clamp(0.0, 1.0) * last as f64;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8")]
-    let before = (place.floor() as usize).min(last - 1);
-    #[expect(clippy::cast_precision_loss, reason = "nine colours")]
-    let part = place - before as f64;
-    let of = |k: usize| COLOURS[before][k] + part * (COLOURS[before + 1][k] - COLOURS[before][k]);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
-    let byte = |k: usize| of(k).round() as u8;
-    format!("#{:02X}{:02X}{:02X}", byte(0), byte(1), byte(2))
-}
-
-/// Where a quantity is zero within a square, by its values at the corners in turn: straight lines between its sides. Of a
-/// saddle the mean of the corners decides.
-fn square(values: &[f64; 4], places: &[[f64; 2]; 4]) -> Vec<[[f64; 2]; 2]> {
-    let mut crossed: Vec<[f64; 2]> = Vec::new();
-    for side in 0..4 {
-        let next = (side + 1) % 4;
-        let (a, b) = (values[side], values[next]);
-        if (a > 0.0) == (b > 0.0) {
-            continue;
-        }
-        let share = a / (a - b);
-        let between = |k: usize| places[side][k] + share * (places[next][k] - places[side][k]);
-        crossed.push([between(0), between(1)]);
-    }
-    match crossed[..] {
-        [from, to] => vec![[from, to]],
-        [a, b, c, d] => {
-            let middle: f64 = values.iter().sum();
-            if (middle > 0.0) == (values[0] > 0.0) {
-                vec![[a, b], [c, d]]
-            } else {
-                vec![[d, a], [b, c]]
-            }
-        }
-        _ => Vec::new(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-
-    #[test]
-    fn a_contour_of_a_plane_is_where_the_plane_is_zero() {
-        // x - 0.25.
-        let found = square(&[-0.25, 0.75, 0.75, -0.25], &SQUARE);
-        assert_eq!(found, [[[0.25, 0.0], [0.25, 1.0]]]);
-        assert!(square(&[1.0, 2.0, 3.0, 4.0], &SQUARE).is_empty());
-        // A saddle: the corner 0 is apart where the middle is below zero.
-        let apart = square(&[1.0, -2.0, 1.0, -2.0], &SQUARE);
-        assert!(
-            apart
-                .iter()
-                .all(|[from, to]| (from[0] + from[1] - 1.0).abs() + (to[0] + to[1] - 1.0).abs()
-                    > 0.5)
-        );
-        assert_eq!(apart.len(), 2);
-    }
-
-    #[test]
-    fn colours_rise_in_lightness() {
-        let lightness = |share: f64| -> f64 {
-            let text = colour(share);
-            let byte =
-                |at: usize| f64::from(u8::from_str_radix(&text[at..at + 2], 16).expect("hex"));
-            0.2126 * byte(1) + 0.7152 * byte(3) + 0.0722 * byte(5)
-        };
-        let all: Vec<f64> = (0..=20).map(|k| lightness(f64::from(k) / 20.0)).collect();
-        assert!(all.windows(2).all(|pair| pair[0] < pair[1]), "{all:?}");
-    }
 
     #[test]
     fn a_map_has_cells_contour_and_scale() {
