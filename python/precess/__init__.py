@@ -8,8 +8,6 @@
 Numbers are SI and radians. Axes N are inertial, axes B those of the hub.
 """
 
-import logging
-
 from . import errors
 from ._native import version as _version
 from .batch import Batch, BatchRun
@@ -70,6 +68,3 @@ __all__ = [
     "UnsupportedError",
     "errors",
 ]
-
-# Quiet until a program configures logging.
-logging.getLogger("precess").addHandler(logging.NullHandler())

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _native
 from .errors import ScenarioError
@@ -18,11 +17,14 @@ from .spacecraft import Spacecraft
 from .state import State
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from .scenario import Scenario
+
+    Array = npt.NDArray[np.float64]
 
 __all__ = ["Batch", "BatchRun"]
 
-Array = npt.NDArray[np.float64]
 Errors = dict[int, Exception]
 
 
@@ -76,7 +78,7 @@ class Batch:
     def __init__(
         self,
         spacecraft: Spacecraft | Scenario,
-        parameters: Mapping[str, npt.ArrayLike | Sequence[Any]] | None = None,
+        parameters: Mapping[str, Array | Sequence[Any]] | None = None,
         in_lanes: bool = True,
     ) -> None:
         if not isinstance(spacecraft, Spacecraft):
@@ -190,7 +192,7 @@ class Batch:
         )
         all_rows = [final, *reduced] + ([samples] if samples is not None else [])
         self._note(failures, all_rows)
-        time = np.arange(0, steps // stride + 1) * (stride * dt)
+        time = np.arange(0, steps // stride + 1, dtype=np.float64) * (stride * dt)
         named = dict(zip(reduce, reduced, strict=True))
         return BatchRun(final, time, samples, named, dict(self.errors))
 
