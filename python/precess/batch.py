@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[np.float64]
 
-__all__ = ["Batch", "BatchRun"]
+__all__ = ["Batch", "BatchLinearization", "BatchRun"]
 
 Errors = dict[int, Exception]
 
@@ -51,6 +51,25 @@ class BatchRun:
     history: Array | None
     reduced: dict[str, Array]
     errors: Errors
+
+
+@dataclass(frozen=True)
+class BatchLinearization:
+    """Derivatives of the accelerations of many states, as :class:`Linearization` has them.
+
+    Attributes
+    ----------
+    outputs, states, inputs : tuple of str
+        Names of rows and columns.
+    C, D : arrays, shapes (n, outputs, states) and (n, outputs, inputs)
+        Derivatives by states and by inputs; NaN of an element that failed.
+    """
+
+    outputs: tuple[str, ...]
+    states: tuple[str, ...]
+    inputs: tuple[str, ...]
+    C: Array
+    D: Array
 
 
 class Batch:
@@ -158,6 +177,27 @@ class Batch:
         found, failures = self._native.accelerations(y, base, u, threads or 0, progress)
         self._note(failures, [found])
         return found
+
+    def linearize(
+        self,
+        states: npt.ArrayLike | Sequence[State],
+        inputs: Inputs | npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> BatchLinearization:
+        """Derivatives of all accelerations of each state, exact to rounding, as :meth:`Spacecraft.linearize`.
+
+        Raises
+        ------
+        UnsupportedError
+            Spacecraft that differ, a structure that bends.
+        """
+        y, base, u = self._given(states, inputs)
+        found = self._native.linearize(y, base, u, threads or 0)
+        outputs, of_states, of_inputs, by_state, by_input, failures = found
+        self._note(failures, [by_state, by_input])
+        return BatchLinearization(
+            tuple(outputs), tuple(of_states), tuple(of_inputs), by_state, by_input
+        )
 
     def run(
         self,
