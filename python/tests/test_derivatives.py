@@ -28,8 +28,15 @@ def state_and_inputs(craft: precess.Spacecraft, count: int = 1) -> tuple[np.ndar
     return y, rng.standard_normal((count, 6 + len(craft.joints)))
 
 
+def in_a_field(craft: precess.Spacecraft) -> precess.Inputs:
+    """Inputs with gravity: accelerations depend on the attitude."""
+    inputs = craft.inputs()
+    inputs.gravity = [0.3, -0.2, 9.8]
+    return inputs
+
+
 def test_jacobians_are_those_of_differences(craft: precess.Spacecraft) -> None:
-    of = Derivatives(craft)
+    of = Derivatives(craft, in_a_field(craft))
     (y,), (u,) = state_and_inputs(craft)
     exact = of.jacobians(y, u)
     for place, (x, jacobian) in enumerate(zip((y, u), exact, strict=True)):
@@ -42,6 +49,7 @@ def test_jacobians_are_those_of_differences(craft: precess.Spacecraft) -> None:
 
             slope = (at(step) - at(-step)) / 2e-5
             np.testing.assert_allclose(slope, jacobian[:, column], atol=DIFFERENCES)
+    assert np.abs(exact[0][:3, 6:10]).max() > 0.1
     # Longer by any factor, a quaternion is the same attitude.
     np.testing.assert_allclose(exact[0][:, 6:10] @ y[6:10], 0.0, atol=1e-13)
 
@@ -70,10 +78,10 @@ def test_jax_has_exact_derivatives_and_one_call_for_a_batch(craft: precess.Space
     jax.config.update("jax_enable_x64", True)
     from precess.jax import accelerations, derivative
 
-    of = Derivatives(craft)
+    of = Derivatives(craft, in_a_field(craft))
     function: Any = accelerations(craft, of=of)
     y, u = state_and_inputs(craft, 5)
-    single = craft.inputs()
+    single = in_a_field(craft)
     single.force, single.torque = u[0, :3], u[0, 3:6]
     single.motors["wheel1.u_w"], single.motors["wheel2.u_w"] = u[0, 6:]
     expected = np.asarray(craft.accelerations(y[0], single))
@@ -101,9 +109,9 @@ def test_casadi_has_exact_derivatives(craft: precess.Spacecraft) -> None:
     casadi = pytest.importorskip("casadi")
     from precess.casadi import accelerations
 
-    function = accelerations(craft)
+    function = accelerations(craft, in_a_field(craft))
     (y,), (u,) = state_and_inputs(craft)
-    of = Derivatives(craft)
+    of = Derivatives(craft, in_a_field(craft))
     np.testing.assert_array_equal(np.array(function(y, u)).ravel(), of.values(y, u))
     by_y, by_u = of.jacobians(y, u)
     symbols = casadi.MX.sym("y", craft.state_size), casadi.MX.sym("u", 6 + len(craft.joints))

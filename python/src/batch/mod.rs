@@ -15,7 +15,7 @@ use numpy::{
 };
 use precess::evaluation::{CraftInputs, EvaluationError, Evaluator, Parameter};
 use precess::scenario::Scenario;
-use precess_dynamics::{Each as _, Mode, Outputs};
+use precess_dynamics::{Each as _, JointStates as _, Mode, Outputs};
 use precess_lanes::{PART, Steps};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
@@ -205,7 +205,10 @@ impl NativeBatch {
         let Given { y, count, size, acting } = self.given(&y, inputs, u.as_ref())?;
         let (evaluator, outputs) = (&self.evaluator, Outputs { momentum: None, loads: None });
         let none: &[&str] = &[];
-        let shape = evaluator.linearize(&evaluator.initial(), &acting.base, &outputs, none);
+        // A locked joint does not move.
+        let mut pose = evaluator.initial();
+        pose.rigid.devices.states_mut().for_each(|[_, rate]| *rate = 0.0);
+        let shape = evaluator.linearize(&pose, &acting.base, &outputs, none);
         let shape = shape.map_err(|error| errors::evaluation(&error))?;
         let [rows, states] = [shape.c.nrows(), shape.c.ncols()];
         let by_inputs = shape.d.ncols();
