@@ -8,11 +8,11 @@
 Numbers are SI and radians. Axes N are inertial, axes B those of the hub.
 """
 
-import logging
+from typing import TYPE_CHECKING, Any
 
 from . import errors
 from ._native import version as _version
-from .batch import Batch, BatchRun
+from .batch import Batch, BatchLinearization, BatchRun
 from .columns import Column
 from .errors import (
     DerivativeError,
@@ -39,10 +39,14 @@ from .spacecraft import (
 )
 from .state import State
 
+if TYPE_CHECKING:
+    from . import campaign, casadi, fit, jax, jitter, montecarlo, pointing, spectra, sweep
+
 __version__ = _version()
 __all__ = [
     "Accelerations",
     "Batch",
+    "BatchLinearization",
     "BatchRun",
     "Column",
     "DerivativeError",
@@ -68,8 +72,29 @@ __all__ = [
     "Spacecraft",
     "State",
     "UnsupportedError",
+    "campaign",
     "errors",
+    "fit",
+    "jitter",
+    "montecarlo",
+    "pointing",
+    "spectra",
+    "sweep",
 ]
 
-# Quiet until a program configures logging.
-logging.getLogger("precess").addHandler(logging.NullHandler())
+#: What is imported where it is first used: none of it is needed to run a scenario, and some needs other packages.
+_LATER = frozenset(
+    ("campaign", "casadi", "fit", "jax", "jitter", "montecarlo", "pointing", "spectra", "sweep")
+)
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LATER:
+        import importlib
+
+        return importlib.import_module(f".{name}", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_LATER])

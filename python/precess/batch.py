@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _native
 from .errors import ScenarioError
@@ -18,11 +17,14 @@ from .spacecraft import Spacecraft
 from .state import State
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from .scenario import Scenario
 
-__all__ = ["Batch", "BatchRun"]
+    Array = npt.NDArray[np.float64]
 
-Array = npt.NDArray[np.float64]
+__all__ = ["Batch", "BatchLinearization", "BatchRun"]
+
 Errors = dict[int, Exception]
 
 
@@ -51,6 +53,25 @@ class BatchRun:
     errors: Errors
 
 
+@dataclass(frozen=True)
+class BatchLinearization:
+    """Derivatives of the accelerations of many states, as :class:`Linearization` has them.
+
+    Attributes
+    ----------
+    outputs, states, inputs : tuple of str
+        Names of rows and columns.
+    C, D : arrays, shapes (n, outputs, states) and (n, outputs, inputs)
+        Derivatives by states and by inputs; NaN of an element that failed.
+    """
+
+    outputs: tuple[str, ...]
+    states: tuple[str, ...]
+    inputs: tuple[str, ...]
+    C: Array
+    D: Array
+
+
 class Batch:
     """Many states at a time: in lanes within a core, on threads across, without the interpreter's lock.
 
@@ -76,7 +97,7 @@ class Batch:
     def __init__(
         self,
         spacecraft: Spacecraft | Scenario,
-        parameters: Mapping[str, npt.ArrayLike | Sequence[Any]] | None = None,
+        parameters: Mapping[str, Array | Sequence[Any]] | None = None,
         in_lanes: bool = True,
     ) -> None:
         if not isinstance(spacecraft, Spacecraft):
@@ -157,6 +178,27 @@ class Batch:
         self._note(failures, [found])
         return found
 
+    def linearize(
+        self,
+        states: npt.ArrayLike | Sequence[State],
+        inputs: Inputs | npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> BatchLinearization:
+        """Derivatives of all accelerations of each state, exact to rounding, as :meth:`Spacecraft.linearize`.
+
+        Raises
+        ------
+        UnsupportedError
+            Spacecraft that differ, a structure that bends.
+        """
+        y, base, u = self._given(states, inputs)
+        found = self._native.linearize(y, base, u, threads or 0)
+        outputs, of_states, of_inputs, by_state, by_input, failures = found
+        self._note(failures, [by_state, by_input])
+        return BatchLinearization(
+            tuple(outputs), tuple(of_states), tuple(of_inputs), by_state, by_input
+        )
+
     def run(
         self,
         states: npt.ArrayLike | Sequence[State],
@@ -190,7 +232,7 @@ class Batch:
         )
         all_rows = [final, *reduced] + ([samples] if samples is not None else [])
         self._note(failures, all_rows)
-        time = np.arange(0, steps // stride + 1) * (stride * dt)
+        time = np.arange(0, steps // stride + 1, dtype=np.float64) * (stride * dt)
         named = dict(zip(reduce, reduced, strict=True))
         return BatchRun(final, time, samples, named, dict(self.errors))
 

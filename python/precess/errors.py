@@ -5,7 +5,6 @@ Messages are those of the command line: what is wrong, where, the bound, and the
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 
 __all__ = [
@@ -52,6 +51,8 @@ class ScenarioError(Error, ValueError):
 
     def __init__(self, message: str, diagnostics: str = "[]") -> None:
         super().__init__(message)
+        import json
+
         self.diagnostics = [Diagnostic(**entry) for entry in json.loads(diagnostics)]
         self._json = diagnostics
 

@@ -6,16 +6,17 @@ from collections.abc import Callable, Iterator, MutableMapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _native
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from .spacecraft import Spacecraft
 
-__all__ = ["Inputs"]
+    Array = npt.NDArray[np.float64]
 
-Array = npt.NDArray[np.float64]
+__all__ = ["Inputs"]
 
 
 class _PerJoint(MutableMapping[str, Any]):

@@ -108,7 +108,9 @@ class Budget:
 def budget(
     path: str | os.PathLike[str], set: Overrides | None = None, threads: int | None = None
 ) -> Budget:
-    """Sweeps the speeds of a budget file, as ``precess jitter`` does; ``set`` replaces keys of its scenario.
+    """Sweeps the speeds of a budget file, as ``precess jitter`` does.
+
+    ``set`` replaces keys of its scenario, and with the prefix ``budget.`` those of the file.
 
     Raises
     ------

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
-from . import _native
 from .columns import Column
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from ._native import NativeResult
     from .scenario import Scenario
 
-__all__ = ["Drift", "Event", "Requirement", "Result"]
+    Array = npt.NDArray[np.float64]
 
-Array = npt.NDArray[np.float64]
+__all__ = ["Drift", "Event", "Requirement", "Result"]
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class Result:
         raise TypeError("a Result comes from Scenario.run")
 
     @classmethod
-    def _of(cls, scenario: Scenario, native: _native.NativeResult, arrays: list[Array]) -> Result:
+    def _of(cls, scenario: Scenario, native: NativeResult, arrays: list[Array]) -> Result:
         result = cls.__new__(cls)
         result._scenario = scenario
         result._native = native
@@ -74,7 +75,7 @@ class Result:
         return result
 
     _scenario: Scenario
-    _native: _native.NativeResult
+    _native: NativeResult
     _columns: tuple[Column, ...]
     _arrays: dict[str, Array]
 
@@ -198,19 +199,22 @@ class Result:
         arrays = [pa.array(array) for array in self._arrays.values()]
         about = {"precess.scenario": self.scenario.to_toml(), "precess.end": self.end}
         table = pa.Table.from_arrays(arrays, schema=pa.schema(fields, about))
-        partial = Path(path).with_name(f".{Path(path).name}.{os.getpid()}.partial")
+        folder, name = os.path.split(os.fspath(path))
+        partial = os.path.join(folder, f".{name}.{os.getpid()}.partial")
         try:
             pq.write_table(table, partial)
             os.replace(partial, path)
-        finally:
-            partial.unlink(missing_ok=True)
+        except BaseException:
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(partial)
+            raise
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes ``.csv``, ``.npz`` or ``.parquet``, as the command line does.
 
         The file gets its name when it is complete; an error leaves none behind.
         """
-        suffix = Path(path).suffix.removeprefix(".")
+        suffix = os.path.splitext(path)[1].removeprefix(".")
         if suffix == "parquet":
             self.to_parquet(path)
         else:

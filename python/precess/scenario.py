@@ -6,7 +6,6 @@ import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _native
@@ -16,6 +15,7 @@ from .errors import RunError
 from .result import Result
 
 if TYPE_CHECKING:
+    from ._native import NativeScenario
     from .spacecraft import Joint, Spacecraft
 
 __all__ = ["Scenario", "ScenarioWarning"]
@@ -35,12 +35,15 @@ class Scenario:
     ``format`` is 1 where it is missing. Read-only: :meth:`with_values` returns another scenario.
     """
 
+    _native: NativeScenario
+    _origin: tuple[Any, ...]
+
     def __init__(self, **tables: Any) -> None:
         other = type(self).from_dict(tables)
         self._native, self._origin = other._native, other._origin
 
     @classmethod
-    def _of(cls, native: _native.NativeScenario, origin: tuple[Any, ...] | None) -> Scenario:
+    def _of(cls, native: NativeScenario, origin: tuple[Any, ...]) -> Scenario:
         scenario = cls.__new__(cls)
         scenario._native = native
         scenario._origin = origin
@@ -194,10 +197,10 @@ class Scenario:
         ScenarioError, ParameterError, RecordError
             Where it cannot start.
         """
-        folder = Path(out) if out is not None else Path()
+        folder = os.fspath(out) if out is not None else "."
         if formats:
-            folder.mkdir(parents=True, exist_ok=True)
-        files = [(format, folder / f"{self.name}.{format}") for format in formats]
+            os.makedirs(folder, exist_ok=True)
+        files = [(format, os.path.join(folder, f"{self.name}.{format}")) for format in formats]
         native, arrays = _native.run(self._native, progress, files)
         result = Result._of(self, native, arrays)
         try:
@@ -225,7 +228,7 @@ class Scenario:
         return _unpickled, (self.to_toml(), *self._native.source, self._origin)
 
 
-def _native_of(origin: tuple[Any, ...]) -> _native.NativeScenario:
+def _native_of(origin: tuple[Any, ...]) -> NativeScenario:
     if origin[0] == "file":
         _, path, overrides = origin
         return _native.NativeScenario.from_file(path, list(overrides))

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _native
 from .columns import Column
@@ -15,12 +14,14 @@ from .inputs import Inputs
 from .state import State
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from .scenario import Scenario
 
-__all__ = ["Accelerations", "Joint", "Linearization", "MassMatrix", "Momentum", "Parameter", "Spacecraft"]
+    Array = npt.NDArray[np.float64]
+    StateLike = State | npt.ArrayLike
 
-Array = npt.NDArray[np.float64]
-StateLike = State | npt.ArrayLike
+__all__ = ["Accelerations", "Joint", "Linearization", "MassMatrix", "Momentum", "Parameter", "Spacecraft"]
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,7 @@ class Accelerations(Mapping[str, float]):
         """All in the order of the names, shape ``(6 + joints + modes,)``."""
         return self._array
 
-    def __array__(self, dtype: npt.DTypeLike = None, copy: bool | None = None) -> Array:
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> Array:
         return np.array(self._array, dtype=dtype)
 
     def __getitem__(self, name: str) -> float:

@@ -6,14 +6,15 @@ from collections.abc import Iterator, Mapping, MutableMapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from .spacecraft import Spacecraft
 
-__all__ = ["Joints", "State"]
+    Array = npt.NDArray[np.float64]
 
-Array = npt.NDArray[np.float64]
+__all__ = ["Joints", "State"]
 
 
 class Joints(MutableMapping[str, float]):
@@ -164,7 +165,7 @@ class State:
                 other[name] = float(np.asarray(value))
         return other
 
-    def __array__(self, dtype: npt.DTypeLike = None, copy: bool | None = None) -> Array:
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> Array:
         return np.array(self._array, dtype=dtype)
 
     def __eq__(self, other: object) -> bool:

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use precess::campaign::{
-    Axis, Plan, Selection, draw, percentile, probability, run_reduced, spearman,
+    Axis, Plan, Selection, central_differences, draw, keep_out as bands, percentile, probability,
+    run_reduced, spearman, tangents,
 };
-use precess::file::variations_from_toml;
+use precess::file::{Template, variations_from_toml};
 use precess::record::{Columns, Header};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -89,10 +90,10 @@ pub(crate) fn row(
     scenario: &NativeScenario,
     columns: Vec<String>,
     lines: usize,
-    from: f64,
+    start: f64,
 ) -> (Option<Vec<f64>>, Option<String>) {
     let scenario = (*scenario.scenario).clone();
-    let selection = Selection { columns, lines, from };
+    let selection = Selection { columns, lines, from: start };
     let found = py.detach(|| run_reduced(scenario, &selection, &|| false));
     match found {
         Some(Ok(row)) => (Some(row), None),
@@ -133,4 +134,43 @@ pub(crate) fn estimate_probability(
 #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
 pub(crate) fn rank_correlation(x: Vec<f64>, y: Vec<f64>) -> Option<f64> {
     spearman(&x, &y)
+}
+
+/// Intervals of a key in which a statistic exceeds its limit, or of which nothing is known.
+#[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+pub(crate) fn keep_out(
+    values: Vec<f64>,
+    statistic: Vec<Option<f64>>,
+    limit: f64,
+) -> Vec<(f64, f64)> {
+    bands(&values, &statistic, limit).into_iter().map(<[f64; 2]>::into).collect()
+}
+
+/// Labels of the keys that have a derivative, the standard deviation of each; of each number its derivatives, exact; the
+/// largest share by which a number of this run differs from that of the scenario's own.
+type Sensitivities = (Vec<String>, Vec<f64>, Vec<Option<Vec<f64>>>, f64);
+
+/// Exact derivatives of the requirements, then of RMS and peak of each column, by the keys of a plan file.
+#[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+pub(crate) fn plan_sensitivities(
+    py: Python<'_>,
+    path: PathBuf,
+    overrides: Vec<String>,
+    plan: PathBuf,
+    columns: Vec<String>,
+    start: f64,
+) -> PyResult<Sensitivities> {
+    py.detach(|| {
+        let template = Template::from_file(&path).map_err(|found| errors::scenario(&found))?;
+        let variations = variations_from_toml(&plan).map_err(|found| errors::scenario(&found))?;
+        let selection = Selection { columns, lines: 0, from: start };
+        let found = tangents(&template, &overrides, &variations, &selection);
+        let found = found.map_err(errors::class::UnsupportedError::new_err)?;
+        let labels = central_differences(&variations).labels;
+        let scales = variations.iter().filter_map(|of| of.distribution.scale());
+        let deviations = scales.map(|[_, deviation]| deviation).collect();
+        Ok((labels, deviations, found.slopes, found.difference))
+    })
 }

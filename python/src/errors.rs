@@ -17,6 +17,7 @@ pub(crate) mod class {
     import_exception!(precess.errors, RecordError);
     import_exception!(precess.errors, RunError);
     import_exception!(precess.errors, ScenarioError);
+    import_exception!(precess.errors, SignalError);
     import_exception!(precess.errors, SolveError);
     import_exception!(precess.errors, UnsupportedError);
 }
@@ -40,6 +41,11 @@ pub(crate) fn run(error: &RunError) -> PyErr {
 /// Samples that cannot be recorded or written.
 pub(crate) fn record(error: &RecordError) -> PyErr {
     class::RecordError::new_err(error.to_string())
+}
+
+/// A signal or a setting that has no spectrum, no metric or no fit.
+pub(crate) fn signal(error: &dyn std::error::Error) -> PyErr {
+    class::SignalError::new_err(error.to_string())
 }
 
 /// A state and inputs that have no accelerations.

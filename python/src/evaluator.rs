@@ -16,8 +16,10 @@ use crate::scenario::{ColumnFacts, NativeScenario, facts};
 type Vector<'py> = Bound<'py, PyArray1<f64>>;
 type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
+/// Units of coordinate, rate, acceleration and motor.
+type Units = (&'static str, &'static str, &'static str, &'static str);
 /// Body, coordinate, rate, acceleration, motor, units of the four, whether it slides, whether it has a motor.
-type JointFacts = (String, String, String, String, String, [&'static str; 4], bool, bool);
+type JointFacts = (String, String, String, String, String, Units, bool, bool);
 
 /// The names of the matrices' rows and columns, then the matrices.
 type LinearizedFacts<'py> = (Vec<String>, Vec<String>, Vec<String>, Vec<String>, [Matrix<'py>; 6]);
@@ -52,7 +54,7 @@ impl NativeEvaluator {
                 of.rate,
                 of.acceleration,
                 of.motor,
-                of.units,
+                of.units.into(),
                 of.slides,
                 of.driven,
             )

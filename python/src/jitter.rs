@@ -2,20 +2,15 @@
 
 use std::path::PathBuf;
 
-use precess::file::{budget_from_toml, from_file};
+use precess::file::{budget_from_toml, budget_overrides, from_file};
 use precess::jitter::budget::Budget;
-use precess::jitter::campbell::{branches, crossings, oscillations};
-use precess::jitter::device::Steady;
-use precess::jitter::model::Model;
-use precess::jitter::sweep::{Sweep, refined, speeds, sweep};
+use precess::jitter::prepared::Prepared;
+use precess::jitter::sweep::{Sweep, sweep};
 use precess::pointing::Metric;
-use precess::scenario::Scenario;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors;
-
-/// Speeds at which natural frequencies are computed, between which crossings are found.
-const CAMPBELL_SPEEDS: usize = 61;
 
 /// What a sweep found.
 #[pyclass(frozen, module = "precess._native")]
@@ -101,12 +96,16 @@ pub(crate) fn jitter_budget(
     overrides: Vec<String>,
     threads: usize,
 ) -> PyResult<NativeBudget> {
+    let split = budget_overrides(&overrides).map_err(PyValueError::new_err)?;
+    let [of_budget, of_scenario] = split;
     py.detach(|| {
         let (budget, scenario) =
-            budget_from_toml(&path).map_err(|found| errors::scenario(&found))?;
-        let read = from_file(&scenario, &overrides);
+            budget_from_toml(&path, &of_budget).map_err(|found| errors::scenario(&found))?;
+        let read = from_file(&scenario, &of_scenario);
         let (scenario, _) = read.map_err(|found| errors::scenario(&found))?;
-        let (sweep, left_out) = swept(&scenario, &budget, threads).map_err(fault)?;
+        let prepared = Prepared::new(&scenario, &budget).map_err(fault)?;
+        let Prepared { model, left_out, speeds, .. } = prepared;
+        let sweep = sweep(&model, &speeds, threads, &|_| {}).map_err(fault)?;
         let assessed = budget.assess(&sweep).map_err(fault)?;
         Ok(NativeBudget { budget, sweep, left_out, assessed })
     })
@@ -115,24 +114,4 @@ pub(crate) fn jitter_budget(
 #[expect(clippy::needless_pass_by_value, reason = "as map_err passes them")]
 fn fault(error: impl std::fmt::Display) -> PyErr {
     errors::class::RunError::new_err((error.to_string(), None::<f64>))
-}
-
-/// Speeds as the command line has them: more of them where an order meets a natural frequency.
-fn swept(
-    scenario: &Scenario,
-    budget: &Budget,
-    threads: usize,
-) -> Result<(Sweep, Vec<String>), precess::structure::Fault> {
-    let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &budget.swept };
-    let mut model = Model::new(scenario, &budget.outputs(), &steady)?;
-    let left_out = model.add_sources(scenario)?;
-    let campbell = speeds(budget.speeds, CAMPBELL_SPEEDS);
-    let natural: Result<Vec<_>, _> =
-        campbell.iter().map(|speed| oscillations(&model, *speed)).collect();
-    let mut orders: Vec<f64> = model.contributors().iter().map(|of| of.order).collect();
-    orders.sort_by(f64::total_cmp);
-    orders.dedup();
-    let crossings = crossings(&campbell, &branches(&campbell, &natural?), &orders);
-    let all = refined(speeds(budget.speeds, budget.count), budget.speeds, &crossings);
-    Ok((sweep(&model, &all, threads, &|_| {})?, left_out))
 }

@@ -7,11 +7,14 @@ mod batch;
 mod campaign;
 mod errors;
 mod evaluator;
+mod fit;
 mod inputs;
 mod jitter;
 mod outcome;
+mod pointing;
 mod run;
 mod scenario;
+mod spectra;
 
 use pyo3::prelude::*;
 
@@ -22,11 +25,14 @@ mod _native {
     use super::batch::NativeBatch;
     #[pymodule_export]
     use super::campaign::{
-        estimate_percentile, estimate_probability, limits, plan_keys, plan_of_axes, plan_of_draws,
-        plan_of_probabilities, rank_correlation, row, row_fields,
+        estimate_percentile, estimate_probability, keep_out, limits, plan_keys, plan_of_axes,
+        plan_of_draws, plan_of_probabilities, plan_sensitivities, rank_correlation, row,
+        row_fields,
     };
     #[pymodule_export]
     use super::evaluator::NativeEvaluator;
+    #[pymodule_export]
+    use super::fit::{NativeFit, fit_file, fit_records};
     #[pymodule_export]
     use super::inputs::NativeInputs;
     #[pymodule_export]
@@ -34,9 +40,18 @@ mod _native {
     #[pymodule_export]
     use super::outcome::NativeResult;
     #[pymodule_export]
+    use super::pointing::{
+        pointing_index, pointing_index_of_psd, pointing_of_history, pointing_of_lines,
+        pointing_of_psd, pointing_of_table, pointing_weights,
+    };
+    #[pymodule_export]
     use super::run::run;
     #[pymodule_export]
     use super::scenario::NativeScenario;
+    #[pymodule_export]
+    use super::spectra::{
+        NativeAmplitudes, NativePsd, spectrum_amplitudes, spectrum_cross, spectrum_welch,
+    };
     #[pymodule_export]
     use super::version;
 }

@@ -10,6 +10,9 @@
 //! at any state. The commands are in [`command`].
 //! [`spectra`] and [`pointing`] are of any sampled signal, recorded or measured.
 //!
+//! Commands and reports are behind the feature `tool`, which is on by default: a program that reads scenarios and
+//! runs them builds a third less without it.
+//!
 //! ```
 //! use std::ops::ControlFlow;
 //! use std::path::Path;
@@ -43,6 +46,7 @@
 //! ```
 
 pub mod campaign;
+#[cfg(feature = "tool")]
 pub mod command;
 pub mod disturbance;
 pub mod engine;
@@ -53,6 +57,7 @@ pub mod jitter;
 mod nearest;
 pub mod pointing;
 pub mod record;
+#[cfg(feature = "tool")]
 pub mod report;
 pub mod scenario;
 pub mod spectra;

@@ -1,15 +1,19 @@
 //! `python`: builds the wheel of the Python package, installs it in an environment of its own, and runs the
-//! tests against what is installed.
+//! tests against what is installed, and against the command line.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use crate::run::{output, root, run, say, target};
-use crate::skip::skip;
+use crate::run::{cargo, output, root, run, say, target};
+use crate::skip::{all_required, skip};
 
 /// What builds the wheel, and what the tests need.
 const REQUIREMENTS: &str = "python/tests/requirements.txt";
+/// What functions for JAX and CasADi are tested with: 660 MB, so only where nothing may be skipped.
+const LARGE: &str = "python/tests/requirements-large.txt";
+/// The program that the same runs are compared with, for the tests.
+const COMMAND: &str = "PRECESS_COMMAND";
 const INSTALL: &str = "apt-get install python3-venv python3-pip";
 /// Longest time to import the package beyond `NumPy`, and largest wheel: printed beside what is measured.
 const IMPORT_MS: f64 = 50.0;
@@ -39,7 +43,12 @@ pub(crate) fn python() -> Result<(), String> {
         f64::from(u32::try_from(size.len()).unwrap_or(u32::MAX)) / 1e6
     );
     say!("import: {} ms beyond NumPy's, goal {IMPORT_MS} ms", imported(&python)?);
-    run(Command::new(&python).args(["-B", "-m", "pytest", "-q", "python/tests"]))?;
+    // As `cargo test --workspace` has built it.
+    cargo(&["build", "--quiet", "--package", "precess", "--bin", "precess"])?;
+    let program = format!("debug/precess{}", std::env::consts::EXE_SUFFIX);
+    let mut tests = Command::new(&python);
+    tests.args(["-B", "-m", "pytest", "-q", "python/tests"]).env(COMMAND, target()?.join(program));
+    run(&mut tests)?;
     say!(
         "Python: {:.1} minutes to the wheel, {:.1} in all",
         built / 60.0,
@@ -55,10 +64,21 @@ fn environment(folder: &Path) -> Result<Option<PathBuf>, String> {
         let made = output(Command::new("python3").args(["-m", "venv"]).arg(folder));
         if let Err(error) = made {
             eprintln!("{error}");
+            // Half of one is none.
+            let _ = std::fs::remove_dir_all(folder);
             return skip("the Python package", INSTALL).map(|()| None);
         }
     }
-    run(pip(&python).args(["--requirement", REQUIREMENTS]))?;
+    let mut packages = pip(&python);
+    packages.args(["--requirement", REQUIREMENTS]);
+    if all_required() {
+        packages.args(["--requirement", LARGE]);
+    }
+    if let Err(error) = run(&mut packages) {
+        eprintln!("{error}");
+        let install = format!("pip install --requirement {REQUIREMENTS}");
+        return skip("the Python package", &install).map(|()| None);
+    }
     Ok(Some(python))
 }
 

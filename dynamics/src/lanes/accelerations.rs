@@ -42,6 +42,16 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
 }
 
 impl<D: LanedSet, C: Crafts<D>> Evaluation<'_, '_, D, C> {
+    /// State by state, for a CPU without wide registers.
+    pub(super) fn one_by_one(self) {
+        for (index, (state, place)) in self.states.iter().zip(self.out).enumerate() {
+            let craft = self.crafts.at(self.start + index);
+            if let (Some(craft), Some(inputs)) = (craft, self.inputs.at(index)) {
+                *place = fallback::accelerations(craft, state, inputs);
+            }
+        }
+    }
+
     #[inline(always)]
     fn evaluate<T: Number>(self, zero: T) {
         let crafts = self.crafts;

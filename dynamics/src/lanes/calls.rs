@@ -5,8 +5,6 @@
 
 use std::vec::Vec;
 
-use pulp::Arch;
-
 use super::accelerations::Evaluation;
 use super::batch::BatchAccelerations;
 use super::batch_inputs::BatchInputs;
@@ -14,6 +12,7 @@ use super::crafts::Crafts;
 use super::observers::Observers;
 use super::run::Runs;
 use super::slot::LanedSet;
+use super::width::widest;
 use crate::equations::error::{Quantity, SolveError};
 use crate::numbers::laned::WIDEST;
 use crate::solve::state::State;
@@ -38,7 +37,9 @@ pub(super) fn accelerations<D: LanedSet, C: Crafts<D>>(
     let still = Ok(craft.no_accelerations());
     let evaluate = |start, states: &[State<D>], out: &mut [Result<_, _>]| {
         let inputs = inputs.starting(start);
-        Arch::new().dispatch(Evaluation { crafts, start, states, inputs, out });
+        if let Err(work) = widest(Evaluation { crafts, start, states, inputs, out }) {
+            work.one_by_one();
+        }
     };
     // Shorter parts would take longer to hand over than to evaluate.
     #[cfg(feature = "threads")]
@@ -106,7 +107,11 @@ pub(super) fn run<D: LanedSet, C: Crafts<D>, R: Send, F: Fn(&mut R, usize, &Stat
         let inputs = inputs.starting(start);
         let every = observe.as_ref().map(|(every, _)| *every);
         let see: &mut dyn FnMut(usize, usize, &State<D>) = &mut see;
-        Arch::new().dispatch(Runs { crafts, start, states, inputs, dt, steps, every, see, out });
+        if let Err(work) =
+            widest(Runs { crafts, start, states, inputs, dt, steps, every, see, out })
+        {
+            work.one_by_one();
+        }
     };
     #[cfg(feature = "threads")]
     if crafts.are_on_threads() {

@@ -3,11 +3,14 @@
 use core::cell::Cell;
 
 use std::thread_local;
+use std::vec;
 use std::vec::Vec;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{AcrossDevices, Batch, ParameterBatch};
+use super::accelerations::Evaluation;
+use super::run::Runs;
+use super::{AcrossDevices, Batch, Observers, ParameterBatch};
 use crate::{
     Gravity, Hub, HubMode, ImbalanceModel, Inputs, Mode, Passive, ReactionWheel, Sgcmg, SloshMass,
     Spacecraft, State, Wrench,
@@ -168,4 +171,45 @@ fn devices_side_by_side_do_not_fall_back() {
     state.devices[2].theta = 1e9;
     let across = AcrossDevices::new(&hub(), &[gyro(); 5]).unwrap();
     assert_eq!(fallbacks(|| assert!(across.accelerations(&state, &none).is_ok())), 1);
+}
+
+#[test]
+fn a_cpu_without_wide_registers_gives_the_same_bits() {
+    let batch = Batch::new(&hub(), &devices()).unwrap();
+    let mut inputs: Inputs<Set> = Inputs::none();
+    inputs.torque_b = Vector3::new(0.1, 0.0, -0.2);
+    let start: Vec<_> = (0..COUNT).map(state).collect();
+    let mut laned = Vec::new();
+    batch.accelerations(&start, &inputs, &mut laned).unwrap();
+    let mut scalar = vec![Ok(batch.spacecraft().no_accelerations()); start.len()];
+    let (crafts, out) = (&batch, &mut scalar[..]);
+    Evaluation { crafts, start: 0, states: &start, inputs: (&inputs).into(), out }.one_by_one();
+    assert_eq!(laned, scalar);
+    // Seen after two and four of five steps.
+    let (mut states, mut ends) = (start.clone(), Vec::new());
+    let mut records = vec![Vec::new(); start.len()];
+    let observe = |record: &mut Vec<(usize, State<Set>)>, steps: usize, now: &State<Set>| {
+        record.push((steps, *now));
+    };
+    let observers = Observers::new(2, &mut records, observe);
+    batch.run_observed(&mut states, &inputs, DT, STEPS, observers, &mut ends).unwrap();
+    let (mut one_by_one, mut seen) = (start.clone(), vec![Vec::new(); start.len()]);
+    let mut ended = vec![Ok(()); start.len()];
+    let mut see = |index: usize, steps: usize, now: &State<Set>| seen[index].push((steps, *now));
+    let (states_of, see_them) = (&mut one_by_one[..], &mut see);
+    let (inputs, out) = ((&inputs).into(), &mut ended[..]);
+    let every = Some(2);
+    Runs {
+        crafts,
+        start: 0,
+        states: states_of,
+        inputs,
+        dt: DT,
+        steps: STEPS,
+        every,
+        see: see_them,
+        out,
+    }
+    .one_by_one();
+    assert_eq!((states, ends, records), (one_by_one, ended, seen));
 }

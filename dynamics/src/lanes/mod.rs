@@ -15,8 +15,9 @@
 //!
 //! [`Spacecraft::fused`]: crate::Spacecraft::fused
 //!
-//! Registers are chosen at run time, AVX-512, AVX2 with FMA, NEON, or single numbers: a portable
-//! build reaches them. State, inputs, accelerations and errors are those of `Spacecraft`.
+//! Registers are chosen at run time, AVX-512 with the feature `avx512`, AVX2 with FMA, or NEON: a portable
+//! build reaches them. On another CPU batches take the scalar path. State, inputs, accelerations and
+//! errors are those of `Spacecraft`.
 //!
 //! Lanes support every kind, arrays, tuples and vectors; every mode of a joint; springs, dampers and dry
 //! friction; wrenches on bodies; a uniform and a central field; the lumped model of an imbalance.

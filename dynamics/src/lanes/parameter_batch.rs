@@ -5,8 +5,6 @@
 use std::sync::Arc;
 use std::vec::Vec;
 
-use pulp::Arch;
-
 use super::batch::BatchAccelerations;
 use super::batch_inputs::BatchInputs;
 use super::calls::{accelerations, run};
@@ -14,7 +12,7 @@ use super::constants::{CraftBlocks, OwnLoads};
 use super::crafts::Crafts;
 use super::observers::{Observers, none};
 use super::slot::LanedSet;
-use super::width::width;
+use super::width::widest_width;
 use crate::equations::arithmetic::Arithmetic;
 use crate::equations::error::SolveError;
 use crate::solve::spacecraft::Spacecraft;
@@ -46,7 +44,7 @@ impl<D: LanedSet> ParameterBatch<D> {
             craft.arithmetic = Arithmetic::unfused();
         }
         // The registers that every evaluation chooses.
-        let groups = crafts.chunks(width(Arch::new())).filter_map(CraftBlocks::of).collect();
+        let groups = crafts.chunks(widest_width()).filter_map(CraftBlocks::of).collect();
         Self {
             crafts,
             groups,

@@ -58,6 +58,26 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
 }
 
 impl<D: LanedSet, C: Crafts<D>> Runs<'_, '_, '_, D, C> {
+    /// State by state, for a CPU without wide registers.
+    pub(super) fn one_by_one(self) {
+        let Self { crafts, start, states, inputs, dt, steps, every, see, out } = self;
+        for (index, (state, end)) in states.iter_mut().zip(out).enumerate() {
+            let (Some(craft), Some(inputs)) = (crafts.at(start + index), inputs.at(index)) else {
+                continue;
+            };
+            let mut done = 0;
+            while done < steps && end.is_ok() {
+                let to_see = every.map_or(steps, |every| every - done % every);
+                let stretch = (steps - done).min(to_see);
+                *end = fallback::run(craft, state, inputs, dt, stretch);
+                done += stretch;
+                if end.is_ok() && every.is_some_and(|every| done % every == 0) {
+                    see(index, done, state);
+                }
+            }
+        }
+    }
+
     #[inline(always)]
     fn run<T: Number>(self, zero: T) {
         let Self { crafts, start, states, inputs, dt, steps, every, see, out } = self;

@@ -28,6 +28,31 @@ pub(super) fn dispatch<W: WithSimd, const DEVICES: usize>(lanes: Arch, work: W) 
     lanes.dispatch(work)
 }
 
+/// Does something in the widest registers of the CPU at hand, those of every batch; gives it back where there are none.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "as pulp asks")]
+pub(super) fn widest<W: WithSimd>(work: W) -> Result<W::Output, W> {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    {
+        #[cfg(feature = "avx512")]
+        if let Some(simd) = pulp::x86::V4::try_new() {
+            return Ok(Simd::vectorize(simd, work));
+        }
+        // No copy for single numbers: the scalar path has the same bits.
+        match pulp::x86::V3::try_new() {
+            Some(simd) => Ok(Simd::vectorize(simd, work)),
+            None => Err(work),
+        }
+    }
+    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+    Ok(Arch::new().dispatch(work))
+}
+
+/// How many numbers the registers of [`widest`] hold.
+pub(super) fn widest_width() -> usize {
+    widest(Width).unwrap_or(1)
+}
+
 /// How many numbers they hold.
 pub(super) fn width(lanes: Arch) -> usize {
     lanes.dispatch(Width)

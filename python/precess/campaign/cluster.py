@@ -58,7 +58,7 @@ def evaluate(
         Where a worker has another version of the package.
     """
     given = None if isinstance(client, str) else client
-    address = client if isinstance(client, str) else client.scheduler.address
+    address = client if isinstance(client, str) else str(client.scheduler.address)
     security = None if given is None else given.security
     pending = {part.name: part for part in missing}
     alone: set[str] = set()

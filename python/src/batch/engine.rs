@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use precess::engine::RunError;
-use precess::evaluation::{CraftInputs, Evaluator};
+use precess::evaluation::{CraftInputs, EvaluationError, Evaluator};
 use precess::scenario::Scenario;
 use precess_dynamics::{BuiltIn, Each as _, Hub, ParameterError, SolveError};
 use precess_lanes::{Acting, Lanes, Made, PART, SEGMENT, Steps, Watch, lanes};
@@ -22,6 +22,8 @@ pub(super) enum Failure {
     Parameters(ParameterError),
     /// Its scenario is rejected: the message.
     Scenario(Arc<RunError>),
+    /// It cannot be linearised.
+    Evaluation(Arc<EvaluationError>),
 }
 
 impl Failure {
@@ -31,6 +33,7 @@ impl Failure {
             Self::Solve(error) => errors::solve(error),
             Self::Parameters(error) => errors::class::ParameterError::new_err(error.to_string()),
             Self::Scenario(error) => errors::run(error),
+            Self::Evaluation(error) => errors::evaluation(error),
         }
     }
 }

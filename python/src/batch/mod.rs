@@ -13,9 +13,9 @@ use numpy::{
     IntoPyArray as _, PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray2,
     PyUntypedArrayMethods as _,
 };
-use precess::evaluation::{CraftInputs, Evaluator, Parameter};
+use precess::evaluation::{CraftInputs, EvaluationError, Evaluator, Parameter};
 use precess::scenario::Scenario;
-use precess_dynamics::{Each as _, Mode};
+use precess_dynamics::{Each as _, JointStates as _, Mode, Outputs};
 use precess_lanes::{PART, Steps};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
@@ -25,7 +25,7 @@ use crate::evaluator::NativeEvaluator;
 use crate::inputs::NativeInputs;
 use crate::scenario::NativeScenario;
 
-use engine::Engine;
+use engine::{Engine, Failure};
 use reduce::{Kept, Reduction};
 use work::{Progress, share};
 
@@ -34,6 +34,15 @@ type Rows<'py> = Bound<'py, PyArray2<f64>>;
 type Failures = Vec<(usize, Py<PyAny>)>;
 /// Final states, samples, reductions in the order they were asked for, failures.
 type RunFacts<'py> = (Rows<'py>, Option<Bound<'py, PyArray3<f64>>>, Vec<Rows<'py>>, Failures);
+/// Names of accelerations, states and inputs; derivatives by states and by inputs; failures.
+type LinearizedFacts<'py> = (
+    Vec<String>,
+    Vec<String>,
+    Vec<String>,
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray3<f64>>,
+    Failures,
+);
 
 /// Many states, of one spacecraft or of one each.
 #[pyclass(frozen, module = "precess._native")]
@@ -114,16 +123,13 @@ impl NativeBatch {
         threads: usize,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(Rows<'py>, Failures)> {
-        let (y, count) = self.rows(&y)?;
-        let u = self.inputs(u.as_ref(), count)?;
-        let base = inputs.get()?.clone();
+        let Given { y, count, size, acting } = self.given(&y, inputs, u.as_ref())?;
         let width = self.evaluator.acceleration_names().len();
-        let size = self.evaluator.state_size();
         let mut out = vec![f64::NAN; count * width];
         let jobs = out.chunks_mut(PART * width.max(1)).zip(y.chunks(PART * size)).enumerate();
         let jobs = jobs.map(|(part, (out, y))| (part, out, y)).collect();
         let work = |(part, out, y): (usize, &mut [f64], &[f64]), _: &(dyn Fn() -> bool + Sync)| {
-            let inputs = u.of_part(&base, part, y.len() / size);
+            let inputs = acting.of_part(part, y.len() / size);
             let ends = self.engine.accelerations(part, (y, y.len() / size), &inputs, out);
             failed_rows(part, &ends, out, width)
         };
@@ -150,10 +156,7 @@ impl NativeBatch {
         threads: usize,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<RunFacts<'py>> {
-        let (mut y, count) = self.rows(&y)?;
-        let u = self.inputs(u.as_ref(), count)?;
-        let base = inputs.get()?.clone();
-        let size = self.evaluator.state_size();
+        let Given { mut y, count, size, acting } = self.given(&y, inputs, u.as_ref())?;
         let every = every.max(1);
         let samples = if history { steps / every + 1 } else { 0 };
         let reductions: PyResult<Vec<Reduction>> =
@@ -165,7 +168,7 @@ impl NativeBatch {
         let of = Steps { length: dt, count: steps, every };
         let work = |(part, y, mut kept): (usize, &mut [f64], reduce::Part<'_>),
                     go: &(dyn Fn() -> bool + Sync)| {
-            let inputs = u.of_part(&base, part, y.len() / size);
+            let inputs = acting.of_part(part, y.len() / size);
             kept.start(y);
             let ends = self.engine.run(part, y, &inputs, of, &mut kept, go);
             kept.finish(&ends);
@@ -182,9 +185,95 @@ impl NativeBatch {
             reduced.into_iter().map(|of| of.into_pyarray(py).reshape([count, size])).collect();
         Ok((y.into_pyarray(py).reshape([count, size])?, histories, reduced?, failures))
     }
+
+    /// Derivatives of the accelerations of each state by states and inputs, with the names of rows and columns.
+    #[pyo3(signature = (y, inputs, u=None, threads=0))]
+    #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+    fn linearize<'py>(
+        &self,
+        py: Python<'py>,
+        y: PyReadonlyArray2<'py, f64>,
+        inputs: &NativeInputs,
+        u: Option<PyReadonlyArray2<'py, f64>>,
+        threads: usize,
+    ) -> PyResult<LinearizedFacts<'py>> {
+        if self.count.is_some() {
+            let message =
+                "spacecraft that differ are linearised one by one, by Spacecraft.linearize";
+            return Err(errors::class::UnsupportedError::new_err(message));
+        }
+        let Given { y, count, size, acting } = self.given(&y, inputs, u.as_ref())?;
+        let (evaluator, outputs) = (&self.evaluator, Outputs { momentum: None, loads: None });
+        let none: &[&str] = &[];
+        // A locked joint does not move.
+        let mut pose = evaluator.initial();
+        pose.rigid.devices.states_mut().for_each(|[_, rate]| *rate = 0.0);
+        let shape = evaluator.linearize(&pose, &acting.base, &outputs, none);
+        let shape = shape.map_err(|error| errors::evaluation(&error))?;
+        let [rows, states] = [shape.c.nrows(), shape.c.ncols()];
+        let by_inputs = shape.d.ncols();
+        let mut c = vec![f64::NAN; count * rows * states];
+        let mut d = vec![f64::NAN; count * rows * by_inputs];
+        let parts = c.chunks_mut((PART * rows * states).max(1));
+        let parts = parts.zip(d.chunks_mut((PART * rows * by_inputs).max(1)));
+        let jobs = parts.zip(y.chunks(PART * size)).enumerate();
+        let work = |(part, ((c, d), y)): (usize, ((&mut [f64], &mut [f64]), &[f64])),
+                    go: &(dyn Fn() -> bool + Sync)| {
+            let inputs = acting.of_part(part, y.len() / size);
+            let mut failures = Vec::new();
+            let places = c.chunks_mut((rows * states).max(1));
+            let places = places.zip(d.chunks_mut((rows * by_inputs).max(1)));
+            for (index, (y, (c, d))) in y.chunks(size).zip(places).enumerate() {
+                let Some(inputs) = inputs.get(index).or(inputs.first()) else { continue };
+                let found = evaluator.unpack(y).map_err(EvaluationError::from);
+                let found = found.and_then(|y| evaluator.linearize(&y, inputs, &outputs, none));
+                match found {
+                    // Rows first.
+                    Ok(of) => {
+                        c.copy_from_slice(of.c.transpose().as_slice());
+                        d.copy_from_slice(of.d.transpose().as_slice());
+                    }
+                    Err(error) => {
+                        failures.push((part * PART + index, Failure::Evaluation(Arc::new(error))));
+                    }
+                }
+                if !go() {
+                    break;
+                }
+            }
+            failures
+        };
+        let failures = share(py, threads, jobs.collect(), work, Progress::new(None))?;
+        let failures = exceptions(py, failures)?;
+        let c = c.into_pyarray(py).reshape([count, rows, states])?;
+        let d = d.into_pyarray(py).reshape([count, rows, by_inputs])?;
+        Ok((shape.outputs, shape.states, shape.inputs, c, d, failures))
+    }
+}
+
+/// What a call of a batch was given.
+struct Given {
+    /// The states, one after the other.
+    y: Vec<f64>,
+    /// How many.
+    count: usize,
+    /// Numbers of each.
+    size: usize,
+    acting: ActingRows,
 }
 
 impl NativeBatch {
+    fn given(
+        &self,
+        y: &PyReadonlyArray2<'_, f64>,
+        inputs: &NativeInputs,
+        u: Option<&PyReadonlyArray2<'_, f64>>,
+    ) -> PyResult<Given> {
+        let (y, count) = self.rows(y)?;
+        let acting = self.acting(inputs.get()?.clone(), u, count)?;
+        Ok(Given { y, count, size: self.evaluator.state_size(), acting })
+    }
+
     /// The rows of states.
     fn rows(&self, y: &PyReadonlyArray2<'_, f64>) -> PyResult<(Vec<f64>, usize)> {
         let [count, width] = [y.shape()[0], y.shape()[1]];
@@ -201,8 +290,13 @@ impl NativeBatch {
     }
 
     /// The rows of inputs: force and torque on the hub, then a number for each joint.
-    fn inputs(&self, u: Option<&PyReadonlyArray2<'_, f64>>, count: usize) -> PyResult<InputRows> {
-        let Some(u) = u else { return Ok(InputRows { rows: Vec::new(), width: 0 }) };
+    fn acting(
+        &self,
+        base: CraftInputs,
+        u: Option<&PyReadonlyArray2<'_, f64>>,
+        count: usize,
+    ) -> PyResult<ActingRows> {
+        let Some(u) = u else { return Ok(ActingRows { base, rows: Vec::new(), width: 0 }) };
         let width = 6 + self.evaluator.joints().len();
         if u.shape() != [count, width] {
             let message = format!(
@@ -211,24 +305,25 @@ impl NativeBatch {
             );
             return Err(PyValueError::new_err(message));
         }
-        Ok(InputRows { rows: u.as_array().iter().copied().collect(), width })
+        Ok(ActingRows { base, rows: u.as_array().iter().copied().collect(), width })
     }
 }
 
-/// Inputs, row by row; none where they are the same for all.
-struct InputRows {
+/// Inputs, row by row; no rows where they are the same for all.
+struct ActingRows {
+    base: CraftInputs,
     rows: Vec<f64>,
     width: usize,
 }
 
-impl InputRows {
+impl ActingRows {
     /// Those of a part of so many states: one for all, or one for each.
-    fn of_part(&self, base: &CraftInputs, part: usize, count: usize) -> Vec<CraftInputs> {
+    fn of_part(&self, part: usize, count: usize) -> Vec<CraftInputs> {
         if self.width == 0 {
-            return vec![base.clone()];
+            return vec![self.base.clone()];
         }
         let rows = self.rows.chunks_exact(self.width).skip(part * PART).take(count);
-        rows.map(|row| with_row(base, row)).collect()
+        rows.map(|row| with_row(&self.base, row)).collect()
     }
 }
 
@@ -253,10 +348,10 @@ fn with_row(base: &CraftInputs, row: &[f64]) -> CraftInputs {
 /// The failures of a part, whose rows become NaN.
 fn failed_rows(
     part: usize,
-    ends: &[Result<(), engine::Failure>],
+    ends: &[Result<(), Failure>],
     rows: &mut [f64],
     width: usize,
-) -> Vec<(usize, engine::Failure)> {
+) -> Vec<(usize, Failure)> {
     let mut failures = Vec::new();
     for (index, (end, row)) in ends.iter().zip(rows.chunks_mut(width.max(1))).enumerate() {
         if let Err(failure) = end {
@@ -268,9 +363,9 @@ fn failed_rows(
 }
 
 /// Failures in the order of the elements, as exceptions.
-fn exceptions(py: Python<'_>, mut of: Vec<(usize, engine::Failure)>) -> PyResult<Failures> {
+fn exceptions(py: Python<'_>, mut of: Vec<(usize, Failure)>) -> PyResult<Failures> {
     of.sort_by_key(|(index, _)| *index);
-    let one = |(index, failure): (usize, engine::Failure)| {
+    let one = |(index, failure): (usize, Failure)| {
         let exception = failure.exception().into_value(py);
         Ok((index, exception.into_any()))
     };

@@ -12,14 +12,14 @@ use super::error::CommandError;
 use super::run::{all_cores, may_write, progress_bar, write_whole};
 use super::table::{aligned, six};
 use super::{as_toml, print};
-use crate::file::{BUDGET_KEYS, Override, budget_from_toml, from_file};
+use crate::file::{Override, budget_from_toml, budget_overrides, from_file};
 use crate::jitter::budget::{Assessed, Budget};
-use crate::jitter::campbell::{Branch, Crossing, branches, crossings, oscillations};
+use crate::jitter::campbell::{Branch, Crossing, oscillations};
 use crate::jitter::coupled::{Compared, compare};
-use crate::jitter::device::Steady;
-use crate::jitter::model::{Contributor, Model};
+use crate::jitter::model::Contributor;
+use crate::jitter::prepared::{PrepareError, Prepared};
 use crate::jitter::sensitivity::{Sensitivity, sensitivities};
-use crate::jitter::sweep::{Sweep, parts, refined, speeds, sweep};
+use crate::jitter::sweep::{Sweep, parts, sweep};
 use crate::report::jitter::{AGREEMENT, JitterReport, intervals, metric, rpm};
 use crate::scenario::Scenario;
 
@@ -36,8 +36,6 @@ The exit code is 0 where every requirement is met, 2 where one is not, 1 on an e
 
 /// The exit code of a budget that is complete, but not met.
 const UNMET: u8 = 2;
-/// Speeds of the Campbell diagram.
-const CAMPBELL_SPEEDS: usize = 61;
 /// A line this near to a natural frequency, of its damping ratio, is at resonance.
 const RESONANCE: f64 = 20.0;
 
@@ -69,25 +67,11 @@ pub(super) struct Jitter {
     no_compare: bool,
 }
 
-/// Overrides of the budget, and those of the scenario, by the prefix `budget.` of the first ones.
+/// Overrides of the budget, and those of the scenario.
 fn by_file(set: &[String]) -> Result<[Vec<Override>; 2], CommandError> {
-    let [mut of_budget, mut of_scenario] = [Vec::new(), Vec::new()];
-    for text in set {
-        if let Some(text) = text.trim_start().strip_prefix("budget.") {
-            of_budget.push(as_toml(text));
-            continue;
-        }
-        let key = text.split(['.', '=']).next().unwrap_or_default().trim();
-        // A scenario has requirements, too; a budget has no use for them.
-        if key == "requirement" || BUDGET_KEYS.contains(&key) {
-            return Err(CommandError::Other(format!(
-                "--set {text}: `{key}` is of the budget; write --set budget.{}",
-                text.trim_start()
-            )));
-        }
-        of_scenario.push(as_toml(text));
-    }
-    Ok([of_budget, of_scenario])
+    let found = budget_overrides(set);
+    let found = found.map_err(|message| CommandError::Other(format!("--set {message}")))?;
+    Ok(found.map(|of| of.iter().map(|text| as_toml(text)).collect()))
 }
 
 /// A speed with its unit, rad/s.
@@ -173,34 +157,23 @@ impl Jitter {
         let other = |error: &dyn std::fmt::Display| {
             CommandError::Other(format!("{}: {error}", scenario.name))
         };
-        let steady = Steady { motor: budget.motor, sprung: budget.sprung, swept: &budget.swept };
-        check_rotors(scenario, budget)?;
-        let mut model = Model::new(scenario, &budget.outputs(), &steady).map_err(|e| other(&e))?;
-        let left_out = model.add_sources(scenario).map_err(|error| other(&error))?;
+        let prepared = Prepared::new(scenario, budget).map_err(|error| match error {
+            PrepareError::Rotor { .. } => CommandError::Other(error.to_string()),
+            PrepareError::Model(error) => other(&error),
+        })?;
+        let Prepared { model, left_out, campbell_speeds, branches, crossings, speeds } = prepared;
         for reason in &left_out {
             eprintln!("warning: {reason}");
         }
         let has_tones = !model.contributors().is_empty();
-        if !has_tones && model.noises.is_empty() {
-            return Err(other(&crate::jitter::coupled::CoupledError::NoTones));
-        }
-        let campbell_speeds = speeds(budget.speeds, CAMPBELL_SPEEDS);
-        let natural: Result<Vec<_>, _> =
-            campbell_speeds.iter().map(|speed| oscillations(&model, *speed)).collect();
-        let branches = branches(&campbell_speeds, &natural.map_err(|error| other(&error))?);
-        let mut orders: Vec<f64> = model.contributors().iter().map(|of| of.order).collect();
-        orders.sort_by(f64::total_cmp);
-        orders.dedup();
-        let crossings = crossings(&campbell_speeds, &branches, &orders);
-        let all = refined(speeds(budget.speeds, budget.count), budget.speeds, &crossings);
         let threads = self.threads.unwrap_or_else(all_cores);
-        let bar = Mutex::new(progress_bar(parts(&model, &all), "speeds"));
+        let bar = Mutex::new(progress_bar(parts(&model, &speeds), "speeds"));
         let show = |done: usize| {
             if let Ok(bar) = bar.lock() {
                 bar.set_position(u64::try_from(done).unwrap_or(u64::MAX));
             }
         };
-        let found = sweep(&model, &all, threads, &show).map_err(|error| other(&error))?;
+        let found = sweep(&model, &speeds, threads, &show).map_err(|error| other(&error))?;
         if let Ok(bar) = bar.lock() {
             bar.finish_and_clear();
         }
@@ -245,20 +218,6 @@ impl Jitter {
             compared,
             left_out,
         })
-    }
-}
-
-/// Rotors of a budget are rotors of its scenario.
-fn check_rotors(scenario: &Scenario, budget: &Budget) -> Result<(), CommandError> {
-    let names: Vec<String> =
-        scenario.joints().map(|(_, name, info)| format!("{name}.{}", info.body)).collect();
-    match budget.swept.iter().find(|rotor| !names.contains(rotor)) {
-        None => Ok(()),
-        Some(rotor) => Err(CommandError::Other(format!(
-            "speed.rotors: `{rotor}` is no body of the scenario {}; write one of {}",
-            scenario.name,
-            names.join(", ")
-        ))),
     }
 }
 

@@ -7,7 +7,7 @@ use nalgebra::{Matrix2x3, Unit, Vector3};
 
 use super::diagnostic::Diagnostics;
 use super::keys::Keys;
-use super::load::Override;
+use super::load::{Override, Overrides};
 use super::read::mount::direction;
 use super::read_file::{folder_of, read_file};
 use crate::jitter::budget::{Budget, Sight};
@@ -22,7 +22,29 @@ const FORMAT: u32 = 1;
 const COUNT: usize = 541;
 
 /// Keys of a budget that no scenario has.
-pub const BUDGET_KEYS: [&str; 5] = ["phases", "motor", "gimbals", "speed", "line_of_sight"];
+const BUDGET_KEYS: [&str; 5] = ["phases", "motor", "gimbals", "speed", "line_of_sight"];
+
+/// Overrides `KEY = VALUE` of a budget, whose keys have the prefix `budget.`, here taken off, and those of its scenario.
+///
+/// # Errors
+/// A key of budgets without the prefix.
+pub fn budget_overrides(set: &[Override]) -> Result<[Overrides; 2], String> {
+    let [mut of_budget, mut of_scenario] = [Vec::new(), Vec::new()];
+    for text in set {
+        if let Some(text) = text.trim_start().strip_prefix("budget.") {
+            of_budget.push(text.to_owned());
+            continue;
+        }
+        let key = text.split(['.', '=']).next().unwrap_or_default().trim();
+        // A scenario has requirements, too; a budget has no use for them.
+        if key == "requirement" || BUDGET_KEYS.contains(&key) {
+            let text = text.trim_start();
+            return Err(format!("{text}: `{key}` is of the budget; write budget.{text}"));
+        }
+        of_scenario.push(text.clone());
+    }
+    Ok([of_budget, of_scenario])
+}
 
 /// Reads a budget, and overrides after it; the path of its scenario is as from the same place.
 ///

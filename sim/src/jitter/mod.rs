@@ -21,6 +21,7 @@
 //! | a device over the speed, and its tones | [`device`] |
 //! | structure, devices and lines of sight at one speed | [`model`] |
 //! | sources of the scenario: harmonics and noise | [`sources`], [`noise`] |
+//! | the model for a budget, and the speeds of its sweep | [`prepared`] |
 //! | many speeds, on threads | [`sweep`] |
 //! | natural frequencies over the speed, and where orders cross them | [`campbell`] |
 //! | speeds to keep out of | [`keep_out`] |
@@ -36,6 +37,7 @@ pub mod device;
 pub mod keep_out;
 pub mod model;
 pub mod noise;
+pub mod prepared;
 pub mod sensitivity;
 pub mod simplified;
 pub mod sources;

@@ -57,6 +57,7 @@ impl Array {
     }
 
     /// Numbers of rows, of columns and so on.
+    #[cfg(feature = "tool")]
     pub(crate) fn shape(&self) -> &[usize] {
         &self.shape
     }

@@ -1,0 +1,107 @@
+"""Accelerations of many states with their exact derivatives by flat states and rows of inputs: what the bridges to JAX and CasADi
+are made of.
+
+A flat state has the attitude as a quaternion ``q``, which is normalised where it is used; the linearised system has a small
+rotation ``d`` about the axes of B. With ``q* dq = (s, w)``, ``d = 2 w / |q|^2``.
+"""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import numpy.typing as npt
+
+from .batch import Batch
+from .inputs import Inputs
+from .spacecraft import Spacecraft
+
+__all__ = ["Derivatives"]
+
+Array = npt.NDArray[np.float64]
+_QUATERNION = slice(6, 10)
+
+
+class Derivatives:
+    """Accelerations of a spacecraft, and their derivatives, by state and by force, torque and motors.
+
+    Modes, gravity and wrenches are those of ``inputs``. A state that has no accelerations has NaN.
+    """
+
+    def __init__(self, spacecraft: Spacecraft, inputs: Inputs | None = None) -> None:
+        self.spacecraft = spacecraft
+        self.inputs = (spacecraft.inputs() if inputs is None else inputs).copy()
+        self._batch = Batch(spacecraft)
+        self._lock = threading.Lock()
+        self.calls = {"values": 0, "derivatives": 0}
+        """How often the library was called, by what it computed: once for a batch."""
+
+    @property
+    def state_size(self) -> int:
+        return self.spacecraft.state_size
+
+    @property
+    def input_size(self) -> int:
+        """Force, torque, and a motor torque (or prescribed acceleration) of each joint."""
+        return 6 + len(self.spacecraft.joints)
+
+    @property
+    def acceleration_size(self) -> int:
+        return len(self.spacecraft.acceleration_names)
+
+    def _count(self, what: str) -> None:
+        with self._lock:
+            self.calls[what] += 1
+
+    def _rows(self, y: npt.ArrayLike, u: npt.ArrayLike) -> tuple[tuple[int, ...], Array, Array]:
+        states, rows = np.asarray(y, dtype=np.float64), np.asarray(u, dtype=np.float64)
+        shape = np.broadcast_shapes(states.shape[:-1], rows.shape[:-1])
+        states = np.broadcast_to(states, (*shape, self.state_size)).reshape(-1, self.state_size)
+        rows = np.broadcast_to(rows, (*shape, self.input_size)).reshape(-1, self.input_size)
+        return shape, np.ascontiguousarray(states), np.ascontiguousarray(rows)
+
+    def values(self, y: npt.ArrayLike, u: npt.ArrayLike) -> Array:
+        """Accelerations, shape ``(..., accelerations)``, of states ``(..., state_size)`` and inputs ``(..., input_size)``."""
+        self._count("values")
+        shape, states, rows = self._rows(y, u)
+        found, _ = self._batch._native.accelerations(states, self.inputs._native, rows)
+        return found.reshape(*shape, self.acceleration_size)
+
+    def jacobians(self, y: npt.ArrayLike, u: npt.ArrayLike) -> tuple[Array, Array]:
+        """Derivatives of the accelerations, shapes ``(..., accelerations, state_size)`` and ``(..., accelerations, input_size)``."""
+        self._count("derivatives")
+        shape, states, rows = self._rows(y, u)
+        found = self._batch._native.linearize(states, self.inputs._native, rows)
+        outputs, by_state, by_input, c, d, _ = found
+        count = len(states)
+        of_y = np.zeros((count, self.acceleration_size, self.state_size))
+        of_u = np.zeros((count, self.acceleration_size, self.input_size))
+        places = [self.spacecraft.acceleration_names.index(name) for name in outputs]
+        flat = {name: place for place, name in enumerate(self.spacecraft.state_names)}
+        for column, name in enumerate(by_state):
+            if name in flat:
+                of_y[:, places, flat[name]] = c[:, :, column]
+        attitude = [by_state.index(f"attitude_{axis}") for axis in "xyz" if f"attitude_{axis}" in by_state]
+        if attitude:
+            turn = _rotation_of(states[:, _QUATERNION])
+            by_quaternion = np.einsum("nak,nkq->naq", c[:, :, attitude], turn)
+            of_y[:, np.array(places)[:, None], np.arange(6, 10)] = by_quaternion
+        columns = {f"{what}_{axis}": 3 * k + m for k, what in enumerate(("force", "torque")) for m, axis in enumerate("xyz")}
+        for place, joint in enumerate(self.spacecraft.joints):
+            columns[joint.motor] = columns[joint.acceleration] = 6 + place
+        for column, name in enumerate(by_input):
+            if name in columns:
+                of_u[:, places, columns[name]] = d[:, :, column]
+        # A state that has no derivatives has none by anything.
+        failed = np.isnan(c).any(axis=(1, 2))
+        of_y[failed], of_u[failed] = np.nan, np.nan
+        return of_y.reshape(*shape, *of_y.shape[1:]), of_u.reshape(*shape, *of_u.shape[1:])
+
+
+def _rotation_of(q: Array) -> Array:
+    """``d`` by ``dq``, shape ``(n, 3, 4)``."""
+    q0, q1, q2, q3 = q.T
+    rows = [[-q1, q0, q3, -q2], [-q2, -q3, q0, q1], [-q3, q2, -q1, q0]]
+    turn = np.moveaxis(np.array(rows), 2, 0)
+    scaled: Array = 2.0 * turn / np.sum(q * q, axis=1)[:, None, None]
+    return scaled

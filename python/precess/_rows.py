@@ -1,0 +1,90 @@
+"""Rows of numbers of the samples of a plan, in memory: what sweeps and Monte Carlo campaigns are made of."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from .campaign.bundle import Bundle
+from .campaign.job import Job
+from .campaign.plan import Plan
+from .scenario import Scenario
+
+__all__ = ["Rows", "evaluate"]
+
+Array = npt.NDArray[np.float64]
+StrPath = str | os.PathLike[str]
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """The numbers of the samples of a plan.
+
+    Attributes
+    ----------
+    plan : Plan
+        The samples.
+    units : dict
+        The unit of each number by its name: ``requirement NAME``, ``omega rms``, ``omega peak``, ``omega line 1 frequency``,
+        ``end omega_x``.
+    numbers : array, shape (samples, numbers)
+        NaN of a sample that failed.
+    limits : dict
+        The limit of each requirement, SI.
+    errors : dict
+        Why each sample that failed has no numbers.
+    """
+
+    plan: Plan
+    units: dict[str, str]
+    numbers: Array
+    limits: dict[str, float]
+    errors: dict[int, str]
+
+    def column(self, name: str) -> Array:
+        """A number of each sample."""
+        names = list(self.units)
+        if name not in names:
+            raise KeyError(f"no number is named `{name}`; there are {', '.join(names)}")
+        return self.numbers[:, names.index(name)]
+
+
+def evaluate(
+    scenario: Scenario | StrPath,
+    plan: Plan,
+    columns: Sequence[str],
+    lines: int,
+    start: float,
+    threads: int | None,
+    progress: Callable[[int, int], None] | None,
+) -> Rows:
+    """Runs every sample on threads of this process. Numbers do not depend on how many."""
+    from . import __version__
+
+    scenario = scenario if isinstance(scenario, Scenario) else Scenario.from_toml(scenario)
+    fields = _native.row_fields(scenario._native, list(columns), lines)
+    job = Job(tuple(columns), lines, float(start), tuple(fields), None, __version__)
+    bundle = Bundle.of(scenario)
+    numbers = np.full((len(plan), len(fields)), np.nan)
+    errors: dict[int, str] = {}
+    with ThreadPoolExecutor(threads or os.cpu_count(), "precess") as pool:
+        try:
+            rows = pool.map(lambda overrides: job.row(bundle, overrides), plan.overrides)
+            for index, (row, error) in enumerate(rows):
+                if row is None:
+                    errors[index] = error or "the run was cancelled"
+                else:
+                    numbers[index] = row
+                if progress is not None:
+                    progress(index + 1, len(plan))
+        except BaseException:
+            # Samples that have begun run to their end.
+            pool.shutdown(cancel_futures=True)
+            raise
+    return Rows(plan, dict(fields), numbers, dict(_native.limits(scenario._native)), errors)
