@@ -13,7 +13,7 @@ use precess_dynamics::{FixedSet, HubMode};
 use super::case::{Case, Found, SEEDS, World, joints, largest};
 use super::devices::{Chain, Drawn};
 use super::mixed::{Mixed, chains, drawn};
-use super::point_masses::{Body, PointMasses, Rates};
+use super::point_masses::{Body, Mass, PointMasses, Rates};
 use super::random::{Random, errors_of};
 
 /// Largest backward error of the accelerations, in units of the sum of the magnitudes of all terms,
@@ -58,14 +58,16 @@ fn rows<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> Vec<
     // The bodies as they are when nothing accelerates: what is left are the rates' own terms.
     let bodies = masses.bodies(&Rates::none(masses.coordinates.len()));
     let displaced: Vec<_> = (0..masses.directions()).map(|i| masses.displaced(i)).collect();
-    let row = |(along, acting): (&Vec<Body>, f64)| {
+    // Every mass once: a pair of directions takes two lists of them.
+    let listed = |bodies: &Vec<Body>| bodies.iter().flat_map(Body::masses).collect();
+    let now: Vec<Mass> = listed(&bodies);
+    let moved: Vec<Vec<Mass>> = displaced.iter().map(listed).collect();
+    let row = |((along, moving), acting): ((&Vec<Body>, &Vec<Mass>), f64)| {
         let mut h = vec![acting];
-        for (body, along) in bodies.iter().zip(along) {
-            for (mass, along) in body.masses().zip(along.masses()) {
-                let (along, m) = (along.r[1], mass.mass);
-                h.extend(&(mass.r[2] * -m).component_mul(&along));
-                h.extend(&(g * m).component_mul(&along));
-            }
+        for (mass, along) in now.iter().zip(moving) {
+            let (along, m) = (along.r[1], mass.mass);
+            h.extend(&(mass.r[2] * -m).component_mul(&along));
+            h.extend(&(g * m).component_mul(&along));
         }
         let wrenches = inputs.bodies.iter().flat_map(Each::values);
         for ((wrench, body), along) in wrenches.zip(&bodies[1..]).zip(&along[1..]) {
@@ -73,9 +75,8 @@ fn rows<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> Vec<
             h.extend(&(body.own * wrench.force).component_mul(&origin));
             h.extend(&(body.own * wrench.moment).component_mul(&turning));
         }
-        let m = displaced.iter().map(|other| {
-            let masses = along.iter().zip(other).flat_map(|(a, b)| a.masses().zip(b.masses()));
-            let terms = masses.flat_map(|(a, b)| {
+        let m = moved.iter().map(|other| {
+            let terms = moving.iter().zip(other).flat_map(|(a, b)| {
                 let products = a.r[1].component_mul(&b.r[1]) * a.mass;
                 [products.x, products.y, products.z]
             });
@@ -85,7 +86,7 @@ fn rows<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> Vec<
         let of_h = h.iter().map(|term| term.abs()).sum();
         Row { m, h: h.iter().sum(), magnitudes: (of_m, of_h) }
     };
-    displaced.iter().zip(hub.chain(joints)).map(row).collect()
+    displaced.iter().zip(&moved).zip(hub.chain(joints)).map(row).collect()
 }
 
 /// The largest backward error, `abs(m q'' - h)` in units of the magnitudes of its terms, over all
