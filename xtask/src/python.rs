@@ -10,7 +10,7 @@ use crate::skip::{all_required, skip};
 
 /// What builds the wheel, and what the tests need.
 const REQUIREMENTS: &str = "python/tests/requirements.txt";
-/// What functions for JAX and CasADi are tested with: 660 MB, so only where nothing may be skipped.
+/// What functions for JAX and `CasADi` are tested with: 660 MB, so only where nothing may be skipped.
 const LARGE: &str = "python/tests/requirements-large.txt";
 /// The program that the same runs are compared with, for the tests.
 const COMMAND: &str = "PRECESS_COMMAND";

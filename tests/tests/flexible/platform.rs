@@ -26,12 +26,12 @@ const ON_MOUNT: <Carried as DeviceSet>::Per<OnMount> =
     (1, platform::Data { platform: 2, carried: 0 });
 
 /// As on a rigid hub, with the platform's axes those of the gyro's mount: one chain of eight joints.
-fn case(seed: u64, size: Size, suspension: Suspension) -> Case<Carried> {
+fn case(seed: u64, size: Size, suspension: &Suspension) -> Case<Carried> {
     let random = &mut Random::new(seed);
     let (wheel, platform) =
         (crate::craft::device(random, 4.0), crate::craft::device::<Platform>(random, 10.0));
     let carried = mounted(random, 6.0, &Matrix3::identity());
-    let devices = (wheel, Isolated { platform, suspension, carried });
+    let devices = (wheel, Isolated { platform, suspension: *suspension, carried });
     let (hub, modes) = structure(random, size, &[6.0, 14.0, 20.0]);
     let craft = FlexibleSpacecraft::new(&hub, &modes, &devices, &ON_MOUNT).expect("valid");
     let (mut on_platform, gyro) = (chain(&devices.1.platform, 2), chain(&devices.1.carried, 2));
@@ -73,7 +73,7 @@ fn accelerations_are_those_of_the_kinetic_energy() {
     let sizes = [(1, 0.02), (3, 0.3), (4, 1.5), (5, 0.02)];
     for (number, (modes, rotation)) in (0..).zip(sizes.into_iter().cycle().take(8)) {
         let size = Size { modes, contained: number % 2 == 1, rotation, free: false };
-        let mut case = case(SEED + 1100 + number, size, Suspension::none());
+        let mut case = case(SEED + 1100 + number, size, &Suspension::none());
         if number % 4 == 3 {
             case.inputs.rigid.gravity = Gravity::Central { mu: 900.0 };
         }
@@ -92,7 +92,7 @@ fn accelerations_are_those_of_the_kinetic_energy() {
 fn impulses_act_at_the_locked_joints_only() {
     for seed in SEED + 1120..SEED + 1124 {
         let size = Size { modes: 3, contained: seed % 2 == 1, rotation: 0.3, free: false };
-        let mut case = case(seed, size, suspension(0.0));
+        let mut case = case(seed, size, &suspension(0.0));
         case.inputs.rigid.modes.1.platform.y_slide = Mode::Locked;
         case.inputs.rigid.modes.1.carried.gimbal = Mode::Locked;
         let momentum = |case: &Case<Carried>| {
@@ -139,7 +139,7 @@ fn power_balances_and_nothing_is_needed_beside_the_inputs() {
     for seed in SEED + 1130..SEED + 1150 {
         let modes = usize::try_from(1 + seed % 30).expect("small");
         let size = Size { modes, contained: seed % 2 == 1, rotation: 0.2, free: false };
-        let mut case = case(seed, size, suspension(2.0));
+        let mut case = case(seed, size, &suspension(2.0));
         case.inputs.rigid.gravity = match seed % 3 {
             0 => Gravity::Central { mu: 900.0 },
             _ => Gravity::Uniform(Vector3::new(0.4, -0.3, 9.0)),
@@ -179,7 +179,7 @@ fn power_balances_and_nothing_is_needed_beside_the_inputs() {
 /// Drifts of both momenta and of energy over half a second.
 fn drifts(seed: u64, steps: u32) -> [f64; 3] {
     let size = Size { modes: 4, contained: seed % 2 == 1, rotation: 0.1, free: false };
-    let mut case = case(seed, size, suspension(0.0));
+    let mut case = case(seed, size, &suspension(0.0));
     case.modes.damping.fill(0.0);
     case.modes.frequencies.iter_mut().for_each(|w| *w = w.min(12.0));
     let (wheel, isolated) = &mut case.devices;

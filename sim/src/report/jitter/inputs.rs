@@ -11,7 +11,7 @@ use super::{JitterReport, rpm};
 use crate::disturbance::{Broadband, COMPONENTS, Disturbance, Harmonic, Model, SourceTarget};
 use crate::file::read::joint_key;
 use crate::scenario::mass::imbalance;
-use crate::scenario::{Drive, Member};
+use crate::scenario::{Drive, Member, ModalStructure};
 
 /// Rows of a table, at most.
 const ROWS_MAX: usize = 100;
@@ -336,7 +336,7 @@ impl JitterReport<'_> {
     }
 
     fn mode_table(&self) -> Option<Block> {
-        let modes = self.scenario.structure.iter().flat_map(|of| of.massive());
+        let modes = self.scenario.structure.iter().flat_map(ModalStructure::massive);
         let row = |(index, mode): (usize, &crate::structure::Mode)| {
             let cells = vec![
                 (index + 1).to_string(),
