@@ -4,19 +4,17 @@ use crate::accuracy;
 use crate::engines;
 use crate::instructions;
 use crate::mutate;
-use crate::python;
 use crate::regen;
 use crate::run::cargo;
 
-/// `regen --check`, `mutate --check`, all tests, `accuracy --check`, instruction counts, the engines
-/// of the stored values, and the Python package. The last three need more than Rust, and are skipped
-/// with a message where that is missing.
+/// `regen --check`, `mutate --check`, all tests, `accuracy --check`, instruction counts, and the
+/// engines of the stored values. The last two need more than Rust, and are skipped with a message
+/// where that is missing.
 pub(crate) fn test() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
     mutate::mutate(&mutate::Options::check_only())?;
     cargo(&["test", "--workspace"])?;
     accuracy::accuracy(&accuracy::Options::check_only())?;
     instructions::instructions(&instructions::Options::check_only())?;
-    engines::stored()?;
-    python::python()
+    engines::stored()
 }

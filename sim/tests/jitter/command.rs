@@ -145,7 +145,7 @@ fn keys_of_the_budget_are_replaced_by_their_prefix() {
     let page = std::fs::read_to_string(out.join("wheel-data-sheet-jitter.html")).expect("a page");
     assert!(page.contains("# --set budget.speed.count=11"));
     let (code, _, error) = run(&["speed.count=11"]);
-    assert!(code == Some(1) && error.contains("--set budget.speed.count=11"), "{error}");
+    assert!(code == Some(1) && error.contains("write budget.speed.count=11"), "{error}");
     let (code, _, error) = run(&["budget.speed.cuont=11"]);
     assert!(code == Some(1) && error.contains("cuont") && error.contains("count"), "{error}");
     let (code, _, error) = run(&["budget.speed.count=11", "hub.maas=3 kg"]);
