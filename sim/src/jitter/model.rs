@@ -10,7 +10,7 @@ use crate::structure::averaged::AveragedDevices;
 use crate::structure::condensed::Condensed;
 use crate::structure::dynamic_mass::Motor;
 use crate::structure::steady::{SteadyJoints, set_of};
-use crate::structure::{COORDINATES, Fault, Node, RigidMass, Structure};
+use crate::structure::{COORDINATES, Fault, Mode, Node, RigidMass, Structure};
 
 /// The node of a rigid hub: B.
 pub const HUB: &str = "hub";
@@ -85,7 +85,7 @@ impl Model {
         let of_scenario = scenario.structure.as_ref();
         let mut mounts: Vec<usize> = Vec::new();
         let (mut devices, mut contained) = (Vec::new(), Vec::new());
-        for group in groups(scenario) {
+        for group in scenario.groups() {
             let first = group.first().copied().unwrap_or(0);
             let node = of_scenario.map_or(Some(0), |s| s.on_node.get(first).copied()).unwrap_or(0);
             let place = structure.nodes.get(node).map_or_else(Vector3::zeros, |n| n.position);
@@ -287,7 +287,7 @@ impl Model {
 
     /// Each device as a rigid body at rest: 6 × 6 about its mount.
     pub(super) fn rigid_masses(&self, scenario: &Scenario) -> Result<Vec<DMatrix<f64>>, Fault> {
-        let groups = groups(scenario).into_iter().zip(&self.devices);
+        let groups = scenario.groups().into_iter().zip(&self.devices);
         let of = |(group, (mount, _)): (Vec<usize>, &(usize, SweptDevice))| {
             let node = self.mounts.get(*mount).and_then(|node| self.structure.nodes.get(*node));
             let place = node.map_or_else(Vector3::zeros, |node| node.position);
@@ -325,18 +325,6 @@ pub(super) struct MountedTones {
     pub(super) devices: Vec<Condensed>,
 }
 
-/// Members that stand on the hub, each with the devices on it.
-fn groups(scenario: &Scenario) -> Vec<Vec<usize>> {
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for (index, (_, member)) in scenario.members().enumerate() {
-        match member.on().and_then(|on| groups.iter_mut().find(|group| group.contains(&on))) {
-            Some(group) => group.push(index),
-            None => groups.push(vec![index]),
-        }
-    }
-    groups
-}
-
 /// Devices as a rigid body at rest: 6 × 6 about their mount.
 fn rigid_mass(
     scenario: &Scenario,
@@ -351,18 +339,10 @@ fn rigid_mass(
     Ok(mass.clone())
 }
 
-/// The static response of the residual coordinates at all nodes, six rows and columns for each.
-fn residual_flexibility(structure: &ModalStructure) -> Option<DMatrix<f64>> {
-    let first = structure.massive().len();
-    let rows = COORDINATES * structure.nodes.len();
-    let coordinates = structure.modes.iter().enumerate().skip(first);
-    let shares = coordinates.map(|(mode, of)| {
-        let shape = DMatrix::from_fn(rows, 1, |row, _| {
-            let node = structure.nodes.get(row / COORDINATES);
-            let shape = node.and_then(|node| node.shapes.get(mode));
-            shape.map_or(0.0, |shape| shape[row % COORDINATES])
-        });
-        let scaled = &shape / (of.frequency * of.frequency);
+/// The static response of the residual coordinates, whose shapes these are, at all nodes.
+fn residual_flexibility(coordinates: &[Mode], shapes: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let shares = coordinates.iter().zip(shapes.column_iter()).map(|(of, shape)| {
+        let scaled = shape / (of.frequency * of.frequency);
         scaled * shape.transpose()
     });
     shares.reduce(|sum, share| sum + share)
@@ -392,11 +372,11 @@ fn structure_of(scenario: &Scenario) -> Structure {
         structure.nodes = nodes.iter().map(node).collect();
         structure.modes = modes.to_vec();
         structure.has_devices = Some(*contains_devices);
-        structure.shapes = DMatrix::from_fn(COORDINATES * nodes.len(), modes.len(), |row, mode| {
-            let shape = nodes.get(row / COORDINATES).and_then(|node| node.shapes.get(mode));
-            shape.map_or(0.0, |shape| shape[row % COORDINATES])
-        });
-        structure.residual = residual_flexibility(of);
+        let (shapes, first) = (of.shapes(), modes.len());
+        structure.shapes = shapes.columns(0, first).into_owned();
+        let coordinates = of.modes.get(first..).unwrap_or_default();
+        let of_coordinates = shapes.columns(first, coordinates.len()).into_owned();
+        structure.residual = residual_flexibility(coordinates, &of_coordinates);
     }
     structure
 }

@@ -7,6 +7,8 @@ use nalgebra::Matrix3;
 use precess_dynamics::kind::{BodyParameters, Each, ImbalanceModel, JointInfo, Kind};
 use precess_dynamics::{BuiltIn, Isolated, Passive, Platform, Suspension};
 
+use super::Scenario;
+
 /// The set that is run: devices on the hub, each of any kind, and platforms with devices on them.
 pub type Set = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);
 
@@ -34,6 +36,20 @@ pub fn members((on_hub, isolated): &Set) -> Vec<Member<'_>> {
         all.extend(of.carried.iter().map(|device| Member::Device { device, on }));
     }
     all
+}
+
+impl Scenario {
+    /// The members that stand on the hub or on a node, each with the devices on it, by their numbers.
+    pub(crate) fn groups(&self) -> Vec<Vec<usize>> {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for (index, member) in members(&self.devices).into_iter().enumerate() {
+            match member.on().and_then(|on| groups.iter_mut().find(|group| group.contains(&on))) {
+                Some(group) => group.push(index),
+                None => groups.push(vec![index]),
+            }
+        }
+        groups
+    }
 }
 
 impl<'a> Member<'a> {

@@ -5,14 +5,13 @@
 //! recorded, or take a wrench; every node has one row of shapes for each mode. What the equations of
 //! a structure that bends do not have is listed in one place: [`Scenario::not_on_a_structure`].
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::{
     About, BuiltIn, ContainedBody, FlexibleSpacecraft, Hub, Isolated, JointStates, ListedModes,
     ModalMount, ModalPoint, Modes, ModesError, ParameterError, Spacecraft, State, platform,
 };
 
 use super::check::range;
-use super::member::{Member, members};
 use super::{Scenario, ScenarioError, Set, Target, WrenchAxes};
 use crate::structure::steady::set_of;
 use crate::structure::{COORDINATES, Mode, RigidMass};
@@ -79,6 +78,15 @@ impl ModalStructure {
     pub fn massive(&self) -> &[Mode] {
         let count = self.modes.len().saturating_sub(self.residual);
         self.modes.get(..count).unwrap_or_default()
+    }
+
+    /// The shapes: six rows for each node, a column for each mode and residual coordinate.
+    pub(crate) fn shapes(&self) -> DMatrix<f64> {
+        DMatrix::from_fn(COORDINATES * self.nodes.len(), self.modes.len(), |row, mode| {
+            let node = self.nodes.get(row / COORDINATES);
+            let shape = node.and_then(|node| node.shapes.get(mode));
+            shape.map_or(0.0, |shape| shape[row % COORDINATES])
+        })
     }
 
     /// The nodes that carry devices and platforms, each once: the mounts of the library, in their order.
@@ -158,14 +166,9 @@ impl Scenario {
     fn as_one(&self, chosen: &[usize]) -> Result<RigidMass, ParameterError> {
         let nothing =
             RigidMass { mass: 0.0, first_moment: Vector3::zeros(), inertia: Matrix3::zeros() };
-        let all = members(&self.devices);
-        let on_the_hub = chosen
-            .iter()
-            .filter(|index| all.get(**index).is_some_and(|member| member.on().is_none()));
-        on_the_hub.copied().try_fold(nothing, |sum, index| {
-            let on_it = |member: &usize| all.get(*member).and_then(Member::on) == Some(index);
-            let group: Vec<usize> =
-                std::iter::once(index).chain((0..all.len()).filter(on_it)).collect();
+        let groups = self.groups().into_iter();
+        let mut chosen = groups.filter(|group| group.iter().any(|member| chosen.contains(member)));
+        chosen.try_fold(nothing, |sum, group| {
             let joints = self.joints().zip(self.initial.devices.states());
             let of_group = joints.filter(|((member, ..), _)| group.contains(member));
             let coordinates = of_group.map(|(_, [coordinate, _])| coordinate);

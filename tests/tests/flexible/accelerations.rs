@@ -27,6 +27,13 @@ pub(crate) fn block_error(found: &[f64], expected: &[f64], modes: usize) -> f64 
     }))
 }
 
+/// The largest error of a block against the reference, and the backward error.
+pub(crate) fn errors<D: Devices<Scalar = f64>>(case: &Case<D>) -> [f64; 2] {
+    let (found, expected) = (listed(case), reference(case));
+    let modes = case.modes.frequencies.len();
+    [block_error(&found, &expected.accelerations, modes), expected.backward_error(&found)]
+}
+
 #[test]
 fn accelerations_are_those_of_the_kinetic_energy() {
     let (mut worst, mut backward) = (0.0_f64, 0.0_f64);
@@ -34,9 +41,7 @@ fn accelerations_are_those_of_the_kinetic_energy() {
     for (number, (modes, rotation)) in (0..).zip(sizes.into_iter().cycle().take(8)) {
         let size = Size { modes, contained: number % 2 == 1, rotation, free: false };
         let case = Case::new(SEED + number, size);
-        let (found, expected) = (listed(&case), reference(&case));
-        let error = block_error(&found, &expected.accelerations, modes);
-        let residual = expected.backward_error(&found);
+        let [error, residual] = errors(&case);
         println!("seed {:#x}, {size:?}: {error:.1e}, {residual:.1e}", case.seed);
         (worst, backward) = (worst.max(error), backward.max(residual));
     }

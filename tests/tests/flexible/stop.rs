@@ -1,7 +1,7 @@
 //! The impulsive stop, by the mass matrix of the kinetic energy and by what it conserves.
 
 use precess_dynamics::kind::JointStates;
-use precess_dynamics::{About, Attitude, HubMode, Mode, Real, Scalar};
+use precess_dynamics::{About, Attitude, Devices, HubMode, Mode, Real, Scalar};
 use precess_tests::bounds::{BACKWARD_EPSILONS, LIMITS};
 use precess_tests::double_double::DoubleDouble as DD;
 
@@ -18,7 +18,7 @@ fn case(seed: u64) -> Case {
 }
 
 /// Velocities `v, omega, eta', q'`, those of B expressed in B.
-fn velocities(case: &Case) -> Vec<f64> {
+pub(crate) fn velocities<D: Devices<Scalar = f64>>(case: &Case<D>) -> Vec<f64> {
     let rigid = &case.state.rigid;
     let v = rigid.attitude.dcm() * rigid.r_b_n_dot;
     let hub = v.iter().chain(&rigid.omega).copied().collect::<Vec<_>>();
