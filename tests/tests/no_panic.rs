@@ -12,14 +12,13 @@ use std::{env, fs, thread};
 /// The mark in the fixture's panic handler.
 const MARK: &[u8] = b"a panic can be reached";
 
-/// Builds the fixture and says whether the mark is in it.
-fn panic_can_be_reached(feature: Option<&str>) -> bool {
+/// Builds a fixture and says whether the mark is in it.
+fn panic_can_be_reached(fixture: &str) -> bool {
     let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
     let root = tests.join("..");
-    let name = feature.map_or_else(|| "no_panic".to_owned(), |name| format!("no_panic_{name}"));
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("no_panic").join(fixture);
     fs::create_dir_all(&folder).expect("a folder for the build");
-    fs::write(folder.join("Cargo.toml"), manifest(tests)).expect("a manifest");
+    fs::write(folder.join("Cargo.toml"), manifest(tests, fixture)).expect("a manifest");
     // The versions that the workspace has: cargo drops what the fixture does not need.
     fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's versions");
 
@@ -29,7 +28,6 @@ fn panic_can_be_reached(feature: Option<&str>) -> bool {
     cargo.args(["build", "--release", "--offline", "--quiet", "--message-format", "short"]);
     cargo.arg("--manifest-path").arg(folder.join("Cargo.toml"));
     cargo.arg("--target-dir").arg(&target).current_dir(&root);
-    cargo.args(feature.iter().flat_map(|feature| ["--features", feature]));
     // Flags of the outer build (coverage, sanitizers) bring panics of their own.
     for flags in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET"] {
         cargo.env_remove(flags);
@@ -38,21 +36,20 @@ fn panic_can_be_reached(feature: Option<&str>) -> bool {
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "the fixture does not build: {errors}");
 
-    let library = library(&target.join("release"));
+    let library = library(&target.join("release"), fixture);
     let code = fs::read(&library).expect("the linked library");
     code.windows(MARK.len()).any(|window| window == MARK)
 }
 
 /// The fixture's manifest. What the dynamics crate is made of matters, the rest of its dependencies
 /// is generic and compiled with it: left without optimisation, they build in half the time.
-fn manifest(tests: &Path) -> String {
-    let source = tests.join("fixtures/every_entry_point.rs");
+fn manifest(tests: &Path, fixture: &str) -> String {
+    let source = tests.join("fixtures").join(fixture).with_extension("rs");
     let dynamics = tests.join("../dynamics");
     format!(
-        "[package]\nname = \"every-entry-point\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
+        "[package]\nname = \"{fixture}\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
          [workspace]\n\
          [lib]\npath = '{}'\ncrate-type = [\"cdylib\"]\n\
-         [features]\ncontrol = []\n\
          [dependencies]\nprecess-dynamics = {{ path = '{}' }}\n\
          [profile.release]\npanic = \"abort\"\ncodegen-units = 1\n\
          [profile.release.package.\"*\"]\nopt-level = 0\n\
@@ -63,17 +60,17 @@ fn manifest(tests: &Path) -> String {
 }
 
 /// The one dynamic library there, under the platform's name.
-fn library(folder: &Path) -> PathBuf {
-    let name = format!("{}every_entry_point{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
-    folder.join(name)
+fn library(folder: &Path, fixture: &str) -> PathBuf {
+    let (before, after) = (env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
+    folder.join(format!("{before}{fixture}{after}"))
 }
 
 #[test]
 fn no_public_function_can_reach_a_panic() {
     // Side by side, each in a folder of its own: a build is one thread for most of its time.
     let (control, reached) = thread::scope(|scope| {
-        let control = scope.spawn(|| panic_can_be_reached(Some("control")));
-        let reached = panic_can_be_reached(None);
+        let control = scope.spawn(|| panic_can_be_reached("one_panic"));
+        let reached = panic_can_be_reached("every_entry_point");
         (control.join(), reached)
     });
     assert!(control.expect("the control builds"), "the control's panic is not seen");

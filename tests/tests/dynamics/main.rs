@@ -14,7 +14,6 @@ mod known_cases;
 mod lane_loads;
 mod lane_runs;
 mod lanes;
-mod ledger_and_loads;
 mod operations;
 mod parameter_batch;
 mod parameterisations;
