@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointInfo};
 use precess_dynamics::{JointStates, ListedModes, ModalPoint, Wrench};
 
-use super::craft::{CraftInputs, CraftState};
+use precess_craft::{CraftInputs, CraftState};
 use super::kinematics::turn;
 use super::packing::JointPlace;
 use crate::disturbance::{

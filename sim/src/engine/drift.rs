@@ -9,7 +9,7 @@
 use nalgebra::Vector3;
 use precess_dynamics::{About, EnergyAndMomentum, Gravity, HubMode, Momentum, SolveError};
 
-use super::craft::{CraftAccelerations, CraftInputs, CraftState};
+use precess_craft::{CraftAccelerations, CraftInputs, CraftState};
 use super::integrator::Moment;
 use super::kinematics::momenta;
 use super::system::{System, lumped};

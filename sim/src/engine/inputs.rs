@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, Inputs, JointStates, ListedModes, ModalPoint, Mode, Wrench};
 
-use super::craft::{Craft, CraftInputs, CraftState};
+use precess_craft::{Craft, CraftInputs, CraftState};
 use super::disturbances::Disturbances;
 use super::kinematics::{Chain, axes};
 use super::packing::JointPlace;

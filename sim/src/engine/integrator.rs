@@ -3,7 +3,7 @@
 //! Joint angles are those of the integrator: DOP853's are reduced by whole turns, which [`Stepper`]
 //! counts, RK4's are not.
 
-use super::craft::CraftState;
+use precess_craft::CraftState;
 use super::dop853::Dop853;
 use super::error::RunError;
 use super::rk4::Rk4;

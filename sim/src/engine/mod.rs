@@ -11,7 +11,6 @@ mod actions;
 #[cfg(test)]
 pub(crate) mod checks;
 mod clipping;
-mod craft;
 mod dense;
 mod disturbances;
 mod dop853;
@@ -33,13 +32,13 @@ mod system;
 
 use std::ops::ControlFlow;
 
+pub(crate) use precess_craft::{Craft, CraftState, rigid_state};
 use precess_dynamics::{About, JointStates, State};
 
 pub use drift::Drift;
 pub use error::{Fault, RunError};
 pub use outcome::{End, Event, Outcome, Steps};
 
-pub(crate) use craft::{Craft, CraftState, rigid_state};
 use drift::Conserved;
 use events::{Monitors, Passage, Passed};
 pub(crate) use inputs::Acting;
@@ -54,6 +53,14 @@ use system::System;
 
 use crate::record::Recorder;
 use crate::scenario::{Scenario, Set, StopAction};
+
+/// The equations of motion of a scenario.
+pub(crate) fn craft_of(scenario: &Scenario) -> Result<Craft, RunError> {
+    Ok(match scenario.flexible() {
+        Some(craft) => Craft::Flexible(Box::new(craft.map_err(RunError::Modes)?)),
+        None => Craft::Rigid(Box::new(scenario.spacecraft().map_err(RunError::Parameters)?)),
+    })
+}
 
 /// A run in progress.
 pub struct Run<'a> {
@@ -101,7 +108,7 @@ impl<'a> Run<'a> {
         if !errors.is_empty() {
             return Err(RunError::Scenario(errors));
         }
-        let craft = Craft::of(scenario)?;
+        let craft = craft_of(scenario)?;
         let system = System::new(scenario, craft);
         let (eta, eta_dot) = scenario
             .structure

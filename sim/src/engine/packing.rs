@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::{Each, JointInfo};
 use precess_dynamics::{Attitude, JointStates, Quaternion};
 
-use super::craft::{CraftAccelerations, CraftState};
+use precess_craft::{CraftAccelerations, CraftState};
 use crate::record::columns::Quantity;
 use crate::scenario::Scenario;
 

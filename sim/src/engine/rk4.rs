@@ -7,7 +7,7 @@
 use precess_dynamics::kind::Each;
 use precess_dynamics::{JointStates, Mode, SolveError};
 
-use super::craft::CraftState;
+use precess_craft::CraftState;
 use super::dop853::same;
 use super::error::RunError;
 use super::integrator::Moment;

@@ -10,7 +10,7 @@ use precess_dynamics::{
     PointMotion, Quaternion, SolveError,
 };
 
-use super::craft::CraftInputs;
+use precess_craft::CraftInputs;
 use super::drift::energies;
 use super::integrator::Moment;
 use super::member_loads::MemberLoads;

@@ -10,7 +10,7 @@ use std::cell::{Cell, RefCell};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, Gravity, HubMode, JointStates, Mode, Passive, Power, SolveError};
 
-use super::craft::{Craft, CraftAccelerations, CraftInputs, CraftState};
+use precess_craft::{Craft, CraftAccelerations, CraftInputs, CraftState};
 use super::inputs::Acting;
 use super::packing::Layout;
 use crate::scenario::Scenario;

@@ -6,7 +6,7 @@
 //! ```
 
 use nalgebra::DMatrix;
-use precess_dynamics::{Outputs, Spacecraft};
+use precess_dynamics::Outputs;
 
 use super::parameters::Parameter;
 use super::{CraftInputs, CraftState, EvaluationError, Evaluator};
@@ -44,8 +44,8 @@ impl Evaluator {
     /// # Errors
     ///
     /// [`EvaluationError::Flexible`] for a structure that bends,
-    /// [`EvaluationError::UnknownParameter`]; as [`Spacecraft::linearize`] and
-    /// [`Spacecraft::parameter_derivatives`].
+    /// [`EvaluationError::UnknownParameter`]; as [`precess_dynamics::Spacecraft::linearize`] and
+    /// [`precess_dynamics::Spacecraft::parameter_derivatives`].
     pub fn linearize<N: AsRef<str>>(
         &self,
         state: &CraftState,
@@ -58,23 +58,23 @@ impl Evaluator {
         }
         let parameters = Parameter::named(&self.scenario, parameters)?;
         let (state, inputs) = (&state.rigid, &inputs.rigid);
-        let found = self.rigid().linearize(state, inputs, outputs)?;
+        let found = precess_craft::linearize(self.rigid(), state, inputs, outputs)?;
         let (rows, count) = (found.states.len(), parameters.len());
         let mut p = DMatrix::zeros(rows, count);
         let mut q = DMatrix::zeros(found.outputs.len(), count);
         if count > 0 {
             let hub = self.scenario.bare_hub()?;
             let mut columns = p.column_iter_mut().zip(q.column_iter_mut());
-            let by = parameters.iter().map(Parameter::variable);
+            let mut by = parameters.iter().map(Parameter::variable);
             // What no state of the linearised system is: the variable of a column by parameters.
             let none = precess_dynamics::Variable::Mu;
-            Spacecraft::parameter_derivatives(
+            precess_craft::parameter_derivatives(
                 &hub,
                 &self.scenario.devices,
                 (state, inputs),
                 outputs,
-                by,
-                |_, column| {
+                &mut by,
+                &mut |_, column| {
                     let Some((mut slopes, mut results)) = columns.next() else { return };
                     for (to, of) in slopes.iter_mut().zip(&found.states) {
                         *to = column.element(*of, none, &state.omega).unwrap_or_default();

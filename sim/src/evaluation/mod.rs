@@ -34,8 +34,8 @@ mod parameters;
 mod tests;
 
 use precess_dynamics::{
-    About, DeviceSet, EnergyAndMomentum, FlexibleAccelerations, FlexibleInputs, FlexibleState,
-    Inputs, Ledger, ListedModes, Power, SolveError, Spacecraft, Wrench, set,
+    About, DeviceSet, EnergyAndMomentum, 
+    Inputs, Ledger, Power, SolveError, Spacecraft, Wrench, set,
 };
 
 pub use error::EvaluationError;
@@ -44,16 +44,11 @@ pub use mass_matrix::MassMatrix;
 pub use names::JointNames;
 pub use parameters::Parameter;
 
-use crate::engine::{Acting, Chain, Craft, Layout, MemberLoads, RunError, rigid_state};
+use crate::engine::{Acting, Chain, Craft, Layout, MemberLoads, RunError, craft_of, rigid_state};
 use crate::record::{Column, Columns};
 use crate::scenario::{Scenario, Set};
 
-/// State of hub and devices, and modal coordinates, of which a rigid hub has none.
-pub type CraftState = FlexibleState<Set, ListedModes>;
-/// Forces, torques and modes.
-pub type CraftInputs = FlexibleInputs<Set, ListedModes>;
-/// Second derivatives of the state.
-pub type CraftAccelerations = FlexibleAccelerations<Set, ListedModes>;
+pub use precess_craft::{CraftAccelerations, CraftInputs, CraftState};
 
 /// A scenario's spacecraft, prepared for evaluation.
 #[derive(Clone, Debug)]
@@ -77,7 +72,7 @@ impl Evaluator {
         if !errors.is_empty() {
             return Err(RunError::Scenario(errors));
         }
-        let craft = Craft::of(scenario)?;
+        let craft = craft_of(scenario)?;
         let layout = Layout::new(scenario);
         let columns = Columns::all(scenario).into_iter();
         let loads = columns.filter(|column| column.quantity.is_load()).collect();

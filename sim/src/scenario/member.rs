@@ -9,8 +9,7 @@ use precess_dynamics::{BuiltIn, Isolated, Passive, Platform, Suspension};
 
 use super::Scenario;
 
-/// The set that is run: devices on the hub, each of any kind, and platforms with devices on them.
-pub type Set = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);
+pub use precess_craft::Set;
 
 /// A device, or a platform without the devices on it.
 #[derive(Clone, Copy, Debug)]

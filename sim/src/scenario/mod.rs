@@ -309,7 +309,7 @@ impl Scenario {
     ///
     /// Parameters that the solver rejects.
     pub fn spacecraft(&self) -> Result<Spacecraft<Set>, ParameterError> {
-        Spacecraft::new(&self.bare_hub()?, &self.devices)
+        precess_craft::spacecraft(&self.bare_hub()?, &self.devices)
     }
 
     /// How many joints all devices have.

@@ -145,7 +145,7 @@ impl Scenario {
         let on_platforms: Vec<_> = self.devices.1.iter().map(&mut of_platform).collect();
         let on = (on_mount, on_platforms);
         let residual = structure.residual;
-        FlexibleSpacecraft::with_residual(&self.hub, &modes, residual, &self.devices, &on)
+        precess_craft::flexible(&self.hub, &modes, residual, &self.devices, &on)
     }
 
     /// What hub and modes contain of members: nothing, or their bodies at the initial coordinates.

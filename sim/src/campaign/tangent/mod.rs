@@ -25,15 +25,13 @@ use std::ops::ControlFlow;
 
 use super::axis::set;
 use super::{Reducer, Selection, Variation};
+use precess_craft::tangent::WIDTH;
+
 use crate::engine::{Outcome, run as engine_run};
 use crate::file::{Override, Template};
 use crate::record::{Columns, Header};
 use crate::scenario::Scenario;
 
-/// Keys of one run.
-const WIDTH: usize = 6;
-/// A number with its derivatives by some keys.
-type Number = precess_dynamics::Dual<f64, WIDTH>;
 /// Steps between the seven points of a key, of a standard deviation.
 const STEP: f64 = 0.05;
 /// A number of the run over dual numbers differs by this share of that of the scenario's own, at most.

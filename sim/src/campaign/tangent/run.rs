@@ -1,17 +1,14 @@
 //! A run over dual numbers: samples of the state and its accelerations with their derivatives.
 
 use precess_dynamics::kind::Each;
-use precess_dynamics::{Attitude as _, HubMode, Inputs, Isolated, JointStates, Spacecraft, State};
+use precess_dynamics::{Attitude as _, HubMode, Inputs, JointStates, Spacecraft, State};
+
+use precess_craft::tangent::{self, Number, Set, WIDTH};
 
 use super::parameters::{Parts, parts};
-use super::{Number, WIDTH};
 use crate::record::Header;
 use crate::record::columns::Quantity;
 use crate::scenario::{IntegratorChoice, Scenario};
-
-/// The set of a scenario over dual numbers.
-type Set =
-    (Vec<precess_dynamics::BuiltIn<Number>>, Vec<Isolated<Vec<precess_dynamics::BuiltIn<Number>>>>);
 
 /// Steps of a turn of the fastest joint, where the scenario has no fixed step.
 const PER_TURN: f64 = 100.0;
@@ -72,14 +69,14 @@ pub(super) fn samples(
             if (at - time).abs() <= NEAR * step {
                 kept.push((at, row(header, of, &state, at)?));
             } else {
-                let within = craft.step(&state, &inputs, Number::constant(at - time));
+                let within = tangent::step(&craft, &state, &inputs, Number::constant(at - time));
                 let within = within.map_err(|error| error.to_string())?;
                 kept.push((at, row(header, of, &within, at)?));
             }
             sample += 1;
         }
         let length = Number::constant(after - time);
-        state = craft.step(&state, &inputs, length).map_err(|error| error.to_string())?;
+        state = tangent::step(&craft, &state, &inputs, length).map_err(|error| error.to_string())?;
         steps += 1;
         if after >= duration - NEAR * step {
             kept.push((duration, row(header, of, &state, duration)?));
@@ -95,7 +92,7 @@ fn start(
     of: Parts<Number>,
 ) -> Result<(Spacecraft<Set>, State<Set>, Inputs<Set>), String> {
     let set: Set = (of.devices, Vec::new());
-    let craft = Spacecraft::new(&of.hub, &set).map_err(|error| error.to_string())?;
+    let craft = tangent::spacecraft(&of.hub, &set).map_err(|error| error.to_string())?;
     let mut state: State<Set> = State::at_rest_for(&craft);
     (state.r_b_n, state.r_b_n_dot) = (of.position, of.velocity);
     (state.attitude, state.omega) = (of.attitude, of.omega);
@@ -124,7 +121,7 @@ fn row(
 ) -> Result<Vec<Number>, String> {
     let accelerates = header.columns.iter().any(|column| column.quantity.is_acceleration());
     let found = if accelerates {
-        Some(craft.accelerations(state, inputs).map_err(|error| error.to_string())?)
+        Some(tangent::accelerations(craft, state, inputs).map_err(|error| error.to_string())?)
     } else {
         None
     };

@@ -10,7 +10,7 @@
 //! without an error but rounding. A peak has the derivative of the magnitude at the sample that is largest.
 
 use super::run::Samples;
-use super::{Number, WIDTH};
+use precess_craft::tangent::{Number, WIDTH};
 use crate::campaign::Selection;
 use crate::engine::Outcome;
 use crate::record::{Header, Recorder as _, Statistics};

@@ -10,19 +10,18 @@ use precess_dynamics::{
     SolveError, Spacecraft, State,
 };
 
-use super::error::RunError;
-use crate::scenario::{Scenario, Set};
+use crate::Set;
 
-/// The state that is integrated.
-pub(crate) type CraftState = FlexibleState<Set, ListedModes>;
-/// What acts.
-pub(crate) type CraftInputs = FlexibleInputs<Set, ListedModes>;
+/// State of hub and devices, and modal coordinates, of which a rigid hub has none.
+pub type CraftState = FlexibleState<Set, ListedModes>;
+/// Forces, torques and modes.
+pub type CraftInputs = FlexibleInputs<Set, ListedModes>;
 /// Second derivatives of the state.
-pub(crate) type CraftAccelerations = FlexibleAccelerations<Set, ListedModes>;
+pub type CraftAccelerations = FlexibleAccelerations<Set, ListedModes>;
 
 /// The equations of motion of a scenario.
 #[derive(Clone, Debug)]
-pub(crate) enum Craft {
+pub enum Craft {
     /// A rigid hub.
     Rigid(Box<Spacecraft<Set>>),
     /// A structure that bends.
@@ -30,16 +29,9 @@ pub(crate) enum Craft {
 }
 
 impl Craft {
-    /// That of a scenario.
-    pub(crate) fn of(scenario: &Scenario) -> Result<Self, RunError> {
-        Ok(match scenario.flexible() {
-            Some(craft) => Self::Flexible(Box::new(craft.map_err(RunError::Modes)?)),
-            None => Self::Rigid(Box::new(scenario.spacecraft().map_err(RunError::Parameters)?)),
-        })
-    }
-
     /// The structure undeformed, with the devices.
-    pub(crate) fn rigid(&self) -> &Spacecraft<Set> {
+    #[must_use]
+    pub fn rigid(&self) -> &Spacecraft<Set> {
         match self {
             Self::Rigid(craft) => craft,
             Self::Flexible(craft) => craft.rigid(),
@@ -47,7 +39,8 @@ impl Craft {
     }
 
     /// The structure that bends; none of a rigid hub.
-    pub(crate) fn flexible(&self) -> Option<&FlexibleSpacecraft<Set, ListedModes>> {
+    #[must_use]
+    pub fn flexible(&self) -> Option<&FlexibleSpacecraft<Set, ListedModes>> {
         match self {
             Self::Rigid(_) => None,
             Self::Flexible(craft) => Some(craft),
@@ -55,7 +48,8 @@ impl Craft {
     }
 
     /// Everything at zero.
-    pub(crate) fn at_rest(&self) -> CraftState {
+    #[must_use]
+    pub fn at_rest(&self) -> CraftState {
         match self {
             Self::Rigid(craft) => rigid_state(State::at_rest_for(craft)),
             Self::Flexible(craft) => FlexibleState::at_rest_for(craft),
@@ -63,7 +57,8 @@ impl Craft {
     }
 
     /// Nothing acts.
-    pub(crate) fn no_inputs(&self) -> CraftInputs {
+    #[must_use]
+    pub fn no_inputs(&self) -> CraftInputs {
         match self {
             Self::Rigid(craft) => FlexibleInputs {
                 rigid: precess_dynamics::Inputs::none_for(craft),
@@ -74,7 +69,12 @@ impl Craft {
         }
     }
 
-    pub(crate) fn accelerations(
+    /// As [`Spacecraft::accelerations`] and [`FlexibleSpacecraft::accelerations`].
+    ///
+    /// # Errors
+    ///
+    /// Theirs.
+    pub fn accelerations(
         &self,
         state: &CraftState,
         inputs: &CraftInputs,
@@ -87,7 +87,12 @@ impl Craft {
         }
     }
 
-    pub(crate) fn ledger(
+    /// The energy ledger at accelerations that were found; of a structure, of the whole.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::ledger`] and [`FlexibleSpacecraft::ledger`].
+    pub fn ledger(
         &self,
         state: &CraftState,
         inputs: &CraftInputs,
@@ -100,7 +105,11 @@ impl Craft {
     }
 
     /// Loads of the devices; at the mounts of a structure in the axes of the present mount.
-    pub(crate) fn loads(
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::loads`] and [`FlexibleSpacecraft::loads`].
+    pub fn loads(
         &self,
         state: &CraftState,
         inputs: &CraftInputs,
@@ -114,7 +123,12 @@ impl Craft {
         }
     }
 
-    pub(crate) fn energy_and_momentum(
+    /// Energies, and momenta about a point.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::energy_and_momentum`] and [`FlexibleSpacecraft::energy_and_momentum`].
+    pub fn energy_and_momentum(
         &self,
         state: &CraftState,
         about: About,
@@ -125,7 +139,12 @@ impl Craft {
         }
     }
 
-    pub(crate) fn momentum(
+    /// Momenta about a point.
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::momentum`] and [`FlexibleSpacecraft::momentum`].
+    pub fn momentum(
         &self,
         state: &CraftState,
         about: About,
@@ -137,7 +156,11 @@ impl Craft {
     }
 
     /// A step of RK4.
-    pub(crate) fn step(
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::step`] and [`FlexibleSpacecraft::step`].
+    pub fn step(
         &self,
         state: &CraftState,
         inputs: &CraftInputs,
@@ -150,7 +173,11 @@ impl Craft {
     }
 
     /// A step of RK4, and the work of each source during it, J.
-    pub(crate) fn step_with_work(
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::step_with_work`] and [`FlexibleSpacecraft::step_with_work`].
+    pub fn step_with_work(
         &self,
         state: &CraftState,
         inputs: &CraftInputs,
@@ -169,7 +196,11 @@ impl Craft {
     }
 
     /// The state after an impulsive stop of the joints that the inputs lock, and the energy lost, J.
-    pub(crate) fn stop(
+    ///
+    /// # Errors
+    ///
+    /// As [`Spacecraft::stop`] and [`FlexibleSpacecraft::stop`].
+    pub fn stop(
         &self,
         state: &CraftState,
         inputs: &CraftInputs,
@@ -188,7 +219,8 @@ impl Craft {
 }
 
 /// The state of a rigid hub.
-pub(crate) fn rigid_state(rigid: State<Set>) -> CraftState {
+#[must_use]
+pub fn rigid_state(rigid: State<Set>) -> CraftState {
     FlexibleState { rigid, eta: Vec::new(), eta_dot: Vec::new() }
 }
 

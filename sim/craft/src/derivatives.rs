@@ -1,0 +1,38 @@
+//! Derivatives of a rigid hub with the set of a scenario.
+
+use precess_dynamics::{
+    Accelerations, Column, DerivativeError, Hub, Inputs, Linearization, Outputs, ParameterVariable,
+    Spacecraft, State,
+};
+
+use crate::Set;
+
+/// The linearised system.
+///
+/// # Errors
+///
+/// As [`Spacecraft::linearize`].
+pub fn linearize(
+    craft: &Spacecraft<Set>,
+    state: &State<Set>,
+    inputs: &Inputs<Set>,
+    outputs: &Outputs,
+) -> Result<Linearization<Set>, DerivativeError> {
+    craft.linearize(state, inputs, outputs)
+}
+
+/// A column of derivatives for each variable, and the accelerations.
+///
+/// # Errors
+///
+/// As [`Spacecraft::parameter_derivatives`].
+pub fn parameter_derivatives<'a>(
+    hub: &Hub,
+    devices: &Set,
+    at: (&State<Set>, &Inputs<Set>),
+    outputs: &Outputs,
+    mut variables: &mut dyn Iterator<Item = ParameterVariable<'a>>,
+    column: &mut dyn FnMut(ParameterVariable<'a>, &Column<Set>),
+) -> Result<Accelerations<Set>, DerivativeError> {
+    Spacecraft::parameter_derivatives(hub, devices, at, outputs, &mut variables, column)
+}

@@ -1,0 +1,50 @@
+//! The solver over the set of a scenario: devices of any kind, platforms that carry some, a hub that may bend.
+//!
+//! A crate of its own, because its generic code takes minutes to compile: here once, and not again with every
+//! change of the desktop tool and with its unit tests. In the profiles of development, compiled with `opt-level`
+//! 1, the compiler takes from here what is instantiated here.
+//!
+//! | file | what |
+//! |---|---|
+//! | `craft` | [`Craft`]: a rigid hub or a structure that bends |
+//! | `derivatives` | derivatives by state, inputs and parameters |
+//! | `tangent` | the set over dual numbers |
+
+mod craft;
+mod derivatives;
+pub mod tangent;
+
+use precess_dynamics::{
+    BuiltIn, FlexibleSpacecraft, Hub, Isolated, ListedModes, Modes, ModesError, ParameterError,
+    Spacecraft, platform,
+};
+
+pub use craft::{Craft, CraftAccelerations, CraftInputs, CraftState, rigid_state};
+pub use derivatives::{linearize, parameter_derivatives};
+
+/// The set that is run: devices on the hub, each of any kind, and platforms with devices on them.
+pub type Set = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);
+
+/// The spacecraft, prepared for evaluation.
+///
+/// # Errors
+///
+/// As [`Spacecraft::new`].
+pub fn spacecraft(hub: &Hub, devices: &Set) -> Result<Spacecraft<Set>, ParameterError> {
+    Spacecraft::new(hub, devices)
+}
+
+/// The structure that bends, each device on one of its mounts.
+///
+/// # Errors
+///
+/// As [`FlexibleSpacecraft::with_residual`].
+pub fn flexible(
+    hub: &Hub,
+    modes: &Modes<ListedModes>,
+    residual: usize,
+    devices: &Set,
+    on: &(Vec<usize>, Vec<platform::Data<usize, Vec<usize>>>),
+) -> Result<FlexibleSpacecraft<Set, ListedModes>, ModesError> {
+    FlexibleSpacecraft::with_residual(hub, modes, residual, devices, on)
+}
