@@ -51,7 +51,7 @@ fn manifest(tests: &Path, fixture: &str) -> String {
          [workspace]\n\
          [lib]\npath = '{}'\ncrate-type = [\"cdylib\"]\n\
          [dependencies]\nprecess-dynamics = {{ path = '{}' }}\n\
-         [profile.release]\npanic = \"abort\"\ncodegen-units = 1\n\
+         [profile.release]\npanic = \"abort\"\ncodegen-units = 4\n\
          [profile.release.package.\"*\"]\nopt-level = 0\n\
          [profile.release.package]\nlibm.opt-level = 3\nprecess-dynamics.opt-level = 3\n",
         source.display(),

@@ -7,6 +7,7 @@ use clap::Args;
 use precess_codegen::emit::EmittedFile;
 
 use crate::files::{differing, write};
+use crate::members::{in_lanes, without_lanes};
 use crate::run::{cargo, root, run, say, target};
 
 /// The page and its figure, in `docs`.
@@ -32,14 +33,17 @@ pub(crate) fn accuracy(options: &Options) -> Result<(), String> {
     let out = target()?.join("accuracy");
     let derivatives = target()?.join("derivatives.txt");
     // As `cargo test` builds them: a release build takes minutes, to the same bytes.
-    let suite = ["test", "--quiet", "--workspace", "--test", "linearize"];
+    let suite = ["--quiet", "--test", "linearize"];
     let only = ["--", "--ignored", "figures_for_the_accuracy_page"];
     let program = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    run(Command::new(program).args(suite).args(only).env("PRECESS_FIGURES", &derivatives))?;
-    let example = ["run", "--profile", "test", "--quiet", "-p", "precess-tests"];
-    let (to, from) = (out.to_string_lossy(), derivatives.to_string_lossy());
-    let arguments = ["--example", "accuracy", "--", "--out", &to, "--derivatives", &from];
-    cargo(&[&example[..], &arguments].concat())?;
+    let mut figures = Command::new(program);
+    figures.arg("test").args(without_lanes()).args(suite).args(only);
+    run(figures.env("PRECESS_FIGURES", &derivatives))?;
+    let example = ["--profile", "test", "--quiet", "--example", "accuracy"];
+    cargo(&[&["build"], &in_lanes()[..], &example].concat())?;
+    let program = format!("debug/examples/accuracy{}", std::env::consts::EXE_SUFFIX);
+    let mut example = Command::new(target()?.join(program));
+    run(example.arg("--out").arg(&out).arg("--derivatives").arg(&derivatives))?;
     let files = FILES.map(|name| {
         let text = fs::read_to_string(out.join(name));
         let text = text.map_err(|error| format!("cannot read {name}: {error}"))?;

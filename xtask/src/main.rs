@@ -13,6 +13,7 @@ mod engines;
 mod files;
 mod flight;
 mod instructions;
+mod members;
 mod mutate;
 mod object_code;
 mod printed;

@@ -3,6 +3,7 @@
 use crate::accuracy;
 use crate::engines;
 use crate::instructions;
+use crate::members::{in_lanes, without_lanes};
 use crate::mutate;
 use crate::regen;
 use crate::run::cargo;
@@ -13,7 +14,10 @@ use crate::run::cargo;
 pub(crate) fn test() -> Result<(), String> {
     regen::regen(&regen::Options::check_only())?;
     mutate::mutate(&mutate::Options::check_only())?;
-    cargo(&["test", "--workspace"])?;
+    // Both, so that a failure of the first does not hide one of the second.
+    let apart =
+        [without_lanes(), in_lanes()].map(|members| cargo(&[&["test"], &members[..]].concat()));
+    apart.into_iter().collect::<Result<(), _>>()?;
     accuracy::accuracy(&accuracy::Options::check_only())?;
     instructions::instructions(&instructions::Options::check_only())?;
     engines::stored()

@@ -144,11 +144,7 @@ impl Craft {
     /// # Errors
     ///
     /// As [`Spacecraft::momentum`] and [`FlexibleSpacecraft::momentum`].
-    pub fn momentum(
-        &self,
-        state: &CraftState,
-        about: About,
-    ) -> Result<Momentum, SolveError> {
+    pub fn momentum(&self, state: &CraftState, about: About) -> Result<Momentum, SolveError> {
         match self {
             Self::Rigid(craft) => craft.momentum(&state.rigid, about),
             Self::Flexible(craft) => craft.momentum(state, about),

@@ -1,7 +1,8 @@
 //! The set of a scenario over dual numbers: what depends on parameters, with its derivatives by some at a time.
 
 use precess_dynamics::{
-    Accelerations, BuiltIn, Dual, Hub, Inputs, Isolated, ParameterError, SolveError, Spacecraft, State,
+    Accelerations, BuiltIn, Dual, Hub, Inputs, Isolated, ParameterError, SolveError, Spacecraft,
+    State,
 };
 
 /// Derivatives at a time.
@@ -18,7 +19,10 @@ pub type Set = (Vec<BuiltIn<Number>>, Vec<Isolated<Vec<BuiltIn<Number>>>>);
 /// # Errors
 ///
 /// As [`Spacecraft::new`].
-pub fn spacecraft(hub: &Hub<Number>, devices: &Set) -> Result<Spacecraft<Set>, ParameterError<Number>> {
+pub fn spacecraft(
+    hub: &Hub<Number>,
+    devices: &Set,
+) -> Result<Spacecraft<Set>, ParameterError<Number>> {
     Spacecraft::new(hub, devices)
 }
 

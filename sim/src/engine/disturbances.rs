@@ -14,13 +14,13 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointInfo};
 use precess_dynamics::{JointStates, ListedModes, ModalPoint, Wrench};
 
-use precess_craft::{CraftInputs, CraftState};
 use super::kinematics::turn;
 use super::packing::JointPlace;
 use crate::disturbance::{
     COMPONENT_COUNT, Disturbance, Harmonic, Model, Noise, Playback, Six, WheelAngle,
 };
 use crate::scenario::{Scenario, SourceBody, SourcePlace};
+use precess_craft::{CraftInputs, CraftState};
 
 /// All sources of a scenario.
 #[derive(Clone, Debug)]

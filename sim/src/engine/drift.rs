@@ -9,11 +9,11 @@
 use nalgebra::Vector3;
 use precess_dynamics::{About, EnergyAndMomentum, Gravity, HubMode, Momentum, SolveError};
 
-use precess_craft::{CraftAccelerations, CraftInputs, CraftState};
 use super::integrator::Moment;
 use super::kinematics::momenta;
 use super::system::{System, lumped};
 use crate::scenario::Scenario;
+use precess_craft::{CraftAccelerations, CraftInputs, CraftState};
 
 /// Departure from the start, each part in its own unit (see the module); none of what is not
 /// conserved.

@@ -7,12 +7,12 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, Inputs, JointStates, ListedModes, ModalPoint, Mode, Wrench};
 
-use precess_craft::{Craft, CraftInputs, CraftState};
 use super::disturbances::Disturbances;
 use super::kinematics::{Chain, axes};
 use super::packing::JointPlace;
 use crate::disturbance::Six;
 use crate::scenario::{AppliedWrench, Drive, Profile, Scenario, Target, WrenchAxes};
+use precess_craft::{Craft, CraftInputs, CraftState};
 
 /// A locked joint.
 pub(crate) const LOCKED: &Drive = &Drive::Locked;

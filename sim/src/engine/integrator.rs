@@ -3,12 +3,12 @@
 //! Joint angles are those of the integrator: DOP853's are reduced by whole turns, which [`Stepper`]
 //! counts, RK4's are not.
 
-use precess_craft::CraftState;
 use super::dop853::Dop853;
 use super::error::RunError;
 use super::rk4::Rk4;
 use super::system::System;
 use crate::scenario::IntegratorChoice;
+use precess_craft::CraftState;
 
 /// A state and both integrals.
 #[derive(Clone, Debug)]

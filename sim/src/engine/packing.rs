@@ -17,9 +17,9 @@ use nalgebra::Vector3;
 use precess_dynamics::kind::{Each, JointInfo};
 use precess_dynamics::{Attitude, JointStates, Quaternion};
 
-use precess_craft::{CraftAccelerations, CraftState};
 use crate::record::columns::Quantity;
 use crate::scenario::Scenario;
+use precess_craft::{CraftAccelerations, CraftState};
 
 /// Numbers of the hub.
 const HUB: usize = 13;

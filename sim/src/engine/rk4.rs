@@ -7,11 +7,11 @@
 use precess_dynamics::kind::Each;
 use precess_dynamics::{JointStates, Mode, SolveError};
 
-use precess_craft::CraftState;
 use super::dop853::same;
 use super::error::RunError;
 use super::integrator::Moment;
 use super::system::{System, work_of};
+use precess_craft::CraftState;
 
 /// An integration in progress, from the start of a segment to its end.
 pub(crate) struct Rk4 {

@@ -10,7 +10,6 @@ use precess_dynamics::{
     PointMotion, Quaternion, SolveError,
 };
 
-use precess_craft::CraftInputs;
 use super::drift::energies;
 use super::integrator::Moment;
 use super::member_loads::MemberLoads;
@@ -18,6 +17,7 @@ use super::system::System;
 use crate::disturbance::Six;
 use crate::record::columns::{Columns, Quantity};
 use crate::scenario::Scenario;
+use precess_craft::CraftInputs;
 
 /// The numbers of a sample, and what has to be computed for them.
 #[expect(clippy::struct_excessive_bools, reason = "each is computed or not, independently")]

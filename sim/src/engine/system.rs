@@ -10,10 +10,10 @@ use std::cell::{Cell, RefCell};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{Attitude, Gravity, HubMode, JointStates, Mode, Passive, Power, SolveError};
 
-use precess_craft::{Craft, CraftAccelerations, CraftInputs, CraftState};
 use super::inputs::Acting;
 use super::packing::Layout;
 use crate::scenario::Scenario;
+use precess_craft::{Craft, CraftAccelerations, CraftInputs, CraftState};
 
 /// The equations of motion.
 pub(crate) struct System<'a> {

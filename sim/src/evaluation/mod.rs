@@ -34,8 +34,7 @@ mod parameters;
 mod tests;
 
 use precess_dynamics::{
-    About, DeviceSet, EnergyAndMomentum, 
-    Inputs, Ledger, Power, SolveError, Spacecraft, Wrench, set,
+    About, DeviceSet, EnergyAndMomentum, Inputs, Ledger, Power, SolveError, Spacecraft, Wrench, set,
 };
 
 pub use error::EvaluationError;

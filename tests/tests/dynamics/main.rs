@@ -24,5 +24,4 @@ mod reference_runs;
 mod routes;
 mod sines;
 mod single_precision;
-mod table1;
 mod whole_turns;

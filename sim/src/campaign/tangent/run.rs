@@ -76,7 +76,8 @@ pub(super) fn samples(
             sample += 1;
         }
         let length = Number::constant(after - time);
-        state = tangent::step(&craft, &state, &inputs, length).map_err(|error| error.to_string())?;
+        state =
+            tangent::step(&craft, &state, &inputs, length).map_err(|error| error.to_string())?;
         steps += 1;
         if after >= duration - NEAR * step {
             kept.push((duration, row(header, of, &state, duration)?));

@@ -10,11 +10,11 @@
 //! without an error but rounding. A peak has the derivative of the magnitude at the sample that is largest.
 
 use super::run::Samples;
-use precess_craft::tangent::{Number, WIDTH};
 use crate::campaign::Selection;
 use crate::engine::Outcome;
 use crate::record::{Header, Recorder as _, Statistics};
 use crate::scenario::{Requirement, Scenario, Statistic};
+use precess_craft::tangent::{Number, WIDTH};
 
 /// The size of `s d` by that of `x`.
 const SHARE: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! Table 1 is written three times, independently from the paper: here for the suites, in the
+//! Table 1 is written three times, independently from the paper: for the suites, in the
 //! scenario files of the desktop tool, and in codegen for the consequences of printed slips. They agree.
 
 use std::path::Path;

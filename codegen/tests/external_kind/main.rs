@@ -15,8 +15,8 @@ use precess_codegen::{emit_kind, prove_kind};
 
 /// The programs that use the kinds, and their places in a crate.
 const PROGRAMS: [(&str, &str); 2] = [
-    (include_str!("../../fixtures/planar_arm.rs"), "main.rs"),
-    (include_str!("../../fixtures/kept_rotor.rs"), "bin/kept_rotor/main.rs"),
+    (include_str!("planar_arm.rs"), "main.rs"),
+    (include_str!("kept_rotor.rs"), "bin/kept_rotor/main.rs"),
 ];
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
@@ -26,7 +26,7 @@ fn the_page_shows_these_lines() {
     let page = Path::new(ROOT).join("docs/adding-a-kind.md");
     let page = fs::read_to_string(page).expect("the page on adding a kind");
     let block = format!("```rust\n{}```\n", include_str!("robot_arm.rs"));
-    assert!(page.contains(&block), "the page and tests/tests/external_kind/robot_arm.rs differ");
+    assert!(page.contains(&block), "the page and codegen/tests/external_kind/robot_arm.rs differ");
 }
 
 #[test]
