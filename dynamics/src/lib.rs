@@ -84,6 +84,8 @@ pub use derivatives::error::DerivativeError;
 #[cfg(feature = "alloc")]
 pub use derivatives::linearization::{Linearization, Output};
 pub use derivatives::parameters::{Component, ParameterVariable};
+#[cfg(feature = "alloc")]
+pub use derivatives::step::StepLinearization;
 pub use derivatives::variable::{Axis, Variable, VariableName};
 pub use equations::device_loads::{DeviceLoads, JointPower};
 pub use equations::error::{Quantity, SolveError};

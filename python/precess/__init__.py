@@ -36,6 +36,7 @@ from .spacecraft import (
     Momentum,
     Parameter,
     Spacecraft,
+    StepLinearization,
 )
 from .state import State
 
@@ -71,6 +72,7 @@ __all__ = [
     "SolveError",
     "Spacecraft",
     "State",
+    "StepLinearization",
     "UnsupportedError",
     "campaign",
     "errors",

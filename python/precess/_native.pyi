@@ -164,6 +164,14 @@ class NativeEvaluator:
         loads: bool,
         parameters: Sequence[str],
     ) -> tuple[list[str], list[str], list[str], list[str], list[_Array]]: ...
+    def linearize_steps(
+        self,
+        y: _Array,
+        inputs: NativeInputs,
+        length: float,
+        steps: int,
+        parameters: Sequence[str],
+    ) -> tuple[_Array, list[str], list[str], list[str], list[_Array]]: ...
     def step(self, y: _Array, inputs: NativeInputs, length: float, steps: int) -> _Array: ...
 
 @final
@@ -276,13 +284,13 @@ class NativeAmplitudes:
     def strongest(self, count: int) -> list[tuple[float, float, int, float]]: ...
 
 def spectrum_welch(
-    x: _Array, rate: float, window: str, length: int, overlap: int, detrend: str
+    x: _Array, rate: float, settings: tuple[str, int, int, str]
 ) -> NativePsd: ...
 def spectrum_amplitudes(
-    x: _Array, rate: float, window: str, length: int, overlap: int, detrend: str
+    x: _Array, rate: float, settings: tuple[str, int, int, str]
 ) -> NativeAmplitudes: ...
 def spectrum_cross(
-    signals: _Array, rate: float, window: str, length: int, overlap: int, detrend: str
+    signals: _Array, rate: float, settings: tuple[str, int, int, str]
 ) -> tuple[_About, npt.NDArray[np.complex128], _Array | None]: ...
 def pointing_of_history(
     components: _Array, rate: float, exposure: float

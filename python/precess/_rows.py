@@ -16,7 +16,7 @@ from .campaign.job import Job
 from .campaign.plan import Plan
 from .scenario import Scenario
 
-__all__ = ["Rows", "evaluate"]
+__all__ = ["OfRows", "Rows", "evaluate"]
 
 Array = npt.NDArray[np.float64]
 StrPath = str | os.PathLike[str]
@@ -53,6 +53,32 @@ class Rows:
         if name not in names:
             raise KeyError(f"no number is named `{name}`; there are {', '.join(names)}")
         return self.numbers[:, names.index(name)]
+
+
+class OfRows:
+    """What a study has of its rows: labels, units, limits, and the names of its numbers."""
+
+    def __init__(self, rows: Rows) -> None:
+        self._rows = rows
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The keys with the units of their values: ``hub.mass [kg]``."""
+        return self._rows.plan.labels
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each number by its name."""
+        return self._rows.units
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """The limit of each requirement, SI."""
+        return self._rows.limits
+
+    def keys(self) -> tuple[str, ...]:
+        """The names of the numbers."""
+        return tuple(self._rows.units)
 
 
 def evaluate(

@@ -108,15 +108,9 @@ def accelerations(
 
     Parameters
     ----------
-    spacecraft : Spacecraft
-        A rigid hub: a structure that bends has no linearised system.
-    inputs : Inputs, optional
-        Modes, gravity and wrenches; those of the scenario at its start by default. Force, torque and motors are ``u``, as
-        :meth:`precess.Inputs.to_array`.
+    spacecraft, inputs
+        As of :func:`precess.jax.accelerations`, whose ``y``, ``u`` and result these are.
     name : str
         The name of the function.
-
-    ``y`` is in the order of :attr:`precess.Spacecraft.state_names`, its quaternion normalised where it is used. NaN where a state has no
-    accelerations.
     """
     return Accelerations(name, Derivatives(spacecraft, inputs))

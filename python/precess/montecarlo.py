@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._rows import Rows, StrPath, evaluate
+from ._rows import OfRows, StrPath, evaluate
 from .campaign.plan import Vary, _with_file, latin_hypercube, monte_carlo
 from .scenario import Scenario
 
@@ -30,36 +30,14 @@ class Estimate:
     interval: tuple[float, float]
 
 
-class Samples:
+class Samples(OfRows):
     """The numbers of a campaign by name, one array each: ``samples["omega rms"]``, shape ``(samples,)``; and the drawn values
     of a key, ``samples.values("hub.mass")``. Numbers of a sample that failed are NaN."""
-
-    def __init__(self, rows: Rows) -> None:
-        self._rows = rows
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """The drawn keys with the units of their values."""
-        return self._rows.plan.labels
-
-    @property
-    def units(self) -> dict[str, str]:
-        """The unit of each number by its name."""
-        return self._rows.units
-
-    @property
-    def limits(self) -> dict[str, float]:
-        """The limit of each requirement, SI."""
-        return self._rows.limits
 
     @property
     def errors(self) -> dict[int, str]:
         """Why each sample that failed has no numbers."""
         return self._rows.errors
-
-    def keys(self) -> tuple[str, ...]:
-        """The names of the numbers."""
-        return tuple(self._rows.units)
 
     def __len__(self) -> int:
         return len(self._rows.plan)

@@ -21,7 +21,16 @@ if TYPE_CHECKING:
     Array = npt.NDArray[np.float64]
     StateLike = State | npt.ArrayLike
 
-__all__ = ["Accelerations", "Joint", "Linearization", "MassMatrix", "Momentum", "Parameter", "Spacecraft"]
+__all__ = [
+    "Accelerations",
+    "Joint",
+    "Linearization",
+    "MassMatrix",
+    "Momentum",
+    "Parameter",
+    "Spacecraft",
+    "StepLinearization",
+]
 
 
 @dataclass(frozen=True)
@@ -158,6 +167,38 @@ class Linearization:
                 if row in names and column in column_names:
                     return float(matrix[names.index(row), column_names.index(column)])
         raise KeyError(f"no derivative of `{row}` by `{column}`")
+
+
+@dataclass(frozen=True)
+class StepLinearization:
+    """Steps of RK4 linearised about a state and inputs, which are held, exact to rounding::
+
+        x1 = F + A dx + B du + P dp
+
+    The attitude in ``dx`` is a small rotation about the axes of B before the steps, in the change of ``x1`` one about those
+    after them. Matrices of steps one after the other are the product: ``A = A2 @ A1``, ``B = A2 @ B1 + B2``.
+
+    Zero by structure in ``A``: of columns by position and velocity, rows of the attitude, of ``omega`` and of the joints,
+    except in a central field; of columns by the attitude, without gravity, rows of ``omega`` and of the joints; of the column
+    by the angle of a balanced wheel, all rows but its own.
+
+    Attributes
+    ----------
+    state : State
+        The state after the steps: that of :meth:`Spacecraft.step`, to the bit.
+    states, inputs, parameters : tuple of str
+        Names of rows and columns, as of :class:`Linearization`.
+    A, B, P : arrays, shapes (states, states), (states, inputs) and (states, parameters)
+        Derivatives of the state after the steps.
+    """
+
+    state: State
+    states: tuple[str, ...]
+    inputs: tuple[str, ...]
+    parameters: tuple[str, ...]
+    A: Array
+    B: Array
+    P: Array
 
 
 class Spacecraft:
@@ -339,6 +380,35 @@ class Spacecraft:
         """The state after ``steps`` steps of RK4 of ``dt`` s, inputs held."""
         y = _array(state)
         return State(self, self._native.step(y, self._acting(y, inputs), dt, steps))
+
+    def linearize_step(
+        self,
+        state: StateLike,
+        dt: float,
+        inputs: Inputs | None = None,
+        steps: int = 1,
+        parameters: Sequence[str] = (),
+    ) -> StepLinearization:
+        """Derivatives of ``steps`` steps of RK4 of ``dt`` s, inputs held: those of :meth:`step`, not of the motion it
+        approximates.
+
+        Parameters
+        ----------
+        parameters : sequence of str
+            Names of :attr:`parameters`: columns ``P``.
+
+        Raises
+        ------
+        SolveError, DerivativeError, UnsupportedError
+        """
+        y = _array(state)
+        found = self._native.linearize_steps(
+            y, self._acting(y, inputs), dt, steps, list(parameters)
+        )
+        reached, states, names, by, matrices = found
+        return StepLinearization(
+            State(self, reached), tuple(states), tuple(names), tuple(by), *matrices
+        )
 
     def derivative(self, t: float, y: npt.ArrayLike, inputs: Inputs | None = None) -> Array:
         """Time derivative of a flat state, a right-hand side for ``scipy.integrate.solve_ivp``.

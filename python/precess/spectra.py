@@ -171,8 +171,8 @@ def welch(
         A rate, length or overlap that cannot be, a sample that is not finite.
     """
     samples = np.asarray(x, dtype=np.float64)
-    size = _sizes(samples.shape[-1], window, length, overlap)
-    return Psd(_native.spectrum_welch(samples, rate, window, *size, detrend))
+    settings = _settings(samples, window, length, overlap, detrend)
+    return Psd(_native.spectrum_welch(samples, rate, settings))
 
 
 def amplitude_spectrum(
@@ -185,8 +185,8 @@ def amplitude_spectrum(
 ) -> AmplitudeSpectrum:
     """Amplitudes over frequency, right at lines. Parameters and errors are those of :func:`welch`."""
     samples = np.asarray(x, dtype=np.float64)
-    size = _sizes(samples.shape[-1], window, length, overlap)
-    return AmplitudeSpectrum(_native.spectrum_amplitudes(samples, rate, window, *size, detrend))
+    settings = _settings(samples, window, length, overlap, detrend)
+    return AmplitudeSpectrum(_native.spectrum_amplitudes(samples, rate, settings))
 
 
 def cross_spectra(
@@ -199,8 +199,8 @@ def cross_spectra(
 ) -> CrossSpectra:
     """Cross-spectral densities of signals, shape ``(n, samples)``. Parameters and errors are those of :func:`welch`."""
     samples = np.atleast_2d(np.asarray(signals, dtype=np.float64))
-    size = _sizes(samples.shape[-1], window, length, overlap)
-    about, density, coherent = _native.spectrum_cross(samples, rate, window, *size, detrend)
+    settings = _settings(samples, window, length, overlap, detrend)
+    about, density, coherent = _native.spectrum_cross(samples, rate, settings)
     facts = About(*about)
     return CrossSpectra(facts, _frequencies(facts, len(density)), density, coherent)
 
@@ -245,15 +245,16 @@ def coherence(
     return found.frequency, found.coherence[:, 0, 1]
 
 
-def _sizes(
-    samples: int, window: Window, length: int | None, overlap: int | None
-) -> tuple[int, int]:
+def _settings(
+    of: Array, window: Window, length: int | None, overlap: int | None, detrend: Detrend
+) -> tuple[str, int, int, str]:
+    samples = of.shape[-1]
     if length is None:
         shortest = min(_SHORTEST, samples)
         length = min(max(samples // _SEGMENTS, shortest), max(_LONGEST, shortest))
     if overlap is None:
         overlap = round(_OVERLAPS.get(window, 0.0) * length)
-    return length, overlap
+    return window, length, overlap, detrend
 
 
 def _frequencies(about: About, bins: int) -> Array:

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._rows import Rows, StrPath, evaluate
+from ._rows import OfRows, Rows, StrPath, evaluate
 from .campaign.plan import grid
 from .scenario import Scenario
 
@@ -20,33 +20,18 @@ __all__ = ["Sweep", "run"]
 Array = npt.NDArray[np.float64]
 
 
-class Sweep:
+class Sweep(OfRows):
     """The numbers of a sweep by name, one array each over the axes: ``sweep["omega rms"]``, shape :attr:`shape`.
 
     Numbers of a sample that failed are NaN.
     """
 
     def __init__(self, rows: Rows, axes: Sequence[Array]) -> None:
-        self._rows = rows
+        super().__init__(rows)
         self.axes = tuple(axes)
         """The values of each key in its unit, in order."""
         self.shape = tuple(len(axis) for axis in axes)
         """How many values each key has."""
-
-    @property
-    def labels(self) -> tuple[str, ...]:
-        """The keys with the units of their values: ``hub.mass [kg]``."""
-        return self._rows.plan.labels
-
-    @property
-    def units(self) -> dict[str, str]:
-        """The unit of each number by its name."""
-        return self._rows.units
-
-    @property
-    def limits(self) -> dict[str, float]:
-        """The limit of each requirement, SI."""
-        return self._rows.limits
 
     @property
     def errors(self) -> dict[tuple[int, ...], str]:
@@ -55,10 +40,6 @@ class Sweep:
         return {
             tuple(int(of) for of in places[index]): why for index, why in self._rows.errors.items()
         }
-
-    def keys(self) -> tuple[str, ...]:
-        """The names of the numbers."""
-        return tuple(self._rows.units)
 
     def __getitem__(self, name: str) -> Array:
         return self._rows.column(name).reshape(self.shape)

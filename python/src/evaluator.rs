@@ -21,6 +21,8 @@ type Units = (&'static str, &'static str, &'static str, &'static str);
 /// Body, coordinate, rate, acceleration, motor, units of the four, whether it slides, whether it has a motor.
 type JointFacts = (String, String, String, String, String, Units, bool, bool);
 
+/// The state after steps, names of states, inputs and parameters, then the matrices.
+type StepFacts<'py> = (Vector<'py>, Vec<String>, Vec<String>, Vec<String>, [Matrix<'py>; 3]);
 /// The names of the matrices' rows and columns, then the matrices.
 type LinearizedFacts<'py> = (Vec<String>, Vec<String>, Vec<String>, Vec<String>, [Matrix<'py>; 6]);
 
@@ -240,6 +242,27 @@ impl NativeEvaluator {
         let [a, b, c] = [array(py, &of.a)?, array(py, &of.b)?, array(py, &of.c)?];
         let [d, p, q] = [array(py, &of.d)?, array(py, &of.p)?, array(py, &of.q)?];
         Ok((of.states, of.inputs, of.outputs, of.parameters, [a, b, c, d, p, q]))
+    }
+
+    /// Steps of RK4 linearised, inputs held: A, B, P.
+    fn linearize_steps<'py>(
+        &self,
+        py: Python<'py>,
+        y: PyReadonlyArray1<'py, f64>,
+        inputs: &NativeInputs,
+        length: f64,
+        steps: usize,
+        parameters: Vec<String>,
+    ) -> PyResult<StepFacts<'py>> {
+        let state = self.state(&y)?;
+        let acting = inputs.get()?.clone();
+        let found = py.detach(|| {
+            self.evaluator.linearize_steps(&state, &acting, (length, steps), &parameters)
+        });
+        let of = found.map_err(|error| errors::evaluation(&error))?;
+        let state = self.evaluator.pack(&of.state).into_pyarray(py);
+        let matrices = [array(py, &of.a)?, array(py, &of.b)?, array(py, &of.p)?];
+        Ok((state, of.states, of.inputs, of.parameters, matrices))
     }
 
     /// The state after so many steps of RK4, inputs held.

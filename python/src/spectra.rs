@@ -15,6 +15,8 @@ use crate::errors;
 use crate::evaluator::numbers;
 
 type Vector<'py> = Bound<'py, PyArray1<f64>>;
+/// Window, samples of a segment, those that two share, what is subtracted from each.
+type Settings = (String, usize, usize, String);
 /// Segments, samples that none of them has, resolution, noise bandwidth, Hz, and equivalent averages.
 type About = (usize, usize, f64, f64, f64);
 /// How they were computed; densities and coherence, bin by bin.
@@ -92,12 +94,9 @@ pub(crate) fn spectrum_welch(
     py: Python<'_>,
     x: PyReadonlyArray1<'_, f64>,
     rate: f64,
-    window: &str,
-    length: usize,
-    overlap: usize,
-    detrend: &str,
+    settings: Settings,
 ) -> PyResult<NativePsd> {
-    let (settings, x) = (settings(window, length, overlap, detrend)?, numbers(&x));
+    let (settings, x) = (welch(settings)?, numbers(&x));
     let psd = py.detach(|| psd(&x, rate, &settings)).map_err(|error| errors::signal(&error))?;
     Ok(NativePsd { psd })
 }
@@ -109,12 +108,9 @@ pub(crate) fn spectrum_amplitudes(
     py: Python<'_>,
     x: PyReadonlyArray1<'_, f64>,
     rate: f64,
-    window: &str,
-    length: usize,
-    overlap: usize,
-    detrend: &str,
+    settings: Settings,
 ) -> PyResult<NativeAmplitudes> {
-    let (settings, x) = (settings(window, length, overlap, detrend)?, numbers(&x));
+    let (settings, x) = (welch(settings)?, numbers(&x));
     let found = py.detach(|| amplitude_spectrum(&x, rate, &settings));
     Ok(NativeAmplitudes { spectrum: found.map_err(|error| errors::signal(&error))? })
 }
@@ -126,12 +122,9 @@ pub(crate) fn spectrum_cross<'py>(
     py: Python<'py>,
     signals: PyReadonlyArray2<'py, f64>,
     rate: f64,
-    window: &str,
-    length: usize,
-    overlap: usize,
-    detrend: &str,
+    settings: Settings,
 ) -> PyResult<CrossFacts<'py>> {
-    let settings = settings(window, length, overlap, detrend)?;
+    let settings = welch(settings)?;
     let rows: Vec<Vec<f64>> = rows(&signals);
     let signals = signals.shape()[0];
     let slices: Vec<&[f64]> = rows.iter().map(Vec::as_slice).collect();
@@ -167,15 +160,16 @@ fn about(of: &Metadata) -> About {
     (of.segments, of.unused, of.resolution, of.noise_bandwidth, of.averages)
 }
 
-fn settings(window: &str, length: usize, overlap: usize, detrend: &str) -> PyResult<WelchSettings> {
+/// Settings by the names of window and trend.
+fn welch((window, length, overlap, detrend): Settings) -> PyResult<WelchSettings> {
     let window = [Window::Rectangular, Window::Hann, Window::FlatTop]
         .into_iter()
         .find(|of| of.name() == window)
-        .ok_or_else(|| unknown("window", window, "rectangular, hann or flat-top"))?;
+        .ok_or_else(|| unknown("window", &window, "rectangular, hann or flat-top"))?;
     let detrend = [Detrend::None, Detrend::Mean, Detrend::Linear]
         .into_iter()
         .find(|of| of.name() == detrend)
-        .ok_or_else(|| unknown("detrend", detrend, "none, mean or linear"))?;
+        .ok_or_else(|| unknown("detrend", &detrend, "none, mean or linear"))?;
     Ok(WelchSettings { window, length, overlap, detrend })
 }
 

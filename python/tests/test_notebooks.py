@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import os
+import shutil
 from pathlib import Path
 
 import pytest
@@ -15,14 +16,16 @@ pytest.importorskip("ipykernel")
 FOLDER = Path(__file__).parents[1] / "notebooks"
 #: What each needs beside the package and matplotlib.
 NEEDS = {"campaign": ["pyarrow", "pandas"]}
-#: Seconds of a cell.
-LONGEST = 300
+#: Programs that one starts.
+STARTS = {"own-device": "cargo"}
+#: Seconds of a cell: one compiles the derivation, two minutes of a core.
+LONGEST = 900
 
 NOTEBOOKS = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
 
 
 def test_there_are_notebooks() -> None:
-    assert {"campaign", "jitter-budget", "table-1"} <= set(NOTEBOOKS)
+    assert {"campaign", "jitter-budget", "own-device", "sensitivities", "table-1"} <= set(NOTEBOOKS)
 
 
 @pytest.mark.parametrize("name", NOTEBOOKS)
@@ -38,6 +41,8 @@ def test_a_notebook_runs(name: str) -> None:
     pytest.importorskip("matplotlib")
     for needed in NEEDS.get(name, []):
         pytest.importorskip(needed)
+    if name in STARTS and shutil.which(STARTS[name]) is None:
+        pytest.skip(f"no {STARTS[name]}")
     notebook = nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
     client = nbclient.NotebookClient(
         notebook, timeout=LONGEST, resources={"metadata": {"path": str(FOLDER)}}

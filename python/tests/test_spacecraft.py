@@ -43,6 +43,99 @@ def test_linearize_is_that_of_differences(wheels: str) -> None:
     assert found.Q.shape == (len(found.outputs), 1)
 
 
+#: Of central differences of a step of RK4, relative to the largest of a column of numbers of size one.
+STEPS = 1e-7
+
+
+def test_linearize_step_is_that_of_differences(wheels: str) -> None:
+    craft = precess.Scenario.from_text(wheels).spacecraft
+    state = craft.initial_state().replace({"omega": [0.3, -0.2, 0.4], "mrp": [0.1, 0.2, -0.1]})
+    inputs = craft.inputs()
+    inputs.gravity = [0.3, -0.2, 9.8]
+    dt, h = 0.01, 1e-5
+    found = craft.linearize_step(state, dt, inputs)
+    names = craft.state_names
+    kept = [place for place, name in enumerate(names) if not 6 <= place < 10]
+
+    def product(p: np.ndarray, q: np.ndarray) -> np.ndarray:
+        vector = p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])
+        return np.array([p[0] * q[0] - p[1:] @ q[1:], *vector])
+
+    def stepped(changed: np.ndarray, acting: precess.Inputs) -> np.ndarray:
+        """The state after the step, its attitude by twice the vector of the rotation from the one found."""
+        y = craft.step(changed, dt, acting).to_array()
+        q = found.state.to_array()[6:10] * [1, -1, -1, -1]
+        turn = 2.0 * product(q, y[6:10])[1:]
+        return np.concatenate([y[0:3], turn, y[3:6], y[10:13], y[joints]])
+
+    assert len(found.states) == len(kept) + 3
+    np.testing.assert_array_equal(found.state.to_array(), craft.step(state, dt, inputs).to_array())
+    y = state.to_array()
+    joints = [names.index(name) for name in found.states[12:]]
+    order = [*range(3), *range(-3, 0), *range(3, 6), *range(10, 13), *joints]
+    for column, place in enumerate(order):
+
+        def at(size: float, place: int = place) -> np.ndarray:
+            changed = y.copy()
+            if place < 0:
+                turn = np.zeros(4)
+                turn[4 + place] = 0.5 * size
+                changed[6:10] += product(y[6:10], turn)
+            else:
+                changed[place] += size
+            return stepped(changed, inputs)
+
+        slope = (at(h) - at(-h)) / (2 * h)
+        exact = found.A[:, column]
+        np.testing.assert_allclose(slope, exact, atol=STEPS * np.abs(exact).max(), rtol=0)
+    assert sorted(joints) == list(range(13, len(names)))
+    for column, name in enumerate(found.inputs):
+        u = inputs.to_array()
+
+        def by(size: float, column: int = column) -> np.ndarray:
+            changed = craft.inputs()
+            changed.gravity = inputs.gravity
+            row = u.copy()
+            row[column] += size
+            changed.force, changed.torque = row[:3], row[3:6]
+            for motor, number in zip(("wheel1.u_w", "wheel2.u_w"), row[6:], strict=True):
+                changed.motors[motor] = number
+            return stepped(y, changed)
+
+        # Linear but for rounding: a long difference.
+        slope = (by(1e-2) - by(-1e-2)) / 2e-2
+        exact = found.B[:, column]
+        np.testing.assert_allclose(slope, exact, atol=STEPS * np.abs(exact).max(), rtol=0, err_msg=name)
+
+
+def test_linearized_steps_are_the_product_of_steps(wheels: str) -> None:
+    craft = precess.Scenario.from_text(wheels).spacecraft
+    state = craft.initial_state().replace({"omega": [0.3, -0.2, 0.4]})
+    inputs = craft.inputs()
+    by = ["hub.m_b", "wheel1.m_w"]
+    whole = craft.linearize_step(state, 1e-3, inputs, steps=10, parameters=by)
+    first = craft.linearize_step(state, 1e-3, inputs, steps=5, parameters=by)
+    second = craft.linearize_step(first.state, 1e-3, inputs, steps=5, parameters=by)
+    np.testing.assert_array_equal(second.state.to_array(), whole.state.to_array())
+    np.testing.assert_allclose(second.A @ first.A, whole.A, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(second.A @ first.B + second.B, whole.B, rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(second.A @ first.P + second.P, whole.P, rtol=1e-12, atol=1e-15)
+    # Zero by structure: without gravity nothing depends on position, velocity or attitude but they themselves.
+    rows = [place for place, name in enumerate(whole.states) if place >= 9]
+    np.testing.assert_array_equal(whole.A[np.ix_(rows, range(9))], 0.0)
+    # By a parameter, against spacecraft a kilogram off: differences have an error of its share of the mass, squared, and the
+    # rounding of a spin.
+    size = 1.0
+    reached = []
+    for mass in (size, -size):
+        other = craft.scenario.with_values({"hub.mass": craft.parameters["hub.m_b"].value + mass})
+        reached.append(other.spacecraft.step(state.to_array(), 1e-3, inputs=None, steps=10).to_array())
+    slope = (reached[0] - reached[1]) / (2 * size)
+    for name in ("velocity_x", "omega_x", "wheel1.spin", "wheel2.theta"):
+        exact = whole.P[whole.states.index(name), 0]
+        np.testing.assert_allclose(slope[craft.state_names.index(name)], exact, rtol=1e-4, atol=1e-13)
+
+
 def test_solve_ivp_is_the_run(wheels: str) -> None:
     integrate = pytest.importorskip("scipy.integrate")
     scenario = precess.Scenario.from_text(wheels)

@@ -2,7 +2,8 @@
 //! rounding: the solver runs over [`Dual`](crate::Dual) numbers, through the same kernels.
 //!
 //! [`evaluation`] computes columns without a heap, [`parameters`] those by parameters;
-//! `linearization`, with the feature `alloc`, fills matrices with them.
+//! `linearization`, with the feature `alloc`, fills matrices with them, `step` carries them through a
+//! step.
 
 pub(crate) mod column;
 mod elimination;
@@ -12,5 +13,7 @@ pub(crate) mod evaluation;
 pub(crate) mod linearization;
 pub(crate) mod parameters;
 mod point;
+#[cfg(feature = "alloc")]
+pub(crate) mod step;
 mod turned;
 pub(crate) mod variable;

@@ -15,6 +15,9 @@ const HUB: usize = 13;
 
 type Set<K> = Vec<K>;
 
+/// Accelerations of a state.
+type Found<K> = Result<Accelerations<Set<K>>, SolveError<f64>>;
+
 /// A batch: of one spacecraft, or part by part of one for each state.
 enum Crafts<K: Kind<Scalar = f64>> {
     Same(Box<Batch<Set<K>>>),
@@ -22,7 +25,7 @@ enum Crafts<K: Kind<Scalar = f64>> {
 }
 
 /// The batch, and what is wrong with each spacecraft: in its place stands the first sound one.
-pub(crate) fn of_kind<K: Kind<Scalar = f64>>(crafts: Vec<(Hub, Set<K>)>, each: bool) -> Made {
+pub(crate) fn of_kind<K: Kind<Scalar = f64>>(crafts: &[(Hub, Set<K>)], each: bool) -> Made {
     if !each {
         let Some((hub, devices)) = crafts.first() else { return Made::Unsupported };
         return match Batch::new(hub, devices) {
@@ -87,7 +90,7 @@ impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
         }
         let width = out.len() / states.len().max(1);
         let rows = out.chunks_exact_mut(width.max(1));
-        let one = |(row, found): (&mut [f64], Result<Accelerations<Set<K>>, SolveError<f64>>)| {
+        let one = |(row, found): (&mut [f64], Found<K>)| {
             let found = found?;
             let hub = found.r_b_n_ddot.iter().chain(found.omega_dot.iter()).copied();
             let numbers = hub.chain(found.devices.values());

@@ -109,7 +109,8 @@ pub fn lanes(crafts: &[(Hub, Vec<BuiltIn>)], each: bool) -> Made {
                         _ => None,
                     };
                     let of = |(hub, of): &(Hub, Vec<BuiltIn>)| (*hub, of.iter().filter_map(one).collect());
-                    laned::of_kind(crafts.iter().map(of).collect(), each)
+                    let crafts: Vec<_> = crafts.iter().map(of).collect();
+                    laned::of_kind(&crafts, each)
                 })*
             }
         };

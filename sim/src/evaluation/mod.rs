@@ -1,6 +1,6 @@
 //! [`Evaluator`]: a scenario's spacecraft evaluated at any state and inputs: accelerations, energy,
-//! momentum, loads, the energy ledger, the mass matrix, the linearised system, a step; and states as
-//! flat vectors with names.
+//! momentum, loads, the energy ledger, the mass matrix, the linearised system, a step and its
+//! derivatives; and states as flat vectors with names.
 //!
 //! What the scenario prescribes over time acts only where [`Evaluator::inputs`] requests it: drives,
 //! wrenches and disturbances from the start, without the changes at later times, which a run makes.
@@ -10,6 +10,7 @@
 //! | `names` | names of states, inputs and outputs, as columns and kinds have them |
 //! | `mass_matrix` | [`MassMatrix`]: mass matrix and bias |
 //! | `linearization` | [`Linearized`]: matrices of the linearised system, columns by parameters |
+//! | `step` | [`LinearizedStep`]: derivatives of steps of RK4 |
 //! | `parameters` | [`Parameter`]: the numbers of hub and devices by name |
 //! | `error` | [`EvaluationError`] |
 //!
@@ -30,6 +31,7 @@ mod linearization;
 mod mass_matrix;
 mod names;
 mod parameters;
+mod step;
 #[cfg(test)]
 mod tests;
 
@@ -42,6 +44,7 @@ pub use linearization::Linearized;
 pub use mass_matrix::MassMatrix;
 pub use names::JointNames;
 pub use parameters::Parameter;
+pub use step::LinearizedStep;
 
 use crate::engine::{Acting, Chain, Craft, Layout, MemberLoads, RunError, craft_of, rigid_state};
 use crate::record::{Column, Columns};
