@@ -179,10 +179,13 @@ fn refined(rows: &[WaterfallRow], number: f64, all: &[Lines]) -> Estimate {
         return Estimate::new(number, 0.0, 4.0);
     }
     let mean = found.iter().flatten().map(|[v, w]| v * w).sum::<f64>() / weights;
-    // Weights are inverse variances but for one factor, which the scatter of all rows gives.
-    let squares: f64 = found.iter().flatten().map(|[v, w]| w * (v - mean).powi(2)).sum();
-    let freedom = float(found.iter().map(Vec::len).sum::<usize>()) - 1.0;
-    Estimate::new(mean, (squares / freedom / weights).sqrt(), freedom)
+    // The variance of the mean by the scatter of each centroid, not by one factor of all weights: segments
+    // that overlap leave more of the noise than of its product with the line, which the weights do not know.
+    let shares = || found.iter().flatten().map(|[v, w]| (w / weights, v - mean));
+    let variance: f64 = shares().map(|(s, error)| s * s * error * error / (1.0 - s)).sum();
+    // Satterthwaite's degrees of freedom of this sum.
+    let freedom = 1.0 / shares().map(|(s, _)| s * s).sum::<f64>();
+    Estimate::new(mean, variance.sqrt(), freedom)
 }
 
 /// Powers of the lines of a group; of a radial one the mean of both axes.
