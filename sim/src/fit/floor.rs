@@ -55,6 +55,8 @@ pub(super) fn floor(
     let middle = speeds.get(speeds.len() / 2).copied().unwrap_or(0.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some tens")]
     let mut sums = vec![[[0.0; 2]; 2]; count as usize];
+    let mut freedoms = vec![0.0; sums.len()];
+    let samples = INDEPENDENT * if group.is_radial() { 2.0 } else { 1.0 };
     let channels = group.channels();
     for (found, rotation) in all.iter().zip(rotations) {
         let half = usize::from(rotation.speed.abs() >= middle);
@@ -74,17 +76,16 @@ pub(super) fn floor(
             let sum = &mut sums[place as usize][half];
             sum[0] += density;
             sum[1] += 1.0;
+            freedoms[place as usize] += samples * found.segments;
         }
     }
-    let samples = INDEPENDENT * if group.is_radial() { 2.0 } else { 1.0 };
     let mut bands = Vec::new();
     let mut from = lowest;
-    for [low, high] in sums {
+    for ([low, high], freedom) in sums.into_iter().zip(freedoms) {
         let to = from * ratio;
         let (total, bins) = (low[0] + high[0], low[1] + high[1]);
         let density = total / bins;
         if bins >= BINS_MIN && density.is_finite() {
-            let freedom = bins * samples;
             let of = |[sum, bins]: [f64; 2]| if bins > 0.0 { sum / bins } else { density };
             bands.push(Band {
                 range: [from, to],

@@ -40,7 +40,7 @@ const SAME: f64 = 0.75;
 pub(super) const NOISE_BINS: usize = 32;
 const CLEAR: f64 = 3.0;
 /// Noise bins that a line needs.
-const NOISE_BINS_MIN: usize = 6;
+pub(super) const NOISE_BINS_MIN: usize = 6;
 /// Mean-square bins of Hann's window count for this share of independent ones: 1 / (1 + 2 (4/9) + 2 / 36).
 pub(super) const INDEPENDENT: f64 = 36.0 / 70.0;
 
@@ -90,6 +90,8 @@ pub(super) struct Lines {
     pub(super) clear: Vec<bool>,
     /// Width of a bin, Hz.
     pub(super) bin: f64,
+    /// Independent segments that the densities are the mean of; 1 of a record.
+    pub(super) segments: f64,
     /// Independent bins of a noise estimate.
     pub(super) noise_bins: Vec<f64>,
 }
@@ -231,7 +233,7 @@ pub(super) fn lines(
             LineSet { channels, noise }
         }));
     }
-    Some(Lines { sets: found, spectra, clear, bin: resolution, noise_bins })
+    Some(Lines { sets: found, spectra, clear, bin: resolution, segments: 1.0, noise_bins })
 }
 
 /// Bins beside a line that show its noise, as many on either side.

@@ -10,7 +10,7 @@
 //!   -> phases                                                         phase
 //!   -> broadband noise without the lines                              floor
 //!   -> parts of a scenario                                            device
-//! spectra without time series                                         waterfall
+//! spectra without time series                                         waterfall, lobe
 //! ```
 //!
 //! The model is that of Masterson, Miller and Grogan (J. Sound Vib. 249(3):575, 2002): each force and moment
@@ -26,6 +26,7 @@ mod estimate;
 pub mod example;
 mod floor;
 mod lines;
+mod lobe;
 pub mod measurement;
 pub mod modes;
 mod noise;

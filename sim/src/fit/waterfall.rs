@@ -1,9 +1,8 @@
 //! A fit to spectra where the time series are gone: densities over frequency at each speed.
 //!
-//! A line has the power `|A|² = 2 df sum (S - S_0)` over the bins of its window's main lobe, with the density
-//! `S_0` of the noise beside it; of a mean over n segments its variance is that of one segment by n. Its
-//! frequency is the centroid of the same bins. There are no phases: forward and backward cannot be told apart
-//! and all radial lines count as forward; moments cannot be referred to another point, so they are about W.
+//! A line has the power of its lobe above the noise beside it, and the frequency of the lobe's centroid
+//! ([`super::lobe`]). There are no phases: forward and backward cannot be told apart and all radial lines count
+//! as forward; moments cannot be referred to another point, so they are about W.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +11,8 @@ use nalgebra::Complex;
 use super::detect::{LINES_MAX, strongest};
 use super::error::FitError;
 use super::estimate::Estimate;
-use super::lines::{Lines, NOISE_BINS, float};
+use super::lines::{Lines, float};
+use super::lobe::{CLEAR, LINE_NOISE, LOBE, beside, centroid_variance, lobe, noise_variance};
 use super::measurement::{CHANNELS, Group, RECORDS_MIN};
 use super::orders::Tracked;
 use super::powers::{self, Power, Sense};
@@ -20,21 +20,6 @@ use super::rotation::Rotation;
 use super::search;
 use super::{Fitted, Options, assembled, check};
 
-/// Bins on either side of a line that have its power: a main lobe of Hann's window and a bin.
-const LOBE: usize = 3;
-/// Bins from a line that show its noise.
-const CLEAR: usize = 5;
-/// What stands for `E|dA|²` of a line whose power is a sum over bins, by the noise's density and the width of a bin: the product
-/// of line and noise has the variance `4 A² σ² Σw⁴ / (Σw²)²`, and Hann's window `35 / 18` bins of it (an amplitude by
-/// least squares has 1.5).
-const LINE_NOISE: f64 = 35.0 / 9.0;
-/// Variance of the noise in the lobe by the square of that: `4 (7 + 12 · 4/9 + 10 / 36) / 15.1` with the correlation of
-/// neighbouring bins, less the one that every power has, and 1.1 of the floor's, which is a median of some forty bins.
-const LOBE_NOISE: f64 = 3.5;
-/// Variance of the centroid of a lobe in bins, times the segments, by the share of the noise in it: of the product of line and noise,
-/// and of noise by itself, `sum of k l |rho_kl|²` over the lobe.
-const BY_LINE: f64 = 0.56;
-const BY_NOISE: f64 = 42.5;
 /// Passes of the detection.
 const PASSES: usize = 10;
 /// Bins that a spectrum has at least.
@@ -98,6 +83,7 @@ pub fn fit_waterfall(rows: &[WaterfallRow], options: &Options) -> Result<Fitted,
         spectra: row.densities.clone(),
         clear: (0..row.densities[0].len()).map(|bin| bin >= LOBE).collect(),
         bin: row.bin,
+        segments: row.segments,
         noise_bins: Vec::new(),
     };
     let mut tracked =
@@ -157,32 +143,6 @@ fn mask(tracked: &mut Tracked, rows: &[WaterfallRow], numbers: &[f64]) {
     tracked.orders = numbers.iter().map(|number| Estimate::exact(*number)).collect();
 }
 
-/// Sum of densities above the noise in a lobe, and their centroid in bins from its middle.
-fn lobe(densities: &[f64], bin: usize, noise: f64) -> [f64; 2] {
-    let (mut sum, mut moment) = (0.0, 0.0);
-    let mut offset = -float(LOBE);
-    for k in bin.saturating_sub(LOBE)..=bin + LOBE {
-        let above = densities.get(k).copied().unwrap_or(noise) - noise;
-        sum += above;
-        moment += offset * above;
-        offset += 1.0;
-    }
-    [sum, moment / sum]
-}
-
-/// The median of the bins on either side of a lobe, as a mean of noise; bins of other lines would raise it.
-fn beside(densities: &[f64], bin: usize, segments: f64, clear: &[bool]) -> f64 {
-    let mut near: Vec<f64> = Vec::with_capacity(2 * NOISE_BINS);
-    let low = bin.saturating_sub(NOISE_BINS)..bin.saturating_sub(CLEAR);
-    let high = bin + CLEAR + 1..(bin + NOISE_BINS).min(densities.len());
-    let own = low.chain(high).filter(|k| clear.get(*k).copied().unwrap_or(true));
-    near.extend(own.filter_map(|k| densities.get(k)));
-    near.sort_by(f64::total_cmp);
-    let median = near.get(near.len() / 2).copied().unwrap_or(0.0);
-    // The median of a mean of n exponential numbers, by Wilson and Hilferty.
-    median / (1.0 - 1.0 / (9.0 * segments)).powi(3)
-}
-
 fn usable(row: &WaterfallRow, bin: usize) -> bool {
     bin >= 2 * LOBE && 20 * bin < 19 * row.densities[0].len()
 }
@@ -201,12 +161,11 @@ fn refined(rows: &[WaterfallRow], number: f64, all: &[Lines]) -> Estimate {
         }
         let mut of_row = Vec::new();
         for densities in &row.densities {
-            let noise = beside(densities, bin, row.segments, &lines.clear);
-            let [sum, offset] = lobe(densities, bin, noise);
-            if sum > 10.0 * noise && offset.abs() < 1.5 {
+            let Some(noise) = beside(densities, bin, row.segments, &lines.clear) else { continue };
+            let [sum, offset] = lobe(densities, bin, noise.density);
+            if sum > 10.0 * noise.density && offset.abs() < 1.5 {
                 let turns = row.speed.abs() / TAU / row.bin;
-                let share = noise / sum + 1e-9;
-                let weight = turns * turns / (share * (BY_LINE + BY_NOISE * share));
+                let weight = turns * turns / centroid_variance(noise.density / sum);
                 of_row.push([(float(bin) + offset) / turns, weight]);
             }
         }
@@ -220,10 +179,13 @@ fn refined(rows: &[WaterfallRow], number: f64, all: &[Lines]) -> Estimate {
         return Estimate::new(number, 0.0, 4.0);
     }
     let mean = found.iter().flatten().map(|[v, w]| v * w).sum::<f64>() / weights;
-    // Weights are inverse variances but for one factor, which the scatter of all rows gives.
-    let squares: f64 = found.iter().flatten().map(|[v, w]| w * (v - mean).powi(2)).sum();
-    let freedom = float(found.iter().map(Vec::len).sum::<usize>()) - 1.0;
-    Estimate::new(mean, (squares / freedom / weights).sqrt(), freedom)
+    // The variance of the mean by the scatter of each centroid, not by one factor of all weights: segments
+    // that overlap leave more of the noise than of its product with the line, which the weights do not know.
+    let shares = || found.iter().flatten().map(|[v, w]| (w / weights, v - mean));
+    let variance: f64 = shares().map(|(s, error)| s * s * error * error / (1.0 - s)).sum();
+    // Satterthwaite's degrees of freedom of this sum.
+    let freedom = 1.0 / shares().map(|(s, _)| s * s).sum::<f64>();
+    Estimate::new(mean, variance.sqrt(), freedom)
 }
 
 /// Powers of the lines of a group; of a radial one the mean of both axes.
@@ -240,10 +202,11 @@ fn points(rows: &[WaterfallRow], numbers: &[f64], group: Group, all: &[Lines]) -
             };
             let of = |channel: usize| {
                 let densities = &row.densities[channel];
-                let noise = beside(densities, bin, row.segments, &lines.clear);
-                [2.0 * row.bin * lobe(densities, bin, noise)[0], LINE_NOISE * row.bin * noise]
+                let noise = beside(densities, bin, row.segments, &lines.clear)?;
+                let power = 2.0 * row.bin * lobe(densities, bin, noise.density)[0];
+                Some(([power, LINE_NOISE * row.bin * noise.density], noise.bins))
             };
-            let ([p, n], [q, m]) = (of(a), of(b));
+            let (Some(([p, n], bins)), Some(([q, m], _))) = (of(a), of(b)) else { continue };
             let axes = if group.is_radial() { 2.0 } else { 1.0 };
             points.push(Power {
                 record,
@@ -254,7 +217,7 @@ fn points(rows: &[WaterfallRow], numbers: &[f64], group: Group, all: &[Lines]) -
                 power: 0.5 * (p + q),
                 // What no line is above has a density all the same.
                 noise: (0.5 * (n + m)).max(f64::MIN_POSITIVE),
-                bins: row.segments * axes / LOBE_NOISE,
+                bins: row.segments * axes / noise_variance(bins),
                 segments: row.segments * axes,
                 amplitude: Complex::new(0.0, 0.0),
             });

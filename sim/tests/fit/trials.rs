@@ -5,7 +5,7 @@ use precess::fit::{Estimate, Fitted, Group, Sense, fit, fit_waterfall};
 
 use super::scene::{ANGLE, PHASE, SEED, U_D, U_S, Variant, measured, stated, wheel};
 use super::synthetic::{Random, Wheel};
-use super::waterfalls::{options, rows, wheel_of_spectra};
+use super::waterfalls::{Averaging, options, rows, wheel_of_spectra};
 
 /// A parameter: its name, what was put in, what was found.
 pub(crate) type Compared = (String, f64, Estimate);
@@ -64,11 +64,12 @@ pub(crate) fn trials(count: usize, variant: Variant) -> Vec<Vec<Compared>> {
 }
 
 /// Trials of waterfalls.
-pub(crate) fn spectra_trials(count: usize) -> Vec<Vec<Compared>> {
-    let wheel = wheel_of_spectra();
+pub(crate) fn spectra_trials(count: usize, averaging: Averaging) -> Vec<Vec<Compared>> {
+    let wheel = wheel_of_spectra(averaging);
     let options = options(&wheel, true);
     each_seed(count, &|random| {
-        compared(&wheel, &fit_waterfall(&rows(&wheel, random), &options).expect("it fits"))
+        let rows = rows(&wheel, averaging, random);
+        compared(&wheel, &fit_waterfall(&rows, &options).expect("it fits"))
     })
 }
 

@@ -1,42 +1,60 @@
-//! Waterfalls of the wheel of `scene.rs`: spectra that are made here by sums of sines and cosines.
+//! Waterfalls of the wheel of `scene.rs`: spectra of its time series, averaged over segments (Welch's method).
 
 use std::f64::consts::TAU;
 
 use precess::fit::{Group, Mode, ModeGuess, Options, WaterfallRow};
+use realfft::RealFftPlanner;
 
-use super::scene::{STEPS, rpm, wheel};
+use super::scene::{RATE, STEPS, rpm, wheel};
 use super::synthetic::{Random, Step, Wheel};
 
-const RATE: f64 = 1000.0;
-/// Samples of a segment; segments, which do not overlap.
+/// Samples of a segment, and segments without overlap.
 const SEGMENT: usize = 256;
 const SEGMENTS: usize = 12;
 
+/// How spectra are averaged, and how much noise there is.
+#[derive(Clone, Copy)]
+pub(crate) struct Averaging {
+    /// Samples from one segment to the next.
+    pub(crate) hop: usize,
+    /// Independent segments that each counts as.
+    pub(crate) counts_as: f64,
+    /// Noise by that of `scene.rs`.
+    pub(crate) noise: f64,
+}
+
+/// Twelve segments that do not overlap. The weakest line is 20 dB above the noise in a bin of the records of
+/// `scene.rs`, so 14 dB in one of a segment, which is four times as wide.
+pub(crate) const APART: Averaging = Averaging { hop: SEGMENT, counts_as: 1.0, noise: 1.0 };
+/// Segments that overlap by half.
+pub(crate) const HALF: Averaging = Averaging { hop: SEGMENT / 2, counts_as: 0.92, ..APART };
+/// 20 dB in a bin of a segment.
+pub(crate) const QUIET: Averaging = Averaging { noise: 0.5, ..APART };
+
 /// Mean one-sided density with Hann's window.
-fn density(samples: &[f64]) -> Vec<f64> {
+fn density(samples: &[f64], hop: usize) -> Vec<f64> {
     let n = SEGMENT as f64;
-    let window = |k: usize| 0.5 - 0.5 * (TAU * k as f64 / n).cos();
-    let squares: f64 = (0..SEGMENT).map(|k| window(k) * window(k)).sum();
-    let table: Vec<(f64, f64)> = (0..SEGMENT).map(|k| (TAU * k as f64 / n).sin_cos()).collect();
-    let mut mean = vec![0.0; SEGMENT / 2 + 1];
-    for segment in samples.chunks_exact(SEGMENT) {
-        let tapered: Vec<f64> = segment.iter().enumerate().map(|(k, x)| x * window(k)).collect();
-        for (bin, value) in mean.iter_mut().enumerate() {
-            let (mut re, mut im) = (0.0, 0.0);
-            for (k, x) in tapered.iter().enumerate() {
-                let (sine, cosine) = table[bin * k % SEGMENT];
-                re += x * cosine;
-                im += x * sine;
-            }
-            *value += 2.0 * (re * re + im * im) / (RATE * squares * SEGMENTS as f64);
+    let window: Vec<f64> = (0..SEGMENT).map(|k| 0.5 - 0.5 * (TAU * k as f64 / n).cos()).collect();
+    let squares: f64 = window.iter().map(|w| w * w).sum();
+    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(SEGMENT);
+    let mut spectrum = transform.make_output_vec();
+    let mut mean = vec![0.0; spectrum.len()];
+    let segments = samples.windows(SEGMENT).step_by(hop);
+    let scale = 2.0 / (RATE * squares * segments.len() as f64);
+    for segment in segments {
+        let mut tapered: Vec<f64> = segment.iter().zip(&window).map(|(x, w)| x * w).collect();
+        transform.process(&mut tapered, &mut spectrum).expect("lengths of the plan");
+        for (value, x) in mean.iter_mut().zip(&spectrum) {
+            *value += scale * x.norm_sqr();
         }
     }
     mean
 }
 
 /// The wheel with forward lines only, since a waterfall cannot tell; about W, in the wheel's axes.
-pub(crate) fn wheel_of_spectra() -> Wheel {
+pub(crate) fn wheel_of_spectra(averaging: Averaging) -> Wheel {
     let mut wheel = wheel();
+    wheel.noise = wheel.noise.map(|deviation| averaging.noise * deviation);
     wheel.sources.retain(|source| source.f_backward == 0.0);
     wheel.position *= 0.0;
     wheel.axes = nalgebra::Matrix3::identity();
@@ -44,16 +62,17 @@ pub(crate) fn wheel_of_spectra() -> Wheel {
 }
 
 /// Spectra at forty speeds from 1800 to 6000 rpm.
-pub(crate) fn rows(wheel: &Wheel, random: &mut Random) -> Vec<WaterfallRow> {
+pub(crate) fn rows(wheel: &Wheel, averaging: Averaging, random: &mut Random) -> Vec<WaterfallRow> {
     let row = |k: u32| {
         let speed = rpm(1800.0 + 4200.0 * f64::from(k) / f64::from(STEPS - 1));
         let step = Step { speed, drift: 0.0, rate: RATE, length: SEGMENT * SEGMENTS };
         let written = wheel.measured(&step, random);
+        let segments = (step.length - SEGMENT) / averaging.hop + 1;
         WaterfallRow {
             speed,
             bin: RATE / SEGMENT as f64,
-            segments: SEGMENTS as f64,
-            densities: written.channels.each_ref().map(|samples| density(samples)),
+            segments: averaging.counts_as * segments as f64,
+            densities: written.channels.each_ref().map(|samples| density(samples, averaging.hop)),
         }
     };
     (0..STEPS).map(row).collect()
