@@ -1,8 +1,9 @@
 //! Derivatives of a rigid hub with the set of a scenario.
 
+use nalgebra::DMatrix;
 use precess_dynamics::{
     Accelerations, Column, DerivativeError, Hub, Inputs, Linearization, Outputs, ParameterVariable,
-    Spacecraft, State,
+    Spacecraft, State, StepLinearization,
 };
 
 use crate::Set;
@@ -35,4 +36,33 @@ pub fn parameter_derivatives<'a>(
     column: &mut dyn FnMut(ParameterVariable<'a>, &Column<Set>),
 ) -> Result<Accelerations<Set>, DerivativeError> {
     Spacecraft::parameter_derivatives(hub, devices, at, outputs, &mut variables, column)
+}
+
+/// A step of RK4 linearised.
+///
+/// # Errors
+///
+/// As [`Spacecraft::linearize_step`].
+pub fn linearize_step(
+    craft: &Spacecraft<Set>,
+    state: &State<Set>,
+    inputs: &Inputs<Set>,
+    length: f64,
+) -> Result<StepLinearization<Set>, DerivativeError> {
+    craft.linearize_step(state, inputs, length)
+}
+
+/// Derivatives of the state after a step by parameters.
+///
+/// # Errors
+///
+/// As [`Spacecraft::step_parameter_derivatives`].
+pub fn step_parameter_derivatives(
+    hub: &Hub,
+    devices: &Set,
+    at: (&State<Set>, &Inputs<Set>),
+    length: f64,
+    variables: &[ParameterVariable<'_>],
+) -> Result<DMatrix<f64>, DerivativeError> {
+    Spacecraft::step_parameter_derivatives(hub, devices, at, length, variables)
 }

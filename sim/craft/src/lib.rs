@@ -20,7 +20,9 @@ use precess_dynamics::{
 };
 
 pub use craft::{Craft, CraftAccelerations, CraftInputs, CraftState, rigid_state};
-pub use derivatives::{linearize, parameter_derivatives};
+pub use derivatives::{
+    linearize, linearize_step, parameter_derivatives, step_parameter_derivatives,
+};
 
 /// The set that is run: devices on the hub, each of any kind, and platforms with devices on them.
 pub type Set = (Vec<BuiltIn>, Vec<Isolated<Vec<BuiltIn>>>);

@@ -5,7 +5,7 @@
 //! ```
 
 use nalgebra::DMatrix;
-use precess_dynamics::{Spacecraft, Variable};
+use precess_dynamics::Variable;
 
 use super::parameters::Parameter;
 use super::{CraftInputs, CraftState, EvaluationError, Evaluator};
@@ -37,8 +37,8 @@ impl Evaluator {
     /// # Errors
     ///
     /// [`EvaluationError::Flexible`] for a structure that bends,
-    /// [`EvaluationError::UnknownParameter`]; as [`Spacecraft::linearize_step`] and
-    /// [`Spacecraft::step_parameter_derivatives`].
+    /// [`EvaluationError::UnknownParameter`]; as [`precess_dynamics::Spacecraft::linearize_step`]
+    /// and [`precess_dynamics::Spacecraft::step_parameter_derivatives`].
     pub fn linearize_steps<N: AsRef<str>>(
         &self,
         state: &CraftState,
@@ -81,10 +81,11 @@ impl Evaluator {
         };
         for _ in 0..steps {
             let now = &reached.state.rigid;
-            let step = self.rigid().linearize_step(now, inputs, length)?;
+            let step = precess_craft::linearize_step(self.rigid(), now, inputs, length)?;
             if let Some(hub) = &hub {
                 let (devices, at) = (&self.scenario.devices, (now, inputs));
-                let found = Spacecraft::step_parameter_derivatives(hub, devices, at, length, &by)?;
+                let found =
+                    precess_craft::step_parameter_derivatives(hub, devices, at, length, &by)?;
                 reached.p = &step.a * &reached.p + found;
             }
             reached.a = &step.a * &reached.a;
