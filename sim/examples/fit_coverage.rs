@@ -33,6 +33,7 @@ mod trials;
 mod waterfalls;
 
 use scene::Variant;
+use waterfalls::Averaging;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -44,7 +45,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         Some("waterfall") => trials::spectra_trials(count, waterfalls::APART),
         Some("overlap") => trials::spectra_trials(count, waterfalls::HALF),
-        Some("quiet") => trials::spectra_trials(count, waterfalls::QUIET),
+        Some("quiet") => {
+            let quiet = Averaging { noise: 0.5, ..waterfalls::APART };
+            trials::spectra_trials(count, quiet)
+        }
         Some(other) => return Err(format!("no variant `{other}`; see the head of the file").into()),
         None => trials::trials(count, Variant::default()),
     };

@@ -54,8 +54,7 @@ pub(super) fn floor(
     speeds.sort_by(f64::total_cmp);
     let middle = speeds.get(speeds.len() / 2).copied().unwrap_or(0.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some tens")]
-    let mut sums = vec![[[0.0; 2]; 2]; count as usize];
-    let mut freedoms = vec![0.0; sums.len()];
+    let mut sums = vec![([[0.0; 2]; 2], 0.0); count as usize];
     let samples = INDEPENDENT * if group.is_radial() { 2.0 } else { 1.0 };
     let channels = group.channels();
     for (found, rotation) in all.iter().zip(rotations) {
@@ -73,15 +72,15 @@ pub(super) fn floor(
             let gain = gain.max(1.0);
             let density = 0.5 * channels.iter().map(|c| found.spectra[*c][bin]).sum::<f64>() / gain;
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
-            let sum = &mut sums[place as usize][half];
-            sum[0] += density;
-            sum[1] += 1.0;
-            freedoms[place as usize] += samples * found.segments;
+            let (halves, freedom) = &mut sums[place as usize];
+            halves[half][0] += density;
+            halves[half][1] += 1.0;
+            *freedom += samples * found.segments;
         }
     }
     let mut bands = Vec::new();
     let mut from = lowest;
-    for ([low, high], freedom) in sums.into_iter().zip(freedoms) {
+    for ([low, high], freedom) in sums {
         let to = from * ratio;
         let (total, bins) = (low[0] + high[0], low[1] + high[1]);
         let density = total / bins;

@@ -20,7 +20,7 @@
 //! A least-squares amplitude would have 3 instead of 35/9. The line is the same in all segments: no part of
 //! the variance is `a⁴`, as it would be if the line itself were noise. Segments that overlap by half are
 //! correlated by 3/70 in the product of line and noise and by 0.04 in the noise, so n of them count as 0.92 n.
-//! S_0' is a median, which the skirts of other lines do not raise; lobe and bins beside are 3 bins apart, so
+//! `S_0'` is a median, which the skirts of other lines do not raise; lobe and bins beside are 3 bins apart, so
 //! they are independent.
 
 use super::lines::{NOISE_BINS, NOISE_BINS_MIN, float};

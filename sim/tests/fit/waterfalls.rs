@@ -28,8 +28,6 @@ pub(crate) struct Averaging {
 pub(crate) const APART: Averaging = Averaging { hop: SEGMENT, counts_as: 1.0, noise: 1.0 };
 /// Segments that overlap by half.
 pub(crate) const HALF: Averaging = Averaging { hop: SEGMENT / 2, counts_as: 0.92, ..APART };
-/// 20 dB in a bin of a segment.
-pub(crate) const QUIET: Averaging = Averaging { noise: 0.5, ..APART };
 
 /// Mean one-sided density with Hann's window.
 fn density(samples: &[f64], hop: usize) -> Vec<f64> {
