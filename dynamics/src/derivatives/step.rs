@@ -53,6 +53,9 @@ struct Slopes {
     by_held: DMatrix<f64>,
 }
 
+/// The state after a step, and a change of it for each column.
+type Stepped<D> = (State<D, Quaternion>, DMatrix<f64>);
+
 impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
     /// The step of [`Self::step`] linearised about a state and inputs.
     ///
@@ -104,9 +107,9 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
         let slopes = |stage: &State<D, Quaternion>| {
             let by_states = craft.linearize(stage, inputs, &none)?.a;
             let mut by_held = DMatrix::zeros(states.len(), variables.len());
-            let mut columns = by_held.column_iter_mut();
             let by = variables.iter().copied();
             let at = (stage, inputs);
+            let mut columns = by_held.column_iter_mut();
             Self::parameter_derivatives(hub, devices, at, &none, by, |_, column| {
                 let Some(mut slopes) = columns.next() else { return };
                 for (to, of) in slopes.iter_mut().zip(&states) {
@@ -114,7 +117,6 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
                     *to = column.element(*of, Variable::Mu, &stage.omega).unwrap_or_default();
                 }
             })?;
-            drop(columns);
             Ok(Slopes { by_states, by_held })
         };
         craft.chained(state, inputs, dt, &states, start, slopes).map(|(_, found)| found)
@@ -130,7 +132,7 @@ impl<D: WithNumbers<Scalar = f64>> Spacecraft<D> {
         states: &[Variable],
         start: DMatrix<f64>,
         slopes: impl Fn(&State<D, Quaternion>) -> Result<Slopes, DerivativeError<f64>>,
-    ) -> Result<(State<D, Quaternion>, DMatrix<f64>), DerivativeError<f64>> {
+    ) -> Result<Stepped<D>, DerivativeError<f64>> {
         let mut stages = Vec::with_capacity(4);
         let next = self.stepped(state, inputs, dt, |weight, stage, found, stiffness| {
             stages.push((weight, stage.clone()));

@@ -22,8 +22,8 @@ pub type Set = (Vec<BuiltIn<Number>>, Vec<Isolated<Vec<BuiltIn<Number>>>>);
 pub fn spacecraft(
     hub: &Hub<Number>,
     devices: &Set,
-) -> Result<Spacecraft<Set>, ParameterError<Number>> {
-    Spacecraft::new(hub, devices)
+) -> Result<Spacecraft<Set>, Box<ParameterError<Number>>> {
+    Spacecraft::new(hub, devices).map_err(Box::new)
 }
 
 /// Second derivatives of the state.
@@ -35,8 +35,8 @@ pub fn accelerations(
     craft: &Spacecraft<Set>,
     state: &State<Set>,
     inputs: &Inputs<Set>,
-) -> Result<Accelerations<Set>, SolveError<Number>> {
-    craft.accelerations(state, inputs)
+) -> Result<Accelerations<Set>, Box<SolveError<Number>>> {
+    craft.accelerations(state, inputs).map_err(Box::new)
 }
 
 /// A step of RK4.
@@ -49,6 +49,6 @@ pub fn step(
     state: &State<Set>,
     inputs: &Inputs<Set>,
     length: Number,
-) -> Result<State<Set>, SolveError<Number>> {
-    craft.step(state, inputs, length)
+) -> Result<State<Set>, Box<SolveError<Number>>> {
+    craft.step(state, inputs, length).map_err(Box::new)
 }

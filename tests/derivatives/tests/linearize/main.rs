@@ -10,3 +10,4 @@ mod parameters;
 mod perturb;
 mod rejected;
 mod route;
+mod step;
