@@ -142,15 +142,11 @@ impl NativeEvaluator {
     ) -> PyResult<Vector<'py>> {
         let flat = numbers(&y);
         let state = self.state(&y)?;
-        let of_scenario;
-        let inputs = match inputs {
-            Some(inputs) => &inputs.get()?,
-            None => {
-                of_scenario = self.evaluator.inputs(time, &state);
-                &of_scenario
-            }
+        let found = if let Some(inputs) = inputs {
+            self.evaluator.accelerations(&state, &*inputs.get()?)
+        } else {
+            self.evaluator.accelerations(&state, &self.evaluator.inputs(time, &state))
         };
-        let found = self.evaluator.accelerations(&state, inputs);
         let found = found.map_err(|error| errors::solve(&error))?;
         Ok(self.evaluator.derivative(&flat, &state, &found).into_pyarray(py))
     }

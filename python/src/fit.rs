@@ -16,6 +16,8 @@ use crate::errors;
 
 /// Value, standard deviation, and the ends of the 95 % interval.
 type EstimateFacts = (f64, f64, f64, f64);
+/// Ends of a band, Hz, and the floor within it.
+type Floor = (f64, f64, EstimateFacts);
 /// Group, sense, coefficient, phase, whether it is above the noise.
 type CoefficientFacts = (String, &'static str, EstimateFacts, Option<EstimateFacts>, bool);
 /// Group; frequency, rad/s, damping ratio, ratio of inertias, share.
@@ -80,7 +82,7 @@ impl NativeFit {
 
     /// Broadband noise of each group: bands, Hz, and densities.
     #[getter]
-    fn floors(&self) -> Vec<(String, Vec<(f64, f64, EstimateFacts)>)> {
+    fn floors(&self) -> Vec<(String, Vec<Floor>)> {
         let bands = |of: &Vec<precess::fit::Band>| {
             of.iter().map(|of| (of.range[0], of.range[1], estimate(&of.density))).collect()
         };

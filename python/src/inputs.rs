@@ -109,7 +109,6 @@ impl NativeInputs {
     }
 
     #[setter]
-    #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
     fn set_hub(&self, hub: (String, [f64; 3], [f64; 3])) -> PyResult<()> {
         let (mode, acceleration, omega_dot) = hub;
         self.get()?.rigid.hub = match mode.as_str() {

@@ -111,7 +111,6 @@ pub(crate) fn jitter_budget(
     })
 }
 
-#[expect(clippy::needless_pass_by_value, reason = "as map_err passes them")]
 fn fault(error: impl std::fmt::Display) -> PyErr {
     errors::class::RunError::new_err((error.to_string(), None::<f64>))
 }

@@ -3,6 +3,8 @@
 //! It contains no physics: it converts arrays and names, and calls the crate `precess`. Public classes are
 //! in Python (`precess/`); this module is theirs alone.
 
+#![expect(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
+
 mod batch;
 mod campaign;
 mod errors;

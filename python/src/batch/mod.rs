@@ -44,6 +44,9 @@ type LinearizedFacts<'py> = (
     Failures,
 );
 
+/// Number of a part, its derivatives by states and by inputs, its states.
+type LinearizedPart<'a> = (usize, ((&'a mut [f64], &'a mut [f64]), &'a [f64]));
+
 /// Many states, of one spacecraft or of one each.
 #[pyclass(frozen, module = "precess._native")]
 pub(crate) struct NativeBatch {
@@ -217,8 +220,7 @@ impl NativeBatch {
         let parts = c.chunks_mut((PART * rows * states).max(1));
         let parts = parts.zip(d.chunks_mut((PART * rows * by_inputs).max(1)));
         let jobs = parts.zip(y.chunks(PART * size)).enumerate();
-        let work = |(part, ((c, d), y)): (usize, ((&mut [f64], &mut [f64]), &[f64])),
-                    go: &(dyn Fn() -> bool + Sync)| {
+        let work = |(part, ((c, d), y)): LinearizedPart<'_>, go: &(dyn Fn() -> bool + Sync)| {
             let inputs = acting.of_part(part, y.len() / size);
             let mut failures = Vec::new();
             let places = c.chunks_mut((rows * states).max(1));
