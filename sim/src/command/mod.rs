@@ -7,15 +7,12 @@ mod bake;
 mod campaign;
 mod check;
 mod compare;
-mod difference;
 mod error;
 mod evaluate;
 mod export;
 mod fit;
 mod jitter;
 mod kinds;
-mod montecarlo;
-mod mounted;
 mod new;
 mod plot;
 mod result;
@@ -23,9 +20,7 @@ mod run;
 mod schema;
 mod sources;
 mod spectrum;
-mod spectrum_tables;
 mod structure;
-mod sweep;
 mod table;
 
 use std::io::Write as _;
@@ -35,6 +30,8 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use error::CommandError;
+
+use campaign::{montecarlo, sweep};
 
 /// Runs spacecraft with imbalanced wheels, gyros, panels and slosh masses, from a scenario file to
 /// a report.

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::chart::Drawn;
 use super::error::ReportError;
-use super::replay::ReplayData;
+use super::run::chart::Drawn;
+use super::run::replay::ReplayData;
 use crate::engine::Event;
 use crate::scenario::Scenario;
 

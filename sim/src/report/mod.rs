@@ -11,48 +11,29 @@
 //! give equal bytes; no date and no path of a file is written but those in the scenario's own text.
 //! The contract with the page's script is sim/report/DATA.md.
 
-mod axes;
 mod blocks;
-pub mod cells;
-mod chart;
 mod data;
+mod draw;
 mod error;
-mod extremes;
-mod figure;
 pub(crate) mod fit;
-pub(crate) mod fitted_lines;
-mod grouping;
 pub(crate) mod jitter;
-mod jitter_figures;
-mod jitter_tables;
-mod load_tables;
-mod log_panel;
-mod mass;
-pub(crate) mod mode_shapes;
 pub(crate) mod montecarlo;
 mod number;
 mod page;
-pub(crate) mod plane;
-mod replay;
-mod requirements;
-pub(crate) mod response;
-mod run_tables;
-mod slow_motion;
-pub(crate) mod spectrum;
-mod stage;
-mod summary;
+mod run;
 pub(crate) mod sweep;
 #[cfg(test)]
 mod tests;
-mod ticks;
 mod unit;
-pub(crate) mod waterfall;
 
+pub use draw::cells;
+pub(crate) use draw::{mode_shapes, response, spectrum};
 pub use error::{DrawError, ReportError};
 
-use chart::{Chart, Drawn, drawn};
-use extremes::{Extremes, Magnitude};
-use replay::Collector;
+use run::chart::{Chart, Drawn, drawn};
+use run::extremes::{Extremes, Magnitude};
+use run::replay::Collector;
+use run::{grouping, summary};
 
 use crate::engine::Outcome;
 use crate::record::columns::Quantity;

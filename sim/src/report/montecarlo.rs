@@ -1,7 +1,7 @@
 //! Picture of a Monte Carlo campaign: the empirical distribution of a number.
 
+use super::draw::plane::Plane;
 use super::error::DrawError;
-use super::plane::Plane;
 use super::sweep::scaled;
 use crate::spectra::float;
 

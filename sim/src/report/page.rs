@@ -5,11 +5,12 @@ use serde::{Deserialize, Serialize};
 use tera::{Context, Tera};
 
 use super::blocks::{Block, Item, ScenarioLine, Section, Summary, Verdict};
-use super::chart::{Drawn, Part};
 use super::data::{data, figure_id};
 use super::error::ReportError;
-use super::replay::{Collector, ReplayData};
-use super::{Report, load_tables, mass, number, requirements, run_tables, summary};
+use super::run::chart::{Drawn, Part};
+use super::run::replay::{Collector, ReplayData};
+use super::run::{load_tables, mass, requirements, summary, tables};
+use super::{Report, number};
 use crate::engine::Outcome;
 
 const SHELL: &str = include_str!("../../report/shell.html");
@@ -121,7 +122,7 @@ fn sections(
     let mut histories = events(outcome);
     histories.extend(figures(Part::Histories)?);
     histories.extend(zero_note(report));
-    let mut energy = run_tables::energy(report, outcome);
+    let mut energy = tables::energy(report, outcome);
     energy.extend(figures(Part::Energy)?);
     let mut loads = load_tables::loads(report);
     loads.extend(figures(Part::Loads)?);

@@ -1,9 +1,9 @@
 //! Pictures of a sweep: a number over a key, a map over two keys, lines over a key and frequency.
 
-use super::cells::{CellMap, MapAxis};
+use super::draw::cells::{CellMap, MapAxis};
+use super::draw::plane::Plane;
 use super::error::DrawError;
 use super::number::{power_of_ten, short, with_unit};
-use super::plane::Plane;
 use crate::campaign::{Axis, Spacing};
 use crate::jitter::campbell::{Branch, Crossing, Oscillation};
 

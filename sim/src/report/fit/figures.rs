@@ -3,11 +3,11 @@
 
 use std::f64::consts::TAU;
 
+use super::super::draw::fitted_lines::{FittedLine, FittedLines};
+use super::super::draw::plane::Plane;
+use super::super::draw::spectrum::{SpectrumCurve, SpectrumFigure};
+use super::super::draw::waterfall::Waterfall;
 use super::super::error::DrawError;
-use super::super::fitted_lines::{FittedLine, FittedLines};
-use super::super::plane::Plane;
-use super::super::spectrum::{SpectrumCurve, SpectrumFigure};
-use super::super::waterfall::Waterfall;
 use crate::fit::{Coefficient, Fitted, Group, GroupFit, Harmonic, Power, Sense};
 use crate::spectra::float;
 

@@ -1,0 +1,246 @@
+//! What campaigns have in common: options, the scenario, the journal, threads, a progress bar.
+
+pub(super) mod montecarlo;
+pub(super) mod sweep;
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use clap::Args;
+
+use super::Set;
+use super::error::CommandError;
+use super::plot::time;
+use super::run::{all_cores, interrupted, may_write, progress_bar, watch_interrupts, write_bytes};
+use crate::campaign::{
+    CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
+};
+use crate::file::{Override, Template};
+use crate::record::{Columns, Header};
+use crate::scenario::Scenario;
+
+/// The exit code of a campaign that is not complete, has samples that failed, or violates a requirement.
+pub(super) const UNMET: u8 = 2;
+/// Samples that are read in search of one that can be.
+const TRIED: usize = 16;
+
+/// The options of every campaign.
+#[derive(Debug, Args)]
+pub(super) struct CampaignOptions {
+    /// The scenario file.
+    #[arg(value_name = "SCENARIO")]
+    file: PathBuf,
+    #[command(flatten)]
+    overrides: Set,
+    /// A column, or a vector such as omega, of which RMS, peak and lines are computed; may be repeated. Omega without it.
+    #[arg(long, value_name = "NAME")]
+    column: Vec<String>,
+    /// The strongest lines of each column, to 64; 0 computes no spectra.
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u8).range(0..=64))]
+    lines: u8,
+    /// RMS, peak and lines are of the time from this on, with its unit.
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    from: Option<f64>,
+    /// Folder for the results; made if it is missing.
+    #[arg(long, value_name = "FOLDER", default_value = "precess-out")]
+    out: PathBuf,
+    /// Replace results that are there, and discard the journal of another campaign.
+    #[arg(long)]
+    force: bool,
+    /// Threads; the result does not depend on them. All cores without this option.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+/// A scenario and what is recorded of it.
+pub(super) struct Prepared {
+    pub(super) template: Template,
+    pub(super) overrides: Vec<Override>,
+    /// The scenario without a sample's overrides.
+    pub(super) scenario: Scenario,
+    pub(super) selection: Selection,
+    pub(super) fields: Vec<Field>,
+}
+
+impl CampaignOptions {
+    /// Reads the scenario.
+    pub(super) fn prepare(&self) -> Result<Prepared, CommandError> {
+        let template = Template::from_file(&self.file).map_err(CommandError::Scenario)?;
+        let overrides = self.overrides.overrides();
+        let (mut scenario, reports) =
+            template.scenario(&overrides).map_err(CommandError::Scenario)?;
+        for warning in &reports.all {
+            eprintln!("warning: {}", warning.message);
+        }
+        let columns =
+            if self.column.is_empty() { vec!["omega".to_owned()] } else { self.column.clone() };
+        scenario.output.columns.clone_from(&columns);
+        let selection =
+            Selection { columns, lines: usize::from(self.lines), from: self.from.unwrap_or(0.0) };
+        let header = Header::new(&scenario, &Columns::of(&scenario)?);
+        for name in &selection.columns {
+            header.quantity(name)?;
+        }
+        if selection.from >= scenario.settings.duration {
+            let message = format!(
+                "--from {} s is not within the run of {} s; choose an earlier time",
+                selection.from, scenario.settings.duration
+            );
+            return Err(CommandError::Other(message));
+        }
+        let fields = selection.fields(&header, &scenario.requirements);
+        Ok(Prepared { template, overrides, scenario, selection, fields })
+    }
+
+    /// Rejects results that are there. Beside a journal it is the table that counts: it is written last, so without it the other
+    /// files are of a campaign that was ended while it wrote them.
+    pub(super) fn may_write(&self, stem: &str, names: &[String]) -> Result<(), CommandError> {
+        let table = format!("{stem}.csv");
+        if self.out.join(format!("{stem}.journal")).is_file() {
+            return may_write(&self.out, &[table], self.force);
+        }
+        may_write(&self.out, names, self.force)
+    }
+
+    pub(super) fn out(&self) -> &Path {
+        &self.out
+    }
+
+    /// Runs a plan, with its journal `STEM.journal`; none where Ctrl-C ended it.
+    pub(super) fn run(
+        &self,
+        prepared: &Prepared,
+        plan: &Plan,
+        stem: &str,
+    ) -> Result<Option<Finished>, CommandError> {
+        let other = |error: CampaignError| CommandError::Other(error.to_string());
+        readable(prepared, plan)?;
+        std::fs::create_dir_all(&self.out)
+            .map_err(|source| CommandError::Io { path: self.out.clone(), source })?;
+        let path = self.out.join(format!("{stem}.journal"));
+        let digest = plan.digest(&prepared.scenario, &prepared.selection);
+        let opened =
+            Journal::open(&path, &digest, prepared.fields.len(), self.force).map_err(other)?;
+        watch_interrupts();
+        let threads = self.threads.map_or_else(all_cores, usize::from);
+        let bar = Mutex::new(progress_bar(plan.samples.len(), "samples"));
+        let show = |done: usize| {
+            if let Ok(bar) = bar.lock() {
+                bar.set_position(u64::try_from(done).unwrap_or(u64::MAX));
+            }
+        };
+        let execution = Execution {
+            template: &prepared.template,
+            overrides: &prepared.overrides,
+            plan,
+            selection: &prepared.selection,
+            fields: prepared.fields.len(),
+            threads,
+        };
+        let finished = execute(&execution, opened, &show, &interrupted).map_err(other)?;
+        if let Ok(bar) = bar.lock() {
+            bar.finish_and_clear();
+        }
+        if !finished.is_complete() {
+            let done = finished.rows.iter().flatten().count();
+            eprintln!(
+                "{done} of {} samples are complete, in {}; the same command continues with the others",
+                plan.samples.len(),
+                path.display()
+            );
+            return Ok(None);
+        }
+        Ok(Some(finished))
+    }
+
+    /// Writes some texts by their names, then the tables `STEM.npz` and `STEM.csv`.
+    pub(super) fn write(
+        &self,
+        prepared: &Prepared,
+        plan: &Plan,
+        finished: &Finished,
+        stem: &str,
+        texts: &[(String, String)],
+    ) -> Result<(), CommandError> {
+        let head = format!(
+            "precess {} {stem}\nscenario: {}, {}\nresults are in SI units, keys in their own",
+            env!("CARGO_PKG_VERSION"),
+            prepared.scenario.name,
+            prepared.scenario.title,
+        );
+        for (name, text) in texts {
+            write_bytes(&self.out.join(name), text.as_bytes())?;
+        }
+        let path = self.out.join(format!("{stem}.npz"));
+        let archive = table::npz(&head, plan, &prepared.fields, finished)
+            .map_err(|source| CommandError::Io { path: path.clone(), source })?;
+        write_bytes(&path, &archive)?;
+        let text = table::csv(&head, plan, &prepared.fields, finished);
+        write_bytes(&self.out.join(format!("{stem}.csv")), &text)
+    }
+}
+
+/// Reads the first samples until one can be: a key that there is not is an error of all of them.
+fn readable(prepared: &Prepared, plan: &Plan) -> Result<(), CommandError> {
+    let mut first = None;
+    let last = plan.samples.last();
+    for sample in plan.samples.iter().take(TRIED).chain(last) {
+        let overrides = [&prepared.overrides[..], &sample.overrides].concat();
+        match prepared.template.scenario(&overrides) {
+            Ok(_) => return Ok(()),
+            Err(errors) => {
+                first.get_or_insert(errors);
+            }
+        }
+    }
+    first.map_or(Ok(()), |errors| Err(CommandError::Scenario(errors)))
+}
+
+/// The numbers of a field over the samples; none of a sample that failed or does not have it.
+pub(super) fn values_of(finished: &Finished, field: usize) -> Vec<Option<f64>> {
+    let value = |row: &crate::campaign::Row| {
+        let numbers = row.result.as_ref().ok()?;
+        numbers.get(field).copied().filter(|value| !value.is_nan())
+    };
+    finished.rows.iter().map(|row| row.as_ref().and_then(value)).collect()
+}
+
+/// A sentence about the samples that failed; empty if none did.
+pub(super) fn failures(plan: &Plan, finished: &Finished) -> String {
+    let mut failed = finished
+        .rows
+        .iter()
+        .flatten()
+        .filter_map(|row| row.result.as_ref().err().map(|error| (row.sample, error)));
+    let Some((sample, error)) = failed.next() else { return String::new() };
+    let values = plan.samples.get(sample).map_or(&[][..], |sample| &sample.values);
+    let pairs = plan.labels.iter().zip(values);
+    let at: Vec<_> = pairs.map(|(label, value)| format!("{label} = {value}")).collect();
+    format!(
+        "{} of {} samples failed; the first is sample {sample}, {}: {error}\n",
+        1 + failed.count(),
+        plan.samples.len(),
+        at.join(", ")
+    )
+}
+
+/// Name, place in a row, unit with its size, limit.
+pub(super) type Shown = (String, usize, (String, f64), Option<f64>);
+
+/// What pictures and summary show: requirements, then RMS and peak of columns.
+pub(super) fn shown(prepared: &Prepared) -> impl Iterator<Item = Shown> {
+    let requirements = &prepared.scenario.requirements;
+    let count = requirements.len();
+    let of_requirements = requirements.iter().enumerate().map(|(index, of)| {
+        (format!("requirement {}", of.name), index, of.unit.clone(), Some(of.limit))
+    });
+    let fields = prepared.selection.columns.iter().enumerate().flat_map(move |(column, _)| {
+        let rms = prepared.selection.rms_of(column, count);
+        [rms, rms + 1]
+    });
+    let of_columns = fields.filter_map(|index| {
+        let field = prepared.fields.get(index)?;
+        Some((field.name.clone(), index, (field.unit.clone(), 1.0), None))
+    });
+    of_requirements.chain(of_columns)
+}

@@ -1,0 +1,242 @@
+//! `sweep`: runs of a scenario over the values of one key or two; tables, pictures, worst values, values to keep out of.
+
+use std::fmt::Write as _;
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::{CampaignOptions, Prepared, UNMET, failures, shown, values_of};
+use crate::campaign::{Axis, Finished, Plan, digits, keep_out};
+use crate::command::error::CommandError;
+use crate::command::print;
+use crate::command::table::{aligned, six};
+use crate::disturbance::Model as SourceModel;
+use crate::jitter::campbell::{Oscillation, branches, crossings, oscillations};
+use crate::jitter::device::Steady;
+use crate::jitter::model::Model;
+use crate::pointing::Margin;
+use crate::report::DrawError;
+use crate::report::slug;
+use crate::report::sweep::{Numbers, curve, map, waterfall};
+use crate::structure::dynamic_mass::Motor;
+use crate::units::Measure;
+
+pub(in crate::command) const HELP: &str = "\
+Examples:
+  precess sweep bus.toml --over 'device.rw.wheel.rate=600..6000 rpm:181' --column omega
+      RMS, peak and lines of omega, and the requirements, over the rate of a wheel
+  precess sweep bus.toml --over 'device.rw*.wheel.rate=600..6000 rpm:181'
+      one rate for all wheels whose names begin with rw; KEY+KEY names keys one by one
+  precess sweep bus.toml --over 'hub.mass=100..1000 kg:log 5' --over 'device.rw.imbalance.static=1,2,5 g cm'
+      a map over two keys
+
+A sweep that is ended, even by kill -9, is continued by the same command: finished samples are in its
+journal. The exit code is 0 where every requirement is met by every sample, 2 where not, or where a sample
+failed, 1 on an error.";
+
+/// The options of `sweep`.
+#[derive(Debug, Args)]
+pub(in crate::command) struct Sweep {
+    #[command(flatten)]
+    options: CampaignOptions,
+    /// A key and its values: KEY=FROM..TO UNIT:COUNT, KEY=FROM..TO UNIT:log COUNT, or KEY=1,2,5 UNIT; twice for two axes.
+    #[arg(long, value_name = "KEY=VALUES", required = true, num_args = 1, value_parser = axis)]
+    over: Vec<Axis>,
+}
+
+fn axis(text: &str) -> Result<Axis, String> {
+    Axis::parse(text).map_err(|error| error.to_string())
+}
+
+impl Sweep {
+    pub(in crate::command) fn execute(&self) -> Result<ExitCode, CommandError> {
+        let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
+        if self.over.len() > 2 {
+            return Err(other(&"a sweep has one --over or two; fix the other keys by --set"));
+        }
+        let plan = Plan::of_axes(&self.over).map_err(|error| other(&error))?;
+        let prepared = self.options.prepare()?;
+        let stem = format!("{}-sweep", prepared.scenario.name);
+        self.options.may_write(&stem, &self.names(&prepared, &stem))?;
+        let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
+            return Ok(ExitCode::from(UNMET));
+        };
+        let pictures = self.pictures(&prepared, &finished, &stem).map_err(|error| other(&error))?;
+        self.options.write(&prepared, &plan, &finished, &stem, &pictures)?;
+        let (text, met) = self.summary(&prepared, &plan, &finished);
+        print(&text);
+        let folder = self.options.out().display();
+        print(&format!("files: {folder}/{stem}.csv and {} more\n", pictures.len() + 1));
+        Ok(if met { ExitCode::SUCCESS } else { ExitCode::from(UNMET) })
+    }
+
+    /// The files of the result.
+    fn names(&self, prepared: &Prepared, stem: &str) -> Vec<String> {
+        let mut names = vec![format!("{stem}.csv"), format!("{stem}.npz")];
+        names.extend(shown(prepared).map(|(name, ..)| format!("{stem}-{}.svg", slug(&name))));
+        if self.over.len() == 1 && prepared.selection.lines > 0 {
+            let columns = prepared.selection.columns.iter();
+            names.extend(columns.map(|name| format!("{stem}-lines-{}.svg", slug(name))));
+            names.push(format!("{stem}-campbell.svg"));
+        }
+        names
+    }
+
+    fn pictures(
+        &self,
+        prepared: &Prepared,
+        finished: &Finished,
+        stem: &str,
+    ) -> Result<Vec<(String, String)>, DrawError> {
+        let mut files = Vec::new();
+        for (name, field, unit, limit) in shown(prepared) {
+            let values = values_of(finished, field);
+            let unit = (unit.0.as_str(), unit.1);
+            let numbers = Numbers { name: &name, unit, values: &values, limit };
+            let picture = match &self.over[..] {
+                [axis] => curve(axis, &numbers)?,
+                [first, second] => map([first, second], &numbers)?,
+                _ => continue,
+            };
+            files.push((format!("{stem}-{}.svg", slug(&name)), picture));
+        }
+        let ([axis], true) = (&self.over[..], prepared.selection.lines > 0) else {
+            return Ok(files);
+        };
+        let requirements = prepared.scenario.requirements.len();
+        if let Some(picture) = campbell(prepared, axis)? {
+            files.push((format!("{stem}-campbell.svg"), picture));
+        }
+        for (column, name) in prepared.selection.columns.iter().enumerate() {
+            let mut lines = Vec::new();
+            for [frequency, amplitude] in prepared.selection.lines_of(column, requirements) {
+                let pairs = values_of(finished, frequency).into_iter();
+                let pairs = pairs.zip(values_of(finished, amplitude)).zip(&axis.values);
+                lines.extend(pairs.filter_map(|((f, a), value)| Some([*value, f?, a?])));
+            }
+            let field = prepared.selection.rms_of(column, requirements);
+            let unit = prepared.fields.get(field).map_or("", |field| field.unit.as_str());
+            let picture = waterfall(axis, name, unit, &lines, &orders(prepared, axis))?;
+            files.push((format!("{stem}-lines-{}.svg", slug(name)), picture));
+        }
+        Ok(files)
+    }
+
+    /// For the terminal: of each requirement and column the worst sample; whether all requirements are met.
+    fn summary(&self, prepared: &Prepared, plan: &Plan, finished: &Finished) -> (String, bool) {
+        let mut text = format!("{}: {} samples\n", prepared.scenario.name, plan.samples.len());
+        for axis in &self.over {
+            let keys = prepared.template.keys_of(&axis.key).unwrap_or_default();
+            if keys.len() > 1 {
+                let _ = writeln!(text, "{} is {}", axis.key, keys.join(", "));
+            }
+        }
+        let mut met = true;
+        let heads = ["", "state", "worst", "limit", "margin dB", "at", "keep out of"];
+        let mut rows = vec![heads.map(str::to_owned).to_vec()];
+        for (name, field, (unit, size), limit) in shown(prepared) {
+            let values = values_of(finished, field);
+            let known =
+                values.iter().enumerate().filter_map(|(index, value)| Some((index, (*value)?)));
+            let worst = known.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+            let at = |sample: usize| {
+                let values = plan.samples.get(sample).map_or(&[][..], |sample| &sample.values);
+                let pairs = self.over.iter().zip(values);
+                let words: Vec<_> =
+                    pairs.map(|(axis, value)| format!("{} {}", six(*value), axis.unit)).collect();
+                words.join(", ").trim_end().to_owned()
+            };
+            let mut row = vec![name, String::new()];
+            row.push(
+                worst.map_or_else(
+                    || "none".to_owned(),
+                    |(_, v)| format!("{} {unit}", six(v / size)),
+                ),
+            );
+            if let Some(limit) = limit {
+                let violated = values.iter().filter(|v| v.is_none_or(|v| v > limit)).count();
+                met &= violated == 0;
+                if let Some(state) = row.get_mut(1) {
+                    *state = if violated == 0 {
+                        "met".to_owned()
+                    } else {
+                        format!("violated by {violated}")
+                    };
+                }
+                row.push(format!("{} {unit}", six(limit / size)));
+                let margin = worst.map(|(_, value)| Margin { value, limit }.ratio());
+                row.push(margin.map_or_else(String::new, |m| format!("{:.1}", 20.0 * m.log10())));
+            } else {
+                row.extend([String::new(), String::new()]);
+            }
+            row.push(worst.map_or_else(String::new, |(sample, _)| at(sample)));
+            let bands = match (&self.over[..], limit) {
+                ([axis], Some(limit)) => keep_out(&axis.values, &values, limit),
+                _ => Vec::new(),
+            };
+            let unit = self.over.first().map_or("", |axis| axis.unit.as_str());
+            let bands =
+                bands.iter().map(|[from, to]| format!("{} to {} {unit}", six(*from), six(*to)));
+            row.push(bands.collect::<Vec<_>>().join("; ").trim_end().to_owned());
+            rows.push(row);
+        }
+        text.push_str(&aligned(&rows));
+        let failures = failures(plan, finished);
+        met &= failures.is_empty();
+        text.push_str(&failures);
+        if finished.resumed > 0 {
+            let _ = writeln!(text, "{} samples were in the journal", digits_of(finished.resumed));
+        }
+        (text, met)
+    }
+}
+
+fn digits_of(count: usize) -> String {
+    digits(crate::spectra::float(count))
+}
+
+/// Natural frequencies of structure and devices over the key, rotors at their initial rates, with the orders of a rate; none
+/// where there are none, or where the spacecraft has no linear model.
+fn campbell(prepared: &Prepared, axis: &Axis) -> Result<Option<String>, DrawError> {
+    // No rotor is swept: each keeps the rate of its scenario.
+    let none = [String::new()];
+    let steady = Steady { motor: Motor::ConstantTorque, sprung: true, swept: &none };
+    let mut values: Vec<f64> = axis.values.clone();
+    values.sort_by(f64::total_cmp);
+    let natural = |value: &f64| -> Option<Vec<Oscillation>> {
+        let overrides = [&prepared.overrides[..], &[axis.set(*value)]].concat();
+        let (scenario, _) = prepared.template.scenario(&overrides).ok()?;
+        let model = Model::new(&scenario, &[], &steady).ok()?;
+        oscillations(&model, 1.0).ok()
+    };
+    let Some(found) = values.iter().map(natural).collect::<Option<Vec<_>>>() else {
+        return Ok(None);
+    };
+    let speeds: Vec<f64> = values.iter().map(|value| value * axis.size).collect();
+    let branches = branches(&speeds, &found);
+    if branches.is_empty() {
+        return Ok(None);
+    }
+    let orders = orders(prepared, axis);
+    let crossings = crossings(&speeds, &branches, &orders);
+    crate::report::sweep::campbell(axis, &values, &branches, &orders, &crossings).map(Some)
+}
+
+/// Orders of a wheel whose rate is swept: one, two, and those of its sources; none of another key.
+fn orders(prepared: &Prepared, axis: &Axis) -> Vec<f64> {
+    let is_rate = axis.key.rsplit('.').next() == Some("rate")
+        && axis.key.starts_with("device.")
+        && axis.dimension == Measure::ANGULAR_RATE.dimension;
+    if !is_rate {
+        return Vec::new();
+    }
+    let mut orders = vec![1.0, 2.0];
+    for source in &prepared.scenario.disturbances {
+        if let SourceModel::Harmonic(tones) = &source.model {
+            orders.extend(tones.iter().map(|tone| tone.number));
+        }
+    }
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    orders
+}

@@ -1,0 +1,127 @@
+//! `compare`: the differences of two results, of the results in two folders, or of the runs of two
+//! scenario files, which are run first, into a temporary folder.
+
+mod difference;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+
+use super::error::CommandError;
+use super::run::{files, watch_interrupts, with_progress};
+use super::table::{aligned, six};
+use super::{Form, Set, print};
+use crate::file::from_file;
+use crate::record::Csv;
+use difference::{Differences, differences};
+
+/// The options of `compare`.
+#[derive(Debug, Args)]
+pub(super) struct Compare {
+    /// A result (CSV), a folder of results, or a scenario file.
+    a: PathBuf,
+    /// What it is compared with.
+    b: PathBuf,
+    #[command(flatten)]
+    overrides: Set,
+    /// How the differences are printed.
+    #[arg(long, value_enum, default_value_t)]
+    format: Form,
+}
+
+impl Compare {
+    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+        watch_interrupts();
+        let folder = tempfile::tempdir()
+            .map_err(|source| CommandError::Io { path: std::env::temp_dir(), source })?;
+        let mut entries = Vec::new();
+        for (name, [a, b]) in self.pairs()? {
+            let a = self.result(&a, &folder.path().join("a.csv"))?;
+            let b = self.result(&b, &folder.path().join("b.csv"))?;
+            let found = differences(&a, &b)?;
+            match self.format {
+                Form::Json => entries.push(json(&name, &found)),
+                Form::Text => print(&shown(&name, &found)),
+            }
+        }
+        if self.format == Form::Json {
+            print(&(serde_json::to_string_pretty(&entries).unwrap_or_default() + "\n"));
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// What is compared with what, each with a heading; none for a single pair.
+    fn pairs(&self) -> Result<Vec<(String, [PathBuf; 2])>, CommandError> {
+        let folders = [&self.a, &self.b].map(|path| path.is_dir());
+        if folders == [false; 2] {
+            return Ok(vec![(String::new(), [self.a.clone(), self.b.clone()])]);
+        }
+        if folders != [true; 2] {
+            let message = "one is a folder and the other is not; compare two folders, or two files";
+            return Err(CommandError::Other(message.to_owned()));
+        }
+        let [a, b] = [files(&self.a, "csv")?, files(&self.b, "csv")?];
+        for (only, folder) in [(a.difference(&b), &self.a), (b.difference(&a), &self.b)] {
+            only.for_each(|name| eprintln!("only in {}: {name}", folder.display()));
+        }
+        let both: Vec<_> = a.intersection(&b).collect();
+        if both.is_empty() {
+            let [a, b] = [self.a.display(), self.b.display()];
+            let message = format!("no result (CSV) is both in {a} and in {b}");
+            return Err(CommandError::Other(message));
+        }
+        let pair = |name: &String| (name.clone(), [self.a.join(name), self.b.join(name)]);
+        Ok(both.into_iter().map(pair).collect())
+    }
+
+    /// The CSV file of a result, or of the run of a scenario.
+    fn result(&self, path: &Path, to: &Path) -> Result<PathBuf, CommandError> {
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            return Ok(path.to_owned());
+        }
+        let (scenario, _) =
+            from_file(path, &self.overrides.overrides()).map_err(CommandError::Scenario)?;
+        with_progress(&scenario, scenario.settings.duration, &mut Csv::new(to))?;
+        Ok(to.to_owned())
+    }
+}
+
+fn json(name: &str, found: &Differences) -> serde_json::Value {
+    let columns = found.columns.iter().map(|d| {
+        serde_json::json!({
+            "column": d.name, "unit": d.unit, "peak": d.peak, "time": d.time,
+            "rms": d.rms(found.samples), "largest": d.largest,
+        })
+    });
+    serde_json::json!({
+        "result": name, "samples": found.samples, "columns": columns.collect::<Vec<_>>(),
+    })
+}
+
+fn shown(name: &str, found: &Differences) -> String {
+    let head = [
+        "column",
+        "peak difference",
+        "at (s)",
+        "RMS difference",
+        "largest in the first",
+        "in the second",
+        "unit",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for d in &found.columns {
+        rows.push(vec![
+            d.name.clone(),
+            six(d.peak),
+            if d.peak == 0.0 { "-".to_owned() } else { six(d.time) },
+            six(d.rms(found.samples)),
+            six(d.largest[0]),
+            six(d.largest[1]),
+            d.unit.clone(),
+        ]);
+    }
+    let heading = if name.is_empty() { String::new() } else { format!("{name}\n") };
+    let columns = found.columns.len();
+    format!("{heading}{}{} samples, {columns} columns in both\n", aligned(&rows), found.samples)
+}

@@ -1,0 +1,70 @@
+//! What every figure with axes has: title, mesh, labels and frame; and the SVG file around a drawing.
+
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::figure::{
+    ABOVE, Area, GRID, INK, LEFT, RIGHT, THEME, TYPE, TYPE_SMALL, px, text, whole,
+};
+use crate::report::error::DrawError;
+
+/// Axes to draw in.
+pub(in crate::report) type Chart<'a, 's, X, Y> =
+    ChartContext<'a, SVGBackend<'s>, Cartesian2d<X, Y>>;
+
+/// Space above the axes, and below them for labels.
+pub(in crate::report) struct Space {
+    pub(in crate::report) above: f64,
+    pub(in crate::report) below: f64,
+}
+
+/// The title of a drawing, above its first panel.
+pub(in crate::report) fn title(area: &Area<'_>, words: &str) -> Result<(), DrawError> {
+    let style = text(TYPE, INK).pos(Pos::new(HPos::Left, VPos::Center));
+    area.draw_text(words, &style, (px(LEFT), px(0.62 * ABOVE)))?;
+    Ok(())
+}
+
+/// Draws axes with a mesh, their labels and a frame.
+pub(in crate::report) fn axes<'a, 's, X, Y>(
+    area: &'a Area<'s>,
+    space: &Space,
+    x: X,
+    y: Y,
+    labels: [&str; 2],
+) -> Result<Chart<'a, 's, X, Y>, DrawError>
+where
+    X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    let (of_x, of_y) = (x.range(), y.range());
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(px(space.above))
+        .margin_right(px(RIGHT))
+        .x_label_area_size(px(space.below))
+        .y_label_area_size(px(LEFT))
+        .build_cartesian_2d(x, y)?;
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(GRID.stroke_width(whole(0.8)))
+        .axis_style(INK.stroke_width(whole(0.8)))
+        .set_all_tick_mark_size(px(4.0))
+        .label_style(text(TYPE_SMALL, INK))
+        .axis_desc_style(text(TYPE, INK))
+        .x_desc(labels[0])
+        .y_desc(labels[1])
+        .draw()?;
+    let corners = [(of_x.start, of_y.start), (of_x.end, of_y.end)];
+    chart.draw_series([Rectangle::new(corners, INK.stroke_width(8))])?;
+    Ok(chart)
+}
+
+/// An SVG file of its own, of a drawing that is passed the rules that turn its colours on dark screens.
+pub(in crate::report) fn svg_file(
+    document: impl FnOnce(&str) -> Result<String, DrawError>,
+) -> Result<String, DrawError> {
+    let drawn = document(&format!("<style>\n{THEME}</style>\n"))?;
+    Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{drawn}"))
+}

@@ -1,0 +1,98 @@
+//! [`FittedLines`]: amplitudes of lines over speed, as measured and as fitted, with 95 % bands, as SVG; the
+//! amplitude is logarithmic.
+
+use std::fmt::Write as _;
+
+use super::axes::{Space, axes, svg_file, title};
+use super::figure::{ABOVE, Area, BELOW, PANEL, document, moves, stroke};
+use super::log_panel::decades;
+use super::ticks::{Axis, range_of};
+use crate::report::error::DrawError;
+
+/// Height of the panel by that of a figure of a run.
+const HEIGHT: f64 = 1.4;
+/// Decades below the largest amplitude that are shown.
+const DECADES_MAX: f64 = 5.0;
+/// Half the width of a mark, tenths of a unit.
+const MARK: i32 = 16;
+
+/// Lines of one group.
+#[derive(Clone, Debug)]
+pub(crate) struct FittedLines {
+    /// What the picture shows, for readers who cannot see it.
+    pub(crate) description: String,
+    /// The text above it.
+    pub(crate) title: String,
+    /// What the amplitude is, with its unit.
+    pub(crate) axis: String,
+    /// The lines.
+    pub(crate) lines: Vec<FittedLine>,
+}
+
+/// One line.
+#[derive(Clone, Debug)]
+pub(crate) struct FittedLine {
+    /// In the legend.
+    pub(crate) name: String,
+    /// Speed, rpm, and amplitude as measured.
+    pub(crate) measured: Vec<[f64; 2]>,
+    /// Speed, rpm, amplitude as fitted, and the ends of its interval.
+    pub(crate) fitted: Vec<[f64; 4]>,
+}
+
+impl FittedLines {
+    /// The picture as an SVG file of its own.
+    pub(crate) fn file(&self) -> Result<String, DrawError> {
+        svg_file(|style| self.document(style))
+    }
+
+    /// The picture as part of a page that turns its colours.
+    pub(crate) fn inline(&self) -> Result<String, DrawError> {
+        self.document("")
+    }
+
+    fn document(&self, style: &str) -> Result<String, DrawError> {
+        let names: Vec<_> = self.lines.iter().map(|line| line.name.as_str()).collect();
+        document(&self.description, style, &names, HEIGHT * PANEL, |panel| self.draw(panel))
+    }
+
+    fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {
+        title(area, &self.title)?;
+        let positive = |value: &f64| value.is_finite() && *value > 0.0;
+        let values = self.lines.iter().flat_map(|line| {
+            line.measured.iter().map(|p| p[1]).chain(line.fitted.iter().map(|p| p[1]))
+        });
+        let axis = decades(values, DECADES_MAX);
+        let y = axis.range.clone();
+        let x = range_of(self.lines.iter().flat_map(|line| line.fitted.iter().map(|p| p[0])));
+        let labels = ["Speed (rpm)", self.axis.as_str()];
+        let chart = axes(area, &Space { above: ABOVE, below: BELOW }, Axis(x), axis, labels)?;
+        let place = |speed: f64, value: f64| {
+            let (x, y) = chart.backend_coord(&(speed, value.clamp(y.start, y.end)));
+            [x, y]
+        };
+        let mut out = String::new();
+        for (index, line) in self.lines.iter().enumerate() {
+            let shown: Vec<_> =
+                line.fitted.iter().filter(|p| p.iter().all(|v| v.is_finite())).collect();
+            let above = shown.iter().map(|p| place(p[0], p[3]));
+            let below = shown.iter().rev().map(|p| place(p[0], p[2]));
+            let band: Vec<_> = above.chain(below).collect();
+            let colour = stroke(index, 4).replace("fill=\"none\" stroke=", "fill=");
+            let fill = colour.split(' ').next().unwrap_or_default();
+            let _ = writeln!(out, "<path d=\"{}z\" {fill} fill-opacity=\"0.3\"/>", moves(&band));
+            let curve: Vec<_> = shown.iter().map(|p| place(p[0], p[1])).collect();
+            let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&curve), stroke(index, 11));
+            let mut marks = String::new();
+            for [speed, value] in line.measured.iter().filter(|p| positive(&p[1])) {
+                let [x, y] = place(*speed, *value);
+                let size = 2 * MARK;
+                let _ = write!(marks, "M{} {y}h{size}M{x} {}v{size}", x - MARK, y - MARK);
+            }
+            let plain = stroke(index, 8);
+            let plain = plain.split(" stroke-dasharray").next().unwrap_or_default();
+            let _ = writeln!(out, "<path d=\"{marks}\" {plain}/>");
+        }
+        Ok(out)
+    }
+}

@@ -1,0 +1,15 @@
+//! Figures as SVG: axes and what is drawn over them.
+//!
+//! Invariant: equal numbers give equal bytes.
+
+pub(super) mod axes;
+pub mod cells;
+pub(super) mod figure;
+pub(super) mod fitted_lines;
+pub(super) mod log_panel;
+pub(crate) mod mode_shapes;
+pub(crate) mod plane;
+pub(crate) mod response;
+pub(crate) mod spectrum;
+pub(super) mod ticks;
+pub(super) mod waterfall;

@@ -1,0 +1,244 @@
+//! The figures of a [`JitterReport`]: a metric over speed and cumulative over frequency, waterfall, Campbell diagram.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Complex;
+
+use super::super::draw::plane::Plane;
+use super::super::draw::spectrum::{SpectrumCurve, SpectrumFigure};
+use super::super::number::{short, with_unit};
+use super::super::unit::{SMALL_ANGLE, for_peak};
+use super::{JitterReport, RPM, metric, rpm};
+use crate::jitter::budget::{Assessed, outputs_of, weight_of};
+use crate::jitter::campbell::{Branch, Oscillation};
+
+/// A line is drawn in a waterfall from this root of its share of the largest on.
+const DOT_MIN: f64 = 1e-2;
+/// Speeds of which a waterfall shows the lines.
+const WATERFALL_SPEEDS: usize = 160;
+/// A limit is drawn up to this many times the RMS.
+const LIMIT_SHOWN: f64 = 3.0;
+/// Branches of a Campbell diagram are drawn up to this many times the highest line.
+const CAMPBELL_TOP: f64 = 1.25;
+
+/// The share of a mean square in the metric of a requirement, by angular frequency, rad/s. A budget has no index.
+fn weight(of: &Assessed) -> Box<dyn Fn(f64) -> f64> {
+    weight_of(&of.limit.metric).unwrap_or_else(|_| Box::new(|_| 1.0))
+}
+
+impl JitterReport<'_> {
+    /// A metric over the speed.
+    pub(super) fn over_speed(&self, of: &Assessed) -> Plane {
+        let peak = of.values.iter().copied().fold(of.limit.limit, f64::max);
+        let unit = for_peak(SMALL_ANGLE, peak);
+        let points = self.sweep.speeds.iter().zip(&of.values);
+        let points = points.map(|(speed, value)| [speed * RPM, value * unit.per_si]).collect();
+        let ends = [self.budget.speeds[0], self.budget.speeds[1]];
+        let limit = ends.map(|speed| [speed * RPM, of.limit.limit * unit.per_si]).to_vec();
+        Plane {
+            description: format!("{} over the speed in rpm, in {}.", of.limit.name, unit.name),
+            title: format!("{}: {}", of.limit.name, metric(&of.limit.metric)),
+            axes: ["Speed (rpm)".to_owned(), format!("Line of sight ({})", unit.name)],
+            curves: vec![("found".to_owned(), points), ("limit".to_owned(), limit)],
+            lines: Vec::new(),
+            dots: Vec::new(),
+            marks: Vec::new(),
+            ranges: [Some(ends.map(|speed| speed * RPM)), Some([0.0, 1.06 * peak * unit.per_si])],
+        }
+    }
+
+    /// A metric of all lines up to a frequency, and from it, at the worst speed; squares are added.
+    pub(super) fn cumulative(&self, of: &Assessed) -> Plane {
+        let outputs = outputs_of(of.sight);
+        let weight = weight(of);
+        let speed = self.sweep.speeds.get(of.worst).copied().unwrap_or(0.0);
+        let lines = self.sweep.lines.get(of.worst).map_or(&[][..], Vec::as_slice);
+        let mut sorted: Vec<_> = lines
+            .iter()
+            .map(|line| {
+                let values = outputs.iter().filter_map(|output| line.values.get(*output));
+                let square = values.map(|value| 0.5 * value.norm_sqr()).sum::<f64>();
+                (line.frequency / TAU, square * weight(line.frequency))
+            })
+            .collect();
+        if let Some(densities) = self.sweep.noise.nearest(speed) {
+            let weighted = |(f, square): (f64, f64)| (f, square * weight(TAU * f));
+            sorted.extend(densities.squares(&outputs).into_iter().map(weighted));
+        }
+        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let whole: f64 = sorted.iter().map(|(_, square)| square).sum();
+        let unit = for_peak(SMALL_ANGLE, whole.sqrt());
+        let top = sorted.last().map_or(1.0, |(frequency, _)| 1.1 * frequency);
+        let (mut forward, mut backward) =
+            (vec![[0.0, 0.0]], vec![[0.0, whole.sqrt() * unit.per_si]]);
+        let mut sum = 0.0;
+        for (frequency, square) in sorted {
+            for (points, value) in [(&mut forward, sum), (&mut backward, whole - sum)] {
+                points.push([frequency, value.max(0.0).sqrt() * unit.per_si]);
+            }
+            sum += square;
+            for (points, value) in [(&mut forward, sum), (&mut backward, whole - sum)] {
+                points.push([frequency, value.max(0.0).sqrt() * unit.per_si]);
+            }
+        }
+        forward.push([top, whole.sqrt() * unit.per_si]);
+        backward.push([top, 0.0]);
+        let (speed, limit) = (rpm(speed), of.limit.limit * unit.per_si);
+        let found = whole.sqrt() * unit.per_si;
+        let highest = if limit < LIMIT_SHOWN * found { limit.max(found) } else { found };
+        let mut curves =
+            vec![("from below".to_owned(), forward), ("from above".to_owned(), backward)];
+        if limit <= highest {
+            curves.push(("limit".to_owned(), vec![[0.0, limit], [top, limit]]));
+        }
+        Plane {
+            description: format!(
+                "{}: cumulative {} over frequency in Hz at {speed}, in {}.",
+                of.limit.name,
+                metric(&of.limit.metric),
+                unit.name
+            ),
+            title: format!("{}: {} at {speed}", of.limit.name, metric(&of.limit.metric)),
+            axes: ["Frequency f (Hz)".to_owned(), format!("Cumulative ({})", unit.name)],
+            curves,
+            lines: Vec::new(),
+            dots: Vec::new(),
+            marks: Vec::new(),
+            ranges: [Some([0.0, top]), Some([0.0, 1.06 * highest])],
+        }
+    }
+
+    /// Density of a line of sight by broadband noise at the worst speed of a requirement, both axes together, and what of it
+    /// counts in the metric, of all lower frequencies; none without noise.
+    pub(super) fn density(&self, of: &Assessed) -> Option<SpectrumFigure> {
+        let speed = self.sweep.speeds.get(of.worst).copied()?;
+        let densities = self.sweep.noise.nearest(speed)?;
+        let outputs = outputs_of(of.sight);
+        let unit = for_peak(SMALL_ANGLE, of.limit.limit);
+        let sum = |values: &Vec<f64>| -> f64 {
+            outputs.iter().filter_map(|output| values.get(*output)).sum()
+        };
+        let square = unit.per_si * unit.per_si;
+        let density: Vec<f64> =
+            densities.values.iter().map(|values| sum(values) * square).collect();
+        let mut total = 0.0;
+        let mut rms = vec![0.0];
+        let weight = weight(of);
+        for (frequency, part) in densities.squares(&outputs) {
+            total += part * square * weight(TAU * frequency);
+            rms.push(total.sqrt());
+        }
+        let limit = vec![of.limit.limit * unit.per_si; rms.len()];
+        let curve = |name: &str, density: Vec<f64>, rms: Vec<f64>| SpectrumCurve {
+            name: name.to_owned(),
+            density,
+            rms,
+        };
+        let title = format!("{}: broadband noise at {}", of.limit.name, rpm(densities.speed));
+        Some(SpectrumFigure {
+            description: format!(
+                "{title}, density and cumulative RMS over frequency, in {}.",
+                unit.name
+            ),
+            title,
+            unit: unit.name.to_owned(),
+            frequencies: densities.frequencies.clone(),
+            curves: vec![
+                curve("noise", density.clone(), rms),
+                curve("limit", vec![f64::NAN; density.len()], limit),
+            ],
+        })
+    }
+
+    /// Orders that tones have, each once, rising.
+    fn orders(&self) -> Vec<f64> {
+        let mut orders: Vec<f64> = self.sweep.contributors.iter().map(|of| of.order).collect();
+        orders.sort_by(f64::total_cmp);
+        orders.dedup();
+        orders
+    }
+
+    /// Straight lines of the orders.
+    fn order_lines(&self) -> Vec<(String, [[f64; 2]; 2])> {
+        let [from, to] = self.budget.speeds;
+        let line = |order: &f64| {
+            let at = |speed: f64| [speed * RPM, order * speed / TAU];
+            (format!("{}×", short(*order, 4)), [at(from), at(to)])
+        };
+        self.orders().iter().map(line).collect()
+    }
+
+    fn top(&self) -> f64 {
+        let highest = self.orders().last().copied().unwrap_or(1.0);
+        highest * self.budget.speeds[1] / TAU
+    }
+
+    pub(super) fn waterfall(&self, sight: usize) -> Plane {
+        let outputs = outputs_of(sight);
+        let mut dots = Vec::new();
+        let step = self.sweep.speeds.len().div_ceil(WATERFALL_SPEEDS).max(1);
+        for (speed, lines) in self.sweep.speeds.iter().zip(&self.sweep.lines).step_by(step) {
+            for line in lines {
+                let values = outputs.iter().filter_map(|output| line.values.get(*output));
+                let size = values.map(Complex::norm_sqr).sum::<f64>().sqrt();
+                dots.push([speed * RPM, line.frequency / TAU, size]);
+            }
+        }
+        let largest = dots.iter().map(|dot| dot[2]).fold(f64::MIN_POSITIVE, f64::max);
+        for dot in &mut dots {
+            dot[2] = (dot[2] / largest).sqrt();
+        }
+        dots.retain(|dot| dot[2] > DOT_MIN);
+        let unit = for_peak(SMALL_ANGLE, largest);
+        let name = self.budget.sights.get(sight).map_or("", |sight| sight.name.as_str());
+        let amplitude = with_unit(largest * unit.per_si, 3, unit.name);
+        Plane {
+            description: format!(
+                "Waterfall of {name}: tones over speed in rpm and frequency in Hz; the largest amplitude is {amplitude}."
+            ),
+            title: format!("{name}: lines, largest {amplitude}"),
+            axes: ["Speed (rpm)".to_owned(), "Frequency f (Hz)".to_owned()],
+            curves: Vec::new(),
+            lines: self.order_lines(),
+            dots,
+            marks: Vec::new(),
+            ranges: [
+                Some(self.budget.speeds.map(|speed| speed * RPM)),
+                Some([0.0, 1.06 * self.top()]),
+            ],
+        }
+    }
+
+    pub(super) fn campbell_diagram(&self) -> Plane {
+        let top = CAMPBELL_TOP * self.top();
+        let curve = |branch: &Branch| {
+            let points = self.campbell_speeds.iter().zip(&branch.points);
+            let point = |(speed, of): (&f64, &Option<Oscillation>)| {
+                [speed * RPM, of.map_or(f64::NAN, |of| of.frequency / TAU)]
+            };
+            points.map(point).collect::<Vec<_>>()
+        };
+        let curves = self
+            .branches
+            .iter()
+            .map(curve)
+            .filter(|points| points.iter().any(|point| point[1] <= top));
+        Plane {
+            description:
+                "Campbell diagram: natural frequencies in Hz over the speed in rpm, with orders."
+                    .to_owned(),
+            title: "Natural frequencies over the speed".to_owned(),
+            axes: ["Speed (rpm)".to_owned(), "Frequency f (Hz)".to_owned()],
+            // Without a legend: a branch has no name of its own.
+            curves: curves.map(|points| (String::new(), points)).collect(),
+            lines: self.order_lines(),
+            dots: Vec::new(),
+            marks: self
+                .crossings
+                .iter()
+                .map(|of| [of.speed * RPM, of.oscillation.frequency / TAU])
+                .collect(),
+            ranges: [Some(self.budget.speeds.map(|speed| speed * RPM)), Some([0.0, top])],
+        }
+    }
+}

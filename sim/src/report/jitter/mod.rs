@@ -1,0 +1,362 @@
+//! [`JitterReport`]: the page of a jitter budget: verdict and margins first, then contributors, the metrics over the
+//! speed, waterfall and Campbell diagram, the two paths, inputs, assumptions.
+
+mod figures;
+mod inputs;
+mod tables;
+mod verdict;
+
+use std::f64::consts::TAU;
+
+use super::blocks::{Block, Fact, Section, Summary, table};
+use super::error::{DrawError, ReportError};
+use super::number::{short, with_unit};
+use super::page::{Page, lines};
+use super::slug;
+use crate::jitter::budget::{Assessed, Budget};
+use crate::jitter::campbell::{Branch, Crossing, Whirl};
+use crate::jitter::coupled::Compared;
+use crate::jitter::sensitivity::Sensitivity;
+use crate::jitter::sweep::Sweep;
+use crate::pointing::Metric;
+use crate::scenario::{ModalStructure, Scenario};
+
+/// Revolutions per minute of one radian per second.
+pub(super) const RPM: f64 = 60.0 / TAU;
+/// A crossing this near to a worst speed is listed first.
+const NEAR_WORST: f64 = 0.02;
+/// Contributors and crossings that a table shows.
+const ROWS_MAX: usize = 24;
+
+/// What the two paths may differ by off resonance, and at it.
+pub(crate) const AGREEMENT: [f64; 2] = [0.01, 0.05];
+
+/// Everything that the page shows.
+pub(crate) struct JitterReport<'a> {
+    pub(crate) scenario: &'a Scenario,
+    pub(crate) budget: &'a Budget,
+    /// The text of the budget's file.
+    pub(crate) text: &'a str,
+    pub(crate) sweep: &'a Sweep,
+    pub(crate) assessed: &'a [Assessed],
+    /// Speeds of the branches, rad/s.
+    pub(crate) campbell_speeds: &'a [f64],
+    pub(crate) branches: &'a [Branch],
+    pub(crate) crossings: &'a [Crossing],
+    /// Runs of the coupled equations; at resonance or not.
+    pub(crate) compared: &'a [(Compared, bool)],
+    /// Of each requirement.
+    pub(crate) sensitivities: &'a [Vec<Sensitivity>],
+    pub(crate) warnings: &'a [String],
+}
+
+/// A speed in rpm.
+pub(crate) fn rpm(speed: f64) -> String {
+    format!("{} rpm", short(speed * RPM, 5))
+}
+
+/// What a metric is, in words.
+pub(crate) fn metric(metric: &Metric) -> String {
+    let time = |t: f64| format!("{} s", short(t, 4));
+    match metric {
+        Metric::Rms => "RMS".to_owned(),
+        Metric::BandRms([from, to]) => format!("RMS, {} to {} Hz", short(*from, 4), short(*to, 4)),
+        Metric::Displacement(t) => format!("displacement, exposure {}", time(*t)),
+        Metric::Smear(t) => format!("smear, exposure {}", time(*t)),
+        Metric::Jitter(t) => format!("jitter, exposure {}", time(*t)),
+        Metric::Index { index, .. } => index.name().to_owned(),
+    }
+}
+
+/// Intervals of speed in words.
+pub(crate) fn intervals(bands: &[[f64; 2]]) -> String {
+    let one =
+        |[from, to]: &[f64; 2]| format!("{} to {} rpm", short(from * RPM, 4), short(to * RPM, 4));
+    if bands.is_empty() {
+        "none".to_owned()
+    } else {
+        bands.iter().map(one).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl JitterReport<'_> {
+    /// The page as one HTML file.
+    pub(crate) fn html(&self) -> Result<String, ReportError> {
+        let mut sections = vec![("requirements", "Requirements", self.requirements()?)];
+        sections.push(("contributors", "Contributors at the worst speeds", self.contributors()));
+        sections.push(("speeds", "Lines over the speed", self.waterfalls()?));
+        sections.push(("crossings", "Natural frequencies and orders", self.campbell()?));
+        sections.push(("paths", "Frequency domain beside the coupled run", self.paths()));
+        sections.push(("sensitivities", "Sensitivities", self.ranked()));
+        sections.push(("inputs", "Inputs", self.inputs()));
+        sections.push(("assumptions", "Assumptions", vec![self.assumptions()]));
+        if !self.warnings.is_empty() {
+            let items = self.warnings.to_vec();
+            sections.push(("warnings", "Warnings", vec![Block::List { style: "warnings", items }]));
+        }
+        sections.push(("budget", "Budget", vec![lines(self.text)]));
+        sections.retain(|(_, _, blocks)| !blocks.is_empty());
+        let sections =
+            sections.into_iter().map(|(id, title, blocks)| Section { id, title, blocks });
+        let page = Page {
+            subject: "jitter budget",
+            title: &self.budget.title,
+            name: &self.scenario.name,
+            data: super::data::without_charts(&self.scenario.name, &self.budget.title)?,
+            verdict: self.verdict(),
+            summary: self.summary(),
+            sections: sections.collect(),
+        };
+        page.html()
+    }
+
+    /// The pictures as files: a name and the text of the SVG file.
+    pub(crate) fn figures(&self) -> Result<Vec<(String, String)>, DrawError> {
+        let mut files = Vec::new();
+        for (index, of) in self.assessed.iter().enumerate() {
+            files.push((format!("requirement-{}", index + 1), self.over_speed(of).file()?));
+        }
+        for (sight, of) in self.budget.sights.iter().enumerate() {
+            let name = slug(&of.name);
+            files.push((format!("waterfall-{name}"), self.waterfall(sight).file()?));
+        }
+        for (index, of) in self.assessed.iter().enumerate() {
+            files.push((format!("cumulative-{}", index + 1), self.cumulative(of).file()?));
+        }
+        for (index, of) in self.assessed.iter().enumerate() {
+            if let Some(figure) = self.density(of) {
+                files.push((format!("density-{}", index + 1), figure.file()?));
+            }
+        }
+        files.push(("campbell".to_owned(), self.campbell_diagram().file()?));
+        Ok(files)
+    }
+
+    fn summary(&self) -> Summary {
+        let [from, to] = self.budget.speeds;
+        let title = self.scenario.title.trim_end_matches('.');
+        let paragraphs = vec![format!("Spacecraft: {title}.")];
+        let rotors = if self.budget.swept.is_empty() {
+            "all rotors".to_owned()
+        } else {
+            self.budget.swept.join(", ")
+        };
+        let facts = vec![
+            Fact::new(
+                "Speeds",
+                format!("{} to {}, {}", rpm(from), rpm(to), self.sweep.speeds.len()),
+            ),
+            Fact::new("Rotors", rotors),
+            Fact::new("Tones", self.sweep.contributors.len().to_string()),
+            Fact::new("Modes of the structure", self.modes()),
+        ];
+        Summary { paragraphs, facts }
+    }
+
+    /// The mode of the structure nearest to a natural frequency, rad/s.
+    fn nearest_mode(&self, frequency: f64) -> String {
+        let modes = self.scenario.structure.as_ref().map_or(&[][..], ModalStructure::massive);
+        let apart = |mode: &crate::structure::Mode| (mode.frequency / frequency - 1.0).abs();
+        let nearest = modes.iter().enumerate().min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
+        nearest.map_or_else(
+            || "no mode of the structure".to_owned(),
+            |(k, mode)| format!("mode {} ({} Hz alone)", k + 1, short(mode.frequency / TAU, 4)),
+        )
+    }
+
+    pub(super) fn modes(&self) -> String {
+        let modes = self.scenario.structure.as_ref().map_or(0, |s| s.massive().len());
+        if modes == 0 { "none, a rigid hub".to_owned() } else { modes.to_string() }
+    }
+
+    fn requirements(&self) -> Result<Vec<Block>, DrawError> {
+        if self.assessed.is_empty() {
+            return Ok(Vec::new());
+        }
+        let rows = self.assessed.iter().map(|of| {
+            let (unit, size) = &of.limit.unit;
+            let state = if of.margin.is_met() { "met" } else { "violated" };
+            let sight = self.budget.sights.get(of.sight).map_or("", |sight| sight.name.as_str());
+            let cells = vec![
+                of.limit.name.clone(),
+                state.to_owned(),
+                with_unit(of.margin.value / size, 4, unit),
+                with_unit(of.limit.limit / size, 4, unit),
+                format!("{} dB", short(20.0 * of.margin.ratio().log10(), 3)),
+                self.sweep.speeds.get(of.worst).map_or_else(String::new, |speed| rpm(*speed)),
+                format!("{}, {sight}", metric(&of.limit.metric)),
+                intervals(&of.keep_out),
+            ];
+            (state, cells)
+        });
+        let columns = [
+            ("Requirement", ""),
+            ("State", ""),
+            ("Worst", ""),
+            ("Limit", ""),
+            ("Margin", ""),
+            ("At", ""),
+            ("Metric", ""),
+            ("Speeds to keep out of", ""),
+        ];
+        let mut blocks =
+            vec![table("Requirements, and the worst speed of each", &columns, 2..5, rows)];
+        blocks.push(self.by_phases());
+        for (index, of) in self.assessed.iter().enumerate() {
+            blocks.push(Block::Figure {
+                id: format!("figure-requirement-{}", index + 1),
+                number: format!("{}", index + 1),
+                caption: format!("{} over the speed, with its limit.", of.limit.name),
+                svg: self.over_speed(of).inline()?,
+            });
+        }
+        Ok(blocks)
+    }
+
+    fn contributors(&self) -> Vec<Block> {
+        let one = |of: &Assessed| {
+            let rows = of.shares.iter().take(ROWS_MAX).filter_map(|(index, share)| {
+                let contributor = self.sweep.contributors.get(*index)?;
+                let line = self.sweep.lines.get(of.worst)?.get(*index)?;
+                let cells = vec![
+                    contributor.rotor.clone(),
+                    format!("{}, order {}", contributor.cause, short(contributor.order, 6)),
+                    format!("{} Hz", short(line.frequency / TAU, 5)),
+                    format!("{} %", short(100.0 * share, 3)),
+                ];
+                Some(("", cells))
+            });
+            let noise = (of.noise > 0.0).then(|| {
+                let share = format!("{} %", short(100.0 * of.noise, 3));
+                (
+                    "",
+                    vec![
+                        "all sources".to_owned(),
+                        "broadband noise".to_owned(),
+                        String::new(),
+                        share,
+                    ],
+                )
+            });
+            let rows = rows.chain(noise);
+            let speed = self.sweep.speeds.get(of.worst).map_or_else(String::new, |s| rpm(*s));
+            let columns =
+                [("Rotor", ""), ("Cause", ""), ("Frequency", ""), ("Share of the mean square", "")];
+            table(&format!("{} at {speed}", of.limit.name), &columns, 2..4, rows)
+        };
+        let mut blocks: Vec<Block> = self.assessed.iter().map(one).collect();
+        if !blocks.is_empty() {
+            let text = "Shares of single tones by themselves; tones of one frequency are added as the assumptions say.";
+            blocks.push(Block::Note { text: text.to_owned() });
+        }
+        for (index, of) in self.assessed.iter().enumerate() {
+            if let Ok(svg) = self.cumulative(of).inline() {
+                blocks.push(Block::Figure {
+                    id: format!("figure-cumulative-{}", index + 1),
+                    number: format!("C{}", index + 1),
+                    caption: format!(
+                        "{}: the metric of all lines up to a frequency, and from it, at the worst speed; squares are added.",
+                        of.limit.name
+                    ),
+                    svg,
+                });
+            }
+            if let Some(Ok(svg)) = self.density(of).map(|figure| figure.inline()) {
+                blocks.push(Block::Figure {
+                    id: format!("figure-density-{}", index + 1),
+                    number: format!("D{}", index + 1),
+                    caption: format!(
+                        "{}: density by broadband noise near the worst speed; below, what of it counts in the metric, from below, and the limit.",
+                        of.limit.name
+                    ),
+                    svg,
+                });
+            }
+        }
+        blocks
+    }
+
+    fn waterfalls(&self) -> Result<Vec<Block>, DrawError> {
+        let mut blocks = Vec::new();
+        for (sight, of) in self.budget.sights.iter().enumerate() {
+            blocks.push(Block::Figure {
+                id: format!("figure-waterfall-{sight}"),
+                number: format!("W{}", sight + 1),
+                caption: format!(
+                    "{}: every tone over the speed; the area of a dot is as the root of its amplitude. Orders are labelled.",
+                    of.name
+                ),
+                svg: self.waterfall(sight).inline()?,
+            });
+        }
+        Ok(blocks)
+    }
+
+    fn campbell(&self) -> Result<Vec<Block>, DrawError> {
+        if self.branches.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut blocks = vec![Block::Figure {
+            id: "figure-campbell".to_owned(),
+            number: "K".to_owned(),
+            caption: "Natural frequencies of structure and devices over the speed, with orders and the crossings \
+                      within the range (circles)."
+                .to_owned(),
+            svg: self.campbell_diagram().inline()?,
+        }];
+        if self.crossings.is_empty() {
+            let text = "No order crosses a natural frequency within the speeds.".to_owned();
+            blocks.push(Block::Text { text });
+            return Ok(blocks);
+        }
+        // Those of the worst speeds first, then by order.
+        let worst: Vec<f64> = self
+            .assessed
+            .iter()
+            .filter_map(|of| self.sweep.speeds.get(of.worst).copied())
+            .collect();
+        let near =
+            |of: &Crossing| !worst.iter().any(|speed| (of.speed / speed - 1.0).abs() < NEAR_WORST);
+        let mut ranked: Vec<&Crossing> = self.crossings.iter().collect();
+        ranked.sort_by(|a, b| {
+            near(a)
+                .cmp(&near(b))
+                .then(a.order.total_cmp(&b.order))
+                .then(a.speed.total_cmp(&b.speed))
+        });
+        let rows = ranked.into_iter().take(ROWS_MAX).map(|of| {
+            let whirl = match of.whirl {
+                Whirl::Forward => "forward whirl",
+                Whirl::Backward => "backward whirl",
+                Whirl::None => "mode",
+            };
+            let cells = vec![
+                rpm(of.speed),
+                short(of.order, 6),
+                format!("{} Hz", short(of.oscillation.frequency / TAU, 5)),
+                format!("{} %", short(100.0 * of.oscillation.damping, 3)),
+                format!("{whirl}, near {}", self.nearest_mode(of.oscillation.frequency)),
+            ];
+            ("", cells)
+        });
+        let columns = [
+            ("Speed", ""),
+            ("Order", ""),
+            ("Frequency", ""),
+            ("Damping ratio", ""),
+            ("Branch", ""),
+        ];
+        blocks.push(table(
+            "Orders that cross natural frequencies, those at the worst speeds first",
+            &columns,
+            1..4,
+            rows,
+        ));
+        if self.crossings.len() > ROWS_MAX {
+            let text =
+                format!("{} more crossings are not listed.", self.crossings.len() - ROWS_MAX);
+            blocks.push(Block::Note { text });
+        }
+        Ok(blocks)
+    }
+}

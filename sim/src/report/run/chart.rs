@@ -1,0 +1,154 @@
+//! [`Chart`]: the columns of one picture; [`Drawn`]: their values in the unit of the picture.
+
+use crate::record::Bucket;
+use crate::report::draw::figure::{Band, Figure, Line};
+use crate::report::unit::{Family, Unit, for_peak};
+
+/// Curves that share axes.
+#[derive(Clone, Debug)]
+pub(in crate::report) struct Chart {
+    /// The section of the page that it belongs to.
+    pub(in crate::report) part: Part,
+    /// For names of files and ids: lower case, digits, hyphens.
+    pub(in crate::report) slug: String,
+    /// What it shows.
+    pub(in crate::report) title: String,
+    /// What the vertical axis shows.
+    pub(in crate::report) axis: &'static str,
+    /// The units it may have.
+    pub(in crate::report) family: &'static Family,
+    /// The curves, at least one.
+    pub(in crate::report) curves: Vec<Curve>,
+}
+
+/// A section of the page with charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::report) enum Part {
+    /// Motion and motors.
+    Histories,
+    /// What is conserved.
+    Energy,
+    /// Forces and moments across joints.
+    Loads,
+}
+
+/// A curve: one column.
+#[derive(Clone, Debug)]
+pub(in crate::report) struct Curve {
+    /// Index of the column in a sample.
+    pub(in crate::report) column: usize,
+    /// Its name in files.
+    pub(in crate::report) name: String,
+    /// Its symbol, `_` before a subscript.
+    pub(in crate::report) label: String,
+    /// The axes that it is a component in; empty for a scalar.
+    pub(in crate::report) frame: String,
+    /// Whether the value at the start is taken off.
+    pub(in crate::report) departure: bool,
+}
+
+/// A chart with its values.
+#[derive(Clone, Debug)]
+pub(in crate::report) struct Drawn {
+    /// As in [`Chart`].
+    pub(in crate::report) part: Part,
+    /// As in [`Chart`].
+    pub(in crate::report) slug: String,
+    /// As in [`Chart`].
+    pub(in crate::report) title: String,
+    /// As in [`Chart`].
+    pub(in crate::report) axis: &'static str,
+    /// Of all values below.
+    pub(in crate::report) unit: Unit,
+    /// Start of each bucket, s.
+    pub(in crate::report) time: Vec<f64>,
+    /// End of the last one, s.
+    pub(in crate::report) end: f64,
+    /// The curves.
+    pub(in crate::report) curves: Vec<DrawnCurve>,
+}
+
+/// The values of a curve.
+#[derive(Clone, Debug)]
+pub(in crate::report) struct DrawnCurve {
+    /// As in [`Curve`].
+    pub(in crate::report) curve: Curve,
+    /// Least value of each bucket.
+    pub(in crate::report) min: Vec<f64>,
+    /// Greatest value of each bucket.
+    pub(in crate::report) max: Vec<f64>,
+    /// The last value.
+    pub(in crate::report) last: f64,
+}
+
+/// A chart with the values of buckets of samples, and of the first and last sample.
+pub(in crate::report) fn drawn(
+    chart: &Chart,
+    buckets: &[Bucket],
+    first: &[f64],
+    last: &[f64],
+) -> Drawn {
+    let of = |row: &[f64], index: usize| row.get(index).copied().unwrap_or(f64::NAN);
+    let offset = |curve: &Curve| if curve.departure { of(first, curve.column) } else { 0.0 };
+    let mut peak = 0.0_f64;
+    for curve in &chart.curves {
+        for bucket in buckets {
+            let low = of(&bucket.min, curve.column) - offset(curve);
+            let high = of(&bucket.max, curve.column) - offset(curve);
+            peak = peak.max(low.abs()).max(high.abs());
+        }
+    }
+    let unit = for_peak(chart.family, peak);
+    let curves = chart.curves.iter().map(|curve| {
+        let read = |value: f64| (value - offset(curve)) * unit.per_si;
+        DrawnCurve {
+            min: buckets.iter().map(|bucket| read(of(&bucket.min, curve.column))).collect(),
+            max: buckets.iter().map(|bucket| read(of(&bucket.max, curve.column))).collect(),
+            last: read(of(last, curve.column)),
+            curve: curve.clone(),
+        }
+    });
+    Drawn {
+        part: chart.part,
+        slug: chart.slug.clone(),
+        title: chart.title.clone(),
+        axis: chart.axis,
+        unit,
+        time: buckets.iter().map(|bucket| bucket.start).collect(),
+        end: buckets.last().map_or(0.0, |bucket| bucket.end),
+        curves: curves.collect(),
+    }
+}
+
+impl Drawn {
+    /// Whether every value is zero.
+    pub(in crate::report) fn is_zero(&self) -> bool {
+        self.curves.iter().all(|curve| curve.min.iter().chain(&curve.max).all(|v| *v == 0.0))
+    }
+
+    /// Its static figure.
+    pub(in crate::report) fn figure(&self) -> Figure {
+        let starts = &self.time;
+        let ends = starts.iter().skip(1).chain([&self.end]);
+        let middles: Vec<f64> = starts.iter().zip(ends).map(|(a, b)| 0.5 * (a + b)).collect();
+        let lines = self.curves.iter().map(|curve| {
+            let is_band = curve.min != curve.max;
+            let times = if is_band { &middles } else { starts };
+            let values = times.iter().zip(curve.min.iter().zip(&curve.max));
+            let bands = values.map(|(time, (min, max))| Band { time: *time, min: *min, max: *max });
+            Line { name: curve.curve.label.clone(), bands: bands.collect() }
+        });
+        let mut described = self.title.clone();
+        if !self.unit.name.is_empty() {
+            described = format!("{described}, in {}", self.unit.name);
+        }
+        Figure {
+            description: format!("{described}, over the time in s."),
+            title: self.title.clone(),
+            axis: self.axis,
+            unit: self.unit.name,
+            span: [starts.first().copied().unwrap_or(0.0), self.end],
+            lines: lines.collect(),
+        }
+    }
+}

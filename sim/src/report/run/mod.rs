@@ -1,0 +1,13 @@
+//! What the page of one run shows: charts, tables, replay, verdicts.
+
+pub(super) mod chart;
+pub(super) mod extremes;
+pub(super) mod grouping;
+pub(super) mod load_tables;
+pub(super) mod mass;
+pub(super) mod replay;
+pub(super) mod requirements;
+mod slow_motion;
+mod stage;
+pub(super) mod summary;
+pub(super) mod tables;

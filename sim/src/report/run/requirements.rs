@@ -1,0 +1,124 @@
+//! The requirements of a scenario: what was reached, and what the limit is.
+
+use crate::pointing::Index;
+use crate::record::Verdict;
+use crate::report::blocks::{Block, table};
+use crate::report::{Report, number};
+use crate::scenario::Statistic;
+
+/// The table; empty where the scenario states no requirements.
+pub(in crate::report) fn table_of(report: &Report) -> Vec<Block> {
+    let requirements = &report.scenario.requirements;
+    if requirements.is_empty() {
+        return Vec::new();
+    }
+    let rows = requirements.iter().zip(report.verdicts()).map(|(requirement, verdict)| {
+        let state = if verdict.is_met() { "met" } else { "violated" };
+        let [from, to] = requirement.window.map(number::time);
+        let cells = vec![
+            requirement.name.clone(),
+            word(verdict).to_owned(),
+            reached(verdict),
+            limit(verdict),
+            margin(verdict),
+            requirement.quantity.clone(),
+            statistic(requirement.statistic),
+            format!("{from} s to {to} s"),
+        ];
+        (state, cells)
+    });
+    let columns = [
+        ("Requirement", ""),
+        ("State", ""),
+        ("Reached", ""),
+        ("Limit", ""),
+        ("Margin", ""),
+        ("Quantity", ""),
+        ("Statistic", ""),
+        ("Window", ""),
+    ];
+    // The verdict first: a phone shows the first columns.
+    vec![table("Requirements, and what the run reached", &columns, 2..5, rows)]
+}
+
+/// A requirement in words: `pointing: 0.0300 deg/s, limit 0.100 deg/s`.
+pub(in crate::report) fn words(verdict: &Verdict) -> String {
+    let comparison = if verdict.is_met() { "within" } else { "above" };
+    match (verdict.value, verdict.complete) {
+        (None, _) => format!("{}: no sample in its window", verdict.name),
+        (Some(_), false) => {
+            format!("{}: {} so far, its window was not run", verdict.name, reached(verdict))
+        }
+        (Some(_), true) => format!(
+            "{}: {} of {}, {comparison} the limit {}",
+            verdict.name,
+            reached(verdict),
+            verdict.quantity,
+            limit(verdict)
+        ),
+    }
+}
+
+fn word(verdict: &Verdict) -> &'static str {
+    match (verdict.value, verdict.complete) {
+        (None, _) => "violated: no sample",
+        (Some(_), false) => "violated: window not run",
+        (Some(value), true) if value <= verdict.limit => "met",
+        (Some(_), true) => "violated",
+    }
+}
+
+fn reached(verdict: &Verdict) -> String {
+    let (unit, size) = &verdict.unit;
+    verdict.value.map_or_else(|| "–".to_owned(), |value| number::with_unit(value / size, 4, unit))
+}
+
+fn limit(verdict: &Verdict) -> String {
+    let (unit, size) = &verdict.unit;
+    let limit = number::short(verdict.limit / size, 6);
+    if unit.is_empty() || unit == "1" { limit } else { format!("{limit} {unit}") }
+}
+
+/// What is left of the limit, and limit by value in decibels.
+fn margin(verdict: &Verdict) -> String {
+    let Some(margin) = verdict.margin() else { return "–".to_owned() };
+    let percent = number::short(margin.percent(), 3);
+    let decibels = margin.decibels();
+    if !decibels.is_finite() {
+        return format!("{percent} %");
+    }
+    format!("{percent} %, {} dB", number::short(decibels, 3))
+}
+
+fn statistic(statistic: Statistic) -> String {
+    match statistic {
+        Statistic::Peak => "largest magnitude".to_owned(),
+        Statistic::Rms => "RMS".to_owned(),
+        Statistic::BandRms([from, to]) => {
+            format!("RMS from {} Hz to {} Hz", number::short(from, 6), number::short(to, 6))
+        }
+        Statistic::Final => "magnitude at the end".to_owned(),
+        Statistic::Drift => "largest departure from the start".to_owned(),
+        Statistic::Displacement(time) => format!("displacement, RMS over {}", exposures(time)),
+        Statistic::Smear(time) => format!("smear, RMS in {}", exposures(time)),
+        Statistic::Jitter(time) => format!("jitter, RMS in {}", exposures(time)),
+        Statistic::Index { index, level } => {
+            let time = |time: f64| number::short(time, 6);
+            let windows = match index {
+                Index::Ape => String::new(),
+                Index::Mpe { window } | Index::Rpe { window } | Index::Pre { window } => {
+                    format!(", window {} s", time(window))
+                }
+                Index::Pde { window, stability } => {
+                    format!(", window {} s, stability time {} s", time(window), time(stability))
+                }
+            };
+            let share = number::short(100.0 * level, 6);
+            format!("{} not exceeded in {share} % of the time{windows}", index.name())
+        }
+    }
+}
+
+fn exposures(time: f64) -> String {
+    format!("exposures of {} s", number::short(time, 6))
+}
