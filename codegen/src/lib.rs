@@ -14,3 +14,10 @@ pub mod threads;
 pub mod unit;
 
 pub use outside::{emit_kind, prove_kind};
+
+/// The page whose Rust blocks are compiled and run as documentation tests.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../../docs/adding-a-kind.md")]
+    struct AddingAKind;
+}

@@ -42,7 +42,4 @@ mod pages {
 
     #[doc = include_str!("../../docs/guide.md")]
     struct Guide;
-
-    #[doc = include_str!("../../docs/adding-a-kind.md")]
-    struct AddingAKind;
 }
