@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use precess_dynamics::{
     Accelerations, Column, DerivativeError, Hub, Inputs, Linearization, Outputs, ParameterVariable,
-    Spacecraft, State, StepLinearization,
+    Spacecraft, State, StepLinearization, Variable,
 };
 
 use crate::Set;
@@ -22,7 +22,22 @@ pub fn linearize(
     craft.linearize(state, inputs, outputs)
 }
 
-/// A column of derivatives for each variable, and the accelerations.
+/// A column of derivatives for each state or input, and the accelerations.
+///
+/// # Errors
+///
+/// As [`Spacecraft::derivatives`].
+pub fn derivatives(
+    craft: &Spacecraft<Set>,
+    (state, inputs): (&State<Set>, &Inputs<Set>),
+    outputs: &Outputs,
+    variables: &mut dyn Iterator<Item = Variable>,
+    column: &mut dyn FnMut(Variable, &Column<Set>),
+) -> Result<Accelerations<Set>, DerivativeError> {
+    craft.derivatives(state, inputs, outputs, variables, column)
+}
+
+/// A column of derivatives for each parameter, and the accelerations.
 ///
 /// # Errors
 ///
@@ -32,10 +47,10 @@ pub fn parameter_derivatives<'a>(
     devices: &Set,
     at: (&State<Set>, &Inputs<Set>),
     outputs: &Outputs,
-    mut variables: &mut dyn Iterator<Item = ParameterVariable<'a>>,
+    variables: &mut dyn Iterator<Item = ParameterVariable<'a>>,
     column: &mut dyn FnMut(ParameterVariable<'a>, &Column<Set>),
 ) -> Result<Accelerations<Set>, DerivativeError> {
-    Spacecraft::parameter_derivatives(hub, devices, at, outputs, &mut variables, column)
+    Spacecraft::parameter_derivatives(hub, devices, at, outputs, variables, column)
 }
 
 /// A step of RK4 linearised.

@@ -21,7 +21,7 @@ use precess_dynamics::{
 
 pub use craft::{Craft, CraftAccelerations, CraftInputs, CraftState, rigid_state};
 pub use derivatives::{
-    linearize, linearize_step, parameter_derivatives, step_parameter_derivatives,
+    derivatives, linearize, linearize_step, parameter_derivatives, step_parameter_derivatives,
 };
 
 /// The set that is run: devices on the hub, each of any kind, and platforms with devices on them.

@@ -102,8 +102,9 @@ impl Evaluator {
                 _ => {}
             }
             let mut elements = column.iter_mut();
-            let by = variables.iter().copied();
-            craft.derivatives(&moving, &inputs, &outputs, by, |_, of| {
+            let at = (&moving, &inputs);
+            let mut by = variables.iter().copied();
+            precess_craft::derivatives(craft, at, &outputs, &mut by, &mut |_, of| {
                 if let (Some(element), Some(momentum)) = (elements.next(), &of.momentum) {
                     *element = momentum.energy;
                 }

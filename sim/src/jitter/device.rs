@@ -122,7 +122,7 @@ impl SweptDevice {
         let unit = if unit > 0.0 { unit } else { 1.0 };
         let at = |speed: f64| {
             let states = states_at(&joints.states, &rotors, speed);
-            AveragedDevices::new(&set, mount, &states, &joints.motors)
+            AveragedDevices::of_set(&set, mount, &states, &joints.motors)
         };
         let powers = if rotors.iter().any(Rotor::is_swept) {
             polynomials(unit, [at(unit)?.mean(), at(-unit)?.mean(), at(2.0 * unit)?.mean()])

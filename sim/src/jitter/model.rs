@@ -334,7 +334,7 @@ fn rigid_mass(
     let joints = SteadyJoints::new(scenario, group, Motor::ConstantRate, false);
     let still: Vec<_> = joints.states.iter().map(|[x, _]| [*x, 0.0]).collect();
     let held = vec![Motor::ConstantRate; still.len()];
-    let averaged = AveragedDevices::new(&set_of(scenario, group), mount, &still, &held)?;
+    let averaged = AveragedDevices::of_set(&set_of(scenario, group), mount, &still, &held)?;
     let [mass, ..] = averaged.mean();
     Ok(mass.clone())
 }

@@ -24,8 +24,8 @@ use nalgebra::{Complex, DMatrix, DVector, Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointInfo, JointStates};
 use precess_dynamics::set::WithNumbers;
 use precess_dynamics::{
-    Axis, DerivativeError, Hub, HubMode, Inputs, LoadAxes, Mode, Output, Outputs, Spacecraft,
-    State, Variable,
+    Axis, DerivativeError, Hub, HubMode, Inputs, Linearization, LoadAxes, Mode, Output, Outputs,
+    Spacecraft, State, Variable,
 };
 
 use super::accelerance::ComplexMatrix;
@@ -33,6 +33,7 @@ use super::condensed::{Derivatives, at, condensed};
 use super::dynamic_mass::Motor;
 use super::harmonics::{fourier, share};
 use super::{COORDINATES, Fault, rigid_rows, within};
+use crate::scenario::Set;
 
 /// Mass, kg, and inertia, kg m², of the hub that stands for the mount: less than rounding of any device.
 const OF_MOUNT: f64 = 1e-60;
@@ -59,6 +60,14 @@ pub(crate) fn mount_hub() -> Hub {
     Hub { m_b: OF_MOUNT, r_bc_b: Vector3::zeros(), i_b_bc }
 }
 
+/// What linearises a set.
+type Linearize<D> = fn(
+    &Spacecraft<D>,
+    &State<D>,
+    &Inputs<D>,
+    &Outputs,
+) -> Result<Linearization<D>, DerivativeError>;
+
 /// What is linearised.
 struct Mounted<D: WithNumbers<Scalar = f64>> {
     craft: Spacecraft<D>,
@@ -66,6 +75,7 @@ struct Mounted<D: WithNumbers<Scalar = f64>> {
     inputs: Inputs<D>,
     /// Numbers of the free joints.
     free: Vec<usize>,
+    linearize: Linearize<D>,
 }
 
 impl AveragedDevices {
@@ -85,6 +95,29 @@ impl AveragedDevices {
         joints: &[[f64; 2]],
         motors: &[Motor],
     ) -> Result<Self, Fault> {
+        Self::by(Spacecraft::linearize, devices, mount, joints, motors)
+    }
+
+    /// The same of a scenario's set, whose derivatives are compiled with its solver.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_set(
+        devices: &Set,
+        mount: &Vector3<f64>,
+        joints: &[[f64; 2]],
+        motors: &[Motor],
+    ) -> Result<Self, Fault> {
+        Self::by(precess_craft::linearize, devices, mount, joints, motors)
+    }
+
+    fn by<D: WithNumbers<Scalar = f64>>(
+        linearize: Linearize<D>,
+        devices: &D,
+        mount: &Vector3<f64>,
+        joints: &[[f64; 2]],
+        motors: &[Motor],
+    ) -> Result<Self, Fault> {
         let rejected = |error| Fault::Device(DerivativeError::Parameter(error));
         let craft = Spacecraft::new(&mount_hub(), devices).map_err(rejected)?;
         let infos: Vec<_> = craft.joints().collect();
@@ -95,7 +128,7 @@ impl AveragedDevices {
             }
         }
         let rotors = rotors(&infos, joints)?;
-        let mut mounted = Mounted::new(craft, joints, motors);
+        let mut mounted = Mounted::new(linearize, craft, joints, motors);
         let at_start = mounted.derivatives()?;
         let mut mean = at_start.clone();
         let mut harmonics = Vec::new();
@@ -193,7 +226,12 @@ fn rotors(
 }
 
 impl<D: WithNumbers<Scalar = f64>> Mounted<D> {
-    fn new(craft: Spacecraft<D>, joints: &[[f64; 2]], motors: &[Motor]) -> Self {
+    fn new(
+        linearize: Linearize<D>,
+        craft: Spacecraft<D>,
+        joints: &[[f64; 2]],
+        motors: &[Motor],
+    ) -> Self {
         let mut state = State::at_rest_for(&craft);
         for (to, [at, rate]) in state.devices.states_mut().zip(joints) {
             let [coordinate, its_rate] = to;
@@ -214,7 +252,7 @@ impl<D: WithNumbers<Scalar = f64>> Mounted<D> {
                 _ => *mode = Mode::Prescribed(0.0),
             }
         }
-        Self { craft, state, inputs, free }
+        Self { craft, state, inputs, free, linearize }
     }
 
     /// Derivatives at the state, with the motors that keep its rates steady.
@@ -223,7 +261,10 @@ impl<D: WithNumbers<Scalar = f64>> Mounted<D> {
         let free_ones = |of: fn(usize) -> Variable| free.iter().copied().map(of);
         let mut inputs = self.inputs.clone();
         let outputs = Outputs { momentum: None, loads: Some(LoadAxes::Hub) };
-        let system = craft.linearize(state, &inputs, &outputs).map_err(Fault::Device)?;
+        let linearized = |inputs: &Inputs<D>| {
+            (self.linearize)(craft, state, inputs, &outputs).map_err(Fault::Device)
+        };
+        let system = linearized(&inputs)?;
         let motors = places(&system.inputs, free_ones(Variable::Motor));
         let rates = places(&system.states, free_ones(Variable::Rate));
         let gain = system.b.select_rows(&rates).select_columns(&motors);
@@ -238,7 +279,7 @@ impl<D: WithNumbers<Scalar = f64>> Mounted<D> {
                 *motor = *torque;
             }
         }
-        let system = craft.linearize(state, &inputs, &outputs).map_err(Fault::Device)?;
+        let system = linearized(&inputs)?;
         let of_hub = Axis::ALL.map(Output::HubForce).into_iter();
         let of_hub = places(&system.outputs, of_hub.chain(Axis::ALL.map(Output::HubMoment)));
         let forces = system.d.select_rows(&of_hub).select_columns(&motors) * &mass;

@@ -96,9 +96,9 @@ impl DeviceOptions {
         }
         let failed = |fault| CommandError::Other(format!("{}: {names}: {fault}", path.display()));
         let held = vec![Motor::ConstantRate; joints.motors.len()];
-        let averaged = AveragedDevices::new(&devices, mount, &joints.states, &joints.motors);
+        let averaged = AveragedDevices::of_set(&devices, mount, &joints.states, &joints.motors);
         let at_rest: Vec<_> = joints.states.iter().map(|[x, _]| [*x, 0.0]).collect();
-        let rigid = AveragedDevices::new(&devices, mount, &at_rest, &held);
+        let rigid = AveragedDevices::of_set(&devices, mount, &at_rest, &held);
         let (averaged, rigid) = (averaged.map_err(failed)?, rigid.map_err(failed)?);
         Ok(Some(MountedDevices { names, averaged, rigid }))
     }
