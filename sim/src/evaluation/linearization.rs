@@ -53,18 +53,6 @@ impl Evaluator {
         outputs: &Outputs,
         parameters: &[N],
     ) -> Result<Linearized, EvaluationError> {
-        let names: Vec<&str> = parameters.iter().map(AsRef::as_ref).collect();
-        self.linearized(state, inputs, outputs, &names)
-    }
-
-    /// The same for one type of names: dual numbers of every kind are compiled once.
-    fn linearized(
-        &self,
-        state: &CraftState,
-        inputs: &CraftInputs,
-        outputs: &Outputs,
-        parameters: &[&str],
-    ) -> Result<Linearized, EvaluationError> {
         if self.is_flexible() {
             return Err(EvaluationError::Flexible { what: "the linearised system" });
         }

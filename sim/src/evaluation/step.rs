@@ -43,20 +43,8 @@ impl Evaluator {
         &self,
         state: &CraftState,
         inputs: &CraftInputs,
-        steps: (f64, usize),
-        parameters: &[N],
-    ) -> Result<LinearizedStep, EvaluationError> {
-        let names: Vec<&str> = parameters.iter().map(AsRef::as_ref).collect();
-        self.linearized_steps(state, inputs, steps, &names)
-    }
-
-    /// The same for one type of names: dual numbers of every kind are compiled once.
-    fn linearized_steps(
-        &self,
-        state: &CraftState,
-        inputs: &CraftInputs,
         (length, steps): (f64, usize),
-        parameters: &[&str],
+        parameters: &[N],
     ) -> Result<LinearizedStep, EvaluationError> {
         if self.is_flexible() {
             return Err(EvaluationError::Flexible { what: "the linearised step" });
