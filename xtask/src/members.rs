@@ -4,8 +4,14 @@
 //! lanes has commands of its own: the desktop tool, which has none, is compiled once for all commands.
 
 /// Those whose tests need the solver's lanes.
-const IN_LANES: [&str; 5] =
-    ["precess-attack", "precess-counts", "precess-dynamics", "precess-measure", "precess-tests"];
+const IN_LANES: [&str; 6] = [
+    "precess-attack",
+    "precess-counts",
+    "precess-dynamics",
+    "precess-measure",
+    "precess-point-masses",
+    "precess-tests",
+];
 
 /// Arguments of cargo that select the members whose tests need lanes.
 pub(crate) fn in_lanes() -> Vec<&'static str> {

@@ -9,11 +9,11 @@ use precess_dynamics::{
     Vscmg, Wrench,
 };
 use precess_dynamics::{FixedSet, HubMode};
+use precess_point_masses::{Chain, PointMasses, Rates, Row};
 
 use super::case::{Case, Found, SEEDS, World, joints, largest};
-use super::devices::{Chain, Drawn};
+use super::devices::Drawn;
 use super::mixed::{Mixed, chains, drawn};
-use super::point_masses::{Body, Mass, PointMasses, Rates};
 use super::random::{Random, errors_of};
 
 /// Largest backward error of the accelerations, in units of the sum of the magnitudes of all terms,
@@ -37,56 +37,17 @@ pub(crate) fn disturb<D: FixedSet<Scalar = f64>>(case: &mut Case<D>, random: &mu
     case.inputs.bodies = Some(wrenches);
 }
 
-/// One direction's equation, `m q'' = h`, summed over the masses.
-struct Row {
-    m: Vec<f64>,
-    h: f64,
-    /// The sum of the magnitudes of the terms of each entry of m, and of h.
-    magnitudes: (Vec<f64>, f64),
-}
-
 /// The equations in every direction in which the spacecraft may move.
 fn rows<D: FixedSet<Scalar = f64>>(case: &Case<D>, masses: &PointMasses) -> Vec<Row> {
     let inputs = &case.inputs;
     let g = match inputs.gravity {
-        Gravity::Uniform(g) => masses.bn * g,
+        Gravity::Uniform(g) => g,
         Gravity::None | Gravity::Central { .. } => Vector3::zeros(),
     };
     let hub = inputs.force.iter().chain(inputs.torque_b.iter()).copied();
-    let joints =
-        inputs.motors.values().zip(masses.passive()).map(|(motor, passive)| motor + passive);
-    // The bodies as they are when nothing accelerates: what is left are the rates' own terms.
-    let bodies = masses.bodies(&Rates::none(masses.coordinates.len()));
-    let displaced: Vec<_> = (0..masses.directions()).map(|i| masses.displaced(i)).collect();
-    // Every mass once: a pair of directions takes two lists of them.
-    let listed = |bodies: &Vec<Body>| bodies.iter().flat_map(Body::masses).collect();
-    let now: Vec<Mass> = listed(&bodies);
-    let moved: Vec<Vec<Mass>> = displaced.iter().map(listed).collect();
-    let row = |((along, moving), acting): ((&Vec<Body>, &Vec<Mass>), f64)| {
-        let mut h = vec![acting];
-        for (mass, along) in now.iter().zip(moving) {
-            let (along, m) = (along.r[1], mass.mass);
-            h.extend(&(mass.r[2] * -m).component_mul(&along));
-            h.extend(&(g * m).component_mul(&along));
-        }
-        let wrenches = inputs.bodies.iter().flat_map(Each::values);
-        for ((wrench, body), along) in wrenches.zip(&bodies[1..]).zip(&along[1..]) {
-            let (origin, turning) = (along.frame.origin[1], along.frame.angular_velocity());
-            h.extend(&(body.own * wrench.force).component_mul(&origin));
-            h.extend(&(body.own * wrench.moment).component_mul(&turning));
-        }
-        let m = moved.iter().map(|other| {
-            let terms = moving.iter().zip(other).flat_map(|(a, b)| {
-                let products = a.r[1].component_mul(&b.r[1]) * a.mass;
-                [products.x, products.y, products.z]
-            });
-            terms.fold((0.0, 0.0), |(sum, size), term| (sum + term, size + term.abs()))
-        });
-        let (m, of_m): (Vec<_>, Vec<_>) = m.unzip();
-        let of_h = h.iter().map(|term| term.abs()).sum();
-        Row { m, h: h.iter().sum(), magnitudes: (of_m, of_h) }
-    };
-    displaced.iter().zip(&moved).zip(hub.chain(joints)).map(row).collect()
+    let acting: Vec<_> = hub.chain(inputs.motors.values()).collect();
+    let wrenches: Vec<_> = inputs.bodies.iter().flat_map(Each::values).collect();
+    masses.equations(&g, &acting, &wrenches)
 }
 
 /// The largest backward error, `abs(m q'' - h)` in units of the magnitudes of its terms, over all
@@ -115,7 +76,7 @@ pub(crate) fn pair<K: Drawn>(random: &mut Random) -> (World, Case<[K; 2]>, Point
     let mut case = world.case(&devices, &settings);
     disturb(&mut case, random);
     let chains: Vec<Chain> = devices.iter().map(Drawn::chain).collect();
-    let masses = PointMasses::of(&world, &case, chains);
+    let masses = PointMasses::of(&world.hub, &case.state, chains);
     (world, case, masses)
 }
 
@@ -165,7 +126,7 @@ fn mixed(random: &mut Random) -> (Case<Mixed>, PointMasses) {
     let (devices, settings) = drawn(random, world.hub.m_b);
     let mut case = world.case(&devices, &settings.concat());
     disturb(&mut case, random);
-    let masses = PointMasses::of(&world, &case, chains(&devices));
+    let masses = PointMasses::of(&world.hub, &case.state, chains(&devices));
     (case, masses)
 }
 

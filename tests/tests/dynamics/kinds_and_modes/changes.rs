@@ -6,10 +6,10 @@ use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::{
     About, BalancedDgvscmg, Dgvscmg, HingedPanel, Mode, ReactionWheel, SloshMass,
 };
+use precess_point_masses::PointMasses;
 
 use super::case::{Case, Joint, World, joints, largest};
 use super::devices::Drawn;
-use super::point_masses::PointMasses;
 use super::random::{Random, errors_of};
 use super::stops::sizes;
 
@@ -55,7 +55,7 @@ fn coasting(random: &mut Random) -> (Case<Set>, PointMasses) {
     let case = world.case(&(wheel, [double], balanced, (panel, slosh)), &settings);
     let chains =
         vec![wheel.chain(), double.chain(), balanced.chain(), panel.chain(), slosh.chain()];
-    let masses = PointMasses::of(&world, &case, chains);
+    let masses = PointMasses::of(&world.hub, &case.state, chains);
     (case, masses)
 }
 

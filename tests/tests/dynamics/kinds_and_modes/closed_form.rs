@@ -3,11 +3,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::BalancedReactionWheel;
+use precess_point_masses::Rigid;
 
 use super::case::{Found, Joint, LIMITS, SEEDS, World, joints};
 use super::devices::Drawn;
 use super::random::{Random, errors_of};
-use super::rigid::Rigid;
 
 /// The accelerations of balanced wheels fixed in a hub:
 ///

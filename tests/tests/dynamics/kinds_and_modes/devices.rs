@@ -7,39 +7,9 @@ use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
     Dgvscmg, FlexibleReactionWheel, HingedPanel, Passive, ReactionWheel, Sgcmg, SloshMass, Vscmg,
 };
+use precess_point_masses::{Chain, Link, Motion};
 
 use super::random::Random;
-
-/// How a joint moves: about or along an axis of the parent body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Motion {
-    Turns(Vector3<f64>),
-    Slides(Vector3<f64>),
-}
-
-/// A joint and its child body.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Link {
-    pub(crate) motion: Motion,
-    /// Of the joint, from the parent body's origin, in the parent body's axes.
-    pub(crate) origin: Vector3<f64>,
-    pub(crate) mass: f64,
-    /// From the joint's origin, own axes.
-    pub(crate) centre: Vector3<f64>,
-    pub(crate) inertia: Matrix3<f64>,
-    /// Whether it is symmetric about its joint: then its axes are the parent body's.
-    pub(crate) round: bool,
-}
-
-/// A device as bodies in a row.
-#[derive(Clone, Debug)]
-pub(crate) struct Chain {
-    pub(crate) mount: Matrix3<f64>,
-    /// Of the first joint, from B, B axes; the first link's own origin is zero.
-    pub(crate) position: Vector3<f64>,
-    pub(crate) links: Vec<Link>,
-    pub(crate) passive: Vec<Passive>,
-}
 
 /// A kind that can be drawn.
 pub(crate) trait Drawn: Kind<Scalar = f64> {

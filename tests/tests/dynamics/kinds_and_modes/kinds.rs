@@ -8,6 +8,7 @@ use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
     Dgvscmg, ReactionWheel, Sgcmg, Vscmg,
 };
+use precess_point_masses::{Rigid, turn};
 
 use super::case::{Joint, LIMITS, SEEDS, World, joints};
 use super::devices::{
@@ -15,7 +16,6 @@ use super::devices::{
     balanced_vscmg, dgcmg, sgcmg,
 };
 use super::random::{Random, errors_of};
-use super::rigid::{Rigid, turn};
 
 /// Devices per spacecraft: no block is one number that may happen to vanish.
 const DEVICES: usize = 3;

@@ -7,11 +7,11 @@ use precess_dynamics::{
     DeviceLoads, Dgcmg, Dgvscmg, FlexibleReactionWheel, Gravity, HingedPanel, HubMode, LoadAxes,
     Mode, ReactionWheel, Sgcmg, SloshMass, Vscmg, Wrench,
 };
+use precess_point_masses::{Body, Chain, Mass, PointMasses, Rates};
 
 use super::balance::{disturb, pair};
 use super::case::{Case, World, joints, largest};
-use super::devices::{Chain, Drawn};
-use super::point_masses::{Body, Mass, PointMasses, Rates};
+use super::devices::Drawn;
 use super::random::{Random, errors_of};
 
 /// Largest error, in units of the sum of the magnitudes of all terms.
@@ -169,7 +169,7 @@ fn loads_are_those_of_the_masses<K: Drawn>() {
 fn loads_of_a_clamped_hub<K: Drawn>() {
     let error = |random: &mut Random| {
         let (world, case, chains) = clamped::<K>(random);
-        let masses = PointMasses::of(&world, &case, chains);
+        let masses = PointMasses::of(&world.hub, &case.state, chains);
         let found = case.accelerations();
         assert_eq!(found.r_b_n_ddot, Vector3::zeros());
         assert_eq!(found.omega_dot, Vector3::zeros());

@@ -5,9 +5,10 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
     BalancedDgvscmg, Devices, Dgvscmg, HingedPanel, ReactionWheel, Sgcmg, SloshMass,
 };
+use precess_point_masses::Chain;
 
 use super::case::{Found, Joint, LIMITS, SEEDS, World, joints};
-use super::devices::{Chain, Drawn};
+use super::devices::Drawn;
 use super::random::{Random, errors_of};
 
 /// Five kinds, nested; nine joints.

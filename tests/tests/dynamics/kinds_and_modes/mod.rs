@@ -11,7 +11,6 @@ mod lists;
 mod loads;
 mod mixed;
 mod modes;
-mod point_masses;
 mod precision;
 mod random;
 mod rejected_modes;

@@ -6,11 +6,11 @@ use precess_dynamics::{
     About, Accelerations, Attitude, Dgvscmg, HubMode, Inputs, LoadAxes, Loads, Mode, Quaternion,
     State, Stopped, Wrench,
 };
+use precess_point_masses::{Body, PointMasses, Rates};
 
 use super::case::{Case, Joint, SEEDS, World, joints, largest};
 use super::devices::Drawn;
 use super::mixed::{Mixed, chains, drawn};
-use super::point_masses::{Body, PointMasses, Rates};
 use super::random::{Random, errors_of};
 
 /// Largest error of energy and momentum, of the kinetic energy and of the sum of the bodies'
@@ -29,7 +29,7 @@ fn braking(random: &mut Random) -> (Case<Mixed>, PointMasses) {
         }
     }
     let case = world.case(&devices, &settings);
-    let masses = PointMasses::of(&world, &case, chains(&devices));
+    let masses = PointMasses::of(&world.hub, &case.state, chains(&devices));
     (case, masses)
 }
 

@@ -1,4 +1,4 @@
-//! The reference: every body is six point masses. Positions are rotation matrices times columns,
+//! A reference for devices of every kind: every body is six point masses. Positions are rotation matrices times columns,
 //! differentiated by the product rule; no angular momentum, no moving inertia tensor,
 //! no recursion and no emitted code is used.
 //!
@@ -7,24 +7,30 @@
 //! expressed in fixed axes that coincide with B's at the instant; positions are from B at the
 //! instant.
 
+mod chain;
+mod equations;
+mod rigid;
+
 use std::ops::{Add, Mul};
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use precess_dynamics::kind::{Each, JointStates};
-use precess_dynamics::{Accelerations, Attitude, Devices};
+use precess_dynamics::{Accelerations, Attitude, Devices, Hub, State};
 
-use super::case::{Case, World};
-use super::devices::{Chain, Link, Motion};
-use super::rigid::{Rigid, turn};
+pub use chain::{Chain, Link, Motion};
+pub use equations::Row;
+pub use rigid::{Rigid, posed, turn};
 
 /// Value, rate and acceleration.
-pub(crate) type Moving<X> = [X; 3];
+pub type Moving<X> = [X; 3];
 
 /// A frame as it moves; columns of `axes` are its axes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
-    pub(crate) axes: Moving<Matrix3<f64>>,
-    pub(crate) origin: Moving<Vector3<f64>>,
+pub struct Frame {
+    /// Of the frame, as columns.
+    pub axes: Moving<Matrix3<f64>>,
+    /// From B at the instant, m.
+    pub origin: Moving<Vector3<f64>>,
 }
 
 /// A point mass, fixed in a body's frame.
@@ -36,67 +42,74 @@ struct Point {
 
 /// A body with its masses.
 #[derive(Clone, Debug)]
-pub(crate) struct Body {
+pub struct Body {
     /// Which chain it belongs to; none of the hub.
-    pub(crate) chain: Option<usize>,
-    pub(crate) frame: Frame,
+    pub chain: Option<usize>,
+    /// Its frame.
+    pub frame: Frame,
     /// The axes of the parent body; of the first in a chain, the device's at zero.
-    pub(crate) parent: Matrix3<f64>,
+    pub parent: Matrix3<f64>,
     /// The axes in which its wrenches are expressed.
-    pub(crate) own: Matrix3<f64>,
+    pub own: Matrix3<f64>,
     points: Vec<Point>,
 }
 
 /// A mass where it is, and how it moves.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Mass {
-    pub(crate) mass: f64,
-    pub(crate) r: Moving<Vector3<f64>>,
+pub struct Mass {
+    /// kg.
+    pub mass: f64,
+    /// From B at the instant, m.
+    pub r: Moving<Vector3<f64>>,
 }
 
 /// Rates of the hub, along B axes, and of the joints; or their accelerations.
 #[derive(Clone, Debug)]
-pub(crate) struct Rates {
-    pub(crate) r_b_n_dot: Vector3<f64>,
-    pub(crate) omega: Vector3<f64>,
-    pub(crate) joints: Vec<f64>,
+pub struct Rates {
+    /// Of B, m/s.
+    pub r_b_n_dot: Vector3<f64>,
+    /// Of the hub, rad/s.
+    pub omega: Vector3<f64>,
+    /// Of the joints, rad/s or m/s.
+    pub joints: Vec<f64>,
 }
 
 /// Hub and devices in one state.
 #[derive(Clone, Debug)]
-pub(crate) struct PointMasses {
+pub struct PointMasses {
     hub: Rigid,
     chains: Vec<Chain>,
     /// `[BN]`.
-    pub(crate) bn: Matrix3<f64>,
+    pub bn: Matrix3<f64>,
     /// Of B from the inertial origin.
-    pub(crate) r_b_n: Vector3<f64>,
-    pub(crate) coordinates: Vec<f64>,
-    pub(crate) rates: Rates,
+    pub r_b_n: Vector3<f64>,
+    /// Of the joints, rad or m.
+    pub coordinates: Vec<f64>,
+    /// Of hub and joints.
+    pub rates: Rates,
 }
 
 impl PointMasses {
-    pub(crate) fn of<D: Devices<Scalar = f64>>(
-        world: &World,
-        case: &Case<D>,
-        chains: Vec<Chain>,
-    ) -> Self {
-        let state = &case.state;
+    /// Of a spacecraft in a state.
+    #[must_use]
+    pub fn of<D: Devices<Scalar = f64>>(hub: &Hub, state: &State<D>, chains: Vec<Chain>) -> Self {
         let bn = state.attitude.dcm();
         let (coordinates, joints) = state.devices.states().map(|[q, rate]| (q, rate)).unzip();
         let rates = Rates { r_b_n_dot: bn * state.r_b_n_dot, omega: state.omega, joints };
-        let hub = Rigid::of_hub(&world.hub);
+        let hub = Rigid::of_hub(hub);
         Self { hub, chains, bn, r_b_n: bn * state.r_b_n, coordinates, rates }
     }
 
     /// The hub, then the child body of each joint in order, with the state's rates.
-    pub(crate) fn bodies(&self, accelerations: &Rates) -> Vec<Body> {
+    #[must_use]
+    pub fn bodies(&self, accelerations: &Rates) -> Vec<Body> {
         self.moving(&self.rates, accelerations)
     }
 
     /// The same with unit rate in one direction only, of hub and joints: the velocities are the
     /// derivatives of positions in that direction.
-    pub(crate) fn displaced(&self, direction: usize) -> Vec<Body> {
+    #[must_use]
+    pub fn displaced(&self, direction: usize) -> Vec<Body> {
         let unit = Rates::unit(direction, self.coordinates.len());
         self.moving(&unit, &Rates::none(self.coordinates.len()))
     }
@@ -126,12 +139,14 @@ impl PointMasses {
     }
 
     /// How many directions there are.
-    pub(crate) fn directions(&self) -> usize {
+    #[must_use]
+    pub fn directions(&self) -> usize {
         6 + self.coordinates.len()
     }
 
     /// What spring and friction of each joint exert.
-    pub(crate) fn passive(&self) -> Vec<f64> {
+    #[must_use]
+    pub fn passive(&self) -> Vec<f64> {
         let all = self.chains.iter().flat_map(|chain| &chain.passive);
         let states = self.coordinates.iter().zip(&self.rates.joints);
         let of = all.zip(states).map(|(p, (q, rate))| {
@@ -147,7 +162,9 @@ impl PointMasses {
 }
 
 impl Rates {
-    pub(crate) fn none(joints: usize) -> Self {
+    /// All zero.
+    #[must_use]
+    pub fn none(joints: usize) -> Self {
         let still = Vector3::zeros();
         Self { r_b_n_dot: still, omega: still, joints: vec![0.0; joints] }
     }
@@ -161,7 +178,8 @@ impl Rates {
     }
 
     /// Accelerations of any set.
-    pub(crate) fn of<D: Devices<Scalar = f64>>(found: &Accelerations<D>) -> Self {
+    #[must_use]
+    pub fn of<D: Devices<Scalar = f64>>(found: &Accelerations<D>) -> Self {
         let (r_b_n_dot, omega) = (found.r_b_n_ddot, found.omega_dot);
         Self { r_b_n_dot, omega, joints: found.devices.values().collect() }
     }
@@ -201,7 +219,8 @@ impl Frame {
     }
 
     /// `A' A^T` is the tilde of it.
-    pub(crate) fn angular_velocity(&self) -> Vector3<f64> {
+    #[must_use]
+    pub fn angular_velocity(&self) -> Vector3<f64> {
         let [axes, rate, _] = &self.axes;
         let tilde = rate * axes.transpose();
         Vector3::new(tilde.m32, tilde.m13, tilde.m21)
@@ -210,7 +229,7 @@ impl Frame {
 
 impl Body {
     /// Its masses.
-    pub(crate) fn masses(&self) -> impl Iterator<Item = Mass> + '_ {
+    pub fn masses(&self) -> impl Iterator<Item = Mass> + '_ {
         self.points.iter().map(|point| Mass { mass: point.mass, r: self.frame.at(&point.position) })
     }
 }
