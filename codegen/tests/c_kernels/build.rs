@@ -1,9 +1,11 @@
 //! Compilers, and programs built and run in folders of their own.
 
+use std::collections::BTreeMap;
 use std::env;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use precess_codegen::emit::EmittedFile;
 
@@ -47,7 +49,7 @@ pub(crate) fn folder(name: &str) -> PathBuf {
 /// The program that the emitted files and others make, compiled with `FLAGS` and what comes after them.
 pub(crate) fn c(
     folder: &Path,
-    compiler: &str,
+    compiler: &'static str,
     files: &[EmittedFile],
     others: &[(&str, &str)],
     more: &[&str],
@@ -57,15 +59,43 @@ pub(crate) fn c(
     for (name, text) in &all {
         fs::write(folder.join(name), text).expect("a file to compile");
     }
+    let sources = all.iter().filter(|(name, _)| Path::new(name).extension() == Some("c".as_ref()));
+    let objects = sources.map(|source| object(folder, compiler, *source, more));
     let program = folder.join("program");
-    let sources = all.iter().map(|(name, _)| Path::new(name));
-    let sources = sources.filter(|path| path.extension().is_some_and(|ending| ending == "c"));
     let mut command = Command::new(compiler);
-    command.args(FLAGS).args(more).args(sources).arg("-o").arg(&program).current_dir(folder);
+    command.args(objects).arg("-o").arg(&program);
+    finish(compiler, &mut command);
+    program
+}
+
+/// A source, its compiler and its flags.
+type Unit = (&'static str, String, String);
+/// Each unit is compiled once: what most programs share are the emitted sources.
+static OBJECTS: Mutex<BTreeMap<Unit, Arc<OnceLock<PathBuf>>>> = Mutex::new(BTreeMap::new());
+
+/// The object file of a source in a folder; what it includes is the same in every folder.
+fn object(at: &Path, compiler: &'static str, (name, text): (&str, &str), more: &[&str]) -> PathBuf {
+    let (cell, number) = {
+        let mut objects = OBJECTS.lock().expect("no test fails here");
+        // A unit that is there keeps its file.
+        let number = objects.len();
+        let unit = (compiler, more.join(" "), text.to_owned());
+        (Arc::clone(objects.entry(unit).or_default()), number)
+    };
+    let compiled = || {
+        let object = folder("objects").join(format!("{number}.o"));
+        let mut command = Command::new(compiler);
+        command.args(FLAGS).args(more).args(["-c", name, "-o"]).arg(&object).current_dir(at);
+        finish(compiler, &mut command);
+        object
+    };
+    cell.get_or_init(compiled).clone()
+}
+
+fn finish(compiler: &str, command: &mut Command) {
     let output = command.output().expect("the compiler starts");
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{compiler} refuses what was emitted: {errors}");
-    program
 }
 
 /// Programs over the dynamics crate, by name: the folder that they stand in.

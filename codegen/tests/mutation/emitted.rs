@@ -1,5 +1,7 @@
 //! Mutants of the emitted text: every operand of every sum of every statement.
 
+use std::sync::LazyLock;
+
 use precess_codegen::derivation::chain::Chain;
 use precess_codegen::emit::every_kind;
 use precess_codegen::graph::Graph;
@@ -25,10 +27,14 @@ const ALL: [&str; 13] = [
     "gravity",
 ];
 
-fn emitted() -> syn::File {
+/// The kernels of the DGVSCMG, emitted once for all tests.
+static TEXT: LazyLock<String> = LazyLock::new(|| {
     let files = every_kind().unwrap();
-    let file = files.iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap();
-    syn::parse_file(&file.text).unwrap()
+    files.into_iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap().text
+});
+
+fn emitted() -> syn::File {
+    syn::parse_file(&TEXT).unwrap()
 }
 
 fn function<'a>(file: &'a mut syn::File, name: &str) -> &'a mut syn::ItemFn {
@@ -205,10 +211,8 @@ fn every_wrong_result_is_caught() {
 fn with(right: &str, wrong: &str) -> Result<Vec<Row>, EmittedError> {
     let graph = Graph::new();
     let chain = Chain::new(&graph, &DGVSCMG);
-    let files = every_kind().unwrap();
-    let file = files.iter().find(|file| file.path.ends_with("/dgvscmg.rs")).unwrap();
-    assert!(file.text.contains(right), "{right}");
-    let rows = Prover::new(&chain).rows(&file.text.replace(right, wrong))?;
+    assert!(TEXT.contains(right), "{right}");
+    let rows = Prover::new(&chain).rows(&TEXT.replace(right, wrong))?;
     Ok(rows.into_iter().filter(|row| !row.holds()).collect())
 }
 
