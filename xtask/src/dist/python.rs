@@ -19,6 +19,10 @@ const MANIFEST: &str = "python/Cargo.toml";
 const MATURIN: &str = "maturin==1.16.0";
 /// The page whose first program is run.
 const PAGE: &str = "docs/python.md";
+/// Fails unless the installed wheel has the licences of the crates that it is made of.
+const HAS_LICENCES: &str = "import importlib.metadata as m
+names = [file.name for file in m.files('precess')]
+assert 'LICENSES-OF-OTHERS' in names, names";
 const INSTALL: &str = "apt-get install python3-venv python3-pip";
 
 /// Sources and wheel; none where Python is not there.
@@ -35,7 +39,7 @@ pub(super) fn packages(stage: &Stage, folder: &Path) -> Result<Vec<Package>, Str
     // What `build` remaps is there only after this.
     let fetched = ["fetch", "--locked", "--manifest-path", MANIFEST];
     run_there(stage.cargo()?.args(fetched))?;
-    // Its name is one of those that get into a package and a wheel.
+    // Its name is one of those that `license-files` takes.
     let licences = licences::of_others(stage, MANIFEST, "precess-python")?;
     let beside = stage.sources.join("python/LICENSES-OF-OTHERS");
     fs::write(&beside, licences)
@@ -69,6 +73,7 @@ pub(super) fn first_example(package: &Package, place: &Path) -> Result<bool, Str
     let Some(python) = environment(&place.join("environment"), &[&wheel])? else {
         return Ok(false);
     };
+    run_there(Command::new(&python).args(["-I", "-c", HAS_LICENCES]))?;
     let page = fs::read_to_string(root().join(PAGE))
         .map_err(|error| format!("cannot read {PAGE}: {error}"))?;
     let program = nth_block(&page, "", "python", 0, PAGE)?;
