@@ -27,11 +27,14 @@ pub(crate) struct Options {
     /// Time only wheels on bearings, on a platform and on a structure that bends, and write their page
     #[arg(long)]
     flexible: bool,
+    /// Time only derivatives of accelerations and of steps, and write their page
+    #[arg(long, conflicts_with = "flexible")]
+    derivatives: bool,
 }
 
 /// Sets up, builds, and leaves checking, timing and the page to the example `performance`.
 pub(crate) fn bench(options: &Options) -> Result<(), String> {
-    let mut peers = !options.skip_peers;
+    let mut peers = !options.skip_peers && !options.derivatives;
     if peers && !is_installed("python3") {
         skip("the peers", "apt-get install python3 python3-venv")?;
         peers = false;
@@ -49,12 +52,13 @@ pub(crate) fn bench(options: &Options) -> Result<(), String> {
             peers = false;
         }
     }
-    if !root().join(PEERS).join("steps").join("4.json").exists() {
+    if !options.derivatives && !root().join(PEERS).join("steps").join("4.json").exists() {
         return Err(format!("no spacecraft in {PEERS}; run `python3 {SETUP} --into {PEERS}`"));
     }
     // The same program with lanes and, portable, without: features of one build would be joined.
     let service = ["build", "--release", "-p", "precess-measure"];
-    if !options.flexible {
+    let portable = !options.flexible && !options.derivatives;
+    if portable {
         cargo(&[&service[..], &["--bin", "portable"]].concat())?;
     }
     cargo(&[&service[..], &["--features", "lanes", "--bin", "measure"]].concat())?;
@@ -63,9 +67,9 @@ pub(crate) fn bench(options: &Options) -> Result<(), String> {
     let mut performance = Command::new(release.join("examples/performance"));
     performance.arg("--measure").arg(release.join("measure"));
     performance.args(["--peers", PEERS]).args(options.quick.then_some("--quick"));
-    if options.flexible {
-        performance.arg("--flexible");
-    } else {
+    performance.args(options.flexible.then_some("--flexible"));
+    performance.args(options.derivatives.then_some("--derivatives"));
+    if portable {
         performance.arg("--portable").arg(release.join("portable"));
     }
     performance.args((!peers).then_some("--skip-peers"));

@@ -1,5 +1,6 @@
 //! Services of Precess and peers, checked against each other and timed in one run:
-//! `docs/performance.md`, and of what gives `docs/performance-flexible.md`.
+//! `docs/performance.md`, of what gives `docs/performance-flexible.md`, of derivatives
+//! `docs/performance-derivatives.md`.
 //!
 //! Run by `cargo xtask bench`, which sets the peers up and builds what is run here. Nothing is
 //! timed unless all results agree. Every number on the page comes from the run that writes it.
@@ -9,6 +10,7 @@ mod axis;
 mod breakdown;
 mod chart;
 mod contender;
+mod derivatives;
 mod flexible;
 mod goals;
 mod machine;
@@ -40,12 +42,13 @@ use subject::Subject;
 #[command(
     after_help = "Example: performance --measure target/release/measure --portable target/release/portable"
 )]
+#[expect(clippy::struct_excessive_bools, reason = "options of a command line")]
 struct Arguments {
     /// The program `measure`
     #[arg(long, value_name = "FILE")]
     measure: PathBuf,
     /// The program `portable`
-    #[arg(long, value_name = "FILE", required_unless_present = "flexible")]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["flexible", "derivatives"])]
     portable: Option<PathBuf>,
     /// The folder of spacecraft and peers
     #[arg(long, value_name = "DIR", default_value = "target/peers")]
@@ -62,6 +65,9 @@ struct Arguments {
     /// Only wheels on bearings, on a platform, on a structure that bends, and their page
     #[arg(long)]
     flexible: bool,
+    /// Only derivatives, and their page
+    #[arg(long, conflicts_with = "flexible")]
+    derivatives: bool,
 }
 
 fn main() -> ExitCode {
@@ -91,7 +97,12 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         missing = peers.missing;
     }
     reject_skips(&missing)?;
-    contenders.retain(|who| (who.subject == Subject::Flexible) == arguments.flexible);
+    let apart =
+        [(Subject::Flexible, arguments.flexible), (Subject::Derivatives, arguments.derivatives)];
+    contenders.retain(|who| match apart.into_iter().find(|(_, only)| *only) {
+        Some((only, _)) => who.subject == only,
+        None => apart.into_iter().all(|(subject, _)| who.subject != subject),
+    });
     let machine = Machine::new(&measure, &pinned)?;
     let folder = &arguments.peers;
     // The page of a quick run is not kept.
@@ -100,6 +111,13 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         let worst = agreement::check(&contenders, &[Subject::Flexible], &plan, folder)?;
         let times = race(&[Plan::flexible(&contenders)], plan.rounds, folder)?;
         let page = flexible::Page { plan, machine, contenders, worst, times };
+        return written(out, page.files()?);
+    }
+    if arguments.derivatives {
+        derivatives::write_cases(folder)?;
+        agreement::check(&contenders, &[Subject::Derivatives], &plan, folder)?;
+        let times = race(&Plan::derivatives(&contenders), plan.rounds, folder)?;
+        let page = derivatives::Page { plan, machine, contenders, times };
         return written(out, page.files()?);
     }
     let worst = agreement::check(&contenders, &agreement::GROUPS, &plan, folder)?;

@@ -7,6 +7,9 @@ use crate::subject::{IMAGING, Subject, VSCMG, WHEELS};
 pub(crate) const FLEXIBLE: [&str; 6] =
     ["rigid", "bearings", "platform", "modes-6", "modes-20", "modes-200"];
 
+/// The cases of derivatives: numbers of DGVSCMGs.
+pub(crate) const DERIVATIVES: [&str; 2] = ["1", "4"];
+
 /// Numbers of devices over which the cost per device is compared.
 pub(crate) const LINEAR: [usize; 5] = [16, 32, 64, 128, 256];
 
@@ -61,6 +64,7 @@ impl Plan {
             Subject::BatchStep => vec!["4".to_owned()],
             Subject::Baked => vec![IMAGING.to_owned()],
             Subject::Flexible => FLEXIBLE.map(str::to_owned).to_vec(),
+            Subject::Derivatives => DERIVATIVES.map(str::to_owned).to_vec(),
         }
     }
 
@@ -70,6 +74,16 @@ impl Plan {
         let cases = |who| FLEXIBLE.into_iter().map(move |case| (who, case.to_owned()));
         let entries = all.flat_map(cases).filter(|(who, case)| who.takes(case)).collect();
         Heat { title: "what gives".to_owned(), entries }
+    }
+
+    /// Everything that is done with one spacecraft takes turns.
+    pub(crate) fn derivatives(contenders: &[Contender]) -> Vec<Heat<'_>> {
+        let heat = |case: &'static str| {
+            let all = contenders.iter().filter(|who| who.subject == Subject::Derivatives);
+            let entries = all.map(|who| (who, case.to_owned())).collect();
+            Heat { title: format!("derivatives, {case}"), entries }
+        };
+        DERIVATIVES.map(heat).into()
     }
 
     /// Everyone who takes turns.

@@ -25,6 +25,9 @@ pub(crate) enum Subject {
     /// All accelerations of four reaction wheels on something that gives.
     #[serde(rename = "flexible")]
     Flexible,
+    /// Derivatives of the accelerations of one state, and of a step.
+    #[serde(rename = "derivatives")]
+    Derivatives,
     /// An operation at the issue floor.
     #[serde(skip)]
     Floor,
@@ -49,6 +52,7 @@ impl Subject {
             Self::BatchStep => "steps",
             Self::Baked => "general",
             Self::Flexible => "flexible",
+            Self::Derivatives => "evaluation",
             Self::Floor => "",
         }
     }
@@ -63,6 +67,7 @@ impl Subject {
     pub(crate) fn file(self, folder: &Path, case: &str) -> PathBuf {
         match self {
             Self::Evaluation | Self::Batch | Self::Floor => folder.join(format!("{case}.json")),
+            Self::Derivatives => folder.join("derivatives").join(format!("{case}.json")),
             Self::Step | Self::BatchStep => folder.join("steps").join(format!("{case}.json")),
             Self::Flexible => folder.join("flexible").join(format!("{case}.json")),
             Self::Baked => PathBuf::from(DESCRIPTION),

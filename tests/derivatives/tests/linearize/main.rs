@@ -11,3 +11,4 @@ mod perturb;
 mod rejected;
 mod route;
 mod step;
+mod zeros;

@@ -7,6 +7,8 @@ mod baked;
 #[cfg(feature = "lanes")]
 mod batch;
 #[cfg(feature = "lanes")]
+mod derivatives;
+#[cfg(feature = "lanes")]
 mod flexible;
 mod imaging;
 #[cfg(feature = "lanes")]

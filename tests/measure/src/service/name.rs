@@ -58,6 +58,24 @@ pub(crate) enum Name {
     /// Four wheels on a rigid hub, on bearings, on a platform, on a structure that bends
     #[cfg(feature = "lanes")]
     Flexible,
+    /// One evaluation, what derivatives of accelerations are compared with
+    #[cfg(feature = "lanes")]
+    Evaluation,
+    /// Accelerations linearised about a state and inputs
+    #[cfg(feature = "lanes")]
+    Linearized,
+    /// Central differences of accelerations by the same variables
+    #[cfg(feature = "lanes")]
+    Differences,
+    /// Accelerations by parameters of the devices
+    #[cfg(feature = "lanes")]
+    ByParameters,
+    /// One step, what derivatives of a step are compared with
+    #[cfg(feature = "lanes")]
+    SingleStep,
+    /// A step linearised about a state and inputs
+    #[cfg(feature = "lanes")]
+    LinearizedStep,
 }
 
 impl Name {
@@ -106,6 +124,12 @@ impl Name {
             Self::General => ("general kernels, dispatched", "baked", None, 1),
             Self::Baked => ("baked kernels", "baked", None, 1),
             Self::Flexible => ("one state, dispatched", "flexible", None, 1),
+            Self::Evaluation => ("an evaluation", "derivatives", None, 1),
+            Self::Linearized => ("`linearize`", "derivatives", None, 1),
+            Self::Differences => ("central differences", "derivatives", None, 1),
+            Self::ByParameters => ("`parameter_derivatives`", "derivatives", None, 1),
+            Self::SingleStep => ("an RK4 step", "derivatives", None, 1),
+            Self::LinearizedStep => ("`linearize_step`", "derivatives", None, 1),
         })
     }
 }

@@ -14,6 +14,7 @@ use super::{
     across::Across,
     baked::Baked,
     batch::{Crafts, Many},
+    derivatives::Derivatives,
     flexible,
     listed::Listed,
     runs::{Runs, STATES},
@@ -61,6 +62,13 @@ pub(crate) fn open(name: Name, file: &Path) -> Opened {
         }
         #[cfg(feature = "lanes")]
         Name::Flexible => of_flexible(&Listed::read(file)?),
+        #[cfg(feature = "lanes")]
+        Name::Evaluation
+        | Name::Linearized
+        | Name::Differences
+        | Name::ByParameters
+        | Name::SingleStep
+        | Name::LinearizedStep => of_derivatives(name, &Stored::read(file)?),
         _ => of_evaluations(name, &Stored::read(file)?),
     }
 }
@@ -156,6 +164,18 @@ fn step<D: Devices<Scalar = f64> + 'static>(listed: &Listed, devices: &D) -> Ope
 fn of_flexible(listed: &Listed) -> Opened {
     let devices = listed.devices()?;
     flexible::open(listed, all_of!(devices, ReactionWheel), all_of!(devices, FlexibleReactionWheel))
+}
+
+#[cfg(feature = "lanes")]
+fn of_derivatives(name: Name, stored: &Stored) -> Opened {
+    let devices: Vec<_> = stored.dgvscmgs().collect();
+    let other = || Err(format!("no derivatives of {} devices", devices.len()).into());
+    array_of!(
+        devices.clone(),
+        [1 4],
+        |array| Ok(Box::new(Derivatives::open(name, stored, array)?) as Box<dyn Service>),
+        other()
+    )
 }
 
 #[cfg(feature = "lanes")]

@@ -1,0 +1,159 @@
+//! Derivatives of one state, and what they are compared with: an evaluation, a step, and central
+//! differences of evaluations over the same variables.
+
+use std::hint::black_box;
+
+use nalgebra::Vector3;
+use precess_dynamics::kind::{Each as _, JointStates as _};
+use precess_dynamics::{
+    Axis, Dgvscmg, Inputs, Outputs, ParameterVariable, Quaternion, Spacecraft, State, Variable,
+};
+use precess_tests::stored::Stored;
+use serde_json::Value;
+
+use super::one::{NUDGE, flat};
+use super::{Name, Rejected, Service};
+
+/// The change of a variable by which differences are taken.
+const CHANGE: f64 = 1e-6;
+/// Length of a step, s.
+const STEP: f64 = 1e-3;
+
+type Set<const N: usize> = [Dgvscmg; N];
+
+/// A spacecraft in a state, and what is computed of it.
+pub(super) struct Derivatives<const N: usize> {
+    name: Name,
+    stored: Stored,
+    devices: Set<N>,
+    craft: Spacecraft<Set<N>>,
+    state: State<Set<N>, Quaternion>,
+    inputs: Inputs<Set<N>>,
+    variables: Vec<Variable>,
+}
+
+impl<const N: usize> Derivatives<N> {
+    pub(super) fn open(name: Name, stored: &Stored, devices: &Set<N>) -> Result<Self, Rejected> {
+        let craft = Spacecraft::new(&stored.hub(), devices)?;
+        let state = stored.motion(State::at_rest_for(&craft));
+        let inputs = stored.forces(Inputs::none_for(&craft));
+        let variables =
+            craft.state_variables(&inputs).chain(craft.input_variables(&inputs)).collect();
+        let (stored, devices) = (stored.clone(), *devices);
+        Ok(Self { name, stored, devices, craft, state, inputs, variables })
+    }
+
+    /// One call; the angular acceleration that it finds on the way.
+    fn call(&self) -> Result<Vector3<f64>, Rejected> {
+        let (state, inputs) = (black_box(&self.state), &self.inputs);
+        let none = Outputs::accelerations();
+        match self.name {
+            Name::Linearized => {
+                let found = self.craft.linearize(state, inputs, &none)?;
+                Ok(black_box(&found).accelerations.omega_dot)
+            }
+            Name::Differences => {
+                for variable in &self.variables {
+                    let [up, down] =
+                        [CHANGE, -CHANGE].map(|change| self.changed(*variable, change));
+                    let up = self.craft.accelerations(&up.0, &up.1)?;
+                    let down = self.craft.accelerations(&down.0, &down.1)?;
+                    black_box((up.omega_dot - down.omega_dot) / (2.0 * CHANGE));
+                }
+                Ok(self.craft.accelerations(state, inputs)?.omega_dot)
+            }
+            Name::ByParameters => {
+                let hub = self.stored.hub();
+                let at = (state, inputs);
+                let by = (0..N).flat_map(imbalance_of);
+                let sum = |_, column: &_| {
+                    black_box(column);
+                };
+                let of = &self.devices;
+                let found = Spacecraft::parameter_derivatives(&hub, of, at, &none, by, sum)?;
+                Ok(found.omega_dot)
+            }
+            Name::SingleStep => {
+                let next = self.craft.step(state, inputs, STEP)?;
+                Ok((black_box(&next).omega - state.omega) / STEP)
+            }
+            Name::LinearizedStep => {
+                let found = self.craft.linearize_step(state, inputs, STEP)?;
+                Ok((black_box(&found).state.omega - state.omega) / STEP)
+            }
+            _ => {
+                let found = self.craft.accelerations(state, inputs)?;
+                Ok(black_box(&found).omega_dot)
+            }
+        }
+    }
+
+    /// State and inputs with a variable changed.
+    fn changed(&self, variable: Variable, by: f64) -> (State<Set<N>, Quaternion>, Inputs<Set<N>>) {
+        let (mut state, mut inputs) = (self.state, self.inputs);
+        let along = |axis| match axis {
+            Axis::X => Vector3::x() * by,
+            Axis::Y => Vector3::y() * by,
+            Axis::Z => Vector3::z() * by,
+        };
+        match variable {
+            Variable::Position(axis) => state.r_b_n += along(axis),
+            Variable::Velocity(axis) => state.r_b_n_dot += along(axis),
+            Variable::Attitude(axis) => {
+                let [x, y, z] = along(axis).map(|angle| 0.5 * angle).into();
+                let Quaternion { q0, q1, q2, q3 } = state.attitude;
+                state.attitude = Quaternion {
+                    q0: q0 - x * q1 - y * q2 - z * q3,
+                    q1: q1 + x * q0 + z * q2 - y * q3,
+                    q2: q2 + y * q0 - z * q1 + x * q3,
+                    q3: q3 + z * q0 + y * q1 - x * q2,
+                };
+            }
+            Variable::Omega(axis) => state.omega += along(axis),
+            Variable::Force(axis) => inputs.force += along(axis),
+            Variable::TorqueB(axis) => inputs.torque_b += along(axis),
+            Variable::Coordinate(joint) => {
+                state.devices.states_mut().nth(joint).into_iter().for_each(|[q, _]| *q += by);
+            }
+            Variable::Rate(joint) => {
+                state.devices.states_mut().nth(joint).into_iter().for_each(|[_, rate]| *rate += by);
+            }
+            Variable::Motor(joint) => {
+                inputs.motors.values_mut().nth(joint).into_iter().for_each(|u| *u += by);
+            }
+            // Driven joints of a free hub without gravity have no others.
+            _ => {}
+        }
+        (state, inputs)
+    }
+}
+
+/// What campaigns vary of a device.
+fn imbalance_of(device: usize) -> [ParameterVariable<'static>; 6] {
+    [
+        ParameterVariable::StaticImbalance { device },
+        ParameterVariable::DynamicImbalance { device },
+        ParameterVariable::Phase { device },
+        ParameterVariable::MountRotation { device, about: Axis::X },
+        ParameterVariable::MountRotation { device, about: Axis::Y },
+        ParameterVariable::MountRotation { device, about: Axis::Z },
+    ]
+}
+
+impl<const N: usize> Service for Derivatives<N> {
+    fn check(&mut self) -> Result<Value, Rejected> {
+        self.call()?;
+        Ok(flat(&self.craft.accelerations(&self.state, &self.inputs)?))
+    }
+
+    fn run(&mut self, calls: u32) -> Result<(), Rejected> {
+        for _ in 0..calls {
+            self.state.omega += self.call()? * NUDGE;
+        }
+        Ok(())
+    }
+
+    fn units(&self) -> u32 {
+        1
+    }
+}
