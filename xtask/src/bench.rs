@@ -17,6 +17,7 @@ const PEERS: &str = "target/peers";
 
 /// Options of `bench`.
 #[derive(Args)]
+#[expect(clippy::struct_excessive_bools, reason = "options of a command line")]
 pub(crate) struct Options {
     /// One round over few spacecraft; writes the page to the folder of the peers instead of docs
     #[arg(long)]

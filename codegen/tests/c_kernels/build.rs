@@ -49,7 +49,7 @@ pub(crate) fn folder(name: &str) -> PathBuf {
 /// The program that the emitted files and others make, compiled with `FLAGS` and what comes after them.
 pub(crate) fn c(
     folder: &Path,
-    compiler: &'static str,
+    compiler: &str,
     files: &[EmittedFile],
     others: &[(&str, &str)],
     more: &[&str],
@@ -59,8 +59,13 @@ pub(crate) fn c(
     for (name, text) in &all {
         fs::write(folder.join(name), text).expect("a file to compile");
     }
-    let sources = all.iter().filter(|(name, _)| Path::new(name).extension() == Some("c".as_ref()));
-    let objects = sources.map(|source| object(folder, compiler, *source, more));
+    let is_source = |name: &str| Path::new(name).extension() == Some("c".as_ref());
+    let (sources, headers): (Vec<_>, Vec<_>) = all.iter().partition(|(name, _)| is_source(name));
+    let headers: String = headers.into_iter().flat_map(|(name, text)| [name, text]).collect();
+    let objects = sources.into_iter().map(|(name, text)| {
+        let unit = [compiler, &more.join(" "), &headers, name, text].map(str::to_owned);
+        object(folder, unit, more)
+    });
     let program = folder.join("program");
     let mut command = Command::new(compiler);
     command.args(objects).arg("-o").arg(&program);
@@ -68,25 +73,25 @@ pub(crate) fn c(
     program
 }
 
-/// A source, its compiler and its flags.
-type Unit = (&'static str, String, String);
+/// Compiler, flags, headers, and the name and text of a source.
+type Unit = [String; 5];
 /// Each unit is compiled once: what most programs share are the emitted sources.
 static OBJECTS: Mutex<BTreeMap<Unit, Arc<OnceLock<PathBuf>>>> = Mutex::new(BTreeMap::new());
 
-/// The object file of a source in a folder; what it includes is the same in every folder.
-fn object(at: &Path, compiler: &'static str, (name, text): (&str, &str), more: &[&str]) -> PathBuf {
+/// The object file of a unit, compiled in a folder that has it.
+fn object(at: &Path, unit: Unit, more: &[&str]) -> PathBuf {
+    let [compiler, _, _, name, _] = unit.clone();
     let (cell, number) = {
         let mut objects = OBJECTS.lock().expect("no test fails here");
         // A unit that is there keeps its file.
         let number = objects.len();
-        let unit = (compiler, more.join(" "), text.to_owned());
         (Arc::clone(objects.entry(unit).or_default()), number)
     };
     let compiled = || {
-        let object = folder("objects").join(format!("{number}.o"));
-        let mut command = Command::new(compiler);
-        command.args(FLAGS).args(more).args(["-c", name, "-o"]).arg(&object).current_dir(at);
-        finish(compiler, &mut command);
+        let object = at.join(format!("{number}.o"));
+        let mut command = Command::new(&compiler);
+        command.args(FLAGS).args(more).args(["-c", &name, "-o"]).arg(&object).current_dir(at);
+        finish(&compiler, &mut command);
         object
     };
     cell.get_or_init(compiled).clone()

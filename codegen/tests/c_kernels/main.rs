@@ -82,7 +82,7 @@ fn differing(found: &[f64], start: &Start) -> Option<(String, usize)> {
 
 fn compared(
     name: &str,
-    compiler: &'static str,
+    compiler: &str,
     files: &[EmittedFile],
     more: &[&str],
 ) -> Option<(String, usize)> {
