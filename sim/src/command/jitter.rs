@@ -107,6 +107,9 @@ impl Jitter {
         let (scenario, reports) = from_file(&path, &of_scenario).map_err(CommandError::Scenario)?;
         let mut warnings: Vec<String> =
             reports.all.iter().map(|warning| warning.message.clone()).collect();
+        for warning in &warnings {
+            eprintln!("warning: {warning}");
+        }
         let stem = self.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
         // Before the work, too.
         may_write(&self.out, &[format!("{stem}.html")], self.force)?;
@@ -183,6 +186,15 @@ impl Jitter {
             at = assessed.iter().filter_map(|of| found.speeds.get(of.worst).copied()).collect();
             at.sort_by(f64::total_cmp);
             at.dedup();
+        }
+        let [from, to] = budget.speeds;
+        for speed in at.iter().filter(|speed| !(from..=to).contains(*speed)) {
+            eprintln!(
+                "warning: {} is not within the speeds of the budget, {} to {}; it is compared, and counts in no verdict",
+                rpm(*speed),
+                rpm(from),
+                rpm(to)
+            );
         }
         let mut compared = Vec::new();
         let bar = progress_bar(at.len(), "coupled runs");

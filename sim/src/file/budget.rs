@@ -12,6 +12,7 @@ use super::read::mount::direction;
 use super::read_file::{folder_of, read_file};
 use crate::jitter::budget::{Budget, Sight};
 use crate::jitter::sweep::{Phases, SPEEDS_MAX};
+use crate::nearest::nearest;
 use crate::pointing::{Limit, LineOfSight, Metric, Sensitivity};
 use crate::structure::dynamic_mass::Motor;
 use crate::units::Measure;
@@ -23,6 +24,9 @@ const COUNT: usize = 541;
 
 /// Keys of a budget that no scenario has.
 const BUDGET_KEYS: [&str; 5] = ["phases", "motor", "gimbals", "speed", "line_of_sight"];
+
+/// Keys of a scenario that no budget has.
+const SCENARIO_KEYS: [&str; 4] = ["hub", "device", "run", "structure"];
 
 /// Overrides `KEY = VALUE` of a budget, whose keys have the prefix `budget.`, here taken off, and those of its scenario.
 ///
@@ -58,6 +62,12 @@ pub fn budget_from_toml(
 }
 
 fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {
+    if let Some(key) = SCENARIO_KEYS.into_iter().find(|key| keys.has(key)) {
+        let message = format!("`{key}` is of a scenario; this is read as a budget");
+        let help = "run a scenario by `precess run`; a budget names it: `scenario = \"bus.toml\"`";
+        keys.error(key, message, help);
+        return None;
+    }
     if !keys.has("format") {
         keys.missing("format", "format = 1");
     }
@@ -66,6 +76,20 @@ fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {
     let scenario = keys.file("scenario", folder);
     if !keys.has("scenario") {
         keys.missing("scenario", "scenario = \"bus.toml\"");
+    }
+    if let Some((path, shown)) = scenario.as_ref().filter(|(path, _)| !path.is_file()) {
+        let beside = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
+        let names = beside.into_iter().flatten().flatten();
+        let names = names.filter_map(|file| file.file_name().into_string().ok());
+        let near = nearest(
+            shown,
+            names.filter(|name| Path::new(name).extension() == Some("toml".as_ref())),
+        );
+        let help = match near.as_slice() {
+            [] => "a path is from the folder of the budget".to_owned(),
+            near => format!("did you mean `{}`?", near.join("`, `")),
+        };
+        keys.error("scenario", format!("there is no scenario {}", path.display()), &help);
     }
     let phases = [("unknown", Phases::Unknown), ("given", Phases::Given), ("worst", Phases::Worst)];
     let phases = keys.choice("phases", &phases).unwrap_or_default();

@@ -82,6 +82,12 @@ impl<'a> Keys<'a> {
         self.reports.borrow_mut().error(&span, message, "", help);
     }
 
+    /// Reports what is unusual, and may be meant.
+    pub(super) fn warn(&self, key: &str, message: impl Into<String>, help: &str) {
+        let span = self.place(key);
+        self.reports.borrow_mut().warn(&span, message, "", help);
+    }
+
     /// Reports a value of another type than the key takes.
     fn other_type<T>(&self, key: &str, node: &Node, help: &str) -> Option<T> {
         self.error(key, format!("`{}` is {}", self.path_of(key), node.value.what()), help);

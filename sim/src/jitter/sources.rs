@@ -71,7 +71,9 @@ impl Model {
         let member = match of.on {
             SourceTarget::Mount(member) => member,
             SourceTarget::Hub { .. } | SourceTarget::Node { .. } | SourceTarget::Joint { .. } => {
-                return Err("it acts on no mount of a device");
+                return Err(
+                    "it acts on no mount of a device; name the device, as in `on = \"rw1\"`",
+                );
             }
         };
         if members(&scenario.devices).get(member).is_none_or(|member| member.on().is_some()) {

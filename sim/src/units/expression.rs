@@ -78,7 +78,7 @@ impl Quantity {
     /// Whether a measure has its dimension.
     #[must_use]
     pub fn is(&self, measure: Measure) -> bool {
-        self.dimension == measure.dimension
+        self.dimension == measure.dimension || Some(self.dimension) == measure.also
     }
 }
 

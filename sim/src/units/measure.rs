@@ -26,6 +26,8 @@ pub struct Measure {
     pub usual: &'static str,
     /// Its dimension.
     pub dimension: Dimension,
+    /// Another in which it is stated, too: what is over the square of a rate may be so of an angle.
+    pub also: Option<Dimension>,
 }
 
 const fn dimension(length: i8, mass: i8, time: i8, angle: i8) -> Dimension {
@@ -43,6 +45,7 @@ macro_rules! measures {
                     unit: $unit,
                     usual: $usual,
                     dimension: dimension($length, $mass, $time, $angle),
+                    also: None,
                 };
             )*
 

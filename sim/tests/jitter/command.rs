@@ -192,3 +192,42 @@ fn the_example_of_the_page_has_the_verdict_of_the_page() {
     }
     std::fs::remove_dir_all(out).expect("it was made");
 }
+
+/// Each mistake is named once, with its remedy.
+#[test]
+fn files_of_another_kind_and_files_that_are_not_there_are_named() {
+    let out = folder("mistaken");
+    let message = |budget: &Path| {
+        let found = jitter(budget, &out, &[]);
+        assert_eq!(found.status.code(), Some(1));
+        String::from_utf8_lossy(&found.stderr).into_owned()
+    };
+    let found = message(&scenarios().join("imaging-satellite-flexible.toml"));
+    assert!(found.contains("is of a scenario") && found.contains("precess run"), "{found}");
+    assert_eq!(found.matches("error").count(), 1, "{found}");
+
+    let budget = out.join("budget.toml");
+    let page = scenarios().join("budgets/imaging-satellite-jitter.toml");
+    let text = std::fs::read_to_string(page).expect("a budget");
+    let wrong = text.replace("../imaging-satellite-flexible.toml", "imaging-satelite.toml");
+    assert_ne!(wrong, text);
+    std::fs::write(&budget, wrong).expect("it is written");
+    std::fs::write(out.join("imaging-satellite.toml"), "format = 1\n").expect("it is written");
+    let found = message(&budget);
+    assert!(found.contains("there is no scenario"), "{found}");
+    assert!(found.contains("did you mean `imaging-satellite.toml`?"), "{found}");
+    std::fs::remove_dir_all(out).expect("it was made");
+}
+
+/// What no body can have, and a speed outside the budget, is said on the terminal, too.
+#[test]
+fn warnings_of_the_scenario_are_printed() {
+    let out = folder("warnings");
+    let budget = scenarios().join("budgets/imaging-satellite-jitter.toml");
+    let set = ["--set", "device.cmg.imbalance.static=\"0.2 kg m\"", "--compare", "9000 rpm"];
+    let found = jitter(&budget, &out, &set);
+    let text = String::from_utf8_lossy(&found.stderr).into_owned();
+    assert!(text.contains("off its spin axis"), "{text}");
+    assert!(text.contains("9000 rpm is not within the speeds of the budget"), "{text}");
+    std::fs::remove_dir_all(out).expect("it was made");
+}

@@ -1,13 +1,14 @@
-//! The example `wheel-data-sheet.toml`: its numbers against closed forms.
+//! The example `wheel-data-sheet.toml`: its numbers against closed forms; and the units of data sheets.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use nalgebra::{Matrix5, Vector5};
+use precess::disturbance::Model;
 use precess::file::from_file;
 use precess::scenario::Scenario;
 
-use super::{column, largest, ran};
+use super::{WHEEL, column, largest, ran, read};
 
 /// Of F / m, on a free hub without a mode: what is left are products of the hub's small rotation and the
 /// radial motion. Measured: 2e-6.
@@ -100,4 +101,21 @@ fn the_noise_has_the_densities_of_the_sheet() {
         }
     }
     assert_eq!(largest(column(&samples, "source_noise.moment_z")), 0.0);
+}
+
+/// Tables of harmonics are often in N/rpm²: 1 N/rpm² is (60 / 2π)² kg m.
+#[test]
+fn an_amplitude_may_be_over_the_square_of_a_rate_in_rpm() {
+    let source = |amplitude: &str| {
+        let text = format!(
+            "{WHEEL}[[source]]\nname = \"a\"\non = \"rw\"\n[[source.harmonic]]\nnumber = 2\n\
+             axial_force = \"{amplitude}\"\nphase.axial_force = \"0 deg\"\n"
+        );
+        let found = read(&text);
+        let Model::Harmonic(tones) = &found.disturbances[0].model else { panic!("harmonics") };
+        tones[0].amplitudes.iter().sum::<f64>()
+    };
+    let [by_rpm, by_mass] = ["1.3e-7 N/rpm^2", "1.3e-7 kg m"].map(source);
+    let factor = (60.0 / std::f64::consts::TAU).powi(2);
+    assert!((by_rpm / by_mass / factor - 1.0).abs() < 1e-14, "{by_rpm} {by_mass}");
 }

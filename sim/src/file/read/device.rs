@@ -262,6 +262,9 @@ fn has(kind: BuiltInKind, joint: &JointInfo, unit: &str) -> bool {
     kind.parameters().iter().any(|parameter| of_body(parameter.body) && parameter.unit == unit)
 }
 
+/// A wheel's centre of mass is nearer to its spin axis, m; further, a warning asks for the unit.
+const OFFSET_USUAL: f64 = 1e-3;
+
 /// How the imbalance of a wheel acts.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Model {
@@ -321,6 +324,17 @@ fn parameters(
         }
         match sheet.in_wheel(wheel.mass) {
             Ok(found) => {
+                if found.d.abs() > OFFSET_USUAL {
+                    let message = format!(
+                        "the imbalance puts the wheel's centre of mass {} mm off its spin axis",
+                        1e3 * found.d.abs()
+                    );
+                    keys.warn(
+                        "imbalance",
+                        message,
+                        "of a wheel it is micrometres; is the unit right?",
+                    );
+                }
                 wheel.centre[1] = found.d;
                 (wheel.inertia.m12, wheel.inertia.m21) = (found.j_12, found.j_12);
                 (wheel.inertia.m13, wheel.inertia.m31) = (found.j_13, found.j_13);

@@ -10,18 +10,25 @@ use crate::disturbance::{
     Six, phases,
 };
 use crate::scenario::Settings;
-use crate::units::{Measure, parse_unit};
+use crate::units::{Dimension, Measure, parse_unit};
 
 /// The amplitude of a harmonic force over the square of the rate.
 const FORCE_COEFFICIENT: Measure = Measure {
     name: "an amplitude of a force over the square of the rate",
+    also: Some(over_square_of_angle(Measure::STATIC_IMBALANCE)),
     ..Measure::STATIC_IMBALANCE
 };
 /// The same of a moment.
 const MOMENT_COEFFICIENT: Measure = Measure {
     name: "an amplitude of a moment over the square of the rate",
+    also: Some(over_square_of_angle(Measure::DYNAMIC_IMBALANCE)),
     ..Measure::DYNAMIC_IMBALANCE
 };
+
+/// `N/rpm^2` beside `kg m`: N/(rad/s)^2 is kg m/rad^2.
+const fn over_square_of_angle(of: Measure) -> Dimension {
+    Dimension { angle: -2, ..of.dimension }
+}
 
 /// The harmonics of a source with a name, a spin axis and a seed.
 pub(super) fn harmonics(keys: &Keys<'_>, of: (&str, usize, Option<u32>)) -> Option<Vec<Harmonic>> {

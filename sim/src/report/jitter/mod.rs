@@ -144,7 +144,7 @@ impl JitterReport<'_> {
         let facts = vec![
             Fact::new(
                 "Speeds",
-                format!("{} to {}, {}", rpm(from), rpm(to), self.sweep.speeds.len()),
+                format!("{} at {} to {}", self.sweep.speeds.len(), rpm(from), rpm(to)),
             ),
             Fact::new("Rotors", rotors),
             Fact::new("Tones", self.sweep.contributors.len().to_string()),
@@ -153,14 +153,29 @@ impl JitterReport<'_> {
         Summary { paragraphs, facts }
     }
 
-    /// The mode of the structure nearest to a natural frequency, rad/s.
-    fn nearest_mode(&self, frequency: f64) -> String {
+    /// The mode of the structure that a branch comes from: in order of frequency where there are as many branches as
+    /// modes; otherwise the nearest, which may be another's.
+    fn mode_of(&self, of: &Crossing) -> String {
         let modes = self.scenario.structure.as_ref().map_or(&[][..], ModalStructure::massive);
-        let apart = |mode: &crate::structure::Mode| (mode.frequency / frequency - 1.0).abs();
-        let nearest = modes.iter().enumerate().min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
-        nearest.map_or_else(
+        let mut modes: Vec<_> = modes.iter().map(|mode| mode.frequency).enumerate().collect();
+        modes.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let at = self.campbell_speeds.iter().position(|speed| *speed >= of.speed).unwrap_or(0);
+        let frequency = |branch: &Branch| Some((*branch.points.get(at)?)?.frequency);
+        let all: Vec<_> = self.branches.iter().filter_map(frequency).collect();
+        let own = self.branches.get(of.branch).and_then(frequency);
+        let rank = own.filter(|_| all.len() == modes.len());
+        let rank = rank.map(|own| all.iter().filter(|other| **other < own).count());
+        let apart = |frequency: f64| (frequency / of.oscillation.frequency - 1.0).abs();
+        let nearest = || modes.iter().min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
+        let (word, found) = match rank {
+            Some(rank) => ("of", modes.get(rank)),
+            None => ("near", nearest()),
+        };
+        found.map_or_else(
             || "no mode of the structure".to_owned(),
-            |(k, mode)| format!("mode {} ({} Hz alone)", k + 1, short(mode.frequency / TAU, 4)),
+            |(k, frequency)| {
+                format!("{word} mode {} ({} Hz alone)", k + 1, short(frequency / TAU, 4))
+            },
         )
     }
 
@@ -315,12 +330,15 @@ impl JitterReport<'_> {
             .iter()
             .filter_map(|of| self.sweep.speeds.get(of.worst).copied())
             .collect();
-        let near =
-            |of: &Crossing| !worst.iter().any(|speed| (of.speed / speed - 1.0).abs() < NEAR_WORST);
+        // Of equal distance are all that are far.
+        let distance = |of: &Crossing| {
+            let apart = worst.iter().map(|speed| (of.speed / speed - 1.0).abs());
+            apart.filter(|apart| *apart < NEAR_WORST).fold(NEAR_WORST, f64::min)
+        };
         let mut ranked: Vec<&Crossing> = self.crossings.iter().collect();
         ranked.sort_by(|a, b| {
-            near(a)
-                .cmp(&near(b))
+            distance(a)
+                .total_cmp(&distance(b))
                 .then(a.order.total_cmp(&b.order))
                 .then(a.speed.total_cmp(&b.speed))
         });
@@ -335,7 +353,7 @@ impl JitterReport<'_> {
                 short(of.order, 6),
                 format!("{} Hz", short(of.oscillation.frequency / TAU, 5)),
                 format!("{} %", short(100.0 * of.oscillation.damping, 3)),
-                format!("{whirl}, near {}", self.nearest_mode(of.oscillation.frequency)),
+                format!("{whirl}, {}", self.mode_of(of)),
             ];
             ("", cells)
         });
