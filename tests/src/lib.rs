@@ -17,6 +17,8 @@
 //! - [`blocks`]: the unit in which accelerations are compared.
 //! - [`bounds`]: what the project promises, as the suites assert it.
 
+pub use precess_double_double as double_double;
+
 pub mod accuracy;
 pub mod assembly;
 pub mod bending;
@@ -25,7 +27,6 @@ pub mod bounds;
 pub mod case;
 pub mod chains;
 pub mod counted;
-pub mod double_double;
 pub mod measured;
 pub mod newton_euler;
 pub mod random;

@@ -4,9 +4,10 @@
 //! lanes has commands of its own: the desktop tool, which has none, is compiled once for all commands.
 
 /// Those whose tests need the solver's lanes.
-const IN_LANES: [&str; 6] = [
+const IN_LANES: [&str; 7] = [
     "precess-attack",
     "precess-counts",
+    "precess-double-double",
     "precess-dynamics",
     "precess-measure",
     "precess-point-masses",

@@ -9,6 +9,9 @@
 //! remainder (measured: 2e-16, as an f64) and its `sin(1)` is off by 6e-24; `qd` 0.8.0 has no
 //! sine. Overflow, underflow and signed zeros are not cared for: the suites stay far from them.
 
+// Operations are calls in builds with assertions: suites that compute in it are compiled without an optimiser, this
+// crate is not.
+
 mod sin_cos;
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -79,6 +82,7 @@ impl Add for DoubleDouble {
     type Output = Self;
 
     /// Algorithm 6 (`AccurateDWPlusDW`).
+    #[cfg_attr(debug_assertions, inline(never))]
     fn add(self, other: Self) -> Self {
         let (s, s_error) = two_sum(self.high, other.high);
         let (t, t_error) = two_sum(self.low, other.low);
@@ -90,6 +94,7 @@ impl Add for DoubleDouble {
 impl Sub for DoubleDouble {
     type Output = Self;
 
+    #[cfg_attr(debug_assertions, inline(never))]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -107,6 +112,7 @@ impl Mul for DoubleDouble {
     type Output = Self;
 
     /// Algorithm 12 (`DWTimesDW3`).
+    #[cfg_attr(debug_assertions, inline(never))]
     fn mul(self, other: Self) -> Self {
         let (high, low) = two_product(self.high, other.high);
         let cross = self.high.mul_add(other.low, self.low * other.low);
@@ -120,6 +126,7 @@ impl Div for DoubleDouble {
 
     /// Algorithm 18 (`DWDivDW3`).
     #[expect(clippy::suspicious_arithmetic_impl, reason = "the algorithm multiplies by 1 / other")]
+    #[cfg_attr(debug_assertions, inline(never))]
     fn div(self, other: Self) -> Self {
         self * other.recip()
     }
@@ -128,12 +135,14 @@ impl Div for DoubleDouble {
 impl Real for DoubleDouble {
     /// The reciprocal inside algorithm 18: one Newton step from the `f64` reciprocal, with the
     /// remainder `1 - high * t` exact by fused multiply-add.
+    #[cfg_attr(debug_assertions, inline(never))]
     fn recip(self) -> Self {
         let t = self.high.recip();
         let remainder = quick_two_sum((-self.high).mul_add(t, 1.0), -(self.low * t));
         remainder.times(t).plus(t)
     }
 
+    #[cfg_attr(debug_assertions, inline(never))]
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b
     }
@@ -144,6 +153,7 @@ impl Real for DoubleDouble {
 }
 
 impl Angle for DoubleDouble {
+    #[cfg_attr(debug_assertions, inline(never))]
     fn sin_cos(self) -> (Self, Self) {
         sin_cos::sin_cos(self)
     }
@@ -163,6 +173,7 @@ impl Scalar for DoubleDouble {
     }
 
     /// Karp and Markstein: one Newton step from the `f64` root.
+    #[cfg_attr(debug_assertions, inline(never))]
     fn sqrt(self) -> Self {
         if self.high == 0.0 {
             return self;

@@ -2,8 +2,9 @@
 
 use precess_dynamics::{Angle, Real, Scalar};
 
+use precess_tests::random::Random;
+
 use super::DoubleDouble;
-use crate::random::Random;
 
 /// Arithmetic loses at most 10 u^2 = 1.3e-31 an operation; the tests chain up to six.
 const ARITHMETIC: f64 = 1e-30;
