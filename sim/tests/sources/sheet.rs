@@ -116,6 +116,6 @@ fn an_amplitude_may_be_over_the_square_of_a_rate_in_rpm() {
         tones[0].amplitudes.iter().sum::<f64>()
     };
     let [by_rpm, by_mass] = ["1.3e-7 N/rpm^2", "1.3e-7 kg m"].map(source);
-    let factor = (60.0 / std::f64::consts::TAU).powi(2);
+    let factor = (60.0 / TAU).powi(2);
     assert!((by_rpm / by_mass / factor - 1.0).abs() < 1e-14, "{by_rpm} {by_mass}");
 }

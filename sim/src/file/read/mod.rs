@@ -153,10 +153,6 @@ fn read(node: &Node, path: &str, stem: &str, folder: &Path, reports: &Reports) -
     let title = keys.text("title").unwrap_or(&name).to_owned();
     let description = keys.text("description").unwrap_or_default().to_owned();
     let structure = structure::structure(&keys, folder);
-    if keys.has("structure") && structure.is_none() {
-        // Masses and nodes would be missing, for no other reason.
-        return None;
-    }
     let structure_file = structure::file(&keys, folder);
     let hub = hub::hub(&keys, structure.as_ref());
     let devices = device::devices(&keys, folder, structure.as_ref());
