@@ -262,7 +262,7 @@ fn has(kind: BuiltInKind, joint: &JointInfo, unit: &str) -> bool {
     kind.parameters().iter().any(|parameter| of_body(parameter.body) && parameter.unit == unit)
 }
 
-/// A wheel's centre of mass is nearer to its spin axis, m; further, a warning asks for the unit.
+/// The largest usual distance of a wheel's centre of mass from its spin axis, m; beyond it, a warning.
 const OFFSET_USUAL: f64 = 1e-3;
 
 /// How the imbalance of a wheel acts.
