@@ -1,10 +1,10 @@
 """Steps of RK4 of 256 states of four double-gimbal gyros on one thread: the batch of Python beside that of Rust, beside
 `mujoco.rollout` and mjbatch.
 
-    cargo build --release --manifest-path python/Cargo.toml -p precess-lanes --example throughput
+    cargo build --release -p precess-lanes --example throughput
     pip install mujoco==4.0.0
     pip install --target "$VIRTUAL_ENV/mjbatch" --requirement tests/peers/requirements-mjbatch.txt
-    python python/benchmarks/throughput.py --rust python/target/release/examples/throughput
+    python python/benchmarks/throughput.py --rust target/release/examples/throughput
 
 Prints the table of docs/python.md. The spacecraft is the one of four gyros that `tests/fixtures/engines.json` stores with what
 Pinocchio gives for it, which is compared first. Times are those of the processor in all threads of a process, turn by turn, the

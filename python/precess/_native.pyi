@@ -37,9 +37,10 @@ __all__ = [
     "pointing_of_table",
     "pointing_weights",
     "rank_correlation",
-    "row",
     "row_fields",
+    "rows",
     "run",
+    "side_by_side",
     "spectrum_amplitudes",
     "spectrum_cross",
     "spectrum_welch",
@@ -354,9 +355,10 @@ def plan_sensitivities(
 def row_fields(
     scenario: NativeScenario, columns: Sequence[str], lines: int
 ) -> list[tuple[str, str]]: ...
-def row(
-    scenario: NativeScenario, columns: Sequence[str], lines: int, start: float
-) -> tuple[list[float] | None, str | None]: ...
+def side_by_side() -> int: ...
+def rows(
+    scenarios: Sequence[NativeScenario], columns: Sequence[str], lines: int, start: float
+) -> list[tuple[list[float] | None, str | None]]: ...
 def limits(scenario: NativeScenario) -> list[tuple[str, float]]: ...
 def keep_out(
     values: Sequence[float], statistic: Sequence[float | None], limit: float

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _native
 from .campaign.bundle import Bundle
-from .campaign.job import Job
+from .campaign.job import Job, in_groups
 from .campaign.plan import Plan
 from .scenario import Scenario
 
@@ -99,9 +99,12 @@ def evaluate(
     bundle = Bundle.of(scenario)
     numbers = np.full((len(plan), len(fields)), np.nan)
     errors: dict[int, str] = {}
-    with ThreadPoolExecutor(threads or os.cpu_count(), "precess") as pool:
+    workers = threads or os.cpu_count() or 1
+    with ThreadPoolExecutor(workers, "precess") as pool:
         try:
-            rows = pool.map(lambda overrides: job.row(bundle, overrides), plan.overrides)
+            groups = in_groups(plan.overrides, workers)
+            of_groups = pool.map(lambda group: job.rows(bundle, group), groups)
+            rows = (row for of_group in of_groups for row in of_group)
             for index, (row, error) in enumerate(rows):
                 if row is None:
                     errors[index] = error or "the run was cancelled"

@@ -6,6 +6,7 @@ use precess::campaign::{
     Axis, Plan, Selection, central_differences, draw, keep_out as bands, percentile, probability,
     run_reduced, spearman, tangents,
 };
+use precess::engine::SIDE_BY_SIDE;
 use precess::file::{Template, variations_from_toml};
 use precess::record::{Columns, Header};
 use pyo3::exceptions::PyValueError;
@@ -83,23 +84,31 @@ pub(crate) fn row_fields(
     Ok(fields.into_iter().map(|field| (field.name, field.unit)).collect())
 }
 
-/// The numbers of a run, or why there are none. Nothing is recorded beyond them.
+/// How many runs take the least time together.
 #[pyfunction]
-pub(crate) fn row(
+pub(crate) fn side_by_side() -> usize {
+    SIDE_BY_SIDE
+}
+
+/// The numbers of each run, or why there are none. Nothing is recorded beyond them.
+#[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
+pub(crate) fn rows(
     py: Python<'_>,
-    scenario: &NativeScenario,
+    scenarios: Vec<PyRef<'_, NativeScenario>>,
     columns: Vec<String>,
     lines: usize,
     start: f64,
-) -> (Option<Vec<f64>>, Option<String>) {
-    let scenario = (*scenario.scenario).clone();
+) -> Vec<(Option<Vec<f64>>, Option<String>)> {
+    let scenarios = scenarios.iter().map(|of| (*of.scenario).clone()).collect();
     let selection = Selection { columns, lines, from: start };
-    let found = py.detach(|| run_reduced(scenario, &selection, &|| false));
-    match found {
+    let found = py.detach(|| run_reduced(scenarios, &selection, &|| false));
+    let row = |of: Option<Result<Vec<f64>, String>>| match of {
         Some(Ok(row)) => (Some(row), None),
         Some(Err(message)) => (None, Some(message)),
         None => (None, Some("the run was cancelled".to_owned())),
-    }
+    };
+    found.into_iter().map(row).collect()
 }
 
 /// Name and limit, SI, of each requirement of a scenario.

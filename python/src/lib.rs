@@ -28,8 +28,8 @@ mod _native {
     #[pymodule_export]
     use super::campaign::{
         estimate_percentile, estimate_probability, keep_out, limits, plan_keys, plan_of_axes,
-        plan_of_draws, plan_of_probabilities, plan_sensitivities, rank_correlation, row,
-        row_fields,
+        plan_of_draws, plan_of_probabilities, plan_sensitivities, rank_correlation, row_fields,
+        rows, side_by_side,
     };
     #[pymodule_export]
     use super::evaluator::NativeEvaluator;

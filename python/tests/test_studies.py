@@ -59,6 +59,25 @@ def test_samples_that_fail_have_their_reason_and_are_kept_out(scenario: precess.
         found["omega"]
 
 
+def test_samples_side_by_side_have_the_bits_of_each_by_itself(scenario: precess.Scenario) -> None:
+    over = {"hub.mass": "300..400 kg:7", "device.wheel2.wheel.torque": "0, 0.01, 0.02 N m"}
+    apart = {"run.step": "1, 0.7 ms", "output.rate": "1000, 333 Hz", "hub.mass": "300, 350 kg"}
+    columns = ["omega", "wheel1.spin", "acceleration"]
+    for keys in (over, apart):
+        # As many threads as samples: one at a time.
+        together, alone = (
+            sweep.run(scenario, keys, columns=columns, threads=threads) for threads in (1, 64)
+        )
+        assert not together.errors
+        for name in together.keys():
+            np.testing.assert_array_equal(together[name], alone[name], err_msg=name)
+    values = {"hub.mass": "350 kg", "device.wheel2.wheel.torque": "0.01 N m"}
+    result = scenario.with_values(values).run()
+    found = sweep.run(scenario, over, columns=columns, threads=1)
+    for name in ("omega_x", "wheel1.spin"):
+        assert found[f"end {name}"][3, 1] == result[name][-1], name
+
+
 def test_draws_are_those_of_the_plan(scenario: precess.Scenario) -> None:
     found = montecarlo.run(scenario, VARY, 12, seed=5, columns=["omega", "wheel1.spin"])
     plan = campaign.monte_carlo(VARY, 12, 5)

@@ -18,7 +18,7 @@ from distributed.comm import CommClosedError
 from ..errors import Error
 from .bundle import Bundle
 from .isolated import isolated_rows
-from .job import Job, Row, VersionError, rows
+from .job import Job, Row, VersionError
 from .partition import Partition
 from .plan import Plan
 
@@ -178,4 +178,4 @@ def _rows(packed: bytes, bundle: Bundle, samples: list[tuple[str, ...]], isolate
         raise VersionError(
             f"a worker has precess {__version__}, the client {job.version}; install one version on both"
         )
-    return isolated_rows(job, bundle, samples) if isolated else rows(job, bundle, samples)
+    return isolated_rows(job, bundle, samples) if isolated else job.rows(bundle, samples)

@@ -107,7 +107,7 @@ def _serve() -> None:
             overrides = _receive(requests)
         except EOFError:
             return
-        _send(answers, job.row(bundle, overrides))
+        _send(answers, job.rows(bundle, [overrides])[0])
 
 
 if __name__ == "__main__":

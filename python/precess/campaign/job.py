@@ -1,19 +1,22 @@
-"""What is computed of each sample, and one sample of it."""
+"""What is computed of each sample, and samples of it."""
 
 from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from .. import _native
+from .._native import NativeScenario
 from ..errors import Error
 from ..scenario import Scenario, _native_of
 from .bundle import Bundle
 
-__all__ = ["Job", "Measure", "Row", "VersionError"]
+__all__ = ["Job", "Measure", "Row", "VersionError", "in_groups"]
+
+T = TypeVar("T")
 
 #: A function of a scenario that returns numbers by name.
 Measure = Callable[[Scenario], Mapping[str, float]]
@@ -54,21 +57,34 @@ class Job:
         facts = (self.version, self.columns, self.lines, self.start, self.fields)
         return f"{facts!r} {_source(self.measure)}"
 
-    def row(self, bundle: Bundle, overrides: tuple[str, ...]) -> Row:
-        """Runs one sample. Whatever is wrong with it is in the row."""
-        origin = bundle.laid_out()
-        place = 2 if origin[0] == "file" else 4
-        origin = (*origin[:place], (*origin[place], *overrides), *origin[place + 1 :])
-        try:
-            native = _native_of(origin)
-            if self.measure is None:
-                numbers, message = _native.row(native, list(self.columns), self.lines, self.start)
-            else:
-                measured = self.measure(Scenario._of(native, origin))
-                numbers, message = [float(measured[name]) for name, _ in self.fields], None
-        # A sample that raises is a row with its error: the others go on.
-        except Exception as error:
-            return None, bundle.shown(_line(error))
+    def rows(self, bundle: Bundle, samples: Sequence[tuple[str, ...]]) -> list[Row]:
+        """Runs samples, as many at a time as take the least time. Whatever is wrong with one is in its row."""
+        found: list[Row] = [(None, None)] * len(samples)
+        read: list[tuple[int, NativeScenario]] = []
+        for place, overrides in enumerate(samples):
+            origin = bundle.laid_out()
+            at = 2 if origin[0] == "file" else 4
+            origin = (*origin[:at], (*origin[at], *overrides), *origin[at + 1 :])
+            # A sample that raises is a row with its error: the others go on.
+            try:
+                native = _native_of(origin)
+                if self.measure is None:
+                    read.append((place, native))
+                else:
+                    measured = self.measure(Scenario._of(native, origin))
+                    numbers = [float(measured[name]) for name, _ in self.fields]
+                    found[place] = self._checked(bundle, numbers, None)
+            except Exception as error:
+                found[place] = None, bundle.shown(_line(error))
+        columns = list(self.columns)
+        for group in in_groups(read, 1):
+            natives = [native for _, native in group]
+            rows = _native.rows(natives, columns, self.lines, self.start)
+            for (place, _), (row, message) in zip(group, rows, strict=True):
+                found[place] = self._checked(bundle, row, message)
+        return found
+
+    def _checked(self, bundle: Bundle, numbers: list[float] | None, message: str | None) -> Row:
         if message is not None:
             return None, bundle.shown(message)
         if numbers is None or len(numbers) != len(self.fields):
@@ -80,9 +96,10 @@ class Job:
         return [value if math.isfinite(value) else math.nan for value in numbers], None
 
 
-def rows(job: Job, bundle: Bundle, samples: list[tuple[str, ...]]) -> list[Row]:
-    """The rows of some samples, one after another."""
-    return [job.row(bundle, overrides) for overrides in samples]
+def in_groups(samples: Sequence[T], threads: int) -> list[Sequence[T]]:
+    """As many samples as take the least time together; fewer where threads would have nothing to do."""
+    size = min(_native.side_by_side(), max(1, math.ceil(len(samples) / threads)))
+    return [samples[start : start + size] for start in range(0, len(samples), size)]
 
 
 def _line(error: Exception) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from .bundle import Bundle
 from .isolated import isolated_rows
-from .job import Job, Row
+from .job import Job, Row, in_groups
 from .partition import Partition
 from .plan import Plan
 
@@ -31,7 +31,8 @@ def evaluate(
     this process: its samples are run in a process of their own.
     """
     count = threads or len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else threads
-    with ThreadPoolExecutor(count or os.cpu_count(), "precess-campaign") as pool:
+    workers = count or os.cpu_count() or 1
+    with ThreadPoolExecutor(workers, "precess-campaign") as pool:
         try:
             for part in missing:
                 marker = folder / f"{part.name}.running"
@@ -40,7 +41,9 @@ def evaluate(
                     rows = isolated_rows(job, bundle, samples)
                 else:
                     marker.touch()
-                    rows = list(pool.map(lambda overrides: job.row(bundle, overrides), samples))
+                    groups = in_groups(samples, workers)
+                    of_groups = pool.map(lambda group: job.rows(bundle, group), groups)
+                    rows = [row for of_group in of_groups for row in of_group]
                 finished(part, rows)
                 marker.unlink(missing_ok=True)
         except BaseException:

@@ -13,7 +13,8 @@ use crate::{Acting, Ends, Lanes, Made, PART, SEGMENT, Steps, Watch};
 /// Numbers of the hub in a flat state.
 const HUB: usize = 13;
 
-type Set<K> = Vec<K>;
+/// Devices of a kind.
+pub(crate) type Set<K> = Vec<K>;
 
 /// Accelerations of a state.
 type Found<K> = Result<Accelerations<Set<K>>, SolveError<f64>>;
@@ -69,6 +70,28 @@ impl<K: Kind<Scalar = f64>> Crafts<K> {
             Self::Each(parts) => parts.first()?.spacecraft().first(),
         }
     }
+
+    /// Steps of a length, so many; none where there is no such part.
+    fn advance<F: Fn(&mut Record, usize, &State<Set<K>>) + Sync>(
+        &self,
+        part: usize,
+        now: &mut [State<Set<K>>],
+        acting: BatchInputs<'_, Set<K>>,
+        (length, count): (f64, usize),
+        observers: Option<Observers<'_, Record, F>>,
+        out: &mut Ends,
+    ) -> Option<Result<(), SolveError>> {
+        Some(match (self, observers) {
+            (Self::Same(batch), None) => batch.run(now, acting, length, count, out),
+            (Self::Same(batch), Some(observers)) => {
+                batch.run_observed(now, acting, length, count, observers, out)
+            }
+            (Self::Each(parts), None) => parts.get(part)?.run(now, acting, length, count, out),
+            (Self::Each(parts), Some(observers)) => {
+                parts.get(part)?.run_observed(now, acting, length, count, observers, out)
+            }
+        })
+    }
 }
 
 impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
@@ -113,40 +136,31 @@ impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
         let inputs = inputs_of(shape, inputs);
         let width = HUB + 2 * joints(shape);
         let every = steps.every.max(1);
-        let segment = SEGMENT.div_ceil(every) * every;
         let mut ends = vec![Ok(()); now.len()];
-        let mut done = 0;
+        let (mut done, mut reached) = (0, Vec::new());
+        // Samples of each state, one after the other, where one is seen before the last step.
+        let on_the_way = steps.every < steps.count;
+        let segment = if on_the_way { SEGMENT.div_ceil(every) * every } else { SEGMENT };
+        let mut records = vec![Record::default(); if on_the_way { now.len() } else { 0 }];
         while done < steps.count && (watch.go)() {
             let count = segment.min(steps.count - done);
-            // Each state's samples, one after the other.
-            let mut records: Vec<Record> = vec![Record::default(); now.len()];
+            records.iter_mut().for_each(Record::clear);
             let observe = |record: &mut Record, steps: usize, state: &State<Set<K>>| {
-                record.steps.push(steps);
-                let start = record.rows.len();
-                record.rows.resize(start + width, 0.0);
-                if let Some(row) = record.rows.get_mut(start..) {
-                    pack(state, row);
-                }
+                record.push(steps, state, width);
             };
-            let observers = Observers::new(every, &mut records, observe);
-            let (length, mut reached) = (steps.length, Vec::new());
-            let acting = batch_inputs(&inputs);
-            let fit = match (self, &mut reached) {
-                (Self::Same(batch), to) => {
-                    batch.run_observed(&mut now, acting, length, count, observers, to)
-                }
-                (Self::Each(parts), to) => match parts.get(part) {
-                    Some(of) => of.run_observed(&mut now, acting, length, count, observers, to),
-                    None => return Vec::new(),
-                },
+            let observers = on_the_way.then(|| Observers::new(every, &mut records, observe));
+            let (acting, length) = (batch_inputs(&inputs), (steps.length, count));
+            let Some(fit) = self.advance(part, &mut now, acting, length, observers, &mut reached)
+            else {
+                return Vec::new();
             };
             if let Err(error) = fit {
                 return vec![Err(error); now.len()];
             }
             // A state that failed fails again at the same step: its first error stays.
-            for (end, reached) in ends.iter_mut().zip(reached) {
+            for (end, reached) in ends.iter_mut().zip(&reached) {
                 if end.is_ok() {
-                    *end = reached;
+                    *end = *reached;
                 }
             }
             for (index, record) in records.iter().enumerate() {
@@ -156,8 +170,12 @@ impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
             }
             done += count;
         }
-        for (state, row) in now.iter().zip(y.chunks_exact_mut(width)) {
+        let seen_last = !on_the_way && done == every;
+        for (index, (state, row)) in now.iter().zip(y.chunks_exact_mut(width)).enumerate() {
             pack(state, row);
+            if seen_last && ends.get(index).is_some_and(Result::is_ok) {
+                (watch.see)(index, done, row);
+            }
         }
         ends
     }
@@ -168,6 +186,22 @@ impl<K: Kind<Scalar = f64>> Lanes for Crafts<K> {
 struct Record {
     steps: Vec<usize>,
     rows: Vec<f64>,
+}
+
+impl Record {
+    fn push<K: Kind<Scalar = f64>>(&mut self, steps: usize, state: &State<Set<K>>, width: usize) {
+        self.steps.push(steps);
+        let start = self.rows.len();
+        self.rows.resize(start + width, 0.0);
+        if let Some(row) = self.rows.get_mut(start..) {
+            pack(state, row);
+        }
+    }
+
+    fn clear(&mut self) {
+        self.steps.clear();
+        self.rows.clear();
+    }
 }
 
 fn joints<K: Kind<Scalar = f64>>(shape: &Spacecraft<Set<K>>) -> usize {
@@ -222,18 +256,28 @@ fn inputs_of<K: Kind<Scalar = f64>>(
     let none = Inputs::none_for(shape);
     let one = |of: &Acting| {
         let mut inputs = none.clone();
-        (inputs.force, inputs.torque_b) = (of.force, of.torque_b);
-        (inputs.hub, inputs.gravity) = (of.hub, of.gravity);
-        inputs.motors.values_mut().zip(&of.motors).for_each(|(to, from)| *to = *from);
-        inputs.modes.values_mut().zip(&of.modes).for_each(|(to, from)| *to = *from);
-        inputs.bodies = of.bodies.as_ref().map(|bodies| {
-            let mut all = Inputs::no_wrenches_for(shape);
-            all.values_mut().zip(bodies).for_each(|(to, from)| *to = *from);
-            all
-        });
+        write_inputs(shape, of, &mut inputs);
         inputs
     };
     inputs.iter().map(one).collect()
+}
+
+/// Writes what acts into inputs of the set.
+pub(crate) fn write_inputs<K: Kind<Scalar = f64>>(
+    shape: &Spacecraft<Set<K>>,
+    of: &Acting,
+    inputs: &mut Inputs<Set<K>>,
+) {
+    (inputs.force, inputs.torque_b) = (of.force, of.torque_b);
+    (inputs.hub, inputs.gravity) = (of.hub, of.gravity);
+    inputs.motors.values_mut().zip(&of.motors).for_each(|(to, from)| *to = *from);
+    inputs.modes.values_mut().zip(&of.modes).for_each(|(to, from)| *to = *from);
+    let Some(bodies) = &of.bodies else {
+        inputs.bodies = None;
+        return;
+    };
+    let all = inputs.bodies.get_or_insert_with(|| Inputs::no_wrenches_for(shape));
+    all.values_mut().zip(bodies).for_each(|(to, from)| *to = *from);
 }
 
 /// The same for every state where there is one.

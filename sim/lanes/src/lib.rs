@@ -1,5 +1,5 @@
-//! Batches of spacecraft whose devices are of one kind, in lanes, behind one object-safe trait: states
-//! are flat rows, as `precess::evaluation` lays them out.
+//! Spacecraft whose devices are of one kind, in lanes, behind object-safe traits: batches, whose states
+//! are flat rows as `precess::evaluation` lays them out, and runs side by side.
 //!
 //! A crate of its own: it holds the kernels of every kind in lanes of every width, which take minutes
 //! to compile and rarely change.
@@ -8,6 +8,9 @@
 //! sums over devices is the same.
 
 mod laned;
+mod side_by_side;
+
+pub use side_by_side::{Motion, SideBySide, side_by_side};
 
 use nalgebra::Vector3;
 use precess_dynamics::{
@@ -88,30 +91,37 @@ pub enum Made {
     Unsupported,
 }
 
+/// The first device, where all spacecraft have as many devices as the first, and all are of its kind.
+fn one_kind(crafts: &[(Hub, Vec<BuiltIn>)]) -> Option<&BuiltIn> {
+    let (_, devices) = crafts.first()?;
+    let first = devices.first()?;
+    let alike = |(_, of): &(Hub, Vec<BuiltIn>)| {
+        of.len() == devices.len() && of.iter().all(|device| device.kind() == first.kind())
+    };
+    crafts.iter().all(alike).then_some(first)
+}
+
+/// The devices as those of their kind.
+macro_rules! devices_of {
+    ($crafts:ident, $kind:ident) => {{
+        let one = |device: &BuiltIn| match device {
+            BuiltIn::$kind(device) => Some(*device),
+            _ => None,
+        };
+        let of = |(hub, of): &(Hub, Vec<BuiltIn>)| (*hub, of.iter().filter_map(one).collect());
+        $crafts.iter().map(of).collect::<Vec<_>>()
+    }};
+}
+use devices_of;
+
 /// The batch of one spacecraft for every state, or of one for each.
 #[must_use]
 pub fn lanes(crafts: &[(Hub, Vec<BuiltIn>)], each: bool) -> Made {
-    let Some((_, devices)) = crafts.first() else { return Made::Unsupported };
-    let Some(first) = devices.first() else { return Made::Unsupported };
-    let kind = first.kind();
-    let alike = |(_, of): &(Hub, Vec<BuiltIn>)| {
-        of.len() == devices.len() && of.iter().all(|device| device.kind() == kind)
-    };
-    if !crafts.iter().all(alike) {
-        return Made::Unsupported;
-    }
+    let Some(first) = one_kind(crafts) else { return Made::Unsupported };
     macro_rules! by_kind {
         ($($kind:ident $module:ident $number:literal;)*) => {
             match first {
-                $(BuiltIn::$kind(_) => {
-                    let one = |device: &BuiltIn| match device {
-                        BuiltIn::$kind(device) => Some(*device),
-                        _ => None,
-                    };
-                    let of = |(hub, of): &(Hub, Vec<BuiltIn>)| (*hub, of.iter().filter_map(one).collect());
-                    let crafts: Vec<_> = crafts.iter().map(of).collect();
-                    laned::of_kind(&crafts, each)
-                })*
+                $(BuiltIn::$kind(_) => laned::of_kind(&devices_of!(crafts, $kind), each),)*
             }
         };
     }

@@ -1,4 +1,5 @@
-//! [`execute`]: the samples of a plan that its journal does not have, on any number of threads.
+//! [`execute`]: the samples of a plan that its journal does not have, on any number of threads, and on each
+//! as many at a time as fill the lanes.
 
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -8,8 +9,10 @@ use std::thread;
 
 use super::journal::kept;
 use super::{CampaignError, Journal, Plan, Reducer, Selection};
-use crate::engine::{End, run};
+use crate::engine::{End, Keep, Outcome, RunError, SIDE_BY_SIDE, run_side_by_side};
 use crate::file::{Override, Template};
+use crate::record::columns::Quantity;
+use crate::record::{Columns, Recorder};
 use crate::scenario::Scenario;
 
 /// A finished sample.
@@ -82,27 +85,32 @@ pub fn execute(
     let (next, done, failed) =
         (AtomicUsize::new(0), AtomicUsize::new(resumed), AtomicBool::new(false));
     let stopped = || failed.load(Ordering::Relaxed) || cancelled();
+    // Fewer at a time where threads would have nothing to do.
+    let threads = execution.threads.clamp(1, missing.len().max(1));
+    let size = missing.len().div_ceil(threads).clamp(1, SIDE_BY_SIDE);
+    let groups: Vec<&[usize]> = missing.chunks(size).collect();
     let work = || {
-        while let Some(&sample) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
+        while let Some(&group) = groups.get(next.fetch_add(1, Ordering::Relaxed)) {
             if stopped() {
                 return;
             }
-            let Some(result) = run_sample(execution, sample, &stopped) else { return };
-            let row = Row { sample, result };
-            let Ok(mut shared) = shared.lock() else { return };
-            let (journal, rows, error) = &mut *shared;
-            if let Err(found) = journal.append(&row) {
-                error.get_or_insert(found);
-                failed.store(true, Ordering::Relaxed);
-                return;
+            for (&sample, result) in group.iter().zip(run_samples(execution, group, &stopped)) {
+                let Some(result) = result else { return };
+                let row = Row { sample, result };
+                let Ok(mut shared) = shared.lock() else { return };
+                let (journal, rows, error) = &mut *shared;
+                if let Err(found) = journal.append(&row) {
+                    error.get_or_insert(found);
+                    failed.store(true, Ordering::Relaxed);
+                    return;
+                }
+                if let Some(place) = rows.get_mut(sample) {
+                    *place = Some(row);
+                }
+                progress(done.fetch_add(1, Ordering::Relaxed) + 1);
             }
-            if let Some(place) = rows.get_mut(sample) {
-                *place = Some(row);
-            }
-            progress(done.fetch_add(1, Ordering::Relaxed) + 1);
         }
     };
-    let threads = execution.threads.clamp(1, missing.len().max(1));
     thread::scope(|scope| {
         for _ in 1..threads {
             scope.spawn(work);
@@ -116,71 +124,100 @@ pub fn execute(
     Ok(Finished { rows, resumed })
 }
 
-/// A sample's numbers, or its error; none where it was cancelled. A fault of the program in one sample is an error of that
-/// sample.
-fn run_sample(
+/// Numbers of a run, or why there are none; none of both where it was cancelled.
+type Reduced = Option<Result<Vec<f64>, String>>;
+
+/// What became of each sample. A fault of the program in one sample is an error of that sample.
+fn run_samples(
     execution: &Execution<'_>,
-    sample: usize,
+    samples: &[usize],
     cancelled: &dyn Fn() -> bool,
-) -> Option<Result<Vec<f64>, String>> {
-    let found = catch_unwind(AssertUnwindSafe(|| reduced(execution, sample, cancelled)));
-    match found {
-        Ok(result) => result.map(|result| result.map_err(|text| kept(text.trim()).to_owned())),
-        Err(_) => Some(Err("a fault of the program ended the run".to_owned())),
-    }
+) -> Vec<Reduced> {
+    let run = |samples: &[usize]| {
+        catch_unwind(AssertUnwindSafe(|| reduced(execution, samples, cancelled))).ok()
+    };
+    let of_one = |sample: &usize| {
+        let found = run(&[*sample]).and_then(|found| found.into_iter().next());
+        found.unwrap_or_else(|| Some(Err("a fault of the program ended the run".to_owned())))
+    };
+    run(samples).unwrap_or_else(|| samples.iter().map(of_one).collect())
 }
 
 fn reduced(
     execution: &Execution<'_>,
-    sample: usize,
+    samples: &[usize],
     cancelled: &dyn Fn() -> bool,
-) -> Option<Result<Vec<f64>, String>> {
-    let own = execution.plan.samples.get(sample).map_or(&[][..], |sample| &sample.overrides);
-    let overrides: Vec<Override> = execution.overrides.iter().chain(own).cloned().collect();
-    let scenario = match execution.template.scenario(&overrides) {
-        Ok((scenario, _)) => scenario,
-        // The rest of a diagnostic shows where in the text.
-        Err(errors) => return Some(Err(first_message(&errors))),
-    };
-    let row = match run_reduced(scenario, execution.selection, cancelled)? {
-        Ok(row) => row,
-        Err(message) => return Some(Err(message)),
-    };
-    if row.len() != execution.fields {
-        return Some(Err(format!(
-            "{} numbers, where other samples have {}; vary no key that adds columns",
-            row.len(),
-            execution.fields
-        )));
+) -> Vec<Reduced> {
+    let mut sound = Vec::new();
+    let mut errors = Vec::new();
+    for sample in samples {
+        let own = execution.plan.samples.get(*sample).map_or(&[][..], |of| &of.overrides);
+        let overrides: Vec<Override> = execution.overrides.iter().chain(own).cloned().collect();
+        match execution.template.scenario(&overrides) {
+            Ok((scenario, _)) => {
+                sound.push(scenario);
+                errors.push(None);
+            }
+            // The rest of a diagnostic shows where in the text.
+            Err(found) => errors.push(Some(first_message(&found))),
+        }
     }
-    Some(Ok(row))
+    let mut rows = run_reduced(sound, execution.selection, cancelled).into_iter();
+    let of_sample = |error: Option<String>| match error {
+        None => rows.next().flatten(),
+        Some(message) => Some(Err(message)),
+    };
+    let found: Vec<Reduced> = errors.into_iter().map(of_sample).collect();
+    found.into_iter().map(|of| of.map(|of| checked(of, execution.fields))).collect()
 }
 
-/// The numbers of one run, those of [`Selection::fields`], or why there are none; none of both where it was cancelled. Only what
-/// is selected is recorded.
+/// A row of as many numbers as those of other samples; an error in the length that is kept.
+fn checked(result: Result<Vec<f64>, String>, fields: usize) -> Result<Vec<f64>, String> {
+    let row = result.map_err(|text| kept(text.trim()).to_owned())?;
+    if row.len() == fields {
+        return Ok(row);
+    }
+    Err(format!(
+        "{} numbers, where other samples have {fields}; vary no key that adds columns",
+        row.len()
+    ))
+}
+
+/// The numbers of each run, those of [`Selection::fields`], or why there are none. Only what is selected is recorded and
+/// computed. As many as [`SIDE_BY_SIDE`] in one call take the least time.
 #[must_use]
 pub fn run_reduced(
-    mut scenario: Scenario,
+    mut scenarios: Vec<Scenario>,
     selection: &Selection,
     cancelled: &dyn Fn() -> bool,
-) -> Option<Result<Vec<f64>, String>> {
-    scenario.output.columns.clone_from(&selection.columns);
-    let mut reducer = Reducer::new(&scenario, selection);
-    let outcome = run(&scenario, &mut reducer, &mut |_| {
+) -> Vec<Reduced> {
+    for scenario in &mut scenarios {
+        scenario.output.columns.clone_from(&selection.columns);
+    }
+    let mut reducers: Vec<Reducer<'_>> =
+        scenarios.iter().map(|scenario| Reducer::new(scenario, selection)).collect();
+    let recorders = reducers.iter_mut().map(|reducer| reducer as &mut dyn Recorder);
+    let runs = scenarios.iter().zip(recorders).collect();
+    let keep = if scenarios.iter().any(shows_work) { Keep::All } else { Keep::Motion };
+    let outcomes = run_side_by_side(runs, keep, &mut || {
         if cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
-    let outcome = match outcome {
-        Ok(outcome) => outcome,
-        Err(error) => return Some(Err(error.to_string())),
-    };
-    match outcome.end {
-        End::Cancelled => return None,
-        End::Failed(error) => {
-            return Some(Err(format!("failed at {} s: {error}", outcome.end_time)));
+    let row_of = |(outcome, reducer): (Result<Outcome, RunError>, Reducer<'_>)| match outcome {
+        Err(error) => Some(Err(error.to_string())),
+        Ok(Outcome { end: End::Cancelled, .. }) => None,
+        Ok(Outcome { end: End::Failed(error), end_time, .. }) => {
+            Some(Err(format!("failed at {end_time} s: {error}")))
         }
-        End::Finished | End::EndStop { .. } | End::Crossing { .. } => {}
-    }
-    Some(Ok(reducer.row().unwrap_or_default()))
+        Ok(_) => Some(Ok(reducer.row().unwrap_or_default())),
+    };
+    outcomes.into_iter().zip(reducers).map(row_of).collect()
+}
+
+/// Whether a column is the work, which is not computed otherwise.
+fn shows_work(scenario: &Scenario) -> bool {
+    Columns::of(scenario).is_ok_and(|columns| {
+        columns.as_slice().iter().any(|column| column.quantity == Quantity::Work)
+    })
 }
 
 fn first_message(errors: &crate::file::Diagnostics) -> String {

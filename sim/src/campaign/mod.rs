@@ -6,7 +6,7 @@
 //! | `plan` | [`Plan`]: the samples of a campaign, and the digest that names it |
 //! | `reduce` | [`Reducer`]: samples of one run into a row of numbers, in bounded memory |
 //! | `journal` | [`Journal`]: a checksummed record of each finished sample, for a campaign that is killed |
-//! | `engine` | [`execute`]: the samples that are missing, on any number of threads; [`run_reduced`]: one run |
+//! | `engine` | [`execute`]: the samples that are missing, on any number of threads; [`run_reduced`]: some of them |
 //! | `table` | the rows as CSV and NPZ |
 //! | `distribution` | [`Variation`]: a key and its distribution |
 //! | `draw` | [`draw`]: seeded samples |

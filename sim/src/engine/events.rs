@@ -110,6 +110,12 @@ impl<'a> Monitors<'a> {
         Ok(Self { stops, crossings, moment: Some(start.clone()) })
     }
 
+    /// Whether there are none.
+    #[cfg(feature = "lanes")]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.stops.is_empty() && self.crossings.is_empty()
+    }
+
     /// What the last step passed, in the order of time, up to the first passage that cuts it.
     pub(crate) fn passed(
         &mut self,

@@ -149,6 +149,16 @@ impl<'a> Acting<'a> {
             .all(|(drive, driven)| *driven && matches!(drive, Drive::Torque { .. } | Drive::Locked))
     }
 
+    /// Whether nothing that acts depends on time or state, until a drive is replaced.
+    #[cfg(feature = "lanes")]
+    pub(crate) fn is_constant(&self) -> bool {
+        let constant = |drive: &&Drive| match drive {
+            Drive::Torque { profile, .. } | Drive::Acceleration(profile) => profile.is_constant(),
+            Drive::Locked => true,
+        };
+        !self.has_wrenches() && self.drives.iter().all(constant)
+    }
+
     /// Writes what depends on time, and on the attitude of the bodies.
     pub(crate) fn fill(&self, time: f64, state: &CraftState, all: &mut CraftInputs) {
         let inputs = &mut all.rigid;

@@ -87,6 +87,24 @@ impl Stepper {
         }
     }
 
+    /// The steps that RK4 makes next ([`Rk4::coming`]); none of DOP853, whose steps depend on the state.
+    #[cfg(feature = "lanes")]
+    pub(crate) fn coming(&self, until: f64, most: usize) -> Option<(f64, usize)> {
+        match &self.method {
+            Method::Dop853(_) => None,
+            Method::Rk4(method) => Some(method.coming(until, most)),
+        }
+    }
+
+    /// Takes over the state after these steps.
+    #[cfg(feature = "lanes")]
+    pub(crate) fn take(&mut self, system: &System<'_>, state: CraftState, steps: usize) {
+        self.before = self.time();
+        if let Method::Rk4(method) = &mut self.method {
+            method.take(system, state, steps);
+        }
+    }
+
     /// The present time, s.
     pub(crate) fn time(&self) -> f64 {
         match &self.method {

@@ -1,4 +1,5 @@
-//! Runs a scenario: [`run`] to its end into a recorder, [`Run`] step by step for a program.
+//! Runs a scenario: [`run`] to its end into a recorder, [`Run`] step by step for a program,
+//! [`run_side_by_side`] several that differ in numbers.
 //!
 //! A run is a sequence of segments; within one, everything that acts is smooth. At the start of
 //! each the changes due are applied: brakes, locks at end stops, new drives. A step never spans the
@@ -19,25 +20,31 @@ mod error;
 mod events;
 mod inputs;
 mod integrator;
+mod keep;
 mod kinematics;
+#[cfg(feature = "lanes")]
+mod lanes;
 mod member_loads;
 mod outcome;
 mod packing;
+mod recorded;
 mod rk4;
 mod roots;
 mod row;
 mod sampling;
 mod segments;
+mod side_by_side;
 mod system;
-
-use std::ops::ControlFlow;
 
 pub(crate) use precess_craft::{Craft, CraftState, rigid_state};
 use precess_dynamics::{About, JointStates, State};
 
 pub use drift::Drift;
 pub use error::{Fault, RunError};
+pub use keep::Keep;
 pub use outcome::{End, Event, Outcome, Steps};
+pub use recorded::run;
+pub use side_by_side::{SIDE_BY_SIDE, run_side_by_side};
 
 use drift::Conserved;
 use events::{Monitors, Passage, Passed};
@@ -47,11 +54,9 @@ pub(crate) use kinematics::Chain;
 pub(crate) use member_loads::MemberLoads;
 use outcome::EVENTS_MAX;
 pub(crate) use packing::Layout;
-use sampling::Sampling;
 use segments::Segments;
 use system::System;
 
-use crate::record::Recorder;
 use crate::scenario::{Scenario, Set, StopAction};
 
 /// The equations of motion of a scenario.
@@ -104,12 +109,21 @@ impl<'a> Run<'a> {
     /// found with the spacecraft: a joint beyond its stops, a moving joint that is locked, a
     /// crossing of an unknown column, a state that the solver cannot solve.
     pub fn new(scenario: &'a Scenario) -> Result<Self, RunError> {
+        Self::keeping(scenario, Keep::All)
+    }
+
+    /// As [`Self::new`]; computes no more than what is kept.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn keeping(scenario: &'a Scenario, keep: Keep) -> Result<Self, RunError> {
         let errors = scenario.check();
         if !errors.is_empty() {
             return Err(RunError::Scenario(errors));
         }
         let craft = craft_of(scenario)?;
-        let system = System::new(scenario, craft);
+        let system = System::new(scenario, craft, keep);
         let (eta, eta_dot) = scenario
             .structure
             .as_ref()
@@ -127,7 +141,10 @@ impl<'a> Run<'a> {
             events: Vec::new(),
             events_omitted: 0,
             lost: 0.0,
-            peak_rates: vec![0.0; scenario.joint_count()],
+            peak_rates: match keep {
+                Keep::All => vec![0.0; scenario.joint_count()],
+                Keep::Motion => Vec::new(),
+            },
             moment,
             time: 0.0,
             at_boundary: true,
@@ -158,15 +175,21 @@ impl<'a> Run<'a> {
     }
 
     fn make_step(&mut self) -> Result<(), RunError> {
-        if self.at_boundary {
-            self.begin_segment()?;
-            if self.end.is_some() {
-                return Ok(());
-            }
-        } else {
-            self.stepper.reduce(&self.system)?;
+        self.prepare_step()?;
+        if self.end.is_some() {
+            return Ok(());
         }
         self.stepper.step(&self.system)?;
+        self.finish_step()
+    }
+
+    /// Whatever is due at the present time; the same when called again before the step.
+    fn prepare_step(&mut self) -> Result<(), RunError> {
+        if self.at_boundary { self.begin_segment() } else { self.stepper.reduce(&self.system) }
+    }
+
+    /// Stops and crossings that the last step passed, and the state that is reached.
+    fn finish_step(&mut self) -> Result<(), RunError> {
         let passed = self.monitors.passed(&self.system, &mut self.stepper)?;
         let mut reached = self.stepper.time();
         for Passage { time, what } in passed {
@@ -240,7 +263,7 @@ impl<'a> Run<'a> {
         (&self.moment.state.eta, &self.moment.state.eta_dot)
     }
 
-    /// Work of all sources but gravity and springs since the start, J.
+    /// Work of all sources but gravity and springs since the start, J; NaN where it is not kept.
     #[must_use]
     pub fn work(&self) -> f64 {
         self.moment.integrals[0]
@@ -252,10 +275,13 @@ impl<'a> Run<'a> {
         self.lost
     }
 
-    /// How far conserved quantities have drifted so far.
+    /// How far conserved quantities have drifted so far; nothing where only the motion is kept.
     #[must_use]
     pub fn drift(&self) -> Drift {
-        self.conserved.drift()
+        match self.system.keep {
+            Keep::All => self.conserved.drift(),
+            Keep::Motion => Drift::default(),
+        }
     }
 
     /// Why it has ended; none while it has not, or after an error.
@@ -285,7 +311,7 @@ impl<'a> Run<'a> {
             end,
             steps: self.steps(),
             samples,
-            drift: self.conserved.drift(),
+            drift: self.drift(),
             energy_lost: self.lost,
             peak_rates: self.peak_rates,
             events: self.events,
@@ -301,8 +327,11 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Enters the present moment into the peaks and the drifts.
+    /// Enters the present moment into the peaks and the drifts, where these are kept.
     fn enter(&mut self) -> Result<(), RunError> {
+        if self.system.keep == Keep::Motion {
+            return Ok(());
+        }
         let joints = self.moment.state.rigid.devices.states();
         for (peak, [_, rate]) in self.peak_rates.iter_mut().zip(joints) {
             *peak = peak.max(rate.abs());
@@ -311,52 +340,4 @@ impl<'a> Run<'a> {
             .enter(self.scenario, &self.system, self.time, &self.moment, self.lost)
             .map_err(|source| RunError::solve(&self.system, self.time, source))
     }
-}
-
-/// Runs a scenario into a recorder.
-///
-/// `progress` hears the simulated time after each step, s; if it breaks, the run is cancelled, and
-/// its result is complete up to there. An error during the run ends it likewise:
-/// [`End::Failed`].
-///
-/// # Errors
-///
-/// As [`Run::new`], and [`RunError::Record`] of the recorder, which then is not finished.
-pub fn run(
-    scenario: &Scenario,
-    recorder: &mut dyn Recorder,
-    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Outcome, RunError> {
-    let mut run = Run::new(scenario)?;
-    let mut sampling = Sampling::new(scenario, &run)?;
-    recorder.begin(sampling.header())?;
-    let end = loop {
-        match run.advance() {
-            Ok(Advance::Ended) => break run.end.take().unwrap_or(End::Finished),
-            Ok(Advance::Stepped) => {}
-            Err(error) => break End::Failed(error),
-        }
-        match sampling.step(&mut run, recorder) {
-            Ok(()) => {}
-            Err(RunError::Record(error)) => return Err(RunError::Record(error)),
-            Err(error) => break End::Failed(error),
-        }
-        if progress(run.time()).is_break() && run.end.is_none() {
-            break End::Cancelled;
-        }
-    };
-    let end = match sampling.last(&mut run, recorder) {
-        Ok(()) => end,
-        Err(RunError::Record(error)) => return Err(RunError::Record(error)),
-        Err(error) => {
-            if end.is_complete() {
-                End::Failed(error)
-            } else {
-                end
-            }
-        }
-    };
-    let outcome = run.outcome(end, sampling.count());
-    recorder.finish(&outcome)?;
-    Ok(outcome)
 }

@@ -10,6 +10,7 @@ use precess_dynamics::{JointStates, Mode, SolveError};
 use super::dop853::same;
 use super::error::RunError;
 use super::integrator::Moment;
+use super::keep::Keep;
 use super::system::{System, work_of};
 use precess_craft::CraftState;
 
@@ -38,24 +39,54 @@ impl Rk4 {
         self.before = self.now.clone();
     }
 
+    /// The end of the step that is so many ahead, and its length.
+    fn ahead(&self, steps: u64) -> [f64; 2] {
+        #[expect(clippy::cast_precision_loss, reason = "fewer steps than 2^53")]
+        let next = self.start + (self.count + steps) as f64 * self.step;
+        if same(next, self.end) {
+            [self.end, self.step]
+        } else if next > self.end {
+            [self.end, self.end - self.now.0]
+        } else {
+            [next, self.step]
+        }
+    }
+
     /// One step.
     pub(crate) fn step(&mut self, system: &System<'_>) -> Result<(), RunError> {
-        #[expect(clippy::cast_precision_loss, reason = "fewer steps than 2^53")]
-        let next = self.start + (self.count + 1) as f64 * self.step;
+        let [next, length] = self.ahead(1);
         let (time, moment) = &self.now;
-        let (next, length) = if same(next, self.end) {
-            (self.end, self.step)
-        } else if next > self.end {
-            (self.end, self.end - time)
-        } else {
-            (next, self.step)
-        };
         let stepped = stepped(system, *time, moment, length);
         let stepped = stepped.map_err(|source| RunError::solve(system, *time, source))?;
         self.before = std::mem::replace(&mut self.now, (next, stepped));
         self.count += 1;
         self.accepted += 1;
         Ok(())
+    }
+
+    /// The length of the next step, and how many of that length reach no further than a time, at
+    /// least one: the last of a segment by itself.
+    #[cfg(feature = "lanes")]
+    pub(crate) fn coming(&self, until: f64, most: usize) -> (f64, usize) {
+        let [_, length] = self.ahead(1);
+        let within = |steps: &u64| {
+            let [next, _] = self.ahead(*steps);
+            next < self.end && (next <= until || same(next, until))
+        };
+        (length, (1..=most as u64).take_while(within).count().max(1))
+    }
+
+    /// Takes over the state after so many steps of [`Self::coming`] that were made elsewhere. Of several
+    /// there is nothing in between: [`Self::at`] is for times within the last step only.
+    #[cfg(feature = "lanes")]
+    pub(crate) fn take(&mut self, system: &System<'_>, state: CraftState, steps: usize) {
+        let steps = steps as u64;
+        system.count(4 * steps);
+        let [next, _] = self.ahead(steps);
+        let reached = (next, Moment { state, integrals: [f64::NAN; 2] });
+        self.before = std::mem::replace(&mut self.now, reached);
+        self.count += steps;
+        self.accepted += steps;
     }
 
     pub(crate) fn time(&self) -> f64 {
@@ -94,6 +125,10 @@ fn stepped(
     system.count(4);
     let Moment { state, integrals: [work, throughput] } = moment;
     let inputs = system.inputs(time, state);
+    if system.keep == Keep::Motion {
+        let next = system.craft.step(state, &inputs, length)?;
+        return Ok(Moment { state: next, integrals: [f64::NAN; 2] });
+    }
     let rates_times_torques = |next: &CraftState| {
         let coordinates = |of: &CraftState| -> Vec<f64> {
             of.rigid.devices.states().map(|[coordinate, _]| coordinate).collect()

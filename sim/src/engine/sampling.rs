@@ -46,6 +46,13 @@ impl Sampling {
         self.count
     }
 
+    /// The time of the next sample, s.
+    pub(crate) fn next(&self) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "fewer samples than 2^53")]
+        let count = self.count as f64;
+        count / self.rate
+    }
+
     /// Records the samples from the start of the last step to before its end.
     pub(crate) fn step(
         &mut self,
@@ -53,8 +60,7 @@ impl Sampling {
         recorder: &mut dyn Recorder,
     ) -> Result<(), RunError> {
         loop {
-            #[expect(clippy::cast_precision_loss, reason = "fewer samples than 2^53")]
-            let time = self.count as f64 / self.rate;
+            let time = self.next();
             // That of the end of a step belongs to the next one, whose inputs then act.
             if time >= run.time || same(time, run.time) {
                 return Ok(());

@@ -88,6 +88,12 @@ impl Profile {
         matches!(self, Self::Constant(value) if *value == 0.0)
     }
 
+    /// Whether it is the same at any time.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant(_))
+    }
+
     /// Its value at a time; at a jump the value after it.
     ///
     /// `from_below` takes the value before a jump at exactly this time: that of a step which ends

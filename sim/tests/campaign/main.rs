@@ -5,4 +5,5 @@ mod correlated;
 mod killed;
 mod montecarlo;
 mod shared;
+mod side_by_side;
 mod sweep;

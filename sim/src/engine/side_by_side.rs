@@ -1,0 +1,120 @@
+//! [`run_side_by_side`]: runs of scenarios that differ in numbers, several at a time in lanes.
+//!
+//! Each has the numbers that it has by itself, to the bit. With the feature `lanes` those of
+//! RK4 make their steps together, as long as these are of one length; the others, and what lanes do not
+//! support, go one after another.
+
+use std::ops::ControlFlow;
+
+#[cfg(feature = "lanes")]
+use super::lanes::Lanes;
+use super::recorded::Recorded;
+use super::{End, Keep, Outcome, RunError};
+use crate::record::Recorder;
+use crate::scenario::Scenario;
+
+/// How many runs fill the lanes of AVX2; twice as many take as long each.
+pub const SIDE_BY_SIDE: usize = if cfg!(feature = "lanes") { 4 } else { 1 };
+
+/// Runs scenarios into recorders, one for each.
+///
+/// `progress` is called after some steps of each; if it breaks, what has not ended is cancelled, its
+/// result complete up to there.
+///
+/// # Errors
+///
+/// In each place those of [`run`](super::run).
+pub fn run_side_by_side(
+    runs: Vec<(&Scenario, &mut dyn Recorder)>,
+    keep: Keep,
+    progress: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Vec<Result<Outcome, RunError>> {
+    let places: Vec<Place<'_, '_>> = runs
+        .into_iter()
+        .map(|(scenario, recorder)| match Recorded::begin(scenario, keep, recorder) {
+            Ok(run) => Place::Running(Box::new(run)),
+            Err(error) => Place::Ended(Box::new(Err(error))),
+        })
+        .collect();
+    #[cfg(feature = "lanes")]
+    let places = in_lanes(places, progress);
+    let alone = |mut place: Place<'_, '_>| {
+        while place.running().is_some() && progress().is_continue() {
+            place = place.step(Recorded::advance);
+        }
+        place.ended()
+    };
+    places.into_iter().map(alone).collect()
+}
+
+/// The steps that lanes support.
+#[cfg(feature = "lanes")]
+fn in_lanes<'a, 'r>(
+    mut places: Vec<Place<'a, 'r>>,
+    progress: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Vec<Place<'a, 'r>> {
+    let Some(mut lanes) = Lanes::of(places.iter().map(Place::running)) else { return places };
+    while places.iter().any(|place| place.running().is_some()) {
+        let advanced = lanes.advance(places.iter_mut().map(Place::running_mut));
+        let each = places.into_iter().zip(advanced);
+        places = each.map(|(place, advanced)| place.after(advanced)).collect();
+        if progress().is_break() {
+            break;
+        }
+    }
+    places
+}
+
+/// A run, or what became of it.
+enum Place<'a, 'r> {
+    Running(Box<Recorded<'a, 'r>>),
+    Ended(Box<Result<Outcome, RunError>>),
+}
+
+impl<'a, 'r> Place<'a, 'r> {
+    fn running(&self) -> Option<&Recorded<'a, 'r>> {
+        match self {
+            Self::Running(run) => Some(run),
+            Self::Ended(_) => None,
+        }
+    }
+
+    #[cfg(feature = "lanes")]
+    fn running_mut(&mut self) -> Option<&mut Recorded<'a, 'r>> {
+        match self {
+            Self::Running(run) => Some(run),
+            Self::Ended(_) => None,
+        }
+    }
+
+    /// Records what lanes have advanced; makes the step of a run that they have not.
+    #[cfg(feature = "lanes")]
+    fn after(self, advanced: Option<Result<(), RunError>>) -> Self {
+        self.step(|run| match advanced {
+            Some(Ok(())) => run.record(),
+            Some(Err(error)) => Ok(Some(End::Failed(error))),
+            None => run.advance(),
+        })
+    }
+
+    /// Makes a step of a run, which may end it.
+    fn step(
+        self,
+        step: impl FnOnce(&mut Recorded<'a, 'r>) -> Result<Option<End>, RunError>,
+    ) -> Self {
+        let Self::Running(mut run) = self else { return self };
+        match step(&mut run) {
+            Ok(None) => Self::Running(run),
+            Ok(Some(end)) => Self::Ended(Box::new(run.finish(end))),
+            Err(error) => Self::Ended(Box::new(Err(error))),
+        }
+    }
+
+    /// What became of the run; of one that has not ended, that it was cancelled.
+    fn ended(self) -> Result<Outcome, RunError> {
+        match self {
+            Self::Running(run) => run.finish(End::Cancelled),
+            Self::Ended(result) => *result,
+        }
+    }
+}
