@@ -137,6 +137,8 @@ def run(
     folder = Path(out)
     files = folder / "partitions"
     files.mkdir(parents=True, exist_ok=True)
+    for of_clients in (folder, files):
+        store.remove_partial(of_clients)
     missing = [part for part in parts if not (files / part.name).exists()]
     columns_ = store.schema(plan, job.fields, _about(scenario, job, bundle))
     done = len(plan) - sum(part.stop - part.start for part in missing)

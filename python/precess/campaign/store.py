@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import socket
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,10 +16,22 @@ import pyarrow.parquet as pq
 from .job import Row
 from .plan import Plan
 
-__all__ = ["WRITER", "atomic", "atomic_text", "merge", "schema", "table", "write"]
+__all__ = [
+    "WRITER",
+    "atomic",
+    "atomic_text",
+    "merge",
+    "remove_partial",
+    "schema",
+    "table",
+    "write",
+]
 
 #: What the bytes of a file depend on beside its rows.
 WRITER = f"pyarrow {pa.__version__}, format 1"
+
+#: This machine, in the name of a file that is being written: several may write to one folder.
+_HOST = "".join(letter for letter in socket.gethostname() if letter.isalnum() or letter == "-")
 
 #: Fixed, so that another default of another version is seen.
 _OPTIONS: dict[str, Any] = {
@@ -82,7 +95,7 @@ def atomic_text(path: Path, text: str) -> None:
 @contextlib.contextmanager
 def atomic(path: Path) -> Iterator[Path]:
     """A file to write that gets its name when the block ends; an error leaves none behind."""
-    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    partial = path.with_name(f".{path.name}.{_HOST}.{os.getpid()}.partial")
     try:
         yield partial
         _sync(partial, os.O_RDWR)
@@ -91,6 +104,28 @@ def atomic(path: Path) -> Iterator[Path]:
             _sync(path.parent, os.O_RDONLY)
     finally:
         _quietly(lambda: partial.unlink(missing_ok=True))
+
+
+def remove_partial(folder: Path) -> None:
+    """Removes what processes of this machine that were ended while they wrote have left in a folder."""
+    for partial in folder.glob(f".*.{_HOST}.*.partial"):
+        number = partial.name.split(".")[-2]
+        if number.isdecimal() and not _lives(int(number)):
+            with contextlib.suppress(OSError):
+                partial.unlink(missing_ok=True)
+
+
+def _lives(process: int) -> bool:
+    """Whether a process is there; where that cannot be asked, that it is."""
+    if os.name != "posix":
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def _sync(path: Path, flags: int) -> None:

@@ -191,3 +191,23 @@ def test_a_limit_of_file_sizes_loses_nothing(scenario: Path, tmp_path: Path) -> 
     for name in ("samples.parquet", "report.md", "campaign.json"):
         assert (out / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
     assert resource.getrlimit(resource.RLIMIT_FSIZE)[0] == resource.RLIM_INFINITY
+
+
+def test_what_a_killed_process_was_writing_is_removed(scenario: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    (out / "partitions").mkdir(parents=True)
+    program = (
+        "import os, pathlib, signal, sys\n"
+        "from precess.campaign import store\n"
+        "with store.atomic(pathlib.Path(sys.argv[1])) as partial:\n"
+        "    partial.write_text('half')\n"
+        "    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    command = [sys.executable, "-c", program, str(out / "partitions" / "part.parquet")]
+    assert subprocess.run(command, check=False).returncode == -signal.SIGKILL
+    (left,) = (out / "partitions").glob(".*.partial")
+    # That of a process that is there is its own.
+    living = left.with_name(left.name.replace(left.name.split(".")[-2], str(os.getpid())))
+    living.write_text("half")
+    campaign.run(scenario, campaign.grid(MASSES), out)
+    assert list((out / "partitions").glob(".*.partial")) == [living]
