@@ -12,7 +12,7 @@ use super::read::mount::direction;
 use super::read_file::{folder_of, read_file};
 use crate::jitter::budget::{Budget, Sight};
 use crate::jitter::sweep::{Phases, SPEEDS_MAX};
-use crate::nearest::nearest;
+use crate::nearest::did_you_mean_file;
 use crate::pointing::{Limit, LineOfSight, Metric, Sensitivity};
 use crate::structure::dynamic_mass::Motor;
 use crate::units::Measure;
@@ -78,17 +78,7 @@ fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {
         keys.missing("scenario", "scenario = \"bus.toml\"");
     }
     if let Some((path, shown)) = scenario.as_ref().filter(|(path, _)| !path.is_file()) {
-        let beside = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
-        let names = beside.into_iter().flatten().flatten();
-        let names = names.filter_map(|file| file.file_name().into_string().ok());
-        let near = nearest(
-            shown,
-            names.filter(|name| Path::new(name).extension() == Some("toml".as_ref())),
-        );
-        let help = match near.as_slice() {
-            [] => "a path is from the folder of the budget".to_owned(),
-            near => format!("did you mean `{}`?", near.join("`, `")),
-        };
+        let help = did_you_mean_file(shown, path, "a path is from the folder of the budget");
         keys.error("scenario", format!("there is no scenario {}", path.display()), &help);
     }
     let phases = [("unknown", Phases::Unknown), ("given", Phases::Given), ("worst", Phases::Worst)];
