@@ -91,12 +91,16 @@ fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {
         keys.missing("speed", "[speed]` with `from = \"600 rpm\"` and `to = \"6000 rpm\"");
     }
     let speed = speed.and_then(|speed| speeds(&speed));
+    let before = keys.errors();
     let sights: Vec<Sight> = keys.tables("line_of_sight").iter().filter_map(sight).collect();
+    // What a requirement names can be sought only among lines of sight that were read.
+    let all_read = keys.errors() == before && keys.has("line_of_sight");
+    let known = all_read.then_some(&sights[..]);
     if !keys.has("line_of_sight") {
         keys.missing("line_of_sight", "[[line_of_sight]]` with `node = \"camera\"");
     }
     let limits: Vec<_> =
-        keys.tables("requirement").iter().filter_map(|r| limit(r, &sights)).collect();
+        keys.tables("requirement").iter().filter_map(|r| limit(r, known)).collect();
     keys.finish();
     let (speeds, count, swept) = speed?;
     for (index, sight) in sights.iter().enumerate() {
@@ -132,8 +136,12 @@ fn sight(keys: &Keys<'_>) -> Option<Sight> {
     let parts: Vec<_> = keys.tables("sensitivity").iter().filter_map(sensitivity).collect();
     let axes = ["boresight", "across"].map(|key| direction(keys, key));
     let listed = keys.has("sensitivity");
-    keys.finish();
+    let unknown = keys.finish();
     if listed == node.is_some() {
+        // One of them may be misspelt.
+        if unknown && !listed {
+            return None;
+        }
         let help = "write `node` with its `boresight`, or `[[line_of_sight.sensitivity]]`";
         keys.error("node", "a line of sight is of one rigid instrument, or of sensitivities", help);
         return None;
@@ -173,24 +181,35 @@ fn sensitivity(keys: &Keys<'_>) -> Option<Sensitivity> {
     Some(Sensitivity { node: node?.to_owned(), displacement, rotation })
 }
 
-fn limit(keys: &Keys<'_>, sights: &[Sight]) -> Option<(usize, Limit)> {
+/// A requirement; the line of sight that it names is sought among those that are known, if all were read.
+fn limit(keys: &Keys<'_>, sights: Option<&[Sight]>) -> Option<(usize, Limit)> {
     let named = keys.text("line_of_sight");
     let metrics = [("rms", 0), ("band_rms", 1), ("displacement", 2), ("smear", 3), ("jitter", 4)];
-    let metric = keys.choice("metric", &metrics).unwrap_or(0);
-    let exposed = metric >= 2;
+    let metric = if keys.has("metric") { keys.choice("metric", &metrics) } else { Some(0) };
+    let (exposed, banded) = (metric >= Some(2), metric == Some(1));
     let exposure = if exposed { keys.required("exposure", Measure::TIME) } else { Some(0.0) };
     let band =
-        if metric == 1 { keys.quantities::<2>("band", Measure::FREQUENCY) } else { Some([0.0; 2]) };
-    if metric == 1 && !keys.has("band") {
+        if banded { keys.quantities::<2>("band", Measure::FREQUENCY) } else { Some([0.0; 2]) };
+    if banded && !keys.has("band") {
         keys.missing("band", "band = \"1, 200 Hz\"");
     }
+    let useless =
+        [(keys.has("exposure") && !exposed, "exposure"), (keys.has("band") && !banded, "band")];
     let written = keys.any_quantity("limit");
     if !keys.has("limit") {
         keys.missing("limit", "limit = \"1 urad\"");
     }
     let name = keys.text("name");
-    keys.finish();
-    let written = written?;
+    let unknown = keys.finish();
+    // What belongs to a metric can be said only of one that is known and not misspelt.
+    let sure = metric.is_some() && !unknown;
+    for (_, key) in useless.into_iter().filter(|(useless, _)| *useless && sure) {
+        let message = format!("`{key}` has no use in the metric of this requirement");
+        let of =
+            "`exposure` is of displacement, smear and jitter, `band` of band_rms; rms has neither";
+        keys.error(key, message, of);
+    }
+    let (metric, written) = (metric?, written?);
     let [limit] = written.values[..] else {
         keys.error("limit", "`limit` is one number with its unit", "write `limit = \"1 urad\"`");
         return None;
@@ -212,8 +231,11 @@ fn limit(keys: &Keys<'_>, sights: &[Sight]) -> Option<(usize, Limit)> {
         keys.error("band", "a band rises from zero or above", "write `band = \"1, 200 Hz\"`");
         return None;
     }
+    let sights = sights?;
     let sight = match named {
         None if sights.len() == 1 => Some(0),
+        // The key may be the one that is misspelt.
+        None if unknown => return None,
         None => None,
         Some(named) => sights.iter().position(|sight| sight.name == named),
     };

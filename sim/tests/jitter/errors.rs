@@ -1,0 +1,58 @@
+//! Errors of budgets: each mistake is reported once, with its place in the budget.
+
+use std::path::Path;
+
+use precess::file::budget_from_toml;
+
+const BUDGET: &str = "format = 1\nscenario = \"wheel.toml\"\n[speed]\nfrom = \"600 rpm\"\nto = \"900 rpm\"\n\
+                      [[line_of_sight]]\nname = \"camera\"\nnode = \"hub\"\n\
+                      [[requirement]]\nline_of_sight = \"camera\"\nmetric = \"smear\"\nexposure = \"1 ms\"\n\
+                      limit = \"1 urad\"\n";
+
+/// A budget in a folder with its scenario.
+fn with_budget<T>(text: &str, then: impl FnOnce(&Path) -> T) -> T {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("wheel.toml"), "").expect("written");
+    let path = folder.path().join("budget.toml");
+    std::fs::write(&path, text).expect("written");
+    then(&path)
+}
+
+/// Messages of a budget in which a text is replaced.
+fn messages(from: &str, to: &str) -> Vec<String> {
+    assert!(BUDGET.contains(from), "{from}");
+    let found = with_budget(&BUDGET.replace(from, to), |path| budget_from_toml(path, &[]));
+    let found = found.expect_err(to);
+    println!("{found}");
+    found.all.into_iter().map(|of| of.message).collect()
+}
+
+#[test]
+fn a_misspelt_name_has_no_further_errors() {
+    assert!(with_budget(BUDGET, |path| budget_from_toml(path, &[])).is_ok());
+    for (from, to, message) in [
+        ("[[line_of_sight]]", "[[line_of_site]]", "unknown key `line_of_site`"),
+        ("node =", "nod =", "unknown key `line_of_sight.camera.nod`"),
+        ("\nname =", "\nnmae =", "unknown key `line_of_sight.0.nmae`"),
+        ("\"smear\"", "\"smeer\"", "`requirement.0.metric` is \"smeer\""),
+        ("metric =", "metrik =", "unknown key `requirement.0.metrik`"),
+        ("limit =", "limt =", "unknown key `requirement.0.limt`"),
+        ("[speed]", "[sped]", "unknown key `sped`"),
+    ] {
+        assert_eq!(messages(from, to), [message], "{to}");
+    }
+}
+
+#[test]
+fn an_error_elsewhere_is_reported_beside_a_misspelt_name() {
+    let to = "\"smeer\"\nband = \"2, 1 Hz\"\nextra = 1";
+    let found = messages("\"smear\"", to);
+    assert_eq!(found, ["`requirement.0.metric` is \"smeer\"", "unknown key `requirement.0.extra`"]);
+    let found = messages("[[line_of_sight]]\n", "phases = 3\n[[line_of_site]]\n");
+    assert_eq!(found, ["unknown key `speed.phases`", "unknown key `line_of_site`"]);
+    // What the metric has no use for, and what is sought among lines of sight that were read.
+    let found = messages("\"smear\"", "\"rms\"");
+    assert_eq!(found, ["`exposure` has no use in the metric of this requirement"]);
+    let found = messages("line_of_sight = \"camera\"", "line_of_sight = \"telescope\"");
+    assert_eq!(found, ["`line_of_sight` names no line of sight"]);
+}
