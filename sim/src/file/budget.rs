@@ -121,9 +121,20 @@ fn speeds(keys: &Keys<'_>) -> Option<([f64; 2], usize, Vec<String>)> {
     let rotors = keys.texts("rotors").unwrap_or_default();
     keys.finish();
     let range = [from?, to?];
-    if !(range[0] > 0.0 && range[0] < range[1]) {
-        let message = "speeds rise from above zero: a wheel at rest has no tones";
-        keys.error("from", message, "write for example `from = \"600 rpm\"`");
+    let written = |key: &str, value: f64| match keys.text_or_list(key) {
+        Some(text) => text.to_owned(),
+        None => format!("{value} rad/s"),
+    };
+    if range[0] <= 0.0 {
+        let message =
+            format!("`speed.from` is {}; a wheel at rest has no tones", written("from", range[0]));
+        keys.error("from", message, "write a speed above zero, for example `from = \"600 rpm\"`");
+        return None;
+    }
+    if range[0] >= range[1] {
+        let [from, to] = [written("from", range[0]), written("to", range[1])];
+        let message = format!("`speed.from` is {from}, which is not below `speed.to`, {to}");
+        keys.error("from", message, "`from` is the lowest speed, `to` the highest");
         return None;
     }
     Some((range, count.unwrap_or(COUNT), rotors.into_iter().map(str::to_owned).collect()))

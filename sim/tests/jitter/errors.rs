@@ -56,3 +56,15 @@ fn an_error_elsewhere_is_reported_beside_a_misspelt_name() {
     let found = messages("line_of_sight = \"camera\"", "line_of_sight = \"telescope\"");
     assert_eq!(found, ["`line_of_sight` names no line of sight"]);
 }
+
+#[test]
+fn a_range_of_speeds_that_falls_is_shown_with_both_values() {
+    assert_eq!(
+        messages("900 rpm", "500 rpm"),
+        ["`speed.from` is 600 rpm, which is not below `speed.to`, 500 rpm"]
+    );
+    assert_eq!(
+        messages("600 rpm", "0 Hz rad"),
+        ["`speed.from` is 0 Hz rad; a wheel at rest has no tones"]
+    );
+}
