@@ -12,7 +12,7 @@ use super::error::CommandError;
 use super::run::{all_cores, may_write, progress_bar, write_whole};
 use super::table::{aligned, six};
 use super::{as_toml, print};
-use crate::file::{Override, budget_from_toml, budget_overrides, from_file};
+use crate::file::{Override, budget_from_toml, budget_overrides, check_budget_names, from_file};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, oscillations};
 use crate::jitter::coupled::{Compared, compare};
@@ -105,6 +105,7 @@ impl Jitter {
         let (budget, path) =
             budget_from_toml(&self.file, &of_budget).map_err(CommandError::Scenario)?;
         let (scenario, reports) = from_file(&path, &of_scenario).map_err(CommandError::Scenario)?;
+        check_budget_names(&self.file, &of_budget, &scenario).map_err(CommandError::Scenario)?;
         let mut warnings: Vec<String> =
             reports.all.iter().map(|warning| warning.message.clone()).collect();
         for warning in &warnings {

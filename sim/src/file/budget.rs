@@ -1,6 +1,8 @@
 //! Jitter budgets: TOML that names a scenario, the speeds to sweep, lines of sight and limits. Keys and units as in
 //! scenario files; every error at once.
 
+mod names;
+
 use std::path::{Path, PathBuf};
 
 use nalgebra::{Matrix2x3, Unit, Vector3};
@@ -16,6 +18,8 @@ use crate::nearest::did_you_mean_file;
 use crate::pointing::{Limit, LineOfSight, Metric, Sensitivity};
 use crate::structure::dynamic_mass::Motor;
 use crate::units::Measure;
+
+pub use names::check_budget_names;
 
 /// The number of the format that this program reads.
 const FORMAT: u32 = 1;

@@ -2,12 +2,24 @@
 
 use std::path::Path;
 
-use precess::file::budget_from_toml;
+use precess::file::{Diagnostics, budget_from_toml, check_budget_names, from_toml};
 
 const BUDGET: &str = "format = 1\nscenario = \"wheel.toml\"\n[speed]\nfrom = \"600 rpm\"\nto = \"900 rpm\"\n\
                       [[line_of_sight]]\nname = \"camera\"\nnode = \"hub\"\n\
                       [[requirement]]\nline_of_sight = \"camera\"\nmetric = \"smear\"\nexposure = \"1 ms\"\n\
                       limit = \"1 urad\"\n";
+
+/// Line and message of each error.
+fn places(found: &Diagnostics) -> Vec<(usize, String)> {
+    let line = |text: &str, at: usize| {
+        text[..at].lines().count() + usize::from(text[..at].ends_with('\n'))
+    };
+    let place = |of: &precess::file::Diagnostic| {
+        let span = of.span.as_ref().expect("a place");
+        (line(&found.sources[span.source].text, span.range.start).max(1), of.message.clone())
+    };
+    found.all.iter().map(place).collect()
+}
 
 /// A budget in a folder with its scenario.
 fn with_budget<T>(text: &str, then: impl FnOnce(&Path) -> T) -> T {
@@ -67,4 +79,25 @@ fn a_range_of_speeds_that_falls_is_shown_with_both_values() {
         messages("600 rpm", "0 Hz rad"),
         ["`speed.from` is 0 Hz rad; a wheel at rest has no tones"]
     );
+}
+
+#[test]
+fn names_that_the_scenario_does_not_have_are_shown_in_the_budget() {
+    let scenario = "format = 1\n[hub]\nmass = \"9 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n[[device]]\nname = \"rw\"\n\
+                    kind = \"reaction_wheel\"\nimbalance.static = \"1 g cm\"\n[device.wheel]\nmass = \"1 kg\"\n\
+                    inertia = \"2, 1, 1 g m^2\"\nrate = \"900 rpm\"\n[run]\nduration = \"1 s\"\n";
+    let (scenario, _) =
+        from_toml("wheel", scenario, Path::new("")).unwrap_or_else(|errors| panic!("{errors}"));
+    assert!(with_budget(BUDGET, |path| check_budget_names(path, &[], &scenario)).is_ok());
+    let text = BUDGET
+        .replace("node = \"hub\"", "node = \"hubb\"")
+        .replace("\nto", "\nrotors = [\"rw.wheel\", \"rw.whele\"]\nto");
+    let found = with_budget(&text, |path| check_budget_names(path, &[], &scenario));
+    let found = found.expect_err("two wrong names");
+    let expected = [
+        (9, "no node of the scenario wheel is named `hubb`".to_owned()),
+        (5, "no body of the scenario wheel is named `rw.whele`".to_owned()),
+    ];
+    assert_eq!(places(&found), expected);
+    assert!(found.to_string().contains("did you mean `hub`?"), "{found}");
 }
