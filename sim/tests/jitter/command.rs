@@ -231,3 +231,29 @@ fn warnings_of_the_scenario_are_printed() {
     assert!(text.contains("9000 rpm is not within the speeds of the budget"), "{text}");
     std::fs::remove_dir_all(out).expect("it was made");
 }
+
+#[test]
+fn warnings_are_printed_once_and_are_in_the_report() {
+    let out = folder("warnings");
+    let base = scenarios().join("wheel-data-sheet.toml");
+    // A source that acts on the hub is left out.
+    let text = format!(
+        "format = 1\nbase = \"{}\"\n[[source]]\nname = \"pump\"\non = \"hub\"\nwheel = \"rw.wheel\"\nseed = 1\n\
+         [[source.harmonic]]\nnumber = 2\nradial_force = \"1 g mm\"\n",
+        base.display()
+    );
+    std::fs::write(out.join("scenario.toml"), text).expect("it is written");
+    let budget = "format = 1\nscenario = \"scenario.toml\"\n[speed]\nfrom = \"600 rpm\"\nto = \"900 rpm\"\ncount = 5\n\
+                  [[line_of_sight]]\nnode = \"hub\"\n";
+    std::fs::write(out.join("budget.toml"), budget).expect("it is written");
+    let found = jitter(&out.join("budget.toml"), &out, &["--compare", "1000 rpm"]);
+    let error = String::from_utf8_lossy(&found.stderr).into_owned();
+    assert_eq!(found.status.code(), Some(0), "{error}");
+    let page = std::fs::read_to_string(out.join("budget.html")).expect("a page");
+    for part in ["pump", "1000 rpm is not within the speeds of the budget"] {
+        let warned = error.lines().filter(|line| line.starts_with("warning: ") && line.contains(part));
+        assert_eq!(warned.count(), 1, "{part} in:\n{error}");
+        assert!(page.contains(part), "{part} in the page");
+    }
+    std::fs::remove_dir_all(out).expect("it was made");
+}
