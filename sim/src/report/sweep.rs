@@ -220,7 +220,8 @@ fn plane(
     fill: impl FnOnce(&mut Plane),
 ) -> Plane {
     let (curves, lines, dots, marks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut plane = Plane { description, title, axes, curves, lines, dots, marks, ranges };
+    let large = false;
+    let mut plane = Plane { description, title, axes, curves, lines, dots, marks, large, ranges };
     fill(&mut plane);
     plane
 }

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use super::axes::{Space, axes, svg_file, title};
-use super::figure::{ABOVE, Area, BELOW, PANEL, document, moves, stroke};
+use super::figure::{ABOVE, Area, BELOW, PANEL, WIDTH, document, moves, stroke};
 use super::ticks::Axis;
 use crate::report::error::DrawError;
 
@@ -44,7 +44,7 @@ impl Waterfall {
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
         let names: Vec<_> = self.curves.iter().map(|(name, _)| name.as_str()).collect();
-        document(&self.description, style, &names, HEIGHT * PANEL, |panel| self.draw(panel))
+        document(&self.description, style, &names, [WIDTH, HEIGHT * PANEL], |panel| self.draw(panel))
     }
 
     /// Greatest density of each row of cells.

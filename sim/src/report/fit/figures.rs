@@ -143,6 +143,7 @@ fn residuals(
         lines: straight.to_vec(),
         dots: Vec::new(),
         marks: Vec::new(),
+        large: false,
         ranges: [(ends[0] < ends[1]).then_some(ends), Some([-most, most])],
     }
 }

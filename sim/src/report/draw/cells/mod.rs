@@ -145,7 +145,7 @@ impl CellMap {
     /// As the drawing library.
     pub fn file(&self) -> Result<String, DrawError> {
         svg_file(|style| {
-            document(&self.description, style, &[], HEIGHT * PANEL, |panel| self.draw(panel))
+            document(&self.description, style, &[], [WIDTH, HEIGHT * PANEL], |panel| self.draw(panel))
         })
     }
 
