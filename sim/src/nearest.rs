@@ -1,5 +1,7 @@
 //! Names near to an unknown one, for errors.
 
+use std::path::{Path, PathBuf};
+
 /// Less alike than this, a name is no likely meaning.
 const LIKENESS: f64 = 0.7;
 /// More than this, a list is not read.
@@ -20,4 +22,26 @@ pub(crate) fn nearest<N: AsRef<str>>(unknown: &str, names: impl Iterator<Item = 
         }
     }
     found
+}
+
+/// A question for help: which of the names may be meant; `otherwise` where none is like the unknown one.
+pub(crate) fn did_you_mean<N: AsRef<str>>(
+    unknown: &str,
+    names: impl Iterator<Item = N>,
+    otherwise: &str,
+) -> String {
+    match nearest(unknown, names).as_slice() {
+        [] => otherwise.to_owned(),
+        near => format!("did you mean `{}`?", near.join("`, `")),
+    }
+}
+
+/// The same of the TOML files beside one that is missing, named from where `written` names it.
+pub(crate) fn did_you_mean_file(written: &str, path: &Path, otherwise: &str) -> String {
+    let beside = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let files = std::fs::read_dir(beside.unwrap_or_else(|| Path::new("."))).ok();
+    let names = files.into_iter().flatten().flatten().map(|file| PathBuf::from(file.file_name()));
+    let names = names.filter(|name| name.extension() == Some("toml".as_ref()));
+    let named = |name: PathBuf| Path::new(written).with_file_name(name).display().to_string();
+    did_you_mean(written, names.map(named), otherwise)
 }

@@ -2,6 +2,7 @@
 //! sources, a report and pictures.
 
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -16,7 +17,7 @@ use super::table::{aligned, six};
 use crate::file::measurement_from_toml;
 use crate::fit::device::{device, sources};
 use crate::fit::{Estimate, Fitted, Sense, example, fit_waterfall, fit_with_progress};
-use crate::report::fit::FitReport;
+use crate::report::fit::{FitReport, SQUARES_MAX};
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -168,7 +169,10 @@ fn table(fitted: &Fitted) -> String {
         }
     }
     let mut text = aligned(&rows);
-    text.push_str("\nmean square of residuals by variance, degrees of freedom\n");
+    let _ = writeln!(
+        text,
+        "\nmean square of residuals by variance (up to {SQUARES_MAX} the model holds), degrees of freedom"
+    );
     let rows: Vec<_> = fitted
         .groups
         .iter()

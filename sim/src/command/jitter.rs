@@ -12,7 +12,7 @@ use super::error::CommandError;
 use super::run::{all_cores, may_write, progress_bar, write_whole};
 use super::table::{aligned, six};
 use super::{as_toml, print};
-use crate::file::{Override, budget_from_toml, budget_overrides, from_file};
+use crate::file::{Override, budget_from_toml, budget_overrides, check_budget_names, from_file};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, oscillations};
 use crate::jitter::coupled::{Compared, compare};
@@ -95,8 +95,6 @@ struct Found {
     compared: Vec<(Compared, bool)>,
     /// Of each requirement.
     sensitivities: Vec<Vec<Sensitivity>>,
-    /// Sources that the frequency domain has not.
-    left_out: Vec<String>,
 }
 
 impl Jitter {
@@ -105,16 +103,24 @@ impl Jitter {
         let (budget, path) =
             budget_from_toml(&self.file, &of_budget).map_err(CommandError::Scenario)?;
         let (scenario, reports) = from_file(&path, &of_scenario).map_err(CommandError::Scenario)?;
-        let mut warnings: Vec<String> =
-            reports.all.iter().map(|warning| warning.message.clone()).collect();
-        for warning in &warnings {
-            eprintln!("warning: {warning}");
-        }
+        check_budget_names(&self.file, &of_budget, &scenario).map_err(CommandError::Scenario)?;
         let stem = self.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
         // Before the work, too.
         may_write(&self.out, &[format!("{stem}.html")], self.force)?;
-        let found = self.find(&scenario, &budget)?;
-        warnings.extend(found.left_out.iter().cloned());
+        let prepared = Prepared::new(&scenario, &budget).map_err(|error| match error {
+            PrepareError::Rotor { .. } => CommandError::Other(error.to_string()),
+            PrepareError::Model(error) => {
+                CommandError::Other(format!("{}: {error}", scenario.name))
+            }
+        })?;
+        let mut warnings: Vec<String> =
+            reports.all.iter().map(|warning| warning.message.clone()).collect();
+        warnings.extend(prepared.left_out.iter().cloned());
+        warnings.extend(self.compared_outside(&budget));
+        for warning in &warnings {
+            eprintln!("warning: {warning}");
+        }
+        let found = self.find(&scenario, &budget, prepared)?;
         let mut text = std::fs::read_to_string(&self.file)
             .map_err(|source| CommandError::Io { path: self.file.clone(), source })?;
         for set in &self.set {
@@ -156,18 +162,31 @@ impl Jitter {
         Ok(if met { ExitCode::SUCCESS } else { ExitCode::from(UNMET) })
     }
 
-    fn find(&self, scenario: &Scenario, budget: &Budget) -> Result<Found, CommandError> {
+    /// Speeds of `--compare` that are not among those of the budget.
+    fn compared_outside(&self, budget: &Budget) -> Vec<String> {
+        let [from, to] = budget.speeds;
+        let outside = self.compare.iter().filter(|speed| !(from..=to).contains(*speed));
+        let text = |speed: &f64| {
+            format!(
+                "{} is not within the speeds of the budget, {} to {}; it is compared, and counts in no verdict",
+                rpm(*speed),
+                rpm(from),
+                rpm(to)
+            )
+        };
+        outside.map(text).collect()
+    }
+
+    fn find(
+        &self,
+        scenario: &Scenario,
+        budget: &Budget,
+        prepared: Prepared,
+    ) -> Result<Found, CommandError> {
         let other = |error: &dyn std::fmt::Display| {
             CommandError::Other(format!("{}: {error}", scenario.name))
         };
-        let prepared = Prepared::new(scenario, budget).map_err(|error| match error {
-            PrepareError::Rotor { .. } => CommandError::Other(error.to_string()),
-            PrepareError::Model(error) => other(&error),
-        })?;
-        let Prepared { model, left_out, campbell_speeds, branches, crossings, speeds } = prepared;
-        for reason in &left_out {
-            eprintln!("warning: {reason}");
-        }
+        let Prepared { model, campbell_speeds, branches, crossings, speeds, .. } = prepared;
         let has_tones = !model.contributors().is_empty();
         let threads = self.threads.unwrap_or_else(all_cores);
         let bar = Mutex::new(progress_bar(parts(&model, &speeds), "speeds"));
@@ -186,15 +205,6 @@ impl Jitter {
             at = assessed.iter().filter_map(|of| found.speeds.get(of.worst).copied()).collect();
             at.sort_by(f64::total_cmp);
             at.dedup();
-        }
-        let [from, to] = budget.speeds;
-        for speed in at.iter().filter(|speed| !(from..=to).contains(*speed)) {
-            eprintln!(
-                "warning: {} is not within the speeds of the budget, {} to {}; it is compared, and counts in no verdict",
-                rpm(*speed),
-                rpm(from),
-                rpm(to)
-            );
         }
         let mut compared = Vec::new();
         let bar = progress_bar(at.len(), "coupled runs");
@@ -228,7 +238,6 @@ impl Jitter {
             branches,
             crossings,
             compared,
-            left_out,
         })
     }
 }

@@ -1,6 +1,8 @@
 //! Jitter budgets: TOML that names a scenario, the speeds to sweep, lines of sight and limits. Keys and units as in
 //! scenario files; every error at once.
 
+mod names;
+
 use std::path::{Path, PathBuf};
 
 use nalgebra::{Matrix2x3, Unit, Vector3};
@@ -12,10 +14,12 @@ use super::read::mount::direction;
 use super::read_file::{folder_of, read_file};
 use crate::jitter::budget::{Budget, Sight};
 use crate::jitter::sweep::{Phases, SPEEDS_MAX};
-use crate::nearest::nearest;
+use crate::nearest::did_you_mean_file;
 use crate::pointing::{Limit, LineOfSight, Metric, Sensitivity};
 use crate::structure::dynamic_mass::Motor;
 use crate::units::Measure;
+
+pub use names::check_budget_names;
 
 /// The number of the format that this program reads.
 const FORMAT: u32 = 1;
@@ -78,17 +82,7 @@ fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {
         keys.missing("scenario", "scenario = \"bus.toml\"");
     }
     if let Some((path, shown)) = scenario.as_ref().filter(|(path, _)| !path.is_file()) {
-        let beside = path.parent().and_then(|folder| std::fs::read_dir(folder).ok());
-        let names = beside.into_iter().flatten().flatten();
-        let names = names.filter_map(|file| file.file_name().into_string().ok());
-        let near = nearest(
-            shown,
-            names.filter(|name| Path::new(name).extension() == Some("toml".as_ref())),
-        );
-        let help = match near.as_slice() {
-            [] => "a path is from the folder of the budget".to_owned(),
-            near => format!("did you mean `{}`?", near.join("`, `")),
-        };
+        let help = did_you_mean_file(shown, path, "a path is from the folder of the budget");
         keys.error("scenario", format!("there is no scenario {}", path.display()), &help);
     }
     let phases = [("unknown", Phases::Unknown), ("given", Phases::Given), ("worst", Phases::Worst)];
@@ -101,12 +95,16 @@ fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {
         keys.missing("speed", "[speed]` with `from = \"600 rpm\"` and `to = \"6000 rpm\"");
     }
     let speed = speed.and_then(|speed| speeds(&speed));
+    let before = keys.errors();
     let sights: Vec<Sight> = keys.tables("line_of_sight").iter().filter_map(sight).collect();
+    // What a requirement names can be sought only among lines of sight that were read.
+    let all_read = keys.errors() == before && keys.has("line_of_sight");
+    let known = all_read.then_some(&sights[..]);
     if !keys.has("line_of_sight") {
         keys.missing("line_of_sight", "[[line_of_sight]]` with `node = \"camera\"");
     }
     let limits: Vec<_> =
-        keys.tables("requirement").iter().filter_map(|r| limit(r, &sights)).collect();
+        keys.tables("requirement").iter().filter_map(|r| limit(r, known)).collect();
     keys.finish();
     let (speeds, count, swept) = speed?;
     for (index, sight) in sights.iter().enumerate() {
@@ -127,9 +125,20 @@ fn speeds(keys: &Keys<'_>) -> Option<([f64; 2], usize, Vec<String>)> {
     let rotors = keys.texts("rotors").unwrap_or_default();
     keys.finish();
     let range = [from?, to?];
-    if !(range[0] > 0.0 && range[0] < range[1]) {
-        let message = "speeds rise from above zero: a wheel at rest has no tones";
-        keys.error("from", message, "write for example `from = \"600 rpm\"`");
+    let written = |key: &str, value: f64| match keys.text_or_list(key) {
+        Some(text) => text.to_owned(),
+        None => format!("{value} rad/s"),
+    };
+    if range[0] <= 0.0 {
+        let message =
+            format!("`speed.from` is {}; a wheel at rest has no tones", written("from", range[0]));
+        keys.error("from", message, "write a speed above zero, for example `from = \"600 rpm\"`");
+        return None;
+    }
+    if range[0] >= range[1] {
+        let [from, to] = [written("from", range[0]), written("to", range[1])];
+        let message = format!("`speed.from` is {from}, which is not below `speed.to`, {to}");
+        keys.error("from", message, "`from` is the lowest speed, `to` the highest");
         return None;
     }
     Some((range, count.unwrap_or(COUNT), rotors.into_iter().map(str::to_owned).collect()))
@@ -142,8 +151,12 @@ fn sight(keys: &Keys<'_>) -> Option<Sight> {
     let parts: Vec<_> = keys.tables("sensitivity").iter().filter_map(sensitivity).collect();
     let axes = ["boresight", "across"].map(|key| direction(keys, key));
     let listed = keys.has("sensitivity");
-    keys.finish();
+    let unknown = keys.finish();
     if listed == node.is_some() {
+        // One of them may be misspelt.
+        if unknown && !listed {
+            return None;
+        }
         let help = "write `node` with its `boresight`, or `[[line_of_sight.sensitivity]]`";
         keys.error("node", "a line of sight is of one rigid instrument, or of sensitivities", help);
         return None;
@@ -183,24 +196,35 @@ fn sensitivity(keys: &Keys<'_>) -> Option<Sensitivity> {
     Some(Sensitivity { node: node?.to_owned(), displacement, rotation })
 }
 
-fn limit(keys: &Keys<'_>, sights: &[Sight]) -> Option<(usize, Limit)> {
+/// A requirement; the line of sight that it names is sought among those that are known, if all were read.
+fn limit(keys: &Keys<'_>, sights: Option<&[Sight]>) -> Option<(usize, Limit)> {
     let named = keys.text("line_of_sight");
     let metrics = [("rms", 0), ("band_rms", 1), ("displacement", 2), ("smear", 3), ("jitter", 4)];
-    let metric = keys.choice("metric", &metrics).unwrap_or(0);
-    let exposed = metric >= 2;
+    let metric = if keys.has("metric") { keys.choice("metric", &metrics) } else { Some(0) };
+    let (exposed, banded) = (metric >= Some(2), metric == Some(1));
     let exposure = if exposed { keys.required("exposure", Measure::TIME) } else { Some(0.0) };
     let band =
-        if metric == 1 { keys.quantities::<2>("band", Measure::FREQUENCY) } else { Some([0.0; 2]) };
-    if metric == 1 && !keys.has("band") {
+        if banded { keys.quantities::<2>("band", Measure::FREQUENCY) } else { Some([0.0; 2]) };
+    if banded && !keys.has("band") {
         keys.missing("band", "band = \"1, 200 Hz\"");
     }
+    let useless =
+        [(keys.has("exposure") && !exposed, "exposure"), (keys.has("band") && !banded, "band")];
     let written = keys.any_quantity("limit");
     if !keys.has("limit") {
         keys.missing("limit", "limit = \"1 urad\"");
     }
     let name = keys.text("name");
-    keys.finish();
-    let written = written?;
+    let unknown = keys.finish();
+    // What belongs to a metric can be said only of one that is known and not misspelt.
+    let sure = metric.is_some() && !unknown;
+    for (_, key) in useless.into_iter().filter(|(useless, _)| *useless && sure) {
+        let message = format!("`{key}` has no use in the metric of this requirement");
+        let of =
+            "`exposure` is of displacement, smear and jitter, `band` of band_rms; rms has neither";
+        keys.error(key, message, of);
+    }
+    let (metric, written) = (metric?, written?);
     let [limit] = written.values[..] else {
         keys.error("limit", "`limit` is one number with its unit", "write `limit = \"1 urad\"`");
         return None;
@@ -222,8 +246,11 @@ fn limit(keys: &Keys<'_>, sights: &[Sight]) -> Option<(usize, Limit)> {
         keys.error("band", "a band rises from zero or above", "write `band = \"1, 200 Hz\"`");
         return None;
     }
+    let sights = sights?;
     let sight = match named {
         None if sights.len() == 1 => Some(0),
+        // The key may be the one that is misspelt.
+        None if unknown => return None,
         None => None,
         Some(named) => sights.iter().position(|sight| sight.name == named),
     };

@@ -91,7 +91,17 @@ impl Diagnostics {
     /// Whether there is an error.
     #[must_use]
     pub fn has_errors(&self) -> bool {
-        self.all.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+        self.errors() > 0
+    }
+
+    /// How many errors there are.
+    pub(super) fn errors(&self) -> usize {
+        self.all.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count()
+    }
+
+    /// Removes an error of which another one is the cause.
+    pub(super) fn retract(&mut self, span: &Span, message: &str) {
+        self.all.retain(|of| of.span.as_ref() != Some(span) || of.message != message);
     }
 
     /// What a number without a unit is at a place.

@@ -1,17 +1,17 @@
 //! [`Keys`]: the keys of one table, read by what each wants.
 //!
 //! Every key that is asked for is known; [`Keys::finish`] reports the others. A key that is missing
-//! or wrong is reported, and reading goes on with a stand-in, so that all errors come at once.
+//! or wrong is reported, and reading goes on with a stand-in, so that all errors come at once. A key that
+//! is missing because it is misspelt is reported once, as the unknown key.
+
+mod quantities;
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-use nalgebra::Vector3;
-
-use super::diagnostic::{Diagnostics, Numbers, Span};
+use super::diagnostic::{Diagnostics, Span};
 use super::document::{Entry, Node, Table, Value};
 use crate::nearest::nearest;
-use crate::units::{Measure, Quantity, parse_quantity};
 
 /// Where errors go.
 pub(super) type Reports = RefCell<Diagnostics>;
@@ -95,13 +95,23 @@ impl<'a> Keys<'a> {
     }
 
     pub(super) fn missing(&self, key: &str, example: &str) {
-        let message = format!("`{}` is missing", self.path_of(key));
+        let message = self.is_missing(key);
         let help = format!("add `{example}`");
         self.reports.borrow_mut().error(&self.span, message, "", &help);
     }
 
-    /// Reports the keys that nobody asked for.
-    pub(super) fn finish(&self) {
+    fn is_missing(&self, key: &str) -> String {
+        format!("`{}` is missing", self.path_of(key))
+    }
+
+    /// How many errors there are so far, of this table and all others.
+    pub(super) fn errors(&self) -> usize {
+        self.reports.borrow().errors()
+    }
+
+    /// Reports the keys that nobody asked for; whether there are any.
+    pub(super) fn finish(&self) -> bool {
+        let mut found = false;
         let asked = self.asked.borrow();
         for entry in &self.table.entries {
             if asked.contains(&entry.key) {
@@ -109,13 +119,20 @@ impl<'a> Keys<'a> {
             }
             let mut known: Vec<_> = asked.iter().map(String::as_str).collect();
             known.sort_unstable();
-            let help = match nearest(&entry.key, known.iter().copied()).first() {
+            let near = nearest(&entry.key, known.iter().copied());
+            let help = match near.first() {
                 Some(name) => format!("did you mean `{name}`?"),
                 None => format!("known here: {}", known.join(", ")),
             };
             let message = format!("unknown key `{}`", self.path_of(&entry.key));
-            self.reports.borrow_mut().error(&entry.key_span, message, "", &help);
+            let mut reports = self.reports.borrow_mut();
+            if let Some(name) = near.first() {
+                reports.retract(&self.span, &self.is_missing(name));
+            }
+            reports.error(&entry.key_span, message, "", &help);
+            found = true;
         }
+        found
     }
 
     /// The table of a key.
@@ -219,177 +236,4 @@ impl<'a> Keys<'a> {
         self.error(key, format!("`{}` is out of range", self.path_of(key)), &help);
         None
     }
-
-    /// A pure number.
-    pub(super) fn number(&self, key: &str) -> Option<f64> {
-        self.quantity(key, Measure::NUMBER)
-    }
-
-    /// Pure numbers, a known count of them.
-    pub(super) fn numbers<const N: usize>(&self, key: &str) -> Option<[f64; N]> {
-        let node = self.node(key)?;
-        let Value::List(list) = &node.value else {
-            return self.other_type(key, node, &format!("write a list of {N} numbers"));
-        };
-        let numbers: Vec<_> = list
-            .iter()
-            .filter_map(|node| match node.value {
-                Value::Number(value, _) if value.is_finite() => Some(value),
-                _ => None,
-            })
-            .collect();
-        let found = <[f64; N]>::try_from(numbers).ok().filter(|_| list.len() == N);
-        if found.is_none() {
-            let message = format!("`{}` is no list of {N} finite numbers", self.path_of(key));
-            self.error(key, message, "");
-        }
-        found
-    }
-
-    /// One quantity of a measure.
-    pub(super) fn quantity(&self, key: &str, measure: Measure) -> Option<f64> {
-        let node = self.node(key)?;
-        let values = self.values_of(node, &self.path_of(key), measure)?;
-        if let [value] = values.as_slice() {
-            Some(*value)
-        } else {
-            let message = format!("`{}` has {} numbers", self.path_of(key), values.len());
-            self.error(key, message, "write one number and its unit");
-            None
-        }
-    }
-
-    /// One quantity of a measure that must be there; reports where it is not.
-    pub(super) fn required(&self, key: &str, measure: Measure) -> Option<f64> {
-        if !self.has(key) {
-            self.missing(key, &example(key, measure));
-            return None;
-        }
-        self.quantity(key, measure)
-    }
-
-    /// Some quantities of one measure: `"1, 2, 3 cm"`, or `["1 cm", "2 cm", "3 cm"]`.
-    pub(super) fn quantities<const N: usize>(
-        &self,
-        key: &str,
-        measure: Measure,
-    ) -> Option<[f64; N]> {
-        let node = self.node(key)?;
-        let path = self.path_of(key);
-        let values = match &node.value {
-            Value::List(list) => {
-                let each = list.iter().map(|node| self.values_of(node, &path, measure));
-                each.collect::<Option<Vec<_>>>()?.concat()
-            }
-            _ => self.values_of(node, &path, measure)?,
-        };
-        let count = values.len();
-        let found = <[f64; N]>::try_from(values).ok();
-        if found.is_none() {
-            let unit = measure.usual;
-            let numbers = ["1", "2", "3", "4", "5", "6"];
-            let numbers = numbers.get(..N).unwrap_or(&numbers).join(", ");
-            let message = format!("`{path}` has {count} numbers where {N} are wanted");
-            self.error(key, message, &format!("write for example `{key} = \"{numbers} {unit}\"`"));
-        }
-        found
-    }
-
-    pub(super) fn vector(&self, key: &str, measure: Measure) -> Option<Vector3<f64>> {
-        self.quantities::<3>(key, measure).map(Vector3::from)
-    }
-
-    /// A quantity of any measure, with its unit; a bare number is a pure number.
-    pub(super) fn any_quantity(&self, key: &str) -> Option<Quantity> {
-        let node = self.node(key)?;
-        if let Value::Number(value, _) = node.value
-            && value.is_finite()
-        {
-            let (values, dimension) = (vec![value], Measure::NUMBER.dimension);
-            return Some(Quantity { values, dimension, unit: String::new() });
-        }
-        let Value::Text(text) = &node.value else {
-            let help = "write a number and its unit in quotation marks";
-            return self.other_type(key, node, help);
-        };
-        self.parsed(node, text, &self.path_of(key), "a number and its unit are wanted")
-    }
-
-    /// The quantities of a node, of a measure.
-    pub(super) fn values_of(&self, node: &Node, path: &str, measure: Measure) -> Option<Vec<f64>> {
-        let Measure { name, usual, .. } = measure;
-        let wanted = if usual.is_empty() {
-            format!("{name} is wanted")
-        } else {
-            format!("{name} is wanted, in {usual} for example")
-        };
-        let text = match &node.value {
-            Value::Text(text) => text,
-            Value::Number(value, _) if measure == Measure::NUMBER => return Some(vec![*value]),
-            Value::Number(value, _)
-                if self.reports.borrow().numbers_at(&node.span) == Numbers::Si =>
-            {
-                return Some(vec![*value]);
-            }
-            Value::Number(value, _) => {
-                let message = format!("`{path}` has no unit");
-                let help = if measure.unit == usual {
-                    format!("write `\"{value} {usual}\"`, or another unit")
-                } else {
-                    format!("write `\"{value} {}\"` or `\"{value} {usual}\"`", measure.unit)
-                };
-                self.report(node, message, &wanted, &help);
-                return None;
-            }
-            other => {
-                let message = format!("`{path}` is {}", other.what());
-                self.report(node, message, "", &format!("{wanted}, in quotation marks"));
-                return None;
-            }
-        };
-        let quantity = self.parsed(node, text, path, &wanted)?;
-        if quantity.is(measure) {
-            return Some(quantity.values);
-        }
-        let found = quantity.name();
-        let message = if quantity.unit.is_empty() {
-            format!("`{path}` has no unit")
-        } else {
-            format!("`{path}` is {found}, where {name} is wanted")
-        };
-        let units = if measure.unit == usual {
-            usual.to_owned()
-        } else {
-            format!("{usual}, {}", measure.unit)
-        };
-        let help = format!("write it in {units}, or another unit of it");
-        self.report(node, message, "", &help);
-        None
-    }
-
-    fn parsed(&self, node: &Node, text: &str, path: &str, wanted: &str) -> Option<Quantity> {
-        match parse_quantity(text) {
-            Ok(quantity) => Some(quantity),
-            Err(error) => {
-                // Within the quotation marks, where the text stands there letter by letter.
-                let mut span = node.span.clone();
-                if span.range.len() == text.len() + 2 {
-                    let start = span.range.start + 1;
-                    span.range = start + error.at.start..start + error.at.end.max(error.at.start);
-                }
-                let message = format!("`{path}`: {}", error.kind);
-                self.reports.borrow_mut().error(&span, message, "", wanted);
-                None
-            }
-        }
-    }
-
-    fn report(&self, node: &Node, message: String, label: &str, help: &str) {
-        self.reports.borrow_mut().error(&node.span, message, label, help);
-    }
-}
-
-/// A line that would do.
-fn example(key: &str, measure: Measure) -> String {
-    format!("{key} = \"1 {}\"", measure.usual)
 }

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use super::diagnostic::{Diagnostics, Numbers, Span};
 use super::document::{Node, TEXT_MAX, Table, Value, parse};
+use crate::nearest::did_you_mean_file;
 
 /// Files based on files based on files: no deeper than this.
 const DEPTH_MAX: usize = 16;
@@ -40,14 +41,14 @@ pub(super) fn load_text(
 
 fn load(
     path: &Path,
-    named_at: Option<&Span>,
+    named: Option<(&str, &Span)>,
     open: &mut Vec<PathBuf>,
     reports: &mut Diagnostics,
 ) -> Node {
     let nothing = Node { value: Value::Table(Table::default()), span: Span::default() };
     let shown = path.display().to_string();
-    let mut refuse = |message: String, help: &str| match named_at {
-        Some(span) => reports.error(span, message, "", help),
+    let mut refuse = |message: String, help: &str| match named {
+        Some((_, span)) => reports.error(span, message, "", help),
         None => reports.error_anywhere(message, help),
     };
     let real = path.canonicalize().unwrap_or_else(|_| path.to_owned());
@@ -62,7 +63,10 @@ fn load(
     let bytes = match bytes_of(path) {
         Ok(bytes) => bytes,
         Err(error) => {
-            refuse(format!("cannot read {shown}: {error}"), "");
+            let missing = error.kind() == io::ErrorKind::NotFound;
+            let written = named.map_or(shown.as_str(), |(written, _)| written);
+            let help = if missing { did_you_mean_file(written, path, "") } else { String::new() };
+            refuse(format!("cannot read {shown}: {error}"), &help);
             return nothing;
         }
     };
@@ -126,7 +130,7 @@ fn with_bases(
     };
     let mut below = Table::default();
     for (name, span) in names {
-        let loaded = load(&folder.join(&name), Some(&span), open, reports);
+        let loaded = load(&folder.join(&name), Some((&name, &span)), open, reports);
         if let Value::Table(loaded) = loaded.value {
             merge(&mut below, loaded);
         }
@@ -186,5 +190,25 @@ fn merge_named(below: &mut Vec<Node>, above: Vec<Node>) {
             }
             (_, node) => below.push(node),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_base_is_asked_for_by_the_names_beside_it() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        std::fs::create_dir(path("parts")).expect("a folder");
+        for name in ["parts/wheel.toml", "parts/wheel.csv"] {
+            std::fs::write(path(name), "").expect("written");
+        }
+        std::fs::write(path("a.toml"), "base = \"parts/whele.toml\"\n").expect("written");
+        let mut reports = Diagnostics::default();
+        load_file(&path("a.toml"), &mut reports);
+        let helps: Vec<_> = reports.all.iter().map(|found| found.help.as_str()).collect();
+        assert_eq!(helps, ["did you mean `parts/wheel.toml`?"]);
     }
 }

@@ -24,7 +24,7 @@ mod waterfall;
 mod write;
 mod write_platform;
 
-pub use budget::{budget_from_toml, budget_overrides};
+pub use budget::{budget_from_toml, budget_overrides, check_budget_names};
 pub use diagnostic::{Diagnostic, Diagnostics, Numbers, Severity};
 pub use load::{Override, Overrides};
 pub use measurement::{MeasurementFile, measurement_from_toml};

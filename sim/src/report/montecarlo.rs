@@ -31,6 +31,7 @@ pub(crate) fn distribution(
         lines: Vec::new(),
         dots: Vec::new(),
         marks: Vec::new(),
+        large: false,
         ranges: [None, Some([0.0, 1.02])],
     }
     .file()

@@ -1,6 +1,8 @@
 //! The page: sections in their order, filled into sim/report/shell.html with the script, the
 //! stylesheet and their hashes.
 
+use std::fmt::Write as _;
+
 use serde::{Deserialize, Serialize};
 use tera::{Context, Tera};
 
@@ -151,6 +153,13 @@ fn caption(drawn: &Drawn) -> String {
     caption.push('.');
     if banded {
         caption.push_str(" Bands: least to greatest sample.");
+    }
+    for same in drawn.equal() {
+        let _ = write!(
+            caption,
+            " Only one of these curves is seen, since they lie on one another: {}.",
+            same.join(", ")
+        );
     }
     caption
 }

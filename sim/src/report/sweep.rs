@@ -185,10 +185,13 @@ pub(crate) fn campbell(
         branches.iter().map(|branch| (String::new(), curve(branch))).collect();
     let all = curves.iter().flat_map(|(_, points)| points).map(|point| point[1]);
     let highest = all.filter(|value| value.is_finite()).fold(0.0, f64::max);
-    // Where orders are drawn, a little above the highest of them.
+    // Where orders are drawn, a little above the highest of them, and never below the lowest one: natural frequencies of a
+    // rigid hub are below all orders.
     let last = values.last().map_or(0.0, |value| hertz(value.abs() * axis.size));
-    let reached = CAMPBELL_TOP * orders.iter().copied().fold(0.0, f64::max) * last;
-    let top = if orders.is_empty() { ABOVE * highest } else { reached.min(ABOVE * highest) };
+    let [lowest, above_all] = [f64::min, f64::max]
+        .map(|of| CAMPBELL_TOP * orders.iter().copied().reduce(of).unwrap_or(0.0) * last);
+    let top = ABOVE * highest;
+    let top = if orders.is_empty() { top } else { above_all.min(top).max(lowest) };
     let straight = |order: &f64| {
         let ends = ends(axis).filter(|_| axis.spacing != Spacing::Logarithmic)?;
         let frequency = |value: f64| hertz(order * value.abs() * axis.size);
@@ -220,7 +223,8 @@ fn plane(
     fill: impl FnOnce(&mut Plane),
 ) -> Plane {
     let (curves, lines, dots, marks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let mut plane = Plane { description, title, axes, curves, lines, dots, marks, ranges };
+    let large = false;
+    let mut plane = Plane { description, title, axes, curves, lines, dots, marks, large, ranges };
     fill(&mut plane);
     plane
 }

@@ -239,3 +239,13 @@ fn every_column_is_in_one_chart() {
     }
     assert_eq!(drawn.last(), Some(&1));
 }
+
+#[test]
+fn curves_that_lie_on_one_another_are_named_below_their_figure() {
+    let (report, outcome) = sampled(&four(&table1()), 10.0, None);
+    let page = report.html(&outcome).expect("a page");
+    let words = "Only one of these curves is seen, since they lie on one another: ";
+    let (_, rest) = page.split_once(words).expect("equal rates");
+    let names = rest.split_once('.').expect("an end").0;
+    assert_eq!(names.split(", ").count(), 4, "{names}");
+}

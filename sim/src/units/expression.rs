@@ -370,6 +370,21 @@ mod tests {
         assert_eq!(joined("60 mNm"), UnitErrorKind::Symbol(Some("mN m".to_owned())));
         assert_eq!(joined("4 kgs"), UnitErrorKind::Symbol(Some("kg".to_owned())));
         assert_eq!(joined("3000 RPM"), UnitErrorKind::Symbol(Some("rpm".to_owned())));
+        for (written, symbol) in [
+            ("microrad", "urad"),
+            ("microradians", "urad"),
+            ("µradians", "µrad"),
+            ("milliNewton", "mN"),
+            ("degrees", "deg"),
+            ("arcseconds", "arcsec"),
+        ] {
+            assert_eq!(
+                joined(&format!("5 {written}")),
+                UnitErrorKind::Symbol(Some(symbol.to_owned()))
+            );
+        }
+        // In lower case it is longer.
+        assert!(matches!(joined("5 \u{130}\u{130}\u{130}s"), UnitErrorKind::Symbol(_)));
         assert_eq!(error("kg").kind, UnitErrorKind::Number);
         assert_eq!(error("").kind, UnitErrorKind::Number);
         assert_eq!(error("4, kg").at, 3..5);

@@ -79,9 +79,61 @@ pub(super) fn find(text: &str) -> Option<Symbol> {
     })
 }
 
-/// The unit that a text may mean, where only letter case, a plural or a space is wrong: `RPM`,
-/// `kgs`, `mNm`.
+/// Prefixes as words.
+const PREFIX_WORDS: &[(&str, &str)] = &[
+    ("nano", "n"),
+    ("micro", "u"),
+    ("milli", "m"),
+    ("centi", "c"),
+    ("kilo", "k"),
+    ("mega", "M"),
+    ("giga", "G"),
+];
+
+/// Units as words.
+const UNIT_WORDS: &[(&str, &str)] = &[
+    ("radian", "rad"),
+    ("gram", "g"),
+    ("metre", "m"),
+    ("meter", "m"),
+    ("second", "s"),
+    ("hertz", "Hz"),
+    ("newton", "N"),
+    ("joule", "J"),
+    ("watt", "W"),
+    ("degree", "deg"),
+    ("minute", "min"),
+    ("hour", "h"),
+    ("arcsecond", "arcsec"),
+    ("arcminute", "arcmin"),
+];
+
+/// The symbol of a unit that is written as words, in whole or in part: `microrad`, `µradian`, `Micrometers`.
+fn worded(text: &str) -> Option<String> {
+    let lower = text.to_lowercase();
+    let known =
+        |(word, symbol): &(&'static str, &'static str)| Some((*symbol, lower.strip_prefix(word)?));
+    let word = PREFIX_WORDS.iter().find_map(known);
+    let letter = PREFIXES.iter().find_map(|(letter, _)| known(&(letter, letter)));
+    let mut splits = [word, Some(("", lower.as_str())), letter].into_iter().flatten();
+    splits.find_map(|(prefix, unit)| {
+        let singular = unit.strip_suffix('s').unwrap_or(unit);
+        let unit = match UNIT_WORDS.iter().find(|(word, _)| *word == singular) {
+            Some((_, symbol)) => symbol,
+            // A symbol has its letters as they are written.
+            None => text.get(text.len().checked_sub(unit.len())?..)?,
+        };
+        let symbol = format!("{prefix}{unit}");
+        find(&symbol).map(|_| symbol)
+    })
+}
+
+/// The unit that a text may mean, where it is written as words, or only letter case, a plural or a space is wrong:
+/// `microrad`, `RPM`, `kgs`, `mNm`.
 pub(super) fn parted(text: &str) -> Option<String> {
+    if let Some(symbol) = worded(text) {
+        return Some(symbol);
+    }
     let lower = text.to_lowercase();
     let singular = text.strip_suffix('s').unwrap_or_default();
     if let Some(known) = [lower.as_str(), singular].into_iter().find(|text| find(text).is_some()) {

@@ -236,4 +236,12 @@ duration = "0.05 s"
         diagram.contains("Natural frequencies over") && diagram.contains("1\u{d7}"),
         "{diagram}"
     );
+    // The frequencies of a rigid hub with its wheel are far below all orders; the lowest order is in the picture all the same.
+    let from = scenario.find("[[device]]\nname = \"panel\"").expect("a panel");
+    let to = scenario.find("[[device]]\nname = \"rw\"").expect("a wheel");
+    fs::write(&file, scenario.replace(&scenario[from..to], "")).expect("a file");
+    let output = precess(&["sweep", path(&file), "--over", over, "--out", path(&out), "--force"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let diagram = text(&results(&out)["wheel-sweep-campbell.svg"]);
+    assert!(diagram.contains(">1\u{d7}</text>"), "{diagram}");
 }

@@ -1,5 +1,6 @@
 //! The command: files, verdict, exit codes, errors.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -229,5 +230,93 @@ fn warnings_of_the_scenario_are_printed() {
     let text = String::from_utf8_lossy(&found.stderr).into_owned();
     assert!(text.contains("off its spin axis"), "{text}");
     assert!(text.contains("9000 rpm is not within the speeds of the budget"), "{text}");
+    std::fs::remove_dir_all(out).expect("it was made");
+}
+
+#[test]
+fn warnings_are_printed_once_and_are_in_the_report() {
+    let out = folder("warnings");
+    let base = scenarios().join("wheel-data-sheet.toml");
+    // A source that acts on the hub is left out.
+    let text = format!(
+        "format = 1\nbase = \"{}\"\n[[source]]\nname = \"pump\"\non = \"hub\"\nwheel = \"rw.wheel\"\nseed = 1\n\
+         [[source.harmonic]]\nnumber = 2\nradial_force = \"1 g mm\"\n",
+        base.display()
+    );
+    std::fs::write(out.join("scenario.toml"), text).expect("it is written");
+    let budget = "format = 1\nscenario = \"scenario.toml\"\n[speed]\nfrom = \"600 rpm\"\nto = \"900 rpm\"\ncount = 5\n\
+                  [[line_of_sight]]\nnode = \"hub\"\n";
+    std::fs::write(out.join("budget.toml"), budget).expect("it is written");
+    let found = jitter(&out.join("budget.toml"), &out, &["--compare", "1000 rpm"]);
+    let error = String::from_utf8_lossy(&found.stderr).into_owned();
+    assert_eq!(found.status.code(), Some(0), "{error}");
+    let page = std::fs::read_to_string(out.join("budget.html")).expect("a page");
+    for part in ["pump", "1000 rpm is not within the speeds of the budget"] {
+        let warned =
+            error.lines().filter(|line| line.starts_with("warning: ") && line.contains(part));
+        assert_eq!(warned.count(), 1, "{part} in:\n{error}");
+        assert!(page.contains(part), "{part} in the page");
+    }
+    std::fs::remove_dir_all(out).expect("it was made");
+}
+
+/// The numbers of an attribute of all elements of one name.
+fn numbers(svg: &str, element: &str, attribute: &str) -> Vec<f64> {
+    let start = format!("<{element}");
+    let elements = svg.split(&start).skip(1);
+    let value = |element: &str| {
+        let (_, rest) = element.split_once(&format!(" {attribute}=\""))?;
+        rest.split_once('"')?.0.parse().ok()
+    };
+    elements.filter_map(value).collect()
+}
+
+#[test]
+fn a_campbell_diagram_of_many_orders_is_large_with_few_circles_and_labels_apart() {
+    let out = folder("campbell");
+    let base = scenarios().join("imaging-satellite-flexible.toml");
+    let mut text = format!(
+        "format = 1\nbase = \"{}\"\n[[source]]\nname = \"bearing\"\non = \"cmg\"\nspin_axis = \"z\"\nseed = 1\n",
+        base.display()
+    );
+    for order in ["0.42", "2.0", "2.97", "3.0", "4.0", "4.2", "5.22"] {
+        let _ =
+            writeln!(text, "[[source.harmonic]]\nnumber = {order}\nradial_force = \"8e-8 kg m\"");
+    }
+    std::fs::write(out.join("many.toml"), text).expect("it is written");
+    let budget = "format = 1\nscenario = \"many.toml\"\n[speed]\nfrom = \"600 rpm\"\nto = \"6000 rpm\"\ncount = 61\n\
+                  [[line_of_sight]]\nnode = \"camera\"\n[[requirement]]\nlimit = \"1 mrad\"\n";
+    std::fs::write(out.join("budget.toml"), budget).expect("it is written");
+    let found = jitter(&out.join("budget.toml"), &out, &["--no-compare"]);
+    assert_eq!(found.status.code(), Some(0), "{}", String::from_utf8_lossy(&found.stderr));
+    let svg = std::fs::read_to_string(out.join("budget-campbell.svg")).expect("a diagram");
+    assert!(numbers(&svg, "svg", "width")[0] > 750.0);
+    let page = std::fs::read_to_string(out.join("budget.html")).expect("a page");
+    let (_, words) = page.split_once("10 % or more of the largest amplitude, ").expect("a caption");
+    let (circled, rest) = words.split_once(" of ").expect("two numbers");
+    let all = rest.split_once(';').expect("two numbers").0.parse::<usize>().expect("a number");
+    assert!(
+        all > 50 && page.matches(" whirl, ").count() + page.matches("<td>mode, ").count() == all,
+        "{all}"
+    );
+    let places: Vec<_> =
+        numbers(&svg, "circle", "cx").into_iter().zip(numbers(&svg, "circle", "cy")).collect();
+    assert!((1..=circled.parse().expect("a number")).contains(&places.len()), "{places:?}");
+    let [x, y, width, height] = ["x", "y", "width", "height"].map(|of| numbers(&svg, "rect", of));
+    // The first two rectangles are the background and the frame.
+    assert_eq!(x.len(), 2 + 8, "a label of each order");
+    for a in 2..x.len() {
+        for b in 2..a {
+            let apart = x[a] + width[a] <= x[b]
+                || x[b] + width[b] <= x[a]
+                || y[a] + height[a] <= y[b]
+                || y[b] + height[b] <= y[a];
+            assert!(apart, "labels {a} and {b}");
+        }
+    }
+    assert!(
+        page.contains("without those below 10\u{207b}\u{2074} of the largest of all"),
+        "what is drawn"
+    );
     std::fs::remove_dir_all(out).expect("it was made");
 }

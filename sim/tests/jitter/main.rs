@@ -1,6 +1,7 @@
 //! Jitter in the frequency domain against closed forms and against runs of the coupled equations.
 
 mod command;
+mod errors;
 mod known;
 mod map;
 mod run;

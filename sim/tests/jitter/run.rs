@@ -138,7 +138,7 @@ fn the_budget_of_the_scenarios_is_read_and_a_wrong_one_says_everything() {
     for part in [
         "`scenario` is missing",
         "phases",
-        "speeds rise from above zero",
+        "`speed.from` is 0 rpm; a wheel at rest has no tones",
         "a line of sight is of one rigid instrument",
         "exposure` is missing",
         "unknown key",

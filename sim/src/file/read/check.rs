@@ -1,5 +1,8 @@
 //! [`check`]: what only the whole scenario tells, at its places in the text.
 
+use nalgebra::Vector2;
+use precess_dynamics::{ParameterError, Part};
+
 use super::super::diagnostic::{Diagnostic, Diagnostics, Severity};
 use super::super::document::Node;
 use super::places;
@@ -10,6 +13,17 @@ pub(super) fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics)
     let names = &scenario.names;
     let tables = places::Tables::of(scenario);
     for error in scenario.check() {
+        if let ScenarioError::Parameters(ParameterError::NegativeInertia {
+            part: Part::Body { device, .. },
+            ..
+        }) = error
+            && let Some(span) = places::of_dynamic_imbalance(root, device, &tables)
+            && let Some(message) = above_bound(scenario, device)
+        {
+            let help = "that of a balanced wheel is some g cm^2; is the unit right?";
+            reports.error(&span, message, "", help);
+            continue;
+        }
         let message = match &error {
             ScenarioError::Range { key, message } => format!("{key}: {message}"),
             ScenarioError::Parameters(error) => named(&error.to_string(), names),
@@ -37,6 +51,28 @@ pub(super) fn check(root: &Node, scenario: &Scenario, reports: &mut Diagnostics)
     }
 }
 
+/// What is wrong with the dynamic imbalance of a wheel whose moments of inertia by themselves are those of a body.
+///
+/// With the products `p = [J_12, J_13]` beside the moment `J_11` and the transverse block `T`, the inertia has no negative
+/// principal moment where `p T^-1 p <= J_11`: so is the length of `p`, the dynamic imbalance, bounded.
+fn above_bound(scenario: &Scenario, device: usize) -> Option<String> {
+    let (name, member) = scenario.members().nth(device)?;
+    let inertia = member.bodies().last()?.inertia;
+    let products = Vector2::new(inertia[(0, 1)], inertia[(0, 2)]);
+    let transverse = inertia.fixed_view::<2, 2>(1, 1).into_owned();
+    let spin = inertia[(0, 0)];
+    let share = products.dot(&transverse.cholesky()?.solve(&products));
+    let (dynamic, bound) = (products.norm(), products.norm() * (spin / share).sqrt());
+    let [shown, most] =
+        [dynamic, bound].map(|value| format!("{value:.3e}").parse().unwrap_or(value));
+    (spin > 0.0 && bound < dynamic).then(|| {
+        format!(
+            "dynamic imbalance {shown} kg m^2 of {name} is above {most} kg m^2, the most with which its wheel has no \
+             negative principal moment of inertia"
+        )
+    })
+}
+
 /// `device 0` by its name.
 fn named(message: &str, names: &[String]) -> String {
     const DEVICE: &str = "device ";
@@ -58,7 +94,35 @@ fn named(message: &str, names: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
+    use super::super::from_toml;
     use super::*;
+
+    /// A wheel with the moments 2 and 1 g m^2 can have a dynamic imbalance up to their geometric mean, 1.414 g m^2.
+    #[test]
+    fn an_impossible_dynamic_imbalance_is_underlined_with_its_bound() {
+        let wheel = |dynamic: &str, inertia: &str| {
+            let text = format!(
+                "format = 1\n[hub]\nmass = \"9 kg\"\ninertia = \"1, 1, 1 kg m^2\"\n[run]\nduration = \"1 s\"\n\
+                 [[device]]\nname = \"rw\"\nkind = \"reaction_wheel\"\nimbalance = {{ dynamic = \"{dynamic}\" }}\n\
+                 wheel.mass = \"4 kg\"\nwheel.inertia = \"{inertia}\"\n"
+            );
+            match from_toml("test.toml", &text, Path::new("")) {
+                Ok((_, reports)) | Err(reports) => reports.to_string(),
+            }
+        };
+        assert!(!wheel("1.4 g m^2", "2, 1, 1 g m^2").contains("error"));
+        let shown = wheel("1.42 g m^2", "2, 1, 1 g m^2");
+        for part in
+            ["dynamic imbalance 0.00142 kg m^2 of rw is above 0.001414 kg m^2", "test.toml:10:25"]
+        {
+            assert!(shown.contains(part), "{part} in\n{shown}");
+        }
+        // Moments that no body has are an error of their own.
+        let shown = wheel("1.42 g m^2", "-2, 1, 1 g m^2");
+        assert!(shown.contains("a moment of inertia is not negative"), "{shown}");
+    }
 
     #[test]
     fn a_device_is_named_by_its_whole_number() {

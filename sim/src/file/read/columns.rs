@@ -4,7 +4,7 @@
 use super::super::document::Node;
 use super::super::keys::{Keys, Reports};
 use crate::engine::Layout;
-use crate::nearest::nearest;
+use crate::nearest::did_you_mean;
 use crate::record::columns::{Columns, quantity, state_quantities};
 use crate::scenario::Scenario;
 use crate::units::{Dimension, measure_of, parse_unit};
@@ -38,11 +38,11 @@ pub(super) fn check(node: &Node, scenario: &Scenario, reports: &Reports) {
         if let Some(column) = column.filter(|_| state.iter().any(|(known, _)| known == name)) {
             compare(keys, "value", name, [column.unit, &crossing.unit]);
         } else {
-            let near = nearest(name, state.iter().map(|(name, _)| name.as_str()));
-            let help = match near.as_slice() {
-                [] => "name a coordinate, a rate, or a component of `omega`".to_owned(),
-                near => format!("did you mean `{}`?", near.join("`, `")),
-            };
+            let help = did_you_mean(
+                name,
+                state.iter().map(|(name, _)| name.as_str()),
+                "name a coordinate, a rate, or a component of `omega`",
+            );
             keys.error("column", format!("`{name}` is no column of the state"), &help);
         }
     }

@@ -38,6 +38,13 @@ pub(super) fn of_error(root: &Node, error: &ScenarioError, tables: &Tables) -> O
     }
 }
 
+/// The place of the dynamic imbalance of a device, where it is written.
+pub(super) fn of_dynamic_imbalance(root: &Node, device: usize, tables: &Tables) -> Option<Span> {
+    let table = format!("{}.imbalance", tables.get(device)?.0);
+    let place = find(root, &format!("{table}.dynamic"))?;
+    (find(root, &table).as_ref() != Some(&place)).then_some(place)
+}
+
 /// The place of a warning.
 pub(super) fn of_warning(root: &Node, warning: &Warning, tables: &Tables) -> Option<Span> {
     match warning {

@@ -109,7 +109,7 @@ impl Figure {
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
         let names: Vec<_> = self.lines.iter().map(|line| line.name.as_str()).collect();
-        document(&self.description, style, &names, PANEL, |panel| self.draw(panel))
+        document(&self.description, style, &names, [WIDTH, PANEL], |panel| self.draw(panel))
     }
 
     /// Draws the axes and returns the curves.
@@ -155,20 +155,20 @@ impl Figure {
     }
 }
 
-/// A drawing with a legend of some names, and below it a panel of a height whose curves `draw` returns.
+/// A drawing with a legend of some names, and below it a panel of a width and height whose curves `draw` returns.
 pub(in crate::report) fn document(
     description: &str,
     style: &str,
     names: &[&str],
-    panel_height: f64,
+    [width, panel_height]: [f64; 2],
     draw: impl FnOnce(&Area<'_>) -> Result<String, DrawError>,
 ) -> Result<String, DrawError> {
-    let (legend, rows) = legend(names);
+    let (legend, rows) = legend(names, width);
     let height = LEGEND * f64::from(rows) + panel_height;
     let mut axes = String::new();
     let curves;
     {
-        let area = SVGBackend::with_string(&mut axes, (whole(WIDTH), whole(height)));
+        let area = SVGBackend::with_string(&mut axes, (whole(width), whole(height)));
         let area = area.into_drawing_area();
         let (_, panel) = area.split_vertically(px(LEGEND * f64::from(rows)));
         curves = draw(&panel)?;
@@ -178,7 +178,7 @@ pub(in crate::report) fn document(
     let body = axes.split_once('>').map_or("", |(_, rest)| rest);
     let body = body.rsplit_once("</svg>").map_or(body, |(body, _)| body);
     let body: String = body.lines().filter(|line| !line.is_empty()).collect();
-    let (width, height) = (WIDTH + 2.0 * MARGIN, height + 2.0 * MARGIN);
+    let (width, height) = (width + 2.0 * MARGIN, height + 2.0 * MARGIN);
     let (x, w, h) = (-px(MARGIN), px(width), px(height));
     let description = escaped(description);
     Ok(format!(
@@ -190,8 +190,8 @@ pub(in crate::report) fn document(
     ))
 }
 
-/// The legend, and its rows.
-fn legend(names: &[&str]) -> (String, u32) {
+/// The legend in a width, and its rows.
+fn legend(names: &[&str], room: f64) -> (String, u32) {
     /// Width that a letter of a name takes, on average, and that of a line sample with its gaps.
     const LETTER: f64 = 0.52 * TYPE;
     const SAMPLE: f64 = 22.0;
@@ -201,7 +201,7 @@ fn legend(names: &[&str]) -> (String, u32) {
     let width = |name: &str| SAMPLE + GAP + LETTER * name.chars().count() as f64;
     let mut rows: Vec<(f64, Vec<usize>)> = Vec::new();
     for (index, name) in names.iter().enumerate() {
-        match rows.last_mut().filter(|(used, _)| used + BETWEEN + width(name) <= WIDTH) {
+        match rows.last_mut().filter(|(used, _)| used + BETWEEN + width(name) <= room) {
             Some((used, row)) => {
                 *used += BETWEEN + width(name);
                 row.push(index);
@@ -212,7 +212,7 @@ fn legend(names: &[&str]) -> (String, u32) {
     let mut out = format!("<g font-family=\"{FONT}\" font-size=\"{}\">", px(TYPE));
     let mut y = 0.5 * LEGEND;
     for (used, row) in &rows {
-        let mut x = 0.5 * (WIDTH - used);
+        let mut x = 0.5 * (room - used);
         for (index, name) in row.iter().filter_map(|&index| names.get(index).map(|n| (index, n))) {
             let stroke = stroke(index, 20);
             let _ = write!(

@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use super::axes::{Space, axes, svg_file, title};
-use super::figure::{ABOVE, Area, BELOW, PANEL, document, moves, stroke};
+use super::figure::{ABOVE, Area, BELOW, PANEL, WIDTH, document, moves, stroke};
 use super::log_panel::decades;
 use super::ticks::{Axis, range_of};
 use crate::report::error::DrawError;
@@ -53,7 +53,9 @@ impl FittedLines {
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
         let names: Vec<_> = self.lines.iter().map(|line| line.name.as_str()).collect();
-        document(&self.description, style, &names, HEIGHT * PANEL, |panel| self.draw(panel))
+        document(&self.description, style, &names, [WIDTH, HEIGHT * PANEL], |panel| {
+            self.draw(panel)
+        })
     }
 
     fn draw(&self, area: &Area<'_>) -> Result<String, DrawError> {

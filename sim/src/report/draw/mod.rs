@@ -10,6 +10,7 @@ pub(super) mod log_panel;
 pub(crate) mod mode_shapes;
 pub(crate) mod plane;
 pub(crate) mod response;
+mod scale_bar;
 pub(crate) mod spectrum;
 pub(super) mod ticks;
 pub(super) mod waterfall;

@@ -4,18 +4,23 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
 use super::axes::{Space, axes, svg_file, title};
 use super::figure::{
-    ABOVE, Area, BELOW, INK, PANEL, TYPE_SMALL, document, moves, px, stroke, text,
+    ABOVE, Area, BELOW, FONT, PANEL, TYPE_SMALL, WIDTH, document, escaped, moves, px, stroke,
 };
 use super::ticks::{Axis, range_of};
 use crate::report::error::DrawError;
 
 /// Largest radius of a dot, and smallest that is drawn.
 const RADII: [f64; 2] = [5.0, 0.35];
+/// Radius of a circle.
+const MARK: f64 = 3.5;
+/// Width and height of a large picture.
+const LARGE: [f64; 2] = [780.0, 480.0];
+/// Places along a line at which its label is tried.
+const LABEL_PLACES: i32 = 24;
+/// Left, top, right and bottom, tenths of a unit.
+type Rectangle = [i32; 4];
 /// Most points of a curve; of more, every nth and the largest between are drawn.
 const POINTS_MAX: usize = 700;
 
@@ -34,8 +39,10 @@ pub(crate) struct Plane {
     pub(crate) lines: Vec<(String, [[f64; 2]; 2])>,
     /// Dots: x, y, and the share of the largest radius' area.
     pub(crate) dots: Vec<[f64; 3]>,
-    /// Open circles.
+    /// Open circles; of those that would overlap the first one is drawn.
     pub(crate) marks: Vec<[f64; 2]>,
+    /// Whether it is as wide as a page, and higher.
+    pub(crate) large: bool,
     /// Ranges that are shown; those of everything without them.
     pub(crate) ranges: [Option<[f64; 2]>; 2],
 }
@@ -54,7 +61,8 @@ impl Plane {
     fn document(&self, style: &str) -> Result<String, DrawError> {
         let names = self.curves.iter().map(|(name, _)| name.as_str());
         let names: Vec<_> = names.filter(|name| !name.is_empty()).collect();
-        document(&self.description, style, &names, PANEL, |panel| self.draw(panel))
+        let size = if self.large { LARGE } else { [WIDTH, PANEL] };
+        document(&self.description, style, &names, size, |panel| self.draw(panel))
     }
 
     fn range(&self, axis: usize) -> Range<f64> {
@@ -82,19 +90,16 @@ impl Plane {
         let inside =
             |[px, py]: [f64; 2]| (x.start..=x.end).contains(&px) && (y.start..=y.end).contains(&py);
         let mut out = String::new();
+        let mut labels: Vec<(&str, [[i32; 2]; 2])> = Vec::new();
         for (label, ends) in &self.lines {
-            let Some([from, to]) = clipped(*ends, [&x, &y]) else { continue };
-            let ([x0, y0], [x1, y1]) = ([at(from).0, at(from).1], [at(to).0, at(to).1]);
+            let Some(ends) = clipped(*ends, [&x, &y]) else { continue };
+            let [from, to] = ends.map(|end| <[i32; 2]>::from(at(end)));
             let _ = writeln!(
                 out,
-                "<path d=\"M{x0} {y0}L{x1} {y1}\" fill=\"none\" stroke=\"#1C1C1E\" \
-                 stroke-width=\"5\" stroke-opacity=\"0.45\"/>"
+                "<path d=\"{}\" fill=\"none\" stroke=\"#1C1C1E\" stroke-width=\"8\" stroke-opacity=\"0.6\"/>",
+                moves(&[from, to])
             );
-            let style = text(0.85 * TYPE_SMALL, INK).pos(Pos::new(HPos::Right, VPos::Bottom));
-            chart.plotting_area().draw(
-                &(EmptyElement::at((to[0], to[1]))
-                    + Text::new(label.clone(), (px(-2.0), px(-1.0)), style)),
-            )?;
+            labels.push((label, [from, to]));
         }
         for [dx, dy, share] in &self.dots {
             let radius = RADII[0] * share.max(0.0).sqrt();
@@ -108,7 +113,9 @@ impl Plane {
                 px(radius)
             );
         }
-        for (index, (_, points)) in self.curves.iter().enumerate() {
+        for (index, (name, points)) in self.curves.iter().enumerate() {
+            // Curves without a name are of one kind.
+            let line = if name.is_empty() { stroke(0, 9) } else { stroke(index, 13) };
             for run in thinned(points).split(|point| !point[1].is_finite()) {
                 let placed: Vec<[i32; 2]> = run
                     .iter()
@@ -117,19 +124,71 @@ impl Plane {
                     .map(|(x, y)| [x, y])
                     .collect();
                 if !placed.is_empty() {
-                    let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&placed), stroke(index, 13));
+                    let _ = writeln!(out, "<path d=\"{}\" {}/>", moves(&placed), line);
                 }
             }
         }
+        let mut taken: Vec<Rectangle> = Vec::new();
+        let radius = px(MARK);
         for mark in self.marks.iter().filter(|mark| inside(**mark)) {
             let (cx, cy) = at(*mark);
+            let own = [cx - radius, cy - radius, cx + radius, cy + radius];
+            if taken.iter().any(|other| overlap(&own, other)) {
+                continue;
+            }
+            taken.push(own);
             let _ = writeln!(
                 out,
-                "<circle cx=\"{cx}\" cy=\"{cy}\" r=\"{}\" fill=\"none\" stroke=\"#D55E00\" stroke-width=\"12\"/>",
-                px(3.5)
+                "<circle cx=\"{cx}\" cy=\"{cy}\" r=\"{radius}\" fill=\"none\" stroke=\"#D55E00\" stroke-width=\"12\"/>"
             );
         }
+        let ((left, bottom), (right, top)) = (at([x.start, y.start]), at([x.end, y.end]));
+        let frame = [left, top, right, bottom];
+        for (label, ends) in labels {
+            write_label(&mut out, label, ends, &frame, &mut taken);
+        }
         Ok(out)
+    }
+}
+
+/// Whether two rectangles have points in common.
+fn overlap(a: &Rectangle, b: &Rectangle) -> bool {
+    a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
+}
+
+/// The label of a line above it, at the place nearest to its second end at which it covers no other label and no circle;
+/// none where there is no such place.
+fn write_label(
+    out: &mut String,
+    label: &str,
+    [from, to]: [[i32; 2]; 2],
+    frame: &Rectangle,
+    taken: &mut Vec<Rectangle>,
+) {
+    let size = 0.85 * TYPE_SMALL;
+    let width = px(0.58 * size * crate::spectra::float(label.chars().count()) + 2.0);
+    let height = px(size + 1.0);
+    for step in 0..LABEL_PLACES {
+        let along = |axis: usize| to[axis] + (from[axis] - to[axis]) * step / LABEL_PLACES;
+        let (right, bottom) = (along(0) - px(2.0), along(1) - px(1.0));
+        let own = [right - width, bottom - height, right, bottom];
+        let within = own[0] >= frame[0] && own[1] >= frame[1];
+        if !within || taken.iter().any(|other| overlap(&own, other)) {
+            continue;
+        }
+        taken.push(own);
+        let _ = writeln!(
+            out,
+            "<rect x=\"{}\" y=\"{}\" width=\"{width}\" height=\"{height}\" fill=\"#FFFFFF\" fill-opacity=\"0.8\"/>\
+             <text x=\"{}\" y=\"{}\" text-anchor=\"end\" font-family=\"{FONT}\" font-size=\"{}\" fill=\"#1C1C1E\">{}</text>",
+            own[0],
+            own[1],
+            right - px(1.0),
+            bottom - px(2.5),
+            px(size),
+            escaped(label)
+        );
+        return;
     }
 }
 

@@ -4,7 +4,7 @@
 use nalgebra::Complex;
 
 use super::axes::{svg_file, title};
-use super::figure::{ABOVE, PANEL, document, px};
+use super::figure::{ABOVE, PANEL, WIDTH, document, px};
 use super::log_panel::{Kind, Panel, Scale, decades};
 use crate::report::error::DrawError;
 
@@ -35,7 +35,7 @@ impl Response {
     pub(crate) fn file(&self) -> Result<String, DrawError> {
         let names: Vec<_> = self.curves.iter().map(|(name, _)| name.as_str()).collect();
         svg_file(|style| {
-            document(&self.description, style, &names, PANEL + PHASE, |panel| {
+            document(&self.description, style, &names, [WIDTH, PANEL + PHASE], |panel| {
                 let (above, below) = panel.split_vertically(px(PANEL));
                 title(&above, &self.title)?;
                 let sizes = self.curves.iter().flat_map(|(_, values)| values).map(|v| v.norm());

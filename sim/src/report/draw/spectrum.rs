@@ -5,7 +5,7 @@
 //! them, so no line is lost.
 
 use super::axes::{svg_file, title};
-use super::figure::{ABOVE, PANEL, document, px};
+use super::figure::{ABOVE, PANEL, WIDTH, document, px};
 use super::log_panel::{Panel, decades};
 use crate::report::error::DrawError;
 
@@ -72,7 +72,7 @@ impl SpectrumFigure {
                 [format!("Density ({square}/Hz)"), format!("Cumulative RMS ({unit})")]
             }
         };
-        document(&self.description, style, &names, PANEL + RMS, |panel| {
+        document(&self.description, style, &names, [WIDTH, PANEL + RMS], |panel| {
             let (above, below) = panel.split_vertically(px(PANEL));
             title(&above, &self.title)?;
             let density = Panel {

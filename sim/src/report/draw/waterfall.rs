@@ -4,9 +4,11 @@
 use std::fmt::Write as _;
 
 use super::axes::{Space, axes, svg_file, title};
-use super::figure::{ABOVE, Area, BELOW, PANEL, document, moves, stroke};
+use super::figure::{ABOVE, Area, BELOW, PANEL, WIDTH, document, moves, px, stroke};
+use super::scale_bar::{SCALE_WIDTH, ScaleBar};
 use super::ticks::Axis;
 use crate::report::error::DrawError;
+use crate::report::number::power_of_ten;
 
 /// Height of the panel by that of a figure of a run.
 const HEIGHT: f64 = 1.8;
@@ -25,6 +27,8 @@ pub(crate) struct Waterfall {
     pub(crate) title: String,
     /// Speed, rpm, width of a bin, Hz, and density of each record.
     pub(crate) spectra: Vec<(f64, f64, Vec<f64>)>,
+    /// Unit of the densities.
+    pub(crate) unit: &'static str,
     /// The highest frequency, Hz.
     pub(crate) highest: f64,
     /// Name and points, rpm and Hz, of each curve.
@@ -44,7 +48,9 @@ impl Waterfall {
 
     fn document(&self, style: &str) -> Result<String, DrawError> {
         let names: Vec<_> = self.curves.iter().map(|(name, _)| name.as_str()).collect();
-        document(&self.description, style, &names, HEIGHT * PANEL, |panel| self.draw(panel))
+        document(&self.description, style, &names, [WIDTH, HEIGHT * PANEL], |panel| {
+            self.draw(panel)
+        })
     }
 
     /// Greatest density of each row of cells.
@@ -84,8 +90,9 @@ impl Waterfall {
         };
         let y = 0.0..self.highest;
         let labels = ["Speed (rpm)", "Frequency f (Hz)"];
+        let (plot, _) = area.split_horizontally(px(WIDTH - SCALE_WIDTH));
         let chart = axes(
-            area,
+            &plot,
             &Space { above: ABOVE, below: BELOW },
             Axis(x.clone()),
             Axis(y.clone()),
@@ -121,12 +128,22 @@ impl Waterfall {
         }
         let mut out = String::new();
         #[expect(clippy::cast_precision_loss, reason = "eight levels")]
-        for (level, cell) in cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
-            let opacity = (level + 1) as f64 / LEVELS as f64 * 0.8;
-            let _ = writeln!(
-                out,
-                "<path d=\"{cell}\" fill=\"#1C1C1E\" fill-opacity=\"{opacity:.2}\" stroke=\"none\"/>"
-            );
+        let greys: Vec<String> = (0..LEVELS)
+            .map(|level| {
+                let opacity = (level + 1) as f64 / LEVELS as f64 * 0.8;
+                format!("fill=\"#1C1C1E\" fill-opacity=\"{opacity:.2}\"")
+            })
+            .collect();
+        for (cell, grey) in cells.iter().zip(&greys).filter(|(cell, _)| !cell.is_empty()) {
+            let _ = writeln!(out, "<path d=\"{cell}\" {grey} stroke=\"none\"/>");
+        }
+        if most > 0.0 {
+            let framed = |grey: &String| format!("{grey} stroke=\"#1C1C1E\" stroke-width=\"4\"");
+            let steps = greys.iter().map(framed).collect();
+            let bar = ScaleBar { steps, marks: marks(most), label: self.unit };
+            let ((right, top), (_, bottom)) =
+                (chart.backend_coord(&(x.end, y.end)), chart.backend_coord(&(x.end, y.start)));
+            bar.draw(&mut out, right, [top, bottom]);
         }
         for (index, (_, points)) in self.curves.iter().enumerate() {
             let inside = points.iter().filter(|p| x.contains(&p[0]) && y.contains(&p[1]));
@@ -141,5 +158,39 @@ impl Waterfall {
             }
         }
         Ok(out)
+    }
+}
+
+/// Powers of ten on the scale, and their places.
+#[expect(clippy::cast_possible_truncation, reason = "an exponent of a double")]
+fn marks(most: f64) -> Vec<(f64, String)> {
+    let top = most.log10();
+    let exponents = (top - DECADES).ceil() as i32..=top.floor() as i32;
+    exponents.map(|e| (1.0 - (top - f64::from(e)) / DECADES, power_of_ten(e))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_says_what_the_greys_are() {
+        let spectra =
+            vec![(600.0, 1.0, vec![0.0, 2e-3, 2e-7]), (900.0, 1.0, vec![0.0, 1e-4, 1e-9])];
+        let waterfall = Waterfall {
+            description: "x".to_owned(),
+            title: "y".to_owned(),
+            spectra,
+            unit: "N²/Hz",
+            highest: 3.0,
+            curves: Vec::new(),
+        };
+        let svg = waterfall.file().expect("drawn");
+        // Five decades below 2e-3, eight steps.
+        for part in ["10⁻³</text>", "10⁻⁷</text>", "N²/Hz</text>"] {
+            assert!(svg.contains(part), "{part}: {svg}");
+        }
+        assert!(!svg.contains("10⁻⁸</text>") && !svg.contains("10⁻²</text>"), "{svg}");
+        assert_eq!(svg.matches("stroke-width=\"4\"").count(), LEVELS);
     }
 }

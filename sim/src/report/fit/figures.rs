@@ -90,8 +90,9 @@ pub(super) fn drawings(title: &str, fitted: &Fitted) -> Vec<Drawing> {
             "{group}: residuals of powers by their standard deviation; 95 % are within 2 where the model holds."
         );
         add("residuals", caption, Drawn::Plane(residuals(title, fitted, fit, &shown)));
-        let caption =
-            format!("{group}: density over speed and frequency, with order lines and modes.");
+        let caption = format!(
+            "{group}: density of each axis over speed and frequency, by its scale; where nothing is drawn it is below the scale. Curves: orders and modes."
+        );
         add("waterfall", caption, Drawn::Waterfall(waterfall(title, fitted, fit, index, &shown)));
     }
     all
@@ -143,6 +144,7 @@ fn residuals(
         lines: straight.to_vec(),
         dots: Vec::new(),
         marks: Vec::new(),
+        large: false,
         ranges: [(ends[0] < ends[1]).then_some(ends), Some([-most, most])],
     }
 }
@@ -337,6 +339,7 @@ fn waterfall(
         ),
         title: format!("{title}: {}", fit.group),
         spectra,
+        unit: if fit.group.is_torque() { "N² m²/Hz" } else { "N²/Hz" },
         highest,
         curves,
     }

@@ -10,11 +10,11 @@ use super::data::without_charts;
 use super::error::{DrawError, ReportError};
 use super::number::short;
 use super::page::{Page, lines};
-use crate::fit::{Estimate, Fitted, Sense};
+use crate::fit::{Estimate, Fitted, GroupFit, Sense};
 use figures::{Drawing, drawings};
 
-/// A mean square of residuals above it shows what the model does not have.
-const SQUARES_MAX: f64 = 1.5;
+/// A mean square of weighted residuals above it shows what the model does not have.
+pub(crate) const SQUARES_MAX: f64 = 1.5;
 
 /// Everything that the page shows.
 pub(crate) struct FitReport<'a> {
@@ -80,20 +80,24 @@ impl FitReport<'_> {
     }
 
     fn verdict(&self) -> Verdict {
-        let off: Vec<String> = self
-            .fitted
-            .groups
-            .iter()
-            .filter(|fit| fit.squares / fit.freedom > SQUARES_MAX)
-            .map(|fit| fit.group.to_string())
-            .collect();
-        if off.is_empty() {
-            let text = "the residuals of all groups are those of the noise.".to_owned();
+        let mean = |fit: &GroupFit| fit.squares / fit.freedom;
+        let named = |fit: &GroupFit| format!("{} {}", fit.group, short(mean(fit), 3));
+        let bound = short(SQUARES_MAX, 3);
+        let groups = || self.fitted.groups.iter();
+        let above: Vec<String> =
+            groups().filter(|fit| mean(fit) > SQUARES_MAX).map(named).collect();
+        if above.is_empty() {
+            let largest = groups().max_by(|a, b| mean(a).total_cmp(&mean(b)));
+            let text = format!(
+                "no group has a mean square of weighted residuals above {bound}; noise alone has 1. The largest: {}.",
+                largest.map_or_else(|| "none".to_owned(), named)
+            );
             return Verdict { state: "met", word: "The model holds:".to_owned(), text };
         }
         let text = format!(
-            "the residuals of {} are larger than the noise; intervals are widened by that. See the residuals.",
-            off.join(", ")
+            "mean squares of weighted residuals above {bound}, where noise alone has 1: {}. Intervals are widened by that. See the \
+             residuals.",
+            above.join(", ")
         );
         Verdict { state: "violated", word: "Something is missing in the model:".to_owned(), text }
     }
@@ -226,7 +230,11 @@ impl FitReport<'_> {
             (state, vec![fit.group.to_string(), short(fit.freedom, 6), short(mean, 4)])
         });
         let columns = [("Group", ""), ("Degrees of freedom", ""), ("Mean square by variance", "")];
-        let mut blocks = vec![table("Weighted residuals of the powers", &columns, 1..3, rows)];
+        let caption = format!(
+            "Weighted residuals of the powers; bound of the mean square: {}",
+            short(SQUARES_MAX, 3)
+        );
+        let mut blocks = vec![table(&caption, &columns, 1..3, rows)];
         blocks.extend(figures);
         blocks
     }

@@ -10,16 +10,14 @@ use super::super::number::{short, with_unit};
 use super::super::unit::{SMALL_ANGLE, for_peak};
 use super::{JitterReport, RPM, metric, rpm};
 use crate::jitter::budget::{Assessed, outputs_of, weight_of};
-use crate::jitter::campbell::{Branch, Oscillation};
+use crate::jitter::model::Line;
 
-/// A line is drawn in a waterfall from this root of its share of the largest on.
+/// A line is drawn in a waterfall from this square root of its share of the largest on.
 const DOT_MIN: f64 = 1e-2;
-/// Speeds of which a waterfall shows the lines.
-const WATERFALL_SPEEDS: usize = 160;
+/// Parts of the range of speeds of which a waterfall shows the largest lines.
+const WATERFALL_SPEEDS: f64 = 160.0;
 /// A limit is drawn up to this many times the RMS.
 const LIMIT_SHOWN: f64 = 3.0;
-/// Branches of a Campbell diagram are drawn up to this many times the highest line.
-const CAMPBELL_TOP: f64 = 1.25;
 
 /// The share of a mean square in the metric of a requirement, by angular frequency, rad/s. A budget has no index.
 fn weight(of: &Assessed) -> Box<dyn Fn(f64) -> f64> {
@@ -43,6 +41,7 @@ impl JitterReport<'_> {
             lines: Vec::new(),
             dots: Vec::new(),
             marks: Vec::new(),
+            large: false,
             ranges: [Some(ends.map(|speed| speed * RPM)), Some([0.0, 1.06 * peak * unit.per_si])],
         }
     }
@@ -104,6 +103,7 @@ impl JitterReport<'_> {
             lines: Vec::new(),
             dots: Vec::new(),
             marks: Vec::new(),
+            large: false,
             ranges: [Some([0.0, top]), Some([0.0, 1.06 * highest])],
         }
     }
@@ -151,7 +151,7 @@ impl JitterReport<'_> {
     }
 
     /// Orders that tones have, each once, rising.
-    fn orders(&self) -> Vec<f64> {
+    pub(super) fn orders(&self) -> Vec<f64> {
         let mut orders: Vec<f64> = self.sweep.contributors.iter().map(|of| of.order).collect();
         orders.sort_by(f64::total_cmp);
         orders.dedup();
@@ -159,7 +159,7 @@ impl JitterReport<'_> {
     }
 
     /// Straight lines of the orders.
-    fn order_lines(&self) -> Vec<(String, [[f64; 2]; 2])> {
+    pub(super) fn order_lines(&self) -> Vec<(String, [[f64; 2]; 2])> {
         let [from, to] = self.budget.speeds;
         let line = |order: &f64| {
             let at = |speed: f64| [speed * RPM, order * speed / TAU];
@@ -168,20 +168,40 @@ impl JitterReport<'_> {
         self.orders().iter().map(line).collect()
     }
 
-    fn top(&self) -> f64 {
-        let highest = self.orders().last().copied().unwrap_or(1.0);
-        highest * self.budget.speeds[1] / TAU
+    /// Frequencies of the lowest and the highest order at the highest speed, Hz.
+    pub(super) fn ends(&self) -> [f64; 2] {
+        let orders = self.orders();
+        let of = |order: Option<&f64>| order.map_or(1.0, |order| *order);
+        [orders.first(), orders.last()].map(|order| of(order) * self.budget.speeds[1] / TAU)
     }
 
+    /// What a waterfall shows, for its caption.
+    pub(super) fn drawn_lines() -> String {
+        format!(
+            "lines over the speed, of each tone the largest in each of {WATERFALL_SPEEDS} equal parts of the range, without \
+             those below {} of the largest of all; the area of a dot is proportional to the square root of its amplitude. \
+             Straight lines are orders.",
+            short(DOT_MIN * DOT_MIN, 1)
+        )
+    }
+
+    /// The larger lines of a line of sight over the speed.
     pub(super) fn waterfall(&self, sight: usize) -> Plane {
         let outputs = outputs_of(sight);
         let mut dots = Vec::new();
-        let step = self.sweep.speeds.len().div_ceil(WATERFALL_SPEEDS).max(1);
-        for (speed, lines) in self.sweep.speeds.iter().zip(&self.sweep.lines).step_by(step) {
-            for line in lines {
-                let values = outputs.iter().filter_map(|output| line.values.get(*output));
-                let size = values.map(Complex::norm_sqr).sum::<f64>().sqrt();
-                dots.push([speed * RPM, line.frequency / TAU, size]);
+        let [from, to] = self.budget.speeds;
+        let part = |speed: f64| (WATERFALL_SPEEDS * (speed - from) / (to - from)).floor();
+        let all: Vec<_> = self.sweep.speeds.iter().zip(&self.sweep.lines).collect();
+        for near in all.chunk_by(|a, b| part(*a.0) == part(*b.0)) {
+            for contributor in 0..self.sweep.contributors.len() {
+                let dot = |(speed, lines): &(&f64, &Vec<Line>)| {
+                    let line = lines.get(contributor)?;
+                    let values = outputs.iter().filter_map(|output| line.values.get(*output));
+                    let size = values.map(Complex::norm_sqr).sum::<f64>().sqrt();
+                    Some([*speed * RPM, line.frequency / TAU, size])
+                };
+                let found = near.iter().filter_map(dot);
+                dots.extend(found.max_by(|a, b| a[2].total_cmp(&b[2])));
             }
         }
         let largest = dots.iter().map(|dot| dot[2]).fold(f64::MIN_POSITIVE, f64::max);
@@ -194,7 +214,7 @@ impl JitterReport<'_> {
         let amplitude = with_unit(largest * unit.per_si, 3, unit.name);
         Plane {
             description: format!(
-                "Waterfall of {name}: tones over speed in rpm and frequency in Hz; the largest amplitude is {amplitude}."
+                "Waterfall of {name}: lines over speed in rpm and frequency in Hz; the largest amplitude is {amplitude}."
             ),
             title: format!("{name}: lines, largest {amplitude}"),
             axes: ["Speed (rpm)".to_owned(), "Frequency f (Hz)".to_owned()],
@@ -202,43 +222,11 @@ impl JitterReport<'_> {
             lines: self.order_lines(),
             dots,
             marks: Vec::new(),
+            large: true,
             ranges: [
                 Some(self.budget.speeds.map(|speed| speed * RPM)),
-                Some([0.0, 1.06 * self.top()]),
+                Some([0.0, 1.06 * self.ends()[1]]),
             ],
-        }
-    }
-
-    pub(super) fn campbell_diagram(&self) -> Plane {
-        let top = CAMPBELL_TOP * self.top();
-        let curve = |branch: &Branch| {
-            let points = self.campbell_speeds.iter().zip(&branch.points);
-            let point = |(speed, of): (&f64, &Option<Oscillation>)| {
-                [speed * RPM, of.map_or(f64::NAN, |of| of.frequency / TAU)]
-            };
-            points.map(point).collect::<Vec<_>>()
-        };
-        let curves = self
-            .branches
-            .iter()
-            .map(curve)
-            .filter(|points| points.iter().any(|point| point[1] <= top));
-        Plane {
-            description:
-                "Campbell diagram: natural frequencies in Hz over the speed in rpm, with orders."
-                    .to_owned(),
-            title: "Natural frequencies over the speed".to_owned(),
-            axes: ["Speed (rpm)".to_owned(), "Frequency f (Hz)".to_owned()],
-            // Without a legend: a branch has no name of its own.
-            curves: curves.map(|points| (String::new(), points)).collect(),
-            lines: self.order_lines(),
-            dots: Vec::new(),
-            marks: self
-                .crossings
-                .iter()
-                .map(|of| [of.speed * RPM, of.oscillation.frequency / TAU])
-                .collect(),
-            ranges: [Some(self.budget.speeds.map(|speed| speed * RPM)), Some([0.0, top])],
         }
     }
 }

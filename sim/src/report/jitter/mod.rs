@@ -1,6 +1,7 @@
 //! [`JitterReport`]: the page of a jitter budget: verdict and margins first, then contributors, the metrics over the
 //! speed, waterfall and Campbell diagram, the two paths, inputs, assumptions.
 
+mod crossings;
 mod figures;
 mod inputs;
 mod tables;
@@ -14,18 +15,16 @@ use super::number::{short, with_unit};
 use super::page::{Page, lines};
 use super::slug;
 use crate::jitter::budget::{Assessed, Budget};
-use crate::jitter::campbell::{Branch, Crossing, Whirl};
+use crate::jitter::campbell::{Branch, Crossing};
 use crate::jitter::coupled::Compared;
 use crate::jitter::sensitivity::Sensitivity;
 use crate::jitter::sweep::Sweep;
 use crate::pointing::Metric;
-use crate::scenario::{ModalStructure, Scenario};
+use crate::scenario::Scenario;
 
 /// Revolutions per minute of one radian per second.
 pub(super) const RPM: f64 = 60.0 / TAU;
-/// A crossing this near to a worst speed is listed first.
-const NEAR_WORST: f64 = 0.02;
-/// Contributors and crossings that a table shows.
+/// Contributors that a table shows.
 const ROWS_MAX: usize = 24;
 
 /// What the two paths may differ by off resonance, and at it.
@@ -153,32 +152,6 @@ impl JitterReport<'_> {
         Summary { paragraphs, facts }
     }
 
-    /// The mode of the structure that a branch comes from: in order of frequency where there are as many branches as
-    /// modes; otherwise the nearest, which may be another's.
-    fn mode_of(&self, of: &Crossing) -> String {
-        let modes = self.scenario.structure.as_ref().map_or(&[][..], ModalStructure::massive);
-        let mut modes: Vec<_> = modes.iter().map(|mode| mode.frequency).enumerate().collect();
-        modes.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let at = self.campbell_speeds.iter().position(|speed| *speed >= of.speed).unwrap_or(0);
-        let frequency = |branch: &Branch| Some((*branch.points.get(at)?)?.frequency);
-        let all: Vec<_> = self.branches.iter().filter_map(frequency).collect();
-        let own = self.branches.get(of.branch).and_then(frequency);
-        let rank = own.filter(|_| all.len() == modes.len());
-        let rank = rank.map(|own| all.iter().filter(|other| **other < own).count());
-        let apart = |frequency: f64| (frequency / of.oscillation.frequency - 1.0).abs();
-        let nearest = || modes.iter().min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
-        let (word, found) = match rank {
-            Some(rank) => ("of", modes.get(rank)),
-            None => ("near", nearest()),
-        };
-        found.map_or_else(
-            || "no mode of the structure".to_owned(),
-            |(k, frequency)| {
-                format!("{word} mode {} ({} Hz alone)", k + 1, short(frequency / TAU, 4))
-            },
-        )
-    }
-
     pub(super) fn modes(&self) -> String {
         let modes = self.scenario.structure.as_ref().map_or(0, |s| s.massive().len());
         if modes == 0 { "none, a rigid hub".to_owned() } else { modes.to_string() }
@@ -297,83 +270,9 @@ impl JitterReport<'_> {
             blocks.push(Block::Figure {
                 id: format!("figure-waterfall-{sight}"),
                 number: format!("W{}", sight + 1),
-                caption: format!(
-                    "{}: every tone over the speed; the area of a dot is as the root of its amplitude. Orders are labelled.",
-                    of.name
-                ),
+                caption: format!("{}: {}", of.name, Self::drawn_lines()),
                 svg: self.waterfall(sight).inline()?,
             });
-        }
-        Ok(blocks)
-    }
-
-    fn campbell(&self) -> Result<Vec<Block>, DrawError> {
-        if self.branches.is_empty() {
-            return Ok(Vec::new());
-        }
-        let mut blocks = vec![Block::Figure {
-            id: "figure-campbell".to_owned(),
-            number: "K".to_owned(),
-            caption: "Natural frequencies of structure and devices over the speed, with orders and the crossings \
-                      within the range (circles)."
-                .to_owned(),
-            svg: self.campbell_diagram().inline()?,
-        }];
-        if self.crossings.is_empty() {
-            let text = "No order crosses a natural frequency within the speeds.".to_owned();
-            blocks.push(Block::Text { text });
-            return Ok(blocks);
-        }
-        // Those of the worst speeds first, then by order.
-        let worst: Vec<f64> = self
-            .assessed
-            .iter()
-            .filter_map(|of| self.sweep.speeds.get(of.worst).copied())
-            .collect();
-        // Of equal distance are all that are far.
-        let distance = |of: &Crossing| {
-            let apart = worst.iter().map(|speed| (of.speed / speed - 1.0).abs());
-            apart.filter(|apart| *apart < NEAR_WORST).fold(NEAR_WORST, f64::min)
-        };
-        let mut ranked: Vec<&Crossing> = self.crossings.iter().collect();
-        ranked.sort_by(|a, b| {
-            distance(a)
-                .total_cmp(&distance(b))
-                .then(a.order.total_cmp(&b.order))
-                .then(a.speed.total_cmp(&b.speed))
-        });
-        let rows = ranked.into_iter().take(ROWS_MAX).map(|of| {
-            let whirl = match of.whirl {
-                Whirl::Forward => "forward whirl",
-                Whirl::Backward => "backward whirl",
-                Whirl::None => "mode",
-            };
-            let cells = vec![
-                rpm(of.speed),
-                short(of.order, 6),
-                format!("{} Hz", short(of.oscillation.frequency / TAU, 5)),
-                format!("{} %", short(100.0 * of.oscillation.damping, 3)),
-                format!("{whirl}, {}", self.mode_of(of)),
-            ];
-            ("", cells)
-        });
-        let columns = [
-            ("Speed", ""),
-            ("Order", ""),
-            ("Frequency", ""),
-            ("Damping ratio", ""),
-            ("Branch", ""),
-        ];
-        blocks.push(table(
-            "Orders that cross natural frequencies, those at the worst speeds first",
-            &columns,
-            1..4,
-            rows,
-        ));
-        if self.crossings.len() > ROWS_MAX {
-            let text =
-                format!("{} more crossings are not listed.", self.crossings.len() - ROWS_MAX);
-            blocks.push(Block::Note { text });
         }
         Ok(blocks)
     }

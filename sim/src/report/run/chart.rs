@@ -4,6 +4,9 @@ use crate::record::Bucket;
 use crate::report::draw::figure::{Band, Figure, Line};
 use crate::report::unit::{Family, Unit, for_peak};
 
+/// Curves that are apart by no more than this share of the range of a figure, a fifth of a line's width, are seen as one.
+const APART_MIN: f64 = 2e-3;
+
 /// Curves that share axes.
 #[derive(Clone, Debug)]
 pub(in crate::report) struct Chart {
@@ -124,6 +127,30 @@ impl Drawn {
     /// Whether every value is zero.
     pub(in crate::report) fn is_zero(&self) -> bool {
         self.curves.iter().all(|curve| curve.min.iter().chain(&curve.max).all(|v| *v == 0.0))
+    }
+
+    /// Labels of the curves that lie on one another in its figure, in groups of two or more.
+    pub(in crate::report) fn equal(&self) -> Vec<Vec<String>> {
+        let all = || self.curves.iter().flat_map(|curve| curve.min.iter().chain(&curve.max));
+        let [least, most] =
+            [f64::min, f64::max].map(|of| all().copied().reduce(of).unwrap_or_default());
+        let seen = APART_MIN * (most - least);
+        let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= seen);
+        let mut groups: Vec<Vec<&DrawnCurve>> = Vec::new();
+        for curve in &self.curves {
+            let same = |group: &&mut Vec<&DrawnCurve>| {
+                group
+                    .first()
+                    .is_some_and(|of| near(&of.min, &curve.min) && near(&of.max, &curve.max))
+            };
+            match groups.iter_mut().find(same) {
+                Some(group) => group.push(curve),
+                None => groups.push(vec![curve]),
+            }
+        }
+        groups.retain(|group| group.len() > 1);
+        let label = |curve: &&DrawnCurve| curve.curve.label.replace('_', " ");
+        groups.iter().map(|group| group.iter().map(label).collect()).collect()
     }
 
     /// Its static figure.

@@ -15,15 +15,13 @@ use self::contour::segments;
 use super::axes::{Space, axes, svg_file, title};
 use super::figure::{ABOVE, Area, BELOW, FONT, PANEL, TYPE_SMALL, WIDTH, document, escaped, px};
 use super::log_panel::{Kind, Scale};
+use super::scale_bar::{SCALE_WIDTH, ScaleBar};
 use super::ticks::{Axis, ticks};
 use crate::report::error::DrawError;
 use crate::report::number::short;
 
 /// Height of the panel by that of a figure of a run.
 const HEIGHT: f64 = 1.5;
-/// Width of the scale of colours with its numbers, and of the scale itself.
-const SCALE_WIDTH: f64 = 74.0;
-const BAR_WIDTH: f64 = 14.0;
 /// Steps of the scale.
 const STEPS: u32 = 64;
 /// Decades that a logarithmic scale shows, below the largest number.
@@ -145,7 +143,9 @@ impl CellMap {
     /// As the drawing library.
     pub fn file(&self) -> Result<String, DrawError> {
         svg_file(|style| {
-            document(&self.description, style, &[], HEIGHT * PANEL, |panel| self.draw(panel))
+            document(&self.description, style, &[], [WIDTH, HEIGHT * PANEL], |panel| {
+                self.draw(panel)
+            })
         })
     }
 
@@ -286,20 +286,10 @@ impl CellMap {
     /// The scale of colours right of the axes, from the top to the bottom of them.
     fn bar(&self, out: &mut String, right: i32, [top, bottom]: [i32; 2]) {
         let range = self.range();
-        let left = right + px(12.0);
-        let end = left + px(BAR_WIDTH);
-        let height = f64::from(bottom - top);
-        let y = |share: f64| f64::from(bottom) - share * height;
-        for step in 0..STEPS {
-            let [from, to] = [step, step + 1].map(|step| f64::from(step) / f64::from(STEPS));
-            let fill = colour(0.5 * (from + to));
-            let _ = writeln!(
-                out,
-                "<path d=\"M{left} {:.0}H{end}V{:.0}H{left}z\" fill=\"{fill}\" stroke=\"{fill}\" stroke-width=\"3\"/>",
-                y(to),
-                y(from)
-            );
-        }
+        let step = |step: u32| {
+            let fill = colour((f64::from(step) + 0.5) / f64::from(STEPS));
+            format!("fill=\"{fill}\" stroke=\"{fill}\" stroke-width=\"3\"")
+        };
         let marks = if self.logarithmic {
             let kind = Kind::Powers;
             let scale = Scale { range, kind };
@@ -307,26 +297,9 @@ impl CellMap {
         } else {
             ticks(&range)
         };
-        let size = px(TYPE_SMALL);
-        for mark in marks {
-            let at = y(self.share(mark));
-            let _ = writeln!(
-                out,
-                "<path d=\"M{end} {at:.0}h30\" fill=\"none\" stroke=\"#1C1C1E\" stroke-width=\"8\"/>\
-                 <text x=\"{}\" y=\"{at:.0}\" dy=\"0.32em\" font-family=\"{FONT}\" font-size=\"{size}\" \
-                 fill=\"#1C1C1E\">{}</text>",
-                end + 45,
-                short(mark, 3)
-            );
-        }
-        let _ = writeln!(
-            out,
-            "<text x=\"{}\" y=\"{}\" text-anchor=\"end\" font-family=\"{FONT}\" font-size=\"{size}\" \
-             fill=\"#1C1C1E\">{}</text>",
-            px(WIDTH),
-            top - px(7.0),
-            escaped(&self.scale)
-        );
+        let marks = marks.into_iter().map(|mark| (self.share(mark), short(mark, 3))).collect();
+        let bar = ScaleBar { steps: (0..STEPS).map(step).collect(), marks, label: &self.scale };
+        bar.draw(out, right, [top, bottom]);
     }
 }
 
