@@ -44,8 +44,9 @@ pub(super) fn share<J: Send, R: Send>(
     progress: Progress,
 ) -> PyResult<Vec<R>> {
     let total = jobs.len();
-    let all = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = if threads == 0 { all } else { threads }.min(total);
+    // Reads files of the system: not where the number is given.
+    let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = if threads == 0 { all() } else { threads }.min(total);
     let (stop, done) = (AtomicBool::new(false), AtomicUsize::new(0));
     let queue = Mutex::new(jobs.into_iter());
     let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
