@@ -9,16 +9,15 @@ from __future__ import annotations
 
 import argparse
 import os
-import platform
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
+from machine import processor
 from precess import campaign
 
 
@@ -50,16 +49,6 @@ def measured(arguments: argparse.Namespace, **options: Any) -> float:
         assert not found.failed, found.failed
         arguments.bytes = found.samples.stat().st_size
     return seconds
-
-
-def processor() -> str:
-    """Its name."""
-    if sys.platform == "linux":
-        text = Path("/proc/cpuinfo").read_text()
-        names = [line.split(":")[1].strip() for line in text.splitlines() if "model name" in line]
-        if names:
-            return names[0]
-    return platform.processor() or platform.machine()
 
 
 def main() -> None:

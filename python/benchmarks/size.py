@@ -16,7 +16,13 @@ from pathlib import Path
 
 #: Address, size, alignment, indent of an input section; object file; name.
 SECTION = re.compile(r"\s*[0-9a-f]+\s+[0-9a-f]+\s+([0-9a-f]+)\s+\d+\s{9}(\S.*):\(\.text\.(.*)\)")
-OURS = {"_native": "the binding", "precess": "the engine", "precess_lanes": "batches in lanes"}
+LIBRARY = "the library: every kind in plain and in dual numbers"
+OURS = {
+    "_native": "the binding",
+    "precess": "the engine",
+    "precess_craft": LIBRARY,
+    "precess_lanes": "batches in lanes: every kind for AVX2 and AVX-512",
+}
 
 
 def main() -> None:
@@ -29,7 +35,7 @@ def main() -> None:
             crate = re.sub(r"-[0-9a-f]{16}$", "", words[1] if words[0] == "_native" else words[0])
             kind = OURS.get(crate, "other crates and the standard library")
             if crate in ("_native", "precess") and ("precess_dynamics" in name or "pulp" in name):
-                kind = f"the library, called by {kind}"
+                kind = LIBRARY
             found[kind] += int(size, 16)
     print("| code | MB |\n|---|---:|")
     for kind, size in found.most_common():

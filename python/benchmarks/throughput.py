@@ -1,8 +1,8 @@
 """Steps of RK4 of 256 states of four double-gimbal gyros on one thread: the batch of Python beside that of Rust, beside
 `mujoco.rollout` and mjbatch.
 
-    cargo build --release -p precess-lanes --example throughput
-    pip install mujoco==4.0.0
+    cargo build --release -p precess-lanes --features precess-dynamics/avx512 --example throughput
+    pip install mujoco==4.0.0 pin==4.1.0
     pip install --target "$VIRTUAL_ENV/mjbatch" --requirement tests/peers/requirements-mjbatch.txt
     python python/benchmarks/throughput.py --rust target/release/examples/throughput
 
@@ -28,7 +28,7 @@ from typing import Any
 import numpy as np
 
 import precess
-from campaign import processor
+from machine import processor
 
 ROOT = Path(__file__).resolve().parents[2]
 STORED = ROOT / "tests" / "fixtures" / "engines.json"

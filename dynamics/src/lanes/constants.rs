@@ -3,6 +3,7 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use std::sync::Arc;
+use std::vec::Vec;
 
 use core::convert::Infallible;
 use core::fmt;
@@ -58,66 +59,83 @@ pub(super) struct LoadConstants<T: Number> {
     pub(super) lumped: Option<(Lumped<T>, T::Holds)>,
 }
 
-impl<K: Kind<Scalar = f64>> DeviceBlocks<K> {
-    /// One device in every lane.
-    fn filled(device: &Device<K>) -> Self {
-        let block = |number| Block([number; WIDEST]);
-        Self {
-            constants: K::zip_constants(&device.constants, &device.constants, |n, _| block(n)),
-            passive: K::zip_per_joint(&device.passive, &device.passive, |p, _| p.map(block)),
-            bound: K::zip_per_joint(&device.bound, &device.bound, |number, _| block(number)),
-            sprung: block(if device.free { 0.0 } else { 1.0 }),
-            free: device.free,
-            dry: device.is_dry(),
-            mount: map(device.mount, |column| map(column, block)),
-            lumped: device.lumped.map(|lumped| (lumped.map(block), block(1.0))),
-        }
+/// Writes the numbers of a device, in the order in which [`DeviceBlocks::new`] reads them.
+///
+/// Constants are put side by side by way of such lists, since each of hundreds that is put into one lane of
+/// a [`Block`] by itself takes 300 bytes of code.
+fn write<K: Kind<Scalar = f64>>(device: &Device<K>, numbers: &mut Vec<f64>) {
+    let mut write = |number| push(numbers, number);
+    K::zip_constants(&device.constants, &device.constants, |number, _| write(number));
+    K::zip_per_joint(&device.passive, &device.passive, |passive, _| passive.map(&mut write));
+    K::zip_per_joint(&device.bound, &device.bound, |number, _| write(number));
+    write(flag(!device.free));
+    write(flag(device.is_dry()));
+    device.mount.iter().flatten().for_each(|number| write(*number));
+    write(flag(device.lumped.is_some()));
+    let none = Lumped { u_s: 0.0, j_12: 0.0, j_13: 0.0 };
+    device.lumped.unwrap_or(none).map(write);
+}
+
+#[inline(never)]
+fn push(numbers: &mut Vec<f64>, number: f64) {
+    numbers.push(number);
+}
+
+/// One where something holds, else zero.
+fn flag(holds: bool) -> f64 {
+    if holds { 1.0 } else { 0.0 }
+}
+
+/// Numbers of as many devices as there are lanes, one device after the other, read as blocks.
+struct Blocks<'a> {
+    numbers: &'a [f64],
+    read: usize,
+}
+
+impl Blocks<'_> {
+    /// The next number of each device.
+    #[inline(never)]
+    fn next(&mut self) -> Block {
+        let of_one = self.numbers.len() / WIDEST;
+        let at = |lane| self.numbers.get(lane * of_one + self.read).copied().unwrap_or(f64::NAN);
+        let block = Block(core::array::from_fn(at));
+        self.read += 1;
+        block
     }
 
-    /// Puts a device into one lane.
-    fn put(&mut self, lane: usize, device: &Device<K>) {
-        let put = |mut block: Block, number| {
-            block.put(lane, number);
-            block
-        };
-        self.constants = K::zip_constants(&self.constants, &device.constants, put);
-        self.bound = K::zip_per_joint(&self.bound, &device.bound, put);
-        self.passive = K::zip_per_joint(&self.passive, &device.passive, |blocks, passive| {
-            let [a, b, c, d, e] = passive.named().map(|(_, number)| number);
-            Passive {
-                stiffness: put(blocks.stiffness, a),
-                rest: put(blocks.rest, b),
-                viscous: put(blocks.viscous, c),
-                coulomb: put(blocks.coulomb, d),
-                coulomb_rate: put(blocks.coulomb_rate, e),
-            }
-        });
-        self.sprung.put(lane, if device.free { 0.0 } else { 1.0 });
-        self.free &= device.free;
-        self.dry |= device.is_dry();
-        for (blocks, column) in self.mount.iter_mut().zip(device.mount) {
-            blocks.iter_mut().zip(column).for_each(|(block, number)| block.put(lane, number));
-        }
-        let none = (Lumped { u_s: Block::ZERO, j_12: Block::ZERO, j_13: Block::ZERO }, Block::ZERO);
-        if device.lumped.is_some() || self.lumped.is_some() {
-            let (blocks, has) = self.lumped.get_or_insert(none);
-            has.put(lane, if device.lumped.is_some() { 1.0 } else { 0.0 });
-            if let Some(lumped) = device.lumped {
-                blocks.u_s.put(lane, lumped.u_s);
-                blocks.j_12.put(lane, lumped.j_12);
-                blocks.j_13.put(lane, lumped.j_13);
-            }
-        }
+    /// The next number of each device, a flag: as a block, and whether it is set in any lane.
+    fn next_flag(&mut self) -> (Block, bool) {
+        let block = self.next();
+        (block, block != Block::ZERO)
+    }
+}
+
+impl<K: Kind<Scalar = f64>> DeviceBlocks<K> {
+    /// The devices whose [numbers](write) these are, as many as the widest lanes have. `shape` is one of them.
+    fn new(shape: &Device<K>, numbers: &[f64]) -> Self {
+        let mut blocks = Blocks { numbers, read: 0 };
+        let constants = K::zip_constants(&shape.constants, &shape.constants, |_, _| blocks.next());
+        let passive =
+            K::zip_per_joint(&shape.passive, &shape.passive, |of, _| of.map(|_| blocks.next()));
+        let bound = K::zip_per_joint(&shape.bound, &shape.bound, |_, _| blocks.next());
+        let (sprung, any_sprung) = blocks.next_flag();
+        let (_, dry) = blocks.next_flag();
+        let mount = map(shape.mount, |column| map(column, |_| blocks.next()));
+        let (has, any_lumped) = blocks.next_flag();
+        let none = Lumped { u_s: 0.0, j_12: 0.0, j_13: 0.0 };
+        let lumped = any_lumped.then(|| (none.map(|_| blocks.next()), has));
+        Self { constants, passive, bound, sprung, free: !any_sprung, dry, mount, lumped }
     }
 
     /// These devices side by side, at most as many as the widest lanes have; lanes without one
     /// repeat the last. None without a device.
     pub(super) fn of(devices: &[Device<K>]) -> Option<Self> {
-        let mut blocks = Self::filled(devices.last()?);
-        for (lane, device) in devices.iter().enumerate() {
-            blocks.put(lane, device);
+        let last = devices.last()?;
+        let mut numbers = Vec::new();
+        for lane in 0..WIDEST {
+            write(devices.get(lane).unwrap_or(last), &mut numbers);
         }
-        Some(blocks)
+        Some(Self::new(last, &numbers))
     }
 
     /// As numbers in lanes.
@@ -266,27 +284,35 @@ impl<D: LanedSet> CraftBlocks<D> {
         let mut devices = D::new_data(&last.devices, &EachConstants);
         let [mut hub, mut body] = [&last.hub, &last.body].map(|of| of.map(|_| Block::ZERO));
         let mut own = OwnLoads::of(last);
+        let mut put = PutConstants { lane: 0, device: 0, numbers: Vec::new() };
         for lane in 0..WIDEST {
-            let put = |mut block: Block, number| {
+            let put_number = |mut block: Block, number| {
                 block.put(lane, number);
                 block
             };
-            hub = hub.zip(&in_lane(lane).hub, put);
-            body = body.zip(&in_lane(lane).body, put);
+            hub = hub.zip(&in_lane(lane).hub, put_number);
+            body = body.zip(&in_lane(lane).body, put_number);
             own = own.and(OwnLoads::of(in_lane(lane)));
-            let data = &mut devices;
-            let mut put = PutConstants { lane };
-            let Ok(()) =
-                D::visit::<Unique<EachConstants>, _>(&in_lane(lane).devices, data, &mut put);
+            put.lane = lane;
+            put.device = 0;
+            let Ok(()) = D::visit::<Unique<EachConstants>, _>(
+                &in_lane(lane).devices,
+                &mut devices,
+                &mut put,
+            );
         }
         let passive = crafts.iter().any(|craft| craft.passive);
         Some(Self { hub, body, devices, passive, own })
     }
 }
 
-/// Puts the devices of a spacecraft into one lane.
+/// Reads the numbers of the devices of one spacecraft after another, and puts them side by side at the last.
 struct PutConstants {
     lane: usize,
+    /// How many devices of the spacecraft were seen.
+    device: usize,
+    /// Of each device, lane by lane.
+    numbers: Vec<Vec<f64>>,
 }
 
 impl Visit<f64, Unique<EachConstants>> for PutConstants {
@@ -297,8 +323,16 @@ impl Visit<f64, Unique<EachConstants>> for PutConstants {
         device: &Device<K>,
         blocks: &mut Option<Arc<DeviceBlocks<K>>>,
     ) -> Result<(), Infallible> {
-        let blocks = blocks.get_or_insert_with(|| Arc::new(DeviceBlocks::filled(device)));
-        Arc::make_mut(blocks).put(self.lane, device);
+        if self.device == self.numbers.len() {
+            self.numbers.push(Vec::new());
+        }
+        if let Some(numbers) = self.numbers.get_mut(self.device) {
+            write(device, numbers);
+            if self.lane + 1 == WIDEST {
+                *blocks = Some(Arc::new(DeviceBlocks::new(device, numbers)));
+            }
+        }
+        self.device += 1;
         Ok(())
     }
 }

@@ -10,6 +10,7 @@ use super::build::Stage;
 use super::first::nth_block;
 use super::licences;
 use super::sources::lay_out;
+use crate::python::COMPRESSION;
 use crate::run::{output, root, run_there, say};
 use crate::skip::skip;
 
@@ -54,7 +55,8 @@ pub(super) fn packages(stage: &Stage, folder: &Path) -> Result<Vec<Package>, Str
     };
     lay_out(&unpack(&sources.bytes)?, &unpacked.sources, &[])?;
     let mut build = unpacked.command(&maturin)?;
-    build.args(["build", "--release", "--locked", "--quiet", "--out"]).arg(&out);
+    build.args(["build", "--release", "--locked", "--quiet"]).args(COMPRESSION);
+    build.arg("--out").arg(&out);
     run_there(&mut build)?;
     let wheel = single(&out, "whl")?;
     Ok(vec![sources, wheel])
