@@ -8,10 +8,13 @@ rotation ``d`` about the axes of B. With ``q* dq = (s, w)``, ``d = 2 w / |q|^2``
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
+from . import _native
 from .batch import Batch
 from .inputs import Inputs
 from .spacecraft import Spacecraft
@@ -34,7 +37,18 @@ class Derivatives:
         self._batch = Batch(spacecraft)
         self._lock = threading.Lock()
         self.calls = {"values": 0, "derivatives": 0}
-        """How often the library was called, by what it computed: once for a batch."""
+        """How often the library was called from Python, by what it computed: once for a batch."""
+
+    @cached_property
+    def jax_function(self) -> _native.NativeFunction:
+        """What XLA calls."""
+        return _native.NativeFunction(self._batch._native, self.inputs._native)
+
+    @property
+    def jax_calls(self) -> dict[str, int]:
+        """How often XLA called the library: once for a batch."""
+        values, derivatives = self.jax_function.calls
+        return {"values": values, "derivatives": derivatives}
 
     @property
     def state_size(self) -> int:
@@ -76,26 +90,41 @@ class Derivatives:
         count = len(states)
         of_y = np.zeros((count, self.acceleration_size, self.state_size))
         of_u = np.zeros((count, self.acceleration_size, self.input_size))
-        places = [self.spacecraft.acceleration_names.index(name) for name in outputs]
-        flat = {name: place for place, name in enumerate(self.spacecraft.state_names)}
-        for column, name in enumerate(by_state):
-            if name in flat:
-                of_y[:, places, flat[name]] = c[:, :, column]
-        attitude = [by_state.index(f"attitude_{axis}") for axis in "xyz" if f"attitude_{axis}" in by_state]
-        if attitude:
+        places = self.output_places(outputs)
+        for column, place in self.state_places(by_state):
+            of_y[:, places, place] = c[:, :, column]
+        if attitude := self.attitude_columns(by_state):
             turn = _rotation_of(states[:, _QUATERNION])
             by_quaternion = np.einsum("nak,nkq->naq", c[:, :, attitude], turn)
             of_y[:, np.array(places)[:, None], np.arange(6, 10)] = by_quaternion
-        columns = {f"{what}_{axis}": 3 * k + m for k, what in enumerate(("force", "torque")) for m, axis in enumerate("xyz")}
-        for place, joint in enumerate(self.spacecraft.joints):
-            columns[joint.motor] = columns[joint.acceleration] = 6 + place
-        for column, name in enumerate(by_input):
-            if name in columns:
-                of_u[:, places, columns[name]] = d[:, :, column]
+        for column, place in self.input_places(by_input):
+            of_u[:, places, place] = d[:, :, column]
         # A state that has no derivatives has none by anything.
         failed = np.isnan(c).any(axis=(1, 2))
         of_y[failed], of_u[failed] = np.nan, np.nan
         return of_y.reshape(*shape, *of_y.shape[1:]), of_u.reshape(*shape, *of_u.shape[1:])
+
+    def output_places(self, outputs: Sequence[str]) -> list[int]:
+        """Where the rows of the linearised system stand among the accelerations."""
+        names = self.spacecraft.acceleration_names
+        return [names.index(name) for name in outputs]
+
+    def state_places(self, states: Sequence[str]) -> list[tuple[int, int]]:
+        """Columns of C, and where they stand in a flat state; the attitude apart."""
+        flat = {name: place for place, name in enumerate(self.spacecraft.state_names)}
+        return [(column, flat[name]) for column, name in enumerate(states) if name in flat]
+
+    def attitude_columns(self, states: Sequence[str]) -> list[int]:
+        """Columns of C by the attitude; none where nothing depends on it."""
+        names = [f"attitude_{axis}" for axis in "xyz"]
+        return [states.index(name) for name in names if name in states]
+
+    def input_places(self, inputs: Sequence[str]) -> list[tuple[int, int]]:
+        """Columns of D, and where they stand in a row of inputs."""
+        columns = {f"{what}_{axis}": 3 * k + m for k, what in enumerate(("force", "torque")) for m, axis in enumerate("xyz")}
+        for place, joint in enumerate(self.spacecraft.joints):
+            columns[joint.motor] = columns[joint.acceleration] = 6 + place
+        return [(column, columns[name]) for column, name in enumerate(inputs) if name in columns]
 
 
 def _rotation_of(q: Array) -> Array:

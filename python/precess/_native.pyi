@@ -13,6 +13,7 @@ __all__ = [
     "NativeBudget",
     "NativeEvaluator",
     "NativeFit",
+    "NativeFunction",
     "NativeInputs",
     "NativePsd",
     "NativeResult",
@@ -45,6 +46,7 @@ __all__ = [
     "spectrum_cross",
     "spectrum_welch",
     "version",
+    "xla_functions",
 ]
 
 _Array: TypeAlias = npt.NDArray[np.float64]
@@ -212,6 +214,16 @@ class NativeBatch:
     ) -> tuple[list[str], list[str], list[str], _Array, _Array, _Failures]: ...
 
 @final
+class NativeFunction:
+    def __new__(cls, batch: NativeBatch, inputs: NativeInputs) -> NativeFunction: ...
+    @property
+    def number(self) -> int: ...
+    @property
+    def linearized(self) -> tuple[list[str], list[str], list[str]]: ...
+    @property
+    def calls(self) -> tuple[int, int]: ...
+
+@final
 class NativeResult:
     @property
     def columns(self) -> list[_Column]: ...
@@ -370,3 +382,4 @@ def estimate_probability(
     met: int, count: int, level: float
 ) -> tuple[float, float, float] | None: ...
 def rank_correlation(x: Sequence[float], y: Sequence[float]) -> float | None: ...
+def xla_functions() -> list[tuple[str, int]]: ...

@@ -5,23 +5,28 @@
 >>> accelerations = precess.jax.accelerations(craft)
 >>> jax.jacobian(accelerations)(y, u)
 
-Functions are called on the host. They pass ``jit``, ``vmap`` (one call of the library for all elements), ``jvp``, ``vjp`` and what is
+Functions are foreign functions of XLA on the CPU: they read and write its buffers, without Python. They pass ``jit``, ``vmap`` (one call of the library for all elements), ``jvp``, ``vjp`` and what is
 made of them; derivatives are those of :meth:`precess.Spacecraft.linearize`, and have none of their own.
 """
 
 from __future__ import annotations
 
+import functools
 from typing import Any, Protocol
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
+from . import _native
 from ._derivatives import Derivatives
 from .inputs import Inputs
 from .spacecraft import Spacecraft
 
 __all__ = ["Function", "accelerations", "derivative"]
+
+#: A part of JAX has no types.
+_jax: Any = jax
 
 
 class Function(Protocol):
@@ -43,7 +48,7 @@ def accelerations(
         Modes, gravity and wrenches; those of the scenario at its start by default. Force, torque and motors are ``u``, as
         :meth:`precess.Inputs.to_array`.
     of : Derivatives, optional
-        What evaluates them; its ``calls`` count the calls of the library.
+        What evaluates them; its ``jax_calls`` count the calls of the library.
 
     ``y`` is in the order of :attr:`precess.Spacecraft.state_names`, its quaternion normalised where it is used; the result in that of
     :attr:`precess.Spacecraft.acceleration_names`. NaN where a state has no accelerations.
@@ -53,35 +58,32 @@ def accelerations(
     ValueError
         Where JAX has no numbers of 64 bits.
     """
+    _register()
     host = Derivatives(spacecraft, inputs) if of is None else of
-    # A part of JAX has no types.
-    untyped: Any = jax
-    size, by_y, by_u = host.acceleration_size, host.state_size, host.input_size
+    native = host.jax_function
+    system = _System(host)
 
-    def call(function: Any, shapes: Any, y: Any, u: Any) -> Any:
-        return jax.pure_callback(function, shapes, y, u, vmap_method="broadcast_all")
+    def call(name: str, shapes: Any, y: Any, u: Any) -> Any:
+        foreign = _jax.ffi.ffi_call(name, shapes, vmap_method="broadcast_all")
+        return foreign(y, u, number=np.int64(native.number))
 
     def result(*shape: int) -> Any:
-        return untyped.ShapeDtypeStruct(shape, np.float64)
-
-    def values(y: Any, u: Any) -> Any:
-        return host.values(np.asarray(y), np.asarray(u))
-
-    def jacobians(y: Any, u: Any) -> Any:
-        return host.jacobians(np.asarray(y), np.asarray(u))
+        return _jax.ShapeDtypeStruct(shape, np.float64)
 
     @jax.custom_jvp
     def found(y: Any, u: Any) -> Any:
-        return call(values, result(size), y, u)
+        return call("precess_accelerations", result(host.acceleration_size), y, u)
 
     @found.defjvp
     def tangent(primals: Any, tangents: Any) -> Any:
         (y, u), (dy, du) = primals, tangents
-        of_y, of_u = call(jacobians, (result(size, by_y), result(size, by_u)), y, u)
-        return found(y, u), of_y @ dy + of_u @ du
+        rows, states, inputs = system.sizes
+        shapes = (result(rows, states), result(rows, inputs))
+        c, d = call("precess_linearize", shapes, y, u)
+        return found(y, u), system.tangent(c, d, y, dy, du)
 
     def function(y: Any, u: Any) -> jax.Array:
-        if not untyped.config.read("jax_enable_x64"):
+        if not _jax.config.read("jax_enable_x64"):
             raise ValueError(
                 "JAX has numbers of 32 bits; call jax.config.update('jax_enable_x64', True) at the start"
             )
@@ -89,6 +91,36 @@ def accelerations(
         return result_
 
     return function
+
+
+@functools.cache
+def _register() -> None:
+    for name, address in _native.xla_functions():
+        _jax.ffi.register_ffi_target(name, _jax.ffi.pycapsule(address), platform="cpu")
+
+
+class _System:
+    """The linearised system, applied to tangents of a flat state and of a row of inputs."""
+
+    def __init__(self, of: Derivatives) -> None:
+        outputs, states, inputs = of.jax_function.linearized
+        self.sizes = len(outputs), len(states), len(inputs)
+        self._size = of.acceleration_size
+        self._outputs = np.array(of.output_places(outputs), dtype=int)
+        self._states = np.array(of.state_places(states), dtype=int).reshape(-1, 2)
+        self._inputs = np.array(of.input_places(inputs), dtype=int).reshape(-1, 2)
+        self._attitude = np.array(of.attitude_columns(states), dtype=int)
+
+    def tangent(self, c: Any, d: Any, y: Any, dy: Any, du: Any) -> Any:
+        """``C dx + D dw``, in its places; NaN where there is no system."""
+        dx = jnp.zeros(self.sizes[1]).at[self._states[:, 0]].set(dy[self._states[:, 1]], unique_indices=True)
+        if len(self._attitude):
+            q0, q1, q2, q3 = q = y[6:10]
+            turn = jnp.array([[-q1, q0, q3, -q2], [-q2, -q3, q0, q1], [-q3, q2, -q1, q0]])
+            dx = dx.at[self._attitude].set(2.0 / jnp.dot(q, q) * (turn @ dy[6:10]), unique_indices=True)
+        dw = jnp.zeros(self.sizes[2]).at[self._inputs[:, 0]].set(du[self._inputs[:, 1]], unique_indices=True)
+        sound = jnp.where(jnp.isnan(c).any(), jnp.nan, 1.0)
+        return sound * jnp.zeros(self._size).at[self._outputs].set(c @ dx + d @ dw, unique_indices=True)
 
 
 def derivative(

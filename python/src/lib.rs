@@ -17,6 +17,7 @@ mod pointing;
 mod run;
 mod scenario;
 mod spectra;
+mod xla;
 
 use pyo3::prelude::*;
 
@@ -56,6 +57,8 @@ mod _native {
     };
     #[pymodule_export]
     use super::version;
+    #[pymodule_export]
+    use super::xla::{NativeFunction, xla_functions};
 }
 
 /// The version of the package.

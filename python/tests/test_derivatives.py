@@ -95,14 +95,41 @@ def test_jax_has_exact_derivatives_and_one_call_for_a_batch(craft: precess.Space
     np.testing.assert_allclose(
         slopes(unit, u[0]), craft.derivative(0.0, unit, single), rtol=1e-12, atol=1e-14
     )
-    of.calls.update(values=0, derivatives=0)
+    before = of.jax_calls
     batch = jax.block_until_ready(jax.vmap(function)(y, u))
-    assert of.calls == {"values": 1, "derivatives": 0}
+    assert of.jax_calls == {**before, "values": before["values"] + 1}
     np.testing.assert_array_equal(batch, of.values(y, u))
-    of.calls.update(values=0, derivatives=0)
+    before = of.jax_calls
     jacobian = jax.block_until_ready(jax.vmap(jax.jacrev(function))(y, u))
-    assert of.calls["derivatives"] == 1 and of.calls["values"] <= 1
+    assert of.jax_calls["derivatives"] == before["derivatives"] + 1
+    assert of.jax_calls["values"] <= before["values"] + 1
     np.testing.assert_allclose(jacobian, of.jacobians(y, u)[0], rtol=1e-12, atol=1e-14)
+    by_u = jax.vmap(jax.jacfwd(function, argnums=1))(y, u)
+    np.testing.assert_allclose(by_u, of.jacobians(y, u)[1], rtol=1e-12, atol=1e-14)
+
+
+def test_failures_in_jax_are_nan_or_errors(craft: precess.Spacecraft) -> None:
+    jax = pytest.importorskip("jax")
+    jax.config.update("jax_enable_x64", True)
+    from precess.jax import accelerations
+
+    of = Derivatives(craft)
+    function: Any = accelerations(craft, of=of)
+    y, u = state_and_inputs(craft, 3)
+    y[1, 0] = np.nan
+    found = jax.vmap(function)(y, u)
+    assert np.isnan(found[1]).all() and np.isfinite(found[np.array([0, 2])]).all()
+    jacobian = jax.vmap(jax.jacfwd(function))(y, u)
+    assert np.isnan(jacobian[1]).all() and np.isfinite(jacobian[np.array([0, 2])]).all()
+    with pytest.raises(Exception, match=f"a state has {craft.state_size}"):
+        function(y[0, :-1], u[0])
+    gone = jax.ffi.ffi_call("precess_accelerations", jax.ShapeDtypeStruct((of.acceleration_size,), np.float64))
+    with pytest.raises(Exception, match="spacecraft is gone"):
+        gone(y[0], u[0], number=np.int64(0))
+    # The function keeps what it calls.
+    of.__dict__.pop("jax_function")
+    compiled = jax.jit(function)
+    np.testing.assert_array_equal(compiled(y[0], u[0]), found[0])
 
 
 def test_casadi_has_exact_derivatives(craft: precess.Spacecraft) -> None:

@@ -15,7 +15,7 @@ use crate::evaluator::flat;
 
 /// Why an element has no result.
 #[derive(Clone)]
-pub(super) enum Failure {
+pub(crate) enum Failure {
     /// Its state and inputs have no accelerations.
     Solve(SolveError),
     /// Its parameters are not those of a spacecraft.

@@ -5,6 +5,7 @@
 
 mod engine;
 mod reduce;
+mod rows;
 mod work;
 
 use std::sync::Arc;
@@ -13,9 +14,8 @@ use numpy::{
     IntoPyArray as _, PyArray2, PyArray3, PyArrayMethods as _, PyReadonlyArray2,
     PyUntypedArrayMethods as _,
 };
-use precess::evaluation::{CraftInputs, EvaluationError, Evaluator, Parameter};
+use precess::evaluation::{CraftInputs, Parameter};
 use precess::scenario::Scenario;
-use precess_dynamics::{Each as _, JointStates as _, Mode, Outputs};
 use precess_lanes::{PART, Steps};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
@@ -27,7 +27,9 @@ use crate::scenario::NativeScenario;
 
 use engine::{Engine, Failure};
 use reduce::{Kept, Reduction};
-use work::{Progress, share};
+use rows::failed_rows;
+pub(crate) use rows::{ActingRows, BatchRows, Linearized, Sizes};
+use work::{Progress, share, watched};
 
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
 /// Index and exception of each element that failed.
@@ -44,16 +46,10 @@ type LinearizedFacts<'py> = (
     Failures,
 );
 
-/// Number of a part, its derivatives by states and by inputs, its states.
-type LinearizedPart<'a> = (usize, ((&'a mut [f64], &'a mut [f64]), &'a [f64]));
-
 /// Many states, of one spacecraft or of one each.
 #[pyclass(frozen, module = "precess._native")]
 pub(crate) struct NativeBatch {
-    evaluator: Arc<Evaluator>,
-    engine: Engine,
-    /// Elements; none of one spacecraft for any number.
-    count: Option<usize>,
+    pub(crate) rows: Arc<BatchRows>,
 }
 
 #[pymethods]
@@ -105,13 +101,13 @@ impl NativeBatch {
         let engine = py.detach(|| {
             if each { Engine::each(&elements, lanes) } else { Engine::same(&evaluator, lanes) }
         });
-        Ok(Self { evaluator, engine, count })
+        Ok(Self { rows: Arc::new(BatchRows { evaluator, engine, count }) })
     }
 
     /// Whether it is evaluated in lanes.
     #[getter]
     fn is_laned(&self) -> bool {
-        self.engine.is_laned()
+        self.rows.engine.is_laned()
     }
 
     /// Accelerations, one row each; failures.
@@ -126,17 +122,13 @@ impl NativeBatch {
         threads: usize,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(Rows<'py>, Failures)> {
-        let Given { y, count, size, acting } = self.given(&y, inputs, u.as_ref())?;
-        let width = self.evaluator.acceleration_names().len();
+        let Given { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
+        let width = self.rows.acceleration_size();
         let mut out = vec![f64::NAN; count * width];
-        let jobs = out.chunks_mut(PART * width.max(1)).zip(y.chunks(PART * size)).enumerate();
-        let jobs = jobs.map(|(part, (out, y))| (part, out, y)).collect();
-        let work = |(part, out, y): (usize, &mut [f64], &[f64]), _: &(dyn Fn() -> bool + Sync)| {
-            let inputs = acting.of_part(part, y.len() / size);
-            let ends = self.engine.accelerations(part, (y, y.len() / size), &inputs, out);
-            failed_rows(part, &ends, out, width)
-        };
-        let failures = share(py, threads, jobs, work, Progress::new(progress))?;
+        let given = (y.as_slice(), &acting);
+        let failures = watched(py, Progress::new(progress), |look| {
+            self.rows.accelerations(given, &mut out, threads, look)
+        })?;
         let failures = exceptions(py, failures)?;
         Ok((out.into_pyarray(py).reshape([count, width])?, failures))
     }
@@ -173,11 +165,12 @@ impl NativeBatch {
                     go: &(dyn Fn() -> bool + Sync)| {
             let inputs = acting.of_part(part, y.len() / size);
             kept.start(y);
-            let ends = self.engine.run(part, y, &inputs, of, &mut kept, go);
+            let ends = self.rows.engine.run(part, y, &inputs, of, &mut kept, go);
             kept.finish(&ends);
             failed_rows(part, &ends, y, size)
         };
-        let failures = share(py, threads, jobs, work, Progress::new(progress))?;
+        let failures =
+            watched(py, Progress::new(progress), |look| share(threads, look, jobs, work))?;
         let failures = exceptions(py, failures)?;
         let (histories, reduced) = kept.into_parts();
         let histories = match histories {
@@ -200,56 +193,26 @@ impl NativeBatch {
         u: Option<PyReadonlyArray2<'py, f64>>,
         threads: usize,
     ) -> PyResult<LinearizedFacts<'py>> {
-        if self.count.is_some() {
+        if self.rows.count.is_some() {
             let message =
                 "spacecraft that differ are linearised one by one, by Spacecraft.linearize";
             return Err(errors::class::UnsupportedError::new_err(message));
         }
-        let Given { y, count, size, acting } = self.given(&y, inputs, u.as_ref())?;
-        let (evaluator, outputs) = (&self.evaluator, Outputs { momentum: None, loads: None });
-        let none: &[&str] = &[];
-        // A locked joint does not move.
-        let mut pose = evaluator.initial();
-        pose.rigid.devices.states_mut().for_each(|[_, rate]| *rate = 0.0);
-        let shape = evaluator.linearize(&pose, &acting.base, &outputs, none);
+        let Given { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
+        let shape = self.rows.linearized(&acting.base);
         let shape = shape.map_err(|error| errors::evaluation(&error))?;
-        let [rows, states] = [shape.c.nrows(), shape.c.ncols()];
-        let by_inputs = shape.d.ncols();
+        let Sizes { rows, states, inputs } = shape.sizes();
         let mut c = vec![f64::NAN; count * rows * states];
-        let mut d = vec![f64::NAN; count * rows * by_inputs];
-        let parts = c.chunks_mut((PART * rows * states).max(1));
-        let parts = parts.zip(d.chunks_mut((PART * rows * by_inputs).max(1)));
-        let jobs = parts.zip(y.chunks(PART * size)).enumerate();
-        let work = |(part, ((c, d), y)): LinearizedPart<'_>, go: &(dyn Fn() -> bool + Sync)| {
-            let inputs = acting.of_part(part, y.len() / size);
-            let mut failures = Vec::new();
-            let places = c.chunks_mut((rows * states).max(1));
-            let places = places.zip(d.chunks_mut((rows * by_inputs).max(1)));
-            for (index, (y, (c, d))) in y.chunks(size).zip(places).enumerate() {
-                let Some(inputs) = inputs.get(index).or(inputs.first()) else { continue };
-                let found = evaluator.unpack(y).map_err(EvaluationError::from);
-                let found = found.and_then(|y| evaluator.linearize(&y, inputs, &outputs, none));
-                match found {
-                    // Rows first.
-                    Ok(of) => {
-                        c.copy_from_slice(of.c.transpose().as_slice());
-                        d.copy_from_slice(of.d.transpose().as_slice());
-                    }
-                    Err(error) => {
-                        failures.push((part * PART + index, Failure::Evaluation(Arc::new(error))));
-                    }
-                }
-                if !go() {
-                    break;
-                }
-            }
-            failures
-        };
-        let failures = share(py, threads, jobs.collect(), work, Progress::new(None))?;
+        let mut d = vec![f64::NAN; count * rows * inputs];
+        let given = (y.as_slice(), &acting);
+        let failures = watched(py, Progress::new(None), |look| {
+            self.rows.linearize(given, shape.sizes(), (&mut c, &mut d), threads, look)
+        })?;
         let failures = exceptions(py, failures)?;
         let c = c.into_pyarray(py).reshape([count, rows, states])?;
-        let d = d.into_pyarray(py).reshape([count, rows, by_inputs])?;
-        Ok((shape.outputs, shape.states, shape.inputs, c, d, failures))
+        let d = d.into_pyarray(py).reshape([count, rows, inputs])?;
+        let Linearized { outputs, states, inputs } = shape;
+        Ok((outputs, states, inputs, c, d, failures))
     }
 }
 
@@ -273,18 +236,18 @@ impl NativeBatch {
     ) -> PyResult<Given> {
         let (y, count) = self.rows(y)?;
         let acting = self.acting(inputs.get()?.clone(), u, count)?;
-        Ok(Given { y, count, size: self.evaluator.state_size(), acting })
+        Ok(Given { y, count, size: self.rows.state_size(), acting })
     }
 
     /// The rows of states.
     fn rows(&self, y: &PyReadonlyArray2<'_, f64>) -> PyResult<(Vec<f64>, usize)> {
         let [count, width] = [y.shape()[0], y.shape()[1]];
-        let size = self.evaluator.state_size();
+        let size = self.rows.state_size();
         if width != size {
             let message = format!("states have {width} numbers; they need {size}");
             return Err(PyValueError::new_err(message));
         }
-        if let Some(expected) = self.count.filter(|expected| *expected != count) {
+        if let Some(expected) = self.rows.count.filter(|expected| *expected != count) {
             let message = format!("{count} states for {expected} spacecraft");
             return Err(PyIndexError::new_err(message));
         }
@@ -299,7 +262,7 @@ impl NativeBatch {
         count: usize,
     ) -> PyResult<ActingRows> {
         let Some(u) = u else { return Ok(ActingRows { base, rows: Vec::new(), width: 0 }) };
-        let width = 6 + self.evaluator.joints().len();
+        let width = self.rows.input_size();
         if u.shape() != [count, width] {
             let message = format!(
                 "inputs have the shape {:?}; they need ({count}, {width}): force, torque, motors",
@@ -309,59 +272,6 @@ impl NativeBatch {
         }
         Ok(ActingRows { base, rows: u.as_array().iter().copied().collect(), width })
     }
-}
-
-/// Inputs, row by row; no rows where they are the same for all.
-struct ActingRows {
-    base: CraftInputs,
-    rows: Vec<f64>,
-    width: usize,
-}
-
-impl ActingRows {
-    /// Those of a part of so many states: one for all, or one for each.
-    fn of_part(&self, part: usize, count: usize) -> Vec<CraftInputs> {
-        if self.width == 0 {
-            return vec![self.base.clone()];
-        }
-        let rows = self.rows.chunks_exact(self.width).skip(part * PART).take(count);
-        rows.map(|row| with_row(&self.base, row)).collect()
-    }
-}
-
-/// Inputs with the numbers of a row: of a joint that is prescribed, its acceleration.
-fn with_row(base: &CraftInputs, row: &[f64]) -> CraftInputs {
-    let mut inputs = base.clone();
-    let mut numbers = row.iter().copied();
-    let rigid = &mut inputs.rigid;
-    for (to, from) in rigid.force.iter_mut().chain(rigid.torque_b.iter_mut()).zip(&mut numbers) {
-        *to = from;
-    }
-    let joints = rigid.motors.values_mut().zip(rigid.modes.values_mut());
-    for ((motor, mode), number) in joints.zip(numbers) {
-        match mode {
-            Mode::Prescribed(acceleration) => *acceleration = number,
-            _ => *motor = number,
-        }
-    }
-    inputs
-}
-
-/// The failures of a part, whose rows become NaN.
-fn failed_rows(
-    part: usize,
-    ends: &[Result<(), Failure>],
-    rows: &mut [f64],
-    width: usize,
-) -> Vec<(usize, Failure)> {
-    let mut failures = Vec::new();
-    for (index, (end, row)) in ends.iter().zip(rows.chunks_mut(width.max(1))).enumerate() {
-        if let Err(failure) = end {
-            row.fill(f64::NAN);
-            failures.push((part * PART + index, failure.clone()));
-        }
-    }
-    failures
 }
 
 /// Failures in the order of the elements, as exceptions.

@@ -1,5 +1,5 @@
 //! [`share`]: parts of a batch on threads. The calling one is one of them, and looks at signals and
-//! tells of progress on its way: work on one thread starts none.
+//! tells of progress on its way ([`watched`]): work on one thread starts none.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -31,22 +31,47 @@ impl Progress {
     }
 }
 
-/// Work may go on.
+/// Whether work may go on.
 type Go<'a> = &'a (dyn Fn() -> bool + Sync);
+/// Whether work may go on, asked by the thread that called, with the share that is done.
+pub(crate) type Look<'a> = &'a (dyn Fn(f64) -> bool + Sync);
 
-/// Does the work of each job on so many threads, all cores where that is zero; what the jobs return,
-/// joined in no order. An exception of a signal or of `progress` ends the work early.
-pub(super) fn share<J: Send, R: Send>(
+/// Does work without the interpreter's lock. An exception of a signal or of `progress` ends it early.
+pub(super) fn watched<R: Send>(
     py: Python<'_>,
+    progress: Progress,
+    work: impl FnOnce(Look<'_>) -> R + Send,
+) -> PyResult<R> {
+    let raised = Mutex::new(None);
+    let last = Mutex::new(Instant::now());
+    let look = |share: f64| {
+        let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut raised = raised.lock().unwrap_or_else(PoisonError::into_inner);
+        if raised.is_none() && last.elapsed() >= PERIOD {
+            *last = Instant::now();
+            *raised = Python::attach(|py| progress.tell(py, share)).err();
+        }
+        raised.is_none()
+    };
+    let found = py.detach(|| work(&look));
+    match raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some(error) => Err(error),
+        None => Ok(found),
+    }
+}
+
+/// Does the work of each job on so many threads, the calling one among them, all cores where that is
+/// zero; what the jobs return, joined in no order.
+pub(super) fn share<J: Send, R: Send>(
     threads: usize,
+    look: Look<'_>,
     jobs: Vec<J>,
     work: impl Fn(J, Go<'_>) -> Vec<R> + Sync,
-    progress: Progress,
-) -> PyResult<Vec<R>> {
+) -> Vec<R> {
     let total = jobs.len();
-    // Reads files of the system: not where the number is given.
+    // Reads files of the system: only where it matters.
     let all = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = if threads == 0 { all() } else { threads }.min(total);
+    let threads = if threads == 0 && total > 1 { all() } else { threads }.min(total);
     let (stop, done) = (AtomicBool::new(false), AtomicUsize::new(0));
     let queue = Mutex::new(jobs.into_iter());
     let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
@@ -58,48 +83,34 @@ pub(super) fn share<J: Send, R: Send>(
         }
     };
     let go = || !stop.load(Ordering::Relaxed);
-    let raised = Mutex::new(None);
-    let last = Mutex::new(Instant::now());
     // Of the calling thread.
     let go_and_look = || {
-        let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
-        if go() && last.elapsed() >= PERIOD {
-            *last = Instant::now();
-            let share = share_of(done.load(Ordering::Relaxed), total);
-            if let Err(error) = Python::attach(|py| progress.tell(py, share)) {
-                stop.store(true, Ordering::Relaxed);
-                *raised.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
-            }
+        if go() && !look(share_of(done.load(Ordering::Relaxed), total)) {
+            stop.store(true, Ordering::Relaxed);
         }
         go()
     };
-    let found = py.detach(|| {
-        std::thread::scope(|scope| {
-            let (sender, receiver) = channel();
-            for _ in 1..threads {
-                let (sender, go, each_job) = (sender.clone(), &go, &each_job);
-                scope.spawn(move || {
-                    // The receiver outlives the threads of the scope.
-                    each_job(go, &mut |found| drop(sender.send(found)));
-                });
+    std::thread::scope(|scope| {
+        let (sender, receiver) = channel();
+        for _ in 1..threads {
+            let (sender, go, each_job) = (sender.clone(), &go, &each_job);
+            scope.spawn(move || {
+                // The receiver outlives the threads of the scope.
+                each_job(go, &mut |found| drop(sender.send(found)));
+            });
+        }
+        drop(sender);
+        let mut found = Vec::new();
+        each_job(&go_and_look, &mut |more| found.extend(more));
+        loop {
+            match receiver.recv_timeout(PERIOD) {
+                Ok(more) => found.extend(more),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return found,
             }
-            drop(sender);
-            let mut found = Vec::new();
-            each_job(&go_and_look, &mut |more| found.extend(more));
-            loop {
-                match receiver.recv_timeout(PERIOD) {
-                    Ok(more) => found.extend(more),
-                    Err(RecvTimeoutError::Timeout) => {}
-                    Err(RecvTimeoutError::Disconnected) => return found,
-                }
-                go_and_look();
-            }
-        })
-    });
-    match raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some(error) => Err(error),
-        None => Ok(found),
-    }
+            go_and_look();
+        }
+    })
 }
 
 /// The share of jobs that are done.
