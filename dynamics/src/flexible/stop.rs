@@ -13,12 +13,13 @@ use crate::flexible::inputs::FlexibleInputs;
 use crate::flexible::spacecraft::FlexibleSpacecraft;
 use crate::flexible::state::FlexibleState;
 use crate::flexible::storage::ModalStorage;
+use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, prescribed, sum};
 use crate::model::mode::{HubMode, Mode};
 use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::zero;
 use crate::numbers::vec3::{
-    add, columns, components, neg, rotate, rotate_transposed, sub, vector, zeros,
+    add, columns, components, neg, rotate, rotate_transposed, vector, zeros,
 };
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
@@ -29,9 +30,9 @@ use crate::solve::accelerations::overflow;
 pub struct FlexibleStopped<D: Devices, S: ModalStorage, A> {
     /// The state with its new velocities; every locked joint is at rest.
     pub state: FlexibleState<D, S, A>,
-    /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero but
-    /// for rounding, unless a joint or the hub is prescribed. Of a free hub it is counted in the
-    /// frame that moved with B, where no digit is lost to the orbit's speed.
+    /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero unless
+    /// a joint or the hub is prescribed. Of the velocities' jump and not the difference of two
+    /// energies, so no digit is lost to what keeps moving.
     pub energy_lost: D::Scalar,
 }
 
@@ -51,16 +52,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         inputs: &FlexibleInputs<D, S>,
     ) -> Result<FlexibleStopped<D, S, A>, SolveError<D::Scalar>> {
         self.reject(state, inputs)?;
-        let next =
+        let Jumped { after: next, jump } =
             self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
-        let (mut before, mut after) = (state.clone(), next.clone());
-        if inputs.rigid.hub == HubMode::Free {
-            // Momentum stays, so every frame counts the same loss.
-            let [old, new] = [state, &next].map(|state| components(&state.rigid.r_b_n_dot));
-            before.rigid.r_b_n_dot = vector(zeros());
-            after.rigid.r_b_n_dot = vector(sub(new, old));
-        }
-        let energy_lost = self.energy(&before)? - self.energy(&after)?;
+        let mut given = next.clone();
+        given.rigid = prescribed(&next.rigid, &inputs.rigid);
+        given.eta_dot.as_mut().fill(zero());
+        let energy_lost = energy_lost((&jump, &given), |state| self.energy(state), both)?;
         self.rigid.check_reached(&next.rigid)?;
         Ok(FlexibleStopped { state: next, energy_lost })
     }
@@ -69,7 +66,7 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         &self,
         state: &FlexibleState<D, S, A>,
         inputs: &FlexibleInputs<D, S>,
-    ) -> Result<FlexibleState<D, S, A>, SolveError<D::Scalar>> {
+    ) -> Jump<FlexibleState<D, S, A>, D::Scalar> {
         let still = zeros();
         let mut impulses = inputs.clone();
         impulses.rigid.gravity = Gravity::None;
@@ -101,21 +98,39 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             return Err(overflow());
         }
 
-        let mut next = state.clone();
+        let (mut next, mut jump) = (state.clone(), state.clone());
         let of_joints = jumps.rigid.devices.values().zip(inputs.rigid.modes.values());
-        for ([_, rate], (jump, mode)) in next.rigid.devices.states_mut().zip(of_joints) {
+        let rates = next.rigid.devices.states_mut().zip(jump.rigid.devices.states_mut());
+        for (([_, rate], [_, jump]), (found, mode)) in rates.zip(of_joints) {
             // At rest exactly, without rounding.
-            *rate = if mode == Mode::Locked { zero() } else { *rate + jump };
+            let locked = mode == Mode::Locked;
+            (*rate, *jump) = if locked { (zero(), -*rate) } else { (*rate + found, found) };
         }
         for (rate, jump) in next.eta_dot.as_mut().iter_mut().zip(jumps.eta_ddot.as_ref()) {
             *rate = *rate + *jump;
         }
-        next.rigid.omega = vector(add(omega, hub.omega_dot));
-        let jump = rotate_transposed(&bn, hub.r_b_n_ddot);
-        next.rigid.r_b_n_dot = vector(add(components(&state.rigid.r_b_n_dot), jump));
-        if inputs.rigid.hub == HubMode::Fixed {
-            (next.rigid.omega, next.rigid.r_b_n_dot) = (vector(still), vector(still));
-        }
-        Ok(next)
+        jump.eta_dot = jumps.eta_ddot;
+        let velocity = components(&state.rigid.r_b_n_dot);
+        let (of_velocity, of_omega) = match inputs.rigid.hub {
+            HubMode::Fixed => (neg(velocity), neg(omega)),
+            _ => (rotate_transposed(&bn, hub.r_b_n_ddot), hub.omega_dot),
+        };
+        (jump.rigid.r_b_n_dot, jump.rigid.omega) = (vector(of_velocity), vector(of_omega));
+        next.rigid.r_b_n_dot = vector(add(velocity, of_velocity));
+        next.rigid.omega = vector(add(omega, of_omega));
+        Ok(Jumped { after: next, jump })
     }
+}
+
+/// The first state with the velocities `a x + b y`.
+fn both<D: Devices, S: ModalStorage, A: Attitude<D::Scalar>>(
+    (a, x): (D::Scalar, &FlexibleState<D, S, A>),
+    (b, y): (D::Scalar, &FlexibleState<D, S, A>),
+) -> FlexibleState<D, S, A> {
+    let mut found = x.clone();
+    found.rigid = sum((a, &x.rigid), (b, &y.rigid));
+    for (rate, other) in found.eta_dot.as_mut().iter_mut().zip(y.eta_dot.as_ref()) {
+        *rate = a * *rate + b * *other;
+    }
+    found
 }

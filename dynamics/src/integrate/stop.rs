@@ -11,11 +11,12 @@ use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::system::Solution;
+use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, prescribed, sum};
 use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::zero;
 use crate::numbers::vec3::{
-    add, columns, components, neg, rotate, rotate_transposed, sub, vector, zeros,
+    add, columns, components, neg, rotate, rotate_transposed, vector, zeros,
 };
 use crate::sets::counts::check_counts;
 use crate::sets::devices::Devices;
@@ -29,9 +30,9 @@ use crate::solve::state::State;
 pub struct Stopped<D: Devices, A> {
     /// The state with its new velocities; every locked joint is at rest.
     pub state: State<D, A>,
-    /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero but
-    /// for rounding, unless a joint or the hub is prescribed. Of a free hub it is counted in the
-    /// frame that moved with B, where no digit is lost to the orbit's speed.
+    /// Kinetic energy before less kinetic energy after, J: heat in the brakes. Not below zero unless
+    /// a joint or the hub is prescribed. Of the velocities' jump and not the difference of two
+    /// energies, so no digit is lost to what keeps moving.
     pub energy_lost: D::Scalar,
 }
 
@@ -73,15 +74,10 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
     ) -> Result<Stopped<D, A>, SolveError<D::Scalar>> {
         self.reject(state, inputs)?;
-        let next =
+        let Jumped { after: next, jump } =
             self.jump(state, inputs).map_err(|failure| self.diagnosis(state, inputs, failure))?;
-        let (mut before, mut after) = (state.clone(), next.clone());
-        if inputs.hub == HubMode::Free {
-            // Momentum stays, so every frame counts the same loss.
-            let (old, new) = (components(&state.r_b_n_dot), components(&next.r_b_n_dot));
-            (before.r_b_n_dot, after.r_b_n_dot) = (vector(zeros()), vector(sub(new, old)));
-        }
-        let energy_lost = self.energy(&before)? - self.energy(&after)?;
+        let velocities = (&jump, &prescribed(&next, inputs));
+        let energy_lost = energy_lost(velocities, |state| self.energy(state), sum)?;
         self.check_reached(&next)?;
         Ok(Stopped { state: next, energy_lost })
     }
@@ -90,7 +86,7 @@ impl<D: Devices> Spacecraft<D> {
         &self,
         state: &State<D, A>,
         inputs: &Inputs<D>,
-    ) -> Result<State<D, A>, SolveError<D::Scalar>> {
+    ) -> Jump<State<D, A>, D::Scalar> {
         let (still, motors) = (zeros(), D::new_data(&self.devices, &data::Motors));
         check_counts::<D>(&self.devices, &state.devices, Some(inputs.of_joints()), None)?;
         let mut scratch = D::new_data(&self.devices, &data::Gains);
@@ -108,19 +104,23 @@ impl<D: Devices> Spacecraft<D> {
             return Err(SolveError::Overflow { what: Quantity::HubAcceleration });
         }
         let jumps = self.back_substitute(&scratch, &hub)?;
-        let mut next = state.clone();
+        let (mut next, mut jump) = (state.clone(), state.clone());
         let of_joints = jumps.values().zip(inputs.modes.values());
-        for ([_, rate], (jump, mode)) in next.devices.states_mut().zip(of_joints) {
+        let rates = next.devices.states_mut().zip(jump.devices.states_mut());
+        for (([_, rate], [_, jump]), (found, mode)) in rates.zip(of_joints) {
             // At rest exactly, without rounding.
-            *rate = if mode == Mode::Locked { zero() } else { *rate + jump };
+            let locked = mode == Mode::Locked;
+            (*rate, *jump) = if locked { (zero(), -*rate) } else { (*rate + found, found) };
         }
-        next.omega = vector(add(components(&state.omega), hub.omega_dot));
-        let jump = rotate_transposed(&bn, hub.r_b_n_ddot);
-        next.r_b_n_dot = vector(add(components(&state.r_b_n_dot), jump));
-        if inputs.hub == HubMode::Fixed {
-            (next.omega, next.r_b_n_dot) = (vector(still), vector(still));
-        }
-        Ok(next)
+        let (velocity, omega) = (components(&state.r_b_n_dot), components(&state.omega));
+        let (of_velocity, of_omega) = match inputs.hub {
+            HubMode::Fixed => (neg(velocity), neg(omega)),
+            _ => (rotate_transposed(&bn, hub.r_b_n_ddot), hub.omega_dot),
+        };
+        (jump.r_b_n_dot, jump.omega) = (vector(of_velocity), vector(of_omega));
+        next.r_b_n_dot = vector(add(velocity, of_velocity));
+        next.omega = vector(add(omega, of_omega));
+        Ok(Jumped { after: next, jump })
     }
 
     /// Eliminates every joint where velocities jump and nothing acts but impulses at the motors.

@@ -169,6 +169,13 @@ impl Blocks {
         blocks
     }
 
+    /// The energy lost in an impulsive stop.
+    pub(crate) fn of_energy_lost<T: Exact>(energy_lost: T) -> Self {
+        let mut blocks = Self::none();
+        blocks.add("energy lost", [energy_lost]);
+        blocks
+    }
+
     /// The largest difference of each block, in units of the largest number expected there.
     pub(crate) fn errors<'a>(
         &'a self,

@@ -105,6 +105,29 @@ fn solver_stops_joints_impulsively_as_pinocchio_does() {
     claims.finish(ACCELERATIONS_WORST, ACCELERATIONS_MEDIAN);
 }
 
+/// Largest error of the energy lost in a stop, of itself. As a difference of two energies it was
+/// 6.8e-12.
+const ENERGY_LOST: f64 = 1e-12;
+
+/// In double-double the difference of the two kinetic energies has digits to spare.
+#[test]
+fn energy_lost_is_the_difference_of_energies_in_double_double() {
+    let mut solver = Claims::new("energy lost against double-double");
+    let mut twofold = Claims::new("energy lost against its difference, both double-double");
+    let mut of_pinocchio = Claims::new("energy lost of pinocchio against double-double");
+    for stop in &stored::file().stops {
+        let (craft, case) = (&stop.craft, Case::<DoubleDouble>::new(&stop.craft));
+        let lost = Blocks::of_energy_lost(case.energy_difference());
+        let found = Case::<f64>::new(craft).stopped().energy_lost;
+        solver.take(craft, &Blocks::of_energy_lost(found), &lost);
+        twofold.take(craft, &Blocks::of_energy_lost(case.stopped().energy_lost), &lost);
+        of_pinocchio.take(craft, &Blocks::of_energy_lost(stop.pinocchio.energy_lost), &lost);
+    }
+    solver.finish(ENERGY_LOST, ACCELERATIONS_MEDIAN);
+    twofold.finish(ROUTES_IN_DOUBLE_DOUBLE, ROUTES_IN_DOUBLE_DOUBLE);
+    of_pinocchio.finish(ENERGY_LOST, ACCELERATIONS_MEDIAN);
+}
+
 /// Whose rounding separates solver, Pinocchio and `MuJoCo`: each against the reference.
 #[test]
 fn reference_in_double_double_is_within_the_rounding_of_all() {

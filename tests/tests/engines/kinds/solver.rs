@@ -72,6 +72,21 @@ impl<T: Scalar> Case<T> {
         self.expect_ok(self.craft.accelerations(&self.state, &self.inputs))
     }
 
+    /// Kinetic energy.
+    pub(crate) fn energy(&self) -> T {
+        self.expect_ok(self.craft.energy(&self.state))
+    }
+
+    /// The state after an impulsive stop, and the energy lost.
+    pub(crate) fn stopped(&self) -> Stopped<Set<T>, Quaternion<T>> {
+        self.expect_ok(self.craft.stop(&self.state, &self.inputs))
+    }
+
+    /// Kinetic energy before an impulsive stop less kinetic energy after it.
+    pub(crate) fn energy_difference(&self) -> T {
+        self.energy() - self.expect_ok(self.craft.energy(&self.stopped().state))
+    }
+
     fn expect_ok<R>(&self, result: Result<R, SolveError<T>>) -> R {
         result.unwrap_or_else(|error| panic!("{}: {error}", self.name))
     }
@@ -83,11 +98,6 @@ impl Case<f64> {
         self.expect_ok(self.craft.loads(&self.state, &self.inputs, found, LoadAxes::Body))
     }
 
-    /// Kinetic energy.
-    pub(crate) fn energy(&self) -> f64 {
-        self.expect_ok(self.craft.energy(&self.state))
-    }
-
     /// Energy of gravity with B at the origin, and of springs.
     pub(crate) fn potential(&self) -> f64 {
         let ledger = self.craft.ledger(&self.state, &self.inputs, &self.accelerations());
@@ -95,11 +105,6 @@ impl Case<f64> {
         let Gravity::Uniform(g) = self.inputs.gravity else { panic!("{}: gravity", self.name) };
         let of_b = -self.mass * g.dot(&self.state.r_b_n);
         ledger.gravity - of_b + ledger.springs
-    }
-
-    /// The state after an impulsive stop, and the energy lost.
-    pub(crate) fn stopped(&self) -> Stopped<Set<f64>, Quaternion> {
-        self.expect_ok(self.craft.stop(&self.state, &self.inputs))
     }
 
     /// Linear momentum, moment of momentum about B, centre of mass from B; along B.
