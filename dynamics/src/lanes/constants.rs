@@ -8,7 +8,7 @@ use std::vec::Vec;
 use core::convert::Infallible;
 use core::fmt;
 
-use super::slot::LanedSet;
+use super::laned_set::LanedSet;
 use crate::equations::device::Device;
 use crate::equations::hub::HubConstants;
 use crate::model::kernels::Kernels;
