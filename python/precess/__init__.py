@@ -26,17 +26,16 @@ from .errors import (
     UnsupportedError,
 )
 from .inputs import Inputs
+from .linearization import Linearization, StepLinearization
 from .result import Drift, Event, Requirement, Result
 from .scenario import Scenario, ScenarioWarning
 from .spacecraft import (
     Accelerations,
     Joint,
-    Linearization,
     MassMatrix,
     Momentum,
     Parameter,
     Spacecraft,
-    StepLinearization,
 )
 from .state import State
 

@@ -41,7 +41,7 @@ class Derivatives:
 
     @cached_property
     def jax_function(self) -> _native.NativeFunction:
-        """What XLA calls."""
+        """What XLA calls, with a copy of the inputs at the first use."""
         return _native.NativeFunction(self._batch._native, self.inputs._native)
 
     @property

@@ -5,8 +5,8 @@
 >>> accelerations = precess.jax.accelerations(craft)
 >>> jax.jacobian(accelerations)(y, u)
 
-Functions are foreign functions of XLA on the CPU: they read and write its buffers, without Python. They pass ``jit``, ``vmap`` (one call of the library for all elements), ``jvp``, ``vjp`` and what is
-made of them; derivatives are those of :meth:`precess.Spacecraft.linearize`, and have none of their own.
+Functions are foreign functions of XLA on the CPU: they read and write its buffers, without Python. They pass ``jit``, ``vmap`` (one
+call of the library for all elements), ``jvp``, ``vjp`` and what is made of them; derivatives are those of :meth:`precess.Spacecraft.linearize`, and have none of their own.
 """
 
 from __future__ import annotations
@@ -51,7 +51,8 @@ def accelerations(
         What evaluates them; its ``jax_calls`` count the calls of the library.
 
     ``y`` is in the order of :attr:`precess.Spacecraft.state_names`, its quaternion normalised where it is used; the result in that of
-    :attr:`precess.Spacecraft.acceleration_names`. NaN where a state has no accelerations.
+    :attr:`precess.Spacecraft.acceleration_names`. NaN where a state has no accelerations. Keep the function as long as anything that was
+    compiled of it is called.
 
     Raises
     ------
@@ -61,7 +62,10 @@ def accelerations(
     _register()
     host = Derivatives(spacecraft, inputs) if of is None else of
     native = host.jax_function
-    system = _System(host)
+
+    @functools.cache
+    def system() -> _System:
+        return _System(host)
 
     def call(name: str, shapes: Any, y: Any, u: Any) -> Any:
         foreign = _jax.ffi.ffi_call(name, shapes, vmap_method="broadcast_all")
@@ -77,10 +81,10 @@ def accelerations(
     @found.defjvp
     def tangent(primals: Any, tangents: Any) -> Any:
         (y, u), (dy, du) = primals, tangents
-        rows, states, inputs = system.sizes
+        rows, states, inputs = system().sizes
         shapes = (result(rows, states), result(rows, inputs))
         c, d = call("precess_linearize", shapes, y, u)
-        return found(y, u), system.tangent(c, d, y, dy, du)
+        return found(y, u), system().tangent(c, d, y, dy, du)
 
     def function(y: Any, u: Any) -> jax.Array:
         if not _jax.config.read("jax_enable_x64"):
@@ -112,15 +116,16 @@ class _System:
         self._attitude = np.array(of.attitude_columns(states), dtype=int)
 
     def tangent(self, c: Any, d: Any, y: Any, dy: Any, du: Any) -> Any:
-        """``C dx + D dw``, in its places; NaN where there is no system."""
+        """``C dx + D dw`` as accelerations, zero where the system has no row; NaN by every number where there is no system."""
         dx = jnp.zeros(self.sizes[1]).at[self._states[:, 0]].set(dy[self._states[:, 1]], unique_indices=True)
         if len(self._attitude):
             q0, q1, q2, q3 = q = y[6:10]
             turn = jnp.array([[-q1, q0, q3, -q2], [-q2, -q3, q0, q1], [-q3, q2, -q1, q0]])
             dx = dx.at[self._attitude].set(2.0 / jnp.dot(q, q) * (turn @ dy[6:10]), unique_indices=True)
         dw = jnp.zeros(self.sizes[2]).at[self._inputs[:, 0]].set(du[self._inputs[:, 1]], unique_indices=True)
-        sound = jnp.where(jnp.isnan(c).any(), jnp.nan, 1.0)
-        return sound * jnp.zeros(self._size).at[self._outputs].set(c @ dx + d @ dw, unique_indices=True)
+        value = jnp.zeros(self._size).at[self._outputs].set(c @ dx + d @ dw, unique_indices=True)
+        none = jnp.where(jnp.isnan(c).any(), jnp.nan, 0.0)
+        return value + none * (dy.sum() + du.sum())
 
 
 def derivative(

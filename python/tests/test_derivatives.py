@@ -121,15 +121,41 @@ def test_failures_in_jax_are_nan_or_errors(craft: precess.Spacecraft) -> None:
     assert np.isnan(found[1]).all() and np.isfinite(found[np.array([0, 2])]).all()
     jacobian = jax.vmap(jax.jacfwd(function))(y, u)
     assert np.isnan(jacobian[1]).all() and np.isfinite(jacobian[np.array([0, 2])]).all()
+    inputs = craft.inputs()
+    for joint in craft.joints:
+        inputs.modes[joint.coordinate] = "locked"
+    still = Derivatives(craft, inputs)
+    locked: Any = accelerations(craft, of=still)
+    at_rest = y.copy()
+    at_rest[:, [craft.state_names.index(joint.rate) for joint in craft.joints]] = 0.0
+    for place in (0, 1):
+        expected = still.jacobians(at_rest, u)[place]
+        for jacobian_of in (jax.jacfwd, jax.jacrev):
+            of_locked = jax.vmap(jacobian_of(locked, argnums=place))(at_rest, u)
+            np.testing.assert_allclose(of_locked, expected, rtol=1e-12, atol=1e-14)
+            assert np.isnan(of_locked[1]).all()
     with pytest.raises(Exception, match=f"a state has {craft.state_size}"):
         function(y[0, :-1], u[0])
     gone = jax.ffi.ffi_call("precess_accelerations", jax.ShapeDtypeStruct((of.acceleration_size,), np.float64))
-    with pytest.raises(Exception, match="spacecraft is gone"):
+    with pytest.raises(Exception, match="no longer exists"):
         gone(y[0], u[0], number=np.int64(0))
     # The function keeps what it calls.
     of.__dict__.pop("jax_function")
     compiled = jax.jit(function)
     np.testing.assert_array_equal(compiled(y[0], u[0]), found[0])
+
+
+def test_a_structure_that_bends_has_values_in_jax() -> None:
+    jax = pytest.importorskip("jax")
+    jax.config.update("jax_enable_x64", True)
+    from precess.jax import accelerations
+
+    craft = precess.Scenario.from_toml("scenarios/imaging-satellite-flexible.toml").spacecraft
+    function: Any = accelerations(craft)
+    y, u = craft.initial_state().to_array(), craft.inputs().to_array()
+    np.testing.assert_array_equal(jax.jit(function)(y, u), np.asarray(craft.accelerations(y)))
+    with pytest.raises(precess.UnsupportedError):
+        jax.jacfwd(function)(y, u)
 
 
 def test_casadi_has_exact_derivatives(craft: precess.Spacecraft) -> None:

@@ -31,6 +31,7 @@ IMPORTED = {
     "precess.columns",
     "precess.errors",
     "precess.inputs",
+    "precess.linearization",
     "precess.result",
     "precess.scenario",
     "precess.spacecraft",

@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use super::slot::LanedSet;
+use super::laned_set::LanedSet;
 use crate::equations::error::SolveError;
 use crate::solve::inputs::Inputs;
 

@@ -8,7 +8,7 @@ use std::vec::Vec;
 use core::convert::Infallible;
 use core::fmt;
 
-use super::slot::LanedSet;
+use super::laned_set::LanedSet;
 use crate::equations::device::Device;
 use crate::equations::hub::HubConstants;
 use crate::model::kernels::Kernels;
@@ -61,8 +61,8 @@ pub(super) struct LoadConstants<T: Number> {
 
 /// Writes the numbers of a device, in the order in which [`DeviceBlocks::new`] reads them.
 ///
-/// Constants are put side by side by way of such lists, since each of hundreds that is put into one lane of
-/// a [`Block`] by itself takes 300 bytes of code.
+/// Blocks are made from these lists: writing each constant into its lane separately took 300 bytes of
+/// code, for hundreds of constants.
 fn write<K: Kind<Scalar = f64>>(device: &Device<K>, numbers: &mut Vec<f64>) {
     let mut write = |number| push(numbers, number);
     K::zip_constants(&device.constants, &device.constants, |number, _| write(number));
@@ -72,9 +72,10 @@ fn write<K: Kind<Scalar = f64>>(device: &Device<K>, numbers: &mut Vec<f64>) {
     write(flag(device.is_dry()));
     device.mount.iter().flatten().for_each(|number| write(*number));
     write(flag(device.lumped.is_some()));
-    let none = Lumped { u_s: 0.0, j_12: 0.0, j_13: 0.0 };
-    device.lumped.unwrap_or(none).map(write);
+    device.lumped.unwrap_or(NO_LUMPED).map(write);
 }
+
+const NO_LUMPED: Lumped<f64> = Lumped { u_s: 0.0, j_12: 0.0, j_13: 0.0 };
 
 #[inline(never)]
 fn push(numbers: &mut Vec<f64>, number: f64) {
@@ -122,8 +123,9 @@ impl<K: Kind<Scalar = f64>> DeviceBlocks<K> {
         let (_, dry) = blocks.next_flag();
         let mount = map(shape.mount, |column| map(column, |_| blocks.next()));
         let (has, any_lumped) = blocks.next_flag();
-        let none = Lumped { u_s: 0.0, j_12: 0.0, j_13: 0.0 };
-        let lumped = any_lumped.then(|| (none.map(|_| blocks.next()), has));
+        let lumped = (NO_LUMPED.map(|_| blocks.next()), has);
+        debug_assert_eq!(blocks.read, numbers.len() / WIDEST);
+        let lumped = any_lumped.then_some(lumped);
         Self { constants, passive, bound, sprung, free: !any_sprung, dry, mount, lumped }
     }
 

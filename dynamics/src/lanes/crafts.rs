@@ -4,7 +4,8 @@
 
 use super::constants::{CraftBlocks, OwnLoads};
 use super::evaluate::LanedCraft;
-use super::slot::{LanedSet, SlotsOf, enter_constants};
+use super::laned_set::LanedSet;
+use super::slot::{SlotsOf, enter_constants};
 use crate::numbers::laned::Number;
 use crate::solve::spacecraft::Spacecraft;
 

@@ -6,8 +6,9 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::constants::{DeviceConstants, same_in_lanes};
+use super::laned_set::LanedSet;
 use super::passive::{add_stiffness, viscous, where_sprung, with_passive};
-use super::slot::{Aligned, EachSlot, LanedSet, Slot, SlotsOf, each_slot};
+use super::slot::{Aligned, EachSlot, Slot, SlotsOf, each_slot};
 use crate::equations::assembly::{Assembly, expressed_in_b};
 use crate::equations::device::Device;
 use crate::equations::hub::HubConstants;

@@ -5,7 +5,7 @@ use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
 
-use super::slot::LanedSet;
+use super::laned_set::LanedSet;
 
 /// One state's accelerations.
 pub(super) fn accelerations<D: LanedSet>(

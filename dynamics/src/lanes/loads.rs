@@ -11,9 +11,10 @@
 use super::constants::{DeviceConstants, LoadConstants, loads_in_lanes, same_in_lanes};
 use super::evaluate::Acting;
 use super::group::GroupLoads;
+use super::laned_set::LanedSet;
 use super::motion::Motion;
 use super::passive::{keeps_turning, with_own};
-use super::slot::{EachSlot, LanedSet, Slot, SlotsOf, each_slot};
+use super::slot::{EachSlot, Slot, SlotsOf, each_slot};
 use crate::attitude::quaternion::bn;
 use crate::equations::device::Device;
 use crate::equations::gravity::{Central, gradient, powers};

@@ -3,7 +3,7 @@
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
 use super::gather::{joined, wide};
-use super::slot::LanedSet;
+use super::laned_set::LanedSet;
 use crate::attitude::quaternion::Quaternion;
 use crate::equations::gravity::Gravity;
 use crate::numbers::laned::{Block, Number, WIDEST};

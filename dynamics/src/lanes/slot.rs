@@ -11,17 +11,18 @@ use nalgebra::Vector3;
 
 use super::constants::{DeviceBlocks, EachConstants};
 use super::gather::joints_in_lanes;
+use super::laned_set::LanedSet;
 use super::loads::put_wrenches;
 use super::states::States;
 use crate::equations::device::Device;
 use crate::model::kernels::Kernels;
 use crate::model::kind::Kind;
-use crate::model::mode::{Drive, Mode};
+use crate::model::mode::Drive;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::laned::{Block, Number, WIDEST};
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
-use crate::sets::devices::{DeviceSet, Devices, SetInputs, Visit};
+use crate::sets::devices::{DeviceSet, SetInputs, Visit};
 use crate::sets::enumeration::{DeviceEnum, Variant};
 use crate::sets::per_device::{self as data, PerDevice};
 
@@ -111,101 +112,6 @@ impl<T: Value> PerDevice<f64> for Slots<T> {
     fn count<E: DeviceEnum<Scalar = f64>>((): &()) -> Option<usize> {
         None
     }
-}
-
-/// A set of devices that can be evaluated in lanes: every kind, arrays, tuples, vectors.
-///
-/// Lanes evaluate the same devices at several states. Data of a vector with another number of members
-/// fall back to the scalar path, which returns the error.
-pub trait LanedSet:
-    Devices<Scalar = f64> + DeviceSet<Prepared: Send + Sync, Per<EachConstants>: Send + Sync>
-{
-    /// Whether lanes may fuse: those of a set with a vector do not, which halves its code.
-    const FUSES: bool;
-
-    /// Whether data are of as many members as the devices.
-    fn fits<F: PerDevice<f64>>(devices: &Self::Prepared, data: &Self::Per<F>) -> bool;
-    /// Whether two sets have as many members.
-    fn is_alike(devices: &Self::Prepared, other: &Self::Prepared) -> bool;
-}
-
-impl<K: Kind<Scalar = f64>> LanedSet for K {
-    const FUSES: bool = true;
-
-    #[inline(always)]
-    fn fits<F: PerDevice<f64>>(_: &Self::Prepared, _: &Self::Per<F>) -> bool {
-        true
-    }
-
-    #[inline(always)]
-    fn is_alike(_: &Self::Prepared, _: &Self::Prepared) -> bool {
-        true
-    }
-}
-
-impl<D: LanedSet, const N: usize> LanedSet for [D; N] {
-    const FUSES: bool = D::FUSES;
-
-    #[inline(always)]
-    fn fits<F: PerDevice<f64>>(devices: &Self::Prepared, data: &Self::Per<F>) -> bool {
-        devices.iter().zip(data).all(|(device, data)| D::fits::<F>(device, data))
-    }
-
-    #[inline(always)]
-    fn is_alike(devices: &Self::Prepared, other: &Self::Prepared) -> bool {
-        devices.iter().zip(other).all(|(device, other)| D::is_alike(device, other))
-    }
-}
-
-impl<D: LanedSet> LanedSet for std::vec::Vec<D> {
-    const FUSES: bool = false;
-
-    fn fits<F: PerDevice<f64>>(devices: &Self::Prepared, data: &Self::Per<F>) -> bool {
-        let members = || devices.iter().zip(data);
-        devices.len() == data.len() && members().all(|(device, data)| D::fits::<F>(device, data))
-    }
-
-    fn is_alike(devices: &Self::Prepared, other: &Self::Prepared) -> bool {
-        let members = || devices.iter().zip(other);
-        devices.len() == other.len() && members().all(|(device, other)| D::is_alike(device, other))
-    }
-}
-
-macro_rules! tuples {
-    ($($($member:ident $place:tt)*;)*) => {$(
-        impl<$($member: LanedSet),*> LanedSet for ($($member,)*) {
-            const FUSES: bool = $($member::FUSES &&)* true;
-
-            #[inline(always)]
-            fn fits<Y: PerDevice<f64>>(devices: &Self::Prepared, data: &Self::Per<Y>) -> bool {
-                $($member::fits::<Y>(&devices.$place, &data.$place) &&)* true
-            }
-
-            #[inline(always)]
-            fn is_alike(devices: &Self::Prepared, other: &Self::Prepared) -> bool {
-                $($member::is_alike(&devices.$place, &other.$place) &&)* true
-            }
-        }
-    )*};
-}
-
-tuples! {
-    A 0;
-    A 0 B 1;
-    A 0 B 1 C 2;
-    A 0 B 1 C 2 D 3;
-    A 0 B 1 C 2 D 3 E 4;
-    A 0 B 1 C 2 D 3 E 4 F 5;
-    A 0 B 1 C 2 D 3 E 4 F 5 G 6;
-    A 0 B 1 C 2 D 3 E 4 F 5 G 6 H 7;
-}
-
-/// Whether inputs are of as many devices.
-#[inline(always)]
-pub(crate) fn fit_inputs<D: LanedSet>(devices: &D::Prepared, inputs: SetInputs<'_, D>) -> bool {
-    D::fits::<data::Motors>(devices, inputs.motors)
-        && D::fits::<data::PerJoint<Mode<f64>>>(devices, inputs.modes)
-        && inputs.bodies.is_none_or(|of| D::fits::<data::PerJoint<Wrench<f64>>>(devices, of))
 }
 
 /// The slots of a set.

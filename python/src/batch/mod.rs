@@ -193,11 +193,7 @@ impl NativeBatch {
         u: Option<PyReadonlyArray2<'py, f64>>,
         threads: usize,
     ) -> PyResult<LinearizedFacts<'py>> {
-        if self.rows.count.is_some() {
-            let message =
-                "spacecraft that differ are linearised one by one, by Spacecraft.linearize";
-            return Err(errors::class::UnsupportedError::new_err(message));
-        }
+        self.of_one()?;
         let Given { y, count, acting, .. } = self.given(&y, inputs, u.as_ref())?;
         let shape = self.rows.linearized(&acting.base);
         let shape = shape.map_err(|error| errors::evaluation(&error))?;
@@ -228,19 +224,29 @@ struct Given {
 }
 
 impl NativeBatch {
+    /// The rows of one spacecraft.
+    pub(crate) fn of_one(&self) -> PyResult<&Arc<BatchRows>> {
+        if self.rows.count.is_some() {
+            let message =
+                "spacecraft that differ are linearised one by one, by Spacecraft.linearize";
+            return Err(errors::class::UnsupportedError::new_err(message));
+        }
+        Ok(&self.rows)
+    }
+
     fn given(
         &self,
         y: &PyReadonlyArray2<'_, f64>,
         inputs: &NativeInputs,
         u: Option<&PyReadonlyArray2<'_, f64>>,
     ) -> PyResult<Given> {
-        let (y, count) = self.rows(y)?;
+        let (y, count) = self.states(y)?;
         let acting = self.acting(inputs.get()?.clone(), u, count)?;
         Ok(Given { y, count, size: self.rows.state_size(), acting })
     }
 
     /// The rows of states.
-    fn rows(&self, y: &PyReadonlyArray2<'_, f64>) -> PyResult<(Vec<f64>, usize)> {
+    fn states(&self, y: &PyReadonlyArray2<'_, f64>) -> PyResult<(Vec<f64>, usize)> {
         let [count, width] = [y.shape()[0], y.shape()[1]];
         let size = self.rows.state_size();
         if width != size {

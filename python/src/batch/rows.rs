@@ -32,7 +32,7 @@ pub(crate) struct Linearized {
 }
 
 /// How many of each.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(crate) struct Sizes {
     pub(crate) rows: usize,
     pub(crate) states: usize,
@@ -180,7 +180,7 @@ pub(super) fn failed_rows(
     ends: &[Result<(), Failure>],
     rows: &mut [f64],
     width: usize,
-) -> Vec<(usize, Failure)> {
+) -> Failed {
     let mut failures = Vec::new();
     for (index, (end, row)) in ends.iter().zip(rows.chunks_mut(width.max(1))).enumerate() {
         if let Err(failure) = end {

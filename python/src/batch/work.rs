@@ -1,5 +1,5 @@
-//! [`share`]: parts of a batch on threads. The calling one is one of them, and looks at signals and
-//! tells of progress on its way ([`watched`]): work on one thread starts none.
+//! [`share`]: parts of a batch on threads, of which the calling thread is one. Between parts, and within
+//! long ones, that thread checks signals and calls `progress` ([`watched`]). One thread starts no other.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -42,11 +42,11 @@ pub(super) fn watched<R: Send>(
     progress: Progress,
     work: impl FnOnce(Look<'_>) -> R + Send,
 ) -> PyResult<R> {
-    let raised = Mutex::new(None);
-    let last = Mutex::new(Instant::now());
+    // Only the calling thread locks it, so it may hold it while Python is called.
+    let watch = Mutex::new((Instant::now(), None));
     let look = |share: f64| {
-        let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut raised = raised.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut watch = watch.lock().unwrap_or_else(PoisonError::into_inner);
+        let (last, raised) = &mut *watch;
         if raised.is_none() && last.elapsed() >= PERIOD {
             *last = Instant::now();
             *raised = Python::attach(|py| progress.tell(py, share)).err();
@@ -54,9 +54,9 @@ pub(super) fn watched<R: Send>(
         raised.is_none()
     };
     let found = py.detach(|| work(&look));
-    match raised.into_inner().unwrap_or_else(PoisonError::into_inner) {
-        Some(error) => Err(error),
-        None => Ok(found),
+    match watch.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        (_, Some(error)) => Err(error),
+        (_, None) => Ok(found),
     }
 }
 
@@ -85,7 +85,7 @@ pub(super) fn share<J: Send, R: Send>(
     let go = || !stop.load(Ordering::Relaxed);
     // Of the calling thread.
     let go_and_look = || {
-        if go() && !look(share_of(done.load(Ordering::Relaxed), total)) {
+        if go() && !look(share_of(done.load(Ordering::Relaxed), total.max(1))) {
             stop.store(true, Ordering::Relaxed);
         }
         go()

@@ -1,11 +1,10 @@
-//! What of XLA's foreign function interface is used here: `xla/ffi/api/c_api.h`, version 0.3, field by field.
-//!
-//! Every structure states its size, so that later versions may add fields at its end.
+//! The part of XLA's foreign function interface that is used: the leading fields of structures of
+//! `xla/ffi/api/c_api.h`. XLA sets the others to zero.
 
 use std::ffi::{c_char, c_int, c_void};
 
-/// Version that these structures are of.
-pub(super) const VERSION: (c_int, c_int) = (0, 3);
+/// The first version: nothing of a later one is used.
+pub(super) const VERSION: (c_int, c_int) = (0, 1);
 
 /// `XLA_FFI_Extension_Metadata`.
 pub(super) const METADATA: c_int = 1;
@@ -19,6 +18,8 @@ pub(super) const S64: c_int = 5;
 pub(super) const F64: c_int = 12;
 /// `XLA_FFI_Error_Code_INVALID_ARGUMENT`.
 pub(super) const INVALID_ARGUMENT: c_int = 3;
+/// `XLA_FFI_Error_Code_INTERNAL`.
+pub(super) const INTERNAL: c_int = 13;
 
 /// An error of XLA's, or null.
 pub(super) type Error = *mut c_void;

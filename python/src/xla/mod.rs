@@ -7,12 +7,13 @@ mod abi;
 
 use std::collections::BTreeMap;
 use std::ffi::CString;
+use std::mem::offset_of;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::null_mut;
 use std::sync::atomic::{AtomicI64, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use precess::evaluation::CraftInputs;
+use precess::evaluation::{CraftInputs, EvaluationError};
 use pyo3::prelude::*;
 
 use crate::batch::{ActingRows, BatchRows, Linearized, NativeBatch};
@@ -27,7 +28,8 @@ const NAMES: [&str; 2] = ["precess_accelerations", "precess_linearize"];
 struct Function {
     batch: Arc<BatchRows>,
     base: CraftInputs,
-    linearized: Linearized,
+    /// None of a structure that bends.
+    linearized: Result<Linearized, EvaluationError>,
     /// Calls of each of [`NAMES`].
     calls: [AtomicU64; 2],
 }
@@ -50,8 +52,8 @@ pub(crate) struct NativeFunction {
 impl NativeFunction {
     #[new]
     fn new(batch: &NativeBatch, inputs: &NativeInputs) -> PyResult<Self> {
-        let (batch, base) = (batch.rows.clone(), inputs.get()?.clone());
-        let linearized = batch.linearized(&base).map_err(|error| errors::evaluation(&error))?;
+        let (batch, base) = (batch.of_one()?.clone(), inputs.get()?.clone());
+        let linearized = batch.linearized(&base);
         let function = Arc::new(Function { batch, base, linearized, calls: Default::default() });
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
         functions().insert(number, function.clone());
@@ -66,9 +68,10 @@ impl NativeFunction {
 
     /// Names of the linearised system: accelerations, states, inputs.
     #[getter]
-    fn linearized(&self) -> (Vec<String>, Vec<String>, Vec<String>) {
-        let Linearized { outputs, states, inputs } = &self.function.linearized;
-        (outputs.clone(), states.clone(), inputs.clone())
+    fn linearized(&self) -> PyResult<(Vec<String>, Vec<String>, Vec<String>)> {
+        let found = self.function.linearized.as_ref().map_err(errors::evaluation)?;
+        let Linearized { outputs, states, inputs } = found;
+        Ok((outputs.clone(), states.clone(), inputs.clone()))
     }
 
     /// Calls of accelerations and of derivatives so far, once for a batch.
@@ -101,10 +104,9 @@ type Handler = unsafe extern "C" fn(*mut CallFrame) -> Error;
 unsafe extern "C" fn accelerations(frame: *mut CallFrame) -> Error {
     // SAFETY: as this function.
     unsafe {
-        answered(frame, |of, [y, u], [a]: [&mut [f64]; 1]| {
-            of.calls[0].fetch_add(1, Ordering::Relaxed);
+        call_handler(frame, |of, [y, u], [a]: [&mut [f64]; 1]| {
             let acting = of.acting(y, u, &[(a.len(), of.batch.acceleration_size())])?;
-            // Rows that fail are NaN.
+            of.calls[0].fetch_add(1, Ordering::Relaxed);
             of.batch.accelerations((y, &acting), a, 0, &|_| true);
             Ok(())
         })
@@ -119,13 +121,12 @@ unsafe extern "C" fn accelerations(frame: *mut CallFrame) -> Error {
 unsafe extern "C" fn linearize(frame: *mut CallFrame) -> Error {
     // SAFETY: as this function.
     unsafe {
-        answered(frame, |of, [y, u], [c, d]: [&mut [f64]; 2]| {
-            of.calls[1].fetch_add(1, Ordering::Relaxed);
-            let sizes = of.linearized.sizes();
+        call_handler(frame, |of, [y, u], [c, d]: [&mut [f64]; 2]| {
+            let system = of.linearized.as_ref().map_err(ToString::to_string)?;
+            let sizes = system.sizes();
             let (of_c, of_d) = (sizes.rows * sizes.states, sizes.rows * sizes.inputs);
             let acting = of.acting(y, u, &[(c.len(), of_c), (d.len(), of_d)])?;
-            c.fill(f64::NAN);
-            d.fill(f64::NAN);
+            of.calls[1].fetch_add(1, Ordering::Relaxed);
             of.batch.linearize((y, &acting), sizes, (c, d), 0, &|_| true);
             Ok(())
         })
@@ -149,29 +150,34 @@ impl Function {
     }
 }
 
-/// Answers a call: the version where XLA asks for it, else what `work` does with the arguments and results.
+/// Returns the version on a metadata query; otherwise calls `work` with the arguments and results.
 ///
 /// # Safety
 ///
 /// As [`accelerations`].
-unsafe fn answered<const R: usize>(
+unsafe fn call_handler<const R: usize>(
     frame: *mut CallFrame,
     work: impl FnOnce(&Function, [&[f64]; 2], [&mut [f64]; R]) -> Result<(), String>,
 ) -> Error {
     // SAFETY: XLA passes a call frame that outlives the call.
     let frame = unsafe { &mut *frame };
     // SAFETY: an extension begins with its kind; one of this kind is a `MetadataExtension`, to be filled in.
+    // Metadata begin with their size.
     unsafe {
         if let Some(extension) = frame.extension_start.as_mut()
             && extension.kind == abi::METADATA
         {
-            let extension = &mut *frame.extension_start.cast::<abi::MetadataExtension>();
+            let metadata = (*frame.extension_start.cast::<abi::MetadataExtension>()).metadata;
+            let needed = offset_of!(abi::Metadata, traits) + size_of::<u32>();
+            if (*metadata).struct_size < needed {
+                return failed(frame, "metadata are too short".to_string(), abi::INTERNAL);
+            }
             let (major, minor) = abi::VERSION;
             let struct_size = size_of::<abi::ApiVersion>();
-            let metadata = &mut *extension.metadata;
             let extension_start = null_mut();
-            metadata.api_version = abi::ApiVersion { struct_size, extension_start, major, minor };
-            metadata.traits = 0;
+            (*metadata).api_version =
+                abi::ApiVersion { struct_size, extension_start, major, minor };
+            (*metadata).traits = 0;
             return null_mut();
         }
     }
@@ -179,17 +185,30 @@ unsafe fn answered<const R: usize>(
         // SAFETY: arguments and results are those of this call, which do not overlap.
         let (number, arguments, results) = unsafe { taken(frame) }?;
         let of = functions().get(&number).cloned();
-        let of = of.ok_or("its spacecraft is gone: keep the function of Python")?;
+        let of = of.ok_or(
+            "the function of precess.jax no longer exists; keep it as long as what was compiled of it",
+        )?;
         work(&of, arguments, results)
     }));
-    let message = match attempt {
-        Ok(Ok(())) => return null_mut(),
-        Ok(Err(message)) => format!("precess: {message}"),
-        Err(_) => "precess: a call panicked".to_string(),
-    };
-    let message = CString::new(message).unwrap_or_default();
-    let struct_size = std::mem::offset_of!(abi::ErrorArguments, code) + size_of::<i32>();
-    let (extension_start, code) = (null_mut(), abi::INVALID_ARGUMENT);
+    // SAFETY: as this function.
+    unsafe {
+        match attempt {
+            Ok(Ok(())) => null_mut(),
+            Ok(Err(message)) => failed(frame, message, abi::INVALID_ARGUMENT),
+            Err(_) => failed(frame, "a call panicked".to_string(), abi::INTERNAL),
+        }
+    }
+}
+
+/// An error of XLA's.
+///
+/// # Safety
+///
+/// As [`accelerations`].
+unsafe fn failed(frame: &CallFrame, message: String, code: i32) -> Error {
+    let message = CString::new(format!("precess: {message}")).unwrap_or_default();
+    let struct_size = offset_of!(abi::ErrorArguments, code) + size_of::<i32>();
+    let (extension_start, message) = (null_mut(), message.as_c_str());
     let mut error =
         abi::ErrorArguments { struct_size, extension_start, message: message.as_ptr(), code };
     // SAFETY: XLA's own function, which copies the message.
@@ -223,7 +242,11 @@ unsafe fn taken<const R: usize>(frame: &CallFrame) -> Result<Taken<'_, R>, Strin
         let results = numbers::<R>(&frame.results)?;
         let read =
             |(data, count): (*mut f64, usize)| std::slice::from_raw_parts(data.cast_const(), count);
-        let write = |(data, count)| std::slice::from_raw_parts_mut(data, count);
+        let write = |(data, count): (*mut f64, usize)| {
+            // XLA's results are not initialised: NaN where nothing is written.
+            (0..count).for_each(|k| data.add(k).write(f64::NAN));
+            std::slice::from_raw_parts_mut(data, count)
+        };
         Ok((number, [read(y), read(u)], results.map(write)))
     }
 }
