@@ -32,8 +32,8 @@ pub(crate) fn python() -> Result<(), String> {
             .map_err(|error| format!("cannot remove {}: {error}", wheels.display()))?;
     }
     let mut build = Command::new(python.with_file_name("maturin"));
-    build.args(["build", "--release", "--locked", "--manifest-path", "python/Cargo.toml", "--out"]);
-    build.args(COMPRESSION);
+    build.args(["build", "--release", "--locked", "--manifest-path", "python/Cargo.toml"]);
+    build.args(COMPRESSION).arg("--out");
     // Beside the targets of other workspaces.
     run(build.arg(&wheels).env("CARGO_TARGET_DIR", folder.join("build")))?;
     let wheel = the_wheel(&wheels)?;
