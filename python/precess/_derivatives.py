@@ -10,6 +10,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +20,7 @@ from .batch import Batch
 from .inputs import Inputs
 from .spacecraft import Spacecraft
 
-__all__ = ["Derivatives"]
+__all__ = ["Derivatives", "rotation_rows"]
 
 Array = npt.NDArray[np.float64]
 _QUATERNION = slice(6, 10)
@@ -127,10 +128,14 @@ class Derivatives:
         return [(column, columns[name]) for column, name in enumerate(inputs) if name in columns]
 
 
+def rotation_rows(q: Any) -> list[list[Any]]:
+    """``d`` by ``dq``, times ``|q|^2 / 2``: rows of components of NumPy or of JAX."""
+    q0, q1, q2, q3 = q
+    return [[-q1, q0, q3, -q2], [-q2, -q3, q0, q1], [-q3, q2, -q1, q0]]
+
+
 def _rotation_of(q: Array) -> Array:
     """``d`` by ``dq``, shape ``(n, 3, 4)``."""
-    q0, q1, q2, q3 = q.T
-    rows = [[-q1, q0, q3, -q2], [-q2, -q3, q0, q1], [-q3, q2, -q1, q0]]
-    turn = np.moveaxis(np.array(rows), 2, 0)
+    turn = np.moveaxis(np.array(rotation_rows(q.T)), 2, 0)
     scaled: Array = 2.0 * turn / np.sum(q * q, axis=1)[:, None, None]
     return scaled

@@ -6,7 +6,8 @@
 >>> jax.jacobian(accelerations)(y, u)
 
 Functions are foreign functions of XLA on the CPU: they read and write its buffers, without Python. They pass ``jit``, ``vmap`` (one
-call of the library for all elements), ``jvp``, ``vjp`` and what is made of them; derivatives are those of :meth:`precess.Spacecraft.linearize`, and have none of their own.
+call of the library for all elements), ``jvp``, ``vjp`` and what is made of them; derivatives are those of
+:meth:`precess.Spacecraft.linearize`, and have none of their own.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from . import _native
-from ._derivatives import Derivatives
+from ._derivatives import Derivatives, rotation_rows
 from .inputs import Inputs
 from .spacecraft import Spacecraft
 
@@ -119,8 +120,8 @@ class _System:
         """``C dx + D dw`` as accelerations, zero where the system has no row; NaN by every number where there is no system."""
         dx = jnp.zeros(self.sizes[1]).at[self._states[:, 0]].set(dy[self._states[:, 1]], unique_indices=True)
         if len(self._attitude):
-            q0, q1, q2, q3 = q = y[6:10]
-            turn = jnp.array([[-q1, q0, q3, -q2], [-q2, -q3, q0, q1], [-q3, q2, -q1, q0]])
+            q = y[6:10]
+            turn = jnp.array(rotation_rows(q))
             dx = dx.at[self._attitude].set(2.0 / jnp.dot(q, q) * (turn @ dy[6:10]), unique_indices=True)
         dw = jnp.zeros(self.sizes[2]).at[self._inputs[:, 0]].set(du[self._inputs[:, 1]], unique_indices=True)
         value = jnp.zeros(self._size).at[self._outputs].set(c @ dx + d @ dw, unique_indices=True)

@@ -13,14 +13,12 @@ use crate::flexible::inputs::FlexibleInputs;
 use crate::flexible::spacecraft::FlexibleSpacecraft;
 use crate::flexible::state::FlexibleState;
 use crate::flexible::storage::ModalStorage;
-use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, prescribed, sum};
-use crate::model::mode::{HubMode, Mode};
+use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, jumped, prescribed, sum};
+use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;
-use crate::numbers::each::{Each, JointStates};
+use crate::numbers::each::Each;
 use crate::numbers::real::zero;
-use crate::numbers::vec3::{
-    add, columns, components, neg, rotate, rotate_transposed, vector, zeros,
-};
+use crate::numbers::vec3::{columns, components, neg, rotate, vector, zeros};
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
 use crate::solve::accelerations::overflow;
@@ -99,25 +97,12 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         }
 
         let (mut next, mut jump) = (state.clone(), state.clone());
-        let of_joints = jumps.rigid.devices.values().zip(inputs.rigid.modes.values());
-        let rates = next.rigid.devices.states_mut().zip(jump.rigid.devices.states_mut());
-        for (([_, rate], [_, jump]), (found, mode)) in rates.zip(of_joints) {
-            // At rest exactly, without rounding.
-            let locked = mode == Mode::Locked;
-            (*rate, *jump) = if locked { (zero(), -*rate) } else { (*rate + found, found) };
-        }
+        let rigid = jumped(&state.rigid, &inputs.rigid, &bn, &hub, &jumps.rigid.devices);
+        (next.rigid, jump.rigid) = (rigid.after, rigid.jump);
         for (rate, jump) in next.eta_dot.as_mut().iter_mut().zip(jumps.eta_ddot.as_ref()) {
             *rate = *rate + *jump;
         }
         jump.eta_dot = jumps.eta_ddot;
-        let velocity = components(&state.rigid.r_b_n_dot);
-        let (of_velocity, of_omega) = match inputs.rigid.hub {
-            HubMode::Fixed => (neg(velocity), neg(omega)),
-            _ => (rotate_transposed(&bn, hub.r_b_n_ddot), hub.omega_dot),
-        };
-        (jump.rigid.r_b_n_dot, jump.rigid.omega) = (vector(of_velocity), vector(of_omega));
-        next.rigid.r_b_n_dot = vector(add(velocity, of_velocity));
-        next.rigid.omega = vector(add(omega, of_omega));
         Ok(Jumped { after: next, jump })
     }
 }

@@ -1,4 +1,4 @@
-//! The energy that an impulsive stop takes.
+//! The jump of velocities in an impulsive stop, and the energy that it takes.
 //!
 //! With T(v) = v·M v / 2 and a jump Δ to v', the loss is T(v' - Δ) - T(v') = T(Δ) - Δ·M v'. The
 //! difference of two energies keeps no digit of a loss that is smaller than their rounding; this
@@ -9,11 +9,15 @@
 
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
+use crate::equations::system::Solution;
 use crate::model::mode::{HubMode, Mode};
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
-use crate::numbers::vec3::{Vec3, add, components, scale, vector, zeros};
+use crate::numbers::vec3::{
+    Columns, Vec3, add, components, neg, rotate_transposed, scale, vector, zeros,
+};
 use crate::sets::devices::Devices;
+use crate::sets::per_device as data;
 use crate::solve::inputs::Inputs;
 use crate::solve::state::State;
 
@@ -27,6 +31,33 @@ pub(crate) struct Jumped<V> {
 
 /// What a jump finds.
 pub(crate) type Jump<V, T> = Result<Jumped<V>, SolveError<T>>;
+
+/// The jump of the hub's and of the joints' velocities; `bn` are the columns of the attitude's matrix.
+pub(crate) fn jumped<D: Devices, A: Attitude<D::Scalar>>(
+    state: &State<D, A>,
+    inputs: &Inputs<D>,
+    bn: &Columns<D::Scalar>,
+    hub: &Solution<D::Scalar>,
+    joints: &D::Per<data::Accelerations>,
+) -> Jumped<State<D, A>> {
+    let (mut after, mut jump) = (state.clone(), state.clone());
+    let of_joints = joints.values().zip(inputs.modes.values());
+    let rates = after.devices.states_mut().zip(jump.devices.states_mut());
+    for (([_, rate], [_, jump]), (found, mode)) in rates.zip(of_joints) {
+        // At rest exactly, without rounding.
+        let locked = mode == Mode::Locked;
+        (*rate, *jump) = if locked { (zero(), -*rate) } else { (*rate + found, found) };
+    }
+    let (velocity, omega) = (components(&state.r_b_n_dot), components(&state.omega));
+    let (of_velocity, of_omega) = match inputs.hub {
+        HubMode::Fixed => (neg(velocity), neg(omega)),
+        _ => (rotate_transposed(bn, hub.r_b_n_ddot), hub.omega_dot),
+    };
+    (jump.r_b_n_dot, jump.omega) = (vector(of_velocity), vector(of_omega));
+    after.r_b_n_dot = vector(add(velocity, of_velocity));
+    after.omega = vector(add(omega, of_omega));
+    Jumped { after, jump }
+}
 
 /// T(Δ) - Δ·M w of a jump Δ and prescribed velocities w, J. `energy` is T, and `sum` the velocities
 /// `a x + b y` of `(a, x)` and `(b, y)`.

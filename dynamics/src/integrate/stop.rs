@@ -11,13 +11,9 @@ use crate::equations::assembly::Assembly;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::joint_inputs::{Environment, JointInputs};
 use crate::equations::system::Solution;
-use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, prescribed, sum};
-use crate::model::mode::{HubMode, Mode};
-use crate::numbers::each::{Each, JointStates};
-use crate::numbers::real::zero;
-use crate::numbers::vec3::{
-    add, columns, components, neg, rotate, rotate_transposed, vector, zeros,
-};
+use crate::integrate::energy_lost::{Jump, Jumped, energy_lost, jumped, prescribed, sum};
+use crate::model::mode::HubMode;
+use crate::numbers::vec3::{columns, components, neg, rotate, zeros};
 use crate::sets::counts::check_counts;
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
@@ -104,23 +100,7 @@ impl<D: Devices> Spacecraft<D> {
             return Err(SolveError::Overflow { what: Quantity::HubAcceleration });
         }
         let jumps = self.back_substitute(&scratch, &hub)?;
-        let (mut next, mut jump) = (state.clone(), state.clone());
-        let of_joints = jumps.values().zip(inputs.modes.values());
-        let rates = next.devices.states_mut().zip(jump.devices.states_mut());
-        for (([_, rate], [_, jump]), (found, mode)) in rates.zip(of_joints) {
-            // At rest exactly, without rounding.
-            let locked = mode == Mode::Locked;
-            (*rate, *jump) = if locked { (zero(), -*rate) } else { (*rate + found, found) };
-        }
-        let (velocity, omega) = (components(&state.r_b_n_dot), components(&state.omega));
-        let (of_velocity, of_omega) = match inputs.hub {
-            HubMode::Fixed => (neg(velocity), neg(omega)),
-            _ => (rotate_transposed(&bn, hub.r_b_n_ddot), hub.omega_dot),
-        };
-        (jump.r_b_n_dot, jump.omega) = (vector(of_velocity), vector(of_omega));
-        next.r_b_n_dot = vector(add(velocity, of_velocity));
-        next.omega = vector(add(omega, of_omega));
-        Ok(Jumped { after: next, jump })
+        Ok(jumped(state, inputs, &bn, &hub, &jumps))
     }
 
     /// Eliminates every joint where velocities jump and nothing acts but impulses at the motors.
