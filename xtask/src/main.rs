@@ -22,6 +22,7 @@ mod regen;
 mod run;
 mod skip;
 mod test;
+mod wheel;
 
 use std::process::ExitCode;
 

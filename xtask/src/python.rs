@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use crate::run::{cargo, output, root, run, say, target};
 use crate::skip::{all_required, skip};
+use crate::wheel;
 
 /// What builds the wheel, and what the tests need.
 const REQUIREMENTS: &str = "python/tests/requirements.txt";
@@ -15,8 +16,6 @@ const LARGE: &str = "python/tests/requirements-large.txt";
 /// The program that the same runs are compared with, for the tests.
 const COMMAND: &str = "PRECESS_COMMAND";
 const INSTALL: &str = "apt-get install python3-venv python3-pip";
-/// Options of maturin: a hundredth smaller than by default.
-pub(crate) const COMPRESSION: [&str; 2] = ["--compression-level", "9"];
 /// Longest time to import the package beyond `NumPy`, and largest wheel: printed beside what is measured.
 const IMPORT_MS: f64 = 50.0;
 const WHEEL_MB: f64 = 6.0;
@@ -33,10 +32,11 @@ pub(crate) fn python() -> Result<(), String> {
     }
     let mut build = Command::new(python.with_file_name("maturin"));
     build.args(["build", "--release", "--locked", "--manifest-path", "python/Cargo.toml"]);
-    build.args(COMPRESSION).arg("--out");
+    build.args(wheel::STORED).arg("--out");
     // Beside the targets of other workspaces.
     run(build.arg(&wheels).env("CARGO_TARGET_DIR", folder.join("build")))?;
-    let wheel = the_wheel(&wheels)?;
+    let wheel = wheel::of_folder(&wheels)?;
+    wheel::compress(&wheel)?;
     let built = start.elapsed().as_secs_f64();
     let size =
         std::fs::metadata(&wheel).map_err(|error| format!("{}: {error}", wheel.display()))?;
@@ -90,14 +90,6 @@ fn pip(python: &Path) -> Command {
     pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
     pip.current_dir(root());
     pip
-}
-
-/// The one wheel of a folder.
-fn the_wheel(folder: &Path) -> Result<PathBuf, String> {
-    let wrong = |error| format!("cannot read {}: {error}", folder.display());
-    let found = std::fs::read_dir(folder).map_err(wrong)?.flatten().map(|entry| entry.path());
-    let mut wheels = found.filter(|path| path.extension().is_some_and(|ending| ending == "whl"));
-    wheels.next().ok_or_else(|| format!("{} has no wheel", folder.display()))
 }
 
 /// Time to import the package after `NumPy`, ms: the median of five interpreters.

@@ -10,9 +10,9 @@ use super::build::Stage;
 use super::first::nth_block;
 use super::licences;
 use super::sources::lay_out;
-use crate::python::COMPRESSION;
 use crate::run::{output, root, run_there, say};
 use crate::skip::skip;
+use crate::wheel;
 
 /// The Python package, in the sources.
 const MANIFEST: &str = "python/Cargo.toml";
@@ -55,11 +55,11 @@ pub(super) fn packages(stage: &Stage, folder: &Path) -> Result<Vec<Package>, Str
     };
     lay_out(&unpack(&sources.bytes)?, &unpacked.sources, &[])?;
     let mut build = unpacked.command(&maturin)?;
-    build.args(["build", "--release", "--locked", "--quiet"]).args(COMPRESSION);
+    build.args(["build", "--release", "--locked", "--quiet"]).args(wheel::STORED);
     build.arg("--out").arg(&out);
     run_there(&mut build)?;
-    let wheel = single(&out, "whl")?;
-    Ok(vec![sources, wheel])
+    wheel::compress(&wheel::of_folder(&out)?)?;
+    Ok(vec![sources, single(&out, "whl")?])
 }
 
 /// Installs a wheel in an empty environment, and runs the first program of its page in an empty folder that has the
