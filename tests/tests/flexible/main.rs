@@ -9,6 +9,7 @@ mod field;
 mod known;
 mod limits;
 mod loads;
+mod operations;
 mod platform;
 mod points;
 mod reference;
