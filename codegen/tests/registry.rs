@@ -120,7 +120,7 @@ fn kind_added_to_the_registry_is_in_every_emitted_list() {
         "pub mod swing_arm;",
         "    pub use super::swing_arm::device as swing_arm;",
         "    pub use super::swing_arm::device::SwingArm;",
-        "            SwingArm swing_arm 14;",
+        "            SwingArm swing_arm 15;",
     ] {
         assert!(list.lines().any(|found| found == line), "no `{line}` in\n{list}");
     }

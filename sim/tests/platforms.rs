@@ -390,7 +390,7 @@ fn bake_refuses_a_platform_and_the_flight_table_has_it() {
     let table = std::fs::read(folder.join("two-wheels.table")).expect("a table");
     let devices =
         TWO_WHEELS.matches("[[device]]").count() + TWO_WHEELS.matches("[[platform]]").count();
-    assert_eq!(table.len(), 124 + 2152 * devices);
+    assert_eq!(table.len(), 124 + 2320 * devices);
     for command in ["check", "evaluate"] {
         let mut precess = Command::new(env!("CARGO_BIN_EXE_precess"));
         let output = precess.arg(command).arg(&file).output().expect("it starts");

@@ -40,6 +40,15 @@ def wheel(**what):
     return Joint("spin_dot", axis=0, wheel=True, **what)
 
 
+BEARINGS = [
+    Joint("x_ddot", axis=0, slides=True, bodiless=True),
+    Joint("y_ddot", axis=1, slides=True, bodiless=True),
+    Joint("z_ddot", axis=2, slides=True, bodiless=True),
+    Joint("tilt_y_ddot", axis=1, bodiless=True),
+    Joint("tilt_z_ddot", axis=2, bodiless=True),
+    wheel(concentric=True),
+]
+
 # The joints of each kind from the hub to the tip, docs/kinds.md.
 KINDS = {
     "dgvscmg": [OUTER, INNER, wheel()],
@@ -54,14 +63,8 @@ KINDS = {
     "balanced_reaction_wheel": [wheel(round=True)],
     "hinged_panel": [Joint("phi_ddot", axis=2)],
     "slosh_mass": [Joint("x_ddot", axis=0, slides=True)],
-    "flexible_reaction_wheel": [
-        Joint("x_ddot", axis=0, slides=True, bodiless=True),
-        Joint("y_ddot", axis=1, slides=True, bodiless=True),
-        Joint("z_ddot", axis=2, slides=True, bodiless=True),
-        Joint("tilt_y_ddot", axis=1, bodiless=True),
-        Joint("tilt_z_ddot", axis=2, bodiless=True),
-        wheel(concentric=True),
-    ],
+    "flexible_reaction_wheel": BEARINGS,
+    "flexible_vscmg": [GIMBAL, *BEARINGS],
 }
 KEPT = {"prescribed": 0.0}
 HUBS = ("free", "fixed", "prescribed")
@@ -77,14 +80,11 @@ def all_spacecraft():
         yield drawn("passive", [kind] * 2)
         yield drawn("modes", [kind] * 2, unit=True)
         yield drawn("modes", [kind] * 3)
-        if len(KINDS[kind]) > 1:
+        # A massless gimbal whose rotor moves in all six freedoms has no inertia at all.
+        if len(KINDS[kind]) > 1 and kind != "flexible_vscmg":
             yield drawn("massless gimbals", [kind] * 2, unit=True)
-    for number in range(12):
-        yield mixed("set", number)
-    for number in range(6):
-        yield mixed("passive set", number)
-    for number in range(12):
-        yield mixed("modes of a set", number)
+    for group, count in (("set", 12), ("passive set", 6), ("modes of a set", 12)):
+        yield from sets(group, count)
 
 
 def all_stops():
@@ -92,19 +92,27 @@ def all_stops():
     for kind in KINDS:
         yield drawn("stop", [kind] * 2, unit=True)
         yield drawn("stop", [kind] * 3)
-    for number in range(6):
-        yield mixed("stop in a set", number)
+    yield from sets("stop in a set", 6)
+
+
+def sets(group, count):
+    """So many sets of the first thirteen kinds, then one that begins with each kind on bearings, of all kinds:
+    a kind that is added changes no set that is stored."""
+    for number in range(count):
+        yield mixed(group, number, list(KINDS)[:13])
+    for number in (12, 13):
+        yield mixed(group, number, list(KINDS))
 
 
 def more_spacecraft(count):
     """As many more over the declared ranges: mixed sets, every third with each group of inputs."""
     for number in range(count):
-        yield mixed(("set", "passive set", "modes of a set")[number % 3], 1000 + number)
+        group = ("set", "passive set", "modes of a set")[number % 3]
+        yield mixed(group, 1000 + number, list(KINDS))
 
 
-def mixed(group, number):
-    """Two to six devices, the first of each kind in turn, the others at random."""
-    names = list(KINDS)
+def mixed(group, number, names):
+    """Two to six devices of these kinds, the first of each in turn, the others at random."""
     draw = Scales(f"{group}, kinds, {number}", unit=False)
     others = [names[draw.index(len(names))] for _ in range(1 + draw.index(5))]
     kinds = [names[number % len(names)], *others]
@@ -146,10 +154,13 @@ def drawn(group, kinds, unit=False, number=0):
 
 def device(draw, kind, heaviest, everything):
     mount = [1.0, 0.0, 0.0, 0.0] if draw.unit else draw.quaternion()
-    joints = [
-        one(draw, joint, first, heaviest, everything)
-        for first, joint in zip([True] + [False] * len(KINDS[kind]), KINDS[kind])
-    ]
+    joints = []
+    for joint in KINDS[kind]:
+        # A gimbal holds the bearings, their housing and the motor: at least a third of the rotor's mass. Its
+        # inertia is all that opposes its motor, since the rotor is free in all six freedoms.
+        gimbals = [made["mass"] for made in joints if made["mass"] > 0.0]
+        limit = min([heaviest, *(3.0 * mass for mass in gimbals if joint.concentric)])
+        joints.append(one(draw, joint, not joints, limit, everything))
     return {"kind": kind, "mount": mount, "joints": joints}
 
 
@@ -160,7 +171,7 @@ def one(draw, joint, first, heaviest, everything):
     if joint.bodiless:
         mass = 0.0
     elif joint.wheel:
-        inertia, off = draw.disc(mass, joint.round)
+        inertia, off = draw.disc(mass, joint.round, joint.concentric)
         centre = [0.0, 0.0 if joint.round else off, 0.0]
     elif not joint.slides:
         centre, inertia = draw.offset(), draw.block(mass)
@@ -224,8 +235,9 @@ class Scales(Draw):
         edges = [self.log_within(0.05, 3.0) for _ in AXES]
         return solid(mass, [edge**2 / 12.0 for edge in edges], self.quaternion())
 
-    def disc(self, mass, is_round):
-        """Inertia of a disc about nearly the x axis, and how far it may be off balance."""
+    def disc(self, mass, is_round, on_bearings):
+        """Inertia of a disc about nearly the x axis, and how far it may be off balance: to its radius, on
+        flexible bearings to a hundredth of it, which is more than they would bear of a rotor."""
         if self.unit:
             axial, across = self.within(1.0, 1.5), self.within(0.8, 1.2)
             inertia = [axial, 0.0, 0.0, across, 0.0, across] if is_round else self.block(mass)
@@ -237,7 +249,7 @@ class Scales(Draw):
         inertia = solid(mass, seconds, [1.0, 0.0, 0.0, 0.0] if is_round else tilt)
         if is_round:
             inertia = [inertia[0], 0.0, 0.0, inertia[3], 0.0, inertia[3]]
-        return inertia, self.signed(1e-6, radius)
+        return inertia, self.signed(1e-6, radius / 100.0 if on_bearings else radius)
 
     def position(self):
         return self.three() if self.unit else self.vector(self.within(0.0, 3.0))
@@ -264,12 +276,15 @@ class Scales(Draw):
         return self.signed(0.3, 1.5) if self.unit else self.signed(1e-4, 10.0)
 
     def motion(self, joint):
-        """Coordinate and rate: a wheel to 6000 rpm, and turned through up to 1000 rad; tilts of bearings stay
-        away from the right angle, where the axis of the spin is that of the other tilt."""
+        """Coordinate and rate: a wheel to 6000 rpm, and turned through up to 1000 rad. Bearings yield by their
+        clearance: slides by up to 5 mm, tilts by up to 0.1 rad; at unit scales tilts stay away from the right
+        angle, where the axis of the spin is that of the other tilt."""
         if joint.bodiless and not joint.slides:
-            return self.signed(0.1, 1.0), self.signed(0.1, 1.5)
+            return self.signed(0.1, 1.0) if self.unit else self.signed(1e-3, 0.1), self.signed(0.1, 1.5)
         if self.unit:
             return self.signed(0.3, math.pi), self.signed(0.3, 1.5)
+        if joint.bodiless:
+            return self.within(-5e-3, 5e-3), self.within(-0.1, 0.1)
         if joint.slides:
             return self.within(-0.5, 0.5), self.within(-1.0, 1.0)
         if joint.wheel:
@@ -280,8 +295,10 @@ class Scales(Draw):
         """Stiffness, coordinate at rest, viscous, Coulomb friction, rate below which that fades."""
         if self.unit:
             return [self.log_within(0.3, 1.5) for _ in range(5)]
-        # Wheels turn freely: friction and no spring.
-        spring = [0.0, 0.0] if joint.wheel else [self.log_within(1e-2, 1e3), self.within(-1.0, 1.0)]
+        # Wheels turn freely: friction and no spring. Springs of bearings rest as far from the middle as they
+        # yield; by a metre or a radian they would throw a small rotor at 6e5 rad/s^2.
+        rest = (5e-3 if joint.slides else 0.1) if joint.bodiless else 1.0
+        spring = [0.0, 0.0] if joint.wheel else [self.log_within(1e-2, 1e3), self.within(-rest, rest)]
         viscous = self.log_within(1e-5, 1e-2) if joint.wheel else self.log_within(1e-3, 10.0)
         return [*spring, viscous, self.log_within(1e-4, 1.0), self.log_within(1e-3, 1.0)]
 

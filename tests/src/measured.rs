@@ -7,8 +7,8 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, JointStates, Kind};
 use precess_dynamics::{
     Accelerations, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
-    BalancedVscmg, Devices, Dgcmg, Dgvscmg, FlexibleReactionWheel, HingedPanel, Hub, Inputs,
-    ReactionWheel, Scalar, Sgcmg, SloshMass, SolveError, Spacecraft, State, Vscmg,
+    BalancedVscmg, Devices, Dgcmg, Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, Hub,
+    Inputs, ReactionWheel, Scalar, Sgcmg, SloshMass, SolveError, Spacecraft, State, Vscmg,
 };
 
 use crate::random::{Random, SEED};
@@ -78,11 +78,14 @@ pub trait EachKind<T: Scalar> {
     fn visit<K: Kind<Scalar = T>>(&mut self, name: &'static str, device: K);
 }
 
-/// Shows a device of each of the thirteen kinds, larger ones first.
+/// Shows a device of each of the fourteen kinds, larger ones first.
 pub fn each_kind<T: Scalar>(visitor: &mut impl EachKind<T>) {
     let of = T::from_f64;
     let (mass, axial, across) = (of(4.0), of(0.2), of(0.1));
     let disc = disc();
+    // A massless gimbal whose rotor moves in all six freedoms has no inertia at all.
+    let gimbal = FlexibleVscmg { m_g: mass, i_g_gc: disc, ..FlexibleVscmg::bare_wheel(mass, disc) };
+    visitor.visit("flexible_vscmg", gimbal);
     visitor.visit("flexible_reaction_wheel", FlexibleReactionWheel::bare_wheel(mass, disc));
     visitor.visit("dgvscmg", Dgvscmg::bare_wheel(mass, disc));
     visitor.visit("balanced_dgvscmg", BalancedDgvscmg::bare_wheel(mass, axial, across));

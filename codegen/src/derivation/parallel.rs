@@ -145,7 +145,8 @@ mod tests {
             Parallel::of(&Chain::new(&Graph::new(), kind)).is_some()
         };
         let names: Vec<_> = KINDS.iter().copied().filter(can).map(|kind| kind.name).collect();
-        assert_eq!(names, ["dgvscmg", "balanced_dgvscmg", "flexible_reaction_wheel"]);
+        let expected = ["dgvscmg", "balanced_dgvscmg", "flexible_reaction_wheel", "flexible_vscmg"];
+        assert_eq!(names, expected);
     }
 
     #[test]

@@ -140,7 +140,7 @@ mod tests {
         let cites = |link: &Link| link.body.equations.omega != Equations::NONE.omega;
         let in_paper: Vec<_> =
             KINDS.iter().filter(|kind| kind.links.iter().all(cites)).copied().collect();
-        assert_eq!(in_paper.len(), 12, "all but the flexible reaction wheel");
+        assert_eq!(in_paper.len(), 12, "all but the two with flexible bearings");
         for kind in in_paper {
             let graph = Graph::new();
             for kernel in kernels(&Chain::new(&graph, kind)) {

@@ -24,9 +24,6 @@ pub const FLEXIBLE_REACTION_WHEEL: Kind = Kind {
 
 /// A control moment gyro with one gimbal, which carries the housing, and a rotor on flexible bearings.
 /// The spin is a joint with a motor, as that of a VSCMG; a steady one is prescribed.
-///
-/// It is not in the registry, whose devices have up to six joints: a crate that uses it emits it for
-/// itself, with [`emit_kind`](crate::emit_kind), and its sets are tuples and arrays.
 pub const FLEXIBLE_VSCMG: Kind = Kind {
     name: "flexible_vscmg",
     title: "flexible variable-speed control moment gyro",

@@ -9,8 +9,8 @@
 
 use super::{
     BALANCED_DGCMG, BALANCED_DGVSCMG, BALANCED_REACTION_WHEEL, BALANCED_SGCMG, BALANCED_VSCMG,
-    DGCMG, DGVSCMG, FLEXIBLE_REACTION_WHEEL, HINGED_PANEL, Kind, REACTION_WHEEL, SGCMG, SLOSH_MASS,
-    VSCMG,
+    DGCMG, DGVSCMG, FLEXIBLE_REACTION_WHEEL, FLEXIBLE_VSCMG, HINGED_PANEL, Kind, REACTION_WHEEL,
+    SGCMG, SLOSH_MASS, VSCMG,
 };
 
 /// A kind with its number.
@@ -23,7 +23,7 @@ pub struct Entry {
 }
 
 /// Every kind that is emitted. The next one takes the number after the last.
-pub const REGISTRY: [Entry; 13] = [
+pub const REGISTRY: [Entry; 14] = [
     Entry { number: 1, kind: &DGVSCMG },
     Entry { number: 2, kind: &BALANCED_DGVSCMG },
     Entry { number: 3, kind: &DGCMG },
@@ -37,6 +37,7 @@ pub const REGISTRY: [Entry; 13] = [
     Entry { number: 11, kind: &HINGED_PANEL },
     Entry { number: 12, kind: &SLOSH_MASS },
     Entry { number: 13, kind: &FLEXIBLE_REACTION_WHEEL },
+    Entry { number: 14, kind: &FLEXIBLE_VSCMG },
 ];
 
 /// The kinds of the registry.

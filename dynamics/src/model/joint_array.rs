@@ -5,7 +5,7 @@ use core::ops::{Deref, DerefMut};
 use crate::numbers::each::{Each, JointStates, Value};
 
 /// Largest number of joints of a device of this crate's kinds.
-pub const MAX_JOINTS: usize = 6;
+pub const MAX_JOINTS: usize = 7;
 
 /// One value per joint of one device, from the hub to the tip: a list of up to [`MAX_JOINTS`]
 /// values, without a heap.

@@ -29,9 +29,9 @@ extern "C" {
 #define PRECESS_VERSION 0x00000100
 
 /* Version of the interface: that of the layout of a parameter table, and of the structures below. 1 unless
- * it is defined before this header is included; 2 is for devices of up to six joints, and for platforms. The library has the
- * functions of both: a program compiled with version 1 needs no change. Structures and spacecraft of one
- * version are not for functions of the other; tables of version 1 are read by both. */
+ * it is defined before this header is included; 2 is for devices of up to seven joints, and for platforms. The
+ * library has the functions of both: a program compiled with version 1 needs no change. Structures and
+ * spacecraft of one version are not for functions of the other; tables of version 1 are read by both. */
 #ifndef PRECESS_TABLE_VERSION
 #define PRECESS_TABLE_VERSION 1
 #endif
@@ -45,8 +45,8 @@ extern "C" {
 #define PRECESS_TABLE_SIZE(devices) (124 + 584 * (devices))
 #define PRECESS_SPACECRAFT_SIZE 16384
 #elif PRECESS_TABLE_VERSION == 2
-#define PRECESS_MAX_JOINTS 6
-#define PRECESS_TABLE_SIZE(devices) (124 + 2152 * (devices))
+#define PRECESS_MAX_JOINTS 7
+#define PRECESS_TABLE_SIZE(devices) (124 + 2320 * (devices))
 #define PRECESS_SPACECRAFT_SIZE 49152
 #define PRECESS_MAX_PLATFORMS 4   /* platforms, */
 #define PRECESS_MAX_ON_PLATFORM 4 /* devices on each: both count as devices */
@@ -121,9 +121,12 @@ enum {
     PRECESS_KIND_BALANCED_REACTION_WHEEL = 10, /* wheel */
     PRECESS_KIND_HINGED_PANEL = 11,           /* panel, which turns about z */
     PRECESS_KIND_SLOSH_MASS = 12,             /* point mass, which slides along x */
-    PRECESS_KIND_FLEXIBLE_REACTION_WHEEL = 13 /* bearings: axial slide (x), radial slides y and z, tilts y
-                                                 and z; wheel. Version 2. Only the wheel has a body, only
-                                                 the first joint an origin */
+    PRECESS_KIND_FLEXIBLE_REACTION_WHEEL = 13, /* bearings: axial slide (x), radial slides y and z, tilts y
+                                                  and z; wheel. Version 2. Only the wheel has a body, only
+                                                  the first joint an origin */
+    PRECESS_KIND_FLEXIBLE_VSCMG = 14           /* gimbal; bearings and wheel as above. Version 2. Only gimbal
+                                                  and wheel have bodies, only gimbal and axial slide an
+                                                  origin */
 };
 
 #if PRECESS_TABLE_VERSION == 2
@@ -322,9 +325,9 @@ int32_t precess_init_from_table(void *memory, size_t size, const uint8_t *table,
 /* Writes the parameter table of a hub and `count` devices; its bytes are counted in `length`.
  * The parameters are checked by precess_init_from_table, not here. Little-endian on every target:
  * offset 0 "PREC"; 4 version; 8 length in bytes; 12 number of devices n (32 bits each); 16 the hub,
- * 13 doubles; 120 + s k device k, 2 integers of 32 bits and 72 doubles (in version 2: 135 doubles, 2 integers,
+ * 13 doubles; 120 + s k device k, 2 integers of 32 bits and 72 doubles (in version 2: 156 doubles, 2 integers,
  * 132 doubles); both in the order of their structures, nothing padded; 120 + s n CRC-32 of all before (ISO-HDLC,
- * that of zip). s is 584, in version 2 2152. */
+ * that of zip). s is 584, in version 2 2320. */
 int32_t precess_table_write(const precess_hub *hub, const precess_device *devices, uint32_t count,
                             uint8_t *table, size_t capacity, size_t *length);
 

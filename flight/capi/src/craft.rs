@@ -42,7 +42,7 @@ where
     size_of::<Made<SetOf<J>>>() <= Versions::SIZE && align_of::<Made<SetOf<J>>>() <= ALIGN
 }
 
-const _: () = assert!(fits::<3>() && fits::<6>());
+const _: () = assert!(fits::<3>() && fits::<7>());
 
 /// The spacecraft at a pointer.
 ///

@@ -260,7 +260,7 @@ mod tests {
     use super::*;
     use crate::craft::init;
 
-    const SIZE: usize = <Versions as Interface<6>>::SIZE;
+    const SIZE: usize = <Versions as Interface<7>>::SIZE;
 
     /// What a C caller states and what a Rust caller states is one spacecraft, to the last bit.
     #[test]
@@ -289,7 +289,7 @@ mod tests {
         let devices = [gyro.into(), wheel.into()].map(|device: precess_dynamics::BuiltIn| {
             let parameters = device.parameters();
             let rows = |m: &Matrix3<f64>| m.transpose().as_slice().try_into().unwrap();
-            let device = types::Device::<6> {
+            let device = types::Device::<7> {
                 kind: device.kind().number().into(),
                 model: 0,
                 mount: rows(&parameters.mount),
@@ -317,14 +317,14 @@ mod tests {
         let mut memory = MaybeUninit::<[u64; SIZE / 8]>::zeroed();
         let craft = memory.as_mut_ptr().cast::<Craft>();
         let (mut c_state, mut c_inputs) =
-            (MaybeUninit::<types::State<6>>::zeroed(), MaybeUninit::<types::Inputs<6>>::zeroed());
+            (MaybeUninit::<types::State<7>>::zeroed(), MaybeUninit::<types::Inputs<7>>::zeroed());
         let none = null_mut();
         // SAFETY: every pointer is to a local of its type, or null where that is allowed.
         let codes = unsafe {
             [
-                init::<6>(craft.cast(), SIZE, &raw const hub, devices.as_ptr(), 2, none),
-                crate::state::state_at_rest::<6>(craft, c_state.as_mut_ptr()),
-                crate::inputs::inputs_none::<6>(craft, c_inputs.as_mut_ptr()),
+                init::<7>(craft.cast(), SIZE, &raw const hub, devices.as_ptr(), 2, none),
+                crate::state::state_at_rest::<7>(craft, c_state.as_mut_ptr()),
+                crate::inputs::inputs_none::<7>(craft, c_inputs.as_mut_ptr()),
             ]
         };
         assert_eq!(codes, [0; 3]);
@@ -351,13 +351,13 @@ mod tests {
             bits(&c_state.coordinate[0][..3]),
             bits(&[gyro.gamma_o, gyro.gamma_i, gyro.theta])
         );
-        assert_eq!(bits(&c_state.rate[1]), bits(&[wheel.spin, 0.0, 0.0, 0.0, 0.0, 0.0]));
+        assert_eq!(bits(&c_state.rate[1]), bits(&[wheel.spin, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
         let of_attitude = state.attitude;
         let attitude = [of_attitude.q0, of_attitude.q1, of_attitude.q2, of_attitude.q3];
         assert_eq!(bits(&c_state.attitude), bits(&attitude));
         for (size, most) in [
             (size_of::<Made<SetOf<3>>>(), <Versions as Interface<3>>::SIZE),
-            (size_of::<Made<SetOf<6>>>(), SIZE),
+            (size_of::<Made<SetOf<7>>>(), SIZE),
         ] {
             assert!(size > most / 2, "{size} bytes: PRECESS_SPACECRAFT_SIZE is far too large");
             println!("{size} bytes of {most}");

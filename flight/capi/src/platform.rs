@@ -34,8 +34,8 @@ pub(crate) fn platform_of(
     if device.model != 0 {
         return Err(reject("platform"));
     }
-    let [first, links @ .., last] = &device.bodies;
-    for (body, name) in [first].into_iter().chain(links).zip(BODIES) {
+    let [first, y, z, turn_x, turn_y, last, ..] = &device.bodies;
+    for (body, name) in [first, y, z, turn_x, turn_y].into_iter().zip(BODIES) {
         let origin = if name == "x slide" { [0.0; 3] } else { body.origin };
         let mut numbers = origin.iter().chain(&body.centre).chain(&body.inertia);
         if body.mass != 0.0 || numbers.any(|number| *number != 0.0) {
@@ -45,7 +45,8 @@ pub(crate) fn platform_of(
     if last.origin.iter().any(|number| *number != 0.0) {
         return Err(reject("platform"));
     }
-    let passive = device.passive.map(|joint| Passive {
+    let [x, y, z, turn_x, turn_y, turn_z, ..] = device.passive;
+    let passive = [x, y, z, turn_x, turn_y, turn_z].map(|joint| Passive {
         stiffness: joint.stiffness,
         rest: joint.rest,
         viscous: joint.viscous,

@@ -17,7 +17,7 @@
 //! 120 + s n       4      CRC-32 of all before (ISO-HDLC: that of zip and Ethernet)
 //! ```
 //!
-//! J is 3 and s is 584 in version 1, J is 6 and s is 2152 in version 2. Each version of the interface writes
+//! J is 3 and s is 584 in version 1, J is 7 and s is 2320 in version 2. Each version of the interface writes
 //! its own; version 2 reads both.
 //! Units, axes and order of entries are those of the structures.
 
@@ -310,7 +310,7 @@ mod tests {
             (device.kind, device.model, device.mount) = (9, 1, [7.0; 9]);
             device.passive[2].coulomb_rate = 5.0;
         });
-        read_back::<6>(|entry| {
+        read_back::<7>(|entry| {
             (entry.device.kind, entry.on) = (9, 2);
             entry.device.passive[5].coulomb_rate = 5.0;
             (entry.suspension.damping[35], entry.suspension.strut[5].damping) = (6.0, 7.0);
@@ -324,11 +324,11 @@ mod tests {
         device.bodies[2].mass = 8.0;
         let mut first = [0; size(1, 3)];
         write_table::<3>(&hub, &[device], &mut first).unwrap();
-        let (found, devices, count) = read_table::<6>(&first).unwrap();
+        let (found, devices, count) = read_table::<7>(&first).unwrap();
         assert_eq!((found, devices[0].device.bodies[2].mass, count), (hub, 8.0, 1));
-        assert_eq!(devices[0].device.bodies[3..], [NO_BODY; 3]);
-        let mut second = [0; size(1, 6)];
-        write_table::<6>(&hub, &[Entry::EMPTY], &mut second).unwrap();
+        assert_eq!(devices[0].device.bodies[3..], [NO_BODY; 4]);
+        let mut second = [0; size(1, 7)];
+        write_table::<7>(&hub, &[Entry::EMPTY], &mut second).unwrap();
         assert_eq!(read_table::<3>(&second).unwrap_err(), Code::TableVersion);
     }
 }

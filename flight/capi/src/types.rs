@@ -3,8 +3,8 @@
 //! `J` is the number of joints that a device has at most: `PRECESS_MAX_JOINTS` of the version of the
 //! interface.
 
-use crate::MAX_DEVICES;
 use crate::memory::Plain;
+use crate::{MAX_DEVICES, VERSIONS};
 
 /// The joints of a platform.
 pub const PLATFORM_JOINTS: usize = 6;
@@ -106,7 +106,7 @@ structures! {
     /// `precess_device` of version 2.
     Entry {
         /// What it shares with version 1.
-        device: Device<PLATFORM_JOINTS>,
+        device: Device<{ VERSIONS[1] }>,
         /// 0 on the hub, otherwise 1 + index of the platform's entry.
         on: i32,
         /// Not read; 0.

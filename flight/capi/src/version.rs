@@ -1,7 +1,7 @@
 //! The versions of the interface: the set of devices that a spacecraft of each has, and how the caller's
 //! entries become that set.
 //!
-//! Version 1: up to eight devices of up to three joints on the hub. Version 2: entries of up to six joints,
+//! Version 1: up to eight devices of up to three joints on the hub. Version 2: entries of up to seven joints,
 //! and platforms, of which an entry may name one as what it stands on.
 
 use precess_dynamics::{BuiltIn, DeviceLoads, DeviceSet, Devices, Each, Isolated, Value, Wrench};
@@ -78,7 +78,7 @@ impl Interface<3> for Versions {
     }
 }
 
-impl Interface<6> for Versions {
+impl Interface<7> for Versions {
     type Set = (List, Platforms);
     type Entry = Entry;
 
@@ -123,10 +123,10 @@ impl Interface<6> for Versions {
 
     fn pass(pass: &mut impl Pass, entry: &mut Entry, layout: usize) -> Option<()> {
         pass.device(&mut entry.device, layout)?;
-        if layout == 6 { pass.standing(entry) } else { Some(()) }
+        if layout == 7 { pass.standing(entry) } else { Some(()) }
     }
 
-    fn loads((list, platforms): &LoadsOf<(List, Platforms)>, to: &mut Placed<'_, 6>) {
+    fn loads((list, platforms): &LoadsOf<(List, Platforms)>, to: &mut Placed<'_, 7>) {
         list.iter().flatten().for_each(|of| to.put(of));
         for of in platforms.iter().flatten() {
             to.put(&of.platform);

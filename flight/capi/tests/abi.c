@@ -224,7 +224,7 @@ static void rejected_parameters(void)
     devices[2].passive[0].stiffness = -9.0;
     IS(init(3, &fault), PRECESS_ERROR_PASSIVE);
     example();
-    devices[1].kind = 14;
+    devices[1].kind = 15;
     IS(init(3, &fault), PRECESS_ERROR_UNKNOWN_KIND);
     IS(fault.device, 1);
     devices[1].kind = PRECESS_KIND_FLEXIBLE_REACTION_WHEEL;

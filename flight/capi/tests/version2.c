@@ -1,5 +1,5 @@
-/* Version 2 of the interface, with devices of up to six joints: a wheel on flexible bearings, and what a program
- * of version 1 does, with the same bits. Also C++. */
+/* Version 2 of the interface, with devices of up to seven joints: a wheel on flexible bearings, the same in a
+ * gimbal, and what a program of version 1 does, with the same bits. Also C++. */
 
 #define PRECESS_TABLE_VERSION 2
 
@@ -152,6 +152,61 @@ static void conserved(void)
     NEAR(state.rate[0][TILT_Z], 0.0, 0.0);
 }
 
+/* In a gimbal whose axis runs through the bearing centre: where it is locked the rotor moves as on the hub,
+ * and at rest the bearings let it turn without the rotor, which stays where it is. */
+static void in_a_gimbal(void)
+{
+    static uint8_t table[PRECESS_TABLE_SIZE(1)];
+    static precess_spacecraft other;
+    precess_device gyro = wheel;
+    precess_state state, of_wheel;
+    precess_inputs inputs, of_wheels;
+    precess_accelerations found, expected;
+    uint32_t joints = 0;
+    size_t length = 0;
+    int joint;
+    gyro.kind = PRECESS_KIND_FLEXIBLE_VSCMG;
+    for (joint = 0; joint < JOINTS; joint++) {
+        gyro.bodies[1 + joint] = wheel.bodies[joint];
+        gyro.passive[1 + joint] = wheel.passive[joint];
+    }
+    gyro.passive[0] = wheel.passive[WHEEL];
+    gyro.bodies[0].mass = 2.0;
+    diagonal(gyro.bodies[0].inertia, 0.05, 0.06, 0.04);
+    gyro.bodies[1].origin[0] = 0.0;
+    gyro.bodies[1].origin[2] = 0.07;
+    IS(precess_table_write(&hub, &gyro, 1, table, sizeof table, &length), PRECESS_OK);
+    IS(length, sizeof table);
+    IS(precess_init_from_table(&other, sizeof other, table, length, 0), PRECESS_OK);
+    IS(precess_joints(&other, 0, &joints), PRECESS_OK);
+    IS(joints, PRECESS_MAX_JOINTS);
+    IS(precess_state_at_rest(&other, &state), PRECESS_OK);
+    IS(precess_inputs_none(&other, &inputs), PRECESS_OK);
+    inputs.hub_mode = PRECESS_HUB_FIXED;
+    inputs.motor[0][0] = 0.2;
+    IS(precess_accelerations_of(&other, &state, &inputs, &found, 0), PRECESS_OK);
+    NEAR(found.joint[0][0], 0.2 / 0.04, 1e-12);
+    NEAR(found.joint[0][1 + TILT_Z], -0.2 / 0.04, 1e-12);
+    IS(init(0), PRECESS_OK);
+    IS(precess_state_at_rest(&craft, &of_wheel), PRECESS_OK);
+    IS(precess_inputs_none(&craft, &of_wheels), PRECESS_OK);
+    of_wheels.hub_mode = PRECESS_HUB_FIXED;
+    inputs.mode[0][0] = PRECESS_LOCKED;
+    for (joint = 0; joint < JOINTS; joint++) {
+        of_wheel.coordinate[0][joint] = 1e-4 * (joint + 1);
+        of_wheel.rate[0][joint] = joint == WHEEL ? 400.0 : 1e-2 * (joint + 1);
+        state.coordinate[0][1 + joint] = of_wheel.coordinate[0][joint];
+        state.rate[0][1 + joint] = of_wheel.rate[0][joint];
+    }
+    IS(precess_accelerations_of(&other, &state, &inputs, &found, 0), PRECESS_OK);
+    IS(precess_accelerations_of(&craft, &of_wheel, &of_wheels, &expected, 0), PRECESS_OK);
+    NEAR(found.joint[0][0], 0.0, 0.0);
+    for (joint = 0; joint < JOINTS; joint++) {
+        NEAR(found.joint[0][1 + joint], expected.joint[0][joint], 1e-10);
+        bits(found.joint[0][1 + joint]);
+    }
+}
+
 /* Of the bearings' links there are no bodies to state. */
 static void rejected(void)
 {
@@ -167,7 +222,7 @@ static void rejected(void)
     IS(init(&fault), PRECESS_ERROR_NOT_FINITE);
     IS(fault.device, 0);
     wheel.passive[TILT_Y].stiffness = TILT_STIFFNESS;
-    wheel.kind = PRECESS_KIND_FLEXIBLE_REACTION_WHEEL + 1;
+    wheel.kind = PRECESS_KIND_FLEXIBLE_VSCMG + 1;
     IS(init(&fault), PRECESS_ERROR_UNKNOWN_KIND);
     wheel.kind = PRECESS_KIND_FLEXIBLE_REACTION_WHEEL;
     IS(init(&fault), PRECESS_OK);
@@ -221,6 +276,7 @@ int main(void)
     springs();
     whirls();
     conserved();
+    in_a_gimbal();
     rejected();
     tables();
     return finish(190);

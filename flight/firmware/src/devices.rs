@@ -5,8 +5,8 @@ use nalgebra::{Matrix6, Vector6};
 use precess_dynamics::kind::Kind;
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Coupled,
-    Dgcmg, Dgvscmg, FixedSet, FlexibleReactionWheel, HingedPanel, ImbalanceModel, Isolated,
-    Passive, Platform, ReactionWheel, Scalar, Sgcmg, SloshMass, Strut, Suspension, Vscmg,
+    Dgcmg, Dgvscmg, FixedSet, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, ImbalanceModel,
+    Isolated, Passive, Platform, ReactionWheel, Scalar, Sgcmg, SloshMass, Strut, Suspension, Vscmg,
 };
 
 use crate::random::Random;
@@ -115,6 +115,7 @@ drawn! {
     Vscmg wheel one_gimbal;
     BalancedVscmg balanced_wheel one_gimbal;
     Sgcmg wheel one_gimbal;
+    FlexibleVscmg wheel one_gimbal;
     BalancedSgcmg balanced_wheel one_gimbal;
     ReactionWheel wheel no_gimbal;
     BalancedReactionWheel balanced_wheel no_gimbal;

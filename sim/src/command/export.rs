@@ -213,7 +213,7 @@ mod tests {
         let read = crate::file::from_toml("whirl", text, Path::new(""));
         let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
         let bytes = table(&scenario).expect("one device");
-        assert_eq!(bytes.len(), 124 + 2152);
+        assert_eq!(bytes.len(), 124 + 2320);
         assert_eq!(bytes[4], 2);
         let number = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().expect("eight"));
         // No mass of a link of the bearings; that of the rotor; the stiffness of a tilt.
@@ -228,10 +228,10 @@ mod tests {
         let read = crate::file::from_toml("isolator", text, Path::new(""));
         let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
         let bytes = table(&scenario).expect("a platform and four wheels");
-        assert_eq!(bytes.len(), 124 + 5 * 2152);
+        assert_eq!(bytes.len(), 124 + 5 * 2320);
         let word = |at: usize| i32::from_le_bytes(bytes[at..at + 4].try_into().expect("four"));
-        let entry = |index: usize| 120 + 2152 * index;
-        let kinds = [0, 1, 2, 3, 4].map(|index| [word(entry(index)), word(entry(index) + 1088)]);
+        let entry = |index: usize| 120 + 2320 * index;
+        let kinds = [0, 1, 2, 3, 4].map(|index| [word(entry(index)), word(entry(index) + 1256)]);
         assert_eq!(kinds, [[100, 0], [9, 1], [9, 1], [9, 1], [9, 1]]);
     }
 

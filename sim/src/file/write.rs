@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{ImbalanceModel, JointInfo};
 use precess_dynamics::{Gravity, HubMode, JointStates, Passive};
 
-use super::read::{FORMAT, body_key, has_inertia, has_mass, joint_key};
+use super::read::{FORMAT, body_key, has_inertia, has_mass, has_origin, joint_key};
 use crate::pointing::Index;
 use crate::record::columns::Columns;
 use crate::scenario::profile::Interpolation;
@@ -120,15 +120,14 @@ fn devices(out: &mut String, s: &Scenario) -> Written {
         let bodies = parameters.bodies.iter().zip(&parameters.passive);
         for (info, (body, passive)) in device.kind().joints().iter().zip(bodies) {
             writeln!(out, "\n[device.{}]", body_key(info))?;
-            let has_body = has_mass(device.kind(), info);
-            if has_body {
+            if has_mass(device.kind(), info) {
                 writeln!(out, "mass = \"{:?} kg\"", body.mass)?;
                 writeln!(out, "centre_of_mass = {}", vector(&Vector3::from(body.centre), "m"))?;
             }
             if has_inertia(device.kind(), info) {
                 inertia(out, &body.inertia)?;
             }
-            if info.index > 0 && has_body {
+            if has_origin(device.kind(), info) {
                 writeln!(out, "origin = {}", vector(&Vector3::from(body.origin), "m"))?;
             }
             of_joint(out, s, first + info.index, (info, passive))?;

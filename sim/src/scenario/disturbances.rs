@@ -184,7 +184,11 @@ impl Scenario {
         let member = of.wheel.and_then(joint_of).or(on)?;
         let device = placed.get(member)?.1.device()?;
         let name = self.names.get(member).map_or("", String::as_str);
-        if device.kind() == BuiltInKind::FlexibleReactionWheel && !of.modes_removed {
+        let on_bearings = matches!(
+            device.kind(),
+            BuiltInKind::FlexibleReactionWheel | BuiltInKind::FlexibleVscmg
+        );
+        if on_bearings && !of.modes_removed {
             let message = format!(
                 "`{name}` stands on flexible bearings, whose modes a measurement on a table has, too; \
                  remove them from the data and write `modes_removed = true`"

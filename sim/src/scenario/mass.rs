@@ -167,7 +167,7 @@ pub fn imbalance(device: &BuiltIn) -> Option<Imbalance> {
         BuiltIn::Vscmg(device) => device.imbalance().ok(),
         BuiltIn::Dgcmg(device) => device.imbalance().ok(),
         BuiltIn::Dgvscmg(device) => device.imbalance().ok(),
-        BuiltIn::FlexibleReactionWheel(_) => {
+        BuiltIn::FlexibleReactionWheel(_) | BuiltIn::FlexibleVscmg(_) => {
             let bodies = device.parameters().bodies;
             let mut rotors = device.kind().joints().iter().zip(&bodies);
             let (_, rotor) = rotors.find(|(info, _)| info.body == "wheel")?;

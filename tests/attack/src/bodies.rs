@@ -23,7 +23,7 @@ pub(crate) fn built_in(
     kind: BuiltInKind,
     mount: [f64; 4],
     drawn: &[Body; MAX_JOINTS],
-    passive: [Passive; MAX_JOINTS],
+    passive: &[Passive; MAX_JOINTS],
     lumped: bool,
 ) -> BuiltIn {
     let infos = kind.joints();
@@ -57,19 +57,20 @@ pub(crate) fn built_in(
             _ => {}
         }
     }
-    if kind == BuiltInKind::FlexibleReactionWheel {
-        concentric(&mut bodies, infos.len());
+    if let Some(first) = infos.iter().position(|info| info.body == "axial slide") {
+        concentric(&mut bodies[first..infos.len()]);
     }
     let lumped = lumped && !balanced && infos.last().is_some_and(|info| info.body == "wheel");
     let model = if lumped { ImbalanceModel::Lumped } else { ImbalanceModel::Coupled };
-    let parameters = DeviceParameters { mount: rotation(mount), bodies, passive, model };
+    let parameters = DeviceParameters { mount: rotation(mount), bodies, passive: *passive, model };
     BuiltIn::new(kind, &parameters).expect("what the kind has no parameter for is zero")
 }
 
-/// Links without a body inboard of a wheel at the origin of the last.
-fn concentric(bodies: &mut [BodyParameters<f64>], joints: usize) {
+/// Links without a body inboard of a wheel, the last, all at the origin of the first.
+fn concentric(bodies: &mut [BodyParameters<f64>]) {
+    let last = bodies.len() - 1;
     for (index, body) in bodies.iter_mut().enumerate() {
-        if index + 1 < joints {
+        if index < last {
             (body.mass, body.centre, body.inertia) = (0.0, [0.0; 3], Matrix3::zeros());
         }
         if index > 0 {

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
     Attitude, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg,
-    BuiltIn, Dgcmg, Dgvscmg, Each, FlexibleReactionWheel, Gravity, HingedPanel, HubMode,
-    ImbalanceModel, Inputs, JointStates, Mode, Passive, Quaternion, ReactionWheel, Sgcmg,
+    BuiltIn, Dgcmg, Dgvscmg, Each, FlexibleReactionWheel, FlexibleVscmg, Gravity, HingedPanel,
+    HubMode, ImbalanceModel, Inputs, JointStates, Mode, Passive, Quaternion, ReactionWheel, Sgcmg,
     SloshMass, State, Vscmg, Wrench,
 };
 
@@ -132,6 +132,8 @@ kinds! {
     BalancedReactionWheel balanced_reaction_wheel bare_wheel(m_w, j_11, j_22) [mount r_w_b] [wheel];
     FlexibleReactionWheel flexible_reaction_wheel bare_wheel(m_w, i_w_wc) [mount r_sx_b d]
         [axial_slide radial_slide_y radial_slide_z tilt_y tilt_z wheel] model;
+    FlexibleVscmg flexible_vscmg bare_wheel(m_w, i_w_wc) [mount r_g_b m_g r_gc_g i_g_gc l_g d]
+        [gimbal axial_slide radial_slide_y radial_slide_z tilt_y tilt_z wheel] model;
     HingedPanel hinged_panel bare_panel(m_p, i_p_pc) [mount r_p_b r_pc_p] [panel];
     SloshMass slosh_mass bare_slosh_mass(m_s) [mount r_s_b] [slosh_mass];
     Sgcmg sgcmg bare_wheel(m_w, i_w_wc) [mount r_g_b m_g r_gc_g i_g_gc l_g d] [gimbal wheel] model;
@@ -295,7 +297,7 @@ fn field(body: &str) -> String {
 }
 
 /// Names that printed code may use.
-const NAMES: [&str; 26] = [
+const NAMES: [&str; 27] = [
     "BalancedDgcmg",
     "BalancedDgvscmg",
     "BalancedReactionWheel",
@@ -305,6 +307,7 @@ const NAMES: [&str; 26] = [
     "Dgcmg",
     "Dgvscmg",
     "FlexibleReactionWheel",
+    "FlexibleVscmg",
     "Gravity",
     "HingedPanel",
     "Hub",

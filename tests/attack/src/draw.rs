@@ -61,7 +61,7 @@ impl Profile {
 }
 
 /// Kinds, the simplest first.
-const KINDS: [BuiltInKind; 13] = [
+const KINDS: [BuiltInKind; 14] = [
     BuiltInKind::ReactionWheel,
     BuiltInKind::BalancedReactionWheel,
     BuiltInKind::HingedPanel,
@@ -75,6 +75,7 @@ const KINDS: [BuiltInKind; 13] = [
     BuiltInKind::Dgvscmg,
     BuiltInKind::BalancedDgvscmg,
     BuiltInKind::FlexibleReactionWheel,
+    BuiltInKind::FlexibleVscmg,
 ];
 
 /// Motion, passive elements and inputs of a joint.
@@ -240,7 +241,7 @@ impl Profile {
         }
         let made = |device: &Device| {
             let Device { kind, mount, ref bodies, lumped, .. } = *device;
-            built_in(KINDS[kind], mount, bodies, self.passives(device), lumped && self.lumped)
+            built_in(KINDS[kind], mount, bodies, &self.passives(device), lumped && self.lumped)
         };
         let list: List = devices.iter().map(made).collect();
         let Body { mass, centre, .. } = *hub;

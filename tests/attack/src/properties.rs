@@ -30,7 +30,7 @@ pub struct Property {
 
 use BuiltInKind as K;
 
-/// Thirteen kinds, and lists of which every shape is compiled.
+/// Fourteen kinds, and lists of which every shape is compiled.
 const SHAPES: &[&[BuiltInKind]] = &[
     &[K::ReactionWheel],
     &[K::Dgvscmg],
@@ -52,6 +52,7 @@ const SHAPES: &[&[BuiltInKind]] = &[
         K::BalancedReactionWheel,
     ],
     &[K::FlexibleReactionWheel],
+    &[K::FlexibleVscmg],
 ];
 
 /// Lists of which batches are compiled.

@@ -3,14 +3,14 @@
 use precess_dynamics::lanes::{AcrossDevices, Batch, LanedSet};
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, BuiltIn,
-    BuiltInKind, Dgcmg, Dgvscmg, FlexibleReactionWheel, HingedPanel, Inputs, ReactionWheel, Scalar,
-    Sgcmg, SloshMass, SolveError, Spacecraft, State, Vscmg,
+    BuiltInKind, Dgcmg, Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, Inputs,
+    ReactionWheel, Scalar, Sgcmg, SloshMass, SolveError, Spacecraft, State, Vscmg,
 };
 
 use super::call_results::{CallResult, of_accelerations, of_state};
 use super::case::{Case, Placed, given, moved};
 
-/// Six kinds; with [`Others`] all but the flexible reaction wheel.
+/// Six kinds; with [`Others`] all but those with flexible bearings.
 pub type Six<T = f64> =
     (Dgvscmg<T>, Vscmg<T>, Sgcmg<T>, ReactionWheel<T>, HingedPanel<T>, SloshMass<T>);
 /// The other six, in sets of sets.
@@ -80,7 +80,7 @@ macro_rules! kinds {
 
 kinds! {
     ReactionWheel BalancedReactionWheel SloshMass HingedPanel Sgcmg BalancedSgcmg Vscmg
-    BalancedVscmg Dgcmg BalancedDgcmg Dgvscmg BalancedDgvscmg FlexibleReactionWheel
+    BalancedVscmg Dgcmg BalancedDgcmg Dgvscmg BalancedDgvscmg FlexibleReactionWheel FlexibleVscmg
 }
 
 impl<T: Scalar> Taken<T> for BuiltIn<T> {

@@ -15,7 +15,8 @@ const BUDGET: [u64; 2] = [281, 1007];
 const CASADI_AT_FOUR: u64 = 7248;
 
 /// What one more device of each kind takes: operations, and pairs of sine and cosine.
-const KINDS: [(&str, u64, u64); 13] = [
+const KINDS: [(&str, u64, u64); 14] = [
+    ("flexible_vscmg", 1961, 4),
     ("flexible_reaction_wheel", 1589, 3),
     ("dgvscmg", EVALUATION[1], 3),
     ("balanced_dgvscmg", 669, 2),

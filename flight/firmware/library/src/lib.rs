@@ -13,8 +13,8 @@
 
 use precess_dynamics::{
     Accelerations, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
-    BalancedVscmg, Dgcmg, Dgvscmg, FlexibleReactionWheel, HingedPanel, Inputs, ReactionWheel,
-    Sgcmg, SloshMass, Spacecraft, State, Vscmg,
+    BalancedVscmg, Dgcmg, Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, Inputs,
+    ReactionWheel, Sgcmg, SloshMass, Spacecraft, State, Vscmg,
 };
 
 /// What [`Spacecraft::accelerations`] is called through.
@@ -87,6 +87,8 @@ exports! {
     slosh_mass_4 SloshMass 4;
     flexible_reaction_wheel_1 FlexibleReactionWheel 1;
     flexible_reaction_wheel_4 FlexibleReactionWheel 4;
+    flexible_vscmg_1 FlexibleVscmg 1;
+    flexible_vscmg_4 FlexibleVscmg 4;
 }
 
 /// What a static library needs and cannot reach: the gate on panics shows that it is never linked.

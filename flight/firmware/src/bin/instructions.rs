@@ -13,9 +13,9 @@ use core::hint::black_box;
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{
     Accelerations, Angle, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
-    BalancedVscmg, Dgcmg, Dgvscmg, Each, FixedSet, FlexibleReactionWheel, HingedPanel, Hub, Inputs,
-    JointStates, ParameterError, ReactionWheel, Scalar, Sgcmg, SloshMass, SolveError, Spacecraft,
-    State, Vscmg,
+    BalancedVscmg, Dgcmg, Dgvscmg, Each, FixedSet, FlexibleReactionWheel, FlexibleVscmg,
+    HingedPanel, Hub, Inputs, JointStates, ParameterError, ReactionWheel, Scalar, Sgcmg, SloshMass,
+    SolveError, Spacecraft, State, Vscmg,
 };
 use precess_firmware::board::{Options, Timer};
 use precess_firmware::random::Random;
@@ -94,6 +94,9 @@ fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
     let hinged_panel = HingedPanel::bare_panel(4.0, disc);
     let slosh_mass = SloshMass::bare_slosh_mass(4.0);
     let flexible_reaction_wheel = FlexibleReactionWheel::bare_wheel(4.0, disc);
+    // A massless gimbal whose rotor moves in all six freedoms has no inertia at all.
+    let flexible_vscmg =
+        FlexibleVscmg { m_g: 4.0, i_g_gc: disc, ..FlexibleVscmg::bare_wheel(4.0, disc) };
     count! { counts,
         dgvscmg_1 dgvscmg 1;
         dgvscmg_4 dgvscmg 4;
@@ -121,6 +124,8 @@ fn program(out: &mut dyn Write, _: Options) -> Result<(), Stop> {
         slosh_mass_4 slosh_mass 4;
         flexible_reaction_wheel_1 flexible_reaction_wheel 1;
         flexible_reaction_wheel_4 flexible_reaction_wheel 4;
+        flexible_vscmg_1 flexible_vscmg 1;
+        flexible_vscmg_4 flexible_vscmg 4;
     }
     counts.baked()?;
     Ok(writeln!(counts.out, "end: {} lines", counts.lines)?)

@@ -42,8 +42,8 @@ pub(super) struct Needs {
     pub(super) mass: bool,
     /// Whether the body has an inertia; a point mass has none.
     pub(super) inertia: bool,
-    /// Whether it is the first of its device, whose origin is the device's position.
-    pub(super) first: bool,
+    /// Whether its table has the origin of its joint.
+    pub(super) origin: bool,
 }
 
 /// The measures of a joint.
@@ -90,15 +90,11 @@ pub(super) fn body(keys: &Keys<'_>, needs: Needs, folder: &std::path::Path) -> O
         (Some(0.0), Vector3::zeros())
     };
     let inertia = if needs.inertia { inertia(keys, true) } else { Some(Matrix3::zeros()) };
-    let origin = if needs.first || !needs.mass {
-        Vector3::zeros()
-    } else {
-        keys.vector("origin", Measure::LENGTH).unwrap_or_else(Vector3::zeros)
-    };
+    let origin = needs.origin.then(|| keys.vector("origin", Measure::LENGTH)).flatten();
     let joint = joint(keys, needs.joint, &measures, folder);
     keys.finish();
     let parameters = BodyParameters {
-        origin: origin.into(),
+        origin: origin.unwrap_or_else(Vector3::zeros).into(),
         mass: mass?,
         centre: centre.into(),
         inertia: inertia?,

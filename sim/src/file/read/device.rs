@@ -178,7 +178,7 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
                 return None;
             };
             let (mass, inertia) = (has_mass(kind, joint), has_inertia(kind, joint));
-            let needs = Needs { joint, mass, inertia, first: joint.index == 0 };
+            let needs = Needs { joint, mass, inertia, origin: has_origin(kind, joint) };
             body(&table, needs, folder)
         })
         .collect();
@@ -254,6 +254,12 @@ pub(crate) fn has_inertia(kind: BuiltInKind, joint: &JointInfo) -> bool {
 /// Whether a link of a kind has a body: those of flexible bearings have none.
 pub(crate) fn has_mass(kind: BuiltInKind, joint: &JointInfo) -> bool {
     has(kind, joint, "kg")
+}
+
+/// Whether the table of a link has the origin of its joint. The first one's is the device's position; of links
+/// without a body only one that stands in a body, as the bearings of a wheel in a gimbal do, has one.
+pub(crate) fn has_origin(kind: BuiltInKind, joint: &JointInfo) -> bool {
+    joint.index > 0 && (has_mass(kind, joint) || has(kind, joint, "m"))
 }
 
 /// Whether a body has a parameter in a unit.

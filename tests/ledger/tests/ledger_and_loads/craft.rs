@@ -8,9 +8,10 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::BodyParameters;
 use precess_dynamics::{
     Accelerations, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg,
-    BalancedVscmg, DeviceLoads, Dgcmg, Dgvscmg, Each, FixedSet, FlexibleReactionWheel, Gravity,
-    HingedPanel, Hub, HubMode, ImbalanceModel, Inputs, JointStates, Mode, Passive, Quaternion,
-    ReactionWheel, Sgcmg, SloshMass, Spacecraft, State, Vscmg, Wrench, kind::JointInfo, set,
+    BalancedVscmg, DeviceLoads, Dgcmg, Dgvscmg, Each, FixedSet, FlexibleReactionWheel,
+    FlexibleVscmg, Gravity, HingedPanel, Hub, HubMode, ImbalanceModel, Inputs, JointStates, Mode,
+    Passive, Quaternion, ReactionWheel, Sgcmg, SloshMass, Spacecraft, State, Vscmg, Wrench,
+    kind::JointInfo, set,
 };
 
 use super::draw::{Drawn, TORQUE};
@@ -27,6 +28,7 @@ pub(crate) type Others = (
     BalancedDgcmg,
     BalancedReactionWheel,
     FlexibleReactionWheel,
+    FlexibleVscmg,
 );
 
 /// 6000 rpm.
@@ -108,7 +110,7 @@ macro_rules! sets {
 sets! {
     A 0, B 1, C 2;
     A 0, B 1, C 2, D 3, E 4, F 5;
-    A 0, B 1, C 2, D 3, E 4, F 5, G 6;
+    A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7;
 }
 
 /// A spacecraft, how it moves and what acts on it.
@@ -181,12 +183,13 @@ impl<D: Craft> Case<D> {
         let joints = state.devices.states_mut().zip(self.inputs.modes.values());
         for (([coordinate, rate], mode), info) in joints.zip(D::joint_infos()) {
             let fastest = if info.body == "wheel" { FASTEST_WHEEL } else { 5.0 };
-            // At a tilt of a right angle the axis of the spin is that of the other tilt.
-            *coordinate = if info.slides || info.body.starts_with("tilt") {
-                random.within(-1.0, 1.0)
-            } else {
-                random.within(-PI, PI)
+            let (farthest, fastest) = match info.body {
+                "axial slide" | "radial slide y" | "radial slide z" => (5e-3, 0.1),
+                // At a tilt of a right angle the axis of the spin is that of the other tilt.
+                "tilt y" | "tilt z" => (1.0, fastest),
+                _ => (if info.slides { 1.0 } else { PI }, fastest),
             };
+            *coordinate = random.within(-farthest, farthest);
             *rate = random.within(-fastest, fastest);
             if mode == Mode::Locked {
                 *rate = 0.0;

@@ -9,8 +9,8 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::Kind;
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
-    Dgvscmg, Each, FlexibleReactionWheel, HingedPanel, ImbalanceModel, Passive, ReactionWheel,
-    Sgcmg, SloshMass, Vscmg,
+    Dgvscmg, Each, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, ImbalanceModel, Passive,
+    ReactionWheel, Sgcmg, SloshMass, Vscmg,
 };
 
 use super::random::Random;
@@ -67,6 +67,15 @@ fn wheel(random: &mut Random, heaviest: f64) -> (f64, Matrix3<f64>, f64) {
     let m_w = mass(random, heaviest);
     let (inertia, radius) = random.tilted_disc(m_w);
     (m_w, inertia, random.log_within(1e-6, radius))
+}
+
+/// A wheel on flexible bearings: off its axis by no more than a hundredth of its radius, which is more than
+/// bearings would bear of a rotor. Its centripetal force does work at a bearing that slides, and the sums of powers
+/// in which this cancels do not hold it.
+fn wheel_on_bearings(random: &mut Random, heaviest: f64) -> (f64, Matrix3<f64>, f64) {
+    let m_w = mass(random, heaviest);
+    let (inertia, radius) = random.tilted_disc(m_w);
+    (m_w, inertia, random.log_within(1e-6, radius / 100.0))
 }
 
 /// A kind by what each of its fields is drawn as.
@@ -149,8 +158,16 @@ drawn!(ReactionWheel, false, |random, heaviest| {
     let (m_w, i_w_wc, d) = wheel(random, heaviest);
 } { r_w_b: position(random), m_w, d, i_w_wc, model: model(random) });
 drawn!(FlexibleReactionWheel, false, |random, heaviest| {
-    let (m_w, i_w_wc, d) = wheel(random, heaviest);
+    let (m_w, i_w_wc, d) = wheel_on_bearings(random, heaviest);
 } { r_sx_b: position(random), m_w, d, i_w_wc, model: model(random) });
+drawn!(FlexibleVscmg, false, |random, heaviest| {
+    let (m_w, i_w_wc, d) = wheel_on_bearings(random, heaviest);
+    // A gimbal holds the bearings, their housing and the motor: at least a third of the rotor's mass.
+    let m_g = random.log_within(m_w / 3.0, m_w.max(heaviest));
+} {
+    r_g_b: position(random), m_g, r_gc_g: offset(random), i_g_gc: random.block(m_g),
+    l_g: offset(random), m_w, d, i_w_wc, model: model(random),
+});
 drawn!(BalancedReactionWheel, true, |random, heaviest| {
     let m_w = mass(random, heaviest);
     let ([j_11, j_22], _) = random.disc(m_w);

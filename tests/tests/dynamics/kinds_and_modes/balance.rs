@@ -5,8 +5,8 @@ use nalgebra::{SMatrix, SVector, Vector3};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
-    Dgvscmg, FlexibleReactionWheel, Gravity, HingedPanel, Mode, ReactionWheel, Sgcmg, SloshMass,
-    Vscmg, Wrench,
+    Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, Gravity, HingedPanel, Mode, ReactionWheel,
+    Sgcmg, SloshMass, Vscmg, Wrench,
 };
 use precess_dynamics::{FixedSet, HubMode};
 use precess_point_masses::{Chain, PointMasses, Rates, Row};
@@ -97,6 +97,7 @@ fn wheels_balance() {
 #[test]
 fn wheels_on_flexible_bearings_balance() {
     balances::<FlexibleReactionWheel>();
+    balances::<FlexibleVscmg>();
 }
 
 #[test]

@@ -5,11 +5,12 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{Each, Kind};
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
-    Dgvscmg, FlexibleReactionWheel, HingedPanel, Passive, ReactionWheel, Sgcmg, SloshMass, Vscmg,
+    Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, HingedPanel, Passive, ReactionWheel, Sgcmg,
+    SloshMass, Vscmg,
 };
 use precess_point_masses::{Chain, Link, Motion};
 
-use super::random::Random;
+use super::random::{Random, is_bearing};
 
 /// A kind that can be drawn.
 pub(crate) trait Drawn: Kind<Scalar = f64> {
@@ -21,10 +22,16 @@ pub(crate) trait Drawn: Kind<Scalar = f64> {
     /// At random, with springs, dampers and friction.
     fn sprung(random: &mut Random, heaviest: f64) -> Self {
         let mut device = Self::drawn(random, heaviest);
-        for passive in device.passive_mut().values_mut() {
+        for (passive, info) in device.passive_mut().values_mut().zip(Self::JOINTS) {
+            // A bearing holds its rotor.
+            let (softest, stiffest, rest) = match (is_bearing(info), info.slides) {
+                (false, _) => (0.0, 10.0, 1.0),
+                (true, true) => (1e2, 1e4, 5e-3),
+                (true, false) => (1.0, 1e2, 0.1),
+            };
             *passive = Passive {
-                stiffness: random.within(0.0, 10.0),
-                rest: random.within(-1.0, 1.0),
+                stiffness: random.within(softest, stiffest),
+                rest: random.within(-rest, rest),
                 viscous: random.within(0.0, 0.1),
                 coulomb: random.within(0.0, 1.0),
                 coulomb_rate: random.log_within(1e-3, 1.0),
@@ -194,24 +201,56 @@ impl Drawn for Dgvscmg {
     }
 }
 
+/// Of the offset of a wheel's centre of mass, which is up to its radius: a rotor on flexible bearings is balanced
+/// to a hundredth of it, more than they would bear.
+const ON_BEARINGS: f64 = 0.01;
+
 impl Drawn for FlexibleReactionWheel {
     fn drawn(random: &mut Random, heaviest: f64) -> Self {
         let ReactionWheel { mount, r_w_b, m_w, d, i_w_wc, .. } =
             ReactionWheel::drawn(random, heaviest);
+        let d = d * ON_BEARINGS;
         Self { mount, r_sx_b: r_w_b, d, ..Self::bare_wheel(m_w, i_w_wc) }
     }
 
     fn chain(&self) -> Chain {
-        let o = Vector3::zeros();
-        let bodiless = |motion| link(motion, o, 0.0, o, Matrix3::zeros());
-        let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
-        let slides = [x, y, z].map(|axis| bodiless(Motion::Slides(axis)));
-        let tilts = [y, z].map(|axis| bodiless(Motion::Turns(axis)));
-        let rotor = wheel(o, self.m_w, self.d, self.i_w_wc);
-        let links = [&slides[..], &tilts[..], &[rotor]].concat();
+        let rotor = wheel(Vector3::zeros(), self.m_w, self.d, self.i_w_wc);
+        let links = on_bearings(Vector3::zeros(), rotor);
         let passive = self.passive.values().collect();
         Chain { mount: self.mount, position: self.r_sx_b, links, passive }
     }
+}
+
+impl Drawn for FlexibleVscmg {
+    fn drawn(random: &mut Random, heaviest: f64) -> Self {
+        let Vscmg { mount, r_g_b, m_g, r_gc_g, i_g_gc, l_g, m_w, d, i_w_wc, .. } =
+            Vscmg::drawn(random, heaviest);
+        // The gimbal holds bearings and motor. Its inertia is all that opposes its own, since the rotor moves freely.
+        let (d, m_g) = (d * ON_BEARINGS, m_g.max(m_w / 3.0));
+        Self { mount, r_g_b, m_g, r_gc_g, i_g_gc, l_g, d, ..Self::bare_wheel(m_w, i_w_wc) }
+    }
+
+    fn chain(&self) -> Chain {
+        let z = about(0.0, 0.0, 1.0);
+        let gimbal = link(z, Vector3::zeros(), self.m_g, self.r_gc_g, self.i_g_gc);
+        let rotor = wheel(Vector3::zeros(), self.m_w, self.d, self.i_w_wc);
+        let links = [&[gimbal][..], &on_bearings(self.l_g, rotor)].concat();
+        let passive = self.passive.values().collect();
+        Chain { mount: self.mount, position: self.r_g_b, links, passive }
+    }
+}
+
+/// Three slides and two tilts without a body, of which the first has its origin here, and the rotor.
+fn on_bearings(origin: Vector3<f64>, rotor: Link) -> Vec<Link> {
+    let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+    let slides = [x, y, z].map(Motion::Slides);
+    let tilts = [y, z].map(Motion::Turns);
+    let o = Vector3::zeros();
+    let bodiless = |motion| link(motion, o, 0.0, o, Matrix3::zeros());
+    let mut links: Vec<Link> = slides.into_iter().chain(tilts).map(bodiless).collect();
+    links[0].origin = origin;
+    links.push(rotor);
+    links
 }
 
 impl Drawn for HingedPanel {

@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
     About, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg,
-    DeviceLoads, Dgcmg, Dgvscmg, FlexibleReactionWheel, Gravity, HingedPanel, HubMode, LoadAxes,
-    Mode, ReactionWheel, Sgcmg, SloshMass, Vscmg, Wrench,
+    DeviceLoads, Dgcmg, Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, Gravity, HingedPanel,
+    HubMode, LoadAxes, Mode, ReactionWheel, Sgcmg, SloshMass, Vscmg, Wrench,
 };
 use precess_point_masses::{Body, Chain, Mass, PointMasses, Rates};
 
@@ -284,6 +284,7 @@ macro_rules! every_kind {
             $check::<HingedPanel>();
             $check::<SloshMass>();
             $check::<FlexibleReactionWheel>();
+            $check::<FlexibleVscmg>();
         }
     )*};
 }

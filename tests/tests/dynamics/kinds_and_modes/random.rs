@@ -121,14 +121,22 @@ impl Random {
 
     /// Coordinate and rate of a joint.
     pub(crate) fn joint(&mut self, info: &JointInfo) -> [f64; 2] {
+        // Bearings yield by their clearance.
+        if is_bearing(info) {
+            let largest = if info.slides { [5e-3, 0.1] } else { [0.1, 1.5] };
+            return largest.map(|largest| self.within(-largest, largest));
+        }
         if info.slides {
             return [self.within(-0.5, 0.5), self.within(-1.0, 1.0)];
         }
         let fastest = if info.rate == "spin" { FASTEST_WHEEL } else { 5.0 };
-        // At a tilt of a right angle the axis of the spin is that of the other tilt.
-        let largest = if info.body.starts_with("tilt") { 1.0 } else { PI };
-        [self.within(-largest, largest), self.within(-fastest, fastest)]
+        [self.within(-PI, PI), self.within(-fastest, fastest)]
     }
+}
+
+/// Whether a joint is one of flexible bearings: a slide or a tilt of the rotor in its housing.
+pub(crate) fn is_bearing(info: &JointInfo) -> bool {
+    ["slide", "tilt"].iter().any(|motion| info.body.contains(motion))
 }
 
 /// Principal moments along turned axes: a matrix symmetric to the last bit.

@@ -5,7 +5,7 @@ use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, Dgcmg,
     Dgvscmg, ReactionWheel, Sgcmg, Vscmg,
 };
-use precess_dynamics::{FlexibleReactionWheel, HingedPanel, SloshMass};
+use precess_dynamics::{FlexibleReactionWheel, FlexibleVscmg, HingedPanel, SloshMass};
 use precess_point_masses::{Rigid, posed};
 
 use super::case::{Joint, LIMITS, SEEDS, World};
@@ -64,6 +64,7 @@ fn locked_double_gimbal_is_part_of_the_hub_at_any_angles() {
 #[test]
 fn wheel_on_locked_bearings_is_part_of_the_hub_wherever_they_stand() {
     locked_is_rigid::<FlexibleReactionWheel>();
+    locked_is_rigid::<FlexibleVscmg>();
 }
 
 #[test]

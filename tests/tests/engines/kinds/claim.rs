@@ -17,6 +17,15 @@ use super::stored::{self, Craft, Engine, Evaluated, Stop, StoredHubMode};
 /// the solver's is 2e-11, Pinocchio's 1e-10, `MuJoCo`'s 1.4e-8; of loads 3e-9.
 const MORE_WORST: f64 = 1e-7;
 
+/// Spacecraft with a [free rotor in a gimbal](Craft::has_free_rotor_in_gimbal).
+const FREE_ROTORS: &str = "free rotors in gimbals";
+
+/// Largest difference of these, of the block. A rotor that nothing holds does not act on its gimbal: of
+/// gyroscopic torques of 6 kN m what is left for the gimbal is zero, and the rounding of what
+/// cancels is large beside an acceleration of 0.05 rad/s^2. Measured: 7.7e-11 of the solver, loads 2.1e-11 of
+/// Pinocchio. A bearing with a spring is held to the bound of all others.
+const FREE_ROTOR_WORST: f64 = 1e-10;
+
 /// Numbers by block: one kind of quantity over the whole spacecraft.
 pub(crate) struct Blocks(BTreeMap<String, Vec<DoubleDouble>>);
 
@@ -196,39 +205,52 @@ impl Blocks {
 /// Errors of one claim, by group of spacecraft.
 pub(crate) struct Claims {
     name: &'static str,
-    groups: BTreeMap<String, Figures>,
-    worst: (f64, String),
+    groups: BTreeMap<String, Group>,
+}
+
+/// Errors of a group, and where the largest is.
+#[derive(Default)]
+struct Group {
+    figures: Figures,
+    largest: f64,
+    whose: String,
 }
 
 impl Claims {
     pub(crate) fn new(name: &'static str) -> Self {
-        Self { name, groups: BTreeMap::new(), worst: (0.0, String::new()) }
+        Self { name, groups: BTreeMap::new() }
     }
 
     pub(crate) fn take(&mut self, craft: &Craft, found: &Blocks, expected: &Blocks) {
-        let figures = self.groups.entry(craft.group.clone()).or_default();
+        let name = if craft.has_free_rotor_in_gimbal() { FREE_ROTORS } else { &craft.group };
+        let group = self.groups.entry(name.to_owned()).or_default();
         for (block, error) in found.errors(expected) {
             if !craft.is_given(block) {
-                figures.add(error);
+                group.figures.add(error);
             }
-            if error.is_nan() || error > self.worst.0 {
-                self.worst = (error, format!("{block} of {}", craft.name));
+            if error.is_nan() || error > group.largest {
+                (group.largest, group.whose) = (error, format!("{block} of {}", craft.name));
             }
         }
     }
 
     /// Prints all figures, then fails if one is above its bound.
     pub(crate) fn finish(self, worst: f64, median: f64) {
-        let Self { name, groups, worst: (largest, whose) } = self;
-        let worst = if stored::is_stored() { worst } else { worst.max(MORE_WORST) };
-        for (group, figures) in &groups {
-            let (w, m) = (figures.worst(), figures.median());
-            println!("{name}, {group}: worst {w:.1e} of the block, median {m:.1e}");
+        let Self { name, groups } = self;
+        for (of, group) in &groups {
+            let (w, m) = (group.figures.worst(), group.figures.median());
+            println!("{name}, {of}: worst {w:.1e} of the block, median {m:.1e}");
         }
-        assert!(largest <= worst, "{name}: {whose} differs by {largest:e}, above {worst:e}");
-        for (group, figures) in &groups {
+        for (of, Group { figures, largest, whose }) in &groups {
+            let least = match of.as_str() {
+                _ if !stored::is_stored() => MORE_WORST,
+                FREE_ROTORS => FREE_ROTOR_WORST,
+                _ => 0.0,
+            };
+            let worst = worst.max(least);
+            assert!(*largest <= worst, "{name}: {whose} differs by {largest:e}, above {worst:e}");
             let found = figures.median();
-            assert!(found <= median, "{name}, {group}: median {found:e} is above {median:e}");
+            assert!(found <= median, "{name}, {of}: median {found:e} is above {median:e}");
         }
     }
 }

@@ -40,6 +40,9 @@ fn joints(kind: &str) -> &'static [Moves] {
         "flexible_reaction_wheel" => {
             &[SLIDES, Moves { axis: 1, ..SLIDES }, Moves { axis: 2, ..SLIDES }, Y, Z, X]
         }
+        "flexible_vscmg" => {
+            &[Z, SLIDES, Moves { axis: 1, ..SLIDES }, Moves { axis: 2, ..SLIDES }, Y, Z, X]
+        }
         other => panic!("{other} has no joints here; write them down"),
     }
 }

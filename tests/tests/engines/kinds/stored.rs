@@ -186,6 +186,17 @@ impl Craft {
             of_block.map(|(_, joint)| matches!(joint.mode, StoredMode::Driven)).collect();
         !driven.is_empty() && !driven.contains(&true)
     }
+
+    /// Whether a rotor on bearings in a gimbal is free in all six freedoms: every bearing and the spin are
+    /// driven, and no bearing has a spring. Real bearings have springs.
+    pub(crate) fn has_free_rotor_in_gimbal(&self) -> bool {
+        let free = |joint: &StoredJoint| {
+            matches!(joint.mode, StoredMode::Driven) && joint.passive[0] == 0.0
+        };
+        self.devices.iter().any(|device| {
+            device.kind() == BuiltInKind::FlexibleVscmg && device.joints.iter().skip(1).all(free)
+        })
+    }
 }
 
 impl StoredDevice {
