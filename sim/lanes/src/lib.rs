@@ -2,7 +2,7 @@
 //! are flat rows as `precess::evaluation` lays them out, and runs side by side.
 //!
 //! A crate of its own: it holds the kernels of every kind in lanes of every width, which take minutes
-//! to compile and rarely change.
+//! to compile and rarely change. The flexible VSCMG has none: see `in_lanes`.
 //!
 //! Lanes do not fuse, so every number has the bits of `Spacecraft` with a `Vec<BuiltIn>`: the order of
 //! sums over devices is the same.
@@ -87,7 +87,7 @@ pub trait Lanes: Send + Sync {
 pub enum Made {
     /// A batch, and what is wrong with each spacecraft.
     Lanes(Box<dyn Lanes>, Vec<Option<ParameterError<f64>>>),
-    /// The devices are of several kinds, or there are none.
+    /// The devices are of several kinds or of one without lanes, or there are none.
     Unsupported,
 }
 
@@ -114,6 +114,18 @@ macro_rules! devices_of {
 }
 use devices_of;
 
+/// What comes of a kind in lanes, or alone where it has no lanes here: its spacecraft are evaluated one by one, with the
+/// same bits. In lanes the kernels of the flexible VSCMG, with seven joints, would be a twentieth of the Python package.
+macro_rules! in_lanes {
+    (FlexibleVscmg, $of_kind:expr, $alone:expr) => {
+        $alone
+    };
+    ($kind:ident, $of_kind:expr, $alone:expr) => {
+        $of_kind
+    };
+}
+use in_lanes;
+
 /// The batch of one spacecraft for every state, or of one for each.
 #[must_use]
 pub fn lanes(crafts: &[(Hub, Vec<BuiltIn>)], each: bool) -> Made {
@@ -121,7 +133,9 @@ pub fn lanes(crafts: &[(Hub, Vec<BuiltIn>)], each: bool) -> Made {
     macro_rules! by_kind {
         ($($kind:ident $module:ident $number:literal;)*) => {
             match first {
-                $(BuiltIn::$kind(_) => laned::of_kind(&devices_of!(crafts, $kind), each),)*
+                $(BuiltIn::$kind(_) => {
+                    in_lanes!($kind, laned::of_kind(&devices_of!(crafts, $kind), each), Made::Unsupported)
+                })*
             }
         };
     }

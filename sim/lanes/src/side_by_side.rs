@@ -9,7 +9,7 @@ use precess_dynamics::{
 };
 
 use crate::laned::{Set, write_inputs};
-use crate::{Acting, Ends, devices_of, one_kind};
+use crate::{Acting, Ends, devices_of, in_lanes, one_kind};
 
 /// The state of a spacecraft, of whatever kind its devices are.
 #[derive(Clone, Debug)]
@@ -34,15 +34,15 @@ pub trait SideBySide: Send {
     fn advance(&mut self, at: &mut [(Motion, Acting)], length: f64, steps: usize) -> Ends;
 }
 
-/// These spacecraft; none where their devices are of several kinds, of different numbers, or none, or
-/// where one of them is rejected.
+/// These spacecraft; none where their devices are of several kinds, of a kind without lanes, of different numbers, or
+/// none, or where one of them is rejected.
 #[must_use]
 pub fn side_by_side(crafts: &[(Hub, Vec<BuiltIn>)]) -> Option<Box<dyn SideBySide>> {
     let first = one_kind(crafts)?;
     macro_rules! by_kind {
         ($($kind:ident $module:ident $number:literal;)*) => {
             match first {
-                $(BuiltIn::$kind(_) => of_kind(&devices_of!(crafts, $kind)),)*
+                $(BuiltIn::$kind(_) => in_lanes!($kind, of_kind(&devices_of!(crafts, $kind)), None),)*
             }
         };
     }
