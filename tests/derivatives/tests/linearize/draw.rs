@@ -1,12 +1,13 @@
-//! Random spacecraft of twelve kinds, every joint mode, mode of the hub and gravity, in any scalar.
+//! Random spacecraft of every kind, joint mode, mode of the hub and gravity, in any scalar.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::kind::{BodyParameters, Each, JointStates, Kind, Value};
+use precess_dynamics::kind::{BodyParameters, Each, JointInfo, JointStates, Kind, Value};
 use precess_dynamics::set::{Change, WithNumbers};
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, BuiltIn,
-    Dgcmg, Dgvscmg, Gravity, HingedPanel, Hub, HubMode, ImbalanceModel, Inputs, Mode, Passive,
-    Quaternion, ReactionWheel, Scalar, Sgcmg, SloshMass, Spacecraft, State, Vscmg, Wrench,
+    Dgcmg, Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, Gravity, HingedPanel, Hub, HubMode,
+    ImbalanceModel, Inputs, Mode, Passive, Quaternion, ReactionWheel, Scalar, Sgcmg, SloshMass,
+    Spacecraft, State, Vscmg, Wrench,
 };
 use precess_tests::random::Random;
 
@@ -39,10 +40,7 @@ const FASTEST_WHEEL: f64 = 628.0;
 /// How a device of a kind is drawn.
 type Draw = fn(&mut Random, f64) -> BuiltIn;
 
-/// Every kind but the flexible reaction wheel, whose linearised modes the suite `flexible_wheel` compares with
-/// their closed form. Some of its blocks are near zero because terms cancel: of 40 spacecraft with one, six are
-/// off by more than the bound, 4e-7 in `tilt_y_ddot` by `u_tz`, 7e-7 in `spin_dot` by `theta`; and no moment but
-/// the motor's reaches a wheel of which all joints are driven.
+/// The kinds without flexible bearings.
 const KINDS: [Draw; 12] = [
     device::<Dgvscmg>,
     device::<BalancedDgvscmg>,
@@ -58,22 +56,31 @@ const KINDS: [Draw; 12] = [
     device::<SloshMass>,
 ];
 
+/// Those with.
+const ON_BEARINGS: [Draw; 2] = [device::<FlexibleReactionWheel>, device::<FlexibleVscmg>];
+
 impl Drawn {
-    /// The spacecraft of a seed: one to three devices, the kinds in turn.
+    /// The spacecraft of a seed: one to three devices without flexible bearings, the kinds in turn.
     pub(crate) fn new(seed: u64) -> Self {
+        Self::with_first(KINDS[usize::try_from(seed % 12).unwrap()], seed)
+    }
+
+    /// The same, but that the first device has flexible bearings.
+    pub(crate) fn on_bearings(seed: u64) -> Self {
+        Self::with_first(ON_BEARINGS[usize::try_from(seed % 2).unwrap()], seed)
+    }
+
+    fn with_first(first: Draw, seed: u64) -> Self {
         let random = &mut Random::new(seed);
         let m_b = random.log_within(10.0, 5000.0);
         let reach = random.within(0.0, 1.0);
         let hub = Hub { m_b, r_bc_b: random.vector(reach), i_b_bc: block(random, m_b) };
-        let count = 1 + usize::try_from(random.bits() % 3).unwrap();
-        let first = usize::try_from(seed % 12).unwrap();
-        let devices: List = (0..count)
-            .map(|k| {
-                let kind =
-                    if k == 0 { first } else { usize::try_from(random.bits() % 12).unwrap() };
-                KINDS[kind](random, m_b)
-            })
-            .collect();
+        let count = 1 + random.bits() % 3;
+        let draw = |k: u64, random: &mut Random| match k {
+            0 => first,
+            _ => KINDS[usize::try_from(random.bits() % 12).unwrap()],
+        };
+        let devices: List = (0..count).map(|k| draw(k, random)(random, m_b)).collect();
         let mut drawn = Self {
             seed,
             mounts: devices.iter().map(|_| quaternion(random)).collect(),
@@ -122,8 +129,15 @@ impl Drawn {
         let joints = craft.joints().zip(state.devices.states_mut());
         let given = inputs.motors.values_mut().zip(inputs.modes.values_mut());
         for (((_, info), [coordinate, rate]), (motor, mode)) in joints.zip(given) {
-            let fastest = if info.rate == "spin" { FASTEST_WHEEL } else { 3.0 };
-            *coordinate = random.within(-3.0, 3.0) * if info.slides { 0.1 } else { 1.0 };
+            let [farthest, fastest] = match (is_bearing(info), info.slides, info.rate) {
+                // Bearings yield by their clearance.
+                (true, true, _) => [5e-3, 0.1],
+                (true, false, _) => [0.1, 1.5],
+                (false, true, _) => [0.3, 3.0],
+                (false, false, "spin") => [3.0, FASTEST_WHEEL],
+                (false, false, _) => [3.0, 3.0],
+            };
+            *coordinate = random.within(-farthest, farthest);
             *rate = random.within(-fastest, fastest);
             *motor = random.within(-5.0, 5.0);
             match random.bits() % 6 {
@@ -221,31 +235,44 @@ fn device<K: Kind<Scalar = f64> + Into<BuiltIn>>(random: &mut Random, heaviest: 
     let no_body =
         BodyParameters { origin: [0.0; 3], mass: 0.0, centre: [0.0; 3], inertia: Matrix3::zeros() };
     let (mut bodies, mut passive) = (K::all(no_body), K::all(Passive::none()));
-    for (index, body) in bodies.values_mut().enumerate() {
-        let tip = K::JOINTS[index].rate == "spin";
+    let flexible = K::JOINTS.iter().any(is_bearing);
+    let mut heaviest = heaviest;
+    for (index, (body, info)) in bodies.values_mut().zip(K::JOINTS).enumerate() {
+        let tip = info.rate == "spin";
         body.mass = random.log_within(0.1, heaviest);
         let reach = if index == 0 { random.within(0.0, 2.0) } else { random.log_within(1e-3, 1.0) };
         body.origin = random.vector(reach).into();
         let (inertia, radius) = disc(random, body.mass);
         if tip {
             body.inertia = inertia;
-            body.centre = [0.0, random.log_within(1e-5, radius), 0.0];
+            // More than bearings would bear.
+            let largest = if flexible { radius / 100.0 } else { radius };
+            body.centre = [0.0, random.log_within(1e-5, largest), 0.0];
         } else {
             body.inertia = block(random, body.mass);
             let reach = random.log_within(1e-3, 1.0);
             body.centre = random.vector(reach).into();
         }
-    }
-    if random.bits().is_multiple_of(2) {
-        for passive in passive.values_mut() {
-            *passive = Passive {
-                stiffness: random.within(0.0, 10.0),
-                rest: random.within(-1.0, 1.0),
-                viscous: random.within(0.0, 0.1),
-                coulomb: random.within(0.0, 1.0),
-                coulomb_rate: random.log_within(1e-3, 1.0),
-            };
+        // A gimbal that holds bearings has at least a third of the rotor's mass.
+        if flexible && !is_bearing(info) {
+            heaviest = heaviest.min(3.0 * body.mass);
         }
+    }
+    let sprung = random.bits().is_multiple_of(2);
+    for (passive, info) in passive.values_mut().zip(K::JOINTS) {
+        let (softest, stiffest, rest) = match (is_bearing(info), info.slides) {
+            (true, true) => (1e2, 1e4, 5e-3),
+            (true, false) => (1.0, 1e2, 0.1),
+            (false, _) if sprung => (0.0, 10.0, 1.0),
+            (false, _) => continue,
+        };
+        *passive = Passive {
+            stiffness: random.within(softest, stiffest),
+            rest: random.within(-rest, rest),
+            viscous: random.within(0.0, 0.1),
+            coulomb: random.within(0.0, 1.0),
+            coulomb_rate: random.log_within(1e-3, 1.0),
+        };
     }
     let model = if random.bits().is_multiple_of(4) {
         ImbalanceModel::Lumped
@@ -253,6 +280,11 @@ fn device<K: Kind<Scalar = f64> + Into<BuiltIn>>(random: &mut Random, heaviest: 
         ImbalanceModel::Coupled
     };
     K::of_bodies(&Matrix3::identity(), &bodies, &passive, model).into()
+}
+
+/// Whether a joint is one of flexible bearings: a slide or a tilt of the rotor in its housing.
+fn is_bearing(info: &JointInfo) -> bool {
+    ["slide", "tilt"].iter().any(|motion| info.body.contains(motion))
 }
 
 /// A quaternion of about unit length.

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
 use precess_dynamics::{
-    About, Column, EnergyAndMomentum, LoadAxes, Outputs, Scalar, Spacecraft, Variable, Wrench,
+    About, Column, EnergyAndMomentum, HubMode, LoadAxes, Outputs, Scalar, Spacecraft, Variable,
+    Wrench,
 };
 use precess_tests::blocks::largest;
 use precess_tests::double_double::DoubleDouble as Wide;
@@ -34,16 +35,23 @@ pub(crate) fn values<T: Scalar>(craft: &Spacecraft<List<T>>, case: &Case<T>) -> 
     let loads = craft.loads(state, inputs, &found, LoadAxes::Body).expect(expect);
     let joints: Vec<_> = loads.devices.iter().flat_map(|device| device.joints.values()).collect();
     let hub = [found.r_b_n_ddot, in_n, found.omega_dot];
-    named(craft, hub, found.devices.values().collect(), &momentum, &joints)
+    // What holds the hub.
+    let held = (inputs.hub != HubMode::Free).then_some(loads.hub);
+    named(craft, hub, found.devices.values().collect(), &momentum, (&joints, held))
 }
 
-/// The derivatives of a column.
-pub(crate) fn derivatives(craft: &Spacecraft<List>, column: &Column<List>) -> Named<f64> {
-    let Column { accelerations, r_b_n_ddot_n, momentum, loads, .. } = column;
+/// The derivatives of a column, with a hub of that mode.
+pub(crate) fn derivatives(
+    craft: &Spacecraft<List>,
+    hub: HubMode,
+    column: &Column<List>,
+) -> Named<f64> {
+    let Column { accelerations, r_b_n_ddot_n, momentum, loads, hub_load } = column;
+    let held = if hub == HubMode::Free { None } else { *hub_load };
     let hub = [accelerations.r_b_n_ddot, *r_b_n_ddot_n, accelerations.omega_dot];
     let joints = accelerations.devices.values().collect();
     let loads: Vec<_> = loads.iter().flat_map(Each::values).collect();
-    named(craft, hub, joints, &momentum.expect("asked for"), &loads)
+    named(craft, hub, joints, &momentum.expect("asked for"), (&loads, held))
 }
 
 fn named<T: Scalar>(
@@ -51,7 +59,7 @@ fn named<T: Scalar>(
     [in_b, in_n, omega_dot]: [Vector3<T>; 3],
     joints: Vec<T>,
     momentum: &EnergyAndMomentum<T>,
-    loads: &[Wrench<T>],
+    (loads, held): (&[Wrench<T>], Option<Wrench<T>>),
 ) -> Named<T> {
     let mut list = Vec::new();
     let mut add = |name: &str, v: &Vector3<T>| list.extend(v.iter().map(|x| (name.to_owned(), *x)));
@@ -63,6 +71,10 @@ fn named<T: Scalar>(
     for (load, (_, info)) in loads.iter().zip(craft.joints()) {
         add(&format!("force {}", info.body), &load.force);
         add(&format!("moment {}", info.body), &load.moment);
+    }
+    if let Some(load) = held {
+        add("force on the hub", &load.force);
+        add("moment on the hub", &load.moment);
     }
     list.push(("energy".to_owned(), momentum.energy));
     let joints = joints.into_iter().zip(craft.joints());
@@ -99,9 +111,9 @@ struct Block {
     size: f64,
 }
 
-/// Below this share of what an output changes by all variables, a derivative is zero: what the
-/// differences leave of it is 1e-24.
-const ZERO: f64 = 1e-15;
+/// Below this share of what an output changes by all variables, a derivative is taken for zero: the differences, which
+/// judge it, are off by up to 7e-22 of that (force on a held hub by its inertia, by the gradient of a field).
+const ZERO: f64 = 1e-11;
 
 impl Blocks {
     /// Takes one column, by a variable of a kind and of a size.
@@ -129,14 +141,30 @@ impl Blocks {
     /// change of the output by any variable's size. So is that of a load by what a central field
     /// depends on, as the weights cancel in what falls; and the unit of a block that is zero.
     pub(crate) fn errors(&self) -> impl Iterator<Item = (f64, String)> {
-        self.0.iter().map(|((output, variable), block)| {
-            let row = self.0.iter().filter(|((other, _), _)| other == output);
-            let row = largest(row.map(|(_, block)| block.unit * block.size)) / block.size;
-            let of_field = ["gravity.mu", "r_b_n", "attitude"].contains(&variable.as_str());
+        self.errors_in(|output, variable, block, change| {
+            let of_field = ["gravity.mu", "r_b_n", "attitude"].contains(&variable);
             let load = output.starts_with("force ") || output.starts_with("moment ");
-            let sum = ["energy", "linear", "angular"].contains(&output.as_str());
-            let sum = sum || (load && of_field);
-            let unit = if sum || block.unit <= ZERO * row { row } else { block.unit };
+            let sum = ["energy", "linear", "angular"].contains(&output) || (load && of_field);
+            if sum || block <= ZERO * change { change } else { block }
+        })
+    }
+
+    /// The same with that unit for all: a rotor that moves in all six freedoms acts on what carries it through its
+    /// bearings alone, so that inertia and gyroscopic torque cancel in every row of hub and gimbal.
+    pub(crate) fn errors_of_changes(&self) -> impl Iterator<Item = (f64, String)> {
+        self.errors_in(|_, _, _, change| change)
+    }
+
+    /// In units made of output, variable, the block's largest magnitude, and the largest change of the
+    /// output by any variable's size.
+    fn errors_in(
+        &self,
+        unit: impl Fn(&str, &str, f64, f64) -> f64,
+    ) -> impl Iterator<Item = (f64, String)> {
+        self.0.iter().map(move |((output, variable), block)| {
+            let row = self.0.iter().filter(|((other, _), _)| other == output);
+            let change = largest(row.map(|(_, block)| block.unit * block.size)) / block.size;
+            let unit = unit(output, variable, block.unit, change);
             let error = if block.difference == 0.0 { 0.0 } else { block.difference / unit };
             (error, format!("{output} by {variable}"))
         })

@@ -242,7 +242,7 @@ fn worst_block(drawn: &Drawn) -> (f64, String) {
                 ParameterVariable::HubCentre(_) | ParameterVariable::MountRotation { .. } => 1.0,
                 other => size(&case, &other),
             };
-            blocks.add(&kind, large, &derivatives(&craft, column), &expected);
+            blocks.add(&kind, large, &derivatives(&craft, case.inputs.hub, column), &expected);
         },
     );
     let found = found.unwrap_or_else(|error| panic!("seed {:#x}: {error}", drawn.seed));
