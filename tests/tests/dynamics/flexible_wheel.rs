@@ -19,13 +19,13 @@ use precess_tests::random::Random;
 const FREQUENCY: f64 = 1e-9;
 
 /// Rotor: mass, axial and transverse moment of inertia, kg and kg m².
-const M: f64 = 4.0;
-const I_S: f64 = 0.03;
-const I_R: f64 = 0.02;
+pub(crate) const M: f64 = 4.0;
+pub(crate) const I_S: f64 = 0.03;
+pub(crate) const I_R: f64 = 0.02;
 
 type Soft = FlexibleReactionWheel;
 
-fn hub() -> Hub {
+pub(crate) fn hub() -> Hub {
     let i_b_bc = Matrix3::new(12.0, 0.4, -0.3, 0.4, 10.0, 0.2, -0.3, 0.2, 9.0);
     Hub { m_b: 80.0, r_bc_b: Vector3::new(0.02, -0.03, 0.01), i_b_bc }
 }
@@ -43,19 +43,52 @@ fn bearings([axial, radial, tilt]: [Passive; 3]) -> PerJoint<Passive> {
 }
 
 /// Joints of the bearings: three slides, two tilts.
-const BEARINGS: usize = 5;
+pub(crate) const BEARINGS: usize = 5;
 
-/// The angular frequencies of the modes on a fixed hub about a steady spin, rad/s, ascending, and the
-/// largest real part of an eigenvalue, 1/s.
-fn modes(wheel: &Soft, spin: f64) -> (Vec<f64>, f64) {
-    let craft = Spacecraft::new(&hub(), wheel).expect("valid parameters");
-    let mut state: State<Soft> = State::at_rest();
-    (state.devices.theta, state.devices.spin) = (0.7, spin);
-    let inputs = Inputs { hub: HubMode::Fixed, ..Inputs::<Soft>::none() };
+/// Stiffness of the axial and radial slides and of the tilts, N/m and N m/rad.
+pub(crate) const STIFFNESS: [f64; 3] = [3.0e4, 5.0e4, 900.0];
+
+/// Steady spins, rad/s.
+pub(crate) const SPINS: [f64; 4] = [0.0, 40.0, 300.0, -628.0];
+
+/// The modes of the bearings, which are five joints from the first of these on, about a state in which they rest on a
+/// fixed hub: `w = g / 2 +- sqrt(g^2 / 4 + k / I_r)` with `g = I_s Omega / I_r`, and `sqrt(k / m)`. The worst error.
+pub(crate) fn error_of_modes<K: Kind<Scalar = f64>>(
+    device: &K,
+    first: usize,
+    state: &State<K>,
+    inputs: &Inputs<K>,
+    spin: f64,
+) -> f64 {
+    let [k_a, k_r, k_t] = STIFFNESS;
+    let half = I_S * spin / (2.0 * I_R);
+    let root = (half * half + k_t / I_R).sqrt();
+    let [axial, radial] = [k_a, k_r].map(|k| (k / M).sqrt());
+    let mut expected = [axial, radial, radial, root + half, root - half];
+    expected.sort_by(f64::total_cmp);
+    let (modes, damping) = modes(device, first, state, inputs);
+    assert_eq!(modes.len(), BEARINGS, "{spin}: {modes:?}");
+    assert!(damping < FREQUENCY * expected[BEARINGS - 1], "{spin}: {damping:e}");
+    let errors = modes.iter().zip(expected).map(|(mode, expected)| (mode / expected - 1.0).abs());
+    let worst = errors.fold(0.0, f64::max);
+    assert!(worst < FREQUENCY, "{spin}: {modes:?}, {expected:?}");
+    worst
+}
+
+/// The angular frequencies of the modes, rad/s, ascending, and the largest real part of an eigenvalue, 1/s.
+fn modes<K: Kind<Scalar = f64>>(
+    device: &K,
+    first: usize,
+    state: &State<K>,
+    inputs: &Inputs<K>,
+) -> (Vec<f64>, f64) {
+    let craft = Spacecraft::new(&hub(), device).expect("valid parameters");
     let outputs = Outputs { momentum: None, loads: None };
-    let linear = craft.linearize(&state, &inputs, &outputs).expect("a state");
+    let linear = craft.linearize(state, inputs, &outputs).expect("a state");
     // The rotor's angle and rate are no modes: nothing holds them.
-    let of_bearings = |variable: &Variable| variable.joint().is_some_and(|joint| joint < BEARINGS);
+    let of_bearings = |variable: &Variable| {
+        variable.joint().is_some_and(|joint| (first..first + BEARINGS).contains(&joint))
+    };
     let wanted: Vec<_> =
         (0..linear.states.len()).filter(|row| of_bearings(&linear.states[*row])).collect();
     assert_eq!(wanted.len(), 2 * BEARINGS);
@@ -68,31 +101,20 @@ fn modes(wheel: &Soft, spin: f64) -> (Vec<f64>, f64) {
     (modes, values.iter().map(|value| value.re.abs()).fold(0.0, f64::max))
 }
 
-/// `w = g / 2 +- sqrt(g^2 / 4 + k / I_r)` with `g = I_s Omega / I_r`, and `sqrt(k / m)`.
 #[test]
 fn whirls_and_translations_are_those_of_the_closed_form() {
-    let (k_a, k_r, k_t) = (3.0e4, 5.0e4, 900.0);
     let inertia = Matrix3::from_diagonal(&Vector3::new(I_S, I_R, I_R));
     let wheel = Soft {
-        passive: bearings([k_a, k_r, k_t].map(|k| Passive::spring(k, 0.0))),
+        passive: bearings(STIFFNESS.map(|k| Passive::spring(k, 0.0))),
         ..Soft::bare_wheel(M, inertia)
     };
-    let mut worst = 0.0_f64;
-    for spin in [0.0, 40.0, 300.0, -628.0] {
-        let half = I_S * spin / (2.0 * I_R);
-        let root = (half * half + k_t / I_R).sqrt();
-        let [axial, radial] = [k_a, k_r].map(|k| (k / M).sqrt());
-        let mut expected = [axial, radial, radial, root + half, root - half];
-        expected.sort_by(f64::total_cmp);
-        let (modes, damping) = modes(&wheel, spin);
-        assert_eq!(modes.len(), BEARINGS, "{spin}: {modes:?}");
-        for (mode, expected) in modes.iter().zip(expected) {
-            worst = worst.max((mode / expected - 1.0).abs());
-            assert!((mode / expected - 1.0).abs() < FREQUENCY, "{spin}: {modes:?}, {expected}");
-        }
-        assert!(damping < FREQUENCY * expected[BEARINGS - 1], "{spin}: {damping:e}");
-    }
-    println!("worst {worst:.1e} of a frequency");
+    let inputs = Inputs { hub: HubMode::Fixed, ..Inputs::<Soft>::none() };
+    let of_spin = |spin| {
+        let mut state: State<Soft> = State::at_rest();
+        (state.devices.theta, state.devices.spin) = (0.7, spin);
+        error_of_modes(&wheel, 0, &state, &inputs, spin)
+    };
+    println!("worst {:.1e} of a frequency", SPINS.map(of_spin).into_iter().fold(0.0, f64::max));
 }
 
 /// A wheel with an imbalance on damped bearings, off the reference point of the hub.
@@ -189,18 +211,26 @@ fn stiff_wheel_is_the_limit_as_one_over_the_stiffness() {
     (still.omega, still.devices.spin) = (omega, spin);
     let slow = run(&stiff, still).omega;
 
-    let off = [1.0, 4.0, 16.0].map(|scale| {
-        // Springs, and dampers in their proportion that let the transient of the start decay.
-        let spring = |k: f64, m: f64| Passive::spring(k * scale, 1.2 * (k * scale * m).sqrt());
+    falls_as_one_over_the_stiffness(1.0, |[slide, tilt]| {
         let soft = Soft {
             r_sx_b: r_w_b,
             d,
-            passive: bearings([spring(4e4, M), spring(4e4, M), spring(400.0, I_R)]),
+            passive: bearings([slide, slide, tilt]),
             ..Soft::bare_wheel(M, inertia)
         };
         let mut state: State<Soft> = State::at_rest();
         (state.omega, state.devices.spin) = (omega, spin);
         (run(&soft, state).omega - slow).norm()
+    });
+}
+
+/// How far the motion is off with springs of slides and tilts, the softest first, that are each four times as stiff.
+pub(crate) fn falls_as_one_over_the_stiffness(softest: f64, off: impl Fn([Passive; 2]) -> f64) {
+    let off = [1.0, 4.0, 16.0].map(|scale| {
+        let scale = scale * softest;
+        // Springs, and dampers in their proportion that let the transient of the start decay.
+        let spring = |k: f64, m: f64| Passive::spring(k * scale, 1.2 * (k * scale * m).sqrt());
+        off([spring(4e4, M), spring(400.0, I_R)])
     });
     let ratios = [off[0] / off[1], off[1] / off[2]];
     println!("{off:?} rad/s off, ratios {ratios:?}");
@@ -210,7 +240,7 @@ fn stiff_wheel_is_the_limit_as_one_over_the_stiffness() {
 }
 
 /// The state after 0.4 s with nothing acting.
-fn run<K: Kind<Scalar = f64>>(device: &K, mut state: State<K>) -> State<K> {
+pub(crate) fn run<K: Kind<Scalar = f64>>(device: &K, mut state: State<K>) -> State<K> {
     let craft = Spacecraft::new(&hub(), device).expect("valid parameters");
     for _ in 0..4000 {
         state = craft.step(&state, &Inputs::none(), 1e-4).expect("a state");

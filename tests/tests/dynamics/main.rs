@@ -4,6 +4,7 @@
 mod accelerations;
 mod accuracy;
 mod conservation;
+mod flexible_vscmg;
 mod flexible_wheel;
 mod imbalance;
 mod input_parameters;
