@@ -167,7 +167,9 @@ pub trait FixedSet: Devices {
     }
     /// The modes that the kinds have by themselves.
     fn modes() -> Self::Per<PerJoint<Mode<Self::Scalar>>> {
-        own_modes(Self::all(Mode::Driven), Self::joint_infos())
+        let mut modes = Self::all(Mode::Driven);
+        set_own_modes(&mut modes, Self::joint_infos());
+        modes
     }
 }
 
@@ -251,13 +253,12 @@ impl<T: Scalar> List<T> for AreLumped {
     }
 }
 
-/// The modes that the kinds give their joints.
-pub(crate) fn own_modes<'a, T: Scalar, P: Each<Mode<T>>>(
-    mut modes: P,
+/// Writes the modes that the kinds give their joints: a result would be moved.
+pub(crate) fn set_own_modes<'a, T: Scalar>(
+    modes: &mut impl Each<Mode<T>>,
     infos: impl Iterator<Item = &'a JointInfo>,
-) -> P {
+) {
     for (mode, info) in modes.values_mut().zip(infos) {
         *mode = info.own_mode();
     }
-    modes
 }

@@ -7,7 +7,7 @@ use crate::equations::joint_inputs::JointInputs;
 use crate::model::mode::{HubMode, Mode};
 use crate::model::wrench::Wrench;
 use crate::numbers::vec3::{add, components, cross, vector, zeros};
-use crate::sets::devices::{Devices, FixedSet, JointInfos, SetInputs, own_modes};
+use crate::sets::devices::{Devices, FixedSet, JointInfos, SetInputs, set_own_modes};
 use crate::sets::per_device as data;
 use crate::solve::spacecraft::Spacecraft;
 
@@ -71,18 +71,17 @@ impl<D: Devices> Inputs<D> {
     /// As [`Inputs::none`], for a set whose devices are known only at run time.
     #[must_use]
     pub fn none_for(spacecraft: &Spacecraft<D>) -> Self {
-        Self {
+        let mut inputs = Self {
             force: vector(zeros()),
             torque_b: vector(zeros()),
             motors: D::new_data(&spacecraft.devices, &data::Motors),
-            modes: own_modes(
-                D::new_data(&spacecraft.devices, &data::PerJoint(Mode::Driven)),
-                D::list::<JointInfos>(&spacecraft.devices),
-            ),
+            modes: D::new_data(&spacecraft.devices, &data::PerJoint(Mode::Driven)),
             hub: HubMode::Free,
             gravity: Gravity::None,
             bodies: None,
-        }
+        };
+        set_own_modes(&mut inputs.modes, D::list::<JointInfos>(&spacecraft.devices));
+        inputs
     }
 
     /// As [`Inputs::no_wrenches`], for a set whose devices are known only at run time.

@@ -5,10 +5,10 @@ use precess_dynamics::{About, Accelerations, Each, Inputs, State};
 
 use crate::craft::{Craft, Made, craft, report};
 use crate::error::{Code, Fault, Rejection};
-use crate::inputs::inputs_of;
-use crate::memory::{self, offer, read, write};
+use crate::inputs::take_inputs;
+use crate::memory::{self, offer, refer, write};
 use crate::places::Places;
-use crate::state::{state_of, structure_of};
+use crate::state::{state_of, structure_of, take_state};
 use crate::types;
 use crate::version::{Interface, SetOf, Versions, give};
 
@@ -40,24 +40,25 @@ where
     }
 }
 
-/// State and inputs.
+/// Writes the state and inputs of structures to a state at rest and inputs in which nothing acts.
 ///
 /// # Safety
 ///
 /// Both pointers are null, misaligned, or point to readable structures.
-pub(crate) unsafe fn state_and_inputs<const J: usize>(
+pub(crate) unsafe fn take_state_and_inputs<const J: usize>(
     craft: &Made<SetOf<J>>,
     state: *const types::State<J>,
     inputs: *const types::Inputs<J>,
-) -> Result<(State<SetOf<J>>, Inputs<SetOf<J>>), Rejection>
+    to: (&mut State<SetOf<J>>, &mut Inputs<SetOf<J>>),
+) -> Result<(), Rejection>
 where
     Versions: Interface<J>,
 {
+    let (to_state, to_inputs) = to;
     // SAFETY: by contract.
-    let state = state_of(craft, &unsafe { read(state) }?);
+    take_state(craft, unsafe { refer(state) }?, to_state);
     // SAFETY: by contract.
-    let inputs = inputs_of(craft, &unsafe { read(inputs) }?)?;
-    Ok((state, inputs))
+    take_inputs(craft, unsafe { refer(inputs) }?, to_inputs)
 }
 
 fn of_accelerations<const J: usize>(
@@ -92,9 +93,11 @@ where
     Versions: Interface<J>,
 {
     let call = |craft: &Made<SetOf<J>>| {
+        let mut at = State::at_rest_for(&craft.spacecraft);
+        let mut given = Inputs::none_for(&craft.spacecraft);
         // SAFETY: by contract.
-        let (state, inputs) = unsafe { state_and_inputs(craft, state, inputs) }?;
-        let found = craft.spacecraft.accelerations(&state, &inputs)?;
+        unsafe { take_state_and_inputs(craft, state, inputs, (&mut at, &mut given)) }?;
+        let found = craft.spacecraft.accelerations(&at, &given)?;
         // SAFETY: by contract.
         Ok(unsafe { write(out, of_accelerations(&found, &craft.places)) }?)
     };
@@ -123,8 +126,11 @@ where
         if substeps == 0 || substeps > MAX_SUBSTEPS {
             return Err(Code::TooMany.into());
         }
+        let mut next = State::at_rest_for(&craft.spacecraft);
+        let mut given = Inputs::none_for(&craft.spacecraft);
+        let from = state.cast_const();
         // SAFETY: by contract.
-        let (mut next, inputs) = unsafe { state_and_inputs(craft, state.cast_const(), inputs) }?;
+        unsafe { take_state_and_inputs(craft, from, inputs, (&mut next, &mut given)) }?;
         let mut sum = types::Power {
             external: 0.0,
             hub: 0.0,
@@ -135,9 +141,9 @@ where
         };
         for _ in 0..substeps {
             if work.is_null() {
-                next = craft.spacecraft.step(&next, &inputs, dt)?;
+                next = craft.spacecraft.step(&next, &given, dt)?;
             } else {
-                let stepped = craft.spacecraft.step_with_work(&next, &inputs, dt)?;
+                let stepped = craft.spacecraft.step_with_work(&next, &given, dt)?;
                 next = stepped.state;
                 sum.external += stepped.work.external;
                 sum.hub += stepped.work.hub;
@@ -172,9 +178,12 @@ where
     Versions: Interface<J>,
 {
     let call = |craft: &Made<SetOf<J>>| {
+        let mut before = State::at_rest_for(&craft.spacecraft);
+        let mut given = Inputs::none_for(&craft.spacecraft);
+        let from = state.cast_const();
         // SAFETY: by contract.
-        let (before, inputs) = unsafe { state_and_inputs(craft, state.cast_const(), inputs) }?;
-        let stopped = craft.spacecraft.stop(&before, &inputs)?;
+        unsafe { take_state_and_inputs(craft, from, inputs, (&mut before, &mut given)) }?;
+        let stopped = craft.spacecraft.stop(&before, &given)?;
         // SAFETY: by contract.
         unsafe { offer(lost, stopped.energy_lost) }?;
         // SAFETY: by contract.
@@ -200,7 +209,7 @@ where
 {
     let call = |craft: &Made<SetOf<J>>| {
         // SAFETY: by contract.
-        let state = state_of(craft, &unsafe { read(state) }?);
+        let state = state_of(craft, unsafe { refer(state) }?);
         // SAFETY: by contract.
         Ok(unsafe { write(energy, craft.spacecraft.energy(&state)?) }?)
     };
@@ -227,7 +236,7 @@ where
 {
     let call = |craft: &Made<SetOf<J>>| {
         // SAFETY: by contract.
-        let state = state_of(craft, &unsafe { read(state) }?);
+        let state = state_of(craft, unsafe { refer(state) }?);
         let about = match about {
             0 => About::InertialOrigin,
             1 => About::CentreOfMass,

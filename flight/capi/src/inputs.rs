@@ -9,17 +9,18 @@ use crate::memory;
 use crate::types;
 use crate::version::{Interface, SetOf, Versions, give, take};
 
-/// The inputs that a structure states.
-pub(crate) fn inputs_of<const J: usize>(
+/// Writes the inputs that a structure states to inputs in which nothing acts. They are large: a
+/// result of them would be copied.
+pub(crate) fn take_inputs<const J: usize>(
     craft: &Made<SetOf<J>>,
     from: &types::Inputs<J>,
-) -> Result<Inputs<SetOf<J>>, Rejection>
+    inputs: &mut Inputs<SetOf<J>>,
+) -> Result<(), Rejection>
 where
     Versions: Interface<J>,
 {
     let Made { spacecraft, places, .. } = craft;
     let vector = Vector3::from;
-    let mut inputs = Inputs::none_for(spacecraft);
     inputs.force = vector(from.force);
     inputs.torque_b = vector(from.torque);
     take(inputs.motors.values_mut(), &from.motor, places, |motor| *motor);
@@ -61,7 +62,7 @@ where
         }
         _ => return Err(Code::UnknownChoice.into()),
     }
-    Ok(inputs)
+    Ok(())
 }
 
 /// See `precess.h`.

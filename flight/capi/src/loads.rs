@@ -1,10 +1,10 @@
 //! Loads of joints and mounts, and the torques that prescribed and locked joints need.
 
-use precess_dynamics::LoadAxes;
+use precess_dynamics::{Inputs, LoadAxes, State};
 
 use crate::craft::{Craft, Made};
 use crate::error::{Code, Fault};
-use crate::evaluate::{state_and_inputs, with};
+use crate::evaluate::{take_state_and_inputs, with};
 use crate::memory::write;
 use crate::types::{self, Wrench};
 use crate::version::{Interface, Placed, SetOf, Versions};
@@ -33,10 +33,12 @@ where
             3 => LoadAxes::Inertial,
             _ => return Err(Code::UnknownChoice.into()),
         };
+        let mut at = State::at_rest_for(&craft.spacecraft);
+        let mut given = Inputs::none_for(&craft.spacecraft);
         // SAFETY: by contract.
-        let (state, inputs) = unsafe { state_and_inputs(craft, state, inputs) }?;
-        let accelerations = craft.spacecraft.accelerations(&state, &inputs)?;
-        let found = craft.spacecraft.loads(&state, &inputs, &accelerations, axes)?;
+        unsafe { take_state_and_inputs(craft, state, inputs, (&mut at, &mut given)) }?;
+        let accelerations = craft.spacecraft.accelerations(&at, &given)?;
+        let found = craft.spacecraft.loads(&at, &given, &accelerations, axes)?;
         let mut to = types::Loads {
             hub: Wrench::of(&found.hub),
             mount: [Wrench::NONE; crate::MAX_DEVICES],

@@ -49,6 +49,21 @@ pub unsafe fn read<T: Plain>(pointer: *const T) -> Result<T, Code> {
     Ok(unsafe { pointer.read() })
 }
 
+/// As [`read`], where the value stands: structures are large, and copies of them take time.
+///
+/// # Errors
+///
+/// [`Code::Null`], [`Code::Misaligned`].
+///
+/// # Safety
+///
+/// A pointer that is neither points to a readable `T` that nobody changes while it is in use.
+pub unsafe fn refer<'a, T: Plain>(pointer: *const T) -> Result<&'a T, Code> {
+    check(pointer)?;
+    // SAFETY: not null, aligned; readable and unchanged by contract; `Plain` has no invalid bits.
+    Ok(unsafe { &*pointer })
+}
+
 /// Writes a value through a pointer.
 ///
 /// # Errors

@@ -20,6 +20,18 @@ where
     Versions: Interface<J>,
 {
     let mut state = State::at_rest_for(&craft.spacecraft);
+    take_state(craft, from, &mut state);
+    state
+}
+
+/// Writes the state that a structure states to one at rest.
+pub(crate) fn take_state<const J: usize>(
+    craft: &Made<SetOf<J>>,
+    from: &types::State<J>,
+    state: &mut State<SetOf<J>>,
+) where
+    Versions: Interface<J>,
+{
     let [q0, q1, q2, q3] = from.attitude;
     state.r_b_n = Vector3::from(from.position);
     state.r_b_n_dot = Vector3::from(from.velocity);
@@ -33,7 +45,6 @@ where
             (*coordinate, *rate) = (x, x_dot);
         }
     }
-    state
 }
 
 /// A state as a structure.
@@ -121,7 +132,7 @@ where
     // SAFETY: by contract.
     let done = unsafe { craft::<J>(pointer) }.and_then(|craft| {
         // SAFETY: by contract.
-        let from = state_of(craft, &unsafe { memory::read(state.cast_const()) }?);
+        let from = state_of(craft, unsafe { memory::refer(state.cast_const()) }?);
         // SAFETY: by contract.
         let wrapped = from.wrapped(&craft.spacecraft);
         // SAFETY: by contract.
