@@ -20,6 +20,7 @@ use crate::flexible::state::{FlexibleAccelerations, FlexibleState};
 use crate::flexible::storage::ModalStorage;
 use crate::model::mode::HubMode;
 use crate::model::wrench::Wrench;
+use crate::numbers::each::Each;
 use crate::numbers::real::{Scalar, two, zero};
 use crate::numbers::symmetric::Symmetric;
 use crate::numbers::vec3::{Vec3, add, components, cross, scale, sub, zeros};
@@ -84,7 +85,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         }
         let given = given_hub(&inputs.rigid.hub, at_b);
         let hub = self.substitute(stages.as_ref(), &structure, &forces, given, &gains, found)?;
-        found.rigid.finish(&inputs.rigid, &hub, at_b)
+        let finite = found.rigid.devices.values().all(Scalar::is_finite);
+        found.rigid.finish(&inputs.rigid, &hub, at_b, finite)
     }
 
     /// Hub and modes together, (F12), then the joints; writes accelerations of modes and joints,

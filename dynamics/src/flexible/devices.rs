@@ -140,7 +140,7 @@ impl<T: Scalar> Visit<T, Substituted> for MountBackSubstitution<'_, T> {
         (gains, out, mount): <Substituted as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), Infallible> {
         let Some(mount) = self.0.get(*mount) else { return Ok(()) };
-        BackSubstitution(mount.expressed_in_b()).visit(device, (gains, out))
+        BackSubstitution::on(mount).visit(device, (gains, out))
     }
 
     fn visit_isolated<D: DeviceSet<Scalar = T>>(
@@ -149,6 +149,6 @@ impl<T: Scalar> Visit<T, Substituted> for MountBackSubstitution<'_, T> {
         (gains, out, mount): <Substituted as Bundle<T>>::Of<'_, Isolated<D>>,
     ) -> Result<(), Infallible> {
         let Some(mount) = self.0.get(mount.platform) else { return Ok(()) };
-        BackSubstitution(mount.expressed_in_b()).visit_isolated(isolated, (gains, out))
+        BackSubstitution::on(mount).visit_isolated(isolated, (gains, out))
     }
 }

@@ -127,12 +127,13 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             evaluate(weight, &stage, &mut found, stiffness)
                 .map_err(|failure| self.cause(&stage, inputs, failure))?;
             *rate = (weight, stage.rigid.attitude.rate(&stage.rigid.omega));
-            stage.rigid.follow(&start.rigid, &found.rigid, [weight, offset], &mut sum.rigid);
+            let slope = (&found.rigid, [weight, offset]);
+            stage.rigid.follow(&self.rigid, &start.rigid, slope.0, slope.1, &mut sum.rigid);
             stage.rigid.attitude = attitude.advanced(&[(offset, rate.1)]);
             follow(&mut stage, start, found.eta_ddot.as_ref(), [weight, offset], &mut sum);
         }
         let mut next = stage;
-        next.rigid.add(&start.rigid, &sum.rigid);
+        next.rigid.add(&self.rigid, &start.rigid, &sum.rigid);
         next.rigid.attitude = attitude.advanced(&rates).normalised();
         add(next.eta.as_mut(), start.eta.as_ref(), sum.eta.as_ref());
         add(next.eta_dot.as_mut(), start.eta_dot.as_ref(), sum.eta_dot.as_ref());

@@ -3,6 +3,7 @@
 //! Both evaluate through [`solve`](crate::solve).
 
 pub(crate) mod energy_lost;
+pub(crate) mod follow;
 pub(crate) mod rk4;
 pub(crate) mod stability;
 pub(crate) mod stop;

@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 use crate::attitude::parameterisation::Attitude;
 use crate::equations::error::{Quantity, SolveError};
 use crate::equations::stiffness::Stiffness;
+use crate::integrate::follow::{Follow, Followed, Reach, Reached};
 use crate::integrate::stability::PassiveStep;
-use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Real, Scalar, half, zero};
 use crate::numbers::vec3::{add, columns, components, rotate_transposed, scale, vector, zeros};
 use crate::results::ledger::Power;
@@ -129,11 +129,11 @@ impl<D: Devices> Spacecraft<D> {
             evaluate(weight, &stage, &mut found, stiffness)
                 .map_err(|failure| self.cause(&stage, inputs, failure))?;
             *rate = (weight, stage.attitude.rate(&stage.omega));
-            stage.follow(start, &found, [weight, offset], &mut sum);
+            stage.follow(self, start, &found, [weight, offset], &mut sum);
             stage.attitude = attitude.advanced(&[(offset, rate.1)]);
         }
         let mut next = stage;
-        next.add(start, &sum);
+        next.add(self, start, &sum);
         next.attitude = attitude.advanced(&rates).normalised();
         self.check_reached(&next)?;
         match passive {
@@ -148,6 +148,7 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
     /// the slope, s both; the attitude is left out.
     pub(crate) fn follow(
         &mut self,
+        craft: &Spacecraft<D>,
         start: &Self,
         found: &Accelerations<D>,
         [weight, offset]: [D::Scalar; 2],
@@ -162,29 +163,18 @@ impl<D: Devices, A: Attitude<D::Scalar>> State<D, A> {
         step(&mut sum.r_b_n, &mut self.r_b_n, &start.r_b_n, components(&self.r_b_n_dot));
         step(&mut sum.r_b_n_dot, &mut self.r_b_n_dot, &start.r_b_n_dot, acceleration);
         step(&mut sum.omega, &mut self.omega, &start.omega, components(&found.omega_dot));
-        let joints = self.devices.states_mut().zip(start.devices.states());
-        let joints = joints.zip(sum.devices.states_mut()).zip(found.devices.values());
-        for ((([coordinate, rate], start), [sum, sum_of_rate]), acceleration) in joints {
-            let [from, rate_from] = start;
-            *sum = *sum + weight * *rate;
-            *sum_of_rate = *sum_of_rate + weight * acceleration;
-            *coordinate = from + (zero::<D::Scalar>() + offset * *rate);
-            *rate = rate_from + (zero::<D::Scalar>() + offset * acceleration);
-        }
+        let data = (&mut self.devices, &start.devices, &mut sum.devices, &found.devices);
+        let Ok(()) = D::visit::<Followed, _>(&craft.devices, data, &mut Follow { weight, offset });
     }
 
     /// Becomes `start + sum`, attitude left out.
-    pub(crate) fn add(&mut self, start: &Self, sum: &Self) {
+    pub(crate) fn add(&mut self, craft: &Spacecraft<D>, start: &Self, sum: &Self) {
         let plus = |a, b| vector(add(components(a), components(b)));
         self.r_b_n = plus(&start.r_b_n, &sum.r_b_n);
         self.r_b_n_dot = plus(&start.r_b_n_dot, &sum.r_b_n_dot);
         self.omega = plus(&start.omega, &sum.omega);
-        let joints =
-            self.devices.states_mut().zip(start.devices.states().zip(sum.devices.states()));
-        for ([coordinate, rate], ([from, rate_from], [by, rate_by])) in joints {
-            *coordinate = from + by;
-            *rate = rate_from + rate_by;
-        }
+        let data = (&mut self.devices, &start.devices, &sum.devices);
+        let Ok(()) = D::visit::<Reached, _>(&craft.devices, data, &mut Reach);
     }
 }
 

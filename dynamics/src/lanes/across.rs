@@ -275,7 +275,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
         if let Some(demanded) = demanded {
             *demanded = craft.stiffness(inputs, &assembly);
         }
-        all.finish(inputs, &hub, at_b).ok()
+        // The joints' are: `holds` says it.
+        all.finish(inputs, &hub, at_b, true).ok()
     }
 }
 

@@ -31,8 +31,14 @@ impl<T: Scalar> Visit<T, Counted> for Counts<T> {
 
     #[inline]
     fn compare(&mut self, expected: usize, found: usize) -> Result<(), SolveError<T>> {
-        if expected == found { Ok(()) } else { Err(SolveError::Count { expected, found }) }
+        compare_counts(expected, found)
     }
+}
+
+/// Rejects a number of members that is not that of the set.
+#[inline]
+pub(crate) fn compare_counts<T>(expected: usize, found: usize) -> Result<(), SolveError<T>> {
+    if expected == found { Ok(()) } else { Err(SolveError::Count { expected, found }) }
 }
 
 /// Rejects data of another number of devices or joints.

@@ -19,6 +19,7 @@ use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates, Value};
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::Bundle;
+use crate::sets::enumeration::{DeviceEnum, Visited};
 use crate::sets::per_device::{Accelerations, Joints, Loads, Motors, PerDevice, PerJoint};
 use crate::validation::parameter_error::ParameterError;
 
@@ -72,6 +73,21 @@ pub trait Visit<T: Scalar, B: Bundle<T>> {
         device: &Device<K>,
         data: B::Of<'_, K>,
     ) -> Result<(), Self::Error>;
+    /// Does it with a device of an enumeration. Here by the structures of its kind; an operation that
+    /// is the same for every kind need not convert the data to them.
+    ///
+    /// # Errors
+    /// Ends the visit.
+    fn visit_enum<E: DeviceEnum<Scalar = T> + Devices>(
+        &mut self,
+        device: &E::Prepared,
+        data: B::Of<'_, E>,
+    ) -> Result<(), Self::Error>
+    where
+        Self: Sized,
+    {
+        E::with(device, Visited::<E, B, Self> { data, visitor: self })
+    }
     /// Does it with a platform and the devices that it carries. Here one after another, as with
     /// devices on the hub: right of what does not depend on the motion of a device's base.
     ///

@@ -191,8 +191,7 @@ macro_rules! device_enum {
                 data: B::Of<'_, Self>,
                 visitor: &mut V,
             ) -> Result<(), V::Error> {
-                let visited = $crate::set::Visited::<Self, B, V> { data, visitor };
-                <Self as $crate::set::DeviceEnum>::with(device, visited)
+                visitor.visit_enum::<Self>(device, data)
             }
 
             fn count<F: $crate::set::PerDevice<T>>(data: &F::OfEnum<Self>) -> Option<usize> {

@@ -20,7 +20,6 @@ use crate::model::mode::HubMode;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, filling, zero};
 use crate::numbers::vec3::{Vec3, add, columns, components, extreme, finite, sub, vector, zeros};
-use crate::sets::counts::check_counts;
 use crate::sets::devices::{Devices, SetInputs};
 use crate::sets::per_device as data;
 use crate::solve::elimination::{Eliminate, Eliminated, Elimination, back_substitute};
@@ -97,11 +96,11 @@ impl<D: Devices> Spacecraft<D> {
         let given = inputs.of_joints();
         self.eliminate_devices(by, state, given, &environment, &mut assembly, &mut scratch)?;
         let hub = self.hub_accelerations(inputs, &environment, &mut assembly, at_b)?;
-        back_substitute::<D>(&self.devices, &scratch, &hub, &mut found.devices);
+        let finite = back_substitute::<D>(&self.devices, &scratch, &hub, &mut found.devices);
         if let Some(stiffness) = stiffness {
             *stiffness = self.stiffness(inputs, &assembly);
         }
-        found.finish(inputs, &hub, at_b)
+        found.finish(inputs, &hub, at_b, finite)
     }
 
     /// Accelerations to be filled in.
@@ -172,7 +171,6 @@ impl<D: Devices> Spacecraft<D> {
         assembly: &mut Assembly<D::Scalar>,
         scratch: &mut D::Per<data::Gains>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        check_counts::<D>(&self.devices, &state.devices, Some(given), None)?;
         let mut elimination = Elimination { environment, assembly, device: 0, by };
         let data = (&state.devices, given, scratch);
         D::visit::<Eliminated, _>(&self.devices, data, &mut elimination)
@@ -185,8 +183,8 @@ impl<D: Devices> Spacecraft<D> {
         hub: &Solution<D::Scalar>,
     ) -> Result<D::Per<data::Accelerations>, SolveError<D::Scalar>> {
         let mut found = D::new_data(&self.devices, &data::Accelerations);
-        back_substitute::<D>(&self.devices, scratch, hub, &mut found);
-        if found.values().all(Scalar::is_finite) { Ok(found) } else { Err(overflow()) }
+        let finite = back_substitute::<D>(&self.devices, scratch, hub, &mut found);
+        if finite { Ok(found) } else { Err(overflow()) }
     }
 
     /// What to report for a failed evaluation: an input that is not finite explains everything
@@ -315,6 +313,7 @@ impl<D: Devices> Accelerations<D> {
         inputs: &Inputs<D>,
         hub: &Solution<D::Scalar>,
         at_b: Vec3<D::Scalar>,
+        joints_are_finite: bool,
     ) -> Result<(), SolveError<D::Scalar>> {
         self.r_b_n_ddot = match &inputs.hub {
             HubMode::Free => vector(add(hub.r_b_n_ddot, at_b)),
@@ -322,9 +321,11 @@ impl<D: Devices> Accelerations<D> {
             HubMode::Prescribed { r_b_n_ddot, .. } => *r_b_n_ddot,
         };
         self.omega_dot = vector(hub.omega_dot);
-        let is_finite =
-            finite(components(&self.r_b_n_ddot)) && self.devices.values().all(Scalar::is_finite);
-        if is_finite { Ok(()) } else { Err(overflow()) }
+        if finite(components(&self.r_b_n_ddot)) && joints_are_finite {
+            Ok(())
+        } else {
+            Err(overflow())
+        }
     }
 }
 

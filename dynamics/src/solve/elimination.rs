@@ -19,8 +19,10 @@ use crate::generated::hub::BodyAcceleration;
 use crate::isolation::carrier::Carrying;
 use crate::isolation::set::{Isolated, PreparedIsolated, parts};
 use crate::model::kind::Kind;
+use crate::numbers::each::Each;
 use crate::numbers::real::Scalar;
 use crate::sets::bundle::{Bundle, Given, Shared, Unique};
+use crate::sets::counts::compare_counts;
 use crate::sets::devices::{DeviceSet, Visit};
 use crate::sets::per_device as data;
 
@@ -70,6 +72,12 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
         by.eliminate(of)
     }
 
+    /// Here, not by a visit of its own: that would convert the data of a list once more.
+    #[inline(always)]
+    fn compare(&mut self, expected: usize, found: usize) -> Result<(), SolveError<T>> {
+        compare_counts(expected, found)
+    }
+
     fn visit_isolated<D: DeviceSet<Scalar = T>>(
         &mut self,
         isolated: &PreparedIsolated<D>,
@@ -97,7 +105,18 @@ impl<T: Scalar, E: Eliminate<T>> Visit<T, Eliminated> for Elimination<'_, T, E> 
 pub(crate) type Substituted = (Shared<data::Gains>, Unique<data::Accelerations>);
 
 /// The joints' accelerations once the hub's are known.
-pub(crate) struct BackSubstitution<T>(pub(crate) BodyAcceleration<T>);
+pub(crate) struct BackSubstitution<T> {
+    hub: BodyAcceleration<T>,
+    /// Whether all so far are finite.
+    finite: bool,
+}
+
+impl<T: Copy> BackSubstitution<T> {
+    /// On a base with these accelerations.
+    pub(crate) fn on(base: &Solution<T>) -> Self {
+        Self { hub: base.expressed_in_b(), finite: true }
+    }
+}
 
 impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<T> {
     type Error = Infallible;
@@ -109,7 +128,8 @@ impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<T> {
         (gains, out): <Substituted as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), Infallible> {
         if let Some(gains) = gains {
-            *out = K::back_substitute(gains, &self.0);
+            *out = K::back_substitute(gains, &self.hub);
+            self.finite &= out.values().all(Scalar::is_finite);
         }
         Ok(())
     }
@@ -120,22 +140,25 @@ impl<T: Scalar> Visit<T, Substituted> for BackSubstitution<T> {
         (gains, out): <Substituted as Bundle<T>>::Of<'_, Isolated<D>>,
     ) -> Result<(), Infallible> {
         let Some(of_platform) = &gains.platform else { return Ok(()) };
-        let (joints, [r_b_n_ddot, omega_dot]) = of_platform.outward(&self.0);
+        let (joints, [r_b_n_ddot, omega_dot]) = of_platform.outward(&self.hub);
+        self.finite &= joints.values().all(Scalar::is_finite);
         out.platform = joints;
         let platform = Solution { r_b_n_ddot, omega_dot };
-        back_substitute::<D>(&isolated.carried, &gains.carried, &platform, &mut out.carried);
+        self.finite &=
+            back_substitute::<D>(&isolated.carried, &gains.carried, &platform, &mut out.carried);
         Ok(())
     }
 }
 
-/// The accelerations of every device's joints.
+/// Writes the accelerations of every device's joints; whether all are finite.
 #[inline(always)]
 pub(crate) fn back_substitute<D: DeviceSet>(
     devices: &D::Prepared,
     gains: &D::Per<data::Gains>,
     hub: &Solution<D::Scalar>,
     out: &mut D::Per<data::Accelerations>,
-) {
-    let mut substitution = BackSubstitution(hub.expressed_in_b());
+) -> bool {
+    let mut substitution = BackSubstitution::on(hub);
     let Ok(()) = D::visit::<Substituted, _>(devices, (gains, out), &mut substitution);
+    substitution.finite
 }
