@@ -71,7 +71,17 @@ impl<D: Devices> Inputs<D> {
     /// As [`Inputs::none`], for a set whose devices are known only at run time.
     #[must_use]
     pub fn none_for(spacecraft: &Spacecraft<D>) -> Self {
-        let mut inputs = Self {
+        let mut inputs = Self::driven_for(spacecraft);
+        set_own_modes(&mut inputs.modes, D::list::<JointInfos>(&spacecraft.devices));
+        inputs
+    }
+
+    /// As [`Inputs::none_for`], but every joint is driven, whatever the mode of its kind: for inputs
+    /// whose modes are all written.
+    #[must_use]
+    #[inline]
+    pub fn driven_for(spacecraft: &Spacecraft<D>) -> Self {
+        Self {
             force: vector(zeros()),
             torque_b: vector(zeros()),
             motors: D::new_data(&spacecraft.devices, &data::Motors),
@@ -79,9 +89,7 @@ impl<D: Devices> Inputs<D> {
             hub: HubMode::Free,
             gravity: Gravity::None,
             bodies: None,
-        };
-        set_own_modes(&mut inputs.modes, D::list::<JointInfos>(&spacecraft.devices));
-        inputs
+        }
     }
 
     /// As [`Inputs::no_wrenches`], for a set whose devices are known only at run time.

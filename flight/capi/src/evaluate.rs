@@ -40,7 +40,8 @@ where
     }
 }
 
-/// Writes the state and inputs of structures to a state at rest and inputs in which nothing acts.
+/// Writes the state and inputs of structures to a state at rest and inputs in which nothing acts; each
+/// joint has its mode there.
 ///
 /// # Safety
 ///
@@ -94,7 +95,7 @@ where
 {
     let call = |craft: &Made<SetOf<J>>| {
         let mut at = State::at_rest_for(&craft.spacecraft);
-        let mut given = Inputs::none_for(&craft.spacecraft);
+        let mut given = Inputs::driven_for(&craft.spacecraft);
         // SAFETY: by contract.
         unsafe { take_state_and_inputs(craft, state, inputs, (&mut at, &mut given)) }?;
         let found = craft.spacecraft.accelerations(&at, &given)?;
@@ -127,7 +128,7 @@ where
             return Err(Code::TooMany.into());
         }
         let mut next = State::at_rest_for(&craft.spacecraft);
-        let mut given = Inputs::none_for(&craft.spacecraft);
+        let mut given = Inputs::driven_for(&craft.spacecraft);
         let from = state.cast_const();
         // SAFETY: by contract.
         unsafe { take_state_and_inputs(craft, from, inputs, (&mut next, &mut given)) }?;
@@ -179,7 +180,7 @@ where
 {
     let call = |craft: &Made<SetOf<J>>| {
         let mut before = State::at_rest_for(&craft.spacecraft);
-        let mut given = Inputs::none_for(&craft.spacecraft);
+        let mut given = Inputs::driven_for(&craft.spacecraft);
         let from = state.cast_const();
         // SAFETY: by contract.
         unsafe { take_state_and_inputs(craft, from, inputs, (&mut before, &mut given)) }?;

@@ -24,7 +24,9 @@ where
     inputs.force = vector(from.force);
     inputs.torque_b = vector(from.torque);
     take(inputs.motors.values_mut(), &from.motor, places, |motor| *motor);
-    for (to, [entry, joint]) in inputs.modes.values_mut().zip(places.joints()) {
+    let mut joints = places.joints();
+    inputs.modes.values_mut().try_for_each(|to| {
+        let Some([entry, joint]) = joints.next() else { return Ok(()) };
         let mode = from.mode.get(entry).and_then(|modes| modes.get(joint));
         let prescribed = from.prescribed.get(entry).and_then(|joints| joints.get(joint));
         *to = match (mode, prescribed) {
@@ -33,7 +35,8 @@ where
             (Some(2), _) => Mode::Locked,
             _ => return Err(Rejection { entry: Some(entry), ..Code::UnknownChoice.into() }),
         };
-    }
+        Ok(())
+    })?;
     inputs.hub = match from.hub_mode {
         0 => HubMode::Free,
         1 => HubMode::Fixed,

@@ -34,7 +34,7 @@ where
             _ => return Err(Code::UnknownChoice.into()),
         };
         let mut at = State::at_rest_for(&craft.spacecraft);
-        let mut given = Inputs::none_for(&craft.spacecraft);
+        let mut given = Inputs::driven_for(&craft.spacecraft);
         // SAFETY: by contract.
         unsafe { take_state_and_inputs(craft, state, inputs, (&mut at, &mut given)) }?;
         let accelerations = craft.spacecraft.accelerations(&at, &given)?;

@@ -9,7 +9,7 @@ use crate::error::{Code, Fault, Rejection};
 use crate::memory::{self, slice, slice_mut};
 use crate::places::Places;
 use crate::types;
-use crate::version::{Interface, SetOf, Versions, give};
+use crate::version::{Interface, SetOf, Versions};
 
 /// The state that a structure states.
 pub(crate) fn state_of<const J: usize>(
@@ -37,14 +37,14 @@ pub(crate) fn take_state<const J: usize>(
     state.r_b_n_dot = Vector3::from(from.velocity);
     state.attitude = Quaternion { q0, q1, q2, q3 };
     state.omega = Vector3::from(from.omega);
-    for ([coordinate, rate], [entry, joint]) in
-        state.devices.states_mut().zip(craft.places.joints())
-    {
+    let mut joints = craft.places.joints();
+    state.devices.states_mut().for_each(|[coordinate, rate]| {
+        let Some([entry, joint]) = joints.next() else { return };
         let at = |of: &types::PerJoint<f64, J>| of.get(entry).and_then(|of| of.get(joint)).copied();
         if let (Some(x), Some(x_dot)) = (at(&from.coordinate), at(&from.rate)) {
             (*coordinate, *rate) = (x, x_dot);
         }
-    }
+    });
 }
 
 /// A state as a structure.
@@ -64,8 +64,15 @@ where
         coordinate: [[0.0; J]; MAX_DEVICES],
         rate: [[0.0; J]; MAX_DEVICES],
     };
-    give(&mut to.coordinate, state.devices.states(), places, |[coordinate, _]| coordinate);
-    give(&mut to.rate, state.devices.states(), places, |[_, rate]| rate);
+    let mut joints = places.joints();
+    state.devices.states().for_each(|[coordinate, rate]| {
+        let Some([entry, joint]) = joints.next() else { return };
+        let coordinates = to.coordinate.get_mut(entry).and_then(|joints| joints.get_mut(joint));
+        let rates = to.rate.get_mut(entry).and_then(|joints| joints.get_mut(joint));
+        if let (Some(to), Some(to_rate)) = (coordinates, rates) {
+            (*to, *to_rate) = (coordinate, rate);
+        }
+    });
     to
 }
 

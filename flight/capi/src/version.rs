@@ -174,11 +174,14 @@ pub(crate) fn take<'a, V: Value + 'a, U: 'a, const J: usize>(
     places: &Places,
     of: impl Fn(&U) -> V,
 ) {
-    for (to, [entry, joint]) in to.zip(places.joints()) {
-        if let Some(from) = from.get(entry).and_then(|joints| joints.get(joint)) {
+    let mut joints = places.joints();
+    // Not a loop: it would look for the device of each number anew.
+    to.for_each(|to| {
+        let from = joints.next().and_then(|[entry, joint]| from.get(entry)?.get(joint));
+        if let Some(from) = from {
             *to = of(from);
         }
-    }
+    });
 }
 
 /// Copies the numbers of a set to `[entry][joint]`.
@@ -188,9 +191,11 @@ pub(crate) fn give<V, U, const J: usize>(
     places: &Places,
     of: impl Fn(V) -> U,
 ) {
-    for (from, [entry, joint]) in from.zip(places.joints()) {
-        if let Some(to) = to.get_mut(entry).and_then(|joints| joints.get_mut(joint)) {
+    let mut joints = places.joints();
+    from.for_each(|from| {
+        let to = joints.next().and_then(|[entry, joint]| to.get_mut(entry)?.get_mut(joint));
+        if let Some(to) = to {
             *to = of(from);
         }
-    }
+    });
 }
