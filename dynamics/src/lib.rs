@@ -149,6 +149,7 @@ pub mod set {
     pub use crate::sets::enumeration::{DeviceEnum, Variant, WithKind};
     #[doc(hidden)]
     pub use crate::sets::enumeration::{Listed, NewData, Visited};
+    pub use crate::sets::held::{Held, HeldMut};
     pub use crate::sets::per_device::{
         Accelerations, EnumLoads, Gains, Joints, Loads, Motors, PerDevice, PerJoint,
     };

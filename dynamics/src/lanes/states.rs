@@ -2,7 +2,6 @@
 
 #![expect(clippy::inline_always, reason = "lanes reach wide instructions only in what is inlined")]
 
-use crate::model::kind::Kind;
 use crate::numbers::laned::WIDEST;
 use crate::sets::bundle::{Bundle, Part};
 use crate::sets::devices::DeviceSet;
@@ -14,7 +13,7 @@ pub(super) struct States;
 
 impl Bundle<f64> for States {
     type Of<'a, D: DeviceSet<Scalar = f64>> = [&'a D::Per<Joints>; WIDEST];
-    type Typed<K: Kind<Scalar = f64>> = [K::Joints<f64>; WIDEST];
+    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = f64>> = [K::Joints<f64>; WIDEST];
 
     #[inline(always)]
     fn part<'b, 'a: 'b, W: DeviceSet<Scalar = f64>, P: Part<W>>(
@@ -28,16 +27,18 @@ impl Bundle<f64> for States {
     #[inline(always)]
     fn counts<W: DeviceSet<Scalar = f64>>(_: &Self::Of<'_, W>, _: &mut impl FnMut(usize)) {}
 
-    fn get<K: Variant<E>, E: DeviceEnum<Scalar = f64>>(
-        _: &Self::Of<'_, E>,
-    ) -> Option<Self::Typed<K>> {
+    fn get<'a, K: Variant<E>, E: DeviceEnum<Scalar = f64>>(
+        _: Self::Of<'a, E>,
+    ) -> Option<Self::Typed<'a, K, E>> {
         None
     }
 
     #[inline(always)]
-    fn refer<K: Kind<Scalar = f64>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
+    fn refer<'b, K: Variant<E>, E: DeviceEnum<Scalar = f64>>(
+        typed: &'b mut Self::Typed<'_, K, E>,
+    ) -> Self::Of<'b, K> {
         typed.each_ref()
     }
 
-    fn put<K: Variant<E>, E: DeviceEnum<Scalar = f64>>(_: &Self::Typed<K>, _: Self::Of<'_, E>) {}
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = f64>>(_: Self::Typed<'_, K, E>) {}
 }

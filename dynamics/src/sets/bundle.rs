@@ -7,12 +7,12 @@
 )]
 
 use crate::equations::joint_inputs::JointInputs;
-use crate::model::kind::Kind;
 use crate::model::mode::Mode;
 use crate::model::wrench::Wrench;
 use crate::numbers::real::Scalar;
 use crate::sets::devices::{DeviceSet, SetInputs};
 use crate::sets::enumeration::{DeviceEnum, Variant};
+use crate::sets::held::{Held, HeldMut};
 use crate::sets::per_device::{Motors, PerDevice, PerJoint};
 
 /// Where a member stands in a set `W`.
@@ -37,7 +37,7 @@ pub trait Bundle<T: Scalar> {
     /// The references, for a set.
     type Of<'a, D: DeviceSet<Scalar = T>>;
     /// A kind's data out of an enumeration's.
-    type Typed<K: Kind<Scalar = T>>;
+    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>>;
 
     /// Those of one member.
     fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
@@ -46,14 +46,16 @@ pub trait Bundle<T: Scalar> {
     ) -> Option<Self::Of<'b, P::Of>>;
     /// The number of members that each of the data is of, where it is known only at run time.
     fn counts<W: DeviceSet<Scalar = T>>(data: &Self::Of<'_, W>, each: &mut impl FnMut(usize));
-    /// Copies of an enumeration's data as a kind's; none where they are of another kind.
-    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-        data: &Self::Of<'_, E>,
-    ) -> Option<Self::Typed<K>>;
+    /// An enumeration's data as a kind's; none where they are of another kind.
+    fn get<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: Self::Of<'a, E>,
+    ) -> Option<Self::Typed<'a, K, E>>;
     /// References to them.
-    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K>;
-    /// What was changed of them, put back.
-    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(typed: &Self::Typed<K>, data: Self::Of<'_, E>);
+    fn refer<'b, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        typed: &'b mut Self::Typed<'_, K, E>,
+    ) -> Self::Of<'b, K>;
+    /// What was changed of copies, put back.
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(typed: Self::Typed<'_, K, E>);
 }
 
 /// A [`Bundle`]: a shared reference, `&`, to the set's data of the family `F`.
@@ -75,7 +77,7 @@ pub struct Given;
 
 impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Shared<F> {
     type Of<'a, D: DeviceSet<Scalar = T>> = &'a D::Per<F>;
-    type Typed<K: Kind<Scalar = T>> = F::Of<K>;
+    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> = Held<'a, F::Of<K>>;
 
     #[inline(always)]
     fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
@@ -92,23 +94,25 @@ impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Shared<F> {
         }
     }
 
-    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-        data: &Self::Of<'_, E>,
-    ) -> Option<Self::Typed<K>> {
-        E::get::<F, K>(data)
+    fn get<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: Self::Of<'a, E>,
+    ) -> Option<Self::Typed<'a, K, E>> {
+        E::held::<F, K>(data)
     }
 
     #[inline(always)]
-    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
-        typed
+    fn refer<'b, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        typed: &'b mut Self::Typed<'_, K, E>,
+    ) -> Self::Of<'b, K> {
+        typed.refer()
     }
 
-    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(_: &Self::Typed<K>, _: Self::Of<'_, E>) {}
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(_: Self::Typed<'_, K, E>) {}
 }
 
 impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Unique<F> {
     type Of<'a, D: DeviceSet<Scalar = T>> = &'a mut D::Per<F>;
-    type Typed<K: Kind<Scalar = T>> = F::Of<K>;
+    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> = HeldMut<'a, F::Of<K>, F::OfEnum<E>>;
 
     #[inline(always)]
     fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
@@ -125,28 +129,29 @@ impl<T: Scalar, F: PerDevice<T>> Bundle<T> for Unique<F> {
         }
     }
 
-    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-        data: &Self::Of<'_, E>,
-    ) -> Option<Self::Typed<K>> {
-        E::get::<F, K>(data)
+    fn get<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: Self::Of<'a, E>,
+    ) -> Option<Self::Typed<'a, K, E>> {
+        E::held_mut::<F, K>(data)
     }
 
     #[inline(always)]
-    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
-        typed
+    fn refer<'b, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        typed: &'b mut Self::Typed<'_, K, E>,
+    ) -> Self::Of<'b, K> {
+        typed.refer()
     }
 
-    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-        typed: &Self::Typed<K>,
-        data: Self::Of<'_, E>,
-    ) {
-        E::put::<F, K>(typed, data);
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(typed: Self::Typed<'_, K, E>) {
+        if let HeldMut::Copied(copy, to) = typed {
+            F::put::<K, E>(&copy, to);
+        }
     }
 }
 
 impl<T: Scalar, B: Bundle<T>> Bundle<T> for Maybe<B> {
     type Of<'a, D: DeviceSet<Scalar = T>> = Option<B::Of<'a, D>>;
-    type Typed<K: Kind<Scalar = T>> = Option<B::Typed<K>>;
+    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> = Option<B::Typed<'a, K, E>>;
 
     #[inline(always)]
     fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
@@ -166,9 +171,9 @@ impl<T: Scalar, B: Bundle<T>> Bundle<T> for Maybe<B> {
         }
     }
 
-    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-        data: &Self::Of<'_, E>,
-    ) -> Option<Self::Typed<K>> {
+    fn get<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: Self::Of<'a, E>,
+    ) -> Option<Self::Typed<'a, K, E>> {
         match data {
             Some(data) => B::get::<K, E>(data).map(Some),
             None => Some(None),
@@ -176,24 +181,26 @@ impl<T: Scalar, B: Bundle<T>> Bundle<T> for Maybe<B> {
     }
 
     #[inline(always)]
-    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
-        typed.as_mut().map(B::refer)
+    fn refer<'b, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        typed: &'b mut Self::Typed<'_, K, E>,
+    ) -> Self::Of<'b, K> {
+        typed.as_mut().map(B::refer::<K, E>)
     }
 
-    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-        typed: &Self::Typed<K>,
-        data: Self::Of<'_, E>,
-    ) {
-        if let (Some(typed), Some(data)) = (typed, data) {
-            B::put::<K, E>(typed, data);
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(typed: Self::Typed<'_, K, E>) {
+        if let Some(typed) = typed {
+            B::put::<K, E>(typed);
         }
     }
 }
 
 impl<T: Scalar> Bundle<T> for Given {
     type Of<'a, D: DeviceSet<Scalar = T>> = SetInputs<'a, D>;
-    type Typed<K: Kind<Scalar = T>> =
-        (K::Motors, K::PerJoint<Mode<T>>, Option<K::PerJoint<Wrench<T>>>);
+    type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> = (
+        Held<'a, K::Motors>,
+        Held<'a, K::PerJoint<Mode<T>>>,
+        Option<Held<'a, K::PerJoint<Wrench<T>>>>,
+    );
 
     #[inline(always)]
     fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
@@ -223,31 +230,38 @@ impl<T: Scalar> Bundle<T> for Given {
         }
     }
 
-    fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-        data: &Self::Of<'_, E>,
-    ) -> Option<Self::Typed<K>> {
+    fn get<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        data: Self::Of<'a, E>,
+    ) -> Option<Self::Typed<'a, K, E>> {
         let bodies = match data.bodies {
-            Some(bodies) => Some(E::get::<PerJoint<Wrench<T>>, K>(bodies)?),
+            Some(bodies) => Some(E::held::<PerJoint<Wrench<T>>, K>(bodies)?),
             None => None,
         };
-        let motors = E::get::<Motors, K>(data.motors)?;
-        Some((motors, E::get::<PerJoint<Mode<T>>, K>(data.modes)?, bodies))
+        let motors = E::held::<Motors, K>(data.motors)?;
+        Some((motors, E::held::<PerJoint<Mode<T>>, K>(data.modes)?, bodies))
     }
 
     #[inline(always)]
-    fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
+    fn refer<'b, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        typed: &'b mut Self::Typed<'_, K, E>,
+    ) -> Self::Of<'b, K> {
         let (motors, modes, bodies) = typed;
-        JointInputs { motors, modes, bodies: bodies.as_ref() }
+        JointInputs {
+            motors: motors.refer(),
+            modes: modes.refer(),
+            bodies: bodies.as_ref().map(Held::refer),
+        }
     }
 
-    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(_: &Self::Typed<K>, _: Self::Of<'_, E>) {}
+    fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(_: Self::Typed<'_, K, E>) {}
 }
 
 macro_rules! tuples {
     ($(($($bundle:ident $place:tt),*);)*) => {$(
         impl<T: Scalar, $($bundle: Bundle<T>),*> Bundle<T> for ($($bundle,)*) {
             type Of<'a, D: DeviceSet<Scalar = T>> = ($($bundle::Of<'a, D>,)*);
-            type Typed<K: Kind<Scalar = T>> = ($($bundle::Typed<K>,)*);
+            type Typed<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>> =
+                ($($bundle::Typed<'a, K, E>,)*);
 
             #[inline(always)]
             fn part<'b, 'a: 'b, W: DeviceSet<Scalar = T>, P: Part<W>>(
@@ -265,22 +279,21 @@ macro_rules! tuples {
                 $($bundle::counts::<W>(&data.$place, each);)*
             }
 
-            fn get<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-                data: &Self::Of<'_, E>,
-            ) -> Option<Self::Typed<K>> {
-                Some(($($bundle::get::<K, E>(&data.$place)?,)*))
+            fn get<'a, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+                data: Self::Of<'a, E>,
+            ) -> Option<Self::Typed<'a, K, E>> {
+                Some(($($bundle::get::<K, E>(data.$place)?,)*))
             }
 
             #[inline(always)]
-            fn refer<K: Kind<Scalar = T>>(typed: &mut Self::Typed<K>) -> Self::Of<'_, K> {
+            fn refer<'b, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
+        typed: &'b mut Self::Typed<'_, K, E>,
+    ) -> Self::Of<'b, K> {
                 ($($bundle::refer(&mut typed.$place),)*)
             }
 
-            fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-                typed: &Self::Typed<K>,
-                data: Self::Of<'_, E>,
-            ) {
-                $($bundle::put::<K, E>(&typed.$place, data.$place);)*
+            fn put<K: Variant<E>, E: DeviceEnum<Scalar = T>>(typed: Self::Typed<'_, K, E>) {
+                $($bundle::put::<K, E>(typed.$place);)*
             }
         }
     )*};

@@ -10,6 +10,7 @@ use crate::model::kind::Kind;
 use crate::sets::array::compare;
 use crate::sets::bundle::Bundle;
 use crate::sets::devices::{DeviceSet, List, Visit};
+use crate::sets::held::{Held, HeldMut};
 use crate::sets::per_device::PerDevice;
 
 /// An enumeration of kinds. Written by [`device_enum`](crate::device_enum).
@@ -19,10 +20,14 @@ pub trait DeviceEnum: DeviceSet {
 
     /// Does something with the device, whose kind it is.
     fn with<W: WithKind<Self>>(prepared: &Self::Prepared, with: W) -> W::Output;
-    /// [`PerDevice::get`] of this enumeration.
-    fn get<F: PerDevice<Self::Scalar>, K: Variant<Self>>(of: &Self::Per<F>) -> Option<F::Of<K>>;
-    /// [`PerDevice::put`] into this enumeration.
-    fn put<F: PerDevice<Self::Scalar>, K: Variant<Self>>(of: &F::Of<K>, to: &mut Self::Per<F>);
+    /// [`PerDevice::held`] of this enumeration.
+    fn held<F: PerDevice<Self::Scalar>, K: Variant<Self>>(
+        of: &Self::Per<F>,
+    ) -> Option<Held<'_, F::Of<K>>>;
+    /// [`PerDevice::held_mut`] of this enumeration.
+    fn held_mut<F: PerDevice<Self::Scalar>, K: Variant<Self>>(
+        of: &mut Self::Per<F>,
+    ) -> Option<HeldMut<'_, F::Of<K>, F::OfEnum<Self>>>;
 }
 
 /// What is done with the device of an enumeration.
@@ -36,7 +41,9 @@ pub trait WithKind<E: DeviceEnum> {
 /// A kind that an enumeration has.
 pub trait Variant<E: DeviceEnum>: Kind<Scalar = E::Scalar> {
     /// The kind's gains, if they are of this kind.
-    fn gains_in_enum(gains: &E::Gains) -> Option<&Self::Gains<E::Scalar>>;
+    fn gains_in_enum(gains: &E::Gains) -> Option<&Option<Self::Gains<E::Scalar>>>;
+    /// The kind's gains, if they are of this kind, to be written.
+    fn gains_in_enum_mut(gains: &mut E::Gains) -> Option<&mut Option<Self::Gains<E::Scalar>>>;
     /// The gains as the enumeration's.
     fn gains_of_enum(gains: Option<Self::Gains<E::Scalar>>) -> E::Gains;
 }
@@ -84,9 +91,9 @@ impl<E: DeviceEnum, B: Bundle<E::Scalar>, V: Visit<E::Scalar, B>> WithKind<E>
     fn with<K: Variant<E>>(self, device: &Device<K>) -> Self::Output {
         let Self { data, visitor } = self;
         compare::<E, B, V>(K::JOINTS.len(), &data, visitor)?;
-        let Some(mut typed) = B::get::<K, E>(&data) else { return Ok(()) };
-        visitor.visit(device, B::refer::<K>(&mut typed))?;
-        B::put::<K, E>(&typed, data);
+        let Some(mut typed) = B::get::<K, E>(data) else { return Ok(()) };
+        visitor.visit(device, B::refer::<K, E>(&mut typed))?;
+        B::put::<K, E>(typed);
         Ok(())
     }
 }
@@ -147,11 +154,9 @@ macro_rules! device_enum {
         /// What an evaluation keeps of a device from elimination to back substitution.
         #[derive(Clone, Copy, Debug)]
         $vis enum $gains<T: $crate::Scalar> {
-            /// Not yet eliminated.
-            None,
             $(
-                #[doc = concat!("Of a [`", stringify!($kind), "`].")]
-                $kind(<$kind<T> as $crate::kind::Kernels>::Gains<T>),
+                #[doc = concat!("Of a [`", stringify!($kind), "`]; none before it is eliminated.")]
+                $kind(Option<<$kind<T> as $crate::kind::Kernels>::Gains<T>>),
             )*
         }
 
@@ -240,17 +245,16 @@ macro_rules! device_enum {
                 }
             }
 
-            fn get<F: $crate::set::PerDevice<T>, K: $crate::set::Variant<Self>>(
+            fn held<F: $crate::set::PerDevice<T>, K: $crate::set::Variant<Self>>(
                 of: &F::OfEnum<Self>,
-            ) -> Option<F::Of<K>> {
-                F::get::<K, Self>(of)
+            ) -> Option<$crate::set::Held<'_, F::Of<K>>> {
+                F::held::<K, Self>(of)
             }
 
-            fn put<F: $crate::set::PerDevice<T>, K: $crate::set::Variant<Self>>(
-                of: &F::Of<K>,
-                to: &mut F::OfEnum<Self>,
-            ) {
-                F::put::<K, Self>(of, to);
+            fn held_mut<F: $crate::set::PerDevice<T>, K: $crate::set::Variant<Self>>(
+                of: &mut F::OfEnum<Self>,
+            ) -> Option<$crate::set::HeldMut<'_, F::Of<K>, F::OfEnum<Self>>> {
+                F::held_mut::<K, Self>(of)
             }
         }
 
@@ -270,9 +274,20 @@ macro_rules! device_enum {
             impl<T: $crate::Scalar> $crate::set::Variant<$name<T>> for $kind<T> {
                 fn gains_in_enum(
                     gains: &$gains<T>,
-                ) -> Option<&<Self as $crate::kind::Kernels>::Gains<T>> {
+                ) -> Option<&Option<<Self as $crate::kind::Kernels>::Gains<T>>> {
                     match gains {
                         $gains::$kind(gains) => Some(gains),
+                        #[allow(unreachable_patterns, reason = "of one kind")]
+                        _ => None,
+                    }
+                }
+
+                fn gains_in_enum_mut(
+                    gains: &mut $gains<T>,
+                ) -> Option<&mut Option<<Self as $crate::kind::Kernels>::Gains<T>>> {
+                    match gains {
+                        $gains::$kind(gains) => Some(gains),
+                        #[allow(unreachable_patterns, reason = "of one kind")]
                         _ => None,
                     }
                 }
@@ -280,7 +295,7 @@ macro_rules! device_enum {
                 fn gains_of_enum(
                     gains: Option<<Self as $crate::kind::Kernels>::Gains<T>>,
                 ) -> $gains<T> {
-                    gains.map_or($gains::None, $gains::$kind)
+                    $gains::$kind(gains)
                 }
             }
         )*

@@ -14,6 +14,7 @@ pub(crate) mod counts;
 pub(crate) mod device_parameters;
 pub(crate) mod devices;
 pub(crate) mod enumeration;
+pub(crate) mod held;
 pub(crate) mod one;
 pub(crate) mod optional;
 pub(crate) mod per_device;

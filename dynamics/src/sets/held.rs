@@ -1,0 +1,41 @@
+//! [`Held`], [`HeldMut`]: a kind's data out of an enumeration's, during a visit.
+
+/// Data to be read: a copy, or the data where they are.
+#[derive(Debug)]
+pub enum Held<'a, O> {
+    /// Converted.
+    Copied(O),
+    /// Not converted.
+    InPlace(&'a O),
+}
+
+/// Data to be changed: a copy and where it is put back, or the data where they are.
+#[derive(Debug)]
+pub enum HeldMut<'a, O, M> {
+    /// Converted.
+    Copied(O, &'a mut M),
+    /// Not converted.
+    InPlace(&'a mut O),
+}
+
+impl<O> Held<'_, O> {
+    /// The data.
+    #[inline]
+    pub(crate) fn refer(&self) -> &O {
+        match self {
+            Self::Copied(copy) => copy,
+            Self::InPlace(data) => data,
+        }
+    }
+}
+
+impl<O, M> HeldMut<'_, O, M> {
+    /// The data.
+    #[inline]
+    pub(crate) fn refer(&mut self) -> &mut O {
+        match self {
+            Self::Copied(copy, _) => copy,
+            Self::InPlace(data) => data,
+        }
+    }
+}
