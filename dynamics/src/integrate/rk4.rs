@@ -132,13 +132,13 @@ impl<D: Devices> Spacecraft<D> {
             stage.follow(self, start, &found, [weight, offset], &mut sum);
             stage.attitude = attitude.advanced(&[(offset, rate.1)]);
         }
-        let mut next = stage;
-        next.add(self, start, &sum);
-        next.attitude = attitude.advanced(&rates).normalised();
-        self.check_reached(&next)?;
+        // In place: another state would take stack.
+        stage.add(self, start, &sum);
+        stage.attitude = attitude.advanced(&rates).normalised();
+        self.check_reached(&stage)?;
         match passive {
-            Some(passive) => passive.check(self, start, &next, inputs, dt).map(|()| next),
-            None => Ok(next),
+            Some(passive) => passive.check(self, start, &stage, inputs, dt).map(|()| stage),
+            None => Ok(stage),
         }
     }
 }
