@@ -36,8 +36,9 @@ const BATCH: (f64, f64, f64) = (0.75, 29.0, 1.15);
 const LINEAR_WITHIN: f64 = 1.15;
 
 /// A step of three reaction wheels, times faster than Basilisk's: service or C library.
-const STEP: [(&str, &str, f64); 3] = [
+const STEP: [(&str, &str, f64); 4] = [
     ("step", "typed", 30.0),
+    ("step-lanes", "devices in lanes", 30.0),
     ("step-list", "list of any kinds", 25.0),
     ("c library", "C library", 25.0),
 ];

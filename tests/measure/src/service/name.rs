@@ -38,6 +38,9 @@ pub(crate) enum Name {
     /// Steps of one state
     #[cfg(feature = "lanes")]
     Step,
+    /// Steps of one state, the devices in lanes that do not fuse: the same bits
+    #[cfg(feature = "lanes")]
+    StepLanes,
     /// Steps of one state, the devices in a list of any kinds
     #[cfg(feature = "lanes")]
     StepList,
@@ -115,6 +118,7 @@ impl Name {
             Self::Parameters => ("batch, parameters per lane", "batch", widest, 1),
             Self::Threads => ("batch", "batch", None, threads?),
             Self::Step => ("step, typed", "step", None, 1),
+            Self::StepLanes => ("step, devices in lanes", "step", None, 1),
             Self::StepList => ("step, list of any kinds", "step", None, 1),
             Self::Steps => ("steps of a batch", "batch step", None, 1),
             Self::StepsParameters => {

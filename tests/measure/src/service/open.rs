@@ -4,7 +4,11 @@
 use std::path::Path;
 
 #[cfg(feature = "lanes")]
-use precess_dynamics::{BuiltIn, FlexibleReactionWheel, ReactionWheel, Vscmg, lanes::LanedSet};
+use precess_dynamics::{
+    BuiltIn, FlexibleReactionWheel, ReactionWheel, Spacecraft, Vscmg,
+    kind::Kind,
+    lanes::{AcrossDevices, LanedSet},
+};
 use precess_dynamics::{Devices, Dgvscmg};
 use precess_tests::stored::Stored;
 
@@ -55,7 +59,7 @@ pub(crate) fn open(name: Name, file: &Path) -> Opened {
         #[cfg(feature = "lanes")]
         Name::Baked => Ok(Box::new(Baked::open(&imaging::read(file)?)?)),
         #[cfg(feature = "lanes")]
-        Name::Step | Name::StepList => of_steps(name, &Listed::read(file)?),
+        Name::Step | Name::StepList | Name::StepLanes => of_steps(name, &Listed::read(file)?),
         #[cfg(feature = "lanes")]
         Name::Steps | Name::StepsParameters | Name::StepsThreads => {
             of_runs(name, &Listed::read(file)?)
@@ -140,24 +144,33 @@ macro_rules! all_of {
 fn of_steps(name: Name, listed: &Listed) -> Opened {
     let devices = listed.devices()?;
     if name == Name::StepList {
-        return Ok(Box::new(Step::open(listed, &devices)?));
+        let craft = Spacecraft::new(&listed.hub(), &devices)?;
+        return Ok(Box::new(Step::open(listed, craft)));
     }
     let other = || Err(format!("no typed set of these {} devices", devices.len()).into());
     if let Some(devices) = all_of!(devices, Dgvscmg) {
-        return array_of!(devices, [1 4], |array| step(listed, array), other());
+        return array_of!(devices, [1 4], |array| step(name, listed, array), other());
     }
     if let Some(devices) = all_of!(devices, ReactionWheel) {
-        return array_of!(devices, [3], |array| step(listed, array), other());
+        return array_of!(devices, [3], |array| step(name, listed, array), other());
     }
     match all_of!(devices, Vscmg) {
-        Some(devices) => array_of!(devices, [1], |array| step(listed, array), other()),
+        Some(devices) => array_of!(devices, [1], |array| step(name, listed, array), other()),
         None => other(),
     }
 }
 
 #[cfg(feature = "lanes")]
-fn step<D: Devices<Scalar = f64> + 'static>(listed: &Listed, devices: &D) -> Opened {
-    Ok(Box::new(Step::open(listed, devices)?))
+fn step<K: Kind<Scalar = f64> + 'static, const N: usize>(
+    name: Name,
+    listed: &Listed,
+    devices: &[K; N],
+) -> Opened {
+    let hub = listed.hub();
+    Ok(match name {
+        Name::StepLanes => Box::new(Step::open(listed, AcrossDevices::new(&hub, devices)?)),
+        _ => Box::new(Step::open(listed, Spacecraft::new(&hub, devices)?)),
+    })
 }
 
 #[cfg(feature = "lanes")]
