@@ -95,5 +95,6 @@ impl<D: LanedSet, C: Crafts<D>> Evaluation<'_, '_, D, C> {
                 }
             }
         }
+        group.keep(first);
     }
 }

@@ -9,7 +9,8 @@ use super::evaluate::{Acting, LanedCraft};
 use super::laned_set::{LanedSet, fit_inputs};
 use super::loads::AddLoads;
 use super::motion::{Forces, Motion};
-use super::slot::{Enter, Slots, SlotsOf, each_slot, load_joints, put_given};
+use super::scratch;
+use super::slot::{Enter, SlotsOf, each_slot, load_joints, put_given};
 use crate::attitude::quaternion::{Quaternion, bn, norm_squared};
 use crate::equations::gravity::Gravity;
 use crate::equations::hub::HubConstants;
@@ -88,7 +89,7 @@ impl<D: LanedSet, T: Number> Group<D, T> {
     pub(super) fn new(craft: &Spacecraft<D>, zero: T) -> Self {
         let own = OwnLoads { dry: false, lumped: false };
         Self {
-            slots: D::new_data(&craft.devices, &Slots(zero)),
+            slots: scratch::take::<D, T>(&craft.devices, zero),
             laned: [true; WIDEST],
             given: false,
             motion: Motion::filled(zero),
@@ -103,6 +104,11 @@ impl<D: LanedSet, T: Number> Group<D, T> {
                 own,
             },
         }
+    }
+
+    /// Keeps the slots for the next call on this thread.
+    pub(super) fn keep(self, craft: &Spacecraft<D>) {
+        scratch::keep::<D, T>(&craft.devices, self.slots);
     }
 
     /// Takes states in. Lanes beyond the last of them repeat it: they cost nothing and harm

@@ -59,6 +59,7 @@ mod observers;
 mod parameter_batch;
 mod passive;
 mod run;
+mod scratch;
 mod slot;
 mod states;
 mod width;

@@ -139,6 +139,7 @@ impl<D: LanedSet, C: Crafts<D>> Runs<'_, '_, '_, D, C> {
                 }
             }
         }
+        group.keep(first);
     }
 }
 

@@ -257,6 +257,24 @@ impl<T: Value> Visit<f64, (Unique<Slots<T>>, Shared<EachConstants>)> for EnterCo
     }
 }
 
+/// Takes the constants of a group of spacecraft out of the slots.
+pub(crate) fn forget_constants<D: LanedSet, T: Value>(
+    devices: &D::Prepared,
+    slots: &mut SlotsOf<D, T>,
+) {
+    each_slot::<D, T>(devices, slots, &mut ForgetConstants);
+}
+
+/// Takes constants out.
+struct ForgetConstants;
+
+impl<T: Value> EachSlot<T> for ForgetConstants {
+    #[inline(always)]
+    fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
+        slot.constants = None;
+    }
+}
+
 /// Takes the accelerations of one lane out.
 #[inline(always)]
 pub(crate) fn take_found<D: LanedSet, T: Value>(

@@ -41,7 +41,7 @@ impl Block {
 /// Several numbers side by side, one per lane.
 ///
 /// Everything is part of what calls it, down to the function that may use the instructions.
-pub(crate) trait Number: Angle {
+pub(crate) trait Number: Angle + 'static {
     /// Whether something holds, lane by lane.
     type Holds: Copy;
 
