@@ -188,14 +188,14 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
         let mut assembly = craft.assembly(inputs);
         let omega = map(environment.omega, |component| zero.like(component));
         // The first without the heap: where there is one group alone, that takes time.
-        let (mut gains, mut of_first) = (Vec::new(), None);
+        let (mut of_first, mut gains) = (None, Vec::with_capacity(groups.len().saturating_sub(1)));
         let (mut holds, mut shares) = (zero.same(zero), None);
         let OwnLoads { dry, lumped } = across.own;
         let with_loads = dry || lumped || inputs.bodies.is_some() || environment.central.is_some();
         let mut start = 0;
         for group in groups {
             let (joints, drives) = gather::<K, T, N>(start, &state.devices, inputs, zero)?;
-            let DeviceConstants { constants, passive, bound, .. } = group.constants.in_lanes(zero);
+            let DeviceConstants { passive, .. } = group.constants.in_lanes(zero);
             let loads = if with_loads {
                 // Copies: numbers whose place another function knows do not stay in registers.
                 let (mut to, joints, given) = (None, joints, drives);
@@ -219,6 +219,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
                 (None, None) => drives,
             };
             let pose = K::pose(&joints);
+            // Loaded here: what is loaded before a branch is copied to the stack.
+            let DeviceConstants { constants, bound, .. } = group.constants.in_lanes(zero);
             let eliminated =
                 K::eliminate(&constants, &pose, &joints, &expressed_in_b(omega), &drives);
             let regular = regular::<K, T>(zero, &eliminated, &drives, &bound);
@@ -234,13 +236,16 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
             if let Some(Loads { on_hub: Some(on_hub), .. }) = &loads {
                 on_hub.add_to(&mut assembly, group.devices);
             }
-            let real = zero.load(&group.weight).above(zero);
-            // Minus zero changes no sum.
-            let none = zero.like(-0.0);
-            let share = K::share(&eliminated).map(
-                #[inline(always)]
-                |number| number.or(real, none),
-            );
+            let mut share = *K::share(&eliminated);
+            if const { !N.is_multiple_of(T::WIDTH) } {
+                let real = zero.load(&group.weight).above(zero);
+                // Minus zero changes no sum.
+                let none = zero.like(-0.0);
+                share = share.map(
+                    #[inline(always)]
+                    |number| number.or(real, none),
+                );
+            }
             if BY_LANE {
                 shares = Some(match &shares {
                     Some(sum) => share.zip(sum, |number, sum| sum + number),

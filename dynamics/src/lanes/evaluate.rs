@@ -121,12 +121,21 @@ impl<T: Number, const EACH: bool> EachSlot<T> for Elimination<T, EACH> {
     #[inline(always)]
     fn each<K: Kind<Scalar = f64>>(&mut self, device: &Device<K>, slot: &mut Slot<K, T>) {
         let [like, ..] = self.omega;
-        let DeviceConstants { constants, passive, bound, sprung, .. } = match &slot.constants {
-            Some(blocks) if EACH => blocks.in_lanes(like),
-            _ => same_in_lanes(device, like),
+        let blocks = match &slot.constants {
+            Some(blocks) if EACH => Some(&**blocks),
+            None if EACH => {
+                self.holds = like.above(like);
+                return;
+            }
+            _ => None,
         };
+        // Loaded again where each is used: what is loaded before a branch is copied to the stack.
+        let constants = || match blocks {
+            Some(blocks) => blocks.in_lanes(like),
+            None => same_in_lanes(device, like),
+        };
+        let DeviceConstants { passive, sprung, .. } = constants();
         let within = within_reach::<K, T>(like, &slot.joints);
-        let pose = K::pose(&slot.joints);
         let drives = match &passive {
             Some(passive) if !self.with_loads => {
                 let drives = with_passive::<K, T>(&slot.joints, &slot.drives, passive);
@@ -134,8 +143,10 @@ impl<T: Number, const EACH: bool> EachSlot<T> for Elimination<T, EACH> {
             }
             _ => slot.drives,
         };
+        let pose = K::pose(&slot.joints);
         let omega = expressed_in_b(self.omega);
-        let eliminated = K::eliminate(&constants, &pose, &slot.joints, &omega, &drives);
+        let DeviceConstants { constants: of_device, bound, .. } = constants();
+        let eliminated = K::eliminate(&of_device, &pose, &slot.joints, &omega, &drives);
         let regular = regular::<K, T>(like, &eliminated, &drives, &bound);
         self.holds = like.both(self.holds, like.both(within, regular));
         if let Some(passive) = &passive {
