@@ -96,12 +96,12 @@ def all_stops():
 
 
 def sets(group, count):
-    """So many sets of the first thirteen kinds, then one that begins with each kind on bearings, of all kinds:
-    a kind that is added changes no set that is stored."""
+    """So many sets of the first thirteen kinds, then two of fourteen that begin with the kinds on bearings: a kind that
+    is added changes no set that is stored."""
     for number in range(count):
         yield mixed(group, number, list(KINDS)[:13])
     for number in (12, 13):
-        yield mixed(group, number, list(KINDS))
+        yield mixed(group, number, list(KINDS)[:14])
 
 
 def more_spacecraft(count):

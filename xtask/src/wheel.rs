@@ -12,6 +12,8 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 pub(crate) const STORED: [&str; 2] = ["--compression-method", "stored"];
 /// Nine more than iterations: more than three gain a thousandth.
 const LEVEL: i64 = 12;
+/// What is split into at most fifteen parts, each with codes of its own, bytes.
+const BLOCK: usize = 200_000;
 
 /// The one wheel of a folder.
 pub(crate) fn of_folder(folder: &Path) -> Result<PathBuf, String> {
@@ -21,15 +23,15 @@ pub(crate) fn of_folder(folder: &Path) -> Result<PathBuf, String> {
     wheels.next().ok_or_else(|| format!("{} has no wheel", folder.display()))
 }
 
-/// What is split into at most fifteen parts, each with codes of its own, bytes.
-const BLOCK: usize = 200_000;
-
 /// Compresses the members of a wheel, which maturin has stored.
 pub(crate) fn compress(wheel: &Path) -> Result<(), String> {
     let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", wheel.display());
     let stored = fs::read(wheel).map_err(|error| wrong(&error))?;
     let compressed = compressed(&stored).map_err(|error| wrong(&error))?;
-    fs::write(wheel, compressed).map_err(|error| wrong(&error))
+    // Beside it first: a write that fails leaves the wheel as it was.
+    let beside = wheel.with_extension("whl.part");
+    fs::write(&beside, compressed).map_err(|error| wrong(&error))?;
+    fs::rename(&beside, wheel).map_err(|error| wrong(&error))
 }
 
 fn compressed(stored: &[u8]) -> zip::result::ZipResult<Vec<u8>> {
@@ -61,6 +63,7 @@ fn compressed(stored: &[u8]) -> zip::result::ZipResult<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use zip::DateTime;
 
     #[test]
     fn members_stay_as_they_are() {
@@ -69,6 +72,7 @@ mod tests {
         for (name, mode, text) in &members {
             let options = SimpleFileOptions::default()
                 .compression_method(CompressionMethod::Stored)
+                .last_modified_time(DateTime::from_date_and_time(2024, 2, 3, 4, 5, 6).unwrap())
                 .unix_permissions(*mode);
             stored.start_file(*name, options).unwrap();
             stored.write_all(text.as_bytes()).unwrap();
@@ -84,6 +88,7 @@ mod tests {
             let time = before.by_index(index).unwrap().last_modified();
             let mut member = after.by_index(index).unwrap();
             assert_eq!((member.name().unwrap().as_ref(), member.last_modified()), (*name, time));
+            assert_eq!(time.unwrap().year(), 2024);
             assert_eq!(member.unix_mode().map(|mode| mode & 0o777), Some(*mode));
             let mut found = String::new();
             member.read_to_string(&mut found).unwrap();

@@ -127,8 +127,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             evaluate(weight, &stage, &mut found, stiffness)
                 .map_err(|failure| self.cause(&stage, inputs, failure))?;
             *rate = (weight, stage.rigid.attitude.rate(&stage.rigid.omega));
-            let slope = (&found.rigid, [weight, offset]);
-            stage.rigid.follow(&self.rigid, &start.rigid, slope.0, slope.1, &mut sum.rigid);
+            let (craft, scales) = (&self.rigid, [weight, offset]);
+            stage.rigid.follow(craft, &start.rigid, &found.rigid, scales, &mut sum.rigid);
             stage.rigid.attitude = attitude.advanced(&[(offset, rate.1)]);
             follow(&mut stage, start, found.eta_ddot.as_ref(), [weight, offset], &mut sum);
         }

@@ -1,4 +1,7 @@
-//! Slots that a thread keeps from one call of a batch to the next.
+//! Slots that a thread keeps from one call of a batch to the next, until it evaluates another shape or ends.
+//!
+//! Invariant: an evaluation writes every number of a slot before it reads it, or rejects the lane. So what a call leaves in
+//! them reaches no result of the next.
 //!
 //! Those of 64 DGVSCMGs take half a megabyte. An allocator that returns as much to the system at the
 //! end of each call has every page of it mapped again in the next one, which took longer than the

@@ -50,7 +50,7 @@ pub(super) struct Slot<K: Kernels, T: Value> {
     pub(crate) drives: K::PerJoint<Drive<T>>,
     /// Damping and stiffness of the joints, where loads were added.
     pub(crate) stiffness: K::PerJoint<[T; 2]>,
-    /// What back substitution needs; none before the first evaluation.
+    /// What back substitution needs; none in new slots, of an earlier evaluation otherwise.
     pub(crate) gains: Option<Aligned<K::Gains<T>>>,
     /// The accelerations.
     pub(crate) found: K::Accelerations<T>,

@@ -287,8 +287,8 @@ macro_rules! tuples {
 
             #[inline(always)]
             fn refer<'b, K: Variant<E>, E: DeviceEnum<Scalar = T>>(
-        typed: &'b mut Self::Typed<'_, K, E>,
-    ) -> Self::Of<'b, K> {
+                typed: &'b mut Self::Typed<'_, K, E>,
+            ) -> Self::Of<'b, K> {
                 ($($bundle::refer(&mut typed.$place),)*)
             }
 

@@ -3,7 +3,7 @@
 /// Data to be read: a copy, or the data where they are.
 #[derive(Debug)]
 pub enum Held<'a, O> {
-    /// Converted.
+    /// A copy, converted to the structures of the kind.
     Copied(O),
     /// Not converted.
     InPlace(&'a O),
@@ -12,7 +12,7 @@ pub enum Held<'a, O> {
 /// Data to be changed: a copy and where it is put back, or the data where they are.
 #[derive(Debug)]
 pub enum HeldMut<'a, O, M> {
-    /// Converted.
+    /// A copy, converted to the structures of the kind, and where it is put back.
     Copied(O, &'a mut M),
     /// Not converted.
     InPlace(&'a mut O),

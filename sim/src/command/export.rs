@@ -217,7 +217,7 @@ mod tests {
         assert_eq!(bytes[4], 2);
         let number = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().expect("eight"));
         // No mass of a link of the bearings; that of the rotor; the stiffness of a tilt.
-        let (body, passive) = (120 + 80, 120 + 80 + 6 * 128);
+        let (body, passive) = (120 + 80, 120 + 80 + 7 * 128);
         assert_eq!([number(body), number(body + 5 * 128)], [0.0, 4.0]);
         assert_eq!(number(passive + 3 * 40), 1580.0);
     }

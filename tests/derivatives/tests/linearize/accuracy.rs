@@ -1,5 +1,5 @@
 //! Every derivative by state and inputs against differences in double-double, over random
-//! spacecraft of twelve kinds and every mode; and the values, bit by bit.
+//! spacecraft of every kind and mode; and the values, bit by bit.
 
 use precess_dynamics::{Gravity, Variable};
 use precess_tests::blocks::Figures;
@@ -83,8 +83,11 @@ fn derivatives_are_those_of_differences_in_double_double() {
 /// How many with a wheel on flexible bearings.
 const ON_BEARINGS: u64 = 80;
 
-/// In units of what each output changes. Of single blocks some are zero but for rounding: how many exceed the bound,
-/// and by how much, is printed.
+/// Their bounds in units of what each output changes: measured 1.6e-13.
+const CHANGES: f64 = 1e-12;
+/// How many exceed the bound of the others in units of blocks, some of which are zero but for rounding, and by how much.
+const EXCEEDING: (u64, f64) = (18, 2e-5);
+
 #[test]
 fn derivatives_of_wheels_on_bearings_are_those_of_differences_in_double_double() {
     let [mut of_changes, mut of_blocks] = [(); 2].map(|()| Figures::default());
@@ -92,7 +95,7 @@ fn derivatives_of_wheels_on_bearings_are_those_of_differences_in_double_double()
     for seed in SEED..SEED + ON_BEARINGS {
         let blocks = blocks(&Drawn::on_bearings(seed));
         let (error, name) = worst(blocks.errors_of_changes());
-        assert!(error <= WORST, "{error:e} in {name} at seed {seed:#x}");
+        assert!(error <= CHANGES, "{error:e} in {name} at seed {seed:#x}");
         of_changes.add(error);
         let (error, _) = worst(blocks.errors());
         of_blocks.add(error);
@@ -103,4 +106,5 @@ fn derivatives_of_wheels_on_bearings_are_those_of_differences_in_double_double()
     }
     println!("{exceeding} of {ON_BEARINGS} exceed {WORST:e} in units of blocks");
     assert!(of_changes.median() <= MEDIAN, "median {:e}", of_changes.median());
+    assert!(exceeding <= EXCEEDING.0 && of_blocks.worst() <= EXCEEDING.1, "{EXCEEDING:?}");
 }

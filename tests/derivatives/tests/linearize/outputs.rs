@@ -111,9 +111,12 @@ struct Block {
     size: f64,
 }
 
-/// Below this share of what an output changes by all variables, a derivative is taken for zero: the differences, which
-/// judge it, are off by up to 7e-22 of that (force on a held hub by its inertia, by the gradient of a field).
-const ZERO: f64 = 1e-11;
+/// Below this share of what an output changes by all variables, a derivative is zero: what the
+/// differences leave of it is 1e-24.
+const ZERO: f64 = 1e-15;
+/// The same of the load on a held hub. Its derivative by the hub's inertia, by the gradient of a field, is a share of 1e-14,
+/// and the differences are off by up to 7e-22.
+const ZERO_OF_HUB: f64 = 1e-11;
 
 impl Blocks {
     /// Takes one column, by a variable of a kind and of a size.
@@ -145,7 +148,8 @@ impl Blocks {
             let of_field = ["gravity.mu", "r_b_n", "attitude"].contains(&variable);
             let load = output.starts_with("force ") || output.starts_with("moment ");
             let sum = ["energy", "linear", "angular"].contains(&output) || (load && of_field);
-            if sum || block <= ZERO * change { change } else { block }
+            let zero = if output.ends_with(" on the hub") { ZERO_OF_HUB } else { ZERO };
+            if sum || block <= zero * change { change } else { block }
         })
     }
 
