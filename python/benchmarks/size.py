@@ -21,7 +21,7 @@ OURS = {
     "_native": "the binding",
     "precess": "the engine",
     "precess_craft": LIBRARY,
-    "precess_lanes": "batches in lanes: every kind for AVX2 and AVX-512",
+    "precess_lanes": "batches in lanes: every kind but the flexible VSCMG for AVX2 and AVX-512",
 }
 
 

@@ -2,6 +2,7 @@
 //! double-double.
 
 use nalgebra::{Matrix3, Vector3};
+use precess_dynamics::kind::Each as _;
 use precess_dynamics::lanes::{AcrossDevices, Batch};
 use precess_dynamics::{
     Accelerations, Dgvscmg, Gravity, Hub, HubMode, Inputs, Mode, Passive, ReactionWheel, Sgcmg,
@@ -11,6 +12,7 @@ use precess_tests::blocks::{Figures, errors, worst};
 use precess_tests::bounds::{ACCELERATIONS_MEDIAN, ACCELERATIONS_WORST, SPACECRAFT};
 use precess_tests::case::{Case, Set};
 use precess_tests::double_double::DoubleDouble as Wide;
+use precess_tests::measured::{self, Measured, dgvscmg};
 use precess_tests::random::{Sample, Visitor, visit};
 
 /// The accelerations of a case in a batch of one.
@@ -267,4 +269,37 @@ fn steps_across_devices_follow_single_steps() {
     let there = across.fused().step(&state, &inputs, 1e-3).unwrap();
     // Sums in another order: some bits of velocities of order 0.1 rad/s.
     assert!((there.omega - single.omega).norm() <= 1e-15);
+}
+
+/// A thread keeps the slots of a batch between calls: with springs and friction, wrenches, given accelerations, and a state
+/// that is not finite before it, the next call has the bits of single evaluations.
+#[test]
+fn what_a_call_leaves_on_its_thread_reaches_no_result_of_the_next() {
+    for count in [3, 5, 3] {
+        let devices = vec![dgvscmg::<f64>(); count];
+        let sound = Measured::new(&devices);
+        let mut sprung = devices.clone();
+        for device in &mut sprung {
+            device.passive.outer_gimbal = Passive::spring(3.0, 0.1);
+            device.passive.inner_gimbal = Passive::friction(0.1, 0.2, 0.3);
+        }
+        let Measured { craft, mut state, mut inputs } = Measured::new(&sprung);
+        for mode in inputs.modes.values_mut() {
+            *mode = Mode::Prescribed(0.7);
+        }
+        let mut bodies = Inputs::no_wrenches_for(&craft);
+        for wrench in bodies.values_mut() {
+            wrench.force = Vector3::new(1.0, -2.0, 3.0);
+        }
+        inputs.bodies = Some(bodies);
+        state.devices[0].gamma_o_dot = f64::NAN;
+        let mut found = Vec::new();
+        let spoilt = Batch::new(&measured::hub(), &sprung).unwrap();
+        spoilt.accelerations(&[state.clone(), state], &inputs, &mut found).unwrap();
+        assert!(found.iter().all(Result::is_err));
+
+        let batch = Batch::new(&measured::hub(), &devices).unwrap();
+        batch.accelerations(std::slice::from_ref(&sound.state), &sound.inputs, &mut found).unwrap();
+        assert_eq!(found, [sound.accelerations()]);
+    }
 }
