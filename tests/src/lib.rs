@@ -21,6 +21,7 @@ pub use precess_double_double as double_double;
 
 pub mod accuracy;
 pub mod assembly;
+pub mod bearings;
 pub mod bending;
 pub mod blocks;
 pub mod bounds;

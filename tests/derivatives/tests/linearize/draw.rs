@@ -1,7 +1,7 @@
 //! Random spacecraft of every kind, joint mode, mode of the hub and gravity, in any scalar.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::kind::{BodyParameters, Each, JointInfo, JointStates, Kind, Value};
+use precess_dynamics::kind::{BodyParameters, Each, JointStates, Kind, Value};
 use precess_dynamics::set::{Change, WithNumbers};
 use precess_dynamics::{
     BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg, BuiltIn,
@@ -9,6 +9,7 @@ use precess_dynamics::{
     ImbalanceModel, Inputs, Mode, Passive, Quaternion, ReactionWheel, Scalar, Sgcmg, SloshMass,
     Spacecraft, State, Vscmg, Wrench,
 };
+use precess_tests::bearings::{clearance, sprung};
 use precess_tests::random::Random;
 
 /// A list of devices of any kinds.
@@ -129,14 +130,11 @@ impl Drawn {
         let joints = craft.joints().zip(state.devices.states_mut());
         let given = inputs.motors.values_mut().zip(inputs.modes.values_mut());
         for (((_, info), [coordinate, rate]), (motor, mode)) in joints.zip(given) {
-            let [farthest, fastest] = match (is_bearing(info), info.slides, info.rate) {
-                // Bearings yield by their clearance.
-                (true, true, _) => [5e-3, 0.1],
-                (true, false, _) => [0.1, 1.5],
-                (false, true, _) => [0.3, 3.0],
-                (false, false, "spin") => [3.0, FASTEST_WHEEL],
-                (false, false, _) => [3.0, 3.0],
-            };
+            let [farthest, fastest] = clearance(info).unwrap_or(match (info.slides, info.rate) {
+                (true, _) => [0.3, 3.0],
+                (false, "spin") => [3.0, FASTEST_WHEEL],
+                (false, _) => [3.0, 3.0],
+            });
             *coordinate = random.within(-farthest, farthest);
             *rate = random.within(-fastest, fastest);
             *motor = random.within(-5.0, 5.0);
@@ -235,7 +233,7 @@ fn device<K: Kind<Scalar = f64> + Into<BuiltIn>>(random: &mut Random, heaviest: 
     let no_body =
         BodyParameters { origin: [0.0; 3], mass: 0.0, centre: [0.0; 3], inertia: Matrix3::zeros() };
     let (mut bodies, mut passive) = (K::all(no_body), K::all(Passive::none()));
-    let flexible = K::JOINTS.iter().any(is_bearing);
+    let flexible = K::JOINTS.iter().any(|info| clearance(info).is_some());
     let mut heaviest = heaviest;
     for (index, (body, info)) in bodies.values_mut().zip(K::JOINTS).enumerate() {
         let tip = info.rate == "spin";
@@ -254,25 +252,15 @@ fn device<K: Kind<Scalar = f64> + Into<BuiltIn>>(random: &mut Random, heaviest: 
             body.centre = random.vector(reach).into();
         }
         // A gimbal that holds bearings has at least a third of the rotor's mass.
-        if flexible && !is_bearing(info) {
+        if flexible && clearance(info).is_none() {
             heaviest = heaviest.min(3.0 * body.mass);
         }
     }
-    let sprung = random.bits().is_multiple_of(2);
+    let all_sprung = random.bits().is_multiple_of(2);
     for (passive, info) in passive.values_mut().zip(K::JOINTS) {
-        let (softest, stiffest, rest) = match (is_bearing(info), info.slides) {
-            (true, true) => (1e2, 1e4, 5e-3),
-            (true, false) => (1.0, 1e2, 0.1),
-            (false, _) if sprung => (0.0, 10.0, 1.0),
-            (false, _) => continue,
-        };
-        *passive = Passive {
-            stiffness: random.within(softest, stiffest),
-            rest: random.within(-rest, rest),
-            viscous: random.within(0.0, 0.1),
-            coulomb: random.within(0.0, 1.0),
-            coulomb_rate: random.log_within(1e-3, 1.0),
-        };
+        if all_sprung || clearance(info).is_some() {
+            *passive = sprung(random, info);
+        }
     }
     let model = if random.bits().is_multiple_of(4) {
         ImbalanceModel::Lumped
@@ -280,11 +268,6 @@ fn device<K: Kind<Scalar = f64> + Into<BuiltIn>>(random: &mut Random, heaviest: 
         ImbalanceModel::Coupled
     };
     K::of_bodies(&Matrix3::identity(), &bodies, &passive, model).into()
-}
-
-/// Whether a joint is one of flexible bearings: a slide or a tilt of the rotor in its housing.
-fn is_bearing(info: &JointInfo) -> bool {
-    ["slide", "tilt"].iter().any(|motion| info.body.contains(motion))
 }
 
 /// A quaternion of about unit length.

@@ -9,8 +9,9 @@ use precess_dynamics::{
     SloshMass, Vscmg,
 };
 use precess_point_masses::{Chain, Link, Motion};
+use precess_tests::bearings::sprung;
 
-use super::random::{Random, is_bearing};
+use super::random::Random;
 
 /// A kind that can be drawn.
 pub(crate) trait Drawn: Kind<Scalar = f64> {
@@ -23,19 +24,7 @@ pub(crate) trait Drawn: Kind<Scalar = f64> {
     fn sprung(random: &mut Random, heaviest: f64) -> Self {
         let mut device = Self::drawn(random, heaviest);
         for (passive, info) in device.passive_mut().values_mut().zip(Self::JOINTS) {
-            // A bearing holds its rotor.
-            let (softest, stiffest, rest) = match (is_bearing(info), info.slides) {
-                (false, _) => (0.0, 10.0, 1.0),
-                (true, true) => (1e2, 1e4, 5e-3),
-                (true, false) => (1.0, 1e2, 0.1),
-            };
-            *passive = Passive {
-                stiffness: random.within(softest, stiffest),
-                rest: random.within(-rest, rest),
-                viscous: random.within(0.0, 0.1),
-                coulomb: random.within(0.0, 1.0),
-                coulomb_rate: random.log_within(1e-3, 1.0),
-            };
+            *passive = sprung(random, info);
         }
         device
     }

@@ -6,6 +6,7 @@ use std::ops::{Deref, DerefMut};
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use precess_dynamics::kind::JointInfo;
+use precess_tests::bearings::clearance;
 use precess_tests::random;
 
 /// Spacecraft `n` of a suite is drawn from `SEED + n`.
@@ -121,9 +122,7 @@ impl Random {
 
     /// Coordinate and rate of a joint.
     pub(crate) fn joint(&mut self, info: &JointInfo) -> [f64; 2] {
-        // Bearings yield by their clearance.
-        if is_bearing(info) {
-            let largest = if info.slides { [5e-3, 0.1] } else { [0.1, 1.5] };
+        if let Some(largest) = clearance(info) {
             return largest.map(|largest| self.within(-largest, largest));
         }
         if info.slides {
@@ -132,11 +131,6 @@ impl Random {
         let fastest = if info.rate == "spin" { FASTEST_WHEEL } else { 5.0 };
         [self.within(-PI, PI), self.within(-fastest, fastest)]
     }
-}
-
-/// Whether a joint is one of flexible bearings: a slide or a tilt of the rotor in its housing.
-pub(crate) fn is_bearing(info: &JointInfo) -> bool {
-    ["slide", "tilt"].iter().any(|motion| info.body.contains(motion))
 }
 
 /// Principal moments along turned axes: a matrix symmetric to the last bit.
