@@ -11,9 +11,11 @@
 //! The parser is ours: `uom` 0.38 parses one unit of a quantity known at compile time, and
 //! `dyn_quantity` 0.5 takes the radian for the number one and has no rpm.
 
+mod error;
 mod expression;
 mod measure;
 mod symbols;
 
-pub use expression::{Quantity, UnitError, UnitErrorKind, parse_quantity, parse_unit};
+pub use error::{UnitError, UnitErrorKind};
+pub use expression::{Quantity, parse_quantity, parse_unit};
 pub use measure::{Dimension, Measure, measure_of};
