@@ -71,14 +71,13 @@ impl<K: Kind> Device<K> {
         }
     }
 
-    /// Torques and modes of the joints.
+    /// Torques and modes of the joints, valid only where each has its own mode; and whether each has.
     #[inline(always)]
-    fn by_mode(
+    fn by_own_mode(
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
         impulse: bool,
-        device: usize,
-    ) -> Result<Drives<K>, SolveError<K::Scalar>> {
+    ) -> (Drives<K>, bool) {
         let mut usual = !impulse;
         let mut each = joints.states().zip(given.motors.values()).zip(K::JOINTS);
         let drives = K::zip_per_joint(given.modes, given.modes, |mode, _| {
@@ -89,7 +88,7 @@ impl<K: Kind> Device<K> {
             usual &= mode == own && (!info.ignorable || coordinate.is_finite());
             own.drive(torque)
         });
-        if usual { Ok(drives) } else { Self::by_other_mode(joints, given, impulse, device) }
+        (drives, usual)
     }
 
     /// Torques and modes of the joints where one has a mode that is not its own.
@@ -135,7 +134,10 @@ impl<K: Kind> Device<K> {
         joints: &K::Joints<K::Scalar>,
         given: DeviceInputs<'_, K>,
     ) -> Option<Drives<K>> {
-        Self::by_mode(joints, given, false, 0).ok()
+        match Self::by_own_mode(joints, given, false) {
+            (drives, true) => Some(drives),
+            _ => Self::by_other_mode(joints, given, false, 0).ok(),
+        }
     }
 
     /// Whether a joint has dry friction.
@@ -153,7 +155,10 @@ impl<K: Kind> Device<K> {
         impulse: bool,
         device: usize,
     ) -> Result<Drives<K>, SolveError<K::Scalar>> {
-        let mut drives = Self::by_mode(joints, given, impulse, device)?;
+        let (mut drives, usual) = Self::by_own_mode(joints, given, impulse);
+        if !usual {
+            drives = Self::by_other_mode(joints, given, impulse, device)?;
+        }
         if !(self.free || impulse) {
             let states = joints.states().zip(self.passive.values());
             for (drive, ([coordinate, rate], passive)) in drives.values_mut().zip(states) {

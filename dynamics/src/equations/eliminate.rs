@@ -55,16 +55,17 @@ impl<K: Kind> DeviceElimination<'_, K> {
                 device.add_wrenches(pose, joints, given.bodies, central, &mut drives, assembly);
             }
         }
-        let mut joints = *joints;
+        let (mut still, mut joints) = (None, joints);
         if environment.impulse {
-            joints.states_mut().for_each(|[_, rate]| *rate = zero());
+            let still = still.insert(*joints);
+            still.states_mut().for_each(|[_, rate]| *rate = zero());
+            joints = still;
         }
         let (constants, omega) = (&device.constants, expressed_in_b(environment.omega));
-        let inputs =
-            EliminationInputs::<K, _> { constants, joints: &joints, omega, drives: &drives };
+        let inputs = EliminationInputs::<K, _> { constants, joints, omega, drives: &drives };
         let pivots = eliminate(&inputs, pose, assembly, gains);
         if !(device.free || environment.impulse) {
-            device.add_stiffness(&joints, &pivots, &drives, assembly);
+            device.add_stiffness(joints, &pivots, &drives, assembly);
         }
         device.check_pivots(index, &pivots, &drives)
     }
@@ -120,18 +121,15 @@ impl<K: Kind> Device<K> {
         pivots: &Pivots<K, K::Scalar>,
         drives: &Drives<K>,
     ) -> Result<(), SolveError<K::Scalar>> {
-        let above = K::zip_per_joint(pivots, &self.bound, |pivot, bound| {
-            pivot.is_none_or(|[pivot, _]| pivot > bound)
-        });
         let mut all_above = true;
-        K::zip_per_joint(&above, drives, |above, drive| {
-            all_above &= above || drive.driven != one();
+        K::zip_per_joint(pivots, &self.bound, |pivot, bound| {
+            all_above &= pivot.is_none_or(|[pivot, _]| pivot > bound);
         });
         if all_above { Ok(()) } else { self.small_pivot(device, pivots, drives) }
     }
 
-    /// The pivot rejected, in the order of the elimination: the first one is the cause, those after
-    /// it may be its consequence.
+    /// The pivot of a driven joint rejected, in the order of the elimination: the first one is the
+    /// cause, those after it may be its consequence. What is not driven needs no pivot.
     #[cold]
     fn small_pivot(
         &self,

@@ -27,7 +27,9 @@ use crate::numbers::vec3::{Vec3, add, components, cross, scale, sub, zeros};
 use crate::sets::counts::check_counts;
 use crate::sets::devices::Devices;
 use crate::sets::per_device as data;
-use crate::solve::accelerations::{EvaluationStart, evaluation_start, inputs_are_finite, overflow};
+use crate::solve::accelerations::{
+    EvaluationStart, check_fixed, evaluation_start, inputs_are_finite, overflow,
+};
 
 impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
     /// All second derivatives of the state, (F9): six numbers, one per joint and one per mode.
@@ -61,7 +63,8 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         found: &mut FlexibleAccelerations<D, S>,
         stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let EvaluationStart { environment, at_b } = evaluation_start(&state.rigid, &inputs.rigid)?;
+        check_fixed(&state.rigid, &inputs.rigid)?;
+        let EvaluationStart { environment, at_b } = evaluation_start(&state.rigid, &inputs.rigid);
         let omega = environment.omega;
         let mut stages = self.stages(state, inputs, &environment);
         let mut gains = D::new_data(&self.rigid.devices, &data::Gains);

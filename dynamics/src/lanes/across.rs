@@ -30,7 +30,9 @@ use crate::numbers::each::Each;
 use crate::numbers::lane::Lane;
 use crate::numbers::laned::{Block, Number, WIDEST};
 use crate::numbers::vec3::map;
-use crate::solve::accelerations::{EvaluationStart, evaluation_start, inputs_are_finite};
+use crate::solve::accelerations::{
+    EvaluationStart, check_fixed, evaluation_start, inputs_are_finite,
+};
 use crate::solve::inputs::Inputs;
 use crate::solve::spacecraft::Spacecraft;
 use crate::solve::state::{Accelerations, State};
@@ -184,7 +186,8 @@ impl<K: Kind<Scalar = f64>, A: Attitude<f64>, const N: usize> Evaluation<'_, K, 
     fn evaluate<T: Number, const BY_LANE: bool>(self, zero: T) -> Option<()> {
         let Self { across, state, inputs, found: all, stiffness: demanded } = self;
         let AcrossDevices { craft, groups, .. } = across;
-        let EvaluationStart { environment, at_b } = evaluation_start(state, inputs).ok()?;
+        check_fixed(state, inputs).ok()?;
+        let EvaluationStart { environment, at_b } = evaluation_start(state, inputs);
         let mut assembly = craft.assembly(inputs);
         let omega = map(environment.omega, |component| zero.like(component));
         // The first without the heap: where there is one group alone, that takes time.

@@ -44,6 +44,7 @@ impl<D: Devices> Spacecraft<D> {
     /// acceleration that is not finite though every input is, [`SolveError::LockedJointMoves`] and
     /// [`SolveError::FixedHubMoves`] where what is locked moves, [`SolveError::NotDriven`] where a
     /// joint's kind does not have its mode.
+    #[inline]
     pub fn accelerations<A: Attitude<D::Scalar>>(
         &self,
         state: &State<D, A>,
@@ -53,6 +54,7 @@ impl<D: Devices> Spacecraft<D> {
     }
 
     /// [`Self::accelerations`], each device eliminated `by` this.
+    #[inline]
     pub(crate) fn accelerations_by<A: Attitude<D::Scalar>>(
         &self,
         by: impl Eliminate<D::Scalar>,
@@ -90,17 +92,19 @@ impl<D: Devices> Spacecraft<D> {
         found: &mut Accelerations<D>,
         stiffness: Option<&mut Stiffness<D::Scalar>>,
     ) -> Result<(), SolveError<D::Scalar>> {
-        let EvaluationStart { environment, at_b } = evaluation_start(state, inputs)?;
+        check_fixed(state, inputs)?;
+        let start = evaluation_start(state, inputs);
+        let EvaluationStart { environment, at_b } = &start;
         let mut assembly = self.assembly(inputs);
         let mut scratch = D::new_data(&self.devices, &data::Gains);
         let given = inputs.of_joints();
-        self.eliminate_devices(by, state, given, &environment, &mut assembly, &mut scratch)?;
-        let hub = self.hub_accelerations(inputs, &environment, &mut assembly, at_b)?;
+        self.eliminate_devices(by, state, given, environment, &mut assembly, &mut scratch)?;
+        let hub = self.hub_accelerations(inputs, environment, &mut assembly, *at_b)?;
         let finite = back_substitute::<D>(&self.devices, &scratch, &hub, &mut found.devices);
         if let Some(stiffness) = stiffness {
             *stiffness = self.stiffness(inputs, &assembly);
         }
-        found.finish(inputs, &hub, at_b, finite)
+        found.finish(inputs, &hub, *at_b, finite)
     }
 
     /// Accelerations to be filled in.
@@ -245,7 +249,8 @@ impl<D: Devices> Spacecraft<D> {
         inputs: &Inputs<D>,
     ) -> Quantity {
         let joint = || -> Result<Option<Quantity>, SolveError<D::Scalar>> {
-            let environment = evaluation_start(state, inputs)?.environment;
+            check_fixed(state, inputs)?;
+            let environment = evaluation_start(state, inputs).environment;
             let (mut assembly, mut scratch) =
                 (self.assembly(inputs), D::new_data(&self.devices, &data::Gains));
             let of_hub = assembly.system(environment.omega);
@@ -287,22 +292,22 @@ pub(crate) struct EvaluationStart<T> {
     pub(crate) at_b: Vec3<T>,
 }
 
-/// The start of an evaluation: motion of the hub and gravity for the devices.
+/// The start of an evaluation: motion of the hub and gravity for the devices. A fixed hub that moves
+/// is for [`check_fixed`] to reject: within a [`Result`], the start is written twice.
 #[inline(always)]
 pub(crate) fn evaluation_start<D: Devices, A: Attitude<D::Scalar>>(
     state: &State<D, A>,
     inputs: &Inputs<D>,
-) -> Result<EvaluationStart<D::Scalar>, SolveError<D::Scalar>> {
-    check_fixed(state, inputs)?;
-    let omega = components(&state.omega);
-    let field = match &inputs.gravity {
-        Gravity::None => None,
-        gravity => gravity.field(&columns(&state.attitude.dcm()), &state.r_b_n),
-    };
-    let at_b = at_b(field.as_ref());
-    let central = field.and_then(|field| field.central);
-    let environment = Environment { omega, central, impulse: false };
-    Ok(EvaluationStart { environment, at_b })
+) -> EvaluationStart<D::Scalar> {
+    let environment =
+        Environment { omega: components(&state.omega), central: None, impulse: false };
+    let mut start = EvaluationStart { environment, at_b: zeros() };
+    if !matches!(inputs.gravity, Gravity::None) {
+        let field = inputs.gravity.field(&columns(&state.attitude.dcm()), &state.r_b_n);
+        start.at_b = at_b(field.as_ref());
+        start.environment.central = field.and_then(|field| field.central);
+    }
+    start
 }
 
 impl<D: Devices> Accelerations<D> {

@@ -177,6 +177,8 @@ fn page(compiler: &str, figures: &Figures) -> String {
         include_str!("flight.md")
             .replace("{compiler}", compiler)
             .replace("{stack}", &LARGEST_STACK.to_string())
+            // An evaluation and a step each.
+            .replace("{exports}", &(2 * figures.rows.len()).to_string())
             .replace("{sin_cos}", &figures.parts[0].to_string())
             .replace("{sqrt}", &figures.parts[1].to_string())
             .replace("{bounds}", &bounds(figures))
