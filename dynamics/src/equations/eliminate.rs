@@ -55,17 +55,17 @@ impl<K: Kind> DeviceElimination<'_, K> {
                 device.add_wrenches(pose, joints, given.bodies, central, &mut drives, assembly);
             }
         }
-        let (mut still, mut joints) = (None, joints);
+        // A copy: numbers whose place another function knows do not stay in registers.
+        let mut joints = *joints;
         if environment.impulse {
-            let still = still.insert(*joints);
-            still.states_mut().for_each(|[_, rate]| *rate = zero());
-            joints = still;
+            joints.states_mut().for_each(|[_, rate]| *rate = zero());
         }
         let (constants, omega) = (&device.constants, expressed_in_b(environment.omega));
-        let inputs = EliminationInputs::<K, _> { constants, joints, omega, drives: &drives };
+        let inputs =
+            EliminationInputs::<K, _> { constants, joints: &joints, omega, drives: &drives };
         let pivots = eliminate(&inputs, pose, assembly, gains);
         if !(device.free || environment.impulse) {
-            device.add_stiffness(joints, &pivots, &drives, assembly);
+            device.add_stiffness(&joints, &pivots, &drives, assembly);
         }
         device.check_pivots(index, &pivots, &drives)
     }
