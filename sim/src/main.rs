@@ -2,9 +2,8 @@
 
 use std::process::ExitCode;
 
-use clap::Parser;
 use precess::command::Cli;
 
 fn main() -> ExitCode {
-    Cli::parse().execute()
+    Cli::execute_arguments()
 }

@@ -5,11 +5,12 @@
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, Stdio};
 
 use clap::{Args, ValueEnum};
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::{Set, print};
 use crate::file::from_file;
 
@@ -54,7 +55,7 @@ pub(super) struct Bake {
 }
 
 impl Bake {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let (scenario, _) =
             from_file(&self.file, &self.overrides.overrides()).map_err(CommandError::Scenario)?;
         let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
@@ -62,7 +63,7 @@ impl Bake {
         let text = description.write().map_err(|error| other(&error))?;
         if self.description {
             print(&text);
-            return Ok(ExitCode::SUCCESS);
+            return Ok(Exit::Success);
         }
         for left in scenario.not_described() {
             eprintln!("note: {left} is not part of the kernels; add it to torques and forces");
@@ -72,7 +73,7 @@ impl Bake {
     }
 
     /// Hands a description to the program, whose output is this command's.
-    fn derive(&self, description: &str, out: &Path) -> Result<ExitCode, CommandError> {
+    fn derive(&self, description: &str, out: &Path) -> Result<Exit, CommandError> {
         let mut command = Command::new(program());
         command.arg("--out").arg(out);
         command.args(["--language", if self.language == Language::C { "c" } else { "rust" }]);
@@ -98,7 +99,7 @@ impl Bake {
             }
         }
         let status = child.wait().map_err(io)?;
-        Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+        Ok(if status.success() { Exit::Success } else { Exit::Error })
     }
 }
 

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
-use std::process::ExitCode;
 
 use clap::Args;
 use precess_dynamics::{About, BuiltIn, Imbalance, Inputs, JointStates, units};
 
+use super::exit::Exit;
 use super::table::{aligned, six};
 use super::{Files, Form, advice, print, sources};
 use crate::file::from_file;
@@ -25,7 +25,7 @@ pub(super) struct Check {
 }
 
 impl Check {
-    pub(super) fn execute(&self) -> ExitCode {
+    pub(super) fn execute(&self) -> Exit {
         let overrides = self.files.overrides.overrides();
         let mut failed = false;
         for path in &self.files.files {
@@ -50,7 +50,7 @@ impl Check {
                 }
             }
         }
-        if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+        if failed { Exit::Error } else { Exit::Success }
     }
 }
 

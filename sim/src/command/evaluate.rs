@@ -1,11 +1,11 @@
 //! `evaluate`: everything that a scenario's columns tell at the initial state.
 
 use std::ops::ControlFlow;
-use std::process::ExitCode;
 
 use clap::Args;
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::table::{aligned, six};
 use super::{Form, Set, print};
 use crate::engine::run;
@@ -25,7 +25,7 @@ pub(super) struct Evaluate {
 }
 
 impl Evaluate {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let (mut scenario, _) =
             from_file(&self.file, &self.overrides.overrides()).map_err(|errors| {
                 match self.format {
@@ -58,7 +58,7 @@ impl Evaluate {
                 .collect();
             let text = serde_json::to_string_pretty(&object).unwrap_or_default();
             print(&(text + "\n"));
-            return Ok(ExitCode::SUCCESS);
+            return Ok(Exit::Success);
         }
         let mut rows = Vec::new();
         let mut group = "";
@@ -77,6 +77,6 @@ impl Evaluate {
             ]);
         }
         print(aligned(&rows).trim_start_matches('\n'));
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 }

@@ -6,13 +6,13 @@
 //! a step give the same bits there as here, for up to eight devices.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use precess_dynamics::{Coupled, MAX_JOINTS, Passive, Strut, Suspension};
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::run::may_write;
 use super::{Set, print};
 use crate::file::from_file;
@@ -59,7 +59,7 @@ pub(super) struct Table {
 }
 
 impl Export {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let Self::Table(options) = self;
         let (scenario, _) = from_file(&options.file, &options.overrides.overrides())
             .map_err(CommandError::Scenario)?;
@@ -79,7 +79,7 @@ impl Export {
             bytes.len(),
             scenario.names.len()
         ));
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 }
 

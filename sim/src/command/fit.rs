@@ -4,13 +4,13 @@
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::Args;
 use indicatif::ProgressBar;
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::print;
 use super::run::{may_write, write_whole};
 use super::table::{aligned, six};
@@ -45,7 +45,7 @@ pub(super) struct FitCommand {
 }
 
 impl FitCommand {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         if let Some(folder) = &self.example {
             let files = [
                 (example::DESCRIPTION.to_owned(), example::TOML.to_owned()),
@@ -53,7 +53,7 @@ impl FitCommand {
             ];
             return write(folder, &files, self.force);
         }
-        let Some(path) = &self.file else { return Ok(ExitCode::FAILURE) };
+        let Some(path) = &self.file else { return Ok(Exit::Error) };
         // Silent where the output is no terminal.
         let bar = ProgressBar::new_spinner();
         bar.enable_steady_tick(Duration::from_millis(100));
@@ -98,7 +98,7 @@ fn write(
     folder: &std::path::Path,
     files: &[(String, String)],
     force: bool,
-) -> Result<ExitCode, CommandError> {
+) -> Result<Exit, CommandError> {
     let names: Vec<_> = files.iter().map(|(name, _)| name.clone()).collect();
     may_write(folder, &names, force)?;
     std::fs::create_dir_all(folder)
@@ -108,7 +108,7 @@ fn write(
         write_whole(&path, text)?;
         print(&format!("{}\n", path.display()));
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(Exit::Success)
 }
 
 /// A row: name, value, interval, unit.

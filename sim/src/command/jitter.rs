@@ -3,12 +3,12 @@
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::sync::Mutex;
 
 use clap::Args;
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::run::{all_cores, may_write, progress_bar, write_whole};
 use super::table::{aligned, six};
 use super::{as_toml, print};
@@ -34,8 +34,6 @@ Examples:
 
 The exit code is 0 where every requirement is met, 2 where one is not, 1 on an error.";
 
-/// The exit code of a budget that is complete, but not met.
-const UNMET: u8 = 2;
 /// A line this near to a natural frequency, of its damping ratio, is at resonance.
 const RESONANCE: f64 = 20.0;
 
@@ -98,7 +96,7 @@ struct Found {
 }
 
 impl Jitter {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let [of_budget, of_scenario] = by_file(&self.set)?;
         let (budget, path) =
             budget_from_toml(&self.file, &of_budget).map_err(CommandError::Scenario)?;
@@ -159,7 +157,7 @@ impl Jitter {
         let folder = self.out.display();
         print(&format!("files: {folder}/{stem}.html and {} more\n", files.len() - 1));
         let met = found.assessed.iter().all(|of| of.margin.is_met());
-        Ok(if met { ExitCode::SUCCESS } else { ExitCode::from(UNMET) })
+        Ok(Exit::of_met(met))
     }
 
     /// Speeds of `--compare` that are not among those of the budget.

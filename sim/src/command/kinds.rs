@@ -1,12 +1,12 @@
 //! `kinds`: what devices there are, and the platform that carries devices.
 
 use std::fmt::Write as _;
-use std::process::ExitCode;
 
 use clap::Args;
 use precess_dynamics::kind::{JointInfo, Kind, ParameterInfo};
 use precess_dynamics::{BuiltInKind, Platform};
 
+use super::exit::Exit;
 use super::table::aligned_left;
 use super::{CommandError, print};
 use crate::file::read::{body_key, joint_key};
@@ -48,10 +48,10 @@ fn described() -> impl Iterator<Item = Described> {
 }
 
 impl Kinds {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let Some(name) = &self.kind else {
             print(&table());
-            return Ok(ExitCode::SUCCESS);
+            return Ok(Exit::Success);
         };
         let Some(kind) = described().find(|kind| kind.name == name) else {
             let known: Vec<_> = described().map(|kind| kind.name).collect();
@@ -59,7 +59,7 @@ impl Kinds {
             return Err(CommandError::Other(message));
         };
         print(&kind.detail());
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 }
 

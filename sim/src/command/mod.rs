@@ -9,6 +9,7 @@ mod check;
 mod compare;
 mod error;
 mod evaluate;
+mod exit;
 mod export;
 mod fit;
 mod jitter;
@@ -30,6 +31,8 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use error::CommandError;
+
+use exit::Exit;
 
 use campaign::{montecarlo, sweep};
 
@@ -151,9 +154,21 @@ fn as_toml(text: &str) -> String {
 }
 
 impl Cli {
-    /// Executes the command.
+    /// Executes the command line of this process: prints help or what is wrong with it, or executes the command.
     #[must_use]
-    pub fn execute(self) -> ExitCode {
+    pub fn execute_arguments() -> ExitCode {
+        match Self::try_parse() {
+            Ok(cli) => cli.execute(),
+            Err(error) => {
+                // Help and version go to standard output, which may be closed; what is wrong to standard error.
+                let _ = error.print();
+                if error.use_stderr() { Exit::Usage.into() } else { Exit::Success.into() }
+            }
+        }
+    }
+
+    /// Executes the command.
+    fn execute(self) -> ExitCode {
         let done = match self.command {
             Command::New(new) => new.execute(),
             Command::Check(check) => Ok(check.execute()),
@@ -174,10 +189,10 @@ impl Cli {
             Command::Export(export) => export.execute(),
         };
         match done {
-            Ok(code) => code,
+            Ok(exit) => exit.into(),
             Err(error) => {
                 eprintln!("{}", error.to_string().trim_end());
-                ExitCode::FAILURE
+                Exit::Error.into()
             }
         }
     }

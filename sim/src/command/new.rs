@@ -1,13 +1,13 @@
 //! `new`: a commented example of a scenario file, with typical values.
 
 use std::fmt::Write as _;
-use std::process::ExitCode;
 
 use clap::Args;
 use precess_dynamics::BuiltInKind;
 use precess_dynamics::kind::JointInfo;
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::print;
 use crate::file::read::{body_key, has_inertia, has_mass};
 
@@ -21,7 +21,7 @@ pub(super) struct New {
 }
 
 impl New {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let Some(text) = example(&self.what) else {
             let known: Vec<_> = BuiltInKind::ALL.iter().map(|kind| kind.name()).collect();
             let message = format!(
@@ -32,7 +32,7 @@ impl New {
             return Err(CommandError::Other(message));
         };
         print(&text);
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 }
 

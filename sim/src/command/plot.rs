@@ -1,11 +1,11 @@
 //! `plot`: the figures of a run, as SVG files.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::Args;
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::run::{files, may_write, read_all, watch_interrupts, with_progress, write_whole};
 use super::{Files, print};
 use crate::record::Between;
@@ -43,7 +43,7 @@ pub(super) fn time(text: &str) -> Result<f64, String> {
 }
 
 impl Plot {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let scenarios = read_all(&self.files)?;
         for (scenario, _) in &scenarios {
             may_write(&self.out, &self.earlier(scenario)?, self.force)?;
@@ -63,7 +63,7 @@ impl Plot {
                 print(&format!("{}\n", path.display()));
             }
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 
     /// The interval of the figures, s.

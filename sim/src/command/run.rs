@@ -7,7 +7,6 @@ use std::collections::BTreeSet;
 use std::io::{BufRead as _, IsTerminal as _, Write as _};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::Args;
@@ -15,6 +14,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::advice::{self, advice};
 use super::error::CommandError;
+use super::exit::Exit;
 use super::{Files, print};
 use crate::engine::{Outcome, run};
 use crate::file::{Diagnostics, from_file};
@@ -32,9 +32,6 @@ Examples:
 
 The exit code is 0 where every run was complete and met its requirements, 2 where one did not, 1 on an
 error. Ctrl-C ends a run early: what was computed is complete, and says so; a second one ends at once.";
-
-/// The exit code of a run that is complete in its files, but not as its scenario wants it.
-const UNMET: u8 = 2;
 
 /// The options of `run`.
 #[derive(Debug, Args)]
@@ -56,7 +53,7 @@ pub(super) struct Run {
 static INTERRUPTS: AtomicUsize = AtomicUsize::new(0);
 
 impl Run {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let scenarios = read_all(&self.files)?;
         for (scenario, _) in &scenarios {
             may_write(&self.out, &self.names(scenario), self.force)?;
@@ -71,7 +68,7 @@ impl Run {
                 break;
             }
         }
-        Ok(if met { ExitCode::SUCCESS } else { ExitCode::from(UNMET) })
+        Ok(Exit::of_met(met))
     }
 
     /// The files of a scenario.

@@ -1,15 +1,14 @@
 //! `schema`: the JSON Schema of scenario files.
 
-use std::process::ExitCode;
-
+use super::exit::Exit;
 use super::print;
 
 /// The schema, as published.
 pub(crate) const SCHEMA: &str = include_str!("../../schema/scenario-1.json");
 
-pub(super) fn execute() -> ExitCode {
+pub(super) fn execute() -> Exit {
     print(SCHEMA);
-    ExitCode::SUCCESS
+    Exit::Success
 }
 
 #[cfg(test)]

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::print;
 use super::run::{may_write, write_whole};
 use super::table::{aligned, six};
@@ -63,7 +63,7 @@ pub(super) fn read(path: &Path) -> Result<Structure, CommandError> {
 }
 
 impl StructureCommand {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         match self {
             Self::Show(show) => show.execute(),
             Self::Convert(convert) => convert.execute(),
@@ -72,12 +72,12 @@ impl StructureCommand {
 }
 
 impl Show {
-    fn execute(&self) -> Result<ExitCode, CommandError> {
+    fn execute(&self) -> Result<Exit, CommandError> {
         if self.shapes.is_none()
             && let Some(text) = self.matrices()?
         {
             print(&text);
-            return Ok(ExitCode::SUCCESS);
+            return Ok(Exit::Success);
         }
         let structure = read(&self.file)?;
         print(&shown(&structure));
@@ -88,7 +88,7 @@ impl Show {
             write_whole(path, &mode_shapes(&structure))?;
             print(&format!("\n{}\n", path.display()));
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 
     /// The matrices of an op4 file; none of another one.
@@ -110,7 +110,7 @@ impl Show {
 }
 
 impl Convert {
-    fn execute(&self) -> Result<ExitCode, CommandError> {
+    fn execute(&self) -> Result<Exit, CommandError> {
         let structure = read(&self.file)?;
         let to = self.to.clone().unwrap_or_else(|| self.file.with_extension("npz"));
         let failed = |error: crate::structure::StructureError| {
@@ -136,7 +136,7 @@ impl Convert {
         }
         let (nodes, modes) = (structure.nodes.len(), structure.modes.len());
         print(&format!("{}: {nodes} nodes, {modes} modes\n", to.display()));
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 }
 

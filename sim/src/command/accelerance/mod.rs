@@ -6,12 +6,12 @@ mod mounted;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use nalgebra::Complex;
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::run::{may_write, write_whole};
 use super::{print, structure};
 use crate::report::response::Response;
@@ -105,7 +105,7 @@ fn frequency(text: &str) -> Result<f64, String> {
 }
 
 impl AcceleranceCommand {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let structure = structure::read(&self.file)?;
         if self.from >= self.to {
             let message = format!("{} Hz to {} Hz is no range", self.from, self.to);
@@ -144,7 +144,7 @@ impl AcceleranceCommand {
             write_whole(&path, text)?;
             print(&format!("{}\n", path.display()));
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 
     /// Equal ratios, and every mode with its half-power points, so that no peak is missed; Hz, rising.

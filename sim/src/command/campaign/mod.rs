@@ -19,8 +19,6 @@ use crate::file::{Override, Template};
 use crate::record::{Columns, Header};
 use crate::scenario::Scenario;
 
-/// The exit code of a campaign that is not complete, has samples that failed, or violates a requirement.
-pub(super) const UNMET: u8 = 2;
 /// Samples that are read in search of one that can be.
 const TRIED: usize = 16;
 

@@ -2,16 +2,16 @@
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{CampaignOptions, Prepared, Shown, UNMET, failures, shown, values_of};
+use super::{CampaignOptions, Prepared, Shown, failures, shown, values_of};
 use crate::campaign::{
     Derivative, Estimate, Finished, Plan, SAMPLES_MAX, Variation, central_differences, derivatives,
     digits, draw, exact_derivatives, percentile, probability, regression, spearman, tangents,
 };
 use crate::command::error::CommandError;
+use crate::command::exit::Exit;
 use crate::command::print;
 use crate::command::run::progress_bar;
 use crate::command::table::{aligned, six};
@@ -64,7 +64,7 @@ fn samples(text: &str) -> Result<usize, String> {
 }
 
 impl MonteCarlo {
-    pub(in crate::command) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(in crate::command) fn execute(&self) -> Result<Exit, CommandError> {
         let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
         let variations = variations_from_toml(&self.plan).map_err(CommandError::Scenario)?;
         let plan = draw(&variations, self.samples, self.seed, self.latin_hypercube)
@@ -82,7 +82,7 @@ impl MonteCarlo {
         }
         self.options.may_write(&stem, &names)?;
         let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
-            return Ok(ExitCode::from(UNMET));
+            return Ok(Exit::Violated);
         };
         let mut texts = Vec::new();
         for (name, field, (unit, size), limit) in shown(&prepared) {
@@ -99,7 +99,7 @@ impl MonteCarlo {
         let mut found = Vec::new();
         if self.sensitivities {
             let Some(all) = self.derivatives(&prepared, &variations, &beside)? else {
-                return Ok(ExitCode::from(UNMET));
+                return Ok(Exit::Violated);
             };
             found = all;
             let planes = planes(&prepared, &plan, &finished);
@@ -110,7 +110,7 @@ impl MonteCarlo {
         print(&text);
         let folder = self.options.out().display();
         print(&format!("files: {folder}/{stem}.csv and {} more\n", texts.len() + 1));
-        Ok(if met { ExitCode::SUCCESS } else { ExitCode::from(UNMET) })
+        Ok(Exit::of_met(met))
     }
 }
 

@@ -1,13 +1,13 @@
 //! `sweep`: runs of a scenario over the values of one key or two; tables, pictures, worst values, values to keep out of.
 
 use std::fmt::Write as _;
-use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{CampaignOptions, Prepared, UNMET, failures, shown, values_of};
+use super::{CampaignOptions, Prepared, failures, shown, values_of};
 use crate::campaign::{Axis, Finished, Plan, digits, keep_out};
 use crate::command::error::CommandError;
+use crate::command::exit::Exit;
 use crate::command::print;
 use crate::command::table::{aligned, six};
 use crate::disturbance::Model as SourceModel;
@@ -49,7 +49,7 @@ fn axis(text: &str) -> Result<Axis, String> {
 }
 
 impl Sweep {
-    pub(in crate::command) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(in crate::command) fn execute(&self) -> Result<Exit, CommandError> {
         let other = |error: &dyn std::fmt::Display| CommandError::Other(error.to_string());
         if self.over.len() > 2 {
             return Err(other(&"a sweep has one --over or two; fix the other keys by --set"));
@@ -59,7 +59,7 @@ impl Sweep {
         let stem = format!("{}-sweep", prepared.scenario.name);
         self.options.may_write(&stem, &self.names(&prepared, &stem))?;
         let Some(finished) = self.options.run(&prepared, &plan, &stem)? else {
-            return Ok(ExitCode::from(UNMET));
+            return Ok(Exit::Violated);
         };
         let pictures = self.pictures(&prepared, &finished, &stem).map_err(|error| other(&error))?;
         self.options.write(&prepared, &plan, &finished, &stem, &pictures)?;
@@ -67,7 +67,7 @@ impl Sweep {
         print(&text);
         let folder = self.options.out().display();
         print(&format!("files: {folder}/{stem}.csv and {} more\n", pictures.len() + 1));
-        Ok(if met { ExitCode::SUCCESS } else { ExitCode::from(UNMET) })
+        Ok(Exit::of_met(met))
     }
 
     /// The files of the result.

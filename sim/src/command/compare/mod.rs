@@ -4,11 +4,11 @@
 mod difference;
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use clap::Args;
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::run::{files, watch_interrupts, with_progress};
 use super::table::{aligned, six};
 use super::{Form, Set, print};
@@ -31,7 +31,7 @@ pub(super) struct Compare {
 }
 
 impl Compare {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         watch_interrupts();
         let folder = tempfile::tempdir()
             .map_err(|source| CommandError::Io { path: std::env::temp_dir(), source })?;
@@ -48,7 +48,7 @@ impl Compare {
         if self.format == Form::Json {
             print(&(serde_json::to_string_pretty(&entries).unwrap_or_default() + "\n"));
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 
     /// What is compared with what, each with a heading; none for a single pair.

@@ -3,11 +3,11 @@
 mod tables;
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
 use super::error::CommandError;
+use super::exit::Exit;
 use super::plot::time;
 use super::result::{Signal, Signals};
 use super::run::{may_write, write_whole};
@@ -117,7 +117,7 @@ fn band(text: &str) -> Result<[f64; 2], String> {
 }
 
 impl Spectrum {
-    pub(super) fn execute(&self) -> Result<ExitCode, CommandError> {
+    pub(super) fn execute(&self) -> Result<Exit, CommandError> {
         let interval = [self.from.unwrap_or(f64::NEG_INFINITY), self.to.unwrap_or(f64::INFINITY)];
         let signals = Signals::read(&self.result, &self.column, interval)?;
         let wrong = |error: &dyn std::fmt::Display| {
@@ -156,7 +156,7 @@ impl Spectrum {
             Form::Text => print(&format!("{}\n{}\n", text(&analysis), paths.join("\n"))),
             Form::Json => print(&(json(&analysis, &paths) + "\n")),
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(Exit::Success)
     }
 
     /// The segments, of a record of these signals.

@@ -1,0 +1,43 @@
+//! [`Exit`]: what a command ends with, and its exit code. One table for all commands.
+
+use std::process::ExitCode;
+
+/// How a command ended. The order is that of weight: of several files the heaviest counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Exit {
+    /// Complete; every requirement that there is was evaluated and is met.
+    Success,
+    /// A requirement could not be evaluated: nothing was measured. None is violated.
+    #[expect(dead_code, reason = "requirements without data are told apart in the next change")]
+    NotEvaluated,
+    /// A requirement is violated, a fitted model does not hold, or a run ended before its time.
+    Violated,
+    /// An error: nothing was computed, or what was could not be written.
+    Error,
+    /// The command line is wrong.
+    Usage,
+}
+
+impl Exit {
+    /// Of requirements that are met or violated.
+    pub(super) fn of_met(met: bool) -> Self {
+        if met { Self::Success } else { Self::Violated }
+    }
+
+    /// The code: that of `sysexits.h` for usage.
+    pub(super) const fn code(self) -> u8 {
+        match self {
+            Self::Success => 0,
+            Self::Error => 1,
+            Self::Violated => 2,
+            Self::NotEvaluated => 3,
+            Self::Usage => 64,
+        }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit.code())
+    }
+}
