@@ -1,0 +1,1 @@
+//! Files that commands write, what they print, and how they end.

@@ -1,0 +1,1 @@
+//! Fits of wheel measurements: what is not explained or not determined.

@@ -1,0 +1,1 @@
+//! Budgets and bands: integrals over frequency, and what is compared with what.

@@ -1,0 +1,1 @@
+//! Inputs that were refused wrongly, accepted silently, or ended in a fault.

@@ -1,0 +1,1 @@
+//! Loads about stated points, in stated axes, and what an evaluation says of them.

@@ -1,0 +1,1 @@
+//! Requirements without data: neither met nor violated.
