@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._wanted import instance, number, text
 
 __all__ = [
     "Band",
@@ -212,21 +213,37 @@ def fit_records(
     SignalError
         Records that cannot be used, or that determine no model.
     """
+    if isinstance(records, str | bytes | Record) or not isinstance(records, Iterable):
+        raise TypeError(f"records is a {type(records).__name__}; it needs a list of Record")
     facts = [
         (
-            record.name,
+            instance("a record", record, Record, "a precess.fit.Record").name,
             record.rate,
             record.speed,
             record.drift,
             [float(of) for of in record.pulses],
-            np.asarray(record.samples, dtype=np.float64),
+            _samples(record),
         )
         for record in records
     ]
     native = _native.fit_records(
-        name, facts, list(harmonics), list(interference), highest, speed_accuracy
+        text("name", name),
+        facts,
+        [number("a harmonic", of) for of in harmonics],
+        [number("an interference", of) for of in interference],
+        None if highest is None else number("highest", highest),
+        None if speed_accuracy is None else number("speed_accuracy", speed_accuracy),
     )
     return Fit(native)
+
+
+def _samples(record: Record) -> npt.NDArray[np.float64]:
+    samples = np.asarray(record.samples, dtype=np.float64)
+    if samples.ndim != 2:
+        raise ValueError(
+            f"samples of {record.name!r} have the shape {samples.shape}; they need (samples, 6): force and moment"
+        )
+    return samples
 
 
 def _estimate(facts: tuple[float, float, float, float] | None) -> Estimate | None:

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._rows import OfRows, StrPath, evaluate
+from ._wanted import names, number
 from .campaign.plan import Vary, _with_file, latin_hypercube, monte_carlo
 from .scenario import Scenario
 
@@ -170,16 +171,20 @@ def sensitivities(
     UnsupportedError
         A scenario that is not differentiated, with the reason.
     """
+    overrides, of, from_ = names("set", set), names("columns", columns), number("start", start)
+
     def differentiated(plan: str) -> tuple[list[str], list[float], list[list[float] | None], float]:
         return _native.plan_sensitivities(
-            os.fspath(scenario), list(set), plan, list(columns), float(start)
+            os.fspath(scenario), overrides, plan, of, from_
         )
 
     labels, deviations, slopes, difference = _with_file(vary, differentiated)
-    names = [f"requirement {name}" for name in _requirements(scenario, set)]
-    names += [f"{column} {of}" for column in columns for of in ("rms", "peak")]
+    numbers = [f"requirement {name}" for name in _requirements(scenario, overrides)]
+    numbers += [f"{column} {kind}" for column in of for kind in ("rms", "peak")]
     named = {
-        name: np.array(of) for name, of in zip(names, slopes, strict=True) if of is not None
+        name: np.array(slope)
+        for name, slope in zip(numbers, slopes, strict=True)
+        if slope is not None
     }
     return Sensitivities(tuple(labels), np.array(deviations), named, difference)
 
