@@ -2,11 +2,23 @@
 
 from __future__ import annotations
 
+import math
 import operator
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar
 
-__all__ = ["function", "instance", "names", "number", "table", "text", "whole"]
+__all__ = [
+    "finite",
+    "function",
+    "instance",
+    "items",
+    "names",
+    "number",
+    "share",
+    "table",
+    "text",
+    "whole",
+]
 
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
@@ -56,6 +68,29 @@ def number(name: str, value: Any) -> float:
         raise ValueError(f"{name} is {_shown(value)}; it needs a number below 1.8e308") from None
 
 
+def finite(name: str, value: Any) -> float:
+    """A real number that is neither infinite nor NaN."""
+    found = number(name, value)
+    if not math.isfinite(found):
+        raise ValueError(f"{name} is {found}; it needs a finite number")
+    return found
+
+
+def share(name: str, value: Any) -> float:
+    """A probability or a share between zero and one."""
+    found = number(name, value)
+    if not 0.0 < found < 1.0:
+        raise ValueError(f"{name} is {found}; it needs a number between 0 and 1")
+    return found
+
+
+def items(name: str, value: Any, wanted: str) -> list[Any]:
+    """What a list or another iterable has."""
+    if isinstance(value, str | bytes) or not isinstance(value, Iterable):
+        raise _wrong(name, value, wanted)
+    return list(value)
+
+
 def text(name: str, value: Any) -> str:
     """A text."""
     if not isinstance(value, str):
@@ -65,9 +100,7 @@ def text(name: str, value: Any) -> str:
 
 def names(name: str, values: Any) -> list[str]:
     """A sequence of texts; one text by itself, whose letters would be taken for names, is none."""
-    if isinstance(values, str | bytes) or not isinstance(values, Iterable):
-        raise _wrong(name, values, "a list of texts")
-    return [text(f"a text of {name}", value) for value in values]
+    return [text(f"a text of {name}", value) for value in items(name, values, "a list of texts")]
 
 
 def table(name: str, value: Any) -> Mapping[Any, Any]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _native
 from ._tables import path_of
-from ._wanted import function, instance, names, number, table, text, whole
+from ._wanted import finite, function, instance, names, number, table, text, whole
 from .errors import ParameterError, ScenarioError
 from .inputs import Inputs
 from .scenario import ScenarioWarning
@@ -273,7 +273,7 @@ class Batch:
         Ctrl-C ends it between parts and segments of steps, and raises ``KeyboardInterrupt``.
         """
         y, base, u = self._given(states, inputs)
-        dt, steps, reduce = number("dt", dt), whole("steps", steps), names("reduce", reduce)
+        dt, steps, reduce = finite("dt", dt), whole("steps", steps), names("reduce", reduce)
         every = None if every is None else whole("every", every, 1)
         of_threads, progress = _threads(threads), function("progress", progress)
         keep = (every is not None and not reduce) if history is None else bool(history)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._wanted import instance, number, text
+from ._wanted import instance, items, number, text
 
 __all__ = [
     "Band",
@@ -213,8 +213,6 @@ def fit_records(
     SignalError
         Records that cannot be used, or that determine no model.
     """
-    if isinstance(records, str | bytes | Record) or not isinstance(records, Iterable):
-        raise TypeError(f"records is a {type(records).__name__}; it needs a list of Record")
     facts = [
         (
             instance("a record", record, Record, "a precess.fit.Record").name,
@@ -224,13 +222,14 @@ def fit_records(
             [float(of) for of in record.pulses],
             _samples(record),
         )
-        for record in records
+        for record in items("records", records, "a list of precess.fit.Record")
     ]
+    numbers = "a list of numbers"
     native = _native.fit_records(
         text("name", name),
         facts,
-        [number("a harmonic", of) for of in harmonics],
-        [number("an interference", of) for of in interference],
+        [number("a harmonic", of) for of in items("harmonics", harmonics, numbers)],
+        [number("an interference", of) for of in items("interference", interference, numbers)],
         None if highest is None else number("highest", highest),
         None if speed_accuracy is None else number("speed_accuracy", speed_accuracy),
     )

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from . import _native
+from . import _native, _wanted
 from ._rows import OfRows, StrPath, evaluate
-from ._wanted import names, number
 from .campaign.plan import Vary, _with_file, latin_hypercube, monte_carlo
 from .scenario import Scenario
 
@@ -57,7 +56,9 @@ class Samples(OfRows):
         """The percentile of a number, with an interval that holds for any continuous distribution."""
         numbers = self[name]
         found = _native.estimate_percentile(
-            np.sort(numbers[~np.isnan(numbers)]).tolist(), share, level
+            np.sort(numbers[~np.isnan(numbers)]).tolist(),
+            _wanted.share("share", share),
+            _wanted.share("level", level),
         )
         if found is None:
             raise ValueError(f"no sample has `{name}`")
@@ -68,6 +69,7 @@ class Samples(OfRows):
         if requirement not in self.limits:
             raise KeyError(f"no requirement `{requirement}`; there are {', '.join(self.limits)}")
         met = self[f"requirement {requirement}"] <= self.limits[requirement]
+        level = _wanted.share("level", level)
         found = _native.estimate_probability(int(met.sum()), len(self), level)
         if found is None:
             raise ValueError("there are no samples")
@@ -171,7 +173,11 @@ def sensitivities(
     UnsupportedError
         A scenario that is not differentiated, with the reason.
     """
-    overrides, of, from_ = names("set", set), names("columns", columns), number("start", start)
+    overrides, of, from_ = (
+        _wanted.names("set", set),
+        _wanted.names("columns", columns),
+        _wanted.number("start", start),
+    )
 
     def differentiated(plan: str) -> tuple[list[str], list[float], list[list[float] | None], float]:
         return _native.plan_sensitivities(

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._wanted import instance, number
+from ._wanted import instance, items, number
 from .spectra import Psd
 
 __all__ = [
@@ -178,7 +178,8 @@ def index(
     SignalError
         Windows, levels or runs that have no such index.
     """
-    each: Sequence[npt.ArrayLike] = [runs] if isinstance(runs, np.ndarray) else runs
+    wanted = "an array, or a list of arrays"
+    each = [runs] if isinstance(runs, np.ndarray) else items("runs", runs, wanted)
     arrays = [_components(run) for run in each]
     facts = (name, window, stability)
     found = _native.pointing_index(facts, arrays, rate, interpretation, level, confidence)

@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import _native
 from .._tables import overrides_of, toml_of
-from .._wanted import table, text, whole
+from .._wanted import items, table, text, whole
 
 __all__ = ["Plan", "grid", "latin_hypercube", "listed", "monte_carlo", "sobol"]
 
@@ -121,8 +121,9 @@ def _with_file(vary: Vary, planned: Any) -> Any:
         return planned(os.fspath(vary))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "plan.toml")
-        text = toml_of({"format": 1, "vary": [dict(table) for table in vary]})
-        path.write_text(text, encoding="utf-8")
+        tables = items("vary", vary, "a path, or a list of tables")
+        rows = [dict(table("a table of vary", of)) for of in tables]
+        path.write_text(toml_of({"format": 1, "vary": rows}), encoding="utf-8")
         return planned(str(path))
 
 
