@@ -167,9 +167,8 @@ impl NativeResult {
 }
 
 fn end_facts(end: &End) -> EndFacts {
-    let facts = |what: &str, text: &str, number, slides| {
-        (what.to_owned(), text.to_owned(), number, slides)
-    };
+    let facts =
+        |what: &str, text: &str, number, slides| (what.to_owned(), text.to_owned(), number, slides);
     match end {
         End::Finished => facts("finished", "", None, false),
         End::EndStop { joint, bound, unit } => facts("stop", joint, Some(*bound), *unit == "m"),
