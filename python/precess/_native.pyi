@@ -56,6 +56,16 @@ _Column: TypeAlias = tuple[str, str, str | None, str, str, str | None]
 _Failures: TypeAlias = list[tuple[int, Exception]]
 _Estimate: TypeAlias = tuple[float, float, float, float]
 _Parts: TypeAlias = tuple[float, float, float]
+_Outcome: TypeAlias = tuple[
+    tuple[str, str, float | None, bool],
+    float,
+    tuple[int, int, int],
+    int,
+    tuple[list[tuple[float, str]], int],
+    list[float],
+    tuple[float | None, float | None, float | None],
+    float,
+]
 _About: TypeAlias = tuple[int, int, float, float, float]
 _Plan: TypeAlias = tuple[list[str], list[tuple[list[float], list[str]]]]
 _Index: TypeAlias = tuple[str, float | None, float | None]
@@ -245,6 +255,10 @@ class NativeResult:
     def verdicts(
         self,
     ) -> list[tuple[str, str, float | None, float, tuple[str, float], bool, bool]]: ...
+    @property
+    def outcome(self) -> _Outcome: ...
+    @staticmethod
+    def restored(scenario: NativeScenario, outcome: _Outcome) -> NativeResult: ...
     def save(self, format: str, path: _Path, columns: Sequence[_Array]) -> None: ...
     def raise_error(self) -> None: ...
 

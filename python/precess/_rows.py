@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._wanted import function, names, number, whole
 from .campaign.bundle import Bundle
 from .campaign.job import Job, in_groups
 from .campaign.plan import Plan
@@ -49,10 +50,10 @@ class Rows:
 
     def column(self, name: str) -> Array:
         """A number of each sample."""
-        names = list(self.units)
-        if name not in names:
-            raise KeyError(f"no number is named `{name}`; there are {', '.join(names)}")
-        return self.numbers[:, names.index(name)]
+        known = list(self.units)
+        if name not in known:
+            raise KeyError(f"no number is named `{name}`; there are {', '.join(known)}")
+        return self.numbers[:, known.index(name)]
 
 
 class OfRows:
@@ -93,13 +94,15 @@ def evaluate(
     """Runs every sample on threads of this process. Numbers do not depend on how many."""
     from . import __version__
 
+    columns, lines = names("columns", columns), whole("lines", lines)
+    start, progress = number("start", start), function("progress", progress)
+    workers = (0 if threads is None else whole("threads", threads)) or os.cpu_count() or 1
     scenario = scenario if isinstance(scenario, Scenario) else Scenario.from_toml(scenario)
-    fields = _native.row_fields(scenario._native, list(columns), lines)
-    job = Job(tuple(columns), lines, float(start), tuple(fields), None, __version__)
+    fields = _native.row_fields(scenario._native, columns, lines)
+    job = Job(tuple(columns), lines, start, tuple(fields), None, __version__)
     bundle = Bundle.of(scenario)
     numbers = np.full((len(plan), len(fields)), np.nan)
     errors: dict[int, str] = {}
-    workers = threads or os.cpu_count() or 1
     with ThreadPoolExecutor(workers, "precess") as pool:
         try:
             groups = in_groups(plan.overrides, workers)

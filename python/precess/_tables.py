@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["overrides_of", "toml_of"]
+from ._wanted import table
+
+__all__ = ["overrides_of", "path_of", "toml_of"]
 
 Overrides = Mapping[str, Any]
 
@@ -17,7 +19,8 @@ def overrides_of(values: Overrides | None) -> list[str]:
 
     A table within is a table of the scenario: its keys replace those there.
     """
-    return [f"{_path(key)} = {_value(value)}" for key, value in (values or {}).items()]
+    values = {} if values is None else table("set", values)
+    return [f"{path_of(key)} = {_value(value)}" for key, value in values.items()]
 
 
 def toml_of(tables: Mapping[str, Any]) -> str:
@@ -25,7 +28,10 @@ def toml_of(tables: Mapping[str, Any]) -> str:
     return "".join(f"{_key(key)} = {_value(value)}\n" for key, value in tables.items())
 
 
-def _path(path: str) -> str:
+def path_of(path: str) -> str:
+    """The path of a key as TOML has it, with quotation marks where they are needed."""
+    if not isinstance(path, str):
+        raise TypeError(f"keys of a scenario are texts, not {path!r}")
     return ".".join(_key(key) for key in path.split("."))
 
 

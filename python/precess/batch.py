@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from .errors import ScenarioError
+from ._tables import path_of
+from ._wanted import finite, function, instance, names, number, table, text, whole
+from .errors import ParameterError, ScenarioError
 from .inputs import Inputs
 from .scenario import ScenarioWarning
 from .spacecraft import Spacecraft
@@ -19,6 +21,7 @@ from .state import State
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from .errors import Diagnostic
     from .scenario import Scenario
 
     Array = npt.NDArray[np.float64]
@@ -88,6 +91,14 @@ class Batch:
     :meth:`Spacecraft.accelerations` and :meth:`Spacecraft.step`. Devices of one kind on a rigid hub are
     evaluated in lanes (:attr:`in_lanes`), others one by one.
 
+    Raises
+    ------
+    KeyError
+        A name that is neither a parameter of the spacecraft nor a key of the scenario, with the nearest
+        ones. A value that is wrong is an error of its element, in :attr:`errors`.
+    ValueError
+        Parameters of different lengths.
+
     Attributes
     ----------
     errors : dict
@@ -100,26 +111,62 @@ class Batch:
         parameters: Mapping[str, Array | Sequence[Any]] | None = None,
         in_lanes: bool = True,
     ) -> None:
-        if not isinstance(spacecraft, Spacecraft):
+        from .scenario import Scenario
+
+        if isinstance(spacecraft, Scenario):
             spacecraft = spacecraft.spacecraft
-        self._spacecraft = spacecraft
+        wanted = "a precess.Spacecraft or precess.Scenario"
+        self._spacecraft = instance("spacecraft", spacecraft, Spacecraft, wanted)
         self._rejected: Errors = {}
         self.errors: Errors = {}
-        numbers: dict[str, Any] = {}
-        keys: dict[str, Any] = {}
-        known = spacecraft.parameters
-        for name, values in (parameters or {}).items():
-            (numbers if name in known else keys)[name] = values
-        counts = {name: len(values) for name, values in (parameters or {}).items()}
+        lists = {} if parameters is None else _lists(parameters)
+        counts = {name: len(values) for name, values in lists.items()}
         if len(set(counts.values())) > 1:
             raise ValueError(f"parameters of different lengths: {counts}")
         self._count = next(iter(counts.values()), None)
+        known = self._spacecraft.parameters
+        keys = {name: values for name, values in lists.items() if name not in known}
+        for key, values in keys.items():
+            self._check_key(key, values)
         rows = None
-        if numbers:
-            columns = [np.asarray(values, dtype=np.float64) for values in numbers.values()]
-            rows = (list(numbers), np.column_stack(columns))
+        if len(keys) < len(lists):
+            columns = [self._column(name, lists[name]) for name in lists if name in known]
+            rows = ([name for name in lists if name in known], np.column_stack(columns))
         scenarios = self._scenarios(keys) if keys else None
-        self._native = _native.NativeBatch(spacecraft._native, rows, scenarios, in_lanes)
+        self._native = _native.NativeBatch(self._spacecraft._native, rows, scenarios, bool(in_lanes))
+        # Of keys also before a call: no state is needed to know that they are wrong.
+        self.errors = dict(self._rejected)
+
+    def _check_key(self, key: str, values: Sequence[Any]) -> None:
+        """Rejects a key that the scenario does not have, whatever its values are."""
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", ScenarioWarning)
+                self._spacecraft.scenario.with_values({key: values[0] if len(values) else 0.0})
+        except ScenarioError as error:
+            unknown = [of for of in error.diagnostics if _is_of_key(of, key)]
+            if not unknown:
+                return
+            import difflib
+
+            known = list(self._spacecraft.parameters)
+            near = difflib.get_close_matches(key, known, n=3, cutoff=0.6)
+            hints = [of.help for of in unknown if of.help]
+            hints += [f"nearest parameters: {', '.join(near)}"] if near else []
+            raise KeyError(
+                f"`{key}` is neither a parameter of the spacecraft nor a key of its scenario: "
+                + "; ".join([unknown[0].message, *hints])
+            ) from None
+
+    def _column(self, name: str, values: Sequence[Any]) -> Array:
+        """The numbers of a parameter, NaN where a value is none."""
+        column = np.full(len(values), np.nan)
+        for index, value in enumerate(values):
+            try:
+                column[index] = number(f"`{name}` of element {index}", value)
+            except (TypeError, ValueError) as error:
+                self._rejected.setdefault(index, ParameterError(str(error)))
+        return column
 
     def _scenarios(self, keys: Mapping[str, Any]) -> list[_native.NativeScenario]:
         scenario = self._spacecraft.scenario
@@ -130,8 +177,8 @@ class Batch:
                 values = {key: values[index] for key, values in keys.items()}
                 try:
                     found.append(scenario.with_values(values)._native)
-                except ScenarioError as error:
-                    self._rejected[index] = error
+                except (ScenarioError, TypeError, ValueError) as error:
+                    self._rejected.setdefault(index, error)
                     found.append(scenario._native)
         return found
 
@@ -147,7 +194,7 @@ class Batch:
 
     def states(self, n: int | None = None) -> Array:
         """The initial state of the scenario ``n`` times, to be changed, shape ``(n, state_size)``."""
-        count = self._count if n is None else n
+        count = self._count if n is None else whole("n", n)
         if count is None:
             raise ValueError("how many states is not known: give n")
         return np.tile(self._spacecraft.initial_state().to_array(), (count, 1))
@@ -174,7 +221,8 @@ class Batch:
             Called with the share that is done, 0 to 1.
         """
         y, base, u = self._given(states, inputs)
-        found, failures = self._native.accelerations(y, base, u, threads or 0, progress)
+        of_threads, progress = _threads(threads), function("progress", progress)
+        found, failures = self._native.accelerations(y, base, u, of_threads, progress)
         self._note(failures, [found])
         return found
 
@@ -192,7 +240,7 @@ class Batch:
             Spacecraft that differ, a structure that bends.
         """
         y, base, u = self._given(states, inputs)
-        found = self._native.linearize(y, base, u, threads or 0)
+        found = self._native.linearize(y, base, u, _threads(threads))
         outputs, of_states, of_inputs, by_state, by_input, failures = found
         self._note(failures, [by_state, by_input])
         return BatchLinearization(
@@ -225,10 +273,16 @@ class Batch:
         Ctrl-C ends it between parts and segments of steps, and raises ``KeyboardInterrupt``.
         """
         y, base, u = self._given(states, inputs)
-        keep = (every is not None and not reduce) if history is None else history
+        dt, steps, reduce = finite("dt", dt), whole("steps", steps), names("reduce", reduce)
+        every = None if every is None else whole("every", every, 1)
+        of_threads, progress = _threads(threads), function("progress", progress)
+        keep = (every is not None and not reduce) if history is None else bool(history)
         stride = every or (1 if reduce or keep else max(steps, 1))
+        if keep:
+            # Memory for them: a MemoryError, or nothing.
+            np.empty((len(y), steps // stride + 1, self._spacecraft.state_size))
         final, samples, reduced, failures = self._native.run(
-            y, base, u, dt, steps, stride, keep, list(reduce), threads or 0, progress
+            y, base, u, dt, steps, stride, keep, reduce, of_threads, progress
         )
         all_rows = [final, *reduced] + ([samples] if samples is not None else [])
         self._note(failures, all_rows)
@@ -239,11 +293,33 @@ class Batch:
     def _given(
         self, states: npt.ArrayLike | Sequence[State], inputs: Inputs | npt.ArrayLike | None
     ) -> tuple[Array, _native.NativeInputs, Array | None]:
-        y = np.atleast_2d(np.asarray(states, dtype=np.float64))
+        try:
+            y = np.atleast_2d(np.asarray(states, dtype=np.float64))
+        except TypeError:
+            raise TypeError(
+                f"states are a {type(states).__name__}; they need an array of shape (n, state_size), or a "
+                "list of precess.State"
+            ) from None
+        size = self._spacecraft.state_size
+        if y.ndim != 2 or y.shape[1] != size:
+            raise ValueError(f"states have the shape {y.shape}; they need (n, {size})")
         if isinstance(inputs, Inputs):
             return y, inputs._native, None
         base = self._spacecraft.inputs()._native
-        return y, base, None if inputs is None else np.asarray(inputs, dtype=np.float64)
+        if inputs is None:
+            return y, base, None
+        try:
+            u = np.asarray(inputs, dtype=np.float64)
+        except TypeError:
+            raise TypeError(
+                f"inputs are a {type(inputs).__name__}; they need precess.Inputs, or an array"
+            ) from None
+        shape = (len(y), 6 + len(self._spacecraft.joints))
+        if u.shape != shape:
+            raise ValueError(
+                f"inputs have the shape {u.shape}; they need {shape}: force, torque, motors"
+            )
+        return y, base, u
 
     def _note(self, failures: list[tuple[int, Any]], rows: list[Array]) -> None:
         self.errors = dict(failures) | self._rejected
@@ -255,3 +331,32 @@ class Batch:
         count = "any number of states" if self._count is None else f"{self._count} spacecraft"
         how = "in lanes" if self.in_lanes else "one by one"
         return f"<precess.Batch of {self._spacecraft.scenario.name!r}: {count}, {how}>"
+
+
+def _threads(threads: int | None) -> int:
+    """How many, where zero is all cores."""
+    return 0 if threads is None else whole("threads", threads)
+
+
+def _lists(parameters: Mapping[str, Any]) -> dict[str, Sequence[Any]]:
+    """One value for each element, by name."""
+    found: dict[str, Sequence[Any]] = {}
+    for name, values in table("parameters", parameters).items():
+        if isinstance(values, str | bytes) or not hasattr(values, "__len__"):
+            raise TypeError(
+                f"`{name}` is {values!r}; it needs a list or an array, one value for each element"
+            )
+        if isinstance(values, Mapping | set | frozenset) or np.ndim(values) == 0:
+            raise TypeError(f"`{name}` is a {type(values).__name__}; it needs a list or an array")
+        found[text("the name of a parameter", name)] = list(values)
+    return found
+
+
+def _is_of_key(diagnostic: Diagnostic, key: str) -> bool:
+    """Whether an error of an override is about its key, and not about its value."""
+    if diagnostic.severity != "error":
+        return False
+    if diagnostic.file.startswith("--set "):
+        return diagnostic.column <= len(path_of(key))
+    # Of a pattern, or of a component of a vector.
+    return diagnostic.message.startswith("--set ")

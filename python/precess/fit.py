@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._wanted import instance, items, number, text
 
 __all__ = [
     "Band",
@@ -214,19 +215,34 @@ def fit_records(
     """
     facts = [
         (
-            record.name,
+            instance("a record", record, Record, "a precess.fit.Record").name,
             record.rate,
             record.speed,
             record.drift,
             [float(of) for of in record.pulses],
-            np.asarray(record.samples, dtype=np.float64),
+            _samples(record),
         )
-        for record in records
+        for record in items("records", records, "a list of precess.fit.Record")
     ]
+    numbers = "a list of numbers"
     native = _native.fit_records(
-        name, facts, list(harmonics), list(interference), highest, speed_accuracy
+        text("name", name),
+        facts,
+        [number("a harmonic", of) for of in items("harmonics", harmonics, numbers)],
+        [number("an interference", of) for of in items("interference", interference, numbers)],
+        None if highest is None else number("highest", highest),
+        None if speed_accuracy is None else number("speed_accuracy", speed_accuracy),
     )
     return Fit(native)
+
+
+def _samples(record: Record) -> npt.NDArray[np.float64]:
+    samples = np.asarray(record.samples, dtype=np.float64)
+    if samples.ndim != 2:
+        raise ValueError(
+            f"samples of {record.name!r} have the shape {samples.shape}; they need (samples, 6): force and moment"
+        )
+    return samples
 
 
 def _estimate(facts: tuple[float, float, float, float] | None) -> Estimate | None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from ._wanted import instance, number
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -59,7 +60,9 @@ class Inputs:
     __slots__ = ("_native", "_spacecraft")
 
     def __init__(self, spacecraft: Spacecraft, native: _native.NativeInputs | None = None) -> None:
-        self._spacecraft = spacecraft
+        from .spacecraft import Spacecraft
+
+        self._spacecraft = instance("spacecraft", spacecraft, Spacecraft, "a precess.Spacecraft")
         self._native = native if native is not None else spacecraft._native.no_inputs()
 
     @property
@@ -86,7 +89,7 @@ class Inputs:
         native = self._native
 
         def write(values: list[float]) -> None:
-            native.motors = values
+            native.motors = [number("a motor", value) for value in values]
 
         return _PerJoint(self._spacecraft._motor_places, lambda: native.motors.tolist(), write)
 
@@ -103,7 +106,7 @@ class Inputs:
 
         def write(values: list[Any]) -> None:
             native.modes = [
-                (value, 0.0) if isinstance(value, str) else ("prescribed", float(value))
+                (value, 0.0) if isinstance(value, str) else ("prescribed", number("a mode", value))
                 for value in values
             ]
 
@@ -120,8 +123,12 @@ class Inputs:
         zero = [0.0] * 3
         if isinstance(value, str):
             self._native.hub = (value, zero, zero)
-        else:
-            self._native.hub = ("prescribed", _three(value[0]), _three(value[1]))
+            return
+        if not isinstance(value, tuple | list) or len(value) != 2:
+            raise TypeError(
+                f"hub is {value!r}; it needs a text, or a tuple of two vectors: acceleration, angular acceleration"
+            )
+        self._native.hub = ("prescribed", _three(value[0]), _three(value[1]))
 
     @property
     def gravity(self) -> Array | float | None:
@@ -148,8 +155,8 @@ class Inputs:
 
     @wrenches.setter
     def wrenches(self, value: npt.ArrayLike | None) -> None:
-        rows = None if value is None else np.asarray(value, dtype=np.float64).tolist()
-        self._native.wrenches = rows
+        shape = (len(self._spacecraft.joints), 6)
+        self._native.wrenches = None if value is None else _of_shape("wrenches", value, shape)
 
     @property
     def modal(self) -> Array:
@@ -158,7 +165,7 @@ class Inputs:
 
     @modal.setter
     def modal(self, value: npt.ArrayLike) -> None:
-        self._native.modal = np.asarray(value, dtype=np.float64).tolist()
+        self._native.modal = _of_shape("modal", value, self._native.modal.shape)
 
     def to_array(self) -> Array:
         """Force, torque, and for each joint its motor torque or prescribed acceleration, shape ``(6 + joints,)``."""
@@ -210,8 +217,13 @@ def _unpickled(spacecraft: Spacecraft, facts: dict[str, Any]) -> Inputs:
 
 
 def _three(value: npt.ArrayLike) -> list[float]:
+    listed: list[float] = _of_shape("a vector", value, (3,))
+    return listed
+
+
+def _of_shape(name: str, value: npt.ArrayLike, shape: tuple[int, ...]) -> list[Any]:
     numbers = np.asarray(value, dtype=np.float64)
-    if numbers.shape != (3,):
-        raise ValueError(f"a vector has the shape {numbers.shape}; it needs (3,)")
-    listed: list[float] = numbers.tolist()
+    if numbers.shape != shape:
+        raise ValueError(f"{name} has the shape {numbers.shape}; it needs {shape}")
+    listed: list[Any] = numbers.tolist()
     return listed

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._tables import Overrides, overrides_of
+from ._wanted import whole
 
 __all__ = ["Budget", "Contributor", "Limit", "budget"]
 
@@ -119,5 +120,5 @@ def budget(
     RunError
         Where the model has no answer.
     """
-    count = threads or os.cpu_count() or 1
+    count = (0 if threads is None else whole("threads", threads)) or os.cpu_count() or 1
     return Budget(_native.jitter_budget(os.fspath(path), overrides_of(set), count))

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from . import _native
+from . import _native, _wanted
 from ._rows import OfRows, StrPath, evaluate
 from .campaign.plan import Vary, _with_file, latin_hypercube, monte_carlo
 from .scenario import Scenario
@@ -56,7 +56,9 @@ class Samples(OfRows):
         """The percentile of a number, with an interval that holds for any continuous distribution."""
         numbers = self[name]
         found = _native.estimate_percentile(
-            np.sort(numbers[~np.isnan(numbers)]).tolist(), share, level
+            np.sort(numbers[~np.isnan(numbers)]).tolist(),
+            _wanted.share("share", share),
+            _wanted.share("level", level),
         )
         if found is None:
             raise ValueError(f"no sample has `{name}`")
@@ -67,6 +69,7 @@ class Samples(OfRows):
         if requirement not in self.limits:
             raise KeyError(f"no requirement `{requirement}`; there are {', '.join(self.limits)}")
         met = self[f"requirement {requirement}"] <= self.limits[requirement]
+        level = _wanted.share("level", level)
         found = _native.estimate_probability(int(met.sum()), len(self), level)
         if found is None:
             raise ValueError("there are no samples")
@@ -170,16 +173,24 @@ def sensitivities(
     UnsupportedError
         A scenario that is not differentiated, with the reason.
     """
+    overrides, of, from_ = (
+        _wanted.names("set", set),
+        _wanted.names("columns", columns),
+        _wanted.number("start", start),
+    )
+
     def differentiated(plan: str) -> tuple[list[str], list[float], list[list[float] | None], float]:
         return _native.plan_sensitivities(
-            os.fspath(scenario), list(set), plan, list(columns), float(start)
+            os.fspath(scenario), overrides, plan, of, from_
         )
 
     labels, deviations, slopes, difference = _with_file(vary, differentiated)
-    names = [f"requirement {name}" for name in _requirements(scenario, set)]
-    names += [f"{column} {of}" for column in columns for of in ("rms", "peak")]
+    numbers = [f"requirement {name}" for name in _requirements(scenario, overrides)]
+    numbers += [f"{column} {kind}" for column in of for kind in ("rms", "peak")]
     named = {
-        name: np.array(of) for name, of in zip(names, slopes, strict=True) if of is not None
+        name: np.array(slope)
+        for name, slope in zip(numbers, slopes, strict=True)
+        if slope is not None
     }
     return Sensitivities(tuple(labels), np.array(deviations), named, difference)
 

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._wanted import instance, items, number
 from .spectra import Psd
 
 __all__ = [
@@ -110,6 +111,7 @@ def exposure(signal: npt.ArrayLike, rate: float, time: float) -> ExposureHistory
         An exposure that is not a whole number of samples, three at least, or longer than the history; a sample that is not
         finite.
     """
+    rate, time = number("rate", rate), number("time", time)
     found = _native.pointing_of_history(_components(signal), rate, time)
     rms, worst, count, samples = found
     return ExposureHistory(Exposure(*rms), Exposure(*worst), count, samples)
@@ -117,7 +119,8 @@ def exposure(signal: npt.ArrayLike, rate: float, time: float) -> ExposureHistory
 
 def exposure_of_psd(psd: Psd, time: float) -> Exposure:
     """Exposures of a stationary signal with this density. What detrending has removed is missing from the displacement."""
-    return Exposure(*_native.pointing_of_psd(psd._native, time))
+    psd = instance("psd", psd, Psd, "a precess.spectra.Psd")
+    return Exposure(*_native.pointing_of_psd(psd._native, number("time", time)))
 
 
 def exposure_of_table(frequency: npt.ArrayLike, density: npt.ArrayLike, time: float) -> Exposure:
@@ -175,7 +178,8 @@ def index(
     SignalError
         Windows, levels or runs that have no such index.
     """
-    each: Sequence[npt.ArrayLike] = [runs] if isinstance(runs, np.ndarray) else runs
+    wanted = "an array, or a list of arrays"
+    each = [runs] if isinstance(runs, np.ndarray) else items("runs", runs, wanted)
     arrays = [_components(run) for run in each]
     facts = (name, window, stability)
     found = _native.pointing_index(facts, arrays, rate, interpretation, level, confidence)
@@ -191,6 +195,7 @@ def index_of_psd(
     level: float = 0.9973,
 ) -> Index:
     """An index of a stationary Gaussian error of one axis with zero mean and this density, over time and runs."""
+    psd = instance("psd", psd, Psd, "a precess.spectra.Psd")
     found = _native.pointing_index_of_psd((name, window, stability), psd._native, level)
     value, reached, count, values = found
     return Index(name, value, "mixed", level, reached, count, values)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _native
+from ._wanted import text
 from .columns import Column
 
 if TYPE_CHECKING:
@@ -64,10 +66,19 @@ class Result:
         raise TypeError("a Result comes from Scenario.run")
 
     @classmethod
-    def _of(cls, scenario: Scenario, native: NativeResult, arrays: list[Array]) -> Result:
+    def _of(
+        cls,
+        scenario: Scenario,
+        native: NativeResult,
+        arrays: list[Array],
+        requirements: tuple[Requirement, ...] | None = None,
+    ) -> Result:
         result = cls.__new__(cls)
         result._scenario = scenario
         result._native = native
+        if requirements is None:
+            requirements = tuple(Requirement(*facts) for facts in native.verdicts)
+        result._requirements = requirements
         result._columns = tuple(Column(*facts) for facts in native.columns)
         for array in arrays:
             array.flags.writeable = False
@@ -76,6 +87,7 @@ class Result:
 
     _scenario: Scenario
     _native: NativeResult
+    _requirements: tuple[Requirement, ...]
     _columns: tuple[Column, ...]
     _arrays: dict[str, Array]
 
@@ -100,6 +112,7 @@ class Result:
         return self._arrays["time"]
 
     def __getitem__(self, name: str) -> Array:
+        text("the name of a column", name)
         for known in (name, name.replace(".x", "_x").replace(".y", "_y").replace(".z", "_z")):
             if known in self._arrays:
                 return self._arrays[known]
@@ -164,7 +177,7 @@ class Result:
     @property
     def requirements(self) -> tuple[Requirement, ...]:
         """What became of each requirement."""
-        return tuple(Requirement(*facts) for facts in self._native.verdicts)
+        return self._requirements
 
     def to_pandas(self) -> Any:
         """A ``pandas.DataFrame`` with ``time`` as its index; units in ``frame.attrs["units"]``."""
@@ -235,11 +248,23 @@ class Result:
         np.atleast_1d(axes)[-1].set_xlabel("time, s")
         return axes
 
+    def __reduce__(self) -> tuple[Callable[..., Result], tuple[Any, ...]]:
+        """Samples, and all that is known of the run: read again, it can be saved as here."""
+        arrays = list(self._arrays.values())
+        return _unpickled, (self._scenario, self._native.outcome, arrays, self._requirements)
+
     def __repr__(self) -> str:
         return (
             f"<precess.Result of {self.scenario.name!r}: {len(self)} samples of "
             f"{len(self._columns)} columns to {self.end_time:g} s; {self.end}>"
         )
+
+
+def _unpickled(
+    scenario: Scenario, outcome: Any, arrays: list[Array], requirements: tuple[Requirement, ...]
+) -> Result:
+    native = _native.NativeResult.restored(scenario._native, outcome)
+    return Result._of(scenario, native, arrays, requirements)
 
 
 def _attributes(column: Column) -> dict[str, str]:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from . import _native
+from . import _native, _wanted
 from ._tables import Overrides, overrides_of, toml_of
 from .columns import Column
 from .errors import RunError
@@ -84,6 +84,7 @@ class Scenario:
         name: str = "scenario",
     ) -> Scenario:
         """Reads the text of a scenario file; files that it names are beside ``folder``."""
+        text, name = _wanted.text("text", text), _wanted.text("name", name)
         beside = os.fspath(folder) if folder is not None else ""
         return cls._read(("text", name, text, beside, tuple(overrides_of(set)), False))
 
@@ -96,7 +97,8 @@ class Scenario:
         name: str = "scenario",
     ) -> Scenario:
         """Reads tables as a scenario file has them; numbers without a unit are in SI units."""
-        text = toml_of({"format": 1} | dict(tables))
+        name = _wanted.text("name", name)
+        text = toml_of({"format": 1} | dict(_wanted.table("tables", tables)))
         beside = os.fspath(folder) if folder is not None else ""
         return cls._read(("text", name, text, beside, tuple(overrides_of(set)), True))
 
@@ -108,7 +110,7 @@ class Scenario:
         ScenarioError
             As :meth:`from_toml`, or where a file is not there any more.
         """
-        more = tuple(overrides_of(values))
+        more = tuple(overrides_of(_wanted.table("values", values)))
         if self._origin[0] == "file":
             kind, path, overrides = self._origin
             return self._read((kind, path, overrides + more))
@@ -197,6 +199,8 @@ class Scenario:
         ScenarioError, ParameterError, RecordError
             Where it cannot start.
         """
+        progress = _wanted.function("progress", progress)
+        formats = _wanted.names("formats", formats)
         folder = os.fspath(out) if out is not None else "."
         if formats:
             os.makedirs(folder, exist_ok=True)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from ._wanted import instance, names, number, whole
 from .columns import Column
 from .inputs import Inputs
 from .linearization import Linearization, StepLinearization
@@ -137,13 +138,15 @@ class Spacecraft:
     """
 
     def __init__(self, scenario: Scenario) -> None:
-        self._scenario = scenario
+        from .scenario import Scenario
+
+        self._scenario = instance("scenario", scenario, Scenario, "a precess.Scenario")
         self._native = _native.NativeEvaluator(scenario._native)
         self._columns = tuple(Column(*facts) for facts in self._native.state_columns)
         self._joints = tuple(Joint(*facts) for facts in self._native.joints)
         self._places = {column.name: place for place, column in enumerate(self._columns)}
-        names = [(joint.coordinate, joint.rate) for joint in self._joints]
-        self._joint_places = {name: self._places[name] for pair in names for name in pair}
+        pairs = [(joint.coordinate, joint.rate) for joint in self._joints]
+        self._joint_places = {name: self._places[name] for pair in pairs for name in pair}
         self._motor_places = {joint.motor: place for place, joint in enumerate(self._joints)}
         self._coordinate_places = {
             joint.coordinate: place for place, joint in enumerate(self._joints)
@@ -204,22 +207,41 @@ class Spacecraft:
 
     def state(self, values: Mapping[str, npt.ArrayLike] | None = None) -> State:
         """A state at rest, with these numbers: ``{"cmg1.spin": 300.0, "omega": [0, 0, 0.1]}``."""
-        return State(self, self._native.at_rest()).replace(values or {})
+        return State(self, self._native.at_rest()).replace({} if values is None else values)
 
     def inputs(self, time: float = 0.0, state: StateLike | None = None) -> Inputs:
         """What acts by the scenario at a time, s: gravity, drives, wrenches, sources of disturbance.
 
         Drives are those from the start: changes at later times and limits of joints are made by a run.
         """
-        y = self._native.initial() if state is None else _array(state)
-        return Inputs(self, self._native.inputs(time, y))
+        y = self._native.initial() if state is None else self._flat(state)
+        return Inputs(self, self._native.inputs(number("time", time), y))
 
     def no_inputs(self) -> Inputs:
         """No force, torque or gravity, motors off, every joint in the mode of its kind, a free hub."""
         return Inputs(self)
 
     def _acting(self, y: Array, inputs: Inputs | None) -> _native.NativeInputs:
-        return self._native.inputs(0.0, y) if inputs is None else inputs._native
+        if inputs is None:
+            return self._native.inputs(0.0, y)
+        return instance("inputs", inputs, Inputs, "precess.Inputs, or None")._native
+
+    def _flat(self, state: StateLike) -> Array:
+        """The numbers of a state."""
+        if isinstance(state, State):
+            array = state._array
+        else:
+            try:
+                array = np.asarray(state, dtype=np.float64)
+            except TypeError:
+                raise TypeError(
+                    f"state is a {type(state).__name__}; it needs a precess.State, or {self.state_size} numbers"
+                ) from None
+        if array.shape != (self.state_size,):
+            raise ValueError(
+                f"state has the shape {array.shape}; it needs ({self.state_size},), the numbers of state_names"
+            )
+        return array
 
     def accelerations(self, state: StateLike, inputs: Inputs | None = None) -> Accelerations:
         """All accelerations.
@@ -229,7 +251,7 @@ class Spacecraft:
         SolveError
             A state that is singular or not finite, inputs that are not finite.
         """
-        y = _array(state)
+        y = self._flat(state)
         found = self._native.accelerations(y, self._acting(y, inputs))
         return Accelerations(self._acceleration_names, found)
 
@@ -243,33 +265,33 @@ class Spacecraft:
         UnsupportedError
             A structure that bends.
         """
-        y = _array(state)
+        y = self._flat(state)
         names, matrix, bias = self._native.mass_matrix(y, self._acting(y, inputs))
         return MassMatrix(tuple(names), matrix, bias)
 
     def energy(self, state: StateLike) -> float:
         """Kinetic energy of hub and devices, J. See :meth:`ledger` for potential energies."""
-        return self._native.energy_and_momentum(_array(state), "origin")[0]
+        return self._native.energy_and_momentum(self._flat(state), "origin")[0]
 
     def momentum(self, state: StateLike, about: str = "origin") -> Momentum:
         """Linear and angular momentum, in N; about the inertial ``origin`` or the ``centre_of_mass``."""
-        _, linear, angular = self._native.energy_and_momentum(_array(state), about)
+        _, linear, angular = self._native.energy_and_momentum(self._flat(state), about)
         return Momentum(linear, angular)
 
     def ledger(self, state: StateLike, inputs: Inputs | None = None) -> dict[str, float]:
         """The energy ledger: ``kinetic``, ``gravity``, ``springs`` and their sum ``energy``, J;
         ``kinetic_rate`` and the power of each source (``power_motors`` ...), W; ``residual``, W."""
-        y = _array(state)
+        y = self._flat(state)
         return dict(self._native.ledger(y, self._acting(y, inputs)))
 
     def loads(self, state: StateLike, inputs: Inputs | None = None) -> dict[str, float]:
         """Loads at mounts and joints, N and N m, by the names of columns (``cmg1.mount.force_x``), and
         the motor torque or force of each joint (``cmg1.u_w``): what its motion requires where that is
         prescribed."""
-        y = _array(state)
+        y = self._flat(state)
         loads, motors = self._native.loads(y, self._acting(y, inputs))
-        names = [facts[0] for facts in self._native.load_columns]
-        found = dict(zip(names, loads.tolist(), strict=True))
+        columns = [facts[0] for facts in self._native.load_columns]
+        found = dict(zip(columns, loads.tolist(), strict=True))
         return found | dict(zip(self._motor_places, motors.tolist(), strict=True))
 
     def linearize(
@@ -295,18 +317,20 @@ class Spacecraft:
         ------
         SolveError, DerivativeError, UnsupportedError
         """
-        y = _array(state)
+        y = self._flat(state)
         acting = self._acting(y, inputs)
-        found = self._native.linearize(y, acting, momentum, loads, list(parameters))
-        states, names, outputs, by, matrices = found
-        return Linearization(tuple(states), tuple(names), tuple(outputs), tuple(by), *matrices)
+        by = names("parameters", parameters)
+        found = self._native.linearize(y, acting, momentum, bool(loads), by)
+        states, of_inputs, outputs, by, matrices = found
+        return Linearization(tuple(states), tuple(of_inputs), tuple(outputs), tuple(by), *matrices)
 
     def step(
         self, state: StateLike, dt: float, inputs: Inputs | None = None, steps: int = 1
     ) -> State:
         """The state after ``steps`` steps of RK4 of ``dt`` s, inputs held."""
-        y = _array(state)
-        return State(self, self._native.step(y, self._acting(y, inputs), dt, steps))
+        y = self._flat(state)
+        acting, count = self._acting(y, inputs), whole("steps", steps)
+        return State(self, self._native.step(y, acting, number("dt", dt), count))
 
     def linearize_step(
         self,
@@ -328,13 +352,17 @@ class Spacecraft:
         ------
         SolveError, DerivativeError, UnsupportedError
         """
-        y = _array(state)
+        y = self._flat(state)
         found = self._native.linearize_steps(
-            y, self._acting(y, inputs), dt, steps, list(parameters)
+            y,
+            self._acting(y, inputs),
+            number("dt", dt),
+            whole("steps", steps),
+            names("parameters", parameters),
         )
-        reached, states, names, by, matrices = found
+        reached, states, of_inputs, by, matrices = found
         return StepLinearization(
-            State(self, reached), tuple(states), tuple(names), tuple(by), *matrices
+            State(self, reached), tuple(states), tuple(of_inputs), tuple(by), *matrices
         )
 
     def derivative(self, t: float, y: npt.ArrayLike, inputs: Inputs | None = None) -> Array:
@@ -343,8 +371,9 @@ class Spacecraft:
         Without inputs it has what acts by the scenario at the time ``t``, as :meth:`inputs`. The
         attitude is a quaternion, whose norm an integrator need not keep.
         """
-        acting = None if inputs is None else inputs._native
-        return self._native.derivative(t, _array(y), acting)
+        y, time = self._flat(y), number("t", t)
+        acting = None if inputs is None else self._acting(y, inputs)
+        return self._native.derivative(time, y, acting)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Spacecraft):
@@ -362,9 +391,3 @@ class Spacecraft:
             f"<precess.Spacecraft of {self._scenario.name!r}: {self.mass:g} kg, "
             f"{len(self._joints)} joints>"
         )
-
-
-def _array(state: StateLike) -> Array:
-    if isinstance(state, State):
-        return state._array
-    return np.asarray(state, dtype=np.float64)

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from ._wanted import number, whole
 
 __all__ = [
     "About",
@@ -94,7 +95,9 @@ class Psd:
 
     def interval(self, bin: int, level: float = 0.95) -> tuple[float, float]:
         """Ends of the interval that contains the density of a Gaussian signal at a bin with this probability, unit²/Hz."""
-        low, high = self._native.interval(bin, level)
+        if whole("bin", bin) >= len(self.density):
+            raise IndexError(f"bin is {bin}; there are {len(self.density)}, from 0 on")
+        low, high = self._native.interval(bin, number("level", level))
         return self.density[bin] * low, self.density[bin] * high
 
     def __repr__(self) -> str:
@@ -114,7 +117,7 @@ class AmplitudeSpectrum:
 
     def strongest(self, count: int = 8) -> list[Line]:
         """The strongest lines, the strongest first: peaks 12 dB above the median beside them that are no sidelobes."""
-        return [Line(*facts) for facts in self._native.strongest(count)]
+        return [Line(*facts) for facts in self._native.strongest(whole("count", count))]
 
     def __repr__(self) -> str:
         return f"<precess.spectra.AmplitudeSpectrum: {_shown(self.about, len(self.amplitude))}>"
@@ -248,12 +251,18 @@ def coherence(
 def _settings(
     of: Array, window: Window, length: int | None, overlap: int | None, detrend: Detrend
 ) -> tuple[str, int, int, str]:
+    if of.ndim == 0:
+        raise ValueError("a signal is one number; it needs an array of samples")
     samples = of.shape[-1]
+    length = None if length is None else whole("length", length)
+    overlap = None if overlap is None else whole("overlap", overlap)
     if length is None:
         shortest = min(_SHORTEST, samples)
         length = min(max(samples // _SEGMENTS, shortest), max(_LONGEST, shortest))
     if overlap is None:
-        overlap = round(_OVERLAPS.get(window, 0.0) * length)
+        # What is no window is an error of the native module, with the windows that there are.
+        share = _OVERLAPS.get(window, 0.0) if isinstance(window, str) else 0.0
+        overlap = round(share * length)
     return window, length, overlap, detrend
 
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._wanted import instance, table
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -58,6 +60,9 @@ class State:
     __slots__ = ("_array", "_spacecraft")
 
     def __init__(self, spacecraft: Spacecraft, array: npt.ArrayLike) -> None:
+        from .spacecraft import Spacecraft
+
+        instance("spacecraft", spacecraft, Spacecraft, "a precess.Spacecraft")
         numbers = np.array(array, dtype=np.float64)
         if numbers.shape != (spacecraft.state_size,):
             raise ValueError(
@@ -108,6 +113,8 @@ class State:
     @mrp.setter
     def mrp(self, value: npt.ArrayLike) -> None:
         sigma = np.asarray(value, dtype=np.float64)
+        if sigma.shape != (3,):
+            raise ValueError(f"mrp has the shape {sigma.shape}; it needs (3,)")
         square = float(sigma @ sigma)
         self._array[6] = (1.0 - square) / (1.0 + square)
         self._array[7:10] = 2.0 * sigma / (1.0 + square)
@@ -158,11 +165,11 @@ class State:
     def replace(self, values: Mapping[str, npt.ArrayLike]) -> State:
         """A copy with numbers replaced: ``{"cmg1.spin": 300.0, "omega": [0, 0, 0.1]}``."""
         other = self.copy()
-        for name, value in values.items():
+        for name, value in table("values", values).items():
             if name in ("r", "v", "quaternion", "mrp", "omega"):
                 setattr(other, name, value)
             else:
-                other[name] = float(np.asarray(value))
+                other[name] = float(np.asarray(value, dtype=np.float64))
         return other
 
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> Array:

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._rows import OfRows, Rows, StrPath, evaluate
+from ._wanted import number
 from .campaign.plan import grid
 from .scenario import Scenario
 
@@ -61,6 +62,7 @@ class Sweep(OfRows):
             name = f"requirement {name}"
         if limit is None:
             raise ValueError(f"`{name}` has no limit of its own; state one")
+        limit = number("limit", limit)
         numbers = [None if np.isnan(of) else float(of) for of in self[name]]
         return _native.keep_out(self.axes[0].tolist(), numbers, limit)
 

@@ -3,16 +3,31 @@
 use std::path::{Path, PathBuf};
 
 use numpy::PyReadonlyArray1;
-use precess::engine::{End, Outcome};
-use precess::record::{Csv, Header, Npz, Recorder, Verdict, replay};
+use precess::engine::{Drift, End, Event, Outcome, RunError, Steps};
+use precess::record::{Columns, Csv, Header, Npz, Recorder, Verdict, replay};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors;
-use crate::scenario::{ColumnFacts, facts};
+use crate::scenario::{ColumnFacts, NativeScenario, facts};
 
 /// Name, quantity, value, limit (SI), unit with its size in SI, whether the whole window was run, met.
 type VerdictFacts = (String, String, Option<f64>, f64, (String, f64), bool, bool);
+
+/// Why a run ended: what it was; the name of its joint or crossing, or the message of its error; the bound, or
+/// the time of the error, s; whether the joint slides.
+type EndFacts = (String, String, Option<f64>, bool);
+/// Why a run ended and when, steps, samples, events with the number left out, largest rates, drift, energy lost.
+type OutcomeFacts = (
+    EndFacts,
+    f64,
+    (u64, u64, u64),
+    u64,
+    (Vec<(f64, String)>, u64),
+    Vec<f64>,
+    (Option<f64>, Option<f64>, Option<f64>),
+    f64,
+);
 
 /// What a run returned.
 #[pyclass(frozen, module = "precess._native")]
@@ -84,6 +99,46 @@ impl NativeResult {
         self.verdicts.iter().map(facts).collect()
     }
 
+    /// What is known of the run beside columns and requirements, for [`Self::restored`].
+    #[getter]
+    fn outcome(&self) -> OutcomeFacts {
+        let outcome = &self.outcome;
+        (
+            end_facts(&outcome.end),
+            outcome.end_time,
+            self.steps(),
+            outcome.samples,
+            (self.events(), outcome.events_omitted),
+            outcome.peak_rates.clone(),
+            self.drift(),
+            outcome.energy_lost,
+        )
+    }
+
+    /// The result of a run in another process, without what became of its requirements.
+    #[staticmethod]
+    fn restored(scenario: &NativeScenario, outcome: OutcomeFacts) -> PyResult<Self> {
+        let scenario = &scenario.scenario;
+        let columns = Columns::of(scenario).map_err(|error| errors::record(&error))?;
+        let (end, end_time, steps, samples, events, peak_rates, drift, energy_lost) = outcome;
+        let (accepted, rejected, evaluations) = steps;
+        let (events, events_omitted) = events;
+        let (energy, linear, angular) = drift;
+        let event = |(time, text)| Event { time, text };
+        let outcome = Outcome {
+            end_time,
+            end: end_of(end)?,
+            steps: Steps { accepted, rejected, evaluations },
+            samples,
+            events: events.into_iter().map(event).collect(),
+            events_omitted,
+            peak_rates,
+            drift: Drift { energy, linear, angular },
+            energy_lost,
+        };
+        Ok(Self { header: Header::new(scenario, &columns), outcome, verdicts: Vec::new() })
+    }
+
     /// Writes the samples to a file, which gets its name when it is complete.
     #[expect(clippy::needless_pass_by_value, reason = "as Python passes them")]
     fn save(
@@ -109,6 +164,32 @@ impl NativeResult {
             _ => Ok(()),
         }
     }
+}
+
+fn end_facts(end: &End) -> EndFacts {
+    let facts =
+        |what: &str, text: &str, number, slides| (what.to_owned(), text.to_owned(), number, slides);
+    match end {
+        End::Finished => facts("finished", "", None, false),
+        End::EndStop { joint, bound, unit } => facts("stop", joint, Some(*bound), *unit == "m"),
+        End::Crossing { name } => facts("crossing", name, None, false),
+        End::Cancelled => facts("cancelled", "", None, false),
+        End::Failed(error) => facts("failed", &error.to_string(), error.time(), false),
+    }
+}
+
+/// The end of some facts.
+fn end_of((what, text, number, slides): EndFacts) -> PyResult<End> {
+    Ok(match (what.as_str(), number) {
+        ("finished", _) => End::Finished,
+        ("stop", Some(bound)) => {
+            End::EndStop { joint: text, bound, unit: if slides { "m" } else { "rad" } }
+        }
+        ("crossing", _) => End::Crossing { name: text },
+        ("cancelled", _) => End::Cancelled,
+        ("failed", time) => End::Failed(RunError::Elsewhere { time, message: text }),
+        _ => return Err(PyValueError::new_err(format!("`{what}` is no end of a run"))),
+    })
 }
 
 /// A recorder of the format.

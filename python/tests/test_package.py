@@ -27,6 +27,7 @@ IMPORTED = {
     "precess",
     "precess._native",
     "precess._tables",
+    "precess._wanted",
     "precess.batch",
     "precess.columns",
     "precess.errors",

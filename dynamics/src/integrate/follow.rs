@@ -10,7 +10,7 @@ use core::convert::Infallible;
 use crate::equations::device::Device;
 use crate::model::kind::Kind;
 use crate::numbers::each::{Each, JointStates};
-use crate::numbers::real::{Scalar, zero};
+use crate::numbers::real::{Scalar, advanced_by, zero};
 use crate::sets::bundle::{Bundle, Shared, Unique};
 use crate::sets::devices::{Devices, Visit};
 use crate::sets::enumeration::DeviceEnum;
@@ -72,7 +72,7 @@ impl<T: Scalar> Visit<T, Followed> for Follow<T> {
 /// What becomes the end of the step, the start, and the sum of slopes.
 pub(crate) type Reached = (Unique<Joints>, Shared<Joints>, Shared<Joints>);
 
-/// Sets the start plus the sum of slopes.
+/// Sets the start plus the sum of slopes; a joint that does not move, such as a locked one, keeps its bits.
 pub(crate) struct Reach;
 
 impl Reach {
@@ -80,8 +80,8 @@ impl Reach {
     fn joints<T: Scalar, J: JointStates<T>>((next, start, sum): (&mut J, &J, &J)) {
         let joints = next.states_mut().zip(start.states().zip(sum.states()));
         for ([coordinate, rate], ([from, rate_from], [by, rate_by])) in joints {
-            *coordinate = from + by;
-            *rate = rate_from + rate_by;
+            *coordinate = advanced_by(from, by);
+            *rate = advanced_by(rate_from, rate_by);
         }
     }
 }

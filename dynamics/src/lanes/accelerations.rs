@@ -43,7 +43,7 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Evaluation<'_, '_, D, C> {
 }
 
 impl<D: LanedSet, C: Crafts<D>> Evaluation<'_, '_, D, C> {
-    /// State by state, for a CPU without wide registers.
+    /// State by state, for a CPU without wide registers, and for spacecraft that lanes do not support.
     pub(super) fn one_by_one(self) {
         for (index, (state, place)) in self.states.iter().zip(self.out).enumerate() {
             let craft = self.crafts.at(self.start + index);
@@ -62,6 +62,10 @@ impl<D: LanedSet, C: Crafts<D>> Evaluation<'_, '_, D, C> {
         for (index, (states, places)) in groups.enumerate() {
             let inputs = self.inputs.starting(index * T::WIDTH);
             let start = self.start + index * T::WIDTH;
+            if !crafts.are_in_lanes(start / T::WIDTH) {
+                Evaluation { crafts, start, states, inputs, out: places }.one_by_one();
+                continue;
+            }
             group.gather(zero, (crafts, start), states, &inputs);
             let of_lanes = entered(crafts, start / T::WIDTH, &mut group.slots, zero);
             let Some(laned) = of_lanes else { return };

@@ -279,9 +279,13 @@ impl<D: LanedSet> fmt::Debug for CraftBlocks<D> {
 }
 
 impl<D: LanedSet> CraftBlocks<D> {
-    /// These spacecraft side by side; lanes without one repeat the last. None without one.
-    pub(super) fn of(crafts: &[Spacecraft<D>]) -> Option<Self> {
+    /// These spacecraft side by side; lanes without one repeat the last. None without one, and where
+    /// one has another number of devices than `shape`, for which the lanes are laid out.
+    pub(super) fn new(crafts: &[Spacecraft<D>], shape: &Spacecraft<D>) -> Option<Self> {
         let last = crafts.last()?;
+        if !crafts.iter().all(|craft| D::is_alike(&shape.devices, &craft.devices)) {
+            return None;
+        }
         let in_lane = |lane| crafts.get(lane).unwrap_or(last);
         let mut devices = D::new_data(&last.devices, &EachConstants);
         let [mut hub, mut body] = [&last.hub, &last.body].map(|of| of.map(|_| Block::ZERO));

@@ -23,10 +23,15 @@ pub(super) trait Crafts<D: LanedSet>: Sync {
     fn count(&self) -> Option<usize>;
     /// That of a state.
     fn at(&self, state: usize) -> Option<&Spacecraft<D>>;
-    /// Those of a group of lanes, where each state has its own.
+    /// Those of a group of lanes, where each state has its own; none where their lists differ in length.
     fn blocks(&self, group: usize) -> Option<&CraftBlocks<D>>;
     /// What those of a group of lanes have of their own.
     fn own_loads(&self, group: usize) -> OwnLoads;
+    /// Whether lanes support those of a group of lanes.
+    #[inline(always)]
+    fn are_in_lanes(&self, group: usize) -> bool {
+        !Self::EACH || self.blocks(group).is_some()
+    }
 }
 
 /// The spacecraft of a group of lanes; the constants of their devices are taken into the slots.

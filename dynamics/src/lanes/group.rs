@@ -166,9 +166,7 @@ impl<D: LanedSet, T: Number> Group<D, T> {
         states: &[State<D>],
         all: &BatchInputs<'_, D>,
     ) {
-        let (Some(last), Some(first)) = (states.len().checked_sub(1), crafts.at(start)) else {
-            return;
-        };
+        let Some(last) = states.len().checked_sub(1) else { return };
         let group = start / T::WIDTH;
         self.loads.clear(crafts.own_loads(group));
         for lane in 0..T::WIDTH {
@@ -177,7 +175,6 @@ impl<D: LanedSet, T: Number> Group<D, T> {
             let Some(craft) = crafts.at(start + index) else { return };
             let (slots, joints) = (&mut self.slots, &state.devices);
             self.laned[lane & (WIDEST - 1)] &= lanes_support_inputs(inputs)
-                && D::is_alike(&first.devices, &craft.devices)
                 && fit_inputs::<D>(&craft.devices, inputs.of_joints())
                 && put_given::<D, _>(&craft.devices, slots, lane, joints, inputs.of_joints());
             self.forces.put(lane, inputs);

@@ -12,7 +12,8 @@ use crate::sets::per_device::{self as data, PerDevice};
 /// A set of devices that can be evaluated in lanes: every kind, arrays, tuples, vectors.
 ///
 /// Lanes evaluate the same devices at several states. Data of a vector with another number of members
-/// fall back to the scalar path, which returns the error.
+/// fall back to the scalar path, which returns the error; so do spacecraft of a
+/// [`ParameterBatch`](super::ParameterBatch) whose vectors have other numbers of members.
 pub trait LanedSet:
     Devices<Scalar = f64> + DeviceSet<Prepared: Send + Sync, Per<EachConstants>: Send + Sync>
 {

@@ -26,7 +26,8 @@
 //! farther than 2e31 m, steps in which a joint with dry friction comes to rest or reverses, and
 //! steps that a single step looks at closer for its springs and friction. They fall back to the
 //! scalar path: of a run, at most 32 steps at a time. So does whatever fails in a lane, which is how
-//! its error is found; the other lanes keep their results.
+//! its error is found; the other lanes keep their results. So do groups of spacecraft of which one has
+//! a vector of another length than the first of the batch: all of them, for the whole run.
 //!
 //! Wrenches, a central field, the lumped model and dry friction are computed before the elimination,
 //! for those groups of lanes of which one has them: where none has, they cost nothing.

@@ -21,14 +21,18 @@ use crate::solve::state::State;
 /// Spacecraft of one shape whose parameters differ, each at its own state: masses, offsets,
 /// imbalances, mounts, springs of a campaign.
 ///
+/// Vectors of devices may differ in length. As many spacecraft as there are lanes are evaluated
+/// together where all of their vectors have the lengths of those of the first spacecraft of the batch;
+/// others fall back to the scalar path.
+///
 /// A state has the result, or the error, that its [`Spacecraft`] gives it by itself, to the bit,
 /// unless the lanes fuse ([`Self::fused`]). A state falls back to the scalar path where it or its
 /// spacecraft has what is [unsupported in lanes](crate::lanes), and where anything fails.
 #[derive(Clone, Debug)]
 pub struct ParameterBatch<D: LanedSet> {
     crafts: Vec<Spacecraft<D>>,
-    /// As many spacecraft as there are lanes, side by side.
-    groups: Arc<[CraftBlocks<D>]>,
+    /// As many spacecraft as there are lanes, side by side; none where their lists differ in length.
+    groups: Arc<[Option<CraftBlocks<D>>]>,
     fused: bool,
     #[cfg(feature = "threads")]
     on_threads: bool,
@@ -44,7 +48,8 @@ impl<D: LanedSet> ParameterBatch<D> {
             craft.arithmetic = Arithmetic::unfused();
         }
         // The registers that every evaluation chooses.
-        let groups = crafts.chunks(widest_width()).filter_map(CraftBlocks::of).collect();
+        let groups = crafts.chunks(widest_width());
+        let groups = groups.map(|group| CraftBlocks::new(group, crafts.first()?)).collect();
         Self {
             crafts,
             groups,
@@ -162,11 +167,11 @@ impl<D: LanedSet> Crafts<D> for ParameterBatch<D> {
 
     #[inline(always)]
     fn blocks(&self, group: usize) -> Option<&CraftBlocks<D>> {
-        self.groups.get(group)
+        self.groups.get(group)?.as_ref()
     }
 
     #[inline(always)]
     fn own_loads(&self, group: usize) -> OwnLoads {
-        self.groups.get(group).map_or(OwnLoads { dry: false, lumped: false }, |group| group.own)
+        self.blocks(group).map_or(OwnLoads { dry: false, lumped: false }, |group| group.own)
     }
 }

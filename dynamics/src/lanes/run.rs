@@ -21,6 +21,7 @@ use crate::equations::stiffness::ACCEPTED;
 use crate::model::kind::Kind;
 use crate::numbers::lane::Lane;
 use crate::numbers::laned::{Number, WIDEST};
+use crate::numbers::real::advanced_by;
 use crate::numbers::vec3::rotate_transposed;
 use crate::solve::state::State;
 
@@ -59,7 +60,7 @@ impl<D: LanedSet, C: Crafts<D>> WithSimd for Runs<'_, '_, '_, D, C> {
 }
 
 impl<D: LanedSet, C: Crafts<D>> Runs<'_, '_, '_, D, C> {
-    /// State by state, for a CPU without wide registers.
+    /// State by state, for a CPU without wide registers, and for spacecraft that lanes do not support.
     pub(super) fn one_by_one(self) {
         let Self { crafts, start, states, inputs, dt, steps, every, see, out } = self;
         for (index, (state, end)) in states.iter_mut().zip(out).enumerate() {
@@ -88,6 +89,11 @@ impl<D: LanedSet, C: Crafts<D>> Runs<'_, '_, '_, D, C> {
         for (index, (states, out)) in groups.enumerate() {
             let in_part = index * T::WIDTH;
             let (inputs, start) = (inputs.starting(in_part), start + in_part);
+            if !crafts.are_in_lanes(start / T::WIDTH) {
+                let see = &mut |index, done, now: &State<D>| see(in_part + index, done, now);
+                Runs { crafts, start, states, inputs, dt, steps, every, see, out }.one_by_one();
+                continue;
+            }
             let of_lanes = entered(crafts, start / T::WIDTH, &mut group.slots, zero);
             let Some(laned) = of_lanes else { return };
             let (mut done, mut taken_in, mut motion) = (0, false, group.motion);
@@ -255,7 +261,7 @@ impl<T: Number> EachSlot<T> for End<T> {
     #[inline(always)]
     fn each<K: Kind<Scalar = f64>>(&mut self, _: &Device<K>, slot: &mut Slot<K, T>) {
         slot.start = K::zip_joints(&slot.start, &slot.sum, |start, sum| {
-            let next = start + sum;
+            let next = advanced_by(start, sum);
             self.vanishing = self.vanishing + next * self.zero;
             next
         });

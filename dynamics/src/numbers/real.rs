@@ -52,6 +52,15 @@ pub trait Real:
     fn like(self, value: f64) -> Self;
 }
 
+/// `from + by`, except that a `by` of zero leaves every bit of `from`: -0.0 plus 0.0 would be 0.0.
+///
+/// By differences, without a branch: of dual numbers the derivative of `by` counts also where `by` is zero.
+#[must_use]
+#[inline(always)]
+pub(crate) fn advanced_by<T: Real>(from: T, by: T) -> T {
+    from - (by.like(0.0) - by)
+}
+
 /// What a kernel's arguments are made of: a number that has a sine.
 pub trait Angle: Real {
     /// Sine and cosine of an angle in radians, with the same bits on every target.

@@ -6,9 +6,9 @@
  * only precess_init and precess_init_from_table change it.
  *
  * Every function that can be rejected returns an error code, 0 (PRECESS_OK) if all went well; then,
- * and only then, has it written its results (a text or saved state that does not fit is cut).
- * `fault` may be null; otherwise the cause of the rejection is written to it. Any other pointer that is
- * null or misaligned is rejected.
+ * and only then, has it written its results (a text that does not fit is cut): a call that is rejected
+ * changes nothing but `fault`. `fault` may be null; otherwise the cause of the rejection is written to
+ * it. Any other pointer that is null is rejected, and any pointer that is misaligned, `fault` too.
  *
  * Axes: N is inertial, B fixed in the hub. A device's own axes are those of its first body where its
  * joint is at zero. Vectors are x, y, z; matrices are stored row by row. Values of joints are in
@@ -313,8 +313,8 @@ const char *precess_error_name(int32_t code);
  * (PRECESS_ERROR_TOO_SMALL if it was cut). 128 bytes hold every text. */
 int32_t precess_error_text(int32_t code, char *buffer, size_t length);
 
-/* Makes a spacecraft in `size` bytes of `memory`, of a hub and `count` devices (null if none). Until
- * this has returned PRECESS_OK, the memory holds no spacecraft. */
+/* Makes a spacecraft in `size` bytes of `memory`, of a hub and `count` devices (null if none). If
+ * rejected, the memory is as it was: what was a spacecraft still is one. */
 int32_t precess_init(void *memory, size_t size, const precess_hub *hub,
                      const precess_device *devices, uint32_t count, precess_fault *fault);
 

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::{self as dynamics, Devices, Spacecraft};
 
 use crate::error::{Code, Fault, Rejection};
-use crate::memory::{self, Plain, check, slice};
+use crate::memory::{self, Out, Plain, check, slice};
 use crate::places::Places;
 use crate::types::Hub;
 use crate::version::{EntryOf, Interface, SetOf, Versions};
@@ -77,15 +77,31 @@ unsafe fn joints_of(pointer: *const Craft) -> Result<usize, Code> {
     version.ok_or(Code::NotInitialised)
 }
 
-/// Writes the fault of a call and returns its code.
+/// Does a call and returns its code, the fault written where there is a place for it. That place is
+/// checked first: a call whose fault cannot be written is not made.
 ///
 /// # Safety
 ///
-/// `fault` is null or points to a writable [`Fault`].
-pub(crate) unsafe fn report<D: Devices<Scalar = f64>>(
+/// `fault` is null, misaligned, or points to a writable [`Fault`].
+pub(crate) unsafe fn reporting<'a, D: Devices<Scalar = f64> + 'a>(
+    fault: *mut Fault,
+    call: impl FnOnce() -> (Option<&'a Made<D>>, Result<(), Rejection>),
+) -> i32 {
+    // SAFETY: as promised to this function.
+    match unsafe { Out::optional(fault) } {
+        Err(code) => code as i32,
+        Ok(fault) => {
+            let (craft, result) = call();
+            report(craft, result, fault)
+        }
+    }
+}
+
+/// Writes the fault of a call and returns its code.
+fn report<D: Devices<Scalar = f64>>(
     craft: Option<&Made<D>>,
     result: Result<(), Rejection>,
-    fault: *mut Fault,
+    fault: Option<Out<Fault>>,
 ) -> i32 {
     let rejection = result.err().unwrap_or(Code::Ok.into());
     let small = |index: usize| i32::try_from(index).unwrap_or(i32::MAX);
@@ -101,19 +117,17 @@ pub(crate) unsafe fn report<D: Devices<Scalar = f64>>(
     });
     let of_device = |device| craft.map_or(device, |craft| craft.places.entry(device));
     let entry = rejection.entry.or(rejection.device.map(of_device));
-    let cause = Fault {
-        code: rejection.code as i32,
-        device: entry.map_or(-1, small),
-        joint: joint.map_or(-1, small),
-        reserved: 0,
-        value: rejection.value,
-        bound: rejection.bound,
-    };
-    // SAFETY: as promised to this function.
-    match unsafe { memory::offer(fault, cause) } {
-        Err(code) if rejection.code == Code::Ok => code as i32,
-        _ => rejection.code as i32,
+    if let Some(fault) = fault {
+        fault.write(Fault {
+            code: rejection.code as i32,
+            device: entry.map_or(-1, small),
+            joint: joint.map_or(-1, small),
+            reserved: 0,
+            value: rejection.value,
+            bound: rejection.bound,
+        });
     }
+    rejection.code as i32
 }
 
 /// Makes a spacecraft of a hub and devices.
@@ -140,7 +154,7 @@ where
     Ok(Made { craft: Craft { made: made_by(J) }, places, spacecraft })
 }
 
-/// Makes a spacecraft in the caller's memory.
+/// Makes a spacecraft in the caller's memory, which is as it was where there is an error.
 ///
 /// # Errors
 ///
@@ -162,10 +176,8 @@ where
     if size < Versions::SIZE {
         return Err(Code::TooSmall.into());
     }
-    // SAFETY: not null, aligned, large enough; a spacecraft that was here is no longer valid.
-    unsafe { (&raw mut (*craft).made).write(0) };
     let contents = make()?;
-    // SAFETY: as before.
+    // SAFETY: not null, aligned, large enough.
     unsafe { craft.cast::<Made<SetOf<J>>>().write(contents) };
     Ok(())
 }
@@ -201,9 +213,14 @@ where
         made::<J>(&hub, devices)
     };
     // SAFETY: by contract.
-    let result = unsafe { make_in::<J>(memory, size, make) };
+    let call = || (None::<&Made<SetOf<J>>>, unsafe { make_in::<J>(memory, size, make) });
     // SAFETY: by contract.
-    unsafe { report(None::<&Made<SetOf<J>>>, result, fault) }
+    unsafe { reporting(fault, call) }
+}
+
+/// The code of a result.
+pub(crate) fn code_number(result: Result<(), Code>) -> i32 {
+    result.err().unwrap_or(Code::Ok) as i32
 }
 
 /// A number of a spacecraft of any version.
@@ -223,6 +240,8 @@ pub(crate) unsafe fn query<T: Plain>(
 ) -> i32 {
     let found = || {
         // SAFETY: by contract.
+        let to = unsafe { Out::new(to) }?;
+        // SAFETY: by contract.
         let number = if unsafe { joints_of(pointer) }? == VERSIONS[0] {
             // SAFETY: by contract.
             query.of(unsafe { craft::<{ VERSIONS[0] }>(pointer) }?)
@@ -230,10 +249,10 @@ pub(crate) unsafe fn query<T: Plain>(
             // SAFETY: by contract.
             query.of(unsafe { craft::<{ VERSIONS[1] }>(pointer) }?)
         };
-        // SAFETY: by contract.
-        unsafe { memory::write(to, number) }
+        to.write(number);
+        Ok(())
     };
-    found().err().unwrap_or(Code::Ok) as i32
+    code_number(found())
 }
 
 struct Mass;

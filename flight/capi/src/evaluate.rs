@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use precess_dynamics::{About, Accelerations, Each, Inputs, State};
 
-use crate::craft::{Craft, Made, craft, report};
+use crate::craft::{Craft, Made, craft, reporting};
 use crate::error::{Code, Fault, Rejection};
 use crate::inputs::take_inputs;
-use crate::memory::{self, offer, refer, write};
+use crate::memory::{self, Out, refer};
 use crate::places::Places;
 use crate::state::{state_of, structure_of, take_state};
 use crate::types;
@@ -15,7 +15,8 @@ use crate::version::{Interface, SetOf, Versions, give};
 /// `PRECESS_MAX_SUBSTEPS`: what one call does is bounded.
 pub const MAX_SUBSTEPS: u32 = 1000;
 
-/// Calls a function of a spacecraft and returns its code.
+/// Calls a function of a spacecraft and returns its code. The function takes a place for each of its
+/// results ([`Out`]) before it writes any.
 ///
 /// # Safety
 ///
@@ -29,15 +30,12 @@ where
     Versions: Interface<J>,
 {
     // SAFETY: by contract.
-    match unsafe { craft::<J>(pointer) } {
-        Ok(craft) => {
-            let result = call(craft);
-            // SAFETY: by contract.
-            unsafe { report(Some(craft), result, fault) }
-        }
-        // SAFETY: by contract.
-        Err(code) => unsafe { report(None::<&Made<SetOf<J>>>, Err(code.into()), fault) },
-    }
+    let call = || match unsafe { craft::<J>(pointer) } {
+        Ok(craft) => (Some(craft), call(craft)),
+        Err(code) => (None, Err(code.into())),
+    };
+    // SAFETY: by contract.
+    unsafe { reporting(fault, call) }
 }
 
 /// Writes the state and inputs of structures to a state at rest and inputs in which nothing acts; each
@@ -94,13 +92,15 @@ where
     Versions: Interface<J>,
 {
     let call = |craft: &Made<SetOf<J>>| {
+        // SAFETY: by contract.
+        let out = unsafe { Out::new(out) }?;
         let mut at = State::at_rest_for(&craft.spacecraft);
         let mut given = Inputs::driven_for(&craft.spacecraft);
         // SAFETY: by contract.
         unsafe { take_state_and_inputs(craft, state, inputs, (&mut at, &mut given)) }?;
         let found = craft.spacecraft.accelerations(&at, &given)?;
-        // SAFETY: by contract.
-        Ok(unsafe { write(out, of_accelerations(&found, &craft.places)) }?)
+        out.write(of_accelerations(&found, &craft.places));
+        Ok(())
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }
@@ -127,6 +127,8 @@ where
         if substeps == 0 || substeps > MAX_SUBSTEPS {
             return Err(Code::TooMany.into());
         }
+        // SAFETY: by contract.
+        let (to, work) = unsafe { (Out::new(state)?, Out::optional(work)?) };
         let mut next = State::at_rest_for(&craft.spacecraft);
         let mut given = Inputs::driven_for(&craft.spacecraft);
         let from = state.cast_const();
@@ -141,7 +143,7 @@ where
             friction: 0.0,
         };
         for _ in 0..substeps {
-            if work.is_null() {
+            if work.is_none() {
                 next = craft.spacecraft.step(&next, &given, dt)?;
             } else {
                 let stepped = craft.spacecraft.step_with_work(&next, &given, dt)?;
@@ -154,10 +156,11 @@ where
                 sum.friction += stepped.work.friction;
             }
         }
-        // SAFETY: by contract; `work` first, so that a rejection leaves the state as it was.
-        unsafe { offer(work, sum) }?;
-        // SAFETY: by contract.
-        Ok(unsafe { write(state, structure_of(&next, &craft.places)) }?)
+        if let Some(work) = work {
+            work.write(sum);
+        }
+        to.write(structure_of(&next, &craft.places));
+        Ok(())
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }
@@ -179,16 +182,19 @@ where
     Versions: Interface<J>,
 {
     let call = |craft: &Made<SetOf<J>>| {
+        // SAFETY: by contract.
+        let (to, lost) = unsafe { (Out::new(state)?, Out::optional(lost)?) };
         let mut before = State::at_rest_for(&craft.spacecraft);
         let mut given = Inputs::driven_for(&craft.spacecraft);
         let from = state.cast_const();
         // SAFETY: by contract.
         unsafe { take_state_and_inputs(craft, from, inputs, (&mut before, &mut given)) }?;
         let stopped = craft.spacecraft.stop(&before, &given)?;
-        // SAFETY: by contract.
-        unsafe { offer(lost, stopped.energy_lost) }?;
-        // SAFETY: by contract.
-        Ok(unsafe { write(state, structure_of(&stopped.state, &craft.places)) }?)
+        if let Some(lost) = lost {
+            lost.write(stopped.energy_lost);
+        }
+        to.write(structure_of(&stopped.state, &craft.places));
+        Ok(())
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }
@@ -210,9 +216,11 @@ where
 {
     let call = |craft: &Made<SetOf<J>>| {
         // SAFETY: by contract.
-        let state = state_of(craft, unsafe { refer(state) }?);
+        let energy = unsafe { Out::new(energy) }?;
         // SAFETY: by contract.
-        Ok(unsafe { write(energy, craft.spacecraft.energy(&state)?) }?)
+        let state = state_of(craft, unsafe { refer(state) }?);
+        energy.write(craft.spacecraft.energy(&state)?);
+        Ok(())
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }
@@ -222,8 +230,8 @@ where
 ///
 /// # Safety
 ///
-/// `craft` points to a spacecraft, the others to their structures; `point` is read for
-/// only for `PRECESS_ABOUT_POINT`; `fault` may be null.
+/// `craft` points to a spacecraft, the others to their structures; `point` is read only for
+/// `PRECESS_ABOUT_POINT`; `fault` may be null.
 pub(crate) unsafe fn momentum_of<const J: usize>(
     craft: *const Craft,
     state: *const types::State<J>,
@@ -236,6 +244,8 @@ where
     Versions: Interface<J>,
 {
     let call = |craft: &Made<SetOf<J>>| {
+        // SAFETY: by contract.
+        let out = unsafe { Out::new(out) }?;
         // SAFETY: by contract.
         let state = state_of(craft, unsafe { refer(state) }?);
         let about = match about {
@@ -251,9 +261,8 @@ where
             _ => return Err(Code::UnknownChoice.into()),
         };
         let found = craft.spacecraft.momentum(&state, about)?;
-        let found = types::Momentum { linear: found.linear.into(), angular: found.angular.into() };
-        // SAFETY: by contract.
-        Ok(unsafe { write(out, found) }?)
+        out.write(types::Momentum { linear: found.linear.into(), angular: found.angular.into() });
+        Ok(())
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }

@@ -14,6 +14,9 @@ use crate::table::{init_from_table, table_write};
 use crate::types::{Accelerations, Hub, Inputs, Loads, Momentum, Power, State};
 use crate::version::EntryOf;
 
+#[cfg(test)]
+use crate::pointers::{Argument, Call};
+
 macro_rules! versions {
     ($($of:ident $first:literal $second:literal ($($name:ident: $ty:ty),* $(,)?);)*) => {
         versions! { first 0 [$($of $first ($($name: $ty),*);)*] }
@@ -40,6 +43,20 @@ macro_rules! versions {
                     unsafe { super::$of::<J>($($name),*) }
                 }
             )*
+
+            /// Each of them.
+            #[cfg(test)]
+            pub(super) fn calls() -> Vec<Call> {
+                vec![$(Call {
+                    name: $export,
+                    call: |arguments| {
+                        $(let $name: $ty = Argument::taken(arguments, stringify!($name));)*
+                        // SAFETY: each pointer is to memory larger than its structure, or is what a
+                        // function rejects.
+                        unsafe { self::$of($($name),*) }
+                    },
+                }),*]
+            }
         }
     };
 }
@@ -138,4 +155,16 @@ versions! {
         out: *mut Loads<J>,
         fault: *mut Fault,
     );
+}
+
+/// The functions of version 1.
+#[cfg(test)]
+pub(crate) fn first() -> Vec<Call> {
+    first::calls()
+}
+
+/// The functions of version 2.
+#[cfg(test)]
+pub(crate) fn second() -> Vec<Call> {
+    second::calls()
 }

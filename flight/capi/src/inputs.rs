@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use precess_dynamics::{Each, Gravity, HubMode, Inputs, Mode, Wrench};
 
-use crate::craft::{Craft, Made, craft};
+use crate::craft::{Craft, Made, code_number, craft};
 use crate::error::{Code, Rejection};
-use crate::memory;
+use crate::memory::Out;
 use crate::types;
 use crate::version::{Interface, SetOf, Versions, give, take};
 
@@ -81,7 +81,9 @@ where
     Versions: Interface<J>,
 {
     // SAFETY: by contract.
-    let done = unsafe { craft::<J>(pointer) }.and_then(|craft| {
+    code_number(unsafe { craft::<J>(pointer) }.and_then(|craft| {
+        // SAFETY: by contract.
+        let inputs = unsafe { Out::new(inputs) }?;
         let mut to = types::Inputs {
             force: [0.0; 3],
             torque: [0.0; 3],
@@ -104,8 +106,7 @@ where
             Mode::Prescribed(_) => 1,
             Mode::Locked => 2,
         });
-        // SAFETY: by contract.
-        unsafe { memory::write(inputs, to) }
-    });
-    done.err().unwrap_or(Code::Ok) as i32
+        inputs.write(to);
+        Ok(())
+    }))
 }

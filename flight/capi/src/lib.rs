@@ -6,7 +6,8 @@
 //! and may share a spacecraft, which no call but `precess_init` changes.
 //!
 //! `unsafe` is where a pointer becomes a value, in [`memory`], and at the functions that C calls.
-//! Numbers are copied in and out, so pointers may overlap.
+//! Every pointer is checked before the first result is written, so a rejected call changes nothing
+//! but its fault. Numbers are copied in and out, so pointers to structures may overlap.
 
 #![cfg_attr(not(test), no_std)]
 
@@ -22,6 +23,8 @@ pub mod loads;
 pub mod memory;
 mod places;
 mod platform;
+#[cfg(test)]
+mod pointers;
 pub mod state;
 pub mod table;
 pub mod types;

@@ -5,7 +5,7 @@ use precess_dynamics::{Inputs, LoadAxes, State};
 use crate::craft::{Craft, Made};
 use crate::error::{Code, Fault};
 use crate::evaluate::{take_state_and_inputs, with};
-use crate::memory::write;
+use crate::memory::Out;
 use crate::types::{self, Wrench};
 use crate::version::{Interface, Placed, SetOf, Versions};
 
@@ -26,6 +26,8 @@ where
     Versions: Interface<J>,
 {
     let call = |craft: &Made<SetOf<J>>| {
+        // SAFETY: by contract.
+        let out = unsafe { Out::new(out) }?;
         let axes = match axes {
             0 => LoadAxes::Body,
             1 => LoadAxes::Parent,
@@ -49,8 +51,8 @@ where
             &found.devices,
             &mut Placed { places: &craft.places, next: 0, to: &mut to },
         );
-        // SAFETY: by contract.
-        Ok(unsafe { write(out, to) }?)
+        out.write(to);
+        Ok(())
     };
     // SAFETY: by contract.
     unsafe { with::<J>(craft, fault, call) }

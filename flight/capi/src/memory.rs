@@ -64,37 +64,49 @@ pub unsafe fn refer<'a, T: Plain>(pointer: *const T) -> Result<&'a T, Code> {
     Ok(unsafe { &*pointer })
 }
 
-/// Writes a value through a pointer.
+/// Where a result is to be written: checked before anything is, so that a rejected call writes nothing.
 ///
-/// # Errors
-///
-/// [`Code::Null`], [`Code::Misaligned`].
-///
-/// # Safety
-///
-/// A pointer that is neither points to a writable `T`.
-pub unsafe fn write<T: Plain>(pointer: *mut T, value: T) -> Result<(), Code> {
-    check(pointer)?;
-    // SAFETY: not null, aligned, writable by contract.
-    unsafe { pointer.write(value) };
-    Ok(())
-}
+/// There is no other way to write one number or structure.
+#[derive(Debug)]
+pub struct Out<T>(*mut T);
 
-/// As [`write`], for an optional result: nothing is written through null.
-///
-/// # Errors
-///
-/// [`Code::Misaligned`].
-///
-/// # Safety
-///
-/// As [`write`].
-pub unsafe fn offer<T: Plain>(pointer: *mut T, value: T) -> Result<(), Code> {
-    if pointer.is_null() {
-        return Ok(());
+impl<T: Plain> Out<T> {
+    /// The place at a pointer.
+    ///
+    /// # Errors
+    ///
+    /// [`Code::Null`], [`Code::Misaligned`].
+    ///
+    /// # Safety
+    ///
+    /// A pointer that is neither points to a `T` that stays writable until [`Self::write`].
+    pub unsafe fn new(pointer: *mut T) -> Result<Self, Code> {
+        check(pointer)?;
+        Ok(Self(pointer))
     }
-    // SAFETY: as promised to this function.
-    unsafe { write(pointer, value) }
+
+    /// As [`Self::new`], of an optional result: none at null.
+    ///
+    /// # Errors
+    ///
+    /// [`Code::Misaligned`].
+    ///
+    /// # Safety
+    ///
+    /// As [`Self::new`].
+    pub unsafe fn optional(pointer: *mut T) -> Result<Option<Self>, Code> {
+        if pointer.is_null() {
+            return Ok(None);
+        }
+        // SAFETY: as promised to this function.
+        unsafe { Self::new(pointer) }.map(Some)
+    }
+
+    /// Writes the result.
+    pub fn write(self, value: T) {
+        // SAFETY: not null, aligned; writable by the contract of `new`.
+        unsafe { self.0.write(value) };
+    }
 }
 
 /// Numbers in a row; none needs no pointer.

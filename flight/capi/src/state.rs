@@ -4,9 +4,10 @@ use nalgebra::Vector3;
 use precess_dynamics::{Devices, JointStates, Quaternion, State};
 
 use crate::MAX_DEVICES;
-use crate::craft::{Craft, Made, Query, craft, query, report};
+use crate::craft::{Craft, Made, Query, code_number, craft, query};
 use crate::error::{Code, Fault, Rejection};
-use crate::memory::{self, slice, slice_mut};
+use crate::evaluate::with;
+use crate::memory::{self, Out, slice, slice_mut};
 use crate::places::Places;
 use crate::types;
 use crate::version::{Interface, SetOf, Versions};
@@ -107,7 +108,7 @@ fn length(places: &Places) -> usize {
 ///
 /// # Safety
 ///
-/// `craft` points to a spacecraft, `state` to a state, `fault` is null or points to a fault.
+/// `craft` points to a spacecraft, `state` to a state.
 pub(crate) unsafe fn state_at_rest<const J: usize>(
     pointer: *const Craft,
     state: *mut types::State<J>,
@@ -116,12 +117,12 @@ where
     Versions: Interface<J>,
 {
     // SAFETY: by contract.
-    let done = unsafe { craft::<J>(pointer) }.and_then(|craft| {
-        let at_rest = structure_of(&State::at_rest_for(&craft.spacecraft), &craft.places);
+    code_number(unsafe { craft::<J>(pointer) }.and_then(|craft| {
         // SAFETY: by contract.
-        unsafe { memory::write(state, at_rest) }
-    });
-    done.err().unwrap_or(Code::Ok) as i32
+        let to = unsafe { Out::new(state) }?;
+        to.write(structure_of(&State::at_rest_for(&craft.spacecraft), &craft.places));
+        Ok(())
+    }))
 }
 
 /// See `precess.h`.
@@ -137,15 +138,14 @@ where
     Versions: Interface<J>,
 {
     // SAFETY: by contract.
-    let done = unsafe { craft::<J>(pointer) }.and_then(|craft| {
+    code_number(unsafe { craft::<J>(pointer) }.and_then(|craft| {
+        // SAFETY: by contract.
+        let to = unsafe { Out::new(state) }?;
         // SAFETY: by contract.
         let from = state_of(craft, unsafe { memory::refer(state.cast_const()) }?);
-        // SAFETY: by contract.
-        let wrapped = from.wrapped(&craft.spacecraft);
-        // SAFETY: by contract.
-        unsafe { memory::write(state, structure_of(&wrapped, &craft.places)) }
-    });
-    done.err().unwrap_or(Code::Ok) as i32
+        to.write(structure_of(&from.wrapped(&craft.spacecraft), &craft.places));
+        Ok(())
+    }))
 }
 
 /// See `precess.h`.
@@ -186,7 +186,7 @@ where
         to.iter_mut().zip(numbers(&craft.places, &mut state)).for_each(|(to, from)| *to = *from);
         Ok(())
     };
-    save().err().unwrap_or(Code::Ok) as i32
+    code_number(save())
 }
 
 /// See `precess.h`.
@@ -205,9 +205,9 @@ pub(crate) unsafe fn state_restore<const J: usize>(
 where
     Versions: Interface<J>,
 {
-    let restore = || {
+    let restore = |craft: &Made<SetOf<J>>| {
         // SAFETY: by contract.
-        let craft = unsafe { craft::<J>(pointer) }?;
+        let to = unsafe { Out::new(state) }?;
         if count as usize != length(&craft.places) {
             return Err(Rejection::from(Code::TooSmall));
         }
@@ -218,11 +218,9 @@ where
         numbers(&craft.places, &mut restored).zip(from).for_each(|(to, from)| *to = *from);
         // What is not finite, or no attitude, is rejected here, not at the next step.
         craft.spacecraft.energy(&state_of(craft, &restored))?;
-        // SAFETY: by contract.
-        unsafe { memory::write(state, restored) }?;
+        to.write(restored);
         Ok(())
     };
-    let result = restore();
     // SAFETY: by contract.
-    unsafe { report(craft::<J>(pointer).ok(), result, fault) }
+    unsafe { with::<J>(pointer, fault, restore) }
 }

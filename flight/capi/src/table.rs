@@ -25,9 +25,9 @@ use core::ffi::c_void;
 
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 
-use crate::craft::{Made, made, make_in, report};
+use crate::craft::{Made, code_number, made, make_in, reporting};
 use crate::error::{Code, Fault, Rejection};
-use crate::memory::{read, slice, slice_mut, write};
+use crate::memory::{Out, read, slice, slice_mut};
 use crate::types::{Device, Entry, Hub, Passive, Strut};
 use crate::version::{EntryOf, Interface, SetOf, Versions};
 use crate::{MAX_DEVICES, VERSIONS};
@@ -227,9 +227,9 @@ where
         made::<J>(&hub, devices.get(..count).unwrap_or(&devices))
     };
     // SAFETY: by contract.
-    let result = unsafe { make_in::<J>(memory, size, make) };
+    let call = || (None::<&Made<SetOf<J>>>, unsafe { make_in::<J>(memory, size, make) });
     // SAFETY: by contract.
-    unsafe { report(None::<&Made<SetOf<J>>>, result, fault) }
+    unsafe { reporting(fault, call) }
 }
 
 /// See `precess.h`.
@@ -256,6 +256,8 @@ where
         }
         // SAFETY: by contract.
         let (hub, devices) = unsafe { (read(hub)?, slice(devices, count)?) };
+        // SAFETY: by contract.
+        let length = unsafe { Out::new(length) }?;
         if table.is_null() {
             return Err(Code::Null);
         }
@@ -263,10 +265,10 @@ where
         let table = unsafe { slice_mut(table, capacity) }?;
         let table = table.get_mut(..size(count, J)).ok_or(Code::TooSmall)?;
         write_table::<J>(&hub, devices, table).ok_or(Code::TooSmall)?;
-        // SAFETY: by contract.
-        unsafe { write(length, size(count, J)) }
+        length.write(size(count, J));
+        Ok(())
     };
-    done().err().unwrap_or(Code::Ok) as i32
+    code_number(done())
 }
 
 #[cfg(test)]

@@ -249,7 +249,7 @@ static void rejected_parameters(void)
 static void rejected_pointers(void)
 {
     static precess_spacecraft blank;
-    precess_state state;
+    precess_state state, before;
     precess_inputs inputs;
     precess_accelerations found;
     precess_fault fault;
@@ -263,8 +263,13 @@ static void rejected_pointers(void)
     IS(precess_init(&craft, sizeof craft, 0, devices, 3, 0), PRECESS_ERROR_NULL);
     IS(precess_init(&craft, sizeof craft, &hub, 0, 3, &fault), PRECESS_ERROR_NULL);
     IS(fault.code, PRECESS_ERROR_NULL);
-    /* What is rejected leaves no spacecraft behind. */
-    IS(precess_mass(&craft, &mass), PRECESS_ERROR_NOT_INITIALISED);
+    /* What is rejected leaves the spacecraft that was there, of a hub only. */
+    IS(precess_mass(&craft, &mass), PRECESS_OK);
+    NEAR(mass, 800.0, 1e-12);
+    IS(precess_init(&craft, sizeof craft, &hub, devices, 3, (precess_fault *)misaligned),
+       PRECESS_ERROR_MISALIGNED);
+    IS(precess_mass(&craft, &mass), PRECESS_OK);
+    NEAR(mass, 800.0, 1e-12);
     IS(init(3, 0), PRECESS_OK);
     IS(precess_mass(&craft, &mass), PRECESS_OK);
     NEAR(mass, 810.0, 1e-12);
@@ -279,6 +284,10 @@ static void rejected_pointers(void)
     IS(precess_accelerations_of(&craft, &state, &inputs, 0, 0), PRECESS_ERROR_NULL);
     IS(precess_accelerations_of(&craft, &state, &inputs, &found, (precess_fault *)misaligned),
        PRECESS_ERROR_MISALIGNED);
+    before = state;
+    IS(precess_step(&craft, &state, &inputs, 1e-3, 1, 0, (precess_fault *)misaligned),
+       PRECESS_ERROR_MISALIGNED);
+    IS(same(&state, &before, sizeof state), 1);
     IS(precess_step(&craft, &state, &inputs, 1e-3, 0, 0, 0), PRECESS_ERROR_TOO_MANY);
     IS(precess_step(&craft, &state, &inputs, 1e-3, PRECESS_MAX_SUBSTEPS + 1, 0, 0),
        PRECESS_ERROR_TOO_MANY);

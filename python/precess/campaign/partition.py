@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from .bundle import Bundle
 from .job import Job
 from .plan import Plan, digestible
-from .store import WRITER
 
 __all__ = ["Partition", "partitions"]
 
@@ -28,6 +27,9 @@ class Partition:
 
 def identity(job: Job, bundle: Bundle) -> str:
     """What every partition of a campaign depends on: scenario with its files, numbers, versions."""
+    # Needs pyarrow, which sweeps and samples in memory do not.
+    from .store import WRITER
+
     return f"precess campaign 1\n{WRITER}\n{job.identity()}\n{bundle.digest()}"
 
 

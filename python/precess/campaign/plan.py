@@ -10,8 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from .. import _native
 from .._tables import overrides_of, toml_of
+from .._wanted import items, table, text, whole
 
 __all__ = ["Plan", "grid", "latin_hypercube", "listed", "monte_carlo", "sobol"]
 
@@ -50,17 +53,20 @@ def grid(axes: Mapping[str, str]) -> Plan:
     ``{"hub.mass": "100..900 kg:9"}``: nine values with equal differences; ``"1..100 kg:log 5"``: five with equal
     ratios; ``"1, 2, 5 kg"``: these.
     """
-    return _of(_native.plan_of_axes([f"{key}={values}" for key, values in axes.items()]))
+    pairs = table("the axes of a sweep", axes).items()
+    return _of(
+        _native.plan_of_axes([f"{text('a key', key)}={text(key, values)}" for key, values in pairs])
+    )
 
 
 def monte_carlo(vary: Vary, samples: int, seed: int = 1) -> Plan:
     """Independent draws, those of ``precess montecarlo``. More samples keep the earlier ones."""
-    return _of(_with_file(vary, lambda path: _native.plan_of_draws(path, samples, seed, False)))
+    return _drawn(vary, samples, seed, False)
 
 
 def latin_hypercube(vary: Vary, samples: int, seed: int = 1) -> Plan:
     """One draw in each of ``samples`` equally probable parts of the distribution of every key."""
-    return _of(_with_file(vary, lambda path: _native.plan_of_draws(path, samples, seed, True)))
+    return _drawn(vary, samples, seed, True)
 
 
 def sobol(vary: Vary, samples: int, seed: int = 1) -> Plan:
@@ -69,6 +75,8 @@ def sobol(vary: Vary, samples: int, seed: int = 1) -> Plan:
     More samples keep the earlier ones, with the same version of SciPy.
     """
     from scipy.stats import qmc
+
+    samples, seed = whole("samples", samples, 1), whole("seed", seed)
 
     def planned(path: str) -> Any:
         keys = len(_native.plan_keys(path))
@@ -81,7 +89,7 @@ def sobol(vary: Vary, samples: int, seed: int = 1) -> Plan:
 
 def listed(samples: Mapping[str, Sequence[Any]]) -> Plan:
     """These samples: a list for each key, all of one length. Values are texts with units, or numbers in SI units."""
-    lengths = {len(values) for values in samples.values()}
+    lengths = {len(values) for values in table("samples", samples).values()}
     if len(lengths) != 1 or lengths == {0}:
         raise ValueError(
             f"lists of {sorted(lengths)} values make no samples; give each key as many, one at least"
@@ -89,6 +97,13 @@ def listed(samples: Mapping[str, Sequence[Any]]) -> Plan:
     rows = tuple(zip(*samples.values(), strict=True))
     sets = tuple(tuple(overrides_of(dict(zip(samples, row, strict=True)))) for row in rows)
     return Plan(tuple(samples), rows, sets)
+
+
+def _drawn(vary: Vary, samples: int, seed: int, latin: bool) -> Plan:
+    samples, seed = whole("samples", samples), whole("seed", seed)
+    # Memory for the values: a MemoryError, or nothing.
+    np.empty(samples)
+    return _of(_with_file(vary, lambda path: _native.plan_of_draws(path, samples, seed, latin)))
 
 
 def _of(facts: tuple[list[str], list[tuple[list[float], list[str]]]]) -> Plan:
@@ -106,8 +121,9 @@ def _with_file(vary: Vary, planned: Any) -> Any:
         return planned(os.fspath(vary))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "plan.toml")
-        text = toml_of({"format": 1, "vary": [dict(table) for table in vary]})
-        path.write_text(text, encoding="utf-8")
+        tables = items("vary", vary, "a path, or a list of tables")
+        rows = [dict(table("a table of vary", of)) for of in tables]
+        path.write_text(toml_of({"format": 1, "vary": rows}), encoding="utf-8")
         return planned(str(path))
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _native
+from .._wanted import function, instance, names, number, table, whole
 from ..scenario import Scenario
 from . import local
 from .bundle import Bundle
@@ -128,11 +129,16 @@ def run(
     """
     from . import store
 
+    plan = instance("plan", plan, Plan, "a precess.campaign.Plan")
+    columns, lines = tuple(names("columns", columns)), whole("lines", lines)
+    start, patience = number("start", start), number("patience", patience)
+    partition = whole("partition", partition, 1)
+    threads = None if threads is None else whole("threads", threads)
+    progress, measure = function("progress", progress), function("measure", measure)
+    fields = None if fields is None else table("fields", fields)
     scenario = scenario if isinstance(scenario, Scenario) else Scenario.from_toml(scenario)
-    job = _job(scenario, tuple(columns), lines, start, measure, fields)
+    job = _job(scenario, columns, lines, start, measure, fields)
     bundle = Bundle.of(scenario)
-    if partition < 1:
-        raise ValueError(f"a partition of {partition} samples is none; take one sample at least")
     parts = partitions(job, bundle, plan, partition)
     folder = Path(out)
     files = folder / "partitions"

@@ -16,9 +16,13 @@ pub struct Estimate {
 
 /// The percentile of a probability by the order statistics of a sorted sample, with an interval that holds for any continuous
 /// distribution: order statistics l < u with `P(X_(l) <= q < X_(u)) >= level`, by binomial tails of `(1 - level) / 2` each
-/// (David and Nagaraja, Order Statistics, 3rd edition, 7.1). None of an empty sample.
+/// (David and Nagaraja, Order Statistics, 3rd edition, 7.1). None of an empty sample, and of a probability or level that is
+/// not between zero and one.
 #[must_use]
 pub fn percentile(sorted: &[f64], probability: f64, level: f64) -> Option<Estimate> {
+    if !(is_share(probability) && is_share(level)) {
+        return None;
+    }
     let count = sorted.len();
     #[expect(
         clippy::cast_possible_truncation,
@@ -46,6 +50,11 @@ pub fn percentile(sorted: &[f64], probability: f64, level: f64) -> Option<Estima
     Some(Estimate { value, interval: ends })
 }
 
+/// Whether a number is between zero and one, both included.
+fn is_share(number: f64) -> bool {
+    (0.0..=1.0).contains(&number)
+}
+
 /// The probability that at least k of n independent trials succeed, each with a probability between zero and one.
 fn at_least(n: usize, k: usize, probability: f64) -> f64 {
     if k == 0 {
@@ -58,10 +67,10 @@ fn at_least(n: usize, k: usize, probability: f64) -> f64 {
 }
 
 /// A probability by `k` successes of `n` trials, with the interval of Clopper and Pearson (Biometrika 26, 1934): ends at which
-/// one tail of the binomial distribution is `(1 - level) / 2`. None without trials.
+/// one tail of the binomial distribution is `(1 - level) / 2`. None without trials, and of a level that is not between zero and one.
 #[must_use]
 pub fn probability(k: usize, n: usize, level: f64) -> Option<Estimate> {
-    if n == 0 || k > n {
+    if n == 0 || k > n || !is_share(level) {
         return None;
     }
     let tail = 0.5 * (1.0 - level);
@@ -120,6 +129,16 @@ mod tests {
 
     /// Of the incomplete beta function.
     const BETA: f64 = 1e-9;
+
+    #[test]
+    fn what_is_no_probability_has_no_estimate() {
+        for wrong in [f64::NAN, -0.1, 1.1, f64::INFINITY] {
+            assert_eq!(percentile(&[1.0, 2.0], wrong, 0.95), None);
+            assert_eq!(percentile(&[1.0, 2.0], 0.5, wrong), None);
+            assert_eq!(probability(1, 2, wrong), None);
+        }
+        assert!(percentile(&[1.0, 2.0], 1.0, 0.95).is_some());
+    }
 
     #[test]
     fn intervals_of_probabilities_are_closed_forms_at_the_ends() {

@@ -88,6 +88,13 @@ pub enum RunError {
     },
     /// The samples could not be recorded.
     Record(RecordError),
+    /// An error of another process, which has passed on only its time and message.
+    Elsewhere {
+        /// Simulated time, s; none of an error before the start.
+        time: Option<f64>,
+        /// What that process says.
+        message: String,
+    },
 }
 
 /// A report of the integrator that is a fault of this program.
@@ -137,6 +144,7 @@ impl RunError {
             | Self::StepTooSmall { time }
             | Self::Stiff { time }
             | Self::Integrator { time, .. } => Some(*time),
+            Self::Elsewhere { time, .. } => *time,
             Self::Scenario(_)
             | Self::Parameters(_)
             | Self::Modes(_)
@@ -222,6 +230,7 @@ impl fmt::Display for RunError {
                 "the integrator stopped at t = {time} s: {fault}; this is a fault of the program"
             ),
             Self::Record(error) => error.fmt(f),
+            Self::Elsewhere { message, .. } => f.write_str(message),
         }
     }
 }

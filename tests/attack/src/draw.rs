@@ -151,7 +151,10 @@ impl Profile {
 
     fn joint(&self) -> impl Strategy<Value = Joint> + use<> {
         let angle = Number::new(0.0, |random| {
-            if random.bits() % 4 == 0 { random.within(-1e3, 1e3) } else { random.within(-PI, PI) }
+            let bits = random.bits();
+            let drawn =
+                if bits % 4 == 0 { random.within(-1e3, 1e3) } else { random.within(-PI, PI) };
+            if bits % 16 == 1 { -0.0 } else { drawn }
         });
         let motion = [self.number(angle), self.number(Number::within(-1.0, 1.0))];
         let share = |low: f64| Number::log_within(low, 1.0).or_any(self.wild * 0.5);

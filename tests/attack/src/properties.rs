@@ -56,7 +56,8 @@ const SHAPES: &[&[BuiltInKind]] = &[
 ];
 
 /// Lists of which batches are compiled.
-const BATCHES: &[&[BuiltInKind]] = &[&[K::Dgvscmg], &[K::BalancedVscmg], shapes::THREE];
+const BATCHES: &[&[BuiltInKind]] =
+    &[&[K::Dgvscmg], &[K::BalancedVscmg], shapes::THREE, shapes::RAGGED];
 
 /// Lists that are evaluated in lanes: batches, and devices side by side.
 const LANES: &[&[BuiltInKind]] = &[

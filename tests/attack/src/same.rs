@@ -7,7 +7,7 @@ use super::call_results::{CallResult, call_results, of_accelerations, of_state};
 use super::case::{Case, List, Placed};
 use super::residual::{numbers, solves};
 use super::shapes::{Batched, across, batched, in_every_shape};
-use super::variants::{batched_variants, variant};
+use super::variants::{batched_variants, first_inputs, variant};
 use super::{Checked, Verdict};
 
 /// Numbers by their bits, errors as text: NaN equals itself.
@@ -73,10 +73,14 @@ fn compare(first: &Texts, other: &Texts, shape: &str) -> Result<(), String> {
 /// What single evaluations and steps make of each state; of a case of its own each, or of one.
 fn single(case: &Case, each: bool, varied: bool) -> Option<Batched> {
     let mut all = Batched { accelerations: Vec::new(), runs: Vec::new() };
-    for (index, (state, inputs)) in case.all().into_iter().enumerate() {
-        let variant = if varied { variant(case, index)? } else { case.clone() };
-        let Placed { craft, .. } = variant.list().ok()?;
-        let inputs = if each { inputs } else { case.inputs.clone() };
+    for (index, (state, inputs)) in case.all().iter().enumerate() {
+        let one = if varied { variant(case, index)? } else { case.with(state, inputs) };
+        let Placed { craft, state, inputs } = one.list().ok()?;
+        let inputs = match (each, varied) {
+            (true, _) => inputs,
+            (false, true) => first_inputs(case)?,
+            (false, false) => case.inputs.clone(),
+        };
         let found = craft.accelerations(&state, &inputs);
         all.accelerations.push(found.map(|found| of_accelerations(&found)));
         let mut now = state;

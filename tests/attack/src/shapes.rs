@@ -49,6 +49,12 @@ pub type Three = (Sgcmg, [ReactionWheel; 1], SloshMass);
 pub const THREE: &[BuiltInKind] =
     &[BuiltInKind::Sgcmg, BuiltInKind::ReactionWheel, BuiltInKind::SloshMass];
 
+/// A list, in whose length spacecraft of one type may differ.
+pub type Wheels = Vec<ReactionWheel>;
+
+/// The kinds of [`Wheels`] where it is longest.
+pub const RAGGED: &[BuiltInKind] = &[BuiltInKind::ReactionWheel; 4];
+
 /// How many devices of one kind are evaluated side by side: more than four lanes have.
 pub const ABREAST: usize = 5;
 
@@ -93,6 +99,18 @@ impl<T: Scalar, D: Taken<T>, const N: usize> Taken<T> for [D; N] {
     fn taken<'a>(devices: &mut impl Iterator<Item = &'a BuiltIn<T>>) -> Option<Self> {
         let members: Option<Vec<D>> = (0..N).map(|_| D::taken(devices)).collect();
         members?.try_into().ok()
+    }
+}
+
+/// Everything that is left.
+impl<T: Scalar, D: Taken<T>> Taken<T> for Vec<D> {
+    fn taken<'a>(devices: &mut impl Iterator<Item = &'a BuiltIn<T>>) -> Option<Self> {
+        let mut rest = devices.peekable();
+        let mut members = Self::new();
+        while rest.peek().is_some() {
+            members.push(D::taken(&mut rest)?);
+        }
+        Some(members)
     }
 }
 

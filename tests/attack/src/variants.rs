@@ -1,12 +1,13 @@
-//! Batches of spacecraft whose parameters differ: variants of one case, each with a state of its own.
+//! Batches of spacecraft whose parameters differ: variants of one case, each with a state of its own; of
+//! a list of wheels also ragged ones, whose lists differ in length.
 
 use precess_dynamics::kind::ImbalanceModel;
 use precess_dynamics::lanes::{LanedSet, ParameterBatch};
-use precess_dynamics::{BuiltIn, Dgvscmg, Passive, Spacecraft, State};
+use precess_dynamics::{BuiltIn, Dgvscmg, Inputs, Passive, Spacecraft, State};
 
 use super::call_results::{of_accelerations, of_state};
-use super::case::{Case, given, moved};
-use super::shapes::{Batched, Taken, Three, exactly};
+use super::case::{Case, List, given, moved};
+use super::shapes::{Batched, RAGGED, Taken, Three, Wheels, exactly};
 
 /// The case of one of its states, with a spacecraft of its own in three of four: without springs and
 /// friction; twice as heavy, the imbalance in the other model; mounted the other way round. The
@@ -21,7 +22,43 @@ pub fn variant(case: &Case, state: usize) -> Option<Case> {
         changed.hub.m_b *= 1.5;
         changed.devices = case.devices.iter().map(|device| other(device, state % 4)).collect();
     }
-    Some(if changed.list().is_ok() { changed } else { own })
+    let found = if changed.list().is_ok() { changed } else { own };
+    Some(if case.kinds() == RAGGED { shortened(found, length(case, state)) } else { found })
+}
+
+/// How many wheels a variant of a list of them has: others than the first variant here and there, in all
+/// groups of lanes from one on, or once.
+fn length(case: &Case, state: usize) -> usize {
+    let most = RAGGED.len();
+    match case.steps % 3 {
+        0 => most - (state + case.more.len()) % (most + 1),
+        1 => most - (state / 4) % (most + 1),
+        _ if state == case.more.len() / 2 => 1,
+        _ => most,
+    }
+}
+
+/// The case with only the first devices.
+fn shortened(mut case: Case, devices: usize) -> Case {
+    case.devices.truncate(devices);
+    case.state.devices.truncate(devices);
+    case.inputs = shortened_inputs(case.inputs, devices);
+    case
+}
+
+fn shortened_inputs(mut inputs: Inputs<List>, devices: usize) -> Inputs<List> {
+    inputs.motors.truncate(devices);
+    inputs.modes.truncate(devices);
+    if let Some(bodies) = &mut inputs.bodies {
+        bodies.truncate(devices);
+    }
+    inputs
+}
+
+/// The inputs of the first variant, which are of its number of devices.
+#[must_use]
+pub fn first_inputs(case: &Case) -> Option<Inputs<List>> {
+    Some(shortened_inputs(case.inputs.clone(), variant(case, 0)?.devices.len()))
 }
 
 /// Another device of the kind; the same where there is none.
@@ -48,7 +85,9 @@ fn other(device: &BuiltIn, which: usize) -> BuiltIn {
 /// own; none for lists of which no batch is compiled.
 #[must_use]
 pub fn batched_variants(case: &Case, fused: bool, each: bool) -> Option<Batched> {
-    batch_of::<[Dgvscmg; 1]>(case, fused, each).or_else(|| batch_of::<Three>(case, fused, each))
+    batch_of::<[Dgvscmg; 1]>(case, fused, each)
+        .or_else(|| batch_of::<Three>(case, fused, each))
+        .or_else(|| batch_of::<Wheels>(case, fused, each))
 }
 
 fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> Option<Batched> {
@@ -58,8 +97,9 @@ fn batch_of<D: LanedSet + Taken<f64>>(case: &Case, fused: bool, each: bool) -> O
         let variant = variant(case, state)?;
         let devices: D = exactly(&variant.devices)?;
         let craft = Spacecraft::new(&variant.hub, &devices).ok()?;
-        let acting = if each { &variant.inputs } else { &case.inputs };
-        inputs.push(given(acting, &craft));
+        if each || inputs.is_empty() {
+            inputs.push(given(&variant.inputs, &craft));
+        }
         let state: State<D> = moved(&variant.state, State::at_rest_for(&craft));
         states.push(state);
         crafts.push(craft);

@@ -15,6 +15,7 @@ mod known_cases;
 mod lane_loads;
 mod lane_runs;
 mod lanes;
+mod locked;
 mod operations;
 mod parameter_batch;
 mod parameterisations;

@@ -79,6 +79,81 @@ fn each_spacecraft_has_the_bits_it_has_by_itself() {
     }
 }
 
+/// A list of wheels that differ from each other and from those of every other spacecraft.
+fn listed(wheels: u32, k: u32) -> Spacecraft<Vec<ReactionWheel>> {
+    let disc = Matrix3::from_diagonal(&Vector3::new(0.02, 0.01, 0.01));
+    let wheel = |i: u32| ReactionWheel {
+        d: 1e-4 * f64::from(i + 10 * k),
+        r_w_b: Vector3::new(0.1 * f64::from(i), 0.2, 0.3),
+        ..ReactionWheel::bare_wheel(3.0 + f64::from(k), disc)
+    };
+    let mut hub = hub();
+    hub.m_b += f64::from(k);
+    Spacecraft::new(&hub, &(0..wheels).map(wheel).collect()).unwrap()
+}
+
+/// Lengths of lists: other than the first of the batch or of its group, in some, all or no group of four or eight.
+const LENGTHS: &[&[u32]] = &[
+    &[3, 3, 3, 3, 1, 1, 1, 1],
+    &[1, 1, 1, 1, 3, 3, 3, 3],
+    &[2, 1, 2, 2],
+    &[1, 2, 1, 1],
+    &[2, 0, 2, 1],
+    &[1, 1, 1, 2],
+    &[0, 0, 0, 0, 0, 0, 0, 0, 2],
+    &[1, 2, 3, 2, 1, 3, 2, 2, 3],
+    &[2, 2, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 1],
+    &[2; 17],
+];
+
+#[test]
+fn spacecraft_whose_lists_differ_in_length_have_the_bits_they_have_by_themselves() {
+    for lengths in LENGTHS {
+        let crafts: Vec<_> =
+            lengths.iter().zip(1..).map(|(wheels, k)| listed(*wheels, k)).collect();
+        let state = |craft| {
+            let mut state: State<Vec<ReactionWheel>> = State::at_rest_for(craft);
+            state.omega = Vector3::new(0.1, 0.2, 0.3);
+            for joints in &mut state.devices {
+                (joints.spin, joints.theta) = (300.0, 0.3);
+            }
+            state
+        };
+        let acting = |craft| {
+            let mut inputs: Inputs<Vec<ReactionWheel>> = Inputs::none_for(craft);
+            inputs.motors.iter_mut().for_each(|motors| motors.u_w = 0.1);
+            inputs
+        };
+        let states: Vec<_> = crafts.iter().map(state).collect();
+        let inputs: Vec<_> = crafts.iter().map(acting).collect();
+        for (each, threads) in [(true, false), (false, false), (true, true)] {
+            let batch = ParameterBatch::new(crafts.clone());
+            let batch = if threads { batch.on_threads() } else { batch };
+            let (mut found, mut run, mut ends) = (Vec::new(), states.clone(), Vec::new());
+            // Inputs of the first fit others of its length only, which have errors of their own.
+            if each {
+                batch.accelerations(&states, &inputs, &mut found).unwrap();
+                batch.run(&mut run, &inputs, 1e-3, 3, &mut ends).unwrap();
+            } else {
+                batch.accelerations(&states, &inputs[0], &mut found).unwrap();
+                batch.run(&mut run, &inputs[0], 1e-3, 3, &mut ends).unwrap();
+            }
+            for (k, craft) in crafts.iter().enumerate() {
+                let inputs = &inputs[if each { k } else { 0 }];
+                let alone = craft.accelerations(&states[k], inputs);
+                assert_eq!(printed(&found[k]), printed(&alone), "spacecraft {k} of {lengths:?}");
+                let mut state = states[k].clone();
+                let end = (0..3).try_for_each(|_| {
+                    state = craft.step(&state, inputs, 1e-3)?;
+                    Ok::<_, SolveError<f64>>(())
+                });
+                let (run, alone) = ((&run[k], &ends[k]), (&state, &end));
+                assert_eq!(printed(&run), printed(&alone), "run {k} of {lengths:?}");
+            }
+        }
+    }
+}
+
 /// What is given of the joints is taken in once for all groups of lanes, but where a group has dry
 /// friction or a lumped imbalance, which is added to it.
 #[test]

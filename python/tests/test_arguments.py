@@ -1,0 +1,382 @@
+"""Every public function with every argument of a wrong type or value: an error that says what is wanted, or a result.
+
+The functions are listed by the package itself: one without an example here fails the test.
+"""
+
+from __future__ import annotations
+
+import inspect
+import pickle
+import types
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import precess
+from precess import campaign, errors, fit, jitter, montecarlo, pointing, spectra, sweep
+
+MODULES = (precess, campaign, errors, fit, jitter, montecarlo, pointing, spectra, sweep)
+#: What is made by the package only, and records of facts, whose fields are what they are given.
+NOT_CALLED = {
+    "Accelerations.__init__",
+    "AmplitudeSpectrum.__init__",
+    "Budget.__init__",
+    "Fit.__init__",
+    "Fit.to_toml",
+    "Psd.__init__",
+    "Result.__init__",
+    "Samples.__init__",
+    "Sweep.__init__",
+}
+#: Needs another package, whose own errors it passes on.
+OTHERS = {
+    "Campaign.table",
+    "Campaign.to_pandas",
+    "Result.plot",
+    "Result.to_pandas",
+    "Result.to_parquet",
+    "Result.to_xarray",
+    "campaign.run",
+    "campaign.sobol",
+}
+#: What may be raised. A KeyError names what there is, an OSError a file.
+RAISED = (TypeError, ValueError, KeyError, IndexError, OSError, MemoryError, precess.Error)
+#: What the package itself must never say.
+INTERNAL = ("_native", "NoneType' object", "has no attribute", "__float__", "no len()")
+
+WRONG: tuple[Any, ...] = (
+    object(),
+    "?",
+    b"?",
+    -1,
+    -0.5,
+    10**30,
+    float("nan"),
+    float("-inf"),
+    None,
+    [],
+    [[1.0]],
+    ["?"],
+    {},
+    {"?": "?"},
+    np.zeros((2, 2, 2)),
+    lambda: None,
+)
+
+VARY = [{"key": "hub.mass", "distribution": "uniform", "from": "300 kg", "to": "400 kg"}]
+
+Calls = dict[str, tuple[Callable[..., Any], dict[str, Any]]]
+
+
+def calls(text: str) -> Calls:
+    """An example of each public function and method, by name."""
+    scenario = precess.Scenario.from_text(text)
+    craft = scenario.spacecraft
+    state, inputs, result = craft.initial_state(), craft.inputs(), scenario.run()
+    batch = precess.Batch(craft)
+    several = np.tile(state.to_array(), (3, 1))
+    found = craft.accelerations(state)
+    swept = sweep.run(scenario, {"hub.mass": "300, 400 kg"})
+    drawn = montecarlo.run(scenario, VARY, 2)
+    signal = np.sin(0.7 * np.arange(256.0))
+    psd, lines = spectra.welch(signal, 10.0), spectra.amplitude_spectrum(signal, 10.0)
+    run = {"states": several, "dt": 1e-4, "steps": 2, "inputs": None, "every": 1, "history": True}
+    of_rows = {"columns": ["omega"], "lines": 0, "start": 0.0, "threads": 1, "progress": None}
+    settings = {"rate": 10.0, "window": "hann", "length": 64, "overlap": 32, "detrend": "mean"}
+    record = fit.Record(np.zeros((64, 6)), 100.0, 10.0)
+    tables = {
+        "hub": {"mass": 300.0, "inertia": [80.0, 70.0, 60.0]},
+        "run": {"duration": 0.1},
+        "output": {"rate": 10.0},
+    }
+    slopes = montecarlo.Sensitivities(("k",), np.ones(1), {"n": np.ones(1)}, 0.0)
+    return {
+        "Accelerations.to_array": (found.to_array, {}),
+        "Accelerations.__getitem__": (found.__getitem__, {"name": found._names[0]}),
+        "AmplitudeSpectrum.strongest": (lines.strongest, {"count": 2}),
+        "Batch.__init__": (precess.Batch, {"spacecraft": craft, "parameters": None, "in_lanes": True}),
+        "Batch.accelerations": (
+            batch.accelerations,
+            {"states": several, "inputs": inputs, "threads": 1, "progress": None},
+        ),
+        "Batch.linearize": (batch.linearize, {"states": several, "inputs": inputs, "threads": 1}),
+        "Batch.run": (batch.run, {**run, "reduce": ["max"], "threads": 1, "progress": None}),
+        "Batch.states": (batch.states, {"n": 2}),
+        "Inputs.__init__": (precess.Inputs, {"spacecraft": craft}),
+        "Inputs.copy": (inputs.copy, {}),
+        "Inputs.to_array": (inputs.to_array, {}),
+        "Linearization.element": (
+            craft.linearize(state, inputs).element,
+            {"row": "omega_dot_x", "column": "omega_y"},
+        ),
+        "Psd.band_rms": (psd.band_rms, {"start": 0.0, "stop": 1.0}),
+        "Psd.cumulative_rms": (psd.cumulative_rms, {"backward": True}),
+        "Psd.interval": (psd.interval, {"bin": 1, "level": 0.9}),
+        "Result.keys": (result.keys, {}),
+        "Result.__getitem__": (result.__getitem__, {"name": "omega"}),
+        "Result.save": (result.save, {"path": "saved.csv"}),
+        "Samples.__getitem__": (drawn.__getitem__, {"name": "omega rms"}),
+        "Samples.percentile": (drawn.percentile, {"name": "omega rms", "share": 0.5, "level": 0.9}),
+        "Samples.probability": (
+            montecarlo.run(scenario.with_values(LIMIT), VARY, 2).probability,
+            {"requirement": "slow", "level": 0.9},
+        ),
+        "Samples.rank_correlation": (
+            drawn.rank_correlation,
+            {"name": "omega rms", "key": "hub.mass"},
+        ),
+        "Samples.values": (drawn.values, {"key": "hub.mass"}),
+        "Samples.keys": (drawn.keys, {}),
+        "Scenario.__init__": (precess.Scenario, tables),
+        "Scenario.from_dict": (
+            precess.Scenario.from_dict,
+            {"tables": tables, "folder": None, "set": {"hub.mass": 301.0}, "name": "one"},
+        ),
+        "Scenario.from_text": (
+            precess.Scenario.from_text,
+            {"text": text, "folder": None, "set": {}, "name": "one"},
+        ),
+        "Scenario.from_toml": (precess.Scenario.from_toml, {"path": "one.toml", "set": {}}),
+        "Scenario.run": (scenario.run, {"progress": None, "formats": [], "out": None}),
+        "Scenario.to_toml": (scenario.to_toml, {}),
+        "Scenario.with_values": (scenario.with_values, {"values": {"hub.mass": 301.0}}),
+        "Sensitivities.ranked": (slopes.ranked, {"name": "n"}),
+        "Spacecraft.__init__": (precess.Spacecraft, {"scenario": scenario}),
+        "Spacecraft.accelerations": (craft.accelerations, {"state": state, "inputs": inputs}),
+        "Spacecraft.derivative": (craft.derivative, {"t": 0.0, "y": state, "inputs": inputs}),
+        "Spacecraft.energy": (craft.energy, {"state": state}),
+        "Spacecraft.initial_state": (craft.initial_state, {}),
+        "Spacecraft.inputs": (craft.inputs, {"time": 0.0, "state": state}),
+        "Spacecraft.ledger": (craft.ledger, {"state": state, "inputs": inputs}),
+        "Spacecraft.linearize": (
+            craft.linearize,
+            {
+                "state": state,
+                "inputs": inputs,
+                "momentum": "origin",
+                "loads": True,
+                "parameters": ["hub.m_b"],
+            },
+        ),
+        "Spacecraft.linearize_step": (
+            craft.linearize_step,
+            {"state": state, "dt": 1e-3, "inputs": inputs, "steps": 1, "parameters": []},
+        ),
+        "Spacecraft.loads": (craft.loads, {"state": state, "inputs": inputs}),
+        "Spacecraft.mass_matrix_and_bias": (
+            craft.mass_matrix_and_bias,
+            {"state": state, "inputs": inputs},
+        ),
+        "Spacecraft.momentum": (craft.momentum, {"state": state, "about": "origin"}),
+        "Spacecraft.no_inputs": (craft.no_inputs, {}),
+        "Spacecraft.state": (craft.state, {"values": {"omega": [0.0, 0.0, 0.1]}}),
+        "Spacecraft.step": (
+            craft.step,
+            {"state": state, "dt": 1e-3, "inputs": inputs, "steps": 1},
+        ),
+        "State.__init__": (precess.State, {"spacecraft": craft, "array": state.to_array()}),
+        "State.__getitem__": (state.__getitem__, {"name": "omega_x"}),
+        "State.__setitem__": (state.copy().__setitem__, {"name": "omega_x", "value": 0.1}),
+        "State.copy": (state.copy, {}),
+        "State.from_array": (
+            precess.State.from_array,
+            {"spacecraft": craft, "array": state.to_array()},
+        ),
+        "State.replace": (state.replace, {"values": {"omega_x": 0.1}}),
+        "State.to_array": (state.to_array, {}),
+        "Sweep.__getitem__": (swept.__getitem__, {"name": "omega rms"}),
+        "Sweep.keep_out": (swept.keep_out, {"name": "omega rms", "limit": 0.1}),
+        "Sweep.keys": (swept.keys, {}),
+        "campaign.grid": (campaign.grid, {"axes": {"hub.mass": "300, 400 kg"}}),
+        "campaign.latin_hypercube": (
+            campaign.latin_hypercube,
+            {"vary": VARY, "samples": 2, "seed": 1},
+        ),
+        "campaign.listed": (campaign.listed, {"samples": {"hub.mass": [300.0, 400.0]}}),
+        "campaign.monte_carlo": (campaign.monte_carlo, {"vary": VARY, "samples": 2, "seed": 1}),
+        "fit.fit": (fit.fit, {"path": "missing.toml"}),
+        "fit.fit_records": (
+            fit.fit_records,
+            {
+                "records": [record] * 3,
+                "harmonics": [1.0],
+                "highest": 5.0,
+                "interference": [],
+                "speed_accuracy": 1e-3,
+                "name": "wheel",
+            },
+        ),
+        "jitter.budget": (jitter.budget, {"path": "missing.toml", "set": {}, "threads": 1}),
+        "montecarlo.run": (
+            montecarlo.run,
+            {"scenario": scenario, "vary": VARY, "samples": 2, "seed": 1, "latin": False, **of_rows},
+        ),
+        "montecarlo.sensitivities": (
+            montecarlo.sensitivities,
+            {"scenario": "one.toml", "vary": VARY, "set": [], "columns": ["omega"], "start": 0.0},
+        ),
+        "pointing.exposure": (pointing.exposure, {"signal": signal, "rate": 10.0, "time": 1.0}),
+        "pointing.exposure_of_lines": (
+            pointing.exposure_of_lines,
+            {"frequency": [1.0], "amplitude": [1.0], "time": 1.0},
+        ),
+        "pointing.exposure_of_psd": (pointing.exposure_of_psd, {"psd": psd, "time": 1.0}),
+        "pointing.exposure_of_table": (
+            pointing.exposure_of_table,
+            {"frequency": [1.0, 2.0], "density": [1.0, 1.0], "time": 1.0},
+        ),
+        "pointing.index": (
+            pointing.index,
+            {
+                "name": "RPE",
+                "runs": signal,
+                "rate": 10.0,
+                "window": 1.0,
+                "stability": None,
+                "level": 0.9,
+                "interpretation": "mixed",
+                "confidence": None,
+            },
+        ),
+        "pointing.index_of_psd": (
+            pointing.index_of_psd,
+            {"name": "RPE", "psd": psd, "window": 1.0, "stability": None, "level": 0.9},
+        ),
+        "pointing.weights": (pointing.weights, {"frequency": [1.0], "time": 1.0}),
+        "spectra.amplitude_spectrum": (spectra.amplitude_spectrum, {"x": signal, **settings}),
+        "spectra.coherence": (spectra.coherence, {"x": signal, "y": signal, **settings}),
+        "spectra.cross_spectra": (spectra.cross_spectra, {"signals": [signal, signal], **settings}),
+        "spectra.csd": (spectra.csd, {"x": signal, "y": signal, **settings}),
+        "spectra.welch": (spectra.welch, {"x": signal, **settings}),
+        "sweep.run": (
+            sweep.run,
+            {"scenario": scenario, "over": {"hub.mass": "300, 400 kg"}, **of_rows},
+        ),
+    }
+
+
+LIMIT = {
+    "requirement": [
+        {"name": "slow", "quantity": "omega", "statistic": "peak", "limit": "0.04 rad/s"}
+    ]
+}
+#: Examples that have no result: what they name is not there, or determines nothing.
+NO_RESULT = {"fit.fit", "fit.fit_records", "jitter.budget", "montecarlo.sensitivities"}
+
+
+@pytest.fixture
+def folder(wheels: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / "one.toml").write_text(wheels, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def public() -> Iterator[str]:
+    """The names of all public functions, and of all methods of public classes."""
+    seen = set()
+    for module in MODULES:
+        for name in module.__all__:
+            of = getattr(module, name)
+            if isinstance(of, types.FunctionType):
+                yield f"{module.__name__.removeprefix('precess.')}.{name}"
+            if not isinstance(of, type) or issubclass(of, Exception | Warning) or of in seen:
+                continue
+            seen.add(of)
+            for cls in of.__mro__:
+                if not cls.__module__.startswith("precess"):
+                    continue
+                for method, function in vars(cls).items():
+                    called = isinstance(function, types.FunctionType | classmethod | staticmethod)
+                    is_field = method == "__init__" and hasattr(of, "__dataclass_fields__")
+                    shown = method in ("__init__", "__getitem__", "__setitem__")
+                    if called and (shown or not method.startswith("_")) and not is_field:
+                        yield f"{of.__name__}.{method}"
+
+
+def test_every_public_function_has_an_example(wheels: str, folder: Path) -> None:
+    missing = {*public()} - calls(wheels).keys() - NOT_CALLED - OTHERS
+    assert not missing
+    for name, (function, arguments) in calls(wheels).items():
+        if name not in NO_RESULT:
+            function(**arguments)
+        parameters = inspect.signature(function).parameters
+        kinds = (inspect.Parameter.VAR_KEYWORD, inspect.Parameter.VAR_POSITIONAL)
+        named = {of for of, parameter in parameters.items() if parameter.kind not in kinds}
+        hidden = {"native"}
+        assert named - hidden <= arguments.keys(), f"{name}: {named - arguments.keys()}"
+
+
+def test_a_wrong_argument_is_an_error_that_says_what_is_wanted(wheels: str, folder: Path) -> None:
+    failures = []
+    for name, (function, arguments) in calls(wheels).items():
+        for parameter in arguments:
+            for wrong in WRONG:
+                try:
+                    function(**{**arguments, parameter: wrong})
+                except RAISED as error:
+                    says_little = not str(error) or any(words in str(error) for words in INTERNAL)
+                    found = error if says_little else None
+                except BaseException as error:
+                    found = error
+                else:
+                    found = None
+                if found is not None:
+                    what = f"{name}({parameter}={wrong!r})"
+                    failures.append(f"{what}: {type(found).__name__}: {found}")
+    assert not failures, "\n".join(failures)
+
+
+def test_setters_reject_what_they_cannot_take(wheels: str) -> None:
+    craft = precess.Scenario.from_text(wheels).spacecraft
+    state, inputs = craft.initial_state(), craft.inputs()
+    for of in (state, inputs):
+        before = pickle.dumps(of)
+        setters = [
+            name
+            for name, member in vars(type(of)).items()
+            if isinstance(member, property) and member.fset is not None
+        ]
+        assert len(setters) >= 5
+        for name in setters:
+            for wrong in WRONG:
+                rejected = True
+                try:
+                    setattr(of, name, wrong)
+                    rejected = False
+                except RAISED as error:
+                    assert not [words for words in INTERNAL if words in str(error)], f"{name}: {error}"
+                if rejected:
+                    # Numbers that cannot be assigned are not assigned in part.
+                    assert pickle.dumps(of) == before, f"{name} = {wrong!r}"
+                else:
+                    of = pickle.loads(before)
+    for place, wrong in (("wheel1.u_w", "?"), ("wheel1.u_w", None), (3, 0.1), ("?", 0.1)):
+        with pytest.raises((TypeError, KeyError)):
+            inputs.motors[place] = wrong  # type: ignore[index,assignment]
+
+
+@pytest.fixture
+def craft(wheels: str) -> precess.Spacecraft:
+    return precess.Scenario.from_text(wheels).spacecraft
+
+
+def test_messages_name_argument_value_and_what_is_wanted(craft: precess.Spacecraft) -> None:
+    state = craft.initial_state()
+    wrong: Any = 3
+    with pytest.raises(TypeError, match=r"inputs is 3, a int; it needs precess\.Inputs, or None"):
+        craft.accelerations(state, wrong)
+    with pytest.raises(ValueError, match="steps is -1; it needs at least 0"):
+        craft.step(state, 1e-3, steps=-1)
+    with pytest.raises(ValueError, match="steps is -2; it needs at least 0"):
+        precess.Batch(craft).run(precess.Batch(craft).states(2), 1e-3, -2)
+    with pytest.raises(TypeError, match="parameters is 'hub.m_b', a str; it needs a list of texts"):
+        craft.linearize(state, parameters="hub.m_b")
+    with pytest.raises(ValueError, match=r"state has the shape \(2,\); it needs \(17,\)"):
+        craft.energy([0.0, 1.0])
+    with pytest.raises(ValueError, match="samples is -1; it needs at least 0"):
+        montecarlo.run(craft.scenario, VARY, -1)
+    with pytest.raises(TypeError, match="scenario is 3, a int; it needs a precess.Scenario"):
+        precess.Spacecraft(wrong)
