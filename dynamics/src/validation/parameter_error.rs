@@ -10,6 +10,11 @@ use crate::numbers::real::Scalar;
 pub enum Part {
     /// The hub.
     Hub,
+    /// What the model of a structure contains of the devices of a mount.
+    Contained {
+        /// Index of the mount.
+        mount: usize,
+    },
     /// A body of a device.
     Body {
         /// Index of the device.
@@ -176,6 +181,9 @@ impl Display for Part {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Hub => f.write_str("hub"),
+            Self::Contained { mount } => {
+                write!(f, "body that the structure's model contains at mount {mount}")
+            }
             Self::Body { device, body } => write!(f, "{body} of device {device}"),
         }
     }
