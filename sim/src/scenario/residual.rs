@@ -50,15 +50,21 @@ impl Scenario {
         });
         let names: Vec<_> = joints
             .map(|(_, (member, name, info))| {
-                let node = structure.on_node.get(member).and_then(|node| structure.nodes.get(*node));
+                let node =
+                    structure.on_node.get(member).and_then(|node| structure.nodes.get(*node));
                 let node = node.map_or("", |node| node.name.as_str());
-                let (verb, axis) = if info.slides { ("slides", "along") } else { ("turns", "about") };
+                let (verb, axis) =
+                    if info.slides { ("slides", "along") } else { ("turns", "about") };
                 format!(
                     "{name}.{} {verb} freely, so node `{node}` moves no inertia {axis} that axis",
                     info.body.replace(' ', "_")
                 )
             })
             .collect();
+        if names.is_empty() {
+            // Only several joints together take the mass of a direction.
+            return Some(range("structure", error.to_string()));
+        }
         let message = format!(
             "residual flexibility without mass: {}; leave that direction of the node out of the \
              residual flexibility (zeros in its row and column, or in the shapes), or lock the joint",

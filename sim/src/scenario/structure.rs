@@ -306,7 +306,9 @@ fn named(structure: &ModalStructure, error: ModesError) -> ScenarioError {
     let mounts = structure.mounts();
     let node = mounts.get(mount).and_then(|node| structure.nodes.get(*node));
     match node {
-        Some(node) => range("structure", format!("{error} (mount {mount} is node `{}`)", node.name)),
+        Some(node) => {
+            range("structure", format!("{error} (mount {mount} is node `{}`)", node.name))
+        }
         None => ScenarioError::Modes(error),
     }
 }

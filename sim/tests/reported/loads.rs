@@ -48,7 +48,8 @@ fn device(kind: BuiltInKind) -> (String, f64, Vector3<f64>) {
             text += &format!("{body}.displacement = \"{displacement} m\"\n");
         }
         text += &format!("{body}.{locked}\n");
-        let bearing = body.ends_with("slide") || body.contains("_slide_") || body.starts_with("tilt");
+        let bearing =
+            body.ends_with("slide") || body.contains("_slide_") || body.starts_with("tilt");
         if bearing {
             continue;
         }
@@ -240,7 +241,11 @@ fn check_solves_what_a_run_solves() {
     // And does not solve what a run does not.
     let released = ["--set", "platform.p.z_turn.locked=false"];
     let checked = precess(&[&["check", &case("locked-pendulum.toml")], &released[..]].concat());
-    assert!(checked.out.contains("the initial state cannot be solved: `p`: pivot"), "{}", checked.out);
+    assert!(
+        checked.out.contains("the initial state cannot be solved: `p`: pivot"),
+        "{}",
+        checked.out
+    );
     let run = ["run", &case("locked-pendulum.toml"), "--out", out, "--force"];
     assert_eq!(precess(&[&run[..], &released[..]].concat()).code, Some(1));
 }
@@ -297,7 +302,9 @@ fn residual_flexibility_about_a_free_spin_axis_is_refused_by_name() {
     let checked = precess(&["check", &file]);
     assert_eq!(checked.code, Some(1), "{}", checked.out);
     assert!(
-        checked.error.contains("rw.wheel turns freely, so node `w` moves no inertia about that axis"),
+        checked
+            .error
+            .contains("rw.wheel turns freely, so node `w` moves no inertia about that axis"),
         "{}",
         checked.error
     );
@@ -305,9 +312,12 @@ fn residual_flexibility_about_a_free_spin_axis_is_refused_by_name() {
     let checked = precess(&[&["check", &file], &locked[..]].concat());
     assert_eq!(checked.code, Some(0), "{}", checked.error);
     // Across the axis there is mass.
-    let across = ["--set", "structure.mode=[{ frequency = '30 Hz', shape = [{ node = 'w', translation \
+    let across = [
+        "--set",
+        "structure.mode=[{ frequency = '30 Hz', shape = [{ node = 'w', translation \
                    = [0, 0, 0.05] }] }, { residual = true, frequency = '1 rad/s', damping = 0.05, \
-                   shape = [{ node = 'w', rotation = [0, 1e-3, 0] }] }]"];
+                   shape = [{ node = 'w', rotation = [0, 1e-3, 0] }] }]",
+    ];
     let checked = precess(&[&["check", &file], &across[..]].concat());
     assert_eq!(checked.code, Some(0), "{}", checked.error);
 }
@@ -320,7 +330,7 @@ fn a_y_turn_at_ninety_degrees_is_named() {
     let ran = precess(&["run", &file, "--out", folder.to_str().expect("a path")]);
     assert_eq!(ran.code, Some(1), "{}", ran.out);
     let said = ran.out + &ran.error;
-    assert!(said.contains("`p`: the y turn is at 90"), "{said}");
+    assert!(said.contains("`p`: its y turn is at 90"), "{said}");
     assert!(said.contains("away from 90 deg"), "{said}");
     let checked = precess(&["check", &file]);
     assert!(checked.out.contains("with the y turn at 90 degrees"), "{}", checked.out);

@@ -26,17 +26,16 @@ fn a_flex_file_of_42_gives_mass_normalised_modes() {
 
 /// The file with M = [2 1; 1 2], K = [3 0; 0 3]: eigenvalues 1 and 3.
 fn coupled() -> String {
-    FLEX
-        .replace(
-            "2                      ! Number of mass elements",
-            "4 ! elements\n0 1 1.0 !\n1 0 1.0 !",
-        )
-        .replace("0 0    4.0", "0 0    2.0")
-        .replace("1 1    1.0                    ! mass", "1 1    2.0 !")
-        .replace("0 0  400.0", "0 0    3.0")
-        .replace("1 1  900.0", "1 1    3.0")
-        .replace("0 0    0.8", "0 0    0.0")
-        .replace("1 1    0.6", "1 1    0.0")
+    FLEX.replace(
+        "2                      ! Number of mass elements",
+        "4 ! elements\n0 1 1.0 !\n1 0 1.0 !",
+    )
+    .replace("0 0    4.0", "0 0    2.0")
+    .replace("1 1    1.0                    ! mass", "1 1    2.0 !")
+    .replace("0 0  400.0", "0 0    3.0")
+    .replace("1 1  900.0", "1 1    3.0")
+    .replace("0 0    0.8", "0 0    0.0")
+    .replace("1 1    0.6", "1 1    0.0")
 }
 
 /// The displacement of the nodes by the initial states is that of the file's shapes, whatever the norm
@@ -68,7 +67,8 @@ fn modal_states_of_a_flex_file_are_those_of_a_scenario() {
         let modal = scenario.structure.expect("a structure");
         assert_eq!([modal.coordinates, modal.rates], found);
     }
-    assert_eq!(flex42::read(FLEX.as_bytes()).expect("read").structure().expect("modes").initial, []);
+    let at_rest = flex42::read(FLEX.as_bytes()).and_then(flex42::Flex::structure);
+    assert!(at_rest.expect("modes").initial.is_empty());
 }
 
 #[test]

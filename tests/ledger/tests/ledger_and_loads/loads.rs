@@ -118,8 +118,7 @@ fn reversed_mount_loads_accelerate_the_hub() {
             let carried = mount.moved(&bodies[0].place);
             acting = acting.minus(&carried);
             of_force += carried.force.norm();
-            of_moment +=
-                carried.moment.norm() + bodies[0].place.norm() * carried.force.norm();
+            of_moment += carried.moment.norm() + bodies[0].place.norm() * carried.force.norm();
         }
         // A free hub needs no further wrench.
         if case.inputs.hub == HubMode::Free {
