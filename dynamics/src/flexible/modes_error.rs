@@ -233,8 +233,7 @@ impl<T: Scalar> ResidualFault<T> {
 impl<T: Scalar> Display for ModesError<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Rigid(error) => error.fmt(f),
-            Self::Contained { error, .. } => error.fmt(f),
+            Self::Rigid(error) | Self::Contained { error, .. } => error.fmt(f),
             Self::NotFinite { what: what @ ModalQuantity::Position { .. }, value, .. } => write!(
                 f,
                 "{:?} in the {what} is not finite; give finite numbers in SI units",
