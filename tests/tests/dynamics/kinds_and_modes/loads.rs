@@ -233,7 +233,8 @@ fn motors_off<K: Drawn>(case: &Case<[K; 2]>, given: &Case<[K; 2]>, masses: &Poin
     let joints = motors.zip(&settings).zip(case.craft.joints()).enumerate();
     let driven = joints.filter(|(_, ((_, joint), _))| joint.mode == Mode::Driven);
     let errors = driven.map(|(number, ((motor, joint), (_, info)))| {
-        let Needed { force, moment } = transmitted(&bodies, &wrenches, g, number);
+        let Needed { force, moment } =
+            transmitted(&bodies, &wrenches, g, number, bodies[number + 1].frame.origin[0]);
         (motor - joint.torque).abs() / if info.slides { force.size } else { moment.size }
     });
     let mut hub = of_hub(case, &bodies, g);
