@@ -42,7 +42,7 @@ pub(crate) fn check_modes<S: ModalStorage, T: Scalar>(
         check_vectors(what, expected, of.point.translation.as_ref())?;
         check_vectors(ModalQuantity::Rotation { mount }, expected, of.point.rotation.as_ref())?;
         if let Some(contained) = &of.contained {
-            let checked = check_contained(mount, &contained.hub());
+            let checked = check_contained(&contained.hub());
             checked.map_err(|error| ModesError::Contained { mount, error })?;
         }
     }

@@ -92,7 +92,7 @@ pub enum ModesError<T = f64> {
     Contained {
         /// The mount.
         mount: usize,
-        /// What is wrong.
+        /// What is wrong; its part is called the hub, but not in the message.
         error: ParameterError<T>,
     },
     /// A number of the modes is infinite or NaN.
@@ -233,7 +233,11 @@ impl<T: Scalar> ResidualFault<T> {
 impl<T: Scalar> Display for ModesError<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Rigid(error) | Self::Contained { error, .. } => error.fmt(f),
+            Self::Rigid(error) => error.fmt(f),
+            Self::Contained { mount, error } => error.write(
+                f,
+                &format_args!("body that the structure's model contains at mount {mount}"),
+            ),
             Self::NotFinite { what: what @ ModalQuantity::Position { .. }, value, .. } => write!(
                 f,
                 "{:?} in the {what} is not finite; give finite numbers in SI units",

@@ -28,11 +28,8 @@ pub(crate) fn check_hub<T: Scalar>(hub: &Hub<T>) -> Result<T, ParameterError<T>>
 
 /// Checks what a structure's model contains at a mount. Its inertia comes of one about B, so the
 /// rounding of the parallel axes, `m |c|²`, is part of the bound: a point mass has none of its own.
-pub(crate) fn check_contained<T: Scalar>(
-    mount: usize,
-    body: &Hub<T>,
-) -> Result<(), ParameterError<T>> {
-    let (part, centre) = (Part::Contained { mount }, components(&body.r_bc_b));
+pub(crate) fn check_contained<T: Scalar>(body: &Hub<T>) -> Result<(), ParameterError<T>> {
+    let (part, centre) = (Part::Hub, components(&body.r_bc_b));
     finite(part, Parameter::Mass, &[body.m_b])?;
     finite(part, Parameter::CentreOfMass, &centre)?;
     check_mass(part, body.m_b, false)?;

@@ -182,7 +182,7 @@ impl Rejection {
 
     fn of(self, part: Part) -> Self {
         match part {
-            Part::Hub | Part::Contained { .. } => self,
+            Part::Hub => self,
             Part::Body { device, body } => self.at(device, body),
         }
     }

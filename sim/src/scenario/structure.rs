@@ -298,10 +298,10 @@ impl Scenario {
 
 /// An error of the modes; one about a mount with the name of its node.
 fn named(structure: &ModalStructure, error: ModesError) -> ScenarioError {
-    let mount = match error {
-        ModesError::Contained { mount, .. }
-        | ModesError::Residual { fault: ResidualFault::Contained { mount }, .. } => mount,
-        _ => return ScenarioError::Modes(error),
+    let (ModesError::Contained { mount, .. }
+    | ModesError::Residual { fault: ResidualFault::Contained { mount }, .. }) = error
+    else {
+        return ScenarioError::Modes(error);
     };
     let mounts = structure.mounts();
     let node = mounts.get(mount).and_then(|node| structure.nodes.get(*node));

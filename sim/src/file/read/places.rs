@@ -83,7 +83,6 @@ fn parameter(error: &ParameterError, tables: &Tables) -> Option<String> {
 fn key(part: Part, last: &str, tables: &Tables) -> Option<String> {
     Some(match part {
         Part::Hub => format!("hub.{last}"),
-        Part::Contained { .. } => "structure".to_owned(),
         Part::Body { device, body } => {
             let (table, is_platform) = tables.get(device)?;
             // A platform's own body has its keys beside those of the joints.
