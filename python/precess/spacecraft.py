@@ -287,7 +287,8 @@ class Spacecraft:
     def loads(self, state: StateLike, inputs: Inputs | None = None) -> dict[str, float]:
         """Loads at mounts and joints, N and N m, by the names of columns (``cmg1.mount.force_x``), and
         the motor torque or force of each joint (``cmg1.u_w``): what its motion requires where that is
-        prescribed."""
+        prescribed. At a mount they are about the ``position`` of the device or platform, which no joint
+        of it moves, in B or in the axes of the platform that carries it."""
         y = self._flat(state)
         loads, motors = self._native.loads(y, self._acting(y, inputs))
         columns = [facts[0] for facts in self._native.load_columns]

@@ -263,6 +263,7 @@ pub(crate) fn structure() -> Result<Structure, Fault> {
         mass_matrix: None,
         residual: None,
         has_devices: Some(false),
+        initial: Vec::new(),
     }
     .checked()
 }

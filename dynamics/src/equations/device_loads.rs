@@ -11,14 +11,16 @@ use crate::model::mode::Mode;
 use crate::model::wrench::Wrench;
 use crate::numbers::each::{Each, JointStates};
 use crate::numbers::real::{Scalar, zero};
-use crate::numbers::vec3::{Columns, rotate_transposed};
+use crate::numbers::vec3::{Columns, Vec3, rotate_transposed, vector};
 
 /// The loads of one device; `W` has a wrench, `U` a number, `P` a [`JointPower`] per joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeviceLoads<W, U, P, T> {
-    /// What the hub exerts on the device at its mount, about the present origin of its first
-    /// joint (that of a sliding joint moves with it); expressed in N if the joints' loads are,
-    /// otherwise expressed in B. About another point: [`Wrench::moved`].
+    /// What the hub exerts on the device at its mount, about the device's place: the origin of its
+    /// first joint at coordinate zero, which no joint of the device moves. Expressed in N if the
+    /// joints' loads are, otherwise in B; of a device on a platform, exerted by it, in the
+    /// platform's axes with [`LoadAxes::Body`](crate::LoadAxes::Body) and
+    /// [`LoadAxes::Parent`](crate::LoadAxes::Parent). About another point: [`Wrench::moved`].
     pub mount: Wrench<T>,
     /// What its parent body exerts on the child body of each joint, motor, spring and friction
     /// included, about the joint's origin, expressed in the axes of the call.
@@ -153,7 +155,8 @@ impl<K: Kind> Device<K> {
         for (load, (applied, gradient)) in loads.values_mut().zip(outside) {
             *load = load.minus(&applied).minus(&gradient);
         }
-        let (mount, joints) = self.expressed(&pose, loads, along);
+        let slid = slid::<K>(joints);
+        let (mount, joints) = self.expressed(&pose, slid, loads, along);
         let finite = joints.values().zip(motors.values()).zip(powers.values());
         let first = finite.map(|((load, motor), power)| {
             mount.is_finite() && load.is_finite() && motor.is_finite() && power.is_finite()
@@ -236,17 +239,20 @@ impl<K: Kind> Device<K> {
         to.hub = to.hub.plus(&carried.hub);
     }
 
-    /// The load of the mount, and those of the joints expressed in `along`.
+    /// The load of the mount, for a first joint that slid so far, expressed in the device's axes, and
+    /// those of the joints expressed in `along`.
     fn expressed(
         &self,
         pose: &K::Pose<K::Scalar>,
+        slid: Option<Vec3<K::Scalar>>,
         mut loads: Wrenches<K>,
         along: &Along<K::Scalar>,
     ) -> (Wrench<K::Scalar>, Wrenches<K>) {
         let axes = K::axes(&self.constants, pose);
         let first = loads.values().zip(axes.values()).next();
         let first = first.map_or_else(Wrench::none, |(load, own)| load.turned(&own));
-        let hub = first.turned(&self.mount);
+        let at_place = slid.map_or(first, |slid| first.moved(&vector(slid)));
+        let hub = at_place.turned(&self.mount);
         let mut mount = hub;
         if let Along::Hub(Some(bn)) = along {
             mount = hub.turned_back(bn);
@@ -265,6 +271,15 @@ impl<K: Kind> Device<K> {
         }
         (mount, loads)
     }
+}
+
+/// The present origin of a device's first joint from the device's place, expressed in the device's
+/// axes: none of a joint that turns.
+fn slid<K: Kind>(joints: &K::Joints<K::Scalar>) -> Option<Vec3<K::Scalar>> {
+    let info = K::JOINTS.first().filter(|info| info.slides)?;
+    let [coordinate, _] = joints.states().next()?;
+    let along = |axis| if axis == info.axis { coordinate } else { zero() };
+    Some([along(0), along(1), along(2)])
 }
 
 /// The component of each wrench along its joint.

@@ -265,6 +265,13 @@ impl<T: Scalar> Display for SolveError<T> {
                                  spin axis",
                             )?;
                         }
+                        if joint == "x turn" {
+                            f.write_str(
+                                "; with the y turn at 90 degrees the x turn is about the axis of \
+                                 the z turn: both are singular there if they are free, and one is \
+                                 if nothing has inertia about that axis",
+                            )?;
+                        }
                         Ok(())
                     }
                 }

@@ -12,7 +12,7 @@ use crate::flexible::storage::ModalStorage;
 use crate::model::parameters::Hub;
 use crate::numbers::real::{Scalar, zero};
 use crate::numbers::vec3::components;
-use crate::validation::check::{check_hub, rounding};
+use crate::validation::check::{check_contained, rounding};
 
 /// Checks counts, finite numbers and signs.
 pub(crate) fn check_modes<S: ModalStorage, T: Scalar>(
@@ -42,7 +42,7 @@ pub(crate) fn check_modes<S: ModalStorage, T: Scalar>(
         check_vectors(what, expected, of.point.translation.as_ref())?;
         check_vectors(ModalQuantity::Rotation { mount }, expected, of.point.rotation.as_ref())?;
         if let Some(contained) = &of.contained {
-            let checked = check_hub(&contained.hub());
+            let checked = check_contained(&contained.hub());
             checked.map_err(|error| ModesError::Contained { mount, error })?;
         }
     }

@@ -43,13 +43,13 @@ use crate::sets::per_device as data;
 pub struct FlexibleLoads<D: Devices, S: ModalStorage> {
     /// Loads of the devices, and what must act on the frame B beside the inputs.
     ///
-    /// The wrench at the mount of a [`DeviceLoads`](crate::DeviceLoads) is about the present origin
-    /// of its first joint. It is expressed in the axes of the mount with
-    /// [`LoadAxes::Body`] and [`LoadAxes::Parent`] (they turn with the structure, and are those of
-    /// B undeformed), in B and N with the other two.
+    /// The wrench at the mount of a [`DeviceLoads`](crate::DeviceLoads) is about the device's place
+    /// on the deformed structure: its parameters say where that is in the axes of the mount, which
+    /// are those of B undeformed. It is expressed in N with [`LoadAxes::Inertial`], otherwise in B,
+    /// as on a rigid hub.
     pub rigid: Loads<D>,
     /// What the structure exerts on the devices of each mount together, about the mount, expressed
-    /// in the axes of `rigid.devices`' mounts. A body that the model contains is not subtracted.
+    /// in N with [`LoadAxes::Inertial`], otherwise in B. A body that the model contains is not subtracted.
     pub mounts: S::Mounts<Wrench<D::Scalar>>,
     /// The force that each mode needs beside the inputs, N/sqrt(kg): only rounding with the
     /// spacecraft's own accelerations.
@@ -88,6 +88,14 @@ impl<T: Scalar> MountLoads<T> {
         inertial.minus(applied).minus(gradient)
     }
 
+    /// The axes of K, columns expressed in B, where a load on the mount is expressed in K.
+    fn axes_to_b(&self) -> Option<Columns<T>> {
+        match self.along {
+            Along::Body | Along::Parent | Along::Hub(None) => Some(self.motion.axes),
+            Along::Hub(Some(_)) => None,
+        }
+    }
+
     /// What the mount needs of hub and modes beside a wrench on it.
     pub(crate) fn needed(&self, wrench: &Wrench<T>) -> Wrench<T> {
         let [inertial, gradient] = &self.contained;
@@ -115,11 +123,13 @@ impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
         device: &Device<K>,
         (joints, given, accelerations, (out, mount)): <Weighed as Bundle<T>>::Of<'_, K>,
     ) -> Result<(), Infallible> {
-        let given = (joints, given, accelerations, out);
-        self.on(*mount, |mount, moments| {
+        let given = (joints, given, accelerations, &mut *out);
+        let to_b = self.on(*mount, |mount, moments| {
             let Ok(()) = mount.visit(device, given);
             moments.visit(device, joints)
-        })
+        })?;
+        out.mount = expressed(to_b.as_ref(), out.mount);
+        Ok(())
     }
 
     fn visit_isolated<D: DeviceSet<Scalar = T>>(
@@ -127,22 +137,26 @@ impl<T: Scalar> Visit<T, Weighed> for Weighing<'_, T> {
         isolated: &PreparedIsolated<D>,
         (joints, given, accelerations, (out, mount)): <Weighed as Bundle<T>>::Of<'_, Isolated<D>>,
     ) -> Result<(), Infallible> {
-        let given = (joints, given, accelerations, out);
-        self.on(mount.platform, |mount, moments| {
+        let given = (joints, given, accelerations, &mut *out);
+        let to_b = self.on(mount.platform, |mount, moments| {
             let Ok(()) = mount.visit_isolated(isolated, given);
             moments.visit_isolated(isolated, joints)
-        })
+        })?;
+        out.platform.mount = expressed(to_b.as_ref(), out.platform.mount);
+        Ok(())
     }
 }
 
 impl<T: Scalar> Weighing<'_, T> {
-    /// The loads of the next devices, as on a rigid hub, with their mount for it.
+    /// The loads of the next devices, as on a rigid hub, with their mount for it. Returns the axes of
+    /// the mount, columns expressed in B, where its load is expressed in them.
     fn on(
         &mut self,
         mount: usize,
         weigh: impl FnOnce(&mut OnBase<'_, T>, &mut FirstMoments<'_, T>) -> Result<(), Infallible>,
-    ) -> Result<(), Infallible> {
-        let Some(mount) = self.mounts.get_mut(mount) else { return Ok(()) };
+    ) -> Result<Option<Columns<T>>, Infallible> {
+        let Some(mount) = self.mounts.get_mut(mount) else { return Ok(None) };
+        let to_b = mount.axes_to_b();
         let MountLoads { environment, acceleration: hub, along, totals, first_moment, .. } = mount;
         totals.joints = self.joints;
         let mut moments = [*first_moment, zeros()];
@@ -150,7 +164,7 @@ impl<T: Scalar> Weighing<'_, T> {
         weigh(&mut on_base, &mut FirstMoments(&mut moments))?;
         self.joints = totals.joints;
         [*first_moment, _] = moments;
-        Ok(())
+        Ok(to_b)
     }
 }
 
@@ -226,7 +240,9 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
             let about_mount = mount.on_devices().moved(&vector(neg(place)));
             match &mount.along {
                 Along::Hub(Some(columns)) => about_mount.turned_back(columns),
-                Along::Body | Along::Parent | Along::Hub(None) => about_mount,
+                Along::Body | Along::Parent | Along::Hub(None) => {
+                    about_mount.turned(&mount.motion.axes)
+                }
             }
         });
         let overflow = |what| Err(self.diagnosis(state, inputs, SolveError::Overflow { what }));
@@ -345,6 +361,11 @@ impl<D: Devices, S: ModalStorage> FlexibleSpacecraft<D, S> {
         }
         needed
     }
+}
+
+/// A wrench expressed in the axes of these columns, or as it is.
+fn expressed<T: Scalar>(to_b: Option<&Columns<T>>, wrench: Wrench<T>) -> Wrench<T> {
+    to_b.map_or(wrench, |axes| wrench.turned(axes))
 }
 
 /// The axes for the loads of a mount's devices. K takes the place of B on a rigid hub.

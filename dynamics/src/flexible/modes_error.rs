@@ -92,7 +92,7 @@ pub enum ModesError<T = f64> {
     Contained {
         /// The mount.
         mount: usize,
-        /// What is wrong; its part is called the hub.
+        /// What is wrong; its part is called the hub, but not in the message.
         error: ParameterError<T>,
     },
     /// A number of the modes is infinite or NaN.
@@ -234,9 +234,10 @@ impl<T: Scalar> Display for ModesError<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Rigid(error) => error.fmt(f),
-            Self::Contained { mount, error } => {
-                write!(f, "body that the model contains at mount {mount}: {error}")
-            }
+            Self::Contained { mount, error } => error.write(
+                f,
+                &format_args!("body that the structure's model contains at mount {mount}"),
+            ),
             Self::NotFinite { what: what @ ModalQuantity::Position { .. }, value, .. } => write!(
                 f,
                 "{:?} in the {what} is not finite; give finite numbers in SI units",

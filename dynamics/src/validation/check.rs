@@ -26,6 +26,17 @@ pub(crate) fn check_hub<T: Scalar>(hub: &Hub<T>) -> Result<T, ParameterError<T>>
     check_inertia(Part::Hub, &hub.i_b_bc)
 }
 
+/// Checks what a structure's model contains at a mount. Its inertia comes of one about B, so the
+/// rounding of the parallel axes, `m |c|²`, is part of the bound: a point mass has none of its own.
+pub(crate) fn check_contained<T: Scalar>(body: &Hub<T>) -> Result<(), ParameterError<T>> {
+    let (part, centre) = (Part::Hub, components(&body.r_bc_b));
+    finite(part, Parameter::Mass, &[body.m_b])?;
+    finite(part, Parameter::CentreOfMass, &centre)?;
+    check_mass(part, body.m_b, false)?;
+    check_moved_inertia(part, &body.i_b_bc, body.m_b * dot(centre, centre))?;
+    Ok(())
+}
+
 /// Checks a device.
 pub(crate) fn check_device<K: Kind>(device: usize, p: &K) -> Result<(), ParameterError<K::Scalar>> {
     let part = |info: &JointInfo| Part::Body { device, body: info.body };
@@ -105,11 +116,20 @@ fn check_mass<T: Scalar>(part: Part, value: T, massless: bool) -> Result<(), Par
 /// Finite, symmetric and positive semidefinite to rounding, relative to the largest element. The
 /// result is what the largest principal moment has above the sum of the other two, or zero.
 fn check_inertia<T: Scalar>(part: Part, inertia: &Matrix3<T>) -> Result<T, ParameterError<T>> {
+    check_moved_inertia(part, inertia, zero())
+}
+
+/// As [`check_inertia`], of an inertia that is the difference of two of this size.
+fn check_moved_inertia<T: Scalar>(
+    part: Part,
+    inertia: &Matrix3<T>,
+    size: T,
+) -> Result<T, ParameterError<T>> {
     let [x, y, z] = columns(inertia);
     finite_matrix(part, Parameter::Inertia, &[x, y, z])?;
 
     let tensor = Symmetric::part_of(inertia);
-    let bound = rounding::<T>() * tensor.largest_element();
+    let bound = rounding::<T>() * tensor.largest_element().max(size);
     for (row, column, difference) in [(1, 2, y[0] - x[1]), (1, 3, z[0] - x[2]), (2, 3, z[1] - y[2])]
     {
         if difference.abs() > bound {

@@ -196,22 +196,45 @@ impl Display for Parameter {
 
 impl<T: Scalar> Display for ParameterError<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.write(f, &Part::Hub)
+    }
+}
+
+/// The name of a part, where another body stands for the hub.
+struct PartName<'a> {
+    part: Part,
+    hub: &'a dyn Display,
+}
+
+impl Display for PartName<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.part == Part::Hub { self.hub.fmt(f) } else { self.part.fmt(f) }
+    }
+}
+
+impl<T: Scalar> ParameterError<T> {
+    /// Writes the message, with the name of the body that was checked as a hub is.
+    pub(crate) fn write(&self, f: &mut Formatter<'_>, hub: &dyn Display) -> fmt::Result {
+        let name = |part| PartName { part, hub };
         match *self {
             Self::NotFinite { part, parameter, value } => write!(
                 f,
-                "{parameter} of the {part} contains {:?}, which is not finite; give a number",
+                "{parameter} of the {} contains {:?}, which is not finite; give a number",
+                name(part),
                 value.to_f64(),
             ),
             Self::Mass { part, massless: false, value } => write!(
                 f,
-                "mass {:?} kg of the {part} is not above 0; only a body with a child body in its \
+                "mass {:?} kg of the {} is not above 0; only a body with a child body in its \
                  device may be massless",
                 value.to_f64(),
+                name(part),
             ),
             Self::Mass { part, massless: true, value } => write!(
                 f,
-                "mass {:?} kg of the {part} is below 0; use 0 for a massless one",
+                "mass {:?} kg of the {} is below 0; use 0 for a massless one",
                 value.to_f64(),
+                name(part),
             ),
             Self::Passive { part, name, value } => write!(
                 f,
@@ -226,23 +249,26 @@ impl<T: Scalar> Display for ParameterError<T> {
             ),
             Self::Asymmetric { part, row, column, difference, bound } => write!(
                 f,
-                "inertia of the {part}: element {row}{column} differs from element {column}{row} \
-                 by {:?} kg m^2, more than {:?}; make the tensor symmetric",
+                "inertia of the {}: element {row}{column} differs from element {column}{row} by {:?} \
+                 kg m^2, more than {:?}; make the tensor symmetric",
+                name(part),
                 difference.to_f64(),
                 bound.to_f64(),
             ),
             Self::NegativeInertia { part, value, bound } => write!(
                 f,
-                "smallest principal moment {:?} kg m^2 of the {part} is below {:?}; check the \
-                 signs and units of its inertia",
+                "smallest principal moment {:?} kg m^2 of the {} is below {:?}; check the signs and \
+                 units of its inertia",
                 value.to_f64(),
+                name(part),
                 bound.to_f64(),
             ),
             Self::LargeInertia { part, value } => write!(
                 f,
-                "largest principal moment {:?} kg m^2 of the {part} is not finite; check the \
-                 units of its inertia",
+                "largest principal moment {:?} kg m^2 of the {} is not finite; check the units of \
+                 its inertia",
                 value.to_f64(),
+                name(part),
             ),
             Self::AsymmetricSuspension { device, name, row, column, difference } => write!(
                 f,

@@ -296,7 +296,9 @@ typedef struct precess_loads {
     precess_wrench hub; /* what must act on the hub in addition to the inputs, about B, B axes: rounding on a
                            free hub, what a table exerts on a fixed one */
     precess_wrench mount[PRECESS_MAX_DEVICES]; /* what the hub, or its platform, exerts on each device, about
-                           the origin of its first joint; N axes with PRECESS_AXES_INERTIAL, otherwise B axes */
+                           the device's place: the origin of its first joint at coordinate zero; N axes with
+                           PRECESS_AXES_INERTIAL, B axes with PRECESS_AXES_HUB, otherwise those of what it
+                           stands on, B or the platform's */
     precess_wrench joint[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* what the parent body exerts on
                            the child body of each joint, about its origin, along PRECESS_AXES_ */
     double motor[PRECESS_MAX_DEVICES][PRECESS_MAX_JOINTS]; /* torque of each motor, N m or N: the

@@ -104,7 +104,7 @@ impl Craft {
         }
     }
 
-    /// Loads of the devices; at the mounts of a structure in the axes of the present mount.
+    /// Loads of the devices; at mounts on hub or structure in B, at those on a platform in its axes.
     ///
     /// # Errors
     ///

@@ -4,11 +4,13 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use clap::Args;
-use precess_dynamics::{About, BuiltIn, Imbalance, Inputs, JointStates, units};
+use precess_dynamics::{About, BuiltIn, Imbalance, JointStates, units};
 
 use super::exit::Exit;
 use super::table::{aligned, six};
 use super::{Files, Form, advice, print, sources};
+use crate::engine::device_of;
+use crate::evaluation::Evaluator;
 use crate::file::from_file;
 use crate::file::read::joint_key;
 use crate::scenario::Scenario;
@@ -93,29 +95,32 @@ fn properties(scenario: &Scenario) -> String {
     let matrix = MassMatrix::of(scenario, &spacecraft);
     text.push_str(&joints(scenario, matrix.as_ref().ok()));
     text.push_str(&sources::sources(scenario));
-    match &matrix {
-        Ok(MassMatrix { condition: Some(condition), .. }) => {
-            let _ = writeln!(
-                text,
-                "\ncondition number of the mass matrix, scaled to a unit diagonal: {} \
-                 (accelerations lose {:.1} of 16 digits)",
-                six(*condition),
-                condition.log10()
-            );
-        }
-        Ok(MassMatrix { condition: None, .. }) => {}
-        Err(error) => {
-            let _ = writeln!(text, "\nthe initial pose cannot be solved: {error}");
-        }
+    if let Ok(MassMatrix { condition: Some(condition), .. }) = &matrix {
+        let _ = writeln!(
+            text,
+            "\ncondition number of the mass matrix, scaled to a unit diagonal: {} \
+             (accelerations lose {:.1} of 16 digits)",
+            six(*condition),
+            condition.log10()
+        );
     }
-    // Modes and gravity of the file may make a pose singular, or solvable, that is not by itself.
-    let mut inputs = Inputs::none_for(&spacecraft);
-    inputs.hub = scenario.hub_mode;
-    inputs.gravity = scenario.gravity;
-    if let Err(error) = spacecraft.accelerations(state, &inputs) {
+    if let Some(error) = unsolvable(scenario) {
         let _ = writeln!(text, "\nthe initial state cannot be solved: {error}");
     }
     text
+}
+
+/// Why a run cannot solve the initial state, with the drives, gravity and structure of the file; none
+/// where it can.
+fn unsolvable(scenario: &Scenario) -> Option<String> {
+    let evaluator = match Evaluator::new(scenario) {
+        Ok(evaluator) => evaluator,
+        Err(error) => return Some(error.to_string()),
+    };
+    let state = evaluator.initial();
+    let error = evaluator.accelerations(&state, &evaluator.inputs(0.0, &state)).err()?;
+    let name = device_of(&error).and_then(|device| scenario.names.get(device));
+    Some(name.map_or_else(|| error.to_string(), |name| format!("`{name}`: {error}")))
 }
 
 /// A row for each joint.

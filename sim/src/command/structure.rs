@@ -136,6 +136,11 @@ impl Convert {
         }
         let (nodes, modes) = (structure.nodes.len(), structure.modes.len());
         print(&format!("{}: {nodes} nodes, {modes} modes\n", to.display()));
+        if !structure.initial.is_empty() {
+            print(
+                "modal coordinates and rates at the start are not in it: write them in the scenario\n",
+            );
+        }
         Ok(Exit::Success)
     }
 }
@@ -171,6 +176,13 @@ fn shown(structure: &Structure) -> String {
     row.extend(sum.iter().map(|value| six(*value)));
     rows.push(row);
     text.push_str(&aligned(&rows));
+    if !structure.initial.is_empty() {
+        let [coordinates, rates] = structure.states();
+        for (what, values) in [("coordinates", coordinates), ("rates", rates)] {
+            let values: Vec<_> = values.iter().map(|value| six(*value)).collect();
+            let _ = writeln!(text, "modal {what} at the start {}", values.join(", "));
+        }
+    }
     text.push_str("\nchecks\n");
     let mut rows = Vec::new();
     for check in structure.checks() {

@@ -1,16 +1,18 @@
 //! [`Conserved`]: energy less work and both momenta, and how far they drift; by running maxima, so
 //! that memory does not grow with the run.
 //!
-//! Drift is counted in units that cannot vanish by cancellation: the largest kinetic energy plus the
-//! integral of sum |u * rate|, and for each momentum the sum over the bodies of the magnitudes of
-//! their momenta, its largest; those of a structure that bends as if it were undeformed. The units are those at the end of the run: drift is the largest
-//! departure over the final unit, which is what the largest share of any entry would be.
+//! Drift is counted in units that cannot vanish by cancellation: for each momentum the sum over the
+//! bodies of the magnitudes of all terms, as `m (|v_B| + |omega x c|)`, its largest; for energy the
+//! same sum of the kinetic energy, its largest, plus the integral of sum |u * rate|. Bodies of a
+//! structure that bends stand as if it were undeformed, and each of its modes is a term. The units
+//! are those at the end of the run: drift is the largest departure over the final unit, which is
+//! what the largest share of any entry would be.
 
 use nalgebra::Vector3;
 use precess_dynamics::{About, EnergyAndMomentum, Gravity, HubMode, Momentum, SolveError};
 
 use super::integrator::Moment;
-use super::kinematics::momenta;
+use super::kinematics::{Sizes, momenta};
 use super::system::{System, lumped};
 use crate::scenario::Scenario;
 use precess_craft::{CraftAccelerations, CraftInputs, CraftState};
@@ -19,10 +21,10 @@ use precess_craft::{CraftAccelerations, CraftInputs, CraftState};
 /// conserved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
-    /// |energy + loss in brakes - work - initial energy|, unit: largest kinetic energy + integral
-    /// of sum |u * rate|.
+    /// |energy + loss in brakes - work - initial energy|, unit: largest sum of the magnitudes of the
+    /// terms of kinetic energy + integral of sum |u * rate|.
     pub energy: Option<f64>,
-    /// |linear momentum - initial|, unit: sum over the bodies of magnitudes, its largest. None where
+    /// |linear momentum - initial|, unit: largest sum of the magnitudes of its terms. None where
     /// gravity, a wrench or what holds the hub acts from outside.
     pub linear: Option<f64>,
     /// |angular momentum - initial| about the inertial origin, unit and condition as for the linear
@@ -37,10 +39,9 @@ pub(crate) struct Conserved {
     isolated: bool,
     start: Option<Entry>,
     departures: [f64; 3],
-    /// Largest kinetic energy and throughput; sums of magnitudes of linear and angular momentum.
-    kinetic: f64,
+    /// Largest sums of the magnitudes of the terms of energy and momenta; largest throughput.
+    sizes: Sizes,
     throughput: f64,
-    magnitudes: [f64; 2],
 }
 
 /// What is compared with the start.
@@ -61,9 +62,8 @@ impl Conserved {
             isolated,
             start: None,
             departures: [0.0; 3],
-            kinetic: 0.0,
+            sizes: Sizes::default(),
             throughput: 0.0,
-            magnitudes: [0.0; 2],
         }
     }
 
@@ -83,7 +83,12 @@ impl Conserved {
             linear: Vector3::zeros(),
             angular: Vector3::zeros(),
         };
-        self.kinetic = larger(self.kinetic, kinetic);
+        let sizes = sizes(scenario, system, state);
+        self.sizes = Sizes {
+            linear: larger(self.sizes.linear, sizes.linear),
+            angular: larger(self.sizes.angular, sizes.angular),
+            kinetic: larger(larger(self.sizes.kinetic, kinetic), sizes.kinetic),
+        };
         self.throughput = larger(self.throughput, *throughput);
         if self.isolated {
             let Momentum { linear, angular } = match momentum {
@@ -91,14 +96,6 @@ impl Conserved {
                 None => system.craft.momentum(state, About::InertialOrigin)?,
             };
             (entry.linear, entry.angular) = (linear, angular);
-            let mut magnitudes = [0.0; 2];
-            momenta(&scenario.hub, system.acting.chains(), &state.rigid, |body| {
-                magnitudes[0] += body.linear.norm();
-                magnitudes[1] += body.angular.norm();
-            });
-            for (largest, magnitude) in self.magnitudes.iter_mut().zip(magnitudes) {
-                *largest = larger(*largest, magnitude);
-            }
         }
         let start = *self.start.get_or_insert(entry);
         let departures = [
@@ -117,11 +114,30 @@ impl Conserved {
         let [energy, linear, angular] = self.departures;
         let of_momentum = |departure, unit| self.isolated.then(|| share(departure, unit));
         Drift {
-            energy: Some(share(energy, self.kinetic + self.throughput)),
-            linear: of_momentum(linear, self.magnitudes[0]),
-            angular: of_momentum(angular, self.magnitudes[1]),
+            energy: Some(share(energy, self.sizes.kinetic + self.throughput)),
+            linear: of_momentum(linear, self.sizes.linear),
+            angular: of_momentum(angular, self.sizes.angular),
         }
     }
+}
+
+/// Sums of the magnitudes of the terms of energy and momenta at a state.
+fn sizes(scenario: &Scenario, system: &System<'_>, state: &CraftState) -> Sizes {
+    let mut sum = Sizes::default();
+    momenta(&scenario.hub, system.acting.chains(), &state.rigid, |body| {
+        sum.linear += body.sizes.linear;
+        sum.angular += body.sizes.angular;
+        sum.kinetic += body.sizes.kinetic;
+    });
+    let far = state.rigid.r_b_n.norm();
+    let modes = scenario.structure.iter().flat_map(|structure| &structure.modes);
+    for (mode, rate) in modes.zip(&state.eta_dot) {
+        let linear = (mode.linear * *rate).norm();
+        sum.linear += linear;
+        sum.angular += far * linear + (mode.angular * *rate).norm();
+        sum.kinetic += 0.5 * rate * rate;
+    }
+    sum
 }
 
 /// Inputs at a state and the accelerations that follow from them.

@@ -8,6 +8,9 @@ use super::system::System;
 use crate::record::RecordError;
 use crate::scenario::ScenarioError;
 
+/// A cosine of the y turn below it is a right angle: the inertia of the x turn has fallen by its square.
+const NEAR: f64 = 1e-3;
+
 /// A run that could not be started or finished.
 #[derive(Debug)]
 pub enum RunError {
@@ -25,6 +28,18 @@ pub enum RunError {
         device: Option<String>,
         /// The solver's error.
         source: SolveError,
+    },
+    /// The y turn of a platform is at 90 degrees, where the x turn is about the axis of the z turn:
+    /// the equations of its turns are singular there.
+    TurnAtRightAngle {
+        /// Simulated time, s.
+        time: f64,
+        /// The platform.
+        platform: String,
+        /// The angle of its y turn, rad.
+        angle: f64,
+        /// The inertia that is left to the x turn, and the bound that it is not above, kg m².
+        pivot: [f64; 2],
     },
     /// A joint is to be locked while it moves.
     LockedJointMoves {
@@ -130,7 +145,12 @@ impl RunError {
             let joint = system.layout.joints.iter().find(|joint| joint.device == device)?;
             joint.name.split('.').next().map(str::to_owned)
         });
-        Self::Solve { time, device, source }
+        match (turn_at_right_angle(system, &source), device) {
+            (Some((angle, pivot)), Some(platform)) => {
+                Self::TurnAtRightAngle { time, platform, angle, pivot }
+            }
+            (_, device) => Self::Solve { time, device, source },
+        }
     }
 
     /// The simulated time at which it happened, s; none of an error before the start.
@@ -138,6 +158,7 @@ impl RunError {
     pub fn time(&self) -> Option<f64> {
         match self {
             Self::Solve { time, .. }
+            | Self::TurnAtRightAngle { time, .. }
             | Self::LockedJointMoves { time, .. }
             | Self::NotDriven { time, .. }
             | Self::TooManySteps { time }
@@ -155,8 +176,23 @@ impl RunError {
     }
 }
 
+/// The angle of a platform's y turn, rad, in the state that was evaluated last, and pivot and bound of
+/// its x turn, where that is singular and the angle near 90 degrees.
+fn turn_at_right_angle(system: &System<'_>, error: &SolveError) -> Option<(f64, [f64; 2])> {
+    let (device, pivot) = match *error {
+        SolveError::Singular { device: Some(device), joint: Some("x turn"), pivot, bound } => {
+            (device, [pivot, bound])
+        }
+        _ => return None,
+    };
+    let mut joints = system.layout.joints.iter();
+    let turn = joints.position(|of| of.device == device && of.info.body == "y turn")?;
+    let angle = system.evaluated_coordinate(turn)?;
+    (angle.cos().abs() < NEAR).then_some((angle, pivot))
+}
+
 /// The device that an error of the solver is about.
-fn device_of(error: &SolveError) -> Option<usize> {
+pub(crate) fn device_of(error: &SolveError) -> Option<usize> {
     match error {
         SolveError::Singular { device, .. } => *device,
         SolveError::LockedJointMoves { device, .. }
@@ -189,6 +225,14 @@ impl fmt::Display for RunError {
                 write!(f, "at t = {time} s, `{device}`: {source}")
             }
             Self::Solve { time, device: None, source } => write!(f, "at t = {time} s: {source}"),
+            Self::TurnAtRightAngle { time, platform, angle, pivot: [pivot, bound] } => write!(
+                f,
+                "at t = {time} s, `{platform}`: its y turn is at {} deg, where the x turn is about the \
+                 axis of the z turn and has no inertia of its own: {pivot:e} kg m^2, not above \
+                 {bound:e}; choose a `mount` in which the y turn stays away from 90 deg, or lock the x \
+                 turn",
+                angle.to_degrees()
+            ),
             Self::LockedJointMoves { time, joint, rate, unit } => write!(
                 f,
                 "at t = {time} s: {joint} is to be locked but moves at {rate} {unit}, not 0; stop \

@@ -1,9 +1,14 @@
 //! Poses and velocities of the bodies of any device and platform: body after body along the chain,
 //! without the emitted kernels. A device on a platform continues the platform's chain.
 //!
-//! They turn wrenches that are given in N, and make the unit of momentum drift: the sum over the
-//! bodies of the magnitudes of their momenta. Only the sum of the momenta themselves has to equal
-//! what the solver says; a test compares them.
+//! They turn wrenches that are given in N, and make the units of drift: sums over the bodies of the
+//! magnitudes of the terms of their velocities, which cannot cancel as the velocities can,
+//!
+//! ```text
+//! m (|v_B| + |omega x c| + |rates of slides| + ...)
+//! ```
+//!
+//! Only the sum of the momenta themselves has to equal what the solver says; a test compares them.
 
 use nalgebra::{Matrix3, Vector3};
 use precess_dynamics::kind::{BodyParameters, JointInfo};
@@ -11,13 +16,26 @@ use precess_dynamics::{Angle, Attitude, Hub, JointStates, State};
 
 use crate::scenario::{Set, members};
 
-/// Momentum of one body, expressed in N.
+/// Momentum of one body, expressed in N, and what is added in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BodyMomentum {
     /// m v, kg m/s.
     pub(crate) linear: Vector3<f64>,
     /// r x m v + I omega about the inertial origin, kg m²/s.
     pub(crate) angular: Vector3<f64>,
+    /// Sums of the magnitudes of the terms; not below the momenta and the kinetic energy.
+    pub(crate) sizes: Sizes,
+}
+
+/// Sums of magnitudes that cannot cancel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Sizes {
+    /// Of linear momentum, kg m/s.
+    pub(crate) linear: f64,
+    /// Of angular momentum about the inertial origin, kg m²/s.
+    pub(crate) angular: f64,
+    /// Of kinetic energy, J.
+    pub(crate) kinetic: f64,
 }
 
 /// The bodies of a device or platform, from its base to the tip.
@@ -50,14 +68,10 @@ impl Chain {
     }
 
     /// The point that the load at the mount is about, from the origin of the base, in its axes: the
-    /// origin of the first joint, which moves with a sliding one. `joints` are those of the set.
-    pub(crate) fn mount_point(&self, joints: &[[f64; 2]]) -> Vector3<f64> {
-        let Some((body, info)) = self.bodies.first() else { return Vector3::zeros() };
-        let origin = Vector3::from(body.origin);
-        match joints.get(self.first) {
-            Some([coordinate, _]) if info.slides => origin + self.mount * unit(info) * *coordinate,
-            _ => origin,
-        }
+    /// origin of the first joint at coordinate zero.
+    pub(crate) fn mount_point(&self) -> Vector3<f64> {
+        let first = self.bodies.first();
+        first.map_or_else(Vector3::zeros, |(body, _)| Vector3::from(body.origin))
     }
 
     /// Calls `each` with the momentum of each body; returns the frame of the tip.
@@ -116,9 +130,11 @@ pub(crate) fn momenta(
         omega: state.omega,
         origin: nb.tr_mul(&state.r_b_n),
         velocity: nb.tr_mul(&state.r_b_n_dot),
+        far: state.r_b_n.norm(),
+        fast: state.r_b_n_dot.norm(),
     };
     let mut in_n = |body: BodyMomentum| {
-        each(BodyMomentum { linear: nb * body.linear, angular: nb * body.angular });
+        each(BodyMomentum { linear: nb * body.linear, angular: nb * body.angular, ..body });
     };
     in_n(b.body(hub.m_b, hub.r_bc_b, hub.i_b_bc));
     let joints: Vec<_> = state.devices.states().collect();
@@ -138,15 +154,21 @@ struct Frame {
     /// From the inertial origin, expressed in B, as all below.
     origin: Vector3<f64>,
     velocity: Vector3<f64>,
+    /// Sums of the magnitudes of the terms of origin and velocity.
+    far: f64,
+    fast: f64,
 }
 
 impl Frame {
     /// The same body, the origin moved by an offset expressed in the frame's axes.
     fn moved(&self, offset: Vector3<f64>) -> Self {
         let offset = self.axes * offset;
+        let turning = self.omega.cross(&offset);
         Self {
             origin: self.origin + offset,
-            velocity: self.velocity + self.omega.cross(&offset),
+            velocity: self.velocity + turning,
+            far: self.far + offset.norm(),
+            fast: self.fast + turning.norm(),
             ..*self
         }
     }
@@ -156,7 +178,8 @@ impl Frame {
         let axis = self.axes * unit(info);
         if info.slides {
             let moved = self.moved(unit(info) * coordinate);
-            return Self { velocity: moved.velocity + axis * rate, ..moved };
+            let (velocity, fast) = (moved.velocity + axis * rate, moved.fast + rate.abs());
+            return Self { velocity, fast, ..moved };
         }
         Self { axes: self.axes * turn(info, coordinate), omega: self.omega + axis * rate, ..*self }
     }
@@ -165,7 +188,12 @@ impl Frame {
         let c = self.moved(centre);
         let linear = c.velocity * mass;
         let spin = c.axes * (inertia * c.axes.tr_mul(&c.omega));
-        BodyMomentum { linear, angular: c.origin.cross(&linear) + spin }
+        let sizes = Sizes {
+            linear: mass * c.fast,
+            angular: mass * c.far * c.fast + spin.norm(),
+            kinetic: 0.5 * (mass * c.fast * c.fast + spin.dot(&c.omega).abs()),
+        };
+        BodyMomentum { linear, angular: c.origin.cross(&linear) + spin, sizes }
     }
 }
 

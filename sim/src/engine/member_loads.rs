@@ -6,11 +6,11 @@
 //! ```
 //!
 //! over the devices k on a platform, with `F_k` and `M_k` the load at the mount of a device about its
-//! point `r_k` from P; expressed in the platform's axes, about P.
+//! `position`, `r_k` from P; expressed in the platform's axes, about P.
 
 use nalgebra::Vector3;
 use precess_dynamics::kind::Each;
-use precess_dynamics::{DeviceLoads, JointStates, Loads, State, Wrench};
+use precess_dynamics::{DeviceLoads, Loads, Wrench};
 
 use super::kinematics::Chain;
 use crate::record::columns::Quantity;
@@ -29,7 +29,7 @@ pub(crate) struct MemberLoads {
 }
 
 impl MemberLoads {
-    pub(crate) fn new(loads: &Loads<Set>, chains: &[Chain], state: &State<Set>) -> Self {
+    pub(crate) fn new(loads: &Loads<Set>, chains: &[Chain]) -> Self {
         let (mounts, joints, motors) = (Vec::new(), Vec::new(), Vec::new());
         let mut of = Self { mounts, joints, motors, carried: vec![Wrench::none(); chains.len()] };
         let (on_hub, isolated) = &loads.devices;
@@ -42,10 +42,9 @@ impl MemberLoads {
                 of.push(device);
             }
         }
-        let joints: Vec<_> = state.devices.states().collect();
         for (chain, mount) in chains.iter().zip(&of.mounts) {
             let Some(carried) = chain.on().and_then(|on| of.carried.get_mut(on)) else { continue };
-            let r: Vector3<f64> = chain.mount_point(&joints);
+            let r: Vector3<f64> = chain.mount_point();
             carried.force += mount.force;
             carried.moment += mount.moment + r.cross(&mount.force);
         }

@@ -129,7 +129,7 @@ impl Row {
             if let (true, Some(found)) = (needs_loads, &found) {
                 let of = system.craft.loads(state, filled, found)?;
                 let chains = system.acting.chains();
-                loads = Some(MemberLoads::new(&of, chains, &state.rigid));
+                loads = Some(MemberLoads::new(&of, chains));
             }
             inputs = Some(&*filled);
         }

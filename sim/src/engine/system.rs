@@ -76,6 +76,12 @@ impl<'a> System<'a> {
         self.evaluations.set(self.evaluations.get() + evaluations);
     }
 
+    /// A joint's coordinate in the state that was evaluated last.
+    pub(crate) fn evaluated_coordinate(&self, joint: usize) -> Option<f64> {
+        let scratch = self.scratch.borrow();
+        scratch.state.rigid.devices.states().nth(joint).map(|[coordinate, _]| coordinate)
+    }
+
     /// Whether the solver's ledger is needed for the work.
     pub(crate) fn needs_ledger(&self) -> bool {
         self.sources || !self.acting.all_driven()

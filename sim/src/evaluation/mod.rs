@@ -266,7 +266,7 @@ impl Evaluator {
         found: &CraftAccelerations,
     ) -> Result<MemberLoads, SolveError> {
         let of = self.craft.loads(state, inputs, found)?;
-        Ok(MemberLoads::new(&of, &self.chains, &state.rigid))
+        Ok(MemberLoads::new(&of, &self.chains))
     }
 
     /// A step of RK4, inputs held, s.

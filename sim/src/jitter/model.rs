@@ -361,6 +361,7 @@ fn structure_of(scenario: &Scenario) -> Structure {
         mass_matrix: None,
         residual: None,
         has_devices: None,
+        initial: Vec::new(),
     };
     if let Some(of) = &scenario.structure {
         let ModalStructure { nodes, contains_devices, .. } = of;

@@ -18,7 +18,8 @@ pub(super) fn of_mount(
     let base =
         platform.map_or_else(|| "the hub".to_owned(), |platform| format!("platform {platform}"));
     for (quantity, what, unit) in two {
-        let meaning = format!("{what} that {base} exerts on {name} at its mount, component");
+        let about = if what == "moment" { " about its position," } else { "" };
+        let meaning = format!("{what} that {base} exerts on {name} at its mount,{about} component");
         let own = format!("{name}.mount.{what}");
         let of = |axis| quantity(index, axis);
         vector(columns, &own, &format!("{name}.loads"), unit, &axes, &meaning, of);
@@ -48,9 +49,13 @@ pub(super) fn of_load(
     info: &JointInfo,
 ) {
     let body = info.body.replace(' ', "_");
-    // A rotor that is the same from every angle has the axes of its parent body.
-    let frame = format!("{device}.{body}");
-    let frame = if info.ignorable { format!("parent body of {frame}") } else { frame };
+    // A rotor that is the same from every angle has the axes of its parent body; of the first body
+    // in a device those are the device's own, which stand on the hub as `mount` has it.
+    let frame = match (info.ignorable, info.index) {
+        (false, _) => format!("{device}.{body}"),
+        (true, 0) => format!("mount of {device}"),
+        (true, _) => format!("parent body of {device}.{body}"),
+    };
     let two = [
         (Quantity::LoadForce as fn(usize, usize) -> Quantity, "force", "N"),
         (Quantity::LoadMoment, "moment", "N m"),

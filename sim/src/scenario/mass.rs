@@ -3,11 +3,14 @@
 //!
 //! ```text
 //! I_B e_k  = angular momentum about B at omega = e_k
+//! M_kk     = twice the kinetic energy at a unit rate of joint k
 //! M^-1 e_k = accelerations at a unit force on coordinate k, less those at none
 //! ```
 //!
 //! Coordinates of M are the position of B and the attitude of the hub, both along B, where the hub
-//! is free, then every joint with a motor, whatever its drive: a later change may release it.
+//! is free, then every joint that a motor drives at the start. A joint that is locked or whose motion
+//! is prescribed is no unknown there, as in a run: its pose may be solved where nothing outboard of
+//! it has inertia.
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::kind::Each;
@@ -16,7 +19,7 @@ use precess_dynamics::{
     SolveError, Spacecraft, State, WheelImbalance,
 };
 
-use super::{Scenario, Set};
+use super::{Drive, Scenario, Set};
 
 /// Mass, centre of mass and inertia of the whole spacecraft.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,10 +46,10 @@ pub struct MassMatrix {
 /// without a motor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointInertia {
-    /// With the hub and all other joints held.
+    /// With the hub and all other joints held; also of a joint that is locked or prescribed.
     pub held: Option<f64>,
     /// With the hub free, where it is, and all other motors at no torque. Towards none of the one
-    /// above, the pose is singular.
+    /// above, the pose is singular. None of a joint that is locked or prescribed at the start.
     pub free: Option<f64>,
 }
 
@@ -79,20 +82,17 @@ impl MassMatrix {
     ///
     /// [`SolveError::Singular`] with the joint, where the pose has no accelerations.
     pub fn of(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> Result<Self, SolveError> {
-        let inverse = inverse(scenario, spacecraft)?;
+        let (inverse, motors) = inverse(scenario, spacecraft)?;
         // Not positive definite: singular but for rounding, which the solver's bound let through.
         let matrix = inverse.clone().cholesky().map(|factors| factors.inverse());
         let hub = if scenario.hub_mode == HubMode::Free { HUB } else { 0 };
-        let mut coordinates = hub..inverse.nrows();
-        let joints = scenario.joints().map(|(_, _, info)| {
-            let coordinate = if info.driven { coordinates.next() } else { None };
-            let diagonal = |of: &DMatrix<f64>| coordinate.map(|k| of[(k, k)]);
-            JointInertia {
-                held: matrix.as_ref().and_then(diagonal),
-                free: diagonal(&inverse).map(f64::recip),
-            }
+        let joints = scenario.joints().enumerate().map(|(joint, (_, _, info))| {
+            let coordinate = motors.iter().position(|motor| *motor == joint);
+            let free = coordinate.map(|k| inverse[(hub + k, hub + k)].recip());
+            let held = if info.driven { Some(held(scenario, spacecraft, joint)?) } else { None };
+            Ok(JointInertia { held, free })
         });
-        let joints = joints.collect();
+        let joints: Vec<_> = joints.collect::<Result<_, SolveError>>()?;
         let condition = matrix.filter(|matrix| !matrix.is_empty()).map(|matrix| {
             let size = matrix.diagonal().map(f64::sqrt);
             let scaled = inverse.map_with_location(|i, j, value| size[i] * value * size[j]);
@@ -113,15 +113,45 @@ fn at_rest(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> State<Set> {
     state
 }
 
-/// The inverse of the mass matrix, symmetric to the last bit.
-fn inverse(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> Result<DMatrix<f64>, SolveError> {
+/// What a joint's motor moves with hub and all other joints held: twice the kinetic energy at a unit
+/// rate.
+fn held(
+    scenario: &Scenario,
+    spacecraft: &Spacecraft<Set>,
+    joint: usize,
+) -> Result<f64, SolveError> {
+    let mut state = at_rest(scenario, spacecraft);
+    if let Some([_, rate]) = state.devices.states_mut().nth(joint) {
+        *rate = 1.0;
+    }
+    Ok(2.0 * spacecraft.energy(&state)?)
+}
+
+/// Writes the modes that the scenario's drives give the joints at the start. A joint that its kind
+/// keeps at its rate keeps its mode.
+pub(super) fn drive_at_start(scenario: &Scenario, modes: &mut impl Each<Mode>) {
+    let joints = modes.values_mut().zip(scenario.joints()).zip(&scenario.drives);
+    for ((mode, _), drive) in joints.filter(|((_, (_, _, info)), _)| info.driven) {
+        *mode = match drive {
+            Drive::Torque { .. } => Mode::Driven,
+            Drive::Acceleration(profile) => Mode::Prescribed(profile.at(0.0, false)),
+            Drive::Locked => Mode::Locked,
+        };
+    }
+}
+
+/// The inverse of the mass matrix, symmetric to the last bit, and the joints that are coordinates.
+fn inverse(
+    scenario: &Scenario,
+    spacecraft: &Spacecraft<Set>,
+) -> Result<(DMatrix<f64>, Vec<usize>), SolveError> {
     let state = at_rest(scenario, spacecraft);
     let mut inputs = Inputs::none_for(spacecraft);
+    drive_at_start(scenario, &mut inputs.modes);
     let hub = scenario.hub_mode == HubMode::Free;
     if !hub {
         inputs.hub = HubMode::Fixed;
     }
-    // A kind's own prescribed joints keep their mode.
     let motors: Vec<usize> = inputs
         .modes
         .values()
@@ -155,7 +185,7 @@ fn inverse(scenario: &Scenario, spacecraft: &Spacecraft<Set>) -> Result<DMatrix<
             inverse[(row, coordinate)] = with - without;
         }
     }
-    Ok((&inverse + inverse.transpose()) * 0.5)
+    Ok(((&inverse + inverse.transpose()) * 0.5, motors))
 }
 
 /// The imbalance of a device's wheel; none of a kind that is balanced or has no wheel.
@@ -221,6 +251,18 @@ mod tests {
         let (_, matrix) = of(vec![panel().into(), kind]);
         let has: Vec<_> = matrix.joints.iter().map(|joint| joint.held.is_some()).collect();
         assert_eq!(has, [true, true, false]);
+    }
+
+    /// A locked joint moves no coordinate, but its motor would move what it moved before.
+    #[test]
+    fn a_locked_joint_is_no_coordinate() {
+        let mut locked = scenario(&["wheel"], vec![wheel().into()], 1.0);
+        locked.drives = vec![Drive::Locked];
+        let spacecraft = locked.spacecraft().expect("accepted");
+        let matrix = MassMatrix::of(&locked, &spacecraft).expect("regular");
+        let [joint] = matrix.joints[..] else { panic!("{matrix:?}") };
+        assert!(joint.held.is_some_and(|held| (held - 0.2).abs() < 1e-15), "{joint:?}");
+        assert_eq!(joint.free, None);
     }
 
     #[test]

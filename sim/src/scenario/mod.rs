@@ -13,6 +13,7 @@ mod disturbances;
 pub mod mass;
 mod member;
 pub mod profile;
+mod residual;
 mod source_place;
 mod structure;
 

@@ -8,7 +8,8 @@
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use precess_dynamics::{
     About, BuiltIn, ContainedBody, FlexibleSpacecraft, Hub, Isolated, JointStates, ListedModes,
-    ModalMount, ModalPoint, Modes, ModesError, ParameterError, Spacecraft, State, platform,
+    ModalMount, ModalPoint, Modes, ModesError, ParameterError, ResidualFault, Spacecraft, State,
+    platform,
 };
 
 use super::check::range;
@@ -203,8 +204,9 @@ impl Scenario {
         let mut errors = self.check_counts(structure);
         if errors.is_empty() {
             errors.extend(self.not_on_a_structure());
-            if let Err(error) = self.flexible_with(structure) {
-                errors.push(ScenarioError::Modes(error));
+            match self.flexible_with(structure) {
+                Ok(craft) => errors.extend(self.check_residual(structure, craft)),
+                Err(error) => errors.push(named(structure, error)),
             }
         }
         errors
@@ -291,6 +293,23 @@ impl Scenario {
             }
         }
         errors
+    }
+}
+
+/// An error of the modes; one about a mount with the name of its node.
+fn named(structure: &ModalStructure, error: ModesError) -> ScenarioError {
+    let (ModesError::Contained { mount, .. }
+    | ModesError::Residual { fault: ResidualFault::Contained { mount }, .. }) = error
+    else {
+        return ScenarioError::Modes(error);
+    };
+    let mounts = structure.mounts();
+    let node = mounts.get(mount).and_then(|node| structure.nodes.get(*node));
+    match node {
+        Some(node) => {
+            range("structure", format!("{error} (mount {mount} is node `{}`)", node.name))
+        }
+        None => ScenarioError::Modes(error),
     }
 }
 

@@ -7,7 +7,7 @@
 //!
 //! | section of the file | here |
 //! |---|---|
-//! | modal states `x, u` | not used: an initial state |
+//! | modal states `x, u` | coordinates and rates at the start, of the mass-normalised modes |
 //! | PSI, THETA at joints and nodes | translation and rotation of the shapes |
 //! | mass, stiffness, damping | made mass-normalised: frequency, damping ratio |
 //! | Pf, Hf | momentum integrals `P`, `H` |
@@ -46,6 +46,8 @@ pub struct Flex {
     pub located: Option<Vec<Node>>,
     /// Modal mass, stiffness and damping, and momentum integrals, as in the file.
     pub modal: Modal,
+    /// Coordinate and rate of each mode at the start, as in the file.
+    pub states: Vec<[f64; 2]>,
 }
 
 /// Whether bytes begin as a Flex file does.
@@ -66,9 +68,8 @@ pub fn read(bytes: &[u8]) -> Result<Flex, StructureError> {
     let name = name.split('!').next().unwrap_or_default().trim().to_owned();
     let modes = lines.count("modes", [1, MOST])?;
     lines.next("the heading of the modal states")?;
-    for _ in 0..modes {
-        lines.numbers::<2>("the state of a mode")?;
-    }
+    let states = (0..modes).map(|_| lines.numbers::<2>("the state of a mode"));
+    let states: Vec<_> = states.collect::<Result<_, _>>()?;
     // The heading of the joints' shapes, or of the nodes' locations before it.
     let located = if lines.next("the heading of the joints' shapes")?.contains("Node Locations") {
         let nodes = located(&mut lines)?;
@@ -95,7 +96,7 @@ pub fn read(bytes: &[u8]) -> Result<Flex, StructureError> {
         }
     }
     let modal = Modal { mass, stiffness, damping, linear, angular };
-    Ok(Flex { name, joints, nodes, located, modal })
+    Ok(Flex { name, joints, nodes, located, modal, states })
 }
 
 impl Flex {
@@ -148,8 +149,26 @@ impl Flex {
             mass_matrix: None,
             residual: None,
             has_devices: None,
+            initial: self.initial()?,
         };
         Ok(structure.checked()?)
+    }
+}
+
+impl Flex {
+    /// States of the mass-normalised modes, `turn^T M x` of those of the file, `x = turn eta`; none where
+    /// all are zero.
+    fn initial(&self) -> Result<Vec<[f64; 2]>, StructureError> {
+        if self.states.iter().flatten().all(|state| *state == 0.0) {
+            return Ok(Vec::new());
+        }
+        let size = self.modal.mass.nrows();
+        let (_, turn) = normalised(&self.modal, &DMatrix::identity(size, size))?;
+        let of_file = DMatrix::from_fn(size, 2, |mode, k| {
+            self.states.get(mode).map_or(0.0, |state| state[k])
+        });
+        let states = turn.transpose() * &self.modal.mass * of_file;
+        Ok(states.row_iter().map(|row| [row[0], row[1]]).collect())
     }
 }
 

@@ -76,6 +76,8 @@ pub struct Structure {
     pub residual: Option<DMatrix<f64>>,
     /// Whether the model has the mass of the devices that will be mounted; none where nobody said.
     pub has_devices: Option<bool>,
+    /// Coordinate, m kg^1/2, and rate of each mode at the start; empty where the file has none.
+    pub initial: Vec<[f64; 2]>,
 }
 
 /// A point of the structure.
@@ -148,6 +150,22 @@ pub fn rigid_rows(position: &Vector3<f64>) -> Matrix6<f64> {
 }
 
 impl Structure {
+    /// Coordinates and rates of all modes at the start; zeros where the file has none.
+    #[must_use]
+    pub fn states(&self) -> [Vec<f64>; 2] {
+        [0, 1].map(|of| {
+            let state = |mode| self.initial.get(mode).map_or(0.0, |state: &[f64; 2]| state[of]);
+            (0..self.modes.len()).map(state).collect()
+        })
+    }
+
+    /// Keeps the modes of these numbers, in this order.
+    pub(crate) fn keep(&mut self, modes: &[usize]) {
+        self.shapes = self.shapes.select_columns(modes);
+        self.modes = modes.iter().filter_map(|mode| self.modes.get(*mode).copied()).collect();
+        self.initial = modes.iter().filter_map(|mode| self.initial.get(*mode).copied()).collect();
+    }
+
     /// Number of a node.
     ///
     /// # Errors

@@ -24,21 +24,56 @@ fn a_flex_file_of_42_gives_mass_normalised_modes() {
     assert_eq!(structure.nodes[1].position, Vector3::new(1.5, 0.0, 0.25));
 }
 
+/// The file with M = [2 1; 1 2], K = [3 0; 0 3]: eigenvalues 1 and 3.
+fn coupled() -> String {
+    FLEX.replace(
+        "2                      ! Number of mass elements",
+        "4 ! elements\n0 1 1.0 !\n1 0 1.0 !",
+    )
+    .replace("0 0    4.0", "0 0    2.0")
+    .replace("1 1    1.0                    ! mass", "1 1    2.0 !")
+    .replace("0 0  400.0", "0 0    3.0")
+    .replace("1 1  900.0", "1 1    3.0")
+    .replace("0 0    0.8", "0 0    0.0")
+    .replace("1 1    0.6", "1 1    0.0")
+}
+
+/// The displacement of the nodes by the initial states is that of the file's shapes, whatever the norm
+/// of its modes, coupled or not; a scenario starts in them.
+#[test]
+fn modal_states_of_a_flex_file_are_those_of_a_scenario() {
+    let states = [[0.25, -0.5], [0.75, 1.5]];
+    let heading = "0.0  0.0                         ! Mode";
+    for text in [FLEX.to_owned(), coupled()] {
+        let text = text
+            .replace(&format!("{heading} 0"), "0.25 -0.5 ! Mode 0")
+            .replace(&format!("{heading} 1"), "0.75 1.5 ! Mode 1");
+        let flex = flex42::read(text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+        let shapes = flex.rows([(false, 0), (false, 1)].into_iter());
+        let structure = flex.structure().unwrap_or_else(|error| panic!("{error}"));
+        let found = structure.states();
+        for (of, found) in found.iter().enumerate() {
+            let wanted = &shapes * nalgebra::DVector::from_fn(2, |mode, _| states[mode][of]);
+            let found = &structure.shapes * nalgebra::DVector::from_column_slice(found);
+            assert!(wanted.amax() > 0.1 && (found - wanted).amax() < 1e-14);
+        }
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+        fs::write(folder.join("moving-flex.txt"), &text).expect("it is written");
+        let scenario = "format = 1\n[hub]\nmass = \"350 kg\"\ninertia = \"80, 70, 60 kg m^2\"\n\
+                        [structure]\nfile = \"moving-flex.txt\"\n[[structure.point]]\nname = \"p\"\n\
+                        node = \"1001\"\n[run]\nduration = \"1 s\"\n";
+        let read = precess::file::from_toml("flex", scenario, folder);
+        let (scenario, _) = read.unwrap_or_else(|errors| panic!("{errors}"));
+        let modal = scenario.structure.expect("a structure");
+        assert_eq!([modal.coordinates, modal.rates], found);
+    }
+    let at_rest = flex42::read(FLEX.as_bytes()).and_then(flex42::Flex::structure);
+    assert!(at_rest.expect("modes").initial.is_empty());
+}
+
 #[test]
 fn coupled_modal_matrices_of_a_flex_file_are_diagonalised() {
-    // M = [2 1; 1 2], K = [3 0; 0 3]: eigenvalues 1 and 3.
-    let text = FLEX
-        .replace(
-            "2                      ! Number of mass elements",
-            "4 ! elements\n0 1 1.0 !\n1 0 1.0 !",
-        )
-        .replace("0 0    4.0", "0 0    2.0")
-        .replace("1 1    1.0                    ! mass", "1 1    2.0 !")
-        .replace("0 0  400.0", "0 0    3.0")
-        .replace("1 1  900.0", "1 1    3.0")
-        .replace("0 0    0.8", "0 0    0.0")
-        .replace("1 1    0.6", "1 1    0.0");
-    let flex = flex42::read(text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    let flex = flex42::read(coupled().as_bytes()).unwrap_or_else(|error| panic!("{error}"));
     let shapes = flex.rows([(false, 0), (false, 1)].into_iter());
     let structure = flex.structure().unwrap_or_else(|error| panic!("{error}"));
     let found: Vec<f64> = structure.modes.iter().map(|mode| mode.frequency).collect();

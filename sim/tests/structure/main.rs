@@ -54,6 +54,7 @@ fn structure(nodes: Vec<Node>, modes: Vec<Mode>, shapes: DMatrix<f64>) -> Struct
         mass_matrix: None,
         residual: None,
         has_devices: Some(false),
+        initial: Vec::new(),
     };
     structure.checked().expect("it is valid")
 }
@@ -97,5 +98,6 @@ fn example() -> Structure {
         mass_matrix: Some(DMatrix::from_diagonal_element(12, 12, 3.0)),
         residual: Some(DMatrix::from_fn(12, 12, |row, column| 1e-9 * (row + column) as f64)),
         has_devices: Some(true),
+        initial: Vec::new(),
     }
 }

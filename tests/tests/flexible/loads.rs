@@ -191,20 +191,30 @@ fn loads_are_newton_and_euler_of_every_body() {
                 let off = (of_bodies[device].motors[k] - motor).abs();
                 assert!(off <= LIMITS * size.max(1.0), "seed {seed:#x}, {device}.{k}: motor");
             }
+            // About the device's place, which turns with the mount, and not where it slid to.
             let ([force, moment], size) = joints[0];
-            let mount = of_n[device].mount;
-            assert!((mount.force - force).norm() <= LIMITS * size);
-            assert!((mount.moment - moment).norm() <= LIMITS * size);
-            // In the axes of the mount, which turn with the structure.
             let point =
                 &case.modes.mounts[[ON_MOUNT.0, ON_MOUNT.1, ON_MOUNT.2, ON_MOUNT.3][device]];
             let axes = case.craft.point_motion(&point.point, &case.state).unwrap().axes;
-            let own = of_bodies[device].mount;
-            assert!((axes * own.force - bn * force).norm() <= LIMITS * size);
-            assert!((axes * own.moment - bn * moment).norm() <= LIMITS * size);
+            let slid = axes * (first_joint(&case, device) - place(&case, device));
+            let moment = moment + (bn.transpose() * slid).cross(&force);
+            let size = size * (1.0 + slid.norm());
+            let mount = of_n[device].mount;
+            assert!((mount.force - force).norm() <= LIMITS * size);
+            assert!((mount.moment - moment).norm() <= LIMITS * size);
+            // In B, whatever the axes of the joints' loads.
+            for own in [of_bodies[device].mount, of_b[device].mount] {
+                assert!((own.force - bn * force).norm() <= LIMITS * size);
+                assert!((own.moment - bn * moment).norm() <= LIMITS * size);
+            }
         }
     }
     println!("worst {worst:.1e}");
+}
+
+/// Place of a device in the frame of the mount: the origin of its first joint at coordinate zero.
+fn place(case: &Case, device: usize) -> Vector3<f64> {
+    Vector3::from(case.chains[device].links[0].origin)
 }
 
 /// Place of the first joint in the frame of the mount, the structure undeformed.
@@ -271,12 +281,12 @@ fn structure_moves_as_the_reactions_of_the_devices_make_it() {
         let mut sizes = [force.norm(), moment.norm()];
         for (k, mount) in modes.mounts.iter().enumerate() {
             let motion = case.craft.point_motion(&mount.point, &case.state).unwrap();
-            // Sum of the devices about the mount, in its axes.
+            // Sum of the devices about the mount, in B.
             let mut total = Wrench::none();
             for (device, of) in of_devices(&loads).iter().enumerate() {
                 if case.chains[device].mount == k {
-                    let arm = first_joint(&case, device) - mount.point.position;
-                    total = total.plus(&of.mount.moved(&arm));
+                    let arm = place(&case, device) - mount.point.position;
+                    total = total.plus(&of.mount.moved(&(motion.axes * arm)));
                 }
             }
             let scale = total.force.norm() * 3.0 + total.moment.norm();
@@ -284,7 +294,9 @@ fn structure_moves_as_the_reactions_of_the_devices_make_it() {
             let off_moment = (total.moment - loads.mounts[k].moment).norm();
             assert!(off_force + off_moment <= LIMITS * scale, "seed {seed:#x}, mount {k}");
 
-            let net = total.minus(&case.inputs.mounts[k]);
+            let in_mount = |v: Vector3<f64>| motion.axes.transpose() * v;
+            let own = Wrench { force: in_mount(total.force), moment: in_mount(total.moment) };
+            let net = own.minus(&case.inputs.mounts[k]);
             let (force, moment) = (motion.axes * net.force, motion.axes * net.moment);
             let place = mount.point.position + motion.displacement;
             off = [off[0] + force, off[1] + moment + place.cross(&force)];

@@ -215,7 +215,15 @@ fn loads_agree<D: Devices<Scalar = f64, Per<precess_dynamics::set::Loads>: AllLo
                     LoadAxes::Inertial => own,
                 };
                 let mount = mounts.next().expect("a device");
+                // About the place of the device or platform, which a sliding joint leaves.
+                let slid = if link.info.slides {
+                    to * Vector3::ith(link.info.axis, link.q)
+                } else {
+                    Vector3::zeros()
+                };
                 let [force, moment] = needed.wrenches[index].map(|v| to * v);
+                let moment = moment + slid.cross(&force);
+                let of_moment = of_moment + slid.norm() * of_force;
                 let off = (mount.force - force).norm();
                 assert!(off <= of_force, "{what}: {choice:?}, mount of {name}: {off:e}");
                 let off = (mount.moment - moment).norm();

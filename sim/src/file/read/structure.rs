@@ -71,9 +71,9 @@ pub(super) fn structure(root: &Keys<'_>, folder: &Path) -> Option<Structure> {
         keys.missing("contains_devices", "contains_devices = false");
     }
     structure.contains_devices = contains.unwrap_or(false);
-    let count = structure.modes.modes.len();
-    structure.coordinates = list(&keys, "coordinates").unwrap_or_else(|| vec![0.0; count]);
-    structure.rates = list(&keys, "rates").unwrap_or_else(|| vec![0.0; count]);
+    let [coordinates, rates] = structure.modes.states();
+    structure.coordinates = list(&keys, "coordinates").unwrap_or(coordinates);
+    structure.rates = list(&keys, "rates").unwrap_or(rates);
     let points = points(&keys, &structure, known);
     structure.points = points;
     keys.finish();
@@ -91,6 +91,7 @@ fn nothing() -> Modes {
         mass_matrix: None,
         residual: None,
         has_devices: None,
+        initial: Vec::new(),
     }
 }
 
@@ -258,8 +259,7 @@ fn selected(
     order.extend(massive..structure.modes.len());
     order.sort_unstable();
     let left_out = residual::wanted(keys, &structure, &order);
-    structure.shapes = structure.shapes.select_columns(&order);
-    structure.modes = order.iter().filter_map(|mode| structure.modes.get(*mode).copied()).collect();
+    structure.keep(&order);
     damped(keys, &mut structure, residual)?;
     Some((structure, left_out))
 }

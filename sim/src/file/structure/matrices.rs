@@ -57,6 +57,7 @@ pub(super) fn of_op4(
         mass_matrix: None,
         residual: None,
         has_devices: None,
+        initial: Vec::new(),
     };
     if rigid_modes == 6 && stated.is_none() {
         let rigid = modes.shapes.columns(0, 6).select_rows(&present);

@@ -6,8 +6,10 @@ use crate::report::blocks::{Block, table};
 use crate::report::{Collected, Report, number};
 
 /// What a drift is counted in.
-const ENERGY_UNIT: &str = "largest kinetic energy plus the integral of Σ|u q̇|";
-const MOMENTUM_UNIT: &str = "largest sum over the bodies of the magnitudes of their momenta";
+const ENERGY_UNIT: &str = "largest sum of the terms of kinetic energy, ½ m (|v_B| + |ω × c|)² and so on, \
+    plus the integral of Σ|u q̇|";
+const MOMENTUM_UNIT: &str = "largest sum over the bodies of the magnitudes of the terms of their \
+    momenta, as m (|v_B| + |ω × c|)";
 /// What drifts say.
 const MEANING: &str = "A drift is the largest departure from the start over a unit that cannot \
     vanish by cancellation. It measures the integration, not the model: rounding alone gives 10⁻¹⁶ \

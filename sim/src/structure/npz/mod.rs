@@ -105,6 +105,7 @@ pub fn read(bytes: &[u8]) -> Result<Structure, StructureError> {
         mass_matrix: square("mass_matrix")?,
         residual: square("residual_flexibility")?,
         has_devices,
+        initial: Vec::new(),
     };
     Ok(structure.checked()?)
 }

@@ -26,6 +26,9 @@ pub(crate) struct Frame {
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     pub(crate) frame: Frame,
+    /// How far its joint's origin has slid, along B axes; that of the first body from the device's
+    /// place.
+    pub(crate) slid: Vector3<f64>,
     /// The axes in which its wrenches are expressed.
     pub(crate) load_axes: Matrix3<f64>,
     pub(crate) parent: Matrix3<f64>,
@@ -167,6 +170,11 @@ fn outwards<D: Craft>(
         let arm = frame.axes * Vector3::from(parameters.centre);
         let body = Body {
             frame,
+            slid: if info.slides {
+                parent.axes.column(info.axis) * joint[0]
+            } else {
+                Vector3::zeros()
+            },
             load_axes,
             parent: parent.axes,
             mass: parameters.mass,

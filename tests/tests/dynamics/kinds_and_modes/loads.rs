@@ -1,7 +1,7 @@
 //! Loads, energy and momenta of every kind against the sums over point masses.
 
 use nalgebra::{Matrix3, Vector3};
-use precess_dynamics::kind::Each;
+use precess_dynamics::kind::{Each, JointStates};
 use precess_dynamics::{
     About, BalancedDgcmg, BalancedDgvscmg, BalancedReactionWheel, BalancedSgcmg, BalancedVscmg,
     DeviceLoads, Dgcmg, Dgvscmg, FlexibleReactionWheel, FlexibleVscmg, Gravity, HingedPanel,
@@ -65,9 +65,15 @@ impl Needed {
     }
 }
 
-/// What a joint transmits: all that the bodies from its own outwards need, less what they have.
-fn transmitted(bodies: &[Body], wrenches: &[Wrench], g: Vector3<f64>, joint: usize) -> Needed {
-    let origin = bodies[joint + 1].frame.origin[0];
+/// What a joint transmits, about a point: all that the bodies from its own outwards need, less what
+/// they have.
+fn transmitted(
+    bodies: &[Body],
+    wrenches: &[Wrench],
+    g: Vector3<f64>,
+    joint: usize,
+    origin: Vector3<f64>,
+) -> Needed {
     let chain = bodies[joint + 1].chain;
     // B's own share apart: a mass that falls almost freely has the rounding of both.
     let of_b = bodies[0].frame.origin[2];
@@ -104,7 +110,8 @@ fn error_along<K: Drawn>(case: &Case<[K; 2]>, masses: &PointMasses, axes: LoadAx
         for ((found, motor), info) in settings {
             let joint = number * K::JOINTS.len() + info.index;
             let body = &bodies[joint + 1];
-            let needed = transmitted(&bodies, &wrenches, g, joint);
+            let origin = body.frame.origin[0];
+            let needed = transmitted(&bodies, &wrenches, g, joint, origin);
             let along = match axes {
                 LoadAxes::Body => body.own,
                 LoadAxes::Parent => body.parent,
@@ -120,6 +127,10 @@ fn error_along<K: Drawn>(case: &Case<[K; 2]>, masses: &PointMasses, axes: LoadAx
             if info.index == 0 {
                 let along =
                     if axes == LoadAxes::Inertial { masses.bn } else { Matrix3::identity() };
+                // About the device's place, which a sliding joint leaves.
+                let [slid, _] = case.state.devices[number].states().next().unwrap_or_default();
+                let place = if info.slides { origin - axis * slid } else { origin };
+                let needed = transmitted(&bodies, &wrenches, g, joint, place);
                 errors.push(needed.error(mount, &along));
             }
         }
@@ -222,7 +233,8 @@ fn motors_off<K: Drawn>(case: &Case<[K; 2]>, given: &Case<[K; 2]>, masses: &Poin
     let joints = motors.zip(&settings).zip(case.craft.joints()).enumerate();
     let driven = joints.filter(|(_, ((_, joint), _))| joint.mode == Mode::Driven);
     let errors = driven.map(|(number, ((motor, joint), (_, info)))| {
-        let Needed { force, moment } = transmitted(&bodies, &wrenches, g, number);
+        let Needed { force, moment } =
+            transmitted(&bodies, &wrenches, g, number, bodies[number + 1].frame.origin[0]);
         (motor - joint.torque).abs() / if info.slides { force.size } else { moment.size }
     });
     let mut hub = of_hub(case, &bodies, g);
