@@ -152,6 +152,7 @@ pub(crate) fn fit_records(
         modes: None,
         interference,
         speed_accuracy: speed_accuracy.unwrap_or(default.speed_accuracy),
+        compare_with_imbalance: default.compare_with_imbalance,
     };
     let fitted = py.detach(|| fit(&measurement, &options));
     Ok(NativeFit { fitted: fitted.map_err(|error| errors::signal(&error))?, name, rotor: None })

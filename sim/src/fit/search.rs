@@ -30,8 +30,7 @@ fn sum_of(points: &[Power], modes: &[Mode], power: &dyn Fn(&Power) -> f64) -> f6
         let square = point.spin * point.spin;
         let gain = amplification(modes, point.frequency, point.spin).norm_sqr();
         let m = power(point) * square * square * gain;
-        let n = point.noise;
-        let variance = (2.0 * n * m.max(0.0) + n * n) / point.segments + n * n / point.bins;
+        let variance = point.variance(m);
         (point.power - m).powi(2) / variance + variance.ln()
     });
     each.sum()
