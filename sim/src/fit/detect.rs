@@ -37,6 +37,10 @@ const PASSES: usize = 12;
 pub(super) const LINES_MAX: usize = 40;
 /// Bins on either side of the running median.
 const MEDIAN: usize = 32;
+/// Trial numbers are this share of a bin of the fastest record apart; a line that is left is looked for once more so many
+/// steps to either side.
+const STEP: f64 = 0.25;
+const NEAR: i32 = 24;
 /// A new line is this far from others of its pass, bins of the slowest record, and from lines that are
 /// taken already, bins of the fastest.
 const APART: f64 = 4.0;
@@ -141,7 +145,7 @@ pub(super) fn strongest(
     let fastest = (0..durations.len()).map(turns).fold(0.0, f64::max);
     let slowest = (0..durations.len()).map(turns).fold(f64::INFINITY, f64::min);
     let spectra: Vec<_> = tracked.lines.iter().map(whitened).collect();
-    let step = (0.25 / fastest).max(highest_number / float(TRIALS_MAX));
+    let step = (STEP / fastest).max(highest_number / float(TRIALS_MAX));
     let mut statistics = Vec::new();
     let mut h = LOWEST;
     // Independent ones: bins of the fastest record, in four groups.
@@ -170,7 +174,23 @@ pub(super) fn strongest(
 
 /// Lines in the residuals of a fit, strongest first, with their sizes: the median over the records that show them.
 pub(super) fn remainders(highest: f64, durations: &[f64], tracked: &Tracked) -> Vec<Remainder> {
-    let (numbers, _) = strongest(highest, durations, tracked);
+    let (mut numbers, _) = strongest(highest, durations, tracked);
+    numbers.truncate(LEFT_MAX);
+    if numbers.is_empty() {
+        return Vec::new();
+    }
+    let spectra: Vec<_> = tracked.lines.iter().map(whitened).collect();
+    let turns = tracked.rotations.iter().zip(durations);
+    let turns = turns.map(|(rotation, duration)| rotation.speed.abs() * duration / TAU);
+    let step = STEP / turns.fold(0.0, f64::max);
+    for number in &mut numbers {
+        // The statistic caps what a record counts, so it is flat about a strong line.
+        let near = (-NEAR..=NEAR).map(|k| *number + f64::from(k) * step);
+        let best = near.max_by(|a, b| {
+            strength(*a, tracked, &spectra).total_cmp(&strength(*b, tracked, &spectra))
+        });
+        *number = best.unwrap_or(*number);
+    }
     let of = |number: f64| {
         let each = Group::ALL.into_iter().filter_map(|group| {
             let mut sizes: Vec<f64> = Vec::new();
@@ -202,7 +222,18 @@ pub(super) fn remainders(highest: f64, durations: &[f64], tracked: &Tracked) -> 
         });
         each.collect::<Vec<_>>()
     };
-    numbers.into_iter().take(LEFT_MAX).flat_map(of).collect()
+    numbers.into_iter().flat_map(of).collect()
+}
+
+/// The sum of a trial number over all records and channels, without a cap.
+fn strength(h: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>]) -> f64 {
+    let each = tracked.lines.iter().zip(&tracked.rotations).zip(spectra);
+    each.map(|((found, rotation), spectra)| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a bin")]
+        let bin = (h * rotation.speed.abs() / TAU / found.bin).round() as usize;
+        spectra.iter().filter_map(|channel| channel.get(bin)).sum::<f64>()
+    })
+    .sum()
 }
 
 /// The statistic of a trial number: of the group that shows it best, standard deviations; not above the threshold
@@ -243,7 +274,7 @@ fn statistic(h: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>], chance: f64) 
         let axes = if group.is_radial() { 2.0 } else { 1.0 };
         let shape = axes * segments;
         let by_chance = || checked_gamma_ur(shape, shape * (sum + n) / n).is_ok_and(|p| p > chance);
-        best = best.max(if z > THRESHOLD && by_chance() { THRESHOLD } else { z });
+        best = best.max(if z > THRESHOLD && by_chance() { THRESHOLD.next_down() } else { z });
     }
     best
 }

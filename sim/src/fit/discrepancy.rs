@@ -240,9 +240,9 @@ impl fmt::Display for Discrepancy {
             ),
             Self::Larger { group, number, found, imbalance, fitted } => write!(
                 f,
-                "{group}: {} h = {number:.4} has {found:.4e} {unit}, the imbalance at h = 1 has {:.4e} {unit}, less \
-                 than a tenth; if that line is the imbalance, the true speeds are {number:.4} times the stated ones, \
-                 or the true rate {:.4} times the stated one; check speeds, their unit and the rate, or state \
+                "{group}: {} h = {number:.3} has {found:.4e} {unit}, the imbalance at h = 1 has {:.4e} {unit}, less \
+                 than a tenth; if that line is the imbalance, the true speeds are {number:.3} times the stated ones, \
+                 or the true rate {:.3} times the stated one; check speeds, their unit and the rate, or state \
                  `compare_with_imbalance = false` if the wheel is so",
                 if *fitted { "the line" } else { "a line that is not fitted," },
                 imbalance.value,
