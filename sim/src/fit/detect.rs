@@ -37,8 +37,8 @@ const PASSES: usize = 12;
 pub(super) const LINES_MAX: usize = 40;
 /// Bins on either side of the running median.
 const MEDIAN: usize = 32;
-/// Trial numbers are this share of a bin of the fastest record apart; a line that is left is looked for once more so many
-/// steps to either side.
+/// Trial numbers are this share of a bin of the fastest record apart; the place of a line is looked for so many steps to
+/// either side of its peak.
 const STEP: f64 = 0.25;
 const NEAR: i32 = 24;
 /// A new line is this far from others of its pass, bins of the slowest record, and from lines that are
@@ -164,9 +164,14 @@ pub(super) fn strongest(
     let mut taken: Vec<f64> = Vec::new();
     for (h, z) in peaks {
         let new = taken.iter().all(|other| (h - other).abs() * slowest > APART);
-        let own = tracked.orders.iter().all(|o| (h - o.value).abs() * fastest > APART_TAKEN);
-        if new && own && z > SHARE_OF_BEST * highest {
-            taken.push(h);
+        let own =
+            |h: f64| tracked.orders.iter().all(|o| (h - o.value).abs() * fastest > APART_TAKEN);
+        if new && own(h) && z > SHARE_OF_BEST * highest {
+            let h = sharpened(h, STEP / fastest, tracked, &spectra);
+            let apart = |other: &f64| (h - other).abs() * fastest > APART_TAKEN;
+            if own(h) && taken.iter().all(apart) {
+                taken.push(h);
+            }
         }
     }
     (taken, highest)
@@ -174,23 +179,7 @@ pub(super) fn strongest(
 
 /// Lines in the residuals of a fit, strongest first, with their sizes: the median over the records that show them.
 pub(super) fn remainders(highest: f64, durations: &[f64], tracked: &Tracked) -> Vec<Remainder> {
-    let (mut numbers, _) = strongest(highest, durations, tracked);
-    numbers.truncate(LEFT_MAX);
-    if numbers.is_empty() {
-        return Vec::new();
-    }
-    let spectra: Vec<_> = tracked.lines.iter().map(whitened).collect();
-    let turns = tracked.rotations.iter().zip(durations);
-    let turns = turns.map(|(rotation, duration)| rotation.speed.abs() * duration / TAU);
-    let step = STEP / turns.fold(0.0, f64::max);
-    for number in &mut numbers {
-        // The statistic caps what a record counts, so it is flat about a strong line.
-        let near = (-NEAR..=NEAR).map(|k| *number + f64::from(k) * step);
-        let best = near.max_by(|a, b| {
-            strength(*a, tracked, &spectra).total_cmp(&strength(*b, tracked, &spectra))
-        });
-        *number = best.unwrap_or(*number);
-    }
+    let (numbers, _) = strongest(highest, durations, tracked);
     let of = |number: f64| {
         let each = Group::ALL.into_iter().filter_map(|group| {
             let mut sizes: Vec<f64> = Vec::new();
@@ -222,7 +211,21 @@ pub(super) fn remainders(highest: f64, durations: &[f64], tracked: &Tracked) -> 
         });
         each.collect::<Vec<_>>()
     };
-    numbers.into_iter().flat_map(of).collect()
+    numbers.into_iter().take(LEFT_MAX).flat_map(of).collect()
+}
+
+/// A trial number where the sum without a cap is largest near it: the statistic caps what a record counts, so it is flat
+/// about a strong line.
+fn sharpened(h: f64, step: f64, tracked: &Tracked, spectra: &[Vec<Vec<f64>>]) -> f64 {
+    let mut best = (strength(h, tracked, spectra), h);
+    for place in (1..=NEAR).flat_map(|k| [-k, k]) {
+        let near = h + f64::from(place) * step;
+        let found = strength(near, tracked, spectra);
+        if found > best.0 {
+            best = (found, near);
+        }
+    }
+    best.1
 }
 
 /// The sum of a trial number over all records and channels, without a cap.

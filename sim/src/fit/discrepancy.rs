@@ -15,14 +15,17 @@ use std::fmt;
 use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
 use super::estimate::Estimate;
+use super::lines::float;
 use super::measurement::Group;
 use super::powers::{GroupFit, Sense};
 use super::{Coefficient, Harmonic};
 
 /// A mean square of weighted residuals above it shows what the model does not have.
 pub const SQUARES_MAX: f64 = 1.5;
-/// Unless so few residuals reach it by chance: the quantile of chi-square by its degrees of freedom.
-const SQUARES_QUANTILE: f64 = 0.9999;
+/// Unless so few residuals reach it by chance, which is allowed this often.
+const SQUARES_CHANCE: f64 = 1e-4;
+/// A line whose power is this by its noise is well above it: then the power is nearly normal.
+const STRONG: f64 = 10.0;
 /// An axial or backward line at h = 1 is up to this share of the forward one.
 const BESIDE_MAX: f64 = 0.2;
 /// Another line has up to this many times the coefficient of the imbalance.
@@ -110,16 +113,22 @@ impl Discrepancy {
     }
 }
 
-/// The mean square of weighted residuals that noise reaches: 1.5, or of few degrees of freedom what once in 10,000 fits
-/// is above it.
+/// The mean square of weighted residuals that noise reaches: 1.5, or of few degrees of freedom what once in 10,000 fits is
+/// above it. Of a line below the noise the power is exponential: the largest of so many reaches `ln(freedom / chance)`.
 #[must_use]
 pub fn squares_bound(freedom: f64) -> f64 {
+    let largest = (freedom / SQUARES_CHANCE).ln() - 1.0;
+    SQUARES_MAX.max(largest * largest / freedom)
+}
+
+/// The same where all lines are well above the noise: of chi-square.
+fn strong_bound(freedom: f64) -> f64 {
     ChiSquared::new(freedom).map_or(SQUARES_MAX, |distribution| {
-        SQUARES_MAX.max(distribution.inverse_cdf(SQUARES_QUANTILE) / freedom)
+        SQUARES_MAX.max(distribution.inverse_cdf(1.0 - SQUARES_CHANCE) / freedom)
     })
 }
 
-/// Residuals of groups beyond what noise has.
+/// Residuals of groups beyond what noise has: of all lines, or of those well above the noise.
 pub(super) fn of_residuals(
     groups: &[GroupFit],
     harmonics: &[Harmonic],
@@ -127,12 +136,18 @@ pub(super) fn of_residuals(
 ) -> Vec<Discrepancy> {
     let mut all = Vec::new();
     for fit in groups {
-        let (mean_square, bound) = (fit.squares / fit.freedom, squares_bound(fit.freedom));
+        let strong = fit.points.iter().filter(|point| fit.model(point) > STRONG * point.noise);
+        let residuals: Vec<f64> = strong.map(|point| fit.residual(point)).collect();
+        let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
+        let freedom = float(residuals.len()) * fit.freedom / float(fit.points.len());
+        let means = [
+            (fit.squares / fit.freedom, squares_bound(fit.freedom)),
+            (squares / freedom.max(1.0), strong_bound(freedom.max(1.0))),
+        ];
         // Also not a number.
-        let holds = mean_square <= bound;
-        if holds {
-            continue;
-        }
+        let holds = |(mean, bound): &(f64, f64)| mean <= bound;
+        let above = means.into_iter().find(|pair| !holds(pair));
+        let Some((mean_square, bound)) = above else { continue };
         let each = fit.points.iter().map(|point| (point, fit.residual(point)));
         let worst = each.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         let Some((point, deviations)) = worst else { continue };

@@ -203,13 +203,19 @@ impl GroupFit {
         Some(Estimate::new(power * gain(&self.mode_values), variance.sqrt(), self.freedom).root())
     }
 
-    /// Residual of a point by its standard deviation.
+    /// Power of a point by the model, N² or N² m².
     #[must_use]
-    pub fn residual(&self, point: &Power) -> f64 {
+    pub fn model(&self, point: &Power) -> f64 {
         let c = self.coefficient(point.line, point.sense);
         let square = point.spin * point.spin;
         let gain = amplification(&self.shapes(), point.frequency, point.spin).norm_sqr();
-        let model = c * c * square * square * gain;
+        c * c * square * square * gain
+    }
+
+    /// Residual of a point by its standard deviation.
+    #[must_use]
+    pub fn residual(&self, point: &Power) -> f64 {
+        let model = self.model(point);
         (point.power - model) / point.variance(model).sqrt()
     }
 
