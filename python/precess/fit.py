@@ -150,6 +150,10 @@ class Fit:
         """Broadband noise."""
         self.residuals = {group: (square, freedom) for group, square, freedom in native.residuals}
         """Mean square of the residuals by their variance, and degrees of freedom, by group."""
+        self.discrepancies = tuple(text for text, _ in native.discrepancies)
+        """What the model does not explain, in sentences."""
+        self.holds = not any(fails for _, fails in native.discrepancies)
+        """Whether the model explains what was measured; else its numbers are not those of the wheel."""
 
     def to_toml(
         self, name: str | None = None, rotor: tuple[float, float, float] | None = None

@@ -97,6 +97,12 @@ impl NativeFit {
         groups.map(|of| (of.group.to_string(), of.squares / of.freedom, of.freedom)).collect()
     }
 
+    /// What the model does not explain, and whether it does not hold because of it.
+    #[getter]
+    fn discrepancies(&self) -> Vec<(String, bool)> {
+        self.fitted.discrepancies.iter().map(|of| (of.to_string(), of.fails())).collect()
+    }
+
     /// The parts of a scenario: device and sources. `rotor`: mass, moments of inertia about and across its axis.
     #[pyo3(signature = (name, rotor=None))]
     fn parts(&self, name: &str, rotor: Option<(f64, f64, f64)>) -> (String, String) {
@@ -152,6 +158,7 @@ pub(crate) fn fit_records(
         modes: None,
         interference,
         speed_accuracy: speed_accuracy.unwrap_or(default.speed_accuracy),
+        compare_with_imbalance: default.compare_with_imbalance,
     };
     let fitted = py.detach(|| fit(&measurement, &options));
     Ok(NativeFit { fitted: fitted.map_err(|error| errors::signal(&error))?, name, rotor: None })

@@ -62,4 +62,5 @@ pub mod report;
 pub mod scenario;
 pub mod spectra;
 pub mod structure;
+pub mod tables;
 pub mod units;

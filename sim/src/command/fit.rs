@@ -16,8 +16,11 @@ use super::run::{may_write, write_whole};
 use super::table::{aligned, six};
 use crate::file::measurement_from_toml;
 use crate::fit::device::{device, sources};
-use crate::fit::{Estimate, Fitted, Sense, example, fit_waterfall, fit_with_progress};
-use crate::report::fit::{FitReport, SQUARES_MAX};
+use crate::fit::{
+    Discrepancy, Estimate, Fitted, Group, Harmonic, SQUARES_MAX, Sense, example, fit_waterfall,
+    fit_with_progress,
+};
+use crate::report::fit::FitReport;
 
 pub(super) const HELP: &str = "\
 Examples:
@@ -25,6 +28,7 @@ Examples:
       write an example: wheel-measurement.toml and wheel-sweep.csv
   precess fit wheel-measurement.toml --out results
       fit it: a table, rw-device.toml and rw-sources.toml for scenarios, rw-fit.html, figures
+Where the model does not hold, the command says why, writes no device and no sources, and exits with 2.
 The file is described in docs/fit.md.";
 
 /// The options of `fit`.
@@ -75,10 +79,12 @@ impl FitCommand {
         let name = &file.name;
         let written = device(&fitted, name, file.rotor.as_ref());
         let soft = written.contains("kind = \"flexible_reaction_wheel\"");
-        let mut files = vec![
-            (format!("{name}-device.toml"), written),
-            (format!("{name}-sources.toml"), sources(&fitted, name, soft)),
-        ];
+        // Not as if they were good.
+        let mut files = Vec::new();
+        if fitted.holds() {
+            files.push((format!("{name}-device.toml"), written));
+            files.push((format!("{name}-sources.toml"), sources(&fitted, name, soft)));
+        }
         let text = std::fs::read_to_string(path)
             .map_err(|source| CommandError::Io { path: path.clone(), source })?;
         let report = FitReport {
@@ -90,7 +96,16 @@ impl FitCommand {
         };
         files.extend(report.files().map_err(|error| CommandError::Other(error.to_string()))?);
         print(&format!("{}\n\n{}\n", file.title, table(&fitted)));
-        write(&self.out, &files, self.force)
+        let ended = write(&self.out, &files, self.force)?;
+        if fitted.holds() {
+            return Ok(ended);
+        }
+        let old = [format!("{name}-device.toml"), format!("{name}-sources.toml")];
+        for path in old.map(|file| self.out.join(file)).iter().filter(|path| path.exists()) {
+            print(&format!("{} is of an earlier fit\n", path.display()));
+        }
+        print("the model does not hold: no device and no sources are written\n");
+        Ok(Exit::Violated)
     }
 }
 
@@ -139,23 +154,8 @@ fn table(fitted: &Fitted) -> String {
         Some(angle) => row("angle of U_s", &degrees(angle), "deg"),
         None => unknown("angle of U_s", "no index"),
     });
-    for harmonic in fitted.harmonics.iter().filter(|harmonic| harmonic.number.value != 1.0) {
-        rows.push(heading(&format!("\nharmonic {:.4}", harmonic.number.value)));
-        rows.push(row("h", &harmonic.number, ""));
-        for c in harmonic.coefficients.iter().filter(|c| c.seen) {
-            let sense = match (c.group.is_radial(), c.sense) {
-                (false, _) => "",
-                (true, Sense::Forward) => ", forward",
-                (true, Sense::Backward) => ", backward",
-            };
-            rows.push(row(&format!("C, {}{sense}", c.group), &c.c, c.group.coefficient_unit()));
-            if let Some(phase) = &c.phase {
-                rows.push(row("  phase", &degrees(phase), "deg"));
-            }
-        }
-        if harmonic.coefficients.iter().all(|c| !c.seen) {
-            rows.push(unknown("C", "hidden by noise"));
-        }
+    for harmonic in &fitted.harmonics {
+        rows.extend(of_harmonic(harmonic));
     }
     for mode in &fitted.modes {
         rows.push(heading(&format!("\nmode of the {}", mode.group)));
@@ -171,7 +171,8 @@ fn table(fitted: &Fitted) -> String {
     let mut text = aligned(&rows);
     let _ = writeln!(
         text,
-        "\nmean square of residuals by variance (up to {SQUARES_MAX} the model holds), degrees of freedom"
+        "\nmean square of residuals by variance (noise has 1; up to {SQUARES_MAX}, or what few residuals reach by \
+         chance, the model holds), degrees of freedom"
     );
     let rows: Vec<_> = fitted
         .groups
@@ -193,5 +194,53 @@ fn table(fitted: &Fitted) -> String {
         }
     }
     text.push_str(&aligned(&rows));
+    for (heading, fails) in [("remarks", false), ("what the model does not explain", true)] {
+        let own = |d: &&Discrepancy| d.fails() == fails;
+        let lines: Vec<_> =
+            fitted.discrepancies.iter().filter(own).map(|d| format!("- {d}\n")).collect();
+        if !lines.is_empty() {
+            let _ = write!(text, "\n{heading}\n{}", lines.concat());
+        }
+    }
     text
+}
+
+/// Rows of a harmonic: its number, and its coefficients above the noise; of h = 1 those beside the imbalance.
+fn of_harmonic(harmonic: &Harmonic) -> Vec<Vec<String>> {
+    let first = harmonic.number.value == 1.0;
+    let of_imbalance =
+        |group: Group, sense| first && group.is_radial() && matches!(sense, Sense::Forward);
+    let shown: Vec<_> = harmonic
+        .coefficients
+        .iter()
+        .filter(|c| c.seen && !of_imbalance(c.group, c.sense))
+        .collect();
+    let mut rows = Vec::new();
+    if first && shown.is_empty() {
+        return rows;
+    }
+    if first {
+        rows.push(vec!["\nharmonic 1, beside the imbalance".to_owned()]);
+    } else {
+        rows.push(vec![format!("\nharmonic {:.4}", harmonic.number.value)]);
+        rows.push(row("h", &harmonic.number, ""));
+    }
+    for c in &shown {
+        let sense = match (c.group.is_radial(), c.sense) {
+            (false, _) => "",
+            (true, Sense::Forward) => ", forward",
+            (true, Sense::Backward) => ", backward",
+        };
+        rows.push(row(&format!("C, {}{sense}", c.group), &c.c, c.group.coefficient_unit()));
+        if let Some(phase) = &c.phase {
+            rows.push(row("  phase", &phase.times(360.0 / TAU), "deg"));
+        }
+    }
+    if shown.is_empty() {
+        let measured = !harmonic.coefficients.is_empty();
+        let why =
+            if measured { "hidden by noise" } else { "out of the band, or beside another line" };
+        rows.push(unknown("C", why));
+    }
+    rows
 }

@@ -8,6 +8,7 @@ use super::error::CommandError;
 use crate::nearest::nearest;
 use crate::spectra::float;
 use crate::structure::npz::Members;
+use crate::tables::{CsvReader, reader, remark};
 
 /// A sample is at its time to this share of the distance of two.
 const EVEN: f64 = 1e-3;
@@ -16,11 +17,13 @@ const DEFAULT: &str = "omega";
 
 /// A CSV result that is read row by row.
 pub(super) struct Rows {
-    reader: csv::Reader<File>,
+    reader: CsvReader,
     pub(super) names: Vec<String>,
     pub(super) units: Vec<String>,
     path: PathBuf,
     record: csv::StringRecord,
+    /// Whether no row is read yet.
+    is_first: bool,
 }
 
 /// Columns of a result.
@@ -45,15 +48,13 @@ pub(super) struct Signal {
 impl Rows {
     pub(super) fn open(path: &Path) -> Result<Self, CommandError> {
         let wrong = |text: String| wrong(path, &text);
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_path(path)
-            .map_err(|error| wrong(error.to_string()))?;
+        let mut reader = reader(path, u64::MAX).map_err(|fault| wrong(fault.to_string()))?;
         let head = reader.headers().map_err(|error| wrong(error.to_string()))?;
         let names: Vec<_> = head.iter().map(str::to_owned).collect();
         check_names(path, &names)?;
         let units = units(path, names.len());
-        Ok(Self { reader, names, units, path: path.to_owned(), record: csv::StringRecord::new() })
+        let record = csv::StringRecord::new();
+        Ok(Self { reader, names, units, path: path.to_owned(), record, is_first: true })
     }
 
     /// The next row, if there is one.
@@ -62,9 +63,14 @@ impl Rows {
         let more =
             self.reader.read_record(&mut self.record).map_err(|error| wrong(error.to_string()))?;
         row.clear();
+        let is_first = std::mem::take(&mut self.is_first);
         for text in &self.record {
             let number = text.parse::<f64>();
-            row.push(number.map_err(|_| wrong(format!("`{text}` is no number")))?);
+            row.push(number.map_err(|_| {
+                let line = self.record.position().map_or(0, csv::Position::line);
+                let remark = remark(text, &self.record, is_first);
+                wrong(format!("line {line}: `{text}` is no number{remark}"))
+            })?);
         }
         Ok(more)
     }

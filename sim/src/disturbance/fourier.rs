@@ -10,11 +10,11 @@ use precess_dynamics::Angle;
 use realfft::num_complex::Complex;
 
 /// `exp(2 pi i k / M)` for the first half of a circle.
-pub(super) struct Roots(Vec<Complex<f64>>);
+pub(crate) struct Roots(Vec<Complex<f64>>);
 
 impl Roots {
     /// Of `M`, a power of two.
-    pub(super) fn new(length: usize) -> Self {
+    pub(crate) fn new(length: usize) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "fewer samples than 2^53")]
         let root = |k: usize| {
             let (sin, cos) = Angle::sin_cos(TAU * (k as f64 / length as f64));
@@ -24,7 +24,7 @@ impl Roots {
     }
 
     /// Replaces coefficients by samples; as many as the roots are of.
-    pub(super) fn synthesise(&self, values: &mut [Complex<f64>]) {
+    pub(crate) fn synthesise(&self, values: &mut [Complex<f64>]) {
         let length = values.len();
         if length != 2 * self.0.len() {
             return;

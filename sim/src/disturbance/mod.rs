@@ -18,7 +18,7 @@ mod broadband;
 mod correlation;
 mod draws;
 mod error;
-mod fourier;
+pub(crate) mod fourier;
 mod harmonic;
 mod measured;
 mod waveform;

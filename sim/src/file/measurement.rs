@@ -286,6 +286,7 @@ fn options(keys: &Keys<'_>) -> Option<Options> {
         keys.error("speed_accuracy", format!("{speed_accuracy} is not within 0 to 0.1"), help);
     }
     let highest = keys.number("highest_harmonic").unwrap_or(defaults.highest);
+    let compared = keys.boolean("compare_with_imbalance");
     let modes = modes.into_iter().collect::<Option<Vec<_>>>()?;
     Some(Options {
         harmonics: harmonics.into_iter().collect::<Option<Vec<_>>>()?,
@@ -293,6 +294,7 @@ fn options(keys: &Keys<'_>) -> Option<Options> {
         modes: (!find).then_some(modes),
         interference: interference?,
         speed_accuracy,
+        compare_with_imbalance: compared.unwrap_or(defaults.compare_with_imbalance),
     })
 }
 

@@ -16,7 +16,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
 
 use super::phase::wrapped;
-use super::{Coefficient, Estimate, Fitted, FittedMode, Group, Sense};
+use super::{Coefficient, Estimate, Fitted, FittedMode, Group, Harmonic, Sense};
 
 /// The rotor, where it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,14 +38,30 @@ fn interval(estimate: &Estimate, unit: &str) -> String {
     format!("95 %: {low:.4e} to {high:.4e} {unit}")
 }
 
+/// What the model does not explain, as comments.
+fn remarks(fitted: &Fitted) -> String {
+    let mut out = String::new();
+    if !fitted.holds() {
+        out.push_str("# THE MODEL DOES NOT HOLD: these numbers are not those of the wheel.\n");
+    }
+    for discrepancy in &fitted.discrepancies {
+        // A record's name may have more than one line.
+        let text = discrepancy.to_string().replace(char::is_control, " ");
+        let _ = writeln!(out, "# {text}");
+    }
+    out
+}
+
 /// The device: imbalance, and bearings of a rotor that is known.
 #[must_use]
 pub fn device(fitted: &Fitted, name: &str, rotor: Option<&Rotor>) -> String {
     let imbalance = &fitted.imbalance;
     let mut out = String::from(
         "# Fitted from a measurement on a rigid table. Take it into a scenario by `base`, and add to the\n\
-         # device of this name what is missing: position, mount, rate.\n\n[[device]]\n",
+         # device of this name what is missing: position, mount, rate.\n",
     );
+    out.push_str(&remarks(fitted));
+    out.push_str("\n[[device]]\n");
     let phase = imbalance.phase.map_or(0.0, |phase| phase.value);
     let _ = writeln!(out, "name = \"{name}\"");
     let bearings = rotor.and_then(|rotor| bearings(fitted, rotor));
@@ -176,10 +192,16 @@ pub fn sources(fitted: &Fitted, name: &str, soft: bool) -> String {
             "# On a wheel with rigid bearings the amplification by the modes is missing.\n",
         );
     }
-    let seen = |c: &&Coefficient| c.seen;
-    let lines = fitted.harmonics.iter().filter(|harmonic| harmonic.number.value != 1.0);
-    let lines: Vec<_> =
-        lines.filter(|harmonic| harmonic.coefficients.iter().any(|c| c.seen)).collect();
+    // At h = 1 what turns with the wheel across its axis is the imbalance of the device.
+    let of_device = |harmonic: &Harmonic, c: &Coefficient| {
+        harmonic.number.value == 1.0 && c.group.is_radial() && c.sense == Sense::Forward
+    };
+    let shown = |harmonic: &Harmonic| -> Vec<Coefficient> {
+        let own = harmonic.coefficients.iter().filter(|c| c.seen && !of_device(harmonic, c));
+        own.copied().collect()
+    };
+    let lines = fitted.harmonics.iter().map(|harmonic| (harmonic, shown(harmonic)));
+    let lines: Vec<_> = lines.filter(|(_, shown)| !shown.is_empty()).collect();
     if !lines.is_empty() {
         let on = if soft { format!("{name}.wheel") } else { name.to_owned() };
         let _ = write!(
@@ -188,12 +210,11 @@ pub fn sources(fitted: &Fitted, name: &str, soft: bool) -> String {
              fundamental_removed = true\n"
         );
     }
-    for harmonic in &lines {
+    for (harmonic, shown) in &lines {
         // Components that turn backward have keys of their own axes, so they are another table.
         for backward in [false, true] {
             let turns = |c: &&Coefficient| c.group.is_radial() && c.sense == Sense::Backward;
-            let own: Vec<_> = harmonic.coefficients.iter().filter(seen).collect();
-            let own: Vec<_> = own.into_iter().filter(|c| turns(c) == backward).collect();
+            let own: Vec<_> = shown.iter().filter(|c| turns(c) == backward).collect();
             if own.is_empty() {
                 continue;
             }

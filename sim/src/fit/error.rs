@@ -103,6 +103,26 @@ pub enum FitError {
         /// The group.
         group: Group,
     },
+    /// A mode that the measurement does not determine.
+    Mode {
+        /// The group.
+        group: Group,
+        /// Its frequency, Hz.
+        hertz: f64,
+        /// Which of its numbers.
+        what: &'static str,
+        /// The ends of the 95 % interval of that.
+        interval: [f64; 2],
+    },
+    /// No record in which h = 1 is measured.
+    NoImbalance,
+    /// The same samples twice.
+    Twice {
+        /// Names of the records.
+        records: [String; 2],
+        /// Their places, from 1.
+        places: [usize; 2],
+    },
     /// A sweep without a steady step.
     NoSteps {
         /// Largest change of the speed within a step, as a share.
@@ -174,6 +194,20 @@ impl fmt::Display for FitError {
                 f,
                 "{group}: the lines do not determine the modes; state fewer, or measure speeds at which \
                  a line crosses them"
+            ),
+            Self::Mode { group, hertz, what, interval: [low, high] } => write!(
+                f,
+                "{group}: the lines do not determine the {what} of a mode at {hertz:.4} Hz: 95 % from {low:.3e} to \
+                 {high:.3e}; leave the mode out, or measure speeds at which a line crosses it"
+            ),
+            Self::NoImbalance => write!(
+                f,
+                "no record shows h = 1: its frequency is from 3 turns a record to 0.45 of the rate, 1.5 bins from other \
+                 lines, and its speed is known; check rate, speeds and `speed_accuracy`"
+            ),
+            Self::Twice { records: [first, second], places: [a, b] } => write!(
+                f,
+                "{second} (number {b}): the same samples as {first} (number {a}); list each measurement once"
             ),
             Self::NoSteps { tolerance, shortest } => write!(
                 f,

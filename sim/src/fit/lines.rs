@@ -29,9 +29,9 @@ use super::measurement::{CHANNELS, Record};
 use super::rotation::{Rotation, phases, time};
 
 /// A line is used from this many bins above zero frequency.
-const LOWEST_BIN: f64 = 3.0;
+pub(super) const LOWEST_BIN: f64 = 3.0;
 /// And up to this share of the sampling rate.
-const HIGHEST_SHARE: f64 = 0.45;
+pub(super) const HIGHEST_SHARE: f64 = 0.45;
 /// Two lines nearer than this, bins, are not resolved: their covariance is then beyond 3 %.
 const RESOLVED: f64 = 1.5;
 /// Two lines nearer than this are one column of the fit.
@@ -124,6 +124,11 @@ impl Window {
 }
 
 impl Transforms {
+    /// Weights of Hann's window over so many samples.
+    pub(super) fn weights(&mut self, length: usize, rate: f64) -> Vec<f64> {
+        self.window(length, rate).weight
+    }
+
     fn window(&mut self, length: usize, rate: f64) -> Window {
         match &self.window {
             Some(window) if window.weight.len() == length && self.rate == rate => window.clone(),
@@ -136,7 +141,7 @@ impl Transforms {
         }
     }
 
-    fn plan(&mut self, length: usize) -> Arc<dyn RealToComplex<f64>> {
+    pub(super) fn plan(&mut self, length: usize) -> Arc<dyn RealToComplex<f64>> {
         self.planner.get_or_insert_with(RealFftPlanner::new).plan_fft_forward(length)
     }
 }

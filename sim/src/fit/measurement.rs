@@ -12,6 +12,7 @@
 //! because the force acts through W. These are the force and moment that the wheel exerts on the table; a
 //! table that reports what it exerts on the wheel has the opposite sign.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use nalgebra::{Matrix3, Vector3};
@@ -33,6 +34,8 @@ pub const RECORDS_MIN: usize = 3;
 const RATES: [f64; 2] = [1e-3, 1e8];
 /// Speeds, rad/s, either sense.
 const SPEEDS: [f64; 2] = [1e-3, 1e6];
+/// Samples of each channel by which records are first compared.
+const KEY: usize = 4;
 /// The least sine between spin axis and reference direction.
 const SINE_MIN: f64 = 1e-3;
 
@@ -240,8 +243,33 @@ impl Measurement {
         if self.records.len() < RECORDS_MIN {
             return Err(FitError::Records { found: self.records.len(), least: RECORDS_MIN });
         }
-        self.records.iter().try_for_each(Record::check)
+        self.records.iter().try_for_each(Record::check)?;
+        let channels: Vec<_> = self.records.iter().map(|record| &record.channels).collect();
+        let Some([first, second]) = twice(&channels) else { return Ok(()) };
+        let name = |place: usize| self.records.get(place).map(|record| record.name.clone());
+        Err(FitError::Twice {
+            records: [first, second].map(|place| name(place).unwrap_or_default()),
+            places: [first + 1, second + 1],
+        })
     }
+}
+
+/// The places of two records with the same numbers in all channels, the first such pair: noise never repeats, so they are
+/// one measurement.
+pub(super) fn twice(all: &[&[Vec<f64>; CHANNELS]]) -> Option<[usize; 2]> {
+    let bits = |samples: &[f64]| samples.iter().map(|sample| sample.to_bits()).collect::<Vec<_>>();
+    // By their length and their first samples, then by all.
+    let mut known: BTreeMap<(usize, Vec<u64>), Vec<usize>> = BTreeMap::new();
+    for (place, channels) in all.iter().enumerate() {
+        let start = channels.iter().flat_map(|channel| bits(channel.get(..KEY).unwrap_or(channel)));
+        let alike = known.entry((channels[0].len(), start.collect())).or_default();
+        let same = |other: &&usize| all.get(**other).is_some_and(|other| other == channels);
+        if let Some(first) = alike.iter().find(same) {
+            return Some([*first, place]);
+        }
+        alike.push(place);
+    }
+    None
 }
 
 #[cfg(test)]
@@ -284,8 +312,19 @@ mod tests {
             pulses: Vec::new(),
             channels: std::array::from_fn(|_| vec![0.0; SAMPLES_MIN]),
         };
-        let of = |record: Record| Measurement { records: vec![record; RECORDS_MIN] }.check();
+        // Samples of their own, so that none is there twice.
+        let of = |record: Record| {
+            let mut records = vec![record; RECORDS_MIN];
+            for (record, own) in records.iter_mut().zip([1.0, 2.0, 3.0]) {
+                record.channels[0][0] = own;
+            }
+            Measurement { records }.check()
+        };
         assert_eq!(of(good.clone()), Ok(()));
+        let mut records = vec![good.clone(); RECORDS_MIN];
+        records[1].channels[0][0] = 1.0;
+        let found = Measurement { records }.check();
+        assert!(matches!(found, Err(FitError::Twice { places: [1, 3], .. })), "{found:?}");
         let mut bad = good.clone();
         bad.channels[4][7] = f64::NAN;
         assert!(matches!(of(bad), Err(FitError::Sample { channel: "ty", index: 7, .. })));

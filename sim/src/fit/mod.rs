@@ -5,10 +5,12 @@
 //! records at steady speeds, in the wheel's axes about its centre     measurement
 //!   -> angle of the wheel over each record                            rotation
 //!   -> lines of each record, noise beside them                        lines, noise
+//!   -> speeds and drifts that are known to many bins                  speeds
 //!   -> harmonic numbers, speeds, drifts of all records at once        orders, detect
 //!   -> coefficients and modes by the lines' powers over speed         powers, problem, modes, search
 //!   -> phases                                                         phase
 //!   -> broadband noise without the lines                              floor
+//!   -> what the model does not explain                                discrepancy
 //!   -> parts of a scenario                                            device
 //! spectra without time series                                         waterfall, lobe
 //! ```
@@ -21,6 +23,7 @@
 
 mod detect;
 pub mod device;
+mod discrepancy;
 mod error;
 mod estimate;
 pub mod example;
@@ -37,8 +40,10 @@ mod problem;
 pub mod rotation;
 pub mod samples;
 mod search;
+mod speeds;
 mod waterfall;
 
+pub use discrepancy::{Discrepancy, SQUARES_MAX, squares_bound};
 pub use error::FitError;
 pub use estimate::{Estimate, student};
 pub use floor::Band;
@@ -48,7 +53,8 @@ pub use powers::{FittedMode, GroupFit, Power, Sense};
 pub use rotation::Rotation;
 pub use waterfall::{WaterfallRow, fit_waterfall};
 
-use detect::{LINES_MAX, Search, detect};
+use detect::{LINES_MAX, Search, detect, remainders};
+use discrepancy::Remainder;
 use orders::{Tracked, track};
 
 /// The highest harmonic number that is looked for.
@@ -75,6 +81,8 @@ pub struct Options {
     pub interference: Vec<f64>,
     /// What the speeds are known to, as a share; 0 where they are exact.
     pub speed_accuracy: f64,
+    /// Whether lines that are much larger than the imbalance, and axial and backward ones at h = 1, are discrepancies.
+    pub compare_with_imbalance: bool,
 }
 
 /// The imbalance of a wheel.
@@ -132,6 +140,16 @@ pub struct Fitted {
     pub rotations: Vec<Rotation>,
     /// Mean PSD of each record and group for a waterfall, units²/Hz, and the width of its bins, Hz.
     pub waterfall: Vec<Spectrum>,
+    /// What the model does not explain.
+    pub discrepancies: Vec<Discrepancy>,
+}
+
+impl Fitted {
+    /// Whether the model explains what was measured.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        !self.discrepancies.iter().any(Discrepancy::fails)
+    }
 }
 
 /// Spectra of a record.
@@ -151,6 +169,7 @@ impl Default for Options {
             modes: None,
             interference: Vec::new(),
             speed_accuracy: ACCURACY,
+            compare_with_imbalance: true,
         }
     }
 }
@@ -158,8 +177,8 @@ impl Default for Options {
 /// Fits a disturbance model.
 ///
 /// # Errors
-/// A record that cannot be used, stated harmonics that cannot be told apart, no line, or a group whose
-/// parameters the measurement does not determine.
+/// A record that cannot be used or is there twice, stated harmonics that cannot be told apart, no line, no imbalance, or a
+/// group whose parameters the measurement does not determine.
 pub fn fit(measurement: &Measurement, options: &Options) -> Result<Fitted, FitError> {
     fit_with_progress(measurement, options, &mut |_| {})
 }
@@ -187,7 +206,11 @@ pub fn fit_with_progress(
             None => search::search(group, numbers.len(), &points)?,
         });
     }
-    Ok(assembled(tracked, groups))
+    progress("what is left");
+    let durations: Vec<f64> = measurement.records.iter().map(Record::duration).collect();
+    let left = remainders(options.highest, &durations, &tracked);
+    let names: Vec<_> = measurement.records.iter().map(|record| record.name.clone()).collect();
+    assembled(tracked, groups, &left, &names, options)
 }
 
 fn check(options: &Options) -> Result<(), FitError> {
@@ -225,18 +248,24 @@ fn tracked(
     found.ok_or(FitError::NoLines { highest: 0.0, bound: 0.0 })
 }
 
-/// Puts together what was fitted.
-fn assembled(tracked: Tracked, groups: Vec<GroupFit>) -> Fitted {
+/// Puts together what was fitted, of records with these names and with lines that are left in the residuals.
+fn assembled(
+    tracked: Tracked,
+    groups: Vec<GroupFit>,
+    left: &[Remainder],
+    names: &[String],
+    options: &Options,
+) -> Result<Fitted, FitError> {
     let of = |group: Group| groups.iter().find(|fit| fit.group == group);
     let first = tracked.orders.iter().position(|order| order.value == 1.0).unwrap_or(0);
     let forward = |group: Group| {
         let power = of(group).and_then(|fit| fit.powers.get(first)?[0]);
-        power.map_or(Estimate::exact(0.0), Estimate::root)
+        power.map(Estimate::root).ok_or(FitError::NoImbalance)
     };
     let force_and_torque = of(Group::RadialForce).zip(of(Group::RadialTorque));
     let imbalance = FittedImbalance {
-        u_s: forward(Group::RadialForce),
-        u_d: forward(Group::RadialTorque),
+        u_s: forward(Group::RadialForce)?,
+        u_d: forward(Group::RadialTorque)?,
         phase: force_and_torque.and_then(|(f, t)| phase::torque_from_force(f, t, first)),
         angle: of(Group::RadialForce)
             .and_then(|fit| phase::from_index(fit, first, Sense::Forward, &tracked.rotations)),
@@ -274,7 +303,14 @@ fn assembled(tracked: Tracked, groups: Vec<GroupFit>) -> Fitted {
             a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect()
         }),
     });
-    Fitted {
+    let mut discrepancies = discrepancy::of_residuals(&groups, &harmonics, names);
+    let compared = options.compare_with_imbalance;
+    discrepancies.extend(discrepancy::of_lines(&harmonics, left, compared));
+    if !tracked.lost.is_empty() {
+        let lost = tracked.lost.iter().filter_map(|record| names.get(*record).cloned());
+        discrepancies.push(Discrepancy::Lost { records: lost.collect(), of: names.len() });
+    }
+    Ok(Fitted {
         imbalance,
         harmonics,
         modes: groups.iter().flat_map(|fit| fit.modes.clone()).collect(),
@@ -282,5 +318,6 @@ fn assembled(tracked: Tracked, groups: Vec<GroupFit>) -> Fitted {
         waterfall: waterfall.collect(),
         rotations: tracked.rotations,
         groups,
-    }
+        discrepancies,
+    })
 }

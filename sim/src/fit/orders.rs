@@ -11,7 +11,9 @@
 //!
 //! A step is too short by the share of noise in the line's power, `1 - E|dA|² / |A|²`, which is its regressor.
 //! A line takes part in a record once its frequency is known to a third of a bin: the low lines find the speed
-//! for the high ones.
+//! for the high ones. Where the accuracy of the speeds leaves the lowest anywhere in many bins, it is searched for
+//! first ([`super::speeds`]). A line that does not take part in the end is not measured in that record: its
+//! amplitude at a wrong frequency would be too small.
 
 use std::f64::consts::TAU;
 
@@ -22,6 +24,7 @@ use super::lines::{LineSet, Lines, Transforms, float, lines};
 use super::measurement::{CHANNELS, Measurement, Record};
 use super::noise::averaged;
 use super::rotation::Rotation;
+use super::speeds::located;
 
 /// Iterations at most; each squares the error.
 const ITERATIONS: usize = 12;
@@ -33,11 +36,11 @@ const STEP_MAX: f64 = 0.5;
 /// Less of its power than this is noise, of a line that takes part.
 const SIGNAL_MIN: f64 = 0.75;
 /// The drift that is expected of a steady step without an index, as a share of its speed.
-const DRIFT: f64 = 2e-3;
+pub(super) const DRIFT: f64 = 2e-3;
 /// And with one, at least: below it no line tells.
 const DRIFT_MIN: f64 = 1e-9;
 /// A speed that is known better than this, as a share, is exact.
-const EXACT: f64 = 1e-12;
+pub(super) const EXACT: f64 = 1e-12;
 
 /// Harmonic numbers, and the lines of all records at them.
 #[derive(Clone, Debug)]
@@ -45,6 +48,8 @@ pub(super) struct Tracked {
     pub(super) orders: Vec<Estimate>,
     pub(super) rotations: Vec<Rotation>,
     pub(super) lines: Vec<Lines>,
+    /// Records in which no line gives the speed, so none is measured.
+    pub(super) lost: Vec<usize>,
 }
 
 /// The sums over a record.
@@ -62,6 +67,8 @@ struct Sums {
     drift: [f64; 2],
     /// Sum of squares by variance, and their number.
     squares: [f64; 2],
+    /// Whether the frequency of each line is known well enough to measure it.
+    known: Vec<bool>,
 }
 
 /// Harmonic numbers from first guesses, speeds that are stated to `accuracy`, and lines at `fixed`
@@ -78,8 +85,16 @@ pub(super) fn track(
     let mut transforms = Transforms::default();
     let records = &measurement.records;
     let stated: Vec<Rotation> = rotations.clone();
+    let mut found_to = vec![f64::INFINITY; records.len()];
+    for ((record, rotation), deviation) in records.iter().zip(&mut rotations).zip(&mut found_to) {
+        if let Some(start) = located(record, rotation, guesses, fixed, accuracy, &mut transforms) {
+            (rotation.speed, rotation.drift) = (start.speed, start.drift);
+            *deviation = start.deviation;
+        }
+    }
     let mut estimates = Vec::new();
     let mut all = Vec::new();
+    let mut known = Vec::new();
     for iteration in 0..ITERATIONS {
         all = records
             .iter()
@@ -88,7 +103,10 @@ pub(super) fn track(
             .collect::<Option<Vec<_>>>()?;
         all = averaged(all, &rotations, &orders);
         let sums: Vec<_> = (0..records.len())
-            .map(|k| sums(&records[k], &all[k], &orders, [&rotations[k], &stated[k]], accuracy))
+            .map(|k| {
+                let priors = [accuracy, found_to[k]];
+                sums(&records[k], &all[k], &orders, [&rotations[k], &stated[k]], priors)
+            })
             .collect();
         let (steps, covariance) = joint(&sums, &rotations, &orders);
         let freedom = freedom(&sums, &orders);
@@ -96,6 +114,7 @@ pub(super) fn track(
         estimates = (0..orders.len())
             .map(|l| Estimate::new(orders[l], (variance * covariance[(l, l)]).sqrt(), freedom))
             .collect();
+        known = sums.iter().map(|sums| sums.known.clone()).collect();
         // The last pass only evaluates.
         if iteration + 1 == ITERATIONS {
             break;
@@ -105,7 +124,17 @@ pub(super) fn track(
             break;
         }
     }
-    Some(Tracked { orders: estimates, rotations, lines: all })
+    let mut lost = Vec::new();
+    for (record, (found, known)) in all.iter_mut().zip(&known).enumerate() {
+        let before = found.sets.iter().any(Option::is_some);
+        for (set, known) in found.sets.iter_mut().zip(known) {
+            *set = set.filter(|_| *known);
+        }
+        if before && found.sets.iter().all(Option::is_none) {
+            lost.push(record);
+        }
+    }
+    Some(Tracked { orders: estimates, rotations, lines: all, lost })
 }
 
 /// The channels' steps of a line as one.
@@ -156,7 +185,7 @@ fn sums(
     found: &Lines,
     orders: &[f64],
     [rotation, stated]: [&Rotation; 2],
-    accuracy: f64,
+    [accuracy, found_to]: [f64; 2],
 ) -> Sums {
     let count = orders.len();
     let size = rotation.speed.abs();
@@ -177,7 +206,10 @@ fn sums(
         speed: [prior, 0.0],
         drift: [drift_prior, drift_prior * (stated.drift - rotation.drift)],
         squares: [0.0; 2],
+        known: vec![false; count],
     };
+    // What the search tells is in the lines once more: it opens the gate, and is no prior.
+    let mut sharp = prior.max(1.0 / (found_to * found_to));
     if prior.is_finite() {
         sums.speed[1] = prior * (stated.speed - rotation.speed);
     }
@@ -186,15 +218,17 @@ fn sums(
     for l in rising {
         let Some(line) = found.sets.get(l).and_then(Option::as_ref) else { continue };
         let h = orders[l];
-        let known = h / sums.speed[0].sqrt() * duration / TAU;
+        let known = h / sharp.sqrt() * duration / TAU;
         if known > KNOWN {
             continue;
         }
+        sums.known[l] = true;
         let Step { information, right, variance, bend } = of_line(line);
         sums.information[l] = information;
         sums.right[l] = right;
         sums.variance[l] = variance;
         sums.speed[0] += h * h * information;
+        sharp += h * h * information;
         sums.speed[1] += h * right;
         sums.drift[0] += h * h * bend[0];
         sums.drift[1] += h * bend[1];

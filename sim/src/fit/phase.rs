@@ -66,6 +66,13 @@ fn mean(angles: &[Weighted]) -> Option<(f64, f64, f64)> {
     Some((wrapped(centre), scale.max(1.0) / weights, freedom))
 }
 
+/// A phase that is known to less than a quarter of a turn to either side; another says nothing.
+fn determined(phase: Estimate) -> Option<Estimate> {
+    let half = 0.5 * (phase.interval[1] - phase.interval[0]);
+    // Also not a number.
+    (half < 0.5 * PI).then_some(phase)
+}
+
 fn point(fit: &GroupFit, record: usize, line: usize, sense: Sense) -> Option<&Power> {
     fit.points.iter().find(|p| p.record == record && p.line == line && p.sense == sense)
 }
@@ -113,7 +120,7 @@ pub(super) fn torque_from_force(
     let by_force = force.variance_of(&|modes| from(angles(modes, &other)));
     let by_torque = torque.variance_of(&|modes| from(angles(&own, modes)));
     let deviation = (scatter + by_force + by_torque).sqrt();
-    Some(Estimate::new(value, deviation, freedom))
+    determined(Estimate::new(value, deviation, freedom))
 }
 
 /// The phase of a line from the index: of `A = |A| exp(i (h theta + phase))`, rad, forward or backward; none
@@ -143,5 +150,5 @@ pub(super) fn from_index(
     let (value, scatter, freedom) = mean(&angles(&fit.shapes()))?;
     let moved = |found: Vec<Weighted>| mean(&found).map_or(0.0, |(a, _, _)| wrapped(a - value));
     let by_modes = fit.variance_of(&|modes| moved(angles(modes)));
-    Some(Estimate::new(value, (scatter + by_modes).sqrt(), freedom))
+    determined(Estimate::new(value, (scatter + by_modes).sqrt(), freedom))
 }

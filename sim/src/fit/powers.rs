@@ -24,13 +24,22 @@ use super::estimate::Estimate;
 use super::lines::Lines;
 use super::measurement::Group;
 use super::modes::{Mode, ModeGuess, amplification};
-use super::problem::{DIFFERENCE, Problem, SETTLED, equilibrated, free, modes, values};
+use super::problem::{
+    DAMPING_RATIO, DIFFERENCE, Problem, SETTLED, equilibrated, free, modes, values,
+};
 use super::rotation::Rotation;
 
 /// Iterations of the weights.
 const REWEIGHTED: usize = 80;
 /// Iterations of the weights before they are averaged.
 const SWINGS: usize = 6;
+/// A mode is determined where the 95 % intervals are within these factors of its frequency and damping ratio, and within
+/// this half-width of its inertia ratio, which is from 0 to 2.
+const FREQUENCY_KNOWN: f64 = 1.5;
+const DAMPING_KNOWN: f64 = 10.0;
+const RATIO_KNOWN: f64 = 0.5;
+/// A damping ratio this near to an end of what is possible, as a share, is at it.
+const AT_END: f64 = 1e-3;
 
 /// About +x, or against it. Axial lines are forward.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +75,15 @@ pub struct Power {
     pub amplitude: Complex<f64>,
 }
 
+impl Power {
+    /// The variance of `power`, where the line has the power `model`.
+    #[must_use]
+    pub fn variance(&self, model: f64) -> f64 {
+        let n = self.noise;
+        (2.0 * n * model.max(0.0) + n * n) / self.segments + n * n / self.bins
+    }
+}
+
 /// A fitted mode.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittedMode {
@@ -81,6 +99,33 @@ pub struct FittedMode {
     pub inertia_ratio: Estimate,
     /// Share of what acts that it carries.
     pub share: Estimate,
+}
+
+impl FittedMode {
+    /// Refuses a mode whose numbers the lines do not determine.
+    fn determined(&self) -> Result<(), FitError> {
+        let ratio = |of: &Estimate| (of.interval[1] / of.interval[0]).sqrt();
+        let half = |of: &Estimate| 0.5 * (of.interval[1] - of.interval[0]);
+        let at_end = DAMPING_RATIO.map(|end| (self.mode.damping / end).ln().abs() < AT_END);
+        let good = [
+            ("frequency", self.frequency, ratio(&self.frequency) <= FREQUENCY_KNOWN),
+            ("damping ratio", self.damping, ratio(&self.damping) <= DAMPING_KNOWN),
+            ("damping ratio", self.damping, !at_end.contains(&true)),
+            ("I_s / I_r", self.inertia_ratio, half(&self.inertia_ratio) <= RATIO_KNOWN),
+            ("share", self.share, half(&self.share) <= self.share.value.abs()),
+        ];
+        // A comparison with what is no number is false.
+        let Some((what, of, _)) = good.into_iter().find(|(_, _, good)| !good) else {
+            return Ok(());
+        };
+        let hertz = self.mode.frequency / std::f64::consts::TAU;
+        let interval = if what == "frequency" {
+            of.interval.map(|w| w / std::f64::consts::TAU)
+        } else {
+            of.interval
+        };
+        Err(FitError::Mode { group: self.group, hertz, what, interval })
+    }
 }
 
 /// The fit of one group.
@@ -156,6 +201,22 @@ impl GroupFit {
         }
         let variance = (gradient.transpose() * &self.covariance * &gradient)[(0, 0)].max(0.0);
         Some(Estimate::new(power * gain(&self.mode_values), variance.sqrt(), self.freedom).root())
+    }
+
+    /// Power of a point by the model, N² or N² m².
+    #[must_use]
+    pub fn model(&self, point: &Power) -> f64 {
+        let c = self.coefficient(point.line, point.sense);
+        let square = point.spin * point.spin;
+        let gain = amplification(&self.shapes(), point.frequency, point.spin).norm_sqr();
+        c * c * square * square * gain
+    }
+
+    /// Residual of a point by its standard deviation.
+    #[must_use]
+    pub fn residual(&self, point: &Power) -> f64 {
+        let model = self.model(point);
+        (point.power - model) / point.variance(model).sqrt()
     }
 
     /// The best `C` of a harmonic and sense; 0 where it is unknown.
@@ -289,6 +350,7 @@ pub(super) fn fit(
         })
         .collect();
     let fitted = fitted(&guesses, &problem.modes(&parameters), count, &estimate);
+    fitted.iter().try_for_each(FittedMode::determined)?;
     Ok(GroupFit {
         group,
         powers,

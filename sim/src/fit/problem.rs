@@ -19,7 +19,7 @@ const DAMPING_MAX: f64 = 1e12;
 /// Steps for differences of the modes' parameters.
 pub(super) const DIFFERENCE: f64 = 1e-6;
 /// Bounds of a mode's damping ratio and of its inertia ratio.
-const DAMPING_RATIO: [f64; 2] = [1e-5, 0.7];
+pub(super) const DAMPING_RATIO: [f64; 2] = [1e-5, 0.7];
 const INERTIA_RATIO: [f64; 2] = [0.0, 2.0];
 
 /// Which parameters of a mode are free: names its place.
@@ -146,12 +146,7 @@ impl Problem<'_> {
 
     /// `1 / var` by a model.
     pub(super) fn weights(&self, model: &[f64]) -> Vec<f64> {
-        let of = |(point, m): (&Power, &f64)| {
-            let n = point.noise;
-            let variance = (2.0 * n * m.max(0.0) + n * n) / point.segments + n * n / point.bins;
-            1.0 / variance
-        };
-        self.points.iter().zip(model).map(of).collect()
+        self.points.iter().zip(model).map(|(point, m)| 1.0 / point.variance(*m)).collect()
     }
 
     /// Keeps modes physical.

@@ -1,19 +1,20 @@
-//! Columns of samples from CSV and NPZ files, and steady steps of a sweep.
+//! Columns of samples from tables ([`crate::tables`]), and steady steps of a sweep.
 
 use std::fmt;
-use std::fs::File;
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use super::error::FitError;
 use super::measurement::{CHANNELS, Record, SAMPLES_MIN};
-use crate::structure::{Fault, MOST_BYTES, bytes_of, npz};
+use crate::structure::MOST_BYTES;
+use crate::tables::{Limits, TableFault, columns as of_table};
 
 /// Steps between samples differ by less than this share.
 const EVEN: f64 = 0.02;
 /// Rows of a file at most, and the same as a number.
 const ROWS_MAX: usize = 1 << 22;
 const LONGEST: f64 = 4_194_304.0;
+/// What is read of a file.
+const LIMITS: Limits = Limits { rows: ROWS_MAX, bytes: MOST_BYTES as u64 };
 /// Speeds are averaged over this share of the shortest step before they are compared.
 const BLOCK: f64 = 0.04;
 
@@ -29,36 +30,8 @@ pub struct SampleError {
 /// What is wrong with a file of samples.
 #[derive(Debug)]
 pub enum SampleFault {
-    /// The operating system's reason, or that of the format.
-    Read(String),
-    /// A column that is missing.
-    Column {
-        /// Its name.
-        name: String,
-        /// Those that there are.
-        present: Vec<String>,
-    },
-    /// A cell that is no finite number.
-    Cell {
-        /// The line, from 1.
-        line: u64,
-        /// The column.
-        name: String,
-        /// The text.
-        found: String,
-    },
-    /// Too many rows.
-    Rows {
-        /// The bound.
-        bound: usize,
-    },
-    /// Columns of different lengths.
-    Lengths {
-        /// The shortest.
-        least: usize,
-        /// The longest.
-        most: usize,
-    },
+    /// The table of its numbers.
+    Table(TableFault),
     /// Times that are not evenly spaced.
     Uneven {
         /// The row, from 1, before which a step differs.
@@ -102,19 +75,10 @@ impl fmt::Display for SampleError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.file.display())?;
         match &self.fault {
-            SampleFault::Read(reason) => f.write_str(reason),
-            SampleFault::Column { name, present } => {
-                write!(f, "no column `{name}`; there are {}", present.join(", "))
+            SampleFault::Table(fault @ TableFault::Rows { .. }) => {
+                write!(f, "{fault}; write one file for each speed")
             }
-            SampleFault::Cell { line, name, found } => {
-                write!(f, "line {line}: `{found}` of {name} is no finite number")
-            }
-            SampleFault::Rows { bound } => {
-                write!(f, "more than {bound} samples; write one file for each speed")
-            }
-            SampleFault::Lengths { least, most } => {
-                write!(f, "columns of {least} to {most} numbers; make them equal")
-            }
+            SampleFault::Table(fault) => fault.fmt(f),
             SampleFault::Uneven { row, step: [step, mean] } => write!(
                 f,
                 "the step before row {row} is {step:e} s, the mean {mean:e} s; samples are evenly \
@@ -167,65 +131,9 @@ pub fn read(path: &Path, layout: &Layout) -> Result<Samples, SampleError> {
 /// # Errors
 /// File, line and column, and the remedy.
 pub fn columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleError> {
-    let is_npz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("npz"));
-    let read = if is_npz { of_npz(path, names) } else { of_csv(path, names) };
-    let columns = read.and_then(|columns| {
-        let lengths = || columns.iter().map(Vec::len);
-        match (lengths().min(), lengths().max()) {
-            (Some(least), Some(most)) if least < most => Err(SampleFault::Lengths { least, most }),
-            _ => Ok(columns),
-        }
-    });
-    columns.map_err(|fault| SampleError { file: path.to_owned(), fault })
-}
-
-fn of_npz(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
-    let read = bytes_of(path).and_then(|bytes| npz::named_columns(&bytes, names));
-    let columns = read.map_err(|error| match error.fault {
-        Fault::Missing { what, present } => SampleFault::Column { name: what, present },
-        fault => SampleFault::Read(format!("{}{fault}", error.place)),
-    })?;
-    if columns.iter().any(|column| column.len() > ROWS_MAX) {
-        return Err(SampleFault::Rows { bound: ROWS_MAX });
-    }
-    Ok(columns)
-}
-
-fn of_csv(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, SampleFault> {
-    let reason = |error: &dyn fmt::Display| SampleFault::Read(error.to_string());
-    let file = File::open(path).map_err(|error| reason(&error))?;
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(file.take(MOST_BYTES as u64));
-    let head = reader.headers().map_err(|error| reason(&error))?.clone();
-    let present = || head.iter().map(str::to_owned).collect();
-    let places: Result<Vec<usize>, SampleFault> = names
-        .iter()
-        .map(|name| {
-            let place = head.iter().position(|column| column == *name);
-            place
-                .ok_or_else(|| SampleFault::Column { name: (*name).to_owned(), present: present() })
-        })
-        .collect();
-    let places = places?;
-    let mut columns = vec![Vec::new(); names.len()];
-    let mut row = csv::StringRecord::new();
-    while reader.read_record(&mut row).map_err(|error| reason(&error))? {
-        for ((column, place), name) in columns.iter_mut().zip(&places).zip(names) {
-            let text = row.get(*place).unwrap_or_default();
-            let number = text.parse::<f64>().ok().filter(|number| number.is_finite());
-            column.push(number.ok_or_else(|| SampleFault::Cell {
-                line: row.position().map_or(0, csv::Position::line),
-                name: (*name).to_owned(),
-                found: text.to_owned(),
-            })?);
-        }
-        if columns.first().is_some_and(|column| column.len() > ROWS_MAX) {
-            return Err(SampleFault::Rows { bound: ROWS_MAX });
-        }
-    }
-    Ok(columns)
+    let needed: Vec<(&str, bool)> = names.iter().map(|name| (*name, true)).collect();
+    let fault = |fault| SampleError { file: path.to_owned(), fault: SampleFault::Table(fault) };
+    of_table(path, &needed, LIMITS).map_err(fault)
 }
 
 /// The rate of evenly spaced times.

@@ -8,12 +8,12 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use super::detect::{LINES_MAX, strongest};
+use super::detect::{LINES_MAX, remainders, strongest};
 use super::error::FitError;
 use super::estimate::Estimate;
 use super::lines::{Lines, float};
 use super::lobe::{CLEAR, LINE_NOISE, LOBE, beside, centroid_variance, lobe, noise_variance};
-use super::measurement::{CHANNELS, Group, RECORDS_MIN};
+use super::measurement::{CHANNELS, Group, RECORDS_MIN, twice};
 use super::orders::Tracked;
 use super::powers::{self, Power, Sense};
 use super::rotation::Rotation;
@@ -67,7 +67,10 @@ fn checked(rows: &[WaterfallRow]) -> Result<(), FitError> {
             }
         }
     }
-    Ok(())
+    let densities: Vec<_> = rows.iter().map(|row| &row.densities).collect();
+    let Some(places) = twice(&densities) else { return Ok(()) };
+    let places = places.map(|place| place + 1);
+    Err(FitError::Twice { records: places.map(|place| format!("speed {place}")), places })
 }
 
 /// Fits a disturbance model to spectra.
@@ -86,8 +89,8 @@ pub fn fit_waterfall(rows: &[WaterfallRow], options: &Options) -> Result<Fitted,
         segments: row.segments,
         noise_bins: Vec::new(),
     };
-    let mut tracked =
-        Tracked { orders: Vec::new(), rotations, lines: rows.iter().map(spectra).collect() };
+    let lines = rows.iter().map(spectra).collect();
+    let mut tracked = Tracked { orders: Vec::new(), rotations, lines, lost: Vec::new() };
     let mut numbers = options.harmonics.clone();
     numbers.push(1.0);
     if options.harmonics.is_empty() {
@@ -117,7 +120,9 @@ pub fn fit_waterfall(rows: &[WaterfallRow], options: &Options) -> Result<Fitted,
             None => search::search(group, numbers.len(), &points)?,
         });
     }
-    Ok(assembled(tracked, groups))
+    let left = remainders(options.highest, &durations(rows), &tracked);
+    let names: Vec<_> = (1..=rows.len()).map(|number| format!("speed {number}")).collect();
+    assembled(tracked, groups, &left, &names, options)
 }
 
 fn durations(rows: &[WaterfallRow]) -> Vec<f64> {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use precess::fit::{Group, fit_waterfall};
+use precess::fit::{FitError, Group, fit_waterfall};
 
 use super::scene::{RATE, SEED, U_D, U_S};
 use super::synthetic::Random;
@@ -75,6 +75,10 @@ fn a_waterfall_gives_the_imbalance_and_the_radial_mode() {
     }
     assert!(fitted.imbalance.phase.is_none() && fitted.imbalance.angle.is_none());
     assert!(fit_waterfall(&rows[..2], &options).is_err());
+    let mut again = rows.clone();
+    again[7].densities = rows[3].densities.clone();
+    let found = fit_waterfall(&again, &options);
+    assert!(matches!(found, Err(FitError::Twice { places: [4, 8], .. })), "{found:?}");
     let mut bad = rows;
     bad[1].densities[2][9] = -1.0;
     assert!(fit_waterfall(&bad, &options).is_err());

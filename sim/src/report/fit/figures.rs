@@ -102,8 +102,8 @@ pub(super) fn drawings(title: &str, fitted: &Fitted) -> Vec<Drawing> {
 fn modelled(fitted: &Fitted, fit: &GroupFit, point: &Power) -> Option<[f64; 2]> {
     let number = fitted.harmonics.get(point.line)?.number.value;
     let amplitude = fit.predicted(point.line, number, point.sense, point.spin)?.value;
-    let (m, n) = (amplitude * amplitude, point.noise);
-    let variance = (2.0 * n * m + n * n) / point.segments + n * n / point.bins;
+    let m = amplitude * amplitude;
+    let variance = point.variance(m);
     (variance > 0.0).then(|| [m, variance.sqrt()])
 }
 

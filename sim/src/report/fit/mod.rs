@@ -10,11 +10,10 @@ use super::data::without_charts;
 use super::error::{DrawError, ReportError};
 use super::number::short;
 use super::page::{Page, lines};
-use crate::fit::{Estimate, Fitted, GroupFit, Sense};
+use crate::fit::{
+    Coefficient, Discrepancy, Estimate, Fitted, GroupFit, SQUARES_MAX, Sense, squares_bound,
+};
 use figures::{Drawing, drawings};
-
-/// A mean square of weighted residuals above it shows what the model does not have.
-pub(crate) const SQUARES_MAX: f64 = 1.5;
 
 /// Everything that the page shows.
 pub(crate) struct FitReport<'a> {
@@ -82,24 +81,22 @@ impl FitReport<'_> {
     fn verdict(&self) -> Verdict {
         let mean = |fit: &GroupFit| fit.squares / fit.freedom;
         let named = |fit: &GroupFit| format!("{} {}", fit.group, short(mean(fit), 3));
-        let bound = short(SQUARES_MAX, 3);
-        let groups = || self.fitted.groups.iter();
-        let above: Vec<String> =
-            groups().filter(|fit| mean(fit) > SQUARES_MAX).map(named).collect();
-        if above.is_empty() {
-            let largest = groups().max_by(|a, b| mean(a).total_cmp(&mean(b)));
+        if self.fitted.holds() {
+            let largest = self.fitted.groups.iter().max_by(|a, b| mean(a).total_cmp(&mean(b)));
+            let bound = short(largest.map_or(SQUARES_MAX, |fit| squares_bound(fit.freedom)), 3);
             let text = format!(
                 "no group has a mean square of weighted residuals above {bound}; noise alone has 1. The largest: {}.",
                 largest.map_or_else(|| "none".to_owned(), named)
             );
             return Verdict { state: "met", word: "The model holds:".to_owned(), text };
         }
-        let text = format!(
-            "mean squares of weighted residuals above {bound}, where noise alone has 1: {}. Intervals are widened by that. See the \
-             residuals.",
-            above.join(", ")
-        );
-        Verdict { state: "violated", word: "Something is missing in the model:".to_owned(), text }
+        let text = self.discrepancies(true).join("; ");
+        Verdict { state: "violated", word: "The model does not hold:".to_owned(), text }
+    }
+
+    fn discrepancies(&self, fails: bool) -> Vec<String> {
+        let own = self.fitted.discrepancies.iter().filter(|d| d.fails() == fails);
+        own.map(Discrepancy::to_string).collect()
     }
 
     fn summary(&self) -> Summary {
@@ -132,7 +129,9 @@ impl FitReport<'_> {
         } else {
             "Fitted to time series of force and moment on a rigid table."
         };
-        Summary { paragraphs: vec![text.to_owned()], facts }
+        let mut paragraphs = vec![text.to_owned()];
+        paragraphs.extend(self.discrepancies(false));
+        Summary { paragraphs, facts }
     }
 
     fn parameters(&self) -> Vec<Block> {
@@ -157,10 +156,16 @@ impl FitReport<'_> {
         if let Some(angle) = &imbalance.angle {
             rows.push(row(own, "angle of U_s", &degrees(angle), "deg"));
         }
-        for harmonic in fitted.harmonics.iter().filter(|harmonic| harmonic.number.value != 1.0) {
+        for harmonic in &fitted.harmonics {
+            let first = harmonic.number.value == 1.0;
             let name = format!("harmonic {}", short(harmonic.number.value, 5));
-            rows.push(row(name.clone(), "h", &harmonic.number, ""));
-            for c in harmonic.coefficients.iter().filter(|c| c.seen) {
+            if !first {
+                rows.push(row(name.clone(), "h", &harmonic.number, ""));
+            }
+            // Of h = 1 those beside the imbalance.
+            let imbalance =
+                |c: &&Coefficient| first && c.group.is_radial() && c.sense == Sense::Forward;
+            for c in harmonic.coefficients.iter().filter(|c| c.seen && !imbalance(c)) {
                 let sense = match (c.group.is_radial(), c.sense) {
                     (false, _) => "",
                     (true, Sense::Forward) => ", forward",
@@ -224,14 +229,18 @@ impl FitReport<'_> {
     }
 
     fn residuals(&self, figures: Vec<Block>) -> Vec<Block> {
+        let fails = |fit: &GroupFit| {
+            let own = |d: &Discrepancy| matches!(d, Discrepancy::Residuals { group, .. } if *group == fit.group);
+            self.fitted.discrepancies.iter().any(own)
+        };
         let rows = self.fitted.groups.iter().map(|fit| {
-            let mean = fit.squares / fit.freedom;
-            let state = if mean > SQUARES_MAX { "violated" } else { "met" };
-            (state, vec![fit.group.to_string(), short(fit.freedom, 6), short(mean, 4)])
+            let state = if fails(fit) { "violated" } else { "met" };
+            let mean = short(fit.squares / fit.freedom, 4);
+            (state, vec![fit.group.to_string(), short(fit.freedom, 6), mean])
         });
         let columns = [("Group", ""), ("Degrees of freedom", ""), ("Mean square by variance", "")];
         let caption = format!(
-            "Weighted residuals of the powers; bound of the mean square: {}",
+            "Weighted residuals of the powers; bound of the mean square: {}, or of few what noise exceeds once in 10,000",
             short(SQUARES_MAX, 3)
         );
         let mut blocks = vec![table(&caption, &columns, 1..3, rows)];

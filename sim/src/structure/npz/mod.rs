@@ -110,19 +110,6 @@ pub fn read(bytes: &[u8]) -> Result<Structure, StructureError> {
     Ok(structure.checked()?)
 }
 
-/// A member of an archive: its name, and its numbers where it is one row of them.
-pub(crate) type NamedNumbers = (String, Result<Vec<f64>, StructureError>);
-
-/// The members of any archive.
-pub(crate) fn columns(bytes: &[u8]) -> Result<Vec<NamedNumbers>, StructureError> {
-    let Members { names, arrays } = Members::of(bytes)?;
-    let column = |(name, array): (String, Array)| {
-        let numbers = array.numbers(None).map_err(|fault| fault.at(member(&name)));
-        (name, numbers)
-    };
-    Ok(names.into_iter().zip(arrays).map(column).collect())
-}
-
 /// The bytes of an archive: the same for the same structure.
 ///
 /// # Errors
@@ -165,10 +152,16 @@ pub fn write(structure: &Structure) -> Result<Vec<u8>, StructureError> {
     archived(&members).map_err(|source| Fault::Io(source).into())
 }
 
-/// Arrays of one dimension of any archive, by their names.
-pub(crate) fn named_columns(bytes: &[u8], names: &[&str]) -> Result<Vec<Vec<f64>>, StructureError> {
+/// Arrays of one dimension of any archive, by their names; one that is not needed may be missing, and is then empty.
+pub(crate) fn named_columns(
+    bytes: &[u8],
+    names: &[(&str, bool)],
+) -> Result<Vec<Vec<f64>>, StructureError> {
     let members = Members::of(bytes)?;
-    let column = |name: &&str| {
+    let column = |(name, needed): &(&str, bool)| {
+        if !needed && members.get(name).is_none() {
+            return Ok(Vec::new());
+        }
         let numbers = members.needed(name)?.numbers(None);
         numbers.map_err(|fault| fault.at(member(name)))
     };
