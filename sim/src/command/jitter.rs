@@ -20,6 +20,7 @@ use crate::jitter::model::Contributor;
 use crate::jitter::prepared::{PrepareError, Prepared};
 use crate::jitter::sensitivity::{Sensitivity, sensitivities};
 use crate::jitter::sweep::{Sweep, parts, sweep};
+use crate::names::column_heads;
 use crate::report::jitter::{AGREEMENT, JitterReport, intervals, metric, rpm};
 use crate::scenario::Scenario;
 
@@ -321,8 +322,7 @@ fn summary(budget: &Budget, found: &Found) -> String {
 /// A row for each speed and tone: amplitude and phase of each output.
 fn lines_csv(sweep: &Sweep) -> String {
     let mut text = String::from("speed_rad_per_s,rotor,cause,order,frequency_hz");
-    for output in &sweep.outputs {
-        let name = output.replace([' ', ','], "_");
+    for name in column_heads(&sweep.outputs) {
         let _ = write!(text, ",{name}_re,{name}_im");
     }
     text.push('\n');
@@ -349,8 +349,8 @@ fn lines_csv(sweep: &Sweep) -> String {
 /// A row for each speed: the metric of each requirement, SI.
 fn requirements_csv(found: &Found) -> String {
     let mut text = String::from("speed_rad_per_s");
-    for of in &found.assessed {
-        let _ = write!(text, ",{}", of.limit.name.replace([' ', ','], "_"));
+    for name in column_heads(found.assessed.iter().map(|of| &of.limit.name)) {
+        let _ = write!(text, ",{name}");
     }
     text.push('\n');
     let mut digits = zmij::Buffer::new();

@@ -10,6 +10,8 @@ mod disturbances;
 mod quantity;
 mod structure;
 
+use std::collections::HashSet;
+
 use precess_dynamics::kind::JointInfo;
 
 pub(crate) use quantity::Quantity;
@@ -138,6 +140,16 @@ impl Column {
             || self.vector.as_deref() == Some(name)
             || (name == "loads" && self.quantity.is_load())
     }
+}
+
+/// Names that are of columns, vectors and groups whatever devices, points and sources a scenario has.
+pub(crate) fn reserved_names() -> HashSet<String> {
+    let mut columns = Vec::new();
+    hub(&mut columns);
+    structure::modal(&mut columns, 1);
+    totals(&mut columns);
+    let names = columns.into_iter().flat_map(|of| [Some(of.name), Some(of.group), of.vector]);
+    names.flatten().chain(["loads".to_owned()]).collect()
 }
 
 /// The names of the quantities that are integrated.

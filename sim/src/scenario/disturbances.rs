@@ -7,6 +7,7 @@ use precess_dynamics::{BuiltIn, BuiltInKind};
 use super::check::range;
 use super::{Member, Scenario, ScenarioError, members};
 use crate::disturbance::{COMPONENTS, Disturbance, Harmonic, Model, SourceTarget, by_spin_axis};
+use crate::names::column_name_fault;
 
 /// A harmonic number this near to one is the fundamental: twice the 0.5 % to which a fit gives it.
 const FUNDAMENTAL: f64 = 0.01;
@@ -72,9 +73,8 @@ impl Scenario {
 
     fn name_fault(&self, index: usize, of: &Disturbance) -> Option<String> {
         let name = &of.name;
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        if !name.starts_with(|c: char| c.is_ascii_lowercase()) || !name.chars().all(plain) {
-            return Some(format!("`{name}` is not lower-case letters, digits and underscores"));
+        if let Some(fault) = column_name_fault(name) {
+            return Some(fault.to_string());
         }
         if self.disturbances.iter().take(index).any(|other| other.name == *name) {
             return Some(format!("two sources are named `{name}`; rename one"));

@@ -15,9 +15,11 @@
 mod error;
 mod expression;
 mod measure;
+mod plain;
 mod symbols;
 mod unit;
 
 pub use error::{UnitError, UnitErrorKind};
 pub use expression::{Quantity, parse_quantity, parse_unit};
 pub use measure::{Dimension, Measure, measure_of};
+pub(crate) use plain::Plain;

@@ -7,7 +7,7 @@ use precess_dynamics::kind::{BodyParameters, JointInfo};
 use super::super::keys::Keys;
 use super::drive::profile;
 use crate::scenario::{Drive, Profile, StopAction};
-use crate::units::Measure;
+use crate::units::{Measure, Plain};
 
 /// What the table of a body says.
 pub(super) struct Body {
@@ -219,6 +219,15 @@ fn stop(keys: &Keys<'_>, measures: &JointMeasures, initial: f64) -> Option<([f64
         return None;
     }
     let bounds = [lower.unwrap_or(f64::NEG_INFINITY), upper.unwrap_or(f64::INFINITY)];
+    if bounds[0] > bounds[1] {
+        let unit = measures.coordinate.unit;
+        let [lower, upper] = bounds.map(Plain);
+        let message = format!(
+            "the lower stop, {lower} {unit}, is above the upper stop, {upper} {unit}"
+        );
+        keys.error("lower_stop", message, "exchange them, or correct a sign");
+        return None;
+    }
     if !(bounds[0]..=bounds[1]).contains(&initial) {
         let key = if initial < bounds[0] { "lower_stop" } else { "upper_stop" };
         keys.error(key, "the joint starts beyond its stop", "move the stop, or the start");

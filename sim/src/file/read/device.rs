@@ -12,7 +12,7 @@ use precess_dynamics::{
 
 use super::super::diagnostic::Span;
 use super::super::document::{Node, Value};
-use super::super::keys::Keys;
+use super::super::keys::{Keys, shown_name};
 use super::super::load::merged;
 use super::body::{Body, Joint, Needs, body};
 use super::layout::{Place, layout, turned};
@@ -109,10 +109,12 @@ pub(super) fn devices(
         let _ = keys.tables("device");
         return devices;
     };
+    keys.check_names("device", list);
     for (index, node) in list.iter().enumerate() {
         let nodes = with_original(node, list, keys);
         let name = nodes.name().map_or_else(|| index.to_string(), str::to_owned);
-        if let Some(device) = Keys::new(&nodes, &format!("device.{name}"), keys.reports()) {
+        let path = format!("device.{}", shown_name(&name));
+        if let Some(device) = Keys::new(&nodes, &path, keys.reports()) {
             devices.extend(read(&device, &name, folder, structure));
         }
     }
