@@ -68,16 +68,33 @@ pub enum RunError {
     TooManySteps {
         /// Simulated time reached, s.
         time: f64,
+        /// What varies fastest, and in which time, where it is known.
+        fastest: Option<String>,
     },
     /// The step fell below what the clock resolves.
     StepTooSmall {
         /// Simulated time reached, s.
         time: f64,
+        /// What varies fastest, and in which time, where it is known.
+        fastest: Option<String>,
     },
     /// The motion is too stiff for an explicit method.
     Stiff {
         /// Simulated time reached, s.
         time: f64,
+        /// What varies fastest, and in which time, where it is known.
+        fastest: Option<String>,
+    },
+    /// A number of the state changes so fast that no step is short enough.
+    TooFast {
+        /// Simulated time, s.
+        time: f64,
+        /// The number: `position_x`.
+        quantity: String,
+        /// Its rate of change.
+        rate: f64,
+        /// The rate's unit.
+        unit: String,
     },
     /// The integrator reports what no run of this program should cause.
     Integrator {
@@ -133,9 +150,10 @@ impl RunError {
             Self::Solve { time, .. }
             | Self::LockedJointMoves { time, .. }
             | Self::NotDriven { time, .. }
-            | Self::TooManySteps { time }
-            | Self::StepTooSmall { time }
-            | Self::Stiff { time }
+            | Self::TooManySteps { time, .. }
+            | Self::StepTooSmall { time, .. }
+            | Self::Stiff { time, .. }
+            | Self::TooFast { time, .. }
             | Self::Integrator { time, .. } => Some(*time),
             Self::Scenario(_)
             | Self::Parameters(_)
@@ -145,6 +163,14 @@ impl RunError {
             | Self::Record(_) => None,
         }
     }
+}
+
+/// What varies fastest, and that it is to be slowed down.
+fn slower(fastest: &Option<String>) -> String {
+    fastest.as_ref().map_or_else(
+        || "; check what moves fast".to_owned(),
+        |what| format!("; fastest is {what}: slow it down"),
+    )
 }
 
 /// The device that an error of the solver is about.
@@ -203,19 +229,28 @@ impl fmt::Display for RunError {
                     write!(f, "{lead}`{near}`")
                 })
             }
-            Self::TooManySteps { time } => write!(
+            Self::TooManySteps { time, fastest } => write!(
                 f,
-                "the integrator used up its steps at t = {time} s; loosen the tolerance or \
-                 shorten the duration"
+                "the integrator used up its steps at t = {time} s{}, loosen the tolerance or \
+                 shorten the duration",
+                slower(fastest)
             ),
-            Self::StepTooSmall { time } => write!(
+            Self::StepTooSmall { time, fastest } => write!(
                 f,
-                "the integrator's step fell below rounding at t = {time} s; loosen the tolerance"
+                "the integrator's step fell below rounding at t = {time} s{} or loosen the \
+                 tolerance",
+                slower(fastest)
             ),
-            Self::Stiff { time } => write!(
+            Self::Stiff { time, fastest } => write!(
                 f,
-                "the motion turns stiff at t = {time} s, too fast for an explicit method; check \
-                 torques and inertias"
+                "the motion turns stiff at t = {time} s, too fast for an explicit method{}, check \
+                 torques and inertias",
+                slower(fastest)
+            ),
+            Self::TooFast { time, quantity, rate, unit } => write!(
+                f,
+                "at t = {time} s {quantity} changes by {rate:e} {unit}, too fast for any step; check the \
+                 initial state, torques, springs and inertias with their units"
             ),
             Self::Integrator { time, fault } => write!(
                 f,

@@ -152,8 +152,8 @@ pub(crate) fn reserved_names() -> HashSet<String> {
     names.flatten().chain(["loads".to_owned()]).collect()
 }
 
-/// The names of the quantities that are integrated.
-pub(crate) fn state_quantities(layout: &Layout) -> Vec<(String, Quantity)> {
+/// The quantities that are integrated, with name and unit.
+pub(crate) fn state_quantities(layout: &Layout) -> Vec<(String, Quantity, &'static str)> {
     let mut columns = Vec::new();
     hub(&mut columns);
     for (joint, place) in layout.joints.iter().enumerate() {
@@ -162,7 +162,7 @@ pub(crate) fn state_quantities(layout: &Layout) -> Vec<(String, Quantity)> {
     }
     structure::modal(&mut columns, layout.modes);
     let state = columns.into_iter().filter(|column| column.quantity.is_state());
-    state.map(|column| (column.name, column.quantity)).collect()
+    state.map(|column| (column.name, column.quantity, column.unit)).collect()
 }
 
 /// The indices of a quantity's columns: one by its name, or those of a vector.

@@ -25,6 +25,9 @@ pub(crate) const TOLERANCE_MAX: f64 = 1e-3;
 pub(crate) const STEP_MIN: f64 = 1e-9;
 /// Most samples of a run: 8 bytes a number and fifty columns are 400 GB.
 pub(crate) const SAMPLES_MAX: f64 = 1e9;
+/// Most steps of a run that chooses its steps, for each second; Table 1 takes about 300 a second, and a run that needs
+/// this many does not converge.
+pub(crate) const STEPS_PER_SECOND_MAX: f64 = 1e5;
 /// Most steps of a run with fixed steps.
 pub(crate) const STEPS_MAX: f64 = 1e11;
 
@@ -112,6 +115,7 @@ impl Scenario {
         if let Err(error) = self.spacecraft() {
             errors.push(ScenarioError::Parameters(error));
         } else {
+            errors.extend(self.check_time_scales());
             errors.extend(self.check_structure());
             errors.extend(self.check_disturbances());
         }

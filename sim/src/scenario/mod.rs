@@ -15,6 +15,7 @@ mod member;
 pub mod profile;
 mod source_place;
 mod structure;
+mod time_scales;
 
 use nalgebra::Vector3;
 use precess_description::Turn;
@@ -27,6 +28,7 @@ pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members};
 pub use profile::{Interpolation, Profile, Table};
 pub use source_place::{SourceBody, SourcePlace};
+pub(crate) use time_scales::steps_max;
 pub use structure::{ModalStructure, RecordedPoint, StructureNode};
 
 use crate::disturbance::Disturbance;
