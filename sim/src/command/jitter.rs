@@ -9,9 +9,9 @@ use clap::Args;
 
 use super::error::CommandError;
 use super::exit::Exit;
-use super::run::{all_cores, may_write, progress_bar, write_whole};
+use super::run::{may_write, progress_bar, write_whole};
 use super::table::{aligned, six};
-use super::{as_toml, print};
+use super::{Threads, as_toml, print};
 use crate::file::{Override, budget_from_toml, budget_overrides, check_budget_names, from_file};
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing, oscillations};
@@ -54,9 +54,8 @@ pub(super) struct Jitter {
     /// Replace results that are there.
     #[arg(long)]
     force: bool,
-    /// Threads; the result does not depend on them. All cores without this option.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// A speed with its unit at which the coupled equations are run beside; may be repeated. The worst speed of each
     /// requirement without this option.
     #[arg(long, value_name = "SPEED", value_parser = speed)]
@@ -187,7 +186,7 @@ impl Jitter {
         };
         let Prepared { model, campbell_speeds, branches, crossings, speeds, .. } = prepared;
         let has_tones = !model.contributors().is_empty();
-        let threads = self.threads.unwrap_or_else(all_cores);
+        let threads = self.threads.count();
         let bar = Mutex::new(progress_bar(parts(&model, &speeds), "speeds"));
         let show = |done: usize| {
             if let Ok(bar) = bar.lock() {

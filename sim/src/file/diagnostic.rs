@@ -104,6 +104,19 @@ impl Diagnostics {
         self.all.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count()
     }
 
+    /// Adds a sentence to the help of the errors from a number on; not of unknown keys, which are where they are written.
+    pub(super) fn add_help(&mut self, first: usize, sentence: &str) {
+        let wanted = |of: &&mut Diagnostic| {
+            of.severity == Severity::Error && !of.message.starts_with("unknown key")
+        };
+        for error in self.all.iter_mut().skip(first).filter(wanted) {
+            if !error.help.is_empty() {
+                error.help.push_str("; ");
+            }
+            error.help.push_str(sentence);
+        }
+    }
+
     /// Removes an error of which another one is the cause.
     pub(super) fn retract(&mut self, span: &Span, message: &str) {
         self.all.retain(|of| of.span.as_ref() != Some(span) || of.message != message);

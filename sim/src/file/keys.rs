@@ -155,6 +155,16 @@ impl<'a> Keys<'a> {
         Keys::new(self.node(key)?, &self.path_of(key), self.reports)
     }
 
+    /// A table without keys, in the place of this one.
+    pub(super) fn empty(&self) -> Node {
+        Node { value: Value::Table(Table::default()), span: self.span.clone() }
+    }
+
+    /// The table of a key; an empty one where it is missing.
+    pub(super) fn table_or<'b>(&'b self, key: &str, empty: &'b Node) -> Option<Keys<'b>> {
+        Keys::new(self.node(key).unwrap_or(empty), &self.path_of(key), self.reports)
+    }
+
     /// The tables of a list, each with its name or number in its path.
     pub(super) fn tables(&self, key: &str) -> Vec<Keys<'a>> {
         let Some(node) = self.node(key) else { return Vec::new() };

@@ -115,16 +115,33 @@ pub(super) fn devices(
         let name = nodes.name().map_or_else(|| index.to_string(), str::to_owned);
         let path = format!("device.{}", shown_name(&name));
         if let Some(device) = Keys::new(&nodes, &path, keys.reports()) {
+            let first = keys.reports().borrow().all.len();
             devices.extend(read(&device, &name, folder, structure));
+            if let Some(original) = original(node) {
+                keys.reports().borrow_mut().add_help(first, &of_copy(original));
+            }
         }
     }
     devices
 }
 
+/// The name of the original of a copy.
+fn original(node: &Node) -> Option<&str> {
+    match &node.value {
+        Value::Table(table) => table.text("copy_of"),
+        _ => None,
+    }
+}
+
+/// What an error of a copy adds to its remedy: the cause may be a key of the original.
+fn of_copy(original: &str) -> String {
+    format!("by `copy_of` it has the keys of `{original}`, too, where it does not write its own")
+}
+
 /// A copy with the keys of its original under its own.
 fn with_original(node: &Node, list: &[Node], keys: &Keys<'_>) -> Node {
     let Value::Table(table) = &node.value else { return node.clone() };
-    let Some(original) = table.text("copy_of") else { return node.clone() };
+    let Some(original) = original(node) else { return node.clone() };
     let found = list.iter().find(|other| other.name() == Some(original));
     let own =
         |node: &Node| matches!(&node.value, Value::Table(table) if table.get("copy_of").is_none());
@@ -169,18 +186,21 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
     };
     let model = model(keys);
     let imbalance = imbalance(keys);
+    let empty = keys.empty();
     let bodies: Vec<_> = infos
         .iter()
         .map(|joint| {
             let key = body_key(joint);
-            let Some(table) = keys.table(&key) else {
+            let (mass, inertia) = (has_mass(kind, joint), has_inertia(kind, joint));
+            let needs = Needs { joint, mass, inertia, origin: has_origin(kind, joint) };
+            // Of a link without a body every key has a default.
+            let table = if mass || inertia { keys.table(&key) } else { keys.table_or(&key, &empty) };
+            let Some(table) = table else {
                 if !keys.has(&key) {
                     keys.missing(&key, &format!("[device.{key}]"));
                 }
                 return None;
             };
-            let (mass, inertia) = (has_mass(kind, joint), has_inertia(kind, joint));
-            let needs = Needs { joint, mass, inertia, origin: has_origin(kind, joint) };
             body(&table, needs, folder)
         })
         .collect();
