@@ -34,7 +34,10 @@ impl fmt::Display for NameFault {
         match self {
             Self::Empty => f.write_str("a name has at least one letter"),
             Self::Long(found) => {
-                write!(f, "a name of {found} letters; at most {NAME_MAX} fit into the names of files")
+                write!(
+                    f,
+                    "a name of {found} letters; at most {NAME_MAX} fit into the names of files"
+                )
             }
             Self::Hidden(letter) => write!(
                 f,
@@ -42,7 +45,9 @@ impl fmt::Display for NameFault {
                 u32::from(*letter)
             ),
             Self::Margin => f.write_str("the name begins or ends with a space; remove it"),
-            Self::Column => f.write_str("the name is not lower-case letters, digits and underscores"),
+            Self::Column => {
+                f.write_str("the name is not lower-case letters, digits and underscores")
+            }
         }
     }
 }
@@ -91,7 +96,8 @@ pub(crate) fn column_heads<N: AsRef<str>>(names: impl IntoIterator<Item = N>) ->
 
 /// A name of its own for each that has none: a word, and from the second on its number. `taken` are not given again.
 pub(crate) fn numbered(word: &str, taken: &mut HashSet<String>) -> String {
-    let mut numbers = (1_u32..).map(|n| if n == 1 { word.to_owned() } else { format!("{word} {n}") });
+    let mut numbers =
+        (1_u32..).map(|n| if n == 1 { word.to_owned() } else { format!("{word} {n}") });
     let own = numbers.find(|name| !taken.contains(name)).unwrap_or_else(|| word.to_owned());
     taken.insert(own.clone());
     own
@@ -150,7 +156,10 @@ mod tests {
             assert_eq!(name_fault(name), Some(fault), "{name:?}");
         }
         for name in ["0.1 deg", "a,b", "Kamera über Bord", "\"quoted\""] {
-            assert_eq!((name_fault(name), column_name_fault(name)), (None, Some(NameFault::Column)));
+            assert_eq!(
+                (name_fault(name), column_name_fault(name)),
+                (None, Some(NameFault::Column))
+            );
         }
         assert_eq!(column_name_fault("cmg_1"), None);
     }

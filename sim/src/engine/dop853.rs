@@ -102,10 +102,9 @@ impl Dop853 {
                 let mut dydt = vec![0.0; y.len()];
                 let evaluated = system.rates(time, y, &mut dydt);
                 evaluated.map_err(|source| RunError::solve(system, time, source))?;
-                Err(self.too_fast(system, time, y, &dydt, 0.0).unwrap_or(RunError::Stiff {
-                    time,
-                    fastest: system.fastest(y),
-                }))
+                Err(self
+                    .too_fast(system, time, y, &dydt, 0.0)
+                    .unwrap_or(RunError::Stiff { time, fastest: system.fastest(y) }))
             }
             Err(stop) => Err(stopped(&equations, time, &stop)),
         }

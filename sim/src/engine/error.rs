@@ -7,6 +7,7 @@ use precess_dynamics::{ModesError, ParameterError, Quantity, SolveError};
 use super::system::System;
 use crate::record::RecordError;
 use crate::scenario::ScenarioError;
+use crate::units::Plain;
 
 /// A run that could not be started or finished.
 #[derive(Debug)]
@@ -204,23 +205,31 @@ impl fmt::Display for RunError {
             Self::Parameters(error) => write!(f, "spacecraft rejected: {error}"),
             Self::Modes(error) => write!(f, "structure rejected: {error}"),
             Self::Solve { time, device: Some(device), source } => {
-                write!(f, "at t = {time} s, `{device}`: {source}")
+                write!(f, "at t = {time} s, `{device}`: {source}", time = Plain(*time))
             }
-            Self::Solve { time, device: None, source } => write!(f, "at t = {time} s: {source}"),
+            Self::Solve { time, device: None, source } => {
+                write!(f, "at t = {time} s: {source}", time = Plain(*time))
+            }
             Self::LockedJointMoves { time, joint, rate, unit } => write!(
                 f,
                 "at t = {time} s: {joint} is to be locked but moves at {rate} {unit}, not 0; stop \
-                 it with a brake instead"
+                 it with a brake instead",
+                time = Plain(*time),
+                rate = Plain(*rate)
             ),
             Self::NotDriven { time, joint } => write!(
                 f,
                 "at t = {time} s: the kind of {joint} keeps its rate constant; remove its drive, \
-                 or use a kind that drives it"
+                 or use a kind that drives it",
+                time = Plain(*time)
             ),
             Self::BeyondStop { joint, value, stops: [lower, upper], unit } => write!(
                 f,
                 "{joint} starts at {value} {unit}, beyond its end stops {lower} {unit} and {upper} \
-                 {unit}; start it in between"
+                 {unit}; start it in between",
+                value = Plain(*value),
+                lower = Plain(*lower),
+                upper = Plain(*upper)
             ),
             Self::Crossing { name, column, nearest } => {
                 write!(f, "crossing `{name}`: `{column}` is no column of the state")?;
@@ -233,28 +242,34 @@ impl fmt::Display for RunError {
                 f,
                 "the integrator used up its steps at t = {time} s{}, loosen the tolerance or \
                  shorten the duration",
-                slower(fastest)
+                slower(fastest),
+                time = Plain(*time)
             ),
             Self::StepTooSmall { time, fastest } => write!(
                 f,
                 "the integrator's step fell below rounding at t = {time} s{} or loosen the \
                  tolerance",
-                slower(fastest)
+                slower(fastest),
+                time = Plain(*time)
             ),
             Self::Stiff { time, fastest } => write!(
                 f,
                 "the motion turns stiff at t = {time} s, too fast for an explicit method{}, check \
                  torques and inertias",
-                slower(fastest)
+                slower(fastest),
+                time = Plain(*time)
             ),
             Self::TooFast { time, quantity, rate, unit } => write!(
                 f,
-                "at t = {time} s {quantity} changes by {rate:e} {unit}, too fast for any step; check the \
-                 initial state, torques, springs and inertias with their units"
+                "at t = {time} s {quantity} changes by {rate} {unit}, too fast for any step; check the \
+                 initial state, torques, springs and inertias with their units",
+                time = Plain(*time),
+                rate = Plain(*rate)
             ),
             Self::Integrator { time, fault } => write!(
                 f,
-                "the integrator stopped at t = {time} s: {fault}; this is a fault of the program"
+                "the integrator stopped at t = {time} s: {fault}; this is a fault of the program",
+                time = Plain(*time)
             ),
             Self::Record(error) => error.fmt(f),
         }
@@ -284,7 +299,11 @@ impl fmt::Display for Fault {
         match self {
             Self::Input { reason } => write!(f, "its input is rejected ({reason})"),
             Self::Interpolation { time, from, to } => {
-                write!(f, "a state at {time} s, outside its last step, {from} s to {to} s")
+                write!(
+                    f,
+                    "a state at {time} s, outside its last step, {from} s to {to} s",
+                    time = Plain(*time)
+                )
             }
             Self::Delay => f.write_str("equations without a delay are taken for ones with one"),
             Self::LinearAlgebra { reason } => write!(f, "linear equations failed ({reason})"),

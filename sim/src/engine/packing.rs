@@ -104,10 +104,13 @@ impl Layout {
     /// The name of the number at a place of the flat vector, and the unit of its rate.
     pub(crate) fn named(&self, place: usize) -> (String, String) {
         let columns = state_quantities(self);
-        let found = columns.into_iter().find(|(_, quantity, _)| self.place(*quantity) == Some(place));
+        let found =
+            columns.into_iter().find(|(_, quantity, _)| self.place(*quantity) == Some(place));
         found.map_or_else(
             || ("the work".to_owned(), "W".to_owned()),
-            |(name, _, unit)| (name, if unit == "1" { "1/s".to_owned() } else { format!("{unit} per s") }),
+            |(name, _, unit)| {
+                (name, if unit == "1" { "1/s".to_owned() } else { format!("{unit} per s") })
+            },
         )
     }
 

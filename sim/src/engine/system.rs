@@ -99,7 +99,10 @@ impl<'a> System<'a> {
         let turning = joints.filter(|_| !y.is_empty()).map(|(joint, place)| {
             let rate = self.layout.rate(joint, y).abs();
             let device = place.name.split('.').next().unwrap_or_default();
-            (rate, format!("the {} of `{device}`, which turns at {rate:.3e} rad/s", place.info.body))
+            (
+                rate,
+                format!("the {} of `{device}`, which turns at {rate:.3e} rad/s", place.info.body),
+            )
         });
         let scales = self.scenario.time_scales().into_iter();
         let scales = scales.map(|scale| (scale.rate, scale.described()));

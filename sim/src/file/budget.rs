@@ -19,7 +19,7 @@ use crate::names::numbered;
 use crate::nearest::did_you_mean_file;
 use crate::pointing::{Limit, LineOfSight, Metric, Sensitivity};
 use crate::structure::dynamic_mass::Motor;
-use crate::units::Measure;
+use crate::units::{Measure, Plain};
 
 pub use names::check_budget_names;
 
@@ -108,8 +108,7 @@ fn budget(keys: &Keys<'_>, folder: &Path) -> Option<(Budget, PathBuf)> {
     let requirements = keys.tables("requirement");
     let written = requirements.iter().filter_map(|requirement| requirement.text("name"));
     let mut taken = written.map(str::to_owned).collect();
-    let limits: Vec<_> =
-        requirements.iter().filter_map(|r| limit(r, known, &mut taken)).collect();
+    let limits: Vec<_> = requirements.iter().filter_map(|r| limit(r, known, &mut taken)).collect();
     keys.finish();
     let (speeds, count, swept) = speed?;
     for (index, sight) in sights.iter().enumerate() {
@@ -132,7 +131,7 @@ fn speeds(keys: &Keys<'_>) -> Option<([f64; 2], usize, Vec<String>)> {
     let range = [from?, to?];
     let written = |key: &str, value: f64| match keys.text_or_list(key) {
         Some(text) => text.to_owned(),
-        None => format!("{value} rad/s"),
+        None => format!("{} rad/s", Plain(value)),
     };
     if range[0] <= 0.0 {
         let message =

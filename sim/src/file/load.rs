@@ -109,12 +109,7 @@ fn bytes_of(path: &Path) -> io::Result<Vec<u8>> {
 }
 
 /// The tree over those it is based on.
-fn with_bases(
-    mut node: Node,
-    folder: &Path,
-    files: &mut Files,
-    reports: &mut Diagnostics,
-) -> Node {
+fn with_bases(mut node: Node, folder: &Path, files: &mut Files, reports: &mut Diagnostics) -> Node {
     let Value::Table(table) = &mut node.value else { return node };
     let Some(position) = table.entries.iter().position(|entry| entry.key == "base") else {
         return node;

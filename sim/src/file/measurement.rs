@@ -178,7 +178,8 @@ fn layout(keys: &Keys<'_>) -> Option<Layout> {
     let rate = keys.quantity("rate", Measure::FREQUENCY);
     // With the rate every column has a usual name.
     let empty = keys.empty();
-    let table = if keys.has("rate") { keys.table_or("columns", &empty) } else { keys.table("columns") };
+    let table =
+        if keys.has("rate") { keys.table_or("columns", &empty) } else { keys.table("columns") };
     let Some(table) = table else {
         if !keys.has("columns") {
             keys.missing("columns", "[columns]");

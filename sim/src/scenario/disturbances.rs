@@ -8,6 +8,7 @@ use super::check::range;
 use super::{Member, Scenario, ScenarioError, members};
 use crate::disturbance::{COMPONENTS, Disturbance, Harmonic, Model, SourceTarget, by_spin_axis};
 use crate::names::column_name_fault;
+use crate::units::Plain;
 
 /// A harmonic number this near to one is the fundamental: twice the 0.5 % to which a fit gives it.
 const FUNDAMENTAL: f64 = 0.01;
@@ -124,7 +125,11 @@ impl Scenario {
         if !rises {
             return Some((
                 "to",
-                format!("it acts from {from} s to {to} s; the end is after the start"),
+                format!(
+                    "it acts from {} s to {} s; the end is after the start",
+                    Plain(from),
+                    Plain(to)
+                ),
             ));
         }
         if of.spin_axis > 2 {
@@ -250,14 +255,15 @@ fn is_imbalanced(device: &BuiltIn) -> bool {
 
 /// What is wrong with a harmonic.
 fn fault(harmonic: &Harmonic) -> Option<String> {
-    let number = harmonic.number;
-    if !(number > 0.0 && number <= NUMBER_MAX) {
+    let number = Plain(harmonic.number);
+    if !(harmonic.number > 0.0 && harmonic.number <= NUMBER_MAX) {
         return Some(format!("harmonic number {number} is not above 0 and up to {NUMBER_MAX}"));
     }
     let of = COMPONENTS.into_iter().zip(harmonic.amplitudes.iter().zip(&harmonic.phases));
     of.into_iter().find_map(|(component, (amplitude, phase))| {
         if !(*amplitude >= 0.0 && amplitude.is_finite()) {
             let sign = "it is finite and not negative; a sign is a phase of 180 deg";
+            let amplitude = Plain(*amplitude);
             return Some(format!("harmonic {number}: {component} is {amplitude}; {sign}"));
         }
         (!phase.is_finite())

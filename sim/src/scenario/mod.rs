@@ -28,8 +28,8 @@ pub use mass::{MassMatrix, MassProperties};
 pub use member::{Member, Set, members};
 pub use profile::{Interpolation, Profile, Table};
 pub use source_place::{SourceBody, SourcePlace};
-pub(crate) use time_scales::steps_max;
 pub use structure::{ModalStructure, RecordedPoint, StructureNode};
+pub(crate) use time_scales::steps_max;
 
 use crate::disturbance::Disturbance;
 use crate::pointing::Index;

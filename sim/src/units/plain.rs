@@ -28,7 +28,8 @@ mod tests {
 
     #[test]
     fn a_number_is_short_at_any_size() {
-        let shown = [0.0, 0.1, -320.0, 3.2e8, 1e300, -2.5e-7, f64::INFINITY].map(|v| Plain(v).to_string());
+        let shown =
+            [0.0, 0.1, -320.0, 3.2e8, 1e300, -2.5e-7, f64::INFINITY].map(|v| Plain(v).to_string());
         assert_eq!(shown, ["0", "0.1", "-320", "320000000", "1e300", "-2.5e-7", "inf"]);
     }
 }

@@ -153,9 +153,7 @@ const OFFERED: &[(&str, &[&str])] = &[
 /// What a text of letters is.
 pub(super) fn spelling(text: &str) -> Spelling {
     let alias = || SPELLINGS.iter().find(|(spelling, _)| *spelling == text);
-    let symbol = find(text)
-        .or_else(|| find(alias()?.1))
-        .or_else(|| find(&worded(text)?));
+    let symbol = find(text).or_else(|| find(alias()?.1)).or_else(|| find(&worded(text)?));
     if let Some(symbol) = symbol {
         return Spelling::One(symbol);
     }
@@ -228,7 +226,8 @@ fn worded(text: &str) -> Option<String> {
     let of_word = PREFIX_WORDS.iter().find(|(word, _)| lower.starts_with(word));
     let of_word = of_word.and_then(|(word, prefix)| Some((*prefix, tail(word)?)));
     // A letter has its case as it is written: of `Mradian` the mega.
-    let letter = PREFIXES.iter().find_map(|(letter, _)| Some((*letter, text.strip_prefix(letter)?)));
+    let letter =
+        PREFIXES.iter().find_map(|(letter, _)| Some((*letter, text.strip_prefix(letter)?)));
     let mut splits = [of_word, Some(("", text)), letter].into_iter().flatten();
     splits.find_map(|(prefix, unit)| {
         let lower = unit.to_lowercase();

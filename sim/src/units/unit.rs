@@ -128,7 +128,8 @@ impl Parser<'_> {
     /// A sign before a letter; of `s-2` it belongs to the exponent.
     fn take_before_letter(&mut self, sign: &str) -> bool {
         let rest = self.rest().strip_prefix(sign);
-        let found = rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '('));
+        let found =
+            rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '('));
         found && self.take(sign)
     }
 
@@ -222,7 +223,8 @@ impl Parser<'_> {
     fn bare_exponent(&mut self) -> Option<i8> {
         let rest = self.rest();
         let digits = rest.strip_prefix('-').unwrap_or(rest);
-        let digit = digits.chars().next().and_then(|c| c.to_digit(10)).filter(|digit| *digit > 0)?;
+        let digit =
+            digits.chars().next().and_then(|c| c.to_digit(10)).filter(|digit| *digit > 0)?;
         if digits.get(1..).is_some_and(|after| after.starts_with(|c: char| c.is_ascii_digit())) {
             return None;
         }

@@ -122,8 +122,7 @@ impl AcceleranceCommand {
             let numbers =
                 [structure.node(to).map_err(failed)?, structure.node(from).map_err(failed)?];
             tables.push(
-                self.accelerance(&structure, [to, from], numbers, &frequencies)
-                    .map_err(failed)?,
+                self.accelerance(&structure, [to, from], numbers, &frequencies).map_err(failed)?,
             );
         }
         let node = self.at.first().map_or("", String::as_str);
@@ -241,11 +240,7 @@ impl AcceleranceCommand {
 }
 
 /// The dynamic mass of devices at a node, and the bound of what averaging leaves out.
-fn dynamic_mass(
-    devices: &MountedDevices,
-    node: &str,
-    frequencies: &[f64],
-) -> Result<Table, Fault> {
+fn dynamic_mass(devices: &MountedDevices, node: &str, frequencies: &[f64]) -> Result<Table, Fault> {
     let MountedDevices { averaged, names, .. } = devices;
     let values: Result<Vec<_>, _> =
         frequencies.iter().map(|f| averaged.dynamic_mass(TAU * f)).collect();

@@ -8,10 +8,10 @@ use std::sync::Mutex;
 
 use clap::Args;
 
-use super::{Set, Threads};
 use super::error::CommandError;
 use super::plot::time;
 use super::run::{interrupted, may_write, progress_bar, watch_interrupts, write_bytes};
+use super::{Set, Threads};
 use crate::campaign::{
     CampaignError, Execution, Field, Finished, Journal, Plan, Selection, execute, table,
 };

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::super::diagnostic::Numbers;
 use super::super::document::{Node, Value};
 use super::Keys;
-use crate::units::{Measure, Quantity, parse_quantity};
+use crate::units::{Measure, Plain, Quantity, parse_quantity};
 
 impl Keys<'_> {
     /// A pure number.
@@ -130,6 +130,7 @@ impl Keys<'_> {
                 return Some(vec![*value]);
             }
             Value::Number(value, _) => {
+                let value = Plain(*value);
                 let message = format!("`{path}` has no unit");
                 let help = if measure.unit == usual {
                     format!("write `\"{value} {usual}\"`, or another unit")
@@ -198,9 +199,9 @@ fn other_reading(found: &Quantity, text: &str, wanted: Measure) -> Option<String
             "write `{numbers} rev/s` for turns per second, `{numbers} rad/s` for radians per second"
         ));
     }
-    let weight = ["oz", "lb"].into_iter().find(|mass| {
-        unit.split(|c: char| !c.is_alphabetic()).any(|symbol| symbol == *mass)
-    })?;
+    let weight = ["oz", "lb"]
+        .into_iter()
+        .find(|mass| unit.split(|c: char| !c.is_alphabetic()).any(|symbol| symbol == *mass))?;
     let meant = format!("{numbers} {}", unit.replace(weight, &format!("{weight}f")));
     let fits = parse_quantity(&meant).is_ok_and(|meant| meant.is(wanted));
     fits.then(|| format!("`{weight}` is a mass, `{weight}f` its weight: write `{meant}`"))

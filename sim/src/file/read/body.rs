@@ -128,7 +128,11 @@ pub(in crate::file) fn mass(keys: &Keys<'_>) -> Option<f64> {
     if mass >= 0.0 {
         return Some(mass);
     }
-    keys.error("mass", format!("`{}.mass` is {mass} kg", keys.path()), "a mass is not negative");
+    keys.error(
+        "mass",
+        format!("`{}.mass` is {} kg", keys.path(), Plain(mass)),
+        "a mass is not negative",
+    );
     None
 }
 
@@ -144,7 +148,8 @@ pub(in crate::file) fn inertia(keys: &Keys<'_>, required: bool) -> Option<Matrix
     }
     let [xx, yy, zz] = keys.quantities::<3>("inertia", Measure::INERTIA)?;
     if [xx, yy, zz].iter().any(|moment| *moment < 0.0) {
-        let message = format!("`{}.inertia` is {xx}, {yy}, {zz} kg m^2", keys.path());
+        let [x, y, z] = [xx, yy, zz].map(Plain);
+        let message = format!("`{}.inertia` is {x}, {y}, {z} kg m^2", keys.path());
         keys.error("inertia", message, "a moment of inertia is not negative");
         return None;
     }
@@ -222,9 +227,8 @@ fn stop(keys: &Keys<'_>, measures: &JointMeasures, initial: f64) -> Option<([f64
     if bounds[0] > bounds[1] {
         let unit = measures.coordinate.unit;
         let [lower, upper] = bounds.map(Plain);
-        let message = format!(
-            "the lower stop, {lower} {unit}, is above the upper stop, {upper} {unit}"
-        );
+        let message =
+            format!("the lower stop, {lower} {unit}, is above the upper stop, {upper} {unit}");
         keys.error("lower_stop", message, "exchange them, or correct a sign");
         return None;
     }

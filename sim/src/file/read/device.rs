@@ -194,7 +194,8 @@ fn read(keys: &Keys<'_>, name: &str, folder: &Path, structure: Option<&Structure
             let (mass, inertia) = (has_mass(kind, joint), has_inertia(kind, joint));
             let needs = Needs { joint, mass, inertia, origin: has_origin(kind, joint) };
             // Of a link without a body every key has a default.
-            let table = if mass || inertia { keys.table(&key) } else { keys.table_or(&key, &empty) };
+            let table =
+                if mass || inertia { keys.table(&key) } else { keys.table_or(&key, &empty) };
             let Some(table) = table else {
                 if !keys.has(&key) {
                     keys.missing(&key, &format!("[device.{key}]"));

@@ -59,7 +59,11 @@ fn way(mount: &Keys<'_>, axes: Option<DeviceAxes>) -> Option<Mount> {
             }
             let message = match names.as_slice() {
                 [] => format!("`{}` says no direction", mount.path()),
-                names => format!("`{}` is given in more than one way: {}", mount.path(), names.join(", ")),
+                names => format!(
+                    "`{}` is given in more than one way: {}",
+                    mount.path(),
+                    names.join(", ")
+                ),
             };
             let help = match axes {
                 Some(_) => {

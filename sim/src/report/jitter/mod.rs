@@ -13,12 +13,12 @@ use super::blocks::{Block, Fact, Section, Summary, table};
 use super::error::{DrawError, ReportError};
 use super::number::{short, with_unit};
 use super::page::{Page, lines};
-use crate::names::file_names;
 use crate::jitter::budget::{Assessed, Budget};
 use crate::jitter::campbell::{Branch, Crossing};
 use crate::jitter::coupled::Compared;
 use crate::jitter::sensitivity::Sensitivity;
 use crate::jitter::sweep::Sweep;
+use crate::names::file_names;
 use crate::pointing::Metric;
 use crate::scenario::Scenario;
 
