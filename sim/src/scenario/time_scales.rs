@@ -111,7 +111,7 @@ impl Scenario {
 
     /// The times in which anything varies that is known before the run.
     pub(crate) fn time_scales(&self) -> Vec<TimeScale> {
-        let mut scales = self.of_springs_and_dampers();
+        let mut scales = self.spring_and_damper_scales();
         let modes = self.structure.iter().flat_map(|structure| structure.massive()).zip(1..);
         scales.extend(modes.map(|(mode, number)| TimeScale {
             key: "structure".to_owned(),
@@ -121,7 +121,7 @@ impl Scenario {
             span: self.settings.duration,
             per_step: STABLE,
         }));
-        scales.extend(self.of_profiles());
+        scales.extend(self.profile_scales());
         let rates: Vec<f64> = self.initial_rates();
         for source in &self.disturbances {
             let rate = source.wheel.and_then(|joint| rates.get(joint)).copied().unwrap_or(0.0);
@@ -145,7 +145,7 @@ impl Scenario {
         self.initial.devices.states().map(|[_, rate]| rate).collect()
     }
 
-    fn of_springs_and_dampers(&self) -> Vec<TimeScale> {
+    fn spring_and_damper_scales(&self) -> Vec<TimeScale> {
         let all = members(&self.devices);
         let mut scales = Vec::new();
         let mut first = 0;
@@ -181,7 +181,7 @@ impl Scenario {
         scales
     }
 
-    fn of_profiles(&self) -> Vec<TimeScale> {
+    fn profile_scales(&self) -> Vec<TimeScale> {
         let mut scales = Vec::new();
         let mut add = |key: String, what: String, profile: &Profile| {
             if let Some((frequency, [from, to])) = cycles(profile, [0.0, self.settings.duration]) {

@@ -11,10 +11,10 @@ use precess_dynamics::{
 };
 
 use super::super::diagnostic::Span;
-use super::super::document::{Node, Value};
+use super::super::document::Value;
 use super::super::keys::{Keys, shown_name};
-use super::super::load::merged;
 use super::body::{Body, Joint, Needs, body};
+use super::copies::{help_of_copy, original, with_original};
 use super::layout::{Place, layout, turned};
 use super::mount::{DeviceAxes, mount};
 use super::structure::Structure;
@@ -118,46 +118,11 @@ pub(super) fn devices(
             let first = keys.reports().borrow().all.len();
             devices.extend(read(&device, &name, folder, structure));
             if let Some(original) = original(node) {
-                keys.reports().borrow_mut().add_help(first, &of_copy(original));
+                keys.reports().borrow_mut().add_help(first, &help_of_copy(original));
             }
         }
     }
     devices
-}
-
-/// The name of the original of a copy.
-fn original(node: &Node) -> Option<&str> {
-    match &node.value {
-        Value::Table(table) => table.text("copy_of"),
-        _ => None,
-    }
-}
-
-/// What an error of a copy adds to its remedy: the cause may be a key of the original.
-fn of_copy(original: &str) -> String {
-    format!("by `copy_of` it has the keys of `{original}`, too, where it does not write its own")
-}
-
-/// A copy with the keys of its original under its own.
-fn with_original(node: &Node, list: &[Node], keys: &Keys<'_>) -> Node {
-    let Value::Table(table) = &node.value else { return node.clone() };
-    let Some(original) = original(node) else { return node.clone() };
-    let found = list.iter().find(|other| other.name() == Some(original));
-    let own =
-        |node: &Node| matches!(&node.value, Value::Table(table) if table.get("copy_of").is_none());
-    match found {
-        Some(found) if own(found) => merged(found, node),
-        _ => {
-            let message = match found {
-                Some(_) => format!("`{original}` is a copy itself"),
-                None => format!("no device is named `{original}`"),
-            };
-            let span = table.get("copy_of").map_or(&node.span, |entry| &entry.node.span);
-            let help = "name a device that is no copy";
-            keys.reports().borrow_mut().error(span, message, "", help);
-            node.clone()
-        }
-    }
 }
 
 /// The devices of one table: one, or those of its layout.

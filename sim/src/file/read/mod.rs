@@ -4,6 +4,7 @@ pub(super) mod body;
 mod check;
 mod columns;
 mod components;
+mod copies;
 mod device;
 mod drive;
 mod hub;

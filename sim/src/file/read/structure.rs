@@ -146,7 +146,7 @@ fn written_out(keys: &Keys<'_>) -> Option<Modes> {
     });
     let nodes: Option<Vec<Node>> = tables.collect();
     let tables = keys.tables("mode");
-    let (nodes, count) = (nodes?, tables.len());
+    let (nodes, count) = (nodes.filter(|_| keys.errors() == before)?, tables.len());
     let mut shapes = DMatrix::zeros(COORDINATES * nodes.len(), count);
     let mut modes = Vec::new();
     for (column, keys) in tables.iter().enumerate() {
@@ -160,9 +160,6 @@ fn written_out(keys: &Keys<'_>) -> Option<Modes> {
         keys.finish();
     }
     let modes = modes.into_iter().collect::<Option<Vec<_>>>()?;
-    if keys.errors() > before {
-        return None;
-    }
     let checked = Modes { nodes, modes, shapes, ..nothing() }.checked();
     checked.map_err(|fault| keys.error("mode", fault.to_string(), "")).ok()
 }
