@@ -167,8 +167,8 @@ impl RunError {
 }
 
 /// What varies fastest, and that it is to be slowed down.
-fn slower(fastest: &Option<String>) -> String {
-    fastest.as_ref().map_or_else(
+fn slower(fastest: Option<&str>) -> String {
+    fastest.map_or_else(
         || "; check what moves fast".to_owned(),
         |what| format!("; fastest is {what}: slow it down"),
     )
@@ -242,21 +242,21 @@ impl fmt::Display for RunError {
                 f,
                 "the integrator used up its steps at t = {time} s{}, loosen the tolerance or \
                  shorten the duration",
-                slower(fastest),
+                slower(fastest.as_deref()),
                 time = Plain(*time)
             ),
             Self::StepTooSmall { time, fastest } => write!(
                 f,
                 "the integrator's step fell below rounding at t = {time} s{} or loosen the \
                  tolerance",
-                slower(fastest),
+                slower(fastest.as_deref()),
                 time = Plain(*time)
             ),
             Self::Stiff { time, fastest } => write!(
                 f,
                 "the motion turns stiff at t = {time} s, too fast for an explicit method{}, check \
                  torques and inertias",
-                slower(fastest),
+                slower(fastest.as_deref()),
                 time = Plain(*time)
             ),
             Self::TooFast { time, quantity, rate, unit } => write!(

@@ -14,7 +14,8 @@ use precess_dynamics::kind::{BodyParameters, JointInfo};
 
 use super::check::{STEPS_PER_SECOND_MAX, range};
 use super::{
-    Action, Drive, IntegratorChoice, Member, Profile, Scenario, ScenarioError, StopAction, members,
+    Action, Drive, IntegratorChoice, Member, ModalStructure, Profile, Scenario, ScenarioError,
+    StopAction, members,
 };
 use crate::units::Plain;
 
@@ -112,7 +113,7 @@ impl Scenario {
     /// The times in which anything varies that is known before the run.
     pub(crate) fn time_scales(&self) -> Vec<TimeScale> {
         let mut scales = self.spring_and_damper_scales();
-        let modes = self.structure.iter().flat_map(|structure| structure.massive()).zip(1..);
+        let modes = self.structure.iter().flat_map(ModalStructure::massive).zip(1..);
         scales.extend(modes.map(|(mode, number)| TimeScale {
             key: "structure".to_owned(),
             what: format!("mode {number} of the structure"),

@@ -114,7 +114,8 @@ fn every_finite_number_in_every_key_is_an_error_or_a_run_with_its_report() {
             let message = match from_toml("extremes", &lines.join("\n"), Path::new("")) {
                 Err(errors) => {
                     refused += 1;
-                    errors.all.iter().map(|of| format!("{}\n{}\n", of.message, of.help)).collect()
+                    let each = errors.all.iter().flat_map(|of| [of.message.as_str(), &of.help]);
+                    each.collect::<Vec<_>>().join("\n")
                 }
                 Ok((scenario, _)) => {
                     let mut report = Report::new(&scenario, &[]);

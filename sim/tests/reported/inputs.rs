@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use clap::CommandFactory as _;
+use clap::error::ErrorKind;
 use precess::command::Cli;
 use precess::file::{from_file, from_toml, measurement_from_toml};
 use precess_dynamics::BuiltInKind;
@@ -195,8 +196,7 @@ fn every_count_of_the_command_line_has_a_bound() {
         let mut words = path.to_vec();
         words.extend([option.to_owned(), value.to_owned()]);
         let error = Cli::command().try_get_matches_from(words).err().map(|error| error.kind());
-        use clap::error::ErrorKind::{InvalidValue, ValueValidation};
-        matches!(error, Some(InvalidValue | ValueValidation))
+        matches!(error, Some(ErrorKind::InvalidValue | ErrorKind::ValueValidation))
     };
     let mut counts = Vec::new();
     for (path, option) in &found {

@@ -50,7 +50,7 @@ fn with_names(key: &str, table: &str, names: &[&str]) -> String {
     }
     for name in names {
         let quoted = serde_json::to_string(name).expect("a text");
-        text += &format!("[[{key}]]\n{}", table.replace('@', &quoted));
+        text.extend(["[[", key, "]]\n", &table.replace('@', &quoted)]);
     }
     text
 }
